@@ -1,0 +1,34 @@
+# clusterbench_layer(NAME [LINK libs...]): the static library src/NAME, which sees every layer declared before it.
+# clusterbench_program(NAME [LINK libs...]): the same for src/NAME, with src/NAME/main.cpp as the `clusterbench` binary.
+add_library(clusterbench_flags INTERFACE)
+target_compile_options(clusterbench_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-qual -Wvla
+  -ffp-contract=off
+  $<$<CONFIG:Release>:-O3>
+  $<$<BOOL:${CLUSTERBENCH_WERROR}>:-Werror>)
+target_include_directories(clusterbench_flags INTERFACE ${CMAKE_CURRENT_SOURCE_DIR}/src)
+target_link_libraries(clusterbench_flags INTERFACE glm::glm Threads::Threads)
+if(CLUSTERBENCH_SANITIZE)
+  target_compile_options(clusterbench_flags INTERFACE
+    -fsanitize=${CLUSTERBENCH_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(clusterbench_flags INTERFACE -fsanitize=${CLUSTERBENCH_SANITIZE})
+endif()
+
+set(CLUSTERBENCH_ABOVE "")
+
+macro(clusterbench_layer NAME)
+  cmake_parse_arguments(LAYER "" "" "LINK" ${ARGN})
+  file(GLOB_RECURSE LAYER_SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/${NAME}/*.cpp)
+  list(FILTER LAYER_SOURCES EXCLUDE REGEX "/main\\.cpp$")
+  add_library(cb_${NAME} STATIC ${LAYER_SOURCES})
+  set_target_properties(cb_${NAME} PROPERTIES LINKER_LANGUAGE CXX)
+  target_link_libraries(cb_${NAME} PUBLIC clusterbench_flags ${CLUSTERBENCH_ABOVE} ${LAYER_LINK})
+  list(PREPEND CLUSTERBENCH_ABOVE cb_${NAME})
+endmacro()
+
+macro(clusterbench_program NAME)
+  clusterbench_layer(${NAME} ${ARGN})
+  add_executable(clusterbench ${CMAKE_CURRENT_SOURCE_DIR}/src/${NAME}/main.cpp)
+  target_link_libraries(clusterbench PRIVATE cb_${NAME})
+  install(TARGETS clusterbench RUNTIME)
+endmacro()

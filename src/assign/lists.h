@@ -1,0 +1,43 @@
+#pragma once
+// Light lists per cell, the form in which every assigner answers and truth is kept.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace clusterbench::assign {
+
+// The lights of cell c are lights[begin[c]] .. lights[begin[c + 1] - 1], ascending (so points come before spots), each once.
+struct Lists {
+  std::vector<std::uint32_t> begin;   // cell count + 1
+  std::vector<std::uint32_t> lights;
+
+  std::uint32_t cell_count() const { return static_cast<std::uint32_t>(begin.size()) - 1; }
+  std::uint32_t pair_count() const { return static_cast<std::uint32_t>(lights.size()); }
+  std::span<const std::uint32_t> of(std::uint32_t cell) const {
+    return {lights.data() + begin[cell], begin[cell + 1] - begin[cell]};
+  }
+  friend bool operator==(const Lists&, const Lists&) = default;
+};
+
+// Collects pairs light by light and sorts them by cell with one counting pass. Keeps its memory between frames.
+class PairBuffer {
+ public:
+  void start(std::uint32_t cell_count);
+  // Lights must come in ascending order; one light's cells in any order, each once.
+  void add(std::uint32_t cell, std::uint32_t light) { add_row(cell, 1, light); }
+  // Cells first_cell .. first_cell + count - 1.
+  void add_row(std::uint32_t first_cell, std::uint32_t count, std::uint32_t light);
+  // Throws Error (ExitCode::internal) beyond 2^32 - 1 pairs.
+  void finish(Lists& out);
+  std::size_t capacity_bytes() const;
+
+ private:
+  struct Span {
+    std::uint32_t first_cell, count, light;
+  };
+  std::vector<Span> spans_;
+  std::uint32_t cell_count_ = 0;
+};
+
+}  // namespace clusterbench::assign

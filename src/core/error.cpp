@@ -1,0 +1,23 @@
+#include "core/error.h"
+
+#include <utility>
+
+namespace clusterbench {
+namespace {
+
+std::string joined(const std::string& file, const std::string& where, const std::string& message) {
+  std::string text = file;
+  if (!where.empty()) text += (text.empty() ? "" : ": ") + where;
+  return text.empty() ? message : text + ": " + message;
+}
+
+}  // namespace
+
+Error::Error(std::string file, std::string where, std::string message, ExitCode code)
+    : std::runtime_error(joined(file, where, message)),
+      file_(std::move(file)),
+      where_(std::move(where)),
+      message_(std::move(message)),
+      code_(code) {}
+
+}  // namespace clusterbench

@@ -1,0 +1,35 @@
+#pragma once
+// How the viewport is cut into tiles. Row 0 is at the top, column 0 at the left. Edge tiles are clipped to the viewport.
+
+#include <vector>
+
+#include "geom/vec.h"
+#include "view/frame.h"
+
+namespace clusterbench::grid {
+
+// Either pixels per tile or tiles per screen; the other is {0, 0}.
+struct Tiling {
+  Vec2i pixels{64, 64};
+  Vec2i count{0, 0};
+};
+
+struct Tiles {
+  bool orthographic = false;
+  Vec2i count{0, 0};
+  Vec2i viewport{0, 0};
+  std::vector<float> x;  // count.x + 1 tile planes, ascending: slopes x/depth (perspective) or metres (orthographic)
+  std::vector<float> y;  // count.y + 1 tile planes from the top: DEscending slopes y/depth or metres
+  // The shader's lookup: tile = int(pixel * scale).
+  float scale_x = 0.0f, scale_y = 0.0f;
+
+  float y_min(int row) const { return y[static_cast<std::size_t>(row) + 1]; }
+  float y_max(int row) const { return y[static_cast<std::size_t>(row)]; }
+  // Tile of a pixel position (origin top left, pixel centres at .5), clamped to the grid.
+  Vec2i tile_of(float pixel_x, float pixel_y) const;
+};
+
+// Throws Error (where = "tiles.pixels" or "tiles.count") for sizes below 1 or more tiles than pixels.
+Tiles make_tiles(const Tiling& tiling, const view::Projection& projection, Vec2i viewport);
+
+}  // namespace clusterbench::grid

@@ -1,0 +1,41 @@
+#pragma once
+// How full the cells are, over all frames of a case.
+
+#include <cstdint>
+#include <vector>
+
+#include "assign/lists.h"
+
+namespace clusterbench::measure {
+
+struct Spread {
+  double mean = 0.0, p50 = 0.0, p95 = 0.0, p99 = 0.0, max = 0.0;
+};
+// Nearest-rank percentiles.
+Spread spread_of(std::vector<double> values);
+
+struct Occupancy {
+  Spread pairs;                           // per frame
+  Spread lights_per_cluster;              // over all cells of all frames, empty ones included, holes not
+  std::vector<std::uint64_t> histogram;   // [n] = cells with n lights
+  Spread occupied_fraction;               // per frame: cells with at least one light / cells
+  int worst_frame = 0;                    // with the longest list
+  std::uint32_t worst_cell = 0;
+  std::uint32_t worst_count = 0;
+};
+
+class OccupancyMeter {
+ public:
+  explicit OccupancyMeter(std::uint32_t real_cells) : real_cells_(real_cells) {}  // holes not counted
+  void add_frame(int frame, const assign::Lists& lists);
+  Occupancy result() const;
+
+ private:
+  std::uint32_t real_cells_;
+  std::vector<double> pairs_, occupied_;
+  std::vector<std::uint64_t> histogram_;
+  int worst_frame_ = 0;
+  std::uint32_t worst_cell_ = 0, worst_count_ = 0;
+};
+
+}  // namespace clusterbench::measure

@@ -1,0 +1,27 @@
+#pragma once
+// The true lists of a frame: light volume and cell share a point, touching included. The volume is taken from the scene's
+// double-precision values and the double-precision camera matrix, all exactly; the cells' numbers are exact as given.
+
+#include <cstdint>
+
+#include "assign/lists.h"
+#include "grid/grid.h"
+#include "view/frame.h"
+
+namespace clusterbench::measure {
+
+struct Truth {
+  assign::Lists lists;               // an undecided pair counts as true
+  std::uint64_t filter_decided = 0;  // pairs near the boundary and others that the double-precision filter decided
+  std::uint64_t exact_decided = 0;   // left open by the filter, decided by exact or 200-bit arithmetic
+  std::uint64_t undecided = 0;       // open even then
+};
+
+// Independent of the number of threads.
+Truth find_truth(const view::Frame& frame, const grid::Grid& grid, int threads);
+
+// Distance from the light's centre (apex) to the nearest point of cell ∩ volume's cone, divided by the range: how deep a
+// missed pair lies is 1 - this. `light` is an index into frame.lights.
+double relative_distance(const view::Frame& frame, const grid::Grid& grid, std::uint32_t cell, std::uint32_t light);
+
+}  // namespace clusterbench::measure

@@ -1,0 +1,67 @@
+#pragma once
+// A configuration after checking: every key has a value, paths are resolved.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "assign/assigner.h"
+#include "grid/grid.h"
+#include "measure/buffers.h"
+#include "scene/camera_path.h"
+#include "scene/scene.h"
+
+namespace clusterbench::run {
+
+struct SceneRequest {
+  std::filesystem::path path;
+  scene::PathRequest camera;
+  scene::RangeRule range_rule;
+};
+
+// A named method with its resolved parameters: an assigner or a storage.
+struct MethodRequest {
+  std::string name;
+  assign::Params params;
+  std::string label() const;  // "sphere-refinement(spot=narrowing)": the name and the parameters that differ from the default
+};
+
+struct TimingRequest {
+  bool measure = true;
+  int rounds = 31;
+  double min_time_ms = 20.0;  // of one round of one case
+  int frames = 8;             // evenly spaced frames that are timed; 0 = all
+};
+
+struct Config {
+  std::string name;
+  std::filesystem::path file;  // "" = made from scenes on the command line
+  std::vector<SceneRequest> scenes;
+  std::vector<Vec2i> viewports;
+  std::vector<grid::GridSpec> grids;
+  std::vector<MethodRequest> assigners;
+  std::vector<MethodRequest> storages;
+  int threads = 1;
+  std::uint64_t seed = 1;
+  bool check_accuracy = true;
+  int shading_samples = 1024;  // per frame; 0 = off
+  TimingRequest timing;
+  measure::AllocationRule allocation;
+  nlohmann::json resolved;  // the configuration with all defaults, as the result carries it
+};
+
+// Reads and checks a configuration file. Throws Error with "line:column /json/pointer" as its place.
+Config load_config(const std::filesystem::path& path);
+// The same from text; `file` is for messages and for relative paths.
+Config parse_config(const std::string& text, const std::filesystem::path& file);
+// The sweep that `run level.glb` does: sensible defaults.
+Config default_config(const std::vector<std::filesystem::path>& scenes);
+
+// The draft-07 schema, assembled from the embedded text and the assigner and storage rows.
+nlohmann::json config_schema();
+nlohmann::json result_schema();
+
+}  // namespace clusterbench::run

@@ -1,0 +1,85 @@
+#pragma once
+// What a run found. report/ turns it into JSON, a table and exports.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "measure/buffers.h"
+#include "measure/error.h"
+#include "measure/occupancy.h"
+#include "measure/shading.h"
+#include "measure/timing.h"
+
+namespace clusterbench::run {
+
+struct Skipped {
+  std::string name, reason;
+};
+
+struct ToolFacts {
+  std::string version, git_sha, compiler, flags, build_type, simd_target;
+  std::vector<std::pair<std::string, std::string>> libraries;
+};
+ToolFacts tool_facts();
+
+struct MachineFacts {
+  std::string cpu, os, hostname_hash;
+  int cores = 0;
+  std::uint64_t ram_bytes = 0;
+};
+MachineFacts machine_facts();
+
+struct SceneResult {
+  std::string name, sha256;
+  int points = 0, spots = 0, directionals = 0, boxes = 0;
+  int frames = 0;
+  nlohmann::json range_rule;  // {cutoff_lux, max_range, given, from_intensity, clamped}
+  std::vector<std::string> warnings;
+};
+
+struct Versus {
+  std::string assigner;
+  measure::Ratio ratio;  // this case's assign time / that assigner's
+};
+
+struct TimingResult {
+  measure::TimeStats build_ns, assign_ns, convert_ns;  // assign and convert: per frame
+  double ns_per_pair = 0.0;
+  double write_floor_ns = 0.0;   // per frame
+  double floor_ratio = 0.0;
+  std::optional<Versus> vs;      // against the group's first assigner
+  int frames_timed = 0;
+};
+
+struct CaseResult {
+  std::string id, name, scene, camera;
+  Vec2i viewport{0, 0};
+  int frames = 0;
+  nlohmann::json grid;           // {kind, cells, ... boundaries, lookup constants}
+  std::string assigner, assigner_label;
+  nlohmann::json assigner_params;
+  bool conservative = true;
+  std::string storage, storage_label;
+  measure::Occupancy occupancy;
+  measure::Buffers buffers;
+  std::uint64_t tests_done = 0;  // over all frames
+  std::optional<measure::ErrorCounts> error;
+  std::optional<measure::ShadingCounts> shading;
+  std::optional<TimingResult> timing;
+};
+
+struct Result {
+  std::string config_name;
+  ToolFacts tool;
+  MachineFacts machine;
+  nlohmann::json config;
+  std::vector<SceneResult> scenes;
+  std::vector<CaseResult> cases;
+  std::vector<Skipped> skipped;
+};
+
+}  // namespace clusterbench::run

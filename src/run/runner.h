@@ -1,0 +1,33 @@
+#pragma once
+// Runs a plan: truth, error, occupancy, buffers, then time.
+
+#include <atomic>
+#include <functional>
+
+#include "run/result.h"
+#include "run/sweep.h"
+
+namespace clusterbench::run {
+
+struct Progress {
+  std::size_t cases_done = 0, cases_total = 0;
+  double cost_done = 0.0, cost_total = 0.0;  // an estimate of work, to tell the time left
+  std::string doing;                         // case name and stage
+};
+
+// Everything that the runner tells while it works. All optional.
+struct Listener {
+  std::function<void(const Progress&)> on_progress;
+  std::function<void(const SceneResult&)> on_scene;
+  std::function<void(const CaseResult&)> on_case;  // after every case, its group's timing included
+};
+
+// `done`: ids of cases that an earlier, interrupted run has finished; they are passed over. `stop` is looked at between
+// steps; when it becomes true the runner returns what is complete.
+Result run_plan(const Config& config, const Plan& plan, const std::vector<std::string>& done, const Listener& listener,
+                const std::atomic<bool>& stop);
+
+// A conservative (or exact) assigner lost a light, or reported one too many: what the run fails for, one line each.
+std::vector<std::string> gate_failures(const Result& result);
+
+}  // namespace clusterbench::run

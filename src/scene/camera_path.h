@@ -1,0 +1,38 @@
+#pragma once
+// Which moments of which camera become frames.
+
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace clusterbench::scene {
+
+enum class FrameChoice : std::uint8_t { count, rate, keys };
+
+struct PathRequest {
+  std::string camera;  // name; "" = default: first animated, else each static one, else a path that the tool makes
+  FrameChoice choice = FrameChoice::count;
+  int count = 60;      // N equal steps from the first to the last key
+  double rate_hz = 30.0;
+};
+
+// One moment of one camera.
+struct Shot {
+  double time_s = 0.0;
+  CameraPose pose;
+  Lens lens;
+};
+
+struct CameraPath {
+  std::string camera;   // the camera's name; "around-lights" for a made path
+  bool made = false;    // made by the tool, not in the file
+  std::string how;      // one line for the result: "animated camera 'walk', 60 equal steps over 12 s"
+  std::vector<Shot> shots;
+};
+
+// A static camera gives one shot (more if lights are animated). Throws Error naming the cameras that exist when
+// request.camera is none of them, and when the scene has neither camera nor light.
+std::vector<CameraPath> camera_paths(const Scene& scene, const PathRequest& request);
+
+}  // namespace clusterbench::scene

@@ -1,0 +1,125 @@
+#pragma once
+// A glTF scene as this tool sees it: lights, cameras, the node tree that moves them, animations. Images and materials
+// are never looked at; triangles are read only by load_triangles(). Transforms stay in double precision.
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geom/vec.h"
+
+namespace clusterbench::scene {
+
+enum class LightType : std::uint8_t { point, spot, directional };
+enum class RangeSource : std::uint8_t { given, from_intensity, clamped_to_max };
+
+// One light instance: a node that refers to a KHR_lights_punctual definition. Range and intensity are not scaled by the
+// node's transform (the extension says so).
+struct Light {
+  std::string name;  // node name, else light name, else "light N"
+  LightType type = LightType::point;
+  int node = -1;
+  Vec3d color{1.0, 1.0, 1.0};
+  double intensity = 1.0;            // candela (point, spot) or lux (directional)
+  std::optional<double> range_given_m;  // as the file gives it
+  double range_m = 0.0;              // after resolve_ranges(); >= 0, may be +inf
+  RangeSource range_source = RangeSource::given;
+  double inner_cone_rad = 0.0, outer_cone_rad = 0.78539816339744831;  // half-angles, spots only
+};
+
+// An oriented box (decal, probe) from a node's extras; counted, assigned by later methods.
+struct OrientedBox {
+  std::string name;
+  int node = -1;
+  Vec3d half_extents_m{0.5, 0.5, 0.5};
+};
+
+// A camera's lens as glTF gives it. The aspect ratio of a frame is its viewport's, the vertical extent is the lens's.
+struct Lens {
+  bool orthographic = false;
+  double yfov_rad = 0.0;                // perspective
+  double xmag_m = 0.0, ymag_m = 0.0;    // orthographic: half extents
+  double near_m = 0.1, far_m = 0.0;     // far may be +inf (perspective without zfar)
+};
+
+struct Camera {
+  std::string name;  // node name, else camera name, else "camera N"
+  int node = -1;
+  Lens lens;
+  bool animated = false;  // its node or one above it has an animation channel
+};
+
+struct Node {
+  std::string name;
+  int parent = -1;  // always smaller than the node's own place: parents come first
+  int gltf_index = -1;
+  bool has_matrix = false;
+  Mat4d matrix{1.0};
+  Vec3d translation{0.0};
+  Vec4d rotation{0.0, 0.0, 0.0, 1.0};  // quaternion x, y, z, w
+  Vec3d scale{1.0};
+};
+
+enum class Interpolation : std::uint8_t { linear, step, cubic_spline };
+enum class ChannelPath : std::uint8_t { translation, rotation, scale };
+
+struct Channel {
+  int node = -1;
+  ChannelPath path = ChannelPath::translation;
+  Interpolation interpolation = Interpolation::linear;
+  std::vector<double> times_s;   // strictly ascending
+  std::vector<Vec4d> values;     // one per key; cubic spline: in-tangent, value, out-tangent per key
+};
+
+struct Scene {
+  std::string name;                // file stem
+  std::filesystem::path path;
+  std::string sha256;              // of the file's bytes (external buffers' follow in order)
+  std::vector<Node> nodes;         // reachable from the default scene; parents first
+  std::vector<Light> lights;       // in node order
+  std::vector<Camera> cameras;
+  std::vector<OrientedBox> boxes;
+  std::vector<Channel> channels;   // of all animations, played together
+  double duration_s = 0.0;         // last key of any channel
+  std::vector<std::string> warnings;
+};
+
+// Reads .gltf or .glb. Throws Error (file, JSON pointer) for what is broken in a part that this tool reads.
+Scene load_gltf(const std::filesystem::path& path);
+
+// What a light without `range` gets: the distance at which its brightest colour channel falls to cutoff_lux,
+// sqrt(intensity * max(color) / cutoff_lux), at most max_range_m. Given ranges stay.
+struct RangeRule {
+  double cutoff_lux = 0.05;
+  double max_range_m = 100.0;
+};
+void resolve_ranges(Scene& scene, const RangeRule& rule);
+
+// World transforms of all nodes at a time (animations clamp to their first and last key).
+std::vector<Mat4d> world_transforms(const Scene& scene, double time_s);
+
+// A point or spot light in world space at one time: what truth is computed from.
+struct WorldLight {
+  int rig_index = -1;      // place in Scene::lights
+  LightType type = LightType::point;
+  Vec3d position{0.0};
+  double range_m = 0.0;
+  Vec3d direction{0.0, 0.0, -1.0};  // unit up to rounding; spots
+  double outer_cone_rad = 0.0;      // spots; in [0, pi/2]
+};
+
+// All point lights, then all spot lights, each in Scene::lights order. Directional lights touch everything and are left out.
+std::vector<WorldLight> world_lights(const Scene& scene, double time_s);
+
+// Where a camera stands: view = view_from_world * (world - eye). Rows are unit and orthogonal up to rounding: the node's
+// scale and shear are taken out.
+struct CameraPose {
+  Vec3d eye{0.0};
+  Mat3d view_from_world{1.0};
+};
+CameraPose camera_pose(const Scene& scene, const Camera& camera, double time_s);
+
+}  // namespace clusterbench::scene
