@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+"""Checks the structure that the README of src promises: scripts/check_layers.py [ROOT].
+
+Fails on an #include against the order of layers, on a library included outside of its one home, on a file of
+src/assign/assigners without its line in registry.inc (or a line without its file), and on a circle of includes.
+"""
+import pathlib
+import re
+import sys
+
+# A file includes only its own layer and those before it.
+LAYERS = ["core", "geom", "scene", "view", "grid", "assign", "measure", "run", "report", "cli"]
+
+# Library header -> the only layers that include it.
+HOMES = {
+    "oneapi/tbb": ["core"],
+    "tbb/": ["core"],
+    "openssl/": ["core"],
+    "boost/": ["geom"],
+    "tiny_gltf.h": ["scene"],
+    "embree": ["view"],
+    "hwy/": ["assign", "geom"],
+    "valijson/": ["run"],
+    "CLI/": ["cli"],
+}
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
+REGISTRY_LINE = re.compile(r"^\s*CLUSTERBENCH_ASSIGNER\((\w+)\)", re.M)
+
+
+def includes_of(path):
+    return [(kind, name) for kind, name in INCLUDE.findall(path.read_text())]
+
+
+def layer_faults(name, layer, file_includes):
+    for kind, included in file_includes:
+        target = included.split("/")[0]
+        if kind == '"' and target in LAYERS and LAYERS.index(target) > LAYERS.index(layer):
+            yield f"{name}: includes {included}, but layer {layer} comes before layer {target}"
+        for library, homes in HOMES.items():
+            if included.startswith(library) and layer not in homes:
+                yield f"{name}: includes {included}, whose home is {' and '.join(homes)}"
+
+
+def registry_faults(src):
+    folder = src / "assign" / "assigners"
+    registry = src / "assign" / "registry.inc"
+    lines = REGISTRY_LINE.findall(registry.read_text()) if registry.exists() else []
+    files = {path.stem for path in folder.glob("*.cpp")}
+    for stem in sorted(files - set(lines)):
+        yield f"src/assign/assigners/{stem}.cpp: has no line CLUSTERBENCH_ASSIGNER({stem}) in src/assign/registry.inc"
+    for stem in sorted(set(lines) - files):
+        yield f"src/assign/registry.inc: names {stem}, but src/assign/assigners/{stem}.cpp does not exist"
+
+
+def circle_faults(graph):
+    done, path = set(), []
+
+    def visit(node):
+        if node in path:
+            yield "circle of includes: " + " -> ".join(path[path.index(node):] + [node])
+            return
+        if node in done or node not in graph:
+            return
+        path.append(node)
+        for target in graph[node]:
+            yield from visit(target)
+        path.pop()
+        done.add(node)
+
+    for node in sorted(graph):
+        yield from visit(node)
+
+
+def faults(root):
+    src = root / "src"
+    graph = {}
+    for path in sorted(list(src.rglob("*.h")) + list(src.rglob("*.cpp")) + list(src.rglob("*.inc"))):
+        relative = path.relative_to(src)
+        layer = relative.parts[0]
+        if layer not in LAYERS:
+            yield f"src/{relative}: is in no layer; layers are {', '.join(LAYERS)}"
+            continue
+        file_includes = includes_of(path)
+        graph[str(relative)] = [name for kind, name in file_includes if kind == '"']
+        yield from layer_faults(f"src/{relative}", layer, file_includes)
+    yield from circle_faults(graph)
+    yield from registry_faults(src)
+
+
+def main():
+    root = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parent.parent
+    found = list(faults(root))
+    for fault in found:
+        print(fault)
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,119 @@
+// `clusterbench list`: everything that a configuration can name, with its parameters.
+
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "assign/assigner.h"
+#include "assign/storage.h"
+#include "cli/command.h"
+#include "scene/generate.h"
+
+namespace clusterbench::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const assign::ParamValue& value) {
+  return std::visit([](const auto& held) { return Json(held); }, value);
+}
+
+Json to_json(const std::vector<assign::ParamSpec>& params) {
+  Json list = Json::array();
+  for (const assign::ParamSpec& param : params) {
+    Json entry{{"name", param.name}, {"summary", param.summary}, {"default", to_json(param.standard)}};
+    if (!param.unit.empty()) entry["unit"] = param.unit;
+    if (std::holds_alternative<double>(param.standard)) entry["range"] = {param.min, param.max};
+    if (!param.choices.empty()) entry["choices"] = param.choices;
+    list.push_back(entry);
+  }
+  return list;
+}
+
+Json to_json(const assign::AssignerRow& row) {
+  Json kinds = Json::array();
+  for (const grid::Kind kind : row.kinds) kinds.push_back(grid::kind_name(kind));
+  Json lights = Json::array();
+  if (row.points) lights.push_back("point");
+  if (row.spots) lights.push_back("spot");
+  return Json{{"name", row.name},
+              {"summary", row.summary},
+              {"source", row.source},
+              {"grids", kinds},
+              {"lights", lights},
+              {"needs_depth", row.needs_depth},
+              {"conservative", row.conservative},
+              {"exact", row.exact},
+              {"orthographic", row.orthographic},
+              {"params", to_json(row.params)}};
+}
+
+Json everything() {
+  Json all{{"assigners", Json::array()}, {"storages", Json::array()}, {"grids", Json::array()}};
+  for (const assign::AssignerRow* row : assign::assigner_rows()) all["assigners"].push_back(to_json(*row));
+  for (const assign::StorageRow& row : assign::storage_rows())
+    all["storages"].push_back(
+        {{"name", row.name}, {"summary", row.summary}, {"source", row.source}, {"params", to_json(row.params)}});
+  for (int kind = 0; kind < grid::k_kind_count; ++kind)
+    all["grids"].push_back(grid::kind_name(static_cast<grid::Kind>(kind)));
+  for (const scene::GeneratorRow& row : scene::generators())
+    all["scenes"].push_back(
+        {{"name", row.name}, {"summary", row.summary}, {"source", row.source}, {"default_lights", row.default_lights}});
+  return all;
+}
+
+std::string words(const Json& array) {
+  std::string text;
+  for (const Json& word : array)
+    text += (text.empty() ? "" : ", ") + (word.is_string() ? word.get<std::string>() : word.dump());
+  return text;
+}
+
+void print_params(const Json& params) {
+  for (const Json& param : params) {
+    std::cout << "      " << param["name"].get<std::string>() << " = " << words(Json::array({param["default"]}));
+    if (param.contains("choices")) std::cout << "  (" << words(param["choices"]) << ")";
+    if (param.contains("range")) std::cout << "  (" << param["range"][0] << " to " << param["range"][1] << ")";
+    if (param.contains("unit")) std::cout << " " << param["unit"].get<std::string>();
+    std::cout << ": " << param["summary"].get<std::string>() << "\n";
+  }
+}
+
+void print_section(const Json& all, const char* section) {
+  std::cout << section << "\n";
+  for (const Json& row : all[section]) {
+    if (row.is_string()) {
+      std::cout << "  " << row.get<std::string>() << "\n";
+      continue;
+    }
+    std::cout << "  " << row["name"].get<std::string>() << ": " << row["summary"].get<std::string>() << " ["
+              << row["source"].get<std::string>() << "]\n";
+    if (row.contains("grids"))
+      std::cout << "      grids: " << words(row["grids"]) << "; lights: " << words(row["lights"])
+                << (row["exact"]          ? "; exact"
+                    : row["conservative"] ? "; conservative"
+                                          : "; NOT conservative")
+                << "\n";
+    if (row.contains("params")) print_params(row["params"]);
+  }
+}
+
+}  // namespace
+
+void add_list(CLI::App& app, Action& action) {
+  CLI::App* command =
+      app.add_subcommand("list", "Assigners, storages, grids and scenes that exist, with their parameters");
+  auto as_json = std::make_shared<bool>(false);
+  command->add_flag("--json", *as_json, "As JSON");
+  command->callback([as_json, &action] {
+    action = [as_json] {
+      const Json all = everything();
+      if (*as_json)
+        std::cout << all.dump(2) << "\n";
+      else
+        for (const char* section : {"assigners", "storages", "grids", "scenes"}) print_section(all, section);
+      return ExitCode::ok;
+    };
+  });
+}
+
+}  // namespace clusterbench::cli

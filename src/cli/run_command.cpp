@@ -1,0 +1,194 @@
+// `clusterbench run CONFIG|SCENE...`: plan, measure, show, write.
+
+#include <csignal>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "cli/command.h"
+#include "cli/terminal.h"
+#include "core/text.h"
+#include "report/journal.h"
+#include "report/json.h"
+#include "report/table.h"
+#include "run/config.h"
+#include "run/runner.h"
+#include "run/sweep.h"
+
+namespace clusterbench::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct Flags {
+  std::vector<std::string> inputs;
+  std::string output, filter;
+  std::optional<int> threads;
+  bool resume = false, dry_run = false, no_timing = false, quiet = false;
+};
+
+// The only state outside of functions: a signal handler can reach nothing else.
+std::atomic<bool> g_stop{false};
+std::atomic<int> g_signal{0};
+
+void on_signal(int number) {
+  g_signal = number;
+  if (g_stop.exchange(true)) std::_Exit(static_cast<int>(ExitCode::sigint));  // the second time: at once
+}
+
+bool is_scene(const std::string& path) {
+  const std::string extension = fs::path(path).extension().string();
+  return extension == ".glb" || extension == ".gltf";
+}
+
+run::Config read_inputs(const Flags& flags) {
+  const auto scenes = static_cast<std::size_t>(std::count_if(flags.inputs.begin(), flags.inputs.end(), is_scene));
+  if (scenes == flags.inputs.size()) return run::default_config({flags.inputs.begin(), flags.inputs.end()});
+  if (scenes == 0 && flags.inputs.size() == 1) return run::load_config(flags.inputs.front());
+  throw Error("", "command line",
+              "takes one configuration (.json), or one or more scenes (.glb, .gltf), not " + joined(flags.inputs));
+}
+
+run::Config overridden(run::Config config, const Flags& flags) {
+  if (flags.threads) {
+    config.threads = *flags.threads;
+    config.resolved["threads"] = *flags.threads;
+  }
+  if (flags.no_timing) {
+    config.timing.measure = false;
+    config.resolved["timing"]["measure"] = false;
+  }
+  return config;
+}
+
+std::size_t case_count(const run::Plan& plan) {
+  std::size_t count = 0;
+  for (const run::GroupPlan& group : plan.groups) count += group.cases.size();
+  return count;
+}
+
+ExitCode print_plan(const run::Plan& plan) {
+  for (const run::GroupPlan& group : plan.groups)
+    for (const run::CasePlan& planned : group.cases) std::cout << planned.id << "  " << planned.name << "\n";
+  for (const run::Skipped& skipped : plan.skipped)
+    std::cout << "skipped  " << skipped.name << ": " << skipped.reason << "\n";
+  std::cerr << case_count(plan) << " cases, " << plan.skipped.size() << " skipped\n";
+  return ExitCode::ok;
+}
+
+// What an interrupted run must have had in common with the one that continues it.
+Json journal_header(const run::Config& config, const run::Plan& plan, const std::string& filter) {
+  const run::ToolFacts tool = run::tool_facts();
+  Json scenes = Json::array();
+  for (const run::SceneData& data : plan.scenes) scenes.push_back(data.scene.sha256);
+  return Json{{"version", tool.version}, {"git_sha", tool.git_sha}, {"flags", tool.flags},
+              {"scenes", scenes},        {"filter", filter},        {"config", config.resolved}};
+}
+
+// A device or a pipe takes the result at the end; a file gets a journal.
+bool is_stream(const std::string& output) {
+  return output.empty() || output == "-" ||
+         (fs::exists(output) && !fs::is_regular_file(output) && !fs::is_directory(output));
+}
+
+std::unique_ptr<report::Journal> open_journal(const Flags& flags, const run::Config& config, const run::Plan& plan) {
+  constexpr std::uint64_t k_bytes_per_case = 24 << 10;
+  if (is_stream(flags.output)) {
+    if (flags.resume) throw Error("", "--resume", "needs the result file of the interrupted run: add -o FILE");
+    return nullptr;
+  }
+  return std::make_unique<report::Journal>(flags.output, journal_header(config, plan, flags.filter), flags.resume,
+                                           k_bytes_per_case * case_count(plan));
+}
+
+void write_stream(const std::string& output, const Json& result) {
+  std::ofstream file;
+  if (!output.empty() && output != "-") file.open(output, std::ios::binary);
+  std::ostream& out = file.is_open() ? file : std::cout;
+  out << result.dump(1) << '\n' << std::flush;
+  if (!out)
+    throw Error(output.empty() ? "standard output" : output, "", "the result could not be written", ExitCode::internal);
+}
+
+// A stream is tried with a space, which JSON ignores, before minutes go into measuring.
+void probe_stream(const std::string& output) {
+  if (output.empty() || output == "-") return;
+  std::ofstream file(output, std::ios::binary);
+  file << ' ' << std::flush;
+  if (!file) throw Error(output, "", "cannot be written");
+}
+
+ExitCode interrupted(const report::Journal* journal) {
+  std::cerr << "interrupted";
+  if (journal != nullptr)
+    std::cerr << "; the finished cases are in " << journal->partial_path().string() << ", --resume goes on";
+  std::cerr << "\n";
+  return g_signal == SIGINT ? ExitCode::sigint : ExitCode::interrupted;
+}
+
+ExitCode report_gates(const Json& result) {
+  const std::vector<std::string> failures = report::gate_failures(result);
+  for (const std::string& failure : failures) std::cerr << "FAILED " << failure << "\n";
+  return failures.empty() ? ExitCode::ok : ExitCode::gate_failed;
+}
+
+run::Listener make_listener(ProgressLine& progress, report::Journal* journal, std::size_t earlier, std::size_t total) {
+  run::Listener listener;
+  listener.on_progress = [&progress](const run::Progress& now) { progress.show(now); };
+  listener.on_case = [&progress, journal, number = earlier, total](const run::CaseResult& done) mutable {
+    if (journal != nullptr) journal->add_case(report::case_to_json(done));
+    progress.case_done(done, ++number, total);
+  };
+  return listener;
+}
+
+ExitCode measure(const Flags& flags, const run::Config& config, const run::Plan& plan) {
+  if (is_stream(flags.output)) probe_stream(flags.output);
+  const std::unique_ptr<report::Journal> journal = open_journal(flags, config, plan);
+  const std::vector<Json> earlier = journal ? journal->earlier_cases() : std::vector<Json>{};
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+
+  const Terminal screen = terminal();
+  ProgressLine progress(screen, flags.quiet);
+  const run::Result fresh =
+      run::run_plan(config, plan, journal ? journal->earlier_ids() : std::vector<std::string>{},
+                    make_listener(progress, journal.get(), earlier.size(), case_count(plan)), g_stop);
+  progress.clear();
+  if (g_stop) return interrupted(journal.get());
+
+  const Json result = report::result_to_json(fresh, earlier);
+  if (journal)
+    journal->finish(result);
+  else
+    write_stream(flags.output, result);
+  if (!flags.quiet) std::cerr << report::render_table(result, screen.colour);
+  return report_gates(result);
+}
+
+ExitCode run(const Flags& flags) {
+  const run::Config config = overridden(read_inputs(flags), flags);
+  const run::Plan plan = run::make_plan(config, flags.filter);
+  return flags.dry_run ? print_plan(plan) : measure(flags, config, plan);
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, Action& action) {
+  auto flags = std::make_shared<Flags>();
+  CLI::App* command = app.add_subcommand("run", "Measure a configuration, or scenes with the default sweep");
+  command->add_option("INPUT", flags->inputs, "One configuration (.json), or scenes (.glb, .gltf)")->required();
+  command->add_option("-o,--output", flags->output, "Result file; without it the result goes to standard output");
+  command->add_option("--filter", flags->filter, "Only cases whose name matches this regular expression");
+  command->add_option("--threads", flags->threads, "Threads for the truth; results do not depend on it")
+      ->check(CLI::Range(1, 1024));
+  command->add_flag("--resume", flags->resume, "Continue the interrupted run of the same -o FILE");
+  command->add_flag("--dry-run", flags->dry_run, "List the cases and what is skipped, measure nothing");
+  command->add_flag("--no-timing", flags->no_timing, "Count only; the output is then the same on every machine");
+  command->add_flag("-q,--quiet", flags->quiet, "No progress and no table");
+  command->callback([flags, &action] { action = [flags] { return run(*flags); }; });
+}
+
+}  // namespace clusterbench::cli

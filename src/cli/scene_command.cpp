@@ -1,0 +1,125 @@
+// `clusterbench scene info FILE` and `clusterbench scene generate NAME`.
+
+#include <cstdio>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.h"
+#include "scene/generate.h"
+#include "scene/scene.h"
+#include "scene/summary.h"
+
+namespace clusterbench::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Vec3d& v) {
+  return Json::array({v.x, v.y, v.z});
+}
+
+Json to_json(const scene::Scene& scene, const scene::Summary& summary) {
+  return Json{{"name", scene.name},
+              {"sha256", scene.sha256},
+              {"nodes", scene.nodes.size()},
+              {"lights",
+               {{"point", summary.points},
+                {"spot", summary.spots},
+                {"directional", summary.directionals},
+                {"box", summary.boxes}}},
+              {"ranges",
+               {{"given", summary.ranges_given},
+                {"from_intensity", summary.ranges_from_intensity},
+                {"clamped", summary.ranges_clamped},
+                {"min_m", summary.range_min_m},
+                {"median_m", summary.range_median_m},
+                {"max_m", summary.range_max_m}}},
+              {"bounds_m", {to_json(summary.bounds_lo), to_json(summary.bounds_hi)}},
+              {"duration_s", scene.duration_s},
+              {"cameras", summary.cameras},
+              {"warnings", summary.warnings}};
+}
+
+void print(const scene::Scene& scene, const scene::Summary& summary) {
+  const auto& lo = summary.bounds_lo;
+  const auto& hi = summary.bounds_hi;
+  std::printf("%s\n  lights   %d point, %d spot, %d directional, %d box\n", scene.name.c_str(), summary.points,
+              summary.spots, summary.directionals, summary.boxes);
+  if (summary.points + summary.spots > 0) {
+    std::printf("  ranges   %.3g to %.3g m, median %.3g m; %d given, %d from intensity, %d clamped\n",
+                summary.range_min_m, summary.range_max_m, summary.range_median_m, summary.ranges_given,
+                summary.ranges_from_intensity, summary.ranges_clamped);
+    std::printf("  bounds   (%.4g, %.4g, %.4g) to (%.4g, %.4g, %.4g) m\n", lo.x, lo.y, lo.z, hi.x, hi.y, hi.z);
+  }
+  for (const std::string& camera : summary.cameras) std::printf("  camera   %s\n", camera.c_str());
+  for (const std::string& warning : summary.warnings) std::printf("  warning  %s\n", warning.c_str());
+}
+
+ExitCode info(const std::string& path, const scene::RangeRule& rule, bool as_json) {
+  scene::Scene scene = scene::load_gltf(path);
+  scene::resolve_ranges(scene, rule);
+  const scene::Summary summary = scene::summarise(scene);
+  if (as_json)
+    std::cout << to_json(scene, summary).dump(2) << "\n";
+  else
+    print(scene, summary);
+  return ExitCode::ok;
+}
+
+struct InfoFlags {
+  std::string file;
+  scene::RangeRule rule;
+  bool as_json = false;
+};
+
+struct GenerateFlags {
+  std::string name, out;
+  std::uint64_t seed = 1;
+  int lights = 0;
+};
+
+void add_info(CLI::App& parent, Action& action) {
+  auto flags = std::make_shared<InfoFlags>();
+  CLI::App* command =
+      parent.add_subcommand("info", "Lights, ranges, cameras and warnings of a glTF file; exit 2 if it is refused");
+  command->add_option("FILE", flags->file, "A .gltf or .glb file")->required();
+  command->add_option("--cutoff-lux", flags->rule.cutoff_lux, "Illuminance at which a light without range ends")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command->add_option("--max-range", flags->rule.max_range_m, "Longest range given to such a light, metres")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--json", flags->as_json, "As JSON");
+  command->callback([flags, &action] { action = [flags] { return info(flags->file, flags->rule, flags->as_json); }; });
+}
+
+void add_generate(CLI::App& parent, Action& action) {
+  auto flags = std::make_shared<GenerateFlags>();
+  CLI::App* command =
+      parent.add_subcommand("generate", "Write one of the tool's own scenes (names: clusterbench list)");
+  command->add_option("NAME", flags->name, "Scene name")->required();
+  command->add_option("--seed", flags->seed, "The same seed gives the same bytes everywhere")->capture_default_str();
+  command->add_option("--lights", flags->lights, "Number of lights; 0: the scene's own")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 10'000'000));
+  command->add_option("-o,--output", flags->out, "File to write; NAME.glb if not given");
+  command->callback([flags, &action] {
+    action = [flags] {
+      const std::string out = flags->out.empty() ? flags->name + ".glb" : flags->out;
+      scene::generate_scene(flags->name, flags->seed, flags->lights, out);
+      std::cerr << "wrote " << out << "\n";
+      return ExitCode::ok;
+    };
+  });
+}
+
+}  // namespace
+
+void add_scene(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("scene", "Look at glTF scenes, or make the tool's own");
+  command->require_subcommand(1);
+  add_info(*command, action);
+  add_generate(*command, action);
+}
+
+}  // namespace clusterbench::cli

@@ -1,0 +1,39 @@
+#pragma once
+// What standard error can show, and the progress of a run on it.
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+#include "run/runner.h"
+
+namespace clusterbench::cli {
+
+struct Terminal {
+  bool interactive = false;  // stderr is a terminal: one line, redrawn
+  bool colour = false;       // a terminal, and neither NO_COLOR nor TERM=dumb
+  int columns = 80;
+};
+Terminal terminal();
+
+// A line with an estimate of the time left (by cost, not by count) on a terminal, else one line per finished case.
+class ProgressLine {
+ public:
+  ProgressLine(Terminal terminal, bool quiet) : terminal_(terminal), quiet_(quiet) {}
+  ~ProgressLine() { clear(); }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  void show(const run::Progress& progress);
+  void case_done(const run::CaseResult& done, std::size_t number, std::size_t total);
+  void clear();
+
+ private:
+  Terminal terminal_;
+  bool quiet_;
+  bool drawn_ = false;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point drawn_at_{};
+};
+
+}  // namespace clusterbench::cli

@@ -1,0 +1,40 @@
+// `clusterbench --version [--json]`.
+
+#include <iostream>
+
+#include "cli/command.h"
+#include "run/result.h"
+
+namespace clusterbench::cli {
+namespace {
+
+ExitCode print_version(bool as_json) {
+  const run::ToolFacts tool = run::tool_facts();
+  if (!as_json) {
+    std::cout << "clusterbench " << tool.version << " (" << tool.git_sha << ", " << tool.compiler << ", "
+              << tool.build_type << ")\n";
+    return ExitCode::ok;
+  }
+  nlohmann::ordered_json facts{{"version", tool.version},       {"git_sha", tool.git_sha},
+                               {"compiler", tool.compiler},     {"flags", tool.flags},
+                               {"build_type", tool.build_type}, {"simd_target", tool.simd_target}};
+  for (const auto& [name, version] : tool.libraries) facts["libraries"][name] = version;
+  std::cout << facts.dump(2) << "\n";
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_version(CLI::App& app, Action& action) {
+  struct Flags {
+    bool version = false, as_json = false;
+  };
+  auto flags = std::make_shared<Flags>();
+  CLI::Option* version = app.add_flag("--version", flags->version, "Print the version");
+  app.add_flag("--json", flags->as_json, "With --version: as JSON, with compiler, flags and libraries")->needs(version);
+  app.callback([flags, &action] {
+    if (flags->version) action = [flags] { return print_version(flags->as_json); };
+  });
+}
+
+}  // namespace clusterbench::cli

@@ -1,0 +1,57 @@
+#!/usr/bin/env python3
+"""scripts/check_layers.py finds each kind of fault, and nothing in a clean tree."""
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "check_layers.py"
+
+
+class CheckLayers(unittest.TestCase):
+    def check(self, files):
+        with tempfile.TemporaryDirectory() as folder:
+            for name, text in files.items():
+                path = pathlib.Path(folder) / "src" / name
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_text(text)
+            done = subprocess.run([sys.executable, str(SCRIPT), folder], capture_output=True, text=True)
+            return done.returncode, done.stdout
+
+    def test_a_clean_tree_passes(self):
+        code, out = self.check({
+            "geom/a.h": '#include "core/error.h"\n#include <boost/x.hpp>\n',
+            "assign/assigners/aabb.cpp": '#include "geom/a.h"\n',
+            "assign/registry.inc": "CLUSTERBENCH_ASSIGNER(aabb)\n",
+        })
+        self.assertEqual((code, out), (0, ""))
+
+    def test_an_include_of_a_later_layer_is_found(self):
+        code, out = self.check({"geom/a.h": '#include "grid/grid.h"\n'})
+        self.assertEqual(code, 1)
+        self.assertIn("geom/a.h: includes grid/grid.h", out)
+
+    def test_a_library_outside_its_home_is_found(self):
+        code, out = self.check({"grid/a.cpp": "#include <boost/multiprecision/cpp_int.hpp>\n"})
+        self.assertEqual(code, 1)
+        self.assertIn("whose home is geom", out)
+
+    def test_an_assigner_without_registry_line_is_found(self):
+        code, out = self.check({"assign/assigners/mine.cpp": "", "assign/registry.inc": ""})
+        self.assertEqual(code, 1)
+        self.assertIn("CLUSTERBENCH_ASSIGNER(mine)", out)
+
+    def test_a_registry_line_without_file_is_found(self):
+        code, out = self.check({"assign/registry.inc": "CLUSTERBENCH_ASSIGNER(gone)\n"})
+        self.assertEqual(code, 1)
+        self.assertIn("names gone", out)
+
+    def test_a_circle_of_includes_is_found(self):
+        code, out = self.check({"grid/a.h": '#include "grid/b.h"\n', "grid/b.h": '#include "grid/a.h"\n'})
+        self.assertEqual(code, 1)
+        self.assertIn("circle of includes", out)
+
+
+if __name__ == "__main__":
+    unittest.main()
