@@ -9,12 +9,12 @@ namespace clusterbench {
 // What a process exits with; the values are part of the tool's contract.
 enum class ExitCode : int {
   ok = 0,
-  gate_failed = 1,        // a conservative assigner lost a light, a regression was found
-  usage = 2,              // bad flag, configuration or input file
+  gate_failed = 1,  // a conservative assigner lost a light, a regression was found
+  usage = 2,        // bad flag, configuration or input file
   nothing_comparable = 3,
   inconclusive = 4,
   internal = 70,
-  interrupted = 75,       // stopped before the end; `--resume` goes on
+  interrupted = 75,  // stopped before the end; `--resume` goes on
   sigint = 130,
 };
 

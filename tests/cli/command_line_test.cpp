@@ -1,0 +1,96 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/tool.h"
+
+namespace clusterbench::test {
+namespace {
+
+using Json = nlohmann::json;
+
+TEST(CommandLine, a_mistyped_command_is_answered_with_the_nearest_one) {
+  const Outcome done = tool("rnu x.json");
+  EXPECT_EQ(done.code, 2);
+  EXPECT_NE(done.err.find("did you mean 'run'?"), std::string::npos) << done.err;
+}
+
+TEST(CommandLine, an_unknown_flag_is_a_usage_error) {
+  const Outcome done = tool("run --colour x.json");
+  EXPECT_EQ(done.code, 2);
+  EXPECT_NE(done.err.find("--colour"), std::string::npos) << done.err;
+}
+
+TEST(CommandLine, without_arguments_the_help_is_shown) {
+  const Outcome done = tool("");
+  EXPECT_EQ(done.code, 0);
+  EXPECT_NE(done.out.find("validate"), std::string::npos) << done.out;
+}
+
+TEST(CommandLine, the_version_is_also_json) {
+  const Outcome done = tool("--version --json");
+  EXPECT_EQ(done.code, 0);
+  const Json version = Json::parse(done.out);
+  for (const char* key : {"version", "git_sha", "compiler", "flags", "build_type", "simd_target", "libraries"})
+    EXPECT_TRUE(version.contains(key)) << key;
+  EXPECT_NE(tool("--version").out.find(version["version"].get<std::string>()), std::string::npos);
+}
+
+TEST(CommandLine, list_names_every_assigner_with_its_parameters) {
+  const Json all = Json::parse(tool("list --json").out);
+  std::vector<std::string> names;
+  for (const Json& row : all["assigners"]) names.push_back(row["name"]);
+  EXPECT_EQ(names, (std::vector<std::string>{"brute-force", "bounds", "planes", "aabb", "sphere-refinement", "distance",
+                                             "cascades", "world-grid"}));
+  const std::string text = tool("list").out;
+  for (const std::string& name : names) EXPECT_NE(text.find(name), std::string::npos) << name;
+}
+
+TEST(CommandLine, both_schemas_are_draft_07) {
+  for (const char* which : {"config", "result"}) {
+    const Json schema = Json::parse(tool(std::string("schema ") + which).out);
+    EXPECT_EQ(schema["$schema"], "http://json-schema.org/draft-07/schema#");
+  }
+  EXPECT_EQ(tool("schema nothing").code, 2);
+}
+
+TEST(CommandLine, validate_tells_a_good_configuration_from_a_broken_one) {
+  EXPECT_EQ(tool("validate " + source_file("configs/quick.json")).code, 0);
+  const Folder folder;
+  const Outcome done = tool("validate " + folder.write("bad.json", "{\n  \"scenez\": []\n}").string());
+  EXPECT_EQ(done.code, 2);
+  EXPECT_NE(done.err.find("bad.json: 2:3 /scenez"), std::string::npos) << done.err;
+  EXPECT_NE(done.err.find("did you mean 'scenes'?"), std::string::npos) << done.err;
+}
+
+TEST(SceneCommand, what_is_refused_exits_2_with_one_line_that_names_file_and_place) {
+  const Folder folder;
+  const Outcome done = tool(
+      "scene info " +
+      folder
+          .write("broken.gltf",
+                 "{\"asset\": {\"version\": \"2.0\"}, \"nodes\": [{\"camera\": 3}], \"scenes\": [{\"nodes\": [0]}]}")
+          .string());
+  EXPECT_EQ(done.code, 2);
+  EXPECT_EQ(std::count(done.err.begin(), done.err.end(), '\n'), 1) << done.err;
+  EXPECT_NE(done.err.find("broken.gltf: /nodes/0/camera"), std::string::npos) << done.err;
+}
+
+TEST(SceneCommand, a_generated_scene_is_the_committed_one_and_can_be_looked_at) {
+  const Folder folder;
+  const std::string file = (folder / "street.glb").string();
+  ASSERT_EQ(tool("scene generate street -o " + file).code, 0);
+  EXPECT_EQ(file_text(file), file_text(source_file("scenes/street.glb")));
+  const Json info = Json::parse(tool("scene info --json " + file).out);
+  EXPECT_GT(info["lights"]["spot"], 0);
+  EXPECT_FALSE(info["cameras"].empty());
+}
+
+TEST(SceneCommand, an_unknown_scene_name_is_answered_with_the_nearest_one) {
+  const Outcome done = tool("scene generate stret");
+  EXPECT_EQ(done.code, 2);
+  EXPECT_NE(done.err.find("street"), std::string::npos) << done.err;
+}
+
+}  // namespace
+}  // namespace clusterbench::test

@@ -1,0 +1,164 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/tool.h"
+
+namespace clusterbench::test {
+namespace {
+
+using Json = nlohmann::json;
+
+// A configuration of a few small cases on one of the project's own scenes.
+std::string small_config(const std::string& more = "") {
+  return R"({"name": "small", "scenes": [{"path": ")" + source_file("scenes/street.glb") + R"(", "frames": 3}],
+    "viewport": [640, 360],
+    "grids": [{"kind": "frustum", "tiles": {"pixels": [64, 64]}, "slices": {"scheme": "exponential-first", "count": 8, "far": 200}},
+              {"kind": "world", "cells": [16, 4, 16]}],
+    "assigners": ["aabb", "sphere-refinement", "world-grid"],
+    "timing": {"rounds": 3, "min_time_ms": 1, "frames": 2})" +
+         more + "}";
+}
+
+Json without_timing(Json result) {
+  for (const char* key : {"machine", "front"}) result.erase(key);
+  for (Json& entry : result["cases"]) entry.erase("timing");
+  return result;
+}
+
+TEST(Run, a_configuration_gives_a_result_that_its_own_schema_accepts) {
+  const Folder folder;
+  const std::string config = folder.write("small.json", small_config()).string();
+  const std::string out = (folder / "result.json").string();
+  const Outcome done = tool("run " + config + " -o " + out);
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_EQ(tool("validate " + out).code, 0);
+  const Json result = Json::parse(file_text(out));
+  EXPECT_EQ(result["cases"].size(), 3u);
+  for (const Json& entry : result["cases"]) {
+    EXPECT_EQ(entry["error"]["false_negatives"], 0);
+    EXPECT_GT(entry["error"]["true_pairs"], 0);
+    EXPECT_GT(entry["timing"]["assign_ns"]["median"], 0);
+  }
+  EXPECT_EQ(result["skipped"].size(), 3u);
+  EXPECT_FALSE(std::filesystem::exists(out + ".partial"));
+}
+
+TEST(Run, counts_are_byte_identical_on_any_number_of_threads) {
+  const Folder folder;
+  const std::string config = folder.write("small.json", small_config()).string();
+  const std::string one = (folder / "one.json").string(), two = (folder / "two.json").string();
+  ASSERT_EQ(tool("run --no-timing --threads 1 " + config + " -o " + one).code, 0);
+  ASSERT_EQ(tool("run --no-timing --threads 2 " + config + " -o " + two).code, 0);
+  Json first = Json::parse(file_text(one)), second = Json::parse(file_text(two));
+  first["config"].erase("threads");
+  second["config"].erase("threads");
+  EXPECT_EQ(first.dump(), second.dump());
+}
+
+TEST(Run, the_result_goes_to_standard_output_without_a_file) {
+  const Folder folder;
+  const Outcome done = tool("run --quiet --no-timing " + folder.write("small.json", small_config()).string());
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_EQ(Json::parse(done.out)["schema_version"], 1);
+  EXPECT_EQ(done.err, "");
+}
+
+TEST(Run, a_dry_run_lists_cases_and_measures_nothing) {
+  const Folder folder;
+  const Outcome done = tool("run --dry-run " + folder.write("small.json", small_config()).string());
+  EXPECT_EQ(done.code, 0);
+  EXPECT_NE(done.out.find("/sphere-refinement"), std::string::npos) << done.out;
+  EXPECT_NE(done.out.find("skipped"), std::string::npos) << done.out;
+}
+
+TEST(Run, a_filter_selects_cases_by_name) {
+  const Folder folder;
+  const std::string config = folder.write("small.json", small_config()).string();
+  const Outcome done = tool("run --quiet --no-timing --filter '/aabb/' " + config);
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_EQ(Json::parse(done.out)["cases"].size(), 1u);
+  EXPECT_EQ(tool("run --filter '(' " + config).code, 2);
+  EXPECT_EQ(tool("run --filter nothing-like-this " + config).code, 2);
+}
+
+TEST(Run, a_scene_alone_is_enough) {
+  const Folder folder;
+  const std::string out = (folder / "result.json").string();
+  const Outcome done = tool("run --no-timing " + source_file("scenes/outlier.glb") + " -o " + out);
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_GT(Json::parse(file_text(out))["cases"].size(), 4u);
+}
+
+TEST(Run, a_place_that_cannot_be_written_is_noticed_before_measuring) {
+  const Folder folder;
+  const std::string config = folder.write("small.json", small_config()).string();
+  const Outcome missing = tool("run " + config + " -o " + (folder / "no/such/folder/r.json").string());
+  EXPECT_EQ(missing.code, 2);
+  EXPECT_NE(missing.err.find("no/such/folder"), std::string::npos) << missing.err;
+  EXPECT_EQ(missing.err.find("aabb"), std::string::npos) << "measured first: " << missing.err;
+  const Outcome full = tool("run " + config + " -o /dev/full");
+  EXPECT_EQ(full.code, 2);
+  EXPECT_EQ(full.err.find("aabb"), std::string::npos) << "measured first: " << full.err;
+}
+
+TEST(Run, scenes_and_configurations_are_not_mixed) {
+  EXPECT_EQ(tool("run a.json b.glb").code, 2);
+  EXPECT_EQ(tool("run missing.json").code, 2);
+  EXPECT_EQ(tool("run missing.glb").code, 2);
+}
+
+// Starts a run, waits for its journal, then ends it as a shutting-down machine would.
+int interrupt(const std::string& config, const std::string& out) {
+  const std::string run = std::string(CLUSTERBENCH_BINARY) + " run -q " + config + " -o " + out;
+  const std::string wait_for_journal = "while [ ! -s " + out + ".partial ]; do sleep 0.01; done";
+  const int status =
+      std::system((run + " 2>/dev/null & pid=$!; " + wait_for_journal + "; kill -TERM $pid; wait $pid").c_str());
+  return WEXITSTATUS(status);
+}
+
+std::string slow_config() {
+  std::string text = small_config();
+  const std::string quick = R"("rounds": 3)";
+  return text.replace(text.find(quick), quick.size(), R"("rounds": 500)");
+}
+
+TEST(Run, a_termination_signal_keeps_what_is_finished_and_exits_75) {
+  const Folder folder;
+  const std::string config = folder.write("slow.json", slow_config()).string();
+  const std::string out = (folder / "r.json").string();
+  EXPECT_EQ(interrupt(config, out), 75);
+  EXPECT_FALSE(std::filesystem::exists(out));
+  EXPECT_TRUE(std::filesystem::exists(out + ".partial"));
+}
+
+TEST(Run, an_interrupted_run_resumes_to_the_same_counts) {
+  const Folder folder;
+  const std::string config = folder.write("slow.json", slow_config()).string();
+  const std::string whole = (folder / "whole.json").string(), cut = (folder / "cut.json").string();
+  ASSERT_EQ(tool("run -q " + config + " -o " + whole).code, 0);
+  ASSERT_EQ(interrupt(config, cut), 75);
+  const Json complete = Json::parse(file_text(whole));
+  std::ofstream(cut + ".partial", std::ios::app) << Json{{"case", complete["cases"][0]}}.dump() << "\n";
+
+  const Outcome refused = tool("run " + config + " -o " + cut);
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("--resume"), std::string::npos) << refused.err;
+
+  ASSERT_EQ(tool("run -q --resume " + config + " -o " + cut).code, 0);
+  EXPECT_EQ(without_timing(Json::parse(file_text(cut))).dump(), without_timing(complete).dump());
+}
+
+TEST(Size, prints_constants_for_a_result) {
+  const Folder folder;
+  const std::string config = folder.write("small.json", small_config()).string();
+  const std::string out = (folder / "result.json").string();
+  ASSERT_EQ(tool("run --no-timing -q " + config + " -o " + out).code, 0);
+  const Outcome done = tool("size " + out);
+  EXPECT_EQ(done.code, 0) << done.err;
+  EXPECT_NE(done.out.find("constexpr"), std::string::npos) << done.out;
+  EXPECT_EQ(tool("size " + config).code, 2);
+}
+
+}  // namespace
+}  // namespace clusterbench::test

@@ -1,0 +1,60 @@
+#pragma once
+// Runs the real program as a user would.
+
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace clusterbench::test {
+
+struct Outcome {
+  int code = -1;
+  std::string out, err;
+};
+
+inline std::string file_text(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// A folder that goes when the test ends.
+class Folder {
+ public:
+  Folder() {
+    std::string name = (std::filesystem::temp_directory_path() / "clusterbench.XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) std::abort();
+    path_ = name;
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return path_ / name;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+// `arguments` as a shell would take them.
+inline Outcome tool(const std::string& arguments) {
+  const Folder folder;
+  const std::string command = std::string(CLUSTERBENCH_BINARY) + " " + arguments + " >" + (folder / "out").string() +
+                              " 2>" + (folder / "err").string() + " </dev/null";
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128, file_text(folder / "out"), file_text(folder / "err")};
+}
+
+inline std::string source_file(const std::string& name) {
+  return std::string(CLUSTERBENCH_SOURCE_DIR) + "/" + name;
+}
+
+}  // namespace clusterbench::test

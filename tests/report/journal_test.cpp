@@ -1,0 +1,82 @@
+#include "report/journal.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "core/error.h"
+
+namespace clusterbench::report {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+const Json k_header{{"config", "a"}};
+
+class JournalTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "journal.XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+    file_ = folder_ / "result.json";
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  // What a run that dies after one case leaves behind.
+  void leave_one_case() {
+    Journal journal(file_, k_header, false, 100);
+    journal.add_case(Json{{"id", "first"}});
+  }
+
+  fs::path folder_, file_;
+};
+
+TEST_F(JournalTest, a_finished_case_survives_the_end_of_the_process) {
+  leave_one_case();
+  const Journal later(file_, k_header, true, 100);
+  EXPECT_EQ(later.earlier_ids(), std::vector<std::string>{"first"});
+}
+
+TEST_F(JournalTest, a_line_cut_in_the_middle_is_passed_over) {
+  leave_one_case();
+  std::ofstream(file_.string() + ".partial", std::ios::app) << R"({"case": {"id": "seco)";
+  const Journal later(file_, k_header, true, 100);
+  EXPECT_EQ(later.earlier_ids(), std::vector<std::string>{"first"});
+}
+
+TEST_F(JournalTest, finished_cases_are_not_overwritten_by_a_new_start) {
+  leave_one_case();
+  EXPECT_THROW(Journal(file_, k_header, false, 100), Error);
+  EXPECT_EQ(Journal(file_, k_header, true, 100).earlier_ids().size(), 1u);
+}
+
+TEST_F(JournalTest, another_configuration_is_not_continued) {
+  leave_one_case();
+  EXPECT_THROW(Journal(file_, Json{{"config", "b"}}, true, 100), Error);
+}
+
+TEST_F(JournalTest, finishing_replaces_the_file_and_removes_the_journal) {
+  std::ofstream(file_) << "old";
+  Journal journal(file_, k_header, false, 100);
+  journal.add_case(Json{{"id", "first"}});
+  journal.finish(Json{{"cases", 1}});
+  std::ifstream in(file_);
+  EXPECT_EQ(Json::parse(in), (Json{{"cases", 1}}));
+  EXPECT_FALSE(fs::exists(journal.partial_path()));
+}
+
+TEST_F(JournalTest, a_folder_that_does_not_exist_is_an_error_at_the_start) {
+  EXPECT_THROW(Journal(folder_ / "none" / "r.json", k_header, false, 100), Error);
+  EXPECT_THROW(Journal(folder_, k_header, false, 100), Error);
+}
+
+TEST_F(JournalTest, a_disk_without_room_is_an_error_at_the_start) {
+  EXPECT_THROW(Journal(file_, k_header, false, std::uint64_t{1} << 62), Error);
+  EXPECT_LE(fs::exists(file_.string() + ".partial") ? fs::file_size(file_.string() + ".partial") : 0, 0u);
+}
+
+}  // namespace
+}  // namespace clusterbench::report
