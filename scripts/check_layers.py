@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks the structure that the README of src promises: scripts/check_layers.py [ROOT].
+"""Checks the structure that CONTRIBUTING.md describes: scripts/check_layers.py [ROOT].
 
 Fails on an #include against the order of layers, on a library included outside of its one home, on a file of
 src/assign/assigners without its line in registry.inc (or a line without its file), and on a circle of includes.
