@@ -1,0 +1,272 @@
+// load_gltf: the checked document goes through tinygltf into a model, the model into a Scene.
+
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "scene/gltf_accessor.h"
+#include "scene/gltf_checked.h"
+#include "scene/gltf_container.h"
+#include "scene/gltf_keys.h"
+#include "scene/scene.h"
+
+namespace clusterbench::scene {
+namespace {
+
+constexpr const char* k_lights = "KHR_lights_punctual";
+
+// The document holds no images, buffers or meshes, so tinygltf opens no file and decodes nothing.
+tinygltf::Model parsed_model(const nlohmann::json& document, const std::string& file) {
+  const std::string text = document.dump();
+  if (text.size() > std::numeric_limits<unsigned int>::max()) throw Error(file, "", "the scene is larger than 4 GiB");
+  tinygltf::TinyGLTF loader;
+  loader.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int,
+                           void*) { return true; },
+                        nullptr);
+  tinygltf::Model model;
+  std::string error, warning;
+  if (!loader.LoadASCIIFromString(&model, &error, &warning, text.c_str(), static_cast<unsigned int>(text.size()), "")) {
+    std::replace(error.begin(), error.end(), '\n', ' ');
+    throw Error(file, "/", error);
+  }
+  return model;
+}
+
+Vec3d vec3_or(const std::vector<double>& numbers, const Vec3d& otherwise) {
+  return numbers.size() == 3 ? Vec3d(numbers[0], numbers[1], numbers[2]) : otherwise;
+}
+
+Node node_of(const tinygltf::Node& from, int gltf_index, int parent) {
+  Node node;
+  node.name = from.name;
+  node.parent = parent;
+  node.gltf_index = gltf_index;
+  node.has_matrix = !from.matrix.empty();
+  for (std::size_t i = 0; i < from.matrix.size(); ++i) {
+    node.matrix[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = from.matrix[i];
+  }
+  node.translation = vec3_or(from.translation, node.translation);
+  node.scale = vec3_or(from.scale, node.scale);
+  if (from.rotation.size() == 4)
+    node.rotation = {from.rotation[0], from.rotation[1], from.rotation[2], from.rotation[3]};
+  return node;
+}
+
+std::vector<int> roots_of(const tinygltf::Model& model) {
+  if (!model.scenes.empty()) return model.scenes[static_cast<std::size_t>(std::max(model.defaultScene, 0))].nodes;
+  std::vector<char> is_child(model.nodes.size(), 0);
+  for (const tinygltf::Node& node : model.nodes) {
+    for (const int child : node.children) is_child[static_cast<std::size_t>(child)] = 1;
+  }
+  std::vector<int> roots;
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    if (!is_child[i]) roots.push_back(static_cast<int>(i));
+  }
+  return roots;
+}
+
+// Depth first, children in their order, parents before children. Returns scene node -> place in `nodes`.
+std::map<int, int> add_nodes(const tinygltf::Model& model, Scene& scene) {
+  std::map<int, int> placed;
+  std::vector<std::pair<int, int>> waiting;  // glTF index, parent's place
+  const auto push = [&](const std::vector<int>& nodes, int parent) {
+    for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) waiting.emplace_back(*node, parent);
+  };
+  push(roots_of(model), -1);
+  while (!waiting.empty()) {
+    const auto [index, parent] = waiting.back();
+    waiting.pop_back();
+    const int place = static_cast<int>(scene.nodes.size());
+    const tinygltf::Node& from = model.nodes[static_cast<std::size_t>(index)];
+    scene.nodes.push_back(node_of(from, index, parent));
+    placed.emplace(index, place);
+    push(from.children, place);
+  }
+  return placed;
+}
+
+std::string first_name(const std::string& node, const std::string& definition, const char* kind, std::size_t number) {
+  if (!node.empty()) return node;
+  return definition.empty() ? kind + std::string(" ") + std::to_string(number) : definition;
+}
+
+// `definition` is the light's checked JSON: tinygltf's Light cannot tell an absent range from 0.
+Light light_of(const tinygltf::Light& from, const nlohmann::json& definition, int node) {
+  Light light;
+  light.node = node;
+  light.type = from.type == "spot"          ? LightType::spot
+               : from.type == "directional" ? LightType::directional
+                                            : LightType::point;
+  light.color = vec3_or(from.color, light.color);
+  light.intensity = from.intensity;
+  if (definition.contains("range")) light.range_given_m = from.range;
+  if (light.type == LightType::directional) {
+    light.range_m = std::numeric_limits<double>::infinity();
+  } else if (light.range_given_m) {
+    light.range_m = *light.range_given_m;
+  }
+  if (light.type == LightType::spot) {
+    light.inner_cone_rad = from.spot.innerConeAngle;
+    light.outer_cone_rad = from.spot.outerConeAngle;
+  }
+  return light;
+}
+
+Camera camera_of(const tinygltf::Camera& from, int node) {
+  Camera camera;
+  camera.node = node;
+  Lens& lens = camera.lens;
+  lens.orthographic = from.type == "orthographic";
+  if (lens.orthographic) {
+    lens.xmag_m = from.orthographic.xmag;
+    lens.ymag_m = from.orthographic.ymag;
+    lens.near_m = from.orthographic.znear;
+    lens.far_m = from.orthographic.zfar;
+  } else {
+    lens.yfov_rad = from.perspective.yfov;
+    lens.near_m = from.perspective.znear;
+    lens.far_m = from.perspective.zfar > 0.0 ? from.perspective.zfar : std::numeric_limits<double>::infinity();
+  }
+  return camera;
+}
+
+void add_light(const tinygltf::Model& model, const nlohmann::json& definitions, const tinygltf::Node& from, int node,
+               Scene& scene) {
+  const auto reference = from.extensions.find(k_lights);
+  if (reference == from.extensions.end()) return;
+  const auto index = static_cast<std::size_t>(reference->second.Get("light").GetNumberAsInt());
+  Light light = light_of(model.lights[index], definitions[index], node);
+  light.name = first_name(from.name, model.lights[index].name, "light", scene.lights.size());
+  scene.lights.push_back(std::move(light));
+}
+
+void add_camera(const tinygltf::Model& model, const tinygltf::Node& from, int node, Scene& scene) {
+  if (from.camera < 0) return;
+  const tinygltf::Camera& definition = model.cameras[static_cast<std::size_t>(from.camera)];
+  Camera camera = camera_of(definition, node);
+  camera.name = first_name(from.name, definition.name, "camera", scene.cameras.size());
+  scene.cameras.push_back(std::move(camera));
+}
+
+void add_box(const tinygltf::Node& from, int node, Scene& scene) {
+  if (!from.extras.Has("clusterbench_box")) return;
+  const tinygltf::Value half_extents = from.extras.Get("clusterbench_box").Get("half_extents");
+  OrientedBox box;
+  box.node = node;
+  box.name = first_name(from.name, "", "box", scene.boxes.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    box.half_extents_m[axis] = half_extents.Get(static_cast<std::size_t>(axis)).GetNumberAsDouble();
+  }
+  scene.boxes.push_back(std::move(box));
+}
+
+void add_things(const tinygltf::Model& model, const nlohmann::json& document, Scene& scene) {
+  const nlohmann::json& definitions = document["extensions"][k_lights]["lights"];
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+    const tinygltf::Node& from = model.nodes[static_cast<std::size_t>(scene.nodes[i].gltf_index)];
+    add_light(model, definitions, from, static_cast<int>(i), scene);
+    add_camera(model, from, static_cast<int>(i), scene);
+    add_box(from, static_cast<int>(i), scene);
+  }
+}
+
+ChannelPath path_of(const std::string& name) {
+  if (name == "rotation") return ChannelPath::rotation;
+  return name == "scale" ? ChannelPath::scale : ChannelPath::translation;
+}
+
+Interpolation interpolation_of(const std::string& name) {
+  if (name == "STEP") return Interpolation::step;
+  return name == "CUBICSPLINE" ? Interpolation::cubic_spline : Interpolation::linear;
+}
+
+// Which channel moves what, by node and path.
+using Taken = std::map<std::pair<int, ChannelPath>, std::size_t>;
+
+void add_channels(const tinygltf::Animation& animation, const Place& place, const std::map<int, int>& placed,
+                  AccessorReader& reader, Taken& taken, Scene& scene) {
+  for (const tinygltf::AnimationChannel& from : animation.channels) {
+    const auto node = placed.find(from.target_node);
+    const tinygltf::AnimationSampler& sampler = animation.samplers[static_cast<std::size_t>(from.sampler)];
+    Channel channel = read_keys(reader, place.at("samplers").at(static_cast<std::size_t>(from.sampler)),
+                                static_cast<std::size_t>(sampler.input), static_cast<std::size_t>(sampler.output),
+                                path_of(from.target_path), interpolation_of(sampler.interpolation));
+    if (node == placed.end()) continue;  // checked, but its node is not in the default scene
+    channel.node = node->second;
+    scene.duration_s = std::max(scene.duration_s, channel.times_s.back());
+    const auto [known, first] = taken.try_emplace({channel.node, channel.path}, scene.channels.size());
+    if (first) {
+      scene.channels.push_back(std::move(channel));
+      continue;
+    }
+    scene.warnings.push_back(warning_at(place, "moves node " + std::to_string(from.target_node) + " (" +
+                                                   from.target_path + ") again; this animation wins"));
+    scene.channels[known->second] = std::move(channel);
+  }
+}
+
+void mark_animated_cameras(Scene& scene) {
+  std::vector<char> moved(scene.nodes.size(), 0);
+  for (const Channel& channel : scene.channels) moved[static_cast<std::size_t>(channel.node)] = 1;
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+    const int parent = scene.nodes[i].parent;
+    if (parent >= 0 && moved[static_cast<std::size_t>(parent)]) moved[i] = 1;
+  }
+  for (Camera& camera : scene.cameras) camera.animated = moved[static_cast<std::size_t>(camera.node)] != 0;
+}
+
+// Numbers that are each fine can multiply to infinity down the tree.
+void check_world(const Scene& scene, const Place& root) {
+  const std::vector<Mat4d> world = world_transforms(scene, 0.0);
+  for (std::size_t i = 0; i < world.size(); ++i) {
+    for (int column = 0; column < 4; ++column) {
+      for (int row = 0; row < 4; ++row) {
+        if (std::isfinite(world[i][column][row])) continue;
+        root.at("nodes")
+            .at(static_cast<std::size_t>(scene.nodes[i].gltf_index))
+            .refuse("its place in the world is not a number: the transforms above it are too large");
+      }
+    }
+  }
+}
+
+void shorten(std::vector<std::string>& warnings) {
+  constexpr std::size_t k_most = 100;
+  if (warnings.size() <= k_most) return;
+  const std::size_t more = warnings.size() - k_most;
+  warnings.resize(k_most);
+  warnings.push_back("and " + std::to_string(more) + " more warnings");
+}
+
+}  // namespace
+
+Scene load_gltf(const std::filesystem::path& path) {
+  GltfFile file;
+  read_gltf_file(path, file);
+  AccessorReader reader(file);
+  const Place& root = reader.root();
+  Scene scene;
+  scene.name = path.stem().string();
+  scene.path = path;
+  const nlohmann::json document = checked_document(root, scene.warnings);
+  const tinygltf::Model model = parsed_model(document, file.name);
+  const std::map<int, int> placed = add_nodes(model, scene);
+  add_things(model, document, scene);
+  Taken taken;
+  for (std::size_t i = 0; i < model.animations.size(); ++i) {
+    add_channels(model.animations[i], root.at("animations").at(i), placed, reader, taken, scene);
+  }
+  mark_animated_cameras(scene);
+  check_world(scene, root);
+  scene.sha256 = sha256_hex(file.bytes + reader.external_bytes());
+  shorten(scene.warnings);
+  return scene;
+}
+
+}  // namespace clusterbench::scene

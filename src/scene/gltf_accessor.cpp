@@ -1,0 +1,285 @@
+#include "scene/gltf_accessor.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+namespace clusterbench::scene {
+namespace {
+
+std::size_t size_of(Component component) {
+  switch (component) {
+    case Component::i8:
+    case Component::u8:
+      return 1;
+    case Component::i16:
+    case Component::u16:
+      return 2;
+    case Component::u32:
+    case Component::f32:
+      break;
+  }
+  return 4;
+}
+
+Component component_of(const Place& place) {
+  for (const Component known :
+       {Component::i8, Component::u8, Component::i16, Component::u16, Component::u32, Component::f32}) {
+    if (place.whole() == static_cast<std::size_t>(known)) return known;
+  }
+  place.refuse("found " + kind_of(place.value()) + ", one of 5120, 5121, 5122, 5123, 5125, 5126 is needed");
+}
+
+std::uint32_t little_endian(std::string_view bytes) {
+  std::uint32_t value = 0;
+  for (std::size_t i = bytes.size(); i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[i]);
+  return value;
+}
+
+// The formulas of glTF 2.0, 3.11 (animations), for normalized integers.
+double decoded(std::string_view bytes, const AccessorHead& head) {
+  const std::uint32_t raw = little_endian(bytes);
+  const bool scaled = head.normalized;
+  switch (head.component) {
+    case Component::i8: {
+      const double value = static_cast<std::int8_t>(raw);
+      return scaled ? std::max(value / 127.0, -1.0) : value;
+    }
+    case Component::i16: {
+      const double value = static_cast<std::int16_t>(raw);
+      return scaled ? std::max(value / 32767.0, -1.0) : value;
+    }
+    case Component::u8:
+      return scaled ? raw / 255.0 : raw;
+    case Component::u16:
+      return scaled ? raw / 65535.0 : raw;
+    case Component::u32:
+      return raw;
+    case Component::f32:
+      break;
+  }
+  return std::bit_cast<float>(raw);
+}
+
+std::optional<unsigned> base64_digit(char c) {
+  if (c >= 'A' && c <= 'Z') return static_cast<unsigned>(c - 'A');
+  if (c >= 'a' && c <= 'z') return static_cast<unsigned>(c - 'a' + 26);
+  if (c >= '0' && c <= '9') return static_cast<unsigned>(c - '0' + 52);
+  if (c == '+') return 62U;
+  if (c == '/') return 63U;
+  return std::nullopt;
+}
+
+std::string base64_decoded(std::string_view text, const Place& place) {
+  while (!text.empty() && text.back() == '=') text.remove_suffix(1);
+  if (text.size() % 4 == 1) place.refuse("the base64 data is cut off");
+  std::string out;
+  out.reserve(text.size() / 4 * 3 + 2);
+  unsigned bits = 0, pending = 0;
+  for (const char c : text) {
+    const std::optional<unsigned> digit = base64_digit(c);
+    if (!digit) place.refuse("the data is not base64");
+    pending = pending << 6 | *digit;
+    bits += 6;
+    if (bits >= 8) {
+      bits -= 8;
+      out += static_cast<char>(pending >> bits & 0xFFU);
+    }
+    pending &= 0xFFFU;
+  }
+  return out;
+}
+
+// "%20" and its like become characters again.
+std::string percent_decoded(const std::string& text) {
+  const auto hex = [](char c) {
+    if (c >= '0' && c <= '9') return c - '0';
+    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+    return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+  };
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '%' && i + 2 < text.size() && hex(text[i + 1]) >= 0 && hex(text[i + 2]) >= 0) {
+      out += static_cast<char>(hex(text[i + 1]) * 16 + hex(text[i + 2]));
+      i += 2;
+    } else {
+      out += text[i];
+    }
+  }
+  return out;
+}
+
+// A scheme such as "http:" stands before any slash.
+bool has_scheme(const std::string& uri) {
+  const std::size_t colon = uri.find(':');
+  return colon != std::string::npos && colon < uri.find('/');
+}
+
+std::size_t array_size(const Place& root, const std::string& key) {
+  if (!root.has(key)) return 0;
+  root.at(key).expect_array();
+  return root.at(key).size();
+}
+
+std::size_t whole_or(const Place& object, const std::string& key, std::size_t otherwise) {
+  return object.has(key) ? object.at(key).whole() : otherwise;
+}
+
+std::size_t at_least_one(const Place& place) {
+  const std::size_t number = place.whole();
+  if (number == 0) place.refuse("found 0, 1 or more is needed");
+  return number;
+}
+
+// `count` elements of `element` bytes from byteOffset of `object` on; refuses what does not lie inside `view`.
+std::string_view tight_elements(std::string_view view, const Place& object, std::size_t count, std::size_t element,
+                                std::size_t alignment) {
+  const std::size_t offset = whole_or(object, "byteOffset", 0);
+  if (offset % alignment != 0) {
+    object.at("byteOffset").refuse("must be a multiple of the component's " + std::to_string(alignment) + " bytes");
+  }
+  if (offset > view.size() || count > (view.size() - offset) / element) {
+    object.refuse(std::to_string(count) + " elements of " + std::to_string(element) + " bytes from byte " +
+                  std::to_string(offset) + " on do not fit into a bufferView of " + std::to_string(view.size()) +
+                  " bytes");
+  }
+  return view.substr(offset, count * element);
+}
+
+}  // namespace
+
+AccessorReader::AccessorReader(const GltfFile& file) : file_(file), root_(file.name, file.json) {}
+
+AccessorHead AccessorReader::head(std::size_t accessor) const {
+  const Place from = place(accessor);
+  AccessorHead head;
+  head.component = component_of(from.at("componentType"));
+  head.type = from.at("type").text();
+  head.count = at_least_one(from.at("count"));
+  if (from.has("normalized")) {
+    if (!from.at("normalized").value().is_boolean()) from.at("normalized").refuse("true or false is needed");
+    head.normalized = from.at("normalized").value().get<bool>();
+  }
+  if (head.normalized && (head.component == Component::f32 || head.component == Component::u32)) {
+    from.at("normalized").refuse("only 8-bit and 16-bit integers can be normalized");
+  }
+  return head;
+}
+
+std::vector<double> AccessorReader::numbers(std::size_t accessor, std::size_t components) {
+  const Place from = place(accessor);
+  const AccessorHead about = head(accessor);
+  if (about.count > numbers_left_ / components) {
+    from.at("count").refuse("more than " + std::to_string(k_most_numbers) + " numbers of animation in one file");
+  }
+  numbers_left_ -= about.count * components;
+  std::vector<double> out;
+  read_dense(from, about, components, out);
+  read_sparse(from, about, components, out);
+  for (const double number : out) {
+    if (!std::isfinite(number)) from.refuse("holds a number that is infinite or none at all");
+  }
+  return out;
+}
+
+std::string AccessorReader::external_bytes() const {
+  std::string all;
+  for (const auto& [index, bytes] : buffers_) {
+    if (bytes.external) all += bytes.owned;
+  }
+  return all;
+}
+
+void AccessorReader::read_dense(const Place& accessor, const AccessorHead& head, std::size_t components,
+                                std::vector<double>& out) {
+  if (!accessor.has("bufferView")) {
+    if (accessor.has("byteOffset")) accessor.at("byteOffset").refuse("means nothing without bufferView");
+    out.assign(head.count * components, 0.0);
+    return;
+  }
+  const std::string_view bytes = view(accessor.at("bufferView"));
+  const std::size_t size = size_of(head.component);
+  const std::string_view elements = tight_elements(bytes, accessor, head.count, size * components, size);
+  out.reserve(head.count * components);
+  for (std::size_t at = 0; at < elements.size(); at += size) out.push_back(decoded(elements.substr(at, size), head));
+}
+
+void AccessorReader::read_sparse(const Place& accessor, const AccessorHead& head, std::size_t components,
+                                 std::vector<double>& out) {
+  if (!accessor.has("sparse")) return;
+  const Place sparse = accessor.at("sparse"), indices = sparse.at("indices"), values = sparse.at("values");
+  const std::size_t count = at_least_one(sparse.at("count"));
+  if (count > head.count) sparse.at("count").refuse("more than the accessor's " + std::to_string(head.count));
+  const Component index_component = component_of(indices.at("componentType"));
+  if (index_component != Component::u8 && index_component != Component::u16 && index_component != Component::u32) {
+    indices.at("componentType").refuse("indices must be 5121, 5123 or 5125");
+  }
+  const std::size_t index_size = size_of(index_component), size = size_of(head.component);
+  const std::string_view places =
+      tight_elements(view(indices.at("bufferView")), indices, count, index_size, index_size);
+  const std::string_view replaced =
+      tight_elements(view(values.at("bufferView")), values, count, size * components, size);
+  std::optional<std::size_t> last;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t index = little_endian(places.substr(i * index_size, index_size));
+    if (index >= head.count || (last && index <= *last)) {
+      indices.refuse("index " + std::to_string(index) + " at place " + std::to_string(i) +
+                     ": indices must ascend and be less than " + std::to_string(head.count));
+    }
+    last = index;
+    for (std::size_t k = 0; k < components; ++k) {
+      out[index * components + k] = decoded(replaced.substr((i * components + k) * size, size), head);
+    }
+  }
+}
+
+std::string_view AccessorReader::view(const Place& reference) {
+  const std::size_t views = array_size(root_, "bufferViews");
+  const std::size_t chosen = reference.index(views, "bufferView");
+  const Place view = root_.at("bufferViews").at(chosen);
+  if (view.has("byteStride")) {
+    view.at("byteStride").refuse("only vertex data may have a stride; animations use this bufferView");
+  }
+  const std::size_t index = view.at("buffer").index(array_size(root_, "buffers"), "buffer");
+  const std::size_t length = at_least_one(view.at("byteLength")), offset = whole_or(view, "byteOffset", 0);
+  const std::string_view bytes = buffer(index);
+  if (offset > bytes.size() || length > bytes.size() - offset) {
+    view.refuse("bytes " + std::to_string(offset) + " to " + std::to_string(offset + length) +
+                " do not fit into buffer " + std::to_string(index) + " of " + std::to_string(bytes.size()) + " bytes");
+  }
+  return bytes.substr(offset, length);
+}
+
+std::string_view AccessorReader::buffer(std::size_t index) {
+  const Place place = root_.at("buffers").at(index);
+  const std::size_t length = at_least_one(place.at("byteLength"));
+  const auto enough = [&](std::string_view bytes) {
+    if (bytes.size() < length) {
+      place.refuse("byteLength is " + std::to_string(length) + ", but there are " + std::to_string(bytes.size()) +
+                   " bytes");
+    }
+    return bytes.substr(0, length);
+  };
+  if (const auto known = buffers_.find(index); known != buffers_.end()) return enough(known->second.owned);
+  if (!place.has("uri")) {
+    if (index != 0 || !file_.binary) place.refuse("has no uri, and there is no BIN chunk for it");
+    return enough(*file_.binary);
+  }
+  const std::string& uri = place.at("uri").text();
+  Bytes bytes;
+  if (uri.starts_with("data:")) {
+    const std::size_t comma = uri.find(";base64,");
+    if (comma == std::string::npos) place.at("uri").refuse("a data URI must be base64");
+    bytes.owned = base64_decoded(std::string_view(uri).substr(comma + 8), place.at("uri"));
+  } else {
+    if (has_scheme(uri)) place.at("uri").refuse("only files beside this one and data URIs are read");
+    bytes.external = true;
+    const std::filesystem::path beside = std::filesystem::path(file_.name).parent_path() / percent_decoded(uri);
+    bytes.owned = read_bytes(beside, file_.name, place.at("uri").pointer(), length);
+  }
+  return enough(buffers_.emplace(index, std::move(bytes)).first->second.owned);
+}
+
+}  // namespace clusterbench::scene

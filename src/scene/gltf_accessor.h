@@ -1,0 +1,58 @@
+#pragma once
+// Numbers out of a glTF document's accessors, bufferViews and buffers, read only when asked for. Everything is checked
+// before it is touched; a fault is thrown as Error with its JSON pointer.
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/gltf_container.h"
+#include "scene/gltf_place.h"
+
+namespace clusterbench::scene {
+
+// componentType values of glTF.
+enum class Component : int { i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126 };
+
+struct AccessorHead {
+  Component component = Component::f32;
+  std::string type;  // SCALAR, VEC3, VEC4; others have no meaning here
+  bool normalized = false;
+  std::size_t count = 0;
+};
+
+class AccessorReader {
+ public:
+  // `file` must outlive the reader.
+  explicit AccessorReader(const GltfFile& file);
+
+  const Place& root() const { return root_; }
+  Place place(std::size_t accessor) const { return root_.at("accessors").at(accessor); }
+  AccessorHead head(std::size_t accessor) const;
+
+  // All elements, `components` doubles each; normalized integers become -1..1 or 0..1, sparse substitution is done.
+  // All floats are finite. Together one reader hands out at most k_most_numbers.
+  std::vector<double> numbers(std::size_t accessor, std::size_t components);
+  static constexpr std::size_t k_most_numbers = std::size_t{1} << 26;
+
+  // The bytes of the external files read so far, in the order of their buffers.
+  std::string external_bytes() const;
+
+ private:
+  std::string_view buffer(std::size_t index);
+  std::string_view view(const Place& reference);
+  void read_dense(const Place& accessor, const AccessorHead& head, std::size_t components, std::vector<double>& out);
+  void read_sparse(const Place& accessor, const AccessorHead& head, std::size_t components, std::vector<double>& out);
+
+  struct Bytes {
+    std::string owned;
+    bool external = false;
+  };
+  const GltfFile& file_;
+  Place root_;
+  std::map<std::size_t, Bytes> buffers_;
+  std::size_t numbers_left_ = k_most_numbers;
+};
+
+}  // namespace clusterbench::scene

@@ -1,0 +1,84 @@
+#include <cmath>
+#include <numbers>
+
+#include "scene/gltf_checked.h"
+
+namespace clusterbench::scene {
+namespace {
+
+using nlohmann::json;
+
+double positive(const Place& place) {
+  const double number = place.number();
+  if (number <= 0.0) place.refuse("found " + kind_of(place.value()) + ", more than 0 is needed");
+  return number;
+}
+
+void check_far(const Place& lens, double near) {
+  if (lens.has("zfar") && lens.at("zfar").number() <= near) {
+    lens.refuse("zfar must be greater than znear");
+  }
+}
+
+json checked_perspective(const Place& lens, std::vector<std::string>& warnings) {
+  lens.expect_object();
+  json out = {{"yfov", positive(lens.at("yfov"))}, {"znear", positive(lens.at("znear"))}};
+  if (out["yfov"].get<double>() >= std::numbers::pi) {
+    lens.at("yfov").refuse("found " + kind_of(lens.at("yfov").value()) + ", an angle below pi (radians) is needed");
+  }
+  check_far(lens, out["znear"].get<double>());
+  if (lens.has("zfar")) out["zfar"] = positive(lens.at("zfar"));
+  if (lens.has("aspectRatio")) positive(lens.at("aspectRatio"));
+  if (out["yfov"].get<double>() > 3.1) warnings.push_back(warning_at(lens.at("yfov"), "nearly pi: in degrees?"));
+  return out;
+}
+
+// A negative magnification mirrors the picture; which lights it holds is the same.
+double magnification(const Place& place, std::vector<std::string>& warnings) {
+  const double number = place.number();
+  if (number == 0.0) place.refuse("found 0, another number is needed");
+  if (number < 0.0) warnings.push_back(warning_at(place, "negative, its sign is ignored"));
+  return std::abs(number);
+}
+
+json checked_orthographic(const Place& lens, std::vector<std::string>& warnings) {
+  lens.expect_object();
+  json out = {{"xmag", magnification(lens.at("xmag"), warnings)},
+              {"ymag", magnification(lens.at("ymag"), warnings)},
+              {"znear", lens.at("znear").number()},
+              {"zfar", positive(lens.at("zfar"))}};
+  if (out["znear"].get<double>() < 0.0)
+    lens.at("znear").refuse("found " + kind_of(lens.at("znear").value()) + ", 0 or more is needed");
+  check_far(lens, out["znear"].get<double>());
+  return out;
+}
+
+json checked_camera(const Place& camera, std::vector<std::string>& warnings) {
+  json out = json::object();
+  const std::string& type = camera.at("type").text();
+  copy_name(camera, out);
+  if (camera.has("perspective") && camera.has("orthographic")) {
+    camera.refuse("a camera is either perspective or orthographic, not both");
+  }
+  if (type == "perspective") {
+    out["perspective"] = checked_perspective(camera.at("perspective"), warnings);
+  } else if (type == "orthographic") {
+    out["orthographic"] = checked_orthographic(camera.at("orthographic"), warnings);
+  } else {
+    warnings.push_back(warning_at(camera.at("type"), "the camera type is not known; the camera is ignored"));
+    return json(nullptr);
+  }
+  out["type"] = type;
+  return out;
+}
+
+}  // namespace
+
+json checked_cameras(const Place& root, std::vector<std::string>& warnings) {
+  json out = json::array();
+  const std::size_t count = count_of(root, "cameras");
+  for (std::size_t i = 0; i < count; ++i) out.push_back(checked_camera(root.at("cameras").at(i), warnings));
+  return out;
+}
+
+}  // namespace clusterbench::scene

@@ -1,0 +1,149 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "scene/gltf_checked.h"
+
+namespace clusterbench::scene {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* k_lights = "KHR_lights_punctual";
+
+// How far from 1 a quaternion's length may be: what 8-bit components can be off, as in the Khronos glTF validator.
+constexpr double k_unit_tolerance = 0.00769;
+
+void check_rotation(const Place& place) {
+  const std::vector<double> q = place.numbers(4);
+  const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  if (std::abs(length - 1.0) > k_unit_tolerance) {
+    place.refuse("a rotation must have length 1, found " + std::to_string(length));
+  }
+}
+
+// glTF allows only matrices that are translation * rotation * scale: orthogonal columns and a last row of 0 0 0 1.
+void check_matrix(const Place& place) {
+  const std::vector<double> m = place.numbers(16);
+  constexpr double k_tolerance = 1e-3;
+  const bool affine = std::abs(m[3]) < k_tolerance && std::abs(m[7]) < k_tolerance && std::abs(m[11]) < k_tolerance &&
+                      std::abs(m[15] - 1.0) < k_tolerance;
+  if (!affine) place.refuse("the matrix's last row must be 0 0 0 1");
+  for (const auto& [a, b] : {std::pair(0, 4), std::pair(0, 8), std::pair(4, 8)}) {
+    double dot = 0.0, aa = 0.0, bb = 0.0;
+    for (int i = 0; i < 3; ++i) {
+      const double x = m[static_cast<std::size_t>(a + i)], y = m[static_cast<std::size_t>(b + i)];
+      dot += x * y;
+      aa += x * x;
+      bb += y * y;
+    }
+    if (std::abs(dot) > k_tolerance * std::sqrt(aa) * std::sqrt(bb)) {
+      place.refuse("the matrix is no translation, rotation and scale: its axes are not orthogonal");
+    }
+  }
+}
+
+void copy_transform(const Place& node, json& out) {
+  if (node.has("matrix")) {
+    for (const char* other : {"translation", "rotation", "scale"}) {
+      if (node.has(other)) node.at("matrix").refuse(std::string("a node has either matrix or ") + other + ", not both");
+    }
+    check_matrix(node.at("matrix"));
+    out["matrix"] = node.at("matrix").numbers(16);
+  }
+  if (node.has("rotation")) {
+    check_rotation(node.at("rotation"));
+    out["rotation"] = node.at("rotation").numbers(4);
+  }
+  for (const char* key : {"translation", "scale"}) {
+    if (node.has(key)) out[key] = node.at(key).numbers(3);
+  }
+}
+
+void copy_light(const Place& root, const Place& node, json& out) {
+  if (!node.has("extensions")) return;
+  const Place extensions = node.at("extensions");
+  extensions.expect_object();
+  if (!extensions.has(k_lights)) return;
+  const Place reference = extensions.at(k_lights);
+  reference.expect_object();
+  if (!root.has("extensions") || !root.at("extensions").has(k_lights)) {
+    reference.refuse("the document defines no lights under /extensions/KHR_lights_punctual");
+  }
+  const std::size_t lights = count_of(root.at("extensions").at(k_lights), "lights");
+  out["extensions"][k_lights]["light"] = reference.at("light").index(lights, "light");
+}
+
+// Half extents of an oriented box (decal, probe), an invention of this tool: see OrientedBox.
+void copy_box(const Place& node, json& out) {
+  if (!node.has("extras") || !node.at("extras").has("clusterbench_box")) return;
+  const Place place = node.at("extras").at("clusterbench_box").at("half_extents");
+  const std::vector<double> half_extents = place.numbers(3);
+  if (std::any_of(half_extents.begin(), half_extents.end(), [](double h) { return h < 0.0; })) {
+    place.refuse("half extents must not be negative");
+  }
+  out["extras"]["clusterbench_box"]["half_extents"] = half_extents;
+}
+
+json checked_node(const Place& root, const Place& node, std::size_t nodes) {
+  node.expect_object();
+  json out = json::object();
+  copy_name(node, out);
+  copy_transform(node, out);
+  if (node.has("camera")) out["camera"] = node.at("camera").index(count_of(root, "cameras"), "camera");
+  if (node.has("children")) {
+    const Place children = node.at("children");
+    children.expect_array();
+    for (std::size_t i = 0; i < children.size(); ++i) {
+      out["children"].push_back(children.at(i).index(nodes, "node"));
+    }
+  }
+  copy_light(root, node, out);
+  copy_box(node, out);
+  return out;
+}
+
+// A node with two parents would stand in two places; a node above itself nowhere.
+void check_forest(const Place& nodes, const json& checked) {
+  constexpr std::size_t k_none = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> parent(checked.size(), k_none);
+  for (std::size_t i = 0; i < checked.size(); ++i) {
+    if (!checked[i].contains("children")) continue;
+    const json& children = checked[i]["children"];
+    for (std::size_t k = 0; k < children.size(); ++k) {
+      const std::size_t child = children[k].get<std::size_t>();
+      if (parent[child] != k_none) {
+        nodes.at(i)
+            .at("children")
+            .at(k)
+            .refuse("node " + std::to_string(child) + " already has the parent " + std::to_string(parent[child]));
+      }
+      parent[child] = i;
+    }
+  }
+  // With at most one parent each, walking up from every node finds every loop. 1: on the way up, 2: known to end.
+  std::vector<char> state(checked.size(), 0);
+  std::vector<std::size_t> way;
+  for (std::size_t i = 0; i < checked.size(); ++i) {
+    way.clear();
+    std::size_t at = i;
+    for (; at != k_none && state[at] == 0; at = parent[at]) {
+      state[at] = 1;
+      way.push_back(at);
+    }
+    if (at != k_none && state[at] == 1) nodes.at(at).refuse("the node is its own ancestor");
+    for (const std::size_t passed : way) state[passed] = 2;
+  }
+}
+
+}  // namespace
+
+json checked_nodes(const Place& root) {
+  json out = json::array();
+  const std::size_t count = count_of(root, "nodes");
+  for (std::size_t i = 0; i < count; ++i) out.push_back(checked_node(root, root.at("nodes").at(i), count));
+  if (count > 0) check_forest(root.at("nodes"), out);
+  return out;
+}
+
+}  // namespace clusterbench::scene

@@ -1,0 +1,136 @@
+#include "scene/gltf_container.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <limits>
+
+#include "core/error.h"
+
+namespace clusterbench::scene {
+namespace {
+
+constexpr std::uint32_t k_magic = 0x46546C67;       // "glTF"
+constexpr std::uint32_t k_json_chunk = 0x4E4F534A;  // "JSON"
+constexpr std::uint32_t k_bin_chunk = 0x004E4942;   // "BIN\0"
+constexpr std::size_t k_header_bytes = 12, k_chunk_header_bytes = 8;
+
+[[noreturn]] void refuse_at(const GltfFile& file, std::size_t offset, const std::string& message) {
+  throw Error(file.name, "byte " + std::to_string(offset), message);
+}
+
+std::uint32_t little_endian(std::string_view bytes, std::size_t offset) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    value |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[offset + i])) << (8 * i);
+  }
+  return value;
+}
+
+void check_glb_header(const GltfFile& file) {
+  if (file.bytes.size() < k_header_bytes) {
+    refuse_at(file, file.bytes.size(), "the file ends inside the GLB header of 12 bytes");
+  }
+  if (const auto version = little_endian(file.bytes, 4); version != 2) {
+    refuse_at(file, 4, "GLB version " + std::to_string(version) + " found, 2 is needed");
+  }
+  if (const auto length = little_endian(file.bytes, 8); length != file.bytes.size()) {
+    refuse_at(
+        file, 8,
+        "the GLB header says " + std::to_string(length) + " bytes, the file has " + std::to_string(file.bytes.size()));
+  }
+}
+
+// Splits the container; returns the JSON chunk. JSON comes first, BIN at most once and second, others are skipped.
+std::string_view glb_json(GltfFile& file) {
+  check_glb_header(file);
+  const std::string_view all = file.bytes;
+  std::string_view json;
+  std::size_t place = 0;
+  for (std::size_t at = k_header_bytes; at < all.size(); ++place) {
+    if (all.size() - at < k_chunk_header_bytes) refuse_at(file, at, "the file ends inside a chunk's header");
+    const std::size_t length = little_endian(all, at);
+    const std::uint32_t type = little_endian(all, at + 4);
+    if (length > all.size() - at - k_chunk_header_bytes) {
+      refuse_at(file, at, "a chunk of " + std::to_string(length) + " bytes does not fit into the file");
+    }
+    if (length % 4 != 0)
+      refuse_at(file, at, "a chunk's length must be a multiple of 4, found " + std::to_string(length));
+    if (place == 0 && type != k_json_chunk) refuse_at(file, at + 4, "the first chunk must be JSON");
+    if (place > 0 && type == k_json_chunk) refuse_at(file, at + 4, "a second JSON chunk");
+    if (type == k_bin_chunk && file.binary) refuse_at(file, at + 4, "a second BIN chunk");
+    if (type == k_bin_chunk && place != 1) refuse_at(file, at + 4, "the BIN chunk must follow the JSON chunk");
+    const std::string_view content = all.substr(at + k_chunk_header_bytes, length);
+    if (type == k_json_chunk) json = content;
+    if (type == k_bin_chunk) file.binary = content;
+    at += k_chunk_header_bytes + length;
+  }
+  if (place == 0) refuse_at(file, k_header_bytes, "the GLB has no JSON chunk");
+  return json;
+}
+
+// Copying and destroying a JSON value recurses, so nesting is bounded before anything is parsed.
+void check_nesting(const GltfFile& file, std::string_view json, std::size_t json_offset) {
+  constexpr int k_deepest = 256;
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const char c = json[i];
+    if (in_string) {
+      if (c == '\\') ++i;
+      if (c == '"') in_string = false;
+    } else if (c == '"') {
+      in_string = true;
+    } else if (c == '[' || c == '{') {
+      if (++depth > k_deepest) {
+        refuse_at(file, json_offset + i, "JSON nested deeper than " + std::to_string(k_deepest) + " levels");
+      }
+    } else if (c == ']' || c == '}') {
+      --depth;
+    }
+  }
+}
+
+void parse(GltfFile& file, std::string_view json) {
+  const auto offset = static_cast<std::size_t>(json.data() - file.bytes.data());
+  if (json.starts_with("\xEF\xBB\xBF")) refuse_at(file, offset, "JSON must not begin with a byte order mark");
+  check_nesting(file, json, offset);
+  try {
+    file.json = nlohmann::json::parse(json);
+  } catch (const nlohmann::json::parse_error& error) {
+    const std::string what = error.what();
+    const std::size_t detail = what.find("] ");
+    refuse_at(file, offset + (error.byte > 0 ? error.byte - 1 : 0),
+              "not JSON: " + (detail == std::string::npos ? what : what.substr(detail + 2)));
+  } catch (const nlohmann::json::exception& error) {  // a number beyond double precision
+    refuse_at(file, offset, std::string("not JSON: ") + error.what());
+  }
+}
+
+}  // namespace
+
+std::string read_bytes(const std::filesystem::path& path, const std::string& file, const std::string& where,
+                       std::size_t at_most) {
+  std::error_code failed;
+  const auto status = std::filesystem::status(path, failed);
+  if (!std::filesystem::exists(status)) throw Error(file, where, "'" + path.string() + "' does not exist");
+  if (!std::filesystem::is_regular_file(status)) throw Error(file, where, "'" + path.string() + "' is not a file");
+  const auto size = std::filesystem::file_size(path, failed);
+  std::ifstream in(path, std::ios::binary);
+  if (failed || !in) throw Error(file, where, "'" + path.string() + "' cannot be opened for reading");
+  std::string bytes(static_cast<std::size_t>(std::min<std::uintmax_t>(size, at_most)), '\0');
+  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(in.gcount()));
+  return bytes;
+}
+
+void read_gltf_file(const std::filesystem::path& path, GltfFile& file) {
+  file.name = path.string();
+  file.bytes = read_bytes(path, file.name, "", std::numeric_limits<std::size_t>::max());
+  if (file.bytes.empty()) refuse_at(file, 0, "the file is empty; glTF JSON or a GLB is needed");
+  const bool binary = file.bytes.size() >= 4 && little_endian(file.bytes, 0) == k_magic;
+  if (!binary && path.extension() == ".glb") refuse_at(file, 0, "a .glb file must begin with 'glTF'");
+  parse(file, binary ? glb_json(file) : std::string_view(file.bytes));
+}
+
+}  // namespace clusterbench::scene

@@ -1,0 +1,103 @@
+#include "scene/gltf_place.h"
+
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+
+namespace clusterbench::scene {
+namespace {
+
+// RFC 6901: '~' and '/' inside a name are escaped.
+std::string escaped(const std::string& name) {
+  std::string out;
+  for (const char c : name) {
+    if (c == '~') {
+      out += "~0";
+    } else if (c == '/') {
+      out += "~1";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string kind_of(const nlohmann::json& value) {
+  if (value.is_null()) return "null";
+  if (value.is_boolean()) return "true or false";
+  if (value.is_number()) return "the number " + value.dump();
+  if (value.is_string()) return "a string";
+  return value.is_array() ? (value.empty() ? "an empty array" : "an array") : "an object";
+}
+
+void Place::refuse(const std::string& message) const {
+  throw Error(*file_, pointer_.empty() ? "/" : pointer_, message);
+}
+
+Place Place::at(const std::string& key) const {
+  expect_object();
+  const auto found = value_->find(key);
+  if (found == value_->end()) refuse("'" + key + "' is missing");
+  return Place(*file_, *found, pointer_ + "/" + escaped(key));
+}
+
+Place Place::at(std::size_t index) const {
+  return Place(*file_, (*value_)[index], pointer_ + "/" + std::to_string(index));
+}
+
+void Place::expect_object() const {
+  if (!value_->is_object()) refuse("found " + kind_of(*value_) + ", an object is needed");
+}
+
+void Place::expect_array() const {
+  if (!value_->is_array() || value_->empty()) {
+    refuse("found " + kind_of(*value_) + ", an array of one element or more is needed");
+  }
+}
+
+const std::string& Place::text() const {
+  if (!value_->is_string()) refuse("found " + kind_of(*value_) + ", a string is needed");
+  return value_->get_ref<const std::string&>();
+}
+
+double Place::number() const {
+  if (!value_->is_number()) refuse("found " + kind_of(*value_) + ", a number is needed");
+  const double number = value_->get<double>();
+  if (!(std::abs(number) <= static_cast<double>(std::numeric_limits<float>::max()))) {
+    refuse("found " + kind_of(*value_) + ", a number that single precision can hold is needed");
+  }
+  return number;
+}
+
+std::size_t Place::whole() const {
+  constexpr double k_largest = 9007199254740992.0;  // 2^53: every whole number up to it is a double
+  const double found = value_->is_number() ? value_->get<double>() : -1.0;
+  if (!(found >= 0.0 && found <= k_largest) || found != std::floor(found)) {
+    refuse("found " + kind_of(*value_) + ", a whole number from 0 is needed");
+  }
+  return static_cast<std::size_t>(found);
+}
+
+std::size_t Place::index(std::size_t count, const std::string& what) const {
+  const std::size_t found = whole();
+  if (found >= count) {
+    refuse("refers to " + what + " " + std::to_string(found) + ", but there " +
+           (count == 1 ? "is 1" : "are " + std::to_string(count)));
+  }
+  return found;
+}
+
+std::vector<double> Place::numbers(std::size_t count) const {
+  if (!value_->is_array() || value_->size() != count) {
+    refuse("found " + kind_of(*value_) + (value_->is_array() ? " of " + std::to_string(value_->size()) : "") + ", " +
+           std::to_string(count) + " numbers are needed");
+  }
+  std::vector<double> out;
+  for (std::size_t i = 0; i < count; ++i) out.push_back(at(i).number());
+  return out;
+}
+
+}  // namespace clusterbench::scene

@@ -1,0 +1,46 @@
+#pragma once
+// A value of a glTF document together with where it stands, so that every refusal names its JSON pointer.
+
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace clusterbench::scene {
+
+class Place {
+ public:
+  // `file` must outlive the Place.
+  Place(const std::string& file, const nlohmann::json& value, std::string pointer = "")
+      : file_(&file), value_(&value), pointer_(std::move(pointer)) {}
+
+  const nlohmann::json& value() const { return *value_; }
+  const std::string& pointer() const { return pointer_; }
+  bool has(const std::string& key) const { return value_->is_object() && value_->contains(key); }
+  std::size_t size() const { return value_->size(); }
+
+  // A member that must be there, or an element of an array.
+  Place at(const std::string& key) const;
+  Place at(std::size_t index) const;
+
+  // Each throws Error(file, pointer, ...) when the value is not of that kind.
+  void expect_object() const;
+  void expect_array() const;  // of one element or more
+  const std::string& text() const;
+  double number() const;      // finite in single precision
+  std::size_t whole() const;  // 0 .. 2^53
+  std::size_t index(std::size_t count, const std::string& what) const;
+  std::vector<double> numbers(std::size_t count) const;
+
+  [[noreturn]] void refuse(const std::string& message) const;
+
+ private:
+  const std::string* file_;
+  const nlohmann::json* value_;
+  std::string pointer_;
+};
+
+// "a number", "an array" ... for messages.
+std::string kind_of(const nlohmann::json& value);
+
+}  // namespace clusterbench::scene
