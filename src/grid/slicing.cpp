@@ -1,0 +1,177 @@
+#include "grid/slicing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+
+namespace clusterbench::grid {
+namespace {
+
+// log2 in double and rounded once: the single-precision libm differs between machines in the last bit, this does not.
+float log2_of(float depth) {
+  return static_cast<float>(std::log2(static_cast<double>(depth)));
+}
+
+double linear_at(double near, double far, double share) {
+  return near + (far - near) * share;
+}
+double exponential_at(double near, double far, double share) {
+  return near * std::pow(far / near, share);
+}
+
+void require(bool holds, const char* key, const std::string& message) {
+  if (!holds) throw Error("", key, message);
+}
+
+std::string metres(double value) {
+  std::string text = std::to_string(value);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text + " m";
+}
+
+struct Reach {
+  double near, far;
+};
+
+Reach reach_of(const Slicing& slicing, const SliceRange& range) {
+  Reach reach{slicing.near_m != 0.0 ? slicing.near_m : range.camera_near_m, slicing.far_m};
+  if (reach.far == 0.0) reach.far = std::isfinite(range.camera_far_m) ? range.camera_far_m : range.light_far_m;
+  if (slicing.scheme == Scheme::fit) {
+    reach.near = std::clamp(range.light_near_m, reach.near, reach.far);
+    reach.far = std::clamp(range.light_far_m, reach.near, reach.far);
+    if (!(reach.near < reach.far)) reach.far = reach.near * 2.0 + 1.0;  // no light in view
+  }
+  return reach;
+}
+
+void check(const Slicing& slicing, const Reach& reach, bool orthographic) {
+  require(slicing.count >= 1, "slices.count", "must be at least 1");
+  require(std::isfinite(reach.far), "slices.far", "must be finite: the camera's far plane is infinite, so name one");
+  require(reach.near < reach.far, "slices.near",
+          "is " + metres(reach.near) + ", which is not below far, " + metres(reach.far));
+  const bool logarithmic = slicing.scheme != Scheme::linear && slicing.scheme != Scheme::list &&
+                           !(slicing.scheme == Scheme::power && slicing.lambda == 0.0);
+  require(!logarithmic || reach.near > 0.0, "slices.near",
+          std::string("is ") + metres(reach.near) + "; exponential slices need a near above 0" +
+              (orthographic ? " (this camera is orthographic: linear slices take any near)" : ""));
+  require(orthographic || reach.near >= 0.0, "slices.near", "must not be negative for a perspective camera");
+  if (slicing.scheme == Scheme::exponential_first) {
+    require(reach.near < slicing.first_m && slicing.first_m < reach.far, "slices.first",
+            "is " + metres(slicing.first_m) + "; it must lie between near, " + metres(reach.near) + ", and far, " +
+                metres(reach.far));
+    require(slicing.count >= 2, "slices.count", "must be at least 2 for exponential-first");
+  }
+}
+
+double boundary(const Slicing& slicing, const Reach& reach, int i) {
+  const double share = static_cast<double>(i) / slicing.count;
+  switch (slicing.scheme) {
+    case Scheme::linear:
+      return linear_at(reach.near, reach.far, share);
+    case Scheme::power:
+      return slicing.lambda == 0.0 ? linear_at(reach.near, reach.far, share)
+                                   : slicing.lambda * exponential_at(reach.near, reach.far, share) +
+                                         (1.0 - slicing.lambda) * linear_at(reach.near, reach.far, share);
+    case Scheme::exponential_first:
+      return i == 0 ? reach.near
+                    : exponential_at(slicing.first_m, reach.far, static_cast<double>(i - 1) / (slicing.count - 1));
+    case Scheme::list:
+      return slicing.boundaries_m[static_cast<std::size_t>(i)];
+    case Scheme::exponential:
+    case Scheme::fit:
+      break;
+  }
+  return exponential_at(reach.near, reach.far, share);
+}
+
+// slice = log2(depth) * scale + bias counts `slices` slices from `near` to `far`.
+SliceLookup log2_lookup(double near, double far, int slices, int first_slice) {
+  const double scale = slices / std::log2(far / near);
+  SliceLookup lookup;
+  lookup.form = SliceLookup::Form::log2;
+  lookup.scale = static_cast<float>(scale);
+  lookup.bias = static_cast<float>(-std::log2(near) * scale + first_slice);
+  lookup.first_slice = first_slice;
+  return lookup;
+}
+
+SliceLookup make_lookup(const Slicing& slicing, const Reach& reach) {
+  SliceLookup lookup;
+  switch (slicing.scheme) {
+    case Scheme::linear: {
+      const double scale = slicing.count / (reach.far - reach.near);
+      lookup.form = SliceLookup::Form::linear;
+      lookup.scale = static_cast<float>(scale);
+      lookup.bias = static_cast<float>(-reach.near * scale);
+      return lookup;
+    }
+    case Scheme::exponential:
+    case Scheme::fit:
+      return log2_lookup(reach.near, reach.far, slicing.count, 0);
+    case Scheme::exponential_first:
+      lookup = log2_lookup(slicing.first_m, reach.far, slicing.count - 1, 1);
+      lookup.first_m = static_cast<float>(slicing.first_m);
+      return lookup;
+    case Scheme::power:
+    case Scheme::list:
+      break;
+  }
+  return lookup;
+}
+
+float rounded_down(double value) {
+  const auto nearest = static_cast<float>(value);
+  return static_cast<double>(nearest) > value ? std::nextafter(nearest, -std::numeric_limits<float>::infinity())
+                                              : nearest;
+}
+
+Slicing with_list_reach(Slicing slicing) {
+  const auto& list = slicing.boundaries_m;
+  require(list.size() >= 2, "slices.boundaries", "needs at least two numbers");
+  for (std::size_t i = 1; i < list.size(); ++i)
+    require(list[i - 1] < list[i], "slices.boundaries",
+            "must ascend: " + metres(list[i]) + " follows " + metres(list[i - 1]));
+  slicing.count = static_cast<int>(list.size()) - 1;
+  return slicing;
+}
+
+}  // namespace
+
+int Slices::slice_of(float depth) const {
+  if (depth > boundaries.back()) return -1;
+  if (lookup.form == SliceLookup::Form::search) return ideal_slice_of(static_cast<double>(depth));
+  if (lookup.first_slice > 0 && depth < lookup.first_m) return 0;
+  const float value = (lookup.form == SliceLookup::Form::log2 ? log2_of(depth) : depth) * lookup.scale + lookup.bias;
+  // Truncation as in a shader; below the first boundary log2 may be anything, down to -inf.
+  return value >= 1.0f ? std::min(static_cast<int>(value), count() - 1) : 0;
+}
+
+int Slices::ideal_slice_of(double depth) const {
+  if (depth > static_cast<double>(boundaries.back())) return -1;
+  const auto above = std::upper_bound(boundaries.begin(), boundaries.end(), depth,
+                                      [](double value, float bound) { return value < static_cast<double>(bound); });
+  return std::clamp(static_cast<int>(above - boundaries.begin()) - 1, 0, count() - 1);
+}
+
+Slices make_slices(const Slicing& asked, const SliceRange& range, bool orthographic) {
+  const bool is_list = asked.scheme == Scheme::list;
+  const Slicing slicing = is_list ? with_list_reach(asked) : asked;
+  const Reach reach =
+      is_list ? Reach{slicing.boundaries_m.front(), slicing.boundaries_m.back()} : reach_of(slicing, range);
+  check(slicing, reach, orthographic);
+
+  Slices slices;
+  for (int i = 0; i <= slicing.count; ++i) slices.boundaries.push_back(static_cast<float>(boundary(slicing, reach, i)));
+  // What lies between the camera's near plane and the first boundary looks itself up in slice 0, so it belongs to it.
+  slices.boundaries.front() = rounded_down(std::min(reach.near, range.camera_near_m));
+  for (int i = 0; i < slicing.count; ++i)
+    require(slices.boundaries[static_cast<std::size_t>(i)] < slices.boundaries[static_cast<std::size_t>(i) + 1],
+            "slices", "are too thin: two boundaries coincide in single precision");
+  slices.lookup = make_lookup(slicing, reach);
+  return slices;
+}
+
+}  // namespace clusterbench::grid

@@ -1,0 +1,80 @@
+#include "grid/tiling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "core/error.h"
+
+namespace clusterbench::grid {
+namespace {
+
+// Pixel position of edge i of `count` tiles. Tiles of a size in pixels are clipped at the last one.
+double edge_pixel(int i, int count, int tile_pixels, int viewport_pixels) {
+  if (i == count) return viewport_pixels;
+  if (tile_pixels > 0) return static_cast<double>(i) * tile_pixels;
+  return static_cast<double>(viewport_pixels) * i / count;
+}
+
+// Tile planes from `from` (pixel 0) to `to` (the last pixel's far edge); the outermost ones are rounded outward, so
+// that no point of the view lies outside of the grid.
+std::vector<float> tile_planes(int count, int tile_pixels, int viewport_pixels, double from, double to) {
+  const bool ascending = from < to;
+  constexpr float k_infinity = std::numeric_limits<float>::infinity();
+  std::vector<float> planes;
+  for (int i = 0; i <= count; ++i) {
+    const double at = from + (to - from) * edge_pixel(i, count, tile_pixels, viewport_pixels) / viewport_pixels;
+    auto plane = static_cast<float>(at);
+    if (i == 0 && (ascending ? plane > from : plane < from))
+      plane = std::nextafter(plane, ascending ? -k_infinity : k_infinity);
+    if (i == count && (ascending ? plane < to : plane > to))
+      plane = std::nextafter(plane, ascending ? k_infinity : -k_infinity);
+    planes.push_back(plane);
+  }
+  for (int i = 0; i < count; ++i)
+    if (ascending ? !(planes[static_cast<std::size_t>(i)] < planes[static_cast<std::size_t>(i) + 1])
+                  : !(planes[static_cast<std::size_t>(i)] > planes[static_cast<std::size_t>(i) + 1]))
+      throw Error("", "tiles", "are too narrow: two tile planes coincide in single precision");
+  return planes;
+}
+
+void check(const char* key, int tiles, int viewport_pixels) {
+  if (tiles < 1) throw Error("", key, "must be at least 1");
+  if (tiles > viewport_pixels)
+    throw Error("", key,
+                "gives " + std::to_string(tiles) + " tiles along " + std::to_string(viewport_pixels) +
+                    " pixels; at most one tile per pixel");
+}
+
+}  // namespace
+
+Vec2i Tiles::tile_of(float pixel_x, float pixel_y) const {
+  return {std::clamp(static_cast<int>(pixel_x * scale_x), 0, count.x - 1),
+          std::clamp(static_cast<int>(pixel_y * scale_y), 0, count.y - 1)};
+}
+
+Tiles make_tiles(const Tiling& tiling, const view::Projection& projection, Vec2i viewport) {
+  const bool by_count = tiling.count.x != 0 || tiling.count.y != 0;
+  const char* key = by_count ? "tiles.count" : "tiles.pixels";
+  const Vec2i pixels = by_count ? Vec2i{0, 0} : tiling.pixels;
+  if (viewport.x < 1 || viewport.y < 1) throw Error("", "viewport", "must be at least 1 x 1 pixels");
+  if (!by_count && (pixels.x < 1 || pixels.y < 1)) throw Error("", key, "must be at least 1");
+
+  Tiles tiles;
+  tiles.orthographic = projection.orthographic;
+  tiles.viewport = viewport;
+  tiles.count =
+      by_count ? tiling.count : Vec2i{(viewport.x + pixels.x - 1) / pixels.x, (viewport.y + pixels.y - 1) / pixels.y};
+  check(key, tiles.count.x, viewport.x);
+  check(key, tiles.count.y, viewport.y);
+  tiles.x = tile_planes(tiles.count.x, pixels.x, viewport.x, projection.left, projection.right);
+  tiles.y = tile_planes(tiles.count.y, pixels.y, viewport.y, projection.top, projection.bottom);
+  tiles.scale_x = by_count ? static_cast<float>(tiles.count.x) / static_cast<float>(viewport.x)
+                           : 1.0f / static_cast<float>(pixels.x);
+  tiles.scale_y = by_count ? static_cast<float>(tiles.count.y) / static_cast<float>(viewport.y)
+                           : 1.0f / static_cast<float>(pixels.y);
+  return tiles;
+}
+
+}  // namespace clusterbench::grid

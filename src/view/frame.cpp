@@ -1,0 +1,88 @@
+#include "view/frame.h"
+
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace clusterbench::view {
+namespace {
+
+constexpr float k_infinity = std::numeric_limits<float>::infinity();
+
+// Never below the given value.
+float rounded_up(double value) {
+  const auto nearest = static_cast<float>(value);
+  return static_cast<double>(nearest) < value ? std::nextafter(nearest, k_infinity) : nearest;
+}
+
+// Single precision loses up to 2^-24 of each coordinate when the position is rounded, and a usual predicate (a few
+// products and sums of numbers no larger than |centre| + radius) a few times that again. 2^-21 is room for eight.
+float padded_radius(double radius, const Vec3d& center) {
+  if (radius == 0.0) return 0.0f;
+  constexpr double k_pad = 1.0 / (1 << 21);
+  const double reach = std::abs(center.x) + std::abs(center.y) + std::abs(center.z) + radius;
+  return rounded_up(radius + reach * k_pad);
+}
+
+void add_axis(LightArrays& out, const Mat3d& rotation, const scene::WorldLight& light) {
+  const Vec3d axis = rotation * light.direction;
+  const double length = std::sqrt(axis.x * axis.x + axis.y * axis.y + axis.z * axis.z);
+  out.axis_x.push_back(static_cast<float>(axis.x / length));
+  out.axis_y.push_back(static_cast<float>(axis.y / length));
+  out.axis_z.push_back(static_cast<float>(axis.z / length));
+  out.cos_angle.push_back(static_cast<float>(std::cos(light.outer_cone_rad)));
+  out.sin_angle.push_back(static_cast<float>(std::sin(light.outer_cone_rad)));
+}
+
+}  // namespace
+
+Projection make_projection(const scene::Lens& lens, Vec2i viewport) {
+  const double aspect = static_cast<double>(viewport.x) / viewport.y;
+  const double top = lens.orthographic ? lens.ymag_m : std::tan(lens.yfov_rad / 2.0);
+  return {lens.orthographic, -top * aspect, top * aspect, -top, top, lens.near_m, lens.far_m};
+}
+
+geom::Ball LightArrays::ball(std::uint32_t light) const {
+  return {{x[light], y[light], z[light]}, padded_radius[light]};
+}
+
+geom::SphericalCone LightArrays::cone(std::uint32_t light) const {
+  assert(is_spot(light));
+  const std::uint32_t spot = light - points;
+  return {{x[light], y[light], z[light]},
+          padded_radius[light],
+          {axis_x[spot], axis_y[spot], axis_z[spot]},
+          cos_angle[spot],
+          sin_angle[spot]};
+}
+
+Frame make_frame(const scene::Scene& scene, const scene::Shot& shot, int index, Vec2i viewport) {
+  Frame frame;
+  frame.index = index;
+  frame.time_s = shot.time_s;
+  frame.viewport = viewport;
+  frame.projection = make_projection(shot.lens, viewport);
+  frame.view_space = {shot.pose.eye, shot.pose.view_from_world};
+  frame.lights = scene::world_lights(scene, shot.time_s);
+  for (const scene::WorldLight& light : frame.lights)
+    if (light.type == scene::LightType::point) ++frame.points;
+  return frame;
+}
+
+LightArrays lights_in(const Frame& frame, const Space& space) {
+  LightArrays out;
+  out.points = frame.points;
+  out.spots = static_cast<std::uint32_t>(frame.lights.size()) - frame.points;
+  for (const scene::WorldLight& light : frame.lights) {
+    const Vec3d center = space.rotation * (light.position - space.origin);
+    out.x.push_back(static_cast<float>(center.x));
+    out.y.push_back(static_cast<float>(center.y));
+    out.z.push_back(static_cast<float>(center.z));
+    out.radius.push_back(rounded_up(light.range_m));
+    out.padded_radius.push_back(padded_radius(light.range_m, center));
+    if (light.type == scene::LightType::spot) add_axis(out, space.rotation, light);
+  }
+  return out;
+}
+
+}  // namespace clusterbench::view
