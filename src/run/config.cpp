@@ -1,0 +1,215 @@
+#include "run/config.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+
+#include "assign/storage.h"
+#include "core/error.h"
+#include "run/config_grids.h"
+#include "run/json_text.h"
+#include "run/schema_reader.h"
+
+namespace clusterbench::run {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+// "${NAME}" becomes the environment variable's value.
+std::string expanded(std::string path, const std::string& file, const std::string& where) {
+  for (std::size_t begin = path.find("${"); begin != std::string::npos; begin = path.find("${", begin)) {
+    const std::size_t end = path.find('}', begin);
+    if (end == std::string::npos) throw Error(file, where, "found '${' without '}' in '" + path + "'");
+    const std::string name = path.substr(begin + 2, end - begin - 2);
+    const char* value = std::getenv(name.c_str());
+    if (value == nullptr)
+      throw Error(file, where, "the environment variable '" + name + "' is not set; set it to use '" + path + "'");
+    path.replace(begin, end + 1 - begin, value);
+    begin += std::string(value).size();
+  }
+  return path;
+}
+
+scene::PathRequest path_request(const Json& scene) {
+  scene::PathRequest request;
+  request.camera = scene["camera"].get<std::string>();
+  const Json& frames = scene["frames"];
+  if (frames.is_number()) {
+    request.count = frames.get<int>();
+  } else if (frames.is_string()) {
+    request.choice = scene::FrameChoice::keys;
+  } else {
+    request.choice = scene::FrameChoice::rate;
+    request.rate_hz = frames["rate"].get<double>();
+  }
+  return request;
+}
+
+void add_scenes(const Json& scene, const std::string& pointer, const JsonText& text, std::vector<SceneRequest>& out) {
+  const bool single = scene.contains("path");
+  if (single == scene.contains("paths"))
+    throw Error(text.file, text.where(pointer), "a scene takes exactly one of path, paths");
+  const Json paths = single ? Json::array({scene["path"]}) : scene["paths"];
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const std::string place = single ? pointer + "/path" : child_pointer(pointer + "/paths", i);
+    const fs::path path = expanded(paths[i].get<std::string>(), text.file, text.where(place));
+    SceneRequest request;
+    request.path = (fs::path(text.file).parent_path() / path).lexically_normal();
+    request.camera = path_request(scene);
+    request.range_rule = {scene["range_rule"]["cutoff_lux"].get<double>(),
+                          scene["range_rule"]["max_range"].get<double>()};
+    out.push_back(std::move(request));
+  }
+}
+
+assign::ParamValue param_value(const Json& value) {
+  if (value.is_boolean()) return value.get<bool>();
+  if (value.is_number()) return value.get<double>();
+  return value.get<std::string>();
+}
+
+MethodRequest method(const Json& object, std::span<const assign::ParamSpec> specs) {
+  std::map<std::string, assign::ParamValue> given;
+  for (const auto& [key, value] : object.items())
+    if (key != "name") given[key] = param_value(value);
+  return {object["name"].get<std::string>(), assign::Params(specs, given)};
+}
+
+std::span<const assign::ParamSpec> assigner_params(const std::string& name) {
+  return assign::find_assigner(name)->params;
+}
+std::span<const assign::ParamSpec> storage_params(const std::string& name) {
+  return assign::find_storage(name)->params;
+}
+
+template <class SpecsOf>
+std::vector<MethodRequest> methods(const Json& list, const char* key, const JsonText& text, SpecsOf specs_of) {
+  std::vector<MethodRequest> out;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    for (const Json& object : expand_all_axes(list[i])) {
+      MethodRequest request = method(object, specs_of(object["name"].get<std::string>()));
+      const bool twice = std::any_of(out.begin(), out.end(), [&](const MethodRequest& earlier) {
+        return earlier.name == request.name && earlier.params.values() == request.params.values();
+      });
+      if (twice)
+        throw Error(text.file, text.where(child_pointer(std::string("/") + key, i)),
+                    "'" + request.label() + "' stands here twice with the same parameters");
+      out.push_back(std::move(request));
+    }
+  }
+  return out;
+}
+
+// Short forms written out: "aabb" is {"name": "aabb"}, a scene's path is {"path": ...}, viewport is one of viewports.
+Json long_form(Json document, const JsonText& text) {
+  if (!document.is_object()) return document;
+  const std::pair<const char*, const char*> lists[] = {{"scenes", "path"}, {"assigners", "name"}, {"storages", "name"}};
+  for (const auto& [list, key] : lists) {
+    if (!document.contains(list) || !document[list].is_array()) continue;
+    for (Json& entry : document[list])
+      if (entry.is_string()) entry = Json{{key, entry}};
+  }
+  if (document.contains("viewport") && document.contains("viewports"))
+    throw Error(text.file, text.where_key("/viewport"), "viewport and viewports exclude each other");
+  return document;
+}
+
+// Defaults filled in; short forms in the defaults, too.
+Json filled(const JsonText& text) {
+  const Json schema = config_schema();
+  Json document = read_by_schema(schema, long_form(text.value, text), text);
+  if (document.contains("viewport")) {
+    document["viewports"] = Json::array({document["viewport"]});
+    document.erase("viewport");
+  }
+  document.erase("$schema");
+  if (document["name"] == "") document["name"] = fs::path(text.file).stem().string();
+  return read_by_schema(schema, long_form(document, text), text);
+}
+
+std::vector<Vec2i> viewports(const Json& list, const JsonText& text) {
+  std::vector<Vec2i> out;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const Vec2i size{list[i][0].get<int>(), list[i][1].get<int>()};
+    if (std::find(out.begin(), out.end(), size) != out.end())
+      throw Error(text.file, text.where(child_pointer("/viewports", i)), "this viewport stands here twice");
+    out.push_back(size);
+  }
+  return out;
+}
+
+void read_settings(const Json& document, Config& config) {
+  config.threads = document["threads"].get<int>();
+  config.seed = document["seed"].get<std::uint64_t>();
+  config.check_accuracy = document["accuracy"]["check"].get<bool>();
+  config.shading_samples = document["shading"]["samples"].get<int>();
+  const Json& timing = document["timing"];
+  config.timing = {timing["measure"].get<bool>(), timing["rounds"].get<int>(), timing["min_time_ms"].get<double>(),
+                   timing["frames"].get<int>()};
+  config.allocation = {document["allocation"]["margin"].get<double>(), document["allocation"]["warn_at"].get<double>()};
+}
+
+Config read_config(const JsonText& text) {
+  Config config;
+  config.file = text.file;
+  config.resolved = filled(text);
+  config.resolved.erase("$schema");
+  const Json& document = config.resolved;
+  config.name = document["name"].get<std::string>();
+  for (std::size_t i = 0; i < document["scenes"].size(); ++i)
+    add_scenes(document["scenes"][i], child_pointer("/scenes", i), text, config.scenes);
+  config.viewports = viewports(document["viewports"], text);
+  config.grids = grid_specs(document["grids"], text);
+  config.assigners = methods(document["assigners"], "assigners", text, assigner_params);
+  config.storages = methods(document["storages"], "storages", text, storage_params);
+  read_settings(document, config);
+  return config;
+}
+
+std::string param_text(const assign::ParamValue& value) {
+  if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+  return Json(std::get<double>(value)).dump();
+}
+
+}  // namespace
+
+std::string MethodRequest::label() const {
+  const assign::AssignerRow* assigner = assign::find_assigner(name);
+  const assign::StorageRow* storage = assign::find_storage(name);
+  std::span<const assign::ParamSpec> specs;
+  if (assigner != nullptr) specs = assigner->params;
+  if (assigner == nullptr && storage != nullptr) specs = storage->params;
+  std::string inner;
+  for (const assign::ParamSpec& spec : specs) {
+    const auto value = params.values().find(spec.name);
+    if (value == params.values().end() || value->second == spec.standard) continue;
+    inner += (inner.empty() ? "" : ",") + spec.name + "=" + param_text(value->second);
+  }
+  return inner.empty() ? name : name + "(" + inner + ")";
+}
+
+Config parse_config(const std::string& text, const fs::path& file) {
+  return read_config(parse_json_text(text, file.string()));
+}
+
+Config load_config(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (!in || in.bad() || fs::is_directory(path)) throw Error(path.string(), "", "cannot be read");
+  return parse_config(text, path);
+}
+
+Config default_config(const std::vector<fs::path>& scenes) {
+  Json list = Json::array();
+  for (const fs::path& path : scenes) list.push_back({{"path", path.string()}, {"frames", 30}});
+  const Json document{{"name", scenes.size() == 1 ? scenes.front().stem().string() : "scenes"},
+                      {"scenes", list},
+                      {"timing", {{"rounds", 15}, {"min_time_ms", 2}, {"frames", 4}}}};
+  JsonText text;
+  text.value = document;
+  return read_config(text);
+}
+
+}  // namespace clusterbench::run

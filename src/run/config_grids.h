@@ -1,0 +1,21 @@
+#pragma once
+// Grids of a configuration: axes expanded into their product, keys into specs.
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "grid/grid.h"
+#include "run/json_text.h"
+
+namespace clusterbench::run {
+
+// The product of all axes of the grids. `grids` has its defaults filled in. A grid without axes that cannot be is an
+// Error here; one that an axis makes is left to the sweep, which skips it with its reason.
+std::vector<grid::GridSpec> grid_specs(const nlohmann::json& grids, const JsonText& text);
+
+// An object whose members are single values or lists of them: every combination, the last key fastest.
+std::vector<nlohmann::json> expand_all_axes(const nlohmann::json& object);
+
+const char* scheme_name(grid::Scheme scheme);
+
+}  // namespace clusterbench::run

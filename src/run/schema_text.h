@@ -1,0 +1,11 @@
+#pragma once
+// The schema files of src/run/schemas, embedded by the build (cmake/ClusterbenchEmbed.cmake).
+
+#include <string_view>
+
+namespace clusterbench::run {
+
+std::string_view config_schema_text();
+std::string_view result_schema_text();
+
+}  // namespace clusterbench::run
