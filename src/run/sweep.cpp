@@ -1,0 +1,248 @@
+#include "run/sweep.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "run/config_grids.h"
+#include "view/frame.h"
+
+namespace clusterbench::run {
+namespace {
+
+using Json = nlohmann::json;
+
+// The name, or the name with the smallest suffix "-2", "-3" ... that is not taken.
+std::string unique_name(const std::string& name, std::set<std::string>& taken) {
+  std::string candidate = name;
+  for (int number = 2; !taken.insert(candidate).second; ++number) candidate = name + "-" + std::to_string(number);
+  return candidate;
+}
+
+// A slash separates the parts of a case's name, so none may be inside one.
+std::string name_part(std::string text) {
+  std::replace(text.begin(), text.end(), '/', '_');
+  return text;
+}
+
+std::vector<SceneData> load_scenes(const Config& config) {
+  std::vector<SceneData> scenes;
+  std::set<std::string> names;
+  for (const SceneRequest& request : config.scenes) {
+    SceneData data;
+    data.scene = scene::load_gltf(request.path);
+    scene::resolve_ranges(data.scene, request.range_rule);
+    data.scene.name = unique_name(name_part(data.scene.name), names);
+    data.paths = scene::camera_paths(data.scene, request.camera);
+    scenes.push_back(std::move(data));
+  }
+  return scenes;
+}
+
+Json to_json(const Vec3d& v) {
+  return {v.x, v.y, v.z};
+}
+
+// Everything that tells two grid requests apart; keys that the kind does not use are left out.
+Json identity(const grid::GridSpec& spec) {
+  Json out{{"kind", grid::kind_name(spec.kind)}};
+  if (spec.kind == grid::Kind::frustum || spec.kind == grid::Kind::distance) {
+    const grid::Slicing& slices = spec.slices;
+    out["tiles"] = {spec.tiles.pixels.x, spec.tiles.pixels.y, spec.tiles.count.x, spec.tiles.count.y};
+    out["slices"] = {scheme_name(slices.scheme), slices.count, slices.near_m, slices.far_m, slices.boundaries_m};
+    if (slices.scheme == grid::Scheme::exponential_first) out["first"] = slices.first_m;
+    if (slices.scheme == grid::Scheme::power) out["lambda"] = slices.lambda;
+    return out;
+  }
+  out["cells"] = {spec.cells.x, spec.cells.y, spec.cells.z};
+  if (spec.kind == grid::Kind::cascades) out["levels"] = {spec.levels, spec.finest_m};
+  if (spec.kind == grid::Kind::world && spec.has_bounds)
+    out["bounds"] = {to_json(spec.bounds_lo_m), to_json(spec.bounds_hi_m)};
+  return out;
+}
+
+Json identity(const MethodRequest& method) {
+  Json params = Json::object();
+  for (const auto& [name, value] : method.params.values())
+    params[name] = std::visit([](const auto& held) { return Json(held); }, value);
+  return {{"name", method.name}, {"params", params}};
+}
+
+Json identity(const SceneRequest& request, const scene::Scene& scene) {
+  return {{"sha256", scene.sha256},
+          {"frames", {static_cast<int>(request.camera.choice), request.camera.count, request.camera.rate_hz}},
+          {"range_rule", {request.range_rule.cutoff_lux, request.range_rule.max_range_m}}};
+}
+
+// Settings that change what a case counts; timing and threads do not.
+std::string case_id(const Config& config, const SceneData& data, const CasePlan& plan) {
+  const Vec2i viewport = config.viewports[plan.viewport];
+  const Json all{{"scene", identity(config.scenes[plan.scene], data.scene)},
+                 {"camera", {data.paths[plan.camera].camera, plan.camera}},
+                 {"viewport", {viewport.x, viewport.y}},
+                 {"grid", identity(config.grids[plan.grid])},
+                 {"assigner", identity(config.assigners[plan.assigner])},
+                 {"storage", identity(config.storages[plan.storage])},
+                 {"seed", config.seed},
+                 {"shading_samples", config.shading_samples}};
+  constexpr std::size_t k_digits = 12;
+  return sha256_hex(all.dump()).substr(0, k_digits);
+}
+
+std::string listed(const std::vector<grid::Kind>& kinds) {
+  std::vector<std::string> names;
+  for (const grid::Kind kind : kinds) names.emplace_back(grid::kind_name(kind));
+  return joined(names);
+}
+
+bool has_lights(const scene::Scene& scene, scene::LightType type) {
+  return std::any_of(scene.lights.begin(), scene.lights.end(), [&](const auto& light) { return light.type == type; });
+}
+
+// Why this assigner cannot fill this grid in this scene; "" if it can.
+std::string obstacle(const assign::AssignerRow& row, grid::Kind kind, const scene::Scene& scene, bool orthographic) {
+  if (!row.takes(kind)) return row.name + " takes " + listed(row.kinds) + " grids, not " + grid::kind_name(kind);
+  if (row.needs_depth) return row.name + " needs a depth buffer, and this run has none";
+  if (orthographic && !row.orthographic) return row.name + " does not take orthographic cameras";
+  if (!row.points && has_lights(scene, scene::LightType::point)) return row.name + " takes no point lights";
+  if (!row.spots && has_lights(scene, scene::LightType::spot)) return row.name + " takes no spot lights";
+  return "";
+}
+
+struct Reach {
+  Vec3d lo{0.0}, hi{0.0};
+  double far_m = 0.0;
+};
+
+// The box around the bounded lights of a frame, and how far they reach from the eye.
+Reach reach_of(const view::Frame& frame) {
+  Reach reach;
+  bool first = true;
+  for (const scene::WorldLight& light : frame.lights) {
+    if (!std::isfinite(light.range_m)) continue;
+    const Vec3d radius(light.range_m), to_eye = light.position - frame.view_space.origin;
+    reach.lo = first ? light.position - radius : glm::min(reach.lo, light.position - radius);
+    reach.hi = first ? light.position + radius : glm::max(reach.hi, light.position + radius);
+    reach.far_m = std::max(reach.far_m, std::sqrt(glm::dot(to_eye, to_eye)) + light.range_m);
+    first = false;
+  }
+  return reach;
+}
+
+// Why this grid cannot be made for the path's first frame; "" if it can.
+std::string grid_obstacle(const grid::GridSpec& spec, const SceneData& data, const scene::CameraPath& path,
+                          Vec2i viewport) {
+  if (path.shots.empty()) return "the camera path has no frame";
+  try {
+    const view::Frame frame = view::make_frame(data.scene, path.shots.front(), 0, viewport);
+    const Reach reach = reach_of(frame);
+    grid::make_grid(spec, grid::grid_inputs(spec, frame, reach.far_m, reach.lo, reach.hi));
+    return "";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+class Expansion {
+ public:
+  Expansion(const Config& config, const std::string& filter) : config_(config) {
+    try {
+      filter_ = std::regex(filter, std::regex::ECMAScript);
+    } catch (const std::regex_error& error) {
+      throw Error("", "--filter", "'" + filter + "' is no regular expression (ECMAScript): " + error.what());
+    }
+  }
+
+  void expand(Plan& plan) {
+    for (std::size_t scene = 0; scene < plan.scenes.size(); ++scene) expand_scene(plan, scene);
+  }
+
+  std::size_t all_cases() const { return all_cases_; }
+  const std::string& example() const { return example_; }
+
+ private:
+  void expand_scene(Plan& plan, std::size_t scene) {
+    std::set<std::string> names;
+    for (std::size_t camera = 0; camera < plan.scenes[scene].paths.size(); ++camera) {
+      const std::string part = unique_name(name_part(plan.scenes[scene].paths[camera].camera), names);
+      for (std::size_t viewport = 0; viewport < config_.viewports.size(); ++viewport)
+        for (std::size_t grid = 0; grid < config_.grids.size(); ++grid)
+          expand_group(plan, {scene, camera, viewport, grid, {}}, part);
+    }
+  }
+
+  std::string group_name(const Plan& plan, const GroupPlan& group, const std::string& camera) const {
+    const Vec2i size = config_.viewports[group.viewport];
+    const std::string viewport =
+        config_.viewports.size() > 1 ? std::to_string(size.x) + "x" + std::to_string(size.y) + " " : "";
+    return plan.scenes[group.scene].scene.name + "/" + camera + "/" + viewport +
+           name_part(config_.grids[group.grid].name());
+  }
+
+  void expand_group(Plan& plan, GroupPlan group, const std::string& camera) {
+    const std::string name = group_name(plan, group, camera);
+    const SceneData& data = plan.scenes[group.scene];
+    const scene::CameraPath& path = data.paths[group.camera];
+    const std::string impossible =
+        grid_obstacle(config_.grids[group.grid], data, path, config_.viewports[group.viewport]);
+    if (!impossible.empty()) {
+      skip(plan, name, impossible);
+      return;
+    }
+    for (std::size_t assigner = 0; assigner < config_.assigners.size(); ++assigner)
+      expand_assigner(plan, group, assigner, name);
+    if (!group.cases.empty()) plan.groups.push_back(std::move(group));
+  }
+
+  void expand_assigner(Plan& plan, GroupPlan& group, std::size_t assigner, const std::string& group_name) {
+    const MethodRequest& method = config_.assigners[assigner];
+    const std::string name = group_name + "/" + name_part(method.label());
+    const SceneData& data = plan.scenes[group.scene];
+    const std::string impossible = obstacle(*assign::find_assigner(method.name), config_.grids[group.grid].kind,
+                                            data.scene, data.paths[group.camera].shots.front().lens.orthographic);
+    if (!impossible.empty()) {
+      skip(plan, name, impossible);
+      return;
+    }
+    for (std::size_t storage = 0; storage < config_.storages.size(); ++storage) {
+      CasePlan one{"", "", group.scene, group.camera, group.viewport, group.grid, assigner, storage};
+      one.name = unique_name(name + "/" + name_part(config_.storages[storage].label()), names_);
+      one.id = unique_name(case_id(config_, data, one), ids_);
+      ++all_cases_;
+      if (example_.empty()) example_ = one.name;
+      if (std::regex_search(one.name, filter_)) group.cases.push_back(std::move(one));
+    }
+  }
+
+  // What the filter leaves out is not listed as skipped either.
+  void skip(Plan& plan, const std::string& name, const std::string& reason) const {
+    if (std::regex_search(name, filter_)) plan.skipped.push_back({name, reason});
+  }
+
+  const Config& config_;
+  std::regex filter_;
+  std::set<std::string> names_, ids_;
+  std::size_t all_cases_ = 0;
+  std::string example_;
+};
+
+}  // namespace
+
+Plan make_plan(const Config& config, const std::string& filter) {
+  Expansion expansion(config, filter);
+  Plan plan;
+  plan.scenes = load_scenes(config);
+  expansion.expand(plan);
+  if (!plan.groups.empty()) return plan;
+  if (expansion.all_cases() > 0)
+    throw Error("", "--filter",
+                "'" + filter + "' matches none of " + std::to_string(expansion.all_cases()) +
+                    " cases; one of them is '" + expansion.example() + "'");
+  throw Error(config.file.string(), "",
+              "no case is left: " + std::to_string(plan.skipped.size()) + " combinations cannot be" +
+                  (plan.skipped.empty() ? "" : "; the first, " + plan.skipped[0].name + ": " + plan.skipped[0].reason));
+}
+
+}  // namespace clusterbench::run
