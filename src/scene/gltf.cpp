@@ -194,10 +194,14 @@ void add_channels(const tinygltf::Animation& animation, const Place& place, cons
   for (const tinygltf::AnimationChannel& from : animation.channels) {
     const auto node = placed.find(from.target_node);
     const tinygltf::AnimationSampler& sampler = animation.samplers[static_cast<std::size_t>(from.sampler)];
-    Channel channel = read_keys(reader, place.at("samplers").at(static_cast<std::size_t>(from.sampler)),
-                                static_cast<std::size_t>(sampler.input), static_cast<std::size_t>(sampler.output),
-                                path_of(from.target_path), interpolation_of(sampler.interpolation));
-    if (node == placed.end()) continue;  // checked, but its node is not in the default scene
+    const Place sampler_place = place.at("samplers").at(static_cast<std::size_t>(from.sampler));
+    std::optional<Channel> keys = read_keys(reader, sampler_place, static_cast<std::size_t>(sampler.input),
+                                            static_cast<std::size_t>(sampler.output), path_of(from.target_path),
+                                            interpolation_of(sampler.interpolation));
+    if (!keys)
+      scene.warnings.push_back(warning_at(sampler_place, "its accessors hold no data; the channel is ignored"));
+    if (!keys || node == placed.end()) continue;  // checked, but its node may not be in the default scene
+    Channel channel = std::move(*keys);
     channel.node = node->second;
     scene.duration_s = std::max(scene.duration_s, channel.times_s.back());
     const auto [known, first] = taken.try_emplace({channel.node, channel.path}, scene.channels.size());

@@ -168,6 +168,10 @@ AccessorHead AccessorReader::head(std::size_t accessor) const {
   return head;
 }
 
+bool AccessorReader::has_data(std::size_t accessor) const {
+  return place(accessor).has("bufferView") || place(accessor).has("sparse");
+}
+
 std::vector<double> AccessorReader::numbers(std::size_t accessor, std::size_t components) {
   const Place from = place(accessor);
   const AccessorHead about = head(accessor);

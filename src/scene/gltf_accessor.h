@@ -30,11 +30,13 @@ class AccessorReader {
   const Place& root() const { return root_; }
   Place place(std::size_t accessor) const { return root_.at("accessors").at(accessor); }
   AccessorHead head(std::size_t accessor) const;
+  // False: it names neither bufferView nor sparse values, so that all its numbers are 0.
+  bool has_data(std::size_t accessor) const;
 
   // All elements, `components` doubles each; normalized integers become -1..1 or 0..1, sparse substitution is done.
   // All floats are finite. Together one reader hands out at most k_most_numbers.
   std::vector<double> numbers(std::size_t accessor, std::size_t components);
-  static constexpr std::size_t k_most_numbers = std::size_t{1} << 26;
+  static constexpr std::size_t k_most_numbers = std::size_t{1} << 24;
 
   // The bytes of the external files read so far, in the order of their buffers.
   std::string external_bytes() const;

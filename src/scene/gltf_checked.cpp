@@ -36,7 +36,6 @@ void check_asset(const Place& root, std::vector<std::string>& warnings) {
   const Place min_version = asset.at("minVersion");
   const auto least = version_of(min_version);
   if (least > version) min_version.refuse("greater than the asset's version");
-  if (least > std::pair(2L, 0L)) min_version.refuse("glTF 2.0 is the newest that this tool knows");
 }
 
 // Extensions that a file may require although this tool does not know them: they speak of meshes, textures, materials.

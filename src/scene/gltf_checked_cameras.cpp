@@ -20,16 +20,18 @@ void check_far(const Place& lens, double near) {
   }
 }
 
+// null for a lens that glTF allows and that shows nothing.
 json checked_perspective(const Place& lens, std::vector<std::string>& warnings) {
   lens.expect_object();
   json out = {{"yfov", positive(lens.at("yfov"))}, {"znear", positive(lens.at("znear"))}};
-  if (out["yfov"].get<double>() >= std::numbers::pi) {
-    lens.at("yfov").refuse("found " + kind_of(lens.at("yfov").value()) + ", an angle below pi (radians) is needed");
-  }
   check_far(lens, out["znear"].get<double>());
   if (lens.has("zfar")) out["zfar"] = positive(lens.at("zfar"));
   if (lens.has("aspectRatio")) positive(lens.at("aspectRatio"));
-  if (out["yfov"].get<double>() > 3.1) warnings.push_back(warning_at(lens.at("yfov"), "nearly pi: in degrees?"));
+  if (out["yfov"].get<double>() >= std::numbers::pi) {
+    warnings.push_back(
+        warning_at(lens.at("yfov"), "pi radians or more show nothing (degrees?); the camera is ignored"));
+    return json(nullptr);
+  }
   return out;
 }
 
@@ -62,6 +64,7 @@ json checked_camera(const Place& camera, std::vector<std::string>& warnings) {
   }
   if (type == "perspective") {
     out["perspective"] = checked_perspective(camera.at("perspective"), warnings);
+    if (out["perspective"].is_null()) return json(nullptr);
   } else if (type == "orthographic") {
     out["orthographic"] = checked_orthographic(camera.at("orthographic"), warnings);
   } else {

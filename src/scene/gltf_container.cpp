@@ -34,7 +34,8 @@ void check_glb_header(const GltfFile& file) {
   if (const auto version = little_endian(file.bytes, 4); version != 2) {
     refuse_at(file, 4, "GLB version " + std::to_string(version) + " found, 2 is needed");
   }
-  if (const auto length = little_endian(file.bytes, 8); length != file.bytes.size()) {
+  const std::size_t length = little_endian(file.bytes, 8);
+  if (length > file.bytes.size() || length < k_header_bytes) {
     refuse_at(
         file, 8,
         "the GLB header says " + std::to_string(length) + " bytes, the file has " + std::to_string(file.bytes.size()));
@@ -44,7 +45,8 @@ void check_glb_header(const GltfFile& file) {
 // Splits the container; returns the JSON chunk. JSON comes first, BIN at most once and second, others are skipped.
 std::string_view glb_json(GltfFile& file) {
   check_glb_header(file);
-  const std::string_view all = file.bytes;
+  // What comes after the length that the header gives is not part of the GLB.
+  const std::string_view all = std::string_view(file.bytes).substr(0, little_endian(file.bytes, 8));
   std::string_view json;
   std::size_t place = 0;
   for (std::size_t at = k_header_bytes; at < all.size(); ++place) {
@@ -102,8 +104,13 @@ void parse(GltfFile& file, std::string_view json) {
     const std::size_t detail = what.find("] ");
     refuse_at(file, offset + (error.byte > 0 ? error.byte - 1 : 0),
               "not JSON: " + (detail == std::string::npos ? what : what.substr(detail + 2)));
-  } catch (const nlohmann::json::exception& error) {  // a number beyond double precision
-    refuse_at(file, offset, std::string("not JSON: ") + error.what());
+  } catch (const nlohmann::json::out_of_range& error) {  // a number beyond double precision, quoted in the message
+    const std::string what = error.what();
+    const std::size_t first = what.find('\''), last = what.rfind('\'');
+    const std::string number = first < last ? what.substr(first + 1, last - first - 1) : "";
+    const std::size_t at = json.find(number);
+    refuse_at(file, offset + (at == std::string_view::npos ? 0 : at),
+              "the number " + number + " is larger than double precision can hold");
   }
 }
 

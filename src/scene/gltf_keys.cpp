@@ -9,7 +9,7 @@ namespace {
 // How far from 1 a quaternion's length may be: what 8-bit components can be off, as in the Khronos glTF validator.
 constexpr double k_unit_tolerance = 0.00769;
 
-std::vector<double> read_times(AccessorReader& reader, const Place& sampler, std::size_t accessor) {
+void check_times_format(const AccessorReader& reader, const Place& sampler, std::size_t accessor) {
   const Place input = sampler.at("input"), place = reader.place(accessor);
   const AccessorHead head = reader.head(accessor);
   if (head.type != "SCALAR" || head.component != Component::f32) {
@@ -19,6 +19,10 @@ std::vector<double> read_times(AccessorReader& reader, const Place& sampler, std
     if (!place.has(bound)) place.refuse(std::string("'") + bound + "' is missing; glTF asks for it at key times");
     place.at(bound).numbers(1);
   }
+}
+
+std::vector<double> read_times(AccessorReader& reader, const Place& sampler, std::size_t accessor) {
+  const Place input = sampler.at("input");
   std::vector<double> times_s = reader.numbers(accessor, 1);
   if (times_s.front() < 0.0)
     input.refuse("the first key time is " + std::to_string(times_s.front()) + ", 0 or more is needed");
@@ -53,29 +57,33 @@ void check_unit(const Place& output, const Channel& channel) {
 
 }  // namespace
 
-Channel read_keys(AccessorReader& reader, const Place& sampler, std::size_t input, std::size_t output, ChannelPath path,
-                  Interpolation interpolation) {
+std::optional<Channel> read_keys(AccessorReader& reader, const Place& sampler, std::size_t input, std::size_t output,
+                                 ChannelPath path, Interpolation interpolation) {
+  check_times_format(reader, sampler, input);
+  const AccessorHead head = reader.head(output);
+  check_format(sampler.at("output"), head, path);
+  const bool cubic = interpolation == Interpolation::cubic_spline;
+  const std::size_t keys = reader.head(input).count, needed = keys * (cubic ? 3 : 1);
+  if (cubic && keys < 2) sampler.at("input").refuse("a cubic spline needs two keys or more");
+  if (head.count != needed) {
+    sampler.at("output").refuse("found " + std::to_string(head.count) + " values, " + std::to_string(needed) +
+                                " are needed for " + std::to_string(keys) + " keys");
+  }
+
   Channel channel;
   channel.path = path;
   channel.interpolation = interpolation;
-  channel.times_s = read_times(reader, sampler, input);
-  const bool cubic = interpolation == Interpolation::cubic_spline;
-  if (cubic && channel.times_s.size() < 2) sampler.at("input").refuse("a cubic spline needs two keys or more");
-
-  const AccessorHead head = reader.head(output);
-  check_format(sampler.at("output"), head, path);
-  const std::size_t needed = channel.times_s.size() * (cubic ? 3 : 1);
-  if (head.count != needed) {
-    sampler.at("output").refuse("found " + std::to_string(head.count) + " values, " + std::to_string(needed) +
-                                " are needed for " + std::to_string(channel.times_s.size()) + " keys");
-  }
   const std::size_t components = path == ChannelPath::rotation ? 4 : 3;
   const std::vector<double> numbers = reader.numbers(output, components);
   channel.values.reserve(needed);
   for (std::size_t i = 0; i < numbers.size(); i += components) {
     channel.values.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2], components == 4 ? numbers[i + 3] : 0.0);
   }
-  if (path == ChannelPath::rotation) check_unit(sampler.at("output"), channel);
+  const bool rotation = path == ChannelPath::rotation, turns = rotation && reader.has_data(output);
+  if (turns) check_unit(sampler.at("output"), channel);
+  if (keys > 1 && !reader.has_data(input)) return std::nullopt;
+  channel.times_s = read_times(reader, sampler, input);
+  if (rotation && !turns) return std::nullopt;
   return channel;
 }
 

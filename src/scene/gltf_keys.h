@@ -1,13 +1,16 @@
 #pragma once
 // The keys of one animation sampler, checked against what its channel moves.
 
+#include <optional>
+
 #include "scene/gltf_accessor.h"
 #include "scene/scene.h"
 
 namespace clusterbench::scene {
 
-// `sampler` is where the sampler stands, `input` and `output` its accessors. Throws Error.
-Channel read_keys(AccessorReader& reader, const Place& sampler, std::size_t input, std::size_t output, ChannelPath path,
-                  Interpolation interpolation);
+// `sampler` is where the sampler stands, `input` and `output` its accessors. Nothing for key times or rotations without
+// data: glTF allows that (all zero) for extensions to fill in, but it moves nothing. Throws Error.
+std::optional<Channel> read_keys(AccessorReader& reader, const Place& sampler, std::size_t input, std::size_t output,
+                                 ChannelPath path, Interpolation interpolation);
 
 }  // namespace clusterbench::scene

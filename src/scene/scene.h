@@ -30,7 +30,9 @@ struct Light {
   double inner_cone_rad = 0.0, outer_cone_rad = 0.78539816339744831;  // half-angles, spots only
 };
 
-// An oriented box (decal, probe) from a node's extras; counted, assigned by later methods.
+// An oriented box (decal, probe) from a node's extras, which glTF leaves to applications:
+//   "extras": {"clusterbench_box": {"half_extents": [x, y, z]}}
+// in metres of the node's own space. Counted, assigned by later methods.
 struct OrientedBox {
   std::string name;
   int node = -1;
