@@ -7,6 +7,17 @@
 #include <valijson/validator.hpp>
 
 namespace clusterbench::run {
+namespace {
+
+// The validator writes a step as [3] or ["key"].
+std::string plain_step(const std::string& step) {
+  std::size_t begin = 0, end = step.size();
+  while (begin < end && (step[begin] == '[' || step[begin] == '"')) ++begin;
+  while (end > begin && (step[end - 1] == ']' || step[end - 1] == '"')) --end;
+  return step.substr(begin, end - begin);
+}
+
+}  // namespace
 
 std::vector<std::string> schema_violations(const nlohmann::json& schema, const nlohmann::json& instance) {
   valijson::Schema compiled;
@@ -20,7 +31,10 @@ std::vector<std::string> schema_violations(const nlohmann::json& schema, const n
   std::vector<std::string> violations;
   valijson::ValidationResults::Error error;
   while (results.popError(error)) {
-    const std::string place = error.jsonPointer.empty() ? "/" : error.jsonPointer;
+    std::string place;
+    for (const std::string& step : error.context)
+      if (step != "<root>") place += "/" + plain_step(step);
+    if (place.empty()) place = "/";
     violations.push_back(place + ": " + error.description);
   }
   return violations;
