@@ -1,0 +1,24 @@
+// The cells of the light's extents whose view-space bounding box the ball touches.
+
+#include "assign/cell_box_method.h"
+
+namespace clusterbench::assign {
+namespace {
+
+struct AabbsInExtents : CellAabbs {
+  static constexpr bool k_whole_grid = false;
+};
+
+}  // namespace
+
+extern const AssignerRow aabb_row;
+const AssignerRow aabb_row{
+    .name = "aabb",
+    .summary = "the cells of the light's extents whose view-space bounding box the ball touches",
+    .source = "DaveH355; Persson 2015, Practical Clustered Shading",
+    .kinds = {grid::Kind::frustum},
+    .params = {spot_param()},
+    .make = make_cell_box_method<AabbsInExtents>,
+};
+
+}  // namespace clusterbench::assign

@@ -1,0 +1,27 @@
+// All cells within a light's analytic screen and depth extents: Persson's "cube", which the finer methods cull from.
+
+#include "assign/cell_box_method.h"
+
+namespace clusterbench::assign {
+namespace {
+
+struct NoTest {
+  static constexpr bool k_whole_grid = false;
+  void build(const grid::Grid&) {}
+  bool touches(const geom::Ball&, std::uint32_t) const { return true; }
+  std::size_t capacity_bytes() const { return 0; }
+};
+
+}  // namespace
+
+extern const AssignerRow bounds_row;
+const AssignerRow bounds_row{
+    .name = "bounds",
+    .summary = "all cells within the light's analytic extents on the screen and in depth",
+    .source = "Persson 2015, Practical Clustered Shading",
+    .kinds = {grid::Kind::frustum},
+    .params = {spot_param()},
+    .make = make_cell_box_method<NoTest>,
+};
+
+}  // namespace clusterbench::assign

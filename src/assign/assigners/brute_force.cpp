@@ -1,0 +1,24 @@
+// Every light against every cell's view-space bounding box: what a first compute shader does, and the yardstick.
+
+#include "assign/cell_box_method.h"
+
+namespace clusterbench::assign {
+namespace {
+
+struct EveryAabb : CellAabbs {
+  static constexpr bool k_whole_grid = true;
+};
+
+}  // namespace
+
+extern const AssignerRow brute_force_row;
+const AssignerRow brute_force_row{
+    .name = "brute-force",
+    .summary = "every light against every cell's view-space bounding box",
+    .source = "DaveH355, three.js",
+    .kinds = {grid::Kind::frustum},
+    .params = {spot_param()},
+    .make = make_cell_box_method<EveryAabb>,
+};
+
+}  // namespace clusterbench::assign

@@ -1,0 +1,42 @@
+// The cells of the light's extents whose six planes each leave a part of the ball inside. Boxy: it cannot exclude a
+// ball that passes a cell's edge or corner.
+
+#include "assign/cell_box_method.h"
+
+namespace clusterbench::assign {
+namespace {
+
+class SixPlanes {
+ public:
+  static constexpr bool k_whole_grid = false;
+
+  void build(const grid::Grid& grid) {
+    planes_.assign(grid.cell_count(), {});
+    for (std::uint32_t cell = 0; cell < grid.cell_count(); ++cell)
+      geom::outward_planes(std::get<geom::FrustumPiece>(grid.cell(cell)), planes_[cell].of);
+  }
+  bool touches(const geom::Ball& ball, std::uint32_t cell) const {
+    return geom::ball_touches_planes(ball, planes_[cell].of, 6);
+  }
+  std::size_t capacity_bytes() const { return planes_.capacity() * sizeof(CellPlanes); }
+
+ private:
+  struct CellPlanes {
+    geom::Plane of[6];
+  };
+  std::vector<CellPlanes> planes_;
+};
+
+}  // namespace
+
+extern const AssignerRow planes_row;
+const AssignerRow planes_row{
+    .name = "planes",
+    .summary = "the cells of the light's extents that none of their six planes excludes",
+    .source = "Wicked Engine, and most tiled renderers",
+    .kinds = {grid::Kind::frustum},
+    .params = {spot_param()},
+    .make = make_cell_box_method<SixPlanes>,
+};
+
+}  // namespace clusterbench::assign

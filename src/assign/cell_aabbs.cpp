@@ -1,0 +1,12 @@
+#include "assign/cell_box_method.h"
+
+namespace clusterbench::assign {
+
+void CellAabbs::build(const grid::Grid& grid) {
+  boxes_.clear();
+  boxes_.reserve(grid.cell_count());
+  for (std::uint32_t cell = 0; cell < grid.cell_count(); ++cell)
+    boxes_.push_back(geom::box_around(std::get<geom::FrustumPiece>(grid.cell(cell))));
+}
+
+}  // namespace clusterbench::assign

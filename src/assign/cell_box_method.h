@@ -1,0 +1,95 @@
+#pragma once
+// What the plain box methods share: visit cells of a frustum grid light by light, keep those that one predicate keeps.
+
+#include <memory>
+#include <vector>
+
+#include "assign/assigner.h"
+#include "assign/cell_box.h"
+#include "assign/spot_test.h"
+
+namespace clusterbench::assign {
+
+// CellTest: build(const grid::Grid&), bool touches(const geom::Ball&, std::uint32_t cell) const, capacity_bytes()
+// const, and k_whole_grid: visit every cell instead of the ball's cell box.
+template <class CellTest>
+class CellBoxMethod final : public Assigner {
+ public:
+  explicit CellBoxMethod(const Params& params) : spot_(spot_test_from(params)) {}
+
+  void build(const grid::Grid& grid) override {
+    grid_ = &grid;
+    cells_ = grid.cells();
+    test_.build(grid);
+    cell_balls_.clear();
+  }
+
+  void assign(const view::LightArrays& lights, Lists& out) override {
+    tests_ = 0;
+    if (lights.spots > 0 && spot_ != SpotTest::ball) cell_balls_.ensure(*grid_);
+    pairs_.start(grid_->cell_count());
+    for (std::uint32_t light = 0; light < lights.size(); ++light)
+      if (lights.padded_radius[light] > 0.0f) add_light(lights, light);
+    pairs_.finish(out);
+  }
+
+  std::uint64_t tests_done() const override { return tests_; }
+  std::size_t scratch_bytes() const override {
+    return pairs_.capacity_bytes() + cell_balls_.capacity_bytes() + test_.capacity_bytes();
+  }
+
+ private:
+  void add_light(const view::LightArrays& lights, std::uint32_t light) {
+    const geom::Ball ball = ball_for(lights, light, spot_);
+    const CellBox box = CellTest::k_whole_grid ? CellBox{Vec3i(0), cells_ - 1} : cell_box(*grid_, ball);
+    if (lights.is_spot(light) && spot_ != SpotTest::ball) {
+      const geom::SphericalCone cone = lights.cone(light);
+      visit(box, light, [&](std::uint32_t cell) {
+        return test_.touches(ball, cell) && geom::cone_touches_ball(cone, cell_balls_[cell]);
+      });
+    } else {
+      visit(box, light, [&](std::uint32_t cell) { return test_.touches(ball, cell); });
+    }
+  }
+
+  template <class Keep>
+  void visit(const CellBox& box, std::uint32_t light, Keep&& keep) {
+    if (box.empty()) return;
+    for (int z = box.first.z; z <= box.last.z; ++z) {
+      for (int y = box.first.y; y <= box.last.y; ++y) {
+        const auto row = static_cast<std::uint32_t>((z * cells_.y + y) * cells_.x);
+        for (int x = box.first.x; x <= box.last.x; ++x) {
+          const std::uint32_t cell = row + static_cast<std::uint32_t>(x);
+          if (keep(cell)) pairs_.add(cell, light);
+        }
+        tests_ += static_cast<std::uint64_t>(box.last.x - box.first.x + 1);
+      }
+    }
+  }
+
+  SpotTest spot_;
+  const grid::Grid* grid_ = nullptr;
+  Vec3i cells_{0};
+  CellTest test_;
+  CellBalls cell_balls_;
+  PairBuffer pairs_;
+  std::uint64_t tests_ = 0;
+};
+
+// Ball against the view-space boxes around the cells, made once per grid.
+class CellAabbs {
+ public:
+  void build(const grid::Grid& grid);
+  bool touches(const geom::Ball& ball, std::uint32_t cell) const { return geom::ball_touches_box(ball, boxes_[cell]); }
+  std::size_t capacity_bytes() const { return boxes_.capacity() * sizeof(geom::Box); }
+
+ private:
+  std::vector<geom::Box> boxes_;
+};
+
+template <class CellTest>
+std::unique_ptr<Assigner> make_cell_box_method(const Params& params) {
+  return std::make_unique<CellBoxMethod<CellTest>>(params);
+}
+
+}  // namespace clusterbench::assign

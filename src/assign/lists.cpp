@@ -1,0 +1,48 @@
+#include "assign/lists.h"
+
+#include <limits>
+
+#include "core/error.h"
+
+namespace clusterbench::assign {
+
+void PairBuffer::start(std::uint32_t cell_count) {
+  cell_count_ = cell_count;
+  spans_.clear();
+}
+
+void PairBuffer::add_row(std::uint32_t first_cell, std::uint32_t count, std::uint32_t light) {
+  spans_.push_back({first_cell, count, light});
+}
+
+void PairBuffer::finish(Lists& out) {
+  // begin[c] first counts cell c, then becomes its list's start, then its end while lights are written; shifted by one
+  // place, the ends are the starts again.
+  out.begin.assign(cell_count_ + std::size_t{1}, 0);
+  std::uint64_t total = 0;
+  for (const Span& span : spans_) {
+    total += span.count;
+    for (std::uint32_t cell = span.first_cell; cell < span.first_cell + span.count; ++cell) ++out.begin[cell];
+  }
+  if (total > std::numeric_limits<std::uint32_t>::max())
+    throw Error("", "lists", "hold " + std::to_string(total) + " pairs; at most 2^32 - 1 fit", ExitCode::internal);
+
+  out.lights.resize(total);
+  std::uint32_t start = 0;
+  for (std::uint32_t& entry : out.begin) {
+    const std::uint32_t count = entry;
+    entry = start;
+    start += count;
+  }
+  for (const Span& span : spans_)
+    for (std::uint32_t cell = span.first_cell; cell < span.first_cell + span.count; ++cell)
+      out.lights[out.begin[cell]++] = span.light;
+  for (std::size_t cell = cell_count_; cell > 0; --cell) out.begin[cell] = out.begin[cell - 1];
+  out.begin[0] = 0;
+}
+
+std::size_t PairBuffer::capacity_bytes() const {
+  return spans_.capacity() * sizeof(Span);
+}
+
+}  // namespace clusterbench::assign
