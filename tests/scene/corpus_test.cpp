@@ -70,9 +70,10 @@ Outcome outcome_of(const fs::path& path) {
 
 class Corpus : public testing::Test {
  protected:
-  void SetUp() override {
+  // The library is read once for all tests.
+  static void SetUpTestSuite() {
     const char* folder = std::getenv("CLUSTERBENCH_SCENE_LIBRARY");
-    if (folder == nullptr) GTEST_SKIP() << "CLUSTERBENCH_SCENE_LIBRARY does not name the scene library";
+    if (folder == nullptr) return;
     library_ = folder;
     std::ifstream in(library_ / "INDEX.json");
     for (const json& entry : json::parse(in)) {
@@ -81,13 +82,17 @@ class Corpus : public testing::Test {
     }
   }
 
+  void SetUp() override {
+    if (library_.empty()) GTEST_SKIP() << "CLUSTERBENCH_SCENE_LIBRARY does not name the scene library";
+  }
+
   bool reference_is_clean(const std::string& file) const {
     std::ifstream in(library_ / (file + ".report.json"));
     return json::parse(in)["issues"]["numErrors"].get<int>() == 0;
   }
 
-  fs::path library_;
-  std::map<std::string, Outcome> outcomes_;
+  static inline fs::path library_;
+  static inline std::map<std::string, Outcome> outcomes_;
 };
 
 TEST_F(Corpus, every_file_loads_or_is_refused_in_one_line_that_names_a_place) {
@@ -118,7 +123,9 @@ TEST_F(Corpus, the_validator_reports_and_the_loader_agree_except_where_the_table
     EXPECT_EQ(agrees, row == rows.end()) << file << (agrees ? ": the table's row is stale" : ": is not in the table")
                                          << " (" << (outcome.loads ? "loads" : outcome.where + ": " + outcome.message)
                                          << ")";
-    if (row != rows.end()) EXPECT_EQ(row->second.here, outcome.loads ? "loads" : "refused") << file;
+    if (row != rows.end()) {
+      EXPECT_EQ(row->second.here, outcome.loads ? "loads" : "refused") << file;
+    }
   }
   EXPECT_GE(compared, 262);
 }
@@ -129,7 +136,9 @@ TEST_F(Corpus, of_the_magnum_tests_exactly_those_in_the_table_are_refused_at_the
     if (!file.starts_with(k_magnum)) continue;
     const auto row = rows.find(file);
     EXPECT_EQ(outcome.loads, row == rows.end()) << file << ": " << outcome.where << ": " << outcome.message;
-    if (row != rows.end()) EXPECT_EQ(row->second.reference, outcome.where) << file;
+    if (row != rows.end()) {
+      EXPECT_EQ(row->second.reference, outcome.where) << file;
+    }
   }
 }
 
