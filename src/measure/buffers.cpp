@@ -1,0 +1,57 @@
+#include "measure/buffers.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clusterbench::measure {
+namespace {
+
+std::uint64_t with_margin(std::uint64_t high_water, double margin, std::uint64_t most) {
+  return std::min(most, static_cast<std::uint64_t>(std::ceil(static_cast<double>(high_water) * margin)));
+}
+
+}  // namespace
+
+void BufferMeter::add_frame(int frame, const assign::Storage& storage, std::size_t scratch_bytes) {
+  const assign::StorageUse use = storage.use();
+  const assign::StorageLimit limit = storage.limit();
+  if (frames_ == 0 || use.index_entries > sum_.index_entries.high_water) {
+    sum_.worst_frame = frame;
+    sum_.worst_cell = use.largest_cell;
+  }
+  const auto raise = [](std::uint64_t& mark, std::uint64_t value) { mark = std::max(mark, value); };
+  raise(sum_.index_entries.high_water, use.index_entries);
+  raise(sum_.bytes.high_water, use.index_bytes + use.header_bytes);
+  raise(sum_.header_bytes, use.header_bytes);
+  raise(sum_.upload_bytes_max, use.upload_bytes);
+  raise(sum_.scratch_bytes, scratch_bytes);
+  raise(sum_.index_entries.theoretical_max, limit.index_entries);
+  raise(sum_.bytes.theoretical_max, limit.bytes);
+  sum_.index_bits = storage.index_bits();
+  sum_.dropped_pairs += use.dropped_pairs;
+  sum_.overflowing_cells += use.overflowing_cells;
+  if (use.dropped_pairs > 0) ++sum_.overflowing_frames;
+  sum_.dropped_lights.insert(use.dropped_lights.begin(), use.dropped_lights.end());
+  entries_total_ += use.index_entries;
+  upload_total_ += use.upload_bytes;
+  ++frames_;
+}
+
+Buffers BufferMeter::result() const {
+  Buffers out = sum_;
+  if (frames_ == 0) return out;
+  out.index_entries.recommended =
+      with_margin(out.index_entries.high_water, rule_.margin, out.index_entries.theoretical_max);
+  const std::uint64_t index_bytes = out.index_entries.recommended * (out.index_bits / 8);
+  out.bytes.recommended =
+      std::min(out.bytes.theoretical_max, std::max(out.bytes.high_water, out.header_bytes + index_bytes));
+  out.upload_bytes_mean = static_cast<double>(upload_total_) / frames_;
+  if (out.index_entries.recommended > 0) {
+    const auto room = static_cast<double>(out.index_entries.recommended);
+    out.in_use_mean = static_cast<double>(entries_total_) / frames_ / room;
+    out.in_use_max = static_cast<double>(out.index_entries.high_water) / room;
+  }
+  return out;
+}
+
+}  // namespace clusterbench::measure

@@ -1,0 +1,95 @@
+#include "measure/shading.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/random.h"
+
+namespace clusterbench::measure {
+namespace {
+
+Vec3d to_world(const view::Space& space, const Vec3d& local) {
+  return glm::transpose(space.rotation) * local + space.origin;
+}
+
+grid::Sample sample_at(const view::Frame& frame, double pixel_x, double pixel_y, double depth) {
+  const view::Projection& lens = frame.projection;
+  const double across = lens.left + (lens.right - lens.left) * pixel_x / frame.viewport.x;
+  const double up = lens.top - (lens.top - lens.bottom) * pixel_y / frame.viewport.y;
+  const double scale = lens.orthographic ? 1.0 : depth;
+  const Vec3d local{across * scale, up * scale, -depth};
+  return {static_cast<float>(pixel_x), static_cast<float>(pixel_y), Vec3f(local), to_world(frame.view_space, local)};
+}
+
+bool reaches(const scene::WorldLight& light, const Vec3d& place) {
+  const Vec3d to_place = place - light.position;
+  const double distance = glm::length(to_place);
+  if (light.range_m == 0.0 || distance > light.range_m) return false;
+  if (light.type != scene::LightType::spot) return true;
+  return glm::dot(to_place, light.direction) >= std::cos(light.outer_cone_rad) * distance;
+}
+
+// Inverse square with the glTF extension's recommended window, (1 - (d/r)^4) / d², per candela.
+double irradiance(const scene::WorldLight& light, const Vec3d& place) {
+  const Vec3d to_place = place - light.position;
+  constexpr double k_smallest_square = 1e-4;  // 1 cm: a sample within the lamp
+  const double square = std::max(glm::dot(to_place, to_place), k_smallest_square);
+  const double share = square / (light.range_m * light.range_m);
+  return std::max(0.0, 1.0 - share * share) / square;
+}
+
+}  // namespace
+
+double ShadingCounts::overshade() const {
+  if (needed == 0) return std::numeric_limits<double>::quiet_NaN();
+  return static_cast<double>(evaluated) / static_cast<double>(needed);
+}
+
+std::vector<grid::Sample> volume_samples(const view::Frame& frame, double far_m, int count, std::uint64_t seed) {
+  SplitMix64 random(seed + static_cast<std::uint64_t>(frame.index) * 0x9e3779b97f4a7c15u);
+  // Perspective: uniform in log depth, as slices are; orthographic: uniform.
+  const double near_m = frame.projection.near_m;
+  const bool logarithmic = near_m > 0.0 && !frame.projection.orthographic;
+  std::vector<grid::Sample> samples;
+  samples.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    const double x = random.between(0.0, frame.viewport.x), y = random.between(0.0, frame.viewport.y);
+    const double share = random.unit();
+    const double depth = logarithmic ? near_m * std::pow(far_m / near_m, share) : near_m + (far_m - near_m) * share;
+    samples.push_back(sample_at(frame, x, y, depth));
+  }
+  return samples;
+}
+
+assign::Lists lights_reaching(const view::Frame& frame, std::span<const grid::Sample> samples) {
+  assign::Lists lists;
+  lists.begin.push_back(0);
+  for (const grid::Sample& sample : samples) {
+    for (std::uint32_t light = 0; light < frame.lights.size(); ++light)
+      if (reaches(frame.lights[light], sample.world)) lists.lights.push_back(light);
+    lists.begin.push_back(lists.pair_count());
+  }
+  return lists;
+}
+
+void add_frame(ShadingCounts& counts, const view::Frame& frame, const grid::Grid& grid,
+               std::span<const grid::Sample> samples, const assign::Lists& reaching, const assign::Lists& reported) {
+  for (std::uint32_t i = 0; i < samples.size(); ++i) {
+    const std::int64_t cell = grid::lookup(grid, samples[i]);
+    const auto list = cell < 0 ? std::span<const std::uint32_t>{} : reported.of(static_cast<std::uint32_t>(cell));
+    counts.evaluated += list.size();
+    for (const std::uint32_t light : reaching.of(i)) {
+      const double carried = irradiance(frame.lights[light], samples[i].world);
+      ++counts.needed;
+      counts.total_sum += carried;
+      if (std::binary_search(list.begin(), list.end(), light)) continue;
+      ++counts.missed;
+      counts.lost_sum += carried;
+    }
+  }
+  counts.samples += samples.size();
+  counts.lost_irradiance = counts.total_sum > 0.0 ? counts.lost_sum / counts.total_sum : 0.0;
+}
+
+}  // namespace clusterbench::measure

@@ -1,0 +1,150 @@
+#include "scene/camera_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <set>
+
+#include "core/error.h"
+#include "core/text.h"
+
+namespace clusterbench::scene {
+namespace {
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+// Nodes that a camera's or light's place depends on: itself and all above it.
+bool depends_on(const Scene& scene, int node, int mover) {
+  for (; node >= 0; node = scene.nodes[static_cast<std::size_t>(node)].parent)
+    if (node == mover) return true;
+  return false;
+}
+
+std::set<double> keys_of(const Scene& scene, int node) {
+  std::set<double> keys;
+  for (const Channel& channel : scene.channels)
+    if (depends_on(scene, node, channel.node)) keys.insert(channel.times_s.begin(), channel.times_s.end());
+  return keys;
+}
+
+// The keys that move the camera; a camera that stands still sees the lights move.
+std::set<double> keys_seen(const Scene& scene, const Camera* camera) {
+  std::set<double> keys = camera == nullptr ? std::set<double>{} : keys_of(scene, camera->node);
+  if (!keys.empty()) return keys;
+  for (const Light& light : scene.lights) keys.merge(keys_of(scene, light.node));
+  return keys;
+}
+
+struct Moments {
+  std::vector<double> times_s;
+  std::string how;
+};
+
+Moments equal_steps(double from, double to, int count) {
+  Moments moments;
+  for (int i = 0; i < count; ++i) moments.times_s.push_back(count == 1 ? from : from + (to - from) * i / (count - 1));
+  moments.how = std::to_string(count) + " equal steps over " + number(to - from) + " s";
+  return moments;
+}
+
+// Which times a request asks for between the first and the last key.
+Moments moments_of(const std::set<double>& keys, const PathRequest& request) {
+  if (keys.empty()) return {{0.0}, "nothing moves: one frame"};
+  const double from = *keys.begin(), to = *keys.rbegin();
+  if (from == to) return {{from}, "one key: one frame"};
+  if (request.choice == FrameChoice::keys)
+    return {{keys.begin(), keys.end()}, std::to_string(keys.size()) + " keys over " + number(to - from) + " s"};
+  if (request.choice == FrameChoice::count) return equal_steps(from, to, request.count);
+  constexpr double k_most_frames = 1e6;
+  const double steps = std::floor((to - from) * request.rate_hz + 1e-9);
+  if (!(steps < k_most_frames))
+    throw Error("", "frames", "at " + number(request.rate_hz) + " per second are more than a million");
+  Moments moments;
+  for (int i = 0; i <= static_cast<int>(steps); ++i) moments.times_s.push_back(from + i / request.rate_hz);
+  moments.how = number(request.rate_hz) + " per second over " + number(to - from) + " s";
+  return moments;
+}
+
+CameraPath path_of(const Scene& scene, const Camera& camera, const PathRequest& request) {
+  const Moments moments = moments_of(keys_seen(scene, &camera), request);
+  CameraPath path{camera.name, false, (camera.animated ? "animated camera, " : "static camera, ") + moments.how, {}};
+  for (const double time : moments.times_s) path.shots.push_back({time, camera_pose(scene, camera, time), camera.lens});
+  return path;
+}
+
+// The box around the places of all point and spot lights at the start.
+struct Extent {
+  Vec3d lo{std::numeric_limits<double>::infinity()}, hi{-std::numeric_limits<double>::infinity()};
+};
+
+Extent light_places(const Scene& scene) {
+  Extent extent;
+  for (const WorldLight& light : world_lights(scene, 0.0)) {
+    extent.lo = glm::min(extent.lo, light.position);
+    extent.hi = glm::max(extent.hi, light.position);
+  }
+  return extent;
+}
+
+// Looks along `forward` (horizontal, unit), y up.
+CameraPose level_pose(const Vec3d& eye, const Vec3d& forward) {
+  const Vec3d right{-forward.z, 0.0, forward.x};
+  return {eye, glm::transpose(Mat3d(right, Vec3d(0.0, 1.0, 0.0), -forward))};
+}
+
+// A closed walk on an ellipse half as large as the lights' box, at eye height above its floor, looking along the way.
+CameraPath path_around_lights(const Scene& scene, const PathRequest& request) {
+  constexpr double k_eye_height_m = 1.7, k_half_turn = 3.14159265358979323846, k_smallest_half_axis_m = 1.0;
+  const Extent extent = light_places(scene);
+  if (!(extent.lo.x <= extent.hi.x))
+    throw Error(scene.path.string(), "", "has neither a camera nor a point or spot light to look at");
+  const Vec3d middle = 0.5 * (extent.lo + extent.hi), half = 0.25 * (extent.hi - extent.lo);
+  const double a = std::max(half.x, k_smallest_half_axis_m), b = std::max(half.z, k_smallest_half_axis_m);
+  const double height = std::min(extent.lo.y + k_eye_height_m, std::max(extent.hi.y, extent.lo.y));
+  const int count = request.choice == FrameChoice::count ? request.count : 60;
+
+  Lens lens;
+  lens.yfov_rad = k_half_turn / 3.0;
+  lens.far_m = std::numeric_limits<double>::infinity();
+  CameraPath path{"around-lights",
+                  true,
+                  "no camera in the file: a walk of " + std::to_string(count) + " frames around the lights",
+                  {}};
+  for (int i = 0; i < count; ++i) {
+    const double turn = 2.0 * k_half_turn * i / count, time = scene.duration_s * i / count;
+    const Vec3d eye{middle.x + a * std::cos(turn), height, middle.z + b * std::sin(turn)};
+    const Vec3d forward = glm::normalize(Vec3d{-a * std::sin(turn), 0.0, b * std::cos(turn)});
+    path.shots.push_back({time, level_pose(eye, forward), lens});
+  }
+  return path;
+}
+
+const Camera& camera_named(const Scene& scene, const std::string& name) {
+  std::vector<std::string> names;
+  for (const Camera& camera : scene.cameras) {
+    if (camera.name == name) return camera;
+    names.push_back(camera.name);
+  }
+  throw Error(scene.path.string(), "camera",
+              "has no camera '" + name + "'" + did_you_mean(name, names) +
+                  (names.empty() ? "; it has none" : "; it has: " + joined(names)));
+}
+
+}  // namespace
+
+std::vector<CameraPath> camera_paths(const Scene& scene, const PathRequest& request) {
+  if (!request.camera.empty()) return {path_of(scene, camera_named(scene, request.camera), request)};
+  for (const Camera& camera : scene.cameras)
+    if (camera.animated) return {path_of(scene, camera, request)};
+  std::vector<CameraPath> paths;
+  for (const Camera& camera : scene.cameras) paths.push_back(path_of(scene, camera, request));
+  if (paths.empty()) paths.push_back(path_around_lights(scene, request));
+  return paths;
+}
+
+}  // namespace clusterbench::scene
