@@ -1,0 +1,191 @@
+// Tiles x distance shells. The directions in which a ball reaches one shell fill a circular cap around its centre's
+// direction, so a tile's cell is touched iff the cap at its widest distance meets the tile. Along a row of tiles that
+// is one interval of slopes: between the cap's tangents where they touch in the row, else where the row's planes cut
+// the cap.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "assign/assigner.h"
+#include "assign/spot_test.h"
+#include "geom/tangents.h"
+
+namespace clusterbench::assign {
+namespace {
+
+constexpr float k_inf = std::numeric_limits<float>::infinity();
+constexpr geom::SlopeRange k_all{-k_inf, k_inf};
+
+// The cap as a ball around the light's centre that looks the same from the eye. radius +inf: every direction.
+struct Cap {
+  float x, y, depth, radius;
+};
+
+// The distance in the shell, and in reach, at which a ball around a centre at `length` is seen widest: where its
+// tangents touch, else the nearer end.
+double widest_distance(double length, double r, double distance0, double distance1) {
+  const double touch = length > r ? std::sqrt((length - r) * (length + r)) : 0.0;
+  return std::clamp(touch, distance0, distance1);
+}
+
+// By the angle between the centre's direction and the sphere's points at this distance:
+// cos = (d² + L² - r²) / (2 d L), and 1 ∓ cos in the form that does not cancel.
+Cap cap_in_shell(const geom::Ball& ball, double length, double distance) {
+  const double r = ball.radius, twice = 2.0 * distance * length;
+  Cap cap{ball.center.x, ball.center.y, -ball.center.z, k_inf};
+  const double cosine = (distance * distance + (length - r) * (length + r)) / twice;
+  if (!(cosine > 0.0)) return cap;  // 90° and more, the eye in the ball, or an unbounded one
+  const double apart = std::fabs(distance - length);
+  const double squared_sine = (r - apart) * (r + apart) / twice * (1.0 + cosine);
+  // A float holds the planes' cuts below only up to some ulps of the distance to the centre.
+  constexpr double k_roundings = 4.0;
+  const double lost = k_roundings * static_cast<double>(std::numeric_limits<float>::epsilon()) * length;
+  cap.radius = static_cast<float>(length * std::sqrt(std::max(0.0, squared_sine)) + lost);
+  return cap;
+}
+
+// What the plane y = slope * depth cuts out of the cap, as slopes x / depth.
+geom::SlopeRange cut_by_plane(const Cap& cap, float slope) {
+  if (cap.radius == k_inf) return k_all;
+  const double stretch = std::sqrt(1.0 + static_cast<double>(slope) * static_cast<double>(slope));
+  const double away =
+      (static_cast<double>(cap.y) - static_cast<double>(slope) * static_cast<double>(cap.depth)) / stretch;
+  const double along =
+      (static_cast<double>(cap.depth) + static_cast<double>(slope) * static_cast<double>(cap.y)) / stretch;
+  const double squared = (static_cast<double>(cap.radius) - away) * (static_cast<double>(cap.radius) + away);
+  if (squared < 0.0) return {k_inf, -k_inf};
+  const float chord = static_cast<float>(std::sqrt(squared));
+  const geom::SlopeRange cut = geom::slope_range(cap.x, static_cast<float>(along), chord, 0.0f, k_inf);
+  return {static_cast<float>(cut.lo * stretch), static_cast<float>(cut.hi * stretch)};
+}
+
+// The cap's tangent with this slope x / depth, if it touches within the row: a tangent plane through the y axis touches
+// at the centre's y.
+bool touches_in_row(const Cap& cap, float slope, float row_lo, float row_hi) {
+  if (!std::isfinite(slope)) return false;
+  const double x = cap.x, depth = cap.depth, r = cap.radius, s = slope;
+  const double touch_depth = std::sqrt(std::max(0.0, x * x + depth * depth - r * r) / (1.0 + s * s));
+  // One slope too many only widens the interval.
+  constexpr double k_margin = 1e-6;
+  const double margin = k_margin * (touch_depth + std::fabs(static_cast<double>(cap.y)));
+  return cap.y >= row_lo * touch_depth - margin && cap.y <= row_hi * touch_depth + margin;
+}
+
+geom::SlopeRange hull(const geom::SlopeRange& a, const geom::SlopeRange& b) {
+  return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)};
+}
+
+// The cap's slopes x / depth in the row between two planes.
+geom::SlopeRange slopes_in_row(const Cap& cap, const geom::SlopeRange& tangents, float row_lo, float row_hi) {
+  geom::SlopeRange slopes = hull(cut_by_plane(cap, row_lo), cut_by_plane(cap, row_hi));
+  for (const float tangent : {tangents.lo, tangents.hi})
+    if (touches_in_row(cap, tangent, row_lo, row_hi)) slopes = hull(slopes, {tangent, tangent});
+  return slopes;
+}
+
+struct IndexRange {
+  int first, last;
+};
+
+// Tiles of ascending planes that a range of slopes meets.
+IndexRange columns_met(const std::vector<float>& planes, const geom::SlopeRange& slopes) {
+  const auto first = std::lower_bound(planes.begin() + 1, planes.end(), slopes.lo);
+  const auto beyond = std::upper_bound(planes.begin(), planes.end() - 1, slopes.hi);
+  return {static_cast<int>(first - planes.begin()) - 1, static_cast<int>(beyond - planes.begin()) - 1};
+}
+
+class Distance final : public Assigner {
+ public:
+  explicit Distance(const Params& params) : spot_(spot_test_from(params)) {}
+
+  void build(const grid::Grid& grid) override {
+    grid_ = &grid;
+    cell_balls_.clear();
+  }
+
+  void assign(const view::LightArrays& lights, Lists& out) override {
+    tests_ = 0;
+    if (lights.spots > 0 && spot_ != SpotTest::ball) cell_balls_.ensure(*grid_);
+    pairs_.start(grid_->cell_count());
+    for (std::uint32_t light = 0; light < lights.size(); ++light) add_light(lights, light);
+    pairs_.finish(out);
+  }
+
+  std::uint64_t tests_done() const override { return tests_; }
+  std::size_t scratch_bytes() const override { return pairs_.capacity_bytes() + cell_balls_.capacity_bytes(); }
+
+ private:
+  void add_light(const view::LightArrays& lights, std::uint32_t light) {
+    if (!(lights.padded_radius[light] > 0.0f)) return;
+    const bool test_cone = lights.is_spot(light) && spot_ != SpotTest::ball;
+    const geom::SphericalCone cone = test_cone ? lights.cone(light) : geom::SphericalCone{};
+    add_ball(ball_for(lights, light, spot_), light, test_cone ? &cone : nullptr);
+  }
+
+  void add_ball(const geom::Ball& ball, std::uint32_t light, const geom::SphericalCone* cone) {
+    const grid::Slices& shells = grid_->screen().slices;
+    const double length = glm::length(Vec3d(ball.center)), r = ball.radius;
+    for (int shell = 0; shell < shells.count(); ++shell) {
+      const double distance0 = shells.boundaries[static_cast<std::size_t>(shell)];
+      const double distance1 = shells.boundaries[static_cast<std::size_t>(shell) + 1];
+      if (length - r > distance1 || length + r < distance0) continue;
+      const Cap cap = cap_in_shell(ball, length, widest_distance(length, r, distance0, distance1));
+      add_cap(cap, shell, light, cone);
+    }
+  }
+
+  void add_cap(const Cap& cap, int shell, std::uint32_t light, const geom::SphericalCone* cone) {
+    const grid::Tiles& tiles = grid_->screen().tiles;
+    const geom::SlopeRange across = geom::slope_range(cap.x, cap.depth, cap.radius, 0.0f, k_inf);
+    const geom::SlopeRange upright = geom::slope_range(cap.y, cap.depth, cap.radius, 0.0f, k_inf);
+    for (int row = 0; row < tiles.count.y; ++row) {
+      if (tiles.y_min(row) > upright.hi || tiles.y_max(row) < upright.lo) continue;
+      ++tests_;
+      const geom::SlopeRange slopes = slopes_in_row(cap, across, tiles.y_min(row), tiles.y_max(row));
+      if (slopes.empty()) continue;
+      const IndexRange columns = columns_met(tiles.x, slopes);
+      if (columns.first <= columns.last) add_row(columns, row, shell, light, cone);
+    }
+  }
+
+  void add_row(const IndexRange& columns, int row, int shell, std::uint32_t light, const geom::SphericalCone* cone) {
+    const Vec2i count = grid_->screen().tiles.count;
+    const auto first = static_cast<std::uint32_t>((shell * count.y + row) * count.x + columns.first);
+    const auto cells = static_cast<std::uint32_t>(columns.last - columns.first + 1);
+    if (cone == nullptr) {
+      pairs_.add_row(first, cells, light);
+      return;
+    }
+    tests_ += cells;
+    for (std::uint32_t cell = first; cell < first + cells; ++cell)
+      if (geom::cone_touches_ball(*cone, cell_balls_[cell])) pairs_.add(cell, light);
+  }
+
+  SpotTest spot_;
+  const grid::Grid* grid_ = nullptr;
+  CellBalls cell_balls_;
+  PairBuffer pairs_;
+  std::uint64_t tests_ = 0;
+};
+
+std::unique_ptr<Assigner> make(const Params& params) {
+  return std::make_unique<Distance>(params);
+}
+
+}  // namespace
+
+extern const AssignerRow distance_row;
+const AssignerRow distance_row{
+    .name = "distance",
+    .summary = "the circular cap that a ball covers in each distance shell, row by row of tiles",
+    .source = "this project: shells of distance with the closed form of the cap",
+    .kinds = {grid::Kind::distance},
+    .orthographic = false,
+    .params = {spot_param()},
+    .make = make,
+};
+
+}  // namespace clusterbench::assign

@@ -1,0 +1,236 @@
+// Sphere refinement of a frustum grid. For each slice in a light's cell box the ball is replaced by a smaller one that
+// holds its part beyond the slice's nearer plane; for each row that one is replaced again at the row's nearer plane;
+// the columns that the rest reaches are the row's interval.
+//
+// Beyond a plane at distance g from its centre, a ball of radius r lies within the ball around the centre's foot on the
+// plane with radius sqrt(r² - g²). The sides of the row's planes are taken with the centre where the slice's plane has
+// moved it: with the original centre's row a projection goes to the wrong plane and loses lights.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "assign/assigner.h"
+#include "assign/cell_box.h"
+#include "assign/spot_test.h"
+
+namespace clusterbench::assign {
+namespace {
+
+constexpr float k_inf = std::numeric_limits<float>::infinity();
+
+// A tile plane through the eye (perspective) or along the view axis (orthographic); positive to the right or above.
+// Places are given as (x or y, depth).
+struct TilePlane {
+  float across, along, offset;  // unit normal (across, along)
+
+  float distance(float place, float depth) const { return across * place + along * depth + offset; }
+};
+
+TilePlane tile_plane(float boundary, bool orthographic) {
+  if (orthographic) return {1.0f, 0.0f, -boundary};
+  const double length = std::sqrt(1.0 + static_cast<double>(boundary) * static_cast<double>(boundary));
+  return {static_cast<float>(1.0 / length), static_cast<float>(-static_cast<double>(boundary) / length), 0.0f};
+}
+
+std::vector<TilePlane> tile_planes(const std::vector<float>& boundaries, bool orthographic) {
+  std::vector<TilePlane> planes;
+  for (const float boundary : boundaries) planes.push_back(tile_plane(boundary, orthographic));
+  return planes;
+}
+
+// A ball in view space with its squared radius, which shrinks by what is cut off.
+struct Remainder {
+  float x, y, depth, squared_radius;
+
+  bool empty() const { return squared_radius < 0.0f; }
+};
+
+Remainder cut_to_slice(Remainder ball, float depth0, float depth1) {
+  const float nearer = std::clamp(ball.depth, depth0, depth1);
+  const float gap = nearer - ball.depth;
+  return {ball.x, ball.y, nearer, ball.squared_radius - gap * gap};
+}
+
+Remainder cut_to_row(Remainder ball, const TilePlane& top, const TilePlane& bottom) {
+  const float above = top.distance(ball.y, ball.depth), below = -bottom.distance(ball.y, ball.depth);
+  if (above > 0.0f)
+    return {ball.x, ball.y - above * top.across, ball.depth - above * top.along, ball.squared_radius - above * above};
+  if (below > 0.0f)
+    return {ball.x, ball.y + below * bottom.across, ball.depth + below * bottom.along,
+            ball.squared_radius - below * below};
+  return ball;
+}
+
+bool reaches_column(const Remainder& ball, const TilePlane& left, const TilePlane& right) {
+  const float gap = std::max(-left.distance(ball.x, ball.depth), right.distance(ball.x, ball.depth));
+  return gap <= 0.0f || gap * gap <= ball.squared_radius;
+}
+
+// How far a place can be from where single precision has it, and what sums of its coordinates lose.
+float slack_of(const geom::SphericalCone& cone) {
+  constexpr float k_roundings = 8.0f;
+  const float size = std::fabs(cone.apex.x) + std::fabs(cone.apex.y) + std::fabs(cone.apex.z) + cone.range;
+  return k_roundings * std::numeric_limits<float>::epsilon() * size;
+}
+
+// Largest value of n·p over the cone, n of unit length. The cone's farthest point along n is the ball's if n lies
+// within the half-angle of the axis, else the rim's, or the apex where the whole cone leans back.
+float support(const geom::SphericalCone& cone, const Vec3f& n) {
+  if (!std::isfinite(cone.range)) return k_inf;
+  const float along_axis = std::clamp(glm::dot(n, cone.axis), -1.0f, 1.0f);
+  const float beside_axis = std::sqrt((1.0f - along_axis) * (1.0f + along_axis));
+  const float steepest =
+      along_axis >= cone.cos_angle ? 1.0f : along_axis * cone.cos_angle + beside_axis * cone.sin_angle;
+  return glm::dot(n, cone.apex) + cone.range * std::max(0.0f, steepest) + slack_of(cone);
+}
+
+// Narrows a range of cells, first..last, from both sides by their boundaries: the end cells go while the cone lies
+// wholly on the other side. side(i) is the unit normal of boundary i towards higher indices, and the boundary's offset.
+struct Side {
+  Vec3f normal;
+  float offset;
+};
+
+template <class SideAt>
+void narrow(int& first, int& last, const geom::SphericalCone& cone, SideAt&& side) {
+  const auto wholly_beyond = [&](const Side& s) { return s.offset - support(cone, -s.normal) > 0.0f; };
+  const auto wholly_before = [&](const Side& s) { return s.offset + support(cone, s.normal) < 0.0f; };
+  while (first <= last && wholly_beyond(side(first + 1))) ++first;
+  while (first <= last && wholly_before(side(last))) --last;
+}
+
+class SphereRefinement final : public Assigner {
+ public:
+  explicit SphereRefinement(const Params& params)
+      : spot_(spot_test_from(params)), narrowing_(params.text("spot") == "narrowing") {}
+
+  void build(const grid::Grid& grid) override {
+    grid_ = &grid;
+    const grid::Tiles& tiles = grid.screen().tiles;
+    columns_ = tile_planes(tiles.x, tiles.orthographic);
+    rows_ = tile_planes(tiles.y, tiles.orthographic);
+    cell_balls_.clear();
+  }
+
+  void assign(const view::LightArrays& lights, Lists& out) override {
+    tests_ = 0;
+    if (lights.spots > 0 && spot_ != SpotTest::ball) cell_balls_.ensure(*grid_);
+    pairs_.start(grid_->cell_count());
+    for (std::uint32_t light = 0; light < lights.size(); ++light) add_light(lights, light);
+    pairs_.finish(out);
+  }
+
+  std::uint64_t tests_done() const override { return tests_; }
+  std::size_t scratch_bytes() const override {
+    return pairs_.capacity_bytes() + cell_balls_.capacity_bytes() +
+           (columns_.capacity() + rows_.capacity()) * sizeof(TilePlane);
+  }
+
+ private:
+  void add_light(const view::LightArrays& lights, std::uint32_t light) {
+    if (!(lights.padded_radius[light] > 0.0f)) return;
+    const geom::Ball ball = ball_for(lights, light, spot_);
+    CellBox box = cell_box(*grid_, ball);
+    const bool test_cone = lights.is_spot(light) && spot_ != SpotTest::ball;
+    const geom::SphericalCone cone = test_cone ? lights.cone(light) : geom::SphericalCone{};
+    if (test_cone && narrowing_ && !box.empty()) narrow_from_six_sides(box, cone);
+    if (!box.empty()) add_ball(box, ball, light, test_cone ? &cone : nullptr);
+  }
+
+  void add_ball(const CellBox& box, const geom::Ball& ball, std::uint32_t light, const geom::SphericalCone* cone) {
+    const std::vector<float>& depths = grid_->screen().slices.boundaries;
+    // What the squares and differences below lose beside the padding of the radius.
+    constexpr float k_slack = 8.0f * std::numeric_limits<float>::epsilon();
+    const float squared_radius = ball.radius * ball.radius * (1.0f + k_slack);
+    const Remainder whole{ball.center.x, ball.center.y, -ball.center.z, squared_radius};
+    for (int slice = box.first.z; slice <= box.last.z; ++slice) {
+      const auto z = static_cast<std::size_t>(slice);
+      const Remainder in_slice = cut_to_slice(whole, depths[z], depths[z + 1]);
+      ++tests_;
+      if (in_slice.empty()) continue;
+      for (int row = box.first.y; row <= box.last.y; ++row) {
+        const auto y = static_cast<std::size_t>(row);
+        const Remainder in_row = cut_to_row(in_slice, rows_[y], rows_[y + 1]);
+        ++tests_;
+        if (!in_row.empty()) add_columns(box, in_row, slice, row, light, cone);
+      }
+    }
+  }
+  void add_columns(const CellBox& box, const Remainder& ball, int slice, int row, std::uint32_t light,
+                   const geom::SphericalCone* cone) {
+    const auto reached = [&](int column) {
+      ++tests_;
+      const auto x = static_cast<std::size_t>(column);
+      return reaches_column(ball, columns_[x], columns_[x + 1]);
+    };
+    int first = box.first.x, last = box.last.x;
+    while (first <= last && !reached(first)) ++first;
+    while (last > first && !reached(last)) --last;
+    if (first > last) return;
+    const Vec2i count = grid_->screen().tiles.count;
+    const auto row_start = static_cast<std::uint32_t>((slice * count.y + row) * count.x);
+    emit(row_start + static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last - first + 1), light, cone);
+  }
+
+  void emit(std::uint32_t first_cell, std::uint32_t cells, std::uint32_t light, const geom::SphericalCone* cone) {
+    if (cone == nullptr) {
+      pairs_.add_row(first_cell, cells, light);
+      return;
+    }
+    tests_ += cells;
+    for (std::uint32_t cell = first_cell; cell < first_cell + cells; ++cell)
+      if (geom::cone_touches_ball(*cone, cell_balls_[cell])) pairs_.add(cell, light);
+  }
+
+  // The box's cells from left, right, top, bottom, near and far.
+  void narrow_from_six_sides(CellBox& box, const geom::SphericalCone& cone) const {
+    const std::vector<float>& depths = grid_->screen().slices.boundaries;
+    narrow(box.first.z, box.last.z, cone, [&](int i) {
+      return Side{{0.0f, 0.0f, -1.0f}, -depths[static_cast<std::size_t>(i)]};
+    });
+    narrow(box.first.x, box.last.x, cone, [&](int i) {
+      const TilePlane& plane = columns_[static_cast<std::size_t>(i)];
+      return Side{{plane.across, 0.0f, -plane.along}, plane.offset};
+    });
+    narrow(box.first.y, box.last.y, cone, [&](int i) {
+      const TilePlane& plane = rows_[static_cast<std::size_t>(i)];
+      return Side{{0.0f, -plane.across, plane.along}, -plane.offset};
+    });
+  }
+
+  SpotTest spot_;  // with narrowing: both
+  bool narrowing_;
+  const grid::Grid* grid_ = nullptr;
+  std::vector<TilePlane> columns_, rows_;
+  CellBalls cell_balls_;
+  PairBuffer pairs_;
+  std::uint64_t tests_ = 0;
+};
+
+std::unique_ptr<Assigner> make(const Params& params) {
+  return std::make_unique<SphereRefinement>(params);
+}
+
+}  // namespace
+
+extern const AssignerRow sphere_refinement_row;
+const AssignerRow sphere_refinement_row{
+    .name = "sphere-refinement",
+    .summary = "a light's ball cut down at the nearer plane of each slice and each row, then against the columns",
+    .source = "Persson 2015, Practical Clustered Shading; Filament's froxels",
+    .kinds = {grid::Kind::frustum},
+    .params = {{.name = "spot",
+                .summary =
+                    "spots: bounding ball of the cone; the range's ball and the cone against cells' bounding spheres; "
+                    "both; or both after narrowing the cell box by planes from six sides",
+                .standard = std::string("narrowing"),
+                .unit = "",
+                .choices = {"ball", "cone-sphere", "both", "narrowing"}}},
+    .make = make,
+};
+
+}  // namespace clusterbench::assign
