@@ -75,7 +75,7 @@ std::vector<std::string> texts_of(const Json& values) {
 std::string list_text(const Json& root, const Json& schema) {
   const std::string items = schema.contains("items") ? describe_allowed(root, schema["items"]) : "values";
   const bool fixed = schema.contains("maxItems") && schema["maxItems"] == schema.value("minItems", Json());
-  return (fixed ? "a list of " + schema["maxItems"].dump() + ": " : "a list, each ") + items;
+  return (fixed ? "a list of " + schema["maxItems"].dump() + ", each " : "a list, each ") + items;
 }
 
 std::string type_text(const Json& root, const Json& schema, const std::string& type) {
@@ -145,6 +145,7 @@ class Reader {
     const Json& schema = resolved(root_, unresolved);
     if (const Json* choices = alternatives(schema))
       return std::any_of(choices->begin(), choices->end(), [&](const Json& choice) { return fits(choice, value); });
+    if (schema.contains("const")) return value == schema["const"];
     const std::vector<std::string> types = types_of(schema);
     const bool typed = types.empty() || std::any_of(types.begin(), types.end(), [&](const std::string& type) {
                          return has_type(type == "integer" ? "number" : type, value);
@@ -157,9 +158,19 @@ class Reader {
     std::vector<const Json*> fitting;
     for (const Json& choice : choices)
       if (fits(choice, value)) fitting.push_back(&resolved(root_, choice));
-    if (fitting.empty()) fail(schema, value, pointer);
+    if (fitting.empty()) return read(nearest_choice(schema, choices, value, pointer), value, pointer);
     if (!value.is_object() || fitting.size() == 1) return read(*fitting.front(), value, pointer);
     return read_object(*variant_of(fitting, value, pointer), &choices, value, pointer);
+  }
+
+  // A list whose items fit nowhere is best explained by the first choice that is a list.
+  const Json& nearest_choice(const Json& schema, const Json& choices, const Json& value,
+                             const std::string& pointer) const {
+    for (const Json& choice : choices) {
+      const Json& one = resolved(root_, choice);
+      if (value.is_array() && one.value("type", Json()) == "array") return one;
+    }
+    fail(schema, value, pointer);
   }
 
   // The property whose constant tells a variant from the others.

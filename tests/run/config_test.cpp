@@ -1,0 +1,245 @@
+#include "run/config.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+
+#include "assign/storage.h"
+#include "core/error.h"
+#include "core/text.h"
+#include "run/schema_check.h"
+
+namespace clusterbench::run {
+namespace {
+
+std::string message_of(const std::string& text) {
+  try {
+    parse_config(text, "configs/c.json");
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+Config parsed(const std::string& rest) {
+  return parse_config(R"({"scenes": ["a.glb"])" + rest + "}", "configs/c.json");
+}
+
+std::size_t grids_of(const std::string& grid) {
+  return parsed(R"(, "grids": [)" + grid + "]").grids.size();
+}
+
+struct Broken {
+  const char* text;
+  const char* message;         // without the file
+  bool schema_refuses = true;  // false: beyond what a JSON Schema can say
+};
+
+const Broken k_broken[] = {
+    {"[1]", "1:1 /: found a list of 1, allowed: an object"},
+    {"{}", "1:1 /: lacks the key 'scenes'"},
+    {R"({"scenes": []})", "1:12 /scenes: found an empty list, allowed: a list, each text or an object"},
+    {R"({"scenes": [""]})", "1:13 /scenes/0: found an empty text, allowed: a text that is not empty"},
+    {R"({"scenes": [7]})", "1:13 /scenes/0: found 7, allowed: text or an object"},
+    {R"({"scenes": [{"frames": 3}]})", "1:13 /scenes/0: a scene takes exactly one of path, paths"},
+    {R"({"scenes": [{"path": "a.glb", "frames": "all"}]})",
+     "1:41 /scenes/0/frames: found 'all', allowed: an integer from 1 to 1000000 or 'keys' or an object"},
+    {R"({"scenes": [{"path": "a.glb", "frames": {"rate": 0}}]})",
+     "1:50 /scenes/0/frames/rate: found 0, allowed: a number above 0, at most 10000"},
+    {R"({"scenes": [{"path": "a.glb", "range_rule": {"cutof_lux": 1}}]})",
+     "1:46 /scenes/0/range_rule/cutof_lux: unknown key 'cutof_lux' (did you mean 'cutoff_lux'?), allowed: cutoff_lux, "
+     "max_range"},
+    {"{\"scenes\": [\"a.glb\"],\n  // comment\n  \"thread\": 1}",
+     "3:3 /thread: unknown key 'thread' (did you mean 'threads'?), allowed: $schema, accuracy, allocation, assigners, "
+     "grids, name, scenes, seed, shading, storages, threads, timing, viewport, viewports"},
+    {R"({"scenes": ["a.glb"], "threads": 0})", "1:34 /threads: found 0, allowed: an integer from 1 to 1024"},
+    {R"({"scenes": ["a.glb"], "threads": "2"})", "1:34 /threads: found '2', allowed: an integer from 1 to 1024"},
+    {R"({"scenes": ["a.glb"], "seed": 1.5})", "1:31 /seed: found 1.5, allowed: an integer from 0 to 9007199254740991"},
+    {R"({"scenes": ["a.glb"], "accuracy": {"check": 1}})", "1:45 /accuracy/check: found 1, allowed: true or false"},
+    {R"({"scenes": ["a.glb"], "allocation": {"margin": 0.5}})",
+     "1:48 /allocation/margin: found 0.5, allowed: a number from 1 to 1000"},
+    {R"({"scenes": ["a.glb"], "viewport": [0, 5]})", "1:36 /viewport/0: found 0, allowed: an integer from 1 to 32768"},
+    {R"({"scenes": ["a.glb"], "viewport": [1, 2], "viewports": [[1, 2]]})",
+     "1:23 /viewport: viewport and viewports exclude each other"},
+    {R"({"scenes": ["a.glb"], "storages": ["paked"]})",
+     "1:36 /storages/0: found 'paked' (did you mean 'packed'?), allowed: STORAGES"},
+    {R"({"scenes": ["a.glb"], "assigners": ["aaab"]})",
+     "1:37 /assigners/0: found 'aaab' (did you mean 'aabb'?), allowed: ASSIGNERS"},
+    {R"({"scenes": ["a.glb"], "assigners": [{}]})", "1:37 /assigners/0: lacks the key 'name', allowed: ASSIGNERS"},
+    {R"({"scenes": ["a.glb"], "assigners": ["aabb", "aabb"]})",
+     "1:45 /assigners/1: 'aabb' stands here twice with the same parameters", false},
+    {R"({"scenes": ["a.glb"], "grids": [5]})", "1:33 /grids/0: found 5, allowed: an object"},
+    {R"({"scenes": ["a.glb"], "grids": [{"kind": "frustrum"}]})",
+     "1:42 /grids/0/kind: found 'frustrum' (did you mean 'frustum'?), allowed: frustum, distance, cascades, world"},
+    {R"({"scenes": ["a.glb"], "grids": [{"kind": "frustum", "levels": 3}]})",
+     "1:53 /grids/0/levels: 'levels' belongs to cascades, not to frustum, allowed: kind, slices, tiles"},
+    {R"({"scenes": ["a.glb"], "grids": [{"kind": "world", "cells": [1, 2]}]})",
+     "1:60 /grids/0/cells: found a list of 2, allowed: a list of 3, each an integer from 1 to 4096"},
+    {R"({"scenes": ["a.glb"], "grids": [{"kind": "cascades", "cells": [6, 4, 4]}]})",
+     "1:63 /grids/0/cells: found [6,4,4], allowed: multiples of 4, 4 and 2", false},
+    {R"({"scenes": ["a.glb"], "grids": [{"tiles": {"pixels": ["a", "b"]}}]})",
+     "1:55 /grids/0/tiles/pixels/0: found 'a', allowed: an integer from 1 to 32768"},
+    {R"({"scenes": ["a.glb"], "grids": [{"tiles": {"pixels": [64, 64], "count": [1, 1]}}]})",
+     "1:43 /grids/0/tiles: found 2 keys, allowed: exactly one of count, pixels"},
+    {R"({"scenes": ["a.glb"], "grids": [{"slices": {"scheme": "lineer"}}]})",
+     "1:55 /grids/0/slices/scheme: found 'lineer' (did you mean 'linear'?), allowed: linear, exponential, "
+     "exponential-first, power, list, fit"},
+    {R"({"scenes": ["a.glb"], "grids": [{"slices": {"scheme": "linear", "lambda": 0.5}}]})",
+     "1:65 /grids/0/slices/lambda: 'lambda' is used by scheme power, not by linear"},
+    {R"({"scenes": ["a.glb"], "grids": [{"slices": {"boundaries": [1, 2]}}]})",
+     "1:45 /grids/0/slices/boundaries: 'boundaries' is used by scheme list, not by exponential-first"},
+    {R"({"scenes": ["a.glb"], "grids": [{"slices": {"near": 10, "far": 5}}]})",
+     "1:64 /grids/0/slices/far: found 5, allowed: a number above near, 10", false},
+    {R"({"scenes": ["a.glb"], "grids": [{"slices": {"scheme": "list", "boundaries": [1, 3, 2]}}]})",
+     "1:84 /grids/0/slices/boundaries/2: found 2 after 3, allowed: ascending numbers", false},
+    {R"({"scenes": ["${CLUSTERBENCH_NO_SUCH}/a.glb"]})",
+     "1:13 /scenes/0: the environment variable 'CLUSTERBENCH_NO_SUCH' is not set; set it to use "
+     "'${CLUSTERBENCH_NO_SUCH}/a.glb'",
+     false},
+};
+
+std::string with_names(std::string message) {
+  const std::pair<std::string, std::vector<std::string>> lists[] = {{"ASSIGNERS", assign::assigner_names()},
+                                                                    {"STORAGES", assign::storage_names()}};
+  for (const auto& [word, names] : lists)
+    if (const std::size_t at = message.find(word); at != std::string::npos)
+      message.replace(at, word.size(), joined(names));
+  return message;
+}
+
+TEST(Config, a_fault_is_named_with_its_place_what_was_found_and_what_is_allowed) {
+  for (const Broken& broken : k_broken)
+    EXPECT_EQ(message_of(broken.text), "configs/c.json: " + with_names(broken.message)) << broken.text;
+}
+
+TEST(Config, the_schema_alone_refuses_what_the_reader_refuses) {
+  const nlohmann::json schema = config_schema();
+  for (const Broken& broken : k_broken) {
+    const nlohmann::json document = nlohmann::json::parse(broken.text, nullptr, true, true);
+    EXPECT_EQ(schema_violations(schema, document).empty(), !broken.schema_refuses) << broken.text;
+  }
+}
+
+TEST(Config, a_scene_alone_is_enough) {
+  const Config config = parsed("");
+  EXPECT_EQ(config.name, "c");
+  ASSERT_EQ(config.scenes.size(), 1U);
+  EXPECT_EQ(config.scenes[0].path, std::filesystem::path("configs/a.glb"));
+  EXPECT_EQ(config.viewports, (std::vector<Vec2i>{{1920, 1080}}));
+  EXPECT_EQ(config.assigners.size(), assign::assigner_rows().size());
+  EXPECT_EQ(config.storages.size(), 1U);
+  EXPECT_EQ(config.grids.size(), 5U);
+}
+
+TEST(Config, defaults_of_the_schema_agree_with_the_defaults_of_the_code) {
+  const Config config = parsed(R"(, "grids": [{}, {"kind": "cascades"}, {"kind": "world"}])");
+  const Config plain;
+  EXPECT_EQ(config.threads, plain.threads);
+  EXPECT_EQ(config.seed, plain.seed);
+  EXPECT_EQ(config.check_accuracy, plain.check_accuracy);
+  EXPECT_EQ(config.shading_samples, plain.shading_samples);
+  EXPECT_EQ(config.timing.measure, plain.timing.measure);
+  EXPECT_EQ(config.timing.rounds, plain.timing.rounds);
+  EXPECT_EQ(config.timing.min_time_ms, plain.timing.min_time_ms);
+  EXPECT_EQ(config.timing.frames, plain.timing.frames);
+  EXPECT_EQ(config.allocation.margin, plain.allocation.margin);
+  EXPECT_EQ(config.allocation.warn_at, plain.allocation.warn_at);
+  EXPECT_EQ(config.scenes[0].range_rule.cutoff_lux, scene::RangeRule{}.cutoff_lux);
+  EXPECT_EQ(config.scenes[0].range_rule.max_range_m, scene::RangeRule{}.max_range_m);
+  EXPECT_EQ(config.scenes[0].camera.count, scene::PathRequest{}.count);
+  const grid::GridSpec standard;
+  EXPECT_EQ(config.grids[0].tiles.pixels, standard.tiles.pixels);
+  EXPECT_EQ(config.grids[0].slices.scheme, standard.slices.scheme);
+  EXPECT_EQ(config.grids[0].slices.count, standard.slices.count);
+  EXPECT_EQ(config.grids[0].slices.first_m, standard.slices.first_m);
+  EXPECT_EQ(config.grids[0].slices.near_m, standard.slices.near_m);
+  EXPECT_EQ(config.grids[0].slices.far_m, standard.slices.far_m);
+  EXPECT_EQ(config.grids[1].levels, standard.levels);
+  EXPECT_EQ(config.grids[1].finest_m, standard.finest_m);
+  EXPECT_EQ(config.grids[2].cells, standard.cells);
+  EXPECT_EQ(config.grids[2].has_bounds, standard.has_bounds);
+}
+
+TEST(Config, axes_expand_into_their_product) {
+  EXPECT_EQ(grids_of(R"({"tiles": {"pixels": [[32, 32], [64, 64]]},
+                         "slices": {"scheme": ["linear", "exponential"], "count": [8, 16, 32]}})"),
+            12U);
+  EXPECT_EQ(grids_of(R"({"kind": "cascades", "levels": [4, 5], "cells": [[16, 16, 16], [32, 32, 32]]})"), 4U);
+  EXPECT_EQ(grids_of(R"({"slices": {"scheme": "list", "boundaries": [[0.1, 1, 2], [0.1, 5]]}})"), 2U);
+}
+
+TEST(Config, an_axis_of_one_scheme_does_not_multiply_the_others) {
+  EXPECT_EQ(grids_of(R"({"slices": {"scheme": ["linear", "exponential-first"], "first": [2, 5]}})"), 3U);
+}
+
+TEST(Config, every_choice_of_a_parameter_can_be_an_axis) {
+  for (const assign::AssignerRow* row : assign::assigner_rows()) {
+    for (const assign::ParamSpec& param : row->params) {
+      if (param.choices.empty()) continue;
+      const nlohmann::json method{{"name", row->name}, {param.name, param.choices}};
+      EXPECT_EQ(parsed(R"(, "assigners": [)" + method.dump() + "]").assigners.size(), param.choices.size());
+    }
+  }
+}
+
+TEST(Config, a_path_is_relative_to_the_file_and_may_name_an_environment_variable) {
+  setenv("CLUSTERBENCH_TEST_FOLDER", "/maps", 1);
+  const Config config = parse_config(
+      R"({"scenes": ["../s/a.glb", {"paths": ["b.glb", "${CLUSTERBENCH_TEST_FOLDER}/c.glb"], "frames": "keys"}]})",
+      "configs/c.json");
+  ASSERT_EQ(config.scenes.size(), 3U);
+  EXPECT_EQ(config.scenes[0].path, std::filesystem::path("s/a.glb"));
+  EXPECT_EQ(config.scenes[1].path, std::filesystem::path("configs/b.glb"));
+  EXPECT_EQ(config.scenes[2].path, std::filesystem::path("/maps/c.glb"));
+  EXPECT_EQ(config.scenes[2].camera.choice, scene::FrameChoice::keys);
+}
+
+TEST(Config, the_resolved_configuration_is_a_configuration_that_means_the_same) {
+  for (const char* rest :
+       {"", R"(, "viewport": [640, 480], "grids": [{"slices": {"scheme": ["linear", "power"], "near": 1}}])",
+        R"(, "grids": [{"kind": "world", "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]}}], "assigners": ["aabb"])"}) {
+    const Config config = parsed(rest);
+    const Config again = parse_config(config.resolved.dump(), config.file);
+    EXPECT_EQ(again.resolved, config.resolved);
+    ASSERT_EQ(again.grids.size(), config.grids.size());
+    for (std::size_t i = 0; i < config.grids.size(); ++i) EXPECT_EQ(again.grids[i].name(), config.grids[i].name());
+    EXPECT_EQ(again.scenes[0].path, config.scenes[0].path);
+    EXPECT_TRUE(schema_violations(config_schema(), config.resolved).empty());
+  }
+}
+
+TEST(Config, the_committed_configurations_are_valid_for_reader_and_schema) {
+  setenv("CLUSTERBENCH_SCENE_LIBRARY", "library", 0);
+  for (const char* name : {"quick", "sweep", "library", "trends"}) {
+    const std::string path = std::string(CLUSTERBENCH_SOURCE_DIR) + "/configs/" + name + ".json";
+    const Config config = load_config(path);
+    EXPECT_EQ(config.name, name);
+    EXPECT_EQ(schema_violations(config_schema(), config.resolved), std::vector<std::string>{}) << path;
+    std::ifstream in(path);
+    const nlohmann::json document = nlohmann::json::parse(in, nullptr, true, true);
+    EXPECT_EQ(schema_violations(config_schema(), document), std::vector<std::string>{}) << path;
+  }
+}
+
+TEST(Config, scenes_of_the_command_line_get_the_default_sweep) {
+  const Config config = default_config({"maps/level.glb"});
+  EXPECT_EQ(config.name, "level");
+  EXPECT_EQ(config.scenes[0].path, std::filesystem::path("maps/level.glb"));
+  EXPECT_EQ(config.scenes[0].camera.count, 30);
+  EXPECT_EQ(config.timing.rounds, 15);
+  EXPECT_EQ(config.grids.size(), 5U);
+}
+
+TEST(Config, a_label_names_only_parameters_that_differ_from_the_default) {
+  EXPECT_EQ(parsed(R"(, "storages": ["packed"])").storages[0].label(), "packed");
+  const assign::StorageRow& fixed = *assign::find_storage("fixed");
+  ASSERT_FALSE(fixed.params.empty());
+  const nlohmann::json storage{{"name", "fixed"}, {fixed.params[0].name, 7}};
+  EXPECT_EQ(parsed(R"(, "storages": [)" + storage.dump() + "]").storages[0].label(),
+            "fixed(" + fixed.params[0].name + "=7.0)");
+}
+
+}  // namespace
+}  // namespace clusterbench::run
