@@ -1,0 +1,124 @@
+#include "run/sweep.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include "core/error.h"
+
+namespace clusterbench::run {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* k_perspective =
+    R"({"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1, "zfar": 100}})";
+constexpr const char* k_orthographic =
+    R"({"type": "orthographic", "orthographic": {"xmag": 10, "ymag": 10, "znear": 0, "zfar": 100}})";
+
+class Sweep : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder_ / "other"); }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void write_scene(const std::string& name, const char* camera = k_perspective) const {
+    std::ofstream(folder_ / name) << R"({"asset": {"version": "2.0"}, "extensionsUsed": ["KHR_lights_punctual"],
+             "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "range": 5}]}},
+             "cameras": [)" << camera
+                                  << R"(], "nodes": [{"name": "eye", "camera": 0},
+             {"translation": [0, 0, -10], "extensions": {"KHR_lights_punctual": {"light": 0}}}],
+             "scenes": [{"nodes": [0, 1]}], "scene": 0})";
+  }
+
+  Plan plan(const std::string& scenes, const std::string& rest, const std::string& filter = "") const {
+    return make_plan(parse_config(R"({"scenes": )" + scenes + rest + "}", folder_ / "c.json"), filter);
+  }
+
+  static std::vector<CasePlan> cases(const Plan& plan) {
+    std::vector<CasePlan> out;
+    for (const GroupPlan& group : plan.groups) out.insert(out.end(), group.cases.begin(), group.cases.end());
+    return out;
+  }
+
+  const fs::path folder_ = fs::temp_directory_path() / ("clusterbench_sweep_" + std::to_string(getpid()));
+};
+
+constexpr const char* k_two_grids =
+    R"(, "grids": [{"slices": {"count": [8, 16]}}, {"kind": "world"}], "assigners": ["brute-force", "aabb"])";
+
+TEST_F(Sweep, every_combination_that_can_be_is_a_case) {
+  write_scene("a.gltf");
+  const Plan two = plan(R"(["a.gltf"])", std::string(k_two_grids) + R"(, "viewports": [[640, 480], [320, 240]])");
+  EXPECT_EQ(two.groups.size(), 2U * 3U);
+  EXPECT_EQ(cases(two).size() + two.skipped.size(), 2U * 3U * 2U);
+}
+
+TEST_F(Sweep, an_assigner_that_does_not_take_the_grid_is_skipped_with_its_reason) {
+  write_scene("a.gltf");
+  const Plan plan =
+      this->plan(R"(["a.gltf"])", R"(, "grids": [{}, {"kind": "world"}], "assigners": ["brute-force", "aabb"])");
+  const bool found = std::any_of(plan.skipped.begin(), plan.skipped.end(), [](const Skipped& skipped) {
+    return skipped.name.starts_with("a/eye/world") && skipped.name.ends_with("/aabb") &&
+           skipped.reason.starts_with("aabb takes ") && skipped.reason.ends_with(" grids, not world");
+  });
+  EXPECT_TRUE(found);
+}
+
+TEST_F(Sweep, a_grid_that_the_camera_cannot_have_is_skipped_with_its_reason) {
+  write_scene("a.gltf", k_orthographic);
+  const Plan plan = this->plan(R"(["a.gltf"])", R"(, "grids": [{"slices": {"scheme": ["linear", "exponential"]}}],
+                                                   "assigners": ["brute-force"])");
+  ASSERT_EQ(plan.skipped.size(), 1U);
+  EXPECT_NE(plan.skipped[0].reason.find("slices.near"), std::string::npos) << plan.skipped[0].reason;
+  EXPECT_EQ(cases(plan).size(), 1U);
+}
+
+TEST_F(Sweep, names_and_ids_are_unique_and_ids_are_short_hashes) {
+  write_scene("a.gltf");
+  write_scene("other/a.gltf");
+  const Plan plan = this->plan(R"(["a.gltf", "other/a.gltf", {"path": "a.gltf", "frames": 7}])", k_two_grids);
+  EXPECT_EQ(plan.scenes[1].scene.name, "a-2");
+  EXPECT_EQ(plan.scenes[2].scene.name, "a-3");
+  std::set<std::string> names, ids;
+  for (const CasePlan& one : cases(plan)) {
+    EXPECT_TRUE(names.insert(one.name).second) << one.name;
+    EXPECT_TRUE(ids.insert(one.id).second) << one.id;
+    EXPECT_EQ(std::count(one.name.begin(), one.name.end(), '/'), 4) << one.name;
+  }
+}
+
+TEST_F(Sweep, an_id_depends_on_what_is_counted_and_not_on_how_it_is_timed_or_ordered) {
+  write_scene("a.gltf");
+  const std::string one = R"(, "grids": [{}], "assigners": ["brute-force"])";
+  const std::string id = cases(plan(R"(["a.gltf"])", one)).at(0).id;
+  EXPECT_EQ(id.size(), 12U);
+  EXPECT_EQ(cases(plan(R"(["a.gltf"])", one + R"(, "timing": {"rounds": 3}, "threads": 2)")).at(0).id, id);
+  EXPECT_EQ(
+      cases(plan(R"(["a.gltf"])", R"(, "grids": [{"kind": "world"}, {}], "assigners": ["brute-force"])")).at(1).id, id);
+  EXPECT_NE(cases(plan(R"(["a.gltf"])", one + R"(, "viewport": [640, 480])")).at(0).id, id);
+  EXPECT_NE(cases(plan(R"(["a.gltf"])", one + R"(, "storages": ["fixed"])")).at(0).id, id);
+  EXPECT_NE(cases(plan(R"([{"path": "a.gltf", "range_rule": {"max_range": 3}}])", one)).at(0).id, id);
+}
+
+TEST_F(Sweep, a_filter_selects_by_name_and_says_when_it_selects_nothing) {
+  write_scene("a.gltf");
+  for (const CasePlan& one : cases(plan(R"(["a.gltf"])", k_two_grids, "/aabb/")))
+    EXPECT_NE(one.name.find("/aabb/"), std::string::npos);
+  const auto message = [&](const std::string& filter) -> std::string {
+    try {
+      plan(R"(["a.gltf"])", k_two_grids, filter);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_TRUE(message("(").starts_with("--filter: '(' is no regular expression (ECMAScript): ")) << message("(");
+  EXPECT_TRUE(message("nothing").starts_with("--filter: 'nothing' matches none of ")) << message("nothing");
+}
+
+}  // namespace
+}  // namespace clusterbench::run
