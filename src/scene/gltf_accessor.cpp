@@ -279,9 +279,11 @@ std::string_view AccessorReader::buffer(std::size_t index) {
     bytes.owned = base64_decoded(std::string_view(uri).substr(comma + 8), place.at("uri"));
   } else {
     if (has_scheme(uri)) place.at("uri").refuse("only files beside this one and data URIs are read");
+    if (length > external_bytes_left_) place.refuse("more than 2 GiB of external buffers for animations");
     bytes.external = true;
     const std::filesystem::path beside = std::filesystem::path(file_.name).parent_path() / percent_decoded(uri);
     bytes.owned = read_bytes(beside, file_.name, place.at("uri").pointer(), length);
+    external_bytes_left_ -= bytes.owned.size();
   }
   return enough(buffers_.emplace(index, std::move(bytes)).first->second.owned);
 }

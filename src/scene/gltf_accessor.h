@@ -37,6 +37,8 @@ class AccessorReader {
   // All floats are finite. Together one reader hands out at most k_most_numbers.
   std::vector<double> numbers(std::size_t accessor, std::size_t components);
   static constexpr std::size_t k_most_numbers = std::size_t{1} << 24;
+  // So that a small document that names one large file many times does not fill the memory.
+  static constexpr std::size_t k_most_external_bytes = std::size_t{1} << 31;
 
   // The bytes of the external files read so far, in the order of their buffers.
   std::string external_bytes() const;
@@ -55,6 +57,7 @@ class AccessorReader {
   Place root_;
   std::map<std::size_t, Bytes> buffers_;
   std::size_t numbers_left_ = k_most_numbers;
+  std::size_t external_bytes_left_ = k_most_external_bytes;
 };
 
 }  // namespace clusterbench::scene

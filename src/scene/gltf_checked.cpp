@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -86,11 +87,11 @@ json checked_scenes(const Place& root, const json& nodes) {
     if (scene.has("nodes")) {
       const Place list = scene.at("nodes");
       list.expect_array();
-      std::vector<char> seen(nodes.size(), 0);
+      std::set<std::size_t> seen;
       for (std::size_t k = 0; k < list.size(); ++k) {
         const std::size_t node = list.at(k).index(nodes.size(), "node");
         if (is_child[node]) list.at(k).refuse("node " + std::to_string(node) + " has a parent; a scene lists roots");
-        if (std::exchange(seen[node], 1)) list.at(k).refuse("node " + std::to_string(node) + " is listed twice");
+        if (!seen.insert(node).second) list.at(k).refuse("node " + std::to_string(node) + " is listed twice");
         roots.push_back(node);
       }
     }
@@ -135,7 +136,7 @@ std::size_t count_of(const Place& root, const std::string& key) {
 }
 
 std::string warning_at(const Place& place, const std::string& message) {
-  return place.pointer() + ": " + message;
+  return place.pointer() + ": " + one_line(message);
 }
 
 void copy_name(const Place& object, json& out) {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "scene/gltf_place.h"
 
 namespace clusterbench::scene {
 namespace {
@@ -16,7 +17,7 @@ constexpr std::uint32_t k_bin_chunk = 0x004E4942;   // "BIN\0"
 constexpr std::size_t k_header_bytes = 12, k_chunk_header_bytes = 8;
 
 [[noreturn]] void refuse_at(const GltfFile& file, std::size_t offset, const std::string& message) {
-  throw Error(file.name, "byte " + std::to_string(offset), message);
+  throw Error(file.name, "byte " + std::to_string(offset), one_line(message));
 }
 
 std::uint32_t little_endian(std::string_view bytes, std::size_t offset) {

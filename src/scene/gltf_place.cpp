@@ -33,8 +33,22 @@ std::string kind_of(const nlohmann::json& value) {
   return value.is_array() ? (value.empty() ? "an empty array" : "an array") : "an object";
 }
 
+std::string one_line(std::string text) {
+  constexpr std::size_t k_longest = 300;
+  if (text.size() > k_longest) {
+    std::size_t end = k_longest;
+    while ((static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // not inside a UTF-8 sequence
+    text = text.substr(0, end) + "...";
+  }
+  for (char& c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code < 0x20 || code == 0x7F) c = '?';
+  }
+  return text;
+}
+
 void Place::refuse(const std::string& message) const {
-  throw Error(*file_, pointer_.empty() ? "/" : pointer_, message);
+  throw Error(*file_, pointer_.empty() ? "/" : pointer_, one_line(message));
 }
 
 Place Place::at(const std::string& key) const {

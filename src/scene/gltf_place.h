@@ -40,6 +40,9 @@ class Place {
   std::string pointer_;
 };
 
+// The text with control characters replaced and cut to a length that a line can bear: strings of a file in messages.
+std::string one_line(std::string text);
+
 // "a number", "an array" ... for messages.
 std::string kind_of(const nlohmann::json& value);
 

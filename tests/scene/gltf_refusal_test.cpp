@@ -123,6 +123,7 @@ TEST(GltfRefusals, a_broken_animation_names_its_pointer) {
       {R"("input": 0)", R"("input": 5)", "/animations/0/samplers/0/input", "accessor 5"},
       {R"("output": 1)", R"("output": 0)", "/animations/0/samplers/0/output", "VEC3"},
       {"LINEAR", "BEZIER", "/animations/0/samplers/0/interpolation", "CUBICSPLINE"},
+      {"LINEAR", "a\\nb", "/animations/0/samplers/0/interpolation", "a?b"},
       {"LINEAR", "CUBICSPLINE", "/animations/0/samplers/0/output", "6"},
       {R"("bufferView": 1)", R"("bufferView": 2)", "/accessors/1/bufferView", "bufferView 2"},
       {R"("count": 2)", R"("count": 0)", "/accessors/0/count", "1 or more"},
