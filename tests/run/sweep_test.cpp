@@ -48,13 +48,13 @@ class Sweep : public testing::Test {
 };
 
 constexpr const char* k_two_grids =
-    R"(, "grids": [{"slices": {"count": [8, 16]}}, {"kind": "world"}], "assigners": ["brute-force", "aabb"])";
+    R"(, "grids": [{"slices": {"count": [8, 16]}}, {"kind": "world"}], "assigners": ["brute-force", "aabb", "world-grid"])";
 
 TEST_F(Sweep, every_combination_that_can_be_is_a_case) {
   write_scene("a.gltf");
   const Plan two = plan(R"(["a.gltf"])", std::string(k_two_grids) + R"(, "viewports": [[640, 480], [320, 240]])");
   EXPECT_EQ(two.groups.size(), 2U * 3U);
-  EXPECT_EQ(cases(two).size() + two.skipped.size(), 2U * 3U * 2U);
+  EXPECT_EQ(cases(two).size() + two.skipped.size(), 2U * 3U * 3U);
 }
 
 TEST_F(Sweep, an_assigner_that_does_not_take_the_grid_is_skipped_with_its_reason) {
@@ -98,7 +98,11 @@ TEST_F(Sweep, an_id_depends_on_what_is_counted_and_not_on_how_it_is_timed_or_ord
   EXPECT_EQ(id.size(), 12U);
   EXPECT_EQ(cases(plan(R"(["a.gltf"])", one + R"(, "timing": {"rounds": 3}, "threads": 2)")).at(0).id, id);
   EXPECT_EQ(
-      cases(plan(R"(["a.gltf"])", R"(, "grids": [{"kind": "world"}, {}], "assigners": ["brute-force"])")).at(1).id, id);
+      cases(plan(R"(["a.gltf"])",
+                 R"(, "grids": [{"kind": "distance"}, {"slices": {"count": 8}}, {}], "assigners": ["brute-force"])"))
+          .back()
+          .id,
+      id);
   EXPECT_NE(cases(plan(R"(["a.gltf"])", one + R"(, "viewport": [640, 480])")).at(0).id, id);
   EXPECT_NE(cases(plan(R"(["a.gltf"])", one + R"(, "storages": ["fixed"])")).at(0).id, id);
   EXPECT_NE(cases(plan(R"([{"path": "a.gltf", "range_rule": {"max_range": 3}}])", one)).at(0).id, id);
