@@ -97,6 +97,20 @@ TEST(GltfLights, a_spot_on_a_node_scaled_to_nothing_still_has_a_unit_direction) 
   EXPECT_VEC3(world_lights(loaded(spot_scene(R"("scale": [0, 0, 0])")), 0).at(0).direction, 0, 0, -1);
 }
 
+TEST(GltfLights, a_spot_deep_under_tiny_or_huge_scales_still_has_its_direction) {
+  for (const char* scale : {"1e-30", "1e30"}) {
+    std::string list;
+    for (int i = 0; i < 6; ++i) {
+      list += R"({"scale": [)" + std::string(scale) + ", " + scale + ", " + scale + R"(], "children": [)" +
+              std::to_string(i + 1) + "]}, ";
+    }
+    const std::string quarter = R"("rotation": [0.7071067811865476, 0, 0, 0.7071067811865476])";
+    EXPECT_VEC3(
+        world_lights(loaded(document(nodes(list + lit(0, quarter)) + ", " + lights(k_spot))), 0).at(0).direction, 0, 1,
+        0);
+  }
+}
+
 TEST(GltfLights, one_definition_may_be_used_by_many_nodes) {
   const Scene scene =
       loaded(document(nodes(lit(0, R"("name": "a")") + ", " + lit(0, R"("translation": [0, 3, 0])") + ", " + lit(1)) +
