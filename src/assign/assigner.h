@@ -1,6 +1,6 @@
 #pragma once
-// The contract of an assigner, and the row by which everything else knows it. Adding one: a file in assigners/ that defines
-// its row, and one line in registry.inc.
+// The contract of an assigner, and the row by which everything else knows it. Adding one: a file in assigners/ that
+// defines its row, and one line in registry.inc.
 
 #include <cstdint>
 #include <map>
@@ -22,10 +22,11 @@ using ParamValue = std::variant<bool, double, std::string>;
 struct ParamSpec {
   std::string name;
   std::string summary;
-  ParamValue standard;                // the default; its type is the parameter's type
-  std::string unit;                   // "" = none
-  double min = 0.0, max = 0.0;        // numbers
-  std::vector<std::string> choices;   // texts
+  ParamValue standard;               // the default; its type is the parameter's type
+  std::string unit;                  // "" = none
+  double min = 0.0, max = 0.0;       // numbers
+  std::vector<std::string> choices;  // texts
+  bool whole = false;                // numbers: whole ones only
 };
 
 // Resolved parameters: every parameter of the row, defaults filled in.
@@ -65,13 +66,13 @@ class Assigner {
 struct AssignerRow {
   std::string name;
   std::string summary;
-  std::string source;               // paper or engine
-  std::vector<grid::Kind> kinds;    // grids that it fills
-  bool points = true, spots = true; // light types that it takes
+  std::string source;                // paper or engine
+  std::vector<grid::Kind> kinds;     // grids that it fills
+  bool points = true, spots = true;  // light types that it takes
   bool needs_depth = false;
-  bool conservative = true;         // never misses a true pair; a miss fails the run
-  bool exact = false;               // and reports no pair that is not true
-  bool orthographic = true;         // takes orthographic projections
+  bool conservative = true;  // never misses a true pair; a miss fails the run
+  bool exact = false;        // and reports no pair that is not true
+  bool orthographic = true;  // takes orthographic projections
   std::vector<ParamSpec> params;
   std::unique_ptr<Assigner> (*make)(const Params& params);
 

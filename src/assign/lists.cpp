@@ -8,26 +8,25 @@ namespace clusterbench::assign {
 
 void PairBuffer::start(std::uint32_t cell_count) {
   cell_count_ = cell_count;
+  pairs_ = 0;
   spans_.clear();
 }
 
 void PairBuffer::add_row(std::uint32_t first_cell, std::uint32_t count, std::uint32_t light) {
   spans_.push_back({first_cell, count, light});
+  pairs_ += count;
 }
 
 void PairBuffer::finish(Lists& out) {
+  if (pairs_ > std::numeric_limits<std::uint32_t>::max())
+    throw Error("", "lists", "hold " + std::to_string(pairs_) + " pairs; at most 2^32 - 1 fit", ExitCode::internal);
+
   // begin[c] first counts cell c, then becomes its list's start, then its end while lights are written; shifted by one
   // place, the ends are the starts again.
   out.begin.assign(cell_count_ + std::size_t{1}, 0);
-  std::uint64_t total = 0;
-  for (const Span& span : spans_) {
-    total += span.count;
+  for (const Span& span : spans_)
     for (std::uint32_t cell = span.first_cell; cell < span.first_cell + span.count; ++cell) ++out.begin[cell];
-  }
-  if (total > std::numeric_limits<std::uint32_t>::max())
-    throw Error("", "lists", "hold " + std::to_string(total) + " pairs; at most 2^32 - 1 fit", ExitCode::internal);
-
-  out.lights.resize(total);
+  out.lights.resize(pairs_);
   std::uint32_t start = 0;
   for (std::uint32_t& entry : out.begin) {
     const std::uint32_t count = entry;

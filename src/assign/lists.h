@@ -7,9 +7,10 @@
 
 namespace clusterbench::assign {
 
-// The lights of cell c are lights[begin[c]] .. lights[begin[c + 1] - 1], ascending (so points come before spots), each once.
+// The lights of cell c are lights[begin[c]] .. lights[begin[c + 1] - 1], ascending (so points come before spots), each
+// once.
 struct Lists {
-  std::vector<std::uint32_t> begin;   // cell count + 1
+  std::vector<std::uint32_t> begin;  // cell count + 1
   std::vector<std::uint32_t> lights;
 
   std::uint32_t cell_count() const { return static_cast<std::uint32_t>(begin.size()) - 1; }
@@ -37,6 +38,7 @@ class PairBuffer {
     std::uint32_t first_cell, count, light;
   };
   std::vector<Span> spans_;
+  std::uint64_t pairs_ = 0;
   std::uint32_t cell_count_ = 0;
 };
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "assign/assigner.h"
@@ -18,6 +20,26 @@ std::string number(double value) {
   return text;
 }
 
+std::string shown(const ParamValue& value) {
+  if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+  if (const auto* asked = std::get_if<double>(&value)) return number(*asked);
+  return "'" + std::get<std::string>(value) + "'";
+}
+
+void check_number(const ParamSpec& spec, double asked) {
+  const bool fits = asked >= spec.min && asked <= spec.max && (!spec.whole || asked == std::floor(asked));
+  if (!fits)
+    throw Error("", spec.name,
+                "is " + number(asked) + "; allowed: " + (spec.whole ? "whole numbers from " : "") + number(spec.min) +
+                    " to " + number(spec.max) + (spec.unit.empty() ? "" : " " + spec.unit));
+}
+
+void check_choice(const ParamSpec& spec, const std::string& asked) {
+  if (std::find(spec.choices.begin(), spec.choices.end(), asked) == spec.choices.end())
+    throw Error("", spec.name,
+                "is '" + asked + "'" + did_you_mean(asked, spec.choices) + "; allowed: " + joined(spec.choices));
+}
+
 const ParamSpec& spec_of(std::span<const ParamSpec> specs, const std::string& name) {
   std::vector<std::string> names;
   for (const ParamSpec& spec : specs) {
@@ -30,17 +52,10 @@ const ParamSpec& spec_of(std::span<const ParamSpec> specs, const std::string& na
 }
 
 void check(const ParamSpec& spec, const ParamValue& value) {
-  if (value.index() != spec.standard.index()) throw Error("", spec.name, "must be " + type_name(spec.standard));
-  if (const auto* asked = std::get_if<double>(&value); asked != nullptr && !(*asked >= spec.min && *asked <= spec.max))
-    throw Error("", spec.name,
-                "is " + number(*asked) + "; allowed: " + number(spec.min) + " to " + number(spec.max) +
-                    (spec.unit.empty() ? "" : " " + spec.unit));
-  if (const auto* asked = std::get_if<std::string>(&value)) {
-    for (const std::string& choice : spec.choices)
-      if (choice == *asked) return;
-    throw Error("", spec.name,
-                "is '" + *asked + "'" + did_you_mean(*asked, spec.choices) + "; allowed: " + joined(spec.choices));
-  }
+  if (value.index() != spec.standard.index())
+    throw Error("", spec.name, "is " + shown(value) + "; it must be " + type_name(spec.standard));
+  if (const auto* asked = std::get_if<double>(&value)) check_number(spec, *asked);
+  if (const auto* asked = std::get_if<std::string>(&value)) check_choice(spec, *asked);
 }
 
 }  // namespace

@@ -100,7 +100,8 @@ class Packed final : public Storage {
 
   StorageLimit limit() const override {
     const std::uint64_t entries = static_cast<std::uint64_t>(headers_.size()) * lights_;
-    return {entries, entries * (bits_ / 8) + headers_.size() * (lights_ > k_narrow_count ? k_wide_header : k_header)};
+    const bool wide = std::max(points_, lights_ - points_) > k_narrow_count;
+    return {entries, entries * (bits_ / 8) + headers_.size() * (wide ? k_wide_header : k_header)};
   }
 
   Lists read_back() const override {
@@ -226,7 +227,8 @@ const std::vector<StorageRow>& rows() {
                    .unit = "lights",
                    .min = 1.0,
                    .max = 65535.0,
-                   .choices = {}}},
+                   .choices = {},
+                   .whole = true}},
        .make = make<Fixed>}};
   return k_rows;
 }

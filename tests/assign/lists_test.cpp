@@ -1,0 +1,108 @@
+#include "assign/lists.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "core/error.h"
+#include "core/random.h"
+
+namespace clusterbench::assign {
+namespace {
+
+using Ids = std::vector<std::uint32_t>;
+
+Ids list_of(const Lists& lists, std::uint32_t cell) {
+  const auto list = lists.of(cell);
+  return {list.begin(), list.end()};
+}
+
+TEST(PairBuffer, lists_of_no_pairs_are_empty_for_every_cell) {
+  PairBuffer pairs;
+  Lists lists;
+  pairs.start(3);
+  pairs.finish(lists);
+  EXPECT_EQ(lists.begin, (Ids{0, 0, 0, 0}));
+  EXPECT_EQ(lists.cell_count(), 3u);
+  EXPECT_EQ(lists.pair_count(), 0u);
+}
+
+TEST(PairBuffer, pairs_are_listed_by_cell_in_the_order_of_lights) {
+  PairBuffer pairs;
+  Lists lists;
+  pairs.start(4);
+  pairs.add(3, 0);
+  pairs.add(1, 0);
+  pairs.add_row(1, 3, 2);
+  pairs.add(0, 5);
+  pairs.add(1, 5);
+  pairs.finish(lists);
+  EXPECT_EQ(lists.begin, (Ids{0, 1, 4, 5, 7}));
+  EXPECT_EQ(list_of(lists, 0), (Ids{5}));
+  EXPECT_EQ(list_of(lists, 1), (Ids{0, 2, 5}));
+  EXPECT_EQ(list_of(lists, 2), (Ids{2}));
+  EXPECT_EQ(list_of(lists, 3), (Ids{0, 2}));
+}
+
+TEST(PairBuffer, random_pairs_come_out_as_an_ordered_set_holds_them) {
+  SplitMix64 random(1);
+  PairBuffer pairs;
+  Lists lists;
+  for (int round = 0; round < 20; ++round) {
+    const auto cells = static_cast<std::uint32_t>(1 + random.below(300));
+    std::set<std::pair<std::uint32_t, std::uint32_t>> expected;  // (cell, light): the order of the lists
+    pairs.start(cells);
+    for (std::uint32_t light = 0; light < 60; ++light) {
+      if (random.unit() < 0.3) {
+        const auto first = static_cast<std::uint32_t>(random.below(cells));
+        const auto count = static_cast<std::uint32_t>(random.below(cells - first + 1));
+        pairs.add_row(first, count, light);
+        for (std::uint32_t cell = first; cell < first + count; ++cell) expected.emplace(cell, light);
+        continue;
+      }
+      for (int i = 0; i < 10; ++i) {
+        const auto cell = static_cast<std::uint32_t>(random.below(cells));
+        if (expected.emplace(cell, light).second) pairs.add(cell, light);
+      }
+    }
+    pairs.finish(lists);
+    std::set<std::pair<std::uint32_t, std::uint32_t>> found;
+    for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell)
+      for (const std::uint32_t light : lists.of(cell)) found.emplace_hint(found.end(), cell, light);
+    ASSERT_EQ(lists.cell_count(), cells);
+    ASSERT_EQ(lists.pair_count(), expected.size());
+    ASSERT_EQ(found, expected);
+  }
+}
+
+TEST(PairBuffer, a_frame_leaves_nothing_behind_for_the_next_one) {
+  PairBuffer pairs;
+  Lists first, again;
+  pairs.start(9);
+  pairs.add_row(0, 9, 1);
+  pairs.finish(first);
+  const std::size_t held = pairs.capacity_bytes();
+  pairs.start(2);
+  pairs.add(1, 0);
+  pairs.finish(again);
+  EXPECT_EQ(again.begin, (Ids{0, 0, 1}));
+  EXPECT_EQ(again.lights, (Ids{0}));
+  EXPECT_EQ(pairs.capacity_bytes(), held);
+}
+
+TEST(PairBuffer, more_pairs_than_an_offset_can_count_are_refused) {
+  PairBuffer pairs;
+  Lists lists;
+  pairs.start(1u << 16);
+  for (std::uint32_t light = 0; light < 1u << 16; ++light) pairs.add_row(0, 1u << 16, light);
+  try {
+    pairs.finish(lists);
+    FAIL() << "2^32 pairs were taken";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::internal);
+    EXPECT_NE(std::string(error.what()).find("4294967296"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace clusterbench::assign

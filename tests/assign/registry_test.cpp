@@ -1,0 +1,86 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "assign/assigner.h"
+#include "assign/storage.h"
+
+namespace clusterbench::assign {
+namespace {
+
+bool is_kebab_case(const std::string& name) {
+  const auto fits = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; };
+  return !name.empty() && name.front() != '-' && name.back() != '-' && std::all_of(name.begin(), name.end(), fits);
+}
+
+void expect_valid(const std::vector<ParamSpec>& params) {
+  std::set<std::string> names;
+  for (const ParamSpec& param : params) {
+    EXPECT_TRUE(names.insert(param.name).second) << param.name << " is there twice";
+    EXPECT_FALSE(param.summary.empty()) << param.name;
+    EXPECT_NO_THROW(Params(params, {{param.name, param.standard}})) << param.name << " refuses its own default";
+  }
+}
+
+TEST(Registry, begins_with_the_assigners_in_the_order_in_which_they_are_shown) {
+  const std::vector<std::string> expected{"brute-force",       "bounds",   "planes",   "aabb",
+                                          "sphere-refinement", "distance", "cascades", "world-grid"};
+  const std::vector<std::string> names = assigner_names();
+  auto next = expected.begin();
+  for (const std::string& name : names)
+    if (next != expected.end() && name == *next) ++next;
+  EXPECT_EQ(next, expected.end()) << "missing or out of order: " << *next;
+}
+
+TEST(Registry, every_row_says_all_that_is_shown_of_it) {
+  std::set<std::string> names;
+  for (const AssignerRow* row : assigner_rows()) {
+    EXPECT_TRUE(is_kebab_case(row->name)) << row->name;
+    EXPECT_TRUE(names.insert(row->name).second) << row->name << " is there twice";
+    EXPECT_FALSE(row->summary.empty()) << row->name;
+    EXPECT_FALSE(row->source.empty()) << row->name;
+    EXPECT_TRUE(row->points || row->spots) << row->name;
+    EXPECT_FALSE(row->kinds.empty()) << row->name;
+    EXPECT_TRUE(!row->exact || row->conservative) << row->name << ": what is exact loses nothing";
+    expect_valid(row->params);
+    ASSERT_NE(row->make, nullptr);
+    EXPECT_NE(row->make(Params(row->params)), nullptr);
+  }
+}
+
+TEST(Registry, every_grid_kind_has_an_assigner) {
+  for (int kind = 0; kind < grid::k_kind_count; ++kind)
+    EXPECT_TRUE(std::any_of(assigner_rows().begin(), assigner_rows().end(), [&](const AssignerRow* row) {
+      return row->takes(static_cast<grid::Kind>(kind));
+    })) << grid::kind_name(static_cast<grid::Kind>(kind));
+}
+
+TEST(Registry, rows_are_found_by_name_and_nothing_else_is) {
+  for (const AssignerRow* row : assigner_rows()) EXPECT_EQ(find_assigner(row->name), row);
+  EXPECT_EQ(find_assigner("brute_force"), nullptr);
+  EXPECT_EQ(find_assigner(""), nullptr);
+}
+
+TEST(Registry, a_row_takes_the_grid_kinds_that_it_names) {
+  const AssignerRow* aabb = find_assigner("aabb");
+  EXPECT_TRUE(aabb->takes(grid::Kind::frustum));
+  EXPECT_FALSE(aabb->takes(grid::Kind::world));
+}
+
+TEST(Registry, every_storage_says_all_that_is_shown_of_it) {
+  ASSERT_GE(storage_names().size(), 2u);
+  EXPECT_EQ(storage_names()[0], "packed");
+  EXPECT_EQ(storage_names()[1], "fixed");
+  for (const StorageRow& row : storage_rows()) {
+    EXPECT_TRUE(is_kebab_case(row.name)) << row.name;
+    EXPECT_FALSE(row.summary.empty() || row.source.empty()) << row.name;
+    expect_valid(row.params);
+    EXPECT_NE(row.make(Params(row.params)), nullptr);
+    EXPECT_EQ(find_storage(row.name), &row);
+  }
+  EXPECT_EQ(find_storage("stack"), nullptr);
+}
+
+}  // namespace
+}  // namespace clusterbench::assign

@@ -1,0 +1,176 @@
+#include "assign/storage.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/random.h"
+
+namespace clusterbench::assign {
+namespace {
+
+using Ids = std::vector<std::uint32_t>;
+
+Lists lists_from(const std::vector<Ids>& cells) {
+  Lists lists;
+  lists.begin.push_back(0);
+  for (const Ids& cell : cells) {
+    lists.lights.insert(lists.lights.end(), cell.begin(), cell.end());
+    lists.begin.push_back(static_cast<std::uint32_t>(lists.lights.size()));
+  }
+  return lists;
+}
+
+Lists random_lists(std::uint32_t cells, std::uint32_t lights, double share, std::uint64_t seed) {
+  SplitMix64 random(seed);
+  std::vector<Ids> all(cells);
+  for (Ids& cell : all)
+    for (std::uint32_t light = 0; light < lights; ++light)
+      if (random.unit() < share) cell.push_back(light);
+  return lists_from(all);
+}
+
+std::unique_ptr<Storage> storage(const std::string& name, const std::map<std::string, ParamValue>& params = {}) {
+  const StorageRow* row = find_storage(name);
+  return row->make(Params(row->params, params));
+}
+
+TEST(Packed, lists_read_back_as_they_were_stored) {
+  for (const std::uint32_t lights : {1u, 200u, 256u, 257u, 3000u, 70000u}) {
+    const Lists lists = random_lists(40, lights, 0.02, lights);
+    const auto packed = storage("packed");
+    packed->start(40, lights / 2, lights - lights / 2);
+    packed->store(lists);
+    EXPECT_EQ(packed->read_back(), lists) << lights << " lights";
+    EXPECT_EQ(packed->use().dropped_pairs, 0u);
+  }
+}
+
+TEST(Packed, takes_the_narrowest_index_that_holds_the_last_light) {
+  const auto bits = [](std::uint32_t points, std::uint32_t spots) {
+    const auto packed = storage("packed");
+    packed->start(1, points, spots);
+    return packed->index_bits();
+  };
+  EXPECT_EQ(bits(0, 0), 8u);
+  EXPECT_EQ(bits(200, 56), 8u);
+  EXPECT_EQ(bits(200, 57), 16u);
+  EXPECT_EQ(bits(65536, 0), 16u);
+  EXPECT_EQ(bits(65536, 1), 32u);
+}
+
+TEST(Packed, counts_8_bytes_per_cell_and_the_index_width_per_pair) {
+  const Lists lists = lists_from({{0, 7}, {}, {1, 2, 6}});
+  for (const char* bits : {"8", "16", "32"}) {
+    const auto packed = storage("packed", {{"index_bits", std::string(bits)}});
+    packed->start(3, 5, 3);
+    packed->store(lists);
+    const StorageUse use = packed->use();
+    const std::uint64_t width = std::stoul(bits) / 8;
+    EXPECT_EQ(use.index_entries, 5u);
+    EXPECT_EQ(use.index_bytes, 5u * width);
+    EXPECT_EQ(use.header_bytes, 24u);
+    EXPECT_EQ(use.upload_bytes, 24u + 5u * width);
+    EXPECT_EQ(use.largest_cell, 2u);
+    EXPECT_EQ(packed->limit().index_entries, 24u);
+    EXPECT_EQ(packed->limit().bytes, 24u + 24u * width);
+    EXPECT_EQ(packed->read_back(), lists);
+  }
+}
+
+TEST(Packed, a_forced_width_that_cannot_hold_the_rig_is_refused) {
+  const auto packed = storage("packed", {{"index_bits", std::string("8")}});
+  EXPECT_NO_THROW(packed->start(1, 256, 0));
+  try {
+    packed->start(1, 256, 1);
+    FAIL() << "257 lights were taken";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.where(), "index_bits");
+    EXPECT_EQ(error.message(), "is 8, but 257 lights need 16 bits");
+  }
+}
+
+TEST(Packed, headers_widen_when_a_count_does_not_fit_16_bits) {
+  const auto header_bytes = [](std::uint32_t in_cell, std::uint32_t points) {
+    Ids cell(in_cell);
+    for (std::uint32_t i = 0; i < in_cell; ++i) cell[i] = i;
+    const Lists lists = lists_from({cell, {}});
+    const auto packed = storage("packed");
+    packed->start(2, points, 80000 - points);
+    packed->store(lists);
+    EXPECT_EQ(packed->read_back(), lists);
+    return packed->use().header_bytes;
+  };
+  EXPECT_EQ(header_bytes(65535, 80000), 16u);
+  EXPECT_EQ(header_bytes(65536, 80000), 24u);
+  EXPECT_EQ(header_bytes(65536, 65535), 16u) << "points and spots are counted apart";
+}
+
+TEST(Packed, the_limit_has_wide_headers_only_where_a_count_can_need_them) {
+  const auto limit = [](std::uint32_t points, std::uint32_t spots) {
+    const auto packed = storage("packed");
+    packed->start(2, points, spots);
+    return packed->limit().bytes;
+  };
+  EXPECT_EQ(limit(40000, 40000), 2u * 80000u * 4u + 16u);
+  EXPECT_EQ(limit(65536, 0), 2u * 65536u * 2u + 24u);
+}
+
+TEST(Fixed, lists_within_the_cap_read_back_as_they_were_stored) {
+  for (const std::uint32_t lights : {90u, 300u, 70000u}) {
+    const Lists lists = random_lists(30, lights, 10.0 / lights, lights);
+    const auto fixed = storage("fixed");
+    fixed->start(30, lights, 0);
+    fixed->store(lists);
+    EXPECT_EQ(fixed->read_back(), lists);
+    EXPECT_EQ(fixed->use().dropped_pairs, 0u);
+    EXPECT_EQ(fixed->use().overflowing_cells, 0u);
+    EXPECT_TRUE(fixed->use().dropped_lights.empty());
+  }
+}
+
+TEST(Fixed, drops_the_highest_light_indices_and_counts_what_it_dropped) {
+  const auto fixed = storage("fixed", {{"cap", 2.0}});
+  fixed->start(4, 6, 4);
+  fixed->store(lists_from({{0, 1}, {3, 5, 7, 9}, {}, {1, 2, 7}}));
+  EXPECT_EQ(fixed->read_back(), lists_from({{0, 1}, {3, 5}, {}, {1, 2}}));
+  const StorageUse use = fixed->use();
+  EXPECT_EQ(use.dropped_pairs, 3u);
+  EXPECT_EQ(use.overflowing_cells, 2u);
+  EXPECT_EQ(use.dropped_lights, (Ids{7, 9}));
+  EXPECT_EQ(use.largest_cell, 1u);
+  EXPECT_EQ(use.index_entries, 6u);
+}
+
+TEST(Fixed, takes_the_same_bytes_whatever_is_stored) {
+  const auto fixed = storage("fixed", {{"cap", 10.0}});
+  fixed->start(4, 300, 0);
+  for (const double share : {0.0, 0.5}) {
+    fixed->store(random_lists(4, 300, share, 3));
+    const StorageUse use = fixed->use();
+    EXPECT_EQ(use.index_bytes, 4u * 10u * 2u);
+    EXPECT_EQ(use.header_bytes, 16u);
+    EXPECT_EQ(use.upload_bytes, 96u);
+    EXPECT_EQ(fixed->limit().bytes, 96u);
+    EXPECT_EQ(fixed->limit().index_entries, 40u);
+  }
+}
+
+TEST(Fixed, forgets_the_overflow_of_the_frame_before) {
+  const auto fixed = storage("fixed", {{"cap", 1.0}});
+  fixed->start(2, 3, 0);
+  fixed->store(lists_from({{0, 1, 2}, {2}}));
+  EXPECT_EQ(fixed->use().dropped_pairs, 2u);
+  fixed->store(lists_from({{1}, {}}));
+  EXPECT_EQ(fixed->use().dropped_pairs, 0u);
+  EXPECT_TRUE(fixed->use().dropped_lights.empty());
+  EXPECT_EQ(fixed->read_back(), lists_from({{1}, {}}));
+}
+
+TEST(Fixed, the_cap_is_100_and_whole_and_at_most_65535) {
+  const StorageRow* row = find_storage("fixed");
+  EXPECT_EQ(Params(row->params).number("cap"), 100.0);
+  for (const double cap : {0.0, 65536.0, 1.5}) EXPECT_THROW(Params(row->params, {{"cap", cap}}), Error) << cap;
+}
+
+}  // namespace
+}  // namespace clusterbench::assign
