@@ -48,7 +48,13 @@ double farthest(const std::array<Vec3d, 8>& corners, const Vec3d& from, std::siz
   return reach;
 }
 
-// Centred on the line between the end faces' middles, where near and far corners are equally far, or in the wider end.
+Ball ball_through_farthest(const std::array<Vec3d, 8>& corners, const Vec3d& near_center) {
+  const Vec3f center(near_center);
+  return {center, rounded_up(farthest(corners, Vec3d(center), 0, 8) * (1.0 + 1e-12))};
+}
+
+// Centred on the line between the end faces' middles, where near and far corners are equally far, or in the wider end;
+// or, where that is smaller, in the middle of the corners' box.
 Ball ball_around_piece(const FrustumPiece& cell) {
   const std::array<Vec3d, 8> corners = corners_of(cell);
   const Vec3d near_middle = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
@@ -56,8 +62,11 @@ Ball ball_around_piece(const FrustumPiece& cell) {
   const double near_reach = farthest(corners, near_middle, 0, 4), far_reach = farthest(corners, far_middle, 4, 8);
   const double length = glm::length(far_middle - near_middle);
   const double share = 0.5 + (far_reach - near_reach) * (far_reach + near_reach) / (2.0 * length * length);
-  const Vec3f center(glm::mix(near_middle, far_middle, std::clamp(share, 0.0, 1.0)));
-  return {center, rounded_up(farthest(corners, Vec3d(center), 0, 8) * (1.0 + 1e-12))};
+  const Vec3d on_line = glm::mix(near_middle, far_middle, std::clamp(share, 0.0, 1.0));
+  const Box box = box_around(cell);
+  const Ball by_line = ball_through_farthest(corners, on_line);
+  const Ball by_box = ball_through_farthest(corners, 0.5 * (Vec3d(box.lo) + Vec3d(box.hi)));
+  return by_box.radius < by_line.radius ? by_box : by_line;
 }
 
 // A direction in the pyramid has 1 <= distance / depth <= sqrt(1 + x² + y²).

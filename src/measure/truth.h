@@ -1,6 +1,7 @@
 #pragma once
-// The true lists of a frame: light volume and cell share a point, touching included. The volume is taken from the scene's
-// double-precision values and the double-precision camera matrix, all exactly; the cells' numbers are exact as given.
+// The true lists of a frame: light volume and cell share a point, touching included. The volume is taken from the
+// scene's double-precision values and the double-precision camera matrix, all exactly; the cells' numbers are exact as
+// given.
 
 #include <cstdint>
 
@@ -20,8 +21,8 @@ struct Truth {
 // Independent of the number of threads.
 Truth find_truth(const view::Frame& frame, const grid::Grid& grid, int threads);
 
-// Distance from the light's centre (apex) to the nearest point of cell ∩ volume's cone, divided by the range: how deep a
-// missed pair lies is 1 - this. `light` is an index into frame.lights.
+// Distance from the light's centre (apex) to the nearest point of cell ∩ volume's cone, divided by the range: how deep
+// a missed pair lies is 1 - this. `light` is an index into frame.lights.
 double relative_distance(const view::Frame& frame, const grid::Grid& grid, std::uint32_t cell, std::uint32_t light);
 
 }  // namespace clusterbench::measure

@@ -1,0 +1,278 @@
+#pragma once
+// Where a light's volume and a cell can be nearest or farthest, in closed form, over any number type: double for the
+// filter, 256 bits for what it leaves open. The volume is a ball, or a ball ∩ solid cone (a spot); cells are bounded by
+// planes, or a pyramid through the eye cut by two shells.
+//
+// Every list of candidates is complete for its question, and whatever else is on it does no harm: a candidate counts
+// only if it lies in volume and cell up to a tolerance.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace clusterbench::geom {
+
+template <class Real>
+struct Point3 {
+  Real x, y, z;
+
+  friend Point3 operator+(const Point3& a, const Point3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend Point3 operator-(const Point3& a, const Point3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend Point3 operator*(const Real& s, const Point3& a) { return {s * a.x, s * a.y, s * a.z}; }
+  friend Real dot(const Point3& a, const Point3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+  friend Point3 cross(const Point3& a, const Point3& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  }
+  friend Real length(const Point3& a) {
+    using std::sqrt;
+    return sqrt(dot(a, a));
+  }
+};
+
+template <class Real>
+struct Volume {
+  Point3<Real> apex;
+  Point3<Real> axis;  // unit
+  Real range, cos_angle, sin_angle;
+  bool is_cone;
+
+  // How far inside the cone's side a point is; negative outside.
+  Real side_margin(const Point3<Real>& p) const {
+    const Point3<Real> v = p - apex;
+    const Real along = dot(v, axis);
+    return sin_angle * along - cos_angle * length(v - along * axis);
+  }
+};
+
+// normal·p <= offset, unit normal.
+template <class Real>
+struct HalfSpace {
+  Point3<Real> normal;
+  Real offset;
+
+  Real margin(const Point3<Real>& p) const { return offset - dot(normal, p); }
+};
+
+// Corner i takes the low or high side by its bits: 1 for x, 2 for y, 4 for depth.
+template <class Real>
+struct Polytope {
+  std::array<HalfSpace<Real>, 6> faces;
+  std::array<Point3<Real>, 8> corners;
+};
+
+// Four planes through the eye and the rays in which neighbours meet; depth is not negative in it.
+template <class Real>
+struct Pyramid {
+  std::array<HalfSpace<Real>, 4> faces;
+  std::array<Point3<Real>, 4> rays;  // unit
+};
+
+// A unit vector across `axis`, towards n where n has such a part.
+template <class Real>
+Point3<Real> unit_across(const Point3<Real>& axis, const Point3<Real>& n) {
+  const Point3<Real> part = n - dot(n, axis) * axis;
+  const Real size = length(part);
+  if (size > Real(1e-30)) return (Real(1) / size) * part;
+  const bool x_is_small = axis.x * axis.x < Real(0.5);
+  const Point3<Real> other =
+      x_is_small ? Point3<Real>{Real(1), Real(0), Real(0)} : Point3<Real>{Real(0), Real(1), Real(0)};
+  const Point3<Real> perpendicular = cross(axis, other);
+  return (Real(1) / length(perpendicular)) * perpendicular;
+}
+
+// Real roots of a t² + 2 b t + c, and where it is least: near a double root rounding may hide the roots themselves.
+template <class Real, class Take>
+void quadratic_places(const Real& a, const Real& b, const Real& c, Take&& take) {
+  using std::sqrt;
+  const Real zero(0);
+  const Real discriminant = b * b - a * c;
+  if (a != zero) take(-b / a);
+  if (discriminant < zero) return;
+  const Real root = sqrt(discriminant);
+  const Real q = b < zero ? root - b : -root - b;
+  if (a != zero) take(q / a);
+  if (q != zero) take(c / q);
+}
+
+// The generators in the plane of axis and n, on both sides.
+template <class Real, class Take>
+void generators_towards(const Volume<Real>& volume, const Point3<Real>& n, Take&& take) {
+  const Point3<Real> m = unit_across(volume.axis, n);
+  take(volume.cos_angle * volume.axis + volume.sin_angle * m);
+  take(volume.cos_angle * volume.axis - volume.sin_angle * m);
+}
+
+// Where the line start + t * step meets the cone's surface.
+template <class Real, class Take>
+void line_on_cone(const Volume<Real>& volume, const Point3<Real>& start, const Point3<Real>& step, Take&& take) {
+  const Point3<Real> v = start - volume.apex;
+  const Real v_along = dot(v, volume.axis), step_along = dot(step, volume.axis);
+  const Point3<Real> v_across = v - v_along * volume.axis, step_across = step - step_along * volume.axis;
+  const Real s2 = volume.sin_angle * volume.sin_angle, c2 = volume.cos_angle * volume.cos_angle;
+  // sin² along² = cos² across²: keeps its digits for narrow cones, where along² = cos² |v|² loses them.
+  quadratic_places<Real>(s2 * step_along * step_along - c2 * dot(step_across, step_across),
+                         s2 * v_along * step_along - c2 * dot(v_across, step_across),
+                         s2 * v_along * v_along - c2 * dot(v_across, v_across), take);
+}
+
+template <class Real, class Take>
+void line_on_sphere(const Volume<Real>& volume, const Point3<Real>& start, const Point3<Real>& step, Take&& take) {
+  const Point3<Real> v = start - volume.apex;
+  quadratic_places<Real>(dot(step, step), dot(v, step), dot(v, v) - volume.range * volume.range, take);
+}
+
+// Where a plane meets the rim: sphere, cone and plane at once.
+template <class Real, class Take>
+void plane_on_rim(const Volume<Real>& volume, const HalfSpace<Real>& plane, Take&& take) {
+  using std::sqrt;
+  const Point3<Real> m = unit_across(volume.axis, plane.normal), m2 = cross(volume.axis, m);
+  const Real along = volume.range * volume.cos_angle, across = volume.range * volume.sin_angle;
+  const Real lean = across * dot(plane.normal, m);
+  if (lean == Real(0)) return;
+  const Real cosine = (plane.margin(volume.apex) - along * dot(plane.normal, volume.axis)) / lean;
+  const Real square = Real(1) - cosine * cosine;
+  if (square < Real(0)) return;
+  const Real sine = sqrt(square);
+  const Point3<Real> middle = volume.apex + along * volume.axis + (across * cosine) * m;
+  take(middle + (across * sine) * m2);
+  take(middle - (across * sine) * m2);
+}
+
+// Calls take(point) for all places where cell ∩ infinite cone can be nearest to the apex (for a ball: where the cell
+// can be nearest to the centre), and for extreme points of cell ∩ volume, whose mean lies inside it.
+template <class Real, class Take>
+void polytope_candidates(const Volume<Real>& volume, const Polytope<Real>& cell, Take&& take) {
+  take(volume.apex);
+  for (const HalfSpace<Real>& face : cell.faces) {
+    take(volume.apex + face.margin(volume.apex) * face.normal);
+    take(volume.apex - volume.range * face.normal);
+    if (!volume.is_cone) continue;
+    generators_towards(volume, face.normal, [&](const Point3<Real>& g) {
+      const Real lean = dot(face.normal, g);
+      if (lean != Real(0)) take(volume.apex + (face.margin(volume.apex) / lean) * g);
+      take(volume.apex + volume.range * g);
+    });
+    plane_on_rim(volume, face, take);
+  }
+  if (volume.is_cone) take(volume.apex + volume.range * volume.axis);
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    take(cell.corners[corner]);
+    for (unsigned bit = 1; bit < 8; bit *= 2) {
+      if ((corner & bit) != 0) continue;
+      const Point3<Real>& start = cell.corners[corner];
+      const Point3<Real> step = cell.corners[corner | bit] - start;
+      const auto take_at = [&](const Real& t) { take(start + t * step); };
+      const Real square = dot(step, step);
+      if (square != Real(0)) take_at(dot(volume.apex - start, step) / square);
+      line_on_sphere(volume, start, step, take_at);
+      if (volume.is_cone) line_on_cone(volume, start, step, take_at);
+    }
+  }
+}
+
+// Places of roots of c[0] + c[1] t + ... on [-1, 1], and of its derivatives there (a double root shows as one of
+// these). Roots of the derivative separate the roots, so each lies in an interval on which bisection is sure.
+template <class Real>
+std::vector<Real> root_places(const std::vector<Real>& c, int bisections) {
+  if (c.size() < 2) return {};
+  std::vector<Real> derivative;
+  for (std::size_t i = 1; i < c.size(); ++i) derivative.push_back(Real(static_cast<double>(i)) * c[i]);
+  std::vector<Real> places = root_places(derivative, bisections);
+  const auto value_at = [&](const Real& t) {
+    Real value(0);
+    for (std::size_t i = c.size(); i-- > 0;) value = value * t + c[i];
+    return value;
+  };
+  std::vector<Real> ends = places;
+  ends.push_back(Real(-1));
+  ends.push_back(Real(1));
+  std::sort(ends.begin(), ends.end());
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+    Real lo = ends[i], hi = ends[i + 1];
+    const bool rises = value_at(lo) < Real(0);
+    if (rises == (value_at(hi) < Real(0))) continue;
+    for (int step = 0; step < bisections; ++step) {
+      const Real middle = (lo + hi) / Real(2);
+      ((value_at(middle) < Real(0)) == rises ? lo : hi) = middle;
+    }
+    places.push_back(lo);
+  }
+  return places;
+}
+
+// Where distance from the eye (the origin, which lies in the plane) is extreme along the conic of plane and cone. With
+// phi around the axis from m, a generator meets the plane at distance h / (alpha + beta cos phi) from the apex; setting
+// the derivative of the squared distance to zero and tau = tan(phi / 2) gives a quartic without square term.
+template <class Real, class Take>
+void conic_extremes(const Volume<Real>& volume, const HalfSpace<Real>& plane, int bisections, Take&& take) {
+  const Point3<Real> m = unit_across(volume.axis, plane.normal), m2 = cross(volume.axis, m);
+  const Real h = plane.margin(volume.apex);
+  const Real alpha = volume.cos_angle * dot(plane.normal, volume.axis);
+  const Real beta = volume.sin_angle * dot(plane.normal, m);
+  const Real gamma = volume.cos_angle * dot(volume.apex, volume.axis);
+  const Real delta = volume.sin_angle * dot(volume.apex, m), epsilon = volume.sin_angle * dot(volume.apex, m2);
+  const Real kappa = beta * gamma - alpha * delta, sum = alpha + beta, difference = alpha - beta;
+  const Real two(2);
+  const std::vector<Real> quartic{sum * sum * epsilon, two * (sum * kappa + h * beta), Real(0),
+                                  two * (difference * kappa + h * beta), -difference * difference * epsilon};
+  const auto take_generator = [&](const Real& cosine, const Real& sine) {
+    const Real lean = alpha + beta * cosine;
+    if (lean == Real(0)) return;
+    const Point3<Real> g =
+        volume.cos_angle * volume.axis + (volume.sin_angle * cosine) * m + (volume.sin_angle * sine) * m2;
+    take(volume.apex + (h / lean) * g);
+  };
+  for (const Real& tau : root_places(quartic, bisections)) {
+    const Real square = tau * tau;
+    take_generator((Real(1) - square) / (Real(1) + square), two * tau / (Real(1) + square));
+  }
+  for (const Real& inverse : root_places(std::vector<Real>(quartic.rbegin(), quartic.rend()), bisections)) {
+    const Real square = inverse * inverse;
+    take_generator((square - Real(1)) / (square + Real(1)), two * inverse / (square + Real(1)));
+  }
+  take_generator(Real(-1), Real(0));
+}
+
+// Calls take(point) for all places where pyramid ∩ volume can be nearest to or farthest from the eye.
+template <class Real, class Take>
+void pyramid_candidates(const Volume<Real>& volume, const Pyramid<Real>& pyramid, int bisections, Take&& take) {
+  const Real zero(0);
+  take(Point3<Real>{zero, zero, zero});
+  take(volume.apex);
+  // Along a direction from the origin to a centre: the near and far end of a ball or of its cut by a plane.
+  const auto take_ends = [&](const Point3<Real>& center, const Real& radius) {
+    const Real size = length(center);
+    if (size == zero) return;
+    take(center - (radius / size) * center);
+    take(center + (radius / size) * center);
+  };
+  take_ends(volume.apex, volume.range);
+  if (volume.is_cone) {
+    generators_towards(volume, volume.apex, [&](const Point3<Real>& g) {
+      take(volume.apex - dot(volume.apex, g) * g);
+      take(volume.apex + volume.range * g);
+    });
+    take(volume.apex + volume.range * volume.axis);
+  }
+  for (const HalfSpace<Real>& face : pyramid.faces) {
+    using std::sqrt;
+    const Real height = face.margin(volume.apex);
+    const Real square = volume.range * volume.range - height * height;
+    if (square < zero) continue;
+    take_ends(volume.apex + height * face.normal, sqrt(square));
+    take(volume.apex - volume.range * face.normal);
+    if (!volume.is_cone) continue;
+    conic_extremes(volume, face, bisections, take);
+    plane_on_rim(volume, face, take);
+  }
+  for (const Point3<Real>& ray : pyramid.rays) {
+    const auto take_at = [&](const Real& t) {
+      if (!(t < zero)) take(t * ray);
+    };
+    line_on_sphere(volume, {zero, zero, zero}, ray, take_at);
+    if (volume.is_cone) line_on_cone(volume, {zero, zero, zero}, ray, take_at);
+  }
+}
+
+}  // namespace clusterbench::geom

@@ -1,0 +1,17 @@
+#pragma once
+// Ball against a cell bounded by planes, decided exactly in rational arithmetic. Slow (tens of microseconds and more):
+// for what a filter leaves open.
+
+#include "geom/placement.h"
+#include "geom/shapes.h"
+
+namespace clusterbench::geom {
+
+// Is the distance from the placed centre to the closed cell at most radius? Touching counts. radius: finite, >= 0.
+bool ball_meets_exactly(const Placement& center, double radius, const FrustumPiece& cell);
+bool ball_meets_exactly(const Placement& center, double radius, const Box& cell);
+
+// Does the closed cell hold the placed point? A shell piece's distance bounds are compared squared.
+bool holds_exactly(const Cell& cell, const Placement& point);
+
+}  // namespace clusterbench::geom

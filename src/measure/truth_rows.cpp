@@ -1,0 +1,211 @@
+#include "measure/truth_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+namespace clusterbench::measure {
+namespace {
+
+constexpr double k_infinity = std::numeric_limits<double>::infinity();
+
+// An interval of slopes or places, grown by what it is given.
+struct Hull {
+  double lo = k_infinity, hi = -k_infinity;
+
+  void add(double value) {
+    lo = std::min(lo, value);
+    hi = std::max(hi, value);
+  }
+  bool empty() const { return !(lo <= hi); }
+};
+
+// Slopes (u ± h) / w of a chord at depth w >= 0.
+void add_chord(Hull& hull, double u, double h, double w, double scale) {
+  if (w > 0.0) {
+    hull.add(scale * (u - h) / w);
+    hull.add(scale * (u + h) / w);
+    return;
+  }
+  if (u - h <= 0.0) hull.add(-k_infinity);
+  if (u + h >= 0.0) hull.add(k_infinity);
+}
+
+// Adds scale * u'/w' over the disk around (u, w) cut to w0 <= w' <= w1 (w0 >= 0). Extremes are the tangents from the
+// eye where they touch within the slab, and the ends of the chords that the slab cuts.
+void add_disk(Hull& hull, double u, double w, double squared_radius, double w0, double w1, double scale) {
+  if (!(squared_radius >= 0.0) || w0 > w1) return;
+  for (const double line : {w0, w1}) {
+    const double square = squared_radius - (line - w) * (line - w);
+    if (square >= 0.0) add_chord(hull, u, std::sqrt(square), line, scale);
+  }
+  const double radius = std::sqrt(squared_radius), distance = std::sqrt(u * u + w * w);
+  const double squared_tangent = (distance - radius) * (distance + radius);
+  if (!(squared_tangent > 0.0)) return;
+  const double tangent = std::sqrt(squared_tangent);
+  const double to_depth = tangent / (distance * distance);
+  for (const double side : {-radius, radius}) {
+    const double lean = w * tangent - u * side;  // the touch point is to_depth * (u t + w side, lean)
+    const double depth = to_depth * lean;
+    if (depth >= w0 && depth <= w1 && depth > 0.0) hull.add(scale * (u * tangent + w * side) / lean);
+  }
+}
+
+// A ball as rows of a frustum see it: x to the right, y up, depth ahead.
+struct Eye {
+  double x, y, depth, radius;
+};
+
+// Depths in [near, far] at which y0 * depth <= y <= y1 * depth.
+struct DepthRange {
+  double near, far;
+};
+DepthRange depths_between(double y, double y0, double y1, DepthRange range) {
+  const DepthRange none{1.0, 0.0};
+  if (y0 > 0.0) range.far = std::min(range.far, y / y0);
+  if (y0 < 0.0) range.near = std::max(range.near, y / y0);
+  if (y1 > 0.0) range.near = std::max(range.near, y / y1);
+  if (y1 < 0.0) range.far = std::min(range.far, y / y1);
+  return (y0 == 0.0 && y < 0.0) || (y1 == 0.0 && y > 0.0) ? none : range;
+}
+
+// Slopes x/depth over ball ∩ {y0*depth <= y <= y1*depth, near <= depth <= far}. For a given depth x is extreme at the y
+// nearest to the centre's: the centre's own, or on one of the two planes. Each is a disk.
+Hull row_slopes(const Eye& ball, double y0, double y1, DepthRange range) {
+  Hull hull;
+  const double square = ball.radius * ball.radius;
+  const DepthRange level = depths_between(ball.y, y0, y1, range);
+  add_disk(hull, ball.x, ball.depth, square, level.near, level.far, 1.0);
+  for (const double slope : {y0, y1}) {
+    const double tilt = std::sqrt(1.0 + slope * slope);
+    const double away = (ball.y - slope * ball.depth) / tilt;
+    add_disk(hull, ball.x, (slope * ball.y + ball.depth) / tilt, (ball.radius - away) * (ball.radius + away),
+             range.near * tilt, range.far * tilt, tilt);
+  }
+  return hull;
+}
+
+// Intervals between ascending boundaries that [lo, hi] touches.
+ColumnRange columns_touched(const std::vector<float>& boundaries, const Hull& hull) {
+  if (hull.empty()) return {};
+  const auto from = std::lower_bound(boundaries.begin() + 1, boundaries.end(), hull.lo);
+  const auto to = std::upper_bound(boundaries.begin(), boundaries.end() - 1, hull.hi);
+  return {static_cast<int>(from - boundaries.begin()) - 1, static_cast<int>(to - boundaries.begin()) - 1};
+}
+
+// The same for rows, whose boundaries descend.
+ColumnRange rows_touched(const std::vector<float>& boundaries, const Hull& hull) {
+  if (hull.empty()) return {};
+  const auto from = std::lower_bound(boundaries.begin() + 1, boundaries.end(), hull.hi, std::greater<>());
+  const auto to = std::upper_bound(boundaries.begin(), boundaries.end() - 1, hull.lo, std::greater<>());
+  return {static_cast<int>(from - boundaries.begin()) - 1, static_cast<int>(to - boundaries.begin()) - 1};
+}
+
+// Appends the rows of one slab of depths.
+void append_slab(const grid::Tiles& tiles, const BallInSpace& ball, DepthRange range, int slice, bool with_inner,
+                 std::vector<Row>& rows) {
+  const Eye larger{ball.center.x, ball.center.y, -ball.center.z, ball.radius + ball.slack};
+  const Eye smaller{larger.x, larger.y, larger.depth, std::max(0.0, ball.radius - ball.slack)};
+  Hull up;
+  add_disk(up, larger.y, larger.depth, larger.radius * larger.radius, range.near, range.far, 1.0);
+  const ColumnRange touched = rows_touched(tiles.y, up);
+  for (int row = touched.first; row <= touched.last; ++row) {
+    const double y0 = tiles.y_min(row), y1 = tiles.y_max(row);
+    Row found;
+    found.outer = columns_touched(tiles.x, row_slopes(larger, y0, y1, range));
+    if (found.outer.empty()) continue;
+    if (with_inner) found.inner = columns_touched(tiles.x, row_slopes(smaller, y0, y1, range));
+    found.first_cell = static_cast<std::uint32_t>((slice * tiles.count.y + row) * tiles.count.x);
+    rows.push_back(found);
+  }
+}
+
+std::vector<Extent> extents(const std::vector<float>& boundaries) {
+  std::vector<Extent> list;
+  for (std::size_t i = 0; i + 1 < boundaries.size(); ++i)
+    list.push_back({std::min(boundaries[i], boundaries[i + 1]), std::max(boundaries[i], boundaries[i + 1])});
+  return list;
+}
+
+BoxBlock orthographic_block(const grid::ScreenGrid& grid) {
+  BoxBlock block{extents(grid.tiles.x), extents(grid.tiles.y), {}, 0};
+  for (const Extent& depth : extents(grid.slices.boundaries)) block.z.push_back({-depth.hi, -depth.lo});
+  return block;
+}
+
+BoxBlock cascade_block(const grid::Grid& grid, int level) {
+  const Vec3i cells = grid.cascades().cells;
+  // Holes have no cell, so extents come from the outermost column and row, which are never part of one.
+  const auto box_at = [&](int x, int y, int z) {
+    return std::get<geom::Box>(
+        grid.cell(static_cast<std::uint32_t>(((level * cells.z + z) * cells.y + y) * cells.x + x)));
+  };
+  BoxBlock block;
+  for (int x = 0; x < cells.x; ++x) block.x.push_back({box_at(x, 0, 0).lo.x, box_at(x, 0, 0).hi.x});
+  for (int y = 0; y < cells.y; ++y) block.y.push_back({box_at(0, y, 0).lo.y, box_at(0, y, 0).hi.y});
+  for (int z = 0; z < cells.z; ++z) block.z.push_back({box_at(0, 0, z).lo.z, box_at(0, 0, z).hi.z});
+  block.first_cell = static_cast<std::uint32_t>(level * cells.z * cells.y * cells.x);
+  return block;
+}
+
+double gap_to(const Extent& extent, double place) {
+  return std::max({0.0, extent.lo - place, place - extent.hi});
+}
+
+// Columns whose extent meets [middle - half, middle + half].
+ColumnRange columns_within(const std::vector<Extent>& columns, double middle, double squared_half) {
+  if (!(squared_half >= 0.0)) return {};
+  const double half = std::sqrt(squared_half);
+  const auto from =
+      std::partition_point(columns.begin(), columns.end(), [&](const Extent& e) { return e.hi < middle - half; });
+  const auto to = std::partition_point(from, columns.end(), [&](const Extent& e) { return e.lo <= middle + half; });
+  return {static_cast<int>(from - columns.begin()), static_cast<int>(to - columns.begin()) - 1};
+}
+
+}  // namespace
+
+void append_rows(const grid::ScreenGrid& grid, const BallInSpace& ball, std::vector<Row>& rows) {
+  const std::vector<float>& depths = grid.slices.boundaries;
+  const double depth = -ball.center.z, reach = ball.radius + ball.slack;
+  const ColumnRange slices = columns_touched(depths, {depth - reach, depth + reach});
+  for (int slice = slices.first; slice <= slices.last; ++slice) {
+    const auto k = static_cast<std::size_t>(slice);
+    append_slab(grid.tiles, ball, {depths[k], depths[k + 1]}, slice, true, rows);
+  }
+}
+
+void append_tile_rows(const grid::ScreenGrid& grid, const BallInSpace& ball, std::vector<Row>& rows) {
+  const double reach = std::max(0.0, -ball.center.z + ball.radius + ball.slack);
+  append_slab(grid.tiles, ball, {0.0, reach}, 0, false, rows);
+}
+
+std::vector<BoxBlock> box_blocks(const grid::Grid& grid) {
+  if (grid.kind() == grid::Kind::world)
+    return {{extents(grid.world().x), extents(grid.world().y), extents(grid.world().z), 0}};
+  if (grid.kind() == grid::Kind::frustum) return {orthographic_block(grid.screen())};
+  std::vector<BoxBlock> blocks;
+  for (int level = 0; level < grid.cascades().levels; ++level) blocks.push_back(cascade_block(grid, level));
+  return blocks;
+}
+
+void append_rows(const BoxBlock& block, const BallInSpace& ball, std::vector<Row>& rows) {
+  const double larger = ball.radius + ball.slack, smaller = std::max(0.0, ball.radius - ball.slack);
+  for (std::size_t z = 0; z < block.z.size(); ++z) {
+    const double gap_z = gap_to(block.z[z], ball.center.z);
+    if (gap_z > larger) continue;
+    for (std::size_t y = 0; y < block.y.size(); ++y) {
+      const double gap_y = gap_to(block.y[y], ball.center.y);
+      if (gap_y > larger) continue;
+      const double square = gap_z * gap_z + gap_y * gap_y;
+      Row row;
+      row.outer = columns_within(block.x, ball.center.x, larger * larger - square);
+      if (row.outer.empty()) continue;
+      row.inner = columns_within(block.x, ball.center.x, smaller * smaller - square);
+      row.first_cell = block.first_cell + static_cast<std::uint32_t>((z * block.y.size() + y) * block.x.size());
+      rows.push_back(row);
+    }
+  }
+}
+
+}  // namespace clusterbench::measure
