@@ -1,0 +1,108 @@
+// What holds for every registered assigner, and what it takes to add one.
+
+#include "assign/contract.h"
+#include "assign/dense_check.h"
+#include "core/text.h"
+
+namespace clusterbench::assign::testing {
+namespace {
+
+TEST(EveryAssigner, keeps_the_contract_in_every_view_with_every_choice) {
+  for (const AssignerRow* row : assigner_rows())
+    for (const Setting& setting : settings_for(*row, 7))
+      for (const Params& params : params_of(*row)) {
+        const std::vector<std::string> faults = contract_faults(*row, params, setting);
+        std::string choices;
+        for (const auto& [name, value] : params.values())
+          if (const auto* text = std::get_if<std::string>(&value)) choices += " " + name + "=" + *text;
+        EXPECT_TRUE(faults.empty()) << row->name << choices << " on " << setting.name << ": " << joined(faults, "; ");
+      }
+}
+
+TEST(EveryAssigner, loses_no_light_at_boundaries_with_many_seeds) {
+  for (const AssignerRow* row : assigner_rows())
+    for (std::uint64_t seed = 100; seed < 106; ++seed)
+      for (const Setting& setting : settings_for(*row, 10 * seed)) {
+        const std::vector<std::string> faults = contract_faults(*row, Params(row->params), setting);
+        EXPECT_TRUE(faults.empty()) << row->name << " on " << setting.name << ": " << joined(faults, "; ");
+      }
+}
+
+// --- Adding an assigner: a class and a row, as in a file of src/assign/assigners ---
+
+// Lists every light with volume in every cell; or wrongly, as its fault says.
+class Everywhere : public Assigner {
+ public:
+  enum class Fault { none, loses_last_light, lists_twice, keeps_frames, allocates };
+  explicit Everywhere(Fault fault) : fault_(fault) {}
+
+  void build(const grid::Grid& grid) override { grid_ = &grid; }
+
+  void assign(const view::LightArrays& lights, Lists& out) override {
+    tests_ = 0;
+    if (fault_ == Fault::allocates) waste_ = std::make_unique<int>(1);
+    pairs_.start(grid_->cell_count());
+    const std::uint32_t skipped = fault_ == Fault::loses_last_light && lights.size() > 0 ? 1 : 0;
+    for (std::uint32_t light = 0; light + skipped < lights.size(); ++light)
+      if (lights.radius[light] > 0.0f) add_light(light);
+    if (fault_ == Fault::keeps_frames && frames_++ > 0 && lights.size() > 0) pairs_.add(0, lights.size());
+    pairs_.finish(out);
+  }
+
+  std::uint64_t tests_done() const override { return tests_; }
+  std::size_t scratch_bytes() const override { return pairs_.capacity_bytes(); }
+
+ private:
+  void add_light(std::uint32_t light) {
+    for (std::uint32_t cell = 0; cell < grid_->cell_count(); ++cell)
+      if (!grid_->is_hole(cell)) pairs_.add(cell, light);
+    if (fault_ == Fault::lists_twice && light == 0) pairs_.add(grid_->cell_count() - 1, light);
+    tests_ += grid_->cell_count();
+  }
+
+  Fault fault_;
+  const grid::Grid* grid_ = nullptr;
+  PairBuffer pairs_;
+  std::uint64_t tests_ = 0;
+  int frames_ = 0;
+  std::unique_ptr<int> waste_;
+};
+
+template <Everywhere::Fault fault>
+AssignerRow everywhere_row() {
+  return {.name = "everywhere",
+          .summary = "every light in every cell",
+          .source = "forward rendering without culling",
+          .kinds = {grid::Kind::cascades, grid::Kind::world},
+          .params = {},
+          .make = [](const Params&) -> std::unique_ptr<Assigner> { return std::make_unique<Everywhere>(fault); }};
+}
+
+std::string faults_of(const AssignerRow& row) {
+  std::string all;
+  for (const Setting& setting : settings_for(row, 8)) all += joined(contract_faults(row, Params(), setting), "; ");
+  return all;
+}
+
+TEST(AddingAnAssigner, takes_a_class_and_a_row_and_is_held_to_the_same_contract) {
+  EXPECT_EQ(faults_of(everywhere_row<Everywhere::Fault::none>()), "");
+}
+
+TEST(AddingAnAssigner, one_that_loses_a_light_is_caught) {
+  EXPECT_NE(faults_of(everywhere_row<Everywhere::Fault::loses_last_light>()).find("is lost"), std::string::npos);
+}
+
+TEST(AddingAnAssigner, one_that_lists_a_light_twice_is_caught) {
+  EXPECT_NE(faults_of(everywhere_row<Everywhere::Fault::lists_twice>()).find("each once"), std::string::npos);
+}
+
+TEST(AddingAnAssigner, one_that_remembers_frames_is_caught) {
+  EXPECT_NE(faults_of(everywhere_row<Everywhere::Fault::keeps_frames>()).find("the frame before"), std::string::npos);
+}
+
+TEST(AddingAnAssigner, one_that_allocates_in_a_steady_frame_is_caught) {
+  EXPECT_NE(faults_of(everywhere_row<Everywhere::Fault::allocates>()).find("allocates 1 times"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace clusterbench::assign::testing
