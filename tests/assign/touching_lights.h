@@ -17,9 +17,9 @@ struct TouchingLight {
 
 namespace touching {
 
-// A point of a cell's surface and a direction that leads out of the cell there.
+// A point of a cell's surface, a point of the cell beside it, and a direction that leads out of the cell there.
 struct Contact {
-  Vec3d point, outward;
+  Vec3d point, inside, outward;
 };
 
 // On each axis: inside (0), at the lower side (-1) or at the upper side (1), at least one of them at a side.
@@ -30,9 +30,16 @@ inline Vec3i random_sides(Random& random) {
   return sides;
 }
 
-inline double place_between(float lo, float hi, int side, Random& random) {
-  if (side != 0) return side < 0 ? lo : hi;
-  return random.between(lo, hi);
+// A place between the lower and upper sides, on those sides that are asked for.
+inline Vec3d place_on(const Vec3i& sides, const Vec3d& lo, const Vec3d& hi, Random& random) {
+  Vec3d place{0};
+  for (int axis = 0; axis < 3; ++axis)
+    place[axis] = sides[axis] == 0 ? random.between(lo[axis], hi[axis]) : sides[axis] < 0 ? lo[axis] : hi[axis];
+  return place;
+}
+
+inline Vec3d beside(const Vec3d& place, const Vec3d& lo, const Vec3d& hi) {
+  return glm::mix(place, 0.5 * (lo + hi), 1e-8);
 }
 
 // The sum of the outward normals of the sides that the point is on, with random weights: a direction of the normal
@@ -46,32 +53,33 @@ inline Vec3d blend(const Vec3i& sides, const Vec3d (&lower)[3], const Vec3d (&up
 
 inline Contact contact_of(const geom::FrustumPiece& cell, Random& random) {
   const Vec3i sides = random_sides(random);
-  const double x = place_between(cell.x0, cell.x1, sides.x, random),
-               y = place_between(cell.y0, cell.y1, sides.y, random);
-  const double depth = place_between(cell.depth0, cell.depth1, sides.z, random);
-  const double scale = cell.orthographic ? 1.0 : depth, tilt = cell.orthographic ? 0.0 : 1.0;
+  const Vec3d lo{cell.x0, cell.y0, cell.depth0}, hi{cell.x1, cell.y1, cell.depth1};
+  const auto point = [&](const Vec3d& q) {
+    const double scale = cell.orthographic ? 1.0 : q.z;
+    return Vec3d{q.x * scale, q.y * scale, -q.z};
+  };
+  const double tilt = cell.orthographic ? 0.0 : 1.0;
   const Vec3d lower[3] = {{-1, 0, -tilt * cell.x0}, {0, -1, -tilt * cell.y0}, {0, 0, 1}};
   const Vec3d upper[3] = {{1, 0, tilt * cell.x1}, {0, 1, tilt * cell.y1}, {0, 0, -1}};
-  return {{x * scale, y * scale, -depth}, blend(sides, lower, upper, random)};
+  const Vec3d q = place_on(sides, lo, hi, random);
+  return {point(q), point(beside(q, lo, hi)), blend(sides, lower, upper, random)};
 }
 
 inline Contact contact_of(const geom::ShellPiece& cell, Random& random) {
   const Vec3i sides = random_sides(random);
-  const double x = place_between(cell.x0, cell.x1, sides.x, random),
-               y = place_between(cell.y0, cell.y1, sides.y, random);
-  const Vec3d ray = glm::normalize(Vec3d{x, y, -1});
-  const double distance = place_between(cell.distance0, cell.distance1, sides.z, random);
-  const Vec3d lower[3] = {{-1, 0, -cell.x0}, {0, -1, -cell.y0}, -ray};
-  const Vec3d upper[3] = {{1, 0, cell.x1}, {0, 1, cell.y1}, ray};
-  return {distance * ray, blend(sides, lower, upper, random)};
+  const Vec3d lo{cell.x0, cell.y0, cell.distance0}, hi{cell.x1, cell.y1, cell.distance1};
+  const auto ray = [](const Vec3d& q) { return glm::normalize(Vec3d{q.x, q.y, -1}); };
+  const Vec3d q = place_on(sides, lo, hi, random), inside = beside(q, lo, hi);
+  const Vec3d lower[3] = {{-1, 0, -cell.x0}, {0, -1, -cell.y0}, -ray(q)};
+  const Vec3d upper[3] = {{1, 0, cell.x1}, {0, 1, cell.y1}, ray(q)};
+  return {q.z * ray(q), inside.z * ray(inside), blend(sides, lower, upper, random)};
 }
 
 inline Contact contact_of(const geom::Box& cell, Random& random) {
   const Vec3i sides = random_sides(random);
-  Vec3d point{0};
-  for (int axis = 0; axis < 3; ++axis) point[axis] = place_between(cell.lo[axis], cell.hi[axis], sides[axis], random);
+  const Vec3d lo(cell.lo), hi(cell.hi), q = place_on(sides, lo, hi, random);
   const Vec3d lower[3] = {{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}, upper[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  return {point, blend(sides, lower, upper, random)};
+  return {q, beside(q, lo, hi), blend(sides, lower, upper, random)};
 }
 
 inline std::uint32_t random_cell(const grid::Grid& grid, Random& random) {
@@ -136,7 +144,7 @@ inline std::vector<TouchingLight> touching_spots(const grid::Grid& grid, const v
     const Vec3d& out = place.contact.outward;
     const double angle = k_half_angles[i % 6];
     const double slack = touching::hair(place.size, random);
-    Vec3d apex = place.contact.point - slack * out, axis = touching::turned(out, random.between(0, 0.4), random);
+    Vec3d apex = place.contact.inside, axis = touching::turned(out, random.between(0, 0.4), random);
     if (i % 3 == 1) {  // by the cap: the point is at the end of the range, within the angle
       apex = place.contact.point + place.range * out;
       axis = touching::turned(-out, angle * random.between(0, 0.999), random);
