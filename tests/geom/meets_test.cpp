@@ -1,0 +1,212 @@
+#include "geom/meets.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/random.h"
+#include "geom/exact_ball.h"
+#include "measure/dykstra.h"
+
+namespace clusterbench::geom {
+namespace {
+
+Vec3d random_direction(SplitMix64& random) {
+  for (;;) {
+    const Vec3d v{random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)};
+    const double size = glm::length(v);
+    if (size > 0.1 && size <= 1.0) return v / size;
+  }
+}
+
+LightVolume random_light(SplitMix64& random, bool is_cone) {
+  LightVolume light;
+  light.apex.position = {random.between(-20, 20), random.between(-20, 20), random.between(-60, 5)};
+  light.range = random.between(0.5, 20.0);
+  light.is_cone = is_cone;
+  light.direction = random_direction(random);
+  light.half_angle_rad = random.between(0.01, 1.5707);
+  return light;
+}
+
+struct Slopes {
+  float x0, x1, y0, y1, near, far;
+};
+
+Slopes random_slopes(SplitMix64& random) {
+  const auto f = [&](double lo, double hi) { return static_cast<float>(random.between(lo, hi)); };
+  Slopes s{f(-1, 0.8), 0, f(-1, 0.8), 0, f(0.1, 50), 0};
+  s.x1 = s.x0 + f(0.01, 0.3);
+  s.y1 = s.y0 + f(0.01, 0.3);
+  s.far = s.near + f(0.1, 10);
+  return s;
+}
+
+FrustumPiece random_piece(SplitMix64& random) {
+  const Slopes s = random_slopes(random);
+  return {s.x0, s.x1, s.y0, s.y1, s.near, s.far, false};
+}
+
+ShellPiece random_shell(SplitMix64& random) {
+  const Slopes s = random_slopes(random);
+  return {s.x0, s.x1, s.y0, s.y1, s.near, s.far};
+}
+
+bool volume_holds(const LightVolume& light, const Vec3d& p) {
+  const Vec3d v = p - light.apex.position;
+  const double distance = glm::length(v);
+  if (distance > light.range) return false;
+  return !light.is_cone || glm::dot(v, light.direction) >= std::cos(light.half_angle_rad) * distance;
+}
+
+// A random point of the cell; spread is uniform in slope and depth or distance.
+Vec3d point_of(const FrustumPiece& c, SplitMix64& random) {
+  const double depth = random.between(c.depth0, c.depth1);
+  return {random.between(c.x0, c.x1) * depth, random.between(c.y0, c.y1) * depth, -depth};
+}
+Vec3d point_of(const ShellPiece& c, SplitMix64& random) {
+  const Vec3d ray{random.between(c.x0, c.x1), random.between(c.y0, c.y1), -1.0};
+  return random.between(c.distance0, c.distance1) / glm::length(ray) * ray;
+}
+
+template <class Cell>
+void expect_no_sampled_point_to_be_denied(bool is_cone, Cell (*make_cell)(SplitMix64&), int pairs) {
+  SplitMix64 random(11);
+  int found = 0;
+  for (int i = 0; i < pairs; ++i) {
+    const LightVolume light = random_light(random, is_cone);
+    const Cell cell = make_cell(random);
+    bool has_common_point = false;
+    for (int sample = 0; sample < 1000 && !has_common_point; ++sample)
+      has_common_point = volume_holds(light, point_of(cell, random));
+    if (!has_common_point) continue;
+    ++found;
+    EXPECT_NE(filter_meets(light, cell), Verdict::no) << "pair " << i;
+    EXPECT_EQ(decide_meets(light, cell), Verdict::yes) << "pair " << i;
+  }
+  EXPECT_GT(found, 20);
+}
+
+TEST(Meets, balls_and_frustum_pieces_with_a_common_point_meet) {
+  expect_no_sampled_point_to_be_denied(false, random_piece, 1500);
+}
+TEST(Meets, balls_and_shell_pieces_with_a_common_point_meet) {
+  expect_no_sampled_point_to_be_denied(false, random_shell, 1500);
+}
+TEST(Meets, spots_and_frustum_pieces_with_a_common_point_meet) {
+  expect_no_sampled_point_to_be_denied(true, random_piece, 2500);
+}
+TEST(Meets, spots_and_shell_pieces_with_a_common_point_meet) {
+  expect_no_sampled_point_to_be_denied(true, random_shell, 2500);
+}
+
+TEST(Meets, spots_agree_with_alternating_projections) {
+  SplitMix64 random(5);
+  int met = 0, decided = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const LightVolume light = random_light(random, true);
+    const FrustumPiece cell = random_piece(random);
+    const test::DykstraCone cone{light.apex.position, light.direction, light.half_angle_rad};
+    const test::DykstraResult nearest = test::distance_to_common_point(cone, cell, 300);
+    const bool has_converged = nearest.violation < 1e-7;
+    const bool is_clear = std::abs(nearest.distance - light.range) > 1e-3;
+    if (!has_converged || !is_clear) continue;
+    ++decided;
+    const bool expected = nearest.distance < light.range;
+    EXPECT_EQ(filter_meets(light, cell), expected ? Verdict::yes : Verdict::no) << "pair " << i;
+    met += expected;
+  }
+  EXPECT_GT(decided, 300);
+  EXPECT_GT(met, 30);
+}
+
+// Pulls the range to within a few ulps of touching, by what exact arithmetic says.
+double touching_range(LightVolume light, const FrustumPiece& cell) {
+  double apart = 0.0, touching = 200.0;
+  for (;;) {
+    const double middle = 0.5 * (apart + touching);
+    if (middle <= apart || middle >= touching) return touching;
+    (ball_meets_exactly(light.apex, middle, cell) ? touching : apart) = middle;
+  }
+}
+
+TEST(Meets, the_filter_never_contradicts_exact_arithmetic_within_a_few_ulps_of_touching) {
+  SplitMix64 random(9);
+  for (int i = 0; i < 12; ++i) {
+    LightVolume light = random_light(random, false);
+    const FrustumPiece cell = random_piece(random);
+    const double touching = touching_range(light, cell);
+    for (const int ulps : {-4, -1, 0, 1, 4}) {
+      light.range = touching;
+      for (int step = 0; step < std::abs(ulps); ++step) light.range = std::nextafter(light.range, ulps < 0 ? 0.0 : 1e9);
+      const Verdict exact = decide_meets(light, cell);
+      EXPECT_EQ(exact, ulps < 0 ? Verdict::no : Verdict::yes);
+      const Verdict filtered = filter_meets(light, cell);
+      EXPECT_TRUE(filtered == Verdict::open || filtered == exact) << "ulps " << ulps;
+    }
+  }
+}
+
+TEST(Meets, filter_and_256_bits_agree_wherever_the_filter_speaks) {
+  SplitMix64 random(13);
+  for (int i = 0; i < 60; ++i) {
+    const LightVolume light = random_light(random, true);
+    for (const Cell& cell : {Cell(random_piece(random)), Cell(random_shell(random))}) {
+      const Verdict filtered = filter_meets(light, cell);
+      if (filtered != Verdict::open) {
+        EXPECT_EQ(decide_meets(light, cell), filtered);
+      }
+    }
+  }
+}
+
+TEST(Meets, an_apex_on_a_corner_of_the_cell_is_a_common_point_wherever_the_cone_points) {
+  const FrustumPiece cell{-0.75f, 0.75f, -0.5f, 0.5f, 8.0f, 32.0f, false};
+  LightVolume light;
+  light.apex.position = {6.0, 4.0, -8.0};
+  light.range = 1.0;
+  light.is_cone = true;
+  light.direction = {0.0, 0.0, 1.0};  // away from the cell
+  light.half_angle_rad = 0.2;
+  EXPECT_EQ(decide_meets(light, cell), Verdict::yes);
+  light.apex.position.z = -7.999;
+  EXPECT_EQ(decide_meets(light, cell), Verdict::no);
+}
+
+TEST(Meets, a_very_narrow_cone_meets_the_cells_that_its_axis_passes_within_its_angle) {
+  LightVolume light;
+  light.range = 100.0;
+  light.is_cone = true;
+  light.half_angle_rad = 1.7453e-4;  // 0.01 degrees: sqrt(1 - cos²) is lost in single precision
+  const FrustumPiece cell{0.0625f, 0.125f, -0.05f, 0.05f, 10.0f, 20.0f, false};
+  light.direction = glm::normalize(Vec3d(0.0625 - 1.6e-4, 0.0, -1.0));
+  EXPECT_EQ(filter_meets(light, cell), Verdict::yes);
+  light.direction = glm::normalize(Vec3d(0.0625 - 1.9e-4, 0.0, -1.0));
+  EXPECT_EQ(filter_meets(light, cell), Verdict::no);
+}
+
+TEST(Distances, the_inner_interval_is_reached_and_the_outer_one_is_not_left) {
+  SplitMix64 random(21);
+  int checked = 0;
+  for (int i = 0; i < 400; ++i) {
+    const LightVolume light = random_light(random, i % 2 == 0);
+    const ShellPiece tile = random_shell(random);
+    const DistanceInterval reach = filter_distances(light, tile.x0, tile.x1, tile.y0, tile.y1);
+    for (int sample = 0; sample < 300; ++sample) {
+      const Vec3d ray{random.between(tile.x0, tile.x1), random.between(tile.y0, tile.y1), -1.0};
+      const Vec3d p = random.between(0.0, 80.0) / glm::length(ray) * ray;
+      if (!volume_holds(light, p)) continue;
+      ++checked;
+      EXPECT_LE(reach.outer_lo, glm::length(p));
+      EXPECT_GE(reach.outer_hi, glm::length(p));
+    }
+    if (reach.inner_lo > reach.inner_hi) continue;
+    EXPECT_LE(reach.outer_lo, reach.inner_lo);
+    EXPECT_GE(reach.outer_hi, reach.inner_hi);
+    EXPECT_LT(reach.outer_hi - reach.inner_hi + reach.inner_lo - reach.outer_lo, 1e-3);
+  }
+  EXPECT_GT(checked, 1000);
+}
+
+}  // namespace
+}  // namespace clusterbench::geom

@@ -1,0 +1,220 @@
+#include "measure/truth.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include "assign/assigner.h"
+#include "core/random.h"
+#include "geom/meets.h"
+#include "scene/camera_path.h"
+
+namespace clusterbench::measure {
+namespace {
+
+using geom::Verdict;
+using grid::Kind;
+
+constexpr double k_infinity = std::numeric_limits<double>::infinity();
+
+// Coordinates on a lattice of the grid's own boundaries make many exact ties; the rest is anywhere.
+double place(SplitMix64& random, double lo, double hi) {
+  const double value = random.between(lo, hi);
+  return random.below(3) == 0 ? std::round(value) : value;
+}
+
+view::Frame frame_with(int points, int spots, std::uint64_t seed, bool orthographic) {
+  SplitMix64 random(seed);
+  view::Frame frame;
+  frame.viewport = {160, 90};
+  frame.projection = {orthographic, -1.0, 1.0, -0.75, 0.5, 0.5, 64.0};
+  if (orthographic) frame.projection = {true, -16.0, 16.0, -8.0, 8.0, -2.0, 40.0};
+  for (int i = 0; i < points + spots; ++i) {
+    scene::WorldLight light;
+    light.rig_index = i;
+    light.type = i < points ? scene::LightType::point : scene::LightType::spot;
+    light.position = {place(random, -25, 25), place(random, -15, 15), place(random, -50, 8)};
+    light.range_m = place(random, 1.0, 14.0);
+    light.direction = glm::normalize(Vec3d(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)));
+    light.outer_cone_rad = random.between(0.02, 1.57);
+    frame.lights.push_back(light);
+  }
+  frame.points = static_cast<std::uint32_t>(points);
+  return frame;
+}
+
+grid::Grid small_grid(Kind kind, const view::Frame& frame) {
+  grid::GridSpec spec;
+  spec.kind = kind;
+  spec.tiles.count = {8, 6};
+  spec.slices = {.scheme = grid::Scheme::linear, .count = 8, .far_m = 40.0, .boundaries_m = {}};
+  spec.cells = kind == Kind::cascades ? Vec3i{8, 8, 4} : Vec3i{8, 6, 7};
+  spec.levels = 3;
+  spec.finest_m = 2.0;
+  return grid::make_grid(spec, grid::grid_inputs(spec, frame, 40.0, {-30, -20, -60}, {30, 20, 20}));
+}
+
+// Every light against every cell, each decided on its own.
+assign::Lists decided_one_by_one(const view::Frame& frame, const grid::Grid& grid) {
+  const view::Space space = grid::space_of(grid, frame);
+  assign::PairBuffer pairs;
+  pairs.start(grid.cell_count());
+  for (std::uint32_t i = 0; i < frame.lights.size(); ++i) {
+    const scene::WorldLight& light = frame.lights[i];
+    const geom::LightVolume volume{{light.position, space.origin, space.rotation},
+                                   light.range_m,
+                                   light.type == scene::LightType::spot,
+                                   light.direction,
+                                   light.outer_cone_rad};
+    for (std::uint32_t cell = 0; cell < grid.cell_count(); ++cell) {
+      if (grid.is_hole(cell)) continue;
+      Verdict verdict = geom::filter_meets(volume, grid.cell(cell));
+      if (verdict == Verdict::open) verdict = geom::decide_meets(volume, grid.cell(cell));
+      if (verdict != Verdict::no) pairs.add(cell, i);
+    }
+  }
+  assign::Lists lists;
+  pairs.finish(lists);
+  return lists;
+}
+
+struct Setting {
+  Kind kind;
+  bool orthographic;
+};
+
+class TruthOn : public testing::TestWithParam<Setting> {};
+
+TEST_P(TruthOn, rows_and_tiles_find_what_deciding_every_cell_alone_finds) {
+  const view::Frame frame = frame_with(60, 60, 17, GetParam().orthographic);
+  const grid::Grid grid = small_grid(GetParam().kind, frame);
+  const Truth truth = find_truth(frame, grid, 1);
+  EXPECT_EQ(truth.lists, decided_one_by_one(frame, grid));
+  EXPECT_GT(truth.lists.pair_count(), 400u);
+  EXPECT_GT(truth.filter_decided, truth.lists.pair_count() / 2);
+}
+
+TEST_P(TruthOn, the_number_of_threads_does_not_show) {
+  const view::Frame frame = frame_with(200, 50, 23, GetParam().orthographic);
+  const grid::Grid grid = small_grid(GetParam().kind, frame);
+  const Truth one = find_truth(frame, grid, 1), two = find_truth(frame, grid, 2);
+  EXPECT_EQ(one.lists, two.lists);
+  EXPECT_EQ(one.filter_decided, two.filter_decided);
+  EXPECT_EQ(one.exact_decided, two.exact_decided);
+}
+
+TEST_P(TruthOn, no_conservative_assigner_misses_a_true_pair) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const view::Frame frame = frame_with(150, 150, seed, GetParam().orthographic);
+    const grid::Grid grid = small_grid(GetParam().kind, frame);
+    const Truth truth = find_truth(frame, grid, 2);
+    const view::LightArrays lights = view::lights_in(frame, grid::space_of(grid, frame));
+    for (const assign::AssignerRow* row : assign::assigner_rows()) {
+      if (!row->conservative || !row->takes(GetParam().kind) || (GetParam().orthographic && !row->orthographic))
+        continue;
+      const auto assigner = row->make(assign::Params(row->params));
+      assigner->build(grid);
+      assign::Lists lists;
+      assigner->assign(lights, lists);
+      for (std::uint32_t cell = 0; cell < grid.cell_count(); ++cell) {
+        const auto wanted = truth.lists.of(cell), listed = lists.of(cell);
+        EXPECT_TRUE(std::includes(listed.begin(), listed.end(), wanted.begin(), wanted.end()))
+            << row->name << " cell " << cell << " seed " << seed;
+      }
+    }
+  }
+}
+
+TEST_P(TruthOn, a_light_without_range_is_nowhere_and_one_without_end_is_in_every_cell) {
+  view::Frame frame = frame_with(2, 0, 3, GetParam().orthographic);
+  frame.lights[0].range_m = 0.0;
+  frame.lights[1].range_m = k_infinity;
+  const grid::Grid grid = small_grid(GetParam().kind, frame);
+  const Truth truth = find_truth(frame, grid, 1);
+  for (std::uint32_t cell = 0; cell < grid.cell_count(); ++cell) {
+    const std::vector<std::uint32_t> listed(truth.lists.of(cell).begin(), truth.lists.of(cell).end());
+    EXPECT_EQ(listed, grid.is_hole(cell) ? std::vector<std::uint32_t>{} : std::vector<std::uint32_t>{1});
+  }
+}
+
+TEST_P(TruthOn, lists_do_not_change_when_camera_and_lights_move_far_away_together) {
+  view::Frame frame = frame_with(60, 20, 31, GetParam().orthographic);
+  for (scene::WorldLight& light : frame.lights) light.position = glm::round(light.position * 64.0) / 64.0;
+  const grid::Grid grid = small_grid(GetParam().kind, frame);
+  if (GetParam().kind == Kind::world) GTEST_SKIP() << "a world grid does not move with the camera";
+  const Truth here = find_truth(frame, grid, 1);
+  const Vec3d offset{1e7, -1e6, 4e6};
+  frame.view_space.origin += offset;
+  for (scene::WorldLight& light : frame.lights) light.position += offset;
+  EXPECT_EQ(find_truth(frame, grid, 1).lists, here.lists);
+}
+
+INSTANTIATE_TEST_SUITE_P(Grids, TruthOn,
+                         testing::Values(Setting{Kind::frustum, false}, Setting{Kind::frustum, true},
+                                         Setting{Kind::distance, false}, Setting{Kind::cascades, false},
+                                         Setting{Kind::world, false}),
+                         [](const auto& setting) {
+                           return std::string(grid::kind_name(setting.param.kind)) +
+                                  (setting.param.orthographic ? "_orthographic" : "");
+                         });
+
+TEST(RelativeDistance, is_the_share_of_the_range_at_which_the_light_begins_to_touch_the_cell) {
+  view::Frame frame = frame_with(1, 0, 1, false);
+  frame.lights[0].position = {0.0, 0.0, -10.0};
+  frame.lights[0].range_m = 20.0;
+  grid::GridSpec spec;
+  spec.tiles.count = {1, 1};
+  spec.slices = {.scheme = grid::Scheme::list, .boundaries_m = {0.5, 15.0, 64.0}};
+  const grid::Grid grid = grid::make_grid(spec, grid::grid_inputs(spec, frame, 0.0, {}, {}));
+  EXPECT_NEAR(relative_distance(frame, grid, 1, 0), 0.25, 1e-9);
+  EXPECT_NEAR(relative_distance(frame, grid, 0, 0), 0.0, 1e-9);
+}
+
+struct Workload {
+  const char* name;
+  Vec2i tiles;
+  grid::Scheme scheme;
+  int slices;
+  double far_m;
+  std::uint32_t true_pairs;
+};
+
+class PeerWorkload : public testing::TestWithParam<Workload> {};
+
+// Figures of an oracle that was written independently of this project. W5 there has 30 x 17 equal tiles.
+TEST_P(PeerWorkload, has_the_true_pairs_that_an_independent_oracle_found) {
+  const char* library = std::getenv("CLUSTERBENCH_SCENE_LIBRARY");
+  if (library == nullptr) GTEST_SKIP() << "CLUSTERBENCH_SCENE_LIBRARY names no scene library";
+  const Workload& work = GetParam();
+  scene::Scene scene = scene::load_gltf(std::string(library) + "/peer-workloads/" + work.name + ".gltf");
+  scene::resolve_ranges(scene, {});
+  const auto paths = scene::camera_paths(scene, {});
+  const view::Frame frame = view::make_frame(scene, paths.at(0).shots.at(0), 0, {1920, 1080});
+  grid::GridSpec spec;
+  spec.tiles = {.pixels = {0, 0}, .count = work.tiles};
+  spec.slices = {.scheme = work.scheme,
+                 .count = work.slices,
+                 .near_m = 0.1,
+                 .first_m = 5.0,
+                 .far_m = work.far_m,
+                 .boundaries_m = {}};
+  const grid::Grid grid = grid::make_grid(spec, grid::grid_inputs(spec, frame, 0.0, {}, {}));
+  const Truth truth = find_truth(frame, grid, 2);
+  EXPECT_EQ(truth.lists.pair_count(), work.true_pairs);
+  EXPECT_EQ(truth.undecided, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Peers, PeerWorkload,
+                         testing::Values(Workload{"W1", {12, 12}, grid::Scheme::exponential, 24, 400.0, 15006},
+                                         Workload{"W2", {12, 12}, grid::Scheme::exponential, 24, 400.0, 4649},
+                                         Workload{"W3", {12, 12}, grid::Scheme::exponential, 24, 400.0, 5032},
+                                         Workload{"W4", {12, 12}, grid::Scheme::exponential, 24, 400.0, 6077},
+                                         Workload{"W5", {30, 17}, grid::Scheme::exponential_first, 16, 500.0, 4154},
+                                         Workload{"W7", {32, 18}, grid::Scheme::exponential, 64, 120.0, 98044}),
+                         [](const auto& work) { return std::string(work.param.name); });
+
+}  // namespace
+}  // namespace clusterbench::measure
