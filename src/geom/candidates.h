@@ -37,11 +37,13 @@ struct Volume {
   Real range, cos_angle, sin_angle;
   bool is_cone;
 
-  // How far inside the cone's side a point is; negative outside.
+  // How far inside the cone's side a point is; negative outside. Never more than `along`, which only an angle of 0
+  // needs said.
   Real side_margin(const Point3<Real>& p) const {
     const Point3<Real> v = p - apex;
     const Real along = dot(v, axis);
-    return sin_angle * along - cos_angle * length(v - along * axis);
+    const Real side = sin_angle * along - cos_angle * length(v - along * axis);
+    return side < along ? side : along;
   }
 };
 

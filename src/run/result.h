@@ -27,7 +27,7 @@ struct ToolFacts {
 ToolFacts tool_facts();
 
 struct MachineFacts {
-  std::string cpu, os, hostname_hash;
+  std::string cpu, os;
   int cores = 0;
   std::uint64_t ram_bytes = 0;
 };
@@ -62,12 +62,13 @@ struct CaseResult {
   nlohmann::json grid;           // {kind, cells, ... boundaries, lookup constants}
   std::string assigner, assigner_label;
   nlohmann::json assigner_params;
-  bool conservative = true;
+  bool conservative = true, exact = false;
   std::string storage, storage_label;
   measure::Occupancy occupancy;
   measure::Buffers buffers;
   std::uint64_t tests_done = 0;  // over all frames
   std::optional<measure::ErrorCounts> error;
+  std::string deepest_miss_light;  // name in the rig
   std::optional<measure::ShadingCounts> shading;
   std::optional<TimingResult> timing;
 };
@@ -80,6 +81,7 @@ struct Result {
   std::vector<SceneResult> scenes;
   std::vector<CaseResult> cases;
   std::vector<Skipped> skipped;
+  std::vector<std::string> planned_ids;  // of all cases of the plan, in its order
 };
 
 }  // namespace clusterbench::run

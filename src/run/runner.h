@@ -27,7 +27,4 @@ struct Listener {
 Result run_plan(const Config& config, const Plan& plan, const std::vector<std::string>& done, const Listener& listener,
                 const std::atomic<bool>& stop);
 
-// A conservative (or exact) assigner lost a light, or reported one too many: what the run fails for, one line each.
-std::vector<std::string> gate_failures(const Result& result);
-
 }  // namespace clusterbench::run

@@ -1,0 +1,15 @@
+# clusterbench_facts(TARGET): what src/run/facts.cpp says of the build. The commit is read anew at every build, so that it is
+# never that of an earlier configure.
+function(clusterbench_facts TARGET)
+  string(TOUPPER "${CMAKE_BUILD_TYPE}" TYPE)
+  string(STRIP "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${TYPE}} -ffp-contract=off" FLAGS)
+  set_source_files_properties(src/run/facts.cpp PROPERTIES COMPILE_DEFINITIONS
+    "CLUSTERBENCH_VERSION=\"${PROJECT_VERSION}\";CLUSTERBENCH_FLAGS=\"${FLAGS}\";CLUSTERBENCH_BUILD_TYPE=\"${CMAKE_BUILD_TYPE}\"")
+  set(FOLDER ${CMAKE_CURRENT_BINARY_DIR}/facts)
+  add_custom_target(clusterbench_git_sha
+    COMMAND ${CMAKE_COMMAND} -DSOURCE=${CMAKE_CURRENT_SOURCE_DIR} -DOUTPUT=${FOLDER}/run/git_sha.h
+            -P ${CMAKE_CURRENT_SOURCE_DIR}/cmake/WriteGitSha.cmake
+    BYPRODUCTS ${FOLDER}/run/git_sha.h)
+  add_dependencies(${TARGET} clusterbench_git_sha)
+  target_include_directories(${TARGET} PRIVATE ${FOLDER})
+endfunction()

@@ -1,0 +1,241 @@
+#include "report/json.h"
+
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include "measure/front.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json to_json(const measure::Spread& spread) {
+  return {{"mean", number(spread.mean)},
+          {"p50", spread.p50},
+          {"p95", spread.p95},
+          {"p99", spread.p99},
+          {"max", spread.max}};
+}
+
+Json to_json(const measure::Interval& interval) {
+  return {number(interval.low), number(interval.high)};
+}
+
+Json to_json(const measure::TimeStats& stats) {
+  Json samples = Json::array();
+  for (const double sample : stats.samples) samples.push_back(std::round(sample * 10.0) / 10.0);
+  return {{"median", number(stats.median)}, {"mad", number(stats.mad)},    {"min", number(stats.min)},
+          {"p95", number(stats.p95)},       {"ci95", to_json(stats.ci95)}, {"samples", samples}};
+}
+
+Json to_json(const measure::HighWater& mark) {
+  return {
+      {"high_water", mark.high_water}, {"theoretical_max", mark.theoretical_max}, {"recommended", mark.recommended}};
+}
+
+// Cell index as [x, y, z].
+Json cell_place(std::uint32_t cell, const nlohmann::json& cells) {
+  const auto nx = cells[0].get<std::uint32_t>(), ny = cells[1].get<std::uint32_t>();
+  return {cell % nx, cell / nx % ny, cell / nx / ny};
+}
+
+Json occupancy(const run::CaseResult& one) {
+  const measure::Occupancy& o = one.occupancy;
+  Json lights = to_json(o.lights_per_cluster);
+  lights["histogram"] = o.histogram;
+  return {{"pairs", to_json(o.pairs)},
+          {"lights_per_cluster", lights},
+          {"occupied_fraction", to_json(o.occupied_fraction)},
+          {"worst_frame", o.worst_frame},
+          {"worst_cell", cell_place(o.worst_cell, one.grid["cells"])}};
+}
+
+Json buffers(const run::CaseResult& one) {
+  const measure::Buffers& b = one.buffers;
+  return {{"index_entries", to_json(b.index_entries)},
+          {"bytes", to_json(b.bytes)},
+          {"index_bits", b.index_bits},
+          {"header_bytes", b.header_bytes},
+          {"upload_bytes", {{"mean", number(b.upload_bytes_mean)}, {"max", b.upload_bytes_max}}},
+          {"in_use", {{"mean", number(b.in_use_mean)}, {"max", number(b.in_use_max)}}},
+          {"overflow",
+           {{"dropped_pairs", b.dropped_pairs},
+            {"cells", b.overflowing_cells},
+            {"frames", b.overflowing_frames},
+            {"lights", b.dropped_lights}}},
+          {"scratch_bytes", b.scratch_bytes},
+          {"worst_frame", b.worst_frame},
+          {"worst_cell", cell_place(b.worst_cell, one.grid["cells"])}};
+}
+
+Json error(const run::CaseResult& one) {
+  const measure::ErrorCounts& e = *one.error;
+  Json out{{"true_pairs", e.true_pairs},
+           {"reported_pairs", e.reported_pairs},
+           {"false_positives", e.false_positives},
+           {"false_negatives", e.false_negatives},
+           {"excess_ratio", number(e.excess_ratio())},
+           {"miss_ratio", number(e.miss_ratio())},
+           {"deepest_miss", number(e.deepest_miss)},
+           {"undecided", e.undecided},
+           {"frames_checked", e.frames_checked},
+           {"decided", {{"filter", e.filter_decided}, {"exact", e.exact_decided}}}};
+  if (e.deepest)
+    out["deepest"] = {{"frame", e.deepest->frame},
+                      {"cell", cell_place(e.deepest->cell, one.grid["cells"])},
+                      {"light", e.deepest->light},
+                      {"rig_light", e.deepest->rig_index},
+                      {"light_name", one.deepest_miss_light}};
+  return out;
+}
+
+Json shading(const measure::ShadingCounts& s) {
+  return {{"samples", s.samples},
+          {"evaluated", s.evaluated},
+          {"needed", s.needed},
+          {"missed", s.missed},
+          {"lost_irradiance", number(s.lost_irradiance)},
+          {"overshade", number(s.overshade())}};
+}
+
+Json timing(const run::TimingResult& t) {
+  Json out{{"frames_timed", t.frames_timed},       {"build_ns", to_json(t.build_ns)},
+           {"assign_ns", to_json(t.assign_ns)},    {"convert_ns", to_json(t.convert_ns)},
+           {"ns_per_pair", number(t.ns_per_pair)}, {"write_floor_ns", number(t.write_floor_ns)},
+           {"floor_ratio", number(t.floor_ratio)}};
+  if (t.vs)
+    out["vs"] = {
+        {"assigner", t.vs->assigner}, {"ratio", number(t.vs->ratio.ratio)}, {"ci95", to_json(t.vs->ratio.ci95)}};
+  return out;
+}
+
+Json to_json(const run::ToolFacts& tool) {
+  Json libraries = Json::object();
+  for (const auto& [name, version] : tool.libraries) libraries[name] = version;
+  return {{"version", tool.version}, {"git_sha", tool.git_sha},       {"compiler", tool.compiler},
+          {"flags", tool.flags},     {"build_type", tool.build_type}, {"simd_target", tool.simd_target},
+          {"libraries", libraries}};
+}
+
+Json to_json(const run::SceneResult& scene) {
+  return {{"name", scene.name},
+          {"sha256", scene.sha256},
+          {"lights",
+           {{"point", scene.points}, {"spot", scene.spots}, {"directional", scene.directionals}, {"box", scene.boxes}}},
+          {"frames", scene.frames},
+          {"range_rule", scene.range_rule},
+          {"warnings", scene.warnings}};
+}
+
+double number_at(const Json& one, const char* pointer) {
+  const Json::json_pointer place(pointer);
+  return one.contains(place) && one[place].is_number() ? one[place].get<double>() : std::nan("");
+}
+
+// Per scene, the ids of the cases that none beats in time, list bytes and overshade together.
+Json fronts(const Json& scenes, const Json& cases) {
+  Json list = Json::array();
+  for (const Json& scene : scenes) {
+    std::vector<measure::Costs> costs;
+    std::vector<std::string> ids;
+    for (const Json& one : cases) {
+      if (one["scene"] != scene["name"]) continue;
+      ids.push_back(one["id"]);
+      costs.push_back({number_at(one, "/timing/assign_ns/median"), number_at(one, "/buffers/bytes/high_water"),
+                       number_at(one, "/shading/overshade")});
+    }
+    Json front = Json::array();
+    for (const std::size_t place : measure::pareto_front(costs)) front.push_back(ids[place]);
+    list.push_back({{"scene", scene["name"]}, {"ids", front}});
+  }
+  return list;
+}
+
+Json in_plan_order(const run::Result& result, const std::vector<Json>& earlier_cases) {
+  std::map<std::string, Json> by_id;
+  for (const Json& one : earlier_cases) by_id[one.at("id").get<std::string>()] = one;
+  for (const run::CaseResult& one : result.cases) by_id[one.id] = case_to_json(one);
+  Json cases = Json::array();
+  for (const std::string& id : result.planned_ids)
+    if (const auto found = by_id.find(id); found != by_id.end()) cases.push_back(found->second);
+  return cases;
+}
+
+std::string missing_light(const Json& one) {
+  const Json& error = one["error"];
+  std::string text = one["name"].get<std::string>() + ": lost " + error["false_negatives"].dump() + " of " +
+                     error["true_pairs"].dump() + " true pairs";
+  if (!error.contains("deepest")) return text;
+  const Json& deepest = error["deepest"];
+  char percent[32];
+  std::snprintf(percent, sizeof percent, "%.3g", 100.0 * error["deepest_miss"].get<double>());
+  return text + "; deepest in frame " + deepest["frame"].dump() + ", cell " + deepest["cell"].dump() + ", light " +
+         deepest["light"].dump() + " ('" + deepest["light_name"].get<std::string>() + "'), " + percent +
+         " % of its range inside";
+}
+
+}  // namespace
+
+Json case_to_json(const run::CaseResult& one) {
+  Json out{{"id", one.id},
+           {"name", one.name},
+           {"scene", one.scene},
+           {"camera", one.camera},
+           {"viewport", {one.viewport.x, one.viewport.y}},
+           {"frames", one.frames},
+           {"grid", one.grid},
+           {"assigner",
+            {{"name", one.assigner},
+             {"label", one.assigner_label},
+             {"params", one.assigner_params},
+             {"conservative", one.conservative},
+             {"exact", one.exact}}},
+           {"storage", one.storage_label},
+           {"tests_done", one.tests_done},
+           {"occupancy", occupancy(one)},
+           {"buffers", buffers(one)}};
+  if (one.error) out["error"] = error(one);
+  if (one.shading) out["shading"] = shading(*one.shading);
+  if (one.timing) out["timing"] = timing(*one.timing);
+  return out;
+}
+
+Json result_to_json(const run::Result& result, const std::vector<Json>& earlier_cases) {
+  Json out{{"schema_version", k_schema_version}, {"name", result.config_name}, {"tool", to_json(result.tool)}};
+  out["machine"] = {{"cpu", result.machine.cpu},
+                    {"cores", result.machine.cores},
+                    {"ram_bytes", result.machine.ram_bytes},
+                    {"os", result.machine.os}};
+  out["config"] = result.config;
+  out["scenes"] = Json::array();
+  for (const run::SceneResult& scene : result.scenes) out["scenes"].push_back(to_json(scene));
+  out["cases"] = in_plan_order(result, earlier_cases);
+  out["front"] = fronts(out["scenes"], out["cases"]);
+  out["skipped"] = Json::array();
+  for (const run::Skipped& skipped : result.skipped)
+    out["skipped"].push_back({{"name", skipped.name}, {"reason", skipped.reason}});
+  return out;
+}
+
+std::vector<std::string> gate_failures(const Json& result) {
+  std::vector<std::string> failures;
+  for (const Json& one : result["cases"]) {
+    if (!one.contains("error")) continue;
+    const Json& assigner = one["assigner"];
+    const bool has_lost = one["error"]["false_negatives"] != 0, has_excess = one["error"]["false_positives"] != 0;
+    if (has_lost && (assigner["conservative"] == true || assigner["exact"] == true))
+      failures.push_back(missing_light(one));
+    if (has_excess && assigner["exact"] == true)
+      failures.push_back(one["name"].get<std::string>() + ": reported " + one["error"]["false_positives"].dump() +
+                         " pairs that are not true, and calls itself exact");
+  }
+  return failures;
+}
+
+}  // namespace clusterbench::report

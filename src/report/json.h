@@ -1,0 +1,24 @@
+#pragma once
+// The result as JSON: the contract with everything that reads results. Names are stable under schema_version 1; what is
+// not a number is null.
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "run/result.h"
+
+namespace clusterbench::report {
+
+inline constexpr int k_schema_version = 1;
+
+nlohmann::ordered_json case_to_json(const run::CaseResult& one);
+
+// `earlier_cases`: what an interrupted run had finished, as case_to_json gave it. All cases come in the plan's order.
+nlohmann::ordered_json result_to_json(const run::Result& result,
+                                      const std::vector<nlohmann::ordered_json>& earlier_cases);
+
+// What a run fails for, a line each: a conservative assigner that lost a light, an exact one with any difference.
+std::vector<std::string> gate_failures(const nlohmann::ordered_json& result);
+
+}  // namespace clusterbench::report

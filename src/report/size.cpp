@@ -1,0 +1,121 @@
+#include "report/size.h"
+
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <set>
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string text(const char* format, double value) {
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, format, value);
+  return buffer;
+}
+
+double warn_at(const Json& result) {
+  return result["config"]["allocation"]["warn_at"].get<double>();
+}
+double margin(const Json& result) {
+  return result["config"]["allocation"]["margin"].get<double>();
+}
+
+std::uint64_t warning_level(const Json& result, std::uint64_t capacity) {
+  return static_cast<std::uint64_t>(std::floor(warn_at(result) * static_cast<double>(capacity)));
+}
+
+std::string share(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? "-" : text("%.2f %%", 100.0 * static_cast<double>(part) / static_cast<double>(whole));
+}
+
+// What was seen, as comment lines above the case's constants.
+std::string comment(const Json& result, const Json& one) {
+  const Json& buffers = one["buffers"];
+  const Json& entries = buffers["index_entries"];
+  const auto high = entries["high_water"].get<std::uint64_t>(), most = entries["theoretical_max"].get<std::uint64_t>();
+  const auto capacity = entries["recommended"].get<std::uint64_t>();
+  std::string out = "// " + one["name"].get<std::string>() + "\n";
+  out += "//   high water  " + std::to_string(high) + " entries in frame " + buffers["worst_frame"].dump() +
+         ", longest list in cell " + buffers["worst_cell"].dump() + "; " + share(high, most) + " of the theoretical " +
+         std::to_string(most) + "\n";
+  out += "//   allocate    " + std::to_string(capacity) + " entries of " + buffers["index_bits"].dump() +
+         " bits (high water x " + text("%g", margin(result)) + "), " + buffers["bytes"]["recommended"].dump() +
+         " bytes with headers\n";
+  out += "//   warn above  " + std::to_string(warning_level(result, capacity)) + " entries (" +
+         text("%g", warn_at(result)) + " of the capacity)\n";
+  if (buffers["overflow"]["dropped_pairs"] != 0)
+    out += "//   OVERFLOW    " + buffers["overflow"]["dropped_pairs"].dump() + " pairs dropped in " +
+           buffers["overflow"]["cells"].dump() + " cells of " + buffers["overflow"]["frames"].dump() + " frames\n";
+  return out;
+}
+
+// A case's name as a C++ identifier; a number is added where two become the same.
+std::string identifier(const std::string& name, std::set<std::string>& taken) {
+  std::string id;
+  for (const char c : name) {
+    const bool is_word = std::isalnum(static_cast<unsigned char>(c)) != 0;
+    if (is_word)
+      id += c;
+    else if (!id.empty() && id.back() != '_')
+      id += '_';
+  }
+  while (!id.empty() && id.back() == '_') id.pop_back();
+  if (id.empty() || std::isdigit(static_cast<unsigned char>(id.front())) != 0) id = "case_" + id;
+  std::string unique = id;
+  for (int number = 2; !taken.insert(unique).second; ++number) unique = id + "_" + std::to_string(number);
+  return unique;
+}
+
+std::string constants(const Json& result, const Json& one, std::set<std::string>& taken) {
+  const auto capacity = one["buffers"]["index_entries"]["recommended"].get<std::uint64_t>();
+  return comment(result, one) + "inline constexpr LightListBudget " + identifier(one["name"], taken) + "{" +
+         std::to_string(capacity) + "u, " + std::to_string(warning_level(result, capacity)) + "u, " +
+         one["buffers"]["bytes"]["recommended"].dump() + "u};\n\n";
+}
+
+constexpr const char* k_header_start = R"(#pragma once
+// Light-list allocation, measured by clusterbench. Measure again when levels, lights or the clustering change.
+
+#include <cassert>
+#include <cstdint>
+#include <cstdio>
+
+namespace light_lists {
+
+struct LightListBudget {
+  std::uint64_t capacity_entries;  // light indices to allocate
+  std::uint64_t warn_entries;      // say something above this
+  std::uint64_t bytes;             // headers included
+};
+
+)";
+
+constexpr const char* k_header_end =
+    R"(// Call once per frame with the number of entries that the frame needs. Keeps the worst ever seen; warns once per new worst
+// above the warning level; asserts before the allocation is overrun.
+inline void check(const LightListBudget& budget, std::uint64_t needed_entries, std::uint64_t& worst_ever) {
+  if (needed_entries > worst_ever) {
+    worst_ever = needed_entries;
+    if (needed_entries > budget.warn_entries)
+      std::fprintf(stderr, "light lists: %llu of %llu entries in use; raise the allocation\n",
+                   static_cast<unsigned long long>(needed_entries), static_cast<unsigned long long>(budget.capacity_entries));
+  }
+  assert(needed_entries <= budget.capacity_entries && "light lists overflow their allocation");
+}
+
+}  // namespace light_lists
+)";
+
+}  // namespace
+
+std::string size_report(const Json& result) {
+  std::string header = k_header_start;
+  std::set<std::string> taken;
+  for (const Json& one : result["cases"]) header += constants(result, one, taken);
+  return header + k_header_end;
+}
+
+}  // namespace clusterbench::report

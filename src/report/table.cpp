@@ -1,0 +1,216 @@
+#include "report/table.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <set>
+#include <vector>
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* k_red = "\033[31m";
+constexpr const char* k_bold = "\033[1m";
+constexpr const char* k_plain = "\033[0m";
+
+constexpr std::array<const char*, 11> k_headings{"",       "assigner", "assign us", "ns/pair", "floor",  "pairs",
+                                                 "excess", "missed",   "p99",       "bytes",   "entries"};
+using Cells = std::array<std::string, k_headings.size()>;
+
+struct Line {
+  Cells cells;
+  bool has_failed = false;
+  double sort_key = 0.0;
+};
+
+std::string text(const char* format, double value) {
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, format, value);
+  return buffer;
+}
+
+// The number at a pointer in a chosen format; "-" where there is none.
+std::string number_text(const Json& one, const char* pointer, const char* format, double scale = 1.0) {
+  const Json::json_pointer place(pointer);
+  if (!one.contains(place) || !one[place].is_number()) return "-";
+  return text(format, scale * one[place].get<double>());
+}
+
+// Bytes and counts as people say them: 831, 12.3k, 4.56M.
+std::string short_count(double value) {
+  if (value < 10000.0) return text("%.0f", value);
+  if (value < 1e6) return text("%.1fk", value / 1e3);
+  return text("%.2fM", value / 1e6);
+}
+
+std::string short_count(const Json& one, const char* pointer) {
+  const Json::json_pointer place(pointer);
+  return one.contains(place) && one[place].is_number() ? short_count(one[place].get<double>()) : "-";
+}
+
+std::string time_text(const Json& one) {
+  const Json::json_pointer place("/timing/assign_ns/median");
+  if (!one.contains(place) || !one[place].is_number()) return "-";
+  const double us = one[place].get<double>() / 1e3;
+  return text(us < 10.0 ? "%.2f" : us < 1000.0 ? "%.1f" : "%.0f", us);
+}
+
+double sort_key(const Json& one) {
+  for (const char* pointer : {"/timing/assign_ns/median", "/error/excess_ratio"}) {
+    const Json::json_pointer place(pointer);
+    if (one.contains(place) && one[place].is_number()) return one[place].get<double>();
+  }
+  return 0.0;
+}
+
+Line line_of(const Json& one, bool is_on_front, bool names_storage) {
+  Line line;
+  std::string label = one["assigner"]["label"];
+  if (names_storage) label += " / " + one["storage"].get<std::string>();
+  line.cells = {is_on_front ? "*" : "",
+                label,
+                time_text(one),
+                number_text(one, "/timing/ns_per_pair", "%.2f"),
+                number_text(one, "/timing/floor_ratio", "%.1f"),
+                short_count(one, "/occupancy/pairs/mean"),
+                number_text(one, "/error/excess_ratio", "%.1f %%", 100.0),
+                number_text(one, "/error/false_negatives", "%.0f"),
+                number_text(one, "/occupancy/lights_per_cluster/p99", "%.0f"),
+                short_count(one, "/buffers/bytes/high_water"),
+                short_count(one, "/buffers/index_entries/recommended")};
+  line.has_failed =
+      one.contains("error") && one["error"]["false_negatives"] != 0 && one["assigner"]["conservative"] == true;
+  line.sort_key = sort_key(one);
+  return line;
+}
+
+using Widths = std::array<std::size_t, k_headings.size()>;
+
+Widths widths_of(const std::vector<Line>& lines) {
+  Widths widths{};
+  for (std::size_t column = 0; column < k_headings.size(); ++column) {
+    widths[column] = std::string(k_headings[column]).size();
+    for (const Line& line : lines) widths[column] = std::max(widths[column], line.cells[column].size());
+  }
+  widths[0] = 1;
+  return widths;
+}
+
+// The first two columns to the left, numbers to the right.
+std::string aligned(const Cells& cells, const Widths& widths) {
+  std::string row = "  ";
+  for (std::size_t column = 0; column < cells.size(); ++column) {
+    const std::string padding(widths[column] - cells[column].size(), ' ');
+    row += column < 2 ? cells[column] + padding : padding + cells[column];
+    row += column == 0 ? " " : "  ";
+  }
+  while (!row.empty() && row.back() == ' ') row.pop_back();
+  return row + "\n";
+}
+
+Cells headings() {
+  Cells cells;
+  for (std::size_t column = 0; column < cells.size(); ++column) cells[column] = k_headings[column];
+  return cells;
+}
+
+// What cases of one block have in common: camera, viewport and grid.
+std::string block_of(const Json& one) {
+  const std::string viewport = one["viewport"][0].dump() + "x" + one["viewport"][1].dump();
+  return one["grid"]["name"].get<std::string>() + ", camera " + one["camera"].get<std::string>() + ", " + viewport;
+}
+
+std::vector<std::string> blocks_of(const Json& cases, const Json& scene) {
+  std::vector<std::string> blocks;
+  for (const Json& one : cases)
+    if (one["scene"] == scene["name"] && std::find(blocks.begin(), blocks.end(), block_of(one)) == blocks.end())
+      blocks.push_back(block_of(one));
+  return blocks;
+}
+
+std::set<std::string> ids_on_front(const Json& result) {
+  std::set<std::string> ids;
+  for (const Json& front : result["front"])
+    for (const Json& id : front["ids"]) ids.insert(id.get<std::string>());
+  return ids;
+}
+
+bool has_several_storages(const Json& cases) {
+  std::set<std::string> storages;
+  for (const Json& one : cases) storages.insert(one["storage"].get<std::string>());
+  return storages.size() > 1;
+}
+
+std::string scene_heading(const Json& scene) {
+  const Json& lights = scene["lights"];
+  return scene["name"].get<std::string>() + "  (" + lights["point"].dump() + " points, " + lights["spot"].dump() +
+         " spots, " + scene["frames"].dump() + " frames)";
+}
+
+std::string scene_warnings(const Json& result) {
+  std::string out;
+  for (const Json& scene : result["scenes"]) {
+    const Json& rule = scene["range_rule"];
+    const int made = rule["from_intensity"].get<int>() + rule["clamped"].get<int>();
+    if (made > 0)
+      out += "warning: " + scene["name"].get<std::string>() + ": " + std::to_string(made) +
+             " lights have no range; they end where they fall to " + text("%g", rule["cutoff_lux"].get<double>()) +
+             " lux, at most " + text("%g", rule["max_range"].get<double>()) + " m (range_rule)\n";
+    for (const Json& warning : scene["warnings"])
+      out += "warning: " + scene["name"].get<std::string>() + ": " + warning.get<std::string>() + "\n";
+  }
+  return out;
+}
+
+std::string case_warnings(const Json& cases) {
+  std::string out;
+  for (const Json& one : cases) {
+    const Json& overflow = one["buffers"]["overflow"];
+    if (overflow["dropped_pairs"] != 0)
+      out += "warning: " + one["name"].get<std::string>() + ": " + overflow["dropped_pairs"].dump() +
+             " pairs dropped in " + overflow["cells"].dump() + " cells of " + overflow["frames"].dump() + " frames\n";
+    if (one.contains("error") && one["error"]["undecided"] != 0)
+      out += "warning: " + one["name"].get<std::string>() + ": " + one["error"]["undecided"].dump() +
+             " pairs are undecided and counted as true\n";
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string render_table(const Json& result, bool colour) {
+  const Json& cases = result["cases"];
+  const std::set<std::string> on_front = ids_on_front(result);
+  const bool names_storage = has_several_storages(cases);
+  std::string out;
+  for (const Json& scene : result["scenes"]) {
+    const std::vector<std::string> blocks = blocks_of(cases, scene);
+    if (blocks.empty()) continue;
+    out += (colour ? k_bold : "") + scene_heading(scene) + (colour ? k_plain : "") + "\n";
+    for (const std::string& block : blocks) {
+      std::vector<Line> lines;
+      for (const Json& one : cases)
+        if (one["scene"] == scene["name"] && block_of(one) == block)
+          lines.push_back(line_of(one, on_front.contains(one["id"].get<std::string>()), names_storage));
+      std::stable_sort(lines.begin(), lines.end(),
+                       [](const Line& a, const Line& b) { return a.sort_key < b.sort_key; });
+      const Widths widths = widths_of(lines);
+      out += " " + block + "\n" + aligned(headings(), widths);
+      for (const Line& line : lines)
+        out += line.has_failed && colour ? k_red + aligned(line.cells, widths) + k_plain : aligned(line.cells, widths);
+    }
+    out += "\n";
+  }
+  out +=
+      "* nothing else in its scene is better in time, bytes and overshade. floor: assign time / time to copy the "
+      "lists.\n"
+      "excess: false positives in % of true pairs. p99: lights per cell. entries: allocation with margin.\n";
+  if (!result["skipped"].empty())
+    out += std::to_string(result["skipped"].size()) + " combinations skipped; the result says why.\n";
+  return out + scene_warnings(result) + case_warnings(cases);
+}
+
+}  // namespace clusterbench::report

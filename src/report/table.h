@@ -1,0 +1,13 @@
+#pragma once
+// A result as a table for people.
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace clusterbench::report {
+
+// Per scene and grid, the cases by time (by excess where nothing was timed), with a legend and warnings. At most 100
+// columns for usual names. `colour`: with terminal escapes.
+std::string render_table(const nlohmann::ordered_json& result, bool colour);
+
+}  // namespace clusterbench::report

@@ -1,0 +1,140 @@
+#include "run/accuracy_pass.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace clusterbench::run {
+namespace {
+
+std::uint32_t real_cells(const grid::Grid& grid) {
+  std::uint32_t count = 0;
+  for (std::uint32_t cell = 0; cell < grid.cell_count(); ++cell) count += grid.is_hole(cell) ? 0 : 1;
+  return count;
+}
+
+// One frame as all assigners of the group see it.
+struct FrameAtHand {
+  view::Frame frame;
+  bool is_new_grid = false;
+  view::LightArrays lights;
+  measure::Truth truth;
+  std::vector<grid::Sample> samples;
+  assign::Lists reaching;
+};
+
+class ListMeter {
+ public:
+  ListMeter(const Config& config, std::size_t assigner) : config_(config) {
+    const MethodRequest& method = config.assigners[assigner];
+    assigner_ = assign::find_assigner(method.name)->make(method.params);
+    measures_.assigner = assigner;
+  }
+
+  void add(const FrameAtHand& now, const grid::Grid& grid) {
+    if (now.is_new_grid) assigner_->build(grid);
+    if (!occupancy_) occupancy_.emplace(real_cells(grid));
+    assigner_->assign(now.lights, lists_);
+    measures_.tests_done += assigner_->tests_done();
+    occupancy_->add_frame(now.frame.index, lists_);
+    if (config_.check_accuracy) measure::add_frame(measures_.error, now.frame, grid, now.truth, lists_);
+    if (!now.samples.empty()) measure::add_frame(measures_.shading, now.frame, grid, now.samples, now.reaching, lists_);
+  }
+
+  const assign::Lists& lists() const { return lists_; }
+  std::size_t scratch_bytes() const { return assigner_->scratch_bytes(); }
+  std::size_t assigner() const { return measures_.assigner; }
+
+  ListMeasures result() const {
+    ListMeasures out = measures_;
+    if (occupancy_) out.occupancy = occupancy_->result();
+    return out;
+  }
+
+ private:
+  const Config& config_;
+  std::unique_ptr<assign::Assigner> assigner_;
+  std::optional<measure::OccupancyMeter> occupancy_;
+  ListMeasures measures_;
+  assign::Lists lists_;
+};
+
+class CaseMeter {
+ public:
+  CaseMeter(const Config& config, const CasePlan& plan) : assigner_(plan.assigner), buffers_(config.allocation) {
+    const MethodRequest& method = config.storages[plan.storage];
+    storage_ = assign::find_storage(method.name)->make(method.params);
+  }
+
+  void add(const FrameAtHand& now, const grid::Grid& grid, const ListMeter& list) {
+    if (now.is_new_grid) storage_->start(grid.cell_count(), now.lights.points, now.lights.spots);
+    storage_->store(list.lists());
+    buffers_.add_frame(now.frame.index, *storage_, list.scratch_bytes());
+  }
+
+  std::size_t assigner() const { return assigner_; }
+  measure::Buffers result() const { return buffers_.result(); }
+
+ private:
+  std::size_t assigner_;
+  std::unique_ptr<assign::Storage> storage_;
+  measure::BufferMeter buffers_;
+};
+
+// How far samples are spread: where the grid ends, else where the lights do.
+double sample_far(const grid::Grid& grid, const view::Frame& frame, double path_far_m) {
+  const bool has_slices = grid.kind() == grid::Kind::frustum || grid.kind() == grid::Kind::distance;
+  const double far = has_slices ? static_cast<double>(grid.screen().slices.boundaries.back()) : path_far_m;
+  return std::max(far, 2.0 * frame.projection.near_m);
+}
+
+FrameAtHand look_at(const Config& config, const PathFrames& path, GridOfFrames& grids, int index) {
+  FrameAtHand now;
+  now.frame = path.frame(index);
+  now.is_new_grid = grids.update(path, now.frame);
+  const grid::Grid& grid = grids.grid();
+  now.lights = view::lights_in(now.frame, grid::space_of(grid, now.frame));
+  if (config.check_accuracy) now.truth = measure::find_truth(now.frame, grid, config.threads);
+  if (config.shading_samples > 0) {
+    const double far = sample_far(grid, now.frame, path.far_m());
+    now.samples = measure::volume_samples(now.frame, far, config.shading_samples, config.seed);
+    now.reaching = measure::lights_reaching(now.frame, now.samples);
+  }
+  return now;
+}
+
+}  // namespace
+
+std::vector<std::size_t> assigners_of(const GroupPlan& group) {
+  std::vector<std::size_t> list;
+  for (const CasePlan& one : group.cases)
+    if (std::find(list.begin(), list.end(), one.assigner) == list.end()) list.push_back(one.assigner);
+  return list;
+}
+
+AccuracyResult accuracy_pass(const Config& config, const GroupPlan& group, const PathFrames& path,
+                             const std::function<void(int frame)>& on_frame, const std::atomic<bool>& stop) {
+  std::vector<ListMeter> lists;
+  for (const std::size_t assigner : assigners_of(group)) lists.emplace_back(config, assigner);
+  std::vector<CaseMeter> cases;
+  for (const CasePlan& one : group.cases) cases.emplace_back(config, one);
+
+  AccuracyResult result;
+  GridOfFrames grids(config.grids[group.grid]);
+  for (int index = 0; index < path.count(); ++index) {
+    if (stop) return result;
+    on_frame(index);
+    const FrameAtHand now = look_at(config, path, grids, index);
+    for (ListMeter& list : lists) {
+      list.add(now, grids.grid());
+      for (CaseMeter& one : cases)
+        if (one.assigner() == list.assigner()) one.add(now, grids.grid(), list);
+    }
+  }
+  for (const ListMeter& list : lists) result.lists.push_back(list.result());
+  for (const CaseMeter& one : cases) result.buffers.push_back(one.result());
+  result.last_grid = grids.grid();
+  result.is_complete = true;
+  return result;
+}
+
+}  // namespace clusterbench::run

@@ -1,0 +1,36 @@
+#pragma once
+// The first pass over a group's frames: lists against truth, occupancy, buffers, shading. Nothing is timed before it.
+
+#include <atomic>
+#include <functional>
+#include <memory>
+
+#include "run/path_frames.h"
+#include "run/result.h"
+#include "run/sweep.h"
+
+namespace clusterbench::run {
+
+// What one assigner's lists say, whatever they are stored in.
+struct ListMeasures {
+  std::size_t assigner = 0;  // place in Config::assigners
+  measure::Occupancy occupancy;
+  measure::ErrorCounts error;
+  measure::ShadingCounts shading;
+  std::uint64_t tests_done = 0;
+};
+
+struct AccuracyResult {
+  std::vector<ListMeasures> lists;        // one per assigner of the group, in order of first use
+  std::vector<measure::Buffers> buffers;  // one per case of the group
+  grid::Grid last_grid;
+  bool is_complete = false;  // false: stopped before the end
+};
+
+AccuracyResult accuracy_pass(const Config& config, const GroupPlan& group, const PathFrames& path,
+                             const std::function<void(int frame)>& on_frame, const std::atomic<bool>& stop);
+
+// The distinct assigners of a group's cases, in order of first use.
+std::vector<std::size_t> assigners_of(const GroupPlan& group);
+
+}  // namespace clusterbench::run

@@ -1,0 +1,69 @@
+// What a result says about the tool and the machine that made it.
+
+#include <sys/utsname.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <glm/glm.hpp>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "run/git_sha.h"
+#include "run/result.h"
+
+namespace clusterbench::run {
+namespace {
+
+std::string compiler() {
+#if defined(__clang__)
+  return std::string("clang ") + __clang_version__;
+#elif defined(__GNUC__)
+  return std::string("g++ ") + __VERSION__;
+#else
+  return "unknown";
+#endif
+}
+
+std::string dotted(int major, int minor, int patch) {
+  return std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(patch);
+}
+
+// The value behind "key : value" in a file of /proc; "" where there is none.
+std::string proc_value(const char* file, const std::string& key) {
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    if (line.compare(0, key.size(), key) != 0) continue;
+    const std::size_t colon = line.find(':');
+    const std::size_t start = line.find_first_not_of(" \t", colon + 1);
+    return start == std::string::npos ? "" : line.substr(start);
+  }
+  return "";
+}
+
+}  // namespace
+
+ToolFacts tool_facts() {
+  return {.version = CLUSTERBENCH_VERSION,
+          .git_sha = CLUSTERBENCH_GIT_SHA,
+          .compiler = compiler(),
+          .flags = CLUSTERBENCH_FLAGS,
+          .build_type = CLUSTERBENCH_BUILD_TYPE,
+          .simd_target = "scalar",
+          .libraries = {{"glm", dotted(GLM_VERSION_MAJOR, GLM_VERSION_MINOR, GLM_VERSION_PATCH)},
+                        {"nlohmann_json", dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
+                                                 NLOHMANN_JSON_VERSION_PATCH)}}};
+}
+
+MachineFacts machine_facts() {
+  MachineFacts facts;
+  facts.cpu = proc_value("/proc/cpuinfo", "model name");
+  if (facts.cpu.empty()) facts.cpu = "unknown";
+  facts.cores = static_cast<int>(std::thread::hardware_concurrency());
+  facts.ram_bytes =
+      static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
+  utsname names{};
+  if (uname(&names) == 0) facts.os = std::string(names.sysname) + " " + names.release + " " + names.machine;
+  return facts;
+}
+
+}  // namespace clusterbench::run

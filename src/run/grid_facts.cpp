@@ -1,0 +1,62 @@
+#include "run/grid_facts.h"
+
+#include "run/config_grids.h"
+
+namespace clusterbench::run {
+namespace {
+
+using Json = nlohmann::json;
+
+Json lookup_facts(const grid::SliceLookup& lookup) {
+  constexpr const char* k_forms[] = {"linear", "log2", "search"};
+  Json facts{{"form", k_forms[static_cast<int>(lookup.form)]}};
+  if (lookup.form == grid::SliceLookup::Form::search) return facts;
+  facts["scale"] = lookup.scale;
+  facts["bias"] = lookup.bias;
+  if (lookup.first_slice > 0) facts["first"] = lookup.first_m;
+  return facts;
+}
+
+void add_screen(Json& facts, const grid::GridSpec& spec, const grid::ScreenGrid& grid) {
+  const bool by_count = spec.tiles.count.x != 0;
+  facts["tiles"] = {{by_count ? "count" : "pixels", by_count ? Json{spec.tiles.count.x, spec.tiles.count.y}
+                                                             : Json{spec.tiles.pixels.x, spec.tiles.pixels.y}}};
+  facts["slices"] = {{"scheme", scheme_name(spec.slices.scheme)},
+                     {"boundaries", grid.slices.boundaries},
+                     {"lookup", lookup_facts(grid.slices.lookup)}};
+  if (spec.slices.scheme == grid::Scheme::fit)
+    facts["note"] = "slices follow the lights in view: these are the last frame's";
+}
+
+void add_world(Json& facts, const grid::WorldGrid& grid) {
+  const auto size = [](const std::vector<float>& planes) {
+    return (planes.back() - planes.front()) / static_cast<float>(planes.size() - 1);
+  };
+  facts["origin"] = {grid.origin.x, grid.origin.y, grid.origin.z};
+  facts["bounds"] = {{"min", {grid.x.front(), grid.y.front(), grid.z.front()}},
+                     {"max", {grid.x.back(), grid.y.back(), grid.z.back()}}};
+  facts["cell_size"] = {size(grid.x), size(grid.y), size(grid.z)};
+}
+
+}  // namespace
+
+Json grid_facts(const grid::GridSpec& spec, const grid::Grid& grid) {
+  const Vec3i cells = grid.cells();
+  Json facts{{"kind", grid::kind_name(grid.kind())}, {"name", spec.name()}, {"cells", {cells.x, cells.y, cells.z}}};
+  switch (grid.kind()) {
+    case grid::Kind::frustum:
+    case grid::Kind::distance:
+      add_screen(facts, spec, grid.screen());
+      break;
+    case grid::Kind::cascades:
+      facts["levels"] = grid.cascades().levels;
+      facts["finest"] = grid.cascades().finest_m;
+      break;
+    case grid::Kind::world:
+      add_world(facts, grid.world());
+      break;
+  }
+  return facts;
+}
+
+}  // namespace clusterbench::run

@@ -1,0 +1,41 @@
+#include "run/path_frames.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clusterbench::run {
+
+PathFrames::PathFrames(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport)
+    : scene_(scene), path_(path), viewport_(viewport) {
+  bool is_first = true;
+  for (int i = 0; i < count(); ++i) {
+    const view::Frame now = frame(i);
+    for (const scene::WorldLight& light : now.lights) {
+      if (!std::isfinite(light.range_m)) continue;
+      const Vec3d lo = light.position - light.range_m, hi = light.position + light.range_m;
+      rig_lo_ = is_first ? lo : glm::min(rig_lo_, lo);
+      rig_hi_ = is_first ? hi : glm::max(rig_hi_, hi);
+      far_m_ = std::max(far_m_, glm::length(light.position - now.view_space.origin) + light.range_m);
+      is_first = false;
+    }
+  }
+}
+
+view::Frame PathFrames::frame(int index) const {
+  return view::make_frame(scene_, path_.shots[static_cast<std::size_t>(index)], index, viewport_);
+}
+
+grid::GridInputs PathFrames::inputs(const grid::GridSpec& spec, const view::Frame& frame) const {
+  return grid::grid_inputs(spec, frame, far_m_, rig_lo_, rig_hi_);
+}
+
+bool GridOfFrames::update(const PathFrames& path, const view::Frame& frame) {
+  const grid::GridInputs inputs = path.inputs(spec_, frame);
+  if (is_made_ && inputs == inputs_) return false;
+  grid_ = grid::make_grid(spec_, inputs);
+  inputs_ = inputs;
+  is_made_ = true;
+  return true;
+}
+
+}  // namespace clusterbench::run

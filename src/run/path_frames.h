@@ -1,0 +1,45 @@
+#pragma once
+// The frames of one camera path in one viewport, made when they are asked for: a path over a large rig would not fit in
+// memory whole.
+
+#include "grid/grid.h"
+#include "scene/camera_path.h"
+#include "view/frame.h"
+
+namespace clusterbench::run {
+
+class PathFrames {
+ public:
+  PathFrames(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport);
+
+  int count() const { return static_cast<int>(path_.shots.size()); }
+  view::Frame frame(int index) const;
+  grid::GridInputs inputs(const grid::GridSpec& spec, const view::Frame& frame) const;
+  // The farthest that a bounded light reaches from any eye of the path.
+  double far_m() const { return far_m_; }
+
+ private:
+  const scene::Scene& scene_;
+  const scene::CameraPath& path_;
+  Vec2i viewport_;
+  Vec3d rig_lo_{0.0}, rig_hi_{0.0};  // box around the bounded lights' balls over the path
+  double far_m_ = 0.0;
+};
+
+// The grid of the frame at hand, rebuilt only when its inputs change.
+class GridOfFrames {
+ public:
+  explicit GridOfFrames(const grid::GridSpec& spec) : spec_(spec) {}
+
+  // True if the grid is a new one.
+  bool update(const PathFrames& path, const view::Frame& frame);
+  const grid::Grid& grid() const { return grid_; }
+
+ private:
+  grid::GridSpec spec_;
+  grid::GridInputs inputs_;
+  grid::Grid grid_;
+  bool is_made_ = false;
+};
+
+}  // namespace clusterbench::run

@@ -1,0 +1,201 @@
+#include "run/runner.h"
+
+#include <algorithm>
+#include <set>
+
+#include "core/error.h"
+#include "run/accuracy_pass.h"
+#include "run/grid_facts.h"
+#include "run/path_frames.h"
+#include "run/timing_pass.h"
+
+namespace clusterbench::run {
+namespace {
+
+nlohmann::json params_json(const assign::Params& params) {
+  nlohmann::json out = nlohmann::json::object();
+  for (const auto& [name, value] : params.values())
+    out[name] = std::visit([](const auto& held) { return nlohmann::json(held); }, value);
+  return out;
+}
+
+SceneResult scene_result(const SceneData& data, const scene::RangeRule& rule) {
+  SceneResult out;
+  const scene::Scene& scene = data.scene;
+  out.name = scene.name;
+  out.sha256 = scene.sha256;
+  out.warnings = scene.warnings;
+  out.boxes = static_cast<int>(scene.boxes.size());
+  int given = 0, from_intensity = 0, clamped = 0;
+  for (const scene::Light& light : scene.lights) {
+    ++(light.type == scene::LightType::point  ? out.points
+       : light.type == scene::LightType::spot ? out.spots
+                                              : out.directionals);
+    if (light.type == scene::LightType::directional) continue;
+    ++(light.range_source == scene::RangeSource::given            ? given
+       : light.range_source == scene::RangeSource::clamped_to_max ? clamped
+                                                                  : from_intensity);
+  }
+  for (const scene::CameraPath& path : data.paths) {
+    out.frames += static_cast<int>(path.shots.size());
+    if (path.made) out.warnings.push_back(path.how);
+  }
+  out.range_rule = {{"cutoff_lux", rule.cutoff_lux},
+                    {"max_range", rule.max_range_m},
+                    {"given", given},
+                    {"from_intensity", from_intensity},
+                    {"clamped", clamped}};
+  return out;
+}
+
+// An estimate of work in nanoseconds, only for the time that is left.
+double accuracy_cost(const Config& config, const GroupPlan& group, std::size_t lights, int frames) {
+  constexpr double k_ns_per_light = 2000.0, k_ns_per_brute_pair = 3.0, k_cells = 8000.0, k_ns_per_sample_light = 5.0;
+  double per_frame = static_cast<double>(lights) * (k_ns_per_light + k_ns_per_sample_light * config.shading_samples);
+  for (const std::size_t assigner : assigners_of(group))
+    per_frame += config.assigners[assigner].name == "brute-force"
+                     ? static_cast<double>(lights) * k_cells * k_ns_per_brute_pair
+                     : 1e5;
+  return per_frame * frames;
+}
+
+double timing_cost(const Config& config, const GroupPlan& group) {
+  if (!config.timing.measure) return 0.0;
+  return 1.3e6 * config.timing.min_time_ms * config.timing.rounds * static_cast<double>(assigners_of(group).size());
+}
+
+class Run {
+ public:
+  Run(const Config& config, const Plan& plan, const std::vector<std::string>& done, const Listener& listener,
+      const std::atomic<bool>& stop)
+      : config_(config), plan_(plan), done_(done.begin(), done.end()), listener_(listener), stop_(stop) {
+    for (const GroupPlan& group : plan.groups) {
+      const GroupPlan left = what_is_left(group);
+      progress_.cases_total += group.cases.size();
+      progress_.cases_done += group.cases.size() - left.cases.size();
+      if (left.cases.empty()) continue;
+      progress_.cost_total += accuracy_cost_of(left) + timing_cost(config, left);
+    }
+  }
+
+  Result result() {
+    Result out;
+    out.config_name = config_.name;
+    out.tool = tool_facts();
+    out.machine = machine_facts();
+    out.config = config_.resolved;
+    out.skipped = plan_.skipped;
+    for (std::size_t i = 0; i < plan_.scenes.size(); ++i) {
+      out.scenes.push_back(scene_result(plan_.scenes[i], config_.scenes[i].range_rule));
+      if (listener_.on_scene) listener_.on_scene(out.scenes.back());
+    }
+    for (const GroupPlan& group : plan_.groups)
+      for (const CasePlan& one : group.cases) out.planned_ids.push_back(one.id);
+    for (const GroupPlan& group : plan_.groups)
+      if (!stop_) run_group(what_is_left(group), out);
+    return out;
+  }
+
+ private:
+  GroupPlan what_is_left(GroupPlan group) const {
+    std::erase_if(group.cases, [&](const CasePlan& one) { return done_.contains(one.id); });
+    return group;
+  }
+
+  const scene::CameraPath& path_of(const GroupPlan& group) const {
+    return plan_.scenes[group.scene].paths[group.camera];
+  }
+
+  double accuracy_cost_of(const GroupPlan& group) const {
+    return accuracy_cost(config_, group, plan_.scenes[group.scene].scene.lights.size(),
+                         static_cast<int>(path_of(group).shots.size()));
+  }
+
+  void tell(const GroupPlan& group, const char* stage, double cost) {
+    progress_.cost_done += cost;
+    const std::string& name = group.cases.front().name;
+    progress_.doing = name.substr(0, name.find('/', name.find('/', name.find('/') + 1) + 1)) + ": " + stage;
+    if (listener_.on_progress) listener_.on_progress(progress_);
+  }
+
+  void run_group(const GroupPlan& group, Result& out) {
+    if (group.cases.empty()) return;
+    try {
+      measure_group(group, out);
+    } catch (const Error& error) {
+      throw Error(error.file(), group.cases.front().name + (error.where().empty() ? "" : ": " + error.where()),
+                  error.message(), error.code());
+    }
+  }
+
+  void measure_group(const GroupPlan& group, Result& out) {
+    const SceneData& data = plan_.scenes[group.scene];
+    const PathFrames path(data.scene, path_of(group), config_.viewports[group.viewport]);
+    const double per_frame = accuracy_cost_of(group) / path.count();
+    const AccuracyResult counted = accuracy_pass(
+        config_, group, path, [&](int) { tell(group, "truth and counts", per_frame); }, stop_);
+    if (!counted.is_complete) return;
+    std::vector<TimingResult> timings;
+    if (config_.timing.measure) {
+      const double per_round = timing_cost(config_, group) / config_.timing.rounds;
+      timings = timing_pass(
+          config_, group, path, [&](int) { tell(group, "time", per_round); }, stop_);
+      if (timings.empty()) return;
+    }
+    for (std::size_t i = 0; i < group.cases.size(); ++i) {
+      CaseResult one = case_result(group.cases[i], path.count(), counted, i);
+      if (!timings.empty()) one.timing = timings[i];
+      ++progress_.cases_done;
+      if (listener_.on_case) listener_.on_case(one);
+      out.cases.push_back(std::move(one));
+    }
+  }
+
+  CaseResult case_result(const CasePlan& plan, int frames, const AccuracyResult& counted, std::size_t place) const {
+    const scene::Scene& scene = plan_.scenes[plan.scene].scene;
+    const MethodRequest& assigner = config_.assigners[plan.assigner];
+    const MethodRequest& storage = config_.storages[plan.storage];
+    const assign::AssignerRow& row = *assign::find_assigner(assigner.name);
+    const ListMeasures& lists = *std::find_if(counted.lists.begin(), counted.lists.end(),
+                                              [&](const ListMeasures& one) { return one.assigner == plan.assigner; });
+    CaseResult out;
+    out.id = plan.id;
+    out.name = plan.name;
+    out.scene = scene.name;
+    out.camera = plan_.scenes[plan.scene].paths[plan.camera].camera;
+    out.viewport = config_.viewports[plan.viewport];
+    out.frames = frames;
+    out.grid = grid_facts(config_.grids[plan.grid], counted.last_grid);
+    out.assigner = assigner.name;
+    out.assigner_label = assigner.label();
+    out.assigner_params = params_json(assigner.params);
+    out.conservative = row.conservative;
+    out.exact = row.exact;
+    out.storage = storage.name;
+    out.storage_label = storage.label();
+    out.occupancy = lists.occupancy;
+    out.buffers = counted.buffers[place];
+    out.tests_done = lists.tests_done;
+    if (config_.check_accuracy) out.error = lists.error;
+    if (out.error && out.error->deepest)
+      out.deepest_miss_light = scene.lights[static_cast<std::size_t>(out.error->deepest->rig_index)].name;
+    if (config_.shading_samples > 0) out.shading = lists.shading;
+    return out;
+  }
+
+  const Config& config_;
+  const Plan& plan_;
+  std::set<std::string> done_;
+  const Listener& listener_;
+  const std::atomic<bool>& stop_;
+  Progress progress_;
+};
+
+}  // namespace
+
+Result run_plan(const Config& config, const Plan& plan, const std::vector<std::string>& done, const Listener& listener,
+                const std::atomic<bool>& stop) {
+  return Run(config, plan, done, listener, stop).result();
+}
+
+}  // namespace clusterbench::run
