@@ -22,12 +22,13 @@ std::string tiles_name(const Tiling& tiles) {
   return by_count ? pair(tiles.count.x, tiles.count.y, "") : pair(tiles.pixels.x, tiles.pixels.y, "px");
 }
 
-// "near..far", with what the camera or the lights decide left open.
+// "near..far", or "near..first..far"; what the camera or the lights decide is left open.
 std::string reach_name(const Slicing& slices) {
   const std::string near = slices.near_m == 0.0 ? "" : number(slices.near_m);
   const std::string far = slices.far_m == 0.0 ? "" : number(slices.far_m);
-  const std::string first = slices.scheme == Scheme::exponential_first ? number(slices.first_m) + ".." : "";
-  return near.empty() && far.empty() && first.empty() ? "" : " " + near + ".." + first + far;
+  const bool has_first = slices.scheme == Scheme::exponential_first;
+  if (near.empty() && far.empty()) return has_first ? " first " + number(slices.first_m) : "";
+  return " " + near + ".." + (has_first ? number(slices.first_m) + ".." : "") + far;
 }
 
 std::string slices_name(const Slicing& slices) {

@@ -1,5 +1,5 @@
 #pragma once
-// Seeded scenes of the project's own, written as glTF with lights and an animated camera.
+// Seeded scenes of the project's own: light rigs with an animated camera, written as binary glTF.
 
 #include <cstdint>
 #include <filesystem>
@@ -8,19 +8,23 @@
 
 namespace clusterbench::scene {
 
+class Stage;
+
 struct GeneratorRow {
   std::string name;
   std::string summary;
   std::string source;  // where its figures come from
-  // The scene as glTF JSON text with embedded buffers; the same for the same seed on every machine.
-  // `lights` = 0: the scene's own default.
-  std::string (*make)(std::uint64_t seed, int lights);
   int default_lights;
+  void (*build)(Stage& stage, int lights);
 };
 
 std::span<const GeneratorRow> generators();
 
-// Throws Error for an unknown name (with did-you-mean) or an unwritable path. A path that ends in .glb is written binary.
+// The bytes of a .glb file: the same for the same seed on every machine. `lights` = 0: the scene's own number.
+std::string make_scene(const GeneratorRow& row, std::uint64_t seed, int lights);
+
+// Throws Error for an unknown name (with did-you-mean), a path that does not end in .glb, and one that cannot be
+// written.
 void generate_scene(const std::string& name, std::uint64_t seed, int lights, const std::filesystem::path& out);
 
 }  // namespace clusterbench::scene

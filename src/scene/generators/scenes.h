@@ -1,0 +1,15 @@
+#pragma once
+// The scenes, one function each; `lights` is how many to make.
+
+#include "scene/generators/stage.h"
+
+namespace clusterbench::scene {
+
+void build_hall(Stage& stage, int lights, double range_m);
+void build_open_world(Stage& stage, int lights);
+void build_street(Stage& stage, int lights);
+void build_jam(Stage& stage, int lights);
+void build_mirror(Stage& stage, int lights);
+void build_outlier(Stage& stage, int lights);
+
+}  // namespace clusterbench::scene
