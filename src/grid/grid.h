@@ -22,13 +22,13 @@ const char* kind_name(Kind kind);
 struct ScreenGrid {
   Kind kind = Kind::frustum;  // frustum or distance
   Tiles tiles;
-  Slices slices;              // of depth (frustum) or distance
+  Slices slices;  // of depth (frustum) or distance
 };
 
 // Nested view-space boxes of cubical cells. Level l has cells of edge finest * 2^l and spans, in units of its edge,
 // x, y in [-cells/2, cells/2] and depth in [0, cells.z]. Cells of a level that lie in the finer level's box are holes:
-// they have an index and no space. cells.x, cells.y are multiples of 4, cells.z of 2, so a cell is wholly inside or outside.
-// z index 0 is nearest the eye; y index 0 is the top.
+// they have an index and no space. cells.x, cells.y are multiples of 4, cells.z of 2, so a cell is wholly inside or
+// outside. z index 0 is nearest the eye; y index 0 is the top.
 struct CascadesGrid {
   int levels = 1;
   Vec3i cells{16, 16, 16};  // of each level; grid z runs over level * cells.z + z
@@ -38,8 +38,8 @@ struct CascadesGrid {
   bool is_hole(int level, Vec3i cell) const;
 };
 
-// A fixed box grid in world space. Boundaries are relative to `origin`, single precision, ascending. Index (x, y, z) runs
-// along the world axes.
+// A fixed box grid in world space. Boundaries are relative to `origin`, single precision, ascending. Index (x, y, z)
+// runs along the world axes.
 struct WorldGrid {
   Vec3d origin{0.0};
   std::vector<float> x, y, z;
@@ -95,8 +95,8 @@ struct GridSpec {
 struct GridInputs {
   view::Projection projection;
   Vec2i viewport{0, 0};
-  double light_near_m = 0.0, light_far_m = 0.0;    // reach of the lights in view of this frame, as depth (or distance)
-  Vec3d rig_lo_m{0.0}, rig_hi_m{0.0};              // box around the bounded lights over the whole path
+  double light_near_m = 0.0, light_far_m = 0.0;  // reach of the lights in view of this frame, as depth (or distance)
+  Vec3d rig_lo_m{0.0}, rig_hi_m{0.0};            // box around the bounded lights over the whole path
 
   friend bool operator==(const GridInputs&, const GridInputs&) = default;
 };
@@ -106,6 +106,7 @@ Grid make_grid(const GridSpec& spec, const GridInputs& inputs);
 
 // The inputs of one frame. Fields that the spec does not use are left at zero, so that equal inputs mean an equal grid.
 // path_far_m: the farthest light reach over the whole path (used for a far that nobody gives).
-GridInputs grid_inputs(const GridSpec& spec, const view::Frame& frame, double path_far_m, Vec3d rig_lo_m, Vec3d rig_hi_m);
+GridInputs grid_inputs(const GridSpec& spec, const view::Frame& frame, double path_far_m, Vec3d rig_lo_m,
+                       Vec3d rig_hi_m);
 
 }  // namespace clusterbench::grid

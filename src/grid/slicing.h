@@ -12,25 +12,26 @@ enum class Scheme { linear, exponential, exponential_first, power, list, fit };
 struct Slicing {
   Scheme scheme = Scheme::exponential_first;
   int count = 16;
-  double near_m = 0.0;   // not given: the camera's near
-  double first_m = 5.0;  // exponential-first: slice 0 is near..first
-  double far_m = 0.0;    // not given: the camera's far, or (infinite) the farthest reach of a light in view
-  double lambda = 0.5;   // power: blend, 0 linear .. 1 exponential
+  double near_m = 0.0;               // not given: the camera's near
+  double first_m = 5.0;              // exponential-first: slice 0 is near..first
+  double far_m = 0.0;                // not given: the camera's far, or (infinite) the farthest reach of a light in view
+  double lambda = 0.5;               // power: blend, 0 linear .. 1 exponential
   std::vector<double> boundaries_m;  // list: count + 1 ascending numbers
 };
 
-// Where slices can lie in this frame. light_near/far: the reach of the lights in view (fit; far when nothing else says).
+// Where slices can lie in this frame. light_near/far: the reach of the lights in view (fit; far when nothing else
+// says).
 struct SliceRange {
   double camera_near_m, camera_far_m;
   double light_near_m, light_far_m;
 };
 
-// The constants of the shader's lookup: slice = int(f(depth) * scale + bias), f = identity or log2. Printed by the tool,
-// because users copy them.
+// The constants of the shader's lookup: slice = int(f(depth) * scale + bias), f = identity or log2. Printed by the
+// tool, because users copy them.
 struct SliceLookup {
   enum class Form { linear, log2, search } form = Form::search;
   float scale = 0.0f, bias = 0.0f;
-  int first_slice = 0;       // exponential-first: depths below `first` are slice 0, the formula counts from 1
+  int first_slice = 0;  // exponential-first: depths below `first` are slice 0, the formula counts from 1
   float first_m = 0.0f;
 };
 
@@ -45,8 +46,8 @@ struct Slices {
   int ideal_slice_of(double depth) const;
 };
 
-// Throws Error (file "", where = key such as "slices.near") for what cannot be: near >= far, exponential with near <= 0,
-// an infinite far, a list that does not ascend, boundaries that coincide in single precision.
+// Throws Error (file "", where = key such as "slices.near") for what cannot be: near >= far, exponential with near <=
+// 0, an infinite far, a list that does not ascend, boundaries that coincide in single precision.
 Slices make_slices(const Slicing& slicing, const SliceRange& range, bool orthographic);
 
 }  // namespace clusterbench::grid

@@ -1,5 +1,6 @@
 #pragma once
-// How the viewport is cut into tiles. Row 0 is at the top, column 0 at the left. Edge tiles are clipped to the viewport.
+// How the viewport is cut into tiles. Row 0 is at the top, column 0 at the left. Edge tiles are clipped to the
+// viewport.
 
 #include <vector>
 

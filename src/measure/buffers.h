@@ -8,8 +8,8 @@
 
 namespace clusterbench::measure {
 
-// How the allocation is sized: recommended = high-water x margin (never above the theoretical maximum), and the run-time
-// warning fires at warn_at of it.
+// How the allocation is sized: recommended = high-water x margin (never above the theoretical maximum), and the
+// run-time warning fires at warn_at of it.
 struct AllocationRule {
   double margin = 2.0;
   double warn_at = 0.9;
@@ -20,17 +20,17 @@ struct HighWater {
 };
 
 struct Buffers {
-  HighWater index_entries, bytes;          // bytes: headers + indices
+  HighWater index_entries, bytes;  // bytes: headers + indices
   std::uint32_t index_bits = 0;
-  std::uint64_t header_bytes = 0;          // high water
+  std::uint64_t header_bytes = 0;  // high water
   double upload_bytes_mean = 0.0;
   std::uint64_t upload_bytes_max = 0;
   std::uint64_t dropped_pairs = 0, overflowing_cells = 0;
   int overflowing_frames = 0;
   std::set<std::uint32_t> dropped_lights;
-  std::uint64_t scratch_bytes = 0;         // of the assigner, high water
-  int worst_frame = 0;                     // that made the high-water mark of index entries
-  std::uint32_t worst_cell = 0;            // its longest list
+  std::uint64_t scratch_bytes = 0;             // of the assigner, high water
+  int worst_frame = 0;                         // that made the high-water mark of index entries
+  std::uint32_t worst_cell = 0;                // its longest list
   double in_use_mean = 0.0, in_use_max = 0.0;  // share of the recommended entries in use per frame
 };
 

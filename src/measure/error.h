@@ -12,9 +12,9 @@ namespace clusterbench::measure {
 struct Miss {
   int frame = 0;
   std::uint32_t cell = 0;
-  std::uint32_t light = 0;   // index of the lists
-  int rig_index = -1;        // place in Scene::lights
-  double depth = 0.0;        // 1 - d/r: how far inside its range the light is lost
+  std::uint32_t light = 0;  // index of the lists
+  int rig_index = -1;       // place in Scene::lights
+  double depth = 0.0;       // 1 - d/r: how far inside its range the light is lost
 };
 
 struct ErrorCounts {

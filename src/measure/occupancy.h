@@ -15,11 +15,11 @@ struct Spread {
 Spread spread_of(std::vector<double> values);
 
 struct Occupancy {
-  Spread pairs;                           // per frame
-  Spread lights_per_cluster;              // over all cells of all frames, empty ones included, holes not
-  std::vector<std::uint64_t> histogram;   // [n] = cells with n lights
-  Spread occupied_fraction;               // per frame: cells with at least one light / cells
-  int worst_frame = 0;                    // with the longest list
+  Spread pairs;                          // per frame
+  Spread lights_per_cluster;             // over all cells of all frames, empty ones included, holes not
+  std::vector<std::uint64_t> histogram;  // [n] = cells with n lights
+  Spread occupied_fraction;              // per frame: cells with at least one light / cells
+  int worst_frame = 0;                   // with the longest list
   std::uint32_t worst_cell = 0;
   std::uint32_t worst_count = 0;
 };

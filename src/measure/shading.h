@@ -1,6 +1,6 @@
 #pragma once
-// The currency that compares across grids: samples go through the lookup, get a list, and are compared with the lights that
-// reach them.
+// The currency that compares across grids: samples go through the lookup, get a list, and are compared with the lights
+// that reach them.
 
 #include <cstdint>
 #include <span>
@@ -13,10 +13,11 @@ namespace clusterbench::measure {
 
 struct ShadingCounts {
   std::uint64_t samples = 0;
-  std::uint64_t evaluated = 0;   // list entries of the samples' cells
-  std::uint64_t needed = 0;      // lights that reach the samples
-  std::uint64_t missed = 0;      // of those, not in the list
-  double lost_irradiance = 0.0;  // share of the irradiance (intensity / d², windowed by the range) that missed lights carry
+  std::uint64_t evaluated = 0;  // list entries of the samples' cells
+  std::uint64_t needed = 0;     // lights that reach the samples
+  std::uint64_t missed = 0;     // of those, not in the list
+  double lost_irradiance =
+      0.0;  // share of the irradiance (intensity / d², windowed by the range) that missed lights carry
   double lost_sum = 0.0, total_sum = 0.0;
 
   double overshade() const;  // evaluated / needed; NaN when nothing is needed
@@ -25,7 +26,8 @@ struct ShadingCounts {
 // Seeded points in the frame's view: pixels uniform, depth uniform in log from near to far_m.
 std::vector<grid::Sample> volume_samples(const view::Frame& frame, double far_m, int count, std::uint64_t seed);
 
-// Which lights reach each sample, in exact terms (double-precision distance with the tie counted as reached), CSR like lists.
+// Which lights reach each sample, in exact terms (double-precision distance with the tie counted as reached), CSR like
+// lists.
 assign::Lists lights_reaching(const view::Frame& frame, std::span<const grid::Sample> samples);
 
 void add_frame(ShadingCounts& counts, const view::Frame& frame, const grid::Grid& grid,

@@ -13,8 +13,8 @@ struct Interval {
 
 struct TimeStats {
   double median = 0.0, mad = 0.0, min = 0.0, p95 = 0.0;
-  Interval ci95;                 // bootstrap interval of the median
-  std::vector<double> samples;   // raw, in the order measured
+  Interval ci95;                // bootstrap interval of the median
+  std::vector<double> samples;  // raw, in the order measured
 };
 
 // Seeded: the same samples give the same interval. An empty span gives zeros.

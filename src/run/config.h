@@ -26,7 +26,8 @@ struct SceneRequest {
 struct MethodRequest {
   std::string name;
   assign::Params params;
-  std::string label() const;  // "sphere-refinement(spot=narrowing)": the name and the parameters that differ from the default
+  std::string label()
+      const;  // "sphere-refinement(spot=narrowing)": the name and the parameters that differ from the default
 };
 
 struct TimingRequest {

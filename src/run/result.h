@@ -49,9 +49,9 @@ struct Versus {
 struct TimingResult {
   measure::TimeStats build_ns, assign_ns, convert_ns;  // assign and convert: per frame
   double ns_per_pair = 0.0;
-  double write_floor_ns = 0.0;   // per frame
+  double write_floor_ns = 0.0;  // per frame
   double floor_ratio = 0.0;
-  std::optional<Versus> vs;      // against the group's first assigner
+  std::optional<Versus> vs;  // against the group's first assigner
   int frames_timed = 0;
 };
 
@@ -59,7 +59,7 @@ struct CaseResult {
   std::string id, name, scene, camera;
   Vec2i viewport{0, 0};
   int frames = 0;
-  nlohmann::json grid;           // {kind, cells, ... boundaries, lookup constants}
+  nlohmann::json grid;  // {kind, cells, ... boundaries, lookup constants}
   std::string assigner, assigner_label;
   nlohmann::json assigner_params;
   bool conservative = true, exact = false;

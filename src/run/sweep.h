@@ -29,9 +29,9 @@ struct SceneData {
 };
 
 struct Plan {
-  std::vector<SceneData> scenes;   // loaded, ranges resolved
+  std::vector<SceneData> scenes;  // loaded, ranges resolved
   std::vector<GroupPlan> groups;
-  std::vector<Skipped> skipped;    // combinations that cannot be, each with its reason
+  std::vector<Skipped> skipped;  // combinations that cannot be, each with its reason
 };
 
 // Loads the scenes and expands. `filter` (ECMAScript regex, "" = all) selects cases by name.

@@ -13,7 +13,7 @@ enum class FrameChoice : std::uint8_t { count, rate, keys };
 struct PathRequest {
   std::string camera;  // name; "" = default: first animated, else each static one, else a path that the tool makes
   FrameChoice choice = FrameChoice::count;
-  int count = 60;      // N equal steps from the first to the last key
+  int count = 60;  // N equal steps from the first to the last key
   double rate_hz = 30.0;
 };
 
@@ -25,9 +25,9 @@ struct Shot {
 };
 
 struct CameraPath {
-  std::string camera;   // the camera's name; "around-lights" for a made path
-  bool made = false;    // made by the tool, not in the file
-  std::string how;      // one line for the result: "animated camera 'walk', 60 equal steps over 12 s"
+  std::string camera;  // the camera's name; "around-lights" for a made path
+  bool made = false;   // made by the tool, not in the file
+  std::string how;     // one line for the result: "animated camera 'walk', 60 equal steps over 12 s"
   std::vector<Shot> shots;
 };
 

@@ -23,9 +23,9 @@ struct Light {
   LightType type = LightType::point;
   int node = -1;
   Vec3d color{1.0, 1.0, 1.0};
-  double intensity = 1.0;            // candela (point, spot) or lux (directional)
+  double intensity = 1.0;               // candela (point, spot) or lux (directional)
   std::optional<double> range_given_m;  // as the file gives it
-  double range_m = 0.0;              // after resolve_ranges(); >= 0, may be +inf
+  double range_m = 0.0;                 // after resolve_ranges(); >= 0, may be +inf
   RangeSource range_source = RangeSource::given;
   double inner_cone_rad = 0.0, outer_cone_rad = 0.78539816339744831;  // half-angles, spots only
 };
@@ -42,9 +42,9 @@ struct OrientedBox {
 // A camera's lens as glTF gives it. The aspect ratio of a frame is its viewport's, the vertical extent is the lens's.
 struct Lens {
   bool orthographic = false;
-  double yfov_rad = 0.0;                // perspective
-  double xmag_m = 0.0, ymag_m = 0.0;    // orthographic: half extents
-  double near_m = 0.1, far_m = 0.0;     // far may be +inf (perspective without zfar)
+  double yfov_rad = 0.0;              // perspective
+  double xmag_m = 0.0, ymag_m = 0.0;  // orthographic: half extents
+  double near_m = 0.1, far_m = 0.0;   // far may be +inf (perspective without zfar)
 };
 
 struct Camera {
@@ -72,20 +72,20 @@ struct Channel {
   int node = -1;
   ChannelPath path = ChannelPath::translation;
   Interpolation interpolation = Interpolation::linear;
-  std::vector<double> times_s;   // strictly ascending
-  std::vector<Vec4d> values;     // one per key; cubic spline: in-tangent, value, out-tangent per key
+  std::vector<double> times_s;  // strictly ascending
+  std::vector<Vec4d> values;    // one per key; cubic spline: in-tangent, value, out-tangent per key
 };
 
 struct Scene {
-  std::string name;                // file stem
+  std::string name;  // file stem
   std::filesystem::path path;
-  std::string sha256;              // of the file's bytes (external buffers' follow in order)
-  std::vector<Node> nodes;         // reachable from the default scene; parents first
-  std::vector<Light> lights;       // in node order
+  std::string sha256;         // of the file's bytes (external buffers' follow in order)
+  std::vector<Node> nodes;    // reachable from the default scene; parents first
+  std::vector<Light> lights;  // in node order
   std::vector<Camera> cameras;
   std::vector<OrientedBox> boxes;
-  std::vector<Channel> channels;   // of all animations, played together
-  double duration_s = 0.0;         // last key of any channel
+  std::vector<Channel> channels;  // of all animations, played together
+  double duration_s = 0.0;        // last key of any channel
   std::vector<std::string> warnings;
 };
 
@@ -105,7 +105,7 @@ std::vector<Mat4d> world_transforms(const Scene& scene, double time_s);
 
 // A point or spot light in world space at one time: what truth is computed from.
 struct WorldLight {
-  int rig_index = -1;      // place in Scene::lights
+  int rig_index = -1;  // place in Scene::lights
   LightType type = LightType::point;
   Vec3d position{0.0};
   double range_m = 0.0;
@@ -113,11 +113,12 @@ struct WorldLight {
   double outer_cone_rad = 0.0;      // spots; in [0, pi/2]
 };
 
-// All point lights, then all spot lights, each in Scene::lights order. Directional lights touch everything and are left out.
+// All point lights, then all spot lights, each in Scene::lights order. Directional lights touch everything and are left
+// out.
 std::vector<WorldLight> world_lights(const Scene& scene, double time_s);
 
-// Where a camera stands: view = view_from_world * (world - eye). Rows are unit and orthogonal up to rounding: the node's
-// scale and shear are taken out.
+// Where a camera stands: view = view_from_world * (world - eye). Rows are unit and orthogonal up to rounding: the
+// node's scale and shear are taken out.
 struct CameraPose {
   Vec3d eye{0.0};
   Mat3d view_from_world{1.0};

@@ -32,8 +32,8 @@ struct Space {
 // light index of all lists: points first, then spots.
 struct LightArrays {
   std::uint32_t points = 0, spots = 0;
-  std::vector<float> x, y, z;      // centre or apex
-  std::vector<float> radius;       // the range, rounded up
+  std::vector<float> x, y, z;  // centre or apex
+  std::vector<float> radius;   // the range, rounded up
   // The range padded for everything that single precision can lose: rounding of the position and of the usual
   // predicates. Conservative assigners use this one; +inf and 0 stay.
   std::vector<float> padded_radius;
@@ -42,8 +42,8 @@ struct LightArrays {
 
   std::uint32_t size() const { return points + spots; }
   bool is_spot(std::uint32_t light) const { return light >= points; }
-  geom::Ball ball(std::uint32_t light) const;          // padded
-  geom::SphericalCone cone(std::uint32_t light) const; // padded; light must be a spot
+  geom::Ball ball(std::uint32_t light) const;           // padded
+  geom::SphericalCone cone(std::uint32_t light) const;  // padded; light must be a spot
 };
 
 // A frame: everything in double precision.
