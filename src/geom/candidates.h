@@ -134,8 +134,8 @@ void plane_on_rim(const Volume<Real>& volume, const HalfSpace<Real>& plane, Take
   if (lean == Real(0)) return;
   const Real cosine = (plane.margin(volume.apex) - along * dot(plane.normal, volume.axis)) / lean;
   const Real square = Real(1) - cosine * cosine;
-  if (square < Real(0)) return;
-  const Real sine = sqrt(square);
+  // A plane tangent to the rim may be computed as just missing it: the caller's tolerance decides.
+  const Real sine = square < Real(0) ? Real(0) : sqrt(square);
   const Point3<Real> middle = volume.apex + along * volume.axis + (across * cosine) * m;
   take(middle + (across * sine) * m2);
   take(middle - (across * sine) * m2);
@@ -261,8 +261,8 @@ void pyramid_candidates(const Volume<Real>& volume, const Pyramid<Real>& pyramid
     using std::sqrt;
     const Real height = face.margin(volume.apex);
     const Real square = volume.range * volume.range - height * height;
-    if (square < zero) continue;
-    take_ends(volume.apex + height * face.normal, sqrt(square));
+    // A tangent plane may be computed as just missing the ball: the caller's tolerance decides.
+    take_ends(volume.apex + height * face.normal, square < zero ? zero : sqrt(square));
     take(volume.apex - volume.range * face.normal);
     if (!volume.is_cone) continue;
     conic_extremes(volume, face, bisections, take);

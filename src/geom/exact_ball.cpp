@@ -2,7 +2,6 @@
 
 #include <array>
 #include <boost/multiprecision/cpp_int.hpp>
-#include <optional>
 
 namespace clusterbench::geom {
 namespace {
@@ -64,32 +63,34 @@ bool within(const Rational& value, const std::array<Rational, 2>& slopes, const 
   return slopes[0] * depth <= value && value <= slopes[1] * depth;
 }
 
-// Squared distance from c to its nearest point with the coordinates tied as given, if that point lies in the piece.
-std::optional<Rational> squared_distance(const Point& c, const Piece& piece, const Tied& x, const Tied& y,
-                                         int depth_choice) {
-  const Rational depth =
-      depth_choice < 2 ? piece.depth[static_cast<std::size_t>(depth_choice)] : nearest_depth(c, x, y);
-  const Rational px = x.free ? c.x : x.slope * depth, py = y.free ? c.y : y.slope * depth;
-  const bool inside =
-      piece.depth[0] <= depth && depth <= piece.depth[1] && within(px, piece.x, depth) && within(py, piece.y, depth);
-  if (!inside) return std::nullopt;
-  return squared(px - c.x) + squared(py - c.y) + squared(depth - c.depth);
+Tied tied(const std::array<Rational, 2>& slopes, int choice) {
+  return choice < 2 ? Tied{false, slopes[static_cast<std::size_t>(choice)]} : Tied{true, 0};
 }
 
-// The nearest point of a convex polytope is the projection of the centre onto the span of one of its faces, edges or
-// corners, or the centre itself: three choices (low, high, free) per pair of planes. Any that lies in the cell is a
-// point of the cell, so it is enough that one is near enough.
+// Calls take(point) for the centre's projections onto the spans of all faces, edges and corners, the piece's inside
+// included (three choices per pair of planes: low, high, free), as far as they lie in the piece. The nearest point of a
+// convex polytope is among them, and each is a point of the piece.
+template <class Take>
+void projections(const Point& c, const Piece& piece, Take&& take) {
+  for (int choice = 0; choice < 27; ++choice) {
+    const Tied x = tied(piece.x, choice % 3), y = tied(piece.y, choice / 3 % 3);
+    const std::size_t end = static_cast<std::size_t>(choice / 9);
+    const Rational depth = end < 2 ? piece.depth[end] : nearest_depth(c, x, y);
+    const Point p{x.free ? c.x : x.slope * depth, y.free ? c.y : y.slope * depth, depth};
+    if (piece.depth[0] <= depth && depth <= piece.depth[1] && within(p.x, piece.x, depth) &&
+        within(p.y, piece.y, depth))
+      take(p);
+  }
+}
+
+Rational squared_distance(const Point& a, const Point& b) {
+  return squared(a.x - b.x) + squared(a.y - b.y) + squared(a.depth - b.depth);
+}
+
 bool piece_is_within(const Point& c, const Piece& piece, const Rational& squared_radius) {
-  const auto tied = [](const std::array<Rational, 2>& slopes, int choice) {
-    return choice < 2 ? Tied{false, slopes[static_cast<std::size_t>(choice)]} : Tied{true, 0};
-  };
-  for (int x = 0; x < 3; ++x)
-    for (int y = 0; y < 3; ++y)
-      for (int depth = 0; depth < 3; ++depth) {
-        const auto distance = squared_distance(c, piece, tied(piece.x, x), tied(piece.y, y), depth);
-        if (distance && *distance <= squared_radius) return true;
-      }
-  return false;
+  bool found = false;
+  projections(c, piece, [&](const Point& p) { found = found || squared_distance(c, p) <= squared_radius; });
+  return found;
 }
 
 bool box_is_within(const Point& c, const std::array<Rational, 6>& lo_hi, const Rational& squared_radius) {
@@ -138,6 +139,22 @@ bool ball_meets_exactly(const Placement& center, double radius, const FrustumPie
 
 bool ball_meets_exactly(const Placement& center, double radius, const Box& cell) {
   return box_is_within(exact_point(center), bounds_of(cell), squared(exact(radius)));
+}
+
+PyramidContact pyramid_contact(const Placement& center, double radius, const ShellPiece& cell) {
+  const Point c = exact_point(center), eye{0, 0, 0};
+  // The nearest point of a convex cone is no farther from its apex than the centre is.
+  const Rational deepest = abs(c.x) + abs(c.y) + abs(c.depth) + 1;
+  const Piece pyramid{{exact(cell.x0), exact(cell.x1)}, {exact(cell.y0), exact(cell.y1)}, {0, deepest}};
+  Point nearest = eye;
+  projections(c, pyramid, [&](const Point& p) {
+    if (squared_distance(c, p) < squared_distance(c, nearest)) nearest = p;
+  });
+  const Rational apart = squared_distance(c, nearest), reach = squared(exact(radius));
+  if (apart != reach) return apart < reach ? PyramidContact::overlap : PyramidContact::none;
+  const Rational square = squared_distance(eye, nearest);
+  const bool is_between = squared(exact(cell.distance0)) <= square && square <= squared(exact(cell.distance1));
+  return is_between ? PyramidContact::point_in_shell : PyramidContact::point_outside_shell;
 }
 
 bool holds_exactly(const Cell& cell, const Placement& point) {

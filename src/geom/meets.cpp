@@ -275,7 +275,13 @@ struct Decides {
     if (light.is_cone) return Meets<Big>{light}(cell);
     return ball_meets_exactly(light.apex, light.range, cell) ? Verdict::yes : Verdict::no;
   }
-  Verdict operator()(const ShellPiece& cell) const { return meets_shell<Big>(light, cell); }
+  Verdict operator()(const ShellPiece& cell) const {
+    // A ball that is tangent to the pyramid shares one point with it, whose place is known exactly.
+    const PyramidContact contact =
+        light.is_cone ? PyramidContact::overlap : pyramid_contact(light.apex, light.range, cell);
+    if (contact == PyramidContact::overlap) return meets_shell<Big>(light, cell);
+    return contact == PyramidContact::point_in_shell ? Verdict::yes : Verdict::no;
+  }
 };
 
 }  // namespace

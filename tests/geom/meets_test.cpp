@@ -173,6 +173,17 @@ TEST(Meets, an_apex_on_a_corner_of_the_cell_is_a_common_point_wherever_the_cone_
   EXPECT_EQ(decide_meets(light, cell), Verdict::no);
 }
 
+TEST(Meets, a_ball_tangent_to_the_side_of_a_shell_piece_is_decided) {
+  const ShellPiece cell{-0.75f, 0.75f, -0.5f, 0.5f, 8.0f, 32.0f};
+  LightVolume light;
+  light.apex.position = {16.0, 0.0, -13.0};
+  light.range = 5.0;
+  EXPECT_EQ(filter_meets(light, cell), Verdict::open);
+  EXPECT_EQ(decide_meets(light, cell), Verdict::yes);
+  light.range = std::nextafter(5.0, 0.0);
+  EXPECT_EQ(decide_meets(light, cell), Verdict::no);
+}
+
 TEST(Meets, a_very_narrow_cone_meets_the_cells_that_its_axis_passes_within_its_angle) {
   LightVolume light;
   light.range = 100.0;
