@@ -28,6 +28,7 @@ void BufferMeter::add_frame(int frame, const assign::Storage& storage, std::size
   raise(sum_.index_entries.theoretical_max, limit.index_entries);
   raise(sum_.bytes.theoretical_max, limit.bytes);
   sum_.index_bits = storage.index_bits();
+  raise(laid_out_entries_, use.index_bytes * 8 / storage.index_bits());
   sum_.dropped_pairs += use.dropped_pairs;
   sum_.overflowing_cells += use.overflowing_cells;
   if (use.dropped_pairs > 0) ++sum_.overflowing_frames;
@@ -40,8 +41,8 @@ void BufferMeter::add_frame(int frame, const assign::Storage& storage, std::size
 Buffers BufferMeter::result() const {
   Buffers out = sum_;
   if (frames_ == 0) return out;
-  out.index_entries.recommended =
-      with_margin(out.index_entries.high_water, rule_.margin, out.index_entries.theoretical_max);
+  out.index_entries.recommended = std::max(
+      laid_out_entries_, with_margin(out.index_entries.high_water, rule_.margin, out.index_entries.theoretical_max));
   const std::uint64_t index_bytes = out.index_entries.recommended * (out.index_bits / 8);
   out.bytes.recommended =
       std::min(out.bytes.theoretical_max, std::max(out.bytes.high_water, out.header_bytes + index_bytes));

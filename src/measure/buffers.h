@@ -8,8 +8,8 @@
 
 namespace clusterbench::measure {
 
-// How the allocation is sized: recommended = high-water x margin (never above the theoretical maximum), and the
-// run-time warning fires at warn_at of it.
+// How the allocation is sized: recommended = high-water x margin (never above the theoretical maximum, never below what
+// the storage lays out whatever is in it), and the run-time warning fires at warn_at of it.
 struct AllocationRule {
   double margin = 2.0;
   double warn_at = 0.9;
@@ -44,6 +44,7 @@ class BufferMeter {
   AllocationRule rule_;
   Buffers sum_;
   std::uint64_t entries_total_ = 0, upload_total_ = 0;
+  std::uint64_t laid_out_entries_ = 0;  // high water; above the entries in use where room is reserved per cell
   int frames_ = 0;
 };
 

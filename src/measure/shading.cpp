@@ -47,7 +47,8 @@ double ShadingCounts::overshade() const {
 }
 
 std::vector<grid::Sample> volume_samples(const view::Frame& frame, double far_m, int count, std::uint64_t seed) {
-  SplitMix64 random(seed + static_cast<std::uint64_t>(frame.index) * 0x9e3779b97f4a7c15u);
+  // Mixed once more: neighbouring states of this generator give the same numbers one step apart.
+  SplitMix64 random(SplitMix64(seed + static_cast<std::uint64_t>(frame.index)).next());
   // Perspective: uniform in log depth, as slices are; orthographic: uniform.
   const double near_m = frame.projection.near_m;
   const bool logarithmic = near_m > 0.0 && !frame.projection.orthographic;

@@ -1,0 +1,43 @@
+#include "measure/front.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace clusterbench::measure {
+namespace {
+
+using Places = std::vector<std::size_t>;
+
+Places front_of(const std::vector<Costs>& cases) {
+  return pareto_front(cases);
+}
+
+TEST(Front, what_is_worse_in_every_respect_is_not_on_it) {
+  EXPECT_EQ(front_of({{1, 1, 1}, {2, 2, 2}}), (Places{0}));
+}
+
+TEST(Front, whoever_is_best_in_one_respect_is_on_it) {
+  EXPECT_EQ(front_of({{1, 5, 5}, {5, 1, 5}, {5, 5, 1}, {5, 5, 5}}), (Places{0, 1, 2}));
+}
+
+TEST(Front, a_tie_in_two_respects_is_decided_by_the_third) {
+  EXPECT_EQ(front_of({{1, 1, 2}, {1, 1, 1}}), (Places{1}));
+}
+
+TEST(Front, equal_cases_all_stay) {
+  EXPECT_EQ(front_of({{1, 2, 3}, {1, 2, 3}}), (Places{0, 1}));
+}
+
+TEST(Front, what_is_not_known_counts_as_the_worst) {
+  const double unknown = std::nan("");
+  EXPECT_EQ(front_of({{1, 1, unknown}, {1, 1, 1}}), (Places{1}));
+  EXPECT_EQ(front_of({{unknown, 1, unknown}, {unknown, 2, unknown}}), (Places{0}));
+}
+
+TEST(Front, of_nothing_is_empty) {
+  EXPECT_TRUE(front_of({}).empty());
+}
+
+}  // namespace
+}  // namespace clusterbench::measure

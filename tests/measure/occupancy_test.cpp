@@ -1,0 +1,73 @@
+#include "measure/occupancy.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+namespace clusterbench::measure {
+namespace {
+
+TEST(Spread, percentiles_are_values_that_occur) {
+  std::vector<double> values(200);
+  std::iota(values.rbegin(), values.rend(), 1.0);  // 200 .. 1
+  const Spread spread = spread_of(values);
+  EXPECT_EQ(spread.mean, 100.5);
+  EXPECT_EQ(spread.p50, 100.0);
+  EXPECT_EQ(spread.p95, 190.0);
+  EXPECT_EQ(spread.p99, 198.0);
+  EXPECT_EQ(spread.max, 200.0);
+}
+
+TEST(Spread, of_few_values_the_high_percentiles_are_the_largest) {
+  const Spread spread = spread_of({3.0, 1.0, 2.0});
+  EXPECT_EQ(spread.p50, 2.0);
+  EXPECT_EQ(spread.p95, 3.0);
+  EXPECT_EQ(spread.p99, 3.0);
+}
+
+TEST(Spread, of_nothing_is_zero) {
+  EXPECT_EQ(spread_of({}).max, 0.0);
+  EXPECT_EQ(OccupancyMeter(4).result().lights_per_cluster.max, 0.0);
+}
+
+// Four cells with 0, 2, 1 and 0 lights, then with 3, 0, 0 and 1.
+Occupancy two_frames(std::uint32_t real_cells) {
+  OccupancyMeter meter(real_cells);
+  meter.add_frame(10, {{0, 0, 2, 3, 3}, {0, 1, 2}});
+  meter.add_frame(11, {{0, 3, 3, 3, 4}, {0, 1, 2, 0}});
+  return meter.result();
+}
+
+TEST(Occupancy, cells_are_counted_by_their_lights_over_all_frames) {
+  const Occupancy o = two_frames(4);
+  EXPECT_EQ(o.histogram, (std::vector<std::uint64_t>{4, 2, 1, 1}));
+  EXPECT_EQ(o.lights_per_cluster.mean, 7.0 / 8.0);
+  EXPECT_EQ(o.lights_per_cluster.p50, 0.0);
+  EXPECT_EQ(o.lights_per_cluster.p95, 3.0);
+  EXPECT_EQ(o.lights_per_cluster.max, 3.0);
+}
+
+TEST(Occupancy, pairs_and_occupied_share_are_per_frame) {
+  const Occupancy o = two_frames(4);
+  EXPECT_EQ(o.pairs.mean, 3.5);
+  EXPECT_EQ(o.pairs.p50, 3.0);
+  EXPECT_EQ(o.pairs.max, 4.0);
+  EXPECT_EQ(o.occupied_fraction.mean, 0.5);
+}
+
+TEST(Occupancy, the_longest_list_is_named_with_its_frame_and_cell) {
+  const Occupancy o = two_frames(4);
+  EXPECT_EQ(o.worst_frame, 11);
+  EXPECT_EQ(o.worst_cell, 0u);
+  EXPECT_EQ(o.worst_count, 3u);
+}
+
+TEST(Occupancy, holes_are_no_cells) {
+  const Occupancy o = two_frames(3);
+  EXPECT_EQ(o.histogram, (std::vector<std::uint64_t>{2, 2, 1, 1}));
+  EXPECT_EQ(o.occupied_fraction.mean, 2.0 / 3.0);
+  EXPECT_EQ(o.lights_per_cluster.p50, 1.0);
+}
+
+}  // namespace
+}  // namespace clusterbench::measure

@@ -1,0 +1,157 @@
+#include "measure/shading.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace clusterbench::measure {
+namespace {
+
+// A camera at (100, 2, 50) that looks along -x.
+view::Frame frame_along_x(int index = 0) {
+  view::Frame frame;
+  frame.index = index;
+  frame.viewport = {200, 100};
+  frame.projection = {false, -1.0, 1.0, -0.5, 0.5, 0.5, 64.0};
+  frame.view_space.origin = {100.0, 2.0, 50.0};
+  frame.view_space.rotation = glm::transpose(Mat3d{{0, 0, -1}, {0, 1, 0}, {1, 0, 0}});  // right, up, back
+  return frame;
+}
+
+void add_light(view::Frame& frame, const Vec3d& position, double range_m) {
+  scene::WorldLight light;
+  light.position = position;
+  light.range_m = range_m;
+  frame.lights.push_back(light);
+  ++frame.points;
+}
+
+grid::Sample sample_in(const Vec3d& world) {
+  return {0.0f, 0.0f, Vec3f(0.0f), world};
+}
+
+TEST(Shading, samples_lie_in_the_view_where_their_pixel_and_depth_say) {
+  const view::Frame frame = frame_along_x();
+  for (const grid::Sample& sample : volume_samples(frame, 64.0, 1000, 1)) {
+    const double depth = 100.0 - sample.world.x;
+    ASSERT_GE(depth, 0.5 - 1e-9);
+    ASSERT_LE(depth, 64.0 + 1e-9);
+    ASSERT_NEAR(-sample.view.z, depth, 1e-4);
+    ASSERT_NEAR((50.0 - sample.world.z) / depth, -1.0 + sample.pixel_x / 100.0, 1e-6);
+    ASSERT_NEAR((sample.world.y - 2.0) / depth, 0.5 - sample.pixel_y / 100.0, 1e-6);
+  }
+}
+
+TEST(Shading, samples_are_spread_evenly_over_octaves_of_depth) {
+  int nearest = 0, farthest = 0;
+  for (const grid::Sample& sample : volume_samples(frame_along_x(), 64.0, 7000, 1)) {  // 0.5 .. 64 is seven octaves
+    nearest += -sample.view.z < 1.0f ? 1 : 0;
+    farthest += -sample.view.z > 32.0f ? 1 : 0;
+  }
+  EXPECT_NEAR(nearest, 1000, 120);
+  EXPECT_NEAR(farthest, 1000, 120);
+}
+
+TEST(Shading, samples_of_an_orthographic_view_are_spread_evenly_over_depth) {
+  view::Frame frame = frame_along_x();
+  frame.projection = {true, -10.0, 10.0, -5.0, 5.0, 0.0, 64.0};
+  int nearer_half = 0;
+  for (const grid::Sample& sample : volume_samples(frame, 64.0, 2000, 1)) {
+    ASSERT_NEAR(50.0 - sample.world.z, -10.0 + sample.pixel_x / 10.0, 1e-5);
+    nearer_half += -sample.view.z < 32.0f ? 1 : 0;
+  }
+  EXPECT_NEAR(nearer_half, 1000, 120);
+}
+
+TEST(Shading, the_same_seed_and_frame_give_the_same_samples) {
+  const auto first = volume_samples(frame_along_x(3), 64.0, 10, 9),
+             again = volume_samples(frame_along_x(3), 64.0, 10, 9);
+  for (std::size_t i = 0; i < first.size(); ++i) EXPECT_EQ(first[i].world, again[i].world);
+}
+
+TEST(Shading, no_two_frames_share_samples) {
+  std::multiset<float> columns;
+  for (int index = 0; index < 12; ++index)
+    for (const grid::Sample& sample : volume_samples(frame_along_x(index), 64.0, 100, 1))
+      columns.insert(sample.pixel_x);
+  std::size_t repeated = 0;
+  for (const float column : columns) repeated += columns.count(column) > 1 ? 1 : 0;
+  EXPECT_LE(repeated, 10u) << "of 1200";
+}
+
+TEST(Shading, a_light_reaches_as_far_as_its_range_and_no_farther) {
+  view::Frame frame = frame_along_x();
+  add_light(frame, {3.0, 4.0, 0.0}, 5.0);
+  const std::vector<grid::Sample> samples{sample_in({0, 0, 0}), sample_in({-1e-9, 0, 0}), sample_in({3, 4, 0})};
+  EXPECT_EQ(lights_reaching(frame, samples), (assign::Lists{{0, 1, 1, 2}, {0, 0}}));
+}
+
+TEST(Shading, a_light_without_range_reaches_nothing) {
+  view::Frame frame = frame_along_x();
+  add_light(frame, {0.0, 0.0, 0.0}, 0.0);
+  EXPECT_EQ(lights_reaching(frame, std::vector{sample_in({0, 0, 0})}).pair_count(), 0u);
+}
+
+TEST(Shading, a_spot_reaches_only_into_its_cone) {
+  view::Frame frame = frame_along_x();
+  scene::WorldLight spot;
+  spot.type = scene::LightType::spot;
+  spot.range_m = 10.0;
+  spot.direction = {0, -1, 0};
+  spot.outer_cone_rad = M_PI / 6;  // 30 degrees: at a depth of 1, tan = 0.577
+  frame.lights = {spot};
+  const std::vector<grid::Sample> samples{sample_in({0.57, -1, 0}), sample_in({0.58, -1, 0}), sample_in({0, 1, 0}),
+                                          sample_in({0, -10, 0}), sample_in({1, -10, 0})};
+  EXPECT_EQ(lights_reaching(frame, samples), (assign::Lists{{0, 1, 1, 1, 2, 2}, {0, 0}}));
+}
+
+// Two slices, 0.5 .. 8 and 8 .. 64, with samples at depths 4, 60 and 90; both lights reach the first sample only.
+struct TwoSlices {
+  view::Frame frame = frame_along_x();
+  grid::Grid grid;
+  std::vector<grid::Sample> samples;
+
+  TwoSlices() {
+    add_light(frame, {96.0, 4.0, 50.0}, 10.0);  // 2 m from the first sample
+    add_light(frame, {96.0, 2.0, 51.0}, 10.0);  // 1 m
+    grid::GridSpec spec;
+    spec.tiles.count = {1, 1};
+    spec.slices = {.scheme = grid::Scheme::list, .boundaries_m = {0.5, 8.0, 64.0}};
+    grid = grid::make_grid(spec, grid::grid_inputs(spec, frame, 0.0, {}, {}));
+    samples = {{100.0f, 50.0f, {0.0f, 0.0f, -4.0f}, {96.0, 2.0, 50.0}},
+               {100.0f, 50.0f, {0.0f, 0.0f, -60.0f}, {40.0, 2.0, 50.0}},
+               {100.0f, 50.0f, {0.0f, 0.0f, -90.0f}, {10.0, 2.0, 50.0}}};
+  }
+  ShadingCounts counts(const assign::Lists& reported) const {
+    ShadingCounts out;
+    add_frame(out, frame, grid, samples, lights_reaching(frame, samples), reported);
+    return out;
+  }
+};
+
+TEST(Shading, what_a_list_holds_beyond_need_is_overshade) {
+  const ShadingCounts counts = TwoSlices().counts({{0, 2, 4}, {0, 1, 0, 1}});
+  EXPECT_EQ(counts.samples, 3u);
+  EXPECT_EQ(counts.evaluated, 4u);  // two lights in each of two slices; nothing beyond the grid
+  EXPECT_EQ(counts.needed, 2u);
+  EXPECT_EQ(counts.missed, 0u);
+  EXPECT_EQ(counts.overshade(), 2.0);
+  EXPECT_EQ(counts.lost_irradiance, 0.0);
+}
+
+TEST(Shading, a_missed_light_weighs_what_it_would_have_given) {
+  const ShadingCounts counts = TwoSlices().counts({{0, 1, 1}, {0}});
+  EXPECT_EQ(counts.evaluated, 1u);
+  EXPECT_EQ(counts.missed, 1u);
+  // (1 - (d/r)^4) / d^2: 0.9999 at 1 m, 0.9984 / 4 at 2 m.
+  EXPECT_NEAR(counts.lost_irradiance, 0.9999 / (0.9999 + 0.9984 / 4.0), 1e-12);
+}
+
+TEST(Shading, where_nothing_is_needed_there_is_no_overshade) {
+  EXPECT_TRUE(std::isnan(ShadingCounts{}.overshade()));
+}
+
+}  // namespace
+}  // namespace clusterbench::measure
