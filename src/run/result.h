@@ -2,6 +2,7 @@
 // What a run found. report/ turns it into JSON, a table and exports.
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,9 +48,9 @@ struct Versus {
 };
 
 struct TimingResult {
-  measure::TimeStats build_ns, assign_ns, convert_ns;  // assign and convert: per frame
-  double ns_per_pair = 0.0;
-  double write_floor_ns = 0.0;  // per frame
+  measure::TimeStats build_ns, assign_ns, convert_ns;             // assign and convert: per frame
+  double ns_per_pair = std::numeric_limits<double>::quiet_NaN();  // without pairs: not a number
+  double write_floor_ns = 0.0;                                    // per frame
   double floor_ratio = 0.0;
   std::optional<Versus> vs;  // against the group's first assigner
   int frames_timed = 0;

@@ -1,0 +1,286 @@
+#include "run/runner.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace clusterbench::run {
+namespace {
+
+// Lights at fixed places before a camera that walks towards them along -z, a metre a frame.
+struct Walk {
+  Config config;
+  Plan plan;
+
+  explicit Walk(const std::string& settings, int frames = 3) {
+    config = parse_config(R"({"scenes": ["walk.glb"], "viewport": [100, 100], )" + settings + "}", "c.json");
+    config.timing.measure = false;
+    SceneData data;
+    data.scene.name = "walk";
+    scene::CameraPath path;
+    path.camera = "eye";
+    for (int i = 0; i < frames; ++i) {
+      scene::Shot shot;
+      shot.pose.eye = {0.0, 0.0, -static_cast<double>(i)};
+      shot.lens.yfov_rad = M_PI / 2;
+      shot.lens.near_m = 0.5;
+      shot.lens.far_m = 64.0;
+      path.shots.push_back(shot);
+    }
+    data.paths.push_back(path);
+    plan.scenes.push_back(std::move(data));
+    for (std::size_t grid = 0; grid < config.grids.size(); ++grid) add_group(grid);
+  }
+
+  scene::Light& add_light(const Vec3d& place, double range_m) {
+    scene::Scene& scene = plan.scenes[0].scene;
+    scene::Node node;
+    node.translation = place;
+    scene.nodes.push_back(node);
+    scene::Light light;
+    light.name = "lamp " + std::to_string(scene.lights.size());
+    light.node = static_cast<int>(scene.nodes.size()) - 1;
+    light.range_m = range_m;
+    scene.lights.push_back(light);
+    return scene.lights.back();
+  }
+
+  Result run(const Listener& listener = {}, const std::vector<std::string>& done = {}) const {
+    const std::atomic<bool> stop{false};
+    return run_plan(config, plan, done, listener, stop);
+  }
+
+ private:
+  void add_group(std::size_t grid) {
+    GroupPlan group{0, 0, 0, grid, {}};
+    for (std::size_t assigner = 0; assigner < config.assigners.size(); ++assigner)
+      for (std::size_t storage = 0; storage < config.storages.size(); ++storage) {
+        const std::string id = std::to_string(grid) + "-" + std::to_string(assigner) + "-" + std::to_string(storage);
+        group.cases.push_back({"walk/eye/grid/" + id, id, 0, 0, 0, grid, assigner, storage});
+      }
+    plan.groups.push_back(group);
+  }
+};
+
+constexpr const char* k_shafts = R"("grids": [{"kind": "frustum", "tiles": {"count": [1, 1]},
+    "slices": {"scheme": "list", "boundaries": [0.5, 2, 4, 8, 16, 32, 64]}}])";
+
+// One tile: a ball on the camera's axis is in every slice that its depths [d - r, d + r] meet.
+std::uint64_t slices_met(double depth, double range_m) {
+  constexpr double k_bounds[] = {0.5, 2, 4, 8, 16, 32, 64};
+  std::uint64_t count = 0;
+  for (int slice = 0; slice < 6; ++slice)
+    count += depth + range_m >= k_bounds[slice] && depth - range_m <= k_bounds[slice + 1] ? 1 : 0;
+  return count;
+}
+
+TEST(Runner, counts_of_balls_on_the_axis_are_those_of_their_depth_intervals) {
+  Walk walk(std::string(k_shafts) + R"(, "assigners": ["aabb", "brute-force"])");
+  constexpr double k_lights[][2] = {{10.3, 2.1}, {5.1, 4.4}, {40.7, 3.3}, {3.0, 0.2}, {90.0, 1.0}};
+  for (const auto& [depth, range_m] : k_lights) walk.add_light({0.0, 0.0, -depth}, range_m);
+  std::uint64_t pairs = 0;
+  std::vector<std::uint64_t> per_frame;
+  for (int frame = 0; frame < 3; ++frame) {
+    per_frame.push_back(0);
+    for (const auto& [depth, range_m] : k_lights) per_frame.back() += slices_met(depth - frame, range_m);
+    pairs += per_frame.back();
+  }
+
+  const Result result = walk.run();
+  ASSERT_EQ(result.cases.size(), 2u);
+  for (const CaseResult& one : result.cases) {
+    ASSERT_TRUE(one.error);
+    EXPECT_EQ(one.frames, 3);
+    EXPECT_EQ(one.error->frames_checked, 3);
+    EXPECT_EQ(one.error->true_pairs, pairs);
+    EXPECT_EQ(one.error->reported_pairs, pairs);
+    EXPECT_EQ(one.error->false_negatives, 0u);
+    EXPECT_EQ(one.occupancy.pairs.mean, static_cast<double>(pairs) / 3.0);
+    EXPECT_EQ(one.buffers.index_entries.high_water, *std::max_element(per_frame.begin(), per_frame.end()));
+    EXPECT_EQ(one.shading->samples, 3u * 1024u);
+    EXPECT_EQ(one.shading->missed, 0u);
+    EXPECT_FALSE(one.timing);
+  }
+  EXPECT_EQ(result.cases[1].tests_done, 3u * 6u * 5u) << "brute force tests every light against every cell";
+}
+
+TEST(Runner, counts_on_a_world_grid_are_those_of_boxes_and_balls) {
+  Walk walk(
+      R"("grids": [{"kind": "world", "cells": [10, 4, 10], "bounds": {"min": [-10, -4, -10], "max": [10, 4, 10]}}],
+               "assigners": ["world-grid"])",
+      2);
+  std::uint64_t pairs = 0;
+  for (int i = 0; i < 20; ++i) {
+    const Vec3d centre{9.7 * std::sin(i * 1.7), 3.9 * std::sin(i * 2.3), 9.7 * std::sin(i * 3.1)};
+    const double range_m = 0.3 + 0.21 * i;
+    walk.add_light(centre, range_m);
+    for (int z = 0; z < 10; ++z)
+      for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 10; ++x) {
+          const Vec3d lo{-10.0 + 2 * x, -4.0 + 2 * y, -10.0 + 2 * z};
+          pairs += glm::length(glm::clamp(centre, lo, lo + 2.0) - centre) <= range_m ? 1 : 0;
+        }
+  }
+  const CaseResult one = walk.run().cases.at(0);
+  EXPECT_EQ(one.error->true_pairs, 2 * pairs);
+  EXPECT_EQ(one.error->reported_pairs, 2 * pairs);
+}
+
+std::vector<std::uint64_t> counts(const Result& result) {
+  std::vector<std::uint64_t> out;
+  for (const CaseResult& one : result.cases) {
+    out.insert(out.end(), one.occupancy.histogram.begin(), one.occupancy.histogram.end());
+    out.insert(out.end(), {one.error->true_pairs, one.error->false_positives, one.error->filter_decided,
+                           one.error->exact_decided, one.shading->evaluated, one.shading->needed, one.tests_done,
+                           one.buffers.bytes.high_water, one.buffers.scratch_bytes});
+  }
+  return out;
+}
+
+TEST(Runner, counts_do_not_depend_on_the_number_of_threads) {
+  const auto run_with = [](int threads) {
+    Walk walk(R"("grids": [{"tiles": {"pixels": [10, 10]}, "slices": {"count": 8}}],
+                 "assigners": ["aabb", "sphere-refinement"])");
+    walk.config.threads = threads;
+    for (int i = 0; i < 60; ++i)
+      walk.add_light({8 * std::sin(i * 1.3), 6 * std::sin(i * 2.9), -15 + 14 * std::sin(i * 0.7)}, 0.5 + 0.05 * i);
+    for (int i = 0; i < 60; i += 2)
+      walk.plan.scenes[0].scene.lights[static_cast<std::size_t>(i)].type = scene::LightType::spot;
+    return counts(walk.run());
+  };
+  EXPECT_EQ(run_with(1), run_with(2));
+}
+
+Walk timed(const std::string& more) {
+  Walk walk(std::string(k_shafts) + ", " + more);
+  walk.config.timing = {.measure = true, .rounds = 4, .min_time_ms = 0.01, .frames = 2};
+  walk.add_light({0, 0, -6}, 3);
+  return walk;
+}
+
+TEST(Runner, an_assigner_is_timed_once_for_all_its_storages) {
+  const Result result = timed(R"("assigners": ["aabb"], "storages": ["packed", "fixed"])").run();
+  ASSERT_EQ(result.cases.size(), 2u);
+  const TimingResult &packed = *result.cases[0].timing, &fixed = *result.cases[1].timing;
+  EXPECT_EQ(packed.assign_ns.samples, fixed.assign_ns.samples);
+  EXPECT_NE(packed.convert_ns.samples, fixed.convert_ns.samples);
+  EXPECT_EQ(packed.assign_ns.samples.size(), 4u);
+  EXPECT_EQ(packed.convert_ns.samples.size(), 4u);
+  EXPECT_EQ(packed.build_ns.samples.size(), 4u);
+  EXPECT_EQ(packed.frames_timed, 2);
+  EXPECT_GT(packed.assign_ns.min, 0.0);
+  EXPECT_GT(packed.write_floor_ns, 0.0);
+}
+
+TEST(Runner, assigners_are_compared_with_the_first_pair_by_pair) {
+  const Result result = timed(R"("assigners": ["brute-force", "aabb"])").run();
+  EXPECT_FALSE(result.cases[0].timing->vs);
+  ASSERT_TRUE(result.cases[1].timing->vs);
+  EXPECT_EQ(result.cases[1].timing->vs->assigner, "brute-force");
+  const auto &own = result.cases[1].timing->assign_ns.samples, &first = result.cases[0].timing->assign_ns.samples;
+  EXPECT_EQ(result.cases[1].timing->vs->ratio.ratio, measure::paired_ratio(own, first, 1).ratio);
+}
+
+TEST(Runner, without_a_pair_the_time_per_pair_is_not_a_number) {
+  Walk walk = timed(R"("assigners": ["aabb"])");
+  walk.plan.scenes[0].scene.lights[0].range_m = 0.0;
+  EXPECT_TRUE(std::isnan(walk.run().cases.at(0).timing->ns_per_pair));
+}
+
+TEST(Runner, everything_is_counted_before_anything_is_timed) {
+  std::vector<std::string> stages;
+  Listener listener;
+  listener.on_progress = [&](const Progress& now) {
+    const std::string stage = now.doing.substr(now.doing.rfind(": ") + 2);
+    if (stages.empty() || stages.back() != stage) stages.push_back(stage);
+  };
+  timed(R"("assigners": ["brute-force", "aabb"])").run(listener);
+  EXPECT_EQ(stages, (std::vector<std::string>{"truth and counts", "time"}));
+}
+
+TEST(Runner, progress_ends_at_its_estimate_and_tells_every_case) {
+  Progress last;
+  std::vector<std::string> told;
+  Listener listener;
+  listener.on_progress = [&](const Progress& now) {
+    EXPECT_GE(now.cost_done, last.cost_done);
+    last = now;
+  };
+  listener.on_case = [&](const CaseResult& one) { told.push_back(one.id); };
+  const Walk walk = timed(R"("assigners": ["brute-force", "aabb"])");
+  const Result result = walk.run(listener);
+  EXPECT_NEAR(last.cost_done / last.cost_total, 1.0, 1e-9);
+  EXPECT_EQ(last.cases_total, 2u);
+  EXPECT_EQ(told, (std::vector<std::string>{"0-0-0", "0-1-0"}));
+  EXPECT_EQ(result.planned_ids, told);
+}
+
+TEST(Runner, a_stop_keeps_only_what_is_complete) {
+  Walk walk(std::string(k_shafts) + R"(, "assigners": ["aabb"])");
+  walk.add_light({0, 0, -6}, 3);
+  walk.plan.groups.push_back(walk.plan.groups[0]);
+  walk.plan.groups[1].cases[0].id = "second";
+  std::atomic<bool> stop{false};
+  Listener listener;
+  listener.on_case = [&](const CaseResult&) { stop = true; };
+  const Result result = run_plan(walk.config, walk.plan, {}, listener, stop);
+  ASSERT_EQ(result.cases.size(), 1u);
+  EXPECT_EQ(result.cases[0].id, "0-0-0");
+  EXPECT_EQ(result.planned_ids.size(), 2u);
+}
+
+TEST(Runner, a_stop_between_rounds_gives_up_the_group) {
+  const Walk walk = timed(R"("assigners": ["aabb"])");
+  std::atomic<bool> stop{false};
+  Listener listener;
+  listener.on_progress = [&](const Progress& now) { stop = now.doing.ends_with(": time"); };
+  EXPECT_TRUE(run_plan(walk.config, walk.plan, {}, listener, stop).cases.empty());
+}
+
+TEST(Runner, what_is_done_is_passed_over) {
+  Walk walk(std::string(k_shafts) + R"(, "assigners": ["aabb", "brute-force", "planes"])");
+  walk.add_light({0, 0, -6}, 3);
+  const Result result = walk.run({}, {"0-0-0", "0-2-0"});
+  ASSERT_EQ(result.cases.size(), 1u);
+  EXPECT_EQ(result.cases[0].id, "0-1-0");
+  EXPECT_EQ(result.planned_ids.size(), 3u);
+}
+
+TEST(Runner, slices_that_follow_the_lights_count_like_fixed_ones_of_the_same_frame) {
+  Walk walk(
+      R"("grids": [{"tiles": {"count": [4, 4]}, "slices": {"scheme": "fit", "count": 8}}], "assigners": ["aabb"])");
+  for (int i = 0; i < 10; ++i) walk.add_light({std::sin(i * 2.0), std::cos(i * 3.0), -8.0 - i}, 1.5);
+  const CaseResult one = walk.run().cases.at(0);
+  EXPECT_EQ(one.error->false_negatives, 0u);
+  EXPECT_GT(one.error->true_pairs, 0u);
+  EXPECT_TRUE(one.grid.contains("note"));
+}
+
+TEST(Runner, a_grid_is_told_with_the_constants_of_its_lookup) {
+  Walk walk(
+      R"("grids": [{"tiles": {"pixels": [50, 25]}, "slices": {"scheme": "exponential", "count": 6, "near": 1, "far": 64}}],
+               "assigners": ["aabb"])");
+  walk.add_light({0, 0, -6}, 3);
+  const nlohmann::json grid = walk.run().cases.at(0).grid;
+  EXPECT_EQ(grid["cells"], (nlohmann::json{2, 4, 6}));
+  EXPECT_EQ(grid["slices"]["lookup"]["form"], "log2");
+  EXPECT_EQ(grid["slices"]["boundaries"].size(), 7u);
+  // Depth 8 in 1..64 with a slice per octave: slice 3 begins there.
+  const double slice =
+      3.0 * grid["slices"]["lookup"]["scale"].get<double>() + grid["slices"]["lookup"]["bias"].get<double>();
+  EXPECT_NEAR(slice, 3.0, 0.6);
+}
+
+TEST(Facts, name_the_tool_and_the_machine) {
+  const ToolFacts tool = tool_facts();
+  EXPECT_FALSE(tool.version.empty());
+  EXPECT_FALSE(tool.git_sha.empty());
+  EXPECT_FALSE(tool.libraries.empty());
+  const MachineFacts machine = machine_facts();
+  EXPECT_GT(machine.cores, 0);
+  EXPECT_GT(machine.ram_bytes, 0u);
+  EXPECT_NE(machine.os.find("Linux"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace clusterbench::run
