@@ -13,6 +13,8 @@ template <class... Fs>
 struct Overloaded : Fs... {
   using Fs::operator()...;
 };
+template <class... Fs>
+Overloaded(Fs...) -> Overloaded<Fs...>;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -59,13 +61,14 @@ std::int64_t lookup_screen(const ScreenGrid& grid, Vec3i cells, const Sample& sa
 std::int64_t lookup_cascades(const CascadesGrid& grid, Vec3i cells, const Sample& sample) {
   for (int level = 0; level < grid.levels; ++level) {
     const float edge = grid.edge_m(level);
-    const auto half_x = static_cast<float>(grid.cells.x / 2), half_y = static_cast<float>(grid.cells.y / 2);
+    const float half_x = 0.5f * static_cast<float>(grid.cells.x), half_y = 0.5f * static_cast<float>(grid.cells.y);
     const Vec3i cell{static_cast<int>(std::floor(sample.view.x / edge + half_x)),
                      static_cast<int>(std::floor(half_y - sample.view.y / edge)),
                      static_cast<int>(std::floor(-sample.view.z / edge))};
     const bool inside = cell.x >= 0 && cell.y >= 0 && cell.z >= 0 && cell.x < grid.cells.x && cell.y < grid.cells.y &&
                         cell.z < grid.cells.z;
-    // Rounding can put a point on the finer level's surface into a hole: the level before it had it at its edge.
+    // A point that rounds out of a level rounds out of the hole that this level fills: both divide by powers of two
+    // apart.
     if (inside && !grid.is_hole(level, cell)) return index_of({cell.x, cell.y, level * grid.cells.z + cell.z}, cells);
   }
   return -1;

@@ -124,7 +124,7 @@ Json filled(const JsonText& text) {
     document.erase("viewport");
   }
   document.erase("$schema");
-  if (document["name"] == "") document["name"] = fs::path(text.file).stem().string();
+  if (document["name"].get_ref<const std::string&>().empty()) document["name"] = fs::path(text.file).stem().string();
   return read_by_schema(schema, long_form(document, text), text);
 }
 

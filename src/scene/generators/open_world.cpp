@@ -30,8 +30,10 @@ void light_roads(Stage& stage) {
 }
 
 void fill_petrol_station(Stage& stage, const Vec3d& at) {
-  for (int i = 0; i < 12; ++i)
-    stage.spot("canopy " + std::to_string(i), at + Vec3d(4.0 * (i % 4), 5.5, 4.0 * (i / 4)), k_down, 12.0, 70.0);
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 4; ++column)
+      stage.spot("canopy " + std::to_string(4 * row + column), at + Vec3d(4.0 * column, 5.5, 4.0 * row), k_down, 12.0,
+                 70.0);
   for (int i = 0; i < 8; ++i) stage.point("shop " + std::to_string(i), at + Vec3d(-6.0, 2.2, 1.5 * i), 5.0);
   stage.point("price sign", at + Vec3d(14.0, 8.0, -3.0), 20.0);
 }

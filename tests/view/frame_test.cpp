@@ -1,0 +1,99 @@
+#include "view/frame.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/random.h"
+
+namespace clusterbench::view {
+namespace {
+
+constexpr double k_infinity = std::numeric_limits<double>::infinity();
+
+Frame frame_with(const std::vector<scene::WorldLight>& lights) {
+  Frame frame;
+  frame.lights = lights;
+  for (const scene::WorldLight& light : lights) frame.points += light.type == scene::LightType::point;
+  return frame;
+}
+
+scene::WorldLight point(Vec3d place, double range) {
+  scene::WorldLight light;
+  light.position = place;
+  light.range_m = range;
+  return light;
+}
+
+TEST(Projection, keeps_the_lenss_height_and_takes_its_width_from_the_viewport) {
+  scene::Lens lens;
+  lens.yfov_rad = 2.0 * std::atan(0.5);
+  const Projection wide = make_projection(lens, {200, 100});
+  EXPECT_DOUBLE_EQ(wide.top, 0.5);
+  EXPECT_DOUBLE_EQ(wide.right, 1.0);
+  EXPECT_DOUBLE_EQ(wide.left, -1.0);
+  lens.orthographic = true;
+  lens.ymag_m = 6.0;
+  lens.xmag_m = 1.0;
+  EXPECT_DOUBLE_EQ(make_projection(lens, {50, 100}).right, 3.0);
+}
+
+TEST(Lights, far_from_the_origin_are_as_precise_as_near_it) {
+  SplitMix64 random(1);
+  const Vec3d offset{1e7, -3e6, 2e7};
+  std::vector<scene::WorldLight> here, there;
+  for (int i = 0; i < 50; ++i) {
+    const Vec3d place =
+        glm::round(Vec3d(random.between(-99, 99), random.between(-9, 9), random.between(-99, 99)) * 256.0) / 256.0;
+    here.push_back(point(place, 3.0));
+    there.push_back(point(place + offset, 3.0));
+  }
+  const LightArrays near_origin = lights_in(frame_with(here), {});
+  const LightArrays far_away = lights_in(frame_with(there), {offset, Mat3d(1.0)});
+  EXPECT_EQ(near_origin.x, far_away.x);
+  EXPECT_EQ(near_origin.y, far_away.y);
+  EXPECT_EQ(near_origin.z, far_away.z);
+}
+
+TEST(Lights, have_a_radius_that_is_never_below_their_range) {
+  SplitMix64 random(2);
+  std::vector<scene::WorldLight> lights;
+  for (int i = 0; i < 200; ++i)
+    lights.push_back(point({random.between(-1e3, 1e3), 0.0, 0.0}, random.between(1e-4, 1e3)));
+  const LightArrays arrays = lights_in(frame_with(lights), {});
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    EXPECT_GE(static_cast<double>(arrays.radius[i]), lights[i].range_m);
+    EXPECT_GT(arrays.padded_radius[i], arrays.radius[i]);
+    // The pad is wide enough for the rounded centre and narrow enough not to matter.
+    const double pad = arrays.padded_radius[i] - lights[i].range_m,
+                 moved = std::abs(arrays.x[i] - lights[i].position.x);
+    EXPECT_GT(pad, 4.0 * moved);
+    EXPECT_LT(pad, 1e-6 * (std::abs(lights[i].position.x) + lights[i].range_m));
+  }
+}
+
+TEST(Lights, without_range_stay_without_and_without_end_stay_endless) {
+  const LightArrays arrays = lights_in(frame_with({point({1, 2, 3}, 0.0), point({1, 2, 3}, k_infinity)}), {});
+  EXPECT_EQ(arrays.padded_radius[0], 0.0f);
+  EXPECT_TRUE(std::isinf(arrays.padded_radius[1]));
+}
+
+TEST(Lights, of_spots_have_their_axis_turned_into_view_space) {
+  scene::WorldLight spot = point({0, 0, 0}, 5.0);
+  spot.type = scene::LightType::spot;
+  spot.direction = {1.0, 0.0, 0.0};
+  spot.outer_cone_rad = 0.5;
+  // A camera that looks along +x: world x is ahead, view -z.
+  const Mat3d turned(Vec3d(0, 0, -1), Vec3d(0, 1, 0), Vec3d(1, 0, 0));
+  const LightArrays arrays = lights_in(frame_with({point({0, 0, 0}, 1.0), spot}), {Vec3d(0.0), turned});
+  EXPECT_EQ(arrays.points, 1u);
+  EXPECT_EQ(arrays.spots, 1u);
+  const geom::SphericalCone cone = arrays.cone(1);
+  EXPECT_FLOAT_EQ(cone.axis.z, -1.0f);
+  EXPECT_FLOAT_EQ(cone.cos_angle, std::cos(0.5f));
+  EXPECT_FLOAT_EQ(cone.sin_angle, std::sin(0.5f));
+}
+
+}  // namespace
+}  // namespace clusterbench::view
