@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <set>
 
 #include "measure/front.h"
 
@@ -138,20 +139,32 @@ double number_at(const Json& one, const char* pointer) {
   return one.contains(place) && one[place].is_number() ? one[place].get<double>() : std::nan("");
 }
 
-// Per scene, the ids of the cases that none beats in time, list bytes and overshade together.
+// Only cases that see the same can beat each other: an empty view costs less than a full one in every respect.
+std::string view_of(const Json& one) {
+  return Json{one["camera"], one["viewport"]}.dump();
+}
+
+// The cases of one view that none beats in time, list bytes and overshade together.
+void add_front(const std::vector<const Json*>& cases, std::set<std::string>& ids) {
+  std::vector<measure::Costs> costs;
+  for (const Json* one : cases)
+    costs.push_back({number_at(*one, "/timing/assign_ns/median"), number_at(*one, "/buffers/bytes/high_water"),
+                     number_at(*one, "/shading/overshade")});
+  for (const std::size_t place : measure::pareto_front(costs)) ids.insert((*cases[place])["id"].get<std::string>());
+}
+
+// Per scene the fronts of its views together, in the order of the cases.
 Json fronts(const Json& scenes, const Json& cases) {
   Json list = Json::array();
   for (const Json& scene : scenes) {
-    std::vector<measure::Costs> costs;
-    std::vector<std::string> ids;
-    for (const Json& one : cases) {
-      if (one["scene"] != scene["name"]) continue;
-      ids.push_back(one["id"]);
-      costs.push_back({number_at(one, "/timing/assign_ns/median"), number_at(one, "/buffers/bytes/high_water"),
-                       number_at(one, "/shading/overshade")});
-    }
+    std::map<std::string, std::vector<const Json*>> views;
+    for (const Json& one : cases)
+      if (one["scene"] == scene["name"]) views[view_of(one)].push_back(&one);
+    std::set<std::string> ids;
+    for (const auto& [view, seen] : views) add_front(seen, ids);
     Json front = Json::array();
-    for (const std::size_t place : measure::pareto_front(costs)) front.push_back(ids[place]);
+    for (const Json& one : cases)
+      if (ids.contains(one["id"].get<std::string>())) front.push_back(one["id"]);
     list.push_back({{"scene", scene["name"]}, {"ids", front}});
   }
   return list;

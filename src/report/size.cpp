@@ -31,13 +31,20 @@ std::string share(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? "-" : text("%.2f %%", 100.0 * static_cast<double>(part) / static_cast<double>(whole));
 }
 
+// A name from a scene file as one comment line: no line may end early or run on.
+std::string comment_text(std::string name) {
+  for (char& c : name)
+    if (std::iscntrl(static_cast<unsigned char>(c)) != 0 || c == '\\') c = '?';
+  return name;
+}
+
 // What was seen, as comment lines above the case's constants.
 std::string comment(const Json& result, const Json& one) {
   const Json& buffers = one["buffers"];
   const Json& entries = buffers["index_entries"];
   const auto high = entries["high_water"].get<std::uint64_t>(), most = entries["theoretical_max"].get<std::uint64_t>();
   const auto capacity = entries["recommended"].get<std::uint64_t>();
-  std::string out = "// " + one["name"].get<std::string>() + "\n";
+  std::string out = "// " + comment_text(one["name"]) + "\n";
   out += "//   high water  " + std::to_string(high) + " entries in frame " + buffers["worst_frame"].dump() +
          ", longest list in cell " + buffers["worst_cell"].dump() + "; " + share(high, most) + " of the theoretical " +
          std::to_string(most) + "\n";

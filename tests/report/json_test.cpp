@@ -1,0 +1,125 @@
+#include "report/json.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "report/result_by_hand.h"
+#include "run/config.h"
+#include "run/schema_check.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using testing::case_by_hand;
+using testing::lose_a_light;
+using testing::result_by_hand;
+
+std::vector<std::string> violations(const Json& result) {
+  return run::schema_violations(run::result_schema(), nlohmann::json::parse(result.dump()));
+}
+
+TEST(ResultJson, is_what_the_schema_says) {
+  run::Result result = result_by_hand();
+  lose_a_light(result.cases[0]);
+  result.cases[0].timing->vs = run::Versus{"aabb", {3.0, {2.9, 3.1}}};
+  EXPECT_EQ(violations(result_to_json(result, {})), std::vector<std::string>{});
+}
+
+TEST(ResultJson, without_truth_samples_and_times_is_what_the_schema_says) {
+  run::Result result = result_by_hand();
+  for (run::CaseResult& one : result.cases) {
+    one.error.reset();
+    one.shading.reset();
+    one.timing.reset();
+  }
+  const Json json = result_to_json(result, {});
+  EXPECT_EQ(violations(json), std::vector<std::string>{});
+  EXPECT_FALSE(json["cases"][0].contains("error"));
+  EXPECT_FALSE(json["cases"][0].contains("timing"));
+}
+
+TEST(ResultJson, what_is_no_number_is_null) {
+  run::Result result = result_by_hand();
+  run::CaseResult& one = result.cases[0];
+  one.error->true_pairs = 0;  // excess of nothing
+  one.shading->needed = 0;    // overshade of nothing
+  one.timing->ns_per_pair = std::numeric_limits<double>::quiet_NaN();
+  one.timing->floor_ratio = std::numeric_limits<double>::infinity();
+  const Json json = result_to_json(result, {});
+  EXPECT_TRUE(json["cases"][0]["error"]["excess_ratio"].is_null());
+  EXPECT_TRUE(json["cases"][0]["shading"]["overshade"].is_null());
+  EXPECT_TRUE(json["cases"][0]["timing"]["ns_per_pair"].is_null());
+  EXPECT_TRUE(json["cases"][0]["timing"]["floor_ratio"].is_null());
+  EXPECT_EQ(violations(json), std::vector<std::string>{});
+}
+
+TEST(ResultJson, holds_the_figures_under_their_names) {
+  const Json one = case_to_json(case_by_hand("id", "aabb", 3000.0));
+  EXPECT_EQ(one["occupancy"]["pairs"]["max"], 40.0);
+  EXPECT_EQ(one["occupancy"]["lights_per_cluster"]["histogram"], (Json{10, 20, 18}));
+  EXPECT_EQ(one["buffers"]["index_entries"]["high_water"], 40);
+  EXPECT_EQ(one["error"]["excess_ratio"], 0.25);
+  EXPECT_EQ(one["shading"]["overshade"], 1.5);
+  EXPECT_EQ(one["timing"]["assign_ns"]["samples"], (Json{3000.0, 3000.0}));
+}
+
+TEST(ResultJson, cells_are_told_as_x_y_z) {
+  const Json one = case_to_json(case_by_hand("id", "aabb", 3000.0));
+  EXPECT_EQ(one["occupancy"]["worst_cell"], (Json{1, 1, 1}));
+  EXPECT_EQ(one["buffers"]["worst_cell"], (Json{3, 2, 1}));
+}
+
+TEST(ResultJson, cases_of_an_interrupted_run_stand_in_the_plans_order) {
+  run::Result whole = result_by_hand();
+  whole.planned_ids = {"first", "slow", "fast"};
+  const Json json = result_to_json(whole, {case_to_json(case_by_hand("first", "planes", 1.0)),
+                                           case_to_json(case_by_hand("not planned", "planes", 1.0))});
+  ASSERT_EQ(json["cases"].size(), 3u);
+  EXPECT_EQ(json["cases"][0]["id"], "first");
+  EXPECT_EQ(json["cases"][1]["id"], "slow");
+}
+
+TEST(Front, of_equal_lists_only_the_fastest_case_is_on_it) {
+  EXPECT_EQ(result_to_json(result_by_hand(), {})["front"], (Json::array({{{"scene", "hall"}, {"ids", {"fast"}}}})));
+}
+
+TEST(Front, cases_of_different_views_do_not_beat_each_other) {
+  run::Result result = result_by_hand();
+  result.cases[1].camera = "empty corner";
+  EXPECT_EQ(result_to_json(result, {})["front"][0]["ids"], (Json{"slow", "fast"}));
+  result = result_by_hand();
+  result.cases[1].viewport = {640, 360};
+  EXPECT_EQ(result_to_json(result, {})["front"][0]["ids"], (Json{"slow", "fast"}));
+}
+
+TEST(Gate, false_positives_of_a_conservative_assigner_pass) {
+  EXPECT_TRUE(gate_failures(result_to_json(result_by_hand(), {})).empty());
+}
+
+TEST(Gate, a_lost_light_of_a_conservative_assigner_is_named_with_frame_cell_and_depth) {
+  run::Result result = result_by_hand();
+  lose_a_light(result.cases[1]);
+  const auto failures = gate_failures(result_to_json(result, {}));
+  ASSERT_EQ(failures.size(), 1u);
+  for (const char* part :
+       {"hall/walk/frustum 64px/aabb/packed", "3 of 48", "frame 5", "[1,1,1]", "light 8", "torch", "12.5 %"})
+    EXPECT_NE(failures[0].find(part), std::string::npos) << part << " in " << failures[0];
+}
+
+TEST(Gate, an_assigner_that_does_not_claim_to_be_conservative_may_lose_lights) {
+  run::Result result = result_by_hand();
+  lose_a_light(result.cases[1]);
+  result.cases[1].conservative = false;
+  EXPECT_TRUE(gate_failures(result_to_json(result, {})).empty());
+}
+
+TEST(Gate, an_exact_assigner_fails_by_any_difference) {
+  run::Result result = result_by_hand();
+  result.cases[1].exact = true;
+  EXPECT_EQ(gate_failures(result_to_json(result, {})).size(), 1u);
+}
+
+}  // namespace
+}  // namespace clusterbench::report

@@ -1,0 +1,82 @@
+#pragma once
+// A small result with round figures, as the runner would hand it over.
+
+#include <string>
+
+#include "run/result.h"
+
+namespace clusterbench::report::testing {
+
+inline run::CaseResult case_by_hand(const std::string& id, const std::string& assigner, double assign_ns) {
+  run::CaseResult one;
+  one.id = id;
+  one.name = "hall/walk/frustum 64px/" + assigner + "/packed";
+  one.scene = "hall";
+  one.camera = "walk";
+  one.viewport = {1920, 1080};
+  one.frames = 2;
+  one.grid = {{"kind", "frustum"}, {"name", "frustum 64px"}, {"cells", {4, 3, 2}}};
+  one.assigner = one.assigner_label = assigner;
+  one.assigner_params = nlohmann::json::object();
+  one.storage = one.storage_label = "packed";
+  one.occupancy.pairs = {30.0, 20.0, 40.0, 40.0, 40.0};
+  one.occupancy.lights_per_cluster = {1.25, 1.0, 3.0, 7.0, 7.0};
+  one.occupancy.histogram = {10, 20, 18};
+  one.occupancy.worst_frame = 1;
+  one.occupancy.worst_cell = 17;  // x 1, y 1, z 1 of 4 x 3 x 2
+  one.occupancy.worst_count = 7;
+  one.buffers.index_entries = {40, 480, 80};
+  one.buffers.bytes = {232, 672, 272};
+  one.buffers.index_bits = 8;
+  one.buffers.header_bytes = 192;
+  one.buffers.worst_frame = 1;
+  one.buffers.worst_cell = 23;  // x 3, y 2, z 1
+  measure::ErrorCounts error;
+  error.true_pairs = 48;
+  error.reported_pairs = 60;
+  error.false_positives = 12;
+  error.frames_checked = 2;
+  one.error = error;
+  measure::ShadingCounts shading;
+  shading.samples = 100;
+  shading.evaluated = 300;
+  shading.needed = 200;
+  one.shading = shading;
+  run::TimingResult timing;
+  timing.assign_ns = {assign_ns, 1.0, assign_ns, assign_ns, {assign_ns, assign_ns}, {assign_ns, assign_ns}};
+  timing.ns_per_pair = assign_ns / 30.0;
+  timing.write_floor_ns = 100.0;
+  timing.floor_ratio = assign_ns / 100.0;
+  timing.frames_timed = 2;
+  one.timing = timing;
+  return one;
+}
+
+inline void lose_a_light(run::CaseResult& one) {
+  one.error->false_negatives = 3;
+  one.error->deepest = measure::Miss{.frame = 5, .cell = 17, .light = 8, .rig_index = 9, .depth = 0.125};
+  one.error->deepest_miss = 0.125;
+  one.deepest_miss_light = "torch";
+}
+
+inline run::Result result_by_hand() {
+  run::Result result;
+  result.config_name = "by hand";
+  result.tool = {"1.2.3", "abc", "g++ 12", "-O3", "Release", "scalar", {{"glm", "0.9.9"}}};
+  result.machine = {"a processor", "Linux", 2, 1u << 30};
+  result.config = {{"allocation", {{"margin", 2.0}, {"warn_at", 0.9}}}};
+  run::SceneResult scene;
+  scene.name = "hall";
+  scene.sha256 = std::string(64, 'a');
+  scene.points = 9;
+  scene.spots = 1;
+  scene.frames = 2;
+  scene.range_rule = {{"cutoff_lux", 0.05}, {"max_range", 100.0}, {"given", 10}, {"from_intensity", 0}, {"clamped", 0}};
+  result.scenes = {scene};
+  result.cases = {case_by_hand("slow", "brute-force", 9000.0), case_by_hand("fast", "aabb", 3000.0)};
+  result.skipped = {{"hall/walk/world/aabb", "aabb takes frustum grids, not world"}};
+  result.planned_ids = {"slow", "fast"};
+  return result;
+}
+
+}  // namespace clusterbench::report::testing

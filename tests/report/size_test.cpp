@@ -1,0 +1,95 @@
+#include "report/size.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "report/json.h"
+#include "report/result_by_hand.h"
+
+namespace clusterbench::report {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::result_by_hand;
+
+std::string size_of(const run::Result& result) {
+  return size_report(result_to_json(result, {}));
+}
+
+TEST(Size, says_what_was_seen_where_and_what_to_allocate) {
+  const std::string report = size_of(result_by_hand());
+  for (const char* part : {"// hall/walk/frustum 64px/aabb/packed", "40 entries in frame 1", "cell [3,2,1]",
+                           "8.33 % of the theoretical 480", "80 entries of 8 bits", "272 bytes",
+                           "72 entries (0.9 of the capacity)", "{80u, 72u, 272u}"})
+    EXPECT_NE(report.find(part), std::string::npos) << part << " in\n" << report;
+}
+
+TEST(Size, says_where_lists_overflowed) {
+  run::Result result = result_by_hand();
+  result.cases[0].buffers.dropped_pairs = 7;
+  result.cases[0].buffers.overflowing_cells = 3;
+  result.cases[0].buffers.overflowing_frames = 1;
+  EXPECT_NE(size_of(result).find("7 pairs dropped in 3 cells of 1 frames"), std::string::npos);
+}
+
+// Compiles the report as the header that it is, and runs a program that uses it.
+class SizeHeader : public ::testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  bool compiles(const std::string& header, const std::string& program) const {
+    std::ofstream(folder_ / "budget.h") << header;
+    std::ofstream(folder_ / "use.cpp") << "#include <initializer_list>\n#include \"budget.h\"\n" << program;
+    const std::string flags = "c++ -std=c++17 -Wall -Wextra -Wpedantic -Werror ";
+    return std::system((flags + path("use.cpp") + " -o " + path("use")).c_str()) == 0;
+  }
+  // Its exit status; what it says to stderr comes into `said`.
+  int run(std::string& said) const {
+    const int status = std::system(("( " + path("use") + " ) 2> " + path("said")).c_str());
+    std::ifstream in(folder_ / "said");
+    said.assign(std::istreambuf_iterator<char>(in), {});
+    return status;
+  }
+  std::string path(const char* name) const { return (folder_ / name).string(); }
+
+  const fs::path folder_ = fs::temp_directory_path() / ("clusterbench_size_" + std::to_string(getpid()));
+};
+
+constexpr const char* k_budget = "light_lists::hall_walk_frustum_64px_aabb_packed";
+
+std::string program_that_needs(const std::string& entries) {
+  return std::string("int main() {\n  std::uint64_t worst = 0;\n  for (std::uint64_t needed : {") + entries +
+         "})\n    light_lists::check(" + k_budget + ", needed, worst);\n  return worst == 75 ? 0 : 3;\n}\n";
+}
+
+TEST_F(SizeHeader, warns_once_for_a_new_worst_above_the_warning_level) {
+  ASSERT_TRUE(compiles(size_of(result_by_hand()), program_that_needs("10ull, 75ull, 75ull, 20ull")));
+  std::string said;
+  EXPECT_EQ(run(said), 0);
+  EXPECT_EQ(said, "light lists: 75 of 80 entries in use; raise the allocation\n");
+}
+
+TEST_F(SizeHeader, stops_a_program_that_needs_more_than_it_has) {
+  ASSERT_TRUE(compiles(size_of(result_by_hand()), program_that_needs("75ull, 81ull")));
+  std::string said;
+  EXPECT_NE(run(said), 0);
+  EXPECT_NE(said.find("light lists overflow their allocation"), std::string::npos) << said;
+}
+
+TEST_F(SizeHeader, compiles_whatever_cases_are_called) {
+  run::Result result = result_by_hand();
+  result.cases[0].name = "9 lives\n#error a name broke out\\";
+  result.cases.push_back(testing::case_by_hand("third", "aabb", 1.0));  // the same name twice
+  result.cases.push_back(testing::case_by_hand("fourth", "aabb", 1.0));
+  result.cases.back().name = "\xC3\xA9t\xC3\xA9/__x__//y\\";
+  result.planned_ids = {"slow", "fast", "third", "fourth"};
+  EXPECT_TRUE(compiles(size_of(result), "int main() {}\n"));
+}
+
+}  // namespace
+}  // namespace clusterbench::report

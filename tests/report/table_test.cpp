@@ -1,0 +1,116 @@
+#include "report/table.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "report/json.h"
+#include "report/result_by_hand.h"
+
+namespace clusterbench::report {
+namespace {
+
+using testing::lose_a_light;
+using testing::result_by_hand;
+
+std::string table_of(const run::Result& result, bool colour = false) {
+  return render_table(result_to_json(result, {}), colour);
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+std::string line_with(const std::string& text, const std::string& part) {
+  for (const std::string& line : lines_of(text))
+    if (line.find(part) != std::string::npos) return line;
+  return "";
+}
+
+std::vector<std::string> words(const std::string& line) {
+  std::istringstream in(line);
+  return {std::istream_iterator<std::string>(in), {}};
+}
+
+TEST(Table, a_line_holds_the_figures_of_its_case) {
+  EXPECT_EQ(
+      words(line_with(table_of(result_by_hand()), "aabb ")),
+      (std::vector<std::string>{"*", "aabb", "3.00", "100.00", "30.0", "30", "25.0", "%", "0", "7", "232", "80"}));
+}
+
+TEST(Table, the_fastest_case_comes_first) {
+  const std::string table = table_of(result_by_hand());
+  EXPECT_LT(table.find("aabb "), table.find("brute-force "));
+}
+
+TEST(Table, only_the_front_is_marked) {
+  const std::string table = table_of(result_by_hand());
+  EXPECT_EQ(words(line_with(table, "brute-force ")).front(), "brute-force");
+}
+
+TEST(Table, columns_are_aligned_and_fit_a_terminal) {
+  run::Result result = result_by_hand();
+  result.cases[0].assigner_label = "sphere-refinement(spot=narrowing)";
+  result.cases[0].timing->assign_ns.median = 123456789.0;
+  const std::string table = table_of(result);
+  EXPECT_EQ(line_with(table, "sphere-refinement").size(), line_with(table, "aabb ").size());
+  EXPECT_EQ(line_with(table, "assign us").size(), line_with(table, "aabb ").size());
+  for (const std::string& line : lines_of(table)) EXPECT_LE(line.size(), 120u) << line;
+}
+
+TEST(Table, what_was_not_measured_is_a_dash) {
+  run::Result result = result_by_hand();
+  for (run::CaseResult& one : result.cases) one.timing.reset();
+  const auto line = words(line_with(table_of(result), "aabb "));
+  EXPECT_EQ(std::count(line.begin(), line.end(), "-"), 3) << "assign, ns/pair and floor";
+}
+
+TEST(Table, without_colour_there_is_no_escape) {
+  run::Result result = result_by_hand();
+  lose_a_light(result.cases[0]);
+  EXPECT_EQ(table_of(result).find('\033'), std::string::npos);
+}
+
+TEST(Table, failures_are_red) {
+  run::Result result = result_by_hand();
+  lose_a_light(result.cases[0]);
+  result.cases[1].exact = true;  // and has false positives
+  const std::string table = table_of(result, true);
+  EXPECT_NE(table.find("\033[31m    brute-force"), std::string::npos) << table;
+  EXPECT_NE(table.find("\033[31m  * aabb"), std::string::npos) << table;
+}
+
+TEST(Table, a_name_in_a_scene_file_cannot_speak_to_the_terminal) {
+  run::Result result = result_by_hand();
+  result.cases[0].camera = "\033[2Jgone\nand a line";
+  result.scenes[0].warnings = {"light '\033]0;title\a' is black"};
+  const std::string table = table_of(result);
+  EXPECT_EQ(table.find_first_of("\033\a"), std::string::npos);
+  EXPECT_NE(table.find("gone?and a line"), std::string::npos);
+}
+
+TEST(Table, overflow_undecided_pairs_made_ranges_and_skipped_cases_are_said) {
+  run::Result result = result_by_hand();
+  result.cases[0].buffers.dropped_pairs = 7;
+  result.cases[0].error->undecided = 2;
+  result.scenes[0].range_rule["from_intensity"] = 4;
+  const std::string table = table_of(result);
+  EXPECT_NE(table.find("7 pairs dropped"), std::string::npos);
+  EXPECT_NE(table.find("2 pairs are undecided"), std::string::npos);
+  EXPECT_NE(table.find("4 lights have no range"), std::string::npos);
+  EXPECT_NE(table.find("1 combination"), std::string::npos);
+}
+
+TEST(Table, storages_are_named_where_there_are_several) {
+  run::Result result = result_by_hand();
+  EXPECT_EQ(table_of(result).find("/ packed"), std::string::npos);
+  result.cases[0].storage_label = "fixed(cap=8)";
+  EXPECT_NE(table_of(result).find("brute-force / fixed(cap=8)"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace clusterbench::report
