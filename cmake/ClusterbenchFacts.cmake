@@ -3,7 +3,16 @@
 function(clusterbench_facts TARGET)
   string(TOUPPER "${CMAKE_BUILD_TYPE}" TYPE)
   string(STRIP "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${TYPE}} -ffp-contract=off" FLAGS)
-  set_source_files_properties(src/run/facts.cpp PROPERTIES COMPILE_DEFINITIONS
+  set(LIBRARIES "")  # those whose headers facts.cpp cannot ask
+  foreach(NAME Boost TBB TinyGLTF)
+    set(VERSION ${${NAME}_VERSION})
+    if(VERSION)
+      string(TOLOWER ${NAME} LOWER)
+      string(APPEND LIBRARIES "{\"${LOWER}\", \"${VERSION}\"},")
+    endif()
+  endforeach()
+  set_property(SOURCE src/run/facts.cpp PROPERTY COMPILE_DEFINITIONS "CLUSTERBENCH_LIBRARIES=${LIBRARIES}")
+  set_property(SOURCE src/run/facts.cpp APPEND PROPERTY COMPILE_DEFINITIONS
     "CLUSTERBENCH_VERSION=\"${PROJECT_VERSION}\";CLUSTERBENCH_FLAGS=\"${FLAGS}\";CLUSTERBENCH_BUILD_TYPE=\"${CMAKE_BUILD_TYPE}\"")
   set(FOLDER ${CMAKE_CURRENT_BINARY_DIR}/facts)
   add_custom_target(clusterbench_git_sha

@@ -49,7 +49,7 @@ ToolFacts tool_facts() {
           .flags = CLUSTERBENCH_FLAGS,
           .build_type = CLUSTERBENCH_BUILD_TYPE,
           .simd_target = "scalar",
-          .libraries = {{"glm", dotted(GLM_VERSION_MAJOR, GLM_VERSION_MINOR, GLM_VERSION_PATCH)},
+          .libraries = {CLUSTERBENCH_LIBRARIES{"glm", dotted(GLM_VERSION_MAJOR, GLM_VERSION_MINOR, GLM_VERSION_PATCH)},
                         {"nlohmann_json", dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
                                                  NLOHMANN_JSON_VERSION_PATCH)}}};
 }

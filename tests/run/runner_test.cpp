@@ -275,7 +275,12 @@ TEST(Facts, name_the_tool_and_the_machine) {
   const ToolFacts tool = tool_facts();
   EXPECT_FALSE(tool.version.empty());
   EXPECT_FALSE(tool.git_sha.empty());
-  EXPECT_FALSE(tool.libraries.empty());
+  std::vector<std::string> names;
+  for (const auto& [name, version] : tool.libraries) {
+    names.push_back(name);
+    EXPECT_NE(version.find('.'), std::string::npos) << name << " " << version;
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"boost", "tbb", "tinygltf", "glm", "nlohmann_json"}));
   const MachineFacts machine = machine_facts();
   EXPECT_GT(machine.cores, 0);
   EXPECT_GT(machine.ram_bytes, 0u);
