@@ -58,18 +58,21 @@ std::int64_t lookup_screen(const ScreenGrid& grid, Vec3i cells, const Sample& sa
   return index_of({tile.x, tile.y, slice}, cells);
 }
 
+bool lies_within(const Vec3f& place, const Vec3i& cells) {
+  const Vec3f end(cells);
+  return place.x >= 0.0f && place.y >= 0.0f && place.z >= 0.0f && place.x < end.x && place.y < end.y && place.z < end.z;
+}
+
 std::int64_t lookup_cascades(const CascadesGrid& grid, Vec3i cells, const Sample& sample) {
   for (int level = 0; level < grid.levels; ++level) {
     const float edge = grid.edge_m(level);
     const float half_x = 0.5f * static_cast<float>(grid.cells.x), half_y = 0.5f * static_cast<float>(grid.cells.y);
-    const Vec3i cell{static_cast<int>(std::floor(sample.view.x / edge + half_x)),
-                     static_cast<int>(std::floor(half_y - sample.view.y / edge)),
-                     static_cast<int>(std::floor(-sample.view.z / edge))};
-    const bool inside = cell.x >= 0 && cell.y >= 0 && cell.z >= 0 && cell.x < grid.cells.x && cell.y < grid.cells.y &&
-                        cell.z < grid.cells.z;
+    const Vec3f place{sample.view.x / edge + half_x, half_y - sample.view.y / edge, -sample.view.z / edge};
+    if (!lies_within(place, grid.cells)) continue;
+    const Vec3i cell(place);
     // A point that rounds out of a level rounds out of the hole that this level fills: both divide by powers of two
     // apart.
-    if (inside && !grid.is_hole(level, cell)) return index_of({cell.x, cell.y, level * grid.cells.z + cell.z}, cells);
+    if (!grid.is_hole(level, cell)) return index_of({cell.x, cell.y, level * grid.cells.z + cell.z}, cells);
   }
   return -1;
 }

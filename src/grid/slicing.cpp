@@ -40,9 +40,10 @@ Reach reach_of(const Slicing& slicing, const SliceRange& range) {
   Reach reach{slicing.near_m != 0.0 ? slicing.near_m : range.camera_near_m, slicing.far_m};
   if (reach.far == 0.0) reach.far = std::isfinite(range.camera_far_m) ? range.camera_far_m : range.light_far_m;
   if (slicing.scheme == Scheme::fit) {
-    reach.near = std::clamp(range.light_near_m, reach.near, reach.far);
-    reach.far = std::clamp(range.light_far_m, reach.near, reach.far);
-    if (!(reach.near < reach.far)) reach.far = reach.near * 2.0 + 1.0;  // no light in view
+    const double last = std::max(reach.near, reach.far);  // no far is named and all lights end before near
+    const Reach lit{std::clamp(range.light_near_m, reach.near, last), std::clamp(range.light_far_m, reach.near, last)};
+    if (lit.near < lit.far) return lit;
+    reach.far = reach.near < last ? last : reach.near * 2.0 + 1.0;  // no light in view
   }
   return reach;
 }

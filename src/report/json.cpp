@@ -144,12 +144,20 @@ std::string view_of(const Json& one) {
   return Json{one["camera"], one["viewport"]}.dump();
 }
 
+// Short lists are no merit where lights are missing from them: a case whose samples miss more than one light in a
+// thousand (rounding at cell boundaries misses far fewer) has no overshade to compare.
+double comparable_overshade(const Json& one) {
+  constexpr double k_most_missed = 1e-3;
+  const double missed = number_at(one, "/shading/missed"), needed = number_at(one, "/shading/needed");
+  return missed > k_most_missed * needed ? std::nan("") : number_at(one, "/shading/overshade");
+}
+
 // The cases of one view that none beats in time, list bytes and overshade together.
 void add_front(const std::vector<const Json*>& cases, std::set<std::string>& ids) {
   std::vector<measure::Costs> costs;
   for (const Json* one : cases)
     costs.push_back({number_at(*one, "/timing/assign_ns/median"), number_at(*one, "/buffers/bytes/high_water"),
-                     number_at(*one, "/shading/overshade")});
+                     comparable_overshade(*one)});
   for (const std::size_t place : measure::pareto_front(costs)) ids.insert((*cases[place])["id"].get<std::string>());
 }
 

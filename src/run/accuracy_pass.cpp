@@ -1,6 +1,7 @@
 #include "run/accuracy_pass.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace clusterbench::run {
@@ -80,11 +81,10 @@ class CaseMeter {
   measure::BufferMeter buffers_;
 };
 
-// How far samples are spread: where the grid ends, else where the lights do.
-double sample_far(const grid::Grid& grid, const view::Frame& frame, double path_far_m) {
-  const bool has_slices = grid.kind() == grid::Kind::frustum || grid.kind() == grid::Kind::distance;
-  const double far = has_slices ? static_cast<double>(grid.screen().slices.boundaries.back()) : path_far_m;
-  return std::max(far, 2.0 * frame.projection.near_m);
+// How far samples are spread: as far as the camera sees and lights reach, the same for all grids, so that their
+// overshade compares. A grid that ends before that misses lights, and the samples say so.
+double sample_far(const view::Frame& frame, double path_far_m) {
+  return std::max(std::min(frame.projection.far_m, path_far_m), 2.0 * std::abs(frame.projection.near_m) + 1.0);
 }
 
 FrameAtHand look_at(const Config& config, const PathFrames& path, GridOfFrames& grids, int index) {
@@ -95,7 +95,7 @@ FrameAtHand look_at(const Config& config, const PathFrames& path, GridOfFrames& 
   now.lights = view::lights_in(now.frame, grid::space_of(grid, now.frame));
   if (config.check_accuracy) now.truth = measure::find_truth(now.frame, grid, config.threads);
   if (config.shading_samples > 0) {
-    const double far = sample_far(grid, now.frame, path.far_m());
+    const double far = sample_far(now.frame, path.far_m());
     now.samples = measure::volume_samples(now.frame, far, config.shading_samples, config.seed);
     now.reaching = measure::lights_reaching(now.frame, now.samples);
   }

@@ -1,6 +1,7 @@
 #include "run/sweep.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <set>
 
@@ -21,9 +22,10 @@ std::string unique_name(const std::string& name, std::set<std::string>& taken) {
   return candidate;
 }
 
-// A slash separates the parts of a case's name, so none may be inside one.
+// A slash separates the parts of a case's name, so none may be inside one; nor what a terminal would obey.
 std::string name_part(std::string text) {
-  std::replace(text.begin(), text.end(), '/', '_');
+  for (char& c : text)
+    if (c == '/' || std::iscntrl(static_cast<unsigned char>(c)) != 0) c = '_';
   return text;
 }
 
@@ -36,6 +38,8 @@ std::vector<SceneData> load_scenes(const Config& config) {
     scene::resolve_ranges(data.scene, request.range_rule);
     data.scene.name = unique_name(name_part(data.scene.name), names);
     data.paths = scene::camera_paths(data.scene, request.camera);
+    std::set<std::string> cameras;
+    for (scene::CameraPath& path : data.paths) path.camera = unique_name(name_part(path.camera), cameras);
     scenes.push_back(std::move(data));
   }
   return scenes;
@@ -164,13 +168,10 @@ class Expansion {
 
  private:
   void expand_scene(Plan& plan, std::size_t scene) {
-    std::set<std::string> names;
-    for (std::size_t camera = 0; camera < plan.scenes[scene].paths.size(); ++camera) {
-      const std::string part = unique_name(name_part(plan.scenes[scene].paths[camera].camera), names);
+    for (std::size_t camera = 0; camera < plan.scenes[scene].paths.size(); ++camera)
       for (std::size_t viewport = 0; viewport < config_.viewports.size(); ++viewport)
         for (std::size_t grid = 0; grid < config_.grids.size(); ++grid)
-          expand_group(plan, {scene, camera, viewport, grid, {}}, part);
-    }
+          expand_group(plan, {scene, camera, viewport, grid, {}}, plan.scenes[scene].paths[camera].camera);
   }
 
   std::string group_name(const Plan& plan, const GroupPlan& group, const std::string& camera) const {

@@ -78,6 +78,13 @@ TEST(Slicing, fit_covers_the_lights_in_view_and_nothing_else) {
   EXPECT_LE(slices.boundaries.front(), 0.1f) << "what is nearer than all lights looks itself up in slice 0";
 }
 
+TEST(Slicing, fit_without_a_light_in_view_still_makes_slices) {
+  constexpr double k_endless = std::numeric_limits<double>::infinity();
+  const SliceRange dark{0.1, k_endless, k_endless, 0.0};
+  EXPECT_EQ(make_slices(slicing(Scheme::fit, 4, 0.1, 0.0), dark, false).count(), 4);
+  EXPECT_FLOAT_EQ(make_slices(slicing(Scheme::fit, 4, 0.1, 500.0), dark, false).boundaries.back(), 500.0f);
+}
+
 TEST(Slicing, without_a_far_the_camera_decides_and_then_the_lights) {
   EXPECT_FLOAT_EQ(
       make_slices(slicing(Scheme::exponential, 4, 0.1, 0.0), {0.1, 300.0, 0.0, 80.0}, false).boundaries.back(), 300.0f);

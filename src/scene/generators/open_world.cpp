@@ -42,11 +42,11 @@ void fill_village(Stage& stage, const std::string& name, const Vec3d& at, int ho
   for (int house = 0; house < houses; ++house) {
     const Vec3d home = at + stage.place_in({-35.0, 0.0, -35.0}, {35.0, 0.0, 35.0});
     const std::string part = name + " house " + std::to_string(house);
-    stage.point(part + " door", home + Vec3d(0.0, 2.4, 3.2), stage.random().between(4.0, 7.0));
-    stage.point(part + " window", home + Vec3d(2.5, 1.8, 0.0), stage.random().between(2.0, 5.0));
-    if (house % 3 == 0)
-      stage.spot(part + " yard", home + Vec3d(0.0, 4.0, 3.0), {0.1, -1.0, 0.6}, stage.random().between(9.0, 16.0),
-                 stage.random().between(25.0, 55.0));
+    const double door_m = stage.random().between(4.0, 7.0), window_m = stage.random().between(2.0, 5.0);
+    stage.point(part + " door", home + Vec3d(0.0, 2.4, 3.2), door_m);
+    stage.point(part + " window", home + Vec3d(2.5, 1.8, 0.0), window_m);
+    const double yard_m = stage.random().between(9.0, 16.0), yard_deg = stage.random().between(25.0, 55.0);
+    if (house % 3 == 0) stage.spot(part + " yard", home + Vec3d(0.0, 4.0, 3.0), {0.1, -1.0, 0.6}, yard_m, yard_deg);
   }
   stage.point(name + " square", at + Vec3d(0.0, 6.0, 0.0), 26.0);
   stage.point(name + " fire", at + Vec3d(8.0, 0.6, -6.0), 9.0);
@@ -92,9 +92,10 @@ void build_open_world(Stage& stage, int lights) {
   fill_village(stage, "south", {road_x(190.0) - 50.0, 0.0, 190.0}, 40);
   place_floodlights(stage);
   drive_cars(stage, 24);
-  for (int i = 0; stage.light_count() < lights; ++i)
-    stage.point("lantern " + std::to_string(i), stage.place_in({-240.0, 1.0, -240.0}, {240.0, 3.0, 240.0}),
-                stage.random().between(3.0, 12.0));
+  for (int i = 0; stage.light_count() < lights; ++i) {
+    const Vec3d place = stage.place_in({-240.0, 1.0, -240.0}, {240.0, 3.0, 240.0});
+    stage.point("lantern " + std::to_string(i), place, stage.random().between(3.0, 12.0));
+  }
 
   constexpr double k_eye = 1.7;
   std::vector<Vec3d> corners;

@@ -11,9 +11,9 @@ void build_outlier(Stage& stage, int lights) {
   stage.point("a sun made as a point", {0.0, 900.0, -2000.0}, 1.0e5);
   for (int i = 0; stage.light_count() < lights; ++i) {
     const Vec3d place = stage.place_in({-30.0, 1.0, -60.0}, {30.0, 6.0, 0.0});
+    const double yard_m = random.between(8.0, 16.0), yard_deg = random.between(25.0, 60.0);
     if (i % 5 == 4)
-      stage.spot("yard " + std::to_string(i), place, {0.1, -1.0, 0.2}, random.between(8.0, 16.0),
-                 random.between(25.0, 60.0));
+      stage.spot("yard " + std::to_string(i), place, {0.1, -1.0, 0.2}, yard_m, yard_deg);
     else
       stage.point("lamp " + std::to_string(i), place, random.between(3.0, 9.0));
   }

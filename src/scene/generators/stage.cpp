@@ -53,7 +53,7 @@ void append_chunk(std::string& bytes, const char* type, std::string body, char p
 
 Stage::Stage(std::uint64_t seed) : random_(seed) {
   document_["asset"] = {{"version", "2.0"}};
-  document_["extensionsUsed"] = {"KHR_lights_punctual"};
+  document_["extensionsUsed"] = Json::array({"KHR_lights_punctual"});
   document_["scene"] = 0;
   document_["scenes"] = Json::array({Json{{"nodes", Json::array()}}});
   document_["nodes"] = Json::array();
@@ -125,9 +125,8 @@ int Stage::mover(const std::string& name, const std::vector<PathKey>& keys) {
 
 void Stage::camera(const std::string& name, const std::vector<PathKey>& keys, double far_m) {
   const int node = mover(name, keys);
-  document_["cameras"] = {
-      Json{{"type", "perspective"},
-           {"perspective", {{"yfov", 1.047198}, {"aspectRatio", 1.777778}, {"znear", 0.1}, {"zfar", far_m}}}}};
+  const Json lens{{"yfov", 1.047198}, {"aspectRatio", 1.777778}, {"znear", 0.1}, {"zfar", far_m}};
+  document_["cameras"] = Json::array({Json{{"type", "perspective"}, {"perspective", lens}}});
   document_["nodes"][static_cast<std::size_t>(node)]["camera"] = 0;
 }
 
@@ -139,8 +138,8 @@ int Stage::float_accessor(const std::vector<float>& values, const char* type, st
   buffer_.append(reinterpret_cast<const char*>(values.data()), size);
   Json accessor{{"bufferView", view}, {"componentType", 5126}, {"count", values.size() / components}, {"type", type}};
   if (with_bounds) {
-    accessor["min"] = {values.front()};
-    accessor["max"] = {values.back()};
+    accessor["min"] = Json::array({values.front()});
+    accessor["max"] = Json::array({values.back()});
   }
   document_["accessors"].push_back(accessor);
   return view;  // one accessor per view
@@ -174,7 +173,7 @@ void Stage::animate(int node, const std::vector<PathKey>& keys) {
 std::string Stage::glb(const std::string& generator) const {
   Json document = document_;
   document["asset"]["generator"] = generator;
-  document["buffers"] = {Json{{"byteLength", buffer_.size()}}};
+  document["buffers"] = Json::array({Json{{"byteLength", buffer_.size()}}});
   std::string chunks;
   append_chunk(chunks, "JSON", document.dump(), ' ');
   append_chunk(chunks, "BIN", buffer_, '\0');

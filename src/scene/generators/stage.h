@@ -22,6 +22,8 @@ class Stage {
  public:
   explicit Stage(std::uint64_t seed);
 
+  // Compilers choose the order in which a call's arguments are evaluated: draw one number a call, the others into
+  // names.
   SplitMix64& random() { return random_; }
   Vec3d place_in(const Vec3d& lo, const Vec3d& hi);
   int light_count() const { return light_count_; }
