@@ -60,12 +60,12 @@ void add_schema(CLI::App& app, Action& action) {
 
 void add_validate(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("validate", "Check configurations and results without running anything");
-  CLI::Option* files = command->add_option("FILE", "Configuration or result files")->required();
-  files->expected(1, -1);
-  command->callback([files, &action] {
-    action = [paths = files->as<std::vector<std::string>>()] {
+  auto paths = std::make_shared<std::vector<std::string>>();
+  command->add_option("FILE", *paths, "Configuration or result files")->required();
+  command->callback([paths, &action] {
+    action = [paths] {
       ExitCode worst = ExitCode::ok;
-      for (const std::string& path : paths)
+      for (const std::string& path : *paths)
         if (validate(path) != ExitCode::ok) worst = ExitCode::usage;
       return worst;
     };

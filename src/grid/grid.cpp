@@ -112,8 +112,10 @@ Grid make_cascades(const GridSpec& spec) {
                 "of cascades must be multiples of 4, 4 and 2, so that a level's cells are wholly inside or outside of "
                 "the finer level");
   if (spec.levels < 1 || spec.levels > 24) throw Error("", "levels", "must be 1 to 24");
-  if (!(spec.finest_m > 0.0) || !std::isfinite(spec.finest_m)) throw Error("", "finest", "must be above 0 m");
-  return {CascadesGrid{spec.levels, n, static_cast<float>(spec.finest_m)}};
+  const auto finest_m = static_cast<float>(spec.finest_m);
+  if (!(finest_m >= std::numeric_limits<float>::min()) || !std::isfinite(std::ldexp(finest_m, spec.levels + 16)))
+    throw Error("", "finest", "must be above 0 m, and small enough for the coarsest level to be finite");
+  return {CascadesGrid{spec.levels, n, finest_m}};
 }
 
 // Boundaries relative to the box's middle, where single precision is finest; the outermost enclose the box.
@@ -123,6 +125,8 @@ std::vector<float> world_planes(double lo, double hi, double origin, int count) 
   for (int i = 0; i <= count; ++i) planes.push_back(static_cast<float>(lo - origin + (hi - lo) * i / count));
   planes.front() = std::nextafter(planes.front(), -k_infinity);
   planes.back() = std::nextafter(planes.back(), k_infinity);
+  if (!std::isfinite(planes.front()) || !std::isfinite(planes.back()))
+    throw Error("", "bounds", "must be finite in single precision");
   for (int i = 0; i < count; ++i)
     if (!(planes[at(i)] < planes[at(i) + 1]))
       throw Error("", "cells", "are too thin: two boundaries coincide in single precision");

@@ -1,6 +1,6 @@
 // The short name of a grid in case names.
 
-#include <cstdio>
+#include <charconv>
 
 #include "grid/grid.h"
 
@@ -9,8 +9,8 @@ namespace {
 
 std::string number(double value) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.10g", value);
-  return text;
+  const auto end = std::to_chars(text, text + sizeof text, value).ptr;  // as short as tells it from every other number
+  return {text, end};
 }
 
 std::string pair(int a, int b, const char* unit) {

@@ -50,7 +50,8 @@ Reach reach_of(const Slicing& slicing, const SliceRange& range) {
 
 void check(const Slicing& slicing, const Reach& reach, bool orthographic) {
   require(slicing.count >= 1, "slices.count", "must be at least 1");
-  require(std::isfinite(reach.far), "slices.far", "must be finite: the camera's far plane is infinite, so name one");
+  require(std::isfinite(static_cast<float>(reach.far)), "slices.far",
+          "must be finite, in single precision too; where the camera's far plane is infinite, name one");
   require(reach.near < reach.far, "slices.near",
           "is " + metres(reach.near) + ", which is not below far, " + metres(reach.far));
   const bool logarithmic = slicing.scheme != Scheme::linear && slicing.scheme != Scheme::list &&

@@ -238,6 +238,22 @@ TEST(GridSpec, different_grids_have_different_names) {
   EXPECT_EQ(static_cast<int>(names.size()), count);
 }
 
+TEST(Grids, whose_numbers_single_precision_cannot_hold_are_refused) {
+  const view::Frame frame = frame_of({640, 360}, k_perspective);
+  GridSpec far = spec_of(Kind::frustum), cascades = spec_of(Kind::cascades), world = spec_of(Kind::world);
+  far.slices.scheme = Scheme::exponential;
+  far.slices.far_m = 1e39;
+  EXPECT_THROW(grid_for(far, frame), Error);
+  for (const double finest : {1e-50, 1e-44, 1e38}) {
+    cascades.finest_m = finest;
+    EXPECT_THROW(grid_for(cascades, frame), Error);
+  }
+  world.has_bounds = true;
+  world.bounds_lo_m = Vec3d(-1e39);
+  world.bounds_hi_m = Vec3d(1e39);
+  EXPECT_THROW(grid_for(world, frame), Error);
+}
+
 TEST(Distance, grids_are_refused_for_orthographic_cameras) {
   EXPECT_THROW(grid_for(spec_of(Kind::distance), frame_of({640, 360}, k_orthographic)), Error);
 }
