@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
 
 namespace clusterbench::geom {
 
@@ -44,6 +43,14 @@ struct Volume {
     const Real along = dot(v, axis);
     const Real side = sin_angle * along - cos_angle * length(v - along * axis);
     return side < along ? side : along;
+  }
+  // How far the volume extends from its apex in a unit direction.
+  Real extent(const Point3<Real>& direction) const {
+    if (!is_cone) return range;
+    const Real along = dot(direction, axis);
+    if (!(along < cos_angle)) return range;
+    const Real lean = cos_angle * along + sin_angle * length(direction - along * axis);
+    return lean > Real(0) ? range * lean : Real(0);
   }
 };
 
@@ -142,13 +149,17 @@ void plane_on_rim(const Volume<Real>& volume, const HalfSpace<Real>& plane, Take
 }
 
 // Calls take(point) for all places where cell ∩ infinite cone can be nearest to the apex (for a ball: where the cell
-// can be nearest to the centre), and for extreme points of cell ∩ volume, whose mean lies inside it.
+// can be nearest to the centre), and for extreme points of cell ∩ volume, whose mean lies inside it. Faces that the
+// volume does not reach (`reached`) have no such place on them.
 template <class Real, class Take>
-void polytope_candidates(const Volume<Real>& volume, const Polytope<Real>& cell, Take&& take) {
+void polytope_candidates(const Volume<Real>& volume, const Polytope<Real>& cell, const std::array<bool, 6>& reached,
+                         Take&& take) {
   take(volume.apex);
-  for (const HalfSpace<Real>& face : cell.faces) {
-    take(volume.apex + face.margin(volume.apex) * face.normal);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const HalfSpace<Real>& face = cell.faces[i];
     take(volume.apex - volume.range * face.normal);
+    if (!reached[i]) continue;
+    take(volume.apex + face.margin(volume.apex) * face.normal);
     if (!volume.is_cone) continue;
     generators_towards(volume, face.normal, [&](const Point3<Real>& g) {
       const Real lean = dot(face.normal, g);
@@ -158,10 +169,14 @@ void polytope_candidates(const Volume<Real>& volume, const Polytope<Real>& cell,
     plane_on_rim(volume, face, take);
   }
   if (volume.is_cone) take(volume.apex + volume.range * volume.axis);
+  const auto face_of = [](unsigned corner, unsigned axis) { return 2 * axis + ((corner >> axis) & 1); };
   for (unsigned corner = 0; corner < 8; ++corner) {
-    take(cell.corners[corner]);
-    for (unsigned bit = 1; bit < 8; bit *= 2) {
-      if ((corner & bit) != 0) continue;
+    const std::array<bool, 3> sides{reached[face_of(corner, 0)], reached[face_of(corner, 1)],
+                                    reached[face_of(corner, 2)]};
+    if (sides[0] && sides[1] && sides[2]) take(cell.corners[corner]);
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      const unsigned bit = 1u << axis;
+      if ((corner & bit) != 0 || !sides[(axis + 1) % 3] || !sides[(axis + 2) % 3]) continue;
       const Point3<Real>& start = cell.corners[corner];
       const Point3<Real> step = cell.corners[corner | bit] - start;
       const auto take_at = [&](const Real& t) { take(start + t * step); };
@@ -173,32 +188,76 @@ void polytope_candidates(const Volume<Real>& volume, const Polytope<Real>& cell,
   }
 }
 
-// Places of roots of c[0] + c[1] t + ... on [-1, 1], and of its derivatives there (a double root shows as one of
-// these). Roots of the derivative separate the roots, so each lies in an interval on which bisection is sure.
+// A polynomial c[0] + c[1] t + ... of degree `degree` <= 4.
 template <class Real>
-std::vector<Real> root_places(const std::vector<Real>& c, int bisections) {
-  if (c.size() < 2) return {};
-  std::vector<Real> derivative;
-  for (std::size_t i = 1; i < c.size(); ++i) derivative.push_back(Real(static_cast<double>(i)) * c[i]);
-  std::vector<Real> places = root_places(derivative, bisections);
-  const auto value_at = [&](const Real& t) {
-    Real value(0);
-    for (std::size_t i = c.size(); i-- > 0;) value = value * t + c[i];
+struct Polynomial {
+  std::array<Real, 5> c;
+  int degree;
+
+  Real value_at(const Real& t) const {
+    Real value = c[static_cast<std::size_t>(degree)];
+    for (int i = degree; i-- > 0;) value = value * t + c[static_cast<std::size_t>(i)];
     return value;
-  };
-  std::vector<Real> ends = places;
-  ends.push_back(Real(-1));
-  ends.push_back(Real(1));
-  std::sort(ends.begin(), ends.end());
-  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-    Real lo = ends[i], hi = ends[i + 1];
-    const bool rises = value_at(lo) < Real(0);
-    if (rises == (value_at(hi) < Real(0))) continue;
-    for (int step = 0; step < bisections; ++step) {
-      const Real middle = (lo + hi) / Real(2);
-      ((value_at(middle) < Real(0)) == rises ? lo : hi) = middle;
-    }
-    places.push_back(lo);
+  }
+  Polynomial derivative() const {
+    Polynomial d{{}, degree - 1};
+    for (int i = 0; i < degree; ++i)
+      d.c[static_cast<std::size_t>(i)] = Real(static_cast<double>(i + 1)) * c[static_cast<std::size_t>(i + 1)];
+    return d;
+  }
+};
+
+// A few places in [-1, 1].
+template <class Real>
+struct Places {
+  std::array<Real, 16> at;
+  int count = 0;
+
+  void add(const Real& place) { at[static_cast<std::size_t>(count++)] = place; }
+  const Real* begin() const { return at.data(); }
+  const Real* end() const { return at.data() + count; }
+};
+
+// The root between lo and hi, where the value's sign changes: Newton's steps where they stay inside, else halving.
+template <class Real>
+Real root_between(const Polynomial<Real>& polynomial, const Polynomial<Real>& derivative, Real lo, Real hi, bool rises,
+                  int bits) {
+  using std::abs;
+  using std::ldexp;
+  const Real least = ldexp(Real(1), -bits);
+  Real t = (lo + hi) / Real(2), previous_step = hi - lo;
+  for (int i = 0; i < 2 * bits && hi - lo > least; ++i) {
+    const Real value = polynomial.value_at(t), slope = derivative.value_at(t);
+    if (value == Real(0)) return t;
+    ((value < Real(0)) == rises ? lo : hi) = t;
+    const Real newton = slope == Real(0) ? hi - lo : -value / slope;
+    if (abs(newton) <= least) return t + newton;
+    const bool is_good = lo < t + newton && t + newton < hi && abs(newton) * Real(2) <= previous_step;
+    const Real next = is_good ? t + newton : (lo + hi) / Real(2);
+    previous_step = abs(next - t);
+    if (previous_step <= least) return next;
+    t = next;
+  }
+  return t;
+}
+
+// Places of roots on [-1, 1], and of its derivatives' roots there (a double root shows as one of these). Roots of the
+// derivative separate the roots, so each lies in an interval at whose ends the signs differ.
+template <class Real>
+Places<Real> root_places(const Polynomial<Real>& polynomial, int bits) {
+  Places<Real> places;
+  if (polynomial.degree < 1) return places;
+  const Polynomial<Real> derivative = polynomial.derivative();
+  places = root_places(derivative, bits);
+  Places<Real> ends = places;
+  ends.add(Real(-1));
+  ends.add(Real(1));
+  std::sort(ends.at.begin(), ends.at.begin() + ends.count);
+  for (int i = 0; i + 1 < ends.count; ++i) {
+    const Real &lo = ends.begin()[i], &hi = ends.begin()[i + 1];
+    const bool rises = polynomial.value_at(lo) < Real(0);
+    if (rises != (polynomial.value_at(hi) < Real(0)))
+      places.add(root_between(polynomial, derivative, lo, hi, rises, bits));
   }
   return places;
 }
@@ -207,7 +266,7 @@ std::vector<Real> root_places(const std::vector<Real>& c, int bisections) {
 // phi around the axis from m, a generator meets the plane at distance h / (alpha + beta cos phi) from the apex; setting
 // the derivative of the squared distance to zero and tau = tan(phi / 2) gives a quartic without square term.
 template <class Real, class Take>
-void conic_extremes(const Volume<Real>& volume, const HalfSpace<Real>& plane, int bisections, Take&& take) {
+void conic_extremes(const Volume<Real>& volume, const HalfSpace<Real>& plane, int bits, Take&& take) {
   const Point3<Real> m = unit_across(volume.axis, plane.normal), m2 = cross(volume.axis, m);
   const Real h = plane.margin(volume.apex);
   const Real alpha = volume.cos_angle * dot(plane.normal, volume.axis);
@@ -216,8 +275,10 @@ void conic_extremes(const Volume<Real>& volume, const HalfSpace<Real>& plane, in
   const Real delta = volume.sin_angle * dot(volume.apex, m), epsilon = volume.sin_angle * dot(volume.apex, m2);
   const Real kappa = beta * gamma - alpha * delta, sum = alpha + beta, difference = alpha - beta;
   const Real two(2);
-  const std::vector<Real> quartic{sum * sum * epsilon, two * (sum * kappa + h * beta), Real(0),
-                                  two * (difference * kappa + h * beta), -difference * difference * epsilon};
+  const Polynomial<Real> quartic{{sum * sum * epsilon, two * (sum * kappa + h * beta), Real(0),
+                                  two * (difference * kappa + h * beta), -difference * difference * epsilon},
+                                 4};
+  const Polynomial<Real> reversed{{quartic.c[4], quartic.c[3], quartic.c[2], quartic.c[1], quartic.c[0]}, 4};
   const auto take_generator = [&](const Real& cosine, const Real& sine) {
     const Real lean = alpha + beta * cosine;
     if (lean == Real(0)) return;
@@ -225,20 +286,22 @@ void conic_extremes(const Volume<Real>& volume, const HalfSpace<Real>& plane, in
         volume.cos_angle * volume.axis + (volume.sin_angle * cosine) * m + (volume.sin_angle * sine) * m2;
     take(volume.apex + (h / lean) * g);
   };
-  for (const Real& tau : root_places(quartic, bisections)) {
+  for (const Real& tau : root_places(quartic, bits)) {
     const Real square = tau * tau;
     take_generator((Real(1) - square) / (Real(1) + square), two * tau / (Real(1) + square));
   }
-  for (const Real& inverse : root_places(std::vector<Real>(quartic.rbegin(), quartic.rend()), bisections)) {
+  for (const Real& inverse : root_places(reversed, bits)) {
     const Real square = inverse * inverse;
     take_generator((square - Real(1)) / (square + Real(1)), two * inverse / (square + Real(1)));
   }
   take_generator(Real(-1), Real(0));
 }
 
-// Calls take(point) for all places where pyramid ∩ volume can be nearest to or farthest from the eye.
+// Calls take(point) for all places where pyramid ∩ volume can be nearest to or farthest from the eye. Faces that the
+// volume does not reach have no such place on them.
 template <class Real, class Take>
-void pyramid_candidates(const Volume<Real>& volume, const Pyramid<Real>& pyramid, int bisections, Take&& take) {
+void pyramid_candidates(const Volume<Real>& volume, const Pyramid<Real>& pyramid, const std::array<bool, 4>& reached,
+                        int bits, Take&& take) {
   const Real zero(0);
   take(Point3<Real>{zero, zero, zero});
   take(volume.apex);
@@ -257,18 +320,22 @@ void pyramid_candidates(const Volume<Real>& volume, const Pyramid<Real>& pyramid
     });
     take(volume.apex + volume.range * volume.axis);
   }
-  for (const HalfSpace<Real>& face : pyramid.faces) {
+  for (std::size_t i = 0; i < 4; ++i) {
     using std::sqrt;
+    const HalfSpace<Real>& face = pyramid.faces[i];
+    take(volume.apex - volume.range * face.normal);
+    if (!reached[i]) continue;
     const Real height = face.margin(volume.apex);
     const Real square = volume.range * volume.range - height * height;
     // A tangent plane may be computed as just missing the ball: the caller's tolerance decides.
     take_ends(volume.apex + height * face.normal, square < zero ? zero : sqrt(square));
-    take(volume.apex - volume.range * face.normal);
     if (!volume.is_cone) continue;
-    conic_extremes(volume, face, bisections, take);
+    conic_extremes(volume, face, bits, take);
     plane_on_rim(volume, face, take);
   }
-  for (const Point3<Real>& ray : pyramid.rays) {
+  for (unsigned corner = 0; corner < 4; ++corner) {
+    if (!reached[corner & 1] || !reached[2 + (corner >> 1)]) continue;
+    const Point3<Real>& ray = pyramid.rays[corner];
     const auto take_at = [&](const Real& t) {
       if (!(t < zero)) take(t * ray);
     };

@@ -20,12 +20,12 @@ struct Precision;
 template <>
 struct Precision<double> {
   static double tolerance() { return 0x1p-38; }
-  static constexpr int k_bisections = 54;
+  static constexpr int k_place_bits = 53;
 };
 template <>
 struct Precision<Big> {
   static Big tolerance() { return ldexp(Big(1), -160); }
-  static constexpr int k_bisections = 240;
+  static constexpr int k_place_bits = 240;
 };
 
 template <class Real>
@@ -39,19 +39,26 @@ Point3<Real> placed(const Placement& place) {
   return {local[0], local[1], local[2]};
 }
 
-// `reach`: an upper bound of the distance that matters, in place of an infinite range.
+// An infinite range stays infinite.
 template <class Real>
-Volume<Real> volume_of(const LightVolume& light, const Real& reach) {
+Volume<Real> volume_of(const LightVolume& light) {
   using std::cos;
   using std::sin;
   Volume<Real> volume;
   volume.apex = placed<Real>(light.apex);
-  volume.range = std::isinf(light.range) ? length(volume.apex) + reach : Real(light.range);
+  volume.range = Real(light.range);
   volume.is_cone = light.is_cone;
   const Point3<Real> axis = placed<Real>({light.direction, Vec3d(0.0), light.apex.rotation});
   volume.axis = (Real(1) / length(axis)) * axis;
   volume.cos_angle = cos(Real(light.half_angle_rad));
   volume.sin_angle = sin(Real(light.half_angle_rad));
+  return volume;
+}
+
+// `reach`: an upper bound of the distance that matters, in place of an infinite range.
+template <class Real>
+Volume<Real> within(Volume<Real> volume, const Real& reach) {
+  if (volume.range > Real(std::numeric_limits<double>::max())) volume.range = length(volume.apex) + reach;
   return volume;
 }
 
@@ -182,22 +189,73 @@ Witness<Real> find_witness(const Volume<Real>& volume, const std::array<HalfSpac
   return best;
 }
 
+// Is p in the volume and behind all faces, give or take the tolerance?
+template <class Real, std::size_t N>
+bool is_within(const Volume<Real>& volume, const std::array<HalfSpace<Real>, N>& faces, const Point3<Real>& p,
+               const Real& tolerance) {
+  const Point3<Real> v = p - volume.apex;
+  const Real reach = volume.range + tolerance;
+  if (dot(v, v) > reach * reach) return false;
+  for (const HalfSpace<Real>& face : faces)
+    if (face.margin(p) < -tolerance) return false;
+  return !volume.is_cone || volume.side_margin(p) >= -tolerance;
+}
+
+// Which faces the volume reaches; whether it lies beyond one of them for certain.
+template <std::size_t N>
+struct Reached {
+  std::array<bool, N> faces;
+  bool is_beyond = false;
+};
+template <class Real, std::size_t N>
+Reached<N> reached_faces(const Volume<Real>& volume, const std::array<HalfSpace<Real>, N>& faces,
+                         const Real& tolerance) {
+  Reached<N> reached;
+  for (std::size_t i = 0; i < N; ++i) {
+    const Real margin = faces[i].margin(volume.apex);
+    if (margin < -tolerance && margin + volume.extent(Real(-1) * faces[i].normal) < -tolerance)
+      reached.is_beyond = true;
+    reached.faces[i] = margin < tolerance || margin - volume.extent(faces[i].normal) <= tolerance;
+  }
+  return reached;
+}
+
+// A corner well inside the volume settles most pairs, a plane along the cone's side most others.
 template <class Real>
-Verdict meets_polytope(const LightVolume& light, const Polytope<Real>& cell) {
+Verdict corners_settle(const Volume<Real>& volume, const Polytope<Real>& cell, const Real& tolerance) {
+  Point3<Real> sum{Real(0), Real(0), Real(0)};
+  const Real safe_range = volume.range - tolerance;
+  for (const Point3<Real>& corner : cell.corners) {
+    const Point3<Real> v = corner - volume.apex;
+    if (safe_range > Real(0) && dot(v, v) < safe_range * safe_range && volume.side_margin(corner) > tolerance)
+      return Verdict::yes;
+    sum = sum + v;
+  }
+  const Point3<Real> outward =
+      volume.cos_angle * unit_across(volume.axis, sum) - volume.sin_angle * volume.axis;  // of the cone's side
+  for (const Point3<Real>& corner : cell.corners)
+    if (dot(outward, corner - volume.apex) <= tolerance) return Verdict::open;
+  return Verdict::no;
+}
+
+template <class Real>
+Verdict meets_polytope(const Volume<Real>& unlimited, const Polytope<Real>& cell) {
   Real size(0);
   for (const Point3<Real>& corner : cell.corners) size = std::max(size, length(corner));
-  const Volume<Real> volume = volume_of<Real>(light, size);
+  const Volume<Real> volume = within(unlimited, size);
   const Real tolerance = Precision<Real>::tolerance() * (size + length(volume.apex) + volume.range);
 
-  bool is_near = false;
+  const Reached<6> reached = reached_faces(volume, cell.faces, tolerance);
+  if (reached.is_beyond) return Verdict::no;
+  if (volume.is_cone) {
+    const Verdict verdict = corners_settle(volume, cell, tolerance);
+    if (verdict != Verdict::open) return verdict;
+  }
   Mean<Real> mean;
-  polytope_candidates(volume, cell, [&](const Point3<Real>& p) {
-    if (length(p - volume.apex) > volume.range + tolerance) return;
-    if (margin_of(volume, cell.faces, p) < -tolerance) return;
-    is_near = true;
-    mean.add(p);
+  polytope_candidates(volume, cell, reached.faces, [&](const Point3<Real>& p) {
+    if (is_within(volume, cell.faces, p, tolerance)) mean.add(p);
   });
-  if (!is_near) return Verdict::no;
+  if (mean.count == 0) return Verdict::no;
   // A point well inside both is a common point for certain.
   return find_witness(volume, cell.faces, mean.at(), tolerance).margin > tolerance ? Verdict::yes : Verdict::open;
 }
@@ -216,10 +274,11 @@ template <class Real>
 PyramidReach<Real> pyramid_reach(const Volume<Real>& volume, const Pyramid<Real>& pyramid) {
   PyramidReach<Real> reach;
   reach.tolerance = Precision<Real>::tolerance() * (length(volume.apex) + volume.range);
+  const Reached<4> reached = reached_faces(volume, pyramid.faces, reach.tolerance);
+  if (reached.is_beyond) return reach;
   Mean<Real> mean;
-  pyramid_candidates(volume, pyramid, Precision<Real>::k_bisections, [&](const Point3<Real>& p) {
-    if (length(p - volume.apex) > volume.range + reach.tolerance) return;
-    if (margin_of(volume, pyramid.faces, p) < -reach.tolerance) return;
+  pyramid_candidates(volume, pyramid, reached.faces, Precision<Real>::k_place_bits, [&](const Point3<Real>& p) {
+    if (!is_within(volume, pyramid.faces, p, reach.tolerance)) return;
     const Real distance = length(p);
     if (reach.is_empty || distance < reach.lo) {
       reach.lo = distance;
@@ -245,8 +304,8 @@ Real pull(const PyramidReach<Real>& reach, const Point3<Real>& extreme) {
 }
 
 template <class Real>
-Verdict meets_shell(const LightVolume& light, const ShellPiece& cell) {
-  const Volume<Real> volume = volume_of<Real>(light, Real(cell.distance1));
+Verdict meets_shell(const Volume<Real>& unlimited, const ShellPiece& cell) {
+  const Volume<Real> volume = within(unlimited, Real(cell.distance1));
   const PyramidReach<Real> reach = pyramid_reach(volume, pyramid_of<Real>(cell.x0, cell.x1, cell.y0, cell.y1));
   const Real near(cell.distance0), far(cell.distance1);
   if (reach.is_empty || reach.lo > far + reach.tolerance || reach.hi < near - reach.tolerance) return Verdict::no;
@@ -260,11 +319,11 @@ Verdict meets_shell(const LightVolume& light, const ShellPiece& cell) {
 
 template <class Real>
 struct Meets {
-  const LightVolume& light;
+  const Volume<Real>& volume;
 
-  Verdict operator()(const FrustumPiece& cell) const { return meets_polytope(light, polytope_of<Real>(cell)); }
-  Verdict operator()(const Box& cell) const { return meets_polytope(light, polytope_of<Real>(cell)); }
-  Verdict operator()(const ShellPiece& cell) const { return meets_shell<Real>(light, cell); }
+  Verdict operator()(const FrustumPiece& cell) const { return meets_polytope(volume, polytope_of<Real>(cell)); }
+  Verdict operator()(const Box& cell) const { return meets_polytope(volume, polytope_of<Real>(cell)); }
+  Verdict operator()(const ShellPiece& cell) const { return meets_shell(volume, cell); }
 };
 
 struct Decides {
@@ -272,35 +331,30 @@ struct Decides {
 
   template <class PlaneCell>
   Verdict operator()(const PlaneCell& cell) const {
-    if (light.is_cone) return Meets<Big>{light}(cell);
+    if (light.is_cone) return Meets<Big>{volume_of<Big>(light)}(cell);
     return ball_meets_exactly(light.apex, light.range, cell) ? Verdict::yes : Verdict::no;
   }
   Verdict operator()(const ShellPiece& cell) const {
     // A ball that is tangent to the pyramid shares one point with it, whose place is known exactly.
     const PyramidContact contact =
         light.is_cone ? PyramidContact::overlap : pyramid_contact(light.apex, light.range, cell);
-    if (contact == PyramidContact::overlap) return meets_shell<Big>(light, cell);
+    if (contact == PyramidContact::overlap) return Meets<Big>{volume_of<Big>(light)}(cell);
     return contact == PyramidContact::point_in_shell ? Verdict::yes : Verdict::no;
   }
 };
 
 }  // namespace
 
-Verdict filter_meets(const LightVolume& light, const Cell& cell) {
-  return std::visit(Meets<double>{light}, cell);
+LightFilter::LightFilter(const LightVolume& light) : volume_(volume_of<double>(light)) {}
+
+Verdict LightFilter::meets(const Cell& cell) const {
+  return std::visit(Meets<double>{volume_}, cell);
 }
 
-Verdict decide_meets(const LightVolume& light, const Cell& cell) {
-  if (!light.is_cone && std::isinf(light.range)) return Verdict::yes;
-  if (holds_exactly(cell, light.apex)) return Verdict::yes;
-  return std::visit(Decides{light}, cell);
-}
-
-DistanceInterval filter_distances(const LightVolume& light, float x0, float x1, float y0, float y1) {
+DistanceInterval LightFilter::distances(const ShellPiece& tile) const {
   constexpr double k_infinity = std::numeric_limits<double>::infinity();
-  if (std::isinf(light.range)) return {0.0, k_infinity, 1.0, 0.0};  // each shell on its own
-  const Volume<double> volume = volume_of<double>(light, 0.0);
-  const PyramidReach<double> reach = pyramid_reach(volume, pyramid_of<double>(x0, x1, y0, y1));
+  if (std::isinf(volume_.range)) return {0.0, k_infinity, 1.0, 0.0};  // each shell on its own
+  const PyramidReach<double> reach = pyramid_reach(volume_, pyramid_of<double>(tile.x0, tile.x1, tile.y0, tile.y1));
   if (reach.is_empty) return {};
   DistanceInterval interval{reach.lo - reach.tolerance, reach.hi + reach.tolerance, 1.0, 0.0};
   if (reach.inside.margin > reach.tolerance) {
@@ -308,6 +362,16 @@ DistanceInterval filter_distances(const LightVolume& light, float x0, float x1, 
     interval.inner_hi = reach.hi - pull(reach, reach.farthest);
   }
   return interval;
+}
+
+Verdict filter_meets(const LightVolume& light, const Cell& cell) {
+  return LightFilter(light).meets(cell);
+}
+
+Verdict decide_meets(const LightVolume& light, const Cell& cell) {
+  if (!light.is_cone && std::isinf(light.range)) return Verdict::yes;
+  if (holds_exactly(cell, light.apex)) return Verdict::yes;
+  return std::visit(Decides{light}, cell);
 }
 
 }  // namespace clusterbench::geom

@@ -2,6 +2,7 @@
 // Do a light's volume and a cell share a point? Touching counts. First a filter in double precision that says yes or no
 // only when that is certain, then exact arithmetic (balls against planes) or 256 bits (everything else).
 
+#include "geom/candidates.h"
 #include "geom/placement.h"
 #include "geom/shapes.h"
 
@@ -18,19 +19,34 @@ struct LightVolume {
   double half_angle_rad = 0.0;
 };
 
-Verdict filter_meets(const LightVolume& light, const Cell& cell);
-
-// Balls against plane-bounded cells: never open. Others: open when touching within 2^-150 of the scene's size and not
-// provable by an exact point (the apex).
+// Slower, for what the filter leaves open. Balls against plane-bounded cells: never open. Others: open when touching
+// within 2^-150 of the scene's size and not provable by an exact point (the apex).
 Verdict decide_meets(const LightVolume& light, const Cell& cell);
 
-// Distances from the eye over pyramid ∩ volume (x0*depth <= x <= x1*depth and so on): one interval. All true distances
-// lie in [outer_lo, outer_hi]; every distance in [inner_lo, inner_hi] is certainly reached (nothing if that is empty).
+// Distances from the eye over pyramid ∩ volume: one interval. All true distances lie in [outer_lo, outer_hi]; every
+// distance in [inner_lo, inner_hi] is certainly reached (nothing if that is empty).
 struct DistanceInterval {
   double outer_lo = 1.0, outer_hi = 0.0, inner_lo = 1.0, inner_hi = 0.0;
 
-  bool surely_empty() const { return outer_lo > outer_hi; }
+  bool may_reach(double near, double far) const { return near <= outer_hi && far >= outer_lo; }
+  bool surely_reaches(double near, double far) const {
+    return near <= inner_hi && far >= inner_lo && inner_lo <= inner_hi;
+  }
 };
-DistanceInterval filter_distances(const LightVolume& light, float x0, float x1, float y0, float y1);
+
+// The filter of one light.
+class LightFilter {
+ public:
+  explicit LightFilter(const LightVolume& light);
+
+  Verdict meets(const Cell& cell) const;
+  // Of the tile's whole pyramid, without its shells.
+  DistanceInterval distances(const ShellPiece& tile) const;
+
+ private:
+  Volume<double> volume_;
+};
+
+Verdict filter_meets(const LightVolume& light, const Cell& cell);
 
 }  // namespace clusterbench::geom

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/parallel.h"
 #include "geom/meets.h"
@@ -78,10 +79,20 @@ struct WellInside {
   }
 };
 
-// The true cells of one light.
+// The true cells of one light, in runs of neighbours.
 struct LightCells {
-  std::vector<std::uint32_t> cells;
+  struct Run {
+    std::uint32_t first_cell, count;
+  };
+  std::vector<Run> runs;
   std::uint64_t filter_decided = 0, exact_decided = 0, undecided = 0;
+
+  void add(std::uint32_t first_cell, std::uint32_t count = 1) {
+    if (!runs.empty() && runs.back().first_cell + runs.back().count == first_cell)
+      runs.back().count += count;
+    else
+      runs.push_back({first_cell, count});
+  }
 };
 
 // Finds true cells light by light. Made once per frame; const, so that threads can share it.
@@ -94,28 +105,38 @@ class TruthFinder {
   }
 
   LightCells find(std::uint32_t light) const {
-    LightCells found;
-    const geom::LightVolume volume = volume_of(frame_.lights[light], space_);
-    if (volume.range == 0.0) return found;
+    Search search(volume_of(frame_.lights[light], space_));
+    const geom::LightVolume& volume = search.volume;
+    if (volume.range == 0.0) return {};
     if (std::isinf(volume.range)) {
-      for (std::uint32_t cell = 0; cell < grid_.cell_count(); ++cell) settle_endless(volume, cell, found);
-      return found;
+      for (std::uint32_t cell = 0; cell < grid_.cell_count(); ++cell) settle_endless(cell, search);
+      return std::move(search.found);
     }
-    const BallInSpace ball = ball_in_space(volume);
-    const QuickCone cone(volume, ball);
     std::vector<Row> rows;
     if (grid_.kind() == grid::Kind::distance) {
-      append_tile_rows(grid_.screen(), ball, rows);
-      for (const Row& row : rows) settle_tiles(volume, cone, row, found);
-      return found;
+      append_tile_rows(grid_.screen(), search.ball, rows);
+      for (const Row& row : rows) settle_tiles(row, search);
+      return std::move(search.found);
     }
-    if (is_tilted()) append_rows(grid_.screen(), ball, rows);
-    for (const BoxBlock& block : blocks_) append_rows(block, ball, rows);
-    for (const Row& row : rows) settle_row(volume, cone, row, found);
-    return found;
+    if (is_tilted()) append_rows(grid_.screen(), search.ball, rows);
+    for (const BoxBlock& block : blocks_) append_rows(block, search.ball, rows);
+    for (const Row& row : rows) volume.is_cone ? settle_spot_row(row, search) : settle_row(row, search);
+    return std::move(search.found);
   }
 
  private:
+  // One light in the making.
+  struct Search {
+    geom::LightVolume volume;
+    geom::LightFilter filter;
+    BallInSpace ball;
+    QuickCone cone;
+    LightCells found;
+
+    explicit Search(const geom::LightVolume& light)
+        : volume(light), filter(light), ball(ball_in_space(light)), cone(light, ball) {}
+  };
+
   // Cells with sides through the eye.
   bool is_tilted() const {
     return grid_.kind() == grid::Kind::distance ||
@@ -128,79 +149,101 @@ class TruthFinder {
       cell_balls_.push_back(grid_.is_hole(cell) ? geom::Ball{} : geom::ball_around(grid_.cell(cell)));
   }
 
-  void settle_row(const geom::LightVolume& volume, const QuickCone& cone, const Row& row, LightCells& found) const {
+  void settle_row(const Row& row, Search& search) const {
+    const auto decide_columns = [&](int first, int last) {
+      for (int column = first; column <= last; ++column)
+        decide(row.first_cell + static_cast<std::uint32_t>(column), search);
+    };
+    if (row.inner.empty()) return decide_columns(row.outer.first, row.outer.last);
+    decide_columns(row.outer.first, row.inner.first - 1);
+    const auto count = static_cast<std::uint32_t>(row.inner.last - row.inner.first + 1);
+    search.found.filter_decided += count;
+    search.found.add(row.first_cell + static_cast<std::uint32_t>(row.inner.first), count);
+    decide_columns(row.inner.last + 1, row.outer.last);
+  }
+
+  void settle_spot_row(const Row& row, Search& search) const {
     for (int column = row.outer.first; column <= row.outer.last; ++column) {
       const std::uint32_t cell = row.first_cell + static_cast<std::uint32_t>(column);
-      if (grid_.is_hole(cell)) continue;
-      if (volume.is_cone)
-        settle_spot(volume, cone, cell, found);
-      else if (row.inner.holds(column))
-        take(cell, found);
-      else
-        decide(volume, cell, found);
+      if (!is_quick(cell, search)) filter(cell, search);
     }
   }
 
   // One row of tiles of a distance grid, through all shells.
-  void settle_tiles(const geom::LightVolume& volume, const QuickCone& cone, const Row& row, LightCells& found) const {
-    const grid::ScreenGrid& grid = grid_.screen();
-    const auto tiles = static_cast<std::uint32_t>(grid.tiles.count.x * grid.tiles.count.y);
+  void settle_tiles(const Row& row, Search& search) const {
     for (int column = row.outer.first; column <= row.outer.last; ++column) {
       const std::uint32_t tile = row.first_cell + static_cast<std::uint32_t>(column);
-      const auto piece = std::get<geom::ShellPiece>(grid_.cell(tile));
-      // A spot's own distances are dear, its ball's are a cheap first bound.
-      geom::LightVolume whole = volume;
-      whole.is_cone = false;
-      const geom::DistanceInterval reach = geom::filter_distances(whole, piece.x0, piece.x1, piece.y0, piece.y1);
-      for (int shell = 0; shell < grid.slices.count(); ++shell) {
-        const auto k = static_cast<std::size_t>(shell);
-        const double near = grid.slices.boundaries[k], far = grid.slices.boundaries[k + 1];
-        if (far < reach.outer_lo || near > reach.outer_hi) continue;
-        const std::uint32_t cell = static_cast<std::uint32_t>(shell) * tiles + tile;
-        if (volume.is_cone)
-          settle_spot(volume, cone, cell, found);
-        else if (near <= reach.inner_hi && far >= reach.inner_lo && reach.inner_lo <= reach.inner_hi)
-          take(cell, found);
-        else
-          decide(volume, cell, found);
-      }
+      search.volume.is_cone ? settle_spot_tile(tile, search) : settle_tile(tile, search);
     }
   }
 
-  void settle_endless(const geom::LightVolume& volume, std::uint32_t cell, LightCells& found) const {
-    if (grid_.is_hole(cell)) return;
-    if (!volume.is_cone) return take(cell, found);
-    filter(volume, cell, found);
+  // Calls take(cell, near, far) for the shells of a tile.
+  template <class Take>
+  void each_shell(std::uint32_t tile, Take&& take) const {
+    const grid::ScreenGrid& grid = grid_.screen();
+    const auto tiles = static_cast<std::uint32_t>(grid.tiles.count.x * grid.tiles.count.y);
+    for (int shell = 0; shell < grid.slices.count(); ++shell) {
+      const auto k = static_cast<std::size_t>(shell);
+      take(static_cast<std::uint32_t>(shell) * tiles + tile, grid.slices.boundaries[k], grid.slices.boundaries[k + 1]);
+    }
   }
 
-  void settle_spot(const geom::LightVolume& volume, const QuickCone& cone, std::uint32_t cell,
-                   LightCells& found) const {
+  void settle_tile(std::uint32_t tile, Search& search) const {
+    const geom::DistanceInterval reach = search.filter.distances(std::get<geom::ShellPiece>(grid_.cell(tile)));
+    each_shell(tile, [&](std::uint32_t cell, double near, double far) {
+      if (!reach.may_reach(near, far)) return;
+      reach.surely_reaches(near, far) ? take(cell, search) : decide(cell, search);
+    });
+  }
+
+  // A spot's distances are dear: found only where a shell needs them.
+  void settle_spot_tile(std::uint32_t tile, Search& search) const {
+    std::optional<geom::DistanceInterval> reach;
+    each_shell(tile, [&](std::uint32_t cell, double near, double far) {
+      if (reach ? !reach->may_reach(near, far) : is_quick(cell, search)) return;
+      if (!reach) reach = search.filter.distances(std::get<geom::ShellPiece>(grid_.cell(tile)));
+      if (!reach->may_reach(near, far)) {
+        ++search.found.filter_decided;
+        return;
+      }
+      reach->surely_reaches(near, far) ? take(cell, search) : decide(cell, search);
+    });
+  }
+
+  void settle_endless(std::uint32_t cell, Search& search) const {
+    if (grid_.is_hole(cell)) return;
+    search.volume.is_cone ? filter(cell, search) : take(cell, search);
+  }
+
+  // Settles a spot's cell that lies far outside of the cone's side, or whose middle lies well inside the volume.
+  bool is_quick(std::uint32_t cell, Search& search) const {
     const geom::Ball& around = cell_balls_[cell];
-    if (cone.surely_misses(around)) {
-      ++found.filter_decided;
-      return;
+    if (search.cone.surely_misses(around)) {
+      ++search.found.filter_decided;
+      return true;
     }
     const Vec3d middle(around.center);
-    if (cone.surely_holds(middle) && std::visit(WellInside{middle}, grid_.cell(cell))) return take(cell, found);
-    filter(volume, cell, found);
+    if (!search.cone.surely_holds(middle) || !std::visit(WellInside{middle}, grid_.cell(cell))) return false;
+    take(cell, search);
+    return true;
   }
 
-  void filter(const geom::LightVolume& volume, std::uint32_t cell, LightCells& found) const {
-    const Verdict verdict = geom::filter_meets(volume, grid_.cell(cell));
-    if (verdict == Verdict::open) return decide(volume, cell, found);
-    ++found.filter_decided;
-    if (verdict == Verdict::yes) found.cells.push_back(cell);
+  void filter(std::uint32_t cell, Search& search) const {
+    const Verdict verdict = search.filter.meets(grid_.cell(cell));
+    if (verdict == Verdict::open) return decide(cell, search);
+    ++search.found.filter_decided;
+    if (verdict == Verdict::yes) search.found.add(cell);
   }
 
-  void decide(const geom::LightVolume& volume, std::uint32_t cell, LightCells& found) const {
-    const Verdict verdict = geom::decide_meets(volume, grid_.cell(cell));
-    ++(verdict == Verdict::open ? found.undecided : found.exact_decided);
-    if (verdict != Verdict::no) found.cells.push_back(cell);
+  void decide(std::uint32_t cell, Search& search) const {
+    const Verdict verdict = geom::decide_meets(search.volume, grid_.cell(cell));
+    ++(verdict == Verdict::open ? search.found.undecided : search.found.exact_decided);
+    if (verdict != Verdict::no) search.found.add(cell);
   }
 
-  static void take(std::uint32_t cell, LightCells& found) {
-    ++found.filter_decided;
-    found.cells.push_back(cell);
+  static void take(std::uint32_t cell, Search& search) {
+    ++search.found.filter_decided;
+    search.found.add(cell);
   }
 
   const view::Frame& frame_;
@@ -223,7 +266,7 @@ Truth find_truth(const view::Frame& frame, const grid::Grid& grid, int threads) 
   assign::PairBuffer pairs;
   pairs.start(grid.cell_count());
   for (std::uint32_t light = 0; light < found.size(); ++light) {
-    for (const std::uint32_t cell : found[light].cells) pairs.add(cell, light);
+    for (const LightCells::Run& run : found[light].runs) pairs.add_row(run.first_cell, run.count, light);
     truth.filter_decided += found[light].filter_decided;
     truth.exact_decided += found[light].exact_decided;
     truth.undecided += found[light].undecided;

@@ -146,6 +146,17 @@ BoxBlock cascade_block(const grid::Grid& grid, int level) {
   for (int y = 0; y < cells.y; ++y) block.y.push_back({box_at(0, y, 0).lo.y, box_at(0, y, 0).hi.y});
   for (int z = 0; z < cells.z; ++z) block.z.push_back({box_at(0, 0, z).lo.z, box_at(0, 0, z).hi.z});
   block.first_cell = static_cast<std::uint32_t>(level * cells.z * cells.y * cells.x);
+  const auto hole = [&](int count, const auto& is_hole) {
+    ColumnRange range{count, -1};
+    for (int i = 0; i < count; ++i)
+      if (is_hole(i)) range = {std::min(range.first, i), i};
+    return range;
+  };
+  const grid::CascadesGrid& nested = grid.cascades();
+  const Vec3i middle{cells.x / 2, cells.y / 2, 0};
+  block.hole_x = hole(cells.x, [&](int x) { return nested.is_hole(level, {x, middle.y, middle.z}); });
+  block.hole_y = hole(cells.y, [&](int y) { return nested.is_hole(level, {middle.x, y, middle.z}); });
+  block.hole_z = hole(cells.z, [&](int z) { return nested.is_hole(level, {middle.x, middle.y, z}); });
   return block;
 }
 
@@ -161,6 +172,18 @@ ColumnRange columns_within(const std::vector<Extent>& columns, double middle, do
       std::partition_point(columns.begin(), columns.end(), [&](const Extent& e) { return e.hi < middle - half; });
   const auto to = std::partition_point(from, columns.end(), [&](const Extent& e) { return e.lo <= middle + half; });
   return {static_cast<int>(from - columns.begin()), static_cast<int>(to - columns.begin()) - 1};
+}
+
+ColumnRange cut(const ColumnRange& range, int first, int last) {
+  return {std::max(range.first, first), std::min(range.last, last)};
+}
+
+// The parts of a row to the left and right of a hole.
+void append_beside(const ColumnRange& hole, const Row& row, std::vector<Row>& rows) {
+  for (const auto& [first, last] : {ColumnRange{row.outer.first, hole.first - 1}, {hole.last + 1, row.outer.last}}) {
+    const Row part{row.first_cell, cut(row.outer, first, last), cut(row.inner, first, last)};
+    if (!part.outer.empty()) rows.push_back(part);
+  }
 }
 
 }  // namespace
@@ -203,7 +226,10 @@ void append_rows(const BoxBlock& block, const BallInSpace& ball, std::vector<Row
       if (row.outer.empty()) continue;
       row.inner = columns_within(block.x, ball.center.x, smaller * smaller - square);
       row.first_cell = block.first_cell + static_cast<std::uint32_t>((z * block.y.size() + y) * block.x.size());
-      rows.push_back(row);
+      if (block.hole_z.holds(static_cast<int>(z)) && block.hole_y.holds(static_cast<int>(y)))
+        append_beside(block.hole_x, row, rows);
+      else
+        rows.push_back(row);
     }
   }
 }

@@ -45,10 +45,12 @@ struct Extent {
 struct BoxBlock {
   std::vector<Extent> x, y, z;  // x ascends
   std::uint32_t first_cell = 0;
+  ColumnRange hole_x{}, hole_y{}, hole_z{};  // indices of the block that is cut out of it
 };
 
 // The grid's boxes: an orthographic frustum grid, a world grid, or one block per level of cascades.
 std::vector<BoxBlock> box_blocks(const grid::Grid& grid);
+// Rows beside a hole come in two pieces.
 void append_rows(const BoxBlock& block, const BallInSpace& ball, std::vector<Row>& rows);
 
 }  // namespace clusterbench::measure

@@ -202,7 +202,7 @@ TEST(Distances, the_inner_interval_is_reached_and_the_outer_one_is_not_left) {
   for (int i = 0; i < 400; ++i) {
     const LightVolume light = random_light(random, i % 2 == 0);
     const ShellPiece tile = random_shell(random);
-    const DistanceInterval reach = filter_distances(light, tile.x0, tile.x1, tile.y0, tile.y1);
+    const DistanceInterval reach = LightFilter(light).distances(tile);
     for (int sample = 0; sample < 300; ++sample) {
       const Vec3d ray{random.between(tile.x0, tile.x1), random.between(tile.y0, tile.y1), -1.0};
       const Vec3d p = random.between(0.0, 80.0) / glm::length(ray) * ray;
