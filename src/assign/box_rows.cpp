@@ -3,12 +3,12 @@
 namespace clusterbench::assign {
 namespace {
 
-// Takes rows of touched boxes, leaves out holes and what the cone misses.
+// Takes rows of touched boxes and leaves out holes.
 class RowSink {
  public:
-  RowSink(const BoxGrid& boxes, const CellBalls& cell_balls, std::uint32_t light, const geom::SphericalCone* cone,
-          PairBuffer& pairs, std::uint64_t& tests)
-      : boxes_(boxes), cell_balls_(cell_balls), light_(light), cone_(cone), pairs_(pairs), tests_(tests) {}
+  RowSink(const BoxGrid& boxes, const LightTest& test, const TestedLight& light, PairBuffer& pairs,
+          std::uint64_t& tests)
+      : boxes_(boxes), test_(test), light_(light), pairs_(pairs), tests_(tests) {}
 
   void add_row(int y, int z, int first, int last) {
     if (!boxes_.hole_y.holds(y) || !boxes_.hole_z.holds(z)) return add_solid(y, z, first, last);
@@ -21,22 +21,13 @@ class RowSink {
     if (first > last) return;
     const std::size_t row = static_cast<std::size_t>(z) * boxes_.y.size() + static_cast<std::size_t>(y);
     const auto row_start = boxes_.first_cell + static_cast<std::uint32_t>(row * boxes_.x.size());
-    if (cone_ == nullptr) {
-      pairs_.add_row(row_start + static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last - first + 1),
-                     light_);
-      return;
-    }
-    for (int x = first; x <= last; ++x) {
-      const std::uint32_t cell = row_start + static_cast<std::uint32_t>(x);
-      ++tests_;
-      if (geom::cone_touches_ball(*cone_, cell_balls_[cell])) pairs_.add(cell, light_);
-    }
+    test_.add_row(light_, row_start + static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last - first + 1),
+                  pairs_, tests_);
   }
 
   const BoxGrid& boxes_;
-  const CellBalls& cell_balls_;
-  std::uint32_t light_;
-  const geom::SphericalCone* cone_;
+  const LightTest& test_;
+  const TestedLight& light_;
   PairBuffer& pairs_;
   std::uint64_t& tests_;
 };
@@ -56,13 +47,12 @@ IndexRange indices_within(const BoxAxis& axis, float place, float r) {
   return {static_cast<int>(first - axis.begin()), static_cast<int>(end - axis.begin()) - 1};
 }
 
-void add_light(const BoxGrid& boxes, const CellBalls& cell_balls, const view::LightArrays& lights, std::uint32_t light,
-               SpotTest spot, PairBuffer& pairs, std::uint64_t& tests) {
-  if (!(lights.padded_radius[light] > 0.0f)) return;
-  const bool test_cone = lights.is_spot(light) && spot != SpotTest::ball;
-  const geom::SphericalCone cone = test_cone ? lights.cone(light) : geom::SphericalCone{};
-  RowSink sink(boxes, cell_balls, light, test_cone ? &cone : nullptr, pairs, tests);
-  for_each_row_touched(boxes, ball_for(lights, light, spot), tests,
+void add_light(const BoxGrid& boxes, const LightTest& test, const view::LightArrays& lights, std::uint32_t light,
+               PairBuffer& pairs, std::uint64_t& tests) {
+  if (lights.is_empty(light)) return;
+  const TestedLight tested = test.tested(lights, light);
+  RowSink sink(boxes, test, tested, pairs, tests);
+  for_each_row_touched(boxes, tested.ball, tests,
                        [&](int y, int z, int first, int last) { sink.add_row(y, z, first, last); });
 }
 

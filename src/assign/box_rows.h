@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "assign/light_test.h"
 #include "assign/lists.h"
-#include "assign/spot_test.h"
 #include "geom/shapes.h"
 #include "view/frame.h"
 
@@ -74,9 +74,12 @@ void for_each_row_touched(const BoxGrid& boxes, const geom::Ball& ball, std::uin
   }
 }
 
-// Adds the cells that a light touches. Spots: by the ball around the cone, by the range's ball and the cone against
-// each box's ball, or by both. `cell_balls` are looked at only for a spot that needs them.
-void add_light(const BoxGrid& boxes, const CellBalls& cell_balls, const view::LightArrays& lights, std::uint32_t light,
-               SpotTest spot, PairBuffer& pairs, std::uint64_t& tests);
+// Adds the cells that a light touches.
+//
+// Roundings: each axis's gap is one difference, off by 2^-24 of itself; squaring, two sums and the squared radius leave
+// the compared squares off by at most 5 * 2^-24 of themselves, so the distance by 2.5; with the gaps' 1: 3.5.
+inline constexpr float k_box_roundings = 4.0f;
+void add_light(const BoxGrid& boxes, const LightTest& test, const view::LightArrays& lights, std::uint32_t light,
+               PairBuffer& pairs, std::uint64_t& tests);
 
 }  // namespace clusterbench::assign

@@ -12,7 +12,10 @@ struct CellBox {
   bool empty() const { return first.x > last.x || first.y > last.y || first.z > last.z; }
 };
 
-// Frustum grids. Boundaries are compared directly, so no logarithm can disagree with them. Conservative.
+// Frustum grids. Boundaries are compared directly, so no logarithm can disagree with them. Conservative for a ball
+// padded by k_cell_box_roundings: slopes are bounded outward in double precision, depth - r and depth + r are rounded
+// once.
+inline constexpr float k_cell_box_roundings = 1.0f;
 CellBox cell_box(const grid::Grid& grid, const geom::Ball& ball);
 
 }  // namespace clusterbench::assign

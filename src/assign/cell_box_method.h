@@ -6,50 +6,53 @@
 
 #include "assign/assigner.h"
 #include "assign/cell_box.h"
-#include "assign/spot_test.h"
+#include "assign/light_test.h"
 
 namespace clusterbench::assign {
 
 // CellTest: build(const grid::Grid&), bool touches(const geom::Ball&, std::uint32_t cell) const, capacity_bytes()
-// const, and k_whole_grid: visit every cell instead of the ball's cell box.
+// const, k_whole_grid: visit every cell instead of the ball's cell box, and k_roundings: what touches() loses.
 template <class CellTest>
 class CellBoxMethod final : public Assigner {
  public:
-  explicit CellBoxMethod(const Params& params) : spot_(spot_test_from(params)) {}
+  explicit CellBoxMethod(const Params& params) : test_(params, CellTest::k_roundings) {}
 
   void build(const grid::Grid& grid) override {
     grid_ = &grid;
     cells_ = grid.cells();
-    test_.build(grid);
-    cell_balls_.clear();
+    cell_test_.build(grid);
+    test_.start_grid(grid);
   }
 
   void assign(const view::LightArrays& lights, Lists& out) override {
     tests_ = 0;
-    if (lights.spots > 0 && spot_ != SpotTest::ball) cell_balls_.ensure(*grid_);
+    test_.start_frame(lights);
     pairs_.start(grid_->cell_count());
     for (std::uint32_t light = 0; light < lights.size(); ++light)
-      if (lights.padded_radius[light] > 0.0f) add_light(lights, light);
+      if (!lights.is_empty(light)) add_light(lights, light);
     pairs_.finish(out);
   }
 
   std::uint64_t tests_done() const override { return tests_; }
   std::size_t scratch_bytes() const override {
-    return pairs_.capacity_bytes() + cell_balls_.capacity_bytes() + test_.capacity_bytes();
+    return pairs_.capacity_bytes() + test_.capacity_bytes() + cell_test_.capacity_bytes();
   }
 
  private:
   void add_light(const view::LightArrays& lights, std::uint32_t light) {
-    const geom::Ball ball = ball_for(lights, light, spot_);
-    const CellBox box = CellTest::k_whole_grid ? CellBox{Vec3i(0), cells_ - 1} : cell_box(*grid_, ball);
-    if (lights.is_spot(light) && spot_ != SpotTest::ball) {
-      const geom::SphericalCone cone = lights.cone(light);
+    const TestedLight tested = test_.tested(lights, light);
+    const CellBox box = CellTest::k_whole_grid ? CellBox{Vec3i(0), cells_ - 1} : extents(lights, light);
+    if (tested.has_cone) {
       visit(box, light, [&](std::uint32_t cell) {
-        return test_.touches(ball, cell) && geom::cone_touches_ball(cone, cell_balls_[cell]);
+        return cell_test_.touches(tested.ball, cell) && test_.cone_touches(tested, cell);
       });
     } else {
-      visit(box, light, [&](std::uint32_t cell) { return test_.touches(ball, cell); });
+      visit(box, light, [&](std::uint32_t cell) { return cell_test_.touches(tested.ball, cell); });
     }
+  }
+
+  CellBox extents(const view::LightArrays& lights, std::uint32_t light) const {
+    return cell_box(*grid_, test_.ball(lights, light, k_cell_box_roundings));
   }
 
   template <class Keep>
@@ -67,18 +70,21 @@ class CellBoxMethod final : public Assigner {
     }
   }
 
-  SpotTest spot_;
   const grid::Grid* grid_ = nullptr;
   Vec3i cells_{0};
-  CellTest test_;
-  CellBalls cell_balls_;
+  CellTest cell_test_;
+  LightTest test_;
   PairBuffer pairs_;
   std::uint64_t tests_ = 0;
 };
 
 // Ball against the view-space boxes around the cells, made once per grid.
+//
+// Roundings: as for box_rows.h, the boxes being rounded outward.
 class CellAabbs {
  public:
+  static constexpr float k_roundings = 4.0f;
+
   void build(const grid::Grid& grid);
   bool touches(const geom::Ball& ball, std::uint32_t cell) const { return geom::ball_touches_box(ball, boxes_[cell]); }
   std::size_t capacity_bytes() const { return boxes_.capacity() * sizeof(geom::Box); }

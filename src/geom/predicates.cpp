@@ -119,7 +119,10 @@ bool cone_touches_ball(const SphericalCone& cone, const Ball& ball) {
   const float along = glm::dot(to_center, cone.axis);
   // The part across the axis, as a vector: |V|² - along² would lose half of the digits.
   const float across = glm::length(to_center - along * cone.axis);
-  constexpr float k_slack = 1.0f / (1 << 20);
+  // In roundings of |V|: the difference V is off by 1, a rounded axis by 1, the sum of products by 3, so `along` by 5;
+  // `across` by these, two more steps and a root: 10. cos a * across - sin a * along is then off by at most
+  // sqrt(10² + 5²) + 4 = 16.
+  constexpr float k_slack = 0x1p-20f;
   const float reach = ball.radius + k_slack * (size_of(cone.apex) + size_of(ball.center));
   const bool beside = cone.cos_angle * across - cone.sin_angle * along > reach;
   const bool beyond = along > cone.range + reach || glm::length(to_center) > cone.range + reach;
@@ -132,7 +135,9 @@ Ball bounding_ball(const SphericalCone& cone) {
   const bool narrow = cone.cos_angle > cone.sin_angle;
   const float along = narrow ? cone.range / (2.0f * cone.cos_angle) : cone.range * cone.cos_angle;
   const float radius = narrow ? along : cone.range * cone.sin_angle;
-  constexpr float k_slack = 1.0f / (1 << 20);
+  // `along` is off by 3 roundings of the range (a rounded cosine, a product, a quotient), the centre by 3 more and a
+  // rounded axis by 1, the radius by 3: 11 of 16.
+  constexpr float k_slack = 0x1p-20f;
   return {cone.apex + along * cone.axis, radius + k_slack * (size_of(cone.apex) + cone.range)};
 }
 

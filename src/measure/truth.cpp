@@ -14,14 +14,6 @@ namespace {
 
 using geom::Verdict;
 
-geom::LightVolume volume_of(const scene::WorldLight& light, const view::Space& space) {
-  return {{light.position, space.origin, space.rotation},
-          light.range_m,
-          light.type == scene::LightType::spot,
-          light.direction,
-          light.outer_cone_rad};
-}
-
 BallInSpace ball_in_space(const geom::LightVolume& volume) {
   constexpr double k_slack = 0x1p-44;
   const geom::LocalPoint center = geom::local_point(volume.apex);
@@ -105,7 +97,7 @@ class TruthFinder {
   }
 
   LightCells find(std::uint32_t light) const {
-    Search search(volume_of(frame_.lights[light], space_));
+    Search search(view::volume_of(frame_.lights[light], space_));
     const geom::LightVolume& volume = search.volume;
     if (volume.range == 0.0) return {};
     if (std::isinf(volume.range)) {
@@ -276,7 +268,7 @@ Truth find_truth(const view::Frame& frame, const grid::Grid& grid, int threads) 
 }
 
 double relative_distance(const view::Frame& frame, const grid::Grid& grid, std::uint32_t cell, std::uint32_t light) {
-  geom::LightVolume volume = volume_of(frame.lights[light], grid::space_of(grid, frame));
+  geom::LightVolume volume = view::volume_of(frame.lights[light], grid::space_of(grid, frame));
   if (std::isinf(volume.range)) return 0.0;
   const double range = volume.range;
   double misses = 0.0, meets = 1.0;

@@ -20,6 +20,7 @@ double ns_since(Clock::time_point start) {
 // A frame with all that an assigner needs; frames with the same grid share it.
 struct TimedFrame {
   std::shared_ptr<const grid::Grid> grid;
+  view::Frame frame;
   view::LightArrays lights;
 };
 
@@ -28,11 +29,13 @@ std::vector<TimedFrame> timed_frames(const Config& config, const GroupPlan& grou
   std::vector<TimedFrame> frames;
   GridOfFrames grids(config.grids[group.grid]);
   std::shared_ptr<const grid::Grid> grid;
+  frames.reserve(static_cast<std::size_t>(wanted));
   for (int i = 0; i < wanted; ++i) {
-    const view::Frame frame =
+    view::Frame frame =
         path.frame(wanted == 1 ? 0 : static_cast<int>(std::lround(i * (path.count() - 1.0) / (wanted - 1))));
     if (grids.update(path, frame)) grid = std::make_shared<grid::Grid>(grids.grid());
-    frames.push_back({grid, view::lights_in(frame, grid::space_of(*grid, frame))});
+    view::LightArrays lights = view::lights_in(frame, grid::space_of(*grid, frame));
+    frames.push_back({grid, std::move(frame), std::move(lights)});
   }
   return frames;
 }

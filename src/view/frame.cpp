@@ -15,15 +15,6 @@ float rounded_up(double value) {
   return static_cast<double>(nearest) < value ? std::nextafter(nearest, k_infinity) : nearest;
 }
 
-// Single precision loses up to 2^-24 of each coordinate when the position is rounded, and a usual predicate (a few
-// products and sums of numbers no larger than |centre| + radius) a few times that again. 2^-21 is room for eight.
-float padded_radius(double radius, const Vec3d& center) {
-  if (radius == 0.0) return 0.0f;
-  constexpr double k_pad = 1.0 / (1 << 21);
-  const double reach = std::abs(center.x) + std::abs(center.y) + std::abs(center.z) + radius;
-  return rounded_up(radius + reach * k_pad);
-}
-
 void add_axis(LightArrays& out, const Mat3d& rotation, const scene::WorldLight& light) {
   const Vec3d axis = rotation * light.direction;
   const double length = std::sqrt(axis.x * axis.x + axis.y * axis.y + axis.z * axis.z);
@@ -42,18 +33,36 @@ Projection make_projection(const scene::Lens& lens, Vec2i viewport) {
   return {lens.orthographic, -top * aspect, top * aspect, -top, top, lens.near_m, lens.far_m};
 }
 
-geom::Ball LightArrays::ball(std::uint32_t light) const {
-  return {{x[light], y[light], z[light]}, padded_radius[light]};
+float LightArrays::padded_radius(std::uint32_t light, float roundings) const {
+  if (roundings == 0.0f || is_empty(light)) return radius[light];
+  constexpr float k_rounding = 0x1p-24f;
+  return radius[light] + roundings * (k_rounding * reach[light]);
 }
 
-geom::SphericalCone LightArrays::cone(std::uint32_t light) const {
+geom::Ball LightArrays::ball(std::uint32_t light, float roundings) const {
+  return {{x[light], y[light], z[light]}, padded_radius(light, roundings)};
+}
+
+geom::SphericalCone LightArrays::cone(std::uint32_t light, float roundings) const {
   assert(is_spot(light));
   const std::uint32_t spot = light - points;
   return {{x[light], y[light], z[light]},
-          padded_radius[light],
+          padded_radius(light, roundings),
           {axis_x[spot], axis_y[spot], axis_z[spot]},
           cos_angle[spot],
           sin_angle[spot]};
+}
+
+geom::LightVolume LightArrays::volume(std::uint32_t light) const {
+  return volume_of(source[light], space);
+}
+
+geom::LightVolume volume_of(const scene::WorldLight& light, const Space& space) {
+  return {{light.position, space.origin, space.rotation},
+          light.range_m,
+          light.type == scene::LightType::spot,
+          light.direction,
+          light.outer_cone_rad};
 }
 
 Frame make_frame(const scene::Scene& scene, const scene::Shot& shot, int index, Vec2i viewport) {
@@ -73,13 +82,15 @@ LightArrays lights_in(const Frame& frame, const Space& space) {
   LightArrays out;
   out.points = frame.points;
   out.spots = static_cast<std::uint32_t>(frame.lights.size()) - frame.points;
+  out.source = frame.lights;
+  out.space = space;
   for (const scene::WorldLight& light : frame.lights) {
     const Vec3d center = space.rotation * (light.position - space.origin);
     out.x.push_back(static_cast<float>(center.x));
     out.y.push_back(static_cast<float>(center.y));
     out.z.push_back(static_cast<float>(center.z));
     out.radius.push_back(rounded_up(light.range_m));
-    out.padded_radius.push_back(padded_radius(light.range_m, center));
+    out.reach.push_back(rounded_up(std::abs(center.x) + std::abs(center.y) + std::abs(center.z) + out.radius.back()));
     if (light.type == scene::LightType::spot) add_axis(out, space.rotation, light);
   }
   return out;

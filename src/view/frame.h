@@ -2,8 +2,10 @@
 // One camera pose with its projection and viewport, and the lights as a grid's space sees them.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "geom/meets.h"
 #include "geom/shapes.h"
 #include "geom/vec.h"
 #include "scene/camera_path.h"
@@ -32,19 +34,28 @@ struct Space {
 // light index of all lists: points first, then spots.
 struct LightArrays {
   std::uint32_t points = 0, spots = 0;
-  std::vector<float> x, y, z;  // centre or apex
-  std::vector<float> radius;   // the range, rounded up
-  // The range padded for everything that single precision can lose: rounding of the position and of the usual
-  // predicates. Conservative assigners use this one; +inf and 0 stay.
-  std::vector<float> padded_radius;
+  std::vector<float> x, y, z;  // centre or apex, each coordinate rounded to nearest
+  std::vector<float> radius;   // the range, rounded up; 0 and +inf stay
+  std::vector<float> reach;    // |x| + |y| + |z| + radius: what roundings are relative to
   // Spots only; place i - points. Axis is unit up to rounding.
   std::vector<float> axis_x, axis_y, axis_z, cos_angle, sin_angle;
 
   std::uint32_t size() const { return points + spots; }
+  // What the numbers were rounded from, for methods that go back to it. Belongs to the frame, which must live on.
+  std::span<const scene::WorldLight> source;
+  Space space;
+
   bool is_spot(std::uint32_t light) const { return light >= points; }
-  geom::Ball ball(std::uint32_t light) const;           // padded
-  geom::SphericalCone cone(std::uint32_t light) const;  // padded; light must be a spot
+  bool is_empty(std::uint32_t light) const { return !(radius[light] > 0.0f); }
+  // The radius grown by a number of roundings: units of 2^-24 of its reach. 0: as it is.
+  float padded_radius(std::uint32_t light, float roundings) const;
+  geom::Ball ball(std::uint32_t light, float roundings) const;
+  geom::SphericalCone cone(std::uint32_t light, float roundings) const;  // light must be a spot
+  geom::LightVolume volume(std::uint32_t light) const;                   // exact
 };
+
+// A light of the scene by its exact ingredients, as a space sees it.
+geom::LightVolume volume_of(const scene::WorldLight& light, const Space& space);
 
 // A frame: everything in double precision.
 struct Frame {
@@ -58,6 +69,10 @@ struct Frame {
 };
 
 Frame make_frame(const scene::Scene& scene, const scene::Shot& shot, int index, Vec2i viewport);
+
+// What a method that uses these numbers has lost before it starts, in roundings: one for the centre (each coordinate is
+// off by 2^-24 of itself, so the centre by 2^-24 of its length), one for the sum that pads the radius.
+inline constexpr float k_given_roundings = 2.0f;
 
 // The frame's lights in a space: the difference to the origin is taken in double, then rounded once.
 LightArrays lights_in(const Frame& frame, const Space& space);

@@ -64,19 +64,21 @@ TEST(Lights, have_a_radius_that_is_never_below_their_range) {
   const LightArrays arrays = lights_in(frame_with(lights), {});
   for (std::size_t i = 0; i < lights.size(); ++i) {
     EXPECT_GE(static_cast<double>(arrays.radius[i]), lights[i].range_m);
-    EXPECT_GT(arrays.padded_radius[i], arrays.radius[i]);
-    // The pad is wide enough for the rounded centre and narrow enough not to matter.
-    const double pad = arrays.padded_radius[i] - lights[i].range_m,
+    const auto light = static_cast<std::uint32_t>(i);
+    EXPECT_EQ(arrays.padded_radius(light, 0.0f), arrays.radius[i]);
+    // The roundings that are given with the numbers cover the rounded centre, and a rounding more does not matter.
+    const double pad = arrays.padded_radius(light, k_given_roundings) - lights[i].range_m,
                  moved = std::abs(arrays.x[i] - lights[i].position.x);
-    EXPECT_GT(pad, 4.0 * moved);
-    EXPECT_LT(pad, 1e-6 * (std::abs(lights[i].position.x) + lights[i].range_m));
+    EXPECT_GE(pad, moved);
+    EXPECT_LT(pad, 3e-7 * (std::abs(lights[i].position.x) + lights[i].range_m));
   }
 }
 
 TEST(Lights, without_range_stay_without_and_without_end_stay_endless) {
   const LightArrays arrays = lights_in(frame_with({point({1, 2, 3}, 0.0), point({1, 2, 3}, k_infinity)}), {});
-  EXPECT_EQ(arrays.padded_radius[0], 0.0f);
-  EXPECT_TRUE(std::isinf(arrays.padded_radius[1]));
+  EXPECT_EQ(arrays.padded_radius(0, 9.0f), 0.0f);
+  EXPECT_TRUE(std::isinf(arrays.padded_radius(1, 9.0f)));
+  EXPECT_TRUE(std::isinf(arrays.padded_radius(1, 0.0f)));
 }
 
 TEST(Lights, of_spots_have_their_axis_turned_into_view_space) {
@@ -89,7 +91,7 @@ TEST(Lights, of_spots_have_their_axis_turned_into_view_space) {
   const LightArrays arrays = lights_in(frame_with({point({0, 0, 0}, 1.0), spot}), {Vec3d(0.0), turned});
   EXPECT_EQ(arrays.points, 1u);
   EXPECT_EQ(arrays.spots, 1u);
-  const geom::SphericalCone cone = arrays.cone(1);
+  const geom::SphericalCone cone = arrays.cone(1, 0.0f);
   EXPECT_FLOAT_EQ(cone.axis.z, -1.0f);
   EXPECT_FLOAT_EQ(cone.cos_angle, std::cos(0.5f));
   EXPECT_FLOAT_EQ(cone.sin_angle, std::sin(0.5f));

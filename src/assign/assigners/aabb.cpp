@@ -17,7 +17,7 @@ const AssignerRow aabb_row{
     .summary = "the cells of the light's extents whose view-space bounding box the ball touches",
     .source = "DaveH355; Persson 2015, Practical Clustered Shading",
     .kinds = {grid::Kind::frustum},
-    .params = {spot_param()},
+    .params = light_params(),
     .make = make_cell_box_method<AabbsInExtents>,
 };
 

@@ -7,6 +7,7 @@ namespace {
 
 struct NoTest {
   static constexpr bool k_whole_grid = false;
+  static constexpr float k_roundings = 0.0f;
   void build(const grid::Grid&) {}
   bool touches(const geom::Ball&, std::uint32_t) const { return true; }
   std::size_t capacity_bytes() const { return 0; }
@@ -20,7 +21,7 @@ const AssignerRow bounds_row{
     .summary = "all cells within the light's analytic extents on the screen and in depth",
     .source = "Persson 2015, Practical Clustered Shading",
     .kinds = {grid::Kind::frustum},
-    .params = {spot_param()},
+    .params = light_params(),
     .make = make_cell_box_method<NoTest>,
 };
 

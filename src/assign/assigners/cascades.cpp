@@ -6,7 +6,7 @@
 
 #include "assign/assigner.h"
 #include "assign/box_rows.h"
-#include "assign/spot_test.h"
+#include "assign/light_test.h"
 
 namespace clusterbench::assign {
 namespace {
@@ -46,36 +46,35 @@ BoxGrid boxes_of_level(const grid::Grid& grid, int level) {
 
 class Cascades final : public Assigner {
  public:
-  explicit Cascades(const Params& params) : spot_(spot_test_from(params)) {}
+  explicit Cascades(const Params& params) : test_(params, k_box_roundings) {}
 
   void build(const grid::Grid& grid) override {
     grid_ = &grid;
-    cell_balls_.clear();
+    test_.start_grid(grid);
     levels_.clear();
     for (int level = 0; level < grid.cascades().levels; ++level) levels_.push_back(boxes_of_level(grid, level));
   }
 
   void assign(const view::LightArrays& lights, Lists& out) override {
     tests_ = 0;
-    if (lights.spots > 0 && spot_ != SpotTest::ball) cell_balls_.ensure(*grid_);
+    test_.start_frame(lights);
     pairs_.start(grid_->cell_count());
     for (std::uint32_t light = 0; light < lights.size(); ++light)
-      for (const BoxGrid& boxes : levels_) add_light(boxes, cell_balls_, lights, light, spot_, pairs_, tests_);
+      for (const BoxGrid& boxes : levels_) add_light(boxes, test_, lights, light, pairs_, tests_);
     pairs_.finish(out);
   }
 
   std::uint64_t tests_done() const override { return tests_; }
 
   std::size_t scratch_bytes() const override {
-    std::size_t bytes = pairs_.capacity_bytes() + cell_balls_.capacity_bytes();
+    std::size_t bytes = pairs_.capacity_bytes() + test_.capacity_bytes();
     for (const BoxGrid& boxes : levels_) bytes += boxes.capacity_bytes();
     return bytes;
   }
 
  private:
-  SpotTest spot_;
+  LightTest test_;
   const grid::Grid* grid_ = nullptr;
-  CellBalls cell_balls_;
   std::vector<BoxGrid> levels_;
   PairBuffer pairs_;
   std::uint64_t tests_ = 0;
@@ -93,7 +92,7 @@ const AssignerRow cascades_row{
     .summary = "sphere against the cubical cells of nested view-space boxes, level by level",
     .source = "nested camera-space cascades of light volumes; squared distance per axis as in Arvo 1990",
     .kinds = {grid::Kind::cascades},
-    .params = {spot_param()},
+    .params = light_params(),
     .make = make,
 };
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "assign/assigner.h"
-#include "assign/spot_test.h"
+#include "assign/light_test.h"
 #include "geom/tangents.h"
 
 namespace clusterbench::assign {
@@ -18,6 +18,10 @@ namespace {
 
 constexpr float k_inf = std::numeric_limits<float>::infinity();
 constexpr geom::SlopeRange k_all{-k_inf, k_inf};
+
+// The cap is computed in double and held in floats: its radius is off by 1, a plane's cut by 1 for its depth, 1 for its
+// chord and 1 for the slope: 4.
+constexpr float k_roundings = 4.0f;
 
 // The cap as a ball around the light's centre that looks the same from the eye. radius +inf: every direction.
 struct Cap {
@@ -40,9 +44,7 @@ Cap cap_in_shell(const geom::Ball& ball, double length, double distance) {
   if (!(cosine > 0.0)) return cap;  // 90° and more, the eye in the ball, or an unbounded one
   const double apart = std::fabs(distance - length);
   const double squared_sine = (r - apart) * (r + apart) / twice * (1.0 + cosine);
-  // A float holds the planes' cuts below only up to some ulps of the distance to the centre.
-  constexpr double k_roundings = 4.0;
-  const double lost = k_roundings * static_cast<double>(std::numeric_limits<float>::epsilon()) * length;
+  const double lost = 0x1p-24 * static_cast<double>(k_roundings) * length;
   cap.radius = static_cast<float>(length * std::sqrt(std::max(0.0, squared_sine)) + lost);
   return cap;
 }
@@ -99,33 +101,29 @@ IndexRange columns_met(const std::vector<float>& planes, const geom::SlopeRange&
 
 class Distance final : public Assigner {
  public:
-  explicit Distance(const Params& params) : spot_(spot_test_from(params)) {}
+  explicit Distance(const Params& params) : test_(params, k_roundings) {}
 
   void build(const grid::Grid& grid) override {
     grid_ = &grid;
-    cell_balls_.clear();
+    test_.start_grid(grid);
   }
 
   void assign(const view::LightArrays& lights, Lists& out) override {
     tests_ = 0;
-    if (lights.spots > 0 && spot_ != SpotTest::ball) cell_balls_.ensure(*grid_);
+    test_.start_frame(lights);
     pairs_.start(grid_->cell_count());
     for (std::uint32_t light = 0; light < lights.size(); ++light) add_light(lights, light);
     pairs_.finish(out);
   }
 
   std::uint64_t tests_done() const override { return tests_; }
-  std::size_t scratch_bytes() const override { return pairs_.capacity_bytes() + cell_balls_.capacity_bytes(); }
+  std::size_t scratch_bytes() const override { return pairs_.capacity_bytes() + test_.capacity_bytes(); }
 
  private:
   void add_light(const view::LightArrays& lights, std::uint32_t light) {
-    if (!(lights.padded_radius[light] > 0.0f)) return;
-    const bool test_cone = lights.is_spot(light) && spot_ != SpotTest::ball;
-    const geom::SphericalCone cone = test_cone ? lights.cone(light) : geom::SphericalCone{};
-    add_ball(ball_for(lights, light, spot_), light, test_cone ? &cone : nullptr);
-  }
-
-  void add_ball(const geom::Ball& ball, std::uint32_t light, const geom::SphericalCone* cone) {
+    if (lights.is_empty(light)) return;
+    const TestedLight tested = test_.tested(lights, light);
+    const geom::Ball& ball = tested.ball;
     const grid::Slices& shells = grid_->screen().slices;
     const double length = glm::length(Vec3d(ball.center)), r = ball.radius;
     for (int shell = 0; shell < shells.count(); ++shell) {
@@ -133,11 +131,11 @@ class Distance final : public Assigner {
       const double distance1 = shells.boundaries[static_cast<std::size_t>(shell) + 1];
       if (length - r > distance1 || length + r < distance0) continue;
       const Cap cap = cap_in_shell(ball, length, widest_distance(length, r, distance0, distance1));
-      add_cap(cap, shell, light, cone);
+      add_cap(cap, shell, tested);
     }
   }
 
-  void add_cap(const Cap& cap, int shell, std::uint32_t light, const geom::SphericalCone* cone) {
+  void add_cap(const Cap& cap, int shell, const TestedLight& light) {
     const grid::Tiles& tiles = grid_->screen().tiles;
     const geom::SlopeRange across = geom::slope_range(cap.x, cap.depth, cap.radius, 0.0f, k_inf);
     const geom::SlopeRange upright = geom::slope_range(cap.y, cap.depth, cap.radius, 0.0f, k_inf);
@@ -147,26 +145,18 @@ class Distance final : public Assigner {
       const geom::SlopeRange slopes = slopes_in_row(cap, across, tiles.y_min(row), tiles.y_max(row));
       if (slopes.empty()) continue;
       const IndexRange columns = columns_met(tiles.x, slopes);
-      if (columns.first <= columns.last) add_row(columns, row, shell, light, cone);
+      if (columns.first <= columns.last) add_row(columns, row, shell, light);
     }
   }
 
-  void add_row(const IndexRange& columns, int row, int shell, std::uint32_t light, const geom::SphericalCone* cone) {
+  void add_row(const IndexRange& columns, int row, int shell, const TestedLight& light) {
     const Vec2i count = grid_->screen().tiles.count;
     const auto first = static_cast<std::uint32_t>((shell * count.y + row) * count.x + columns.first);
-    const auto cells = static_cast<std::uint32_t>(columns.last - columns.first + 1);
-    if (cone == nullptr) {
-      pairs_.add_row(first, cells, light);
-      return;
-    }
-    tests_ += cells;
-    for (std::uint32_t cell = first; cell < first + cells; ++cell)
-      if (geom::cone_touches_ball(*cone, cell_balls_[cell])) pairs_.add(cell, light);
+    test_.add_row(light, first, static_cast<std::uint32_t>(columns.last - columns.first + 1), pairs_, tests_);
   }
 
-  SpotTest spot_;
+  LightTest test_;
   const grid::Grid* grid_ = nullptr;
-  CellBalls cell_balls_;
   PairBuffer pairs_;
   std::uint64_t tests_ = 0;
 };
@@ -184,7 +174,7 @@ const AssignerRow distance_row{
     .source = "this project: shells of distance with the closed form of the cap",
     .kinds = {grid::Kind::distance},
     .orthographic = false,
-    .params = {spot_param()},
+    .params = light_params(),
     .make = make,
 };
 

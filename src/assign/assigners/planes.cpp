@@ -7,8 +7,11 @@
 namespace clusterbench::assign {
 namespace {
 
+// Roundings: a float normal is off by 1, the three products and two sums of n·c by 3 more, the offset by 1 and the last
+// difference by 2 (both its numbers are at most |c| + r where it matters): 7.
 class SixPlanes {
  public:
+  static constexpr float k_roundings = 7.0f;
   static constexpr bool k_whole_grid = false;
 
   void build(const grid::Grid& grid) {
@@ -36,7 +39,7 @@ const AssignerRow planes_row{
     .summary = "the cells of the light's extents that none of their six planes excludes",
     .source = "Wicked Engine, and most tiled renderers",
     .kinds = {grid::Kind::frustum},
-    .params = {spot_param()},
+    .params = light_params(),
     .make = make_cell_box_method<SixPlanes>,
 };
 

@@ -15,12 +15,19 @@
 
 #include "assign/assigner.h"
 #include "assign/cell_box.h"
-#include "assign/spot_test.h"
+#include "assign/light_test.h"
 
 namespace clusterbench::assign {
 namespace {
 
 constexpr float k_inf = std::numeric_limits<float>::infinity();
+
+// With sizes as units: the gap to a slice is off by 1. The distance to a row's plane by 3 (a rounded normal, two
+// products and a sum), so the foot on it by 3 + 2 and, seen from a column's plane, 3 + 2 + 3 more. The squares'
+// roundings, 8 of r² in all, are 4 of r. A test that compares gap² + gap'² + gap''² with r² is off by no more than the
+// gaps' sum: 1 + 5 + 8
+// + 4 = 18.
+constexpr float k_roundings = 18.0f;
 
 // A tile plane through the eye (perspective) or along the view axis (orthographic); positive to the right or above.
 // Places are given as (x or y, depth).
@@ -70,11 +77,13 @@ bool reaches_column(const Remainder& ball, const TilePlane& left, const TilePlan
   return gap <= 0.0f || gap * gap <= ball.squared_radius;
 }
 
-// How far a place can be from where single precision has it, and what sums of its coordinates lose.
+// What support() can lose, as a length: 4 roundings of the apex for n·apex, 4 of the range for the cosine to the axis;
+// the sine's error e times sin a is at most 4 more, because (1 - cos²) is off by 8 and the sine is needed only where it
+// is larger than sin a; 3 for the sums.
 float slack_of(const geom::SphericalCone& cone) {
-  constexpr float k_roundings = 8.0f;
+  constexpr float k_support_roundings = 16.0f;
   const float size = std::fabs(cone.apex.x) + std::fabs(cone.apex.y) + std::fabs(cone.apex.z) + cone.range;
-  return k_roundings * std::numeric_limits<float>::epsilon() * size;
+  return k_support_roundings * 0x1p-24f * size;
 }
 
 // Largest value of n·p over the cone, n of unit length. The cone's farthest point along n is the ball's if n lies
@@ -106,19 +115,19 @@ void narrow(int& first, int& last, const geom::SphericalCone& cone, SideAt&& sid
 class SphereRefinement final : public Assigner {
  public:
   explicit SphereRefinement(const Params& params)
-      : spot_(spot_test_from(params)), narrowing_(params.text("spot") == "narrowing") {}
+      : test_(params, k_roundings), narrowing_(params.text("spot") == "narrowing") {}
 
   void build(const grid::Grid& grid) override {
     grid_ = &grid;
     const grid::Tiles& tiles = grid.screen().tiles;
     columns_ = tile_planes(tiles.x, tiles.orthographic);
     rows_ = tile_planes(tiles.y, tiles.orthographic);
-    cell_balls_.clear();
+    test_.start_grid(grid);
   }
 
   void assign(const view::LightArrays& lights, Lists& out) override {
     tests_ = 0;
-    if (lights.spots > 0 && spot_ != SpotTest::ball) cell_balls_.ensure(*grid_);
+    test_.start_frame(lights);
     pairs_.start(grid_->cell_count());
     for (std::uint32_t light = 0; light < lights.size(); ++light) add_light(lights, light);
     pairs_.finish(out);
@@ -126,27 +135,23 @@ class SphereRefinement final : public Assigner {
 
   std::uint64_t tests_done() const override { return tests_; }
   std::size_t scratch_bytes() const override {
-    return pairs_.capacity_bytes() + cell_balls_.capacity_bytes() +
+    return pairs_.capacity_bytes() + test_.capacity_bytes() +
            (columns_.capacity() + rows_.capacity()) * sizeof(TilePlane);
   }
 
  private:
   void add_light(const view::LightArrays& lights, std::uint32_t light) {
-    if (!(lights.padded_radius[light] > 0.0f)) return;
-    const geom::Ball ball = ball_for(lights, light, spot_);
-    CellBox box = cell_box(*grid_, ball);
-    const bool test_cone = lights.is_spot(light) && spot_ != SpotTest::ball;
-    const geom::SphericalCone cone = test_cone ? lights.cone(light) : geom::SphericalCone{};
-    if (test_cone && narrowing_ && !box.empty()) narrow_from_six_sides(box, cone);
-    if (!box.empty()) add_ball(box, ball, light, test_cone ? &cone : nullptr);
+    if (lights.is_empty(light)) return;
+    const TestedLight tested = test_.tested(lights, light);
+    CellBox box = cell_box(*grid_, test_.ball(lights, light, k_cell_box_roundings));
+    if (tested.has_cone && narrowing_ && !box.empty()) narrow_from_six_sides(box, tested.cone);
+    if (!box.empty()) add_ball(box, tested);
   }
 
-  void add_ball(const CellBox& box, const geom::Ball& ball, std::uint32_t light, const geom::SphericalCone* cone) {
+  void add_ball(const CellBox& box, const TestedLight& light) {
     const std::vector<float>& depths = grid_->screen().slices.boundaries;
-    // What the squares and differences below lose beside the padding of the radius.
-    constexpr float k_slack = 8.0f * std::numeric_limits<float>::epsilon();
-    const float squared_radius = ball.radius * ball.radius * (1.0f + k_slack);
-    const Remainder whole{ball.center.x, ball.center.y, -ball.center.z, squared_radius};
+    const geom::Ball& ball = light.ball;
+    const Remainder whole{ball.center.x, ball.center.y, -ball.center.z, ball.radius * ball.radius};
     for (int slice = box.first.z; slice <= box.last.z; ++slice) {
       const auto z = static_cast<std::size_t>(slice);
       const Remainder in_slice = cut_to_slice(whole, depths[z], depths[z + 1]);
@@ -156,12 +161,12 @@ class SphereRefinement final : public Assigner {
         const auto y = static_cast<std::size_t>(row);
         const Remainder in_row = cut_to_row(in_slice, rows_[y], rows_[y + 1]);
         ++tests_;
-        if (!in_row.empty()) add_columns(box, in_row, slice, row, light, cone);
+        if (!in_row.empty()) add_columns(box, in_row, slice, row, light);
       }
     }
   }
-  void add_columns(const CellBox& box, const Remainder& ball, int slice, int row, std::uint32_t light,
-                   const geom::SphericalCone* cone) {
+
+  void add_columns(const CellBox& box, const Remainder& ball, int slice, int row, const TestedLight& light) {
     const auto reached = [&](int column) {
       ++tests_;
       const auto x = static_cast<std::size_t>(column);
@@ -173,17 +178,8 @@ class SphereRefinement final : public Assigner {
     if (first > last) return;
     const Vec2i count = grid_->screen().tiles.count;
     const auto row_start = static_cast<std::uint32_t>((slice * count.y + row) * count.x);
-    emit(row_start + static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last - first + 1), light, cone);
-  }
-
-  void emit(std::uint32_t first_cell, std::uint32_t cells, std::uint32_t light, const geom::SphericalCone* cone) {
-    if (cone == nullptr) {
-      pairs_.add_row(first_cell, cells, light);
-      return;
-    }
-    tests_ += cells;
-    for (std::uint32_t cell = first_cell; cell < first_cell + cells; ++cell)
-      if (geom::cone_touches_ball(*cone, cell_balls_[cell])) pairs_.add(cell, light);
+    test_.add_row(light, row_start + static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last - first + 1),
+                  pairs_, tests_);
   }
 
   // The box's cells from left, right, top, bottom, near and far.
@@ -202,11 +198,10 @@ class SphereRefinement final : public Assigner {
     });
   }
 
-  SpotTest spot_;  // with narrowing: both
+  LightTest test_;
   bool narrowing_;
   const grid::Grid* grid_ = nullptr;
   std::vector<TilePlane> columns_, rows_;
-  CellBalls cell_balls_;
   PairBuffer pairs_;
   std::uint64_t tests_ = 0;
 };
@@ -229,7 +224,8 @@ const AssignerRow sphere_refinement_row{
                     "both; or both after narrowing the cell box by planes from six sides",
                 .standard = std::string("narrowing"),
                 .unit = "",
-                .choices = {"ball", "cone-sphere", "both", "narrowing"}}},
+                .choices = {"ball", "cone-sphere", "both", "narrowing"}},
+               inflation_param()},
     .make = make,
 };
 

@@ -2,7 +2,7 @@
 
 #include "assign/assigner.h"
 #include "assign/box_rows.h"
-#include "assign/spot_test.h"
+#include "assign/light_test.h"
 
 namespace clusterbench::assign {
 namespace {
@@ -15,11 +15,11 @@ BoxAxis axis_of(const std::vector<float>& boundaries) {
 
 class WorldGridAssigner final : public Assigner {
  public:
-  explicit WorldGridAssigner(const Params& params) : spot_(spot_test_from(params)) {}
+  explicit WorldGridAssigner(const Params& params) : test_(params, k_box_roundings) {}
 
   void build(const grid::Grid& grid) override {
     grid_ = &grid;
-    cell_balls_.clear();
+    test_.start_grid(grid);
     const grid::WorldGrid& world = grid.world();
     boxes_.x = axis_of(world.x);
     boxes_.y = axis_of(world.y);
@@ -28,22 +28,21 @@ class WorldGridAssigner final : public Assigner {
 
   void assign(const view::LightArrays& lights, Lists& out) override {
     tests_ = 0;
-    if (lights.spots > 0 && spot_ != SpotTest::ball) cell_balls_.ensure(*grid_);
+    test_.start_frame(lights);
     pairs_.start(grid_->cell_count());
     for (std::uint32_t light = 0; light < lights.size(); ++light)
-      add_light(boxes_, cell_balls_, lights, light, spot_, pairs_, tests_);
+      add_light(boxes_, test_, lights, light, pairs_, tests_);
     pairs_.finish(out);
   }
 
   std::uint64_t tests_done() const override { return tests_; }
   std::size_t scratch_bytes() const override {
-    return pairs_.capacity_bytes() + cell_balls_.capacity_bytes() + boxes_.capacity_bytes();
+    return pairs_.capacity_bytes() + test_.capacity_bytes() + boxes_.capacity_bytes();
   }
 
  private:
-  SpotTest spot_;
+  LightTest test_;
   const grid::Grid* grid_ = nullptr;
-  CellBalls cell_balls_;
   BoxGrid boxes_;
   PairBuffer pairs_;
   std::uint64_t tests_ = 0;
@@ -61,7 +60,7 @@ const AssignerRow world_grid_row{
     .summary = "sphere against the boxes of a fixed world grid, row by row",
     .source = "PlayCanvas clustered lighting",
     .kinds = {grid::Kind::world},
-    .params = {spot_param()},
+    .params = light_params(),
     .make = make,
 };
 

@@ -1,0 +1,63 @@
+#pragma once
+// How the conservative methods see a light: a ball, and for a spot its cone against the cells' bounding balls. Both are
+// padded by what the method's own single-precision steps can lose, and by no more.
+//
+// A rounding is 2^-24 of the light's reach, |x| + |y| + |z| + r in its space. A method derives how many of them its
+// steps can add up to, in the comment above its row; view::k_given_roundings come on top.
+
+#include <vector>
+
+#include "assign/assigner.h"
+#include "geom/predicates.h"
+
+namespace clusterbench::assign {
+
+// `spot`: "ball", "cone-sphere" or "both" (the default).
+ParamSpec spot_param();
+// `inflation`: the padding in units of the derived one. Below 1 a method is no longer conservative.
+ParamSpec inflation_param();
+// Both, for most methods.
+std::vector<ParamSpec> light_params();
+
+struct TestedLight {
+  std::uint32_t index = 0;
+  geom::Ball ball{};           // a point's; a spot's bounding ball or, with cone-sphere, the ball of its range
+  bool has_cone = false;       // test the cone, too
+  geom::SphericalCone cone{};  // only if has_cone
+};
+
+// The tests of one assigner.
+class LightTest {
+ public:
+  // `roundings`: what the method's own steps lose.
+  LightTest(const Params& params, float roundings);
+
+  void start_grid(const grid::Grid& grid);
+  // Makes the cells' bounding balls when the first spot that needs them comes.
+  void start_frame(const view::LightArrays& lights);
+
+  // Not for lights that are empty.
+  TestedLight tested(const view::LightArrays& lights, std::uint32_t light) const;
+  // The same ball as a method with no more than these roundings of its own would have it: for steps before the method's
+  // test that lose less.
+  geom::Ball ball(const view::LightArrays& lights, std::uint32_t light, float roundings) const;
+  bool cone_touches(const TestedLight& light, std::uint32_t cell) const {
+    return geom::cone_touches_ball(light.cone, cell_balls_[cell]);
+  }
+  // Adds the cells first_cell .. first_cell + count - 1, of a spot those that its cone may touch. Each cone test adds 1
+  // to `tests`.
+  void add_row(const TestedLight& light, std::uint32_t first_cell, std::uint32_t count, PairBuffer& pairs,
+               std::uint64_t& tests) const;
+
+  std::size_t capacity_bytes() const { return cell_balls_.capacity() * sizeof(geom::Ball); }
+
+ private:
+  enum class SpotTest { ball, cone_sphere, both };
+
+  SpotTest spot_;
+  float inflation_, roundings_;
+  const grid::Grid* grid_ = nullptr;
+  std::vector<geom::Ball> cell_balls_;
+};
+
+}  // namespace clusterbench::assign
