@@ -59,6 +59,8 @@ class Assigner {
 
   // Light-cell tests done by the last assign: counted, not timed, so it can gate exactly.
   virtual std::uint64_t tests_done() const = 0;
+  // Pairs of the last assign that single precision could not decide and that were decided at greater cost.
+  virtual std::uint64_t fallbacks() const { return 0; }
   // Scratch memory held now.
   virtual std::size_t scratch_bytes() const = 0;
 };
@@ -78,6 +80,9 @@ struct AssignerRow {
 
   bool takes(grid::Kind kind) const;
 };
+
+// As the row says, and with no parameter that takes it away (an inflation below 1).
+bool is_conservative(const AssignerRow& row, const Params& params);
 
 // All rows in registry order.
 std::span<const AssignerRow* const> assigner_rows();

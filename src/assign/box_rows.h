@@ -10,6 +10,7 @@
 #include "assign/light_test.h"
 #include "assign/lists.h"
 #include "geom/shapes.h"
+#include "grid/index_range.h"
 #include "view/frame.h"
 
 namespace clusterbench::assign {
@@ -21,12 +22,7 @@ struct Interval {
 // The boxes' extents along one axis in index order: adjacent, ascending or descending.
 using BoxAxis = std::vector<Interval>;
 
-struct IndexRange {
-  int first = 0, last = -1;
-
-  bool empty() const { return first > last; }
-  bool holds(int index) const { return first <= index && index <= last; }
-};
+using grid::IndexRange;
 
 // Boxes that are numbered x fastest, then y, then z, from first_cell on.
 struct BoxGrid {

@@ -12,6 +12,11 @@ bool AssignerRow::takes(grid::Kind kind) const {
   return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
 }
 
+bool is_conservative(const AssignerRow& row, const Params& params) {
+  const auto inflation = params.values().find("inflation");
+  return row.conservative && (inflation == params.values().end() || std::get<double>(inflation->second) >= 1.0);
+}
+
 std::span<const AssignerRow* const> assigner_rows() {
 #define CLUSTERBENCH_ASSIGNER(file) &file##_row,
   static constexpr const AssignerRow* k_rows[] = {

@@ -2,104 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <limits>
+
+#include "geom/row_slopes.h"
 
 namespace clusterbench::measure {
 namespace {
 
-constexpr double k_infinity = std::numeric_limits<double>::infinity();
+using Hull = geom::SlopeHull<double>;
+using Eye = geom::BallFromEye<double>;
+using DepthRange = geom::DepthRange<double>;
 
-// An interval of slopes or places, grown by what it is given.
-struct Hull {
-  double lo = k_infinity, hi = -k_infinity;
-
-  void add(double value) {
-    lo = std::min(lo, value);
-    hi = std::max(hi, value);
-  }
-  bool empty() const { return !(lo <= hi); }
-};
-
-// Slopes (u ± h) / w of a chord at depth w >= 0.
-void add_chord(Hull& hull, double u, double h, double w, double scale) {
-  if (w > 0.0) {
-    hull.add(scale * (u - h) / w);
-    hull.add(scale * (u + h) / w);
-    return;
-  }
-  if (u - h <= 0.0) hull.add(-k_infinity);
-  if (u + h >= 0.0) hull.add(k_infinity);
-}
-
-// Adds scale * u'/w' over the disk around (u, w) cut to w0 <= w' <= w1 (w0 >= 0). Extremes are the tangents from the
-// eye where they touch within the slab, and the ends of the chords that the slab cuts.
-void add_disk(Hull& hull, double u, double w, double squared_radius, double w0, double w1, double scale) {
-  if (!(squared_radius >= 0.0) || w0 > w1) return;
-  for (const double line : {w0, w1}) {
-    const double square = squared_radius - (line - w) * (line - w);
-    if (square >= 0.0) add_chord(hull, u, std::sqrt(square), line, scale);
-  }
-  const double radius = std::sqrt(squared_radius), distance = std::sqrt(u * u + w * w);
-  const double squared_tangent = (distance - radius) * (distance + radius);
-  if (!(squared_tangent > 0.0)) return;
-  const double tangent = std::sqrt(squared_tangent);
-  const double to_depth = tangent / (distance * distance);
-  for (const double side : {-radius, radius}) {
-    const double lean = w * tangent - u * side;  // the touch point is to_depth * (u t + w side, lean)
-    const double depth = to_depth * lean;
-    if (depth >= w0 && depth <= w1 && depth > 0.0) hull.add(scale * (u * tangent + w * side) / lean);
-  }
-}
-
-// A ball as rows of a frustum see it: x to the right, y up, depth ahead.
-struct Eye {
-  double x, y, depth, radius;
-};
-
-// Depths in [near, far] at which y0 * depth <= y <= y1 * depth.
-struct DepthRange {
-  double near, far;
-};
-DepthRange depths_between(double y, double y0, double y1, DepthRange range) {
-  const DepthRange none{1.0, 0.0};
-  if (y0 > 0.0) range.far = std::min(range.far, y / y0);
-  if (y0 < 0.0) range.near = std::max(range.near, y / y0);
-  if (y1 > 0.0) range.near = std::max(range.near, y / y1);
-  if (y1 < 0.0) range.far = std::min(range.far, y / y1);
-  return (y0 == 0.0 && y < 0.0) || (y1 == 0.0 && y > 0.0) ? none : range;
-}
-
-// Slopes x/depth over ball ∩ {y0*depth <= y <= y1*depth, near <= depth <= far}. For a given depth x is extreme at the y
-// nearest to the centre's: the centre's own, or on one of the two planes. Each is a disk.
-Hull row_slopes(const Eye& ball, double y0, double y1, DepthRange range) {
-  Hull hull;
-  const double square = ball.radius * ball.radius;
-  const DepthRange level = depths_between(ball.y, y0, y1, range);
-  add_disk(hull, ball.x, ball.depth, square, level.near, level.far, 1.0);
-  for (const double slope : {y0, y1}) {
-    const double tilt = std::sqrt(1.0 + slope * slope);
-    const double away = (ball.y - slope * ball.depth) / tilt;
-    add_disk(hull, ball.x, (slope * ball.y + ball.depth) / tilt, (ball.radius - away) * (ball.radius + away),
-             range.near * tilt, range.far * tilt, tilt);
-  }
-  return hull;
-}
-
-// Intervals between ascending boundaries that [lo, hi] touches.
-ColumnRange columns_touched(const std::vector<float>& boundaries, const Hull& hull) {
-  if (hull.empty()) return {};
-  const auto from = std::lower_bound(boundaries.begin() + 1, boundaries.end(), hull.lo);
-  const auto to = std::upper_bound(boundaries.begin(), boundaries.end() - 1, hull.hi);
-  return {static_cast<int>(from - boundaries.begin()) - 1, static_cast<int>(to - boundaries.begin()) - 1};
-}
-
-// The same for rows, whose boundaries descend.
-ColumnRange rows_touched(const std::vector<float>& boundaries, const Hull& hull) {
-  if (hull.empty()) return {};
-  const auto from = std::lower_bound(boundaries.begin() + 1, boundaries.end(), hull.hi, std::greater<>());
-  const auto to = std::upper_bound(boundaries.begin(), boundaries.end() - 1, hull.lo, std::greater<>());
-  return {static_cast<int>(from - boundaries.begin()) - 1, static_cast<int>(to - boundaries.begin()) - 1};
+ColumnRange columns_touched(const grid::Tiles& tiles, const Hull& slopes) {
+  return grid::intervals_touched(tiles.x, slopes.lo, slopes.hi);
 }
 
 // Appends the rows of one slab of depths.
@@ -108,14 +22,15 @@ void append_slab(const grid::Tiles& tiles, const BallInSpace& ball, DepthRange r
   const Eye larger{ball.center.x, ball.center.y, -ball.center.z, ball.radius + ball.slack};
   const Eye smaller{larger.x, larger.y, larger.depth, std::max(0.0, ball.radius - ball.slack)};
   Hull up;
-  add_disk(up, larger.y, larger.depth, larger.radius * larger.radius, range.near, range.far, 1.0);
-  const ColumnRange touched = rows_touched(tiles.y, up);
+  geom::add_disk(up, larger.y, larger.depth, larger.radius * larger.radius, range.near, range.far, 1.0);
+  const ColumnRange touched = grid::descending_intervals_touched(tiles.y, up.lo, up.hi);
   for (int row = touched.first; row <= touched.last; ++row) {
     const double y0 = tiles.y_min(row), y1 = tiles.y_max(row);
     Row found;
-    found.outer = columns_touched(tiles.x, row_slopes(larger, y0, y1, range));
+    found.outer = columns_touched(tiles, geom::row_slopes(larger, y0, y1, range));
     if (found.outer.empty()) continue;
-    if (with_inner) found.inner = columns_touched(tiles.x, row_slopes(smaller, y0, y1, range));
+    if (with_inner && ball.radius > ball.slack)
+      found.inner = columns_touched(tiles, geom::row_slopes(smaller, y0, y1, range));
     found.first_cell = static_cast<std::uint32_t>((slice * tiles.count.y + row) * tiles.count.x);
     rows.push_back(found);
   }
@@ -191,7 +106,7 @@ void append_beside(const ColumnRange& hole, const Row& row, std::vector<Row>& ro
 void append_rows(const grid::ScreenGrid& grid, const BallInSpace& ball, std::vector<Row>& rows) {
   const std::vector<float>& depths = grid.slices.boundaries;
   const double depth = -ball.center.z, reach = ball.radius + ball.slack;
-  const ColumnRange slices = columns_touched(depths, {depth - reach, depth + reach});
+  const ColumnRange slices = grid::intervals_touched(depths, depth - reach, depth + reach);
   for (int slice = slices.first; slice <= slices.last; ++slice) {
     const auto k = static_cast<std::size_t>(slice);
     append_slab(grid.tiles, ball, {depths[k], depths[k + 1]}, slice, true, rows);
@@ -224,7 +139,7 @@ void append_rows(const BoxBlock& block, const BallInSpace& ball, std::vector<Row
       Row row;
       row.outer = columns_within(block.x, ball.center.x, larger * larger - square);
       if (row.outer.empty()) continue;
-      row.inner = columns_within(block.x, ball.center.x, smaller * smaller - square);
+      if (ball.radius > ball.slack) row.inner = columns_within(block.x, ball.center.x, smaller * smaller - square);
       row.first_cell = block.first_cell + static_cast<std::uint32_t>((z * block.y.size() + y) * block.x.size());
       if (block.hole_z.holds(static_cast<int>(z)) && block.hole_y.holds(static_cast<int>(y)))
         append_beside(block.hole_x, row, rows);

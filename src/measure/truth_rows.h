@@ -10,6 +10,7 @@
 
 #include "geom/vec.h"
 #include "grid/grid.h"
+#include "grid/index_range.h"
 
 namespace clusterbench::measure {
 
@@ -20,12 +21,7 @@ struct BallInSpace {
   double slack = 0.0;
 };
 
-struct ColumnRange {
-  int first = 0, last = -1;
-
-  bool empty() const { return first > last; }
-  bool holds(int column) const { return first <= column && column <= last; }
-};
+using ColumnRange = grid::IndexRange;
 
 struct Row {
   std::uint32_t first_cell = 0;  // of the row's column 0

@@ -219,6 +219,7 @@ Json case_to_json(const run::CaseResult& one) {
              {"exact", one.exact}}},
            {"storage", one.storage_label},
            {"tests_done", one.tests_done},
+           {"fallbacks", one.fallbacks},
            {"occupancy", occupancy(one)},
            {"buffers", buffers(one)}};
   if (one.error) out["error"] = error(one);

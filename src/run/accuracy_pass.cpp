@@ -36,6 +36,7 @@ class ListMeter {
     if (!occupancy_) occupancy_.emplace(real_cells(grid));
     assigner_->assign(now.lights, lists_);
     measures_.tests_done += assigner_->tests_done();
+    measures_.fallbacks += assigner_->fallbacks();
     occupancy_->add_frame(now.frame.index, lists_);
     if (config_.check_accuracy) measure::add_frame(measures_.error, now.frame, grid, now.truth, lists_);
     if (!now.samples.empty()) measure::add_frame(measures_.shading, now.frame, grid, now.samples, now.reaching, lists_);

@@ -17,7 +17,7 @@ struct ListMeasures {
   measure::Occupancy occupancy;
   measure::ErrorCounts error;
   measure::ShadingCounts shading;
-  std::uint64_t tests_done = 0;
+  std::uint64_t tests_done = 0, fallbacks = 0;
 };
 
 struct AccuracyResult {

@@ -68,6 +68,7 @@ struct CaseResult {
   measure::Occupancy occupancy;
   measure::Buffers buffers;
   std::uint64_t tests_done = 0;  // over all frames
+  std::uint64_t fallbacks = 0;   // over all frames
   std::optional<measure::ErrorCounts> error;
   std::string deepest_miss_light;  // name in the rig
   std::optional<measure::ShadingCounts> shading;

@@ -169,13 +169,14 @@ class Run {
     out.assigner = assigner.name;
     out.assigner_label = assigner.label();
     out.assigner_params = params_json(assigner.params);
-    out.conservative = row.conservative;
+    out.conservative = assign::is_conservative(row, assigner.params);
     out.exact = row.exact;
     out.storage = storage.name;
     out.storage_label = storage.label();
     out.occupancy = lists.occupancy;
     out.buffers = counted.buffers[place];
     out.tests_done = lists.tests_done;
+    out.fallbacks = lists.fallbacks;
     if (config_.check_accuracy) out.error = lists.error;
     if (out.error && out.error->deepest)
       out.deepest_miss_light = scene.lights[static_cast<std::size_t>(out.error->deepest->rig_index)].name;

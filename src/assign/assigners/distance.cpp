@@ -12,6 +12,7 @@
 #include "assign/assigner.h"
 #include "assign/light_test.h"
 #include "geom/tangents.h"
+#include "grid/index_range.h"
 
 namespace clusterbench::assign {
 namespace {
@@ -88,17 +89,6 @@ geom::SlopeRange slopes_in_row(const Cap& cap, const geom::SlopeRange& tangents,
   return slopes;
 }
 
-struct IndexRange {
-  int first, last;
-};
-
-// Tiles of ascending planes that a range of slopes meets.
-IndexRange columns_met(const std::vector<float>& planes, const geom::SlopeRange& slopes) {
-  const auto first = std::lower_bound(planes.begin() + 1, planes.end(), slopes.lo);
-  const auto beyond = std::upper_bound(planes.begin(), planes.end() - 1, slopes.hi);
-  return {static_cast<int>(first - planes.begin()) - 1, static_cast<int>(beyond - planes.begin()) - 1};
-}
-
 class Distance final : public Assigner {
  public:
   explicit Distance(const Params& params) : test_(params, k_roundings) {}
@@ -143,16 +133,15 @@ class Distance final : public Assigner {
       if (tiles.y_min(row) > upright.hi || tiles.y_max(row) < upright.lo) continue;
       ++tests_;
       const geom::SlopeRange slopes = slopes_in_row(cap, across, tiles.y_min(row), tiles.y_max(row));
-      if (slopes.empty()) continue;
-      const IndexRange columns = columns_met(tiles.x, slopes);
-      if (columns.first <= columns.last) add_row(columns, row, shell, light);
+      const grid::IndexRange columns = grid::intervals_touched(tiles.x, slopes.lo, slopes.hi);
+      if (!columns.empty()) add_row(columns, row, shell, light);
     }
   }
 
-  void add_row(const IndexRange& columns, int row, int shell, const TestedLight& light) {
+  void add_row(const grid::IndexRange& columns, int row, int shell, const TestedLight& light) {
     const Vec2i count = grid_->screen().tiles.count;
     const auto first = static_cast<std::uint32_t>((shell * count.y + row) * count.x + columns.first);
-    test_.add_row(light, first, static_cast<std::uint32_t>(columns.last - columns.first + 1), pairs_, tests_);
+    test_.add_row(light, first, static_cast<std::uint32_t>(columns.count()), pairs_, tests_);
   }
 
   LightTest test_;

@@ -1,0 +1,236 @@
+// The true lists of a frustum grid, and nothing else: every pair whose volume and cell share a point.
+//
+// The cells of one row (one slice, one row of tiles) that a light touches are one interval, because row ∩ volume is
+// convex. For a ball its ends come from the slopes' extremes in closed form, once with the radius grown by more than
+// single precision can lose and once shrunk: beyond the first no cell is touched, within the second every cell is, and
+// the few cells between are decided by exact arithmetic from the scene's own numbers. For a spot the interval of its
+// bounding ball is narrowed from both ends to the first cells that the cone does touch.
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "assign/assigner.h"
+#include "assign/light_test.h"
+#include "geom/row_slopes.h"
+#include "grid/index_range.h"
+
+namespace clusterbench::assign {
+namespace {
+
+using grid::IndexRange;
+
+// More than the centre's rounding (1) and the steps of row_slopes.h (12) can add up to. Twice as many would double the
+// fallbacks, which are rare; too few would lose lights.
+constexpr float k_roundings = 32.0f;
+
+IndexRange hull(const IndexRange& a, const IndexRange& b) {
+  if (a.empty() || b.empty()) return a.empty() ? b : a;
+  return {std::min(a.first, b.first), std::max(a.last, b.last)};
+}
+
+// One row of cells: its first cell's index, and what bounds it.
+struct Row {
+  std::uint32_t first_cell;
+  float y0, y1, depth0, depth1;
+};
+
+// Columns of a row that a ball touches. The answer is right for some ball whose centre and surface are off by less than
+// k_roundings.
+class RowColumns {
+ public:
+  explicit RowColumns(const grid::Tiles& tiles) : tiles_(tiles) {}
+
+  IndexRange touched(const geom::Ball& ball, const Row& row) const {
+    if (!(ball.radius > 0.0f)) return {};
+    return tiles_.orthographic ? in_box(ball, row) : in_wedge(ball, row);
+  }
+
+ private:
+  IndexRange in_wedge(const geom::Ball& ball, const Row& row) const {
+    const geom::BallFromEye<float> seen{ball.center.x, ball.center.y, -ball.center.z, ball.radius};
+    const geom::SlopeHull<float> slopes = geom::row_slopes(seen, row.y0, row.y1, {row.depth0, row.depth1});
+    return grid::intervals_touched(tiles_.x, slopes.lo, slopes.hi);
+  }
+  IndexRange in_box(const geom::Ball& ball, const Row& row) const {
+    const float depth = -ball.center.z;
+    const float gap_z = std::max({0.0f, row.depth0 - depth, depth - row.depth1});
+    const float gap_y = std::max({0.0f, row.y0 - ball.center.y, ball.center.y - row.y1});
+    const float square = ball.radius * ball.radius - gap_z * gap_z - gap_y * gap_y;
+    if (!(square >= 0.0f)) return {};
+    const float half = std::sqrt(square);
+    return grid::intervals_touched(tiles_.x, ball.center.x - half, ball.center.x + half);
+  }
+
+  const grid::Tiles& tiles_;
+};
+
+class Exact final : public Assigner {
+ public:
+  explicit Exact(const Params&) {}
+
+  void build(const grid::Grid& grid) override {
+    grid_ = &grid;
+    cell_balls_.clear();
+  }
+
+  void assign(const view::LightArrays& lights, Lists& out) override {
+    tests_ = fallbacks_ = 0;
+    if (lights.spots > 0 && cell_balls_.empty()) make_cell_balls();
+    pairs_.start(grid_->cell_count());
+    for (std::uint32_t light = 0; light < lights.size(); ++light)
+      if (!lights.is_empty(light)) lights.is_spot(light) ? add_spot(lights, light) : add_point(lights, light);
+    pairs_.finish(out);
+  }
+
+  std::uint64_t tests_done() const override { return tests_; }
+  std::uint64_t fallbacks() const override { return fallbacks_; }
+  std::size_t scratch_bytes() const override {
+    return pairs_.capacity_bytes() + cell_balls_.capacity() * sizeof(geom::Ball);
+  }
+
+ private:
+  // Decides single cells from the scene's own numbers.
+  class Judge {
+   public:
+    Judge(const grid::Grid& grid, const view::LightArrays& lights, std::uint32_t light)
+        : grid_(grid), volume_(lights.volume(light)) {}
+
+    bool touches(std::uint32_t cell) {
+      if (!filter_) filter_.emplace(volume_);
+      const geom::Cell shape = grid_.cell(cell);
+      geom::Verdict verdict = filter_->meets(shape);
+      if (verdict == geom::Verdict::open) verdict = geom::decide_meets(volume_, shape);
+      return verdict != geom::Verdict::no;
+    }
+
+   private:
+    const grid::Grid& grid_;
+    geom::LightVolume volume_;
+    std::optional<geom::LightFilter> filter_;
+  };
+
+  void make_cell_balls() {
+    cell_balls_.reserve(grid_->cell_count());
+    for (std::uint32_t cell = 0; cell < grid_->cell_count(); ++cell)
+      cell_balls_.push_back(geom::ball_around(grid_->cell(cell)));
+  }
+
+  // Calls take(row) for the rows that a ball may touch, and perhaps a few more.
+  template <class Take>
+  void each_row(const geom::Ball& ball, Take&& take) {
+    const grid::Tiles& tiles = grid_->screen().tiles;
+    const std::vector<float>& depths = grid_->screen().slices.boundaries;
+    const float depth = -ball.center.z;
+    const IndexRange slices = grid::intervals_touched(depths, depth - ball.radius, depth + ball.radius);
+    for (int slice = slices.first; slice <= slices.last; ++slice) {
+      const auto z = static_cast<std::size_t>(slice);
+      const IndexRange rows = rows_touched(ball, depths[z], depths[z + 1]);
+      for (int row = rows.first; row <= rows.last; ++row) {
+        ++tests_;
+        const auto first_cell = static_cast<std::uint32_t>((slice * tiles.count.y + row) * tiles.count.x);
+        take(Row{first_cell, tiles.y_min(row), tiles.y_max(row), depths[z], depths[z + 1]});
+      }
+    }
+  }
+
+  IndexRange rows_touched(const geom::Ball& ball, float depth0, float depth1) const {
+    const grid::Tiles& tiles = grid_->screen().tiles;
+    if (tiles.orthographic)
+      return grid::descending_intervals_touched(tiles.y, ball.center.y - ball.radius, ball.center.y + ball.radius);
+    geom::SlopeHull<float> slopes;
+    geom::add_disk(slopes, ball.center.y, -ball.center.z, ball.radius * ball.radius, depth0, depth1, 1.0f);
+    return grid::descending_intervals_touched(tiles.y, slopes.lo, slopes.hi);
+  }
+
+  void add_point(const view::LightArrays& lights, std::uint32_t light) {
+    if (std::isinf(lights.radius[light])) return pairs_.add_row(0, grid_->cell_count(), light);
+    const geom::Ball larger = lights.ball(light, k_roundings);
+    const geom::Ball smaller = lights.ball(light, -k_roundings);
+    const RowColumns columns(grid_->screen().tiles);
+    Judge judge(*grid_, lights, light);
+    each_row(larger, [&](const Row& row) {
+      const IndexRange outer = columns.touched(larger, row);
+      if (outer.empty()) return;
+      const IndexRange inner = columns.touched(smaller, row);
+      add_interval(row, hull(inner, decided(row, outer, inner, judge)), light);
+    });
+  }
+
+  // The cells of `outer` beside `inner` that are touched, from the outside in: the hull of what is found. All cells
+  // between two touched ones are.
+  IndexRange decided(const Row& row, IndexRange outer, const IndexRange& inner, Judge& judge) {
+    if (outer.first == inner.first && outer.last == inner.last) return {};
+    const auto misses = [&](int column) {
+      if (inner.holds(column)) return false;
+      ++fallbacks_;
+      return !judge.touches(row.first_cell + static_cast<std::uint32_t>(column));
+    };
+    while (!outer.empty() && misses(outer.first)) ++outer.first;
+    while (outer.last > outer.first && misses(outer.last)) --outer.last;
+    return outer;
+  }
+
+  void add_spot(const view::LightArrays& lights, std::uint32_t light) {
+    const geom::SphericalCone cone = lights.cone(light, view::k_given_roundings);
+    Judge judge(*grid_, lights, light);
+    if (std::isinf(cone.range)) return add_endless_spot(light, judge);
+    // Both hold the cone; neither holds the other.
+    const geom::Ball around = geom::bounding_ball(cone), range = lights.ball(light, k_roundings);
+    const geom::Ball larger{around.center, around.radius + k_roundings * 0x1p-24f * lights.reach[light]};
+    const RowColumns columns(grid_->screen().tiles);
+    each_row(larger, [&](const Row& row) {
+      const IndexRange seen = columns.touched(larger, row), lit = columns.touched(range, row);
+      IndexRange both{std::max(seen.first, lit.first), std::min(seen.last, lit.last)};
+      if (seen.empty() || lit.empty() || both.empty()) return;
+      const auto misses = [&](int column) {
+        const std::uint32_t cell = row.first_cell + static_cast<std::uint32_t>(column);
+        ++tests_;
+        if (!geom::cone_touches_ball(cone, cell_balls_[cell])) return true;
+        ++fallbacks_;
+        return !judge.touches(cell);
+      };
+      while (!both.empty() && misses(both.first)) ++both.first;
+      while (both.last > both.first && misses(both.last)) --both.last;
+      add_interval(row, both, light);
+    });
+  }
+
+  void add_endless_spot(std::uint32_t light, Judge& judge) {
+    fallbacks_ += grid_->cell_count();
+    for (std::uint32_t cell = 0; cell < grid_->cell_count(); ++cell)
+      if (judge.touches(cell)) pairs_.add(cell, light);
+  }
+
+  void add_interval(const Row& row, const IndexRange& columns, std::uint32_t light) {
+    if (columns.empty()) return;
+    pairs_.add_row(row.first_cell + static_cast<std::uint32_t>(columns.first),
+                   static_cast<std::uint32_t>(columns.count()), light);
+  }
+
+  const grid::Grid* grid_ = nullptr;
+  std::vector<geom::Ball> cell_balls_;
+  PairBuffer pairs_;
+  std::uint64_t tests_ = 0, fallbacks_ = 0;
+};
+
+std::unique_ptr<Assigner> make(const Params& params) {
+  return std::make_unique<Exact>(params);
+}
+
+}  // namespace
+
+extern const AssignerRow exact_row;
+const AssignerRow exact_row{
+    .name = "exact",
+    .summary = "the true lists: each row's interval in closed form, what single precision leaves open decided exactly",
+    .source = "this project",
+    .kinds = {grid::Kind::frustum},
+    .exact = true,
+    .params = {},
+    .make = make,
+};
+
+}  // namespace clusterbench::assign
