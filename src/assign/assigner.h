@@ -75,6 +75,8 @@ struct AssignerRow {
   bool conservative = true;  // never misses a true pair; a miss fails the run
   bool exact = false;        // and reports no pair that is not true
   bool orthographic = true;  // takes orthographic projections
+  // A known mistake on purpose, to show what it does: left out where nothing names it.
+  bool naive = false;
   std::vector<ParamSpec> params;
   std::unique_ptr<Assigner> (*make)(const Params& params);
 
@@ -89,5 +91,7 @@ std::span<const AssignerRow* const> assigner_rows();
 // nullptr if there is none.
 const AssignerRow* find_assigner(const std::string& name);
 std::vector<std::string> assigner_names();
+// Those that run where nothing is named: all but the naive ones.
+std::vector<std::string> standard_assigner_names();
 
 }  // namespace clusterbench::assign

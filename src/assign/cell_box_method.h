@@ -93,6 +93,27 @@ class CellAabbs {
   std::vector<geom::Box> boxes_;
 };
 
+// Ball against the six planes of the cells, made once per grid.
+//
+// Roundings: a float normal is off by 1, the three products and two sums of n·c by 3 more, the offset by 1 and the last
+// difference by 2 (both its numbers are at most |c| + r where it matters): 7.
+class CellPlanes {
+ public:
+  static constexpr float k_roundings = 7.0f;
+
+  void build(const grid::Grid& grid);
+  bool touches(const geom::Ball& ball, std::uint32_t cell) const {
+    return geom::ball_touches_planes(ball, planes_[cell].of, 6);
+  }
+  std::size_t capacity_bytes() const { return planes_.capacity() * sizeof(SixPlanes); }
+
+ private:
+  struct SixPlanes {
+    geom::Plane of[6];
+  };
+  std::vector<SixPlanes> planes_;
+};
+
 template <class CellTest>
 std::unique_ptr<Assigner> make_cell_box_method(const Params& params) {
   return std::make_unique<CellBoxMethod<CellTest>>(params);

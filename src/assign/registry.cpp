@@ -38,4 +38,11 @@ std::vector<std::string> assigner_names() {
   return names;
 }
 
+std::vector<std::string> standard_assigner_names() {
+  std::vector<std::string> names;
+  for (const AssignerRow* row : assigner_rows())
+    if (!row->naive) names.push_back(row->name);
+  return names;
+}
+
 }  // namespace clusterbench::assign

@@ -43,6 +43,7 @@ Json to_json(const assign::AssignerRow& row) {
               {"needs_depth", row.needs_depth},
               {"conservative", row.conservative},
               {"exact", row.exact},
+              {"naive", row.naive},
               {"orthographic", row.orthographic},
               {"params", to_json(row.params)}};
 }

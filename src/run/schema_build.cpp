@@ -50,7 +50,7 @@ void insert_methods(Json& properties) {
   for (const assign::StorageRow& row : assign::storage_rows())
     storages.push_back(method_schema(row.name, row.summary, row.params));
   properties["assigners"]["items"] = method_items(assign::assigner_names(), assigners);
-  properties["assigners"]["default"] = assign::assigner_names();
+  properties["assigners"]["default"] = assign::standard_assigner_names();
   properties["storages"]["items"] = method_items(assign::storage_names(), storages);
 }
 

@@ -128,7 +128,7 @@ TEST(Config, a_scene_alone_is_enough) {
   ASSERT_EQ(config.scenes.size(), 1U);
   EXPECT_EQ(config.scenes[0].path, std::filesystem::path("configs/a.glb"));
   EXPECT_EQ(config.viewports, (std::vector<Vec2i>{{1920, 1080}}));
-  EXPECT_EQ(config.assigners.size(), assign::assigner_rows().size());
+  EXPECT_EQ(config.assigners.size(), assign::standard_assigner_names().size());
   EXPECT_EQ(config.storages.size(), 1U);
   EXPECT_EQ(config.grids.size(), 5U);
 }

@@ -7,28 +7,8 @@
 namespace clusterbench::assign {
 namespace {
 
-// Roundings: a float normal is off by 1, the three products and two sums of n·c by 3 more, the offset by 1 and the last
-// difference by 2 (both its numbers are at most |c| + r where it matters): 7.
-class SixPlanes {
- public:
-  static constexpr float k_roundings = 7.0f;
+struct PlanesInExtents : CellPlanes {
   static constexpr bool k_whole_grid = false;
-
-  void build(const grid::Grid& grid) {
-    planes_.assign(grid.cell_count(), {});
-    for (std::uint32_t cell = 0; cell < grid.cell_count(); ++cell)
-      geom::outward_planes(std::get<geom::FrustumPiece>(grid.cell(cell)), planes_[cell].of);
-  }
-  bool touches(const geom::Ball& ball, std::uint32_t cell) const {
-    return geom::ball_touches_planes(ball, planes_[cell].of, 6);
-  }
-  std::size_t capacity_bytes() const { return planes_.capacity() * sizeof(CellPlanes); }
-
- private:
-  struct CellPlanes {
-    geom::Plane of[6];
-  };
-  std::vector<CellPlanes> planes_;
 };
 
 }  // namespace
@@ -40,7 +20,7 @@ const AssignerRow planes_row{
     .source = "Wicked Engine, and most tiled renderers",
     .kinds = {grid::Kind::frustum},
     .params = light_params(),
-    .make = make_cell_box_method<SixPlanes>,
+    .make = make_cell_box_method<PlanesInExtents>,
 };
 
 }  // namespace clusterbench::assign

@@ -9,4 +9,10 @@ void CellAabbs::build(const grid::Grid& grid) {
     boxes_.push_back(geom::box_around(std::get<geom::FrustumPiece>(grid.cell(cell))));
 }
 
+void CellPlanes::build(const grid::Grid& grid) {
+  planes_.assign(grid.cell_count(), {});
+  for (std::uint32_t cell = 0; cell < grid.cell_count(); ++cell)
+    geom::outward_planes(std::get<geom::FrustumPiece>(grid.cell(cell)), planes_[cell].of);
+}
+
 }  // namespace clusterbench::assign

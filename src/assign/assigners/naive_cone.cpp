@@ -1,0 +1,119 @@
+// Spots as engines have tested them, each with one mistake on purpose, in the cells of the light's extents. Points are
+// left to their cell boxes.
+
+#include <cmath>
+#include <memory>
+
+#include "assign/assigner.h"
+#include "assign/cell_box.h"
+#include "assign/cell_box_method.h"
+#include "geom/predicates.h"
+
+namespace clusterbench::assign {
+namespace {
+
+enum class Flaw { sine_from_cosine, no_range, flat_cap_ball };
+
+Flaw flaw_from(const std::string& name) {
+  if (name == "sine-from-cosine") return Flaw::sine_from_cosine;
+  return name == "no-range" ? Flaw::no_range : Flaw::flat_cap_ball;
+}
+
+// The ball through apex and rim of a cone with a flat cap: holds the sphere-capped one, and much more for wide angles.
+geom::Ball flat_cap_ball(const geom::SphericalCone& cone) {
+  const float along = cone.range / (2.0f * cone.cos_angle * cone.cos_angle);
+  return {cone.apex + along * cone.axis, along};
+}
+
+class NaiveCone final : public Assigner {
+ public:
+  explicit NaiveCone(const Params& params) : flaw_(flaw_from(params.text("flaw"))) {}
+
+  void build(const grid::Grid& grid) override {
+    grid_ = &grid;
+    cell_balls_.clear();
+    for (std::uint32_t cell = 0; cell < grid.cell_count(); ++cell)
+      cell_balls_.push_back(geom::ball_around(grid.cell(cell)));
+  }
+
+  void assign(const view::LightArrays& lights, Lists& out) override {
+    tests_ = 0;
+    pairs_.start(grid_->cell_count());
+    for (std::uint32_t light = 0; light < lights.size(); ++light)
+      if (!lights.is_empty(light)) lights.is_spot(light) ? add_spot(lights, light) : add_point(lights, light);
+    pairs_.finish(out);
+  }
+
+  std::uint64_t tests_done() const override { return tests_; }
+  std::size_t scratch_bytes() const override {
+    return pairs_.capacity_bytes() + cell_balls_.capacity() * sizeof(geom::Ball);
+  }
+
+ private:
+  void add_point(const view::LightArrays& lights, std::uint32_t light) {
+    visit(cell_box(*grid_, lights.ball(light, view::k_given_roundings + k_cell_box_roundings)), light,
+          [](std::uint32_t) { return true; });
+  }
+
+  void add_spot(const view::LightArrays& lights, std::uint32_t light) {
+    geom::SphericalCone cone = lights.cone(light, view::k_given_roundings);
+    if (flaw_ == Flaw::flat_cap_ball)
+      return visit(cell_box(*grid_, flat_cap_ball(cone)), light, [](std::uint32_t) { return true; });
+    if (flaw_ == Flaw::sine_from_cosine) cone.sin_angle = std::sqrt(1.0f - cone.cos_angle * cone.cos_angle);
+    visit(cell_box(*grid_, {cone.apex, cone.range}), light, [&](std::uint32_t cell) { return touches(cone, cell); });
+  }
+
+  bool touches(const geom::SphericalCone& cone, std::uint32_t cell) const {
+    const geom::Ball& ball = cell_balls_[cell];
+    const Vec3f v = ball.center - cone.apex;
+    const float along = glm::dot(v, cone.axis), squared = glm::dot(v, v);
+    const float across = std::sqrt(std::max(0.0f, squared - along * along));
+    if (cone.cos_angle * across - cone.sin_angle * along > ball.radius || along < -ball.radius) return false;
+    return flaw_ == Flaw::no_range || along <= cone.range + ball.radius;
+  }
+
+  template <class Keep>
+  void visit(const CellBox& box, std::uint32_t light, Keep&& keep) {
+    ++tests_;
+    if (box.empty()) return;
+    const Vec2i count = grid_->screen().tiles.count;
+    for (int z = box.first.z; z <= box.last.z; ++z)
+      for (int y = box.first.y; y <= box.last.y; ++y)
+        for (int x = box.first.x; x <= box.last.x; ++x) {
+          const auto cell = static_cast<std::uint32_t>((z * count.y + y) * count.x + x);
+          ++tests_;
+          if (keep(cell)) pairs_.add(cell, light);
+        }
+  }
+
+  Flaw flaw_;
+  const grid::Grid* grid_ = nullptr;
+  std::vector<geom::Ball> cell_balls_;
+  PairBuffer pairs_;
+  std::uint64_t tests_ = 0;
+};
+
+std::unique_ptr<Assigner> make(const Params& params) {
+  return std::make_unique<NaiveCone>(params);
+}
+
+}  // namespace
+
+extern const AssignerRow naive_cone_row;
+const AssignerRow naive_cone_row{
+    .name = "naive-cone",
+    .summary = "spots by a cone test with one mistake that engines have shipped",
+    .source = "Wicked Engine (flat-cap-ball), articles on cone culling (no-range, sine-from-cosine)",
+    .kinds = {grid::Kind::frustum},
+    .conservative = false,
+    .naive = true,
+    .params = {{.name = "flaw",
+                .summary = "sine of the angle from its cosine; no test against the range; the ball of a cone with a "
+                           "flat cap",
+                .standard = std::string("sine-from-cosine"),
+                .unit = "",
+                .choices = {"sine-from-cosine", "no-range", "flat-cap-ball"}}},
+    .make = make,
+};
+
+}  // namespace clusterbench::assign

@@ -1,0 +1,26 @@
+// Every light against the six planes of every cell, and nothing else: loses nothing, but takes every cell near whose
+// edges and corners a large ball passes.
+
+#include "assign/cell_box_method.h"
+
+namespace clusterbench::assign {
+namespace {
+
+struct PlanesEverywhere : CellPlanes {
+  static constexpr bool k_whole_grid = true;
+};
+
+}  // namespace
+
+extern const AssignerRow naive_planes_row;
+const AssignerRow naive_planes_row{
+    .name = "naive-planes",
+    .summary = "every light against the six planes of every cell, without extents",
+    .source = "many tiled renderers",
+    .kinds = {grid::Kind::frustum},
+    .naive = true,
+    .params = light_params(),
+    .make = make_cell_box_method<PlanesEverywhere>,
+};
+
+}  // namespace clusterbench::assign

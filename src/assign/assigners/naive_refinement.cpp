@@ -1,0 +1,139 @@
+// Sphere refinement with its usual mistakes: the row and the column of the centre are taken once, from the whole ball,
+// and not again after each projection; nothing is padded. Spots stand as their bounding ball.
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "assign/assigner.h"
+#include "assign/cell_box.h"
+#include "geom/predicates.h"
+
+namespace clusterbench::assign {
+namespace {
+
+// A tile plane through the eye (perspective) or along the view axis (orthographic), unit normal (across, along).
+struct TilePlane {
+  float across, along, offset;
+
+  float distance(float place, float depth) const { return across * place + along * depth + offset; }
+};
+
+std::vector<TilePlane> tile_planes(const std::vector<float>& boundaries, bool orthographic) {
+  std::vector<TilePlane> planes;
+  for (const float b : boundaries) {
+    const float length = orthographic ? 1.0f : std::sqrt(1.0f + b * b);
+    planes.push_back({1.0f / length, orthographic ? 0.0f : -b / length, orthographic ? -b : 0.0f});
+  }
+  return planes;
+}
+
+struct Remainder {
+  float x, y, depth, squared_radius;
+};
+
+class NaiveRefinement final : public Assigner {
+ public:
+  explicit NaiveRefinement(const Params&) {}
+
+  void build(const grid::Grid& grid) override {
+    grid_ = &grid;
+    columns_ = tile_planes(grid.screen().tiles.x, grid.screen().tiles.orthographic);
+    rows_ = tile_planes(grid.screen().tiles.y, grid.screen().tiles.orthographic);
+  }
+
+  void assign(const view::LightArrays& lights, Lists& out) override {
+    tests_ = 0;
+    pairs_.start(grid_->cell_count());
+    for (std::uint32_t light = 0; light < lights.size(); ++light)
+      if (!lights.is_empty(light))
+        add_ball(lights.is_spot(light) ? geom::bounding_ball(lights.cone(light, 0.0f)) : lights.ball(light, 0.0f),
+                 light);
+    pairs_.finish(out);
+  }
+
+  std::uint64_t tests_done() const override { return tests_; }
+  std::size_t scratch_bytes() const override {
+    return pairs_.capacity_bytes() + (columns_.capacity() + rows_.capacity()) * sizeof(TilePlane);
+  }
+
+ private:
+  void add_ball(const geom::Ball& ball, std::uint32_t light) {
+    const CellBox box = cell_box(*grid_, ball);
+    if (box.empty()) return;
+    const std::vector<float>& depths = grid_->screen().slices.boundaries;
+    const Remainder whole{ball.center.x, ball.center.y, -ball.center.z, ball.radius * ball.radius};
+    const Vec2i center = center_tile(whole);
+    for (int slice = box.first.z; slice <= box.last.z; ++slice) {
+      Remainder in_slice = whole;
+      const auto z = static_cast<std::size_t>(slice);
+      in_slice.depth = std::clamp(whole.depth, depths[z], depths[z + 1]);
+      in_slice.squared_radius -= (in_slice.depth - whole.depth) * (in_slice.depth - whole.depth);
+      if (in_slice.squared_radius < 0.0f) continue;
+      for (int row = box.first.y; row <= box.last.y; ++row) add_row(box, in_slice, center, slice, row, light);
+    }
+  }
+
+  // The tile of the whole ball's centre; beyond the screen's edge: the one outside.
+  Vec2i center_tile(const Remainder& ball) const {
+    Vec2i tile{-1, -1};
+    while (tile.x + 1 < static_cast<int>(columns_.size()) && column(tile.x + 1).distance(ball.x, ball.depth) >= 0.0f)
+      ++tile.x;
+    while (tile.y + 1 < static_cast<int>(rows_.size()) && row(tile.y + 1).distance(ball.y, ball.depth) <= 0.0f)
+      ++tile.y;
+    return tile;
+  }
+
+  void add_row(const CellBox& box, Remainder ball, Vec2i center, int slice, int y, std::uint32_t light) {
+    ++tests_;
+    if (y != center.y) {
+      const TilePlane& plane = y > center.y ? row(y) : row(y + 1);
+      const float away = plane.distance(ball.y, ball.depth);
+      ball.y -= away * plane.across;
+      ball.depth -= away * plane.along;
+      ball.squared_radius -= away * away;
+      if (ball.squared_radius < 0.0f) return;
+    }
+    const auto misses = [&](int x) {
+      ++tests_;
+      if (x == center.x) return false;
+      const float away = (x > center.x ? column(x) : column(x + 1)).distance(ball.x, ball.depth);
+      return away * away > ball.squared_radius;
+    };
+    int first = box.first.x, last = box.last.x;
+    while (first <= last && first < center.x && misses(first)) ++first;
+    while (last >= first && last > center.x && misses(last)) --last;
+    if (first > last) return;
+    const Vec2i count = grid_->screen().tiles.count;
+    pairs_.add_row(static_cast<std::uint32_t>((slice * count.y + y) * count.x + first),
+                   static_cast<std::uint32_t>(last - first + 1), light);
+  }
+
+  const TilePlane& column(int i) const { return columns_[static_cast<std::size_t>(i)]; }
+  const TilePlane& row(int i) const { return rows_[static_cast<std::size_t>(i)]; }
+
+  const grid::Grid* grid_ = nullptr;
+  std::vector<TilePlane> columns_, rows_;
+  PairBuffer pairs_;
+  std::uint64_t tests_ = 0;
+};
+
+std::unique_ptr<Assigner> make(const Params& params) {
+  return std::make_unique<NaiveRefinement>(params);
+}
+
+}  // namespace
+
+extern const AssignerRow naive_refinement_row;
+const AssignerRow naive_refinement_row{
+    .name = "naive-refinement",
+    .summary = "sphere refinement that does not take the centre's row and column again after each projection",
+    .source = "Persson 2015 as commonly read; Filament's froxels",
+    .kinds = {grid::Kind::frustum},
+    .conservative = false,
+    .naive = true,
+    .params = {},
+    .make = make,
+};
+
+}  // namespace clusterbench::assign
