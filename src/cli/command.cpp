@@ -29,6 +29,7 @@ ExitCode run_command_line(CLI::App& app, int argc, char** argv) {
   add_run(app, action);
   add_size(app, action);
   add_scene(app, action);
+  add_stress(app, action);
   add_list(app, action);
   add_schema(app, action);
   add_validate(app, action);

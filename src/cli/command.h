@@ -13,6 +13,7 @@ using Action = std::function<ExitCode()>;
 void add_run(CLI::App& app, Action& action);
 void add_size(CLI::App& app, Action& action);
 void add_scene(CLI::App& app, Action& action);
+void add_stress(CLI::App& app, Action& action);
 void add_list(CLI::App& app, Action& action);
 void add_schema(CLI::App& app, Action& action);
 void add_validate(CLI::App& app, Action& action);

@@ -1,12 +1,13 @@
 // `clusterbench run CONFIG|SCENE...`: plan, measure, show, write.
 
-#include <csignal>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
 
 #include "cli/command.h"
+#include "cli/output.h"
+#include "cli/stop.h"
 #include "cli/terminal.h"
 #include "core/text.h"
 #include "report/journal.h"
@@ -28,15 +29,6 @@ struct Flags {
   std::optional<int> threads;
   bool resume = false, dry_run = false, no_timing = false, quiet = false;
 };
-
-// The only state outside of functions: a signal handler can reach nothing else.
-std::atomic<bool> g_stop{false};
-std::atomic<int> g_signal{0};
-
-void on_signal(int number) {
-  g_signal = number;
-  if (g_stop.exchange(true)) std::_Exit(static_cast<int>(ExitCode::sigint));  // the second time: at once
-}
 
 bool is_scene(const std::string& path) {
   const std::string extension = fs::path(path).extension().string();
@@ -87,12 +79,7 @@ Json journal_header(const run::Config& config, const run::Plan& plan, const std:
               {"scenes", scenes},        {"filter", filter},        {"config", config.resolved}};
 }
 
-// A device or a pipe takes the result at the end; a file gets a journal.
-bool is_stream(const std::string& output) {
-  return output.empty() || output == "-" ||
-         (fs::exists(output) && !fs::is_regular_file(output) && !fs::is_directory(output));
-}
-
+// A file gets a journal; a device or a pipe takes the result at the end.
 std::unique_ptr<report::Journal> open_journal(const Flags& flags, const run::Config& config, const run::Plan& plan) {
   constexpr std::uint64_t k_bytes_per_case = 24 << 10;
   if (is_stream(flags.output)) {
@@ -103,29 +90,12 @@ std::unique_ptr<report::Journal> open_journal(const Flags& flags, const run::Con
                                            k_bytes_per_case * case_count(plan));
 }
 
-void write_stream(const std::string& output, const Json& result) {
-  std::ofstream file;
-  if (!output.empty() && output != "-") file.open(output, std::ios::binary);
-  std::ostream& out = file.is_open() ? file : std::cout;
-  out << result.dump(1) << '\n' << std::flush;
-  if (!out)
-    throw Error(output.empty() ? "standard output" : output, "", "the result could not be written", ExitCode::internal);
-}
-
-// A stream is tried with a space, which JSON ignores, before minutes go into measuring.
-void probe_stream(const std::string& output) {
-  if (output.empty() || output == "-") return;
-  std::ofstream file(output, std::ios::binary);
-  file << ' ' << std::flush;
-  if (!file) throw Error(output, "", "cannot be written");
-}
-
 ExitCode interrupted(const report::Journal* journal) {
   std::cerr << "interrupted";
   if (journal != nullptr)
     std::cerr << "; the finished cases are in " << journal->partial_path().string() << ", --resume goes on";
   std::cerr << "\n";
-  return g_signal == SIGINT ? ExitCode::sigint : ExitCode::interrupted;
+  return stopped_exit_code();
 }
 
 ExitCode report_gates(const Json& result) {
@@ -145,25 +115,24 @@ run::Listener make_listener(ProgressLine& progress, report::Journal* journal, st
 }
 
 ExitCode measure(const Flags& flags, const run::Config& config, const run::Plan& plan) {
-  if (is_stream(flags.output)) probe_stream(flags.output);
+  if (is_stream(flags.output)) probe_output(flags.output);
   const std::unique_ptr<report::Journal> journal = open_journal(flags, config, plan);
   const std::vector<Json> earlier = journal ? journal->earlier_cases() : std::vector<Json>{};
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  const std::atomic<bool>& stop = stop_on_signals();
 
   const Terminal screen = terminal();
   ProgressLine progress(screen, flags.quiet);
   const run::Result fresh =
       run::run_plan(config, plan, journal ? journal->earlier_ids() : std::vector<std::string>{},
-                    make_listener(progress, journal.get(), earlier.size(), case_count(plan)), g_stop);
+                    make_listener(progress, journal.get(), earlier.size(), case_count(plan)), stop);
   progress.clear();
-  if (g_stop) return interrupted(journal.get());
+  if (stop) return interrupted(journal.get());
 
   const Json result = report::result_to_json(fresh, earlier);
   if (journal)
     journal->finish(result);
   else
-    write_stream(flags.output, result);
+    write_output(flags.output, result);
   if (!flags.quiet) std::cerr << report::render_table(result, screen.colour);
   return report_gates(result);
 }

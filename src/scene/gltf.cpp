@@ -132,6 +132,11 @@ Camera camera_of(const tinygltf::Camera& from, int node) {
     lens.yfov_rad = from.perspective.yfov;
     lens.near_m = from.perspective.znear;
     lens.far_m = from.perspective.zfar > 0.0 ? from.perspective.zfar : std::numeric_limits<double>::infinity();
+    if (from.extras.Has("clusterbench_sides")) {
+      const tinygltf::Value sides = from.extras.Get("clusterbench_sides");
+      const auto side = [&](std::size_t i) { return sides.Get(i).GetNumberAsDouble(); };
+      lens.sides = LensSides{side(0), side(1), side(2), side(3)};
+    }
   }
   return camera;
 }

@@ -35,6 +35,17 @@ json checked_perspective(const Place& lens, std::vector<std::string>& warnings) 
   return out;
 }
 
+// An off-centre picture, an invention of this tool: see LensSides.
+void copy_sides(const Place& camera, json& out) {
+  if (!camera.has("extras") || !camera.at("extras").has("clusterbench_sides")) return;
+  const Place place = camera.at("extras").at("clusterbench_sides");
+  const std::vector<double> sides = place.numbers(4);
+  if (!(sides[0] < sides[1]) || !(sides[2] < sides[3]))
+    place.refuse("left must be less than right and bottom less than top: [left, right, bottom, top]");
+  if (out.contains("orthographic")) place.refuse("only a perspective camera can have it");
+  out["extras"]["clusterbench_sides"] = sides;
+}
+
 // A negative magnification mirrors the picture; which lights it holds is the same.
 double magnification(const Place& place, std::vector<std::string>& warnings) {
   const double number = place.number();
@@ -72,6 +83,7 @@ json checked_camera(const Place& camera, std::vector<std::string>& warnings) {
     return json(nullptr);
   }
   out["type"] = type;
+  copy_sides(camera, out);
   return out;
 }
 

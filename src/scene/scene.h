@@ -39,10 +39,20 @@ struct OrientedBox {
   Vec3d half_extents_m{0.5, 0.5, 0.5};
 };
 
+// The sides of an off-centre or jittered picture, as slopes: left < right, bottom < top.
+struct LensSides {
+  double left, right, bottom, top;
+
+  friend bool operator==(const LensSides&, const LensSides&) = default;
+};
+
 // A camera's lens as glTF gives it. The aspect ratio of a frame is its viewport's, the vertical extent is the lens's.
 struct Lens {
   bool orthographic = false;
   double yfov_rad = 0.0;              // perspective
+  // Perspective, in place of yfov and aspect ratio. glTF has no such camera; this tool reads it from the camera's
+  //   "extras": {"clusterbench_sides": [left, right, bottom, top]}
+  std::optional<LensSides> sides;
   double xmag_m = 0.0, ymag_m = 0.0;  // orthographic: half extents
   double near_m = 0.1, far_m = 0.0;   // far may be +inf (perspective without zfar)
 };
@@ -102,6 +112,9 @@ void resolve_ranges(Scene& scene, const RangeRule& rule);
 
 // World transforms of all nodes at a time (animations clamp to their first and last key).
 std::vector<Mat4d> world_transforms(const Scene& scene, double time_s);
+
+// The shortest turn (a quaternion) of -z, along which spots and cameras look, to a direction.
+Vec4d rotation_towards(const Vec3d& direction);
 
 // A point or spot light in world space at one time: what truth is computed from.
 struct WorldLight {

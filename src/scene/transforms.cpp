@@ -118,4 +118,11 @@ CameraPose camera_pose(const Scene& scene, const Camera& camera, double time_s) 
   return pose;
 }
 
+Vec4d rotation_towards(const Vec3d& direction) {
+  const Vec3d d = glm::normalize(direction);
+  if (d.z > 0.999999) return {0.0, 1.0, 0.0, 0.0};
+  const Vec4d q{d.y, -d.x, 0.0, 1.0 - d.z};
+  return q / std::sqrt(glm::dot(q, q));
+}
+
 }  // namespace clusterbench::scene

@@ -3,6 +3,9 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <string>
+
+#include "core/error.h"
 
 namespace clusterbench::view {
 namespace {
@@ -13,6 +16,13 @@ constexpr float k_infinity = std::numeric_limits<float>::infinity();
 float rounded_up(double value) {
   const auto nearest = static_cast<float>(value);
   return static_cast<double>(nearest) < value ? std::nextafter(nearest, k_infinity) : nearest;
+}
+
+bool is_finite(const scene::CameraPose& pose) {
+  double sum = std::abs(pose.eye.x) + std::abs(pose.eye.y) + std::abs(pose.eye.z);
+  for (int column = 0; column < 3; ++column)
+    for (int row = 0; row < 3; ++row) sum += std::abs(pose.view_from_world[column][row]);
+  return std::isfinite(sum);
 }
 
 void add_axis(LightArrays& out, const Mat3d& rotation, const scene::WorldLight& light) {
@@ -28,6 +38,8 @@ void add_axis(LightArrays& out, const Mat3d& rotation, const scene::WorldLight& 
 }  // namespace
 
 Projection make_projection(const scene::Lens& lens, Vec2i viewport) {
+  if (lens.sides)
+    return {false, lens.sides->left, lens.sides->right, lens.sides->bottom, lens.sides->top, lens.near_m, lens.far_m};
   const double aspect = static_cast<double>(viewport.x) / viewport.y;
   const double top = lens.orthographic ? lens.ymag_m : std::tan(lens.yfov_rad / 2.0);
   return {lens.orthographic, -top * aspect, top * aspect, -top, top, lens.near_m, lens.far_m};
@@ -66,6 +78,8 @@ geom::LightVolume volume_of(const scene::WorldLight& light, const Space& space) 
 }
 
 Frame make_frame(const scene::Scene& scene, const scene::Shot& shot, int index, Vec2i viewport) {
+  if (!is_finite(shot.pose))
+    throw Error("", "camera", "has no finite place or rotation at " + std::to_string(shot.time_s) + " s");
   Frame frame;
   frame.index = index;
   frame.time_s = shot.time_s;

@@ -21,7 +21,8 @@ struct Projection {
   friend bool operator==(const Projection&, const Projection&) = default;
 };
 
-// The vertical extent is the lens's, the horizontal one follows from the viewport's aspect ratio (square pixels).
+// The vertical extent is the lens's, the horizontal one follows from the viewport's aspect ratio (square pixels); or the
+// lens has all four sides.
 Projection make_projection(const scene::Lens& lens, Vec2i viewport);
 
 // A rigid frame of reference: local = rotation * (world - origin).
@@ -68,6 +69,7 @@ struct Frame {
   std::uint32_t points = 0;               // how many of them are points
 };
 
+// Throws Error for a camera that stands nowhere (NaN, infinity).
 Frame make_frame(const scene::Scene& scene, const scene::Shot& shot, int index, Vec2i viewport);
 
 // What a method that uses these numbers has lost before it starts, in roundings: one for the centre (each coordinate is

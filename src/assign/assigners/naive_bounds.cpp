@@ -152,7 +152,11 @@ class NaiveBounds final : public Assigner {
   void set_axis(int& first, int& last, float from, float to, int pixels, int count) const {
     const int up = (pixels + count - 1) / count;
     const int tile = flaw_ == Flaw::padded_tiles ? up : std::max(1, static_cast<int>(1.0 / grid_scale(pixels, count)));
-    const int tiles = flaw_ == Flaw::padded_tiles ? count : pixels / tile;
+    const int tiles = std::min(count, pixels / tile + (flaw_ == Flaw::padded_tiles ? 1 : 0));
+    if (tiles < 1) {  // not one whole tile fits
+      last = first - 1;
+      return;
+    }
     const auto index = [&](float at) {
       return static_cast<int>(std::clamp(at / static_cast<float>(tile), 0.0f, static_cast<float>(tiles - 1)));
     };

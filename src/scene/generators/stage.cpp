@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "scene/scene.h"
+
 namespace clusterbench::scene {
 namespace {
 
@@ -23,14 +25,6 @@ Json place_json(const Vec3d& p) {
 
 Vec4d yaw_rotation(double yaw_rad) {
   return {0.0, std::sin(yaw_rad / 2.0), 0.0, std::cos(yaw_rad / 2.0)};
-}
-
-// The shortest turn from -z to a direction.
-Vec4d turn_to(const Vec3d& direction) {
-  const Vec3d d = glm::normalize(direction);
-  if (d.z > 0.999999) return {0.0, 1.0, 0.0, 0.0};
-  const Vec4d q{d.y, -d.x, 0.0, 1.0 - d.z};
-  return q / std::sqrt(glm::dot(q, q));
 }
 
 Json rotation_json(const Vec4d& q) {
@@ -109,7 +103,7 @@ void Stage::spot(const std::string& name, const Vec3d& place, const Vec3d& direc
   ++light_count_;
   add_node({{"name", name},
             {"translation", place_json(place)},
-            {"rotation", rotation_json(turn_to(direction))},
+            {"rotation", rotation_json(rotation_towards(direction))},
             {"extensions", {{"KHR_lights_punctual", {{"light", index}}}}}},
            parent);
 }

@@ -1,0 +1,19 @@
+#pragma once
+// Where results go: standard output, a device or pipe, or a file.
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace clusterbench::cli {
+
+// "", "-", and what exists and is neither a file nor a folder.
+bool is_stream(const std::string& output);
+
+// Throws Error if nothing can be written there. A stream is tried with a space, which JSON ignores, before minutes go
+// into measuring.
+void probe_output(const std::string& output);
+
+// Throws Error if it could not be written whole.
+void write_output(const std::string& output, const nlohmann::ordered_json& result);
+
+}  // namespace clusterbench::cli

@@ -1,0 +1,30 @@
+#include "cli/stop.h"
+
+#include <csignal>
+#include <cstdlib>
+
+namespace clusterbench::cli {
+namespace {
+
+// The only state outside of functions: a signal handler can reach nothing else.
+std::atomic<bool> g_stop{false};
+std::atomic<int> g_signal{0};
+
+void on_signal(int number) {
+  g_signal = number;
+  if (g_stop.exchange(true)) std::_Exit(static_cast<int>(ExitCode::sigint));  // the second time: at once
+}
+
+}  // namespace
+
+const std::atomic<bool>& stop_on_signals() {
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  return g_stop;
+}
+
+ExitCode stopped_exit_code() {
+  return g_signal == SIGINT ? ExitCode::sigint : ExitCode::interrupted;
+}
+
+}  // namespace clusterbench::cli

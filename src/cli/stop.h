@@ -1,0 +1,16 @@
+#pragma once
+// Stopping on SIGINT and SIGTERM.
+
+#include <atomic>
+
+#include "core/error.h"
+
+namespace clusterbench::cli {
+
+// Becomes true at the first signal; the second ends the program at once.
+const std::atomic<bool>& stop_on_signals();
+
+// sigint for SIGINT, interrupted for others.
+ExitCode stopped_exit_code();
+
+}  // namespace clusterbench::cli

@@ -1,0 +1,108 @@
+// `clusterbench stress`: every assigner on every hard case.
+
+#include <iostream>
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/output.h"
+#include "cli/stop.h"
+#include "cli/terminal.h"
+#include "report/stress.h"
+
+namespace clusterbench::cli {
+namespace {
+
+struct Flags {
+  std::string output, cases = ".*", methods = ".*", failures;
+  run::StressRequest request;
+  bool quiet = false;
+};
+
+std::regex pattern_of(const std::string& text, const char* option) {
+  try {
+    return std::regex(text);
+  } catch (const std::regex_error& error) {
+    throw Error("", option, "'" + text + "' is not a regular expression: " + error.what());
+  }
+}
+
+// A name for a file: "H32-naive-bounds-flaw=log-slice".
+std::string file_name(const std::string& hard_case, const std::string& method) {
+  std::string name = hard_case + "-";
+  for (const char c : method)
+    if (c == '(' || c == ',' || c == ' ')
+      name += '-';
+    else if (c != ')')
+      name += c;
+  return name;
+}
+
+const run::StressMethod& method_of(const run::StressResult& result, const std::string& label) {
+  for (const run::StressMethod& method : result.methods)
+    if (method.label == label) return method;
+  throw Error("", "stress", "knows no method '" + label + "'", ExitCode::internal);
+}
+
+void write_replays(const std::string& folder, const run::StressResult& result) {
+  int written = 0;
+  const auto write = [&](const std::string& hard_case, const std::string& label, const std::optional<run::Loss>& loss) {
+    if (!loss) return;
+    run::write_replay(folder, file_name(hard_case, label), *loss, method_of(result, label));
+    ++written;
+  };
+  for (const run::StressCell& cell : result.cells) write(cell.hard_case, cell.method, cell.deepest);
+  for (const run::SearchResult& search : result.searches) write("H31", search.method, search.deepest);
+  std::cerr << written << " losses written to " << folder << ", each a configuration for `clusterbench run`\n";
+}
+
+ExitCode stress(const Flags& flags) {
+  run::StressRequest request = flags.request;
+  request.cases = pattern_of(flags.cases, "--cases");
+  request.methods = pattern_of(flags.methods, "--methods");
+  probe_output(flags.output);
+  const std::atomic<bool>& stop = stop_on_signals();
+  ProgressLine progress(terminal(), flags.quiet);
+  run::StressListener listener;
+  listener.on_progress = [&](const std::string& doing, double done, double whole) {
+    progress.show({static_cast<std::size_t>(done), static_cast<std::size_t>(whole), done, whole, doing});
+  };
+  const run::StressResult result = run::run_stress(request, listener, stop);
+  progress.clear();
+  if (stop) {
+    std::cerr << "interrupted\n";
+    return stopped_exit_code();
+  }
+  if (result.methods.empty()) throw Error("", "--methods", "'" + flags.methods + "' names none");
+  if (result.cases.empty() && result.searches.empty())
+    throw Error("", "--cases", "'" + flags.cases + "' names none; there are H1 to H32");
+  write_output(flags.output, report::stress_to_json(result, request));
+  if (!flags.quiet) report::print_stress(std::cerr, result);
+  if (!flags.failures.empty()) write_replays(flags.failures, result);
+  const std::vector<std::string> failures = report::stress_failures(result);
+  for (const std::string& failure : failures) std::cerr << "FAILED " << failure << "\n";
+  return failures.empty() ? ExitCode::ok : ExitCode::gate_failed;
+}
+
+}  // namespace
+
+void add_stress(CLI::App& app, Action& action) {
+  auto flags = std::make_shared<Flags>();
+  CLI::App* command =
+      app.add_subcommand("stress", "Every assigner on the hard cases for numerical stability, and a search for more");
+  command->add_option("-o,--output", flags->output, "JSON file; without it the JSON goes to standard output");
+  command->add_option("--cases", flags->cases, "Only hard cases that match this regular expression (H1 .. H32)");
+  command->add_option("--methods", flags->methods, "Only methods that contain a match of this regular expression");
+  command->add_option("--tries", flags->request.tries, "Tries of the search H31 per method; 0 = no search")
+      ->capture_default_str();
+  command->add_option("--seconds", flags->request.seconds, "End the search of a method after so many; 0 = by tries")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->add_option("--seed", flags->request.seed, "Seed of everything random")->capture_default_str();
+  command->add_option("--threads", flags->request.threads, "Threads for the truth; results do not depend on it")
+      ->check(CLI::Range(1, 1024));
+  command->add_option("--failures", flags->failures, "Folder for every loss as a scene and a configuration");
+  command->add_flag("-q,--quiet", flags->quiet, "No progress and no table");
+  command->callback([flags, &action] { action = [flags] { return stress(*flags); }; });
+}
+
+}  // namespace clusterbench::cli

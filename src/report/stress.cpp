@@ -1,0 +1,202 @@
+#include "report/stress.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <iomanip>
+#include <sstream>
+
+#include "core/text.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string percent(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g %%", 100.0 * share);
+  return text;
+}
+
+Json to_json(const std::optional<run::Loss>& loss) {
+  if (!loss) return nullptr;
+  return {{"trial", loss->trial}, {"cell", loss->cell}, {"light", loss->light}, {"depth", loss->depth}};
+}
+
+Json to_json(const run::StressCell& cell) {
+  return {{"case", cell.hard_case},
+          {"method", cell.method},
+          {"trials", cell.trials},
+          {"refused", cell.refused},
+          {"true_pairs", cell.true_pairs},
+          {"misses", cell.misses},
+          {"deepest_miss", to_json(cell.deepest)},
+          {"extra_pairs", cell.extra_pairs},
+          {"undecided", cell.undecided},
+          {"faults", cell.faults}};
+}
+
+const run::StressMethod& method_of(const run::StressResult& result, const std::string& label) {
+  return *std::find_if(result.methods.begin(), result.methods.end(),
+                       [&](const run::StressMethod& method) { return method.label == label; });
+}
+
+// Columns of the matrix: a conservative assigner with all its choices is one, of others each choice is.
+std::string column_of(const run::StressMethod& method) {
+  return method.row->conservative ? method.row->name : method.label;
+}
+
+std::vector<std::string> columns(const run::StressResult& result) {
+  std::vector<std::string> list;
+  for (const run::StressMethod& method : result.methods)
+    if (std::find(list.begin(), list.end(), column_of(method)) == list.end()) list.push_back(column_of(method));
+  return list;
+}
+
+std::string mark(const run::StressResult& result, const std::string& hard_case, const std::string& column) {
+  std::uint64_t misses = 0;
+  int trials = 0, refused = 0;
+  bool has_fault = false;
+  for (const run::StressCell& cell : result.cells) {
+    if (cell.hard_case != hard_case || column_of(method_of(result, cell.method)) != column) continue;
+    misses += cell.misses;
+    trials += cell.trials;
+    refused += cell.refused;
+    has_fault = has_fault || !cell.faults.empty();
+  }
+  if (trials == 0) return "-";
+  if (has_fault) return "FAULT";
+  if (misses > 0) return std::to_string(misses);
+  return refused == trials ? "refused" : "ok";
+}
+
+std::string in_lines(const run::StressCell& cell) {
+  std::string text = cell.hard_case + " " + cell.method + ": " + std::to_string(cell.misses) + " of " +
+                     std::to_string(cell.true_pairs) + " pairs lost";
+  if (cell.deepest)
+    text += ", the deepest " + percent(cell.deepest->depth) + " of its range inside (" + cell.deepest->trial +
+            ", cell " + std::to_string(cell.deepest->cell) + ", light " + std::to_string(cell.deepest->light) + ")";
+  return text;
+}
+
+void print_matrix(std::ostream& out, const run::StressResult& result) {
+  constexpr int k_width = 7;
+  const std::vector<std::string> names = columns(result);
+  out << "Pairs lost by hard case and method. ok: none; refused: as it should be; -: not taken by the method\n\n";
+  for (std::size_t i = 0; i < names.size(); ++i) out << std::setw(4) << i + 1 << "  " << names[i] << "\n";
+  out << "\n    ";
+  for (std::size_t i = 0; i < names.size(); ++i) out << std::setw(k_width) << i + 1;
+  out << "\n";
+  for (const run::HardCase& hard : result.cases) {
+    if (hard.trials == nullptr) continue;
+    out << std::left << std::setw(4) << hard.id << std::right;
+    for (const std::string& name : names) out << std::setw(k_width) << mark(result, hard.id, name);
+    out << "  " << hard.title << "\n";
+  }
+  std::uint64_t undecided = 0;
+  for (const run::StressCell& cell : result.cells) undecided += cell.undecided;
+  out << "\nPairs that the truth left undecided: " << undecided << "\n";
+}
+
+// Extra pairs over all cases, in % of the true ones.
+void print_extra(std::ostream& out, const run::StressResult& result) {
+  out << "\nExtra pairs over all hard cases, in % of the true ones\n";
+  for (const run::StressMethod& method : result.methods) {
+    std::uint64_t extra = 0, whole = 0;
+    for (const run::StressCell& cell : result.cells)
+      if (cell.method == method.label) {
+        extra += cell.extra_pairs;
+        whole += cell.true_pairs;
+      }
+    if (whole > 0)
+      out << "  " << method.label << ": " << percent(static_cast<double>(extra) / static_cast<double>(whole)) << "\n";
+  }
+}
+
+void print_losses(std::ostream& out, const run::StressResult& result) {
+  bool any = false;
+  for (const run::StressCell& cell : result.cells) {
+    if (cell.lost()) out << (any ? "" : "\nLosses\n") << "  " << in_lines(cell) << "\n";
+    any = any || cell.lost();
+  }
+}
+
+void print_checks(std::ostream& out, const run::StressResult& result) {
+  out << "\nChecks of the tool\n";
+  for (std::size_t i = 0; i < result.cases.size(); ++i)
+    for (const run::ToolCheck& check : result.checks[i])
+      out << "  " << std::left << std::setw(4) << result.cases[i].id << std::right
+          << (check.passed ? "ok      " : "FAILED  ") << check.what
+          << (check.detail.empty() ? "" : " (" + check.detail + ")") << "\n";
+}
+
+void print_searches(std::ostream& out, const run::StressResult& result) {
+  if (result.searches.empty()) return;
+  out << "\nH31, search for lights that touch a cell and are not listed (margin: the least padding that was found, in "
+         "roundings of 2^-24)\n";
+  for (const run::SearchResult& search : result.searches) {
+    out << "  " << search.method << ": " << search.tries << " tries, ";
+    if (search.deepest)
+      out << search.misses << " lost, the deepest " << percent(search.deepest->depth) << " of its range inside\n";
+    else
+      out << "none lost, margin " << search.least_margin << "\n";
+  }
+}
+
+}  // namespace
+
+Json stress_to_json(const run::StressResult& result, const run::StressRequest& request) {
+  Json out{{"schema_version", 1}, {"kind", "stress"}, {"seed", request.seed}, {"tries", request.tries}};
+  out["methods"] = Json::array();
+  for (const run::StressMethod& method : result.methods)
+    out["methods"].push_back(
+        {{"label", method.label}, {"conservative", method.conservative}, {"exact", method.row->exact}});
+  out["cases"] = Json::array();
+  for (std::size_t i = 0; i < result.cases.size(); ++i) {
+    Json one{{"id", result.cases[i].id}, {"title", result.cases[i].title}, {"checks", Json::array()}};
+    for (const run::ToolCheck& check : result.checks[i])
+      one["checks"].push_back({{"what", check.what}, {"passed", check.passed}, {"detail", check.detail}});
+    out["cases"].push_back(one);
+  }
+  out["results"] = Json::array();
+  for (const run::StressCell& cell : result.cells) out["results"].push_back(to_json(cell));
+  out["searches"] = Json::array();
+  for (const run::SearchResult& search : result.searches)
+    out["searches"].push_back({{"method", search.method},
+                               {"tries", search.tries},
+                               {"misses", search.misses},
+                               {"least_margin_roundings", search.least_margin},
+                               {"deepest_miss", to_json(search.deepest)}});
+  out["failures"] = stress_failures(result);
+  return out;
+}
+
+void print_stress(std::ostream& out, const run::StressResult& result) {
+  print_matrix(out, result);
+  print_losses(out, result);
+  print_extra(out, result);
+  print_checks(out, result);
+  print_searches(out, result);
+}
+
+std::vector<std::string> stress_failures(const run::StressResult& result) {
+  std::vector<std::string> failures;
+  for (const run::StressCell& cell : result.cells) {
+    for (const std::string& fault : cell.faults) failures.push_back(cell.hard_case + " " + cell.method + ": " + fault);
+    const run::StressMethod& method = method_of(result, cell.method);
+    if (method.conservative && cell.lost()) failures.push_back(in_lines(cell));
+    if (method.row->exact && cell.extra_pairs > 0)
+      failures.push_back(cell.hard_case + " " + cell.method + ": exact, but " + std::to_string(cell.extra_pairs) +
+                         " pairs too many");
+  }
+  for (std::size_t i = 0; i < result.cases.size(); ++i)
+    for (const run::ToolCheck& check : result.checks[i])
+      if (!check.passed) failures.push_back(std::string(result.cases[i].id) + ": " + check.what);
+  for (const run::SearchResult& search : result.searches)
+    if (search.deepest && method_of(result, search.method).conservative)
+      failures.push_back("H31 " + search.method + ": " + std::to_string(search.misses) + " lights lost, the deepest " +
+                         percent(search.deepest->depth) + " of its range inside");
+  return failures;
+}
+
+}  // namespace clusterbench::report

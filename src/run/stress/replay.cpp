@@ -1,0 +1,74 @@
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "run/config_grids.h"
+#include "run/stress/stress.h"
+#include "scene/write_gltf.h"
+
+namespace clusterbench::run {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+Json slices_json(const grid::Slicing& slices) {
+  Json out{{"scheme", scheme_name(slices.scheme)}};
+  if (slices.scheme == grid::Scheme::list) {
+    out["boundaries"] = slices.boundaries_m;
+    return out;
+  }
+  out["count"] = slices.count;
+  if (slices.near_m != 0.0) out["near"] = slices.near_m;
+  if (slices.scheme == grid::Scheme::exponential_first) out["first"] = slices.first_m;
+  if (slices.scheme == grid::Scheme::power) out["lambda"] = slices.lambda;
+  if (slices.far_m != 0.0) out["far"] = slices.far_m;
+  return out;
+}
+
+Json grid_json(const grid::GridSpec& spec) {
+  Json out{{"kind", grid::kind_name(spec.kind)}};
+  if (spec.kind == grid::Kind::frustum || spec.kind == grid::Kind::distance) {
+    const bool by_pixels = spec.tiles.count.x == 0;
+    const Vec2i tiles = by_pixels ? spec.tiles.pixels : spec.tiles.count;
+    out["tiles"][by_pixels ? "pixels" : "count"] = {tiles.x, tiles.y};
+    out["slices"] = slices_json(spec.slices);
+    return out;
+  }
+  out["cells"] = {spec.cells.x, spec.cells.y, spec.cells.z};
+  if (spec.kind == grid::Kind::cascades) {
+    out["levels"] = spec.levels;
+    out["finest"] = spec.finest_m;
+  }
+  if (spec.has_bounds)
+    out["bounds"] = {{"min", {spec.bounds_lo_m.x, spec.bounds_lo_m.y, spec.bounds_lo_m.z}},
+                     {"max", {spec.bounds_hi_m.x, spec.bounds_hi_m.y, spec.bounds_hi_m.z}}};
+  return out;
+}
+
+void write(const fs::path& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text << std::flush;
+  if (!file) throw Error(path.string(), "", "cannot be written");
+}
+
+}  // namespace
+
+void write_replay(const fs::path& folder, const std::string& name, const Loss& loss, const StressMethod& method) {
+  std::error_code failure;
+  fs::create_directories(folder, failure);
+  if (failure) throw Error(folder.string(), "", "cannot be made: " + failure.message());
+  Json assigner{{"name", method.row->name}};
+  for (const auto& [key, value] : method.params.values())
+    std::visit([&, &name_of = key](const auto& held) { assigner[name_of] = held; }, value);
+  const Json config{{"name", name},
+                    {"scenes", Json::array({Json{{"path", name + ".gltf"}}})},
+                    {"viewport", {loss.scene.viewport.x, loss.scene.viewport.y}},
+                    {"grids", Json::array({grid_json(loss.scene.grid)})},
+                    {"assigners", Json::array({assigner})},
+                    {"timing", {{"measure", false}}}};
+  write(folder / (name + ".gltf"), scene::to_gltf(loss.scene.scene, "clusterbench stress"));
+  write(folder / (name + ".json"), config.dump(1) + "\n");
+}
+
+}  // namespace clusterbench::run

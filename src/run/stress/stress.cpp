@@ -1,0 +1,172 @@
+#include "run/stress/stress.h"
+
+#include <algorithm>
+#include <mutex>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "measure/error.h"
+#include "run/config.h"
+
+namespace clusterbench::run {
+namespace {
+
+// A trial as all methods see it.
+struct Prepared {
+  view::Frame frame;
+  grid::Grid grid;
+  measure::Truth truth;
+  std::string refusal;  // why there is no grid
+};
+
+Prepared prepared(const Trial& trial, int threads) {
+  Prepared out;
+  try {
+    out.frame = frame_of(trial);
+    out.grid = grid_of(trial, out.frame);
+  } catch (const Error& error) {
+    out.refusal = error.what();
+    return out;
+  }
+  out.truth = measure::find_truth(out.frame, out.grid, threads);
+  return out;
+}
+
+// Ascending indices of lights that exist, in one list per cell.
+bool are_lists(const assign::Lists& lists, const Prepared& at) {
+  if (lists.begin.size() != at.grid.cell_count() + std::size_t{1}) return false;
+  for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) {
+    const auto list = lists.of(cell);
+    if (!std::is_sorted(list.begin(), list.end(), std::less_equal<>()) && list.size() > 1) return false;
+    if (!list.empty() && list.back() >= at.frame.lights.size()) return false;
+  }
+  return true;
+}
+
+void add_lists(StressCell& cell, const StressMethod& method, const Trial& trial, const Prepared& at) {
+  const auto assigner = method.row->make(method.params);
+  assigner->build(at.grid);
+  assign::Lists lists, again;
+  const view::LightArrays lights = view::lights_in(at.frame, grid::space_of(at.grid, at.frame));
+  assigner->assign(lights, lists);
+  assigner->assign(lights, again);
+  if (!are_lists(lists, at)) return cell.faults.push_back(trial.label + ": what it gave are no lists");
+  if (lists != again) cell.faults.push_back(trial.label + ": the same frame gave other lists");
+  measure::ErrorCounts counts;
+  measure::add_frame(counts, at.frame, at.grid, at.truth, lists);
+  cell.true_pairs += counts.true_pairs;
+  cell.misses += counts.false_negatives;
+  cell.extra_pairs += counts.false_positives;
+  cell.undecided += counts.undecided;
+  if (!counts.deepest || (cell.deepest && cell.deepest->depth >= counts.deepest->depth)) return;
+  cell.deepest = Loss{trial.label, counts.deepest->cell, counts.deepest->light, counts.deepest->depth, trial};
+}
+
+void add_trial(StressCell& cell, const StressMethod& method, const Trial& trial, const Prepared& at) {
+  ++cell.trials;
+  if (!at.refusal.empty()) {
+    ++cell.refused;
+    if (!trial.is_refused) cell.faults.push_back(trial.label + ": refused: " + at.refusal);
+    return;
+  }
+  if (trial.is_refused) return cell.faults.push_back(trial.label + ": should have been refused");
+  add_lists(cell, method, trial, at);
+}
+
+bool takes(const StressMethod& method, const Trial& trial) {
+  return method.row->takes(trial.grid.kind) && (method.row->orthographic || !trial.scene.cameras[0].lens.orthographic);
+}
+
+std::vector<StressCell> run_case(const HardCase& hard, const std::vector<StressMethod>& methods,
+                                 const StressRequest& request, const std::atomic<bool>& stop) {
+  std::vector<StressCell> cells;
+  for (const StressMethod& method : methods) {
+    cells.emplace_back();
+    cells.back().hard_case = hard.id;
+    cells.back().method = method.label;
+  }
+  const std::vector<Trial> trials = hard.trials == nullptr ? std::vector<Trial>{} : hard.trials(request.seed);
+  for (const Trial& trial : trials) {
+    if (stop) break;
+    const bool is_wanted = std::any_of(methods.begin(), methods.end(), [&](const auto& m) { return takes(m, trial); });
+    if (!is_wanted) continue;
+    const Prepared at = prepared(trial, request.threads);
+    for (std::size_t i = 0; i < methods.size(); ++i)
+      if (takes(methods[i], trial)) add_trial(cells[i], methods[i], trial, at);
+  }
+  std::erase_if(cells, [](const StressCell& cell) { return cell.trials == 0; });
+  return cells;
+}
+
+// One search per method, several at once on several threads.
+std::vector<SearchResult> run_searches(const std::vector<StressMethod>& methods, const StressRequest& request,
+                                       const std::function<void(const std::string& method, double done)>& on_tries,
+                                       const std::atomic<bool>& stop) {
+  std::vector<SearchResult> results(methods.size());
+  std::mutex telling;
+  double tries = 0.0;
+  parallel_ranges(methods.size(), request.threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end && !stop; ++i) {
+      std::uint64_t before = 0;
+      const auto on_progress = [&](std::uint64_t now) {
+        const std::lock_guard lock(telling);
+        tries += static_cast<double>(now - before);
+        before = now;
+        on_tries(methods[i].label, tries / static_cast<double>(request.tries));
+      };
+      results[i] = search_for_losses(methods[i], request, on_progress, stop);
+    }
+  });
+  return results;
+}
+
+std::string label_of(const assign::AssignerRow& row, const assign::Params& params) {
+  return MethodRequest{row.name, params}.label();
+}
+
+}  // namespace
+
+std::vector<StressMethod> stress_methods() {
+  std::vector<StressMethod> methods;
+  const auto add = [&](const assign::AssignerRow& row, const assign::Params& params) {
+    methods.push_back({label_of(row, params), &row, params, assign::is_conservative(row, params)});
+  };
+  for (const assign::AssignerRow* row : assign::assigner_rows()) {
+    add(*row, assign::Params(row->params));
+    for (const assign::ParamSpec& spec : row->params)
+      for (const std::string& choice : spec.choices)
+        if (assign::ParamValue(choice) != spec.standard) add(*row, assign::Params(row->params, {{spec.name, choice}}));
+  }
+  return methods;
+}
+
+StressResult run_stress(const StressRequest& request, const StressListener& listener, const std::atomic<bool>& stop) {
+  StressResult result;
+  for (const StressMethod& method : stress_methods())
+    if (std::regex_search(method.label, request.methods)) result.methods.push_back(method);
+  for (const HardCase& hard : hard_cases())
+    if (std::regex_match(hard.id, request.cases)) result.cases.push_back(hard);
+  const bool searches = request.tries > 0 && std::regex_match("H31", request.cases);
+  const double whole = static_cast<double>(result.cases.size() + (searches ? result.methods.size() : 0));
+  const auto tell = [&](const std::string& doing, double done) {
+    if (listener.on_progress) listener.on_progress(doing, done, whole);
+  };
+  double done = 0.0;
+  for (const HardCase& hard : result.cases) {
+    if (stop) break;
+    tell(std::string(hard.id) + " " + hard.title, done++);
+    result.checks.push_back(hard.checks == nullptr ? std::vector<ToolCheck>{} : hard.checks(request.seed));
+    const std::vector<StressCell> cells = run_case(hard, result.methods, request, stop);
+    result.cells.insert(result.cells.end(), cells.begin(), cells.end());
+  }
+  result.checks.resize(result.cases.size());
+  if (searches && !stop) {
+    const auto on_tries = [&](const std::string& method, double methods_done) {
+      tell("H31 " + method, done + methods_done);
+    };
+    result.searches = run_searches(result.methods, request, on_tries, stop);
+  }
+  return result;
+}
+
+}  // namespace clusterbench::run

@@ -1,0 +1,157 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+
+#include "report/stress.h"
+#include "run/config.h"
+#include "run/runner.h"
+#include "run/stress/contact.h"
+#include "run/stress/stress.h"
+
+namespace clusterbench::run {
+namespace {
+
+const std::atomic<bool> k_never{false};
+
+StressResult stressed(const std::string& cases, const std::string& methods, int threads = 1) {
+  StressRequest request;
+  request.tries = 0;
+  request.cases = std::regex(cases);
+  request.methods = std::regex(methods);
+  request.threads = threads;
+  return run_stress(request, {}, k_never);
+}
+
+StressMethod method_named(const std::string& name, const std::map<std::string, assign::ParamValue>& params = {}) {
+  const assign::AssignerRow& row = *assign::find_assigner(name);
+  const assign::Params resolved(row.params, params);
+  return {name, &row, resolved, assign::is_conservative(row, resolved)};
+}
+
+SearchResult searched(const StressMethod& method, std::uint64_t tries) {
+  StressRequest request;
+  request.tries = tries;
+  return search_for_losses(
+      method, request, [](std::uint64_t) {}, k_never);
+}
+
+TEST(HardCases, are_all_of_h1_to_h32_but_the_search) {
+  int number = 1;
+  for (const HardCase& hard : hard_cases()) {
+    if (number == 31) ++number;
+    EXPECT_EQ(hard.id, "H" + std::to_string(number++));
+    EXPECT_TRUE(hard.trials != nullptr || hard.checks != nullptr) << hard.id;
+  }
+  EXPECT_EQ(number, 33);
+}
+
+TEST(HardCases, lose_nothing_in_conservative_methods_and_name_what_naive_ones_lose) {
+  const StressResult result = stressed("H(3|4|5|20|22|30|32)", ".*");
+  EXPECT_EQ(report::stress_failures(result), std::vector<std::string>{});
+  std::set<std::string> losers;
+  for (const StressCell& cell : result.cells)
+    if (cell.hard_case == "H32" && cell.lost()) losers.insert(cell.method);
+  EXPECT_EQ(losers, (std::set<std::string>{"naive-bounds(flaw=fast-log-slice)", "naive-bounds(flaw=padded-tiles)",
+                                           "naive-refinement"}));
+}
+
+TEST(HardCases, refuse_exponential_slices_from_a_near_of_zero) {
+  for (const StressCell& cell : stressed("H12", "bounds").cells) {
+    EXPECT_EQ(cell.refused, 2) << cell.method;
+    EXPECT_TRUE(cell.faults.empty()) << cell.method;
+  }
+}
+
+TEST(HardCases, give_the_same_json_on_any_number_of_threads) {
+  StressRequest request;
+  request.tries = 500;
+  request.cases = std::regex("H(2|8|31)");
+  request.methods = std::regex("^(aabb|exact|naive-refinement)$");
+  const auto json = [&](int threads) {
+    request.threads = threads;
+    return report::stress_to_json(run_stress(request, {}, k_never), request).dump();
+  };
+  EXPECT_EQ(json(1), json(2));
+}
+
+TEST(Failures, name_a_conservative_method_that_loses_and_an_exact_one_that_adds) {
+  StressResult result = stressed("H32", "^(bounds|exact)$");
+  ASSERT_EQ(result.cells.size(), 2U);
+  EXPECT_TRUE(report::stress_failures(result).empty());
+  result.cells[0].misses = 3;
+  result.cells[1].extra_pairs = 1;
+  EXPECT_EQ(report::stress_failures(result).size(), 2U);
+}
+
+TEST(Contacts, lie_on_their_cell_and_a_ball_against_them_touches_it_and_no_more) {
+  for (const grid::GridSpec& spec : grids_of_every_kind()) {
+    const Trial trial = Rig().point({0, 0, -60}, 60).on(spec);
+    const view::Frame frame = frame_of(trial);
+    const grid::Grid grid = grid_of(trial, frame);
+    SplitMix64 random(4);
+    for (int i = 0; i < 300; ++i) {
+      const geom::Cell cell = grid.cell(random_cell(grid, random));
+      const Contact contact = random_contact(cell, random);
+      const double range = random.between(0.5, 5.0);
+      geom::LightVolume light;
+      light.apex.position = contact.place + range * contact.outward;
+      const double slack = 1e-9 * (glm::length(light.apex.position) + range);
+      const auto meets = [&] {
+        const geom::Verdict verdict = geom::filter_meets(light, cell);
+        return verdict == geom::Verdict::open ? geom::decide_meets(light, cell) : verdict;
+      };
+      light.range = range + slack;
+      EXPECT_EQ(meets(), geom::Verdict::yes) << spec.name() << " contact " << i;
+      light.range = range - slack;
+      EXPECT_EQ(meets(), geom::Verdict::no) << spec.name() << " contact " << i;
+    }
+  }
+}
+
+TEST(Search, finds_the_losses_of_a_method_without_its_padding) {
+  for (const char* name : {"bounds", "aabb", "sphere-refinement", "distance", "world-grid"}) {
+    const SearchResult bare = searched(method_named(name, {{"inflation", 0.0}}), 12000);
+    EXPECT_GT(bare.misses, 0U) << name;
+    ASSERT_TRUE(bare.deepest) << name;
+    EXPECT_LT(bare.deepest->depth, 1e-3) << name;
+    EXPECT_FALSE(searched(method_named(name), 12000).deepest) << name;
+  }
+}
+
+TEST(Search, finds_how_deep_an_uncentred_refinement_loses_lights) {
+  const SearchResult found = searched(method_named("naive-refinement"), 6000);
+  ASSERT_TRUE(found.deepest);
+  EXPECT_GT(found.deepest->depth, 0.01);
+}
+
+TEST(Search, ends_after_its_tries) {
+  const SearchResult found = searched(method_named("bounds"), 1000);
+  EXPECT_GE(found.tries, 1000U);
+  EXPECT_LT(found.tries, 1100U);
+}
+
+// A loss that stress writes is a loss when `run` reads it.
+TEST(Replay, reproduces_the_loss) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "clusterbench_replay_test";
+  std::filesystem::remove_all(folder);
+  const StressMethod naive = method_named("naive-refinement");
+  std::vector<Loss> losses{*searched(naive, 6000).deepest};
+  for (const StressCell& cell : stressed("H(2|13|22|32)", "naive-refinement").cells)
+    if (cell.deepest) losses.push_back(*cell.deepest);
+  ASSERT_GE(losses.size(), 4U);
+  for (std::size_t i = 0; i < losses.size(); ++i) {
+    const std::string name = "loss" + std::to_string(i);
+    write_replay(folder, name, losses[i], naive);
+    const Config config = load_config(folder / (name + ".json"));
+    const Result result = run_plan(config, make_plan(config, ""), {}, {}, k_never);
+    ASSERT_EQ(result.cases.size(), 1U);
+    ASSERT_TRUE(result.cases[0].error && result.cases[0].error->deepest) << losses[i].trial;
+    EXPECT_EQ(result.cases[0].error->deepest->cell, losses[i].cell) << losses[i].trial;
+    EXPECT_NEAR(result.cases[0].error->deepest_miss, losses[i].depth, 1e-9) << losses[i].trial;
+  }
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace clusterbench::run
