@@ -5,12 +5,6 @@
 namespace clusterbench::measure {
 namespace {
 
-double ratio_to_true(std::uint64_t count, std::uint64_t true_pairs) {
-  if (count == 0) return 0.0;
-  if (true_pairs == 0) return std::numeric_limits<double>::quiet_NaN();
-  return static_cast<double>(count) / static_cast<double>(true_pairs);
-}
-
 void add_miss(ErrorCounts& counts, const view::Frame& frame, const grid::Grid& grid, std::uint32_t cell,
               std::uint32_t light) {
   ++counts.false_negatives;
@@ -22,11 +16,17 @@ void add_miss(ErrorCounts& counts, const view::Frame& frame, const grid::Grid& g
 
 }  // namespace
 
+double ratio_to_true(double excess, std::uint64_t true_count) {
+  if (excess == 0.0) return 0.0;
+  if (true_count == 0) return std::numeric_limits<double>::quiet_NaN();
+  return excess / static_cast<double>(true_count);
+}
+
 double ErrorCounts::excess_ratio() const {
-  return ratio_to_true(false_positives, true_pairs);
+  return ratio_to_true(static_cast<double>(false_positives), true_pairs);
 }
 double ErrorCounts::miss_ratio() const {
-  return ratio_to_true(false_negatives, true_pairs);
+  return ratio_to_true(static_cast<double>(false_negatives), true_pairs);
 }
 
 void add_frame(ErrorCounts& counts, const view::Frame& frame, const grid::Grid& grid, const Truth& truth,

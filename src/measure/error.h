@@ -17,6 +17,9 @@ struct Miss {
   double depth = 0.0;       // 1 - d/r: how far inside its range the light is lost
 };
 
+// excess / true_count: 0 when the excess is 0, NaN when only the true count is.
+double ratio_to_true(double excess, std::uint64_t true_count);
+
 struct ErrorCounts {
   std::uint64_t true_pairs = 0, reported_pairs = 0, false_positives = 0, false_negatives = 0;
   std::uint64_t filter_decided = 0, exact_decided = 0, undecided = 0;
