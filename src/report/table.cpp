@@ -1,12 +1,10 @@
 #include "report/table.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
-#include <cmath>
-#include <cstdio>
 #include <set>
 #include <vector>
+
+#include "report/columns.h"
 
 namespace clusterbench::report {
 namespace {
@@ -17,47 +15,14 @@ constexpr const char* k_red = "\033[31m";
 constexpr const char* k_bold = "\033[1m";
 constexpr const char* k_plain = "\033[0m";
 
-constexpr std::array<const char*, 11> k_headings{"",       "assigner", "assign us", "ns/pair", "floor",  "pairs",
-                                                 "excess", "missed",   "p99",       "bytes",   "entries"};
-// Names in a scene file may hold anything; a terminal must not obey them.
-std::string shown(std::string name) {
-  for (char& c : name)
-    if (std::iscntrl(static_cast<unsigned char>(c)) != 0) c = '?';
-  return name;
-}
-
-using Cells = std::array<std::string, k_headings.size()>;
+const Cells k_headings{"",       "assigner", "assign us", "ns/pair", "floor",  "pairs",
+                       "excess", "missed",   "p99",       "bytes",   "entries"};
 
 struct Line {
   Cells cells;
   bool has_failed = false;
   double sort_key = 0.0;
 };
-
-std::string text(const char* format, double value) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, format, value);
-  return buffer;
-}
-
-// The number at a pointer in a chosen format; "-" where there is none.
-std::string number_text(const Json& one, const char* pointer, const char* format, double scale = 1.0) {
-  const Json::json_pointer place(pointer);
-  if (!one.contains(place) || !one[place].is_number()) return "-";
-  return text(format, scale * one[place].get<double>());
-}
-
-// Bytes and counts as people say them: 831, 12.3k, 4.56M.
-std::string short_count(double value) {
-  if (value < 10000.0) return text("%.0f", value);
-  if (value < 1e6) return text("%.1fk", value / 1e3);
-  return text("%.2fM", value / 1e6);
-}
-
-std::string short_count(const Json& one, const char* pointer) {
-  const Json::json_pointer place(pointer);
-  return one.contains(place) && one[place].is_number() ? short_count(one[place].get<double>()) : "-";
-}
 
 std::string time_text(const Json& one) {
   const Json::json_pointer place("/timing/assign_ns/median");
@@ -100,50 +65,6 @@ Line line_of(const Json& one, bool is_on_front, bool names_storage) {
   line.has_failed = has_failed(one);
   line.sort_key = sort_key(one);
   return line;
-}
-
-using Widths = std::array<std::size_t, k_headings.size()>;
-
-Widths widths_of(const std::vector<Line>& lines) {
-  Widths widths{};
-  for (std::size_t column = 0; column < k_headings.size(); ++column) {
-    widths[column] = std::string(k_headings[column]).size();
-    for (const Line& line : lines) widths[column] = std::max(widths[column], line.cells[column].size());
-  }
-  widths[0] = 1;
-  return widths;
-}
-
-// The first two columns to the left, numbers to the right.
-std::string aligned(const Cells& cells, const Widths& widths) {
-  std::string row = "  ";
-  for (std::size_t column = 0; column < cells.size(); ++column) {
-    const std::string padding(widths[column] - cells[column].size(), ' ');
-    row += column < 2 ? cells[column] + padding : padding + cells[column];
-    row += column == 0 ? " " : "  ";
-  }
-  while (!row.empty() && row.back() == ' ') row.pop_back();
-  return row + "\n";
-}
-
-Cells headings() {
-  Cells cells;
-  for (std::size_t column = 0; column < cells.size(); ++column) cells[column] = k_headings[column];
-  return cells;
-}
-
-// What cases of one block have in common: camera, viewport and grid.
-std::string block_of(const Json& one) {
-  const std::string viewport = one["viewport"][0].dump() + "x" + one["viewport"][1].dump();
-  return one["grid"]["name"].get<std::string>() + ", camera " + shown(one["camera"]) + ", " + viewport;
-}
-
-std::vector<std::string> blocks_of(const Json& cases, const Json& scene) {
-  std::vector<std::string> blocks;
-  for (const Json& one : cases)
-    if (one["scene"] == scene["name"] && std::find(blocks.begin(), blocks.end(), block_of(one)) == blocks.end())
-      blocks.push_back(block_of(one));
-  return blocks;
 }
 
 std::set<std::string> ids_on_front(const Json& result) {
@@ -212,8 +133,10 @@ std::string render_table(const Json& result, bool colour) {
           lines.push_back(line_of(one, on_front.contains(one["id"].get<std::string>()), names_storage));
       std::stable_sort(lines.begin(), lines.end(),
                        [](const Line& a, const Line& b) { return a.sort_key < b.sort_key; });
-      const Widths widths = widths_of(lines);
-      out += " " + block + "\n" + aligned(headings(), widths);
+      std::vector<Cells> rows{k_headings};
+      for (const Line& line : lines) rows.push_back(line.cells);
+      const std::vector<std::size_t> widths = widths_of(rows);
+      out += " " + block + "\n" + aligned(k_headings, widths);
       for (const Line& line : lines)
         out += line.has_failed && colour ? k_red + aligned(line.cells, widths) + k_plain : aligned(line.cells, widths);
     }

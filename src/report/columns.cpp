@@ -1,0 +1,76 @@
+#include "report/columns.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string short_count(double value) {
+  if (value < 10000.0) return text("%.0f", value);
+  if (value < 1e6) return text("%.1fk", value / 1e3);
+  return text("%.2fM", value / 1e6);
+}
+
+}  // namespace
+
+std::vector<std::size_t> widths_of(const std::vector<Cells>& rows) {
+  std::vector<std::size_t> widths(rows.front().size(), 0);
+  for (const Cells& row : rows)
+    for (std::size_t column = 0; column < row.size(); ++column)
+      widths[column] = std::max(widths[column], row[column].size());
+  widths[0] = 1;
+  return widths;
+}
+
+std::string aligned(const Cells& cells, const std::vector<std::size_t>& widths) {
+  std::string row = "  ";
+  for (std::size_t column = 0; column < cells.size(); ++column) {
+    const std::string padding(widths[column] - cells[column].size(), ' ');
+    row += column < 2 ? cells[column] + padding : padding + cells[column];
+    row += column == 0 ? " " : "  ";
+  }
+  while (!row.empty() && row.back() == ' ') row.pop_back();
+  return row + "\n";
+}
+
+std::string shown(std::string name) {
+  for (char& c : name)
+    if (std::iscntrl(static_cast<unsigned char>(c)) != 0) c = '?';
+  return name;
+}
+
+std::string text(const char* format, double value) {
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, format, value);
+  return buffer;
+}
+
+std::string number_text(const Json& one, const char* pointer, const char* format, double scale) {
+  const Json::json_pointer place(pointer);
+  if (!one.contains(place) || !one[place].is_number()) return "-";
+  return text(format, scale * one[place].get<double>());
+}
+
+std::string short_count(const Json& one, const char* pointer) {
+  const Json::json_pointer place(pointer);
+  return one.contains(place) && one[place].is_number() ? short_count(one[place].get<double>()) : "-";
+}
+
+std::string block_of(const Json& one) {
+  const std::string viewport = one["viewport"][0].dump() + "x" + one["viewport"][1].dump();
+  return one["grid"]["name"].get<std::string>() + ", camera " + shown(one["camera"]) + ", " + viewport;
+}
+
+std::vector<std::string> blocks_of(const Json& cases, const Json& scene) {
+  std::vector<std::string> blocks;
+  for (const Json& one : cases)
+    if (one["scene"] == scene["name"] && std::find(blocks.begin(), blocks.end(), block_of(one)) == blocks.end())
+      blocks.push_back(block_of(one));
+  return blocks;
+}
+
+}  // namespace clusterbench::report

@@ -1,0 +1,31 @@
+#pragma once
+// Columns of text for people, and what all tables take from a result in the same way.
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace clusterbench::report {
+
+using Cells = std::vector<std::string>;  // one line: a mark, a name, then numbers
+
+// The widest text of each column; the first column is one character wide. All rows have as many cells.
+std::vector<std::size_t> widths_of(const std::vector<Cells>& rows);
+// The first two columns to the left, numbers to the right.
+std::string aligned(const Cells& cells, const std::vector<std::size_t>& widths);
+
+// Names in a scene file may hold anything; a terminal must not obey them.
+std::string shown(std::string name);
+// One number by a printf format.
+std::string text(const char* format, double value);
+// The number at a pointer in a chosen format; "-" where there is none.
+std::string number_text(const nlohmann::ordered_json& one, const char* pointer, const char* format, double scale = 1.0);
+// Bytes and counts as people say them: 831, 12.3k, 4.56M; "-" where there is none.
+std::string short_count(const nlohmann::ordered_json& one, const char* pointer);
+
+// What cases of one block have in common: camera, viewport and grid.
+std::string block_of(const nlohmann::ordered_json& one);
+// The blocks of a scene in the order of its cases.
+std::vector<std::string> blocks_of(const nlohmann::ordered_json& cases, const nlohmann::ordered_json& scene);
+
+}  // namespace clusterbench::report
