@@ -5,13 +5,12 @@
 #include <cstdio>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "scene/animation.h"
 
 namespace clusterbench::scene {
 namespace {
-
-constexpr double k_degrees_per_rad = 180.0 / 3.14159265358979323846;
 
 // A rotation as a unit quaternion x, y, z, w.
 Vec4d quaternion_of(const Mat3d& rotation) {
@@ -89,10 +88,9 @@ std::vector<Shot> drifting_shots(const Shot& start, const FineSteps& steps) {
 
 std::string drift_text(const FineSteps& steps) {
   char text[160];
-  std::snprintf(
-      text, sizeof text,
-      "the camera stands still: a made drift of %g mm forward and %g degrees to the right per step, lights held",
-      steps.largest_move_m * 1e3, steps.largest_turn_rad * k_degrees_per_rad);
+  std::snprintf(text, sizeof text,
+                "standing camera, made to drift %g mm forward and %g degrees to the right per step; lights held",
+                steps.largest_move_m * 1e3, glm::degrees(steps.largest_turn_rad));
   return text;
 }
 
