@@ -139,11 +139,18 @@ std::vector<Vec2i> viewports(const Json& list, const JsonText& text) {
   return out;
 }
 
+std::optional<StabilityRequest> stability_request(const Json& stability) {
+  if (stability.is_null()) return std::nullopt;
+  return StabilityRequest{stability["steps"].get<int>(), stability["step_mm"].get<double>(),
+                          stability["step_deg"].get<double>(), stability["window"].get<int>()};
+}
+
 void read_settings(const Json& document, Config& config) {
   config.threads = document["threads"].get<int>();
   config.seed = document["seed"].get<std::uint64_t>();
   config.check_accuracy = document["accuracy"]["check"].get<bool>();
   config.shading_samples = document["shading"]["samples"].get<int>();
+  config.stability = stability_request(document["stability"]);
   const Json& timing = document["timing"];
   config.timing = {timing["measure"].get<bool>(), timing["rounds"].get<int>(), timing["min_time_ms"].get<double>(),
                    timing["frames"].get<int>()};

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,14 @@ struct TimingRequest {
   int frames = 8;             // evenly spaced frames that are timed; 0 = all
 };
 
+// How lists change along a finely sampled piece of the path.
+struct StabilityRequest {
+  int steps = 200;
+  double step_mm = 1.0;    // largest move of the eye in a step
+  double step_deg = 0.01;  // largest turn of the view in a step
+  int window = 8;          // a pair that changes back within so many steps flickers
+};
+
 struct Config {
   std::string name;
   std::filesystem::path file;  // "" = made from scenes on the command line
@@ -48,7 +57,8 @@ struct Config {
   int threads = 1;
   std::uint64_t seed = 1;
   bool check_accuracy = true;
-  int shading_samples = 1024;  // per frame; 0 = off
+  int shading_samples = 1024;                 // per frame; 0 = off
+  std::optional<StabilityRequest> stability;  // without: not measured
   TimingRequest timing;
   measure::AllocationRule allocation;
   nlohmann::json resolved;  // the configuration with all defaults, as the result carries it

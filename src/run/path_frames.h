@@ -12,6 +12,11 @@ class PathFrames {
  public:
   PathFrames(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport);
 
+  // The frames of another path in this path's grids, which follow from the lights over this path. `other` outlives
+  // them.
+  PathFrames along(const scene::CameraPath& other) const { return {*this, other}; }
+
+  const scene::CameraPath& camera_path() const { return path_; }
   int count() const { return static_cast<int>(path_.shots.size()); }
   view::Frame frame(int index) const;
   grid::GridInputs inputs(const grid::GridSpec& spec, const view::Frame& frame) const;
@@ -19,6 +24,14 @@ class PathFrames {
   double far_m() const { return far_m_; }
 
  private:
+  PathFrames(const PathFrames& whole, const scene::CameraPath& path)
+      : scene_(whole.scene_),
+        path_(path),
+        viewport_(whole.viewport_),
+        rig_lo_(whole.rig_lo_),
+        rig_hi_(whole.rig_hi_),
+        far_m_(whole.far_m_) {}
+
   const scene::Scene& scene_;
   const scene::CameraPath& path_;
   Vec2i viewport_;

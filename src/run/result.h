@@ -13,6 +13,7 @@
 #include "measure/error.h"
 #include "measure/occupancy.h"
 #include "measure/shading.h"
+#include "measure/stability.h"
 #include "measure/timing.h"
 
 namespace clusterbench::run {
@@ -56,6 +57,18 @@ struct TimingResult {
   int frames_timed = 0;
 };
 
+// One method's lists along a finely sampled piece of the path, beside the true lists along the same piece.
+struct StabilityResult {
+  measure::Churn method, truth;
+  int window = 1;                       // steps within which a change back is a flicker
+  double step_m = 0.0, step_deg = 0.0;  // largest move and turn of the camera in one step
+  int from_frame = 0;                   // of the path
+  bool is_drift = false;                // the camera stands still and was moved artificially
+  std::string path;                     // one line: where the steps come from
+  int grids = 0;                        // made along the piece; with more than one, cells themselves move
+  std::uint64_t undecided = 0;          // pairs of the truth over all steps; counted as true
+};
+
 struct CaseResult {
   std::string id, name, scene, camera;
   Vec2i viewport{0, 0};
@@ -72,6 +85,7 @@ struct CaseResult {
   std::optional<measure::ErrorCounts> error;
   std::string deepest_miss_light;  // name in the rig
   std::optional<measure::ShadingCounts> shading;
+  std::optional<StabilityResult> stability;
   std::optional<TimingResult> timing;
 };
 

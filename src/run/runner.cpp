@@ -7,6 +7,7 @@
 #include "run/accuracy_pass.h"
 #include "run/grid_facts.h"
 #include "run/path_frames.h"
+#include "run/stability_pass.h"
 #include "run/timing_pass.h"
 
 namespace clusterbench::run {
@@ -48,10 +49,10 @@ SceneResult scene_result(const SceneData& data, const scene::RangeRule& rule) {
   return out;
 }
 
-// An estimate of work in nanoseconds, only for the time that is left.
-double accuracy_cost(const Config& config, const GroupPlan& group, std::size_t lights, int frames) {
+// An estimate of work in nanoseconds, only for the time that is left: truth, samples and lists of some frames.
+double list_cost(const Config& config, const GroupPlan& group, std::size_t lights, int frames, int samples) {
   constexpr double k_ns_per_light = 2000.0, k_ns_per_brute_pair = 3.0, k_cells = 8000.0, k_ns_per_sample_light = 5.0;
-  double per_frame = static_cast<double>(lights) * (k_ns_per_light + k_ns_per_sample_light * config.shading_samples);
+  double per_frame = static_cast<double>(lights) * (k_ns_per_light + k_ns_per_sample_light * samples);
   for (const std::size_t assigner : assigners_of(group))
     per_frame += config.assigners[assigner].name == "brute-force"
                      ? static_cast<double>(lights) * k_cells * k_ns_per_brute_pair
@@ -74,7 +75,7 @@ class Run {
       progress_.cases_total += group.cases.size();
       progress_.cases_done += group.cases.size() - left.cases.size();
       if (left.cases.empty()) continue;
-      progress_.cost_total += accuracy_cost_of(left) + timing_cost(config, left);
+      progress_.cost_total += accuracy_cost_of(left) + stability_cost_of(left) + timing_cost(config, left);
     }
   }
 
@@ -107,8 +108,13 @@ class Run {
   }
 
   double accuracy_cost_of(const GroupPlan& group) const {
-    return accuracy_cost(config_, group, plan_.scenes[group.scene].scene.lights.size(),
-                         static_cast<int>(path_of(group).shots.size()));
+    return list_cost(config_, group, plan_.scenes[group.scene].scene.lights.size(),
+                     static_cast<int>(path_of(group).shots.size()), config_.shading_samples);
+  }
+
+  double stability_cost_of(const GroupPlan& group) const {
+    if (!config_.stability) return 0.0;
+    return list_cost(config_, group, plan_.scenes[group.scene].scene.lights.size(), config_.stability->steps, 0);
   }
 
   void tell(const GroupPlan& group, const char* stage, double cost) {
@@ -135,6 +141,13 @@ class Run {
     const AccuracyResult counted = accuracy_pass(
         config_, group, path, [&](int) { tell(group, "truth and counts", per_frame); }, stop_);
     if (!counted.is_complete) return;
+    std::vector<StabilityResult> stabilities;
+    if (config_.stability) {
+      const double cost = stability_cost_of(group);
+      stabilities = stability_pass(
+          config_, group, path, [&](double share) { tell(group, "stability", cost * share); }, stop_);
+      if (stabilities.empty()) return;
+    }
     std::vector<TimingResult> timings;
     if (config_.timing.measure) {
       const double per_round = timing_cost(config_, group) / config_.timing.rounds;
@@ -144,6 +157,7 @@ class Run {
     }
     for (std::size_t i = 0; i < group.cases.size(); ++i) {
       CaseResult one = case_result(group.cases[i], path.count(), counted, i);
+      if (!stabilities.empty()) one.stability = stabilities[i];
       if (!timings.empty()) one.timing = timings[i];
       ++progress_.cases_done;
       if (listener_.on_case) listener_.on_case(one);

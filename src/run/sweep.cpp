@@ -83,14 +83,18 @@ Json identity(const SceneRequest& request, const scene::Scene& scene) {
 // Settings that change what a case counts; timing and threads do not.
 std::string case_id(const Config& config, const SceneData& data, const CasePlan& plan) {
   const Vec2i viewport = config.viewports[plan.viewport];
-  const Json all{{"scene", identity(config.scenes[plan.scene], data.scene)},
-                 {"camera", {data.paths[plan.camera].camera, plan.camera}},
-                 {"viewport", {viewport.x, viewport.y}},
-                 {"grid", identity(config.grids[plan.grid])},
-                 {"assigner", identity(config.assigners[plan.assigner])},
-                 {"storage", identity(config.storages[plan.storage])},
-                 {"seed", config.seed},
-                 {"shading_samples", config.shading_samples}};
+  Json all{{"scene", identity(config.scenes[plan.scene], data.scene)},
+           {"camera", {data.paths[plan.camera].camera, plan.camera}},
+           {"viewport", {viewport.x, viewport.y}},
+           {"grid", identity(config.grids[plan.grid])},
+           {"assigner", identity(config.assigners[plan.assigner])},
+           {"storage", identity(config.storages[plan.storage])},
+           {"seed", config.seed},
+           {"shading_samples", config.shading_samples}};
+  if (config.stability) {
+    const StabilityRequest& stability = *config.stability;
+    all["stability"] = {stability.steps, stability.step_mm, stability.step_deg, stability.window};
+  }
   constexpr std::size_t k_digits = 12;
   return sha256_hex(all.dump()).substr(0, k_digits);
 }

@@ -53,13 +53,21 @@ const Broken k_broken[] = {
      "max_range"},
     {"{\"scenes\": [\"a.glb\"],\n  // comment\n  \"thread\": 1}",
      "3:3 /thread: unknown key 'thread' (did you mean 'threads'?), allowed: $schema, accuracy, allocation, assigners, "
-     "grids, name, scenes, seed, shading, storages, threads, timing, viewport, viewports"},
+     "grids, name, scenes, seed, shading, stability, storages, threads, timing, viewport, viewports"},
     {R"({"scenes": ["a.glb"], "threads": 0})", "1:34 /threads: found 0, allowed: an integer from 1 to 1024"},
     {R"({"scenes": ["a.glb"], "threads": "2"})", "1:34 /threads: found '2', allowed: an integer from 1 to 1024"},
     {R"({"scenes": ["a.glb"], "seed": 1.5})", "1:31 /seed: found 1.5, allowed: an integer from 0 to 9007199254740991"},
     {R"({"scenes": ["a.glb"], "accuracy": {"check": 1}})", "1:45 /accuracy/check: found 1, allowed: true or false"},
     {R"({"scenes": ["a.glb"], "allocation": {"margin": 0.5}})",
      "1:48 /allocation/margin: found 0.5, allowed: a number from 1 to 1000"},
+    {R"({"scenes": ["a.glb"], "stability": {"steps": 0}})",
+     "1:46 /stability/steps: found 0, allowed: an integer from 1 to 100000"},
+    {R"({"scenes": ["a.glb"], "stability": {"step_mm": 0}})",
+     "1:48 /stability/step_mm: found 0, allowed: a number from 0.001 to 1000"},
+    {R"({"scenes": ["a.glb"], "stability": {"step_degrees": 1}})",
+     "1:37 /stability/step_degrees: unknown key 'step_degrees' (did you mean 'step_deg'?), allowed: step_deg, step_mm, "
+     "steps, window"},
+    {R"({"scenes": ["a.glb"], "stability": true})", "1:36 /stability: found true, allowed: null or an object"},
     {R"({"scenes": ["a.glb"], "viewport": [0, 5]})", "1:36 /viewport/0: found 0, allowed: an integer from 1 to 32768"},
     {R"({"scenes": ["a.glb"], "viewport": [1, 2], "viewports": [[1, 2]]})",
      "1:23 /viewport: viewport and viewports exclude each other"},
@@ -162,6 +170,22 @@ TEST(Config, defaults_of_the_schema_agree_with_the_defaults_of_the_code) {
   EXPECT_EQ(config.grids[2].has_bounds, standard.has_bounds);
 }
 
+TEST(Config, stability_is_measured_only_where_it_is_asked_for) {
+  EXPECT_FALSE(parsed("").stability);
+  const Config config = parsed(R"(, "stability": {})");
+  ASSERT_TRUE(config.stability);
+  const StabilityRequest plain;
+  EXPECT_EQ(config.stability->steps, plain.steps);
+  EXPECT_EQ(config.stability->step_mm, plain.step_mm);
+  EXPECT_EQ(config.stability->step_deg, plain.step_deg);
+  EXPECT_EQ(config.stability->window, plain.window);
+  const Config own = parsed(R"(, "stability": {"steps": 7, "step_mm": 0.5, "step_deg": 0.25, "window": 3})");
+  EXPECT_EQ(own.stability->steps, 7);
+  EXPECT_EQ(own.stability->step_mm, 0.5);
+  EXPECT_EQ(own.stability->step_deg, 0.25);
+  EXPECT_EQ(own.stability->window, 3);
+}
+
 TEST(Config, axes_expand_into_their_product) {
   EXPECT_EQ(grids_of(R"({"tiles": {"pixels": [[32, 32], [64, 64]]},
                          "slices": {"scheme": ["linear", "exponential"], "count": [8, 16, 32]}})"),
@@ -198,7 +222,8 @@ TEST(Config, a_path_is_relative_to_the_file_and_may_name_an_environment_variable
 
 TEST(Config, the_resolved_configuration_is_a_configuration_that_means_the_same) {
   for (const char* rest :
-       {"", R"(, "viewport": [640, 480], "grids": [{"slices": {"scheme": ["linear", "power"], "near": 1}}])",
+       {"", R"(, "stability": {"steps": 5})",
+        R"(, "viewport": [640, 480], "grids": [{"slices": {"scheme": ["linear", "power"], "near": 1}}])",
         R"(, "grids": [{"kind": "world", "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]}}], "assigners": ["aabb"])"}) {
     const Config config = parsed(rest);
     const Config again = parse_config(config.resolved.dump(), config.file);
@@ -212,7 +237,7 @@ TEST(Config, the_resolved_configuration_is_a_configuration_that_means_the_same) 
 
 TEST(Config, the_committed_configurations_are_valid_for_reader_and_schema) {
   setenv("CLUSTERBENCH_SCENE_LIBRARY", "library", 0);
-  for (const char* name : {"quick", "sweep", "library", "trends"}) {
+  for (const char* name : {"quick", "sweep", "library", "trends", "stability"}) {
     const std::string path = std::string(CLUSTERBENCH_SOURCE_DIR) + "/configs/" + name + ".json";
     const Config config = load_config(path);
     EXPECT_EQ(config.name, name);

@@ -1,0 +1,96 @@
+#include "run/stability_pass.h"
+
+#include <algorithm>
+#include <glm/trigonometric.hpp>
+#include <memory>
+
+#include "measure/truth.h"
+#include "run/accuracy_pass.h"
+#include "scene/fine_path.h"
+
+namespace clusterbench::run {
+namespace {
+
+scene::FineSteps fine_steps(const StabilityRequest& request) {
+  return {request.steps, request.step_mm / 1e3, glm::radians(request.step_deg)};
+}
+
+// One assigner along the piece.
+class Track {
+ public:
+  Track(const Config& config, std::size_t assigner) : place_(assigner), meter_(config.stability->window) {
+    const MethodRequest& method = config.assigners[assigner];
+    assigner_ = assign::find_assigner(method.name)->make(method.params);
+  }
+
+  void add(const grid::Grid& grid, bool is_new_grid, const view::LightArrays& lights) {
+    if (is_new_grid) assigner_->build(grid);
+    assigner_->assign(lights, lists_);
+    meter_.add(lists_);
+  }
+
+  std::size_t assigner() const { return place_; }
+  const measure::Churn& churn() const { return meter_.result(); }
+
+ private:
+  std::size_t place_;  // in Config::assigners
+  std::unique_ptr<assign::Assigner> assigner_;
+  assign::Lists lists_;
+  measure::ChurnMeter meter_;
+};
+
+// What all methods of the group have in common.
+StabilityResult piece_facts(const scene::FinePath& piece, int window) {
+  StabilityResult facts;
+  facts.window = window;
+  facts.step_m = piece.move_m;
+  facts.step_deg = glm::degrees(piece.turn_rad);
+  facts.from_frame = piece.from_shot;
+  facts.is_drift = piece.is_drift;
+  facts.path = piece.path.how;
+  return facts;
+}
+
+std::vector<StabilityResult> per_case(const GroupPlan& group, const std::vector<Track>& tracks,
+                                      const StabilityResult& common) {
+  std::vector<StabilityResult> results;
+  for (const CasePlan& one : group.cases) {
+    results.push_back(common);
+    results.back().method = std::find_if(tracks.begin(), tracks.end(), [&](const Track& track) {
+                              return track.assigner() == one.assigner;
+                            })->churn();
+  }
+  return results;
+}
+
+}  // namespace
+
+std::vector<StabilityResult> stability_pass(const Config& config, const GroupPlan& group, const PathFrames& path,
+                                            const std::function<void(double share)>& on_step,
+                                            const std::atomic<bool>& stop) {
+  const scene::FinePath piece = scene::fine_path(path.camera_path(), fine_steps(*config.stability));
+  const PathFrames steps = path.along(piece.path);
+  StabilityResult common = piece_facts(piece, config.stability->window);
+  std::vector<Track> tracks;
+  for (const std::size_t assigner : assigners_of(group)) tracks.emplace_back(config, assigner);
+
+  GridOfFrames grids(config.grids[group.grid]);
+  measure::ChurnMeter truth_meter(config.stability->window);
+  for (int step = 0; step < steps.count(); ++step) {
+    if (stop) return {};
+    on_step(1.0 / steps.count());
+    const view::Frame frame = steps.frame(step);
+    const bool is_new_grid = grids.update(steps, frame);
+    const grid::Grid& grid = grids.grid();
+    const view::LightArrays lights = view::lights_in(frame, grid::space_of(grid, frame));
+    const measure::Truth truth = measure::find_truth(frame, grid, config.threads);
+    truth_meter.add(truth.lists);
+    for (Track& track : tracks) track.add(grid, is_new_grid, lights);
+    common.grids += is_new_grid ? 1 : 0;
+    common.undecided += truth.undecided;
+  }
+  common.truth = truth_meter.result();
+  return per_case(group, tracks, common);
+}
+
+}  // namespace clusterbench::run
