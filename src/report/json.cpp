@@ -105,6 +105,33 @@ Json shading(const measure::ShadingCounts& s) {
           {"overshade", number(s.overshade())}};
 }
 
+Json to_json(const measure::Churn& churn) {
+  return {{"total", churn.changes}, {"mean", number(churn.mean_changes())}, {"max", churn.most_changes}};
+}
+
+Json stability(const run::StabilityResult& s) {
+  const auto difference = [](std::uint64_t a, std::uint64_t b) {
+    return static_cast<std::int64_t>(a) - static_cast<std::int64_t>(b);
+  };
+  return {{"steps", s.method.steps},
+          {"step_m", number(s.step_m)},
+          {"step_deg", number(s.step_deg)},
+          {"window", s.window},
+          {"from_frame", s.from_frame},
+          {"drift", s.is_drift},
+          {"path", s.path},
+          {"grids", s.grids},
+          {"changed", {{"method", to_json(s.method)}, {"truth", to_json(s.truth)}}},
+          {"flickers", {{"method", s.method.flickers}, {"truth", s.truth.flickers}}},
+          {"excess_churn",
+           {{"pairs", difference(s.method.changes, s.truth.changes)},
+            {"ratio", number(measure::excess_ratio(s.method.changes, s.truth.changes))}}},
+          {"excess_flickers",
+           {{"count", difference(s.method.flickers, s.truth.flickers)},
+            {"ratio", number(measure::excess_ratio(s.method.flickers, s.truth.flickers))}}},
+          {"undecided", s.undecided}};
+}
+
 Json timing(const run::TimingResult& t) {
   Json out{{"frames_timed", t.frames_timed},       {"build_ns", to_json(t.build_ns)},
            {"assign_ns", to_json(t.assign_ns)},    {"convert_ns", to_json(t.convert_ns)},
@@ -224,6 +251,7 @@ Json case_to_json(const run::CaseResult& one) {
            {"buffers", buffers(one)}};
   if (one.error) out["error"] = error(one);
   if (one.shading) out["shading"] = shading(*one.shading);
+  if (one.stability) out["stability"] = stability(*one.stability);
   if (one.timing) out["timing"] = timing(*one.timing);
   return out;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "report/columns.h"
+#include "report/stability_table.h"
 
 namespace clusterbench::report {
 namespace {
@@ -108,9 +109,10 @@ std::string case_warnings(const Json& cases) {
     if (overflow["dropped_pairs"] != 0)
       out += "warning: " + shown(one["name"]) + ": " + overflow["dropped_pairs"].dump() + " pairs dropped in " +
              overflow["cells"].dump() + " cells of " + overflow["frames"].dump() + " frames\n";
-    if (one.contains("error") && one["error"]["undecided"] != 0)
-      out += "warning: " + shown(one["name"]) + ": " + one["error"]["undecided"].dump() +
-             " pairs are undecided and counted as true\n";
+    for (const char* part : {"error", "stability"})
+      if (one.contains(part) && one[part]["undecided"] != 0)
+        out += "warning: " + shown(one["name"]) + ": " + part + ": " + one[part]["undecided"].dump() +
+               " pairs are undecided and counted as true\n";
   }
   return out;
 }
@@ -148,7 +150,7 @@ std::string render_table(const Json& result, bool colour) {
       "excess: false positives in % of true pairs. p99: lights per cell. entries: allocation with margin.\n";
   if (!result["skipped"].empty())
     out += std::to_string(result["skipped"].size()) + " combinations skipped; the result says why.\n";
-  return out + scene_warnings(result) + case_warnings(cases);
+  return out + stability_table(result) + scene_warnings(result) + case_warnings(cases);
 }
 
 }  // namespace clusterbench::report

@@ -12,6 +12,7 @@ namespace clusterbench::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using testing::add_stability;
 using testing::case_by_hand;
 using testing::lose_a_light;
 using testing::result_by_hand;
@@ -23,6 +24,7 @@ std::vector<std::string> violations(const Json& result) {
 TEST(ResultJson, is_what_the_schema_says) {
   run::Result result = result_by_hand();
   lose_a_light(result.cases[0]);
+  add_stability(result.cases[0]);
   result.cases[0].timing->vs = run::Versus{"aabb", {3.0, {2.9, 3.1}}};
   EXPECT_EQ(violations(result_to_json(result, {})), std::vector<std::string>{});
 }
@@ -38,6 +40,31 @@ TEST(ResultJson, without_truth_samples_and_times_is_what_the_schema_says) {
   EXPECT_EQ(violations(json), std::vector<std::string>{});
   EXPECT_FALSE(json["cases"][0].contains("error"));
   EXPECT_FALSE(json["cases"][0].contains("timing"));
+  EXPECT_FALSE(json["cases"][0].contains("stability"));
+}
+
+TEST(ResultJson, stability_stands_beside_the_truths_own) {
+  run::Result result = result_by_hand();
+  add_stability(result.cases[0]);
+  const Json stability = result_to_json(result, {})["cases"][0]["stability"];
+  EXPECT_EQ(stability["steps"], 10);
+  EXPECT_EQ(stability["changed"]["method"], (Json{{"total", 20}, {"mean", 2.0}, {"max", 9}}));
+  EXPECT_EQ(stability["changed"]["truth"], (Json{{"total", 16}, {"mean", 1.6}, {"max", 4}}));
+  EXPECT_EQ(stability["flickers"], (Json{{"method", 3}, {"truth", 2}}));
+  EXPECT_EQ(stability["excess_churn"], (Json{{"pairs", 4}, {"ratio", 0.25}}));
+  EXPECT_EQ(stability["excess_flickers"], (Json{{"count", 1}, {"ratio", 0.5}}));
+  EXPECT_EQ(stability["drift"], false);
+}
+
+TEST(ResultJson, a_method_that_changes_less_than_the_truth_has_a_negative_excess_and_none_without_a_true_change) {
+  run::Result result = result_by_hand();
+  add_stability(result.cases[0]);
+  result.cases[0].stability->method.changes = 12;
+  result.cases[0].stability->truth.flickers = 0;
+  const Json json = result_to_json(result, {});
+  EXPECT_EQ(json["cases"][0]["stability"]["excess_churn"], (Json{{"pairs", -4}, {"ratio", -0.25}}));
+  EXPECT_EQ(json["cases"][0]["stability"]["excess_flickers"], (Json{{"count", 3}, {"ratio", nullptr}}));
+  EXPECT_EQ(violations(json), std::vector<std::string>{});
 }
 
 TEST(ResultJson, what_is_no_number_is_null) {

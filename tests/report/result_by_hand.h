@@ -52,6 +52,20 @@ inline run::CaseResult case_by_hand(const std::string& id, const std::string& as
   return one;
 }
 
+// 20 changes and 3 flickers of the method beside 16 and 2 of the truth.
+inline void add_stability(run::CaseResult& one) {
+  run::StabilityResult stability;
+  stability.method = {.steps = 10, .changes = 20, .most_changes = 9, .flickers = 3};
+  stability.truth = {.steps = 10, .changes = 16, .most_changes = 4, .flickers = 2};
+  stability.window = 8;
+  stability.step_m = 1e-3;
+  stability.step_deg = 0.01;
+  stability.from_frame = 1;
+  stability.path = "10 steps from frame 1, where the camera moves most";
+  stability.grids = 1;
+  one.stability = stability;
+}
+
 inline void lose_a_light(run::CaseResult& one) {
   one.error->false_negatives = 3;
   one.error->deepest = measure::Miss{.frame = 5, .cell = 17, .light = 8, .rig_index = 9, .depth = 0.125};

@@ -11,6 +11,7 @@
 namespace clusterbench::report {
 namespace {
 
+using testing::add_stability;
 using testing::lose_a_light;
 using testing::result_by_hand;
 
@@ -103,6 +104,38 @@ TEST(Table, overflow_undecided_pairs_made_ranges_and_skipped_cases_are_said) {
   EXPECT_NE(table.find("2 pairs are undecided"), std::string::npos);
   EXPECT_NE(table.find("4 lights have no range"), std::string::npos);
   EXPECT_NE(table.find("1 combination"), std::string::npos);
+}
+
+TEST(Table, stability_follows_the_main_table_with_the_truth_and_each_assigner_once) {
+  run::Result result = result_by_hand();
+  EXPECT_EQ(table_of(result).find("stability"), std::string::npos);
+  for (run::CaseResult& one : result.cases) add_stability(one);
+  result.cases[1].stability->method.changes = 18;
+  result.cases.push_back(result.cases[0]);
+  result.cases.back().id = "other storage";
+  result.cases.back().storage_label = "fixed(cap=8)";
+  result.planned_ids.emplace_back("other storage");
+  const std::string table = table_of(result), part = table.substr(table.find("stability of hall"));
+  EXPECT_EQ(words(line_with(part, "(truth)")), (std::vector<std::string>{"(truth)", "1.60", "4", "2"}));
+  EXPECT_EQ(words(line_with(part, "aabb ")), (std::vector<std::string>{"aabb", "1.80", "9", "12.5", "%", "3", "+1"}));
+  EXPECT_LT(part.find("aabb "), part.find("brute-force ")) << "the fewest changes first";
+  EXPECT_EQ(part.find("brute-force "), part.rfind("brute-force ")) << "once, whatever its lists are stored in";
+  EXPECT_NE(part.find("at most 1 mm and 0.01 degrees"), std::string::npos);
+  EXPECT_NE(part.find("within 8 steps"), std::string::npos);
+  for (const std::string& line : lines_of(part)) EXPECT_LE(line.size(), 100u) << line;
+}
+
+TEST(Table, a_made_drift_and_a_grid_that_moves_are_said) {
+  run::Result result = result_by_hand();
+  add_stability(result.cases[0]);
+  result.cases[0].stability->is_drift = true;
+  result.cases[0].stability->path = "standing camera, made to drift";
+  result.cases[0].stability->grids = 11;
+  result.cases[0].stability->undecided = 5;
+  const std::string table = table_of(result);
+  EXPECT_NE(table.find("standing camera, made to drift\n"), std::string::npos);
+  EXPECT_NE(table.find("cells themselves move"), std::string::npos);
+  EXPECT_NE(table.find("stability: 5 pairs are undecided"), std::string::npos);
 }
 
 TEST(Table, storages_are_named_where_there_are_several) {

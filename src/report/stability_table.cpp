@@ -1,0 +1,85 @@
+#include "report/stability_table.h"
+
+#include <algorithm>
+
+#include "report/columns.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const Cells k_headings{"", "assigner", "changed", "max", "excess", "flickers", "excess"};
+
+Cells method_row(const Json& one) {
+  return {"",
+          one["assigner"]["label"].get<std::string>(),
+          number_text(one, "/stability/changed/method/mean", "%.2f"),
+          number_text(one, "/stability/changed/method/max", "%.0f"),
+          number_text(one, "/stability/excess_churn/ratio", "%.1f %%", 100.0),
+          number_text(one, "/stability/flickers/method", "%.0f"),
+          number_text(one, "/stability/excess_flickers/count", "%+.0f")};
+}
+
+Cells truth_row(const Json& one) {
+  return {"",
+          "(truth)",
+          number_text(one, "/stability/changed/truth/mean", "%.2f"),
+          number_text(one, "/stability/changed/truth/max", "%.0f"),
+          "",
+          number_text(one, "/stability/flickers/truth", "%.0f"),
+          ""};
+}
+
+// Cases of a block with steps, once per assigner: lists do not depend on their storage. The fewest changes first.
+std::vector<const Json*> lines_of(const Json& cases, const Json& scene, const std::string& block) {
+  std::vector<const Json*> lines;
+  for (const Json& one : cases) {
+    if (!one.contains("stability") || one["scene"] != scene["name"] || block_of(one) != block) continue;
+    const bool is_known = std::any_of(lines.begin(), lines.end(), [&](const Json* line) {
+      return (*line)["assigner"]["label"] == one["assigner"]["label"];
+    });
+    if (!is_known) lines.push_back(&one);
+  }
+  const auto changes = [](const Json* one) {
+    return (*one)["stability"]["changed"]["method"]["total"].get<std::uint64_t>();
+  };
+  std::stable_sort(lines.begin(), lines.end(), [&](const Json* a, const Json* b) { return changes(a) < changes(b); });
+  return lines;
+}
+
+std::string block_text(const std::string& block, const std::vector<const Json*>& lines) {
+  const Json& steps = (*lines.front())["stability"];
+  std::vector<Cells> rows{k_headings, truth_row(*lines.front())};
+  for (const Json* one : lines) rows.push_back(method_row(*one));
+  const std::vector<std::size_t> widths = widths_of(rows);
+  std::string out = " " + block + "\n  " + shown(steps["path"]);
+  if (steps["drift"] == false)
+    out += "; at most " + number_text(steps, "/step_m", "%.3g", 1e3) + " mm and " +
+           number_text(steps, "/step_deg", "%.3g") + " degrees each";
+  out += "\n";
+  if (steps["grids"] > 1) out += "  the grid follows the lights: cells themselves move\n";
+  for (const Cells& row : rows) out += aligned(row, widths);
+  return out;
+}
+
+}  // namespace
+
+std::string stability_table(const Json& result) {
+  std::string out, window;
+  for (const Json& scene : result["scenes"]) {
+    std::string blocks;
+    for (const std::string& block : blocks_of(result["cases"], scene)) {
+      const std::vector<const Json*> lines = lines_of(result["cases"], scene, block);
+      if (lines.empty()) continue;
+      blocks += block_text(block, lines);
+      window = (*lines.front())["stability"]["window"].dump();
+    }
+    if (!blocks.empty()) out += "stability of " + shown(scene["name"]) + "\n" + blocks + "\n";
+  }
+  if (out.empty()) return "";
+  return "\n" + out + "changed: pairs (cell, light) added or removed per step. flickers: changes back within " +
+         window + " steps.\nexcess: more than the truth's own.\n";
+}
+
+}  // namespace clusterbench::report
