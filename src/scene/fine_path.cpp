@@ -34,7 +34,7 @@ double steps_between(const Shot& a, const Shot& b, const FineSteps& steps) {
                   turn_between(a.pose.view_from_world, b.pose.view_from_world) / steps.largest_turn_rad);
 }
 
-// A camera that moves less than this part of a step is taken to stand still: what is left is rounding.
+// What moves less than this part of a step is taken to stand still: what is left is rounding.
 constexpr double k_still = 1e-6;
 
 Shot between(const Shot& a, const Shot& b, double t) {
@@ -42,8 +42,8 @@ Shot between(const Shot& a, const Shot& b, double t) {
   if (t == 0.0) return shot;
   shot.time_s = (1.0 - t) * a.time_s + t * b.time_s;
   shot.pose.eye = (1.0 - t) * a.pose.eye + t * b.pose.eye;
-  shot.pose.view_from_world =
-      matrix_of(slerp(quaternion_of(a.pose.view_from_world), quaternion_of(b.pose.view_from_world), t));
+  const Mat3d &from = a.pose.view_from_world, &to = b.pose.view_from_world;
+  if (from != to) shot.pose.view_from_world = matrix_of(slerp(quaternion_of(from), quaternion_of(to), t));
   return shot;
 }
 
@@ -94,13 +94,15 @@ std::string drift_text(const FineSteps& steps) {
   return text;
 }
 
-void measure_steps(FinePath& fine) {
+void measure_steps(FinePath& fine, const FineSteps& steps) {
   const std::vector<Shot>& shots = fine.path.shots;
   for (std::size_t i = 0; i + 1 < shots.size(); ++i) {
     fine.move_m = std::max(fine.move_m, glm::length(shots[i + 1].pose.eye - shots[i].pose.eye));
     fine.turn_rad =
         std::max(fine.turn_rad, turn_between(shots[i].pose.view_from_world, shots[i + 1].pose.view_from_world));
   }
+  if (fine.move_m < k_still * steps.largest_move_m) fine.move_m = 0.0;
+  if (fine.turn_rad < k_still * steps.largest_turn_rad) fine.turn_rad = 0.0;
 }
 
 }  // namespace
@@ -119,7 +121,7 @@ FinePath fine_path(const CameraPath& path, const FineSteps& steps) {
     fine.path.how = std::to_string(fine.path.shots.size() - 1) + " steps from frame " + std::to_string(from) +
                     ", where the camera moves most";
   }
-  measure_steps(fine);
+  measure_steps(fine, steps);
   return fine;
 }
 

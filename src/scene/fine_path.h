@@ -16,7 +16,7 @@ struct FinePath {
   CameraPath path;        // one shot more than it has steps; `how` says where they come from
   int from_shot = 0;      // of the path that was refined
   bool is_drift = false;  // the camera stands still: it was moved artificially
-  double move_m = 0.0;    // largest move of the eye in one step
+  double move_m = 0.0;    // largest move of the eye in one step; 0 where only rounding moves it
   double turn_rad = 0.0;  // largest turn of the view in one step
 };
 

@@ -74,6 +74,15 @@ TEST(FinePath, place_time_and_view_change_evenly_and_go_on_through_the_next_shot
   EXPECT_EQ(shots[12].lens.yfov_rad, 1.0);
 }
 
+TEST(FinePath, a_view_that_does_not_turn_stays_the_same_to_the_last_bit) {
+  const Shot first = shot_at(0, {0, 0, 0}, 0.7);
+  Shot last = shot_at(1, {0, 0, 0.05}, 0.7);
+  for (const Shot& shot : fine_path(path_with({first, last}), {50, 1e-3, 1e-3}).path.shots)
+    EXPECT_EQ(shot.pose.view_from_world, first.pose.view_from_world);
+  last.pose.view_from_world[0].x += 1e-16;
+  EXPECT_EQ(fine_path(path_with({first, last}), {50, 1e-3, 1e-3}).turn_rad, 0.0) << "rounding is no turn";
+}
+
 TEST(FinePath, ends_early_where_the_path_ends_or_the_camera_stands_still) {
   const Shot first = shot_at(0, {0, 0, 0}), second = shot_at(1, {0, 0, 0.05}), later = shot_at(2, {0, 0, 0.05});
   EXPECT_EQ(fine_path(path_with({first, second}), {200, 1e-3, 1e-3}).path.shots.size(), 51u);
