@@ -103,14 +103,16 @@ TEST(StabilityPass, counts_the_grids_of_slices_that_follow_the_lights) {
   EXPECT_GT(walk.run().cases.at(0).stability->grids, 1);
 }
 
-TEST(StabilityPass, cases_that_differ_in_their_storage_alone_share_their_lists) {
-  Walk walk =
-      stable(std::string(k_shafts) + R"(, "assigners": ["aabb", "brute-force"], "storages": ["packed", "fixed"])");
-  walk.add_light({3.0, 0.0, -6.1507}, 2);
+TEST(StabilityPass, each_case_has_its_assigners_lists_whatever_they_are_stored_in) {
+  Walk walk = stable(
+      R"("grids": [{"tiles": {"pixels": [10, 10]}}], "assigners": ["bounds", "aabb"], "storages": ["packed", "fixed"])");
+  for (int i = 0; i < 10; ++i) walk.add_light({3 * std::sin(i * 2.0), std::cos(i * 3.0), -8.0 - i}, 1.5);
   const Result result = walk.run();
   ASSERT_EQ(result.cases.size(), 4u);
   EXPECT_EQ(result.cases[0].stability->method, result.cases[1].stability->method);
   EXPECT_EQ(result.cases[2].stability->method, result.cases[3].stability->method);
+  EXPECT_FALSE(result.cases[0].stability->method == result.cases[2].stability->method);
+  EXPECT_EQ(result.cases[0].stability->truth, result.cases[2].stability->truth);
 }
 
 TEST(StabilityPass, does_not_depend_on_the_number_of_threads) {
