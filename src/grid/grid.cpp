@@ -49,10 +49,10 @@ std::int64_t index_of(Vec3i cell, Vec3i cells) {
   return (static_cast<std::int64_t>(cell.z) * cells.y + cell.y) * cells.x + cell.x;
 }
 
-std::int64_t lookup_screen(const ScreenGrid& grid, Vec3i cells, const Sample& sample) {
+std::int64_t lookup_screen(const ScreenGrid& grid, Vec3i cells, const Sample& sample, Log2 way) {
   const Vec3f& p = sample.view;
   const float along = grid.kind == Kind::distance ? std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z) : -p.z;
-  const int slice = grid.slices.slice_of(along);
+  const int slice = grid.slices.slice_of(along, way);
   if (slice < 0) return -1;
   const Vec2i tile = grid.tiles.tile_of(sample.pixel_x, sample.pixel_y);
   return index_of({tile.x, tile.y, slice}, cells);
@@ -243,9 +243,9 @@ view::Space space_of(const Grid& grid, const view::Frame& frame) {
   return frame.view_space;
 }
 
-std::int64_t lookup(const Grid& grid, const Sample& sample) {
+std::int64_t lookup(const Grid& grid, const Sample& sample, Log2 way) {
   const Vec3i cells = grid.cells();
-  return std::visit(Overloaded{[&](const ScreenGrid& g) { return lookup_screen(g, cells, sample); },
+  return std::visit(Overloaded{[&](const ScreenGrid& g) { return lookup_screen(g, cells, sample, way); },
                                [&](const CascadesGrid& g) { return lookup_cascades(g, cells, sample); },
                                [&](const WorldGrid& g) { return lookup_world(g, cells, sample); }},
                     grid.shape);

@@ -73,7 +73,7 @@ struct Sample {
 };
 
 // The lookup that a shader would do, in single precision. -1: outside the grid.
-std::int64_t lookup(const Grid& grid, const Sample& sample);
+std::int64_t lookup(const Grid& grid, const Sample& sample, Log2 way = Log2::rounded);
 
 // What a configuration asks for; one kind of these is filled.
 struct GridSpec {

@@ -1,6 +1,7 @@
 #include "grid/slicing.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -8,11 +9,6 @@
 
 namespace clusterbench::grid {
 namespace {
-
-// log2 in double and rounded once: the single-precision libm differs between machines in the last bit, this does not.
-float log2_of(float depth) {
-  return static_cast<float>(std::log2(static_cast<double>(depth)));
-}
 
 double linear_at(double near, double far, double share) {
   return near + (far - near) * share;
@@ -140,13 +136,70 @@ Slicing with_list_reach(Slicing slicing) {
   return slicing;
 }
 
+// Neighbours of positive floats are neighbours as whole numbers.
+float moved_by_ulps(float value, std::int64_t ulps) {
+  const std::int64_t bits = std::bit_cast<std::int32_t>(value) + ulps;
+  const std::int64_t greatest = std::bit_cast<std::int32_t>(std::numeric_limits<float>::max());
+  return std::bit_cast<float>(static_cast<std::int32_t>(std::clamp<std::int64_t>(bits, 0, greatest)));
+}
+
+// The greatest number for which `holds`, which is true up to some number, 0 if for none.
+template <class Holds>
+std::int64_t last_that(Holds&& holds) {
+  std::int64_t beyond = 1;
+  constexpr std::int64_t k_most = std::int64_t{1} << 31;
+  while (beyond < k_most && holds(beyond)) beyond *= 2;
+  std::int64_t last = beyond / 2;
+  while (last + 1 < beyond) {
+    const std::int64_t middle = (last + beyond) / 2;
+    (holds(middle) ? last : beyond) = middle;
+  }
+  return last;
+}
+
+float fast_log2(float value) {
+  const auto bits = std::bit_cast<std::uint32_t>(value);
+  const auto exponent = static_cast<float>(static_cast<int>(bits >> 23) - 127);
+  const float mantissa = std::bit_cast<float>((bits & 0x7fffffu) | 0x3f800000u);
+  return exponent + (-0.34484843f * mantissa + 2.02466578f) * mantissa - 1.67487759f;
+}
+
 }  // namespace
 
-int Slices::slice_of(float depth) const {
+float log2_by(Log2 way, float value) {
+  if (way == Log2::fast) return fast_log2(value);
+  // In double and rounded once: the single-precision libm differs between machines in the last bit, this does not.
+  float log = static_cast<float>(std::log2(static_cast<double>(value)));
+  if (way == Log2::rounded) return log;
+  const float direction = way == Log2::glsl_low ? -1.0f : 1.0f;
+  if (value >= 0.5f && value <= 2.0f) return log + direction * 0x1p-21f;
+  for (int i = 0; i < 3; ++i) log = std::nextafter(log, direction * std::numeric_limits<float>::infinity());
+  return log;
+}
+
+std::int64_t safe_padding_ulps(const Slices& slices, Log2 way) {
+  std::int64_t padding = 0;
+  for (int k = 1; k < slices.count(); ++k) {
+    const float boundary = slices.boundaries[static_cast<std::size_t>(k)];
+    if (!(boundary > 0.0f)) continue;
+    const auto below_is_above = [&](std::int64_t ulps) {
+      return slices.slice_of(moved_by_ulps(boundary, -ulps), way) >= k;
+    };
+    const auto above_is_below = [&](std::int64_t ulps) {
+      const int slice = slices.slice_of(moved_by_ulps(boundary, ulps - 1), way);
+      return slice >= 0 && slice < k;
+    };
+    padding = std::max({padding, last_that(below_is_above), last_that(above_is_below)});
+  }
+  return padding;
+}
+
+int Slices::slice_of(float depth, Log2 way) const {
   if (depth > boundaries.back()) return -1;
   if (lookup.form == SliceLookup::Form::search) return ideal_slice_of(static_cast<double>(depth));
   if (lookup.first_slice > 0 && depth < lookup.first_m) return 0;
-  const float value = (lookup.form == SliceLookup::Form::log2 ? log2_of(depth) : depth) * lookup.scale + lookup.bias;
+  const float value =
+      (lookup.form == SliceLookup::Form::log2 ? log2_by(way, depth) : depth) * lookup.scale + lookup.bias;
   // Truncation as in a shader; below the first boundary log2 may be anything, down to -inf.
   return value >= 1.0f ? std::min(static_cast<int>(value), count() - 1) : 0;
 }

@@ -1,6 +1,7 @@
 #pragma once
 // How depth (frustum grid) or distance (distance grid) is cut into slices.
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -35,16 +36,29 @@ struct SliceLookup {
   float first_m = 0.0f;
 };
 
+// How a shader takes the logarithm of a depth.
+enum class Log2 {
+  rounded,    // correctly rounded single precision
+  glsl_low,   // the least and
+  glsl_high,  // the greatest that GLSL allows: 3 ulp, in [0.5, 2] an error of 2^-21
+  fast        // exponent and a quadratic in the mantissa: an error of up to 0.005
+};
+float log2_by(Log2 way, float value);  // value > 0
+
 struct Slices {
   std::vector<float> boundaries;  // count + 1, ascending strictly; boundaries[0] is never above the camera's near
   SliceLookup lookup;
 
   int count() const { return static_cast<int>(boundaries.size()) - 1; }
   // The shader's lookup in single precision, clamped to [0, count); -1 beyond the last boundary.
-  int slice_of(float depth) const;
+  int slice_of(float depth, Log2 way = Log2::rounded) const;
   // The ideal lookup: by the boundaries themselves. A depth on a boundary belongs to the slice that begins there.
   int ideal_slice_of(double depth) const;
 };
+
+// How far beyond its boundary, in ulps of the boundary, a depth can lie and still be looked up in the slice: cells that
+// reach so much farther on both sides hold every depth that is looked up in them.
+std::int64_t safe_padding_ulps(const Slices& slices, Log2 way);
 
 // Throws Error (file "", where = key such as "slices.near") for what cannot be: near >= far, exponential with near <=
 // 0, an infinite far, a list that does not ascend, boundaries that coincide in single precision.

@@ -13,15 +13,6 @@ Vec3d to_world(const view::Space& space, const Vec3d& local) {
   return glm::transpose(space.rotation) * local + space.origin;
 }
 
-grid::Sample sample_at(const view::Frame& frame, double pixel_x, double pixel_y, double depth) {
-  const view::Projection& lens = frame.projection;
-  const double across = lens.left + (lens.right - lens.left) * pixel_x / frame.viewport.x;
-  const double up = lens.top - (lens.top - lens.bottom) * pixel_y / frame.viewport.y;
-  const double scale = lens.orthographic ? 1.0 : depth;
-  const Vec3d local{across * scale, up * scale, -depth};
-  return {static_cast<float>(pixel_x), static_cast<float>(pixel_y), Vec3f(local), to_world(frame.view_space, local)};
-}
-
 bool reaches(const scene::WorldLight& light, const Vec3d& place) {
   const Vec3d to_place = place - light.position;
   const double distance = glm::length(to_place);
@@ -40,6 +31,15 @@ double irradiance(const scene::WorldLight& light, const Vec3d& place) {
 }
 
 }  // namespace
+
+grid::Sample sample_at(const view::Frame& frame, double pixel_x, double pixel_y, double depth) {
+  const view::Projection& lens = frame.projection;
+  const double across = lens.left + (lens.right - lens.left) * pixel_x / frame.viewport.x;
+  const double up = lens.top - (lens.top - lens.bottom) * pixel_y / frame.viewport.y;
+  const double scale = lens.orthographic ? 1.0 : depth;
+  const Vec3d local{across * scale, up * scale, -depth};
+  return {static_cast<float>(pixel_x), static_cast<float>(pixel_y), Vec3f(local), to_world(frame.view_space, local)};
+}
 
 double ShadingCounts::overshade() const {
   if (needed == 0) return std::numeric_limits<double>::quiet_NaN();

@@ -23,6 +23,9 @@ struct ShadingCounts {
   double overshade() const;  // evaluated / needed; NaN when nothing is needed
 };
 
+// The place on a pixel's ray at a depth. Pixels from the top left.
+grid::Sample sample_at(const view::Frame& frame, double pixel_x, double pixel_y, double depth);
+
 // Seeded points in the frame's view: pixels uniform, depth uniform in log from near to far_m.
 std::vector<grid::Sample> volume_samples(const view::Frame& frame, double far_m, int count, std::uint64_t seed);
 

@@ -109,6 +109,19 @@ Json to_json(const measure::Churn& churn) {
   return {{"total", churn.changes}, {"mean", number(churn.mean_changes())}, {"max", churn.most_changes}};
 }
 
+Json lookup(const std::vector<measure::LookupCounts>& all) {
+  Json out = Json::array();
+  for (const measure::LookupCounts& counts : all)
+    out.push_back({{"logarithm", measure::name_of(counts.way.logarithm)},
+                   {"depth", measure::name_of(counts.way.depth)},
+                   {"samples", counts.samples},
+                   {"needed", counts.needed},
+                   {"missed", counts.missed},
+                   {"wrong_samples", counts.wrong_samples},
+                   {"safe_padding_ulps", counts.safe_padding_ulps}});
+  return out;
+}
+
 Json stability(const run::StabilityResult& s) {
   const auto difference = [](std::uint64_t a, std::uint64_t b) {
     return static_cast<std::int64_t>(a) - static_cast<std::int64_t>(b);
@@ -251,6 +264,7 @@ Json case_to_json(const run::CaseResult& one) {
            {"buffers", buffers(one)}};
   if (one.error) out["error"] = error(one);
   if (one.shading) out["shading"] = shading(*one.shading);
+  if (!one.lookup.empty()) out["lookup"] = lookup(one.lookup);
   if (one.stability) out["stability"] = stability(*one.stability);
   if (one.timing) out["timing"] = timing(*one.timing);
   return out;

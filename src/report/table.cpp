@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "report/columns.h"
+#include "report/lookup_table.h"
 #include "report/stability_table.h"
 
 namespace clusterbench::report {
@@ -150,7 +151,7 @@ std::string render_table(const Json& result, bool colour) {
       "excess: false positives in % of true pairs. p99: lights per cell. entries: allocation with margin.\n";
   if (!result["skipped"].empty())
     out += std::to_string(result["skipped"].size()) + " combinations skipped; the result says why.\n";
-  return out + stability_table(result) + scene_warnings(result) + case_warnings(cases);
+  return out + lookup_table(result) + stability_table(result) + scene_warnings(result) + case_warnings(cases);
 }
 
 }  // namespace clusterbench::report

@@ -21,6 +21,7 @@ struct FrameAtHand {
   measure::Truth truth;
   std::vector<grid::Sample> samples;
   assign::Lists reaching;
+  std::optional<measure::LookupFrame> lookup;
 };
 
 class ListMeter {
@@ -39,6 +40,7 @@ class ListMeter {
     measures_.fallbacks += assigner_->fallbacks();
     occupancy_->add_frame(now.frame.index, lists_);
     if (config_.check_accuracy) measure::add_frame(measures_.error, now.frame, grid, now.truth, lists_);
+    if (now.lookup) now.lookup->add(lists_, measures_.lookup);
     if (!now.samples.empty()) measure::add_frame(measures_.shading, now.frame, grid, now.samples, now.reaching, lists_);
   }
 
@@ -95,8 +97,9 @@ FrameAtHand look_at(const Config& config, const PathFrames& path, GridOfFrames& 
   const grid::Grid& grid = grids.grid();
   now.lights = view::lights_in(now.frame, grid::space_of(grid, now.frame));
   if (config.check_accuracy) now.truth = measure::find_truth(now.frame, grid, config.threads);
+  const double far = sample_far(now.frame, path.far_m());
+  if (config.lookup) now.lookup.emplace(now.frame, grid, config.lookup->ways, far, config.lookup->samples, config.seed);
   if (config.shading_samples > 0) {
-    const double far = sample_far(now.frame, path.far_m());
     now.samples = measure::volume_samples(now.frame, far, config.shading_samples, config.seed);
     now.reaching = measure::lights_reaching(now.frame, now.samples);
   }

@@ -17,6 +17,7 @@ struct ListMeasures {
   measure::Occupancy occupancy;
   measure::ErrorCounts error;
   measure::ShadingCounts shading;
+  std::vector<measure::LookupCounts> lookup;
   std::uint64_t tests_done = 0, fallbacks = 0;
 };
 

@@ -145,12 +145,32 @@ std::optional<StabilityRequest> stability_request(const Json& stability) {
                           stability["step_deg"].get<double>(), stability["window"].get<int>()};
 }
 
+// The place of a name among the first `count` values of an enumeration.
+template <class Named>
+Named named(const std::string& name, int count) {
+  int i = 0;
+  while (i + 1 < count && name != measure::name_of(static_cast<Named>(i))) ++i;
+  return static_cast<Named>(i);
+}
+
+// Every logarithm with every depth.
+std::optional<LookupRequest> lookup_request(const Json& lookup) {
+  if (lookup.is_null()) return std::nullopt;
+  LookupRequest request{lookup["samples"].get<int>(), {}};
+  for (const std::string logarithm : lookup["logarithms"])
+    for (const std::string depth : lookup["depths"])
+      request.ways.push_back({named<measure::Logarithm>(logarithm, measure::k_logarithm_count),
+                              named<measure::DepthRead>(depth, measure::k_depth_read_count)});
+  return request;
+}
+
 void read_settings(const Json& document, Config& config) {
   config.threads = document["threads"].get<int>();
   config.seed = document["seed"].get<std::uint64_t>();
   config.check_accuracy = document["accuracy"]["check"].get<bool>();
   config.shading_samples = document["shading"]["samples"].get<int>();
   config.stability = stability_request(document["stability"]);
+  config.lookup = lookup_request(document["lookup"]);
   const Json& timing = document["timing"];
   config.timing = {timing["measure"].get<bool>(), timing["rounds"].get<int>(), timing["min_time_ms"].get<double>(),
                    timing["frames"].get<int>()};

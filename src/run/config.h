@@ -12,6 +12,7 @@
 #include "assign/assigner.h"
 #include "grid/grid.h"
 #include "measure/buffers.h"
+#include "measure/lookup.h"
 #include "scene/camera_path.h"
 #include "scene/scene.h"
 
@@ -46,6 +47,12 @@ struct StabilityRequest {
   int window = 8;          // a pair that changes back within so many steps flickers
 };
 
+// How a shader's lookup is tried on samples.
+struct LookupRequest {
+  int samples = 4096;  // per frame
+  std::vector<measure::LookupWay> ways;
+};
+
 struct Config {
   std::string name;
   std::filesystem::path file;  // "" = made from scenes on the command line
@@ -59,6 +66,7 @@ struct Config {
   bool check_accuracy = true;
   int shading_samples = 1024;                 // per frame; 0 = off
   std::optional<StabilityRequest> stability;  // without: not measured
+  std::optional<LookupRequest> lookup;        // without: not measured
   TimingRequest timing;
   measure::AllocationRule allocation;
   nlohmann::json resolved;  // the configuration with all defaults, as the result carries it

@@ -11,6 +11,7 @@
 
 #include "measure/buffers.h"
 #include "measure/error.h"
+#include "measure/lookup.h"
 #include "measure/occupancy.h"
 #include "measure/shading.h"
 #include "measure/stability.h"
@@ -85,6 +86,7 @@ struct CaseResult {
   std::optional<measure::ErrorCounts> error;
   std::string deepest_miss_light;  // name in the rig
   std::optional<measure::ShadingCounts> shading;
+  std::vector<measure::LookupCounts> lookup;  // one per way; empty where not asked for
   std::optional<StabilityResult> stability;
   std::optional<TimingResult> timing;
 };

@@ -195,6 +195,7 @@ class Run {
     if (out.error && out.error->deepest)
       out.deepest_miss_light = scene.lights[static_cast<std::size_t>(out.error->deepest->rig_index)].name;
     if (config_.shading_samples > 0) out.shading = lists.shading;
+    out.lookup = lists.lookup;
     return out;
   }
 

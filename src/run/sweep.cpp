@@ -91,6 +91,11 @@ std::string case_id(const Config& config, const SceneData& data, const CasePlan&
            {"storage", identity(config.storages[plan.storage])},
            {"seed", config.seed},
            {"shading_samples", config.shading_samples}};
+  if (config.lookup) {
+    all["lookup"] = {config.lookup->samples};
+    for (const measure::LookupWay& way : config.lookup->ways)
+      all["lookup"].push_back({measure::name_of(way.logarithm), measure::name_of(way.depth)});
+  }
   if (config.stability) {
     const StabilityRequest& stability = *config.stability;
     all["stability"] = {stability.steps, stability.step_mm, stability.step_deg, stability.window};

@@ -2,7 +2,6 @@
 // ball, and no radius is padded.
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <memory>
 
@@ -26,14 +25,6 @@ Flaw flaw_from(const std::string& name) {
   return name == "tile-division" ? Flaw::tile_division : Flaw::padded_tiles;
 }
 
-// log2 by exponent and a quadratic in the mantissa, off by up to 0.005.
-float fast_log2(float value) {
-  const auto bits = std::bit_cast<std::uint32_t>(value);
-  const auto exponent = static_cast<float>(static_cast<int>(bits >> 23) - 127);
-  const float mantissa = std::bit_cast<float>((bits & 0x7fffffu) | 0x3f800000u);
-  return exponent + (-0.34484843f * mantissa + 2.02466578f) * mantissa - 1.67487759f;
-}
-
 // Slices of exponential schemes by a logarithm that is not the lookup's: of depth / first boundary to base e, or of
 // depth / far by fast_log2. Other schemes have no logarithm to get wrong.
 class LogSlices {
@@ -53,7 +44,7 @@ class LogSlices {
     const float near = slices_.boundaries[static_cast<std::size_t>(special_)], far = slices_.boundaries.back();
     if (!(depth > near)) return depth > 0.0f && special_ > 0 && depth >= near ? special_ : 0;
     const auto count = static_cast<float>(slices_.count() - special_);
-    const float place = fast_ ? fast_log2(depth / far) * (count / std::log2(far / near)) + count
+    const float place = fast_ ? grid::log2_by(grid::Log2::fast, depth / far) * (count / std::log2(far / near)) + count
                               : std::log(depth / near) * count / std::log(far / near);
     return special_ + std::clamp(static_cast<int>(place), 0, slices_.count() - special_ - 1);
   }

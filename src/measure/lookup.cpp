@@ -1,0 +1,183 @@
+#include "measure/lookup.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/random.h"
+#include "measure/shading.h"
+
+namespace clusterbench::measure {
+namespace {
+
+float moved(float value, int ulps) {
+  const float towards = ulps > 0 ? std::numeric_limits<float>::infinity() : -std::numeric_limits<float>::infinity();
+  for (int i = 0; i < std::abs(ulps); ++i) value = std::nextafter(value, towards);
+  return value;
+}
+
+// The depth at which a pixel's ray is so far from the eye.
+double depth_at_distance(const view::Frame& frame, double pixel_x, double pixel_y, double distance) {
+  const Vec3d ray = sample_at(frame, pixel_x, pixel_y, 1.0).world - frame.view_space.origin;
+  return distance / glm::length(ray);
+}
+
+// At a slice boundary, or a few ulp beside it.
+grid::Sample at_boundary(const view::Frame& frame, const grid::ScreenGrid& grid, SplitMix64& random) {
+  const std::vector<float>& boundaries = grid.slices.boundaries;
+  const double x = random.between(0.0, frame.viewport.x), y = random.between(0.0, frame.viewport.y);
+  const float boundary = boundaries[random.below(boundaries.size())];
+  constexpr int k_offsets[] = {-16, -4, -2, -1, 0, 1, 2, 4, 16};
+  const double along = moved(boundary, k_offsets[random.below(std::size(k_offsets))]);
+  const double depth = grid.kind == grid::Kind::distance ? depth_at_distance(frame, x, y, along) : along;
+  return sample_at(frame, x, y, depth);
+}
+
+// The centre of a pixel beside a tile's edge.
+double beside_edge(int tiles, float scale, int pixels, SplitMix64& random) {
+  const auto edge =
+      static_cast<double>(random.below(static_cast<std::uint64_t>(tiles) + 1)) / static_cast<double>(scale);
+  const double pixel = std::floor(edge) - 1.0 + static_cast<double>(random.below(3));
+  return std::clamp(pixel, 0.0, pixels - 1.0) + 0.5;
+}
+
+// Just inside a light, where it is nearest to the eye or farthest from it; nothing if that is not in view.
+void add_at_light_end(const view::Frame& frame, bool by_distance, SplitMix64& random,
+                      std::vector<grid::Sample>& samples) {
+  if (frame.lights.empty()) return;
+  const scene::WorldLight& light = frame.lights[random.below(frame.lights.size())];
+  const double side = random.below(2) == 0 ? -1.0 : 1.0;
+  if (!std::isfinite(light.range_m)) return;
+  const view::Projection& lens = frame.projection;
+  const Vec3d center = frame.view_space.rotation * (light.position - frame.view_space.origin);
+  const Vec3d away = by_distance && glm::length(center) > 0.0 ? glm::normalize(center) : Vec3d(0.0, 0.0, -1.0);
+  const Vec3d place = center + side * (1.0 - 1e-6) * light.range_m * away;
+  const double depth = -place.z, scale = lens.orthographic ? 1.0 : depth;
+  if (!(depth > lens.near_m && depth < lens.far_m)) return;
+  const double pixel_x = (place.x / scale - lens.left) / (lens.right - lens.left) * frame.viewport.x;
+  const double pixel_y = (lens.top - place.y / scale) / (lens.top - lens.bottom) * frame.viewport.y;
+  if (pixel_x < 0.0 || pixel_y < 0.0 || pixel_x > frame.viewport.x || pixel_y > frame.viewport.y) return;
+  samples.push_back(sample_at(frame, pixel_x, pixel_y, depth));
+}
+
+grid::Sample read_back(const view::Frame& frame, const grid::Sample& sample, DepthRead read) {
+  if (read == DepthRead::given) return sample;
+  const Vec3d local = frame.view_space.rotation * (sample.world - frame.view_space.origin);
+  const double depth = read_depth(frame.projection, read, -local.z);
+  return sample_at(frame, static_cast<double>(sample.pixel_x), static_cast<double>(sample.pixel_y), depth);
+}
+
+bool takes_logarithm(const grid::Grid& grid) {
+  return (grid.kind() == grid::Kind::frustum || grid.kind() == grid::Kind::distance) &&
+         grid.screen().slices.lookup.form == grid::SliceLookup::Form::log2;
+}
+
+// Where the grid has no cells, no lookup is to blame.
+bool is_beyond(const view::Frame& frame, const grid::Grid& grid, const grid::Sample& place) {
+  if (grid.kind() != grid::Kind::frustum && grid.kind() != grid::Kind::distance) return grid::lookup(grid, place) < 0;
+  const Vec3d local = frame.view_space.rotation * (place.world - frame.view_space.origin);
+  const double along = grid.kind() == grid::Kind::distance ? glm::length(local) : -local.z;
+  return along > static_cast<double>(grid.screen().slices.boundaries.back());
+}
+
+// The ends of what a logarithm may give.
+std::vector<grid::Log2> ends_of(Logarithm logarithm) {
+  if (logarithm == Logarithm::glsl) return {grid::Log2::glsl_low, grid::Log2::glsl_high};
+  return {logarithm == Logarithm::fast ? grid::Log2::fast : grid::Log2::rounded};
+}
+
+}  // namespace
+
+const char* name_of(Logarithm logarithm) {
+  constexpr const char* k_names[] = {"rounded", "glsl", "fast"};
+  return k_names[static_cast<int>(logarithm)];
+}
+
+const char* name_of(DepthRead depth) {
+  constexpr const char* k_names[] = {"given", "d32f", "d24"};
+  return k_names[static_cast<int>(depth)];
+}
+
+double read_depth(const view::Projection& lens, DepthRead read, double depth) {
+  if (read == DepthRead::given) return static_cast<double>(static_cast<float>(depth));
+  const double near = lens.near_m, far = lens.far_m, clamped = std::clamp(depth, near, far);
+  double stored;
+  if (lens.orthographic)
+    stored = (far - clamped) / (far - near);
+  else
+    stored = std::isinf(far) ? near / clamped : near * (far - clamped) / ((far - near) * clamped);
+  constexpr double k_steps = (1 << 24) - 1;
+  stored = read == DepthRead::d24 ? std::round(stored * k_steps) / k_steps : static_cast<float>(stored);
+  if (lens.orthographic) return static_cast<float>(far - stored * (far - near));
+  // As a shader does it: in single precision, from constants that were rounded once. Nothing stored is the far end.
+  if (std::isinf(far)) return static_cast<float>(near) / static_cast<float>(stored);
+  const auto scale = static_cast<float>((far - near) / (near * far)), bias = static_cast<float>(1.0 / far);
+  return 1.0f / (static_cast<float>(stored) * scale + bias);
+}
+
+std::vector<grid::Sample> edge_samples(const view::Frame& frame, const grid::Grid& grid, double far_m, int count,
+                                       std::uint64_t seed) {
+  const bool on_screen = grid.kind() == grid::Kind::frustum || grid.kind() == grid::Kind::distance;
+  std::vector<grid::Sample> samples = volume_samples(frame, far_m, on_screen ? count / 4 : count * 3 / 4, seed);
+  SplitMix64 random(SplitMix64(seed + 77 + static_cast<std::uint64_t>(frame.index)).next());
+  const double near = std::max(frame.projection.near_m, 1e-3 * far_m);
+  const int in_view = static_cast<int>(samples.size());
+  for (int i = 0; i < count / 4; ++i) add_at_light_end(frame, grid.kind() == grid::Kind::distance, random, samples);
+  for (int i = 0; on_screen && i < count - 2 * in_view; ++i) {
+    if (i % 2 == 0) {
+      samples.push_back(at_boundary(frame, grid.screen(), random));
+      continue;
+    }
+    const grid::Tiles& tiles = grid.screen().tiles;
+    const double x = beside_edge(tiles.count.x, tiles.scale_x, frame.viewport.x, random);
+    const double y = beside_edge(tiles.count.y, tiles.scale_y, frame.viewport.y, random);
+    samples.push_back(sample_at(frame, x, y, near * std::pow(far_m / near, random.unit())));
+  }
+  return samples;
+}
+
+LookupFrame::LookupFrame(const view::Frame& frame, const grid::Grid& grid, const std::vector<LookupWay>& ways,
+                         double far_m, int samples, std::uint64_t seed) {
+  std::vector<grid::Sample> places = edge_samples(frame, grid, far_m, samples, seed);
+  std::erase_if(places, [&](const grid::Sample& place) { return is_beyond(frame, grid, place); });
+  reaching_ = lights_reaching(frame, places);
+  for (const LookupWay& way : ways) {
+    Found found{way, 0, {}, {}};
+    const std::vector<grid::Log2> ends = ends_of(way.logarithm);
+    for (const grid::Sample& place : places) {
+      const grid::Sample seen = read_back(frame, place, way.depth);
+      found.first.push_back(grid::lookup(grid, seen, ends.front()));
+      found.second.push_back(ends.size() > 1 ? grid::lookup(grid, seen, ends.back()) : found.first.back());
+    }
+    if (takes_logarithm(grid))
+      for (const grid::Log2 end : ends)
+        found.padding = std::max(found.padding, grid::safe_padding_ulps(grid.screen().slices, end));
+    found_.push_back(std::move(found));
+  }
+}
+
+void LookupFrame::add(const assign::Lists& reported, std::vector<LookupCounts>& counts) const {
+  counts.resize(found_.size());
+  for (std::size_t i = 0; i < found_.size(); ++i) add_way(found_[i], reported, counts[i]);
+}
+
+void LookupFrame::add_way(const Found& found, const assign::Lists& reported, LookupCounts& counts) const {
+  counts.way = found.way;
+  counts.samples += found.first.size();
+  counts.safe_padding_ulps = std::max(counts.safe_padding_ulps, found.padding);
+  const auto lists_it = [&](std::int64_t cell, std::uint32_t light) {
+    if (cell < 0) return false;
+    const auto list = reported.of(static_cast<std::uint32_t>(cell));
+    return std::binary_search(list.begin(), list.end(), light);
+  };
+  for (std::uint32_t i = 0; i < found.first.size(); ++i) {
+    std::uint64_t missed = 0;
+    for (const std::uint32_t light : reaching_.of(i))
+      missed += lists_it(found.first[i], light) && lists_it(found.second[i], light) ? 0 : 1;
+    counts.needed += reaching_.of(i).size();
+    counts.missed += missed;
+    counts.wrong_samples += missed > 0 ? 1 : 0;
+  }
+}
+
+}  // namespace clusterbench::measure

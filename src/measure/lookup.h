@@ -1,0 +1,67 @@
+#pragma once
+// Does a shader's lookup land in a cell whose list has every light that reaches the place? Places are drawn at random
+// and on purpose at slice boundaries, at the edges of tiles and around lights' ends; the lookup takes its logarithm,
+// and reads its depth, in the ways that shaders do.
+
+#include <cstdint>
+#include <vector>
+
+#include "grid/grid.h"
+#include "measure/truth.h"
+
+namespace clusterbench::measure {
+
+enum class Logarithm : std::uint8_t { rounded, glsl, fast };  // see grid::Log2; glsl: both of its ends
+enum class DepthRead : std::uint8_t { given, d32f, d24 };     // given: in single precision; reversed-Z buffers
+inline constexpr int k_logarithm_count = 3, k_depth_read_count = 3;
+const char* name_of(Logarithm logarithm);  // "rounded", "glsl", "fast"
+const char* name_of(DepthRead depth);      // "given", "d32f", "d24"
+
+struct LookupWay {
+  Logarithm logarithm = Logarithm::rounded;
+  DepthRead depth = DepthRead::given;
+};
+
+struct LookupCounts {
+  LookupWay way;
+  std::uint64_t samples = 0;
+  std::uint64_t needed = 0;  // lights that reach the samples
+  std::uint64_t missed = 0;  // of those, not in the list that the lookup found
+  std::uint64_t wrong_samples = 0;
+  // Of the slices, as grid::safe_padding_ulps; 0 where the lookup takes no logarithm. The largest over the frames.
+  std::int64_t safe_padding_ulps = 0;
+};
+
+// What the depth buffer gives back of a depth. Reversed: 1 at near, 0 at far (or infinity). Depths in front of near
+// clamp to it. D24 stores the nearest of 2^24 - 1 steps.
+double read_depth(const view::Projection& lens, DepthRead read, double depth);
+
+// The samples of one frame, looked up in every way. Places beyond the grid's far end are left out.
+class LookupFrame {
+ public:
+  LookupFrame(const view::Frame& frame, const grid::Grid& grid, const std::vector<LookupWay>& ways, double far_m,
+              int samples, std::uint64_t seed);
+
+  // `counts`: one per way, in their order.
+  void add(const assign::Lists& reported, std::vector<LookupCounts>& counts) const;
+
+ private:
+  // The cell or the two cells that a way can find for each sample; -1: none.
+  struct Found {
+    LookupWay way;
+    std::int64_t padding = 0;
+    std::vector<std::int64_t> first, second;
+  };
+  void add_way(const Found& found, const assign::Lists& reported, LookupCounts& counts) const;
+
+  assign::Lists reaching_;  // per sample
+  std::vector<Found> found_;
+};
+
+// Seeded places in the frame: a quarter as volume_samples; a quarter at slice boundaries and a few ulp beside them; a
+// quarter in pixels beside the edges of tiles; a quarter where lights just end, nearest to the eye and farthest from
+// it. Grids of boxes, which have neither slices nor tiles, take more random ones.
+std::vector<grid::Sample> edge_samples(const view::Frame& frame, const grid::Grid& grid, double far_m, int count,
+                                       std::uint64_t seed);
+
+}  // namespace clusterbench::measure

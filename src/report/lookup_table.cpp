@@ -1,0 +1,61 @@
+#include "report/lookup_table.h"
+
+#include <algorithm>
+
+#include "report/columns.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string missed_text(const Json& way) {
+  const double needed = way["needed"].get<double>(), missed = way["missed"].get<double>();
+  return needed > 0.0 ? text("%.4f %%", 100.0 * missed / needed) : "-";
+}
+
+// Assigners as lines, ways as columns.
+std::string block_text(const std::string& block, const std::vector<const Json*>& cases) {
+  Cells headings{"", "assigner"}, padding{"", "(safe padding, ulps)"};
+  for (const Json& way : (*cases.front())["lookup"]) {
+    headings.push_back(way["logarithm"].get<std::string>() + "/" + way["depth"].get<std::string>());
+    padding.push_back(way["safe_padding_ulps"].dump());
+  }
+  std::vector<Cells> rows{headings};
+  for (const Json* one : cases) {
+    Cells row{"", (*one)["assigner"]["label"].get<std::string>()};
+    for (const Json& way : (*one)["lookup"]) row.push_back(missed_text(way));
+    rows.push_back(row);
+  }
+  rows.push_back(padding);
+  const std::vector<std::size_t> widths = widths_of(rows);
+  std::string out = " " + block + "\n";
+  for (const Cells& row : rows) out += aligned(row, widths);
+  return out;
+}
+
+}  // namespace
+
+std::string lookup_table(const Json& result) {
+  std::string out;
+  for (const Json& scene : result["scenes"]) {
+    std::string blocks;
+    for (const std::string& block : blocks_of(result["cases"], scene)) {
+      std::vector<const Json*> cases;
+      for (const Json& one : result["cases"])
+        if (one.contains("lookup") && one["scene"] == scene["name"] && block_of(one) == block &&
+            std::none_of(cases.begin(), cases.end(),
+                         [&](const Json* other) { return (*other)["assigner"]["label"] == one["assigner"]["label"]; }))
+          cases.push_back(&one);
+      if (!cases.empty()) blocks += block_text(block, cases);
+    }
+    if (!blocks.empty()) out += "lookup on " + shown(scene["name"]) + "\n" + blocks + "\n";
+  }
+  if (out.empty()) return "";
+  return "\n" + out +
+         "lights missed in % of those that reach the samples, by logarithm and depth of the lookup.\nsafe padding: by "
+         "so "
+         "many ulps slices must reach over their boundaries.\n";
+}
+
+}  // namespace clusterbench::report

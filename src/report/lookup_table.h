@@ -1,0 +1,12 @@
+#pragma once
+// What the lookup misses, as a table for people.
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace clusterbench::report {
+
+// Per scene and grid, one line per assigner and way of looking up; "" where no case has it.
+std::string lookup_table(const nlohmann::ordered_json& result);
+
+}  // namespace clusterbench::report
