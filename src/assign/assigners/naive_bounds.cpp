@@ -46,7 +46,7 @@ class LogSlices {
     const auto count = static_cast<float>(slices_.count() - special_);
     const float place = fast_ ? grid::log2_by(grid::Log2::fast, depth / far) * (count / std::log2(far / near)) + count
                               : std::log(depth / near) * count / std::log(far / near);
-    return special_ + std::clamp(static_cast<int>(place), 0, slices_.count() - special_ - 1);
+    return special_ + static_cast<int>(std::clamp(place, 0.0f, count - 1.0f));
   }
 
   const grid::Slices& slices_;
