@@ -49,7 +49,7 @@ struct LensSides {
 // A camera's lens as glTF gives it. The aspect ratio of a frame is its viewport's, the vertical extent is the lens's.
 struct Lens {
   bool orthographic = false;
-  double yfov_rad = 0.0;              // perspective
+  double yfov_rad = 0.0;  // perspective
   // Perspective, in place of yfov and aspect ratio. glTF has no such camera; this tool reads it from the camera's
   //   "extras": {"clusterbench_sides": [left, right, bottom, top]}
   std::optional<LensSides> sides;

@@ -21,8 +21,8 @@ struct Projection {
   friend bool operator==(const Projection&, const Projection&) = default;
 };
 
-// The vertical extent is the lens's, the horizontal one follows from the viewport's aspect ratio (square pixels); or the
-// lens has all four sides.
+// The vertical extent is the lens's, the horizontal one follows from the viewport's aspect ratio (square pixels); or
+// the lens has all four sides.
 Projection make_projection(const scene::Lens& lens, Vec2i viewport);
 
 // A rigid frame of reference: local = rotation * (world - origin).

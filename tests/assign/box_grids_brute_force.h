@@ -1,8 +1,8 @@
 #pragma once
 // Every light against every box, with the assigners' predicate.
 
-#include "assign/dense_check.h"
 #include "assign/box_rows.h"
+#include "assign/dense_check.h"
 #include "geom/predicates.h"
 
 namespace clusterbench::assign::testing {
