@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "assign/lists.h"
+#include "assign/simd/span_lists.h"
 #include "assign/storage.h"
 #include "core/random.h"
 #include "geom/predicates.h"
@@ -174,6 +175,25 @@ void lists_by_row(benchmark::State& state) {
   count_pairs(state, lists);
 }
 BENCHMARK(lists_by_row)->Arg(1)->Arg(4)->Arg(16);
+
+void lists_by_compression(benchmark::State& state) {
+  const auto length = static_cast<std::uint32_t>(state.range(0));
+  const std::vector<Row> rows = random_rows(length);
+  assign::SpanLists spans;
+  assign::Lists lists;
+  for (auto _ : state) {
+    spans.start(static_cast<std::uint32_t>(k_cells.y * k_cells.z), static_cast<std::uint32_t>(k_cells.x));
+    for (const Row& row : rows) {
+      const std::uint32_t first = row.first_cell % static_cast<std::uint32_t>(k_cells.x);
+      spans.add(row.first_cell / static_cast<std::uint32_t>(k_cells.x), first, first + length - 1, row.light);
+    }
+    spans.finish(lists);
+    benchmark::DoNotOptimize(lists.lights.data());
+  }
+  state.SetLabel(assign::simd_target_name());
+  count_pairs(state, lists);
+}
+BENCHMARK(lists_by_compression)->Arg(1)->Arg(4)->Arg(16);
 
 assign::Lists random_lists() {
   assign::PairBuffer pairs;

@@ -19,7 +19,7 @@ HOMES = {
     "boost/": ["geom"],
     "tiny_gltf.h": ["scene"],
     "embree": ["view"],
-    "hwy/": ["assign", "geom"],
+    "hwy/": ["assign"],
     "valijson/": ["run"],
     "CLI/": ["cli"],
 }

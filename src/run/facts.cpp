@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "assign/simd/span_lists.h"
 #include "run/git_sha.h"
 #include "run/result.h"
 
@@ -48,7 +49,7 @@ ToolFacts tool_facts() {
           .compiler = compiler(),
           .flags = CLUSTERBENCH_FLAGS,
           .build_type = CLUSTERBENCH_BUILD_TYPE,
-          .simd_target = "scalar",
+          .simd_target = assign::simd_target_name(),
           .libraries = {CLUSTERBENCH_LIBRARIES{"glm", dotted(GLM_VERSION_MAJOR, GLM_VERSION_MINOR, GLM_VERSION_PATCH)},
                         {"nlohmann_json", dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
                                                  NLOHMANN_JSON_VERSION_PATCH)}}};

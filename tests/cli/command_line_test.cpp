@@ -41,8 +41,8 @@ TEST(CommandLine, list_names_every_assigner_with_its_parameters) {
   std::vector<std::string> names;
   for (const Json& row : all["assigners"]) names.push_back(row["name"]);
   EXPECT_EQ(names, (std::vector<std::string>{"brute-force", "bounds", "planes", "aabb", "sphere-refinement", "exact",
-                                             "distance", "cascades", "world-grid", "naive-bounds", "naive-refinement",
-                                             "naive-planes", "naive-cone"}));
+                                             "exact-fast", "distance", "cascades", "world-grid", "naive-bounds",
+                                             "naive-refinement", "naive-planes", "naive-cone"}));
   const std::string text = tool("list").out;
   for (const std::string& name : names) EXPECT_NE(text.find(name), std::string::npos) << name;
 }

@@ -9,10 +9,10 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "assign/assigner.h"
+#include "assign/exact_cells.h"
 #include "assign/light_test.h"
 #include "geom/row_slopes.h"
 #include "grid/index_range.h"
@@ -92,26 +92,6 @@ class Exact final : public Assigner {
   }
 
  private:
-  // Decides single cells from the scene's own numbers.
-  class Judge {
-   public:
-    Judge(const grid::Grid& grid, const view::LightArrays& lights, std::uint32_t light)
-        : grid_(grid), volume_(lights.volume(light)) {}
-
-    bool touches(std::uint32_t cell) {
-      if (!filter_) filter_.emplace(volume_);
-      const geom::Cell shape = grid_.cell(cell);
-      geom::Verdict verdict = filter_->meets(shape);
-      if (verdict == geom::Verdict::open) verdict = geom::decide_meets(volume_, shape);
-      return verdict != geom::Verdict::no;
-    }
-
-   private:
-    const grid::Grid& grid_;
-    geom::LightVolume volume_;
-    std::optional<geom::LightFilter> filter_;
-  };
-
   void make_cell_balls() {
     cell_balls_.reserve(grid_->cell_count());
     for (std::uint32_t cell = 0; cell < grid_->cell_count(); ++cell)
@@ -150,7 +130,7 @@ class Exact final : public Assigner {
     const geom::Ball larger = lights.ball(light, k_roundings);
     const geom::Ball smaller = lights.ball(light, -k_roundings);
     const RowColumns columns(grid_->screen().tiles);
-    Judge judge(*grid_, lights, light);
+    CellJudge judge(*grid_, lights, light);
     each_row(larger, [&](const Row& row) {
       const IndexRange outer = columns.touched(larger, row);
       if (outer.empty()) return;
@@ -161,21 +141,19 @@ class Exact final : public Assigner {
 
   // The cells of `outer` beside `inner` that are touched, from the outside in: the hull of what is found. All cells
   // between two touched ones are.
-  IndexRange decided(const Row& row, IndexRange outer, const IndexRange& inner, Judge& judge) {
+  IndexRange decided(const Row& row, const IndexRange& outer, const IndexRange& inner, CellJudge& judge) {
     if (outer.first == inner.first && outer.last == inner.last) return {};
     const auto misses = [&](int column) {
       if (inner.holds(column)) return false;
       ++fallbacks_;
       return !judge.touches(row.first_cell + static_cast<std::uint32_t>(column));
     };
-    while (!outer.empty() && misses(outer.first)) ++outer.first;
-    while (outer.last > outer.first && misses(outer.last)) --outer.last;
-    return outer;
+    return narrowed(outer, misses);
   }
 
   void add_spot(const view::LightArrays& lights, std::uint32_t light) {
     const geom::SphericalCone cone = lights.cone(light, view::k_given_roundings);
-    Judge judge(*grid_, lights, light);
+    CellJudge judge(*grid_, lights, light);
     if (std::isinf(cone.range)) return add_endless_spot(light, judge);
     // Both hold the cone; neither holds the other.
     const geom::Ball around = geom::bounding_ball(cone), range = lights.ball(light, k_roundings);
@@ -183,7 +161,7 @@ class Exact final : public Assigner {
     const RowColumns columns(grid_->screen().tiles);
     each_row(larger, [&](const Row& row) {
       const IndexRange seen = columns.touched(larger, row), lit = columns.touched(range, row);
-      IndexRange both{std::max(seen.first, lit.first), std::min(seen.last, lit.last)};
+      const IndexRange both{std::max(seen.first, lit.first), std::min(seen.last, lit.last)};
       if (seen.empty() || lit.empty() || both.empty()) return;
       const auto misses = [&](int column) {
         const std::uint32_t cell = row.first_cell + static_cast<std::uint32_t>(column);
@@ -192,13 +170,11 @@ class Exact final : public Assigner {
         ++fallbacks_;
         return !judge.touches(cell);
       };
-      while (!both.empty() && misses(both.first)) ++both.first;
-      while (both.last > both.first && misses(both.last)) --both.last;
-      add_interval(row, both, light);
+      add_interval(row, narrowed(both, misses), light);
     });
   }
 
-  void add_endless_spot(std::uint32_t light, Judge& judge) {
+  void add_endless_spot(std::uint32_t light, CellJudge& judge) {
     fallbacks_ += grid_->cell_count();
     for (std::uint32_t cell = 0; cell < grid_->cell_count(); ++cell)
       if (judge.touches(cell)) pairs_.add(cell, light);
