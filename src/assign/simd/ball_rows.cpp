@@ -212,28 +212,37 @@ struct Slopes {
   float low, high;
 };
 
-// The sphere's own extremes at y = the centre's: its tangents, and the circles in the slice planes.
+// The sphere's own extremes at y = the centre's: its tangents, and the circles in the slice planes. Each lies in one
+// row.
 class LevelPoints {
  public:
   LevelPoints(const RowPlanes& planes, const SeenBall& ball, std::size_t stride, float* hulls)
       : planes_(planes), ball_(ball), stride_(stride), hulls_(hulls) {}
 
-  void add_all(float radius, std::size_t kind) {
-    for (int plane = ball_.first_slice; plane <= ball_.last_slice + 1; ++plane) add_slice_plane(plane, radius, kind);
-    add_tangents(radius, kind);
+  void add_all() {
+    for (int plane = ball_.first_slice; plane <= ball_.last_slice + 1; ++plane) add_slice_plane(plane);
+    add_tangents(ball_.larger, k_outer);
+    if (ball_.smaller > 0.0f) add_tangents(ball_.smaller, k_inner);
   }
 
  private:
-  void add_slice_plane(int plane, float radius, std::size_t kind) {
+  static constexpr std::size_t k_outer = 0, k_inner = 2;
+
+  void add_slice_plane(int plane) {
     const auto k = static_cast<std::size_t>(plane);
-    const float depth = planes_.depth[k], gap = depth - ball_.depth, square = radius * radius - gap * gap;
-    if (!(square >= 0.0f) || !(depth > 0.0f)) return;
-    const float half = std::sqrt(square), inverse = planes_.inverse_depth[k];
+    const float gap = planes_.depth[k] - ball_.depth, inverse = planes_.inverse_depth[k];
+    const float square = ball_.larger * ball_.larger - gap * gap;
+    if (!(square >= 0.0f)) return;
     const int row = row_at(planes_.row_slope, ball_.y * inverse);
-    for (const int slice : {plane - 1, plane}) {
-      widen(slice, row, kind, (ball_.x - half) * inverse);
-      widen(slice, row, kind, (ball_.x + half) * inverse);
-    }
+    add_chord(plane, row, std::sqrt(square) * inverse, inverse, k_outer);
+    const float smaller = ball_.smaller * ball_.smaller - gap * gap;
+    if (smaller >= 0.0f && ball_.smaller > 0.0f) add_chord(plane, row, std::sqrt(smaller) * inverse, inverse, k_inner);
+  }
+
+  void add_chord(int plane, int row, float half, float inverse, std::size_t kind) {
+    const float middle = ball_.x * inverse;
+    widen(plane - 1, row, kind, middle - half, middle + half);
+    widen(plane, row, kind, middle - half, middle + half);
   }
 
   void add_tangents(float radius, std::size_t kind) {
@@ -245,17 +254,18 @@ class LevelPoints {
       const float lean = ball_.depth * tangent - ball_.x * side, depth = tangent / ahead * lean;
       if (!(depth > 0.0f)) continue;
       const auto above = std::upper_bound(planes_.depth.begin(), planes_.depth.end(), depth);
-      const int slice = static_cast<int>(above - planes_.depth.begin()) - 1;
-      widen(slice, row_at(planes_.row_slope, ball_.y / depth), kind, (ball_.x * tangent + ball_.depth * side) / lean);
+      const float slope = (ball_.x * tangent + ball_.depth * side) / lean;
+      widen(static_cast<int>(above - planes_.depth.begin()) - 1, row_at(planes_.row_slope, ball_.y / depth), kind,
+            slope, slope);
     }
   }
 
-  void widen(int slice, int row, std::size_t kind, float slope) {
+  void widen(int slice, int row, std::size_t kind, float low, float high) {
     const int place = row - ball_.first_plane;
     if (slice < ball_.first_slice || slice > ball_.last_slice || place < 0 || place >= ball_.planes - 1) return;
     float* at = hulls_ + (static_cast<std::size_t>(slice - ball_.first_slice) * 4 + kind) * stride_ + place;
-    at[0] = std::min(at[0], slope);
-    at[stride_] = std::max(at[stride_], slope);
+    at[0] = std::min(at[0], low);
+    at[stride_] = std::max(at[stride_], high);
   }
 
   const RowPlanes& planes_;
@@ -282,7 +292,7 @@ RowPlanes::RowPlanes(const grid::ScreenGrid& grid)
   inverse_tilt = padded(inverse_tilt, 1.0f);
   for (const float z : grid.slices.boundaries) {
     depth.push_back(z);
-    inverse_depth.push_back(1.0f / z);
+    inverse_depth.push_back(z > 0.0f ? 1.0f / z : 1e30f);  // at the eye every slope but 0 is beyond the picture
   }
   // The edge tile may be clipped: the first one tells the width.
   columns_per_slope = 1.0f / (grid.tiles.x[1] - grid.tiles.x[0]);
@@ -333,9 +343,7 @@ void find_rows(const RowPlanes& planes, const geom::Ball& ball, float slack, std
   HWY_DYNAMIC_DISPATCH(all_plane_hulls)(planes, seen, stride, scratch.data());
   for (std::size_t slice = 0; slice < slice_count; ++slice)
     HWY_DYNAMIC_DISPATCH(merge_planes)(touched.count(), stride, scratch.data() + slice * 4 * stride);
-  LevelPoints level(planes, seen, stride, scratch.data());
-  level.add_all(seen.larger, 0);
-  if (seen.smaller > 0.0f) level.add_all(seen.smaller, 2);
+  LevelPoints(planes, seen, stride, scratch.data()).add_all();
 
   // What the scale and the planes' own rounding can be off by, in columns.
   const float margin = 0x1p-19f * static_cast<float>(planes.columns + 1);
