@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geom/rounding.h"
+
 namespace clusterbench::geom {
 namespace {
 
@@ -12,15 +14,6 @@ constexpr float k_infinity = std::numeric_limits<float>::infinity();
 
 float size_of(const Vec3f& p) {
   return std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z);
-}
-
-float rounded_down(double value) {
-  const auto nearest = static_cast<float>(value);
-  return static_cast<double>(nearest) > value ? std::nextafter(nearest, -k_infinity) : nearest;
-}
-
-float rounded_up(double value) {
-  return -rounded_down(-value);
 }
 
 Plane unit_plane(double nx, double ny, double nz, double offset) {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 
 #include "core/error.h"
+#include "geom/rounding.h"
 
 namespace clusterbench::grid {
 namespace {
@@ -120,12 +120,6 @@ SliceLookup make_lookup(const Slicing& slicing, const Reach& reach) {
   return lookup;
 }
 
-float rounded_down(double value) {
-  const auto nearest = static_cast<float>(value);
-  return static_cast<double>(nearest) > value ? std::nextafter(nearest, -std::numeric_limits<float>::infinity())
-                                              : nearest;
-}
-
 Slicing with_list_reach(Slicing slicing) {
   const auto& list = slicing.boundaries_m;
   require(list.size() >= 2, "slices.boundaries", "needs at least two numbers");
@@ -221,7 +215,7 @@ Slices make_slices(const Slicing& asked, const SliceRange& range, bool orthograp
   Slices slices;
   for (int i = 0; i <= slicing.count; ++i) slices.boundaries.push_back(static_cast<float>(boundary(slicing, reach, i)));
   // What lies between the camera's near plane and the first boundary looks itself up in slice 0, so it belongs to it.
-  slices.boundaries.front() = rounded_down(std::min(reach.near, range.camera_near_m));
+  slices.boundaries.front() = geom::rounded_down(std::min(reach.near, range.camera_near_m));
   for (int i = 0; i < slicing.count; ++i)
     require(slices.boundaries[static_cast<std::size_t>(i)] < slices.boundaries[static_cast<std::size_t>(i) + 1],
             "slices", "are too thin: two boundaries coincide in single precision");

@@ -2,21 +2,13 @@
 
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "core/error.h"
+#include "geom/rounding.h"
 
 namespace clusterbench::view {
 namespace {
-
-constexpr float k_infinity = std::numeric_limits<float>::infinity();
-
-// Never below the given value.
-float rounded_up(double value) {
-  const auto nearest = static_cast<float>(value);
-  return static_cast<double>(nearest) < value ? std::nextafter(nearest, k_infinity) : nearest;
-}
 
 bool is_finite(const scene::CameraPose& pose) {
   double sum = std::abs(pose.eye.x) + std::abs(pose.eye.y) + std::abs(pose.eye.z);
@@ -103,8 +95,9 @@ LightArrays lights_in(const Frame& frame, const Space& space) {
     out.x.push_back(static_cast<float>(center.x));
     out.y.push_back(static_cast<float>(center.y));
     out.z.push_back(static_cast<float>(center.z));
-    out.radius.push_back(rounded_up(light.range_m));
-    out.reach.push_back(rounded_up(std::abs(center.x) + std::abs(center.y) + std::abs(center.z) + out.radius.back()));
+    out.radius.push_back(geom::rounded_up(light.range_m));
+    out.reach.push_back(
+        geom::rounded_up(std::abs(center.x) + std::abs(center.y) + std::abs(center.z) + out.radius.back()));
     if (light.type == scene::LightType::spot) add_axis(out, space.rotation, light);
   }
   return out;
