@@ -1,0 +1,98 @@
+// Conservative assigners on lights that were packed: what they lose, and that inflation gives it back.
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "assign/settings.h"
+#include "measure/truth.h"
+#include "view/packing.h"
+
+namespace clusterbench::measure {
+namespace {
+
+using assign::testing::Setting;
+using view::Packing;
+
+constexpr Packing k_lossy[] = {Packing::half, Packing::unorm16};
+
+std::uint64_t missing(const assign::Lists& found, const assign::Lists& truth) {
+  std::uint64_t count = 0;
+  for (std::uint32_t cell = 0; cell < truth.cell_count(); ++cell)
+    for (const std::uint32_t light : truth.of(cell)) count += assign::testing::lists_light(found, cell, light) ? 0 : 1;
+  return count;
+}
+
+assign::Lists lists_of(const assign::AssignerRow& row, const assign::Params& params, const grid::Grid& grid,
+                       const view::LightArrays& lights) {
+  const auto assigner = row.make(params);
+  assigner->build(grid);
+  assign::Lists lists;
+  assigner->assign(lights, lists);
+  return lists;
+}
+
+// Adds what is lost without inflation to `lost`, by packing; with inflation nothing may be.
+void check(const assign::AssignerRow& row, const Setting& setting, const std::vector<assign::Params>& choices,
+           std::map<Packing, std::uint64_t>& lost) {
+  const view::LightArrays lights = view::lights_in(setting.frame, grid::space_of(setting.grid, setting.frame));
+  const Truth truth = find_truth(setting.frame, setting.grid, 2);
+  for (const Packing packing : k_lossy) {
+    const view::PackedLights packed = view::packed(lights, packing);
+    const view::LightArrays inflated = view::inflated(packed);
+    for (const assign::Params& params : choices) {
+      lost[packing] += missing(lists_of(row, params, setting.grid, packed.lights), truth.lists);
+      EXPECT_EQ(missing(lists_of(row, params, setting.grid, inflated), truth.lists), 0u)
+          << row.name << " on " << setting.name << ", " << view::packing_name(packing);
+    }
+  }
+}
+
+// Those that see the packed numbers: an exact one goes back to the scene's.
+std::vector<const assign::AssignerRow*> conservative_rows() {
+  std::vector<const assign::AssignerRow*> rows;
+  for (const assign::AssignerRow* row : assign::assigner_rows())
+    if (row->conservative && !row->exact) rows.push_back(row);
+  return rows;
+}
+
+TEST(PackedLights, lose_pairs_with_every_conservative_assigner_unless_they_are_inflated) {
+  for (const assign::AssignerRow* row : conservative_rows()) {
+    std::map<Packing, std::uint64_t> lost;
+    for (const Setting& setting : assign::testing::settings_for(*row, 41))
+      check(*row, setting, assign::testing::params_of(*row), lost);
+    for (const Packing packing : k_lossy)
+      EXPECT_GT(lost[packing], 0u) << row->name << " with " << view::packing_name(packing) << ": no power";
+  }
+}
+
+// A frame of one of the project's own scenes with a grid of the row's kind.
+Setting setting_of(const scene::Scene& scene, const scene::Shot& shot, grid::Kind kind) {
+  using namespace assign::testing;
+  Setting setting;
+  setting.name = scene.name + ", " + grid::kind_name(kind);
+  setting.frame = view::make_frame(scene, shot, 0, {1920, 1080});
+  const grid::GridSpec spec = kind == grid::Kind::world || kind == grid::Kind::cascades
+                                  ? settings::box_spec(kind, {16, 8, 16})
+                                  : settings::screen_spec(kind, {16, 9}, grid::Scheme::exponential, 24, 0.1);
+  setting.grid = assign::testing::grid_of(spec, setting.frame);
+  return setting;
+}
+
+TEST(PackedLights, of_the_projects_scenes_lose_pairs_unless_they_are_inflated) {
+  std::map<Packing, std::uint64_t> lost;
+  for (const char* name : {"hall-512", "open-world", "street", "jam", "mirror", "outlier"}) {
+    scene::Scene scene =
+        scene::load_gltf(std::filesystem::path(CLUSTERBENCH_SOURCE_DIR) / "scenes" / (name + std::string(".glb")));
+    scene::resolve_ranges(scene, {});
+    const scene::CameraPath path = scene::camera_paths(scene, {.camera = "", .count = 3}).front();
+    for (const assign::AssignerRow* row : conservative_rows())
+      for (const grid::Kind kind : row->kinds)
+        for (const scene::Shot& shot : path.shots)
+          check(*row, setting_of(scene, shot, kind), {assign::Params(row->params)}, lost);
+  }
+  for (const Packing packing : k_lossy) EXPECT_GT(lost[packing], 100u) << view::packing_name(packing);
+}
+
+}  // namespace
+}  // namespace clusterbench::measure
