@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "run/frame_lights.h"
+
 namespace clusterbench::run {
 namespace {
 
@@ -13,29 +15,31 @@ std::uint32_t real_cells(const grid::Grid& grid) {
   return count;
 }
 
-// One frame as all assigners of the group see it.
+// One frame as all methods of the group see it.
 struct FrameAtHand {
   view::Frame frame;
   bool is_new_grid = false;
-  view::LightArrays lights;
+  FrameLights lights;
   measure::Truth truth;
   std::vector<grid::Sample> samples;
   assign::Lists reaching;
   std::optional<measure::LookupFrame> lookup;
+
+  std::uint32_t spots() const { return static_cast<std::uint32_t>(frame.lights.size()) - frame.points; }
 };
 
 class ListMeter {
  public:
-  ListMeter(const Config& config, std::size_t assigner) : config_(config) {
-    const MethodRequest& method = config.assigners[assigner];
-    assigner_ = assign::find_assigner(method.name)->make(method.params);
-    measures_.assigner = assigner;
+  ListMeter(const Config& config, const Method& method) : config_(config) {
+    const MethodRequest& assigner = config.assigners[method.assigner];
+    assigner_ = assign::find_assigner(assigner.name)->make(assigner.params);
+    measures_.method = method;
   }
 
   void add(const FrameAtHand& now, const grid::Grid& grid) {
     if (now.is_new_grid) assigner_->build(grid);
     if (!occupancy_) occupancy_.emplace(real_cells(grid));
-    assigner_->assign(now.lights, lists_);
+    assigner_->assign(now.lights.seen(measures_.method.precision), lists_);
     measures_.tests_done += assigner_->tests_done();
     measures_.fallbacks += assigner_->fallbacks();
     occupancy_->add_frame(now.frame.index, lists_);
@@ -46,7 +50,7 @@ class ListMeter {
 
   const assign::Lists& lists() const { return lists_; }
   std::size_t scratch_bytes() const { return assigner_->scratch_bytes(); }
-  std::size_t assigner() const { return measures_.assigner; }
+  const Method& method() const { return measures_.method; }
 
   ListMeasures result() const {
     ListMeasures out = measures_;
@@ -64,22 +68,22 @@ class ListMeter {
 
 class CaseMeter {
  public:
-  CaseMeter(const Config& config, const CasePlan& plan) : assigner_(plan.assigner), buffers_(config.allocation) {
+  CaseMeter(const Config& config, const CasePlan& plan) : method_(plan.method()), buffers_(config.allocation) {
     const MethodRequest& method = config.storages[plan.storage];
     storage_ = assign::find_storage(method.name)->make(method.params);
   }
 
   void add(const FrameAtHand& now, const grid::Grid& grid, const ListMeter& list) {
-    if (now.is_new_grid) storage_->start(grid.cell_count(), now.lights.points, now.lights.spots);
+    if (now.is_new_grid) storage_->start(grid.cell_count(), now.frame.points, now.spots());
     storage_->store(list.lists());
     buffers_.add_frame(now.frame.index, *storage_, list.scratch_bytes());
   }
 
-  std::size_t assigner() const { return assigner_; }
+  const Method& method() const { return method_; }
   measure::Buffers result() const { return buffers_.result(); }
 
  private:
-  std::size_t assigner_;
+  Method method_;
   std::unique_ptr<assign::Storage> storage_;
   measure::BufferMeter buffers_;
 };
@@ -95,7 +99,7 @@ FrameAtHand look_at(const Config& config, const PathFrames& path, GridOfFrames& 
   now.frame = path.frame(index);
   now.is_new_grid = grids.update(path, now.frame);
   const grid::Grid& grid = grids.grid();
-  now.lights = view::lights_in(now.frame, grid::space_of(grid, now.frame));
+  now.lights = FrameLights(config.precisions, view::lights_in(now.frame, grid::space_of(grid, now.frame)));
   if (config.check_accuracy) now.truth = measure::find_truth(now.frame, grid, config.threads);
   const double far = sample_far(now.frame, path.far_m());
   if (config.lookup) now.lookup.emplace(now.frame, grid, config.lookup->ways, far, config.lookup->samples, config.seed);
@@ -108,19 +112,14 @@ FrameAtHand look_at(const Config& config, const PathFrames& path, GridOfFrames& 
 
 }  // namespace
 
-std::vector<std::size_t> assigners_of(const GroupPlan& group) {
-  std::vector<std::size_t> list;
-  for (const CasePlan& one : group.cases)
-    if (std::find(list.begin(), list.end(), one.assigner) == list.end()) list.push_back(one.assigner);
-  return list;
-}
-
 AccuracyResult accuracy_pass(const Config& config, const GroupPlan& group, const PathFrames& path,
                              const std::function<void(int frame)>& on_frame, const std::atomic<bool>& stop) {
   std::vector<ListMeter> lists;
-  for (const std::size_t assigner : assigners_of(group)) lists.emplace_back(config, assigner);
+  for (const Method& method : methods_of(group)) lists.emplace_back(config, method);
   std::vector<CaseMeter> cases;
   for (const CasePlan& one : group.cases) cases.emplace_back(config, one);
+
+  std::vector<measure::PackingLossMeter> losses(config.compares_precisions() ? config.precisions.size() : 0);
 
   AccuracyResult result;
   GridOfFrames grids(config.grids[group.grid]);
@@ -128,14 +127,16 @@ AccuracyResult accuracy_pass(const Config& config, const GroupPlan& group, const
     if (stop) return result;
     on_frame(index);
     const FrameAtHand now = look_at(config, path, grids, index);
+    for (std::size_t i = 0; i < losses.size(); ++i) losses[i].add_frame(now.lights.packed(i));
     for (ListMeter& list : lists) {
       list.add(now, grids.grid());
       for (CaseMeter& one : cases)
-        if (one.assigner() == list.assigner()) one.add(now, grids.grid(), list);
+        if (one.method() == list.method()) one.add(now, grids.grid(), list);
     }
   }
   for (const ListMeter& list : lists) result.lists.push_back(list.result());
   for (const CaseMeter& one : cases) result.buffers.push_back(one.result());
+  for (const measure::PackingLossMeter& loss : losses) result.losses.push_back(loss.result());
   result.last_grid = grids.grid();
   result.is_complete = true;
   return result;

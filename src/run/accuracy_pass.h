@@ -11,9 +11,9 @@
 
 namespace clusterbench::run {
 
-// What one assigner's lists say, whatever they are stored in.
+// What one method's lists say, whatever they are stored in.
 struct ListMeasures {
-  std::size_t assigner = 0;  // place in Config::assigners
+  Method method;
   measure::Occupancy occupancy;
   measure::ErrorCounts error;
   measure::ShadingCounts shading;
@@ -22,16 +22,14 @@ struct ListMeasures {
 };
 
 struct AccuracyResult {
-  std::vector<ListMeasures> lists;        // one per assigner of the group, in order of first use
-  std::vector<measure::Buffers> buffers;  // one per case of the group
+  std::vector<ListMeasures> lists;           // one per method of the group, in order of first use
+  std::vector<measure::Buffers> buffers;     // one per case of the group
+  std::vector<measure::PackingLoss> losses;  // one per precision of the configuration; none if it has float32 alone
   grid::Grid last_grid;
   bool is_complete = false;  // false: stopped before the end
 };
 
 AccuracyResult accuracy_pass(const Config& config, const GroupPlan& group, const PathFrames& path,
                              const std::function<void(int frame)>& on_frame, const std::atomic<bool>& stop);
-
-// The distinct assigners of a group's cases, in order of first use.
-std::vector<std::size_t> assigners_of(const GroupPlan& group);
 
 }  // namespace clusterbench::run

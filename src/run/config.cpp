@@ -101,10 +101,34 @@ std::vector<MethodRequest> methods(const Json& list, const char* key, const Json
   return out;
 }
 
+view::Packing packing_of(const std::string& name) {
+  return *std::find_if(std::begin(view::k_packings), std::end(view::k_packings),
+                       [&](view::Packing packing) { return name == view::packing_name(packing); });
+}
+
+std::vector<PrecisionRequest> precisions(const Json& list, const JsonText& text) {
+  std::vector<PrecisionRequest> out;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::string where = text.where(child_pointer("/precision", i));
+    for (const Json& object : expand_all_axes(list[i])) {
+      const PrecisionRequest request{packing_of(object["packing"].get<std::string>()), object["inflate"].get<bool>()};
+      if (request.inflate && !request.is_lossy())
+        throw Error(text.file, where,
+                    "float32 loses nothing that assigners do not pad for themselves; inflate what "
+                    "half or unorm16 loses");
+      if (std::find(out.begin(), out.end(), request) != out.end())
+        throw Error(text.file, where, "'" + request.label() + "' stands here twice");
+      out.push_back(request);
+    }
+  }
+  return out;
+}
+
 // Short forms written out: "aabb" is {"name": "aabb"}, a scene's path is {"path": ...}, viewport is one of viewports.
 Json long_form(Json document, const JsonText& text) {
   if (!document.is_object()) return document;
-  const std::pair<const char*, const char*> lists[] = {{"scenes", "path"}, {"assigners", "name"}, {"storages", "name"}};
+  const std::pair<const char*, const char*> lists[] = {
+      {"scenes", "path"}, {"assigners", "name"}, {"storages", "name"}, {"precision", "packing"}};
   for (const auto& [list, key] : lists) {
     if (!document.contains(list) || !document[list].is_array()) continue;
     for (Json& entry : document[list])
@@ -190,6 +214,7 @@ Config read_config(const JsonText& text) {
   config.grids = grid_specs(document["grids"], text);
   config.assigners = methods(document["assigners"], "assigners", text, assigner_params);
   config.storages = methods(document["storages"], "storages", text, storage_params);
+  config.precisions = precisions(document["precision"], text);
   read_settings(document, config);
   return config;
 }
@@ -215,6 +240,10 @@ std::string MethodRequest::label() const {
     inner += (inner.empty() ? "" : ",") + spec.name + "=" + param_text(value->second);
   }
   return inner.empty() ? name : name + "(" + inner + ")";
+}
+
+std::string PrecisionRequest::label() const {
+  return std::string(view::packing_name(packing)) + (inflate ? "+inflate" : "");
 }
 
 Config parse_config(const std::string& text, const fs::path& file) {

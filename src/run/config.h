@@ -15,6 +15,7 @@
 #include "measure/lookup.h"
 #include "scene/camera_path.h"
 #include "scene/scene.h"
+#include "view/packing.h"
 
 namespace clusterbench::run {
 
@@ -30,6 +31,17 @@ struct MethodRequest {
   assign::Params params;
   std::string label()
       const;  // "sphere-refinement(spot=narrowing)": the name and the parameters that differ from the default
+};
+
+// How lights are handed to the assigners. The truth is that of the scene whatever this is.
+struct PrecisionRequest {
+  view::Packing packing = view::Packing::float32;
+  bool inflate = false;  // grow each light by what packing can have lost
+
+  bool is_lossy() const { return packing != view::Packing::float32; }
+  std::string label() const;  // "float32", "half", "half+inflate"
+
+  friend bool operator==(const PrecisionRequest&, const PrecisionRequest&) = default;
 };
 
 struct TimingRequest {
@@ -61,6 +73,7 @@ struct Config {
   std::vector<grid::GridSpec> grids;
   std::vector<MethodRequest> assigners;
   std::vector<MethodRequest> storages;
+  std::vector<PrecisionRequest> precisions;
   int threads = 1;
   std::uint64_t seed = 1;
   bool check_accuracy = true;
@@ -69,6 +82,10 @@ struct Config {
   std::optional<LookupRequest> lookup;        // without: not measured
   TimingRequest timing;
   measure::AllocationRule allocation;
+
+  // More than float32, and so results tell what each precision loses.
+  bool compares_precisions() const { return precisions != std::vector<PrecisionRequest>{{}}; }
+
   nlohmann::json resolved;  // the configuration with all defaults, as the result carries it
 };
 

@@ -13,6 +13,7 @@
 #include "measure/error.h"
 #include "measure/lookup.h"
 #include "measure/occupancy.h"
+#include "measure/packing_loss.h"
 #include "measure/shading.h"
 #include "measure/stability.h"
 #include "measure/timing.h"
@@ -70,6 +71,13 @@ struct StabilityResult {
   std::uint64_t undecided = 0;          // pairs of the truth over all steps; counted as true
 };
 
+// How the lights were handed over, and what that loses.
+struct PrecisionResult {
+  std::string packing;
+  bool inflate = false;
+  measure::PackingLoss loss;  // before inflation
+};
+
 struct CaseResult {
   std::string id, name, scene, camera;
   Vec2i viewport{0, 0};
@@ -77,7 +85,7 @@ struct CaseResult {
   nlohmann::json grid;  // {kind, cells, ... boundaries, lookup constants}
   std::string assigner, assigner_label;
   nlohmann::json assigner_params;
-  bool conservative = true, exact = false;
+  bool conservative = true, exact = false;  // conservative: on lights that are packed, only if they are inflated
   std::string storage, storage_label;
   measure::Occupancy occupancy;
   measure::Buffers buffers;
@@ -87,6 +95,7 @@ struct CaseResult {
   std::string deepest_miss_light;  // name in the rig
   std::optional<measure::ShadingCounts> shading;
   std::vector<measure::LookupCounts> lookup;  // one per way; empty where not asked for
+  std::optional<PrecisionResult> precision;  // where the configuration asks for more than float32
   std::optional<StabilityResult> stability;
   std::optional<TimingResult> timing;
 };

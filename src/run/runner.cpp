@@ -53,8 +53,8 @@ SceneResult scene_result(const SceneData& data, const scene::RangeRule& rule) {
 double list_cost(const Config& config, const GroupPlan& group, std::size_t lights, int frames, int samples) {
   constexpr double k_ns_per_light = 2000.0, k_ns_per_brute_pair = 3.0, k_cells = 8000.0, k_ns_per_sample_light = 5.0;
   double per_frame = static_cast<double>(lights) * (k_ns_per_light + k_ns_per_sample_light * samples);
-  for (const std::size_t assigner : assigners_of(group))
-    per_frame += config.assigners[assigner].name == "brute-force"
+  for (const Method& method : methods_of(group))
+    per_frame += config.assigners[method.assigner].name == "brute-force"
                      ? static_cast<double>(lights) * k_cells * k_ns_per_brute_pair
                      : 1e5;
   return per_frame * frames;
@@ -62,7 +62,7 @@ double list_cost(const Config& config, const GroupPlan& group, std::size_t light
 
 double timing_cost(const Config& config, const GroupPlan& group) {
   if (!config.timing.measure) return 0.0;
-  return 1.3e6 * config.timing.min_time_ms * config.timing.rounds * static_cast<double>(assigners_of(group).size());
+  return 1.3e6 * config.timing.min_time_ms * config.timing.rounds * static_cast<double>(methods_of(group).size());
 }
 
 class Run {
@@ -171,7 +171,7 @@ class Run {
     const MethodRequest& storage = config_.storages[plan.storage];
     const assign::AssignerRow& row = *assign::find_assigner(assigner.name);
     const ListMeasures& lists = *std::find_if(counted.lists.begin(), counted.lists.end(),
-                                              [&](const ListMeasures& one) { return one.assigner == plan.assigner; });
+                                              [&](const ListMeasures& one) { return one.method == plan.method(); });
     CaseResult out;
     out.id = plan.id;
     out.name = plan.name;
@@ -183,7 +183,10 @@ class Run {
     out.assigner = assigner.name;
     out.assigner_label = assigner.label();
     out.assigner_params = params_json(assigner.params);
-    out.conservative = assign::is_conservative(row, assigner.params);
+    const PrecisionRequest& precision = config_.precisions[plan.precision];
+    out.conservative = assign::is_conservative(row, assigner.params) && (precision.inflate || !precision.is_lossy());
+    if (!counted.losses.empty())
+      out.precision = {view::packing_name(precision.packing), precision.inflate, counted.losses[plan.precision]};
     out.exact = row.exact;
     out.storage = storage.name;
     out.storage_label = storage.label();

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "measure/truth.h"
-#include "run/accuracy_pass.h"
+#include "run/frame_lights.h"
 #include "scene/fine_path.h"
 
 namespace clusterbench::run {
@@ -15,25 +15,25 @@ scene::FineSteps fine_steps(const StabilityRequest& request) {
   return {request.steps, request.step_mm / 1e3, glm::radians(request.step_deg)};
 }
 
-// One assigner along the piece.
+// One method along the piece.
 class Track {
  public:
-  Track(const Config& config, std::size_t assigner) : place_(assigner), meter_(config.stability->window) {
-    const MethodRequest& method = config.assigners[assigner];
-    assigner_ = assign::find_assigner(method.name)->make(method.params);
+  Track(const Config& config, const Method& method) : method_(method), meter_(config.stability->window) {
+    const MethodRequest& assigner = config.assigners[method.assigner];
+    assigner_ = assign::find_assigner(assigner.name)->make(assigner.params);
   }
 
-  void add(const grid::Grid& grid, bool is_new_grid, const view::LightArrays& lights) {
+  void add(const grid::Grid& grid, bool is_new_grid, const FrameLights& lights) {
     if (is_new_grid) assigner_->build(grid);
-    assigner_->assign(lights, lists_);
+    assigner_->assign(lights.seen(method_.precision), lists_);
     meter_.add(lists_);
   }
 
-  std::size_t assigner() const { return place_; }
+  const Method& method() const { return method_; }
   const measure::Churn& churn() const { return meter_.result(); }
 
  private:
-  std::size_t place_;  // in Config::assigners
+  Method method_;
   std::unique_ptr<assign::Assigner> assigner_;
   assign::Lists lists_;
   measure::ChurnMeter meter_;
@@ -57,7 +57,7 @@ std::vector<StabilityResult> per_case(const GroupPlan& group, const std::vector<
   for (const CasePlan& one : group.cases) {
     results.push_back(common);
     results.back().method = std::find_if(tracks.begin(), tracks.end(), [&](const Track& track) {
-                              return track.assigner() == one.assigner;
+                              return track.method() == one.method();
                             })->churn();
   }
   return results;
@@ -72,7 +72,7 @@ std::vector<StabilityResult> stability_pass(const Config& config, const GroupPla
   const PathFrames steps = path.along(piece.path);
   StabilityResult common = piece_facts(piece, config.stability->window);
   std::vector<Track> tracks;
-  for (const std::size_t assigner : assigners_of(group)) tracks.emplace_back(config, assigner);
+  for (const Method& method : methods_of(group)) tracks.emplace_back(config, method);
 
   GridOfFrames grids(config.grids[group.grid]);
   measure::ChurnMeter truth_meter(config.stability->window);
@@ -82,7 +82,7 @@ std::vector<StabilityResult> stability_pass(const Config& config, const GroupPla
     const view::Frame frame = steps.frame(step);
     const bool is_new_grid = grids.update(steps, frame);
     const grid::Grid& grid = grids.grid();
-    const view::LightArrays lights = view::lights_in(frame, grid::space_of(grid, frame));
+    const FrameLights lights(config.precisions, view::lights_in(frame, grid::space_of(grid, frame)));
     const measure::Truth truth = measure::find_truth(frame, grid, config.threads);
     truth_meter.add(truth.lists);
     for (Track& track : tracks) track.add(grid, is_new_grid, lights);

@@ -100,6 +100,8 @@ std::string case_id(const Config& config, const SceneData& data, const CasePlan&
     const StabilityRequest& stability = *config.stability;
     all["stability"] = {stability.steps, stability.step_mm, stability.step_deg, stability.window};
   }
+  const PrecisionRequest& precision = config.precisions[plan.precision];
+  if (precision.is_lossy()) all["precision"] = {view::packing_name(precision.packing), precision.inflate};
   constexpr std::size_t k_digits = 12;
   return sha256_hex(all.dump()).substr(0, k_digits);
 }
@@ -122,6 +124,12 @@ std::string obstacle(const assign::AssignerRow& row, grid::Kind kind, const scen
   if (!row.points && has_lights(scene, scene::LightType::point)) return row.name + " takes no point lights";
   if (!row.spots && has_lights(scene, scene::LightType::spot)) return row.name + " takes no spot lights";
   return "";
+}
+
+// Why it cannot see lights in this precision; "" if it can.
+std::string precision_obstacle(const assign::AssignerRow& row, const PrecisionRequest& precision) {
+  if (!row.exact || !precision.is_lossy()) return "";
+  return row.name + " decides from the scene's own numbers, whatever the lights are packed in; run it in float32";
 }
 
 struct Reach {
@@ -216,9 +224,24 @@ class Expansion {
       skip(plan, name, impossible);
       return;
     }
+    for (std::size_t precision = 0; precision < config_.precisions.size(); ++precision)
+      expand_precision(plan, group, {assigner, precision}, name);
+  }
+
+  void expand_precision(Plan& plan, GroupPlan& group, const Method& method, const std::string& name) {
+    const PrecisionRequest& precision = config_.precisions[method.precision];
+    const std::string part = precision.is_lossy() ? "/" + precision.label() : "";
+    const assign::AssignerRow& row = *assign::find_assigner(config_.assigners[method.assigner].name);
+    const std::string impossible = precision_obstacle(row, precision);
+    if (!impossible.empty()) {
+      skip(plan, name + part, impossible);
+      return;
+    }
+    const SceneData& data = plan.scenes[group.scene];
     for (std::size_t storage = 0; storage < config_.storages.size(); ++storage) {
-      CasePlan one{"", "", group.scene, group.camera, group.viewport, group.grid, assigner, storage};
-      one.name = unique_name(name + "/" + name_part(config_.storages[storage].label()), names_);
+      CasePlan one{
+          "", "", group.scene, group.camera, group.viewport, group.grid, method.assigner, storage, method.precision};
+      one.name = unique_name(name + "/" + name_part(config_.storages[storage].label()) + part, names_);
       one.id = unique_name(case_id(config_, data, one), ids_);
       ++all_cases_;
       if (example_.empty()) example_ = one.name;
@@ -239,6 +262,18 @@ class Expansion {
 };
 
 }  // namespace
+
+std::vector<Method> methods_of(const GroupPlan& group) {
+  std::vector<Method> list;
+  for (const CasePlan& one : group.cases)
+    if (std::find(list.begin(), list.end(), one.method()) == list.end()) list.push_back(one.method());
+  return list;
+}
+
+std::string method_label(const Config& config, const Method& method) {
+  const PrecisionRequest& precision = config.precisions[method.precision];
+  return config.assigners[method.assigner].label() + (precision.is_lossy() ? " " + precision.label() : "");
+}
 
 Plan make_plan(const Config& config, const std::string& filter) {
   Expansion expansion(config, filter);

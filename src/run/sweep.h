@@ -10,11 +10,23 @@
 
 namespace clusterbench::run {
 
+// What lists depend on within a group: places in the configuration's lists.
+struct Method {
+  std::size_t assigner = 0, precision = 0;
+
+  friend bool operator==(const Method&, const Method&) = default;
+};
+
 // One case by its places in the configuration's lists. The camera path is a place in the scene's paths.
 struct CasePlan {
-  std::string name;  // "scene/camera/grid/assigner/storage" (viewport in the grid's part when there are several)
-  std::string id;    // short hash of everything that identifies the case: stable over runs and machines
+  // "scene/camera/grid/assigner/storage" (viewport in the grid's part when there are several), and the precision where
+  // it is not float32.
+  std::string name;
+  std::string id;  // short hash of everything that identifies the case: stable over runs and machines
   std::size_t scene, camera, viewport, grid, assigner, storage;
+  std::size_t precision = 0;
+
+  Method method() const { return {assigner, precision}; }
 };
 
 // Cases of one scene, camera, viewport and grid: measured together, in interleaved rounds.
@@ -22,6 +34,11 @@ struct GroupPlan {
   std::size_t scene, camera, viewport, grid;
   std::vector<CasePlan> cases;
 };
+
+// The distinct methods of a group's cases, in order of first use.
+std::vector<Method> methods_of(const GroupPlan& group);
+// The assigner's label, and the precision's where it is not float32.
+std::string method_label(const Config& config, const Method& method);
 
 struct SceneData {
   scene::Scene scene;

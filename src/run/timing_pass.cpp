@@ -6,7 +6,7 @@
 #include <cstring>
 #include <memory>
 
-#include "run/accuracy_pass.h"
+#include "run/frame_lights.h"
 
 namespace clusterbench::run {
 namespace {
@@ -21,7 +21,7 @@ double ns_since(Clock::time_point start) {
 struct TimedFrame {
   std::shared_ptr<const grid::Grid> grid;
   view::Frame frame;
-  view::LightArrays lights;
+  FrameLights lights;
 };
 
 std::vector<TimedFrame> timed_frames(const Config& config, const GroupPlan& group, const PathFrames& path) {
@@ -34,7 +34,7 @@ std::vector<TimedFrame> timed_frames(const Config& config, const GroupPlan& grou
     view::Frame frame =
         path.frame(wanted == 1 ? 0 : static_cast<int>(std::lround(i * (path.count() - 1.0) / (wanted - 1))));
     if (grids.update(path, frame)) grid = std::make_shared<grid::Grid>(grids.grid());
-    view::LightArrays lights = view::lights_in(frame, grid::space_of(*grid, frame));
+    FrameLights lights(config.precisions, view::lights_in(frame, grid::space_of(*grid, frame)));
     frames.push_back({grid, std::move(frame), std::move(lights)});
   }
   return frames;
@@ -88,15 +88,15 @@ class Repeated {
   int repeats_ = 0;
 };
 
-// One assigner over the timed frames, with the storages that its cases use.
+// One method over the timed frames, with the storages that its cases use.
 class Track {
  public:
-  Track(const Config& config, const GroupPlan& group, std::size_t assigner, const std::vector<TimedFrame>& frames)
-      : frames_(frames), min_ns_(config.timing.min_time_ms * 1e6), lists_(frames.size()) {
-    const MethodRequest& method = config.assigners[assigner];
-    assigner_ = assign::find_assigner(method.name)->make(method.params);
+  Track(const Config& config, const GroupPlan& group, const Method& method, const std::vector<TimedFrame>& frames)
+      : frames_(frames), precision_(method.precision), min_ns_(config.timing.min_time_ms * 1e6), lists_(frames.size()) {
+    const MethodRequest& assigner = config.assigners[method.assigner];
+    assigner_ = assign::find_assigner(assigner.name)->make(assigner.params);
     for (std::size_t place = 0; place < group.cases.size(); ++place)
-      if (group.cases[place].assigner == assigner) add_store(config, group.cases[place], place);
+      if (group.cases[place].method() == method) add_store(config, group.cases[place], place);
     assign_once();
     prepare_floor();
   }
@@ -113,7 +113,7 @@ class Track {
     for (Store& store : stores_) store.convert_ns.push_back(store.convert.sample() / frames);
   }
 
-  // Fills the timing of each of this assigner's cases. `first`: the group's first assigner, what others are compared
+  // Fills the timing of each of this method's cases. `first`: the group's first one, what others are compared
   // with.
   void report(const Track& first, const std::string& first_name, std::uint64_t seed,
               std::vector<TimingResult>& out) const {
@@ -151,7 +151,7 @@ class Track {
 
   void start(assign::Storage& storage) const {
     const TimedFrame& frame = frames_.front();
-    storage.start(frame.grid->cell_count(), frame.lights.points, frame.lights.spots);
+    storage.start(frame.grid->cell_count(), frame.lights.seen(precision_).points, frame.lights.seen(precision_).spots);
   }
 
   // All timed frames. A grid that changes between frames (fit) is built within: that is what such a method costs.
@@ -160,7 +160,7 @@ class Track {
       const grid::Grid* grid = frames_[i].grid.get();
       if (grid != built_for_) assigner_->build(*grid);
       built_for_ = grid;
-      assigner_->assign(frames_[i].lights, lists_[i]);
+      assigner_->assign(frames_[i].lights.seen(precision_), lists_[i]);
     }
   }
 
@@ -182,6 +182,7 @@ class Track {
   }
 
   const std::vector<TimedFrame>& frames_;
+  std::size_t precision_;
   double min_ns_;
   std::unique_ptr<assign::Assigner> assigner_;
   const grid::Grid* built_for_ = nullptr;
@@ -198,10 +199,9 @@ class Track {
 std::vector<TimingResult> timing_pass(const Config& config, const GroupPlan& group, const PathFrames& path,
                                       const std::function<void(int round)>& on_round, const std::atomic<bool>& stop) {
   const std::vector<TimedFrame> frames = timed_frames(config, group, path);
-  const std::vector<std::size_t> assigners = assigners_of(group);
+  const std::vector<Method> methods = methods_of(group);
   std::vector<std::unique_ptr<Track>> tracks;
-  for (const std::size_t assigner : assigners)
-    tracks.push_back(std::make_unique<Track>(config, group, assigner, frames));
+  for (const Method& method : methods) tracks.push_back(std::make_unique<Track>(config, group, method, frames));
 
   for (int round = 0; round < config.timing.rounds; ++round) {
     on_round(round);
@@ -213,7 +213,7 @@ std::vector<TimingResult> timing_pass(const Config& config, const GroupPlan& gro
   }
 
   std::vector<TimingResult> timings(group.cases.size());
-  const std::string first_name = config.assigners[assigners.front()].label();
+  const std::string first_name = method_label(config, methods.front());
   for (const auto& track : tracks) track->report(*tracks.front(), first_name, config.seed, timings);
   return timings;
 }

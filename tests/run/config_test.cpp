@@ -53,7 +53,7 @@ const Broken k_broken[] = {
      "max_range"},
     {"{\"scenes\": [\"a.glb\"],\n  // comment\n  \"thread\": 1}",
      "3:3 /thread: unknown key 'thread' (did you mean 'threads'?), allowed: $schema, accuracy, allocation, assigners, "
-     "grids, lookup, name, scenes, seed, shading, stability, storages, threads, timing, viewport, viewports"},
+     "grids, lookup, name, precision, scenes, seed, shading, stability, storages, threads, timing, viewport, viewports"},
     {R"({"scenes": ["a.glb"], "threads": 0})", "1:34 /threads: found 0, allowed: an integer from 1 to 1024"},
     {R"({"scenes": ["a.glb"], "threads": "2"})", "1:34 /threads: found '2', allowed: an integer from 1 to 1024"},
     {R"({"scenes": ["a.glb"], "seed": 1.5})", "1:31 /seed: found 1.5, allowed: an integer from 0 to 9007199254740991"},
@@ -68,6 +68,26 @@ const Broken k_broken[] = {
      "1:37 /stability/step_degrees: unknown key 'step_degrees' (did you mean 'step_deg'?), allowed: step_deg, step_mm, "
      "steps, window"},
     {R"({"scenes": ["a.glb"], "stability": true})", "1:36 /stability: found true, allowed: null or an object"},
+    {R"({"scenes": ["a.glb"], "precision": "half"})",
+     "1:36 /precision: found 'half', allowed: a list, each float32, half, unorm16 or an object"},
+    {R"({"scenes": ["a.glb"], "precision": []})",
+     "1:36 /precision: found an empty list, allowed: a list, each float32, half, unorm16 or an object"},
+    {R"({"scenes": ["a.glb"], "precision": ["float16"]})",
+     "1:37 /precision/0: found 'float16' (did you mean 'float32'?), allowed: float32, half, unorm16"},
+    {R"({"scenes": ["a.glb"], "precision": [{"inflate": true}]})", "1:37 /precision/0: lacks the key 'packing'"},
+    {R"({"scenes": ["a.glb"], "precision": [{"packing": "half", "inflate": 1}]})",
+     "1:68 /precision/0/inflate: found 1, allowed: true or false or a list, each true or false"},
+    {R"({"scenes": ["a.glb"], "precision": [{"packing": "half", "pad": true}]})",
+     "1:57 /precision/0/pad: unknown key 'pad', allowed: inflate, packing"},
+    {R"({"scenes": ["a.glb"], "precision": [{"packing": "float32", "inflate": true}]})",
+     "1:37 /precision/0: float32 loses nothing that assigners do not pad for themselves; inflate what half or unorm16 "
+     "loses"},
+    {R"({"scenes": ["a.glb"], "precision": [{"packing": ["half", "float32"], "inflate": true}]})",
+     "1:37 /precision/0: float32 loses nothing that assigners do not pad for themselves; inflate what half or unorm16 "
+     "loses",
+     false},
+    {R"({"scenes": ["a.glb"], "precision": ["half", {"packing": "half"}]})",
+     "1:45 /precision/1: 'half' stands here twice", false},
     {R"({"scenes": ["a.glb"], "viewport": [0, 5]})", "1:36 /viewport/0: found 0, allowed: an integer from 1 to 32768"},
     {R"({"scenes": ["a.glb"], "viewport": [1, 2], "viewports": [[1, 2]]})",
      "1:23 /viewport: viewport and viewports exclude each other"},
@@ -186,6 +206,18 @@ TEST(Config, stability_is_measured_only_where_it_is_asked_for) {
   EXPECT_EQ(own.stability->window, 3);
 }
 
+TEST(Config, lights_are_in_float32_unless_another_precision_is_named) {
+  EXPECT_EQ(parsed("").precisions, std::vector<PrecisionRequest>{{}});
+  EXPECT_FALSE(parsed("").compares_precisions());
+  EXPECT_FALSE(parsed(R"(, "precision": ["float32"])").compares_precisions());
+  EXPECT_TRUE(parsed(R"(, "precision": ["half"])").compares_precisions());
+  std::vector<std::string> labels;
+  for (const PrecisionRequest& request :
+       parsed(R"(, "precision": ["float32", {"packing": ["half", "unorm16"], "inflate": [true, false]}])").precisions)
+    labels.push_back(request.label());
+  EXPECT_EQ(labels, (std::vector<std::string>{"float32", "half+inflate", "unorm16+inflate", "half", "unorm16"}));
+}
+
 TEST(Config, axes_expand_into_their_product) {
   EXPECT_EQ(grids_of(R"({"tiles": {"pixels": [[32, 32], [64, 64]]},
                          "slices": {"scheme": ["linear", "exponential"], "count": [8, 16, 32]}})"),
@@ -222,7 +254,7 @@ TEST(Config, a_path_is_relative_to_the_file_and_may_name_an_environment_variable
 
 TEST(Config, the_resolved_configuration_is_a_configuration_that_means_the_same) {
   for (const char* rest :
-       {"", R"(, "stability": {"steps": 5})",
+       {"", R"(, "stability": {"steps": 5})", R"(, "precision": ["half", {"packing": "unorm16", "inflate": true}])",
         R"(, "viewport": [640, 480], "grids": [{"slices": {"scheme": ["linear", "power"], "near": 1}}])",
         R"(, "grids": [{"kind": "world", "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]}}], "assigners": ["aabb"])"}) {
     const Config config = parsed(rest);
@@ -231,13 +263,14 @@ TEST(Config, the_resolved_configuration_is_a_configuration_that_means_the_same) 
     ASSERT_EQ(again.grids.size(), config.grids.size());
     for (std::size_t i = 0; i < config.grids.size(); ++i) EXPECT_EQ(again.grids[i].name(), config.grids[i].name());
     EXPECT_EQ(again.scenes[0].path, config.scenes[0].path);
+    EXPECT_EQ(again.precisions, config.precisions);
     EXPECT_TRUE(schema_violations(config_schema(), config.resolved).empty());
   }
 }
 
 TEST(Config, the_committed_configurations_are_valid_for_reader_and_schema) {
   setenv("CLUSTERBENCH_SCENE_LIBRARY", "library", 0);
-  for (const char* name : {"quick", "sweep", "library", "trends", "stability"}) {
+  for (const char* name : {"quick", "sweep", "library", "trends", "stability", "precision"}) {
     const std::string path = std::string(CLUSTERBENCH_SOURCE_DIR) + "/configs/" + name + ".json";
     const Config config = load_config(path);
     EXPECT_EQ(config.name, name);

@@ -109,7 +109,38 @@ TEST_F(Sweep, an_id_depends_on_what_is_counted_and_not_on_how_it_is_timed_or_ord
   const std::string stable = cases(plan(R"(["a.gltf"])", one + R"(, "stability": {})")).at(0).id;
   EXPECT_NE(stable, id);
   EXPECT_NE(cases(plan(R"(["a.gltf"])", one + R"(, "stability": {"window": 3})")).at(0).id, stable);
+  EXPECT_EQ(cases(plan(R"(["a.gltf"])", one + R"(, "precision": ["float32"])")).at(0).id, id);
+  const std::vector<CasePlan> packed =
+      cases(plan(R"(["a.gltf"])",
+                 one + R"(, "precision": ["float32", {"packing": ["half", "unorm16"], "inflate": [false, true]}])"));
+  std::set<std::string> ids;
+  for (const CasePlan& each : packed) ids.insert(each.id);
+  EXPECT_EQ(ids.size(), 5U);
+  EXPECT_EQ(packed.at(0).id, id);
   EXPECT_NE(cases(plan(R"([{"path": "a.gltf", "range_rule": {"max_range": 3}}])", one)).at(0).id, id);
+}
+
+TEST_F(Sweep, a_name_tells_the_precision_where_it_is_not_float32) {
+  write_scene("a.gltf");
+  const std::string one = R"(, "grids": [{}], "assigners": ["aabb"], "storages": ["packed", "fixed"])";
+  const std::vector<CasePlan> plain = cases(plan(R"(["a.gltf"])", one));
+  const std::vector<CasePlan> all = cases(
+      plan(R"(["a.gltf"])", one + R"(, "precision": ["float32", "half", {"packing": "unorm16", "inflate": true}])"));
+  ASSERT_EQ(all.size(), 6U);
+  EXPECT_EQ(all[0].name, plain[0].name);
+  EXPECT_EQ(all[1].name, plain[1].name);
+  EXPECT_EQ(all[2].name, plain[0].name + "/half");
+  EXPECT_EQ(all[5].name, plain[1].name + "/unorm16+inflate");
+}
+
+TEST_F(Sweep, an_exact_assigner_is_skipped_on_packed_lights_with_its_reason) {
+  write_scene("a.gltf");
+  const Plan plan = this->plan(R"(["a.gltf"])", R"(, "grids": [{}], "assigners": ["exact", "aabb"],
+                                                   "precision": ["float32", {"packing": "half", "inflate": true}])");
+  EXPECT_EQ(cases(plan).size(), 3U);
+  ASSERT_EQ(plan.skipped.size(), 1U);
+  EXPECT_TRUE(plan.skipped[0].name.ends_with("/exact/half+inflate")) << plan.skipped[0].name;
+  EXPECT_NE(plan.skipped[0].reason.find("the scene's own numbers"), std::string::npos) << plan.skipped[0].reason;
 }
 
 TEST_F(Sweep, a_filter_selects_by_name_and_says_when_it_selects_nothing) {

@@ -56,10 +56,12 @@ struct Walk {
   void add_group(std::size_t grid) {
     GroupPlan group{0, 0, 0, grid, {}};
     for (std::size_t assigner = 0; assigner < config.assigners.size(); ++assigner)
-      for (std::size_t storage = 0; storage < config.storages.size(); ++storage) {
-        const std::string id = std::to_string(grid) + "-" + std::to_string(assigner) + "-" + std::to_string(storage);
-        group.cases.push_back({"walk/eye/grid/" + id, id, 0, 0, 0, grid, assigner, storage});
-      }
+      for (std::size_t precision = 0; precision < config.precisions.size(); ++precision)
+        for (std::size_t storage = 0; storage < config.storages.size(); ++storage) {
+          std::string id = std::to_string(grid) + "-" + std::to_string(assigner) + "-" + std::to_string(storage);
+          if (config.precisions.size() > 1) id += "-" + config.precisions[precision].label();
+          group.cases.push_back({"walk/eye/grid/" + id, id, 0, 0, 0, grid, assigner, storage, precision});
+        }
     plan.groups.push_back(group);
   }
 };

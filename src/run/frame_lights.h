@@ -1,0 +1,31 @@
+#pragma once
+// A frame's lights in each precision of the configuration.
+
+#include <vector>
+
+#include "run/config.h"
+#include "view/packing.h"
+
+namespace clusterbench::run {
+
+class FrameLights {
+ public:
+  FrameLights() = default;
+  FrameLights(const std::vector<PrecisionRequest>& precisions, const view::LightArrays& lights);
+
+  // `precision`: place in the list. What its assigners get.
+  const view::LightArrays& seen(std::size_t precision) const;
+  // What they would get without inflation.
+  const view::PackedLights& packed(std::size_t precision) const { return lights_[precision].packed; }
+
+ private:
+  struct Lights {
+    view::PackedLights packed;
+    view::LightArrays inflated;  // only where it is asked for
+    bool is_inflated;
+  };
+
+  std::vector<Lights> lights_;
+};
+
+}  // namespace clusterbench::run
