@@ -60,6 +60,12 @@ std::string short_count(const Json& one, const char* pointer) {
   return one.contains(place) && one[place].is_number() ? short_count(one[place].get<double>()) : "-";
 }
 
+std::string method_name(const Json& one) {
+  const std::string label = one["assigner"]["label"];
+  if (!one.contains("precision") || one["precision"]["packing"] == "float32") return label;
+  return label + " " + one["precision"]["label"].get<std::string>();
+}
+
 std::string block_of(const Json& one) {
   const std::string viewport = one["viewport"][0].dump() + "x" + one["viewport"][1].dump();
   return one["grid"]["name"].get<std::string>() + ", camera " + shown(one["camera"]) + ", " + viewport;

@@ -23,6 +23,9 @@ std::string number_text(const nlohmann::ordered_json& one, const char* pointer, 
 // Bytes and counts as people say them: 831, 12.3k, 4.56M; "-" where there is none.
 std::string short_count(const nlohmann::ordered_json& one, const char* pointer);
 
+// The assigner's label, and how its lights are packed where that is not float32.
+std::string method_name(const nlohmann::ordered_json& one);
+
 // What cases of one block have in common: camera, viewport and grid.
 std::string block_of(const nlohmann::ordered_json& one);
 // The blocks of a scene in the order of its cases.

@@ -145,6 +145,23 @@ Json stability(const run::StabilityResult& s) {
           {"undecided", s.undecided}};
 }
 
+Json to_json(const measure::MeanMax& error) {
+  return {{"mean", number(error.mean)}, {"max", number(error.max)}};
+}
+
+Json precision(const run::PrecisionResult& p) {
+  const measure::PackingLoss& loss = p.loss;
+  return {{"packing", p.packing},
+          {"inflate", p.inflate},
+          {"label", p.label},
+          {"position_error_m", to_json(loss.position_error_m)},
+          {"range_error_m", to_json(loss.range_error_m)},
+          {"axis_error_rad", to_json(loss.axis_error_rad)},
+          {"angle_error_rad", to_json(loss.angle_error_rad)},
+          {"safe_inflation_m", to_json(loss.safe_inflation_m)},
+          {"unrepresentable", {{"lights", loss.unrepresentable_lights}, {"frames", loss.unrepresentable_frames}}}};
+}
+
 Json timing(const run::TimingResult& t) {
   Json out{{"frames_timed", t.frames_timed},       {"build_ns", to_json(t.build_ns)},
            {"assign_ns", to_json(t.assign_ns)},    {"convert_ns", to_json(t.convert_ns)},
@@ -179,9 +196,11 @@ double number_at(const Json& one, const char* pointer) {
   return one.contains(place) && one[place].is_number() ? one[place].get<double>() : std::nan("");
 }
 
-// Only cases that see the same can beat each other: an empty view costs less than a full one in every respect.
+// Only cases that see the same can beat each other: an empty view costs less than a full one in every respect, and
+// packed lights that lose a pair less than those that do not.
 std::string view_of(const Json& one) {
-  return Json{one["camera"], one["viewport"]}.dump();
+  const Json lights = one.contains("precision") ? one["precision"]["label"] : Json("float32");
+  return Json{one["camera"], one["viewport"], lights}.dump();
 }
 
 // Short lists are no merit where lights are missing from them: a case whose samples miss more than one light in a
@@ -216,6 +235,20 @@ Json fronts(const Json& scenes, const Json& cases) {
     list.push_back({{"scene", scene["name"]}, {"ids", front}});
   }
   return list;
+}
+
+// Pairs per frame against the same case in float32; null where there is none.
+void add_extra_pairs(Json& cases) {
+  std::map<std::string, double> pairs;
+  for (const Json& one : cases) pairs[one["name"].get<std::string>()] = number_at(one, "/occupancy/pairs/mean");
+  for (Json& one : cases) {
+    if (!one.contains("precision")) continue;
+    const std::string name = one["name"], label = "/" + one["precision"]["label"].get<std::string>();
+    const bool is_packed = one["precision"]["packing"] != "float32";
+    const auto plain = pairs.find(is_packed ? name.substr(0, name.size() - label.size()) : name);
+    const double mean = plain == pairs.end() ? std::nan("") : plain->second, extra = pairs[name] - mean;
+    one["precision"]["extra_pairs"] = {{"mean", number(extra)}, {"ratio", number(extra / mean)}};
+  }
 }
 
 Json in_plan_order(const run::Result& result, const std::vector<Json>& earlier_cases) {
@@ -266,6 +299,7 @@ Json case_to_json(const run::CaseResult& one) {
   if (one.shading) out["shading"] = shading(*one.shading);
   if (!one.lookup.empty()) out["lookup"] = lookup(one.lookup);
   if (one.stability) out["stability"] = stability(*one.stability);
+  if (one.precision) out["precision"] = precision(*one.precision);
   if (one.timing) out["timing"] = timing(*one.timing);
   return out;
 }
@@ -280,6 +314,7 @@ Json result_to_json(const run::Result& result, const std::vector<Json>& earlier_
   out["scenes"] = Json::array();
   for (const run::SceneResult& scene : result.scenes) out["scenes"].push_back(to_json(scene));
   out["cases"] = in_plan_order(result, earlier_cases);
+  add_extra_pairs(out["cases"]);
   out["front"] = fronts(out["scenes"], out["cases"]);
   out["skipped"] = Json::array();
   for (const run::Skipped& skipped : result.skipped)

@@ -13,7 +13,7 @@ const Cells k_headings{"", "assigner", "changed", "max", "excess", "flickers", "
 
 Cells method_row(const Json& one) {
   return {"",
-          one["assigner"]["label"].get<std::string>(),
+          method_name(one),
           number_text(one, "/stability/changed/method/mean", "%.2f"),
           number_text(one, "/stability/changed/method/max", "%.0f"),
           number_text(one, "/stability/excess_churn/ratio", "%.1f %%", 100.0),
@@ -31,14 +31,13 @@ Cells truth_row(const Json& one) {
           ""};
 }
 
-// Cases of a block with steps, once per assigner: lists do not depend on their storage. The fewest changes first.
+// Cases of a block with steps, once per method: lists do not depend on their storage. The fewest changes first.
 std::vector<const Json*> lines_of(const Json& cases, const Json& scene, const std::string& block) {
   std::vector<const Json*> lines;
   for (const Json& one : cases) {
     if (!one.contains("stability") || one["scene"] != scene["name"] || block_of(one) != block) continue;
-    const bool is_known = std::any_of(lines.begin(), lines.end(), [&](const Json* line) {
-      return (*line)["assigner"]["label"] == one["assigner"]["label"];
-    });
+    const bool is_known = std::any_of(lines.begin(), lines.end(),
+                                      [&](const Json* line) { return method_name(*line) == method_name(one); });
     if (!is_known) lines.push_back(&one);
   }
   const auto changes = [](const Json* one) {

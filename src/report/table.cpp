@@ -6,6 +6,7 @@
 
 #include "report/columns.h"
 #include "report/lookup_table.h"
+#include "report/precision_table.h"
 #include "report/stability_table.h"
 
 namespace clusterbench::report {
@@ -51,7 +52,7 @@ bool has_failed(const Json& one) {
 
 Line line_of(const Json& one, bool is_on_front, bool names_storage) {
   Line line;
-  std::string label = one["assigner"]["label"];
+  std::string label = method_name(one);
   if (names_storage) label += " / " + one["storage"].get<std::string>();
   line.cells = {is_on_front ? "*" : "",
                 label,
@@ -151,7 +152,8 @@ std::string render_table(const Json& result, bool colour) {
       "excess: false positives in % of true pairs. p99: lights per cell. entries: allocation with margin.\n";
   if (!result["skipped"].empty())
     out += std::to_string(result["skipped"].size()) + " combinations skipped; the result says why.\n";
-  return out + lookup_table(result) + stability_table(result) + scene_warnings(result) + case_warnings(cases);
+  return out + lookup_table(result) + stability_table(result) + precision_table(result) + scene_warnings(result) +
+         case_warnings(cases);
 }
 
 }  // namespace clusterbench::report

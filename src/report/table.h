@@ -7,7 +7,8 @@
 namespace clusterbench::report {
 
 // Per scene and grid, the cases by time (by excess where nothing was timed), with a legend, then the stability of lists
-// where it was measured, then warnings. At most 100 columns for usual names. `colour`: with terminal escapes.
+// and the precision of lights where they were measured, then warnings. At most 100 columns for usual names. `colour`:
+// with terminal escapes.
 std::string render_table(const nlohmann::ordered_json& result, bool colour);
 
 }  // namespace clusterbench::report

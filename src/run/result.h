@@ -73,7 +73,7 @@ struct StabilityResult {
 
 // How the lights were handed over, and what that loses.
 struct PrecisionResult {
-  std::string packing;
+  std::string packing, label;  // "half"; "half+inflate"
   bool inflate = false;
   measure::PackingLoss loss;  // before inflation
 };

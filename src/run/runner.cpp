@@ -186,7 +186,8 @@ class Run {
     const PrecisionRequest& precision = config_.precisions[plan.precision];
     out.conservative = assign::is_conservative(row, assigner.params) && (precision.inflate || !precision.is_lossy());
     if (!counted.losses.empty())
-      out.precision = {view::packing_name(precision.packing), precision.inflate, counted.losses[plan.precision]};
+      out.precision = {view::packing_name(precision.packing), precision.label(), precision.inflate,
+                       counted.losses[plan.precision]};
     out.exact = row.exact;
     out.storage = storage.name;
     out.storage_label = storage.label();

@@ -12,6 +12,7 @@ namespace clusterbench::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using testing::add_precision;
 using testing::add_stability;
 using testing::case_by_hand;
 using testing::lose_a_light;
@@ -25,6 +26,7 @@ TEST(ResultJson, is_what_the_schema_says) {
   run::Result result = result_by_hand();
   lose_a_light(result.cases[0]);
   add_stability(result.cases[0]);
+  add_precision(result.cases[0]);
   result.cases[0].timing->vs = run::Versus{"aabb", {3.0, {2.9, 3.1}}};
   EXPECT_EQ(violations(result_to_json(result, {})), std::vector<std::string>{});
 }
@@ -41,6 +43,7 @@ TEST(ResultJson, without_truth_samples_and_times_is_what_the_schema_says) {
   EXPECT_FALSE(json["cases"][0].contains("error"));
   EXPECT_FALSE(json["cases"][0].contains("timing"));
   EXPECT_FALSE(json["cases"][0].contains("stability"));
+  EXPECT_FALSE(json["cases"][0].contains("precision"));
 }
 
 TEST(ResultJson, stability_stands_beside_the_truths_own) {
@@ -64,6 +67,43 @@ TEST(ResultJson, a_method_that_changes_less_than_the_truth_has_a_negative_excess
   const Json json = result_to_json(result, {});
   EXPECT_EQ(json["cases"][0]["stability"]["excess_churn"], (Json{{"pairs", -4}, {"ratio", -0.25}}));
   EXPECT_EQ(json["cases"][0]["stability"]["excess_flickers"], (Json{{"count", 3}, {"ratio", nullptr}}));
+  EXPECT_EQ(violations(json), std::vector<std::string>{});
+}
+
+// Two float32 cases of 30 pairs a frame, and one of them inflated from half.
+run::Result with_half() {
+  run::Result result = result_by_hand();
+  result.cases.push_back(result.cases[1]);
+  add_precision(result.cases[0]);
+  add_precision(result.cases[1]);
+  add_precision(result.cases[2], "half", true);
+  result.cases[2].occupancy.pairs.mean = 33.0;
+  result.planned_ids.push_back(result.cases[2].id);
+  return result;
+}
+
+TEST(ResultJson, precision_tells_what_is_lost_and_the_pairs_against_float32) {
+  const Json json = result_to_json(with_half(), {});
+  const Json &plain = json["cases"][1]["precision"], &half = json["cases"][2]["precision"];
+  EXPECT_EQ(half["packing"], "half");
+  EXPECT_EQ(half["inflate"], true);
+  EXPECT_EQ(half["label"], "half+inflate");
+  EXPECT_EQ(half["position_error_m"], (Json{{"mean", 1e-3}, {"max", 2e-2}}));
+  EXPECT_EQ(half["range_error_m"], (Json{{"mean", 5e-3}, {"max", 1e-2}}));
+  EXPECT_EQ(half["axis_error_rad"], (Json{{"mean", nullptr}, {"max", nullptr}})) << "no spot";
+  EXPECT_EQ(half["safe_inflation_m"], (Json{{"mean", 4e-3}, {"max", 8e-2}}));
+  EXPECT_EQ(half["unrepresentable"], (Json{{"lights", 0}, {"frames", 0}}));
+  EXPECT_EQ(half["extra_pairs"]["mean"], 3.0);
+  EXPECT_DOUBLE_EQ(half["extra_pairs"]["ratio"].get<double>(), 0.1);
+  EXPECT_EQ(plain["extra_pairs"], (Json{{"mean", 0.0}, {"ratio", 0.0}}));
+  EXPECT_EQ(violations(json), std::vector<std::string>{});
+}
+
+TEST(ResultJson, without_its_case_in_float32_there_are_no_extra_pairs) {
+  run::Result result = with_half();
+  result.cases.erase(result.cases.begin() + 1);
+  const Json json = result_to_json(result, {});
+  EXPECT_EQ(json["cases"][1]["precision"]["extra_pairs"], (Json{{"mean", nullptr}, {"ratio", nullptr}}));
   EXPECT_EQ(violations(json), std::vector<std::string>{});
 }
 
@@ -119,6 +159,12 @@ TEST(Front, cases_of_different_views_do_not_beat_each_other) {
   result = result_by_hand();
   result.cases[1].viewport = {640, 360};
   EXPECT_EQ(result_to_json(result, {})["front"][0]["ids"], (Json{"slow", "fast"}));
+}
+
+TEST(Front, packed_lights_do_not_beat_what_loses_nothing) {
+  run::Result result = with_half();
+  result.cases[2].timing->assign_ns.median = 1.0;
+  EXPECT_EQ(result_to_json(result, {})["front"][0]["ids"], (Json{"fast", "fast half+inflate"}));
 }
 
 TEST(Gate, false_positives_of_a_conservative_assigner_pass) {

@@ -11,6 +11,7 @@
 namespace clusterbench::report {
 namespace {
 
+using testing::add_precision;
 using testing::add_stability;
 using testing::lose_a_light;
 using testing::result_by_hand;
@@ -136,6 +137,66 @@ TEST(Table, a_made_drift_and_a_grid_that_moves_are_said) {
   EXPECT_NE(table.find("standing camera, made to drift\n"), std::string::npos);
   EXPECT_NE(table.find("cells themselves move"), std::string::npos);
   EXPECT_NE(table.find("stability: 5 pairs are undecided"), std::string::npos);
+}
+
+// Each case in float32, half and half inflated; half loses 3 pairs and has 29 a frame, inflated it has 33.
+run::Result in_three_precisions() {
+  run::Result result = result_by_hand();
+  const std::vector<run::CaseResult> plain = result.cases;
+  result.cases.clear();
+  result.planned_ids.clear();
+  for (const run::CaseResult& one : plain)
+    for (const auto& [packing, inflate] : {std::pair{"float32", false}, {"half", false}, {"half", true}}) {
+      run::CaseResult& added = result.cases.emplace_back(one);
+      add_precision(added, packing, inflate);
+      if (added.precision->packing == "half") added.occupancy.pairs.mean = inflate ? 33.0 : 29.0;
+      if (added.precision->label == "half") lose_a_light(added);
+      added.conservative = added.precision->label != "half";
+      result.planned_ids.push_back(added.id);
+    }
+  return result;
+}
+
+TEST(Table, precision_follows_the_main_table_with_what_is_lost_and_what_inflation_adds) {
+  EXPECT_EQ(table_of(result_by_hand()).find("precision"), std::string::npos);
+  run::Result result = in_three_precisions();
+  result.cases.push_back(result.cases[1]);
+  result.cases.back().id = "other storage";
+  result.planned_ids.emplace_back("other storage");
+  const std::string table = table_of(result), part = table.substr(table.find("precision of hall"));
+  EXPECT_EQ(words(line_with(table, "aabb half+inflate ")).at(2), "half+inflate") << "named in the main table";
+  EXPECT_NE(part.find("half: places are off by 0.001 m, at most 0.02 m; safe inflation 0.004 m, at most 0.08 m"),
+            std::string::npos);
+  EXPECT_EQ(words(line_with(part, "aabb   ")),
+            (std::vector<std::string>{"aabb", "float32", "0", "-", "30", "+0.00", "%"}));
+  std::vector<std::string> halves;
+  for (const std::string& line : lines_of(part))
+    if (line.find(" half ") != std::string::npos) halves.push_back(line);
+  ASSERT_EQ(halves.size(), 2u) << "once, whatever its lists are stored in";
+  EXPECT_EQ(words(halves[1]), (std::vector<std::string>{"aabb", "half", "3", "12", "%", "29", "-3.33", "%"}));
+  EXPECT_EQ(words(line_with(part, "half+inflate")),
+            (std::vector<std::string>{"brute-force", "half+inflate", "0", "-", "33", "+10.00", "%"}));
+  for (const std::string& line : lines_of(part)) EXPECT_LE(line.size(), 100u) << line;
+}
+
+TEST(Table, lights_that_a_format_cannot_hold_are_told) {
+  run::Result result = in_three_precisions();
+  EXPECT_EQ(table_of(result).find("cannot hold"), std::string::npos);
+  for (run::CaseResult& one : result.cases) one.precision->loss.unrepresentable_lights = 7;
+  for (run::CaseResult& one : result.cases) one.precision->loss.unrepresentable_frames = 2;
+  const std::string table = table_of(result);
+  const std::size_t told = table.find("half cannot hold up to 7 lights in 2 frames");
+  EXPECT_NE(told, std::string::npos);
+  EXPECT_EQ(table.find("cannot hold", told + 8), std::string::npos) << "once for each packing";
+  for (const std::string& line : lines_of(table)) EXPECT_LE(line.size(), 110u) << line;
+}
+
+TEST(Table, stability_names_precisions_apart) {
+  run::Result result = in_three_precisions();
+  for (run::CaseResult& one : result.cases) add_stability(one);
+  const std::string table = table_of(result), part = table.substr(table.find("stability of hall"));
+  EXPECT_NE(line_with(part, "aabb half+inflate "), "");
+  EXPECT_NE(line_with(part, "brute-force half "), "");
 }
 
 TEST(Table, storages_are_named_where_there_are_several) {

@@ -1,0 +1,87 @@
+#include "report/precision_table.h"
+
+#include <algorithm>
+#include <set>
+
+#include "report/columns.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const Cells k_headings{"", "assigner", "lights", "missed", "deepest", "pairs", "extra"};
+
+Cells row_of(const Json& one) {
+  const bool has_lost = one.contains("error") && one["error"]["false_negatives"] != 0;
+  return {"",
+          one["assigner"]["label"].get<std::string>(),
+          one["precision"]["label"].get<std::string>(),
+          number_text(one, "/error/false_negatives", "%.0f"),
+          has_lost ? number_text(one, "/error/deepest_miss", "%.2g %%", 100.0) : "-",
+          short_count(one, "/occupancy/pairs/mean"),
+          number_text(one, "/precision/extra_pairs/ratio", "%+.2f %%", 100.0)};
+}
+
+// Cases of a block, once per assigner and precision: lists do not depend on their storage.
+std::vector<const Json*> lines_of(const Json& cases, const Json& scene, const std::string& block) {
+  std::vector<const Json*> lines;
+  std::set<std::string> known;
+  for (const Json& one : cases)
+    if (one.contains("precision") && one["scene"] == scene["name"] && block_of(one) == block &&
+        known.insert(method_name(one)).second)
+      lines.push_back(&one);
+  return lines;
+}
+
+std::string loss_text(const Json& precision) {
+  const auto metres = [&](const char* key) {
+    const std::string place = std::string("/") + key;
+    return number_text(precision, (place + "/mean").c_str(), "%.3g") + " m, at most " +
+           number_text(precision, (place + "/max").c_str(), "%.3g") + " m";
+  };
+  const std::string name = precision["packing"];
+  std::string text = "  " + name + ": places are off by " + metres("position_error_m") + "; safe inflation " +
+                     metres("safe_inflation_m") + "\n";
+  const Json& beyond = precision["unrepresentable"];
+  if (beyond["lights"] != 0)
+    text += "  " + name + " cannot hold up to " + beyond["lights"].dump() + " lights in " + beyond["frames"].dump() +
+            " frames (too far, too large or without end): here they stay in float32,\n" +
+            "  an engine's conversion makes them infinite or cuts them off\n";
+  return text;
+}
+
+std::string block_text(const std::string& block, const std::vector<const Json*>& lines) {
+  std::string out = " " + block + "\n";
+  std::set<std::string> told;
+  std::vector<Cells> rows{k_headings};
+  for (const Json* one : lines) {
+    const Json& precision = (*one)["precision"];
+    const std::string packing = precision["packing"];
+    if (packing != "float32" && told.insert(packing).second) out += loss_text(precision);
+    rows.push_back(row_of(*one));
+  }
+  const std::vector<std::size_t> widths = widths_of(rows);
+  for (const Cells& row : rows) out += aligned(row, widths);
+  return out;
+}
+
+}  // namespace
+
+std::string precision_table(const Json& result) {
+  std::string out;
+  for (const Json& scene : result["scenes"]) {
+    std::string blocks;
+    for (const std::string& block : blocks_of(result["cases"], scene)) {
+      const std::vector<const Json*> lines = lines_of(result["cases"], scene, block);
+      if (!lines.empty()) blocks += block_text(block, lines);
+    }
+    if (!blocks.empty()) out += "precision of " + shown(scene["name"]) + "\n" + blocks + "\n";
+  }
+  if (out.empty()) return "";
+  return "\n" + out +
+         "missed: true pairs that packed lights lose. deepest: how far inside its range a light is lost.\n"
+         "extra: pairs per frame against the same assigner in float32.\n";
+}
+
+}  // namespace clusterbench::report
