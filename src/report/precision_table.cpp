@@ -18,7 +18,7 @@ Cells row_of(const Json& one) {
           one["assigner"]["label"].get<std::string>(),
           one["precision"]["label"].get<std::string>(),
           number_text(one, "/error/false_negatives", "%.0f"),
-          has_lost ? number_text(one, "/error/deepest_miss", "%.2g %%", 100.0) : "-",
+          has_lost ? number_text(one, "/error/deepest_miss", "%.3g %%", 100.0) : "-",
           short_count(one, "/occupancy/pairs/mean"),
           number_text(one, "/precision/extra_pairs/ratio", "%+.2f %%", 100.0)};
 }
@@ -80,7 +80,8 @@ std::string precision_table(const Json& result) {
   }
   if (out.empty()) return "";
   return "\n" + out +
-         "missed: true pairs that packed lights lose. deepest: how far inside its range a light is lost.\n"
+         "missed: true pairs that are lost; on packed lights without inflate that fails no run.\n"
+         "deepest: how far inside its range a light is lost.\n"
          "extra: pairs per frame against the same assigner in float32.\n";
 }
 

@@ -173,7 +173,7 @@ TEST(Table, precision_follows_the_main_table_with_what_is_lost_and_what_inflatio
   for (const std::string& line : lines_of(part))
     if (line.find(" half ") != std::string::npos) halves.push_back(line);
   ASSERT_EQ(halves.size(), 2u) << "once, whatever its lists are stored in";
-  EXPECT_EQ(words(halves[1]), (std::vector<std::string>{"aabb", "half", "3", "12", "%", "29", "-3.33", "%"}));
+  EXPECT_EQ(words(halves[1]), (std::vector<std::string>{"aabb", "half", "3", "12.5", "%", "29", "-3.33", "%"}));
   EXPECT_EQ(words(line_with(part, "half+inflate")),
             (std::vector<std::string>{"brute-force", "half+inflate", "0", "-", "33", "+10.00", "%"}));
   for (const std::string& line : lines_of(part)) EXPECT_LE(line.size(), 100u) << line;
