@@ -100,6 +100,82 @@ TEST(Meets, spots_and_shell_pieces_with_a_common_point_meet) {
   expect_no_sampled_point_to_be_denied(true, random_shell, 2500);
 }
 
+// A place on a cell's surface and a direction out of the cell there: of its face, or one between those of the faces
+// that meet there.
+struct Contact {
+  Vec3d place, outward;
+};
+
+Contact random_contact(const Slopes& s, bool is_shell, SplitMix64& random) {
+  const double lo[3] = {s.x0, s.y0, s.near}, hi[3] = {s.x1, s.y1, s.far};
+  double at[3];
+  int side[3] = {0, 0, 0};
+  while (side[0] == 0 && side[1] == 0 && side[2] == 0)
+    for (int i = 0; i < 3; ++i) {
+      side[i] = static_cast<int>(random.below(3)) - 1;
+      at[i] = side[i] == 0 ? random.between(lo[i], hi[i]) : side[i] < 0 ? lo[i] : hi[i];
+    }
+  const Vec3d slopes{at[0], at[1], -1}, ray = is_shell ? glm::normalize(slopes) : slopes;
+  const Vec3d normals[3] = {glm::normalize(Vec3d(1, 0, at[0])), glm::normalize(Vec3d(0, 1, at[1])),
+                            is_shell ? ray : Vec3d(0, 0, -1)};
+  Vec3d outward(0);
+  for (int i = 0; i < 3; ++i) outward += side[i] * random.between(0.05, 1) * normals[i];
+  return {at[2] * ray, glm::normalize(outward)};
+}
+
+enum class By { ball, cap, rim, side };
+
+// A light that reaches the place by a hair with one part of its surface, and lies outward of it there.
+LightVolume light_against(const Contact& contact, By by, SplitMix64& random) {
+  constexpr double k_hair = 1e-6;
+  LightVolume light;
+  light.is_cone = by != By::ball;
+  light.half_angle_rad = random.between(0.05, 1.5);
+  const double along = random.between(0.5, 20.0);
+  // From the apex to the place: against the cap's outward direction, along the side, or between them at the rim.
+  const double lean = by == By::side ? M_PI / 2 : by == By::rim ? random.between(0.1, 1.4) : 0.0;
+  const Vec3d beside = glm::normalize(glm::cross(contact.outward, random_direction(random)));
+  const Vec3d towards = -std::cos(lean) * contact.outward + std::sin(lean) * beside;
+  const Vec3d inward = std::sin(lean) * contact.outward + std::cos(lean) * beside;
+  const double off_axis = by == By::cap ? random.unit() * light.half_angle_rad : light.half_angle_rad - k_hair;
+  light.direction = std::cos(off_axis) * towards + std::sin(off_axis) * inward;
+  light.apex.position = contact.place - along * towards;
+  light.range = by == By::side ? along * random.between(1.1, 3.0) : along + k_hair;
+  return light;
+}
+
+TEST(Meets, a_light_that_reaches_a_face_edge_or_corner_by_a_hair_meets_the_cell) {
+  SplitMix64 random(31);
+  for (int i = 0; i < 4000; ++i) {
+    const Slopes s = random_slopes(random);
+    for (const By by : {By::ball, By::cap, By::rim, By::side})
+      for (const bool is_shell : {false, true}) {
+        const LightVolume light = light_against(random_contact(s, is_shell, random), by, random);
+        const Cell cell = is_shell ? Cell(ShellPiece{s.x0, s.x1, s.y0, s.y1, s.near, s.far})
+                                   : Cell(FrustumPiece{s.x0, s.x1, s.y0, s.y1, s.near, s.far, false});
+        Verdict verdict = filter_meets(light, cell);
+        if (verdict == Verdict::open) verdict = decide_meets(light, cell);
+        EXPECT_EQ(verdict, Verdict::yes) << i << ", part " << static_cast<int>(by) << ", shell " << is_shell;
+      }
+  }
+}
+
+// A sheet 20 m wide and 12 cm thick: no edge or corner is near, nor does the light end in it.
+TEST(Meets, a_light_that_passes_through_the_middle_of_a_thin_cell_meets_it) {
+  const FrustumPiece sheet{-1.0f, 1.0f, -1.0f, 1.0f, 10.0f, 10.125f, false};
+  LightVolume light;
+  light.apex.position = {1.0, -2.0, -9.0};
+  light.range = 3.0;
+  EXPECT_EQ(filter_meets(light, sheet), Verdict::yes);
+  light.is_cone = true;
+  light.half_angle_rad = 0.2;
+  for (const Vec3d& direction : {Vec3d(0, 0, -1), Vec3d(1, 0, -1), Vec3d(-1, 1, -1)}) {
+    light.direction = glm::normalize(direction);
+    EXPECT_EQ(filter_meets(light, sheet), Verdict::yes);
+    EXPECT_EQ(decide_meets(light, sheet), Verdict::yes);
+  }
+}
+
 TEST(Meets, spots_agree_with_alternating_projections) {
   SplitMix64 random(5);
   int met = 0, decided = 0;
