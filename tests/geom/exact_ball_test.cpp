@@ -51,11 +51,19 @@ TEST(ExactBall, a_centre_on_a_plane_or_corner_touches_with_any_radius) {
   EXPECT_FALSE(ball_meets_exactly(at(6.0, 4.0, just_below(8.0)), 0.0, k_piece));
 }
 
+TEST(ExactBall, a_centre_inside_touches_with_any_radius) {
+  EXPECT_TRUE(ball_meets_exactly(at(1.0, 1.0, 20.0), 0.0, k_piece));
+  EXPECT_TRUE(ball_meets_exactly(at(-11.0, 7.0, 30.0), 1e-300, k_piece));
+}
+
 TEST(ExactBall, the_difference_to_the_origin_is_taken_exactly) {
   // Thirteen metres beside an origin at 2^53: the foot on x = 0.75 depth is 0.8 away.
   const Placement beside{{0x1p53, 0.0, -16.0}, {0x1p53 - 13.0, 0.0, 0.0}, Mat3d(1.0)};
   EXPECT_FALSE(ball_meets_exactly(beside, 0.79, k_piece));
   EXPECT_TRUE(ball_meets_exactly(beside, 0.81, k_piece));
+  // 12 + 2^-60, which double precision takes for 12, is beside the plane.
+  EXPECT_FALSE(ball_meets_exactly({{12.0, 0.0, -16.0}, {-0x1p-60, 0.0, 0.0}, Mat3d(1.0)}, 0.0, k_piece));
+  EXPECT_TRUE(ball_meets_exactly({{12.0, 0.0, -16.0}, {0x1p-60, 0.0, 0.0}, Mat3d(1.0)}, 0.0, k_piece));
 }
 
 TEST(ExactBall, a_box_is_the_orthographic_piece_of_the_same_extents) {
