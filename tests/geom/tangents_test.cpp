@@ -102,6 +102,22 @@ TEST(Tangents, a_disk_of_radius_1e6_a_metre_from_the_eye_is_bounded_to_a_ten_tho
     }
 }
 
+// The root that is the difference of two nearly equal numbers must come from the product of the roots.
+TEST(Tangents, a_disk_that_ends_straight_ahead_keeps_the_digits_of_its_nearer_side) {
+  Random random(3);
+  for (int i = 0; i < 100000; ++i) {
+    const float r = static_cast<float>(random.log_between(0.1, 100));
+    const float depth = static_cast<float>(r * random.log_between(1.5, 100));
+    float u = r;
+    for (auto steps = static_cast<int>(random.between(1, 4)); steps > 0; --steps) u = std::nextafter(u, k_inf);
+    const long double to_u = u, to_depth = depth, beyond = (to_u - r) * (to_u + r);
+    const long double slope = beyond / (to_u * to_depth + r * sqrtl(beyond + to_depth * to_depth));
+    EXPECT_LE(static_cast<long double>(slope_range(u, depth, r, 0.1f, k_inf).lo), slope);
+    EXPECT_GE(static_cast<long double>(slope_range(-u, depth, r, 0.1f, k_inf).hi), -slope);
+    EXPECT_NEAR(slope_range(u, depth, r, 0.1f, k_inf).lo / static_cast<double>(slope), 1.0, 2.5e-7);
+  }
+}
+
 TEST(Tangents, an_eye_in_the_disk_sees_what_the_slab_leaves) {
   const SlopeRange got = slope_range(0, 0, 5, 3, 4);
   EXPECT_NEAR(got.lo, -4.0 / 3.0, 1e-6);
