@@ -123,6 +123,20 @@ TEST(Slicing, depths_before_the_grid_are_slice_0_and_beyond_it_none) {
   }
 }
 
+TEST(Slicing, the_middle_of_every_slice_looks_itself_up_in_every_scheme) {
+  for (const Scheme scheme :
+       {Scheme::linear, Scheme::exponential, Scheme::exponential_first, Scheme::power, Scheme::fit, Scheme::list}) {
+    Slicing asked = slicing(scheme, 6, 0.5, 500.0);
+    asked.boundaries_m = {0.5, 1.0, 8.0, 9.0, 30.0, 31.0, 500.0};
+    const Slices slices = make_slices(asked, {0.5, 500.0, 2.0, 300.0}, false);
+    for (int k = 0; k < slices.count(); ++k) {
+      const float begin = slices.boundaries[static_cast<std::size_t>(k)];
+      const float end = slices.boundaries[static_cast<std::size_t>(k) + 1];
+      for (const float share : {0.01f, 0.5f, 0.99f}) EXPECT_EQ(slices.slice_of(begin + share * (end - begin)), k);
+    }
+  }
+}
+
 struct Range {
   double near_m, far_m;
   int count;
