@@ -11,12 +11,7 @@ namespace clusterbench::geom {
 bool ball_meets_exactly(const Placement& center, double radius, const FrustumPiece& cell);
 bool ball_meets_exactly(const Placement& center, double radius, const Box& cell);
 
-// How a ball meets the pyramid of a shell piece, without its shells: not at all, in a single point (which then lies
-// between the shells or not), or in more than that.
-enum class PyramidContact { none, point_in_shell, point_outside_shell, overlap };
-PyramidContact pyramid_contact(const Placement& center, double radius, const ShellPiece& cell);
-
-// Does the closed cell hold the placed point? A shell piece's distance bounds are compared squared.
+// Does the closed cell hold the placed point?
 bool holds_exactly(const Cell& cell, const Placement& point);
 
 }  // namespace clusterbench::geom

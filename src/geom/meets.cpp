@@ -6,6 +6,7 @@
 
 #include "geom/candidates.h"
 #include "geom/exact_ball.h"
+#include "geom/exact_shell.h"
 
 namespace clusterbench::geom {
 namespace {
@@ -329,17 +330,10 @@ struct Meets {
 struct Decides {
   const LightVolume& light;
 
-  template <class PlaneCell>
-  Verdict operator()(const PlaneCell& cell) const {
+  template <class AnyCell>
+  Verdict operator()(const AnyCell& cell) const {
     if (light.is_cone) return Meets<Big>{volume_of<Big>(light)}(cell);
     return ball_meets_exactly(light.apex, light.range, cell) ? Verdict::yes : Verdict::no;
-  }
-  Verdict operator()(const ShellPiece& cell) const {
-    // A ball that is tangent to the pyramid shares one point with it, whose place is known exactly.
-    const PyramidContact contact =
-        light.is_cone ? PyramidContact::overlap : pyramid_contact(light.apex, light.range, cell);
-    if (contact == PyramidContact::overlap) return Meets<Big>{volume_of<Big>(light)}(cell);
-    return contact == PyramidContact::point_in_shell ? Verdict::yes : Verdict::no;
   }
 };
 

@@ -19,7 +19,7 @@ struct LightVolume {
   double half_angle_rad = 0.0;
 };
 
-// Slower, for what the filter leaves open. Balls against plane-bounded cells: never open. Others: open when touching
+// Slower, for what the filter leaves open. Balls: exact, never open. Spots: open when touching
 // within 2^-150 of the scene's size and not provable by an exact point (the apex).
 Verdict decide_meets(const LightVolume& light, const Cell& cell);
 

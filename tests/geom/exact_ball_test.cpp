@@ -82,25 +82,6 @@ TEST(ExactBall, a_box_is_the_orthographic_piece_of_the_same_extents) {
   EXPECT_LT(touching, 250);
 }
 
-TEST(PyramidContact, a_tangent_ball_shares_one_point_that_lies_between_the_shells_or_not) {
-  // Foot (12, 0, 16) on x = 0.75 depth, at distance 20 from the eye, five units from the centre.
-  const Placement center = at(16.0, 0.0, 13.0);
-  const auto contact = [&](double radius, float near, float far) {
-    return pyramid_contact(center, radius, {-0.75f, 0.75f, -0.5f, 0.5f, near, far});
-  };
-  EXPECT_EQ(contact(5.0, 10.0f, 20.0f), PyramidContact::point_in_shell);
-  EXPECT_EQ(contact(5.0, 20.0f, 30.0f), PyramidContact::point_in_shell);
-  EXPECT_EQ(contact(5.0, 10.0f, 19.99f), PyramidContact::point_outside_shell);
-  EXPECT_EQ(contact(just_below(5.0), 10.0f, 20.0f), PyramidContact::none);
-  EXPECT_EQ(contact(std::nextafter(5.0, 6.0), 10.0f, 20.0f), PyramidContact::overlap);
-}
-
-TEST(PyramidContact, a_ball_behind_the_eye_is_nearest_to_the_eye_itself) {
-  const ShellPiece cell{-0.75f, 0.75f, -0.5f, 0.5f, 0.0f, 10.0f};
-  EXPECT_EQ(pyramid_contact(at(0.0, 0.0, -3.0), 3.0, cell), PyramidContact::point_in_shell);
-  EXPECT_EQ(pyramid_contact(at(0.0, 0.0, -3.0), just_below(3.0), cell), PyramidContact::none);
-}
-
 TEST(HoldsExactly, shells_take_the_distance_and_not_the_depth) {
   const ShellPiece shell{-1.0f, 1.0f, -1.0f, 1.0f, 5.0f, 7.0f};
   EXPECT_TRUE(holds_exactly(shell, at(3.0, 0.0, 4.0)));

@@ -1,0 +1,176 @@
+#include "geom/exact_cells.h"
+
+namespace clusterbench::geom {
+namespace {
+
+Rational clamped(const Rational& value, const Rational& lo, const Rational& hi) {
+  if (value < lo) return lo;
+  return value > hi ? hi : value;
+}
+
+// Bounds of a piece: x between x[0]*depth and x[1]*depth, likewise y; depth between depth[0] and depth[1].
+struct Piece {
+  std::array<Rational, 2> x, y, depth;
+};
+
+// One coordinate of a point of a face, edge or corner: either free, or slope * depth with the chosen slope.
+struct Tied {
+  bool free;
+  Rational slope;
+};
+
+// The depth of the point nearest to c among those with x and y tied as given and depth free: the projection onto the
+// line or plane {(slope_x * depth, slope_y * depth, depth)}, where free coordinates take the centre's own value.
+Rational nearest_depth(const RationalPoint& c, const Tied& x, const Tied& y) {
+  Rational numerator = -c.z, denominator = 1;
+  if (!x.free) {
+    numerator += x.slope * c.x;
+    denominator += squared(x.slope);
+  }
+  if (!y.free) {
+    numerator += y.slope * c.y;
+    denominator += squared(y.slope);
+  }
+  return numerator / denominator;
+}
+
+bool within(const Rational& value, const std::array<Rational, 2>& slopes, const Rational& depth) {
+  return slopes[0] * depth <= value && value <= slopes[1] * depth;
+}
+
+Tied tied(const std::array<Rational, 2>& slopes, int choice) {
+  return choice < 2 ? Tied{false, slopes[static_cast<std::size_t>(choice)]} : Tied{true, 0};
+}
+
+// The nearest, after `nearest`, of the centre's projections onto the spans of faces, edges and corners, the piece's
+// inside included (three choices per pair of planes: low, high, free), as far as they lie in the piece.
+// first_choice 0: all of them; 18: only those with free depth.
+RationalPoint nearest_projection(const RationalPoint& c, const Piece& piece, int first_choice, RationalPoint nearest) {
+  for (int choice = first_choice; choice < 27; ++choice) {
+    const Tied x = tied(piece.x, choice % 3), y = tied(piece.y, choice / 3 % 3);
+    const std::size_t end = static_cast<std::size_t>(choice / 9);
+    const Rational depth = end < 2 ? piece.depth[end] : nearest_depth(c, x, y);
+    if (depth < piece.depth[0] || depth > piece.depth[1]) continue;
+    const RationalPoint p{x.free ? c.x : x.slope * depth, y.free ? c.y : y.slope * depth, -depth};
+    if (!within(p.x, piece.x, depth) || !within(p.y, piece.y, depth)) continue;
+    if (squared_distance(c, p) < squared_distance(c, nearest)) nearest = p;
+  }
+  return nearest;
+}
+
+RationalPoint nearest_in_pyramid(const ShellPiece& cell, const RationalPoint& c) {
+  // The nearest point of a convex cone is no farther from its apex than the centre is.
+  const Rational deepest = abs(c.x) + abs(c.y) + abs(c.z) + 1;
+  const Piece pyramid{{exact(cell.x0), exact(cell.x1)}, {exact(cell.y0), exact(cell.y1)}, {0, deepest}};
+  return nearest_projection(c, pyramid, 18, {0, 0, 0});
+}
+
+bool in_pyramid(const RationalPoint& p, float x0, float x1, float y0, float y1) {
+  const Rational depth = -p.z;
+  return depth >= 0 && within(p.x, {exact(x0), exact(x1)}, depth) && within(p.y, {exact(y0), exact(y1)}, depth);
+}
+
+Box box_of(const FrustumPiece& orthographic) {
+  return {{orthographic.x0, orthographic.y0, -orthographic.depth1},
+          {orthographic.x1, orthographic.y1, -orthographic.depth0}};
+}
+
+bool box_holds(const Box& box, const RationalPoint& p) {
+  return exact(box.lo.x) <= p.x && p.x <= exact(box.hi.x) && exact(box.lo.y) <= p.y && p.y <= exact(box.hi.y) &&
+         exact(box.lo.z) <= p.z && p.z <= exact(box.hi.z);
+}
+
+struct Holds {
+  const RationalPoint& p;
+
+  bool operator()(const FrustumPiece& cell) const {
+    if (cell.orthographic) return box_holds(box_of(cell), p);
+    return in_pyramid(p, cell.x0, cell.x1, cell.y0, cell.y1) && exact(cell.depth0) <= -p.z &&
+           -p.z <= exact(cell.depth1);
+  }
+  bool operator()(const ShellPiece& cell) const {
+    const Rational square = dot(p, p);
+    return pyramid_holds(cell, p) && squared(exact(cell.distance0)) <= square &&
+           square <= squared(exact(cell.distance1));
+  }
+  bool operator()(const Box& cell) const { return box_holds(cell, p); }
+};
+
+// a·c / |a| < b·c / |b| for non-zero a and b, both sides not positive.
+bool leans_away_more(const RationalPoint& a, const RationalPoint& b, const RationalPoint& c) {
+  return squared(dot(a, c)) * dot(b, b) > squared(dot(b, c)) * dot(a, a);
+}
+
+}  // namespace
+
+bool holds(const Cell& cell, const RationalPoint& p) {
+  return std::visit(Holds{p}, cell);
+}
+
+bool pyramid_holds(const ShellPiece& cell, const RationalPoint& p) {
+  return in_pyramid(p, cell.x0, cell.x1, cell.y0, cell.y1);
+}
+
+std::array<RationalPoint, 8> corners_of(const Box& cell) {
+  std::array<RationalPoint, 8> corners;
+  for (unsigned i = 0; i < 8; ++i)
+    corners[i] = {exact((i & 1) != 0 ? cell.hi.x : cell.lo.x), exact((i & 2) != 0 ? cell.hi.y : cell.lo.y),
+                  exact((i & 4) != 0 ? cell.lo.z : cell.hi.z)};
+  return corners;
+}
+
+std::array<RationalPoint, 8> corners_of(const FrustumPiece& cell) {
+  if (cell.orthographic) return corners_of(box_of(cell));
+  std::array<RationalPoint, 8> corners;
+  for (unsigned i = 0; i < 8; ++i) {
+    const Rational depth = exact((i & 4) != 0 ? cell.depth1 : cell.depth0);
+    corners[i] = {exact((i & 1) != 0 ? cell.x1 : cell.x0) * depth, exact((i & 2) != 0 ? cell.y1 : cell.y0) * depth,
+                  -depth};
+  }
+  return corners;
+}
+
+std::array<RationalPoint, 4> rays_of(const ShellPiece& cell) {
+  std::array<RationalPoint, 4> rays;
+  for (unsigned i = 0; i < 4; ++i)
+    rays[i] = {exact((i & 1) != 0 ? cell.x1 : cell.x0), exact((i & 2) != 0 ? cell.y1 : cell.y0), -1};
+  return rays;
+}
+
+RationalPoint nearest_point(const Box& cell, const RationalPoint& p) {
+  return {clamped(p.x, exact(cell.lo.x), exact(cell.hi.x)), clamped(p.y, exact(cell.lo.y), exact(cell.hi.y)),
+          clamped(p.z, exact(cell.lo.z), exact(cell.hi.z))};
+}
+
+RationalPoint nearest_point(const FrustumPiece& cell, const RationalPoint& p) {
+  if (cell.orthographic) return nearest_point(box_of(cell), p);
+  const Piece piece{
+      {exact(cell.x0), exact(cell.x1)}, {exact(cell.y0), exact(cell.y1)}, {exact(cell.depth0), exact(cell.depth1)}};
+  return nearest_projection(p, piece, 0, corners_of(cell)[0]);
+}
+
+// The squared distance from p to t * u (u of unit length) is t² - 2 t (u·p) + |p|²: whatever t is, the best u is the
+// one with the largest u·p, and then the best t is u·p, pulled between the shells. If the pyramid's point nearest to p,
+// q, is not the eye, u = q/|q|, as u·p <= |q| for every u of the pyramid (the pyramid is convex, and p - q is
+// perpendicular to q and points away from it). If it is the eye, u·p <= 0 everywhere. Then u, a sum of the four rays
+// (each taken of unit length) with weights that add to 1 at least, leans no less towards p in one of these rays.
+NearestOnShells nearest_point(const ShellPiece& cell, const RationalPoint& p) {
+  RationalPoint towards = nearest_in_pyramid(cell, p);
+  if (dot(towards, towards) == 0) {
+    const std::array<RationalPoint, 4> rays = rays_of(cell);
+    towards = rays[0];
+    for (const RationalPoint& ray : rays)
+      if (leans_away_more(towards, ray, p)) towards = ray;
+    return {towards, exact(cell.distance0)};
+  }
+  // Here u·p = |towards|.
+  const Rational square = dot(towards, towards);
+  for (const float distance : {cell.distance0, cell.distance1}) {
+    const Rational limit = squared(exact(distance));
+    const bool is_beyond = distance == cell.distance0 ? square < limit : square > limit;
+    if (is_beyond) return {towards, exact(distance)};
+  }
+  return {towards, std::nullopt};
+}
+
+}  // namespace clusterbench::geom

@@ -1,0 +1,43 @@
+#pragma once
+// Exact numbers: what floats and doubles are, and what follows from them by + - * /.
+
+#include <boost/multiprecision/cpp_int.hpp>
+
+#include "geom/candidates.h"
+#include "geom/placement.h"
+
+namespace clusterbench::geom {
+
+using Rational =
+    boost::multiprecision::number<boost::multiprecision::cpp_rational::backend_type, boost::multiprecision::et_off>;
+using RationalPoint = Point3<Rational>;
+
+// value: finite.
+inline Rational exact(double value) {
+  return Rational(value);
+}
+
+inline Rational squared(const Rational& value) {
+  return value * value;
+}
+
+inline Rational squared_distance(const RationalPoint& a, const RationalPoint& b) {
+  return dot(a - b, a - b);
+}
+
+inline RationalPoint exact_point(const Placement& place) {
+  Rational t[3], local[3];
+  for (int i = 0; i < 3; ++i) t[i] = exact(place.position[i]) - exact(place.origin[i]);
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column) local[row] += exact(place.rotation[column][row]) * t[column];
+  return {local[0], local[1], local[2]};
+}
+
+// a <= b * sqrt(n), n >= 0.
+inline bool at_most_root(const Rational& a, const Rational& b, const Rational& n) {
+  if (a.sign() <= 0 && b.sign() >= 0) return true;
+  if (a.sign() >= 0 && b.sign() <= 0) return a.sign() == 0 && (b.sign() == 0 || n.sign() == 0);
+  return a.sign() > 0 ? squared(a) <= squared(b) * n : squared(a) >= squared(b) * n;
+}
+
+}  // namespace clusterbench::geom
