@@ -77,12 +77,18 @@ struct Pyramid {
   std::array<Point3<Real>, 4> rays;  // unit
 };
 
-// A unit vector across `axis`, towards n where n has such a part.
+// A unit vector across `axis`, towards n where n has such a part. What n loses along the axis, rounded, may be most of
+// what is left of it: taken away once more, no part along the axis remains.
 template <class Real>
 Point3<Real> unit_across(const Point3<Real>& axis, const Point3<Real>& n) {
   const Point3<Real> part = n - dot(n, axis) * axis;
   const Real size = length(part);
-  if (size > Real(1e-30)) return (Real(1) / size) * part;
+  if (size > Real(1e-110)) {
+    const Point3<Real> once = (Real(1) / size) * part;
+    const Point3<Real> twice = once - dot(once, axis) * axis;
+    const Real left = length(twice);
+    if (left > Real(0.5)) return (Real(1) / left) * twice;
+  }
   const bool x_is_small = axis.x * axis.x < Real(0.5);
   const Point3<Real> other =
       x_is_small ? Point3<Real>{Real(1), Real(0), Real(0)} : Point3<Real>{Real(0), Real(1), Real(0)};

@@ -1,5 +1,7 @@
 #include "geom/exact_cells.h"
 
+#include <algorithm>
+
 namespace clusterbench::geom {
 namespace {
 
@@ -65,35 +67,33 @@ RationalPoint nearest_in_pyramid(const ShellPiece& cell, const RationalPoint& c)
   return nearest_projection(c, pyramid, 18, {0, 0, 0});
 }
 
-bool in_pyramid(const RationalPoint& p, float x0, float x1, float y0, float y1) {
-  const Rational depth = -p.z;
-  return depth >= 0 && within(p.x, {exact(x0), exact(x1)}, depth) && within(p.y, {exact(y0), exact(y1)}, depth);
-}
-
 Box box_of(const FrustumPiece& orthographic) {
   return {{orthographic.x0, orthographic.y0, -orthographic.depth1},
           {orthographic.x1, orthographic.y1, -orthographic.depth0}};
 }
 
-bool box_holds(const Box& box, const RationalPoint& p) {
-  return exact(box.lo.x) <= p.x && p.x <= exact(box.hi.x) && exact(box.lo.y) <= p.y && p.y <= exact(box.hi.y) &&
-         exact(box.lo.z) <= p.z && p.z <= exact(box.hi.z);
-}
-
-struct Holds {
-  const RationalPoint& p;
-
-  bool operator()(const FrustumPiece& cell) const {
-    if (cell.orthographic) return box_holds(box_of(cell), p);
-    return in_pyramid(p, cell.x0, cell.x1, cell.y0, cell.y1) && exact(cell.depth0) <= -p.z &&
-           -p.z <= exact(cell.depth1);
+struct PlanesOf {
+  // depth = -z: x <= x1 * depth is x + x1 * z <= 0.
+  static Planes of_pyramid(float x0, float x1, float y0, float y1) {
+    return {{{-1, 0, -exact(x0)}, 0}, {{1, 0, exact(x1)}, 0}, {{0, -1, -exact(y0)}, 0}, {{0, 1, exact(y1)}, 0}};
   }
-  bool operator()(const ShellPiece& cell) const {
-    const Rational square = dot(p, p);
-    return pyramid_holds(cell, p) && squared(exact(cell.distance0)) <= square &&
-           square <= squared(exact(cell.distance1));
+
+  Planes operator()(const Box& cell) const {
+    return {{{-1, 0, 0}, -exact(cell.lo.x)}, {{1, 0, 0}, exact(cell.hi.x)},   {{0, -1, 0}, -exact(cell.lo.y)},
+            {{0, 1, 0}, exact(cell.hi.y)},   {{0, 0, -1}, -exact(cell.lo.z)}, {{0, 0, 1}, exact(cell.hi.z)}};
   }
-  bool operator()(const Box& cell) const { return box_holds(cell, p); }
+  Planes operator()(const FrustumPiece& cell) const {
+    if (cell.orthographic) return (*this)(box_of(cell));
+    Planes planes = of_pyramid(cell.x0, cell.x1, cell.y0, cell.y1);
+    planes.push_back({{0, 0, 1}, -exact(cell.depth0)});
+    planes.push_back({{0, 0, -1}, exact(cell.depth1)});
+    return planes;
+  }
+  Planes operator()(const ShellPiece& cell) const {
+    Planes planes = of_pyramid(cell.x0, cell.x1, cell.y0, cell.y1);
+    planes.push_back({{0, 0, 1}, 0});
+    return planes;
+  }
 };
 
 // a·c / |a| < b·c / |b| for non-zero a and b, both sides not positive.
@@ -103,12 +103,39 @@ bool leans_away_more(const RationalPoint& a, const RationalPoint& b, const Ratio
 
 }  // namespace
 
-bool holds(const Cell& cell, const RationalPoint& p) {
-  return std::visit(Holds{p}, cell);
+Planes planes_of(const Cell& cell) {
+  return std::visit(PlanesOf{}, cell);
 }
 
-bool pyramid_holds(const ShellPiece& cell, const RationalPoint& p) {
-  return in_pyramid(p, cell.x0, cell.x1, cell.y0, cell.y1);
+bool all_hold(const Planes& planes, const RationalPoint& p) {
+  return std::all_of(planes.begin(), planes.end(),
+                     [&](const HalfSpace<Rational>& plane) { return plane.margin(p).sign() >= 0; });
+}
+
+bool holds(const Cell& cell, const RationalPoint& p) {
+  if (!all_hold(planes_of(cell), p)) return false;
+  const ShellPiece* shell = std::get_if<ShellPiece>(&cell);
+  if (shell == nullptr) return true;
+  const Rational square = dot(p, p);
+  return squared(exact(shell->distance0)) <= square && square <= squared(exact(shell->distance1));
+}
+
+std::optional<Span> span_within(const Planes& planes, const RationalPoint& start, const RationalPoint& step) {
+  Span span{0, std::nullopt};
+  for (const HalfSpace<Rational>& plane : planes) {
+    const Rational slope = dot(plane.normal, step), margin = plane.margin(start);
+    if (slope.sign() == 0) {
+      if (margin.sign() < 0) return std::nullopt;
+      continue;
+    }
+    const Rational t = margin / slope;
+    if (slope.sign() < 0)
+      span.from = std::max(span.from, t);
+    else if (!span.to || t < *span.to)
+      span.to = t;
+  }
+  if (span.to && *span.to < span.from) return std::nullopt;
+  return span;
 }
 
 std::array<RationalPoint, 8> corners_of(const Box& cell) {

@@ -3,16 +3,27 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "geom/rational.h"
 #include "geom/shapes.h"
 
 namespace clusterbench::geom {
 
+// The planes that bound the cell; of a shell piece those of its pyramid. Normals not of unit length.
+using Planes = std::vector<HalfSpace<Rational>>;
+Planes planes_of(const Cell& cell);
+
+bool all_hold(const Planes& planes, const RationalPoint& p);
 // Is the point in the closed cell? A shell piece's distance bounds are compared squared.
 bool holds(const Cell& cell, const RationalPoint& p);
-// Is it in the shell piece's pyramid, at any distance?
-bool pyramid_holds(const ShellPiece& cell, const RationalPoint& p);
+
+// The t >= 0 for which all planes hold start + t * step: nothing, or from `from` to `to`, or (without `to`) on and on.
+struct Span {
+  Rational from;
+  std::optional<Rational> to;
+};
+std::optional<Span> span_within(const Planes& planes, const RationalPoint& start, const RationalPoint& step);
 
 // Corner i takes the low or high side by its bits: 1 for x, 2 for y, 4 for depth.
 std::array<RationalPoint, 8> corners_of(const FrustumPiece& cell);

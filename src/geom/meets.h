@@ -1,26 +1,15 @@
 #pragma once
 // Do a light's volume and a cell share a point? Touching counts. First a filter in double precision that says yes or no
-// only when that is certain, then exact arithmetic (balls against planes) or 256 bits (everything else).
+// only when that is certain, then exact arithmetic (balls) or a proof in exact arithmetic (spots).
 
 #include "geom/candidates.h"
-#include "geom/placement.h"
+#include "geom/light_volume.h"
 #include "geom/shapes.h"
+#include "geom/verdict.h"
 
 namespace clusterbench::geom {
 
-enum class Verdict { no, yes, open };
-
-// A light by its exact ingredients. The axis is rotation * direction, not necessarily of unit length.
-struct LightVolume {
-  Placement apex;
-  double range = 0.0;  // > 0, may be +inf
-  bool is_cone = false;
-  Vec3d direction{0.0, 0.0, -1.0};
-  double half_angle_rad = 0.0;
-};
-
-// Slower, for what the filter leaves open. Balls: exact, never open. Spots: open when touching
-// within 2^-150 of the scene's size and not provable by an exact point (the apex).
+// Slower, for what the filter leaves open. Balls: exact, never open. Spots: proven, or open (geom/spot.h).
 Verdict decide_meets(const LightVolume& light, const Cell& cell);
 
 // Distances from the eye over pyramid ∩ volume: one interval. All true distances lie in [outer_lo, outer_hi]; every

@@ -8,6 +8,7 @@
 
 namespace clusterbench::geom {
 
+using Integer = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>, boost::multiprecision::et_off>;
 using Rational =
     boost::multiprecision::number<boost::multiprecision::cpp_rational::backend_type, boost::multiprecision::et_off>;
 using RationalPoint = Point3<Rational>;

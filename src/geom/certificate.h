@@ -1,0 +1,33 @@
+#pragma once
+// Does a spot's volume share a point with a cell? Answers that can be checked, and the checks, in exact arithmetic: a
+// point that both have, or a plane between them. The cosine of the half-angle is not rational; bounds of it stand in,
+// each on the side that makes a check harder to pass.
+
+#include <array>
+
+#include "geom/bounds.h"
+#include "geom/exact_cells.h"
+#include "geom/light_volume.h"
+
+namespace clusterbench::geom {
+
+// ball(apex, range) ∩ solid cone around direction (any length but 0).
+struct ExactSpot {
+  RationalPoint apex, direction;
+  Rational range;  // metres
+  Rational half_angle_rad;
+  AngleBounds half_angle;
+};
+
+// The part of a spot's volume that is at most `reach` away from its space's origin (all of it, or more, if reach is
+// beyond it). Angles above 90° are taken as 90°.
+ExactSpot exact_spot(const LightVolume& light, const Rational& reach);
+
+// Is p certainly in the volume?
+bool surely_holds(const ExactSpot& spot, const RationalPoint& p);
+
+// Does a plane with this normal (from the volume to the corners; any length) certainly lie between the volume and the
+// convex hull of the corners, touching neither?
+bool surely_separates(const RationalPoint& normal, const ExactSpot& spot, const std::array<RationalPoint, 8>& corners);
+
+}  // namespace clusterbench::geom

@@ -1,0 +1,188 @@
+#include "geom/spot.h"
+
+#include <algorithm>
+
+#include "geom/big.h"
+#include "geom/certificate.h"
+#include "geom/enclosure.h"
+#include "geom/exact_cells.h"
+#include "geom/search.h"
+#include "geom/separation.h"
+
+namespace clusterbench::geom {
+namespace {
+
+RationalPoint at(const ExactSpot& spot, const Rational& t) {
+  return spot.apex + t * spot.direction;
+}
+
+// Where the axis enters the cell, if it does. A cone of half-angle 0 has no other points.
+bool axis_surely_meets(const ExactSpot& spot, const Planes& planes) {
+  const std::optional<Span> span = span_within(planes, spot.apex, spot.direction);
+  return span && surely_holds(spot, at(spot, span->from));
+}
+
+Rational reach_of(const std::array<RationalPoint, 8>& corners) {
+  Rational reach = 0;
+  for (const RationalPoint& corner : corners)
+    reach = std::max(reach, Rational(abs(corner.x) + abs(corner.y) + abs(corner.z)));
+  return reach;
+}
+
+template <class PlaneCell>
+Verdict decide(const LightVolume& light, const PlaneCell& cell) {
+  const std::array<RationalPoint, 8> corners = corners_of(cell);
+  const ExactSpot spot = exact_spot(light, reach_of(corners));
+  if (surely_holds(spot, nearest_point(cell, spot.apex))) return Verdict::yes;
+  const Planes planes = planes_of(cell);
+  if (axis_surely_meets(spot, planes)) return Verdict::yes;
+
+  const Setting<Big> setting(volume_of<Big>(light), polytope_of<Big>(cell));
+  const Witness<Big> witness = setting.common_point({true, true, true, true, true, true});
+  if (witness.margin > Big(0)) {
+    const RationalPoint p = exact(witness.at);
+    if (all_hold(planes, p) && surely_holds(spot, p)) return Verdict::yes;
+  }
+  const Separation<Big> separation = find_separation(setting.volume, setting.cell, setting.tolerance);
+  return surely_separates(exact(separation.normal), spot, corners) ? Verdict::no : Verdict::open;
+}
+
+// Points of pyramid ∩ spot on both sides of a shell piece, or in it: the set is convex, so its distances from the eye
+// are an interval, and if one point is not too far and one not too near, there is a point that is neither.
+class ShellWitness {
+ public:
+  ShellWitness(const ExactSpot& spot, const ShellPiece& cell)
+      : spot_(spot),
+        planes_(planes_of(cell)),
+        squared_near_(squared(exact(cell.distance0))),
+        squared_far_(squared(exact(cell.distance1))) {}
+
+  const Planes& planes() const { return planes_; }
+  bool is_found() const { return has_near_ && has_far_; }
+
+  void offer(const RationalPoint& p) {
+    const Rational square = dot(p, p);
+    const bool is_near = square <= squared_far_, is_far = square >= squared_near_;
+    if ((has_near_ || !is_near) && (has_far_ || !is_far)) return;
+    if (!all_hold(planes_, p) || !surely_holds(spot_, p)) return;
+    has_near_ = has_near_ || is_near;
+    has_far_ = has_far_ || is_far;
+  }
+
+ private:
+  const ExactSpot& spot_;
+  const Planes planes_;
+  const Rational squared_near_, squared_far_;
+  bool has_near_ = false, has_far_ = false;
+};
+
+// The shell piece's point nearest to the apex, if it is rational.
+void offer_nearest(const ExactSpot& spot, const ShellPiece& cell, ShellWitness& witness) {
+  const NearestOnShells nearest = nearest_point(cell, spot.apex);
+  if (!nearest.distance) return witness.offer(nearest.towards);
+  const std::optional<Rational> size = exact_root(dot(nearest.towards, nearest.towards));
+  if (size) witness.offer((*nearest.distance / *size) * nearest.towards);
+}
+
+// Points of the axis in the pyramid: first, last and nearest to the eye.
+void offer_axis(const ExactSpot& spot, ShellWitness& witness) {
+  const std::optional<Span> span = span_within(witness.planes(), spot.apex, spot.direction);
+  if (!span) return;
+  const Rational square = dot(spot.direction, spot.direction);
+  Rational last = spot.range / root_above(square);
+  if (span->to) last = std::min(last, *span->to);
+  const Rational foot = -dot(spot.apex, spot.direction) / square;
+  witness.offer(at(spot, span->from));
+  witness.offer(at(spot, std::max(last, span->from)));
+  witness.offer(at(spot, std::min(std::max(foot, span->from), std::max(last, span->from))));
+}
+
+void offer_found(const LightVolume& light, const ShellPiece& cell, ShellWitness& witness) {
+  const Volume<Big> volume = within(volume_of<Big>(light), Big(cell.distance1));
+  const PyramidReach<Big> reach = pyramid_reach(volume, pyramid_of<Big>(cell.x0, cell.x1, cell.y0, cell.y1));
+  if (reach.is_empty || !(reach.inside.margin > reach.tolerance)) return;
+  witness.offer(exact(reach.inside.at));
+  for (const Point3<Big>& extreme : {reach.nearest, reach.farthest}) {
+    // So far towards the inside that the tolerance is made up for.
+    const Big share = Big(2) * reach.tolerance / reach.inside.margin;
+    if (share < Big(1)) witness.offer(exact(extreme + share * (reach.inside.at - extreme)));
+  }
+}
+
+// A volume that holds the spot's, larger by about 2^-160 and turned and moved by as much in directions that have
+// nothing to do with scene or cell. Whatever is parallel, tangent or zero in the spot is not in it, so no formula
+// divides by 0.
+Volume<Enclosure> slightly_larger(const ExactSpot& spot) {
+  const Rational delta = Rational(1) / Rational(Integer(1) << 160);
+  const RationalPoint aside{exact(0.618), exact(-0.382), exact(0.732)}, back{exact(-0.271), exact(0.828), exact(0.577)};
+  // Made longer than 1: then adding delta * aside turns it by less than 3 delta.
+  const Rational largest =
+      std::max({Rational(abs(spot.direction.x)), Rational(abs(spot.direction.y)), Rational(abs(spot.direction.z))});
+  const RationalPoint direction = (1 / largest) * spot.direction + delta * aside;
+  // Moved back by a vector that leans from the axis by less than 3 delta: the cone that starts there holds the old one.
+  const Rational scale = abs(spot.apex.x) + abs(spot.apex.y) + abs(spot.apex.z) + spot.range;
+  const Rational step = delta * scale;
+  const RationalPoint apex = spot.apex - step * (direction + delta * back);
+
+  Volume<Enclosure> volume;
+  volume.is_cone = true;
+  volume.apex = enclosed(apex);
+  const Point3<Enclosure> axis = enclosed(direction);
+  volume.axis = (Enclosure(1.0) / length(axis)) * axis;
+  volume.range = Enclosure::of(Rational(spot.range + 4 * step));
+  const AngleBounds angle = bounds_of_angle(spot.half_angle_rad + 4 * delta);
+  volume.cos_angle = Enclosure::of(angle.cosine);
+  volume.sin_angle = Enclosure::of(angle.sine);
+  return volume;
+}
+
+bool is_surely_outside(const Volume<Enclosure>& volume, const Pyramid<Enclosure>& pyramid, const Point3<Enclosure>& p) {
+  const Enclosure zero(0.0);
+  for (const HalfSpace<Enclosure>& face : pyramid.faces)
+    if (face.margin(p) < zero) return true;
+  const Point3<Enclosure> v = p - volume.apex;
+  if (dot(v, v) > volume.range * volume.range) return true;
+  const Enclosure along = dot(v, volume.axis);
+  return along < zero || volume.sin_angle * along < volume.cos_angle * length(v - along * volume.axis);
+}
+
+// The largest and the smallest distance from the eye over pyramid ∩ volume are among the candidates'. If all of these
+// that may lie in the set are too near, or all too far, so is the set; and if there are none, it is empty.
+bool surely_misses(const ExactSpot& spot, const ShellPiece& cell) {
+  const Volume<Enclosure> volume = slightly_larger(spot);
+  const Pyramid<Enclosure> pyramid = pyramid_of<Enclosure>(cell.x0, cell.x1, cell.y0, cell.y1);
+  const Enclosure near(cell.distance0), far(cell.distance1);
+  bool all_near = true, all_far = true;
+  pyramid_candidates(volume, pyramid, {true, true, true, true}, Precision<Enclosure>::k_place_bits,
+                     [&](const Point3<Enclosure>& p) {
+                       if (!all_near && !all_far) return;
+                       if (is_surely_outside(volume, pyramid, p)) return;
+                       const Enclosure square = dot(p, p);
+                       all_near = all_near && square < near * near;
+                       all_far = all_far && square > far * far;
+                     });
+  return all_near || all_far;
+}
+
+}  // namespace
+
+Verdict decide_spot(const LightVolume& light, const FrustumPiece& cell) {
+  return decide(light, cell);
+}
+
+Verdict decide_spot(const LightVolume& light, const Box& cell) {
+  return decide(light, cell);
+}
+
+Verdict decide_spot(const LightVolume& light, const ShellPiece& cell) {
+  const ExactSpot spot = exact_spot(light, exact(cell.distance1));
+  ShellWitness witness(spot, cell);
+  witness.offer(spot.apex);
+  offer_nearest(spot, cell, witness);
+  offer_axis(spot, witness);
+  if (!witness.is_found()) offer_found(light, cell, witness);
+  if (witness.is_found()) return Verdict::yes;
+  return surely_misses(spot, cell) ? Verdict::no : Verdict::open;
+}
+
+}  // namespace clusterbench::geom
