@@ -83,6 +83,7 @@ template <class Real>
 Point3<Real> unit_across(const Point3<Real>& axis, const Point3<Real>& n) {
   const Point3<Real> part = n - dot(n, axis) * axis;
   const Real size = length(part);
+  if (size * size > Real(0.01) * dot(n, n)) return (Real(1) / size) * part;
   if (size > Real(1e-110)) {
     const Point3<Real> once = (Real(1) / size) * part;
     const Point3<Real> twice = once - dot(once, axis) * axis;

@@ -214,11 +214,11 @@ Reached<N> reached_faces(const Volume<Real>& volume, const std::array<HalfSpace<
   return reached;
 }
 
-// A cell and a volume with the tolerance that their size asks for.
+// A cell (which has to outlive this) and a volume, with the tolerance that their size asks for.
 template <class Real>
 struct Setting {
   Volume<Real> volume;
-  Polytope<Real> cell;
+  const Polytope<Real>& cell;
   Real tolerance;
 
   Setting(const Volume<Real>& unlimited, const Polytope<Real>& polytope) : cell(polytope) {
@@ -242,7 +242,8 @@ struct Setting {
 // pyramid ∩ volume as seen from the eye.
 template <class Real>
 struct PyramidReach {
-  bool is_empty = true;  // for certain
+  bool is_empty = true;    // no candidate lies in both
+  bool is_beyond = false;  // a plane of the pyramid lies between
   Point3<Real> nearest, farthest;
   Real lo, hi;           // distances of these, up to tolerance
   Witness<Real> inside;  // margin <= tolerance: nothing is certain
@@ -254,7 +255,8 @@ PyramidReach<Real> pyramid_reach(const Volume<Real>& volume, const Pyramid<Real>
   PyramidReach<Real> reach;
   reach.tolerance = Precision<Real>::tolerance() * (length(volume.apex) + volume.range);
   const Reached<4> reached = reached_faces(volume, pyramid.faces, reach.tolerance);
-  if (reached.is_beyond) return reach;
+  reach.is_beyond = reached.is_beyond;
+  if (reach.is_beyond) return reach;
   Mean<Real> mean;
   pyramid_candidates(volume, pyramid, reached.faces, Precision<Real>::k_place_bits, [&](const Point3<Real>& p) {
     if (!is_within(volume, pyramid.faces, p, reach.tolerance)) return;

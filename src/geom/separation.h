@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "geom/search.h"
 
@@ -39,14 +40,7 @@ class Separator {
   // A direction of any length, from the volume to the cell.
   void try_normal(const Point3<Real>& direction) {
     const Real size = length(direction);
-    if (!(size > Real(0))) return;
-    const Point3<Real> normal = (Real(1) / size) * direction;
-    Real least = dot(normal, corners_[0]);
-    for (std::size_t i = 1; i < 8; ++i) least = std::min(least, dot(normal, corners_[i]));
-    const Real gap = least - volume_.extent(normal);
-    if (!is_empty_ && !(gap > best_.gap)) return;
-    best_ = {normal, gap};
-    is_empty_ = false;
+    if (size > Real(0)) try_unit((Real(1) / size) * direction);
   }
 
   // Planes along the cone's side, where the cell's least margin to them is largest: towards a corner, or equally far
@@ -54,7 +48,7 @@ class Separator {
   void try_tangents() {
     const Point3<Real> m = unit_across(volume_.axis, corners_[0]), m2 = cross(volume_.axis, m);
     const auto try_at = [&](const Point3<Real>& across) {
-      try_normal(volume_.cos_angle * across - volume_.sin_angle * volume_.axis);
+      try_unit(volume_.cos_angle * across - volume_.sin_angle * volume_.axis);
     };
     for (const Point3<Real>& corner : corners_) try_at(unit_across(volume_.axis, corner));
     each_edge(corners_, [&](const Point3<Real>& start, const Point3<Real>& end) {
@@ -87,10 +81,17 @@ class Separator {
   }
 
  private:
+  void try_unit(const Point3<Real>& normal) {
+    Real least = dot(normal, corners_[0]);
+    for (std::size_t i = 1; i < 8 && least > best_.gap; ++i) least = std::min(least, dot(normal, corners_[i]));
+    if (!(least > best_.gap)) return;  // the volume extends from its apex by 0 at least
+    const Real gap = least - volume_.extent(normal);
+    if (gap > best_.gap) best_ = {normal, gap};
+  }
+
   const Volume<Real>& volume_;
   std::array<Point3<Real>, 8> corners_;
-  Separation<Real> best_{};
-  bool is_empty_ = true;
+  Separation<Real> best_{{Real(0), Real(0), Real(0)}, Real(0)};
 };
 
 // The cell's point nearest to p: the foot on a face, or the nearest of an edge.
@@ -122,29 +123,35 @@ Point3<Real> nearest_in(const Polytope<Real>& cell, const Point3<Real>& p, const
   return best;
 }
 
-// A plane with a gap above `enough`, or the one with the widest gap found. `is_in_reach`: whether a plane is a face's
-// need not be tried again.
+// The place of cell ∩ infinite cone that is nearest to the apex, if the cone meets the cell.
 template <class Real>
-Separation<Real> find_separation(const Volume<Real>& volume, const Polytope<Real>& cell, const Real& tolerance) {
-  Separator<Real> separator(volume, cell);
-  for (const HalfSpace<Real>& face : cell.faces) separator.try_normal(Real(-1) * face.normal);
-  separator.try_normal(nearest_in(cell, volume.apex, tolerance) - volume.apex);
-  if (!volume.is_cone || separator.best().gap > tolerance) return separator.best();
-  separator.try_tangents();
-  if (separator.best().gap > tolerance) return separator.best();
-
-  Volume<Real> endless = volume;
+std::optional<Point3<Real>> nearest_in_cone(const Setting<Real>& setting) {
+  Volume<Real> endless = setting.volume;
   Real farthest(0);
-  for (const Point3<Real>& corner : cell.corners) farthest = std::max(farthest, length(corner - volume.apex));
-  endless.range = Real(2) * farthest + volume.range;
-  bool found = false;
-  Point3<Real> nearest = volume.apex;
-  polytope_candidates(endless, cell, {true, true, true, true, true, true}, [&](const Point3<Real>& p) {
-    if (!is_within(endless, cell.faces, p, tolerance)) return;
-    if (!found || length(p - volume.apex) < length(nearest - volume.apex)) nearest = p;
-    found = true;
+  for (const Point3<Real>& corner : setting.cell.corners) farthest = std::max(farthest, length(corner - endless.apex));
+  endless.range = Real(2) * farthest + endless.range;
+  std::optional<Point3<Real>> nearest;
+  polytope_candidates(endless, setting.cell, {true, true, true, true, true, true}, [&](const Point3<Real>& p) {
+    if (!is_within(endless, setting.cell.faces, p, setting.tolerance)) return;
+    if (!nearest || length(p - endless.apex) < length(*nearest - endless.apex)) nearest = p;
   });
-  if (found) separator.try_leaning(nearest);
+  return nearest;
+}
+
+// A plane with a gap above the tolerance, or else the one with the widest gap found.
+template <class Real>
+Separation<Real> find_separation(const Setting<Real>& setting) {
+  const Volume<Real>& volume = setting.volume;
+  Separator<Real> separator(volume, setting.cell);
+  const auto is_found = [&] { return separator.best().gap > setting.tolerance; };
+  separator.try_normal(nearest_in(setting.cell, volume.apex, setting.tolerance) - volume.apex);
+  if (!volume.is_cone || is_found()) return separator.best();
+  separator.try_tangents();
+  if (is_found()) return separator.best();
+  const std::optional<Point3<Real>> nearest = nearest_in_cone(setting);
+  if (nearest) separator.try_leaning(*nearest);
+  if (is_found()) return separator.best();
+  for (const HalfSpace<Real>& face : setting.cell.faces) separator.try_normal(Real(-1) * face.normal);
   return separator.best();
 }
 

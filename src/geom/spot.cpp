@@ -37,13 +37,14 @@ Verdict decide(const LightVolume& light, const PlaneCell& cell) {
   const Planes planes = planes_of(cell);
   if (axis_surely_meets(spot, planes)) return Verdict::yes;
 
-  const Setting<Big> setting(volume_of<Big>(light), polytope_of<Big>(cell));
+  const Polytope<Big> polytope = polytope_of<Big>(cell);
+  const Setting<Big> setting(volume_of<Big>(light), polytope);
   const Witness<Big> witness = setting.common_point({true, true, true, true, true, true});
   if (witness.margin > Big(0)) {
     const RationalPoint p = exact(witness.at);
     if (all_hold(planes, p) && surely_holds(spot, p)) return Verdict::yes;
   }
-  const Separation<Big> separation = find_separation(setting.volume, setting.cell, setting.tolerance);
+  const Separation<Big> separation = find_separation(setting);
   return surely_separates(exact(separation.normal), spot, corners) ? Verdict::no : Verdict::open;
 }
 
