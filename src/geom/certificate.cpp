@@ -1,7 +1,7 @@
 #include "geom/certificate.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace clusterbench::geom {
@@ -14,12 +14,11 @@ const Rational& largest_for(const Rational& factor, const RationalInterval& valu
 
 }  // namespace
 
-ExactSpot exact_spot(const LightVolume& light, const Rational& reach) {
+ExactSpot exact_spot(const LightVolume& light) {
   ExactSpot spot;
   spot.apex = exact_point(light.apex);
   spot.direction = exact_point({light.direction, Vec3d(0.0), light.apex.rotation});
-  spot.range = abs(spot.apex.x) + abs(spot.apex.y) + abs(spot.apex.z) + reach;
-  if (std::isfinite(light.range)) spot.range = std::min(spot.range, exact(light.range));
+  spot.range = exact(std::min(light.range, std::numeric_limits<double>::max()));
   // The double nearest to pi / 2 is below it.
   spot.half_angle_rad = exact(std::min(light.half_angle_rad, std::numbers::pi / 2.0));
   spot.half_angle = bounds_of_angle(spot.half_angle_rad);

@@ -19,9 +19,8 @@ struct ExactSpot {
   AngleBounds half_angle;
 };
 
-// The part of a spot's volume that is at most `reach` away from its space's origin (all of it, or more, if reach is
-// beyond it). Angles above 90° are taken as 90°.
-ExactSpot exact_spot(const LightVolume& light, const Rational& reach);
+// An infinite range becomes the largest double. Angles above 90° are taken as 90°.
+ExactSpot exact_spot(const LightVolume& light);
 
 // Is p certainly in the volume?
 bool surely_holds(const ExactSpot& spot, const RationalPoint& p);

@@ -62,7 +62,7 @@ RationalPoint nearest_projection(const RationalPoint& c, const Piece& piece, int
 
 RationalPoint nearest_in_pyramid(const ShellPiece& cell, const RationalPoint& c) {
   // The nearest point of a convex cone is no farther from its apex than the centre is.
-  const Rational deepest = abs(c.x) + abs(c.y) + abs(c.z) + 1;
+  const Rational deepest = norm_1(c) + 1;
   const Piece pyramid{{exact(cell.x0), exact(cell.x1)}, {exact(cell.y0), exact(cell.y1)}, {0, deepest}};
   return nearest_projection(c, pyramid, 18, {0, 0, 0});
 }
@@ -198,6 +198,13 @@ NearestOnShells nearest_point(const ShellPiece& cell, const RationalPoint& p) {
     if (is_beyond) return {towards, exact(distance)};
   }
   return {towards, std::nullopt};
+}
+
+bool reaches(const RationalPoint& p, const Rational& reach, const NearestOnShells& nearest) {
+  if (!nearest.distance) return squared_distance(p, nearest.towards) <= squared(reach);
+  // t² - 2 t (v·p) / |v| + |p|² <= reach², times |v|².
+  const Rational &t = *nearest.distance, size = dot(nearest.towards, nearest.towards);
+  return at_most_root((squared(t) + dot(p, p) - squared(reach)) * size, 2 * t * dot(nearest.towards, p), size);
 }
 
 }  // namespace clusterbench::geom

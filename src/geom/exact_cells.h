@@ -42,5 +42,7 @@ struct NearestOnShells {
   std::optional<Rational> distance;
 };
 NearestOnShells nearest_point(const ShellPiece& cell, const RationalPoint& p);
+// Is it at most `reach` (>= 0) away from p?
+bool reaches(const RationalPoint& p, const Rational& reach, const NearestOnShells& nearest);
 
 }  // namespace clusterbench::geom

@@ -18,8 +18,16 @@ inline Rational exact(double value) {
   return Rational(value);
 }
 
+inline RationalPoint exact(const Point3<double>& p) {
+  return {exact(p.x), exact(p.y), exact(p.z)};
+}
+
 inline Rational squared(const Rational& value) {
   return value * value;
+}
+
+inline Rational norm_1(const RationalPoint& p) {
+  return abs(p.x) + abs(p.y) + abs(p.z);
 }
 
 inline Rational squared_distance(const RationalPoint& a, const RationalPoint& b) {

@@ -1,6 +1,8 @@
 #include "geom/spot.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "geom/big.h"
 #include "geom/certificate.h"
@@ -24,28 +26,48 @@ bool axis_surely_meets(const ExactSpot& spot, const Planes& planes) {
 
 Rational reach_of(const std::array<RationalPoint, 8>& corners) {
   Rational reach = 0;
-  for (const RationalPoint& corner : corners)
-    reach = std::max(reach, Rational(abs(corner.x) + abs(corner.y) + abs(corner.z)));
+  for (const RationalPoint& corner : corners) reach = std::max(reach, norm_1(corner));
   return reach;
+}
+
+// A spot and a cell bounded by planes, ready for checks.
+struct PlaneCase {
+  std::array<RationalPoint, 8> corners;
+  Planes planes;
+  ExactSpot spot;
+
+  template <class PlaneCell>
+  PlaneCase(const LightVolume& light, const PlaneCell& cell)
+      : corners(corners_of(cell)), planes(planes_of(cell)), spot(exact_spot(light)) {
+    // No point of the cell is farther from the apex.
+    spot.range = std::min(spot.range, Rational(norm_1(spot.apex) + reach_of(corners)));
+  }
+};
+
+// What a search in Real finds, checked.
+template <class Real, class PlaneCell>
+Verdict proven_by_search(const LightVolume& light, const PlaneCell& cell, const PlaneCase& exactly) {
+  const Polytope<Real> polytope = polytope_of<Real>(cell);
+  const Setting<Real> setting(volume_of<Real>(light), polytope);
+  const Witness<Real> witness = setting.common_point({true, true, true, true, true, true});
+  if (witness.margin > Real(0)) {
+    const RationalPoint p = exact(witness.at);
+    if (all_hold(exactly.planes, p) && surely_holds(exactly.spot, p)) return Verdict::yes;
+  }
+  const Separation<Real> separation = find_separation(setting);
+  const bool is_apart =
+      separation.gap > Real(0) && surely_separates(exact(separation.normal), exactly.spot, exactly.corners);
+  return is_apart ? Verdict::no : Verdict::open;
 }
 
 template <class PlaneCell>
 Verdict decide(const LightVolume& light, const PlaneCell& cell) {
-  const std::array<RationalPoint, 8> corners = corners_of(cell);
-  const ExactSpot spot = exact_spot(light, reach_of(corners));
-  if (surely_holds(spot, nearest_point(cell, spot.apex))) return Verdict::yes;
-  const Planes planes = planes_of(cell);
-  if (axis_surely_meets(spot, planes)) return Verdict::yes;
-
-  const Polytope<Big> polytope = polytope_of<Big>(cell);
-  const Setting<Big> setting(volume_of<Big>(light), polytope);
-  const Witness<Big> witness = setting.common_point({true, true, true, true, true, true});
-  if (witness.margin > Big(0)) {
-    const RationalPoint p = exact(witness.at);
-    if (all_hold(planes, p) && surely_holds(spot, p)) return Verdict::yes;
-  }
-  const Separation<Big> separation = find_separation(setting);
-  return surely_separates(exact(separation.normal), spot, corners) ? Verdict::no : Verdict::open;
+  const PlaneCase exactly(light, cell);
+  const Verdict verdict = proven_by_search<double>(light, cell, exactly);
+  if (verdict != Verdict::open) return verdict;
+  if (surely_holds(exactly.spot, nearest_point(cell, exactly.spot.apex))) return Verdict::yes;
+  if (axis_surely_meets(exactly.spot, exactly.planes)) return Verdict::yes;
+  return proven_by_search<Big>(light, cell, exactly);
 }
 
 // Points of pyramid ∩ spot on both sides of a shell piece, or in it: the set is convex, so its distances from the eye
@@ -78,8 +100,7 @@ class ShellWitness {
 };
 
 // The shell piece's point nearest to the apex, if it is rational.
-void offer_nearest(const ExactSpot& spot, const ShellPiece& cell, ShellWitness& witness) {
-  const NearestOnShells nearest = nearest_point(cell, spot.apex);
+void offer_nearest(const NearestOnShells& nearest, ShellWitness& witness) {
   if (!nearest.distance) return witness.offer(nearest.towards);
   const std::optional<Rational> size = exact_root(dot(nearest.towards, nearest.towards));
   if (size) witness.offer((*nearest.distance / *size) * nearest.towards);
@@ -98,16 +119,31 @@ void offer_axis(const ExactSpot& spot, ShellWitness& witness) {
   witness.offer(at(spot, std::min(std::max(foot, span->from), std::max(last, span->from))));
 }
 
+// What a search in Real finds.
+template <class Real>
 void offer_found(const LightVolume& light, const ShellPiece& cell, ShellWitness& witness) {
-  const Volume<Big> volume = within(volume_of<Big>(light), Big(cell.distance1));
-  const PyramidReach<Big> reach = pyramid_reach(volume, pyramid_of<Big>(cell.x0, cell.x1, cell.y0, cell.y1));
+  if (witness.is_found()) return;
+  const Volume<Real> volume = within(volume_of<Real>(light), Real(cell.distance1));
+  const PyramidReach<Real> reach = pyramid_reach(volume, pyramid_of<Real>(cell.x0, cell.x1, cell.y0, cell.y1));
   if (reach.is_empty || !(reach.inside.margin > reach.tolerance)) return;
   witness.offer(exact(reach.inside.at));
-  for (const Point3<Big>& extreme : {reach.nearest, reach.farthest}) {
+  for (const Point3<Real>& extreme : {reach.nearest, reach.farthest}) {
     // So far towards the inside that the tolerance is made up for.
-    const Big share = Big(2) * reach.tolerance / reach.inside.margin;
-    if (share < Big(1)) witness.offer(exact(extreme + share * (reach.inside.at - extreme)));
+    const Real share = Real(2) * reach.tolerance / reach.inside.margin;
+    if (share < Real(1)) witness.offer(exact(extreme + share * (reach.inside.at - extreme)));
   }
+}
+
+// Is there a plane between the spot and the whole pyramid, cut where the spot cannot reach?
+bool is_surely_beside(const LightVolume& light, const ExactSpot& spot, const ShellPiece& cell) {
+  const Rational reach = norm_1(spot.apex) + spot.range;
+  const float depth = std::nextafter(static_cast<float>(reach), std::numeric_limits<float>::infinity());
+  if (!std::isfinite(depth) || exact(depth) < reach) return false;
+  const FrustumPiece whole{cell.x0, cell.x1, cell.y0, cell.y1, 0.0f, depth, false};
+  const Polytope<double> polytope = polytope_of<double>(whole);
+  const Setting<double> setting(within(volume_of<double>(light), double{depth}), polytope);
+  const Separation<double> separation = find_separation(setting);
+  return separation.gap > 0.0 && surely_separates(exact(separation.normal), spot, corners_of(whole));
 }
 
 // A volume that holds the spot's, larger by about 2^-160 and turned and moved by as much in directions that have
@@ -121,7 +157,7 @@ Volume<Enclosure> slightly_larger(const ExactSpot& spot) {
       std::max({Rational(abs(spot.direction.x)), Rational(abs(spot.direction.y)), Rational(abs(spot.direction.z))});
   const RationalPoint direction = (1 / largest) * spot.direction + delta * aside;
   // Moved back by a vector that leans from the axis by less than 3 delta: the cone that starts there holds the old one.
-  const Rational scale = abs(spot.apex.x) + abs(spot.apex.y) + abs(spot.apex.z) + spot.range;
+  const Rational scale = norm_1(spot.apex) + spot.range;
   const Rational step = delta * scale;
   const RationalPoint apex = spot.apex - step * (direction + delta * back);
 
@@ -176,12 +212,19 @@ Verdict decide_spot(const LightVolume& light, const Box& cell) {
 }
 
 Verdict decide_spot(const LightVolume& light, const ShellPiece& cell) {
-  const ExactSpot spot = exact_spot(light, exact(cell.distance1));
+  ExactSpot spot = exact_spot(light);
+  if (std::isinf(light.range)) spot.range = 4 * (norm_1(spot.apex) + exact(cell.distance1));
   ShellWitness witness(spot, cell);
+  offer_found<double>(light, cell, witness);
+  if (witness.is_found()) return Verdict::yes;
+  if (is_surely_beside(light, spot, cell)) return Verdict::no;
+
+  const NearestOnShells nearest = nearest_point(cell, spot.apex);
+  if (!reaches(spot.apex, spot.range, nearest)) return Verdict::no;
   witness.offer(spot.apex);
-  offer_nearest(spot, cell, witness);
+  offer_nearest(nearest, witness);
   offer_axis(spot, witness);
-  if (!witness.is_found()) offer_found(light, cell, witness);
+  offer_found<Big>(light, cell, witness);
   if (witness.is_found()) return Verdict::yes;
   return surely_misses(spot, cell) ? Verdict::no : Verdict::open;
 }
