@@ -3,52 +3,43 @@
 namespace clusterbench::geom {
 namespace {
 
-constexpr int k_bits = 520;
-
-// value / 2^k_bits
-Rational scaled_down(const Integer& value) {
-  return Rational(value) / Rational(Integer(1) << k_bits);
-}
-
-RationalInterval around(const Integer& value, int error) {
-  return {scaled_down(value - error), scaled_down(value + error)};
+// value / 2^bits
+Rational scaled_down(const Integer& value, unsigned bits) {
+  return Rational(value) / Rational(Integer(1) << bits);
 }
 
 }  // namespace
 
-// In fixed point with unit u = 2^-520. Term n of the exponential series is term n-1 times x/n. Terms are at most 2, as
+// In fixed point with unit u = 2^-bits. Term n of the exponential series is term n-1 times x/n. Terms are at most 2, as
 // x < 2, so its error is at most the inherited one times 2/n, 2/n u from the rounding of x, and u + u/n from rounding
 // product and quotient: 3 u, 5.5 u, 5.7 u, 4.6 u and less after that. When a computed term has become 0, the exact one
-// is below 8 u, and those after it sum up to less than that. There are fewer than 140 terms, each in one of the two
-// sums: 140 * 8 u + 16 u < 2^11 u.
-AngleBounds bounds_of_angle(const Rational& angle) {
+// is below 8 u, and those after it sum up to less than that. There are fewer than 250 terms, each in one of the two
+// sums: 250 * 8 u + 16 u < 2^11 u.
+AngleBounds bounds_of_angle(const Rational& angle, unsigned bits) {
   if (angle.sign() == 0) return {{1, 1}, {0, 0}};
-  const Integer one = Integer(1) << k_bits;
-  const Integer x = (numerator(angle) << k_bits) / denominator(angle);
-  Integer term = one, sums[2] = {one, 0};  // cosine, sine
+  const Integer x = (numerator(angle) << bits) / denominator(angle);
+  Integer term = Integer(1) << bits, sums[2] = {term, 0};  // cosine, sine
   for (int n = 1; term != 0; ++n) {
-    term = ((term * x) >> k_bits) / n;
+    term = ((term * x) >> bits) / n;
     if (n % 4 < 2)
       sums[n % 2] += term;
     else
       sums[n % 2] -= term;
   }
   constexpr int k_error = 1 << 11;
-  return {around(sums[0], k_error), around(sums[1], k_error)};
-}
-
-std::optional<Rational> exact_root(const Rational& value) {
-  const Integer above = sqrt(numerator(value)), below = sqrt(denominator(value));  // in lowest terms
-  if (above * above != numerator(value) || below * below != denominator(value)) return std::nullopt;
-  return Rational(above, below);
+  const auto around = [&](const Integer& value) -> RationalInterval {
+    return {scaled_down(value - k_error, bits), scaled_down(value + k_error, bits)};
+  };
+  return {around(sums[0]), around(sums[1])};
 }
 
 // sqrt(n / d) = sqrt(n d 4^k) / (d 2^k): the integer root is within 1 of it, and k makes that little.
 Rational root_above(const Rational& value) {
   if (value.sign() == 0) return 0;
+  constexpr unsigned k_bits = 310;
   const Integer d = denominator(value);
-  const Integer root = sqrt(Integer((numerator(value) * d) << (2 * k_bits))) + 1;
-  return scaled_down(root) / Rational(d);
+  const Integer root = sqrt((numerator(value) * d) << (2 * k_bits)) + 1;
+  return scaled_down(root, k_bits) / Rational(d);
 }
 
 }  // namespace clusterbench::geom

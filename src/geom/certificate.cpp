@@ -21,15 +21,18 @@ ExactSpot exact_spot(const LightVolume& light) {
   spot.range = exact(std::min(light.range, std::numeric_limits<double>::max()));
   // The double nearest to pi / 2 is below it.
   spot.half_angle_rad = exact(std::min(light.half_angle_rad, std::numbers::pi / 2.0));
-  spot.half_angle = bounds_of_angle(spot.half_angle_rad);
+  spot.half_angle = bounds_of_angle(spot.half_angle_rad, 320);
   return spot;
 }
 
+bool surely_leans(const ExactSpot& spot, const RationalPoint& v) {
+  const Rational along = dot(v, spot.direction);
+  return along.sign() >= 0 &&
+         squared(along) >= squared(spot.half_angle.cosine.hi) * dot(v, v) * dot(spot.direction, spot.direction);
+}
+
 bool surely_holds(const ExactSpot& spot, const RationalPoint& p) {
-  const RationalPoint v = p - spot.apex;
-  const Rational square = dot(v, v), along = dot(v, spot.direction);
-  if (square > squared(spot.range) || along.sign() < 0) return false;
-  return squared(along) >= squared(spot.half_angle.cosine.hi) * square * dot(spot.direction, spot.direction);
+  return squared_distance(p, spot.apex) <= squared(spot.range) && surely_leans(spot, p - spot.apex);
 }
 
 // The volume extends from its apex along a unit vector w by range if w is in the cone, else by range times

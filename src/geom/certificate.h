@@ -22,6 +22,8 @@ struct ExactSpot {
 // An infinite range becomes the largest double. Angles above 90° are taken as 90°.
 ExactSpot exact_spot(const LightVolume& light);
 
+// Is the angle between v and the axis certainly at most the half-angle?
+bool surely_leans(const ExactSpot& spot, const RationalPoint& v);
 // Is p certainly in the volume?
 bool surely_holds(const ExactSpot& spot, const RationalPoint& p);
 

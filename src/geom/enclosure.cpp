@@ -23,9 +23,9 @@ double at_most(const Middle& value) {
   return std::max(0.0, std::abs(static_cast<double>(value)) * (1.0 - 0x1p-40) - 16.0 * k_least);
 }
 
-// What rounding a middle to 512 bits can have cost, four times over.
+// What rounding a middle to 1024 bits can have cost, four times over.
 double rounding_of(const Middle& value) {
-  return value == 0 ? 0.0 : at_least(value) * 0x1p-510;
+  return value == 0 ? 0.0 : at_least(value) * 0x1p-1020;
 }
 
 Enclosure nothing_known() {
@@ -129,15 +129,22 @@ class RootSearch {
 
   static bool is_surely_not_zero(const Enclosure& value) { return value < Enclosure(0.0) || value > Enclosure(0.0); }
 
+  // Values over a piece by the mean value theorem, over and over: near a multiple root the piece's width counts only as
+  // much as the slope there does.
+  static Enclosure values_over(const Polynomial<Enclosure>& polynomial, const Enclosure& middle, const Enclosure& t) {
+    const Enclosure value = polynomial.value_at(middle);
+    if (polynomial.degree == 0) return value;
+    return value + values_over(polynomial.derivative(), middle, t) * (t - middle);
+  }
+
   void step(const Piece& piece) {
-    const Enclosure t = Enclosure::of(piece.lo, piece.hi);
-    if (is_surely_not_zero(polynomial_.value_at(t))) return;
+    const Enclosure t = Enclosure::of(piece.lo, piece.hi), middle(t.middle(), 0.0);
+    const Enclosure slope = values_over(derivative_, middle, t), value = polynomial_.value_at(middle);
+    if (is_surely_not_zero(value + slope * (t - middle))) return;
     const Middle width = piece.hi - piece.lo;
     if (width <= narrow_) return add(piece);
-    const Enclosure slope = derivative_.value_at(t);
     if (is_surely_not_zero(slope)) {
-      const Enclosure middle(t.middle(), 0.0);
-      const Enclosure newton = middle - polynomial_.value_at(middle) / slope;
+      const Enclosure newton = middle - value / slope;
       const Middle radius(newton.radius());
       const Piece cut{std::max(piece.lo, Middle(newton.middle() - 2 * radius)),
                       std::min(piece.hi, Middle(newton.middle() + 2 * radius))};

@@ -1,5 +1,5 @@
 #pragma once
-// Real numbers between proven bounds: middle ± radius. Arithmetic rounds the middle to 512 bits and makes the radius
+// Real numbers between proven bounds: middle ± radius. Arithmetic rounds the middle to 1024 bits and makes the radius
 // larger by what that can have cost, so the exact result always lies within. Comparisons say yes only when that is
 // certain. Where a divisor may be zero the radius becomes infinite, and nothing is certain any more.
 
@@ -14,7 +14,7 @@ namespace clusterbench::geom {
 class Enclosure {
  public:
   using Middle =
-      boost::multiprecision::number<boost::multiprecision::cpp_bin_float<512, boost::multiprecision::digit_base_2>,
+      boost::multiprecision::number<boost::multiprecision::cpp_bin_float<1024, boost::multiprecision::digit_base_2>,
                                     boost::multiprecision::et_off>;
 
   Enclosure() = default;
@@ -49,7 +49,7 @@ class Enclosure {
 
 template <>
 struct Precision<Enclosure> {
-  static constexpr int k_place_bits = 200;
+  static constexpr int k_place_bits = 400;
 };
 
 inline Point3<Enclosure> enclosed(const RationalPoint& p) {

@@ -13,11 +13,11 @@ namespace clusterbench::geom {
 Verdict decide_meets(const LightVolume& light, const Cell& cell);
 
 // Distances from the eye over pyramid ∩ volume: one interval. All true distances lie in [outer_lo, outer_hi]; every
-// distance in [inner_lo, inner_hi] is certainly reached (nothing if that is empty).
+// distance in [inner_lo, inner_hi] is certainly reached. An interval whose ends are in the wrong order is empty.
 struct DistanceInterval {
   double outer_lo = 1.0, outer_hi = 0.0, inner_lo = 1.0, inner_hi = 0.0;
 
-  bool may_reach(double near, double far) const { return near <= outer_hi && far >= outer_lo; }
+  bool may_reach(double near, double far) const { return near <= outer_hi && far >= outer_lo && outer_lo <= outer_hi; }
   bool surely_reaches(double near, double far) const {
     return near <= inner_hi && far >= inner_lo && inner_lo <= inner_hi;
   }

@@ -84,6 +84,7 @@ class ShellWitness {
   bool is_found() const { return has_near_ && has_far_; }
 
   void offer(const RationalPoint& p) {
+    if (spot_.apex == RationalPoint{0, 0, 0}) return offer_direction(p);
     const Rational square = dot(p, p);
     const bool is_near = square <= squared_far_, is_far = square >= squared_near_;
     if ((has_near_ || !is_near) && (has_far_ || !is_far)) return;
@@ -93,17 +94,40 @@ class ShellWitness {
   }
 
  private:
+  // From a spot at the eye one direction of pyramid and cone leads to all distances up to the range.
+  void offer_direction(const RationalPoint& v) {
+    if (dot(v, v) == 0 || !all_hold(planes_, v) || !surely_leans(spot_, v)) return;
+    has_near_ = true;
+    has_far_ = has_far_ || squared(spot_.range) >= squared_near_;
+  }
+
   const ExactSpot& spot_;
   const Planes planes_;
   const Rational squared_near_, squared_far_;
   bool has_near_ = false, has_far_ = false;
 };
 
-// The shell piece's point nearest to the apex, if it is rational.
-void offer_nearest(const NearestOnShells& nearest, ShellWitness& witness) {
-  if (!nearest.distance) return witness.offer(nearest.towards);
-  const std::optional<Rational> size = exact_root(dot(nearest.towards, nearest.towards));
-  if (size) witness.offer((*nearest.distance / *size) * nearest.towards);
+// A point of the shell piece at a distance from the eye, in the direction of a vector of the pyramid, is not rational
+// if the vector's length is not. Does it certainly lie in the spot's volume?
+bool surely_holds(const ExactSpot& spot, const NearestOnShells& on_shell) {
+  if (!reaches(spot.apex, spot.range, on_shell)) return false;
+  if (!on_shell.distance) return surely_leans(spot, on_shell.towards - spot.apex);
+  const Enclosure length = sqrt(Enclosure::of(dot(on_shell.towards, on_shell.towards)));
+  const Point3<Enclosure> p = (Enclosure::of(*on_shell.distance) / length) * enclosed(on_shell.towards);
+  const Point3<Enclosure> v = p - enclosed(spot.apex), axis = enclosed(spot.direction);
+  const Enclosure along = dot(v, axis), cosine = Enclosure::of(spot.half_angle.cosine);
+  return along > Enclosure(0.0) && along * along > cosine * cosine * dot(v, v) * dot(axis, axis);
+}
+
+// Does the volume certainly hold the shell piece's point nearest to the apex, or a corner on the near shell (of which
+// several can be equally near)?
+bool nearest_surely_meets(const ExactSpot& spot, const ShellPiece& cell, const NearestOnShells& nearest) {
+  if (nearest.distance && nearest.distance->sign() == 0) return surely_holds(spot, RationalPoint{0, 0, 0});
+  if (surely_holds(spot, nearest)) return true;
+  const std::array<RationalPoint, 4> rays = rays_of(cell);
+  return std::any_of(rays.begin(), rays.end(), [&](const RationalPoint& ray) {
+    return surely_holds(spot, NearestOnShells{ray, exact(cell.distance0)});
+  });
 }
 
 // Points of the axis in the pyramid: first, last and nearest to the eye.
@@ -156,10 +180,11 @@ Volume<Enclosure> slightly_larger(const ExactSpot& spot) {
   const Rational largest =
       std::max({Rational(abs(spot.direction.x)), Rational(abs(spot.direction.y)), Rational(abs(spot.direction.z))});
   const RationalPoint direction = (1 / largest) * spot.direction + delta * aside;
-  // Moved back by a vector that leans from the axis by less than 3 delta: the cone that starts there holds the old one.
-  const Rational scale = norm_1(spot.apex) + spot.range;
-  const Rational step = delta * scale;
-  const RationalPoint apex = spot.apex - step * (direction + delta * back);
+  // Moved back by a vector that leans from the axis by less than the half-angle: the cone that starts there holds the
+  // old one.
+  const Rational lean = spot.half_angle_rad > exact(0x1p-18) ? exact(0x1p-20) : delta;
+  const Rational step = delta * (norm_1(spot.apex) + spot.range);
+  const RationalPoint apex = spot.apex - step * (direction + lean * back);
 
   Volume<Enclosure> volume;
   volume.is_cone = true;
@@ -167,7 +192,7 @@ Volume<Enclosure> slightly_larger(const ExactSpot& spot) {
   const Point3<Enclosure> axis = enclosed(direction);
   volume.axis = (Enclosure(1.0) / length(axis)) * axis;
   volume.range = Enclosure::of(Rational(spot.range + 4 * step));
-  const AngleBounds angle = bounds_of_angle(spot.half_angle_rad + 4 * delta);
+  const AngleBounds angle = bounds_of_angle(spot.half_angle_rad + 4 * delta, 1040);
   volume.cos_angle = Enclosure::of(angle.cosine);
   volume.sin_angle = Enclosure::of(angle.sine);
   return volume;
@@ -221,8 +246,8 @@ Verdict decide_spot(const LightVolume& light, const ShellPiece& cell) {
 
   const NearestOnShells nearest = nearest_point(cell, spot.apex);
   if (!reaches(spot.apex, spot.range, nearest)) return Verdict::no;
+  if (nearest_surely_meets(spot, cell, nearest)) return Verdict::yes;
   witness.offer(spot.apex);
-  offer_nearest(nearest, witness);
   offer_axis(spot, witness);
   offer_found<Big>(light, cell, witness);
   if (witness.is_found()) return Verdict::yes;
