@@ -271,8 +271,12 @@ Places<Real> root_places(const Polynomial<Real>& polynomial, int bits) {
 }
 
 // Where distance from the eye (the origin, which lies in the plane) is extreme along the conic of plane and cone. With
-// phi around the axis from m, a generator meets the plane at distance h / (alpha + beta cos phi) from the apex; setting
-// the derivative of the squared distance to zero and tau = tan(phi / 2) gives a quartic without square term.
+// phi around the axis from m, a generator g meets the plane at distance s = h / lean from the apex, lean = alpha + beta
+// cos phi; setting the derivative of the squared distance to zero,
+//   lean' (apex·g lean + h) = apex·g' lean²,
+// and tau = tan(phi / 2) gives a quartic without square term. The same equation says s = apex·g' lean / lean' - apex·g,
+// which keeps its digits where h / lean loses them: for an apex near the plane, whose generators in the plane have lean
+// 0.
 template <class Real, class Take>
 void conic_extremes(const Volume<Real>& volume, const HalfSpace<Real>& plane, int bits, Take&& take) {
   const Point3<Real> m = unit_across(volume.axis, plane.normal), m2 = cross(volume.axis, m);
@@ -288,11 +292,15 @@ void conic_extremes(const Volume<Real>& volume, const HalfSpace<Real>& plane, in
                                  4};
   const Polynomial<Real> reversed{{quartic.c[4], quartic.c[3], quartic.c[2], quartic.c[1], quartic.c[0]}, 4};
   const auto take_generator = [&](const Real& cosine, const Real& sine) {
-    const Real lean = alpha + beta * cosine;
-    if (lean == Real(0)) return;
+    const Real lean = alpha + beta * cosine, slope = -beta * sine;
     const Point3<Real> g =
         volume.cos_angle * volume.axis + (volume.sin_angle * cosine) * m + (volume.sin_angle * sine) * m2;
-    take(volume.apex + (h / lean) * g);
+    if (lean * lean < slope * slope) {
+      const Real turned = epsilon * cosine - delta * sine;  // apex·g'
+      take(volume.apex + (turned * lean / slope - dot(volume.apex, g)) * g);
+    } else if (lean != Real(0)) {
+      take(volume.apex + (h / lean) * g);
+    }
   };
   for (const Real& tau : root_places(quartic, bits)) {
     const Real square = tau * tau;
