@@ -14,6 +14,34 @@
 namespace clusterbench::geom {
 namespace {
 
+// What the filter says is said with evidence: a yes with a point that is in cell and volume by more than the tolerance,
+// a no with a plane or (shells) a distance that leaves more than the tolerance between them. Only measuring that
+// evidence has to be exact enough; where a candidate came from, and how badly it was placed, does not matter.
+//
+// The tolerance is 2^-38 S, S = |apex| + range + the cell's largest distance from the origin. With u = 2^-53, and sine
+// and cosine of the half-angle right to 2 u, measuring is off by at most:
+//    7 u S  apex: a difference, three products and two sums per coordinate, three coordinates
+//    0      corners: products of two floats, 48 bits, are exact in 53
+//   11 u    axis: 5 u as for the apex, 6 u from making it a unit vector
+//    5 u    a face's unit normal
+//   13 u S  how far a point is from a face (5 u S normal, 3 u S scalar product, 1 u S difference), or from the sphere
+//           (7 u S apex, 1 u S difference, 3 u S length, 1 u S difference)
+//   80 u S  how far it is from the cone's side: part along the axis 7 + 1 + 3 + 11 = 22 u S, part across it
+//           22 + 11 + 8 + 4 = 45 u S, both times sine and cosine and taken from each other 13 u S
+//   80 u S  gap of a plane: corners along its normal 8 + 3 + 4 = 15 u S, the volume's extent along it 18 u S along the
+//           axis, 35 u S across it, 12 u S for the rest
+//  115 u S  a plane along the cone's side whose extent is taken to be 0: 60 u of the direction across the axis
+//           (unit_across loses at most a factor of 10), 11 u of the axis and 29 u for the rest, and 15 u S as above
+//   45 u S  distance of a ball's centre from a shell piece: 15 u S for the part along the nearest direction, 30 u S for
+//           the part aside. A direction on a face that is off by an angle e costs |q| e² / 2 of the part along (q: the
+//           centre's projection onto the face). e is below 10 u |apex| / |q| (and 3), so that is below 10 u S.
+// Under 2^7 u S = 2^-46 S in all: 256 times less than the tolerance.
+//
+// Distances of spots from the eye are the one exception: an inner interval is proven by points, an outer one rests on
+// the places of the extremes. pull() is what they can move by if all surfaces do by the tolerance: in proportion to how
+// thin the set is (a tangent plane cuts a thin set, whose places are good to half the digits). Where the set is thinner
+// than the tolerance, the ball's interval stands in.
+
 // A corner well inside the volume settles most pairs, a plane along the cone's side most others.
 Verdict corners_settle(const Volume<double>& volume, const Polytope<double>& cell, double tolerance) {
   Point3<double> sum{0.0, 0.0, 0.0};

@@ -1,0 +1,95 @@
+#include "geom/enclosure.h"
+
+#include <gtest/gtest.h>
+
+#include "core/random.h"
+
+namespace clusterbench::geom {
+namespace {
+
+const Rational k_hair = Rational(1) / Rational(Integer(1) << 60);
+
+// An enclosure around a rational number, off-centre and wider than rounding makes it.
+Enclosure loosely(const Rational& value, SplitMix64& random) {
+  return Enclosure::of(RationalInterval{value - exact(random.unit()) * k_hair, value + exact(random.unit()) * k_hair});
+}
+
+bool holds(const Enclosure& enclosure, const Rational& value) {
+  const Enclosure exactly = Enclosure::of(value);
+  return !(enclosure < exactly) && !(exactly < enclosure);
+}
+
+TEST(Enclosure, holds_what_exact_arithmetic_gives) {
+  SplitMix64 random(3);
+  for (int i = 0; i < 2000; ++i) {
+    const Rational a = exact(random.between(-2, 2)), b = exact(random.between(0.1, 2));
+    const Enclosure x = loosely(a, random), y = loosely(b, random);
+    EXPECT_TRUE(holds(x + y, a + b));
+    EXPECT_TRUE(holds(x - y, a - b));
+    EXPECT_TRUE(holds(x * y, a * b));
+    EXPECT_TRUE(holds(x / y, a / b));
+    EXPECT_TRUE(holds(-x, -a));
+    EXPECT_TRUE(holds(sqrt(x * x), abs(a)));
+    EXPECT_TRUE(holds(sqrt(y) * sqrt(y), b));
+    // Not by being wide.
+    for (const Enclosure& result : {x + y, x - y, x * y, x / y, sqrt(y)}) EXPECT_LT(result.radius(), 0x1p-48);
+  }
+}
+
+TEST(Enclosure, compares_only_what_is_certain) {
+  SplitMix64 random(5);
+  const Rational a = exact(0.3);
+  const Enclosure x = loosely(a, random);
+  EXPECT_FALSE(x < Enclosure::of(a));
+  EXPECT_FALSE(x > Enclosure::of(a));
+  EXPECT_TRUE(x < Enclosure::of(a + 2 * k_hair));
+  EXPECT_TRUE(x > Enclosure::of(a - 2 * k_hair));
+  EXPECT_FALSE(x == x);
+  EXPECT_TRUE(Enclosure(0.5) == Enclosure(0.5));
+}
+
+TEST(Enclosure, knows_nothing_after_a_division_by_what_may_be_zero) {
+  SplitMix64 random(7);
+  const Enclosure nothing = Enclosure(1.0) / loosely(0, random);
+  EXPECT_FALSE(nothing < Enclosure(1e300));
+  EXPECT_FALSE(nothing > Enclosure(-1e300));
+  const Enclosure after = sqrt(Enclosure(0.0) * nothing + Enclosure(1.0));
+  EXPECT_FALSE(after < Enclosure(1e300));
+}
+
+Polynomial<Enclosure> with_roots(const std::array<double, 4>& roots) {
+  Polynomial<Enclosure> p{{Enclosure(1.0), Enclosure(0.0), Enclosure(0.0), Enclosure(0.0), Enclosure(0.0)}, 4};
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t k = i + 2; k-- > 0;) p.c[k] = (k > 0 ? p.c[k - 1] : Enclosure(0.0)) - Enclosure(roots[i]) * p.c[k];
+  return p;
+}
+
+void expect_found(const std::array<double, 4>& roots, int count) {
+  const Places<Enclosure> places = root_places(with_roots(roots), 200);
+  EXPECT_EQ(places.count, count);
+  for (const double root : roots) {
+    if (root < -1.0 || root > 1.0) continue;
+    EXPECT_TRUE(std::any_of(places.begin(), places.end(), [&](const Enclosure& place) {
+      return holds(place, exact(root)) && place.radius() < 0x1p-90;
+    })) << root;
+  }
+}
+
+TEST(RootPlaces, hold_single_and_multiple_roots_and_those_at_the_ends) {
+  expect_found({-0.7, -0.1, 0.3, 0.9}, 4);
+  expect_found({-0.7, -0.7 + 0x1p-50, 0.3, 3.0}, 3);
+  expect_found({0.3, 0.3, -0.2, 5.0}, 2);
+  expect_found({0.3, 0.3, 0.3, 5.0}, 1);
+  expect_found({-1.0, 1.0, 0.0, 0.5}, 4);
+  expect_found({2.0, 3.0, -4.0, 1.5}, 0);
+}
+
+TEST(RootPlaces, are_the_whole_interval_where_everything_is_a_root) {
+  Polynomial<Enclosure> p{{}, 4};
+  const Places<Enclosure> places = root_places(p, 200);
+  ASSERT_EQ(places.count, 1);
+  EXPECT_TRUE(holds(*places.begin(), -1) && holds(*places.begin(), 1));
+}
+
+}  // namespace
+}  // namespace clusterbench::geom

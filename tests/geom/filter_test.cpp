@@ -1,0 +1,89 @@
+// The filter in double precision against exact decisions: over 200,000 pairs, some at random and some where its
+// answer changes, which is where rounding could make it say too much.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "geom/meets.h"
+#include "geom/random_pairs.h"
+
+namespace clusterbench::geom {
+namespace {
+
+struct Kind {
+  const char* name;
+  bool is_cone;
+  Cell (*make_cell)(SplitMix64&);
+};
+
+template <class AnyCell, AnyCell (*make)(SplitMix64&)>
+Cell cell_of(SplitMix64& random) {
+  return make(random);
+}
+
+class FilterOn : public testing::TestWithParam<Kind> {};
+
+void expect_agreement(const LightVolume& light, const Cell& cell, int (&said)[3]) {
+  const Verdict filtered = filter_meets(light, cell);
+  ++said[static_cast<int>(filtered)];
+  if (filtered == Verdict::open) return;
+  EXPECT_EQ(decide_meets(light, cell), filtered) << "range " << light.range;
+}
+
+TEST_P(FilterOn, random_pairs_is_never_contradicted) {
+  SplitMix64 random(101);
+  int said[3] = {};
+  for (int i = 0; i < 25000; ++i) {
+    const LightVolume light = random_light(random, GetParam().is_cone);
+    expect_agreement(light, GetParam().make_cell(random), said);
+  }
+  EXPECT_GT(said[static_cast<int>(Verdict::yes)], 300);
+  EXPECT_GT(said[static_cast<int>(Verdict::no)], 300);
+  EXPECT_LT(said[static_cast<int>(Verdict::open)], 3);
+}
+
+// Neighbouring ranges between which the filter's answer begins to be at least `wanted` (no < open < yes).
+double range_of_change(LightVolume light, const Cell& cell, Verdict wanted) {
+  const auto rank = [](Verdict verdict) { return verdict == Verdict::no ? 0 : verdict == Verdict::open ? 1 : 2; };
+  double before = 0.0, after = 200.0;
+  for (;;) {
+    light.range = 0.5 * (before + after);
+    if (light.range <= before || light.range >= after) return after;
+    (rank(filter_meets(light, cell)) < rank(wanted) ? before : after) = light.range;
+  }
+}
+
+TEST_P(FilterOn, pairs_at_which_it_changes_its_mind_is_never_contradicted) {
+  SplitMix64 random(103);
+  int said[3] = {}, pairs = 0;
+  while (pairs < 17000) {
+    const LightVolume light = random_light(random, GetParam().is_cone);
+    const Cell cell = GetParam().make_cell(random);
+    for (const Verdict wanted : {Verdict::open, Verdict::yes}) {
+      const double change = range_of_change(light, cell, wanted);
+      if (change >= 200.0) continue;  // the cone does not meet the cell
+      for (const int ulps : {-64, -8, -1, 0, 1, 8, 64}) {
+        LightVolume nudged = light;
+        nudged.range = change + ulps * (std::nextafter(change, 1e9) - change);
+        expect_agreement(nudged, cell, said);
+        ++pairs;
+      }
+    }
+  }
+  EXPECT_GT(said[static_cast<int>(Verdict::yes)], pairs / 4);
+  EXPECT_GT(said[static_cast<int>(Verdict::no)], pairs / 5);
+  EXPECT_GT(said[static_cast<int>(Verdict::open)], pairs / 4);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, FilterOn,
+                         testing::Values(Kind{"balls_and_frustum_pieces", false, cell_of<FrustumPiece, random_piece>},
+                                         Kind{"balls_and_shell_pieces", false, cell_of<ShellPiece, random_shell>},
+                                         Kind{"balls_and_boxes", false, cell_of<Box, random_box>},
+                                         Kind{"spots_and_frustum_pieces", true, cell_of<FrustumPiece, random_piece>},
+                                         Kind{"spots_and_shell_pieces", true, cell_of<ShellPiece, random_shell>},
+                                         Kind{"spots_and_boxes", true, cell_of<Box, random_box>}),
+                         [](const testing::TestParamInfo<Kind>& each) { return each.param.name; });
+
+}  // namespace
+}  // namespace clusterbench::geom
