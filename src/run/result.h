@@ -95,7 +95,7 @@ struct CaseResult {
   std::string deepest_miss_light;  // name in the rig
   std::optional<measure::ShadingCounts> shading;
   std::vector<measure::LookupCounts> lookup;  // one per way; empty where not asked for
-  std::optional<PrecisionResult> precision;  // where the configuration asks for more than float32
+  std::optional<PrecisionResult> precision;   // where the configuration asks for more than float32
   std::optional<StabilityResult> stability;
   std::optional<TimingResult> timing;
 };
