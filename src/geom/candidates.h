@@ -209,8 +209,8 @@ struct Polynomial {
   }
   Polynomial derivative() const {
     Polynomial d{{}, degree - 1};
-    for (int i = 0; i < degree; ++i)
-      d.c[static_cast<std::size_t>(i)] = Real(static_cast<double>(i + 1)) * c[static_cast<std::size_t>(i + 1)];
+    for (std::size_t i = 1; i <= static_cast<std::size_t>(degree); ++i)
+      d.c[i - 1] = Real(static_cast<double>(i)) * c[i];
     return d;
   }
 };
@@ -219,9 +219,9 @@ struct Polynomial {
 template <class Real>
 struct Places {
   std::array<Real, 16> at;
-  int count = 0;
+  std::size_t count = 0;
 
-  void add(const Real& place) { at[static_cast<std::size_t>(count++)] = place; }
+  void add(const Real& place) { at[count++] = place; }
   const Real* begin() const { return at.data(); }
   const Real* end() const { return at.data() + count; }
 };
@@ -241,7 +241,7 @@ Real root_between(const Polynomial<Real>& polynomial, const Polynomial<Real>& de
     const Real newton = slope == Real(0) ? hi - lo : -value / slope;
     if (abs(newton) <= least) return t + newton;
     const bool is_good = lo < t + newton && t + newton < hi && abs(newton) * Real(2) <= previous_step;
-    const Real next = is_good ? t + newton : (lo + hi) / Real(2);
+    Real next = is_good ? t + newton : (lo + hi) / Real(2);
     previous_step = abs(next - t);
     if (previous_step <= least) return next;
     t = next;
@@ -260,8 +260,8 @@ Places<Real> root_places(const Polynomial<Real>& polynomial, int bits) {
   Places<Real> ends = places;
   ends.add(Real(-1));
   ends.add(Real(1));
-  std::sort(ends.at.begin(), ends.at.begin() + ends.count);
-  for (int i = 0; i + 1 < ends.count; ++i) {
+  std::sort(ends.at.data(), ends.at.data() + ends.count);
+  for (std::size_t i = 0; i + 1 < ends.count; ++i) {
     const Real &lo = ends.begin()[i], &hi = ends.begin()[i + 1];
     const bool rises = polynomial.value_at(lo) < Real(0);
     if (rises != (polynomial.value_at(hi) < Real(0)))

@@ -132,7 +132,7 @@ class RootSearch {
   // Values over a piece by the mean value theorem, over and over: near a multiple root the piece's width counts only as
   // much as the slope there does.
   static Enclosure values_over(const Polynomial<Enclosure>& polynomial, const Enclosure& middle, const Enclosure& t) {
-    const Enclosure value = polynomial.value_at(middle);
+    Enclosure value = polynomial.value_at(middle);
     if (polynomial.degree == 0) return value;
     return value + values_over(polynomial.derivative(), middle, t) * (t - middle);
   }

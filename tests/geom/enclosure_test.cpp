@@ -64,7 +64,7 @@ Polynomial<Enclosure> with_roots(const std::array<double, 4>& roots) {
   return p;
 }
 
-void expect_found(const std::array<double, 4>& roots, int count) {
+void expect_found(const std::array<double, 4>& roots, std::size_t count) {
   const Places<Enclosure> places = root_places(with_roots(roots), 200);
   EXPECT_EQ(places.count, count);
   for (const double root : roots) {
@@ -87,7 +87,7 @@ TEST(RootPlaces, hold_single_and_multiple_roots_and_those_at_the_ends) {
 TEST(RootPlaces, are_the_whole_interval_where_everything_is_a_root) {
   Polynomial<Enclosure> p{{}, 4};
   const Places<Enclosure> places = root_places(p, 200);
-  ASSERT_EQ(places.count, 1);
+  ASSERT_EQ(places.count, 1u);
   EXPECT_TRUE(holds(*places.begin(), -1) && holds(*places.begin(), 1));
 }
 
