@@ -61,7 +61,7 @@ std::string short_count(const Json& one, const char* pointer) {
 }
 
 std::string method_name(const Json& one) {
-  const std::string label = one["assigner"]["label"];
+  std::string label = one["assigner"]["label"];
   if (!one.contains("precision") || one["precision"]["packing"] == "float32") return label;
   return label + " " + one["precision"]["label"].get<std::string>();
 }
