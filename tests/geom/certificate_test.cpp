@@ -59,6 +59,31 @@ TEST(SurelySeparates, leaves_what_touches_and_takes_what_is_a_hair_away) {
   EXPECT_TRUE(surely_separates({0, 0, 3}, spot(0.5), cube_at(0, 1 + k_hair)));
 }
 
+// A half-angle known only to have a cosine around 0.8 and a sine around 0.6.
+ExactSpot vague_spot() {
+  ExactSpot vague = spot(0.6435);
+  const Rational cosine(4, 5), sine(3, 5), off(1, 1000);
+  vague.half_angle = {{cosine - off, cosine + off}, {sine - off, sine + off}};
+  return vague;
+}
+
+TEST(Certificates, hold_for_every_angle_between_the_bounds) {
+  EXPECT_FALSE(surely_holds(vague_spot(), {3, 0, -4}));
+  EXPECT_TRUE(surely_holds(vague_spot(), {Rational(298, 100), 0, -4}));
+  // The rim is at x = 3, the end of the generator (3, 0, -4) at 5, the side's plane through the apex.
+  const RationalPoint sideways{1, 0, 0}, along{4, 0, 3};
+  EXPECT_FALSE(surely_separates(sideways, vague_spot(), cube_at(Rational(3001, 1000), 0)));
+  EXPECT_TRUE(surely_separates(sideways, vague_spot(), cube_at(Rational(3006, 1000), 0)));
+  EXPECT_FALSE(surely_separates(along, vague_spot(), cube_at(Rational(1, 1000), 1)));
+  EXPECT_TRUE(surely_separates(along, vague_spot(), cube_at(Rational(1, 10), 1)));
+  // A normal that leans backwards, and one that may be within the cone, whose range alone counts then.
+  const RationalPoint backwards{4, 0, Rational(29, 10)}, edgewise{3, 0, -4};
+  EXPECT_FALSE(surely_separates(backwards, vague_spot(), cube_at(Rational(1, 10), 1)));
+  EXPECT_FALSE(surely_separates(edgewise, vague_spot(), cube_at(3, -4)));
+  EXPECT_FALSE(surely_separates(edgewise, vague_spot(), cube_at(Rational(2999, 1000), -4)));
+  EXPECT_TRUE(surely_separates(edgewise, vague_spot(), cube_at(Rational(3001, 1000), -4)));
+}
+
 TEST(SurelySeparates, never_says_so_where_a_point_of_the_volume_is_on_the_other_side) {
   SplitMix64 random(17);
   int separated = 0;
