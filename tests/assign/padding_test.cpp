@@ -30,7 +30,8 @@ geom::Ball padded(const geom::Ball& ball, float roundings) {
   return lights.ball(0, roundings);
 }
 
-void expect_padding_to_be_enough_and_needed(const Comparison& comparison, const std::vector<geom::Box>& cells) {
+// The balls of 20,000 that are lost without padding; with it none may be.
+int lost_without_padding(const Comparison& comparison, const std::vector<geom::Box>& cells) {
   Random random(61);
   int lost_without = 0;
   for (int i = 0; i < 20000; ++i) {
@@ -43,10 +44,10 @@ void expect_padding_to_be_enough_and_needed(const Comparison& comparison, const 
     geom::Ball ball{center, static_cast<float>(distance)};
     if (static_cast<double>(ball.radius) < distance)
       ball.radius = std::nextafter(ball.radius, std::numeric_limits<float>::infinity());
-    ASSERT_TRUE(comparison.touches(cell, padded(ball, comparison.roundings))) << "cell " << cell << ", ball " << i;
+    EXPECT_TRUE(comparison.touches(cell, padded(ball, comparison.roundings))) << "cell " << cell << ", ball " << i;
     lost_without += !comparison.touches(cell, ball);
   }
-  EXPECT_GT(lost_without, 10);
+  return lost_without;
 }
 
 double distance_to(const geom::Box& box, const Vec3d& p) {
@@ -64,6 +65,7 @@ double height_above(const geom::FrustumPiece& cell, const Vec3d& p) {
 }
 
 TEST(Padding, of_boxes_and_planes_around_frustum_cells_covers_what_their_comparison_loses) {
+  int lost_by_boxes = 0, lost_by_planes = 0;  // over all views: planes along the axes lose nothing
   for (const Setting& setting : settings_for(*find_assigner("aabb"), 1)) {
     CellAabbs aabbs;
     CellPlanes planes;
@@ -75,15 +77,17 @@ TEST(Padding, of_boxes_and_planes_around_frustum_cells_covers_what_their_compari
     const auto height = [&](std::uint32_t cell, const Vec3d& place) {
       return height_above(std::get<geom::FrustumPiece>(setting.grid.cell(cell)), place);
     };
-    expect_padding_to_be_enough_and_needed(
+    lost_by_boxes += lost_without_padding(
         {CellAabbs::k_roundings, [&](std::uint32_t cell, const Vec3d& p) { return distance_to(cells[cell], p); },
          [&](std::uint32_t cell, const geom::Ball& ball) { return aabbs.touches(ball, cell); }},
         cells);
-    expect_padding_to_be_enough_and_needed(
-        {CellPlanes::k_roundings, height,
-         [&](std::uint32_t cell, const geom::Ball& ball) { return planes.touches(ball, cell); }},
-        cells);
+    lost_by_planes +=
+        lost_without_padding({CellPlanes::k_roundings, height,
+                              [&](std::uint32_t cell, const geom::Ball& ball) { return planes.touches(ball, cell); }},
+                             cells);
   }
+  EXPECT_GT(lost_by_boxes, 10);
+  EXPECT_GT(lost_by_planes, 10);
 }
 
 TEST(Padding, of_rows_of_boxes_covers_what_their_comparison_loses) {
@@ -109,9 +113,9 @@ TEST(Padding, of_rows_of_boxes_covers_what_their_comparison_loses) {
     });
     return is_in_row;
   };
-  expect_padding_to_be_enough_and_needed(
-      {k_box_roundings, [&](std::uint32_t cell, const Vec3d& p) { return distance_to(cells[cell], p); }, touches},
-      cells);
+  const Comparison comparison{k_box_roundings,
+                              [&](std::uint32_t cell, const Vec3d& p) { return distance_to(cells[cell], p); }, touches};
+  EXPECT_GT(lost_without_padding(comparison, cells), 10);
 }
 
 // Whole numbers, so that single precision loses nothing.

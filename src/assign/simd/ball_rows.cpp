@@ -167,10 +167,14 @@ std::uint32_t cull(const RowPlanes& planes, const float* x, const float* y, cons
   for (std::uint32_t i = 0; i < count; i += lanes) {
     const std::uint32_t left_over = std::min(lanes, count - i);
     const auto valid = hn::FirstN(d, left_over);
-    const V px = hn::MaskedLoad(valid, d, x + i), py = hn::MaskedLoad(valid, d, y + i);
-    const V depth = hn::Neg(hn::MaskedLoad(valid, d, z + i));
-    const V given = hn::MaskedLoad(valid, d, radius + i);
-    const V reach = hn::Add(given, hn::MaskedLoad(valid, d, slack + i));
+    const auto load = [&](const float* from) {
+      if (left_over == lanes) return hn::LoadU(d, from + i);
+      float rest[k_most_lanes] = {};
+      std::copy(from + i, from + count, rest);
+      return hn::LoadU(d, rest);
+    };
+    const V px = load(x), py = load(y), depth = hn::Neg(load(z)), given = load(radius);
+    const V reach = hn::Add(given, load(slack));
     const V gap_x = hn::Max(hn::Mul(hn::Sub(hn::Mul(left, depth), px), by_left),
                             hn::Mul(hn::Sub(px, hn::Mul(right, depth)), by_right));
     const V gap_y =
