@@ -78,7 +78,7 @@ TEST(Certificates, hold_for_every_angle_between_the_bounds) {
   EXPECT_TRUE(surely_separates(along, vague_spot(), cube_at(Rational(1, 10), 1)));
   // A normal that leans backwards, and one that may be within the cone, whose range alone counts then.
   const RationalPoint backwards{4, 0, Rational(29, 10)}, edgewise{3, 0, -4};
-  EXPECT_FALSE(surely_separates(backwards, vague_spot(), cube_at(Rational(1, 10), 1)));
+  EXPECT_FALSE(surely_separates(backwards, vague_spot(), cube_at(Rational(105, 1000), 1)));
   EXPECT_FALSE(surely_separates(edgewise, vague_spot(), cube_at(3, -4)));
   EXPECT_FALSE(surely_separates(edgewise, vague_spot(), cube_at(Rational(2999, 1000), -4)));
   EXPECT_TRUE(surely_separates(edgewise, vague_spot(), cube_at(Rational(3001, 1000), -4)));
