@@ -165,7 +165,7 @@ TEST(Meets, the_filter_never_contradicts_exact_arithmetic_within_a_few_ulps_of_t
   }
 }
 
-TEST(Meets, filter_and_256_bits_agree_wherever_the_filter_speaks) {
+TEST(Meets, filter_and_proof_agree_wherever_the_filter_speaks) {
   SplitMix64 random(13);
   for (int i = 0; i < 60; ++i) {
     const LightVolume light = random_light(random, true);

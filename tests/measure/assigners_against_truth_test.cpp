@@ -28,19 +28,11 @@ assign::Lists lists_of(const assign::AssignerRow& row, const assign::Params& par
   return lists;
 }
 
-// glTF has no cones of half-angle 0; the truth leaves them open, because they have no inside.
-std::vector<Setting> settings_with_cones_for(const assign::AssignerRow& row, std::uint64_t seed) {
-  std::vector<Setting> settings = assign::testing::settings_for(row, seed);
-  for (Setting& setting : settings)
-    for (scene::WorldLight& light : setting.frame.lights) light.outer_cone_rad = std::max(light.outer_cone_rad, 1e-6);
-  return settings;
-}
-
 TEST(AssignersAgainstTruth, a_conservative_assigner_loses_no_true_pair_in_any_view_with_any_choice) {
   for (const assign::AssignerRow* row : assign::assigner_rows()) {
     if (!row->conservative) continue;
     for (const std::uint64_t seed : {31u, 32u})
-      for (const Setting& setting : settings_with_cones_for(*row, seed)) {
+      for (const Setting& setting : assign::testing::settings_for(*row, seed)) {
         const Truth truth = find_truth(setting.frame, setting.grid, 2);
         EXPECT_EQ(truth.undecided, 0u) << setting.name;
         for (const assign::Params& params : assign::testing::params_of(*row))
@@ -53,7 +45,7 @@ TEST(AssignersAgainstTruth, a_conservative_assigner_loses_no_true_pair_in_any_vi
 TEST(AssignersAgainstTruth, an_exact_assigner_lists_the_true_pairs_alone) {
   for (const assign::AssignerRow* row : assign::assigner_rows()) {
     if (!row->exact) continue;
-    for (const Setting& setting : settings_with_cones_for(*row, 33))
+    for (const Setting& setting : assign::testing::settings_for(*row, 33))
       for (const assign::Params& params : assign::testing::params_of(*row))
         EXPECT_EQ(lists_of(*row, params, setting), find_truth(setting.frame, setting.grid, 2).lists)
             << row->name << " on " << setting.name;
@@ -62,7 +54,7 @@ TEST(AssignersAgainstTruth, an_exact_assigner_lists_the_true_pairs_alone) {
 
 TEST(AssignersAgainstTruth, the_truth_holds_every_light_that_touches_by_a_hair) {
   for (const assign::AssignerRow* row : assign::assigner_rows())
-    for (const Setting& setting : settings_with_cones_for(*row, 34)) {
+    for (const Setting& setting : assign::testing::settings_for(*row, 34)) {
       const Truth truth = find_truth(setting.frame, setting.grid, 2);
       for (const auto& [cell, light] : setting.touches)
         EXPECT_TRUE(assign::testing::lists_light(truth.lists, cell, light)) << setting.name << ", cell " << cell;
