@@ -84,7 +84,6 @@ class ShellWitness {
   bool is_found() const { return has_near_ && has_far_; }
 
   void offer(const RationalPoint& p) {
-    if (spot_.apex == RationalPoint{0, 0, 0}) return offer_direction(p);
     const Rational square = dot(p, p);
     const bool is_near = square <= squared_far_, is_far = square >= squared_near_;
     if ((has_near_ || !is_near) && (has_far_ || !is_far)) return;
@@ -94,13 +93,6 @@ class ShellWitness {
   }
 
  private:
-  // From a spot at the eye one direction of pyramid and cone leads to all distances up to the range.
-  void offer_direction(const RationalPoint& v) {
-    if (dot(v, v) == 0 || !all_hold(planes_, v) || !surely_leans(spot_, v)) return;
-    has_near_ = true;
-    has_far_ = has_far_ || squared(spot_.range) >= squared_near_;
-  }
-
   const ExactSpot& spot_;
   const Planes planes_;
   const Rational squared_near_, squared_far_;
@@ -226,6 +218,16 @@ bool surely_misses(const ExactSpot& spot, const ShellPiece& cell) {
   return all_near || all_far;
 }
 
+// A spot at the eye reaches equally far in all its directions. Whether one of them is the pyramid's, any flat piece of
+// the pyramid tells.
+Verdict decide_at_eye(const LightVolume& light, const ExactSpot& spot, const ShellPiece& cell) {
+  if (spot.range < exact(cell.distance0)) return Verdict::no;
+  if (cell.distance0 == 0.0f) return Verdict::yes;
+  LightVolume endless = light;
+  endless.range = std::numeric_limits<double>::infinity();
+  return decide(endless, FrustumPiece{cell.x0, cell.x1, cell.y0, cell.y1, 1.0f, 2.0f, false});
+}
+
 }  // namespace
 
 Verdict decide_spot(const LightVolume& light, const FrustumPiece& cell) {
@@ -239,6 +241,7 @@ Verdict decide_spot(const LightVolume& light, const Box& cell) {
 Verdict decide_spot(const LightVolume& light, const ShellPiece& cell) {
   ExactSpot spot = exact_spot(light);
   if (std::isinf(light.range)) spot.range = 4 * (norm_1(spot.apex) + exact(cell.distance1));
+  if (spot.apex == RationalPoint{0, 0, 0}) return decide_at_eye(light, spot, cell);
   ShellWitness witness(spot, cell);
   offer_found<double>(light, cell, witness);
   if (witness.is_found()) return Verdict::yes;
