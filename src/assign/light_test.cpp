@@ -39,11 +39,7 @@ void LightTest::start_grid(const grid::Grid& grid) {
 }
 
 void LightTest::start_frame(const view::LightArrays& lights) {
-  if (lights.spots == 0 || spot_ == SpotTest::ball || !cell_balls_.empty()) return;
-  cell_balls_.reserve(grid_->cell_count());
-  for (std::uint32_t cell = 0; cell < grid_->cell_count(); ++cell)
-    cell_balls_.push_back(grid_->is_hole(cell) ? geom::Ball{{0.0f, 0.0f, 0.0f}, 0.0f}
-                                               : geom::ball_around(grid_->cell(cell)));
+  if (lights.spots > 0 && spot_ != SpotTest::ball && cell_balls_.empty()) cell_balls_ = grid_->balls_around_cells();
 }
 
 geom::Ball LightTest::ball(const view::LightArrays& lights, std::uint32_t light, float roundings) const {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "geom/predicates.h"
 
 namespace clusterbench::grid {
 namespace {
@@ -221,6 +222,14 @@ Vec3i Grid::cell_at(std::uint32_t index) const {
   const Vec3i n = cells();
   const auto nx = static_cast<std::uint32_t>(n.x), ny = static_cast<std::uint32_t>(n.y);
   return {static_cast<int>(index % nx), static_cast<int>(index / nx % ny), static_cast<int>(index / nx / ny)};
+}
+
+std::vector<geom::Ball> Grid::balls_around_cells() const {
+  std::vector<geom::Ball> balls;
+  balls.reserve(cell_count());
+  for (std::uint32_t index = 0; index < cell_count(); ++index)
+    balls.push_back(is_hole(index) ? geom::Ball{} : geom::ball_around(cell(index)));
+  return balls;
 }
 
 bool Grid::is_hole(std::uint32_t index) const {

@@ -56,6 +56,8 @@ struct Grid {
 
   // The exact cell, in the grid's space (view space, or world relative to the origin). Not for holes.
   geom::Cell cell(std::uint32_t index) const;
+  // Balls around all cells, in the order of their indices; of a hole the empty one.
+  std::vector<geom::Ball> balls_around_cells() const;
 
   const ScreenGrid& screen() const { return std::get<ScreenGrid>(shape); }
   const CascadesGrid& cascades() const { return std::get<CascadesGrid>(shape); }

@@ -6,7 +6,6 @@
 
 #include "core/parallel.h"
 #include "geom/meets.h"
-#include "geom/predicates.h"
 #include "measure/truth_rows.h"
 
 namespace clusterbench::measure {
@@ -93,7 +92,7 @@ class TruthFinder {
   TruthFinder(const view::Frame& frame, const grid::Grid& grid)
       : frame_(frame), grid_(grid), space_(grid::space_of(grid, frame)) {
     if (!is_tilted()) blocks_ = box_blocks(grid);
-    if (frame.lights.size() > frame.points) make_cell_balls();
+    if (frame.lights.size() > frame.points) cell_balls_ = grid_.balls_around_cells();
   }
 
   LightCells find(std::uint32_t light) const {
@@ -133,12 +132,6 @@ class TruthFinder {
   bool is_tilted() const {
     return grid_.kind() == grid::Kind::distance ||
            (grid_.kind() == grid::Kind::frustum && !grid_.screen().tiles.orthographic);
-  }
-
-  void make_cell_balls() {
-    cell_balls_.reserve(grid_.cell_count());
-    for (std::uint32_t cell = 0; cell < grid_.cell_count(); ++cell)
-      cell_balls_.push_back(grid_.is_hole(cell) ? geom::Ball{} : geom::ball_around(grid_.cell(cell)));
   }
 
   void settle_row(const Row& row, Search& search) const {

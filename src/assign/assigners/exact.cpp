@@ -78,7 +78,7 @@ class Exact final : public Assigner {
 
   void assign(const view::LightArrays& lights, Lists& out) override {
     tests_ = fallbacks_ = 0;
-    if (lights.spots > 0 && cell_balls_.empty()) make_cell_balls();
+    if (lights.spots > 0 && cell_balls_.empty()) cell_balls_ = grid_->balls_around_cells();
     pairs_.start(grid_->cell_count());
     for (std::uint32_t light = 0; light < lights.size(); ++light)
       if (!lights.is_empty(light)) lights.is_spot(light) ? add_spot(lights, light) : add_point(lights, light);
@@ -92,12 +92,6 @@ class Exact final : public Assigner {
   }
 
  private:
-  void make_cell_balls() {
-    cell_balls_.reserve(grid_->cell_count());
-    for (std::uint32_t cell = 0; cell < grid_->cell_count(); ++cell)
-      cell_balls_.push_back(geom::ball_around(grid_->cell(cell)));
-  }
-
   // Calls take(row) for the rows that a ball may touch, and perhaps a few more.
   template <class Take>
   void each_row(const geom::Ball& ball, Take&& take) {

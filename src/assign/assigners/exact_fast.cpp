@@ -77,7 +77,7 @@ class ExactFast final : public Assigner {
   }
 
   void add_spot(const view::LightArrays& lights, std::uint32_t light) {
-    if (cell_balls_.empty()) make_cell_balls();
+    if (cell_balls_.empty()) cell_balls_ = grid_->balls_around_cells();
     const geom::SphericalCone cone = lights.cone(light, view::k_given_roundings);
     CellJudge judge(*grid_, lights, light);
     if (std::isinf(cone.range)) return add_endless_spot(light, judge);
@@ -122,12 +122,6 @@ class ExactFast final : public Assigner {
 
   std::uint32_t cell_at(std::uint32_t row, int column) const {
     return row * static_cast<std::uint32_t>(planes_.columns) + static_cast<std::uint32_t>(column);
-  }
-
-  void make_cell_balls() {
-    cell_balls_.reserve(grid_->cell_count());
-    for (std::uint32_t cell = 0; cell < grid_->cell_count(); ++cell)
-      cell_balls_.push_back(geom::ball_around(grid_->cell(cell)));
   }
 
   const grid::Grid* grid_ = nullptr;

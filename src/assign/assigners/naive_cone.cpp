@@ -7,7 +7,6 @@
 #include "assign/assigner.h"
 #include "assign/cell_box.h"
 #include "assign/cell_box_method.h"
-#include "geom/predicates.h"
 
 namespace clusterbench::assign {
 namespace {
@@ -31,9 +30,7 @@ class NaiveCone final : public Assigner {
 
   void build(const grid::Grid& grid) override {
     grid_ = &grid;
-    cell_balls_.clear();
-    for (std::uint32_t cell = 0; cell < grid.cell_count(); ++cell)
-      cell_balls_.push_back(geom::ball_around(grid.cell(cell)));
+    cell_balls_ = grid.balls_around_cells();
   }
 
   void assign(const view::LightArrays& lights, Lists& out) override {

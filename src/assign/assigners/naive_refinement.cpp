@@ -7,26 +7,11 @@
 
 #include "assign/assigner.h"
 #include "assign/cell_box.h"
+#include "assign/tile_planes.h"
 #include "geom/predicates.h"
 
 namespace clusterbench::assign {
 namespace {
-
-// A tile plane through the eye (perspective) or along the view axis (orthographic), unit normal (across, along).
-struct TilePlane {
-  float across, along, offset;
-
-  float distance(float place, float depth) const { return across * place + along * depth + offset; }
-};
-
-std::vector<TilePlane> tile_planes(const std::vector<float>& boundaries, bool orthographic) {
-  std::vector<TilePlane> planes;
-  for (const float b : boundaries) {
-    const float length = orthographic ? 1.0f : std::sqrt(1.0f + b * b);
-    planes.push_back({1.0f / length, orthographic ? 0.0f : -b / length, orthographic ? -b : 0.0f});
-  }
-  return planes;
-}
 
 struct Remainder {
   float x, y, depth, squared_radius;

@@ -16,6 +16,7 @@
 #include "assign/assigner.h"
 #include "assign/cell_box.h"
 #include "assign/light_test.h"
+#include "assign/tile_planes.h"
 
 namespace clusterbench::assign {
 namespace {
@@ -25,29 +26,8 @@ constexpr float k_inf = std::numeric_limits<float>::infinity();
 // With sizes as units: the gap to a slice is off by 1. The distance to a row's plane by 3 (a rounded normal, two
 // products and a sum), so the foot on it by 3 + 2 and, seen from a column's plane, 3 + 2 + 3 more. The squares'
 // roundings, 8 of r² in all, are 4 of r. A test that compares gap² + gap'² + gap''² with r² is off by no more than the
-// gaps' sum: 1 + 5 + 8
-// + 4 = 18.
+// gaps' sum: 1 + 5 + 8 + 4 = 18.
 constexpr float k_roundings = 18.0f;
-
-// A tile plane through the eye (perspective) or along the view axis (orthographic); positive to the right or above.
-// Places are given as (x or y, depth).
-struct TilePlane {
-  float across, along, offset;  // unit normal (across, along)
-
-  float distance(float place, float depth) const { return across * place + along * depth + offset; }
-};
-
-TilePlane tile_plane(float boundary, bool orthographic) {
-  if (orthographic) return {1.0f, 0.0f, -boundary};
-  const double length = std::sqrt(1.0 + static_cast<double>(boundary) * static_cast<double>(boundary));
-  return {static_cast<float>(1.0 / length), static_cast<float>(-static_cast<double>(boundary) / length), 0.0f};
-}
-
-std::vector<TilePlane> tile_planes(const std::vector<float>& boundaries, bool orthographic) {
-  std::vector<TilePlane> planes;
-  for (const float boundary : boundaries) planes.push_back(tile_plane(boundary, orthographic));
-  return planes;
-}
 
 // A ball in view space with its squared radius, which shrinks by what is cut off.
 struct Remainder {

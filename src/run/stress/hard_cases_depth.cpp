@@ -26,6 +26,13 @@ grid::GridSpec grid_of_slicing(const Slicing& s) {
   return frustum_grid(s.count > 1000 ? Vec2i{2, 2} : Vec2i{6, 4}, Scheme::exponential, s.count, s.near_m, s.far_m);
 }
 
+Rig rig_of_slicing(const Slicing& s) {
+  Rig rig;
+  rig.lens().near_m = s.near_m;
+  rig.lens().far_m = s.far_m;
+  return rig;
+}
+
 float moved(float value, int ulps) {
   for (int i = 0; i < std::abs(ulps); ++i)
     value = std::nextafter(value, ulps > 0 ? std::numeric_limits<float>::infinity() : 0.0f);
@@ -36,9 +43,7 @@ float moved(float value, int ulps) {
 std::vector<Trial> on_slice_boundaries(std::uint64_t) {
   std::vector<Trial> trials;
   for (const Slicing& s : k_slicings) {
-    Rig rig;
-    rig.lens().near_m = s.near_m;
-    rig.lens().far_m = s.far_m;
+    const Rig rig = rig_of_slicing(s);
     const Trial empty = rig.on(grid_of_slicing(s));
     const std::vector<float> boundaries = grid_of(empty, frame_of(empty)).screen().slices.boundaries;
     const std::size_t step = std::max<std::size_t>(1, boundaries.size() / 64);
@@ -60,9 +65,7 @@ std::vector<Trial> on_slice_boundaries(std::uint64_t) {
 std::vector<ToolCheck> lookup_on_boundaries(std::uint64_t) {
   std::vector<ToolCheck> checks;
   for (const Slicing& s : k_slicings) {
-    Rig rig;
-    rig.lens().near_m = s.near_m;
-    rig.lens().far_m = s.far_m;
+    const Rig rig = rig_of_slicing(s);
     const Trial trial = rig.on(grid_of_slicing(s));
     const grid::Slices slices = grid_of(trial, frame_of(trial)).screen().slices;
     int by_log2 = 0, by_natural = 0, deepest = 0;
