@@ -182,12 +182,13 @@ void lists_by_compression(benchmark::State& state) {
   assign::SpanLists spans;
   assign::Lists lists;
   for (auto _ : state) {
-    spans.start(static_cast<std::uint32_t>(k_cells.y * k_cells.z), static_cast<std::uint32_t>(k_cells.x));
+    spans.start(1, static_cast<std::uint32_t>(k_cells.y * k_cells.z), static_cast<std::uint32_t>(k_cells.x), lists);
     for (const Row& row : rows) {
       const std::uint32_t first = row.first_cell % static_cast<std::uint32_t>(k_cells.x);
       spans.add(row.first_cell / static_cast<std::uint32_t>(k_cells.x), first, first + length - 1, row.light);
     }
-    spans.finish(lists);
+    spans.finish_band();
+    spans.finish();
     benchmark::DoNotOptimize(lists.lights.data());
   }
   state.SetLabel(assign::simd_target_name());

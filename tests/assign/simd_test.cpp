@@ -63,18 +63,34 @@ Lists by_scattering(const RandomSpans& spans) {
   return lists;
 }
 
+// In bands of this many rows.
+Lists by_compression(const RandomSpans& spans, std::uint32_t band_rows, SpanLists& compressed) {
+  Lists lists;
+  const std::uint32_t bands = spans.rows / band_rows;
+  compressed.start(bands, band_rows, spans.columns, lists);
+  for (std::uint32_t band = 0; band < bands; ++band) {
+    for (const auto& s : spans.spans)
+      if (s.row / band_rows == band) compressed.add(s.row % band_rows, s.first, s.last, s.light);
+    compressed.finish_band();
+  }
+  compressed.finish();
+  return lists;
+}
+
 TEST(SpanLists, are_those_of_a_pair_buffer_on_every_target) {
   on_each_target([](const std::string& target) {
     SpanLists compressed;
-    for (const auto& [rows, columns, lights] :
-         {std::array<std::uint32_t, 3>{1, 1, 1}, {3, 7, 0}, {5, 30, 17}, {40, 12, 64}, {2, 300, 65}, {17, 1, 200}})
+    for (const auto& [band_rows, rows, columns, lights] : {std::array<std::uint32_t, 4>{1, 1, 1, 1},
+                                                           {1, 3, 7, 0},
+                                                           {5, 5, 30, 17},
+                                                           {8, 40, 12, 64},
+                                                           {1, 2, 300, 65},
+                                                           {17, 17, 1, 200},
+                                                           {4, 12, 130, 5}})
       for (const std::uint64_t seed : {1u, 2u}) {
         const RandomSpans spans = random_spans(rows, columns, lights, seed);
-        compressed.start(rows, columns);
-        for (const auto& s : spans.spans) compressed.add(s.row, s.first, s.last, s.light);
-        Lists lists;
-        compressed.finish(lists);
-        EXPECT_EQ(lists, by_scattering(spans)) << target << ", " << rows << " x " << columns << ", " << lights;
+        EXPECT_EQ(by_compression(spans, band_rows, compressed), by_scattering(spans))
+            << target << ", " << rows << " x " << columns << ", " << lights;
       }
   });
 }

@@ -12,60 +12,14 @@
 #include <vector>
 
 #include "assign/assigner.h"
-#include "assign/exact_cells.h"
-#include "assign/light_test.h"
-#include "geom/row_slopes.h"
+#include "assign/exact_rows.h"
+#include "geom/predicates.h"
 #include "grid/index_range.h"
 
 namespace clusterbench::assign {
 namespace {
 
 using grid::IndexRange;
-
-// More than the centre's rounding (1) and the steps of row_slopes.h (12) can add up to. Twice as many would double the
-// fallbacks, which are rare; too few would lose lights.
-constexpr float k_roundings = 32.0f;
-
-IndexRange hull(const IndexRange& a, const IndexRange& b) {
-  if (a.empty() || b.empty()) return a.empty() ? b : a;
-  return {std::min(a.first, b.first), std::max(a.last, b.last)};
-}
-
-// One row of cells: its first cell's index, and what bounds it.
-struct Row {
-  std::uint32_t first_cell;
-  float y0, y1, depth0, depth1;
-};
-
-// Columns of a row that a ball touches. The answer is right for some ball whose centre and surface are off by less than
-// k_roundings.
-class RowColumns {
- public:
-  explicit RowColumns(const grid::Tiles& tiles) : tiles_(tiles) {}
-
-  IndexRange touched(const geom::Ball& ball, const Row& row) const {
-    if (!(ball.radius > 0.0f)) return {};
-    return tiles_.orthographic ? in_box(ball, row) : in_wedge(ball, row);
-  }
-
- private:
-  IndexRange in_wedge(const geom::Ball& ball, const Row& row) const {
-    const geom::BallFromEye<float> seen{ball.center.x, ball.center.y, -ball.center.z, ball.radius};
-    const geom::SlopeHull<float> slopes = geom::row_slopes(seen, row.y0, row.y1, {row.depth0, row.depth1});
-    return grid::intervals_touched(tiles_.x, slopes.lo, slopes.hi);
-  }
-  IndexRange in_box(const geom::Ball& ball, const Row& row) const {
-    const float depth = -ball.center.z;
-    const float gap_z = std::max({0.0f, row.depth0 - depth, depth - row.depth1});
-    const float gap_y = std::max({0.0f, row.y0 - ball.center.y, ball.center.y - row.y1});
-    const float square = ball.radius * ball.radius - gap_z * gap_z - gap_y * gap_y;
-    if (!(square >= 0.0f)) return {};
-    const float half = std::sqrt(square);
-    return grid::intervals_touched(tiles_.x, ball.center.x - half, ball.center.x + half);
-  }
-
-  const grid::Tiles& tiles_;
-};
 
 class Exact final : public Assigner {
  public:
@@ -95,7 +49,6 @@ class Exact final : public Assigner {
   // Calls take(row) for the rows that a ball may touch, and perhaps a few more.
   template <class Take>
   void each_row(const geom::Ball& ball, Take&& take) {
-    const grid::Tiles& tiles = grid_->screen().tiles;
     const std::vector<float>& depths = grid_->screen().slices.boundaries;
     const float depth = -ball.center.z;
     const IndexRange slices = grid::intervals_touched(depths, depth - ball.radius, depth + ball.radius);
@@ -104,8 +57,7 @@ class Exact final : public Assigner {
       const IndexRange rows = rows_touched(ball, depths[z], depths[z + 1]);
       for (int row = rows.first; row <= rows.last; ++row) {
         ++tests_;
-        const auto first_cell = static_cast<std::uint32_t>((slice * tiles.count.y + row) * tiles.count.x);
-        take(Row{first_cell, tiles.y_min(row), tiles.y_max(row), depths[z], depths[z + 1]});
+        take(row_of(grid_->screen(), slice, row));
       }
     }
   }
@@ -121,28 +73,14 @@ class Exact final : public Assigner {
 
   void add_point(const view::LightArrays& lights, std::uint32_t light) {
     if (std::isinf(lights.radius[light])) return pairs_.add_row(0, grid_->cell_count(), light);
-    const geom::Ball larger = lights.ball(light, k_roundings);
-    const geom::Ball smaller = lights.ball(light, -k_roundings);
+    const geom::Ball larger = lights.ball(light, k_exact_roundings);
+    const geom::Ball smaller = lights.ball(light, -k_exact_roundings);
     const RowColumns columns(grid_->screen().tiles);
     CellJudge judge(*grid_, lights, light);
     each_row(larger, [&](const Row& row) {
       const IndexRange outer = columns.touched(larger, row);
-      if (outer.empty()) return;
-      const IndexRange inner = columns.touched(smaller, row);
-      add_interval(row, hull(inner, decided(row, outer, inner, judge)), light);
+      if (!outer.empty()) add_interval(row, settled(outer, columns, smaller, row, judge, fallbacks_), light);
     });
-  }
-
-  // The cells of `outer` beside `inner` that are touched, from the outside in: the hull of what is found. All cells
-  // between two touched ones are.
-  IndexRange decided(const Row& row, const IndexRange& outer, const IndexRange& inner, CellJudge& judge) {
-    if (outer.first == inner.first && outer.last == inner.last) return {};
-    const auto misses = [&](int column) {
-      if (inner.holds(column)) return false;
-      ++fallbacks_;
-      return !judge.touches(row.first_cell + static_cast<std::uint32_t>(column));
-    };
-    return narrowed(outer, misses);
   }
 
   void add_spot(const view::LightArrays& lights, std::uint32_t light) {
@@ -150,8 +88,8 @@ class Exact final : public Assigner {
     CellJudge judge(*grid_, lights, light);
     if (std::isinf(cone.range)) return add_endless_spot(light, judge);
     // Both hold the cone; neither holds the other.
-    const geom::Ball around = geom::bounding_ball(cone), range = lights.ball(light, k_roundings);
-    const geom::Ball larger{around.center, around.radius + k_roundings * 0x1p-24f * lights.reach[light]};
+    const geom::Ball around = geom::bounding_ball(cone), range = lights.ball(light, k_exact_roundings);
+    const geom::Ball larger{around.center, around.radius + k_exact_roundings * 0x1p-24f * lights.reach[light]};
     const RowColumns columns(grid_->screen().tiles);
     each_row(larger, [&](const Row& row) {
       const IndexRange seen = columns.touched(larger, row), lit = columns.touched(range, row);

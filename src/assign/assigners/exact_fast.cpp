@@ -1,16 +1,20 @@
-// `exact` for speed: balls outside of the view are left out a vector at a time, rows are found many tile planes at a
-// time, and lists are built by compression. What single precision leaves open is decided as in exact.cpp.
+// `exact` for speed. Balls outside of the view are left out a vector at a time; slice by slice the rows of many balls
+// are found at once, one ball per lane; a slice's lists are built by compression while its spans are in the cache. Rows
+// that single precision leaves open, and the ends of a spot's rows, are decided as in exact.cpp.
 //
 // Only perspective grids; others take the scalar reference.
 
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <span>
 
 #include "assign/assigner.h"
-#include "assign/exact_cells.h"
-#include "assign/simd/ball_rows.h"
+#include "assign/exact_rows.h"
+#include "assign/simd/slice_rows.h"
 #include "assign/simd/span_lists.h"
+#include "core/error.h"
 #include "geom/predicates.h"
 
 namespace clusterbench::assign {
@@ -18,118 +22,165 @@ namespace {
 
 using grid::IndexRange;
 
+// The balls that reach each slice, ascending.
+class SliceBalls {
+ public:
+  void sort(const SeenBalls& seen, int slices) {
+    begin_.assign(static_cast<std::size_t>(slices) + 2, 0);
+    for (std::uint32_t i = 0; i < seen.count; ++i)
+      for (std::int32_t slice = seen.first_slice[i]; slice <= seen.last_slice[i]; ++slice) ++begin_[at(slice) + 2];
+    for (std::size_t slice = 2; slice < begin_.size(); ++slice) begin_[slice] += begin_[slice - 1];
+    if (balls_.size() < begin_.back() + k_most_lanes) balls_.resize(begin_.back() + k_most_lanes);
+    // begin_[slice + 1] walks from the slice's begin to its end, the next one's begin.
+    for (std::uint32_t i = 0; i < seen.count; ++i)
+      for (std::int32_t slice = seen.first_slice[i]; slice <= seen.last_slice[i]; ++slice)
+        balls_[begin_[at(slice) + 1]++] = i;
+    std::fill_n(balls_.begin() + static_cast<std::ptrdiff_t>(begin_.back()), k_most_lanes, 0);
+  }
+
+  // Places in the SeenBalls; a whole vector can be read from each of them.
+  std::span<const std::uint32_t> of(int slice) const {
+    return {balls_.data() + begin_[at(slice)], begin_[at(slice) + 1] - begin_[at(slice)]};
+  }
+  std::size_t capacity_bytes() const { return (begin_.capacity() + balls_.capacity()) * sizeof(std::uint32_t); }
+
+ private:
+  static std::size_t at(int slice) { return static_cast<std::size_t>(slice); }
+
+  std::vector<std::uint32_t> begin_, balls_;
+};
+
 class ExactFast final : public Assigner {
  public:
   explicit ExactFast(const Params&) {}
 
   void build(const grid::Grid& grid) override {
+    if (grid.cells().x > k_most_columns)
+      throw Error("", "tiles",
+                  "make " + std::to_string(grid.cells().x) + " columns; exact-fast takes at most " +
+                      std::to_string(k_most_columns));
     grid_ = &grid;
     planes_ = RowPlanes(grid.screen());
     cell_balls_.clear();
   }
 
   void assign(const view::LightArrays& lights, Lists& out) override {
-    tests_ = fallbacks_ = 0;
-    const Vec3i cells = grid_->cells();
-    spans_.start(static_cast<std::uint32_t>(cells.y * cells.z), static_cast<std::uint32_t>(cells.x));
-    slack_.resize(lights.size());
-    for (std::uint32_t i = 0; i < lights.size(); ++i) slack_[i] = k_ball_rows_roundings * 0x1p-24f * lights.reach[i];
-    cull_balls(planes_, lights.x.data(), lights.y.data(), lights.z.data(), lights.radius.data(), slack_.data(),
-               lights.size(), seen_);
+    fallbacks_ = 0;
     tests_ = lights.size();
-    for (const std::uint32_t light : seen_) lights.is_spot(light) ? add_spot(lights, light) : add_point(lights, light);
-    spans_.finish(out);
+    lights_ = &lights;
+    see_lights();
+    slice_balls_.sort(seen_, planes_.slices);
+    spans_.start(static_cast<std::uint32_t>(planes_.slices), static_cast<std::uint32_t>(planes_.rows),
+                 static_cast<std::uint32_t>(planes_.columns), out);
+    for (int slice = 0; slice < planes_.slices; ++slice) {
+      add_slice(slice);
+      spans_.finish_band();
+    }
+    spans_.finish();
   }
 
   std::uint64_t tests_done() const override { return tests_; }
   std::uint64_t fallbacks() const override { return fallbacks_; }
   std::size_t scratch_bytes() const override {
-    return spans_.capacity_bytes() + cell_balls_.capacity() * sizeof(geom::Ball) +
-           (slack_.capacity() + hulls_.capacity()) * sizeof(float) + seen_.capacity() * sizeof(std::uint32_t) +
-           rows_.capacity() * sizeof(TouchedRow);
+    return spans_.capacity_bytes() + slice_balls_.capacity_bytes() + seen_.capacity_bytes() +
+           rows_.columns.capacity() * sizeof(std::uint32_t) + cell_balls_.capacity() * sizeof(geom::Ball) +
+           5 * spot_x_.capacity() * sizeof(float);
   }
 
  private:
-  void add_point(const view::LightArrays& lights, std::uint32_t light) {
-    if (std::isinf(lights.radius[light])) return add_everywhere(light);
-    rows_.clear();
-    find_rows(planes_, lights.ball(light, 0.0f), slack_[light], hulls_, rows_);
-    tests_ += rows_.size();
-    for (const TouchedRow& row : rows_) {
-      if (row.outer_first == row.inner_first && row.outer_last == row.inner_last)
-        spans_.add(row.row, row.outer_first, row.outer_last, light);
-      else
-        add_undecided(row, lights, light);
+  void see_lights() {
+    seen_.count = 0;
+    seen_.reserve(lights_->size());
+    see_balls(planes_,
+              {lights_->x.data(), lights_->y.data(), lights_->z.data(), lights_->radius.data(), lights_->reach.data(),
+               lights_->points},
+              0, seen_);
+    if (lights_->spots == 0) return;
+    if (cell_balls_.empty()) cell_balls_ = grid_->balls_around_cells();
+    for (std::vector<float>* list : {&spot_x_, &spot_y_, &spot_z_, &spot_radius_}) list->resize(lights_->spots);
+    for (std::uint32_t i = 0; i < lights_->spots; ++i) {
+      const geom::Ball around = ball_of_spot(lights_->points + i);
+      spot_x_[i] = around.center.x;
+      spot_y_[i] = around.center.y;
+      spot_z_[i] = around.center.z;
+      spot_radius_[i] = around.radius;
+    }
+    see_balls(planes_,
+              {spot_x_.data(), spot_y_.data(), spot_z_.data(), spot_radius_.data(),
+               lights_->reach.data() + lights_->points, lights_->spots},
+              lights_->points, seen_);
+  }
+
+  geom::Ball ball_of_spot(std::uint32_t light) const {
+    const geom::SphericalCone cone = lights_->cone(light, view::k_given_roundings);
+    if (lights_->is_empty(light)) return {cone.apex, 0.0f};
+    return std::isinf(cone.range) ? geom::Ball{cone.apex, cone.range} : geom::bounding_ball(cone);
+  }
+
+  void add_slice(int slice) {
+    const std::span<const std::uint32_t> balls = slice_balls_.of(slice);
+    const std::uint32_t most = balls_per_batch();
+    for (std::uint32_t begin = 0; begin < balls.size(); begin += most) {
+      const auto count = std::min(most, static_cast<std::uint32_t>(balls.size()) - begin);
+      find_rows(planes_, seen_, slice, balls.data() + begin, count, rows_);
+      for (std::uint32_t lane = 0; lane < count; ++lane)
+        if (rows_.rows[lane] > 0) add_ball(slice, lane, seen_.light[balls[begin + lane]]);
     }
   }
 
-  void add_undecided(const TouchedRow& row, const view::LightArrays& lights, std::uint32_t light) {
-    CellJudge judge(*grid_, lights, light);
-    const IndexRange inner{row.inner_first, row.inner_last};
-    add_range(row.row,
-              narrowed({row.outer_first, row.outer_last},
-                       [&](int column) {
-                         if (inner.holds(column)) return false;
-                         ++fallbacks_;
-                         return !judge.touches(cell_at(row.row, column));
-                       }),
-              light);
+  void add_ball(int slice, std::uint32_t lane, std::uint32_t light) {
+    const int first = rows_.first_row[lane], count = rows_.rows[lane];
+    tests_ += static_cast<std::uint64_t>(count);
+    const bool is_plain = !lights_->is_spot(light) && !std::isinf(lights_->radius[light]);
+    std::optional<CellJudge> judge;
+    const std::uint32_t* columns = rows_.columns.data() + lane;
+    for (int row = first; row < first + count; ++row, columns += rows_.lanes) {
+      if (*columns == BatchRows::k_none) continue;
+      const std::uint32_t from = BatchRows::first_of(*columns), to = BatchRows::last_of(*columns);
+      if (is_plain && (*columns & BatchRows::k_uncertain) == 0) {
+        spans_.add(static_cast<std::uint32_t>(row), from, to, light);
+        continue;
+      }
+      if (!judge) judge.emplace(*grid_, *lights_, light);
+      const IndexRange touched =
+          decided(row_of(grid_->screen(), slice, row), {static_cast<int>(from), static_cast<int>(to)}, light, *judge);
+      if (!touched.empty())
+        spans_.add(static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(touched.first),
+                   static_cast<std::uint32_t>(touched.last), light);
+    }
   }
 
-  void add_spot(const view::LightArrays& lights, std::uint32_t light) {
-    if (cell_balls_.empty()) cell_balls_ = grid_->balls_around_cells();
-    const geom::SphericalCone cone = lights.cone(light, view::k_given_roundings);
-    CellJudge judge(*grid_, lights, light);
-    if (std::isinf(cone.range)) return add_endless_spot(light, judge);
-    rows_.clear();
-    find_rows(planes_, geom::bounding_ball(cone), slack_[light], hulls_, rows_);
-    tests_ += rows_.size();
-    for (const TouchedRow& row : rows_)
-      add_range(row.row,
-                narrowed({row.outer_first, row.outer_last},
-                         [&](int column) {
-                           const std::uint32_t cell = cell_at(row.row, column);
-                           ++tests_;
-                           if (!geom::cone_touches_ball(cone, cell_balls_[cell])) return true;
-                           ++fallbacks_;
-                           return !judge.touches(cell);
-                         }),
-                light);
+  IndexRange decided(const Row& row, const IndexRange& outer, std::uint32_t light, CellJudge& judge) {
+    const bool is_spot = lights_->is_spot(light);
+    if (std::isinf(lights_->radius[light])) return is_spot ? lit(row, outer, judge, nullptr) : outer;
+    if (!is_spot)
+      return settled(outer, RowColumns(grid_->screen().tiles), lights_->ball(light, -k_exact_roundings), row, judge,
+                     fallbacks_);
+    const geom::SphericalCone cone = lights_->cone(light, view::k_given_roundings);
+    return lit(row, outer, judge, &cone);
   }
 
-  void add_endless_spot(std::uint32_t light, CellJudge& judge) {
-    const Vec3i cells = grid_->cells();
-    for (std::uint32_t row = 0; row < static_cast<std::uint32_t>(cells.y * cells.z); ++row)
-      add_range(row,
-                narrowed({0, cells.x - 1},
-                         [&](int column) {
-                           ++fallbacks_;
-                           return !judge.touches(cell_at(row, column));
-                         }),
-                light);
-  }
-
-  void add_everywhere(std::uint32_t light) {
-    const Vec3i cells = grid_->cells();
-    for (std::uint32_t row = 0; row < static_cast<std::uint32_t>(cells.y * cells.z); ++row)
-      add_range(row, {0, cells.x - 1}, light);
-  }
-
-  void add_range(std::uint32_t row, const IndexRange& range, std::uint32_t light) {
-    if (!range.empty())
-      spans_.add(row, static_cast<std::uint32_t>(range.first), static_cast<std::uint32_t>(range.last), light);
-  }
-
-  std::uint32_t cell_at(std::uint32_t row, int column) const {
-    return row * static_cast<std::uint32_t>(planes_.columns) + static_cast<std::uint32_t>(column);
+  // The columns that a spot touches; a cone, if given, to ask first.
+  IndexRange lit(const Row& row, const IndexRange& outer, CellJudge& judge, const geom::SphericalCone* cone) {
+    return narrowed(outer, [&](int column) {
+      const std::uint32_t cell = row.first_cell + static_cast<std::uint32_t>(column);
+      if (cone != nullptr) {
+        ++tests_;
+        if (!geom::cone_touches_ball(*cone, cell_balls_[cell])) return true;
+      }
+      ++fallbacks_;
+      return !judge.touches(cell);
+    });
   }
 
   const grid::Grid* grid_ = nullptr;
+  const view::LightArrays* lights_ = nullptr;  // of the frame at hand
   RowPlanes planes_;
   std::vector<geom::Ball> cell_balls_;
-  std::vector<float> slack_, hulls_;
-  std::vector<std::uint32_t> seen_;
-  std::vector<TouchedRow> rows_;
+  std::vector<float> spot_x_, spot_y_, spot_z_, spot_radius_;
+  SeenBalls seen_;
+  SliceBalls slice_balls_;
+  BatchRows rows_;
   SpanLists spans_;
   std::uint64_t tests_ = 0, fallbacks_ = 0;
 };
@@ -143,7 +194,7 @@ std::unique_ptr<Assigner> make(const Params& params) {
 extern const AssignerRow exact_fast_row;
 const AssignerRow exact_fast_row{
     .name = "exact-fast",
-    .summary = "exact, many tile planes at a time, lists by compression (SIMD, dispatched at run time)",
+    .summary = "exact, one ball per lane, lists by compression (SIMD, dispatched at run time)",
     .source = "this project",
     .kinds = {grid::Kind::frustum},
     .exact = true,

@@ -1,7 +1,7 @@
 #pragma once
-// Lists by compression, not by scattering: spans are collected per row of cells; then each cell of a row compares all
-// of the row's spans at once and compress-stores the lights whose span holds it. SIMD, dispatched at run time; the same
-// lists as PairBuffer on every target.
+// Lists without scattering: the spans of a row of cells are collected side by side; then each cell compares all of them
+// at once and compress-stores the lights whose span holds it. Bands of rows are finished one after the other, so that
+// what was collected is still in the cache. SIMD, dispatched at run time; the same lists as PairBuffer on every target.
 
 #include <cstdint>
 #include <vector>
@@ -13,32 +13,37 @@ namespace clusterbench::assign {
 // The instruction set that is used: "AVX3", "AVX2", "SSE4", "NEON", "SCALAR" ... as Highway names it.
 const char* simd_target_name();
 
-// Collects spans (row, first column .. last column, light) and sorts them by cell. Keeps its memory between frames.
+// Keeps its memory between frames.
 class SpanLists {
  public:
-  void start(std::uint32_t rows, std::uint32_t columns);
-  // Lights must come in ascending order; a light has at most one span in a row. 0 <= first <= last < columns.
+  // A frame of `bands` bands; a band is `rows` rows (a slice, say) of `columns` cells. `out` must outlive finish().
+  void start(std::uint32_t bands, std::uint32_t rows, std::uint32_t columns, Lists& out);
+  // To the present band. Lights must come in ascending order within a row, each once. 0 <= first <= last < columns.
   void add(std::uint32_t row, std::uint32_t first, std::uint32_t last, std::uint32_t light) {
-    spans_.push_back({row, light, first | last << 16});
-    pairs_ += last - first + 1;
+    std::uint32_t& size = sizes_[row];
+    if (size == pitch_) grow();
+    const std::size_t place = row * pitch_ + size++;
+    lights_[place] = light;
+    before_[place] = static_cast<std::int32_t>(first) - 1;
+    after_[place] = static_cast<std::int32_t>(last) + 1;
+    band_pairs_ += last - first + 1;
   }
-  // Throws Error (ExitCode::internal) beyond 2^32 - 1 pairs.
-  void finish(Lists& out);
+  // Writes the band's lists; the next band begins. Throws Error (ExitCode::internal) beyond 2^32 - 1 pairs.
+  void finish_band();
+  // After the last band.
+  void finish();
 
-  std::uint64_t pairs() const { return pairs_; }
   std::size_t capacity_bytes() const;
 
  private:
-  struct Span {
-    std::uint32_t row, light, columns;  // columns: first | last << 16
-  };
-  void sort_by_row();
+  void grow();
 
-  std::uint32_t rows_ = 0, columns_ = 0;
-  std::uint64_t pairs_ = 0;
-  std::vector<Span> spans_;
-  std::vector<std::uint32_t> row_begin_;
-  // Of the spans, by row; padded at the end for whole vectors.
+  std::uint32_t rows_ = 0, columns_ = 0, band_ = 0;
+  std::uint64_t pairs_ = 0, band_pairs_ = 0;
+  Lists* out_ = nullptr;
+  std::vector<std::uint32_t> sizes_;  // of the rows
+  // Row r's spans are at r * pitch_; whole vectors can be read and written beyond the last row.
+  std::size_t pitch_ = 0;
   std::vector<std::uint32_t> lights_;
   std::vector<std::int32_t> before_, after_;
 };

@@ -1,0 +1,85 @@
+#pragma once
+// The columns that balls touch in every row of cells of a perspective frustum grid: slice by slice, many balls at once,
+// one per lane, each through its own rows.
+//
+// What bounds a row is what bounds its two tile planes and its level: the circle that a tile plane cuts out of the ball
+// has two tangents and, where the slice's planes cut it, four corners; at the centre's own height the sphere has two
+// tangents and two chords. A row's columns reach from the least slope x / depth of those in it to the greatest (the
+// interval property, as in geom/row_slopes.h).
+//
+// Every ball is taken larger by its slack, which is more than rounding can lose, so no column is forgotten. How much
+// too large an answer can be is bounded, too: see Certainty in slice_rows.cpp. Rows for which that may matter are
+// marked.
+
+#include <cstdint>
+#include <vector>
+
+#include "grid/grid.h"
+
+namespace clusterbench::assign {
+
+inline constexpr std::size_t k_most_lanes = 64;  // of any target: what arrays are padded by
+
+// The planes of a grid as vectors want them. Made once per grid.
+struct RowPlanes {
+  std::vector<float> slope, tilt, inverse_tilt;  // of the tile planes from the top: y / depth, sqrt(1 + slope²)
+  std::vector<float> depth, inverse_depth;       // of the slice planes; searched is depth again, +inf up to 2^n
+  std::vector<float> searched;
+  int rows = 0, columns = 0, slices = 0;
+  float left = 0.0f, right = 0.0f, columns_per_slope = 0.0f, column_margin = 0.0f;
+  float rows_per_slope = 0.0f, row_margin = 0.0f;
+
+  explicit RowPlanes(const grid::ScreenGrid& grid);
+  RowPlanes() = default;
+};
+
+// Balls as they are given: count places of each.
+struct GivenBalls {
+  const float *x, *y, *z, *radius, *reach;
+  std::uint32_t count;
+};
+
+// Balls that may touch cells, ascending by light. All arrays have room for whole vectors beyond `count`.
+struct SeenBalls {
+  std::uint32_t count = 0;
+  std::vector<float> x, y, depth;
+  std::vector<float> radius;  // with slack
+  std::vector<float> slack;
+  std::vector<std::uint32_t> light;
+  std::vector<std::int32_t> first_slice, last_slice;
+
+  void reserve(std::uint32_t most);
+  std::size_t capacity_bytes() const;
+};
+
+// Units of 2^-24 of a light's reach by which a ball is made larger: more than the steps here lose (a centre's rounding
+// 1, distances to planes 3, their squares and roots 8 of the radius, slopes and touch points 12), rounded up generously
+// because a larger slack costs a few more decisions only.
+inline constexpr float k_slice_rows_roundings = 48.0f;
+
+// Appends the balls that may reach into the grid; the first one's light is `first_light`. Those left out touch no cell.
+void see_balls(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, SeenBalls& seen);
+
+// Rows of a batch of balls within one slice. Ball i touches rows first_row[i] .. first_row[i] + rows[i] - 1, and of the
+// j-th of them the columns at columns[j * lanes + i].
+struct BatchRows {
+  static constexpr std::uint32_t k_none = 0xffffffff;       // no column
+  static constexpr std::uint32_t k_uncertain = 0x80000000;  // perhaps not all of the columns
+  static std::uint32_t first_of(std::uint32_t columns) { return columns & 0x7fff; }
+  static std::uint32_t last_of(std::uint32_t columns) { return columns >> 16 & 0x7fff; }
+
+  std::uint32_t lanes = 0;
+  alignas(64) std::int32_t first_row[k_most_lanes];
+  alignas(64) std::int32_t rows[k_most_lanes];
+  std::vector<std::uint32_t> columns;
+};
+inline constexpr int k_most_columns = 0x7fff;
+
+// How many balls a batch holds on this machine.
+std::uint32_t balls_per_batch();
+// `balls`: places in `seen`, from which a whole vector can be read; `count` of them, at most balls_per_batch(), are
+// wanted.
+void find_rows(const RowPlanes& planes, const SeenBalls& seen, int slice, const std::uint32_t* balls,
+               std::uint32_t count, BatchRows& out);
+
+}  // namespace clusterbench::assign
