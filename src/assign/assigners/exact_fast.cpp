@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <span>
 
 #include "assign/assigner.h"
@@ -62,6 +61,7 @@ class ExactFast final : public Assigner {
     grid_ = &grid;
     planes_ = RowPlanes(grid.screen());
     cell_balls_.clear();
+    is_left_.resize(static_cast<std::size_t>(planes_.rows));
   }
 
   void assign(const view::LightArrays& lights, Lists& out) override {
@@ -122,35 +122,31 @@ class ExactFast final : public Assigner {
     const std::uint32_t most = balls_per_batch();
     for (std::uint32_t begin = 0; begin < balls.size(); begin += most) {
       const auto count = std::min(most, static_cast<std::uint32_t>(balls.size()) - begin);
-      find_rows(planes_, seen_, slice, balls.data() + begin, count, rows_);
-      for (std::uint32_t lane = 0; lane < count; ++lane)
-        if (rows_.rows[lane] > 0) add_ball(slice, lane, seen_.light[balls[begin + lane]]);
+      find_rows(planes_, seen_, slice, balls.data() + begin, count, lights_->points, rows_);
+      tests_ += rows_.tests;
+      if (rows_.tests == 0) continue;
+      spans_.add_batch(rows_.first_row, rows_.last_row, rows_.columns.data(), rows_.lights, is_left_.data());
+      for (int row = rows_.first_row; row <= rows_.last_row; ++row)
+        if (is_left_[static_cast<std::size_t>(row)] != 0) decide_row(slice, row);
     }
   }
 
-  void add_ball(int slice, std::uint32_t lane, std::uint32_t light) {
-    const int first = rows_.first_row[lane], count = rows_.rows[lane];
-    tests_ += static_cast<std::uint64_t>(count);
-    const bool is_plain = !lights_->is_spot(light) && !std::isinf(lights_->radius[light]);
-    std::optional<CellJudge> judge;
-    const std::uint32_t* columns = rows_.columns.data() + lane;
-    for (int row = first; row < first + count; ++row, columns += rows_.lanes) {
-      if (*columns == BatchRows::k_none) continue;
-      const std::uint32_t from = BatchRows::first_of(*columns), to = BatchRows::last_of(*columns);
-      if (is_plain && (*columns & BatchRows::k_uncertain) == 0) {
-        spans_.add(static_cast<std::uint32_t>(row), from, to, light);
-        continue;
-      }
-      if (!judge) judge.emplace(*grid_, *lights_, light);
-      const IndexRange touched =
-          decided(row_of(grid_->screen(), slice, row), {static_cast<int>(from), static_cast<int>(to)}, light, *judge);
+  void decide_row(int slice, int row) {
+    const Row shape = row_of(grid_->screen(), slice, row);
+    const std::uint32_t* columns = rows_.columns.data() + static_cast<std::size_t>(row) * rows_.lanes;
+    for (std::uint32_t lane = 0; lane < rows_.lanes; ++lane) {
+      const std::uint32_t entry = columns[lane], light = rows_.lights[lane];
+      if (entry == BatchRows::k_none) continue;
+      IndexRange touched{BatchRows::first_of(entry), BatchRows::last_of(entry)};
+      if ((entry & BatchRows::k_uncertain) != 0) touched = decided(shape, touched, light);
       if (!touched.empty())
         spans_.add(static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(touched.first),
                    static_cast<std::uint32_t>(touched.last), light);
     }
   }
 
-  IndexRange decided(const Row& row, const IndexRange& outer, std::uint32_t light, CellJudge& judge) {
+  IndexRange decided(const Row& row, const IndexRange& outer, std::uint32_t light) {
+    CellJudge judge(*grid_, *lights_, light);
     const bool is_spot = lights_->is_spot(light);
     if (std::isinf(lights_->radius[light])) return is_spot ? lit(row, outer, judge, nullptr) : outer;
     if (!is_spot)
@@ -181,6 +177,7 @@ class ExactFast final : public Assigner {
   SeenBalls seen_;
   SliceBalls slice_balls_;
   BatchRows rows_;
+  std::vector<std::uint8_t> is_left_;
   SpanLists spans_;
   std::uint64_t tests_ = 0, fallbacks_ = 0;
 };

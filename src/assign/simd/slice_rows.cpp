@@ -120,7 +120,8 @@ class Batch {
     count = hn::IfThenElseZero(hn::RebindMask(DI(), touches), hn::Add(hn::Sub(last, first), hn::Set(DI(), 1)));
   }
 
-  HWY_INLINE void start_level() {
+  // `known`: the lanes whose balls are the lights themselves.
+  HWY_INLINE void start_level(M known) {
     const V distance = root(hn::Add(hn::Mul(x_, x_), hn::Mul(depth_, depth_)));
     const V tangent = root(hn::Mul(hn::Sub(distance, radius_), hn::Add(distance, radius_)));
     const Tangents tangents = tangents_of(x_, depth_, radius_, tangent);
@@ -141,7 +142,8 @@ class Batch {
     const V rate = all(planes_.columns_per_slope * near_.inverse);
     const float steepest = std::max(planes_.left * planes_.left, planes_.right * planes_.right);
     const V factor = all(8.2f * (1.0f + steepest));
-    least_area_ = hn::Mul(hn::Mul(factor, hn::Mul(slack_, radius_)), hn::Mul(rate, rate));
+    const V area = hn::Mul(hn::Mul(factor, hn::Mul(slack_, radius_)), hn::Mul(rate, rate));
+    least_area_ = hn::IfThenElse(known, area, infinity());
   }
 
   // What lies in tile plane `place`, between the slice's planes.
@@ -235,31 +237,50 @@ std::uint32_t lanes() {
 }
 
 void rows_of_batch(const RowPlanes& planes, const SeenBalls& seen, int slice, const std::uint32_t* balls,
-                   std::uint32_t count, BatchRows& out) {
+                   std::uint32_t count, std::uint32_t first_bound, BatchRows& out) {
+  const D d;
   const DI di;
-  const std::size_t n = hn::Lanes(di);
+  const hn::RebindToUnsigned<D> du;
+  const std::size_t n = hn::Lanes(d);
   Batch batch(planes, seen, slice, balls);
   VI first, rows;
-  batch.find_rows(hn::FirstN(D(), count), first, rows);
-  hn::StoreU(first, di, out.first_row);
-  hn::StoreU(rows, di, out.rows);
-  const int most = hn::GetLane(hn::MaxOfLanes(di, rows));
+  batch.find_rows(hn::FirstN(d, count), first, rows);
   out.lanes = static_cast<std::uint32_t>(n);
-  if (out.columns.size() < static_cast<std::size_t>(most) * n) out.columns.resize(static_cast<std::size_t>(most) * n);
-  if (most == 0) return;
-  batch.start_level();
+  out.tests = static_cast<std::uint32_t>(hn::GetLane(hn::SumOfLanes(di, rows)));
+  if (out.tests == 0) {
+    out.last_row = out.first_row - 1;
+    return;
+  }
+  const int most = hn::GetLane(hn::MaxOfLanes(di, rows));
+  const auto touches = hn::Gt(rows, hn::Zero(di));
+  const VI end = hn::Add(first, rows), last_plane = hn::Set(di, planes.rows);
+  out.first_row = hn::GetLane(hn::MinOfLanes(di, hn::IfThenElse(touches, first, last_plane)));
+  out.last_row = hn::GetLane(hn::MaxOfLanes(di, hn::IfThenElseZero(touches, end))) - 1;
+  // One row more than the grid has, for what lanes write that are done.
+  const std::size_t size = (static_cast<std::size_t>(planes.rows) + 1) * n;
+  if (out.columns.size() < size) out.columns.resize(size);
+  for (int row = out.first_row; row <= out.last_row; ++row)
+    hn::StoreU(hn::Set(du, BatchRows::k_none), du, out.columns.data() + static_cast<std::size_t>(row) * n);
+
+  const auto lights = hn::GatherIndex(du, seen.light.data(), hn::BitCast(di, hn::LoadU(du, balls)));
+  hn::StoreU(lights, du, out.lights);
+  batch.start_level(hn::RebindMask(d, hn::Lt(lights, hn::Set(du, first_bound))));
   V top, bottom;
-  Hull above = batch.plane_hull(first, top);
-  const VI last_plane = hn::Set(di, planes.rows);
+  Hull above = batch.plane_hull(hn::Min(first, last_plane), top);
+  VI place = first, to = hn::Add(hn::Mul(first, hn::Set(di, static_cast<std::int32_t>(n))), hn::Iota(di, 0));
+  const VI step = hn::Set(di, static_cast<std::int32_t>(n)), one = hn::Set(di, 1);
+  const VI done = hn::Set(di, planes.rows * static_cast<std::int32_t>(n));
   for (int row = 0; row < most; ++row) {
-    const VI place = hn::Min(hn::Add(first, hn::Set(di, row + 1)), last_plane);
-    const Hull below = batch.plane_hull(place, bottom);
+    const auto wanted = hn::Gt(rows, hn::Set(di, row));
+    place = hn::Add(place, one);
+    const Hull below = batch.plane_hull(hn::Min(place, last_plane), bottom);
     Hull hull = above;
     hull.add(below);
     batch.add_level(top, bottom, hull);
-    const M wanted = hn::RebindMask(D(), hn::Gt(rows, hn::Set(di, row)));
-    hn::StoreU(hn::BitCast(hn::RebindToUnsigned<D>(), batch.columns_of(hull, wanted)), hn::RebindToUnsigned<D>(),
-               out.columns.data() + static_cast<std::size_t>(row) * n);
+    const V columns = batch.columns_of(hull, hn::RebindMask(d, wanted));
+    hn::ScatterIndex(hn::BitCast(di, columns), di, reinterpret_cast<std::int32_t*>(out.columns.data()),
+                     hn::IfThenElse(wanted, to, done));
+    to = hn::Add(to, step);
     above = below;
     top = bottom;
   }
@@ -423,8 +444,8 @@ std::uint32_t balls_per_batch() {
 }
 
 void find_rows(const RowPlanes& planes, const SeenBalls& seen, int slice, const std::uint32_t* balls,
-               std::uint32_t count, BatchRows& out) {
-  HWY_DYNAMIC_DISPATCH(rows_of_batch)(planes, seen, slice, balls, count, out);
+               std::uint32_t count, std::uint32_t first_bound, BatchRows& out) {
+  HWY_DYNAMIC_DISPATCH(rows_of_batch)(planes, seen, slice, balls, count, first_bound, out);
 }
 
 }  // namespace clusterbench::assign

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "assign/simd/span_lists.h"
 #include "grid/grid.h"
 
 namespace clusterbench::assign {
@@ -60,17 +61,18 @@ inline constexpr float k_slice_rows_roundings = 48.0f;
 // Appends the balls that may reach into the grid; the first one's light is `first_light`. Those left out touch no cell.
 void see_balls(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, SeenBalls& seen);
 
-// Rows of a batch of balls within one slice. Ball i touches rows first_row[i] .. first_row[i] + rows[i] - 1, and of the
-// j-th of them the columns at columns[j * lanes + i].
+// Rows of a batch of balls within one slice. Of ball i, row r (first_row <= r <= last_row, the rows that any ball may
+// touch) has the columns at columns[r * lanes + i].
 struct BatchRows {
-  static constexpr std::uint32_t k_none = 0xffffffff;       // no column
-  static constexpr std::uint32_t k_uncertain = 0x80000000;  // perhaps not all of the columns
-  static std::uint32_t first_of(std::uint32_t columns) { return columns & 0x7fff; }
-  static std::uint32_t last_of(std::uint32_t columns) { return columns >> 16 & 0x7fff; }
+  static constexpr std::uint32_t k_none = SpanLists::k_no_span;         // no column
+  static constexpr std::uint32_t k_uncertain = SpanLists::k_open_span;  // perhaps not all of the columns
+  static int first_of(std::uint32_t columns) { return static_cast<int>(columns & 0x7fff); }
+  static int last_of(std::uint32_t columns) { return static_cast<int>(columns >> 16 & 0x7fff); }
 
   std::uint32_t lanes = 0;
-  alignas(64) std::int32_t first_row[k_most_lanes];
-  alignas(64) std::int32_t rows[k_most_lanes];
+  alignas(64) std::uint32_t lights[k_most_lanes];
+  int first_row = 0, last_row = -1;
+  std::uint32_t tests = 0;  // rows of single balls that were looked at
   std::vector<std::uint32_t> columns;
 };
 inline constexpr int k_most_columns = 0x7fff;
@@ -78,8 +80,8 @@ inline constexpr int k_most_columns = 0x7fff;
 // How many balls a batch holds on this machine.
 std::uint32_t balls_per_batch();
 // `balls`: places in `seen`, from which a whole vector can be read; `count` of them, at most balls_per_batch(), are
-// wanted.
+// wanted. The balls of lights from `first_bound` on only bound what is lit: all of their rows are uncertain.
 void find_rows(const RowPlanes& planes, const SeenBalls& seen, int slice, const std::uint32_t* balls,
-               std::uint32_t count, BatchRows& out);
+               std::uint32_t count, std::uint32_t first_bound, BatchRows& out);
 
 }  // namespace clusterbench::assign

@@ -22,6 +22,14 @@ struct RowSpans {
   std::uint32_t count, columns;
 };
 
+// Where spans are added; row r begins at r * pitch.
+struct SpanRows {
+  std::uint32_t* sizes;
+  std::uint32_t* lights;
+  std::int32_t *before, *after;
+  std::size_t pitch;
+};
+
 }  // namespace clusterbench::assign
 #endif
 
@@ -56,6 +64,37 @@ std::uint32_t* write_row(const RowSpans& row, std::uint32_t* to, const std::uint
   return to;
 }
 
+// Adds one vector of spans per row and returns how many pairs they make.
+std::uint32_t add_rows(const SpanRows& rows, int first_row, int last_row, const std::uint32_t* columns,
+                       const std::uint32_t* lights, std::uint8_t* is_left) {
+  const hn::ScalableTag<std::uint32_t> du;
+  const hn::ScalableTag<std::int32_t> di;
+  const std::size_t lanes = hn::Lanes(du);
+  const auto light = hn::LoadU(du, lights), none = hn::Set(du, SpanLists::k_no_span);
+  const auto one = hn::Set(di, 1);
+  const auto half = hn::Set(du, 0x7fff);
+  auto pairs = hn::Zero(di);
+  for (int row = first_row; row <= last_row; ++row) {
+    const auto r = static_cast<std::size_t>(row);
+    const auto span = hn::LoadU(du, columns + r * lanes);
+    const auto wanted = hn::Ne(span, none);
+    const auto open = hn::TestBit(span, hn::Set(du, SpanLists::k_open_span));
+    is_left[r] = hn::AllFalse(du, hn::And(wanted, open)) ? 0 : 1;
+    if (is_left[r] != 0) continue;
+    const auto first = hn::BitCast(di, hn::And(span, half));
+    const auto last = hn::BitCast(di, hn::ShiftRight<16>(span));
+    const auto before = hn::Sub(first, one), after = hn::Add(last, one);
+    const std::size_t to = r * rows.pitch + rows.sizes[r];
+    const auto wanted_int = hn::RebindMask(di, wanted);
+    hn::StoreU(hn::Compress(light, wanted), du, rows.lights + to);
+    hn::StoreU(hn::Compress(before, wanted_int), di, rows.before + to);
+    hn::StoreU(hn::Compress(after, wanted_int), di, rows.after + to);
+    rows.sizes[r] += static_cast<std::uint32_t>(hn::CountTrue(du, wanted));
+    pairs = hn::Add(pairs, hn::IfThenElseZero(wanted_int, hn::Sub(after, first)));
+  }
+  return static_cast<std::uint32_t>(hn::GetLane(hn::SumOfLanes(di, pairs)));
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace clusterbench::assign
 HWY_AFTER_NAMESPACE();
@@ -65,6 +104,7 @@ namespace clusterbench::assign {
 
 HWY_EXPORT(target_name);
 HWY_EXPORT(write_row);
+HWY_EXPORT(add_rows);
 
 namespace {
 
@@ -84,6 +124,7 @@ void SpanLists::start(std::uint32_t bands, std::uint32_t rows, std::uint32_t col
   columns_ = columns;
   band_ = 0;
   pairs_ = band_pairs_ = 0;
+  most_ = 0;
   out_ = &out;
   sizes_.assign(rows, 0);
   if (pitch_ == 0) grow();
@@ -105,6 +146,21 @@ void SpanLists::grow() {
   pitch_ = wider;
 }
 
+// So that each row can take some more spans.
+void SpanLists::make_room(std::uint32_t spans) {
+  most_ += spans;
+  if (most_ <= pitch_) return;
+  most_ = *std::max_element(sizes_.begin(), sizes_.end()) + spans;
+  while (most_ > pitch_) grow();
+}
+
+void SpanLists::add_batch(int first_row, int last_row, const std::uint32_t* columns, const std::uint32_t* lights,
+                          std::uint8_t* is_left) {
+  make_room(k_most_lanes);
+  const SpanRows rows{sizes_.data(), lights_.data(), before_.data(), after_.data(), pitch_};
+  band_pairs_ += HWY_DYNAMIC_DISPATCH(add_rows)(rows, first_row, last_row, columns, lights, is_left);
+}
+
 void SpanLists::finish_band() {
   if (pairs_ + band_pairs_ > std::numeric_limits<std::uint32_t>::max())
     throw Error("", "lists", "hold more than 2^32 - 1 pairs", ExitCode::internal);
@@ -124,6 +180,7 @@ void SpanLists::finish_band() {
   std::fill(sizes_.begin(), sizes_.end(), 0);
   pairs_ += band_pairs_;
   band_pairs_ = 0;
+  most_ = 0;
   ++band_;
 }
 

@@ -28,6 +28,12 @@ class SpanLists {
     after_[place] = static_cast<std::int32_t>(last) + 1;
     band_pairs_ += last - first + 1;
   }
+  // Adds a batch of lights' spans to rows first_row .. last_row. columns[row * lanes + i]: the span of lights[i] as
+  // first | last << 16 (up to 32767), k_no_span, or with k_open_span set one that is not to be added as it is. Rows
+  // with such spans are left alone: is_left[row] says so. `lanes`: as many as fit into a vector.
+  static constexpr std::uint32_t k_no_span = 0xffffffff, k_open_span = 0x80000000;
+  void add_batch(int first_row, int last_row, const std::uint32_t* columns, const std::uint32_t* lights,
+                 std::uint8_t* is_left);
   // Writes the band's lists; the next band begins. Throws Error (ExitCode::internal) beyond 2^32 - 1 pairs.
   void finish_band();
   // After the last band.
@@ -36,12 +42,14 @@ class SpanLists {
   std::size_t capacity_bytes() const;
 
  private:
+  void make_room(std::uint32_t spans);
   void grow();
 
   std::uint32_t rows_ = 0, columns_ = 0, band_ = 0;
   std::uint64_t pairs_ = 0, band_pairs_ = 0;
   Lists* out_ = nullptr;
   std::vector<std::uint32_t> sizes_;  // of the rows
+  std::uint32_t most_ = 0;            // no row has more spans in add_batch()
   // Row r's spans are at r * pitch_; whole vectors can be read and written beyond the last row.
   std::size_t pitch_ = 0;
   std::vector<std::uint32_t> lights_;
