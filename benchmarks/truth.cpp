@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "benchmarks.h"
 #include "measure/truth.h"
 #include "scene/camera_path.h"
 
@@ -38,14 +39,14 @@ void find(benchmark::State& state, const std::string& name, grid::Kind kind) {
   state.counters["pairs"] = pairs;
 }
 
-const int k_registered = [] {
+}  // namespace
+
+void register_truth() {
   for (const char* name : {"hall-512", "hall-1024", "hall-4096", "open-world", "jam"})
     for (const grid::Kind kind : {grid::Kind::frustum, grid::Kind::distance, grid::Kind::cascades, grid::Kind::world})
       benchmark::RegisterBenchmark((std::string("truth/") + name + "/" + grid::kind_name(kind)).c_str(),
                                    [name, kind](benchmark::State& state) { find(state, name, kind); })
           ->Unit(benchmark::kMillisecond);
-  return 0;
-}();
+}
 
-}  // namespace
 }  // namespace clusterbench

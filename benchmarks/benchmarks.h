@@ -1,0 +1,9 @@
+#pragma once
+// Benchmarks that are registered by what is there when they start.
+
+namespace clusterbench {
+
+void register_truth();
+void register_peers();  // with CLUSTERBENCH_SCENE_LIBRARY
+
+}  // namespace clusterbench
