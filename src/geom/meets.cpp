@@ -59,13 +59,64 @@ Verdict corners_settle(const Volume<double>& volume, const Polytope<double>& cel
   return Verdict::no;
 }
 
+// The part of a line, start + t step with from <= t <= to, that is in the cell.
+struct Stretch {
+  double from, to;
+};
+Stretch stretch_within(const Polytope<double>& cell, const Point3<double>& start, const Point3<double>& step,
+                       Stretch stretch) {
+  for (const HalfSpace<double>& face : cell.faces) {
+    const double margin = face.margin(start), lean = dot(face.normal, step);
+    if (lean > 0.0) stretch.to = std::min(stretch.to, margin / lean);
+    if (lean < 0.0) stretch.from = std::max(stretch.from, margin / lean);
+    if (lean == 0.0 && margin < 0.0) return {1.0, 0.0};
+  }
+  return stretch;
+}
+
+// Of two segments (length 1 each: start + t step, 0 <= t <= 1), about the places that are nearest to each other.
+struct Nearest {
+  double first, second;
+};
+Nearest nearest_of_segments(const Point3<double>& start1, const Point3<double>& step1, const Point3<double>& start2,
+                            const Point3<double>& step2) {
+  const Point3<double> between = start1 - start2;
+  const double a = dot(step1, step1), b = dot(step1, step2), c = dot(step2, step2), d = dot(step1, between),
+               e = dot(step2, between), square = a * c - b * b;
+  const double free = square > 0.0 ? std::clamp((b * e - c * d) / square, 0.0, 1.0) : 0.0;
+  const double second = c > 0.0 ? std::clamp((b * free + e) / c, 0.0, 1.0) : 0.0;
+  return {a > 0.0 ? std::clamp((b * second - d) / a, 0.0, 1.0) : 0.0, second};
+}
+
+// Two points that are often well inside both: the middle of the axis in the cell, and where the way from the axis to
+// the cell's own middle line, where these are nearest to each other, has just entered the cell.
+Verdict axis_settles(const Volume<double>& volume, const Polytope<double>& cell, double tolerance) {
+  const auto is_common = [&](const Point3<double>& p) { return witness_at(volume, cell.faces, p).margin > tolerance; };
+  const Stretch along = stretch_within(cell, volume.apex, volume.axis, {0.0, volume.range});
+  if (along.from < along.to && is_common(volume.apex + ((along.from + along.to) / 2.0) * volume.axis))
+    return Verdict::yes;
+  Mean<double> front, back;
+  for (std::size_t i = 0; i < 4; ++i) {
+    front.add(cell.corners[i]);
+    back.add(cell.corners[i + 4]);
+  }
+  const Point3<double> axis = volume.range * volume.axis, line = back.at() - front.at();
+  const Nearest nearest = nearest_of_segments(volume.apex, axis, front.at(), line);
+  const Point3<double> start = volume.apex + nearest.first * axis;
+  const Point3<double> step = front.at() + nearest.second * line - start;
+  const double entry = stretch_within(cell, start, step, {0.0, 1.0}).from;
+  constexpr double k_further = 0.05;
+  return is_common(start + (entry + k_further * (1.0 - entry)) * step) ? Verdict::yes : Verdict::open;
+}
+
 Verdict meets_polytope(const Volume<double>& unlimited, const Polytope<double>& cell) {
   const Setting<double> setting(unlimited, cell);
   const Volume<double>& volume = setting.volume;
   const Reached<6> reached = reached_faces(volume, cell.faces, setting.tolerance);
   if (reached.is_beyond) return Verdict::no;
   if (volume.is_cone) {
-    const Verdict verdict = corners_settle(volume, cell, setting.tolerance);
+    Verdict verdict = corners_settle(volume, cell, setting.tolerance);
+    if (verdict == Verdict::open) verdict = axis_settles(volume, cell, setting.tolerance);
     if (verdict != Verdict::open) return verdict;
   }
   const Witness<double> witness = setting.common_point(reached.faces);

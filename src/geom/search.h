@@ -231,10 +231,13 @@ struct Setting {
   // A point of both, if its margin is above the tolerance; without a margin if there is not even one close to both.
   Witness<Real> common_point(const std::array<bool, 6>& reached) const {
     Mean<Real> mean;
+    Witness<Real> early{volume.apex, Real(-1)};
     polytope_candidates(volume, cell, reached, [&](const Point3<Real>& p) {
-      if (is_within(volume, cell.faces, p, tolerance)) mean.add(p);
+      if (early.margin > tolerance || !is_within(volume, cell.faces, p, tolerance)) return;
+      mean.add(p);
+      if (mean.count == 2 || mean.count == 4) early = witness_at(volume, cell.faces, mean.at());
     });
-    if (mean.count == 0) return {volume.apex, Real(-1)};
+    if (mean.count == 0 || early.margin > tolerance) return early;
     return find_witness(volume, cell.faces, mean.at(), tolerance);
   }
 };
