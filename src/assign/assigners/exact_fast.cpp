@@ -4,7 +4,9 @@
 //
 // Only perspective grids; others take the scalar reference.
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <span>
@@ -13,6 +15,7 @@
 #include "assign/exact_rows.h"
 #include "assign/simd/slice_rows.h"
 #include "assign/simd/span_lists.h"
+#include "assign/simd/spot_cells.h"
 #include "core/error.h"
 #include "geom/predicates.h"
 
@@ -60,7 +63,6 @@ class ExactFast final : public Assigner {
                       std::to_string(k_most_columns));
     grid_ = &grid;
     planes_ = RowPlanes(grid.screen());
-    cell_balls_.clear();
     is_left_.resize(static_cast<std::size_t>(planes_.rows));
   }
 
@@ -83,8 +85,7 @@ class ExactFast final : public Assigner {
   std::uint64_t fallbacks() const override { return fallbacks_; }
   std::size_t scratch_bytes() const override {
     return spans_.capacity_bytes() + slice_balls_.capacity_bytes() + seen_.capacity_bytes() +
-           rows_.columns.capacity() * sizeof(std::uint32_t) + cell_balls_.capacity() * sizeof(geom::Ball) +
-           5 * spot_x_.capacity() * sizeof(float);
+           rows_.columns.capacity() * sizeof(std::uint32_t) + 5 * spot_x_.capacity() * sizeof(float);
   }
 
  private:
@@ -96,7 +97,6 @@ class ExactFast final : public Assigner {
                lights_->points},
               0, seen_);
     if (lights_->spots == 0) return;
-    if (cell_balls_.empty()) cell_balls_ = grid_->balls_around_cells();
     for (std::vector<float>* list : {&spot_x_, &spot_y_, &spot_z_, &spot_radius_}) list->resize(lights_->spots);
     for (std::uint32_t i = 0; i < lights_->spots; ++i) {
       const geom::Ball around = ball_of_spot(lights_->points + i);
@@ -126,58 +126,108 @@ class ExactFast final : public Assigner {
       tests_ += rows_.tests;
       if (rows_.tests == 0) continue;
       spans_.add_batch(rows_.first_row, rows_.last_row, rows_.columns.data(), rows_.lights, is_left_.data());
+      if (rows_.lights[count - 1] >= lights_->points) look_at_spots(slice);
       for (int row = rows_.first_row; row <= rows_.last_row; ++row)
         if (is_left_[static_cast<std::size_t>(row)] != 0) decide_row(slice, row);
     }
   }
 
+  // Calls take(light, columns, is_uncertain) for the batch's spans of a row.
+  template <class Take>
+  void each_span(int row, Take&& take) const {
+    const std::uint32_t* columns = rows_.columns.data() + static_cast<std::size_t>(row) * rows_.lanes;
+    for (std::uint32_t lane = 0; lane < rows_.lanes; ++lane)
+      if (columns[lane] != BatchRows::k_none)
+        take(rows_.lights[lane], IndexRange{BatchRows::first_of(columns[lane]), BatchRows::last_of(columns[lane])},
+             (columns[lane] & BatchRows::k_uncertain) != 0);
+  }
+
+  void look_at_spots(int slice) {
+    const std::size_t k = static_cast<std::size_t>(slice);
+    const SpotsAndPlanes from{lights_, planes_.side.data(), planes_.slope.data(), planes_.depth[k],
+                              planes_.depth[k + 1]};
+    cells_.count = 0;
+    for (int row = rows_.first_row; row <= rows_.last_row; ++row)
+      if (is_left_[static_cast<std::size_t>(row)] != 0)
+        each_span(row, [&](std::uint32_t light, const IndexRange& columns, bool) {
+          if (!lights_->is_spot(light)) return;
+          for (int column = columns.first; column <= columns.last; ++column)
+            cells_.add(light - lights_->points, static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(column));
+        });
+    tests_ += cells_.count;
+    look_at_cells(from, cells_);
+    look_closer(from);
+    next_cell_ = 0;
+  }
+
+  // Of each row of a spot, those cells that are still open and not between two that are touched.
+  void look_closer(const SpotsAndPlanes& from) {
+    closer_.count = 0;
+    for (std::uint32_t begin = 0, end; begin < cells_.count; begin = end) {
+      end = begin + 1;
+      while (end < cells_.count && cells_.spot[end] == cells_.spot[begin] && cells_.row[end] == cells_.row[begin])
+        ++end;
+      const auto first = cells_.touch.begin() + begin, last = cells_.touch.begin() + end;
+      const auto add_open = [&](auto from_place, auto to_place) {
+        for (auto at = from_place; at != to_place; ++at)
+          if (*at == Touch::open) add_closer(static_cast<std::uint32_t>(at - cells_.touch.begin()));
+      };
+      const auto touched = std::find(first, last, Touch::yes);
+      add_open(first, touched);
+      if (touched == last) continue;
+      add_open(std::find(std::make_reverse_iterator(last), std::make_reverse_iterator(first), Touch::yes).base(), last);
+    }
+    look_closely_at_cells(from, closer_);
+    for (std::uint32_t i = 0; i < closer_.count; ++i) cells_.touch[closer_places_[i]] = closer_.touch[i];
+  }
+
+  void add_closer(std::uint32_t place) {
+    if (closer_places_.size() <= closer_.count) closer_places_.resize(2 * closer_places_.size() + 64);
+    closer_places_[closer_.count] = place;
+    closer_.add(cells_.spot[place], cells_.row[place], cells_.column[place]);
+  }
+
   void decide_row(int slice, int row) {
     const Row shape = row_of(grid_->screen(), slice, row);
-    const std::uint32_t* columns = rows_.columns.data() + static_cast<std::size_t>(row) * rows_.lanes;
-    for (std::uint32_t lane = 0; lane < rows_.lanes; ++lane) {
-      const std::uint32_t entry = columns[lane], light = rows_.lights[lane];
-      if (entry == BatchRows::k_none) continue;
-      IndexRange touched{BatchRows::first_of(entry), BatchRows::last_of(entry)};
-      if ((entry & BatchRows::k_uncertain) != 0) touched = decided(shape, touched, light);
+    each_span(row, [&](std::uint32_t light, const IndexRange& columns, bool is_uncertain) {
+      const IndexRange touched = is_uncertain ? decided(shape, columns, light) : columns;
       if (!touched.empty())
         spans_.add(static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(touched.first),
                    static_cast<std::uint32_t>(touched.last), light);
-    }
+    });
   }
 
   IndexRange decided(const Row& row, const IndexRange& outer, std::uint32_t light) {
     CellJudge judge(*grid_, *lights_, light);
-    const bool is_spot = lights_->is_spot(light);
-    if (std::isinf(lights_->radius[light])) return is_spot ? lit(row, outer, judge, nullptr) : outer;
-    if (!is_spot)
-      return settled(outer, RowColumns(grid_->screen().tiles), lights_->ball(light, -k_exact_roundings), row, judge,
-                     fallbacks_);
-    const geom::SphericalCone cone = lights_->cone(light, view::k_given_roundings);
-    return lit(row, outer, judge, &cone);
+    if (lights_->is_spot(light)) return lit(row, outer, judge);
+    if (std::isinf(lights_->radius[light])) return outer;
+    return settled(outer, RowColumns(grid_->screen().tiles), lights_->ball(light, -k_exact_roundings), row, judge,
+                   fallbacks_);
   }
 
-  // The columns that a spot touches; a cone, if given, to ask first.
-  IndexRange lit(const Row& row, const IndexRange& outer, CellJudge& judge, const geom::SphericalCone* cone) {
+  // The columns that a spot touches. Its cells have been looked at in the order in which they are asked for.
+  IndexRange lit(const Row& row, const IndexRange& outer, CellJudge& judge) {
+    const Touch* touches = cells_.touch.data() + next_cell_;
+    next_cell_ += static_cast<std::uint32_t>(outer.count());
     return narrowed(outer, [&](int column) {
-      const std::uint32_t cell = row.first_cell + static_cast<std::uint32_t>(column);
-      if (cone != nullptr) {
-        ++tests_;
-        if (!geom::cone_touches_ball(*cone, cell_balls_[cell])) return true;
-      }
+      const Touch touch = touches[column - outer.first];
+      if (touch != Touch::open) return touch == Touch::no;
       ++fallbacks_;
-      return !judge.touches(cell);
+      return !judge.touches(row.first_cell + static_cast<std::uint32_t>(column));
     });
   }
 
   const grid::Grid* grid_ = nullptr;
   const view::LightArrays* lights_ = nullptr;  // of the frame at hand
   RowPlanes planes_;
-  std::vector<geom::Ball> cell_balls_;
   std::vector<float> spot_x_, spot_y_, spot_z_, spot_radius_;
   SeenBalls seen_;
   SliceBalls slice_balls_;
   BatchRows rows_;
   std::vector<std::uint8_t> is_left_;
+  SpotCells cells_, closer_;  // of a batch; those of them to look at closely
+  std::vector<std::uint32_t> closer_places_;
+  std::uint32_t next_cell_ = 0;
   SpanLists spans_;
   std::uint64_t tests_ = 0, fallbacks_ = 0;
 };

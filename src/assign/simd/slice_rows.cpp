@@ -13,6 +13,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
+namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::ScalableTag<float>;
@@ -373,6 +374,7 @@ void see(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_l
   }
 }
 
+}  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace clusterbench::assign
 HWY_AFTER_NAMESPACE();
@@ -419,6 +421,7 @@ RowPlanes::RowPlanes(const grid::ScreenGrid& grid)
     depth.push_back(z);
     inverse_depth.push_back(z > 0.0f ? 1.0f / z : 1e30f);  // at the eye every slope but 0 is beyond the picture
   }
+  side = padded(grid.tiles.x, grid.tiles.x.size() + k_most_lanes, 0.0f);
   searched = padded(depth, std::bit_ceil(depth.size()), std::numeric_limits<float>::infinity());
 }
 

@@ -36,6 +36,7 @@ struct SpanRows {
 HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
+namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -95,6 +96,7 @@ std::uint32_t add_rows(const SpanRows& rows, int first_row, int last_row, const 
   return static_cast<std::uint32_t>(hn::GetLane(hn::SumOfLanes(di, pairs)));
 }
 
+}  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace clusterbench::assign
 HWY_AFTER_NAMESPACE();

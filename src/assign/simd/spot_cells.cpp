@@ -1,0 +1,317 @@
+#include "assign/simd/spot_cells.h"
+
+#include <algorithm>
+#include <cmath>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "assign/simd/spot_cells.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once per target
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace clusterbench::assign {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using D = hn::ScalableTag<float>;
+using V = hn::Vec<D>;
+using M = hn::Mask<D>;
+
+V all(float value) {
+  return hn::Set(D(), value);
+}
+
+// Places and directions as x to the right, y up, depth ahead.
+struct Point {
+  V x, y, depth;
+};
+HWY_INLINE Point operator+(const Point& a, const Point& b) {
+  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.depth, b.depth)};
+}
+HWY_INLINE Point operator-(const Point& a, const Point& b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.depth, b.depth)};
+}
+HWY_INLINE Point operator*(V s, const Point& a) {
+  return {hn::Mul(s, a.x), hn::Mul(s, a.y), hn::Mul(s, a.depth)};
+}
+HWY_INLINE V dot(const Point& a, const Point& b) {
+  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.depth, b.depth));
+}
+HWY_INLINE V length(const Point& a) {
+  return hn::Sqrt(dot(a, a));
+}
+
+// The same cone in all lanes.
+struct Cone {
+  Point apex, axis;
+  V range, cosine, sine;
+};
+
+// Evidence. With u = 2^-24 and S = |apex| + range + the cell's largest coordinates, margins are off by less than 2^7 u
+// S: the bounds of geom/meets.cpp, whose formulas these are, with 1 u for each number that is given and each corner's
+// coordinate in place of what is lost there on the way from the scene. Four times that is asked for.
+constexpr float k_tolerance = 0x1p-15f;
+
+// A vector of cells, each with its own cone.
+class Cells {
+ public:
+  HWY_INLINE Cells(const SpotsAndPlanes& from, const SpotCells& cells, std::uint32_t first) {
+    const hn::RebindToSigned<D> di;
+    const auto place = [&](const std::vector<std::uint32_t>& list) {
+      return hn::BitCast(di, hn::LoadU(hn::RebindToUnsigned<D>(), list.data() + first));
+    };
+    const auto gathered = [](const float* list, hn::Vec<hn::RebindToSigned<D>> at) {
+      return hn::GatherIndex(D(), list, at);
+    };
+    const auto spot = place(cells.spot), row = place(cells.row), column = place(cells.column);
+    const view::LightArrays& lights = *from.lights;
+    const std::uint32_t points = lights.points;
+    cone_ = {{gathered(lights.x.data() + points, spot), gathered(lights.y.data() + points, spot),
+              hn::Neg(gathered(lights.z.data() + points, spot))},
+             {gathered(lights.axis_x.data(), spot), gathered(lights.axis_y.data(), spot),
+              hn::Neg(gathered(lights.axis_z.data(), spot))},
+             gathered(lights.radius.data() + points, spot),
+             gathered(lights.cos_angle.data(), spot),
+             gathered(lights.sin_angle.data(), spot)};
+    left_ = gathered(from.side, column);
+    right_ = gathered(from.side + 1, column);
+    y1_ = gathered(from.slope, row);
+    y0_ = gathered(from.slope + 1, row);
+    depth0_ = all(from.depth0);
+    depth1_ = all(from.depth1);
+    const V across = hn::Max(hn::Abs(left_), hn::Abs(right_)), up = hn::Max(hn::Abs(y0_), hn::Abs(y1_));
+    const V cell = hn::Mul(depth1_, hn::Add(all(1.0f), hn::Add(across, up)));
+    const V light = hn::Add(gathered(lights.reach.data() + points, spot), cone_.range);
+    tolerance_ = hn::Mul(all(k_tolerance), hn::Add(light, cell));
+    safe_range_ = hn::Sub(cone_.range, tolerance_);
+    for (unsigned i = 0; i < 8; ++i) from_apex_[i] = corner(i) - cone_.apex;
+  }
+
+  // A corner well inside.
+  HWY_INLINE M holds_corner() const {
+    M any = hn::FirstN(D(), 0);
+    for (const Point& v : from_apex_) any = hn::Or(any, is_inside(v));
+    return any;
+  }
+
+  // Places on the edges: nearest to the axis as an angle, nearest to the apex, and between these.
+  HWY_INLINE M holds_edge_point() const {
+    M any = hn::FirstN(D(), 0);
+    for (unsigned corner = 0; corner < 8; ++corner)
+      for (const unsigned bit : {1u, 2u, 4u}) {
+        if ((corner & bit) != 0) continue;
+        const Point &start = from_apex_[corner], step = from_apex_[corner | bit] - start;
+        const V start_axis = dot(start, cone_.axis), step_axis = dot(step, cone_.axis), mixed = dot(start, step);
+        const V start_square = dot(start, start), step_square = dot(step, step);
+        const V above = hn::Sub(hn::Mul(step_axis, start_square), hn::Mul(start_axis, mixed));
+        const V below = hn::Sub(hn::Mul(start_axis, step_square), hn::Mul(step_axis, mixed));
+        const auto within = [](V t) { return hn::Min(hn::Max(t, hn::Zero(D())), all(1.0f)); };
+        const V to_axis = within(hn::Div(above, below)), to_apex = within(hn::Div(hn::Neg(mixed), step_square));
+        for (const V t : {to_axis, to_apex, hn::Mul(all(0.5f), hn::Add(to_axis, to_apex))})
+          any = hn::Or(any, is_inside(start + t * step));
+      }
+    return any;
+  }
+
+  // The middle of the axis within the cell; and where the way from the axis to the cell's own middle line, between the
+  // places where these are nearest to each other, has just entered the cell.
+  HWY_INLINE M holds_axis_point() const {
+    const V zero = hn::Zero(D()), half = all(0.5f);
+    V from = zero, to = cone_.range;
+    clip({zero, zero, zero}, cone_.axis, from, to);
+    const M middle = hn::And(hn::Lt(from, to), is_common(hn::Mul(half, hn::Add(from, to)) * cone_.axis));
+
+    const auto middle_of = [&](unsigned i) {
+      return all(0.25f) * (from_apex_[i] + from_apex_[i + 1] + from_apex_[i + 2] + from_apex_[i + 3]);
+    };
+    const Point front = middle_of(0), line = middle_of(4) - front;
+    const auto within = [](V low, V t, V high) { return hn::Min(hn::Max(t, low), high); };
+    // Of apex + t axis and front + s line.
+    const V b = dot(cone_.axis, line), c = dot(line, line), d = dot(cone_.axis, front), e = dot(line, front);
+    const V free = within(zero, hn::Div(hn::Sub(hn::Mul(c, d), hn::Mul(b, e)), hn::Sub(c, hn::Mul(b, b))), cone_.range);
+    const V s = within(zero, hn::Div(hn::Sub(hn::Mul(b, free), e), c), all(1.0f));
+    const V t = within(zero, hn::Add(hn::Mul(b, s), d), cone_.range);
+    const Point start = t * cone_.axis, step = front + s * line - start;
+    V entry = zero, end = all(1.0f);
+    clip(start, step, entry, end);
+    const V further = hn::Add(entry, hn::Mul(all(0.05f), hn::Sub(all(1.0f), entry)));
+    return hn::Or(middle, is_common(start + further * step));
+  }
+
+  // A face between, or a plane along the cone's side towards the cell's middle.
+  HWY_INLINE M is_apart() const {
+    Point sum = from_apex_[0];
+    for (unsigned i = 1; i < 8; ++i) sum = sum + from_apex_[i];
+    M apart = is_beside(sum);
+    each_face([&](const Point& normal, V offset) {
+      const V scale = hn::Div(all(1.0f), length(normal));
+      const V beyond = hn::Mul(scale, hn::Sub(dot(normal, cone_.apex), offset));
+      const V reach = extent(hn::Neg(hn::Mul(scale, dot(normal, cone_.axis))));
+      apart = hn::Or(apart, hn::Gt(hn::Sub(beyond, reach), tolerance_));
+    });
+    return apart;
+  }
+
+  // More planes: along the cone's side towards each corner, and across the way to the nearest corner and to the nearest
+  // place of the edges.
+  HWY_INLINE M is_apart_from_corners() const {
+    M apart = hn::FirstN(D(), 0);
+    Point nearest = from_apex_[0];
+    V least = dot(nearest, nearest);
+    const auto take = [&](const Point& v) {
+      const V square = dot(v, v);
+      const M is_nearer = hn::Lt(square, least);
+      least = hn::Min(least, square);
+      nearest = {hn::IfThenElse(is_nearer, v.x, nearest.x), hn::IfThenElse(is_nearer, v.y, nearest.y),
+                 hn::IfThenElse(is_nearer, v.depth, nearest.depth)};
+    };
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      apart = hn::Or(apart, is_beside(from_apex_[corner]));
+      take(from_apex_[corner]);
+      for (const unsigned bit : {1u, 2u, 4u}) {
+        if ((corner & bit) != 0) continue;
+        const Point &start = from_apex_[corner], step = from_apex_[corner | bit] - start;
+        const V t = hn::Neg(hn::Div(dot(start, step), dot(step, step)));
+        take(start + hn::Min(hn::Max(t, hn::Zero(D())), all(1.0f)) * step);
+      }
+    }
+    const Point normal = hn::Div(all(1.0f), hn::Sqrt(least)) * nearest;
+    return hn::Or(apart, hn::Gt(hn::Sub(least_along(normal), extent(dot(normal, cone_.axis))), tolerance_));
+  }
+
+ private:
+  HWY_INLINE Point corner(unsigned i) const {
+    const V depth = (i & 4) != 0 ? depth1_ : depth0_;
+    return {hn::Mul((i & 1) != 0 ? right_ : left_, depth), hn::Mul((i & 2) != 0 ? y1_ : y0_, depth), depth};
+  }
+
+  // Outward normals (any length) and the faces' places along them.
+  template <class Take>
+  HWY_INLINE void each_face(Take&& take) const {
+    const V zero = hn::Zero(D()), one = all(1.0f);
+    take(Point{hn::Neg(one), zero, left_}, zero);
+    take(Point{one, zero, hn::Neg(right_)}, zero);
+    take(Point{zero, hn::Neg(one), y0_}, zero);
+    take(Point{zero, one, hn::Neg(y1_)}, zero);
+    take(Point{zero, zero, hn::Neg(one)}, hn::Neg(depth0_));
+    take(Point{zero, zero, one}, depth1_);
+  }
+
+  // Cuts a line from the apex's place + start, along step, to the cell.
+  HWY_INLINE void clip(const Point& start, const Point& step, V& from, V& to) const {
+    each_face([&](const Point& outward, V offset) {
+      const V margin = hn::Sub(offset, dot(outward, cone_.apex + start)), lean = dot(outward, step);
+      const V t = hn::Div(margin, lean);
+      to = hn::IfThenElse(hn::Gt(lean, hn::Zero(D())), hn::Min(to, t), to);
+      from = hn::IfThenElse(hn::Lt(lean, hn::Zero(D())), hn::Max(from, t), from);
+    });
+  }
+
+  // Is the place v from the apex in volume and cell, by more than the tolerance?
+  HWY_INLINE M is_common(const Point& v) const {
+    M is_in = is_inside(v);
+    each_face([&](const Point& outward, V offset) {
+      const V margin = hn::Sub(offset, dot(outward, cone_.apex + v));
+      is_in = hn::And(is_in, hn::Gt(margin, hn::Mul(tolerance_, length(outward))));
+    });
+    return is_in;
+  }
+
+  // The least of the corners along a direction.
+  HWY_INLINE V least_along(const Point& direction) const {
+    V least = dot(direction, from_apex_[0]);
+    for (unsigned i = 1; i < 8; ++i) least = hn::Min(least, dot(direction, from_apex_[i]));
+    return least;
+  }
+
+  // Do all corners lie beyond the plane along the cone's side in the direction of v?
+  HWY_INLINE M is_beside(const Point& v) const {
+    const Point across = v - dot(v, cone_.axis) * cone_.axis;
+    const V size = length(across);
+    const Point outward = hn::Div(cone_.cosine, size) * across - cone_.sine * cone_.axis;
+    // Where v is nearly along the axis, the direction across it has few digits.
+    const M is_good = hn::Gt(size, hn::Mul(all(0.1f), length(v)));
+    return hn::And(is_good, hn::Gt(least_along(outward), tolerance_));
+  }
+
+  // Is the place v from the apex in the volume, by more than the tolerance?
+  HWY_INLINE M is_inside(const Point& v) const {
+    const V along = dot(v, cone_.axis);
+    const V across = length(v - along * cone_.axis);
+    const V side = hn::Sub(hn::Mul(cone_.sine, along), hn::Mul(cone_.cosine, across));
+    return hn::And(hn::Gt(side, tolerance_),
+                   hn::And(hn::Gt(safe_range_, hn::Zero(D())), hn::Lt(length(v), safe_range_)));
+  }
+
+  // How far the volume extends from its apex in a direction with this cosine to the axis.
+  HWY_INLINE V extent(V cosine) const {
+    const V sine = hn::Sqrt(hn::Max(hn::Zero(D()), hn::Mul(hn::Sub(all(1.0f), cosine), hn::Add(all(1.0f), cosine))));
+    const V lean = hn::Max(hn::Zero(D()), hn::Add(hn::Mul(cosine, cone_.cosine), hn::Mul(sine, cone_.sine)));
+    return hn::Mul(cone_.range, hn::IfThenElse(hn::Ge(cosine, cone_.cosine), all(1.0f), lean));
+  }
+
+  Cone cone_;
+  V left_, right_, y0_, y1_, depth0_, depth1_, tolerance_, safe_range_;
+  Point from_apex_[8];
+};
+
+void look(const SpotsAndPlanes& from, bool closely, SpotCells& cells) {
+  const D d;
+  const hn::RebindToUnsigned<D> du;
+  const hn::Rebind<std::uint8_t, decltype(du)> du8;
+  const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
+  for (std::uint32_t first = 0; first < cells.count; first += lanes) {
+    const Cells these(from, cells, first);
+    const M common = closely ? hn::Or(these.holds_axis_point(), these.holds_edge_point()) : these.holds_corner();
+    const M apart = closely ? these.is_apart_from_corners() : these.is_apart();
+    const auto code = [&](Touch touch) { return hn::Set(du, static_cast<std::uint32_t>(touch)); };
+    const auto answer = hn::IfThenElse(hn::RebindMask(du, common), code(Touch::yes),
+                                       hn::IfThenElse(hn::RebindMask(du, apart), code(Touch::no), code(Touch::open)));
+    hn::StoreU(hn::U8FromU32(answer), du8, reinterpret_cast<std::uint8_t*>(cells.touch.data()) + first);
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace clusterbench::assign
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace clusterbench::assign {
+
+HWY_EXPORT(look);
+
+void SpotCells::add(std::uint32_t of_spot, std::uint32_t of_row, std::uint32_t of_column) {
+  if (count + k_most_lanes >= spot.size()) {
+    const std::size_t size = 2 * spot.size() + 4 * k_most_lanes;
+    for (std::vector<std::uint32_t>* list : {&spot, &row, &column}) list->resize(size);
+    touch.resize(size);
+  }
+  spot[count] = of_spot;
+  row[count] = of_row;
+  column[count++] = of_column;
+}
+
+namespace {
+
+// What a whole vector reads beyond the end must be places that exist.
+void pad(SpotCells& cells) {
+  for (std::vector<std::uint32_t>* list : {&cells.spot, &cells.row, &cells.column})
+    std::fill_n(list->begin() + cells.count, std::min(k_most_lanes, list->size() - cells.count), 0);
+}
+
+}  // namespace
+
+void look_at_cells(const SpotsAndPlanes& from, SpotCells& cells) {
+  pad(cells);
+  HWY_DYNAMIC_DISPATCH(look)(from, false, cells);
+}
+
+void look_closely_at_cells(const SpotsAndPlanes& from, SpotCells& cells) {
+  pad(cells);
+  HWY_DYNAMIC_DISPATCH(look)(from, true, cells);
+}
+
+}  // namespace clusterbench::assign
+#endif
