@@ -60,18 +60,33 @@ HWY_INLINE Hull empty_hull() {
   return {infinity(), hn::Neg(infinity())};
 }
 
-// Where the tangents from the eye to a circle (radius rho around (across, ahead), eye at the origin) touch it.
+// The tangents from the eye (the origin) to a circle around (across, ahead), as far as they touch it between two depths
+// ahead. Depth ahead of a touch point = tangent * lean / square, slope = up / lean.
 struct Tangents {
-  M exist;                      // the eye is outside
-  V low_lean, high_lean;        // depth of the touch point = to_depth * lean
-  V to_depth, low_up, high_up;  // slope = up / lean
+  M low_is_in, high_is_in;
+  V low, high;                      // slopes; anything where not in
+  V low_depth, high_depth, square;  // depths ahead, times square
 };
 
-HWY_INLINE Tangents tangents_of(V across, V ahead, V rho, V tangent) {
+// `tangent`: how far the touch points are from the eye, 0 if it is inside.
+HWY_INLINE Tangents tangents_of(V across, V ahead, V rho, V tangent, V near, V far) {
   const V square = hn::Add(hn::Mul(across, across), hn::Mul(ahead, ahead));
   const V a = hn::Mul(ahead, tangent), b = hn::Mul(across, rho), c = hn::Mul(across, tangent), e = hn::Mul(ahead, rho);
-  return {hn::Gt(tangent, hn::Zero(D())), hn::Add(a, b), hn::Sub(a, b),
-          hn::Div(tangent, square),       hn::Sub(c, e), hn::Add(c, e)};
+  const V low_lean = hn::Add(a, b), high_lean = hn::Sub(a, b), from = hn::Mul(near, square), to = hn::Mul(far, square);
+  const M exist = hn::Gt(tangent, hn::Zero(D()));
+  Tangents tangents;
+  tangents.low_depth = hn::Mul(tangent, low_lean);
+  tangents.high_depth = hn::Mul(tangent, high_lean);
+  tangents.square = square;
+  tangents.low_is_in = hn::And(exist, is_between(from, tangents.low_depth, to));
+  tangents.high_is_in = hn::And(exist, is_between(from, tangents.high_depth, to));
+  // One division for both. The products stay in range for the reaches that see() lets through.
+  const V low_by = hn::IfThenElse(tangents.low_is_in, low_lean, all(1.0f));
+  const V high_by = hn::IfThenElse(tangents.high_is_in, high_lean, all(1.0f));
+  const V inverse = hn::Div(all(1.0f), hn::Mul(low_by, high_by));
+  tangents.low = hn::Mul(hn::Mul(hn::Sub(c, e), high_by), inverse);
+  tangents.high = hn::Mul(hn::Mul(hn::Add(c, e), low_by), inverse);
+  return tangents;
 }
 
 // The slice's two planes and what the balls of a batch have to do with them.
@@ -108,7 +123,9 @@ class Batch {
     Hull hull = empty_hull();
     const V distance = root(hn::Add(hn::Mul(y_, y_), hn::Mul(depth_, depth_)));
     const V tangent = root(hn::Mul(hn::Sub(distance, radius_), hn::Add(distance, radius_)));
-    add_tangents(tangents_of(y_, depth_, radius_, tangent), all(1.0f), hull);
+    const Tangents tangents = tangents_of(y_, depth_, radius_, tangent, all(near_.depth), all(far_.depth));
+    hull.add(tangents.low_is_in, tangents.low);
+    hull.add(tangents.high_is_in, tangents.high);
     for (const SlicePlane* plane : {&near_, &far_}) add_chord(*plane, y_, plane->chord_square, hull);
     const V top = all(planes_.slope.front()), bottom = all(planes_.slope[static_cast<std::size_t>(planes_.rows)]);
     const M touches = hn::And(wanted, hn::And(hn::Le(hull.low, hn::Min(hull.high, top)), hn::Ge(hull.high, bottom)));
@@ -125,14 +142,10 @@ class Batch {
   HWY_INLINE void start_level(M known) {
     const V distance = root(hn::Add(hn::Mul(x_, x_), hn::Mul(depth_, depth_)));
     const V tangent = root(hn::Mul(hn::Sub(distance, radius_), hn::Add(distance, radius_)));
-    const Tangents tangents = tangents_of(x_, depth_, radius_, tangent);
-    low_depth_ = hn::Mul(tangents.to_depth, tangents.low_lean);
-    high_depth_ = hn::Mul(tangents.to_depth, tangents.high_lean);
-    const V near = all(near_.depth), far = all(far_.depth);
-    low_is_in_ = hn::And(tangents.exist, is_between(near, low_depth_, far));
-    high_is_in_ = hn::And(tangents.exist, is_between(near, high_depth_, far));
-    low_ = hn::Div(tangents.low_up, tangents.low_lean);
-    high_ = hn::Div(tangents.high_up, tangents.high_lean);
+    tangents_ = tangents_of(x_, depth_, radius_, tangent, all(near_.depth), all(far_.depth));
+    const V inverse = hn::Div(all(1.0f), tangents_.square);
+    tangents_.low_depth = hn::Mul(tangents_.low_depth, inverse);
+    tangents_.high_depth = hn::Mul(tangents_.high_depth, inverse);
     near_chord_ = far_chord_ = empty_hull();
     add_chord(near_, x_, near_.chord_square, near_chord_);
     add_chord(far_, x_, far_.chord_square, far_chord_);
@@ -156,10 +169,10 @@ class Batch {
     const V square = hn::Mul(hn::Sub(radius_, away), hn::Add(radius_, away));
     const M cuts = hn::Ge(square, hn::Zero(D()));
     Hull hull = empty_hull();
-    Tangents tangents = tangents_of(x_, ahead, root(square), tangent_);
-    tangents.exist = hn::And(tangents.exist, cuts);
-    tangents.to_depth = hn::Mul(tangents.to_depth, inverse);
-    add_tangents(tangents, tilt, hull);
+    Tangents tangents =
+        tangents_of(x_, ahead, root(square), tangent_, hn::Mul(all(near_.depth), tilt), hn::Mul(all(far_.depth), tilt));
+    hull.add(hn::And(cuts, tangents.low_is_in), hn::Mul(tilt, tangents.low));
+    hull.add(hn::And(cuts, tangents.high_is_in), hn::Mul(tilt, tangents.high));
     for (const SlicePlane* plane : {&near_, &far_}) {
       const V up = hn::Sub(hn::Mul(slope, all(plane->depth)), y_);
       add_chord(*plane, x_, hn::Sub(plane->chord_square, hn::Mul(up, up)), hull);
@@ -172,8 +185,8 @@ class Batch {
     const auto is_level = [&](V depth) { return is_between(hn::Mul(bottom, depth), y_, hn::Mul(top, depth)); };
     hull.add(is_level(all(near_.depth)), near_chord_.low, near_chord_.high);
     hull.add(is_level(all(far_.depth)), far_chord_.low, far_chord_.high);
-    hull.add(hn::And(low_is_in_, is_level(low_depth_)), low_);
-    hull.add(hn::And(high_is_in_, is_level(high_depth_)), high_);
+    hull.add(hn::And(tangents_.low_is_in, is_level(tangents_.low_depth)), tangents_.low);
+    hull.add(hn::And(tangents_.high_is_in, is_level(tangents_.high_depth)), tangents_.high);
   }
 
   // Certainty. The hull is that of a ball between the given one and the given one with twice the slack, d. Let m be the
@@ -215,21 +228,11 @@ class Batch {
              hn::Mul(hn::Add(middle, half), inverse));
   }
 
-  // Slopes of the tangents that touch between the slice's planes.
-  HWY_INLINE void add_tangents(const Tangents& tangents, V tilt, Hull& hull) const {
-    const V near = all(near_.depth), far = all(far_.depth);
-    const M low = hn::And(tangents.exist, is_between(near, hn::Mul(tangents.to_depth, tangents.low_lean), far));
-    const M high = hn::And(tangents.exist, is_between(near, hn::Mul(tangents.to_depth, tangents.high_lean), far));
-    hull.add(low, hn::Mul(tilt, hn::Div(tangents.low_up, tangents.low_lean)));
-    hull.add(high, hn::Mul(tilt, hn::Div(tangents.high_up, tangents.high_lean)));
-  }
-
   const RowPlanes& planes_;
   V x_, y_, depth_, radius_, slack_;
   SlicePlane near_, far_;
   V tangent_, least_area_;
-  V low_depth_, high_depth_, low_, high_;
-  M low_is_in_, high_is_in_;
+  Tangents tangents_;
   Hull near_chord_, far_chord_;
 };
 
@@ -334,6 +337,9 @@ HWY_INLINE VI planes_below(const RowPlanes& planes, V depth, int most) {
   return hn::Min(below, hn::Set(di, most));
 }
 
+// Reaches whose fourth powers, and these times a slope, are normal numbers.
+constexpr float k_least_reach = 1e-9f, k_most_reach = 1e9f;
+
 void see(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, SeenBalls& seen) {
   const D d;
   const DI di;
@@ -349,7 +355,7 @@ void see(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_l
       return hn::LoadU(d, rest);
     };
     const V x = load(balls.x), y = load(balls.y), depth = hn::Neg(load(balls.z)), given = load(balls.radius);
-    const V slack = hn::Mul(load(balls.reach), all(k_slice_rows_roundings * 0x1p-24f));
+    const V reach = load(balls.reach), slack = hn::Mul(reach, all(k_slice_rows_roundings * 0x1p-24f));
     const V radius = hn::Add(given, slack);
     const M reaches = hn::And(hn::Le(view.gap(x, y, depth), radius), hn::Gt(given, hn::Zero(d)));
     const M wanted = hn::And(reaches, hn::FirstN(d, left));
@@ -361,7 +367,9 @@ void see(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_l
     keep(x, seen.x);
     keep(y, seen.y);
     keep(depth, seen.depth);
-    keep(radius, seen.radius);
+    // Powers of a reach must be normal numbers; elsewhere the whole grid is left to be decided.
+    const M is_plain = is_between(all(k_least_reach), reach, all(k_most_reach));
+    keep(hn::IfThenElse(is_plain, radius, infinity()), seen.radius);
     keep(slack, seen.slack);
     const auto lights = hn::Iota(du, first_light + i);
     hn::StoreU(hn::Compress(lights, hn::RebindMask(du, wanted)), du, seen.light.data() + seen.count);
