@@ -9,7 +9,16 @@ WIDTH, PANEL_W, PANEL_H, LEFT, TOP, GAP_X, GAP_Y = 960, 360, 190, 64, 40, 100, 8
 COLOURS = {  # Okabe and Ito's palette
     "brute-force": "#999999", "bounds": "#E69F00", "planes": "#D55E00", "aabb": "#56B4E9",
     "sphere-refinement": "#009E73", "distance": "#0072B2", "cascades": "#CC79A7", "world-grid": "#000000",
+    "exact": "#882255",
 }
+
+
+def mark(name, x, y, title=""):
+    """A disc in the method's colour; of a fast twin a ring in its reference's."""
+    colour = COLOURS.get(name.removesuffix("-fast"), "#333")
+    paint = f'fill="white" stroke="{colour}" stroke-width="3"' if name.endswith("-fast") else f'fill="{colour}"'
+    radius = 5 if name.endswith("-fast") else 6
+    return f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{radius}" {paint}>{title}</circle>'
 
 
 def points(result, scene):
@@ -37,8 +46,8 @@ def panel(result, scene, x0, y0):
         out.append(f'<line x1="{x0}" y1="{y:.1f}" x2="{x0 + PANEL_W}" y2="{y:.1f}" stroke="#e5e5e5"/>')
         out.append(f'<text x="{x0 - 6}" y="{y + 4:.1f}" text-anchor="end">{top * share:g} %</text>')
     for name, us, excess in found:
-        out.append(f'<circle cx="{at_x(us):.1f}" cy="{at_y(excess):.1f}" r="6" fill="{COLOURS.get(name, "#333")}">'
-                   f'<title>{escape(name)}: {us:.1f} µs, {excess:.1f} % excess</title></circle>')
+        out.append(mark(name, at_x(us), at_y(excess),
+                        f"<title>{escape(name)}: {us:.1f} µs, {excess:.1f} % excess</title>"))
     return out
 
 
@@ -47,8 +56,7 @@ def legend(names, y):
     for place, name in enumerate(names):
         x = LEFT + 220 * (place % 4)
         row = y + 20 * (place // 4)
-        out.append(f'<circle cx="{x}" cy="{row}" r="6" fill="{COLOURS.get(name, "#333")}"/>'
-                   f'<text x="{x + 12}" y="{row + 4}">{escape(name)}</text>')
+        out.append(mark(name, x, row) + f'<text x="{x + 12}" y="{row + 4}">{escape(name)}</text>')
     return out
 
 

@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+"""Puts the peers' workloads into README.md and docs/performance.md: scripts/peers_table.py FOLDER.
+
+FOLDER holds peers-*.json, results of configs/peers/. How many times faster than `brute-force` a method is comes from
+rounds that were measured side by side: the median of the rounds' ratios, and the 95 % interval of that median."""
+import json
+import pathlib
+import re
+import statistics
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+UNIT = "brute-force"
+
+
+def rounds(case):
+    return case["timing"]["assign_ns"]["samples"]
+
+
+def interval_of_median(values):
+    """Order statistics around the median: the binomial 95 % interval, by its normal approximation."""
+    ordered, n = sorted(values), len(values)
+    half = 0.98 * n**0.5
+    low, high = max(0, int(n / 2 - half)), min(n - 1, int(n / 2 + half))
+    return ordered[low], ordered[high]
+
+
+def times_faster(case, than):
+    ratios = [slow / fast for slow, fast in zip(rounds(than), rounds(case))]
+    return statistics.median(ratios), interval_of_median(ratios)
+
+
+def load(folder):
+    """Workload -> assigner -> case, in the order of the results."""
+    workloads = {}
+    for path in sorted(folder.glob("peers-*.json")):
+        for case in json.loads(path.read_text())["cases"]:
+            workloads.setdefault(case["scene"], {})[case["assigner"]["label"]] = case
+    if not workloads:
+        sys.exit(f"{folder}: no peers-*.json")
+    return dict(sorted(workloads.items()))
+
+
+def short(value):
+    return f"{value:,.0f}" if value >= 100 else f"{value:.1f}" if value >= 10 else f"{value:.2f}"
+
+
+def table(workloads, cell):
+    names = list(dict.fromkeys(name for cases in workloads.values() for name in cases))
+    lines = ["| | " + " | ".join(workloads) + " |", "|---|" + "---:|" * len(workloads)]
+    for name in names:
+        lines.append(f"| `{name}` | " + " | ".join(
+            cell(cases[name], cases) if name in cases else "" for cases in workloads.values()) + " |")
+    return "\n".join(lines)
+
+
+def speed(case, cases):
+    ratio, (low, high) = times_faster(case, cases[UNIT])
+    microseconds = short(case["timing"]["assign_ns"]["median"] / 1e3)
+    return microseconds if case is cases[UNIT] else f"{microseconds} ({short(ratio)}×, {short(low)}–{short(high)})"
+
+
+def cost(case, _):
+    timing = case["timing"]
+    return f"{short(timing['ns_per_pair'])} / {short(timing['floor_ratio'])}"
+
+
+def error(case, _):
+    excess = case["error"]["false_positives"] / max(1, case["error"]["true_pairs"])
+    return f"{100 * excess:.1f} % / {case['error']['false_negatives']}"
+
+
+def twin(case, cases):
+    name = case["assigner"]["name"]
+    reference = cases.get(name.removesuffix("-fast"))
+    if reference is None or reference is case:
+        return ""
+    ratio, (low, high) = times_faster(case, reference)
+    return f"{short(ratio)}× ({short(low)}–{short(high)})"
+
+
+def put(path, name, text):
+    page = path.read_text()
+    begin, end = f"<!-- {name} -->", f"<!-- /{name} -->"
+    pattern = re.compile(re.escape(begin) + ".*?" + re.escape(end), re.S)
+    if not pattern.search(page):
+        sys.exit(f"{path.name}: no place marked {begin}")
+    path.write_text(pattern.sub(lambda _: f"{begin}\n\n{text}\n\n{end}", page))
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    workloads = load(pathlib.Path(sys.argv[1]))
+    fast = {name: {k: c for k, c in cases.items() if k.endswith("-fast") or k.removesuffix("-fast") + "-fast" in cases}
+            for name, cases in workloads.items()}
+    put(ROOT / "README.md", "peers-speed", table(workloads, speed))
+    performance = ROOT / "docs" / "performance.md"
+    put(performance, "peers-cost", table(workloads, cost))
+    put(performance, "peers-error", table(workloads, error))
+    put(performance, "peers-twins", "\n".join(
+        line for line in table(fast, twin).splitlines() if re.search(r"\d|---|^\| \| ", line.split("|", 2)[-1])))
+
+
+if __name__ == "__main__":
+    main()
