@@ -362,7 +362,7 @@ MUTATIONS = [
              "measure.AssignersAgainstTruth.an_exact_assigner_lists_the_true_pairs_alone",
              "exact lists cells to the right that the light misses by a hair"),
     Mutation("fast-tangents-dropped", "assign/simd/slice_rows.cpp",
-             "    add_tangents(tangents, tilt, hull);\n", "",
+             "    hull.add(hn::And(cuts, tangents.low_is_in), hn::Mul(tilt, tangents.low));\n", "",
              "assign.ExactFast.gives_the_lists_of_exact_on_every_target",
              "exact-fast loses the cells where a light bulges beyond its corners"),
     Mutation("fast-all-certain", "assign/simd/slice_rows.cpp",

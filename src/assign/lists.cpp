@@ -6,6 +6,11 @@
 
 namespace clusterbench::assign {
 
+void check_pair_count(std::uint64_t pairs) {
+  if (pairs > std::numeric_limits<std::uint32_t>::max())
+    throw Error("", "lists", "hold " + std::to_string(pairs) + " pairs; at most 2^32 - 1 fit", ExitCode::internal);
+}
+
 void PairBuffer::start(std::uint32_t cell_count) {
   cell_count_ = cell_count;
   pairs_ = 0;
@@ -18,8 +23,7 @@ void PairBuffer::add_row(std::uint32_t first_cell, std::uint32_t count, std::uin
 }
 
 void PairBuffer::finish(Lists& out) {
-  if (pairs_ > std::numeric_limits<std::uint32_t>::max())
-    throw Error("", "lists", "hold " + std::to_string(pairs_) + " pairs; at most 2^32 - 1 fit", ExitCode::internal);
+  check_pair_count(pairs_);
 
   // begin[c] first counts cell c, then becomes its list's start, then its end while lights are written; shifted by one
   // place, the ends are the starts again.

@@ -21,6 +21,9 @@ struct Lists {
   friend bool operator==(const Lists&, const Lists&) = default;
 };
 
+// Throws Error (ExitCode::internal) beyond 2^32 - 1 pairs.
+void check_pair_count(std::uint64_t pairs);
+
 // Collects pairs light by light and sorts them by cell with one counting pass. Keeps its memory between frames.
 class PairBuffer {
  public:

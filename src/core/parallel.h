@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 
 namespace clusterbench {
 
@@ -10,5 +11,23 @@ namespace clusterbench {
 // in order). The work of different ranges must not touch the same data.
 void parallel_ranges(std::size_t count, int threads,
                      const std::function<void(std::size_t begin, std::size_t end)>& work);
+
+// Threads that stay, for work that comes again and again and is short.
+class Crew {
+ public:
+  explicit Crew(int threads);
+  ~Crew();
+  Crew(Crew&&) noexcept;
+  Crew& operator=(Crew&&) noexcept;
+
+  int threads() const { return threads_; }
+  // Calls work(i) for 0 <= i < count, each once, on any thread.
+  void each(std::size_t count, const std::function<void(std::size_t i)>& work);
+
+ private:
+  struct Arena;
+  int threads_;
+  std::unique_ptr<Arena> arena_;  // none for one thread
+};
 
 }  // namespace clusterbench

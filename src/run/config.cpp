@@ -219,10 +219,11 @@ Config read_config(const JsonText& text) {
   return config;
 }
 
-std::string param_text(const assign::ParamValue& value) {
+std::string param_text(const assign::ParamSpec& spec, const assign::ParamValue& value) {
   if (const auto* text = std::get_if<std::string>(&value)) return *text;
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
-  return Json(std::get<double>(value)).dump();
+  const double number = std::get<double>(value);
+  return spec.whole ? Json(static_cast<std::int64_t>(number)).dump() : Json(number).dump();
 }
 
 }  // namespace
@@ -237,7 +238,7 @@ std::string MethodRequest::label() const {
   for (const assign::ParamSpec& spec : specs) {
     const auto value = params.values().find(spec.name);
     if (value == params.values().end() || value->second == spec.standard) continue;
-    inner += (inner.empty() ? "" : ",") + spec.name + "=" + param_text(value->second);
+    inner += (inner.empty() ? "" : ",") + spec.name + "=" + param_text(spec, value->second);
   }
   return inner.empty() ? name : name + "(" + inner + ")";
 }

@@ -95,9 +95,9 @@ TEST(SpanLists, are_those_of_a_pair_buffer_on_every_target) {
   });
 }
 
-Lists lists_of(const std::string& name, const Setting& setting) {
+Lists lists_of(const std::string& name, const Setting& setting, const std::map<std::string, ParamValue>& params = {}) {
   const AssignerRow& row = *find_assigner(name);
-  const auto assigner = row.make(Params(row.params));
+  const auto assigner = row.make(Params(row.params, params));
   assigner->build(setting.grid);
   Lists lists;
   assigner->assign(view::lights_in(setting.frame, grid::space_of(setting.grid, setting.frame)), lists);
@@ -114,6 +114,28 @@ TEST(ExactFast, gives_the_lists_of_exact_on_every_target) {
         EXPECT_EQ(lists_of("exact-fast", setting), expected) << target << ", " << setting.name;
       });
     }
+}
+
+// The same lights many times over, so that there is work for threads.
+Setting repeated(Setting setting, int times) {
+  const std::vector<scene::WorldLight> once = setting.frame.lights;
+  const auto spots = once.begin() + setting.frame.points;
+  setting.frame.lights.clear();
+  for (int i = 0; i < times; ++i) setting.frame.lights.insert(setting.frame.lights.end(), once.begin(), spots);
+  setting.frame.points = static_cast<std::uint32_t>(setting.frame.lights.size());
+  for (int i = 0; i < times; ++i) setting.frame.lights.insert(setting.frame.lights.end(), spots, once.end());
+  return setting;
+}
+
+TEST(ExactFast, gives_the_same_lists_on_any_number_of_threads) {
+  const std::vector<Setting> settings = testing::settings_for(*find_assigner("exact-fast"), 7);
+  for (std::size_t i = 0; i < settings.size(); i += 3) {
+    const Setting setting = repeated(settings[i], 10);
+    const Lists expected = lists_of("exact-fast", setting);
+    EXPECT_GT(expected.pair_count(), 10000U) << setting.name;
+    for (const double threads : {2.0, 5.0})
+      EXPECT_EQ(lists_of("exact-fast", setting, {{"threads", threads}}), expected) << setting.name << ", " << threads;
+  }
 }
 
 }  // namespace

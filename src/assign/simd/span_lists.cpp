@@ -1,10 +1,6 @@
 #include "assign/simd/span_lists.h"
 
 #include <algorithm>
-#include <limits>
-
-#include "core/error.h"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/simd/span_lists.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
@@ -164,8 +160,7 @@ void SpanLists::add_batch(int first_row, int last_row, const std::uint32_t* colu
 }
 
 void SpanLists::finish_band() {
-  if (pairs_ + band_pairs_ > std::numeric_limits<std::uint32_t>::max())
-    throw Error("", "lists", "hold more than 2^32 - 1 pairs", ExitCode::internal);
+  check_pair_count(pairs_ + band_pairs_);
   std::vector<std::uint32_t>& lists = out_->lights;
   const std::size_t needed = pairs_ + band_pairs_ + k_most_lanes;
   if (lists.size() < needed) lists.resize(needed + needed / 16);
