@@ -297,7 +297,7 @@ TEST(Config, a_label_names_only_parameters_that_differ_from_the_default) {
   ASSERT_FALSE(fixed.params.empty());
   const nlohmann::json storage{{"name", "fixed"}, {fixed.params[0].name, 7}};
   EXPECT_EQ(parsed(R"(, "storages": [)" + storage.dump() + "]").storages[0].label(),
-            "fixed(" + fixed.params[0].name + "=7.0)");
+            "fixed(" + fixed.params[0].name + "=7)");
 }
 
 }  // namespace
