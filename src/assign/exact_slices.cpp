@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace clusterbench::assign {
 
@@ -23,7 +22,8 @@ void ExactSlices::find(const ExactFrame& frame, int first, int last, Lists& out)
 
 std::size_t ExactSlices::scratch_bytes() const {
   return spans_.capacity_bytes() + cells_.capacity_bytes() + closer_.capacity_bytes() +
-         (rows_.columns.capacity() + closer_places_.capacity()) * sizeof(std::uint32_t);
+         (rows_.columns.capacity() + closer_places_.capacity()) * sizeof(std::uint32_t) +
+         lit_.capacity() * sizeof(Lit) + ends_.capacity() * sizeof(Ends);
 }
 
 // Calls take(light, columns, is_uncertain) for the batch's spans of a row.
@@ -45,55 +45,104 @@ void ExactSlices::add_slice(int slice) {
     tests_ += rows_.tests;
     if (rows_.tests == 0) continue;
     spans_.add_batch(rows_.first_row, rows_.last_row, rows_.columns.data(), rows_.lights, is_left_.data());
-    if (rows_.lights[count - 1] >= frame_->lights.points) look_at_spots(slice);
+    if (rows_.lights[count - 1] >= frame_->lights.points) light_rows(slice);
     for (int row = rows_.first_row; row <= rows_.last_row; ++row)
       if (is_left_[static_cast<std::size_t>(row)] != 0) decide_row(slice, row);
   }
 }
 
-void ExactSlices::look_at_spots(int slice) {
+// The columns that spots touch, of all of the batch's rows that are left: the ends of each span are looked at a few
+// cells at a time, until both are touched.
+void ExactSlices::light_rows(int slice) {
   const std::size_t k = static_cast<std::size_t>(slice);
   const SpotsAndPlanes from{&frame_->lights, frame_->planes.side.data(), frame_->planes.slope.data(),
                             frame_->planes.depth[k], frame_->planes.depth[k + 1]};
-  cells_.count = 0;
+  lit_.clear();
+  next_lit_ = 0;
   for (int row = rows_.first_row; row <= rows_.last_row; ++row)
     if (is_left_[static_cast<std::size_t>(row)] != 0)
       each_span(row, [&](std::uint32_t light, const IndexRange& columns, bool) {
-        if (!frame_->lights.is_spot(light)) return;
-        for (int column = columns.first; column <= columns.last; ++column)
-          cells_.add(light - frame_->lights.points, static_cast<std::uint32_t>(row),
-                     static_cast<std::uint32_t>(column));
+        if (frame_->lights.is_spot(light)) lit_.push_back({light, row, columns, true, true});
       });
-  tests_ += cells_.count;
-  look_at_cells(from, cells_);
-  look_closer(from);
-  next_cell_ = 0;
+  while (ask_for_ends()) {
+    tests_ += cells_.count;
+    look_at_cells(from, cells_);
+    ask_more_closely();
+    look_closely_at_cells(from, closer_);
+    for (std::uint32_t i = 0; i < closer_.count; ++i) cells_.touch[closer_places_[i]] = closer_.touch[i];
+    for (const Ends& ends : ends_) settle(slice, ends);
+  }
 }
 
-// Of each row of a spot, those cells that are still open and not between two that are touched.
-void ExactSlices::look_closer(const SpotsAndPlanes& from) {
-  closer_.count = 0;
-  for (std::uint32_t begin = 0, end; begin < cells_.count; begin = end) {
-    end = begin + 1;
-    while (end < cells_.count && cells_.spot[end] == cells_.spot[begin] && cells_.row[end] == cells_.row[begin]) ++end;
-    const auto first = cells_.touch.begin() + begin, last = cells_.touch.begin() + end;
-    const auto add_open = [&](auto from_place, auto to_place) {
-      for (auto at = from_place; at != to_place; ++at)
-        if (*at == Touch::open) add_closer(static_cast<std::uint32_t>(at - cells_.touch.begin()));
-    };
-    const auto touched = std::find(first, last, Touch::yes);
-    add_open(first, touched);
-    if (touched == last) continue;
-    add_open(std::find(std::make_reverse_iterator(last), std::make_reverse_iterator(first), Touch::yes).base(), last);
+// Puts the cells at the open ends of all spans into cells_. False if there are none.
+bool ExactSlices::ask_for_ends() {
+  constexpr int k_at_once = 4;
+  cells_.count = 0;
+  ends_.clear();
+  for (std::uint32_t i = 0; i < lit_.size(); ++i) {
+    const Lit& lit = lit_[i];
+    const int count = lit.columns.count();
+    if (count == 0 || !(lit.left_is_open || lit.right_is_open)) continue;
+    if (count <= 2 * k_at_once) {
+      ask(i, lit.columns, lit.left_is_open, lit.right_is_open);
+      continue;
+    }
+    if (lit.left_is_open) ask(i, {lit.columns.first, lit.columns.first + k_at_once - 1}, true, false);
+    if (lit.right_is_open) ask(i, {lit.columns.last - k_at_once + 1, lit.columns.last}, false, true);
   }
-  look_closely_at_cells(from, closer_);
-  for (std::uint32_t i = 0; i < closer_.count; ++i) cells_.touch[closer_places_[i]] = closer_.touch[i];
+  return !ends_.empty();
+}
+
+void ExactSlices::ask(std::uint32_t i, const IndexRange& columns, bool from_left, bool from_right) {
+  ends_.push_back({i, cells_.count, columns, from_left, from_right});
+  for (int column = columns.first; column <= columns.last; ++column)
+    cells_.add(lit_[i].light - frame_->lights.points, static_cast<std::uint32_t>(lit_[i].row),
+               static_cast<std::uint32_t>(column));
+}
+
+// Cells without an answer that lie before the first one that is touched.
+void ExactSlices::ask_more_closely() {
+  closer_.count = 0;
+  const auto is = [&](std::uint32_t place, Touch touch) { return cells_.touch[place] == touch; };
+  for (const Ends& ends : ends_) {
+    const std::uint32_t begin = ends.place, end = begin + static_cast<std::uint32_t>(ends.columns.count());
+    std::uint32_t left = begin, right = end;
+    for (; ends.from_left && left < end && !is(left, Touch::yes); ++left)
+      if (is(left, Touch::open)) add_closer(left);
+    for (; ends.from_right && right > left && !is(right - 1, Touch::yes); --right)
+      if (is(right - 1, Touch::open)) add_closer(right - 1);
+  }
 }
 
 void ExactSlices::add_closer(std::uint32_t place) {
   if (closer_places_.size() <= closer_.count) closer_places_.resize(2 * closer_places_.size() + 64);
   closer_places_[closer_.count] = place;
   closer_.add(cells_.spot[place], cells_.row[place], cells_.column[place]);
+}
+
+// Shortens the span by its cells that are not touched. An end is settled where one is.
+void ExactSlices::settle(int slice, const Ends& ends) {
+  Lit& lit = lit_[ends.lit];
+  const Row row = row_of(frame_->grid.screen(), slice, lit.row);
+  CellJudge judge(frame_->grid, frame_->lights, lit.light);
+  const auto touches = [&](int column) {
+    Touch& touch = cells_.touch[ends.place + static_cast<std::uint32_t>(column - ends.columns.first)];
+    if (touch == Touch::open) {
+      ++fallbacks_;
+      touch = judge.touches(row.first_cell + static_cast<std::uint32_t>(column)) ? Touch::yes : Touch::no;
+    }
+    return touch == Touch::yes;
+  };
+  IndexRange& span = lit.columns;
+  if (ends.from_left) {
+    while (span.first <= ends.columns.last && !touches(span.first)) ++span.first;
+    lit.left_is_open = span.first > ends.columns.last;
+  }
+  if (ends.from_right) {
+    const int end = std::max(ends.columns.first, span.first);
+    while (span.last >= end && !touches(span.last)) --span.last;
+    lit.right_is_open = span.last < end;
+  }
 }
 
 void ExactSlices::decide_row(int slice, int row) {
@@ -107,23 +156,11 @@ void ExactSlices::decide_row(int slice, int row) {
 }
 
 IndexRange ExactSlices::decided(const Row& row, const IndexRange& outer, std::uint32_t light) {
-  CellJudge judge(frame_->grid, frame_->lights, light);
-  if (frame_->lights.is_spot(light)) return lit(row, outer, judge);
+  if (frame_->lights.is_spot(light)) return lit_[next_lit_++].columns;
   if (std::isinf(frame_->lights.radius[light])) return outer;
+  CellJudge judge(frame_->grid, frame_->lights, light);
   return settled(outer, RowColumns(frame_->grid.screen().tiles), frame_->lights.ball(light, -k_exact_roundings), row,
                  judge, fallbacks_);
-}
-
-// The columns that a spot touches. Its cells have been looked at in the order in which they are asked for.
-IndexRange ExactSlices::lit(const Row& row, const IndexRange& outer, CellJudge& judge) {
-  const Touch* touches = cells_.touch.data() + next_cell_;
-  next_cell_ += static_cast<std::uint32_t>(outer.count());
-  return narrowed(outer, [&](int column) {
-    const Touch touch = touches[column - outer.first];
-    if (touch != Touch::open) return touch == Touch::no;
-    ++fallbacks_;
-    return !judge.touches(row.first_cell + static_cast<std::uint32_t>(column));
-  });
 }
 
 }  // namespace clusterbench::assign

@@ -27,22 +27,40 @@ class ExactSlices {
   std::size_t scratch_bytes() const;
 
  private:
+  // A spot's columns in a row, as far as they are known: those that are not touched go from both ends.
+  struct Lit {
+    std::uint32_t light;
+    int row;
+    grid::IndexRange columns;
+    bool left_is_open, right_is_open;  // the end may yet not be touched
+  };
+  // Cells at one or both ends of a Lit that are asked for, from cells_[place] on.
+  struct Ends {
+    std::uint32_t lit, place;
+    grid::IndexRange columns;
+    bool from_left, from_right;
+  };
+
   void add_slice(int slice);
-  void look_at_spots(int slice);
-  void look_closer(const SpotsAndPlanes& from);
+  void light_rows(int slice);
+  bool ask_for_ends();
+  void ask(std::uint32_t i, const grid::IndexRange& columns, bool from_left, bool from_right);
+  void ask_more_closely();
   void add_closer(std::uint32_t place);
+  void settle(int slice, const Ends& ends);
   void decide_row(int slice, int row);
   grid::IndexRange decided(const Row& row, const grid::IndexRange& outer, std::uint32_t light);
-  grid::IndexRange lit(const Row& row, const grid::IndexRange& outer, CellJudge& judge);
   template <class Take>
   void each_span(int row, Take&& take) const;
 
   const ExactFrame* frame_ = nullptr;
   BatchRows rows_;
   std::vector<std::uint8_t> is_left_;
-  SpotCells cells_, closer_;  // of a batch; those of them to look at closely
+  std::vector<Lit> lit_;  // of a batch, row by row
+  std::size_t next_lit_ = 0;
+  std::vector<Ends> ends_;
+  SpotCells cells_, closer_;  // of all ends; those of them to look at closely
   std::vector<std::uint32_t> closer_places_;
-  std::uint32_t next_cell_ = 0;
   SpanLists spans_;
   std::uint64_t tests_ = 0, fallbacks_ = 0;
 };
