@@ -6,7 +6,7 @@
 #include <cstring>
 #include <memory>
 
-#include "run/frame_lights.h"
+#include "run/timed_work.h"
 
 namespace clusterbench::run {
 namespace {
@@ -15,29 +15,6 @@ using Clock = std::chrono::steady_clock;
 
 double ns_since(Clock::time_point start) {
   return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
-}
-
-// A frame with all that an assigner needs; frames with the same grid share it.
-struct TimedFrame {
-  std::shared_ptr<const grid::Grid> grid;
-  view::Frame frame;
-  FrameLights lights;
-};
-
-std::vector<TimedFrame> timed_frames(const Config& config, const GroupPlan& group, const PathFrames& path) {
-  const int wanted = config.timing.frames == 0 ? path.count() : std::min(config.timing.frames, path.count());
-  std::vector<TimedFrame> frames;
-  GridOfFrames grids(config.grids[group.grid]);
-  std::shared_ptr<const grid::Grid> grid;
-  frames.reserve(static_cast<std::size_t>(wanted));
-  for (int i = 0; i < wanted; ++i) {
-    view::Frame frame =
-        path.frame(wanted == 1 ? 0 : static_cast<int>(std::lround(i * (path.count() - 1.0) / (wanted - 1))));
-    if (grids.update(path, frame)) grid = std::make_shared<grid::Grid>(grids.grid());
-    FrameLights lights(config.precisions, view::lights_in(frame, grid::space_of(*grid, frame)));
-    frames.push_back({grid, std::move(frame), std::move(lights)});
-  }
-  return frames;
 }
 
 // Memory traffic that no way of assigning can avoid: the finished lists and headers, copied once.
@@ -88,26 +65,22 @@ class Repeated {
   int repeats_ = 0;
 };
 
-// One method over the timed frames, with the storages that its cases use.
+// One method with the times of its rounds.
 class Track {
  public:
   Track(const Config& config, const GroupPlan& group, const Method& method, const std::vector<TimedFrame>& frames)
-      : frames_(frames), precision_(method.precision), min_ns_(config.timing.min_time_ms * 1e6), lists_(frames.size()) {
-    const MethodRequest& assigner = config.assigners[method.assigner];
-    assigner_ = assign::find_assigner(assigner.name)->make(assigner.params);
-    for (std::size_t place = 0; place < group.cases.size(); ++place)
-      if (group.cases[place].method() == method) add_store(config, group.cases[place], place);
-    assign_once();
+      : min_ns_(config.timing.min_time_ms * 1e6), work_(config, group, method, frames) {
+    for (std::size_t store = 0; store < work_.places().size(); ++store)
+      stores_.push_back({work_.places()[store], Repeated([this, store] { work_.convert(store); }, min_ns_ / 10.0), {}});
     prepare_floor();
   }
 
   void round() {
     const auto start = Clock::now();
-    assigner_->build(*frames_.front().grid);
+    work_.build();
     build_ns_.push_back(ns_since(start));
-    built_for_ = frames_.front().grid.get();
-    assign_once();  // warms caches, and makes what an assigner makes with the first spot
-    const auto frames = static_cast<double>(frames_.size());
+    work_.assign();  // warms caches, and makes what an assigner makes with the first spot
+    const auto frames = static_cast<double>(work_.frame_count());
     assign_ns_.push_back(assign_.sample() / frames);
     floor_ns_.push_back(floor_.sample() / frames);
     for (Store& store : stores_) store.convert_ns.push_back(store.convert.sample() / frames);
@@ -118,14 +91,14 @@ class Track {
   void report(const Track& first, const std::string& first_name, std::uint64_t seed,
               std::vector<TimingResult>& out) const {
     double pairs = 0.0;
-    for (const assign::Lists& lists : lists_) pairs += lists.pair_count();
+    for (const assign::Lists& lists : work_.lists()) pairs += lists.pair_count();
     TimingResult timing;
     timing.build_ns = measure::time_stats(build_ns_, seed);
     timing.assign_ns = measure::time_stats(assign_ns_, seed);
-    if (pairs > 0.0) timing.ns_per_pair = timing.assign_ns.median * static_cast<double>(frames_.size()) / pairs;
+    if (pairs > 0.0) timing.ns_per_pair = timing.assign_ns.median * static_cast<double>(work_.frame_count()) / pairs;
     timing.write_floor_ns = measure::time_stats(floor_ns_, seed).median;
     timing.floor_ratio = measure::paired_ratio(assign_ns_, floor_ns_, seed).ratio;
-    timing.frames_timed = static_cast<int>(frames_.size());
+    timing.frames_timed = static_cast<int>(work_.frame_count());
     if (this != &first) timing.vs = Versus{first_name, measure::paired_ratio(assign_ns_, first.assign_ns_, seed)};
     for (const Store& store : stores_) {
       out[store.place] = timing;
@@ -136,61 +109,28 @@ class Track {
  private:
   struct Store {
     std::size_t place;  // in the group's cases
-    std::unique_ptr<assign::Storage> storage;
     Repeated convert;
     std::vector<double> convert_ns;
   };
 
-  void add_store(const Config& config, const CasePlan& plan, std::size_t place) {
-    const MethodRequest& method = config.storages[plan.storage];
-    auto storage = assign::find_storage(method.name)->make(method.params);
-    start(*storage);
-    assign::Storage* const kept = storage.get();
-    stores_.push_back({place, std::move(storage), Repeated([this, kept] { convert_once(*kept); }, min_ns_ / 10.0), {}});
-  }
-
-  void start(assign::Storage& storage) const {
-    const TimedFrame& frame = frames_.front();
-    storage.start(frame.grid->cell_count(), frame.lights.seen(precision_).points, frame.lights.seen(precision_).spots);
-  }
-
-  // All timed frames. A grid that changes between frames (fit) is built within: that is what such a method costs.
-  void assign_once() {
-    for (std::size_t i = 0; i < frames_.size(); ++i) {
-      const grid::Grid* grid = frames_[i].grid.get();
-      if (grid != built_for_) assigner_->build(*grid);
-      built_for_ = grid;
-      assigner_->assign(frames_[i].lights.seen(precision_), lists_[i]);
-    }
-  }
-
-  void convert_once(assign::Storage& storage) const {
-    for (const assign::Lists& lists : lists_) storage.store(lists);
-  }
-
   // What the tight storage writes for these lists.
   void prepare_floor() {
     const assign::StorageRow& packed = *assign::find_storage("packed");
-    const auto storage = packed.make(assign::Params(packed.params));
-    start(*storage);
+    const auto storage = work_.storage(packed, assign::Params(packed.params));
     std::vector<std::size_t> bytes;
-    for (const assign::Lists& lists : lists_) {
+    for (const assign::Lists& lists : work_.lists()) {
       storage->store(lists);
       bytes.push_back(storage->use().upload_bytes);
     }
     write_floor_.set_bytes(bytes);
   }
 
-  const std::vector<TimedFrame>& frames_;
-  std::size_t precision_;
   double min_ns_;
-  std::unique_ptr<assign::Assigner> assigner_;
-  const grid::Grid* built_for_ = nullptr;
-  std::vector<assign::Lists> lists_;
+  TimedWork work_;
   std::vector<Store> stores_;
   WriteFloor write_floor_;
   std::vector<double> build_ns_, assign_ns_, floor_ns_;
-  Repeated assign_{[this] { assign_once(); }, min_ns_};
+  Repeated assign_{[this] { work_.assign(); }, min_ns_};
   Repeated floor_{[this] { write_floor_.copy_once(); }, min_ns_ / 10.0};
 };
 

@@ -1,0 +1,54 @@
+#pragma once
+// What is timed and what is counted: a group's methods over the frames that the configuration chooses for timing.
+
+#include <memory>
+#include <vector>
+
+#include "assign/storage.h"
+#include "run/frame_lights.h"
+#include "run/path_frames.h"
+#include "run/sweep.h"
+
+namespace clusterbench::run {
+
+// A frame with all that an assigner needs; frames with the same grid share it.
+struct TimedFrame {
+  std::shared_ptr<const grid::Grid> grid;
+  view::Frame frame;
+  FrameLights lights;
+};
+
+// `timing.frames` frames, evenly spaced over the path; all where it is 0.
+std::vector<TimedFrame> timed_frames(const Config& config, const GroupPlan& group, const PathFrames& path);
+
+// One method over the frames, with the storages that its cases use. The frames outlive it. Its lists are made once at
+// the start, so that memory has grown.
+class TimedWork {
+ public:
+  TimedWork(const Config& config, const GroupPlan& group, const Method& method, const std::vector<TimedFrame>& frames);
+
+  // Prepares for the first frame's grid.
+  void build();
+  // All frames. A grid that changes between frames (fit) is built within: that is what such a method costs.
+  void assign();
+  // Puts the lists of all frames into the storage of one case.
+  void convert(std::size_t store) const;
+
+  // Each store's case: its place in the group.
+  const std::vector<std::size_t>& places() const { return places_; }
+  std::size_t frame_count() const { return frames_.size(); }
+  const std::vector<assign::Lists>& lists() const { return lists_; }
+  // A storage that is ready for these frames.
+  std::unique_ptr<assign::Storage> storage(const assign::StorageRow& row, const assign::Params& params) const;
+
+ private:
+  const std::vector<TimedFrame>& frames_;
+  std::size_t precision_;
+  std::unique_ptr<assign::Assigner> assigner_;
+  const grid::Grid* built_for_ = nullptr;
+  std::vector<assign::Lists> lists_;
+  std::vector<std::size_t> places_;
+  std::vector<std::unique_ptr<assign::Storage>> stores_;
+};
+
+}  // namespace clusterbench::run
