@@ -21,6 +21,7 @@ HOMES = {
     "embree": ["view"],
     "hwy/": ["assign"],
     "valijson/": ["run"],
+    "valgrind/": ["run"],
     "CLI/": ["cli"],
 }
 

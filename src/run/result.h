@@ -17,6 +17,7 @@
 #include "measure/shading.h"
 #include "measure/stability.h"
 #include "measure/timing.h"
+#include "run/instruction_counter.h"
 
 namespace clusterbench::run {
 
@@ -59,6 +60,15 @@ struct TimingResult {
   int frames_timed = 0;
 };
 
+// Instructions of what TimingResult times.
+struct CountResult {
+  std::string source;       // "perf" or "callgrind"
+  std::string simd_target;  // of the counted code: valgrind shows a program fewer instruction sets than the machine has
+  int frames = 0;           // counted, the same that are timed
+  Counted build;            // of one build
+  Counted assign, convert;  // over all frames
+};
+
 // One method's lists along a finely sampled piece of the path, beside the true lists along the same piece.
 struct StabilityResult {
   measure::Churn method, truth;
@@ -98,6 +108,7 @@ struct CaseResult {
   std::optional<PrecisionResult> precision;   // where the configuration asks for more than float32
   std::optional<StabilityResult> stability;
   std::optional<TimingResult> timing;
+  std::optional<CountResult> count;  // where asked for
 };
 
 struct Result {

@@ -68,8 +68,13 @@ double timing_cost(const Config& config, const GroupPlan& group) {
 class Run {
  public:
   Run(const Config& config, const Plan& plan, const std::vector<std::string>& done, const Listener& listener,
-      const std::atomic<bool>& stop)
-      : config_(config), plan_(plan), done_(done.begin(), done.end()), listener_(listener), stop_(stop) {
+      const std::atomic<bool>& stop, const Counts& counts)
+      : config_(config),
+        plan_(plan),
+        done_(done.begin(), done.end()),
+        listener_(listener),
+        stop_(stop),
+        counts_(counts) {
     for (const GroupPlan& group : plan.groups) {
       const GroupPlan left = what_is_left(group);
       progress_.cases_total += group.cases.size();
@@ -159,6 +164,7 @@ class Run {
       CaseResult one = case_result(group.cases[i], path.count(), counted, i);
       if (!stabilities.empty()) one.stability = stabilities[i];
       if (!timings.empty()) one.timing = timings[i];
+      if (const auto count = counts_.find(one.id); count != counts_.end()) one.count = count->second;
       ++progress_.cases_done;
       if (listener_.on_case) listener_.on_case(one);
       out.cases.push_back(std::move(one));
@@ -208,14 +214,15 @@ class Run {
   std::set<std::string> done_;
   const Listener& listener_;
   const std::atomic<bool>& stop_;
+  const Counts& counts_;
   Progress progress_;
 };
 
 }  // namespace
 
 Result run_plan(const Config& config, const Plan& plan, const std::vector<std::string>& done, const Listener& listener,
-                const std::atomic<bool>& stop) {
-  return Run(config, plan, done, listener, stop).result();
+                const std::atomic<bool>& stop, const Counts& counts) {
+  return Run(config, plan, done, listener, stop, counts).result();
 }
 
 }  // namespace clusterbench::run

@@ -1,0 +1,16 @@
+# clusterbench_callgrind(): whether and, if not, why not this build can be counted by callgrind. valgrind is not needed to
+# build; without it `run --count=callgrind` says what is missing.
+function(clusterbench_callgrind)
+  find_path(CALLGRIND_INCLUDE valgrind/callgrind.h)
+  set(OBSTACLE "")
+  if(CLUSTERBENCH_SANITIZE)
+    set(OBSTACLE "this build has sanitizers (${CLUSTERBENCH_SANITIZE}), which valgrind cannot run: use another build")
+  elseif(NOT CALLGRIND_INCLUDE)
+    set(OBSTACLE "this build was made without valgrind/callgrind.h: install valgrind (Debian: apt-get install valgrind), then configure and build again")
+  endif()
+  set(DEFINITIONS "CLUSTERBENCH_CALLGRIND_OBSTACLE=\"${OBSTACLE}\"")
+  if(NOT OBSTACLE)
+    list(APPEND DEFINITIONS CLUSTERBENCH_HAS_CALLGRIND)
+  endif()
+  set_property(SOURCE src/run/callgrind_counter.cpp APPEND PROPERTY COMPILE_DEFINITIONS "${DEFINITIONS}")
+endfunction()
