@@ -173,6 +173,19 @@ Json timing(const run::TimingResult& t) {
   return out;
 }
 
+Json count(const run::CountResult& c) {
+  const auto per_frame = [&](std::uint64_t all) { return static_cast<double>(all) / c.frames; };
+  Json out{{"source", c.source},
+           {"simd_target", c.simd_target},
+           {"frames", c.frames},
+           {"instructions_per_build", c.build.instructions},
+           {"instructions_per_frame",
+            {{"assign", per_frame(c.assign.instructions)}, {"convert", per_frame(c.convert.instructions)}}}};
+  if (c.assign.cycles && c.convert.cycles)
+    out["cycles_per_frame"] = {{"assign", per_frame(*c.assign.cycles)}, {"convert", per_frame(*c.convert.cycles)}};
+  return out;
+}
+
 Json to_json(const run::ToolFacts& tool) {
   Json libraries = Json::object();
   for (const auto& [name, version] : tool.libraries) libraries[name] = version;
@@ -301,6 +314,7 @@ Json case_to_json(const run::CaseResult& one) {
   if (one.stability) out["stability"] = stability(*one.stability);
   if (one.precision) out["precision"] = precision(*one.precision);
   if (one.timing) out["timing"] = timing(*one.timing);
+  if (one.count) out["count"] = count(*one.count);
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <set>
 #include <vector>
 
+#include "core/text.h"
 #include "report/columns.h"
 #include "report/lookup_table.h"
 #include "report/precision_table.h"
@@ -17,6 +18,11 @@ using Json = nlohmann::ordered_json;
 constexpr const char* k_red = "\033[31m";
 constexpr const char* k_bold = "\033[1m";
 constexpr const char* k_plain = "\033[0m";
+
+constexpr const char* k_instructions = "/count/instructions_per_frame/assign";
+
+// The place of the instructions' column, where there is one.
+constexpr std::ptrdiff_t k_instructions_column = 3;
 
 const Cells k_headings{"",       "assigner", "assign us", "ns/pair", "floor",  "pairs",
                        "excess", "missed",   "p99",       "bytes",   "entries"};
@@ -35,7 +41,7 @@ std::string time_text(const Json& one) {
 }
 
 double sort_key(const Json& one) {
-  for (const char* pointer : {"/timing/assign_ns/median", "/error/excess_ratio"}) {
+  for (const char* pointer : {"/timing/assign_ns/median", k_instructions, "/error/excess_ratio"}) {
     const Json::json_pointer place(pointer);
     if (one.contains(place) && one[place].is_number()) return one[place].get<double>();
   }
@@ -50,10 +56,21 @@ bool has_failed(const Json& one) {
          (error["false_positives"] != 0 && is_exact);
 }
 
-Line line_of(const Json& one, bool is_on_front, bool names_storage) {
+// What the table has beside the usual.
+struct Extras {
+  bool storages = false, instructions = false;
+};
+
+Cells headings(const Extras& extras) {
+  Cells cells = k_headings;
+  if (extras.instructions) cells.insert(cells.begin() + k_instructions_column, "instr");
+  return cells;
+}
+
+Line line_of(const Json& one, bool is_on_front, const Extras& extras) {
   Line line;
   std::string label = method_name(one);
-  if (names_storage) label += " / " + one["storage"].get<std::string>();
+  if (extras.storages) label += " / " + one["storage"].get<std::string>();
   line.cells = {is_on_front ? "*" : "",
                 label,
                 time_text(one),
@@ -65,6 +82,8 @@ Line line_of(const Json& one, bool is_on_front, bool names_storage) {
                 number_text(one, "/occupancy/lights_per_cluster/p99", "%.0f"),
                 short_count(one, "/buffers/bytes/high_water"),
                 short_count(one, "/buffers/index_entries/recommended")};
+  if (extras.instructions)
+    line.cells.insert(line.cells.begin() + k_instructions_column, short_count(one, k_instructions));
   line.has_failed = has_failed(one);
   line.sort_key = sort_key(one);
   return line;
@@ -81,6 +100,16 @@ bool has_several_storages(const Json& cases) {
   std::set<std::string> storages;
   for (const Json& one : cases) storages.insert(one["storage"].get<std::string>());
   return storages.size() > 1;
+}
+
+// Who counted, on which instruction sets: "callgrind (AVX2)". "" where nobody did.
+std::string counters(const Json& cases) {
+  std::set<std::string> names;
+  for (const Json& one : cases)
+    if (one.contains("count"))
+      names.insert(one["count"]["source"].get<std::string>() + " (" + one["count"]["simd_target"].get<std::string>() +
+                   ")");
+  return joined(std::vector<std::string>(names.begin(), names.end()));
 }
 
 std::string scene_heading(const Json& scene) {
@@ -124,7 +153,9 @@ std::string case_warnings(const Json& cases) {
 std::string render_table(const Json& result, bool colour) {
   const Json& cases = result["cases"];
   const std::set<std::string> on_front = ids_on_front(result);
-  const bool names_storage = has_several_storages(cases);
+  const std::string counted_by = counters(cases);
+  const Extras extras{has_several_storages(cases), !counted_by.empty()};
+  const Cells heads = headings(extras);
   std::string out;
   for (const Json& scene : result["scenes"]) {
     const std::vector<std::string> blocks = blocks_of(cases, scene);
@@ -134,13 +165,13 @@ std::string render_table(const Json& result, bool colour) {
       std::vector<Line> lines;
       for (const Json& one : cases)
         if (one["scene"] == scene["name"] && block_of(one) == block)
-          lines.push_back(line_of(one, on_front.contains(one["id"].get<std::string>()), names_storage));
+          lines.push_back(line_of(one, on_front.contains(one["id"].get<std::string>()), extras));
       std::stable_sort(lines.begin(), lines.end(),
                        [](const Line& a, const Line& b) { return a.sort_key < b.sort_key; });
-      std::vector<Cells> rows{k_headings};
+      std::vector<Cells> rows{heads};
       for (const Line& line : lines) rows.push_back(line.cells);
       const std::vector<std::size_t> widths = widths_of(rows);
-      out += " " + block + "\n" + aligned(k_headings, widths);
+      out += " " + block + "\n" + aligned(heads, widths);
       for (const Line& line : lines)
         out += line.has_failed && colour ? k_red + aligned(line.cells, widths) + k_plain : aligned(line.cells, widths);
     }
@@ -150,6 +181,7 @@ std::string render_table(const Json& result, bool colour) {
       "* no other case of its scene, camera and viewport is better in time, bytes and overshade.\n"
       "floor: assign time / time to copy the lists.\n"
       "excess: false positives in % of true pairs. p99: lights per cell. entries: allocation with margin.\n";
+  if (!counted_by.empty()) out += "instr: instructions of one frame's assignment, counted by " + counted_by + ".\n";
   if (!result["skipped"].empty())
     out += std::to_string(result["skipped"].size()) + " combinations skipped; the result says why.\n";
   return out + lookup_table(result) + stability_table(result) + precision_table(result) + scene_warnings(result) +

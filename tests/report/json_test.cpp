@@ -12,6 +12,7 @@ namespace clusterbench::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using testing::add_count;
 using testing::add_precision;
 using testing::add_stability;
 using testing::case_by_hand;
@@ -27,6 +28,7 @@ TEST(ResultJson, is_what_the_schema_says) {
   lose_a_light(result.cases[0]);
   add_stability(result.cases[0]);
   add_precision(result.cases[0]);
+  add_count(result.cases[0]);
   result.cases[0].timing->vs = run::Versus{"aabb", {3.0, {2.9, 3.1}}};
   EXPECT_EQ(violations(result_to_json(result, {})), std::vector<std::string>{});
 }
@@ -44,6 +46,24 @@ TEST(ResultJson, without_truth_samples_and_times_is_what_the_schema_says) {
   EXPECT_FALSE(json["cases"][0].contains("timing"));
   EXPECT_FALSE(json["cases"][0].contains("stability"));
   EXPECT_FALSE(json["cases"][0].contains("precision"));
+  EXPECT_FALSE(json["cases"][0].contains("count"));
+}
+
+TEST(ResultJson, instructions_are_those_of_one_frame) {
+  run::Result result = result_by_hand();
+  add_count(result.cases[0]);
+  add_count(result.cases[1]);
+  result.cases[1].count->assign.cycles = 5000;
+  result.cases[1].count->convert.cycles = 1000;
+  const Json json = result_to_json(result, {}), count = json["cases"][0]["count"];
+  EXPECT_EQ(count["source"], "callgrind");
+  EXPECT_EQ(count["simd_target"], "AVX2");
+  EXPECT_EQ(count["frames"], 2);
+  EXPECT_EQ(count["instructions_per_build"], 700);
+  EXPECT_EQ(count["instructions_per_frame"], (Json{{"assign", 20000.0}, {"convert", 1500.5}}));
+  EXPECT_FALSE(count.contains("cycles_per_frame"));
+  EXPECT_EQ(json["cases"][1]["count"]["cycles_per_frame"], (Json{{"assign", 2500.0}, {"convert", 500.0}}));
+  EXPECT_EQ(violations(json), std::vector<std::string>{});
 }
 
 TEST(ResultJson, stability_stands_beside_the_truths_own) {

@@ -11,6 +11,7 @@
 namespace clusterbench::report {
 namespace {
 
+using testing::add_count;
 using testing::add_precision;
 using testing::add_stability;
 using testing::lose_a_light;
@@ -69,6 +70,30 @@ TEST(Table, what_was_not_measured_is_a_dash) {
   for (run::CaseResult& one : result.cases) one.timing.reset();
   const auto line = words(line_with(table_of(result), "aabb "));
   EXPECT_EQ(std::count(line.begin(), line.end(), "-"), 3) << "assign, ns/pair and floor";
+}
+
+TEST(Table, instructions_have_a_column_only_where_they_were_counted) {
+  run::Result result = result_by_hand();
+  EXPECT_EQ(table_of(result).find("instr"), std::string::npos);
+  add_count(result.cases[1]);
+  const std::string table = table_of(result);
+  EXPECT_EQ(words(line_with(table, "assign us")).at(3), "instr");
+  EXPECT_EQ(words(line_with(table, "aabb ")).at(3), "20.0k");
+  EXPECT_EQ(words(line_with(table, "brute-force ")).at(2), "-");
+  EXPECT_NE(table.find("counted by callgrind (AVX2)"), std::string::npos) << table;
+  for (const std::string& line : lines_of(table)) EXPECT_LE(line.size(), 120u) << line;
+}
+
+TEST(Table, without_times_the_fewest_instructions_come_first) {
+  run::Result result = result_by_hand();
+  for (run::CaseResult& one : result.cases) {
+    one.timing.reset();
+    add_count(one);
+    one.error->false_positives = one.assigner == "aabb" ? 40 : 1;
+  }
+  result.cases[0].count->assign.instructions = 90000;
+  const std::string table = table_of(result);
+  EXPECT_LT(table.find("aabb "), table.find("brute-force "));
 }
 
 TEST(Table, without_colour_there_is_no_escape) {
