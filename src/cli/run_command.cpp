@@ -1,11 +1,13 @@
 // `clusterbench run CONFIG|SCENE...`: plan, measure, show, write.
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
 
 #include "cli/command.h"
+#include "cli/count.h"
 #include "cli/output.h"
 #include "cli/stop.h"
 #include "cli/terminal.h"
@@ -25,9 +27,13 @@ using Json = nlohmann::ordered_json;
 
 struct Flags {
   std::vector<std::string> inputs;
-  std::string output, filter;
+  std::string output, filter, count;
   std::optional<int> threads;
   bool resume = false, dry_run = false, no_timing = false, quiet = false;
+
+  // Only where this program runs itself under callgrind.
+  std::string count_dumps;
+  std::vector<std::string> count_ids;
 };
 
 bool is_scene(const std::string& path) {
@@ -39,6 +45,9 @@ run::Config read_inputs(const Flags& flags) {
   const auto scenes = static_cast<std::size_t>(std::count_if(flags.inputs.begin(), flags.inputs.end(), is_scene));
   if (scenes == flags.inputs.size()) return run::default_config({flags.inputs.begin(), flags.inputs.end()});
   if (scenes == 0 && flags.inputs.size() == 1) return run::load_config(flags.inputs.front());
+  for (const char* way : {"perf", "callgrind", "auto"})
+    if (!flags.count.empty() && flags.inputs.back() == way)
+      throw Error("", "--count", std::string("takes its value with an equals sign: --count=") + way);
   throw Error("", "command line",
               "takes one configuration (.json), or one or more scenes (.glb, .gltf), not " + joined(flags.inputs));
 }
@@ -71,12 +80,14 @@ ExitCode print_plan(const run::Plan& plan) {
 }
 
 // What an interrupted run must have had in common with the one that continues it.
-Json journal_header(const run::Config& config, const run::Plan& plan, const std::string& filter) {
+Json journal_header(const run::Config& config, const run::Plan& plan, const Flags& flags) {
   const run::ToolFacts tool = run::tool_facts();
   Json scenes = Json::array();
   for (const run::SceneData& data : plan.scenes) scenes.push_back(data.scene.sha256);
-  return Json{{"version", tool.version}, {"git_sha", tool.git_sha}, {"flags", tool.flags},
-              {"scenes", scenes},        {"filter", filter},        {"config", config.resolved}};
+  Json header{{"version", tool.version}, {"git_sha", tool.git_sha}, {"flags", tool.flags},
+              {"scenes", scenes},        {"filter", flags.filter},  {"config", config.resolved}};
+  if (!flags.count.empty()) header["count"] = flags.count;
+  return header;
 }
 
 // A file gets a journal; a device or a pipe takes the result at the end.
@@ -86,7 +97,7 @@ std::unique_ptr<report::Journal> open_journal(const Flags& flags, const run::Con
     if (flags.resume) throw Error("", "--resume", "needs the result file of the interrupted run: add -o FILE");
     return nullptr;
   }
-  return std::make_unique<report::Journal>(flags.output, journal_header(config, plan, flags.filter), flags.resume,
+  return std::make_unique<report::Journal>(flags.output, journal_header(config, plan, flags), flags.resume,
                                            k_bytes_per_case * case_count(plan));
 }
 
@@ -114,17 +125,52 @@ run::Listener make_listener(ProgressLine& progress, report::Journal* journal, st
   return listener;
 }
 
-ExitCode measure(const Flags& flags, const run::Config& config, const run::Plan& plan) {
+// The ids of the plan's cases without those that an interrupted run has finished.
+std::vector<std::string> ids_left(const run::Plan& plan, const std::vector<std::string>& done) {
+  std::vector<std::string> ids;
+  for (const run::GroupPlan& group : plan.groups)
+    for (const run::CasePlan& one : group.cases)
+      if (std::find(done.begin(), done.end(), one.id) == done.end()) ids.push_back(one.id);
+  return ids;
+}
+
+// Before all else: what cannot be counted is known at once, and nothing that is timed runs beside it.
+run::Counts count_instructions(CountWay way, const CountTask& task, ProgressLine& progress,
+                               const std::atomic<bool>& stop) {
+  run::Progress now;
+  now.cases_total = task.ids.size();
+  now.cost_total = static_cast<double>(task.ids.size());
+  now.doing = std::string("instructions by ") + name_of(way);
+  progress.show(now);
+  run::Counts counts = count_cases(
+      way, task,
+      [&](const std::string&) {
+        now.cost_done = static_cast<double>(++now.cases_done);
+        progress.show(now);
+      },
+      stop);
+  progress.clear();
+  return counts;
+}
+
+ExitCode measure(const Flags& flags, const run::Config& config, const run::Plan& plan, CountWay way) {
   if (is_stream(flags.output)) probe_output(flags.output);
   const std::unique_ptr<report::Journal> journal = open_journal(flags, config, plan);
   const std::vector<Json> earlier = journal ? journal->earlier_cases() : std::vector<Json>{};
+  const std::vector<std::string> earlier_ids = journal ? journal->earlier_ids() : std::vector<std::string>{};
   const std::atomic<bool>& stop = stop_on_signals();
 
   const Terminal screen = terminal();
+  run::Counts counts;
+  if (way != CountWay::none) {
+    ProgressLine progress(screen, flags.quiet);
+    counts = count_instructions(way, {config, plan, flags.inputs, ids_left(plan, earlier_ids)}, progress, stop);
+    if (stop) return interrupted(journal.get());
+  }
   ProgressLine progress(screen, flags.quiet);
   const run::Result fresh =
-      run::run_plan(config, plan, journal ? journal->earlier_ids() : std::vector<std::string>{},
-                    make_listener(progress, journal.get(), earlier.size(), case_count(plan)), stop);
+      run::run_plan(config, plan, earlier_ids, make_listener(progress, journal.get(), earlier.size(), case_count(plan)),
+                    stop, counts);
   progress.clear();
   if (stop) return interrupted(journal.get());
 
@@ -139,8 +185,13 @@ ExitCode measure(const Flags& flags, const run::Config& config, const run::Plan&
 
 ExitCode run(const Flags& flags) {
   const run::Config config = overridden(read_inputs(flags), flags);
+  const CountWay way = count_way(flags.count);
   const run::Plan plan = run::make_plan(config, flags.filter);
-  return flags.dry_run ? print_plan(plan) : measure(flags, config, plan);
+  if (!flags.count_dumps.empty()) {
+    print_callgrind_counts({config, plan, flags.inputs, flags.count_ids}, flags.count_dumps);
+    return ExitCode::ok;
+  }
+  return flags.dry_run ? print_plan(plan) : measure(flags, config, plan, way);
 }
 
 }  // namespace
@@ -153,6 +204,10 @@ void add_run(CLI::App& app, Action& action) {
   command->add_option("--filter", flags->filter, "Only cases whose name matches this regular expression");
   command->add_option("--threads", flags->threads, "Threads for the truth; results do not depend on it")
       ->check(CLI::Range(1, 1024));
+  command->add_flag("--count{auto}", flags->count,
+                    "Count instructions, too: --count=perf (hardware), =callgrind (valgrind), or what works");
+  command->add_option("--count-dumps", flags->count_dumps)->group("");
+  command->add_option("--count-ids", flags->count_ids)->group("");
   command->add_flag("--resume", flags->resume, "Continue the interrupted run of the same -o FILE");
   command->add_flag("--dry-run", flags->dry_run, "List the cases and what is skipped, measure nothing");
   command->add_flag("--no-timing", flags->no_timing, "Count only; the output is then the same on every machine");

@@ -66,6 +66,9 @@ void ProgressLine::case_done(const run::CaseResult& done, std::size_t number, st
     std::snprintf(micros, sizeof micros, "%.1f", done.timing->assign_ns.median / 1000.0);
     std::cerr << ", " << micros << " us";
   }
+  if (done.count)
+    std::cerr << ", " << done.count->assign.instructions / static_cast<std::uint64_t>(done.count->frames)
+              << " instructions";
   std::cerr << std::endl;
 }
 

@@ -68,8 +68,9 @@ void Journal::read_earlier(const Json& header) {
     if (entry.contains("header")) {
       known = true;
       if (entry["header"] != header)
-        throw Error(partial_.string(), "line " + std::to_string(number),
-                    "is an interrupted run of another configuration, scene or build; remove it to start again");
+        throw Error(
+            partial_.string(), "line " + std::to_string(number),
+            "is an interrupted run of another configuration, --count, scene or build; remove it to start again");
     } else if (known && entry.contains("case")) {
       earlier_cases_.push_back(entry["case"]);
     }

@@ -35,6 +35,8 @@ class Folder {
 
   std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
+  const std::filesystem::path& path() const { return path_; }
+
   std::filesystem::path write(const std::string& name, const std::string& text) const {
     std::ofstream(path_ / name, std::ios::binary) << text;
     return path_ / name;

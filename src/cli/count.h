@@ -1,0 +1,38 @@
+#pragma once
+// `run --count`: instructions per case, by hardware counters in this process, or by this program run once more under
+// callgrind.
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "run/count_pass.h"
+
+namespace clusterbench::cli {
+
+enum class CountWay { none, perf, callgrind };
+
+// From what stands behind --count: "perf", "callgrind", or "auto" for the first of them that works here; "" for none.
+// Throws Error that says what is allowed, and what is missing where it cannot be.
+CountWay count_way(const std::string& name);
+const char* name_of(CountWay way);
+
+// What is to be counted.
+struct CountTask {
+  const run::Config& config;
+  const run::Plan& plan;
+  std::vector<std::string> inputs;  // of the command line that made config and plan
+  std::vector<std::string> ids;     // of the cases
+};
+
+// Counts every case of the task, or those before `stop` became true. Throws Error if one could not be counted.
+run::Counts count_cases(CountWay way, const CountTask& task,
+                        const std::function<void(const std::string& case_name)>& on_case,
+                        const std::atomic<bool>& stop);
+
+// The other side, under callgrind: counts the task's cases with `dumps` for callgrind's own files, and prints a line
+// for each.
+void print_callgrind_counts(const CountTask& task, const std::string& dumps);
+
+}  // namespace clusterbench::cli
