@@ -16,6 +16,7 @@ class CallgrindCounter final : public InstructionCounter {
   explicit CallgrindCounter(std::filesystem::path dumps);
 
   const char* source() const override { return "callgrind"; }
+  bool counts_all_threads() const override { return true; }
   void start() override;
   Counted stop() override;
 

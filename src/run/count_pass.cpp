@@ -1,6 +1,7 @@
 #include "run/count_pass.h"
 
 #include "assign/simd/span_lists.h"
+#include "core/error.h"
 #include "run/timed_work.h"
 
 namespace clusterbench::run {
@@ -11,6 +12,14 @@ Counted counted(InstructionCounter& counter, Work work) {
   counter.start();
   work();
   return counter.stop();
+}
+
+void check_threads(const MethodRequest& assigner, const InstructionCounter& counter) {
+  const auto threads = assigner.params.values().find("threads");
+  if (counter.counts_all_threads() || threads == assigner.params.values().end()) return;
+  if (std::get<double>(threads->second) > 1.0)
+    throw Error("", std::string("--count=") + counter.source(),
+                "counts one thread, and " + assigner.label() + " takes several; take --count=callgrind, or one thread");
 }
 
 // The counts of one method's cases, in the order of its storages.
@@ -44,6 +53,7 @@ void count_pass(const Config& config, const Plan& plan, const std::function<bool
     const std::vector<TimedFrame> frames = timed_frames(config, group, path);
     for (const Method& method : methods_of(group)) {
       if (stop) return;
+      check_threads(config.assigners[method.assigner], counter);
       TimedWork work(config, group, method, frames);
       const std::vector<CountResult> results = count_method(work, counter);
       for (std::size_t i = 0; i < results.size(); ++i) on_case(group.cases[work.places()[i]], results[i]);

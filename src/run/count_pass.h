@@ -15,7 +15,8 @@ namespace clusterbench::run {
 using Counts = std::map<std::string, CountResult>;
 
 // Counts the cases of the plan that `is_wanted`; everything runs once before it is counted, so that memory has grown.
-// `on_case` gets each as soon as it is counted. `stop` is looked at between methods.
+// Throws Error for a method on several threads where the counter sees only one. `on_case` gets each as soon as it is
+// counted. `stop` is looked at between methods.
 void count_pass(const Config& config, const Plan& plan, const std::function<bool(const CasePlan&)>& is_wanted,
                 InstructionCounter& counter, const std::function<void(const CasePlan&, const CountResult&)>& on_case,
                 const std::atomic<bool>& stop);

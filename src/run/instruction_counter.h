@@ -7,7 +7,7 @@
 
 namespace clusterbench::run {
 
-// Between a start and its stop, in user space, on the calling thread.
+// Between a start and its stop, in user space.
 struct Counted {
   std::uint64_t instructions = 0;
   std::optional<std::uint64_t> cycles;  // where the source knows them
@@ -16,7 +16,8 @@ struct Counted {
 class InstructionCounter {
  public:
   virtual ~InstructionCounter() = default;
-  virtual const char* source() const = 0;  // as results name it
+  virtual const char* source() const = 0;       // as results name it
+  virtual bool counts_all_threads() const = 0;  // else only the calling one
   virtual void start() = 0;
   // Throws Error if nothing was counted.
   virtual Counted stop() = 0;

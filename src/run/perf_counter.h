@@ -16,6 +16,7 @@ class PerfCounter final : public InstructionCounter {
   PerfCounter& operator=(const PerfCounter&) = delete;
 
   const char* source() const override { return "perf"; }
+  bool counts_all_threads() const override { return false; }
   void start() override;
   Counted stop() override;
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <malloc.h>
 
+#include "core/error.h"
 #include "run/walk.h"
 
 namespace clusterbench::run {
@@ -15,6 +16,7 @@ using testing::Walk;
 class StepCounter final : public InstructionCounter {
  public:
   const char* source() const override { return "steps"; }
+  bool counts_all_threads() const override { return sees_all_threads; }
   void start() override {
     ++starts;
     in_use_ = mallinfo2().uordblks;
@@ -24,6 +26,7 @@ class StepCounter final : public InstructionCounter {
     return {10 * ++steps_, {}};
   }
 
+  bool sees_all_threads = false;
   int starts = 0;
   std::vector<long> grown;
 
@@ -109,6 +112,19 @@ TEST(CountPass, a_stop_ends_it_between_methods) {
       walk.config, walk.plan, [](const CasePlan&) { return true; }, counter,
       [&](const CasePlan&, const CountResult&) { stop = true; }, stop);
   EXPECT_EQ(counter.starts, 3);
+}
+
+TEST(CountPass, a_method_on_several_threads_needs_a_counter_that_sees_them) {
+  const Walk walk = walk_of(R"("assigners": ["aabb", {"name": "exact-fast", "threads": 2}])");
+  StepCounter counter;
+  try {
+    count(walk, counter);
+    FAIL() << "counted one thread of two";
+  } catch (const Error& error) {
+    EXPECT_NE(error.message().find("exact-fast(threads=2)"), std::string::npos) << error.what();
+  }
+  counter.sees_all_threads = true;
+  EXPECT_EQ(count(walk, counter).ids.size(), 2u);
 }
 
 TEST(Runner, a_count_goes_to_the_result_of_its_case) {
