@@ -43,7 +43,7 @@ void LightTest::start_frame(const view::LightArrays& lights) {
 }
 
 geom::Ball LightTest::ball(const view::LightArrays& lights, std::uint32_t light, float roundings) const {
-  const float all = inflation_ * (view::k_given_roundings + roundings);
+  const float all = padding(roundings);
   if (!lights.is_spot(light) || spot_ == SpotTest::cone_sphere) return lights.ball(light, all);
   return geom::bounding_ball(lights.cone(light, all));
 }
@@ -52,8 +52,7 @@ TestedLight LightTest::tested(const view::LightArrays& lights, std::uint32_t lig
   TestedLight tested{light, ball(lights, light, roundings_), false, {}};
   if (!lights.is_spot(light) || spot_ == SpotTest::ball) return tested;
   tested.has_cone = true;
-  // What the cone's tests lose, they add themselves.
-  tested.cone = lights.cone(light, inflation_ * view::k_given_roundings);
+  tested.cone = cone(lights, light);
   return tested;
 }
 

@@ -41,6 +41,17 @@ class LightTest {
   // The same ball as a method with no more than these roundings of its own would have it: for steps before the method's
   // test that lose less.
   geom::Ball ball(const view::LightArrays& lights, std::uint32_t light, float roundings) const;
+  // The cone that the cells' balls are tested with, of a spot.
+  geom::SphericalCone cone(const view::LightArrays& lights, std::uint32_t light) const {
+    // What the cone's tests lose, they add themselves.
+    return lights.cone(light, padding(0.0f));
+  }
+  // Roundings that a method with no more than these of its own pads by.
+  float padding(float roundings) const { return inflation_ * (view::k_given_roundings + roundings); }
+  float own_padding() const { return padding(roundings_); }
+  // Whether spots are tested by their cones, too, and then the cells' balls, in the order of the cells.
+  bool tests_cones() const { return spot_ != SpotTest::ball; }
+  const std::vector<geom::Ball>& cell_balls() const { return cell_balls_; }
   bool cone_touches(const TestedLight& light, std::uint32_t cell) const {
     return geom::cone_touches_ball(light.cone, cell_balls_[cell]);
   }

@@ -9,25 +9,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <vector>
 
 #include "assign/assigner.h"
 #include "assign/cell_box.h"
 #include "assign/light_test.h"
+#include "assign/refinement.h"
 #include "assign/tile_planes.h"
 
 namespace clusterbench::assign {
 namespace {
-
-constexpr float k_inf = std::numeric_limits<float>::infinity();
-
-// With sizes as units: the gap to a slice is off by 1. The distance to a row's plane by 3 (a rounded normal, two
-// products and a sum), so the foot on it by 3 + 2 and, seen from a column's plane, 3 + 2 + 3 more. The squares'
-// roundings, 8 of r² in all, are 4 of r. A test that compares gap² + gap'² + gap''² with r² is off by no more than the
-// gaps' sum: 1 + 5 + 8 + 4 = 18.
-constexpr float k_roundings = 18.0f;
 
 // A ball in view space with its squared radius, which shrinks by what is cut off.
 struct Remainder {
@@ -57,45 +49,10 @@ bool reaches_column(const Remainder& ball, const TilePlane& left, const TilePlan
   return gap <= 0.0f || gap * gap <= ball.squared_radius;
 }
 
-// What support() can lose, as a length: 4 roundings of the apex for n·apex, 4 of the range for the cosine to the axis;
-// the sine's error e times sin a is at most 4 more, because (1 - cos²) is off by 8 and the sine is needed only where it
-// is larger than sin a; 3 for the sums.
-float slack_of(const geom::SphericalCone& cone) {
-  constexpr float k_support_roundings = 16.0f;
-  const float size = std::fabs(cone.apex.x) + std::fabs(cone.apex.y) + std::fabs(cone.apex.z) + cone.range;
-  return k_support_roundings * 0x1p-24f * size;
-}
-
-// Largest value of n·p over the cone, n of unit length. The cone's farthest point along n is the ball's if n lies
-// within the half-angle of the axis, else the rim's, or the apex where the whole cone leans back.
-float support(const geom::SphericalCone& cone, const Vec3f& n) {
-  if (!std::isfinite(cone.range)) return k_inf;
-  const float along_axis = std::clamp(glm::dot(n, cone.axis), -1.0f, 1.0f);
-  const float beside_axis = std::sqrt((1.0f - along_axis) * (1.0f + along_axis));
-  const float steepest =
-      along_axis >= cone.cos_angle ? 1.0f : along_axis * cone.cos_angle + beside_axis * cone.sin_angle;
-  return glm::dot(n, cone.apex) + cone.range * std::max(0.0f, steepest) + slack_of(cone);
-}
-
-// Narrows a range of cells, first..last, from both sides by their boundaries: the end cells go while the cone lies
-// wholly on the other side. side(i) is the unit normal of boundary i towards higher indices, and the boundary's offset.
-struct Side {
-  Vec3f normal;
-  float offset;
-};
-
-template <class SideAt>
-void narrow(int& first, int& last, const geom::SphericalCone& cone, SideAt&& side) {
-  const auto wholly_beyond = [&](const Side& s) { return s.offset - support(cone, -s.normal) > 0.0f; };
-  const auto wholly_before = [&](const Side& s) { return s.offset + support(cone, s.normal) < 0.0f; };
-  while (first <= last && wholly_beyond(side(first + 1))) ++first;
-  while (first <= last && wholly_before(side(last))) --last;
-}
-
 class SphereRefinement final : public Assigner {
  public:
   explicit SphereRefinement(const Params& params)
-      : test_(params, k_roundings), narrowing_(params.text("spot") == "narrowing") {}
+      : test_(params, k_refinement_roundings), narrowing_(narrows(params)) {}
 
   void build(const grid::Grid& grid) override {
     grid_ = &grid;
@@ -124,7 +81,8 @@ class SphereRefinement final : public Assigner {
     if (lights.is_empty(light)) return;
     const TestedLight tested = test_.tested(lights, light);
     CellBox box = cell_box(*grid_, test_.ball(lights, light, k_cell_box_roundings));
-    if (tested.has_cone && narrowing_ && !box.empty()) narrow_from_six_sides(box, tested.cone);
+    if (tested.has_cone && narrowing_ && !box.empty())
+      narrow_from_six_sides(box, tested.cone, grid_->screen().slices.boundaries, columns_, rows_);
     if (!box.empty()) add_ball(box, tested);
   }
 
@@ -162,22 +120,6 @@ class SphereRefinement final : public Assigner {
                   pairs_, tests_);
   }
 
-  // The box's cells from left, right, top, bottom, near and far.
-  void narrow_from_six_sides(CellBox& box, const geom::SphericalCone& cone) const {
-    const std::vector<float>& depths = grid_->screen().slices.boundaries;
-    narrow(box.first.z, box.last.z, cone, [&](int i) {
-      return Side{{0.0f, 0.0f, -1.0f}, -depths[static_cast<std::size_t>(i)]};
-    });
-    narrow(box.first.x, box.last.x, cone, [&](int i) {
-      const TilePlane& plane = columns_[static_cast<std::size_t>(i)];
-      return Side{{plane.across, 0.0f, -plane.along}, plane.offset};
-    });
-    narrow(box.first.y, box.last.y, cone, [&](int i) {
-      const TilePlane& plane = rows_[static_cast<std::size_t>(i)];
-      return Side{{0.0f, -plane.across, plane.along}, -plane.offset};
-    });
-  }
-
   LightTest test_;
   bool narrowing_;
   const grid::Grid* grid_ = nullptr;
@@ -198,14 +140,7 @@ const AssignerRow sphere_refinement_row{
     .summary = "a light's ball cut down at the nearer plane of each slice and each row, then against the columns",
     .source = "Persson 2015, Practical Clustered Shading; Filament's froxels",
     .kinds = {grid::Kind::frustum},
-    .params = {{.name = "spot",
-                .summary =
-                    "spots: bounding ball of the cone; the range's ball and the cone against cells' bounding spheres; "
-                    "both; or both after narrowing the cell box by planes from six sides",
-                .standard = std::string("narrowing"),
-                .unit = "",
-                .choices = {"ball", "cone-sphere", "both", "narrowing"}},
-               inflation_param()},
+    .params = refinement_params(),
     .make = make,
 };
 

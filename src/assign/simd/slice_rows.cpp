@@ -340,7 +340,8 @@ HWY_INLINE VI planes_below(const RowPlanes& planes, V depth, int most) {
 // Reaches whose fourth powers, and these times a slope, are normal numbers.
 constexpr float k_least_reach = 1e-9f, k_most_reach = 1e9f;
 
-void see(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, SeenBalls& seen) {
+void see(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, SeenBalls& seen,
+         float roundings) {
   const D d;
   const DI di;
   const hn::RebindToUnsigned<D> du;
@@ -355,7 +356,7 @@ void see(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_l
       return hn::LoadU(d, rest);
     };
     const V x = load(balls.x), y = load(balls.y), depth = hn::Neg(load(balls.z)), given = load(balls.radius);
-    const V reach = load(balls.reach), slack = hn::Mul(reach, all(k_slice_rows_roundings * 0x1p-24f));
+    const V reach = load(balls.reach), slack = hn::Mul(reach, all(roundings * 0x1p-24f));
     const V radius = hn::Add(given, slack);
     const M reaches = hn::And(hn::Le(view.gap(x, y, depth), radius), hn::Gt(given, hn::Zero(d)));
     const M wanted = hn::And(reaches, hn::FirstN(d, left));
@@ -446,8 +447,9 @@ std::size_t SeenBalls::capacity_bytes() const {
   return 8 * sizeof(float) * light.capacity();
 }
 
-void see_balls(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, SeenBalls& seen) {
-  HWY_DYNAMIC_DISPATCH(see)(planes, balls, first_light, seen);
+void see_balls(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, SeenBalls& seen,
+               float roundings) {
+  HWY_DYNAMIC_DISPATCH(see)(planes, balls, first_light, seen, roundings);
 }
 
 std::uint32_t balls_per_batch() {

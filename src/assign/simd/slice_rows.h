@@ -59,8 +59,10 @@ struct SeenBalls {
 // because a larger slack costs a few more decisions only.
 inline constexpr float k_slice_rows_roundings = 48.0f;
 
-// Appends the balls that may reach into the grid; the first one's light is `first_light`. Those left out touch no cell.
-void see_balls(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, SeenBalls& seen);
+// Appends the balls that may reach into the grid; the first one's light is `first_light`. Those left out touch no cell,
+// even if they are larger by these roundings.
+void see_balls(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, SeenBalls& seen,
+               float roundings = k_slice_rows_roundings);
 
 // Rows of a batch of balls within one slice. Of ball i, row r (first_row <= r <= last_row, the rows that any ball may
 // touch) has the columns at columns[r * lanes + i].

@@ -3,6 +3,7 @@
 // at once and compress-stores the lights whose span holds it. Bands of rows are finished one after the other, so that
 // what was collected is still in the cache. SIMD, dispatched at run time; the same lists as PairBuffer on every target.
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -18,11 +19,13 @@ class SpanLists {
  public:
   // A frame of `bands` bands; a band is `rows` rows (a slice, say) of `columns` cells. `out` must outlive finish().
   void start(std::uint32_t bands, std::uint32_t rows, std::uint32_t columns, Lists& out);
-  // To the present band. Lights must come in ascending order within a row, each once. 0 <= first <= last < columns.
+  // To the present band. Lights must come in ascending order within a row, in each cell once.
+  // 0 <= first <= last < columns.
   void add(std::uint32_t row, std::uint32_t first, std::uint32_t last, std::uint32_t light) {
     std::uint32_t& size = sizes_[row];
     if (size == pitch_) grow();
     const std::size_t place = row * pitch_ + size++;
+    most_ = std::max(most_, size);
     lights_[place] = light;
     before_[place] = static_cast<std::int32_t>(first) - 1;
     after_[place] = static_cast<std::int32_t>(last) + 1;
@@ -49,7 +52,7 @@ class SpanLists {
   std::uint64_t pairs_ = 0, band_pairs_ = 0;
   Lists* out_ = nullptr;
   std::vector<std::uint32_t> sizes_;  // of the rows
-  std::uint32_t most_ = 0;            // no row has more spans in add_batch()
+  std::uint32_t most_ = 0;            // no row has more spans
   // Row r's spans are at r * pitch_; whole vectors can be read and written beyond the last row.
   std::size_t pitch_ = 0;
   std::vector<std::uint32_t> lights_;
