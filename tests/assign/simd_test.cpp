@@ -95,25 +95,94 @@ TEST(SpanLists, are_those_of_a_pair_buffer_on_every_target) {
   });
 }
 
-Lists lists_of(const std::string& name, const Setting& setting, const std::map<std::string, ParamValue>& params = {}) {
-  const AssignerRow& row = *find_assigner(name);
-  const auto assigner = row.make(Params(row.params, params));
+Lists lists_of(const std::string& name, const Params& params, const Setting& setting) {
+  const auto assigner = find_assigner(name)->make(params);
   assigner->build(setting.grid);
   Lists lists;
   assigner->assign(view::lights_in(setting.frame, grid::space_of(setting.grid, setting.frame)), lists);
   return lists;
 }
 
-// Lights of all sizes, and lights that touch cells by a hair.
-TEST(ExactFast, gives_the_lists_of_exact_on_every_target) {
-  for (const std::uint64_t seed : {5u, 6u})
-    for (const Setting& setting : testing::settings_for(*find_assigner("exact-fast"), seed)) {
-      const Lists expected = lists_of("exact", setting);
-      EXPECT_GT(expected.pair_count(), 0U);
-      on_each_target([&](const std::string& target) {
-        EXPECT_EQ(lists_of("exact-fast", setting), expected) << target << ", " << setting.name;
-      });
+// Grids as they are not built for vectors: narrow ones and ones wider than any vector, tiles clipped at the edge, a
+// view in which a tile's plane is more than a right angle away from another's, slices that begin at the eye.
+std::vector<grid::GridSpec> odd_grids() {
+  using grid::Scheme;
+  const auto kind = grid::Kind::frustum;
+  std::vector<grid::GridSpec> specs{testing::settings::screen_spec(kind, {1, 1}, Scheme::exponential, 1, 0.1),
+                                    testing::settings::screen_spec(kind, {131, 2}, Scheme::exponential, 6, 0.1),
+                                    testing::settings::screen_spec(kind, {3, 70}, Scheme::linear, 3, 0.1),
+                                    testing::settings::screen_spec(kind, {16, 9}, Scheme::exponential_first, 8, 0.1)};
+  specs.back().tiles = {{48, 64}, {0, 0}};
+  specs.push_back(specs.back());
+  specs.back().slices = {.scheme = Scheme::list, .count = 3, .boundaries_m = {0, 0.1, 5, 90}};
+  return specs;
+}
+
+// Beside the usual lights some that hold nearly everything, or end at the eye or at the depth of 5 m by a hair.
+std::vector<Setting> odd_settings(const AssignerRow& row, std::uint64_t seed) {
+  std::vector<Setting> settings;
+  for (const grid::GridSpec& spec : odd_grids())
+    for (const double view_deg : {50.0, 165.0}) {
+      Setting setting;
+      setting.name = spec.name() + ", " + std::to_string(view_deg) + " degrees";
+      setting.frame = testing::frame_of(testing::perspective(view_deg * testing::settings::k_degree, 1.2, 0.1, 300),
+                                        {1280, 717}, {});
+      setting.grid = testing::grid_of(spec, setting.frame);
+      testing::settings::add_lights(setting, row, seed);
+      std::vector<scene::WorldLight> more;
+      for (const double size : {1.0, 1e3, 1e6, 1e19, 3e20})
+        for (const double end : {0.0, 0.1, 5.0})
+          for (const double nudge : {-1e-6, -6e-8, 0.0, 6e-8, 1e-6})
+            for (const Vec3d& place : {Vec3d{0, 0, -1}, Vec3d{0, 0, 1}, Vec3d{0.6, 0, -0.8}, Vec3d{1, 0, 0}})
+              more.push_back(testing::point_light((size + end) * place, size * (1 + nudge)));
+      setting.frame.lights.insert(setting.frame.lights.begin(), more.begin(), more.end());
+      setting.frame.points += static_cast<std::uint32_t>(more.size());
+      settings.push_back(std::move(setting));
     }
+  return settings;
+}
+
+// The defaults, each choice, and no or too much padding where there is a choice.
+std::vector<Params> params_of(const AssignerRow& row) {
+  std::vector<Params> all = testing::params_of(row);
+  if (all.front().values().contains("inflation"))
+    for (const double inflation : {0.0, 1e5})
+      all.emplace_back(row.params, std::map<std::string, ParamValue>{{"inflation", inflation}});
+  return all;
+}
+
+void expect_same_lists(const std::string& twin, const std::string& reference, const Setting& setting) {
+  for (const Params& params : params_of(*find_assigner(twin))) {
+    const Lists expected = lists_of(reference, params, setting);
+    EXPECT_GT(expected.pair_count(), 0U);
+    on_each_target([&](const std::string& target) {
+      EXPECT_TRUE(lists_of(twin, params, setting) == expected)
+          << target << ", " << setting.name << ", "
+          << (params.values().contains("spot")
+                  ? "spot: " + params.text("spot") + ", inflation: " + std::to_string(params.number("inflation"))
+                  : "");
+    });
+  }
+}
+
+// With lights of all sizes, spots, and lights that touch cells by a hair.
+void expect_same_lists_on_every_target(const std::string& twin, const std::string& reference) {
+  for (const std::uint64_t seed : {5u, 6u})
+    for (const Setting& setting : testing::settings_for(*find_assigner(twin), seed))
+      expect_same_lists(twin, reference, setting);
+}
+
+void expect_same_lists_on_odd_grids(const std::string& twin, const std::string& reference) {
+  for (const Setting& setting : odd_settings(*find_assigner(twin), 7)) expect_same_lists(twin, reference, setting);
+}
+
+TEST(ExactFast, gives_the_lists_of_exact_on_every_target) {
+  expect_same_lists_on_every_target("exact-fast", "exact");
+}
+
+TEST(SphereRefinementFast, gives_the_lists_of_sphere_refinement_on_every_target) {
+  expect_same_lists_on_every_target("sphere-refinement-fast", "sphere-refinement");
+  expect_same_lists_on_odd_grids("sphere-refinement-fast", "sphere-refinement");
 }
 
 // The same lights many times over, so that there is work for threads.
@@ -131,10 +200,12 @@ TEST(ExactFast, gives_the_same_lists_on_any_number_of_threads) {
   const std::vector<Setting> settings = testing::settings_for(*find_assigner("exact-fast"), 7);
   for (std::size_t i = 0; i < settings.size(); i += 3) {
     const Setting setting = repeated(settings[i], 10);
-    const Lists expected = lists_of("exact-fast", setting);
+    const AssignerRow& row = *find_assigner("exact-fast");
+    const Lists expected = lists_of(row.name, Params(row.params), setting);
     EXPECT_GT(expected.pair_count(), 10000U) << setting.name;
     for (const double threads : {2.0, 5.0})
-      EXPECT_EQ(lists_of("exact-fast", setting, {{"threads", threads}}), expected) << setting.name << ", " << threads;
+      EXPECT_EQ(lists_of(row.name, Params(row.params, {{"threads", threads}}), setting), expected)
+          << setting.name << ", " << threads;
   }
 }
 

@@ -1,0 +1,52 @@
+// `sphere-refinement` for speed: the same lists, SIMD.
+
+#include "assign/cell_box_twin.h"
+#include "assign/refinement.h"
+
+namespace clusterbench::assign {
+namespace {
+
+class RefinedRows {
+ public:
+  static constexpr float k_roundings = k_refinement_roundings;
+
+  explicit RefinedRows(const Params& params) : narrowing_(narrows(params)) {}
+
+  void build(const grid::Grid& grid) {
+    const grid::ScreenGrid& screen = grid.screen();
+    planes_ = RefinementPlanes(screen);
+    depths_ = screen.slices.boundaries;
+    columns_ = tile_planes(screen.tiles.x, false);
+    rows_ = tile_planes(screen.tiles.y, false);
+  }
+  void narrow(CellBox& box, const geom::SphericalCone& cone) const {
+    if (narrowing_) narrow_from_six_sides(box, cone, depths_, columns_, rows_);
+  }
+  void find(const BallBatch& batch, BatchRows& out) { find_refined_rows(planes_, batch, lane_columns_, out); }
+  std::size_t capacity_bytes() const {
+    return planes_.capacity_bytes() + lane_columns_.capacity_bytes() + depths_.capacity() * sizeof(float) +
+           (columns_.capacity() + rows_.capacity()) * sizeof(TilePlane);
+  }
+
+ private:
+  bool narrowing_;
+  RefinementPlanes planes_;
+  LaneColumns lane_columns_;
+  std::vector<float> depths_;
+  std::vector<TilePlane> columns_, rows_;
+};
+
+}  // namespace
+
+extern const AssignerRow sphere_refinement_fast_row;
+const AssignerRow sphere_refinement_fast_row{
+    .name = "sphere-refinement-fast",
+    .summary = "sphere-refinement, one ball per lane, lists by compression (SIMD, dispatched at run time)",
+    .source = "Persson 2015, Practical Clustered Shading; Filament's froxels",
+    .kinds = {grid::Kind::frustum},
+    .orthographic = false,
+    .params = refinement_params(),
+    .make = make_cell_box_twin<RefinedRows>,
+};
+
+}  // namespace clusterbench::assign

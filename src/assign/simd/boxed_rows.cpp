@@ -1,0 +1,242 @@
+#include "assign/simd/boxed_rows.h"
+
+#include <limits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "assign/simd/boxed_rows.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once per target
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace clusterbench::assign {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using D = hn::ScalableTag<float>;
+using DI = hn::ScalableTag<std::int32_t>;
+using DU = hn::ScalableTag<std::uint32_t>;
+using V = hn::Vec<D>;
+using VI = hn::Vec<DI>;
+using VU = hn::Vec<DU>;
+using M = hn::Mask<D>;
+using MI = hn::Mask<DI>;
+
+V all(float value) {
+  return hn::Set(D(), value);
+}
+VI all_int(int value) {
+  return hn::Set(DI(), value);
+}
+V gathered(const std::vector<float>& from, VI places) {
+  return hn::GatherIndex(D(), from.data(), places);
+}
+VI gathered(const std::vector<std::int32_t>& from, VI places) {
+  return hn::GatherIndex(DI(), from.data(), places);
+}
+M is_none(V square) {
+  return hn::Lt(square, hn::Zero(D()));
+}
+
+// The boxes of a batch.
+class Boxes {
+ public:
+  HWY_INLINE explicit Boxes(const BallBatch& batch)
+      : places(hn::BitCast(DI(), hn::LoadU(DU(), batch.balls))),
+        first_row(gathered(batch.boxed.first_row, places)),
+        first_column(gathered(batch.boxed.first_column, places)) {
+    const VI one = all_int(1);
+    lights = hn::GatherIndex(DU(), batch.boxed.light.data(), places);
+    rows = hn::Add(hn::Sub(gathered(batch.boxed.last_row, places), first_row), one);
+    rows = hn::IfThenElseZero(hn::FirstN(DI(), batch.count), rows);
+    columns = hn::Add(hn::Sub(gathered(batch.boxed.last_column, places), first_column), one);
+    // Below all lights (lights are fewer than 2^31), not even one is open.
+    open = hn::IfThenElseZero(hn::Not(hn::Lt(lights, hn::Set(DU(), batch.first_open))),
+                              hn::Set(DU(), BatchRows::k_uncertain));
+  }
+
+  // Leaves out the balls that do not reach the slice.
+  HWY_INLINE void keep(M reaches) { rows = hn::IfThenElseZero(hn::RebindMask(DI(), reaches), rows); }
+
+  // Prepares the answer; false if there are no rows.
+  HWY_INLINE bool start(int grid_rows, std::uint32_t count, BatchRows& out) const {
+    const DI di;
+    out.lanes = static_cast<std::uint32_t>(hn::Lanes(di));
+    const auto row_count = static_cast<std::uint32_t>(hn::GetLane(hn::SumOfLanes(di, rows)));
+    out.tests = count + row_count;
+    const auto has_rows = hn::Gt(rows, hn::Zero(di));
+    out.first_row = hn::GetLane(hn::MinOfLanes(di, hn::IfThenElse(has_rows, first_row, all_int(grid_rows))));
+    out.last_row = hn::GetLane(hn::MaxOfLanes(di, hn::IfThenElseZero(has_rows, hn::Add(first_row, rows)))) - 1;
+    if (row_count == 0) return false;
+    hn::StoreU(lights, DU(), out.lights);
+    // One row more than the grid has, for what lanes write that are done.
+    const std::size_t size = (static_cast<std::size_t>(grid_rows) + 1) * hn::Lanes(di);
+    if (out.columns.size() < size) out.columns.resize(size);
+    return true;
+  }
+
+  // The columns first .. last (counted from the box's first) as a batch's answer has them.
+  HWY_INLINE VU entry(VI first, VI last) const {
+    const VU from = hn::BitCast(DU(), hn::Add(first_column, first)),
+             to = hn::BitCast(DU(), hn::Add(first_column, last));
+    return hn::Or(hn::Or(from, hn::ShiftLeft<16>(to)), open);
+  }
+
+  VI places, first_row, rows, first_column, columns;  // how many rows and columns
+  VU lights, open;
+};
+
+// Takes each lane through its rows. entry_of(row, wanted) is the answer of the wanted lanes for their row.
+template <class EntryOf>
+HWY_INLINE void walk_rows(const Boxes& boxes, int grid_rows, BatchRows& out, EntryOf&& entry_of) {
+  const DI di;
+  const auto lanes = static_cast<int>(hn::Lanes(di));
+  for (int row = out.first_row; row <= out.last_row; ++row)
+    hn::StoreU(hn::Set(DU(), BatchRows::k_none), DU(), out.columns.data() + row * lanes);
+  const int most = hn::GetLane(hn::MaxOfLanes(di, boxes.rows));
+  VI row = boxes.first_row, to = hn::Add(hn::Mul(row, all_int(lanes)), hn::Iota(di, 0));
+  for (int i = 0; i < most; ++i) {
+    const MI wanted = hn::Gt(boxes.rows, all_int(i));
+    const VU entry = entry_of(row, wanted);
+    hn::ScatterIndex(hn::BitCast(di, entry), di, reinterpret_cast<std::int32_t*>(out.columns.data()),
+                     hn::IfThenElse(wanted, to, all_int(grid_rows * lanes)));
+    row = hn::Add(row, all_int(1));
+    to = hn::Add(to, all_int(lanes));
+  }
+}
+
+// The first and the last of a lane's columns that touches(column) says it touches, as an entry; none if there is none.
+// Columns are counted from the box's first, in lockstep.
+template <class Touches>
+HWY_INLINE VU ends(const Boxes& boxes, int most, Touches&& touches) {
+  const VI beyond = all_int(std::numeric_limits<std::int32_t>::max());
+  VI first = beyond, last = hn::Zero(DI());
+  for (int column = 0; column < most; ++column) {
+    const VI place = all_int(column);
+    const MI is_touched = hn::And(hn::RebindMask(DI(), touches(column)), hn::Gt(boxes.columns, place));
+    first = hn::Min(first, hn::IfThenElse(is_touched, place, beyond));
+    last = hn::IfThenElse(is_touched, place, last);
+  }
+  const auto is_some = hn::RebindMask(DU(), hn::Lt(first, beyond));
+  return hn::IfThenElse(is_some, boxes.entry(first, last), hn::Set(DU(), BatchRows::k_none));
+}
+
+int most_columns(const Boxes& boxes) {
+  const MI wanted = hn::Gt(boxes.rows, hn::Zero(DI()));
+  return hn::GetLane(hn::MaxOfLanes(DI(), hn::IfThenElseZero(wanted, boxes.columns)));
+}
+
+// --- Sphere refinement ---
+
+struct Remainder {
+  V depth, squared_radius;
+};
+
+HWY_INLINE Remainder cut_to_slice(V depth, V radius, float depth0, float depth1) {
+  const V nearer = hn::Min(hn::Max(depth, all(depth0)), all(depth1));
+  const V gap = hn::Sub(nearer, depth);
+  return {nearer, hn::Sub(hn::Mul(radius, radius), hn::Mul(gap, gap))};
+}
+
+// A row's plane, and how far above it a ball's centre is.
+struct RowPlane {
+  V along, distance;
+};
+
+HWY_INLINE Remainder cut_to_row(const Remainder& ball, const RowPlane& top, const RowPlane& bottom) {
+  const M is_above = hn::Gt(top.distance, hn::Zero(D()));
+  const V gap = hn::Max(hn::IfThenElse(is_above, top.distance, hn::Neg(bottom.distance)), hn::Zero(D()));
+  const V along = hn::IfThenElse(is_above, top.along, hn::Neg(bottom.along));
+  return {hn::Sub(ball.depth, hn::Mul(gap, along)), hn::Sub(ball.squared_radius, hn::Mul(gap, gap))};
+}
+
+// For each column's plane of the lanes' boxes: its normal's part along the depth, and what the centre's x adds to the
+// distance from it, which no cut changes.
+HWY_INLINE void prepare_columns(const RefinementPlanes& planes, const Boxes& boxes, int most, V x, LaneColumns& out) {
+  const std::size_t lanes = hn::Lanes(D());
+  out.reserve((static_cast<std::size_t>(most) + 1) * lanes);
+  const VI last = all_int(static_cast<int>(planes.column_across.size()) - 1);
+  for (int i = 0; i <= most; ++i) {
+    const VI place = hn::Min(hn::Add(boxes.first_column, all_int(i)), last);
+    const std::size_t to = static_cast<std::size_t>(i) * lanes;
+    hn::StoreU(hn::Mul(gathered(planes.column_across, place), x), D(), out.first.data() + to);
+    hn::StoreU(gathered(planes.column_along, place), D(), out.second.data() + to);
+  }
+}
+
+HWY_INLINE VU columns_reached(const Boxes& boxes, int most, const Remainder& ball, const LaneColumns& columns) {
+  const std::size_t lanes = hn::Lanes(D());
+  const auto distance = [&](int plane) {
+    const std::size_t at = static_cast<std::size_t>(plane) * lanes;
+    const V along = hn::Mul(hn::LoadU(D(), columns.second.data() + at), ball.depth);
+    return hn::Add(hn::LoadU(D(), columns.first.data() + at), along);
+  };
+  V left = distance(0);
+  return ends(boxes, most, [&](int column) {
+    const V right = distance(column + 1);
+    const V gap = hn::Max(hn::Neg(left), right);
+    left = right;
+    return hn::Or(hn::Le(gap, hn::Zero(D())), hn::Le(hn::Mul(gap, gap), ball.squared_radius));
+  });
+}
+
+void refined_rows(const RefinementPlanes& planes, const BallBatch& batch, LaneColumns& columns, BatchRows& out) {
+  const BoxedBalls& boxed = batch.boxed;
+  const int grid_rows = static_cast<int>(planes.row_across.size()) - 1;
+  const auto z = static_cast<std::size_t>(batch.slice);
+  Boxes boxes(batch);
+  const Remainder ball = cut_to_slice(gathered(boxed.depth, boxes.places), gathered(boxed.radius, boxes.places),
+                                      planes.depths[z], planes.depths[z + 1]);
+  boxes.keep(hn::Not(is_none(ball.squared_radius)));
+  if (!boxes.start(grid_rows, batch.count, out)) return;
+  const V y = gathered(boxed.y, boxes.places);
+  const int most = most_columns(boxes);
+  prepare_columns(planes, boxes, most, gathered(boxed.x, boxes.places), columns);
+  const auto plane_at = [&](VI place) {
+    const VI plane = hn::Min(place, all_int(grid_rows));
+    const V along = gathered(planes.row_along, plane);
+    return RowPlane{along, hn::Add(hn::Mul(gathered(planes.row_across, plane), y), hn::Mul(along, ball.depth))};
+  };
+  RowPlane top = plane_at(boxes.first_row);
+  walk_rows(boxes, grid_rows, out, [&](VI row, MI wanted) {
+    const RowPlane bottom = plane_at(hn::Add(row, all_int(1)));
+    const Remainder in_row = cut_to_row(ball, top, bottom);
+    top = bottom;
+    const VU none = hn::Set(DU(), BatchRows::k_none);
+    const MI reaches = hn::AndNot(hn::RebindMask(DI(), is_none(in_row.squared_radius)), wanted);
+    if (hn::AllFalse(DI(), reaches)) return none;
+    return hn::IfThenElse(hn::RebindMask(DU(), reaches), columns_reached(boxes, most, in_row, columns), none);
+  });
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace clusterbench::assign
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace clusterbench::assign {
+
+HWY_EXPORT(refined_rows);
+
+RefinementPlanes::RefinementPlanes(const grid::ScreenGrid& grid) : depths(grid.slices.boundaries) {
+  for (const TilePlane& plane : tile_planes(grid.tiles.x, false)) {
+    column_across.push_back(plane.across);
+    column_along.push_back(plane.along);
+  }
+  for (const TilePlane& plane : tile_planes(grid.tiles.y, false)) {
+    row_across.push_back(plane.across);
+    row_along.push_back(plane.along);
+  }
+}
+
+std::size_t RefinementPlanes::capacity_bytes() const {
+  return (2 * column_across.capacity() + 2 * row_across.capacity() + depths.capacity()) * sizeof(float);
+}
+
+void find_refined_rows(const RefinementPlanes& planes, const BallBatch& batch, LaneColumns& columns, BatchRows& out) {
+  HWY_DYNAMIC_DISPATCH(refined_rows)(planes, batch, columns, out);
+}
+
+}  // namespace clusterbench::assign
+#endif

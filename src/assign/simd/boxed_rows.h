@@ -1,0 +1,47 @@
+#pragma once
+// The cells of their boxes that many balls touch: slice by slice, one ball per lane, each lane through its own rows,
+// and in each row from the box's first column to its last. What a lane does is what the scalar methods do, the same
+// operations in the same order, so the cells are the same.
+
+#include <cstdint>
+#include <vector>
+
+#include "assign/simd/cell_boxes.h"
+#include "assign/simd/slice_rows.h"
+#include "assign/tile_planes.h"
+#include "grid/grid.h"
+
+namespace clusterbench::assign {
+
+// One batch: places in `boxed`, from which a whole vector can be read; `count` of them, at most balls_per_batch(), are
+// wanted. The rows of lights from `first_open` on are all marked as uncertain: there is more to test.
+struct BallBatch {
+  const BoxedBalls& boxed;
+  int slice;
+  const std::uint32_t* balls;
+  std::uint32_t count, first_open;
+};
+
+// Memory for what a batch's lanes know of their columns; kept between batches.
+struct LaneColumns {
+  std::vector<float> first, second;
+
+  void reserve(std::size_t size) {
+    for (std::vector<float>* list : {&first, &second})
+      if (list->size() < size) list->resize(size);
+  }
+  std::size_t capacity_bytes() const { return (first.capacity() + second.capacity()) * sizeof(float); }
+};
+
+// Sphere refinement (assigners/sphere_refinement.cpp).
+struct RefinementPlanes {
+  std::vector<float> column_across, column_along, row_across, row_along;  // of the tile planes
+  std::vector<float> depths;                                              // of the slices
+
+  explicit RefinementPlanes(const grid::ScreenGrid& grid);
+  RefinementPlanes() = default;
+  std::size_t capacity_bytes() const;
+};
+void find_refined_rows(const RefinementPlanes& planes, const BallBatch& batch, LaneColumns& columns, BatchRows& out);
+
+}  // namespace clusterbench::assign

@@ -1,0 +1,68 @@
+#pragma once
+// The cell boxes of many balls at once: those of cell_box() (assign/cell_box.h), because each lane takes the same
+// operations on the same numbers in the same order, in double precision where cell_box() does.
+//
+// Perspective grids.
+
+#include <cstdint>
+#include <vector>
+
+#include "assign/cell_box.h"
+#include "assign/simd/slice_rows.h"
+#include "grid/grid.h"
+
+namespace clusterbench::assign {
+
+// Boundaries along one axis of a grid, ascending, and where among them a value may be looked for first.
+struct BoundaryAxis {
+  std::vector<float> boundaries;
+  float start = 0.0f, per_length = 0.0f;
+};
+
+// The boundaries of a grid. Made once per grid.
+struct BoxPlanes {
+  BoundaryAxis columns;       // slopes x / depth
+  BoundaryAxis rows;          // slopes -y / depth: rows begin at the top
+  std::vector<float> depths;  // of the slices
+
+  explicit BoxPlanes(const grid::ScreenGrid& grid);
+  BoxPlanes() = default;
+};
+
+// Balls that have a cell box, ascending by light. All arrays have room for whole vectors beyond `count`.
+struct BoxedBalls {
+  std::uint32_t count = 0;
+  std::vector<float> x, y, depth, radius;
+  std::vector<std::uint32_t> light;
+  std::vector<std::int32_t> first_column, last_column, first_row, last_row, first_slice, last_slice;
+  std::vector<float> low_x, high_x, low_y, high_y, box_radius, ball_radius;  // of the seen balls, on the way
+
+  CellBox box(std::uint32_t place) const {
+    return {{first_column[place], first_row[place], first_slice[place]},
+            {last_column[place], last_row[place], last_slice[place]}};
+  }
+  // An empty box reaches no slice.
+  void set_box(std::uint32_t place, const CellBox& box) {
+    first_column[place] = box.first.x;
+    last_column[place] = box.last.x;
+    first_row[place] = box.first.y;
+    last_row[place] = box.last.y;
+    first_slice[place] = box.first.z;
+    last_slice[place] = box.empty() ? box.first.z - 1 : box.last.z;
+  }
+  void reserve(std::uint32_t most);
+  std::size_t capacity_bytes() const;
+};
+
+// Units of 2^-24 of a light's reach by which its ball is made larger.
+struct BallPadding {
+  float box;   // for its cell box
+  float ball;  // for the ball that is kept
+};
+
+// Appends the balls from place `begin` of `seen` on that have a cell box. They are balls of `given`, of which the first
+// belongs to light `first_light`.
+void find_cell_boxes(const BoxPlanes& planes, const SeenBalls& seen, std::uint32_t begin, const GivenBalls& given,
+                     std::uint32_t first_light, const BallPadding& padding, BoxedBalls& boxed);
+
+}  // namespace clusterbench::assign

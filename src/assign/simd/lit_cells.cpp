@@ -1,0 +1,115 @@
+#include "assign/simd/lit_cells.h"
+
+#include <cmath>
+#include <limits>
+
+#include "assign/simd/slice_rows.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "assign/simd/lit_cells.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once per target
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace clusterbench::assign {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using D = hn::ScalableTag<float>;
+using V = hn::Vec<D>;
+
+V all(float value) {
+  return hn::Set(D(), value);
+}
+
+struct Vector {
+  V x, y, z;
+};
+
+HWY_INLINE V dot(const Vector& a, const Vector& b) {
+  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+HWY_INLINE V length(const Vector& a) {
+  return hn::Sqrt(dot(a, a));
+}
+
+class Cone {
+ public:
+  HWY_INLINE explicit Cone(const geom::SphericalCone& cone)
+      : apex_{all(cone.apex.x), all(cone.apex.y), all(cone.apex.z)},
+        axis_{all(cone.axis.x), all(cone.axis.y), all(cone.axis.z)},
+        range_(all(cone.range)),
+        cos_angle_(all(cone.cos_angle)),
+        sin_angle_(all(cone.sin_angle)),
+        apex_size_(all(std::fabs(cone.apex.x) + std::fabs(cone.apex.y) + std::fabs(cone.apex.z))) {}
+
+  HWY_INLINE hn::Mask<D> touches(const CellBalls& cells, std::size_t cell) const {
+    const D d;
+    const auto at = [&](const std::vector<float>& list) { return hn::LoadU(d, list.data() + cell); };
+    const Vector to_center{hn::Sub(at(cells.x), apex_.x), hn::Sub(at(cells.y), apex_.y), hn::Sub(at(cells.z), apex_.z)};
+    const V along = dot(to_center, axis_), radius = at(cells.radius);
+    const V across =
+        length({hn::Sub(to_center.x, hn::Mul(along, axis_.x)), hn::Sub(to_center.y, hn::Mul(along, axis_.y)),
+                hn::Sub(to_center.z, hn::Mul(along, axis_.z))});
+    const V reach = hn::Add(radius, hn::Mul(all(0x1p-20f), hn::Add(apex_size_, at(cells.size))));
+    const V farthest = hn::Add(range_, reach);
+    const auto beside = hn::Gt(hn::Sub(hn::Mul(cos_angle_, across), hn::Mul(sin_angle_, along)), reach);
+    const auto beyond = hn::Or(hn::Gt(along, farthest), hn::Gt(length(to_center), farthest));
+    const auto behind = hn::Lt(along, hn::Neg(reach));
+    const auto is_endless = hn::Eq(radius, all(std::numeric_limits<float>::infinity()));
+    return hn::Or(is_endless, hn::Not(hn::Or(beside, hn::Or(beyond, behind))));
+  }
+
+ private:
+  Vector apex_, axis_;
+  V range_, cos_angle_, sin_angle_, apex_size_;
+};
+
+std::uint64_t lit(const geom::SphericalCone& given, const CellBalls& cells, std::uint32_t first, std::uint32_t count) {
+  const D d;
+  const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
+  const Cone cone(given);
+  std::uint64_t bits = 0;
+  for (std::uint32_t i = 0; i < count; i += lanes) {
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(d, cone.touches(cells, std::size_t{first} + i), bytes);
+    for (std::uint32_t byte = 0; 8 * byte < lanes; ++byte) bits |= std::uint64_t{bytes[byte]} << (i + 8 * byte);
+  }
+  return count < 64 ? bits & ((std::uint64_t{1} << count) - 1) : bits;
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace clusterbench::assign
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace clusterbench::assign {
+
+HWY_EXPORT(lit);
+
+CellBalls::CellBalls(std::span<const geom::Ball> balls) {
+  const std::size_t padded = balls.size() + k_most_lanes;
+  for (std::vector<float>* list : {&x, &y, &z, &radius, &size}) list->resize(padded);
+  for (std::size_t cell = 0; cell < balls.size(); ++cell) {
+    const Vec3f& center = balls[cell].center;
+    x[cell] = center.x;
+    y[cell] = center.y;
+    z[cell] = center.z;
+    radius[cell] = balls[cell].radius;
+    size[cell] = std::fabs(center.x) + std::fabs(center.y) + std::fabs(center.z);
+  }
+}
+
+std::size_t CellBalls::capacity_bytes() const {
+  return 5 * x.capacity() * sizeof(float);
+}
+
+std::uint64_t lit_cells(const geom::SphericalCone& cone, const CellBalls& cells, std::uint32_t first,
+                        std::uint32_t count) {
+  return HWY_DYNAMIC_DISPATCH(lit)(cone, cells, first, count);
+}
+
+}  // namespace clusterbench::assign
+#endif
