@@ -180,6 +180,11 @@ TEST(ExactFast, gives_the_lists_of_exact_on_every_target) {
   expect_same_lists_on_every_target("exact-fast", "exact");
 }
 
+TEST(BoundsFast, gives_the_lists_of_bounds_on_every_target) {
+  expect_same_lists_on_every_target("bounds-fast", "bounds");
+  expect_same_lists_on_odd_grids("bounds-fast", "bounds");
+}
+
 TEST(SphereRefinementFast, gives_the_lists_of_sphere_refinement_on_every_target) {
   expect_same_lists_on_every_target("sphere-refinement-fast", "sphere-refinement");
   expect_same_lists_on_odd_grids("sphere-refinement-fast", "sphere-refinement");

@@ -41,7 +41,7 @@ TEST(CommandLine, list_names_every_assigner_with_its_parameters) {
   std::vector<std::string> names;
   for (const Json& row : all["assigners"]) names.push_back(row["name"]);
   EXPECT_EQ(names,
-            (std::vector<std::string>{"brute-force", "bounds", "planes", "aabb", "sphere-refinement",
+            (std::vector<std::string>{"brute-force", "bounds", "bounds-fast", "planes", "aabb", "sphere-refinement",
                                       "sphere-refinement-fast", "exact", "exact-fast", "distance", "cascades",
                                       "world-grid", "naive-bounds", "naive-refinement", "naive-planes", "naive-cone"}));
   const std::string text = tool("list").out;

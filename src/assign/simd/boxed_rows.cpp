@@ -126,6 +126,19 @@ int most_columns(const Boxes& boxes) {
   return hn::GetLane(hn::MaxOfLanes(DI(), hn::IfThenElseZero(wanted, boxes.columns)));
 }
 
+void boxed_rows(int grid_rows, const BallBatch& batch, BatchRows& out) {
+  const Boxes boxes(batch);
+  if (!boxes.start(grid_rows, batch.count, out)) return;
+  const VU entry = boxes.entry(hn::Zero(DI()), hn::Sub(boxes.columns, all_int(1)));
+  const VI end = hn::Add(boxes.first_row, boxes.rows);
+  for (int row = out.first_row; row <= out.last_row; ++row) {
+    const VI place = all_int(row);
+    const MI holds = hn::AndNot(hn::Lt(place, boxes.first_row), hn::Lt(place, end));
+    hn::StoreU(hn::IfThenElse(hn::RebindMask(DU(), holds), entry, hn::Set(DU(), BatchRows::k_none)), DU(),
+               out.columns.data() + static_cast<std::size_t>(row) * out.lanes);
+  }
+}
+
 // --- Sphere refinement ---
 
 struct Remainder {
@@ -217,6 +230,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace clusterbench::assign {
 
+HWY_EXPORT(boxed_rows);
 HWY_EXPORT(refined_rows);
 
 RefinementPlanes::RefinementPlanes(const grid::ScreenGrid& grid) : depths(grid.slices.boundaries) {
@@ -232,6 +246,10 @@ RefinementPlanes::RefinementPlanes(const grid::ScreenGrid& grid) : depths(grid.s
 
 std::size_t RefinementPlanes::capacity_bytes() const {
   return (2 * column_across.capacity() + 2 * row_across.capacity() + depths.capacity()) * sizeof(float);
+}
+
+void find_boxed_rows(int rows, const BallBatch& batch, BatchRows& out) {
+  HWY_DYNAMIC_DISPATCH(boxed_rows)(rows, batch, out);
 }
 
 void find_refined_rows(const RefinementPlanes& planes, const BallBatch& batch, LaneColumns& columns, BatchRows& out) {

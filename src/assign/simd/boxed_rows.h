@@ -33,6 +33,9 @@ struct LaneColumns {
   std::size_t capacity_bytes() const { return (first.capacity() + second.capacity()) * sizeof(float); }
 };
 
+// All cells of the boxes.
+void find_boxed_rows(int rows, const BallBatch& batch, BatchRows& out);
+
 // Sphere refinement (assigners/sphere_refinement.cpp).
 struct RefinementPlanes {
   std::vector<float> column_across, column_along, row_across, row_along;  // of the tile planes

@@ -1,0 +1,36 @@
+// `bounds` for speed: the same lists, SIMD.
+
+#include "assign/cell_box_twin.h"
+
+namespace clusterbench::assign {
+namespace {
+
+class BoxedRows {
+ public:
+  static constexpr float k_roundings = 0.0f;
+
+  explicit BoxedRows(const Params&) {}
+
+  void build(const grid::Grid& grid) { rows_ = grid.cells().y; }
+  void narrow(CellBox&, const geom::SphericalCone&) const {}
+  void find(const BallBatch& batch, BatchRows& out) const { find_boxed_rows(rows_, batch, out); }
+  std::size_t capacity_bytes() const { return 0; }
+
+ private:
+  int rows_ = 0;
+};
+
+}  // namespace
+
+extern const AssignerRow bounds_fast_row;
+const AssignerRow bounds_fast_row{
+    .name = "bounds-fast",
+    .summary = "bounds, a vector of balls at a time, lists by compression (SIMD, dispatched at run time)",
+    .source = "Persson 2015, Practical Clustered Shading",
+    .kinds = {grid::Kind::frustum},
+    .orthographic = false,
+    .params = light_params(),
+    .make = make_cell_box_twin<BoxedRows>,
+};
+
+}  // namespace clusterbench::assign
