@@ -403,6 +403,11 @@ MUTATIONS = [
              "hn::Lt(along, hn::Neg(reach));", "hn::Lt(along, hn::Zero(D()));",
              "assign.BoundsFast.gives_the_lists_of_bounds_on_every_target",
              "fast methods lose spots in the cells that hold their apex"),
+    Mutation("fast-box-row-without-height", "assign/simd/boxed_rows.cpp",
+             "return hn::Le(hn::Add(hn::Add(gap_x, gap_y), gap_z), squared_radius);",
+             "return hn::Le(hn::Add(gap_x, gap_z), squared_radius);",
+             "assign.AabbFast.gives_the_lists_of_aabb_on_every_target",
+             "aabb-fast lists lights in the corners of their extents, where they do not reach"),
     # --- measure: the truth ---
     Mutation("truth-inner-without-slack", "measure/truth_rows.cpp",
              "const Eye smaller{larger.x, larger.y, larger.depth, std::max(0.0, ball.radius - ball.slack)};",

@@ -185,6 +185,11 @@ TEST(BoundsFast, gives_the_lists_of_bounds_on_every_target) {
   expect_same_lists_on_odd_grids("bounds-fast", "bounds");
 }
 
+TEST(AabbFast, gives_the_lists_of_aabb_on_every_target) {
+  expect_same_lists_on_every_target("aabb-fast", "aabb");
+  expect_same_lists_on_odd_grids("aabb-fast", "aabb");
+}
+
 TEST(SphereRefinementFast, gives_the_lists_of_sphere_refinement_on_every_target) {
   expect_same_lists_on_every_target("sphere-refinement-fast", "sphere-refinement");
   expect_same_lists_on_odd_grids("sphere-refinement-fast", "sphere-refinement");

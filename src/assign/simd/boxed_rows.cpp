@@ -1,6 +1,9 @@
 #include "assign/simd/boxed_rows.h"
 
 #include <limits>
+#include <variant>
+
+#include "geom/predicates.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/simd/boxed_rows.cpp"
@@ -222,6 +225,50 @@ void refined_rows(const RefinementPlanes& planes, const BallBatch& batch, LaneCo
   });
 }
 
+// --- Boxes around cells ---
+
+HWY_INLINE V squared_gap(const CellExtents::Axis& axis, VI place, V center) {
+  const V below = hn::Sub(gathered(axis.lo, place), center), above = hn::Sub(center, gathered(axis.hi, place));
+  const V gap = hn::Max(hn::Zero(D()), hn::Max(below, above));
+  return hn::Mul(gap, gap);
+}
+
+HWY_INLINE void prepare_gaps(const CellExtents& cells, const Boxes& boxes, int slice, int most, V x, LaneColumns& out) {
+  const std::size_t lanes = hn::Lanes(D());
+  out.reserve(static_cast<std::size_t>(most) * lanes);
+  const VI last = all_int(cells.columns - 1), before = all_int(slice * cells.columns);
+  for (int i = 0; i < most; ++i) {
+    const VI place = hn::Add(hn::Min(hn::Add(boxes.first_column, all_int(i)), last), before);
+    hn::StoreU(squared_gap(cells.x, place, x), D(), out.first.data() + static_cast<std::size_t>(i) * lanes);
+  }
+}
+
+// Sums of squares are rounded to what is at least each square and grows with each: so what one gap puts out of reach,
+// no other brings back, and the columns that a row's boxes reach are one interval, because the boxes' ends ascend.
+void box_rows(const CellExtents& cells, const BallBatch& batch, LaneColumns& columns, BatchRows& out) {
+  const BoxedBalls& boxed = batch.boxed;
+  Boxes boxes(batch);
+  const V radius = gathered(boxed.radius, boxes.places), squared_radius = hn::Mul(radius, radius);
+  const V z = hn::Neg(gathered(boxed.depth, boxes.places)), gap_z = squared_gap(cells.z, all_int(batch.slice), z);
+  boxes.keep(hn::Le(gap_z, squared_radius));
+  if (!boxes.start(cells.rows, batch.count, out)) return;
+  const V y = gathered(boxed.y, boxes.places);
+  const int most = most_columns(boxes);
+  prepare_gaps(cells, boxes, batch.slice, most, gathered(boxed.x, boxes.places), columns);
+  const VI last = all_int(cells.rows - 1), before = all_int(batch.slice * cells.rows);
+  walk_rows(boxes, cells.rows, out, [&](VI row, MI wanted) {
+    const V gap_y = squared_gap(cells.y, hn::Add(hn::Min(row, last), before), y);
+    const VU none = hn::Set(DU(), BatchRows::k_none);
+    const MI reaches = hn::And(wanted, hn::RebindMask(DI(), hn::Le(hn::Add(gap_y, gap_z), squared_radius)));
+    if (hn::AllFalse(DI(), reaches)) return none;
+    const VU found = ends(boxes, most, [&](int column) {  // geom::ball_touches_box, summed in its order
+      const V gap_x = hn::LoadU(D(), columns.first.data() + static_cast<std::size_t>(column) * hn::Lanes(D()));
+      return hn::Le(hn::Add(hn::Add(gap_x, gap_y), gap_z), squared_radius);
+    });
+    return hn::IfThenElse(hn::RebindMask(DU(), reaches), found, none);
+  });
+}
+
 }  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace clusterbench::assign
@@ -232,6 +279,7 @@ namespace clusterbench::assign {
 
 HWY_EXPORT(boxed_rows);
 HWY_EXPORT(refined_rows);
+HWY_EXPORT(box_rows);
 
 RefinementPlanes::RefinementPlanes(const grid::ScreenGrid& grid) : depths(grid.slices.boundaries) {
   for (const TilePlane& plane : tile_planes(grid.tiles.x, false)) {
@@ -248,12 +296,37 @@ std::size_t RefinementPlanes::capacity_bytes() const {
   return (2 * column_across.capacity() + 2 * row_across.capacity() + depths.capacity()) * sizeof(float);
 }
 
+CellExtents::CellExtents(const grid::Grid& grid) : columns(grid.cells().x), rows(grid.cells().y) {
+  const auto cells = static_cast<std::uint32_t>(columns * rows);
+  for (std::uint32_t cell = 0; cell < grid.cell_count(); ++cell) {
+    const std::uint32_t in_slice = cell % cells;
+    const geom::Box box = geom::box_around(std::get<geom::FrustumPiece>(grid.cell(cell)));
+    const auto add = [&](Axis& axis, int i) {
+      axis.lo.push_back(box.lo[i]);
+      axis.hi.push_back(box.hi[i]);
+    };
+    if (in_slice < static_cast<std::uint32_t>(columns)) add(x, 0);
+    if (in_slice % static_cast<std::uint32_t>(columns) == 0) add(y, 1);
+    if (in_slice == 0) add(z, 2);
+  }
+}
+
+std::size_t CellExtents::capacity_bytes() const {
+  std::size_t size = 0;
+  for (const Axis* axis : {&x, &y, &z}) size += (axis->lo.capacity() + axis->hi.capacity()) * sizeof(float);
+  return size;
+}
+
 void find_boxed_rows(int rows, const BallBatch& batch, BatchRows& out) {
   HWY_DYNAMIC_DISPATCH(boxed_rows)(rows, batch, out);
 }
 
 void find_refined_rows(const RefinementPlanes& planes, const BallBatch& batch, LaneColumns& columns, BatchRows& out) {
   HWY_DYNAMIC_DISPATCH(refined_rows)(planes, batch, columns, out);
+}
+
+void find_box_rows(const CellExtents& cells, const BallBatch& batch, LaneColumns& columns, BatchRows& out) {
+  HWY_DYNAMIC_DISPATCH(box_rows)(cells, batch, columns, out);
 }
 
 }  // namespace clusterbench::assign

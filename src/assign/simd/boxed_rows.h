@@ -47,4 +47,19 @@ struct RefinementPlanes {
 };
 void find_refined_rows(const RefinementPlanes& planes, const BallBatch& batch, LaneColumns& columns, BatchRows& out);
 
+// The boxes around the cells (assigners/aabb.cpp). Within a slice a cell's box has its column's extent in x, its row's
+// in y and the slice's in z.
+struct CellExtents {
+  struct Axis {
+    std::vector<float> lo, hi;  // slice by slice
+  };
+  Axis x, y, z;
+  int columns = 0, rows = 0;
+
+  explicit CellExtents(const grid::Grid& grid);
+  CellExtents() = default;
+  std::size_t capacity_bytes() const;
+};
+void find_box_rows(const CellExtents& cells, const BallBatch& batch, LaneColumns& columns, BatchRows& out);
+
 }  // namespace clusterbench::assign

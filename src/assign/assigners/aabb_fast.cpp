@@ -1,0 +1,38 @@
+// `aabb` for speed: the same lists, SIMD.
+
+#include "assign/cell_box_method.h"
+#include "assign/cell_box_twin.h"
+
+namespace clusterbench::assign {
+namespace {
+
+class RowsByBoxes {
+ public:
+  static constexpr float k_roundings = CellAabbs::k_roundings;
+
+  explicit RowsByBoxes(const Params&) {}
+
+  void build(const grid::Grid& grid) { cells_ = CellExtents(grid); }
+  void narrow(CellBox&, const geom::SphericalCone&) const {}
+  void find(const BallBatch& batch, BatchRows& out) { find_box_rows(cells_, batch, lane_columns_, out); }
+  std::size_t capacity_bytes() const { return cells_.capacity_bytes() + lane_columns_.capacity_bytes(); }
+
+ private:
+  CellExtents cells_;
+  LaneColumns lane_columns_;
+};
+
+}  // namespace
+
+extern const AssignerRow aabb_fast_row;
+const AssignerRow aabb_fast_row{
+    .name = "aabb-fast",
+    .summary = "aabb, one ball per lane, lists by compression (SIMD, dispatched at run time)",
+    .source = "DaveH355; Persson 2015, Practical Clustered Shading",
+    .kinds = {grid::Kind::frustum},
+    .orthographic = false,
+    .params = light_params(),
+    .make = make_cell_box_twin<RowsByBoxes>,
+};
+
+}  // namespace clusterbench::assign
