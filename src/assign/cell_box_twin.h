@@ -18,28 +18,14 @@
 #include "assign/simd/slice_balls.h"
 #include "assign/simd/slice_rows.h"
 #include "assign/simd/span_lists.h"
+#include "assign/simd/spot_balls.h"
 #include "core/error.h"
 
 namespace clusterbench::assign {
 
-// Centres, radii and reaches as arrays.
-struct BallArrays {
-  std::vector<float> x, y, z, radius;
-
-  void resize(std::size_t size) {
-    for (std::vector<float>* list : {&x, &y, &z, &radius}) list->resize(size);
-  }
-  void set(std::size_t place, const geom::Ball& ball) {
-    x[place] = ball.center.x;
-    y[place] = ball.center.y;
-    z[place] = ball.center.z;
-    radius[place] = ball.radius;
-  }
-  std::size_t capacity_bytes() const { return 4 * x.capacity() * sizeof(float); }
-};
-
 // Rows: Rows(const Params&), build(const grid::Grid&), void find(const BallBatch&, BatchRows&), capacity_bytes() const,
-// k_roundings: what they lose, and void narrow(CellBox&, const geom::SphericalCone&) const for spots with a cone.
+// k_roundings: what they lose, bool narrows() const: whether they narrow the boxes of spots, and void narrow(CellBox&,
+// const geom::SphericalCone&) const.
 template <class Rows>
 class CellBoxTwin final : public Assigner {
  public:
@@ -78,7 +64,8 @@ class CellBoxTwin final : public Assigner {
   std::size_t scratch_bytes() const override {
     return spans_.capacity_bytes() + slice_balls_.capacity_bytes() + seen_.capacity_bytes() + boxed_.capacity_bytes() +
            rows_.capacity_bytes() + batch_.columns.capacity() * sizeof(std::uint32_t) + test_.capacity_bytes() +
-           cells_.capacity_bytes() + spots_.capacity_bytes();
+           cells_.capacity_bytes() + spots_for_boxes_.capacity_bytes() + spots_.capacity_bytes() +
+           runs_.capacity() * sizeof(CellRun) + lit_.capacity() * sizeof(std::uint64_t);
   }
 
  private:
@@ -101,26 +88,26 @@ class CellBoxTwin final : public Assigner {
   // A spot's ball for its box and the one for its rows differ in their centres, too.
   void box_spots() {
     const std::uint32_t begin = boxed_.count, points = lights_->points;
-    spots_.resize(lights_->spots);
-    for (std::uint32_t i = 0; i < lights_->spots; ++i)
-      spots_.set(i, lights_->is_empty(points + i) ? geom::Ball{{}, 0.0f}
-                                                  : test_.ball(*lights_, points + i, k_cell_box_roundings));
+    const bool around_cones = test_.balls_are_around_cones();
+    find_spot_balls(*lights_, test_.padding(k_cell_box_roundings), around_cones, spots_for_boxes_);
+    find_spot_balls(*lights_, test_.own_padding(), around_cones, spots_);
+    const BallArrays& given = spots_for_boxes_;
     const GivenBalls balls{
-        spots_.x.data(), spots_.y.data(), spots_.z.data(), spots_.radius.data(), lights_->reach.data() + points,
+        given.x.data(), given.y.data(), given.z.data(), given.radius.data(), lights_->reach.data() + points,
         lights_->spots};
     box_balls(balls, points, {0.0f, 0.0f});
     for (std::uint32_t i = begin; i < boxed_.count; ++i) take_spot(i);
   }
 
   void take_spot(std::uint32_t place) {
-    const TestedLight light = test_.tested(*lights_, boxed_.light[place]);
-    boxed_.x[place] = light.ball.center.x;
-    boxed_.y[place] = light.ball.center.y;
-    boxed_.depth[place] = -light.ball.center.z;
-    boxed_.radius[place] = light.ball.radius;
-    if (!light.has_cone) return;
+    const std::uint32_t light = boxed_.light[place], spot = light - lights_->points;
+    boxed_.x[place] = spots_.x[spot];
+    boxed_.y[place] = spots_.y[spot];
+    boxed_.depth[place] = -spots_.z[spot];
+    boxed_.radius[place] = spots_.radius[spot];
+    if (!test_.tests_cones() || !rows_.narrows()) return;
     CellBox box = boxed_.box(place);
-    rows_.narrow(box, light.cone);
+    rows_.narrow(box, test_.cone(*lights_, light));
     boxed_.set_box(place, box);
   }
 
@@ -132,39 +119,51 @@ class CellBoxTwin final : public Assigner {
       rows_.find({boxed_, slice, balls.data() + begin, count, first_open}, batch_);
       tests_ += batch_.tests;
       spans_.add_batch(batch_.first_row, batch_.last_row, batch_.columns.data(), batch_.lights, is_left_.data());
-      for (int row = batch_.first_row; row <= batch_.last_row; ++row)
-        if (is_left_[static_cast<std::size_t>(row)] != 0) add_left_row(slice, row);
+      if (batch_.last_row >= batch_.first_row) add_left_rows(slice, balls.data() + begin, count);
     }
   }
 
-  void add_left_row(int slice, int row) {
-    const std::uint32_t* columns = batch_.columns.data() + static_cast<std::size_t>(row) * batch_.lanes;
-    for (std::uint32_t lane = 0; lane < batch_.lanes; ++lane) {
-      const std::uint32_t entry = columns[lane];
-      if (entry == BatchRows::k_none) continue;
-      const auto first = static_cast<std::uint32_t>(BatchRows::first_of(entry));
-      const auto last = static_cast<std::uint32_t>(BatchRows::last_of(entry));
-      if ((entry & BatchRows::k_uncertain) != 0)
-        add_lit(slice, row, first, last, batch_.lights[lane]);
-      else
-        spans_.add(static_cast<std::uint32_t>(row), first, last, batch_.lights[lane]);
+  // Ball by ball, which for each row is the order of the lights.
+  void add_left_rows(int slice, const std::uint32_t* balls, std::uint32_t count) {
+    for (std::uint32_t lane = 0; lane < count; ++lane) {
+      runs_.clear();
+      const std::uint32_t light = batch_.lights[lane];
+      for (int row = boxed_.first_row[balls[lane]]; row <= boxed_.last_row[balls[lane]]; ++row) {
+        const auto place = static_cast<std::size_t>(row);
+        if (row < batch_.first_row || row > batch_.last_row || is_left_[place] == 0) continue;
+        const std::uint32_t entry = batch_.columns[place * batch_.lanes + lane];
+        if (entry == BatchRows::k_none) continue;
+        const auto first = static_cast<std::uint32_t>(BatchRows::first_of(entry));
+        const auto last = static_cast<std::uint32_t>(BatchRows::last_of(entry));
+        if ((entry & BatchRows::k_uncertain) != 0)
+          add_runs(slice, static_cast<std::uint32_t>(row), first, last);
+        else
+          spans_.add(static_cast<std::uint32_t>(row), first, last, light);
+      }
+      if (!runs_.empty()) add_lit(light);
     }
   }
 
-  // Those of a row's columns that a spot's cone may touch.
-  void add_lit(int slice, int row, std::uint32_t first, std::uint32_t last, std::uint32_t light) {
-    const geom::SphericalCone cone = test_.cone(*lights_, light);
-    const auto row_start = static_cast<std::uint32_t>((slice * planes_.rows + row) * planes_.columns);
+  void add_runs(int slice, std::uint32_t row, std::uint32_t first, std::uint32_t last) {
+    const auto in_slice = static_cast<std::uint32_t>(slice * planes_.rows * planes_.columns);
+    const std::uint32_t row_start = in_slice + row * static_cast<std::uint32_t>(planes_.columns);
     tests_ += last - first + 1;
-    for (std::uint32_t begin = first; begin <= last; begin += 64) {
-      std::uint64_t lit = lit_cells(cone, cells_, row_start + begin, std::min(64u, last - begin + 1));
-      std::uint32_t column = begin;
+    for (std::uint32_t column = first; column <= last; column += 64)
+      runs_.push_back({row, column, row_start + column, std::min(64u, last - column + 1)});
+  }
+
+  // Those of the runs' cells that a spot's cone may touch.
+  void add_lit(std::uint32_t light) {
+    find_lit_cells(test_.cone(*lights_, light), cells_, runs_, lit_);
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+      std::uint64_t lit = lit_[i];
+      std::uint32_t column = runs_[i].column;
       while (lit != 0) {
-        const int dark = std::countr_zero(lit), run = std::countr_one(lit >> dark);
+        const int dark = std::countr_zero(lit), bright = std::countr_one(lit >> dark);
         column += static_cast<std::uint32_t>(dark);
-        spans_.add(static_cast<std::uint32_t>(row), column, column + static_cast<std::uint32_t>(run) - 1, light);
-        column += static_cast<std::uint32_t>(run);
-        lit = dark + run < 64 ? lit >> (dark + run) : 0;
+        spans_.add(runs_[i].row, column, column + static_cast<std::uint32_t>(bright) - 1, light);
+        column += static_cast<std::uint32_t>(bright);
+        lit = dark + bright < 64 ? lit >> (dark + bright) : 0;
       }
     }
   }
@@ -175,11 +174,13 @@ class CellBoxTwin final : public Assigner {
   RowPlanes planes_;
   BoxPlanes box_planes_;
   CellBalls cells_;
-  BallArrays spots_;
+  BallArrays spots_for_boxes_, spots_;
   SeenBalls seen_;
   BoxedBalls boxed_;
   SliceBalls slice_balls_;
   BatchRows batch_;
+  std::vector<CellRun> runs_;       // of a spot in a slice
+  std::vector<std::uint64_t> lit_;  // of the runs
   std::vector<std::uint8_t> is_left_;
   SpanLists spans_;
   std::uint64_t tests_ = 0;

@@ -49,6 +49,8 @@ class LightTest {
   // Roundings that a method with no more than these of its own pads by.
   float padding(float roundings) const { return inflation_ * (view::k_given_roundings + roundings); }
   float own_padding() const { return padding(roundings_); }
+  // Whether a spot's ball is the one around its cone, not that of its range.
+  bool balls_are_around_cones() const { return spot_ != SpotTest::cone_sphere; }
   // Whether spots are tested by their cones, too, and then the cells' balls, in the order of the cells.
   bool tests_cones() const { return spot_ != SpotTest::ball; }
   const std::vector<geom::Ball>& cell_balls() const { return cell_balls_; }

@@ -95,12 +95,17 @@ TEST(SpanLists, are_those_of_a_pair_buffer_on_every_target) {
   });
 }
 
-Lists lists_of(const std::string& name, const Params& params, const Setting& setting) {
+struct Answer {
+  Lists lists;
+  std::uint64_t tests;
+};
+
+Answer answer_of(const std::string& name, const Params& params, const Setting& setting) {
   const auto assigner = find_assigner(name)->make(params);
   assigner->build(setting.grid);
   Lists lists;
   assigner->assign(view::lights_in(setting.frame, grid::space_of(setting.grid, setting.frame)), lists);
-  return lists;
+  return {std::move(lists), assigner->tests_done()};
 }
 
 // Grids as they are not built for vectors: narrow ones and ones wider than any vector, tiles clipped at the edge, a
@@ -153,10 +158,12 @@ std::vector<Params> params_of(const AssignerRow& row) {
 
 void expect_same_lists(const std::string& twin, const std::string& reference, const Setting& setting) {
   for (const Params& params : params_of(*find_assigner(twin))) {
-    const Lists expected = lists_of(reference, params, setting);
+    const Lists expected = answer_of(reference, params, setting).lists;
+    const std::uint64_t tests = answer_of(twin, params, setting).tests;
     EXPECT_GT(expected.pair_count(), 0U);
     on_each_target([&](const std::string& target) {
-      EXPECT_TRUE(lists_of(twin, params, setting) == expected)
+      const Answer answer = answer_of(twin, params, setting);
+      EXPECT_TRUE(answer.lists == expected && answer.tests == tests)
           << target << ", " << setting.name << ", "
           << (params.values().contains("spot")
                   ? "spot: " + params.text("spot") + ", inflation: " + std::to_string(params.number("inflation"))
@@ -211,10 +218,10 @@ TEST(ExactFast, gives_the_same_lists_on_any_number_of_threads) {
   for (std::size_t i = 0; i < settings.size(); i += 3) {
     const Setting setting = repeated(settings[i], 10);
     const AssignerRow& row = *find_assigner("exact-fast");
-    const Lists expected = lists_of(row.name, Params(row.params), setting);
+    const Lists expected = answer_of(row.name, Params(row.params), setting).lists;
     EXPECT_GT(expected.pair_count(), 10000U) << setting.name;
     for (const double threads : {2.0, 5.0})
-      EXPECT_EQ(lists_of(row.name, Params(row.params, {{"threads", threads}}), setting), expected)
+      EXPECT_EQ(answer_of(row.name, Params(row.params, {{"threads", threads}}), setting).lists, expected)
           << setting.name << ", " << threads;
   }
 }

@@ -13,6 +13,7 @@ class RowsByBoxes {
   explicit RowsByBoxes(const Params&) {}
 
   void build(const grid::Grid& grid) { cells_ = CellExtents(grid); }
+  bool narrows() const { return false; }
   void narrow(CellBox&, const geom::SphericalCone&) const {}
   void find(const BallBatch& batch, BatchRows& out) { find_box_rows(cells_, batch, lane_columns_, out); }
   std::size_t capacity_bytes() const { return cells_.capacity_bytes() + lane_columns_.capacity_bytes(); }

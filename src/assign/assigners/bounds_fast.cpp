@@ -12,6 +12,7 @@ class BoxedRows {
   explicit BoxedRows(const Params&) {}
 
   void build(const grid::Grid& grid) { rows_ = grid.cells().y; }
+  bool narrows() const { return false; }
   void narrow(CellBox&, const geom::SphericalCone&) const {}
   void find(const BallBatch& batch, BatchRows& out) const { find_boxed_rows(rows_, batch, out); }
   std::size_t capacity_bytes() const { return 0; }

@@ -10,7 +10,7 @@ class RefinedRows {
  public:
   static constexpr float k_roundings = k_refinement_roundings;
 
-  explicit RefinedRows(const Params& params) : narrowing_(narrows(params)) {}
+  explicit RefinedRows(const Params& params) : narrowing_(assign::narrows(params)) {}
 
   void build(const grid::Grid& grid) {
     const grid::ScreenGrid& screen = grid.screen();
@@ -19,8 +19,9 @@ class RefinedRows {
     columns_ = tile_planes(screen.tiles.x, false);
     rows_ = tile_planes(screen.tiles.y, false);
   }
+  bool narrows() const { return narrowing_; }
   void narrow(CellBox& box, const geom::SphericalCone& cone) const {
-    if (narrowing_) narrow_from_six_sides(box, cone, depths_, columns_, rows_);
+    narrow_from_six_sides(box, cone, depths_, columns_, rows_);
   }
   void find(const BallBatch& batch, BatchRows& out) { find_refined_rows(planes_, batch, lane_columns_, out); }
   std::size_t capacity_bytes() const {

@@ -16,7 +16,7 @@ namespace HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
-using D = hn::ScalableTag<float>;
+using D = hn::CappedTag<float, 8>;  // rows are short: longer vectors would hold few cells and cost more
 using V = hn::Vec<D>;
 
 V all(float value) {
@@ -66,17 +66,22 @@ class Cone {
   V range_, cos_angle_, sin_angle_, apex_size_;
 };
 
-std::uint64_t lit(const geom::SphericalCone& given, const CellBalls& cells, std::uint32_t first, std::uint32_t count) {
+std::uint64_t lit_of(const CellRun& run, const Cone& cone, const CellBalls& cells) {
   const D d;
   const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
-  const Cone cone(given);
   std::uint64_t bits = 0;
-  for (std::uint32_t i = 0; i < count; i += lanes) {
+  for (std::uint32_t i = 0; i < run.count; i += lanes) {
     std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(d, cone.touches(cells, std::size_t{first} + i), bytes);
+    hn::StoreMaskBits(d, cone.touches(cells, std::size_t{run.cell} + i), bytes);
     for (std::uint32_t byte = 0; 8 * byte < lanes; ++byte) bits |= std::uint64_t{bytes[byte]} << (i + 8 * byte);
   }
-  return count < 64 ? bits & ((std::uint64_t{1} << count) - 1) : bits;
+  return run.count < 64 ? bits & ((std::uint64_t{1} << run.count) - 1) : bits;
+}
+
+void lit_cells(const geom::SphericalCone& given, const CellBalls& cells, std::span<const CellRun> runs,
+               std::uint64_t* lit) {
+  const Cone cone(given);
+  for (std::size_t i = 0; i < runs.size(); ++i) lit[i] = lit_of(runs[i], cone, cells);
 }
 
 }  // namespace
@@ -87,7 +92,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace clusterbench::assign {
 
-HWY_EXPORT(lit);
+HWY_EXPORT(lit_cells);
 
 CellBalls::CellBalls(std::span<const geom::Ball> balls) {
   const std::size_t padded = balls.size() + k_most_lanes;
@@ -106,9 +111,10 @@ std::size_t CellBalls::capacity_bytes() const {
   return 5 * x.capacity() * sizeof(float);
 }
 
-std::uint64_t lit_cells(const geom::SphericalCone& cone, const CellBalls& cells, std::uint32_t first,
-                        std::uint32_t count) {
-  return HWY_DYNAMIC_DISPATCH(lit)(cone, cells, first, count);
+void find_lit_cells(const geom::SphericalCone& cone, const CellBalls& cells, std::span<const CellRun> runs,
+                    std::vector<std::uint64_t>& lit) {
+  if (lit.size() < runs.size()) lit.resize(runs.size());
+  HWY_DYNAMIC_DISPATCH(lit_cells)(cone, cells, runs, lit.data());
 }
 
 }  // namespace clusterbench::assign

@@ -20,8 +20,14 @@ struct CellBalls {
   std::size_t capacity_bytes() const;
 };
 
-// Bit i: whether the cone may touch cell first + i, i < count; at most 64.
-std::uint64_t lit_cells(const geom::SphericalCone& cone, const CellBalls& cells, std::uint32_t first,
-                        std::uint32_t count);
+// Neighbouring cells of a row, at most 64.
+struct CellRun {
+  std::uint32_t row, column;  // of the first one
+  std::uint32_t cell, count;  // its index, and how many
+};
+
+// lit[i]: a bit for each cell of runs[i], the lowest for the first: whether the cone may touch it.
+void find_lit_cells(const geom::SphericalCone& cone, const CellBalls& cells, std::span<const CellRun> runs,
+                    std::vector<std::uint64_t>& lit);
 
 }  // namespace clusterbench::assign

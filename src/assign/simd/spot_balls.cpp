@@ -1,0 +1,96 @@
+#include "assign/simd/spot_balls.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "assign/simd/slice_rows.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "assign/simd/spot_balls.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once per target
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace clusterbench::assign {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using D = hn::ScalableTag<float>;
+using V = hn::Vec<D>;
+
+V all(float value) {
+  return hn::Set(D(), value);
+}
+
+struct Spheres {
+  V x, y, z, radius;
+};
+
+struct Cones {
+  V axis_x, axis_y, axis_z, cos_angle, sin_angle;
+};
+
+// geom::bounding_ball
+HWY_INLINE Spheres around(const Spheres& range, const Cones& cone) {
+  const auto is_narrow = hn::Gt(cone.cos_angle, cone.sin_angle);
+  const V along = hn::IfThenElse(is_narrow, hn::Div(range.radius, hn::Mul(all(2.0f), cone.cos_angle)),
+                                 hn::Mul(range.radius, cone.cos_angle));
+  const V radius = hn::IfThenElse(is_narrow, along, hn::Mul(range.radius, cone.sin_angle));
+  const V size = hn::Add(hn::Add(hn::Abs(range.x), hn::Abs(range.y)), hn::Abs(range.z));
+  const Spheres ball{hn::Add(range.x, hn::Mul(along, cone.axis_x)), hn::Add(range.y, hn::Mul(along, cone.axis_y)),
+                     hn::Add(range.z, hn::Mul(along, cone.axis_z)),
+                     hn::Add(radius, hn::Mul(all(0x1p-20f), hn::Add(size, range.radius)))};
+  const auto is_endless = hn::Eq(range.radius, all(std::numeric_limits<float>::infinity()));
+  return {hn::IfThenElse(is_endless, range.x, ball.x), hn::IfThenElse(is_endless, range.y, ball.y),
+          hn::IfThenElse(is_endless, range.z, ball.z), hn::IfThenElse(is_endless, range.radius, ball.radius)};
+}
+
+void spot_balls(const view::LightArrays& lights, float roundings, bool around_cones, BallArrays& balls) {
+  const D d;
+  const auto n = static_cast<std::uint32_t>(hn::Lanes(d));
+  for (std::uint32_t i = 0; i < lights.spots; i += n) {
+    const std::uint32_t left = std::min(n, lights.spots - i);
+    const auto load = [&](const float* from) {
+      if (left == n) return hn::LoadU(d, from + i);
+      float rest[k_most_lanes] = {};
+      std::copy(from + i, from + i + left, rest);
+      return hn::LoadU(d, rest);
+    };
+    const auto of_light = [&](const std::vector<float>& list) { return load(list.data() + lights.points); };
+    const auto of_spot = [&](const std::vector<float>& list) { return load(list.data()); };
+    const V given = of_light(lights.radius);
+    const V padded = hn::Add(given, hn::Mul(all(roundings), hn::Mul(all(0x1p-24f), of_light(lights.reach))));
+    Spheres ball{of_light(lights.x), of_light(lights.y), of_light(lights.z), roundings == 0.0f ? given : padded};
+    if (around_cones)
+      ball = around(ball, {of_spot(lights.axis_x), of_spot(lights.axis_y), of_spot(lights.axis_z),
+                           of_spot(lights.cos_angle), of_spot(lights.sin_angle)});
+    hn::StoreU(ball.x, d, balls.x.data() + i);
+    hn::StoreU(ball.y, d, balls.y.data() + i);
+    hn::StoreU(ball.z, d, balls.z.data() + i);
+    const auto has_volume = hn::Gt(given, hn::Zero(d));
+    hn::StoreU(hn::IfThenElseZero(has_volume, ball.radius), d, balls.radius.data() + i);
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace clusterbench::assign
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace clusterbench::assign {
+
+HWY_EXPORT(spot_balls);
+
+void BallArrays::resize(std::size_t size) {
+  for (std::vector<float>* list : {&x, &y, &z, &radius}) list->resize(size + k_most_lanes);
+}
+
+void find_spot_balls(const view::LightArrays& lights, float roundings, bool around_cones, BallArrays& balls) {
+  balls.resize(lights.spots);
+  HWY_DYNAMIC_DISPATCH(spot_balls)(lights, roundings, around_cones, balls);
+}
+
+}  // namespace clusterbench::assign
+#endif

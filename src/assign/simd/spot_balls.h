@@ -1,0 +1,23 @@
+#pragma once
+// The balls around many spots at once: geom::bounding_ball of LightArrays::cone, the same operations in the same order.
+
+#include <cstdint>
+#include <vector>
+
+#include "view/frame.h"
+
+namespace clusterbench::assign {
+
+// Balls in arrays, with room for whole vectors beyond the last.
+struct BallArrays {
+  std::vector<float> x, y, z, radius;
+
+  void resize(std::size_t size);
+  std::size_t capacity_bytes() const { return 4 * x.capacity() * sizeof(float); }
+};
+
+// Ball i is that of spot i, larger by these roundings: around its cone or, if not `around_cones`, the ball of its
+// range. Spots without volume get radius 0.
+void find_spot_balls(const view::LightArrays& lights, float roundings, bool around_cones, BallArrays& balls);
+
+}  // namespace clusterbench::assign
