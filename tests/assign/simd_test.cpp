@@ -187,6 +187,24 @@ TEST(ExactFast, gives_the_lists_of_exact_on_every_target) {
   expect_same_lists_on_every_target("exact-fast", "exact");
 }
 
+// Far to the side of the view axis tile planes are slopes with few digits left for their distances.
+TEST(ExactFast, gives_the_lists_of_exact_on_narrow_tiles_far_aside) {
+  const AssignerRow& row = *find_assigner("exact-fast");
+  for (const std::uint64_t seed : {1u, 2u}) {
+    Setting setting;
+    setting.frame = testing::frame_of(testing::perspective(0.9, 1.2, 0.1, 300), {4000, 717}, {});
+    setting.frame.projection.left = 3.0;
+    setting.frame.projection.right = 3.7;
+    setting.grid = testing::grid_of(
+        testing::settings::screen_spec(grid::Kind::frustum, {900, 3}, grid::Scheme::exponential, 6, 0.1),
+        setting.frame);
+    testing::settings::add_lights(setting, row, seed);
+    const Lists expected = answer_of("exact", Params(find_assigner("exact")->params), setting).lists;
+    EXPECT_GT(expected.pair_count(), 1000U);
+    EXPECT_EQ(answer_of("exact-fast", Params(row.params), setting).lists, expected);
+  }
+}
+
 TEST(BoundsFast, gives_the_lists_of_bounds_on_every_target) {
   expect_same_lists_on_every_target("bounds-fast", "bounds");
   expect_same_lists_on_odd_grids("bounds-fast", "bounds");
