@@ -11,6 +11,7 @@
 
 #include "assign/assigner.h"
 #include "assign/exact_slices.h"
+#include "assign/simd/spot_balls.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "geom/predicates.h"
@@ -51,8 +52,8 @@ class ExactFast final : public Assigner {
   std::uint64_t tests_done() const override { return tests_; }
   std::uint64_t fallbacks() const override { return fallbacks_; }
   std::size_t scratch_bytes() const override {
-    std::size_t bytes = whole_.scratch_bytes() + slice_balls_.capacity_bytes() + seen_.capacity_bytes() +
-                        4 * spot_x_.capacity() * sizeof(float);
+    std::size_t bytes =
+        whole_.scratch_bytes() + slice_balls_.capacity_bytes() + seen_.capacity_bytes() + spots_.capacity_bytes();
     for (const Part& part : parts_)
       bytes += part.slices.scratch_bytes() +
                (part.lists.begin.capacity() + part.lists.lights.capacity()) * sizeof(std::uint32_t);
@@ -131,30 +132,17 @@ class ExactFast final : public Assigner {
                lights_->points},
               0, seen_);
     if (lights_->spots == 0) return;
-    for (std::vector<float>* list : {&spot_x_, &spot_y_, &spot_z_, &spot_radius_}) list->resize(lights_->spots);
-    for (std::uint32_t i = 0; i < lights_->spots; ++i) {
-      const geom::Ball around = ball_of_spot(lights_->points + i);
-      spot_x_[i] = around.center.x;
-      spot_y_[i] = around.center.y;
-      spot_z_[i] = around.center.z;
-      spot_radius_[i] = around.radius;
-    }
+    find_spot_balls(*lights_, view::k_given_roundings, true, spots_);
     see_balls(planes_,
-              {spot_x_.data(), spot_y_.data(), spot_z_.data(), spot_radius_.data(),
+              {spots_.x.data(), spots_.y.data(), spots_.z.data(), spots_.radius.data(),
                lights_->reach.data() + lights_->points, lights_->spots},
               lights_->points, seen_);
-  }
-
-  geom::Ball ball_of_spot(std::uint32_t light) const {
-    const geom::SphericalCone cone = lights_->cone(light, view::k_given_roundings);
-    if (lights_->is_empty(light)) return {cone.apex, 0.0f};
-    return std::isinf(cone.range) ? geom::Ball{cone.apex, cone.range} : geom::bounding_ball(cone);
   }
 
   const grid::Grid* grid_ = nullptr;
   const view::LightArrays* lights_ = nullptr;  // of the frame at hand
   RowPlanes planes_;
-  std::vector<float> spot_x_, spot_y_, spot_z_, spot_radius_;
+  BallArrays spots_;  // around their cones
   SeenBalls seen_;
   SliceBalls slice_balls_;
   ExactSlices whole_;

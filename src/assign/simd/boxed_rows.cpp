@@ -10,32 +10,15 @@
 #include <hwy/foreach_target.h>  // compiles this file once per target
 #include <hwy/highway.h>
 
+#include "assign/simd/vectors-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-using D = hn::ScalableTag<float>;
-using DI = hn::ScalableTag<std::int32_t>;
-using DU = hn::ScalableTag<std::uint32_t>;
-using V = hn::Vec<D>;
-using VI = hn::Vec<DI>;
-using VU = hn::Vec<DU>;
-using M = hn::Mask<D>;
-using MI = hn::Mask<DI>;
-
-V all(float value) {
-  return hn::Set(D(), value);
-}
 VI all_int(int value) {
   return hn::Set(DI(), value);
-}
-V gathered(const std::vector<float>& from, VI places) {
-  return hn::GatherIndex(D(), from.data(), places);
-}
-VI gathered(const std::vector<std::int32_t>& from, VI places) {
-  return hn::GatherIndex(DI(), from.data(), places);
 }
 M is_none(V square) {
   return hn::Lt(square, hn::Zero(D()));

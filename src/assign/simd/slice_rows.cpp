@@ -10,29 +10,18 @@
 #include <hwy/foreach_target.h>  // compiles this file once per target
 #include <hwy/highway.h>
 
+#include "assign/simd/vectors-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-using D = hn::ScalableTag<float>;
-using DI = hn::ScalableTag<std::int32_t>;
-using V = hn::Vec<D>;
-using VI = hn::Vec<DI>;
-using M = hn::Mask<D>;
-
-V all(float value) {
-  return hn::Set(D(), value);
-}
 V infinity() {
   return all(std::numeric_limits<float>::infinity());
 }
 V root(V square) {
   return hn::Sqrt(hn::Max(square, hn::Zero(D())));
-}
-V gathered(const std::vector<float>& from, VI places) {
-  return hn::GatherIndex(D(), from.data(), places);
 }
 M is_between(V low, V value, V high) {
   return hn::And(hn::Le(low, value), hn::Le(value, high));
@@ -349,12 +338,7 @@ void see(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_l
   const View view(planes);
   for (std::uint32_t i = 0; i < balls.count; i += n) {
     const std::uint32_t left = std::min(n, balls.count - i);
-    const auto load = [&](const float* from) {
-      if (left == n) return hn::LoadU(d, from + i);
-      float rest[k_most_lanes] = {};
-      std::copy(from + i, from + i + left, rest);
-      return hn::LoadU(d, rest);
-    };
+    const auto load = [&](const float* from) { return loaded(from + i, left); };
     const V x = load(balls.x), y = load(balls.y), depth = hn::Neg(load(balls.z)), given = load(balls.radius);
     const V reach = load(balls.reach), slack = hn::Mul(reach, all(roundings * 0x1p-24f));
     const V radius = hn::Add(given, slack);

@@ -1,6 +1,7 @@
 #include "assign/simd/span_lists.h"
 
 #include <algorithm>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/simd/span_lists.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
@@ -103,12 +104,6 @@ namespace clusterbench::assign {
 HWY_EXPORT(target_name);
 HWY_EXPORT(write_row);
 HWY_EXPORT(add_rows);
-
-namespace {
-
-constexpr std::size_t k_most_lanes = 64;  // of any target
-
-}  // namespace
 
 const char* simd_target_name() {
   return HWY_DYNAMIC_DISPATCH(target_name)();

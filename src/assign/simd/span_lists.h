@@ -11,6 +11,8 @@
 
 namespace clusterbench::assign {
 
+inline constexpr std::size_t k_most_lanes = 64;  // of any target: what arrays are padded by
+
 // The instruction set that is used: "AVX3", "AVX2", "SSE4", "NEON", "SCALAR" ... as Highway names it.
 const char* simd_target_name();
 

@@ -10,18 +10,12 @@
 #include <hwy/foreach_target.h>  // compiles this file once per target
 #include <hwy/highway.h>
 
+#include "assign/simd/vectors-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
 namespace {
-
-namespace hn = hwy::HWY_NAMESPACE;
-using D = hn::ScalableTag<float>;
-using V = hn::Vec<D>;
-
-V all(float value) {
-  return hn::Set(D(), value);
-}
 
 struct Spheres {
   V x, y, z, radius;
@@ -51,12 +45,7 @@ void spot_balls(const view::LightArrays& lights, float roundings, bool around_co
   const auto n = static_cast<std::uint32_t>(hn::Lanes(d));
   for (std::uint32_t i = 0; i < lights.spots; i += n) {
     const std::uint32_t left = std::min(n, lights.spots - i);
-    const auto load = [&](const float* from) {
-      if (left == n) return hn::LoadU(d, from + i);
-      float rest[k_most_lanes] = {};
-      std::copy(from + i, from + i + left, rest);
-      return hn::LoadU(d, rest);
-    };
+    const auto load = [&](const float* from) { return loaded(from + i, left); };
     const auto of_light = [&](const std::vector<float>& list) { return load(list.data() + lights.points); };
     const auto of_spot = [&](const std::vector<float>& list) { return load(list.data()); };
     const V given = of_light(lights.radius);

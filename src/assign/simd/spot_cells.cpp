@@ -8,19 +8,12 @@
 #include <hwy/foreach_target.h>  // compiles this file once per target
 #include <hwy/highway.h>
 
+#include "assign/simd/vectors-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
 namespace {
-
-namespace hn = hwy::HWY_NAMESPACE;
-using D = hn::ScalableTag<float>;
-using V = hn::Vec<D>;
-using M = hn::Mask<D>;
-
-V all(float value) {
-  return hn::Set(D(), value);
-}
 
 // Places and directions as x to the right, y up, depth ahead.
 struct Point {
@@ -57,12 +50,8 @@ constexpr float k_tolerance = 0x1p-15f;
 class Cells {
  public:
   HWY_INLINE Cells(const SpotsAndPlanes& from, const SpotCells& cells, std::uint32_t first) {
-    const hn::RebindToSigned<D> di;
     const auto place = [&](const std::vector<std::uint32_t>& list) {
-      return hn::BitCast(di, hn::LoadU(hn::RebindToUnsigned<D>(), list.data() + first));
-    };
-    const auto gathered = [](const float* list, hn::Vec<hn::RebindToSigned<D>> at) {
-      return hn::GatherIndex(D(), list, at);
+      return hn::BitCast(DI(), hn::LoadU(DU(), list.data() + first));
     };
     const auto spot = place(cells.spot), row = place(cells.row), column = place(cells.column);
     const view::LightArrays& lights = *from.lights;

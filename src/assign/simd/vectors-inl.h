@@ -1,0 +1,59 @@
+// Single-precision vectors of a whole register, for files that are compiled once per target. Included after
+// hwy/highway.h; defines its names anew for each target.
+
+#if defined(CLUSTERBENCH_VECTORS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef CLUSTERBENCH_VECTORS_INL_H
+#undef CLUSTERBENCH_VECTORS_INL_H
+#else
+#define CLUSTERBENCH_VECTORS_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "assign/simd/span_lists.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace clusterbench::assign {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using D = hn::ScalableTag<float>;
+using DI = hn::ScalableTag<std::int32_t>;
+using DU = hn::ScalableTag<std::uint32_t>;
+using V = hn::Vec<D>;
+using VI = hn::Vec<DI>;
+using VU = hn::Vec<DU>;
+using M = hn::Mask<D>;
+using MI = hn::Mask<DI>;
+
+HWY_INLINE V all(float value) {
+  return hn::Set(D(), value);
+}
+HWY_INLINE V gathered(const float* from, VI places) {
+  return hn::GatherIndex(D(), from, places);
+}
+HWY_INLINE V gathered(const std::vector<float>& from, VI places) {
+  return gathered(from.data(), places);
+}
+HWY_INLINE VI gathered(const std::vector<std::int32_t>& from, VI places) {
+  return hn::GatherIndex(DI(), from.data(), places);
+}
+
+// from[0] .. from[count - 1], and 0 beyond if that is less than a vector.
+HWY_INLINE V loaded(const float* from, std::uint32_t count) {
+  const D d;
+  if (count >= hn::Lanes(d)) return hn::LoadU(d, from);
+  float rest[k_most_lanes] = {};
+  std::copy(from, from + count, rest);
+  return hn::LoadU(d, rest);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace clusterbench::assign
+HWY_AFTER_NAMESPACE();
+
+#endif
