@@ -22,13 +22,18 @@ void probe_output(const std::string& output) {
   if (!file) throw Error(output, "", "cannot be written");
 }
 
-void write_output(const std::string& output, const nlohmann::ordered_json& result) {
+void write_text(const std::string& output, const std::string& text) {
   std::ofstream file;
-  if (!output.empty() && output != "-") file.open(output, std::ios::binary);
-  std::ostream& out = file.is_open() ? file : std::cout;
-  out << result.dump(1) << '\n' << std::flush;
-  if (!out)
-    throw Error(output.empty() ? "standard output" : output, "", "the result could not be written", ExitCode::internal);
+  const bool has_file = !output.empty() && output != "-";
+  if (has_file) file.open(output, std::ios::binary);
+  if (has_file && !file) throw Error(output, "", "cannot be written");
+  std::ostream& out = has_file ? file : std::cout;
+  out << text << std::flush;
+  if (!out) throw Error(has_file ? output : "standard output", "", "could not be written whole", ExitCode::internal);
+}
+
+void write_output(const std::string& output, const nlohmann::ordered_json& result) {
+  write_text(output, result.dump(1) + '\n');
 }
 
 }  // namespace clusterbench::cli

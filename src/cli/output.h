@@ -14,6 +14,7 @@ bool is_stream(const std::string& output);
 void probe_output(const std::string& output);
 
 // Throws Error if it could not be written whole.
+void write_text(const std::string& output, const std::string& text);
 void write_output(const std::string& output, const nlohmann::ordered_json& result);
 
 }  // namespace clusterbench::cli

@@ -1,0 +1,51 @@
+# clusterbench_report_page(TARGET): bundles report/ into the page that `clusterbench report` fills in, and adds it to the
+# target as page_template(). Needs Node.js and npm, and brings report/node_modules up to its lock file. Where that cannot be,
+# the build leaves the page out, says so here, and `clusterbench report` says what was missing.
+function(clusterbench_report_page TARGET)
+  set(REPORT ${CMAKE_CURRENT_SOURCE_DIR}/report)
+  set(FOLDER ${CMAKE_CURRENT_BINARY_DIR}/report)
+  set(EMBEDDED ${FOLDER}/page_template.cpp)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${REPORT}/package-lock.json ${REPORT}/.npmrc)
+  clusterbench_report_modules(${REPORT} OBSTACLE)
+  set(CLUSTERBENCH_NO_PAGE "${OBSTACLE}" PARENT_SCOPE)
+  if(OBSTACLE)
+    message(STATUS "Leaving out the page of `clusterbench report`: ${OBSTACLE}")
+    file(CONFIGURE OUTPUT ${EMBEDDED} CONTENT "#include \"report/page_template.h\"
+
+namespace clusterbench::report {
+
+std::string_view page_template() { return {}; }
+std::string_view page_obstacle() { return R\"__(@OBSTACLE@)__\"; }
+
+}  // namespace clusterbench::report
+" @ONLY)
+  else()
+    file(GLOB SOURCES CONFIGURE_DEPENDS ${REPORT}/src/*.ts ${REPORT}/src/*.css ${REPORT}/src/*.html)
+    add_custom_command(OUTPUT ${EMBEDDED} BYPRODUCTS ${FOLDER}/template.html
+      COMMAND ${NODE} ${REPORT}/build.mjs ${FOLDER}
+      DEPENDS ${SOURCES} ${REPORT}/build.mjs ${REPORT}/package-lock.json
+      COMMENT "Bundling the report page")
+    set_source_files_properties(${EMBEDDED} PROPERTIES COMPILE_OPTIONS -Wno-overlength-strings)
+  endif()
+  target_sources(${TARGET} PRIVATE ${EMBEDDED})
+endfunction()
+
+# Sets OBSTACLE to "" once report/node_modules is what the lock file says, else to what keeps it from being so.
+function(clusterbench_report_modules REPORT OBSTACLE)
+  find_program(NODE node)
+  find_program(NPM npm)
+  if(NOT NODE OR NOT NPM)
+    set(${OBSTACLE} "this build was made without Node.js and npm: install them (scripts/setup does), then configure and build again" PARENT_SCOPE)
+    return()
+  endif()
+  set(${OBSTACLE} "" PARENT_SCOPE)
+  if(NOT ${REPORT}/package-lock.json IS_NEWER_THAN ${REPORT}/node_modules/.package-lock.json)
+    return()
+  endif()
+  execute_process(COMMAND ${NPM} ci --no-progress WORKING_DIRECTORY ${REPORT}
+                  RESULT_VARIABLE FAILED OUTPUT_VARIABLE SAID ERROR_VARIABLE SAID)
+  if(FAILED)
+    message(STATUS "npm ci: ${SAID}")
+    set(${OBSTACLE} "`npm ci` in report/ failed when this build was configured: run it there to see why, then configure and build again" PARENT_SCOPE)
+  endif()
+endfunction()

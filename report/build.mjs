@@ -1,0 +1,105 @@
+// Bundles src/ into FOLDER/template.html, one file that may load nothing, and FOLDER/page_template.cpp, which holds it:
+// node build.mjs FOLDER.
+
+import { createHash } from "node:crypto";
+import { existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { build } from "esbuild";
+
+const root = dirname(fileURLToPath(import.meta.url));
+const resultsMark = "{{results}}";
+
+const hashOf = (text) => `'sha256-${createHash("sha256").update(text).digest("base64")}'`;
+
+async function bundled(entry) {
+  const made = await build({
+    absWorkingDir: root,
+    entryPoints: [entry],
+    bundle: true,
+    minify: true,
+    format: "iife",
+    target: "es2022",
+    legalComments: "none",
+    write: false,
+    metafile: true,
+  });
+  return { text: made.outputFiles[0].text.trim(), inputs: Object.keys(made.metafile.inputs) };
+}
+
+// Plot puts this style into every chart. A policy of hashes has to know it before.
+function plotStyle() {
+  const source = readFileSync(join(root, "node_modules/@observablehq/plot/src/plot.js"), "utf8");
+  const found = /append\("style"\)\.text\(\s*`([^`]*)`/.exec(source);
+  if (!found) throw new Error("Plot no longer makes its <style> as this build expects");
+  return found[1].replaceAll("${className}", "plot");
+}
+
+function packageOf(input) {
+  const found = /node_modules\/((?:@[^/]+\/)?[^/]+)\//.exec(input);
+  return found && found[1];
+}
+
+// What the bundled packages' licences ask to be kept with copies.
+function notices(inputs) {
+  const names = [...new Set(inputs.map(packageOf).filter(Boolean))].sort();
+  return names
+    .map((name) => {
+      const folder = join(root, "node_modules", name);
+      const file = readdirSync(folder).find((entry) => /^licen[cs]e/i.test(entry));
+      if (!file) throw new Error(`${name} has no licence file`);
+      return `${name}\n\n${readFileSync(join(folder, file), "utf8").trim()}`;
+    })
+    .join("\n\n----\n\n")
+    .replaceAll("--", "- -");
+}
+
+function filled(text, values) {
+  for (const [mark, value] of Object.entries(values)) {
+    if (text.split(mark).length !== 2) throw new Error(`page.html must hold ${mark} once`);
+    text = text.replace(mark, () => value);
+  }
+  return text;
+}
+
+function policy(script, style) {
+  const only = {
+    "default-src": "'none'",
+    "script-src": hashOf(script),
+    "style-src": `${hashOf(style)} ${hashOf(plotStyle())}`,
+    "img-src": "data: blob:",
+    "base-uri": "'none'",
+    "form-action": "'none'",
+  };
+  return Object.entries(only).map((rule) => rule.join(" ")).join("; ");
+}
+
+const cpp = (template) => `#include "report/page_template.h"
+
+namespace clusterbench::report {
+
+std::string_view page_template() {
+  static constexpr char k_template[] = R"__page__(${template})__page__";
+  return {k_template, sizeof k_template - 1};
+}
+std::string_view page_obstacle() { return {}; }
+
+}  // namespace clusterbench::report
+`;
+
+const folder = process.argv[2];
+if (!folder) throw new Error("usage: node build.mjs FOLDER");
+const script = await bundled("src/main.ts");
+const style = await bundled("src/style.css");
+if (script.text.includes("</script") || script.text.includes(resultsMark))
+  throw new Error("the script holds what would end it early");
+const template = filled(readFileSync(join(root, "src/page.html"), "utf8"), {
+  "{{policy}}": policy(script.text, style.text),
+  "{{style}}": style.text,
+  "{{script}}": script.text,
+  "{{notices}}": notices(script.inputs),
+});
+if (template.split(resultsMark).length !== 2) throw new Error(`the template must hold ${resultsMark} once`);
+if (!existsSync(folder)) mkdirSync(folder, { recursive: true });
+writeFileSync(join(folder, "template.html"), template);
+writeFileSync(join(folder, "page_template.cpp"), cpp(template));

@@ -1,0 +1,106 @@
+// The page's own view of its results: every case of every result in one list, with the figures that tables and charts
+// share.
+
+import type { CaseResult, Maybe, PageData, Result } from "./result.ts";
+
+export interface Run {
+  file: string;
+  label: string; // the file's name, with as much of its path as tells it from the others
+  result: Result;
+}
+
+export interface Case {
+  raw: CaseResult;
+  run: Run;
+  scene: string;
+  grid: string;
+  assigner: string; // with the parameters that differ from their defaults
+  family: string; // a method and its fast twin are one family
+  isFast: boolean;
+  storage: string; // and lights, where they are packed
+  setting: string; // what cases must share to be compared pair by pair
+  isOnFront: boolean;
+  assignNs: Maybe;
+  interval: [Maybe, Maybe];
+  nsPerPair: Maybe;
+  floorRatio: Maybe;
+  instructions: Maybe;
+  pairs: Maybe;
+  excess: Maybe;
+  missed: Maybe;
+  overshade: Maybe;
+  p99: Maybe;
+  longest: Maybe;
+  bytes: number;
+  recommended: number;
+}
+
+export interface Model {
+  command: string;
+  runs: Run[];
+  cases: Case[];
+  scenes: string[];
+  grids: string[];
+  assigners: string[];
+  families: string[];
+}
+
+const unique = (values: string[]) => [...new Set(values)];
+
+// The shortest ends of paths that tell them apart.
+function labels(files: string[]): string[] {
+  const parts = files.map((file) => file.replace(/\.json$/, "").split("/"));
+  const tail = (at: number, length: number) => parts[at]!.slice(-length).join("/");
+  return files.map((file, at) => {
+    for (let length = 1; length <= parts[at]!.length; ++length)
+      if (files.every((other, place) => other === file || tail(place, length) !== tail(at, length))) return tail(at, length);
+    return file;
+  });
+}
+
+function toCase(raw: CaseResult, run: Run, front: Set<string>): Case {
+  const storage = raw.precision && raw.precision.packing !== "float32" ? `${raw.storage}, ${raw.precision.label}` : raw.storage;
+  return {
+    raw,
+    run,
+    scene: raw.scene,
+    grid: raw.grid.name,
+    assigner: raw.assigner.label,
+    family: raw.assigner.name.replace(/-fast$/, ""),
+    isFast: raw.assigner.name.endsWith("-fast"),
+    storage,
+    setting: [run.label, raw.scene, raw.camera, raw.viewport.join("×"), raw.grid.name, storage].join(" · "),
+    isOnFront: front.has(raw.id),
+    assignNs: raw.timing?.assign_ns.median ?? null,
+    interval: raw.timing?.assign_ns.ci95 ?? [null, null],
+    nsPerPair: raw.timing?.ns_per_pair ?? null,
+    floorRatio: raw.timing?.floor_ratio ?? null,
+    instructions: raw.count?.instructions_per_frame.assign ?? null,
+    pairs: raw.occupancy.pairs.mean,
+    excess: raw.error?.excess_ratio ?? null,
+    missed: raw.error?.false_negatives ?? null,
+    overshade: raw.shading?.overshade ?? null,
+    p99: raw.occupancy.lights_per_cluster.p99,
+    longest: raw.occupancy.lights_per_cluster.max,
+    bytes: raw.buffers.bytes.high_water,
+    recommended: raw.buffers.bytes.recommended,
+  };
+}
+
+export function modelOf(data: PageData): Model {
+  const names = labels(data.results.map((one) => one.file));
+  const runs = data.results.map(({ file, result }, at) => ({ file, label: names[at]!, result }));
+  const cases = runs.flatMap((run) => {
+    const front = new Set(run.result.front.flatMap((one) => one.ids));
+    return run.result.cases.map((raw) => toCase(raw, run, front));
+  });
+  return {
+    command: data.command,
+    runs,
+    cases,
+    scenes: unique(cases.map((one) => one.scene)),
+    grids: unique(cases.map((one) => one.grid)),
+    assigners: unique(cases.map((one) => one.assigner)),
+    families: unique(cases.map((one) => one.family)),
+  };
+}

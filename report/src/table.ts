@@ -1,0 +1,87 @@
+// A table that sorts by any of its columns, by mouse and keyboard.
+
+import { h, type Child } from "./dom.ts";
+
+export type Value = number | string | null;
+
+export interface Column<Row> {
+  label: string;
+  about?: string; // what it is, for those who hover or listen
+  value: (row: Row) => Value; // sorted by, copied and downloaded
+  show?: (row: Row) => Child; // displayed in place of the value
+}
+
+export interface Table<Row> {
+  caption: string;
+  columns: Column<Row>[];
+  rows: Row[];
+  sort?: { column: number; descending: boolean };
+  most?: number; // rows shown until all are asked for
+}
+
+const isNumeric = <Row>(column: Column<Row>, rows: Row[]) => rows.some((row) => typeof column.value(row) === "number");
+
+// Nothing known comes last whichever way a column is sorted.
+function compare(a: Value, b: Value): number {
+  if (a === null || b === null) return 0;
+  return typeof a === "number" && typeof b === "number" ? a - b : String(a).localeCompare(String(b), "en", { numeric: true });
+}
+
+export function sorted<Row>(rows: Row[], column: Column<Row>, descending: boolean): Row[] {
+  const known = rows.filter((row) => column.value(row) !== null);
+  const unknown = rows.filter((row) => column.value(row) === null);
+  known.sort((a, b) => (descending ? -1 : 1) * compare(column.value(a), column.value(b)));
+  return [...known, ...unknown];
+}
+
+function cell<Row>(column: Column<Row>, row: Row, isHeader: boolean, numeric: boolean): HTMLElement {
+  const shown = column.show ? column.show(row) : column.value(row);
+  const content = shown === null || shown === undefined ? "–" : typeof shown === "number" ? String(shown) : shown;
+  return isHeader ? h("th", { scope: "row" }, content) : h("td", { class: numeric && "number" }, content);
+}
+
+export function tableView<Row>(table: Table<Row>): HTMLElement {
+  const { columns } = table;
+  const numeric = columns.map((column) => isNumeric(column, table.rows));
+  let sort = table.sort ?? null;
+  let most = table.most ?? Infinity;
+
+  const body = h("tbody");
+  const more = h("button", { class: "more", onclick: () => showAll() });
+  const heads = columns.map((column, at) =>
+    h(
+      "th",
+      { scope: "col", class: numeric[at] && "number", title: column.about },
+      h("button", { onclick: () => sortBy(at) }, column.label),
+    ),
+  );
+
+  function draw(): void {
+    const rows = sort ? sorted(table.rows, columns[sort.column]!, sort.descending) : table.rows;
+    body.replaceChildren(
+      ...rows.slice(0, most).map((row) => h("tr", {}, ...columns.map((column, at) => cell(column, row, at === 0, numeric[at]!)))),
+    );
+    heads.forEach((head, at) => {
+      if (sort?.column === at) head.setAttribute("aria-sort", sort.descending ? "descending" : "ascending");
+      else head.removeAttribute("aria-sort");
+    });
+    more.hidden = rows.length <= most;
+    more.textContent = `Show all ${rows.length} rows`;
+  }
+  function sortBy(column: number): void {
+    sort = { column, descending: sort?.column === column && !sort.descending };
+    draw();
+  }
+  function showAll(): void {
+    most = Infinity;
+    draw();
+  }
+
+  draw();
+  return h(
+    "div",
+    { class: "table", tabindex: 0, role: "region", "aria-label": table.caption },
+    h("table", {}, h("caption", {}, table.caption), h("thead", {}, h("tr", {}, ...heads)), body),
+    more,
+  );
+}

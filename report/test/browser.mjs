@@ -1,0 +1,32 @@
+// A headless Chromium and pages made by the built tool, for tests and screenshots.
+
+import { execFileSync } from "node:child_process";
+import { existsSync, mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+import { chromium } from "playwright-core";
+
+export const chromiumPath = [process.env.CHROMIUM, "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(
+  (path) => path && existsSync(path),
+);
+
+export const launch = () =>
+  chromium.launch({
+    executablePath: chromiumPath,
+    headless: true,
+    args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
+      "--disable-component-update", "--disable-sync"],
+  });
+
+// A folder that goes when the process ends.
+export function folder() {
+  const path = mkdtempSync(join(tmpdir(), "clusterbench-page."));
+  process.on("exit", () => rmSync(path, { recursive: true, force: true }));
+  return path;
+}
+
+export function makePage(tool, results, into) {
+  execFileSync(tool, ["report", ...results, "-o", into], { stdio: ["ignore", "ignore", "ignore"] });
+  return pathToFileURL(into).href;
+}

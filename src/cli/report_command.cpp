@@ -1,0 +1,70 @@
+// `clusterbench report RESULT...`: results as one page for a browser.
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <iostream>
+
+#include "cli/command.h"
+#include "cli/output.h"
+#include "report/page.h"
+#include "report/result_file.h"
+#include "run/config.h"
+#include "run/schema_check.h"
+
+namespace clusterbench::cli {
+namespace {
+
+struct ReportOptions {
+  std::vector<std::string> files;
+  std::string output;
+};
+
+// Results of the same version can still be broken by hand: the page relies on what the schema promises.
+report::NamedResult checked_result(const std::string& path) {
+  report::NamedResult one{path, report::read_result(path)};
+  const std::vector<std::string> violations = run::schema_violations(run::result_schema(), one.result);
+  if (!violations.empty())
+    throw Error(path, "", "is not a valid result: " + violations.front() + "; `clusterbench validate` lists all");
+  return one;
+}
+
+std::string shell_quoted(const std::string& word) {
+  const auto is_plain = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || std::strchr("_-./=:@%+,", c);
+  };
+  if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain)) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string command_of(const ReportOptions& options) {
+  std::string command = "clusterbench report";
+  for (const std::string& file : options.files) command += " " + shell_quoted(file);
+  return options.output.empty() ? command : command + " -o " + shell_quoted(options.output);
+}
+
+ExitCode write_report(const ReportOptions& options) {
+  std::vector<report::NamedResult> results;
+  for (const std::string& file : options.files) results.push_back(checked_result(file));
+  const std::string page = report::page(results, command_of(options));
+  write_text(options.output, page);
+  if (!is_stream(options.output))
+    std::cerr << options.output << ": a page of " << page.size() / 1024 << " KiB; open it in a browser\n";
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_report(CLI::App& app, Action& action) {
+  CLI::App* command =
+      app.add_subcommand("report", "Show results as one page for a browser: ranking, charts, tables; works from disk");
+  auto options = std::make_shared<ReportOptions>();
+  command->add_option("RESULT", options->files, "Result files of `clusterbench run`; several are shown side by side")
+      ->required();
+  command->add_option("-o,--output", options->output, "Where the page goes; standard output by default");
+  command->callback([options, &action] { action = [options] { return write_report(*options); }; });
+}
+
+}  // namespace clusterbench::cli

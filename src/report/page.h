@@ -1,0 +1,21 @@
+#pragma once
+// Results as a page: one HTML file that works from disk and asks for nothing else.
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace clusterbench::report {
+
+struct NamedResult {
+  std::string file;  // as the reader of the page should know it
+  nlohmann::ordered_json result;
+};
+
+// Throws Error if this build has no page. `command`: the one that makes the page again, shown on it.
+std::string page(const std::vector<NamedResult>& results, const std::string& command);
+
+// JSON as it can stand in a <script> element: whatever is in its strings, it ends neither the element nor a line.
+std::string script_json(const nlohmann::ordered_json& value);
+
+}  // namespace clusterbench::report

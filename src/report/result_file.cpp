@@ -1,0 +1,47 @@
+#include "report/result_file.h"
+
+#include <fstream>
+
+#include "core/error.h"
+#include "report/json.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// The journal (report/journal.h) has a document per line, the first of them its header.
+bool is_journal(std::istream& in) {
+  std::string line;
+  in.clear();
+  in.seekg(0);
+  std::getline(in, line);
+  const Json first = Json::parse(line, nullptr, false);
+  return first.is_object() && first.contains("header");
+}
+
+}  // namespace
+
+Json read_result(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in || in.peek() == std::ifstream::traits_type::eof())
+    throw Error(path, "", in.eof() ? "is empty" : "cannot be read");
+  if (is_journal(in))
+    throw Error(path, "", "is what an unfinished run left; `clusterbench run` with --resume makes a result of it");
+  in.clear();
+  in.seekg(0);
+  Json result;
+  try {
+    result = Json::parse(in);
+  } catch (const nlohmann::json::parse_error& error) {
+    throw Error(path, "byte " + std::to_string(error.byte), "is not JSON");
+  }
+  if (!result.is_object() || !result.contains("schema_version") || !result.contains("cases"))
+    throw Error(path, "", "is not a result file of `clusterbench run`");
+  if (result["schema_version"] != k_schema_version)
+    throw Error(path, "/schema_version",
+                "is " + result["schema_version"].dump() + "; this version reads " + std::to_string(k_schema_version));
+  return result;
+}
+
+}  // namespace clusterbench::report
