@@ -7,6 +7,7 @@
 #include "assign/storage.h"
 #include "core/error.h"
 #include "run/config_grids.h"
+#include "run/config_rigs.h"
 #include "run/json_text.h"
 #include "run/schema_reader.h"
 
@@ -47,19 +48,26 @@ scene::PathRequest path_request(const Json& scene) {
 }
 
 void add_scenes(const Json& scene, const std::string& pointer, const JsonText& text, std::vector<SceneRequest>& out) {
-  const bool single = scene.contains("path");
-  if (single == scene.contains("paths"))
-    throw Error(text.file, text.where(pointer), "a scene takes exactly one of path, paths");
+  const bool single = scene.contains("path"), has_rig = scene.contains("rig");
+  if (single + scene.contains("paths") + has_rig != 1)
+    throw Error(text.file, text.where(pointer), "a scene takes exactly one of path, paths, rig");
+  SceneRequest request;
+  request.camera = path_request(scene);
+  request.range_rule = {scene["range_rule"]["cutoff_lux"].get<double>(),
+                        scene["range_rule"]["max_range"].get<double>()};
+  if (has_rig) {
+    for (const scene::RigSpec& rig : rig_specs(scene["rig"])) {
+      request.rig = rig;
+      out.push_back(request);
+    }
+    return;
+  }
   const Json paths = single ? Json::array({scene["path"]}) : scene["paths"];
   for (std::size_t i = 0; i < paths.size(); ++i) {
     const std::string place = single ? pointer + "/path" : child_pointer(pointer + "/paths", i);
     const fs::path path = expanded(paths[i].get<std::string>(), text.file, text.where(place));
-    SceneRequest request;
     request.path = (fs::path(text.file).parent_path() / path).lexically_normal();
-    request.camera = path_request(scene);
-    request.range_rule = {scene["range_rule"]["cutoff_lux"].get<double>(),
-                          scene["range_rule"]["max_range"].get<double>()};
-    out.push_back(std::move(request));
+    out.push_back(request);
   }
 }
 

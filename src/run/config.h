@@ -14,13 +14,15 @@
 #include "measure/buffers.h"
 #include "measure/lookup.h"
 #include "scene/camera_path.h"
+#include "scene/rig.h"
 #include "scene/scene.h"
 #include "view/packing.h"
 
 namespace clusterbench::run {
 
 struct SceneRequest {
-  std::filesystem::path path;
+  std::filesystem::path path;         // "" with a rig
+  std::optional<scene::RigSpec> rig;  // made in memory, in place of a file
   scene::PathRequest camera;
   scene::RangeRule range_rule;
 };

@@ -1,7 +1,6 @@
 #include "run/config_grids.h"
 
 #include <algorithm>
-#include <set>
 
 #include "core/error.h"
 
@@ -155,9 +154,10 @@ void check_boxes(const Json& grid, const std::string& pointer, const JsonText& t
 
 }  // namespace
 
-std::vector<Json> expand_all_axes(const Json& object) {
+std::vector<Json> expand_all_axes(const Json& object, const std::set<std::string>& triples) {
   std::vector<Json> all{object};
-  for (const auto& [key, value] : object.items()) all = expand_axis(all, Json::json_pointer(child_pointer("", key)), 0);
+  for (const auto& [key, value] : object.items())
+    all = expand_axis(all, Json::json_pointer(child_pointer("", key)), triples.contains(key) ? 1 : 0);
   return all;
 }
 

@@ -34,7 +34,7 @@ std::vector<SceneData> load_scenes(const Config& config) {
   std::set<std::string> names;
   for (const SceneRequest& request : config.scenes) {
     SceneData data;
-    data.scene = scene::load_gltf(request.path);
+    data.scene = request.rig ? scene::make_rig(*request.rig) : scene::load_gltf(request.path);
     scene::resolve_ranges(data.scene, request.range_rule);
     data.scene.name = unique_name(name_part(data.scene.name), names);
     data.paths = scene::camera_paths(data.scene, request.camera);

@@ -43,7 +43,16 @@ const Broken k_broken[] = {
     {R"({"scenes": []})", "1:12 /scenes: found an empty list, allowed: a list, each text or an object"},
     {R"({"scenes": [""]})", "1:13 /scenes/0: found an empty text, allowed: a text that is not empty"},
     {R"({"scenes": [7]})", "1:13 /scenes/0: found 7, allowed: text or an object"},
-    {R"({"scenes": [{"frames": 3}]})", "1:13 /scenes/0: a scene takes exactly one of path, paths"},
+    {R"({"scenes": [{"frames": 3}]})", "1:13 /scenes/0: a scene takes exactly one of path, paths, rig"},
+    {R"({"scenes": [{"path": "a.glb", "rig": {}}]})", "1:13 /scenes/0: a scene takes exactly one of path, paths, rig"},
+    {R"({"scenes": [{"rig": {"lights": 0}}]})",
+     "1:32 /scenes/0/rig/lights: found 0, allowed: an integer from 1 to 10000000"},
+    {R"({"scenes": [{"rig": {"lights": [10, 2.5]}}]})",
+     "1:37 /scenes/0/rig/lights/1: found 2.5, allowed: an integer from 1 to 10000000"},
+    {R"({"scenes": [{"rig": {"radius": 2}}]})",
+     "1:22 /scenes/0/rig/radius: unknown key 'radius', allowed: lights, range, seed, size, spots"},
+    {R"({"scenes": [{"rig": {"size": [1, 2]}}]})",
+     "1:30 /scenes/0/rig/size: found a list of 2, allowed: a list of 3, each a number above 0, at most 1000000.0"},
     {R"({"scenes": [{"path": "a.glb", "frames": "all"}]})",
      "1:41 /scenes/0/frames: found 'all', allowed: an integer from 1 to 1000000 or 'keys' or an object"},
     {R"({"scenes": [{"path": "a.glb", "frames": {"rate": 0}}]})",
@@ -239,6 +248,19 @@ TEST(Config, every_choice_of_a_parameter_can_be_an_axis) {
       EXPECT_EQ(parsed(R"(, "assigners": [)" + method.dump() + "]").assigners.size(), param.choices.size());
     }
   }
+}
+
+TEST(Config, axes_of_a_rig_expand_into_their_product) {
+  const Config config = parse_config(
+      R"({"scenes": [{"rig": {"lights": [10, 100, 1000], "size": [[20, 5, 20], [2, 2, 2]], "spots": 0.5}}, "a.glb"]})",
+      "c.json");
+  ASSERT_EQ(config.scenes.size(), 7u);
+  EXPECT_EQ(config.scenes[0].rig->name(), "rig-10-r2-s0.5-20x5x20");
+  EXPECT_EQ(config.scenes[5].rig->name(), "rig-1000-r2-s0.5-2x2x2");
+  EXPECT_FALSE(config.scenes[6].rig);
+  const Config plain = parse_config(R"({"scenes": [{"rig": {}}]})", "c.json");
+  ASSERT_EQ(plain.scenes.size(), 1u);
+  EXPECT_EQ(plain.scenes[0].rig->name(), scene::RigSpec().name());
 }
 
 TEST(Config, a_path_is_relative_to_the_file_and_may_name_an_environment_variable) {

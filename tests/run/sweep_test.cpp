@@ -146,6 +146,16 @@ TEST_F(Sweep, an_exact_assigner_is_skipped_on_packed_lights_with_its_reason) {
   EXPECT_NE(plan.skipped[0].reason.find("the scene's own numbers"), std::string::npos) << plan.skipped[0].reason;
 }
 
+TEST_F(Sweep, a_rig_is_a_scene_without_a_file) {
+  const Plan rigs = plan(R"([{"rig": {"lights": [1, 20], "spots": 0.5}}])", R"(, "assigners": ["exact"])");
+  ASSERT_EQ(rigs.scenes.size(), 2U);
+  EXPECT_EQ(rigs.scenes[1].scene.lights.size(), 20U);
+  EXPECT_EQ(rigs.scenes[1].scene.lights[0].range_m, 2.0);
+  ASSERT_EQ(rigs.scenes[1].paths.size(), 1U);
+  EXPECT_EQ(rigs.scenes[1].paths[0].shots.size(), 1U);
+  EXPECT_EQ(cases(rigs).front().name.substr(0, 20), "rig-1-r2-s0.5/look/f");
+}
+
 TEST_F(Sweep, a_filter_selects_by_name_and_says_when_it_selects_nothing) {
   write_scene("a.gltf");
   for (const CasePlan& one : cases(plan(R"(["a.gltf"])", k_two_grids, "/aabb/")))
