@@ -7,12 +7,13 @@
 #include <hwy/foreach_target.h>  // compiles this file once per target
 #include <hwy/highway.h>
 
+#include "assign/simd/boundaries-inl.h"
+#include "assign/simd/vectors-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
 namespace {
-
-namespace hn = hwy::HWY_NAMESPACE;
 
 // --- The slopes of disks in double precision: the twin of geom/tangents.cpp ---
 
@@ -176,58 +177,22 @@ void find_extents(const BoxPlanes& planes, const SeenBalls& seen, std::uint32_t 
 
 // --- The intervals that the extents touch: the twin of grid::intervals_touched ---
 
-using D = hn::ScalableTag<float>;
-using DI = hn::ScalableTag<std::int32_t>;
-using V = hn::Vec<D>;
-using VI = hn::Vec<DI>;
-
-V padded(V radius, V reach, float roundings) {
-  const D d;
-  if (roundings == 0.0f) return radius;  // as LightArrays::padded_radius has it
-  return hn::Add(radius, hn::Mul(hn::Set(d, roundings), hn::Mul(hn::Set(d, 0x1p-24f), reach)));
-}
-
-// Of the boundaries those below a value pass, with or_at those at it, too. Finds the last of 0 .. count that does, or
-// 0; with or_at the last of 0 .. count - 1, or -1. Looks there first where it is guessed to be.
-template <bool or_at>
-HWY_INLINE VI last_passed(const std::vector<float>& boundaries, VI guess, V value) {
-  const DI di;
-  const auto count = static_cast<std::int32_t>(boundaries.size()) - 1;
-  const VI zero = hn::Zero(di), one = hn::Set(di, 1);
-  const VI least = hn::Set(di, or_at ? -1 : 0), most = hn::Set(di, or_at ? count - 1 : count);
-  const auto passes = [&](VI place) {
-    const V boundary = hn::GatherIndex(D(), boundaries.data(), place);
-    return hn::RebindMask(di, or_at ? hn::Le(boundary, value) : hn::Lt(boundary, value));
-  };
-  VI place = hn::Min(hn::Max(guess, least), most);
-  for (;;) {
-    const VI next = hn::Add(place, one);
-    const auto goes_on = hn::And(hn::Lt(place, most), passes(hn::Min(next, most)));
-    if (hn::AllFalse(di, goes_on)) break;
-    place = hn::IfThenElse(goes_on, next, place);
-  }
-  for (;;) {
-    const auto goes_back = hn::AndNot(passes(hn::Max(place, zero)), hn::Gt(place, least));
-    if (hn::AllFalse(di, goes_back)) return place;
-    place = hn::IfThenElse(goes_back, hn::Sub(place, one), place);
-  }
-}
-
-HWY_INLINE VI guessed(const BoundaryAxis& axis, V value) {
-  const D d;
-  const V at = hn::Mul(hn::Sub(value, hn::Set(d, axis.start)), hn::Set(d, axis.per_length));
-  const V most = hn::Set(d, static_cast<float>(axis.boundaries.size()));
-  return hn::ConvertTo(DI(), hn::Min(hn::Max(at, hn::Zero(d)), most));
-}
-
 struct Indices {
   VI first, last;
 };
 
+// Looks first where a value is guessed to be.
+HWY_INLINE VI first_touched(const std::vector<float>& boundaries, VI guess, V low) {
+  return last_passed(boundaries, guess, 0, [&](V boundary) { return hn::Lt(boundary, low); });
+}
+HWY_INLINE VI last_touched(const std::vector<float>& boundaries, VI guess, V high) {
+  return last_passed(boundaries, guess, -1, [&](V boundary) { return hn::Le(boundary, high); });
+}
+
 // grid::intervals_touched for low <= high.
 HWY_INLINE Indices touched(const BoundaryAxis& axis, V low, V high) {
-  return {last_passed<false>(axis.boundaries, guessed(axis, low), low),
-          last_passed<true>(axis.boundaries, guessed(axis, high), high)};
+  return {first_touched(axis.boundaries, guessed(axis, low), low),
+          last_touched(axis.boundaries, guessed(axis, high), high)};
 }
 
 void find_radii(const SeenBalls& seen, std::uint32_t begin, const GivenBalls& given, std::uint32_t first_light,
@@ -258,8 +223,8 @@ void box_balls(const BoxPlanes& planes, const SeenBalls& seen, std::uint32_t beg
     const Indices columns = touched(planes.columns, low_x, high_x);
     const Indices rows = touched(planes.rows, hn::Neg(high_y), hn::Neg(low_y));
     const auto guess = [&](const std::vector<std::int32_t>& list) { return hn::LoadU(di, list.data() + i); };
-    const Indices slices{last_passed<false>(planes.depths, guess(seen.first_slice), hn::Sub(depth, r)),
-                         last_passed<true>(planes.depths, guess(seen.last_slice), hn::Add(depth, r))};
+    const Indices slices{first_touched(planes.depths, guess(seen.first_slice), hn::Sub(depth, r)),
+                         last_touched(planes.depths, guess(seen.last_slice), hn::Add(depth, r))};
     const auto is_some = [&](const Indices& some) { return hn::RebindMask(d, hn::Not(hn::Lt(some.last, some.first))); };
     const auto has_extents = hn::And(hn::Le(low_x, high_x), hn::Le(low_y, high_y));
     const auto has_cells = hn::And(is_some(columns), hn::And(is_some(rows), is_some(slices)));

@@ -8,16 +8,11 @@
 #include <vector>
 
 #include "assign/cell_box.h"
+#include "assign/simd/boundary_axis.h"
 #include "assign/simd/slice_rows.h"
 #include "grid/grid.h"
 
 namespace clusterbench::assign {
-
-// Boundaries along one axis of a grid, ascending, and where among them a value may be looked for first.
-struct BoundaryAxis {
-  std::vector<float> boundaries;
-  float start = 0.0f, per_length = 0.0f;
-};
 
 // The boundaries of a grid. Made once per grid.
 struct BoxPlanes {

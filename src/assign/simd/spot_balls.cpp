@@ -49,8 +49,8 @@ void spot_balls(const view::LightArrays& lights, float roundings, bool around_co
     const auto of_light = [&](const std::vector<float>& list) { return load(list.data() + lights.points); };
     const auto of_spot = [&](const std::vector<float>& list) { return load(list.data()); };
     const V given = of_light(lights.radius);
-    const V padded = hn::Add(given, hn::Mul(all(roundings), hn::Mul(all(0x1p-24f), of_light(lights.reach))));
-    Spheres ball{of_light(lights.x), of_light(lights.y), of_light(lights.z), roundings == 0.0f ? given : padded};
+    Spheres ball{of_light(lights.x), of_light(lights.y), of_light(lights.z),
+                 padded(given, of_light(lights.reach), roundings)};
     if (around_cones)
       ball = around(ball, {of_spot(lights.axis_x), of_spot(lights.axis_y), of_spot(lights.axis_z),
                            of_spot(lights.cos_angle), of_spot(lights.sin_angle)});

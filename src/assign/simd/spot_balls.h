@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "assign/simd/slice_rows.h"
 #include "view/frame.h"
 
 namespace clusterbench::assign {
@@ -19,5 +20,14 @@ struct BallArrays {
 // Ball i is that of spot i, larger by these roundings: around its cone or, if not `around_cones`, the ball of its
 // range. Spots without volume get radius 0.
 void find_spot_balls(const view::LightArrays& lights, float roundings, bool around_cones, BallArrays& balls);
+
+inline GivenBalls given_points(const view::LightArrays& lights) {
+  return {lights.x.data(), lights.y.data(), lights.z.data(), lights.radius.data(), lights.reach.data(), lights.points};
+}
+// `balls`: those of all spots.
+inline GivenBalls given_spots(const view::LightArrays& lights, const BallArrays& balls) {
+  return {balls.x.data(), balls.y.data(), balls.z.data(), balls.radius.data(), lights.reach.data() + lights.points,
+          lights.spots};
+}
 
 }  // namespace clusterbench::assign

@@ -52,6 +52,12 @@ HWY_INLINE V loaded(const float* from, std::uint32_t count) {
   return hn::LoadU(d, rest);
 }
 
+// LightArrays::padded_radius
+HWY_INLINE V padded(V radius, V reach, float roundings) {
+  if (roundings == 0.0f) return radius;
+  return hn::Add(radius, hn::Mul(all(roundings), hn::Mul(all(0x1p-24f), reach)));
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace clusterbench::assign
 HWY_AFTER_NAMESPACE();

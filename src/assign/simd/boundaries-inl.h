@@ -1,0 +1,50 @@
+// Where values are among the boundaries of an axis, for files that are compiled once per target: a guess that the
+// boundaries themselves settle. Included after hwy/highway.h; defines its names anew for each target.
+
+#if defined(CLUSTERBENCH_BOUNDARIES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef CLUSTERBENCH_BOUNDARIES_INL_H
+#undef CLUSTERBENCH_BOUNDARIES_INL_H
+#else
+#define CLUSTERBENCH_BOUNDARIES_INL_H
+#endif
+
+#include "assign/simd/boundary_axis.h"
+#include "assign/simd/vectors-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace clusterbench::assign {
+namespace HWY_NAMESPACE {
+
+// passes(boundary) holds up to some boundary and for none beyond. Finds the last of boundaries `least` .. that passes,
+// or `least` (0 or -1), whether it passes or not; with -1 the last boundary is not asked. Looks first at the guess.
+template <class Passes>
+HWY_INLINE VI last_passed(const std::vector<float>& boundaries, VI guess, int least, Passes&& passes) {
+  const DI di;
+  const auto count = static_cast<std::int32_t>(boundaries.size()) - 1;
+  const VI zero = hn::Zero(di), one = hn::Set(di, 1), from = hn::Set(di, least), to = hn::Set(di, count + least);
+  const auto at = [&](VI place) { return hn::RebindMask(di, passes(gathered(boundaries, place))); };
+  VI place = hn::Min(hn::Max(guess, from), to);
+  for (;;) {
+    const VI next = hn::Add(place, one);
+    const auto goes_on = hn::And(hn::Lt(place, to), at(hn::Min(next, to)));
+    if (hn::AllFalse(di, goes_on)) break;
+    place = hn::IfThenElse(goes_on, next, place);
+  }
+  for (;;) {
+    const auto goes_back = hn::AndNot(at(hn::Max(place, zero)), hn::Gt(place, from));
+    if (hn::AllFalse(di, goes_back)) return place;
+    place = hn::IfThenElse(goes_back, hn::Sub(place, one), place);
+  }
+}
+
+HWY_INLINE VI guessed(const BoundaryAxis& axis, V value) {
+  const V at = hn::Mul(hn::Sub(value, all(axis.start)), all(axis.per_length));
+  const V most = all(static_cast<float>(axis.boundaries.size()));
+  return hn::ConvertTo(DI(), hn::Min(hn::Max(at, hn::Zero(D())), most));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace clusterbench::assign
+HWY_AFTER_NAMESPACE();
+
+#endif
