@@ -108,11 +108,22 @@ Answer answer_of(const std::string& name, const Params& params, const Setting& s
   return {std::move(lists), assigner->tests_done()};
 }
 
+std::vector<grid::GridSpec> odd_box_grids(grid::Kind kind) {
+  std::vector<grid::GridSpec> specs;
+  if (kind == grid::Kind::world)
+    for (const Vec3i& cells : {Vec3i{1, 1, 1}, Vec3i{131, 2, 3}, Vec3i{3, 70, 2}, Vec3i{2, 5, 90}})
+      specs.push_back(testing::settings::box_spec(kind, cells));
+  else
+    for (const Vec3i& cells : {Vec3i{4, 4, 2}, Vec3i{132, 4, 2}, Vec3i{8, 72, 6}, Vec3i{16, 8, 16}})
+      specs.push_back(testing::settings::box_spec(kind, cells));
+  return specs;
+}
+
 // Grids as they are not built for vectors: narrow ones and ones wider than any vector, tiles clipped at the edge, a
 // view in which a tile's plane is more than a right angle away from another's, slices that begin at the eye.
-std::vector<grid::GridSpec> odd_grids() {
+std::vector<grid::GridSpec> odd_grids(grid::Kind kind) {
   using grid::Scheme;
-  const auto kind = grid::Kind::frustum;
+  if (kind == grid::Kind::world || kind == grid::Kind::cascades) return odd_box_grids(kind);
   std::vector<grid::GridSpec> specs{testing::settings::screen_spec(kind, {1, 1}, Scheme::exponential, 1, 0.1),
                                     testing::settings::screen_spec(kind, {131, 2}, Scheme::exponential, 6, 0.1),
                                     testing::settings::screen_spec(kind, {3, 70}, Scheme::linear, 3, 0.1),
@@ -123,10 +134,31 @@ std::vector<grid::GridSpec> odd_grids() {
   return specs;
 }
 
+// Points whose sphere passes through a corner of a box, or ends at a side of one, up to a few steps of the range.
+// Without padding rounding decides.
+std::vector<scene::WorldLight> nudged_points(const grid::Grid& grid, const view::Space& space, std::uint64_t seed) {
+  std::vector<scene::WorldLight> lights;
+  testing::Random random(seed);
+  for (int i = 0; i < 200; ++i) {
+    const std::uint32_t cell = testing::touching::random_cell(grid, random);
+    const auto box = std::get<geom::Box>(grid.cell(cell));
+    const Vec3f corner = i % 2 == 0 ? box.lo : box.hi;
+    Vec3f gap(static_cast<float>(random.between(-9, 9)), static_cast<float>(random.between(-9, 9)),
+              static_cast<float>(random.between(-9, 9)));
+    for (int axis = 0; axis < 3; ++axis)
+      if (random.unit() < 0.4) gap[axis] = 0.0f;
+    const Vec3f center = corner + gap, back = center - corner;
+    float range = std::sqrt(back.x * back.x + back.y * back.y + back.z * back.z);
+    for (int step = -3; step < i % 7 - 3; ++step) range = std::nextafter(range, 1e9f);
+    lights.push_back(testing::point_light(testing::touching::in_world(Vec3d(center), space), range));
+  }
+  return lights;
+}
+
 // Beside the usual lights some that hold nearly everything, or end at the eye or at the depth of 5 m by a hair.
 std::vector<Setting> odd_settings(const AssignerRow& row, std::uint64_t seed) {
   std::vector<Setting> settings;
-  for (const grid::GridSpec& spec : odd_grids())
+  for (const grid::GridSpec& spec : odd_grids(row.kinds.front()))
     for (const double view_deg : {50.0, 165.0}) {
       Setting setting;
       setting.name = spec.name() + ", " + std::to_string(view_deg) + " degrees";
@@ -140,6 +172,10 @@ std::vector<Setting> odd_settings(const AssignerRow& row, std::uint64_t seed) {
           for (const double nudge : {-1e-6, -6e-8, 0.0, 6e-8, 1e-6})
             for (const Vec3d& place : {Vec3d{0, 0, -1}, Vec3d{0, 0, 1}, Vec3d{0.6, 0, -0.8}, Vec3d{1, 0, 0}})
               more.push_back(testing::point_light((size + end) * place, size * (1 + nudge)));
+      if (std::holds_alternative<geom::Box>(setting.grid.cell(0))) {
+        const auto nudged = nudged_points(setting.grid, grid::space_of(setting.grid, setting.frame), seed);
+        more.insert(more.end(), nudged.begin(), nudged.end());
+      }
       setting.frame.lights.insert(setting.frame.lights.begin(), more.begin(), more.end());
       setting.frame.points += static_cast<std::uint32_t>(more.size());
       settings.push_back(std::move(setting));
@@ -218,6 +254,16 @@ TEST(AabbFast, gives_the_lists_of_aabb_on_every_target) {
 TEST(SphereRefinementFast, gives_the_lists_of_sphere_refinement_on_every_target) {
   expect_same_lists_on_every_target("sphere-refinement-fast", "sphere-refinement");
   expect_same_lists_on_odd_grids("sphere-refinement-fast", "sphere-refinement");
+}
+
+TEST(CascadesFast, gives_the_lists_of_cascades_on_every_target) {
+  expect_same_lists_on_every_target("cascades-fast", "cascades");
+  expect_same_lists_on_odd_grids("cascades-fast", "cascades");
+}
+
+TEST(WorldGridFast, gives_the_lists_of_world_grid_on_every_target) {
+  expect_same_lists_on_every_target("world-grid-fast", "world-grid");
+  expect_same_lists_on_odd_grids("world-grid-fast", "world-grid");
 }
 
 // The same lights many times over, so that there is work for threads.

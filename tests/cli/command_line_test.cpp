@@ -42,8 +42,8 @@ TEST(CommandLine, list_names_every_assigner_with_its_parameters) {
   for (const Json& row : all["assigners"]) names.push_back(row["name"]);
   EXPECT_EQ(names, (std::vector<std::string>{"brute-force", "bounds", "bounds-fast", "planes", "aabb", "aabb-fast",
                                              "sphere-refinement", "sphere-refinement-fast", "exact", "exact-fast",
-                                             "distance", "cascades", "world-grid", "naive-bounds", "naive-refinement",
-                                             "naive-planes", "naive-cone"}));
+                                             "distance", "cascades", "cascades-fast", "world-grid", "world-grid-fast",
+                                             "naive-bounds", "naive-refinement", "naive-planes", "naive-cone"}));
   const std::string text = tool("list").out;
   for (const std::string& name : names) EXPECT_NE(text.find(name), std::string::npos) << name;
 }

@@ -219,7 +219,7 @@ HWY_INLINE V squared_gap(const CellExtents::Axis& axis, VI place, V center) {
 HWY_INLINE void prepare_gaps(const CellExtents& cells, const Boxes& boxes, int slice, int most, V x, LaneColumns& out) {
   const std::size_t lanes = hn::Lanes(D());
   out.reserve(static_cast<std::size_t>(most) * lanes);
-  const VI last = all_int(cells.columns - 1), before = all_int(slice * cells.columns);
+  const VI last = all_int(cells.columns - 1), before = all_int(slice * cells.x.pitch);
   for (int i = 0; i < most; ++i) {
     const VI place = hn::Add(hn::Min(hn::Add(boxes.first_column, all_int(i)), last), before);
     hn::StoreU(squared_gap(cells.x, place, x), D(), out.first.data() + static_cast<std::size_t>(i) * lanes);
@@ -238,7 +238,7 @@ void box_rows(const CellExtents& cells, const BallBatch& batch, LaneColumns& col
   const V y = gathered(boxed.y, boxes.places);
   const int most = most_columns(boxes);
   prepare_gaps(cells, boxes, batch.slice, most, gathered(boxed.x, boxes.places), columns);
-  const VI last = all_int(cells.rows - 1), before = all_int(batch.slice * cells.rows);
+  const VI last = all_int(cells.rows - 1), before = all_int(batch.slice * cells.y.pitch);
   walk_rows(boxes, cells.rows, out, [&](VI row, MI wanted) {
     const V gap_y = squared_gap(cells.y, hn::Add(hn::Min(row, last), before), y);
     const VU none = hn::Set(DU(), BatchRows::k_none);
@@ -280,6 +280,8 @@ std::size_t RefinementPlanes::capacity_bytes() const {
 }
 
 CellExtents::CellExtents(const grid::Grid& grid) : columns(grid.cells().x), rows(grid.cells().y) {
+  x.pitch = columns;
+  y.pitch = rows;
   const auto cells = static_cast<std::uint32_t>(columns * rows);
   for (std::uint32_t cell = 0; cell < grid.cell_count(); ++cell) {
     const std::uint32_t in_slice = cell % cells;
@@ -292,6 +294,19 @@ CellExtents::CellExtents(const grid::Grid& grid) : columns(grid.cells().x), rows
     if (in_slice % static_cast<std::uint32_t>(columns) == 0) add(y, 1);
     if (in_slice == 0) add(z, 2);
   }
+}
+
+CellExtents::CellExtents(const BoxGrid& boxes)
+    : columns(static_cast<int>(boxes.x.size())), rows(static_cast<int>(boxes.y.size())) {
+  const auto add = [](Axis& axis, const BoxAxis& extents) {
+    for (const Interval& extent : extents) {
+      axis.lo.push_back(extent.lo);
+      axis.hi.push_back(extent.hi);
+    }
+  };
+  add(x, boxes.x);
+  add(y, boxes.y);
+  add(z, boxes.z);
 }
 
 std::size_t CellExtents::capacity_bytes() const {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "assign/box_rows.h"
 #include "assign/simd/cell_boxes.h"
 #include "assign/simd/slice_rows.h"
 #include "assign/tile_planes.h"
@@ -47,16 +48,18 @@ struct RefinementPlanes {
 };
 void find_refined_rows(const RefinementPlanes& planes, const BallBatch& batch, LaneColumns& columns, BatchRows& out);
 
-// The boxes around the cells (assigners/aabb.cpp). Within a slice a cell's box has its column's extent in x, its row's
-// in y and the slice's in z.
+// The boxes around the cells (assigners/aabb.cpp), or those that are the cells (assign/box_rows.h). Within a slice a
+// cell's box has its column's extent in x, its row's in y and the slice's in z.
 struct CellExtents {
   struct Axis {
-    std::vector<float> lo, hi;  // slice by slice
+    std::vector<float> lo, hi;
+    int pitch = 0;  // from one slice to the next; 0: the same for all slices
   };
   Axis x, y, z;
   int columns = 0, rows = 0;
 
   explicit CellExtents(const grid::Grid& grid);
+  explicit CellExtents(const BoxGrid& boxes);
   CellExtents() = default;
   std::size_t capacity_bytes() const;
 };

@@ -11,12 +11,12 @@
 #define CLUSTERBENCH_SPAN_LISTS_ONCE
 namespace clusterbench::assign {
 
-// The spans of one row. Up to a vector more can be read.
+// The spans of one row, and the columns of which lists are wanted. Up to a vector more can be read.
 struct RowSpans {
   const std::uint32_t* lights;
   const std::int32_t* before;  // first column - 1
   const std::int32_t* after;   // last column + 1
-  std::uint32_t count, columns;
+  std::uint32_t count, column, end_column;
 };
 
 // Where spans are added; row r begins at r * pitch.
@@ -47,7 +47,7 @@ std::uint32_t* write_row(const RowSpans& row, std::uint32_t* to, const std::uint
   const hn::ScalableTag<std::int32_t> di;
   const hn::ScalableTag<std::uint32_t> du;
   const std::size_t lanes = hn::Lanes(du);
-  for (std::uint32_t column = 0; column < row.columns; ++column) {
+  for (std::uint32_t column = row.column; column < row.end_column; ++column) {
     begin[column] = static_cast<std::uint32_t>(to - lists);
     const auto place = hn::Set(di, static_cast<std::int32_t>(column));
     for (std::size_t i = 0; i < row.count; i += lanes) {
@@ -154,23 +154,37 @@ void SpanLists::add_batch(int first_row, int last_row, const std::uint32_t* colu
   band_pairs_ += HWY_DYNAMIC_DISPATCH(add_rows)(rows, first_row, last_row, columns, lights, is_left);
 }
 
-void SpanLists::finish_band() {
+// The row's lists, but for the hole's columns.
+std::uint32_t* SpanLists::finish_row(std::uint32_t row, const grid::IndexRange& hole, std::uint32_t* begin,
+                                     std::uint32_t* to) {
+  const std::uint32_t* lists = out_->lights.data();
+  if (sizes_[row] == 0) {
+    std::fill_n(begin, columns_, static_cast<std::uint32_t>(to - lists));
+    return to;
+  }
+  const std::size_t at = row * pitch_;
+  RowSpans spans{lights_.data() + at, before_.data() + at, after_.data() + at, sizes_[row], 0, columns_};
+  if (!hole.empty()) {
+    spans.end_column = static_cast<std::uint32_t>(hole.first);
+    to = HWY_DYNAMIC_DISPATCH(write_row)(spans, to, lists, begin);
+    std::fill_n(begin + hole.first, hole.count(), static_cast<std::uint32_t>(to - lists));
+    spans.column = static_cast<std::uint32_t>(hole.last) + 1;
+    spans.end_column = columns_;
+  }
+  return HWY_DYNAMIC_DISPATCH(write_row)(spans, to, lists, begin);
+}
+
+void SpanLists::finish_band(const BandHole& hole) {
   check_pair_count(pairs_ + band_pairs_);
   std::vector<std::uint32_t>& lists = out_->lights;
   const std::size_t needed = pairs_ + band_pairs_ + k_most_lanes;
   if (lists.size() < needed) lists.resize(needed + needed / 16);
   std::uint32_t* begin = out_->begin.data() + std::size_t{band_} * rows_ * columns_;
   std::uint32_t* to = lists.data() + pairs_;
-  for (std::size_t row = 0; row < rows_; ++row, begin += columns_) {
-    const std::size_t at = row * pitch_;
-    const RowSpans spans{lights_.data() + at, before_.data() + at, after_.data() + at, sizes_[row], columns_};
-    if (spans.count == 0)
-      std::fill_n(begin, columns_, static_cast<std::uint32_t>(to - lists.data()));
-    else
-      to = HWY_DYNAMIC_DISPATCH(write_row)(spans, to, lists.data(), begin);
-  }
+  for (std::uint32_t row = 0; row < rows_; ++row, begin += columns_)
+    to = finish_row(row, hole.rows.holds(static_cast<int>(row)) ? hole.columns : grid::IndexRange{}, begin, to);
   std::fill(sizes_.begin(), sizes_.end(), 0);
-  pairs_ += band_pairs_;
+  pairs_ = static_cast<std::uint64_t>(to - lists.data());
   band_pairs_ = 0;
   most_ = 0;
   ++band_;

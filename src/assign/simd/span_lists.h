@@ -8,8 +8,14 @@
 #include <vector>
 
 #include "assign/lists.h"
+#include "grid/index_range.h"
 
 namespace clusterbench::assign {
+
+// Cells that take no lights: spans may cover them, their lists stay empty.
+struct BandHole {
+  grid::IndexRange rows, columns;
+};
 
 inline constexpr std::size_t k_most_lanes = 64;  // of any target: what arrays are padded by
 
@@ -40,7 +46,7 @@ class SpanLists {
   void add_batch(int first_row, int last_row, const std::uint32_t* columns, const std::uint32_t* lights,
                  std::uint8_t* is_left);
   // Writes the band's lists; the next band begins. Throws Error (ExitCode::internal) beyond 2^32 - 1 pairs.
-  void finish_band();
+  void finish_band(const BandHole& hole = {});
   // After the last band.
   void finish();
 
@@ -48,6 +54,7 @@ class SpanLists {
 
  private:
   void make_room(std::uint32_t spans);
+  std::uint32_t* finish_row(std::uint32_t row, const grid::IndexRange& hole, std::uint32_t* begin, std::uint32_t* to);
   void grow();
 
   std::uint32_t rows_ = 0, columns_ = 0, band_ = 0;

@@ -1,0 +1,17 @@
+// `cascades` for speed: the same lists, SIMD.
+
+#include "assign/box_grid_twin.h"
+
+namespace clusterbench::assign {
+
+extern const AssignerRow cascades_fast_row;
+const AssignerRow cascades_fast_row{
+    .name = "cascades-fast",
+    .summary = "cascades, one ball per lane, lists by compression (SIMD, dispatched at run time)",
+    .source = "nested camera-space cascades of light volumes; squared distance per axis as in Arvo 1990",
+    .kinds = {grid::Kind::cascades},
+    .params = light_params(),
+    .make = make_box_grid_twin,
+};
+
+}  // namespace clusterbench::assign

@@ -1,0 +1,17 @@
+// `world-grid` for speed: the same lists, SIMD.
+
+#include "assign/box_grid_twin.h"
+
+namespace clusterbench::assign {
+
+extern const AssignerRow world_grid_fast_row;
+const AssignerRow world_grid_fast_row{
+    .name = "world-grid-fast",
+    .summary = "world-grid, one ball per lane, lists by compression (SIMD, dispatched at run time)",
+    .source = "PlayCanvas clustered lighting",
+    .kinds = {grid::Kind::world},
+    .params = light_params(),
+    .make = make_box_grid_twin,
+};
+
+}  // namespace clusterbench::assign

@@ -1,0 +1,132 @@
+#include "assign/simd/box_ranges.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "assign/simd/box_ranges.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once per target
+#include <hwy/highway.h>
+
+#include "assign/simd/boundaries-inl.h"
+#include "assign/simd/vectors-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace clusterbench::assign {
+namespace HWY_NAMESPACE {
+namespace {
+
+struct Indices {
+  VI first, last;
+};
+
+// Along an axis; a negated place has the same distances from negated boundaries.
+HWY_INLINE V on_axis(const RangeAxis& axis, V place) {
+  return axis.descends ? hn::Neg(place) : place;
+}
+
+// Whether the grid as a whole is within reach. Boxes are adjacent: so is one of them, then.
+HWY_INLINE M reaches(const RangeAxis& axis, V given, V radius) {
+  const V place = on_axis(axis, given), start = all(axis.boundaries.front()), end = all(axis.boundaries.back());
+  return hn::Not(hn::Or(hn::Gt(hn::Sub(start, place), radius), hn::Gt(hn::Sub(place, end), radius)));
+}
+
+HWY_INLINE Indices range_on(const RangeAxis& axis, V given, V radius) {
+  const V place = on_axis(axis, given);
+  const auto is_before = [&](V end) { return hn::Gt(hn::Sub(place, end), radius); };
+  const auto is_reached = [&](V start) { return hn::Not(hn::Gt(hn::Sub(start, place), radius)); };
+  return {last_passed(axis.boundaries, guessed(axis, hn::Sub(place, radius)), 0, is_before),
+          last_passed(axis.boundaries, guessed(axis, hn::Add(place, radius)), -1, is_reached)};
+}
+
+HWY_INLINE MI lies_in(const Indices& range, const grid::IndexRange& hole) {
+  const DI di;
+  return hn::AndNot(hn::Lt(range.first, hn::Set(di, hole.first)), hn::Not(hn::Gt(range.last, hn::Set(di, hole.last))));
+}
+
+// Those that reach the grid; without their ranges.
+void see_reaching(const RangeAxes& axes, const GivenBalls& balls, std::uint32_t first_light, float roundings,
+                  BoxedBalls& boxed) {
+  const D d;
+  const DU du;
+  const auto n = static_cast<std::uint32_t>(hn::Lanes(d));
+  for (std::uint32_t i = 0; i < balls.count; i += n) {
+    const std::uint32_t left = std::min(n, balls.count - i);
+    const auto load = [&](const float* from) { return loaded(from + i, left); };
+    const V x = load(balls.x), y = load(balls.y), z = load(balls.z), given = load(balls.radius);
+    const V radius = padded(given, load(balls.reach), roundings);
+    const M on_all =
+        hn::And(reaches(axes.x, x, radius), hn::And(reaches(axes.y, y, radius), reaches(axes.z, z, radius)));
+    const M wanted = hn::And(hn::And(hn::Gt(given, hn::Zero(d)), hn::FirstN(d, left)), on_all);
+    const std::size_t kept = hn::CountTrue(d, wanted);
+    if (kept == 0) continue;
+    const auto keep = [&](V value, std::vector<float>& to) {
+      hn::StoreU(hn::Compress(value, wanted), d, to.data() + boxed.count);
+    };
+    keep(x, boxed.x);
+    keep(y, boxed.y);
+    keep(hn::Neg(z), boxed.depth);
+    keep(radius, boxed.radius);
+    hn::StoreU(hn::Compress(hn::Iota(du, first_light + i), hn::RebindMask(du, wanted)), du,
+               boxed.light.data() + boxed.count);
+    boxed.count += static_cast<std::uint32_t>(kept);
+  }
+}
+
+// The ranges of the balls from `begin` on. Those in the hole reach no slice.
+void find_ranges(const RangeAxes& axes, std::uint32_t begin, BoxedBalls& boxed) {
+  const D d;
+  const DI di;
+  const auto n = static_cast<std::uint32_t>(hn::Lanes(d));
+  for (std::uint32_t i = begin; i < boxed.count; i += n) {
+    const auto at = [&](const std::vector<float>& list) { return hn::LoadU(d, list.data() + i); };
+    const V radius = at(boxed.radius);
+    const Indices x = range_on(axes.x, at(boxed.x), radius), y = range_on(axes.y, at(boxed.y), radius);
+    Indices z = range_on(axes.z, hn::Neg(at(boxed.depth)), radius);
+    const MI in_hole = hn::And(lies_in(x, axes.hole_x), hn::And(lies_in(y, axes.hole_y), lies_in(z, axes.hole_z)));
+    z.last = hn::IfThenElse(in_hole, hn::Set(di, -1), z.last);
+    const auto keep = [&](const Indices& range, std::vector<std::int32_t>& first, std::vector<std::int32_t>& last) {
+      hn::StoreU(range.first, di, first.data() + i);
+      hn::StoreU(range.last, di, last.data() + i);
+    };
+    keep(x, boxed.first_column, boxed.last_column);
+    keep(y, boxed.first_row, boxed.last_row);
+    keep(z, boxed.first_slice, boxed.last_slice);
+  }
+}
+
+void box_ranges(const RangeAxes& axes, const GivenBalls& balls, std::uint32_t first_light, float roundings,
+                BoxedBalls& boxed) {
+  const std::uint32_t begin = boxed.count;
+  see_reaching(axes, balls, first_light, roundings, boxed);
+  find_ranges(axes, begin, boxed);
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace clusterbench::assign
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace clusterbench::assign {
+
+HWY_EXPORT(box_ranges);
+
+RangeAxis::RangeAxis(const BoxAxis& axis) : descends(axis.front().lo > axis.back().lo) {
+  boundaries.push_back(descends ? -axis.front().hi : axis.front().lo);
+  for (const Interval& extent : axis) boundaries.push_back(descends ? -extent.lo : extent.hi);
+  start = boundaries.front();
+  per_length = static_cast<float>(axis.size()) / (boundaries.back() - start);
+}
+
+RangeAxes::RangeAxes(const BoxGrid& boxes)
+    : x(boxes.x), y(boxes.y), z(boxes.z), hole_x(boxes.hole_x), hole_y(boxes.hole_y), hole_z(boxes.hole_z) {}
+
+std::size_t RangeAxes::capacity_bytes() const {
+  return (x.boundaries.capacity() + y.boundaries.capacity() + z.boundaries.capacity()) * sizeof(float);
+}
+
+void find_box_ranges(const RangeAxes& axes, const GivenBalls& balls, std::uint32_t first_light, float roundings,
+                     BoxedBalls& boxed) {
+  HWY_DYNAMIC_DISPATCH(box_ranges)(axes, balls, first_light, roundings, boxed);
+}
+
+}  // namespace clusterbench::assign
+#endif
