@@ -97,8 +97,9 @@ std::unique_ptr<report::Journal> open_journal(const Flags& flags, const run::Con
     if (flags.resume) throw Error("", "--resume", "needs the result file of the interrupted run: add -o FILE");
     return nullptr;
   }
+  const std::uint64_t per_case = k_bytes_per_case + (config.details ? config.details->max_bytes : 0);
   return std::make_unique<report::Journal>(flags.output, journal_header(config, plan, flags), flags.resume,
-                                           k_bytes_per_case * case_count(plan));
+                                           per_case * case_count(plan));
 }
 
 ExitCode interrupted(const report::Journal* journal) {

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "measure/front.h"
+#include "report/details_json.h"
 
 namespace clusterbench::report {
 namespace {
@@ -315,6 +316,7 @@ Json case_to_json(const run::CaseResult& one) {
   if (one.precision) out["precision"] = precision(*one.precision);
   if (one.timing) out["timing"] = timing(*one.timing);
   if (one.count) out["count"] = count(*one.count);
+  if (one.details) out["details"] = details_to_json(*one.details);
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <set>
 
 #include "assign/storage.h"
 #include "core/error.h"
@@ -196,6 +197,23 @@ std::optional<LookupRequest> lookup_request(const Json& lookup) {
   return request;
 }
 
+std::optional<DetailsRequest> details_request(const Json& details) {
+  if (details.is_null()) return std::nullopt;
+  DetailsRequest request;
+  request.lists = details["lists"].get<bool>();
+  request.max_bytes = details["max_bytes"].get<std::size_t>();
+  const Json& frames = details["frames"];
+  if (frames.is_number()) {
+    request.choice = DetailsRequest::Choice::evenly;
+    request.count = frames.get<int>();
+  } else if (frames.is_array()) {
+    request.choice = DetailsRequest::Choice::listed;
+    const auto once = frames.get<std::set<int>>();
+    request.frames.assign(once.begin(), once.end());
+  }
+  return request;
+}
+
 void read_settings(const Json& document, Config& config) {
   config.threads = document["threads"].get<int>();
   config.seed = document["seed"].get<std::uint64_t>();
@@ -203,6 +221,7 @@ void read_settings(const Json& document, Config& config) {
   config.shading_samples = document["shading"]["samples"].get<int>();
   config.stability = stability_request(document["stability"]);
   config.lookup = lookup_request(document["lookup"]);
+  config.details = details_request(document["details"]);
   const Json& timing = document["timing"];
   config.timing = {timing["measure"].get<bool>(), timing["rounds"].get<int>(), timing["min_time_ms"].get<double>(),
                    timing["frames"].get<int>()};

@@ -67,6 +67,16 @@ struct LookupRequest {
   std::vector<measure::LookupWay> ways;
 };
 
+// Which frames a result carries cell by cell.
+struct DetailsRequest {
+  enum class Choice : std::uint8_t { worst, evenly, listed };  // the one with the case's longest list; count; frames
+  Choice choice = Choice::worst;
+  int count = 0;
+  std::vector<int> frames;  // ascending, each once
+  bool lists = true;        // each cell's lights, too
+  std::size_t max_bytes = 2'000'000;
+};
+
 struct Config {
   std::string name;
   std::filesystem::path file;  // "" = made from scenes on the command line
@@ -82,6 +92,7 @@ struct Config {
   int shading_samples = 1024;                 // per frame; 0 = off
   std::optional<StabilityRequest> stability;  // without: not measured
   std::optional<LookupRequest> lookup;        // without: not measured
+  std::optional<DetailsRequest> details;      // without: none
   TimingRequest timing;
   measure::AllocationRule allocation;
 

@@ -29,6 +29,14 @@ grid::GridInputs PathFrames::inputs(const grid::GridSpec& spec, const view::Fram
   return grid::grid_inputs(spec, frame, far_m_, rig_lo_, rig_hi_);
 }
 
+std::vector<int> evenly_spaced(int wanted, int path_frames) {
+  const int count = std::min(wanted, path_frames);
+  std::vector<int> frames;
+  for (int i = 0; i < count; ++i)
+    frames.push_back(count == 1 ? 0 : static_cast<int>(std::lround(i * (path_frames - 1.0) / (count - 1))));
+  return frames;
+}
+
 bool GridOfFrames::update(const PathFrames& path, const view::Frame& frame) {
   const grid::GridInputs inputs = path.inputs(spec_, frame);
   if (is_made_ && inputs == inputs_) return false;

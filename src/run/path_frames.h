@@ -39,6 +39,9 @@ class PathFrames {
   double far_m_ = 0.0;
 };
 
+// So many of the path's frames, evenly spaced from its first to its last; all if it has fewer.
+std::vector<int> evenly_spaced(int wanted, int path_frames);
+
 // The grid of the frame at hand, rebuilt only when its inputs change.
 class GridOfFrames {
  public:

@@ -17,6 +17,7 @@
 #include "measure/shading.h"
 #include "measure/stability.h"
 #include "measure/timing.h"
+#include "run/details.h"
 #include "run/instruction_counter.h"
 
 namespace clusterbench::run {
@@ -109,6 +110,7 @@ struct CaseResult {
   std::optional<StabilityResult> stability;
   std::optional<TimingResult> timing;
   std::optional<CountResult> count;  // where asked for
+  std::optional<Details> details;    // where asked for
 };
 
 struct Result {

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "run/accuracy_pass.h"
+#include "run/details_pass.h"
 #include "run/grid_facts.h"
 #include "run/path_frames.h"
 #include "run/stability_pass.h"
@@ -80,7 +81,8 @@ class Run {
       progress_.cases_total += group.cases.size();
       progress_.cases_done += group.cases.size() - left.cases.size();
       if (left.cases.empty()) continue;
-      progress_.cost_total += accuracy_cost_of(left) + stability_cost_of(left) + timing_cost(config, left);
+      progress_.cost_total +=
+          accuracy_cost_of(left) + stability_cost_of(left) + details_cost_of(left) + timing_cost(config, left);
     }
   }
 
@@ -122,6 +124,13 @@ class Run {
     return list_cost(config_, group, plan_.scenes[group.scene].scene.lights.size(), config_.stability->steps, 0);
   }
 
+  double details_cost_of(const GroupPlan& group) const {
+    if (!config_.details) return 0.0;
+    const DetailsRequest& request = *config_.details;
+    const int frames = std::max({1, request.count, static_cast<int>(request.frames.size())});
+    return list_cost(config_, group, plan_.scenes[group.scene].scene.lights.size(), frames, 0);
+  }
+
   void tell(const GroupPlan& group, const char* stage, double cost) {
     progress_.cost_done += cost;
     const std::string& name = group.cases.front().name;
@@ -153,6 +162,12 @@ class Run {
           config_, group, path, [&](double share) { tell(group, "stability", cost * share); }, stop_);
       if (stabilities.empty()) return;
     }
+    std::vector<Details> details;
+    if (config_.details) {
+      tell(group, "details", details_cost_of(group));
+      details = details_pass(config_, group, path, data.scene, counted, stop_);
+      if (details.empty()) return;
+    }
     std::vector<TimingResult> timings;
     if (config_.timing.measure) {
       const double per_round = timing_cost(config_, group) / config_.timing.rounds;
@@ -163,6 +178,7 @@ class Run {
     for (std::size_t i = 0; i < group.cases.size(); ++i) {
       CaseResult one = case_result(group.cases[i], path.count(), counted, i);
       if (!stabilities.empty()) one.stability = stabilities[i];
+      if (!details.empty()) one.details = std::move(details[i]);
       if (!timings.empty()) one.timing = timings[i];
       if (const auto count = counts_.find(one.id); count != counts_.end()) one.count = count->second;
       ++progress_.cases_done;

@@ -1,19 +1,16 @@
 #include "run/timed_work.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace clusterbench::run {
 
 std::vector<TimedFrame> timed_frames(const Config& config, const GroupPlan& group, const PathFrames& path) {
-  const int wanted = config.timing.frames == 0 ? path.count() : std::min(config.timing.frames, path.count());
+  const std::vector<int> chosen =
+      evenly_spaced(config.timing.frames == 0 ? path.count() : config.timing.frames, path.count());
   std::vector<TimedFrame> frames;
   GridOfFrames grids(config.grids[group.grid]);
   std::shared_ptr<const grid::Grid> grid;
-  frames.reserve(static_cast<std::size_t>(wanted));
-  for (int i = 0; i < wanted; ++i) {
-    view::Frame frame =
-        path.frame(wanted == 1 ? 0 : static_cast<int>(std::lround(i * (path.count() - 1.0) / (wanted - 1))));
+  frames.reserve(chosen.size());
+  for (const int index : chosen) {
+    view::Frame frame = path.frame(index);
     if (grids.update(path, frame)) grid = std::make_shared<grid::Grid>(grids.grid());
     FrameLights lights(config.precisions, view::lights_in(frame, grid::space_of(*grid, frame)));
     frames.push_back({grid, std::move(frame), std::move(lights)});

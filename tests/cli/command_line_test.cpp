@@ -57,7 +57,10 @@ TEST(CommandLine, both_schemas_are_draft_07) {
 }
 
 TEST(CommandLine, validate_tells_a_good_configuration_from_a_broken_one) {
-  EXPECT_EQ(tool("validate " + source_file("configs/quick.json") + " " + source_file("configs/trends.json")).code, 0);
+  EXPECT_EQ(tool("validate " + source_file("configs/quick.json") + " " + source_file("configs/trends.json") + " " +
+                 source_file("configs/details.json"))
+                .code,
+            0);
   const Folder folder;
   const Outcome done = tool("validate " + folder.write("bad.json", "{\n  \"scenez\": []\n}").string());
   EXPECT_EQ(done.code, 2);

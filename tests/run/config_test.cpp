@@ -62,7 +62,7 @@ const Broken k_broken[] = {
      "max_range"},
     {"{\"scenes\": [\"a.glb\"],\n  // comment\n  \"thread\": 1}",
      "3:3 /thread: unknown key 'thread' (did you mean 'threads'?), allowed: $schema, accuracy, allocation, assigners, "
-     "grids, lookup, name, precision, scenes, seed, shading, stability, storages, threads, timing, viewport, "
+     "details, grids, lookup, name, precision, scenes, seed, shading, stability, storages, threads, timing, viewport, "
      "viewports"},
     {R"({"scenes": ["a.glb"], "threads": 0})", "1:34 /threads: found 0, allowed: an integer from 1 to 1024"},
     {R"({"scenes": ["a.glb"], "threads": "2"})", "1:34 /threads: found '2', allowed: an integer from 1 to 1024"},
@@ -78,6 +78,18 @@ const Broken k_broken[] = {
      "1:37 /stability/step_degrees: unknown key 'step_degrees' (did you mean 'step_deg'?), allowed: step_deg, step_mm, "
      "steps, window"},
     {R"({"scenes": ["a.glb"], "stability": true})", "1:36 /stability: found true, allowed: null or an object"},
+    {R"({"scenes": ["a.glb"], "details": true})", "1:34 /details: found true, allowed: null or an object"},
+    {R"({"scenes": ["a.glb"], "details": {"frames": "best"}})",
+     "1:45 /details/frames: found 'best', allowed: 'worst' or an integer from 1 to 100 or a list, each an integer from "
+     "0 to 999999"},
+    {R"({"scenes": ["a.glb"], "details": {"frames": 0}})",
+     "1:45 /details/frames: found 0, allowed: an integer from 1 to 100"},
+    {R"({"scenes": ["a.glb"], "details": {"frames": [3, -1]}})",
+     "1:49 /details/frames/1: found -1, allowed: an integer from 0 to 999999"},
+    {R"({"scenes": ["a.glb"], "details": {"max_bytes": 500}})",
+     "1:48 /details/max_bytes: found 500, allowed: an integer from 10000 to 1000000000"},
+    {R"({"scenes": ["a.glb"], "details": {"max_byte": 50000}})",
+     "1:35 /details/max_byte: unknown key 'max_byte' (did you mean 'max_bytes'?), allowed: frames, lists, max_bytes"},
     {R"({"scenes": ["a.glb"], "precision": "half"})",
      "1:36 /precision: found 'half', allowed: a list, each float32, half, unorm16 or an object"},
     {R"({"scenes": ["a.glb"], "precision": []})",

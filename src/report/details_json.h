@@ -1,0 +1,12 @@
+#pragma once
+// The details of a case as JSON. Rows of numbers stay text: see core/number_text.h.
+
+#include <nlohmann/json.hpp>
+
+#include "run/details.h"
+
+namespace clusterbench::report {
+
+nlohmann::ordered_json details_to_json(const run::Details& details);
+
+}  // namespace clusterbench::report

@@ -1,0 +1,86 @@
+#include "run/details_pass.h"
+
+#include <algorithm>
+
+#include "measure/truth.h"
+#include "run/frame_lights.h"
+
+namespace clusterbench::run {
+namespace {
+
+// The frames of one method, and what was found in them.
+class Track {
+ public:
+  Track(const Config& config, const ListMeasures& counted, int path_frames)
+      : method_(counted.method), with_pairs_(config.details->lists) {
+    const MethodRequest& assigner = config.assigners[method_.assigner];
+    assigner_ = assign::find_assigner(assigner.name)->make(assigner.params);
+    details_.max_bytes = config.details->max_bytes;
+    for (const int frame : wanted(*config.details, counted, path_frames))
+      (frame < path_frames ? frames_ : details_.frames_not_on_path).push_back(frame);
+  }
+
+  const Method& method() const { return method_; }
+  const std::vector<int>& frames() const { return frames_; }
+  const Details& details() const { return details_; }
+
+  void add(const view::Frame& frame, const scene::Scene& scene, const grid::Grid& grid, const grid::Grid& case_grid,
+           const FrameLights& lights, const measure::Truth& truth) {
+    if (!std::binary_search(frames_.begin(), frames_.end(), frame.index)) return;
+    assigner_->build(grid);
+    assigner_->assign(lights.seen(method_.precision), lists_);
+    add_frame(details_,
+              packed_frame(frame, scene, grid, case_grid, measure::find_details(truth.lists, lists_), with_pairs_));
+  }
+
+ private:
+  static std::vector<int> wanted(const DetailsRequest& request, const ListMeasures& counted, int path_frames) {
+    if (request.choice == DetailsRequest::Choice::worst) return {counted.occupancy.worst_frame};
+    if (request.choice == DetailsRequest::Choice::evenly) return evenly_spaced(request.count, path_frames);
+    return request.frames;
+  }
+
+  Method method_;
+  bool with_pairs_;
+  std::unique_ptr<assign::Assigner> assigner_;
+  assign::Lists lists_;
+  std::vector<int> frames_;
+  Details details_;
+};
+
+std::vector<int> frames_of(const std::vector<Track>& tracks) {
+  std::vector<int> all;
+  for (const Track& track : tracks) all.insert(all.end(), track.frames().begin(), track.frames().end());
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+}  // namespace
+
+std::vector<Details> details_pass(const Config& config, const GroupPlan& group, const PathFrames& path,
+                                  const scene::Scene& scene, const AccuracyResult& counted,
+                                  const std::atomic<bool>& stop) {
+  std::vector<Track> tracks;
+  for (const ListMeasures& lists : counted.lists) tracks.emplace_back(config, lists, path.count());
+
+  GridOfFrames grids(config.grids[group.grid]);
+  for (const int index : frames_of(tracks)) {
+    if (stop) return {};
+    const view::Frame frame = path.frame(index);
+    grids.update(path, frame);
+    const grid::Grid& grid = grids.grid();
+    const FrameLights lights(config.precisions, view::lights_in(frame, grid::space_of(grid, frame)));
+    const measure::Truth truth = measure::find_truth(frame, grid, config.threads);
+    for (Track& track : tracks) track.add(frame, scene, grid, counted.last_grid, lights, truth);
+  }
+
+  std::vector<Details> results;
+  for (const CasePlan& one : group.cases)
+    results.push_back(std::find_if(tracks.begin(), tracks.end(), [&](const Track& track) {
+                        return track.method() == one.method();
+                      })->details());
+  return results;
+}
+
+}  // namespace clusterbench::run

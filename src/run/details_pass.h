@@ -1,0 +1,17 @@
+#pragma once
+// Chosen frames once more, cell by cell, for results that are looked into.
+
+#include <atomic>
+
+#include "run/accuracy_pass.h"
+#include "run/details.h"
+
+namespace clusterbench::run {
+
+// One per case of the group; empty if stopped before the end. Config::details is set. `counted` names each method's
+// worst frame and the case's grid.
+std::vector<Details> details_pass(const Config& config, const GroupPlan& group, const PathFrames& path,
+                                  const scene::Scene& scene, const AccuracyResult& counted,
+                                  const std::atomic<bool>& stop);
+
+}  // namespace clusterbench::run
