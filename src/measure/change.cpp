@@ -1,0 +1,151 @@
+#include "measure/change.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace clusterbench::measure {
+namespace {
+
+constexpr double k_level = 0.05;
+constexpr double k_infinity = std::numeric_limits<double>::infinity();
+
+// The continued fraction of the incomplete beta function (DLMF 8.17.22) from its first denominator on, by Lentz's
+// method.
+double beta_fraction(double x, double a, double b) {
+  constexpr double k_tiny = 1e-300, k_enough = 1e-15;
+  constexpr int k_most = 10000;
+  const auto not_zero = [](double value) { return std::abs(value) < k_tiny ? k_tiny : value; };
+  double c = 1.0, d = 0.0, fraction = 1.0;
+  for (int i = 1; i <= k_most; ++i) {
+    const double m = std::floor(0.5 * i);
+    const double term = i % 2 == 0 ? m * (b - m) * x / ((a + 2.0 * m - 1.0) * (a + 2.0 * m))
+                                   : -(a + m) * (a + b + m) * x / ((a + 2.0 * m) * (a + 2.0 * m + 1.0));
+    d = 1.0 / not_zero(1.0 + term * d);
+    c = not_zero(1.0 + term / c);
+    fraction *= c * d;
+    if (std::abs(c * d - 1.0) < k_enough) break;
+  }
+  return 1.0 / fraction;
+}
+
+// The regularised incomplete beta function I_x(a, b).
+double incomplete_beta(double x, double a, double b) {
+  if (x <= 0.0) return 0.0;
+  if (x >= 1.0) return 1.0;
+  if (x > (a + 1.0) / (a + b + 2.0)) return 1.0 - incomplete_beta(1.0 - x, b, a);
+  const double log_front = a * std::log(x) + b * std::log1p(-x) + std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b);
+  return std::exp(log_front) / a * beta_fraction(x, a, b);
+}
+
+double mean_of(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+// The standard error of a median's logarithm, from an interval that is 1.96 of them wide on both sides.
+double log_error(const Interval& ci95) {
+  return std::log(ci95.high / ci95.low) / (2.0 * 1.959963984540054);
+}
+
+double half_width(const Change& change) {
+  return change.freedom < 1.0 ? k_infinity : student_quantile(k_level, change.freedom) * change.error;
+}
+
+}  // namespace
+
+double student_two_sided(double t, double freedom) {
+  return incomplete_beta(freedom / (freedom + t * t), 0.5 * freedom, 0.5);
+}
+
+double student_quantile(double p, double freedom) {
+  double low = 0.0, high = 1.0;
+  while (student_two_sided(high, freedom) > p) high *= 2.0;
+  constexpr int k_bisections = 60;
+  for (int i = 0; i < k_bisections; ++i) {
+    const double middle = 0.5 * (low + high);
+    (student_two_sided(middle, freedom) > p ? low : high) = middle;
+  }
+  return high;
+}
+
+double launch_log_ratio(std::span<const double> base_ns, std::span<const double> next_ns) {
+  std::vector<double> logs;
+  for (std::size_t i = 0; i < base_ns.size(); ++i) logs.push_back(std::log(next_ns[i] / base_ns[i]));
+  std::sort(logs.begin(), logs.end());
+  const std::size_t middle = logs.size() / 2;
+  return logs.size() % 2 == 1 ? logs[middle] : 0.5 * (logs[middle - 1] + logs[middle]);
+}
+
+Change change_over_launches(std::span<const double> log_ratios) {
+  if (log_ratios.empty()) return {};
+  Change change{mean_of(log_ratios), 0.0, static_cast<double>(log_ratios.size()) - 1.0};
+  if (log_ratios.size() < 2) return change;
+  double squares = 0.0;
+  for (const double value : log_ratios) squares += (value - change.log_ratio) * (value - change.log_ratio);
+  change.error = std::sqrt(squares / (change.freedom * static_cast<double>(log_ratios.size())));
+  return change;
+}
+
+Change change_of_medians(const MedianTime& base, const MedianTime& next) {
+  const double freedom = static_cast<double>(std::min(base.samples, next.samples)) - 1.0;
+  return {std::log(next.ns / base.ns), std::hypot(log_error(base.ci95), log_error(next.ci95)), freedom};
+}
+
+Change mean_change(std::span<const Change> changes) {
+  if (changes.empty()) return {};
+  Change mean{0.0, 0.0, k_infinity};
+  const auto count = static_cast<double>(changes.size());
+  for (const Change& one : changes) {
+    mean.log_ratio += one.log_ratio / count;
+    mean.error += one.error / count;
+    mean.freedom = std::min(mean.freedom, one.freedom);
+  }
+  return mean;
+}
+
+Ratio ratio_of(const Change& change) {
+  const double width = half_width(change);
+  return {std::exp(change.log_ratio), {std::exp(change.log_ratio - width), std::exp(change.log_ratio + width)}};
+}
+
+double p_value(const Change& change) {
+  if (change.freedom < 1.0 || change.log_ratio == 0.0) return 1.0;
+  return change.error == 0.0 ? 0.0 : student_two_sided(change.log_ratio / change.error, change.freedom);
+}
+
+std::vector<double> holm(std::span<const double> p_values) {
+  std::vector<std::size_t> order(p_values.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return p_values[a] < p_values[b]; });
+  std::vector<double> corrected(p_values.size());
+  double least = 0.0;
+  for (std::size_t rank = 0; rank < order.size(); ++rank) {
+    least = std::max(least, static_cast<double>(order.size() - rank) * p_values[order[rank]]);
+    corrected[order[rank]] = std::min(1.0, least);
+  }
+  return corrected;
+}
+
+const char* name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::faster:
+      return "faster";
+    case Verdict::slower:
+      return "slower";
+    case Verdict::same:
+      return "same";
+    case Verdict::inconclusive:
+      break;
+  }
+  return "inconclusive";
+}
+
+Verdict verdict_on(const Change& change, double corrected_p, double threshold) {
+  const double limit = std::log1p(threshold), width = half_width(change);
+  if (corrected_p < k_level && change.log_ratio > limit) return Verdict::slower;
+  if (corrected_p < k_level && change.log_ratio < -limit) return Verdict::faster;
+  return std::abs(change.log_ratio) + width <= limit ? Verdict::same : Verdict::inconclusive;
+}
+
+}  // namespace clusterbench::measure

@@ -1,0 +1,60 @@
+#pragma once
+// Whether a time has changed between two programs: estimates on the logarithm of new / base, Student's t, Holm's
+// correction over cases. docs/comparing.md says why it is done so. Pure functions.
+
+#include <span>
+#include <vector>
+
+#include "measure/timing.h"
+
+namespace clusterbench::measure {
+
+// ln(new / base) with its standard error and the degrees of freedom behind that.
+struct Change {
+  double log_ratio = 0.0;
+  double error = 0.0;
+  double freedom = 0.0;  // below 1: the error is not known, and nothing can be concluded
+};
+
+// The median of ln(next_ns[i] / base_ns[i]) over the rounds of one pair of processes. Both spans are equally long and
+// not empty.
+double launch_log_ratio(std::span<const double> base_ns, std::span<const double> next_ns);
+
+// From one value per pair of processes: what differs between starts of the same program (memory layout) is in the
+// error.
+Change change_over_launches(std::span<const double> log_ratios);
+
+struct MedianTime {
+  double ns = 0.0;
+  Interval ci95;
+  std::size_t samples = 0;
+};
+// From two separate runs. Knows nothing of what differs between the runs themselves.
+Change change_of_medians(const MedianTime& base, const MedianTime& next);
+
+// The mean of the changes, as if their errors were all one: an upper bound of its error. An empty span: freedom 0.
+Change mean_change(std::span<const Change> changes);
+
+// new / base with its 95 % interval. Without freedom the interval is everything: 0 to infinity.
+Ratio ratio_of(const Change& change);
+
+// How likely at least this change is, in either direction, where there is none. 1 without freedom.
+double p_value(const Change& change);
+
+// Holm 1979: p-values corrected for being several, in their order.
+std::vector<double> holm(std::span<const double> p_values);
+
+enum class Verdict { faster, slower, same, inconclusive };
+const char* name_of(Verdict verdict);
+
+// `corrected_p`: from holm(). `threshold`: the smallest change that matters, 0.02 for 2 %.
+// slower, faster: the change is beyond chance (corrected_p < 0.05) and the estimate beyond the threshold.
+// same: the 95 % interval lies within the threshold on both sides. All else is inconclusive.
+Verdict verdict_on(const Change& change, double corrected_p, double threshold);
+
+// P(|T| >= t) of Student's t distribution.
+double student_two_sided(double t, double freedom);
+// The t that |T| exceeds with probability p.
+double student_quantile(double p, double freedom);
+
+}  // namespace clusterbench::measure
