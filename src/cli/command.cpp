@@ -27,6 +27,7 @@ ExitCode run_command_line(CLI::App& app, int argc, char** argv) {
   Action action;
   app.require_subcommand(0, 1);
   add_run(app, action);
+  add_compare(app, action);
   add_size(app, action);
   add_report(app, action);
   add_scene(app, action);

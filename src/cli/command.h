@@ -11,6 +11,7 @@ namespace clusterbench::cli {
 using Action = std::function<ExitCode()>;
 
 void add_run(CLI::App& app, Action& action);
+void add_compare(CLI::App& app, Action& action);
 void add_size(CLI::App& app, Action& action);
 void add_report(CLI::App& app, Action& action);
 void add_scene(CLI::App& app, Action& action);

@@ -22,7 +22,7 @@ bool is_journal(std::istream& in) {
 
 }  // namespace
 
-Json read_result(const std::string& path) {
+Json read_result(const std::string& path, Schema schema) {
   std::ifstream in(path, std::ios::binary);
   if (!in || in.peek() == std::ifstream::traits_type::eof())
     throw Error(path, "", in.eof() ? "is empty" : "cannot be read");
@@ -38,7 +38,7 @@ Json read_result(const std::string& path) {
   }
   if (!result.is_object() || !result.contains("schema_version") || !result.contains("cases"))
     throw Error(path, "", "is not a result file of `clusterbench run`");
-  if (result["schema_version"] != k_schema_version)
+  if (schema == Schema::this_version && result["schema_version"] != k_schema_version)
     throw Error(path, "/schema_version",
                 "is " + result["schema_version"].dump() + "; this version reads " + std::to_string(k_schema_version));
   return result;

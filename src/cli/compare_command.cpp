@@ -1,0 +1,77 @@
+// `clusterbench compare BASE NEW`: has anything become slower, or anything counted changed?
+
+#include <fstream>
+#include <iostream>
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/output.h"
+#include "core/text.h"
+#include "report/compare.h"
+#include "report/result_file.h"
+
+namespace clusterbench::cli {
+namespace {
+
+struct Flags {
+  std::string base, next, markdown, json;
+  double threshold_percent = 2.0;
+  bool is_strict = false, is_forced = false;
+};
+
+void check_comparable(const Flags& flags, const nlohmann::ordered_json& base, const nlohmann::ordered_json& next) {
+  const std::vector<std::string> obstacles = report::obstacles(base, next);
+  if (obstacles.empty() || flags.is_forced) return;
+  throw Error(
+      flags.next, "",
+      "cannot be compared with " + flags.base + ": " + joined(obstacles, "; ") + "; --force compares all the same",
+      ExitCode::nothing_comparable);
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  std::ofstream out(path, std::ios::binary);
+  out << text << std::flush;
+  if (!out) throw Error(path, "", "cannot be written");
+}
+
+ExitCode compare(const Flags& flags) {
+  const report::Schema schema = flags.is_forced ? report::Schema::any : report::Schema::this_version;
+  const nlohmann::ordered_json base = report::read_result(flags.base, schema);
+  const nlohmann::ordered_json next = report::read_result(flags.next, schema);
+  nlohmann::ordered_json comparison;
+  try {
+    check_comparable(flags, base, next);
+    comparison = report::compare_results(base, next, flags.threshold_percent / 100.0);
+    std::cout << report::comparison_text(comparison);
+    if (!flags.markdown.empty()) write_text(flags.markdown, report::comparison_markdown(comparison));
+    if (!flags.json.empty()) write_output(flags.json, comparison);
+  } catch (const nlohmann::json::exception& error) {
+    throw Error(flags.base + ", " + flags.next, "",
+                std::string("one of them lacks what every result has; `clusterbench validate` says more (") +
+                    error.what() + ")");
+  }
+  const ExitCode code = report::outcome(comparison, flags.is_strict);
+  if (code == ExitCode::nothing_comparable) std::cerr << "the results have no case in common\n";
+  return code;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, Action& action) {
+  auto flags = std::make_shared<Flags>();
+  CLI::App* command = app.add_subcommand(
+      "compare", "Compare two results: what is counted exactly, times with intervals; exit code 1 for a regression");
+  command->add_option("BASE", flags->base, "A result file of `clusterbench run`")->required();
+  command->add_option("NEW", flags->next, "The result that may have become worse")->required();
+  command->add_option("--threshold", flags->threshold_percent, "Smallest change of time that matters, in percent")
+      ->check(CLI::Range(0.01, 1000.0))
+      ->capture_default_str();
+  command->add_option("--markdown", flags->markdown, "Write the comparison for a pull request to this file");
+  command->add_option("--json", flags->json, "Write the comparison as JSON to this file");
+  command->add_flag("--strict", flags->is_strict, "Exit with 4 where a verdict is inconclusive or a case is missing");
+  command->add_flag("--force", flags->is_forced,
+                    "Compare results of different machines, flags or schema versions, too");
+  command->callback([flags, &action] { action = [flags] { return compare(*flags); }; });
+}
+
+}  // namespace clusterbench::cli

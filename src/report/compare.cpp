@@ -1,0 +1,321 @@
+#include "report/compare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "measure/change.h"
+#include "report/columns.h"
+#include "report/exact_differences.h"
+#include "report/json.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Pointer = Json::json_pointer;
+
+// A case that both results have.
+struct Match {
+  const Json& base;
+  const Json& next;
+};
+
+std::vector<Match> matches_of(const Json& base, const Json& next) {
+  std::map<std::string, const Json*> by_id;
+  for (const Json& one : base["cases"]) by_id[one["id"].get<std::string>()] = &one;
+  std::vector<Match> matches;
+  for (const Json& one : next["cases"])
+    if (const auto found = by_id.find(one["id"].get<std::string>()); found != by_id.end())
+      matches.push_back({*found->second, one});
+  return matches;
+}
+
+// Names of the cases of `one` that `other` has not.
+Json missing_from(const Json& other, const Json& one) {
+  Json names = Json::array();
+  for (const Json& wanted : one["cases"])
+    if (std::none_of(other["cases"].begin(), other["cases"].end(),
+                     [&](const Json& had) { return had["id"] == wanted["id"]; }))
+      names.push_back(wanted["name"]);
+  return names;
+}
+
+bool has(const Json& one, const char* pointer) {
+  return one.contains(Pointer(pointer)) && !one[Pointer(pointer)].is_null();
+}
+bool both_have(const Match& match, const char* pointer) {
+  return has(match.base, pointer) && has(match.next, pointer);
+}
+
+// Did the new result measure this base beside itself? The same result twice is a question about just that.
+bool is_paired(const Json& base, const Json& next) {
+  return has(next, "/baseline/tool") && (next["baseline"]["tool"] == base["tool"] || base == next);
+}
+
+// What differs between methods, and not between a method's storages: those share their times.
+std::string method_key(const Json& one) {
+  Json key{one["scene"], one["camera"], one["viewport"], one["grid"], one["assigner"]["label"]};
+  if (one.contains("precision")) key.push_back(one["precision"]["label"]);
+  return key.dump();
+}
+
+struct TimeChange {
+  measure::Change change;
+  std::vector<double> launches;  // log ratios; empty for separate runs
+  double base_ns = 0.0, next_ns = 0.0;
+};
+
+TimeChange paired_change(const Json& paired) {
+  TimeChange out;
+  for (const Json& launch : paired["launches"])
+    out.launches.push_back(measure::launch_log_ratio(launch["base_ns"].get<std::vector<double>>(),
+                                                     launch["new_ns"].get<std::vector<double>>()));
+  out.change = measure::change_over_launches(out.launches);
+  out.base_ns = paired["base_ns"].get<double>();
+  out.next_ns = paired["new_ns"].get<double>();
+  return out;
+}
+
+measure::MedianTime median_time(const Json& time) {
+  return {time["median"], {time["ci95"][0], time["ci95"][1]}, time["samples"].size()};
+}
+
+std::optional<TimeChange> time_change(const Match& match, bool is_paired) {
+  if (is_paired && has(match.next, "/timing/baseline/ratio")) return paired_change(match.next["timing"]["baseline"]);
+  constexpr const char* k_median = "/timing/assign_ns/median";
+  if (!both_have(match, k_median) || is_paired) return std::nullopt;
+  const Json &base_time = match.base["timing"]["assign_ns"], &next_time = match.next["timing"]["assign_ns"];
+  const measure::MedianTime base = median_time(base_time), next = median_time(next_time);
+  if (!(base.ns > 0.0) || !(next.ns > 0.0)) return std::nullopt;
+  if (base_time == next_time) return TimeChange{{0.0, 0.0, 1.0}, {}, base.ns, next.ns};  // one measurement, twice
+  return TimeChange{measure::change_of_medians(base, next), {}, base.ns, next.ns};
+}
+
+// The changes of all methods, in the order of their first cases, and what Holm's correction makes of their chances.
+class Times {
+ public:
+  Times(const std::vector<Match>& matches, bool is_paired) {
+    for (const Match& match : matches) {
+      const std::string key = method_key(match.next);
+      if (places_.contains(key)) continue;
+      if (const std::optional<TimeChange> change = time_change(match, is_paired)) {
+        places_[key] = changes_.size();
+        changes_.push_back(*change);
+      }
+    }
+    std::vector<double> p;
+    for (const TimeChange& one : changes_) p.push_back(measure::p_value(one.change));
+    corrected_ = measure::holm(p);
+  }
+
+  // nullopt where the case has no times to compare.
+  std::optional<std::size_t> place_of(const Json& one) const {
+    const auto found = places_.find(method_key(one));
+    return found == places_.end() ? std::nullopt : std::optional(found->second);
+  }
+  const TimeChange& at(std::size_t place) const { return changes_[place]; }
+  double corrected_p(std::size_t place) const { return corrected_[place]; }
+  std::size_t count() const { return changes_.size(); }
+
+  // Over all methods. Where all have the same launches, what disturbs a launch as a whole is in each launch's mean.
+  measure::Change mean() const {
+    if (const std::vector<double> launches = launch_means(); !launches.empty())
+      return measure::change_over_launches(launches);
+    std::vector<measure::Change> changes;
+    for (const TimeChange& one : changes_) changes.push_back(one.change);
+    return measure::mean_change(changes);
+  }
+
+ private:
+  std::vector<double> launch_means() const {
+    if (changes_.empty()) return {};
+    std::vector<double> means(changes_.front().launches.size(), 0.0);
+    for (const TimeChange& one : changes_) {
+      if (one.launches.size() != means.size()) return {};
+      for (std::size_t i = 0; i < means.size(); ++i) means[i] += one.launches[i] / static_cast<double>(count());
+    }
+    return means;
+  }
+
+  std::map<std::string, std::size_t> places_;
+  std::vector<TimeChange> changes_;
+  std::vector<double> corrected_;
+};
+
+Json finite(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+void add_ratio(Json& out, const measure::Change& change) {
+  const measure::Ratio ratio = measure::ratio_of(change);
+  out["ratio"] = finite(ratio.ratio);
+  out["ci95"] = {finite(ratio.ci95.low), finite(ratio.ci95.high)};
+}
+
+// Counted alike: by the same means, for the same instruction set.
+bool are_counts_comparable(const Match& match) {
+  if (!both_have(match, "/count/instructions_per_frame/assign")) return false;
+  const Json &base = match.base["count"], &next = match.next["count"];
+  return base["source"] == next["source"] && base["simd_target"] == next["simd_target"] &&
+         base["frames"] == next["frames"];
+}
+
+// Hardware counts interrupts, too; even valgrind's depend a little on where memory lies.
+double count_tolerance(const Json& count) {
+  return count["source"] == "callgrind" ? 0.001 : 0.01;
+}
+
+Json instructions(const Match& match, double threshold) {
+  const auto ratio = [&](const char* pointer) {
+    const double base = match.base["count"][Pointer(pointer)].get<double>();
+    const double next = match.next["count"][Pointer(pointer)].get<double>();
+    return base > 0.0 ? next / base : next > 0.0 ? std::nan("") : 1.0;
+  };
+  const double assign = ratio("/instructions_per_frame/assign"), convert = ratio("/instructions_per_frame/convert");
+  const double limit = std::max(threshold, count_tolerance(match.next["count"]));
+  const char* verdict = assign > 1.0 + limit || convert > 1.0 + limit   ? "more"
+                        : assign < 1.0 - limit || convert < 1.0 - limit ? "fewer"
+                                                                        : "same";
+  return {{"verdict", verdict},
+          {"assign_ratio", finite(assign)},
+          {"convert_ratio", finite(convert)},
+          {"build_ratio", finite(ratio("/instructions_per_build"))},
+          {"tolerance", count_tolerance(match.next["count"])}};
+}
+
+// What two programs that were measured side by side listed differently.
+void add_list_difference(const Match& match, Json& out) {
+  if (!has(match.next, "/timing/baseline/lists_differ")) return;
+  const Json& lists = match.next["timing"]["baseline"]["lists_differ"];
+  const bool is_better = lists["new_pairs"].get<double>() < lists["base_pairs"].get<double>() &&
+                         has(match.next, "/error") && match.next["error"]["false_negatives"] == 0;
+  out["lists"] = lists;
+  if (out["counts"] == "same" || !is_better) out["counts"] = is_better ? "better" : "worse";
+}
+
+Json compared(const Match& match, const Times& times, double threshold) {
+  Json out{{"id", match.next["id"]}, {"name", match.next["name"]}};
+  if (const auto place = times.place_of(match.next)) {
+    const TimeChange& time = times.at(*place);
+    out["verdict"] = measure::name_of(measure::verdict_on(time.change, times.corrected_p(*place), threshold));
+    add_ratio(out, time.change);
+    out["p_corrected"] = times.corrected_p(*place);
+    out["base_ns"] = time.base_ns;
+    out["new_ns"] = time.next_ns;
+    out["launches"] = time.launches.size();
+  }
+  out.update(exact_differences(match.base, match.next));
+  add_list_difference(match, out);
+  if (are_counts_comparable(match)) out["instructions"] = instructions(match, threshold);
+  return out;
+}
+
+Json summary_of(const Json& cases, const Times& times) {
+  Json out{{"cases", cases.size()}, {"methods_timed", times.count()}};
+  for (const char* verdict : {"faster", "slower", "same", "inconclusive"})
+    out[verdict] = std::count_if(cases.begin(), cases.end(),
+                                 [&](const Json& one) { return one.contains("verdict") && one["verdict"] == verdict; });
+  for (const char* counts : {"better", "worse"})
+    out[std::string("counts_") + counts] =
+        std::count_if(cases.begin(), cases.end(), [&](const Json& one) { return one["counts"] == counts; });
+  if (times.count() > 0) add_ratio(out, times.mean());
+  return out;
+}
+
+std::string percent(const Json& ratio) {
+  return ratio.is_null() ? "-" : text("%+.1f %%", 100.0 * (ratio.get<double>() - 1.0));
+}
+
+Json failures_of(const Json& next, const Json& cases) {
+  Json failures = Json::array();
+  for (const std::string& failure : gate_failures(next)) failures.push_back(failure);
+  for (const Json& one : cases) {
+    const std::string name = shown(one["name"]);
+    const bool has_verdict = one.contains("verdict");
+    if (has_verdict && one["verdict"] == "slower") failures.push_back(name + ": slower by " + percent(one["ratio"]));
+    if (one["counts"] == "worse") failures.push_back(name + ": what is counted has changed");
+    const bool is_time_sure = has_verdict && one["launches"] != 0 && one["verdict"] != "inconclusive";
+    if (one.contains("instructions") && one["instructions"]["verdict"] == "more" && !is_time_sure)
+      failures.push_back(name + ": more instructions, " + percent(one["instructions"]["assign_ratio"]) +
+                         " to assign, " + percent(one["instructions"]["convert_ratio"]) + " to convert");
+  }
+  return failures;
+}
+
+std::string listed(const Json& names) {
+  constexpr std::size_t k_most = 3;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(k_most, names.size()); ++i)
+    text += (i == 0 ? "" : ", ") + shown(names[i].get<std::string>());
+  return names.size() > k_most ? text + " and " + std::to_string(names.size() - k_most) + " more" : text;
+}
+
+Json warnings_of(const Json& base, const Json& next, const Json& comparison, const Times& times) {
+  Json warnings = Json::array();
+  for (const std::string& obstacle : obstacles(base, next)) warnings.push_back("compared all the same: " + obstacle);
+  if (comparison["data"] == "separate" && times.count() > 0)
+    warnings.push_back(
+        "times are of separate runs, and intervals know nothing of what differs between runs (on a shared machine up "
+        "to "
+        "27 %); `run --baseline-binary` measures both side by side");
+  if (!comparison["only_in_base"].empty())
+    warnings.push_back("only in the base: " + listed(comparison["only_in_base"]));
+  if (!comparison["only_in_new"].empty())
+    warnings.push_back("only in the new result: " + listed(comparison["only_in_new"]));
+  return warnings;
+}
+
+bool are_times_or_counts_compared(const Json& base, const Json& next) {
+  const bool by_pairs = is_paired(base, next);
+  const std::vector<Match> matches = matches_of(base, next);
+  return std::any_of(matches.begin(), matches.end(), [&](const Match& match) {
+    return (!by_pairs && both_have(match, "/timing/assign_ns/median")) || both_have(match, "/count/source");
+  });
+}
+
+}  // namespace
+
+std::vector<std::string> obstacles(const Json& base, const Json& next) {
+  std::vector<std::string> out;
+  const auto check = [&](const char* pointer) {
+    const Json none, &left = has(base, pointer) ? base[Pointer(pointer)] : none,
+                     &right = has(next, pointer) ? next[Pointer(pointer)] : none;
+    if (left != right) out.push_back(std::string(pointer) + " is " + left.dump() + " and " + right.dump());
+  };
+  check("/schema_version");
+  if (!are_times_or_counts_compared(base, next)) return out;
+  for (const char* pointer : {"/machine/cpu", "/machine/cores", "/machine/ram_bytes", "/machine/os", "/tool/compiler",
+                              "/tool/flags", "/tool/build_type", "/tool/simd_target", "/config/timing/frames"})
+    check(pointer);
+  return out;
+}
+
+Json compare_results(const Json& base, const Json& next, double threshold) {
+  const bool by_pairs = is_paired(base, next);
+  const std::vector<Match> matches = matches_of(base, next);
+  const Times times(matches, by_pairs);
+  Json out{{"comparison_version", 1},
+           {"threshold", threshold},
+           {"data", by_pairs ? "paired" : "separate"},
+           {"base", {{"tool", by_pairs ? next["baseline"]["tool"] : base["tool"]}}},
+           {"new", {{"tool", next["tool"]}}},
+           {"cases", Json::array()}};
+  for (const Match& match : matches) out["cases"].push_back(compared(match, times, threshold));
+  out["summary"] = summary_of(out["cases"], times);
+  out["only_in_base"] = missing_from(next, base);
+  out["only_in_new"] = missing_from(base, next);
+  out["failures"] = failures_of(next, out["cases"]);
+  out["warnings"] = warnings_of(base, next, out, times);
+  return out;
+}
+
+ExitCode outcome(const Json& comparison, bool is_strict) {
+  if (comparison["cases"].empty()) return ExitCode::nothing_comparable;
+  if (!comparison["failures"].empty()) return ExitCode::gate_failed;
+  const bool is_open = comparison["summary"]["inconclusive"] != 0 || !comparison["only_in_base"].empty();
+  return is_strict && is_open ? ExitCode::inconclusive : ExitCode::ok;
+}
+
+}  // namespace clusterbench::report

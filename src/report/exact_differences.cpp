@@ -1,0 +1,119 @@
+#include "report/exact_differences.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "report/columns.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+enum class Kind {
+  cost,     // less is better
+  follows,  // says the same as some cost in another way
+  aside,    // how the truth was found, not what
+  fixed     // what both must have in common
+};
+
+struct Rule {
+  std::string_view prefix;
+  Kind kind;
+};
+
+// The first that fits; what none fits is fixed.
+constexpr std::array k_rules{
+    Rule{"/tests_done", Kind::cost},
+    Rule{"/fallbacks", Kind::cost},
+    Rule{"/occupancy/pairs", Kind::cost},
+    Rule{"/occupancy/lights_per_cluster/histogram", Kind::follows},
+    Rule{"/occupancy/lights_per_cluster", Kind::cost},
+    Rule{"/occupancy", Kind::follows},
+    Rule{"/buffers/in_use", Kind::follows},
+    Rule{"/buffers/worst_", Kind::follows},
+    Rule{"/buffers/overflow/lights", Kind::follows},
+    Rule{"/buffers", Kind::cost},
+    Rule{"/error/true_pairs", Kind::fixed},
+    Rule{"/error/frames_checked", Kind::fixed},
+    Rule{"/error/decided", Kind::aside},
+    Rule{"/error/deepest_miss", Kind::cost},
+    Rule{"/error/deepest", Kind::follows},
+    Rule{"/error", Kind::cost},
+    Rule{"/shading/samples", Kind::fixed},
+    Rule{"/shading/needed", Kind::fixed},
+    Rule{"/shading", Kind::cost},
+    Rule{"/lookup", Kind::cost},
+    Rule{"/stability/changed/method", Kind::cost},
+    Rule{"/stability/flickers/method", Kind::cost},
+    Rule{"/stability/excess", Kind::cost},
+    Rule{"/precision/extra_pairs", Kind::cost},
+};
+
+Kind kind_of(const std::string& pointer) {
+  for (const Rule& rule : k_rules)
+    if (pointer.compare(0, rule.prefix.size(), rule.prefix) == 0) return rule.kind;
+  return Kind::fixed;
+}
+
+const char* judged(Kind kind, const Json& base, const Json& next) {
+  if (kind == Kind::aside || kind == Kind::follows) return "changed";
+  if (kind == Kind::fixed || !base.is_number() || !next.is_number()) return "worse";
+  return next.get<double>() < base.get<double>() ? "better" : "worse";
+}
+
+bool holds_objects(const Json& value) {
+  return value.is_array() && !value.empty() && value.front().is_object();
+}
+
+// Goes down both values side by side and adds each leaf that differs.
+void walk(const std::string& pointer, const Json& base, const Json& next, Json& out) {
+  if (base == next) return;
+  if (base.is_object() && next.is_object()) {
+    for (const auto& [key, value] : base.items())
+      if (next.contains(key)) walk(pointer + "/" + key, value, next[key], out);
+  } else if (holds_objects(base) && holds_objects(next) && base.size() == next.size()) {
+    for (std::size_t i = 0; i < base.size(); ++i) walk(pointer + "/" + std::to_string(i), base[i], next[i], out);
+  } else {
+    out.push_back({{"what", pointer}, {"base", base}, {"new", next}, {"is", judged(kind_of(pointer), base, next)}});
+  }
+}
+
+bool is_counted(const std::string& key) {
+  constexpr std::array<std::string_view, 3> k_others{"name", "timing", "count"};
+  return std::find(k_others.begin(), k_others.end(), key) == k_others.end();
+}
+
+bool any(const Json& differences, const char* what) {
+  return std::any_of(differences.begin(), differences.end(), [&](const Json& one) { return one["is"] == what; });
+}
+
+bool follows_from_nothing(const Json& differences) {
+  return std::any_of(differences.begin(), differences.end(),
+                     [](const Json& one) { return kind_of(one["what"]) == Kind::follows; });
+}
+
+}  // namespace
+
+std::string place_of_loss(const Json& one) {
+  const Json::json_pointer place("/error/deepest");
+  if (!one.contains(place)) return "";
+  const Json& deepest = one[place];
+  return "frame " + deepest["frame"].dump() + ", cell " + deepest["cell"].dump() + ", light " +
+         deepest["light"].dump() + " ('" + shown(deepest["light_name"]) + "')";
+}
+
+Json exact_differences(const Json& base, const Json& next) {
+  Json differences = Json::array();
+  for (const auto& [key, value] : base.items())
+    if (is_counted(key) && next.contains(key)) walk("/" + key, value, next[key], differences);
+  const bool is_better = any(differences, "better");
+  const bool is_worse = any(differences, "worse") || (!is_better && follows_from_nothing(differences));
+  Json out{{"counts", is_worse ? "worse" : is_better ? "better" : "same"}, {"differences", differences}};
+  for (const Json& one : differences)
+    if (one["what"] == "/error/false_negatives" && one["is"] == "worse") out["place"] = place_of_loss(next);
+  return out;
+}
+
+}  // namespace clusterbench::report

@@ -1,0 +1,19 @@
+#pragma once
+// What is counted rather than timed, of the same case in two results: every number, string and list that is not equal.
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace clusterbench::report {
+
+// {"counts": "same" | "better" | "worse", "differences": [{"what": pointer, "base", "new", "is": "better" | "worse" |
+// "changed"}], "place": where the deepest lost light is, if the new result loses more}.
+// better: something costs less, and nothing costs more; what only follows from that (a histogram, the worst frame) may
+// change with it. Any other difference is worse. What one result has and the other's version does not know is passed
+// over.
+nlohmann::ordered_json exact_differences(const nlohmann::ordered_json& base, const nlohmann::ordered_json& next);
+
+// "frame 5, cell [1,0,2], light 8 ('torch')" of error.deepest; "" where there is none.
+std::string place_of_loss(const nlohmann::ordered_json& one);
+
+}  // namespace clusterbench::report

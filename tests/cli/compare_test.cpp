@@ -1,0 +1,101 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/tool.h"
+
+namespace clusterbench::test {
+namespace {
+
+using Json = nlohmann::json;
+
+// A result without times, measured once for all tests.
+const Json& counted_result() {
+  static const Json result = [] {
+    const Folder folder;
+    const std::string config = folder
+                                   .write("small.json", R"({"scenes": [{"path": ")" + source_file("scenes/street.glb") +
+                                                            R"(", "frames": 2}], "viewport": [640, 360],
+            "grids": [{"kind": "frustum", "tiles": {"pixels": [64, 64]}, "slices": {"scheme": "linear", "count": 4}}],
+            "assigners": ["aabb", "sphere-refinement"]})")
+                                   .string();
+    return Json::parse(tool("run --quiet --no-timing " + config).out);
+  }();
+  return result;
+}
+
+struct Files {
+  Folder folder;
+  std::string base = folder.write("base.json", counted_result().dump()).string();
+
+  Outcome compare_with(const Json& next, const std::string& flags = "") const {
+    return tool("compare " + base + " " + folder.write("new.json", next.dump()).string() + " " + flags);
+  }
+};
+
+TEST(CompareCommand, equal_results_pass) {
+  const Files files;
+  const Outcome done = files.compare_with(counted_result(), "--strict");
+  EXPECT_EQ(done.code, 0) << done.err;
+  EXPECT_NE(done.out.find("nothing has changed"), std::string::npos) << done.out;
+}
+
+TEST(CompareCommand, one_more_pair_fails_and_is_written_as_markdown_and_json) {
+  const Files files;
+  Json next = counted_result();
+  next["cases"][1]["error"]["reported_pairs"] = next["cases"][1]["error"]["reported_pairs"].get<int>() + 1;
+  const std::string markdown = (files.folder / "c.md").string(), json = (files.folder / "c.json").string();
+  const Outcome done = files.compare_with(next, "--markdown " + markdown + " --json " + json);
+  EXPECT_EQ(done.code, 1);
+  EXPECT_NE(done.out.find("error/reported_pairs worse"), std::string::npos) << done.out;
+  EXPECT_NE(file_text(markdown).find("### clusterbench: failed"), std::string::npos);
+  EXPECT_EQ(Json::parse(file_text(json))["summary"]["counts_worse"], 1);
+}
+
+TEST(CompareCommand, without_a_common_case_the_code_is_3) {
+  const Files files;
+  Json next = counted_result();
+  for (Json& one : next["cases"]) one["id"] = "other " + one["id"].get<std::string>();
+  EXPECT_EQ(files.compare_with(next).code, 3);
+}
+
+TEST(CompareCommand, another_schema_version_is_refused_unless_forced) {
+  const Files files;
+  Json next = counted_result();
+  next["schema_version"] = 2;
+  const Outcome refused = files.compare_with(next);
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("schema_version"), std::string::npos) << refused.err;
+  EXPECT_EQ(files.compare_with(next, "--force").code, 0);
+}
+
+TEST(CompareCommand, instructions_of_another_machine_are_refused_unless_forced) {
+  Json result = counted_result();
+  for (Json& one : result["cases"])
+    one["count"] = {{"source", "callgrind"},
+                    {"simd_target", "AVX2"},
+                    {"frames", 2},
+                    {"instructions_per_build", 5},
+                    {"instructions_per_frame", {{"assign", 10.0}, {"convert", 3.0}}}};
+  const Folder folder;
+  const std::string base = folder.write("base.json", result.dump()).string();
+  result["machine"]["cpu"] = "another";
+  const std::string next = folder.write("new.json", result.dump()).string();
+  const Outcome refused = tool("compare " + base + " " + next);
+  EXPECT_EQ(refused.code, 3);
+  EXPECT_NE(refused.err.find("/machine/cpu"), std::string::npos) << refused.err;
+  EXPECT_EQ(tool("compare --force " + base + " " + next).code, 0);
+}
+
+TEST(CompareCommand, what_is_no_result_is_a_usage_error) {
+  const Files files;
+  EXPECT_EQ(tool("compare " + files.base).code, 2);
+  EXPECT_EQ(tool("compare " + files.base + " /no/such/file").code, 2);
+  EXPECT_EQ(files.compare_with(Json{{"scenes", Json::array()}}).code, 2);
+  EXPECT_EQ(files.compare_with(Json{{"schema_version", 1}, {"cases", {{{"id", 7}}}}}).code, 2) << "a broken case";
+  EXPECT_EQ(files.compare_with(counted_result(), "--threshold -1").code, 2);
+  EXPECT_EQ(files.compare_with(counted_result(), "--markdown /no/such/folder/c.md").code, 2);
+}
+
+}  // namespace
+}  // namespace clusterbench::test

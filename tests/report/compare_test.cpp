@@ -1,0 +1,251 @@
+#include "report/compare.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "report/json.h"
+#include "report/result_by_hand.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using testing::result_by_hand;
+
+Json json_of(const run::Result& result) {
+  return result_to_json(result, {});
+}
+
+// 31 samples with a median's interval of +-0.2 % around `ns`.
+void set_time(run::CaseResult& one, double ns) {
+  one.timing->assign_ns = {ns, 1.0, ns, ns, {0.998 * ns, 1.002 * ns}, std::vector<double>(31, ns)};
+}
+
+run::Result with_times(double slow_ns, double fast_ns) {
+  run::Result result = result_by_hand();
+  set_time(result.cases[0], slow_ns);
+  set_time(result.cases[1], fast_ns);
+  return result;
+}
+
+std::string verdict_of(const Json& comparison, std::size_t place) {
+  return comparison["cases"][place]["verdict"];
+}
+
+bool holds(const Json& lines, const std::string& part) {
+  return lines.dump().find(part) != std::string::npos;
+}
+
+TEST(Compare, a_result_is_the_same_as_itself) {
+  const Json result = json_of(result_by_hand());
+  const Json comparison = compare_results(result, result, 0.02);
+  EXPECT_EQ(verdict_of(comparison, 0), "same");
+  EXPECT_EQ(comparison["cases"][0]["counts"], "same");
+  EXPECT_TRUE(comparison["cases"][0]["differences"].empty());
+  EXPECT_EQ(outcome(comparison, true), ExitCode::ok) << comparison.dump(1);
+}
+
+TEST(Compare, times_of_separate_runs_get_a_verdict_and_a_warning) {
+  const Json comparison = compare_results(json_of(with_times(9000, 3000)), json_of(with_times(9900, 2700)), 0.02);
+  EXPECT_EQ(verdict_of(comparison, 0), "slower");
+  EXPECT_EQ(verdict_of(comparison, 1), "faster");
+  EXPECT_NEAR(comparison["cases"][0]["ratio"].get<double>(), 1.1, 1e-12);
+  EXPECT_NEAR(comparison["summary"]["ratio"].get<double>(), std::sqrt(1.1 * 0.9), 1e-12);
+  EXPECT_TRUE(holds(comparison["warnings"], "separate runs"));
+  EXPECT_TRUE(holds(comparison["failures"], "slower by +10.0 %"));
+  EXPECT_EQ(outcome(comparison, false), ExitCode::gate_failed);
+}
+
+TEST(Compare, the_threshold_says_what_matters) {
+  const Json base = json_of(with_times(9000, 3000)), next = json_of(with_times(9900, 3000));
+  EXPECT_EQ(verdict_of(compare_results(base, next, 0.2), 0), "same");
+  EXPECT_EQ(outcome(compare_results(base, next, 0.2), true), ExitCode::ok);
+}
+
+TEST(Compare, wide_intervals_are_inconclusive_and_fail_only_if_strict) {
+  run::Result next = with_times(9900, 3000);
+  next.cases[0].timing->assign_ns.ci95 = {5000, 15000};
+  const Json comparison = compare_results(json_of(with_times(9000, 3000)), json_of(next), 0.02);
+  EXPECT_EQ(verdict_of(comparison, 0), "inconclusive");
+  EXPECT_EQ(outcome(comparison, false), ExitCode::ok);
+  EXPECT_EQ(outcome(comparison, true), ExitCode::inconclusive);
+}
+
+TEST(Compare, methods_with_two_storages_are_one_method_in_the_mean) {
+  run::Result base = with_times(9000, 3000), next = with_times(9900, 3000);
+  for (run::Result* result : {&base, &next}) {
+    run::CaseResult copy = result->cases[0];
+    copy.id += "2";
+    copy.storage = copy.storage_label = "fixed";
+    result->cases.push_back(copy);
+    result->planned_ids.push_back(copy.id);
+  }
+  const Json comparison = compare_results(json_of(base), json_of(next), 0.02);
+  EXPECT_EQ(comparison["cases"].size(), 3u);
+  EXPECT_EQ(verdict_of(comparison, 2), "slower");
+  EXPECT_EQ(comparison["summary"]["methods_timed"], 2);
+  EXPECT_NEAR(comparison["summary"]["ratio"].get<double>(), std::sqrt(1.1), 1e-12);
+}
+
+TEST(Compare, a_lost_light_is_named_with_frame_cell_and_light) {
+  run::Result next = result_by_hand();
+  testing::lose_a_light(next.cases[1]);
+  const Json comparison = compare_results(json_of(result_by_hand()), json_of(next), 0.02);
+  EXPECT_EQ(comparison["cases"][1]["counts"], "worse");
+  EXPECT_EQ(comparison["cases"][1]["place"], "frame 5, cell [1,1,1], light 8 ('torch')");
+  EXPECT_EQ(outcome(comparison, false), ExitCode::gate_failed);
+  const std::string text = comparison_text(comparison), markdown = comparison_markdown(comparison);
+  EXPECT_NE(text.find("error/false_negatives worse: 0 -> 3"), std::string::npos) << text;
+  EXPECT_NE(text.find("frame 5, cell [1,1,1], light 8 ('torch')"), std::string::npos) << text;
+  EXPECT_NE(markdown.find("light 8 ('torch')"), std::string::npos) << markdown;
+}
+
+TEST(Compare, a_single_pair_or_byte_more_fails_and_one_less_does_not) {
+  const Json base = json_of(result_by_hand());
+  for (const char* place : {"/cases/0/error/reported_pairs", "/cases/0/buffers/bytes/high_water",
+                            "/cases/0/occupancy/pairs/mean", "/cases/0/tests_done"}) {
+    Json next = base;
+    const Json::json_pointer pointer(place);
+    next[pointer] = base[pointer].get<double>() + 1;
+    EXPECT_EQ(outcome(compare_results(base, next, 0.02), false), ExitCode::gate_failed) << place;
+    EXPECT_EQ(outcome(compare_results(next, base, 0.02), false), ExitCode::ok) << place;
+    EXPECT_EQ(compare_results(next, base, 0.02)["cases"][0]["counts"], "better") << place;
+  }
+}
+
+TEST(Compare, another_truth_or_another_list_of_the_same_length_fails) {
+  const Json base = json_of(result_by_hand());
+  for (const char* place : {"/cases/0/error/true_pairs", "/cases/0/occupancy/worst_frame"}) {
+    Json next = base;
+    const Json::json_pointer pointer(place);
+    next[pointer] = base[pointer].get<int>() - 1;
+    EXPECT_EQ(outcome(compare_results(base, next, 0.02), false), ExitCode::gate_failed) << place;
+  }
+}
+
+TEST(Compare, a_figure_that_only_one_version_knows_is_passed_over) {
+  const Json base = json_of(result_by_hand());
+  Json next = base;
+  next["cases"][0]["error"]["a_new_figure"] = 5;
+  EXPECT_EQ(outcome(compare_results(base, next, 0.02), true), ExitCode::ok);
+  EXPECT_EQ(outcome(compare_results(next, base, 0.02), true), ExitCode::ok);
+}
+
+TEST(Compare, an_inexact_result_fails_even_if_it_was_so_before) {
+  run::Result result = result_by_hand();
+  testing::lose_a_light(result.cases[1]);
+  const Json comparison = compare_results(json_of(result), json_of(result), 0.02);
+  EXPECT_EQ(outcome(comparison, false), ExitCode::gate_failed);
+}
+
+TEST(Compare, cases_of_one_side_are_named_and_fail_only_if_strict) {
+  run::Result next = result_by_hand();
+  next.cases.pop_back();
+  const Json base = json_of(result_by_hand()), comparison = compare_results(base, json_of(next), 0.02);
+  EXPECT_TRUE(holds(comparison["only_in_base"], "aabb"));
+  EXPECT_TRUE(holds(comparison["warnings"], "only in the base"));
+  EXPECT_EQ(outcome(comparison, false), ExitCode::ok);
+  EXPECT_EQ(outcome(comparison, true), ExitCode::inconclusive);
+  next.cases.clear();
+  EXPECT_EQ(outcome(compare_results(base, json_of(next), 0.02), false), ExitCode::nothing_comparable);
+}
+
+TEST(Compare, instructions_gate_where_no_paired_time_does) {
+  run::Result base = result_by_hand();
+  testing::add_count(base.cases[0]);
+  run::Result next = base;
+  next.cases[0].count->assign.instructions = 42000;  // of 40,000
+  const Json comparison = compare_results(json_of(base), json_of(next), 0.02);
+  EXPECT_EQ(comparison["cases"][0]["instructions"]["verdict"], "more");
+  EXPECT_NEAR(comparison["cases"][0]["instructions"]["assign_ratio"].get<double>(), 1.05, 1e-12);
+  EXPECT_EQ(outcome(comparison, false), ExitCode::gate_failed);
+  EXPECT_EQ(outcome(compare_results(json_of(next), json_of(base), 0.02), false), ExitCode::ok);
+  next.cases[0].count->source = "perf";
+  EXPECT_FALSE(compare_results(json_of(base), json_of(next), 0.02)["cases"][0].contains("instructions"));
+}
+
+TEST(Compare, fields_that_differ_are_named) {
+  const Json base = json_of(result_by_hand());
+  EXPECT_TRUE(obstacles(base, base).empty());
+  Json next = base;
+  next["machine"]["cpu"] = "another";
+  next["tool"]["flags"] = "-O0";
+  next["tool"]["git_sha"] = "def";  // what is compared, no obstacle
+  const std::vector<std::string> fields = obstacles(base, next);
+  ASSERT_EQ(fields.size(), 2u);
+  EXPECT_EQ(fields[0], R"(/machine/cpu is "a processor" and "another")");
+  EXPECT_EQ(fields[1], R"(/tool/flags is "-O3" and "-O0")");
+  EXPECT_TRUE(holds(compare_results(base, next, 0.02)["warnings"], "/machine/cpu"));
+}
+
+TEST(Compare, counts_alone_compare_across_machines) {
+  run::Result base = result_by_hand(), next = base;
+  for (run::CaseResult& one : base.cases) one.timing.reset();
+  next.machine.cpu = "another";
+  EXPECT_TRUE(obstacles(json_of(base), json_of(next)).empty());
+  EXPECT_EQ(outcome(compare_results(json_of(base), json_of(next), 0.02), true), ExitCode::ok);
+}
+
+// Three launches of two rounds each, in which the new program takes `percent` more, give or take 0.1 %.
+Json paired(double percent) {
+  Json launches = Json::array();
+  for (const double noise : {-0.1, 0.0, 0.1}) {
+    const double next_ns = 1000.0 * (1.0 + (percent + noise) / 100.0);
+    launches.push_back({{"base_ns", {1000.0, 2000.0}}, {"new_ns", {next_ns, 2.0 * next_ns}}});
+  }
+  return {{"launches", launches}, {"base_ns", 1500.0}, {"new_ns", 1500.0}, {"ratio", 1.0}, {"ci95", {1.0, 1.0}}};
+}
+
+Json measured_beside(const Json& base, double percent) {
+  Json next = json_of(with_times(9000, 3000));
+  next["tool"]["git_sha"] = "def";
+  next["baseline"]["tool"] = base["tool"];
+  for (Json& one : next["cases"]) one["timing"]["baseline"] = paired(percent);
+  return next;
+}
+
+TEST(Compare, paired_rounds_decide_where_there_are_any) {
+  const Json base = json_of(with_times(1, 1)), next = measured_beside(base, 3.0);
+  for (const Json& left : {base, next}) {
+    const Json comparison = compare_results(left, next, 0.02);
+    EXPECT_EQ(comparison["data"], "paired");
+    EXPECT_EQ(comparison["base"]["tool"]["git_sha"], "abc");
+    EXPECT_EQ(verdict_of(comparison, 0), "slower");
+    EXPECT_NEAR(comparison["cases"][0]["ratio"].get<double>(), 1.03, 1e-4);
+    EXPECT_FALSE(holds(comparison["warnings"], "separate runs"));
+  }
+  EXPECT_EQ(verdict_of(compare_results(base, measured_beside(base, 0.0), 0.02), 1), "same");
+}
+
+TEST(Compare, paired_rounds_with_another_program_say_nothing) {
+  Json base = json_of(with_times(9000, 3000));
+  const Json next = measured_beside(base, 3.0);
+  base["tool"]["git_sha"] = "yet another";
+  EXPECT_EQ(compare_results(base, next, 0.02)["data"], "separate");
+}
+
+TEST(Compare, lists_that_differ_side_by_side_fail_unless_they_are_shorter_and_complete) {
+  const Json base = json_of(result_by_hand());
+  Json next = measured_beside(base, 0.0);
+  Json& lists = next["cases"][0]["timing"]["baseline"]["lists_differ"];
+  lists = {{"frames", 2}, {"frame", 1},       {"cell", {3, 2, 1}}, {"light", 7},
+           {"in", "new"}, {"base_pairs", 60}, {"new_pairs", 61}};
+  EXPECT_EQ(outcome(compare_results(base, next, 0.02), false), ExitCode::gate_failed);
+  const std::string text = comparison_text(compare_results(base, next, 0.02));
+  EXPECT_NE(text.find("frame 1, cell [3,2,1], light 7: only in the new lists; 60 -> 61 pairs"), std::string::npos)
+      << text;
+  lists["new_pairs"] = 59;
+  EXPECT_EQ(outcome(compare_results(base, next, 0.02), false), ExitCode::ok);
+}
+
+TEST(Compare, names_in_markdown_are_no_markup) {
+  run::Result result = result_by_hand();
+  result.cases[0].name = "a|b <script> `c` *d*";
+  const Json json = json_of(result);
+  const std::string markdown = comparison_markdown(compare_results(json, json, 0.02));
+  EXPECT_NE(markdown.find(R"(a\|b \<script\> \`c\` \*d\*)"), std::string::npos) << markdown;
+}
+
+}  // namespace
+}  // namespace clusterbench::report
