@@ -256,6 +256,11 @@ TEST(SphereRefinementFast, gives_the_lists_of_sphere_refinement_on_every_target)
   expect_same_lists_on_odd_grids("sphere-refinement-fast", "sphere-refinement");
 }
 
+TEST(DistanceFast, gives_the_lists_of_distance_on_every_target) {
+  expect_same_lists_on_every_target("distance-fast", "distance");
+  expect_same_lists_on_odd_grids("distance-fast", "distance");
+}
+
 TEST(CascadesFast, gives_the_lists_of_cascades_on_every_target) {
   expect_same_lists_on_every_target("cascades-fast", "cascades");
   expect_same_lists_on_odd_grids("cascades-fast", "cascades");

@@ -11,6 +11,7 @@
 
 #include "assign/assigner.h"
 #include "assign/light_test.h"
+#include "assign/shells.h"
 #include "geom/tangents.h"
 #include "grid/index_range.h"
 
@@ -19,10 +20,6 @@ namespace {
 
 constexpr float k_inf = std::numeric_limits<float>::infinity();
 constexpr geom::SlopeRange k_all{-k_inf, k_inf};
-
-// The cap is computed in double and held in floats: its radius is off by 1, a plane's cut by 1 for its depth, 1 for its
-// chord and 1 for the slope: 4.
-constexpr float k_roundings = 4.0f;
 
 // The cap as a ball around the light's centre that looks the same from the eye. radius +inf: every direction.
 struct Cap {
@@ -45,7 +42,7 @@ Cap cap_in_shell(const geom::Ball& ball, double length, double distance) {
   if (!(cosine > 0.0)) return cap;  // 90° and more, the eye in the ball, or an unbounded one
   const double apart = std::fabs(distance - length);
   const double squared_sine = (r - apart) * (r + apart) / twice * (1.0 + cosine);
-  const double lost = 0x1p-24 * static_cast<double>(k_roundings) * length;
+  const double lost = 0x1p-24 * static_cast<double>(k_shell_roundings) * length;
   cap.radius = static_cast<float>(length * std::sqrt(std::max(0.0, squared_sine)) + lost);
   return cap;
 }
@@ -71,9 +68,7 @@ bool touches_in_row(const Cap& cap, float slope, float row_lo, float row_hi) {
   if (!std::isfinite(slope)) return false;
   const double x = cap.x, depth = cap.depth, r = cap.radius, s = slope;
   const double touch_depth = std::sqrt(std::max(0.0, x * x + depth * depth - r * r) / (1.0 + s * s));
-  // One slope too many only widens the interval.
-  constexpr double k_margin = 1e-6;
-  const double margin = k_margin * (touch_depth + std::fabs(static_cast<double>(cap.y)));
+  const double margin = k_touch_margin * (touch_depth + std::fabs(static_cast<double>(cap.y)));
   return cap.y >= row_lo * touch_depth - margin && cap.y <= row_hi * touch_depth + margin;
 }
 
@@ -91,7 +86,7 @@ geom::SlopeRange slopes_in_row(const Cap& cap, const geom::SlopeRange& tangents,
 
 class Distance final : public Assigner {
  public:
-  explicit Distance(const Params& params) : test_(params, k_roundings) {}
+  explicit Distance(const Params& params) : test_(params, k_shell_roundings) {}
 
   void build(const grid::Grid& grid) override {
     grid_ = &grid;

@@ -43,6 +43,24 @@ HWY_INLINE VI guessed(const BoundaryAxis& axis, V value) {
   return hn::ConvertTo(DI(), hn::Min(hn::Max(at, hn::Zero(D())), most));
 }
 
+struct Indices {
+  VI first, last;
+};
+
+// Looks first where a value is guessed to be.
+HWY_INLINE VI first_touched(const std::vector<float>& boundaries, VI guess, V low) {
+  return last_passed(boundaries, guess, 0, [&](V boundary) { return hn::Lt(boundary, low); });
+}
+HWY_INLINE VI last_touched(const std::vector<float>& boundaries, VI guess, V high) {
+  return last_passed(boundaries, guess, -1, [&](V boundary) { return hn::Le(boundary, high); });
+}
+
+// grid::intervals_touched for low <= high. Empty if first > last.
+HWY_INLINE Indices touched(const BoundaryAxis& axis, V low, V high) {
+  return {first_touched(axis.boundaries, guessed(axis, low), low),
+          last_touched(axis.boundaries, guessed(axis, high), high)};
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace clusterbench::assign
 HWY_AFTER_NAMESPACE();

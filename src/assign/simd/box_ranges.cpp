@@ -6,16 +6,13 @@
 #include <hwy/highway.h>
 
 #include "assign/simd/boundaries-inl.h"
+#include "assign/simd/boxed_rows-inl.h"
 #include "assign/simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
 namespace {
-
-struct Indices {
-  VI first, last;
-};
 
 // Along an axis; a negated place has the same distances from negated boundaries.
 HWY_INLINE V on_axis(const RangeAxis& axis, V place) {
@@ -45,7 +42,6 @@ HWY_INLINE MI lies_in(const Indices& range, const grid::IndexRange& hole) {
 void see_reaching(const RangeAxes& axes, const GivenBalls& balls, std::uint32_t first_light, float roundings,
                   BoxedBalls& boxed) {
   const D d;
-  const DU du;
   const auto n = static_cast<std::uint32_t>(hn::Lanes(d));
   for (std::uint32_t i = 0; i < balls.count; i += n) {
     const std::uint32_t left = std::min(n, balls.count - i);
@@ -55,18 +51,7 @@ void see_reaching(const RangeAxes& axes, const GivenBalls& balls, std::uint32_t 
     const M on_all =
         hn::And(reaches(axes.x, x, radius), hn::And(reaches(axes.y, y, radius), reaches(axes.z, z, radius)));
     const M wanted = hn::And(hn::And(hn::Gt(given, hn::Zero(d)), hn::FirstN(d, left)), on_all);
-    const std::size_t kept = hn::CountTrue(d, wanted);
-    if (kept == 0) continue;
-    const auto keep = [&](V value, std::vector<float>& to) {
-      hn::StoreU(hn::Compress(value, wanted), d, to.data() + boxed.count);
-    };
-    keep(x, boxed.x);
-    keep(y, boxed.y);
-    keep(hn::Neg(z), boxed.depth);
-    keep(radius, boxed.radius);
-    hn::StoreU(hn::Compress(hn::Iota(du, first_light + i), hn::RebindMask(du, wanted)), du,
-               boxed.light.data() + boxed.count);
-    boxed.count += static_cast<std::uint32_t>(kept);
+    keep_balls(wanted, {x, y, hn::Neg(z), radius}, first_light + i, boxed);
   }
 }
 

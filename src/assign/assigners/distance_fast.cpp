@@ -1,0 +1,73 @@
+// `distance` for speed: the same lists, SIMD.
+
+#include <memory>
+
+#include "assign/assigner.h"
+#include "assign/boxed_lists.h"
+#include "assign/light_test.h"
+#include "assign/shells.h"
+#include "assign/simd/shell_rows.h"
+#include "assign/simd/spot_balls.h"
+
+namespace clusterbench::assign {
+namespace {
+
+class DistanceFast final : public Assigner {
+ public:
+  explicit DistanceFast(const Params& params) : test_(params, k_shell_roundings), lists_(test_) {}
+
+  void build(const grid::Grid& grid) override {
+    lists_.start_grid(grid.cells(), "tiles");
+    test_.start_grid(grid);
+    planes_ = ShellPlanes(grid.screen());
+    shells_ = grid.cells().z;
+  }
+
+  void assign(const view::LightArrays& lights, Lists& out) override {
+    test_.start_frame(lights);
+    boxed_.count = 0;
+    boxed_.reserve(lights.size());
+    find_shells(planes_, given_points(lights), 0, test_.own_padding(), boxed_);
+    if (lights.spots > 0) {
+      find_spot_balls(lights, test_.own_padding(), test_.balls_are_around_cones(), spots_);
+      find_shells(planes_, given_spots(lights, spots_), lights.points, 0.0f, boxed_);
+    }
+    lists_.start_frame(lights, out);
+    lists_.add_slices(boxed_, shells_,
+                      [&](const BallBatch& batch, BatchRows& rows) { find_shell_rows(planes_, batch, rows); });
+    lists_.finish();
+  }
+
+  std::uint64_t tests_done() const override { return lists_.tests_done(); }
+  std::size_t scratch_bytes() const override {
+    return lists_.capacity_bytes() + test_.capacity_bytes() + boxed_.capacity_bytes() + spots_.capacity_bytes() +
+           planes_.capacity_bytes();
+  }
+
+ private:
+  LightTest test_;
+  ShellPlanes planes_;
+  int shells_ = 0;
+  BallArrays spots_;
+  BoxedBalls boxed_;
+  BoxedLists lists_;
+};
+
+std::unique_ptr<Assigner> make(const Params& params) {
+  return std::make_unique<DistanceFast>(params);
+}
+
+}  // namespace
+
+extern const AssignerRow distance_fast_row;
+const AssignerRow distance_fast_row{
+    .name = "distance-fast",
+    .summary = "distance, one ball per lane, lists by compression (SIMD, dispatched at run time)",
+    .source = "this project: shells of distance with the closed form of the cap",
+    .kinds = {grid::Kind::distance},
+    .orthographic = false,
+    .params = light_params(),
+    .make = make,
+};
+
+}  // namespace clusterbench::assign
