@@ -26,7 +26,7 @@ class CellBoxTwin final : public Assigner {
 
   void build(const grid::Grid& grid) override {
     lists_.start_grid(grid.cells(), "tiles");
-    planes_ = RowPlanes(grid.screen());
+    planes_ = grid.screen().tiles.orthographic ? RowPlanes() : RowPlanes(grid.screen());
     box_planes_ = BoxPlanes(grid.screen());
     rows_.build(grid);
     test_.start_grid(grid);
@@ -37,7 +37,7 @@ class CellBoxTwin final : public Assigner {
     test_.start_frame(lights);
     box_lights();
     lists_.start_frame(lights, out);
-    lists_.add_slices(boxed_, planes_.slices,
+    lists_.add_slices(boxed_, box_planes_.slices(),
                       [&](const BallBatch& batch, BatchRows& rows) { rows_.find(batch, rows); });
     lists_.finish();
   }
@@ -59,7 +59,11 @@ class CellBoxTwin final : public Assigner {
 
   void box_balls(const GivenBalls& balls, std::uint32_t first_light, const BallPadding& padding) {
     const std::uint32_t begin = seen_.count;
-    see_balls(planes_, balls, first_light, seen_, padding.box + k_slice_rows_roundings);
+    const float roundings = padding.box + k_slice_rows_roundings;
+    if (box_planes_.orthographic)
+      see_balls_in_box(box_planes_, balls, first_light, seen_, roundings);
+    else
+      see_balls(planes_, balls, first_light, seen_, roundings);
     find_cell_boxes(box_planes_, seen_, begin, balls, first_light, padding, boxed_);
   }
 
@@ -88,7 +92,7 @@ class CellBoxTwin final : public Assigner {
   const view::LightArrays* lights_ = nullptr;  // of the frame at hand
   LightTest test_;
   Rows rows_;
-  RowPlanes planes_;
+  RowPlanes planes_;  // perspective
   BoxPlanes box_planes_;
   BallArrays spots_for_boxes_, spots_;
   SeenBalls seen_;

@@ -155,15 +155,27 @@ std::vector<scene::WorldLight> nudged_points(const grid::Grid& grid, const view:
   return lights;
 }
 
+struct View {
+  const char* name;
+  view::Projection projection;
+};
+
+std::vector<View> odd_views(const AssignerRow& row) {
+  const auto wide = [](double deg) { return testing::perspective(deg * testing::settings::k_degree, 1.2, 0.1, 300); };
+  if (row.takes(grid::Kind::cascades) || row.takes(grid::Kind::world)) return {{"any view", wide(50)}};
+  std::vector<View> views{{"50 degrees", wide(50)}, {"165 degrees", wide(165)}};
+  if (row.orthographic) views.push_back({"orthographic", {true, -7, 31, 4, 11, 0.1, 300}});
+  return views;
+}
+
 // Beside the usual lights some that hold nearly everything, or end at the eye or at the depth of 5 m by a hair.
 std::vector<Setting> odd_settings(const AssignerRow& row, std::uint64_t seed) {
   std::vector<Setting> settings;
   for (const grid::GridSpec& spec : odd_grids(row.kinds.front()))
-    for (const double view_deg : {50.0, 165.0}) {
+    for (const View& view : odd_views(row)) {
       Setting setting;
-      setting.name = spec.name() + ", " + std::to_string(view_deg) + " degrees";
-      setting.frame = testing::frame_of(testing::perspective(view_deg * testing::settings::k_degree, 1.2, 0.1, 300),
-                                        {1280, 717}, {});
+      setting.name = spec.name() + ", " + view.name;
+      setting.frame = testing::frame_of(view.projection, {1280, 717}, {});
       setting.grid = testing::grid_of(spec, setting.frame);
       testing::settings::add_lights(setting, row, seed);
       std::vector<scene::WorldLight> more;

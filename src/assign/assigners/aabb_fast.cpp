@@ -31,7 +31,6 @@ const AssignerRow aabb_fast_row{
     .summary = "aabb, one ball per lane, lists by compression (SIMD, dispatched at run time)",
     .source = "DaveH355; Persson 2015, Practical Clustered Shading",
     .kinds = {grid::Kind::frustum},
-    .orthographic = false,
     .params = light_params(),
     .make = make_cell_box_twin<RowsByBoxes>,
 };

@@ -29,7 +29,6 @@ const AssignerRow bounds_fast_row{
     .summary = "bounds, a vector of balls at a time, lists by compression (SIMD, dispatched at run time)",
     .source = "Persson 2015, Practical Clustered Shading",
     .kinds = {grid::Kind::frustum},
-    .orthographic = false,
     .params = light_params(),
     .make = make_cell_box_twin<BoxedRows>,
 };

@@ -16,8 +16,8 @@ class RefinedRows {
     const grid::ScreenGrid& screen = grid.screen();
     planes_ = RefinementPlanes(screen);
     depths_ = screen.slices.boundaries;
-    columns_ = tile_planes(screen.tiles.x, false);
-    rows_ = tile_planes(screen.tiles.y, false);
+    columns_ = tile_planes(screen.tiles.x, screen.tiles.orthographic);
+    rows_ = tile_planes(screen.tiles.y, screen.tiles.orthographic);
   }
   bool narrows() const { return narrowing_; }
   void narrow(CellBox& box, const geom::SphericalCone& cone) const {
@@ -45,7 +45,6 @@ const AssignerRow sphere_refinement_fast_row{
     .summary = "sphere-refinement, one ball per lane, lists by compression (SIMD, dispatched at run time)",
     .source = "Persson 2015, Practical Clustered Shading; Filament's froxels",
     .kinds = {grid::Kind::frustum},
-    .orthographic = false,
     .params = refinement_params(),
     .make = make_cell_box_twin<RefinedRows>,
 };

@@ -89,7 +89,9 @@ HWY_INLINE void prepare_columns(const RefinementPlanes& planes, const Boxes& box
   for (int i = 0; i <= most; ++i) {
     const VI place = hn::Min(hn::Add(boxes.first_column, all_int(i)), last);
     const std::size_t to = static_cast<std::size_t>(i) * lanes;
-    hn::StoreU(hn::Mul(gathered(planes.column_across, place), x), D(), out.first.data() + to);
+    V distance = hn::Mul(gathered(planes.column_across, place), x);
+    if (!planes.column_offset.empty()) distance = hn::Add(distance, gathered(planes.column_offset, place));
+    hn::StoreU(distance, D(), out.first.data() + to);
     hn::StoreU(gathered(planes.column_along, place), D(), out.second.data() + to);
   }
 }
@@ -125,7 +127,9 @@ void refined_rows(const RefinementPlanes& planes, const BallBatch& batch, LaneCo
   const auto plane_at = [&](VI place) {
     const VI plane = hn::Min(place, all_int(grid_rows));
     const V along = gathered(planes.row_along, plane);
-    return RowPlane{along, hn::Add(hn::Mul(gathered(planes.row_across, plane), y), hn::Mul(along, ball.depth))};
+    V distance = hn::Add(hn::Mul(gathered(planes.row_across, plane), y), hn::Mul(along, ball.depth));
+    if (!planes.row_offset.empty()) distance = hn::Add(distance, gathered(planes.row_offset, plane));
+    return RowPlane{along, distance};
   };
   RowPlane top = plane_at(boxes.first_row);
   walk_rows(boxes, grid_rows, out, [&](VI row, MI wanted) {
@@ -196,18 +200,23 @@ HWY_EXPORT(refined_rows);
 HWY_EXPORT(box_rows);
 
 RefinementPlanes::RefinementPlanes(const grid::ScreenGrid& grid) : depths(grid.slices.boundaries) {
-  for (const TilePlane& plane : tile_planes(grid.tiles.x, false)) {
-    column_across.push_back(plane.across);
-    column_along.push_back(plane.along);
-  }
-  for (const TilePlane& plane : tile_planes(grid.tiles.y, false)) {
-    row_across.push_back(plane.across);
-    row_along.push_back(plane.along);
-  }
+  const bool orthographic = grid.tiles.orthographic;
+  const auto add = [&](const std::vector<float>& boundaries, std::vector<float>& across, std::vector<float>& along,
+                       std::vector<float>& offset) {
+    for (const TilePlane& plane : tile_planes(boundaries, orthographic)) {
+      across.push_back(plane.across);
+      along.push_back(plane.along);
+      if (orthographic) offset.push_back(plane.offset);
+    }
+  };
+  add(grid.tiles.x, column_across, column_along, column_offset);
+  add(grid.tiles.y, row_across, row_along, row_offset);
 }
 
 std::size_t RefinementPlanes::capacity_bytes() const {
-  return (2 * column_across.capacity() + 2 * row_across.capacity() + depths.capacity()) * sizeof(float);
+  return (2 * column_across.capacity() + 2 * row_across.capacity() + column_offset.capacity() + row_offset.capacity() +
+          depths.capacity()) *
+         sizeof(float);
 }
 
 CellExtents::CellExtents(const grid::Grid& grid) : columns(grid.cells().x), rows(grid.cells().y) {

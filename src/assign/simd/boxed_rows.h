@@ -40,6 +40,7 @@ void find_boxed_rows(int rows, const BallBatch& batch, BatchRows& out);
 // Sphere refinement (assigners/sphere_refinement.cpp).
 struct RefinementPlanes {
   std::vector<float> column_across, column_along, row_across, row_along;  // of the tile planes
+  std::vector<float> column_offset, row_offset;                           // none in perspective: all are 0
   std::vector<float> depths;                                              // of the slices
 
   explicit RefinementPlanes(const grid::ScreenGrid& grid);

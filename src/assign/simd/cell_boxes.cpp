@@ -21,13 +21,17 @@ void find_extents(const BoxPlanes& planes, const SeenBalls& seen, std::uint32_t 
   for (std::uint32_t i = begin; i < seen.count; i += n) {
     const auto wide = [&](const std::vector<float>& from) { return hn::PromoteTo(dd, hn::LoadU(df, from.data() + i)); };
     const Disks disks(wide(seen.depth), wide(boxed.box_radius), planes.depths.front(), planes.depths.back());
-    VF low, high;
-    disks.slope_range(wide(seen.x), low, high);
-    hn::StoreU(low, df, boxed.low_x.data() + i);
-    hn::StoreU(high, df, boxed.high_x.data() + i);
-    disks.slope_range(wide(seen.y), low, high);
-    hn::StoreU(low, df, boxed.low_y.data() + i);
-    hn::StoreU(high, df, boxed.high_y.data() + i);
+    const auto find = [&](const std::vector<float>& center, std::vector<float>& to_low, std::vector<float>& to_high) {
+      VF low, high;
+      if (planes.orthographic)
+        disks.offset_range(wide(center), low, high);
+      else
+        disks.slope_range(wide(center), low, high);
+      hn::StoreU(low, df, to_low.data() + i);
+      hn::StoreU(high, df, to_high.data() + i);
+    };
+    find(seen.x, boxed.low_x, boxed.high_x);
+    find(seen.y, boxed.low_y, boxed.high_y);
   }
 }
 
@@ -87,6 +91,50 @@ void box_balls(const BoxPlanes& planes, const SeenBalls& seen, std::uint32_t beg
   }
 }
 
+// How far a value is outside of boundaries.
+HWY_INLINE V gap_to(const std::vector<float>& boundaries, V value) {
+  return hn::Max(hn::Sub(all(boundaries.front()), value), hn::Sub(value, all(boundaries.back())));
+}
+
+// Where a depth would be if all slices were equal.
+HWY_INLINE VI slice_guess(const std::vector<float>& depths, V depth) {
+  const auto count = static_cast<float>(depths.size() - 1);
+  const V at = hn::Mul(hn::Sub(depth, all(depths.front())), all(count / (depths.back() - depths.front())));
+  return hn::ConvertTo(DI(), hn::Min(hn::Max(at, all(0.0f)), all(count - 1.0f)));
+}
+
+void see_in_box(const BoxPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, SeenBalls& seen,
+                float roundings) {
+  const D d;
+  const DI di;
+  const DU du;
+  const auto n = static_cast<std::uint32_t>(hn::Lanes(d));
+  for (std::uint32_t i = 0; i < balls.count; i += n) {
+    const std::uint32_t left = std::min(n, balls.count - i);
+    const auto load = [&](const float* from) { return loaded(from + i, left); };
+    const V x = load(balls.x), y = load(balls.y), depth = hn::Neg(load(balls.z)), given = load(balls.radius);
+    const V radius = hn::Add(given, hn::Mul(load(balls.reach), all(roundings * 0x1p-24f)));
+    const V across = hn::Max(gap_to(planes.columns.boundaries, x), gap_to(planes.rows.boundaries, hn::Neg(y)));
+    const V gap = hn::Max(across, gap_to(planes.depths, depth));
+    const M wanted = hn::And(hn::And(hn::Le(gap, radius), hn::Gt(given, hn::Zero(d))), hn::FirstN(d, left));
+    if (hn::AllFalse(d, wanted)) continue;
+    const auto keep = [&](V value, std::vector<float>& to) {
+      hn::StoreU(hn::Compress(value, wanted), d, to.data() + seen.count);
+    };
+    keep(x, seen.x);
+    keep(y, seen.y);
+    keep(depth, seen.depth);
+    const auto keep_slice = [&](V at, std::vector<std::int32_t>& to) {
+      hn::StoreU(hn::Compress(slice_guess(planes.depths, at), hn::RebindMask(di, wanted)), di, to.data() + seen.count);
+    };
+    keep_slice(hn::Sub(depth, radius), seen.first_slice);
+    keep_slice(hn::Add(depth, radius), seen.last_slice);
+    hn::StoreU(hn::Compress(hn::Iota(du, first_light + i), hn::RebindMask(du, wanted)), du,
+               seen.light.data() + seen.count);
+    seen.count += static_cast<std::uint32_t>(hn::CountTrue(d, wanted));
+  }
+}
+
 void find_boxes(const BoxPlanes& planes, const SeenBalls& seen, std::uint32_t begin, const GivenBalls& given,
                 std::uint32_t first_light, const BallPadding& padding, BoxedBalls& boxed) {
   find_radii(seen, begin, given, first_light, padding, boxed);
@@ -103,8 +151,10 @@ HWY_AFTER_NAMESPACE();
 namespace clusterbench::assign {
 
 HWY_EXPORT(find_boxes);
+HWY_EXPORT(see_in_box);
 
-BoxPlanes::BoxPlanes(const grid::ScreenGrid& grid) : depths(grid.slices.boundaries) {
+BoxPlanes::BoxPlanes(const grid::ScreenGrid& grid)
+    : depths(grid.slices.boundaries), orthographic(grid.tiles.orthographic) {
   // An edge tile may be clipped: the first one tells the width.
   const std::vector<float>&x = grid.tiles.x, &y = grid.tiles.y;
   columns = {x, x[0], 1.0f / (x[1] - x[0])};
@@ -125,6 +175,11 @@ void BoxedBalls::reserve(std::uint32_t most) {
 
 std::size_t BoxedBalls::capacity_bytes() const {
   return 17 * sizeof(float) * light.capacity();
+}
+
+void see_balls_in_box(const BoxPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, SeenBalls& seen,
+                      float roundings) {
+  HWY_DYNAMIC_DISPATCH(see_in_box)(planes, balls, first_light, seen, roundings);
 }
 
 void find_cell_boxes(const BoxPlanes& planes, const SeenBalls& seen, std::uint32_t begin, const GivenBalls& given,

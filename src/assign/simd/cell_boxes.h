@@ -1,8 +1,6 @@
 #pragma once
 // The cell boxes of many balls at once: those of cell_box() (assign/cell_box.h), because each lane takes the same
 // operations on the same numbers in the same order, in double precision where cell_box() does.
-//
-// Perspective grids.
 
 #include <cstdint>
 #include <vector>
@@ -16,12 +14,14 @@ namespace clusterbench::assign {
 
 // The boundaries of a grid. Made once per grid.
 struct BoxPlanes {
-  BoundaryAxis columns;       // slopes x / depth
-  BoundaryAxis rows;          // slopes -y / depth: rows begin at the top
+  BoundaryAxis columns;       // slopes x / depth, orthographic: x
+  BoundaryAxis rows;          // slopes -y / depth or -y: rows begin at the top
   std::vector<float> depths;  // of the slices
+  bool orthographic = false;
 
   explicit BoxPlanes(const grid::ScreenGrid& grid);
   BoxPlanes() = default;
+  int slices() const { return static_cast<int>(depths.size()) - 1; }
 };
 
 // Balls that have a cell box, ascending by light. All arrays have room for whole vectors beyond `count`.
@@ -48,6 +48,10 @@ struct BoxedBalls {
   void reserve(std::uint32_t most);
   std::size_t capacity_bytes() const;
 };
+
+// see_balls() for orthographic grids, but for the seen balls' radii and slacks, which no cell box asks for.
+void see_balls_in_box(const BoxPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, SeenBalls& seen,
+                      float roundings);
 
 // Units of 2^-24 of a light's reach by which its ball is made larger.
 struct BallPadding {

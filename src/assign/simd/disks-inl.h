@@ -106,12 +106,26 @@ class Disks {
       add_chord(near_, near_past_, u, hull);
       add_chord(far_, far_past_, u, hull);
     }
-    const VD inf = infinite();
-    low = rounded_down(hn::IfThenElse(misses_, inf, hn::IfThenElse(is_endless_, hn::Neg(inf), hull.low)));
-    high = rounded_up(hn::IfThenElse(misses_, hn::Neg(inf), hn::IfThenElse(is_endless_, inf, hull.high)));
+    round(hull.low, hull.high, low, high);
+  }
+
+  // geom::offset_range
+  HWY_INLINE void offset_range(VD u, VF& low, VF& high) const {
+    const VD line = hn::Min(hn::Max(depth_, near_), far_);
+    const VD past = hn::IfThenElse(hn::Lt(depth_, near_), near_past_, far_past_);
+    const VD chord = hn::Sqrt(hn::Mul(past, hn::Add(r_, hn::Abs(hn::Sub(line, depth_)))));
+    const VD half = hn::IfThenElse(is_between_, r_, chord);
+    const VD error = hn::Mul(all(4.0 * k_epsilon), hn::Add(hn::Abs(u), half));
+    round(hn::Sub(hn::Sub(u, half), error), hn::Add(hn::Add(u, half), error), low, high);
   }
 
  private:
+  HWY_INLINE void round(VD from, VD to, VF& low, VF& high) const {
+    const VD inf = infinite();
+    low = rounded_down(hn::IfThenElse(misses_, inf, hn::IfThenElse(is_endless_, hn::Neg(inf), from)));
+    high = rounded_up(hn::IfThenElse(misses_, hn::Neg(inf), hn::IfThenElse(is_endless_, inf, to)));
+  }
+
   HWY_INLINE VD squared_tangent(VD u) const {
     const VD u_square = hn::Mul(u, u), depth_square = hn::Mul(depth_, depth_);
     const VD large = hn::Max(u_square, depth_square), small = hn::Min(u_square, depth_square);
