@@ -30,6 +30,7 @@ ExitCode run_command_line(CLI::App& app, int argc, char** argv) {
   add_compare(app, action);
   add_size(app, action);
   add_report(app, action);
+  add_export(app, action);
   add_scene(app, action);
   add_stress(app, action);
   add_list(app, action);

@@ -14,6 +14,7 @@ void add_run(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);
 void add_size(CLI::App& app, Action& action);
 void add_report(CLI::App& app, Action& action);
+void add_export(CLI::App& app, Action& action);
 void add_scene(CLI::App& app, Action& action);
 void add_stress(CLI::App& app, Action& action);
 void add_list(CLI::App& app, Action& action);

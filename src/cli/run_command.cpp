@@ -8,6 +8,7 @@
 
 #include "cli/command.h"
 #include "cli/count.h"
+#include "cli/exports.h"
 #include "cli/output.h"
 #include "cli/stop.h"
 #include "cli/terminal.h"
@@ -28,6 +29,7 @@ using Json = nlohmann::ordered_json;
 struct Flags {
   std::vector<std::string> inputs;
   std::string output, filter, count;
+  std::vector<std::string> exports;
   std::optional<int> threads;
   bool resume = false, dry_run = false, no_timing = false, quiet = false;
 
@@ -156,6 +158,7 @@ run::Counts count_instructions(CountWay way, const CountTask& task, ProgressLine
 
 ExitCode measure(const Flags& flags, const run::Config& config, const run::Plan& plan, CountWay way) {
   if (is_stream(flags.output)) probe_output(flags.output);
+  const std::vector<ExportTarget> exports = export_targets(flags.exports);
   const std::unique_ptr<report::Journal> journal = open_journal(flags, config, plan);
   const std::vector<Json> earlier = journal ? journal->earlier_cases() : std::vector<Json>{};
   const std::vector<std::string> earlier_ids = journal ? journal->earlier_ids() : std::vector<std::string>{};
@@ -180,6 +183,7 @@ ExitCode measure(const Flags& flags, const run::Config& config, const run::Plan&
     journal->finish(result);
   else
     write_output(flags.output, result);
+  write_exports(exports, result);
   if (!flags.quiet) std::cerr << report::render_table(result, screen.colour);
   return report_gates(result);
 }
@@ -202,6 +206,8 @@ void add_run(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("run", "Measure a configuration, or scenes with the default sweep");
   command->add_option("INPUT", flags->inputs, "One configuration (.json), or scenes (.glb, .gltf)")->required();
   command->add_option("-o,--output", flags->output, "Result file; without it the result goes to standard output");
+  command->add_option("--export", flags->exports, "FORMAT=FILE, repeatable: also write another tool's format")
+      ->allow_extra_args(false);
   command->add_option("--filter", flags->filter, "Only cases whose name matches this regular expression");
   command->add_option("--threads", flags->threads, "Threads for the truth; results do not depend on it")
       ->check(CLI::Range(1, 1024));

@@ -1,0 +1,37 @@
+// `clusterbench export RESULT`: a result in the format of another tool.
+
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/exports.h"
+#include "cli/output.h"
+#include "report/result_file.h"
+
+namespace clusterbench::cli {
+namespace {
+
+struct Flags {
+  std::string result, format, output;
+  bool all = false;
+};
+
+ExitCode export_result(const Flags& flags) {
+  const report::ExportFormat& format = report::export_format(flags.format);
+  write_text(flags.output, report::exported(report::read_result(flags.result), format, flags.all));
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_export(CLI::App& app, Action& action) {
+  auto flags = std::make_shared<Flags>();
+  CLI::App* command = app.add_subcommand("export", "Write a result in the format of another tool");
+  command->add_option("RESULT", flags->result, "A result file of `clusterbench run`")->required();
+  command->add_option("--format", flags->format, "One of those below")->required();
+  command->add_option("-o,--output", flags->output, "File to write; without it standard output");
+  command->add_flag("--all", flags->all, "Every figure, not only the headline");
+  command->footer("Formats:\n" + export_formats_text());
+  command->callback([flags, &action] { action = [flags] { return export_result(*flags); }; });
+}
+
+}  // namespace clusterbench::cli

@@ -1,0 +1,38 @@
+// Bencher Metric Format (https://bencher.dev/docs/reference/bencher-metric-format): benchmark -> measure -> value and
+// bounds.
+
+#include <algorithm>
+
+#include "report/exports/exports.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Bencher knows the time of a benchmark as `latency`, in nanoseconds; its other names have dashes.
+std::string measure_name(std::string_view metric) {
+  if (metric == "assign_time") return "latency";
+  std::string name(metric);
+  std::replace(name.begin(), name.end(), '_', '-');
+  return name;
+}
+
+}  // namespace
+
+std::string bencher(const ExportResult& result) {
+  Json out = Json::object();
+  for (const ExportCase& one : result.cases) {
+    Json& measures = out[one.name] = Json::object();
+    for (const Measured& figure : one.figures) {
+      Json& measure = measures[measure_name(figure.metric->name)];
+      measure = {{"value", figure.value}};
+      if (figure.low == figure.high) continue;
+      measure["lower_value"] = figure.low;
+      measure["upper_value"] = figure.high;
+    }
+  }
+  return out.dump(1) + "\n";
+}
+
+}  // namespace clusterbench::report

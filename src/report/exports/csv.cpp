@@ -1,0 +1,60 @@
+// Comma-separated values (RFC 4180, lines end in a line feed): a row per case. The columns do not depend on what was
+// measured; a figure that a case lacks is an empty field.
+
+#include <cmath>
+
+#include "report/exports/exports.h"
+
+namespace clusterbench::report {
+namespace {
+
+std::string field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+// All digits, without ".0" behind what was counted.
+std::string number(double value) {
+  constexpr double k_exact_integers = 9007199254740992.0;
+  const bool is_whole = std::floor(value) == value && std::abs(value) < k_exact_integers;
+  return is_whole ? std::to_string(static_cast<long long>(value)) : nlohmann::json(value).dump();
+}
+
+bool has_column(const Metric& metric, const ExportResult& result) {
+  return metric.is_headline || result.all;
+}
+
+std::string heading(const ExportResult& result) {
+  std::string line = "id,name";
+  for (const Metric& metric : export_metrics()) {
+    if (!has_column(metric, result)) continue;
+    const std::string name(metric.name);
+    line += "," + name;
+    if (!metric.interval.empty()) line += "," + name + "_low," + name + "_high";
+  }
+  return line + "\n";
+}
+
+std::string row(const ExportResult& result, const ExportCase& one) {
+  std::string line = field(one.id) + "," + field(one.name);
+  for (const Metric& metric : export_metrics()) {
+    if (!has_column(metric, result)) continue;
+    const Measured* figure = find_figure(one, metric.name);
+    line += "," + (figure == nullptr ? "" : number(figure->value));
+    if (metric.interval.empty()) continue;
+    line += figure == nullptr ? ",," : "," + number(figure->low) + "," + number(figure->high);
+  }
+  return line + "\n";
+}
+
+}  // namespace
+
+std::string csv(const ExportResult& result) {
+  std::string out = heading(result);
+  for (const ExportCase& one : result.cases) out += row(result, one);
+  return out;
+}
+
+}  // namespace clusterbench::report

@@ -1,0 +1,96 @@
+#include "report/exports/exports.h"
+
+#include "core/error.h"
+#include "core/text.h"
+
+namespace clusterbench::report {
+
+std::string google_benchmark(const ExportResult& result);
+std::string github_smaller_is_better(const ExportResult& result);
+std::string github_bigger_is_better(const ExportResult& result);
+std::string bencher(const ExportResult& result);
+std::string lnt(const ExportResult& result);
+std::string csv(const ExportResult& result);
+std::string markdown(const ExportResult& result);
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr ExportFormat k_formats[] = {
+    {"google-benchmark", "Google Benchmark's JSON, a repetition per round, for its compare.py", "json",
+     google_benchmark},
+    {"github-smaller", "github-action-benchmark, tool customSmallerIsBetter", "json", github_smaller_is_better},
+    {"github-bigger", "github-action-benchmark, tool customBiggerIsBetter", "json", github_bigger_is_better},
+    {"bencher", "Bencher Metric Format", "json", bencher},
+    {"lnt", "LLVM's LNT, report format 2, test suite nts", "json", lnt},
+    {"csv", "A row per case, comma-separated (RFC 4180)", "csv", csv},
+    {"markdown", "A table for comments and pages", "md", markdown},
+};
+
+std::string text_at(const Json& from, const char* pointer) {
+  const Json::json_pointer place(pointer);
+  return from.contains(place) && from[place].is_string() ? from[place].get<std::string>() : "";
+}
+
+std::string needed_text(const Json& one, std::size_t index, const char* key) {
+  std::string text = text_at(one, (std::string("/") + key).c_str());
+  if (text.empty()) throw Error("", "/cases/" + std::to_string(index) + "/" + key, "is missing");
+  return text;
+}
+
+ExportCase read_case(const Json& one, std::size_t index, bool all) {
+  ExportCase out{needed_text(one, index, "id"), needed_text(one, index, "name"), measured(one, all), {}, 0};
+  const Json::json_pointer samples("/timing/assign_ns/samples"), frames("/timing/frames_timed");
+  if (one.contains(samples))
+    for (const Json& sample : one[samples])
+      if (sample.is_number()) out.assign_samples_ns.push_back(sample.get<double>());
+  if (one.contains(frames) && one[frames].is_number_integer()) out.frames_timed = one[frames].get<int>();
+  return out;
+}
+
+ExportResult read(const Json& result, bool all) {
+  ExportResult out;
+  out.all = all;
+  out.name = text_at(result, "/name");
+  out.version = text_at(result, "/tool/version");
+  out.git_sha = text_at(result, "/tool/git_sha");
+  out.compiler = text_at(result, "/tool/compiler");
+  out.flags = text_at(result, "/tool/flags");
+  out.build_type = text_at(result, "/tool/build_type");
+  out.simd_target = text_at(result, "/tool/simd_target");
+  out.cpu = text_at(result, "/machine/cpu");
+  out.os = text_at(result, "/machine/os");
+  if (const Json::json_pointer cores("/machine/cores"); result.contains(cores) && result[cores].is_number_integer())
+    out.cores = result[cores].get<int>();
+  for (std::size_t index = 0; index < result["cases"].size(); ++index)
+    out.cases.push_back(read_case(result["cases"][index], index, all));
+  return out;
+}
+
+}  // namespace
+
+std::span<const ExportFormat> export_formats() {
+  return k_formats;
+}
+
+const ExportFormat& export_format(const std::string& name) {
+  std::vector<std::string> names;
+  for (const ExportFormat& format : k_formats) {
+    if (format.name == name) return format;
+    names.emplace_back(format.name);
+  }
+  throw Error("", "export", "no format '" + name + "'" + did_you_mean(name, names) + "; there are: " + joined(names));
+}
+
+std::string exported(const Json& result, const ExportFormat& format, bool all) {
+  return format.write(read(result, all));
+}
+
+const Measured* find_figure(const ExportCase& one, std::string_view name) {
+  for (const Measured& figure : one.figures)
+    if (figure.metric->name == name) return &figure;
+  return nullptr;
+}
+
+}  // namespace clusterbench::report

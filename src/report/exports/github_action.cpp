@@ -1,0 +1,47 @@
+// The two custom formats of github-action-benchmark (https://github.com/benchmark-action/github-action-benchmark): a
+// list of {name, unit, value, range, extra}, in which either every figure is better when smaller, or every one when
+// bigger.
+
+#include <cstdio>
+
+#include "core/error.h"
+#include "report/exports/exports.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string plus_minus(const Measured& figure) {
+  char text[48];
+  std::snprintf(text, sizeof text, "\xC2\xB1 %.4g", (figure.high - figure.low) / 2.0);
+  return text;
+}
+
+std::string list_of(const ExportResult& result, Better better, const char* format) {
+  Json list = Json::array();
+  for (const ExportCase& one : result.cases)
+    for (const Measured& figure : one.figures) {
+      if (figure.metric->better != better) continue;
+      Json entry{{"name", one.name + " " + std::string(figure.metric->name)},
+                 {"unit", figure.metric->unit},
+                 {"value", figure.value}};
+      if (figure.low < figure.high) entry["range"] = plus_minus(figure);
+      entry["extra"] = "case " + one.id;
+      list.push_back(entry);
+    }
+  if (list.empty()) throw Error("", format, "has no figure to write: nothing of its kind was measured");
+  return list.dump(1) + "\n";
+}
+
+}  // namespace
+
+std::string github_smaller_is_better(const ExportResult& result) {
+  return list_of(result, Better::smaller, "github-smaller");
+}
+
+std::string github_bigger_is_better(const ExportResult& result) {
+  return list_of(result, Better::bigger, "github-bigger");
+}
+
+}  // namespace clusterbench::report

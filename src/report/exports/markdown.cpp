@@ -1,0 +1,77 @@
+// A table as GitHub and GitLab render it. Only columns in which a case has a figure.
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+
+#include "report/exports/exports.h"
+
+namespace clusterbench::report {
+namespace {
+
+// A name from a scene file stays one cell and plain text.
+std::string cell(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (std::iscntrl(static_cast<unsigned char>(c)) != 0) {
+      out += ' ';
+      continue;
+    }
+    if (std::string_view("\\|`*_[]<>&").find(c) != std::string_view::npos) out += '\\';
+    out += c;
+  }
+  return out;
+}
+
+// Four digits, or all of what was counted: 40.61, 1234.6, 102905.
+std::string number(double value) {
+  char text[48];
+  std::snprintf(text, sizeof text,
+                std::floor(value) == value ? "%.0f"
+                : std::abs(value) < 1e3    ? "%.4g"
+                                           : "%.1f",
+                value);
+  return text;
+}
+
+bool is_used(const Metric& metric, const ExportResult& result) {
+  for (const ExportCase& one : result.cases)
+    if (find_figure(one, metric.name) != nullptr) return true;
+  return false;
+}
+
+// "assign time (ns)"; the unit only where the name does not say it.
+std::string heading(const Metric& metric) {
+  std::string name(metric.name);
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return metric.unit == "ratio" || name.find(metric.unit) != std::string::npos
+             ? name
+             : name + " (" + std::string(metric.unit) + ")";
+}
+
+}  // namespace
+
+std::string markdown(const ExportResult& result) {
+  std::vector<const Metric*> columns;
+  for (const Metric& metric : export_metrics())
+    if (is_used(metric, result)) columns.push_back(&metric);
+
+  std::string out = "| case |", rule = "|---|";
+  for (const Metric* metric : columns) {
+    out += " " + heading(*metric) + " |";
+    rule += "---:|";
+  }
+  out += "\n" + rule + "\n";
+  for (const ExportCase& one : result.cases) {
+    out += "| " + cell(one.name) + " |";
+    for (const Metric* metric : columns) {
+      const Measured* figure = find_figure(one, metric->name);
+      out += " " + (figure == nullptr ? "" : number(figure->value)) + " |";
+    }
+    out += "\n";
+  }
+  return out;
+}
+
+}  // namespace clusterbench::report

@@ -1,0 +1,105 @@
+#include "report/exports/metrics.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using enum Better;
+
+constexpr bool k_headline = true, k_detail = false;
+
+constexpr Metric k_metrics[] = {
+    {"assign_time", "ns", "/timing/assign_ns/median", "/timing/assign_ns/ci95", smaller, k_headline},
+    {"assign_instructions", "instructions", "/count/instructions_per_frame/assign", "", smaller, k_headline},
+    {"speedup", "ratio", "/timing/vs/ratio", "/timing/vs/ci95", bigger, k_headline, 1.0},
+    {"pair_rate", "pairs/s", "/timing/ns_per_pair", "", bigger, k_headline, 1e9},
+    {"list_bytes", "bytes", "/buffers/bytes/high_water", "", smaller, k_headline},
+    {"excess_ratio", "ratio", "/error/excess_ratio", "", smaller, k_headline},
+    {"missed_pairs", "pairs", "/error/false_negatives", "", smaller, k_headline},
+    {"overshade", "ratio", "/shading/overshade", "", smaller, k_headline},
+
+    {"tests_done", "tests", "/tests_done", "", smaller, k_detail},
+    {"fallbacks", "pairs", "/fallbacks", "", smaller, k_detail},
+    {"pairs_mean", "pairs", "/occupancy/pairs/mean", "", neither, k_detail},
+    {"pairs_max", "pairs", "/occupancy/pairs/max", "", neither, k_detail},
+    {"lights_per_cell_mean", "lights", "/occupancy/lights_per_cluster/mean", "", neither, k_detail},
+    {"lights_per_cell_p99", "lights", "/occupancy/lights_per_cluster/p99", "", neither, k_detail},
+    {"lights_per_cell_max", "lights", "/occupancy/lights_per_cluster/max", "", neither, k_detail},
+    {"occupied_fraction", "ratio", "/occupancy/occupied_fraction/mean", "", neither, k_detail},
+    {"entries_high_water", "entries", "/buffers/index_entries/high_water", "", smaller, k_detail},
+    {"entries_recommended", "entries", "/buffers/index_entries/recommended", "", smaller, k_detail},
+    {"bytes_recommended", "bytes", "/buffers/bytes/recommended", "", smaller, k_detail},
+    {"upload_bytes_mean", "bytes", "/buffers/upload_bytes/mean", "", smaller, k_detail},
+    {"upload_bytes_max", "bytes", "/buffers/upload_bytes/max", "", smaller, k_detail},
+    {"dropped_pairs", "pairs", "/buffers/overflow/dropped_pairs", "", smaller, k_detail},
+    {"scratch_bytes", "bytes", "/buffers/scratch_bytes", "", smaller, k_detail},
+    {"true_pairs", "pairs", "/error/true_pairs", "", neither, k_detail},
+    {"reported_pairs", "pairs", "/error/reported_pairs", "", neither, k_detail},
+    {"false_positives", "pairs", "/error/false_positives", "", smaller, k_detail},
+    {"miss_ratio", "ratio", "/error/miss_ratio", "", smaller, k_detail},
+    {"deepest_miss", "ratio", "/error/deepest_miss", "", smaller, k_detail},
+    {"undecided", "pairs", "/error/undecided", "", smaller, k_detail},
+    {"samples_missed", "lights", "/shading/missed", "", smaller, k_detail},
+    {"lost_irradiance", "ratio", "/shading/lost_irradiance", "", smaller, k_detail},
+    {"changed_pairs", "pairs", "/stability/changed/method/mean", "", smaller, k_detail},
+    {"flickers", "pairs", "/stability/flickers/method", "", smaller, k_detail},
+    {"extra_pairs", "pairs", "/precision/extra_pairs/mean", "", smaller, k_detail},
+    {"build_time", "ns", "/timing/build_ns/median", "/timing/build_ns/ci95", smaller, k_detail},
+    {"convert_time", "ns", "/timing/convert_ns/median", "/timing/convert_ns/ci95", smaller, k_detail},
+    {"time_per_pair", "ns", "/timing/ns_per_pair", "", smaller, k_detail},
+    {"write_floor", "ns", "/timing/write_floor_ns", "", neither, k_detail},
+    {"floor_ratio", "ratio", "/timing/floor_ratio", "", smaller, k_detail},
+    {"build_instructions", "instructions", "/count/instructions_per_build", "", smaller, k_detail},
+    {"convert_instructions", "instructions", "/count/instructions_per_frame/convert", "", smaller, k_detail},
+    {"assign_cycles", "cycles", "/count/cycles_per_frame/assign", "", smaller, k_detail},
+    {"convert_cycles", "cycles", "/count/cycles_per_frame/convert", "", smaller, k_detail},
+};
+
+const Json* at(const Json& one, const std::string& pointer) {
+  const Json::json_pointer place(pointer);
+  return one.contains(place) ? &one[place] : nullptr;
+}
+
+bool is_interval(const Json& value) {
+  return value.is_array() && value.size() == 2 && value[0].is_number() && value[1].is_number();
+}
+
+// A quotient by nothing is not a figure.
+std::optional<double> figure(const Metric& metric, double value) {
+  if (metric.dividend == 0.0) return value;
+  return value > 0.0 ? std::optional(metric.dividend / value) : std::nullopt;
+}
+
+std::optional<Measured> measured(const Json& one, const Metric& metric) {
+  const Json* found = at(one, std::string(metric.place));
+  if (found == nullptr || !found->is_number()) return {};
+  const std::optional<double> value = figure(metric, found->get<double>());
+  if (!value) return {};
+  Measured out{&metric, *value, *value, *value};
+  const Json* interval = metric.interval.empty() ? nullptr : at(one, std::string(metric.interval));
+  if (interval == nullptr || !is_interval(*interval)) return out;
+  const double a = figure(metric, (*interval)[0].get<double>()).value_or(*value);
+  const double b = figure(metric, (*interval)[1].get<double>()).value_or(*value);
+  out.low = std::min(a, b);
+  out.high = std::max(a, b);
+  return out;
+}
+
+}  // namespace
+
+std::span<const Metric> export_metrics() {
+  return k_metrics;
+}
+
+std::vector<Measured> measured(const Json& one, bool all) {
+  std::vector<Measured> out;
+  for (const Metric& metric : k_metrics)
+    if (metric.is_headline || all)
+      if (const std::optional<Measured> found = measured(one, metric)) out.push_back(*found);
+  return out;
+}
+
+}  // namespace clusterbench::report

@@ -1,0 +1,35 @@
+#pragma once
+// The figures of a case that other tools are given. Names and units are stable; a figure is one row of the table.
+
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace clusterbench::report {
+
+enum class Better { smaller, bigger, neither };
+
+struct Metric {
+  std::string_view name;      // lower-case words with underscores
+  std::string_view unit;      // "ns", "bytes", "pairs", "ratio", ...
+  std::string_view place;     // of the value in a result's case, as a JSON pointer
+  std::string_view interval;  // of its 95 % interval [low, high]; "" if it has none
+  Better better;
+  bool is_headline;       // exported unless everything is asked for
+  double dividend = 0.0;  // the figure is dividend / value where this is not 0
+};
+
+// Headline first, else in the order of the result.
+std::span<const Metric> export_metrics();
+
+struct Measured {
+  const Metric* metric;
+  double value;
+  double low, high;  // both `value` where there is no interval
+};
+
+// What the case has of the table: absent and null figures are left out.
+std::vector<Measured> measured(const nlohmann::ordered_json& one, bool all);
+
+}  // namespace clusterbench::report

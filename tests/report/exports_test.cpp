@@ -1,0 +1,229 @@
+#include "report/exports/exports.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "core/error.h"
+#include "report/json.h"
+#include "report/result_by_hand.h"
+#include "run/schema_check.h"
+#include "run/schema_text.h"
+
+namespace clusterbench::report {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// Two cases: "slow" is brute force, "fast" also has counted instructions, an interval and three rounds.
+Json result() {
+  run::Result by_hand = testing::result_by_hand();
+  testing::add_count(by_hand.cases[1]);
+  by_hand.cases[1].timing->assign_ns = {3000.0, 10.0, 2990.0, 3020.0, {2990.0, 3020.0}, {2990.0, 3000.0, 3020.0}};
+  by_hand.cases[1].timing->vs = run::Versus{"brute-force", {0.25, {0.2, 0.5}}};
+  return result_to_json(by_hand, {});
+}
+
+std::string written(const std::string& format, bool all = false) {
+  return exported(result(), export_format(format), all);
+}
+
+Json json_of(const std::string& format, bool all = false) {
+  return Json::parse(written(format, all));
+}
+
+std::vector<std::string> violations(const char* schema, const std::string& instance) {
+  return run::schema_violations(nlohmann::json::parse(schema), nlohmann::json::parse(instance));
+}
+
+// Follows a JSON pointer through the result schema's case.
+bool is_in_schema(const std::string& pointer) {
+  const Json schema = Json::parse(run::result_schema_text());
+  const Json* at = &schema["properties"]["cases"]["items"];
+  std::istringstream parts(pointer.substr(1));
+  for (std::string part; std::getline(parts, part, '/');) {
+    if (at->contains("$ref")) at = &schema.at(Json::json_pointer((*at)["$ref"].get<std::string>().substr(1)));
+    if (!at->contains("properties") || !(*at)["properties"].contains(part)) return false;
+    at = &(*at)["properties"][part];
+  }
+  return true;
+}
+
+TEST(Exports, every_figure_has_its_place_in_the_result_schema) {
+  for (const Metric& metric : export_metrics()) {
+    EXPECT_TRUE(is_in_schema(std::string(metric.place))) << metric.place;
+    if (!metric.interval.empty()) {
+      EXPECT_TRUE(is_in_schema(std::string(metric.interval))) << metric.interval;
+    }
+  }
+  EXPECT_FALSE(is_in_schema("/timing/assign_ns/medium"));
+}
+
+TEST(Exports, an_unknown_format_is_answered_with_the_nearest_one_and_the_list) {
+  try {
+    export_format("benchr");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(error.message().find("did you mean 'bencher'?"), std::string::npos) << error.message();
+    EXPECT_NE(error.message().find("google-benchmark"), std::string::npos) << error.message();
+  }
+}
+
+TEST(Exports, a_quotient_takes_its_interval_along) {
+  const Json one = result()["cases"][1];
+  const std::vector<Measured> figures = measured(one, false);
+  const auto speedup = std::find_if(figures.begin(), figures.end(),
+                                    [](const Measured& figure) { return figure.metric->name == "speedup"; });
+  ASSERT_NE(speedup, figures.end());
+  EXPECT_EQ(speedup->value, 4.0);
+  EXPECT_EQ(speedup->low, 2.0);
+  EXPECT_EQ(speedup->high, 5.0);
+}
+
+TEST(Exports, the_headline_is_part_of_everything) {
+  for (const Json& one : result()["cases"]) EXPECT_LT(measured(one, false).size(), measured(one, true).size());
+}
+
+TEST(Exports, a_case_without_its_name_is_named_by_its_place) {
+  Json broken = result();
+  broken["cases"][1].erase("name");
+  try {
+    exported(broken, export_format("csv"), false);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.where(), "/cases/1/name");
+  }
+}
+
+TEST(Bencher, fits_its_published_schema) {
+  constexpr const char* k_schema = R"({"type": "object", "minProperties": 2, "additionalProperties": {"type": "object",
+    "minProperties": 1, "additionalProperties": {"type": "object", "required": ["value"], "additionalProperties": false,
+    "properties": {"value": {"type": "number"}, "lower_value": {"type": "number"}, "upper_value": {"type": "number"}}}}})";
+  for (const bool all : {false, true})
+    EXPECT_EQ(violations(k_schema, written("bencher", all)), std::vector<std::string>{});
+  const Json latency = json_of("bencher")["hall/walk/frustum 64px/aabb/packed"]["latency"];
+  EXPECT_EQ(latency, Json({{"value", 3000.0}, {"lower_value", 2990.0}, {"upper_value", 3020.0}}));
+}
+
+TEST(GithubAction, both_lists_fit_what_the_action_reads) {
+  constexpr const char* k_schema = R"({"type": "array", "minItems": 1, "items": {"type": "object",
+    "required": ["name", "unit", "value"], "additionalProperties": false, "properties": {"name": {"type": "string"},
+    "unit": {"type": "string"}, "value": {"type": "number"}, "range": {"type": "string"}, "extra": {"type": "string"}}}})";
+  for (const char* format : {"github-smaller", "github-bigger"})
+    for (const bool all : {false, true})
+      EXPECT_EQ(violations(k_schema, written(format, all)), std::vector<std::string>{}) << format;
+}
+
+TEST(GithubAction, each_list_holds_only_what_is_better_its_way) {
+  const std::string smaller = written("github-smaller", true), bigger = written("github-bigger", true);
+  EXPECT_NE(smaller.find("aabb/packed assign_time"), std::string::npos);
+  EXPECT_EQ(smaller.find("speedup"), std::string::npos);
+  EXPECT_NE(bigger.find("aabb/packed speedup"), std::string::npos);
+  EXPECT_EQ(bigger.find("assign_time"), std::string::npos);
+  EXPECT_EQ(smaller.find("pairs_mean"), std::string::npos);  // neither
+  EXPECT_EQ(json_of("github-smaller")[4]["range"], Json()) << "of a figure without interval";
+}
+
+TEST(Lnt, fits_the_documented_report_format_2) {
+  constexpr const char* k_schema = R"({"type": "object", "required": ["format_version", "machine", "run", "tests"],
+    "additionalProperties": false, "properties": {"format_version": {"const": "2"},
+    "machine": {"type": "object", "required": ["name"], "additionalProperties": {"type": "string"}},
+    "run": {"type": "object", "required": ["llvm_project_revision"], "additionalProperties": {"type": "string"}},
+    "tests": {"type": "array", "minItems": 2, "items": {"type": "object", "required": ["name"], "properties":
+      {"name": {"type": "string"}}, "additionalProperties": {"anyOf": [{"type": "number"}, {"type": "string"},
+      {"type": "array", "items": {"type": "number"}}]}}}}})";
+  for (const bool all : {false, true}) EXPECT_EQ(violations(k_schema, written("lnt", all)), std::vector<std::string>{});
+}
+
+TEST(Lnt, the_headline_is_in_seconds_and_bytes_as_its_test_suite_has_them) {
+  const Json test = json_of("lnt")["tests"][1];
+  ASSERT_EQ(test["execution_time"].size(), 3U);
+  EXPECT_DOUBLE_EQ(test["execution_time"][0], 2.99e-6);
+  EXPECT_EQ(test["mem_bytes"], 232.0);
+  EXPECT_EQ(test.size(), 3U);
+}
+
+TEST(Csv, the_columns_are_the_same_whatever_was_measured) {
+  run::Result bare = testing::result_by_hand();
+  for (run::CaseResult& one : bare.cases) {
+    one.timing.reset();
+    one.error.reset();
+    one.shading.reset();
+  }
+  const auto heading = [](const std::string& text) { return text.substr(0, text.find('\n')); };
+  const std::string of_bare = exported(result_to_json(bare, {}), export_format("csv"), false);
+  EXPECT_EQ(heading(of_bare), heading(written("csv")));
+  EXPECT_NE(of_bare.find("fast,hall/walk/frustum 64px/aabb/packed,,,,,,,,,232,,,\n"), std::string::npos) << of_bare;
+}
+
+TEST(Csv, commas_quotes_and_line_ends_in_names_stay_in_their_field) {
+  Json named = result();
+  named["cases"][0]["name"] = "a, \"b\"\nc";
+  const std::string text = exported(named, export_format("csv"), false);
+  EXPECT_NE(text.find("slow,\"a, \"\"b\"\"\nc\",9000"), std::string::npos) << text;
+}
+
+TEST(Markdown, every_row_has_the_columns_of_the_heading) {
+  Json named = result();
+  named["cases"][0]["name"] = "a|b\n<c>";
+  std::istringstream lines(exported(named, export_format("markdown"), true));
+  std::string line;
+  std::getline(lines, line);
+  const auto bars = [](const std::string& text) {
+    int count = 0;
+    for (std::size_t at = 0; at < text.size(); ++at) count += text[at] == '|' && (at == 0 || text[at - 1] != '\\');
+    return count;
+  };
+  const int columns = bars(line);
+  EXPECT_GT(columns, 20);
+  int rows = 0;
+  for (; std::getline(lines, line); ++rows) EXPECT_EQ(bars(line), columns) << line;
+  EXPECT_EQ(rows, 3);
+}
+
+TEST(GoogleBenchmark, a_result_without_times_says_what_to_do) {
+  run::Result counted = testing::result_by_hand();
+  for (run::CaseResult& one : counted.cases) one.timing.reset();
+  try {
+    exported(result_to_json(counted, {}), export_format("google-benchmark"), false);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(error.message().find("--no-timing"), std::string::npos) << error.message();
+  }
+}
+
+// Google Benchmark's own tool (Debian: libbenchmark-tools, which needs python3-scipy).
+TEST(GoogleBenchmark, its_compare_py_finds_the_slower_case) {
+  const fs::path tool = "/usr/share/benchmark/compare.py";
+  if (!fs::exists(tool) || std::system("/usr/bin/python3 -c 'import scipy, numpy' 2>/dev/null") != 0)
+    GTEST_SKIP() << "compare.py or its scipy is missing: apt-get install libbenchmark-tools python3-scipy";
+  const fs::path folder = fs::temp_directory_path() / ("clusterbench_compare_" + std::to_string(getpid()));
+  fs::create_directories(folder);
+  Json twice = result();
+  for (Json& sample : twice["cases"][1]["timing"]["assign_ns"]["samples"]) sample = 2.0 * sample.get<double>();
+  std::ofstream(folder / "base.json") << written("google-benchmark");
+  std::ofstream(folder / "new.json") << exported(twice, export_format("google-benchmark"), false);
+  const std::string in = folder.string() + "/";
+  const std::string command = "/usr/bin/python3 " + tool.string() + " --no-color benchmarks " + in + "base.json " + in +
+                              "new.json > " + in + "out 2> " + in + "err";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  const auto text = [&](const char* name) {
+    std::ifstream file(folder / name);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  EXPECT_EQ(text("err"), "");
+  const std::string out = text("out");
+  EXPECT_TRUE(std::regex_search(out, std::regex("aabb/packed +\\+1\\.0000 +\\+1\\.0000 +2990 +5980"))) << out;
+  EXPECT_NE(out.find("aabb/packed_pvalue"), std::string::npos) << out;
+  fs::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace clusterbench::report
