@@ -27,6 +27,7 @@ void BufferMeter::add_frame(int frame, const assign::Storage& storage, std::size
   raise(sum_.scratch_bytes, scratch_bytes);
   raise(sum_.index_entries.theoretical_max, limit.index_entries);
   raise(sum_.bytes.theoretical_max, limit.bytes);
+  sum_.bytes_along_path.add_frame(use.index_bytes + use.header_bytes);
   sum_.index_bits = storage.index_bits();
   raise(laid_out_entries_, use.index_bytes * 8 / storage.index_bits());
   sum_.dropped_pairs += use.dropped_pairs;

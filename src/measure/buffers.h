@@ -5,6 +5,7 @@
 #include <set>
 
 #include "assign/storage.h"
+#include "measure/path_series.h"
 
 namespace clusterbench::measure {
 
@@ -32,6 +33,7 @@ struct Buffers {
   int worst_frame = 0;                         // that made the high-water mark of index entries
   std::uint32_t worst_cell = 0;                // its longest list
   double in_use_mean = 0.0, in_use_max = 0.0;  // share of the recommended entries in use per frame
+  PathSeries bytes_along_path;                 // headers + indices
 };
 
 class BufferMeter {

@@ -40,11 +40,12 @@ Spread spread_of(std::vector<double> values) {
 }
 
 void OccupancyMeter::add_frame(int frame, const assign::Lists& lists) {
-  std::uint32_t occupied = 0;
+  std::uint32_t occupied = 0, longest = 0;
   for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) {
     const std::uint32_t count = lists.begin[cell + 1] - lists.begin[cell];
     if (count == 0) continue;
     ++occupied;
+    longest = std::max(longest, count);
     if (count >= histogram_.size()) histogram_.resize(count + std::size_t{1});
     ++histogram_[count];
     if (count <= worst_count_) continue;
@@ -55,6 +56,8 @@ void OccupancyMeter::add_frame(int frame, const assign::Lists& lists) {
   if (histogram_.empty()) histogram_.resize(1);
   histogram_[0] += real_cells_ - occupied;
   pairs_.push_back(lists.pair_count());
+  pairs_along_path_.add_frame(lists.pair_count());
+  longest_along_path_.add_frame(longest);
   occupied_.push_back(real_cells_ == 0 ? 0.0 : static_cast<double>(occupied) / real_cells_);
 }
 
@@ -67,6 +70,8 @@ Occupancy OccupancyMeter::result() const {
   out.worst_frame = worst_frame_;
   out.worst_cell = worst_cell_;
   out.worst_count = worst_count_;
+  out.pairs_along_path = pairs_along_path_;
+  out.longest_along_path = longest_along_path_;
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "assign/lists.h"
+#include "measure/path_series.h"
 
 namespace clusterbench::measure {
 
@@ -22,6 +23,7 @@ struct Occupancy {
   int worst_frame = 0;                   // with the longest list
   std::uint32_t worst_cell = 0;
   std::uint32_t worst_count = 0;
+  PathSeries pairs_along_path, longest_along_path;  // longest: the frame's longest list
 };
 
 class OccupancyMeter {
@@ -36,6 +38,7 @@ class OccupancyMeter {
   std::vector<std::uint64_t> histogram_;
   int worst_frame_ = 0;
   std::uint32_t worst_cell_ = 0, worst_count_ = 0;
+  PathSeries pairs_along_path_, longest_along_path_;
 };
 
 }  // namespace clusterbench::measure

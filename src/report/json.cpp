@@ -55,7 +55,11 @@ Json occupancy(const run::CaseResult& one) {
           {"lights_per_cluster", lights},
           {"occupied_fraction", to_json(o.occupied_fraction)},
           {"worst_frame", o.worst_frame},
-          {"worst_cell", cell_place(o.worst_cell, one.grid["cells"])}};
+          {"worst_cell", cell_place(o.worst_cell, one.grid["cells"])},
+          {"along_path",
+           {{"frames_per_entry", o.pairs_along_path.frames_per_entry()},
+            {"pairs", o.pairs_along_path.entries()},
+            {"longest_list", o.longest_along_path.entries()}}}};
 }
 
 Json buffers(const run::CaseResult& one) {
@@ -73,7 +77,9 @@ Json buffers(const run::CaseResult& one) {
             {"lights", b.dropped_lights}}},
           {"scratch_bytes", b.scratch_bytes},
           {"worst_frame", b.worst_frame},
-          {"worst_cell", cell_place(b.worst_cell, one.grid["cells"])}};
+          {"worst_cell", cell_place(b.worst_cell, one.grid["cells"])},
+          {"along_path",
+           {{"frames_per_entry", b.bytes_along_path.frames_per_entry()}, {"bytes", b.bytes_along_path.entries()}}}};
 }
 
 Json error(const run::CaseResult& one) {

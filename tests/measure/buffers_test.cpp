@@ -66,6 +66,14 @@ TEST(Buffers, uploads_are_averaged_and_their_largest_kept) {
   EXPECT_EQ(b.upload_bytes_mean, 8.0 * k_cells + 3.0);
 }
 
+TEST(Buffers, bytes_are_kept_along_the_path_and_their_largest_is_the_high_water_mark) {
+  const Buffers b = three_frames(*storage("packed"), {});
+  const std::vector<std::uint64_t>& bytes = b.bytes_along_path.entries();
+  ASSERT_EQ(bytes.size(), 3u);
+  EXPECT_EQ(*std::max_element(bytes.begin(), bytes.end()), b.bytes.high_water);
+  EXPECT_EQ(bytes[0] + bytes[1] + bytes[2], 3u * 8u * k_cells + 9u);
+}
+
 TEST(Buffers, overflow_is_counted_in_pairs_cells_and_frames_with_the_lights_lost) {
   const Buffers b = three_frames(*storage("fixed", {{"cap", 1.0}}), {});
   EXPECT_EQ(b.dropped_pairs, 3u);  // frame 21: two of cell 1, one of cell 2

@@ -62,6 +62,12 @@ TEST(Occupancy, the_longest_list_is_named_with_its_frame_and_cell) {
   EXPECT_EQ(o.worst_count, 3u);
 }
 
+TEST(Occupancy, pairs_and_longest_lists_are_kept_along_the_path) {
+  const Occupancy o = two_frames(4);
+  EXPECT_EQ(o.pairs_along_path.entries(), (std::vector<std::uint64_t>{3, 4}));
+  EXPECT_EQ(o.longest_along_path.entries(), (std::vector<std::uint64_t>{2, 3}));
+}
+
 TEST(Occupancy, holes_are_no_cells) {
   const Occupancy o = two_frames(3);
   EXPECT_EQ(o.histogram, (std::vector<std::uint64_t>{2, 2, 1, 1}));

@@ -146,6 +146,9 @@ TEST(ResultJson, holds_the_figures_under_their_names) {
   const Json one = case_to_json(case_by_hand("id", "aabb", 3000.0));
   EXPECT_EQ(one["occupancy"]["pairs"]["max"], 40.0);
   EXPECT_EQ(one["occupancy"]["lights_per_cluster"]["histogram"], (Json{10, 20, 18}));
+  EXPECT_EQ(one["occupancy"]["along_path"],
+            (Json{{"frames_per_entry", 1}, {"pairs", {20, 40}}, {"longest_list", {5, 7}}}));
+  EXPECT_EQ(one["buffers"]["along_path"], (Json{{"frames_per_entry", 1}, {"bytes", {212, 232}}}));
   EXPECT_EQ(one["buffers"]["index_entries"]["high_water"], 40);
   EXPECT_EQ(one["error"]["excess_ratio"], 0.25);
   EXPECT_EQ(one["shading"]["overshade"], 1.5);

@@ -26,6 +26,9 @@ inline run::CaseResult case_by_hand(const std::string& id, const std::string& as
   one.occupancy.worst_frame = 1;
   one.occupancy.worst_cell = 17;  // x 1, y 1, z 1 of 4 x 3 x 2
   one.occupancy.worst_count = 7;
+  for (const std::uint64_t pairs : {20u, 40u}) one.occupancy.pairs_along_path.add_frame(pairs);
+  for (const std::uint64_t longest : {5u, 7u}) one.occupancy.longest_along_path.add_frame(longest);
+  for (const std::uint64_t bytes : {212u, 232u}) one.buffers.bytes_along_path.add_frame(bytes);
   one.buffers.index_entries = {40, 480, 80};
   one.buffers.bytes = {232, 672, 272};
   one.buffers.index_bits = 8;
