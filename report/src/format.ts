@@ -5,11 +5,18 @@ import type { Maybe } from "./result.ts";
 const none = "–";
 const grouped = new Intl.NumberFormat("en", { maximumFractionDigits: 0 });
 
+const mostDigits = 4;
+const withDigits = Array.from( // making a format takes far longer than using it
+  { length: mostDigits + 1 },
+  (_, digits) => new Intl.NumberFormat("en", { minimumFractionDigits: digits, maximumFractionDigits: digits }),
+);
+const compact = new Intl.NumberFormat("en", { notation: "compact", maximumSignificantDigits: 3 });
+
 // Three significant digits, and all of those before the point.
 function significant(value: number): string {
   if (value === 0) return "0";
   const digits = Math.max(0, 2 - Math.floor(Math.log10(Math.abs(value))));
-  return new Intl.NumberFormat("en", { minimumFractionDigits: Math.min(digits, 4), maximumFractionDigits: Math.min(digits, 4) }).format(value);
+  return withDigits[Math.min(digits, mostDigits)]!.format(value);
 }
 
 type Format = (value: Maybe) => string;
@@ -25,6 +32,4 @@ export const bytes: Format = ifKnown((value) => {
   const power = Math.min(units.length - 1, value < 1024 ? 0 : Math.floor(Math.log2(value) / 10));
   return `${power === 0 ? value : significant(value / 1024 ** power)} ${units[power]}`;
 });
-export const short: Format = ifKnown((value) =>
-  Intl.NumberFormat("en", { notation: "compact", maximumSignificantDigits: 3 }).format(value),
-);
+export const short: Format = ifKnown((value) => compact.format(value));

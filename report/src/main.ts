@@ -1,12 +1,55 @@
 // The page: reads the results that stand in it and puts the sections in order.
 
+import { depthSection } from "./depth.ts";
 import { h } from "./dom.ts";
+import { filterBar } from "./filter_bar.ts";
+import { contents, header } from "./header.ts";
+import { heatMapSection } from "./heat_map.ts";
 import { modelOf } from "./model.ts";
+import { paletteOf } from "./palette.ts";
+import { precisionSection } from "./precision.ts";
 import { rankingSection } from "./ranking.ts";
 import type { PageData } from "./result.ts";
+import { setupSection } from "./setup.ts";
+import { speedErrorSection } from "./speed_error.ts";
+import { stabilitySection } from "./stability.ts";
+import { View, mount } from "./view.ts";
+import { warningsSection } from "./warnings.ts";
 
-const data = JSON.parse(document.getElementById("results")!.textContent!) as PageData;
-const model = modelOf(data);
+const sections = [
+  rankingSection,
+  speedErrorSection,
+  heatMapSection,
+  depthSection,
+  stabilitySection,
+  precisionSection,
+  warningsSection,
+  setupSection,
+];
 
-document.body.prepend(h("main", {}, h("h1", {}, "clusterbench report"), rankingSection(model)));
-document.documentElement.dataset["ready"] = String(performance.now());
+function redrawOnResize(view: View): void {
+  let width = document.documentElement.clientWidth;
+  let waiting = 0;
+  window.addEventListener("resize", () => {
+    clearTimeout(waiting);
+    waiting = setTimeout(() => {
+      if (width === document.documentElement.clientWidth) return;
+      width = document.documentElement.clientWidth;
+      view.redraw();
+    }, 150);
+  });
+}
+
+function show(data: PageData): void {
+  const model = modelOf(data);
+  const view = new View(model, paletteOf(model));
+  document.title = `${model.runs.map((run) => run.result.name).join(", ")} – clusterbench report`;
+  const main = h("main", { id: "main" });
+  document.body.prepend(h("a", { class: "skip", href: "#ranking" }, "Skip to the ranking"), header(model), filterBar(view), main);
+  main.append(...sections.map((section) => mount(section, view)));
+  main.before(contents(main));
+  redrawOnResize(view);
+}
+
+show(JSON.parse(document.getElementById("results")!.textContent!) as PageData);
+document.documentElement.dataset["ready"] = String(Math.round(performance.now())); // ms, for tests

@@ -1,35 +1,98 @@
-// The ranking: every case, fastest first.
+// The ranking: of one scene every case, over all scenes every method on every grid.
 
 import { h } from "./dom.ts";
 import * as format from "./format.ts";
-import type { Case, Model } from "./model.ts";
-import { tableView, type Column } from "./table.ts";
+import { copyButton, csv, downloadButton } from "./handover.ts";
+import type { Case } from "./model.ts";
+import { standings, type Standing } from "./overall.ts";
+import { icon } from "./palette.ts";
+import { tableView, type Column, type Table } from "./table.ts";
+import type { Section, View } from "./view.ts";
+
+function method(view: View, one: Pick<Case, "assigner" | "family" | "isFast">): HTMLElement {
+  return h("span", { class: "method" }, icon(view.palette(one)), one.assigner);
+}
 
 function interval(one: Case): string {
   const [low, high] = one.interval;
-  return low === null || high === null ? "" : `${format.microseconds(low)} to ${format.microseconds(high)} µs (95 %)`;
+  return low === null || high === null ? "" : `95 %: ${format.microseconds(low)} to ${format.microseconds(high)} µs`;
 }
 
-const columns: Column<Case>[] = [
-  { label: "method", value: (one) => one.assigner },
-  { label: "scene", value: (one) => one.scene },
-  { label: "grid", value: (one) => one.grid },
-  {
-    label: "assign µs",
-    about: "Median time of one frame's assignment, lists included",
-    value: (one) => one.assignNs,
-    show: (one) => h("span", { title: interval(one) }, format.microseconds(one.assignNs)),
-  },
-  { label: "excess", about: "False positives by true pairs", value: (one) => one.excess, show: (one) => format.percent(one.excess) },
-  { label: "missed", about: "Lights lost", value: (one) => one.missed, show: (one) => format.count(one.missed) },
-  { label: "bytes", about: "High-water mark", value: (one) => one.bytes, show: (one) => format.bytes(one.bytes) },
-];
+const missed = (lost: number | null) => h("span", { class: lost ? "bad" : "" }, format.count(lost));
+const differ = <Row>(rows: Row[], value: (row: Row) => unknown) => new Set(rows.map(value)).size > 1;
+const kept = <Row>(columns: (Column<Row> | false)[]) => columns.filter((column): column is Column<Row> => column !== false);
 
-export function rankingSection(model: Model): HTMLElement {
+function caseColumns(view: View, rows: Case[]): Column<Case>[] {
+  const measured = (value: (one: Case) => unknown) => rows.some((one) => value(one) !== null);
+  return kept<Case>([
+    { label: "method", value: (one) => one.assigner, show: (one) => method(view, one) },
+    { label: "front", about: "On its scene's Pareto front in time, bytes and overshade", value: (one) => (one.isOnFront ? "yes" : null), show: (one) => (one.isOnFront ? h("span", { class: "front", role: "img", "aria-label": "yes" }, "●") : "") },
+    differ(rows, (one) => one.scene) && { label: "scene", value: (one) => one.scene },
+    differ(rows, (one) => one.raw.camera) && { label: "camera", value: (one) => one.raw.camera },
+    differ(rows, (one) => String(one.raw.viewport)) && { label: "viewport", value: (one) => one.raw.viewport.join("×") },
+    { label: "grid", value: (one) => one.grid },
+    differ(rows, (one) => one.storage) && { label: "storage", value: (one) => one.storage },
+    differ(rows, (one) => one.run) && { label: "result", value: (one) => one.run.label },
+    measured((one) => one.assignNs) && { label: "assign µs", about: "Median time of one frame's assignment, lists included, on one core", value: (one) => one.assignNs, show: (one) => h("span", { title: interval(one) }, format.microseconds(one.assignNs)) },
+    measured((one) => one.assignNs) && { label: "±", about: "Half of the 95 % interval, by the median", value: halfInterval, show: (one) => format.percent(halfInterval(one)) },
+    measured((one) => one.instructions) && { label: "instr", about: "Instructions of one frame's assignment", value: (one) => one.instructions, show: (one) => format.short(one.instructions) },
+    measured((one) => one.nsPerPair) && { label: "ns/pair", about: "Assignment time by the pairs written", value: (one) => one.nsPerPair, show: (one) => format.decimal(one.nsPerPair) },
+    measured((one) => one.floorRatio) && { label: "× floor", about: "Assignment time by the time to copy the finished lists once", value: (one) => one.floorRatio, show: (one) => format.decimal(one.floorRatio) },
+    { label: "pairs", about: "References per frame, mean; comparable on one grid only", value: (one) => one.pairs, show: (one) => format.short(one.pairs) },
+    { label: "excess", about: "False positives by true pairs", value: (one) => one.excess, show: (one) => format.percent(one.excess) },
+    { label: "missed", about: "False negatives: lights that reach a cell and are not in its list", value: (one) => one.missed, show: (one) => missed(one.missed) },
+    measured((one) => one.overshade) && { label: "overshade", about: "Lights evaluated by lights needed, at the samples", value: (one) => one.overshade, show: (one) => format.factor(one.overshade) },
+    { label: "p99", about: "Lights per cell that 99 % of the cells do not exceed", value: (one) => one.p99, show: (one) => format.count(one.p99) },
+    { label: "longest", about: "Longest list of the path", value: (one) => one.longest, show: (one) => format.count(one.longest) },
+    { label: "bytes", about: "High-water mark of headers and indices", value: (one) => one.bytes, show: (one) => format.bytes(one.bytes) },
+    { label: "allocate", about: "What to allocate: high-water mark with margin", value: (one) => one.recommended, show: (one) => format.bytes(one.recommended) },
+  ]);
+}
+
+function halfInterval(one: Case): number | null {
+  const [low, high] = one.interval;
+  return low === null || high === null || !one.assignNs ? null : (high - low) / 2 / one.assignNs;
+}
+
+function overallColumns(view: View, rows: Standing[]): Column<Standing>[] {
+  const timed = rows.some((one) => one.timeByBest !== null);
+  return kept<Standing>([
+    { label: "method", value: (one) => one.assigner, show: (one) => method(view, one) },
+    { label: "grid", value: (one) => one.grid },
+    differ(rows, (one) => one.storage) && { label: "storage", value: (one) => one.storage },
+    differ(rows, (one) => one.run) && { label: "result", value: (one) => one.run },
+    timed && { label: "time / best", about: "Assignment time by that of the scene's fastest case: geometric mean over the scenes", value: (one) => one.timeByBest, show: (one) => format.factor(one.timeByBest) },
+    timed && { label: "worst", about: "The same in the scene where it is largest", value: (one) => one.worstTimeByBest, show: (one) => format.factor(one.worstTimeByBest) },
+    { label: "on front", about: "In how many of its cases it is on the Pareto front in time, bytes and overshade", value: (one) => one.fronts, show: (one) => `${one.fronts} of ${one.cases.length}` },
+    { label: "excess", about: "False positives by true pairs, over all scenes", value: (one) => one.excess, show: (one) => format.percent(one.excess) },
+    { label: "missed", about: "False negatives over all scenes", value: (one) => one.missed, show: (one) => missed(one.missed) },
+    { label: "overshade", about: "Lights evaluated by lights needed, over the samples of all scenes", value: (one) => one.overshade, show: (one) => format.factor(one.overshade) },
+    { label: "longest", about: "Longest list of any scene", value: (one) => one.longest, show: (one) => format.count(one.longest) },
+    { label: "bytes", about: "Largest high-water mark of any scene", value: (one) => one.bytes, show: (one) => format.bytes(one.bytes) },
+  ]);
+}
+
+// By the first of these columns that the table has.
+function sortedBy<Row>(columns: Column<Row>[]): Table<Row>["sort"] {
+  const places = ["assign µs", "time / best", "instr", "excess"].map((label) => columns.findIndex((column) => column.label === label));
+  return { column: places.find((place) => place >= 0) ?? 0, descending: false };
+}
+
+function ranking<Row>(caption: string, columns: Column<Row>[], rows: Row[]): HTMLElement {
+  const text = () => csv(columns, rows);
   return h(
     "section",
     { id: "ranking" },
     h("h2", {}, "Ranking"),
-    tableView({ caption: "Every case, fastest first", columns, rows: model.cases, sort: { column: 3, descending: false }, most: 200 }),
+    tableView({ caption, columns, rows, sort: sortedBy(columns), most: 200 }),
+    h("p", { class: "tools" }, copyButton("Copy data", text), downloadButton("Download CSV", "ranking.csv", "text/csv", text)),
   );
 }
+
+export const rankingSection: Section = (view) => {
+  const cases = view.cases();
+  const { scene } = view.filters;
+  if (scene !== null) return ranking(`Cases of ${scene}`, caseColumns(view, cases), cases);
+  const rows = standings(cases, view.model.cases);
+  return ranking("Methods over all scenes", overallColumns(view, rows), rows);
+};

@@ -28,8 +28,6 @@ export interface Grid {
   kind: "frustum" | "distance" | "cascades" | "world";
   name: string;
   cells: [number, number, number];
-  tiles?: { pixels?: [number, number]; count?: [number, number] };
-  slices?: { scheme: string; boundaries: number[] };
 }
 
 export interface StabilityCounts {
@@ -53,6 +51,22 @@ export interface Stability {
   excess_flickers: { count: number; ratio: Maybe };
 }
 
+export interface Precision {
+  packing: string;
+  label: string;
+  position_error_m: { mean: Maybe; max: Maybe };
+  extra_pairs: { mean: Maybe; ratio: Maybe };
+}
+
+export interface Lookup {
+  logarithm: string;
+  depth: string;
+  needed: number;
+  missed: number;
+  wrong_samples: number;
+  safe_padding_ulps: number;
+}
+
 export interface CaseResult {
   id: string;
   name: string;
@@ -63,18 +77,23 @@ export interface CaseResult {
   grid: Grid;
   assigner: { name: string; label: string; params: object; conservative: boolean; exact: boolean };
   storage: string;
+  tests_done: number;
+  fallbacks?: number;
   occupancy: {
     pairs: Spread;
     lights_per_cluster: Spread & { histogram: number[] };
     occupied_fraction: Spread;
     worst_frame: number;
     worst_cell: [number, number, number];
+    along_path?: { frames_per_entry: number; pairs: number[]; longest_list: number[] };
   };
   buffers: {
     index_entries: HighWater;
     bytes: HighWater;
     header_bytes: number;
     index_bits: number;
+    scratch_bytes: number;
+    along_path?: { frames_per_entry: number; bytes: number[] };
     overflow: { dropped_pairs: number; cells: number; frames: number };
     worst_frame: number;
   };
@@ -90,7 +109,8 @@ export interface CaseResult {
   };
   shading?: { samples: number; missed: number; needed: number; overshade: Maybe };
   stability?: Stability;
-  precision?: { packing: string; label: string };
+  precision?: Precision;
+  lookup?: Lookup[];
   timing?: {
     frames_timed: number;
     build_ns: TimeStats;
@@ -110,6 +130,7 @@ export interface SceneResult {
   sha256: string;
   lights: { point: number; spot: number; directional: number; box: number };
   frames: number;
+  range_rule: { from_intensity: number; cutoff_lux: Maybe; max_range: Maybe; clamped: number };
   warnings: string[];
 }
 

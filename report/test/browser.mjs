@@ -27,6 +27,6 @@ export function folder() {
 }
 
 export function makePage(tool, results, into) {
-  execFileSync(tool, ["report", ...results, "-o", into], { stdio: ["ignore", "ignore", "ignore"] });
+  execFileSync(tool, ["report", ...results, "-o", into], { stdio: ["ignore", "ignore", "pipe"] });
   return pathToFileURL(into).href;
 }

@@ -1,0 +1,62 @@
+// Where a frame's time goes: copying the finished lists once, the rest of the assignment, converting to the storage.
+
+import { figureView } from "./figure.ts";
+import * as format from "./format.ts";
+import type { Case } from "./model.ts";
+import { Plot, chart, chartWidth } from "./plots.ts";
+
+interface Part {
+  method: string;
+  part: string;
+  ns: number;
+  share: number;
+}
+
+const parts = ["write floor", "rest of the assignment", "conversion"];
+
+function partsOf(one: Case): Part[] {
+  const { assign_ns, convert_ns, write_floor_ns } = one.raw.timing!;
+  const [assign, convert, floor] = [assign_ns.median ?? 0, convert_ns.median ?? 0, write_floor_ns ?? 0];
+  const values = [floor, Math.max(0, assign - floor), convert];
+  return values.map((ns, at) => ({ method: one.assigner, part: parts[at]!, ns, share: ns / (Math.max(floor, assign) + convert || 1) }));
+}
+
+export function costs(cases: Case[]): HTMLElement | null {
+  const timed = cases.filter((one) => one.raw.timing && one.assignNs !== null).sort((a, b) => a.assignNs! - b.assignNs!);
+  if (timed.length === 0) return null;
+  const methods = timed.map((one) => one.assigner);
+  return figureView({
+    id: "costs",
+    title: "Where a frame's time goes",
+    lead: "Write floor: copying the finished lists and headers once, which no method can do without. Conversion: from lists to the storage's layout. Fastest first.",
+    chart: chart(`Shares of write floor, assignment and conversion of ${methods.join(", ")}`, {
+      width: chartWidth(),
+      height: 56 + 24 * new Set(methods).size,
+      marginLeft: 150,
+      marginRight: 90,
+      x: { label: "share of assignment and conversion", percent: true, ticks: 5 },
+      y: { domain: [...new Set(methods)], label: null, tickSize: 0 },
+      color: { domain: parts, range: ["var(--part-0)", "var(--part-1)", "var(--part-2)"], legend: false },
+      marks: [
+        Plot.barX(timed.flatMap(partsOf), { x: "share", y: "method", fill: "part", inset: 1.5, insetLeft: 0.5, insetRight: 0.5, title: ({ part, ns, share }: Part) => `${part}: ${format.microseconds(ns)} µs, ${format.percent(share)}` }),
+        Plot.text(timed, { x: 1, y: "assigner", text: (one: Case) => `${format.microseconds(one.assignNs! + (one.raw.timing!.convert_ns.median ?? 0))} µs`, textAnchor: "start", dx: 6, fill: "var(--ink)" }),
+      ],
+    }),
+    legend: parts.map((label, at) => ({ label, colour: `var(--part-${at})` })),
+    table: () => ({
+      caption: "Costs",
+      columns: [
+        { label: "method", value: (one) => one.assigner },
+        { label: "build µs", about: "Once per projection", value: (one) => one.raw.timing!.build_ns.median, show: (one) => format.microseconds(one.raw.timing!.build_ns.median) },
+        { label: "assign µs", value: (one) => one.assignNs, show: (one) => format.microseconds(one.assignNs) },
+        { label: "convert µs", value: (one) => one.raw.timing!.convert_ns.median, show: (one) => format.microseconds(one.raw.timing!.convert_ns.median) },
+        { label: "write floor µs", value: (one) => one.raw.timing!.write_floor_ns, show: (one) => format.microseconds(one.raw.timing!.write_floor_ns) },
+        { label: "tests per frame", about: "Light-cell tests", value: (one) => one.raw.tests_done / one.raw.frames, show: (one) => format.count(one.raw.tests_done / one.raw.frames) },
+        { label: "fallbacks per frame", about: "Pairs decided at greater cost than single precision", value: (one) => one.raw.fallbacks === undefined ? null : one.raw.fallbacks / one.raw.frames, show: (one) => format.decimal((one.raw.fallbacks ?? 0) / one.raw.frames) },
+        { label: "scratch", about: "The method's own memory", value: (one) => one.raw.buffers.scratch_bytes, show: (one) => format.bytes(one.raw.buffers.scratch_bytes) },
+      ],
+      rows: timed,
+    }),
+    cases: timed,
+  });
+}

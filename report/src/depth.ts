@@ -1,0 +1,44 @@
+// One setting (scene, camera, grid, storage) in depth: its path, its lists, its costs.
+
+import { cameraPath } from "./camera_path.ts";
+import { choice } from "./controls.ts";
+import { costs } from "./costs.ts";
+import { h } from "./dom.ts";
+import { listLengths } from "./list_lengths.ts";
+import type { Case } from "./model.ts";
+import type { Section, View } from "./view.ts";
+
+// What all settings have in common says nothing in their names.
+function settingNames(view: View, settings: Map<string, Case[]>): [string, string][] {
+  const all = [...settings.values()].map((group) => group[0]!);
+  const varies = (value: (one: Case) => unknown) => new Set(all.map(value)).size > 1;
+  const [viewportsVary, storagesVary] = [varies((one) => String(one.raw.viewport)), varies((one) => one.storage)];
+  return [...settings].map(([key, [one]]) => {
+    const { raw, run } = one!;
+    const name = [
+      raw.scene,
+      raw.camera,
+      one!.grid,
+      viewportsVary && raw.viewport.join("×"),
+      storagesVary && one!.storage,
+      view.model.runs.length > 1 && run.label,
+    ];
+    return [key, name.filter(Boolean).join(" · ")];
+  });
+}
+
+export const depthSection: Section = (view, redraw) => {
+  const settings = Map.groupBy(view.cases(), (one) => one.setting);
+  if (settings.size === 0) return null;
+  const [key, control] = choice(view, redraw, "setting", "Setting", settingNames(view, settings));
+  const cases = settings.get(key)!;
+  return h(
+    "section",
+    { id: "depth" },
+    h("h2", {}, "One setting in depth"),
+    h("div", { class: "controls" }, control),
+    cameraPath(view, cases),
+    listLengths(view, cases),
+    costs(cases),
+  );
+};

@@ -1,0 +1,78 @@
+// A chart with all that belongs to it: title, what it shows, its table twin, its data and the command that measured it.
+
+import { h, type Child } from "./dom.ts";
+import { copyButton, csv, downloadButton } from "./handover.ts";
+import type { Case } from "./model.ts";
+import { tableView, type Table } from "./table.ts";
+
+export interface Figure<Row> {
+  id: string;
+  title: string;
+  lead: Child;
+  controls?: HTMLElement[];
+  legend?: { label: string; colour: string }[]; // of what the methods' own colours do not tell
+  chart?: Child; // without one the table stands in its place
+  table: () => Table<Row>; // made when it is opened
+  cases: Case[]; // that the chart shows
+}
+
+const quoted = (word: string) => (/^[\w./=:@%+,-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`);
+const escaped = (text: string) => text.replace(/[.*+?^${}()|[\]\\]/g, "\\$&");
+
+function commonStart(texts: string[]): string {
+  const first = texts[0] ?? "";
+  let length = first.length;
+  for (const text of texts) while (!text.startsWith(first.slice(0, length))) --length;
+  return first.slice(0, length);
+}
+
+// One command per result: its configuration, narrowed to the cases by what their names begin with.
+export function commandsOf(cases: Case[]): string {
+  const runs = [...new Set(cases.map((one) => one.run))];
+  return runs
+    .map((run) => {
+      const names = cases.filter((one) => one.run === run).map((one) => one.raw.name);
+      const start = commonStart(names).replace(/[^/]*$/, "");
+      const filter = start ? ` --filter ${quoted(`^${escaped(start)}`)}` : "";
+      return `clusterbench run ${quoted(`${run.result.name}.json`)}${filter} -o ${quoted(`${run.label}.json`)}`;
+    })
+    .join("\n");
+}
+
+function twin<Row>(figure: Figure<Row>): HTMLElement {
+  const table = figure.table();
+  const text = () => csv(table.columns, table.rows);
+  const commands = commandsOf(figure.cases);
+  return h(
+    "div",
+    { class: "twin" },
+    figure.chart ? tableView({ most: 200, ...table }) : null,
+    h("p", { class: "tools" }, copyButton("Copy data", text), downloadButton("Download CSV", `${figure.id}.csv`, "text/csv", text)),
+    h("div", { class: "command" }, h("pre", { tabindex: 0, "aria-label": "Command that measured this" }, commands), copyButton("Copy command", () => commands)),
+  );
+}
+
+function legendView(entries: { label: string; colour: string }[]): HTMLElement {
+  const swatch = (colour: string) => {
+    const box = h("span", { class: "swatch" });
+    box.style.background = colour; // through the object model: the page's policy refuses style attributes
+    return box;
+  };
+  return h("ul", { class: "legend" }, ...entries.map(({ label, colour }) => h("li", {}, swatch(colour), label)));
+}
+
+export function figureView<Row>(figure: Figure<Row>): HTMLElement {
+  const details = h("details", { id: `${figure.id}-data` }, h("summary", {}, figure.chart ? "Table, data, command" : "Data, command"));
+  details.addEventListener("toggle", () => {
+    if (details.open && !details.querySelector(".twin")) details.append(twin(figure));
+  });
+  return h(
+    "figure",
+    { id: figure.id },
+    h("figcaption", {}, h("h3", {}, figure.title), h("p", {}, figure.lead)),
+    figure.controls?.length ? h("div", { class: "controls" }, ...figure.controls) : null,
+    figure.legend && legendView(figure.legend),
+    figure.chart ? h("div", { class: "chart" }, figure.chart) : tableView({ most: 200, ...figure.table() }),
+    details,
+  );
+}

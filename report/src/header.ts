@@ -1,0 +1,36 @@
+// Title, what was measured where, whether to worry, and the way to the sections.
+
+import { h } from "./dom.ts";
+import type { Model } from "./model.ts";
+import { themeControl } from "./theme.ts";
+import { warningsOf } from "./warnings.ts";
+
+const plural = (count: number, word: string) => `${count} ${word}${count === 1 ? "" : "s"}`;
+
+function verdict(model: Model): HTMLElement {
+  const all = warningsOf(model);
+  const failures = all.filter((one) => one.isFailure).length;
+  const text = failures ? plural(failures, "failure") : all.length ? plural(all.length, "warning") : "No warnings";
+  return h("a", { href: "#warnings", class: failures ? "bad" : "" }, text);
+}
+
+export function header(model: Model): HTMLElement {
+  const machines = [...new Set(model.runs.map((run) => `${run.result.machine.cpu}, ${plural(run.result.machine.cores, "core")}`))];
+  return h(
+    "header",
+    {},
+    h("div", { class: "title" }, h("h1", {}, model.runs.map((run) => run.result.name).filter((name, at, all) => all.indexOf(name) === at).join(", ") || "clusterbench"), h("p", {}, "clusterbench report"), themeControl()),
+    h(
+      "p",
+      { class: "summary" },
+      `${plural(model.cases.length, "case")} in ${plural(model.scenes.length, "scene")} on ${machines.slice(0, 3).join("; ")}${machines.length > 3 ? "; …" : ""}. `,
+      verdict(model),
+      ".",
+    ),
+  );
+}
+
+export function contents(main: HTMLElement): HTMLElement {
+  const sections = [...main.querySelectorAll("section[id]")];
+  return h("nav", { "aria-label": "Sections" }, ...sections.map((one) => h("a", { href: `#${one.id}` }, one.querySelector("h2")!.textContent)));
+}

@@ -1,0 +1,121 @@
+// Tiling × slicing, a map per method: which cut is cheap, which is tight.
+
+import { choice } from "./controls.ts";
+import { h } from "./dom.ts";
+import { figureView } from "./figure.ts";
+import * as format from "./format.ts";
+import type { Case } from "./model.ts";
+import { Plot, chart, multiples } from "./plots.ts";
+import type { Grid, Maybe } from "./result.ts";
+import type { Section } from "./view.ts";
+
+interface Measure {
+  label: string;
+  of: (one: Case) => Maybe;
+  show: (value: Maybe) => string;
+}
+
+const measures: Record<string, Measure> = {
+  time: { label: "assign µs", of: (one) => one.assignNs, show: format.microseconds },
+  instructions: { label: "instructions", of: (one) => one.instructions, show: format.short },
+  overshade: { label: "overshade", of: (one) => one.overshade, show: format.factor },
+  excess: { label: "excess", of: (one) => one.excess, show: format.percent },
+  bytes: { label: "bytes", of: (one) => one.bytes, show: format.bytes },
+  longest: { label: "longest list", of: (one) => one.longest, show: format.count },
+  pairs: { label: "pairs", of: (one) => one.pairs, show: format.short },
+};
+
+interface Cell {
+  assigner: string;
+  tiling: string;
+  slicing: string;
+  value: number; // mean over the scenes
+  scenes: number;
+}
+
+// A grid is named "frustum 64px x 16 exponential 0.1..500": kind, tiling, slicing. Other kinds have neither.
+const cut = (grid: Grid) => /^(?:frustum|distance) (\S+) x (.+)$/.exec(grid.name);
+
+function cellsOf(cases: Case[], measure: Measure): Cell[] {
+  const placed = cases.flatMap((one) => {
+    const [, tiling, slicing] = cut(one.raw.grid) ?? [];
+    const value = measure.of(one);
+    return tiling === undefined || slicing === undefined || value === null ? [] : [{ one, tiling, slicing, value }];
+  });
+  const groups = Map.groupBy(placed, ({ one, tiling, slicing }) => [one.assigner, tiling, slicing].join("\n"));
+  return [...groups.values()].map((group) => ({
+    assigner: group[0]!.one.assigner,
+    tiling: group[0]!.tiling,
+    slicing: group[0]!.slicing,
+    value: group.reduce((total, { value }) => total + value, 0) / group.length,
+    scenes: new Set(group.map(({ one }) => one.scene)).size,
+  }));
+}
+
+const unique = (values: string[]) => [...new Set(values)];
+
+// Of "rgb(0, 32, 81)", up to 255.
+function luminance(colour: string): number {
+  const [red, green, blue] = (colour.match(/[\d.]+/g) ?? []).map(Number);
+  return 0.2126 * (red ?? 0) + 0.7152 * (green ?? 0) + 0.0722 * (blue ?? 0);
+}
+
+function map(cells: Cell[], measure: Measure, range: [number, number]): Element {
+  const color = Plot.scale({ color: { type: "log", scheme: "cividis", domain: range } })!;
+  const paint = (cell: Cell) => color.apply(Math.max(cell.value, range[0])) as string;
+  const [tilings, slicings] = [unique(cells.map((cell) => cell.tiling)), unique(cells.map((cell) => cell.slicing))];
+  const names = 12 + 6.5 * slicings.reduce((most, name) => Math.max(most, name.length), 0);
+  return chart(`${measure.label} of ${cells.length} combinations of tiling and slicing, the same colours from ${measure.show(range[0])} to ${measure.show(range[1])}`, {
+    width: names + 84 * tilings.length + 8,
+    height: 32 + 28 * slicings.length,
+    marginLeft: names,
+    marginRight: 8,
+    marginTop: 28,
+    marginBottom: 4,
+    x: { domain: tilings, axis: "top", label: null, tickSize: 0 },
+    y: { domain: slicings, label: null, tickSize: 0 },
+    marks: [
+      Plot.cell(cells, { x: "tiling", y: "slicing", fill: paint, inset: 0.5, rx: 2, title: (cell: Cell) => `${cell.tiling}, ${cell.slicing}: ${measure.show(cell.value)}` }),
+      Plot.text(cells, { x: "tiling", y: "slicing", text: (cell: Cell) => measure.show(cell.value), fill: (cell: Cell) => (luminance(paint(cell)) > 120 ? "#000" : "#fff") }),
+    ],
+  });
+}
+
+export const heatMapSection: Section = (view, redraw) => {
+  const cases = view.cases();
+  const offered = Object.entries(measures).filter(([, one]) => cellsOf(cases, one).length > 0);
+  if (offered.length === 0) return null;
+  const [key, control] = choice(view, redraw, "heat-map-measure", "Colour", offered.map(([name, one]) => [name, one.label]));
+  const measure = measures[key]!;
+  const cells = cellsOf(cases, measure);
+  const positive = cells.map((cell) => cell.value).filter((value) => value > 0);
+  const range: [number, number] = [positive.reduce((a, b) => Math.min(a, b), Infinity), positive.reduce((a, b) => Math.max(a, b), 0)];
+  const maps = [...Map.groupBy(cells, (cell) => cell.assigner)];
+  const isSweep = positive.length > 0 && maps.some(([, some]) => some.length > 1);
+  return h(
+    "section",
+    { id: "grids" },
+    h("h2", {}, "Tiling × slicing"),
+    isSweep
+      ? figureView({
+          id: "heat-map",
+          title: `${measure.label} by tiling and slicing`,
+          lead: `One map per method${view.filters.scene === null ? ", the mean of all scenes" : ""}. Dark is less. The same colours in all maps.`,
+          controls: [control],
+          chart: multiples(maps.map(([title, some]) => ({ title, chart: map(some, measure, range) }))),
+          table: () => ({
+            caption: `${measure.label} by method, tiling and slicing`,
+            columns: [
+              { label: "method", value: (cell) => cell.assigner },
+              { label: "tiling", value: (cell) => cell.tiling },
+              { label: "slicing", value: (cell) => cell.slicing },
+              { label: measure.label, value: (cell) => cell.value, show: (cell) => measure.show(cell.value) },
+              { label: "scenes", value: (cell) => cell.scenes },
+            ],
+            rows: cells,
+          }),
+          cases,
+        })
+      : h("p", { class: "note" }, "These cases have one tiling and one slicing, so there is nothing to map. configs/sweep.json measures many."),
+  );
+};

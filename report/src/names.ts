@@ -1,0 +1,51 @@
+// Names beside marks, where there is room for them.
+
+export interface Spot {
+  x: number; // pixels
+  y: number;
+}
+
+export interface Placement {
+  dx: number;
+  dy: number;
+  textAnchor: "start" | "end";
+}
+
+interface Box {
+  left: number;
+  right: number;
+  top: number;
+  bottom: number;
+}
+
+// In the order in which they are tried: below, beside, above, to the left.
+export const placements: Placement[] = [
+  { dx: -5, dy: 13, textAnchor: "start" },
+  { dx: 9, dy: 0, textAnchor: "start" },
+  { dx: -5, dy: -13, textAnchor: "start" },
+  { dx: -9, dy: 0, textAnchor: "end" },
+];
+
+const letter = 6.3;
+
+function boxOf({ x, y }: Spot, text: string, { dx, dy, textAnchor }: Placement): Box {
+  const left = x + dx - (textAnchor === "end" ? letter * text.length : 0);
+  return { left, right: left + letter * text.length, top: y + dy - 6, bottom: y + dy + 6 };
+}
+
+const around = ({ x, y }: Spot): Box => ({ left: x - 5, right: x + 5, top: y - 5, bottom: y + 5 });
+const overlap = (a: Box, b: Box) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+
+// A placement for each name that has one at which it hides no mark, no other name and stays left of `right`.
+export function placed<T extends Spot & { text: string }>(names: T[], marks: Spot[], right: number): { name: T; placement: Placement }[] {
+  const taken = marks.map(around);
+  return names.flatMap((name) => {
+    const placement = placements.find((one) => {
+      const box = boxOf(name, name.text, one);
+      return box.left > 0 && box.right < right && !taken.some((other) => overlap(box, other));
+    });
+    if (!placement) return [];
+    taken.push(boxOf(name, name.text, placement));
+    return [{ name, placement }];
+  });
+}

@@ -1,0 +1,39 @@
+// How methods look: a family has one colour and one form, its fast twin is filled, the readable reference hollow.
+
+import type { Case, Model } from "./model.ts";
+import { shapes, type Shape } from "./shapes.ts";
+
+// In the order of the colours of style.css. Families that are not here follow in the order of the results.
+const known = ["exact", "sphere-refinement", "aabb", "bounds", "planes", "brute-force", "distance", "cascades", "world-grid"];
+const colours = 9; // --method-0 ...
+
+export interface Look {
+  colour: string; // a CSS variable: dark mode needs no redrawing
+  shape: Shape;
+  isFilled: boolean;
+}
+
+export type Palette = (one: Pick<Case, "family" | "isFast">) => Look;
+
+export function paletteOf(model: Model): Palette {
+  const order = [...known, ...model.families.filter((family) => !known.includes(family))];
+  const places = new Map(order.map((family, at) => [family, at]));
+  return ({ family, isFast }) => {
+    const place = places.get(family)!;
+    return { colour: `var(--method-${place % colours})`, shape: shapes[place % shapes.length]!, isFilled: isFast };
+  };
+}
+
+export function icon(look: Look): SVGSVGElement {
+  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  svg.setAttribute("viewBox", "-7 -7 14 14");
+  svg.setAttribute("class", "icon");
+  svg.setAttribute("aria-hidden", "true");
+  const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
+  path.setAttribute("d", look.shape.path(50));
+  path.setAttribute("stroke", look.colour);
+  path.setAttribute("stroke-width", "1.5");
+  path.setAttribute("fill", look.isFilled ? look.colour : "none");
+  svg.append(path);
+  return svg;
+}

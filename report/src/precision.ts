@@ -1,0 +1,64 @@
+// What packed lights lose, and what a shader's own lookup loses.
+
+import { h } from "./dom.ts";
+import { figureView } from "./figure.ts";
+import * as format from "./format.ts";
+import type { Case } from "./model.ts";
+import type { Lookup, Precision } from "./result.ts";
+import type { Column } from "./table.ts";
+import type { Section, View } from "./view.ts";
+
+type Packed = { one: Case; precision: Precision };
+type Looked = { one: Case; lookup: Lookup };
+
+const packedColumns: Column<Packed>[] = [
+  { label: "method", value: ({ one }) => one.assigner },
+  { label: "scene", value: ({ one }) => one.scene },
+  { label: "grid", value: ({ one }) => one.grid },
+  { label: "lights", value: ({ precision }) => precision.label },
+  { label: "missed", value: ({ one }) => one.missed, show: ({ one }) => format.count(one.missed) },
+  { label: "deepest", about: "Largest share of its range by which a missed light reaches in", value: ({ one }) => one.raw.error?.deepest_miss ?? null, show: ({ one }) => format.percent(one.raw.error?.deepest_miss ?? null) },
+  { label: "extra pairs", about: "Against float32", value: ({ precision }) => precision.extra_pairs.ratio, show: ({ precision }) => format.percent(precision.extra_pairs.ratio) },
+  { label: "place off by", about: "At most", value: ({ precision }) => precision.position_error_m.max, show: ({ precision }) => `${format.decimal(precision.position_error_m.max)} m` },
+];
+
+const lookedColumns: Column<Looked>[] = [
+  { label: "method", value: ({ one }) => one.assigner },
+  { label: "scene", value: ({ one }) => one.scene },
+  { label: "grid", value: ({ one }) => one.grid },
+  { label: "logarithm", value: ({ lookup }) => lookup.logarithm },
+  { label: "depth", value: ({ lookup }) => lookup.depth },
+  { label: "needed", value: ({ lookup }) => lookup.needed, show: ({ lookup }) => format.count(lookup.needed) },
+  { label: "missed", value: ({ lookup }) => lookup.missed, show: ({ lookup }) => format.count(lookup.missed) },
+  { label: "wrong samples", value: ({ lookup }) => lookup.wrong_samples, show: ({ lookup }) => format.count(lookup.wrong_samples) },
+  { label: "safe padding, ulps", value: ({ lookup }) => lookup.safe_padding_ulps, show: ({ lookup }) => format.count(lookup.safe_padding_ulps) },
+];
+
+function packedFigure(view: View): HTMLElement | null {
+  const rows = view.cases().flatMap((one) => (one.raw.precision ? [{ one, precision: one.raw.precision }] : []));
+  if (rows.length === 0) return null;
+  return figureView({
+    id: "packed-lights",
+    title: "Packed lights",
+    lead: "The same methods on lights that were packed before the assigner saw them, against the same truth.",
+    table: () => ({ caption: "Packed lights", columns: packedColumns, rows }),
+    cases: rows.map(({ one }) => one),
+  });
+}
+
+function lookupFigure(view: View): HTMLElement | null {
+  const rows = view.cases().flatMap((one) => (one.raw.lookup ?? []).map((lookup) => ({ one, lookup })));
+  if (rows.length === 0) return null;
+  return figureView({
+    id: "lookup",
+    title: "A shader's lookup",
+    lead: "Samples whose single-precision lookup picks a cell whose list lacks a light that reaches them.",
+    table: () => ({ caption: "A shader's lookup", columns: lookedColumns, rows }),
+    cases: rows.map(({ one }) => one),
+  });
+}
+
+export const precisionSection: Section = (view) => {
+  const figures = [packedFigure(view), lookupFigure(view)];
+  return figures.some(Boolean) ? h("section", { id: "precision" }, h("h2", {}, "Precision"), ...figures) : null;
+};

@@ -1,0 +1,73 @@
+// Where the figures come from: machine, tool, scenes, configuration.
+
+import { h } from "./dom.ts";
+import * as format from "./format.ts";
+import { copyButton, downloadButton } from "./handover.ts";
+import type { Run } from "./model.ts";
+import { tableView } from "./table.ts";
+import type { Section } from "./view.ts";
+
+function facts(rows: [string, string][]): HTMLElement {
+  return h("dl", {}, ...rows.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value))));
+}
+
+function configView(run: Run): HTMLElement {
+  const text = () => JSON.stringify(run.result.config, null, 2) + "\n";
+  const details = h("details", { id: `config-${run.label}` }, h("summary", {}, "Configuration, with every default"));
+  details.addEventListener("toggle", () => {
+    if (details.open && !details.querySelector("pre"))
+      details.append(
+        h("pre", { tabindex: 0, "aria-label": "Configuration" }, text()),
+        h("p", { class: "tools" }, copyButton("Copy configuration", text), downloadButton("Download configuration", `${run.result.name}.json`, "application/json", text)),
+      );
+  });
+  return details;
+}
+
+function runView(run: Run, isAlone: boolean): HTMLElement {
+  const { tool, machine, scenes, cases, name } = run.result;
+  const libraries = Object.entries(tool.libraries).map((one) => one.join(" ")).join(", ");
+  return h(
+    "article",
+    {},
+    isAlone ? null : h("h3", {}, run.label),
+    facts([
+      ["processor", machine.cpu],
+      ["cores", String(machine.cores)],
+      ["memory", format.bytes(machine.ram_bytes)],
+      ["system", machine.os],
+      ["clusterbench", `${tool.version}, commit ${tool.git_sha}`],
+      ["compiler", `${tool.compiler} ${tool.flags}`],
+      ["instruction set", tool.simd_target],
+      ["build", tool.build_type],
+      ["libraries", libraries],
+      ["configuration", `${name}, ${cases.length} cases`],
+      ["file", run.file],
+    ]),
+    tableView({
+      caption: `Scenes of ${run.label}`,
+      columns: [
+        { label: "scene", value: (scene) => scene.name },
+        { label: "points", value: (scene) => scene.lights.point },
+        { label: "spots", value: (scene) => scene.lights.spot },
+        { label: "directional", value: (scene) => scene.lights.directional },
+        { label: "boxes", value: (scene) => scene.lights.box },
+        { label: "frames", value: (scene) => scene.frames },
+        { label: "SHA-256", value: (scene) => scene.sha256, show: (scene) => h("code", { title: scene.sha256 }, scene.sha256.slice(0, 12)) },
+      ],
+      rows: scenes,
+      most: 50,
+    }),
+    configView(run),
+  );
+}
+
+export const setupSection: Section = ({ model }) =>
+  h(
+    "section",
+    { id: "setup" },
+    h("h2", {}, "Machine and configuration"),
+    ...model.runs.map((run) => runView(run, model.runs.length === 1)),
+    h("h3", {}, "This page"),
+    h("div", { class: "command" }, h("pre", { tabindex: 0, "aria-label": "Command that made this page" }, model.command), copyButton("Copy command", () => model.command)),
+  );

@@ -1,0 +1,68 @@
+// The symbols of method families: told apart by form as much as by colour. Polygons, so that charts and legends draw the
+// same.
+
+type Point = [number, number];
+
+interface Pen {
+  moveTo(x: number, y: number): void;
+  lineTo(x: number, y: number): void;
+  closePath(): void;
+}
+
+// Corners around the centre; `inner` shortens every other one to make a star.
+function around(corners: number, turn: number, inner = 1): Point[] {
+  return Array.from({ length: corners }, (_, at) => {
+    const angle = (2 * Math.PI * at) / corners + turn;
+    const radius = at % 2 === 1 ? inner : 1;
+    return [radius * Math.sin(angle), -radius * Math.cos(angle)];
+  });
+}
+
+const cross: Point[] = [
+  [-0.35, -1], [0.35, -1], [0.35, -0.35], [1, -0.35], [1, 0.35], [0.35, 0.35],
+  [0.35, 1], [-0.35, 1], [-0.35, 0.35], [-1, 0.35], [-1, -0.35], [-0.35, -0.35],
+];
+const bar: Point[] = [[-1.1, -0.5], [1.1, -0.5], [1.1, 0.5], [-1.1, 0.5]];
+const upright: Point[] = [[-0.5, -1.1], [0.5, -1.1], [0.5, 1.1], [-0.5, 1.1]];
+const polygons: Point[][] = [
+  around(10, 0, 0.42), // star
+  around(24, 0), // disc
+  around(4, Math.PI / 4),
+  around(3, 0),
+  around(4, 0),
+  cross,
+  around(6, Math.PI / 6),
+  around(3, Math.PI),
+  bar,
+  around(5, 0),
+  upright,
+  around(8, 0, 0.5),
+];
+
+function area(polygon: Point[]): number {
+  return 0.5 * Math.abs(polygon.reduce((sum, [x, y], at) => {
+    const [nextX, nextY] = polygon[(at + 1) % polygon.length]!;
+    return sum + x * nextY - y * nextX;
+  }, 0));
+}
+
+export interface Shape {
+  draw(pen: Pen, size: number): void; // size: area in square pixels, as Plot's symbols have it
+  path(size: number): string;
+}
+
+function shapeOf(polygon: Point[]): Shape {
+  const scaled = (size: number) => {
+    const scale = Math.sqrt(size / area(polygon));
+    return polygon.map(([x, y]): Point => [x * scale, y * scale]);
+  };
+  return {
+    draw(pen, size) {
+      scaled(size).forEach(([x, y], at) => (at === 0 ? pen.moveTo(x, y) : pen.lineTo(x, y)));
+      pen.closePath();
+    },
+    path: (size) => `M${scaled(size).map(([x, y]) => `${x.toFixed(2)},${y.toFixed(2)}`).join("L")}Z`,
+  };
+}
+
+export const shapes: Shape[] = polygons.map(shapeOf);

@@ -1,0 +1,156 @@
+// Speed against error, a panel per scene, with intervals and the front of what nothing else beats in both.
+
+import { choice, type Option } from "./controls.ts";
+import { h } from "./dom.ts";
+import { figureView } from "./figure.ts";
+import * as format from "./format.ts";
+import type { Case } from "./model.ts";
+import { placed, placements } from "./names.ts";
+import { Plot, chart, chartWidth, multiples } from "./plots.ts";
+import type { Maybe } from "./result.ts";
+import type { Section, View } from "./view.ts";
+
+interface Measure {
+  label: string;
+  of: (one: Case) => Maybe;
+  show: (value: Maybe) => string;
+  about: string;
+}
+
+const measures: Record<string, Measure> = {
+  overshade: { label: "overshade", of: (one) => one.overshade, show: format.factor, about: "lights evaluated by lights needed at the samples; compares across grids" },
+  excess: { label: "excess", of: (one) => one.excess, show: format.percent, about: "false positives by true pairs; compares within one grid" },
+  bytes: { label: "bytes", of: (one) => one.bytes, show: format.bytes, about: "high-water mark of headers and indices" },
+  missed: { label: "missed", of: (one) => one.missed, show: format.count, about: "lights lost" },
+};
+
+interface Point {
+  one: Case;
+  us: number;
+  error: number;
+}
+
+const mostPanels = 12;
+
+function points(cases: Case[], measure: Measure): Point[] {
+  return cases.flatMap((one) => {
+    const error = measure.of(one);
+    return one.assignNs === null || error === null ? [] : [{ one, us: one.assignNs / 1e3, error }];
+  });
+}
+
+// Fastest first, and of those only the ones with less error than all that are faster.
+export function front<T extends { us: number; error: number }>(all: T[]): T[] {
+  let least = Infinity;
+  return [...all]
+    .sort((a, b) => a.us - b.us || a.error - b.error)
+    .filter(({ error }) => error < least && ((least = error), true));
+}
+
+function tip({ one, us, error }: Point, measure: Measure): string {
+  const [low, high] = one.interval;
+  const range = low === null || high === null ? "" : ` (${format.microseconds(low)} to ${format.microseconds(high)})`;
+  return `${one.assigner}\n${one.grid}\n${format.decimal(us)} µs${range}\n${measure.label} ${measure.show(error)}`;
+}
+
+interface Scales {
+  x: [number, number];
+  y: [number, number];
+}
+
+const margin = { marginTop: 26, marginRight: 16, marginBottom: 40, marginLeft: 60 };
+
+// A text mark for each placement of the front's names.
+function names(best: Point[], all: Point[], { x, y }: Scales, width: number, height: number): Plot.Markish[] {
+  const room = { x: width - margin.marginLeft - margin.marginRight, y: height - margin.marginTop - margin.marginBottom };
+  const at = (point: Point) => ({
+    point,
+    text: point.one.assigner,
+    x: (room.x * Math.log(point.us / x[0])) / Math.log(x[1] / x[0]),
+    y: room.y * (1 - (point.error - y[0]) / (y[1] - y[0])),
+  });
+  const found = placed(best.map(at), all.map(at), room.x + margin.marginRight);
+  return placements.map((one) =>
+    Plot.text(
+      found.filter(({ placement }) => placement === one).map(({ name }) => name.point),
+      { x: "us", y: "error", text: (point: Point) => point.one.assigner, ...one, fill: "var(--ink)", stroke: "var(--panel)", strokeWidth: 4 },
+    ),
+  );
+}
+
+function panel(view: View, all: Point[], measure: Measure, scales: Scales, width: number): Element {
+  const best = front(all);
+  const look = (point: Point) => view.palette(point.one);
+  const height = Math.round(Math.min(420, Math.max(230, width * 0.5)));
+  return chart(`Assignment time against ${measure.label} of ${all.length} cases; on the front: ${best.map(({ one }) => one.assigner).join(", ")}`, {
+    width,
+    height,
+    x: { type: "log", domain: scales.x, label: "assign µs", ticks: width < 500 ? 4 : 8, tickFormat: format.short, grid: true },
+    y: { domain: scales.y, label: measure.label, ticks: 5, tickFormat: (value: number) => measure.show(value), grid: true },
+    ...margin,
+    marks: [
+      Plot.line(best, { x: "us", y: "error", curve: "step-after", stroke: "var(--front)", strokeWidth: 1.5 }),
+      ...names(best, all, scales, width, height),
+      Plot.ruleY(all, { x1: ({ one, us }: Point) => (one.interval[0] ?? us * 1e3) / 1e3, x2: ({ one, us }: Point) => (one.interval[1] ?? us * 1e3) / 1e3, y: "error", stroke: (point: Point) => look(point).colour, strokeOpacity: 0.6, strokeWidth: 3 }),
+      Plot.dot(all, { x: "us", y: "error", r: 4.5, symbol: (point: Point) => look(point).shape, fill: (point: Point) => (look(point).isFilled ? look(point).colour : "var(--panel)"), stroke: (point: Point) => look(point).colour, strokeWidth: 1.5 }),
+      Plot.tip(all, Plot.pointer({ x: "us", y: "error", title: (point: Point) => tip(point, measure) })),
+    ],
+  });
+}
+
+function limits(values: number[]): [number, number] {
+  return [values.reduce((a, b) => Math.min(a, b), Infinity), values.reduce((a, b) => Math.max(a, b), -Infinity)];
+}
+
+function logExtent(values: number[]): [number, number] {
+  const [low, high] = limits(values);
+  return [low / 1.3, high * 1.8];
+}
+
+// With room below for names.
+function extent(values: number[]): [number, number] {
+  const [low, high] = limits(values);
+  const room = (high - low || Math.abs(high) || 1) * 0.12;
+  return [low - room, high + room];
+}
+
+export const speedErrorSection: Section = (view, redraw) => {
+  const cases = view.cases();
+  const options = Object.entries(measures).filter(([, one]) => points(cases, one).length > 0).map(([key, one]): Option => [key, one.label]);
+  if (options.length === 0) return null;
+  const [key, control] = choice(view, redraw, "speed-error-measure", "Error", options);
+  const measure = measures[key]!;
+  const all = points(cases, measure);
+  const x = logExtent(all.map(({ us }) => us)); // the same in all panels
+  const scenes = [...Map.groupBy(all, ({ one }) => one.scene)];
+  const width = chartWidth(Math.min(2, scenes.length));
+  const panels = scenes.slice(0, mostPanels).map(([title, some]) => ({ title, chart: panel(view, some, measure, { x, y: extent(some.map(({ error }) => error)) }, width) }));
+  const more = scenes.length > mostPanels ? ` The first ${mostPanels} of ${scenes.length} scenes; choose one above for the others.` : "";
+  return h(
+    "section",
+    { id: "speed" },
+    h("h2", {}, "Speed against error"),
+    figureView({
+      id: "speed-error",
+      title: `Assignment time against ${measure.label}`,
+      lead: `Down and left is better. ${measure.label[0]!.toUpperCase()}${measure.label.slice(1)}: ${measure.about}. The line joins what nothing beats in both; bars are 95 % intervals of the median time. Each scene has its own scale upwards.${more}`,
+      controls: [control],
+      chart: multiples(panels),
+      table: () => ({
+        caption: "Speed and error",
+        columns: [
+          { label: "method", value: ({ one }) => one.assigner },
+          { label: "scene", value: ({ one }) => one.scene },
+          { label: "grid", value: ({ one }) => one.grid },
+          { label: "assign µs", value: ({ us }) => us, show: ({ us }) => format.decimal(us) },
+          { label: "low", about: "Of the 95 % interval", value: ({ one }) => one.interval[0] && one.interval[0] / 1e3, show: ({ one }) => format.microseconds(one.interval[0]) },
+          { label: "high", about: "Of the 95 % interval", value: ({ one }) => one.interval[1] && one.interval[1] / 1e3, show: ({ one }) => format.microseconds(one.interval[1]) },
+          { label: measure.label, value: ({ error }) => error, show: ({ error }) => measure.show(error) },
+        ],
+        rows: all,
+        sort: { column: 3, descending: false },
+      }),
+      cases: all.map(({ one }) => one),
+    }),
+  );
+};

@@ -1,0 +1,42 @@
+// How lists change along finely sampled steps of the camera, beside how the truth does.
+
+import { h } from "./dom.ts";
+import { figureView } from "./figure.ts";
+import * as format from "./format.ts";
+import type { Case } from "./model.ts";
+import type { Stability } from "./result.ts";
+import type { Column } from "./table.ts";
+import type { Section } from "./view.ts";
+
+type Row = { one: Case; stability: Stability };
+
+const columns: Column<Row>[] = [
+  { label: "method", value: ({ one }) => one.assigner },
+  { label: "scene", value: ({ one }) => one.scene },
+  { label: "grid", value: ({ one }) => one.grid },
+  { label: "steps", value: ({ stability }) => stability.steps },
+  { label: "changes per step", about: "Pairs added or removed from one step to the next, mean", value: ({ stability }) => stability.changed.method.mean, show: ({ stability }) => format.decimal(stability.changed.method.mean) },
+  { label: "truth's", about: "Changes of the true lists per step", value: ({ stability }) => stability.changed.truth.mean, show: ({ stability }) => format.decimal(stability.changed.truth.mean) },
+  { label: "excess churn", about: "Changes beyond the truth's, by the truth's", value: ({ stability }) => stability.excess_churn.ratio, show: ({ stability }) => format.percent(stability.excess_churn.ratio) },
+  { label: "flickers", about: "Changes that undo the same pair's change shortly before", value: ({ stability }) => stability.flickers.method, show: ({ stability }) => format.count(stability.flickers.method) },
+  { label: "truth's flickers", value: ({ stability }) => stability.flickers.truth, show: ({ stability }) => format.count(stability.flickers.truth) },
+  { label: "most in a step", value: ({ stability }) => stability.changed.method.max, show: ({ stability }) => format.count(stability.changed.method.max) },
+];
+
+export const stabilitySection: Section = (view) => {
+  const rows = view.cases().flatMap((one) => (one.raw.stability ? [{ one, stability: one.raw.stability }] : []));
+  if (rows.length === 0) return null;
+  const paths = [...new Set(rows.map(({ one, stability }) => `${one.scene}: ${stability.path}`))];
+  return h(
+    "section",
+    { id: "stability" },
+    h("h2", {}, "Stability"),
+    figureView({
+      id: "stability-table",
+      title: "Changes and flickers along small steps of the camera",
+      lead: `${paths.slice(0, 6).join(". ")}.`,
+      table: () => ({ caption: "Stability", columns, rows, sort: { column: 6, descending: false } }),
+      cases: rows.map(({ one }) => one),
+    }),
+  );
+};

@@ -1,0 +1,87 @@
+// What the reader should know before believing a figure.
+
+import { h } from "./dom.ts";
+import * as format from "./format.ts";
+import type { Case, Model, Run } from "./model.ts";
+import type { SceneResult } from "./result.ts";
+import type { Section } from "./view.ts";
+
+export interface Warning {
+  isFailure: boolean;
+  text: string;
+}
+
+const noisy = 0.1; // half interval by median
+
+function counted(cases: Case[], what: string): string {
+  const names = cases.slice(0, 3).map((one) => one.raw.name).join("; ");
+  return `${cases.length} ${cases.length === 1 ? "case" : "cases"} ${what}: ${names}${cases.length > 3 ? "; …" : ""}`;
+}
+
+function failuresOf(cases: Case[]): Warning[] {
+  const lost = cases.filter(({ raw }) => raw.assigner.conservative && raw.error && raw.error.false_negatives > 0);
+  const excess = cases.filter(({ raw }) => raw.assigner.exact && raw.error && raw.error.false_positives > 0);
+  return [
+    { cases: lost, what: "lost lights and call themselves conservative" },
+    { cases: excess, what: "reported pairs that are not true and call themselves exact" },
+  ].flatMap(({ cases: some, what }) => (some.length ? [{ isFailure: true, text: counted(some, what) }] : []));
+}
+
+function doubtsOf(cases: Case[]): Warning[] {
+  const width = ({ interval: [low, high], assignNs }: Case) => (low === null || high === null || !assignNs ? 0 : (high - low) / 2 / assignNs);
+  const kinds: [(one: Case) => boolean, string][] = [
+    [({ raw }) => raw.buffers.overflow.dropped_pairs > 0, "dropped lights because their storage was full"],
+    [({ raw }) => (raw.error?.undecided ?? 0) > 0, "have pairs that stayed undecided, counted as true"],
+    [({ raw }) => !raw.error, "were not checked against the truth"],
+    [(one) => width(one) > noisy, `have times that are known to no better than ${format.percent(noisy)}`],
+    [({ raw }) => !raw.assigner.conservative && (raw.error?.false_negatives ?? 0) > 0, "lose lights, as methods that are not conservative may"],
+  ];
+  return kinds.flatMap(([holds, what]) => {
+    const some = cases.filter(holds);
+    return some.length ? [{ isFailure: false, text: counted(some, what) }] : [];
+  });
+}
+
+function rangeWarnings({ range_rule }: SceneResult): string[] {
+  const { from_intensity, cutoff_lux, max_range, clamped } = range_rule;
+  return [
+    from_intensity > 0 && `${from_intensity} lights have no range; they end where they fall to ${cutoff_lux} lux, at most ${max_range} m`,
+    clamped > 0 && `${clamped} ranges were cut to ${max_range} m`,
+  ].filter((text) => text !== false);
+}
+
+function runWarnings({ label, result }: Run, isAlone: boolean): Warning[] {
+  const name = isAlone ? "" : `${label}: `;
+  const build = result.tool.build_type === "Release" ? [] : [`${name}measured with a build of type '${result.tool.build_type}', not Release`];
+  const scenes = result.scenes.flatMap((scene) => [...scene.warnings, ...rangeWarnings(scene)].map((warning) => `${name}${scene.name}: ${warning}`));
+  return [...build, ...scenes].map((text) => ({ isFailure: false, text }));
+}
+
+export function warningsOf(model: Model): Warning[] {
+  return [...failuresOf(model.cases), ...doubtsOf(model.cases), ...model.runs.flatMap((run) => runWarnings(run, model.runs.length === 1))];
+}
+
+function skippedView(model: Model): HTMLElement | null {
+  const all = model.runs.flatMap((run) => run.result.skipped);
+  if (all.length === 0) return null;
+  const reasons = [...Map.groupBy(all, (one) => one.reason)].sort((a, b) => b[1].length - a[1].length);
+  return h(
+    "details",
+    { id: "skipped" },
+    h("summary", {}, `${all.length} combinations were skipped`),
+    h("ul", {}, ...reasons.map(([reason, some]) => h("li", {}, `${some.length} × ${reason}`))),
+  );
+}
+
+export const warningsSection: Section = ({ model }) => {
+  const all = warningsOf(model);
+  return h(
+    "section",
+    { id: "warnings" },
+    h("h2", {}, "Warnings"),
+    all.length === 0
+      ? h("p", { class: "note" }, "None: no list lost a light that it must hold, none overflowed, every pair was decided.")
+      : h("ul", { class: "warnings" }, ...all.map(({ isFailure, text }) => h("li", { class: isFailure && "failure" }, h("strong", {}, isFailure ? "Failed. " : "Note. "), text))),
+    skippedView(model),
+  );
+};
