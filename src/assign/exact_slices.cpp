@@ -21,9 +21,9 @@ void ExactSlices::find(const ExactFrame& frame, int first, int last, Lists& out)
 }
 
 std::size_t ExactSlices::scratch_bytes() const {
-  return spans_.capacity_bytes() + cells_.capacity_bytes() + closer_.capacity_bytes() +
-         (rows_.columns.capacity() + closer_places_.capacity()) * sizeof(std::uint32_t) +
-         lit_.capacity() * sizeof(Lit) + ends_.capacity() * sizeof(Ends);
+  return spans_.capacity_bytes() + cells_.capacity_bytes() + closer_.capacity_bytes() + rows_.capacity_bytes() +
+         closer_places_.capacity() * sizeof(std::uint32_t) + lit_.capacity() * sizeof(Lit) +
+         ends_.capacity() * sizeof(Ends);
 }
 
 // Calls take(light, columns, is_uncertain) for the batch's spans of a row.

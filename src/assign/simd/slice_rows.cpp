@@ -31,13 +31,13 @@ M is_between(V low, V value, V high) {
 struct Hull {
   V low, high;
 
-  HWY_INLINE void add(M where, V value) {
-    low = hn::Min(low, hn::IfThenElse(where, value, infinity()));
+  HWY_INLINE void add_low(M where, V value) { low = hn::Min(low, hn::IfThenElse(where, value, infinity())); }
+  HWY_INLINE void add_high(M where, V value) {
     high = hn::Max(high, hn::IfThenElse(where, value, hn::Neg(infinity())));
   }
   HWY_INLINE void add(M where, V least, V greatest) {
-    low = hn::Min(low, hn::IfThenElse(where, least, infinity()));
-    high = hn::Max(high, hn::IfThenElse(where, greatest, hn::Neg(infinity())));
+    add_low(where, least);
+    add_high(where, greatest);
   }
   HWY_INLINE void add(const Hull& other) {
     low = hn::Min(low, other.low);
@@ -78,17 +78,35 @@ HWY_INLINE Tangents tangents_of(V across, V ahead, V rho, V tangent, V near, V f
   return tangents;
 }
 
-// The slice's two planes and what the balls of a batch have to do with them.
+// One of the slice's two planes.
 struct SlicePlane {
   float depth, inverse;
-  V chord_square;  // of the circle that the plane cuts out of the ball
-  M cuts;
 };
 
-HWY_INLINE SlicePlane slice_plane(float depth, float inverse, V ball_depth, V radius) {
-  const V gap = hn::Sub(all(depth), ball_depth);
-  const V square = hn::Mul(hn::Sub(radius, gap), hn::Add(radius, gap));
-  return {depth, inverse, square, hn::Ge(square, hn::Zero(D()))};
+// Balls as a tile plane wants them, one per lane.
+struct PlaneBalls {
+  V x, y, depth, radius;
+  V tangent;                  // from the eye to where its tangents touch, the same in all planes through the eye
+  V near_square, far_square;  // half chords of the circles that the slice's planes cut out, squared
+};
+
+// What rows have of their balls: the extremes at the centre's own height. Where there are none, an empty hull.
+struct LevelBalls {
+  V y, least_area;  // the area: for rows straight ahead
+  Hull near_chord, far_chord;
+  V low, high, low_depth, high_depth;  // the sphere's tangents, and the depths at which they touch
+};
+
+// Lane i of the answer is lane which[i] of the value.
+using Which = decltype(hn::IndicesFromVec(DI(), VI()));
+HWY_INLINE VI taken(VI value, Which which) {
+  return hn::TableLookupLanes(value, which);
+}
+HWY_INLINE V taken(V value, Which which) {
+  return hn::BitCast(D(), taken(hn::BitCast(DI(), value), which));
+}
+HWY_INLINE Hull taken(const Hull& hull, Which which) {
+  return {taken(hull.low, which), taken(hull.high, which)};
 }
 
 // Rows of one batch. Rows lie between tile planes; a plane's hull belongs to the row above it and to the one below.
@@ -97,30 +115,28 @@ class Batch {
   HWY_INLINE Batch(const RowPlanes& planes, const SeenBalls& seen, int slice, const std::uint32_t* balls)
       : planes_(planes) {
     const VI at = hn::BitCast(DI(), hn::LoadU(hn::RebindToUnsigned<DI>(), balls));
-    x_ = gathered(seen.x, at);
-    y_ = gathered(seen.y, at);
-    depth_ = gathered(seen.depth, at);
-    radius_ = gathered(seen.radius, at);
+    balls_.x = gathered(seen.x, at);
+    balls_.y = gathered(seen.y, at);
+    balls_.depth = gathered(seen.depth, at);
+    balls_.radius = gathered(seen.radius, at);
     slack_ = gathered(seen.slack, at);
     const auto k = static_cast<std::size_t>(slice);
-    near_ = slice_plane(planes.depth[k], planes.inverse_depth[k], depth_, radius_);
-    far_ = slice_plane(planes.depth[k + 1], planes.inverse_depth[k + 1], depth_, radius_);
+    near_ = {planes.depth[k], planes.inverse_depth[k]};
+    far_ = {planes.depth[k + 1], planes.inverse_depth[k + 1]};
+    balls_.near_square = chord_square(near_);
+    balls_.far_square = chord_square(far_);
   }
 
   // The rows that each ball may touch, from its extremes y / depth. `wanted`: the lanes that hold a ball.
   HWY_INLINE void find_rows(M wanted, VI& first, VI& count) const {
-    Hull hull = empty_hull();
-    const V distance = root(hn::Add(hn::Mul(y_, y_), hn::Mul(depth_, depth_)));
-    const V tangent = root(hn::Mul(hn::Sub(distance, radius_), hn::Add(distance, radius_)));
-    const Tangents tangents = tangents_of(y_, depth_, radius_, tangent, all(near_.depth), all(far_.depth));
-    hull.add(tangents.low_is_in, tangents.low);
-    hull.add(tangents.high_is_in, tangents.high);
-    for (const SlicePlane* plane : {&near_, &far_}) add_chord(*plane, y_, plane->chord_square, hull);
+    const Sphere sphere = sphere_along(balls_.y);
+    const V high = hn::Max(hn::Max(sphere.near_chord.high, sphere.far_chord.high), sphere.high());
+    const V low = hn::Min(hn::Min(sphere.near_chord.low, sphere.far_chord.low), sphere.low());
     const V top = all(planes_.slope.front()), bottom = all(planes_.slope[static_cast<std::size_t>(planes_.rows)]);
-    const M touches = hn::And(wanted, hn::And(hn::Le(hull.low, hn::Min(hull.high, top)), hn::Ge(hull.high, bottom)));
+    const M touches = hn::And(wanted, hn::And(hn::Le(low, hn::Min(high, top)), hn::Ge(high, bottom)));
     const V scale = all(planes_.rows_per_slope), margin = all(planes_.row_margin);
-    const V from = hn::Mul(hn::Sub(top, hn::Min(hull.high, top)), scale);
-    const V to = hn::Mul(hn::Sub(top, hn::Max(hull.low, bottom)), scale);
+    const V from = hn::Mul(hn::Sub(top, hn::Min(high, top)), scale);
+    const V to = hn::Mul(hn::Sub(top, hn::Max(low, bottom)), scale);
     const VI last_row = hn::Set(DI(), planes_.rows - 1);
     first = hn::Min(hn::ConvertTo(DI(), hn::Max(hn::Sub(from, margin), hn::Zero(D()))), last_row);
     const VI last = hn::Min(hn::ConvertTo(DI(), hn::Add(to, margin)), last_row);
@@ -128,78 +144,82 @@ class Batch {
   }
 
   // `known`: the lanes whose balls are the lights themselves.
-  HWY_INLINE void start_level(M known) {
-    const V distance = root(hn::Add(hn::Mul(x_, x_), hn::Mul(depth_, depth_)));
-    const V tangent = root(hn::Mul(hn::Sub(distance, radius_), hn::Add(distance, radius_)));
-    tangents_ = tangents_of(x_, depth_, radius_, tangent, all(near_.depth), all(far_.depth));
-    const V inverse = hn::Div(all(1.0f), tangents_.square);
-    tangents_.low_depth = hn::Mul(tangents_.low_depth, inverse);
-    tangents_.high_depth = hn::Mul(tangents_.high_depth, inverse);
-    near_chord_ = far_chord_ = empty_hull();
-    add_chord(near_, x_, near_.chord_square, near_chord_);
-    add_chord(far_, x_, far_.chord_square, far_chord_);
-    // Distance from the eye to where its tangents touch, the same in all planes through the eye.
-    const V from_eye = root(hn::Add(hn::Add(hn::Mul(x_, x_), hn::Mul(y_, y_)), hn::Mul(depth_, depth_)));
-    tangent_ = root(hn::Mul(hn::Sub(from_eye, radius_), hn::Add(from_eye, radius_)));
-    // Certainty, below.
-    const V rate = all(planes_.columns_per_slope * near_.inverse);
-    const float steepest = std::max(planes_.left * planes_.left, planes_.right * planes_.right);
-    const V factor = all(8.2f * (1.0f + steepest));
-    const V area = hn::Mul(hn::Mul(factor, hn::Mul(slack_, radius_)), hn::Mul(rate, rate));
-    least_area_ = hn::IfThenElse(known, area, infinity());
+  HWY_INLINE void start_rows(M known) {
+    const V squares = hn::Add(hn::Mul(balls_.x, balls_.x), hn::Mul(balls_.y, balls_.y));
+    const V from_eye = root(hn::Add(squares, hn::Mul(balls_.depth, balls_.depth)));
+    balls_.tangent = root(hn::Mul(hn::Sub(from_eye, balls_.radius), hn::Add(from_eye, balls_.radius)));
+
+    const Sphere sphere = sphere_along(balls_.x);
+    const V inverse = hn::Div(all(1.0f), sphere.tangents.square);
+    level_ = {balls_.y,
+              least_area(known),
+              sphere.near_chord,
+              sphere.far_chord,
+              sphere.low(),
+              sphere.high(),
+              hn::Mul(sphere.tangents.low_depth, inverse),
+              hn::Mul(sphere.tangents.high_depth, inverse)};
   }
 
-  // What lies in tile plane `place`, between the slice's planes.
-  HWY_INLINE Hull plane_hull(VI place, V& slope) const {
-    slope = gathered(planes_.slope, place);
+  // What lies in tile plane `place` of the balls in which[i], between the slice's planes.
+  HWY_INLINE Hull plane_hull(Which which, VI place, V slope) const {
+    const PlaneBalls ball = {taken(balls_.x, which),         taken(balls_.y, which),
+                             taken(balls_.depth, which),     taken(balls_.radius, which),
+                             taken(balls_.tangent, which),   taken(balls_.near_square, which),
+                             taken(balls_.far_square, which)};
     const V tilt = gathered(planes_.tilt, place), inverse = gathered(planes_.inverse_tilt, place);
-    const V away = hn::Mul(hn::Sub(y_, hn::Mul(slope, depth_)), inverse);
-    const V ahead = hn::Mul(hn::Add(hn::Mul(slope, y_), depth_), inverse);
-    const V square = hn::Mul(hn::Sub(radius_, away), hn::Add(radius_, away));
+    const V away = hn::Mul(hn::Sub(ball.y, hn::Mul(slope, ball.depth)), inverse);
+    const V ahead = hn::Mul(hn::Add(hn::Mul(slope, ball.y), ball.depth), inverse);
+    const V square = hn::Mul(hn::Sub(ball.radius, away), hn::Add(ball.radius, away));
     const M cuts = hn::Ge(square, hn::Zero(D()));
     Hull hull = empty_hull();
-    Tangents tangents =
-        tangents_of(x_, ahead, root(square), tangent_, hn::Mul(all(near_.depth), tilt), hn::Mul(all(far_.depth), tilt));
-    hull.add(hn::And(cuts, tangents.low_is_in), hn::Mul(tilt, tangents.low));
-    hull.add(hn::And(cuts, tangents.high_is_in), hn::Mul(tilt, tangents.high));
-    for (const SlicePlane* plane : {&near_, &far_}) {
-      const V up = hn::Sub(hn::Mul(slope, all(plane->depth)), y_);
-      add_chord(*plane, x_, hn::Sub(plane->chord_square, hn::Mul(up, up)), hull);
-    }
+    const Tangents tangents = tangents_of(ball.x, ahead, root(square), ball.tangent, hn::Mul(all(near_.depth), tilt),
+                                          hn::Mul(all(far_.depth), tilt));
+    hull.add_low(hn::And(cuts, tangents.low_is_in), hn::Mul(tilt, tangents.low));
+    hull.add_high(hn::And(cuts, tangents.high_is_in), hn::Mul(tilt, tangents.high));
+    const auto add_corners = [&](const SlicePlane& plane, V chord) {
+      const V up = hn::Sub(hn::Mul(slope, all(plane.depth)), ball.y);
+      add_chord(plane, ball.x, hn::Sub(chord, hn::Mul(up, up)), hull);
+    };
+    add_corners(near_, ball.near_square);
+    add_corners(far_, ball.far_square);
     return hull;
   }
 
-  // The sphere's own extremes at the centre's height, where that is between two tile planes.
-  HWY_INLINE void add_level(V top, V bottom, Hull& hull) const {
-    const auto is_level = [&](V depth) { return is_between(hn::Mul(bottom, depth), y_, hn::Mul(top, depth)); };
-    hull.add(is_level(all(near_.depth)), near_chord_.low, near_chord_.high);
-    hull.add(is_level(all(far_.depth)), far_chord_.low, far_chord_.high);
-    hull.add(hn::And(tangents_.low_is_in, is_level(tangents_.low_depth)), tangents_.low);
-    hull.add(hn::And(tangents_.high_is_in, is_level(tangents_.high_depth)), tangents_.high);
+  // Adds the sphere's own extremes at the centre's height, where that is between two tile planes.
+  HWY_INLINE void add_level(Which which, V top, V bottom, Hull& hull) const {
+    const V y = taken(level_.y, which);
+    const auto is_level = [&](V depth) { return is_between(hn::Mul(bottom, depth), y, hn::Mul(top, depth)); };
+    const Hull near_chord = taken(level_.near_chord, which), far_chord = taken(level_.far_chord, which);
+    hull.add(is_level(all(near_.depth)), near_chord.low, near_chord.high);
+    hull.add(is_level(all(far_.depth)), far_chord.low, far_chord.high);
+    hull.add_low(is_level(taken(level_.low_depth, which)), taken(level_.low, which));
+    hull.add_high(is_level(taken(level_.high_depth, which)), taken(level_.high, which));
   }
 
   // Certainty. The hull is that of a ball between the given one and the given one with twice the slack, d. Let m be the
   // row's point nearest to the centre, g away, and w = sqrt(R² - g²) for the larger radius R. A point p of the larger
   // ball in the row is within w of m; moved towards m by the share d / (R - g) of that it is in the given ball, and
-  // still in the row. That is d w / (R - g) = d (R + g) / w <= 2 d R / w far. Seen from the eye a metre is at most
-  // q = sqrt(1 + steepest²) / near of slope, so the given ball's extremes are within e = 2 d R q / w of the hull's. The
-  // hull's width in the picture, h, is at most 2 w q; so e <= 4 d R q² / h. The columns are certainly right if the
-  // hull's ends are farther than e from the next boundary inwards: that is, if that distance times h is at least
-  // 4 d R q² = 8 slack R q², in columns the `least_area_`. And the given ball reaches the row at all if R - g >= d,
-  // which follows from h² >= 8 d R q².
-  HWY_INLINE V columns_of(const Hull& hull, M wanted) const {
+  // still in the row (here its part in the picture). That is d w / (R - g) = d (R + g) / w <= 2 d R / w far. From a
+  // point of slope s on, a metre is at most q = sqrt(1 + s²) / near of slope, so the given ball's extremes are within
+  // e = 2 d R q / w of the hull's, and the hull's width in the picture, h, is at most 2 w q; so e <= 4 d R q² / h. The
+  // columns are certainly right if the hull's ends are farther than e from the next boundary inwards: that is, if that
+  // distance times h is at least 4 d R q² = 8 slack R q², in columns the `least_area`. And the given ball reaches the
+  // row at all if R - g >= d, which follows from h² >= 8 d R q².
+  HWY_INLINE V columns_of(Which which, const Hull& hull, M wanted) const {
     const V left = all(planes_.left), right = all(planes_.right), scale = all(planes_.columns_per_slope);
     const V margin = all(planes_.column_margin), one = all(1.0f);
     const M touches = hn::And(wanted, hn::And(hn::Le(hull.low, hn::Min(hull.high, right)), hn::Ge(hull.high, left)));
-    const V from = hn::Mul(hn::Sub(hn::Max(hull.low, left), left), scale);
-    const V to = hn::Mul(hn::Sub(hn::Min(hull.high, right), left), scale);
+    const V low = hn::Max(hull.low, left), high = hn::Min(hull.high, right);
+    const V from = hn::Mul(hn::Sub(low, left), scale), to = hn::Mul(hn::Sub(high, left), scale);
     const V last_column = all(static_cast<float>(planes_.columns - 1));
     const V first = hn::Min(hn::Floor(hn::Max(hn::Sub(from, margin), hn::Zero(D()))), last_column);
     const V last = hn::Min(hn::Floor(hn::Add(to, margin)), last_column);
-    const V width = hn::Sub(to, from);
+    const V width = hn::Sub(to, from), steepness = hn::Add(one, hn::Max(hn::Mul(low, low), hn::Mul(high, high)));
+    const V least_area = hn::Mul(taken(level_.least_area, which), steepness);
     const V inwards = hn::Sub(hn::Min(hn::Sub(hn::Add(first, one), from), hn::Sub(to, last)), margin);
-    const M is_certain = hn::And(hn::Ge(hn::Mul(inwards, width), least_area_),
-                                 hn::Ge(hn::Mul(width, width), hn::Add(least_area_, least_area_)));
+    const M is_certain = hn::And(hn::Ge(hn::Mul(inwards, width), least_area),
+                                 hn::Ge(hn::Mul(width, width), hn::Add(least_area, least_area)));
     const hn::RebindToUnsigned<D> du;
     const auto ends = hn::Or(hn::BitCast(du, hn::ConvertTo(DI(), first)),
                              hn::ShiftLeft<16>(hn::BitCast(du, hn::ConvertTo(DI(), last))));
@@ -210,7 +230,38 @@ class Batch {
   }
 
  private:
-  // Slopes of the ends of a chord in a slice's plane.
+  // The sphere where it is level with its centre: chords in the slice's planes, and tangents in between.
+  struct Sphere {
+    Hull near_chord, far_chord;
+    Tangents tangents;
+
+    HWY_INLINE V low() const { return hn::IfThenElse(tangents.low_is_in, tangents.low, infinity()); }
+    HWY_INLINE V high() const { return hn::IfThenElse(tangents.high_is_in, tangents.high, hn::Neg(infinity())); }
+  };
+
+  HWY_INLINE Sphere sphere_along(V across) const {
+    const V distance = root(hn::Add(hn::Mul(across, across), hn::Mul(balls_.depth, balls_.depth)));
+    const V tangent = root(hn::Mul(hn::Sub(distance, balls_.radius), hn::Add(distance, balls_.radius)));
+    Sphere sphere{empty_hull(), empty_hull(),
+                  tangents_of(across, balls_.depth, balls_.radius, tangent, all(near_.depth), all(far_.depth))};
+    add_chord(near_, across, balls_.near_square, sphere.near_chord);
+    add_chord(far_, across, balls_.far_square, sphere.far_chord);
+    return sphere;
+  }
+
+  HWY_INLINE V chord_square(const SlicePlane& plane) const {
+    const V gap = hn::Sub(all(plane.depth), balls_.depth);
+    return hn::Mul(hn::Sub(balls_.radius, gap), hn::Add(balls_.radius, gap));
+  }
+
+  // See Certainty.
+  HWY_INLINE V least_area(M known) const {
+    const V rate = all(planes_.columns_per_slope * near_.inverse);
+    const V area = hn::Mul(hn::Mul(all(8.2f), hn::Mul(slack_, balls_.radius)), hn::Mul(rate, rate));
+    return hn::IfThenElse(known, area, infinity());
+  }
+
+  // Adds the slopes of the ends of a chord in a slice's plane.
   HWY_INLINE static void add_chord(const SlicePlane& plane, V middle, V square, Hull& hull) {
     const V half = root(square), inverse = all(plane.inverse);
     hull.add(hn::Ge(square, hn::Zero(D())), hn::Mul(hn::Sub(middle, half), inverse),
@@ -218,22 +269,57 @@ class Batch {
   }
 
   const RowPlanes& planes_;
-  V x_, y_, depth_, radius_, slack_;
+  PlaneBalls balls_;
+  LevelBalls level_;
+  V slack_;
   SlicePlane near_, far_;
-  V tangent_, least_area_;
-  Tangents tangents_;
-  Hull near_chord_, far_chord_;
 };
 
 std::uint32_t lanes() {
   return static_cast<std::uint32_t>(hn::Lanes(D()));
 }
 
+// The tile planes that bound a batch's rows, ball by ball from the top, one per lane: plane t belongs to the ball in
+// lane which[t], and to the row below it unless it is the ball's last one.
+class PlanesOfBatch {
+ public:
+  HWY_INLINE PlanesOfBatch(VI first, VI rows, PlaneScratch& scratch) : scratch_(scratch) {
+    const auto n = static_cast<std::uint32_t>(hn::Lanes(D()));
+    std::int32_t counts[k_most_lanes], begins[k_most_lanes];
+    const VI one = hn::Set(DI(), 1);
+    hn::StoreU(hn::IfThenElseZero(hn::Gt(rows, hn::Zero(DI())), hn::Add(rows, one)), DI(), counts);
+    for (std::uint32_t lane = 0; lane < n; ++lane) {
+      begins[lane] = static_cast<std::int32_t>(count_);
+      for (std::int32_t done = 0; done < counts[lane]; done += static_cast<std::int32_t>(n))
+        hn::StoreU(hn::Set(DI(), static_cast<std::int32_t>(lane)), DI(),
+                   scratch.lane.data() + count_ + static_cast<std::uint32_t>(done));
+      count_ += static_cast<std::uint32_t>(counts[lane]);
+    }
+    hn::StoreU(hn::Zero(DI()), DI(), scratch.lane.data() + count_);
+    const VI begin = hn::LoadU(DI(), begins);
+    shift_ = hn::Sub(first, begin);
+    end_ = hn::Add(begin, rows);
+  }
+
+  std::uint32_t count() const { return count_; }
+  HWY_INLINE VI lane_of(std::uint32_t t) const { return hn::LoadU(DI(), scratch_.lane.data() + t); }
+  // Which tile plane it is, and whether a row of the same ball is below it.
+  HWY_INLINE VI place_of(Which which, std::uint32_t t) const { return hn::Add(taken(shift_, which), numbers(t)); }
+  HWY_INLINE MI has_row(Which which, std::uint32_t t) const { return hn::Lt(numbers(t), taken(end_, which)); }
+
+ private:
+  HWY_INLINE static VI numbers(std::uint32_t t) { return from_on(static_cast<std::int32_t>(t)); }
+
+  PlaneScratch& scratch_;
+  std::uint32_t count_ = 0;
+  VI shift_, end_;  // of each ball: first plane - its place in the list; place of its last plane
+};
+
 void rows_of_batch(const RowPlanes& planes, const SeenBalls& seen, int slice, const std::uint32_t* balls,
                    std::uint32_t count, std::uint32_t first_bound, BatchRows& out) {
   const D d;
   const DI di;
-  const hn::RebindToUnsigned<D> du;
+  const DU du;
   const std::size_t n = hn::Lanes(d);
   Batch batch(planes, seen, slice, balls);
   VI first, rows;
@@ -244,38 +330,45 @@ void rows_of_batch(const RowPlanes& planes, const SeenBalls& seen, int slice, co
     out.last_row = out.first_row - 1;
     return;
   }
-  const int most = hn::GetLane(hn::MaxOfLanes(di, rows));
   const auto touches = hn::Gt(rows, hn::Zero(di));
   const VI end = hn::Add(first, rows), last_plane = hn::Set(di, planes.rows);
   out.first_row = hn::GetLane(hn::MinOfLanes(di, hn::IfThenElse(touches, first, last_plane)));
   out.last_row = hn::GetLane(hn::MaxOfLanes(di, hn::IfThenElseZero(touches, end))) - 1;
-  // One row more than the grid has, for what lanes write that are done.
-  const std::size_t size = (static_cast<std::size_t>(planes.rows) + 1) * n;
-  if (out.columns.size() < size) out.columns.resize(size);
+  out.make_room(planes.rows, n);
   for (int row = out.first_row; row <= out.last_row; ++row)
     hn::StoreU(hn::Set(du, BatchRows::k_none), du, out.columns.data() + static_cast<std::size_t>(row) * n);
 
   const auto lights = hn::GatherIndex(du, seen.light.data(), hn::BitCast(di, hn::LoadU(du, balls)));
   hn::StoreU(lights, du, out.lights);
-  batch.start_level(hn::RebindMask(d, hn::Lt(lights, hn::Set(du, first_bound))));
-  V top, bottom;
-  Hull above = batch.plane_hull(hn::Min(first, last_plane), top);
-  VI place = first, to = hn::Add(hn::Mul(first, hn::Set(di, static_cast<std::int32_t>(n))), hn::Iota(di, 0));
-  const VI step = hn::Set(di, static_cast<std::int32_t>(n)), one = hn::Set(di, 1);
+  batch.start_rows(hn::RebindMask(d, hn::Lt(lights, hn::Set(du, first_bound))));
+  PlaneScratch& scratch = out.planes;
+  const PlanesOfBatch all_planes(first, rows, scratch);
+  const auto step = static_cast<std::uint32_t>(n);
+  for (std::uint32_t t = 0; t < all_planes.count(); t += step) {
+    const Which which = hn::IndicesFromVec(di, all_planes.lane_of(t));
+    const VI place = hn::Max(hn::Zero(di), hn::Min(all_planes.place_of(which, t), last_plane));
+    const V slope = gathered(planes.slope, place);
+    const Hull hull = batch.plane_hull(which, place, slope);
+    hn::StoreU(hull.low, d, scratch.low.data() + t);
+    hn::StoreU(hull.high, d, scratch.high.data() + t);
+    hn::StoreU(slope, d, scratch.slope.data() + t);
+  }
   const VI done = hn::Set(di, planes.rows * static_cast<std::int32_t>(n));
-  for (int row = 0; row < most; ++row) {
-    const auto wanted = hn::Gt(rows, hn::Set(di, row));
-    place = hn::Add(place, one);
-    const Hull below = batch.plane_hull(hn::Min(place, last_plane), bottom);
-    Hull hull = above;
-    hull.add(below);
-    batch.add_level(top, bottom, hull);
-    const V columns = batch.columns_of(hull, hn::RebindMask(d, wanted));
+  for (std::uint32_t t = 0; t < all_planes.count(); t += step) {
+    const VI lane = all_planes.lane_of(t);
+    const Which which = hn::IndicesFromVec(di, lane);
+    const MI wanted = all_planes.has_row(which, t);
+    const auto hull_of = [&](std::uint32_t at) {
+      return Hull{hn::LoadU(d, scratch.low.data() + at), hn::LoadU(d, scratch.high.data() + at)};
+    };
+    Hull hull = hull_of(t);
+    hull.add(hull_of(t + 1));
+    batch.add_level(which, hn::LoadU(d, scratch.slope.data() + t), hn::LoadU(d, scratch.slope.data() + t + 1), hull);
+    const V columns = batch.columns_of(which, hull, hn::RebindMask(d, wanted));
+    const VI row = all_planes.place_of(which, t);
+    const VI to = hn::Add(hn::Mul(row, hn::Set(di, static_cast<std::int32_t>(n))), lane);
     hn::ScatterIndex(hn::BitCast(di, columns), di, reinterpret_cast<std::int32_t*>(out.columns.data()),
                      hn::IfThenElse(wanted, to, done));
-    to = hn::Add(to, step);
-    above = below;
-    top = bottom;
   }
 }
 
@@ -356,7 +449,7 @@ void see(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_l
     const M is_plain = is_between(all(k_least_reach), reach, all(k_most_reach));
     keep(hn::IfThenElse(is_plain, radius, infinity()), seen.radius);
     keep(slack, seen.slack);
-    const auto lights = hn::Iota(du, first_light + i);
+    const auto lights = hn::BitCast(du, from_on(static_cast<std::int32_t>(first_light + i)));
     hn::StoreU(hn::Compress(lights, hn::RebindMask(du, wanted)), du, seen.light.data() + seen.count);
     const auto keep_slice = [&](VI value, std::vector<std::int32_t>& to) {
       hn::StoreU(hn::Compress(value, hn::RebindMask(di, wanted)), di, to.data() + seen.count);
@@ -378,6 +471,18 @@ namespace clusterbench::assign {
 HWY_EXPORT(lanes);
 HWY_EXPORT(rows_of_batch);
 HWY_EXPORT(see);
+
+void BatchRows::make_room(int of_rows, std::size_t of_lanes) {
+  const std::size_t size = (static_cast<std::size_t>(of_rows) + 1) * of_lanes;
+  if (columns.size() < size) columns.resize(size);
+  planes.make_room(size + 2 * of_lanes);
+}
+
+void PlaneScratch::make_room(std::size_t size) {
+  if (lane.size() >= size) return;
+  lane.resize(size);
+  for (std::vector<float>* list : {&low, &high, &slope}) list->resize(size);
+}
 
 namespace {
 

@@ -53,14 +53,24 @@ struct SeenBalls {
 };
 
 // Units of 2^-24 of a light's reach by which a ball is made larger: more than the steps here lose (a centre's rounding
-// 1, distances to planes 3, their squares and roots 8 of the radius, slopes and touch points 12), rounded up generously
-// because a larger slack costs a few more decisions only.
-inline constexpr float k_slice_rows_roundings = 48.0f;
+// 1, distances to planes 3, their squares and roots 8 of the radius, slopes and touch points 12), rounded up. A larger
+// slack costs decisions only.
+inline constexpr float k_slice_rows_roundings = 28.0f;
 
 // Appends the balls that may reach into the grid; the first one's light is `first_light`. Those left out touch no cell,
 // even if they are larger by these roundings.
 void see_balls(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, SeenBalls& seen,
                float roundings = k_slice_rows_roundings);
+
+// What a batch of balls has in the tile planes that bound its rows, plane by plane.
+struct PlaneScratch {
+  std::vector<std::int32_t> lane;  // of the plane's ball
+  std::vector<float> low, high;    // its slopes x / depth
+  std::vector<float> slope;        // the plane's own, y / depth
+
+  void make_room(std::size_t size);
+  std::size_t capacity_bytes() const { return 4 * sizeof(float) * lane.capacity(); }
+};
 
 // Rows of a batch of balls within one slice. Of ball i, row r (first_row <= r <= last_row, the rows that any ball may
 // touch) has the columns at columns[r * lanes + i].
@@ -74,7 +84,12 @@ struct BatchRows {
   alignas(64) std::uint32_t lights[k_most_lanes];
   int first_row = 0, last_row = -1;
   std::uint32_t tests = 0;  // rows of single balls that were looked at
+  // One row more than the grid has, for what is not wanted.
   std::vector<std::uint32_t> columns;
+  PlaneScratch planes;
+
+  void make_room(int of_rows, std::size_t of_lanes);
+  std::size_t capacity_bytes() const { return columns.capacity() * sizeof(std::uint32_t) + planes.capacity_bytes(); }
 };
 inline constexpr int k_most_columns = 0x7fff;
 

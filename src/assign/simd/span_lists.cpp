@@ -41,23 +41,52 @@ const char* target_name() {
   return hwy::TargetName(HWY_TARGET);
 }
 
-// Writes the lights whose span holds each cell of a row to `to`, and where each cell's list begins. Up to a vector more
-// than the lights is written. Returns the end.
+// A vector of spans.
+struct Spans {
+  hn::Vec<hn::ScalableTag<std::uint32_t>> lights;
+  hn::Vec<hn::ScalableTag<std::int32_t>> before, after;
+  hn::Mask<hn::ScalableTag<std::uint32_t>> exist;
+
+  HWY_INLINE Spans(const RowSpans& row, std::size_t first) {
+    const hn::ScalableTag<std::int32_t> di;
+    const hn::ScalableTag<std::uint32_t> du;
+    lights = hn::LoadU(du, row.lights + first);
+    before = hn::LoadU(di, row.before + first);
+    after = hn::LoadU(di, row.after + first);
+    exist = hn::FirstN(du, row.count - first);
+  }
+
+  // Appends the lights whose span holds a column. Up to a vector more than these is written.
+  HWY_INLINE std::uint32_t* write(std::int32_t column, std::uint32_t* to) const {
+    const hn::ScalableTag<std::uint32_t> du;
+    const auto place = hn::Set(hn::ScalableTag<std::int32_t>(), column);
+    const auto holds = hn::RebindMask(du, hn::And(hn::Gt(place, before), hn::Gt(after, place)));
+    const auto wanted = hn::And(holds, exist);
+    // Compressing in a register and storing it whole is faster than a compressing store.
+    hn::StoreU(hn::Compress(lights, wanted), du, to);
+    return to + hn::CountTrue(du, wanted);
+  }
+};
+
+// Writes the lights whose span holds each cell of a row to `to`, and where each cell's list begins. Returns the end.
 std::uint32_t* write_row(const RowSpans& row, std::uint32_t* to, const std::uint32_t* lists, std::uint32_t* begin) {
-  const hn::ScalableTag<std::int32_t> di;
-  const hn::ScalableTag<std::uint32_t> du;
-  const std::size_t lanes = hn::Lanes(du);
-  for (std::uint32_t column = row.column; column < row.end_column; ++column) {
-    begin[column] = static_cast<std::uint32_t>(to - lists);
-    const auto place = hn::Set(di, static_cast<std::int32_t>(column));
-    for (std::size_t i = 0; i < row.count; i += lanes) {
-      const auto before = hn::LoadU(di, row.before + i), after = hn::LoadU(di, row.after + i);
-      const auto holds = hn::And(hn::Gt(place, before), hn::Gt(after, place));
-      const auto wanted = hn::And(hn::RebindMask(du, holds), hn::FirstN(du, row.count - i));
-      // Compressing in a register and storing it whole is faster than a compressing store.
-      hn::StoreU(hn::Compress(hn::LoadU(du, row.lights + i), wanted), du, to);
-      to += hn::CountTrue(du, wanted);
+  const std::size_t lanes = hn::Lanes(hn::ScalableTag<std::uint32_t>());
+  const auto each_column = [&](auto&& write) {
+    for (std::uint32_t column = row.column; column < row.end_column; ++column) {
+      begin[column] = static_cast<std::uint32_t>(to - lists);
+      write(static_cast<std::int32_t>(column));
     }
+  };
+  if (row.count <= lanes) {
+    const Spans spans(row, 0);
+    each_column([&](std::int32_t column) { to = spans.write(column, to); });
+  } else if (row.count <= 2 * lanes) {
+    const Spans spans(row, 0), more(row, lanes);
+    each_column([&](std::int32_t column) { to = more.write(column, spans.write(column, to)); });
+  } else {
+    each_column([&](std::int32_t column) {
+      for (std::size_t i = 0; i < row.count; i += lanes) to = Spans(row, i).write(column, to);
+    });
   }
   return to;
 }

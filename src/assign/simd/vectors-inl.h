@@ -43,6 +43,11 @@ HWY_INLINE VI gathered(const std::vector<std::int32_t>& from, VI places) {
   return hn::GatherIndex(DI(), from.data(), places);
 }
 
+// first, first + 1, ... Highway's Iota of a number that is not constant goes through memory.
+HWY_INLINE VI from_on(std::int32_t first) {
+  return hn::Add(hn::Set(DI(), first), hn::Iota(DI(), 0));
+}
+
 // from[0] .. from[count - 1], and 0 beyond if that is less than a vector.
 HWY_INLINE V loaded(const float* from, std::uint32_t count) {
   const D d;
