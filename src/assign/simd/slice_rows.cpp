@@ -109,6 +109,13 @@ HWY_INLINE Hull taken(const Hull& hull, Which which) {
   return {taken(hull.low, which), taken(hull.high, which)};
 }
 
+// The rows that balls may touch, and whether they may touch the first and the last plane of the picture. Other planes
+// above the first and below the last row are out of reach.
+struct BallRows {
+  VI first, count;
+  MI touch_top, touch_bottom;
+};
+
 // Rows of one batch. Rows lie between tile planes; a plane's hull belongs to the row above it and to the one below.
 class Batch {
  public:
@@ -128,19 +135,22 @@ class Batch {
   }
 
   // The rows that each ball may touch, from its extremes y / depth. `wanted`: the lanes that hold a ball.
-  HWY_INLINE void find_rows(M wanted, VI& first, VI& count) const {
+  HWY_INLINE BallRows find_rows(M wanted) const {
     const Sphere sphere = sphere_along(balls_.y);
     const V high = hn::Max(hn::Max(sphere.near_chord.high, sphere.far_chord.high), sphere.high());
     const V low = hn::Min(hn::Min(sphere.near_chord.low, sphere.far_chord.low), sphere.low());
     const V top = all(planes_.slope.front()), bottom = all(planes_.slope[static_cast<std::size_t>(planes_.rows)]);
     const M touches = hn::And(wanted, hn::And(hn::Le(low, hn::Min(high, top)), hn::Ge(high, bottom)));
-    const V scale = all(planes_.rows_per_slope), margin = all(planes_.row_margin);
-    const V from = hn::Mul(hn::Sub(top, hn::Min(high, top)), scale);
-    const V to = hn::Mul(hn::Sub(top, hn::Max(low, bottom)), scale);
-    const VI last_row = hn::Set(DI(), planes_.rows - 1);
-    first = hn::Min(hn::ConvertTo(DI(), hn::Max(hn::Sub(from, margin), hn::Zero(D()))), last_row);
-    const VI last = hn::Min(hn::ConvertTo(DI(), hn::Add(to, margin)), last_row);
-    count = hn::IfThenElseZero(hn::RebindMask(DI(), touches), hn::Add(hn::Sub(last, first), hn::Set(DI(), 1)));
+    const V scale = all(planes_.rows_per_slope), margin = all(planes_.row_margin), zero = hn::Zero(D());
+    const V from = hn::Sub(hn::Mul(hn::Sub(top, hn::Min(high, top)), scale), margin);
+    const V to = hn::Add(hn::Mul(hn::Sub(top, hn::Max(low, bottom)), scale), margin);
+    const VI last_row = all_int(planes_.rows - 1);
+    const VI first = hn::Min(hn::ConvertTo(DI(), hn::Max(from, zero)), last_row);
+    const VI end = hn::ConvertTo(DI(), to), last = hn::Min(end, last_row);
+    const MI touches_rows = hn::RebindMask(DI(), touches);
+    return {first, hn::IfThenElseZero(touches_rows, hn::Add(hn::Sub(last, first), all_int(1))),
+            hn::And(touches_rows, hn::RebindMask(DI(), hn::Lt(from, zero))),
+            hn::And(touches_rows, hn::Gt(end, last_row))};
   }
 
   // `known`: the lanes whose balls are the lights themselves.
@@ -279,96 +289,125 @@ std::uint32_t lanes() {
   return static_cast<std::uint32_t>(hn::Lanes(D()));
 }
 
-// The tile planes that bound a batch's rows, ball by ball from the top, one per lane: plane t belongs to the ball in
-// lane which[t], and to the row below it unless it is the ball's last one.
-class PlanesOfBatch {
+// The rows of a batch, ball by ball from the top, one per lane: row t belongs to the ball in lane lane_of(t). The rows
+// of a ball that touches the top of the picture begin with one above it.
+class RowsOfBatch {
  public:
-  HWY_INLINE PlanesOfBatch(VI first, VI rows, PlaneScratch& scratch) : scratch_(scratch) {
-    const auto n = static_cast<std::uint32_t>(hn::Lanes(D()));
+  HWY_INLINE RowsOfBatch(const BallRows& rows, RowScratch& scratch) : scratch_(scratch) {
+    const auto n = static_cast<std::int32_t>(hn::Lanes(D()));
     std::int32_t counts[k_most_lanes], begins[k_most_lanes];
-    const VI one = hn::Set(DI(), 1);
-    hn::StoreU(hn::IfThenElseZero(hn::Gt(rows, hn::Zero(DI())), hn::Add(rows, one)), DI(), counts);
-    for (std::uint32_t lane = 0; lane < n; ++lane) {
-      begins[lane] = static_cast<std::int32_t>(count_);
-      for (std::int32_t done = 0; done < counts[lane]; done += static_cast<std::int32_t>(n))
-        hn::StoreU(hn::Set(DI(), static_cast<std::int32_t>(lane)), DI(),
-                   scratch.lane.data() + count_ + static_cast<std::uint32_t>(done));
-      count_ += static_cast<std::uint32_t>(counts[lane]);
+    const VI one = all_int(1), above = hn::IfThenElseZero(rows.touch_top, one), listed = hn::Add(rows.count, above);
+    hn::StoreU(listed, DI(), counts);
+    for (std::int32_t lane = 0; lane < n; ++lane) {
+      for (std::int32_t done = 0; done < counts[lane]; done += n)
+        hn::StoreU(all_int(lane), DI(), scratch.lane.data() + count_ + done);
+      begins[lane] = count_;
+      count_ += counts[lane];
     }
     hn::StoreU(hn::Zero(DI()), DI(), scratch.lane.data() + count_);
-    const VI begin = hn::LoadU(DI(), begins);
-    shift_ = hn::Sub(first, begin);
-    end_ = hn::Add(begin, rows);
+    begin_ = hn::LoadU(DI(), begins);
+    shift_ = hn::Sub(hn::Sub(rows.first, above), begin_);
+    const VI end = hn::Add(begin_, listed);
+    planes_end_ = hn::IfThenElse(rows.touch_bottom, end, hn::Sub(end, one));
   }
 
-  std::uint32_t count() const { return count_; }
-  HWY_INLINE VI lane_of(std::uint32_t t) const { return hn::LoadU(DI(), scratch_.lane.data() + t); }
-  // Which tile plane it is, and whether a row of the same ball is below it.
-  HWY_INLINE VI place_of(Which which, std::uint32_t t) const { return hn::Add(taken(shift_, which), numbers(t)); }
-  HWY_INLINE MI has_row(Which which, std::uint32_t t) const { return hn::Lt(numbers(t), taken(end_, which)); }
+  std::int32_t count() const { return count_; }
+  HWY_INLINE VI lane_of(std::int32_t t) const { return hn::LoadU(DI(), scratch_.lane.data() + t); }
+  HWY_INLINE VI lane_of(VI t) const { return gathered(scratch_.lane, t); }
+  // Its number, -1 above the picture.
+  HWY_INLINE VI number_of(Which which, VI t) const { return hn::Add(taken(shift_, which), t); }
+  // Is it its ball's first one?
+  HWY_INLINE MI is_first(Which which, VI t) const { return hn::Eq(taken(begin_, which), t); }
+  // Can its ball touch the tile plane below it?
+  HWY_INLINE MI has_plane(Which which, VI t) const { return hn::Lt(t, taken(planes_end_, which)); }
 
  private:
-  HWY_INLINE static VI numbers(std::uint32_t t) { return from_on(static_cast<std::int32_t>(t)); }
-
-  PlaneScratch& scratch_;
-  std::uint32_t count_ = 0;
-  VI shift_, end_;  // of each ball: first plane - its place in the list; place of its last plane
+  RowScratch& scratch_;
+  std::int32_t count_ = 0;
+  VI begin_, shift_, planes_end_;  // of each ball: where its rows are listed; what is to be added for their numbers
 };
+
+// Beyond the slopes of all planes.
+constexpr float k_beyond = 1e30f;
+
+// What balls have in the tile planes below the listed rows; nothing where they cannot touch it.
+HWY_INLINE void store_planes(const RowPlanes& planes, const Batch& batch, const RowsOfBatch& rows,
+                             RowScratch& scratch) {
+  const D d;
+  const DI di;
+  const auto n = static_cast<std::int32_t>(hn::Lanes(d));
+  float *lows = scratch.lows(), *highs = scratch.highs(), *slopes = scratch.slopes();
+  std::int32_t count = 0;
+  for (std::int32_t begin = 0; begin < rows.count(); begin += n) {
+    const VI t = from_on(begin);
+    const MI wanted =
+        hn::And(rows.has_plane(hn::IndicesFromVec(di, rows.lane_of(begin)), t), hn::Lt(t, all_int(rows.count())));
+    hn::StoreU(hn::Compress(t, wanted), di, scratch.with_plane.data() + count);
+    count += static_cast<std::int32_t>(hn::CountTrue(di, wanted));
+    hn::StoreU(infinity(), d, lows + begin);
+    hn::StoreU(hn::Neg(infinity()), d, highs + begin);
+    hn::StoreU(all(-k_beyond), d, slopes + begin);
+  }
+  const VI nowhere = all_int(scratch.nowhere());
+  for (std::int32_t begin = 0; begin < count; begin += n) {
+    const MI exists = hn::Lt(from_on(begin), all_int(count));
+    const VI t = hn::IfThenElseZero(exists, hn::LoadU(di, scratch.with_plane.data() + begin));
+    const Which which = hn::IndicesFromVec(di, rows.lane_of(t));
+    const VI place = hn::Add(rows.number_of(which, t), all_int(1));
+    const V slope = gathered(planes.slope, place);
+    const Hull hull = batch.plane_hull(which, place, slope);
+    const VI to = hn::IfThenElse(exists, t, nowhere);
+    hn::ScatterIndex(hull.low, d, lows, to);
+    hn::ScatterIndex(hull.high, d, highs, to);
+    hn::ScatterIndex(slope, d, slopes, to);
+  }
+}
 
 void rows_of_batch(const RowPlanes& planes, const SeenBalls& seen, int slice, const std::uint32_t* balls,
                    std::uint32_t count, std::uint32_t first_bound, BatchRows& out) {
   const D d;
   const DI di;
   const DU du;
-  const std::size_t n = hn::Lanes(d);
+  const auto n = static_cast<std::int32_t>(hn::Lanes(d));
   Batch batch(planes, seen, slice, balls);
-  VI first, rows;
-  batch.find_rows(hn::FirstN(d, count), first, rows);
+  const BallRows ball_rows = batch.find_rows(hn::FirstN(d, count));
   out.lanes = static_cast<std::uint32_t>(n);
-  out.tests = static_cast<std::uint32_t>(hn::GetLane(hn::SumOfLanes(di, rows)));
+  out.tests = static_cast<std::uint32_t>(hn::GetLane(hn::SumOfLanes(di, ball_rows.count)));
   if (out.tests == 0) {
     out.last_row = out.first_row - 1;
     return;
   }
-  const auto touches = hn::Gt(rows, hn::Zero(di));
-  const VI end = hn::Add(first, rows), last_plane = hn::Set(di, planes.rows);
-  out.first_row = hn::GetLane(hn::MinOfLanes(di, hn::IfThenElse(touches, first, last_plane)));
+  const MI touches = hn::Gt(ball_rows.count, hn::Zero(di));
+  const VI end = hn::Add(ball_rows.first, ball_rows.count);
+  out.first_row = hn::GetLane(hn::MinOfLanes(di, hn::IfThenElse(touches, ball_rows.first, all_int(planes.rows))));
   out.last_row = hn::GetLane(hn::MaxOfLanes(di, hn::IfThenElseZero(touches, end))) - 1;
-  out.make_room(planes.rows, n);
+  out.make_room(planes.rows, static_cast<std::size_t>(n));
   for (int row = out.first_row; row <= out.last_row; ++row)
-    hn::StoreU(hn::Set(du, BatchRows::k_none), du, out.columns.data() + static_cast<std::size_t>(row) * n);
+    hn::StoreU(hn::Set(du, BatchRows::k_none), du, out.columns.data() + static_cast<std::size_t>(row) * out.lanes);
 
-  const auto lights = hn::GatherIndex(du, seen.light.data(), hn::BitCast(di, hn::LoadU(du, balls)));
+  const VU lights = hn::GatherIndex(du, seen.light.data(), hn::BitCast(di, hn::LoadU(du, balls)));
   hn::StoreU(lights, du, out.lights);
   batch.start_rows(hn::RebindMask(d, hn::Lt(lights, hn::Set(du, first_bound))));
-  PlaneScratch& scratch = out.planes;
-  const PlanesOfBatch all_planes(first, rows, scratch);
-  const auto step = static_cast<std::uint32_t>(n);
-  for (std::uint32_t t = 0; t < all_planes.count(); t += step) {
-    const Which which = hn::IndicesFromVec(di, all_planes.lane_of(t));
-    const VI place = hn::Max(hn::Zero(di), hn::Min(all_planes.place_of(which, t), last_plane));
-    const V slope = gathered(planes.slope, place);
-    const Hull hull = batch.plane_hull(which, place, slope);
-    hn::StoreU(hull.low, d, scratch.low.data() + t);
-    hn::StoreU(hull.high, d, scratch.high.data() + t);
-    hn::StoreU(slope, d, scratch.slope.data() + t);
-  }
-  const VI done = hn::Set(di, planes.rows * static_cast<std::int32_t>(n));
-  for (std::uint32_t t = 0; t < all_planes.count(); t += step) {
-    const VI lane = all_planes.lane_of(t);
+  const RowsOfBatch rows(ball_rows, out.scratch);
+  store_planes(planes, batch, rows, out.scratch);
+  const float *lows = out.scratch.lows(), *highs = out.scratch.highs(), *slopes = out.scratch.slopes();
+  const VI nowhere = all_int(planes.rows * n);
+  for (std::int32_t begin = 0; begin < rows.count(); begin += n) {
+    const VI t = from_on(begin), lane = rows.lane_of(begin);
     const Which which = hn::IndicesFromVec(di, lane);
-    const MI wanted = all_planes.has_row(which, t);
-    const auto hull_of = [&](std::uint32_t at) {
-      return Hull{hn::LoadU(d, scratch.low.data() + at), hn::LoadU(d, scratch.high.data() + at)};
-    };
-    Hull hull = hull_of(t);
-    hull.add(hull_of(t + 1));
-    batch.add_level(which, hn::LoadU(d, scratch.slope.data() + t), hn::LoadU(d, scratch.slope.data() + t + 1), hull);
+    const VI row = rows.number_of(which, t);
+    const MI wanted = hn::And(hn::Gt(row, all_int(-1)), hn::Lt(t, all_int(rows.count())));
+    // The plane above is that below the row before, if both are the same ball's.
+    const M has_above = hn::RebindMask(d, hn::Not(rows.is_first(which, t)));
+    V top = all(k_beyond);
+    Hull hull = {hn::LoadU(d, lows + begin), hn::LoadU(d, highs + begin)};
+    hull.add(has_above, hn::LoadU(d, lows + begin - 1), hn::LoadU(d, highs + begin - 1));
+    top = hn::IfThenElse(has_above, hn::LoadU(d, slopes + begin - 1), top);
+    batch.add_level(which, top, hn::LoadU(d, slopes + begin), hull);
     const V columns = batch.columns_of(which, hull, hn::RebindMask(d, wanted));
-    const VI row = all_planes.place_of(which, t);
-    const VI to = hn::Add(hn::Mul(row, hn::Set(di, static_cast<std::int32_t>(n))), lane);
+    const VI to = hn::Add(hn::Mul(row, all_int(n)), lane);
     hn::ScatterIndex(hn::BitCast(di, columns), di, reinterpret_cast<std::int32_t*>(out.columns.data()),
-                     hn::IfThenElse(wanted, to, done));
+                     hn::IfThenElse(wanted, to, nowhere));
   }
 }
 
@@ -475,13 +514,14 @@ HWY_EXPORT(see);
 void BatchRows::make_room(int of_rows, std::size_t of_lanes) {
   const std::size_t size = (static_cast<std::size_t>(of_rows) + 1) * of_lanes;
   if (columns.size() < size) columns.resize(size);
-  planes.make_room(size + 2 * of_lanes);
+  scratch.make_room(size, of_lanes);
 }
 
-void PlaneScratch::make_room(std::size_t size) {
+void RowScratch::make_room(std::size_t rows, std::size_t of_lanes) {
+  const std::size_t size = rows + 2 * of_lanes;
   if (lane.size() >= size) return;
-  lane.resize(size);
-  for (std::vector<float>* list : {&low, &high, &slope}) list->resize(size);
+  for (std::vector<std::int32_t>* list : {&lane, &with_plane}) list->resize(size);
+  for (std::vector<float>* list : {&low, &high, &slope}) list->resize(size + 2);
 }
 
 namespace {

@@ -62,14 +62,21 @@ inline constexpr float k_slice_rows_roundings = 28.0f;
 void see_balls(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, SeenBalls& seen,
                float roundings = k_slice_rows_roundings);
 
-// What a batch of balls has in the tile planes that bound its rows, plane by plane.
-struct PlaneScratch {
-  std::vector<std::int32_t> lane;  // of the plane's ball
-  std::vector<float> low, high;    // its slopes x / depth
-  std::vector<float> slope;        // the plane's own, y / depth
+// The rows of a batch one after the other, and what their balls have in the tile planes below them.
+struct RowScratch {
+  std::vector<std::int32_t> lane;        // of the row's ball
+  std::vector<std::int32_t> with_plane;  // the rows whose ball may touch the plane below them
+  // Slopes x / depth in the plane, and the plane's own y / depth. One place in front, one behind for what is not
+  // wanted.
+  std::vector<float> low, high, slope;
 
-  void make_room(std::size_t size);
-  std::size_t capacity_bytes() const { return 4 * sizeof(float) * lane.capacity(); }
+  float* lows() { return low.data() + 1; }
+  float* highs() { return high.data() + 1; }
+  float* slopes() { return slope.data() + 1; }
+  std::int32_t nowhere() const { return static_cast<std::int32_t>(low.size()) - 2; }
+
+  void make_room(std::size_t rows, std::size_t of_lanes);
+  std::size_t capacity_bytes() const { return 5 * sizeof(float) * low.capacity(); }
 };
 
 // Rows of a batch of balls within one slice. Of ball i, row r (first_row <= r <= last_row, the rows that any ball may
@@ -86,10 +93,10 @@ struct BatchRows {
   std::uint32_t tests = 0;  // rows of single balls that were looked at
   // One row more than the grid has, for what is not wanted.
   std::vector<std::uint32_t> columns;
-  PlaneScratch planes;
+  RowScratch scratch;
 
   void make_room(int of_rows, std::size_t of_lanes);
-  std::size_t capacity_bytes() const { return columns.capacity() * sizeof(std::uint32_t) + planes.capacity_bytes(); }
+  std::size_t capacity_bytes() const { return columns.capacity() * sizeof(std::uint32_t) + scratch.capacity_bytes(); }
 };
 inline constexpr int k_most_columns = 0x7fff;
 

@@ -33,6 +33,9 @@ using MI = hn::Mask<DI>;
 HWY_INLINE V all(float value) {
   return hn::Set(D(), value);
 }
+HWY_INLINE VI all_int(std::int32_t value) {
+  return hn::Set(DI(), value);
+}
 HWY_INLINE V gathered(const float* from, VI places) {
   return hn::GatherIndex(D(), from, places);
 }
@@ -45,7 +48,7 @@ HWY_INLINE VI gathered(const std::vector<std::int32_t>& from, VI places) {
 
 // first, first + 1, ... Highway's Iota of a number that is not constant goes through memory.
 HWY_INLINE VI from_on(std::int32_t first) {
-  return hn::Add(hn::Set(DI(), first), hn::Iota(DI(), 0));
+  return hn::Add(all_int(first), hn::Iota(DI(), 0));
 }
 
 // from[0] .. from[count - 1], and 0 beyond if that is less than a vector.
