@@ -26,42 +26,47 @@ std::size_t ExactSlices::scratch_bytes() const {
          ends_.capacity() * sizeof(Ends);
 }
 
-// Calls take(light, columns, is_uncertain) for the batch's spans of a row.
+// Calls take(light, columns, is_uncertain) for a batch's spans of a row.
 template <class Take>
-void ExactSlices::each_span(int row, Take&& take) const {
-  const std::uint32_t* columns = rows_.columns.data() + static_cast<std::size_t>(row) * rows_.lanes;
-  for (std::uint32_t lane = 0; lane < rows_.lanes; ++lane)
+void each_span(const BatchRows& batch, int row, Take&& take) {
+  const std::uint32_t* columns = batch.columns.data() + static_cast<std::size_t>(row) * batch.lanes;
+  for (std::uint32_t lane = 0; lane < batch.lanes; ++lane)
     if (columns[lane] != BatchRows::k_none)
-      take(rows_.lights[lane], IndexRange{BatchRows::first_of(columns[lane]), BatchRows::last_of(columns[lane])},
+      take(batch.lights[lane], IndexRange{BatchRows::first_of(columns[lane]), BatchRows::last_of(columns[lane])},
            (columns[lane] & BatchRows::k_uncertain) != 0);
 }
 
 void ExactSlices::add_slice(int slice) {
   const std::span<const std::uint32_t> balls = frame_->balls.of(slice);
-  const std::uint32_t most = balls_per_batch();
+  const std::uint32_t most = k_batches_at_once * balls_per_batch();
   for (std::uint32_t begin = 0; begin < balls.size(); begin += most) {
     const auto count = std::min(most, static_cast<std::uint32_t>(balls.size()) - begin);
-    find_rows(frame_->planes, frame_->seen, slice, balls.data() + begin, count, frame_->lights.points, rows_);
-    tests_ += rows_.tests;
-    if (rows_.tests == 0) continue;
-    spans_.add_batch(rows_.first_row, rows_.last_row, rows_.columns.data(), rows_.lights, is_left_.data());
-    if (rows_.lights[count - 1] >= frame_->lights.points) light_rows(slice);
-    for (int row = rows_.first_row; row <= rows_.last_row; ++row)
-      if (is_left_[static_cast<std::size_t>(row)] != 0) decide_row(slice, row);
+    find_rows(frame_->planes, frame_->seen, {slice, balls.data() + begin, count, frame_->lights.points}, rows_);
+    const bool has_spots = frame_->seen.light[balls[begin + count - 1]] >= frame_->lights.points;
+    for (std::uint32_t i = 0; i < rows_.count; ++i) add_batch(slice, rows_.batches[i], has_spots);
   }
+}
+
+void ExactSlices::add_batch(int slice, const BatchRows& batch, bool has_spots) {
+  tests_ += batch.tests;
+  if (batch.tests == 0) return;
+  spans_.add_batch(batch.first_row, batch.last_row, batch.columns.data(), batch.lights, is_left_.data());
+  if (has_spots) light_rows(slice, batch);
+  for (int row = batch.first_row; row <= batch.last_row; ++row)
+    if (is_left_[static_cast<std::size_t>(row)] != 0) decide_row(slice, batch, row);
 }
 
 // The columns that spots touch, of all of the batch's rows that are left: the ends of each span are looked at a few
 // cells at a time, until both are touched.
-void ExactSlices::light_rows(int slice) {
+void ExactSlices::light_rows(int slice, const BatchRows& batch) {
   const std::size_t k = static_cast<std::size_t>(slice);
   const SpotsAndPlanes from{&frame_->lights, frame_->planes.side.data(), frame_->planes.slope.data(),
                             frame_->planes.depth[k], frame_->planes.depth[k + 1]};
   lit_.clear();
   next_lit_ = 0;
-  for (int row = rows_.first_row; row <= rows_.last_row; ++row)
+  for (int row = batch.first_row; row <= batch.last_row; ++row)
     if (is_left_[static_cast<std::size_t>(row)] != 0)
-      each_span(row, [&](std::uint32_t light, const IndexRange& columns, bool) {
+      each_span(batch, row, [&](std::uint32_t light, const IndexRange& columns, bool) {
         if (frame_->lights.is_spot(light)) lit_.push_back({light, row, columns, true, true});
       });
   while (ask_for_ends()) {
@@ -145,9 +150,9 @@ void ExactSlices::settle(int slice, const Ends& ends) {
   }
 }
 
-void ExactSlices::decide_row(int slice, int row) {
+void ExactSlices::decide_row(int slice, const BatchRows& batch, int row) {
   const Row shape = row_of(frame_->grid.screen(), slice, row);
-  each_span(row, [&](std::uint32_t light, const IndexRange& columns, bool is_uncertain) {
+  each_span(batch, row, [&](std::uint32_t light, const IndexRange& columns, bool is_uncertain) {
     const IndexRange touched = is_uncertain ? decided(shape, columns, light) : columns;
     if (!touched.empty())
       spans_.add(static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(touched.first),

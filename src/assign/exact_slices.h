@@ -42,19 +42,18 @@ class ExactSlices {
   };
 
   void add_slice(int slice);
-  void light_rows(int slice);
+  void add_batch(int slice, const BatchRows& batch, bool has_spots);
+  void light_rows(int slice, const BatchRows& batch);
   bool ask_for_ends();
   void ask(std::uint32_t i, const grid::IndexRange& columns, bool from_left, bool from_right);
   void ask_more_closely();
   void add_closer(std::uint32_t place);
   void settle(int slice, const Ends& ends);
-  void decide_row(int slice, int row);
+  void decide_row(int slice, const BatchRows& batch, int row);
   grid::IndexRange decided(const Row& row, const grid::IndexRange& outer, std::uint32_t light);
-  template <class Take>
-  void each_span(int row, Take&& take) const;
 
   const ExactFrame* frame_ = nullptr;
-  BatchRows rows_;
+  RowBatches rows_;
   std::vector<std::uint8_t> is_left_;
   std::vector<Lit> lit_;  // of a batch, row by row
   std::size_t next_lit_ = 0;

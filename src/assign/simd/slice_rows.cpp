@@ -119,32 +119,39 @@ struct BallRows {
 // Rows of one batch. Rows lie between tile planes; a plane's hull belongs to the row above it and to the one below.
 class Batch {
  public:
-  HWY_INLINE Batch(const RowPlanes& planes, const SeenBalls& seen, int slice, const std::uint32_t* balls)
-      : planes_(planes) {
-    const VI at = hn::BitCast(DI(), hn::LoadU(hn::RebindToUnsigned<DI>(), balls));
+  Batch() = default;
+  // `places`: a vector of them.
+  HWY_INLINE Batch(const RowPlanes& planes, const SeenBalls& seen, const BallsOfSlice& balls,
+                   const std::uint32_t* places)
+      : planes_(&planes) {
+    const VI at = hn::BitCast(DI(), hn::LoadU(DU(), places));
     balls_.x = gathered(seen.x, at);
     balls_.y = gathered(seen.y, at);
     balls_.depth = gathered(seen.depth, at);
     balls_.radius = gathered(seen.radius, at);
     slack_ = gathered(seen.slack, at);
-    const auto k = static_cast<std::size_t>(slice);
+    const auto k = static_cast<std::size_t>(balls.slice);
     near_ = {planes.depth[k], planes.inverse_depth[k]};
     far_ = {planes.depth[k + 1], planes.inverse_depth[k + 1]};
     balls_.near_square = chord_square(near_);
     balls_.far_square = chord_square(far_);
+    lights_ = hn::GatherIndex(DU(), seen.light.data(), at);
+    start_rows(hn::RebindMask(D(), hn::Lt(lights_, hn::Set(DU(), balls.first_bound))));
   }
+
+  VU lights() const { return lights_; }
 
   // The rows that each ball may touch, from its extremes y / depth. `wanted`: the lanes that hold a ball.
   HWY_INLINE BallRows find_rows(M wanted) const {
     const Sphere sphere = sphere_along(balls_.y);
     const V high = hn::Max(hn::Max(sphere.near_chord.high, sphere.far_chord.high), sphere.high());
     const V low = hn::Min(hn::Min(sphere.near_chord.low, sphere.far_chord.low), sphere.low());
-    const V top = all(planes_.slope.front()), bottom = all(planes_.slope[static_cast<std::size_t>(planes_.rows)]);
+    const V top = all(planes_->slope.front()), bottom = all(planes_->slope[static_cast<std::size_t>(planes_->rows)]);
     const M touches = hn::And(wanted, hn::And(hn::Le(low, hn::Min(high, top)), hn::Ge(high, bottom)));
-    const V scale = all(planes_.rows_per_slope), margin = all(planes_.row_margin), zero = hn::Zero(D());
+    const V scale = all(planes_->rows_per_slope), margin = all(planes_->row_margin), zero = hn::Zero(D());
     const V from = hn::Sub(hn::Mul(hn::Sub(top, hn::Min(high, top)), scale), margin);
     const V to = hn::Add(hn::Mul(hn::Sub(top, hn::Max(low, bottom)), scale), margin);
-    const VI last_row = all_int(planes_.rows - 1);
+    const VI last_row = all_int(planes_->rows - 1);
     const VI first = hn::Min(hn::ConvertTo(DI(), hn::Max(from, zero)), last_row);
     const VI end = hn::ConvertTo(DI(), to), last = hn::Min(end, last_row);
     const MI touches_rows = hn::RebindMask(DI(), touches);
@@ -153,31 +160,13 @@ class Batch {
             hn::And(touches_rows, hn::Gt(end, last_row))};
   }
 
-  // `known`: the lanes whose balls are the lights themselves.
-  HWY_INLINE void start_rows(M known) {
-    const V squares = hn::Add(hn::Mul(balls_.x, balls_.x), hn::Mul(balls_.y, balls_.y));
-    const V from_eye = root(hn::Add(squares, hn::Mul(balls_.depth, balls_.depth)));
-    balls_.tangent = root(hn::Mul(hn::Sub(from_eye, balls_.radius), hn::Add(from_eye, balls_.radius)));
-
-    const Sphere sphere = sphere_along(balls_.x);
-    const V inverse = hn::Div(all(1.0f), sphere.tangents.square);
-    level_ = {balls_.y,
-              least_area(known),
-              sphere.near_chord,
-              sphere.far_chord,
-              sphere.low(),
-              sphere.high(),
-              hn::Mul(sphere.tangents.low_depth, inverse),
-              hn::Mul(sphere.tangents.high_depth, inverse)};
-  }
-
   // What lies in tile plane `place` of the balls in which[i], between the slice's planes.
   HWY_INLINE Hull plane_hull(Which which, VI place, V slope) const {
     const PlaneBalls ball = {taken(balls_.x, which),         taken(balls_.y, which),
                              taken(balls_.depth, which),     taken(balls_.radius, which),
                              taken(balls_.tangent, which),   taken(balls_.near_square, which),
                              taken(balls_.far_square, which)};
-    const V tilt = gathered(planes_.tilt, place), inverse = gathered(planes_.inverse_tilt, place);
+    const V tilt = gathered(planes_->tilt, place), inverse = gathered(planes_->inverse_tilt, place);
     const V away = hn::Mul(hn::Sub(ball.y, hn::Mul(slope, ball.depth)), inverse);
     const V ahead = hn::Mul(hn::Add(hn::Mul(slope, ball.y), ball.depth), inverse);
     const V square = hn::Mul(hn::Sub(ball.radius, away), hn::Add(ball.radius, away));
@@ -217,12 +206,12 @@ class Batch {
   // distance times h is at least 4 d R q² = 8 slack R q², in columns the `least_area`. And the given ball reaches the
   // row at all if R - g >= d, which follows from h² >= 8 d R q².
   HWY_INLINE V columns_of(Which which, const Hull& hull, M wanted) const {
-    const V left = all(planes_.left), right = all(planes_.right), scale = all(planes_.columns_per_slope);
-    const V margin = all(planes_.column_margin), one = all(1.0f);
+    const V left = all(planes_->left), right = all(planes_->right), scale = all(planes_->columns_per_slope);
+    const V margin = all(planes_->column_margin), one = all(1.0f);
     const M touches = hn::And(wanted, hn::And(hn::Le(hull.low, hn::Min(hull.high, right)), hn::Ge(hull.high, left)));
     const V low = hn::Max(hull.low, left), high = hn::Min(hull.high, right);
     const V from = hn::Mul(hn::Sub(low, left), scale), to = hn::Mul(hn::Sub(high, left), scale);
-    const V last_column = all(static_cast<float>(planes_.columns - 1));
+    const V last_column = all(static_cast<float>(planes_->columns - 1));
     const V first = hn::Min(hn::Floor(hn::Max(hn::Sub(from, margin), hn::Zero(D()))), last_column);
     const V last = hn::Min(hn::Floor(hn::Add(to, margin)), last_column);
     const V width = hn::Sub(to, from), steepness = hn::Add(one, hn::Max(hn::Mul(low, low), hn::Mul(high, high)));
@@ -240,6 +229,24 @@ class Batch {
   }
 
  private:
+  // `known`: the lanes whose balls are the lights themselves.
+  HWY_INLINE void start_rows(M known) {
+    const V squares = hn::Add(hn::Mul(balls_.x, balls_.x), hn::Mul(balls_.y, balls_.y));
+    const V from_eye = root(hn::Add(squares, hn::Mul(balls_.depth, balls_.depth)));
+    balls_.tangent = root(hn::Mul(hn::Sub(from_eye, balls_.radius), hn::Add(from_eye, balls_.radius)));
+
+    const Sphere sphere = sphere_along(balls_.x);
+    const V inverse = hn::Div(all(1.0f), sphere.tangents.square);
+    level_ = {balls_.y,
+              least_area(known),
+              sphere.near_chord,
+              sphere.far_chord,
+              sphere.low(),
+              sphere.high(),
+              hn::Mul(sphere.tangents.low_depth, inverse),
+              hn::Mul(sphere.tangents.high_depth, inverse)};
+  }
+
   // The sphere where it is level with its centre: chords in the slice's planes, and tangents in between.
   struct Sphere {
     Hull near_chord, far_chord;
@@ -266,7 +273,7 @@ class Batch {
 
   // See Certainty.
   HWY_INLINE V least_area(M known) const {
-    const V rate = all(planes_.columns_per_slope * near_.inverse);
+    const V rate = all(planes_->columns_per_slope * near_.inverse);
     const V area = hn::Mul(hn::Mul(all(8.2f), hn::Mul(slack_, balls_.radius)), hn::Mul(rate, rate));
     return hn::IfThenElse(known, area, infinity());
   }
@@ -278,10 +285,11 @@ class Batch {
              hn::Mul(hn::Add(middle, half), inverse));
   }
 
-  const RowPlanes& planes_;
+  const RowPlanes* planes_ = nullptr;
   PlaneBalls balls_;
   LevelBalls level_;
   V slack_;
+  VU lights_;
   SlicePlane near_, far_;
 };
 
@@ -293,7 +301,8 @@ std::uint32_t lanes() {
 // of a ball that touches the top of the picture begin with one above it.
 class RowsOfBatch {
  public:
-  HWY_INLINE RowsOfBatch(const BallRows& rows, RowScratch& scratch) : scratch_(scratch) {
+  RowsOfBatch() = default;
+  HWY_INLINE RowsOfBatch(const BallRows& rows, RowScratch& scratch) : scratch_(&scratch) {
     const auto n = static_cast<std::int32_t>(hn::Lanes(D()));
     std::int32_t counts[k_most_lanes], begins[k_most_lanes];
     const VI one = all_int(1), above = hn::IfThenElseZero(rows.touch_top, one), listed = hn::Add(rows.count, above);
@@ -312,8 +321,8 @@ class RowsOfBatch {
   }
 
   std::int32_t count() const { return count_; }
-  HWY_INLINE VI lane_of(std::int32_t t) const { return hn::LoadU(DI(), scratch_.lane.data() + t); }
-  HWY_INLINE VI lane_of(VI t) const { return gathered(scratch_.lane, t); }
+  HWY_INLINE VI lane_of(std::int32_t t) const { return hn::LoadU(DI(), scratch_->lane.data() + t); }
+  HWY_INLINE VI lane_of(VI t) const { return gathered(scratch_->lane, t); }
   // Its number, -1 above the picture.
   HWY_INLINE VI number_of(Which which, VI t) const { return hn::Add(taken(shift_, which), t); }
   // Is it its ball's first one?
@@ -322,7 +331,7 @@ class RowsOfBatch {
   HWY_INLINE MI has_plane(Which which, VI t) const { return hn::Lt(t, taken(planes_end_, which)); }
 
  private:
-  RowScratch& scratch_;
+  RowScratch* scratch_ = nullptr;
   std::int32_t count_ = 0;
   VI begin_, shift_, planes_end_;  // of each ball: where its rows are listed; what is to be added for their numbers
 };
@@ -363,35 +372,30 @@ HWY_INLINE void store_planes(const RowPlanes& planes, const Batch& batch, const 
   }
 }
 
-void rows_of_batch(const RowPlanes& planes, const SeenBalls& seen, int slice, const std::uint32_t* balls,
-                   std::uint32_t count, std::uint32_t first_bound, BatchRows& out) {
+// What is known of a batch before its rows: how many there are, which light each ball is of, and no columns yet.
+HWY_INLINE void start_batch(int grid_rows, const BallRows& rows, VU lights, BatchRows& out) {
+  const DI di;
+  const std::size_t n = hn::Lanes(di);
+  out.lanes = static_cast<std::uint32_t>(n);
+  out.make_room(grid_rows, n);
+  hn::StoreU(lights, DU(), out.lights);
+  out.tests = static_cast<std::uint32_t>(hn::GetLane(hn::SumOfLanes(di, rows.count)));
+  const MI touches = hn::Gt(rows.count, hn::Zero(di));
+  const VI end = hn::IfThenElseZero(touches, hn::Add(rows.first, rows.count));
+  out.first_row = hn::GetLane(hn::MinOfLanes(di, hn::IfThenElse(touches, rows.first, all_int(grid_rows))));
+  out.last_row = hn::GetLane(hn::MaxOfLanes(di, end)) - 1;
+  for (int row = out.first_row; row <= out.last_row; ++row)
+    hn::StoreU(hn::Set(DU(), BatchRows::k_none), DU(), out.columns.data() + static_cast<std::size_t>(row) * n);
+}
+
+// The columns of all rows, from what was stored of their planes.
+HWY_INLINE void find_columns(const Batch& batch, const RowsOfBatch& rows, int grid_rows, RowScratch& scratch,
+                             BatchRows& out) {
   const D d;
   const DI di;
-  const DU du;
   const auto n = static_cast<std::int32_t>(hn::Lanes(d));
-  Batch batch(planes, seen, slice, balls);
-  const BallRows ball_rows = batch.find_rows(hn::FirstN(d, count));
-  out.lanes = static_cast<std::uint32_t>(n);
-  out.tests = static_cast<std::uint32_t>(hn::GetLane(hn::SumOfLanes(di, ball_rows.count)));
-  if (out.tests == 0) {
-    out.last_row = out.first_row - 1;
-    return;
-  }
-  const MI touches = hn::Gt(ball_rows.count, hn::Zero(di));
-  const VI end = hn::Add(ball_rows.first, ball_rows.count);
-  out.first_row = hn::GetLane(hn::MinOfLanes(di, hn::IfThenElse(touches, ball_rows.first, all_int(planes.rows))));
-  out.last_row = hn::GetLane(hn::MaxOfLanes(di, hn::IfThenElseZero(touches, end))) - 1;
-  out.make_room(planes.rows, static_cast<std::size_t>(n));
-  for (int row = out.first_row; row <= out.last_row; ++row)
-    hn::StoreU(hn::Set(du, BatchRows::k_none), du, out.columns.data() + static_cast<std::size_t>(row) * out.lanes);
-
-  const VU lights = hn::GatherIndex(du, seen.light.data(), hn::BitCast(di, hn::LoadU(du, balls)));
-  hn::StoreU(lights, du, out.lights);
-  batch.start_rows(hn::RebindMask(d, hn::Lt(lights, hn::Set(du, first_bound))));
-  const RowsOfBatch rows(ball_rows, out.scratch);
-  store_planes(planes, batch, rows, out.scratch);
-  const float *lows = out.scratch.lows(), *highs = out.scratch.highs(), *slopes = out.scratch.slopes();
-  const VI nowhere = all_int(planes.rows * n);
+  const float *lows = scratch.lows(), *highs = scratch.highs(), *slopes = scratch.slopes();
+  const VI nowhere = all_int(grid_rows * n);
   for (std::int32_t begin = 0; begin < rows.count(); begin += n) {
     const VI t = from_on(begin), lane = rows.lane_of(begin);
     const Which which = hn::IndicesFromVec(di, lane);
@@ -399,16 +403,38 @@ void rows_of_batch(const RowPlanes& planes, const SeenBalls& seen, int slice, co
     const MI wanted = hn::And(hn::Gt(row, all_int(-1)), hn::Lt(t, all_int(rows.count())));
     // The plane above is that below the row before, if both are the same ball's.
     const M has_above = hn::RebindMask(d, hn::Not(rows.is_first(which, t)));
-    V top = all(k_beyond);
+    const V top = hn::IfThenElse(has_above, hn::LoadU(d, slopes + begin - 1), all(k_beyond));
     Hull hull = {hn::LoadU(d, lows + begin), hn::LoadU(d, highs + begin)};
     hull.add(has_above, hn::LoadU(d, lows + begin - 1), hn::LoadU(d, highs + begin - 1));
-    top = hn::IfThenElse(has_above, hn::LoadU(d, slopes + begin - 1), top);
     batch.add_level(which, top, hn::LoadU(d, slopes + begin), hull);
     const V columns = batch.columns_of(which, hull, hn::RebindMask(d, wanted));
     const VI to = hn::Add(hn::Mul(row, all_int(n)), lane);
     hn::ScatterIndex(hn::BitCast(di, columns), di, reinterpret_cast<std::int32_t*>(out.columns.data()),
                      hn::IfThenElse(wanted, to, nowhere));
   }
+}
+
+// Step by step for all batches, because the steps of one wait for each other.
+void rows_of_batches(const RowPlanes& planes, const SeenBalls& seen, const BallsOfSlice& balls, RowBatches& out) {
+  const D d;
+  const auto n = static_cast<std::uint32_t>(hn::Lanes(d));
+  const std::uint32_t count = (balls.count + n - 1) / n;
+  Batch batches[k_batches_at_once];
+  BallRows ball_rows[k_batches_at_once];
+  RowsOfBatch rows[k_batches_at_once];
+  for (std::uint32_t i = 0; i < count; ++i) {
+    batches[i] = Batch(planes, seen, balls, balls.places + i * n);
+    ball_rows[i] = batches[i].find_rows(hn::FirstN(d, balls.count - i * n));
+  }
+  for (std::uint32_t i = 0; i < count; ++i) {
+    out.scratch[i].make_room(planes.rows, n);
+    start_batch(planes.rows, ball_rows[i], batches[i].lights(), out.batches[i]);
+    rows[i] = RowsOfBatch(ball_rows[i], out.scratch[i]);
+  }
+  for (std::uint32_t i = 0; i < count; ++i) store_planes(planes, batches[i], rows[i], out.scratch[i]);
+  for (std::uint32_t i = 0; i < count; ++i)
+    find_columns(batches[i], rows[i], planes.rows, out.scratch[i], out.batches[i]);
+  out.count = count;
 }
 
 // The sides of the picture as planes through the eye, and the grid's ends in depth.
@@ -508,20 +534,26 @@ HWY_AFTER_NAMESPACE();
 namespace clusterbench::assign {
 
 HWY_EXPORT(lanes);
-HWY_EXPORT(rows_of_batch);
+HWY_EXPORT(rows_of_batches);
 HWY_EXPORT(see);
 
 void BatchRows::make_room(int of_rows, std::size_t of_lanes) {
   const std::size_t size = (static_cast<std::size_t>(of_rows) + 1) * of_lanes;
   if (columns.size() < size) columns.resize(size);
-  scratch.make_room(size, of_lanes);
 }
 
-void RowScratch::make_room(std::size_t rows, std::size_t of_lanes) {
-  const std::size_t size = rows + 2 * of_lanes;
+void RowScratch::make_room(int of_rows, std::size_t of_lanes) {
+  const std::size_t size = (static_cast<std::size_t>(of_rows) + 3) * of_lanes;
   if (lane.size() >= size) return;
   for (std::vector<std::int32_t>* list : {&lane, &with_plane}) list->resize(size);
   for (std::vector<float>* list : {&low, &high, &slope}) list->resize(size + 2);
+}
+
+std::size_t RowBatches::capacity_bytes() const {
+  std::size_t bytes = 0;
+  for (const BatchRows& batch : batches) bytes += batch.capacity_bytes();
+  for (const RowScratch& rows : scratch) bytes += rows.capacity_bytes();
+  return bytes;
 }
 
 namespace {
@@ -599,9 +631,8 @@ std::uint32_t balls_per_batch() {
   return HWY_DYNAMIC_DISPATCH(lanes)();
 }
 
-void find_rows(const RowPlanes& planes, const SeenBalls& seen, int slice, const std::uint32_t* balls,
-               std::uint32_t count, std::uint32_t first_bound, BatchRows& out) {
-  HWY_DYNAMIC_DISPATCH(rows_of_batch)(planes, seen, slice, balls, count, first_bound, out);
+void find_rows(const RowPlanes& planes, const SeenBalls& seen, const BallsOfSlice& balls, RowBatches& out) {
+  HWY_DYNAMIC_DISPATCH(rows_of_batches)(planes, seen, balls, out);
 }
 
 }  // namespace clusterbench::assign

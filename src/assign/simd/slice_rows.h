@@ -11,6 +11,7 @@
 // too large an answer can be is bounded, too: see Certainty in slice_rows.cpp. Rows for which that may matter are
 // marked.
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -62,23 +63,6 @@ inline constexpr float k_slice_rows_roundings = 28.0f;
 void see_balls(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, SeenBalls& seen,
                float roundings = k_slice_rows_roundings);
 
-// The rows of a batch one after the other, and what their balls have in the tile planes below them.
-struct RowScratch {
-  std::vector<std::int32_t> lane;        // of the row's ball
-  std::vector<std::int32_t> with_plane;  // the rows whose ball may touch the plane below them
-  // Slopes x / depth in the plane, and the plane's own y / depth. One place in front, one behind for what is not
-  // wanted.
-  std::vector<float> low, high, slope;
-
-  float* lows() { return low.data() + 1; }
-  float* highs() { return high.data() + 1; }
-  float* slopes() { return slope.data() + 1; }
-  std::int32_t nowhere() const { return static_cast<std::int32_t>(low.size()) - 2; }
-
-  void make_room(std::size_t rows, std::size_t of_lanes);
-  std::size_t capacity_bytes() const { return 5 * sizeof(float) * low.capacity(); }
-};
-
 // Rows of a batch of balls within one slice. Of ball i, row r (first_row <= r <= last_row, the rows that any ball may
 // touch) has the columns at columns[r * lanes + i].
 struct BatchRows {
@@ -93,18 +77,50 @@ struct BatchRows {
   std::uint32_t tests = 0;  // rows of single balls that were looked at
   // One row more than the grid has, for what is not wanted.
   std::vector<std::uint32_t> columns;
-  RowScratch scratch;
 
   void make_room(int of_rows, std::size_t of_lanes);
-  std::size_t capacity_bytes() const { return columns.capacity() * sizeof(std::uint32_t) + scratch.capacity_bytes(); }
+  std::size_t capacity_bytes() const { return columns.capacity() * sizeof(std::uint32_t); }
 };
 inline constexpr int k_most_columns = 0x7fff;
 
 // How many balls a batch holds on this machine.
 std::uint32_t balls_per_batch();
-// `balls`: places in `seen`, from which a whole vector can be read; `count` of them, at most balls_per_batch(), are
-// wanted. The balls of lights from `first_bound` on only bound what is lit: all of their rows are uncertain.
-void find_rows(const RowPlanes& planes, const SeenBalls& seen, int slice, const std::uint32_t* balls,
-               std::uint32_t count, std::uint32_t first_bound, BatchRows& out);
+
+// The rows of a batch one after the other, and what their balls have in the tile planes below them.
+struct RowScratch {
+  std::vector<std::int32_t> lane;        // of the row's ball
+  std::vector<std::int32_t> with_plane;  // the rows whose ball may touch the plane below them
+  // Slopes x / depth in the plane, and the plane's own y / depth. One place in front, one behind for what is not
+  // wanted.
+  std::vector<float> low, high, slope;
+
+  float* lows() { return low.data() + 1; }
+  float* highs() { return high.data() + 1; }
+  float* slopes() { return slope.data() + 1; }
+  std::int32_t nowhere() const { return static_cast<std::int32_t>(low.size()) - 2; }
+
+  void make_room(int of_rows, std::size_t of_lanes);
+  std::size_t capacity_bytes() const { return 5 * sizeof(float) * low.capacity(); }
+};
+
+// Some batches of a slice, ascending by light.
+inline constexpr std::uint32_t k_batches_at_once = 4;
+struct RowBatches {
+  std::uint32_t count = 0;
+  std::array<BatchRows, k_batches_at_once> batches;
+  std::array<RowScratch, k_batches_at_once> scratch;
+
+  std::size_t capacity_bytes() const;
+};
+
+// Balls of one slice: places in SeenBalls, from which a whole vector can be read beyond `count`. The balls of lights
+// from `first_bound` on only bound what is lit: all of their rows are uncertain.
+struct BallsOfSlice {
+  int slice;
+  const std::uint32_t* places;
+  std::uint32_t count;  // at most k_batches_at_once * balls_per_batch()
+  std::uint32_t first_bound;
+};
+void find_rows(const RowPlanes& planes, const SeenBalls& seen, const BallsOfSlice& balls, RowBatches& out);
 
 }  // namespace clusterbench::assign
