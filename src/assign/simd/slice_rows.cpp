@@ -92,9 +92,11 @@ struct PlaneBalls {
 
 // What rows have of their balls: the extremes at the centre's own height. Where there are none, an empty hull.
 struct LevelBalls {
-  V y, least_area;  // the area: for rows straight ahead
+  V y, y_square;
+  V least_area;  // for rows straight ahead
   Hull near_chord, far_chord;
-  V low, high, low_depth, high_depth;  // the sphere's tangents, and the depths at which they touch
+  V low, high, low_depth,
+      high_depth;  // the sphere's tangents; the depths at which they touch, as y_square times square
 };
 
 // Lane i of the answer is lane which[i] of the value.
@@ -187,13 +189,13 @@ class Batch {
 
   // Adds the sphere's own extremes at the centre's height, where that is between two tile planes.
   HWY_INLINE void add_level(Which which, V top, V bottom, Hull& hull) const {
-    const V y = taken(level_.y, which);
-    const auto is_level = [&](V depth) { return is_between(hn::Mul(bottom, depth), y, hn::Mul(top, depth)); };
+    const auto is_level = [&](V y, V depth) { return is_between(hn::Mul(bottom, depth), y, hn::Mul(top, depth)); };
+    const V y = taken(level_.y, which), y_square = taken(level_.y_square, which);
     const Hull near_chord = taken(level_.near_chord, which), far_chord = taken(level_.far_chord, which);
-    hull.add(is_level(all(near_.depth)), near_chord.low, near_chord.high);
-    hull.add(is_level(all(far_.depth)), far_chord.low, far_chord.high);
-    hull.add_low(is_level(taken(level_.low_depth, which)), taken(level_.low, which));
-    hull.add_high(is_level(taken(level_.high_depth, which)), taken(level_.high, which));
+    hull.add(is_level(y, all(near_.depth)), near_chord.low, near_chord.high);
+    hull.add(is_level(y, all(far_.depth)), far_chord.low, far_chord.high);
+    hull.add_low(is_level(y_square, taken(level_.low_depth, which)), taken(level_.low, which));
+    hull.add_high(is_level(y_square, taken(level_.high_depth, which)), taken(level_.high, which));
   }
 
   // Certainty. The hull is that of a ball between the given one and the given one with twice the slack, d. Let m be the
@@ -231,20 +233,20 @@ class Batch {
  private:
   // `known`: the lanes whose balls are the lights themselves.
   HWY_INLINE void start_rows(M known) {
-    const V squares = hn::Add(hn::Mul(balls_.x, balls_.x), hn::Mul(balls_.y, balls_.y));
-    const V from_eye = root(hn::Add(squares, hn::Mul(balls_.depth, balls_.depth)));
-    balls_.tangent = root(hn::Mul(hn::Sub(from_eye, balls_.radius), hn::Add(from_eye, balls_.radius)));
-
+    balls_.tangent = tangent_from_eye(hn::Add(hn::Mul(balls_.x, balls_.x), hn::Mul(balls_.y, balls_.y)));
     const Sphere sphere = sphere_along(balls_.x);
-    const V inverse = hn::Div(all(1.0f), sphere.tangents.square);
-    level_ = {balls_.y,
-              least_area(known),
-              sphere.near_chord,
-              sphere.far_chord,
-              sphere.low(),
-              sphere.high(),
-              hn::Mul(sphere.tangents.low_depth, inverse),
-              hn::Mul(sphere.tangents.high_depth, inverse)};
+    const Tangents& tangents = sphere.tangents;
+    level_ = {balls_.y,           hn::Mul(balls_.y, tangents.square),
+              least_area(known),  sphere.near_chord,
+              sphere.far_chord,   sphere.low(),
+              sphere.high(),      tangents.low_depth,
+              tangents.high_depth};
+  }
+
+  // How far away the spheres' tangents touch. `aside`: the square of the centre's distance from straight ahead.
+  HWY_INLINE V tangent_from_eye(V aside) const {
+    const V ahead = hn::Mul(hn::Sub(balls_.depth, balls_.radius), hn::Add(balls_.depth, balls_.radius));
+    return root(hn::Add(ahead, aside));
   }
 
   // The sphere where it is level with its centre: chords in the slice's planes, and tangents in between.
@@ -257,8 +259,7 @@ class Batch {
   };
 
   HWY_INLINE Sphere sphere_along(V across) const {
-    const V distance = root(hn::Add(hn::Mul(across, across), hn::Mul(balls_.depth, balls_.depth)));
-    const V tangent = root(hn::Mul(hn::Sub(distance, balls_.radius), hn::Add(distance, balls_.radius)));
+    const V tangent = tangent_from_eye(hn::Mul(across, across));
     Sphere sphere{empty_hull(), empty_hull(),
                   tangents_of(across, balls_.depth, balls_.radius, tangent, all(near_.depth), all(far_.depth))};
     add_chord(near_, across, balls_.near_square, sphere.near_chord);
@@ -494,6 +495,7 @@ void see(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_l
   const hn::RebindToUnsigned<D> du;
   const auto n = static_cast<std::uint32_t>(hn::Lanes(d));
   const View view(planes);
+  const std::uint32_t before = seen.count;
   for (std::uint32_t i = 0; i < balls.count; i += n) {
     const std::uint32_t left = std::min(n, balls.count - i);
     const auto load = [&](const float* from) { return loaded(from + i, left); };
@@ -516,12 +518,14 @@ void see(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_l
     keep(slack, seen.slack);
     const auto lights = hn::BitCast(du, from_on(static_cast<std::int32_t>(first_light + i)));
     hn::StoreU(hn::Compress(lights, hn::RebindMask(du, wanted)), du, seen.light.data() + seen.count);
-    const auto keep_slice = [&](VI value, std::vector<std::int32_t>& to) {
-      hn::StoreU(hn::Compress(value, hn::RebindMask(di, wanted)), di, to.data() + seen.count);
-    };
-    keep_slice(planes_below<false>(planes, hn::Sub(depth, radius), planes.slices - 1), seen.first_slice);
-    keep_slice(planes_below<true>(planes, hn::Add(depth, radius), planes.slices - 1), seen.last_slice);
     seen.count += static_cast<std::uint32_t>(kept);
+  }
+  for (std::uint32_t i = before; i < seen.count; i += n) {
+    const V depth = hn::LoadU(d, seen.depth.data() + i), radius = hn::LoadU(d, seen.radius.data() + i);
+    const VI first = planes_below<false>(planes, hn::Sub(depth, radius), planes.slices - 1);
+    const VI last = planes_below<true>(planes, hn::Add(depth, radius), planes.slices - 1);
+    hn::StoreU(first, di, seen.first_slice.data() + i);
+    hn::StoreU(last, di, seen.last_slice.data() + i);
   }
 }
 
