@@ -71,10 +71,12 @@ void ExactSlices::light_rows(int slice, const BatchRows& batch) {
       });
   while (ask_for_ends()) {
     tests_ += cells_.count;
-    look_at_cells(from, cells_);
-    ask_more_closely();
-    look_closely_at_cells(from, closer_);
-    for (std::uint32_t i = 0; i < closer_.count; ++i) cells_.touch[closer_places_[i]] = closer_.touch[i];
+    look_at_cells(from, Look::quick, cells_);
+    for (const Look how : {Look::closer, Look::thorough}) {
+      ask_more_closely();
+      look_at_cells(from, how, closer_);
+      for (std::uint32_t i = 0; i < closer_.count; ++i) cells_.touch[closer_places_[i]] = closer_.touch[i];
+    }
     for (const Ends& ends : ends_) settle(slice, ends);
   }
 }

@@ -31,6 +31,10 @@ HWY_INLINE Point operator*(V s, const Point& a) {
 HWY_INLINE V dot(const Point& a, const Point& b) {
   return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.depth, b.depth));
 }
+HWY_INLINE Point cross(const Point& a, const Point& b) {
+  return {hn::Sub(hn::Mul(a.y, b.depth), hn::Mul(a.depth, b.y)), hn::Sub(hn::Mul(a.depth, b.x), hn::Mul(a.x, b.depth)),
+          hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
+}
 HWY_INLINE V length(const Point& a) {
   return hn::Sqrt(dot(a, a));
 }
@@ -169,7 +173,194 @@ class Cells {
     return hn::Or(apart, hn::Gt(hn::Sub(least_along(normal), extent(dot(normal, cone_.axis))), tolerance_));
   }
 
+  // The mean of all places where cell ∩ volume can be extreme (geom/candidates.h), which lies inside of it; and planes
+  // along the cone's side that are equally far from both ends of an edge. The nearest such place tells more of them.
+  HWY_INLINE void settle(M& common, M& apart) const {
+    const V zero = hn::Zero(D());
+    Extremes extremes{{zero, zero, zero}, zero, {zero, zero, zero}, all(k_none)};
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      take_corner(from_apex_[corner], extremes);
+      for (const unsigned bit : {1u, 2u, 4u})
+        if ((corner & bit) == 0) take_edge(from_apex_[corner], from_apex_[corner | bit], extremes);
+    }
+    each_face([&](const Point& outward, V offset) {
+      const V scale = hn::Div(all(1.0f), length(outward));
+      take_face(scale * outward, hn::Mul(scale, hn::Sub(offset, dot(outward, cone_.apex))), extremes);
+    });
+    take_in_cell(cone_.range * cone_.axis, yes(), extremes);
+    common = is_common(hn::Div(all(1.0f), hn::Max(extremes.count, all(1.0f))) * extremes.sum);
+    apart = hn::Or(is_beside_edges(), is_beyond(extremes));
+  }
+
  private:
+  static constexpr float k_none = 1e30f;
+  // Places that lie in cell and volume, by and large: their sum, and the one nearest to the apex of those that lie in
+  // cell and endless cone.
+  struct Extremes {
+    Point sum;
+    V count;
+    Point nearest;
+    V least;  // its square distance; k_none without one
+
+    // `where` it lies in cell and endless cone, and where in the range, too.
+    HWY_INLINE void take(M where, M in_range, const Point& v) {
+      const M counts = hn::And(where, in_range);
+      const auto kept = [&](V value) { return hn::IfThenElseZero(counts, value); };
+      sum = sum + Point{kept(v.x), kept(v.y), kept(v.depth)};
+      count = hn::Add(count, kept(all(1.0f)));
+      const V square = dot(v, v);
+      const M is_nearer = hn::And(where, hn::Lt(square, least));
+      least = hn::IfThenElse(is_nearer, square, least);
+      nearest = chosen(is_nearer, v, nearest);
+    }
+  };
+
+  HWY_INLINE static Point chosen(M where, const Point& a, const Point& b) {
+    return {hn::IfThenElse(where, a.x, b.x), hn::IfThenElse(where, a.y, b.y), hn::IfThenElse(where, a.depth, b.depth)};
+  }
+  HWY_INLINE static M yes() { return hn::Eq(hn::Zero(D()), hn::Zero(D())); }
+
+  // By and large: the tolerance is on their side.
+  HWY_INLINE M is_in_cone(const Point& v) const {
+    const V along = dot(v, cone_.axis), across = length(v - along * cone_.axis);
+    return hn::Ge(hn::Sub(hn::Mul(cone_.sine, along), hn::Mul(cone_.cosine, across)), hn::Neg(tolerance_));
+  }
+  HWY_INLINE M is_in_range(const Point& v) const {
+    const V range = hn::Add(cone_.range, tolerance_);
+    return hn::Le(dot(v, v), hn::Mul(range, range));
+  }
+  HWY_INLINE M is_in_cell(const Point& v) const {
+    M is_in = yes();
+    each_face([&](const Point& outward, V offset) {
+      const V margin = hn::Sub(offset, dot(outward, cone_.apex + v));
+      is_in = hn::And(is_in, hn::Ge(margin, hn::Neg(hn::Add(tolerance_, tolerance_))));
+    });
+    return is_in;
+  }
+
+  HWY_INLINE void take_corner(const Point& v, Extremes& extremes) const {
+    extremes.take(is_in_cone(v), is_in_range(v), v);
+  }
+  // A place of the volume's surface, if it is in the cell.
+  HWY_INLINE void take_in_cell(const Point& v, M where, Extremes& extremes) const {
+    extremes.take(hn::And(where, is_in_cell(v)), is_in_range(v), v);
+  }
+
+  // Where it is nearest to the apex, and where it meets the cone's side and the sphere.
+  HWY_INLINE void take_edge(const Point& start, const Point& end, Extremes& extremes) const {
+    const Point step = end - start;
+    const auto take_at = [&](M exists, V t) {
+      const M is_on = hn::And(exists, hn::And(hn::Ge(t, hn::Zero(D())), hn::Le(t, all(1.0f))));
+      const Point v = start + t * step;
+      extremes.take(hn::And(is_on, is_in_cone(v)), is_in_range(v), v);
+    };
+    const auto take_roots = [&](V a, V b, V c) {  // of a t² + 2 b t + c
+      const V square = hn::Sub(hn::Mul(b, b), hn::Mul(a, c));
+      const M exist = hn::Ge(square, hn::Zero(D()));
+      const V q = hn::Neg(hn::Add(b, hn::CopySign(hn::Sqrt(hn::Max(square, hn::Zero(D()))), b)));
+      take_at(exist, hn::Div(q, a));
+      take_at(exist, hn::Div(c, q));
+    };
+    const V start_square = dot(start, start), mixed = dot(start, step), step_square = dot(step, step);
+    take_at(yes(), hn::Neg(hn::Div(mixed, step_square)));
+    take_roots(step_square, mixed, hn::Sub(start_square, hn::Mul(cone_.range, cone_.range)));
+    // sin² along² = cos² across².
+    const V start_along = dot(start, cone_.axis), step_along = dot(step, cone_.axis);
+    const Point start_across = start - start_along * cone_.axis, step_across = step - step_along * cone_.axis;
+    const auto form = [&](V along1, V along2, const Point& across1, const Point& across2) {
+      const V s2 = hn::Mul(cone_.sine, cone_.sine), c2 = hn::Mul(cone_.cosine, cone_.cosine);
+      return hn::Sub(hn::Mul(s2, hn::Mul(along1, along2)), hn::Mul(c2, dot(across1, across2)));
+    };
+    take_roots(form(step_along, step_along, step_across, step_across),
+               form(start_along, step_along, start_across, step_across),
+               form(start_along, start_along, start_across, start_across));
+  }
+
+  // Unit normal; margin: how far the apex is on the inner side. The foot of the apex, the sphere's deepest place,
+  // the generators in the plane of axis and normal: where they meet the face, and their ends; and two places on the
+  // rim.
+  HWY_INLINE void take_face(const Point& outward, V margin, Extremes& extremes) const {
+    const Point foot = margin * outward, deepest = hn::Neg(cone_.range) * outward;
+    take_in_cell(foot, is_in_cone(foot), extremes);
+    take_in_cell(deepest, is_in_cone(deepest), extremes);
+    const Point across = unit_across(outward);
+    for (const V side : {cone_.sine, hn::Neg(cone_.sine)}) {
+      const Point generator = cone_.cosine * cone_.axis + side * across;
+      const V t = hn::Div(margin, dot(outward, generator));
+      take_in_cell(t * generator, hn::Gt(t, hn::Zero(D())), extremes);
+      take_in_cell(cone_.range * generator, yes(), extremes);
+    }
+    // The face on the rim, where side and sphere meet.
+    const V rim_along = hn::Mul(cone_.range, cone_.cosine), rim_across = hn::Mul(cone_.range, cone_.sine);
+    const V reach = hn::Mul(rim_across, dot(outward, across));
+    const V cosine = hn::Div(hn::Sub(margin, hn::Mul(rim_along, dot(outward, cone_.axis))), reach);
+    const V square = hn::Sub(all(1.0f), hn::Mul(cosine, cosine));
+    const M meets = hn::Ge(square, hn::Zero(D()));
+    const V sine = hn::Sqrt(hn::Max(square, hn::Zero(D())));
+    const Point middle = rim_along * cone_.axis + hn::Mul(rim_across, cosine) * across;
+    const Point aside = hn::Mul(rim_across, sine) * cross(cone_.axis, across);
+    take_in_cell(middle + aside, meets, extremes);
+    take_in_cell(middle - aside, meets, extremes);
+  }
+
+  // A unit vector across the axis, towards v where v is not nearly along the axis.
+  HWY_INLINE Point unit_across(const Point& v) const {
+    const V zero = hn::Zero(D()), one = all(1.0f);
+    const M is_good = hn::Gt(length(cross(v, cone_.axis)), hn::Mul(all(0.1f), length(v)));
+    const M x_is_small = hn::Lt(hn::Abs(cone_.axis.x), all(0.7f));
+    const Point other = chosen(x_is_small, {one, zero, zero}, {zero, one, zero});
+    const Point from = chosen(is_good, v, other);
+    const Point part = from - dot(from, cone_.axis) * cone_.axis;
+    return hn::Div(one, length(part)) * part;
+  }
+
+  // Is there a plane along the cone's side, equally far from both ends of an edge, beyond which all corners lie?
+  HWY_INLINE M is_beside_edges() const {
+    const V zero = hn::Zero(D()), one = all(1.0f);
+    const M x_is_small = hn::Lt(hn::Abs(cone_.axis.x), all(0.7f));
+    const Point m = unit_across(chosen(x_is_small, {one, zero, zero}, {zero, one, zero})), m2 = cross(cone_.axis, m);
+    M apart = hn::Not(yes());
+    for (unsigned corner = 0; corner < 8; ++corner)
+      for (const unsigned bit : {1u, 2u, 4u}) {
+        if ((corner & bit) != 0) continue;
+        const Point edge = from_apex_[corner | bit] - from_apex_[corner];
+        // x cos phi + y sin phi = z, phi around the axis from m.
+        const V x = hn::Mul(cone_.cosine, dot(edge, m)), y = hn::Mul(cone_.cosine, dot(edge, m2));
+        const V z = hn::Mul(cone_.sine, dot(edge, cone_.axis));
+        const V square = hn::Add(hn::Mul(x, x), hn::Mul(y, y)), rest = hn::Sub(square, hn::Mul(z, z));
+        const M exists = hn::And(hn::Gt(square, zero), hn::Ge(rest, zero));
+        const V root = hn::Sqrt(hn::Max(rest, zero));
+        for (const V w : {root, hn::Neg(root)}) {
+          const Point across = hn::Sub(hn::Mul(z, x), hn::Mul(w, y)) * m + hn::Add(hn::Mul(z, y), hn::Mul(w, x)) * m2;
+          const Point outward = hn::Div(cone_.cosine, length(across)) * across - cone_.sine * cone_.axis;
+          apart = hn::Or(apart, hn::And(exists, hn::Gt(least_along(outward), tolerance_)));
+        }
+      }
+    return apart;
+  }
+
+  // Where cell and endless cone meet beyond the range only: is there a plane through the nearest place, between the
+  // sphere's tangent there and the cone's side, that an edge says how to lean?
+  HWY_INLINE M is_beyond(const Extremes& extremes) const {
+    const Point generator = hn::Div(all(1.0f), hn::Sqrt(extremes.least)) * extremes.nearest;
+    const Point outward = cone_.cosine * unit_across(generator) - cone_.sine * cone_.axis;
+    M apart = is_past(generator);
+    for (unsigned corner = 0; corner < 8; ++corner)
+      for (const unsigned bit : {1u, 2u, 4u}) {
+        if ((corner & bit) != 0) continue;
+        const Point edge = from_apex_[corner | bit] - from_apex_[corner];
+        const V share = hn::Neg(hn::Div(dot(generator, edge), dot(outward, edge)));
+        apart = hn::Or(apart, hn::And(hn::Gt(share, hn::Zero(D())), is_past(generator + share * outward)));
+      }
+    return hn::And(apart, hn::Lt(extremes.least, all(k_none)));
+  }
+
+  // Do all corners lie farther in a direction than the volume extends?
+  HWY_INLINE M is_past(const Point& direction) const {
+    const Point normal = hn::Div(all(1.0f), length(direction)) * direction;
+    return hn::Gt(hn::Sub(least_along(normal), extent(dot(normal, cone_.axis))), tolerance_);
+  }
+
   HWY_INLINE Point corner(unsigned i) const {
     const V depth = (i & 4) != 0 ? depth1_ : depth0_;
     return {hn::Mul((i & 1) != 0 ? right_ : left_, depth), hn::Mul((i & 2) != 0 ? y1_ : y0_, depth), depth};
@@ -245,15 +436,27 @@ class Cells {
   Point from_apex_[8];
 };
 
-void look(const SpotsAndPlanes& from, bool closely, SpotCells& cells) {
+void look(const SpotsAndPlanes& from, Look how, SpotCells& cells) {
   const D d;
-  const hn::RebindToUnsigned<D> du;
-  const hn::Rebind<std::uint8_t, decltype(du)> du8;
+  const DU du;
+  const hn::Rebind<std::uint8_t, DU> du8;
   const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
   for (std::uint32_t first = 0; first < cells.count; first += lanes) {
     const Cells these(from, cells, first);
-    const M common = closely ? hn::Or(these.holds_axis_point(), these.holds_edge_point()) : these.holds_corner();
-    const M apart = closely ? these.is_apart_from_corners() : these.is_apart();
+    M common, apart;
+    switch (how) {
+      case Look::quick:
+        common = these.holds_corner();
+        apart = these.is_apart();
+        break;
+      case Look::closer:
+        common = hn::Or(these.holds_axis_point(), these.holds_edge_point());
+        apart = these.is_apart_from_corners();
+        break;
+      case Look::thorough:
+        these.settle(common, apart);
+        break;
+    }
     const auto code = [&](Touch touch) { return hn::Set(du, static_cast<std::uint32_t>(touch)); };
     const auto answer = hn::IfThenElse(hn::RebindMask(du, common), code(Touch::yes),
                                        hn::IfThenElse(hn::RebindMask(du, apart), code(Touch::no), code(Touch::open)));
@@ -292,14 +495,9 @@ void pad(SpotCells& cells) {
 
 }  // namespace
 
-void look_at_cells(const SpotsAndPlanes& from, SpotCells& cells) {
+void look_at_cells(const SpotsAndPlanes& from, Look how, SpotCells& cells) {
   pad(cells);
-  HWY_DYNAMIC_DISPATCH(look)(from, false, cells);
-}
-
-void look_closely_at_cells(const SpotsAndPlanes& from, SpotCells& cells) {
-  pad(cells);
-  HWY_DYNAMIC_DISPATCH(look)(from, true, cells);
+  HWY_DYNAMIC_DISPATCH(look)(from, how, cells);
 }
 
 }  // namespace clusterbench::assign

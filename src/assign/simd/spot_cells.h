@@ -31,8 +31,8 @@ struct SpotsAndPlanes {
   float depth0, depth1;
 };
 
-// A quick look, which settles most pairs, and a closer one.
-void look_at_cells(const SpotsAndPlanes& from, SpotCells& cells);
-void look_closely_at_cells(const SpotsAndPlanes& from, SpotCells& cells);
+// Each look settles most of the pairs that the one before leaves open, and costs several times as much.
+enum class Look { quick, closer, thorough };
+void look_at_cells(const SpotsAndPlanes& from, Look how, SpotCells& cells);
 
 }  // namespace clusterbench::assign
