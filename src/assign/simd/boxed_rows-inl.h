@@ -15,9 +15,6 @@ HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
 
-HWY_INLINE VI all_int(int value) {
-  return hn::Set(DI(), value);
-}
 // The boxes of a batch.
 class Boxes {
  public:
