@@ -20,7 +20,7 @@ std::string_view page_obstacle() { return R\"__(@OBSTACLE@)__\"; }
 }  // namespace clusterbench::report
 " @ONLY)
   else()
-    file(GLOB SOURCES CONFIGURE_DEPENDS ${REPORT}/src/*.ts ${REPORT}/src/*.css ${REPORT}/src/*.html)
+    file(GLOB_RECURSE SOURCES CONFIGURE_DEPENDS ${REPORT}/src/*.ts ${REPORT}/src/*.css ${REPORT}/src/*.html)
     add_custom_command(OUTPUT ${EMBEDDED} BYPRODUCTS ${FOLDER}/template.html
       COMMAND ${NODE} ${REPORT}/build.mjs ${FOLDER}
       DEPENDS ${SOURCES} ${REPORT}/build.mjs ${REPORT}/package-lock.json

@@ -486,4 +486,10 @@ MUTATIONS = [
              "sin_angle * along - cos_angle * glm::length(v - along * axis) > -rounding - 0.1;",
              "measure.AssignersAgainstTruth.an_exact_assigner_lists_the_true_pairs_alone",
              "the truth lists spots in cells whose middle they miss by centimetres"),
+
+    # --- measure: details ---
+    Mutation("details-pair-told-twice", "measure/details.cpp",
+             "truth[t] <= reported[r]);", "truth[t] < reported[r]);",
+             "measure.Details.each_pair_is_marked_as_both_false_positive_or_false_negative",
+             "the view of cells shows right lights as wrong ones and as lost ones"),
 ]

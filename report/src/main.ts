@@ -1,5 +1,6 @@
 // The page: reads the results that stand in it and puts the sections in order.
 
+import { cellsSection } from "./cells_section.ts";
 import { depthSection } from "./depth.ts";
 import { h } from "./dom.ts";
 import { filterBar } from "./filter_bar.ts";
@@ -21,6 +22,7 @@ const sections = [
   speedErrorSection,
   heatMapSection,
   depthSection,
+  cellsSection(),
   stabilitySection,
   precisionSection,
   warningsSection,

@@ -1,5 +1,7 @@
 // The result file as the page reads it: a part of `clusterbench schema result`. null is what is not a number.
 
+import type { Details } from "./cells/details.ts";
+
 export type Maybe = number | null;
 
 export interface Spread {
@@ -122,7 +124,7 @@ export interface CaseResult {
     vs?: { assigner: string; ratio: Maybe; ci95: [Maybe, Maybe] };
   };
   count?: { source: string; instructions_per_frame: { assign: number; convert: number } };
-  details?: unknown;
+  details?: Details;
 }
 
 export interface SceneResult {

@@ -1,0 +1,115 @@
+// Where cells lie: each is a block lo..hi of three parameters, which its grid's kind turns into places in view space.
+
+import type { CaseResult } from "../result.ts";
+import type { Frame, Vec3 } from "./details.ts";
+
+// "slopes": x/depth, y/depth, depth. "shells": x/depth, y/depth, distance. "box": x, y, z of view space or the world.
+export type Shape = "slopes" | "shells" | "box";
+export type Block = [x0: number, x1: number, y0: number, y1: number, z0: number, z1: number];
+
+export interface Geometry {
+  shape: Shape;
+  size: Vec3; // cells along each axis
+  block: (x: number, y: number, z: number) => Block;
+  isHole: (x: number, y: number, z: number) => boolean;
+  topDown: boolean; // y counts from the top
+  sliceName: (z: number) => string;
+  rotation: [Vec3, Vec3, Vec3]; // rows; view = rotation (p - origin), of boxes in the world
+  origin: Vec3;
+}
+
+interface FullGrid {
+  tiles: { pixels?: [number, number] };
+  levels: number;
+  finest: number;
+  origin: Vec3;
+  bounds: { min: Vec3; max: Vec3 };
+}
+
+const identity: [Vec3, Vec3, Vec3] = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
+export const metres = (value: number) => `${Number(value.toPrecision(3))}`;
+const mix = (a: number, b: number, t: number) => a + (b - a) * t;
+
+function screen(one: CaseResult, frame: Frame, grid: FullGrid): Geometry {
+  const size = one.grid.cells;
+  const [left, right, bottom, top] = frame.camera.sides;
+  const across = grid.tiles.pixels ? grid.tiles.pixels[0] / one.viewport[0] : 1 / size[0];
+  const down = grid.tiles.pixels ? grid.tiles.pixels[1] / one.viewport[1] : 1 / size[1];
+  const x = (tile: number) => mix(left, right, Math.min(1, tile * across));
+  const y = (tile: number) => mix(top, bottom, Math.min(1, tile * down));
+  const z = frame.boundaries;
+  const isShells = one.grid.kind === "distance";
+  return {
+    shape: isShells ? "shells" : frame.camera.orthographic ? "box" : "slopes",
+    size,
+    block: (i, j, k) => (frame.camera.orthographic ? [x(i), x(i + 1), y(j + 1), y(j), -z[k + 1]!, -z[k]!] : [x(i), x(i + 1), y(j + 1), y(j), z[k]!, z[k + 1]!]),
+    isHole: () => false,
+    topDown: true,
+    sliceName: (k) => `${metres(z[k]!)} to ${metres(z[k + 1]!)} m ${isShells ? "from the eye" : "deep"}`,
+    rotation: identity,
+    origin: [0, 0, 0],
+  };
+}
+
+function cascades(one: CaseResult, grid: FullGrid): Geometry {
+  const size = one.grid.cells;
+  const depth = size[2] / grid.levels;
+  return {
+    shape: "box",
+    size,
+    block: (x, y, z) => {
+      const edge = grid.finest * 2 ** Math.floor(z / depth);
+      const left = x - size[0] / 2, top = size[1] / 2 - y, k = z % depth;
+      return [left * edge, (left + 1) * edge, (top - 1) * edge, top * edge, -(k + 1) * edge, -k * edge];
+    },
+    isHole: (x, y, z) => z >= depth && z % depth < depth / 2 && [x / size[0], y / size[1]].every((share) => share >= 0.25 && share < 0.75),
+    topDown: true,
+    sliceName: (z) => {
+      const level = Math.floor(z / depth), edge = grid.finest * 2 ** level;
+      return `level ${level}, ${metres((z % depth) * edge)} to ${metres(((z % depth) + 1) * edge)} m deep`;
+    },
+    rotation: identity,
+    origin: [0, 0, 0],
+  };
+}
+
+function world(one: CaseResult, frame: Frame, grid: FullGrid): Geometry {
+  const size = one.grid.cells;
+  const at = (axis: 0 | 1 | 2, i: number) => mix(grid.bounds.min[axis], grid.bounds.max[axis], i / size[axis]);
+  return {
+    shape: "box",
+    size,
+    block: (x, y, z) => [at(0, x), at(0, x + 1), at(1, y), at(1, y + 1), at(2, z), at(2, z + 1)],
+    isHole: () => false,
+    topDown: false,
+    sliceName: (z) => `world z ${metres(grid.origin[2] + at(2, z))} to ${metres(grid.origin[2] + at(2, z + 1))} m`,
+    rotation: frame.camera.view_from_world,
+    origin: frame.camera.eye.map((value, axis) => value - grid.origin[axis]!) as Vec3,
+  };
+}
+
+export function geometryOf(one: CaseResult, frame: Frame): Geometry {
+  const grid = one.grid as unknown as FullGrid;
+  if (one.grid.kind === "cascades") return cascades(one, grid);
+  if (one.grid.kind === "world") return world(one, frame, grid);
+  return screen(one, frame, grid);
+}
+
+export const indexOf = ([nx, ny]: Vec3, x: number, y: number, z: number) => (z * ny + y) * nx + x;
+export const placeOf = ([nx, ny]: Vec3, index: number): Vec3 => [index % nx, Math.floor(index / nx) % ny, Math.floor(index / (nx * ny))];
+
+// A place of view space from parameters, as the vertex shader makes it.
+export function inView(geometry: Geometry, [x, y, z]: Vec3): Vec3 {
+  if (geometry.shape === "slopes") return [x * z, y * z, -z];
+  if (geometry.shape === "shells") {
+    const scale = z / Math.hypot(x, y, 1);
+    return [x * scale, y * scale, -scale];
+  }
+  const local = geometry.origin.map((value, axis) => [x, y, z][axis]! - value) as Vec3;
+  return geometry.rotation.map((row) => row[0] * local[0] + row[1] * local[1] + row[2] * local[2]) as Vec3;
+}
+
+export function centreOf(geometry: Geometry, index: number): Vec3 {
+  const [x0, x1, y0, y1, z0, z1] = geometry.block(...placeOf(geometry.size, index));
+  return inView(geometry, [(x0 + x1) / 2, (y0 + y1) / 2, (z0 + z1) / 2]);
+}

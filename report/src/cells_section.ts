@@ -1,0 +1,29 @@
+// The cases whose results carry details, one at a time.
+
+import { freshSelection } from "./cells/selection.ts";
+import { space, type Space } from "./cells/space.ts";
+import { cellsView } from "./cells_view.ts";
+import { choice } from "./controls.ts";
+import { h } from "./dom.ts";
+import type { Case } from "./model.ts";
+import type { Section, View } from "./view.ts";
+
+const nameOf = (view: View, one: Case) => `${one.raw.name}${view.model.runs.length > 1 ? ` · ${one.run.label}` : ""}`;
+
+const keyOf = (one: Case) => `${one.run.file}#${one.raw.id}`;
+
+// The canvas and what is selected outlast redrawing: a page has few WebGL contexts, and a reader one train of thought.
+export function cellsSection(): Section {
+  let stage: Space | null | undefined;
+  let shown: { one: Case; element: HTMLElement | null } | null = null;
+  const selection = freshSelection();
+  return (view, redraw) => {
+    const cases = view.cases().filter((one) => one.raw.details);
+    if (cases.length === 0) return null;
+    const [key, control] = choice(view, redraw, "cells-case", "Case", cases.map((one) => [keyOf(one), nameOf(view, one)]));
+    const one = cases.find((other) => keyOf(other) === key)!;
+    stage = stage === undefined ? space() : stage;
+    if (shown?.one !== one) shown = { one, element: cellsView(one.raw, stage, selection) };
+    return h("section", { id: "cells" }, h("h2", {}, "Cell by cell"), h("figure", {}, h("div", { class: "controls" }, control), shown.element));
+  };
+}

@@ -1,0 +1,234 @@
+// The view of cells in a browser with WebGL in software, and in one without: node --test test/, with CLUSTERBENCH naming the
+// built tool.
+
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { readFileSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { dirname, join } from "node:path";
+import { after, afterEach, before, describe, it } from "node:test";
+import { fileURLToPath } from "node:url";
+import { build } from "esbuild";
+import { chromiumPath, folder, launch, makePage, webGlInSoftware } from "./browser.mjs";
+
+if (!chromiumPath) {
+  console.log("skipped: there is no Chromium (scripts/setup test installs it)");
+  process.exit(0);
+}
+const tool = process.env.CLUSTERBENCH;
+const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+const place = folder();
+const scene = join(dirname(fileURLToPath(import.meta.url)), "../../scenes/street.glb");
+
+// Every kind of grid, and a method that loses lights.
+function measure(name, details) {
+  const config = join(place, `${name}-config.json`), result = join(place, `${name}.json`);
+  const slices = { scheme: "exponential", count: 24, near: 0.1, far: 200 };
+  writeFileSync(config, JSON.stringify({
+    name,
+    scenes: [{ path: scene, frames: 24 }],
+    grids: [
+      { kind: "frustum", tiles: { count: [16, 8] }, slices },
+      { kind: "distance", tiles: { pixels: [128, 128] }, slices },
+      { kind: "cascades", levels: 4 },
+      { kind: "world", cells: [16, 4, 16] },
+    ],
+    assigners: ["naive-refinement", "distance", "cascades", "world-grid"],
+    details,
+    shading: { samples: 0 },
+    timing: { measure: false },
+  }));
+  execFileSync(tool, ["run", config, "-o", result], { stdio: ["ignore", "ignore", "pipe"] });
+  return result;
+}
+
+const pages = {};
+let withWebGl, without, result;
+before(async () => {
+  const file = measure("cells", { frames: 3 });
+  result = JSON.parse(readFileSync(file, "utf8"));
+  pages.cells = makePage(tool, [file], join(place, "cells.html"));
+  pages.bounded = makePage(tool, [measure("bounded", { frames: 3, max_bytes: 60000 })], join(place, "bounded.html"));
+  withWebGl = await launch(webGlInSoftware);
+  without = await launch(["--disable-3d-apis"]);
+});
+afterEach(() => Promise.all([withWebGl, without].flatMap((browser) => browser.contexts().map((context) => context.close()))));
+after(() => Promise.all([withWebGl?.close(), without?.close()]));
+
+async function open(browser, url, options = {}) {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
+  const page = await context.newPage();
+  page.faults = [];
+  // What this software renderer says about itself is no fault of the page.
+  page.on("console", (message) => message.type() === "error" && page.faults.push(message.text()));
+  page.on("pageerror", (error) => page.faults.push(error.message));
+  page.on("request", (request) => request.url() !== url && page.faults.push(`asks for ${request.url()}`));
+  await page.goto(url);
+  await page.waitForFunction(() => document.documentElement.dataset.ready);
+  return page;
+}
+
+// How many pixels of a canvas have which colours, as it stands on the screen.
+async function colours(page, selector) {
+  const picture = await page.locator(selector).screenshot();
+  return page.evaluate(async (base64) => {
+    const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
+    const image = await createImageBitmap(new Blob([bytes]));
+    const pen = new OffscreenCanvas(image.width, image.height).getContext("2d");
+    pen.drawImage(image, 0, 0);
+    const data = new Uint32Array(pen.getImageData(0, 0, image.width, image.height).data.buffer), counts = new Map();
+    for (const pixel of data) counts.set(pixel, (counts.get(pixel) ?? 0) + 1);
+    return { total: data.length, distinct: counts.size, most: Math.max(...counts.values()) };
+  }, picture.toString("base64"));
+}
+
+const settle = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+async function picture(page, selector = "#cells-3d") {
+  await settle(page);
+  return (await page.locator(selector).screenshot()).toString("base64");
+}
+const set = (page, selector, value) => page.locator(selector).fill(String(value));
+const text = (page, selector) => page.locator(selector).first().innerText();
+
+// Does what is done change the picture?
+async function changes(page, deed, selector) {
+  const earlier = await picture(page, selector);
+  await deed();
+  return (await picture(page, selector)) !== earlier;
+}
+
+// The page's own modules, outside of a browser.
+async function modules() {
+  const contents = ["details", "geometry"].map((name) => `export * from "./src/cells/${name}.ts";`).join("\n");
+  const resolveDir = join(dirname(fileURLToPath(import.meta.url)), "..");
+  const made = await build({ stdin: { contents, resolveDir, loader: "ts" }, bundle: true, format: "esm", write: false });
+  return import(`data:text/javascript;base64,${Buffer.from(made.outputFiles[0].text).toString("base64")}`);
+}
+
+describe("the view of cells", () => {
+  it("puts cells where their lights reach them, on every kind of grid", async () => {
+    const { unpacked, geometryOf, placeOf, inView, indexOf } = await modules();
+    const distance = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+    for (const one of result.cases) {
+      let pairs = 0;
+      for (const packed of one.details.frames) {
+        const frame = unpacked(packed, one.grid), geometry = geometryOf(one, frame);
+        frame.cells.forEach((cell, at) => {
+          const place = placeOf(geometry.size, cell);
+          assert.equal(indexOf(geometry.size, ...place), cell);
+          assert.ok(!geometry.isHole(...place));
+          const block = geometry.block(...place);
+          const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((bits) => inView(geometry, [block[bits & 1], block[2 + ((bits >> 1) & 1)], block[4 + (bits >> 2)]]));
+          const centre = [0, 1, 2].map((axis) => corners.reduce((sum, corner) => sum + corner[axis] / 8, 0));
+          const radius = 1.02 * Math.max(...corners.map((corner) => distance(corner, centre)));
+          for (const { light, mark } of frame.listOf(at)) {
+            if (mark === 1) continue;
+            assert.ok(distance(light.position, centre) <= light.range + radius, `${one.name}: ${light.name} in cell ${place}`);
+            ++pairs;
+          }
+        });
+      }
+      assert.ok(pairs > 1000, one.name);
+    }
+  });
+
+  it("draws every kind of grid", async () => {
+    const page = await open(withWebGl, pages.cells);
+    const cases = await page.locator("#cells-case option").all();
+    assert.equal(cases.length, 4);
+    for (const one of cases) {
+      await page.locator("#cells-case").selectOption(await one.getAttribute("value"));
+      await settle(page);
+      const seen = await colours(page, "#cells-3d");
+      assert.ok(seen.distinct > 100 && seen.most < 0.95 * seen.total, `${await one.innerText()}: ${JSON.stringify(seen)}`);
+    }
+    assert.deepEqual(page.faults, []);
+  });
+
+  it("changes with every control", async () => {
+    const page = await open(withWebGl, pages.cells);
+    for (const [selector, value] of [["#cells-frame", 1], ["#cells-column", 3], ["#cells-row", 6], ["#cells-slice", 15], ["#cells-least", 4]])
+      assert.ok(await changes(page, () => set(page, selector, value)), selector);
+    for (const selector of ["#cells-show-slice", "#cells-show-tile", "#cells-show-all", "#cells-what-excess", "#cells-what-missing", "#cells-what-true"])
+      assert.ok(await changes(page, () => page.locator(selector).check({ force: true })), selector);
+    assert.ok(await changes(page, () => page.locator("#cells-lights").selectOption("all")), "lights");
+    assert.ok(await changes(page, () => page.locator("#cells-even").uncheck()), "even depth");
+    assert.deepEqual(page.faults, []);
+  });
+
+  it("turns, moves, zooms and comes back by keys", async () => {
+    const page = await open(withWebGl, pages.cells);
+    await page.locator("#cells-3d").focus();
+    const start = await picture(page);
+    for (const key of ["ArrowLeft", "ArrowUp", "Shift+ArrowRight", "+", "-", "ArrowDown"])
+      assert.ok(await changes(page, () => page.keyboard.press(key)), key);
+    await page.keyboard.press("Home");
+    assert.equal(await picture(page), start);
+  });
+
+  it("turns by the mouse, and a click picks the cell that is seen there", async () => {
+    const page = await open(withWebGl, pages.cells);
+    const canvas = page.locator("#cells-3d");
+    await canvas.scrollIntoViewIfNeeded();
+    const { x, y, width, height } = await canvas.boundingBox();
+    const middle = [x + 0.42 * width, y + 0.55 * height];
+    assert.ok(await changes(page, async () => {
+      await page.mouse.move(...middle);
+      await page.mouse.down();
+      await page.mouse.move(middle[0] + 40, middle[1] - 20, { steps: 3 });
+      await page.mouse.up();
+    }));
+    const before = await text(page, ".picked-cell h3");
+    await page.mouse.click(...middle);
+    assert.notEqual(await text(page, ".picked-cell h3"), before);
+    assert.match(await text(page, ".picked-cell p"), /light/);
+  });
+
+  it("tells of a cell what the result says", async () => {
+    const page = await open(withWebGl, pages.cells);
+    await page.locator("#cells-what-missing").check({ force: true });
+    await set(page, "#cells-frame", 2);
+    await page.locator("#cells-worst").click();
+    assert.match(await text(page, ".picked-cell p"), /1 false negative/);
+    assert.match(await text(page, ".picked-cell tbody tr"), /false negative/);
+    const { false_negatives: missed } = result.cases[0].error;
+    assert.ok(missed > 0);
+    const frame = result.cases[0].details.frames[2];
+    assert.ok((await text(page, "#cells .cells > .note")).startsWith(`Frame ${frame.frame}: ${frame.cells.count.toLocaleString("en")} of 3,072 cells`));
+  });
+
+  it("picks a tile on the map of a slice", async () => {
+    const page = await open(withWebGl, pages.cells);
+    await set(page, "#cells-slice", 12);
+    const map = page.locator(".slice-map");
+    await map.scrollIntoViewIfNeeded();
+    const { width, height } = await map.boundingBox();
+    await map.click({ position: { x: (2.5 / 16) * width, y: (1.5 / 8) * height } });
+    assert.equal(await text(page, ".picked-cell h3"), "Cell 2, 1, 12");
+    assert.equal(await page.locator("#cells-column").inputValue(), "2");
+  });
+
+  it("says what had no room", async () => {
+    const page = await open(withWebGl, pages.bounded);
+    assert.match(await text(page, "#cells"), /left out: max_bytes 60000 has no room/);
+    assert.deepEqual(page.faults, []);
+  });
+
+  it("keeps to slices where there is no WebGL", async () => {
+    const page = await open(without, pages.cells);
+    assert.equal(await page.locator("#cells-3d").count(), 0);
+    assert.match(await text(page, "#cells"), /no WebGL 2/);
+    assert.ok(await changes(page, () => set(page, "#cells-slice", 5), ".slice-map"));
+    assert.ok(await changes(page, () => set(page, "#cells-frame", 1), ".slice-map"));
+    assert.ok((await colours(page, ".slice-map")).distinct > 3);
+    assert.deepEqual(page.faults, []);
+  });
+
+  for (const [name, colorScheme] of [["with", "light"], ["without", "dark"]])
+    it(`is accessible ${name} WebGL in ${colorScheme}`, async () => {
+      const page = await open(name === "with" ? withWebGl : without, pages.cells, { colorScheme });
+      await page.evaluate(axe);
+      const found = await page.evaluate(() => globalThis.axe.run("#cells"));
+      assert.deepEqual(found.violations.map((one) => `${one.id}: ${one.nodes.map((node) => node.target).join("; ")}`), []);
+    });
+});
