@@ -27,14 +27,14 @@ function commonStart(texts: string[]): string {
 }
 
 // One command per result: its configuration, narrowed to the cases by what their names begin with.
-export function commandsOf(cases: Case[]): string {
+function commandsOf(cases: Case[]): string {
   const runs = [...new Set(cases.map((one) => one.run))];
   return runs
     .map((run) => {
       const names = cases.filter((one) => one.run === run).map((one) => one.raw.name);
       const start = commonStart(names).replace(/[^/]*$/, "");
       const filter = start ? ` --filter ${quoted(`^${escaped(start)}`)}` : "";
-      return `clusterbench run ${quoted(`${run.result.name}.json`)}${filter} -o ${quoted(`${run.label}.json`)}`;
+      return `clusterbench run ${quoted(`${run.result.name}.json`)}${filter} -o result.json`;
     })
     .join("\n");
 }
@@ -48,6 +48,7 @@ function twin<Row>(figure: Figure<Row>): HTMLElement {
     { class: "twin" },
     figure.chart ? tableView({ most: 200, ...table }) : null,
     h("p", { class: "tools" }, copyButton("Copy data", text), downloadButton("Download CSV", `${figure.id}.csv`, "text/csv", text)),
+    h("p", { class: "note" }, "Measured by this, with the configuration that stands at the end of the page:"),
     h("div", { class: "command" }, h("pre", { tabindex: 0, "aria-label": "Command that measured this" }, commands), copyButton("Copy command", () => commands)),
   );
 }

@@ -40,7 +40,7 @@ function points(cases: Case[], measure: Measure): Point[] {
 }
 
 // Fastest first, and of those only the ones with less error than all that are faster.
-export function front<T extends { us: number; error: number }>(all: T[]): T[] {
+function front<T extends { us: number; error: number }>(all: T[]): T[] {
   let least = Infinity;
   return [...all]
     .sort((a, b) => a.us - b.us || a.error - b.error)

@@ -27,7 +27,7 @@ function compare(a: Value, b: Value): number {
   return typeof a === "number" && typeof b === "number" ? a - b : String(a).localeCompare(String(b), "en", { numeric: true });
 }
 
-export function sorted<Row>(rows: Row[], column: Column<Row>, descending: boolean): Row[] {
+function sorted<Row>(rows: Row[], column: Column<Row>, descending: boolean): Row[] {
   const known = rows.filter((row) => column.value(row) !== null);
   const unknown = rows.filter((row) => column.value(row) === null);
   known.sort((a, b) => (descending ? -1 : 1) * compare(column.value(a), column.value(b)));
