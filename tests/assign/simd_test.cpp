@@ -85,6 +85,7 @@ TEST(SpanLists, are_those_of_a_pair_buffer_on_every_target) {
                                                            {5, 5, 30, 17},
                                                            {8, 40, 12, 64},
                                                            {1, 2, 300, 65},
+                                                           {2, 8, 64, 200},
                                                            {17, 17, 1, 200},
                                                            {4, 12, 130, 5}})
       for (const std::uint64_t seed : {1u, 2u}) {

@@ -60,8 +60,9 @@ HWY_INLINE M reach_shells(const ShellPlanes& planes, const Balls& balls, Indices
   found.first = count_passed(shells, 1, shells.size(), [&](V shell) { return hn::Lt(shell, low); });
   const VI begun = count_passed(shells, 0, shells.size() - 1, [&](V shell) { return hn::Le(shell, high); });
   found.last = hn::Sub(begun, hn::Set(DI(), 1));
-  // A ball that holds the eye can be seen in all directions of a shell, says the reference.
-  const M is_beside = hn::And(hn::Gt(side_gap(planes, balls.x, balls.y, balls.depth), radius), hn::Gt(length, radius));
+  // A ball that holds the eye, which the reference may list in all directions of a shell, is outside of no side: they
+  // all pass through the eye.
+  const M is_beside = hn::Gt(side_gap(planes, balls.x, balls.y, balls.depth), radius);
   const M has_shells = hn::RebindMask(D(), hn::Not(hn::Lt(found.last, found.first)));
   return hn::AndNot(hn::And(is_plain, is_beside), has_shells);
 }
