@@ -41,7 +41,8 @@ struct RandomSpans {
   std::vector<Span> spans;
 };
 
-RandomSpans random_spans(std::uint32_t rows, std::uint32_t columns, std::uint32_t lights, std::uint64_t seed) {
+RandomSpans random_spans(std::uint32_t rows, std::uint32_t columns, std::uint32_t lights, std::uint64_t seed,
+                         std::uint32_t longest) {
   SplitMix64 random(seed);
   RandomSpans out{rows, columns, {}};
   for (std::uint32_t light = 0; light < lights; ++light)
@@ -49,7 +50,8 @@ RandomSpans random_spans(std::uint32_t rows, std::uint32_t columns, std::uint32_
       if (random.below(3) != 0) continue;
       const auto a = static_cast<std::uint32_t>(random.below(columns)),
                  b = static_cast<std::uint32_t>(random.below(columns));
-      out.spans.push_back({row, std::min(a, b), std::max(a, b), light});
+      const std::uint32_t first = std::min(a, b);
+      out.spans.push_back({row, first, std::min(std::max(a, b), first + longest - 1), light});
     }
   return out;
 }
@@ -88,8 +90,8 @@ TEST(SpanLists, are_those_of_a_pair_buffer_on_every_target) {
                                                            {2, 8, 64, 200},
                                                            {17, 17, 1, 200},
                                                            {4, 12, 130, 5}})
-      for (const std::uint64_t seed : {1u, 2u}) {
-        const RandomSpans spans = random_spans(rows, columns, lights, seed);
+      for (const std::uint32_t longest : {columns, 5u}) {
+        const RandomSpans spans = random_spans(rows, columns, lights, longest + 1, longest);
         EXPECT_EQ(by_compression(spans, band_rows, compressed), by_scattering(spans))
             << target << ", " << rows << " x " << columns << ", " << lights;
       }

@@ -1,7 +1,8 @@
 #pragma once
-// Lists without scattering: the spans of a row of cells are collected side by side; then each cell compares all of them
-// at once and compress-stores the lights whose span holds it. Bands of rows are finished one after the other, so that
-// what was collected is still in the cache. SIMD, dispatched at run time; the same lists as PairBuffer on every target.
+// Lists without scattering over the grid: the spans of a row of cells are collected side by side; then each cell
+// compares all of them at once and compress-stores the lights whose span holds it, or, where spans are much shorter
+// than the row, they are scattered within the row. Bands of rows are finished one after the other, so that what was
+// collected is still in the cache. SIMD, dispatched at run time; the same lists as PairBuffer on every target.
 
 #include <algorithm>
 #include <cstdint>
@@ -21,6 +22,8 @@ inline constexpr std::size_t k_most_lanes = 64;  // of any target: what arrays a
 
 // The instruction set that is used: "AVX3", "AVX2", "SSE4", "NEON", "SCALAR" ... as Highway names it.
 const char* simd_target_name();
+
+struct RowSpans;
 
 // Keeps its memory between frames.
 class SpanLists {
@@ -54,14 +57,18 @@ class SpanLists {
 
  private:
   void make_room(std::uint32_t spans);
+  bool is_for_scattering(std::uint32_t spans) const;
+  std::uint32_t* scatter_row(const RowSpans& row, std::uint32_t* begin, std::uint32_t* to);
   std::uint32_t* finish_row(std::uint32_t row, const grid::IndexRange& hole, std::uint32_t* begin, std::uint32_t* to);
   void grow();
 
   std::uint32_t rows_ = 0, columns_ = 0, band_ = 0;
-  std::uint64_t pairs_ = 0, band_pairs_ = 0;
+  std::uint64_t pairs_ = 0, band_pairs_ = 0, band_spans_ = 0;
   Lists* out_ = nullptr;
   std::vector<std::uint32_t> sizes_;  // of the rows
   std::uint32_t most_ = 0;            // no row has more spans
+  std::uint32_t lanes_ = 1;           // spans that are compared at once
+  std::vector<std::uint32_t> next_;   // of a row's cells, while they are filled
   // Row r's spans are at r * pitch_; whole vectors can be read and written beyond the last row.
   std::size_t pitch_ = 0;
   std::vector<std::uint32_t> lights_;
