@@ -59,8 +59,9 @@ class CellsView {
     this.draw();
     stage?.start();
     new ResizeObserver(() => this.drawMap()).observe(side);
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
-    new MutationObserver(() => this.draw()).observe(document.documentElement, { attributeFilter: ["data-theme"] });
+    const drawAnew = () => this.element.isConnected && this.draw(); // the stage may be another view's by now
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", drawAnew);
+    new MutationObserver(drawAnew).observe(document.documentElement, { attributeFilter: ["data-theme"] });
   }
 
   private get rows(): CellRows {
