@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/random.h"
+#include "measure/sample_tree.h"
 
 namespace clusterbench::measure {
 namespace {
@@ -64,13 +65,17 @@ std::vector<grid::Sample> volume_samples(const view::Frame& frame, double far_m,
 }
 
 assign::Lists lights_reaching(const view::Frame& frame, std::span<const grid::Sample> samples) {
-  assign::Lists lists;
-  lists.begin.push_back(0);
-  for (const grid::Sample& sample : samples) {
-    for (std::uint32_t light = 0; light < frame.lights.size(); ++light)
-      if (reaches(frame.lights[light], sample.world)) lists.lights.push_back(light);
-    lists.begin.push_back(lists.pair_count());
+  const SampleTree tree(samples);
+  assign::PairBuffer pairs;
+  pairs.start(static_cast<std::uint32_t>(samples.size()));
+  for (std::uint32_t index = 0; index < frame.lights.size(); ++index) {
+    const scene::WorldLight& light = frame.lights[index];
+    tree.each_near(light.position, light.range_m, [&](std::uint32_t sample) {
+      if (reaches(light, samples[sample].world)) pairs.add(sample, index);
+    });
   }
+  assign::Lists lists;
+  pairs.finish(lists);
   return lists;
 }
 

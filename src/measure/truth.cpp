@@ -105,6 +105,8 @@ class TruthFinder {
     }
     std::vector<Row> rows;
     if (grid_.kind() == grid::Kind::distance) {
+      search.shells = shells_near(search.ball);
+      if (search.shells.empty()) return {};
       append_tile_rows(grid_.screen(), search.ball, rows);
       for (const Row& row : rows) settle_tiles(row, search);
       return std::move(search.found);
@@ -122,6 +124,7 @@ class TruthFinder {
     geom::LightFilter filter;
     BallInSpace ball;
     QuickCone cone;
+    grid::IndexRange shells;  // of a distance grid
     LightCells found;
 
     explicit Search(const geom::LightVolume& light)
@@ -162,12 +165,20 @@ class TruthFinder {
     }
   }
 
-  // Calls take(cell, near, far) for the shells of a tile.
+  // Shells that a ball may touch.
+  grid::IndexRange shells_near(const BallInSpace& ball) const {
+    constexpr double k_slack = 1e-12;  // far more than the rounding of a distance
+    const double distance = glm::length(ball.center), reach = ball.radius + ball.slack;
+    const double wider = reach + k_slack * (distance + reach);
+    return grid::intervals_touched(grid_.screen().slices.boundaries, distance - wider, distance + wider);
+  }
+
+  // Calls take(cell, near, far) for the shells of a tile that the light's ball may touch.
   template <class Take>
-  void each_shell(std::uint32_t tile, Take&& take) const {
+  void each_shell(std::uint32_t tile, const Search& search, Take&& take) const {
     const grid::ScreenGrid& grid = grid_.screen();
     const auto tiles = static_cast<std::uint32_t>(grid.tiles.count.x * grid.tiles.count.y);
-    for (int shell = 0; shell < grid.slices.count(); ++shell) {
+    for (int shell = search.shells.first; shell <= search.shells.last; ++shell) {
       const auto k = static_cast<std::size_t>(shell);
       take(static_cast<std::uint32_t>(shell) * tiles + tile, grid.slices.boundaries[k], grid.slices.boundaries[k + 1]);
     }
@@ -175,7 +186,7 @@ class TruthFinder {
 
   void settle_tile(std::uint32_t tile, Search& search) const {
     const geom::DistanceInterval reach = search.filter.distances(std::get<geom::ShellPiece>(grid_.cell(tile)));
-    each_shell(tile, [&](std::uint32_t cell, double near, double far) {
+    each_shell(tile, search, [&](std::uint32_t cell, double near, double far) {
       if (!reach.may_reach(near, far)) return;
       reach.surely_reaches(near, far) ? take(cell, search) : decide(cell, search);
     });
@@ -184,7 +195,7 @@ class TruthFinder {
   // A spot's distances are dear: found only where a shell needs them.
   void settle_spot_tile(std::uint32_t tile, Search& search) const {
     std::optional<geom::DistanceInterval> reach;
-    each_shell(tile, [&](std::uint32_t cell, double near, double far) {
+    each_shell(tile, search, [&](std::uint32_t cell, double near, double far) {
       if (reach ? !reach->may_reach(near, far) : is_quick(cell, search)) return;
       if (!reach) reach = search.filter.distances(std::get<geom::ShellPiece>(grid_.cell(tile)));
       if (!reach->may_reach(near, far)) {

@@ -79,6 +79,18 @@ double gap_to(const Extent& extent, double place) {
   return std::max({0.0, extent.lo - place, place - extent.hi});
 }
 
+// Extents that may lie within `reach` of a place; they ascend or descend.
+grid::IndexRange extents_near(const std::vector<Extent>& extents, double place, double reach) {
+  constexpr double k_slack = 1e-12;  // far more than the rounding of a gap
+  const double wider = reach + k_slack * (std::abs(place) + reach);
+  const bool ascend = extents.front().lo <= extents.back().lo;
+  const auto is_before = [&](const Extent& e) { return ascend ? e.hi < place - wider : e.lo > place + wider; };
+  const auto is_not_beyond = [&](const Extent& e) { return ascend ? e.lo <= place + wider : e.hi >= place - wider; };
+  const auto from = std::partition_point(extents.begin(), extents.end(), is_before);
+  const auto to = std::partition_point(from, extents.end(), is_not_beyond);
+  return {static_cast<int>(from - extents.begin()), static_cast<int>(to - extents.begin()) - 1};
+}
+
 // Columns whose extent meets [middle - half, middle + half].
 ColumnRange columns_within(const std::vector<Extent>& columns, double middle, double squared_half) {
   if (!(squared_half >= 0.0)) return {};
@@ -129,10 +141,14 @@ std::vector<BoxBlock> box_blocks(const grid::Grid& grid) {
 
 void append_rows(const BoxBlock& block, const BallInSpace& ball, std::vector<Row>& rows) {
   const double larger = ball.radius + ball.slack, smaller = std::max(0.0, ball.radius - ball.slack);
-  for (std::size_t z = 0; z < block.z.size(); ++z) {
+  const grid::IndexRange slices = extents_near(block.z, ball.center.z, larger);
+  const grid::IndexRange lines = extents_near(block.y, ball.center.y, larger);
+  for (int slice = slices.first; slice <= slices.last; ++slice) {
+    const auto z = static_cast<std::size_t>(slice);
     const double gap_z = gap_to(block.z[z], ball.center.z);
     if (gap_z > larger) continue;
-    for (std::size_t y = 0; y < block.y.size(); ++y) {
+    for (int line = lines.first; line <= lines.last; ++line) {
+      const auto y = static_cast<std::size_t>(line);
       const double gap_y = gap_to(block.y[y], ball.center.y);
       if (gap_y > larger) continue;
       const double square = gap_z * gap_z + gap_y * gap_y;
@@ -141,7 +157,7 @@ void append_rows(const BoxBlock& block, const BallInSpace& ball, std::vector<Row
       if (row.outer.empty()) continue;
       if (ball.radius > ball.slack) row.inner = columns_within(block.x, ball.center.x, smaller * smaller - square);
       row.first_cell = block.first_cell + static_cast<std::uint32_t>((z * block.y.size() + y) * block.x.size());
-      if (block.hole_z.holds(static_cast<int>(z)) && block.hole_y.holds(static_cast<int>(y)))
+      if (block.hole_z.holds(slice) && block.hole_y.holds(line))
         append_beside(block.hole_x, row, rows);
       else
         rows.push_back(row);

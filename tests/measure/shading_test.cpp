@@ -4,7 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
+
+#include "core/random.h"
+#include "measure/sample_tree.h"
 
 namespace clusterbench::measure {
 namespace {
@@ -105,6 +109,37 @@ TEST(Shading, a_spot_reaches_only_into_its_cone) {
   const std::vector<grid::Sample> samples{sample_in({0.57, -1, 0}), sample_in({0.58, -1, 0}), sample_in({0, 1, 0}),
                                           sample_in({0, -10, 0}), sample_in({1, -10, 0})};
   EXPECT_EQ(lights_reaching(frame, samples), (assign::Lists{{0, 1, 1, 1, 2, 2}, {0, 0}}));
+}
+
+TEST(Shading, every_light_is_found_that_reaches_a_sample) {
+  view::Frame frame = frame_along_x();
+  SplitMix64 random(1);
+  for (int i = 0; i < 300; ++i) {
+    const double x = random.between(0.0, 100.0), y = random.between(-20.0, 20.0), z = random.between(0.0, 100.0);
+    add_light(frame, {x, y, z}, random.between(0.0, i % 10 == 0 ? 60.0 : 6.0));
+  }
+  frame.lights[7].range_m = std::numeric_limits<double>::infinity();
+  std::vector<grid::Sample> samples = volume_samples(frame, 64.0, 500, 1);
+  samples.insert(samples.end(), 20, samples.front());
+  const assign::Lists found = lights_reaching(frame, samples);
+  for (std::uint32_t i = 0; i < samples.size(); ++i) {
+    std::vector<std::uint32_t> expected;
+    for (std::uint32_t light = 0; light < frame.lights.size(); ++light)
+      if (glm::length(samples[i].world - frame.lights[light].position) <= frame.lights[light].range_m)
+        expected.push_back(light);
+    ASSERT_EQ(std::vector(found.of(i).begin(), found.of(i).end()), expected) << i;
+  }
+}
+
+TEST(Shading, a_small_light_looks_at_few_of_many_samples) {
+  const view::Frame frame = frame_along_x();
+  const std::vector<grid::Sample> samples = volume_samples(frame, 64.0, 10000, 1);
+  const SampleTree tree(samples);
+  int looked_at = 0;
+  for (int i = 0; i < 1000; ++i)
+    tree.each_near(samples[static_cast<std::size_t>(i)].world, 0.0, [&](std::uint32_t) { ++looked_at; });
+  EXPECT_GE(looked_at, 1000);
+  EXPECT_LE(looked_at, 1000 * 64);
 }
 
 // Two slices, 0.5 .. 8 and 8 .. 64, with samples at depths 4, 60 and 90; both lights reach the first sample only.
