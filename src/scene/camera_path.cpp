@@ -18,26 +18,37 @@ std::string number(double value) {
   return text;
 }
 
-// Nodes that a camera's or light's place depends on: itself and all above it.
-bool depends_on(const Scene& scene, int node, int mover) {
-  for (; node >= 0; node = scene.nodes[static_cast<std::size_t>(node)].parent)
-    if (node == mover) return true;
-  return false;
-}
+// The keys that move some of these nodes: theirs and those of all nodes above them.
+class KeysOf {
+ public:
+  explicit KeysOf(const Scene& scene) : scene_(scene), is_wanted_(scene.nodes.size(), false) {}
 
-std::set<double> keys_of(const Scene& scene, int node) {
-  std::set<double> keys;
-  for (const Channel& channel : scene.channels)
-    if (depends_on(scene, node, channel.node)) keys.insert(channel.times_s.begin(), channel.times_s.end());
-  return keys;
-}
+  void add(int node) {
+    for (; node >= 0 && !is_wanted_[static_cast<std::size_t>(node)];
+         node = scene_.nodes[static_cast<std::size_t>(node)].parent)
+      is_wanted_[static_cast<std::size_t>(node)] = true;
+  }
+  std::set<double> keys() const {
+    std::set<double> keys;
+    for (const Channel& channel : scene_.channels)
+      if (is_wanted_[static_cast<std::size_t>(channel.node)])
+        keys.insert(channel.times_s.begin(), channel.times_s.end());
+    return keys;
+  }
+
+ private:
+  const Scene& scene_;
+  std::vector<bool> is_wanted_;
+};
 
 // The keys that move the camera; a camera that stands still sees the lights move.
-std::set<double> keys_seen(const Scene& scene, const Camera* camera) {
-  std::set<double> keys = camera == nullptr ? std::set<double>{} : keys_of(scene, camera->node);
+std::set<double> keys_seen(const Scene& scene, const Camera& camera) {
+  KeysOf eye(scene), lights(scene);
+  eye.add(camera.node);
+  std::set<double> keys = eye.keys();
   if (!keys.empty()) return keys;
-  for (const Light& light : scene.lights) keys.merge(keys_of(scene, light.node));
-  return keys;
+  for (const Light& light : scene.lights) lights.add(light.node);
+  return lights.keys();
 }
 
 struct Moments {
@@ -71,7 +82,7 @@ Moments moments_of(const std::set<double>& keys, const PathRequest& request) {
 }
 
 CameraPath path_of(const Scene& scene, const Camera& camera, const PathRequest& request) {
-  const Moments moments = moments_of(keys_seen(scene, &camera), request);
+  const Moments moments = moments_of(keys_seen(scene, camera), request);
   CameraPath path{camera.name, false, (camera.animated ? "animated camera, " : "static camera, ") + moments.how, {}};
   for (const double time : moments.times_s) path.shots.push_back({time, camera_pose(scene, camera, time), camera.lens});
   return path;

@@ -75,6 +75,23 @@ Vec3d up_orthogonal_to(const Vec3d& back, const Vec3d& up) {
   return glm::normalize(axis - back * glm::dot(axis, back));
 }
 
+// World transform of one node: what world_transforms() says, from the nodes above it alone.
+Mat4d world_transform(const Scene& scene, int index, double time_s) {
+  std::vector<int> chain;
+  for (; index >= 0; index = scene.nodes[static_cast<std::size_t>(index)].parent) chain.push_back(index);
+  std::reverse(chain.begin(), chain.end());  // parents come first, so it ascends
+  std::vector<Node> posed;
+  for (const int node : chain) posed.push_back(scene.nodes[static_cast<std::size_t>(node)]);
+  for (const Channel& channel : scene.channels) {
+    const auto place = std::lower_bound(chain.begin(), chain.end(), channel.node);
+    if (place != chain.end() && *place == channel.node)
+      apply(channel, time_s, posed[static_cast<std::size_t>(place - chain.begin())]);
+  }
+  Mat4d world = local_matrix(posed.front());
+  for (std::size_t i = 1; i < posed.size(); ++i) world = world * local_matrix(posed[i]);
+  return world;
+}
+
 }  // namespace
 
 std::vector<Mat4d> world_transforms(const Scene& scene, double time_s) {
@@ -107,7 +124,7 @@ std::vector<WorldLight> world_lights(const Scene& scene, double time_s) {
 // The camera looks along the world matrix's -Z; up is its Y made orthogonal to that (Gram-Schmidt); right follows from
 // the two as a right-handed frame, so X is not looked at and a mirrored node shows no mirrored picture.
 CameraPose camera_pose(const Scene& scene, const Camera& camera, double time_s) {
-  const Mat4d world = world_transforms(scene, time_s)[static_cast<std::size_t>(camera.node)];
+  const Mat4d world = world_transform(scene, camera.node, time_s);
   const Vec3d back = unit_or(Vec3d(world[2]), Vec3d(0.0, 0.0, 1.0));
   const Vec3d up = up_orthogonal_to(back, Vec3d(world[1]));
   const Vec3d right = glm::cross(up, back);
