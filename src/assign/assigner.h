@@ -75,6 +75,7 @@ struct AssignerRow {
   bool conservative = true;  // never misses a true pair; a miss fails the run
   bool exact = false;        // and reports no pair that is not true
   bool orthographic = true;  // takes orthographic projections
+  bool all_pairs = false;    // tests every light against every cell
   // A known mistake on purpose, to show what it does: left out where nothing names it.
   bool naive = false;
   std::vector<ParamSpec> params;

@@ -202,13 +202,16 @@ Json to_json(const run::ToolFacts& tool) {
 }
 
 Json to_json(const run::SceneResult& scene) {
-  return {{"name", scene.name},
-          {"sha256", scene.sha256},
-          {"lights",
-           {{"point", scene.points}, {"spot", scene.spots}, {"directional", scene.directionals}, {"box", scene.boxes}}},
-          {"frames", scene.frames},
-          {"range_rule", scene.range_rule},
-          {"warnings", scene.warnings}};
+  Json out{
+      {"name", scene.name},
+      {"sha256", scene.sha256},
+      {"lights",
+       {{"point", scene.points}, {"spot", scene.spots}, {"directional", scene.directionals}, {"box", scene.boxes}}},
+      {"frames", scene.frames},
+      {"range_rule", scene.range_rule},
+      {"warnings", scene.warnings}};
+  if (!scene.rig.is_null()) out["rig"] = scene.rig;
+  return out;
 }
 
 double number_at(const Json& one, const char* pointer) {

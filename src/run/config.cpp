@@ -222,6 +222,8 @@ void read_settings(const Json& document, Config& config) {
   config.stability = stability_request(document["stability"]);
   config.lookup = lookup_request(document["lookup"]);
   config.details = details_request(document["details"]);
+  const Json& all_pairs = document["limits"]["all_pairs"];
+  if (all_pairs.is_number()) config.limits.all_pairs = all_pairs.get<std::uint64_t>();
   const Json& timing = document["timing"];
   config.timing = {timing["measure"].get<bool>(), timing["rounds"].get<int>(), timing["min_time_ms"].get<double>(),
                    timing["frames"].get<int>()};

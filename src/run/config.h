@@ -77,6 +77,11 @@ struct DetailsRequest {
   std::size_t max_bytes = 2'000'000;
 };
 
+// Beyond which cases are skipped, with the reason.
+struct LimitsRequest {
+  std::optional<std::uint64_t> all_pairs;  // lights x cells of methods that test every light against every cell
+};
+
 struct Config {
   std::string name;
   std::filesystem::path file;  // "" = made from scenes on the command line
@@ -94,6 +99,7 @@ struct Config {
   std::optional<LookupRequest> lookup;        // without: not measured
   std::optional<DetailsRequest> details;      // without: none
   TimingRequest timing;
+  LimitsRequest limits;
   measure::AllocationRule allocation;
 
   // More than float32, and so results tell what each precision loses.

@@ -43,6 +43,7 @@ struct SceneResult {
   std::string name, sha256;
   int points = 0, spots = 0, directionals = 0, boxes = 0;
   int frames = 0;
+  nlohmann::json rig;         // {lights, spots, range, size, seed} of one that was made; else null
   nlohmann::json range_rule;  // {cutoff_lux, max_range, given, from_intensity, clamped}
   std::vector<std::string> warnings;
 };

@@ -21,8 +21,17 @@ nlohmann::json params_json(const assign::Params& params) {
   return out;
 }
 
-SceneResult scene_result(const SceneData& data, const scene::RangeRule& rule) {
+nlohmann::json rig_json(const scene::RigSpec& rig) {
+  return {{"lights", rig.lights},
+          {"spots", rig.spots},
+          {"range", rig.range_m},
+          {"size", {rig.size_m.x, rig.size_m.y, rig.size_m.z}},
+          {"seed", rig.seed}};
+}
+
+SceneResult scene_result(const SceneData& data, const SceneRequest& request) {
   SceneResult out;
+  if (request.rig) out.rig = rig_json(*request.rig);
   const scene::Scene& scene = data.scene;
   out.name = scene.name;
   out.sha256 = scene.sha256;
@@ -42,8 +51,8 @@ SceneResult scene_result(const SceneData& data, const scene::RangeRule& rule) {
     out.frames += static_cast<int>(path.shots.size());
     if (path.made) out.warnings.push_back(path.how);
   }
-  out.range_rule = {{"cutoff_lux", rule.cutoff_lux},
-                    {"max_range", rule.max_range_m},
+  out.range_rule = {{"cutoff_lux", request.range_rule.cutoff_lux},
+                    {"max_range", request.range_rule.max_range_m},
                     {"given", given},
                     {"from_intensity", from_intensity},
                     {"clamped", clamped}};
@@ -52,10 +61,10 @@ SceneResult scene_result(const SceneData& data, const scene::RangeRule& rule) {
 
 // An estimate of work in nanoseconds, only for the time that is left: truth, samples and lists of some frames.
 double list_cost(const Config& config, const GroupPlan& group, std::size_t lights, int frames, int samples) {
-  constexpr double k_ns_per_light = 2000.0, k_ns_per_brute_pair = 3.0, k_cells = 8000.0, k_ns_per_sample_light = 5.0;
-  double per_frame = static_cast<double>(lights) * (k_ns_per_light + k_ns_per_sample_light * samples);
+  constexpr double k_ns_per_light = 2000.0, k_ns_per_brute_pair = 3.0, k_cells = 8000.0, k_ns_per_sample = 1000.0;
+  double per_frame = static_cast<double>(lights) * k_ns_per_light + k_ns_per_sample * samples;
   for (const Method& method : methods_of(group))
-    per_frame += config.assigners[method.assigner].name == "brute-force"
+    per_frame += assign::find_assigner(config.assigners[method.assigner].name)->all_pairs
                      ? static_cast<double>(lights) * k_cells * k_ns_per_brute_pair
                      : 1e5;
   return per_frame * frames;
@@ -94,7 +103,7 @@ class Run {
     out.config = config_.resolved;
     out.skipped = plan_.skipped;
     for (std::size_t i = 0; i < plan_.scenes.size(); ++i) {
-      out.scenes.push_back(scene_result(plan_.scenes[i], config_.scenes[i].range_rule));
+      out.scenes.push_back(scene_result(plan_.scenes[i], config_.scenes[i]));
       if (listener_.on_scene) listener_.on_scene(out.scenes.back());
     }
     for (const GroupPlan& group : plan_.groups)

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "assign/storage.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "run/config_grids.h"
@@ -152,15 +153,48 @@ Reach reach_of(const view::Frame& frame) {
   return reach;
 }
 
-// Why this grid cannot be made for the path's first frame; "" if it can.
-std::string grid_obstacle(const grid::GridSpec& spec, const SceneData& data, const scene::CameraPath& path,
-                          Vec2i viewport) {
-  if (path.shots.empty()) return "the camera path has no frame";
+// A path's first frame in a grid, by the numbers; or why the grid cannot be made for it.
+struct FirstFrame {
+  std::uint32_t cells = 0, points = 0, spots = 0;
+  std::string obstacle;
+
+  std::uint64_t lights() const { return std::uint64_t{points} + spots; }
+};
+
+FirstFrame first_frame(const grid::GridSpec& spec, const SceneData& data, const scene::CameraPath& path,
+                       Vec2i viewport) {
+  if (path.shots.empty()) return {0, 0, 0, "the camera path has no frame"};
   try {
     const view::Frame frame = view::make_frame(data.scene, path.shots.front(), 0, viewport);
     const Reach reach = reach_of(frame);
-    grid::make_grid(spec, grid::grid_inputs(spec, frame, reach.far_m, reach.lo, reach.hi));
-    return "";
+    const grid::Grid grid = grid::make_grid(spec, grid::grid_inputs(spec, frame, reach.far_m, reach.lo, reach.hi));
+    return {grid.cell_count(), frame.points, static_cast<std::uint32_t>(frame.lights.size()) - frame.points, ""};
+  } catch (const Error& error) {
+    return {0, 0, 0, error.what()};
+  }
+}
+
+// Why this assigner would take too long; "" if it would not.
+std::string limit_obstacle(const assign::AssignerRow& row, const LimitsRequest& limits, const FirstFrame& first) {
+  if (!row.all_pairs || !limits.all_pairs) return "";
+  const std::uint64_t tests = first.lights() * first.cells;
+  if (tests <= *limits.all_pairs) return "";
+  return row.name + " would test " + std::to_string(first.lights()) + " lights against " + std::to_string(first.cells) +
+         " cells, " + std::to_string(tests) + " pairs; limits.all_pairs allows " + std::to_string(*limits.all_pairs);
+}
+
+// Why this storage cannot keep lists of so many cells and lights; "" if it can.
+std::string storage_obstacle(const MethodRequest& request, const FirstFrame& first) {
+  constexpr std::uint64_t k_most_bytes = std::uint64_t{1} << 32;  // what 32-bit offsets reach
+  try {
+    const auto one_cell = assign::find_storage(request.name)->make(request.params);
+    one_cell->start(1, first.points, first.spots);
+    // What it takes before anything is in it grows with the cells.
+    const std::uint64_t bytes = one_cell->use().upload_bytes * first.cells;
+    if (bytes <= k_most_bytes) return "";
+    return request.label() + " would reserve " + std::to_string(bytes >> 20) + " MiB for " +
+           std::to_string(first.cells) + " cells and " + std::to_string(first.lights()) + " lights; at most " +
+           std::to_string(k_most_bytes >> 20) + " MiB";
   } catch (const Error& error) {
     return error.what();
   }
@@ -203,32 +237,35 @@ class Expansion {
     const std::string name = group_name(plan, group, camera);
     const SceneData& data = plan.scenes[group.scene];
     const scene::CameraPath& path = data.paths[group.camera];
-    const std::string impossible =
-        grid_obstacle(config_.grids[group.grid], data, path, config_.viewports[group.viewport]);
-    if (!impossible.empty()) {
-      skip(plan, name, impossible);
+    const FirstFrame first = first_frame(config_.grids[group.grid], data, path, config_.viewports[group.viewport]);
+    if (!first.obstacle.empty()) {
+      skip(plan, name, first.obstacle);
       return;
     }
     for (std::size_t assigner = 0; assigner < config_.assigners.size(); ++assigner)
-      expand_assigner(plan, group, assigner, name);
+      expand_assigner(plan, group, assigner, first, name);
     if (!group.cases.empty()) plan.groups.push_back(std::move(group));
   }
 
-  void expand_assigner(Plan& plan, GroupPlan& group, std::size_t assigner, const std::string& group_name) {
+  void expand_assigner(Plan& plan, GroupPlan& group, std::size_t assigner, const FirstFrame& first,
+                       const std::string& group_name) {
     const MethodRequest& method = config_.assigners[assigner];
     const std::string name = group_name + "/" + name_part(method.label());
     const SceneData& data = plan.scenes[group.scene];
-    const std::string impossible = obstacle(*assign::find_assigner(method.name), config_.grids[group.grid].kind,
-                                            data.scene, data.paths[group.camera].shots.front().lens.orthographic);
+    const assign::AssignerRow& row = *assign::find_assigner(method.name);
+    std::string impossible = obstacle(row, config_.grids[group.grid].kind, data.scene,
+                                      data.paths[group.camera].shots.front().lens.orthographic);
+    if (impossible.empty()) impossible = limit_obstacle(row, config_.limits, first);
     if (!impossible.empty()) {
       skip(plan, name, impossible);
       return;
     }
     for (std::size_t precision = 0; precision < config_.precisions.size(); ++precision)
-      expand_precision(plan, group, {assigner, precision}, name);
+      expand_precision(plan, group, {assigner, precision}, first, name);
   }
 
-  void expand_precision(Plan& plan, GroupPlan& group, const Method& method, const std::string& name) {
+  void expand_precision(Plan& plan, GroupPlan& group, const Method& method, const FirstFrame& first,
+                        const std::string& name) {
     const PrecisionRequest& precision = config_.precisions[method.precision];
     const std::string part = precision.is_lossy() ? "/" + precision.label() : "";
     const assign::AssignerRow& row = *assign::find_assigner(config_.assigners[method.assigner].name);
@@ -239,9 +276,15 @@ class Expansion {
     }
     const SceneData& data = plan.scenes[group.scene];
     for (std::size_t storage = 0; storage < config_.storages.size(); ++storage) {
+      const std::string whole_name = name + "/" + name_part(config_.storages[storage].label()) + part;
+      const std::string too_much = storage_obstacle(config_.storages[storage], first);
+      if (!too_much.empty()) {
+        skip(plan, whole_name, too_much);
+        continue;
+      }
       CasePlan one{
           "", "", group.scene, group.camera, group.viewport, group.grid, method.assigner, storage, method.precision};
-      one.name = unique_name(name + "/" + name_part(config_.storages[storage].label()) + part, names_);
+      one.name = unique_name(whole_name, names_);
       one.id = unique_name(case_id(config_, data, one), ids_);
       ++all_cases_;
       if (example_.empty()) example_ = one.name;

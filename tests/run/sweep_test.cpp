@@ -156,6 +156,31 @@ TEST_F(Sweep, a_rig_is_a_scene_without_a_file) {
   EXPECT_EQ(cases(rigs).front().name.substr(0, 20), "rig-1-r2-s0.5/look/f");
 }
 
+TEST_F(Sweep, a_method_that_tests_all_pairs_is_skipped_beyond_the_limit_with_its_reason) {
+  const Plan limited = plan(R"([{"rig": {"lights": [10, 100]}}])",
+                            R"(, "grids": [{"tiles": {"count": [10, 10]}, "slices": {"count": 10}}],
+                               "assigners": ["brute-force", "bounds"], "limits": {"all_pairs": 10000})");
+  EXPECT_EQ(cases(limited).size(), 3U);
+  ASSERT_EQ(limited.skipped.size(), 1U);
+  EXPECT_EQ(limited.skipped[0].reason,
+            "brute-force would test 100 lights against 1000 cells, 100000 pairs; limits.all_pairs allows 10000");
+}
+
+TEST_F(Sweep, a_storage_too_narrow_or_too_large_is_skipped_with_its_reason) {
+  const Plan narrow = plan(R"([{"rig": {"lights": [256, 257, 65536, 65537]}}])",
+                           R"(, "grids": [{}], "assigners": ["bounds"],
+                               "storages": [{"name": "packed", "index_bits": ["auto", "8", "16", "32"]}])");
+  ASSERT_EQ(narrow.skipped.size(), 4U);
+  EXPECT_EQ(narrow.skipped[0].reason, "index_bits: is 8, but 257 lights need 16 bits");
+  EXPECT_EQ(narrow.skipped[3].reason, "index_bits: is 16, but 65537 lights need 32 bits");
+  const Plan large = plan(R"([{"rig": {"lights": 70000}}])",
+                          R"(, "grids": [{"tiles": {"count": [160, 90]}, "slices": {"count": 64}}],
+                              "assigners": ["bounds"], "storages": ["packed", {"name": "fixed", "cap": 2000}])");
+  ASSERT_EQ(large.skipped.size(), 1U);
+  EXPECT_EQ(large.skipped[0].reason,
+            "fixed(cap=2000) would reserve 7034 MiB for 921600 cells and 70000 lights; at most 4096 MiB");
+}
+
 TEST_F(Sweep, a_filter_selects_by_name_and_says_when_it_selects_nothing) {
   write_scene("a.gltf");
   for (const CasePlan& one : cases(plan(R"(["a.gltf"])", k_two_grids, "/aabb/")))

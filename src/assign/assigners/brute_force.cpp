@@ -17,6 +17,7 @@ const AssignerRow brute_force_row{
     .summary = "every light against every cell's view-space bounding box",
     .source = "DaveH355, three.js",
     .kinds = {grid::Kind::frustum},
+    .all_pairs = true,
     .params = light_params(),
     .make = make_cell_box_method<EveryAabb>,
 };
