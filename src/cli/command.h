@@ -20,6 +20,8 @@ void add_stress(CLI::App& app, Action& action);
 void add_list(CLI::App& app, Action& action);
 void add_schema(CLI::App& app, Action& action);
 void add_validate(CLI::App& app, Action& action);
+void add_completion(CLI::App& app, Action& action);
+void add_man(CLI::App& app, Action& action);
 void add_version(CLI::App& app, Action& action);
 
 // Parses the command line and does what it says. Throws Error; CLI::ParseError for a bad command line.

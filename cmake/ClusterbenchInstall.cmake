@@ -1,0 +1,18 @@
+# clusterbench_install(): `cmake --install` puts the manual page and the shells' completions beside the program, which writes
+# them itself. (The program's own rule is in ClusterbenchLayers.cmake.)
+include(GNUInstallDirs)
+
+function(clusterbench_install_output ARGUMENTS FOLDER NAME)
+  install(CODE "
+    set(FILE \"${CMAKE_CURRENT_BINARY_DIR}/install/${NAME}\")
+    file(MAKE_DIRECTORY \"${CMAKE_CURRENT_BINARY_DIR}/install\")
+    execute_process(COMMAND \"$<TARGET_FILE:clusterbench>\" ${ARGUMENTS} OUTPUT_FILE \"\${FILE}\" COMMAND_ERROR_IS_FATAL ANY)
+    file(INSTALL DESTINATION \"\${CMAKE_INSTALL_PREFIX}/${FOLDER}\" TYPE FILE FILES \"\${FILE}\")")
+endfunction()
+
+function(clusterbench_install)
+  clusterbench_install_output("man" ${CMAKE_INSTALL_MANDIR}/man1 clusterbench.1)
+  clusterbench_install_output("completion bash" ${CMAKE_INSTALL_DATADIR}/bash-completion/completions clusterbench)
+  clusterbench_install_output("completion zsh" ${CMAKE_INSTALL_DATADIR}/zsh/site-functions _clusterbench)
+  clusterbench_install_output("completion fish" ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d clusterbench.fish)
+endfunction()

@@ -1,0 +1,21 @@
+#pragma once
+// Completion scripts for shells, written from the command tree. Each stands alone: nothing is run while completing.
+
+#include <span>
+#include <string>
+
+#include "cli/command_tree.h"
+
+namespace clusterbench::cli {
+
+std::string bash_completion(const CommandNode& root);
+std::string zsh_completion(const CommandNode& root);
+std::string fish_completion(const CommandNode& root);
+
+// 'text' for any of the three shells.
+std::string shell_word(const std::string& text);
+
+// The first sentence, for the one line that a shell shows.
+std::string first_sentence(const std::string& text);
+
+}  // namespace clusterbench::cli

@@ -1,0 +1,32 @@
+"""`cmake --install` into an empty prefix: test_install.py CMAKE BUILD_FOLDER."""
+
+import os
+import subprocess
+import sys
+import tempfile
+
+PARTS = {
+    "bin/clusterbench": b"\x7fELF",
+    "share/man/man1/clusterbench.1": b".TH CLUSTERBENCH 1",
+    "share/bash-completion/completions/clusterbench": b"# bash completion",
+    "share/zsh/site-functions/_clusterbench": b"#compdef clusterbench",
+    "share/fish/vendor_completions.d/clusterbench.fish": b"# fish completion",
+}
+
+
+def main():
+    cmake, build = sys.argv[1:]
+    with tempfile.TemporaryDirectory() as prefix:
+        subprocess.run([cmake, "--install", build, "--prefix", prefix], check=True, capture_output=True)
+        found = sorted(os.path.relpath(os.path.join(folder, name), prefix)
+                       for folder, _, names in os.walk(prefix) for name in names)
+        assert found == sorted(PARTS), found
+        for part, start in PARTS.items():
+            with open(os.path.join(prefix, part), "rb") as file:
+                assert file.read().startswith(start), part
+        version = subprocess.run([os.path.join(prefix, "bin/clusterbench"), "--version"], check=True, capture_output=True)
+        assert version.stdout.startswith(b"clusterbench "), version.stdout
+
+
+if __name__ == "__main__":
+    sys.exit(main())
