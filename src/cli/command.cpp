@@ -36,6 +36,8 @@ ExitCode run_command_line(CLI::App& app, int argc, char** argv) {
   add_list(app, action);
   add_schema(app, action);
   add_validate(app, action);
+  add_history(app, action);
+  add_merge(app, action);
   add_completion(app, action);
   add_man(app, action);
   add_version(app, action);

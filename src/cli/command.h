@@ -20,6 +20,8 @@ void add_stress(CLI::App& app, Action& action);
 void add_list(CLI::App& app, Action& action);
 void add_schema(CLI::App& app, Action& action);
 void add_validate(CLI::App& app, Action& action);
+void add_history(CLI::App& app, Action& action);
+void add_merge(CLI::App& app, Action& action);
 void add_completion(CLI::App& app, Action& action);
 void add_man(CLI::App& app, Action& action);
 void add_version(CLI::App& app, Action& action);

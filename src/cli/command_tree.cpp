@@ -53,9 +53,9 @@ struct WordsRow {
   Values (*values)();
 };
 constexpr WordsRow k_words[] = {
-    {"run", "--count", count_ways},         {"run", "--export", format_files}, {"run", "--filter", anything},
-    {"export", "--format", formats},        {"stress", "--cases", hard_cases}, {"stress", "--methods", assigners},
-    {"scene generate", "NAME", generators},
+    {"run", "--count", count_ways},         {"run", "--export", format_files},     {"run", "--filter", anything},
+    {"export", "--format", formats},        {"stress", "--cases", hard_cases},     {"stress", "--methods", assigners},
+    {"scene generate", "NAME", generators}, {"history add", "--commit", anything},
 };
 
 const WordsRow* words_row(const std::string& command, const std::string& option) {

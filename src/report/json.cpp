@@ -243,23 +243,6 @@ void add_front(const std::vector<const Json*>& cases, std::set<std::string>& ids
   for (const std::size_t place : measure::pareto_front(costs)) ids.insert((*cases[place])["id"].get<std::string>());
 }
 
-// Per scene the fronts of its views together, in the order of the cases.
-Json fronts(const Json& scenes, const Json& cases) {
-  Json list = Json::array();
-  for (const Json& scene : scenes) {
-    std::map<std::string, std::vector<const Json*>> views;
-    for (const Json& one : cases)
-      if (one["scene"] == scene["name"]) views[view_of(one)].push_back(&one);
-    std::set<std::string> ids;
-    for (const auto& [view, seen] : views) add_front(seen, ids);
-    Json front = Json::array();
-    for (const Json& one : cases)
-      if (ids.contains(one["id"].get<std::string>())) front.push_back(one["id"]);
-    list.push_back({{"scene", scene["name"]}, {"ids", front}});
-  }
-  return list;
-}
-
 // Pairs per frame against the same case in float32; null where there is none.
 void add_extra_pairs(Json& cases) {
   std::map<std::string, double> pairs;
@@ -298,6 +281,22 @@ std::string missing_light(const Json& one) {
 }
 
 }  // namespace
+
+Json fronts(const Json& scenes, const Json& cases) {
+  Json list = Json::array();
+  for (const Json& scene : scenes) {
+    std::map<std::string, std::vector<const Json*>> views;
+    for (const Json& one : cases)
+      if (one["scene"] == scene["name"]) views[view_of(one)].push_back(&one);
+    std::set<std::string> ids;
+    for (const auto& [view, seen] : views) add_front(seen, ids);
+    Json front = Json::array();
+    for (const Json& one : cases)
+      if (ids.contains(one["id"].get<std::string>())) front.push_back(one["id"]);
+    list.push_back({{"scene", scene["name"]}, {"ids", front}});
+  }
+  return list;
+}
 
 Json case_to_json(const run::CaseResult& one) {
   Json out{{"id", one.id},

@@ -1,0 +1,73 @@
+// `clusterbench history add` and `clusterbench history show`: results over commits.
+
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/output.h"
+#include "report/history.h"
+#include "report/history_page.h"
+#include "report/result_file.h"
+
+namespace clusterbench::cli {
+namespace {
+
+struct AddFlags {
+  std::string result, file, commit;
+};
+
+struct ShowFlags {
+  std::string file, page;
+  double max_p = measure::ChangeRule{}.max_p, min_change_percent = 100.0 * measure::ChangeRule{}.min_change;
+  bool all = false;
+};
+
+ExitCode add(const AddFlags& flags) {
+  const nlohmann::ordered_json result = report::read_result(flags.result);
+  report::add_to_history(flags.file, result,
+                         flags.commit.empty() ? result["tool"]["git_sha"].get<std::string>() : flags.commit);
+  return ExitCode::ok;
+}
+
+ExitCode show(const ShowFlags& flags) {
+  const std::vector<report::HistoryEntry> history = report::read_history(flags.file);
+  const std::vector<report::Series> series =
+      report::series_of(history, {flags.max_p, flags.min_change_percent / 100.0});
+  if (!flags.page.empty()) write_text(flags.page, report::history_page(series, history.size()));
+  if (flags.page != "-") write_text("-", report::history_text(series, history.size(), flags.all));
+  return ExitCode::ok;
+}
+
+void add_add(CLI::App& parent, Action& action) {
+  auto flags = std::make_shared<AddFlags>();
+  CLI::App* command = parent.add_subcommand("add", "Add a result to a history");
+  command->add_option("RESULT", flags->result, "A result file of `clusterbench run`")->required();
+  command->add_option("FILE", flags->file, "The history, JSON lines; made if there is none")->required();
+  command->add_option("--commit", flags->commit, "What was measured; without it the commit of clusterbench");
+  command->callback([flags, &action] { action = [flags] { return add(*flags); }; });
+}
+
+void add_show(CLI::App& parent, Action& action) {
+  auto flags = std::make_shared<ShowFlags>();
+  CLI::App* command = parent.add_subcommand("show", "Where the figures of a history have changed");
+  command->add_option("FILE", flags->file, "The history")->required();
+  command->add_option("-o,--output", flags->page, "Also a page (HTML) with a chart for each series that varies");
+  command->add_option("--max-p", flags->max_p, "How likely chance alone may make what is called a change")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1.0));
+  command->add_option("--min-change", flags->min_change_percent, "Smallest change that matters, percent")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
+  command->add_flag("--all", flags->all, "Also series without changes");
+  command->callback([flags, &action] { action = [flags] { return show(*flags); }; });
+}
+
+}  // namespace
+
+void add_history(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("history", "Results over commits, and where they changed");
+  command->require_subcommand(1);
+  add_add(*command, action);
+  add_show(*command, action);
+}
+
+}  // namespace clusterbench::cli

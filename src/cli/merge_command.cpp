@@ -1,0 +1,46 @@
+// `clusterbench merge RESULT...`: several results as one.
+
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/output.h"
+#include "report/merge.h"
+#include "report/result_file.h"
+#include "run/schema_check.h"
+#include "run/schema_text.h"
+
+namespace clusterbench::cli {
+namespace {
+
+struct Flags {
+  std::vector<std::string> results;
+  std::string output;
+};
+
+report::NamedPart read_part(const std::string& file) {
+  report::NamedPart part{file, report::read_result(file)};
+  static const nlohmann::json schema = nlohmann::json::parse(run::result_schema_text());
+  const std::vector<std::string> violations = run::schema_violations(schema, part.result);
+  if (!violations.empty()) throw Error(file, "", violations.front());
+  return part;
+}
+
+ExitCode merge(const Flags& flags) {
+  std::vector<report::NamedPart> parts;
+  for (const std::string& file : flags.results) parts.push_back(read_part(file));
+  write_output(flags.output, report::merged(parts));
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_merge(CLI::App& app, Action& action) {
+  auto flags = std::make_shared<Flags>();
+  CLI::App* command = app.add_subcommand("merge", "Put the cases of several results into one");
+  command->add_option("RESULT", flags->results, "Result files of `clusterbench run`, without a case in common")
+      ->required();
+  command->add_option("-o,--output", flags->output, "Result file; without it the result goes to standard output");
+  command->callback([flags, &action] { action = [flags] { return merge(*flags); }; });
+}
+
+}  // namespace clusterbench::cli

@@ -1,0 +1,52 @@
+#pragma once
+// Results over commits: a file of JSON lines, one per result, with the headline figures of each case.
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "measure/change_points.h"
+#include "report/exports/metrics.h"
+
+namespace clusterbench::report {
+
+struct HistoryEntry {
+  std::string commit;   // as it was given
+  std::string machine;  // processor and instruction set; times of two machines are two series
+  struct Case {
+    std::string name;
+    std::vector<std::pair<std::string, double>> figures;  // by the metric's name
+  };
+  std::vector<Case> cases;
+};
+
+// One figure of one case on one machine, in the order of the file.
+struct Series {
+  std::string case_name, machine;
+  const Metric* metric;
+  std::vector<std::string> commits;
+  std::vector<double> values;
+  std::vector<measure::ChangePoint> changes;
+};
+
+// Throws Error with the line for what is not a line of a history, an unfinished last line included.
+std::vector<HistoryEntry> read_history(const std::string& path);
+
+// Adds the result as the file's last line; makes the file if there is none. The file is replaced at once by one that
+// has all lines, so that no crash can leave half of one. Throws Error for a file that is no history, and on a failed
+// write.
+void add_to_history(const std::string& path, const nlohmann::ordered_json& result, const std::string& commit);
+
+// By case in order of first appearance, then by metric; the changes found by `rule`.
+std::vector<Series> series_of(const std::vector<HistoryEntry>& history, const measure::ChangeRule& rule);
+
+// Series with changes, or all of them, and a line of totals.
+std::string history_text(const std::vector<Series>& series, std::size_t entries, bool all);
+
+// "better", "worse", or "" where the metric has no direction.
+std::string direction(const Metric& metric, const measure::ChangePoint& change);
+
+// "+3.3 %"; from nothing: "from 0".
+std::string change_text(const measure::ChangePoint& change);
+
+}  // namespace clusterbench::report

@@ -1,0 +1,47 @@
+#include <gtest/gtest.h>
+
+#include "cli/tool.h"
+
+namespace clusterbench::test {
+namespace {
+
+const std::string k_result = source_file("results/intel-r-xeon-r-processor/quick.json");
+
+TEST(HistoryCommand, what_is_added_is_shown_as_text_and_as_a_page) {
+  const Folder folder;
+  const std::string file = (folder / "history.jsonl").string(), page = (folder / "history.html").string();
+  for (const char* commit : {"c1", "c2"}) {
+    const Outcome added = tool("history add " + k_result + " " + file + " --commit " + commit);
+    ASSERT_EQ(added.code, 0) << added.err;
+  }
+  const Outcome shown = tool("history show " + file + " -o " + page);
+  EXPECT_EQ(shown.code, 0) << shown.err;
+  EXPECT_EQ(shown.out.substr(0, 11), "2 results, ");
+  EXPECT_EQ(file_text(page).substr(0, 15), "<!doctype html>");
+}
+
+TEST(HistoryCommand, a_corrupt_line_is_a_usage_error_that_names_it) {
+  const Folder folder;
+  const Outcome done = tool("history show " + folder.write("history.jsonl", "{}\n").string());
+  EXPECT_EQ(done.code, 2);
+  EXPECT_NE(done.err.find("history.jsonl: line 1: "), std::string::npos) << done.err;
+}
+
+TEST(MergeCommand, a_merged_result_is_valid_and_one_with_itself_is_refused) {
+  const Folder folder;
+  const std::string scene = source_file("scenes/mirror.glb"), out = (folder / "all.json").string();
+  std::string shards;
+  for (const char* assigner : {"/aabb/", "/bounds/"}) {
+    const std::string file = (folder / ("shard" + std::to_string(shards.size()) + ".json")).string();
+    ASSERT_EQ(tool("run " + scene + " --no-timing -q --filter " + assigner + " -o " + file).code, 0);
+    shards += " " + file;
+  }
+  EXPECT_EQ(tool("merge" + shards + " -o " + out).code, 0);
+  EXPECT_EQ(tool("validate " + out).code, 0);
+  const Outcome twice = tool("merge" + shards + " " + out);
+  EXPECT_EQ(twice.code, 2);
+  EXPECT_NE(twice.err.find("all.json: /cases: has id '"), std::string::npos) << twice.err;
+}
+
+}  // namespace
+}  // namespace clusterbench::test

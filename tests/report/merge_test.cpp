@@ -1,0 +1,74 @@
+#include "report/merge.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "report/json.h"
+#include "report/result_by_hand.h"
+#include "run/schema_check.h"
+#include "run/schema_text.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// The shard of the result by hand that has this case alone.
+NamedPart shard(const std::string& file, const std::string& id) {
+  Json result = result_to_json(testing::result_by_hand(), {});
+  Json kept = Json::array();
+  for (const Json& one : result["cases"])
+    if (one["id"] == id) kept.push_back(one);
+  result["cases"] = kept;
+  return {file, result};
+}
+
+std::string refusal(const std::vector<NamedPart>& parts) {
+  try {
+    merged(parts);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(Merge, shards_become_the_whole_result_again) {
+  EXPECT_EQ(merged({shard("a", "slow"), shard("b", "fast")}), result_to_json(testing::result_by_hand(), {}));
+}
+
+TEST(Merge, different_configurations_are_all_kept_and_fit_the_schema) {
+  NamedPart other = shard("b", "fast");
+  other.result["config"]["seed"] = 2;
+  other.result["name"] = "other";
+  const Json all = merged({shard("a", "slow"), other});
+  EXPECT_EQ(run::schema_violations(nlohmann::json::parse(run::result_schema_text()), all), std::vector<std::string>{});
+  EXPECT_EQ(all["name"], "by hand + other");
+  EXPECT_EQ(all["config"]["merged"][1]["seed"], 2);
+  EXPECT_EQ(all["config"]["allocation"], other.result["config"]["allocation"]);
+}
+
+TEST(Merge, a_case_of_two_parts_is_a_conflict_that_names_both) {
+  const std::string said = refusal({shard("a.json", "slow"), shard("b.json", "fast"), shard("c.json", "fast")});
+  EXPECT_NE(said.find("c.json: /cases: has id 'fast', and b.json has it, too"), std::string::npos) << said;
+}
+
+TEST(Merge, two_scenes_of_one_name_are_a_conflict) {
+  NamedPart other = shard("b.json", "fast");
+  other.result["scenes"][0]["sha256"] = std::string(64, 'b');
+  const std::string said = refusal({shard("a.json", "slow"), other});
+  EXPECT_NE(said.find("b.json: /scenes: has name 'hall', and a.json has it, too, but it is another"), std::string::npos)
+      << said;
+}
+
+TEST(Merge, times_of_two_machines_are_refused_and_counts_are_not) {
+  NamedPart one = shard("a.json", "slow"), other = shard("b.json", "fast");
+  other.result["machine"]["cpu"] = "another";
+  const std::string said = refusal({one, other});
+  EXPECT_NE(said.find("b.json: /machine: is not that of a.json"), std::string::npos) << said;
+  one.result["cases"][0].erase("timing");
+  other.result["cases"][0].erase("timing");
+  EXPECT_EQ(refusal({one, other}), "accepted");
+}
+
+}  // namespace
+}  // namespace clusterbench::report
