@@ -63,6 +63,12 @@ TEST(ChangePoints, what_is_too_small_to_matter_is_left_out) {
   EXPECT_EQ(places(series, {.max_p = 0.001, .min_change = 0.0}), std::vector<std::size_t>{3});
 }
 
+TEST(ChangePoints, what_may_well_be_chance_is_left_out) {
+  const std::vector<double> series = steps({{10, 100.0}, {10, 101.0}});
+  EXPECT_EQ(places(series), std::vector<std::size_t>{});
+  EXPECT_EQ(places(series, {.max_p = 0.01, .min_change = 0.005}), std::vector<std::size_t>{10});
+}
+
 TEST(ChangePoints, short_series_have_none) {
   for (std::size_t count = 0; count < 4; ++count)
     EXPECT_EQ(places(std::vector<double>(count, 5.0)), std::vector<std::size_t>{});
