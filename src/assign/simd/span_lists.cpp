@@ -203,7 +203,8 @@ std::uint32_t* SpanLists::scatter_row(const RowSpans& row, std::uint32_t* begin,
   std::uint32_t* lists = out_->lights.data();
   next_.assign(columns_ + std::size_t{1}, 0);
   for (std::uint32_t i = 0; i < row.count; ++i) {
-    ++next_[static_cast<std::size_t>(row.before[i] + 1)];
+    const std::int32_t first = row.before[i] + 1;
+    ++next_[static_cast<std::size_t>(first)];
     --next_[static_cast<std::size_t>(row.after[i])];
   }
   auto end = static_cast<std::uint32_t>(to - lists);
