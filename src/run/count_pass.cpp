@@ -15,9 +15,7 @@ Counted counted(InstructionCounter& counter, Work work) {
 }
 
 void check_threads(const MethodRequest& assigner, const InstructionCounter& counter) {
-  const auto threads = assigner.params.values().find("threads");
-  if (counter.counts_all_threads() || threads == assigner.params.values().end()) return;
-  if (std::get<double>(threads->second) > 1.0)
+  if (!counter.counts_all_threads() && is_threaded(assigner))
     throw Error("", std::string("--count=") + counter.source(),
                 "counts one thread, and " + assigner.label() + " takes several; take --count=callgrind, or one thread");
 }

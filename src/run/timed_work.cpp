@@ -18,6 +18,11 @@ std::vector<TimedFrame> timed_frames(const Config& config, const GroupPlan& grou
   return frames;
 }
 
+bool is_threaded(const MethodRequest& assigner) {
+  const auto threads = assigner.params.values().find("threads");
+  return threads != assigner.params.values().end() && std::get<double>(threads->second) > 1.0;
+}
+
 TimedWork::TimedWork(const Config& config, const GroupPlan& group, const Method& method,
                      const std::vector<TimedFrame>& frames)
     : frames_(frames), precision_(method.precision), lists_(frames.size()) {

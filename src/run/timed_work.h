@@ -21,6 +21,9 @@ struct TimedFrame {
 // `timing.frames` frames, evenly spaced over the path; all where it is 0.
 std::vector<TimedFrame> timed_frames(const Config& config, const GroupPlan& group, const PathFrames& path);
 
+// Does this method share its work among threads?
+bool is_threaded(const MethodRequest& assigner);
+
 // One method over the frames, with the storages that its cases use. The frames outlive it. Its lists are made once at
 // the start, so that memory has grown.
 class TimedWork {

@@ -1,21 +1,14 @@
 #include "run/timing_pass.h"
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <cstring>
 #include <memory>
 
+#include "run/repeated.h"
 #include "run/timed_work.h"
 
 namespace clusterbench::run {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double ns_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
-}
 
 // Memory traffic that no way of assigning can avoid: the finished lists and headers, copied once.
 class WriteFloor {
@@ -38,33 +31,6 @@ class WriteFloor {
   std::vector<unsigned char> from_, to_;
 };
 
-// Runs something as often as takes min_ns, the same number of times in every round.
-class Repeated {
- public:
-  Repeated(std::function<void()> once, double min_ns) : once_(std::move(once)), min_ns_(min_ns) {}
-
-  // ns per run.
-  double sample() {
-    if (repeats_ == 0) calibrate();
-    const auto start = Clock::now();
-    for (int i = 0; i < repeats_; ++i) once_();
-    return ns_since(start) / repeats_;
-  }
-
- private:
-  void calibrate() {
-    once_();
-    const auto start = Clock::now();
-    once_();
-    const double one_ns = std::max(1.0, ns_since(start));
-    repeats_ = static_cast<int>(std::clamp(std::ceil(min_ns_ / one_ns), 1.0, 1e6));
-  }
-
-  std::function<void()> once_;
-  double min_ns_;
-  int repeats_ = 0;
-};
-
 // One method with the times of its rounds.
 class Track {
  public:
@@ -76,9 +42,9 @@ class Track {
   }
 
   void round() {
-    const auto start = Clock::now();
+    const double start = wall_ns();
     work_.build();
-    build_ns_.push_back(ns_since(start));
+    build_ns_.push_back(wall_ns() - start);
     work_.assign();  // warms caches, and makes what an assigner makes with the first spot
     const auto frames = static_cast<double>(work_.frame_count());
     assign_ns_.push_back(assign_.sample() / frames);

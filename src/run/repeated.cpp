@@ -1,0 +1,42 @@
+#include "run/repeated.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace clusterbench::run {
+namespace {
+
+double clock_ns(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return 1e9 * static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec);
+}
+
+}  // namespace
+
+double wall_ns() {
+  return clock_ns(CLOCK_MONOTONIC);
+}
+
+double thread_ns() {
+  return clock_ns(CLOCK_THREAD_CPUTIME_ID);
+}
+
+double Repeated::sample() {
+  if (repeats_ == 0) calibrate();
+  const double start = now_ns_();
+  for (int i = 0; i < repeats_; ++i) once_();
+  return (now_ns_() - start) / repeats_;
+}
+
+void Repeated::calibrate() {
+  once_();
+  const double start = now_ns_();
+  once_();
+  const double one_ns = std::max(1.0, now_ns_() - start);
+  repeats_ = static_cast<int>(std::clamp(std::ceil(min_ns_ / one_ns), 1.0, 1e6));
+}
+
+}  // namespace clusterbench::run

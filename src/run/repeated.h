@@ -1,0 +1,31 @@
+#pragma once
+// Runs something as often as takes some time, the same number of times in every round.
+
+#include <functional>
+
+namespace clusterbench::run {
+
+using Clock = double (*)();  // ns since some moment
+double wall_ns();
+// The processor time of this thread: knows nothing of other programs that had the processor meanwhile, nor of other
+// threads that did the work.
+double thread_ns();
+
+class Repeated {
+ public:
+  Repeated(std::function<void()> once, double min_ns, Clock now_ns = wall_ns)
+      : once_(std::move(once)), min_ns_(min_ns), now_ns_(now_ns) {}
+
+  // ns per run.
+  double sample();
+
+ private:
+  void calibrate();
+
+  std::function<void()> once_;
+  double min_ns_;
+  Clock now_ns_;
+  int repeats_ = 0;
+};
+
+}  // namespace clusterbench::run

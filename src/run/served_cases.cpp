@@ -1,0 +1,141 @@
+#include "run/served_cases.h"
+
+#include <optional>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "run/repeated.h"
+#include "run/timed_work.h"
+
+namespace clusterbench::run {
+namespace {
+
+std::string_view bytes_of(const std::vector<std::uint32_t>& numbers) {
+  return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(std::uint32_t)};
+}
+
+ListDigest digest_of(const assign::Lists& lists) {
+  return {lists.pair_count(), sha256_hex(sha256_hex(bytes_of(lists.begin)) + sha256_hex(bytes_of(lists.lights)))};
+}
+
+// One method's lists of the path's frames, in their order.
+class ListsOfFrames {
+ public:
+  ListsOfFrames(const Config& config, const GroupPlan& group, const CasePlan& one, const PathFrames& path)
+      : config_(config), path_(path), grids_(config.grids[group.grid]), precision_(one.precision) {
+    const MethodRequest& request = config.assigners[one.assigner];
+    assigner_ = assign::find_assigner(request.name)->make(request.params);
+  }
+
+  const assign::Lists& at(int index) {
+    const view::Frame frame = path_.frame(index);
+    if (grids_.update(path_, frame)) assigner_->build(grids_.grid());
+    const FrameLights lights(config_.precisions, view::lights_in(frame, grid::space_of(grids_.grid(), frame)));
+    assigner_->assign(lights.seen(precision_), lists_);
+    return lists_;
+  }
+  const grid::Grid& grid() const { return grids_.grid(); }
+
+ private:
+  const Config& config_;
+  const PathFrames& path_;
+  GridOfFrames grids_;
+  std::size_t precision_;
+  std::unique_ptr<assign::Assigner> assigner_;
+  assign::Lists lists_;
+};
+
+PathFrames path_of(const Config& config, const Plan& plan, const GroupPlan& group) {
+  const SceneData& data = plan.scenes[group.scene];
+  return {data.scene, data.paths[group.camera], config.viewports[group.viewport]};
+}
+
+}  // namespace
+
+class ServedCases::OpenGroup {
+ public:
+  OpenGroup(const Config& config, const Plan& plan, const GroupPlan& group)
+      : config_(config), group_(group), frames_(timed_frames(config, group, path_of(config, plan, group))) {}
+
+  const GroupPlan& group() const { return group_; }
+
+  double assign_ns(const Method& method) {
+    Track& track = track_of(method);
+    track.work.assign();  // warms caches that the other program has filled
+    return track.assign.sample() / static_cast<double>(track.work.frame_count());
+  }
+
+ private:
+  struct Track {
+    Track(const Config& config, const GroupPlan& group, const Method& of, const std::vector<TimedFrame>& frames)
+        : method(of),
+          work(config, group, of, frames),
+          assign([this] { work.assign(); }, config.timing.min_time_ms * 1e6,
+                 is_threaded(config.assigners[of.assigner]) ? wall_ns : thread_ns) {}
+
+    Method method;
+    TimedWork work;
+    Repeated assign;
+  };
+
+  Track& track_of(const Method& method) {
+    for (const auto& track : tracks_)
+      if (track->method == method) return *track;
+    tracks_.push_back(std::make_unique<Track>(config_, group_, method, frames_));
+    return *tracks_.back();
+  }
+
+  const Config& config_;
+  const GroupPlan& group_;
+  std::vector<TimedFrame> frames_;
+  std::vector<std::unique_ptr<Track>> tracks_;
+};
+
+ServedCases::ServedCases(const Config& config, const Plan& plan) : config_(config), plan_(plan) {}
+ServedCases::~ServedCases() = default;
+
+std::vector<std::string> ServedCases::case_ids() {
+  std::vector<std::string> ids;
+  for (const GroupPlan& group : plan_.groups)
+    for (const CasePlan& one : group.cases) ids.push_back(one.id);
+  return ids;
+}
+
+ServedCases::Place ServedCases::find(const std::string& id) const {
+  for (const GroupPlan& group : plan_.groups)
+    for (const CasePlan& one : group.cases)
+      if (one.id == id) return {group, one};
+  throw Error("", id, "is no case of this plan");
+}
+
+std::vector<ListDigest> ServedCases::list_digests(const std::string& id) {
+  const Place place = find(id);
+  const PathFrames path = path_of(config_, plan_, place.group);
+  ListsOfFrames lists(config_, place.group, place.one, path);
+  std::vector<ListDigest> digests;
+  for (int frame = 0; frame < path.count(); ++frame) digests.push_back(digest_of(lists.at(frame)));
+  return digests;
+}
+
+FrameLists ServedCases::frame_lists(const std::string& id, int frame) {
+  const Place place = find(id);
+  const PathFrames path = path_of(config_, plan_, place.group);
+  if (frame < 0 || frame >= path.count()) throw Error("", id, "has no frame " + std::to_string(frame));
+  ListsOfFrames lists(config_, place.group, place.one, path);
+  const assign::Lists& found = lists.at(frame);
+  FrameLists out{lists.grid().cells(), {}};
+  for (std::uint32_t cell = 0; cell < found.cell_count(); ++cell)
+    out.lights.emplace_back(found.of(cell).begin(), found.of(cell).end());
+  return out;
+}
+
+double ServedCases::assign_ns(const std::string& id) {
+  const Place place = find(id);
+  if (!open_ || &open_->group() != &place.group) {
+    open_.reset();
+    open_ = std::make_unique<OpenGroup>(config_, plan_, place.group);
+  }
+  return open_->assign_ns(place.one.method());
+}
+
+}  // namespace clusterbench::run
