@@ -1,16 +1,15 @@
 #include "cli/count.h"
 
-#include <stdlib.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <set>
 #include <sstream>
 
 #include "cli/child.h"
+#include "cli/temporary_folder.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "run/callgrind_counter.h"
@@ -47,26 +46,6 @@ std::string callgrind_obstacle() {
   return "valgrind is not in PATH; install it (Debian: apt-get install valgrind)";
 }
 
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "clusterbench-count.XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw Error(name, "", "no temporary folder could be made here");
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  fs::path operator/(const char* name) const { return path_ / name; }
-
- private:
-  fs::path path_;
-};
-
 std::vector<std::string> callgrind_command(const CountTask& task, const std::string& dumps) {
   std::vector<std::string> command{"valgrind",
                                    "--quiet",
@@ -101,15 +80,6 @@ std::pair<std::string, run::CountResult> count_in(const std::string& line) {
       count.convert.instructions;
   if (!in || count.frames <= 0) throw Error("", k_callgrind, "the run under valgrind printed '" + line + "'");
   return read;
-}
-
-// The last lines: what a program says when it gives up.
-std::string last_words(const fs::path& file) {
-  constexpr std::size_t k_most = 2000;
-  std::ifstream in(file);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  return text.size() > k_most ? "..." + text.substr(text.size() - k_most) : text;
 }
 
 using OnCase = std::function<void(const std::string&)>;

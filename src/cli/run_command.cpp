@@ -6,13 +6,16 @@
 #include <memory>
 #include <optional>
 
+#include "cli/baseline.h"
 #include "cli/command.h"
 #include "cli/count.h"
 #include "cli/exports.h"
 #include "cli/output.h"
+#include "cli/rounds_protocol.h"
 #include "cli/stop.h"
 #include "cli/terminal.h"
 #include "core/text.h"
+#include "report/compare.h"
 #include "report/journal.h"
 #include "report/json.h"
 #include "report/table.h"
@@ -32,6 +35,11 @@ struct Flags {
   std::vector<std::string> exports;
   std::optional<int> threads;
   bool resume = false, dry_run = false, no_timing = false, quiet = false;
+
+  BaselineRequest baseline;
+
+  // Only where this program is measured beside another one.
+  int rounds_server = 0;
 
   // Only where this program runs itself under callgrind.
   std::string count_dumps;
@@ -118,6 +126,42 @@ ExitCode report_gates(const Json& result) {
   return failures.empty() ? ExitCode::ok : ExitCode::gate_failed;
 }
 
+// What makes the same plan in another program.
+std::vector<std::string> plan_arguments(const Flags& flags) {
+  std::vector<std::string> arguments;
+  if (!flags.filter.empty()) arguments.push_back("--filter=" + flags.filter);
+  if (flags.threads) arguments.push_back("--threads=" + std::to_string(*flags.threads));
+  arguments.emplace_back("--");
+  arguments.insert(arguments.end(), flags.inputs.begin(), flags.inputs.end());
+  return arguments;
+}
+
+// False once it is to stop.
+bool add_baseline(const Flags& flags, const run::Config& config, const run::Plan& plan, ProgressLine& progress,
+                  const std::atomic<bool>& stop, Json& result) {
+  run::Progress now;
+  now.cost_total = 1.0;
+  now.doing = "beside " + flags.baseline.binary;
+  const auto on_round = [&](double share) {
+    progress.show(now);
+    now.cost_done += share;
+  };
+  try {
+    measure_beside(flags.baseline, plan_arguments(flags), config, plan, on_round, stop, result);
+  } catch (const Error&) {
+    if (!stop) throw;
+  }
+  progress.clear();
+  return !stop;
+}
+
+// The gates of the comparison hold those of the run.
+ExitCode report_baseline(const Flags& flags, const Json& result) {
+  const Json comparison = report::compare_results(result, result, flags.baseline.threshold_percent / 100.0);
+  std::cerr << report::comparison_text(comparison);
+  return report::outcome(comparison, false);
+}
+
 run::Listener make_listener(ProgressLine& progress, report::Journal* journal, std::size_t earlier, std::size_t total) {
   run::Listener listener;
   listener.on_progress = [&progress](const run::Progress& now) { progress.show(now); };
@@ -178,25 +222,45 @@ ExitCode measure(const Flags& flags, const run::Config& config, const run::Plan&
   progress.clear();
   if (stop) return interrupted(journal.get());
 
-  const Json result = report::result_to_json(fresh, earlier);
+  Json result = report::result_to_json(fresh, earlier);
+  if (!flags.baseline.binary.empty() && !add_baseline(flags, config, plan, progress, stop, result))
+    return interrupted(journal.get());
   if (journal)
     journal->finish(result);
   else
     write_output(flags.output, result);
   write_exports(exports, result);
   if (!flags.quiet) std::cerr << report::render_table(result, screen.colour);
-  return report_gates(result);
+  return flags.baseline.binary.empty() ? report_gates(result) : report_baseline(flags, result);
+}
+
+void check_baseline(const Flags& flags) {
+  if (flags.no_timing)
+    throw Error("", "--baseline-binary", "measures times, which --no-timing leaves out; take one of the two");
+  probe_baseline(flags.baseline, plan_arguments(flags), stop_on_signals());
+}
+
+ExitCode serve(const Flags& flags, const run::Config& config, const run::Plan& plan) {
+  if (flags.rounds_server != k_rounds_protocol)
+    throw Error("", "--rounds-server",
+                "version " + std::to_string(flags.rounds_server) + " is asked for, and this program speaks " +
+                    std::to_string(k_rounds_protocol));
+  serve_rounds(config, plan);
+  return ExitCode::ok;
 }
 
 ExitCode run(const Flags& flags) {
   const run::Config config = overridden(read_inputs(flags), flags);
   const CountWay way = count_way(flags.count);
   const run::Plan plan = run::make_plan(config, flags.filter);
+  if (flags.rounds_server != 0) return serve(flags, config, plan);
   if (!flags.count_dumps.empty()) {
     print_callgrind_counts({config, plan, flags.inputs, flags.count_ids}, flags.count_dumps);
     return ExitCode::ok;
   }
-  return flags.dry_run ? print_plan(plan) : measure(flags, config, plan, way);
+  if (flags.dry_run) return print_plan(plan);
+  if (!flags.baseline.binary.empty()) check_baseline(flags);
+  return measure(flags, config, plan, way);
 }
 
 }  // namespace
@@ -215,6 +279,20 @@ void add_run(CLI::App& app, Action& action) {
                     "Count instructions, too: --count=perf (hardware), =callgrind (valgrind), or what works");
   command->add_option("--count-dumps", flags->count_dumps)->group("");
   command->add_option("--count-ids", flags->count_ids)->group("");
+  command->add_option("--baseline-binary", flags->baseline.binary,
+                      "Another clusterbench: both are measured side by side, and compared");
+  command->add_option("--baseline-launches", flags->baseline.launches, "How often both are started")
+      ->check(CLI::Range(2, 1000))
+      ->capture_default_str();
+  command->add_option("--baseline-timeout", flags->baseline.patience_s, "Longest wait for one answer, in seconds")
+      ->check(CLI::Range(0.1, 1e6))
+      ->capture_default_str();
+  command
+      ->add_option("--threshold", flags->baseline.threshold_percent,
+                   "Smallest change against the baseline that matters, in percent")
+      ->check(CLI::Range(0.01, 1000.0))
+      ->capture_default_str();
+  command->add_option("--rounds-server", flags->rounds_server)->group("");
   command->add_flag("--resume", flags->resume, "Continue the interrupted run of the same -o FILE");
   command->add_flag("--dry-run", flags->dry_run, "List the cases and what is skipped, measure nothing");
   command->add_flag("--no-timing", flags->no_timing, "Count only; the output is then the same on every machine");

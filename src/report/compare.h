@@ -15,15 +15,15 @@ namespace clusterbench::report {
 std::vector<std::string> obstacles(const nlohmann::ordered_json& base, const nlohmann::ordered_json& next);
 
 // {comparison_version, threshold, data, base {tool}, new {tool}, cases [...], summary, only_in_base, only_in_new,
-// failures, warnings}: see comparison in docs/comparing.md. `threshold`: the smallest change of time that matters, 0.02 for
-// 2 %.
-// Times: of rounds side by side where the new result has them for this base ("data": "paired"), else of medians
+// failures, warnings}: see comparison in docs/comparing.md. `threshold`: the smallest change of time that matters, 0.02
+// for 2 %. Times: of rounds side by side where the new result has them for this base ("data": "paired"), else of
+// medians
 // ("separate").
 nlohmann::ordered_json compare_results(const nlohmann::ordered_json& base, const nlohmann::ordered_json& next,
                                        double threshold);
 
-// ok, gate_failed (a failure), nothing_comparable (no case in common); with `is_strict` inconclusive where a verdict is,
-// or a case of the base is missing.
+// ok, gate_failed (a failure), nothing_comparable (no case in common); with `is_strict` inconclusive where a verdict
+// is, or a case of the base is missing.
 ExitCode outcome(const nlohmann::ordered_json& comparison, bool is_strict);
 
 // For people: the table, and the same for a pull request.

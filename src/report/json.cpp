@@ -193,14 +193,6 @@ Json count(const run::CountResult& c) {
   return out;
 }
 
-Json to_json(const run::ToolFacts& tool) {
-  Json libraries = Json::object();
-  for (const auto& [name, version] : tool.libraries) libraries[name] = version;
-  return {{"version", tool.version}, {"git_sha", tool.git_sha},       {"compiler", tool.compiler},
-          {"flags", tool.flags},     {"build_type", tool.build_type}, {"simd_target", tool.simd_target},
-          {"libraries", libraries}};
-}
-
 Json to_json(const run::SceneResult& scene) {
   Json out{
       {"name", scene.name},
@@ -298,6 +290,14 @@ Json fronts(const Json& scenes, const Json& cases) {
   return list;
 }
 
+Json tool_to_json(const run::ToolFacts& tool) {
+  Json libraries = Json::object();
+  for (const auto& [name, version] : tool.libraries) libraries[name] = version;
+  return {{"version", tool.version}, {"git_sha", tool.git_sha},       {"compiler", tool.compiler},
+          {"flags", tool.flags},     {"build_type", tool.build_type}, {"simd_target", tool.simd_target},
+          {"libraries", libraries}};
+}
+
 Json case_to_json(const run::CaseResult& one) {
   Json out{{"id", one.id},
            {"name", one.name},
@@ -329,7 +329,7 @@ Json case_to_json(const run::CaseResult& one) {
 }
 
 Json result_to_json(const run::Result& result, const std::vector<Json>& earlier_cases) {
-  Json out{{"schema_version", k_schema_version}, {"name", result.config_name}, {"tool", to_json(result.tool)}};
+  Json out{{"schema_version", k_schema_version}, {"name", result.config_name}, {"tool", tool_to_json(result.tool)}};
   out["machine"] = {{"cpu", result.machine.cpu},
                     {"cores", result.machine.cores},
                     {"ram_bytes", result.machine.ram_bytes},

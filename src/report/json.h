@@ -12,6 +12,7 @@ namespace clusterbench::report {
 
 inline constexpr int k_schema_version = 1;
 
+nlohmann::ordered_json tool_to_json(const run::ToolFacts& tool);
 nlohmann::ordered_json case_to_json(const run::CaseResult& one);
 
 // `earlier_cases`: what an interrupted run had finished, as case_to_json gave it. All cases come in the plan's order.

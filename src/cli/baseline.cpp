@@ -1,0 +1,63 @@
+#include "cli/baseline.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "cli/rounds_protocol.h"
+#include "cli/temporary_folder.h"
+#include "core/error.h"
+#include "report/baseline.h"
+
+namespace clusterbench::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Rounds of one launch: together about as many as the configuration asks for, and enough for a median.
+int rounds_per_launch(const run::Config& config, int launches) {
+  constexpr int k_least = 4;
+  return std::max(k_least, (config.timing.rounds + launches - 1) / launches);
+}
+
+std::vector<std::string> server_command(const std::string& binary, const std::vector<std::string>& arguments) {
+  std::vector<std::string> command{binary, "run", "--rounds-server=" + std::to_string(k_rounds_protocol)};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  return command;
+}
+
+}  // namespace
+
+void probe_baseline(const BaselineRequest& request, const std::vector<std::string>& arguments,
+                    const std::atomic<bool>& stop) {
+  const TemporaryFolder folder;
+  const RemoteProgram probe(server_command(fs::absolute(request.binary).string(), arguments), folder / "base",
+                            request.patience_s, stop);
+}
+
+void measure_beside(const BaselineRequest& request, const std::vector<std::string>& arguments,
+                    const run::Config& config, const run::Plan& plan, const std::function<void(double share)>& on_round,
+                    const std::atomic<bool>& stop, nlohmann::ordered_json& result) {
+  const TemporaryFolder folder;
+  nlohmann::ordered_json tool;
+  const auto start = [&](const std::string& binary, const char* errors) {
+    return std::make_unique<RemoteProgram>(server_command(binary, arguments), folder / errors, request.patience_s,
+                                           stop);
+  };
+  const std::string self = fs::read_symlink("/proc/self/exe").string();
+  const std::string other = fs::absolute(request.binary).string();
+  const run::PairedStart both{[&] {
+                                auto program = start(other, "base");
+                                tool = program->tool();
+                                return program;
+                              },
+                              [&] { return start(self, "new"); }};
+  try {
+    const auto measured =
+        run::measure_paired(plan, {request.launches, rounds_per_launch(config, request.launches)}, both, on_round);
+    report::add_baseline(result, tool, measured);
+  } catch (const nlohmann::json::exception& error) {
+    throw Error(request.binary, "--baseline-binary", std::string("answered what cannot be read: ") + error.what());
+  }
+}
+
+}  // namespace clusterbench::cli

@@ -1,0 +1,25 @@
+#pragma once
+// A folder for what another program writes; it goes with its owner.
+
+#include <filesystem>
+#include <string>
+
+namespace clusterbench::cli {
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder();  // throws Error if none can be made
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+// The last lines of a text file: what a program says when it gives up.
+std::string last_words(const std::filesystem::path& file);
+
+}  // namespace clusterbench::cli
