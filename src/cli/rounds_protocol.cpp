@@ -96,7 +96,7 @@ Json RemoteProgram::answer(const std::string& request) {
                            : "ended" + how + " at '" + request + "'");
     }
   }
-  const Json read = Json::parse(line, nullptr, false);
+  Json read = Json::parse(line, nullptr, false);
   if (read.is_discarded() && !tool_.is_null()) fail("answered '" + request + "' with '" + line.substr(0, 100) + "'");
   return read;
 }
