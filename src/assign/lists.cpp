@@ -11,6 +11,18 @@ void check_pair_count(std::uint64_t pairs) {
     throw Error("", "lists", "hold " + std::to_string(pairs) + " pairs; at most 2^32 - 1 fit", ExitCode::internal);
 }
 
+std::uint32_t Lists::fullest_cell() const {
+  std::uint32_t longest = 0, fullest = 0;
+  for (std::uint32_t cell = 0; cell < cell_count(); ++cell) {
+    const std::uint32_t count = begin[cell + 1] - begin[cell];
+    if (count > longest) {
+      longest = count;
+      fullest = cell;
+    }
+  }
+  return fullest;
+}
+
 void PairBuffer::start(std::uint32_t cell_count) {
   cell_count_ = cell_count;
   pairs_ = 0;

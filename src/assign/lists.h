@@ -18,6 +18,8 @@ struct Lists {
   std::span<const std::uint32_t> of(std::uint32_t cell) const {
     return {lights.data() + begin[cell], begin[cell + 1] - begin[cell]};
   }
+  // The first one with the longest list.
+  std::uint32_t fullest_cell() const;
   friend bool operator==(const Lists&, const Lists&) = default;
 };
 

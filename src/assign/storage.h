@@ -12,7 +12,8 @@
 
 namespace clusterbench::assign {
 
-// What one frame's lists take. Entries are light indices.
+// What one frame's lists take. Entries are light indices, the words of a bitfield or the nodes of linked
+// lists.
 struct StorageUse {
   std::uint64_t index_entries = 0;
   std::uint64_t index_bytes = 0;
@@ -40,7 +41,7 @@ class Storage {
   virtual StorageLimit limit() const = 0;
   // What a shader would read back, for tests: the lists less what was dropped.
   virtual Lists read_back() const = 0;
-  virtual std::uint32_t index_bits() const = 0;
+  virtual std::uint32_t index_bits() const = 0;  // of an entry
 };
 
 struct StorageRow {
@@ -51,7 +52,7 @@ struct StorageRow {
   std::unique_ptr<Storage> (*make)(const Params& params);
 };
 
-std::span<const StorageRow> storage_rows();
+std::span<const StorageRow* const> storage_rows();
 const StorageRow* find_storage(const std::string& name);
 std::vector<std::string> storage_names();
 

@@ -51,9 +51,9 @@ Json to_json(const assign::AssignerRow& row) {
 Json everything() {
   Json all{{"assigners", Json::array()}, {"storages", Json::array()}, {"grids", Json::array()}};
   for (const assign::AssignerRow* row : assign::assigner_rows()) all["assigners"].push_back(to_json(*row));
-  for (const assign::StorageRow& row : assign::storage_rows())
+  for (const assign::StorageRow* row : assign::storage_rows())
     all["storages"].push_back(
-        {{"name", row.name}, {"summary", row.summary}, {"source", row.source}, {"params", to_json(row.params)}});
+        {{"name", row->name}, {"summary", row->summary}, {"source", row->source}, {"params", to_json(row->params)}});
   for (int kind = 0; kind < grid::k_kind_count; ++kind)
     all["grids"].push_back(grid::kind_name(static_cast<grid::Kind>(kind)));
   for (const scene::GeneratorRow& row : scene::generators())

@@ -47,8 +47,8 @@ void insert_methods(Json& properties) {
   Json assigners = Json::array(), storages = Json::array();
   for (const assign::AssignerRow* row : assign::assigner_rows())
     assigners.push_back(method_schema(row->name, row->summary, row->params));
-  for (const assign::StorageRow& row : assign::storage_rows())
-    storages.push_back(method_schema(row.name, row.summary, row.params));
+  for (const assign::StorageRow* row : assign::storage_rows())
+    storages.push_back(method_schema(row->name, row->summary, row->params));
   properties["assigners"]["items"] = method_items(assign::assigner_names(), assigners);
   properties["assigners"]["default"] = assign::standard_assigner_names();
   properties["storages"]["items"] = method_items(assign::storage_names(), storages);

@@ -72,12 +72,12 @@ TEST(Registry, every_storage_says_all_that_is_shown_of_it) {
   ASSERT_GE(storage_names().size(), 2u);
   EXPECT_EQ(storage_names()[0], "packed");
   EXPECT_EQ(storage_names()[1], "fixed");
-  for (const StorageRow& row : storage_rows()) {
-    EXPECT_TRUE(is_kebab_case(row.name)) << row.name;
-    EXPECT_FALSE(row.summary.empty() || row.source.empty()) << row.name;
-    expect_valid(row.params);
-    EXPECT_NE(row.make(Params(row.params)), nullptr);
-    EXPECT_EQ(find_storage(row.name), &row);
+  for (const StorageRow* row : storage_rows()) {
+    EXPECT_TRUE(is_kebab_case(row->name)) << row->name;
+    EXPECT_FALSE(row->summary.empty() || row->source.empty()) << row->name;
+    expect_valid(row->params);
+    EXPECT_NE(row->make(Params(row->params)), nullptr);
+    EXPECT_EQ(find_storage(row->name), row);
   }
   EXPECT_EQ(find_storage("stack"), nullptr);
 }

@@ -115,6 +115,38 @@ TEST(Packed, the_limit_has_wide_headers_only_where_a_count_can_need_them) {
   EXPECT_EQ(limit(65536, 0), 2u * 65536u * 2u + 24u);
 }
 
+TEST(Packed, sparse_headers_read_back_as_they_were_stored) {
+  for (const std::uint32_t cells : {1u, 31u, 32u, 33u, 200u})
+    for (const double share : {0.0, 0.01, 0.3, 1.0}) {
+      const auto packed = storage("packed", {{"headers", std::string("sparse")}});
+      packed->start(cells, 20, 20);
+      for (const std::uint64_t seed : {1u, 2u}) {
+        const Lists lists = random_lists(cells, 40, share, seed);
+        packed->store(lists);
+        EXPECT_EQ(packed->read_back(), lists) << cells << " cells, " << share;
+      }
+    }
+}
+
+TEST(Packed, with_sparse_headers_a_cell_without_lights_costs_nothing_but_its_bits_in_a_block) {
+  const auto header_bytes = [](const char* headers, std::uint32_t touched) {
+    std::vector<Ids> cells(64);
+    for (std::uint32_t cell = 0; cell < touched; ++cell) cells[3 * cell] = {1, 2};
+    const auto packed = storage("packed", {{"headers", std::string(headers)}});
+    packed->start(64, 4, 0);
+    packed->store(lists_from(cells));
+    EXPECT_EQ(packed->use().upload_bytes, packed->use().header_bytes + 2 * touched);
+    return packed->use().header_bytes;
+  };
+  EXPECT_EQ(header_bytes("dense", 0), 64u * 8);
+  EXPECT_EQ(header_bytes("dense", 5), 64u * 8);
+  EXPECT_EQ(header_bytes("sparse", 0), 2u * 8);
+  EXPECT_EQ(header_bytes("sparse", 5), 2u * 8 + 5 * 8);
+  const auto sparse = storage("packed", {{"headers", std::string("sparse")}});
+  sparse->start(64, 4, 0);
+  EXPECT_EQ(sparse->limit().bytes, 64u * 4 + 64 * 8 + 2 * 8);
+}
+
 TEST(Fixed, lists_within_the_cap_read_back_as_they_were_stored) {
   for (const std::uint32_t lights : {90u, 300u, 70000u}) {
     const Lists lists = random_lists(30, lights, 10.0 / lights, lights);
@@ -170,6 +202,112 @@ TEST(Fixed, the_cap_is_100_and_whole_and_at_most_65535) {
   const StorageRow* row = find_storage("fixed");
   EXPECT_EQ(Params(row->params).number("cap"), 100.0);
   for (const double cap : {0.0, 65536.0, 1.5}) EXPECT_THROW(Params(row->params, {{"cap", cap}}), Error) << cap;
+}
+
+TEST(Bitfield, lists_read_back_as_they_were_stored) {
+  for (const std::uint32_t lights : {1u, 31u, 32u, 33u, 200u, 3000u})
+    for (const double share : {0.0, 0.02, 0.7, 1.0}) {
+      const Lists lists = random_lists(40, lights, share, lights);
+      const auto bitfield = storage("bitfield");
+      bitfield->start(40, lights / 2, lights - lights / 2);
+      bitfield->store(lists);
+      EXPECT_EQ(bitfield->read_back(), lists) << lights << " lights, " << share;
+      EXPECT_EQ(bitfield->use().dropped_pairs, 0u);
+    }
+}
+
+TEST(Bitfield, takes_a_word_for_every_32_lights_in_each_cell_whatever_is_stored) {
+  const auto words = [](std::uint32_t lights, double share) {
+    const auto bitfield = storage("bitfield");
+    bitfield->start(5, lights, 0);
+    bitfield->store(random_lists(5, lights, share, 1));
+    const StorageUse use = bitfield->use();
+    EXPECT_EQ(use.index_entries * 4, use.index_bytes);
+    EXPECT_EQ(use.header_bytes, 0u);
+    EXPECT_EQ(use.upload_bytes, use.index_bytes);
+    EXPECT_EQ(bitfield->limit().index_entries, use.index_entries);
+    EXPECT_EQ(bitfield->limit().bytes, use.index_bytes);
+    EXPECT_EQ(bitfield->index_bits(), 32u);
+    return use.index_entries / 5;
+  };
+  EXPECT_EQ(words(0, 0.0), 0u);
+  for (const double share : {0.0, 0.5}) {
+    EXPECT_EQ(words(1, share), 1u);
+    EXPECT_EQ(words(32, share), 1u);
+    EXPECT_EQ(words(33, share), 2u);
+  }
+}
+
+TEST(Bitfield, forgets_the_bits_of_the_frame_before) {
+  const auto bitfield = storage("bitfield");
+  bitfield->start(2, 40, 0);
+  bitfield->store(lists_from({{0, 1, 39}, {2}}));
+  EXPECT_EQ(bitfield->use().largest_cell, 0u);
+  bitfield->store(lists_from({{}, {1, 2}}));
+  EXPECT_EQ(bitfield->read_back(), lists_from({{}, {1, 2}}));
+  EXPECT_EQ(bitfield->use().largest_cell, 1u);
+}
+
+TEST(Bitfield, one_that_no_buffer_can_hold_is_refused) {
+  try {
+    storage("bitfield")->start(100'000, 500'000, 0);
+    FAIL() << "6 GB were taken";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.where(), "bitfield");
+    EXPECT_EQ(error.message(),
+              "takes 6250000000 bytes for 500000 lights in 100000 cells; at most 2^32 - 1 are allowed");
+  }
+}
+
+TEST(Linked, lists_read_back_as_they_were_stored) {
+  for (const double share : {0.0, 0.02, 0.7}) {
+    const Lists lists = random_lists(40, 300, share, 3);
+    const auto linked = storage("linked", {{"nodes_per_cell", 300.0}});
+    linked->start(40, 200, 100);
+    linked->store(lists);
+    EXPECT_EQ(linked->read_back(), lists) << share;
+    EXPECT_EQ(linked->use().dropped_pairs, 0u);
+    EXPECT_TRUE(linked->use().dropped_lights.empty());
+  }
+}
+
+TEST(Linked, counts_4_bytes_per_cell_and_8_per_pair) {
+  const auto linked = storage("linked");
+  linked->start(4, 5, 3);
+  linked->store(lists_from({{0, 7}, {}, {1, 2, 6}, {}}));
+  const StorageUse use = linked->use();
+  EXPECT_EQ(use.index_entries, 5u);
+  EXPECT_EQ(use.index_bytes, 40u);
+  EXPECT_EQ(use.header_bytes, 16u);
+  EXPECT_EQ(use.upload_bytes, 56u);
+  EXPECT_EQ(use.largest_cell, 2u);
+  EXPECT_EQ(linked->index_bits(), 64u);
+  EXPECT_EQ(linked->limit().index_entries, 32u) << "every light in every cell";
+  EXPECT_EQ(linked->limit().bytes, 32u * 8 + 16);
+}
+
+TEST(Linked, a_full_pool_drops_what_it_would_if_lights_came_one_after_the_other) {
+  const auto linked = storage("linked", {{"nodes_per_cell", 1.25}});
+  linked->start(4, 6, 4);
+  linked->store(lists_from({{0, 5, 9}, {5}, {0, 5}, {5, 7}}));  // 8 pairs, 5 nodes: 0 twice, 5 three times
+  EXPECT_EQ(linked->read_back(), lists_from({{0, 5}, {5}, {0, 5}, {}}));
+  const StorageUse use = linked->use();
+  EXPECT_EQ(use.index_entries, 5u);
+  EXPECT_EQ(use.dropped_pairs, 3u);
+  EXPECT_EQ(use.overflowing_cells, 2u);
+  EXPECT_EQ(use.dropped_lights, (Ids{5, 7, 9}));
+  EXPECT_EQ(linked->limit().index_entries, 5u);
+}
+
+TEST(Linked, forgets_the_overflow_of_the_frame_before) {
+  const auto linked = storage("linked", {{"nodes_per_cell", 1.0}});
+  linked->start(2, 3, 0);
+  linked->store(lists_from({{0, 1, 2}, {2}}));
+  EXPECT_EQ(linked->use().dropped_pairs, 2u);
+  linked->store(lists_from({{1}, {}}));
+  EXPECT_EQ(linked->use().dropped_pairs, 0u);
+  EXPECT_TRUE(linked->use().dropped_lights.empty());
+  EXPECT_EQ(linked->read_back(), lists_from({{1}, {}}));
 }
 
 }  // namespace

@@ -1,0 +1,103 @@
+#include "assign/storage.h"
+
+#include <algorithm>
+
+#include "assign/index_array.h"
+
+namespace clusterbench::assign {
+namespace {
+
+// A u32 count and room for `cap` indices per cell. What does not fit is dropped: the highest light indices.
+class Fixed final : public Storage {
+ public:
+  explicit Fixed(const Params& params) : cap_(static_cast<std::uint32_t>(params.number("cap"))) {}
+
+  void start(std::uint32_t cell_count, std::uint32_t points, std::uint32_t spots) override {
+    lights_ = points + spots;
+    counts_.assign(cell_count, 0);
+    indices_.resize(static_cast<std::size_t>(cell_count) * cap_, narrowest_bits(lights_));
+    is_dropped_.assign(lights_, false);
+  }
+
+  void store(const Lists& lists) override {
+    kept_ = dropped_pairs_ = overflowing_cells_ = 0;
+    is_dropped_.assign(lights_, false);
+    for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) {
+      const auto list = lists.of(cell);
+      const std::size_t kept = std::min<std::size_t>(list.size(), cap_);
+      counts_[cell] = static_cast<std::uint32_t>(kept);
+      indices_.write(static_cast<std::size_t>(cell) * cap_, list.data(), kept);
+      kept_ += kept;
+      if (kept == list.size()) continue;
+      ++overflowing_cells_;
+      dropped_pairs_ += list.size() - kept;
+      for (const std::uint32_t light : list.subspan(kept)) is_dropped_[light] = true;
+    }
+    largest_cell_ = lists.fullest_cell();
+  }
+
+  StorageUse use() const override {
+    StorageUse use;
+    use.index_entries = kept_;
+    use.index_bytes = counts_.size() * cap_ * (indices_.bits() / 8);
+    use.header_bytes = counts_.size() * sizeof(std::uint32_t);
+    use.upload_bytes = use.index_bytes + use.header_bytes;
+    use.dropped_pairs = dropped_pairs_;
+    use.overflowing_cells = overflowing_cells_;
+    for (std::uint32_t light = 0; light < lights_; ++light)
+      if (is_dropped_[light]) use.dropped_lights.push_back(light);
+    use.largest_cell = largest_cell_;
+    return use;
+  }
+
+  // Its size never changes.
+  StorageLimit limit() const override {
+    const std::uint64_t entries = counts_.size() * cap_;
+    return {entries, entries * (indices_.bits() / 8) + counts_.size() * sizeof(std::uint32_t)};
+  }
+
+  Lists read_back() const override {
+    Lists lists;
+    lists.begin.push_back(0);
+    for (std::size_t cell = 0; cell < counts_.size(); ++cell) {
+      for (std::uint32_t i = 0; i < counts_[cell]; ++i) lists.lights.push_back(indices_.read(cell * cap_ + i));
+      lists.begin.push_back(static_cast<std::uint32_t>(lists.lights.size()));
+    }
+    return lists;
+  }
+
+  std::uint32_t index_bits() const override { return indices_.bits(); }
+
+ private:
+  std::uint32_t cap_, lights_ = 0, largest_cell_ = 0;
+  std::uint64_t kept_ = 0, dropped_pairs_ = 0, overflowing_cells_ = 0;
+  std::vector<std::uint32_t> counts_;
+  std::vector<bool> is_dropped_;
+  IndexArray indices_;
+};
+
+std::unique_ptr<Storage> make(const Params& params) {
+  return std::make_unique<Fixed>(params);
+}
+
+}  // namespace
+
+extern const StorageRow fixed_row;
+const StorageRow fixed_row{
+    .name = "fixed",
+    .summary =
+        "room for the same number of lights in every cell; what does not fit is dropped, the highest light indices "
+        "first",
+    .source = "DaveH355, three.js, PlayCanvas",
+    .params = {{.name = "cap",
+                .summary = "lights per cell",
+                .standard = 100.0,
+                .unit = "lights",
+                .min = 1.0,
+                .max = 65535.0,
+                .choices = {},
+                .whole = true}},
+    .make = make,
+};
+
+}  // namespace clusterbench::assign

@@ -1,0 +1,137 @@
+#include <algorithm>
+
+#include "assign/storage.h"
+
+namespace clusterbench::assign {
+namespace {
+
+// A u32 head per cell, and a pool of nodes {light u32, next u32}. A full pool drops what it would drop if lights came
+// one after the other: the last lights, and of one light the last cells.
+class Linked final : public Storage {
+ public:
+  explicit Linked(const Params& params) : nodes_per_cell_(params.number("nodes_per_cell")) {}
+
+  void start(std::uint32_t cell_count, std::uint32_t points, std::uint32_t spots) override {
+    heads_.assign(cell_count, k_end);
+    capacity_ = static_cast<std::uint64_t>(nodes_per_cell_ * cell_count);
+    room_.assign(points + spots, 0);
+    is_dropped_.assign(points + spots, false);
+  }
+
+  void store(const Lists& lists) override {
+    const std::uint64_t kept = std::min<std::uint64_t>(capacity_, lists.pair_count());
+    if (nodes_.size() < kept) nodes_.resize(kept);
+    used_ = 0;
+    overflowing_cells_ = 0;
+    dropped_pairs_ = lists.pair_count() - kept;
+    is_dropped_.assign(room_.size(), false);
+    if (dropped_pairs_ > 0) share_room(lists);
+    for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) store_cell(cell, lists.of(cell));
+    largest_cell_ = lists.fullest_cell();
+  }
+
+  StorageUse use() const override {
+    StorageUse use;
+    use.index_entries = used_;
+    use.index_bytes = used_ * sizeof(Node);
+    use.header_bytes = heads_.size() * sizeof(std::uint32_t);
+    use.upload_bytes = use.index_bytes + use.header_bytes;
+    use.dropped_pairs = dropped_pairs_;
+    use.overflowing_cells = overflowing_cells_;
+    for (std::uint32_t light = 0; light < is_dropped_.size(); ++light)
+      if (is_dropped_[light]) use.dropped_lights.push_back(light);
+    use.largest_cell = largest_cell_;
+    return use;
+  }
+
+  StorageLimit limit() const override {
+    const std::uint64_t entries = std::min(capacity_, std::uint64_t{heads_.size()} * room_.size());
+    return {entries, entries * sizeof(Node) + heads_.size() * sizeof(std::uint32_t)};
+  }
+
+  Lists read_back() const override {
+    Lists lists;
+    lists.begin.push_back(0);
+    for (const std::uint32_t head : heads_) {
+      for (std::uint32_t node = head; node != k_end; node = nodes_[node].next)
+        lists.lights.push_back(nodes_[node].light);
+      lists.begin.push_back(static_cast<std::uint32_t>(lists.lights.size()));
+    }
+    return lists;
+  }
+
+  std::uint32_t index_bits() const override { return 8 * sizeof(Node); }
+
+ private:
+  static constexpr std::uint32_t k_end = 0xffffffff;
+  struct Node {
+    std::uint32_t light, next;
+  };
+
+  // How many nodes each light gets.
+  void share_room(const Lists& lists) {
+    std::fill(room_.begin(), room_.end(), 0);
+    for (const std::uint32_t light : lists.lights) ++room_[light];
+    std::uint64_t left = capacity_;
+    for (std::uint32_t& room : room_) {
+      room = static_cast<std::uint32_t>(std::min<std::uint64_t>(room, left));
+      left -= room;
+    }
+  }
+
+  bool has_room(std::uint32_t light) {
+    if (dropped_pairs_ == 0) return true;
+    if (room_[light] == 0) {
+      is_dropped_[light] = true;
+      return false;
+    }
+    --room_[light];
+    return true;
+  }
+
+  // New nodes go to the front; from the last light on, so that the list ascends.
+  void store_cell(std::uint32_t cell, std::span<const std::uint32_t> list) {
+    const std::uint32_t used_before = used_;
+    std::uint32_t head = k_end;
+    for (std::size_t i = list.size(); i-- > 0;) {
+      if (!has_room(list[i])) continue;
+      nodes_[used_] = {list[i], head};
+      head = used_++;
+    }
+    heads_[cell] = head;
+    if (used_ - used_before < list.size()) ++overflowing_cells_;
+  }
+
+  double nodes_per_cell_;
+  std::uint64_t capacity_ = 0, dropped_pairs_ = 0, overflowing_cells_ = 0;
+  std::uint32_t used_ = 0, largest_cell_ = 0;
+  std::vector<std::uint32_t> heads_;
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> room_;  // of each light, where the pool is too small
+  std::vector<bool> is_dropped_;
+};
+
+std::unique_ptr<Storage> make(const Params& params) {
+  return std::make_unique<Linked>(params);
+}
+
+}  // namespace
+
+extern const StorageRow linked_row;
+const StorageRow linked_row{
+    .name = "linked",
+    .summary =
+        "head per cell (4 bytes), nodes of light and next (8 bytes) from one pool; what does not fit is dropped, "
+        "the last lights first; entries are nodes",
+    .source = "Örtegren and Persson 2016, GPU Pro 7; Unreal's light grid",
+    .params = {{.name = "nodes_per_cell",
+                .summary = "nodes in the pool, for each cell",
+                .standard = 32.0,
+                .unit = "nodes",
+                .min = 0.01,
+                .max = 65535.0,
+                .choices = {}}},
+    .make = make,
+};
+
+}  // namespace clusterbench::assign

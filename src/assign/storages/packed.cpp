@@ -1,0 +1,152 @@
+#include "assign/storage.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include "assign/index_array.h"
+#include "core/error.h"
+
+namespace clusterbench::assign {
+namespace {
+
+// offset u32 + point count u16 + spot count u16 per cell; 12 bytes with u32 counts where a count needs it. Sparse: only
+// for cells with lights; a shader finds them through one block per 32 cells, {mask u32, rank u32}: header rank + the
+// number of mask bits below the cell's.
+class Packed final : public Storage {
+ public:
+  explicit Packed(const Params& params)
+      : wanted_bits_(params.text("index_bits")), is_sparse_(params.text("headers") == "sparse") {}
+
+  void start(std::uint32_t cell_count, std::uint32_t points, std::uint32_t spots) override {
+    lights_ = points + spots;
+    points_ = points;
+    const std::uint32_t needed = narrowest_bits(lights_);
+    bits_ = wanted_bits_ == "auto" ? needed : static_cast<std::uint32_t>(std::stoul(wanted_bits_));
+    if (bits_ < needed)
+      throw Error("", "index_bits",
+                  "is " + wanted_bits_ + ", but " + std::to_string(lights_) + " lights need " + std::to_string(needed) +
+                      " bits");
+    cell_count_ = cell_count;
+    headers_.resize(cell_count);
+    if (is_sparse_) blocks_.resize((cell_count + k_block - 1) / k_block);
+  }
+
+  void store(const Lists& lists) override {
+    indices_.resize(lists.lights.size(), bits_);
+    indices_.write(0, lists.lights.data(), lists.lights.size());
+    header_count_ = widest_count_ = 0;
+    for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) {
+      if (is_sparse_ && !take_place(cell, !lists.of(cell).empty())) continue;
+      const Header& header = headers_[header_count_++] = header_of(lists, cell);
+      widest_count_ = std::max({widest_count_, header.points, header.spots});
+    }
+    entries_ = lists.pair_count();
+    largest_cell_ = lists.fullest_cell();
+  }
+
+  StorageUse use() const override {
+    StorageUse use;
+    use.index_entries = entries_;
+    use.index_bytes = entries_ * (bits_ / 8);
+    use.header_bytes = header_count_ * header_size() + blocks_.size() * sizeof(Block);
+    use.upload_bytes = use.index_bytes + use.header_bytes;
+    use.largest_cell = largest_cell_;
+    return use;
+  }
+
+  StorageLimit limit() const override {
+    const std::uint64_t entries = std::uint64_t{cell_count_} * lights_;
+    const bool wide = std::max(points_, lights_ - points_) > k_narrow_count;
+    return {entries,
+            entries * (bits_ / 8) + cell_count_ * (wide ? k_wide_header : k_header) + blocks_.size() * sizeof(Block)};
+  }
+
+  Lists read_back() const override {
+    Lists lists;
+    lists.begin.push_back(0);
+    for (std::uint32_t cell = 0; cell < cell_count_; ++cell) {
+      const Header header = found_header(cell);
+      for (std::uint32_t i = 0; i < header.points + header.spots; ++i)
+        lists.lights.push_back(indices_.read(header.offset + i));
+      lists.begin.push_back(static_cast<std::uint32_t>(lists.lights.size()));
+    }
+    return lists;
+  }
+
+  std::uint32_t index_bits() const override { return bits_; }
+
+ private:
+  static constexpr std::uint32_t k_narrow_count = std::numeric_limits<std::uint16_t>::max();
+  static constexpr std::uint64_t k_header = 8, k_wide_header = 12;
+  struct Header {
+    std::uint32_t offset = 0, points = 0, spots = 0;
+  };
+  static constexpr std::uint32_t k_block = 32;  // cells
+  struct Block {
+    std::uint32_t mask = 0, rank = 0;
+  };
+
+  Header header_of(const Lists& lists, std::uint32_t cell) const {
+    const auto list = lists.of(cell);
+    const bool has_spots = !list.empty() && list.back() >= points_;
+    const auto spots_from = has_spots ? std::lower_bound(list.begin(), list.end(), points_) : list.end();
+    return {lists.begin[cell], static_cast<std::uint32_t>(spots_from - list.begin()),
+            static_cast<std::uint32_t>(list.end() - spots_from)};
+  }
+
+  // In the cell's block. False if it gets no header.
+  bool take_place(std::uint32_t cell, bool has_lights) {
+    Block& block = blocks_[cell / k_block];
+    if (cell % k_block == 0) block = {0, header_count_};
+    if (has_lights) block.mask |= 1u << cell % k_block;
+    return has_lights;
+  }
+
+  // As a shader would.
+  Header found_header(std::uint32_t cell) const {
+    if (!is_sparse_) return headers_[cell];
+    const Block& block = blocks_[cell / k_block];
+    const std::uint32_t bit = 1u << cell % k_block;
+    if ((block.mask & bit) == 0) return {};
+    return headers_[block.rank + static_cast<std::uint32_t>(std::popcount(block.mask & (bit - 1)))];
+  }
+
+  std::uint64_t header_size() const { return widest_count_ > k_narrow_count ? k_wide_header : k_header; }
+
+  std::string wanted_bits_;
+  bool is_sparse_;
+  std::uint32_t bits_ = 8, lights_ = 0, points_ = 0, widest_count_ = 0, largest_cell_ = 0;
+  std::uint32_t cell_count_ = 0, header_count_ = 0;
+  std::uint64_t entries_ = 0;
+  std::vector<Header> headers_;
+  std::vector<Block> blocks_;
+  IndexArray indices_;
+};
+
+std::unique_ptr<Storage> make(const Params& params) {
+  return std::make_unique<Packed>(params);
+}
+
+}  // namespace
+
+extern const StorageRow packed_row;
+const StorageRow packed_row{
+    .name = "packed",
+    .summary = "offset and counts per cell (8 bytes), one tight index list for all cells",
+    .source = "Persson 2015, Practical Clustered Shading",
+    .params = {{.name = "index_bits",
+                .summary = "width of a light index; auto takes the narrowest that holds the rig",
+                .standard = std::string("auto"),
+                .unit = "",
+                .choices = {"auto", "8", "16", "32"}},
+               {.name = "headers",
+                .summary = "sparse: only for cells with lights, found through 8 bytes per 32 cells (mask and rank, "
+                           "Jacobson 1989)",
+                .standard = std::string("dense"),
+                .unit = "",
+                .choices = {"dense", "sparse"}}},
+    .make = make,
+};
+
+}  // namespace clusterbench::assign
