@@ -89,14 +89,14 @@ struct Balls {
 // Appends the wanted ones of a vector of balls, of lights `first_light` .., without their boxes.
 HWY_INLINE void keep_balls(M wanted, const Balls& balls, std::uint32_t first_light, BoxedBalls& boxed) {
   const auto keep = [&](V value, std::vector<float>& to) {
-    hn::StoreU(hn::Compress(value, wanted), D(), to.data() + boxed.count);
+    hn::StoreU(compressed(D(), value, wanted), D(), to.data() + boxed.count);
   };
   keep(balls.x, boxed.x);
   keep(balls.y, boxed.y);
   keep(balls.depth, boxed.depth);
   keep(balls.radius, boxed.radius);
   const VU lights = hn::Iota(DU(), first_light);
-  hn::StoreU(hn::Compress(lights, hn::RebindMask(DU(), wanted)), DU(), boxed.light.data() + boxed.count);
+  hn::StoreU(compressed(DU(), lights, hn::RebindMask(DU(), wanted)), DU(), boxed.light.data() + boxed.count);
   boxed.count += static_cast<std::uint32_t>(hn::CountTrue(D(), wanted));
 }
 

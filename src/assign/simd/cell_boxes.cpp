@@ -70,19 +70,19 @@ void box_balls(const BoxPlanes& planes, const SeenBalls& seen, std::uint32_t beg
     const auto has_cells = hn::And(is_some(columns), hn::And(is_some(rows), is_some(slices)));
     const auto wanted = hn::And(hn::FirstN(d, seen.count - i), hn::And(has_extents, has_cells));
     const auto keep = [&](V value, std::vector<float>& to) {
-      hn::StoreU(hn::Compress(value, wanted), d, to.data() + boxed.count);
+      hn::StoreU(compressed(d, value, wanted), d, to.data() + boxed.count);
     };
     keep(x, boxed.x);
     keep(y, boxed.y);
     keep(depth, boxed.depth);
     keep(at(boxed.ball_radius), boxed.radius);
-    hn::StoreU(hn::Compress(hn::LoadU(du, seen.light.data() + i), hn::RebindMask(du, wanted)), du,
+    hn::StoreU(compressed(du, hn::LoadU(du, seen.light.data() + i), hn::RebindMask(du, wanted)), du,
                boxed.light.data() + boxed.count);
     const auto keep_indices = [&](const Indices& some, std::vector<std::int32_t>& first,
                                   std::vector<std::int32_t>& last) {
       const auto wanted_int = hn::RebindMask(di, wanted);
-      hn::StoreU(hn::Compress(some.first, wanted_int), di, first.data() + boxed.count);
-      hn::StoreU(hn::Compress(some.last, wanted_int), di, last.data() + boxed.count);
+      hn::StoreU(compressed(di, some.first, wanted_int), di, first.data() + boxed.count);
+      hn::StoreU(compressed(di, some.last, wanted_int), di, last.data() + boxed.count);
     };
     keep_indices(columns, boxed.first_column, boxed.last_column);
     keep_indices(rows, boxed.first_row, boxed.last_row);
@@ -119,17 +119,18 @@ void see_in_box(const BoxPlanes& planes, const GivenBalls& balls, std::uint32_t 
     const M wanted = hn::And(hn::And(hn::Le(gap, radius), hn::Gt(given, hn::Zero(d))), hn::FirstN(d, left));
     if (hn::AllFalse(d, wanted)) continue;
     const auto keep = [&](V value, std::vector<float>& to) {
-      hn::StoreU(hn::Compress(value, wanted), d, to.data() + seen.count);
+      hn::StoreU(compressed(d, value, wanted), d, to.data() + seen.count);
     };
     keep(x, seen.x);
     keep(y, seen.y);
     keep(depth, seen.depth);
     const auto keep_slice = [&](V at, std::vector<std::int32_t>& to) {
-      hn::StoreU(hn::Compress(slice_guess(planes.depths, at), hn::RebindMask(di, wanted)), di, to.data() + seen.count);
+      hn::StoreU(compressed(di, slice_guess(planes.depths, at), hn::RebindMask(di, wanted)), di,
+                 to.data() + seen.count);
     };
     keep_slice(hn::Sub(depth, radius), seen.first_slice);
     keep_slice(hn::Add(depth, radius), seen.last_slice);
-    hn::StoreU(hn::Compress(hn::Iota(du, first_light + i), hn::RebindMask(du, wanted)), du,
+    hn::StoreU(compressed(du, hn::Iota(du, first_light + i), hn::RebindMask(du, wanted)), du,
                seen.light.data() + seen.count);
     seen.count += static_cast<std::uint32_t>(hn::CountTrue(d, wanted));
   }

@@ -84,7 +84,7 @@ void shells(const ShellPlanes& planes, const GivenBalls& balls, std::uint32_t fi
     const M wanted = hn::And(may_reach, hn::And(hn::Gt(given, hn::Zero(d)), hn::FirstN(d, left)));
     if (hn::AllFalse(d, wanted)) continue;
     const auto keep_index = [&](VI index, std::vector<std::int32_t>& to) {
-      hn::StoreU(hn::Compress(index, hn::RebindMask(di, wanted)), di, to.data() + boxed.count);
+      hn::StoreU(compressed(di, index, hn::RebindMask(di, wanted)), di, to.data() + boxed.count);
     };
     keep_index(shells_reached.first, boxed.first_slice);
     keep_index(shells_reached.last, boxed.last_slice);

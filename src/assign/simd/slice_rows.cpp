@@ -352,7 +352,7 @@ HWY_INLINE void store_planes(const RowPlanes& planes, const Batch& batch, const 
     const VI t = from_on(begin);
     const MI wanted =
         hn::And(rows.has_plane(hn::IndicesFromVec(di, rows.lane_of(begin)), t), hn::Lt(t, all_int(rows.count())));
-    hn::StoreU(hn::Compress(t, wanted), di, scratch.with_plane.data() + count);
+    hn::StoreU(compressed(di, t, wanted), di, scratch.with_plane.data() + count);
     count += static_cast<std::int32_t>(hn::CountTrue(di, wanted));
     hn::StoreU(infinity(), d, lows + begin);
     hn::StoreU(hn::Neg(infinity()), d, highs + begin);
@@ -507,7 +507,7 @@ void see(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_l
     const std::size_t kept = hn::CountTrue(d, wanted);
     if (kept == 0) continue;
     const auto keep = [&](V value, std::vector<float>& to) {
-      hn::StoreU(hn::Compress(value, wanted), d, to.data() + seen.count);
+      hn::StoreU(compressed(d, value, wanted), d, to.data() + seen.count);
     };
     keep(x, seen.x);
     keep(y, seen.y);
@@ -517,7 +517,7 @@ void see(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_l
     keep(hn::IfThenElse(is_plain, radius, infinity()), seen.radius);
     keep(slack, seen.slack);
     const auto lights = hn::BitCast(du, from_on(static_cast<std::int32_t>(first_light + i)));
-    hn::StoreU(hn::Compress(lights, hn::RebindMask(du, wanted)), du, seen.light.data() + seen.count);
+    hn::StoreU(compressed(du, lights, hn::RebindMask(du, wanted)), du, seen.light.data() + seen.count);
     seen.count += static_cast<std::uint32_t>(kept);
   }
   for (std::uint32_t i = before; i < seen.count; i += n) {

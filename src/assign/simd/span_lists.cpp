@@ -8,17 +8,11 @@
 #include <hwy/foreach_target.h>  // compiles this file once per target
 #include <hwy/highway.h>
 
+#include "assign/simd/compress-inl.h"
+
 #ifndef CLUSTERBENCH_SPAN_LISTS_ONCE  // what all targets share
 #define CLUSTERBENCH_SPAN_LISTS_ONCE
 namespace clusterbench::assign {
-
-// The spans of one row, and the columns of which lists are wanted. Up to a vector more can be read.
-struct RowSpans {
-  const std::uint32_t* lights;
-  const std::int32_t* before;  // first column - 1
-  const std::int32_t* after;   // last column + 1
-  std::uint32_t count, column, end_column;
-};
 
 // Where spans are added; row r begins at r * pitch.
 struct SpanRows {
@@ -36,64 +30,12 @@ namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
 std::uint32_t lane_count() {
   return static_cast<std::uint32_t>(hn::Lanes(hn::ScalableTag<std::uint32_t>()));
 }
 
 const char* target_name() {
   return hwy::TargetName(HWY_TARGET);
-}
-
-// A vector of spans.
-struct Spans {
-  hn::Vec<hn::ScalableTag<std::uint32_t>> lights;
-  hn::Vec<hn::ScalableTag<std::int32_t>> before, after;
-  hn::Mask<hn::ScalableTag<std::uint32_t>> exist;
-
-  HWY_INLINE Spans(const RowSpans& row, std::size_t first) {
-    const hn::ScalableTag<std::int32_t> di;
-    const hn::ScalableTag<std::uint32_t> du;
-    lights = hn::LoadU(du, row.lights + first);
-    before = hn::LoadU(di, row.before + first);
-    after = hn::LoadU(di, row.after + first);
-    exist = hn::FirstN(du, row.count - first);
-  }
-
-  // Appends the lights whose span holds a column. Up to a vector more than these is written.
-  HWY_INLINE std::uint32_t* write(std::int32_t column, std::uint32_t* to) const {
-    const hn::ScalableTag<std::uint32_t> du;
-    const auto place = hn::Set(hn::ScalableTag<std::int32_t>(), column);
-    const auto holds = hn::RebindMask(du, hn::And(hn::Gt(place, before), hn::Gt(after, place)));
-    const auto wanted = hn::And(holds, exist);
-    // Compressing in a register and storing it whole is faster than a compressing store.
-    hn::StoreU(hn::Compress(lights, wanted), du, to);
-    return to + hn::CountTrue(du, wanted);
-  }
-};
-
-// Writes the lights whose span holds each cell of a row to `to`, and where each cell's list begins. Returns the end.
-std::uint32_t* write_row(const RowSpans& row, std::uint32_t* to, const std::uint32_t* lists, std::uint32_t* begin) {
-  const std::size_t lanes = hn::Lanes(hn::ScalableTag<std::uint32_t>());
-  const auto each_column = [&](auto&& write) {
-    for (std::uint32_t column = row.column; column < row.end_column; ++column) {
-      begin[column] = static_cast<std::uint32_t>(to - lists);
-      write(static_cast<std::int32_t>(column));
-    }
-  };
-  if (row.count <= lanes) {
-    const Spans spans(row, 0);
-    each_column([&](std::int32_t column) { to = spans.write(column, to); });
-  } else if (row.count <= 2 * lanes) {
-    const Spans spans(row, 0), more(row, lanes);
-    each_column([&](std::int32_t column) { to = more.write(column, spans.write(column, to)); });
-  } else {
-    each_column([&](std::int32_t column) {
-      for (std::size_t i = 0; i < row.count; i += lanes) to = Spans(row, i).write(column, to);
-    });
-  }
-  return to;
 }
 
 // Adds one vector of spans per row and returns how many pairs they make.
@@ -118,9 +60,9 @@ std::uint32_t add_rows(const SpanRows& rows, int first_row, int last_row, const 
     const auto before = hn::Sub(first, one), after = hn::Add(last, one);
     const std::size_t to = r * rows.pitch + rows.sizes[r];
     const auto wanted_int = hn::RebindMask(di, wanted);
-    hn::StoreU(hn::Compress(light, wanted), du, rows.lights + to);
-    hn::StoreU(hn::Compress(before, wanted_int), di, rows.before + to);
-    hn::StoreU(hn::Compress(after, wanted_int), di, rows.after + to);
+    hn::StoreU(compressed(du, light, wanted), du, rows.lights + to);
+    hn::StoreU(compressed(di, before, wanted_int), di, rows.before + to);
+    hn::StoreU(compressed(di, after, wanted_int), di, rows.after + to);
     rows.sizes[r] += static_cast<std::uint32_t>(hn::CountTrue(du, wanted));
     pairs = hn::Add(pairs, hn::IfThenElseZero(wanted_int, hn::Sub(after, first)));
   }
@@ -137,7 +79,6 @@ namespace clusterbench::assign {
 
 HWY_EXPORT(target_name);
 HWY_EXPORT(lane_count);
-HWY_EXPORT(write_row);
 HWY_EXPORT(add_rows);
 
 const char* simd_target_name() {
@@ -199,7 +140,7 @@ bool SpanLists::is_for_scattering(std::uint32_t spans) const {
 }
 
 // For many short spans, of which a cell holds few: counts first, then gives each span's light to its cells.
-std::uint32_t* SpanLists::scatter_row(const RowSpans& row, std::uint32_t* begin, std::uint32_t* to) {
+std::uint32_t* SpanLists::scatter_row(const RowSpans<std::uint32_t>& row, std::uint32_t* begin, std::uint32_t* to) {
   std::uint32_t* lists = out_->lights.data();
   next_.assign(columns_ + std::size_t{1}, 0);
   for (std::uint32_t i = 0; i < row.count; ++i) {
@@ -229,16 +170,16 @@ std::uint32_t* SpanLists::finish_row(std::uint32_t row, const grid::IndexRange& 
     return to;
   }
   const std::size_t at = row * pitch_;
-  RowSpans spans{lights_.data() + at, before_.data() + at, after_.data() + at, sizes_[row], 0, columns_};
+  RowSpans<std::uint32_t> spans{lights_.data() + at, before_.data() + at, after_.data() + at, sizes_[row], 0, columns_};
   if (hole.empty() && is_for_scattering(spans.count)) return scatter_row(spans, begin, to);
   if (!hole.empty()) {
     spans.end_column = static_cast<std::uint32_t>(hole.first);
-    to = HWY_DYNAMIC_DISPATCH(write_row)(spans, to, lists, begin);
+    to = write_row_lists(spans, to, lists, begin);
     std::fill_n(begin + hole.first, hole.count(), static_cast<std::uint32_t>(to - lists));
     spans.column = static_cast<std::uint32_t>(hole.last) + 1;
     spans.end_column = columns_;
   }
-  return HWY_DYNAMIC_DISPATCH(write_row)(spans, to, lists, begin);
+  return write_row_lists(spans, to, lists, begin);
 }
 
 void SpanLists::finish_band(const BandHole& hole) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "assign/lists.h"
+#include "assign/simd/row_lists.h"
 #include "grid/index_range.h"
 
 namespace clusterbench::assign {
@@ -18,12 +19,8 @@ struct BandHole {
   grid::IndexRange rows, columns;
 };
 
-inline constexpr std::size_t k_most_lanes = 64;  // of any target: what arrays are padded by
-
 // The instruction set that is used: "AVX3", "AVX2", "SSE4", "NEON", "SCALAR" ... as Highway names it.
 const char* simd_target_name();
-
-struct RowSpans;
 
 // Keeps its memory between frames.
 class SpanLists {
@@ -58,7 +55,7 @@ class SpanLists {
  private:
   void make_room(std::uint32_t spans);
   bool is_for_scattering(std::uint32_t spans) const;
-  std::uint32_t* scatter_row(const RowSpans& row, std::uint32_t* begin, std::uint32_t* to);
+  std::uint32_t* scatter_row(const RowSpans<std::uint32_t>& row, std::uint32_t* begin, std::uint32_t* to);
   std::uint32_t* finish_row(std::uint32_t row, const grid::IndexRange& hole, std::uint32_t* begin, std::uint32_t* to);
   void grow();
 

@@ -14,13 +14,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "assign/simd/span_lists.h"
+#include "assign/simd/compress-inl.h"
+#include "assign/simd/row_lists.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::ScalableTag<float>;
 using DI = hn::ScalableTag<std::int32_t>;
 using DU = hn::ScalableTag<std::uint32_t>;

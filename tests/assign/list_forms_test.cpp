@@ -1,0 +1,200 @@
+// What the SIMD conversions of lists and the row builders give is what plain loops give, on every instruction set.
+
+#include "assign/simd/list_forms.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <numeric>
+
+#include "assign/each_target.h"
+#include "assign/simd/row_lists.h"
+#include "core/random.h"
+
+namespace clusterbench::assign {
+namespace {
+
+using testing::on_each_target;
+
+// More than is asked for stays untouched: one place beyond.
+template <class T>
+void expect_narrowed(const std::string& target) {
+  for (const std::size_t count : {0u, 1u, 3u, 15u, 16u, 17u, 63u, 64u, 257u})
+    for (const std::size_t from : {0u, 1u}) {
+      std::vector<std::uint32_t> wide(from + count);
+      for (std::size_t i = 0; i < wide.size(); ++i) wide[i] = static_cast<T>(std::numeric_limits<T>::max() - 37 * i);
+      std::vector<T> expected(wide.begin() + static_cast<std::ptrdiff_t>(from), wide.end());
+      expected.push_back(T{77});
+      std::vector<T> slim(count, T{0});
+      slim.push_back(T{77});
+      narrow(wide.data() + from, count, slim.data());
+      EXPECT_EQ(slim, expected) << target << ", " << count << " from " << from;
+    }
+}
+
+TEST(ListForms, narrow_indices_are_the_wide_ones_on_every_target) {
+  on_each_target([](const std::string& target) {
+    expect_narrowed<std::uint8_t>(target);
+    expect_narrowed<std::uint16_t>(target);
+  });
+}
+
+// Cells of every density, with runs that end at the edges of words.
+Lists lists_of_all_densities(std::uint32_t lights, std::uint64_t seed) {
+  SplitMix64 random(seed);
+  Lists lists;
+  lists.begin.push_back(0);
+  for (const double share : {0.0, 0.01, 0.05, 0.1, 0.2, 0.4, 0.8, 1.0})
+    for (int cell = 0; cell < 3; ++cell) {
+      const std::uint64_t first = random.below(lights + 1);
+      for (std::uint32_t light = cell == 0 ? 0 : static_cast<std::uint32_t>(first); light < lights; ++light)
+        if (random.unit() < share) lists.lights.push_back(light);
+      lists.begin.push_back(lists.pair_count());
+    }
+  return lists;
+}
+
+std::vector<std::uint32_t> bits_one_by_one(const Lists& lists, std::uint32_t words_per_cell) {
+  std::vector<std::uint32_t> words(std::size_t{lists.cell_count()} * words_per_cell, 0);
+  for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell)
+    for (const std::uint32_t light : lists.of(cell))
+      words[std::size_t{cell} * words_per_cell + light / 32] |= 1u << light % 32;
+  return words;
+}
+
+TEST(ListForms, bits_are_those_set_one_by_one_on_every_target) {
+  on_each_target([](const std::string& target) {
+    for (const std::uint32_t lights : {1u, 31u, 32u, 33u, 64u, 500u, 3001u}) {
+      const std::uint32_t words_per_cell = (lights + 31) / 32;
+      const Lists lists = lists_of_all_densities(lights, lights);
+      std::vector<std::uint32_t> words(std::size_t{lists.cell_count()} * words_per_cell, 0xdeadbeef);
+      write_bits(lists, words_per_cell, words.data());
+      EXPECT_EQ(words, bits_one_by_one(lists, words_per_cell)) << target << ", " << lights << " lights";
+    }
+  });
+}
+
+// A row's spans, with room to read beyond them, and its lists by a plain loop over the cells.
+template <class Index>
+struct Row {
+  std::vector<Index> lights;
+  std::vector<std::make_signed_t<Index>> before, after;
+  std::uint32_t count = 0, columns = 0;
+
+  RowSpans<Index> spans() const { return {lights.data(), before.data(), after.data(), count, 0, columns}; }
+  Lists lists() const {
+    Lists lists;
+    lists.begin.push_back(0);
+    for (int column = 0; column < static_cast<int>(columns); ++column) {
+      for (std::size_t i = 0; i < count; ++i)
+        if (before[i] < column && column < after[i]) lists.lights.push_back(lights[i]);
+      lists.begin.push_back(lists.pair_count());
+    }
+    return lists;
+  }
+};
+
+// Of lights 0 .. most_lights - 1, every third one. What is beyond the spans would be in every list.
+template <class Index>
+Row<Index> random_row(std::uint32_t columns, std::uint32_t most_lights, std::uint64_t seed) {
+  using Column = std::make_signed_t<Index>;
+  SplitMix64 random(seed);
+  Row<Index> row;
+  row.columns = columns;
+  for (std::uint32_t light = 0; light < most_lights; ++light) {
+    if (random.below(3) != 0) continue;
+    const auto a = static_cast<Column>(random.below(columns)), b = static_cast<Column>(random.below(columns));
+    row.lights.push_back(static_cast<Index>(light));
+    row.before.push_back(static_cast<Column>(std::min(a, b) - 1));
+    row.after.push_back(static_cast<Column>(std::max(a, b) + 1));
+    ++row.count;
+  }
+  row.lights.insert(row.lights.end(), k_most_lanes, Index{0});
+  row.before.insert(row.before.end(), k_most_lanes, Column{-1});
+  row.after.insert(row.after.end(), k_most_lanes, std::numeric_limits<Column>::max());
+  return row;
+}
+
+// Columns and lights.
+constexpr std::array<std::array<std::uint32_t, 2>, 8> k_rows{
+    {{1, 1}, {7, 0}, {30, 17}, {12, 64}, {126, 256}, {1, 200}, {120, 100}, {33, 255}}};
+
+template <class Index>
+void expect_row_lists(const std::string& target) {
+  for (const auto& size : k_rows)
+    for (const std::uint64_t seed : {1u, 2u, 3u}) {
+      const Row<Index> row = random_row<Index>(size[0], size[1], seed);
+      const Lists expected = row.lists();
+      std::vector<Index> lights(3 + expected.pair_count() + k_most_lanes);
+      std::vector<std::uint32_t> begin(row.columns);
+      const Index* end = write_row_lists(row.spans(), lights.data() + 3, lights.data(), begin.data());
+      ASSERT_EQ(end - lights.data(), 3 + static_cast<std::ptrdiff_t>(expected.pair_count())) << target;
+      for (std::uint32_t cell = 0; cell < row.columns; ++cell) EXPECT_EQ(begin[cell], expected.begin[cell] + 3);
+      const std::vector<std::uint32_t> written(lights.begin() + 3, lights.begin() + 3 + expected.pair_count());
+      EXPECT_EQ(written, expected.lights) << target << ", " << size[0] << " columns, " << size[1] << " lights";
+    }
+}
+
+TEST(RowLists, of_8_16_and_32_bits_are_those_of_a_plain_loop_on_every_target) {
+  on_each_target([](const std::string& target) {
+    expect_row_lists<std::uint8_t>(target);
+    expect_row_lists<std::uint16_t>(target);
+    expect_row_lists<std::uint32_t>(target);
+  });
+}
+
+TEST(RowLists, take_columns_and_lights_up_to_the_ends_of_their_types) {
+  on_each_target([](const std::string& target) {
+    Row<std::uint16_t> row = random_row<std::uint16_t>(32766, 4, 1);
+    row.lights[0] = 65535;
+    row.before[0] = -1;
+    row.after[0] = 32766;
+    row.count = 1;
+    std::vector<std::uint16_t> lights(32766 + k_most_lanes);
+    std::vector<std::uint32_t> begin(row.columns);
+    const auto* end = write_row_lists(row.spans(), lights.data(), lights.data(), begin.data());
+    EXPECT_EQ(end - lights.data(), 32766) << target;
+    EXPECT_EQ(lights[32765], 65535u) << target;
+  });
+}
+
+TEST(RowLists, of_some_columns_only_leave_the_others_alone) {
+  const auto row = random_row<std::uint32_t>(30, 70, 1);
+  const Lists all = row.lists();
+  RowSpans<std::uint32_t> some = row.spans();
+  some.column = 3;
+  some.end_column = 21;
+  const std::uint32_t expected = all.begin[21] - all.begin[3], words_per_cell = 3;
+  std::vector<std::uint32_t> bits = bits_one_by_one(all, words_per_cell);
+  std::fill(bits.begin(), bits.begin() + 3 * words_per_cell, 7);
+  std::fill(bits.begin() + 21 * words_per_cell, bits.end(), 7);
+  on_each_target([&](const std::string& target) {
+    std::vector<std::uint32_t> lights(expected + k_most_lanes), begin(30, 7), words(30 * words_per_cell, 7);
+    const auto* end = write_row_lists(some, lights.data(), lights.data(), begin.data());
+    EXPECT_EQ(end - lights.data(), static_cast<std::ptrdiff_t>(expected)) << target;
+    EXPECT_EQ(begin[2], 7u) << target;
+    EXPECT_EQ(begin[3], 0u) << target;
+    EXPECT_EQ(begin[20], all.begin[20] - all.begin[3]) << target;
+    EXPECT_EQ(begin[21], 7u) << target;
+    write_row_bits(some, words_per_cell, words.data());
+    EXPECT_EQ(words, bits) << target;
+  });
+}
+
+TEST(RowLists, as_bits_are_those_of_a_plain_loop_on_every_target) {
+  on_each_target([](const std::string& target) {
+    for (const auto& size : k_rows)
+      for (const std::uint64_t seed : {1u, 2u, 3u}) {
+        const auto row = random_row<std::uint32_t>(size[0], size[1], seed);
+        const std::uint32_t words_per_cell = (size[1] + 31) / 32;
+        std::vector<std::uint32_t> words(std::size_t{row.columns} * words_per_cell + 1, 0xdeadbeef);
+        std::vector<std::uint32_t> expected = bits_one_by_one(row.lists(), words_per_cell);
+        expected.push_back(0xdeadbeef);
+        write_row_bits(row.spans(), words_per_cell, words.data());
+        EXPECT_EQ(words, expected) << target << ", " << size[0] << " columns, " << size[1] << " lights";
+      }
+  });
+}
+
+}  // namespace
+}  // namespace clusterbench::assign
