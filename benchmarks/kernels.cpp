@@ -1,4 +1,4 @@
-// What the scalar predicates, the building of lists and their storage cost each, apart from any method.
+// What the scalar predicates, the building of lists by scattering and their storage cost each, apart from any method.
 // Items per second are predicate calls or pairs.
 
 #include <benchmark/benchmark.h>
@@ -7,7 +7,6 @@
 #include <cstring>
 
 #include "assign/lists.h"
-#include "assign/simd/span_lists.h"
 #include "assign/storage.h"
 #include "core/random.h"
 #include "geom/predicates.h"
@@ -77,25 +76,25 @@ void ball_touches_box(benchmark::State& state) {
   for_each_input(state,
                  [](const Inputs& in, std::size_t i) { return geom::ball_touches_box(in.balls[i], in.boxes[i]); });
 }
-BENCHMARK(ball_touches_box);
+BENCHMARK(ball_touches_box)->Name("kernel/scalar/ball_touches_box");
 
 void ball_touches_planes(benchmark::State& state) {
   for_each_input(state, [](const Inputs& in, std::size_t i) {
     return geom::ball_touches_planes(in.balls[i], &in.planes[6 * i], 6);
   });
 }
-BENCHMARK(ball_touches_planes);
+BENCHMARK(ball_touches_planes)->Name("kernel/scalar/ball_touches_planes");
 
 void cone_touches_ball(benchmark::State& state) {
   for_each_input(
       state, [](const Inputs& in, std::size_t i) { return geom::cone_touches_ball(in.cones[i], in.cell_balls[i]); });
 }
-BENCHMARK(cone_touches_ball);
+BENCHMARK(cone_touches_ball)->Name("kernel/scalar/cone_touches_ball");
 
 void bounding_ball(benchmark::State& state) {
   for_each_input(state, [](const Inputs& in, std::size_t i) { return geom::bounding_ball(in.cones[i]); });
 }
-BENCHMARK(bounding_ball);
+BENCHMARK(bounding_ball)->Name("kernel/scalar/bounding_ball");
 
 void slope_range(benchmark::State& state) {
   for_each_input(state, [](const Inputs& in, std::size_t i) {
@@ -103,17 +102,17 @@ void slope_range(benchmark::State& state) {
     return geom::slope_range(ball.center.x, -ball.center.z, ball.radius, 0.1f, 500.0f);
   });
 }
-BENCHMARK(slope_range);
+BENCHMARK(slope_range)->Name("kernel/scalar/slope_range");
 
 void box_around(benchmark::State& state) {
   for_each_input(state, [](const Inputs& in, std::size_t i) { return geom::box_around(in.cells[i]); });
 }
-BENCHMARK(box_around);
+BENCHMARK(box_around)->Name("kernel/scalar/box_around");
 
 void ball_around(benchmark::State& state) {
   for_each_input(state, [](const Inputs& in, std::size_t i) { return geom::ball_around(in.cells[i]); });
 }
-BENCHMARK(ball_around);
+BENCHMARK(ball_around)->Name("kernel/scalar/ball_around");
 
 // --- Lists: 500 lights on 30 x 17 x 16 cells, `row_length` cells side by side per light and row ---
 
@@ -159,7 +158,7 @@ void lists_by_cell(benchmark::State& state) {
   }
   count_pairs(state, lists);
 }
-BENCHMARK(lists_by_cell)->Arg(1)->Arg(4)->Arg(16);
+BENCHMARK(lists_by_cell)->Name("kernel/scalar/lists_by_cell")->Arg(1)->Arg(4)->Arg(16);
 
 void lists_by_row(benchmark::State& state) {
   const auto length = static_cast<std::uint32_t>(state.range(0));
@@ -174,27 +173,7 @@ void lists_by_row(benchmark::State& state) {
   }
   count_pairs(state, lists);
 }
-BENCHMARK(lists_by_row)->Arg(1)->Arg(4)->Arg(16);
-
-void lists_by_compression(benchmark::State& state) {
-  const auto length = static_cast<std::uint32_t>(state.range(0));
-  const std::vector<Row> rows = random_rows(length);
-  assign::SpanLists spans;
-  assign::Lists lists;
-  for (auto _ : state) {
-    spans.start(1, static_cast<std::uint32_t>(k_cells.y * k_cells.z), static_cast<std::uint32_t>(k_cells.x), lists);
-    for (const Row& row : rows) {
-      const std::uint32_t first = row.first_cell % static_cast<std::uint32_t>(k_cells.x);
-      spans.add(row.first_cell / static_cast<std::uint32_t>(k_cells.x), first, first + length - 1, row.light);
-    }
-    spans.finish_band();
-    spans.finish();
-    benchmark::DoNotOptimize(lists.lights.data());
-  }
-  state.SetLabel(assign::simd_target_name());
-  count_pairs(state, lists);
-}
-BENCHMARK(lists_by_compression)->Arg(1)->Arg(4)->Arg(16);
+BENCHMARK(lists_by_row)->Name("kernel/scalar/lists_by_row")->Arg(1)->Arg(4)->Arg(16);
 
 assign::Lists random_lists() {
   assign::PairBuffer pairs;
@@ -218,6 +197,7 @@ void store(benchmark::State& state, const char* name) {
 }
 BENCHMARK_CAPTURE(store, packed, "packed");
 BENCHMARK_CAPTURE(store, fixed, "fixed");
+BENCHMARK_CAPTURE(store, bitfield, "bitfield");
 
 // The floor under storing: the same lists copied once.
 void copy_lists(benchmark::State& state) {

@@ -3,6 +3,7 @@
 #include "benchmarks.h"
 
 int main(int argc, char** argv) {
+  clusterbench::register_simd_kernels();
   clusterbench::register_truth();
   clusterbench::register_peers();
   benchmark::Initialize(&argc, argv);

@@ -6,13 +6,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <string>
 
 #include "assign/assigner.h"
 #include "benchmarks.h"
 #include "geom/predicates.h"
-#include "scene/camera_path.h"
+#include "setting.h"
 
 namespace clusterbench {
 namespace {
@@ -36,23 +35,11 @@ const std::array<Workload, 6> k_workloads{{
     {"W7", {32, 18}, {.scheme = Scheme::exponential, .count = 64, .near_m = 0.1, .far_m = 120, .boundaries_m = {}}},
 }};
 
-struct Setting {
-  view::Frame frame;
-  grid::Grid grid;
-  view::LightArrays lights;
-};
-
-Setting setting_of(const Workload& workload, const std::string& library) {
-  scene::Scene scene = scene::load_gltf(library + "/peer-workloads/" + workload.name + ".gltf");
-  scene::resolve_ranges(scene, {});
-  Setting setting;
-  setting.frame = view::make_frame(scene, scene::camera_paths(scene, {}).front().shots.front(), 0, {1920, 1080});
+grid::GridSpec spec_of(const Workload& workload) {
   grid::GridSpec spec;
   spec.tiles = {{0, 0}, workload.tiles};
   spec.slices = workload.slices;
-  setting.grid = grid::make_grid(spec, grid::grid_inputs(spec, setting.frame, 0.0, {}, {}));
-  setting.lights = view::lights_in(setting.frame, grid::space_of(setting.grid, setting.frame));
-  return setting;
+  return spec;
 }
 
 void assign_frame(benchmark::State& state, const Setting& setting, const assign::AssignerRow& row) {
@@ -94,13 +81,13 @@ void brute_frame(benchmark::State& state, const Setting& setting) {
 }  // namespace
 
 void register_peers() {
-  const char* library = std::getenv("CLUSTERBENCH_SCENE_LIBRARY");
-  if (library == nullptr) return;
   for (const Workload& workload : k_workloads) {
+    const std::string file = peer_workload(workload.name);
+    if (file.empty()) return;
     const std::string prefix = std::string("peers/") + workload.name + "/";
     const auto add = [&](const std::string& name, auto&& frame) {
-      benchmark::RegisterBenchmark((prefix + name).c_str(), [=, path = std::string(library)](benchmark::State& state) {
-        frame(state, setting_of(workload, path));
+      benchmark::RegisterBenchmark((prefix + name).c_str(), [=](benchmark::State& state) {
+        frame(state, make_setting(file, spec_of(workload), 0.0));
       })->Unit(benchmark::kMicrosecond);
     };
     add("brute", [](benchmark::State& state, const Setting& setting) { brute_frame(state, setting); });

@@ -6,32 +6,21 @@
 
 #include "benchmarks.h"
 #include "measure/truth.h"
-#include "scene/camera_path.h"
+#include "setting.h"
 
 namespace clusterbench {
 namespace {
 
-struct Setting {
-  view::Frame frame;
-  grid::Grid grid;
-};
-
-Setting setting_of(const std::string& name, grid::Kind kind) {
-  scene::Scene scene = scene::load_gltf(CLUSTERBENCH_SOURCE_DIR "/scenes/" + name + ".glb");
-  scene::resolve_ranges(scene, {});
-  const scene::CameraPath path = scene::camera_paths(scene, {}).front();
-  Setting setting;
-  setting.frame = view::make_frame(scene, path.shots[path.shots.size() / 2], 0, {1920, 1080});
+grid::GridSpec spec_of(grid::Kind kind) {
   grid::GridSpec spec;
   spec.kind = kind;
   spec.slices.near_m = 0.1;
   spec.slices.far_m = 500.0;
-  setting.grid = grid::make_grid(spec, grid::grid_inputs(spec, setting.frame, 0.0, {-250, -50, -250}, {250, 80, 250}));
-  return setting;
+  return spec;
 }
 
 void find(benchmark::State& state, const std::string& name, grid::Kind kind) {
-  const Setting setting = setting_of(name, kind);
+  const Setting setting = make_setting(own_scene(name), spec_of(kind), 0.5);
   std::uint32_t pairs = 0;
   for (auto _ : state) pairs = measure::find_truth(setting.frame, setting.grid, 1).lists.pair_count();
   state.counters["lights"] = static_cast<double>(setting.frame.lights.size());
