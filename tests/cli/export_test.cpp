@@ -35,9 +35,8 @@ TEST(RunExport, exports_are_what_the_command_makes_of_the_result) {
   const Folder folder;
   const std::string out = (folder / "result.json").string(), csv = (folder / "a.csv").string(),
                     bmf = (folder / "b.json").string();
-  const Outcome done =
-      tool("run " + source_file("scenes/mirror.glb") + " --no-timing -q --filter aabb/packed -o " + out +
-           " --export csv=" + csv + " --export bencher=" + bmf);
+  const Outcome done = tool("run " + source_file("scenes/mirror.glb") + " --no-timing -q --filter aabb/packed -o " +
+                            out + " --export csv=" + csv + " --export bencher=" + bmf);
   ASSERT_EQ(done.code, 0) << done.err;
   EXPECT_EQ(file_text(csv), tool("export " + out + " --format csv").out);
   EXPECT_EQ(Json::parse(file_text(bmf)).size(), Json::parse(file_text(out))["cases"].size());
