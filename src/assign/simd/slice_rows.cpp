@@ -1,9 +1,7 @@
 #include "assign/simd/slice_rows.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/simd/slice_rows.cpp"
@@ -17,14 +15,8 @@ namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
 namespace {
 
-V infinity() {
-  return all(std::numeric_limits<float>::infinity());
-}
 V root(V square) {
   return hn::Sqrt(hn::Max(square, hn::Zero(D())));
-}
-M is_between(V low, V value, V high) {
-  return hn::And(hn::Le(low, value), hn::Le(value, high));
 }
 
 // The interval of slopes found so far, per lane.
@@ -438,97 +430,6 @@ void rows_of_batches(const RowPlanes& planes, const SeenBalls& seen, const Balls
   out.count = count;
 }
 
-// The sides of the picture as planes through the eye, and the grid's ends in depth.
-class View {
- public:
-  explicit View(const RowPlanes& planes)
-      : left_(side(planes.left)),
-        right_(side(planes.right)),
-        top_(side(planes.slope.front())),
-        bottom_(side(planes.slope[static_cast<std::size_t>(planes.rows)])),
-        near_(planes.depth.front()),
-        far_(planes.depth.back()) {}
-
-  // How far a place is outside, at least.
-  HWY_INLINE V gap(V x, V y, V depth) const {
-    const V across = hn::Max(hn::Neg(left_.beyond(x, depth)), right_.beyond(x, depth));
-    const V up = hn::Max(top_.beyond(y, depth), hn::Neg(bottom_.beyond(y, depth)));
-    const V along = hn::Max(hn::Sub(all(near_), depth), hn::Sub(depth, all(far_)));
-    return hn::Max(across, hn::Max(up, along));
-  }
-
- private:
-  struct Side {
-    float slope, length;
-
-    HWY_INLINE V beyond(V place, V depth) const {
-      return hn::Mul(hn::Sub(place, hn::Mul(all(slope), depth)), all(length));
-    }
-  };
-  static Side side(float slope) { return {slope, 1.0f / std::sqrt(1.0f + slope * slope)}; }
-
-  Side left_, right_, top_, bottom_;
-  float near_, far_;
-};
-
-// How many of the slice planes 1 .. `most` are below a depth (or at it, with or_at).
-template <bool or_at>
-HWY_INLINE VI planes_below(const RowPlanes& planes, V depth, int most) {
-  const DI di;
-  VI below = hn::Zero(di);
-  for (auto step = static_cast<std::int32_t>(planes.searched.size() / 2); step > 0; step /= 2) {
-    const VI probe = hn::Add(below, hn::Set(di, step));
-    const V at = gathered(planes.searched, probe);
-    const M is_below = or_at ? hn::Le(at, depth) : hn::Lt(at, depth);
-    below = hn::IfThenElse(hn::RebindMask(di, is_below), probe, below);
-  }
-  return hn::Min(below, hn::Set(di, most));
-}
-
-// Reaches whose fourth powers, and these times a slope, are normal numbers.
-constexpr float k_least_reach = 1e-9f, k_most_reach = 1e9f;
-
-void see(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, SeenBalls& seen,
-         float roundings) {
-  const D d;
-  const DI di;
-  const hn::RebindToUnsigned<D> du;
-  const auto n = static_cast<std::uint32_t>(hn::Lanes(d));
-  const View view(planes);
-  const std::uint32_t before = seen.count;
-  for (std::uint32_t i = 0; i < balls.count; i += n) {
-    const std::uint32_t left = std::min(n, balls.count - i);
-    const auto load = [&](const float* from) { return loaded(from + i, left); };
-    const V x = load(balls.x), y = load(balls.y), depth = hn::Neg(load(balls.z)), given = load(balls.radius);
-    const V reach = load(balls.reach), slack = hn::Mul(reach, all(roundings * 0x1p-24f));
-    const V radius = hn::Add(given, slack);
-    const M reaches = hn::And(hn::Le(view.gap(x, y, depth), radius), hn::Gt(given, hn::Zero(d)));
-    const M wanted = hn::And(reaches, hn::FirstN(d, left));
-    const std::size_t kept = hn::CountTrue(d, wanted);
-    if (kept == 0) continue;
-    const auto keep = [&](V value, std::vector<float>& to) {
-      hn::StoreU(compressed(d, value, wanted), d, to.data() + seen.count);
-    };
-    keep(x, seen.x);
-    keep(y, seen.y);
-    keep(depth, seen.depth);
-    // Powers of a reach must be normal numbers; elsewhere the whole grid is left to be decided.
-    const M is_plain = is_between(all(k_least_reach), reach, all(k_most_reach));
-    keep(hn::IfThenElse(is_plain, radius, infinity()), seen.radius);
-    keep(slack, seen.slack);
-    const auto lights = hn::BitCast(du, from_on(static_cast<std::int32_t>(first_light + i)));
-    hn::StoreU(compressed(du, lights, hn::RebindMask(du, wanted)), du, seen.light.data() + seen.count);
-    seen.count += static_cast<std::uint32_t>(kept);
-  }
-  for (std::uint32_t i = before; i < seen.count; i += n) {
-    const V depth = hn::LoadU(d, seen.depth.data() + i), radius = hn::LoadU(d, seen.radius.data() + i);
-    const VI first = planes_below<false>(planes, hn::Sub(depth, radius), planes.slices - 1);
-    const VI last = planes_below<true>(planes, hn::Add(depth, radius), planes.slices - 1);
-    hn::StoreU(first, di, seen.first_slice.data() + i);
-    hn::StoreU(last, di, seen.last_slice.data() + i);
-  }
-}
-
 }  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace clusterbench::assign
@@ -539,7 +440,6 @@ namespace clusterbench::assign {
 
 HWY_EXPORT(lanes);
 HWY_EXPORT(rows_of_batches);
-HWY_EXPORT(see);
 
 void BatchRows::make_room(int of_rows, std::size_t of_lanes) {
   const std::size_t size = (static_cast<std::size_t>(of_rows) + 1) * of_lanes;
@@ -558,77 +458,6 @@ std::size_t RowBatches::capacity_bytes() const {
   for (const BatchRows& batch : batches) bytes += batch.capacity_bytes();
   for (const RowScratch& rows : scratch) bytes += rows.capacity_bytes();
   return bytes;
-}
-
-namespace {
-
-std::vector<float> padded(std::vector<float> list, std::size_t size, float with) {
-  list.resize(size, with);
-  return list;
-}
-
-// Tiles per slope along one axis, and by how many tiles (slope - first plane) * scale can be off: planes are rounded,
-// so they are not quite evenly spaced, and the last tile may be clipped; then difference and product are rounded.
-struct Scale {
-  float tiles_per_slope, margin;
-};
-
-Scale scale_of(const std::vector<float>& planes) {
-  const std::size_t tiles = planes.size() - 1, even = std::max<std::size_t>(1, tiles - 1);
-  const auto from_first = [&](std::size_t i) {
-    return std::fabs(static_cast<double>(planes[i]) - static_cast<double>(planes[0]));
-  };
-  const auto scale = static_cast<float>(static_cast<double>(even) / from_first(even));
-  double off = 0.0;
-  for (std::size_t i = 0; i <= even; ++i)
-    off = std::max(off, std::fabs(from_first(i) * static_cast<double>(scale) - static_cast<double>(i)));
-  const double rounding = 0x1p-22 * static_cast<double>(tiles + 1);
-  return {scale, static_cast<float>(1.1 * off + rounding)};
-}
-
-}  // namespace
-
-RowPlanes::RowPlanes(const grid::ScreenGrid& grid)
-    : rows(grid.tiles.count.y),
-      columns(grid.tiles.count.x),
-      slices(grid.slices.count()),
-      left(grid.tiles.x.front()),
-      right(grid.tiles.x.back()) {
-  const Scale across = scale_of(grid.tiles.x), down = scale_of(grid.tiles.y);
-  columns_per_slope = across.tiles_per_slope;
-  column_margin = across.margin;
-  rows_per_slope = down.tiles_per_slope;
-  row_margin = down.margin;
-  for (const float s : grid.tiles.y) {
-    const double t = std::sqrt(1.0 + static_cast<double>(s) * static_cast<double>(s));
-    slope.push_back(s);
-    tilt.push_back(static_cast<float>(t));
-    inverse_tilt.push_back(static_cast<float>(1.0 / t));
-  }
-  for (const float z : grid.slices.boundaries) {
-    depth.push_back(z);
-    inverse_depth.push_back(z > 0.0f ? 1.0f / z : 1e30f);  // at the eye every slope but 0 is beyond the picture
-  }
-  side = padded(grid.tiles.x, grid.tiles.x.size() + k_most_lanes, 0.0f);
-  searched = padded(depth, std::bit_ceil(depth.size()), std::numeric_limits<float>::infinity());
-}
-
-void SeenBalls::reserve(std::uint32_t most) {
-  const std::size_t size = most + k_most_lanes;
-  for (std::vector<float>* list : {&x, &y, &depth, &radius, &slack})
-    if (list->size() < size) list->resize(size);
-  for (std::vector<std::int32_t>* list : {&first_slice, &last_slice})
-    if (list->size() < size) list->resize(size);
-  if (light.size() < size) light.resize(size);
-}
-
-std::size_t SeenBalls::capacity_bytes() const {
-  return 8 * sizeof(float) * light.capacity();
-}
-
-void see_balls(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, SeenBalls& seen,
-               float roundings) {
-  HWY_DYNAMIC_DISPATCH(see)(planes, balls, first_light, seen, roundings);
 }
 
 std::uint32_t balls_per_batch() {

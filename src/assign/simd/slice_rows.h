@@ -15,53 +15,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "assign/simd/row_planes.h"
+#include "assign/simd/seen_balls.h"
 #include "assign/simd/span_lists.h"
-#include "grid/grid.h"
 
 namespace clusterbench::assign {
-
-// The planes of a grid as vectors want them. Made once per grid.
-struct RowPlanes {
-  std::vector<float> slope, tilt, inverse_tilt;  // of the tile planes from the top: y / depth, sqrt(1 + slope²)
-  std::vector<float> depth, inverse_depth;       // of the slice planes
-  std::vector<float> searched;                   // the depths again, then +inf up to 2^n of them
-  std::vector<float> side;                       // of the columns: x / depth, padded by whole vectors
-  int rows = 0, columns = 0, slices = 0;
-  float left = 0.0f, right = 0.0f, columns_per_slope = 0.0f, column_margin = 0.0f;
-  float rows_per_slope = 0.0f, row_margin = 0.0f;
-
-  explicit RowPlanes(const grid::ScreenGrid& grid);
-  RowPlanes() = default;
-};
-
-// Balls as they are given: count places of each.
-struct GivenBalls {
-  const float *x, *y, *z, *radius, *reach;
-  std::uint32_t count;
-};
-
-// Balls that may touch cells, ascending by light. All arrays have room for whole vectors beyond `count`.
-struct SeenBalls {
-  std::uint32_t count = 0;
-  std::vector<float> x, y, depth;
-  std::vector<float> radius;  // with slack
-  std::vector<float> slack;
-  std::vector<std::uint32_t> light;
-  std::vector<std::int32_t> first_slice, last_slice;
-
-  void reserve(std::uint32_t most);
-  std::size_t capacity_bytes() const;
-};
-
-// Units of 2^-24 of a light's reach by which a ball is made larger: more than the steps here lose (a centre's rounding
-// 1, distances to planes 3, their squares and roots 8 of the radius, slopes and touch points 12), rounded up. A larger
-// slack costs decisions only.
-inline constexpr float k_slice_rows_roundings = 28.0f;
-
-// Appends the balls that may reach into the grid; the first one's light is `first_light`. Those left out touch no cell,
-// even if they are larger by these roundings.
-void see_balls(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, SeenBalls& seen,
-               float roundings = k_slice_rows_roundings);
 
 // Rows of a batch of balls within one slice. Of ball i, row r (first_row <= r <= last_row, the rows that any ball may
 // touch) has the columns at columns[r * lanes + i].

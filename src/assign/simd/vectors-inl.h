@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "assign/simd/compress-inl.h"
@@ -32,6 +33,12 @@ using MI = hn::Mask<DI>;
 
 HWY_INLINE V all(float value) {
   return hn::Set(D(), value);
+}
+HWY_INLINE V infinity() {
+  return all(std::numeric_limits<float>::infinity());
+}
+HWY_INLINE M is_between(V low, V value, V high) {
+  return hn::And(hn::Le(low, value), hn::Le(value, high));
 }
 HWY_INLINE VI all_int(std::int32_t value) {
   return hn::Set(DI(), value);

@@ -1,0 +1,140 @@
+#include "assign/simd/seen_balls.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "assign/simd/seen_balls.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once per target
+#include <hwy/highway.h>
+
+#include "assign/simd/compress-inl.h"
+#include "assign/simd/vectors-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace clusterbench::assign {
+namespace HWY_NAMESPACE {
+namespace {
+
+// The sides of the picture as planes through the eye, and the grid's ends in depth.
+class View {
+ public:
+  explicit View(const RowPlanes& planes)
+      : left_(side(planes.left)),
+        right_(side(planes.right)),
+        top_(side(planes.slope.front())),
+        bottom_(side(planes.slope[static_cast<std::size_t>(planes.rows)])),
+        near_(planes.depth.front()),
+        far_(planes.depth.back()) {}
+
+  // How far a place is outside, at least.
+  HWY_INLINE V gap(V x, V y, V depth) const {
+    const V across = hn::Max(hn::Neg(left_.beyond(x, depth)), right_.beyond(x, depth));
+    const V up = hn::Max(top_.beyond(y, depth), hn::Neg(bottom_.beyond(y, depth)));
+    const V along = hn::Max(hn::Sub(all(near_), depth), hn::Sub(depth, all(far_)));
+    return hn::Max(across, hn::Max(up, along));
+  }
+
+ private:
+  struct Side {
+    float slope, length;
+
+    HWY_INLINE V beyond(V place, V depth) const {
+      return hn::Mul(hn::Sub(place, hn::Mul(all(slope), depth)), all(length));
+    }
+  };
+  static Side side(float slope) { return {slope, 1.0f / std::sqrt(1.0f + slope * slope)}; }
+
+  Side left_, right_, top_, bottom_;
+  float near_, far_;
+};
+
+// How many of the slice planes 1 .. `most` are below a depth (or at it, with or_at).
+template <bool or_at>
+HWY_INLINE VI planes_below(const RowPlanes& planes, V depth, int most) {
+  const DI di;
+  VI below = hn::Zero(di);
+  for (auto step = static_cast<std::int32_t>(planes.searched.size() / 2); step > 0; step /= 2) {
+    const VI probe = hn::Add(below, hn::Set(di, step));
+    const V at = gathered(planes.searched, probe);
+    const M is_below = or_at ? hn::Le(at, depth) : hn::Lt(at, depth);
+    below = hn::IfThenElse(hn::RebindMask(di, is_below), probe, below);
+  }
+  return hn::Min(below, hn::Set(di, most));
+}
+
+// Reaches whose fourth powers, and these times a slope, are normal numbers.
+constexpr float k_least_reach = 1e-9f, k_most_reach = 1e9f;
+
+void see(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, SeenBalls& seen,
+         float roundings) {
+  const D d;
+  const DI di;
+  const hn::RebindToUnsigned<D> du;
+  const auto n = static_cast<std::uint32_t>(hn::Lanes(d));
+  const View view(planes);
+  const std::uint32_t before = seen.count;
+  for (std::uint32_t i = 0; i < balls.count; i += n) {
+    const std::uint32_t left = std::min(n, balls.count - i);
+    const auto load = [&](const float* from) { return loaded(from + i, left); };
+    const V x = load(balls.x), y = load(balls.y), depth = hn::Neg(load(balls.z)), given = load(balls.radius);
+    const V reach = load(balls.reach), slack = hn::Mul(reach, all(roundings * 0x1p-24f));
+    const V radius = hn::Add(given, slack);
+    const M reaches = hn::And(hn::Le(view.gap(x, y, depth), radius), hn::Gt(given, hn::Zero(d)));
+    const M wanted = hn::And(reaches, hn::FirstN(d, left));
+    const std::size_t kept = hn::CountTrue(d, wanted);
+    if (kept == 0) continue;
+    const auto keep = [&](V value, std::vector<float>& to) {
+      hn::StoreU(compressed(d, value, wanted), d, to.data() + seen.count);
+    };
+    keep(x, seen.x);
+    keep(y, seen.y);
+    keep(depth, seen.depth);
+    // Powers of a reach must be normal numbers; elsewhere the whole grid is left to be decided.
+    const M is_plain = is_between(all(k_least_reach), reach, all(k_most_reach));
+    keep(hn::IfThenElse(is_plain, radius, infinity()), seen.radius);
+    keep(slack, seen.slack);
+    const auto lights = hn::BitCast(du, from_on(static_cast<std::int32_t>(first_light + i)));
+    hn::StoreU(compressed(du, lights, hn::RebindMask(du, wanted)), du, seen.light.data() + seen.count);
+    seen.count += static_cast<std::uint32_t>(kept);
+  }
+  for (std::uint32_t i = before; i < seen.count; i += n) {
+    const V depth = hn::LoadU(d, seen.depth.data() + i), radius = hn::LoadU(d, seen.radius.data() + i);
+    const VI first = planes_below<false>(planes, hn::Sub(depth, radius), planes.slices - 1);
+    const VI last = planes_below<true>(planes, hn::Add(depth, radius), planes.slices - 1);
+    hn::StoreU(first, di, seen.first_slice.data() + i);
+    hn::StoreU(last, di, seen.last_slice.data() + i);
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace clusterbench::assign
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace clusterbench::assign {
+
+HWY_EXPORT(see);
+
+void SeenBalls::reserve(std::uint32_t most) {
+  const std::size_t size = most + k_most_lanes;
+  for (std::vector<float>* list : {&x, &y, &depth, &radius, &slack})
+    if (list->size() < size) list->resize(size);
+  for (std::vector<std::int32_t>* list : {&first_slice, &last_slice})
+    if (list->size() < size) list->resize(size);
+  if (light.size() < size) light.resize(size);
+}
+
+std::size_t SeenBalls::capacity_bytes() const {
+  return 8 * sizeof(float) * light.capacity();
+}
+
+void see_balls(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, SeenBalls& seen,
+               float roundings) {
+  HWY_DYNAMIC_DISPATCH(see)(planes, balls, first_light, seen, roundings);
+}
+
+}  // namespace clusterbench::assign
+#endif

@@ -1,0 +1,40 @@
+#pragma once
+// Which balls a perspective frustum grid can see, many at a time, and the slices that each may reach.
+
+#include <cstdint>
+#include <vector>
+
+#include "assign/simd/row_planes.h"
+
+namespace clusterbench::assign {
+
+// Balls as they are given: count places of each.
+struct GivenBalls {
+  const float *x, *y, *z, *radius, *reach;
+  std::uint32_t count;
+};
+
+// Balls that may touch cells, ascending by light. All arrays have room for whole vectors beyond `count`.
+struct SeenBalls {
+  std::uint32_t count = 0;
+  std::vector<float> x, y, depth;
+  std::vector<float> radius;  // with slack
+  std::vector<float> slack;
+  std::vector<std::uint32_t> light;
+  std::vector<std::int32_t> first_slice, last_slice;
+
+  void reserve(std::uint32_t most);
+  std::size_t capacity_bytes() const;
+};
+
+// Units of 2^-24 of a light's reach by which a ball is made larger: more than the steps here lose (a centre's rounding
+// 1, distances to planes 3, their squares and roots 8 of the radius, slopes and touch points 12), rounded up. A larger
+// slack costs decisions only.
+inline constexpr float k_slice_rows_roundings = 28.0f;
+
+// Appends the balls that may reach into the grid; the first one's light is `first_light`. Those left out touch no cell,
+// even if they are larger by these roundings.
+void see_balls(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, SeenBalls& seen,
+               float roundings = k_slice_rows_roundings);
+
+}  // namespace clusterbench::assign

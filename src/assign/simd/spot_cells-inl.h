@@ -1,0 +1,443 @@
+// A vector of cells, each with its own spot, and what may settle whether they share a point. For files that are
+// compiled once per target; included after hwy/highway.h; defines its names anew for each target.
+
+#if defined(CLUSTERBENCH_SPOT_CELLS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef CLUSTERBENCH_SPOT_CELLS_INL_H
+#undef CLUSTERBENCH_SPOT_CELLS_INL_H
+#else
+#define CLUSTERBENCH_SPOT_CELLS_INL_H
+#endif
+
+#include "assign/simd/spot_cells.h"
+#include "assign/simd/vectors-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace clusterbench::assign {
+namespace HWY_NAMESPACE {
+
+// Places and directions as x to the right, y up, depth ahead.
+struct Point {
+  V x, y, depth;
+};
+HWY_INLINE Point operator+(const Point& a, const Point& b) {
+  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.depth, b.depth)};
+}
+HWY_INLINE Point operator-(const Point& a, const Point& b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.depth, b.depth)};
+}
+HWY_INLINE Point operator*(V s, const Point& a) {
+  return {hn::Mul(s, a.x), hn::Mul(s, a.y), hn::Mul(s, a.depth)};
+}
+HWY_INLINE V dot(const Point& a, const Point& b) {
+  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.depth, b.depth));
+}
+HWY_INLINE Point cross(const Point& a, const Point& b) {
+  return {hn::Sub(hn::Mul(a.y, b.depth), hn::Mul(a.depth, b.y)), hn::Sub(hn::Mul(a.depth, b.x), hn::Mul(a.x, b.depth)),
+          hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
+}
+HWY_INLINE V length(const Point& a) {
+  return hn::Sqrt(dot(a, a));
+}
+
+// The same cone in all lanes.
+struct Cone {
+  Point apex, axis;
+  V range, cosine, sine;
+};
+
+// Evidence. With u = 2^-24 and S = |apex| + range + the cell's largest coordinates, margins are off by less than 2^7 u
+// S: the bounds of geom/meets.cpp, whose formulas these are, with 1 u for each number that is given and each corner's
+// coordinate in place of what is lost there on the way from the scene. Four times that is asked for.
+constexpr float k_tolerance = 0x1p-15f;
+
+// A vector of cells, each with its own cone.
+class Cells {
+ public:
+  HWY_INLINE Cells(const SpotsAndPlanes& from, const SpotCells& cells, std::uint32_t first) {
+    const auto place = [&](const std::vector<std::uint32_t>& list) {
+      return hn::BitCast(DI(), hn::LoadU(DU(), list.data() + first));
+    };
+    const auto spot = place(cells.spot), row = place(cells.row), column = place(cells.column);
+    const view::LightArrays& lights = *from.lights;
+    const std::uint32_t points = lights.points;
+    cone_ = {{gathered(lights.x.data() + points, spot), gathered(lights.y.data() + points, spot),
+              hn::Neg(gathered(lights.z.data() + points, spot))},
+             {gathered(lights.axis_x.data(), spot), gathered(lights.axis_y.data(), spot),
+              hn::Neg(gathered(lights.axis_z.data(), spot))},
+             gathered(lights.radius.data() + points, spot),
+             gathered(lights.cos_angle.data(), spot),
+             gathered(lights.sin_angle.data(), spot)};
+    left_ = gathered(from.side, column);
+    right_ = gathered(from.side + 1, column);
+    y1_ = gathered(from.slope, row);
+    y0_ = gathered(from.slope + 1, row);
+    depth0_ = all(from.depth0);
+    depth1_ = all(from.depth1);
+    const V across = hn::Max(hn::Abs(left_), hn::Abs(right_)), up = hn::Max(hn::Abs(y0_), hn::Abs(y1_));
+    const V cell = hn::Mul(depth1_, hn::Add(all(1.0f), hn::Add(across, up)));
+    const V light = hn::Add(gathered(lights.reach.data() + points, spot), cone_.range);
+    tolerance_ = hn::Mul(all(k_tolerance), hn::Add(light, cell));
+    safe_range_ = hn::Sub(cone_.range, tolerance_);
+    for (unsigned i = 0; i < 8; ++i) from_apex_[i] = corner(i) - cone_.apex;
+  }
+
+  // A corner well inside.
+  HWY_INLINE M holds_corner() const {
+    M any = hn::FirstN(D(), 0);
+    for (const Point& v : from_apex_) any = hn::Or(any, is_inside(v));
+    return any;
+  }
+
+  // Places on the edges: nearest to the axis as an angle, nearest to the apex, and between these.
+  HWY_INLINE M holds_edge_point() const {
+    M any = hn::FirstN(D(), 0);
+    for (unsigned corner = 0; corner < 8; ++corner)
+      for (const unsigned bit : {1u, 2u, 4u}) {
+        if ((corner & bit) != 0) continue;
+        const Point &start = from_apex_[corner], step = from_apex_[corner | bit] - start;
+        const V start_axis = dot(start, cone_.axis), step_axis = dot(step, cone_.axis), mixed = dot(start, step);
+        const V start_square = dot(start, start), step_square = dot(step, step);
+        const V above = hn::Sub(hn::Mul(step_axis, start_square), hn::Mul(start_axis, mixed));
+        const V below = hn::Sub(hn::Mul(start_axis, step_square), hn::Mul(step_axis, mixed));
+        const auto within = [](V t) { return hn::Min(hn::Max(t, hn::Zero(D())), all(1.0f)); };
+        const V to_axis = within(hn::Div(above, below)), to_apex = within(hn::Div(hn::Neg(mixed), step_square));
+        for (const V t : {to_axis, to_apex, hn::Mul(all(0.5f), hn::Add(to_axis, to_apex))})
+          any = hn::Or(any, is_inside(start + t * step));
+      }
+    return any;
+  }
+
+  // The middle of the axis within the cell; and where the way from the axis to the cell's own middle line, between the
+  // places where these are nearest to each other, has just entered the cell.
+  HWY_INLINE M holds_axis_point() const {
+    const V zero = hn::Zero(D()), half = all(0.5f);
+    V from = zero, to = cone_.range;
+    clip({zero, zero, zero}, cone_.axis, from, to);
+    const M middle = hn::And(hn::Lt(from, to), is_common(hn::Mul(half, hn::Add(from, to)) * cone_.axis));
+
+    const auto middle_of = [&](unsigned i) {
+      return all(0.25f) * (from_apex_[i] + from_apex_[i + 1] + from_apex_[i + 2] + from_apex_[i + 3]);
+    };
+    const Point front = middle_of(0), line = middle_of(4) - front;
+    const auto within = [](V low, V t, V high) { return hn::Min(hn::Max(t, low), high); };
+    // Of apex + t axis and front + s line.
+    const V b = dot(cone_.axis, line), c = dot(line, line), d = dot(cone_.axis, front), e = dot(line, front);
+    const V free = within(zero, hn::Div(hn::Sub(hn::Mul(c, d), hn::Mul(b, e)), hn::Sub(c, hn::Mul(b, b))), cone_.range);
+    const V s = within(zero, hn::Div(hn::Sub(hn::Mul(b, free), e), c), all(1.0f));
+    const V t = within(zero, hn::Add(hn::Mul(b, s), d), cone_.range);
+    const Point start = t * cone_.axis, step = front + s * line - start;
+    V entry = zero, end = all(1.0f);
+    clip(start, step, entry, end);
+    const V further = hn::Add(entry, hn::Mul(all(0.05f), hn::Sub(all(1.0f), entry)));
+    return hn::Or(middle, is_common(start + further * step));
+  }
+
+  // A face between, or a plane along the cone's side towards the cell's middle.
+  HWY_INLINE M is_apart() const {
+    Point sum = from_apex_[0];
+    for (unsigned i = 1; i < 8; ++i) sum = sum + from_apex_[i];
+    M apart = is_beside(sum);
+    each_face([&](const Point& normal, V offset) {
+      const V scale = hn::Div(all(1.0f), length(normal));
+      const V beyond = hn::Mul(scale, hn::Sub(dot(normal, cone_.apex), offset));
+      const V reach = extent(hn::Neg(hn::Mul(scale, dot(normal, cone_.axis))));
+      apart = hn::Or(apart, hn::Gt(hn::Sub(beyond, reach), tolerance_));
+    });
+    return apart;
+  }
+
+  // More planes: along the cone's side towards each corner, and across the way to the nearest corner and to the nearest
+  // place of the edges.
+  HWY_INLINE M is_apart_from_corners() const {
+    M apart = hn::FirstN(D(), 0);
+    Point nearest = from_apex_[0];
+    V least = dot(nearest, nearest);
+    const auto take = [&](const Point& v) {
+      const V square = dot(v, v);
+      const M is_nearer = hn::Lt(square, least);
+      least = hn::Min(least, square);
+      nearest = {hn::IfThenElse(is_nearer, v.x, nearest.x), hn::IfThenElse(is_nearer, v.y, nearest.y),
+                 hn::IfThenElse(is_nearer, v.depth, nearest.depth)};
+    };
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      apart = hn::Or(apart, is_beside(from_apex_[corner]));
+      take(from_apex_[corner]);
+      for (const unsigned bit : {1u, 2u, 4u}) {
+        if ((corner & bit) != 0) continue;
+        const Point &start = from_apex_[corner], step = from_apex_[corner | bit] - start;
+        const V t = hn::Neg(hn::Div(dot(start, step), dot(step, step)));
+        take(start + hn::Min(hn::Max(t, hn::Zero(D())), all(1.0f)) * step);
+      }
+    }
+    const Point normal = hn::Div(all(1.0f), hn::Sqrt(least)) * nearest;
+    return hn::Or(apart, hn::Gt(hn::Sub(least_along(normal), extent(dot(normal, cone_.axis))), tolerance_));
+  }
+
+  // The mean of all places where cell ∩ volume can be extreme (geom/candidates.h), which lies inside of it; and planes
+  // along the cone's side that are equally far from both ends of an edge. The nearest such place tells more of them.
+  HWY_INLINE void settle(M& common, M& apart) const {
+    const V zero = hn::Zero(D());
+    Extremes extremes{{zero, zero, zero}, zero, {zero, zero, zero}, all(k_none)};
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      take_corner(from_apex_[corner], extremes);
+      for (const unsigned bit : {1u, 2u, 4u})
+        if ((corner & bit) == 0) take_edge(from_apex_[corner], from_apex_[corner | bit], extremes);
+    }
+    each_face([&](const Point& outward, V offset) {
+      const V scale = hn::Div(all(1.0f), length(outward));
+      take_face(scale * outward, hn::Mul(scale, hn::Sub(offset, dot(outward, cone_.apex))), extremes);
+    });
+    take_in_cell(cone_.range * cone_.axis, yes(), extremes);
+    common = is_common(hn::Div(all(1.0f), hn::Max(extremes.count, all(1.0f))) * extremes.sum);
+    apart = hn::Or(is_beside_edges(), is_beyond(extremes));
+  }
+
+ private:
+  static constexpr float k_none = 1e30f;
+  // Places that lie in cell and volume, by and large: their sum, and the one nearest to the apex of those that lie in
+  // cell and endless cone.
+  struct Extremes {
+    Point sum;
+    V count;
+    Point nearest;
+    V least;  // its square distance; k_none without one
+
+    // `where` it lies in cell and endless cone, and where in the range, too.
+    HWY_INLINE void take(M where, M in_range, const Point& v) {
+      const M counts = hn::And(where, in_range);
+      const auto kept = [&](V value) { return hn::IfThenElseZero(counts, value); };
+      sum = sum + Point{kept(v.x), kept(v.y), kept(v.depth)};
+      count = hn::Add(count, kept(all(1.0f)));
+      const V square = dot(v, v);
+      const M is_nearer = hn::And(where, hn::Lt(square, least));
+      least = hn::IfThenElse(is_nearer, square, least);
+      nearest = chosen(is_nearer, v, nearest);
+    }
+  };
+
+  HWY_INLINE static Point chosen(M where, const Point& a, const Point& b) {
+    return {hn::IfThenElse(where, a.x, b.x), hn::IfThenElse(where, a.y, b.y), hn::IfThenElse(where, a.depth, b.depth)};
+  }
+  HWY_INLINE static M yes() { return hn::Eq(hn::Zero(D()), hn::Zero(D())); }
+
+  // By and large: the tolerance is on their side.
+  HWY_INLINE M is_in_cone(const Point& v) const {
+    const V along = dot(v, cone_.axis), across = length(v - along * cone_.axis);
+    return hn::Ge(hn::Sub(hn::Mul(cone_.sine, along), hn::Mul(cone_.cosine, across)), hn::Neg(tolerance_));
+  }
+  HWY_INLINE M is_in_range(const Point& v) const {
+    const V range = hn::Add(cone_.range, tolerance_);
+    return hn::Le(dot(v, v), hn::Mul(range, range));
+  }
+  HWY_INLINE M is_in_cell(const Point& v) const {
+    M is_in = yes();
+    each_face([&](const Point& outward, V offset) {
+      const V margin = hn::Sub(offset, dot(outward, cone_.apex + v));
+      is_in = hn::And(is_in, hn::Ge(margin, hn::Neg(hn::Add(tolerance_, tolerance_))));
+    });
+    return is_in;
+  }
+
+  HWY_INLINE void take_corner(const Point& v, Extremes& extremes) const {
+    extremes.take(is_in_cone(v), is_in_range(v), v);
+  }
+  // A place of the volume's surface, if it is in the cell.
+  HWY_INLINE void take_in_cell(const Point& v, M where, Extremes& extremes) const {
+    extremes.take(hn::And(where, is_in_cell(v)), is_in_range(v), v);
+  }
+
+  // Where it is nearest to the apex, and where it meets the cone's side and the sphere.
+  HWY_INLINE void take_edge(const Point& start, const Point& end, Extremes& extremes) const {
+    const Point step = end - start;
+    const auto take_at = [&](M exists, V t) {
+      const M is_on = hn::And(exists, hn::And(hn::Ge(t, hn::Zero(D())), hn::Le(t, all(1.0f))));
+      const Point v = start + t * step;
+      extremes.take(hn::And(is_on, is_in_cone(v)), is_in_range(v), v);
+    };
+    const auto take_roots = [&](V a, V b, V c) {  // of a t² + 2 b t + c
+      const V square = hn::Sub(hn::Mul(b, b), hn::Mul(a, c));
+      const M exist = hn::Ge(square, hn::Zero(D()));
+      const V q = hn::Neg(hn::Add(b, hn::CopySign(hn::Sqrt(hn::Max(square, hn::Zero(D()))), b)));
+      take_at(exist, hn::Div(q, a));
+      take_at(exist, hn::Div(c, q));
+    };
+    const V start_square = dot(start, start), mixed = dot(start, step), step_square = dot(step, step);
+    take_at(yes(), hn::Neg(hn::Div(mixed, step_square)));
+    take_roots(step_square, mixed, hn::Sub(start_square, hn::Mul(cone_.range, cone_.range)));
+    // sin² along² = cos² across².
+    const V start_along = dot(start, cone_.axis), step_along = dot(step, cone_.axis);
+    const Point start_across = start - start_along * cone_.axis, step_across = step - step_along * cone_.axis;
+    const auto form = [&](V along1, V along2, const Point& across1, const Point& across2) {
+      const V s2 = hn::Mul(cone_.sine, cone_.sine), c2 = hn::Mul(cone_.cosine, cone_.cosine);
+      return hn::Sub(hn::Mul(s2, hn::Mul(along1, along2)), hn::Mul(c2, dot(across1, across2)));
+    };
+    take_roots(form(step_along, step_along, step_across, step_across),
+               form(start_along, step_along, start_across, step_across),
+               form(start_along, start_along, start_across, start_across));
+  }
+
+  // Unit normal; margin: how far the apex is on the inner side. The foot of the apex, the sphere's deepest place,
+  // the generators in the plane of axis and normal: where they meet the face, and their ends; and two places on the
+  // rim.
+  HWY_INLINE void take_face(const Point& outward, V margin, Extremes& extremes) const {
+    const Point foot = margin * outward, deepest = hn::Neg(cone_.range) * outward;
+    take_in_cell(foot, is_in_cone(foot), extremes);
+    take_in_cell(deepest, is_in_cone(deepest), extremes);
+    const Point across = unit_across(outward);
+    for (const V side : {cone_.sine, hn::Neg(cone_.sine)}) {
+      const Point generator = cone_.cosine * cone_.axis + side * across;
+      const V t = hn::Div(margin, dot(outward, generator));
+      take_in_cell(t * generator, hn::Gt(t, hn::Zero(D())), extremes);
+      take_in_cell(cone_.range * generator, yes(), extremes);
+    }
+    // The face on the rim, where side and sphere meet.
+    const V rim_along = hn::Mul(cone_.range, cone_.cosine), rim_across = hn::Mul(cone_.range, cone_.sine);
+    const V reach = hn::Mul(rim_across, dot(outward, across));
+    const V cosine = hn::Div(hn::Sub(margin, hn::Mul(rim_along, dot(outward, cone_.axis))), reach);
+    const V square = hn::Sub(all(1.0f), hn::Mul(cosine, cosine));
+    const M meets = hn::Ge(square, hn::Zero(D()));
+    const V sine = hn::Sqrt(hn::Max(square, hn::Zero(D())));
+    const Point middle = rim_along * cone_.axis + hn::Mul(rim_across, cosine) * across;
+    const Point aside = hn::Mul(rim_across, sine) * cross(cone_.axis, across);
+    take_in_cell(middle + aside, meets, extremes);
+    take_in_cell(middle - aside, meets, extremes);
+  }
+
+  // A unit vector across the axis, towards v where v is not nearly along the axis.
+  HWY_INLINE Point unit_across(const Point& v) const {
+    const V zero = hn::Zero(D()), one = all(1.0f);
+    const M is_good = hn::Gt(length(cross(v, cone_.axis)), hn::Mul(all(0.1f), length(v)));
+    const M x_is_small = hn::Lt(hn::Abs(cone_.axis.x), all(0.7f));
+    const Point other = chosen(x_is_small, {one, zero, zero}, {zero, one, zero});
+    const Point from = chosen(is_good, v, other);
+    const Point part = from - dot(from, cone_.axis) * cone_.axis;
+    return hn::Div(one, length(part)) * part;
+  }
+
+  // Is there a plane along the cone's side, equally far from both ends of an edge, beyond which all corners lie?
+  HWY_INLINE M is_beside_edges() const {
+    const V zero = hn::Zero(D()), one = all(1.0f);
+    const M x_is_small = hn::Lt(hn::Abs(cone_.axis.x), all(0.7f));
+    const Point m = unit_across(chosen(x_is_small, {one, zero, zero}, {zero, one, zero})), m2 = cross(cone_.axis, m);
+    M apart = hn::Not(yes());
+    for (unsigned corner = 0; corner < 8; ++corner)
+      for (const unsigned bit : {1u, 2u, 4u}) {
+        if ((corner & bit) != 0) continue;
+        const Point edge = from_apex_[corner | bit] - from_apex_[corner];
+        // x cos phi + y sin phi = z, phi around the axis from m.
+        const V x = hn::Mul(cone_.cosine, dot(edge, m)), y = hn::Mul(cone_.cosine, dot(edge, m2));
+        const V z = hn::Mul(cone_.sine, dot(edge, cone_.axis));
+        const V square = hn::Add(hn::Mul(x, x), hn::Mul(y, y)), rest = hn::Sub(square, hn::Mul(z, z));
+        const M exists = hn::And(hn::Gt(square, zero), hn::Ge(rest, zero));
+        const V root = hn::Sqrt(hn::Max(rest, zero));
+        for (const V w : {root, hn::Neg(root)}) {
+          const Point across = hn::Sub(hn::Mul(z, x), hn::Mul(w, y)) * m + hn::Add(hn::Mul(z, y), hn::Mul(w, x)) * m2;
+          const Point outward = hn::Div(cone_.cosine, length(across)) * across - cone_.sine * cone_.axis;
+          apart = hn::Or(apart, hn::And(exists, hn::Gt(least_along(outward), tolerance_)));
+        }
+      }
+    return apart;
+  }
+
+  // Where cell and endless cone meet beyond the range only: is there a plane through the nearest place, between the
+  // sphere's tangent there and the cone's side, that an edge says how to lean?
+  HWY_INLINE M is_beyond(const Extremes& extremes) const {
+    const Point generator = hn::Div(all(1.0f), hn::Sqrt(extremes.least)) * extremes.nearest;
+    const Point outward = cone_.cosine * unit_across(generator) - cone_.sine * cone_.axis;
+    M apart = is_past(generator);
+    for (unsigned corner = 0; corner < 8; ++corner)
+      for (const unsigned bit : {1u, 2u, 4u}) {
+        if ((corner & bit) != 0) continue;
+        const Point edge = from_apex_[corner | bit] - from_apex_[corner];
+        const V share = hn::Neg(hn::Div(dot(generator, edge), dot(outward, edge)));
+        apart = hn::Or(apart, hn::And(hn::Gt(share, hn::Zero(D())), is_past(generator + share * outward)));
+      }
+    return hn::And(apart, hn::Lt(extremes.least, all(k_none)));
+  }
+
+  // Do all corners lie farther in a direction than the volume extends?
+  HWY_INLINE M is_past(const Point& direction) const {
+    const Point normal = hn::Div(all(1.0f), length(direction)) * direction;
+    return hn::Gt(hn::Sub(least_along(normal), extent(dot(normal, cone_.axis))), tolerance_);
+  }
+
+  HWY_INLINE Point corner(unsigned i) const {
+    const V depth = (i & 4) != 0 ? depth1_ : depth0_;
+    return {hn::Mul((i & 1) != 0 ? right_ : left_, depth), hn::Mul((i & 2) != 0 ? y1_ : y0_, depth), depth};
+  }
+
+  // Outward normals (any length) and the faces' places along them.
+  template <class Take>
+  HWY_INLINE void each_face(Take&& take) const {
+    const V zero = hn::Zero(D()), one = all(1.0f);
+    take(Point{hn::Neg(one), zero, left_}, zero);
+    take(Point{one, zero, hn::Neg(right_)}, zero);
+    take(Point{zero, hn::Neg(one), y0_}, zero);
+    take(Point{zero, one, hn::Neg(y1_)}, zero);
+    take(Point{zero, zero, hn::Neg(one)}, hn::Neg(depth0_));
+    take(Point{zero, zero, one}, depth1_);
+  }
+
+  // Cuts a line from the apex's place + start, along step, to the cell.
+  HWY_INLINE void clip(const Point& start, const Point& step, V& from, V& to) const {
+    each_face([&](const Point& outward, V offset) {
+      const V margin = hn::Sub(offset, dot(outward, cone_.apex + start)), lean = dot(outward, step);
+      const V t = hn::Div(margin, lean);
+      to = hn::IfThenElse(hn::Gt(lean, hn::Zero(D())), hn::Min(to, t), to);
+      from = hn::IfThenElse(hn::Lt(lean, hn::Zero(D())), hn::Max(from, t), from);
+    });
+  }
+
+  // Is the place v from the apex in volume and cell, by more than the tolerance?
+  HWY_INLINE M is_common(const Point& v) const {
+    M is_in = is_inside(v);
+    each_face([&](const Point& outward, V offset) {
+      const V margin = hn::Sub(offset, dot(outward, cone_.apex + v));
+      is_in = hn::And(is_in, hn::Gt(margin, hn::Mul(tolerance_, length(outward))));
+    });
+    return is_in;
+  }
+
+  // The least of the corners along a direction.
+  HWY_INLINE V least_along(const Point& direction) const {
+    V least = dot(direction, from_apex_[0]);
+    for (unsigned i = 1; i < 8; ++i) least = hn::Min(least, dot(direction, from_apex_[i]));
+    return least;
+  }
+
+  // Do all corners lie beyond the plane along the cone's side in the direction of v?
+  HWY_INLINE M is_beside(const Point& v) const {
+    const Point across = v - dot(v, cone_.axis) * cone_.axis;
+    const V size = length(across);
+    const Point outward = hn::Div(cone_.cosine, size) * across - cone_.sine * cone_.axis;
+    // Where v is nearly along the axis, the direction across it has few digits.
+    const M is_good = hn::Gt(size, hn::Mul(all(0.1f), length(v)));
+    return hn::And(is_good, hn::Gt(least_along(outward), tolerance_));
+  }
+
+  // Is the place v from the apex in the volume, by more than the tolerance?
+  HWY_INLINE M is_inside(const Point& v) const {
+    const V along = dot(v, cone_.axis);
+    const V across = length(v - along * cone_.axis);
+    const V side = hn::Sub(hn::Mul(cone_.sine, along), hn::Mul(cone_.cosine, across));
+    return hn::And(hn::Gt(side, tolerance_),
+                   hn::And(hn::Gt(safe_range_, hn::Zero(D())), hn::Lt(length(v), safe_range_)));
+  }
+
+  // How far the volume extends from its apex in a direction with this cosine to the axis.
+  HWY_INLINE V extent(V cosine) const {
+    const V sine = hn::Sqrt(hn::Max(hn::Zero(D()), hn::Mul(hn::Sub(all(1.0f), cosine), hn::Add(all(1.0f), cosine))));
+    const V lean = hn::Max(hn::Zero(D()), hn::Add(hn::Mul(cosine, cone_.cosine), hn::Mul(sine, cone_.sine)));
+    return hn::Mul(cone_.range, hn::IfThenElse(hn::Ge(cosine, cone_.cosine), all(1.0f), lean));
+  }
+
+  Cone cone_;
+  V left_, right_, y0_, y1_, depth0_, depth1_, tolerance_, safe_range_;
+  Point from_apex_[8];
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace clusterbench::assign
+HWY_AFTER_NAMESPACE();
+
+#endif
