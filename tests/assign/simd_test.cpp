@@ -218,6 +218,22 @@ TEST(ExactFast, gives_the_lists_of_exact_on_every_target) {
   expect_same_lists_on_every_target("exact-fast", "exact");
 }
 
+TEST(ExactFast, gives_the_lists_of_exact_on_clipped_tiles) {
+  const AssignerRow& row = *find_assigner("exact-fast");
+  grid::GridSpec spec =
+      testing::settings::screen_spec(grid::Kind::frustum, {16, 9}, grid::Scheme::exponential_first, 8, 0.1);
+  spec.tiles = {{48, 64}, {0, 0}};
+  for (const View& view : odd_views(row)) {
+    Setting setting;
+    setting.frame = testing::frame_of(view.projection, {1280, 717}, {});
+    setting.grid = testing::grid_of(spec, setting.frame);
+    testing::settings::add_lights(setting, row, 7);
+    const Lists expected = answer_of("exact", Params(find_assigner("exact")->params), setting).lists;
+    EXPECT_GT(expected.pair_count(), 1000U);
+    EXPECT_EQ(answer_of("exact-fast", Params(row.params), setting).lists, expected) << view.name;
+  }
+}
+
 // Far to the side of the view axis tile planes are slopes with few digits left for their distances.
 TEST(ExactFast, gives_the_lists_of_exact_on_narrow_tiles_far_aside) {
   const AssignerRow& row = *find_assigner("exact-fast");

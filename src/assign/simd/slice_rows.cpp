@@ -147,11 +147,12 @@ class Batch {
     const V to = hn::Add(hn::Mul(hn::Sub(top, hn::Max(low, bottom)), scale), margin);
     const VI last_row = all_int(planes_->rows - 1);
     const VI first = hn::Min(hn::ConvertTo(DI(), hn::Max(from, zero)), last_row);
-    const VI end = hn::ConvertTo(DI(), to), last = hn::Min(end, last_row);
+    const VI last = hn::Min(hn::ConvertTo(DI(), to), last_row);
     const MI touches_rows = hn::RebindMask(DI(), touches);
+    const V whole = hn::Mul(hn::Sub(top, bottom), scale);  // the last row may be clipped
     return {first, hn::IfThenElseZero(touches_rows, hn::Add(hn::Sub(last, first), all_int(1))),
             hn::And(touches_rows, hn::RebindMask(DI(), hn::Lt(from, zero))),
-            hn::And(touches_rows, hn::Gt(end, last_row))};
+            hn::And(touches_rows, hn::RebindMask(DI(), hn::Ge(to, whole)))};
   }
 
   // What lies in tile plane `place` of the balls in which[i], between the slice's planes.
