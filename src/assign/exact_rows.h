@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "assign/simd/seen_balls.h"
 #include "geom/meets.h"
 #include "geom/row_slopes.h"
 #include "grid/grid.h"

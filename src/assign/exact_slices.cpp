@@ -166,6 +166,11 @@ IndexRange ExactSlices::decided(const Row& row, const IndexRange& outer, std::ui
   if (frame_->lights.is_spot(light)) return lit_[next_lit_++].columns;
   if (std::isinf(frame_->lights.radius[light])) return outer;
   CellJudge judge(frame_->grid, frame_->lights, light);
+  if (frame_->lights.reach[light] > k_most_row_reach)
+    return narrowed(outer, [&](int column) {
+      ++fallbacks_;
+      return !judge.touches(row.first_cell + static_cast<std::uint32_t>(column));
+    });
   return settled(outer, RowColumns(frame_->grid.screen().tiles), frame_->lights.ball(light, -k_exact_roundings), row,
                  judge, fallbacks_);
 }

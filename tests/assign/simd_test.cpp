@@ -234,6 +234,22 @@ TEST(ExactFast, gives_the_lists_of_exact_on_clipped_tiles) {
   }
 }
 
+// Of 1e19 m and more: in single precision their squares are infinite.
+TEST(ExactFast, gives_the_lists_of_exact_and_of_each_cell_for_lights_of_any_size) {
+  for (const Setting& setting : odd_settings(*find_assigner("exact-fast"), 7)) {
+    if (setting.grid.cell_count() > 1) continue;
+    const view::LightArrays lights = view::lights_in(setting.frame, setting.frame.view_space);
+    std::vector<std::uint32_t> touching;
+    for (std::uint32_t light = 0; light < lights.size(); ++light)
+      if (!lights.is_empty(light) &&
+          geom::decide_meets(lights.volume(light), setting.grid.cell(0)) != geom::Verdict::no)
+        touching.push_back(light);
+    for (const std::string name : {"exact", "exact-fast"})
+      EXPECT_EQ(answer_of(name, Params(find_assigner(name)->params), setting).lists.lights, touching)
+          << name << ", " << setting.name;
+  }
+}
+
 // Far to the side of the view axis tile planes are slopes with few digits left for their distances.
 TEST(ExactFast, gives_the_lists_of_exact_on_narrow_tiles_far_aside) {
   const AssignerRow& row = *find_assigner("exact-fast");

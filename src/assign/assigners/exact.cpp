@@ -73,10 +73,11 @@ class Exact final : public Assigner {
 
   void add_point(const view::LightArrays& lights, std::uint32_t light) {
     if (std::isinf(lights.radius[light])) return pairs_.add_row(0, grid_->cell_count(), light);
+    CellJudge judge(*grid_, lights, light);
+    if (lights.reach[light] > k_most_row_reach) return add_cell_by_cell(light, judge);
     const geom::Ball larger = lights.ball(light, k_exact_roundings);
     const geom::Ball smaller = lights.ball(light, -k_exact_roundings);
     const RowColumns columns(grid_->screen().tiles);
-    CellJudge judge(*grid_, lights, light);
     each_row(larger, [&](const Row& row) {
       const IndexRange outer = columns.touched(larger, row);
       if (!outer.empty()) add_interval(row, settled(outer, columns, smaller, row, judge, fallbacks_), light);
@@ -86,7 +87,7 @@ class Exact final : public Assigner {
   void add_spot(const view::LightArrays& lights, std::uint32_t light) {
     const geom::SphericalCone cone = lights.cone(light, view::k_given_roundings);
     CellJudge judge(*grid_, lights, light);
-    if (std::isinf(cone.range)) return add_endless_spot(light, judge);
+    if (lights.reach[light] > k_most_row_reach) return add_cell_by_cell(light, judge);
     // Both hold the cone; neither holds the other.
     const geom::Ball around = geom::bounding_ball(cone), range = lights.ball(light, k_exact_roundings);
     const geom::Ball larger{around.center, around.radius + k_exact_roundings * 0x1p-24f * lights.reach[light]};
@@ -106,7 +107,7 @@ class Exact final : public Assigner {
     });
   }
 
-  void add_endless_spot(std::uint32_t light, CellJudge& judge) {
+  void add_cell_by_cell(std::uint32_t light, CellJudge& judge) {
     fallbacks_ += grid_->cell_count();
     for (std::uint32_t cell = 0; cell < grid_->cell_count(); ++cell)
       if (judge.touches(cell)) pairs_.add(cell, light);

@@ -127,16 +127,10 @@ class ExactFast final : public Assigner {
   void see_lights() {
     seen_.count = 0;
     seen_.reserve(lights_->size());
-    see_balls(planes_,
-              {lights_->x.data(), lights_->y.data(), lights_->z.data(), lights_->radius.data(), lights_->reach.data(),
-               lights_->points},
-              0, seen_);
+    see_balls(planes_, given_points(*lights_), 0, seen_);
     if (lights_->spots == 0) return;
     find_spot_balls(*lights_, view::k_given_roundings, true, spots_);
-    see_balls(planes_,
-              {spots_.x.data(), spots_.y.data(), spots_.z.data(), spots_.radius.data(),
-               lights_->reach.data() + lights_->points, lights_->spots},
-              lights_->points, seen_);
+    see_balls(planes_, given_spots(*lights_, spots_), lights_->points, seen_);
   }
 
   const grid::Grid* grid_ = nullptr;

@@ -64,8 +64,8 @@ HWY_INLINE VI planes_below(const RowPlanes& planes, V depth, int most) {
   return hn::Min(below, hn::Set(di, most));
 }
 
-// Reaches whose fourth powers, and these times a slope, are normal numbers.
-constexpr float k_least_reach = 1e-9f, k_most_reach = 1e9f;
+// From here to k_most_row_reach fourth powers of reaches, and these times a slope, are normal numbers.
+constexpr float k_least_reach = 1e-9f;
 
 void see(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, SeenBalls& seen,
          float roundings) {
@@ -92,7 +92,7 @@ void see(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_l
     keep(y, seen.y);
     keep(depth, seen.depth);
     // Powers of a reach must be normal numbers; elsewhere the whole grid is left to be decided.
-    const M is_plain = is_between(all(k_least_reach), reach, all(k_most_reach));
+    const M is_plain = is_between(all(k_least_reach), reach, all(k_most_row_reach));
     keep(hn::IfThenElse(is_plain, radius, infinity()), seen.radius);
     keep(slack, seen.slack);
     const auto lights = hn::BitCast(du, from_on(static_cast<std::int32_t>(first_light + i)));

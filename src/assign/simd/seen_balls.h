@@ -32,6 +32,9 @@ struct SeenBalls {
 // slack costs decisions only.
 inline constexpr float k_slice_rows_roundings = 28.0f;
 
+// Beyond this reach powers of it may overflow: such balls are taken to be everywhere, and decided cell by cell.
+inline constexpr float k_most_row_reach = 1e9f;
+
 // Appends the balls that may reach into the grid; the first one's light is `first_light`. Those left out touch no cell,
 // even if they are larger by these roundings.
 void see_balls(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, SeenBalls& seen,

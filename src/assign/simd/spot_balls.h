@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "assign/simd/slice_rows.h"
+#include "assign/simd/seen_balls.h"
 #include "view/frame.h"
 
 namespace clusterbench::assign {
