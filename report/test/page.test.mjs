@@ -47,7 +47,11 @@ async function open(url, options = {}) {
   return page;
 }
 
-const textsOf = (page, selector) => page.locator(selector).allInnerTexts();
+// Of all that match, as soon as there are any: tables of figures are made a moment after they are opened.
+async function textsOf(page, selector) {
+  await page.locator(selector).first().waitFor({ state: "attached" });
+  return page.locator(selector).allInnerTexts();
+}
 const methods = (page) => textsOf(page, "#ranking tbody th");
 const column = async (page, label) => {
   const labels = (await textsOf(page, "#ranking thead th")).map((text) => text.replace(/ [↑↓]$/, ""));
@@ -64,6 +68,7 @@ async function violations(page) {
 
 async function openAll(page) {
   for (const summary of await page.locator("summary").all()) await summary.click();
+  await page.waitForFunction(() => !document.querySelector("figure > details[open]:not(:has(.twin))"));
 }
 
 describe("the page", () => {
@@ -168,6 +173,7 @@ describe("charts", () => {
       const figure = page.locator(`#${id}`);
       assert.ok((await figure.locator("svg[role=img]").first().getAttribute("aria-label")).length > 20, id);
       await figure.locator("summary").click();
+      await figure.locator(".twin").waitFor();
       assert.ok((await figure.locator("tbody tr").count()) > 1, id);
       assert.match(await figure.locator("pre").innerText(), /^clusterbench run \S+\.json/, id);
       const waiting = page.waitForEvent("download");
