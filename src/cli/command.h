@@ -1,32 +1,64 @@
 #pragma once
-// The subcommands. Each add_* hangs one subcommand into the tree and, when the user names it, sets `action`.
+// A command of the command line, with its options. The parser itself (CLI11) stays behind it: it is a large header, and
+// all commands together would take minutes to build.
 
-#include <CLI/CLI.hpp>
+#include <cstdint>
 #include <functional>
+#include <optional>
+#include <string>
+#include <vector>
 
-#include "core/error.h"
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
 
 namespace clusterbench::cli {
 
-using Action = std::function<ExitCode()>;
+class Option {
+ public:
+  explicit Option(CLI::Option* option) : option_(option) {}
 
-void add_run(CLI::App& app, Action& action);
-void add_compare(CLI::App& app, Action& action);
-void add_size(CLI::App& app, Action& action);
-void add_report(CLI::App& app, Action& action);
-void add_export(CLI::App& app, Action& action);
-void add_scene(CLI::App& app, Action& action);
-void add_stress(CLI::App& app, Action& action);
-void add_list(CLI::App& app, Action& action);
-void add_schema(CLI::App& app, Action& action);
-void add_validate(CLI::App& app, Action& action);
-void add_history(CLI::App& app, Action& action);
-void add_merge(CLI::App& app, Action& action);
-void add_completion(CLI::App& app, Action& action);
-void add_man(CLI::App& app, Action& action);
-void add_version(CLI::App& app, Action& action);
+  Option& required();
+  Option& hidden();          // from the help
+  Option& shows_standard();  // the value before parsing, in the help
+  Option& range(int least, int most);
+  Option& range(double least, double most);
+  Option& positive();
+  Option& non_negative();
+  Option& one_of(std::vector<std::string> words);
+  Option& once_a_name();  // --name A --name B, not --name A B
+  Option& needs(const Option& other);
 
-// Parses the command line and does what it says. Throws Error; CLI::ParseError for a bad command line.
-ExitCode run_command_line(CLI::App& app, int argc, char** argv);
+ private:
+  CLI::Option* option_;
+};
+
+// Values that options are read into must live as long as the parser.
+class Command {
+ public:
+  explicit Command(CLI::App* app) : app_(app) {}
+
+  Command add_command(const std::string& name, const std::string& summary);
+  // An option with a value ("-o,--output"), or an argument ("FILE").
+  Option add_option(const std::string& names, std::string& value, const std::string& summary);
+  Option add_option(const std::string& names, std::vector<std::string>& values, const std::string& summary);
+  Option add_option(const std::string& names, int& value, const std::string& summary);
+  Option add_option(const std::string& names, std::optional<int>& value, const std::string& summary);
+  Option add_option(const std::string& names, std::uint64_t& value, const std::string& summary);
+  Option add_option(const std::string& names, double& value, const std::string& summary);
+  Option add_flag(const std::string& names, bool& is_set, const std::string& summary);
+  // "--count{auto}": stands for that value if it has none.
+  Option add_flag(const std::string& names, std::string& value, const std::string& summary);
+  void needs_command();
+  void footer(const std::string& text);
+  // Called when the user names it, once all is read.
+  void when_named(std::function<void()> call);
+
+  const CLI::App& parser() const { return *app_; }
+
+ private:
+  CLI::App* app_;
+};
 
 }  // namespace clusterbench::cli

@@ -1,5 +1,6 @@
 #include "cli/command_tree.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 
@@ -129,8 +130,8 @@ void add_all(const CommandNode& node, std::vector<const CommandNode*>& all) {
 
 }  // namespace
 
-CommandNode command_tree(const CLI::App& app) {
-  return command_node(app, "");
+CommandNode command_tree(const Command& program) {
+  return command_node(program.parser(), "");
 }
 
 std::vector<const CommandNode*> all_commands(const CommandNode& root) {

@@ -2,9 +2,10 @@
 // The command line as data: what completions and the manual page are made of. Read from the parser itself, so that a
 // new option is in all of them.
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
+
+#include "cli/command.h"
 
 namespace clusterbench::cli {
 
@@ -43,7 +44,7 @@ struct CommandNode {
 };
 
 // Without what the help leaves out, too.
-CommandNode command_tree(const CLI::App& app);
+CommandNode command_tree(const Command& program);
 
 // The program and all commands below it, each before its own.
 std::vector<const CommandNode*> all_commands(const CommandNode& root);

@@ -4,7 +4,7 @@
 #include <iostream>
 #include <memory>
 
-#include "cli/command.h"
+#include "cli/commands.h"
 #include "cli/output.h"
 #include "core/text.h"
 #include "report/compare.h"
@@ -57,21 +57,20 @@ ExitCode compare(const Flags& flags) {
 
 }  // namespace
 
-void add_compare(CLI::App& app, Action& action) {
+void add_compare(Command& program, Action& action) {
   auto flags = std::make_shared<Flags>();
-  CLI::App* command = app.add_subcommand(
+  Command command = program.add_command(
       "compare", "Compare two results: what is counted exactly, times with intervals; exit code 1 for a regression");
-  command->add_option("BASE", flags->base, "A result file of `clusterbench run`")->required();
-  command->add_option("NEW", flags->next, "The result that may have become worse")->required();
-  command->add_option("--threshold", flags->threshold_percent, "Smallest change of time that matters, in percent")
-      ->check(CLI::Range(0.01, 1000.0))
-      ->capture_default_str();
-  command->add_option("--markdown", flags->markdown, "Write the comparison for a pull request to this file");
-  command->add_option("--json", flags->json, "Write the comparison as JSON to this file");
-  command->add_flag("--strict", flags->is_strict, "Exit with 4 where a verdict is inconclusive or a case is missing");
-  command->add_flag("--force", flags->is_forced,
-                    "Compare results of different machines, flags or schema versions, too");
-  command->callback([flags, &action] { action = [flags] { return compare(*flags); }; });
+  command.add_option("BASE", flags->base, "A result file of `clusterbench run`").required();
+  command.add_option("NEW", flags->next, "The result that may have become worse").required();
+  command.add_option("--threshold", flags->threshold_percent, "Smallest change of time that matters, in percent")
+      .range(0.01, 1000.0)
+      .shows_standard();
+  command.add_option("--markdown", flags->markdown, "Write the comparison for a pull request to this file");
+  command.add_option("--json", flags->json, "Write the comparison as JSON to this file");
+  command.add_flag("--strict", flags->is_strict, "Exit with 4 where a verdict is inconclusive or a case is missing");
+  command.add_flag("--force", flags->is_forced, "Compare results of different machines, flags or schema versions, too");
+  command.when_named([flags, &action] { action = [flags] { return compare(*flags); }; });
 }
 
 }  // namespace clusterbench::cli

@@ -3,7 +3,7 @@
 #include <iostream>
 #include <memory>
 
-#include "cli/command.h"
+#include "cli/commands.h"
 #include "cli/completion/completion.h"
 #include "cli/man_page.h"
 #include "run/result.h"
@@ -18,23 +18,23 @@ std::string completion(const CommandNode& root, const std::string& shell) {
 
 }  // namespace
 
-void add_completion(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("completion", "Print the completion script of a shell");
+void add_completion(Command& program, Action& action) {
+  Command command = program.add_command("completion", "Print the completion script of a shell");
   auto shell = std::make_shared<std::string>();
-  command->add_option("SHELL", *shell, "The shell")->required()->check(CLI::IsMember({"bash", "zsh", "fish"}));
-  command->callback([shell, &app, &action] {
-    action = [shell, &app] {
-      std::cout << completion(command_tree(app), *shell);
+  command.add_option("SHELL", *shell, "The shell").required().one_of({"bash", "zsh", "fish"});
+  command.when_named([shell, &program, &action] {
+    action = [shell, &program] {
+      std::cout << completion(command_tree(program), *shell);
       return ExitCode::ok;
     };
   });
 }
 
-void add_man(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("man", "Print the manual page, in roff");
-  command->callback([&app, &action] {
-    action = [&app] {
-      std::cout << man_page(command_tree(app), run::tool_facts().version);
+void add_man(Command& program, Action& action) {
+  Command command = program.add_command("man", "Print the manual page, in roff");
+  command.when_named([&program, &action] {
+    action = [&program] {
+      std::cout << man_page(command_tree(program), run::tool_facts().version);
       return ExitCode::ok;
     };
   });

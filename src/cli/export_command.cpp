@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "cli/command.h"
+#include "cli/commands.h"
 #include "cli/exports.h"
 #include "cli/output.h"
 #include "report/result_file.h"
@@ -23,15 +23,15 @@ ExitCode export_result(const Flags& flags) {
 
 }  // namespace
 
-void add_export(CLI::App& app, Action& action) {
+void add_export(Command& program, Action& action) {
   auto flags = std::make_shared<Flags>();
-  CLI::App* command = app.add_subcommand("export", "Write a result in the format of another tool");
-  command->add_option("RESULT", flags->result, "A result file of `clusterbench run`")->required();
-  command->add_option("--format", flags->format, "One of those below")->required();
-  command->add_option("-o,--output", flags->output, "File to write; without it standard output");
-  command->add_flag("--all", flags->all, "Every figure, not only the headline");
-  command->footer("Formats:\n" + export_formats_text());
-  command->callback([flags, &action] { action = [flags] { return export_result(*flags); }; });
+  Command command = program.add_command("export", "Write a result in the format of another tool");
+  command.add_option("RESULT", flags->result, "A result file of `clusterbench run`").required();
+  command.add_option("--format", flags->format, "One of those below").required();
+  command.add_option("-o,--output", flags->output, "File to write; without it standard output");
+  command.add_flag("--all", flags->all, "Every figure, not only the headline");
+  command.footer("Formats:\n" + export_formats_text());
+  command.when_named([flags, &action] { action = [flags] { return export_result(*flags); }; });
 }
 
 }  // namespace clusterbench::cli

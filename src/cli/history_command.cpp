@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "cli/command.h"
+#include "cli/commands.h"
 #include "cli/output.h"
 #include "report/history.h"
 #include "report/history_page.h"
@@ -37,37 +37,37 @@ ExitCode show(const ShowFlags& flags) {
   return ExitCode::ok;
 }
 
-void add_add(CLI::App& parent, Action& action) {
+void add_add(Command& parent, Action& action) {
   auto flags = std::make_shared<AddFlags>();
-  CLI::App* command = parent.add_subcommand("add", "Add a result to a history");
-  command->add_option("RESULT", flags->result, "A result file of `clusterbench run`")->required();
-  command->add_option("FILE", flags->file, "The history, JSON lines; made if there is none")->required();
-  command->add_option("--commit", flags->commit, "What was measured; without it the commit of clusterbench");
-  command->callback([flags, &action] { action = [flags] { return add(*flags); }; });
+  Command command = parent.add_command("add", "Add a result to a history");
+  command.add_option("RESULT", flags->result, "A result file of `clusterbench run`").required();
+  command.add_option("FILE", flags->file, "The history, JSON lines; made if there is none").required();
+  command.add_option("--commit", flags->commit, "What was measured; without it the commit of clusterbench");
+  command.when_named([flags, &action] { action = [flags] { return add(*flags); }; });
 }
 
-void add_show(CLI::App& parent, Action& action) {
+void add_show(Command& parent, Action& action) {
   auto flags = std::make_shared<ShowFlags>();
-  CLI::App* command = parent.add_subcommand("show", "Where the figures of a history have changed");
-  command->add_option("FILE", flags->file, "The history")->required();
-  command->add_option("-o,--output", flags->page, "Also a page (HTML) with a chart for each series that varies");
-  command->add_option("--max-p", flags->max_p, "How likely chance alone may make what is called a change")
-      ->capture_default_str()
-      ->check(CLI::Range(0.0, 1.0));
-  command->add_option("--min-change", flags->min_change_percent, "Smallest change that matters, percent")
-      ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
-  command->add_flag("--all", flags->all, "Also series without changes");
-  command->callback([flags, &action] { action = [flags] { return show(*flags); }; });
+  Command command = parent.add_command("show", "Where the figures of a history have changed");
+  command.add_option("FILE", flags->file, "The history").required();
+  command.add_option("-o,--output", flags->page, "Also a page (HTML) with a chart for each series that varies");
+  command.add_option("--max-p", flags->max_p, "How likely chance alone may make what is called a change")
+      .shows_standard()
+      .range(0.0, 1.0);
+  command.add_option("--min-change", flags->min_change_percent, "Smallest change that matters, percent")
+      .shows_standard()
+      .non_negative();
+  command.add_flag("--all", flags->all, "Also series without changes");
+  command.when_named([flags, &action] { action = [flags] { return show(*flags); }; });
 }
 
 }  // namespace
 
-void add_history(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("history", "Results over commits, and where they changed");
-  command->require_subcommand(1);
-  add_add(*command, action);
-  add_show(*command, action);
+void add_history(Command& program, Action& action) {
+  Command command = program.add_command("history", "Results over commits, and where they changed");
+  command.needs_command();
+  add_add(command, action);
+  add_show(command, action);
 }
 
 }  // namespace clusterbench::cli

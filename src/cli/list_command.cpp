@@ -5,7 +5,7 @@
 
 #include "assign/assigner.h"
 #include "assign/storage.h"
-#include "cli/command.h"
+#include "cli/commands.h"
 #include "scene/generate.h"
 
 namespace clusterbench::cli {
@@ -100,12 +100,12 @@ void print_section(const Json& all, const char* section) {
 
 }  // namespace
 
-void add_list(CLI::App& app, Action& action) {
-  CLI::App* command =
-      app.add_subcommand("list", "Assigners, storages, grids and scenes that exist, with their parameters");
+void add_list(Command& program, Action& action) {
+  Command command =
+      program.add_command("list", "Assigners, storages, grids and scenes that exist, with their parameters");
   auto as_json = std::make_shared<bool>(false);
-  command->add_flag("--json", *as_json, "As JSON");
-  command->callback([as_json, &action] {
+  command.add_flag("--json", *as_json, "As JSON");
+  command.when_named([as_json, &action] {
     action = [as_json] {
       const Json all = everything();
       if (*as_json)

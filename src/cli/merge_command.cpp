@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "cli/command.h"
+#include "cli/commands.h"
 #include "cli/output.h"
 #include "report/merge.h"
 #include "report/result_file.h"
@@ -34,13 +34,13 @@ ExitCode merge(const Flags& flags) {
 
 }  // namespace
 
-void add_merge(CLI::App& app, Action& action) {
+void add_merge(Command& program, Action& action) {
   auto flags = std::make_shared<Flags>();
-  CLI::App* command = app.add_subcommand("merge", "Put the cases of several results into one");
-  command->add_option("RESULT", flags->results, "Result files of `clusterbench run`, without a case in common")
-      ->required();
-  command->add_option("-o,--output", flags->output, "Result file; without it the result goes to standard output");
-  command->callback([flags, &action] { action = [flags] { return merge(*flags); }; });
+  Command command = program.add_command("merge", "Put the cases of several results into one");
+  command.add_option("RESULT", flags->results, "Result files of `clusterbench run`, without a case in common")
+      .required();
+  command.add_option("-o,--output", flags->output, "Result file; without it the result goes to standard output");
+  command.when_named([flags, &action] { action = [flags] { return merge(*flags); }; });
 }
 
 }  // namespace clusterbench::cli

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <iostream>
 
-#include "cli/command.h"
+#include "cli/commands.h"
 #include "cli/output.h"
 #include "report/page.h"
 #include "report/result_file.h"
@@ -57,14 +57,14 @@ ExitCode write_report(const ReportOptions& options) {
 
 }  // namespace
 
-void add_report(CLI::App& app, Action& action) {
-  CLI::App* command =
-      app.add_subcommand("report", "Show results as one page for a browser: ranking, charts, tables; works from disk");
+void add_report(Command& program, Action& action) {
+  Command command =
+      program.add_command("report", "Show results as one page for a browser: ranking, charts, tables; works from disk");
   auto options = std::make_shared<ReportOptions>();
-  command->add_option("RESULT", options->files, "Result files of `clusterbench run`; several are shown side by side")
-      ->required();
-  command->add_option("-o,--output", options->output, "Where the page goes; standard output by default");
-  command->callback([options, &action] { action = [options] { return write_report(*options); }; });
+  command.add_option("RESULT", options->files, "Result files of `clusterbench run`; several are shown side by side")
+      .required();
+  command.add_option("-o,--output", options->output, "Where the page goes; standard output by default");
+  command.when_named([options, &action] { action = [options] { return write_report(*options); }; });
 }
 
 }  // namespace clusterbench::cli

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "cli/baseline.h"
-#include "cli/command.h"
+#include "cli/commands.h"
 #include "cli/count.h"
 #include "cli/exports.h"
 #include "cli/output.h"
@@ -265,39 +265,38 @@ ExitCode run(const Flags& flags) {
 
 }  // namespace
 
-void add_run(CLI::App& app, Action& action) {
+void add_run(Command& program, Action& action) {
   auto flags = std::make_shared<Flags>();
-  CLI::App* command = app.add_subcommand("run", "Measure a configuration, or scenes with the default sweep");
-  command->add_option("INPUT", flags->inputs, "One configuration (.json), or scenes (.glb, .gltf)")->required();
-  command->add_option("-o,--output", flags->output, "Result file; without it the result goes to standard output");
-  command->add_option("--export", flags->exports, "FORMAT=FILE, repeatable: also write another tool's format")
-      ->allow_extra_args(false);
-  command->add_option("--filter", flags->filter, "Only cases whose name matches this regular expression");
-  command->add_option("--threads", flags->threads, "Threads for the truth; results do not depend on it")
-      ->check(CLI::Range(1, 1024));
-  command->add_flag("--count{auto}", flags->count,
-                    "Count instructions, too: --count=perf (hardware), =callgrind (valgrind), or what works");
-  command->add_option("--count-dumps", flags->count_dumps)->group("");
-  command->add_option("--count-ids", flags->count_ids)->group("");
-  command->add_option("--baseline-binary", flags->baseline.binary,
-                      "Another clusterbench: both are measured side by side, and compared");
-  command->add_option("--baseline-launches", flags->baseline.launches, "How often both are started")
-      ->check(CLI::Range(2, 1000))
-      ->capture_default_str();
-  command->add_option("--baseline-timeout", flags->baseline.patience_s, "Longest wait for one answer, in seconds")
-      ->check(CLI::Range(0.1, 1e6))
-      ->capture_default_str();
+  Command command = program.add_command("run", "Measure a configuration, or scenes with the default sweep");
+  command.add_option("INPUT", flags->inputs, "One configuration (.json), or scenes (.glb, .gltf)").required();
+  command.add_option("-o,--output", flags->output, "Result file; without it the result goes to standard output");
+  command.add_option("--export", flags->exports, "FORMAT=FILE, repeatable: also write another tool's format")
+      .once_a_name();
+  command.add_option("--filter", flags->filter, "Only cases whose name matches this regular expression");
+  command.add_option("--threads", flags->threads, "Threads for the truth; results do not depend on it").range(1, 1024);
+  command.add_flag("--count{auto}", flags->count,
+                   "Count instructions, too: --count=perf (hardware), =callgrind (valgrind), or what works");
+  command.add_option("--count-dumps", flags->count_dumps, "").hidden();
+  command.add_option("--count-ids", flags->count_ids, "").hidden();
+  command.add_option("--baseline-binary", flags->baseline.binary,
+                     "Another clusterbench: both are measured side by side, and compared");
+  command.add_option("--baseline-launches", flags->baseline.launches, "How often both are started")
+      .range(2, 1000)
+      .shows_standard();
+  command.add_option("--baseline-timeout", flags->baseline.patience_s, "Longest wait for one answer, in seconds")
+      .range(0.1, 1e6)
+      .shows_standard();
   command
-      ->add_option("--threshold", flags->baseline.threshold_percent,
-                   "Smallest change against the baseline that matters, in percent")
-      ->check(CLI::Range(0.01, 1000.0))
-      ->capture_default_str();
-  command->add_option("--rounds-server", flags->rounds_server)->group("");
-  command->add_flag("--resume", flags->resume, "Continue the interrupted run of the same -o FILE");
-  command->add_flag("--dry-run", flags->dry_run, "List the cases and what is skipped, measure nothing");
-  command->add_flag("--no-timing", flags->no_timing, "Count only; the output is then the same on every machine");
-  command->add_flag("-q,--quiet", flags->quiet, "No progress and no table");
-  command->callback([flags, &action] { action = [flags] { return run(*flags); }; });
+      .add_option("--threshold", flags->baseline.threshold_percent,
+                  "Smallest change against the baseline that matters, in percent")
+      .range(0.01, 1000.0)
+      .shows_standard();
+  command.add_option("--rounds-server", flags->rounds_server, "").hidden();
+  command.add_flag("--resume", flags->resume, "Continue the interrupted run of the same -o FILE");
+  command.add_flag("--dry-run", flags->dry_run, "List the cases and what is skipped, measure nothing");
+  command.add_flag("--no-timing", flags->no_timing, "Count only; the output is then the same on every machine");
+  command.add_flag("-q,--quiet", flags->quiet, "No progress and no table");
+  command.when_named([flags, &action] { action = [flags] { return run(*flags); }; });
 }
 
 }  // namespace clusterbench::cli

@@ -4,7 +4,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "cli/command.h"
+#include "cli/commands.h"
 #include "scene/generate.h"
 #include "scene/scene.h"
 #include "scene/summary.h"
@@ -78,32 +78,31 @@ struct GenerateFlags {
   int lights = 0;
 };
 
-void add_info(CLI::App& parent, Action& action) {
+void add_info(Command& parent, Action& action) {
   auto flags = std::make_shared<InfoFlags>();
-  CLI::App* command =
-      parent.add_subcommand("info", "Lights, ranges, cameras and warnings of a glTF file; exit 2 if it is refused");
-  command->add_option("FILE", flags->file, "A .gltf or .glb file")->required();
-  command->add_option("--cutoff-lux", flags->rule.cutoff_lux, "Illuminance at which a light without range ends")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber);
-  command->add_option("--max-range", flags->rule.max_range_m, "Longest range given to such a light, metres")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber);
-  command->add_flag("--json", flags->as_json, "As JSON");
-  command->callback([flags, &action] { action = [flags] { return info(flags->file, flags->rule, flags->as_json); }; });
+  Command command =
+      parent.add_command("info", "Lights, ranges, cameras and warnings of a glTF file; exit 2 if it is refused");
+  command.add_option("FILE", flags->file, "A .gltf or .glb file").required();
+  command.add_option("--cutoff-lux", flags->rule.cutoff_lux, "Illuminance at which a light without range ends")
+      .shows_standard()
+      .positive();
+  command.add_option("--max-range", flags->rule.max_range_m, "Longest range given to such a light, metres")
+      .shows_standard()
+      .positive();
+  command.add_flag("--json", flags->as_json, "As JSON");
+  command.when_named([flags, &action] { action = [flags] { return info(flags->file, flags->rule, flags->as_json); }; });
 }
 
-void add_generate(CLI::App& parent, Action& action) {
+void add_generate(Command& parent, Action& action) {
   auto flags = std::make_shared<GenerateFlags>();
-  CLI::App* command =
-      parent.add_subcommand("generate", "Write one of the tool's own scenes (names: clusterbench list)");
-  command->add_option("NAME", flags->name, "Scene name")->required();
-  command->add_option("--seed", flags->seed, "The same seed gives the same bytes everywhere")->capture_default_str();
-  command->add_option("--lights", flags->lights, "Number of lights; 0: the scene's own")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 10'000'000));
-  command->add_option("-o,--output", flags->out, "File to write; NAME.glb if not given");
-  command->callback([flags, &action] {
+  Command command = parent.add_command("generate", "Write one of the tool's own scenes (names: clusterbench list)");
+  command.add_option("NAME", flags->name, "Scene name").required();
+  command.add_option("--seed", flags->seed, "The same seed gives the same bytes everywhere").shows_standard();
+  command.add_option("--lights", flags->lights, "Number of lights; 0: the scene's own")
+      .shows_standard()
+      .range(0, 10'000'000);
+  command.add_option("-o,--output", flags->out, "File to write; NAME.glb if not given");
+  command.when_named([flags, &action] {
     action = [flags] {
       const std::string out = flags->out.empty() ? flags->name + ".glb" : flags->out;
       scene::generate_scene(flags->name, flags->seed, flags->lights, out);
@@ -115,11 +114,11 @@ void add_generate(CLI::App& parent, Action& action) {
 
 }  // namespace
 
-void add_scene(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("scene", "Look at glTF scenes, or make the tool's own");
-  command->require_subcommand(1);
-  add_info(*command, action);
-  add_generate(*command, action);
+void add_scene(Command& program, Action& action) {
+  Command command = program.add_command("scene", "Look at glTF scenes, or make the tool's own");
+  command.needs_command();
+  add_info(command, action);
+  add_generate(command, action);
 }
 
 }  // namespace clusterbench::cli

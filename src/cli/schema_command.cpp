@@ -3,7 +3,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "cli/command.h"
+#include "cli/commands.h"
 #include "run/config.h"
 #include "run/schema_check.h"
 #include "run/sweep.h"
@@ -45,24 +45,23 @@ ExitCode validate(const std::string& path) {
 
 }  // namespace
 
-void add_schema(CLI::App& app, Action& action) {
-  CLI::App* command =
-      app.add_subcommand("schema", "Print the JSON Schema (draft-07) of a configuration or of a result");
-  CLI::Option* which =
-      command->add_option("WHICH", "config or result")->required()->check(CLI::IsMember({"config", "result"}));
-  command->callback([which, &action] {
-    action = [name = which->as<std::string>()] {
-      std::cout << (name == "config" ? run::config_schema() : run::result_schema()).dump(2) << "\n";
+void add_schema(Command& program, Action& action) {
+  Command command = program.add_command("schema", "Print the JSON Schema (draft-07) of a configuration or of a result");
+  auto which = std::make_shared<std::string>();
+  command.add_option("WHICH", *which, "config or result").required().one_of({"config", "result"});
+  command.when_named([which, &action] {
+    action = [which] {
+      std::cout << (*which == "config" ? run::config_schema() : run::result_schema()).dump(2) << "\n";
       return ExitCode::ok;
     };
   });
 }
 
-void add_validate(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("validate", "Check configurations and results without running anything");
+void add_validate(Command& program, Action& action) {
+  Command command = program.add_command("validate", "Check configurations and results without running anything");
   auto paths = std::make_shared<std::vector<std::string>>();
-  command->add_option("FILE", *paths, "Configuration or result files")->required();
-  command->callback([paths, &action] {
+  command.add_option("FILE", *paths, "Configuration or result files").required();
+  command.when_named([paths, &action] {
     action = [paths] {
       ExitCode worst = ExitCode::ok;
       for (const std::string& path : *paths)

@@ -2,18 +2,18 @@
 
 #include <iostream>
 
-#include "cli/command.h"
+#include "cli/commands.h"
 #include "report/result_file.h"
 #include "report/size.h"
 
 namespace clusterbench::cli {
 
-void add_size(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand(
+void add_size(Command& program, Action& action) {
+  Command command = program.add_command(
       "size", "Size the light-list allocation from a result: high-water marks, margins, C++ constants");
   auto file = std::make_shared<std::string>();
-  command->add_option("RESULT", *file, "A result file of `clusterbench run`")->required();
-  command->callback([file, &action] {
+  command.add_option("RESULT", *file, "A result file of `clusterbench run`").required();
+  command.when_named([file, &action] {
     action = [file] {
       std::cout << report::size_report(report::read_result(*file));
       return ExitCode::ok;

@@ -3,7 +3,7 @@
 #include <iostream>
 #include <memory>
 
-#include "cli/command.h"
+#include "cli/commands.h"
 #include "cli/output.h"
 #include "cli/stop.h"
 #include "cli/terminal.h"
@@ -85,24 +85,24 @@ ExitCode stress(const Flags& flags) {
 
 }  // namespace
 
-void add_stress(CLI::App& app, Action& action) {
+void add_stress(Command& program, Action& action) {
   auto flags = std::make_shared<Flags>();
-  CLI::App* command =
-      app.add_subcommand("stress", "Every assigner on the hard cases for numerical stability, and a search for more");
-  command->add_option("-o,--output", flags->output, "JSON file; without it the JSON goes to standard output");
-  command->add_option("--cases", flags->cases, "Only hard cases that match this regular expression (H1 .. H32)");
-  command->add_option("--methods", flags->methods, "Only methods that contain a match of this regular expression");
-  command->add_option("--tries", flags->request.tries, "Tries of the search H31 per method; 0 = no search")
-      ->capture_default_str();
-  command->add_option("--seconds", flags->request.seconds, "End the search of a method after so many; 0 = by tries")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  command->add_option("--seed", flags->request.seed, "Seed of everything random")->capture_default_str();
-  command->add_option("--threads", flags->request.threads, "Threads for the truth; results do not depend on it")
-      ->check(CLI::Range(1, 1024));
-  command->add_option("--failures", flags->failures, "Folder for every loss as a scene and a configuration");
-  command->add_flag("-q,--quiet", flags->quiet, "No progress and no table");
-  command->callback([flags, &action] { action = [flags] { return stress(*flags); }; });
+  Command command =
+      program.add_command("stress", "Every assigner on the hard cases for numerical stability, and a search for more");
+  command.add_option("-o,--output", flags->output, "JSON file; without it the JSON goes to standard output");
+  command.add_option("--cases", flags->cases, "Only hard cases that match this regular expression (H1 .. H32)");
+  command.add_option("--methods", flags->methods, "Only methods that contain a match of this regular expression");
+  command.add_option("--tries", flags->request.tries, "Tries of the search H31 per method; 0 = no search")
+      .shows_standard();
+  command.add_option("--seconds", flags->request.seconds, "End the search of a method after so many; 0 = by tries")
+      .non_negative()
+      .shows_standard();
+  command.add_option("--seed", flags->request.seed, "Seed of everything random").shows_standard();
+  command.add_option("--threads", flags->request.threads, "Threads for the truth; results do not depend on it")
+      .range(1, 1024);
+  command.add_option("--failures", flags->failures, "Folder for every loss as a scene and a configuration");
+  command.add_flag("-q,--quiet", flags->quiet, "No progress and no table");
+  command.when_named([flags, &action] { action = [flags] { return stress(*flags); }; });
 }
 
 }  // namespace clusterbench::cli

@@ -2,7 +2,7 @@
 
 #include <iostream>
 
-#include "cli/command.h"
+#include "cli/commands.h"
 #include "run/result.h"
 
 namespace clusterbench::cli {
@@ -25,14 +25,15 @@ ExitCode print_version(bool as_json) {
 
 }  // namespace
 
-void add_version(CLI::App& app, Action& action) {
+void add_version(Command& program, Action& action) {
   struct Flags {
     bool version = false, as_json = false;
   };
   auto flags = std::make_shared<Flags>();
-  CLI::Option* version = app.add_flag("--version", flags->version, "Print the version");
-  app.add_flag("--json", flags->as_json, "With --version: as JSON, with compiler, flags and libraries")->needs(version);
-  app.callback([flags, &action] {
+  Option version = program.add_flag("--version", flags->version, "Print the version");
+  program.add_flag("--json", flags->as_json, "With --version: as JSON, with compiler, flags and libraries")
+      .needs(version);
+  program.when_named([flags, &action] {
     if (flags->version) action = [flags] { return print_version(flags->as_json); };
   });
 }
