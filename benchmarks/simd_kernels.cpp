@@ -165,7 +165,7 @@ void find_rows(State& state) {
   assign::RowBatches rows;
   const std::uint32_t most = assign::k_batches_at_once * assign::balls_per_batch();
   each_batch(state, balls, planes.slices, most, [&](int slice, const std::uint32_t* places, std::uint32_t count) {
-    assign::find_rows(planes, seen, {slice, places, count, setting.lights.points}, rows);
+    assign::find_rows(planes, seen, {slice, places, count}, rows);
     std::uint64_t tests = 0;
     for (std::uint32_t i = 0; i < rows.count; ++i) tests += rows.batches[i].tests;
     return tests;
@@ -247,7 +247,8 @@ assign::SpotCells some_spot_cells(const Setting& setting, int slice) {
       continue;
     for (int row = size.y / 3; row < 2 * size.y / 3; ++row)
       for (int column = size.x / 3; column < 2 * size.x / 3; ++column)
-        cells.add(spot, static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(column));
+        cells.add({spot, static_cast<std::uint32_t>(slice), static_cast<std::uint32_t>(row),
+                   static_cast<std::uint32_t>(column)});
   }
   return cells;
 }
@@ -256,8 +257,7 @@ void look(State& state, assign::Look how) {
   constexpr int k_slice = 10;
   const Setting setting = open_world();
   const assign::RowPlanes planes(setting.grid.screen());
-  const assign::SpotsAndPlanes from{&setting.lights, planes.side.data(), planes.slope.data(), planes.depth[k_slice],
-                                    planes.depth[k_slice + 1]};
+  const assign::SpotsAndPlanes from{&setting.lights, planes.side.data(), planes.slope.data(), planes.depth.data()};
   assign::SpotCells cells = some_spot_cells(setting, k_slice);
   for (auto _ : state) {
     assign::look_at_cells(from, how, cells);
@@ -268,6 +268,9 @@ void look(State& state, assign::Look how) {
 
 void look_quickly(State& state) {
   look(state, assign::Look::quick);
+}
+void look_approaching(State& state) {
+  look(state, assign::Look::approach);
 }
 void look_closer(State& state) {
   look(state, assign::Look::closer);
@@ -481,6 +484,7 @@ constexpr Kernel k_kernels[] = {
     {"find_box_rows", find_box_rows},
     {"find_shell_rows", find_shell_rows},
     {"look_quickly", look_quickly},
+    {"look_approaching", look_approaching},
     {"look_closer", look_closer},
     {"look_thoroughly", look_thoroughly},
     {"find_lit_cells", find_lit_cells},

@@ -396,7 +396,7 @@ MUTATIONS = [
              "assign.ExactFast.gives_the_lists_of_exact_on_every_target",
              "exact-fast loses cells at the side of a spot"),
     Mutation("fast-spot-without-range", "assign/simd/spot_cells-inl.h",
-             "hn::Lt(length(v), safe_range_)", "hn::Lt(hn::Zero(D()), safe_range_)",
+             "hn::Lt(dot(v, v), hn::Mul(safe_range_, safe_range_))", "hn::Lt(hn::Zero(D()), safe_range_)",
              "assign.ExactFast.gives_the_lists_of_exact_on_every_target",
              "exact-fast lists spots beyond their range"),
     Mutation("fast-refinement-from-beside", "assign/simd/boxed_rows.cpp",

@@ -40,7 +40,7 @@ class ExactFast final : public Assigner {
     lights_ = &lights;
     see_lights();
     slice_balls_.sort(seen_, planes_.slices);
-    const ExactFrame frame{*grid_, planes_, lights, seen_, slice_balls_};
+    const ExactFrame frame{*grid_, planes_, lights, seen_, first_spot_place_, slice_balls_};
     if (parts_.empty() || slice_balls_.count() < k_worth_threads) {
       whole_.find(frame, 0, planes_.slices, out);
       count(whole_);
@@ -128,6 +128,7 @@ class ExactFast final : public Assigner {
     seen_.count = 0;
     seen_.reserve(lights_->size());
     see_balls(planes_, given_points(*lights_), 0, seen_);
+    first_spot_place_ = seen_.count;
     if (lights_->spots == 0) return;
     find_spot_balls(*lights_, view::k_given_roundings, true, spots_);
     see_balls(planes_, given_spots(*lights_, spots_), lights_->points, seen_);
@@ -138,6 +139,7 @@ class ExactFast final : public Assigner {
   RowPlanes planes_;
   BallArrays spots_;  // around their cones
   SeenBalls seen_;
+  std::uint32_t first_spot_place_ = 0;  // among them
   SliceBalls slice_balls_;
   ExactSlices whole_;
   Crew crew_;

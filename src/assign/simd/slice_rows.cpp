@@ -130,7 +130,7 @@ class Batch {
     balls_.near_square = chord_square(near_);
     balls_.far_square = chord_square(far_);
     lights_ = hn::GatherIndex(DU(), seen.light.data(), at);
-    start_rows(hn::RebindMask(D(), hn::Lt(lights_, hn::Set(DU(), balls.first_bound))));
+    start_rows();
   }
 
   VU lights() const { return lights_; }
@@ -224,13 +224,12 @@ class Batch {
   }
 
  private:
-  // `known`: the lanes whose balls are the lights themselves.
-  HWY_INLINE void start_rows(M known) {
+  HWY_INLINE void start_rows() {
     balls_.tangent = tangent_from_eye(hn::Add(hn::Mul(balls_.x, balls_.x), hn::Mul(balls_.y, balls_.y)));
     const Sphere sphere = sphere_along(balls_.x);
     const Tangents& tangents = sphere.tangents;
     level_ = {balls_.y,           hn::Mul(balls_.y, tangents.square),
-              least_area(known),  sphere.near_chord,
+              least_area(),       sphere.near_chord,
               sphere.far_chord,   sphere.low(),
               sphere.high(),      tangents.low_depth,
               tangents.high_depth};
@@ -265,11 +264,28 @@ class Batch {
     return hn::Mul(hn::Sub(balls_.radius, gap), hn::Add(balls_.radius, gap));
   }
 
-  // See Certainty.
-  HWY_INLINE V least_area(M known) const {
+  // See Certainty. Balls that hold all of the slice's part of the view, by more than their slack, have no ends there.
+  HWY_INLINE V least_area() const {
     const V rate = all(planes_->columns_per_slope * near_.inverse);
     const V area = hn::Mul(hn::Mul(all(8.2f), hn::Mul(slack_, balls_.radius)), hn::Mul(rate, rate));
-    return hn::IfThenElse(known, area, infinity());
+    const V surely = hn::Sub(balls_.radius, hn::Mul(all(4.0f), slack_));
+    const V farthest = hn::Max(farthest_corner(near_), farthest_corner(far_));
+    // An infinite radius stands for one that is left to be decided.
+    const M is_sure = hn::And(hn::Gt(surely, hn::Zero(D())), hn::Lt(surely, infinity()));
+    const M holds_view = hn::And(is_sure, hn::Lt(farthest, hn::Mul(surely, surely)));
+    return hn::IfThenElse(holds_view, hn::Zero(D()), area);
+  }
+
+  // The squared distance to the picture's farthest corner in a slice's plane.
+  HWY_INLINE V farthest_corner(const SlicePlane& plane) const {
+    const auto farther = [&](V center, float low, float high) {
+      const V from_low = hn::Sub(center, all(low * plane.depth)), from_high = hn::Sub(center, all(high * plane.depth));
+      return hn::Max(hn::Abs(from_low), hn::Abs(from_high));
+    };
+    const V across = farther(balls_.x, planes_->left, planes_->right);
+    const V up = farther(balls_.y, planes_->slope[static_cast<std::size_t>(planes_->rows)], planes_->slope.front());
+    const V along = hn::Sub(balls_.depth, all(plane.depth));
+    return hn::Add(hn::Add(hn::Mul(across, across), hn::Mul(up, up)), hn::Mul(along, along));
   }
 
   // Adds the slopes of the ends of a chord in a slice's plane.

@@ -71,13 +71,11 @@ struct RowBatches {
   std::size_t capacity_bytes() const;
 };
 
-// Balls of one slice: places in SeenBalls, from which a whole vector can be read beyond `count`. The balls of lights
-// from `first_bound` on only bound what is lit: all of their rows are uncertain.
+// Balls of one slice: places in SeenBalls, from which a whole vector can be read beyond `count`.
 struct BallsOfSlice {
   int slice;
   const std::uint32_t* places;
   std::uint32_t count;  // at most k_batches_at_once * balls_per_batch()
-  std::uint32_t first_bound;
 };
 void find_rows(const RowPlanes& planes, const SeenBalls& seen, const BallsOfSlice& balls, RowBatches& out);
 

@@ -57,7 +57,8 @@ class Cells {
     const auto place = [&](const std::vector<std::uint32_t>& list) {
       return hn::BitCast(DI(), hn::LoadU(DU(), list.data() + first));
     };
-    const auto spot = place(cells.spot), row = place(cells.row), column = place(cells.column);
+    const auto spot = place(cells.spot), slice = place(cells.slice), row = place(cells.row);
+    const auto column = place(cells.column);
     const view::LightArrays& lights = *from.lights;
     const std::uint32_t points = lights.points;
     cone_ = {{gathered(lights.x.data() + points, spot), gathered(lights.y.data() + points, spot),
@@ -71,8 +72,8 @@ class Cells {
     right_ = gathered(from.side + 1, column);
     y1_ = gathered(from.slope, row);
     y0_ = gathered(from.slope + 1, row);
-    depth0_ = all(from.depth0);
-    depth1_ = all(from.depth1);
+    depth0_ = gathered(from.depth, slice);
+    depth1_ = gathered(from.depth + 1, slice);
     const V across = hn::Max(hn::Abs(left_), hn::Abs(right_)), up = hn::Max(hn::Abs(y0_), hn::Abs(y1_));
     const V cell = hn::Mul(depth1_, hn::Add(all(1.0f), hn::Add(across, up)));
     const V light = hn::Add(gathered(lights.reach.data() + points, spot), cone_.range);
@@ -134,9 +135,7 @@ class Cells {
 
   // A face between, or a plane along the cone's side towards the cell's middle.
   HWY_INLINE M is_apart() const {
-    Point sum = from_apex_[0];
-    for (unsigned i = 1; i < 8; ++i) sum = sum + from_apex_[i];
-    M apart = is_beside(sum);
+    M apart = is_beside(sum_of_corners());
     each_face([&](const Point& normal, V offset) {
       const V scale = hn::Div(all(1.0f), length(normal));
       const V beyond = hn::Mul(scale, hn::Sub(dot(normal, cone_.apex), offset));
@@ -173,6 +172,22 @@ class Cells {
     return hn::Or(apart, hn::Gt(hn::Sub(least_along(normal), extent(dot(normal, cone_.axis))), tolerance_));
   }
 
+  // From the cell to the volume and back a few times, both smaller by a little more than the tolerance. Where they
+  // share room, both soon hold the same place; where they do not, the way from one to the other crosses a plane
+  // between.
+  HWY_INLINE void approach(M& common, M& apart) const {
+    constexpr int k_ways = 3;
+    Point in_cell = all(0.125f) * sum_of_corners(), in_volume;
+    for (int way = 0; way < k_ways; ++way) {
+      in_volume = nearest_in_volume(in_cell);
+      const Point beyond = in_cell + all(1.5f) * (in_volume - in_cell);
+      in_cell = near_in_cell(beyond);
+    }
+    common = hn::Or(is_common(in_cell), is_common(in_volume));
+    in_volume = nearest_in_volume(in_cell);
+    apart = is_past(in_cell - in_volume);
+  }
+
   // The mean of all places where cell ∩ volume can be extreme (geom/candidates.h), which lies inside of it; and planes
   // along the cone's side that are equally far from both ends of an edge. The nearest such place tells more of them.
   HWY_INLINE void settle(M& common, M& apart) const {
@@ -194,6 +209,7 @@ class Cells {
 
  private:
   static constexpr float k_none = 1e30f;
+  static constexpr float k_within = 1.25f;  // of the tolerance
   // Places that lie in cell and volume, by and large: their sum, and the one nearest to the apex of those that lie in
   // cell and endless cone.
   struct Extremes {
@@ -219,6 +235,42 @@ class Cells {
     return {hn::IfThenElse(where, a.x, b.x), hn::IfThenElse(where, a.y, b.y), hn::IfThenElse(where, a.depth, b.depth)};
   }
   HWY_INLINE static M yes() { return hn::Eq(hn::Zero(D()), hn::Zero(D())); }
+
+  HWY_INLINE Point sum_of_corners() const {
+    Point sum = from_apex_[0];
+    for (unsigned i = 1; i < 8; ++i) sum = sum + from_apex_[i];
+    return sum;
+  }
+
+  // Of the smaller volume: its apex moved along the axis, its range shorter.
+  HWY_INLINE Point nearest_in_volume(const Point& v) const {
+    const V zero = hn::Zero(D()), tiny = all(1e-30f);
+    const V within = hn::Mul(all(k_within), tolerance_);
+    const V ahead = hn::Min(hn::Div(within, hn::Max(cone_.sine, tiny)), hn::Mul(all(0.5f), cone_.range));
+    const V along = hn::Sub(dot(v, cone_.axis), ahead);
+    const Point aside = v - hn::Add(along, ahead) * cone_.axis;
+    const V across = length(aside);
+    const M is_in = hn::Ge(hn::Mul(cone_.sine, along), hn::Mul(cone_.cosine, across));
+    const V t = hn::Max(zero, hn::Add(hn::Mul(along, cone_.cosine), hn::Mul(across, cone_.sine)));
+    const V to_along = hn::IfThenElse(is_in, along, hn::Mul(t, cone_.cosine));
+    const V narrowed = hn::Div(hn::Mul(t, cone_.sine), hn::Max(across, tiny));
+    const Point to = hn::Add(to_along, ahead) * cone_.axis + hn::IfThenElse(is_in, all(1.0f), narrowed) * aside;
+    const V range = hn::Sub(cone_.range, within);
+    return hn::Min(all(1.0f), hn::Div(range, hn::Max(length(to), tiny))) * to;
+  }
+
+  // Not the nearest place of the smaller cell where its sides lean, but one nearby.
+  HWY_INLINE Point near_in_cell(const Point& v) const {
+    const V within = hn::Mul(all(k_within), tolerance_);
+    const Point place = v + cone_.apex;
+    const auto between = [](V low, V x, V high) { return hn::Min(hn::Max(x, low), high); };
+    const auto inset = [&](V slope) { return hn::Mul(within, hn::Add(all(1.0f), hn::Abs(slope))); };
+    const V depth = between(hn::Add(depth0_, within), place.depth, hn::Sub(depth1_, within));
+    const V x =
+        between(hn::Add(hn::Mul(left_, depth), inset(left_)), place.x, hn::Sub(hn::Mul(right_, depth), inset(right_)));
+    const V y = between(hn::Add(hn::Mul(y0_, depth), inset(y0_)), place.y, hn::Sub(hn::Mul(y1_, depth), inset(y1_)));
+    return Point{x, y, depth} - cone_.apex;
+  }
 
   // By and large: the tolerance is on their side.
   HWY_INLINE M is_in_cone(const Point& v) const {
@@ -417,11 +469,15 @@ class Cells {
 
   // Is the place v from the apex in the volume, by more than the tolerance?
   HWY_INLINE M is_inside(const Point& v) const {
-    const V along = dot(v, cone_.axis);
-    const V across = length(v - along * cone_.axis);
-    const V side = hn::Sub(hn::Mul(cone_.sine, along), hn::Mul(cone_.cosine, across));
-    return hn::And(hn::Gt(side, tolerance_),
-                   hn::And(hn::Gt(safe_range_, hn::Zero(D())), hn::Lt(length(v), safe_range_)));
+    const V zero = hn::Zero(D()), along = dot(v, cone_.axis);
+    const Point aside = v - along * cone_.axis;
+    // Squares, because roots are slow. They add a few u to what the tolerance is for.
+    const V side = hn::Sub(hn::Mul(cone_.sine, along), tolerance_);
+    const M is_in_cone =
+        hn::And(hn::Gt(side, zero),
+                hn::Gt(hn::Mul(side, side), hn::Mul(hn::Mul(cone_.cosine, cone_.cosine), dot(aside, aside))));
+    return hn::And(is_in_cone,
+                   hn::And(hn::Gt(safe_range_, zero), hn::Lt(dot(v, v), hn::Mul(safe_range_, safe_range_))));
   }
 
   // How far the volume extends from its apex in a direction with this cosine to the axis.

@@ -28,6 +28,9 @@ void look(const SpotsAndPlanes& from, Look how, SpotCells& cells) {
         common = these.holds_corner();
         apart = these.is_apart();
         break;
+      case Look::approach:
+        these.approach(common, apart);
+        break;
       case Look::closer:
         common = hn::Or(these.holds_axis_point(), these.holds_edge_point());
         apart = these.is_apart_from_corners();
@@ -53,22 +56,17 @@ namespace clusterbench::assign {
 
 HWY_EXPORT(look);
 
-void SpotCells::add(std::uint32_t of_spot, std::uint32_t of_row, std::uint32_t of_column) {
-  if (count + k_most_lanes >= spot.size()) {
-    const std::size_t size = 2 * spot.size() + 4 * k_most_lanes;
-    for (std::vector<std::uint32_t>* list : {&spot, &row, &column}) list->resize(size);
-    touch.resize(size);
-  }
-  spot[count] = of_spot;
-  row[count] = of_row;
-  column[count++] = of_column;
+void SpotCells::grow() {
+  const std::size_t size = 2 * spot.size() + 4 * k_most_lanes;
+  for (std::vector<std::uint32_t>* list : {&spot, &slice, &row, &column}) list->resize(size);
+  touch.resize(size);
 }
 
 namespace {
 
 // What a whole vector reads beyond the end must be places that exist.
 void pad(SpotCells& cells) {
-  for (std::vector<std::uint32_t>* list : {&cells.spot, &cells.row, &cells.column})
+  for (std::vector<std::uint32_t>* list : {&cells.spot, &cells.slice, &cells.row, &cells.column})
     std::fill_n(list->begin() + cells.count, std::min(k_most_lanes, list->size() - cells.count), 0);
 }
 

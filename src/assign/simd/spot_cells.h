@@ -1,5 +1,5 @@
 #pragma once
-// Do spots touch cells of a slice? Many pairs at once: a filter in single precision that says yes or no only with
+// Do spots touch cells? Many pairs at once: a filter in single precision that says yes or no only with
 // evidence (a point that is in cell and volume, or a plane between them) that is larger than its own error, and leaves
 // the rest to exact arithmetic.
 
@@ -13,26 +13,37 @@ namespace clusterbench::assign {
 
 enum class Touch : std::uint8_t { no, yes, open };
 
-// Pairs of a spot (light index - points) and a cell of the slice at hand, and the answers. Whole vectors can be read
-// and written beyond `count`.
-struct SpotCells {
-  std::uint32_t count = 0;
-  std::vector<std::uint32_t> spot, row, column;
-  std::vector<Touch> touch;
-
-  void add(std::uint32_t of_spot, std::uint32_t of_row, std::uint32_t of_column);
-  std::size_t capacity_bytes() const { return spot.capacity() * (3 * sizeof(std::uint32_t) + sizeof(Touch)); }
+// A spot (light index - points) and a cell.
+struct SpotCell {
+  std::uint32_t spot, slice, row, column;
 };
 
-// What the pairs are made of: lights, sides of columns (x / depth), slopes of rows from the top, the slice's depths.
+// Pairs of a spot and a cell, and the answers. Whole vectors can be read and written beyond `count`.
+struct SpotCells {
+  std::uint32_t count = 0;
+  std::vector<std::uint32_t> spot, slice, row, column;
+  std::vector<Touch> touch;
+
+  void add(const SpotCell& pair) {
+    if (count + k_most_lanes >= spot.size()) grow();
+    spot[count] = pair.spot;
+    slice[count] = pair.slice;
+    row[count] = pair.row;
+    column[count++] = pair.column;
+  }
+  void grow();
+  SpotCell at(std::uint32_t place) const { return {spot[place], slice[place], row[place], column[place]}; }
+  std::size_t capacity_bytes() const { return spot.capacity() * (sizeof(SpotCell) + sizeof(Touch)); }
+};
+
+// What the pairs are made of: lights, sides of columns (x / depth), slopes of rows from the top, depths of slices.
 struct SpotsAndPlanes {
   const view::LightArrays* lights;
-  const float *side, *slope;
-  float depth0, depth1;
+  const float *side, *slope, *depth;
 };
 
 // Each look settles most of the pairs that the one before leaves open, and costs several times as much.
-enum class Look { quick, closer, thorough };
+enum class Look { quick, approach, closer, thorough };
 void look_at_cells(const SpotsAndPlanes& from, Look how, SpotCells& cells);
 
 }  // namespace clusterbench::assign

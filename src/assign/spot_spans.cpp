@@ -1,0 +1,126 @@
+#include "assign/spot_spans.h"
+
+namespace clusterbench::assign {
+
+using grid::IndexRange;
+
+void SpotSpans::find(const ExactFrame& frame, int first, int last) {
+  frame_ = &frame;
+  tests_ = fallbacks_ = 0;
+  lit_.clear();
+  next_lit_ = 0;
+  if (frame.first_spot_place == frame.seen.count) return;
+  for (int slice = first; slice < last; ++slice) add_rows(slice);
+  const SpotsAndPlanes from{&frame.lights, frame.planes.side.data(), frame.planes.slope.data(),
+                            frame.planes.depth.data()};
+  while (ask_for_ends()) {
+    tests_ += cells_.count;
+    look_at_cells(from, Look::quick, cells_);
+    for (const Look how : {Look::approach, Look::closer, Look::thorough}) {
+      ask_more_closely();
+      look_at_cells(from, how, closer_);
+      for (std::uint32_t i = 0; i < closer_.count; ++i) cells_.touch[closer_places_[i]] = closer_.touch[i];
+    }
+    for (const Ends& ends : ends_) settle(ends);
+  }
+}
+
+void SpotSpans::add_to(int slice, SpanLists& spans) {
+  for (; next_lit_ < lit_.size() && lit_[next_lit_].slice == slice; ++next_lit_) {
+    const Lit& lit = lit_[next_lit_];
+    if (!lit.columns.empty())
+      spans.add(static_cast<std::uint32_t>(lit.row), static_cast<std::uint32_t>(lit.columns.first),
+                static_cast<std::uint32_t>(lit.columns.last), lit.light);
+  }
+}
+
+std::size_t SpotSpans::capacity_bytes() const {
+  return rows_.capacity_bytes() + cells_.capacity_bytes() + closer_.capacity_bytes() +
+         closer_places_.capacity() * sizeof(std::uint32_t) + lit_.capacity() * sizeof(Lit) +
+         ends_.capacity() * sizeof(Ends);
+}
+
+void SpotSpans::add_rows(int slice) {
+  each_batch(*frame_, slice, frame_->spots_of(slice), rows_, [&](const BatchRows& batch) {
+    tests_ += batch.tests;
+    for (int row = batch.first_row; row <= batch.last_row; ++row)
+      each_span(batch, row, [&](std::uint32_t light, const IndexRange& columns, bool) {
+        lit_.push_back({light, slice, row, columns, true, true});
+      });
+  });
+}
+
+// Puts the cells at the open ends of all spans into cells_. False if there are none.
+bool SpotSpans::ask_for_ends() {
+  constexpr int k_at_once = 4;
+  cells_.count = 0;
+  ends_.clear();
+  for (std::uint32_t i = 0; i < lit_.size(); ++i) {
+    const Lit& lit = lit_[i];
+    const int count = lit.columns.count();
+    if (count == 0 || !(lit.left_is_open || lit.right_is_open)) continue;
+    if (count <= 2 * k_at_once) {
+      ask(i, lit.columns, lit.left_is_open, lit.right_is_open);
+      continue;
+    }
+    if (lit.left_is_open) ask(i, {lit.columns.first, lit.columns.first + k_at_once - 1}, true, false);
+    if (lit.right_is_open) ask(i, {lit.columns.last - k_at_once + 1, lit.columns.last}, false, true);
+  }
+  return !ends_.empty();
+}
+
+void SpotSpans::ask(std::uint32_t i, const IndexRange& columns, bool from_left, bool from_right) {
+  ends_.push_back({i, cells_.count, columns, from_left, from_right});
+  for (int column = columns.first; column <= columns.last; ++column)
+    cells_.add({lit_[i].light - frame_->lights.points, static_cast<std::uint32_t>(lit_[i].slice),
+                static_cast<std::uint32_t>(lit_[i].row), static_cast<std::uint32_t>(column)});
+}
+
+// Cells without an answer that lie before the first one that is touched.
+void SpotSpans::ask_more_closely() {
+  closer_.count = 0;
+  const auto is = [&](std::uint32_t place, Touch touch) { return cells_.touch[place] == touch; };
+  for (const Ends& ends : ends_) {
+    const std::uint32_t begin = ends.place, end = begin + static_cast<std::uint32_t>(ends.columns.count());
+    std::uint32_t left = begin, right = end;
+    for (; ends.from_left && left < end && !is(left, Touch::yes); ++left)
+      if (is(left, Touch::open)) add_closer(left);
+    for (; ends.from_right && right > left && !is(right - 1, Touch::yes); --right)
+      if (is(right - 1, Touch::open)) add_closer(right - 1);
+  }
+}
+
+void SpotSpans::add_closer(std::uint32_t place) {
+  if (closer_places_.size() <= closer_.count) closer_places_.resize(2 * closer_places_.size() + 64);
+  closer_places_[closer_.count] = place;
+  closer_.add(cells_.at(place));
+}
+
+// Shortens the span by its cells that are not touched. An end is settled where one is.
+void SpotSpans::settle(const Ends& ends) {
+  Lit& lit = lit_[ends.lit];
+  const auto touches = [&](int column) {
+    Touch& touch = cells_.touch[ends.place + static_cast<std::uint32_t>(column - ends.columns.first)];
+    if (touch == Touch::open) touch = decide(lit, column) ? Touch::yes : Touch::no;
+    return touch == Touch::yes;
+  };
+  IndexRange& span = lit.columns;
+  if (ends.from_left) {
+    while (span.first <= ends.columns.last && !touches(span.first)) ++span.first;
+    lit.left_is_open = span.first > ends.columns.last;
+  }
+  if (ends.from_right) {
+    const int end = std::max(ends.columns.first, span.first);
+    while (span.last >= end && !touches(span.last)) --span.last;
+    lit.right_is_open = span.last < end;
+  }
+}
+
+bool SpotSpans::decide(const Lit& lit, int column) {
+  ++fallbacks_;
+  CellJudge judge(frame_->grid, frame_->lights, lit.light);
+  return judge.touches(row_of(frame_->grid.screen(), lit.slice, lit.row).first_cell +
+                       static_cast<std::uint32_t>(column));
+}
+
+}  // namespace clusterbench::assign
