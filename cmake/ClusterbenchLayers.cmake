@@ -5,7 +5,6 @@ target_compile_options(clusterbench_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-qual -Wvla
   -ffp-contract=off
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>  # g++ 12 sees overlaps in std::string's operator+ that are not there (PR 105651)
-  $<$<CONFIG:Release>:-O3>
   $<$<BOOL:${CLUSTERBENCH_WERROR}>:-Werror>)
 target_include_directories(clusterbench_flags INTERFACE ${CMAKE_CURRENT_SOURCE_DIR}/src)
 target_link_libraries(clusterbench_flags INTERFACE glm::glm Threads::Threads)
@@ -17,12 +16,20 @@ endif()
 
 set(CLUSTERBENCH_ABOVE "")
 
+# Sanitized code takes long to build where it is optimised, and longest where it is written for many vectors. So only
+# the layers in which tests spend their time are, a little.
+set(CLUSTERBENCH_COLD_OPTIONS $<$<BOOL:${CLUSTERBENCH_SANITIZE}>:-O0>)
+set(CLUSTERBENCH_COLD_LAYERS run report cli)
+
 macro(clusterbench_layer NAME)
   cmake_parse_arguments(LAYER "" "" "LINK" ${ARGN})
   file(GLOB_RECURSE LAYER_SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/${NAME}/*.cpp)
   list(FILTER LAYER_SOURCES EXCLUDE REGEX "/main\\.cpp$")
   add_library(cb_${NAME} STATIC ${LAYER_SOURCES})
   set_target_properties(cb_${NAME} PROPERTIES LINKER_LANGUAGE CXX)
+  if(${NAME} IN_LIST CLUSTERBENCH_COLD_LAYERS)
+    target_compile_options(cb_${NAME} PRIVATE ${CLUSTERBENCH_COLD_OPTIONS})
+  endif()
   target_link_libraries(cb_${NAME} PUBLIC clusterbench_flags ${CLUSTERBENCH_ABOVE} ${LAYER_LINK})
   list(PREPEND CLUSTERBENCH_ABOVE cb_${NAME})
 endmacro()
