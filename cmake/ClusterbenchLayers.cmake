@@ -18,8 +18,11 @@ set(CLUSTERBENCH_ABOVE "")
 
 # Sanitized code takes long to build where it is optimised, and longest where it is written for many vectors. So only
 # the layers in which tests spend their time are, a little.
-set(CLUSTERBENCH_COLD_OPTIONS $<$<BOOL:${CLUSTERBENCH_SANITIZE}>:-O0>)
 set(CLUSTERBENCH_COLD_LAYERS run report cli)
+set(CLUSTERBENCH_COLD_OPTIONS "")
+if(CLUSTERBENCH_SANITIZE)
+  set(CLUSTERBENCH_COLD_OPTIONS -O0)
+endif()
 
 macro(clusterbench_layer NAME)
   cmake_parse_arguments(LAYER "" "" "LINK" ${ARGN})
