@@ -23,7 +23,7 @@ void probe_baseline(const BaselineRequest& request, const std::vector<std::strin
                     const std::atomic<bool>& stop);
 
 // Both programs are started with `arguments`, which make the plan in this one, too. Adds what they measured to the
-// result. Throws Error if the other program cannot do it, breaks down or hangs; with ExitCode::interrupted once `stop`
+// result. Throws Error if the other program cannot do it, breaks down or hangs; with stopped_exit_code() once `stop`
 // is true.
 void measure_beside(const BaselineRequest& request, const std::vector<std::string>& arguments,
                     const run::Config& config, const run::Plan& plan, const std::function<void(double share)>& on_round,

@@ -13,13 +13,14 @@
 namespace clusterbench::cli {
 namespace {
 
-struct Flags {
+struct CompareFlags {
   std::string base, next, markdown, json;
   double threshold_percent = 2.0;
   bool is_strict = false, is_forced = false;
 };
 
-void check_comparable(const Flags& flags, const nlohmann::ordered_json& base, const nlohmann::ordered_json& next) {
+void check_comparable(const CompareFlags& flags, const nlohmann::ordered_json& base,
+                      const nlohmann::ordered_json& next) {
   const std::vector<std::string> obstacles = report::obstacles(base, next);
   if (obstacles.empty() || flags.is_forced) return;
   throw Error(
@@ -28,13 +29,7 @@ void check_comparable(const Flags& flags, const nlohmann::ordered_json& base, co
       ExitCode::nothing_comparable);
 }
 
-void write_text(const std::string& path, const std::string& text) {
-  std::ofstream out(path, std::ios::binary);
-  out << text << std::flush;
-  if (!out) throw Error(path, "", "cannot be written");
-}
-
-ExitCode compare(const Flags& flags) {
+ExitCode compare(const CompareFlags& flags) {
   const report::Schema schema = flags.is_forced ? report::Schema::any : report::Schema::this_version;
   const nlohmann::ordered_json base = report::read_result(flags.base, schema);
   const nlohmann::ordered_json next = report::read_result(flags.next, schema);
@@ -58,7 +53,7 @@ ExitCode compare(const Flags& flags) {
 }  // namespace
 
 void add_compare(Command& program, Action& action) {
-  auto flags = std::make_shared<Flags>();
+  auto flags = std::make_shared<CompareFlags>();
   Command command = program.add_command(
       "compare", "Compare two results: what is counted exactly, times with intervals; exit code 1 for a regression");
   command.add_option("BASE", flags->base, "A result file of `clusterbench run`").required();

@@ -10,12 +10,12 @@
 namespace clusterbench::cli {
 namespace {
 
-struct Flags {
+struct ExportFlags {
   std::string result, format, output;
   bool all = false;
 };
 
-ExitCode export_result(const Flags& flags) {
+ExitCode export_result(const ExportFlags& flags) {
   const report::ExportFormat& format = report::export_format(flags.format);
   write_text(flags.output, report::exported(report::read_result(flags.result), format, flags.all));
   return ExitCode::ok;
@@ -24,7 +24,7 @@ ExitCode export_result(const Flags& flags) {
 }  // namespace
 
 void add_export(Command& program, Action& action) {
-  auto flags = std::make_shared<Flags>();
+  auto flags = std::make_shared<ExportFlags>();
   Command command = program.add_command("export", "Write a result in the format of another tool");
   command.add_option("RESULT", flags->result, "A result file of `clusterbench run`").required();
   command.add_option("--format", flags->format, "One of those below").required();

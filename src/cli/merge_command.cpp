@@ -12,7 +12,7 @@
 namespace clusterbench::cli {
 namespace {
 
-struct Flags {
+struct MergeFlags {
   std::vector<std::string> results;
   std::string output;
 };
@@ -25,7 +25,7 @@ report::NamedPart read_part(const std::string& file) {
   return part;
 }
 
-ExitCode merge(const Flags& flags) {
+ExitCode merge(const MergeFlags& flags) {
   std::vector<report::NamedPart> parts;
   for (const std::string& file : flags.results) parts.push_back(read_part(file));
   write_output(flags.output, report::merged(parts));
@@ -35,7 +35,7 @@ ExitCode merge(const Flags& flags) {
 }  // namespace
 
 void add_merge(Command& program, Action& action) {
-  auto flags = std::make_shared<Flags>();
+  auto flags = std::make_shared<MergeFlags>();
   Command command = program.add_command("merge", "Put the cases of several results into one");
   command.add_option("RESULT", flags->results, "Result files of `clusterbench run`, without a case in common")
       .required();

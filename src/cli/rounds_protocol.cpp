@@ -4,6 +4,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "cli/stop.h"
 #include "cli/temporary_folder.h"
 #include "core/error.h"
 #include "report/json.h"
@@ -60,7 +61,7 @@ RemoteProgram::RemoteProgram(const std::vector<std::string>& command, const std:
 }
 
 void RemoteProgram::fail(const std::string& what) {
-  if (stop_) throw Error(name_, "", "interrupted", ExitCode::interrupted);
+  if (stop_) throw Error(name_, "", "interrupted", stopped_exit_code());
   const std::string words = last_words(errors_);
   throw Error(name_, "--baseline-binary", what + (words.empty() ? "" : ": " + words));
 }

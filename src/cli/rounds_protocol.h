@@ -22,7 +22,7 @@ inline constexpr int k_rounds_protocol = 1;
 void serve_rounds(const run::Config& config, const run::Plan& plan);
 
 // Another program that serves rounds. Throws Error where it cannot be started, is none of the kind, dies, gives no
-// answer for `patience_s`, or answers nonsense; with ExitCode::interrupted once `stop` is true.
+// answer for `patience_s`, or answers nonsense; with stopped_exit_code() once `stop` is true.
 class RemoteProgram : public run::Program {
  public:
   RemoteProgram(const std::vector<std::string>& command, const std::filesystem::path& errors, double patience_s,

@@ -29,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-struct Flags {
+struct RunFlags {
   std::vector<std::string> inputs;
   std::string output, filter, count;
   std::vector<std::string> exports;
@@ -51,7 +51,7 @@ bool is_scene(const std::string& path) {
   return extension == ".glb" || extension == ".gltf";
 }
 
-run::Config read_inputs(const Flags& flags) {
+run::Config read_inputs(const RunFlags& flags) {
   const auto scenes = static_cast<std::size_t>(std::count_if(flags.inputs.begin(), flags.inputs.end(), is_scene));
   if (scenes == flags.inputs.size()) return run::default_config({flags.inputs.begin(), flags.inputs.end()});
   if (scenes == 0 && flags.inputs.size() == 1) return run::load_config(flags.inputs.front());
@@ -62,7 +62,7 @@ run::Config read_inputs(const Flags& flags) {
               "takes one configuration (.json), or one or more scenes (.glb, .gltf), not " + joined(flags.inputs));
 }
 
-run::Config overridden(run::Config config, const Flags& flags) {
+run::Config overridden(run::Config config, const RunFlags& flags) {
   if (flags.threads) {
     config.threads = *flags.threads;
     config.resolved["threads"] = *flags.threads;
@@ -90,7 +90,7 @@ ExitCode print_plan(const run::Plan& plan) {
 }
 
 // What an interrupted run must have had in common with the one that continues it.
-Json journal_header(const run::Config& config, const run::Plan& plan, const Flags& flags) {
+Json journal_header(const run::Config& config, const run::Plan& plan, const RunFlags& flags) {
   const run::ToolFacts tool = run::tool_facts();
   Json scenes = Json::array();
   for (const run::SceneData& data : plan.scenes) scenes.push_back(data.scene.sha256);
@@ -101,7 +101,7 @@ Json journal_header(const run::Config& config, const run::Plan& plan, const Flag
 }
 
 // A file gets a journal; a device or a pipe takes the result at the end.
-std::unique_ptr<report::Journal> open_journal(const Flags& flags, const run::Config& config, const run::Plan& plan) {
+std::unique_ptr<report::Journal> open_journal(const RunFlags& flags, const run::Config& config, const run::Plan& plan) {
   constexpr std::uint64_t k_bytes_per_case = 24 << 10;
   if (is_stream(flags.output)) {
     if (flags.resume) throw Error("", "--resume", "needs the result file of the interrupted run: add -o FILE");
@@ -127,7 +127,7 @@ ExitCode report_gates(const Json& result) {
 }
 
 // What makes the same plan in another program.
-std::vector<std::string> plan_arguments(const Flags& flags) {
+std::vector<std::string> plan_arguments(const RunFlags& flags) {
   std::vector<std::string> arguments;
   if (!flags.filter.empty()) arguments.push_back("--filter=" + flags.filter);
   if (flags.threads) arguments.push_back("--threads=" + std::to_string(*flags.threads));
@@ -137,7 +137,7 @@ std::vector<std::string> plan_arguments(const Flags& flags) {
 }
 
 // False once it is to stop.
-bool add_baseline(const Flags& flags, const run::Config& config, const run::Plan& plan, ProgressLine& progress,
+bool add_baseline(const RunFlags& flags, const run::Config& config, const run::Plan& plan, ProgressLine& progress,
                   const std::atomic<bool>& stop, Json& result) {
   run::Progress now;
   now.cost_total = 1.0;
@@ -156,7 +156,7 @@ bool add_baseline(const Flags& flags, const run::Config& config, const run::Plan
 }
 
 // The gates of the comparison hold those of the run.
-ExitCode report_baseline(const Flags& flags, const Json& result) {
+ExitCode report_baseline(const RunFlags& flags, const Json& result) {
   const Json comparison = report::compare_results(result, result, flags.baseline.threshold_percent / 100.0);
   std::cerr << report::comparison_text(comparison);
   return report::outcome(comparison, false);
@@ -200,7 +200,7 @@ run::Counts count_instructions(CountWay way, const CountTask& task, ProgressLine
   return counts;
 }
 
-ExitCode measure(const Flags& flags, const run::Config& config, const run::Plan& plan, CountWay way) {
+ExitCode measure(const RunFlags& flags, const run::Config& config, const run::Plan& plan, CountWay way) {
   if (is_stream(flags.output)) probe_output(flags.output);
   const std::vector<ExportTarget> exports = export_targets(flags.exports);
   const std::unique_ptr<report::Journal> journal = open_journal(flags, config, plan);
@@ -234,13 +234,13 @@ ExitCode measure(const Flags& flags, const run::Config& config, const run::Plan&
   return flags.baseline.binary.empty() ? report_gates(result) : report_baseline(flags, result);
 }
 
-void check_baseline(const Flags& flags) {
+void check_baseline(const RunFlags& flags) {
   if (flags.no_timing)
     throw Error("", "--baseline-binary", "measures times, which --no-timing leaves out; take one of the two");
   probe_baseline(flags.baseline, plan_arguments(flags), stop_on_signals());
 }
 
-ExitCode serve(const Flags& flags, const run::Config& config, const run::Plan& plan) {
+ExitCode serve(const RunFlags& flags, const run::Config& config, const run::Plan& plan) {
   if (flags.rounds_server != k_rounds_protocol)
     throw Error("", "--rounds-server",
                 "version " + std::to_string(flags.rounds_server) + " is asked for, and this program speaks " +
@@ -249,7 +249,7 @@ ExitCode serve(const Flags& flags, const run::Config& config, const run::Plan& p
   return ExitCode::ok;
 }
 
-ExitCode run(const Flags& flags) {
+ExitCode run(const RunFlags& flags) {
   const run::Config config = overridden(read_inputs(flags), flags);
   const CountWay way = count_way(flags.count);
   const run::Plan plan = run::make_plan(config, flags.filter);
@@ -266,7 +266,7 @@ ExitCode run(const Flags& flags) {
 }  // namespace
 
 void add_run(Command& program, Action& action) {
-  auto flags = std::make_shared<Flags>();
+  auto flags = std::make_shared<RunFlags>();
   Command command = program.add_command("run", "Measure a configuration, or scenes with the default sweep");
   command.add_option("INPUT", flags->inputs, "One configuration (.json), or scenes (.glb, .gltf)").required();
   command.add_option("-o,--output", flags->output, "Result file; without it the result goes to standard output");

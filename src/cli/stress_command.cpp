@@ -12,7 +12,7 @@
 namespace clusterbench::cli {
 namespace {
 
-struct Flags {
+struct StressFlags {
   std::string output, cases = ".*", methods = ".*", failures;
   run::StressRequest request;
   bool quiet = false;
@@ -55,7 +55,7 @@ void write_replays(const std::string& folder, const run::StressResult& result) {
   std::cerr << written << " losses written to " << folder << ", each a configuration for `clusterbench run`\n";
 }
 
-ExitCode stress(const Flags& flags) {
+ExitCode stress(const StressFlags& flags) {
   run::StressRequest request = flags.request;
   request.cases = pattern_of(flags.cases, "--cases");
   request.methods = pattern_of(flags.methods, "--methods");
@@ -86,7 +86,7 @@ ExitCode stress(const Flags& flags) {
 }  // namespace
 
 void add_stress(Command& program, Action& action) {
-  auto flags = std::make_shared<Flags>();
+  auto flags = std::make_shared<StressFlags>();
   Command command =
       program.add_command("stress", "Every assigner on the hard cases for numerical stability, and a search for more");
   command.add_option("-o,--output", flags->output, "JSON file; without it the JSON goes to standard output");

@@ -1,5 +1,7 @@
 #include "report/baseline.h"
 
+#include "report/json.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,10 +11,6 @@ namespace clusterbench::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json finite(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
 
 double median_of_all(const std::vector<run::PairedLaunch>& launches, std::vector<double> run::PairedLaunch::*side) {
   std::vector<double> all;
@@ -39,10 +37,10 @@ Json to_json(const run::PairedCase& measured) {
   }
   const measure::Ratio ratio = measure::ratio_of(measure::change_over_launches(log_ratios));
   Json out{{"launches", launches},
-           {"base_ns", finite(median_of_all(measured.launches, &run::PairedLaunch::base_ns))},
-           {"new_ns", finite(median_of_all(measured.launches, &run::PairedLaunch::next_ns))},
-           {"ratio", finite(ratio.ratio)},
-           {"ci95", {finite(ratio.ci95.low), finite(ratio.ci95.high)}}};
+           {"base_ns", number_or_null(median_of_all(measured.launches, &run::PairedLaunch::base_ns))},
+           {"new_ns", number_or_null(median_of_all(measured.launches, &run::PairedLaunch::next_ns))},
+           {"ratio", number_or_null(ratio.ratio)},
+           {"ci95", {number_or_null(ratio.ci95.low), number_or_null(ratio.ci95.high)}}};
   if (measured.lists_differ) out["lists_differ"] = to_json(*measured.lists_differ);
   return out;
 }

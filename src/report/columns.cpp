@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string short_count(double value) {
+std::string count_text(double value) {
   if (value < 10000.0) return text("%.0f", value);
   if (value < 1e6) return text("%.1fk", value / 1e3);
   return text("%.2fM", value / 1e6);
@@ -57,7 +57,7 @@ std::string number_text(const Json& one, const char* pointer, const char* format
 
 std::string short_count(const Json& one, const char* pointer) {
   const Json::json_pointer place(pointer);
-  return one.contains(place) && one[place].is_number() ? short_count(one[place].get<double>()) : "-";
+  return one.contains(place) && one[place].is_number() ? count_text(one[place].get<double>()) : "-";
 }
 
 std::string method_name(const Json& one) {
@@ -77,6 +77,19 @@ std::vector<std::string> blocks_of(const Json& cases, const Json& scene) {
     if (one["scene"] == scene["name"] && std::find(blocks.begin(), blocks.end(), block_of(one)) == blocks.end())
       blocks.push_back(block_of(one));
   return blocks;
+}
+
+std::string markdown_cell(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (std::iscntrl(static_cast<unsigned char>(c)) != 0) {
+      out += ' ';
+      continue;
+    }
+    if (std::string_view("\\|`*_[]<>&#").find(c) != std::string_view::npos) out += '\\';
+    out += c;
+  }
+  return out;
 }
 
 }  // namespace clusterbench::report

@@ -16,6 +16,8 @@ std::string aligned(const Cells& cells, const std::vector<std::size_t>& widths);
 
 // Names in a scene file may hold anything; a terminal must not obey them.
 std::string shown(std::string name);
+// A cell of a Markdown table: nothing in it is taken for markup.
+std::string markdown_cell(const std::string& text);
 // One number by a printf format.
 std::string text(const char* format, double value);
 // The number at a pointer in a chosen format; "-" where there is none.

@@ -144,14 +144,10 @@ class Times {
   std::vector<double> corrected_;
 };
 
-Json finite(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
 void add_ratio(Json& out, const measure::Change& change) {
   const measure::Ratio ratio = measure::ratio_of(change);
-  out["ratio"] = finite(ratio.ratio);
-  out["ci95"] = {finite(ratio.ci95.low), finite(ratio.ci95.high)};
+  out["ratio"] = number_or_null(ratio.ratio);
+  out["ci95"] = {number_or_null(ratio.ci95.low), number_or_null(ratio.ci95.high)};
 }
 
 // Counted alike: by the same means, for the same instruction set.
@@ -179,9 +175,9 @@ Json instructions(const Match& match, double threshold) {
                         : assign < 1.0 - limit || convert < 1.0 - limit ? "fewer"
                                                                         : "same";
   return {{"verdict", verdict},
-          {"assign_ratio", finite(assign)},
-          {"convert_ratio", finite(convert)},
-          {"build_ratio", finite(ratio("/instructions_per_build"))},
+          {"assign_ratio", number_or_null(assign)},
+          {"convert_ratio", number_or_null(convert)},
+          {"build_ratio", number_or_null(ratio("/instructions_per_build"))},
           {"tolerance", count_tolerance(match.next["count"])}};
 }
 
@@ -224,7 +220,7 @@ Json summary_of(const Json& cases, const Times& times) {
   return out;
 }
 
-std::string percent(const Json& ratio) {
+std::string percent_text(const Json& ratio) {
   return ratio.is_null() ? "-" : text("%+.1f %%", 100.0 * (ratio.get<double>() - 1.0));
 }
 
@@ -234,12 +230,13 @@ Json failures_of(const Json& next, const Json& cases) {
   for (const Json& one : cases) {
     const std::string name = shown(one["name"]);
     const bool has_verdict = one.contains("verdict");
-    if (has_verdict && one["verdict"] == "slower") failures.push_back(name + ": slower by " + percent(one["ratio"]));
+    if (has_verdict && one["verdict"] == "slower")
+      failures.push_back(name + ": slower by " + percent_text(one["ratio"]));
     if (one["counts"] == "worse") failures.push_back(name + ": what is counted has changed");
     const bool is_time_sure = has_verdict && one["launches"] != 0 && one["verdict"] != "inconclusive";
     if (one.contains("instructions") && one["instructions"]["verdict"] == "more" && !is_time_sure)
-      failures.push_back(name + ": more instructions, " + percent(one["instructions"]["assign_ratio"]) +
-                         " to assign, " + percent(one["instructions"]["convert_ratio"]) + " to convert");
+      failures.push_back(name + ": more instructions, " + percent_text(one["instructions"]["assign_ratio"]) +
+                         " to assign, " + percent_text(one["instructions"]["convert_ratio"]) + " to convert");
   }
   return failures;
 }

@@ -65,7 +65,7 @@ bool is_remarkable(const Json& one) {
 }
 
 // The first place where two lists part, both values elsewhere.
-std::string change_text(const Json& base, const Json& next) {
+std::string times_text(const Json& base, const Json& next) {
   if (!base.is_array() || !next.is_array() || base.size() != next.size() || base.size() <= 3)
     return shown(base.dump() + " -> " + next.dump());
   std::size_t first = 0;
@@ -86,7 +86,7 @@ std::vector<std::string> details(const Json& one) {
   if (one.contains("lists")) lines.push_back(list_text(one["lists"]));
   for (const Json& difference : one["differences"])
     lines.push_back(difference["what"].get<std::string>().substr(1) + " " + difference["is"].get<std::string>() + ": " +
-                    change_text(difference["base"], difference["new"]));
+                    times_text(difference["base"], difference["new"]));
   if (one.contains("place")) lines.push_back("deepest lost light: " + one["place"].get<std::string>());
   return lines;
 }
@@ -124,19 +124,9 @@ std::string table(const Json& cases) {
   return text;
 }
 
-// A cell of a Markdown table: nothing in it is taken for markup.
-std::string cell(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (std::string_view("|`*_<>[]\\&#").find(c) != std::string_view::npos) out += '\\';
-    out += c;
-  }
-  return out;
-}
-
 std::string markdown_row(const Cells& cells) {
   std::string row = "|";
-  for (const std::string& one : cells) row += " " + cell(one) + " |";
+  for (const std::string& one : cells) row += " " + markdown_cell(one) + " |";
   return row + "\n";
 }
 
@@ -149,7 +139,7 @@ std::string markdown_table(const std::vector<const Json*>& cases) {
 std::string markdown_list(const char* title, const Json& lines) {
   if (lines.empty()) return "";
   std::string out = std::string("\n**") + title + "**\n\n";
-  for (const Json& line : lines) out += "- " + cell(line.get<std::string>()) + "\n";
+  for (const Json& line : lines) out += "- " + markdown_cell(line.get<std::string>()) + "\n";
   return out;
 }
 
@@ -174,7 +164,7 @@ std::string comparison_markdown(const Json& comparison) {
   std::vector<const Json*> remarkable, rest;
   for (const Json& one : comparison["cases"]) (is_remarkable(one) ? remarkable : rest).push_back(&one);
   std::string out = "### clusterbench: " + std::string(comparison["failures"].empty() ? "passed" : "failed") + "\n\n" +
-                    cell(summary_text(comparison)) + "\n\n" + cell(heading(comparison)) + "\n";
+                    markdown_cell(summary_text(comparison)) + "\n\n" + markdown_cell(heading(comparison)) + "\n";
   if (!remarkable.empty()) out += "\n" + markdown_table(remarkable);
   out += markdown_list("Failed", comparison["failures"]);
   out += markdown_list("What is counted", details_of_all(comparison["cases"]));

@@ -111,23 +111,17 @@ const Metric* metric_named(const std::string& name) {
   return nullptr;
 }
 
-std::string number(double value) {
-  char text[48];
-  std::snprintf(text, sizeof text, std::abs(value) < 1e5 ? "%.5g" : "%.0f", value);
-  return text;
-}
-
 std::string series_text(const Series& series, bool has_machine) {
   std::string text = series.case_name + "  " + std::string(series.metric->name) + " (" +
                      std::string(series.metric->unit) + ")" + (has_machine ? "  on " + series.machine : "") + "\n  " +
-                     std::to_string(series.values.size()) + " values, " + number(series.values.front()) + " to " +
-                     number(series.values.back()) + "\n";
+                     std::to_string(series.values.size()) + " values, " + figure_text(series.values.front()) + " to " +
+                     figure_text(series.values.back()) + "\n";
   for (const measure::ChangePoint& change : series.changes) {
     char p[48];
     std::snprintf(p, sizeof p, change.p < 1e-9 ? "p < 1e-9" : "p %.1g", change.p);
     const std::string way = direction(*series.metric, change);
-    text += "  at " + series.commits[change.index] + ": " + number(change.before) + " to " + number(change.after) +
-            ", " + change_text(change) + (way.empty() ? "" : ", " + way) + " (" + p + ")\n";
+    text += "  at " + series.commits[change.index] + ": " + figure_text(change.before) + " to " +
+            figure_text(change.after) + ", " + change_text(change) + (way.empty() ? "" : ", " + way) + " (" + p + ")\n";
   }
   return text;
 }
@@ -185,6 +179,12 @@ std::string history_text(const std::vector<Series>& series, std::size_t entries,
   }
   return text + std::to_string(entries) + " results, " + std::to_string(series.size()) + " series, " +
          std::to_string(changes) + (changes == 1 ? " change\n" : " changes\n");
+}
+
+std::string figure_text(double value) {
+  char text[48];
+  std::snprintf(text, sizeof text, std::abs(value) < 1e5 ? "%.5g" : "%.0f", value);
+  return text;
 }
 
 }  // namespace clusterbench::report

@@ -48,5 +48,7 @@ std::string direction(const Metric& metric, const measure::ChangePoint& change);
 
 // "+3.3 %"; from nothing: "from 0".
 std::string change_text(const measure::ChangePoint& change);
+// A figure of any unit, five digits.
+std::string figure_text(double value);
 
 }  // namespace clusterbench::report

@@ -49,12 +49,6 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-std::string number(double value) {
-  char text[48];
-  std::snprintf(text, sizeof text, std::abs(value) < 1e5 ? "%.5g" : "%.0f", value);
-  return text;
-}
-
 std::string coordinate(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.1f", value);
@@ -86,7 +80,7 @@ std::string curve(const Series& series, const Scale& scale) {
     const std::string x = coordinate(scale.x(static_cast<double>(i))), y = coordinate(scale.y(series.values[i]));
     path += (i == 0 ? "M" : "L") + x + " " + y;
     points += "<circle cx=\"" + x + "\" cy=\"" + y + "\" r=\"2.5\"><title>" + escaped(series.commits[i]) + ": " +
-              number(series.values[i]) + "</title></circle>";
+              figure_text(series.values[i]) + "</title></circle>";
   }
   return "<path d=\"" + path + "\"/>" + points;
 }
@@ -103,8 +97,8 @@ std::string change_lines(const Series& series, const Scale& scale) {
 
 std::string sentence(const Series& series, const measure::ChangePoint& change) {
   const std::string way = direction(*series.metric, change);
-  return escaped(series.commits[change.index]) + ": " + number(change.before) + " to " + number(change.after) + ", " +
-         change_text(change) + (way.empty() ? "" : ", " + way);
+  return escaped(series.commits[change.index]) + ": " + figure_text(change.before) + " to " +
+         figure_text(change.after) + ", " + change_text(change) + (way.empty() ? "" : ", " + way);
 }
 
 std::string figure(const Series& series) {
@@ -113,11 +107,11 @@ std::string figure(const Series& series) {
   const std::string title =
       std::string(series.metric->name) + " in " + std::string(series.metric->unit) + " of " + escaped(series.case_name);
   std::string out = "<figure>\n<figcaption><b>" + std::string(series.metric->name) + "</b> " +
-                    escaped(series.case_name) + "<br>" + number(series.values.front()) + " to " +
-                    number(series.values.back()) + " " + std::string(series.metric->unit) + " on " +
+                    escaped(series.case_name) + "<br>" + figure_text(series.values.front()) + " to " +
+                    figure_text(series.values.back()) + " " + std::string(series.metric->unit) + " on " +
                     escaped(series.machine) + "</figcaption>\n<svg role=\"img\" viewBox=\"0 0 320 90\" aria-label=\"" +
-                    title + ", " + std::to_string(series.values.size()) + " values from " + number(*low) + " to " +
-                    number(*high) + "\">" + change_lines(series, scale) + curve(series, scale) + "</svg>\n";
+                    title + ", " + std::to_string(series.values.size()) + " values from " + figure_text(*low) + " to " +
+                    figure_text(*high) + "\">" + change_lines(series, scale) + curve(series, scale) + "</svg>\n";
   if (series.changes.empty()) return out + "</figure>\n";
   out += "<ul>";
   for (const measure::ChangePoint& change : series.changes)

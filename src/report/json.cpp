@@ -13,12 +13,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
 Json to_json(const measure::Spread& spread) {
-  return {{"mean", number(spread.mean)},
+  return {{"mean", number_or_null(spread.mean)},
           {"p50", spread.p50},
           {"p95", spread.p95},
           {"p99", spread.p99},
@@ -26,14 +22,15 @@ Json to_json(const measure::Spread& spread) {
 }
 
 Json to_json(const measure::Interval& interval) {
-  return {number(interval.low), number(interval.high)};
+  return {number_or_null(interval.low), number_or_null(interval.high)};
 }
 
 Json to_json(const measure::TimeStats& stats) {
   Json samples = Json::array();
   for (const double sample : stats.samples) samples.push_back(std::round(sample * 10.0) / 10.0);
-  return {{"median", number(stats.median)}, {"mad", number(stats.mad)},    {"min", number(stats.min)},
-          {"p95", number(stats.p95)},       {"ci95", to_json(stats.ci95)}, {"samples", samples}};
+  return {
+      {"median", number_or_null(stats.median)}, {"mad", number_or_null(stats.mad)}, {"min", number_or_null(stats.min)},
+      {"p95", number_or_null(stats.p95)},       {"ci95", to_json(stats.ci95)},      {"samples", samples}};
 }
 
 Json to_json(const measure::HighWater& mark) {
@@ -68,8 +65,8 @@ Json buffers(const run::CaseResult& one) {
           {"bytes", to_json(b.bytes)},
           {"index_bits", b.index_bits},
           {"header_bytes", b.header_bytes},
-          {"upload_bytes", {{"mean", number(b.upload_bytes_mean)}, {"max", b.upload_bytes_max}}},
-          {"in_use", {{"mean", number(b.in_use_mean)}, {"max", number(b.in_use_max)}}},
+          {"upload_bytes", {{"mean", number_or_null(b.upload_bytes_mean)}, {"max", b.upload_bytes_max}}},
+          {"in_use", {{"mean", number_or_null(b.in_use_mean)}, {"max", number_or_null(b.in_use_max)}}},
           {"overflow",
            {{"dropped_pairs", b.dropped_pairs},
             {"cells", b.overflowing_cells},
@@ -88,9 +85,9 @@ Json error(const run::CaseResult& one) {
            {"reported_pairs", e.reported_pairs},
            {"false_positives", e.false_positives},
            {"false_negatives", e.false_negatives},
-           {"excess_ratio", number(e.excess_ratio())},
-           {"miss_ratio", number(e.miss_ratio())},
-           {"deepest_miss", number(e.deepest_miss)},
+           {"excess_ratio", number_or_null(e.excess_ratio())},
+           {"miss_ratio", number_or_null(e.miss_ratio())},
+           {"deepest_miss", number_or_null(e.deepest_miss)},
            {"undecided", e.undecided},
            {"frames_checked", e.frames_checked},
            {"decided", {{"filter", e.filter_decided}, {"exact", e.exact_decided}}}};
@@ -108,12 +105,12 @@ Json shading(const measure::ShadingCounts& s) {
           {"evaluated", s.evaluated},
           {"needed", s.needed},
           {"missed", s.missed},
-          {"lost_irradiance", number(s.lost_irradiance)},
-          {"overshade", number(s.overshade())}};
+          {"lost_irradiance", number_or_null(s.lost_irradiance)},
+          {"overshade", number_or_null(s.overshade())}};
 }
 
 Json to_json(const measure::Churn& churn) {
-  return {{"total", churn.changes}, {"mean", number(churn.mean_changes())}, {"max", churn.most_changes}};
+  return {{"total", churn.changes}, {"mean", number_or_null(churn.mean_changes())}, {"max", churn.most_changes}};
 }
 
 Json lookup(const std::vector<measure::LookupCounts>& all) {
@@ -134,8 +131,8 @@ Json stability(const run::StabilityResult& s) {
     return static_cast<std::int64_t>(a) - static_cast<std::int64_t>(b);
   };
   return {{"steps", s.method.steps},
-          {"step_m", number(s.step_m)},
-          {"step_deg", number(s.step_deg)},
+          {"step_m", number_or_null(s.step_m)},
+          {"step_deg", number_or_null(s.step_deg)},
           {"window", s.window},
           {"from_frame", s.from_frame},
           {"drift", s.is_drift},
@@ -145,15 +142,15 @@ Json stability(const run::StabilityResult& s) {
           {"flickers", {{"method", s.method.flickers}, {"truth", s.truth.flickers}}},
           {"excess_churn",
            {{"pairs", difference(s.method.changes, s.truth.changes)},
-            {"ratio", number(measure::excess_ratio(s.method.changes, s.truth.changes))}}},
+            {"ratio", number_or_null(measure::excess_ratio(s.method.changes, s.truth.changes))}}},
           {"excess_flickers",
            {{"count", difference(s.method.flickers, s.truth.flickers)},
-            {"ratio", number(measure::excess_ratio(s.method.flickers, s.truth.flickers))}}},
+            {"ratio", number_or_null(measure::excess_ratio(s.method.flickers, s.truth.flickers))}}},
           {"undecided", s.undecided}};
 }
 
 Json to_json(const measure::MeanMax& error) {
-  return {{"mean", number(error.mean)}, {"max", number(error.max)}};
+  return {{"mean", number_or_null(error.mean)}, {"max", number_or_null(error.max)}};
 }
 
 Json precision(const run::PrecisionResult& p) {
@@ -170,13 +167,17 @@ Json precision(const run::PrecisionResult& p) {
 }
 
 Json timing(const run::TimingResult& t) {
-  Json out{{"frames_timed", t.frames_timed},       {"build_ns", to_json(t.build_ns)},
-           {"assign_ns", to_json(t.assign_ns)},    {"convert_ns", to_json(t.convert_ns)},
-           {"ns_per_pair", number(t.ns_per_pair)}, {"write_floor_ns", number(t.write_floor_ns)},
-           {"floor_ratio", number(t.floor_ratio)}};
+  Json out{{"frames_timed", t.frames_timed},
+           {"build_ns", to_json(t.build_ns)},
+           {"assign_ns", to_json(t.assign_ns)},
+           {"convert_ns", to_json(t.convert_ns)},
+           {"ns_per_pair", number_or_null(t.ns_per_pair)},
+           {"write_floor_ns", number_or_null(t.write_floor_ns)},
+           {"floor_ratio", number_or_null(t.floor_ratio)}};
   if (t.vs)
-    out["vs"] = {
-        {"assigner", t.vs->assigner}, {"ratio", number(t.vs->ratio.ratio)}, {"ci95", to_json(t.vs->ratio.ci95)}};
+    out["vs"] = {{"assigner", t.vs->assigner},
+                 {"ratio", number_or_null(t.vs->ratio.ratio)},
+                 {"ci95", to_json(t.vs->ratio.ci95)}};
   return out;
 }
 
@@ -245,7 +246,7 @@ void add_extra_pairs(Json& cases) {
     const bool is_packed = one["precision"]["packing"] != "float32";
     const auto plain = pairs.find(is_packed ? name.substr(0, name.size() - label.size()) : name);
     const double mean = plain == pairs.end() ? std::nan("") : plain->second, extra = pairs[name] - mean;
-    one["precision"]["extra_pairs"] = {{"mean", number(extra)}, {"ratio", number(extra / mean)}};
+    one["precision"]["extra_pairs"] = {{"mean", number_or_null(extra)}, {"ratio", number_or_null(extra / mean)}};
   }
 }
 
@@ -359,6 +360,10 @@ std::vector<std::string> gate_failures(const Json& result) {
                          " pairs that are not true, and calls itself exact");
   }
   return failures;
+}
+
+Json number_or_null(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
 }  // namespace clusterbench::report

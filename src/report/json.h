@@ -12,6 +12,9 @@ namespace clusterbench::report {
 
 inline constexpr int k_schema_version = 1;
 
+// JSON has no infinity and no NaN.
+nlohmann::ordered_json number_or_null(double value);
+
 nlohmann::ordered_json tool_to_json(const run::ToolFacts& tool);
 nlohmann::ordered_json case_to_json(const run::CaseResult& one);
 

@@ -15,7 +15,7 @@ std::string missed_text(const Json& way) {
 }
 
 // Assigners as lines, ways as columns.
-std::string block_text(const std::string& block, const std::vector<const Json*>& cases) {
+std::string lookup_block(const std::string& block, const std::vector<const Json*>& cases) {
   Cells headings{"", "assigner"}, padding{"", "(safe padding, ulps)"};
   for (const Json& way : (*cases.front())["lookup"]) {
     headings.push_back(way["logarithm"].get<std::string>() + "/" + way["depth"].get<std::string>());
@@ -47,7 +47,7 @@ std::string lookup_table(const Json& result) {
             std::none_of(cases.begin(), cases.end(),
                          [&](const Json* other) { return (*other)["assigner"]["label"] == one["assigner"]["label"]; }))
           cases.push_back(&one);
-      if (!cases.empty()) blocks += block_text(block, cases);
+      if (!cases.empty()) blocks += lookup_block(block, cases);
     }
     if (!blocks.empty()) out += "lookup on " + shown(scene["name"]) + "\n" + blocks + "\n";
   }

@@ -10,9 +10,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const Cells k_headings{"", "assigner", "lights", "missed", "deepest", "pairs", "extra"};
+const Cells k_precision_headings{"", "assigner", "lights", "missed", "deepest", "pairs", "extra"};
 
-Cells row_of(const Json& one) {
+Cells precision_row(const Json& one) {
   const bool has_lost = one.contains("error") && one["error"]["false_negatives"] != 0;
   return {"",
           one["assigner"]["label"].get<std::string>(),
@@ -24,7 +24,7 @@ Cells row_of(const Json& one) {
 }
 
 // Cases of a block, once per assigner and precision: lists do not depend on their storage.
-std::vector<const Json*> lines_of(const Json& cases, const Json& scene, const std::string& block) {
+std::vector<const Json*> precision_lines(const Json& cases, const Json& scene, const std::string& block) {
   std::vector<const Json*> lines;
   std::set<std::string> known;
   for (const Json& one : cases)
@@ -51,15 +51,15 @@ std::string loss_text(const Json& precision) {
   return text;
 }
 
-std::string block_text(const std::string& block, const std::vector<const Json*>& lines) {
+std::string precision_block(const std::string& block, const std::vector<const Json*>& lines) {
   std::string out = " " + block + "\n";
   std::set<std::string> told;
-  std::vector<Cells> rows{k_headings};
+  std::vector<Cells> rows{k_precision_headings};
   for (const Json* one : lines) {
     const Json& precision = (*one)["precision"];
     const std::string packing = precision["packing"];
     if (packing != "float32" && told.insert(packing).second) out += loss_text(precision);
-    rows.push_back(row_of(*one));
+    rows.push_back(precision_row(*one));
   }
   const std::vector<std::size_t> widths = widths_of(rows);
   for (const Cells& row : rows) out += aligned(row, widths);
@@ -73,8 +73,8 @@ std::string precision_table(const Json& result) {
   for (const Json& scene : result["scenes"]) {
     std::string blocks;
     for (const std::string& block : blocks_of(result["cases"], scene)) {
-      const std::vector<const Json*> lines = lines_of(result["cases"], scene, block);
-      if (!lines.empty()) blocks += block_text(block, lines);
+      const std::vector<const Json*> lines = precision_lines(result["cases"], scene, block);
+      if (!lines.empty()) blocks += precision_block(block, lines);
     }
     if (!blocks.empty()) out += "precision of " + shown(scene["name"]) + "\n" + blocks + "\n";
   }

@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const Cells k_headings{"", "assigner", "changed", "max", "excess", "flickers", "excess"};
+const Cells k_stability_headings{"", "assigner", "changed", "max", "excess", "flickers", "excess"};
 
 Cells method_row(const Json& one) {
   return {"",
@@ -32,7 +32,7 @@ Cells truth_row(const Json& one) {
 }
 
 // Cases of a block with steps, once per method: lists do not depend on their storage. The fewest changes first.
-std::vector<const Json*> lines_of(const Json& cases, const Json& scene, const std::string& block) {
+std::vector<const Json*> stability_lines(const Json& cases, const Json& scene, const std::string& block) {
   std::vector<const Json*> lines;
   for (const Json& one : cases) {
     if (!one.contains("stability") || one["scene"] != scene["name"] || block_of(one) != block) continue;
@@ -47,9 +47,9 @@ std::vector<const Json*> lines_of(const Json& cases, const Json& scene, const st
   return lines;
 }
 
-std::string block_text(const std::string& block, const std::vector<const Json*>& lines) {
+std::string stability_block(const std::string& block, const std::vector<const Json*>& lines) {
   const Json& steps = (*lines.front())["stability"];
-  std::vector<Cells> rows{k_headings, truth_row(*lines.front())};
+  std::vector<Cells> rows{k_stability_headings, truth_row(*lines.front())};
   for (const Json* one : lines) rows.push_back(method_row(*one));
   const std::vector<std::size_t> widths = widths_of(rows);
   std::string out = " " + block + "\n  " + shown(steps["path"]);
@@ -69,9 +69,9 @@ std::string stability_table(const Json& result) {
   for (const Json& scene : result["scenes"]) {
     std::string blocks;
     for (const std::string& block : blocks_of(result["cases"], scene)) {
-      const std::vector<const Json*> lines = lines_of(result["cases"], scene, block);
+      const std::vector<const Json*> lines = stability_lines(result["cases"], scene, block);
       if (lines.empty()) continue;
-      blocks += block_text(block, lines);
+      blocks += stability_block(block, lines);
       window = (*lines.front())["stability"]["window"].dump();
     }
     if (!blocks.empty()) out += "stability of " + shown(scene["name"]) + "\n" + blocks + "\n";

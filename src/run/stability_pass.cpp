@@ -16,9 +16,9 @@ scene::FineSteps fine_steps(const StabilityRequest& request) {
 }
 
 // One method along the piece.
-class Track {
+class StabilityTrack {
  public:
-  Track(const Config& config, const Method& method) : method_(method), meter_(config.stability->window) {
+  StabilityTrack(const Config& config, const Method& method) : method_(method), meter_(config.stability->window) {
     const MethodRequest& assigner = config.assigners[method.assigner];
     assigner_ = assign::find_assigner(assigner.name)->make(assigner.params);
   }
@@ -51,12 +51,12 @@ StabilityResult piece_facts(const scene::FinePath& piece, int window) {
   return facts;
 }
 
-std::vector<StabilityResult> per_case(const GroupPlan& group, const std::vector<Track>& tracks,
+std::vector<StabilityResult> per_case(const GroupPlan& group, const std::vector<StabilityTrack>& tracks,
                                       const StabilityResult& common) {
   std::vector<StabilityResult> results;
   for (const CasePlan& one : group.cases) {
     results.push_back(common);
-    results.back().method = std::find_if(tracks.begin(), tracks.end(), [&](const Track& track) {
+    results.back().method = std::find_if(tracks.begin(), tracks.end(), [&](const StabilityTrack& track) {
                               return track.method() == one.method();
                             })->churn();
   }
@@ -71,7 +71,7 @@ std::vector<StabilityResult> stability_pass(const Config& config, const GroupPla
   const scene::FinePath piece = scene::fine_path(path.camera_path(), fine_steps(*config.stability));
   const PathFrames steps = path.along(piece.path);
   StabilityResult common = piece_facts(piece, config.stability->window);
-  std::vector<Track> tracks;
+  std::vector<StabilityTrack> tracks;
   for (const Method& method : methods_of(group)) tracks.emplace_back(config, method);
 
   GridOfFrames grids(config.grids[group.grid]);
@@ -85,7 +85,7 @@ std::vector<StabilityResult> stability_pass(const Config& config, const GroupPla
     const FrameLights lights(config.precisions, view::lights_in(frame, grid::space_of(grid, frame)));
     const measure::Truth truth = measure::find_truth(frame, grid, config.threads);
     truth_meter.add(truth.lists);
-    for (Track& track : tracks) track.add(grid, is_new_grid, lights);
+    for (StabilityTrack& track : tracks) track.add(grid, is_new_grid, lights);
     common.grids += is_new_grid ? 1 : 0;
     common.undecided += truth.undecided;
   }

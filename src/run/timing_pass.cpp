@@ -32,9 +32,9 @@ class WriteFloor {
 };
 
 // One method with the times of its rounds.
-class Track {
+class TimingTrack {
  public:
-  Track(const Config& config, const GroupPlan& group, const Method& method, const std::vector<TimedFrame>& frames)
+  TimingTrack(const Config& config, const GroupPlan& group, const Method& method, const std::vector<TimedFrame>& frames)
       : min_ns_(config.timing.min_time_ms * 1e6), work_(config, group, method, frames) {
     for (std::size_t store = 0; store < work_.places().size(); ++store)
       stores_.push_back({work_.places()[store], Repeated([this, store] { work_.convert(store); }, min_ns_ / 10.0), {}});
@@ -54,7 +54,7 @@ class Track {
 
   // Fills the timing of each of this method's cases. `first`: the group's first one, what others are compared
   // with.
-  void report(const Track& first, const std::string& first_name, std::uint64_t seed,
+  void report(const TimingTrack& first, const std::string& first_name, std::uint64_t seed,
               std::vector<TimingResult>& out) const {
     double pairs = 0.0;
     for (const assign::Lists& lists : work_.lists()) pairs += lists.pair_count();
@@ -106,8 +106,8 @@ std::vector<TimingResult> timing_pass(const Config& config, const GroupPlan& gro
                                       const std::function<void(int round)>& on_round, const std::atomic<bool>& stop) {
   const std::vector<TimedFrame> frames = timed_frames(config, group, path);
   const std::vector<Method> methods = methods_of(group);
-  std::vector<std::unique_ptr<Track>> tracks;
-  for (const Method& method : methods) tracks.push_back(std::make_unique<Track>(config, group, method, frames));
+  std::vector<std::unique_ptr<TimingTrack>> tracks;
+  for (const Method& method : methods) tracks.push_back(std::make_unique<TimingTrack>(config, group, method, frames));
 
   for (int round = 0; round < config.timing.rounds; ++round) {
     on_round(round);

@@ -159,6 +159,17 @@ TEST(Baseline, a_termination_signal_ends_both_and_keeps_finished_cases) {
   EXPECT_TRUE(std::filesystem::exists(place.out + ".partial"));
 }
 
+TEST(Baseline, a_keyboard_interrupt_while_a_program_is_greeted_exits_130) {
+  const Place place;
+  const std::string other = place.script("echo $$ >> $0.pid; exec sleep 1000");
+  const std::string run = std::string(CLUSTERBENCH_BINARY) + " run -q " + place.config + " -o " + place.out +
+                          " --baseline-binary " + other + " 2>/dev/null";
+  const std::string wait = "while kill -0 $pid && [ ! -s " + other + ".pid ]; do sleep 0.02; done 2>/dev/null";
+  const int status = std::system((run + " & pid=$!; " + wait + "; kill -INT $pid; wait $pid").c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 130);
+  EXPECT_TRUE(has_gone(other));
+}
+
 TEST(Baseline, times_are_needed) {
   const Place place;
   EXPECT_EQ(place.run(CLUSTERBENCH_BINARY, "--no-timing").code, 2);

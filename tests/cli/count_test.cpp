@@ -36,7 +36,7 @@ class Environment {
 };
 
 // A folder with a configuration, and where a test wants one a program that calls itself valgrind.
-struct Place {
+struct CountPlace {
   Folder folder;
   std::string config = folder.write("tiny.json", tiny_config()).string();
 
@@ -56,21 +56,21 @@ struct Place {
   GTEST_SKIP() << obstacle
 
 TEST(Count, an_unknown_way_of_counting_is_answered_with_those_that_there_are) {
-  const Place place;
+  const CountPlace place;
   const Outcome done = place.run("--count=prof");
   EXPECT_EQ(done.code, 2);
   EXPECT_NE(done.err.find("--count: found 'prof'; takes perf, callgrind or auto"), std::string::npos) << done.err;
 }
 
 TEST(Count, a_way_of_counting_that_is_not_joined_by_an_equals_sign_is_explained) {
-  const Place place;
+  const CountPlace place;
   const Outcome done = place.run("--count callgrind");
   EXPECT_EQ(done.code, 2);
   EXPECT_NE(done.err.find("--count=callgrind"), std::string::npos) << done.err;
 }
 
 TEST(Count, without_the_flag_nothing_is_counted) {
-  const Place place;
+  const CountPlace place;
   const Outcome done = place.run("");
   ASSERT_EQ(done.code, 0) << done.err;
   const Json cases = Json::parse(done.out)["cases"];
@@ -79,7 +79,7 @@ TEST(Count, without_the_flag_nothing_is_counted) {
 }
 
 TEST(Count, without_valgrind_the_error_says_how_to_get_it) {
-  const Place place;
+  const CountPlace place;
   const Environment path("PATH", place.folder.path().string());
   const Outcome done = place.run("--count=callgrind");
   EXPECT_EQ(done.code, 2);
@@ -90,7 +90,7 @@ TEST(Count, without_valgrind_the_error_says_how_to_get_it) {
 }
 
 TEST(Count, hardware_counters_count_or_the_error_says_what_refuses) {
-  const Place place;
+  const CountPlace place;
   const Outcome done = place.run("--count=perf");
   if (done.code == 2) {
     EXPECT_NE(done.err.find("--count=perf: "), std::string::npos) << done.err;
@@ -108,7 +108,7 @@ TEST(Count, hardware_counters_count_or_the_error_says_what_refuses) {
 }
 
 TEST(Count, where_nothing_can_count_both_reasons_are_told) {
-  const Place place;
+  const CountPlace place;
   if (place.obstacle("perf").find("--count") == std::string::npos) GTEST_SKIP() << "hardware counters work here";
   const Environment path("PATH", place.folder.path().string());
   const Outcome done = place.run("--count");
@@ -129,7 +129,7 @@ std::vector<double> figures(const Json& result) {
 }
 
 TEST(Count, callgrind_gives_the_same_instructions_each_time) {
-  const Place place;
+  const CountPlace place;
   SKIP_WITHOUT(place, "callgrind");
   const std::string first = (place.folder / "first.json").string(), second = (place.folder / "second.json").string();
   const Outcome done = place.run("--count=callgrind -o " + first);
@@ -153,7 +153,7 @@ TEST(Count, callgrind_gives_the_same_instructions_each_time) {
 }
 
 TEST(Count, instructions_are_those_of_their_own_case) {
-  const Place place;
+  const CountPlace place;
   SKIP_WITHOUT(place, "callgrind");
   const Outcome done = place.run("--count=callgrind");
   ASSERT_EQ(done.code, 0) << done.err;
@@ -176,7 +176,7 @@ TEST(Count, instructions_are_those_of_their_own_case) {
 }
 
 TEST(Count, one_case_alone_counts_like_among_others) {
-  const Place place;
+  const CountPlace place;
   SKIP_WITHOUT(place, "callgrind");
   const Outcome all = place.run("--count=callgrind"), alone = place.run("--count=callgrind --filter aabb/packed");
   ASSERT_EQ(all.code, 0) << all.err;
@@ -188,7 +188,7 @@ TEST(Count, one_case_alone_counts_like_among_others) {
 }
 
 TEST(Count, a_failure_under_valgrind_is_told_with_its_last_words) {
-  const Place place;
+  const CountPlace place;
   place.write_valgrind("echo 'valgrind: no such tool' >&2; exit 3");
   const Environment path("PATH", place.folder.path().string());
   SKIP_WITHOUT(place, "callgrind");
@@ -199,7 +199,7 @@ TEST(Count, a_failure_under_valgrind_is_told_with_its_last_words) {
 }
 
 TEST(Count, a_valgrind_that_is_killed_is_told) {
-  const Place place;
+  const CountPlace place;
   place.write_valgrind("kill -KILL $$");
   const Environment path("PATH", place.folder.path().string());
   SKIP_WITHOUT(place, "callgrind");
@@ -209,7 +209,7 @@ TEST(Count, a_valgrind_that_is_killed_is_told) {
 }
 
 TEST(Count, a_case_that_was_not_counted_is_an_error) {
-  const Place place;
+  const CountPlace place;
   place.write_valgrind("exit 0");
   const Environment path("PATH", place.folder.path().string());
   SKIP_WITHOUT(place, "callgrind");
@@ -219,7 +219,7 @@ TEST(Count, a_case_that_was_not_counted_is_an_error) {
 }
 
 TEST(Count, output_that_is_no_count_is_an_error) {
-  const Place place;
+  const CountPlace place;
   place.write_valgrind("echo 'abc AVX2 2 1 x 3'");
   const Environment path("PATH", place.folder.path().string());
   SKIP_WITHOUT(place, "callgrind");
@@ -229,7 +229,7 @@ TEST(Count, output_that_is_no_count_is_an_error) {
 }
 
 TEST(Count, a_valgrind_that_does_not_count_is_an_error) {
-  const Place place;
+  const CountPlace place;
   place.write_valgrind("while [ \"${1#--}\" != \"$1\" ]; do shift; done; exec \"$@\"");
   const Environment path("PATH", place.folder.path().string());
   SKIP_WITHOUT(place, "callgrind");
@@ -239,7 +239,7 @@ TEST(Count, a_valgrind_that_does_not_count_is_an_error) {
 }
 
 TEST(Count, a_termination_signal_ends_valgrind_and_keeps_finished_cases) {
-  const Place place;
+  const CountPlace place;
   const std::string out = (place.folder / "r.json").string(), started = (place.folder / "started").string();
   const std::string ended = (place.folder / "ended").string();
   place.write_valgrind(
@@ -257,7 +257,7 @@ TEST(Count, a_termination_signal_ends_valgrind_and_keeps_finished_cases) {
 }
 
 TEST(Count, a_resumed_run_counts_what_is_left) {
-  const Place place;
+  const CountPlace place;
   SKIP_WITHOUT(place, "callgrind");
   const std::string whole = (place.folder / "whole.json").string(), cut = (place.folder / "cut.json").string();
   ASSERT_EQ(place.run("--count=callgrind -o " + whole).code, 0);

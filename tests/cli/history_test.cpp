@@ -5,13 +5,13 @@
 namespace clusterbench::test {
 namespace {
 
-const std::string k_result = source_file("results/intel-r-xeon-r-processor/quick.json");
+const std::string k_small_result = source_file("results/intel-r-xeon-r-processor/quick.json");
 
 TEST(HistoryCommand, what_is_added_is_shown_as_text_and_as_a_page) {
   const Folder folder;
   const std::string file = (folder / "history.jsonl").string(), page = (folder / "history.html").string();
   for (const char* commit : {"c1", "c2"}) {
-    const Outcome added = tool("history add " + k_result + " " + file + " --commit " + commit);
+    const Outcome added = tool("history add " + k_small_result + " " + file + " --commit " + commit);
     ASSERT_EQ(added.code, 0) << added.err;
   }
   const Outcome shown = tool("history show " + file + " -o " + page);

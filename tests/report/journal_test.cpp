@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 
 const Json k_header{{"config", "a"}};
 
-class JournalTest : public testing::Test {
+class JournalTest : public ::testing::Test {
  protected:
   void SetUp() override {
     std::string name = (fs::temp_directory_path() / "journal.XXXXXX").string();

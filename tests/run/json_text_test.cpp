@@ -7,7 +7,7 @@
 namespace clusterbench::run {
 namespace {
 
-std::string message_of(const std::string& text) {
+std::string parse_message(const std::string& text) {
   try {
     parse_json_text(text, "f");
   } catch (const Error& error) {
@@ -36,25 +36,26 @@ TEST(JsonText, a_place_that_the_text_lacks_is_the_nearest_one_around_it) {
 }
 
 TEST(JsonText, a_duplicate_key_names_both_places) {
-  EXPECT_EQ(message_of("{\"a\": {\"b\": 1,\n \"b\": 2}}"), "f: 2:2 /a/b: duplicate key 'b'; the first one is at 1:8");
-  EXPECT_EQ(message_of("{\"a\": 1, \"\\u0061\": 2}"), "f: 1:10 /a: duplicate key 'a'; the first one is at 1:2");
+  EXPECT_EQ(parse_message("{\"a\": {\"b\": 1,\n \"b\": 2}}"),
+            "f: 2:2 /a/b: duplicate key 'b'; the first one is at 1:8");
+  EXPECT_EQ(parse_message("{\"a\": 1, \"\\u0061\": 2}"), "f: 1:10 /a: duplicate key 'a'; the first one is at 1:2");
 }
 
 TEST(JsonText, broken_syntax_is_named_with_its_place) {
-  EXPECT_EQ(message_of("[1,\n2,]"),
+  EXPECT_EQ(parse_message("[1,\n2,]"),
             "f: 2:3 /: syntax error while parsing value - unexpected ']'; expected '[', '{', "
             "or a literal");
-  EXPECT_EQ(message_of("[1e999]"), "f: 1:2 /: number overflow parsing '1e999'");
-  EXPECT_NE(message_of(""), "accepted");
-  EXPECT_NE(message_of("/*"), "accepted");
-  EXPECT_NE(message_of("{\"a\": 1} x"), "accepted");
-  EXPECT_NE(message_of("\"\xFF\""), "accepted");
+  EXPECT_EQ(parse_message("[1e999]"), "f: 1:2 /: number overflow parsing '1e999'");
+  EXPECT_NE(parse_message(""), "accepted");
+  EXPECT_NE(parse_message("/*"), "accepted");
+  EXPECT_NE(parse_message("{\"a\": 1} x"), "accepted");
+  EXPECT_NE(parse_message("\"\xFF\""), "accepted");
 }
 
 TEST(JsonText, nesting_has_a_limit_before_the_stack_has_one) {
-  EXPECT_EQ(message_of(std::string(64, '[') + std::string(64, ']')), "accepted");
+  EXPECT_EQ(parse_message(std::string(64, '[') + std::string(64, ']')), "accepted");
   const std::string deep = std::string(100000, '[') + std::string(100000, ']');
-  EXPECT_EQ(message_of(deep), "f: 1:66 /: nested deeper than 64 levels");
+  EXPECT_EQ(parse_message(deep), "f: 1:66 /: nested deeper than 64 levels");
 }
 
 }  // namespace

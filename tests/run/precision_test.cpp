@@ -83,7 +83,7 @@ TEST(Precision, of_one_case_does_not_change_another) {
   }
 }
 
-Walk crowd(const std::string& rest) {
+Walk packed_crowd(const std::string& rest) {
   Walk walk(R"("grids": [{"tiles": {"pixels": [10, 10]}}], "assigners": ["aabb"])" + rest);
   for (int i = 0; i < 40; ++i)
     walk.add_light({8 * std::sin(i * 1.3), 6 * std::sin(i * 2.9), -15 + 14 * std::sin(i * 0.7)}, 1.0 + 0.05 * i);
@@ -91,14 +91,14 @@ Walk crowd(const std::string& rest) {
 }
 
 TEST(Precision, is_seen_by_stability) {
-  const Result result = crowd(std::string(R"(, "stability": {"steps": 300})") + k_all).run();
+  const Result result = packed_crowd(std::string(R"(, "stability": {"steps": 300})") + k_all).run();
   const auto churn = [&](const char* precision) { return case_of(result, precision).stability->method; };
   EXPECT_FALSE(churn("-half") == churn("-float32"));
   EXPECT_FALSE(churn("-half") == churn("-half+inflate"));
 }
 
 TEST(Precision, is_seen_by_what_is_timed_and_stored) {
-  Walk walk = crowd(k_all);
+  Walk walk = packed_crowd(k_all);
   walk.config.timing = {.measure = true, .rounds = 1, .min_time_ms = 0.0, .frames = 0};
   const Result result = walk.run();
   for (const CaseResult& one : result.cases) {
@@ -112,7 +112,7 @@ TEST(Precision, is_seen_by_what_is_timed_and_stored) {
 }
 
 TEST(Precision, is_named_by_what_others_are_compared_with) {
-  Walk walk = crowd(R"(, "precision": [{"packing": "half", "inflate": true}, "unorm16"])");
+  Walk walk = packed_crowd(R"(, "precision": [{"packing": "half", "inflate": true}, "unorm16"])");
   walk.config.timing = {.measure = true, .rounds = 1, .min_time_ms = 0.0, .frames = 1};
   EXPECT_EQ(case_of(walk.run(), "-unorm16").timing->vs->assigner, "aabb half+inflate");
 }

@@ -20,7 +20,7 @@ constexpr const char* k_perspective =
 constexpr const char* k_orthographic =
     R"({"type": "orthographic", "orthographic": {"xmag": 10, "ymag": 10, "znear": 0, "zfar": 100}})";
 
-class Sweep : public testing::Test {
+class Sweep : public ::testing::Test {
  protected:
   void SetUp() override { fs::create_directories(folder_ / "other"); }
   void TearDown() override { fs::remove_all(folder_); }

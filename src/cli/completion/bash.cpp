@@ -65,7 +65,7 @@ constexpr const char* k_after_options = R"(  esac
   case "$path" in
 )";
 
-constexpr const char* k_end = R"(  esac
+constexpr const char* k_bash_end = R"(  esac
   if [[ $cur == -* ]]; then
     _clusterbench_words "$flags"
   elif [[ $takes_files == 1 ]]; then
@@ -137,7 +137,7 @@ std::string bash_completion(const CommandNode& root) {
       if (option.takes_value) options += option_line(*command, option);
     commands += command_line(*command);
   }
-  return k_functions + paths + ")" + k_after_paths + options + k_after_options + commands + k_end;
+  return k_functions + paths + ")" + k_after_paths + options + k_after_options + commands + k_bash_end;
 }
 
 }  // namespace clusterbench::cli

@@ -33,7 +33,7 @@ std::string start(const CommandNode& command) {
   return "complete -c clusterbench -n " + shell_word("__clusterbench_at " + command.path);
 }
 
-std::string option_line(const CommandNode& command, const OptionNode& option) {
+std::string fish_option(const CommandNode& command, const OptionNode& option) {
   std::string line = start(command);
   for (const std::string& name : option.names)
     line += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
@@ -60,7 +60,7 @@ std::string fish_completion(const CommandNode& root) {
     text += "\n";
     for (const CommandNode& below : command->commands)
       text += start(*command) + " -a " + below.name + " -d " + shell_word(first_sentence(below.description)) + "\n";
-    for (const OptionNode& option : command->options) text += option_line(*command, option);
+    for (const OptionNode& option : command->options) text += fish_option(*command, option);
     for (const ArgumentNode& argument : command->arguments) text += argument_line(*command, argument);
   }
   return text;

@@ -7,7 +7,7 @@ namespace {
 using Kind = Values::Kind;
 
 // In a specification of _arguments, brackets and colons have a meaning.
-std::string escaped(const std::string& text) {
+std::string zsh_escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
     if (c == '[' || c == ']' || c == ':' || c == '\\') out += '\\';
@@ -18,7 +18,7 @@ std::string escaped(const std::string& text) {
 
 // What follows the message of a specification: "(a b)", "_files", or nothing to offer. A space in front keeps zsh from
 // adding arguments of its own.
-std::string action(const Values& values) {
+std::string value_action(const Values& values) {
   switch (values.kind) {
     case Kind::files:
       return "_files";
@@ -40,10 +40,10 @@ std::string option_lines(const OptionNode& option) {
     std::string line = option.is_repeatable ? "*" : "(" + joined(option.names, " ") + ")";
     line += name;
     if (option.takes_value && is_long) line += option.is_value_optional ? "=-" : "=";
-    line += "[" + escaped(first_sentence(option.description)) + "]";
+    line += "[" + zsh_escaped(first_sentence(option.description)) + "]";
     if (option.takes_value) {
       line += option.is_value_optional ? "::" : ":";
-      line += placeholder(option) + ":" + action(option.values);
+      line += placeholder(option) + ":" + value_action(option.values);
     }
     lines += " \\\n    " + shell_word(line);
   }
@@ -52,7 +52,7 @@ std::string option_lines(const OptionNode& option) {
 
 std::string argument_line(const ArgumentNode& argument, std::size_t place) {
   const std::string where = argument.is_repeatable ? "*" : std::to_string(place);
-  return " \\\n    " + shell_word(where + ":" + escaped(argument.name) + ":" + action(argument.values));
+  return " \\\n    " + shell_word(where + ":" + zsh_escaped(argument.name) + ":" + value_action(argument.values));
 }
 
 std::string function_name(const CommandNode& command) {
@@ -65,7 +65,7 @@ std::string function_name(const CommandNode& command) {
 std::string subcommands(const CommandNode& command) {
   std::string list, cases;
   for (const CommandNode& below : command.commands) {
-    list += "        " + shell_word(escaped(below.name) + ":" + first_sentence(below.description)) + "\n";
+    list += "        " + shell_word(zsh_escaped(below.name) + ":" + first_sentence(below.description)) + "\n";
     cases += "        " + below.name + ") " + function_name(below) + " ;;\n";
   }
   return "  case $state in\n    command)\n      local -a commands=(\n" + list +
@@ -98,7 +98,7 @@ _clusterbench_named_files() {
 
 )";
 
-constexpr const char* k_end = R"(if [[ $funcstack[1] == _clusterbench ]]; then
+constexpr const char* k_zsh_end = R"(if [[ $funcstack[1] == _clusterbench ]]; then
   _clusterbench "$@"
 else
   compdef _clusterbench clusterbench
@@ -110,7 +110,7 @@ fi
 std::string zsh_completion(const CommandNode& root) {
   std::string text = k_start;
   for (const CommandNode* command : all_commands(root)) text += function(*command);
-  return text + k_end;
+  return text + k_zsh_end;
 }
 
 }  // namespace clusterbench::cli

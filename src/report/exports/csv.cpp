@@ -16,7 +16,7 @@ std::string field(const std::string& text) {
 }
 
 // All digits, without ".0" behind what was counted.
-std::string number(double value) {
+std::string exact_number(double value) {
   constexpr double k_exact_integers = 9007199254740992.0;
   const bool is_whole = std::floor(value) == value && std::abs(value) < k_exact_integers;
   return is_whole ? std::to_string(static_cast<long long>(value)) : nlohmann::json(value).dump();
@@ -42,9 +42,9 @@ std::string row(const ExportResult& result, const ExportCase& one) {
   for (const Metric& metric : export_metrics()) {
     if (!has_column(metric, result)) continue;
     const Measured* figure = find_figure(one, metric.name);
-    line += "," + (figure == nullptr ? "" : number(figure->value));
+    line += "," + (figure == nullptr ? "" : exact_number(figure->value));
     if (metric.interval.empty()) continue;
-    line += figure == nullptr ? ",," : "," + number(figure->low) + "," + number(figure->high);
+    line += figure == nullptr ? ",," : "," + exact_number(figure->low) + "," + exact_number(figure->high);
   }
   return line + "\n";
 }

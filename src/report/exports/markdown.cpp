@@ -5,27 +5,14 @@
 #include <cmath>
 #include <cstdio>
 
+#include "report/columns.h"
 #include "report/exports/exports.h"
 
 namespace clusterbench::report {
 namespace {
 
-// A name from a scene file stays one cell and plain text.
-std::string cell(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (std::iscntrl(static_cast<unsigned char>(c)) != 0) {
-      out += ' ';
-      continue;
-    }
-    if (std::string_view("\\|`*_[]<>&").find(c) != std::string_view::npos) out += '\\';
-    out += c;
-  }
-  return out;
-}
-
 // Four digits, or all of what was counted: 40.61, 1234.6, 102905.
-std::string number(double value) {
+std::string short_number(double value) {
   char text[48];
   std::snprintf(text, sizeof text,
                 std::floor(value) == value ? "%.0f"
@@ -64,10 +51,10 @@ std::string markdown(const ExportResult& result) {
   }
   out += "\n" + rule + "\n";
   for (const ExportCase& one : result.cases) {
-    out += "| " + cell(one.name) + " |";
+    out += "| " + markdown_cell(one.name) + " |";
     for (const Metric* metric : columns) {
       const Measured* figure = find_figure(one, metric->name);
-      out += " " + (figure == nullptr ? "" : number(figure->value)) + " |";
+      out += " " + (figure == nullptr ? "" : short_number(figure->value)) + " |";
     }
     out += "\n";
   }

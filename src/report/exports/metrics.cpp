@@ -73,7 +73,7 @@ std::optional<double> figure(const Metric& metric, double value) {
   return value > 0.0 ? std::optional(metric.dividend / value) : std::nullopt;
 }
 
-std::optional<Measured> measured(const Json& one, const Metric& metric) {
+std::optional<Measured> measured_by(const Json& one, const Metric& metric) {
   const Json* found = at(one, std::string(metric.place));
   if (found == nullptr || !found->is_number()) return {};
   const std::optional<double> value = figure(metric, found->get<double>());
@@ -98,7 +98,7 @@ std::vector<Measured> measured(const Json& one, bool all) {
   std::vector<Measured> out;
   for (const Metric& metric : k_metrics)
     if (metric.is_headline || all)
-      if (const std::optional<Measured> found = measured(one, metric)) out.push_back(*found);
+      if (const std::optional<Measured> found = measured_by(one, metric)) out.push_back(*found);
   return out;
 }
 
