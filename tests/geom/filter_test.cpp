@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "effort.h"
 #include "geom/meets.h"
 #include "geom/random_pairs.h"
 
@@ -34,12 +35,13 @@ void expect_agreement(const LightVolume& light, const Cell& cell, int (&said)[3]
 TEST_P(FilterOn, random_pairs_is_never_contradicted) {
   SplitMix64 random(101);
   int said[3] = {};
-  for (int i = 0; i < 25000; ++i) {
+  const int pairs = test::tries(25000);
+  for (int i = 0; i < pairs; ++i) {
     const LightVolume light = random_light(random, GetParam().is_cone);
     expect_agreement(light, GetParam().make_cell(random), said);
   }
-  EXPECT_GT(said[static_cast<int>(Verdict::yes)], 300);
-  EXPECT_GT(said[static_cast<int>(Verdict::no)], 300);
+  EXPECT_GT(said[static_cast<int>(Verdict::yes)], pairs / 100);
+  EXPECT_GT(said[static_cast<int>(Verdict::no)], pairs / 100);
   EXPECT_LT(said[static_cast<int>(Verdict::open)], 3);
 }
 
@@ -57,7 +59,7 @@ double range_of_change(LightVolume light, const Cell& cell, Verdict wanted) {
 TEST_P(FilterOn, pairs_at_which_it_changes_its_mind_is_never_contradicted) {
   SplitMix64 random(103);
   int said[3] = {}, pairs = 0;
-  while (pairs < 17000) {
+  while (pairs < test::tries(17000)) {
     const LightVolume light = random_light(random, GetParam().is_cone);
     const Cell cell = GetParam().make_cell(random);
     for (const Verdict wanted : {Verdict::open, Verdict::yes}) {
