@@ -248,7 +248,7 @@ assign::SpotCells some_spot_cells(const Setting& setting, int slice) {
     for (int row = size.y / 3; row < 2 * size.y / 3; ++row)
       for (int column = size.x / 3; column < 2 * size.x / 3; ++column)
         cells.add({spot, static_cast<std::uint32_t>(slice), static_cast<std::uint32_t>(row),
-                   static_cast<std::uint32_t>(column)});
+                   static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(column) + 1});
   }
   return cells;
 }

@@ -1,6 +1,7 @@
 #pragma once
-// The columns that spots touch in each row of some slices: the rows of their bounding balls, whose ends are looked at a
-// few cells at a time, those of all slices together, until a cell at either end is touched.
+// The columns that spots touch in each row of some slices: the rows of their bounding balls, shortened. First by
+// halves, quarters and so on that are as a whole not touched; then their ends are looked at a few cells at a time,
+// until a cell at either end is touched. Those of all slices go together.
 
 #include "assign/exact_frame.h"
 #include "assign/exact_rows.h"
@@ -27,6 +28,12 @@ class SpotSpans {
     grid::IndexRange columns;
     bool left_is_open, right_is_open;  // the end may yet not be touched
   };
+  // A Lit to be shortened, and how many columns of its ends are looked at as one.
+  struct Long {
+    std::uint32_t lit;
+    int left, right;
+  };
+  static constexpr int k_least_piece = 3;
   // Cells at one or both ends of a Lit that are asked for, from cells_[place] on.
   struct Ends {
     std::uint32_t lit, place;
@@ -35,7 +42,9 @@ class SpotSpans {
   };
 
   void add_rows(int slice);
+  void shorten(const SpotsAndPlanes& from);
   bool ask_for_ends();
+  void add_cell(const Lit& lit, const grid::IndexRange& columns, SpotCells& cells) const;
   void ask(std::uint32_t i, const grid::IndexRange& columns, bool from_left, bool from_right);
   void ask_more_closely();
   void add_closer(std::uint32_t place);
@@ -46,6 +55,7 @@ class SpotSpans {
   RowBatches rows_;
   std::vector<Lit> lit_;      // slice by slice
   std::size_t next_lit_ = 0;  // to be added
+  std::vector<Long> long_;
   std::vector<Ends> ends_;
   SpotCells cells_, closer_;  // of all ends; those of them to look at closely
   std::vector<std::uint32_t> closer_places_;

@@ -58,7 +58,7 @@ class Cells {
       return hn::BitCast(DI(), hn::LoadU(DU(), list.data() + first));
     };
     const auto spot = place(cells.spot), slice = place(cells.slice), row = place(cells.row);
-    const auto column = place(cells.column);
+    const auto column = place(cells.column), end_column = place(cells.end_column);
     const view::LightArrays& lights = *from.lights;
     const std::uint32_t points = lights.points;
     cone_ = {{gathered(lights.x.data() + points, spot), gathered(lights.y.data() + points, spot),
@@ -69,7 +69,7 @@ class Cells {
              gathered(lights.cos_angle.data(), spot),
              gathered(lights.sin_angle.data(), spot)};
     left_ = gathered(from.side, column);
-    right_ = gathered(from.side + 1, column);
+    right_ = gathered(from.side, end_column);
     y1_ = gathered(from.slope, row);
     y0_ = gathered(from.slope + 1, row);
     depth0_ = gathered(from.depth, slice);

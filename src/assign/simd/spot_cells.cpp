@@ -58,7 +58,7 @@ HWY_EXPORT(look);
 
 void SpotCells::grow() {
   const std::size_t size = 2 * spot.size() + 4 * k_most_lanes;
-  for (std::vector<std::uint32_t>* list : {&spot, &slice, &row, &column}) list->resize(size);
+  for (std::vector<std::uint32_t>* list : {&spot, &slice, &row, &column, &end_column}) list->resize(size);
   touch.resize(size);
 }
 
@@ -66,7 +66,7 @@ namespace {
 
 // What a whole vector reads beyond the end must be places that exist.
 void pad(SpotCells& cells) {
-  for (std::vector<std::uint32_t>* list : {&cells.spot, &cells.slice, &cells.row, &cells.column})
+  for (std::vector<std::uint32_t>* list : {&cells.spot, &cells.slice, &cells.row, &cells.column, &cells.end_column})
     std::fill_n(list->begin() + cells.count, std::min(k_most_lanes, list->size() - cells.count), 0);
 }
 

@@ -13,15 +13,15 @@ namespace clusterbench::assign {
 
 enum class Touch : std::uint8_t { no, yes, open };
 
-// A spot (light index - points) and a cell.
+// A spot (light index - points) and neighbouring cells of a row as one: columns column .. end_column - 1.
 struct SpotCell {
-  std::uint32_t spot, slice, row, column;
+  std::uint32_t spot, slice, row, column, end_column;
 };
 
-// Pairs of a spot and a cell, and the answers. Whole vectors can be read and written beyond `count`.
+// Pairs of a spot and one or more cells, and the answers. Whole vectors can be read and written beyond `count`.
 struct SpotCells {
   std::uint32_t count = 0;
-  std::vector<std::uint32_t> spot, slice, row, column;
+  std::vector<std::uint32_t> spot, slice, row, column, end_column;
   std::vector<Touch> touch;
 
   void add(const SpotCell& pair) {
@@ -29,10 +29,13 @@ struct SpotCells {
     spot[count] = pair.spot;
     slice[count] = pair.slice;
     row[count] = pair.row;
-    column[count++] = pair.column;
+    column[count] = pair.column;
+    end_column[count++] = pair.end_column;
   }
   void grow();
-  SpotCell at(std::uint32_t place) const { return {spot[place], slice[place], row[place], column[place]}; }
+  SpotCell at(std::uint32_t place) const {
+    return {spot[place], slice[place], row[place], column[place], end_column[place]};
+  }
   std::size_t capacity_bytes() const { return spot.capacity() * (sizeof(SpotCell) + sizeof(Touch)); }
 };
 
