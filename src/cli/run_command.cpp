@@ -203,10 +203,10 @@ run::Counts count_instructions(CountWay way, const CountTask& task, ProgressLine
 ExitCode measure(const RunFlags& flags, const run::Config& config, const run::Plan& plan, CountWay way) {
   if (is_stream(flags.output)) probe_output(flags.output);
   const std::vector<ExportTarget> exports = export_targets(flags.exports);
+  const std::atomic<bool>& stop = stop_on_signals();  // before there is anything to keep
   const std::unique_ptr<report::Journal> journal = open_journal(flags, config, plan);
   const std::vector<Json> earlier = journal ? journal->earlier_cases() : std::vector<Json>{};
   const std::vector<std::string> earlier_ids = journal ? journal->earlier_ids() : std::vector<std::string>{};
-  const std::atomic<bool>& stop = stop_on_signals();
 
   const Terminal screen = terminal();
   run::Counts counts;
