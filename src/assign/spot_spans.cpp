@@ -65,8 +65,8 @@ void SpotSpans::shorten(const SpotsAndPlanes& from) {
     cells_.count = 0;
     for (const Long& piece : long_) {
       const IndexRange& columns = lit_[piece.lit].columns;
-      add_cell(lit_[piece.lit], {columns.first, columns.first + piece.left - 1}, cells_);
-      add_cell(lit_[piece.lit], {columns.last - piece.right + 1, columns.last}, cells_);
+      add_cell(lit_[piece.lit], {columns.first, columns.first + piece.left - 1});
+      add_cell(lit_[piece.lit], {columns.last - piece.right + 1, columns.last});
     }
     tests_ += cells_.count;
     look_at_cells(from, Look::quick, cells_);
@@ -107,13 +107,13 @@ bool SpotSpans::ask_for_ends() {
 
 void SpotSpans::ask(std::uint32_t i, const IndexRange& columns, bool from_left, bool from_right) {
   ends_.push_back({i, cells_.count, columns, from_left, from_right});
-  for (int column = columns.first; column <= columns.last; ++column) add_cell(lit_[i], {column, column}, cells_);
+  for (int column = columns.first; column <= columns.last; ++column) add_cell(lit_[i], {column, column});
 }
 
-void SpotSpans::add_cell(const Lit& lit, const IndexRange& columns, SpotCells& cells) const {
-  cells.add({lit.light - frame_->lights.points, static_cast<std::uint32_t>(lit.slice),
-             static_cast<std::uint32_t>(lit.row), static_cast<std::uint32_t>(columns.first),
-             static_cast<std::uint32_t>(columns.last) + 1});
+void SpotSpans::add_cell(const Lit& lit, const IndexRange& columns) {
+  cells_.add({lit.light - frame_->lights.points, static_cast<std::uint32_t>(lit.slice),
+              static_cast<std::uint32_t>(lit.row), static_cast<std::uint32_t>(columns.first),
+              static_cast<std::uint32_t>(columns.last) + 1});
 }
 
 // Cells without an answer that lie before the first one that is touched.

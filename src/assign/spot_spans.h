@@ -44,7 +44,7 @@ class SpotSpans {
   void add_rows(int slice);
   void shorten(const SpotsAndPlanes& from);
   bool ask_for_ends();
-  void add_cell(const Lit& lit, const grid::IndexRange& columns, SpotCells& cells) const;
+  void add_cell(const Lit& lit, const grid::IndexRange& columns);  // to cells_
   void ask(std::uint32_t i, const grid::IndexRange& columns, bool from_left, bool from_right);
   void ask_more_closely();
   void add_closer(std::uint32_t place);

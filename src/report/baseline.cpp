@@ -1,11 +1,9 @@
 #include "report/baseline.h"
 
-#include "report/json.h"
-
 #include <algorithm>
-#include <cmath>
 
 #include "measure/change.h"
+#include "report/json.h"
 
 namespace clusterbench::report {
 namespace {

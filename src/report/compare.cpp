@@ -1,7 +1,6 @@
 #include "report/compare.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
 

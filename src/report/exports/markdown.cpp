@@ -1,7 +1,6 @@
 // A table as GitHub and GitLab render it. Only columns in which a case has a figure.
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 

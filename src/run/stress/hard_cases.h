@@ -11,6 +11,8 @@
 
 namespace clusterbench::run {
 
+inline constexpr double k_degree = 3.14159265358979323846 / 180.0;  // in radians
+
 // Something that the tool must do whatever the assigner is.
 struct ToolCheck {
   std::string what;

@@ -13,8 +13,6 @@ namespace {
 
 using grid::Scheme;
 
-constexpr double k_degree = 3.14159265358979323846 / 180.0;
-
 // Lights in and around a view of the given slopes, of all sizes; every third a spot.
 Rig& scatter(Rig& rig, double slope_x, double slope_y, int count, std::uint64_t seed) {
   SplitMix64 random(seed);

@@ -11,8 +11,6 @@ namespace {
 
 using grid::Scheme;
 
-constexpr double k_degree_of_arc = 3.14159265358979323846 / 180.0;
-
 // Lights under scaled and mirrored nodes keep their range.
 Rig scaled_rig() {
   Rig rig;
@@ -47,9 +45,9 @@ std::vector<Trial> cone_angles(std::uint64_t seed) {
       const double x = random.between(-20, 20), y = random.between(-10, 10), z = random.between(-60, 5);
       const double yaw = random.between(0, 6.2831853), up = random.between(-1, 1);
       const double range = std::exp(random.between(std::log(0.5), std::log(1000.0)));
-      rig.spot({x, y, z}, {std::cos(yaw), up, std::sin(yaw)}, range, degrees * k_degree_of_arc);
+      rig.spot({x, y, z}, {std::cos(yaw), up, std::sin(yaw)}, range, degrees * k_degree);
     }
-    rig.spot({-9e4, 0.3, -50}, {1, 0, 0}, 1e5, degrees * k_degree_of_arc);
+    rig.spot({-9e4, 0.3, -50}, {1, 0, 0}, 1e5, degrees * k_degree);
     rig.on_each(grids_of_every_kind(), std::to_string(degrees) + " degrees", trials);
   }
   return trials;
@@ -62,7 +60,7 @@ std::vector<Trial> cone_axes(std::uint64_t) {
     for (const Vec3d& axis : {Vec3d(1, 0, 0), Vec3d(-1, 0, 0), Vec3d(0, 1, 0), Vec3d(0, -1, 0), Vec3d(0, 0, 1),
                               Vec3d(0, 0, -1), Vec3d(1, 1, 0), Vec3d(0, 1, -1)})
       for (const Vec3d& place : {Vec3d(0, 0, -10), Vec3d(3, -2, -25), Vec3d(-8, 4, -6)})
-        rig.spot(place, axis, 12.0, degrees * k_degree_of_arc);
+        rig.spot(place, axis, 12.0, degrees * k_degree);
   rig.on_each(grids_of_every_kind(), "axes along the axes", trials);
   return trials;
 }
@@ -74,13 +72,11 @@ std::vector<Trial> cone_apexes(std::uint64_t) {
   Rig rig;
   for (const Vec3d& axis : {Vec3d(0, 0, -1), Vec3d(0, 0, 1), Vec3d(1, 0.2, -0.3), Vec3d(-0.5, -1, 0.1)})
     for (const double degrees : {3.0, 40.0, 85.0}) {
-      rig.spot({0, 0, 0}, axis, 20, degrees * k_degree_of_arc)
-          .spot({0.02, 0, -0.1}, axis, 30, degrees * k_degree_of_arc);
-      rig.spot({0, 0, 2}, axis, 25, degrees * k_degree_of_arc);
+      rig.spot({0, 0, 0}, axis, 20, degrees * k_degree).spot({0.02, 0, -0.1}, axis, 30, degrees * k_degree);
+      rig.spot({0, 0, 2}, axis, 25, degrees * k_degree);
       for (const std::size_t k : {3u, 12u, 20u}) {
         const double depth = screen.slices.boundaries[k];
-        rig.spot({screen.tiles.x[k / 2] * depth, screen.tiles.y[k / 3] * depth, -depth}, axis, 8,
-                 degrees * k_degree_of_arc);
+        rig.spot({screen.tiles.x[k / 2] * depth, screen.tiles.y[k / 3] * depth, -depth}, axis, 8, degrees * k_degree);
       }
     }
   rig.on_each(grids_of_every_kind(), "apexes on near, corners, the eye", trials);

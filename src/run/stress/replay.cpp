@@ -9,11 +9,11 @@
 namespace clusterbench::run {
 namespace {
 
-using PlainJson = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-PlainJson slices_json(const grid::Slicing& slices) {
-  PlainJson out{{"scheme", scheme_name(slices.scheme)}};
+OrderedJson slices_json(const grid::Slicing& slices) {
+  OrderedJson out{{"scheme", scheme_name(slices.scheme)}};
   if (slices.scheme == grid::Scheme::list) {
     out["boundaries"] = slices.boundaries_m;
     return out;
@@ -26,8 +26,8 @@ PlainJson slices_json(const grid::Slicing& slices) {
   return out;
 }
 
-PlainJson grid_json(const grid::GridSpec& spec) {
-  PlainJson out{{"kind", grid::kind_name(spec.kind)}};
+OrderedJson grid_json(const grid::GridSpec& spec) {
+  OrderedJson out{{"kind", grid::kind_name(spec.kind)}};
   if (spec.kind == grid::Kind::frustum || spec.kind == grid::Kind::distance) {
     const bool by_pixels = spec.tiles.count.x == 0;
     const Vec2i tiles = by_pixels ? spec.tiles.pixels : spec.tiles.count;
@@ -58,15 +58,15 @@ void write_replay(const fs::path& folder, const std::string& name, const Loss& l
   std::error_code failure;
   fs::create_directories(folder, failure);
   if (failure) throw Error(folder.string(), "", "cannot be made: " + failure.message());
-  PlainJson assigner{{"name", method.row->name}};
+  OrderedJson assigner{{"name", method.row->name}};
   for (const auto& [key, value] : method.params.values())
     std::visit([&, &name_of = key](const auto& held) { assigner[name_of] = held; }, value);
-  const PlainJson config{{"name", name},
-                         {"scenes", PlainJson::array({PlainJson{{"path", name + ".gltf"}}})},
-                         {"viewport", {loss.scene.viewport.x, loss.scene.viewport.y}},
-                         {"grids", PlainJson::array({grid_json(loss.scene.grid)})},
-                         {"assigners", PlainJson::array({assigner})},
-                         {"timing", {{"measure", false}}}};
+  const OrderedJson config{{"name", name},
+                           {"scenes", OrderedJson::array({OrderedJson{{"path", name + ".gltf"}}})},
+                           {"viewport", {loss.scene.viewport.x, loss.scene.viewport.y}},
+                           {"grids", OrderedJson::array({grid_json(loss.scene.grid)})},
+                           {"assigners", OrderedJson::array({assigner})},
+                           {"timing", {{"measure", false}}}};
   write(folder / (name + ".gltf"), scene::to_gltf(loss.scene.scene, "clusterbench stress"));
   write(folder / (name + ".json"), config.dump(1) + "\n");
 }
