@@ -1,6 +1,7 @@
 #include "cli/baseline.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "cli/rounds_protocol.h"
@@ -19,6 +20,12 @@ int rounds_per_launch(const run::Config& config, int launches) {
   return std::max(k_least, (config.timing.rounds + launches - 1) / launches);
 }
 
+// An interval that reaches half of the threshold to either side tells a change of the threshold and a half from it.
+run::PairedRequest paired_request(const BaselineRequest& request, const run::Config& config) {
+  return {request.launches, request.most_launches, std::log1p(0.5 * request.threshold_percent / 100.0),
+          rounds_per_launch(config, request.launches)};
+}
+
 std::vector<std::string> server_command(const std::string& binary, const std::vector<std::string>& arguments) {
   std::vector<std::string> command{binary, "run", "--rounds-server=" + std::to_string(k_rounds_protocol)};
   command.insert(command.end(), arguments.begin(), arguments.end());
@@ -35,7 +42,7 @@ void probe_baseline(const BaselineRequest& request, const std::vector<std::strin
 }
 
 void measure_beside(const BaselineRequest& request, const std::vector<std::string>& arguments,
-                    const run::Config& config, const run::Plan& plan, const std::function<void(double share)>& on_round,
+                    const run::Config& config, const run::Plan& plan, const run::OnPairedRound& on_round,
                     const std::atomic<bool>& stop, nlohmann::ordered_json& result) {
   const TemporaryFolder folder;
   nlohmann::ordered_json tool;
@@ -52,9 +59,7 @@ void measure_beside(const BaselineRequest& request, const std::vector<std::strin
                               },
                               [&] { return start(self, "new"); }};
   try {
-    const auto measured =
-        run::measure_paired(plan, {request.launches, rounds_per_launch(config, request.launches)}, both, on_round);
-    report::add_baseline(result, tool, measured);
+    report::add_baseline(result, tool, run::measure_paired(plan, paired_request(request, config), both, on_round));
   } catch (const nlohmann::json::exception& error) {
     throw Error(request.binary, "--baseline-binary", std::string("answered what cannot be read: ") + error.what());
   }

@@ -13,7 +13,7 @@ namespace clusterbench::cli {
 
 struct BaselineRequest {
   std::string binary;  // "" = none
-  int launches = 10;
+  int launches = 10, most_launches = 40;
   double patience_s = 120.0;  // for one answer of either program
   double threshold_percent = 2.0;
 };
@@ -26,7 +26,7 @@ void probe_baseline(const BaselineRequest& request, const std::vector<std::strin
 // result. Throws Error if the other program cannot do it, breaks down or hangs; with stopped_exit_code() once `stop`
 // is true.
 void measure_beside(const BaselineRequest& request, const std::vector<std::string>& arguments,
-                    const run::Config& config, const run::Plan& plan, const std::function<void(double share)>& on_round,
+                    const run::Config& config, const run::Plan& plan, const run::OnPairedRound& on_round,
                     const std::atomic<bool>& stop, nlohmann::ordered_json& result);
 
 }  // namespace clusterbench::cli

@@ -141,10 +141,10 @@ bool add_baseline(const RunFlags& flags, const run::Config& config, const run::P
                   const std::atomic<bool>& stop, Json& result) {
   run::Progress now;
   now.cost_total = 1.0;
-  now.doing = "beside " + flags.baseline.binary;
-  const auto on_round = [&](double share) {
+  const auto on_round = [&](const run::PairedRound& round) {
+    now.doing = "beside " + flags.baseline.binary + ", launch " + std::to_string(round.launch + 1);
     progress.show(now);
-    now.cost_done += share;
+    now.cost_done += round.share;
   };
   try {
     measure_beside(flags.baseline, plan_arguments(flags), config, plan, on_round, stop, result);
@@ -280,7 +280,12 @@ void add_run(Command& program, Action& action) {
   command.add_option("--count-ids", flags->count_ids, "").hidden();
   command.add_option("--baseline-binary", flags->baseline.binary,
                      "Another clusterbench: both are measured side by side, and compared");
-  command.add_option("--baseline-launches", flags->baseline.launches, "How often both are started")
+  command.add_option("--baseline-launches", flags->baseline.launches, "How often both are started, at least")
+      .range(2, 1000)
+      .shows_standard();
+  command
+      .add_option("--baseline-most-launches", flags->baseline.most_launches,
+                  "How often at most, where intervals are wider than half the threshold on either side")
       .range(2, 1000)
       .shows_standard();
   command.add_option("--baseline-timeout", flags->baseline.patience_s, "Longest wait for one answer, in seconds")

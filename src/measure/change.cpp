@@ -48,8 +48,14 @@ double log_error(const Interval& ci95) {
   return std::log(ci95.high / ci95.low) / (2.0 * 1.959963984540054);
 }
 
-double half_width(const Change& change) {
-  return change.freedom < 1.0 ? k_infinity : student_quantile(k_level, change.freedom) * change.error;
+// Between the two values at the quarter of the way.
+double lower_quartile(std::span<const double> values) {
+  std::vector<double> sorted(values.begin(), values.end());
+  std::sort(sorted.begin(), sorted.end());
+  const double place = 0.25 * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const double above = sorted[std::min(below + 1, sorted.size() - 1)];
+  return sorted[below] + (place - static_cast<double>(below)) * (above - sorted[below]);
 }
 
 }  // namespace
@@ -70,20 +76,23 @@ double student_quantile(double p, double freedom) {
 }
 
 double launch_log_ratio(std::span<const double> base_ns, std::span<const double> next_ns) {
-  std::vector<double> logs;
-  for (std::size_t i = 0; i < base_ns.size(); ++i) logs.push_back(std::log(next_ns[i] / base_ns[i]));
-  std::sort(logs.begin(), logs.end());
-  const std::size_t middle = logs.size() / 2;
-  return logs.size() % 2 == 1 ? logs[middle] : 0.5 * (logs[middle - 1] + logs[middle]);
+  return std::log(lower_quartile(next_ns) / lower_quartile(base_ns));
 }
 
 Change change_over_launches(std::span<const double> log_ratios) {
   if (log_ratios.empty()) return {};
-  Change change{mean_of(log_ratios), 0.0, static_cast<double>(log_ratios.size()) - 1.0};
-  if (log_ratios.size() < 2) return change;
+  std::vector<double> values(log_ratios.begin(), log_ratios.end());
+  std::sort(values.begin(), values.end());
+  const std::size_t cut = values.size() / 5, kept = values.size() - 2 * cut;
+  Change change{mean_of(std::span(values).subspan(cut, kept)), 0.0, static_cast<double>(kept) - 1.0};
+  if (values.size() < 2) return change;
+  const auto all = static_cast<double>(values.size());
+  const double low = values[cut], high = values[cut + kept - 1];
+  for (double& value : values) value = std::clamp(value, low, high);
+  const double mean = mean_of(values);
   double squares = 0.0;
-  for (const double value : log_ratios) squares += (value - change.log_ratio) * (value - change.log_ratio);
-  change.error = std::sqrt(squares / (change.freedom * static_cast<double>(log_ratios.size())));
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  change.error = std::sqrt(squares / ((all - 1.0) * all)) * all / static_cast<double>(kept);
   return change;
 }
 
@@ -102,6 +111,10 @@ Change mean_change(std::span<const Change> changes) {
     mean.freedom = std::min(mean.freedom, one.freedom);
   }
   return mean;
+}
+
+double half_width(const Change& change) {
+  return change.freedom < 1.0 ? k_infinity : student_quantile(k_level, change.freedom) * change.error;
 }
 
 Ratio ratio_of(const Change& change) {

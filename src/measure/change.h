@@ -1,6 +1,6 @@
 #pragma once
-// Whether a time has changed between two programs: estimates on the logarithm of new / base, Student's t, Holm's
-// correction over cases. docs/comparing.md says why it is done so. Pure functions.
+// Whether a time has changed between two programs: estimates on the logarithm of new / base, trimmed means, Student's t,
+// Holm's correction over cases. docs/comparing.md says why it is done so. Pure functions.
 
 #include <span>
 #include <vector>
@@ -16,12 +16,13 @@ struct Change {
   double freedom = 0.0;  // below 1: the error is not known, and nothing can be concluded
 };
 
-// The median of ln(next_ns[i] / base_ns[i]) over the rounds of one pair of processes. Both spans are equally long and
-// not empty.
+// ln of the ratio of both lower quartiles, of the rounds of one pair of processes: whatever disturbs a round makes it
+// longer. Neither span is empty.
 double launch_log_ratio(std::span<const double> base_ns, std::span<const double> next_ns);
 
 // From one value per pair of processes: what differs between starts of the same program (memory layout) is in the
-// error.
+// error. Of five and more the mean without the lowest and the highest fifth, with the error that Tukey and McLaughlin
+// 1963 give it: a launch that fell into a busy second says nothing of the program.
 Change change_over_launches(std::span<const double> log_ratios);
 
 struct MedianTime {
@@ -37,6 +38,9 @@ Change mean_change(std::span<const Change> changes);
 
 // new / base with its 95 % interval. Without freedom the interval is everything: 0 to infinity.
 Ratio ratio_of(const Change& change);
+
+// Half of the 95 % interval of ln(new / base): 0.01 for about one percent on either side. Infinite without freedom.
+double half_width(const Change& change);
 
 // How likely at least this change is, in either direction, where there is none. 1 without freedom.
 double p_value(const Change& change);

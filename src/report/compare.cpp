@@ -118,7 +118,7 @@ class Times {
   double corrected_p(std::size_t place) const { return corrected_[place]; }
   std::size_t count() const { return changes_.size(); }
 
-  // Over all methods. Where all have the same launches, what disturbs a launch as a whole is in each launch's mean.
+  // Over all methods. What disturbs a launch as a whole is in each launch's mean.
   measure::Change mean() const {
     if (const std::vector<double> launches = launch_means(); !launches.empty())
       return measure::change_over_launches(launches);
@@ -128,13 +128,18 @@ class Times {
   }
 
  private:
+  // Further launches are of some methods only.
+  std::size_t launches_of_all() const {
+    std::size_t least = changes_.front().launches.size();
+    for (const TimeChange& one : changes_) least = std::min(least, one.launches.size());
+    return least;
+  }
+
   std::vector<double> launch_means() const {
     if (changes_.empty()) return {};
-    std::vector<double> means(changes_.front().launches.size(), 0.0);
-    for (const TimeChange& one : changes_) {
-      if (one.launches.size() != means.size()) return {};
+    std::vector<double> means(launches_of_all(), 0.0);
+    for (const TimeChange& one : changes_)
       for (std::size_t i = 0; i < means.size(); ++i) means[i] += one.launches[i] / static_cast<double>(count());
-    }
     return means;
   }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "measure/change.h"
 
 namespace clusterbench::run {
 namespace {
@@ -86,17 +87,27 @@ std::optional<ListsDiffer> lists_differ(Program& base, Program& next, const std:
   return out;
 }
 
+double half_width(const PairedCase& measured) {
+  std::vector<double> log_ratios;
+  for (const PairedLaunch& launch : measured.launches)
+    log_ratios.push_back(measure::launch_log_ratio(launch.base_ns, launch.next_ns));
+  return measure::half_width(measure::change_over_launches(log_ratios));
+}
+
 class PairedRun {
  public:
-  PairedRun(const Plan& plan, const PairedRequest& request, const PairedStart& start,
-            const std::function<void(double share)>& on_round)
+  PairedRun(const Plan& plan, const PairedRequest& request, const PairedStart& start, const OnPairedRound& on_round)
       : plan_(plan), request_(request), start_(start), on_round_(on_round) {}
 
   std::map<std::string, PairedCase> result() {
-    for (int launch = 0; launch < request_.launches; ++launch) {
+    start_both(false);
+    compare_lists();
+    for (const GroupMethods& methods : groups_) measure_group(methods, 0);
+    for (int launch = 1; launch < std::max(request_.launches, request_.most_launches); ++launch) {
+      const std::vector<GroupMethods> open = launch < request_.launches ? groups_ : open_methods();
+      if (open.empty()) break;
       start_both(launch % 2 == 1);
-      if (launch == 0) compare_lists();
-      for (const GroupMethods& methods : groups_) measure_group(methods, launch);
+      for (const GroupMethods& methods : open) measure_group(methods, launch);
     }
     for (const GroupMethods& methods : groups_)
       for (const MethodCases& ids : methods)
@@ -120,11 +131,24 @@ class PairedRun {
         cases_[ids.front()].lists_differ = lists_differ(*base_, *next_, ids.front());
   }
 
+  // Those whose intervals are still too wide, in their groups.
+  std::vector<GroupMethods> open_methods() const {
+    std::vector<GroupMethods> open;
+    for (const GroupMethods& methods : groups_) {
+      GroupMethods wide;
+      for (const MethodCases& ids : methods)
+        if (half_width(cases_.at(ids.front())) > request_.enough) wide.push_back(ids);
+      if (!wide.empty()) open.push_back(wide);
+    }
+    return open;
+  }
+
   void measure_group(const GroupMethods& methods, int launch) {
-    const double share = 1.0 / (static_cast<double>(groups_.size()) * request_.launches * request_.rounds);
+    const double certain = static_cast<double>(groups_.size()) * request_.launches * request_.rounds;
+    const double share = launch < request_.launches ? 1.0 / certain : 0.0;
     for (const MethodCases& ids : methods) cases_[ids.front()].launches.emplace_back();
     for (int round = 0; round < request_.rounds; ++round) {
-      on_round_(share);
+      on_round_({launch, share});
       for (std::size_t i = 0; i < methods.size(); ++i)
         measure_round(methods[i].front(), (static_cast<std::size_t>(launch + round) + i) % 2 == 1);
     }
@@ -140,7 +164,7 @@ class PairedRun {
   const Plan& plan_;
   const PairedRequest& request_;
   const PairedStart& start_;
-  const std::function<void(double share)>& on_round_;
+  const OnPairedRound& on_round_;
   std::unique_ptr<Program> base_, next_;
   std::vector<GroupMethods> groups_;
   std::map<std::string, PairedCase> cases_;  // of each method's first case, until the end
@@ -149,8 +173,7 @@ class PairedRun {
 }  // namespace
 
 std::map<std::string, PairedCase> measure_paired(const Plan& plan, const PairedRequest& request,
-                                                 const PairedStart& start,
-                                                 const std::function<void(double share)>& on_round) {
+                                                 const PairedStart& start, const OnPairedRound& on_round) {
   return PairedRun(plan, request, start, on_round).result();
 }
 

@@ -61,8 +61,12 @@ struct PairedCase {
   std::optional<ListsDiffer> lists_differ;
 };
 
+// Each method is measured in `launches` launches, and in further ones until half of its interval (measure::half_width)
+// is `enough` or less, or `most_launches` are done. What the interval lies around does not matter: who stops when
+// the verdict pleases will be pleased too often.
 struct PairedRequest {
-  int launches = 10;
+  int launches = 10, most_launches = 10;
+  double enough = 0.01;
   int rounds = 4;  // of each launch
 };
 
@@ -70,11 +74,16 @@ struct PairedStart {
   std::function<std::unique_ptr<Program>()> base, next;
 };
 
+struct PairedRound {
+  int launch = 0;
+  double share = 0.0;  // of the work that is certain to be done: nothing in further launches
+};
+using OnPairedRound = std::function<void(const PairedRound&)>;
+
 // By id, the plan's cases that both programs have; cases of one method share their rounds. Which program starts, and
 // which measures first, alternates from launch to launch, round to round and method to method. Lists are compared in
-// the first launch, before anything is measured. `on_round` is told the share of work that one round of a group is.
+// the first launch, before anything is measured. `on_round` is told of each round of a group before it begins.
 std::map<std::string, PairedCase> measure_paired(const Plan& plan, const PairedRequest& request,
-                                                 const PairedStart& start,
-                                                 const std::function<void(double share)>& on_round);
+                                                 const PairedStart& start, const OnPairedRound& on_round);
 
 }  // namespace clusterbench::run

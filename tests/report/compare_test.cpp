@@ -218,6 +218,27 @@ TEST(Compare, paired_rounds_decide_where_there_are_any) {
   EXPECT_EQ(verdict_of(compare_results(base, measured_beside(base, 0.0), 0.02), 1), "same");
 }
 
+// What disturbs a launch as a whole, here by 20 % up and down, cancels in its mean.
+TEST(Compare, the_mean_of_methods_is_over_the_launches_that_all_have) {
+  const Json base = json_of(with_times(1, 1));
+  Json next = measured_beside(base, 3.0);
+  double up = 1.2;
+  for (Json& launch : next["cases"][0]["timing"]["baseline"]["launches"]) {
+    for (Json& ns : launch["new_ns"]) ns = ns.get<double>() * up;
+    up = 1.0 / up;
+  }
+  up = 1.0 / 1.2;
+  Json& others = next["cases"][1]["timing"]["baseline"]["launches"];
+  for (Json& launch : others) {
+    for (Json& ns : launch["new_ns"]) ns = ns.get<double>() * up;
+    up = 1.0 / up;
+  }
+  others.push_back({{"base_ns", {1.0, 1.0}}, {"new_ns", {5.0, 5.0}}});
+  const Json summary = compare_results(base, next, 0.02)["summary"];
+  EXPECT_NEAR(summary["ratio"].get<double>(), 1.03, 1e-4);
+  EXPECT_LT(summary["ci95"][1].get<double>(), 1.04);
+}
+
 TEST(Compare, paired_rounds_with_another_program_say_nothing) {
   Json base = json_of(with_times(9000, 3000));
   const Json next = measured_beside(base, 3.0);

@@ -22,11 +22,13 @@ class Puppet : public Program {
   }
   double assign_ns(const std::string& id) override {
     log_.push_back(name_ + " " + id);
+    if (id == slow.first) return slow.second;
     return name_ == "base" ? 100.0 : 200.0;
   }
 
   std::vector<ListDigest> digests{{3, "a"}, {4, "b"}};
   FrameLists lists{{2, 1, 1}, {{1, 2}, {5}}};
+  std::pair<std::string, double> slow;  // a case, and its time
 
  private:
   std::string name_;
@@ -53,6 +55,7 @@ Plan plan_of_four() {
 struct Stage {
   std::vector<std::string> log, base_ids{"a", "a2", "b", "c"}, next_ids = base_ids;
   std::function<void(Puppet&)> change_next = [](Puppet&) {};
+  int most_launches = 0;
 
   std::map<std::string, PairedCase> measure(int launches, int rounds) {
     const PairedStart start{[&] { return std::make_unique<Puppet>("base", base_ids, log); },
@@ -61,7 +64,7 @@ struct Stage {
                               change_next(*next);
                               return next;
                             }};
-    return measure_paired(plan_of_four(), {launches, rounds}, start, [](double) {});
+    return measure_paired(plan_of_four(), {launches, most_launches, 0.01, rounds}, start, [](const PairedRound&) {});
   }
 };
 
@@ -96,8 +99,30 @@ TEST(PairedRounds, shares_of_work_add_up_to_one) {
   double done = 0.0;
   const PairedStart start{[&] { return std::make_unique<Puppet>("base", stage.base_ids, stage.log); },
                           [&] { return std::make_unique<Puppet>("new", stage.next_ids, stage.log); }};
-  measure_paired(plan_of_four(), {3, 4}, start, [&](double share) { done += share; });
+  measure_paired(plan_of_four(), {3, 3, 0.01, 4}, start, [&](const PairedRound& round) { done += round.share; });
   EXPECT_NEAR(done, 1.0, 1e-12);
+}
+
+TEST(PairedRounds, methods_with_wide_intervals_alone_are_measured_on) {
+  Stage stage;
+  stage.most_launches = 7;
+  int started = 0;
+  stage.change_next = [&](Puppet& next) { next.slow = {"b", ++started % 2 == 0 ? 300.0 : 200.0}; };
+  const auto cases = stage.measure(3, 2);
+  EXPECT_EQ(cases.at("a").launches.size(), 3u);
+  EXPECT_EQ(cases.at("b").launches.size(), 7u);
+  EXPECT_EQ(cases.at("c").launches.size(), 3u);
+  EXPECT_EQ(cases.at("b").launches[5].next_ns, std::vector<double>(2, 300.0));
+}
+
+TEST(PairedRounds, no_launch_follows_once_intervals_are_narrow) {
+  Stage stage;
+  stage.most_launches = 1000;
+  int started = 0;
+  stage.change_next = [&](Puppet& next) { next.slow = {"b", ++started % 2 == 0 ? 204.0 : 200.0}; };
+  const std::size_t launches = stage.measure(2, 2).at("b").launches.size();
+  EXPECT_GT(launches, 4u);
+  EXPECT_LT(launches, 30u);
 }
 
 TEST(PairedRounds, only_cases_of_both_programs_are_measured) {
