@@ -9,7 +9,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import time
+from concurrent.futures import ThreadPoolExecutor
 
 SKIPPED = 77
 
@@ -76,6 +76,7 @@ class Terminal:
 
 
 def offered_by_zsh(script, line, folder):
+    """Mostly waits for silence."""
     shell = Terminal(["zsh", "-f", "-i"], folder)
     shell.type("autoload -U compinit; compinit -D -u; source {}; zstyle ':completion:*' list-prompt ''; "
                "setopt auto_list no_auto_menu no_list_beep; LISTMAX=1000; PROMPT='$ '; stty columns 200\n".format(script), 2.0)
@@ -107,8 +108,9 @@ def check_shell(program, shell):
         with open(script, "w", encoding="utf-8") as file:
             subprocess.run([program, "completion", shell], stdout=file, check=True)
         wrong = []
-        for line, needed, unwanted in CASES:
-            answers = offered(script, line, folder)
+        with ThreadPoolExecutor(max_workers=5) as pool:
+            all_answers = list(pool.map(lambda case: offered(script, case[0], folder), CASES))
+        for (line, needed, unwanted), answers in zip(CASES, all_answers):
             if shell == "zsh":  # lists a word without the suffix that it will add
                 needed = [word.rstrip("=") for word in needed]
             wrong += ["'{}' does not offer {}: {}".format(line, word, answers) for word in needed if word not in answers]

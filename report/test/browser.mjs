@@ -22,6 +22,19 @@ export const launch = (more = []) =>
 // WebGL without a graphics card.
 export const webGlInSoftware = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"];
 
+// Opens a page and collects in `faults` whatever it should not do. `levels`: of its console.
+export async function open(browser, url, { levels = ["error", "warning"], ...options } = {}) {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
+  const page = await context.newPage();
+  page.faults = [];
+  page.on("console", (message) => levels.includes(message.type()) && page.faults.push(message.text()));
+  page.on("pageerror", (error) => page.faults.push(error.message));
+  page.on("request", (request) => request.url() !== url && !request.url().startsWith("blob:") && page.faults.push(`asks for ${request.url()}`));
+  await page.goto(url);
+  await page.waitForFunction(() => document.documentElement.dataset.ready);
+  return page;
+}
+
 // A folder that goes when the process ends.
 export function folder() {
   const path = mkdtempSync(join(tmpdir(), "clusterbench-page."));

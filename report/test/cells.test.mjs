@@ -9,7 +9,7 @@ import { dirname, join } from "node:path";
 import { after, afterEach, before, describe, it } from "node:test";
 import { fileURLToPath } from "node:url";
 import { build } from "esbuild";
-import { chromiumPath, folder, launch, makePage, webGlInSoftware } from "./browser.mjs";
+import { chromiumPath, folder, launch, makePage, open as openPage, webGlInSoftware } from "./browser.mjs";
 
 if (!chromiumPath) {
   console.log("skipped: there is no Chromium (scripts/setup test installs it)");
@@ -55,18 +55,8 @@ before(async () => {
 afterEach(() => Promise.all([withWebGl, without].flatMap((browser) => browser.contexts().map((context) => context.close()))));
 after(() => Promise.all([withWebGl?.close(), without?.close()]));
 
-async function open(browser, url, options = {}) {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
-  const page = await context.newPage();
-  page.faults = [];
-  // What this software renderer says about itself is no fault of the page.
-  page.on("console", (message) => message.type() === "error" && page.faults.push(message.text()));
-  page.on("pageerror", (error) => page.faults.push(error.message));
-  page.on("request", (request) => request.url() !== url && page.faults.push(`asks for ${request.url()}`));
-  await page.goto(url);
-  await page.waitForFunction(() => document.documentElement.dataset.ready);
-  return page;
-}
+// What this software renderer warns of is no fault of the page.
+const open = (browser, url, options) => openPage(browser, url, { levels: ["error"], ...options });
 
 // How many pixels of a canvas have which colours, as it stands on the screen.
 async function colours(page, selector) {

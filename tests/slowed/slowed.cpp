@@ -1,5 +1,5 @@
 // clusterbench_slowed: the product with assignments that take some percent longer than they do, for scripts/detection
-// and the tests of comparisons. The linker puts this function before TimedWork::assign (--wrap); nothing of the product
+// and the tests of comparisons. With 0 percent it is the product, laid out in memory as with 3. The linker puts this function before TimedWork::assign (--wrap); nothing of the product
 // knows.
 
 #include <algorithm>
@@ -40,6 +40,7 @@ double cost_of_a_look() {
 void __wrap__ZN12clusterbench3run9TimedWork6assignEv(TimedWork* self) {
   static const double share = share_to_wait(), look = cost_of_a_look();
   static double owed = 0.0;  // may be less than nothing: what was waited too long counts for the next time
+  if (share == 0.0) return __real__ZN12clusterbench3run9TimedWork6assignEv(self);
   const double start = thread_ns();
   __real__ZN12clusterbench3run9TimedWork6assignEv(self);
   const double done = thread_ns();
