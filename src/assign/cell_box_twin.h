@@ -26,7 +26,7 @@ class CellBoxTwin final : public Assigner {
 
   void build(const grid::Grid& grid) override {
     lists_.start_grid(grid.cells(), "tiles");
-    planes_ = grid.screen().tiles.orthographic ? RowPlanes() : RowPlanes(grid.screen());
+    planes_ = RowPlanes(grid.screen());
     box_planes_ = BoxPlanes(grid.screen());
     rows_.build(grid);
     test_.start_grid(grid);
@@ -59,11 +59,7 @@ class CellBoxTwin final : public Assigner {
 
   void box_balls(const GivenBalls& balls, std::uint32_t first_light, const BallPadding& padding) {
     const std::uint32_t begin = seen_.count;
-    const float roundings = padding.box + k_slice_rows_roundings;
-    if (box_planes_.orthographic)
-      see_balls_in_box(box_planes_, balls, first_light, seen_, roundings);
-    else
-      see_balls(planes_, balls, first_light, seen_, roundings);
+    see_balls(planes_, balls, first_light, seen_, padding.box + k_slice_rows_roundings);
     find_cell_boxes(box_planes_, seen_, begin, balls, first_light, padding, boxed_);
   }
 
@@ -92,7 +88,7 @@ class CellBoxTwin final : public Assigner {
   const view::LightArrays* lights_ = nullptr;  // of the frame at hand
   LightTest test_;
   Rows rows_;
-  RowPlanes planes_;  // perspective
+  RowPlanes planes_;
   BoxPlanes box_planes_;
   BallArrays spots_for_boxes_, spots_;
   SeenBalls seen_;

@@ -1,5 +1,5 @@
 #pragma once
-// A frame on a perspective frustum grid as all threads of exact-fast see it, and its balls slice by slice.
+// A frame on a frustum grid as all threads of exact-fast see it, and its balls slice by slice.
 
 #include <algorithm>
 

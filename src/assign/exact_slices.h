@@ -1,5 +1,5 @@
 #pragma once
-// The true lists of some slices of a perspective frustum grid: what a thread of exact-fast does. Spots come first, all
+// The true lists of some slices of a frustum grid: what a thread of exact-fast does. Spots come first, all
 // slices at once, so that their questions fill vectors; then slice by slice the points' rows and the lists. Keeps its
 // memory between frames.
 

@@ -13,6 +13,7 @@ void SpotSpans::find(const ExactFrame& frame, int first, int last) {
   next_lit_ = 0;
   if (frame.first_spot_place == frame.seen.count) return;
   for (int slice = first; slice < last; ++slice) add_rows(slice);
+  if (frame.planes.orthographic) return decide_ends();
   const SpotsAndPlanes from{&frame.lights, frame.planes.side.data(), frame.planes.slope.data(),
                             frame.planes.depth.data()};
   shorten(from);
@@ -153,6 +154,17 @@ void SpotSpans::settle(const Ends& ends) {
     const int end = std::max(ends.columns.first, span.first);
     while (span.last >= end && !touches(span.last)) --span.last;
     lit.right_is_open = span.last < end;
+  }
+}
+
+void SpotSpans::decide_ends() {
+  for (Lit& lit : lit_) {
+    CellJudge judge(frame_->grid, frame_->lights, lit.light);
+    const std::uint32_t first_cell = row_of(frame_->grid.screen(), lit.slice, lit.row).first_cell;
+    lit.columns = narrowed(lit.columns, [&](int column) {
+      ++fallbacks_;
+      return !judge.touches(first_cell + static_cast<std::uint32_t>(column));
+    });
   }
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 // The columns that spots touch in each row of some slices: the rows of their bounding balls, shortened. First by
 // halves, quarters and so on that are as a whole not touched; then their ends are looked at a few cells at a time,
-// until a cell at either end is touched. Those of all slices go together.
+// until a cell at either end is touched. Those of all slices go together. In orthographic grids cell by cell.
 
 #include "assign/exact_frame.h"
 #include "assign/exact_rows.h"
@@ -42,6 +42,7 @@ class SpotSpans {
   };
 
   void add_rows(int slice);
+  void decide_ends();  // in orthographic grids, whose cells no look knows
   void shorten(const SpotsAndPlanes& from);
   bool ask_for_ends();
   void add_cell(const Lit& lit, const grid::IndexRange& columns);  // to cells_

@@ -2,8 +2,6 @@
 // are found at once, one ball per lane; a slice's lists are built by compression while its spans are in the cache. Rows
 // that single precision leaves open, and the ends of a spot's rows, are decided as in exact.cpp. Threads share the
 // slices.
-//
-// Only perspective grids; others take the scalar reference.
 
 #include <algorithm>
 #include <cmath>
@@ -161,7 +159,6 @@ const AssignerRow exact_fast_row{
     .source = "this project",
     .kinds = {grid::Kind::frustum},
     .exact = true,
-    .orthographic = false,
     .params = {{.name = "threads",
                 .summary = "threads for a frame; the lists do not depend on it",
                 .standard = 1.0,

@@ -91,51 +91,6 @@ void box_balls(const BoxPlanes& planes, const SeenBalls& seen, std::uint32_t beg
   }
 }
 
-// How far a value is outside of boundaries.
-HWY_INLINE V gap_to(const std::vector<float>& boundaries, V value) {
-  return hn::Max(hn::Sub(all(boundaries.front()), value), hn::Sub(value, all(boundaries.back())));
-}
-
-// Where a depth would be if all slices were equal.
-HWY_INLINE VI slice_guess(const std::vector<float>& depths, V depth) {
-  const auto count = static_cast<float>(depths.size() - 1);
-  const V at = hn::Mul(hn::Sub(depth, all(depths.front())), all(count / (depths.back() - depths.front())));
-  return hn::ConvertTo(DI(), hn::Min(hn::Max(at, all(0.0f)), all(count - 1.0f)));
-}
-
-void see_in_box(const BoxPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, SeenBalls& seen,
-                float roundings) {
-  const D d;
-  const DI di;
-  const DU du;
-  const auto n = static_cast<std::uint32_t>(hn::Lanes(d));
-  for (std::uint32_t i = 0; i < balls.count; i += n) {
-    const std::uint32_t left = std::min(n, balls.count - i);
-    const auto load = [&](const float* from) { return loaded(from + i, left); };
-    const V x = load(balls.x), y = load(balls.y), depth = hn::Neg(load(balls.z)), given = load(balls.radius);
-    const V radius = hn::Add(given, hn::Mul(load(balls.reach), all(roundings * 0x1p-24f)));
-    const V across = hn::Max(gap_to(planes.columns.boundaries, x), gap_to(planes.rows.boundaries, hn::Neg(y)));
-    const V gap = hn::Max(across, gap_to(planes.depths, depth));
-    const M wanted = hn::And(hn::And(hn::Le(gap, radius), hn::Gt(given, hn::Zero(d))), hn::FirstN(d, left));
-    if (hn::AllFalse(d, wanted)) continue;
-    const auto keep = [&](V value, std::vector<float>& to) {
-      hn::StoreU(compressed(d, value, wanted), d, to.data() + seen.count);
-    };
-    keep(x, seen.x);
-    keep(y, seen.y);
-    keep(depth, seen.depth);
-    const auto keep_slice = [&](V at, std::vector<std::int32_t>& to) {
-      hn::StoreU(compressed(di, slice_guess(planes.depths, at), hn::RebindMask(di, wanted)), di,
-                 to.data() + seen.count);
-    };
-    keep_slice(hn::Sub(depth, radius), seen.first_slice);
-    keep_slice(hn::Add(depth, radius), seen.last_slice);
-    hn::StoreU(compressed(du, hn::Iota(du, first_light + i), hn::RebindMask(du, wanted)), du,
-               seen.light.data() + seen.count);
-    seen.count += static_cast<std::uint32_t>(hn::CountTrue(d, wanted));
-  }
-}
-
 void find_boxes(const BoxPlanes& planes, const SeenBalls& seen, std::uint32_t begin, const GivenBalls& given,
                 std::uint32_t first_light, const BallPadding& padding, BoxedBalls& boxed) {
   find_radii(seen, begin, given, first_light, padding, boxed);
@@ -152,7 +107,6 @@ HWY_AFTER_NAMESPACE();
 namespace clusterbench::assign {
 
 HWY_EXPORT(find_boxes);
-HWY_EXPORT(see_in_box);
 
 BoxPlanes::BoxPlanes(const grid::ScreenGrid& grid)
     : depths(grid.slices.boundaries), orthographic(grid.tiles.orthographic) {
@@ -176,11 +130,6 @@ void BoxedBalls::reserve(std::uint32_t most) {
 
 std::size_t BoxedBalls::capacity_bytes() const {
   return 17 * sizeof(float) * light.capacity();
-}
-
-void see_balls_in_box(const BoxPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, SeenBalls& seen,
-                      float roundings) {
-  HWY_DYNAMIC_DISPATCH(see_in_box)(planes, balls, first_light, seen, roundings);
 }
 
 void find_cell_boxes(const BoxPlanes& planes, const SeenBalls& seen, std::uint32_t begin, const GivenBalls& given,

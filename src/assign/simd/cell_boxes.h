@@ -49,10 +49,6 @@ struct BoxedBalls {
   std::size_t capacity_bytes() const;
 };
 
-// see_balls() for orthographic grids, but for the seen balls' radii and slacks, which no cell box asks for.
-void see_balls_in_box(const BoxPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, SeenBalls& seen,
-                      float roundings);
-
 // Units of 2^-24 of a light's reach by which its ball is made larger.
 struct BallPadding {
   float box;   // for its cell box

@@ -85,6 +85,18 @@ HWY_INLINE T* append(D d, [[maybe_unused]] const T* from, [[maybe_unused]] V lan
     return to + hn::CountTrue(d, wanted);
   } else if constexpr (k_compresses<T>) {
     return to + hn::CompressStore(lanes, wanted, d, to);
+  } else if constexpr (k_compresses<std::uint32_t>) {  // on their way through lanes of 32 bits
+    const hn::ScalableTag<std::uint32_t> wide;
+    const hn::Rebind<T, decltype(wide)> slim;
+    std::uint8_t bits[8];
+    hn::StoreMaskBits(d, wanted, bits);
+    for (std::size_t i = 0; i < hn::Lanes(d); i += hn::Lanes(wide)) {
+      const auto some = hn::LoadMaskBits(wide, bits + i / 8);
+      const auto first = hn::Compress(hn::PromoteTo(wide, hn::LoadU(slim, from + i)), some);
+      hn::StoreU(hn::TruncateTo(slim, first), slim, to);
+      to += hn::CountTrue(wide, some);
+    }
+    return to;
   } else {
     const hn::CappedTag<T, 8> eight;
     std::uint8_t bits[8];

@@ -37,7 +37,8 @@ Scale scale_of(const std::vector<float>& planes) {
 }  // namespace
 
 RowPlanes::RowPlanes(const grid::ScreenGrid& grid)
-    : rows(grid.tiles.count.y),
+    : orthographic(grid.tiles.orthographic),
+      rows(grid.tiles.count.y),
       columns(grid.tiles.count.x),
       slices(grid.slices.count()),
       left(grid.tiles.x.front()),

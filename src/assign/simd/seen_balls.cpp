@@ -17,11 +17,12 @@ namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
 namespace {
 
-// The sides of the picture as planes through the eye, and the grid's ends in depth.
+// The sides of the picture as planes through the eye (orthographic: along the view axis), and the grid's ends in depth.
 class View {
  public:
   explicit View(const RowPlanes& planes)
-      : left_(side(planes.left)),
+      : orthographic_(planes.orthographic),
+        left_(side(planes.left)),
         right_(side(planes.right)),
         top_(side(planes.slope.front())),
         bottom_(side(planes.slope[static_cast<std::size_t>(planes.rows)])),
@@ -30,8 +31,8 @@ class View {
 
   // How far a place is outside, at least.
   HWY_INLINE V gap(V x, V y, V depth) const {
-    const V across = hn::Max(hn::Neg(left_.beyond(x, depth)), right_.beyond(x, depth));
-    const V up = hn::Max(top_.beyond(y, depth), hn::Neg(bottom_.beyond(y, depth)));
+    const V across = hn::Max(hn::Neg(beyond(left_, x, depth)), beyond(right_, x, depth));
+    const V up = hn::Max(beyond(top_, y, depth), hn::Neg(beyond(bottom_, y, depth)));
     const V along = hn::Max(hn::Sub(all(near_), depth), hn::Sub(depth, all(far_)));
     return hn::Max(across, hn::Max(up, along));
   }
@@ -39,13 +40,14 @@ class View {
  private:
   struct Side {
     float slope, length;
-
-    HWY_INLINE V beyond(V place, V depth) const {
-      return hn::Mul(hn::Sub(place, hn::Mul(all(slope), depth)), all(length));
-    }
   };
   static Side side(float slope) { return {slope, 1.0f / std::sqrt(1.0f + slope * slope)}; }
+  HWY_INLINE V beyond(const Side& side, V place, V depth) const {
+    if (orthographic_) return hn::Sub(place, all(side.slope));
+    return hn::Mul(hn::Sub(place, hn::Mul(all(side.slope), depth)), all(side.length));
+  }
 
+  bool orthographic_;
   Side left_, right_, top_, bottom_;
   float near_, far_;
 };

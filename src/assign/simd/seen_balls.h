@@ -1,5 +1,5 @@
 #pragma once
-// Which balls a perspective frustum grid can see, many at a time, and the slices that each may reach.
+// Which balls a frustum grid can see, many at a time, and the slices that each may reach.
 
 #include <cstdint>
 #include <vector>

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "assign/simd/flat_rows.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/simd/slice_rows.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
 #include <hwy/highway.h>
 
-#include "assign/simd/vectors-inl.h"
+#include "assign/simd/batch_rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign {
@@ -200,27 +202,12 @@ class Batch {
   // columns are certainly right if the hull's ends are farther than e from the next boundary inwards: that is, if that
   // distance times h is at least 4 d R q² = 8 slack R q², in columns the `least_area`. And the given ball reaches the
   // row at all if R - g >= d, which follows from h² >= 8 d R q².
-  HWY_INLINE V columns_of(Which which, const Hull& hull, M wanted) const {
-    const V left = all(planes_->left), right = all(planes_->right), scale = all(planes_->columns_per_slope);
-    const V margin = all(planes_->column_margin), one = all(1.0f);
-    const M touches = hn::And(wanted, hn::And(hn::Le(hull.low, hn::Min(hull.high, right)), hn::Ge(hull.high, left)));
-    const V low = hn::Max(hull.low, left), high = hn::Min(hull.high, right);
-    const V from = hn::Mul(hn::Sub(low, left), scale), to = hn::Mul(hn::Sub(high, left), scale);
-    const V last_column = all(static_cast<float>(planes_->columns - 1));
-    const V first = hn::Min(hn::Floor(hn::Max(hn::Sub(from, margin), hn::Zero(D()))), last_column);
-    const V last = hn::Min(hn::Floor(hn::Add(to, margin)), last_column);
-    const V width = hn::Sub(to, from), steepness = hn::Add(one, hn::Max(hn::Mul(low, low), hn::Mul(high, high)));
-    const V least_area = hn::Mul(taken(level_.least_area, which), steepness);
-    const V inwards = hn::Sub(hn::Min(hn::Sub(hn::Add(first, one), from), hn::Sub(to, last)), margin);
-    const M is_certain = hn::And(hn::Ge(hn::Mul(inwards, width), least_area),
-                                 hn::Ge(hn::Mul(width, width), hn::Add(least_area, least_area)));
-    const hn::RebindToUnsigned<D> du;
-    const auto ends = hn::Or(hn::BitCast(du, hn::ConvertTo(DI(), first)),
-                             hn::ShiftLeft<16>(hn::BitCast(du, hn::ConvertTo(DI(), last))));
-    const auto marked =
-        hn::IfThenElse(hn::RebindMask(du, is_certain), ends, hn::Or(ends, hn::Set(du, BatchRows::k_uncertain)));
-    const auto found = hn::IfThenElse(hn::RebindMask(du, touches), marked, hn::Set(du, BatchRows::k_none));
-    return hn::BitCast(D(), found);
+  HWY_INLINE VU columns_of(Which which, const Hull& hull, M wanted) const {
+    const V area = taken(level_.least_area, which);
+    return columns_between(*planes_, hull.low, hull.high, wanted, [&](V low, V high) {
+      const V steepness = hn::Add(all(1.0f), hn::Max(hn::Mul(low, low), hn::Mul(high, high)));
+      return hn::Mul(area, steepness);
+    });
   }
 
  private:
@@ -264,26 +251,16 @@ class Batch {
     return hn::Mul(hn::Sub(balls_.radius, gap), hn::Add(balls_.radius, gap));
   }
 
-  // See Certainty. Balls that hold all of the slice's part of the view, by more than their slack, have no ends there.
   HWY_INLINE V least_area() const {
-    const V rate = all(planes_->columns_per_slope * near_.inverse);
-    const V area = hn::Mul(hn::Mul(all(8.2f), hn::Mul(slack_, balls_.radius)), hn::Mul(rate, rate));
-    const V surely = hn::Sub(balls_.radius, hn::Mul(all(4.0f), slack_));
-    const V farthest = hn::Max(farthest_corner(near_), farthest_corner(far_));
-    // An infinite radius stands for one that is left to be decided.
-    const M is_sure = hn::And(hn::Gt(surely, hn::Zero(D())), hn::Lt(surely, infinity()));
-    const M holds_view = hn::And(is_sure, hn::Lt(farthest, hn::Mul(surely, surely)));
-    return hn::IfThenElse(holds_view, hn::Zero(D()), area);
+    return least_area_of(balls_.radius, slack_, all(planes_->columns_per_slope * near_.inverse),
+                         hn::Max(farthest_corner(near_), farthest_corner(far_)));
   }
 
   // The squared distance to the picture's farthest corner in a slice's plane.
   HWY_INLINE V farthest_corner(const SlicePlane& plane) const {
-    const auto farther = [&](V center, float low, float high) {
-      const V from_low = hn::Sub(center, all(low * plane.depth)), from_high = hn::Sub(center, all(high * plane.depth));
-      return hn::Max(hn::Abs(from_low), hn::Abs(from_high));
-    };
-    const V across = farther(balls_.x, planes_->left, planes_->right);
-    const V up = farther(balls_.y, planes_->slope[static_cast<std::size_t>(planes_->rows)], planes_->slope.front());
+    const auto bottom = planes_->slope[static_cast<std::size_t>(planes_->rows)], top = planes_->slope.front();
+    const V across = farther_end(balls_.x, planes_->left * plane.depth, planes_->right * plane.depth);
+    const V up = farther_end(balls_.y, bottom * plane.depth, top * plane.depth);
     const V along = hn::Sub(balls_.depth, all(plane.depth));
     return hn::Add(hn::Add(hn::Mul(across, across), hn::Mul(up, up)), hn::Mul(along, along));
   }
@@ -382,22 +359,6 @@ HWY_INLINE void store_planes(const RowPlanes& planes, const Batch& batch, const 
   }
 }
 
-// What is known of a batch before its rows: how many there are, which light each ball is of, and no columns yet.
-HWY_INLINE void start_batch(int grid_rows, const BallRows& rows, VU lights, BatchRows& out) {
-  const DI di;
-  const std::size_t n = hn::Lanes(di);
-  out.lanes = static_cast<std::uint32_t>(n);
-  out.make_room(grid_rows, n);
-  hn::StoreU(lights, DU(), out.lights);
-  out.tests = static_cast<std::uint32_t>(hn::GetLane(hn::SumOfLanes(di, rows.count)));
-  const MI touches = hn::Gt(rows.count, hn::Zero(di));
-  const VI end = hn::IfThenElseZero(touches, hn::Add(rows.first, rows.count));
-  out.first_row = hn::GetLane(hn::MinOfLanes(di, hn::IfThenElse(touches, rows.first, all_int(grid_rows))));
-  out.last_row = hn::GetLane(hn::MaxOfLanes(di, end)) - 1;
-  for (int row = out.first_row; row <= out.last_row; ++row)
-    hn::StoreU(hn::Set(DU(), BatchRows::k_none), DU(), out.columns.data() + static_cast<std::size_t>(row) * n);
-}
-
 // The columns of all rows, from what was stored of their planes.
 HWY_INLINE void find_columns(const Batch& batch, const RowsOfBatch& rows, int grid_rows, RowScratch& scratch,
                              BatchRows& out) {
@@ -417,7 +378,7 @@ HWY_INLINE void find_columns(const Batch& batch, const RowsOfBatch& rows, int gr
     Hull hull = {hn::LoadU(d, lows + begin), hn::LoadU(d, highs + begin)};
     hull.add(has_above, hn::LoadU(d, lows + begin - 1), hn::LoadU(d, highs + begin - 1));
     batch.add_level(which, top, hn::LoadU(d, slopes + begin), hull);
-    const V columns = batch.columns_of(which, hull, hn::RebindMask(d, wanted));
+    const VU columns = batch.columns_of(which, hull, hn::RebindMask(d, wanted));
     const VI to = hn::Add(hn::Mul(row, all_int(n)), lane);
     hn::ScatterIndex(hn::BitCast(di, columns), di, reinterpret_cast<std::int32_t*>(out.columns.data()),
                      hn::IfThenElse(wanted, to, nowhere));
@@ -438,7 +399,7 @@ void rows_of_batches(const RowPlanes& planes, const SeenBalls& seen, const Balls
   }
   for (std::uint32_t i = 0; i < count; ++i) {
     out.scratch[i].make_room(planes.rows, n);
-    start_batch(planes.rows, ball_rows[i], batches[i].lights(), out.batches[i]);
+    start_batch(planes.rows, ball_rows[i].first, ball_rows[i].count, batches[i].lights(), out.batches[i]);
     rows[i] = RowsOfBatch(ball_rows[i], out.scratch[i]);
   }
   for (std::uint32_t i = 0; i < count; ++i) store_planes(planes, batches[i], rows[i], out.scratch[i]);
@@ -482,6 +443,7 @@ std::uint32_t balls_per_batch() {
 }
 
 void find_rows(const RowPlanes& planes, const SeenBalls& seen, const BallsOfSlice& balls, RowBatches& out) {
+  if (planes.orthographic) return find_flat_rows(planes, seen, balls, out);
   HWY_DYNAMIC_DISPATCH(rows_of_batches)(planes, seen, balls, out);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// The columns that balls touch in every row of cells of a perspective frustum grid: slice by slice, many balls at once,
-// one per lane, each through its own rows.
+// The columns that balls touch in every row of cells of a frustum grid: slice by slice, many balls at once, one per
+// lane, each through its own rows. Of orthographic grids flat_rows.h.
 //
 // What bounds a row is what bounds its two tile planes and its level: the circle that a tile plane cuts out of the ball
 // has two tangents and, where the slice's planes cut it, four corners; at the centre's own height the sphere has two

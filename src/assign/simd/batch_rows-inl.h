@@ -1,0 +1,80 @@
+// What the kernels that fill BatchRows share. For files that are compiled once per target; included after
+// hwy/highway.h; defines its names anew for each target.
+
+#if defined(CLUSTERBENCH_BATCH_ROWS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef CLUSTERBENCH_BATCH_ROWS_INL_H
+#undef CLUSTERBENCH_BATCH_ROWS_INL_H
+#else
+#define CLUSTERBENCH_BATCH_ROWS_INL_H
+#endif
+
+#include "assign/simd/slice_rows.h"
+#include "assign/simd/vectors-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace clusterbench::assign {
+namespace HWY_NAMESPACE {
+
+// What is known of a batch before its columns: the rows that each ball may touch, which light it is of, and no columns
+// yet.
+HWY_INLINE void start_batch(int grid_rows, VI first_row, VI row_count, VU lights, BatchRows& out) {
+  const DI di;
+  const std::size_t n = hn::Lanes(di);
+  out.lanes = static_cast<std::uint32_t>(n);
+  out.make_room(grid_rows, n);
+  hn::StoreU(lights, DU(), out.lights);
+  out.tests = static_cast<std::uint32_t>(hn::GetLane(hn::SumOfLanes(di, row_count)));
+  const MI touches = hn::Gt(row_count, hn::Zero(di));
+  const VI end = hn::IfThenElseZero(touches, hn::Add(first_row, row_count));
+  out.first_row = hn::GetLane(hn::MinOfLanes(di, hn::IfThenElse(touches, first_row, all_int(grid_rows))));
+  out.last_row = hn::GetLane(hn::MaxOfLanes(di, end)) - 1;
+  for (int row = out.first_row; row <= out.last_row; ++row)
+    hn::StoreU(hn::Set(DU(), BatchRows::k_none), DU(), out.columns.data() + static_cast<std::size_t>(row) * n);
+}
+
+// See Certainty in slice_rows.cpp; for rows straight ahead. `rate`: the most columns that a metre to the side can be.
+// Balls that hold all of the slice's part of the view, whose farthest corner's squared distance is given, by more than
+// their slack, have no ends there.
+HWY_INLINE V least_area_of(V radius, V slack, V rate, V farthest) {
+  const V area = hn::Mul(hn::Mul(all(8.2f), hn::Mul(slack, radius)), hn::Mul(rate, rate));
+  const V surely = hn::Sub(radius, hn::Mul(all(4.0f), slack));
+  // An infinite radius stands for one that is left to be decided.
+  const M is_sure = hn::And(hn::Gt(surely, hn::Zero(D())), hn::Lt(surely, infinity()));
+  const M holds_view = hn::And(is_sure, hn::Lt(farthest, hn::Mul(surely, surely)));
+  return hn::IfThenElse(holds_view, hn::Zero(D()), area);
+}
+
+// How far a place is from the farther end of an interval.
+HWY_INLINE V farther_end(V place, float low, float high) {
+  return hn::Max(hn::Abs(hn::Sub(place, all(low))), hn::Abs(hn::Sub(place, all(high))));
+}
+
+// Slopes from low to high as columns, as BatchRows has them. They are certain where the way from an end to the next
+// boundary inwards, times the width, is at least least_area(low, high), all in columns.
+template <class LeastArea>
+HWY_INLINE VU columns_between(const RowPlanes& planes, V all_low, V all_high, M wanted, LeastArea&& least_area) {
+  const V left = all(planes.left), right = all(planes.right), scale = all(planes.columns_per_slope);
+  const V margin = all(planes.column_margin), one = all(1.0f);
+  const M touches = hn::And(wanted, hn::And(hn::Le(all_low, hn::Min(all_high, right)), hn::Ge(all_high, left)));
+  const V low = hn::Max(all_low, left), high = hn::Min(all_high, right);
+  const V from = hn::Mul(hn::Sub(low, left), scale), to = hn::Mul(hn::Sub(high, left), scale);
+  const V last_column = all(static_cast<float>(planes.columns - 1));
+  const V first = hn::Min(hn::Floor(hn::Max(hn::Sub(from, margin), hn::Zero(D()))), last_column);
+  const V last = hn::Min(hn::Floor(hn::Add(to, margin)), last_column);
+  const V width = hn::Sub(to, from), area = least_area(low, high);
+  const V inwards = hn::Sub(hn::Min(hn::Sub(hn::Add(first, one), from), hn::Sub(to, last)), margin);
+  const M is_certain =
+      hn::And(hn::Ge(hn::Mul(inwards, width), area), hn::Ge(hn::Mul(width, width), hn::Add(area, area)));
+  const DU du;
+  const VU ends = hn::Or(hn::BitCast(du, hn::ConvertTo(DI(), first)),
+                         hn::ShiftLeft<16>(hn::BitCast(du, hn::ConvertTo(DI(), last))));
+  const VU marked =
+      hn::IfThenElse(hn::RebindMask(du, is_certain), ends, hn::Or(ends, hn::Set(du, BatchRows::k_uncertain)));
+  return hn::IfThenElse(hn::RebindMask(du, touches), marked, hn::Set(du, BatchRows::k_none));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace clusterbench::assign
+HWY_AFTER_NAMESPACE();
+
+#endif

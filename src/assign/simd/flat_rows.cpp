@@ -1,0 +1,105 @@
+#include "assign/simd/flat_rows.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "assign/simd/flat_rows.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once per target
+#include <hwy/highway.h>
+
+#include "assign/simd/batch_rows-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace clusterbench::assign {
+namespace HWY_NAMESPACE {
+namespace {
+
+// How far a place is from an interval.
+HWY_INLINE V gap(V low, V place, V high) {
+  return hn::Max(hn::Zero(D()), hn::Max(hn::Sub(low, place), hn::Sub(place, high)));
+}
+
+// One ball per lane, through the rows of one slice.
+class FlatBatch {
+ public:
+  // `places`: a vector of them; `wanted`: the lanes that hold a ball.
+  HWY_INLINE FlatBatch(const RowPlanes& planes, const SeenBalls& seen, int slice, const std::uint32_t* places, M wanted)
+      : planes_(planes), wanted_(wanted) {
+    const VI at = hn::BitCast(DI(), hn::LoadU(DU(), places));
+    x_ = gathered(seen.x, at);
+    y_ = gathered(seen.y, at);
+    const V radius = gathered(seen.radius, at), slack = gathered(seen.slack, at);
+    const auto k = static_cast<std::size_t>(slice);
+    const V away = gap(all(planes.depth[k]), gathered(seen.depth, at), all(planes.depth[k + 1]));
+    square_ = hn::Mul(hn::Sub(radius, away), hn::Add(radius, away));
+    const V along = farther_end(gathered(seen.depth, at), planes.depth[k], planes.depth[k + 1]);
+    const V across = farther_end(x_, planes.left, planes.right), up = farther_end(y_, bottom(), planes.slope.front());
+    const V farthest = hn::Add(hn::Add(hn::Mul(across, across), hn::Mul(up, up)), hn::Mul(along, along));
+    least_area_ = least_area_of(radius, slack, all(planes.columns_per_slope), farthest);
+    lights_ = hn::GatherIndex(DU(), seen.light.data(), at);
+  }
+
+  HWY_INLINE void find(BatchRows& out) const {
+    start(out);
+    const std::size_t n = hn::Lanes(D());
+    for (int row = out.first_row; row <= out.last_row; ++row)
+      hn::StoreU(columns_of(static_cast<std::size_t>(row)), DU(),
+                 out.columns.data() + static_cast<std::size_t>(row) * n);
+  }
+
+ private:
+  float bottom() const { return planes_.slope[static_cast<std::size_t>(planes_.rows)]; }
+
+  // The rows between the disk's top and bottom.
+  HWY_INLINE void start(BatchRows& out) const {
+    const V zero = hn::Zero(D()), half = hn::Sqrt(hn::Max(square_, zero));
+    const V scale = all(planes_.rows_per_slope), margin = all(planes_.row_margin), top = all(planes_.slope.front());
+    const V high = hn::Min(hn::Add(y_, half), top), low = hn::Max(hn::Sub(y_, half), all(bottom()));
+    const M touches = hn::And(hn::And(wanted_, hn::Ge(square_, zero)), hn::Le(low, high));
+    const V from = hn::Max(hn::Sub(hn::Mul(hn::Sub(top, high), scale), margin), zero);
+    const V to = hn::Add(hn::Mul(hn::Sub(top, low), scale), margin);
+    const VI last_row = all_int(planes_.rows - 1);
+    const VI first = hn::Min(hn::ConvertTo(DI(), from), last_row), last = hn::Min(hn::ConvertTo(DI(), to), last_row);
+    const VI count = hn::IfThenElseZero(hn::RebindMask(DI(), touches), hn::Add(hn::Sub(last, first), all_int(1)));
+    start_batch(planes_.rows, first, count, lights_, out);
+  }
+
+  HWY_INLINE VU columns_of(std::size_t row) const {
+    const V away = gap(all(planes_.slope[row + 1]), y_, all(planes_.slope[row]));
+    const V square = hn::Sub(square_, hn::Mul(away, away)), zero = hn::Zero(D());
+    const V half = hn::Sqrt(hn::Max(square, zero));
+    return columns_between(planes_, hn::Sub(x_, half), hn::Add(x_, half), hn::And(wanted_, hn::Ge(square, zero)),
+                           [&](V, V) { return least_area_; });
+  }
+
+  const RowPlanes& planes_;
+  M wanted_;
+  V x_, y_;
+  V square_;  // of the disk's radius where the ball is nearest to its middle within the slice
+  V least_area_;
+  VU lights_;
+};
+
+void flat_rows(const RowPlanes& planes, const SeenBalls& seen, const BallsOfSlice& balls, RowBatches& out) {
+  const D d;
+  const auto n = static_cast<std::uint32_t>(hn::Lanes(d));
+  out.count = (balls.count + n - 1) / n;
+  for (std::uint32_t i = 0; i < out.count; ++i)
+    FlatBatch(planes, seen, balls.slice, balls.places + i * n, hn::FirstN(d, balls.count - i * n))
+        .find(out.batches[i]);
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace clusterbench::assign
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace clusterbench::assign {
+
+HWY_EXPORT(flat_rows);
+
+void find_flat_rows(const RowPlanes& planes, const SeenBalls& seen, const BallsOfSlice& balls, RowBatches& out) {
+  HWY_DYNAMIC_DISPATCH(flat_rows)(planes, seen, balls, out);
+}
+
+}  // namespace clusterbench::assign
+#endif

@@ -1,0 +1,10 @@
+#pragma once
+// slice_rows.h for orthographic grids, whose rows are boxes: what a ball has in one is a disk's chord.
+
+#include "assign/simd/slice_rows.h"
+
+namespace clusterbench::assign {
+
+void find_flat_rows(const RowPlanes& planes, const SeenBalls& seen, const BallsOfSlice& balls, RowBatches& out);
+
+}  // namespace clusterbench::assign
