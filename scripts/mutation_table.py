@@ -383,7 +383,7 @@ MUTATIONS = [
              "assign.ExactFast.gives_the_lists_of_exact_on_every_target",
              "exact-fast loses cells behind a light in orthographic views"),
     Mutation("fast-level-points-dropped", "assign/simd/slice_rows.cpp",
-             "    batch.add_level(which, top, hn::LoadU(d, slopes + begin), hull);\n", "",
+             "    batch.add_level(which, tables.slope.at(above), tables.slope.at(below), hull);\n", "",
              "assign.ExactFast.gives_the_lists_of_exact_on_every_target",
              "exact-fast loses the widest row of every light"),
     Mutation("fast-planes-of-first-rows-dropped", "assign/simd/slice_rows.cpp",

@@ -85,7 +85,7 @@ HWY_INLINE T* append(D d, [[maybe_unused]] const T* from, [[maybe_unused]] V lan
     return to + hn::CountTrue(d, wanted);
   } else if constexpr (k_compresses<T>) {
     return to + hn::CompressStore(lanes, wanted, d, to);
-  } else if constexpr (k_compresses<std::uint32_t>) {  // on their way through lanes of 32 bits
+  } else if constexpr (k_compresses<std::uint32_t> && sizeof(T) == 2) {  // on their way through lanes of 32 bits
     const hn::ScalableTag<std::uint32_t> wide;
     const hn::Rebind<T, decltype(wide)> slim;
     std::uint8_t bits[8];

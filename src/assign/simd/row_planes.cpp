@@ -54,6 +54,7 @@ RowPlanes::RowPlanes(const grid::ScreenGrid& grid)
     tilt.push_back(static_cast<float>(t));
     inverse_tilt.push_back(static_cast<float>(1.0 / t));
   }
+  for (std::vector<float>* list : {&slope, &tilt, &inverse_tilt}) list->resize(list->size() + k_most_lanes);
   for (const float z : grid.slices.boundaries) {
     depth.push_back(z);
     inverse_depth.push_back(z > 0.0f ? 1.0f / z : 1e30f);  // at the eye every slope but 0 is beyond the picture

@@ -11,7 +11,7 @@ namespace clusterbench::assign {
 // is orthographic, x or y itself.
 struct RowPlanes {
   bool orthographic = false;
-  std::vector<float> slope, tilt, inverse_tilt;  // of the tile planes from the top; sqrt(1 + slope²)
+  std::vector<float> slope, tilt, inverse_tilt;  // of the tile planes from the top; sqrt(1 + slope²); padded
   std::vector<float> depth, inverse_depth;       // of the slice planes
   std::vector<float> searched;                   // the depths again, then +inf up to 2^n of them
   std::vector<float> side;                       // slopes of the columns, padded by whole vectors

@@ -112,6 +112,37 @@ struct BallRows {
   MI touch_top, touch_bottom;
 };
 
+// A value of each tile plane, looked up in registers where two hold all of them.
+class PlaneTable {
+ public:
+  HWY_INLINE PlaneTable(const std::vector<float>& values, int planes)
+      : values_(values.data()),
+        is_small_(static_cast<std::size_t>(planes) <= 2 * hn::Lanes(D())),
+        first_(hn::LoadU(D(), values_)),
+        second_(hn::LoadU(D(), values_ + hn::Lanes(D()))) {}
+
+  HWY_INLINE V at(VI place) const {
+    if (!is_small_) return gathered(values_, place);
+    const VI last = all_int(static_cast<std::int32_t>(hn::Lanes(D())) - 1);
+    const Which within = hn::IndicesFromVec(DI(), hn::And(place, last));
+    return hn::IfThenElse(hn::RebindMask(D(), hn::Gt(place, last)), taken(second_, within), taken(first_, within));
+  }
+
+ private:
+  const float* values_;
+  bool is_small_;
+  V first_, second_;
+};
+
+struct PlaneTables {
+  PlaneTable slope, tilt, inverse_tilt;
+
+  HWY_INLINE explicit PlaneTables(const RowPlanes& planes)
+      : slope(planes.slope, planes.rows + 1),
+        tilt(planes.tilt, planes.rows + 1),
+        inverse_tilt(planes.inverse_tilt, planes.rows + 1) {}
+};
+
 // Rows of one batch. Rows lie between tile planes; a plane's hull belongs to the row above it and to the one below.
 class Batch {
  public:
@@ -158,12 +189,12 @@ class Batch {
   }
 
   // What lies in tile plane `place` of the balls in which[i], between the slice's planes.
-  HWY_INLINE Hull plane_hull(Which which, VI place, V slope) const {
+  HWY_INLINE Hull plane_hull(Which which, const PlaneTables& tables, VI place) const {
     const PlaneBalls ball = {taken(balls_.x, which),         taken(balls_.y, which),
                              taken(balls_.depth, which),     taken(balls_.radius, which),
                              taken(balls_.tangent, which),   taken(balls_.near_square, which),
                              taken(balls_.far_square, which)};
-    const V tilt = gathered(planes_->tilt, place), inverse = gathered(planes_->inverse_tilt, place);
+    const V slope = tables.slope.at(place), tilt = tables.tilt.at(place), inverse = tables.inverse_tilt.at(place);
     const V away = hn::Mul(hn::Sub(ball.y, hn::Mul(slope, ball.depth)), inverse);
     const V ahead = hn::Mul(hn::Add(hn::Mul(slope, ball.y), ball.depth), inverse);
     const V square = hn::Mul(hn::Sub(ball.radius, away), hn::Add(ball.radius, away));
@@ -309,7 +340,6 @@ class RowsOfBatch {
 
   std::int32_t count() const { return count_; }
   HWY_INLINE VI lane_of(std::int32_t t) const { return hn::LoadU(DI(), scratch_->lane.data() + t); }
-  HWY_INLINE VI lane_of(VI t) const { return gathered(scratch_->lane, t); }
   // Its number, -1 above the picture.
   HWY_INLINE VI number_of(Which which, VI t) const { return hn::Add(taken(shift_, which), t); }
   // Is it its ball's first one?
@@ -323,50 +353,44 @@ class RowsOfBatch {
   VI begin_, shift_, planes_end_;  // of each ball: where its rows are listed; what is to be added for their numbers
 };
 
-// Beyond the slopes of all planes.
-constexpr float k_beyond = 1e30f;
-
 // What balls have in the tile planes below the listed rows; nothing where they cannot touch it.
-HWY_INLINE void store_planes(const RowPlanes& planes, const Batch& batch, const RowsOfBatch& rows,
+HWY_INLINE void store_planes(const PlaneTables& tables, const Batch& batch, const RowsOfBatch& rows,
                              RowScratch& scratch) {
   const D d;
   const DI di;
   const auto n = static_cast<std::int32_t>(hn::Lanes(d));
-  float *lows = scratch.lows(), *highs = scratch.highs(), *slopes = scratch.slopes();
+  float *lows = scratch.lows(), *highs = scratch.highs();
   std::int32_t count = 0;
   for (std::int32_t begin = 0; begin < rows.count(); begin += n) {
-    const VI t = from_on(begin);
-    const MI wanted =
-        hn::And(rows.has_plane(hn::IndicesFromVec(di, rows.lane_of(begin)), t), hn::Lt(t, all_int(rows.count())));
+    const VI t = from_on(begin), lane = rows.lane_of(begin);
+    const MI wanted = hn::And(rows.has_plane(hn::IndicesFromVec(di, lane), t), hn::Lt(t, all_int(rows.count())));
     hn::StoreU(compressed(di, t, wanted), di, scratch.with_plane.data() + count);
+    hn::StoreU(compressed(di, lane, wanted), di, scratch.plane_lane.data() + count);
     count += static_cast<std::int32_t>(hn::CountTrue(di, wanted));
     hn::StoreU(infinity(), d, lows + begin);
     hn::StoreU(hn::Neg(infinity()), d, highs + begin);
-    hn::StoreU(all(-k_beyond), d, slopes + begin);
   }
   const VI nowhere = all_int(scratch.nowhere());
   for (std::int32_t begin = 0; begin < count; begin += n) {
     const MI exists = hn::Lt(from_on(begin), all_int(count));
     const VI t = hn::IfThenElseZero(exists, hn::LoadU(di, scratch.with_plane.data() + begin));
-    const Which which = hn::IndicesFromVec(di, rows.lane_of(t));
-    const VI place = hn::Add(rows.number_of(which, t), all_int(1));
-    const V slope = gathered(planes.slope, place);
-    const Hull hull = batch.plane_hull(which, place, slope);
+    const VI lane = hn::IfThenElseZero(exists, hn::LoadU(di, scratch.plane_lane.data() + begin));
+    const Which which = hn::IndicesFromVec(di, lane);
+    const Hull hull = batch.plane_hull(which, tables, hn::Add(rows.number_of(which, t), all_int(1)));
     const VI to = hn::IfThenElse(exists, t, nowhere);
     hn::ScatterIndex(hull.low, d, lows, to);
     hn::ScatterIndex(hull.high, d, highs, to);
-    hn::ScatterIndex(slope, d, slopes, to);
   }
 }
 
 // The columns of all rows, from what was stored of their planes.
-HWY_INLINE void find_columns(const Batch& batch, const RowsOfBatch& rows, int grid_rows, RowScratch& scratch,
-                             BatchRows& out) {
+HWY_INLINE void find_columns(const PlaneTables& tables, const Batch& batch, const RowsOfBatch& rows, int grid_rows,
+                             RowScratch& scratch, BatchRows& out) {
   const D d;
   const DI di;
   const auto n = static_cast<std::int32_t>(hn::Lanes(d));
-  const float *lows = scratch.lows(), *highs = scratch.highs(), *slopes = scratch.slopes();
-  const VI nowhere = all_int(grid_rows * n);
+  const float *lows = scratch.lows(), *highs = scratch.highs();
+  const VI nowhere = all_int(grid_rows * n), zero = hn::Zero(di), last_row = all_int(grid_rows - 1);
   for (std::int32_t begin = 0; begin < rows.count(); begin += n) {
     const VI t = from_on(begin), lane = rows.lane_of(begin);
     const Which which = hn::IndicesFromVec(di, lane);
@@ -374,10 +398,10 @@ HWY_INLINE void find_columns(const Batch& batch, const RowsOfBatch& rows, int gr
     const MI wanted = hn::And(hn::Gt(row, all_int(-1)), hn::Lt(t, all_int(rows.count())));
     // The plane above is that below the row before, if both are the same ball's.
     const M has_above = hn::RebindMask(d, hn::Not(rows.is_first(which, t)));
-    const V top = hn::IfThenElse(has_above, hn::LoadU(d, slopes + begin - 1), all(k_beyond));
     Hull hull = {hn::LoadU(d, lows + begin), hn::LoadU(d, highs + begin)};
     hull.add(has_above, hn::LoadU(d, lows + begin - 1), hn::LoadU(d, highs + begin - 1));
-    batch.add_level(which, top, hn::LoadU(d, slopes + begin), hull);
+    const VI above = hn::Min(hn::Max(row, zero), last_row), below = hn::Add(above, all_int(1));
+    batch.add_level(which, tables.slope.at(above), tables.slope.at(below), hull);
     const VU columns = batch.columns_of(which, hull, hn::RebindMask(d, wanted));
     const VI to = hn::Add(hn::Mul(row, all_int(n)), lane);
     hn::ScatterIndex(hn::BitCast(di, columns), di, reinterpret_cast<std::int32_t*>(out.columns.data()),
@@ -390,6 +414,7 @@ void rows_of_batches(const RowPlanes& planes, const SeenBalls& seen, const Balls
   const D d;
   const auto n = static_cast<std::uint32_t>(hn::Lanes(d));
   const std::uint32_t count = (balls.count + n - 1) / n;
+  const PlaneTables tables(planes);
   Batch batches[k_batches_at_once];
   BallRows ball_rows[k_batches_at_once];
   RowsOfBatch rows[k_batches_at_once];
@@ -402,9 +427,9 @@ void rows_of_batches(const RowPlanes& planes, const SeenBalls& seen, const Balls
     start_batch(planes.rows, ball_rows[i].first, ball_rows[i].count, batches[i].lights(), out.batches[i]);
     rows[i] = RowsOfBatch(ball_rows[i], out.scratch[i]);
   }
-  for (std::uint32_t i = 0; i < count; ++i) store_planes(planes, batches[i], rows[i], out.scratch[i]);
+  for (std::uint32_t i = 0; i < count; ++i) store_planes(tables, batches[i], rows[i], out.scratch[i]);
   for (std::uint32_t i = 0; i < count; ++i)
-    find_columns(batches[i], rows[i], planes.rows, out.scratch[i], out.batches[i]);
+    find_columns(tables, batches[i], rows[i], planes.rows, out.scratch[i], out.batches[i]);
   out.count = count;
 }
 
@@ -427,8 +452,8 @@ void BatchRows::make_room(int of_rows, std::size_t of_lanes) {
 void RowScratch::make_room(int of_rows, std::size_t of_lanes) {
   const std::size_t size = (static_cast<std::size_t>(of_rows) + 3) * of_lanes;
   if (lane.size() >= size) return;
-  for (std::vector<std::int32_t>* list : {&lane, &with_plane}) list->resize(size);
-  for (std::vector<float>* list : {&low, &high, &slope}) list->resize(size + 2);
+  for (std::vector<std::int32_t>* list : {&lane, &with_plane, &plane_lane}) list->resize(size);
+  for (std::vector<float>* list : {&low, &high}) list->resize(size + 2);
 }
 
 std::size_t RowBatches::capacity_bytes() const {
