@@ -41,7 +41,7 @@ void SpotSpans::add_to(int slice, SpanLists& spans) {
 std::size_t SpotSpans::capacity_bytes() const {
   return rows_.capacity_bytes() + cells_.capacity_bytes() + closer_.capacity_bytes() +
          closer_places_.capacity() * sizeof(std::uint32_t) + lit_.capacity() * sizeof(Lit) +
-         ends_.capacity() * sizeof(Ends) + long_.capacity() * sizeof(Long);
+         ends_.capacity() * sizeof(Ends) + waiting_.capacity() * sizeof(std::uint32_t) + long_.capacity() * sizeof(Long);
 }
 
 void SpotSpans::add_rows(int slice) {
@@ -92,6 +92,7 @@ bool SpotSpans::ask_for_ends() {
   constexpr int k_at_once = 4;
   cells_.count = 0;
   ends_.clear();
+  waiting_.clear();
   for (std::uint32_t i = 0; i < lit_.size(); ++i) {
     const Lit& lit = lit_[i];
     const int count = lit.columns.count();
@@ -107,6 +108,7 @@ bool SpotSpans::ask_for_ends() {
 }
 
 void SpotSpans::ask(std::uint32_t i, const IndexRange& columns, bool from_left, bool from_right) {
+  waiting_.push_back(static_cast<std::uint32_t>(ends_.size()));
   ends_.push_back({i, cells_.count, columns, from_left, from_right});
   for (int column = columns.first; column <= columns.last; ++column) add_cell(lit_[i], {column, column});
 }
@@ -121,14 +123,19 @@ void SpotSpans::add_cell(const Lit& lit, const IndexRange& columns) {
 void SpotSpans::ask_more_closely() {
   closer_.count = 0;
   const auto is = [&](std::uint32_t place, Touch touch) { return cells_.touch[place] == touch; };
-  for (const Ends& ends : ends_) {
+  std::size_t kept = 0;
+  for (const std::uint32_t number : waiting_) {
+    const Ends& ends = ends_[number];
     const std::uint32_t begin = ends.place, end = begin + static_cast<std::uint32_t>(ends.columns.count());
+    const std::uint32_t before = closer_.count;
     std::uint32_t left = begin, right = end;
     for (; ends.from_left && left < end && !is(left, Touch::yes); ++left)
       if (is(left, Touch::open)) add_closer(left);
     for (; ends.from_right && right > left && !is(right - 1, Touch::yes); --right)
       if (is(right - 1, Touch::open)) add_closer(right - 1);
+    if (closer_.count != before) waiting_[kept++] = number;
   }
+  waiting_.resize(kept);
 }
 
 void SpotSpans::add_closer(std::uint32_t place) {

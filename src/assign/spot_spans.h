@@ -58,6 +58,7 @@ class SpotSpans {
   std::size_t next_lit_ = 0;  // to be added
   std::vector<Long> long_;
   std::vector<Ends> ends_;
+  std::vector<std::uint32_t> waiting_;  // those of them that may have cells without an answer
   SpotCells cells_, closer_;  // of all ends; those of them to look at closely
   std::vector<std::uint32_t> closer_places_;
   std::uint64_t tests_ = 0, fallbacks_ = 0;

@@ -228,8 +228,9 @@ class Batch {
   // row's point nearest to the centre, g away, and w = sqrt(R² - g²) for the larger radius R. A point p of the larger
   // ball in the row is within w of m; moved towards m by the share d / (R - g) of that it is in the given ball, and
   // still in the row (here its part in the picture). That is d w / (R - g) = d (R + g) / w <= 2 d R / w far. From a
-  // point of slope s on, a metre is at most q = sqrt(1 + s²) / near of slope, so the given ball's extremes are within
-  // e = 2 d R q / w of the hull's, and the hull's width in the picture, h, is at most 2 w q; so e <= 4 d R q² / h. The
+  // point of slope s on, a metre is at most q = sqrt(1 + s²) / near of slope, where no point of the larger ball in the
+  // slice is nearer in depth than `near`, so the given ball's extremes are within e = 2 d R q / w of the hull's, and
+  // the hull's width in the picture, h, is at most 2 w q; so e <= 4 d R q² / h. The
   // columns are certainly right if the hull's ends are farther than e from the next boundary inwards: that is, if that
   // distance times h is at least 4 d R q² = 8 slack R q², in columns the `least_area`. And the given ball reaches the
   // row at all if R - g >= d, which follows from h² >= 8 d R q².
@@ -283,7 +284,8 @@ class Batch {
   }
 
   HWY_INLINE V least_area() const {
-    return least_area_of(balls_.radius, slack_, all(planes_->columns_per_slope * near_.inverse),
+    const V nearest = hn::Max(all(near_.depth), hn::Sub(balls_.depth, hn::Add(balls_.radius, slack_)));
+    return least_area_of(balls_.radius, slack_, hn::Div(all(planes_->columns_per_slope), nearest),
                          hn::Max(farthest_corner(near_), farthest_corner(far_)));
   }
 
