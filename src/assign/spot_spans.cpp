@@ -16,6 +16,7 @@ void SpotSpans::find(const ExactFrame& frame, int first, int last) {
   if (frame.planes.orthographic) return decide_ends();
   const SpotsAndPlanes from{&frame.lights, frame.planes.side.data(), frame.planes.slope.data(),
                             frame.planes.depth.data()};
+  guess(from);
   shorten(from);
   while (ask_for_ends()) {
     tests_ += cells_.count;
@@ -40,7 +41,7 @@ void SpotSpans::add_to(int slice, SpanLists& spans) {
 
 std::size_t SpotSpans::capacity_bytes() const {
   return rows_.capacity_bytes() + cells_.capacity_bytes() + closer_.capacity_bytes() +
-         closer_places_.capacity() * sizeof(std::uint32_t) + lit_.capacity() * sizeof(Lit) +
+         guesses_.capacity_bytes() + closer_places_.capacity() * sizeof(std::uint32_t) + lit_.capacity() * sizeof(Lit) +
          ends_.capacity() * sizeof(Ends) + waiting_.capacity() * sizeof(std::uint32_t) + long_.capacity() * sizeof(Long);
 }
 
@@ -54,20 +55,54 @@ void SpotSpans::add_rows(int slice) {
   });
 }
 
-// Takes away what a quick look at several columns at once can tell is not touched: halves of each span, where they are
-// touched or in doubt quarters of its ends, and so on.
+// Takes each end for settled that is guessed and proven, and away what is as a whole not touched.
+void SpotSpans::guess(const SpotsAndPlanes& from) {
+  cells_.count = closer_.count = 0;
+  waiting_.clear();
+  for (const Lit& lit : lit_) add_cell(lit, lit.columns);
+  tests_ += cells_.count;
+  find_ends(from, frame_->planes, cells_, guesses_);
+  for (std::uint32_t i = 0; i < lit_.size(); ++i) {
+    Lit& lit = lit_[i];
+    const std::uint8_t known = guesses_.known[i];
+    lit.left_is_open = (known & SpotRowEnds::k_first) == 0;
+    lit.right_is_open = (known & SpotRowEnds::k_last) == 0;
+    if (!lit.left_is_open) lit.columns.first = guesses_.first[i];
+    if (!lit.right_is_open) lit.columns.last = guesses_.last[i];
+    if ((known & SpotRowEnds::k_none) != 0)
+      lit.columns = {};
+    else if ((known & SpotRowEnds::k_found_none) != 0)
+      waiting_.push_back(i);
+  }
+  for (const Look how : {Look::approach, Look::closer, Look::thorough}) {
+    closer_.count = 0;
+    for (const std::uint32_t i : waiting_) closer_.add(cells_.at(i));
+    look_at_cells(from, how, closer_);
+    std::size_t kept = 0;
+    for (std::uint32_t at = 0; at < closer_.count; ++at) {
+      if (closer_.touch[at] == Touch::no) lit_[waiting_[at]].columns = {};
+      if (closer_.touch[at] == Touch::open) waiting_[kept++] = waiting_[at];
+    }
+    waiting_.resize(kept);
+  }
+}
+
+// Takes away what a quick look at several columns at once can tell is not touched: half of each span at its open ends,
+// where they are touched or in doubt a quarter, and so on.
 void SpotSpans::shorten(const SpotsAndPlanes& from) {
   long_.clear();
   for (std::uint32_t i = 0; i < lit_.size(); ++i) {
     const int half = lit_[i].columns.count() / 2;
-    if (half >= k_least_piece) long_.push_back({i, half, half});
+    if (half < k_least_piece) continue;
+    if (lit_[i].left_is_open) long_.push_back({i, half, true});
+    if (lit_[i].right_is_open) long_.push_back({i, half, false});
   }
   while (!long_.empty()) {
     cells_.count = 0;
     for (const Long& piece : long_) {
       const IndexRange& columns = lit_[piece.lit].columns;
-      add_cell(lit_[piece.lit], {columns.first, columns.first + piece.left - 1});
-      add_cell(lit_[piece.lit], {columns.last - piece.right + 1, columns.last});
+      add_cell(lit_[piece.lit], piece.from_left ? IndexRange{columns.first, columns.first + piece.columns - 1}
+                                                : IndexRange{columns.last - piece.columns + 1, columns.last});
     }
     tests_ += cells_.count;
     look_at_cells(from, Look::quick, cells_);
@@ -75,13 +110,14 @@ void SpotSpans::shorten(const SpotsAndPlanes& from) {
     for (std::size_t at = 0; at < long_.size(); ++at) {
       Long piece = long_[at];
       IndexRange& columns = lit_[piece.lit].columns;
-      const bool misses_left = cells_.touch[2 * at] == Touch::no, misses_right = cells_.touch[2 * at + 1] == Touch::no;
-      if (misses_left) columns.first += piece.left;
-      if (misses_right) columns.last -= piece.right;
-      const int half = columns.count() / 2;
-      piece.left = std::min(half, misses_left ? piece.left : piece.left / 2);
-      piece.right = std::min(half, misses_right ? piece.right : piece.right / 2);
-      if (std::min(piece.left, piece.right) >= k_least_piece) long_[kept++] = piece;
+      if (cells_.touch[at] != Touch::no)
+        piece.columns /= 2;
+      else if (piece.from_left)
+        columns.first += piece.columns;
+      else
+        columns.last -= piece.columns;
+      piece.columns = std::min(piece.columns, columns.count() / 2);
+      if (piece.columns >= k_least_piece) long_[kept++] = piece;
     }
     long_.resize(kept);
   }
@@ -97,12 +133,13 @@ bool SpotSpans::ask_for_ends() {
     const Lit& lit = lit_[i];
     const int count = lit.columns.count();
     if (count == 0 || !(lit.left_is_open || lit.right_is_open)) continue;
-    if (count <= 2 * k_at_once) {
-      ask(i, lit.columns, lit.left_is_open, lit.right_is_open);
+    if (lit.left_is_open && lit.right_is_open && count <= 2 * k_at_once) {
+      ask(i, lit.columns, true, true);
       continue;
     }
-    if (lit.left_is_open) ask(i, {lit.columns.first, lit.columns.first + k_at_once - 1}, true, false);
-    if (lit.right_is_open) ask(i, {lit.columns.last - k_at_once + 1, lit.columns.last}, false, true);
+    const int some = std::min(count, k_at_once);
+    if (lit.left_is_open) ask(i, {lit.columns.first, lit.columns.first + some - 1}, true, false);
+    if (lit.right_is_open) ask(i, {lit.columns.last - some + 1, lit.columns.last}, false, true);
   }
   return !ends_.empty();
 }

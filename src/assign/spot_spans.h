@@ -5,7 +5,7 @@
 
 #include "assign/exact_frame.h"
 #include "assign/exact_rows.h"
-#include "assign/simd/spot_cells.h"
+#include "assign/simd/spot_rows.h"
 
 namespace clusterbench::assign {
 
@@ -28,10 +28,11 @@ class SpotSpans {
     grid::IndexRange columns;
     bool left_is_open, right_is_open;  // the end may yet not be touched
   };
-  // A Lit to be shortened, and how many columns of its ends are looked at as one.
+  // An end of a Lit that is to be shortened, and how many columns there are looked at as one.
   struct Long {
     std::uint32_t lit;
-    int left, right;
+    int columns;
+    bool from_left;
   };
   static constexpr int k_least_piece = 3;
   // Cells at one or both ends of a Lit that are asked for, from cells_[place] on.
@@ -43,6 +44,7 @@ class SpotSpans {
 
   void add_rows(int slice);
   void decide_ends();  // in orthographic grids, whose cells no look knows
+  void guess(const SpotsAndPlanes& from);
   void shorten(const SpotsAndPlanes& from);
   bool ask_for_ends();
   void add_cell(const Lit& lit, const grid::IndexRange& columns);  // to cells_
@@ -59,6 +61,7 @@ class SpotSpans {
   std::vector<Long> long_;
   std::vector<Ends> ends_;
   std::vector<std::uint32_t> waiting_;  // those of them that may have cells without an answer
+  SpotRowEnds guesses_;
   SpotCells cells_, closer_;  // of all ends; those of them to look at closely
   std::vector<std::uint32_t> closer_places_;
   std::uint64_t tests_ = 0, fallbacks_ = 0;

@@ -50,35 +50,59 @@ struct Cone {
 // coordinate in place of what is lost there on the way from the scene. Four times that is asked for.
 constexpr float k_tolerance = 0x1p-15f;
 
+// A vector of spots, each with its own piece of a row: tile planes below and above, slice planes in front and behind.
+struct SpotsInRows {
+  Cone cone;
+  V light;  // size of the numbers that describe it
+  V y0, y1, depth0, depth1;
+
+  HWY_INLINE SpotsInRows(const SpotsAndPlanes& from, VI spot, VI slice, VI row) {
+    const view::LightArrays& lights = *from.lights;
+    const std::uint32_t points = lights.points;
+    cone = {{gathered(lights.x.data() + points, spot), gathered(lights.y.data() + points, spot),
+             hn::Neg(gathered(lights.z.data() + points, spot))},
+            {gathered(lights.axis_x.data(), spot), gathered(lights.axis_y.data(), spot),
+             hn::Neg(gathered(lights.axis_z.data(), spot))},
+            gathered(lights.radius.data() + points, spot),
+            gathered(lights.cos_angle.data(), spot),
+            gathered(lights.sin_angle.data(), spot)};
+    light = hn::Add(gathered(lights.reach.data() + points, spot), cone.range);
+    y1 = gathered(from.slope, row);
+    y0 = gathered(from.slope + 1, row);
+    depth0 = gathered(from.depth, slice);
+    depth1 = gathered(from.depth + 1, slice);
+  }
+
+  // Evidence must be larger than this, where columns between two sides are looked at.
+  HWY_INLINE V tolerance(V left, V right) const {
+    const V across = hn::Max(hn::Abs(left), hn::Abs(right)), up = hn::Max(hn::Abs(y0), hn::Abs(y1));
+    return hn::Mul(all(k_tolerance), hn::Add(light, hn::Mul(depth1, hn::Add(all(1.0f), hn::Add(across, up)))));
+  }
+};
+
+// The places of a list from `first` on.
+HWY_INLINE VI places(const std::vector<std::uint32_t>& list, std::uint32_t first) {
+  return hn::BitCast(DI(), hn::LoadU(DU(), list.data() + first));
+}
+
 // A vector of cells, each with its own cone.
 class Cells {
  public:
-  HWY_INLINE Cells(const SpotsAndPlanes& from, const SpotCells& cells, std::uint32_t first) {
-    const auto place = [&](const std::vector<std::uint32_t>& list) {
-      return hn::BitCast(DI(), hn::LoadU(DU(), list.data() + first));
-    };
-    const auto spot = place(cells.spot), slice = place(cells.slice), row = place(cells.row);
-    const auto column = place(cells.column), end_column = place(cells.end_column);
-    const view::LightArrays& lights = *from.lights;
-    const std::uint32_t points = lights.points;
-    cone_ = {{gathered(lights.x.data() + points, spot), gathered(lights.y.data() + points, spot),
-              hn::Neg(gathered(lights.z.data() + points, spot))},
-             {gathered(lights.axis_x.data(), spot), gathered(lights.axis_y.data(), spot),
-              hn::Neg(gathered(lights.axis_z.data(), spot))},
-             gathered(lights.radius.data() + points, spot),
-             gathered(lights.cos_angle.data(), spot),
-             gathered(lights.sin_angle.data(), spot)};
-    left_ = gathered(from.side, column);
-    right_ = gathered(from.side, end_column);
-    y1_ = gathered(from.slope, row);
-    y0_ = gathered(from.slope + 1, row);
-    depth0_ = gathered(from.depth, slice);
-    depth1_ = gathered(from.depth + 1, slice);
-    const V across = hn::Max(hn::Abs(left_), hn::Abs(right_)), up = hn::Max(hn::Abs(y0_), hn::Abs(y1_));
-    const V cell = hn::Mul(depth1_, hn::Add(all(1.0f), hn::Add(across, up)));
-    const V light = hn::Add(gathered(lights.reach.data() + points, spot), cone_.range);
-    tolerance_ = hn::Mul(all(k_tolerance), hn::Add(light, cell));
-    safe_range_ = hn::Sub(cone_.range, tolerance_);
+  HWY_INLINE Cells(const SpotsAndPlanes& from, const SpotCells& cells, std::uint32_t first)
+      : Cells(SpotsInRows(from, places(cells.spot, first), places(cells.slice, first), places(cells.row, first)),
+              gathered(from.side, places(cells.column, first)), gathered(from.side, places(cells.end_column, first))) {}
+
+  // Those between two sides of columns.
+  HWY_INLINE Cells(const SpotsInRows& rows, V left, V right)
+      : cone_(rows.cone),
+        left_(left),
+        right_(right),
+        y0_(rows.y0),
+        y1_(rows.y1),
+        depth0_(rows.depth0),
+        depth1_(rows.depth1),
+        tolerance_(rows.tolerance(left, right)),
+        safe_range_(hn::Sub(cone_.range, tolerance_)) {
     for (unsigned i = 0; i < 8; ++i) from_apex_[i] = corner(i) - cone_.apex;
   }
 
@@ -207,6 +231,48 @@ class Cells {
     apart = hn::Or(is_beside_edges(), is_beyond(extremes));
   }
 
+  // A place of the cell made smaller by a little more than the tolerance: not the nearest one where its sides lean, but
+  // one nearby.
+  HWY_INLINE Point near_in_cell(const Point& v) const {
+    const V within = hn::Mul(all(k_within), tolerance_);
+    const Point place = v + cone_.apex;
+    const auto between = [](V low, V x, V high) { return hn::Min(hn::Max(x, low), high); };
+    const auto inset = [&](V slope) { return hn::Mul(within, hn::Add(all(1.0f), hn::Abs(slope))); };
+    const V depth = between(hn::Add(depth0_, within), place.depth, hn::Sub(depth1_, within));
+    const V x =
+        between(hn::Add(hn::Mul(left_, depth), inset(left_)), place.x, hn::Sub(hn::Mul(right_, depth), inset(right_)));
+    const V y = between(hn::Add(hn::Mul(y0_, depth), inset(y0_)), place.y, hn::Sub(hn::Mul(y1_, depth), inset(y1_)));
+    return Point{x, y, depth} - cone_.apex;
+  }
+
+  // Evidence.
+
+  // Is the place v from the apex in volume and cell, by more than the tolerance?
+  HWY_INLINE M is_common(const Point& v) const {
+    M is_in = is_inside(v);
+    each_face([&](const Point& outward, V offset) {
+      const V margin = hn::Sub(offset, dot(outward, cone_.apex + v));
+      is_in = hn::And(is_in, hn::Gt(margin, hn::Mul(tolerance_, length(outward))));
+    });
+    return is_in;
+  }
+
+  // Do all corners lie beyond the plane along the cone's side in the direction of v?
+  HWY_INLINE M is_beside(const Point& v) const {
+    const Point across = v - dot(v, cone_.axis) * cone_.axis;
+    const V size = length(across);
+    const Point outward = hn::Div(cone_.cosine, size) * across - cone_.sine * cone_.axis;
+    // Where v is nearly along the axis, the direction across it has few digits.
+    const M is_good = hn::Gt(size, hn::Mul(all(0.1f), length(v)));
+    return hn::And(is_good, hn::Gt(least_along(outward), tolerance_));
+  }
+
+  // Do all corners lie farther in a direction than the volume extends?
+  HWY_INLINE M is_past(const Point& direction) const {
+    const Point normal = hn::Div(all(1.0f), length(direction)) * direction;
+    return hn::Gt(hn::Sub(least_along(normal), extent(dot(normal, cone_.axis))), tolerance_);
+  }
+
  private:
   static constexpr float k_none = 1e30f;
   static constexpr float k_within = 1.25f;  // of the tolerance
@@ -257,19 +323,6 @@ class Cells {
     const Point to = hn::Add(to_along, ahead) * cone_.axis + hn::IfThenElse(is_in, all(1.0f), narrowed) * aside;
     const V range = hn::Sub(cone_.range, within);
     return hn::Min(all(1.0f), hn::Div(range, hn::Max(length(to), tiny))) * to;
-  }
-
-  // Not the nearest place of the smaller cell where its sides lean, but one nearby.
-  HWY_INLINE Point near_in_cell(const Point& v) const {
-    const V within = hn::Mul(all(k_within), tolerance_);
-    const Point place = v + cone_.apex;
-    const auto between = [](V low, V x, V high) { return hn::Min(hn::Max(x, low), high); };
-    const auto inset = [&](V slope) { return hn::Mul(within, hn::Add(all(1.0f), hn::Abs(slope))); };
-    const V depth = between(hn::Add(depth0_, within), place.depth, hn::Sub(depth1_, within));
-    const V x =
-        between(hn::Add(hn::Mul(left_, depth), inset(left_)), place.x, hn::Sub(hn::Mul(right_, depth), inset(right_)));
-    const V y = between(hn::Add(hn::Mul(y0_, depth), inset(y0_)), place.y, hn::Sub(hn::Mul(y1_, depth), inset(y1_)));
-    return Point{x, y, depth} - cone_.apex;
   }
 
   // By and large: the tolerance is on their side.
@@ -407,12 +460,6 @@ class Cells {
     return hn::And(apart, hn::Lt(extremes.least, all(k_none)));
   }
 
-  // Do all corners lie farther in a direction than the volume extends?
-  HWY_INLINE M is_past(const Point& direction) const {
-    const Point normal = hn::Div(all(1.0f), length(direction)) * direction;
-    return hn::Gt(hn::Sub(least_along(normal), extent(dot(normal, cone_.axis))), tolerance_);
-  }
-
   HWY_INLINE Point corner(unsigned i) const {
     const V depth = (i & 4) != 0 ? depth1_ : depth0_;
     return {hn::Mul((i & 1) != 0 ? right_ : left_, depth), hn::Mul((i & 2) != 0 ? y1_ : y0_, depth), depth};
@@ -440,31 +487,11 @@ class Cells {
     });
   }
 
-  // Is the place v from the apex in volume and cell, by more than the tolerance?
-  HWY_INLINE M is_common(const Point& v) const {
-    M is_in = is_inside(v);
-    each_face([&](const Point& outward, V offset) {
-      const V margin = hn::Sub(offset, dot(outward, cone_.apex + v));
-      is_in = hn::And(is_in, hn::Gt(margin, hn::Mul(tolerance_, length(outward))));
-    });
-    return is_in;
-  }
-
   // The least of the corners along a direction.
   HWY_INLINE V least_along(const Point& direction) const {
     V least = dot(direction, from_apex_[0]);
     for (unsigned i = 1; i < 8; ++i) least = hn::Min(least, dot(direction, from_apex_[i]));
     return least;
-  }
-
-  // Do all corners lie beyond the plane along the cone's side in the direction of v?
-  HWY_INLINE M is_beside(const Point& v) const {
-    const Point across = v - dot(v, cone_.axis) * cone_.axis;
-    const V size = length(across);
-    const Point outward = hn::Div(cone_.cosine, size) * across - cone_.sine * cone_.axis;
-    // Where v is nearly along the axis, the direction across it has few digits.
-    const M is_good = hn::Gt(size, hn::Mul(all(0.1f), length(v)));
-    return hn::And(is_good, hn::Gt(least_along(outward), tolerance_));
   }
 
   // Is the place v from the apex in the volume, by more than the tolerance?

@@ -62,18 +62,13 @@ void SpotCells::grow() {
   touch.resize(size);
 }
 
-namespace {
-
-// What a whole vector reads beyond the end must be places that exist.
-void pad(SpotCells& cells) {
-  for (std::vector<std::uint32_t>* list : {&cells.spot, &cells.slice, &cells.row, &cells.column, &cells.end_column})
-    std::fill_n(list->begin() + cells.count, std::min(k_most_lanes, list->size() - cells.count), 0);
+void SpotCells::pad() {
+  for (std::vector<std::uint32_t>* list : {&spot, &slice, &row, &column, &end_column})
+    std::fill_n(list->begin() + count, std::min(k_most_lanes, list->size() - count), list == &end_column ? 1 : 0);
 }
 
-}  // namespace
-
 void look_at_cells(const SpotsAndPlanes& from, Look how, SpotCells& cells) {
-  pad(cells);
+  cells.pad();
   HWY_DYNAMIC_DISPATCH(look)(from, how, cells);
 }
 

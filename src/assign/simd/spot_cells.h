@@ -33,6 +33,8 @@ struct SpotCells {
     end_column[count++] = pair.end_column;
   }
   void grow();
+  // What a whole vector reads beyond the end must be places that exist.
+  void pad();
   SpotCell at(std::uint32_t place) const {
     return {spot[place], slice[place], row[place], column[place], end_column[place]};
   }
