@@ -40,9 +40,10 @@ void SpotSpans::add_to(int slice, SpanLists& spans) {
 }
 
 std::size_t SpotSpans::capacity_bytes() const {
-  return rows_.capacity_bytes() + cells_.capacity_bytes() + closer_.capacity_bytes() +
-         guesses_.capacity_bytes() + closer_places_.capacity() * sizeof(std::uint32_t) + lit_.capacity() * sizeof(Lit) +
-         ends_.capacity() * sizeof(Ends) + waiting_.capacity() * sizeof(std::uint32_t) + long_.capacity() * sizeof(Long);
+  return rows_.capacity_bytes() + cells_.capacity_bytes() + closer_.capacity_bytes() + guesses_.capacity_bytes() +
+         closer_places_.capacity() * sizeof(std::uint32_t) + lit_.capacity() * sizeof(Lit) +
+         ends_.capacity() * sizeof(Ends) + waiting_.capacity() * sizeof(std::uint32_t) +
+         long_.capacity() * sizeof(Long);
 }
 
 void SpotSpans::add_rows(int slice) {

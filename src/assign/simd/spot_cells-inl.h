@@ -202,13 +202,9 @@ class Cells {
   HWY_INLINE void approach(M& common, M& apart) const {
     constexpr int k_ways = 3;
     Point in_cell = all(0.125f) * sum_of_corners(), in_volume;
-    for (int way = 0; way < k_ways; ++way) {
-      in_volume = nearest_in_volume(in_cell);
-      const Point beyond = in_cell + all(1.5f) * (in_volume - in_cell);
-      in_cell = near_in_cell(beyond);
-    }
-    common = hn::Or(is_common(in_cell), is_common(in_volume));
+    for (int way = 0; way < k_ways; ++way) in_cell = closer_to_volume(in_cell);
     in_volume = nearest_in_volume(in_cell);
+    common = hn::Or(is_common(in_cell), is_common(in_volume));
     apart = is_past(in_cell - in_volume);
   }
 
@@ -229,6 +225,11 @@ class Cells {
     take_in_cell(cone_.range * cone_.axis, yes(), extremes);
     common = is_common(hn::Div(all(1.0f), hn::Max(extremes.count, all(1.0f))) * extremes.sum);
     apart = hn::Or(is_beside_edges(), is_beyond(extremes));
+  }
+
+  // From a place of the cell to the volume and back, a little too far.
+  HWY_INLINE Point closer_to_volume(const Point& v) const {
+    return near_in_cell(v + all(1.5f) * (nearest_in_volume(v) - v));
   }
 
   // A place of the cell made smaller by a little more than the tolerance: not the nearest one where its sides lean, but

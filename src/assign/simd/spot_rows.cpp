@@ -28,27 +28,22 @@ HWY_INLINE Point where_else(M where, const Point& a, const Point& b) {
   return {hn::IfThenElse(where, a.x, b.x), hn::IfThenElse(where, a.y, b.y), hn::IfThenElse(where, a.depth, b.depth)};
 }
 
-// The places found so far: the two that lean most, and the sum of all, which is inside of them.
+// The two places found so far that lean most.
 struct Extremes {
-  Point low, high, sum;
-  V count;
+  Point low, high;
 
-  HWY_INLINE Extremes()
-      : low{all(1e15f), all(0.0f), all(1.0f)},
-        high{all(-1e15f), all(0.0f), all(1.0f)},
-        sum{all(0.0f), all(0.0f), all(0.0f)},
-        count(all(0.0f)) {}
+  HWY_INLINE Extremes() : low{all(k_none), all(0.0f), all(1.0f)}, high{all(-k_none), all(0.0f), all(1.0f)} {}
 
   HWY_INLINE void take(M where, const Point& p) {
     const M is_lower = hn::And(where, hn::Lt(hn::Mul(p.x, low.depth), hn::Mul(low.x, p.depth)));
     const M is_higher = hn::And(where, hn::Gt(hn::Mul(p.x, high.depth), hn::Mul(high.x, p.depth)));
     low = where_else(is_lower, p, low);
     high = where_else(is_higher, p, high);
-    sum = sum + Point{hn::IfThenElseZero(where, p.x), hn::IfThenElseZero(where, p.y),
-                      hn::IfThenElseZero(where, p.depth)};
-    count = hn::Add(count, hn::IfThenElseZero(where, all(1.0f)));
   }
-  HWY_INLINE Point middle() const { return inverse(hn::Max(count, all(1.0f))) * sum; }
+  HWY_INLINE M exist() const { return hn::Lt(low.x, all(k_none)); }
+
+ private:
+  static constexpr float k_none = 1e15f;
 };
 
 // The faces of a row: y = slope * depth, and depths.
@@ -88,8 +83,7 @@ class Guess {
   HWY_INLINE M is_in_cone(const Point& v) const {
     const V along = dot(v, cone_.axis), side = hn::Add(hn::Mul(cone_.sine, along), slack_);
     const V across = hn::Sub(dot(v, v), square_of(along));
-    return hn::And(hn::Ge(side, hn::Zero(D())),
-                   hn::Ge(square_of(side), hn::Mul(square_of(cone_.cosine), across)));
+    return hn::And(hn::Ge(side, hn::Zero(D())), hn::Ge(square_of(side), hn::Mul(square_of(cone_.cosine), across)));
   }
 
   // Angles phi with a cos phi + b sin phi = c, as places of the rim.
@@ -151,9 +145,8 @@ class Guess {
       extremes_.take(hn::And(exists, hn::And(is_between_slices(depth), is_in_cone(p - a))), p);
     });
     const auto part = [&](const Point& p) { return hn::Sub(p.y, hn::Mul(slope, p.depth)); };
-    each_rim_place(part(rim1_), part(rim2_), hn::Neg(part(rim_)), [&](M exists, const Point& p) {
-      extremes_.take(hn::And(exists, is_between_slices(p.depth)), p);
-    });
+    each_rim_place(part(rim1_), part(rim2_), hn::Neg(part(rim_)),
+                   [&](M exists, const Point& p) { extremes_.take(hn::And(exists, is_between_slices(p.depth)), p); });
   }
 
   HWY_INLINE void take_in_slice_plane(V depth) {
@@ -237,8 +230,8 @@ class Guess {
 
   Cone cone_;
   V y0_, y1_, depth0_, depth1_, slack_, longest_square_;
-  Point m1_, m2_;              // across the axis
-  Point rim_, rim1_, rim2_;    // its middle, and from there to two of its places
+  Point m1_, m2_;            // across the axis
+  Point rim_, rim1_, rim2_;  // its middle, and from there to two of its places
   Extremes extremes_;
 };
 
@@ -252,8 +245,7 @@ class Ends {
         outer_first_(first),
         outer_last_(last),
         found_(Guess(rows, rows.tolerance(gathered(from.side, first), gathered(from.side, last))).extremes()),
-        middle_(found_.middle()),
-        exists_(hn::Gt(found_.count, hn::Zero(D()))) {
+        exists_(found_.exist()) {
     low_ = slope_of(found_.low);
     high_ = slope_of(found_.high);
     first_ = column_at(low_);
@@ -264,14 +256,12 @@ class Ends {
   VI last() const { return last_; }
 
   HWY_INLINE M first_is_known() const {
-    const M is_outmost = hn::RebindMask(D(), hn::Eq(first_, outer_first_));
-    const M misses = misses_before();
-    return hn::And(exists_, hn::And(touches(first_), hn::Or(is_outmost, misses)));
+    const M is_outmost = hn::RebindMask(D(), hn::Eq(first_, outer_first_)), touched = hn::And(exists_, touches(first_));
+    return hn::And(touched, hn::Or(is_outmost, misses_before(hn::AndNot(is_outmost, touched))));
   }
   HWY_INLINE M last_is_known() const {
-    const M is_outmost = hn::RebindMask(D(), hn::Eq(last_, outer_last_));
-    const M misses = misses_behind();
-    return hn::And(exists_, hn::And(touches(last_), hn::Or(is_outmost, misses)));
+    const M is_outmost = hn::RebindMask(D(), hn::Eq(last_, outer_last_)), touched = hn::And(exists_, touches(last_));
+    return hn::And(touched, hn::Or(is_outmost, misses_behind(hn::AndNot(is_outmost, touched))));
   }
 
   // Nothing was found within the columns; and a plane tells that there is nothing.
@@ -294,47 +284,53 @@ class Ends {
     return hn::Min(hn::Max(column, outer_first_), outer_last_);
   }
 
-  // A place of the hull of low, middle and high with this slope.
+  // The place with this slope on the way from one extreme to the other.
   HWY_INLINE Point place_at(V slope) const {
-    const M is_low = hn::Lt(slope, slope_of(middle_));
-    const Point end = where_else(is_low, found_.low, found_.high), way = middle_ - end;
-    const V t = hn::Div(hn::Sub(hn::Mul(slope, end.depth), end.x), hn::Sub(way.x, hn::Mul(slope, way.depth)));
-    return end + hn::Min(hn::Max(t, hn::Zero(D())), all(1.0f)) * way;
+    const Point way = found_.high - found_.low;
+    const V whole = hn::Sub(way.x, hn::Mul(slope, way.depth));
+    const V part = hn::Sub(hn::Mul(slope, found_.low.depth), found_.low.x);
+    const V t = hn::Div(part, hn::IfThenElse(hn::Eq(whole, hn::Zero(D())), all(1.0f), whole));
+    return found_.low + hn::Min(hn::Max(t, hn::Zero(D())), all(1.0f)) * way;
   }
 
   HWY_INLINE M touches(VI column) const {
     const V left = side(column), right = side(hn::Add(column, all_int(1)));
     const Cells cell(rows_, left, right);
     const V from = hn::Max(left, low_), to = hn::Min(right, high_);
-    const auto holds = [&](float share) {
-      const V slope = hn::Add(from, hn::Mul(all(share), hn::Sub(to, from)));
-      return cell.is_common(cell.near_in_cell(place_at(slope) - rows_.cone.apex));
-    };
-    return hn::Or(holds(0.5f), hn::Or(holds(0.8f), holds(0.2f)));
+    const V slope = hn::Add(from, hn::Mul(all(0.5f), hn::Sub(to, from)));
+    Point v = cell.near_in_cell(place_at(slope) - rows_.cone.apex);
+    M touched = cell.is_common(v);
+    for (int way = 0; way < 2 && !hn::AllTrue(D(), hn::Or(touched, hn::Not(exists_))); ++way) {
+      v = cell.closer_to_volume(v);
+      touched = hn::Or(touched, cell.is_common(v));
+    }
+    return touched;
   }
 
-  HWY_INLINE M misses_before() const {
-    const V boundary = side(first_);
-    const Cells cell(rows_, side(hn::Max(hn::Sub(first_, all_int(1)), hn::Zero(DI()))), boundary);
-    return misses(cell, found_.low, {all(-1.0f), hn::Zero(D()), boundary});
+  HWY_INLINE M misses_before(M wanted) const {
+    const V boundary = side(first_), beyond = side(hn::Max(hn::Sub(first_, all_int(1)), hn::Zero(DI())));
+    return misses(Cells(rows_, beyond, boundary), found_.low, {all(-1.0f), hn::Zero(D()), boundary}, wanted);
   }
-  HWY_INLINE M misses_behind() const {
+  HWY_INLINE M misses_behind(M wanted) const {
     const VI next = hn::Add(last_, all_int(1));
-    const V boundary = side(next);
-    const Cells cell(rows_, boundary, side(hn::Add(next, all_int(1))));
-    return misses(cell, found_.high, {all(1.0f), hn::Zero(D()), hn::Neg(boundary)});
+    const V boundary = side(next), beyond = side(hn::Add(next, all_int(1)));
+    return misses(Cells(rows_, boundary, beyond), found_.high, {all(1.0f), hn::Zero(D()), hn::Neg(boundary)}, wanted);
   }
 
-  // Is there a plane between the spot and a cell, through the place of the spot that leans most towards it? The tile
-  // plane itself; the sphere's or the cone's tangent plane; or one between these two where the rim is what meets a slice
-  // plane (upright) or a tile plane (through the eye).
-  HWY_INLINE M misses(const Cells& cell, const Point& place, const Point& outward) const {
+  // Is there a plane between the spot and a cell, through the place of the spot that leans most towards it? The cone's
+  // or the sphere's tangent plane, the tile plane itself, or one between the first two where the rim is what meets a
+  // slice plane (upright) or a tile plane (through the eye).
+  HWY_INLINE M misses(const Cells& cell, const Point& place, const Point& outward, M wanted) const {
     const Cone& cone = rows_.cone;
-    const Point v = place - cone.apex, generator = inverse(hn::Max(length(v), all(1e-20f))) * v;
-    const Point across = v - dot(v, cone.axis) * cone.axis;
+    const Point v = place - cone.apex;
+    M apart = hn::Or(cell.is_beside(v), cell.is_past(outward));
+    const auto is_done = [&] { return hn::AllTrue(D(), hn::Or(apart, hn::Not(wanted))); };
+    if (is_done()) return apart;
+    const Point generator = inverse(hn::Max(length(v), all(1e-20f))) * v, across = v - dot(v, cone.axis) * cone.axis;
     const Point side = hn::Div(cone.cosine, hn::Max(length(across), all(1e-20f))) * across - cone.sine * cone.axis;
-    M apart = hn::Or(cell.is_past(outward), hn::Or(cell.is_past(generator), cell.is_beside(v)));
+    apart = hn::Or(apart, cell.is_past(generator));
     for (const Point& edge : {Point{hn::Zero(D()), all(1.0f), hn::Zero(D())}, place}) {
+      if (is_done()) return apart;
       const V share = hn::Neg(hn::Div(dot(generator, edge), dot(side, edge)));
       apart = hn::Or(apart, hn::And(hn::Gt(share, hn::Zero(D())), cell.is_past(generator + share * side)));
     }
@@ -346,7 +342,6 @@ class Ends {
   const SpotsInRows& rows_;
   VI outer_first_, outer_last_;
   Extremes found_;
-  Point middle_;
   M exists_;
   V low_, high_;
   VI first_, last_;
