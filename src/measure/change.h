@@ -1,6 +1,6 @@
 #pragma once
-// Whether a time has changed between two programs: estimates on the logarithm of new / base, trimmed means, Student's t,
-// Holm's correction over cases. docs/comparing.md says why it is done so. Pure functions.
+// Whether a time has changed between two programs: estimates on the logarithm of new / base, trimmed means, Student's
+// t, Holm's correction over cases. docs/comparing.md says why it is done so. Pure functions.
 
 #include <span>
 #include <vector>

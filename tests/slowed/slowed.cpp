@@ -1,6 +1,6 @@
 // clusterbench_slowed: the product with assignments that take some percent longer than they do, for scripts/detection
-// and the tests of comparisons. With 0 percent it is the product, laid out in memory as with 3. The linker puts this function before TimedWork::assign (--wrap); nothing of the product
-// knows.
+// and the tests of comparisons. With 0 percent it is the product, laid out in memory as with 3. The linker puts this
+// function before TimedWork::assign (--wrap); nothing of the product knows.
 
 #include <algorithm>
 #include <cstdlib>

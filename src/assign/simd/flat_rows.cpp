@@ -83,8 +83,7 @@ void flat_rows(const RowPlanes& planes, const SeenBalls& seen, const BallsOfSlic
   const auto n = static_cast<std::uint32_t>(hn::Lanes(d));
   out.count = (balls.count + n - 1) / n;
   for (std::uint32_t i = 0; i < out.count; ++i)
-    FlatBatch(planes, seen, balls.slice, balls.places + i * n, hn::FirstN(d, balls.count - i * n))
-        .find(out.batches[i]);
+    FlatBatch(planes, seen, balls.slice, balls.places + i * n, hn::FirstN(d, balls.count - i * n)).find(out.batches[i]);
 }
 
 }  // namespace

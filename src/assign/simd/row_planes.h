@@ -7,8 +7,8 @@
 
 namespace clusterbench::assign {
 
-// The planes of a grid as vectors want them. Made once per grid. A slope is x / depth or y / depth; where the projection
-// is orthographic, x or y itself.
+// The planes of a grid as vectors want them. Made once per grid. A slope is x / depth or y / depth; where the
+// projection is orthographic, x or y itself.
 struct RowPlanes {
   bool orthographic = false;
   std::vector<float> slope, tilt, inverse_tilt;  // of the tile planes from the top; sqrt(1 + slope²); padded

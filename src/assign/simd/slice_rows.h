@@ -46,7 +46,7 @@ std::uint32_t balls_per_batch();
 
 // The rows of a batch one after the other, and what their balls have in the tile planes below them.
 struct RowScratch {
-  std::vector<std::int32_t> lane;        // of the row's ball
+  std::vector<std::int32_t> lane;  // of the row's ball
   // The rows whose ball may touch the plane below them, and its lane.
   std::vector<std::int32_t> with_plane, plane_lane;
   // Slopes x / depth in the plane. One place in front, one behind for what is not wanted.

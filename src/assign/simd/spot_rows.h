@@ -1,11 +1,11 @@
 #pragma once
 // The columns of a row that a spot touches, guessed in closed form and then proven, many rows at once.
 //
-// What a spot has in a row (between two tile planes and two slice planes) is convex, so its extreme slopes x / depth are
-// at places that can be listed: the apex, where the sphere, the rim and the cone's side lean most, and where these meet
-// the row's faces and edges. That is a guess in single precision, and may be wrong. It counts where there is evidence
-// larger than its own error (spot_cells.h): a common point for the cell at an end, and a plane between the spot and the
-// cell beyond it.
+// What a spot has in a row (between two tile planes and two slice planes) is convex, so its extreme slopes x / depth
+// are at places that can be listed: the apex, where the sphere, the rim and the cone's side lean most, and where these
+// meet the row's faces and edges. That is a guess in single precision, and may be wrong. It counts where there is
+// evidence larger than its own error (spot_cells.h): a common point for the cell at an end, and a plane between the
+// spot and the cell beyond it.
 
 #include <cstdint>
 #include <vector>
