@@ -41,8 +41,8 @@ void SpotSpans::add_to(int slice, SpanLists& spans) {
 
 std::size_t SpotSpans::capacity_bytes() const {
   return rows_.capacity_bytes() + cells_.capacity_bytes() + closer_.capacity_bytes() + guesses_.capacity_bytes() +
-         closer_places_.capacity() * sizeof(std::uint32_t) + lit_.capacity() * sizeof(Lit) +
-         ends_.capacity() * sizeof(Ends) + waiting_.capacity() * sizeof(std::uint32_t) +
+         open_.capacity() * sizeof(std::uint32_t) + closer_places_.capacity() * sizeof(std::uint32_t) +
+         lit_.capacity() * sizeof(Lit) + ends_.capacity() * sizeof(Ends) + waiting_.capacity() * sizeof(std::uint32_t) +
          long_.capacity() * sizeof(Long);
 }
 
@@ -86,13 +86,16 @@ void SpotSpans::guess(const SpotsAndPlanes& from) {
     }
     waiting_.resize(kept);
   }
+  open_.clear();
+  for (std::uint32_t i = 0; i < lit_.size(); ++i)
+    if (lit_[i].is_open()) open_.push_back(i);
 }
 
 // Takes away what a quick look at several columns at once can tell is not touched: half of each span at its open ends,
 // where they are touched or in doubt a quarter, and so on.
 void SpotSpans::shorten(const SpotsAndPlanes& from) {
   long_.clear();
-  for (std::uint32_t i = 0; i < lit_.size(); ++i) {
+  for (const std::uint32_t i : open_) {
     const int half = lit_[i].columns.count() / 2;
     if (half < k_least_piece) continue;
     if (lit_[i].left_is_open) long_.push_back({i, half, true});
@@ -130,10 +133,10 @@ bool SpotSpans::ask_for_ends() {
   cells_.count = 0;
   ends_.clear();
   waiting_.clear();
-  for (std::uint32_t i = 0; i < lit_.size(); ++i) {
+  std::erase_if(open_, [&](std::uint32_t i) { return !lit_[i].is_open(); });
+  for (const std::uint32_t i : open_) {
     const Lit& lit = lit_[i];
     const int count = lit.columns.count();
-    if (count == 0 || !(lit.left_is_open || lit.right_is_open)) continue;
     if (lit.left_is_open && lit.right_is_open && count <= 2 * k_at_once) {
       ask(i, lit.columns, true, true);
       continue;

@@ -1,7 +1,8 @@
 #pragma once
-// The columns that spots touch in each row of some slices: the rows of their bounding balls, shortened. First by
-// halves, quarters and so on that are as a whole not touched; then their ends are looked at a few cells at a time,
-// until a cell at either end is touched. Those of all slices go together. In orthographic grids cell by cell.
+// The columns that spots touch in each row of some slices: the rows of their bounding balls, shortened. First to ends
+// that are guessed and proven, which nearly all are. What is left is shortened by halves, quarters and so on that are
+// as a whole not touched; then its ends are looked at a few cells at a time, until a cell at either end is touched.
+// Those of all slices go together. In orthographic grids cell by cell.
 
 #include "assign/exact_frame.h"
 #include "assign/exact_rows.h"
@@ -27,6 +28,8 @@ class SpotSpans {
     int slice, row;
     grid::IndexRange columns;
     bool left_is_open, right_is_open;  // the end may yet not be touched
+
+    bool is_open() const { return !columns.empty() && (left_is_open || right_is_open); }
   };
   // An end of a Lit that is to be shortened, and how many columns there are looked at as one.
   struct Long {
@@ -56,8 +59,9 @@ class SpotSpans {
 
   const ExactFrame* frame_ = nullptr;
   RowBatches rows_;
-  std::vector<Lit> lit_;      // slice by slice
-  std::size_t next_lit_ = 0;  // to be added
+  std::vector<Lit> lit_;             // slice by slice
+  std::size_t next_lit_ = 0;         // to be added
+  std::vector<std::uint32_t> open_;  // among them
   std::vector<Long> long_;
   std::vector<Ends> ends_;
   std::vector<std::uint32_t> waiting_;  // those of them that may have cells without an answer

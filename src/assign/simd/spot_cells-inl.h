@@ -39,7 +39,10 @@ HWY_INLINE V length(const Point& a) {
   return hn::Sqrt(dot(a, a));
 }
 
-// The same cone in all lanes.
+HWY_INLINE Point chosen(M where, const Point& a, const Point& b) {
+  return {hn::IfThenElse(where, a.x, b.x), hn::IfThenElse(where, a.y, b.y), hn::IfThenElse(where, a.depth, b.depth)};
+}
+
 struct Cone {
   Point apex, axis;
   V range, cosine, sine;
@@ -298,9 +301,6 @@ class Cells {
     }
   };
 
-  HWY_INLINE static Point chosen(M where, const Point& a, const Point& b) {
-    return {hn::IfThenElse(where, a.x, b.x), hn::IfThenElse(where, a.y, b.y), hn::IfThenElse(where, a.depth, b.depth)};
-  }
   HWY_INLINE static M yes() { return hn::Eq(hn::Zero(D()), hn::Zero(D())); }
 
   HWY_INLINE Point sum_of_corners() const {

@@ -24,10 +24,6 @@ HWY_INLINE V square_of(V x) {
 HWY_INLINE V inverse(V x) {
   return hn::Div(all(1.0f), x);
 }
-HWY_INLINE Point where_else(M where, const Point& a, const Point& b) {
-  return {hn::IfThenElse(where, a.x, b.x), hn::IfThenElse(where, a.y, b.y), hn::IfThenElse(where, a.depth, b.depth)};
-}
-
 // The two places found so far that lean most.
 struct Extremes {
   Point low, high;
@@ -37,8 +33,8 @@ struct Extremes {
   HWY_INLINE void take(M where, const Point& p) {
     const M is_lower = hn::And(where, hn::Lt(hn::Mul(p.x, low.depth), hn::Mul(low.x, p.depth)));
     const M is_higher = hn::And(where, hn::Gt(hn::Mul(p.x, high.depth), hn::Mul(high.x, p.depth)));
-    low = where_else(is_lower, p, low);
-    high = where_else(is_higher, p, high);
+    low = chosen(is_lower, p, low);
+    high = chosen(is_higher, p, high);
   }
   HWY_INLINE M exist() const { return hn::Lt(low.x, all(k_none)); }
 
@@ -46,28 +42,33 @@ struct Extremes {
   static constexpr float k_none = 1e15f;
 };
 
-// The faces of a row: y = slope * depth, and depths.
+// Where what spots have in their rows leans most: of all places where it can (spot_rows.h), those that are in spot and
+// row, by and large. The row's faces are y = slope * depth and depths.
 class Guess {
  public:
-  HWY_INLINE explicit Guess(const SpotsInRows& rows, V slack)
-      : cone_(rows.cone), y0_(rows.y0), y1_(rows.y1), depth0_(rows.depth0), depth1_(rows.depth1), slack_(slack) {
+  // `left`, `right`: sides of the columns that may be touched.
+  HWY_INLINE Guess(const SpotsInRows& rows, V left, V right)
+      : cone_(rows.cone),
+        y0_(rows.y0),
+        y1_(rows.y1),
+        depth0_(rows.depth0),
+        depth1_(rows.depth1),
+        slack_(rows.tolerance(left, right)) {
     longest_square_ = square_of(hn::Add(cone_.range, slack_));
+    range_square_ = hn::Mul(cone_.range, cone_.range);
+    cosine_square_ = square_of(cone_.cosine);
     const Point toward = Point{all(0.3f), all(0.5f), all(0.8f)}, aside = Point{all(0.8f), all(-0.5f), all(0.1f)};
     const V along = dot(toward, cone_.axis);
     const M is_good = hn::Lt(hn::Abs(along), all(0.9f));
-    const Point from = where_else(is_good, toward, aside);
+    const Point from = chosen(is_good, toward, aside);
     const Point part = from - dot(from, cone_.axis) * cone_.axis;
     m1_ = inverse(length(part)) * part;
     m2_ = cross(cone_.axis, m1_);
     rim_ = cone_.apex + hn::Mul(cone_.range, cone_.cosine) * cone_.axis;
     rim1_ = hn::Mul(cone_.range, cone_.sine) * m1_;
     rim2_ = hn::Mul(cone_.range, cone_.sine) * m2_;
-    take_free();
-    for (const V slope : {y0_, y1_}) take_in_tile_plane(slope);
-    for (const V depth : {depth0_, depth1_}) take_in_slice_plane(depth);
-    take_generators();
-    for (const V slope : {y0_, y1_})
-      for (const V depth : {depth0_, depth1_}) take_edge(hn::Mul(slope, depth), depth);
+    take_side();
+    take_sphere();
   }
 
   const Extremes& extremes() const { return extremes_; }
@@ -79,11 +80,13 @@ class Guess {
   HWY_INLINE M is_between_tiles(V y, V depth) const {
     return is_between(hn::Sub(hn::Mul(y0_, depth), slack_), y, hn::Add(hn::Mul(y1_, depth), slack_));
   }
-  // v: from the apex.
-  HWY_INLINE M is_in_cone(const Point& v) const {
-    const V along = dot(v, cone_.axis), side = hn::Add(hn::Mul(cone_.sine, along), slack_);
-    const V across = hn::Sub(dot(v, v), square_of(along));
-    return hn::And(hn::Ge(side, hn::Zero(D())), hn::Ge(square_of(side), hn::Mul(square_of(cone_.cosine), across)));
+  // A place so far along the axis from the apex, and so far from the apex, squared.
+  HWY_INLINE M is_in_cone(V along, V square) const {
+    const V side = hn::Add(hn::Mul(cone_.sine, along), slack_), across = hn::Sub(square, square_of(along));
+    return hn::And(hn::Ge(side, hn::Zero(D())), hn::Ge(square_of(side), hn::Mul(cosine_square_, across)));
+  }
+  HWY_INLINE M is_sphere_in_cone(const Point& p) const {
+    return is_in_cone(dot(p - cone_.apex, cone_.axis), range_square_);
   }
 
   // Angles phi with a cos phi + b sin phi = c, as places of the rim.
@@ -114,13 +117,12 @@ class Guess {
     }
   }
 
-  // Of the spot alone: its apex, and where sphere and rim lean most.
+  // Where sphere and rim lean most.
   HWY_INLINE void take_free() {
     const Point& a = cone_.apex;
-    extremes_.take(hn::And(is_between_slices(a.depth), is_between_tiles(a.y, a.depth)), a);
-    each_tangent(a.x, a.depth, square_of(cone_.range), [&](M exists, V x, V depth) {
+    each_tangent(a.x, a.depth, range_square_, [&](M exists, V x, V depth) {
       const Point p = {x, a.y, depth};
-      const M is_in = hn::And(hn::And(is_between_slices(depth), is_between_tiles(p.y, depth)), is_in_cone(p - a));
+      const M is_in = hn::And(hn::And(is_between_slices(depth), is_between_tiles(p.y, depth)), is_sphere_in_cone(p));
       extremes_.take(hn::And(exists, is_in), p);
     });
     const auto wedge = [](V a1, V b1, V a2, V b2) { return hn::Sub(hn::Mul(a1, b2), hn::Mul(a2, b1)); };
@@ -138,11 +140,11 @@ class Guess {
     const V away = hn::Sub(a.y, hn::Mul(slope, a.depth));
     const V ahead = hn::Mul(shrink, hn::Add(hn::Mul(slope, a.y), a.depth));  // in depth
     const V tilt = hn::Sqrt(hn::Add(all(1.0f), square_of(slope)));
-    const V rho_square = hn::Sub(square_of(cone_.range), hn::Mul(shrink, square_of(away)));
+    const V rho_square = hn::Sub(range_square_, hn::Mul(shrink, square_of(away)));
     each_tangent(a.x, hn::Mul(tilt, ahead), rho_square, [&](M exists, V x, V along) {
       const V depth = hn::Mul(along, hn::Mul(tilt, shrink));
       const Point p = {x, hn::Mul(slope, depth), depth};
-      extremes_.take(hn::And(exists, hn::And(is_between_slices(depth), is_in_cone(p - a))), p);
+      extremes_.take(hn::And(exists, hn::And(is_between_slices(depth), is_sphere_in_cone(p))), p);
     });
     const auto part = [&](const Point& p) { return hn::Sub(p.y, hn::Mul(slope, p.depth)); };
     each_rim_place(part(rim1_), part(rim2_), hn::Neg(part(rim_)),
@@ -151,13 +153,9 @@ class Guess {
 
   HWY_INLINE void take_in_slice_plane(V depth) {
     const Point& a = cone_.apex;
-    const V ahead = hn::Sub(depth, a.depth), square = hn::Sub(square_of(cone_.range), square_of(ahead));
-    const V half = root(square);
-    const M exists = hn::And(hn::Ge(square, hn::Zero(D())), is_between_tiles(a.y, depth));
-    for (const V x : {half, hn::Neg(half)}) {
-      const Point v = {x, hn::Zero(D()), ahead};
-      extremes_.take(hn::And(exists, is_in_cone(v)), a + v);
-    }
+    const V ahead = hn::Sub(depth, a.depth), square = hn::Sub(range_square_, square_of(ahead));
+    take_sphere_at(hn::And(hn::Ge(square, hn::Zero(D())), is_between_tiles(a.y, depth)), root(square), hn::Zero(D()),
+                   ahead);
     each_rim_place(rim1_.depth, rim2_.depth, hn::Sub(depth, rim_.depth), [&](M on_rim, const Point& p) {
       extremes_.take(hn::And(on_rim, is_between_tiles(p.y, p.depth)), p);
     });
@@ -203,33 +201,60 @@ class Guess {
     });
   }
 
-  // Where the line at this height and depth meets sphere and cone.
-  HWY_INLINE void take_edge(V y, V depth) {
+  // Calls take(up, ahead) for the row's four edges, seen from the apex.
+  template <class Take>
+  HWY_INLINE void each_edge(Take&& take) const {
+    for (const V slope : {y0_, y1_})
+      for (const V depth : {depth0_, depth1_})
+        take(hn::Sub(hn::Mul(slope, depth), cone_.apex.y), hn::Sub(depth, cone_.apex.depth));
+  }
+
+  // Apex and side.
+  HWY_INLINE void take_side() {
     const Point& a = cone_.apex;
-    const V up = hn::Sub(y, a.y), ahead = hn::Sub(depth, a.depth);
-    const V rest = hn::Add(square_of(up), square_of(ahead)), square = hn::Sub(square_of(cone_.range), rest);
-    const M meets = hn::Ge(square, hn::Zero(D()));
-    const V half = root(square);
+    extremes_.take(hn::And(is_between_slices(a.depth), is_between_tiles(a.y, a.depth)), a);
+    take_generators();
+    each_edge([&](V up, V ahead) { take_side_on_edge(up, ahead); });
+  }
+
+  // Sphere and rim.
+  HWY_INLINE void take_sphere() {
+    take_free();
+    for (const V slope : {y0_, y1_}) take_in_tile_plane(slope);
+    for (const V depth : {depth0_, depth1_}) take_in_slice_plane(depth);
+    each_edge([&](V up, V ahead) {
+      const V square = hn::Sub(range_square_, hn::Add(square_of(up), square_of(ahead)));
+      take_sphere_at(hn::Ge(square, hn::Zero(D())), root(square), up, ahead);
+    });
+  }
+
+  // Places of the sphere as far to the right and to the left of the apex.
+  HWY_INLINE void take_sphere_at(M where, V half, V up, V ahead) {
+    const V k = hn::Add(hn::Mul(up, cone_.axis.y), hn::Mul(ahead, cone_.axis.depth));
     for (const V x : {half, hn::Neg(half)}) {
-      const Point v = {x, up, ahead};
-      extremes_.take(hn::And(meets, is_in_cone(v)), a + v);
+      const M is_in = is_in_cone(hn::Add(hn::Mul(x, cone_.axis.x), k), range_square_);
+      extremes_.take(hn::And(where, is_in), cone_.apex + Point{x, up, ahead});
     }
-    // along² = cosine² (x² + rest), along = x axis.x + k.
-    const V k = hn::Add(hn::Mul(up, cone_.axis.y), hn::Mul(ahead, cone_.axis.depth)), c2 = square_of(cone_.cosine);
-    const V qa = hn::Sub(square_of(cone_.axis.x), c2), qb = hn::Mul(k, cone_.axis.x);
-    const V qc = hn::Sub(square_of(k), hn::Mul(c2, rest)), inside = hn::Sub(square_of(qb), hn::Mul(qa, qc));
+  }
+
+  // along² = cosine² (x² + rest), along = x axis.x + k.
+  HWY_INLINE void take_side_on_edge(V up, V ahead) {
+    const V rest = hn::Add(square_of(up), square_of(ahead));
+    const V k = hn::Add(hn::Mul(up, cone_.axis.y), hn::Mul(ahead, cone_.axis.depth));
+    const V qa = hn::Sub(square_of(cone_.axis.x), cosine_square_), qb = hn::Mul(k, cone_.axis.x);
+    const V qc = hn::Sub(square_of(k), hn::Mul(cosine_square_, rest));
+    const V inside = hn::Sub(square_of(qb), hn::Mul(qa, qc));
     const M exist = hn::Ge(inside, hn::Zero(D()));
     const V q = hn::Neg(hn::Add(qb, hn::CopySign(root(inside), qb)));
     for (const V x : {hn::Div(q, qa), hn::Div(qc, q)}) {
-      const Point v = {x, up, ahead};
       const M is_in = hn::And(hn::Ge(hn::Add(hn::Mul(x, cone_.axis.x), k), hn::Neg(slack_)),
                               hn::Le(hn::Add(square_of(x), rest), longest_square_));
-      extremes_.take(hn::And(exist, is_in), a + v);
+      extremes_.take(hn::And(exist, is_in), cone_.apex + Point{x, up, ahead});
     }
   }
 
   Cone cone_;
-  V y0_, y1_, depth0_, depth1_, slack_, longest_square_;
+  V y0_, y1_, depth0_, depth1_, slack_, longest_square_, range_square_, cosine_square_;
   Point m1_, m2_;            // across the axis
   Point rim_, rim1_, rim2_;  // its middle, and from there to two of its places
   Extremes extremes_;
@@ -244,7 +269,7 @@ class Ends {
         rows_(rows),
         outer_first_(first),
         outer_last_(last),
-        found_(Guess(rows, rows.tolerance(gathered(from.side, first), gathered(from.side, last))).extremes()),
+        found_(Guess(rows, gathered(from.side, first), gathered(from.side, hn::Add(last, all_int(1)))).extremes()),
         exists_(found_.exist()) {
     low_ = slope_of(found_.low);
     high_ = slope_of(found_.high);
@@ -264,11 +289,12 @@ class Ends {
     return hn::And(touched, hn::Or(is_outmost, misses_behind(hn::AndNot(is_outmost, touched))));
   }
 
-  // Nothing was found within the columns; and a plane tells that there is nothing.
+  // Nothing was found within the columns.
   HWY_INLINE M found_none() const {
     const V left = side(outer_first_), right = side(hn::Add(outer_last_, all_int(1)));
     return hn::Or(hn::Not(exists_), hn::Or(hn::Lt(high_, left), hn::Gt(low_, right)));
   }
+  // A plane tells that there is nothing.
   HWY_INLINE M misses_all() const {
     return Cells(rows_, side(outer_first_), side(hn::Add(outer_last_, all_int(1)))).is_apart();
   }
@@ -293,6 +319,7 @@ class Ends {
     return found_.low + hn::Min(hn::Max(t, hn::Zero(D())), all(1.0f)) * way;
   }
 
+  // Is there a common place near the way between the extremes?
   HWY_INLINE M touches(VI column) const {
     const V left = side(column), right = side(hn::Add(column, all_int(1)));
     const Cells cell(rows_, left, right);
