@@ -22,10 +22,17 @@ struct Workload {
   const char* name;
   Vec2i tiles;
   grid::Slicing slices;
+  float range_m = 0.0f;  // of all lights, if not 0
+  const char* file = name;
 };
 
-const std::array<Workload, 6> k_workloads{{
+const std::array<Workload, 7> k_workloads{{
     {"W1", {12, 12}, {.scheme = Scheme::exponential, .count = 24, .near_m = 0.1, .far_m = 400, .boundaries_m = {}}},
+    {"W1-60m",
+     {12, 12},
+     {.scheme = Scheme::exponential, .count = 24, .near_m = 0.1, .far_m = 400, .boundaries_m = {}},
+     60.0f,
+     "W1"},
     {"W2", {12, 12}, {.scheme = Scheme::exponential, .count = 24, .near_m = 0.1, .far_m = 400, .boundaries_m = {}}},
     {"W3", {12, 12}, {.scheme = Scheme::exponential, .count = 24, .near_m = 0.1, .far_m = 400, .boundaries_m = {}}},
     {"W4", {12, 12}, {.scheme = Scheme::exponential, .count = 24, .near_m = 0.1, .far_m = 400, .boundaries_m = {}}},
@@ -82,12 +89,12 @@ void brute_frame(benchmark::State& state, const Setting& setting) {
 
 void register_peers() {
   for (const Workload& workload : k_workloads) {
-    const std::string file = peer_workload(workload.name);
+    const std::string file = peer_workload(workload.file);
     if (file.empty()) return;
     const std::string prefix = std::string("peers/") + workload.name + "/";
     const auto add = [&](const std::string& name, auto&& frame) {
       benchmark::RegisterBenchmark((prefix + name).c_str(), [=](benchmark::State& state) {
-        frame(state, make_setting(file, spec_of(workload), 0.0));
+        frame(state, make_setting(file, spec_of(workload), 0.0, workload.range_m));
       })->Unit(benchmark::kMicrosecond);
     };
     add("brute", [](benchmark::State& state, const Setting& setting) { brute_frame(state, setting); });
