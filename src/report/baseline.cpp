@@ -28,12 +28,9 @@ Json to_json(const run::ListsDiffer& lists) {
 
 Json to_json(const run::PairedCase& measured) {
   Json launches = Json::array();
-  std::vector<double> log_ratios;
-  for (const run::PairedLaunch& launch : measured.launches) {
+  for (const run::PairedLaunch& launch : measured.launches)
     launches.push_back({{"base_ns", launch.base_ns}, {"new_ns", launch.next_ns}});
-    log_ratios.push_back(measure::launch_log_ratio(launch.base_ns, launch.next_ns));
-  }
-  const measure::Ratio ratio = measure::ratio_of(measure::change_over_launches(log_ratios));
+  const measure::Ratio ratio = measure::ratio_of(measured.change());
   Json out{{"launches", launches},
            {"base_ns", number_or_null(median_of_all(measured.launches, &run::PairedLaunch::base_ns))},
            {"new_ns", number_or_null(median_of_all(measured.launches, &run::PairedLaunch::next_ns))},

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "core/error.h"
-#include "measure/change.h"
 
 namespace clusterbench::run {
 namespace {
@@ -87,13 +86,6 @@ std::optional<ListsDiffer> lists_differ(Program& base, Program& next, const std:
   return out;
 }
 
-double half_width(const PairedCase& measured) {
-  std::vector<double> log_ratios;
-  for (const PairedLaunch& launch : measured.launches)
-    log_ratios.push_back(measure::launch_log_ratio(launch.base_ns, launch.next_ns));
-  return measure::half_width(measure::change_over_launches(log_ratios));
-}
-
 class PairedRun {
  public:
   PairedRun(const Plan& plan, const PairedRequest& request, const PairedStart& start, const OnPairedRound& on_round)
@@ -137,7 +129,7 @@ class PairedRun {
     for (const GroupMethods& methods : groups_) {
       GroupMethods wide;
       for (const MethodCases& ids : methods)
-        if (half_width(cases_.at(ids.front())) > request_.enough) wide.push_back(ids);
+        if (measure::half_width(cases_.at(ids.front()).change()) > request_.enough) wide.push_back(ids);
       if (!wide.empty()) open.push_back(wide);
     }
     return open;
@@ -171,6 +163,13 @@ class PairedRun {
 };
 
 }  // namespace
+
+measure::Change PairedCase::change() const {
+  std::vector<double> log_ratios;
+  for (const PairedLaunch& launch : launches)
+    log_ratios.push_back(measure::launch_log_ratio(launch.base_ns, launch.next_ns));
+  return measure::change_over_launches(log_ratios);
+}
 
 std::map<std::string, PairedCase> measure_paired(const Plan& plan, const PairedRequest& request,
                                                  const PairedStart& start, const OnPairedRound& on_round) {

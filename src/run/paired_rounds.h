@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "measure/change.h"
 #include "run/sweep.h"
 
 namespace clusterbench::run {
@@ -59,6 +60,9 @@ struct PairedLaunch {
 struct PairedCase {
   std::vector<PairedLaunch> launches;
   std::optional<ListsDiffer> lists_differ;
+
+  // new / base, over the launches.
+  measure::Change change() const;
 };
 
 // Each method is measured in `launches` launches, and in further ones until half of its interval (measure::half_width)
