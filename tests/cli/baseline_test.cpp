@@ -74,6 +74,15 @@ TEST(Baseline, a_program_that_takes_several_times_as_long_fails_the_run) {
   EXPECT_EQ(tool("compare " + place.out + " " + place.out).code, 1);
 }
 
+// No interval of three short rounds is that narrow.
+TEST(Baseline, launches_go_on_until_intervals_are_narrow_or_there_were_the_most) {
+  const Place place;
+  const Outcome done = place.run(CLUSTERBENCH_BINARY, "--threshold 0.01 --baseline-most-launches 5");
+  ASSERT_NE(done.code, 2) << done.err;
+  for (const Json& one : Json::parse(file_text(place.out))["cases"])
+    EXPECT_EQ(one["timing"]["baseline"]["launches"].size(), 5u) << one["id"];
+}
+
 TEST(Baseline, lists_that_differ_are_named_and_fail) {
   const Place place;
   const std::string changed = place.script(
