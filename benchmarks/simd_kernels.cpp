@@ -396,44 +396,38 @@ void span_lists(State& state, const FrameLists& frame) {
 // All rows' spans side by side, with room to read beyond the last.
 template <class Index>
 struct SpanArrays {
-  using Column = typename assign::RowSpans<Index>::Column;
   std::vector<Index> lights;
-  std::vector<Column> before, after;
+  std::vector<std::uint32_t> spans;
   std::vector<std::size_t> begin;  // of each row
   std::uint32_t columns;
 
   explicit SpanArrays(const FrameLists& frame) : begin(frame.rows + 1, 0), columns(frame.columns) {
     for (const Span& span : frame.spans) {
       lights.push_back(static_cast<Index>(span.light));
-      before.push_back(static_cast<Column>(static_cast<int>(span.first) - 1));
-      after.push_back(static_cast<Column>(span.last + 1));
+      spans.push_back(assign::ColumnSpan::of(span.first, span.last));
       begin[span.row + 1] = lights.size();
     }
     for (std::size_t row = 1; row < begin.size(); ++row) begin[row] = std::max(begin[row], begin[row - 1]);
     lights.resize(lights.size() + assign::k_most_lanes);
-    before.resize(lights.size());
-    after.resize(lights.size());
+    spans.resize(lights.size());
   }
   assign::RowSpans<Index> of(std::size_t row) const {
-    return {lights.data() + begin[row],
-            before.data() + begin[row],
-            after.data() + begin[row],
-            static_cast<std::uint32_t>(begin[row + 1] - begin[row]),
-            0,
-            columns};
+    const auto count = static_cast<std::uint32_t>(begin[row + 1] - begin[row]);
+    return {lights.data() + begin[row], spans.data() + begin[row], count, 0, columns};
   }
 };
 
 template <class Index>
 void row_lists(State& state, const FrameLists& frame) {
   const SpanArrays<Index> spans(frame);
+  assign::FewColumns few;
   std::vector<Index> lights(frame.lists.pair_count() + assign::k_most_lanes);
   std::vector<std::uint32_t> begin(frame.lists.begin.size());
   const std::size_t bytes = begin.size() * sizeof(std::uint32_t) + frame.lists.pair_count() * sizeof(Index);
   against_copy(state, bytes, frame.lists.pair_count(), [&] {
     Index* to = lights.data();
     for (std::size_t row = 0; row < frame.rows; ++row)
-      to = assign::write_row_lists(spans.of(row), to, lights.data(), begin.data() + row * frame.columns);
+      to = assign::write_row_lists(spans.of(row), few, to, lights.data(), begin.data() + row * frame.columns);
   });
 }
 

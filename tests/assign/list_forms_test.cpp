@@ -78,16 +78,17 @@ TEST(ListForms, bits_are_those_set_one_by_one_on_every_target) {
 template <class Index>
 struct Row {
   std::vector<Index> lights;
-  std::vector<std::make_signed_t<Index>> before, after;
+  std::vector<std::uint32_t> spans;
   std::uint32_t count = 0, columns = 0;
 
-  RowSpans<Index> spans() const { return {lights.data(), before.data(), after.data(), count, 0, columns}; }
+  RowSpans<Index> all() const { return {lights.data(), spans.data(), count, 0, columns}; }
   Lists lists() const {
     Lists lists;
     lists.begin.push_back(0);
-    for (int column = 0; column < static_cast<int>(columns); ++column) {
+    for (std::uint32_t column = 0; column < columns; ++column) {
       for (std::size_t i = 0; i < count; ++i)
-        if (before[i] < column && column < after[i]) lists.lights.push_back(lights[i]);
+        if (ColumnSpan::first(spans[i]) <= column && column <= ColumnSpan::last(spans[i]))
+          lists.lights.push_back(lights[i]);
       lists.begin.push_back(lists.pair_count());
     }
     return lists;
@@ -96,38 +97,47 @@ struct Row {
 
 // Of lights 0 .. most_lights - 1, every third one. What is beyond the spans would be in every list.
 template <class Index>
-Row<Index> random_row(std::uint32_t columns, std::uint32_t most_lights, std::uint64_t seed) {
-  using Column = std::make_signed_t<Index>;
+Row<Index> random_row(std::uint32_t columns, std::uint32_t most_lights, std::uint32_t longest, std::uint64_t seed) {
   SplitMix64 random(seed);
   Row<Index> row;
   row.columns = columns;
   for (std::uint32_t light = 0; light < most_lights; ++light) {
     if (random.below(3) != 0) continue;
-    const auto a = static_cast<Column>(random.below(columns)), b = static_cast<Column>(random.below(columns));
+    const auto a = static_cast<std::uint32_t>(random.below(columns)),
+               b = static_cast<std::uint32_t>(random.below(columns));
     row.lights.push_back(static_cast<Index>(light));
-    row.before.push_back(static_cast<Column>(std::min(a, b) - 1));
-    row.after.push_back(static_cast<Column>(std::max(a, b) + 1));
+    row.spans.push_back(ColumnSpan::of(std::min(a, b), std::min(std::max(a, b), std::min(a, b) + longest - 1)));
     ++row.count;
   }
   row.lights.insert(row.lights.end(), k_most_lanes, Index{0});
-  row.before.insert(row.before.end(), k_most_lanes, Column{-1});
-  row.after.insert(row.after.end(), k_most_lanes, std::numeric_limits<Column>::max());
+  row.spans.insert(row.spans.end(), k_most_lanes, ColumnSpan::of(0, ColumnSpan::k_most_columns));
   return row;
 }
 
-// Columns and lights.
-constexpr std::array<std::array<std::uint32_t, 2>, 8> k_rows{
-    {{1, 1}, {7, 0}, {30, 17}, {12, 64}, {126, 256}, {1, 200}, {120, 100}, {33, 255}}};
+// Columns, lights, and how many columns a span has at most. Rows of many short spans are written piece by piece.
+constexpr std::array<std::array<std::uint32_t, 3>, 12> k_rows{{{1, 1, 1},
+                                                               {7, 0, 7},
+                                                               {30, 17, 30},
+                                                               {12, 64, 12},
+                                                               {126, 256, 126},
+                                                               {1, 200, 1},
+                                                               {120, 100, 120},
+                                                               {33, 255, 33},
+                                                               {12, 256, 2},
+                                                               {32, 250, 3},
+                                                               {65, 256, 1},
+                                                               {70, 150, 9}}};
 
 template <class Index>
 void expect_row_lists(const std::string& target) {
   for (const auto& size : k_rows)
     for (const std::uint64_t seed : {1u, 2u, 3u}) {
-      const Row<Index> row = random_row<Index>(size[0], size[1], seed);
+      const Row<Index> row = random_row<Index>(size[0], size[1], size[2], seed);
       const Lists expected = row.lists();
+      FewColumns few;
       std::vector<Index> lights(3 + expected.pair_count() + k_most_lanes);
       std::vector<std::uint32_t> begin(row.columns);
-      const Index* end = write_row_lists(row.spans(), lights.data() + 3, lights.data(), begin.data());
+      const Index* end = write_row_lists(row.all(), few, lights.data() + 3, lights.data(), begin.data());
       ASSERT_EQ(end - lights.data(), 3 + static_cast<std::ptrdiff_t>(expected.pair_count())) << target;
       for (std::uint32_t cell = 0; cell < row.columns; ++cell) EXPECT_EQ(begin[cell], expected.begin[cell] + 3);
       const std::vector<std::uint32_t> written(lights.begin() + 3, lights.begin() + 3 + expected.pair_count());
@@ -145,32 +155,35 @@ TEST(RowLists, of_8_16_and_32_bits_are_those_of_a_plain_loop_on_every_target) {
 
 TEST(RowLists, take_columns_and_lights_up_to_the_ends_of_their_types) {
   on_each_target([](const std::string& target) {
-    Row<std::uint16_t> row = random_row<std::uint16_t>(32766, 4, 1);
+    constexpr std::uint32_t k_columns = ColumnSpan::k_most_columns;
+    Row<std::uint16_t> row = random_row<std::uint16_t>(k_columns, 4, k_columns, 1);
     row.lights[0] = 65535;
-    row.before[0] = -1;
-    row.after[0] = 32766;
+    row.spans[0] = ColumnSpan::of(0, k_columns - 1);
     row.count = 1;
-    std::vector<std::uint16_t> lights(32766 + k_most_lanes);
+    std::vector<std::uint16_t> lights(k_columns + k_most_lanes);
     std::vector<std::uint32_t> begin(row.columns);
-    const auto* end = write_row_lists(row.spans(), lights.data(), lights.data(), begin.data());
-    EXPECT_EQ(end - lights.data(), 32766) << target;
-    EXPECT_EQ(lights[32765], 65535u) << target;
+    FewColumns few;
+    const auto* end = write_row_lists(row.all(), few, lights.data(), lights.data(), begin.data());
+    EXPECT_EQ(end - lights.data(), k_columns) << target;
+    EXPECT_EQ(lights[k_columns - 1], 65535u) << target;
   });
 }
 
-TEST(RowLists, of_some_columns_only_leave_the_others_alone) {
-  const auto row = random_row<std::uint32_t>(30, 70, 1);
+void expect_others_alone(std::uint32_t longest) {
+  const auto row = random_row<std::uint32_t>(30, 170, longest, 1);
   const Lists all = row.lists();
-  RowSpans<std::uint32_t> some = row.spans();
+  RowSpans<std::uint32_t> some = row.all();
   some.column = 3;
   some.end_column = 21;
-  const std::uint32_t expected = all.begin[21] - all.begin[3], words_per_cell = 3;
+  const std::uint32_t expected = all.begin[21] - all.begin[3], words_per_cell = 6;
   std::vector<std::uint32_t> bits = bits_one_by_one(all, words_per_cell);
-  std::fill(bits.begin(), bits.begin() + 3 * words_per_cell, 7);
-  std::fill(bits.begin() + 21 * words_per_cell, bits.end(), 7);
+  std::fill(bits.begin(), bits.begin() + std::ptrdiff_t{3} * words_per_cell, 7);
+  std::fill(bits.begin() + std::ptrdiff_t{21} * words_per_cell, bits.end(), 7);
   on_each_target([&](const std::string& target) {
-    std::vector<std::uint32_t> lights(expected + k_most_lanes), begin(30, 7), words(30 * words_per_cell, 7);
-    const auto* end = write_row_lists(some, lights.data(), lights.data(), begin.data());
+    std::vector<std::uint32_t> lights(expected + k_most_lanes), begin(30, 7),
+        words(std::size_t{30} * words_per_cell, 7);
+    FewColumns few;
+    const auto* end = write_row_lists(some, few, lights.data(), lights.data(), begin.data());
     EXPECT_EQ(end - lights.data(), static_cast<std::ptrdiff_t>(expected)) << target;
     EXPECT_EQ(begin[2], 7u) << target;
     EXPECT_EQ(begin[3], 0u) << target;
@@ -181,16 +194,20 @@ TEST(RowLists, of_some_columns_only_leave_the_others_alone) {
   });
 }
 
+TEST(RowLists, of_some_columns_only_leave_the_others_alone) {
+  for (const std::uint32_t longest : {30u, 2u}) expect_others_alone(longest);
+}
+
 TEST(RowLists, as_bits_are_those_of_a_plain_loop_on_every_target) {
   on_each_target([](const std::string& target) {
     for (const auto& size : k_rows)
       for (const std::uint64_t seed : {1u, 2u, 3u}) {
-        const auto row = random_row<std::uint32_t>(size[0], size[1], seed);
+        const auto row = random_row<std::uint32_t>(size[0], size[1], size[2], seed);
         const std::uint32_t words_per_cell = (size[1] + 31) / 32;
         std::vector<std::uint32_t> words(std::size_t{row.columns} * words_per_cell + 1, 0xdeadbeef);
         std::vector<std::uint32_t> expected = bits_one_by_one(row.lists(), words_per_cell);
         expected.push_back(0xdeadbeef);
-        write_row_bits(row.spans(), words_per_cell, words.data());
+        write_row_bits(row.all(), words_per_cell, words.data());
         EXPECT_EQ(words, expected) << target << ", " << size[0] << " columns, " << size[1] << " lights";
       }
   });

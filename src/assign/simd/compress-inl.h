@@ -1,4 +1,4 @@
-// Lanes of 32, 16 or 8 bits side by side, for files that are compiled once per target. Included after hwy/highway.h;
+// Lanes of 32 bits side by side, for files that are compiled once per target. Included after hwy/highway.h;
 // defines its names anew for each target.
 //
 // Instruction sets without an instruction for it look up where lanes go in one table. Highway 1.0's own Compress does
@@ -23,6 +23,15 @@ inline constexpr auto k_places_of_bits = [] {
   return table;
 }();
 
+// For every 8 bits: how many are set before each place.
+inline constexpr auto k_ranks_of_bits = [] {
+  std::array<std::array<std::uint8_t, 8>, 256> table{};
+  for (unsigned bits = 0; bits < 256; ++bits)
+    for (unsigned place = 1; place < 8; ++place)
+      table[bits][place] = static_cast<std::uint8_t>(table[bits][place - 1] + (bits >> (place - 1) & 1));
+  return table;
+}();
+
 }  // namespace clusterbench::assign
 #endif
 
@@ -41,72 +50,34 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Whether there is an instruction for it, or nothing to do.
-template <class T>
-constexpr bool k_compresses = HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_AVX3_DL ||
-                              (HWY_TARGET == HWY_AVX3 && sizeof(T) == 4);
-
-// At most 8 lanes, the wanted ones first.
-template <class D, class V>
-HWY_INLINE V compressed_by_table(D d, V lanes, std::uint8_t bits) {
-  const std::uint8_t* table = k_places_of_bits[bits].data();
-  const auto places = hn::LoadU(hn::Rebind<std::uint8_t, D>(), table);
-  if constexpr (sizeof(hn::TFromD<D>) == 4) {
-    return hn::TableLookupLanes(lanes, hn::IndicesFromVec(d, hn::PromoteTo(hn::RebindToSigned<D>(), places)));
-  } else if constexpr (sizeof(hn::TFromD<D>) == 2) {
-    const hn::RebindToUnsigned<D> du;
-    const auto low = hn::ShiftLeft<1>(hn::PromoteTo(du, places));  // byte; the lane's other one follows
-    const auto both = hn::Or(low, hn::ShiftLeft<8>(hn::Add(low, hn::Set(du, 1))));
-    return hn::BitCast(d, hn::TableLookupBytes(lanes, hn::BitCast(d, both)));
-  } else {
-    return hn::TableLookupBytes(lanes, places);
-  }
+// What a table has for at most 8 lanes that are wanted or not.
+template <class D, class M>
+HWY_INLINE auto places_of(D d, M wanted, const std::array<std::array<std::uint8_t, 8>, 256>& table) {
+  std::uint8_t bits[8];
+  hn::StoreMaskBits(d, wanted, bits);
+  const auto places = hn::LoadU(hn::Rebind<std::uint8_t, D>(), table[bits[0]].data());
+  return hn::IndicesFromVec(d, hn::PromoteTo(hn::RebindToSigned<D>(), places));
 }
 
 // Lanes of 32 bits, the wanted ones first.
 template <class D, class V, class M>
-HWY_INLINE V compressed(D d, V lanes, M wanted) {
-  if constexpr (k_compresses<hn::TFromD<D>>) {
-    return hn::Compress(lanes, wanted);
-  } else {
-    std::uint8_t bits[8];
-    hn::StoreMaskBits(d, wanted, bits);
-    return compressed_by_table(d, lanes, bits[0]);
-  }
+HWY_INLINE V compressed([[maybe_unused]] D d, V lanes, M wanted) {
+#if HWY_TARGET <= HWY_AVX3 || HWY_TARGET == HWY_SCALAR  // there is an instruction for it, or nothing to do
+  return hn::Compress(lanes, wanted);
+#else
+  return hn::TableLookupLanes(lanes, places_of(d, wanted, k_places_of_bits));
+#endif
 }
 
-// Writes the wanted ones of `lanes`, which were loaded from `from`, to `to`, and up to a vector of anything behind
-// them. Returns their end.
-template <class D, class V, class M, class T>
-HWY_INLINE T* append(D d, [[maybe_unused]] const T* from, [[maybe_unused]] V lanes, M wanted, T* to) {
-  if constexpr (sizeof(T) == 4) {
-    // Compressing in a register and storing it whole is faster than a compressing store.
-    hn::StoreU(compressed(d, lanes, wanted), d, to);
-    return to + hn::CountTrue(d, wanted);
-  } else if constexpr (k_compresses<T>) {
-    return to + hn::CompressStore(lanes, wanted, d, to);
-  } else if constexpr (k_compresses<std::uint32_t> && sizeof(T) == 2) {  // on their way through lanes of 32 bits
-    const hn::ScalableTag<std::uint32_t> wide;
-    const hn::Rebind<T, decltype(wide)> slim;
-    std::uint8_t bits[8];
-    hn::StoreMaskBits(d, wanted, bits);
-    for (std::size_t i = 0; i < hn::Lanes(d); i += hn::Lanes(wide)) {
-      const auto some = hn::LoadMaskBits(wide, bits + i / 8);
-      const auto first = hn::Compress(hn::PromoteTo(wide, hn::LoadU(slim, from + i)), some);
-      hn::StoreU(hn::TruncateTo(slim, first), slim, to);
-      to += hn::CountTrue(wide, some);
-    }
-    return to;
-  } else {
-    const hn::CappedTag<T, 8> eight;
-    std::uint8_t bits[8];
-    hn::StoreMaskBits(d, wanted, bits);
-    for (std::size_t i = 0; i < hn::Lanes(d); i += 8) {
-      hn::StoreU(compressed_by_table(eight, hn::LoadU(eight, from + i), bits[i / 8]), eight, to);
-      to += hwy::PopCount(bits[i / 8]);
-    }
-    return to;
-  }
+// The first lanes, of 32 bits, in order where they are wanted, and `others` elsewhere.
+template <class D, class V, class M>
+HWY_INLINE V expanded(D d, V lanes, M wanted, V others) {
+#if HWY_TARGET <= HWY_AVX3
+  const hn::RebindToFloat<D> df;  // of this kind in all lanes
+  return V{_mm512_mask_expand_ps(hn::BitCast(df, others).raw, wanted.raw, hn::BitCast(df, lanes).raw)};
+#else
+  return hn::IfThenElse(wanted, hn::TableLookupLanes(lanes, places_of(d, wanted, k_ranks_of_bits)), others);
+#endif
 }
 
 }  // namespace HWY_NAMESPACE

@@ -39,7 +39,7 @@ struct BatchRows {
   void make_room(int of_rows, std::size_t of_lanes);
   std::size_t capacity_bytes() const { return columns.capacity() * sizeof(std::uint32_t); }
 };
-inline constexpr int k_most_columns = 0x7fff;
+inline constexpr int k_most_columns = ColumnSpan::k_most_columns;
 
 // How many balls a batch holds on this machine.
 std::uint32_t balls_per_batch();

@@ -1,7 +1,6 @@
 #include "assign/simd/span_lists.h"
 
 #include <algorithm>
-#include <numeric>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/simd/span_lists.cpp"
@@ -16,9 +15,7 @@ namespace clusterbench::assign {
 
 // Where spans are added; row r begins at r * pitch.
 struct SpanRows {
-  std::uint32_t* sizes;
-  std::uint32_t* lights;
-  std::int32_t *before, *after;
+  std::uint32_t *sizes, *lights, *columns;
   std::size_t pitch;
 };
 
@@ -30,10 +27,6 @@ namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
 namespace {
 
-std::uint32_t lane_count() {
-  return static_cast<std::uint32_t>(hn::Lanes(hn::ScalableTag<std::uint32_t>()));
-}
-
 const char* target_name() {
   return hwy::TargetName(HWY_TARGET);
 }
@@ -42,12 +35,11 @@ const char* target_name() {
 std::uint32_t add_rows(const SpanRows& rows, int first_row, int last_row, const std::uint32_t* columns,
                        const std::uint32_t* lights, std::uint8_t* is_left) {
   const hn::ScalableTag<std::uint32_t> du;
-  const hn::ScalableTag<std::int32_t> di;
   const std::size_t lanes = hn::Lanes(du);
   const auto light = hn::LoadU(du, lights), none = hn::Set(du, SpanLists::k_no_span);
-  const auto one = hn::Set(di, 1);
-  const auto half = hn::Set(du, 0x7fff);
-  auto pairs = hn::Zero(di);
+  const auto half = hn::Set(du, 0xffff);
+  auto beyond = hn::Zero(du);  // the spans' first columns
+  std::uint32_t spans = 0;
   for (int row = first_row; row <= last_row; ++row) {
     const auto r = static_cast<std::size_t>(row);
     const auto span = hn::LoadU(du, columns + r * lanes);
@@ -55,18 +47,15 @@ std::uint32_t add_rows(const SpanRows& rows, int first_row, int last_row, const 
     const auto open = hn::TestBit(span, hn::Set(du, SpanLists::k_open_span));
     is_left[r] = hn::AllFalse(du, hn::And(wanted, open)) ? 0 : 1;
     if (is_left[r] != 0) continue;
-    const auto first = hn::BitCast(di, hn::And(span, half));
-    const auto last = hn::BitCast(di, hn::ShiftRight<16>(span));
-    const auto before = hn::Sub(first, one), after = hn::Add(last, one);
     const std::size_t to = r * rows.pitch + rows.sizes[r];
-    const auto wanted_int = hn::RebindMask(di, wanted);
+    const auto count = static_cast<std::uint32_t>(hn::CountTrue(du, wanted));
     hn::StoreU(compressed(du, light, wanted), du, rows.lights + to);
-    hn::StoreU(compressed(di, before, wanted_int), di, rows.before + to);
-    hn::StoreU(compressed(di, after, wanted_int), di, rows.after + to);
-    rows.sizes[r] += static_cast<std::uint32_t>(hn::CountTrue(du, wanted));
-    pairs = hn::Add(pairs, hn::IfThenElseZero(wanted_int, hn::Sub(after, first)));
+    hn::StoreU(compressed(du, span, wanted), du, rows.columns + to);
+    rows.sizes[r] += count;
+    spans += count;
+    beyond = hn::Add(beyond, hn::IfThenElseZero(wanted, hn::Sub(hn::ShiftRight<16>(span), hn::And(span, half))));
   }
-  return static_cast<std::uint32_t>(hn::GetLane(hn::SumOfLanes(di, pairs)));
+  return spans + hn::GetLane(hn::SumOfLanes(du, beyond));
 }
 
 }  // namespace
@@ -78,7 +67,6 @@ HWY_AFTER_NAMESPACE();
 namespace clusterbench::assign {
 
 HWY_EXPORT(target_name);
-HWY_EXPORT(lane_count);
 HWY_EXPORT(add_rows);
 
 const char* simd_target_name() {
@@ -95,7 +83,6 @@ void SpanLists::start(std::uint32_t bands, std::uint32_t rows, std::uint32_t col
   pairs_ = band_pairs_ = 0;
   most_ = 0;
   out_ = &out;
-  lanes_ = HWY_DYNAMIC_DISPATCH(lane_count)();
   sizes_.assign(rows, 0);
   if (pitch_ == 0) grow();
   out.begin.resize(std::size_t{bands} * rows * columns + 1);
@@ -111,8 +98,7 @@ void SpanLists::grow() {
                          list.begin() + static_cast<std::ptrdiff_t>(row * wider + sizes_[row]));
   };
   widen(lights_);
-  widen(before_);
-  widen(after_);
+  widen(columns_of_);
   pitch_ = wider;
 }
 
@@ -127,38 +113,8 @@ void SpanLists::make_room(std::uint32_t spans) {
 void SpanLists::add_batch(int first_row, int last_row, const std::uint32_t* columns, const std::uint32_t* lights,
                           std::uint8_t* is_left) {
   make_room(k_most_lanes);
-  const SpanRows rows{sizes_.data(), lights_.data(), before_.data(), after_.data(), pitch_};
+  const SpanRows rows{sizes_.data(), lights_.data(), columns_of_.data(), pitch_};
   band_pairs_ += HWY_DYNAMIC_DISPATCH(add_rows)(rows, first_row, last_row, columns, lights, is_left);
-}
-
-// Whether that is cheaper for a row of this band. In cycles: scattering takes about 3 per pair, 17 per span (a branch
-// goes wrong) and 1 per cell; compressing 8 per cell and vector of spans.
-bool SpanLists::is_for_scattering(std::uint32_t spans) const {
-  const std::uint64_t vectors = (spans + lanes_ - 1) / lanes_;
-  const std::uint64_t scattering = spans * (3 * band_pairs_ + 17 * band_spans_) + columns_ * band_spans_;
-  return scattering < 8 * columns_ * vectors * band_spans_;
-}
-
-// For many short spans, of which a cell holds few: counts first, then gives each span's light to its cells.
-std::uint32_t* SpanLists::scatter_row(const RowSpans<std::uint32_t>& row, std::uint32_t* begin, std::uint32_t* to) {
-  std::uint32_t* lists = out_->lights.data();
-  next_.assign(columns_ + std::size_t{1}, 0);
-  for (std::uint32_t i = 0; i < row.count; ++i) {
-    const std::int32_t first = row.before[i] + 1;
-    ++next_[static_cast<std::size_t>(first)];
-    --next_[static_cast<std::size_t>(row.after[i])];
-  }
-  auto end = static_cast<std::uint32_t>(to - lists);
-  std::uint32_t lights = 0;
-  for (std::uint32_t column = 0; column < columns_; ++column) {
-    lights += next_[column];
-    begin[column] = next_[column] = end;
-    end += lights;
-  }
-  for (std::uint32_t i = 0; i < row.count; ++i)
-    for (std::int32_t column = row.before[i] + 1; column < row.after[i]; ++column)
-      lists[next_[static_cast<std::size_t>(column)]++] = row.lights[i];
-  return lists + end;
 }
 
 // The row's lists, but for the hole's columns.
@@ -170,16 +126,15 @@ std::uint32_t* SpanLists::finish_row(std::uint32_t row, const grid::IndexRange& 
     return to;
   }
   const std::size_t at = row * pitch_;
-  RowSpans<std::uint32_t> spans{lights_.data() + at, before_.data() + at, after_.data() + at, sizes_[row], 0, columns_};
-  if (hole.empty() && is_for_scattering(spans.count)) return scatter_row(spans, begin, to);
+  RowSpans<std::uint32_t> spans{lights_.data() + at, columns_of_.data() + at, sizes_[row], 0, columns_};
   if (!hole.empty()) {
     spans.end_column = static_cast<std::uint32_t>(hole.first);
-    to = write_row_lists(spans, to, lists, begin);
+    to = write_row_lists(spans, few_, to, lists, begin);
     std::fill_n(begin + hole.first, hole.count(), static_cast<std::uint32_t>(to - lists));
     spans.column = static_cast<std::uint32_t>(hole.last) + 1;
     spans.end_column = columns_;
   }
-  return write_row_lists(spans, to, lists, begin);
+  return write_row_lists(spans, few_, to, lists, begin);
 }
 
 void SpanLists::finish_band(const BandHole& hole) {
@@ -189,7 +144,6 @@ void SpanLists::finish_band(const BandHole& hole) {
   if (lists.size() < needed) lists.resize(needed + needed / 16);
   std::uint32_t* begin = out_->begin.data() + std::size_t{band_} * rows_ * columns_;
   std::uint32_t* to = lists.data() + pairs_;
-  band_spans_ = std::accumulate(sizes_.begin(), sizes_.end(), std::uint64_t{0});
   for (std::uint32_t row = 0; row < rows_; ++row, begin += columns_)
     to = finish_row(row, hole.rows.holds(static_cast<int>(row)) ? hole.columns : grid::IndexRange{}, begin, to);
   std::fill(sizes_.begin(), sizes_.end(), 0);
@@ -205,8 +159,8 @@ void SpanLists::finish() {
 }
 
 std::size_t SpanLists::capacity_bytes() const {
-  return (sizes_.capacity() + next_.capacity() + lights_.capacity() + before_.capacity() + after_.capacity()) *
-         sizeof(std::uint32_t);
+  return (sizes_.capacity() + lights_.capacity() + columns_of_.capacity()) * sizeof(std::uint32_t) +
+         few_.capacity_bytes();
 }
 
 }  // namespace clusterbench::assign

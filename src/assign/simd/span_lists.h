@@ -1,8 +1,8 @@
 #pragma once
 // Lists without scattering over the grid: the spans of a row of cells are collected side by side; then each cell
-// compares all of them at once and compress-stores the lights whose span holds it, or, where spans are much shorter
-// than the row, they are scattered within the row. Bands of rows are finished one after the other, so that what was
-// collected is still in the cache. SIMD, dispatched at run time; the same lists as PairBuffer on every target.
+// compares all of them at once and compress-stores the lights whose span holds it (row_lists.h). Bands of rows are
+// finished one after the other, so that what was collected is still in the cache. SIMD, dispatched at run time; the
+// same lists as PairBuffer on every target.
 
 #include <algorithm>
 #include <cstdint>
@@ -25,22 +25,22 @@ const char* simd_target_name();
 // Keeps its memory between frames.
 class SpanLists {
  public:
-  // A frame of `bands` bands; a band is `rows` rows (a slice, say) of `columns` cells. `out` must outlive finish().
+  // A frame of `bands` bands; a band is `rows` rows (a slice, say) of `columns` cells, at most
+  // ColumnSpan::k_most_columns. `out` must outlive finish().
   void start(std::uint32_t bands, std::uint32_t rows, std::uint32_t columns, Lists& out);
   // To the present band. Lights must come in ascending order within a row, in each cell once.
-  // 0 <= first <= last < columns.
+  // first <= last < columns.
   void add(std::uint32_t row, std::uint32_t first, std::uint32_t last, std::uint32_t light) {
     std::uint32_t& size = sizes_[row];
     if (size == pitch_) grow();
     const std::size_t place = row * pitch_ + size++;
     most_ = std::max(most_, size);
     lights_[place] = light;
-    before_[place] = static_cast<std::int32_t>(first) - 1;
-    after_[place] = static_cast<std::int32_t>(last) + 1;
+    columns_of_[place] = ColumnSpan::of(first, last);
     band_pairs_ += last - first + 1;
   }
   // Adds a batch of lights' spans to rows first_row .. last_row. columns[row * lanes + i]: the span of lights[i] as
-  // first | last << 16 (up to 32767), k_no_span, or with k_open_span set one that is not to be added as it is. Rows
+  // a ColumnSpan, k_no_span, or with k_open_span set one that is not to be added as it is. Rows
   // with such spans are left alone: is_left[row] says so. `lanes`: as many as fit into a vector.
   static constexpr std::uint32_t k_no_span = 0xffffffff, k_open_span = 0x80000000;
   void add_batch(int first_row, int last_row, const std::uint32_t* columns, const std::uint32_t* lights,
@@ -54,22 +54,18 @@ class SpanLists {
 
  private:
   void make_room(std::uint32_t spans);
-  bool is_for_scattering(std::uint32_t spans) const;
-  std::uint32_t* scatter_row(const RowSpans<std::uint32_t>& row, std::uint32_t* begin, std::uint32_t* to);
   std::uint32_t* finish_row(std::uint32_t row, const grid::IndexRange& hole, std::uint32_t* begin, std::uint32_t* to);
   void grow();
 
   std::uint32_t rows_ = 0, columns_ = 0, band_ = 0;
-  std::uint64_t pairs_ = 0, band_pairs_ = 0, band_spans_ = 0;
+  std::uint64_t pairs_ = 0, band_pairs_ = 0;
   Lists* out_ = nullptr;
   std::vector<std::uint32_t> sizes_;  // of the rows
   std::uint32_t most_ = 0;            // no row has more spans
-  std::uint32_t lanes_ = 1;           // spans that are compared at once
-  std::vector<std::uint32_t> next_;   // of a row's cells, while they are filled
+  FewColumns few_;
   // Row r's spans are at r * pitch_; whole vectors can be read and written beyond the last row.
   std::size_t pitch_ = 0;
-  std::vector<std::uint32_t> lights_;
-  std::vector<std::int32_t> before_, after_;
+  std::vector<std::uint32_t> lights_, columns_of_;
 };
 
 }  // namespace clusterbench::assign
