@@ -15,9 +15,9 @@ HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
 
-// What is known of a batch before its columns: the rows that each ball may touch, which light it is of, and no columns
-// yet.
-HWY_INLINE void start_batch(int grid_rows, VI first_row, VI row_count, VU lights, BatchRows& out) {
+// What is known of a batch before its columns: the rows that each ball may touch, which light it is of, and the columns
+// that it has in every row unless they are found to be others.
+HWY_INLINE void start_batch(int grid_rows, VI first_row, VI row_count, VU lights, VU columns, BatchRows& out) {
   const DI di;
   const std::size_t n = hn::Lanes(di);
   out.lanes = static_cast<std::uint32_t>(n);
@@ -29,7 +29,7 @@ HWY_INLINE void start_batch(int grid_rows, VI first_row, VI row_count, VU lights
   out.first_row = hn::GetLane(hn::MinOfLanes(di, hn::IfThenElse(touches, first_row, all_int(grid_rows))));
   out.last_row = hn::GetLane(hn::MaxOfLanes(di, end)) - 1;
   for (int row = out.first_row; row <= out.last_row; ++row)
-    hn::StoreU(hn::Set(DU(), BatchRows::k_none), DU(), out.columns.data() + static_cast<std::size_t>(row) * n);
+    hn::StoreU(columns, DU(), out.columns.data() + static_cast<std::size_t>(row) * n);
 }
 
 // See Certainty in slice_rows.cpp; for rows straight ahead. `rate`: the most columns that a metre to the side can be.
@@ -44,15 +44,38 @@ HWY_INLINE V least_area_of(V radius, V slack, V rate, V farthest) {
   return hn::IfThenElse(holds_view, hn::Zero(D()), area);
 }
 
+// The same by a chord: with a place in the row from which the ball's surface is at least half a chord away, also rows
+// are certain where the way from an end to the next boundary inwards, in columns, times that is at least 4 slack R rate
+// (and some for rounding), and half the chord squared at least 4 slack R. `steepness` is least_area's.
+HWY_INLINE M is_certain_by_chord(V half_square, V inwards, V radius, V slack, V rate, V steepness) {
+  const V least = hn::Mul(all(4.5f), hn::Mul(slack, radius)), way = hn::Mul(least, rate);
+  // An infinite radius has no chord.
+  return hn::And(hn::And(is_between(least, half_square, all(1e30f)), hn::Ge(inwards, hn::Zero(D()))),
+                 hn::Ge(hn::Mul(hn::Mul(inwards, inwards), half_square), hn::Mul(hn::Mul(way, way), steepness)));
+}
+
+// How far a place is outside an interval.
+HWY_INLINE V gap(V low, V place, V high) {
+  return hn::Max(hn::Zero(D()), hn::Max(hn::Sub(low, place), hn::Sub(place, high)));
+}
+
 // How far a place is from the farther end of an interval.
 HWY_INLINE V farther_end(V place, float low, float high) {
   return hn::Max(hn::Abs(hn::Sub(place, all(low))), hn::Abs(hn::Sub(place, all(high))));
 }
 
+// A whole number from 0 to 2^22 as an integer, with less ado than ConvertTo, which looks for ones that do not fit. From
+// others something that is not negative.
+HWY_INLINE VI whole(V number) {
+  return hn::Xor(hn::BitCast(DI(), hn::Add(number, all(0x1p23f))), hn::BitCast(DI(), all(0x1p23f)));
+}
+
 // Slopes from low to high as columns, as BatchRows has them. They are certain where the way from an end to the next
-// boundary inwards, times the width, is at least least_area(low, high), all in columns.
-template <class LeastArea>
-HWY_INLINE VU columns_between(const RowPlanes& planes, V all_low, V all_high, M wanted, LeastArea&& least_area) {
+// boundary inwards, times the width, is at least least_area times steepness(low, high), all in columns, or where
+// by_chord(way inwards, steepness) says so.
+template <class Steepness, class ByChord>
+HWY_INLINE VU columns_between(const RowPlanes& planes, V all_low, V all_high, M wanted, V least_area,
+                              Steepness&& steepness_of, ByChord&& by_chord) {
   const V left = all(planes.left), right = all(planes.right), scale = all(planes.columns_per_slope);
   const V margin = all(planes.column_margin), one = all(1.0f);
   const M touches = hn::And(wanted, hn::And(hn::Le(all_low, hn::Min(all_high, right)), hn::Ge(all_high, left)));
@@ -61,13 +84,13 @@ HWY_INLINE VU columns_between(const RowPlanes& planes, V all_low, V all_high, M 
   const V last_column = all(static_cast<float>(planes.columns - 1));
   const V first = hn::Min(hn::Floor(hn::Max(hn::Sub(from, margin), hn::Zero(D()))), last_column);
   const V last = hn::Min(hn::Floor(hn::Add(to, margin)), last_column);
-  const V width = hn::Sub(to, from), area = least_area(low, high);
+  const V width = hn::Sub(to, from), steepness = steepness_of(low, high), area = hn::Mul(least_area, steepness);
   const V inwards = hn::Sub(hn::Min(hn::Sub(hn::Add(first, one), from), hn::Sub(to, last)), margin);
-  const M is_certain =
-      hn::And(hn::Ge(hn::Mul(inwards, width), area), hn::Ge(hn::Mul(width, width), hn::Add(area, area)));
+  M is_certain = hn::And(hn::Ge(hn::Mul(inwards, width), area), hn::Ge(hn::Mul(width, width), hn::Add(area, area)));
+  if (!hn::AllTrue(D(), hn::Or(is_certain, hn::Not(touches))))
+    is_certain = hn::Or(is_certain, by_chord(inwards, steepness));
   const DU du;
-  const VU ends = hn::Or(hn::BitCast(du, hn::ConvertTo(DI(), first)),
-                         hn::ShiftLeft<16>(hn::BitCast(du, hn::ConvertTo(DI(), last))));
+  const VU ends = hn::BitCast(du, hn::Or(whole(first), hn::ShiftLeft<16>(whole(last))));
   const VU marked =
       hn::IfThenElse(hn::RebindMask(du, is_certain), ends, hn::Or(ends, hn::Set(du, BatchRows::k_uncertain)));
   return hn::IfThenElse(hn::RebindMask(du, touches), marked, hn::Set(du, BatchRows::k_none));

@@ -12,11 +12,6 @@ namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
 namespace {
 
-// How far a place is from an interval.
-HWY_INLINE V gap(V low, V place, V high) {
-  return hn::Max(hn::Zero(D()), hn::Max(hn::Sub(low, place), hn::Sub(place, high)));
-}
-
 // One ball per lane, through the rows of one slice.
 class FlatBatch {
  public:
@@ -26,14 +21,15 @@ class FlatBatch {
     const VI at = hn::BitCast(DI(), hn::LoadU(DU(), places));
     x_ = gathered(seen.x, at);
     y_ = gathered(seen.y, at);
-    const V radius = gathered(seen.radius, at), slack = gathered(seen.slack, at);
+    radius_ = gathered(seen.radius, at);
+    slack_ = gathered(seen.slack, at);
     const auto k = static_cast<std::size_t>(slice);
     const V away = gap(all(planes.depth[k]), gathered(seen.depth, at), all(planes.depth[k + 1]));
-    square_ = hn::Mul(hn::Sub(radius, away), hn::Add(radius, away));
+    square_ = hn::Mul(hn::Sub(radius_, away), hn::Add(radius_, away));
     const V along = farther_end(gathered(seen.depth, at), planes.depth[k], planes.depth[k + 1]);
     const V across = farther_end(x_, planes.left, planes.right), up = farther_end(y_, bottom(), planes.slope.front());
     const V farthest = hn::Add(hn::Add(hn::Mul(across, across), hn::Mul(up, up)), hn::Mul(along, along));
-    least_area_ = least_area_of(radius, slack, all(planes.columns_per_slope), farthest);
+    least_area_ = least_area_of(radius_, slack_, all(planes.columns_per_slope), farthest);
     lights_ = hn::GatherIndex(DU(), seen.light.data(), at);
   }
 
@@ -59,20 +55,24 @@ class FlatBatch {
     const VI last_row = all_int(planes_.rows - 1);
     const VI first = hn::Min(hn::ConvertTo(DI(), from), last_row), last = hn::Min(hn::ConvertTo(DI(), to), last_row);
     const VI count = hn::IfThenElseZero(hn::RebindMask(DI(), touches), hn::Add(hn::Sub(last, first), all_int(1)));
-    start_batch(planes_.rows, first, count, lights_, out);
+    start_batch(planes_.rows, first, count, lights_, hn::Set(DU(), BatchRows::k_none), out);
   }
 
   HWY_INLINE VU columns_of(std::size_t row) const {
     const V away = gap(all(planes_.slope[row + 1]), y_, all(planes_.slope[row]));
     const V square = hn::Sub(square_, hn::Mul(away, away)), zero = hn::Zero(D());
     const V half = hn::Sqrt(hn::Max(square, zero));
-    return columns_between(planes_, hn::Sub(x_, half), hn::Add(x_, half), hn::And(wanted_, hn::Ge(square, zero)),
-                           [&](V, V) { return least_area_; });
+    return columns_between(
+        planes_, hn::Sub(x_, half), hn::Add(x_, half), hn::And(wanted_, hn::Ge(square, zero)), least_area_,
+        [](V, V) { return all(1.0f); },
+        [&](V inwards, V steepness) {
+          return is_certain_by_chord(square, inwards, radius_, slack_, all(planes_.columns_per_slope), steepness);
+        });
   }
 
   const RowPlanes& planes_;
   M wanted_;
-  V x_, y_;
+  V x_, y_, radius_, slack_;
   V square_;  // of the disk's radius where the ball is nearest to its middle within the slice
   V least_area_;
   VU lights_;

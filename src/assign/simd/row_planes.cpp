@@ -60,7 +60,8 @@ RowPlanes::RowPlanes(const grid::ScreenGrid& grid)
     inverse_depth.push_back(z > 0.0f ? 1.0f / z : 1e30f);  // at the eye every slope but 0 is beyond the picture
   }
   side = padded(grid.tiles.x, grid.tiles.x.size() + k_most_lanes, 0.0f);
-  searched = padded(depth, std::bit_ceil(depth.size()), std::numeric_limits<float>::infinity());
+  searched.assign(depth.begin(), depth.end() - 1);
+  searched.resize(std::bit_ceil(searched.size()), std::numeric_limits<float>::infinity());
 }
 
 }  // namespace clusterbench::assign

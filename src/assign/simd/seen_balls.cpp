@@ -52,19 +52,47 @@ class View {
   float near_, far_;
 };
 
-// How many of the slice planes 1 .. `most` are below a depth (or at it, with or_at).
-template <bool or_at>
-HWY_INLINE VI planes_below(const RowPlanes& planes, V depth, int most) {
-  const DI di;
-  VI below = hn::Zero(di);
-  for (auto step = static_cast<std::int32_t>(planes.searched.size() / 2); step > 0; step /= 2) {
-    const VI probe = hn::Add(below, hn::Set(di, step));
-    const V at = gathered(planes.searched, probe);
-    const M is_below = or_at ? hn::Le(at, depth) : hn::Lt(at, depth);
-    below = hn::IfThenElse(hn::RebindMask(di, is_below), probe, below);
+// Where depths are among the slice planes: a search by halves, the first ones of them in registers.
+class SliceSearch {
+ public:
+  explicit SliceSearch(const RowPlanes& planes)
+      : planes_(planes.searched.data()),
+        count_(static_cast<std::int32_t>(planes.searched.size())),
+        stride_(std::max(1, count_ / static_cast<std::int32_t>(RegisterTable::size()))),
+        some_(every(0), every(static_cast<std::int32_t>(hn::Lanes(D())))),
+        last_(planes.slices - 1) {}
+
+  // How many of the planes between two slices are below a depth (or at it, with or_at).
+  template <bool or_at>
+  HWY_INLINE VI planes_below(V depth) const {
+    VI below = hn::Zero(DI());
+    const auto go_on = [&](VI probe, V plane) {
+      const M is_below = or_at ? hn::Le(plane, depth) : hn::Lt(plane, depth);
+      below = hn::IfThenElse(hn::RebindMask(DI(), is_below), probe, below);
+    };
+    for (std::int32_t step = count_ / stride_ / 2; step > 0; step /= 2) {
+      const VI probe = hn::Add(below, all_int(step));
+      go_on(probe, some_.at(probe));
+    }
+    below = hn::Mul(below, all_int(stride_));
+    for (std::int32_t step = stride_ / 2; step > 0; step /= 2) {
+      const VI probe = hn::Add(below, all_int(step));
+      go_on(probe, gathered(planes_, probe));
+    }
+    return hn::Min(below, all_int(last_));
   }
-  return hn::Min(below, hn::Set(di, most));
-}
+
+ private:
+  // Of every stride-th plane those from `first` on.
+  V every(std::int32_t first) const {
+    return gathered(planes_, hn::Min(hn::Mul(from_on(first), all_int(stride_)), all_int(count_ - 1)));
+  }
+
+  const float* planes_;
+  std::int32_t count_, stride_;
+  RegisterTable some_;
+  std::int32_t last_;
+};
 
 // From here to k_most_row_reach fourth powers of reaches, and these times a slope, are normal numbers.
 constexpr float k_least_reach = 1e-9f;
@@ -101,10 +129,11 @@ void see(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_l
     hn::StoreU(compressed(du, lights, hn::RebindMask(du, wanted)), du, seen.light.data() + seen.count);
     seen.count += static_cast<std::uint32_t>(kept);
   }
+  const SliceSearch search(planes);
   for (std::uint32_t i = before; i < seen.count; i += n) {
     const V depth = hn::LoadU(d, seen.depth.data() + i), radius = hn::LoadU(d, seen.radius.data() + i);
-    const VI first = planes_below<false>(planes, hn::Sub(depth, radius), planes.slices - 1);
-    const VI last = planes_below<true>(planes, hn::Add(depth, radius), planes.slices - 1);
+    const VI first = search.planes_below<false>(hn::Sub(depth, radius));
+    const VI last = search.planes_below<true>(hn::Add(depth, radius));
     hn::StoreU(first, di, seen.first_slice.data() + i);
     hn::StoreU(last, di, seen.last_slice.data() + i);
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -16,10 +17,15 @@ class SliceBalls {
   // Balls: SeenBalls, or others with `count` and their slices; first_slice > last_slice: none.
   template <class Balls>
   void sort(const Balls& balls, int slices) {
-    begin_.assign(static_cast<std::size_t>(slices) + 2, 0);
-    for (std::uint32_t i = 0; i < balls.count; ++i)
-      for (std::int32_t slice = balls.first_slice[i]; slice <= balls.last_slice[i]; ++slice) ++begin_[at(slice) + 2];
-    for (std::size_t slice = 2; slice < begin_.size(); ++slice) begin_[slice] += begin_[slice - 1];
+    // How many more balls a slice has than the one before it, then how many it has, then where they end.
+    begin_.assign(static_cast<std::size_t>(slices) + 3, 0);
+    for (std::uint32_t i = 0; i < balls.count; ++i) {
+      if (balls.first_slice[i] > balls.last_slice[i]) continue;
+      ++begin_[at(balls.first_slice[i]) + 2];
+      --begin_[at(balls.last_slice[i]) + 3];
+    }
+    begin_.pop_back();
+    for (int sums = 0; sums < 2; ++sums) std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
     if (balls_.size() < begin_.back() + k_most_lanes) balls_.resize(begin_.back() + k_most_lanes);
     // begin_[slice + 1] walks from the slice's begin to its end, the next one's begin.
     for (std::uint32_t i = 0; i < balls.count; ++i)

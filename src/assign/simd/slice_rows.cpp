@@ -25,10 +25,8 @@ V root(V square) {
 struct Hull {
   V low, high;
 
-  HWY_INLINE void add_low(M where, V value) { low = hn::Min(low, hn::IfThenElse(where, value, infinity())); }
-  HWY_INLINE void add_high(M where, V value) {
-    high = hn::Max(high, hn::IfThenElse(where, value, hn::Neg(infinity())));
-  }
+  HWY_INLINE void add_low(M where, V value) { low = hn::IfThenElse(where, hn::Min(low, value), low); }
+  HWY_INLINE void add_high(M where, V value) { high = hn::IfThenElse(where, hn::Max(high, value), high); }
   HWY_INLINE void add(M where, V least, V greatest) {
     add_low(where, least);
     add_high(where, greatest);
@@ -37,6 +35,7 @@ struct Hull {
     low = hn::Min(low, other.low);
     high = hn::Max(high, other.high);
   }
+  HWY_INLINE Hull of(Which which) const { return {taken(low, which), taken(high, which)}; }
 };
 
 HWY_INLINE Hull empty_hull() {
@@ -88,50 +87,33 @@ struct PlaneBalls {
 struct LevelBalls {
   V y, y_square;
   V least_area;  // for rows straight ahead
+  V rate;        // the most columns that a metre to the side can be
   Hull near_chord, far_chord;
   V low, high, low_depth,
       high_depth;  // the sphere's tangents; the depths at which they touch, as y_square times square
 };
 
-// Lane i of the answer is lane which[i] of the value.
-using Which = decltype(hn::IndicesFromVec(DI(), VI()));
-HWY_INLINE VI taken(VI value, Which which) {
-  return hn::TableLookupLanes(value, which);
-}
-HWY_INLINE V taken(V value, Which which) {
-  return hn::BitCast(D(), taken(hn::BitCast(DI(), value), which));
-}
-HWY_INLINE Hull taken(const Hull& hull, Which which) {
-  return {taken(hull.low, which), taken(hull.high, which)};
-}
-
-// The rows that balls may touch, and whether they may touch the first and the last plane of the picture. Other planes
-// above the first and below the last row are out of reach.
+// The rows that balls may touch, and how many planes above the first and below the last one they may touch: those of
+// the picture's ends, or none.
 struct BallRows {
-  VI first, count;
-  MI touch_top, touch_bottom;
+  VI first, count, planes_above, planes_below;
+  VI held;  // all bits of those that hold all of the slice's part of the view: all columns of all rows are theirs
 };
 
-// A value of each tile plane, looked up in registers where two hold all of them.
+// A value of each tile plane, looked up in registers where they hold all of them.
 class PlaneTable {
  public:
   HWY_INLINE PlaneTable(const std::vector<float>& values, int planes)
       : values_(values.data()),
-        is_small_(static_cast<std::size_t>(planes) <= 2 * hn::Lanes(D())),
-        first_(hn::LoadU(D(), values_)),
-        second_(hn::LoadU(D(), values_ + hn::Lanes(D()))) {}
+        is_small_(static_cast<std::size_t>(planes) <= RegisterTable::size()),
+        table_(hn::LoadU(D(), values_), hn::LoadU(D(), values_ + hn::Lanes(D()))) {}
 
-  HWY_INLINE V at(VI place) const {
-    if (!is_small_) return gathered(values_, place);
-    const VI last = all_int(static_cast<std::int32_t>(hn::Lanes(D())) - 1);
-    const Which within = hn::IndicesFromVec(DI(), hn::And(place, last));
-    return hn::IfThenElse(hn::RebindMask(D(), hn::Gt(place, last)), taken(second_, within), taken(first_, within));
-  }
+  HWY_INLINE V at(VI place) const { return is_small_ ? table_.at(place) : gathered(values_, place); }
 
  private:
   const float* values_;
   bool is_small_;
-  V first_, second_;
+  RegisterTable table_;
 };
 
 struct PlaneTables {
@@ -162,6 +144,8 @@ class Batch {
     far_ = {planes.depth[k + 1], planes.inverse_depth[k + 1]};
     balls_.near_square = chord_square(near_);
     balls_.far_square = chord_square(far_);
+    near_half_ = root(balls_.near_square);
+    far_half_ = root(balls_.far_square);
     lights_ = hn::GatherIndex(DU(), seen.light.data(), at);
     start_rows();
   }
@@ -179,13 +163,22 @@ class Batch {
     const V from = hn::Sub(hn::Mul(hn::Sub(top, hn::Min(high, top)), scale), margin);
     const V to = hn::Add(hn::Mul(hn::Sub(top, hn::Max(low, bottom)), scale), margin);
     const VI last_row = all_int(planes_->rows - 1);
-    const VI first = hn::Min(hn::ConvertTo(DI(), hn::Max(from, zero)), last_row);
-    const VI last = hn::Min(hn::ConvertTo(DI(), to), last_row);
+    const VI held = hn::VecFromMask(DI(), hn::RebindMask(DI(), hn::And(wanted, holds_view())));
+    const VI first = hn::Min(whole(hn::Floor(hn::Max(from, zero))), last_row);
+    const VI last = hn::Min(whole(hn::Floor(hn::Max(to, zero))), last_row);
     const MI touches_rows = hn::RebindMask(DI(), touches);
     const V whole = hn::Mul(hn::Sub(top, bottom), scale);  // the last row may be clipped
-    return {first, hn::IfThenElseZero(touches_rows, hn::Add(hn::Sub(last, first), all_int(1))),
-            hn::And(touches_rows, hn::RebindMask(DI(), hn::Lt(from, zero))),
-            hn::And(touches_rows, hn::RebindMask(DI(), hn::Ge(to, whole)))};
+    const VI one = all_int(1);
+    const VI count = hn::IfThenElseZero(touches_rows, hn::Add(hn::Sub(last, first), one));
+    return {hn::AndNot(held, first), hn::Or(hn::AndNot(held, count), hn::And(held, all_int(planes_->rows))),
+            hn::IfThenElseZero(hn::And(touches_rows, hn::RebindMask(DI(), hn::Lt(from, zero))), one),
+            hn::IfThenElseZero(hn::And(touches_rows, hn::RebindMask(DI(), hn::Ge(to, whole))), one), held};
+  }
+
+  // All columns of the held ones, none of others.
+  HWY_INLINE VU columns_of_held(VI held) const {
+    const VU all_columns = hn::Set(DU(), ColumnSpan::of(0, static_cast<std::uint32_t>(planes_->columns) - 1));
+    return hn::Or(hn::And(hn::BitCast(DU(), held), all_columns), hn::Not(hn::BitCast(DU(), held)));
   }
 
   // What lies in tile plane `place` of the balls in which[i], between the slice's planes.
@@ -206,7 +199,8 @@ class Batch {
     hull.add_high(hn::And(cuts, tangents.high_is_in), hn::Mul(tilt, tangents.high));
     const auto add_corners = [&](const SlicePlane& plane, V chord) {
       const V up = hn::Sub(hn::Mul(slope, all(plane.depth)), ball.y);
-      add_chord(plane, ball.x, hn::Sub(chord, hn::Mul(up, up)), hull);
+      const V of_chord = hn::Sub(chord, hn::Mul(up, up));
+      add_chord(plane, ball.x, of_chord, root(of_chord), hull);
     };
     add_corners(near_, ball.near_square);
     add_corners(far_, ball.far_square);
@@ -217,7 +211,7 @@ class Batch {
   HWY_INLINE void add_level(Which which, V top, V bottom, Hull& hull) const {
     const auto is_level = [&](V y, V depth) { return is_between(hn::Mul(bottom, depth), y, hn::Mul(top, depth)); };
     const V y = taken(level_.y, which), y_square = taken(level_.y_square, which);
-    const Hull near_chord = taken(level_.near_chord, which), far_chord = taken(level_.far_chord, which);
+    const Hull near_chord = level_.near_chord.of(which), far_chord = level_.far_chord.of(which);
     hull.add(is_level(y, all(near_.depth)), near_chord.low, near_chord.high);
     hull.add(is_level(y, all(far_.depth)), far_chord.low, far_chord.high);
     hull.add_low(is_level(y_square, taken(level_.low_depth, which)), taken(level_.low, which));
@@ -234,24 +228,50 @@ class Batch {
   // columns are certainly right if the hull's ends are farther than e from the next boundary inwards: that is, if that
   // distance times h is at least 4 d R q² = 8 slack R q², in columns the `least_area`. And the given ball reaches the
   // row at all if R - g >= d, which follows from h² >= 8 d R q².
-  HWY_INLINE VU columns_of(Which which, const Hull& hull, M wanted) const {
-    const V area = taken(level_.least_area, which);
-    return columns_between(*planes_, hull.low, hull.high, wanted, [&](V low, V high) {
-      const V steepness = hn::Add(all(1.0f), hn::Max(hn::Mul(low, low), hn::Mul(high, high)));
-      return hn::Mul(area, steepness);
-    });
+  // Large balls near the eye are far wider than the picture, and h says little of w. For them any place in the row
+  // does instead of m: it is no nearer, so its w is no larger. The columns are certain if the way inwards is at least
+  // 2 d R q / w, and the ball reaches the row if w² >= 2 d R.
+  HWY_INLINE VU columns_of(Which which, V top, V bottom, const Hull& hull, M wanted) const {
+    return columns_between(
+        *planes_, hull.low, hull.high, wanted, taken(level_.least_area, which),
+        [](V low, V high) { return hn::Add(all(1.0f), hn::Max(hn::Mul(low, low), hn::Mul(high, high))); },
+        [&](V inwards, V steepness) {
+          const V radius = taken(balls_.radius, which), slack = taken(slack_, which);
+          return is_certain_by_chord(half_chord_square(which, top, bottom), inwards, radius, slack,
+                                     taken(level_.rate, which), steepness);
+        });
   }
 
  private:
+  HWY_INLINE M holds_view() const { return hn::Eq(level_.least_area, hn::Zero(D())); }
+
   HWY_INLINE void start_rows() {
     balls_.tangent = tangent_from_eye(hn::Add(hn::Mul(balls_.x, balls_.x), hn::Mul(balls_.y, balls_.y)));
     const Sphere sphere = sphere_along(balls_.x);
     const Tangents& tangents = sphere.tangents;
-    level_ = {balls_.y,           hn::Mul(balls_.y, tangents.square),
-              least_area(),       sphere.near_chord,
-              sphere.far_chord,   sphere.low(),
-              sphere.high(),      tangents.low_depth,
+    const V nearest = hn::Max(all(near_.depth), hn::Sub(balls_.depth, hn::Add(balls_.radius, slack_)));
+    const V rate = hn::Div(all(planes_->columns_per_slope), nearest);
+    level_ = {balls_.y,
+              hn::Mul(balls_.y, tangents.square),
+              least_area_of(balls_.radius, slack_, rate, farthest_corner()),
+              rate,
+              sphere.near_chord,
+              sphere.far_chord,
+              sphere.low(),
+              sphere.high(),
+              tangents.low_depth,
               tangents.high_depth};
+  }
+
+  // Of a place in the row that is about as near to the centre as any, how far it is from the surface, squared.
+  HWY_INLINE V half_chord_square(Which which, V top, V bottom) const {
+    const V centre = taken(balls_.depth, which), radius = taken(balls_.radius, which);
+    const V depth = hn::Min(hn::Max(centre, all(near_.depth)), all(far_.depth)), along = hn::Sub(centre, depth);
+    const V across =
+        gap(hn::Mul(all(planes_->left), depth), taken(balls_.x, which), hn::Mul(all(planes_->right), depth));
+    const V up = gap(hn::Mul(bottom, depth), taken(balls_.y, which), hn::Mul(top, depth));
+    const V square = hn::Add(hn::Add(hn::Mul(across, across), hn::Mul(up, up)), hn::Mul(along, along));
+    return hn::Sub(hn::Mul(radius, radius), square);
   }
 
   // How far away the spheres' tangents touch. `aside`: the square of the centre's distance from straight ahead.
@@ -273,8 +293,8 @@ class Batch {
     const V tangent = tangent_from_eye(hn::Mul(across, across));
     Sphere sphere{empty_hull(), empty_hull(),
                   tangents_of(across, balls_.depth, balls_.radius, tangent, all(near_.depth), all(far_.depth))};
-    add_chord(near_, across, balls_.near_square, sphere.near_chord);
-    add_chord(far_, across, balls_.far_square, sphere.far_chord);
+    add_chord(near_, across, balls_.near_square, near_half_, sphere.near_chord);
+    add_chord(far_, across, balls_.far_square, far_half_, sphere.far_chord);
     return sphere;
   }
 
@@ -283,10 +303,12 @@ class Batch {
     return hn::Mul(hn::Sub(balls_.radius, gap), hn::Add(balls_.radius, gap));
   }
 
-  HWY_INLINE V least_area() const {
-    const V nearest = hn::Max(all(near_.depth), hn::Sub(balls_.depth, hn::Add(balls_.radius, slack_)));
-    return least_area_of(balls_.radius, slack_, hn::Div(all(planes_->columns_per_slope), nearest),
-                         hn::Max(farthest_corner(near_), farthest_corner(far_)));
+  // At least the squared distance to the farthest corner of the slice's part of the view. Balls smaller than half its
+  // width do not hold it anyway.
+  HWY_INLINE V farthest_corner() const {
+    const float half_width = 0.49f * far_.depth * (planes_->right - planes_->left);
+    if (hn::AllTrue(D(), hn::Lt(balls_.radius, all(half_width)))) return infinity();
+    return hn::Max(farthest_corner(near_), farthest_corner(far_));
   }
 
   // The squared distance to the picture's farthest corner in a slice's plane.
@@ -298,9 +320,9 @@ class Batch {
     return hn::Add(hn::Add(hn::Mul(across, across), hn::Mul(up, up)), hn::Mul(along, along));
   }
 
-  // Adds the slopes of the ends of a chord in a slice's plane.
-  HWY_INLINE static void add_chord(const SlicePlane& plane, V middle, V square, Hull& hull) {
-    const V half = root(square), inverse = all(plane.inverse);
+  // Adds the slopes of the ends of a chord in a slice's plane. `square`: of the half, negative where there is none.
+  HWY_INLINE static void add_chord(const SlicePlane& plane, V middle, V square, V half, Hull& hull) {
+    const V inverse = all(plane.inverse);
     hull.add(hn::Ge(square, hn::Zero(D())), hn::Mul(hn::Sub(middle, half), inverse),
              hn::Mul(hn::Add(middle, half), inverse));
   }
@@ -309,6 +331,7 @@ class Batch {
   PlaneBalls balls_;
   LevelBalls level_;
   V slack_;
+  V near_half_, far_half_;  // half chords
   VU lights_;
   SlicePlane near_, far_;
 };
@@ -323,21 +346,23 @@ class RowsOfBatch {
  public:
   RowsOfBatch() = default;
   HWY_INLINE RowsOfBatch(const BallRows& rows, RowScratch& scratch) : scratch_(&scratch) {
-    const auto n = static_cast<std::int32_t>(hn::Lanes(D()));
-    std::int32_t counts[k_most_lanes], begins[k_most_lanes];
-    const VI one = all_int(1), above = hn::IfThenElseZero(rows.touch_top, one), listed = hn::Add(rows.count, above);
-    hn::StoreU(listed, DI(), counts);
+    const DI di;
+    const auto n = static_cast<std::int32_t>(hn::Lanes(di));
+    const VI listed = hn::AndNot(rows.held, hn::Add(rows.count, rows.planes_above)), end = sums(listed);
+    begin_ = hn::Sub(end, listed);
+    shift_ = hn::Sub(hn::Sub(rows.first, rows.planes_above), begin_);
+    planes_end_ = hn::Sub(hn::Add(end, rows.planes_below), all_int(1));
+    std::int32_t ends[k_most_lanes];
+    hn::StoreU(end, di, ends);
+    // What is written beyond a lane's end, the next one overwrites.
+    const bool are_short = hn::AllTrue(di, hn::Lt(listed, all_int(n + 1)));
     for (std::int32_t lane = 0; lane < n; ++lane) {
-      for (std::int32_t done = 0; done < counts[lane]; done += n)
-        hn::StoreU(all_int(lane), DI(), scratch.lane.data() + count_ + done);
-      begins[lane] = count_;
-      count_ += counts[lane];
+      hn::StoreU(all_int(lane), di, scratch.lane.data() + count_);
+      if (!are_short)
+        for (count_ += n; count_ < ends[lane]; count_ += n) hn::StoreU(all_int(lane), di, scratch.lane.data() + count_);
+      count_ = ends[lane];
     }
-    hn::StoreU(hn::Zero(DI()), DI(), scratch.lane.data() + count_);
-    begin_ = hn::LoadU(DI(), begins);
-    shift_ = hn::Sub(hn::Sub(rows.first, above), begin_);
-    const VI end = hn::Add(begin_, listed);
-    planes_end_ = hn::IfThenElse(rows.touch_bottom, end, hn::Sub(end, one));
+    hn::StoreU(hn::Zero(di), di, scratch.lane.data() + count_);
   }
 
   std::int32_t count() const { return count_; }
@@ -346,8 +371,10 @@ class RowsOfBatch {
   HWY_INLINE VI number_of(Which which, VI t) const { return hn::Add(taken(shift_, which), t); }
   // Is it its ball's first one?
   HWY_INLINE MI is_first(Which which, VI t) const { return hn::Eq(taken(begin_, which), t); }
-  // Can its ball touch the tile plane below it?
-  HWY_INLINE MI has_plane(Which which, VI t) const { return hn::Lt(t, taken(planes_end_, which)); }
+  // Is there such a row, and can its ball touch the tile plane below it?
+  HWY_INLINE MI has_plane(Which which, VI t) const {
+    return hn::And(hn::Lt(t, taken(planes_end_, which)), hn::Lt(t, all_int(count_)));
+  }
 
  private:
   RowScratch* scratch_ = nullptr;
@@ -355,56 +382,82 @@ class RowsOfBatch {
   VI begin_, shift_, planes_end_;  // of each ball: where its rows are listed; what is to be added for their numbers
 };
 
-// What balls have in the tile planes below the listed rows; nothing where they cannot touch it.
+// What balls have in the tile planes below the listed rows, as far as they can touch them, one after the other.
 HWY_INLINE void store_planes(const PlaneTables& tables, const Batch& batch, const RowsOfBatch& rows,
                              RowScratch& scratch) {
   const D d;
   const DI di;
   const auto n = static_cast<std::int32_t>(hn::Lanes(d));
-  float *lows = scratch.lows(), *highs = scratch.highs();
   std::int32_t count = 0;
   for (std::int32_t begin = 0; begin < rows.count(); begin += n) {
     const VI t = from_on(begin), lane = rows.lane_of(begin);
-    const MI wanted = hn::And(rows.has_plane(hn::IndicesFromVec(di, lane), t), hn::Lt(t, all_int(rows.count())));
-    hn::StoreU(compressed(di, t, wanted), di, scratch.with_plane.data() + count);
+    const Which which = hn::IndicesFromVec(di, lane);
+    const MI wanted = rows.has_plane(which, t);
+    const VI plane = hn::Add(rows.number_of(which, t), all_int(1));
+    hn::StoreU(compressed(di, plane, wanted), di, scratch.plane.data() + count);
     hn::StoreU(compressed(di, lane, wanted), di, scratch.plane_lane.data() + count);
     count += static_cast<std::int32_t>(hn::CountTrue(di, wanted));
-    hn::StoreU(infinity(), d, lows + begin);
-    hn::StoreU(hn::Neg(infinity()), d, highs + begin);
   }
-  const VI nowhere = all_int(scratch.nowhere());
   for (std::int32_t begin = 0; begin < count; begin += n) {
     const MI exists = hn::Lt(from_on(begin), all_int(count));
-    const VI t = hn::IfThenElseZero(exists, hn::LoadU(di, scratch.with_plane.data() + begin));
     const VI lane = hn::IfThenElseZero(exists, hn::LoadU(di, scratch.plane_lane.data() + begin));
-    const Which which = hn::IndicesFromVec(di, lane);
-    const Hull hull = batch.plane_hull(which, tables, hn::Add(rows.number_of(which, t), all_int(1)));
-    const VI to = hn::IfThenElse(exists, t, nowhere);
-    hn::ScatterIndex(hull.low, d, lows, to);
-    hn::ScatterIndex(hull.high, d, highs, to);
+    const VI plane = hn::IfThenElseZero(exists, hn::LoadU(di, scratch.plane.data() + begin));
+    const Hull hull = batch.plane_hull(hn::IndicesFromVec(di, lane), tables, plane);
+    hn::StoreU(hull.low, d, scratch.low.data() + begin);
+    hn::StoreU(hull.high, d, scratch.high.data() + begin);
   }
 }
 
+// The hulls in the tile planes above and below the listed rows, vector by vector.
+class PlanesOfRows {
+ public:
+  HWY_INLINE explicit PlanesOfRows(const RowScratch& scratch) : low_(scratch.low.data()), high_(scratch.high.data()) {
+    const auto n = static_cast<std::int32_t>(hn::Lanes(D()));
+    one_back_ = hn::IndicesFromVec(DI(), hn::And(from_on(n - 1), all_int(n - 1)));
+  }
+
+  // What the next rows have in both planes; above only those that are not their ball's first.
+  HWY_INLINE Hull next(M has_below, M has_above) {
+    const D d;
+    const M first_lane = hn::FirstN(d, 1);
+    Hull hull = {expanded(d, hn::LoadU(d, low_), has_below, infinity()),
+                 expanded(d, hn::LoadU(d, high_), has_below, hn::Neg(infinity()))};
+    const std::size_t count = hn::CountTrue(d, has_below);
+    low_ += count;
+    high_ += count;
+    const Hull turned = hull.of(one_back_);
+    hull.add(has_above, hn::IfThenElse(first_lane, turned_.low, turned.low),
+             hn::IfThenElse(first_lane, turned_.high, turned.high));
+    turned_ = turned;
+    return hull;
+  }
+
+ private:
+  const float *low_, *high_;
+  Which one_back_;
+  Hull turned_ = empty_hull();  // those below the rows before, each one lane on, the last one in the first lane
+};
+
 // The columns of all rows, from what was stored of their planes.
 HWY_INLINE void find_columns(const PlaneTables& tables, const Batch& batch, const RowsOfBatch& rows, int grid_rows,
-                             RowScratch& scratch, BatchRows& out) {
+                             const RowScratch& scratch, BatchRows& out) {
   const D d;
   const DI di;
   const auto n = static_cast<std::int32_t>(hn::Lanes(d));
-  const float *lows = scratch.lows(), *highs = scratch.highs();
   const VI nowhere = all_int(grid_rows * n), zero = hn::Zero(di), last_row = all_int(grid_rows - 1);
+  PlanesOfRows planes(scratch);
   for (std::int32_t begin = 0; begin < rows.count(); begin += n) {
     const VI t = from_on(begin), lane = rows.lane_of(begin);
     const Which which = hn::IndicesFromVec(di, lane);
     const VI row = rows.number_of(which, t);
     const MI wanted = hn::And(hn::Gt(row, all_int(-1)), hn::Lt(t, all_int(rows.count())));
     // The plane above is that below the row before, if both are the same ball's.
-    const M has_above = hn::RebindMask(d, hn::Not(rows.is_first(which, t)));
-    Hull hull = {hn::LoadU(d, lows + begin), hn::LoadU(d, highs + begin)};
-    hull.add(has_above, hn::LoadU(d, lows + begin - 1), hn::LoadU(d, highs + begin - 1));
+    Hull hull =
+        planes.next(hn::RebindMask(d, rows.has_plane(which, t)), hn::RebindMask(d, hn::Not(rows.is_first(which, t))));
     const VI above = hn::Min(hn::Max(row, zero), last_row), below = hn::Add(above, all_int(1));
-    batch.add_level(which, tables.slope.at(above), tables.slope.at(below), hull);
-    const VU columns = batch.columns_of(which, hull, hn::RebindMask(d, wanted));
+    const V top = tables.slope.at(above), bottom = tables.slope.at(below);
+    batch.add_level(which, top, bottom, hull);
+    const VU columns = batch.columns_of(which, top, bottom, hull, hn::RebindMask(d, wanted));
     const VI to = hn::Add(hn::Mul(row, all_int(n)), lane);
     hn::ScatterIndex(hn::BitCast(di, columns), di, reinterpret_cast<std::int32_t*>(out.columns.data()),
                      hn::IfThenElse(wanted, to, nowhere));
@@ -426,7 +479,8 @@ void rows_of_batches(const RowPlanes& planes, const SeenBalls& seen, const Balls
   }
   for (std::uint32_t i = 0; i < count; ++i) {
     out.scratch[i].make_room(planes.rows, n);
-    start_batch(planes.rows, ball_rows[i].first, ball_rows[i].count, batches[i].lights(), out.batches[i]);
+    start_batch(planes.rows, ball_rows[i].first, ball_rows[i].count, batches[i].lights(),
+                batches[i].columns_of_held(ball_rows[i].held), out.batches[i]);
     rows[i] = RowsOfBatch(ball_rows[i], out.scratch[i]);
   }
   for (std::uint32_t i = 0; i < count; ++i) store_planes(tables, batches[i], rows[i], out.scratch[i]);
@@ -454,8 +508,8 @@ void BatchRows::make_room(int of_rows, std::size_t of_lanes) {
 void RowScratch::make_room(int of_rows, std::size_t of_lanes) {
   const std::size_t size = (static_cast<std::size_t>(of_rows) + 3) * of_lanes;
   if (lane.size() >= size) return;
-  for (std::vector<std::int32_t>* list : {&lane, &with_plane, &plane_lane}) list->resize(size);
-  for (std::vector<float>* list : {&low, &high}) list->resize(size + 2);
+  for (std::vector<std::int32_t>* list : {&lane, &plane, &plane_lane}) list->resize(size);
+  for (std::vector<float>* list : {&low, &high}) list->resize(size);
 }
 
 std::size_t RowBatches::capacity_bytes() const {

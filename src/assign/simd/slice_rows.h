@@ -47,14 +47,9 @@ std::uint32_t balls_per_batch();
 // The rows of a batch one after the other, and what their balls have in the tile planes below them.
 struct RowScratch {
   std::vector<std::int32_t> lane;  // of the row's ball
-  // The rows whose ball may touch the plane below them, and its lane.
-  std::vector<std::int32_t> with_plane, plane_lane;
-  // Slopes x / depth in the plane. One place in front, one behind for what is not wanted.
+  // The tile planes below rows whose ball may touch them: their numbers and the balls' lanes; slopes x / depth there.
+  std::vector<std::int32_t> plane, plane_lane;
   std::vector<float> low, high;
-
-  float* lows() { return low.data() + 1; }
-  float* highs() { return high.data() + 1; }
-  std::int32_t nowhere() const { return static_cast<std::int32_t>(low.size()) - 2; }
 
   void make_room(int of_rows, std::size_t of_lanes);
   std::size_t capacity_bytes() const { return 5 * sizeof(float) * low.capacity(); }
