@@ -12,10 +12,16 @@ void SpotSpans::find(const ExactFrame& frame, int first, int last) {
   lit_.clear();
   next_lit_ = 0;
   if (frame.first_spot_place == frame.seen.count) return;
+  cells_.count = 0;
   for (int slice = first; slice < last; ++slice) add_rows(slice);
-  if (frame.planes.orthographic) return decide_ends();
+  tests_ += cells_.count;
+  if (frame.planes.orthographic) {
+    for (std::uint32_t i = 0; i < cells_.count; ++i) lit_.push_back(lit_of(cells_.at(i)));
+    return decide_ends();
+  }
   const SpotsAndPlanes from{&frame.lights, frame.planes.side.data(), frame.planes.slope.data(),
                             frame.planes.depth.data()};
+  drop_missed_rows(from);
   guess(from);
   shorten(from);
   while (ask_for_ends()) {
@@ -49,31 +55,49 @@ std::size_t SpotSpans::capacity_bytes() const {
 void SpotSpans::add_rows(int slice) {
   each_batch(*frame_, slice, frame_->spots_of(slice), rows_, [&](const BatchRows& batch) {
     tests_ += batch.tests;
-    for (int row = batch.first_row; row <= batch.last_row; ++row)
-      each_span(batch, row, [&](std::uint32_t light, const IndexRange& columns, bool) {
-        lit_.push_back({light, slice, row, columns, true, true});
-      });
+    // Spot by spot: rows that follow each other share what is found of the tile plane between them.
+    for (std::uint32_t lane = 0; lane < batch.lanes; ++lane)
+      for (int row = batch.first_row; row <= batch.last_row; ++row) {
+        const std::uint32_t columns = batch.columns[static_cast<std::size_t>(row) * batch.lanes + lane];
+        if (columns == BatchRows::k_none) continue;
+        cells_.add({batch.lights[lane] - frame_->lights.points, static_cast<std::uint32_t>(slice),
+                    static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(BatchRows::first_of(columns)),
+                    static_cast<std::uint32_t>(BatchRows::last_of(columns)) + 1});
+      }
   });
+}
+
+// Takes away rows that a plane tells are not touched: of narrow cones more than a third.
+void SpotSpans::drop_missed_rows(const SpotsAndPlanes& from) {
+  look_at_cells(from, Look::apart, cells_);
+  std::uint32_t kept = 0;
+  for (std::uint32_t i = 0; i < cells_.count; ++i)
+    if (cells_.touch[i] != Touch::no) cells_.set(kept++, cells_.at(i));
+  cells_.count = kept;
+}
+
+SpotSpans::Lit SpotSpans::lit_of(const SpotCell& row) const {
+  return {row.spot + frame_->lights.points,
+          static_cast<int>(row.slice),
+          static_cast<int>(row.row),
+          {static_cast<int>(row.column), static_cast<int>(row.end_column) - 1},
+          true,
+          true};
 }
 
 // Takes each end for settled that is guessed and proven, and away what is as a whole not touched.
 void SpotSpans::guess(const SpotsAndPlanes& from) {
-  cells_.count = closer_.count = 0;
   waiting_.clear();
-  for (const Lit& lit : lit_) add_cell(lit, lit.columns);
-  tests_ += cells_.count;
   find_ends(from, frame_->planes, cells_, guesses_);
-  for (std::uint32_t i = 0; i < lit_.size(); ++i) {
-    Lit& lit = lit_[i];
+  for (std::uint32_t i = 0; i < cells_.count; ++i) {
+    Lit lit = lit_of(cells_.at(i));
     const std::uint8_t known = guesses_.known[i];
     lit.left_is_open = (known & SpotRowEnds::k_first) == 0;
     lit.right_is_open = (known & SpotRowEnds::k_last) == 0;
     if (!lit.left_is_open) lit.columns.first = guesses_.first[i];
     if (!lit.right_is_open) lit.columns.last = guesses_.last[i];
-    if ((known & SpotRowEnds::k_none) != 0)
-      lit.columns = {};
-    else if ((known & SpotRowEnds::k_found_none) != 0)
-      waiting_.push_back(i);
+    lit_.push_back(lit);
+    if ((known & SpotRowEnds::k_found_none) != 0) waiting_.push_back(i);
   }
   for (const Look how : {Look::approach, Look::closer, Look::thorough}) {
     closer_.count = 0;

@@ -45,8 +45,10 @@ class SpotSpans {
     bool from_left, from_right;
   };
 
-  void add_rows(int slice);
-  void decide_ends();  // in orthographic grids, whose cells no look knows
+  void add_rows(int slice);  // to cells_
+  void decide_ends();        // in orthographic grids, whose cells no look knows
+  void drop_missed_rows(const SpotsAndPlanes& from);
+  Lit lit_of(const SpotCell& row) const;
   void guess(const SpotsAndPlanes& from);
   void shorten(const SpotsAndPlanes& from);
   bool ask_for_ends();

@@ -48,10 +48,22 @@ struct Cone {
   V range, cosine, sine;
 };
 
-// Evidence. With u = 2^-24 and S = |apex| + range + the cell's largest coordinates, margins are off by less than 2^7 u
-// S: the bounds of geom/meets.cpp, whose formulas these are, with 1 u for each number that is given and each corner's
-// coordinate in place of what is lost there on the way from the scene. Four times that is asked for.
-constexpr float k_tolerance = 0x1p-15f;
+// Evidence: a point that is in cell and volume, or a plane between them, by more than the tolerance 2^-19 S = 32 u S;
+// u = 2^-24, S = |apex| + 2 range + the cell's largest coordinates. A point counts as apex + v, exactly; a plane's
+// normal as it came out, of length 1 to 5 u. How either was found does not matter, only how well it is measured. Given
+// numbers are off by u of themselves: range, sine, cosine and each coordinate of apex and axis. Sums and products of
+// three lose 3 u of the vectors' lengths, a length 3 u. Then margins are off by at most
+//    9 u S  of a point in the sphere: 5 u range, u |apex|; in the cone: along the axis 4 u range + u |apex|, across it
+//           3 u range + u |apex|, both times sine and cosine, squared and compared 5 u range
+//    6 u S  of a point in the cell: apex + v is rounded, 2 u of a product and a sum
+//    5 u S  of corners along a normal: u of a corner, u of it from the apex, 3 u of the product
+//   10 u S  of how far the volume extends along a normal: along the axis 6 u range, across it 11 u range, 3 u for the
+//   rest
+//    7 u S  of a plane along the cone's side, whose extent is taken to be 0: its direction across the axis is at right
+//           angles to it to 6 u, of length 1 to 5 u, and 3 u for the rest, times range
+//   10 u S  of the apex from a face: 5 u for the product and the offset, 5 u for the length of the normal
+// so under 20 u S for a plane.
+constexpr float k_tolerance = 0x1p-19f;
 
 // A vector of spots, each with its own piece of a row: tile planes below and above, slice planes in front and behind.
 struct SpotsInRows {
@@ -166,9 +178,24 @@ class Cells {
     each_face([&](const Point& normal, V offset) {
       const V scale = hn::Div(all(1.0f), length(normal));
       const V beyond = hn::Mul(scale, hn::Sub(dot(normal, cone_.apex), offset));
-      const V reach = extent(hn::Neg(hn::Mul(scale, dot(normal, cone_.axis))));
-      apart = hn::Or(apart, hn::Gt(hn::Sub(beyond, reach), tolerance_));
+      apart = hn::Or(apart, hn::Gt(hn::Sub(beyond, extent(hn::Neg(scale) * normal)), tolerance_));
     });
+    return apart;
+  }
+
+  // Planes that hold the direction of the row: along the cone's side, and across the ways from the apex to the row's
+  // edges. Wide rows that a spot passes above or below, and in front of or behind, are beyond one of these.
+  HWY_INLINE M is_apart_along_row() const {
+    const V zero = hn::Zero(D());
+    // Unit vectors across the axis: one upright, one in the plane of axis and row, in which x is `size`. A plane along
+    // the side holds the row's direction where cosine times x across the axis is sine times x of the axis.
+    const V size = length(Point{zero, cone_.axis.y, cone_.axis.depth}), scale = hn::Div(all(1.0f), size);
+    const Point up = scale * Point{zero, cone_.axis.depth, hn::Neg(cone_.axis.y)}, along = cross(up, cone_.axis);
+    const V lean = hn::Div(hn::Mul(cone_.sine, cone_.axis.x), hn::Mul(cone_.cosine, size));
+    const Point rise = hn::Sqrt(hn::Max(hn::Sub(all(1.0f), hn::Mul(lean, lean)), zero)) * up;
+    M apart = hn::Or(is_beside(lean * along + rise), is_beside(lean * along - rise));
+    for (const unsigned edge : {0u, 2u, 4u, 6u})
+      apart = hn::Or(apart, is_past({zero, from_apex_[edge].y, from_apex_[edge].depth}));
     return apart;
   }
 
@@ -195,8 +222,7 @@ class Cells {
         take(start + hn::Min(hn::Max(t, hn::Zero(D())), all(1.0f)) * step);
       }
     }
-    const Point normal = hn::Div(all(1.0f), hn::Sqrt(least)) * nearest;
-    return hn::Or(apart, hn::Gt(hn::Sub(least_along(normal), extent(dot(normal, cone_.axis))), tolerance_));
+    return hn::Or(apart, is_past(nearest));
   }
 
   // From the cell to the volume and back a few times, both smaller by a little more than the tolerance. Where they
@@ -208,7 +234,7 @@ class Cells {
     for (int way = 0; way < k_ways; ++way) in_cell = closer_to_volume(in_cell);
     in_volume = nearest_in_volume(in_cell);
     common = hn::Or(is_common(in_cell), is_common(in_volume));
-    apart = is_past(in_cell - in_volume);
+    apart = hn::Or(is_past(in_cell - in_volume), is_apart_along_row());
   }
 
   // The mean of all places where cell ∩ volume can be extreme (geom/candidates.h), which lies inside of it; and planes
@@ -261,20 +287,25 @@ class Cells {
     return is_in;
   }
 
+  // Outwards, of the plane along the cone's side in a direction across the axis.
+  HWY_INLINE Point side_normal(const Point& across) const {
+    return hn::Div(cone_.cosine, length(across)) * across - cone_.sine * cone_.axis;
+  }
+
   // Do all corners lie beyond the plane along the cone's side in the direction of v?
   HWY_INLINE M is_beside(const Point& v) const {
-    const Point across = v - dot(v, cone_.axis) * cone_.axis;
-    const V size = length(across);
-    const Point outward = hn::Div(cone_.cosine, size) * across - cone_.sine * cone_.axis;
-    // Where v is nearly along the axis, the direction across it has few digits.
-    const M is_good = hn::Gt(size, hn::Mul(all(0.1f), length(v)));
-    return hn::And(is_good, hn::Gt(least_along(outward), tolerance_));
+    const Point part = v - dot(v, cone_.axis) * cone_.axis;
+    // Where v is nearly along the axis, what is across it has few digits. Elsewhere up to 65 u of it are still along
+    // the axis; once more leaves 6 u.
+    const M is_good = hn::Gt(dot(part, part), hn::Mul(all(0.01f), dot(v, v)));
+    const Point across = part - dot(part, cone_.axis) * cone_.axis;
+    return hn::And(is_good, hn::Gt(least_along(side_normal(across)), tolerance_));
   }
 
   // Do all corners lie farther in a direction than the volume extends?
   HWY_INLINE M is_past(const Point& direction) const {
     const Point normal = hn::Div(all(1.0f), length(direction)) * direction;
-    return hn::Gt(hn::Sub(least_along(normal), extent(dot(normal, cone_.axis))), tolerance_);
+    return hn::Gt(hn::Sub(least_along(normal), extent(normal)), tolerance_);
   }
 
  private:
@@ -438,8 +469,7 @@ class Cells {
         const V root = hn::Sqrt(hn::Max(rest, zero));
         for (const V w : {root, hn::Neg(root)}) {
           const Point across = hn::Sub(hn::Mul(z, x), hn::Mul(w, y)) * m + hn::Add(hn::Mul(z, y), hn::Mul(w, x)) * m2;
-          const Point outward = hn::Div(cone_.cosine, length(across)) * across - cone_.sine * cone_.axis;
-          apart = hn::Or(apart, hn::And(exists, hn::Gt(least_along(outward), tolerance_)));
+          apart = hn::Or(apart, hn::And(exists, hn::Gt(least_along(side_normal(across)), tolerance_)));
         }
       }
     return apart;
@@ -508,11 +538,12 @@ class Cells {
                    hn::And(hn::Gt(safe_range_, zero), hn::Lt(dot(v, v), hn::Mul(safe_range_, safe_range_))));
   }
 
-  // How far the volume extends from its apex in a direction with this cosine to the axis.
-  HWY_INLINE V extent(V cosine) const {
-    const V sine = hn::Sqrt(hn::Max(hn::Zero(D()), hn::Mul(hn::Sub(all(1.0f), cosine), hn::Add(all(1.0f), cosine))));
-    const V lean = hn::Max(hn::Zero(D()), hn::Add(hn::Mul(cosine, cone_.cosine), hn::Mul(sine, cone_.sine)));
-    return hn::Mul(cone_.range, hn::IfThenElse(hn::Ge(cosine, cone_.cosine), all(1.0f), lean));
+  // How far the volume extends from its apex along a unit vector. What is across the axis is measured as a vector: a
+  // root of 1 - cosine² would lose half the digits.
+  HWY_INLINE V extent(const Point& normal) const {
+    const V along = dot(normal, cone_.axis), across = length(normal - along * cone_.axis);
+    const V lean = hn::Max(hn::Zero(D()), hn::Add(hn::Mul(along, cone_.cosine), hn::Mul(across, cone_.sine)));
+    return hn::Mul(cone_.range, hn::IfThenElse(hn::Ge(along, cone_.cosine), all(1.0f), lean));
   }
 
   Cone cone_;

@@ -26,11 +26,14 @@ struct SpotCells {
 
   void add(const SpotCell& pair) {
     if (count + k_most_lanes >= spot.size()) grow();
-    spot[count] = pair.spot;
-    slice[count] = pair.slice;
-    row[count] = pair.row;
-    column[count] = pair.column;
-    end_column[count++] = pair.end_column;
+    set(count++, pair);
+  }
+  void set(std::uint32_t place, const SpotCell& pair) {
+    spot[place] = pair.spot;
+    slice[place] = pair.slice;
+    row[place] = pair.row;
+    column[place] = pair.column;
+    end_column[place] = pair.end_column;
   }
   void grow();
   // What a whole vector reads beyond the end must be places that exist.
@@ -47,8 +50,9 @@ struct SpotsAndPlanes {
   const float *side, *slope, *depth;
 };
 
-// Each look settles most of the pairs that the one before leaves open, and costs several times as much.
-enum class Look { quick, approach, closer, thorough };
+// Each look settles most of the pairs that the one before leaves open, and costs several times as much; the first one
+// says no or nothing.
+enum class Look { apart, quick, approach, closer, thorough };
 void look_at_cells(const SpotsAndPlanes& from, Look how, SpotCells& cells);
 
 }  // namespace clusterbench::assign

@@ -20,8 +20,8 @@ struct SpotRowEnds {
   std::vector<std::int32_t> first, last;  // the guesses
   std::vector<std::uint8_t> known;        // the guesses that are proven
 
-  // The first column, the last, that there is none; that none was found, which may be proven or not.
-  static constexpr std::uint8_t k_first = 1, k_last = 2, k_none = 4, k_found_none = 8;
+  // The first column, the last; that none was found, which is not proven.
+  static constexpr std::uint8_t k_first = 1, k_last = 2, k_found_none = 4;
 
   void make_room(std::uint32_t rows);
   std::size_t capacity_bytes() const { return first.capacity() * (2 * sizeof(std::int32_t) + 1); }
