@@ -15,7 +15,7 @@ if(CLUSTERBENCH_SANITIZE)
 endif()
 
 # clusterbench_unite(TARGET): its files are compiled eight at a time. Each of them brings headers whose code takes longer
-# to build than its own.
+# to build than its own. Not for layers whose time is measured: what is inlined there must not depend on the neighbours.
 function(clusterbench_unite TARGET)
   if(CLUSTERBENCH_UNITY)
     set_target_properties(${TARGET} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
@@ -32,6 +32,8 @@ if(CLUSTERBENCH_SANITIZE)
   set(CLUSTERBENCH_COLD_OPTIONS -O0)
 endif()
 
+set(CLUSTERBENCH_UNITED_LAYERS scene ${CLUSTERBENCH_COLD_LAYERS})
+
 macro(clusterbench_layer NAME)
   cmake_parse_arguments(LAYER "" "" "LINK" ${ARGN})
   file(GLOB_RECURSE LAYER_SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/${NAME}/*.cpp)
@@ -40,6 +42,8 @@ macro(clusterbench_layer NAME)
   set_target_properties(cb_${NAME} PROPERTIES LINKER_LANGUAGE CXX)
   if(${NAME} IN_LIST CLUSTERBENCH_COLD_LAYERS)
     target_compile_options(cb_${NAME} PRIVATE ${CLUSTERBENCH_COLD_OPTIONS})
+  endif()
+  if(${NAME} IN_LIST CLUSTERBENCH_UNITED_LAYERS)
     clusterbench_unite(cb_${NAME})
   endif()
   target_link_libraries(cb_${NAME} PUBLIC clusterbench_flags ${CLUSTERBENCH_ABOVE} ${LAYER_LINK})

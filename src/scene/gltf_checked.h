@@ -21,6 +21,9 @@ nlohmann::json checked_cameras(const Place& root, std::vector<std::string>& warn
 nlohmann::json checked_lights(const Place& root, std::vector<std::string>& warnings);
 nlohmann::json checked_animations(const Place& root, std::vector<std::string>& warnings);
 
+// How far from 1 a quaternion's length may be: what 8-bit components can be off, as in the Khronos glTF validator.
+inline constexpr double k_unit_tolerance = 0.00769;
+
 // Elements of a top-level array, 0 if it is absent.
 std::size_t count_of(const Place& root, const std::string& key);
 

@@ -11,9 +11,6 @@ using nlohmann::json;
 
 constexpr const char* k_lights = "KHR_lights_punctual";
 
-// How far from 1 a quaternion's length may be: what 8-bit components can be off, as in the Khronos glTF validator.
-constexpr double k_unit_tolerance = 0.00769;
-
 void check_rotation(const Place& place) {
   const std::vector<double> q = place.numbers(4);
   const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
@@ -31,8 +28,8 @@ void check_matrix(const Place& place) {
   if (!affine) place.refuse("the matrix's last row must be 0 0 0 1");
   for (const auto& [a, b] : {std::pair(0, 4), std::pair(0, 8), std::pair(4, 8)}) {
     double dot = 0.0, aa = 0.0, bb = 0.0;
-    for (int i = 0; i < 3; ++i) {
-      const double x = m[static_cast<std::size_t>(a + i)], y = m[static_cast<std::size_t>(b + i)];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double x = m[static_cast<std::size_t>(a) + i], y = m[static_cast<std::size_t>(b) + i];
       dot += x * y;
       aa += x * x;
       bb += y * y;

@@ -48,7 +48,7 @@ std::string_view glb_json(GltfFile& file) {
   check_glb_header(file);
   // What comes after the length that the header gives is not part of the GLB.
   const std::string_view all = std::string_view(file.bytes).substr(0, little_endian(file.bytes, 8));
-  std::string_view json;
+  std::string_view text;
   std::size_t place = 0;
   for (std::size_t at = k_header_bytes; at < all.size(); ++place) {
     if (all.size() - at < k_chunk_header_bytes) refuse_at(file, at, "the file ends inside a chunk's header");
@@ -64,21 +64,21 @@ std::string_view glb_json(GltfFile& file) {
     if (type == k_bin_chunk && file.binary) refuse_at(file, at + 4, "a second BIN chunk");
     if (type == k_bin_chunk && place != 1) refuse_at(file, at + 4, "the BIN chunk must follow the JSON chunk");
     const std::string_view content = all.substr(at + k_chunk_header_bytes, length);
-    if (type == k_json_chunk) json = content;
+    if (type == k_json_chunk) text = content;
     if (type == k_bin_chunk) file.binary = content;
     at += k_chunk_header_bytes + length;
   }
   if (place == 0) refuse_at(file, k_header_bytes, "the GLB has no JSON chunk");
-  return json;
+  return text;
 }
 
 // Copying and destroying a JSON value recurses, so nesting is bounded before anything is parsed.
-void check_nesting(const GltfFile& file, std::string_view json, std::size_t json_offset) {
+void check_nesting(const GltfFile& file, std::string_view text, std::size_t offset) {
   constexpr int k_deepest = 256;
   int depth = 0;
   bool in_string = false;
-  for (std::size_t i = 0; i < json.size(); ++i) {
-    const char c = json[i];
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
     if (in_string) {
       if (c == '\\') ++i;
       if (c == '"') in_string = false;
@@ -86,7 +86,7 @@ void check_nesting(const GltfFile& file, std::string_view json, std::size_t json
       in_string = true;
     } else if (c == '[' || c == '{') {
       if (++depth > k_deepest) {
-        refuse_at(file, json_offset + i, "JSON nested deeper than " + std::to_string(k_deepest) + " levels");
+        refuse_at(file, offset + i, "JSON nested deeper than " + std::to_string(k_deepest) + " levels");
       }
     } else if (c == ']' || c == '}') {
       --depth;
@@ -94,12 +94,12 @@ void check_nesting(const GltfFile& file, std::string_view json, std::size_t json
   }
 }
 
-void parse(GltfFile& file, std::string_view json) {
-  const auto offset = static_cast<std::size_t>(json.data() - file.bytes.data());
-  if (json.starts_with("\xEF\xBB\xBF")) refuse_at(file, offset, "JSON must not begin with a byte order mark");
-  check_nesting(file, json, offset);
+void parse(GltfFile& file, std::string_view text) {
+  const auto offset = static_cast<std::size_t>(text.data() - file.bytes.data());
+  if (text.starts_with("\xEF\xBB\xBF")) refuse_at(file, offset, "JSON must not begin with a byte order mark");
+  check_nesting(file, text, offset);
   try {
-    file.json = nlohmann::json::parse(json);
+    file.json = nlohmann::json::parse(text);
   } catch (const nlohmann::json::parse_error& error) {
     const std::string what = error.what();
     const std::size_t detail = what.find("] ");
@@ -109,7 +109,7 @@ void parse(GltfFile& file, std::string_view json) {
     const std::string what = error.what();
     const std::size_t first = what.find('\''), last = what.rfind('\'');
     const std::string number = first < last ? what.substr(first + 1, last - first - 1) : "";
-    const std::size_t at = json.find(number);
+    const std::size_t at = text.find(number);
     refuse_at(file, offset + (at == std::string_view::npos ? 0 : at),
               "the number " + number + " is larger than double precision can hold");
   }

@@ -3,11 +3,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "scene/gltf_checked.h"
+
 namespace clusterbench::scene {
 namespace {
-
-// How far from 1 a quaternion's length may be: what 8-bit components can be off, as in the Khronos glTF validator.
-constexpr double k_unit_tolerance = 0.00769;
 
 void check_times_format(const AccessorReader& reader, const Place& sampler, std::size_t accessor) {
   const Place input = sampler.at("input"), place = reader.place(accessor);

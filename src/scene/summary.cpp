@@ -13,7 +13,7 @@ namespace {
 constexpr double k_infinity = std::numeric_limits<double>::infinity();
 constexpr int k_moments = 16;  // at which animated lights and cameras are looked at
 
-std::string number(double value) {
+std::string four_digits(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.4g", value);
   return text;
@@ -95,9 +95,9 @@ void measure_bounds(const Scene& scene, Summary& summary) {
 
 std::string lens_text(const Lens& lens) {
   const std::string reach =
-      number(lens.near_m) + " m to " + (std::isinf(lens.far_m) ? "infinity" : number(lens.far_m) + " m");
-  if (lens.orthographic) return "orthographic, " + number(2.0 * lens.ymag_m) + " m high, " + reach;
-  return "perspective, " + number(lens.yfov_rad * 180.0 / 3.14159265358979323846) + " degrees high, " + reach;
+      four_digits(lens.near_m) + " m to " + (std::isinf(lens.far_m) ? "infinity" : four_digits(lens.far_m) + " m");
+  if (lens.orthographic) return "orthographic, " + four_digits(2.0 * lens.ymag_m) + " m high, " + reach;
+  return "perspective, " + four_digits(lens.yfov_rad * 180.0 / 3.14159265358979323846) + " degrees high, " + reach;
 }
 
 // Does a light's ball reach into the half-spaces of a lens's view? The width is taken as for a picture of 32:9, wider
