@@ -7,11 +7,12 @@
 namespace clusterbench::geom {
 namespace {
 
-const Rational k_hair = Rational(1) / Rational(Integer(1) << 60);
+const Rational k_slack = Rational(1) / Rational(Integer(1) << 60);
 
 // An enclosure around a rational number, off-centre and wider than rounding makes it.
 Enclosure loosely(const Rational& value, SplitMix64& random) {
-  return Enclosure::of(RationalInterval{value - exact(random.unit()) * k_hair, value + exact(random.unit()) * k_hair});
+  return Enclosure::of(
+      RationalInterval{value - exact(random.unit()) * k_slack, value + exact(random.unit()) * k_slack});
 }
 
 bool holds(const Enclosure& enclosure, const Rational& value) {
@@ -42,8 +43,8 @@ TEST(Enclosure, compares_only_what_is_certain) {
   const Enclosure x = loosely(a, random);
   EXPECT_FALSE(x < Enclosure::of(a));
   EXPECT_FALSE(x > Enclosure::of(a));
-  EXPECT_TRUE(x < Enclosure::of(a + 2 * k_hair));
-  EXPECT_TRUE(x > Enclosure::of(a - 2 * k_hair));
+  EXPECT_TRUE(x < Enclosure::of(a + 2 * k_slack));
+  EXPECT_TRUE(x > Enclosure::of(a - 2 * k_slack));
   EXPECT_FALSE(x == x);
   EXPECT_TRUE(Enclosure(0.5) == Enclosure(0.5));
 }

@@ -9,11 +9,11 @@
 namespace clusterbench::geom {
 namespace {
 
-Placement at(double x, double y, double depth) {
+Placement placed_at(double x, double y, double depth) {
   return {{x, y, -depth}, Vec3d(0.0), Mat3d(1.0)};
 }
 
-double just_below(double value) {
+double an_ulp_less(double value) {
   return std::nextafter(value, 0.0);
 }
 
@@ -23,7 +23,7 @@ void expect_touches_first_at(const ShellPiece& cell, const Vec3d& center, double
   const Placement placed{center * Vec3d(1.0, 1.0, -1.0), Vec3d(0.0), Mat3d(1.0)};
   EXPECT_TRUE(ball_meets_exactly(placed, distance, cell));
   EXPECT_TRUE(ball_meets_exactly(placed, std::nextafter(distance, 1e9), cell));
-  EXPECT_FALSE(ball_meets_exactly(placed, just_below(distance), cell));
+  EXPECT_FALSE(ball_meets_exactly(placed, an_ulp_less(distance), cell));
   for (int axis = 0; axis < 3; ++axis) {
     if (away[axis] == 0.0) continue;
     for (const double sign : {-1.0, 1.0}) {
@@ -55,15 +55,15 @@ TEST(ExactShell, a_ball_tangent_to_the_near_shell_from_inside_touches) {
 
 TEST(ExactShell, a_ball_around_the_eye_touches_the_near_shell_with_its_radius) {
   expect_touches_first_at(between(8, 20), {0, 0, 0}, 8.0, {0, 0, -1});
-  EXPECT_TRUE(ball_meets_exactly(at(0, 0, 0), 0.0, between(0, 20)));
+  EXPECT_TRUE(ball_meets_exactly(placed_at(0, 0, 0), 0.0, between(0, 20)));
 }
 
 TEST(ExactShell, a_ball_tangent_to_a_tile_plane_touches_between_the_shells) {
   // Foot (12, 0, 16) on x = 0.75 depth, 20 from the eye; five units out along the normal (4, 0, -3) / 5.
   for (const ShellPiece& cell : {between(8, 32), between(8, 20), between(20, 32)})
     expect_touches_first_at(cell, {16, 0, 13}, 5.0, {1, 0, -1});
-  EXPECT_FALSE(ball_meets_exactly(at(16, 0, 13), 5.0, between(8, 19.99f)));
-  EXPECT_FALSE(ball_meets_exactly(at(16, 0, 13), 5.0, between(20.01f, 32)));
+  EXPECT_FALSE(ball_meets_exactly(placed_at(16, 0, 13), 5.0, between(8, 19.99f)));
+  EXPECT_FALSE(ball_meets_exactly(placed_at(16, 0, 13), 5.0, between(20.01f, 32)));
 }
 
 TEST(ExactShell, a_ball_that_reaches_just_the_edge_of_a_tile_plane_and_a_shell_touches) {

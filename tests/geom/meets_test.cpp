@@ -69,7 +69,7 @@ enum class By { ball, cap, rim, side };
 
 // A light that reaches the place by a hair with one part of its surface, and lies outward of it there.
 LightVolume light_against(const Contact& contact, By by, SplitMix64& random) {
-  constexpr double k_hair = 1e-6;
+  constexpr double k_margin = 1e-6;
   LightVolume light;
   light.is_cone = by != By::ball;
   light.half_angle_rad = random.between(0.05, 1.5);
@@ -79,10 +79,10 @@ LightVolume light_against(const Contact& contact, By by, SplitMix64& random) {
   const Vec3d beside = glm::normalize(glm::cross(contact.outward, random_direction(random)));
   const Vec3d towards = -std::cos(lean) * contact.outward + std::sin(lean) * beside;
   const Vec3d inward = std::sin(lean) * contact.outward + std::cos(lean) * beside;
-  const double off_axis = by == By::cap ? random.unit() * light.half_angle_rad : light.half_angle_rad - k_hair;
+  const double off_axis = by == By::cap ? random.unit() * light.half_angle_rad : light.half_angle_rad - k_margin;
   light.direction = std::cos(off_axis) * towards + std::sin(off_axis) * inward;
   light.apex.position = contact.place - along * towards;
-  light.range = by == By::side ? along * random.between(1.1, 3.0) : along + k_hair;
+  light.range = by == By::side ? along * random.between(1.1, 3.0) : along + k_margin;
   return light;
 }
 

@@ -14,7 +14,7 @@
 namespace clusterbench::grid {
 namespace {
 
-constexpr float k_infinity = std::numeric_limits<float>::infinity();
+constexpr float k_float_infinity = std::numeric_limits<float>::infinity();
 
 double tan_of_degrees(double angle) {
   return std::tan(angle * std::acos(-1.0) / 180.0);
@@ -23,7 +23,7 @@ double tan_of_degrees(double angle) {
 // One eye of a headset: nothing about it is symmetric.
 const view::Projection k_left_eye{
     false, -tan_of_degrees(54.0), tan_of_degrees(40.0), -tan_of_degrees(55.0), tan_of_degrees(44.0), 0.1, 100.0};
-const view::Projection k_orthographic{true, -20.0, 30.0, -10.0, 15.0, 0.0, 100.0};
+const view::Projection k_off_centre_box{true, -20.0, 30.0, -10.0, 15.0, 0.0, 100.0};
 const Vec2i k_viewports[] = {{1366, 768}, {1000, 700}, {1, 1}, {7680, 4320}, {640, 360}};
 
 // A symmetric lens for a viewport of square pixels.
@@ -43,7 +43,7 @@ double pixel_of(float plane, double first, double last, int pixels) {
 
 // What rounding a plane of this size to single precision can move, in pixels.
 double rounding_px(float plane, double first, double last, int pixels) {
-  return std::abs(static_cast<double>(std::nextafter(plane, k_infinity)) - static_cast<double>(plane)) /
+  return std::abs(static_cast<double>(std::nextafter(plane, k_float_infinity)) - static_cast<double>(plane)) /
          std::abs(last - first) * pixels;
 }
 
@@ -62,7 +62,7 @@ void expect_whole_tiles_and_a_rest(const std::vector<float>& planes, int tile, d
 TEST(Tiling, by_pixels_clips_the_last_column_and_row_to_the_viewport) {
   for (const Vec2i viewport : k_viewports)
     for (const Vec2i pixels : {Vec2i{64, 64}, Vec2i{1, 1}, Vec2i{8, 128}, Vec2i{49, 30}, Vec2i{9000, 9000}})
-      for (const view::Projection& lens : {k_left_eye, k_orthographic, lens_of(60.0, viewport)}) {
+      for (const view::Projection& lens : {k_left_eye, k_off_centre_box, lens_of(60.0, viewport)}) {
         SCOPED_TRACE(std::to_string(viewport.x) + " by " + std::to_string(pixels.x));
         const Tiles tiles = make_tiles({.pixels = pixels, .count = {0, 0}}, lens, viewport);
         EXPECT_EQ(Vec2i(tiles.x.size() - 1, tiles.y.size() - 1), tiles.count);
@@ -93,10 +93,10 @@ TEST(Tiling, encloses_the_view_by_less_than_one_step_of_single_precision) {
     EXPECT_GE(tiles.x.back(), lens.right);
     EXPECT_GE(tiles.y.front(), lens.top);
     EXPECT_LE(tiles.y.back(), lens.bottom);
-    EXPECT_GT(std::nextafter(tiles.x.front(), k_infinity), lens.left);
-    EXPECT_LT(std::nextafter(tiles.x.back(), -k_infinity), lens.right);
-    EXPECT_LT(std::nextafter(tiles.y.front(), -k_infinity), lens.top);
-    EXPECT_GT(std::nextafter(tiles.y.back(), k_infinity), lens.bottom);
+    EXPECT_GT(std::nextafter(tiles.x.front(), k_float_infinity), lens.left);
+    EXPECT_LT(std::nextafter(tiles.x.back(), -k_float_infinity), lens.right);
+    EXPECT_LT(std::nextafter(tiles.y.front(), -k_float_infinity), lens.top);
+    EXPECT_GT(std::nextafter(tiles.y.back(), k_float_infinity), lens.bottom);
   }
 }
 

@@ -165,16 +165,16 @@ TEST(GltfRefusals, a_missing_external_buffer_is_named_when_an_animation_needs_it
 }
 
 TEST(GltfRefusals, a_broken_container_names_its_byte) {
-  const std::string json = chunk("JSON", document(""), ' ');
-  EXPECT_EQ(refusal(glb(json), "a.glb"), "loads");
+  const std::string json_chunk = chunk("JSON", document(""), ' ');
+  EXPECT_EQ(refusal(glb(json_chunk), "a.glb"), "loads");
   EXPECT_TRUE(refusal("", "a.gltf").starts_with("byte 0: "));
   EXPECT_TRUE(refusal("glTF", "a.glb").starts_with("byte 4: "));
   EXPECT_TRUE(refusal("{}", "a.glb").starts_with("byte 0: "));
   EXPECT_TRUE(refusal("glTF" + little_endian(1) + little_endian(12), "a.glb").starts_with("byte 4: "));
-  EXPECT_TRUE(refusal(glb(json).substr(0, 30), "a.glb").starts_with("byte 8: "));
+  EXPECT_TRUE(refusal(glb(json_chunk).substr(0, 30), "a.glb").starts_with("byte 8: "));
   EXPECT_TRUE(refusal(glb(""), "a.glb").starts_with("byte 12: "));
   EXPECT_TRUE(refusal(glb(chunk("JSOM", "{}", ' ')), "a.glb").starts_with("byte 16: "));
-  EXPECT_TRUE(refusal(glb(json + json), "a.glb").starts_with("byte "));
+  EXPECT_TRUE(refusal(glb(json_chunk + json_chunk), "a.glb").starts_with("byte "));
   EXPECT_TRUE(refusal(glb(little_endian(0xFFFFFFFF) + "JSON"), "a.glb").starts_with("byte 12: "));
   EXPECT_TRUE(refusal("{\"asset\": }").starts_with("byte 10: not JSON"));
   EXPECT_TRUE(refusal("{\"asset\": {\"version\": 1e999}}").starts_with("byte 22: "));

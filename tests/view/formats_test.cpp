@@ -11,7 +11,7 @@
 namespace clusterbench::view {
 namespace {
 
-constexpr float k_infinity = std::numeric_limits<float>::infinity();
+constexpr float k_float_infinity = std::numeric_limits<float>::infinity();
 constexpr std::uint16_t k_half_infinity = 0x7c00;
 
 // By the definition of binary16: 1 sign, 5 exponent, 10 fraction bits. Finite ones.
@@ -40,7 +40,7 @@ TEST(Half, every_one_of_the_65536_is_read_by_its_definition_and_written_back) {
     ASSERT_EQ(std::signbit(value), (bits & 0x8000) != 0) << i;
     ASSERT_EQ(half_of(value), bits) << i;
   }
-  EXPECT_EQ(float_of_half(k_half_infinity), k_infinity);
+  EXPECT_EQ(float_of_half(k_half_infinity), k_float_infinity);
 }
 
 // Rounding is monotone, so its steps say all of it: they lie at the middles between neighbours, which are floats.
@@ -51,12 +51,12 @@ TEST(Half, rounds_to_the_nearest_and_halves_to_even_between_all_neighbours) {
     const auto middle = static_cast<float>(0.5 * (by_definition(below) + upper));
     ASSERT_EQ(half_of(std::nextafter(middle, 0.0f)), below) << below;
     ASSERT_EQ(half_of(middle), below % 2 == 0 ? below : above) << below;
-    ASSERT_EQ(half_of(std::nextafter(middle, k_infinity)), above) << below;
+    ASSERT_EQ(half_of(std::nextafter(middle, k_float_infinity)), above) << below;
     ASSERT_EQ(half_of(-middle), half_of(middle) | 0x8000) << below;
   }
   EXPECT_EQ(half_of(65519.9f), half_of(k_largest_half));
   EXPECT_EQ(half_of(3e38f), k_half_infinity);
-  EXPECT_EQ(half_of(-k_infinity), k_half_infinity | 0x8000);
+  EXPECT_EQ(half_of(-k_float_infinity), k_half_infinity | 0x8000);
   EXPECT_EQ(half_of(std::numeric_limits<float>::denorm_min()), 0);
 }
 
@@ -75,11 +75,11 @@ TEST(Half, not_below_is_the_smallest_that_is_not_below) {
   for (std::uint16_t below = 0; below < k_half_infinity - 1; ++below) {
     const float value = float_of_half(below);
     ASSERT_EQ(half_not_below(value), below);
-    ASSERT_EQ(half_not_below(std::nextafter(value, k_infinity)), below + 1);
+    ASSERT_EQ(half_not_below(std::nextafter(value, k_float_infinity)), below + 1);
   }
   EXPECT_EQ(half_not_below(k_largest_half), k_half_infinity - 1);
   EXPECT_EQ(half_not_below(65504.01f), k_half_infinity);
-  EXPECT_EQ(half_not_below(k_infinity), k_half_infinity);
+  EXPECT_EQ(half_not_below(k_float_infinity), k_half_infinity);
 }
 
 TEST(Half, rounding_is_what_a_value_can_have_lost_and_no_more) {
@@ -107,7 +107,7 @@ TEST(Norm16, every_step_comes_back_and_between_two_the_nearer_one_is_taken) {
   EXPECT_EQ(snorm16_of(-2.0), -32767);
 }
 
-double angle_between(const Vec3d& a, const Vec3d& b) {
+double turn_between(const Vec3d& a, const Vec3d& b) {
   return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
@@ -117,7 +117,7 @@ TEST(Octahedral, no_direction_turns_by_more_than_its_bound_and_some_by_nearly_as
   for (int i = 0; i < 400000; ++i) {
     const Vec3d ball{random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)};
     const Vec3d unit = glm::normalize(ball);
-    worst = std::max(worst, angle_between(unit, unit_of(octahedral_of(unit))));
+    worst = std::max(worst, turn_between(unit, unit_of(octahedral_of(unit))));
   }
   EXPECT_LE(worst, k_octahedral_rad);
   EXPECT_GT(worst, 0.9 * k_octahedral_rad);
@@ -129,7 +129,7 @@ TEST(Octahedral, axes_and_their_diagonals_come_back) {
       for (int z = -1; z <= 1; ++z) {
         if (x == 0 && y == 0 && z == 0) continue;
         const Vec3d unit = glm::normalize(Vec3d(x, y, z));
-        EXPECT_LE(angle_between(unit, unit_of(octahedral_of(unit))), k_octahedral_rad) << x << y << z;
+        EXPECT_LE(turn_between(unit, unit_of(octahedral_of(unit))), k_octahedral_rad) << x << y << z;
       }
   EXPECT_EQ(unit_of(octahedral_of({0, 0, -1})), Vec3d(0, 0, -1));
   EXPECT_EQ(unit_of(octahedral_of({0, 0, 1})), Vec3d(0, 0, 1));

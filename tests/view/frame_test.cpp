@@ -10,7 +10,7 @@
 namespace clusterbench::view {
 namespace {
 
-constexpr double k_infinity = std::numeric_limits<double>::infinity();
+constexpr double k_endless = std::numeric_limits<double>::infinity();
 
 Frame frame_with(const std::vector<scene::WorldLight>& lights) {
   Frame frame;
@@ -75,7 +75,7 @@ TEST(Lights, have_a_radius_that_is_never_below_their_range) {
 }
 
 TEST(Lights, without_range_stay_without_and_without_end_stay_endless) {
-  const LightArrays arrays = lights_in(frame_with({point({1, 2, 3}, 0.0), point({1, 2, 3}, k_infinity)}), {});
+  const LightArrays arrays = lights_in(frame_with({point({1, 2, 3}, 0.0), point({1, 2, 3}, k_endless)}), {});
   EXPECT_EQ(arrays.padded_radius(0, 9.0f), 0.0f);
   EXPECT_TRUE(std::isinf(arrays.padded_radius(1, 9.0f)));
   EXPECT_TRUE(std::isinf(arrays.padded_radius(1, 0.0f)));
