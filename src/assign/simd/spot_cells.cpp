@@ -26,7 +26,7 @@ void look(const SpotsAndPlanes& from, Look how, SpotCells& cells) {
     switch (how) {
       case Look::apart:
         common = hn::FirstN(d, 0);
-        apart = these.is_apart();
+        apart = these.is_row_apart();
         break;
       case Look::quick:
         common = these.holds_corner();
