@@ -17,10 +17,6 @@ namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
 namespace {
 
-V root(V square) {
-  return hn::Sqrt(hn::Max(square, hn::Zero(D())));
-}
-
 // The interval of slopes found so far, per lane.
 struct Hull {
   V low, high;
@@ -411,31 +407,24 @@ HWY_INLINE void store_planes(const PlaneTables& tables, const Batch& batch, cons
 // The hulls in the tile planes above and below the listed rows, vector by vector.
 class PlanesOfRows {
  public:
-  HWY_INLINE explicit PlanesOfRows(const RowScratch& scratch) : low_(scratch.low.data()), high_(scratch.high.data()) {
-    const auto n = static_cast<std::int32_t>(hn::Lanes(D()));
-    one_back_ = hn::IndicesFromVec(DI(), hn::And(from_on(n - 1), all_int(n - 1)));
-  }
+  HWY_INLINE explicit PlanesOfRows(const RowScratch& scratch) : low_(scratch.low.data()), high_(scratch.high.data()) {}
 
   // What the next rows have in both planes; above only those that are not their ball's first.
   HWY_INLINE Hull next(M has_below, M has_above) {
     const D d;
-    const M first_lane = hn::FirstN(d, 1);
     Hull hull = {expanded(d, hn::LoadU(d, low_), has_below, infinity()),
                  expanded(d, hn::LoadU(d, high_), has_below, hn::Neg(infinity()))};
     const std::size_t count = hn::CountTrue(d, has_below);
     low_ += count;
     high_ += count;
-    const Hull turned = hull.of(one_back_);
-    hull.add(has_above, hn::IfThenElse(first_lane, turned_.low, turned.low),
-             hn::IfThenElse(first_lane, turned_.high, turned.high));
-    turned_ = turned;
+    hull.add(has_above, carry_(hull.low, turned_.low), carry_(hull.high, turned_.high));
     return hull;
   }
 
  private:
   const float *low_, *high_;
-  Which one_back_;
-  Hull turned_ = empty_hull();  // those below the rows before, each one lane on, the last one in the first lane
+  Carried carry_;
+  Hull turned_ = empty_hull();  // of the planes below the rows before
 };
 
 // The columns of all rows, from what was stored of their planes.

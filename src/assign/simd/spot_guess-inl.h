@@ -14,15 +14,13 @@ HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
 
-HWY_INLINE V root(V square) {
-  return hn::Sqrt(hn::Max(square, hn::Zero(D())));
-}
 HWY_INLINE V square_of(V x) {
   return hn::Mul(x, x);
 }
 HWY_INLINE V inverse(V x) {
   return hn::Div(all(1.0f), x);
 }
+
 // The two places found so far that lean most.
 struct Extremes {
   Point low, high;
@@ -45,37 +43,19 @@ struct Extremes {
   }
   HWY_INLINE M exist() const { return hn::Lt(low.x, all(k_none)); }
 
+  // One lane on.
+  HWY_INLINE Extremes carried(const Carried& carry, Extremes& turned) const {
+    const auto one_on = [&](const Point& p, Point& before) {
+      return Point{carry(p.x, before.x), carry(p.y, before.y), carry(p.depth, before.depth)};
+    };
+    Extremes next;
+    next.low = one_on(low, turned.low);
+    next.high = one_on(high, turned.high);
+    return next;
+  }
+
  private:
   static constexpr float k_none = 1e15f;
-};
-
-// Vectors one lane on, vector by vector: the first lane is the last one of the vector before.
-class Carried {
- public:
-  HWY_INLINE Carried() {
-    const auto n = static_cast<std::int32_t>(hn::Lanes(D()));
-    one_back_ = hn::IndicesFromVec(DI(), hn::And(from_on(n - 1), all_int(n - 1)));
-  }
-  // `before` is turned, that is, what this gave for the vector before.
-  template <class Vector>
-  HWY_INLINE Vector operator()(Vector value, Vector& before) const {
-    const Vector turned = taken(value, one_back_);
-    const Vector carried = hn::IfThenElse(hn::FirstN(hn::DFromV<Vector>(), 1), before, turned);
-    before = turned;
-    return carried;
-  }
-  HWY_INLINE Point operator()(const Point& value, Point& before) const {
-    return {(*this)(value.x, before.x), (*this)(value.y, before.y), (*this)(value.depth, before.depth)};
-  }
-  HWY_INLINE Extremes operator()(const Extremes& value, Extremes& before) const {
-    Extremes carried;
-    carried.low = (*this)(value.low, before.low);
-    carried.high = (*this)(value.high, before.high);
-    return carried;
-  }
-
- private:
-  Which one_back_;
 };
 
 // Where what spots have in their rows leans most: of all places where it can (spot_rows.h), those that are in spot and
@@ -316,9 +296,9 @@ class Guesses {
   HWY_INLINE Extremes next(const SpotsInRows& rows, VI spot, VI slice, VI row, V left, V right) {
     const Guess guess(rows, left, right);
     const Extremes below = guess.in_tile_plane(rows.y0);
-    const Extremes above = carried_(below, below_);
-    const MI is_next = hn::And(hn::And(hn::Eq(carried_(spot, spot_), spot), hn::Eq(carried_(slice, slice_), slice)),
-                               hn::Eq(carried_(row, row_), hn::Sub(row, all_int(1))));
+    const Extremes above = below.carried(carry_, below_);
+    const MI is_next = hn::And(hn::And(hn::Eq(carry_(spot, spot_), spot), hn::Eq(carry_(slice, slice_), slice)),
+                               hn::Eq(carry_(row, row_), hn::Sub(row, all_int(1))));
     Extremes found = guess.between_tile_planes();
     found.take(hn::FirstN(D(), hn::Lanes(D())), below);
     found.take(hn::RebindMask(D(), is_next), above);
@@ -329,7 +309,7 @@ class Guesses {
   }
 
  private:
-  Carried carried_;
+  Carried carry_;
   // Of the rows before, one lane on.
   Extremes below_;
   VI spot_, slice_, row_;

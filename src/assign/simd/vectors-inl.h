@@ -94,6 +94,31 @@ HWY_INLINE VI sums(VI values) {
   return values;
 }
 
+// Of a square that rounding may have made negative.
+HWY_INLINE V root(V square) {
+  return hn::Sqrt(hn::Max(square, hn::Zero(D())));
+}
+
+// Vectors one lane on, vector by vector: the first lane is the last one of the vector before.
+class Carried {
+ public:
+  HWY_INLINE Carried() {
+    const auto n = static_cast<std::int32_t>(hn::Lanes(D()));
+    one_back_ = hn::IndicesFromVec(DI(), hn::And(from_on(n - 1), all_int(n - 1)));
+  }
+  // `turned`: what the call for the vector before left there.
+  template <class Vector>
+  HWY_INLINE Vector operator()(Vector value, Vector& turned) const {
+    const Vector now = taken(value, one_back_);
+    const Vector carried = hn::IfThenElse(hn::FirstN(hn::DFromV<Vector>(), 1), turned, now);
+    turned = now;
+    return carried;
+  }
+
+ private:
+  Which one_back_;
+};
+
 // from[0] .. from[count - 1], and 0 beyond if that is less than a vector.
 HWY_INLINE V loaded(const float* from, std::uint32_t count) {
   const D d;
