@@ -55,16 +55,22 @@ SpotCell place_of(const grid::Grid& grid, std::uint32_t spot, std::uint32_t cell
   return {spot, cell / columns / rows, cell / columns % rows, column, column + 1};
 }
 
-std::vector<testing::settings::Plan> frustum_plans() {
-  return testing::settings::plans_for(*find_assigner("exact"), grid::Kind::frustum);
+// Calls check(plan, close, planes, from) for each view in perspective.
+template <class Check>
+void for_close_spots(std::uint64_t seed, Check&& check) {
+  for (const testing::settings::Plan& plan :
+       testing::settings::plans_for(*find_assigner("exact"), grid::Kind::frustum)) {
+    if (plan.projection.orthographic) continue;
+    const CloseSpots close = close_spots(plan, seed);
+    const RowPlanes planes(close.grid.screen());
+    check(plan, close, planes,
+          SpotsAndPlanes{&close.lights, planes.side.data(), planes.slope.data(), planes.depth.data()});
+  }
 }
 
 TEST(SpotLooks, say_yes_and_no_only_where_it_is_true_on_every_target) {
-  for (const testing::settings::Plan& plan : frustum_plans()) {
-    if (plan.projection.orthographic) continue;
-    const CloseSpots close = close_spots(plan, 5);
-    const RowPlanes planes(close.grid.screen());
-    const SpotsAndPlanes from{&close.lights, planes.side.data(), planes.slope.data(), planes.depth.data()};
+  for_close_spots(5, [](const testing::settings::Plan& plan, const CloseSpots& close, const RowPlanes&,
+                        const SpotsAndPlanes& from) {
     SpotCells pairs;
     std::vector<bool> touched;
     for (std::uint32_t spot = 0; spot < close.cells.size(); ++spot) {
@@ -84,15 +90,12 @@ TEST(SpotLooks, say_yes_and_no_only_where_it_is_true_on_every_target) {
         EXPECT_GT(settled, pairs.count / 100) << target << ", " << plan.name << ", look " << static_cast<int>(look);
       }
     });
-  }
+  });
 }
 
 TEST(SpotRows, know_only_ends_that_are_true_on_every_target) {
-  for (const testing::settings::Plan& plan : frustum_plans()) {
-    if (plan.projection.orthographic) continue;
-    const CloseSpots close = close_spots(plan, 6);
-    const RowPlanes planes(close.grid.screen());
-    const SpotsAndPlanes from{&close.lights, planes.side.data(), planes.slope.data(), planes.depth.data()};
+  for_close_spots(6, [](const testing::settings::Plan& plan, const CloseSpots& close, const RowPlanes& planes,
+                        const SpotsAndPlanes& from) {
     const auto columns = static_cast<std::uint32_t>(planes.columns);
     SpotCells rows;
     std::vector<grid::IndexRange> truth;
@@ -121,7 +124,7 @@ TEST(SpotRows, know_only_ends_that_are_true_on_every_target) {
       EXPECT_EQ(wrong, 0u) << target << ", " << plan.name;
       EXPECT_GT(known, rows.count / 2) << target << ", " << plan.name;
     });
-  }
+  });
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ std::uint32_t add_rows(const SpanRows& rows, int first_row, int last_row, const 
   const std::size_t lanes = hn::Lanes(du);
   const auto light = hn::LoadU(du, lights), none = hn::Set(du, SpanLists::k_no_span);
   const auto half = hn::Set(du, 0xffff);
-  auto beyond = hn::Zero(du);  // the spans' first columns
+  auto beyond = hn::Zero(du);  // how many columns a span has behind its first one
   std::uint32_t spans = 0;
   for (int row = first_row; row <= last_row; ++row) {
     const auto r = static_cast<std::size_t>(row);
