@@ -9,20 +9,28 @@ using grid::IndexRange;
 void SpotSpans::find(const ExactFrame& frame, int first, int last) {
   frame_ = &frame;
   tests_ = fallbacks_ = 0;
-  lit_.clear();
-  next_lit_ = 0;
+  rows_.count = next_row_ = 0;
   if (frame.first_spot_place == frame.seen.count) return;
-  cells_.count = 0;
-  for (int slice = first; slice < last; ++slice) add_rows(slice);
-  tests_ += cells_.count;
   if (frame.planes.orthographic) {
-    for (std::uint32_t i = 0; i < cells_.count; ++i) lit_.push_back(lit_of(cells_.at(i)));
-    return decide_ends();
+    for (int slice = first; slice < last; ++slice) add_flat_rows(slice);
+    decide_ends();
+  } else {
+    find_in_perspective(first, last);
   }
-  const SpotsAndPlanes from{&frame.lights, frame.planes.side.data(), frame.planes.slope.data(),
-                            frame.planes.depth.data()};
+  tests_ += rows_.count;
+}
+
+void SpotSpans::find_in_perspective(int first, int last) {
+  const SpotsAndPlanes from{&frame_->lights, frame_->planes.side.data(), frame_->planes.slope.data(),
+                            frame_->planes.depth.data()};
+  slices_.count = 0;
+  for (int slice = first; slice < last; ++slice)
+    for (const std::uint32_t place : frame_->spots_of(slice))
+      slices_.add(frame_->seen.light[place] - frame_->lights.points, static_cast<std::uint32_t>(slice));
+  find_spot_rows(from, frame_->planes, slices_, rows_);
+  take_open_rows();
+  if (lit_.empty()) return;
   drop_missed_rows(from);
-  guess(from);
   shorten(from);
   while (ask_for_ends()) {
     tests_ += cells_.count;
@@ -34,74 +42,63 @@ void SpotSpans::find(const ExactFrame& frame, int first, int last) {
     }
     for (const Ends& ends : ends_) settle(ends);
   }
+  for (const Lit& lit : lit_) {
+    rows_.first[lit.place] = lit.columns.first;
+    rows_.last[lit.place] = lit.columns.last;
+  }
 }
 
 void SpotSpans::add_to(int slice, SpanLists& spans) {
-  for (; next_lit_ < lit_.size() && lit_[next_lit_].slice == slice; ++next_lit_) {
-    const Lit& lit = lit_[next_lit_];
-    if (!lit.columns.empty())
-      spans.add(static_cast<std::uint32_t>(lit.row), static_cast<std::uint32_t>(lit.columns.first),
-                static_cast<std::uint32_t>(lit.columns.last), lit.light);
+  for (; next_row_ < rows_.count && rows_.slice[next_row_] == static_cast<std::uint32_t>(slice); ++next_row_) {
+    const std::int32_t first = rows_.first[next_row_], last = rows_.last[next_row_];
+    if (first <= last)
+      spans.add(rows_.row[next_row_], static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last),
+                rows_.spot[next_row_] + frame_->lights.points);
   }
 }
 
 std::size_t SpotSpans::capacity_bytes() const {
-  return rows_.capacity_bytes() + cells_.capacity_bytes() + closer_.capacity_bytes() + guesses_.capacity_bytes() +
-         open_.capacity() * sizeof(std::uint32_t) + closer_places_.capacity() * sizeof(std::uint32_t) +
-         lit_.capacity() * sizeof(Lit) + ends_.capacity() * sizeof(Ends) + waiting_.capacity() * sizeof(std::uint32_t) +
+  return batches_.capacity_bytes() + slices_.capacity_bytes() + rows_.capacity_bytes() + cells_.capacity_bytes() +
+         closer_.capacity_bytes() + open_.capacity() * sizeof(std::uint32_t) +
+         closer_places_.capacity() * sizeof(std::uint32_t) + lit_.capacity() * sizeof(Lit) +
+         ends_.capacity() * sizeof(Ends) + waiting_.capacity() * sizeof(std::uint32_t) +
          long_.capacity() * sizeof(Long);
 }
 
-void SpotSpans::add_rows(int slice) {
-  each_batch(*frame_, slice, frame_->spots_of(slice), rows_, [&](const BatchRows& batch) {
-    tests_ += batch.tests;
-    // Spot by spot: rows that follow each other share what is found of the tile plane between them.
-    for (std::uint32_t lane = 0; lane < batch.lanes; ++lane)
-      for (int row = batch.first_row; row <= batch.last_row; ++row) {
-        const std::uint32_t columns = batch.columns[static_cast<std::size_t>(row) * batch.lanes + lane];
-        if (columns == BatchRows::k_none) continue;
-        cells_.add({batch.lights[lane] - frame_->lights.points, static_cast<std::uint32_t>(slice),
-                    static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(BatchRows::first_of(columns)),
-                    static_cast<std::uint32_t>(BatchRows::last_of(columns)) + 1});
-      }
+// Those of the spots' bounding balls.
+void SpotSpans::add_flat_rows(int slice) {
+  each_batch(*frame_, slice, frame_->spots_of(slice), batches_, [&](const BatchRows& batch) {
+    for (int row = batch.first_row; row <= batch.last_row; ++row)
+      each_span(batch, row, [&](std::uint32_t light, const IndexRange& columns, bool) {
+        rows_.add({light - frame_->lights.points, static_cast<std::uint32_t>(slice), static_cast<std::uint32_t>(row),
+                   static_cast<std::uint32_t>(columns.first), static_cast<std::uint32_t>(columns.last) + 1});
+      });
   });
 }
 
-// Takes away rows that a plane tells are not touched: of narrow cones more than a third.
-void SpotSpans::drop_missed_rows(const SpotsAndPlanes& from) {
-  look_at_cells(from, Look::apart, cells_);
-  std::uint32_t kept = 0;
-  for (std::uint32_t i = 0; i < cells_.count; ++i)
-    if (cells_.touch[i] != Touch::no) cells_.set(kept++, cells_.at(i));
-  cells_.count = kept;
-}
-
-SpotSpans::Lit SpotSpans::lit_of(const SpotCell& row) const {
-  return {row.spot + frame_->lights.points,
-          static_cast<int>(row.slice),
-          static_cast<int>(row.row),
-          {static_cast<int>(row.column), static_cast<int>(row.end_column) - 1},
-          true,
-          true};
-}
-
-// Takes each end for settled that is guessed and proven, and away what is as a whole not touched.
-void SpotSpans::guess(const SpotsAndPlanes& from) {
-  waiting_.clear();
-  find_ends(from, frame_->planes, cells_, guesses_);
-  for (std::uint32_t i = 0; i < cells_.count; ++i) {
-    Lit lit = lit_of(cells_.at(i));
-    const std::uint8_t known = guesses_.known[i];
-    lit.left_is_open = (known & SpotRowEnds::k_first) == 0;
-    lit.right_is_open = (known & SpotRowEnds::k_last) == 0;
-    if (!lit.left_is_open) lit.columns.first = guesses_.first[i];
-    if (!lit.right_is_open) lit.columns.last = guesses_.last[i];
-    lit_.push_back(lit);
-    if ((known & SpotRowEnds::k_found_none) != 0) waiting_.push_back(i);
+void SpotSpans::take_open_rows() {
+  lit_.clear();
+  const int last_column = frame_->planes.columns - 1;
+  for (std::uint32_t i = 0; i < rows_.count; ++i) {
+    const std::uint8_t known = rows_.known[i];
+    if (known == SpotRows::k_all) continue;
+    const auto is = [&](std::uint8_t bit) { return (known & bit) != 0; };
+    lit_.push_back(
+        {i,
+         {is(SpotRows::k_none_before) ? rows_.first[i] : 0, is(SpotRows::k_none_behind) ? rows_.last[i] : last_column},
+         !is(SpotRows::k_none_before) || !is(SpotRows::k_first_is_touched),
+         !is(SpotRows::k_none_behind) || !is(SpotRows::k_last_is_touched)});
   }
-  for (const Look how : {Look::approach, Look::closer, Look::thorough}) {
+}
+
+// Takes away rows that are as a whole not touched.
+void SpotSpans::drop_missed_rows(const SpotsAndPlanes& from) {
+  waiting_.clear();
+  for (std::uint32_t i = 0; i < lit_.size(); ++i)
+    if (lit_[i].left_is_open && lit_[i].right_is_open && !lit_[i].columns.empty()) waiting_.push_back(i);
+  for (const Look how : {Look::apart, Look::approach, Look::closer, Look::thorough}) {
     closer_.count = 0;
-    for (const std::uint32_t i : waiting_) closer_.add(cells_.at(i));
+    for (const std::uint32_t i : waiting_) closer_.add(cells_of(lit_[i], lit_[i].columns));
     look_at_cells(from, how, closer_);
     std::size_t kept = 0;
     for (std::uint32_t at = 0; at < closer_.count; ++at) {
@@ -129,8 +126,9 @@ void SpotSpans::shorten(const SpotsAndPlanes& from) {
     cells_.count = 0;
     for (const Long& piece : long_) {
       const IndexRange& columns = lit_[piece.lit].columns;
-      add_cell(lit_[piece.lit], piece.from_left ? IndexRange{columns.first, columns.first + piece.columns - 1}
-                                                : IndexRange{columns.last - piece.columns + 1, columns.last});
+      cells_.add(cells_of(lit_[piece.lit], piece.from_left
+                                               ? IndexRange{columns.first, columns.first + piece.columns - 1}
+                                               : IndexRange{columns.last - piece.columns + 1, columns.last}));
     }
     tests_ += cells_.count;
     look_at_cells(from, Look::quick, cells_);
@@ -175,13 +173,12 @@ bool SpotSpans::ask_for_ends() {
 void SpotSpans::ask(std::uint32_t i, const IndexRange& columns, bool from_left, bool from_right) {
   waiting_.push_back(static_cast<std::uint32_t>(ends_.size()));
   ends_.push_back({i, cells_.count, columns, from_left, from_right});
-  for (int column = columns.first; column <= columns.last; ++column) add_cell(lit_[i], {column, column});
+  for (int column = columns.first; column <= columns.last; ++column) cells_.add(cells_of(lit_[i], {column, column}));
 }
 
-void SpotSpans::add_cell(const Lit& lit, const IndexRange& columns) {
-  cells_.add({lit.light - frame_->lights.points, static_cast<std::uint32_t>(lit.slice),
-              static_cast<std::uint32_t>(lit.row), static_cast<std::uint32_t>(columns.first),
-              static_cast<std::uint32_t>(columns.last) + 1});
+SpotCell SpotSpans::cells_of(const Lit& lit, const IndexRange& columns) const {
+  return {rows_.spot[lit.place], rows_.slice[lit.place], rows_.row[lit.place],
+          static_cast<std::uint32_t>(columns.first), static_cast<std::uint32_t>(columns.last) + 1};
 }
 
 // Cells without an answer that lie before the first one that is touched.
@@ -214,7 +211,7 @@ void SpotSpans::settle(const Ends& ends) {
   Lit& lit = lit_[ends.lit];
   const auto touches = [&](int column) {
     Touch& touch = cells_.touch[ends.place + static_cast<std::uint32_t>(column - ends.columns.first)];
-    if (touch == Touch::open) touch = decide(lit, column) ? Touch::yes : Touch::no;
+    if (touch == Touch::open) touch = decide(lit.place, column) ? Touch::yes : Touch::no;
     return touch == Touch::yes;
   };
   IndexRange& span = lit.columns;
@@ -230,21 +227,20 @@ void SpotSpans::settle(const Ends& ends) {
 }
 
 void SpotSpans::decide_ends() {
-  for (Lit& lit : lit_) {
-    CellJudge judge(frame_->grid, frame_->lights, lit.light);
-    const std::uint32_t first_cell = row_of(frame_->grid.screen(), lit.slice, lit.row).first_cell;
-    lit.columns = narrowed(lit.columns, [&](int column) {
-      ++fallbacks_;
-      return !judge.touches(first_cell + static_cast<std::uint32_t>(column));
-    });
+  for (std::uint32_t i = 0; i < rows_.count; ++i) {
+    const IndexRange touched =
+        narrowed({rows_.first[i], rows_.last[i]}, [&](int column) { return !decide(i, column); });
+    rows_.first[i] = touched.first;
+    rows_.last[i] = touched.last;
   }
 }
 
-bool SpotSpans::decide(const Lit& lit, int column) {
+bool SpotSpans::decide(std::uint32_t place, int column) {
   ++fallbacks_;
-  CellJudge judge(frame_->grid, frame_->lights, lit.light);
-  return judge.touches(row_of(frame_->grid.screen(), lit.slice, lit.row).first_cell +
-                       static_cast<std::uint32_t>(column));
+  CellJudge judge(frame_->grid, frame_->lights, rows_.spot[place] + frame_->lights.points);
+  const Row row =
+      row_of(frame_->grid.screen(), static_cast<int>(rows_.slice[place]), static_cast<int>(rows_.row[place]));
+  return judge.touches(row.first_cell + static_cast<std::uint32_t>(column));
 }
 
 }  // namespace clusterbench::assign

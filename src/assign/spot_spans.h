@@ -1,8 +1,8 @@
 #pragma once
-// The columns that spots touch in each row of some slices: the rows of their bounding balls, shortened. First to ends
-// that are guessed and proven, which nearly all are. What is left is shortened by halves, quarters and so on that are
-// as a whole not touched; then its ends are looked at a few cells at a time, until a cell at either end is touched.
-// Those of all slices go together. In orthographic grids cell by cell.
+// The columns that spots touch in each row of some slices, all slices at once so that vectors are full: rows and ends
+// that are guessed and proven (spot_rows.h), which nearly all are. What is left is shortened by halves, quarters and so
+// on that are as a whole not touched; then its ends are looked at a few cells at a time, until a cell at either end is
+// touched. In orthographic grids the rows of bounding balls, cell by cell.
 
 #include "assign/exact_frame.h"
 #include "assign/exact_rows.h"
@@ -22,10 +22,9 @@ class SpotSpans {
   std::size_t capacity_bytes() const;
 
  private:
-  // A spot's columns in a row, as far as they are known: those that are not touched go from both ends.
+  // A row that is not settled: its columns as far as they are known; those that are not touched go from both ends.
   struct Lit {
-    std::uint32_t light;
-    int slice, row;
+    std::uint32_t place;  // in rows_
     grid::IndexRange columns;
     bool left_is_open, right_is_open;  // the end may yet not be touched
 
@@ -45,30 +44,31 @@ class SpotSpans {
     bool from_left, from_right;
   };
 
-  void add_rows(int slice);  // to cells_
-  void decide_ends();        // in orthographic grids, whose cells no look knows
+  void find_in_perspective(int first, int last);
+  void add_flat_rows(int slice);  // of orthographic grids, whose cells no look knows
+  void decide_ends();             // of these
+  void take_open_rows();
   void drop_missed_rows(const SpotsAndPlanes& from);
-  Lit lit_of(const SpotCell& row) const;
-  void guess(const SpotsAndPlanes& from);
   void shorten(const SpotsAndPlanes& from);
   bool ask_for_ends();
-  void add_cell(const Lit& lit, const grid::IndexRange& columns);  // to cells_
+  SpotCell cells_of(const Lit& lit, const grid::IndexRange& columns) const;
   void ask(std::uint32_t i, const grid::IndexRange& columns, bool from_left, bool from_right);
   void ask_more_closely();
   void add_closer(std::uint32_t place);
   void settle(const Ends& ends);
-  bool decide(const Lit& lit, int column);
+  bool decide(std::uint32_t place, int column);
 
   const ExactFrame* frame_ = nullptr;
-  RowBatches rows_;
-  std::vector<Lit> lit_;             // slice by slice
-  std::size_t next_lit_ = 0;         // to be added
+  RowBatches batches_;
+  SpotSlices slices_;
+  SpotRows rows_;               // slice by slice
+  std::uint32_t next_row_ = 0;  // to be added
+  std::vector<Lit> lit_;
   std::vector<std::uint32_t> open_;  // among them
   std::vector<Long> long_;
   std::vector<Ends> ends_;
-  std::vector<std::uint32_t> waiting_;  // those of them that may have cells without an answer
-  SpotRowEnds guesses_;
-  SpotCells cells_, closer_;  // of all ends; those of them to look at closely
+  std::vector<std::uint32_t> waiting_;  // Lits or Ends without an answer
+  SpotCells cells_, closer_;            // of all ends; those of them to look at closely
   std::vector<std::uint32_t> closer_places_;
   std::uint64_t tests_ = 0, fallbacks_ = 0;
 };

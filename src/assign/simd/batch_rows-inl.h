@@ -64,12 +64,6 @@ HWY_INLINE V farther_end(V place, float low, float high) {
   return hn::Max(hn::Abs(hn::Sub(place, all(low))), hn::Abs(hn::Sub(place, all(high))));
 }
 
-// A whole number from 0 to 2^22 as an integer, with less ado than ConvertTo, which looks for ones that do not fit. From
-// others something that is not negative.
-HWY_INLINE VI whole(V number) {
-  return hn::Xor(hn::BitCast(DI(), hn::Add(number, all(0x1p23f))), hn::BitCast(DI(), all(0x1p23f)));
-}
-
 // Slopes from low to high as columns, as BatchRows has them. They are certain where the way from an end to the next
 // boundary inwards, times the width, is at least least_area times steepness(low, high), all in columns, or where
 // by_chord(way inwards, steepness) says so.

@@ -11,6 +11,7 @@
 #include <hwy/highway.h>
 
 #include "assign/simd/batch_rows-inl.h"
+#include "assign/simd/plane_tables-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign {
@@ -94,31 +95,6 @@ struct LevelBalls {
 struct BallRows {
   VI first, count, planes_above, planes_below;
   VI held;  // all bits of those that hold all of the slice's part of the view: all columns of all rows are theirs
-};
-
-// A value of each tile plane, looked up in registers where they hold all of them.
-class PlaneTable {
- public:
-  HWY_INLINE PlaneTable(const std::vector<float>& values, int planes)
-      : values_(values.data()),
-        is_small_(static_cast<std::size_t>(planes) <= RegisterTable::size()),
-        table_(hn::LoadU(D(), values_), hn::LoadU(D(), values_ + hn::Lanes(D()))) {}
-
-  HWY_INLINE V at(VI place) const { return is_small_ ? table_.at(place) : gathered(values_, place); }
-
- private:
-  const float* values_;
-  bool is_small_;
-  RegisterTable table_;
-};
-
-struct PlaneTables {
-  PlaneTable slope, tilt, inverse_tilt;
-
-  HWY_INLINE explicit PlaneTables(const RowPlanes& planes)
-      : slope(planes.slope, planes.rows + 1),
-        tilt(planes.tilt, planes.rows + 1),
-        inverse_tilt(planes.inverse_tilt, planes.rows + 1) {}
 };
 
 // Rows of one batch. Rows lie between tile planes; a plane's hull belongs to the row above it and to the one below.

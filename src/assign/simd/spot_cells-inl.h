@@ -65,14 +65,27 @@ struct Cone {
 // so under 20 u S for a plane.
 constexpr float k_tolerance = 0x1p-19f;
 
-// A vector of spots, each with its own piece of a row: tile planes below and above, slice planes in front and behind.
-struct SpotsInRows {
+// Evidence must be larger than this. `light`: the size of the numbers that describe it; the cells reach to a depth, and
+// to slopes across and up.
+HWY_INLINE V tolerance_of(V light, V depth, V across, V up) {
+  return hn::Mul(all(k_tolerance), hn::Add(light, hn::Mul(depth, hn::Add(all(1.0f), hn::Add(across, up)))));
+}
+
+// How far a volume extends from its apex along a normal of this length. What is across the axis is measured as a
+// vector: a root of 1 - cosine² would lose half the digits.
+HWY_INLINE V extent_of(const Cone& cone, const Point& normal, V size) {
+  const V along = dot(normal, cone.axis), across = length(normal - along * cone.axis);
+  const M is_in_cone = hn::Ge(hn::Mul(cone.sine, along), hn::Mul(cone.cosine, across));
+  const V lean = hn::Max(hn::Zero(D()), hn::Add(hn::Mul(along, cone.cosine), hn::Mul(across, cone.sine)));
+  return hn::Mul(cone.range, hn::IfThenElse(is_in_cone, size, lean));
+}
+
+// A vector of spots.
+struct GivenSpots {
   Cone cone;
   V light;  // size of the numbers that describe it
-  V y0, y1, depth0, depth1;
 
-  HWY_INLINE SpotsInRows(const SpotsAndPlanes& from, VI spot, VI slice, VI row) {
-    const view::LightArrays& lights = *from.lights;
+  HWY_INLINE GivenSpots(const view::LightArrays& lights, VI spot) {
     const std::uint32_t points = lights.points;
     cone = {{gathered(lights.x.data() + points, spot), gathered(lights.y.data() + points, spot),
              hn::Neg(gathered(lights.z.data() + points, spot))},
@@ -82,18 +95,29 @@ struct SpotsInRows {
             gathered(lights.cos_angle.data(), spot),
             gathered(lights.sin_angle.data(), spot)};
     light = hn::Add(gathered(lights.reach.data() + points, spot), cone.range);
-    y1 = gathered(from.slope, row);
-    y0 = gathered(from.slope + 1, row);
-    depth0 = gathered(from.depth, slice);
-    depth1 = gathered(from.depth + 1, slice);
-  }
-
-  // Evidence must be larger than this, where columns between two sides are looked at.
-  HWY_INLINE V tolerance(V left, V right) const {
-    const V across = hn::Max(hn::Abs(left), hn::Abs(right)), up = hn::Max(hn::Abs(y0), hn::Abs(y1));
-    return hn::Mul(all(k_tolerance), hn::Add(light, hn::Mul(depth1, hn::Add(all(1.0f), hn::Add(across, up)))));
   }
 };
+
+// Spots, each with its own piece of a row: tile planes below and above, slice planes in front and behind.
+struct SpotsInRows {
+  Cone cone;
+  V light;
+  V y0, y1, depth0, depth1;
+
+  // Where columns between two sides are looked at.
+  HWY_INLINE V tolerance(V left, V right) const {
+    return tolerance_of(light, depth1, hn::Max(hn::Abs(left), hn::Abs(right)), hn::Max(hn::Abs(y0), hn::Abs(y1)));
+  }
+};
+HWY_INLINE SpotsInRows spots_in_rows(const SpotsAndPlanes& from, VI spot, VI slice, VI row) {
+  const GivenSpots given(*from.lights, spot);
+  return {given.cone,
+          given.light,
+          gathered(from.slope + 1, row),
+          gathered(from.slope, row),
+          gathered(from.depth, slice),
+          gathered(from.depth + 1, slice)};
+}
 
 // The places of a list from `first` on.
 HWY_INLINE VI places(const std::vector<std::uint32_t>& list, std::uint32_t first) {
@@ -104,7 +128,7 @@ HWY_INLINE VI places(const std::vector<std::uint32_t>& list, std::uint32_t first
 class Cells {
  public:
   HWY_INLINE Cells(const SpotsAndPlanes& from, const SpotCells& cells, std::uint32_t first)
-      : Cells(SpotsInRows(from, places(cells.spot, first), places(cells.slice, first), places(cells.row, first)),
+      : Cells(spots_in_rows(from, places(cells.spot, first), places(cells.slice, first), places(cells.row, first)),
               gathered(from.side, places(cells.column, first)), gathered(from.side, places(cells.end_column, first))) {}
 
   // Those between two sides of columns.
@@ -553,13 +577,8 @@ class Cells {
                    hn::And(hn::Gt(safe_range_, zero), hn::Lt(dot(v, v), hn::Mul(safe_range_, safe_range_))));
   }
 
-  // How far the volume extends from its apex along a unit vector. What is across the axis is measured as a vector: a
-  // root of 1 - cosine² would lose half the digits.
-  HWY_INLINE V extent(const Point& normal) const {
-    const V along = dot(normal, cone_.axis), across = length(normal - along * cone_.axis);
-    const V lean = hn::Max(hn::Zero(D()), hn::Add(hn::Mul(along, cone_.cosine), hn::Mul(across, cone_.sine)));
-    return hn::Mul(cone_.range, hn::IfThenElse(hn::Ge(along, cone_.cosine), all(1.0f), lean));
-  }
+  // How far the volume extends from its apex along a unit vector.
+  HWY_INLINE V extent(const Point& normal) const { return extent_of(cone_, normal, all(1.0f)); }
 
   Cone cone_;
   V left_, right_, y0_, y1_, depth0_, depth1_, tolerance_, safe_range_;

@@ -83,6 +83,12 @@ HWY_INLINE VI from_on(std::int32_t first) {
   return hn::Add(all_int(first), hn::Iota(DI(), 0));
 }
 
+// A whole number from 0 to 2^22 as an integer, with less ado than ConvertTo, which looks for ones that do not fit. From
+// others something that is not negative.
+HWY_INLINE VI whole(V number) {
+  return hn::Xor(hn::BitCast(DI(), hn::Add(number, all(0x1p23f))), hn::BitCast(DI(), all(0x1p23f)));
+}
+
 // The sums of the lanes up to each one.
 HWY_INLINE VI sums(VI values) {
   const VI place = hn::Iota(DI(), 0);
