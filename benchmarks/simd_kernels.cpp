@@ -27,7 +27,7 @@
 #include "assign/simd/slice_rows.h"
 #include "assign/simd/span_lists.h"
 #include "assign/simd/spot_balls.h"
-#include "assign/simd/spot_cells.h"
+#include "assign/simd/spot_rows.h"
 #include "benchmarks.h"
 #include "geom/predicates.h"
 #include "setting.h"
@@ -231,6 +231,29 @@ void find_shell_rows(State& state) {
                assign::find_shell_rows(planes, {boxed, slice, batch, count, setting.lights.size()}, rows);
                return rows.tests;
              });
+}
+
+// Of all spots in the slices that their balls reach.
+void find_spot_rows(State& state) {
+  const Setting setting = open_world();
+  const assign::RowPlanes planes(setting.grid.screen());
+  const assign::SpotsAndPlanes from{&setting.lights, planes.side.data(), planes.slope.data(), planes.depth.data()};
+  assign::BallArrays around;
+  assign::find_spot_balls(setting.lights, view::k_given_roundings, true, around);
+  assign::SeenBalls seen;
+  seen.reserve(setting.lights.spots);
+  assign::see_balls(planes, assign::given_spots(setting.lights, around), 0, seen);
+  assign::SliceBalls balls;
+  balls.sort(seen, planes.slices);
+  assign::SpotSlices slices;
+  for (int slice = 0; slice < planes.slices; ++slice)
+    for (const std::uint32_t place : balls.of(slice)) slices.add(seen.light[place], static_cast<std::uint32_t>(slice));
+  assign::SpotRows rows;
+  for (auto _ : state) {
+    assign::find_spot_rows(from, planes, slices, rows);
+    benchmark::ClobberMemory();
+  }
+  items(state, rows.count);
 }
 
 // --- Spots: items are pairs of a spot and a cell ---
@@ -477,6 +500,7 @@ constexpr Kernel k_kernels[] = {
     {"find_refined_rows", find_refined_rows},
     {"find_box_rows", find_box_rows},
     {"find_shell_rows", find_shell_rows},
+    {"find_spot_rows", find_spot_rows},
     {"look_quickly", look_quickly},
     {"look_approaching", look_approaching},
     {"look_closer", look_closer},

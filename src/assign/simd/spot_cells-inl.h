@@ -50,9 +50,10 @@ struct Cone {
 
 // Evidence: a point that is in cell and volume, or a plane between them, by more than the tolerance 2^-19 S = 32 u S;
 // u = 2^-24, S = |apex| + 2 range + the cell's largest coordinates. A point counts as apex + v, exactly; a plane's
-// normal as it came out, of length 1 to 5 u. How either was found does not matter, only how well it is measured. Given
-// numbers are off by u of themselves: range, sine, cosine and each coordinate of apex and axis. Sums and products of
-// three lose 3 u of the vectors' lengths, a length 3 u. Then margins are off by at most
+// normal as it came out, of length 1 to 5 u, or of another one by which all margins and the tolerance are then larger.
+// How either was found does not matter, only how well it is measured. Given numbers are off by u of themselves: range,
+// sine, cosine and each coordinate of apex and axis. Sums and products of three lose 3 u of the vectors' lengths, a
+// length 3 u. Then margins are off by at most
 //    9 u S  of a point in the sphere: 5 u range, u |apex|; in the cone: along the axis 4 u range + u |apex|, across it
 //           3 u range + u |apex|, both times sine and cosine, squared and compared 5 u range
 //    6 u S  of a point in the cell: apex + v is rounded, 2 u of a product and a sum

@@ -52,8 +52,10 @@ struct Beyond {
     const V least = hn::Min(hn::Min(corner(up0, planes.near), corner(up1, planes.near)),
                             hn::Min(corner(up0, planes.far), corner(up1, planes.far)));
     const V size = length(normal);
-    return hn::And(hn::Ge(hn::Mul(normal.x, side), hn::Zero(D())),
-                   hn::Gt(hn::Sub(least, extent_of(cone, normal, size)), hn::Mul(tolerance, size)));
+    const M is_apart = hn::Gt(hn::Sub(least, extent_of(cone, normal, size)), hn::Mul(tolerance, size));
+    // Squares of much shorter ones lose digits.
+    const M is_measured = hn::Gt(size, all(1e-10f));
+    return hn::And(hn::And(is_apart, is_measured), hn::Ge(hn::Mul(normal.x, side), hn::Zero(D())));
   }
 };
 
