@@ -96,7 +96,7 @@ void SpotSpans::drop_missed_rows(const SpotsAndPlanes& from) {
   waiting_.clear();
   for (std::uint32_t i = 0; i < lit_.size(); ++i)
     if (lit_[i].left_is_open && lit_[i].right_is_open && !lit_[i].columns.empty()) waiting_.push_back(i);
-  for (const Look how : {Look::apart, Look::approach, Look::closer, Look::thorough}) {
+  for (const Look how : {Look::approach, Look::closer, Look::thorough}) {
     closer_.count = 0;
     for (const std::uint32_t i : waiting_) closer_.add(cells_of(lit_[i], lit_[i].columns));
     look_at_cells(from, how, closer_);

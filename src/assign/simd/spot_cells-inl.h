@@ -208,37 +208,6 @@ class Cells {
     return apart;
   }
 
-  // Planes that hold the direction of the row: its tile planes, those along the cone's side, and those across the ways
-  // from the apex to the row's edges. Wide rows that a spot passes above or below are beyond one of these. And the
-  // plane along the side towards the row's middle.
-  HWY_INLINE M is_row_apart() const {
-    const V zero = hn::Zero(D());
-    M apart = is_beside(sum_of_corners());
-    // Unit vectors across the axis: one upright, one in the plane of axis and row, in which x is `size`. A plane along
-    // the side holds the row's direction where cosine times x across the axis is sine times x of the axis.
-    const V size = length(Point{zero, cone_.axis.y, cone_.axis.depth}), scale = hn::Div(all(1.0f), size);
-    const Point up = scale * Point{zero, cone_.axis.depth, hn::Neg(cone_.axis.y)}, along = cross(up, cone_.axis);
-    const V lean = hn::Div(hn::Mul(cone_.sine, cone_.axis.x), hn::Mul(cone_.cosine, size));
-    const V rest = hn::Sub(all(1.0f), hn::Mul(lean, lean));
-    const M exist = hn::And(hn::Ge(rest, zero), hn::Gt(size, all(0.1f)));
-    const Point rise = hn::Sqrt(hn::Max(rest, zero)) * up;
-    for (const Point& across : {lean * along + rise, lean * along - rise})
-      apart = hn::Or(apart, hn::And(exist, hn::Gt(least_along(side_normal(across)), tolerance_)));
-
-    const auto take = [&](const Point& direction) {  // in which x is 0
-      const Point normal = hn::Div(all(1.0f), length(direction)) * direction;
-      const auto at = [&](unsigned edge) {
-        return hn::Add(hn::Mul(normal.y, from_apex_[edge].y), hn::Mul(normal.depth, from_apex_[edge].depth));
-      };
-      const V least = hn::Min(hn::Min(at(0), at(2)), hn::Min(at(4), at(6)));
-      apart = hn::Or(apart, hn::Gt(hn::Sub(least, extent(normal)), tolerance_));
-    };
-    for (const unsigned edge : {0u, 2u, 4u, 6u}) take({zero, from_apex_[edge].y, from_apex_[edge].depth});
-    take({zero, hn::Neg(all(1.0f)), y1_});
-    take({zero, all(1.0f), hn::Neg(y0_)});
-    return apart;
-  }
-
   // More planes: along the cone's side towards each corner, and across the way to the nearest corner and to the nearest
   // place of the edges.
   HWY_INLINE M is_apart_from_corners() const {

@@ -24,10 +24,6 @@ void look(const SpotsAndPlanes& from, Look how, SpotCells& cells) {
     const Cells these(from, cells, first);
     M common, apart;
     switch (how) {
-      case Look::apart:
-        common = hn::FirstN(d, 0);
-        apart = these.is_row_apart();
-        break;
       case Look::quick:
         common = these.holds_corner();
         apart = these.is_apart();

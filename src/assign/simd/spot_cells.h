@@ -50,9 +50,8 @@ struct SpotsAndPlanes {
   const float *side, *slope, *depth;
 };
 
-// Each look settles most of the pairs that the one before leaves open, and costs several times as much; the first one
-// says no or nothing.
-enum class Look { apart, quick, approach, closer, thorough };
+// Each look settles most of the pairs that the one before leaves open, and costs several times as much.
+enum class Look { quick, approach, closer, thorough };
 void look_at_cells(const SpotsAndPlanes& from, Look how, SpotCells& cells);
 
 }  // namespace clusterbench::assign

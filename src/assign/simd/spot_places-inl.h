@@ -253,19 +253,19 @@ struct PlaneExtremes {
 
 // Spots, each in a slice, and what is the same in all of its tile planes.
 struct SpotsInSlices {
-  SpotShapes spots;
-  SlicePlanes planes;
+  SpotShapes shapes;
+  SlicePlanes between;
   V light;              // size of the numbers that describe it
   V tangent;            // from the eye to where the sphere's tangents touch
   Point generators[2];  // in which planes through the eye touch the cone
   V inverse_lean;       // 1 / (axis.x² - cosine²)
 
   SpotsInSlices() = default;
-  HWY_INLINE SpotsInSlices(const SpotShapes& of_spots, const SlicePlanes& of_planes, V of_light)
-      : spots(of_spots), planes(of_planes), light(of_light) {
-    const Cone& cone = spots.cone;
+  HWY_INLINE SpotsInSlices(const SpotShapes& of_shapes, const SlicePlanes& of_between, V of_light)
+      : shapes(of_shapes), between(of_between), light(of_light) {
+    const Cone& cone = shapes.cone;
     tangent = root(hn::Sub(dot(cone.apex, cone.apex), square_of(cone.range)));
-    spots.find_generators(cone.apex, generators);
+    shapes.find_generators(cone.apex, generators);
     inverse_lean = inverse(hn::Sub(square_of(cone.axis.x), square_of(cone.cosine)));
   }
 
@@ -277,11 +277,12 @@ struct SpotsInSlices {
       take(p.y);
       take(p.depth);
     };
-    for (Point* p : {&spots.cone.apex, &spots.cone.axis, &spots.m1, &spots.m2, &spots.rim, &spots.rim1, &spots.rim2,
-                     &generators[0], &generators[1]})
+    for (Point* p : {&shapes.cone.apex, &shapes.cone.axis, &shapes.m1, &shapes.m2, &shapes.rim, &shapes.rim1,
+                     &shapes.rim2, &generators[0], &generators[1]})
       take_point(*p);
-    for (V* v : {&spots.cone.range, &spots.cone.cosine, &spots.cone.sine, &spots.slack, &spots.least_along,
-                 &planes.near, &planes.far, &planes.inverse_near, &planes.inverse_far, &light, &tangent, &inverse_lean})
+    for (V* v :
+         {&shapes.cone.range, &shapes.cone.cosine, &shapes.cone.sine, &shapes.slack, &shapes.least_along, &between.near,
+          &between.far, &between.inverse_near, &between.inverse_far, &light, &tangent, &inverse_lean})
       take(*v);
   }
   static constexpr int k_vectors = 39;
@@ -292,15 +293,15 @@ struct SpotsInSlices {
     take_tangents(slope, tilt, inverse_tilt, found);
     take_rim(slope, found);
     take_generators(slope, found);
-    take_edge(slope, planes.near, planes.inverse_near, found);
-    take_edge(slope, planes.far, planes.inverse_far, found);
+    take_edge(slope, between.near, between.inverse_near, found);
+    take_edge(slope, between.far, between.inverse_far, found);
     return found;
   }
 
  private:
   HWY_INLINE void take_tangents(V slope, V tilt, V inverse_tilt, PlaneExtremes& found) const {
-    const Point& a = spots.cone.apex;
-    const V range = spots.cone.range, zero = hn::Zero(D());
+    const Point& a = shapes.cone.apex;
+    const V range = shapes.cone.range, zero = hn::Zero(D());
     const V away = hn::Mul(hn::Sub(a.y, hn::Mul(slope, a.depth)), inverse_tilt);
     const V ahead = hn::Mul(hn::Add(hn::Mul(slope, a.y), a.depth), inverse_tilt);
     const V rho_square = hn::Mul(hn::Sub(range, away), hn::Add(range, away)), rho = root(rho_square);
@@ -313,7 +314,7 @@ struct SpotsInSlices {
     const V to_depth = hn::Mul(shrink, inverse_tilt);
     const auto is_in = [&](V across, V depth) {
       const Point p = Place{across, slope, depth}.point();
-      return hn::And(exist, hn::And(planes.hold(depth, spots.slack), spots.is_sphere_in_cone(p)));
+      return hn::And(exist, hn::And(between.hold(depth, shapes.slack), shapes.is_sphere_in_cone(p)));
     };
     const V low_depth = hn::Mul(to_depth, low_lean), high_depth = hn::Mul(to_depth, high_lean);
     found.take_low(is_in(low, low_depth), low, low_depth);
@@ -322,27 +323,28 @@ struct SpotsInSlices {
 
   HWY_INLINE void take_rim(V slope, PlaneExtremes& found) const {
     const auto part = [&](const Point& p) { return hn::Sub(p.y, hn::Mul(slope, p.depth)); };
-    spots.each_rim_place(part(spots.rim1), part(spots.rim2), hn::Neg(part(spots.rim)), [&](M exists, const Point& p) {
-      found.take(hn::And(exists, planes.hold(p.depth, spots.slack)), hn::Div(p.x, p.depth), p.depth);
-    });
+    shapes.each_rim_place(
+        part(shapes.rim1), part(shapes.rim2), hn::Neg(part(shapes.rim)), [&](M exists, const Point& p) {
+          found.take(hn::And(exists, between.hold(p.depth, shapes.slack)), hn::Div(p.x, p.depth), p.depth);
+        });
   }
 
   // Where planes through the eye touch the cone's side.
   HWY_INLINE void take_generators(V slope, PlaneExtremes& found) const {
-    const Point& a = spots.cone.apex;
+    const Point& a = shapes.cone.apex;
     const V above = hn::Sub(hn::Mul(slope, a.depth), a.y);
     for (const Point& g : {generators[0], generators[1]}) {
       const V t = hn::Div(above, hn::Sub(g.y, hn::Mul(slope, g.depth)));
       const V x = hn::Add(a.x, hn::Mul(t, g.x)), depth = hn::Add(a.depth, hn::Mul(t, g.depth));
-      found.take(hn::And(spots.is_on_generator(t), planes.hold(depth, spots.slack)), hn::Div(x, depth), depth);
+      found.take(hn::And(shapes.is_on_generator(t), between.hold(depth, shapes.slack)), hn::Div(x, depth), depth);
     }
   }
 
   // Where sphere and cone's side meet a slice plane: along² = cosine² (x² + rest), along = x axis.x + k.
   HWY_INLINE void take_edge(V slope, V depth, V inverse_depth, PlaneExtremes& found) const {
-    const Cone& cone = spots.cone;
+    const Cone& cone = shapes.cone;
     const V up = hn::Sub(hn::Mul(slope, depth), cone.apex.y), ahead = hn::Sub(depth, cone.apex.depth);
-    spots.each_sphere_place(
+    shapes.each_sphere_place(
         up, ahead, [&](M exists, V x) { found.take_low(exists, hn::Mul(x, inverse_depth), depth); },
         [&](M exists, V x) { found.take_high(exists, hn::Mul(x, inverse_depth), depth); });
     const V rest = hn::Add(square_of(up), square_of(ahead));
@@ -352,11 +354,11 @@ struct SpotsInSlices {
     const V qc = hn::Sub(square_of(k), hn::Mul(cosine_square, rest));
     // qb² - qa qc, but for wide cones without its cancellation.
     const V inside = hn::Add(square_of(k), hn::Mul(qa, rest)),
-            longest_square = square_of(hn::Add(cone.range, spots.slack));
+            longest_square = square_of(hn::Add(cone.range, shapes.slack));
     const M exist = hn::Ge(inside, hn::Zero(D()));
     const V q = hn::Neg(hn::Add(qb, hn::CopySign(hn::Mul(cone.cosine, root(inside)), qb)));
     for (const V x : {hn::Mul(q, inverse_lean), hn::Div(qc, q)}) {
-      const M is_in = hn::And(hn::Ge(hn::Add(hn::Mul(x, cone.axis.x), k), hn::Neg(spots.slack)),
+      const M is_in = hn::And(hn::Ge(hn::Add(hn::Mul(x, cone.axis.x), k), hn::Neg(shapes.slack)),
                               hn::Le(hn::Add(square_of(x), rest), longest_square));
       found.take(hn::And(exist, is_in), hn::Mul(hn::Add(cone.apex.x, x), inverse_depth), depth);
     }
