@@ -28,7 +28,7 @@ void on_each_target(Check&& check) {
   std::string names;
   for (const std::string& name : tried) names += name + " ";
   ::testing::Test::RecordProperty("targets", names);
-  EXPECT_TRUE(tried.contains("SCALAR") || tried.size() > 1) << names;
+  EXPECT_TRUE(tried.contains("SCALAR") || tried.contains("NEON")) << names;  // machines with NEON have nothing else
 }
 
 }  // namespace clusterbench::assign::testing
