@@ -80,7 +80,8 @@ TEST(SpanLists, are_those_of_a_pair_buffer_on_every_target) {
 
 struct Answer {
   Lists lists;
-  std::uint64_t tests;
+  std::uint64_t tests, fallbacks;
+  std::size_t scratch_bytes;
 };
 
 Answer answer_of(const std::string& name, const Params& params, const Setting& setting) {
@@ -88,7 +89,7 @@ Answer answer_of(const std::string& name, const Params& params, const Setting& s
   assigner->build(setting.grid);
   Lists lists;
   assigner->assign(view::lights_in(setting.frame, grid::space_of(setting.grid, setting.frame)), lists);
-  return {std::move(lists), assigner->tests_done()};
+  return {std::move(lists), assigner->tests_done(), assigner->fallbacks(), assigner->scratch_bytes()};
 }
 
 std::vector<grid::GridSpec> odd_box_grids(grid::Kind kind) {
@@ -190,15 +191,16 @@ std::vector<Params> params_of(const AssignerRow& row) {
 void expect_same_lists(const std::string& twin, const std::string& reference, const Setting& setting) {
   for (const Params& params : params_of(*find_assigner(twin))) {
     const Lists expected = answer_of(reference, params, setting).lists;
-    const std::uint64_t tests = answer_of(twin, params, setting).tests;
+    const Answer best = answer_of(twin, params, setting);
     EXPECT_GT(expected.pair_count(), 0U);
     on_each_target([&](const std::string& target) {
       const Answer answer = answer_of(twin, params, setting);
-      EXPECT_TRUE(answer.lists == expected && answer.tests == tests)
+      EXPECT_TRUE(answer.lists == expected && answer.tests == best.tests && answer.fallbacks == best.fallbacks)
           << target << ", " << setting.name << ", "
           << (params.values().contains("spot")
                   ? "spot: " + params.text("spot") + ", inflation: " + std::to_string(params.number("inflation"))
                   : "");
+      EXPECT_EQ(answer.scratch_bytes, best.scratch_bytes) << target << ", " << setting.name;
     });
   }
 }

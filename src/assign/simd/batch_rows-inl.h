@@ -21,7 +21,7 @@ HWY_INLINE void start_batch(int grid_rows, VI first_row, VI row_count, VU lights
   const DI di;
   const std::size_t n = hn::Lanes(di);
   out.lanes = static_cast<std::uint32_t>(n);
-  out.make_room(grid_rows, n);
+  out.make_room(grid_rows);
   hn::StoreU(lights, DU(), out.lights);
   out.tests = static_cast<std::uint32_t>(hn::GetLane(hn::SumOfLanes(di, row_count)));
   const MI touches = hn::Gt(row_count, hn::Zero(di));

@@ -46,9 +46,7 @@ class Boxes {
     out.last_row = hn::GetLane(hn::MaxOfLanes(di, hn::IfThenElseZero(has_rows, hn::Add(first_row, rows)))) - 1;
     if (row_count == 0) return false;
     hn::StoreU(lights, DU(), out.lights);
-    // One row more than the grid has, for what lanes write that are done.
-    const std::size_t size = (static_cast<std::size_t>(grid_rows) + 1) * hn::Lanes(di);
-    if (out.columns.size() < size) out.columns.resize(size);
+    out.make_room(grid_rows);
     return true;
   }
 

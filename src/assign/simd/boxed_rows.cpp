@@ -84,7 +84,7 @@ HWY_INLINE Remainder cut_to_row(const Remainder& ball, const RowPlane& top, cons
 // distance from it, which no cut changes.
 HWY_INLINE void prepare_columns(const RefinementPlanes& planes, const Boxes& boxes, int most, V x, LaneColumns& out) {
   const std::size_t lanes = hn::Lanes(D());
-  out.reserve((static_cast<std::size_t>(most) + 1) * lanes);
+  out.reserve(planes.column_across.size() * k_row_lanes);
   const VI last = all_int(static_cast<int>(planes.column_across.size()) - 1);
   for (int i = 0; i <= most; ++i) {
     const VI place = hn::Min(hn::Add(boxes.first_column, all_int(i)), last);
@@ -153,7 +153,7 @@ HWY_INLINE V squared_gap(const CellExtents::Axis& axis, VI place, V center) {
 
 HWY_INLINE void prepare_gaps(const CellExtents& cells, const Boxes& boxes, int slice, int most, V x, LaneColumns& out) {
   const std::size_t lanes = hn::Lanes(D());
-  out.reserve(static_cast<std::size_t>(most) * lanes);
+  out.reserve(static_cast<std::size_t>(cells.columns) * k_row_lanes);
   const VI last = all_int(cells.columns - 1), before = all_int(slice * cells.x.pitch);
   for (int i = 0; i < most; ++i) {
     const VI place = hn::Add(hn::Min(hn::Add(boxes.first_column, all_int(i)), last), before);

@@ -443,7 +443,6 @@ void rows_of_batches(const RowPlanes& planes, const SeenBalls& seen, const Balls
     ball_rows[i] = batches[i].find_rows(hn::FirstN(d, balls.count - i * n));
   }
   for (std::uint32_t i = 0; i < count; ++i) {
-    out.scratch[i].make_room(planes.rows, n);
     start_batch(planes.rows, ball_rows[i].first, ball_rows[i].count, batches[i].lights(),
                 batches[i].columns_of_held(ball_rows[i].held), out.batches[i]);
     rows[i] = RowsOfBatch(ball_rows[i], out.scratch[i]);
@@ -465,16 +464,21 @@ namespace clusterbench::assign {
 HWY_EXPORT(lanes);
 HWY_EXPORT(rows_of_batches);
 
-void BatchRows::make_room(int of_rows, std::size_t of_lanes) {
-  const std::size_t size = (static_cast<std::size_t>(of_rows) + 1) * of_lanes;
+void BatchRows::make_room(int of_rows) {
+  const std::size_t size = (static_cast<std::size_t>(of_rows) + 1) * k_row_lanes;
   if (columns.size() < size) columns.resize(size);
 }
 
-void RowScratch::make_room(int of_rows, std::size_t of_lanes) {
-  const std::size_t size = (static_cast<std::size_t>(of_rows) + 3) * of_lanes;
-  if (lane.size() >= size) return;
+void RowScratch::make_room(int of_rows) {
+  const std::size_t size = entries(of_rows);
   for (std::vector<std::int32_t>* list : {&lane, &plane, &plane_lane}) list->resize(size);
   for (std::vector<float>* list : {&low, &high}) list->resize(size);
+}
+
+void RowBatches::make_room(int of_rows) {
+  if (scratch.back().has_room(of_rows)) return;
+  for (BatchRows& batch : batches) batch.make_room(of_rows);
+  for (RowScratch& rows : scratch) rows.make_room(of_rows);
 }
 
 std::size_t RowBatches::capacity_bytes() const {
@@ -489,6 +493,7 @@ std::uint32_t balls_per_batch() {
 }
 
 void find_rows(const RowPlanes& planes, const SeenBalls& seen, const BallsOfSlice& balls, RowBatches& out) {
+  out.make_room(planes.rows);  // of all batches, however many a machine needs
   if (planes.orthographic) return find_flat_rows(planes, seen, balls, out);
   HWY_DYNAMIC_DISPATCH(rows_of_batches)(planes, seen, balls, out);
 }

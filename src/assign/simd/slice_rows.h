@@ -36,7 +36,7 @@ struct BatchRows {
   // One row more than the grid has, for what is not wanted.
   std::vector<std::uint32_t> columns;
 
-  void make_room(int of_rows, std::size_t of_lanes);
+  void make_room(int of_rows);
   std::size_t capacity_bytes() const { return columns.capacity() * sizeof(std::uint32_t); }
 };
 inline constexpr int k_most_columns = ColumnSpan::k_most_columns;
@@ -51,7 +51,9 @@ struct RowScratch {
   std::vector<std::int32_t> plane, plane_lane;
   std::vector<float> low, high;
 
-  void make_room(int of_rows, std::size_t of_lanes);
+  static std::size_t entries(int of_rows) { return (static_cast<std::size_t>(of_rows) + 3) * k_row_lanes; }
+  bool has_room(int of_rows) const { return lane.size() >= entries(of_rows); }
+  void make_room(int of_rows);
   std::size_t capacity_bytes() const { return 5 * sizeof(float) * low.capacity(); }
 };
 
@@ -62,6 +64,7 @@ struct RowBatches {
   std::array<BatchRows, k_batches_at_once> batches;
   std::array<RowScratch, k_batches_at_once> scratch;
 
+  void make_room(int of_rows);
   std::size_t capacity_bytes() const;
 };
 

@@ -112,7 +112,7 @@ void SpanLists::make_room(std::uint32_t spans) {
 
 void SpanLists::add_batch(int first_row, int last_row, const std::uint32_t* columns, const std::uint32_t* lights,
                           std::uint8_t* is_left) {
-  make_room(k_most_lanes);
+  make_room(k_row_lanes);
   const SpanRows rows{sizes_.data(), lights_.data(), columns_of_.data(), pitch_};
   band_pairs_ += HWY_DYNAMIC_DISPATCH(add_rows)(rows, first_row, last_row, columns, lights, is_left);
 }
@@ -138,6 +138,7 @@ std::uint32_t* SpanLists::finish_row(std::uint32_t row, const grid::IndexRange& 
 }
 
 void SpanLists::finish_band(const BandHole& hole) {
+  make_room(k_row_lanes);  // as a last batch would have, so that memory does not depend on how many lights a batch has
   check_pair_count(pairs_ + band_pairs_);
   std::vector<std::uint32_t>& lists = out_->lights;
   const std::size_t needed = pairs_ + band_pairs_ + k_most_lanes;

@@ -30,6 +30,7 @@ using VI = hn::Vec<DI>;
 using VU = hn::Vec<DU>;
 using M = hn::Mask<D>;
 using MI = hn::Mask<DI>;
+static_assert(hn::MaxLanes(D()) <= k_row_lanes);
 
 HWY_INLINE V all(float value) {
   return hn::Set(D(), value);
