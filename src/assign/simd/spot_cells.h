@@ -26,14 +26,11 @@ struct SpotCells {
 
   void add(const SpotCell& pair) {
     if (count + k_most_lanes >= spot.size()) grow();
-    set(count++, pair);
-  }
-  void set(std::uint32_t place, const SpotCell& pair) {
-    spot[place] = pair.spot;
-    slice[place] = pair.slice;
-    row[place] = pair.row;
-    column[place] = pair.column;
-    end_column[place] = pair.end_column;
+    spot[count] = pair.spot;
+    slice[count] = pair.slice;
+    row[count] = pair.row;
+    column[count] = pair.column;
+    end_column[count++] = pair.end_column;
   }
   void grow();
   // What a whole vector reads beyond the end must be places that exist.

@@ -17,16 +17,16 @@ namespace {
 
 // What leans most in the tile planes of rows and between them.
 struct RowExtremes {
-  Extremes all;
+  Extremes outmost;
   Point middle;  // of some of the places, and so within the spot
 
   HWY_INLINE RowExtremes(const Extremes& between, const PlaneExtremes& above, M has_above, V top,
                          const PlaneExtremes& below, V bottom)
-      : all(between) {
+      : outmost(between) {
     add(hn::FirstN(D(), hn::Lanes(D())), below, bottom);
     add(has_above, above, top);
-    const V one = assign::HWY_NAMESPACE::all(1.0f), zero = hn::Zero(D());
-    middle = all.low.point() + all.high.point();
+    const V one = all(1.0f), zero = hn::Zero(D());
+    middle = outmost.low.point() + outmost.high.point();
     V count = hn::Add(one, one);
     const auto add_plane = [&](M where, const PlaneExtremes& plane, V slope) {
       const M exist = hn::And(where, plane.exist());
@@ -41,8 +41,8 @@ struct RowExtremes {
 
  private:
   HWY_INLINE void add(M where, const PlaneExtremes& plane, V slope) {
-    all.take_low(where, {plane.low, slope, plane.low_depth});
-    all.take_high(where, {plane.high, slope, plane.high_depth});
+    outmost.take_low(where, {plane.low, slope, plane.low_depth});
+    outmost.take_high(where, {plane.high, slope, plane.high_depth});
   }
 };
 
@@ -52,9 +52,9 @@ class Ends {
   // `rows`: their pieces of these spots' slices.
   HWY_INLINE Ends(const SpotsAndPlanes& from, const RowPlanes& planes, const SpotsInSlices& spots,
                   const SpotsInRows& rows, const RowExtremes& found)
-      : from_(from), spots_(spots), rows_(rows), found_(found), exist_(found.all.exist()) {
+      : from_(from), spots_(spots), rows_(rows), found_(found), exist_(found.outmost.exist()) {
     const V left = all(planes.left), right = all(planes.right), scale = all(planes.columns_per_slope);
-    const V low = found.all.low.across, high = found.all.high.across;
+    const V low = found.outmost.low.across, high = found.outmost.high.across;
     const VI columns = all_int(planes.columns), last_column = hn::Sub(columns, all_int(1));
     const auto column_at = [&](V slope) {
       const V at = hn::Mul(hn::Sub(hn::Min(hn::Max(slope, left), right), left), scale);
@@ -72,11 +72,11 @@ class Ends {
   VI last() const { return last_; }
 
   HWY_INLINE M none_before() const {
-    return hn::Or(is_first_column_, hn::And(exist_, is_apart(found_.all.low, side(first_), all(-1.0f))));
+    return hn::Or(is_first_column_, hn::And(exist_, is_apart(found_.outmost.low, side(first_), all(-1.0f))));
   }
   HWY_INLINE M none_behind() const {
     return hn::Or(is_last_column_,
-                  hn::And(exist_, is_apart(found_.all.high, side(hn::Add(last_, all_int(1))), all(1.0f))));
+                  hn::And(exist_, is_apart(found_.outmost.high, side(hn::Add(last_, all_int(1))), all(1.0f))));
   }
   HWY_INLINE M first_is_touched() const { return is_touched(first_); }
   HWY_INLINE M last_is_touched() const { return is_touched(hn::Max(last_, hn::Zero(DI()))); }
@@ -101,10 +101,10 @@ class Ends {
   HWY_INLINE M is_touched(VI column) const {
     const Point& middle = found_.middle;
     const V left = side(column), right = side(hn::Add(column, all_int(1)));
-    const V from = hn::Max(left, found_.all.low.across), to = hn::Min(right, found_.all.high.across);
+    const V from = hn::Max(left, found_.outmost.low.across), to = hn::Min(right, found_.outmost.high.across);
     const V quarter = hn::Mul(all(0.25f), hn::Sub(to, from)), amid = hn::Div(middle.x, middle.depth);
     const V slope = hn::Max(hn::Add(from, quarter), hn::Min(amid, hn::Sub(to, quarter)));
-    const Point start = chosen(hn::Lt(slope, amid), found_.all.low.point(), found_.all.high.point());
+    const Point start = chosen(hn::Lt(slope, amid), found_.outmost.low.point(), found_.outmost.high.point());
     const Point way = middle - start;
     const V span = hn::Sub(way.x, hn::Mul(slope, way.depth));
     const V part = hn::Sub(hn::Mul(slope, start.depth), start.x);
