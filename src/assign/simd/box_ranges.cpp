@@ -61,13 +61,13 @@ void find_ranges(const RangeAxes& axes, std::uint32_t begin, BoxedBalls& boxed) 
   const DI di;
   const auto n = static_cast<std::uint32_t>(hn::Lanes(d));
   for (std::uint32_t i = begin; i < boxed.count; i += n) {
-    const auto at = [&](const std::vector<float>& list) { return hn::LoadU(d, list.data() + i); };
+    const auto at = [&](const AlignedVector<float>& list) { return hn::LoadU(d, list.data() + i); };
     const V radius = at(boxed.radius);
     const Indices x = range_on(axes.x, at(boxed.x), radius), y = range_on(axes.y, at(boxed.y), radius);
     Indices z = range_on(axes.z, hn::Neg(at(boxed.depth)), radius);
     const MI in_hole = hn::And(lies_in(x, axes.hole_x), hn::And(lies_in(y, axes.hole_y), lies_in(z, axes.hole_z)));
     z.last = hn::IfThenElse(in_hole, hn::Set(di, -1), z.last);
-    const auto keep = [&](const Indices& range, std::vector<std::int32_t>& first, std::vector<std::int32_t>& last) {
+    const auto keep = [&](const Indices& range, AlignedVector<std::int32_t>& first, AlignedVector<std::int32_t>& last) {
       hn::StoreU(range.first, di, first.data() + i);
       hn::StoreU(range.last, di, last.data() + i);
     };

@@ -86,7 +86,7 @@ struct Balls {
 
 // Appends the wanted ones of a vector of balls, of lights `first_light` .., without their boxes.
 HWY_INLINE void keep_balls(M wanted, const Balls& balls, std::uint32_t first_light, BoxedBalls& boxed) {
-  const auto keep = [&](V value, std::vector<float>& to) {
+  const auto keep = [&](V value, AlignedVector<float>& to) {
     hn::StoreU(compressed(D(), value, wanted), D(), to.data() + boxed.count);
   };
   keep(balls.x, boxed.x);

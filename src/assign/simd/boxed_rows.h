@@ -25,10 +25,10 @@ struct BallBatch {
 
 // Memory for what a batch's lanes know of their columns; kept between batches.
 struct LaneColumns {
-  std::vector<float> first, second;
+  AlignedVector<float> first, second;
 
   void reserve(std::size_t size) {
-    for (std::vector<float>* list : {&first, &second})
+    for (AlignedVector<float>* list : {&first, &second})
       if (list->size() < size) list->resize(size);
   }
   std::size_t capacity_bytes() const { return (first.capacity() + second.capacity()) * sizeof(float); }

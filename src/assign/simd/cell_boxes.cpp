@@ -19,9 +19,12 @@ void find_extents(const BoxPlanes& planes, const SeenBalls& seen, std::uint32_t 
   const DF df;
   const auto n = static_cast<std::uint32_t>(hn::Lanes(dd));
   for (std::uint32_t i = begin; i < seen.count; i += n) {
-    const auto wide = [&](const std::vector<float>& from) { return hn::PromoteTo(dd, hn::LoadU(df, from.data() + i)); };
+    const auto wide = [&](const AlignedVector<float>& from) {
+      return hn::PromoteTo(dd, hn::LoadU(df, from.data() + i));
+    };
     const Disks disks(wide(seen.depth), wide(boxed.box_radius), planes.depths.front(), planes.depths.back());
-    const auto find = [&](const std::vector<float>& center, std::vector<float>& to_low, std::vector<float>& to_high) {
+    const auto find = [&](const AlignedVector<float>& center, AlignedVector<float>& to_low,
+                          AlignedVector<float>& to_high) {
       VF low, high;
       if (planes.orthographic)
         disks.offset_range(wide(center), low, high);
@@ -57,19 +60,19 @@ void box_balls(const BoxPlanes& planes, const SeenBalls& seen, std::uint32_t beg
   const hn::RebindToUnsigned<D> du;
   const auto n = static_cast<std::uint32_t>(hn::Lanes(d));
   for (std::uint32_t i = begin; i < seen.count; i += n) {
-    const auto at = [&](const std::vector<float>& list) { return hn::LoadU(d, list.data() + i); };
+    const auto at = [&](const AlignedVector<float>& list) { return hn::LoadU(d, list.data() + i); };
     const V x = at(seen.x), y = at(seen.y), depth = at(seen.depth), r = at(boxed.box_radius);
     const V low_x = at(boxed.low_x), high_x = at(boxed.high_x), low_y = at(boxed.low_y), high_y = at(boxed.high_y);
     const Indices columns = touched(planes.columns, low_x, high_x);
     const Indices rows = touched(planes.rows, hn::Neg(high_y), hn::Neg(low_y));
-    const auto guess = [&](const std::vector<std::int32_t>& list) { return hn::LoadU(di, list.data() + i); };
+    const auto guess = [&](const AlignedVector<std::int32_t>& list) { return hn::LoadU(di, list.data() + i); };
     const Indices slices{first_touched(planes.depths, guess(seen.first_slice), hn::Sub(depth, r)),
                          last_touched(planes.depths, guess(seen.last_slice), hn::Add(depth, r))};
     const auto is_some = [&](const Indices& some) { return hn::RebindMask(d, hn::Not(hn::Lt(some.last, some.first))); };
     const auto has_extents = hn::And(hn::Le(low_x, high_x), hn::Le(low_y, high_y));
     const auto has_cells = hn::And(is_some(columns), hn::And(is_some(rows), is_some(slices)));
     const auto wanted = hn::And(hn::FirstN(d, seen.count - i), hn::And(has_extents, has_cells));
-    const auto keep = [&](V value, std::vector<float>& to) {
+    const auto keep = [&](V value, AlignedVector<float>& to) {
       hn::StoreU(compressed(d, value, wanted), d, to.data() + boxed.count);
     };
     keep(x, boxed.x);
@@ -78,8 +81,8 @@ void box_balls(const BoxPlanes& planes, const SeenBalls& seen, std::uint32_t beg
     keep(at(boxed.ball_radius), boxed.radius);
     hn::StoreU(compressed(du, hn::LoadU(du, seen.light.data() + i), hn::RebindMask(du, wanted)), du,
                boxed.light.data() + boxed.count);
-    const auto keep_indices = [&](const Indices& some, std::vector<std::int32_t>& first,
-                                  std::vector<std::int32_t>& last) {
+    const auto keep_indices = [&](const Indices& some, AlignedVector<std::int32_t>& first,
+                                  AlignedVector<std::int32_t>& last) {
       const auto wanted_int = hn::RebindMask(di, wanted);
       hn::StoreU(compressed(di, some.first, wanted_int), di, first.data() + boxed.count);
       hn::StoreU(compressed(di, some.last, wanted_int), di, last.data() + boxed.count);
@@ -119,10 +122,10 @@ BoxPlanes::BoxPlanes(const grid::ScreenGrid& grid)
 
 void BoxedBalls::reserve(std::uint32_t most) {
   const std::size_t size = most + k_most_lanes;
-  for (std::vector<float>* list :
+  for (AlignedVector<float>* list :
        {&x, &y, &depth, &radius, &low_x, &high_x, &low_y, &high_y, &box_radius, &ball_radius})
     if (list->size() < size) list->resize(size);
-  for (std::vector<std::int32_t>* list :
+  for (AlignedVector<std::int32_t>* list :
        {&first_column, &last_column, &first_row, &last_row, &first_slice, &last_slice})
     if (list->size() < size) list->resize(size);
   if (light.size() < size) light.resize(size);

@@ -27,10 +27,10 @@ struct BoxPlanes {
 // Balls that have a cell box, ascending by light. All arrays have room for whole vectors beyond `count`.
 struct BoxedBalls {
   std::uint32_t count = 0;
-  std::vector<float> x, y, depth, radius;
-  std::vector<std::uint32_t> light;
-  std::vector<std::int32_t> first_column, last_column, first_row, last_row, first_slice, last_slice;
-  std::vector<float> low_x, high_x, low_y, high_y, box_radius, ball_radius;  // of the seen balls, on the way
+  AlignedVector<float> x, y, depth, radius;
+  AlignedVector<std::uint32_t> light;
+  AlignedVector<std::int32_t> first_column, last_column, first_row, last_row, first_slice, last_slice;
+  AlignedVector<float> low_x, high_x, low_y, high_y, box_radius, ball_radius;  // of the seen balls, on the way
 
   CellBox box(std::uint32_t place) const {
     return {{first_column[place], first_row[place], first_slice[place]},

@@ -6,7 +6,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+
+#include "core/aligned_vector.h"
 
 namespace clusterbench::assign {
 
@@ -34,7 +35,7 @@ struct RowSpans {
 
 // Lights whose spans hold some of a few columns, and a bit for each of these. Keeps its memory between rows.
 struct FewColumns {
-  std::vector<std::uint32_t> lights, bits;
+  AlignedVector<std::uint32_t> lights, bits;
 
   void make_room(std::size_t spans) {
     if (bits.size() >= spans + k_most_lanes) return;

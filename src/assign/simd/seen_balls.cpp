@@ -115,7 +115,7 @@ void see(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_l
     const M wanted = hn::And(reaches, hn::FirstN(d, left));
     const std::size_t kept = hn::CountTrue(d, wanted);
     if (kept == 0) continue;
-    const auto keep = [&](V value, std::vector<float>& to) {
+    const auto keep = [&](V value, AlignedVector<float>& to) {
       hn::StoreU(compressed(d, value, wanted), d, to.data() + seen.count);
     };
     keep(x, seen.x);
@@ -151,9 +151,9 @@ HWY_EXPORT(see);
 
 void SeenBalls::reserve(std::uint32_t most) {
   const std::size_t size = most + k_most_lanes;
-  for (std::vector<float>* list : {&x, &y, &depth, &radius, &slack})
+  for (AlignedVector<float>* list : {&x, &y, &depth, &radius, &slack})
     if (list->size() < size) list->resize(size);
-  for (std::vector<std::int32_t>* list : {&first_slice, &last_slice})
+  for (AlignedVector<std::int32_t>* list : {&first_slice, &last_slice})
     if (list->size() < size) list->resize(size);
   if (light.size() < size) light.resize(size);
 }

@@ -2,9 +2,9 @@
 // Which balls a frustum grid can see, many at a time, and the slices that each may reach.
 
 #include <cstdint>
-#include <vector>
 
 #include "assign/simd/row_planes.h"
+#include "core/aligned_vector.h"
 
 namespace clusterbench::assign {
 
@@ -17,11 +17,11 @@ struct GivenBalls {
 // Balls that may touch cells, ascending by light. All arrays have room for whole vectors beyond `count`.
 struct SeenBalls {
   std::uint32_t count = 0;
-  std::vector<float> x, y, depth;
-  std::vector<float> radius;  // with slack
-  std::vector<float> slack;
-  std::vector<std::uint32_t> light;
-  std::vector<std::int32_t> first_slice, last_slice;
+  AlignedVector<float> x, y, depth;
+  AlignedVector<float> radius;  // with slack
+  AlignedVector<float> slack;
+  AlignedVector<std::uint32_t> light;
+  AlignedVector<std::int32_t> first_slice, last_slice;
 
   void reserve(std::uint32_t most);
   std::size_t capacity_bytes() const;

@@ -83,7 +83,7 @@ void shells(const ShellPlanes& planes, const GivenBalls& balls, std::uint32_t fi
     const M may_reach = reach_shells(planes, found, shells_reached);
     const M wanted = hn::And(may_reach, hn::And(hn::Gt(given, hn::Zero(d)), hn::FirstN(d, left)));
     if (hn::AllFalse(d, wanted)) continue;
-    const auto keep_index = [&](VI index, std::vector<std::int32_t>& to) {
+    const auto keep_index = [&](VI index, AlignedVector<std::int32_t>& to) {
       hn::StoreU(compressed(di, index, hn::RebindMask(di, wanted)), di, to.data() + boxed.count);
     };
     keep_index(shells_reached.first, boxed.first_slice);

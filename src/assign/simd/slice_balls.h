@@ -45,7 +45,7 @@ class SliceBalls {
  private:
   static std::size_t at(int slice) { return static_cast<std::size_t>(slice); }
 
-  std::vector<std::uint32_t> begin_, balls_;
+  AlignedVector<std::uint32_t> begin_, balls_;
 };
 
 }  // namespace clusterbench::assign

@@ -471,8 +471,8 @@ void BatchRows::make_room(int of_rows) {
 
 void RowScratch::make_room(int of_rows) {
   const std::size_t size = entries(of_rows);
-  for (std::vector<std::int32_t>* list : {&lane, &plane, &plane_lane}) list->resize(size);
-  for (std::vector<float>* list : {&low, &high}) list->resize(size);
+  for (AlignedVector<std::int32_t>* list : {&lane, &plane, &plane_lane}) list->resize(size);
+  for (AlignedVector<float>* list : {&low, &high}) list->resize(size);
 }
 
 void RowBatches::make_room(int of_rows) {

@@ -34,7 +34,7 @@ struct BatchRows {
   int first_row = 0, last_row = -1;
   std::uint32_t tests = 0;  // rows of single balls that were looked at
   // One row more than the grid has, for what is not wanted.
-  std::vector<std::uint32_t> columns;
+  AlignedVector<std::uint32_t> columns;
 
   void make_room(int of_rows);
   std::size_t capacity_bytes() const { return columns.capacity() * sizeof(std::uint32_t); }
@@ -46,10 +46,10 @@ std::uint32_t balls_per_batch();
 
 // The rows of a batch one after the other, and what their balls have in the tile planes below them.
 struct RowScratch {
-  std::vector<std::int32_t> lane;  // of the row's ball
+  AlignedVector<std::int32_t> lane;  // of the row's ball
   // The tile planes below rows whose ball may touch them: their numbers and the balls' lanes; slopes x / depth there.
-  std::vector<std::int32_t> plane, plane_lane;
-  std::vector<float> low, high;
+  AlignedVector<std::int32_t> plane, plane_lane;
+  AlignedVector<float> low, high;
 
   static std::size_t entries(int of_rows) { return (static_cast<std::size_t>(of_rows) + 3) * k_row_lanes; }
   bool has_room(int of_rows) const { return lane.size() >= entries(of_rows); }

@@ -65,7 +65,7 @@ class SpanLists {
   FewColumns few_;
   // Row r's spans are at r * pitch_; whole vectors can be read and written beyond the last row.
   std::size_t pitch_ = 0;
-  std::vector<std::uint32_t> lights_, columns_of_;
+  AlignedVector<std::uint32_t> lights_, columns_of_;
 };
 
 }  // namespace clusterbench::assign

@@ -47,11 +47,12 @@ HWY_INLINE VI all_int(std::int32_t value) {
 HWY_INLINE V gathered(const float* from, VI places) {
   return hn::GatherIndex(D(), from, places);
 }
-HWY_INLINE V gathered(const std::vector<float>& from, VI places) {
-  return gathered(from.data(), places);
+HWY_INLINE VI gathered(const std::int32_t* from, VI places) {
+  return hn::GatherIndex(DI(), from, places);
 }
-HWY_INLINE VI gathered(const std::vector<std::int32_t>& from, VI places) {
-  return hn::GatherIndex(DI(), from.data(), places);
+template <class Allocated>
+HWY_INLINE auto gathered(const Allocated& from, VI places) {
+  return gathered(from.data(), places);
 }
 
 // Lane i of the answer is lane which[i] of the value.
