@@ -422,9 +422,12 @@ struct SpanArrays {
   std::vector<Index> lights;
   std::vector<std::uint32_t> spans;
   std::vector<std::size_t> begin;  // of each row
-  std::uint32_t columns;
+  std::uint32_t columns, width;
 
-  explicit SpanArrays(const FrameLists& frame) : begin(frame.rows + 1, 0), columns(frame.columns) {
+  explicit SpanArrays(const FrameLists& frame)
+      : begin(frame.rows + 1, 0),
+        columns(frame.columns),
+        width(static_cast<std::uint32_t>(frame.lists.pair_count() / std::max<std::size_t>(1, frame.spans.size()))) {
     for (const Span& span : frame.spans) {
       lights.push_back(static_cast<Index>(span.light));
       spans.push_back(assign::ColumnSpan::of(span.first, span.last));
@@ -436,7 +439,7 @@ struct SpanArrays {
   }
   assign::RowSpans<Index> of(std::size_t row) const {
     const auto count = static_cast<std::uint32_t>(begin[row + 1] - begin[row]);
-    return {lights.data() + begin[row], spans.data() + begin[row], count, 0, columns};
+    return {lights.data() + begin[row], spans.data() + begin[row], count, 0, columns, width};
   }
 };
 

@@ -72,8 +72,8 @@ class BoxedLists {
       const auto count = std::min(most, static_cast<std::uint32_t>(balls.size()) - begin);
       find(BallBatch{boxed, slice, balls.data() + begin, count, first_open}, batch_);
       tests_ += batch_.tests;
-      spans_.add_batch(batch_.first_row, batch_.last_row, batch_.columns.data(), batch_.lights, is_left_.data());
-      if (batch_.last_row >= batch_.first_row) add_left_rows(boxed, balls.data() + begin, count);
+      if (spans_.add_batch(batch_.first_row, batch_.last_row, batch_.columns.data(), batch_.lights, is_left_.data()))
+        add_left_rows(boxed, balls.data() + begin, count);
     }
   }
 

@@ -33,7 +33,7 @@ void ExactSlices::add_points(int slice) {
 }
 
 void ExactSlices::add_batch(int slice, const BatchRows& batch) {
-  spans_.add_batch(batch.first_row, batch.last_row, batch.columns.data(), batch.lights, is_left_.data());
+  if (!spans_.add_batch(batch.first_row, batch.last_row, batch.columns.data(), batch.lights, is_left_.data())) return;
   for (int row = batch.first_row; row <= batch.last_row; ++row)
     if (is_left_[static_cast<std::size_t>(row)] != 0) decide_row(slice, batch, row);
 }

@@ -81,7 +81,7 @@ struct Row {
   std::vector<std::uint32_t> spans;
   std::uint32_t count = 0, columns = 0;
 
-  RowSpans<Index> all() const { return {lights.data(), spans.data(), count, 0, columns}; }
+  RowSpans<Index> all(std::uint32_t width = 1) const { return {lights.data(), spans.data(), count, 0, columns, width}; }
   Lists lists() const {
     Lists lists;
     lists.begin.push_back(0);
@@ -114,7 +114,7 @@ Row<Index> random_row(std::uint32_t columns, std::uint32_t most_lights, std::uin
   return row;
 }
 
-// Columns, lights, and how many columns a span has at most. Rows of many short spans are written piece by piece.
+// Columns, lights, and how many columns a span has at most. Rows of many short spans are written strip by strip.
 constexpr std::array<std::array<std::uint32_t, 3>, 12> k_rows{{{1, 1, 1},
                                                                {7, 0, 7},
                                                                {30, 17, 30},
@@ -128,20 +128,36 @@ constexpr std::array<std::array<std::uint32_t, 3>, 12> k_rows{{{1, 1, 1},
                                                                {65, 256, 1},
                                                                {70, 150, 9}}};
 
+// Whatever the spans' width is said to be.
+template <class Index>
+void expect_row_lists(const Row<Index>& row, const std::string& what) {
+  const Lists expected = row.lists();
+  for (const std::uint32_t width : {1u, row.columns}) {
+    FewColumns few;
+    std::vector<Index> lights(3 + expected.pair_count() + k_most_lanes);
+    std::vector<std::uint32_t> begin(row.columns);
+    const Index* end = write_row_lists(row.all(width), few, lights.data() + 3, lights.data(), begin.data());
+    ASSERT_EQ(end - lights.data(), 3 + static_cast<std::ptrdiff_t>(expected.pair_count())) << what;
+    for (std::uint32_t cell = 0; cell < row.columns; ++cell) EXPECT_EQ(begin[cell], expected.begin[cell] + 3);
+    const std::vector<std::uint32_t> written(lights.begin() + 3, lights.begin() + 3 + expected.pair_count());
+    EXPECT_EQ(written, expected.lights) << what << " of " << width;
+  }
+}
+
 template <class Index>
 void expect_row_lists(const std::string& target) {
   for (const auto& size : k_rows)
     for (const std::uint64_t seed : {1u, 2u, 3u}) {
-      const Row<Index> row = random_row<Index>(size[0], size[1], size[2], seed);
-      const Lists expected = row.lists();
-      FewColumns few;
-      std::vector<Index> lights(3 + expected.pair_count() + k_most_lanes);
-      std::vector<std::uint32_t> begin(row.columns);
-      const Index* end = write_row_lists(row.all(), few, lights.data() + 3, lights.data(), begin.data());
-      ASSERT_EQ(end - lights.data(), 3 + static_cast<std::ptrdiff_t>(expected.pair_count())) << target;
-      for (std::uint32_t cell = 0; cell < row.columns; ++cell) EXPECT_EQ(begin[cell], expected.begin[cell] + 3);
-      const std::vector<std::uint32_t> written(lights.begin() + 3, lights.begin() + 3 + expected.pair_count());
-      EXPECT_EQ(written, expected.lights) << target << ", " << size[0] << " columns, " << size[1] << " lights";
+      Row<Index> row = random_row<Index>(size[0], size[1], size[2], seed);
+      const std::string what =
+          target + ", " + std::to_string(size[0]) + " columns, " + std::to_string(size[1]) + " lights";
+      expect_row_lists(row, what);
+      // Spans of all columns, and then the last one without the first of them.
+      std::fill_n(row.spans.begin(), row.count, ColumnSpan::of(0, row.columns - 1));
+      expect_row_lists(row, what + ", full");
+      if (row.count == 0 || row.columns == 1) continue;
+      row.spans[row.count - 1] = ColumnSpan::of(1, row.columns - 1);
+      expect_row_lists(row, what + ", full but one");
     }
 }
 

@@ -62,7 +62,12 @@ HWY_INLINE auto places_of(D d, M wanted, const std::array<std::array<std::uint8_
 // Lanes of 32 bits, the wanted ones first.
 template <class D, class V, class M>
 HWY_INLINE V compressed([[maybe_unused]] D d, V lanes, M wanted) {
-#if HWY_TARGET <= HWY_AVX3 || HWY_TARGET == HWY_SCALAR  // there is an instruction for it, or nothing to do
+#if HWY_TARGET <= HWY_AVX3
+  // Not with zeros behind them, as Highway has it: on Zen 5 that waits for what was in the register before.
+  const hn::RebindToFloat<D> df;
+  const auto raw = hn::BitCast(df, lanes).raw;
+  return hn::BitCast(d, hn::Vec<decltype(df)>{_mm512_mask_compress_ps(raw, wanted.raw, raw)});
+#elif HWY_TARGET == HWY_SCALAR
   return hn::Compress(lanes, wanted);
 #else
   return hn::TableLookupLanes(lanes, places_of(d, wanted, k_places_of_bits));

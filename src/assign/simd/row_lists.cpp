@@ -1,7 +1,6 @@
 #include "assign/simd/row_lists.h"
 
 #include <algorithm>
-#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/simd/row_lists.cpp"
@@ -18,7 +17,12 @@ namespace {
 using DU = hn::ScalableTag<std::uint32_t>;
 using DI = hn::ScalableTag<std::int32_t>;
 using VU = hn::Vec<DU>;
+using VI = hn::Vec<DI>;
 using MU = hn::Mask<DU>;
+
+HWY_INLINE VI all_int(std::uint32_t value) {
+  return hn::Set(DI(), static_cast<std::int32_t>(value));
+}
 
 // Lights in lanes of 32 bits, whatever they are kept in.
 template <class Index>
@@ -45,135 +49,194 @@ HWY_INLINE Index* append(VU numbers, MU wanted, Index* to) {
   return to + hn::CountTrue(DU(), wanted);
 }
 
-// Some columns, at most as many as a number has bits.
-struct Piece {
-  static constexpr std::uint32_t k_most = 32;
+// Some columns.
+struct Columns {
   std::uint32_t begin, end;
 };
 
-// What spans have of a piece: a bit for each of its columns, and whether that is any.
-struct SpanBits {
-  VU bits;
-  MU any;
+// Spans of columns, one per lane.
+struct Spans {
+  VI first, last;
 
-  HWY_INLINE SpanBits(VU columns, const Piece& piece) {
+  HWY_INLINE explicit Spans(VU columns)
+      : first(hn::BitCast(DI(), hn::And(columns, hn::Set(DU(), 0xffff)))),
+        last(hn::BitCast(DI(), hn::ShiftRight<16>(columns))) {}
+
+  // Which of them hold some of these columns.
+  HWY_INLINE MU some(const Columns& of) const {
+    return hn::RebindMask(DU(), hn::And(hn::Lt(first, all_int(of.end)), hn::Gt(last, all_int(of.begin - 1))));
+  }
+
+  // What each has of at most 32 columns: a bit for each of these, the first one's lowest.
+  HWY_INLINE VU bits(const Columns& of) const {
     const DU du;
-    const DI di;
-    const auto of_int = [&](std::uint32_t value) { return hn::Set(di, static_cast<std::int32_t>(value)); };
-    const auto first = hn::BitCast(di, hn::And(columns, hn::Set(du, 0xffff)));
-    const auto last = hn::BitCast(di, hn::ShiftRight<16>(columns));
-    const auto from = hn::Sub(hn::Max(first, of_int(piece.begin)), of_int(piece.begin));
-    const auto to = hn::Sub(hn::Min(last, of_int(piece.end - 1)), of_int(piece.begin));
-    any = hn::RebindMask(du, hn::Not(hn::Gt(from, to)));
-    // Shifts are by less than the bits of a number, also where there is nothing.
-    const VU all = hn::Set(du, 0xffffffff), most = hn::Set(du, Piece::k_most - 1);
-    const VU before = hn::And(hn::BitCast(du, from), most), behind = hn::And(hn::Not(hn::BitCast(du, to)), most);
-    bits = hn::IfThenElseZero(any, hn::And(hn::Shl(all, before), hn::Shr(all, behind)));
+    const VI begin = all_int(of.begin), most = all_int(31);
+    const VI from = hn::Sub(hn::Max(first, begin), begin);
+    const VI to = hn::Sub(hn::Min(last, all_int(of.end - 1)), begin);
+    // Shifts are by less than 32, also where there is nothing.
+    const VU before = hn::BitCast(du, hn::And(from, most)), behind = hn::BitCast(du, hn::AndNot(to, most));
+    const VU all = hn::Set(du, 0xffffffff);
+    const MU none = hn::RebindMask(du, hn::Gt(from, to));
+    return hn::IfThenZeroElse(none, hn::And(hn::Shl(all, before), hn::Shr(all, behind)));
   }
 };
 
-// Lists of a piece's columns from `vectors` vectors of spans, which stay in registers.
-template <std::size_t vectors, class Index>
-HWY_INLINE Index* lists_in_registers(const VU (&lights)[vectors], const VU (&bits)[vectors], const Piece& piece,
-                                     Index* to, const Index* lists, std::uint32_t* begin) {
+// The bit of the column behind `skipped` others.
+HWY_INLINE VU bit_of(std::uint32_t skipped) {
+  return hn::Set(DU(), 1u << skipped);
+}
+
+// `vectors` vectors of spans, which stay in registers: their lights and what they have of some columns.
+template <std::size_t vectors>
+struct SpansInRegisters {
+  VU lights[vectors], bits[vectors];
+
+  template <class Light>
+  HWY_INLINE SpansInRegisters(const Light* from_lights, const std::uint32_t* from_bits) {
+    const DU du;
+    for (std::size_t i = 0; i < vectors; ++i) {
+      lights[i] = loaded(from_lights + i * hn::Lanes(du));
+      bits[i] = hn::LoadU(du, from_bits + i * hn::Lanes(du));
+    }
+  }
+  HWY_INLINE SpansInRegisters(VU some_lights, VU some_bits) : lights{some_lights}, bits{some_bits} {}
+
+  // `skipped`: the columns before these, which the bits have, too.
+  template <class Index>
+  HWY_INLINE Index* write(const Columns& columns, std::uint32_t skipped, Index* to, const Index* lists,
+                          std::uint32_t* begin) const {
+    VU bit = bit_of(skipped);
+    for (std::uint32_t column = columns.begin; column < columns.end; ++column) {
+      begin[column] = static_cast<std::uint32_t>(to - lists);
+      for (std::size_t i = 0; i < vectors; ++i) to = append(lights[i], hn::TestBit(bits[i], bit), to);
+      bit = hn::ShiftLeft<1>(bit);
+    }
+    return to;
+  }
+};
+
+// Spans in memory, up to a vector of ones without bits behind them.
+template <class Light>
+struct StoredSpans {
+  const Light* lights;
+  const std::uint32_t* bits;
+  std::size_t count;
+
+  template <class Index>
+  HWY_INLINE Index* write(const Columns& columns, std::uint32_t skipped, Index* to, const Index* lists,
+                          std::uint32_t* begin) const {
+    const DU du;
+    const std::size_t lanes = hn::Lanes(du);
+    if (count <= lanes) return SpansInRegisters<1>(lights, bits).write(columns, skipped, to, lists, begin);
+    if (count <= 2 * lanes) return SpansInRegisters<2>(lights, bits).write(columns, skipped, to, lists, begin);
+    VU bit = bit_of(skipped);
+    for (std::uint32_t column = columns.begin; column < columns.end; ++column) {
+      begin[column] = static_cast<std::uint32_t>(to - lists);
+      for (std::size_t i = 0; i < count; i += lanes)
+        to = append(loaded(lights + i), hn::TestBit(hn::LoadU(du, bits + i), bit), to);
+      bit = hn::ShiftLeft<1>(bit);
+    }
+    return to;
+  }
+};
+
+// How many columns a strip has: those spans of a row are chosen first that hold some of them.
+std::uint32_t strip_columns(std::uint32_t columns) {
+  return columns <= 16 ? 4 : 8;
+}
+
+// Do most spans hold none of most strips? To choose them costs as much as to ask them for a fifth of the columns.
+template <class Index>
+HWY_INLINE bool are_narrow(const RowSpans<Index>& row, const Columns& window, std::uint32_t strip) {
+  return 5 * (row.width + strip) < 4 * (window.end - window.begin);
+}
+
+// All of a row's spans, with what they have of a window.
+template <class Index>
+HWY_INLINE Index* lists_at_once(const RowSpans<Index>& row, const Columns& window, FewColumns& few, Index* to,
+                                const Index* lists, std::uint32_t* begin) {
   const DU du;
-  VU bit = hn::Set(du, 1);
-  for (std::uint32_t column = piece.begin; column < piece.end; ++column) {
-    begin[column] = static_cast<std::uint32_t>(to - lists);
-    for (std::size_t i = 0; i < vectors; ++i) to = append(lights[i], hn::TestBit(bits[i], bit), to);
-    bit = hn::ShiftLeft<1>(bit);
+  std::uint32_t* bits = few.strips[0].bits.data();
+  for (std::size_t i = 0; i < row.count; i += hn::Lanes(du)) {
+    const VU some = Spans(hn::LoadU(du, row.columns + i)).bits(window);
+    hn::StoreU(hn::IfThenElseZero(hn::FirstN(du, row.count - i), some), du, bits + i);
+  }
+  return StoredSpans<Index>{row.lights, bits, row.count}.write(window, 0, to, lists, begin);
+}
+
+// Strip by strip, from those spans that hold some of it. All are chosen first, so that none are read while they are
+// still being written.
+template <class Index>
+HWY_INLINE Index* lists_by_strips(const RowSpans<Index>& row, const Columns& window, std::uint32_t strip,
+                                  FewColumns& few, Index* to, const Index* lists, std::uint32_t* begin) {
+  const DU du;
+  constexpr std::size_t k_strips = FewColumns::k_strips;
+  std::size_t counts[k_strips] = {};
+  const auto columns_of = [&](std::size_t i) {
+    const std::uint32_t from = window.begin + static_cast<std::uint32_t>(i) * strip;
+    return Columns{from, std::min(window.end, from + strip)};
+  };
+  for (std::size_t i = 0; i < row.count; i += hn::Lanes(du)) {
+    const Spans spans(hn::LoadU(du, row.columns + i));
+    const VU lights = loaded(row.lights + i), bits = spans.bits(window);
+    const MU there = hn::FirstN(du, row.count - i);
+    for (std::size_t s = 0; s < k_strips; ++s) {
+      const MU some = hn::And(spans.some(columns_of(s)), there);
+      append(lights, some, few.strips[s].lights.data() + counts[s]);
+      append(bits, some, few.strips[s].bits.data() + counts[s]);
+      counts[s] += hn::CountTrue(du, some);
+    }
+  }
+  for (std::size_t s = 0; s < k_strips; ++s) {
+    const Columns columns = columns_of(s);
+    const FewColumns::Strip& chosen = few.strips[s];
+    hn::StoreU(hn::Zero(du), du, few.strips[s].bits.data() + counts[s]);
+    to = StoredSpans<std::uint32_t>{chosen.lights.data(), chosen.bits.data(), counts[s]}.write(
+        columns, columns.begin - window.begin, to, lists, begin);
   }
   return to;
 }
 
-// Those spans of a row that hold some of a piece's columns.
-class FewSpans {
- public:
-  template <class Index>
-  HWY_INLINE FewSpans(const RowSpans<Index>& row, const Piece& piece, FewColumns& few)
-      : lights_(few.lights.data()), bits_(few.bits.data()) {
-    const DU du;
-    std::uint32_t *next_light = few.lights.data(), *next_bits = few.bits.data();
-    for (std::size_t i = 0; i < row.count; i += hn::Lanes(du)) {
-      const SpanBits spans(hn::LoadU(du, row.columns + i), piece);
-      const MU wanted = hn::And(spans.any, hn::FirstN(du, row.count - i));
-      next_light = append(loaded(row.lights + i), wanted, next_light);
-      next_bits = append(spans.bits, wanted, next_bits);
-    }
-    count_ = static_cast<std::size_t>(next_bits - bits_);
-    hn::StoreU(hn::Zero(du), du, next_bits);
-  }
-
-  template <class Index>
-  HWY_INLINE Index* write(const Piece& piece, Index* to, const Index* lists, std::uint32_t* begin) const {
-    const DU du;
-    const std::size_t lanes = hn::Lanes(du);
-    if (count_ <= lanes) {
-      const VU lights[1] = {hn::LoadU(du, lights_)}, bits[1] = {hn::LoadU(du, bits_)};
-      return lists_in_registers(lights, bits, piece, to, lists, begin);
-    }
-    if (count_ <= 2 * lanes) {
-      const VU lights[2] = {hn::LoadU(du, lights_), hn::LoadU(du, lights_ + lanes)};
-      const VU bits[2] = {hn::LoadU(du, bits_), hn::LoadU(du, bits_ + lanes)};
-      return lists_in_registers(lights, bits, piece, to, lists, begin);
-    }
-    for (std::uint32_t column = piece.begin; column < piece.end; ++column) {
-      begin[column] = static_cast<std::uint32_t>(to - lists);
-      const VU bit = hn::Set(du, 1u << (column - piece.begin));
-      for (std::size_t i = 0; i < count_; i += lanes)
-        to = append(hn::LoadU(du, lights_ + i), hn::TestBit(hn::LoadU(du, bits_ + i), bit), to);
-    }
-    return to;
-  }
-
- private:
-  const std::uint32_t *lights_, *bits_;
-  std::size_t count_;
-};
-
-// How many columns at a time are cheapest. In cycles: about 8 per piece and vector of the row's spans, and 5 per column
-// and vector of those spans that hold some of the piece.
+// Does each span hold all of the columns?
 template <class Index>
-HWY_INLINE std::uint32_t columns_at_once(const RowSpans<Index>& row) {
-  const DU du;
-  const std::size_t lanes = hn::Lanes(du);
-  VU longer = hn::Zero(du);  // than one column
-  for (std::size_t i = 0; i < row.count; i += lanes) {
-    const VU span = hn::IfThenElseZero(hn::FirstN(du, row.count - i), hn::LoadU(du, row.columns + i));
-    longer = hn::Add(longer, hn::Sub(hn::ShiftRight<16>(span), hn::And(span, hn::Set(du, 0xffff))));
+HWY_INLINE bool all_are_full(const RowSpans<Index>& row) {
+  return std::all_of(row.columns, row.columns + row.count, [&](std::uint32_t span) {
+    return ColumnSpan::first(span) <= row.column && ColumnSpan::last(span) + 1 >= row.end_column;
+  });
+}
+
+// All of the row's lights for each column.
+template <class Index>
+HWY_INLINE Index* equal_lists(const RowSpans<Index>& row, Index* to, const Index* lists, std::uint32_t* begin) {
+  const hn::ScalableTag<Index> d;
+  const auto first = hn::LoadU(d, row.lights);
+  for (std::uint32_t column = row.column; column < row.end_column; ++column) {
+    begin[column] = static_cast<std::uint32_t>(to - lists);
+    hn::StoreU(first, d, to);
+    for (std::size_t i = hn::Lanes(d); i < row.count; i += hn::Lanes(d))
+      hn::StoreU(hn::LoadU(d, row.lights + i), d, to + i);
+    to += row.count;
   }
-  const auto columns = static_cast<float>(row.end_column - row.column), count = static_cast<float>(row.count);
-  const auto beyond = static_cast<float>(hn::GetLane(hn::SumOfLanes(du, longer)));
-  const float per_lane = 1.0f / static_cast<float>(lanes), vectors = count * per_lane, per_column = 1.0f / columns;
-  std::uint32_t cheapest = Piece::k_most;
-  float least = std::numeric_limits<float>::infinity();
-  for (std::uint32_t piece = Piece::k_most; piece >= 4; piece /= 2) {
-    const auto some = static_cast<float>(piece);
-    const float share = std::min(1.0f, (beyond + count * some) * per_column / count);
-    const float cost = 8.0f * std::max(1.0f, columns / some) * vectors + 5.0f * columns * (share * vectors + 0.5f);
-    if (cost < least) {
-      cheapest = piece;
-      least = cost;
-    }
-  }
-  return cheapest;
+  return to;
 }
 
 template <class Index>
 HWY_INLINE Index* lists_of(const RowSpans<Index>& row, FewColumns& few, Index* to, const Index* lists,
                            std::uint32_t* begin) {
   const DU du;
-  const bool is_short = row.count <= hn::Lanes(du);
-  const std::uint32_t at_once = is_short ? Piece::k_most : columns_at_once(row);
-  const VU first_lights = loaded(row.lights), first_columns = hn::LoadU(du, row.columns);
-  for (std::uint32_t column = row.column; column < row.end_column; column += at_once) {
-    const Piece piece = {column, std::min(row.end_column, column + at_once)};
-    if (is_short) {
-      const VU bits = SpanBits(first_columns, piece).bits;
-      const VU some[1] = {first_lights}, some_bits[1] = {hn::IfThenElseZero(hn::FirstN(du, row.count), bits)};
-      to = lists_in_registers(some, some_bits, piece, to, lists, begin);
+  if (all_are_full(row)) return equal_lists(row, to, lists, begin);
+  const std::uint32_t strip = strip_columns(row.end_column - row.column);
+  const std::uint32_t most = FewColumns::k_strips * strip;
+  for (std::uint32_t column = row.column; column < row.end_column; column += most) {
+    const Columns window = {column, std::min(row.end_column, column + most)};
+    if (row.count <= hn::Lanes(du)) {
+      const VU bits = Spans(hn::LoadU(du, row.columns)).bits(window);
+      SpansInRegisters<1> spans(loaded(row.lights), hn::IfThenElseZero(hn::FirstN(du, row.count), bits));
+      to = spans.write(window, 0, to, lists, begin);
+    } else if (are_narrow(row, window, strip)) {
+      to = lists_by_strips(row, window, strip, few, to, lists, begin);
     } else {
-      to = FewSpans(row, piece, few).write(piece, to, lists, begin);
+      to = lists_at_once(row, window, few, to, lists, begin);
     }
   }
   return to;

@@ -4,6 +4,7 @@
 // few cells at a time, for which the spans that hold none of them are left out first. Or all cells at once take each
 // span's bit. SIMD, dispatched at run time.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -31,18 +32,30 @@ struct RowSpans {
   const Index* lights;
   const std::uint32_t* columns;  // ColumnSpan
   std::uint32_t count, column, end_column;
+  std::uint32_t width = 0;  // about how many columns spans have: says only which way to take
 };
 
-// Lights whose spans hold some of a few columns, and a bit for each of these. Keeps its memory between rows.
+// For each of some strips of a few columns: lights whose spans hold some of it, and a bit for each column. Keeps its
+// memory between rows.
 struct FewColumns {
-  AlignedVector<std::uint32_t> lights, bits;
+  struct Strip {
+    AlignedVector<std::uint32_t> lights, bits;
+  };
+  static constexpr std::size_t k_strips = 4;
+  std::array<Strip, k_strips> strips;
 
   void make_room(std::size_t spans) {
-    if (bits.size() >= spans + k_most_lanes) return;
-    lights.resize(2 * spans + k_most_lanes);
-    bits.resize(lights.size());
+    if (strips[0].bits.size() >= spans + k_most_lanes) return;
+    for (Strip& strip : strips) {
+      strip.lights.resize(2 * spans + k_most_lanes);
+      strip.bits.resize(2 * spans + k_most_lanes);
+    }
   }
-  std::size_t capacity_bytes() const { return (lights.capacity() + bits.capacity()) * sizeof(std::uint32_t); }
+  std::size_t capacity_bytes() const {
+    std::size_t entries = 0;
+    for (const Strip& strip : strips) entries += strip.lights.capacity() + strip.bits.capacity();
+    return entries * sizeof(std::uint32_t);
+  }
 };
 
 // Writes each column's lights to `to`, and to begin[column] where its list begins, counted from `lists`. Up to

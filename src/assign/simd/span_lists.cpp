@@ -1,6 +1,7 @@
 #include "assign/simd/span_lists.h"
 
 #include <algorithm>
+#include <numeric>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/simd/span_lists.cpp"
@@ -19,6 +20,12 @@ struct SpanRows {
   std::size_t pitch;
 };
 
+// What became of a batch: how many pairs its spans make; whether some rows were left alone.
+struct Added {
+  std::uint32_t pairs;
+  bool some_are_left;
+};
+
 }  // namespace clusterbench::assign
 #endif
 
@@ -31,31 +38,35 @@ const char* target_name() {
   return hwy::TargetName(HWY_TARGET);
 }
 
-// Adds one vector of spans per row and returns how many pairs they make.
-std::uint32_t add_rows(const SpanRows& rows, int first_row, int last_row, const std::uint32_t* columns,
-                       const std::uint32_t* lights, std::uint8_t* is_left) {
+// Adds one vector of spans per row.
+Added add_rows(SpanRows rows, int first_row, int last_row, const std::uint32_t* columns, const std::uint32_t* lights,
+               std::uint8_t* is_left) {
   const hn::ScalableTag<std::uint32_t> du;
   const std::size_t lanes = hn::Lanes(du);
   const auto light = hn::LoadU(du, lights), none = hn::Set(du, SpanLists::k_no_span);
   const auto half = hn::Set(du, 0xffff);
   auto beyond = hn::Zero(du);  // how many columns a span has behind its first one
-  std::uint32_t spans = 0;
+  Added added{0, false};
   for (int row = first_row; row <= last_row; ++row) {
     const auto r = static_cast<std::size_t>(row);
     const auto span = hn::LoadU(du, columns + r * lanes);
     const auto wanted = hn::Ne(span, none);
     const auto open = hn::TestBit(span, hn::Set(du, SpanLists::k_open_span));
     is_left[r] = hn::AllFalse(du, hn::And(wanted, open)) ? 0 : 1;
-    if (is_left[r] != 0) continue;
+    if (is_left[r] != 0) {
+      added.some_are_left = true;
+      continue;
+    }
     const std::size_t to = r * rows.pitch + rows.sizes[r];
     const auto count = static_cast<std::uint32_t>(hn::CountTrue(du, wanted));
     hn::StoreU(compressed(du, light, wanted), du, rows.lights + to);
     hn::StoreU(compressed(du, span, wanted), du, rows.columns + to);
     rows.sizes[r] += count;
-    spans += count;
+    added.pairs += count;
     beyond = hn::Add(beyond, hn::IfThenElseZero(wanted, hn::Sub(hn::ShiftRight<16>(span), hn::And(span, half))));
   }
-  return spans + hn::GetLane(hn::SumOfLanes(du, beyond));
+  added.pairs += hn::GetLane(hn::SumOfLanes(du, beyond));
+  return added;
 }
 
 }  // namespace
@@ -110,11 +121,13 @@ void SpanLists::make_room(std::uint32_t spans) {
   while (most_ > pitch_) grow();
 }
 
-void SpanLists::add_batch(int first_row, int last_row, const std::uint32_t* columns, const std::uint32_t* lights,
+bool SpanLists::add_batch(int first_row, int last_row, const std::uint32_t* columns, const std::uint32_t* lights,
                           std::uint8_t* is_left) {
   make_room(k_row_lanes);
   const SpanRows rows{sizes_.data(), lights_.data(), columns_of_.data(), pitch_};
-  band_pairs_ += HWY_DYNAMIC_DISPATCH(add_rows)(rows, first_row, last_row, columns, lights, is_left);
+  const Added added = HWY_DYNAMIC_DISPATCH(add_rows)(rows, first_row, last_row, columns, lights, is_left);
+  band_pairs_ += added.pairs;
+  return added.some_are_left;
 }
 
 // The row's lists, but for the hole's columns.
@@ -126,7 +139,7 @@ std::uint32_t* SpanLists::finish_row(std::uint32_t row, const grid::IndexRange& 
     return to;
   }
   const std::size_t at = row * pitch_;
-  RowSpans<std::uint32_t> spans{lights_.data() + at, columns_of_.data() + at, sizes_[row], 0, columns_};
+  RowSpans<std::uint32_t> spans{lights_.data() + at, columns_of_.data() + at, sizes_[row], 0, columns_, width_};
   if (!hole.empty()) {
     spans.end_column = static_cast<std::uint32_t>(hole.first);
     to = write_row_lists(spans, few_, to, lists, begin);
@@ -145,6 +158,8 @@ void SpanLists::finish_band(const BandHole& hole) {
   if (lists.size() < needed) lists.resize(needed + needed / 16);
   std::uint32_t* begin = out_->begin.data() + std::size_t{band_} * rows_ * columns_;
   std::uint32_t* to = lists.data() + pairs_;
+  const std::uint64_t spans = std::accumulate(sizes_.begin(), sizes_.end(), std::uint64_t{0});
+  width_ = spans == 0 ? 0 : static_cast<std::uint32_t>(band_pairs_ / spans);
   for (std::uint32_t row = 0; row < rows_; ++row, begin += columns_)
     to = finish_row(row, hole.rows.holds(static_cast<int>(row)) ? hole.columns : grid::IndexRange{}, begin, to);
   std::fill(sizes_.begin(), sizes_.end(), 0);

@@ -41,9 +41,10 @@ class SpanLists {
   }
   // Adds a batch of lights' spans to rows first_row .. last_row. columns[row * lanes + i]: the span of lights[i] as
   // a ColumnSpan, k_no_span, or with k_open_span set one that is not to be added as it is. Rows
-  // with such spans are left alone: is_left[row] says so. `lanes`: as many as fit into a vector.
+  // with such spans are left alone: is_left[row] says so, and the answer whether there are any. `lanes`: as many as fit
+  // into a vector.
   static constexpr std::uint32_t k_no_span = 0xffffffff, k_open_span = 0x80000000;
-  void add_batch(int first_row, int last_row, const std::uint32_t* columns, const std::uint32_t* lights,
+  bool add_batch(int first_row, int last_row, const std::uint32_t* columns, const std::uint32_t* lights,
                  std::uint8_t* is_left);
   // Writes the band's lists; the next band begins. Throws Error (ExitCode::internal) beyond 2^32 - 1 pairs.
   void finish_band(const BandHole& hole = {});
@@ -62,6 +63,7 @@ class SpanLists {
   Lists* out_ = nullptr;
   std::vector<std::uint32_t> sizes_;  // of the rows
   std::uint32_t most_ = 0;            // no row has more spans
+  std::uint32_t width_ = 0;           // about how many columns the band's spans have
   FewColumns few_;
   // Row r's spans are at r * pitch_; whole vectors can be read and written beyond the last row.
   std::size_t pitch_ = 0;
