@@ -17,6 +17,7 @@
 
 #include "assign/assigner.h"
 #include "assign/box_levels.h"
+#include "assign/exact_frame.h"
 #include "assign/simd/box_ranges.h"
 #include "assign/simd/boxed_rows.h"
 #include "assign/simd/list_forms.h"
@@ -159,17 +160,21 @@ void each_batch(State& state, const assign::SliceBalls& balls, int slices, std::
 void find_rows(State& state) {
   const Setting setting = hall();
   const assign::RowPlanes planes(setting.grid.screen());
-  const assign::SeenBalls seen = seen_in(setting, planes);
+  assign::SeenBalls seen = seen_in(setting, planes);
+  assign::interleave_balls(seen);
   assign::SliceBalls balls;
   balls.sort(seen, planes.slices);
-  assign::RowBatches rows;
-  const std::uint32_t most = assign::k_batches_at_once * assign::balls_per_batch();
-  each_batch(state, balls, planes.slices, most, [&](int slice, const std::uint32_t* places, std::uint32_t count) {
-    assign::find_rows(planes, seen, {slice, places, count}, rows);
-    std::uint64_t tests = 0;
-    for (std::uint32_t i = 0; i < rows.count; ++i) tests += rows.batches[i].tests;
-    return tests;
-  });
+  const assign::ExactFrame frame{setting.grid, planes, setting.lights, seen, seen.count, balls};
+  assign::BatchReader batches;
+  std::uint64_t tests = 0;
+  for (auto _ : state) {
+    tests = 0;
+    batches.start(frame, &assign::ExactFrame::points_of, 0, planes.slices);
+    for (int slice = 0; slice < planes.slices; ++slice)
+      while (const assign::BatchRows* batch = batches.next(slice)) tests += batch->tests;
+    benchmark::ClobberMemory();
+  }
+  items(state, tests);
 }
 
 // Calls find(batch, rows) for every batch of balls with their cell boxes.

@@ -2,6 +2,7 @@
 // A frame on a frustum grid as all threads of exact-fast see it, and its balls slice by slice.
 
 #include <algorithm>
+#include <array>
 
 #include "assign/lists.h"
 #include "assign/simd/slice_balls.h"
@@ -33,17 +34,54 @@ struct ExactFrame {
   }
 };
 
-// Calls take(batch) for the rows of a slice's balls, batch by batch.
-template <class Take>
-void each_batch(const ExactFrame& frame, int slice, std::span<const std::uint32_t> places, RowBatches& rows,
-                Take&& take) {
-  const std::uint32_t most = k_batches_at_once * balls_per_batch();
-  for (std::size_t begin = 0; begin < places.size(); begin += most) {
-    const auto count = std::min(most, static_cast<std::uint32_t>(places.size() - begin));
-    find_rows(frame.planes, frame.seen, {slice, places.data() + begin, count}, rows);
-    for (std::uint32_t i = 0; i < rows.count; ++i) take(rows.batches[i]);
+// The rows of some slices' balls, slice by slice and batch by batch. As many batches as can be are found at once, of
+// several slices where one has fewer.
+class BatchReader {
+ public:
+  using PlacesOf = std::span<const std::uint32_t> (ExactFrame::*)(int slice) const;
+
+  // Of slices first .. last - 1.
+  void start(const ExactFrame& frame, PlacesOf places_of, int first, int last) {
+    frame_ = &frame;
+    places_of_ = places_of;
+    slice_ = first;
+    last_ = last;
+    begin_ = count_ = next_ = 0;
   }
-}
+  // The slice's next batch, null after its last one. Slices must be read to their end, one after the other.
+  const BatchRows* next(int slice) {
+    if (next_ == count_) find_more();
+    if (next_ == count_ || balls_[next_].slice != slice) return nullptr;
+    return &rows_.batches[next_++];
+  }
+  std::size_t capacity_bytes() const { return rows_.capacity_bytes(); }
+
+ private:
+  void find_more() {
+    const std::uint32_t most = balls_per_batch();
+    count_ = next_ = 0;
+    while (count_ < k_batches_at_once && slice_ < last_) {
+      const std::span<const std::uint32_t> places = (frame_->*places_of_)(slice_).subspan(begin_);
+      if (places.size() <= most) {
+        if (!places.empty()) balls_[count_++] = {slice_, places.data(), static_cast<std::uint32_t>(places.size())};
+        ++slice_;
+        begin_ = 0;
+      } else {
+        balls_[count_++] = {slice_, places.data(), most};
+        begin_ += most;
+      }
+    }
+    if (count_ != 0) find_rows(frame_->planes, frame_->seen, std::span(balls_).first(count_), rows_);
+  }
+
+  const ExactFrame* frame_ = nullptr;
+  PlacesOf places_of_ = nullptr;
+  int slice_ = 0, last_ = 0;  // the next one of which batches are to be found; where to stop
+  std::size_t begin_ = 0;     // among its balls
+  std::array<BallsOfSlice, k_batches_at_once> balls_{};
+  std::size_t count_ = 0, next_ = 0;  // of the batches found; the next one to be read
+  RowBatches rows_;
+};
 
 // Calls take(light, columns, is_uncertain) for a batch's spans of a row.
 template <class Take>

@@ -12,6 +12,7 @@ void ExactSlices::find(const ExactFrame& frame, int first, int last, Lists& out)
   const auto rows = static_cast<std::uint32_t>(frame.planes.rows);
   is_left_.resize(rows);
   spots_.find(frame, first, last);
+  batches_.start(frame, &ExactFrame::points_of, first, last);
   spans_.start(static_cast<std::uint32_t>(last - first), rows, static_cast<std::uint32_t>(frame.planes.columns), out);
   for (int slice = first; slice < last; ++slice) {
     add_points(slice);
@@ -22,14 +23,14 @@ void ExactSlices::find(const ExactFrame& frame, int first, int last, Lists& out)
 }
 
 std::size_t ExactSlices::scratch_bytes() const {
-  return spots_.capacity_bytes() + spans_.capacity_bytes() + rows_.capacity_bytes();
+  return spots_.capacity_bytes() + spans_.capacity_bytes() + batches_.capacity_bytes();
 }
 
 void ExactSlices::add_points(int slice) {
-  each_batch(*frame_, slice, frame_->points_of(slice), rows_, [&](const BatchRows& batch) {
-    tests_ += batch.tests;
-    if (batch.tests != 0) add_batch(slice, batch);
-  });
+  while (const BatchRows* batch = batches_.next(slice)) {
+    tests_ += batch->tests;
+    if (batch->tests != 0) add_batch(slice, *batch);
+  }
 }
 
 void ExactSlices::add_batch(int slice, const BatchRows& batch) {

@@ -25,7 +25,7 @@ class ExactSlices {
 
   const ExactFrame* frame_ = nullptr;
   SpotSpans spots_;
-  RowBatches rows_;
+  BatchReader batches_;
   std::vector<std::uint8_t> is_left_;
   SpanLists spans_;
   std::uint64_t tests_ = 0, fallbacks_ = 0;

@@ -12,6 +12,7 @@ void SpotSpans::find(const ExactFrame& frame, int first, int last) {
   rows_.count = next_row_ = 0;
   if (frame.first_spot_place == frame.seen.count) return;
   if (frame.planes.orthographic) {
+    batches_.start(frame, &ExactFrame::spots_of, first, last);
     for (int slice = first; slice < last; ++slice) add_flat_rows(slice);
     decide_ends();
   } else {
@@ -67,13 +68,12 @@ std::size_t SpotSpans::capacity_bytes() const {
 
 // Those of the spots' bounding balls.
 void SpotSpans::add_flat_rows(int slice) {
-  each_batch(*frame_, slice, frame_->spots_of(slice), batches_, [&](const BatchRows& batch) {
-    for (int row = batch.first_row; row <= batch.last_row; ++row)
-      each_span(batch, row, [&](std::uint32_t light, const IndexRange& columns, bool) {
+  while (const BatchRows* batch = batches_.next(slice))
+    for (int row = batch->first_row; row <= batch->last_row; ++row)
+      each_span(*batch, row, [&](std::uint32_t light, const IndexRange& columns, bool) {
         rows_.add({light - frame_->lights.points, static_cast<std::uint32_t>(slice), static_cast<std::uint32_t>(row),
                    static_cast<std::uint32_t>(columns.first), static_cast<std::uint32_t>(columns.last) + 1});
       });
-  });
 }
 
 void SpotSpans::take_open_rows() {

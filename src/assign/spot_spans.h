@@ -59,7 +59,7 @@ class SpotSpans {
   bool decide(std::uint32_t place, int column);
 
   const ExactFrame* frame_ = nullptr;
-  RowBatches batches_;
+  BatchReader batches_;
   SpotSlices slices_;
   SpotRows rows_;               // slice by slice
   std::uint32_t next_row_ = 0;  // to be added

@@ -78,12 +78,10 @@ class FlatBatch {
   VU lights_;
 };
 
-void flat_rows(const RowPlanes& planes, const SeenBalls& seen, const BallsOfSlice& balls, RowBatches& out) {
-  const D d;
-  const auto n = static_cast<std::uint32_t>(hn::Lanes(d));
-  out.count = (balls.count + n - 1) / n;
-  for (std::uint32_t i = 0; i < out.count; ++i)
-    FlatBatch(planes, seen, balls.slice, balls.places + i * n, hn::FirstN(d, balls.count - i * n)).find(out.batches[i]);
+void flat_rows(const RowPlanes& planes, const SeenBalls& seen, std::span<const BallsOfSlice> balls, RowBatches& out) {
+  out.count = 0;
+  for (const BallsOfSlice& some : balls)
+    FlatBatch(planes, seen, some.slice, some.places, hn::FirstN(D(), some.count)).find(out.batches[out.count++]);
 }
 
 }  // namespace
@@ -96,7 +94,8 @@ namespace clusterbench::assign {
 
 HWY_EXPORT(flat_rows);
 
-void find_flat_rows(const RowPlanes& planes, const SeenBalls& seen, const BallsOfSlice& balls, RowBatches& out) {
+void find_flat_rows(const RowPlanes& planes, const SeenBalls& seen, std::span<const BallsOfSlice> balls,
+                    RowBatches& out) {
   HWY_DYNAMIC_DISPATCH(flat_rows)(planes, seen, balls, out);
 }
 

@@ -5,6 +5,7 @@
 
 namespace clusterbench::assign {
 
-void find_flat_rows(const RowPlanes& planes, const SeenBalls& seen, const BallsOfSlice& balls, RowBatches& out);
+void find_flat_rows(const RowPlanes& planes, const SeenBalls& seen, std::span<const BallsOfSlice> balls,
+                    RowBatches& out);
 
 }  // namespace clusterbench::assign

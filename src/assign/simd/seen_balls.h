@@ -22,6 +22,8 @@ struct SeenBalls {
   AlignedVector<float> slack;
   AlignedVector<std::uint32_t> light;
   AlignedVector<std::int32_t> first_slice, last_slice;
+  // x, y, depth and radius of each side by side, for whoever takes them from scattered places: see interleave_balls().
+  AlignedVector<float> interleaved;
 
   void reserve(std::uint32_t most);
   std::size_t capacity_bytes() const;
@@ -39,5 +41,7 @@ inline constexpr float k_most_row_reach = 1e9f;
 // even if they are larger by these roundings.
 void see_balls(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, SeenBalls& seen,
                float roundings = k_slice_rows_roundings);
+
+void interleave_balls(SeenBalls& seen);
 
 }  // namespace clusterbench::assign

@@ -101,15 +101,13 @@ struct BallRows {
 class Batch {
  public:
   Batch() = default;
-  // `places`: a vector of them.
-  HWY_INLINE Batch(const RowPlanes& planes, const SeenBalls& seen, const BallsOfSlice& balls,
-                   const std::uint32_t* places)
-      : planes_(&planes) {
-    const VI at = hn::BitCast(DI(), hn::LoadU(DU(), places));
-    balls_.x = gathered(seen.x, at);
-    balls_.y = gathered(seen.y, at);
-    balls_.depth = gathered(seen.depth, at);
-    balls_.radius = gathered(seen.radius, at);
+  HWY_INLINE Batch(const RowPlanes& planes, const SeenBalls& seen, const BallsOfSlice& balls) : planes_(&planes) {
+    const VI at = hn::BitCast(DI(), hn::LoadU(DU(), balls.places));
+    const Fours sphere = gathered_fours(seen.interleaved.data(), balls.places);
+    balls_.x = sphere.first;
+    balls_.y = sphere.second;
+    balls_.depth = sphere.third;
+    balls_.radius = sphere.fourth;
     slack_ = gathered(seen.slack, at);
     const auto k = static_cast<std::size_t>(balls.slice);
     near_ = {planes.depth[k], planes.inverse_depth[k]};
@@ -130,7 +128,8 @@ class Batch {
     const V high = hn::Max(hn::Max(sphere.near_chord.high, sphere.far_chord.high), sphere.high());
     const V low = hn::Min(hn::Min(sphere.near_chord.low, sphere.far_chord.low), sphere.low());
     const V top = all(planes_->slope.front()), bottom = all(planes_->slope[static_cast<std::size_t>(planes_->rows)]);
-    const M touches = hn::And(wanted, hn::And(hn::Le(low, hn::Min(high, top)), hn::Ge(high, bottom)));
+    const M is_level = hn::And(hn::Le(low, hn::Min(high, top)), hn::Ge(high, bottom));
+    const M touches = hn::And(hn::And(wanted, is_level), touches_sides());
     const V scale = all(planes_->rows_per_slope), margin = all(planes_->row_margin), zero = hn::Zero(D());
     const V from = hn::Sub(hn::Mul(hn::Sub(top, hn::Min(high, top)), scale), margin);
     const V to = hn::Add(hn::Mul(hn::Sub(top, hn::Max(low, bottom)), scale), margin);
@@ -215,6 +214,13 @@ class Batch {
   }
 
  private:
+  // Do the sphere's own extremes, which lie no further in than those of any row, leave some of it between the picture's
+  // sides?
+  HWY_INLINE M touches_sides() const {
+    const V low = hn::Min(hn::Min(level_.near_chord.low, level_.far_chord.low), level_.low);
+    const V high = hn::Max(hn::Max(level_.near_chord.high, level_.far_chord.high), level_.high);
+    return hn::And(hn::Le(low, all(planes_->right)), hn::Ge(high, all(planes_->left)));
+  }
   HWY_INLINE M holds_view() const { return hn::Eq(level_.least_area, hn::Zero(D())); }
 
   HWY_INLINE void start_rows() {
@@ -430,17 +436,16 @@ HWY_INLINE void find_columns(const PlaneTables& tables, const Batch& batch, cons
 }
 
 // Step by step for all batches, because the steps of one wait for each other.
-void rows_of_batches(const RowPlanes& planes, const SeenBalls& seen, const BallsOfSlice& balls, RowBatches& out) {
-  const D d;
-  const auto n = static_cast<std::uint32_t>(hn::Lanes(d));
-  const std::uint32_t count = (balls.count + n - 1) / n;
+void rows_of_batches(const RowPlanes& planes, const SeenBalls& seen, std::span<const BallsOfSlice> balls,
+                     RowBatches& out) {
+  const auto count = static_cast<std::uint32_t>(balls.size());
   const PlaneTables tables(planes);
   Batch batches[k_batches_at_once];
   BallRows ball_rows[k_batches_at_once];
   RowsOfBatch rows[k_batches_at_once];
   for (std::uint32_t i = 0; i < count; ++i) {
-    batches[i] = Batch(planes, seen, balls, balls.places + i * n);
-    ball_rows[i] = batches[i].find_rows(hn::FirstN(d, balls.count - i * n));
+    batches[i] = Batch(planes, seen, balls[i]);
+    ball_rows[i] = batches[i].find_rows(hn::FirstN(D(), balls[i].count));
   }
   for (std::uint32_t i = 0; i < count; ++i) {
     start_batch(planes.rows, ball_rows[i].first, ball_rows[i].count, batches[i].lights(),
@@ -492,7 +497,7 @@ std::uint32_t balls_per_batch() {
   return HWY_DYNAMIC_DISPATCH(lanes)();
 }
 
-void find_rows(const RowPlanes& planes, const SeenBalls& seen, const BallsOfSlice& balls, RowBatches& out) {
+void find_rows(const RowPlanes& planes, const SeenBalls& seen, std::span<const BallsOfSlice> balls, RowBatches& out) {
   out.make_room(planes.rows);  // of all batches, however many a machine needs
   if (planes.orthographic) return find_flat_rows(planes, seen, balls, out);
   HWY_DYNAMIC_DISPATCH(rows_of_batches)(planes, seen, balls, out);

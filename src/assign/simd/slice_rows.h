@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "assign/simd/row_planes.h"
@@ -57,7 +58,7 @@ struct RowScratch {
   std::size_t capacity_bytes() const { return 5 * sizeof(float) * low.capacity(); }
 };
 
-// Some batches of a slice, ascending by light.
+// Some batches, each of one slice.
 inline constexpr std::uint32_t k_batches_at_once = 4;
 struct RowBatches {
   std::uint32_t count = 0;
@@ -72,8 +73,9 @@ struct RowBatches {
 struct BallsOfSlice {
   int slice;
   const std::uint32_t* places;
-  std::uint32_t count;  // at most k_batches_at_once * balls_per_batch()
+  std::uint32_t count;  // at most balls_per_batch()
 };
-void find_rows(const RowPlanes& planes, const SeenBalls& seen, const BallsOfSlice& balls, RowBatches& out);
+// A batch for each of `balls`, which are at most k_batches_at_once. In perspective the balls must be interleaved.
+void find_rows(const RowPlanes& planes, const SeenBalls& seen, std::span<const BallsOfSlice> balls, RowBatches& out);
 
 }  // namespace clusterbench::assign

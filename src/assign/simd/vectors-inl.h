@@ -55,6 +55,41 @@ HWY_INLINE auto gathered(const Allocated& from, VI places) {
   return gathered(from.data(), places);
 }
 
+// Four numbers of each lane.
+struct Fours {
+  V first, second, third, fourth;
+};
+
+// Lane i of the answer is what lies side by side at from[4 * places[i]]: several times as fast as gathering each.
+HWY_INLINE Fours gathered_fours(const float* from, const std::uint32_t* places) {
+  const D d;
+  const auto at = [&](std::size_t lane) { return from + 4 * std::size_t{places[lane]}; };
+#if HWY_TARGET == HWY_SCALAR
+  const float* four = at(0);
+  return {hn::LoadU(d, four), hn::LoadU(d, four + 1), hn::LoadU(d, four + 2), hn::LoadU(d, four + 3)};
+#else
+  // Block by block of four lanes: vector i of them has what is of lane i. Then they are turned.
+  const auto of_lane = [&](std::size_t i) {
+    V all_blocks = hn::LoadDup128(d, at(i));
+    for (std::size_t lane = 4; lane < hn::Lanes(d); lane += 4) {
+      const M from_here_on = hn::Not(hn::FirstN(d, lane));
+      all_blocks = hn::IfThenElse(from_here_on, hn::LoadDup128(d, at(lane + i)), all_blocks);
+    }
+    return all_blocks;
+  };
+  const V a = of_lane(0), b = of_lane(1), c = of_lane(2), e = of_lane(3);
+  const hn::RepartitionToWide<D> pairs;
+  const auto low = hn::BitCast(pairs, hn::InterleaveLower(d, a, b)),
+             high = hn::BitCast(pairs, hn::InterleaveUpper(d, a, b));
+  const auto next_low = hn::BitCast(pairs, hn::InterleaveLower(d, c, e));
+  const auto next_high = hn::BitCast(pairs, hn::InterleaveUpper(d, c, e));
+  return {hn::BitCast(d, hn::InterleaveLower(pairs, low, next_low)),
+          hn::BitCast(d, hn::InterleaveUpper(pairs, low, next_low)),
+          hn::BitCast(d, hn::InterleaveLower(pairs, high, next_high)),
+          hn::BitCast(d, hn::InterleaveUpper(pairs, high, next_high))};
+#endif
+}
+
 // Lane i of the answer is lane which[i] of the value.
 using Which = decltype(hn::IndicesFromVec(DI(), VI()));
 HWY_INLINE VI taken(VI value, Which which) {
@@ -71,9 +106,13 @@ class RegisterTable {
   HWY_INLINE RegisterTable(V first, V second) : first_(first), second_(second) {}
 
   HWY_INLINE V at(VI place) const {
+#if HWY_TARGET <= HWY_AVX3
+    return V{_mm512_permutex2var_ps(first_.raw, place.raw, second_.raw)};
+#else
     const VI last = hn::Set(DI(), static_cast<std::int32_t>(hn::Lanes(D())) - 1);
     const Which within = hn::IndicesFromVec(DI(), hn::And(place, last));
     return hn::IfThenElse(hn::RebindMask(D(), hn::Gt(place, last)), taken(second_, within), taken(first_, within));
+#endif
   }
 
  private:
