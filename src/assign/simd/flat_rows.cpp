@@ -79,9 +79,8 @@ class FlatBatch {
 };
 
 void flat_rows(const RowPlanes& planes, const SeenBalls& seen, std::span<const BallsOfSlice> balls, RowBatches& out) {
-  out.count = 0;
-  for (const BallsOfSlice& some : balls)
-    FlatBatch(planes, seen, some.slice, some.places, hn::FirstN(D(), some.count)).find(out.batches[out.count++]);
+  for (std::size_t i = 0; i < balls.size(); ++i)
+    FlatBatch(planes, seen, balls[i].slice, balls[i].places, hn::FirstN(D(), balls[i].count)).find(out.batches[i]);
 }
 
 }  // namespace

@@ -42,6 +42,7 @@ inline constexpr float k_most_row_reach = 1e9f;
 void see_balls(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, SeenBalls& seen,
                float roundings = k_slice_rows_roundings);
 
+// After all balls have been seen.
 void interleave_balls(SeenBalls& seen);
 
 }  // namespace clusterbench::assign

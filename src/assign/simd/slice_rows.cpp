@@ -438,24 +438,23 @@ HWY_INLINE void find_columns(const PlaneTables& tables, const Batch& batch, cons
 // Step by step for all batches, because the steps of one wait for each other.
 void rows_of_batches(const RowPlanes& planes, const SeenBalls& seen, std::span<const BallsOfSlice> balls,
                      RowBatches& out) {
-  const auto count = static_cast<std::uint32_t>(balls.size());
+  const std::size_t count = balls.size();
   const PlaneTables tables(planes);
   Batch batches[k_batches_at_once];
   BallRows ball_rows[k_batches_at_once];
   RowsOfBatch rows[k_batches_at_once];
-  for (std::uint32_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     batches[i] = Batch(planes, seen, balls[i]);
     ball_rows[i] = batches[i].find_rows(hn::FirstN(D(), balls[i].count));
   }
-  for (std::uint32_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     start_batch(planes.rows, ball_rows[i].first, ball_rows[i].count, batches[i].lights(),
                 batches[i].columns_of_held(ball_rows[i].held), out.batches[i]);
     rows[i] = RowsOfBatch(ball_rows[i], out.scratch[i]);
   }
-  for (std::uint32_t i = 0; i < count; ++i) store_planes(tables, batches[i], rows[i], out.scratch[i]);
-  for (std::uint32_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < count; ++i) store_planes(tables, batches[i], rows[i], out.scratch[i]);
+  for (std::size_t i = 0; i < count; ++i)
     find_columns(tables, batches[i], rows[i], planes.rows, out.scratch[i], out.batches[i]);
-  out.count = count;
 }
 
 }  // namespace

@@ -61,7 +61,6 @@ struct RowScratch {
 // Some batches, each of one slice.
 inline constexpr std::uint32_t k_batches_at_once = 4;
 struct RowBatches {
-  std::uint32_t count = 0;
   std::array<BatchRows, k_batches_at_once> batches;
   std::array<RowScratch, k_batches_at_once> scratch;
 

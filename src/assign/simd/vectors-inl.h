@@ -79,8 +79,8 @@ HWY_INLINE Fours gathered_fours(const float* from, const std::uint32_t* places) 
   };
   const V a = of_lane(0), b = of_lane(1), c = of_lane(2), e = of_lane(3);
   const hn::RepartitionToWide<D> pairs;
-  const auto low = hn::BitCast(pairs, hn::InterleaveLower(d, a, b)),
-             high = hn::BitCast(pairs, hn::InterleaveUpper(d, a, b));
+  const auto low = hn::BitCast(pairs, hn::InterleaveLower(d, a, b));
+  const auto high = hn::BitCast(pairs, hn::InterleaveUpper(d, a, b));
   const auto next_low = hn::BitCast(pairs, hn::InterleaveLower(d, c, e));
   const auto next_high = hn::BitCast(pairs, hn::InterleaveUpper(d, c, e));
   return {hn::BitCast(d, hn::InterleaveLower(pairs, low, next_low)),
