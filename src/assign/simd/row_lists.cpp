@@ -125,14 +125,34 @@ struct StoredSpans {
   template <class Index>
   HWY_INLINE Index* write(const Columns& columns, std::uint32_t skipped, Index* to, const Index* lists,
                           std::uint32_t* begin) const {
+    return write_from<1>(columns, skipped, to, lists, begin);
+  }
+
+ private:
+  // How many vectors of lights and bits stay in registers.
+  static constexpr std::size_t k_most_vectors = HWY_TARGET <= HWY_AVX3 ? 8 : 4;
+
+  // At least as many vectors as this.
+  template <std::size_t vectors, class Index>
+  HWY_INLINE Index* write_from(const Columns& columns, std::uint32_t skipped, Index* to, const Index* lists,
+                               std::uint32_t* begin) const {
+    if constexpr (vectors > k_most_vectors) {
+      return write_many(columns, skipped, to, lists, begin);
+    } else {
+      if (count <= vectors * hn::Lanes(DU()))
+        return SpansInRegisters<vectors>(lights, bits).write(columns, skipped, to, lists, begin);
+      return write_from<vectors + 1>(columns, skipped, to, lists, begin);
+    }
+  }
+
+  template <class Index>
+  HWY_INLINE Index* write_many(const Columns& columns, std::uint32_t skipped, Index* to, const Index* lists,
+                               std::uint32_t* begin) const {
     const DU du;
-    const std::size_t lanes = hn::Lanes(du);
-    if (count <= lanes) return SpansInRegisters<1>(lights, bits).write(columns, skipped, to, lists, begin);
-    if (count <= 2 * lanes) return SpansInRegisters<2>(lights, bits).write(columns, skipped, to, lists, begin);
     VU bit = bit_of(skipped);
     for (std::uint32_t column = columns.begin; column < columns.end; ++column) {
       begin[column] = static_cast<std::uint32_t>(to - lists);
-      for (std::size_t i = 0; i < count; i += lanes)
+      for (std::size_t i = 0; i < count; i += hn::Lanes(du))
         to = append(loaded(lights + i), hn::TestBit(hn::LoadU(du, bits + i), bit), to);
       bit = hn::ShiftLeft<1>(bit);
     }
