@@ -14,11 +14,11 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "assign/simd/row_planes.h"
 #include "assign/simd/seen_balls.h"
 #include "assign/simd/span_lists.h"
+#include "core/aligned_vector.h"
 
 namespace clusterbench::assign {
 
