@@ -160,11 +160,12 @@ void each_batch(State& state, const assign::SliceBalls& balls, int slices, std::
 void find_rows(State& state) {
   const Setting setting = hall();
   const assign::RowPlanes planes(setting.grid.screen());
-  assign::SeenBalls seen = seen_in(setting, planes);
-  assign::interleave_balls(seen);
+  const assign::SeenBalls seen = seen_in(setting, planes);
+  assign::BallShapes shapes;
+  assign::shape_balls(seen, seen.count, shapes);
   assign::SliceBalls balls;
   balls.sort(seen, planes.slices);
-  const assign::ExactFrame frame{setting.grid, planes, setting.lights, seen, seen.count, balls};
+  const assign::ExactFrame frame{setting.grid, planes, setting.lights, seen, seen.count, shapes, balls};
   assign::BatchReader batches;
   std::uint64_t tests = 0;
   for (auto _ : state) {

@@ -16,6 +16,7 @@ struct ExactFrame {
   const view::LightArrays& lights;
   const SeenBalls& seen;           // first those of points; a spot's ball bounds it
   std::uint32_t first_spot_place;  // in `seen`
+  const BallShapes& shapes;        // of the points
   const SliceBalls& balls;
 
   // Places in `seen` of a slice's points and spots, ascending.
@@ -71,7 +72,7 @@ class BatchReader {
         begin_ += most;
       }
     }
-    if (count_ != 0) find_rows(frame_->planes, frame_->seen, std::span(balls_).first(count_), rows_);
+    if (count_ != 0) find_rows(frame_->planes, frame_->seen, frame_->shapes, std::span(balls_).first(count_), rows_);
   }
 
   const ExactFrame* frame_ = nullptr;

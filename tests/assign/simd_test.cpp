@@ -270,6 +270,44 @@ TEST(ExactFast, gives_the_lists_of_exact_on_narrow_tiles_far_aside) {
   }
 }
 
+// Lights whose surface nearly goes through the eye, or nearly touches one of the planes and lines through it that the
+// tangents are measured by: a hair this way or that, their tangents touch far away or nowhere.
+std::vector<scene::WorldLight> lights_nearly_at_the_eye(int count, std::uint64_t seed) {
+  testing::Random random(seed);
+  std::vector<scene::WorldLight> lights;
+  for (int i = 0; i < count; ++i) {
+    const Vec3d centre = random.log_between(0.05, 400) * random.direction();
+    const Vec3d square = centre * centre;
+    const double from_eye = square.x + square.y + square.z;
+    const double touching[] = {from_eye, square.y + square.z, square.x + square.z, square.z};
+    const double hair = random.log_between(1e-9, 0.1) * (random.unit() < 0.5 ? -1 : 1);
+    lights.push_back(testing::point_light(centre, std::sqrt(std::max(0.0, touching[i % 4] + hair * from_eye))));
+  }
+  return lights;
+}
+
+TEST(ExactFast, gives_the_lists_of_exact_for_lights_nearly_at_the_eye) {
+  const AssignerRow& row = *find_assigner("exact-fast");
+  for (const double fov : {60 * testing::settings::k_degree, 150 * testing::settings::k_degree})
+    for (const double near_m : {1e-3, 0.5}) {
+      Setting setting;
+      setting.frame = testing::frame_of(testing::perspective(fov, 16.0 / 9.0, near_m, 300), {1920, 1080},
+                                        lights_nearly_at_the_eye(1000, 11));
+      setting.grid = testing::grid_of(
+          testing::settings::screen_spec(grid::Kind::frustum, {24, 14}, grid::Scheme::exponential, 24, near_m),
+          setting.frame);
+      const Lists expected = answer_of("exact", Params(find_assigner("exact")->params), setting).lists;
+      EXPECT_GT(expected.pair_count(), 100'000U);
+      on_each_target([&](const std::string& target) {
+        const Answer answer = answer_of("exact-fast", Params(row.params), setting);
+        EXPECT_EQ(answer.lists, expected) << target << ", " << fov << ", " << near_m;
+        if (near_m > 0.1) {
+          EXPECT_LT(answer.fallbacks * 50, answer.tests) << target << ", " << fov;
+        }
+      });
+    }
+}
+
 TEST(BoundsFast, gives_the_lists_of_bounds_on_every_target) {
   expect_same_lists_on_every_target("bounds-fast", "bounds");
   expect_same_lists_on_odd_grids("bounds-fast", "bounds");

@@ -37,9 +37,9 @@ class ExactFast final : public Assigner {
     fallbacks_ = 0;
     lights_ = &lights;
     see_lights();
-    if (!planes_.orthographic) interleave_balls(seen_);
+    if (!planes_.orthographic) shape_balls(seen_, first_spot_place_, shapes_);
     slice_balls_.sort(seen_, planes_.slices);
-    const ExactFrame frame{*grid_, planes_, lights, seen_, first_spot_place_, slice_balls_};
+    const ExactFrame frame{*grid_, planes_, lights, seen_, first_spot_place_, shapes_, slice_balls_};
     if (parts_.empty() || slice_balls_.count() < k_worth_threads) {
       whole_.find(frame, 0, planes_.slices, out);
       count(whole_);
@@ -51,8 +51,8 @@ class ExactFast final : public Assigner {
   std::uint64_t tests_done() const override { return tests_; }
   std::uint64_t fallbacks() const override { return fallbacks_; }
   std::size_t scratch_bytes() const override {
-    std::size_t bytes =
-        whole_.scratch_bytes() + slice_balls_.capacity_bytes() + seen_.capacity_bytes() + spots_.capacity_bytes();
+    std::size_t bytes = whole_.scratch_bytes() + slice_balls_.capacity_bytes() + seen_.capacity_bytes() +
+                        spots_.capacity_bytes() + shapes_.capacity_bytes();
     for (const Part& part : parts_)
       bytes += part.slices.scratch_bytes() +
                (part.lists.begin.capacity() + part.lists.lights.capacity()) * sizeof(std::uint32_t);
@@ -139,6 +139,7 @@ class ExactFast final : public Assigner {
   BallArrays spots_;  // around their cones
   SeenBalls seen_;
   std::uint32_t first_spot_place_ = 0;  // among them
+  BallShapes shapes_;
   SliceBalls slice_balls_;
   ExactSlices whole_;
   Crew crew_;

@@ -94,8 +94,9 @@ class SliceSearch {
   std::int32_t last_;
 };
 
-// From here to k_most_row_reach fourth powers of reaches, and these times a slope, are normal numbers.
-constexpr float k_least_reach = 1e-9f;
+// From here to k_most_row_reach fourth powers of reaches, and these times a slope, are normal numbers, and a ball at the
+// eye is wide in all that is seen.
+constexpr float k_least_reach = 1e-7f;
 
 void see(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, SeenBalls& seen,
          float roundings) {
@@ -139,14 +140,6 @@ void see(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_l
   }
 }
 
-void interleave(SeenBalls& seen) {
-  const D d;
-  for (std::size_t i = 0; i < seen.count; i += hn::Lanes(d))
-    hn::StoreInterleaved4(hn::LoadU(d, seen.x.data() + i), hn::LoadU(d, seen.y.data() + i),
-                          hn::LoadU(d, seen.depth.data() + i), hn::LoadU(d, seen.radius.data() + i), d,
-                          seen.interleaved.data() + 4 * i);
-}
-
 }  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace clusterbench::assign
@@ -156,7 +149,6 @@ HWY_AFTER_NAMESPACE();
 namespace clusterbench::assign {
 
 HWY_EXPORT(see);
-HWY_EXPORT(interleave);
 
 void SeenBalls::reserve(std::uint32_t most) {
   const std::size_t size = most + k_most_lanes;
@@ -168,17 +160,12 @@ void SeenBalls::reserve(std::uint32_t most) {
 }
 
 std::size_t SeenBalls::capacity_bytes() const {
-  return (8 * light.capacity() + interleaved.capacity()) * sizeof(float);
+  return 8 * light.capacity() * sizeof(float);
 }
 
 void see_balls(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, SeenBalls& seen,
                float roundings) {
   HWY_DYNAMIC_DISPATCH(see)(planes, balls, first_light, seen, roundings);
-}
-
-void interleave_balls(SeenBalls& seen) {
-  if (seen.interleaved.size() < 4 * seen.x.size()) seen.interleaved.resize(4 * seen.x.size());
-  HWY_DYNAMIC_DISPATCH(interleave)(seen);
 }
 
 }  // namespace clusterbench::assign

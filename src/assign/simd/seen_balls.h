@@ -22,16 +22,13 @@ struct SeenBalls {
   AlignedVector<float> slack;
   AlignedVector<std::uint32_t> light;
   AlignedVector<std::int32_t> first_slice, last_slice;
-  // x, y, depth and radius of each side by side, for whoever takes them from scattered places: see interleave_balls().
-  AlignedVector<float> interleaved;
 
   void reserve(std::uint32_t most);
   std::size_t capacity_bytes() const;
 };
 
-// Units of 2^-24 of a light's reach by which a ball is made larger: more than the steps here lose (a centre's rounding
-// 1, distances to planes 3, their squares and roots 8 of the radius, slopes and touch points 12), rounded up. A larger
-// slack costs decisions only.
+// Units of 2^-24 of a light's reach by which a ball is made larger: more than the steps here lose (see Certainty in
+// slice_rows.cpp, and SpotBalls), rounded up. A larger slack costs decisions only.
 inline constexpr float k_slice_rows_roundings = 28.0f;
 
 // Beyond this reach powers of it may overflow: such balls are taken to be everywhere, and decided cell by cell.
@@ -41,8 +38,5 @@ inline constexpr float k_most_row_reach = 1e9f;
 // even if they are larger by these roundings.
 void see_balls(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, SeenBalls& seen,
                float roundings = k_slice_rows_roundings);
-
-// After all balls have been seen.
-void interleave_balls(SeenBalls& seen);
 
 }  // namespace clusterbench::assign

@@ -2,10 +2,10 @@
 // The columns that balls touch in every row of cells of a frustum grid: slice by slice, many balls at once, one per
 // lane, each through its own rows. Of orthographic grids flat_rows.h.
 //
-// What bounds a row is what bounds its two tile planes and its level: the circle that a tile plane cuts out of the ball
-// has two tangents and, where the slice's planes cut it, four corners; at the centre's own height the sphere has two
-// tangents and two chords. A row's columns reach from the least slope x / depth of those in it to the greatest (the
-// interval property, as in geom/row_slopes.h).
+// With x / depth, y / depth and 1 / depth as coordinates, columns, rows and slices are slabs, and of a convex body what
+// lies in a row of a slice reaches farthest aside in one place, which follows from the ball (ball_shapes.h) and is
+// moved into the row, then into the slice. A row's columns reach from the least slope x / depth in it to the greatest
+// (the interval property, as in geom/row_slopes.h).
 //
 // Every ball is taken larger by its slack, which is more than rounding can lose, so no column is forgotten. How much
 // too large an answer can be is bounded, too: see Certainty in slice_rows.cpp. Rows for which that may matter are
@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <span>
 
+#include "assign/simd/ball_shapes.h"
 #include "assign/simd/row_planes.h"
 #include "assign/simd/seen_balls.h"
 #include "assign/simd/span_lists.h"
@@ -45,24 +46,24 @@ inline constexpr int k_most_columns = ColumnSpan::k_most_columns;
 // How many balls a batch holds on this machine.
 std::uint32_t balls_per_batch();
 
-// The rows of a batch one after the other, and what their balls have in the tile planes below them.
-struct RowScratch {
-  AlignedVector<std::int32_t> lane;  // of the row's ball
-  // The tile planes below rows whose ball may touch them: their numbers and the balls' lanes; slopes x / depth there.
-  AlignedVector<std::int32_t> plane, plane_lane;
+// What balls have in rows, one after the other: slopes x / depth from low to high.
+struct RowHulls {
   AlignedVector<float> low, high;
 
-  static std::size_t entries(int of_rows) { return (static_cast<std::size_t>(of_rows) + 3) * k_row_lanes; }
-  bool has_room(int of_rows) const { return lane.size() >= entries(of_rows); }
-  void make_room(int of_rows);
-  std::size_t capacity_bytes() const { return 5 * sizeof(float) * low.capacity(); }
+  void make_room(std::size_t rows) {
+    low.resize(rows);
+    high.resize(rows);
+  }
+  std::size_t capacity_bytes() const { return (low.capacity() + high.capacity()) * sizeof(float); }
 };
 
 // Some batches, each of one slice.
 inline constexpr std::uint32_t k_batches_at_once = 4;
 struct RowBatches {
   std::array<BatchRows, k_batches_at_once> batches;
-  std::array<RowScratch, k_batches_at_once> scratch;
+  // Of each batch's rows one after the other: in which lane their ball is.
+  std::array<AlignedVector<std::int32_t>, k_batches_at_once> lanes;
+  std::array<RowHulls, k_batches_at_once> hulls;
 
   void make_room(int of_rows);
   std::size_t capacity_bytes() const;
@@ -74,7 +75,8 @@ struct BallsOfSlice {
   const std::uint32_t* places;
   std::uint32_t count;  // at most balls_per_batch()
 };
-// A batch for each of `balls`, which are at most k_batches_at_once. In perspective the balls must be interleaved.
-void find_rows(const RowPlanes& planes, const SeenBalls& seen, std::span<const BallsOfSlice> balls, RowBatches& out);
+// A batch for each of `balls`, which are at most k_batches_at_once. `shapes` of orthographic grids can be empty.
+void find_rows(const RowPlanes& planes, const SeenBalls& seen, const BallShapes& shapes,
+               std::span<const BallsOfSlice> balls, RowBatches& out);
 
 }  // namespace clusterbench::assign

@@ -1,0 +1,75 @@
+#include "assign/simd/ball_shapes.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "assign/simd/ball_shapes.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once per target
+#include <hwy/highway.h>
+
+#include "assign/simd/vectors-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace clusterbench::assign {
+namespace HWY_NAMESPACE {
+namespace {
+
+// Both tangents from the eye to a circle.
+struct Touches {
+  V low, high;
+};
+
+// The inverse depths ahead at which they touch a circle around (across, ahead), k_at_eye where they do so at none.
+// `ahead_square`: ahead² - radius².
+HWY_INLINE Touches touches_of(V across, V ahead, V radius, V ahead_square) {
+  const V zero = hn::Zero(D()), at_eye = all(BallShapes::k_at_eye), across_square = hn::Mul(across, across);
+  const V square = hn::Add(across_square, ahead_square);
+  const V sum = hn::Add(ahead, hn::Div(hn::Mul(radius, hn::Abs(across)), root(square)));
+  const M exist = hn::And(hn::Gt(square, zero), hn::Gt(sum, zero));
+  const V outer = hn::IfThenElse(hn::And(exist, hn::Gt(ahead_square, zero)), hn::Div(sum, ahead_square), at_eye);
+  const V from_eye = hn::Add(across_square, hn::Mul(ahead, ahead));
+  const V inner = hn::IfThenElse(exist, hn::Div(from_eye, hn::Mul(square, sum)), at_eye);
+  const M is_positive = hn::Ge(across, zero);
+  return {hn::IfThenElse(is_positive, inner, outer), hn::IfThenElse(is_positive, outer, inner)};
+}
+
+void shapes_of(const SeenBalls& seen, std::uint32_t count, BallShapes& out) {
+  const D d;
+  const V zero = hn::Zero(d), one = all(1.0f);
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const auto load = [&](const auto& from) { return hn::LoadU(d, reinterpret_cast<const float*>(from.data() + i)); };
+    const V x = load(seen.x), y = load(seen.y), depth = load(seen.depth), radius = load(seen.radius);
+    const V ahead_square = hn::Mul(hn::Sub(depth, radius), hn::Add(depth, radius));
+    const V upright = hn::Add(hn::Mul(y, y), ahead_square), square = hn::Add(hn::Mul(x, x), upright);
+    const M is_outside = hn::Gt(square, zero);
+    const V from_eye = hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(depth, depth));
+    const V least = hn::Max(all(0x1p-10f), hn::Div(hn::Mul(all(0x1p-22f), root(from_eye)), radius));
+    const M is_precise = hn::Ge(hn::Abs(upright), hn::Mul(least, from_eye));
+    const V inverse_upright =
+        hn::IfThenElse(is_outside, hn::IfThenElseZero(is_precise, hn::Div(one, upright)), all(BallShapes::k_at_eye));
+    const V lean = hn::IfThenElseZero(is_outside, hn::Div(x, root(square)));
+    hn::StoreInterleaved4(x, y, depth, radius, d, out.sphere.data() + 4 * i);
+    hn::StoreInterleaved4(load(seen.slack), load(seen.light), lean, inverse_upright, d, out.touch.data() + 4 * i);
+    const Touches sideways = touches_of(x, depth, radius, ahead_square);
+    const Touches upwards = touches_of(y, depth, radius, ahead_square);
+    hn::StoreInterleaved4(sideways.low, sideways.high, upwards.low, upwards.high, d, out.extremes.data() + 4 * i);
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace clusterbench::assign
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace clusterbench::assign {
+
+HWY_EXPORT(shapes_of);
+
+void shape_balls(const SeenBalls& seen, std::uint32_t count, BallShapes& out) {
+  const std::size_t size = 4 * seen.x.size();
+  for (AlignedVector<float>* list : {&out.sphere, &out.touch, &out.extremes})
+    if (list->size() < size) list->resize(size);
+  HWY_DYNAMIC_DISPATCH(shapes_of)(seen, count, out);
+}
+
+}  // namespace clusterbench::assign
+#endif
