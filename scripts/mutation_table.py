@@ -521,7 +521,7 @@ MUTATIONS = [
              "assign.ExactFast.gives_the_lists_of_exact_on_every_target",
              "exact-fast loses lights in slices behind a full one"),
     Mutation("fast-all-certain-by-chord", "assign/simd/batch_rows-inl.h",
-             "const V least = hn::Mul(all(4.5f), hn::Mul(slack, radius))",
+             "const V least = hn::Mul(all(5.0f), hn::Mul(slack, radius))",
              "const V least = hn::Mul(all(0.0f), hn::Mul(slack, radius))",
              "assign.ExactFast.gives_the_lists_of_exact_on_every_target",
              "exact-fast lists lights that miss a cell by a hair"),

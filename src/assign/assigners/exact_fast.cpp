@@ -126,7 +126,8 @@ class ExactFast final : public Assigner {
   void see_lights() {
     seen_.count = 0;
     seen_.reserve(lights_->size());
-    see_balls(planes_, given_points(*lights_), 0, seen_);
+    see_balls(planes_, given_points(*lights_), 0, seen_,
+              planes_.orthographic ? k_slice_rows_roundings : k_row_roundings);
     first_spot_place_ = seen_.count;
     if (lights_->spots == 0) return;
     find_spot_balls(*lights_, view::k_given_roundings, true, spots_);

@@ -41,7 +41,8 @@ void shapes_of(const SeenBalls& seen, std::uint32_t count, BallShapes& out) {
     const V upright = hn::Add(hn::Mul(y, y), ahead_square), square = hn::Add(hn::Mul(x, x), upright);
     const M is_outside = hn::Gt(square, zero);
     const V from_eye = hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(depth, depth));
-    const V least = hn::Max(all(0x1p-10f), hn::Div(hn::Mul(all(0x1p-22f), root(from_eye)), radius));
+    // At least 2.7e-7 c / R and 5.2e-4 sqrt(R / c) of c², the squared distance from the eye.
+    const V least = hn::Max(all(0x1p-10f), hn::Div(hn::Mul(all(0x1p-21f), root(from_eye)), radius));
     const M is_precise = hn::Ge(hn::Abs(upright), hn::Mul(least, from_eye));
     const V inverse_upright =
         hn::IfThenElse(is_outside, hn::IfThenElseZero(is_precise, hn::Div(one, upright)), all(BallShapes::k_at_eye));

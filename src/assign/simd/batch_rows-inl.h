@@ -48,7 +48,7 @@ HWY_INLINE V least_area_of(V radius, V slack, V rate, V farthest) {
 // are certain where the way from an end to the next boundary inwards, in columns, times that is at least 4 slack R rate
 // (and some for rounding), and half the chord squared at least 4 slack R. `steepness` is least_area's.
 HWY_INLINE M is_certain_by_chord(V half_square, V inwards, V radius, V slack, V rate, V steepness) {
-  const V least = hn::Mul(all(4.5f), hn::Mul(slack, radius)), way = hn::Mul(least, rate);
+  const V least = hn::Mul(all(5.0f), hn::Mul(slack, radius)), way = hn::Mul(least, rate);
   // An infinite radius has no chord.
   return hn::And(hn::And(is_between(least, half_square, all(1e30f)), hn::Ge(inwards, hn::Zero(D()))),
                  hn::Ge(hn::Mul(hn::Mul(inwards, inwards), half_square), hn::Mul(hn::Mul(way, way), steepness)));
