@@ -164,10 +164,10 @@ class Batch {
   // `sideways`, `upwards`: the inverse depths where the balls reach farthest within the slice.
   HWY_INLINE void find_extremes(const Hull& sideways, const Hull& upwards) {
     const auto radius_at = [&](V inverse) { return balls_.half_chord(inverse, hn::Zero(D())); };
-    sideways_ = {hn::Sub(hn::Mul(balls_.x, sideways.low), radius_at(sideways.low)),
-                 hn::Add(hn::Mul(balls_.x, sideways.high), radius_at(sideways.high))};
     upwards_ = {hn::Sub(hn::Mul(balls_.y, upwards.low), radius_at(upwards.low)),
                 hn::Add(hn::Mul(balls_.y, upwards.high), radius_at(upwards.high))};
+    sideways_ = {hn::Mul(hn::Sub(balls_.x, balls_.radius), sideways.low),
+                 hn::Mul(hn::Add(balls_.x, balls_.radius), sideways.high)};
     farthest_left_ = hn::Mul(balls_.y, sideways.low);
     farthest_right_ = hn::Mul(balls_.y, sideways.high);
   }
@@ -244,7 +244,8 @@ class Batch {
   VU lights_;
   V lean_, inverse_upright_;          // BallShapes::touch
   bool is_precise_;                   // that is, everywhere
-  Hull sideways_, upwards_;           // of what balls have in the slice, x / depth and y / depth
+  Hull upwards_;                      // of what balls have in the slice, y / depth
+  Hull sideways_;                     // at least that, x / depth
   V farthest_left_, farthest_right_;  // where that is farthest to a side, y / depth
   V rate_;                            // the most columns that a metre to the side can be
   V least_area_;                      // for rows straight ahead
