@@ -94,8 +94,8 @@ class SliceSearch {
   std::int32_t last_;
 };
 
-// From here to k_most_row_reach fourth powers of reaches, and these times a slope, are normal numbers, and a ball at the
-// eye is wide in all that is seen.
+// From here to k_most_row_reach fourth powers of reaches, and these times a slope, are normal numbers, and a ball at
+// the eye is wide in all that is seen.
 constexpr float k_least_reach = 1e-7f;
 
 void see(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, SeenBalls& seen,
