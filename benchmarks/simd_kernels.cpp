@@ -162,7 +162,7 @@ void find_rows(State& state) {
   const assign::RowPlanes planes(setting.grid.screen());
   const assign::SeenBalls seen = seen_in(setting, planes);
   assign::BallShapes shapes;
-  assign::shape_balls(seen, seen.count, shapes);
+  assign::shape_balls(planes, seen, seen.count, shapes);
   assign::SliceBalls balls;
   balls.sort(seen, planes.slices);
   const assign::ExactFrame frame{setting.grid, planes, setting.lights, seen, seen.count, shapes, balls};

@@ -45,8 +45,10 @@ class RowColumns {
 
  private:
   grid::IndexRange in_wedge(const geom::Ball& ball, const Row& row) const {
-    const geom::BallFromEye<float> seen{ball.center.x, ball.center.y, -ball.center.z, ball.radius};
-    const geom::SlopeHull<float> slopes = geom::row_slopes(seen, row.y0, row.y1, {row.depth0, row.depth1});
+    // In double precision: in single precision it is by chance whether the eye is within the ball when its surface
+    // nearly goes through it, and with that whether it has tangents.
+    const geom::BallFromEye<double> seen{ball.center.x, ball.center.y, -ball.center.z, ball.radius};
+    const geom::SlopeHull<double> slopes = geom::row_slopes<double>(seen, row.y0, row.y1, {row.depth0, row.depth1});
     return grid::intervals_touched(tiles_.x, slopes.lo, slopes.hi);
   }
   grid::IndexRange in_box(const geom::Ball& ball, const Row& row) const {

@@ -4,6 +4,7 @@
 
 #include "assign/each_target.h"
 #include "assign/settings.h"
+#include "assign/simd/seen_balls.h"
 #include "assign/simd/span_lists.h"
 #include "core/random.h"
 
@@ -306,6 +307,41 @@ TEST(ExactFast, gives_the_lists_of_exact_for_lights_nearly_at_the_eye) {
         }
       });
     }
+}
+
+// Lights that a tile plane nearly touches close to the eye, and that would reach to the eye itself, give or take a few
+// roundings, with the slack that exact-fast gives them: in single precision the eye is inside or outside by chance.
+std::vector<scene::WorldLight> lights_touched_at_the_eye(const grid::ScreenGrid& screen, int count,
+                                                         std::uint64_t seed) {
+  testing::Random random(seed);
+  std::vector<scene::WorldLight> lights;
+  for (int i = 0; i < count; ++i) {
+    const std::vector<float>& planes = screen.tiles.y;
+    const double slope = planes[static_cast<std::size_t>(random.unit() * static_cast<double>(planes.size()))];
+    const auto askew = [&] { return random.log_between(1e-7, 1e-2) * (random.unit() < 0.5 ? -1 : 1); };
+    const Vec3d up = glm::normalize(Vec3d{askew(), 1, slope + askew()});  // from the plane; depth is -z
+    const double distance = random.log_between(0.5, 2000) * (random.unit() < 0.5 ? -1 : 1);
+    const double slack = 2 * k_slice_rows_roundings + random.between(-40, 40);
+    lights.push_back(testing::point_light(distance * up, std::fabs(distance) * (1 - slack * 0x1p-24)));
+  }
+  return lights;
+}
+
+TEST(ExactFast, gives_the_lists_of_exact_for_lights_that_a_tile_plane_touches_at_the_eye) {
+  const AssignerRow& row = *find_assigner("exact-fast");
+  for (const double near_m : {1e-4, 4e-3}) {
+    Setting setting;
+    setting.frame = testing::frame_of({false, -0.74, 0.78, -0.45, 0.45, near_m, 300}, {1000, 587}, {});
+    grid::GridSpec spec =
+        testing::settings::screen_spec(grid::Kind::frustum, {14, 9}, grid::Scheme::exponential_first, 5, near_m);
+    spec.slices.first_m = 4;
+    setting.grid = testing::grid_of(spec, setting.frame);
+    setting.frame.lights = lights_touched_at_the_eye(setting.grid.screen(), 20000, 3);
+    setting.frame.points = static_cast<std::uint32_t>(setting.frame.lights.size());
+    const Lists expected = answer_of("exact", Params(find_assigner("exact")->params), setting).lists;
+    EXPECT_GT(expected.pair_count(), 100'000U);
+    EXPECT_EQ(answer_of("exact-fast", Params(row.params), setting).lists, expected) << near_m;
+  }
 }
 
 TEST(BoundsFast, gives_the_lists_of_bounds_on_every_target) {

@@ -66,8 +66,9 @@ class Exact final : public Assigner {
     const grid::Tiles& tiles = grid_->screen().tiles;
     if (tiles.orthographic)
       return grid::descending_intervals_touched(tiles.y, ball.center.y - ball.radius, ball.center.y + ball.radius);
-    geom::SlopeHull<float> slopes;
-    geom::add_disk(slopes, ball.center.y, -ball.center.z, ball.radius * ball.radius, depth0, depth1, 1.0f);
+    geom::SlopeHull<double> slopes;
+    const double radius = ball.radius;
+    geom::add_disk<double>(slopes, ball.center.y, -ball.center.z, radius * radius, depth0, depth1, 1.0);
     return grid::descending_intervals_touched(tiles.y, slopes.lo, slopes.hi);
   }
 

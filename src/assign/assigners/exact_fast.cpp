@@ -37,7 +37,7 @@ class ExactFast final : public Assigner {
     fallbacks_ = 0;
     lights_ = &lights;
     see_lights();
-    if (!planes_.orthographic) shape_balls(seen_, first_spot_place_, shapes_);
+    if (!planes_.orthographic) shape_balls(planes_, seen_, first_spot_place_, shapes_);
     slice_balls_.sort(seen_, planes_.slices);
     const ExactFrame frame{*grid_, planes_, lights, seen_, first_spot_place_, shapes_, slice_balls_};
     if (parts_.empty() || slice_balls_.count() < k_worth_threads) {
@@ -126,8 +126,7 @@ class ExactFast final : public Assigner {
   void see_lights() {
     seen_.count = 0;
     seen_.reserve(lights_->size());
-    see_balls(planes_, given_points(*lights_), 0, seen_,
-              planes_.orthographic ? k_slice_rows_roundings : k_row_roundings);
+    see_balls(planes_, given_points(*lights_), 0, seen_);
     first_spot_place_ = seen_.count;
     if (lights_->spots == 0) return;
     find_spot_balls(*lights_, view::k_given_roundings, true, spots_);

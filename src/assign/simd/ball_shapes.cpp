@@ -1,5 +1,8 @@
 #include "assign/simd/ball_shapes.h"
 
+#include <algorithm>
+#include <cmath>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/simd/ball_shapes.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
@@ -31,24 +34,41 @@ HWY_INLINE Touches touches_of(V across, V ahead, V radius, V ahead_square) {
   return {hn::IfThenElse(is_positive, inner, outer), hn::IfThenElse(is_positive, outer, inner)};
 }
 
-void shapes_of(const SeenBalls& seen, std::uint32_t count, BallShapes& out) {
+// A radius that is not nearly a distance: then it is a little more. So of the difference of their squares the sign is
+// certain, and the size but for a tenth.
+HWY_INLINE V lifted(V radius, V distance_square) {
+  const V gap = hn::Sub(distance_square, hn::Mul(radius, radius));
+  const M is_near = hn::Lt(hn::Abs(gap), hn::Mul(all(0x1p-18f), distance_square));
+  return hn::IfThenElse(is_near, hn::Max(radius, hn::Mul(root(distance_square), all(1.0f + 0x1p-21f))), radius);
+}
+
+void shapes_of(const SeenBalls& seen, std::uint32_t count, float widest_slope, BallShapes& out) {
   const D d;
-  const V zero = hn::Zero(d), one = all(1.0f);
+  const V zero = hn::Zero(d), one = all(1.0f), least_part = all(std::max(1.0f, widest_slope) / 7.0f);
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const auto load = [&](const auto& from) { return hn::LoadU(d, reinterpret_cast<const float*>(from.data() + i)); };
-    const V x = load(seen.x), y = load(seen.y), depth = load(seen.depth), radius = load(seen.radius);
+    const V x = load(seen.x), y = load(seen.y), depth = load(seen.depth), given = load(seen.radius);
+    const V x_square = hn::Mul(x, x), y_square = hn::Mul(y, y), depth_square = hn::Mul(depth, depth);
+    const V from_eye = hn::Add(hn::Add(x_square, y_square), depth_square);
+    const V nearer = hn::Min(x_square, y_square), farther = hn::Max(x_square, y_square);
+    V radius = lifted(given, hn::Add(nearer, depth_square));
+    radius = lifted(radius, hn::Add(farther, depth_square));
+    radius = lifted(radius, from_eye);
+    const M is_lifted = hn::Gt(radius, given);
+    const V slack = hn::Add(load(seen.slack), hn::IfThenElseZero(is_lifted, hn::Sub(radius, given)));
     const V ahead_square = hn::Mul(hn::Sub(depth, radius), hn::Add(depth, radius));
-    const V upright = hn::Add(hn::Mul(y, y), ahead_square), square = hn::Add(hn::Mul(x, x), upright);
+    const V upright = hn::Add(y_square, ahead_square), square = hn::Add(x_square, upright);
     const M is_outside = hn::Gt(square, zero);
-    const V from_eye = hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(depth, depth));
-    // At least 2.7e-7 c / R and 5.2e-4 sqrt(R / c) of c², the squared distance from the eye.
-    const V least = hn::Max(all(0x1p-10f), hn::Div(hn::Mul(all(0x1p-21f), root(from_eye)), radius));
-    const M is_precise = hn::Ge(hn::Abs(upright), hn::Mul(least, from_eye));
+    // In the picture, where x <= slope * depth, the chord's error moves the touch point by up to slope * depth² /
+    // upright of itself, and upright's by 3 e c² / upright of how far it is away.
+    const V of_small = hn::Mul(from_eye, hn::Div(hn::Mul(all(0x1p-20f), root(from_eye)), radius));
+    const V least = hn::Max(hn::Mul(least_part, depth_square), of_small);
+    const M is_precise = hn::Ge(hn::Abs(upright), least);
     const V inverse_upright =
         hn::IfThenElse(is_outside, hn::IfThenElseZero(is_precise, hn::Div(one, upright)), all(BallShapes::k_at_eye));
     const V lean = hn::IfThenElseZero(is_outside, hn::Div(x, root(square)));
     hn::StoreInterleaved4(x, y, depth, radius, d, out.sphere.data() + 4 * i);
-    hn::StoreInterleaved4(load(seen.slack), load(seen.light), lean, inverse_upright, d, out.touch.data() + 4 * i);
+    hn::StoreInterleaved4(slack, load(seen.light), lean, inverse_upright, d, out.touch.data() + 4 * i);
     const Touches sideways = touches_of(x, depth, radius, ahead_square);
     const Touches upwards = touches_of(y, depth, radius, ahead_square);
     hn::StoreInterleaved4(sideways.low, sideways.high, upwards.low, upwards.high, d, out.extremes.data() + 4 * i);
@@ -65,11 +85,11 @@ namespace clusterbench::assign {
 
 HWY_EXPORT(shapes_of);
 
-void shape_balls(const SeenBalls& seen, std::uint32_t count, BallShapes& out) {
+void shape_balls(const RowPlanes& planes, const SeenBalls& seen, std::uint32_t count, BallShapes& out) {
   const std::size_t size = 4 * seen.x.size();
   for (AlignedVector<float>* list : {&out.sphere, &out.touch, &out.extremes})
     if (list->size() < size) list->resize(size);
-  HWY_DYNAMIC_DISPATCH(shapes_of)(seen, count, out);
+  HWY_DYNAMIC_DISPATCH(shapes_of)(seen, count, std::max(std::fabs(planes.left), std::fabs(planes.right)), out);
 }
 
 }  // namespace clusterbench::assign

@@ -116,14 +116,14 @@ class Batch {
 
   // The columns of that.
   //
-  // Certainty. Let r be the given radius, d the slack, R = r + d, and e = 2^-24 of the reach, so that d = 16 e. An end
+  // Certainty. Let r be the given radius, d the slack, R = r + d, and e = 2^-24 of the reach, so that d >= 28 e. An end
   // is x / depth of a point of the larger ball: its depth and its plane through the eye are chosen within the slice and
   // the row, and what follows from them is less than 8 e off; so the ball of r + 2 d has such a point. And it is no
-  // further in than the given ball's: where the end is looked for is rounded, too, but near the farthest point of a
-  // circle of radius w, along which that is off by s, it loses only s² / 2 w, while the larger ball's circle is at
-  // least d R / w larger. Of that depths and heights, which make s up to 3 e, lose a fiftieth, the circle's chord, up
-  // to 2 e R / w, an eighth, and inverse_upright, a, of a centre c away at a depth z, up to 3 e z c² a, an eighth where
-  // BallShapes takes it to be precise (z² <= R² + 1 / a).
+  // further in than the given ball's. For where the end is looked for is rounded, too, by s along the circle of radius
+  // w that a tile plane cuts out; near the circle's farthest point that loses s² / 2 w, while the given ball's circle
+  // is smaller by at least d R / w. So s may be sqrt(7 e R) for an eighth of that. Depths and heights make it up to 3
+  // e; the circle's chord, which is up to 2 e R / w off, and inverse_upright as much as shape_balls() lets them. It
+  // also makes certain whether the eye is inside the ball or a circle, where all depends on a sign.
   //
   // So the hull is that of a ball between the given one and the given one with twice the slack, D = 2 d. Let m be the
   // row's point nearest to the centre, g away, and w = sqrt(R² - g²) for the larger radius R. A point p of the larger

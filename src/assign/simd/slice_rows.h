@@ -23,9 +23,6 @@
 
 namespace clusterbench::assign {
 
-// How much larger in perspective, in units of 2^-24 of a light's reach.
-inline constexpr float k_row_roundings = 16.0f;
-
 // Rows of a batch of balls within one slice. Of ball i, row r (first_row <= r <= last_row, the rows that any ball may
 // touch) has the columns at columns[r * lanes + i].
 struct BatchRows {
