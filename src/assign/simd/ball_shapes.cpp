@@ -39,6 +39,7 @@ HWY_INLINE Touches touches_of(V across, V ahead, V radius, V ahead_square) {
 HWY_INLINE V lifted(V radius, V distance_square) {
   const V gap = hn::Sub(distance_square, hn::Mul(radius, radius));
   const M is_near = hn::Lt(hn::Abs(gap), hn::Mul(all(0x1p-18f), distance_square));
+  if (hn::AllFalse(D(), is_near)) return radius;
   return hn::IfThenElse(is_near, hn::Max(radius, hn::Mul(root(distance_square), all(1.0f + 0x1p-21f))), radius);
 }
 
