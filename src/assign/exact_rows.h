@@ -28,8 +28,8 @@ inline Row row_of(const grid::ScreenGrid& grid, int slice, int row) {
           grid.slices.boundaries[z + 1]};
 }
 
-// More than a centre's rounding (1) and the steps of row_slopes.h (12) can add up to. Twice as many would double the
-// decisions, which are rare; too few would lose lights.
+// In single precision, in which centres and radii are: more than a centre's rounding (1) and the steps of row_slopes.h
+// (12) can add up to. Twice as many would double the decisions, which are rare; too few would lose lights.
 inline constexpr float k_exact_roundings = 32.0f;
 
 // Columns of a row that a ball touches. The answer is right for some ball whose centre and surface are off by less than
