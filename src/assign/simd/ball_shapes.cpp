@@ -34,8 +34,8 @@ HWY_INLINE Touches touches_of(V across, V ahead, V radius, V ahead_square) {
   return {hn::IfThenElse(is_positive, inner, outer), hn::IfThenElse(is_positive, outer, inner)};
 }
 
-// A radius that is not nearly a distance: then it is a little more. So of the difference of their squares the sign is
-// certain, and the size but for a tenth.
+// The radius, or a little more than a distance if it is nearly that. So the sign of the difference of their squares is
+// certain, and its size but for a tenth.
 HWY_INLINE V lifted(V radius, V distance_square) {
   const V gap = hn::Sub(distance_square, hn::Mul(radius, radius));
   const M is_near = hn::Lt(hn::Abs(gap), hn::Mul(all(0x1p-18f), distance_square));

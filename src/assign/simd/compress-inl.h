@@ -23,15 +23,6 @@ inline constexpr auto k_places_of_bits = [] {
   return table;
 }();
 
-// For every 8 bits: how many are set before each place.
-inline constexpr auto k_ranks_of_bits = [] {
-  std::array<std::array<std::uint8_t, 8>, 256> table{};
-  for (unsigned bits = 0; bits < 256; ++bits)
-    for (unsigned place = 1; place < 8; ++place)
-      table[bits][place] = static_cast<std::uint8_t>(table[bits][place - 1] + (bits >> (place - 1) & 1));
-  return table;
-}();
-
 }  // namespace clusterbench::assign
 #endif
 
@@ -50,12 +41,12 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// What a table has for at most 8 lanes that are wanted or not.
+// Of at most 8 lanes: the places of those that are wanted, then of the others.
 template <class D, class M>
-HWY_INLINE auto places_of(D d, M wanted, const std::array<std::array<std::uint8_t, 8>, 256>& table) {
+HWY_INLINE auto places_of(D d, M wanted) {
   std::uint8_t bits[8];
   hn::StoreMaskBits(d, wanted, bits);
-  const auto places = hn::LoadU(hn::Rebind<std::uint8_t, D>(), table[bits[0]].data());
+  const auto places = hn::LoadU(hn::Rebind<std::uint8_t, D>(), k_places_of_bits[bits[0]].data());
   return hn::IndicesFromVec(d, hn::PromoteTo(hn::RebindToSigned<D>(), places));
 }
 
@@ -70,18 +61,7 @@ HWY_INLINE V compressed([[maybe_unused]] D d, V lanes, M wanted) {
 #elif HWY_TARGET == HWY_SCALAR
   return hn::Compress(lanes, wanted);
 #else
-  return hn::TableLookupLanes(lanes, places_of(d, wanted, k_places_of_bits));
-#endif
-}
-
-// The first lanes, of 32 bits, in order where they are wanted, and `others` elsewhere.
-template <class D, class V, class M>
-HWY_INLINE V expanded(D d, V lanes, M wanted, V others) {
-#if HWY_TARGET <= HWY_AVX3
-  const hn::RebindToFloat<D> df;  // of this kind in all lanes
-  return V{_mm512_mask_expand_ps(hn::BitCast(df, others).raw, wanted.raw, hn::BitCast(df, lanes).raw)};
-#else
-  return hn::IfThenElse(wanted, hn::TableLookupLanes(lanes, places_of(d, wanted, k_ranks_of_bits)), others);
+  return hn::TableLookupLanes(lanes, places_of(d, wanted));
 #endif
 }
 

@@ -27,8 +27,8 @@ struct SeenBalls {
   std::size_t capacity_bytes() const;
 };
 
-// Units of 2^-24 of a light's reach by which a ball is made larger: more than the steps here lose (see Certainty in
-// slice_rows.cpp, and SpotBalls), rounded up. A larger slack costs decisions only.
+// Units of 2^-24 of a light's reach by which a ball is made larger: more than rounding loses here (a centre 1,
+// distances to planes 3) and in the rows (see Certainty in slice_rows.cpp). A larger slack costs decisions only.
 inline constexpr float k_slice_rows_roundings = 28.0f;
 
 // Beyond this reach powers of it may overflow: such balls are taken to be everywhere, and decided cell by cell.
