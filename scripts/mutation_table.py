@@ -535,6 +535,11 @@ MUTATIONS = [
              "assign.CascadesFast.gives_the_lists_of_cascades_on_every_target",
              "cascades-fast loses a column beside each finer level"),
     # --- measure: the truth ---
+    Mutation("rows-at-the-eye-by-chance", "geom/row_slopes.h",
+             "  squared_radius = squared_radius_off_eye(squared_radius, squared_distance, errs);\n",
+             "  static_cast<void>(errs);\n",
+             "geom.RowSlopes.of_a_disk_whose_rim_goes_through_the_eye_err_only_as_asked_in_double_precision",
+             "rows lose columns of lights whose surface goes through the eye but for roundings"),
     Mutation("truth-inner-without-slack", "measure/truth_rows.cpp",
              "const Eye smaller{larger.x, larger.y, larger.depth, std::max(0.0, ball.radius - ball.slack)};",
              "const Eye smaller{larger.x, larger.y, larger.depth, ball.radius};",

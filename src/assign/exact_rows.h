@@ -38,17 +38,18 @@ class RowColumns {
  public:
   explicit RowColumns(const grid::Tiles& tiles) : tiles_(tiles) {}
 
-  grid::IndexRange touched(const geom::Ball& ball, const Row& row) const {
+  grid::IndexRange touched(const geom::Ball& ball, const Row& row, geom::Errs errs) const {
     if (!(ball.radius > 0.0f)) return {};
-    return tiles_.orthographic ? in_box(ball, row) : in_wedge(ball, row);
+    return tiles_.orthographic ? in_box(ball, row) : in_wedge(ball, row, errs);
   }
 
  private:
-  grid::IndexRange in_wedge(const geom::Ball& ball, const Row& row) const {
+  grid::IndexRange in_wedge(const geom::Ball& ball, const Row& row, geom::Errs errs) const {
     // In double precision: in single precision it is by chance whether the eye is within the ball when its surface
     // nearly goes through it, and with that whether it has tangents.
     const geom::BallFromEye<double> seen{ball.center.x, ball.center.y, -ball.center.z, ball.radius};
-    const geom::SlopeHull<double> slopes = geom::row_slopes<double>(seen, row.y0, row.y1, {row.depth0, row.depth1});
+    const geom::SlopeHull<double> slopes =
+        geom::row_slopes<double>(seen, row.y0, row.y1, {row.depth0, row.depth1}, errs);
     return grid::intervals_touched(tiles_.x, slopes.lo, slopes.hi);
   }
   grid::IndexRange in_box(const geom::Ball& ball, const Row& row) const {
@@ -107,7 +108,7 @@ grid::IndexRange narrowed(grid::IndexRange range, Misses&& misses) {
 // asked of the judge, which adds to `questions`.
 inline grid::IndexRange settled(const grid::IndexRange& outer, const RowColumns& columns, const geom::Ball& smaller,
                                 const Row& row, CellJudge& judge, std::uint64_t& questions) {
-  const grid::IndexRange inner = columns.touched(smaller, row);
+  const grid::IndexRange inner = columns.touched(smaller, row, geom::Errs::inward);
   if (outer.first == inner.first && outer.last == inner.last) return outer;
   const auto misses = [&](int column) {
     if (inner.holds(column)) return false;

@@ -4,9 +4,9 @@
 // the least and the greatest slope. Here are these two in closed form, over float or double.
 //
 // Rounding moves a result no further than moving the centre or the surface of the ball by a few roundings of the
-// coordinates would: who needs certainty asks for a ball that is larger or smaller by more than that. But where the eye
-// is that close to the surface, rounding decides whether there are tangents, which touch up to 2^-11 (float) or 2^-25
-// (double) of the ball's distance away from the eye.
+// coordinates would: who needs certainty asks for a ball that is larger or smaller by more than that, and says which
+// (Errs), since where the surface goes through the eye but for roundings it would be by chance whether there are
+// tangents, which touch up to 2^-11 (float) or 2^-25 (double) of the ball's distance away from the eye.
 
 #include <algorithm>
 #include <cmath>
@@ -26,6 +26,18 @@ struct SlopeHull {
   bool empty() const { return !(lo <= hi); }
 };
 
+// To which side a result may be wrong: with more than is true, or with less.
+enum class Errs { outward, inward };
+
+// The disk's, or one that is larger or smaller by less than 24 roundings of its distance, so that the eye lies within
+// or without for certain.
+template <class Real>
+Real squared_radius_off_eye(Real squared_radius, Real squared_distance, Errs errs) {
+  constexpr Real k_rounding = std::numeric_limits<Real>::epsilon() / 2, k_close = 24 * k_rounding;
+  if (std::abs(squared_distance - squared_radius) > k_close * squared_distance) return squared_radius;
+  return squared_distance * (errs == Errs::outward ? 1 + k_close : 1 - k_close);
+}
+
 // Slopes (u ± h) / w of a chord at depth w >= 0.
 template <class Real>
 void add_chord(SlopeHull<Real>& hull, Real u, Real h, Real w, Real scale) {
@@ -42,17 +54,19 @@ void add_chord(SlopeHull<Real>& hull, Real u, Real h, Real w, Real scale) {
 // Adds scale * u'/w' over the disk around (u, w) cut to w0 <= w' <= w1 (w0 >= 0). Extremes are the tangents from the
 // eye where they touch within the slab, and the ends of the chords that the slab cuts.
 template <class Real>
-void add_disk(SlopeHull<Real>& hull, Real u, Real w, Real squared_radius, Real w0, Real w1, Real scale) {
+void add_disk(SlopeHull<Real>& hull, Real u, Real w, Real squared_radius, Real w0, Real w1, Real scale, Errs errs) {
   if (!(squared_radius >= 0) || w0 > w1) return;
+  const Real squared_distance = u * u + w * w;
+  squared_radius = squared_radius_off_eye(squared_radius, squared_distance, errs);
   for (const Real line : {w0, w1}) {
     const Real square = squared_radius - (line - w) * (line - w);
     if (square >= 0) add_chord(hull, u, std::sqrt(square), line, scale);
   }
-  const Real radius = std::sqrt(squared_radius), distance = std::sqrt(u * u + w * w);
+  const Real radius = std::sqrt(squared_radius), distance = std::sqrt(squared_distance);
   const Real squared_tangent = (distance - radius) * (distance + radius);
   if (!(squared_tangent > 0)) return;
   const Real tangent = std::sqrt(squared_tangent);
-  const Real to_depth = tangent / (distance * distance);
+  const Real to_depth = tangent / squared_distance;
   for (const Real side : {-radius, radius}) {
     const Real lean = w * tangent - u * side;  // the touch point is to_depth * (u t + w side, lean)
     const Real depth = to_depth * lean;
@@ -85,16 +99,16 @@ DepthRange<Real> depths_between(Real y, Real y0, Real y1, DepthRange<Real> range
 // Slopes x/depth over ball ∩ {y0*depth <= y <= y1*depth, near <= depth <= far}. For a given depth x is extreme at the y
 // nearest to the centre's: the centre's own, or on one of the two planes. Each is a disk.
 template <class Real>
-SlopeHull<Real> row_slopes(const BallFromEye<Real>& ball, Real y0, Real y1, DepthRange<Real> range) {
+SlopeHull<Real> row_slopes(const BallFromEye<Real>& ball, Real y0, Real y1, DepthRange<Real> range, Errs errs) {
   SlopeHull<Real> hull;
   const Real square = ball.radius * ball.radius;
   const DepthRange<Real> level = depths_between(ball.y, y0, y1, range);
-  add_disk(hull, ball.x, ball.depth, square, level.near, level.far, Real(1));
+  add_disk(hull, ball.x, ball.depth, square, level.near, level.far, Real(1), errs);
   for (const Real slope : {y0, y1}) {
     const Real tilt = std::sqrt(Real(1) + slope * slope);
     const Real away = (ball.y - slope * ball.depth) / tilt;
     add_disk(hull, ball.x, (slope * ball.y + ball.depth) / tilt, (ball.radius - away) * (ball.radius + away),
-             range.near * tilt, range.far * tilt, tilt);
+             range.near * tilt, range.far * tilt, tilt, errs);
   }
   return hull;
 }

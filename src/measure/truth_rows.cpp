@@ -22,15 +22,16 @@ void append_slab(const grid::Tiles& tiles, const BallInSpace& ball, DepthRange r
   const Eye larger{ball.center.x, ball.center.y, -ball.center.z, ball.radius + ball.slack};
   const Eye smaller{larger.x, larger.y, larger.depth, std::max(0.0, ball.radius - ball.slack)};
   Hull up;
-  geom::add_disk(up, larger.y, larger.depth, larger.radius * larger.radius, range.near, range.far, 1.0);
+  geom::add_disk(up, larger.y, larger.depth, larger.radius * larger.radius, range.near, range.far, 1.0,
+                 geom::Errs::outward);
   const ColumnRange touched = grid::descending_intervals_touched(tiles.y, up.lo, up.hi);
   for (int row = touched.first; row <= touched.last; ++row) {
     const double y0 = tiles.y_min(row), y1 = tiles.y_max(row);
     Row found;
-    found.outer = columns_touched(tiles, geom::row_slopes(larger, y0, y1, range));
+    found.outer = columns_touched(tiles, geom::row_slopes(larger, y0, y1, range, geom::Errs::outward));
     if (found.outer.empty()) continue;
     if (with_inner && ball.radius > ball.slack)
-      found.inner = columns_touched(tiles, geom::row_slopes(smaller, y0, y1, range));
+      found.inner = columns_touched(tiles, geom::row_slopes(smaller, y0, y1, range, geom::Errs::inward));
     found.first_cell = static_cast<std::uint32_t>((slice * tiles.count.y + row) * tiles.count.x);
     rows.push_back(found);
   }

@@ -68,7 +68,8 @@ class Exact final : public Assigner {
       return grid::descending_intervals_touched(tiles.y, ball.center.y - ball.radius, ball.center.y + ball.radius);
     geom::SlopeHull<double> slopes;
     const double radius = ball.radius;
-    geom::add_disk<double>(slopes, ball.center.y, -ball.center.z, radius * radius, depth0, depth1, 1.0);
+    geom::add_disk<double>(slopes, ball.center.y, -ball.center.z, radius * radius, depth0, depth1, 1.0,
+                           geom::Errs::outward);
     return grid::descending_intervals_touched(tiles.y, slopes.lo, slopes.hi);
   }
 
@@ -80,7 +81,7 @@ class Exact final : public Assigner {
     const geom::Ball smaller = lights.ball(light, -k_exact_roundings);
     const RowColumns columns(grid_->screen().tiles);
     each_row(larger, [&](const Row& row) {
-      const IndexRange outer = columns.touched(larger, row);
+      const IndexRange outer = columns.touched(larger, row, geom::Errs::outward);
       if (!outer.empty()) add_interval(row, settled(outer, columns, smaller, row, judge, fallbacks_), light);
     });
   }
@@ -94,7 +95,8 @@ class Exact final : public Assigner {
     const geom::Ball larger{around.center, around.radius + k_exact_roundings * 0x1p-24f * lights.reach[light]};
     const RowColumns columns(grid_->screen().tiles);
     each_row(larger, [&](const Row& row) {
-      const IndexRange seen = columns.touched(larger, row), lit = columns.touched(range, row);
+      const IndexRange seen = columns.touched(larger, row, geom::Errs::outward),
+                       lit = columns.touched(range, row, geom::Errs::outward);
       const IndexRange both{std::max(seen.first, lit.first), std::min(seen.last, lit.last)};
       if (seen.empty() || lit.empty() || both.empty()) return;
       const auto misses = [&](int column) {
