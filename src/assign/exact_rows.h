@@ -45,8 +45,8 @@ class RowColumns {
 
  private:
   grid::IndexRange in_wedge(const geom::Ball& ball, const Row& row, geom::Errs errs) const {
-    // In double precision: in single precision it is by chance whether the eye is within the ball when its surface
-    // nearly goes through it, and with that whether it has tangents.
+    // In double precision: where the surface nearly goes through the eye, the tangents touch too close to it for single
+    // precision.
     const geom::BallFromEye<double> seen{ball.center.x, ball.center.y, -ball.center.z, ball.radius};
     const geom::SlopeHull<double> slopes =
         geom::row_slopes<double>(seen, row.y0, row.y1, {row.depth0, row.depth1}, errs);
