@@ -5,7 +5,7 @@
 
 namespace clusterbench::assign::testing {
 
-// Calls of operator new since the program began.
+// Calls of operator new (under clang's thread sanitizer: of malloc) since the program began.
 std::uint64_t allocations();
 
 }  // namespace clusterbench::assign::testing
