@@ -19,7 +19,7 @@ CASES = [
     ("clusterbench sch", ["schema"], ["scene"]),
     ("clusterbench scene ", ["info", "generate"], ["run"]),
     ("clusterbench scene generate ", ["street", "open-world"], ["info"]),
-    ("clusterbench schema ", ["config", "result"], []),
+    ("clusterbench schema ", ["config", "result", "comparison", "stress"], []),
     ("clusterbench run --", ["--output", "--export", "--no-timing", "--count"], ["--format", "--count-dumps"]),
     ("clusterbench export r.json --format ", ["bencher", "google-benchmark", "markdown"], ["plan.json"]),
     ("clusterbench export r.json --format g", ["github-bigger"], ["csv"]),

@@ -9,7 +9,7 @@
 #include "cli/output.h"
 #include "report/page.h"
 #include "report/result_file.h"
-#include "run/config.h"
+#include "run/documents.h"
 #include "run/schema_check.h"
 
 namespace clusterbench::cli {

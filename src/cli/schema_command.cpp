@@ -1,10 +1,12 @@
-// `clusterbench schema config|result` and `clusterbench validate FILE...`.
+// `clusterbench schema config|result|comparison|stress` and `clusterbench validate FILE...`.
 
+#include <algorithm>
 #include <fstream>
 #include <iostream>
 
 #include "cli/commands.h"
 #include "run/config.h"
+#include "run/documents.h"
 #include "run/schema_check.h"
 #include "run/sweep.h"
 
@@ -17,15 +19,12 @@ std::string file_text(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-bool is_result(const nlohmann::json& document) {
-  return document.is_object() && document.contains("schema_version") && document.contains("cases");
-}
-
-ExitCode validate_result(const std::string& path, const nlohmann::json& document) {
-  const std::vector<std::string> violations = run::schema_violations(run::result_schema(), document);
+ExitCode validate_written(const std::string& path, const nlohmann::json& document, const run::DocumentRow& row) {
+  const std::vector<std::string> violations = run::schema_violations(row.schema(), document);
   for (const std::string& violation : violations) std::cerr << path << ": " << violation << "\n";
-  if (violations.empty()) std::cout << path << ": a valid result with " << document["cases"].size() << " cases\n";
-  return violations.empty() ? ExitCode::ok : ExitCode::usage;
+  if (!violations.empty()) return ExitCode::usage;
+  std::cout << path << ": valid, " << row.title << " with " << document["cases"].size() << " cases\n";
+  return ExitCode::ok;
 }
 
 ExitCode validate_config(const std::string& path) {
@@ -40,27 +39,34 @@ ExitCode validate_config(const std::string& path) {
 
 ExitCode validate(const std::string& path) {
   const nlohmann::json document = nlohmann::json::parse(file_text(path), nullptr, false, true);
-  return is_result(document) ? validate_result(path, document) : validate_config(path);
+  const run::DocumentRow& row = run::row_of(run::document_of(document));
+  return row.document == run::Document::config ? validate_config(path) : validate_written(path, document, row);
 }
 
 }  // namespace
 
 void add_schema(Command& program, Action& action) {
-  Command command = program.add_command("schema", "Print the JSON Schema (draft-07) of a configuration or of a result");
+  Command command = program.add_command("schema", "Print the JSON Schema (draft-07) of a document");
+  std::vector<std::string> names;
+  for (const run::DocumentRow& row : run::document_rows()) names.emplace_back(row.name);
   auto which = std::make_shared<std::string>();
-  command.add_option("WHICH", *which, "config or result").required().one_of({"config", "result"});
+  command.add_option("WHICH", *which, "Of a configuration, or of what run, compare --json or stress write")
+      .required()
+      .one_of(names);
   command.when_named([which, &action] {
     action = [which] {
-      std::cout << (*which == "config" ? run::config_schema() : run::result_schema()).dump(2) << "\n";
+      const auto rows = run::document_rows();
+      std::cout << std::ranges::find(rows, *which, &run::DocumentRow::name)->schema().dump(2) << "\n";
       return ExitCode::ok;
     };
   });
 }
 
 void add_validate(Command& program, Action& action) {
-  Command command = program.add_command("validate", "Check configurations and results without running anything");
+  Command command =
+      program.add_command("validate", "Check configurations and what clusterbench wrote, without running anything");
   auto paths = std::make_shared<std::vector<std::string>>();
-  command.add_option("FILE", *paths, "Configuration or result files").required();
+  command.add_option("FILE", *paths, "Configurations, results, comparisons, results of stress").required();
   command.when_named([paths, &action] {
     action = [paths] {
       ExitCode worst = ExitCode::ok;

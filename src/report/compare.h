@@ -14,10 +14,8 @@ namespace clusterbench::report {
 // None where neither are compared, and where times were measured side by side (run --baseline-binary).
 std::vector<std::string> obstacles(const nlohmann::ordered_json& base, const nlohmann::ordered_json& next);
 
-// {comparison_version, threshold, data, base {tool}, new {tool}, cases [...], summary, only_in_base, only_in_new,
-// failures, warnings}: see comparison in docs/comparing.md. `threshold`: the smallest change of time that matters, 0.02
-// for 2 %. Times: of rounds side by side where the new result has them for this base ("data": "paired"), else of
-// medians
+// As src/run/schemas/comparison.schema.json says. `threshold`: the smallest change of time that matters, 0.02 for 2 %.
+// Times: of rounds side by side where the new result has them for this base ("data": "paired"), else of medians
 // ("separate").
 nlohmann::ordered_json compare_results(const nlohmann::ordered_json& base, const nlohmann::ordered_json& next,
                                        double threshold);

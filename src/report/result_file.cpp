@@ -4,11 +4,13 @@
 
 #include "core/error.h"
 #include "report/json.h"
+#include "run/documents.h"
 
 namespace clusterbench::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using namespace std::string_literals;
 
 // The journal (report/journal.h) has a document per line, the first of them its header.
 bool is_journal(std::istream& in) {
@@ -36,8 +38,11 @@ Json read_result(const std::string& path, Schema schema) {
   } catch (const nlohmann::json::parse_error& error) {
     throw Error(path, "byte " + std::to_string(error.byte), "is not JSON");
   }
-  if (!result.is_object() || !result.contains("schema_version") || !result.contains("cases"))
-    throw Error(path, "", "is not a result file of `clusterbench run`");
+  if (const run::Document document = run::document_of(result); document != run::Document::result)
+    throw Error(path, "",
+                document == run::Document::config
+                    ? "is not a result file of `clusterbench run`"
+                    : "is "s + run::row_of(document).title + "; wanted is one of `clusterbench run`");
   if (schema == Schema::this_version && result["schema_version"] != k_schema_version)
     throw Error(path, "/schema_version",
                 "is " + result["schema_version"].dump() + "; this version reads " + std::to_string(k_schema_version));

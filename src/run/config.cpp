@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "run/config_grids.h"
 #include "run/config_rigs.h"
+#include "run/documents.h"
 #include "run/json_text.h"
 #include "run/schema_reader.h"
 

@@ -115,8 +115,4 @@ Config parse_config(const std::string& text, const std::filesystem::path& file);
 // The sweep that `run level.glb` does: sensible defaults.
 Config default_config(const std::vector<std::filesystem::path>& scenes);
 
-// The draft-07 schema, assembled from the embedded text and the assigner and storage rows.
-nlohmann::json config_schema();
-nlohmann::json result_schema();
-
 }  // namespace clusterbench::run

@@ -7,5 +7,7 @@ namespace clusterbench::run {
 
 std::string_view config_schema_text();
 std::string_view result_schema_text();
+std::string_view comparison_schema_text();
+std::string_view stress_schema_text();
 
 }  // namespace clusterbench::run

@@ -50,8 +50,8 @@ TEST(CommandLine, list_names_every_assigner_with_its_parameters) {
   for (const std::string& name : names) EXPECT_NE(text.find(name), std::string::npos) << name;
 }
 
-TEST(CommandLine, both_schemas_are_draft_07) {
-  for (const char* which : {"config", "result"}) {
+TEST(CommandLine, all_schemas_are_draft_07) {
+  for (const char* which : {"config", "result", "comparison", "stress"}) {
     const Json schema = Json::parse(tool(std::string("schema ") + which).out);
     EXPECT_EQ(schema["$schema"], "http://json-schema.org/draft-07/schema#");
   }

@@ -50,6 +50,15 @@ TEST(CompareCommand, one_more_pair_fails_and_is_written_as_markdown_and_json) {
   EXPECT_NE(done.out.find("error/reported_pairs worse"), std::string::npos) << done.out;
   EXPECT_NE(file_text(markdown).find("### clusterbench: failed"), std::string::npos);
   EXPECT_EQ(Json::parse(file_text(json))["summary"]["counts_worse"], 1);
+  const Outcome checked = tool("validate " + json);
+  EXPECT_EQ(checked.code, 0) << checked.err;
+  EXPECT_NE(checked.out.find("valid, a comparison of `clusterbench compare` with 2 cases"), std::string::npos)
+      << checked.out;
+  const Outcome sized = tool("size " + json);
+  EXPECT_EQ(sized.code, 2);
+  EXPECT_NE(sized.err.find("is a comparison of `clusterbench compare`; wanted is one of `clusterbench run`"),
+            std::string::npos)
+      << sized.err;
 }
 
 TEST(CompareCommand, without_a_common_case_the_code_is_3) {

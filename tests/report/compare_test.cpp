@@ -6,6 +6,8 @@
 
 #include "report/json.h"
 #include "report/result_by_hand.h"
+#include "run/documents.h"
+#include "run/schema_check.h"
 
 namespace clusterbench::report {
 namespace {
@@ -29,6 +31,15 @@ run::Result with_times(double slow_ns, double fast_ns) {
   return result;
 }
 
+// Every comparison of these tests is held against its schema.
+Json compared(const Json& base, const Json& next, double threshold) {
+  Json comparison = compare_results(base, next, threshold);
+  const Json violations =
+      run::schema_violations(run::row_of(run::Document::comparison).schema(), nlohmann::json::parse(comparison.dump()));
+  EXPECT_TRUE(violations.empty()) << violations.dump(1) << comparison.dump(1);
+  return comparison;
+}
+
 std::string verdict_of(const Json& comparison, std::size_t place) {
   return comparison["cases"][place]["verdict"];
 }
@@ -39,7 +50,7 @@ bool holds(const Json& lines, const std::string& part) {
 
 TEST(Compare, a_result_is_the_same_as_itself) {
   const Json result = json_of(result_by_hand());
-  const Json comparison = compare_results(result, result, 0.02);
+  const Json comparison = compared(result, result, 0.02);
   EXPECT_EQ(verdict_of(comparison, 0), "same");
   EXPECT_EQ(comparison["cases"][0]["counts"], "same");
   EXPECT_TRUE(comparison["cases"][0]["differences"].empty());
@@ -47,7 +58,7 @@ TEST(Compare, a_result_is_the_same_as_itself) {
 }
 
 TEST(Compare, times_of_separate_runs_get_a_verdict_and_a_warning) {
-  const Json comparison = compare_results(json_of(with_times(9000, 3000)), json_of(with_times(9900, 2700)), 0.02);
+  const Json comparison = compared(json_of(with_times(9000, 3000)), json_of(with_times(9900, 2700)), 0.02);
   EXPECT_EQ(verdict_of(comparison, 0), "slower");
   EXPECT_EQ(verdict_of(comparison, 1), "faster");
   EXPECT_NEAR(comparison["cases"][0]["ratio"].get<double>(), 1.1, 1e-12);
@@ -59,14 +70,14 @@ TEST(Compare, times_of_separate_runs_get_a_verdict_and_a_warning) {
 
 TEST(Compare, the_threshold_says_what_matters) {
   const Json base = json_of(with_times(9000, 3000)), next = json_of(with_times(9900, 3000));
-  EXPECT_EQ(verdict_of(compare_results(base, next, 0.2), 0), "same");
-  EXPECT_EQ(outcome(compare_results(base, next, 0.2), true), ExitCode::ok);
+  EXPECT_EQ(verdict_of(compared(base, next, 0.2), 0), "same");
+  EXPECT_EQ(outcome(compared(base, next, 0.2), true), ExitCode::ok);
 }
 
 TEST(Compare, wide_intervals_are_inconclusive_and_fail_only_if_strict) {
   run::Result next = with_times(9900, 3000);
   next.cases[0].timing->assign_ns.ci95 = {5000, 15000};
-  const Json comparison = compare_results(json_of(with_times(9000, 3000)), json_of(next), 0.02);
+  const Json comparison = compared(json_of(with_times(9000, 3000)), json_of(next), 0.02);
   EXPECT_EQ(verdict_of(comparison, 0), "inconclusive");
   EXPECT_EQ(outcome(comparison, false), ExitCode::ok);
   EXPECT_EQ(outcome(comparison, true), ExitCode::inconclusive);
@@ -81,7 +92,7 @@ TEST(Compare, methods_with_two_storages_are_one_method_in_the_mean) {
     result->cases.push_back(copy);
     result->planned_ids.push_back(copy.id);
   }
-  const Json comparison = compare_results(json_of(base), json_of(next), 0.02);
+  const Json comparison = compared(json_of(base), json_of(next), 0.02);
   EXPECT_EQ(comparison["cases"].size(), 3u);
   EXPECT_EQ(verdict_of(comparison, 2), "slower");
   EXPECT_EQ(comparison["summary"]["methods_timed"], 2);
@@ -91,7 +102,7 @@ TEST(Compare, methods_with_two_storages_are_one_method_in_the_mean) {
 TEST(Compare, a_lost_light_is_named_with_frame_cell_and_light) {
   run::Result next = result_by_hand();
   testing::lose_a_light(next.cases[1]);
-  const Json comparison = compare_results(json_of(result_by_hand()), json_of(next), 0.02);
+  const Json comparison = compared(json_of(result_by_hand()), json_of(next), 0.02);
   EXPECT_EQ(comparison["cases"][1]["counts"], "worse");
   EXPECT_EQ(comparison["cases"][1]["place"], "frame 5, cell [1,1,1], light 8 ('torch')");
   EXPECT_EQ(outcome(comparison, false), ExitCode::gate_failed);
@@ -108,9 +119,9 @@ TEST(Compare, a_single_pair_or_byte_more_fails_and_one_less_does_not) {
     Json next = base;
     const Json::json_pointer pointer(place);
     next[pointer] = base[pointer].get<double>() + 1;
-    EXPECT_EQ(outcome(compare_results(base, next, 0.02), false), ExitCode::gate_failed) << place;
-    EXPECT_EQ(outcome(compare_results(next, base, 0.02), false), ExitCode::ok) << place;
-    EXPECT_EQ(compare_results(next, base, 0.02)["cases"][0]["counts"], "better") << place;
+    EXPECT_EQ(outcome(compared(base, next, 0.02), false), ExitCode::gate_failed) << place;
+    EXPECT_EQ(outcome(compared(next, base, 0.02), false), ExitCode::ok) << place;
+    EXPECT_EQ(compared(next, base, 0.02)["cases"][0]["counts"], "better") << place;
   }
 }
 
@@ -120,7 +131,7 @@ TEST(Compare, another_truth_or_another_list_of_the_same_length_fails) {
     Json next = base;
     const Json::json_pointer pointer(place);
     next[pointer] = base[pointer].get<int>() - 1;
-    EXPECT_EQ(outcome(compare_results(base, next, 0.02), false), ExitCode::gate_failed) << place;
+    EXPECT_EQ(outcome(compared(base, next, 0.02), false), ExitCode::gate_failed) << place;
   }
 }
 
@@ -128,27 +139,27 @@ TEST(Compare, a_figure_that_only_one_version_knows_is_passed_over) {
   const Json base = json_of(result_by_hand());
   Json next = base;
   next["cases"][0]["error"]["a_new_figure"] = 5;
-  EXPECT_EQ(outcome(compare_results(base, next, 0.02), true), ExitCode::ok);
-  EXPECT_EQ(outcome(compare_results(next, base, 0.02), true), ExitCode::ok);
+  EXPECT_EQ(outcome(compared(base, next, 0.02), true), ExitCode::ok);
+  EXPECT_EQ(outcome(compared(next, base, 0.02), true), ExitCode::ok);
 }
 
 TEST(Compare, an_inexact_result_fails_even_if_it_was_so_before) {
   run::Result result = result_by_hand();
   testing::lose_a_light(result.cases[1]);
-  const Json comparison = compare_results(json_of(result), json_of(result), 0.02);
+  const Json comparison = compared(json_of(result), json_of(result), 0.02);
   EXPECT_EQ(outcome(comparison, false), ExitCode::gate_failed);
 }
 
 TEST(Compare, cases_of_one_side_are_named_and_fail_only_if_strict) {
   run::Result next = result_by_hand();
   next.cases.pop_back();
-  const Json base = json_of(result_by_hand()), comparison = compare_results(base, json_of(next), 0.02);
+  const Json base = json_of(result_by_hand()), comparison = compared(base, json_of(next), 0.02);
   EXPECT_TRUE(holds(comparison["only_in_base"], "aabb"));
   EXPECT_TRUE(holds(comparison["warnings"], "only in the base"));
   EXPECT_EQ(outcome(comparison, false), ExitCode::ok);
   EXPECT_EQ(outcome(comparison, true), ExitCode::inconclusive);
   next.cases.clear();
-  EXPECT_EQ(outcome(compare_results(base, json_of(next), 0.02), false), ExitCode::nothing_comparable);
+  EXPECT_EQ(outcome(compared(base, json_of(next), 0.02), false), ExitCode::nothing_comparable);
 }
 
 TEST(Compare, instructions_gate_where_no_paired_time_does) {
@@ -156,13 +167,13 @@ TEST(Compare, instructions_gate_where_no_paired_time_does) {
   testing::add_count(base.cases[0]);
   run::Result next = base;
   next.cases[0].count->assign.instructions = 42000;  // of 40,000
-  const Json comparison = compare_results(json_of(base), json_of(next), 0.02);
+  const Json comparison = compared(json_of(base), json_of(next), 0.02);
   EXPECT_EQ(comparison["cases"][0]["instructions"]["verdict"], "more");
   EXPECT_NEAR(comparison["cases"][0]["instructions"]["assign_ratio"].get<double>(), 1.05, 1e-12);
   EXPECT_EQ(outcome(comparison, false), ExitCode::gate_failed);
-  EXPECT_EQ(outcome(compare_results(json_of(next), json_of(base), 0.02), false), ExitCode::ok);
+  EXPECT_EQ(outcome(compared(json_of(next), json_of(base), 0.02), false), ExitCode::ok);
   next.cases[0].count->source = "perf";
-  EXPECT_FALSE(compare_results(json_of(base), json_of(next), 0.02)["cases"][0].contains("instructions"));
+  EXPECT_FALSE(compared(json_of(base), json_of(next), 0.02)["cases"][0].contains("instructions"));
 }
 
 TEST(Compare, fields_that_differ_are_named) {
@@ -176,7 +187,7 @@ TEST(Compare, fields_that_differ_are_named) {
   ASSERT_EQ(fields.size(), 2u);
   EXPECT_EQ(fields[0], R"(/machine/cpu is "a processor" and "another")");
   EXPECT_EQ(fields[1], R"(/tool/flags is "-O3" and "-O0")");
-  EXPECT_TRUE(holds(compare_results(base, next, 0.02)["warnings"], "/machine/cpu"));
+  EXPECT_TRUE(holds(compared(base, next, 0.02)["warnings"], "/machine/cpu"));
 }
 
 TEST(Compare, counts_alone_compare_across_machines) {
@@ -184,7 +195,7 @@ TEST(Compare, counts_alone_compare_across_machines) {
   for (run::CaseResult& one : base.cases) one.timing.reset();
   next.machine.cpu = "another";
   EXPECT_TRUE(obstacles(json_of(base), json_of(next)).empty());
-  EXPECT_EQ(outcome(compare_results(json_of(base), json_of(next), 0.02), true), ExitCode::ok);
+  EXPECT_EQ(outcome(compared(json_of(base), json_of(next), 0.02), true), ExitCode::ok);
 }
 
 // Three launches of two rounds each, in which the new program takes `percent` more, give or take 0.1 %.
@@ -208,14 +219,14 @@ Json measured_beside(const Json& base, double percent) {
 TEST(Compare, paired_rounds_decide_where_there_are_any) {
   const Json base = json_of(with_times(1, 1)), next = measured_beside(base, 3.0);
   for (const Json& left : {base, next}) {
-    const Json comparison = compare_results(left, next, 0.02);
+    const Json comparison = compared(left, next, 0.02);
     EXPECT_EQ(comparison["data"], "paired");
     EXPECT_EQ(comparison["base"]["tool"]["git_sha"], "abc");
     EXPECT_EQ(verdict_of(comparison, 0), "slower");
     EXPECT_NEAR(comparison["cases"][0]["ratio"].get<double>(), 1.03, 1e-4);
     EXPECT_FALSE(holds(comparison["warnings"], "separate runs"));
   }
-  EXPECT_EQ(verdict_of(compare_results(base, measured_beside(base, 0.0), 0.02), 1), "same");
+  EXPECT_EQ(verdict_of(compared(base, measured_beside(base, 0.0), 0.02), 1), "same");
 }
 
 // What disturbs a launch as a whole, here by 20 % up and down, cancels in its mean.
@@ -234,7 +245,7 @@ TEST(Compare, the_mean_of_methods_is_over_the_launches_that_all_have) {
     up = 1.0 / up;
   }
   others.push_back({{"base_ns", {1.0, 1.0}}, {"new_ns", {5.0, 5.0}}});
-  const Json summary = compare_results(base, next, 0.02)["summary"];
+  const Json summary = compared(base, next, 0.02)["summary"];
   EXPECT_NEAR(summary["ratio"].get<double>(), 1.03, 1e-4);
   EXPECT_LT(summary["ci95"][1].get<double>(), 1.04);
 }
@@ -243,7 +254,7 @@ TEST(Compare, paired_rounds_with_another_program_say_nothing) {
   Json base = json_of(with_times(9000, 3000));
   const Json next = measured_beside(base, 3.0);
   base["tool"]["git_sha"] = "yet another";
-  EXPECT_EQ(compare_results(base, next, 0.02)["data"], "separate");
+  EXPECT_EQ(compared(base, next, 0.02)["data"], "separate");
 }
 
 TEST(Compare, lists_that_differ_side_by_side_fail_unless_they_are_shorter_and_complete) {
@@ -252,19 +263,19 @@ TEST(Compare, lists_that_differ_side_by_side_fail_unless_they_are_shorter_and_co
   Json& lists = next["cases"][0]["timing"]["baseline"]["lists_differ"];
   lists = {{"frames", 2}, {"frame", 1},       {"cell", {3, 2, 1}}, {"light", 7},
            {"in", "new"}, {"base_pairs", 60}, {"new_pairs", 61}};
-  EXPECT_EQ(outcome(compare_results(base, next, 0.02), false), ExitCode::gate_failed);
-  const std::string text = comparison_text(compare_results(base, next, 0.02));
+  EXPECT_EQ(outcome(compared(base, next, 0.02), false), ExitCode::gate_failed);
+  const std::string text = comparison_text(compared(base, next, 0.02));
   EXPECT_NE(text.find("frame 1, cell [3,2,1], light 7: only in the new lists; 60 -> 61 pairs"), std::string::npos)
       << text;
   lists["new_pairs"] = 59;
-  EXPECT_EQ(outcome(compare_results(base, next, 0.02), false), ExitCode::ok);
+  EXPECT_EQ(outcome(compared(base, next, 0.02), false), ExitCode::ok);
 }
 
 TEST(Compare, names_in_markdown_are_no_markup) {
   run::Result result = result_by_hand();
   result.cases[0].name = "a|b <script> `c` *d*";
   const Json json = json_of(result);
-  const std::string markdown = comparison_markdown(compare_results(json, json, 0.02));
+  const std::string markdown = comparison_markdown(compared(json, json, 0.02));
   EXPECT_NE(markdown.find(R"(a\|b \<script\> \`c\` \*d\*)"), std::string::npos) << markdown;
 }
 

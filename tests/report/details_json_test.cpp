@@ -7,6 +7,7 @@
 
 #include "report/json.h"
 #include "run/config.h"
+#include "run/documents.h"
 #include "run/schema_check.h"
 #include "run/walk.h"
 

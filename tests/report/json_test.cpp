@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "report/result_by_hand.h"
-#include "run/config.h"
+#include "run/documents.h"
 #include "run/schema_check.h"
 
 namespace clusterbench::report {

@@ -1,11 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 
 #include "report/stress.h"
 #include "run/config.h"
+#include "run/documents.h"
 #include "run/runner.h"
+#include "run/schema_check.h"
 #include "run/stress/contact.h"
 #include "run/stress/stress.h"
 
@@ -73,6 +76,20 @@ TEST(HardCases, give_the_same_json_on_any_number_of_threads) {
     return report::stress_to_json(run_stress(request, {}, k_never), request).dump();
   };
   EXPECT_EQ(json(1), json(2));
+}
+
+TEST(Stress, is_written_as_its_schema_says) {
+  StressRequest request;
+  request.tries = 6000;
+  request.cases = std::regex("H(12|22|31|32)");
+  request.methods = std::regex("^(bounds|exact|naive-refinement)$");
+  const StressResult result = run_stress(request, {}, k_never);
+  const auto json = nlohmann::json::parse(report::stress_to_json(result, request).dump());
+  EXPECT_EQ(schema_violations(row_of(Document::stress).schema(), json), std::vector<std::string>{});
+  EXPECT_EQ(document_of(json), Document::stress);
+  const auto is_lost = [](const auto& one) { return !one["deepest_miss"].is_null(); };
+  EXPECT_TRUE(std::ranges::any_of(json["results"], is_lost));
+  EXPECT_TRUE(std::ranges::any_of(json["searches"], is_lost));
 }
 
 TEST(Failures, name_a_conservative_method_that_loses_and_an_exact_one_that_adds) {

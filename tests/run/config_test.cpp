@@ -9,6 +9,7 @@
 #include "assign/storage.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "run/documents.h"
 #include "run/schema_check.h"
 
 namespace clusterbench::run {

@@ -1,10 +1,12 @@
-// The printed schemas: the embedded text, the rows of assigners and storages, and the axes written out.
+// The schemas: the embedded text; of configurations also the rows of assigners and storages, and the axes written out.
+
+#include "run/documents.h"
 
 #include <algorithm>
+#include <array>
 
 #include "assign/assigner.h"
 #include "assign/storage.h"
-#include "run/config.h"
 #include "run/schema_text.h"
 
 namespace clusterbench::run {
@@ -98,6 +100,23 @@ Json config_schema() {
 
 Json result_schema() {
   return Json::parse(result_schema_text());
+}
+
+std::span<const DocumentRow> document_rows() {
+  static const std::array<DocumentRow, 4> rows{{
+      {Document::config, "config", "a configuration", config_schema},
+      {Document::result, "result", "a result of `clusterbench run`", result_schema},
+      {Document::comparison, "comparison", "a comparison of `clusterbench compare`",
+       [] { return Json::parse(comparison_schema_text()); }},
+      {Document::stress, "stress", "a result of `clusterbench stress`",
+       [] { return Json::parse(stress_schema_text()); }},
+  }};
+  return rows;
+}
+
+const DocumentRow& row_of(Document document) {
+  const std::span<const DocumentRow> rows = document_rows();
+  return *std::ranges::find(rows, document, &DocumentRow::document);
 }
 
 }  // namespace clusterbench::run
