@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "report/json.h"
 #include "run/documents.h"
+#include "run/schema_check.h"
 
 namespace clusterbench::report {
 namespace {
@@ -20,6 +21,25 @@ bool is_journal(std::istream& in) {
   std::getline(in, line);
   const Json first = Json::parse(line, nullptr, false);
   return first.is_object() && first.contains("header");
+}
+
+// Takes away what a result of another schema version may do otherwise: have another number, and further properties.
+void relax(nlohmann::json& schema) {
+  if (schema.is_object()) schema.erase("additionalProperties");
+  if (schema.is_structured())
+    for (nlohmann::json& member : schema) relax(member);
+}
+
+// Whoever reads results relies on what the schema promises.
+void check(const std::string& path, const Json& result, Schema version) {
+  nlohmann::json schema = run::result_schema();
+  if (version == Schema::any) {
+    relax(schema);
+    schema["properties"].erase("schema_version");
+  }
+  const std::vector<std::string> violations = run::schema_violations(schema, nlohmann::json(result));
+  if (!violations.empty())
+    throw Error(path, "", "is not a valid result: " + violations.front() + "; `clusterbench validate` lists all");
 }
 
 }  // namespace
@@ -46,6 +66,7 @@ Json read_result(const std::string& path, Schema schema) {
   if (schema == Schema::this_version && result["schema_version"] != k_schema_version)
     throw Error(path, "/schema_version",
                 "is " + result["schema_version"].dump() + "; this version reads " + std::to_string(k_schema_version));
+  check(path, result, schema);
   return result;
 }
 
