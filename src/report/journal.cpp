@@ -7,6 +7,8 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "run/documents.h"
+#include "run/schema_check.h"
 
 namespace clusterbench::report {
 namespace {
@@ -61,20 +63,28 @@ void Journal::begin_partial(const Json& header) {
 void Journal::read_earlier(const Json& header) {
   std::ifstream in(partial_, std::ios::binary);
   std::string line;
-  bool known = false;
   for (int number = 1; std::getline(in, line); ++number) {
-    const Json entry = Json::parse(line, nullptr, false);
-    if (entry.is_discarded()) break;  // the line that was being written when the run ended
-    if (entry.contains("header")) {
-      known = true;
-      if (entry["header"] != header)
-        throw Error(
-            partial_.string(), "line " + std::to_string(number),
-            "is an interrupted run of another configuration, --count, scene or build; remove it to start again");
-    } else if (known && entry.contains("case")) {
-      earlier_cases_.push_back(entry["case"]);
-    }
+    Json entry = Json::parse(line, nullptr, false);
+    if (entry.is_discarded() && in.eof()) break;  // the line that was being written when the run ended
+    const auto refuse = [&](const std::string& what) {
+      throw Error(partial_.string(), "line " + std::to_string(number), what + "; remove the file to start again");
+    };
+    if (!entry.is_object() || !entry.contains(number == 1 ? "header" : "case"))
+      refuse(number == 1 ? "does not say what was run" : "is not what a run writes");
+    if (number > 1)
+      earlier_cases_.push_back(std::move(entry["case"]));
+    else if (entry["header"] != header)
+      refuse("is an interrupted run of another configuration, --count, scene or build");
   }
+  check_earlier();
+}
+
+void Journal::check_earlier() const {
+  const nlohmann::json cases_schema = run::result_schema()["properties"]["cases"];
+  const std::vector<std::string> violations = run::schema_violations(cases_schema, nlohmann::json(earlier_cases_));
+  if (!violations.empty())
+    throw Error(partial_.string(), "",
+                "does not hold the cases of a run: " + violations.front() + "; remove it to start again");
 }
 
 std::vector<std::string> Journal::earlier_ids() const {

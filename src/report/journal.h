@@ -15,8 +15,8 @@ class Journal {
  public:
   // Starts FILE.partial. `header` says what is being run: an interrupted run continues only under an equal header.
   // `expected_bytes`: about how large the result will be; a disk without that much room is an Error now, not later.
-  // Throws Error if the place cannot be written, and if an interrupted run's finished cases lie there and `resume` is
-  // false.
+  // Throws Error if the place cannot be written, if an interrupted run's finished cases lie there and `resume` is
+  // false, and if what lies there is not what a run writes but for its last line.
   Journal(const std::filesystem::path& file, const nlohmann::ordered_json& header, bool resume,
           std::uint64_t expected_bytes);
 
@@ -33,6 +33,7 @@ class Journal {
 
  private:
   void read_earlier(const nlohmann::ordered_json& header);
+  void check_earlier() const;
   void begin_partial(const nlohmann::ordered_json& header);
   void append(const nlohmann::ordered_json& line);
 

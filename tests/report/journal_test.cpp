@@ -6,6 +6,8 @@
 #include <filesystem>
 
 #include "core/error.h"
+#include "report/json.h"
+#include "report/result_by_hand.h"
 
 namespace clusterbench::report {
 namespace {
@@ -14,6 +16,12 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 const Json k_header{{"config", "a"}};
+
+Json case_named(const std::string& id) {
+  Json one = case_to_json(testing::result_by_hand().cases[0]);
+  one["id"] = id;
+  return one;
+}
 
 class JournalTest : public ::testing::Test {
  protected:
@@ -28,7 +36,7 @@ class JournalTest : public ::testing::Test {
   // What a run that dies after one case leaves behind.
   void leave_one_case() {
     Journal journal(file_, k_header, false, 100);
-    journal.add_case(Json{{"id", "first"}});
+    journal.add_case(case_named("first"));
   }
 
   fs::path folder_, file_;
@@ -47,6 +55,26 @@ TEST_F(JournalTest, a_line_cut_in_the_middle_is_passed_over) {
   EXPECT_EQ(later.earlier_ids(), std::vector<std::string>{"first"});
 }
 
+// Only the last line can be cut by the end of a run.
+TEST_F(JournalTest, another_broken_line_is_an_error_that_names_it) {
+  const auto refusal_with = [&](const std::string& line) -> std::string {
+    fs::remove(file_.string() + ".partial");
+    leave_one_case();
+    std::ofstream(file_.string() + ".partial", std::ios::app) << line << "\n"
+                                                              << Json{{"case", case_named("third")}}.dump() << "\n";
+    try {
+      Journal(file_, k_header, true, 100);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal_with(Json{{"case", case_named("second")}}.dump()), "");
+  EXPECT_NE(refusal_with(R"({"case": {"id": "seco)").find("line 3: is not what a run writes"), std::string::npos);
+  EXPECT_NE(refusal_with("7").find("line 3: is not what a run writes"), std::string::npos);
+  EXPECT_NE(refusal_with(R"({"case": {"id": 7}})").find("does not hold the cases of a run: /1"), std::string::npos);
+}
+
 TEST_F(JournalTest, finished_cases_are_not_overwritten_by_a_new_start) {
   leave_one_case();
   EXPECT_THROW(Journal(file_, k_header, false, 100), Error);
@@ -61,7 +89,7 @@ TEST_F(JournalTest, another_configuration_is_not_continued) {
 TEST_F(JournalTest, finishing_replaces_the_file_and_removes_the_journal) {
   std::ofstream(file_) << "old";
   Journal journal(file_, k_header, false, 100);
-  journal.add_case(Json{{"id", "first"}});
+  journal.add_case(case_named("first"));
   journal.finish(Json{{"cases", 1}});
   std::ifstream in(file_);
   EXPECT_EQ(Json::parse(in), (Json{{"cases", 1}}));
