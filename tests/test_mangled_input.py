@@ -152,12 +152,22 @@ class Kit:
     def interrupted(self):
         """What a run leaves that is interrupted after some cases."""
         left = self.folder / "interrupted.json.partial"
-        command = [str(self.program), "run", "--quiet", "-o", left.with_suffix(""), str(self.long_config)]
-        with subprocess.Popen(command, stderr=subprocess.DEVNULL, cwd=self.folder) as run:
-            while run.poll() is None and (not left.exists() or left.read_bytes().count(b"\n") < 3):
-                time.sleep(0.002)
-            run.send_signal(signal.SIGINT)
-        return left.read_bytes()
+        command = [str(self.program), "run", "--quiet", "-o", str(left.with_suffix("")), str(self.long_config)]
+
+        def cases():
+            try:
+                return left.read_bytes().count(b"\n") - 1
+            except FileNotFoundError:  # not begun, or finished
+                return 0
+
+        for _ in range(20):  # on a busy machine a run may be over before it is interrupted
+            with subprocess.Popen(command, stderr=subprocess.DEVNULL, cwd=self.folder) as run:
+                while run.poll() is None and cases() < 2:
+                    time.sleep(0.002)
+                run.send_signal(signal.SIGINT)
+            if cases() > 0:
+                return left.read_bytes()
+        sys.exit("no run could be interrupted")
 
     def run(self, *arguments):
         command = [str(word) for word in (self.program, *arguments)]

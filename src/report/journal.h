@@ -1,5 +1,5 @@
 #pragma once
-// Results on disk while they come in: FILE.partial has a header line and a line per scene and per finished case, each
+// Results on disk while they come in: FILE.partial has a header line and a line per finished case, each
 // flushed as it is written, so that a crash loses at most the case at hand. finish() replaces FILE in one step.
 
 #include <filesystem>

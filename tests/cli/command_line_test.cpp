@@ -58,6 +58,27 @@ TEST(CommandLine, all_schemas_are_draft_07) {
   EXPECT_EQ(tool("schema nothing").code, 2);
 }
 
+// None of them goes on with what is missing.
+TEST(CommandLine, all_that_reads_results_refuses_a_broken_one_and_other_documents) {
+  const Folder folder;
+  Json result = Json::parse(file_text(source_file("results/intel-r-xeon-r-processor/quick.json")));
+  result["cases"][1].erase("buffers");
+  const std::string broken = folder.write("broken.json", result.dump()).string();
+  const std::string stress = source_file("results/intel-r-xeon-r-processor/stress.json");
+  const std::string page = (folder / "page.html").string(), history = (folder / "history.jsonl").string();
+  const auto refuses = [&](const std::string& file, const std::string& why) {
+    for (const std::string& command :
+         {"compare " + file + " " + file, "size " + file, "export --format csv " + file, "merge " + file,
+          "report -o " + page + " " + file, "history add " + file + " " + history}) {
+      const Outcome done = tool(command);
+      EXPECT_EQ(done.code, 2) << command;
+      EXPECT_NE(done.err.find(file + ": " + why), std::string::npos) << command << ": " << done.err;
+    }
+  };
+  refuses(broken, "is not a valid result: /cases/1: Missing required property 'buffers'");
+  refuses(stress, "is a result of `clusterbench stress`; wanted is one of `clusterbench run`");
+}
+
 TEST(CommandLine, validate_tells_a_good_configuration_from_a_broken_one) {
   EXPECT_EQ(tool("validate " + source_file("configs/quick.json") + " " + source_file("configs/trends.json") + " " +
                  source_file("configs/details.json"))
