@@ -25,7 +25,54 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return d[a.size()][b.size()];
 }
 
+// Bytes of the UTF-8 character at the beginning of `text`, 0 if there is none. Overlong forms, surrogates and what lies
+// beyond U+10FFFF are none.
+std::size_t character_bytes(std::string_view text, std::uint32_t& code) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char first = byte(0);
+  code = first;
+  if (first < 0x80) return 1;
+  const std::size_t size = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
+  if (first < 0xC2 || first > 0xF4 || text.size() < size) return 0;
+  code = first & (0x7FU >> size);
+  for (std::size_t i = 1; i < size; ++i) {
+    if ((byte(i) & 0xC0U) != 0x80U) return 0;
+    code = code << 6 | (byte(i) & 0x3FU);
+  }
+  constexpr std::uint32_t k_least[] = {0, 0, 0x80, 0x800, 0x10000};
+  const bool is_surrogate = code >= 0xD800 && code <= 0xDFFF;
+  return code < k_least[size] || code > 0x10FFFF || is_surrogate ? 0 : size;
+}
+
+bool is_obeyed(std::uint32_t code) {
+  const bool control = code < 0x20 || (code >= 0x7F && code <= 0x9F);
+  const bool turns_lines = code == 0x200E || code == 0x200F || (code >= 0x2028 && code <= 0x202E) ||
+                           (code >= 0x2066 && code <= 0x2069) || code == 0x061C;
+  return control || turns_lines;
+}
+
+std::string without_controls(std::string_view text, bool keep_lines) {
+  std::string out;
+  out.reserve(text.size());
+  while (!text.empty()) {
+    std::uint32_t code = 0;
+    const std::size_t size = character_bytes(text, code);
+    const bool kept = size > 0 && (!is_obeyed(code) || (keep_lines && code == '\n'));
+    out += kept ? text.substr(0, size) : std::string_view("?");
+    text.remove_prefix(std::max<std::size_t>(size, 1));
+  }
+  return out;
+}
+
 }  // namespace
+
+std::string printable(std::string_view text) {
+  return without_controls(text, false);
+}
+
+std::string printable_lines(std::string_view text) {
+  return without_controls(text, true);
+}
 
 std::string nearest_name(std::string_view word, std::span<const std::string> candidates) {
   std::string best;

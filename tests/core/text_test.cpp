@@ -22,6 +22,36 @@ TEST(NearestName, a_word_like_none_of_them_has_no_nearest_name) {
   EXPECT_EQ(did_you_mean("voxels", k_names), "");
 }
 
+TEST(Printable, leaves_nothing_that_a_terminal_would_obey) {
+  EXPECT_EQ(printable("lamp 3"), "lamp 3");
+  EXPECT_EQ(printable("a\x1b[31mb\r\n\t\x7f"), "a?[31mb????");
+  EXPECT_EQ(printable("a\xc2\x9b"
+                      "31mb"),
+            "a?31mb");  // U+009B, one character for ESC [
+  EXPECT_EQ(printable("a\xe2\x80\xae"
+                      "b\xe2\x81\xa6"
+                      "c\xe2\x80\xa8"),
+            "a?b?c?");  // turned and broken lines
+  EXPECT_EQ(printable(std::string("a\0b", 3)), "a?b");
+}
+
+TEST(Printable, keeps_every_language) {
+  const std::string names = "L\xc3\xa4mpchen \xe7\x81\xaf \xf0\x9f\x92\xa1 \xd7\xa0\xd7\xa8";
+  EXPECT_EQ(printable(names), names);
+}
+
+TEST(Printable, answers_bytes_that_are_no_utf_8_one_by_one) {
+  EXPECT_EQ(printable("\xff"
+                      "a\xc3"),
+            "?a?");
+  EXPECT_EQ(printable("\xc0\x9b\xe0\x82\x9b\xed\xa0\x80\xf4\x90\x80\x80"), "????????????");
+  EXPECT_EQ(printable("\xe7\x81"), "??");
+}
+
+TEST(Printable, keeps_lines_where_they_are_wanted) {
+  EXPECT_EQ(printable_lines("a\nb\x1b\n"), "a\nb?\n");
+}
+
 TEST(Sha256, agrees_with_the_examples_of_fips_180) {
   EXPECT_EQ(sha256_hex("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   EXPECT_EQ(sha256_hex(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
