@@ -1,11 +1,25 @@
 #include "geom/bounds.h"
 
+#include <algorithm>
+
 namespace clusterbench::geom {
 namespace {
 
 // value / 2^bits
 Rational scaled_down(const Integer& value, unsigned bits) {
   return Rational(value) / Rational(Integer(1) << bits);
+}
+
+// A cosine above 1 would hold no point at all, not even one of the axis.
+RationalInterval cut_to_1(const RationalInterval& bounds) {
+  return {std::max(bounds.lo, Rational(-1)), std::min(bounds.hi, Rational(1))};
+}
+
+// The series' first terms: whatever their fixed point is, it would be too coarse for some angle. The next ones are
+// below 2^-bits for an angle below 2^(-bits / 4).
+AngleBounds bounds_of_small(const Rational& x) {
+  const Rational square = x * x, fourth = square * square, cosine = 1 - square / 2, sine = x - x * square / 6;
+  return {{cosine, cosine + fourth / 24}, {sine, sine + x * fourth / 120}};
 }
 
 }  // namespace
@@ -17,6 +31,7 @@ Rational scaled_down(const Integer& value, unsigned bits) {
 // sums: 250 * 8 u + 16 u < 2^11 u.
 AngleBounds bounds_of_angle(const Rational& angle, unsigned bits) {
   if (angle.sign() == 0) return {{1, 1}, {0, 0}};
+  if (angle * Rational(Integer(1) << (bits / 4)) < 1) return bounds_of_small(angle);
   const Integer x = (numerator(angle) << bits) / denominator(angle);
   Integer term = Integer(1) << bits, sums[2] = {term, 0};  // cosine, sine
   for (int n = 1; term != 0; ++n) {
@@ -30,7 +45,7 @@ AngleBounds bounds_of_angle(const Rational& angle, unsigned bits) {
   const auto around = [&](const Integer& value) -> RationalInterval {
     return {scaled_down(value - k_error, bits), scaled_down(value + k_error, bits)};
   };
-  return {around(sums[0]), around(sums[1])};
+  return {cut_to_1(around(sums[0])), cut_to_1(around(sums[1]))};
 }
 
 // sqrt(n / d) = sqrt(n d 4^k) / (d 2^k): the integer root is within 1 of it, and k makes that little.

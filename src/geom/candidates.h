@@ -120,23 +120,34 @@ void generators_towards(const Volume<Real>& volume, const Point3<Real>& n, Take&
   take(volume.cos_angle * volume.axis - volume.sin_angle * m);
 }
 
+// The place of the line start + t * step that is nearest to the apex. Quadratics around it keep the digits that the
+// square of a start far away takes from the range and the cone.
+template <class Real>
+Real foot_of(const Point3<Real>& apex, const Point3<Real>& start, const Point3<Real>& step) {
+  const Real square = dot(step, step);
+  return square == Real(0) ? Real(0) : dot(apex - start, step) / square;
+}
+
 // Where the line start + t * step meets the cone's surface.
 template <class Real, class Take>
 void line_on_cone(const Volume<Real>& volume, const Point3<Real>& start, const Point3<Real>& step, Take&& take) {
-  const Point3<Real> v = start - volume.apex;
+  const Real foot = foot_of(volume.apex, start, step);
+  const Point3<Real> v = start + foot * step - volume.apex;
   const Real v_along = dot(v, volume.axis), step_along = dot(step, volume.axis);
   const Point3<Real> v_across = v - v_along * volume.axis, step_across = step - step_along * volume.axis;
   const Real s2 = volume.sin_angle * volume.sin_angle, c2 = volume.cos_angle * volume.cos_angle;
   // sin² along² = cos² across²: keeps its digits for narrow cones, where along² = cos² |v|² loses them.
   quadratic_places<Real>(s2 * step_along * step_along - c2 * dot(step_across, step_across),
                          s2 * v_along * step_along - c2 * dot(v_across, step_across),
-                         s2 * v_along * v_along - c2 * dot(v_across, v_across), take);
+                         s2 * v_along * v_along - c2 * dot(v_across, v_across), [&](const Real& t) { take(foot + t); });
 }
 
 template <class Real, class Take>
 void line_on_sphere(const Volume<Real>& volume, const Point3<Real>& start, const Point3<Real>& step, Take&& take) {
-  const Point3<Real> v = start - volume.apex;
-  quadratic_places<Real>(dot(step, step), dot(v, step), dot(v, v) - volume.range * volume.range, take);
+  const Real foot = foot_of(volume.apex, start, step);
+  const Point3<Real> v = start + foot * step - volume.apex;
+  quadratic_places<Real>(dot(step, step), dot(v, step), dot(v, v) - volume.range * volume.range,
+                         [&](const Real& t) { take(foot + t); });
 }
 
 // Where a plane meets the rim: sphere, cone and plane at once.

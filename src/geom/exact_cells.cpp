@@ -192,11 +192,8 @@ NearestOnShells nearest_point(const ShellPiece& cell, const RationalPoint& p) {
   }
   // Here u·p = |towards|.
   const Rational square = dot(towards, towards);
-  for (const float distance : {cell.distance0, cell.distance1}) {
-    const Rational limit = squared(exact(distance));
-    const bool is_beyond = distance == cell.distance0 ? square < limit : square > limit;
-    if (is_beyond) return {towards, exact(distance)};
-  }
+  if (square < squared(exact(cell.distance0))) return {towards, exact(cell.distance0)};
+  if (square > squared(exact(cell.distance1))) return {towards, exact(cell.distance1)};
   return {towards, std::nullopt};
 }
 

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geom/ball.h"
 #include "geom/candidates.h"
-#include "geom/exact_ball.h"
-#include "geom/exact_shell.h"
 #include "geom/search.h"
 #include "geom/separation.h"
 #include "geom/spot.h"
@@ -32,15 +31,17 @@ namespace {
 //           axis, 35 u S across it, 12 u S for the rest
 //  115 u S  a plane along the cone's side whose extent is taken to be 0: 60 u of the direction across the axis
 //           (unit_across loses at most a factor of 10), 11 u of the axis and 29 u for the rest, and 15 u S as above
-//   45 u S  distance of a ball's centre from a shell piece: 15 u S for the part along the nearest direction, 30 u S for
-//           the part aside. A direction on a face that is off by an angle e costs |q| e² / 2 of the part along (q: the
-//           centre's projection onto the face). e is below 10 u |apex| / |q| (and 3), so that is below 10 u S.
-// Under 2^7 u S = 2^-46 S in all: 256 times less than the tolerance.
+//   50 u S  distance of a ball's centre from a shell piece: a face's normal 5 u S, one between two faces' 10 u S, the
+//   part
+//           along it 13 u S, the part across it 22 u S; or 2^11 u S where a direction of the pyramid proves itself
+//   95 u S  gap of a plane beside a polytope around a shell piece, whose corners are off by 12 u S: 80 u S as above and
+//           these
+// Under 2^7 u S = 2^-46 S, and 2^-41 S for balls and shells: 8 times less than the tolerance and more.
 //
-// Distances of spots from the eye are the one exception: an inner interval is proven by points, an outer one rests on
-// the places of the extremes. pull() is what they can move by if all surfaces do by the tolerance: in proportion to how
-// thin the set is (a tangent plane cuts a thin set, whose places are good to half the digits). Where the set is thinner
-// than the tolerance, the ball's interval stands in.
+// Distances of spots from the eye: the inner interval is proven by points (pull() says how far a candidate that may lie
+// outside by the tolerance has to move to be in the set for certain), the outer one by the ball's and by planes.
+// Candidates only say where to look: one that rounding has lost would make a "no" wrong (test:
+// FilterOnMaps.lights_that_a_cell_touches_or_misses_are_never_contradicted).
 
 // A corner well inside the volume settles most pairs, a plane along the cone's side most others.
 Verdict corners_settle(const Volume<double>& volume, const Polytope<double>& cell, double tolerance) {
@@ -125,36 +126,96 @@ Verdict meets_polytope(const Volume<double>& unlimited, const Polytope<double>& 
   return may_be_apart && find_separation(setting).gap > setting.tolerance ? Verdict::no : Verdict::open;
 }
 
-// A point as a pyramid sees it. The pyramid's point nearest to it at distance t >= 0 from the eye is
-// sqrt((t - along)² + aside²) away, whatever t is: t u for the one direction u with the largest u·p (exact_cells.cpp).
-struct Sight {
+// A point as a pyramid sees it: t >= 0 from the eye, the pyramid's points are sqrt((t - along)² + aside²) away from it,
+// or more (`all`, proven by a half-space that holds the pyramid), and one of them is just that far away (`one`, in a
+// direction that was tried). Exactly both are the same (exact_cells.cpp).
+struct Part {
   double along, aside;
 };
+struct Sight {
+  Part all, one;
+};
 
-// u is the point's own direction, if that is in the pyramid, or else lies on a face. There it is searched along the
-// line from ray to ray, start + s (end - start), cut to the ends: so every direction tried is one of the pyramid's, and
-// a rounded s costs a second-order part of u·p only.
-Sight sight_of(const Point3<double>& p, const ShellPiece& tile) {
-  const Point3<double> corners[4] = {
-      {tile.x0, tile.y0, -1.0}, {tile.x1, tile.y0, -1.0}, {tile.x1, tile.y1, -1.0}, {tile.x0, tile.y1, -1.0}};
-  const double depth = -p.z, size = length(p);
-  if (depth >= 0.0 && tile.x0 * depth <= p.x && p.x <= tile.x1 * depth && tile.y0 * depth <= p.y &&
-      p.y <= tile.y1 * depth)
-    return {size, 0.0};
-  Sight sight{-2.0 * size, 0.0};
+std::array<Point3<double>, 4> tile_rays(const ShellPiece& tile) {
+  return {Point3<double>{tile.x0, tile.y0, -1.0},
+          {tile.x1, tile.y0, -1.0},
+          {tile.x1, tile.y1, -1.0},
+          {tile.x0, tile.y1, -1.0}};
+}
+
+// A direction of the pyramid, and what of the way to p is across it.
+struct Tried {
+  Part part;
+  Point3<double> across;
+};
+
+// The nearest of the directions tried: the four rays, and on each face the place along the line from ray to ray, start
+// + s (end - start), that leans towards p most. Cut to the ends, it is one of the pyramid's however rounded s is.
+Tried nearest_direction(const Point3<double>& p, const std::array<Point3<double>, 4>& rays) {
+  Tried best{{-2.0 * length(p), 0.0}, {0.0, 0.0, 0.0}};
   const auto take = [&](const Point3<double>& direction) {
     const Point3<double> u = (1.0 / length(direction)) * direction;
     const double along = dot(u, p);
-    if (along > sight.along) sight = {along, length(p - along * u)};
+    const Point3<double> across = p - along * u;
+    const double aside = length(across);
+    // In front the way aside tells more: rounding hides in `along` what is little beside it.
+    if (along > 0.0 && best.part.along > 0.0 ? aside < best.part.aside : along > best.part.along)
+      best = {{along, aside}, across};
   };
   for (std::size_t i = 0; i < 4; ++i) {
-    const Point3<double>&start = corners[i], step = corners[(i + 1) % 4] - start;
+    const Point3<double>&start = rays[i], step = rays[(i + 1) % 4] - start;
     take(start);
     const double start_p = dot(start, p), step_p = dot(step, p), mixed = dot(start, step);
     const double s = (start_p * mixed - step_p * dot(start, start)) / (step_p * mixed - start_p * dot(step, step));
     if (s > 0.0 && s < 1.0) take(start + s * step);
   }
-  return sight;
+  return best;
+}
+
+// The most that half-spaces through the eye tell: those of the four faces, and those between two neighbours that look
+// from their common ray towards p. A normal that both faces' add up to with weights that are not negative has the
+// pyramid behind it, however rounded the weights are.
+Part farthest_behind(const Point3<double>& p, const ShellPiece& tile) {
+  const std::array<HalfSpace<double>, 4> faces = slope_planes<double>(tile.x0, tile.x1, tile.y0, tile.y1);
+  Part best{length(p), 0.0};
+  const auto take = [&](const Point3<double>& normal) {
+    const double aside = dot(normal, p);
+    if (aside > best.aside) best = {length(p - aside * normal), aside};
+  };
+  for (const std::size_t x : {0u, 1u})
+    for (const std::size_t y : {2u, 3u}) {
+      const Point3<double>&n1 = faces[x].normal, &n2 = faces[y].normal;
+      take(n1);
+      take(n2);
+      // Of both normals as much as makes p's parts along them what they are.
+      const double mixed = dot(n1, n2), part1 = dot(n1, p), part2 = dot(n2, p);
+      const double weight1 = part1 - mixed * part2, weight2 = part2 - mixed * part1;
+      if (!(weight1 > 0.0 && weight2 > 0.0)) continue;
+      const Point3<double> sum = weight1 * n1 + weight2 * n2;
+      take((1.0 / length(sum)) * sum);
+    }
+  return best;
+}
+
+// Does the direction that was tried prove itself? In front if the half-space across the way aside from it holds all
+// four rays: what they may stick out, 2^-42, makes points that are t away from the eye nearer by 2^-42 t at most. Else
+// if all rays lean away from p: any direction is a sum of the four (of unit length) with weights that add to 1 at
+// least, so it leans away no less than the one that does least.
+bool is_behind(const std::array<Point3<double>, 4>& rays, const Part& one, const Point3<double>& across) {
+  if (one.along < 0.0) return true;
+  return std::all_of(rays.begin(), rays.end(), [&](const Point3<double>& ray) {
+    return dot(across, ray) <= 0x1p-43 * one.aside * (std::abs(ray.x) + std::abs(ray.y) + 1.0);
+  });
+}
+
+Sight sight_of(const Point3<double>& p, const ShellPiece& tile) {
+  const double depth = -p.z, size = length(p);
+  if (depth >= 0.0 && tile.x0 * depth <= p.x && p.x <= tile.x1 * depth && tile.y0 * depth <= p.y &&
+      p.y <= tile.y1 * depth)
+    return {{size, 0.0}, {size, 0.0}};
+  const std::array<Point3<double>, 4> rays = tile_rays(tile);
+  const auto [one, across] = nearest_direction(p, rays);
+  return {is_behind(rays, one, across) ? one : farthest_behind(p, tile), one};
 }
 
 double tolerance_of(const Volume<double>& volume) {
@@ -162,26 +223,57 @@ double tolerance_of(const Volume<double>& volume) {
 }
 
 DistanceInterval ball_distances(const Volume<double>& volume, const ShellPiece& tile) {
-  const Sight sight = sight_of(volume.apex, tile);
+  const auto [all, one] = sight_of(volume.apex, tile);
   const double larger = volume.range + tolerance_of(volume), smaller = volume.range - tolerance_of(volume);
-  if (sight.aside > larger) return {};
-  const double outer = std::sqrt((larger - sight.aside) * (larger + sight.aside));
-  DistanceInterval interval{std::max(0.0, sight.along - outer), sight.along + outer, 1.0, 0.0};
-  if (sight.aside >= smaller) return interval;
-  const double inner = std::sqrt((smaller - sight.aside) * (smaller + sight.aside));
-  interval.inner_lo = std::max(0.0, sight.along - inner);
-  interval.inner_hi = sight.along + inner;
+  if (all.aside > larger) return {};
+  const double outer = std::sqrt((larger - all.aside) * (larger + all.aside));
+  DistanceInterval interval;
+  interval.outer_lo = interval.likely_lo = std::max(0.0, all.along - outer);
+  interval.outer_hi = interval.likely_hi = all.along + outer;
+  if (one.aside >= smaller) return interval;
+  const double inner = std::sqrt((smaller - one.aside) * (smaller + one.aside));
+  interval.inner_lo = std::max(0.0, one.along - inner);
+  interval.inner_hi = one.along + inner;
   return interval;
 }
 
-// Is there a plane between the volume and the pyramid, cut where the volume cannot reach?
-bool is_apart(const Volume<double>& volume, const ShellPiece& tile) {
-  const auto depth = static_cast<float>(1.01 * (length(volume.apex) + volume.range));
-  if (!std::isfinite(depth)) return false;
-  const auto polytope = polytope_of<double>(FrustumPiece{tile.x0, tile.x1, tile.y0, tile.y1, 0.0f, depth, false});
-  const Setting<double> setting(volume, polytope);
-  return find_separation(setting).gap > setting.tolerance;
+// The pyramid's part between two planes that holds the shell piece: across a direction u in its middle, as far as its
+// shells are there at most and at the rays at least. (Of all directions of the pyramid the rays lean from u most.)
+Polytope<double> polytope_around(const ShellPiece& piece) {
+  const Pyramid<double> pyramid = pyramid_of<double>(piece.x0, piece.x1, piece.y0, piece.y1);
+  Mean<double> mean;
+  for (const Point3<double>& ray : pyramid.rays) mean.add(ray);
+  const Point3<double> u = (1.0 / length(mean.at())) * mean.at();
+  double cosine = 1.0;
+  for (const Point3<double>& ray : pyramid.rays) cosine = std::min(cosine, dot(ray, u));
+  Polytope<double> cell;
+  for (std::size_t i = 0; i < 4; ++i) cell.faces[i] = pyramid.faces[i];
+  const double near = piece.distance0 * cosine, far = piece.distance1;
+  cell.faces[4] = {-1.0 * u, -near};
+  cell.faces[5] = {u, far};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double lean = dot(pyramid.rays[i], u);
+    cell.corners[i] = (near / lean) * pyramid.rays[i];
+    cell.corners[i + 4] = (far / lean) * pyramid.rays[i];
+  }
+  return cell;
 }
+
+// Is there a plane between the volume and the shell piece, or planes between it and each of its parts? The planes that
+// hold the piece cut away its curvature, which is a quarter for a part of half the width and height.
+bool is_apart(const Volume<double>& volume, const ShellPiece& piece, int splits) {
+  const Polytope<double> polytope = polytope_around(piece);
+  const Setting<double> setting(volume, polytope);
+  if (reached_faces(setting.volume, polytope.faces, setting.tolerance).is_beyond) return true;
+  if (find_separation(setting).gap > setting.tolerance) return true;
+  if (splits == 0) return false;
+  const float x = 0.5f * (piece.x0 + piece.x1), y = 0.5f * (piece.y0 + piece.y1);
+  for (const auto& [x0, x1] : {std::pair(piece.x0, x), std::pair(x, piece.x1)})
+    for (const auto& [y0, y1] : {std::pair(piece.y0, y), std::pair(y, piece.y1)})
+      if (!is_apart(volume, {x0, x1, y0, y1, piece.distance0, piece.distance1}, splits - 1)) return false;
+  return true;
+}
+constexpr int k_splits = 3;
 
 DistanceInterval distances(const Volume<double>& volume, const ShellPiece& tile) {
   DistanceInterval interval = ball_distances(volume, tile);
@@ -189,12 +281,17 @@ DistanceInterval distances(const Volume<double>& volume, const ShellPiece& tile)
   interval.inner_lo = 1.0;
   interval.inner_hi = 0.0;
   const PyramidReach<double> reach = pyramid_reach(volume, pyramid_of<double>(tile.x0, tile.x1, tile.y0, tile.y1));
-  if (reach.is_beyond || (reach.is_empty && is_apart(volume, tile))) return {};
-  if (reach.is_empty || !(reach.inside.margin > reach.tolerance)) return interval;
+  if (reach.is_beyond) return {};
+  if (reach.is_empty) {
+    const auto beyond = static_cast<float>(interval.outer_hi);
+    const float end = std::nextafter(beyond, std::numeric_limits<float>::infinity());
+    return is_apart(volume, {tile.x0, tile.x1, tile.y0, tile.y1, 0.0f, end}, 0) ? DistanceInterval{} : interval;
+  }
+  if (!(reach.inside.margin > reach.tolerance)) return interval;
   const double near_pull = pull(reach, reach.nearest), far_pull = pull(reach, reach.farthest);
   const double inside = length(reach.inside.at);
-  interval.outer_lo = std::max(interval.outer_lo, reach.lo - near_pull);
-  interval.outer_hi = std::min(interval.outer_hi, reach.hi + far_pull);
+  interval.likely_lo = std::max(interval.outer_lo, reach.lo - near_pull);
+  interval.likely_hi = std::min(interval.outer_hi, reach.hi + far_pull);
   interval.inner_lo = std::min(reach.lo + near_pull, inside + reach.tolerance);
   interval.inner_hi = std::max(reach.hi - far_pull, inside - reach.tolerance);
   return interval;
@@ -207,9 +304,11 @@ struct Filter {
   Verdict operator()(const Box& cell) const { return meets_polytope(volume, polytope_of<double>(cell)); }
   Verdict operator()(const ShellPiece& cell) const {
     const double near = cell.distance0, far = cell.distance1;
-    const DistanceInterval reach = distances(within(volume, far), cell);
+    const Volume<double> limited = within(volume, far);
+    const DistanceInterval reach = distances(limited, cell);
     if (!reach.may_reach(near, far)) return Verdict::no;
-    return reach.surely_reaches(near, far) ? Verdict::yes : Verdict::open;
+    if (reach.surely_reaches(near, far)) return Verdict::yes;
+    return !reach.likely_reaches(near, far) && is_apart(limited, cell, k_splits) ? Verdict::no : Verdict::open;
   }
 };
 
@@ -218,8 +317,7 @@ struct Decides {
 
   template <class AnyCell>
   Verdict operator()(const AnyCell& cell) const {
-    if (light.is_cone) return decide_spot(light, cell);
-    return ball_meets_exactly(light.apex, light.range, cell) ? Verdict::yes : Verdict::no;
+    return decide_spot(light, cell);
   }
 };
 
@@ -232,18 +330,23 @@ Verdict LightFilter::meets(const Cell& cell) const {
 }
 
 DistanceInterval LightFilter::distances(const ShellPiece& tile) const {
-  constexpr double k_infinity = std::numeric_limits<double>::infinity();
-  if (std::isinf(volume_.range)) return {0.0, k_infinity, 1.0, 0.0};  // each shell on its own
-  return geom::distances(volume_, tile);
+  return geom::distances(within(volume_, double{tile.distance1}), tile);
+}
+
+bool LightFilter::is_surely_apart(const ShellPiece& piece) const {
+  return is_apart(within(volume_, double{piece.distance1}), piece, k_splits);
 }
 
 Verdict filter_meets(const LightVolume& light, const Cell& cell) {
   return LightFilter(light).meets(cell);
 }
 
+// Of a spot its ball comes first: it says no to most, touches but for a rounding included, and whether the cell holds
+// the apex, the ball of radius 0, costs as little.
 Verdict decide_meets(const LightVolume& light, const Cell& cell) {
-  if (!light.is_cone && std::isinf(light.range)) return Verdict::yes;
-  if (holds_exactly(cell, light.apex)) return Verdict::yes;
+  const bool ball_meets = std::isinf(light.range) || BallDecider(light.apex, light.range).meets(cell);
+  if (!light.is_cone || !ball_meets) return ball_meets ? Verdict::yes : Verdict::no;
+  if (BallDecider(light.apex, 0.0).meets(cell)) return Verdict::yes;
   return std::visit(Decides{light}, cell);
 }
 

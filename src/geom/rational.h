@@ -5,6 +5,7 @@
 
 #include "geom/candidates.h"
 #include "geom/placement.h"
+#include "geom/squares.h"
 
 namespace clusterbench::geom {
 
@@ -22,10 +23,6 @@ inline RationalPoint exact(const Point3<double>& p) {
   return {exact(p.x), exact(p.y), exact(p.z)};
 }
 
-inline Rational squared(const Rational& value) {
-  return value * value;
-}
-
 inline Rational norm_1(const RationalPoint& p) {
   return abs(p.x) + abs(p.y) + abs(p.z);
 }
@@ -40,13 +37,6 @@ inline RationalPoint exact_point(const Placement& place) {
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 3; ++column) local[row] += exact(place.rotation[column][row]) * t[column];
   return {local[0], local[1], local[2]};
-}
-
-// a <= b * sqrt(n), n >= 0.
-inline bool at_most_root(const Rational& a, const Rational& b, const Rational& n) {
-  if (a.sign() <= 0 && b.sign() >= 0) return true;
-  if (a.sign() >= 0 && b.sign() <= 0) return a.sign() == 0 && (b.sign() == 0 || n.sign() == 0);
-  return a.sign() > 0 ? squared(a) <= squared(b) * n : squared(a) >= squared(b) * n;
 }
 
 }  // namespace clusterbench::geom

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "geom/big.h"
 #include "geom/certificate.h"
@@ -10,6 +11,7 @@
 #include "geom/exact_cells.h"
 #include "geom/search.h"
 #include "geom/separation.h"
+#include "geom/tight_spot.h"
 
 namespace clusterbench::geom {
 namespace {
@@ -44,6 +46,37 @@ struct PlaneCase {
   }
 };
 
+// What a search in Real finds, checked between bounds of 106 bits. Faces that the volume clearly does not reach, in
+// double precision, have no candidates.
+template <class Real, class PlaneCell>
+Verdict tightly_proven(const LightVolume& light, const PlaneCell& cell, const std::array<bool, 6>& reached,
+                       const TightSpot& spot) {
+  const Polytope<Real> polytope = polytope_of<Real>(cell);
+  const Setting<Real> setting(volume_of<Real>(light), polytope);
+  const Witness<Real> witness = setting.common_point(reached);
+  if (witness.margin > Real(0)) {
+    const TightPoint p = tight(witness.at);
+    if (surely_in(cell, p) && spot.surely_holds(p)) return Verdict::yes;
+  }
+  const Separation<Real> separation = find_separation(setting);
+  if (!(separation.gap > Real(0))) return Verdict::open;
+  std::array<TightPoint, 8> corners;
+  for (std::size_t i = 0; i < 8; ++i) corners[i] = corner_of(cell, i);
+  return spot.surely_separated(tight(separation.normal), corners) ? Verdict::no : Verdict::open;
+}
+
+// More than the distance of any point of the cell from the apex: the range beyond that does not matter.
+double reach_of(const LightVolume& light, double farthest) {
+  const LocalPoint apex = local_point(light.apex);
+  return std::min(light.range, 1.01 * (glm::length(apex.at) + 2.0 * apex.rounding_error + farthest));
+}
+
+double farthest_corner(const Polytope<double>& polytope) {
+  double farthest = 0.0;
+  for (const Point3<double>& corner : polytope.corners) farthest = std::max(farthest, length(corner));
+  return farthest;
+}
+
 // What a search in Real finds, checked.
 template <class Real, class PlaneCell>
 Verdict proven_by_search(const LightVolume& light, const PlaneCell& cell, const PlaneCase& exactly) {
@@ -62,9 +95,14 @@ Verdict proven_by_search(const LightVolume& light, const PlaneCell& cell, const 
 
 template <class PlaneCell>
 Verdict decide(const LightVolume& light, const PlaneCell& cell) {
-  const PlaneCase exactly(light, cell);
-  const Verdict verdict = proven_by_search<double>(light, cell, exactly);
+  const Polytope<double> polytope = polytope_of<double>(cell);
+  const Setting<double> setting(volume_of<double>(light), polytope);
+  const std::array<bool, 6> reached = reached_faces(setting.volume, polytope.faces, setting.tolerance).faces;
+  const TightSpot tightly(light, reach_of(light, farthest_corner(polytope)));
+  Verdict verdict = tightly_proven<double>(light, cell, reached, tightly);
+  if (verdict == Verdict::open) verdict = tightly_proven<Twofold>(light, cell, reached, tightly);
   if (verdict != Verdict::open) return verdict;
+  const PlaneCase exactly(light, cell);
   if (surely_holds(exactly.spot, nearest_point(cell, exactly.spot.apex))) return Verdict::yes;
   if (axis_surely_meets(exactly.spot, exactly.planes)) return Verdict::yes;
   return proven_by_search<Big>(light, cell, exactly);
@@ -136,30 +174,47 @@ void offer_axis(const ExactSpot& spot, ShellWitness& witness) {
 }
 
 // What a search in Real finds.
-template <class Real>
-void offer_found(const LightVolume& light, const ShellPiece& cell, ShellWitness& witness) {
-  if (witness.is_found()) return;
+template <class Real, class Offer>
+void offer_found(const LightVolume& light, const ShellPiece& cell, Offer&& offer) {
   const Volume<Real> volume = within(volume_of<Real>(light), Real(cell.distance1));
   const PyramidReach<Real> reach = pyramid_reach(volume, pyramid_of<Real>(cell.x0, cell.x1, cell.y0, cell.y1));
   if (reach.is_empty || !(reach.inside.margin > reach.tolerance)) return;
-  witness.offer(exact(reach.inside.at));
+  offer(reach.inside.at);
   for (const Point3<Real>& extreme : {reach.nearest, reach.farthest}) {
     // So far towards the inside that the tolerance is made up for.
     const Real share = Real(2) * reach.tolerance / reach.inside.margin;
-    if (share < Real(1)) witness.offer(exact(extreme + share * (reach.inside.at - extreme)));
+    if (share < Real(1)) offer(extreme + share * (reach.inside.at - extreme));
   }
 }
 
-// Is there a plane between the spot and the whole pyramid, cut where the spot cannot reach?
-bool is_surely_beside(const LightVolume& light, const ExactSpot& spot, const ShellPiece& cell) {
-  const Rational reach = norm_1(spot.apex) + spot.range;
-  const float depth = std::nextafter(static_cast<float>(reach), std::numeric_limits<float>::infinity());
-  if (!std::isfinite(depth) || exact(depth) < reach) return false;
-  const FrustumPiece whole{cell.x0, cell.x1, cell.y0, cell.y1, 0.0f, depth, false};
-  const Polytope<double> polytope = polytope_of<double>(whole);
-  const Setting<double> setting(within(volume_of<double>(light), double{depth}), polytope);
-  const Separation<double> separation = find_separation(setting);
-  return separation.gap > 0.0 && surely_separates(exact(separation.normal), spot, corners_of(whole));
+// The same between bounds of 106 bits.
+template <class Real>
+bool tightly_meets(const LightVolume& light, const ShellPiece& cell, const TightSpot& spot) {
+  const Tight near(cell.distance0), far(cell.distance1);
+  bool has_near = false, has_far = false;
+  offer_found<Real>(light, cell, [&](const Point3<Real>& found) {
+    const TightPoint p = tight(found);
+    const Tight square = dot(p, p);
+    const bool is_near = square < far * far, is_far = near * near < square;
+    if ((has_near || !is_near) && (has_far || !is_far)) return;
+    if (!surely_in_tile(cell.x0, cell.x1, cell.y0, cell.y1, p) || !spot.surely_holds(p)) return;
+    has_near = has_near || is_near;
+    has_far = has_far || is_far;
+  });
+  return has_near && has_far;
+}
+
+// Is there a plane between the spot and the whole pyramid, cut where the shell ends?
+template <class Real>
+bool is_surely_beside(const LightVolume& light, const ShellPiece& cell, const TightSpot& spot) {
+  const FrustumPiece whole{cell.x0, cell.x1, cell.y0, cell.y1, 0.0f, cell.distance1, false};
+  const Polytope<Real> polytope = polytope_of<Real>(whole);
+  const Setting<Real> setting(volume_of<Real>(light), polytope);
+  const Separation<Real> separation = find_separation(setting);
+  if (!(separation.gap > Real(0))) return false;
+  std::array<TightPoint, 8> corners;
+  for (std::size_t i = 0; i < 8; ++i) corners[i] = corner_of(whole, i);
+  return spot.surely_separated(tight(separation.normal), corners);
 }
 
 // A volume that holds the spot's, larger by about 2^-160 and turned and moved by as much in directions that have
@@ -190,31 +245,68 @@ Volume<Enclosure> slightly_larger(const ExactSpot& spot) {
   return volume;
 }
 
-bool is_surely_outside(const Volume<Enclosure>& volume, const Pyramid<Enclosure>& pyramid, const Point3<Enclosure>& p) {
-  const Enclosure zero(0.0);
-  for (const HalfSpace<Enclosure>& face : pyramid.faces)
+// The same in 106 bits, larger by about 2^-90.
+Volume<Tight> slightly_larger(const LightVolume& light, const TightSpot& spot) {
+  const Tight delta(0x1p-90);
+  const TightPoint aside = tight(Point3<double>{0.618, -0.382, 0.732});
+  const TightPoint back = tight(Point3<double>{-0.271, 0.828, 0.577});
+  const TightPoint& given = spot.direction;
+  const double largest =
+      std::max({std::abs(given.x.middle().hi), std::abs(given.y.middle().hi), std::abs(given.z.middle().hi)});
+  const TightPoint direction = (Tight(1.0) / Tight(largest * (1.0 - 0x1p-40))) * given + delta * aside;
+  const Tight lean = light.half_angle_rad > 0x1p-18 ? Tight(0x1p-20) : delta;
+  const TightPoint& a = spot.apex;
+  const double size = std::abs(a.x.middle().hi) + std::abs(a.y.middle().hi) + std::abs(a.z.middle().hi);
+  const Tight step = delta * Tight(1.01 * (size + spot.range.middle().hi));
+
+  Volume<Tight> volume;
+  volume.is_cone = true;
+  volume.apex = spot.apex - step * (direction + lean * back);
+  volume.axis = (Tight(1.0) / length(direction)) * direction;
+  volume.range = spot.range + Tight(4.0) * step;
+  const TightAngle angle =
+      tight_angle(Tight(std::min(light.half_angle_rad, std::numbers::pi / 2.0)) + Tight(4.0) * delta);
+  volume.cos_angle = angle.cosine;
+  volume.sin_angle = angle.sine;
+  return volume;
+}
+
+template <class Real>
+bool is_surely_outside(const Volume<Real>& volume, const Pyramid<Real>& pyramid, const Point3<Real>& p) {
+  const Real zero(0.0);
+  for (const HalfSpace<Real>& face : pyramid.faces)
     if (face.margin(p) < zero) return true;
-  const Point3<Enclosure> v = p - volume.apex;
+  const Point3<Real> v = p - volume.apex;
   if (dot(v, v) > volume.range * volume.range) return true;
-  const Enclosure along = dot(v, volume.axis);
+  const Real along = dot(v, volume.axis);
   return along < zero || volume.sin_angle * along < volume.cos_angle * length(v - along * volume.axis);
+}
+
+// Does the volume certainly end before it reaches a face?
+template <class Real>
+bool surely_ends_before(const Volume<Real>& volume, const HalfSpace<Real>& face) {
+  const Real margin = face.margin(volume.apex), along = dot(face.normal, volume.axis);
+  if (!(margin > Real(0.0))) return false;
+  if (!(along < volume.cos_angle)) return volume.range < margin;
+  const Real across = length(face.normal - along * volume.axis);
+  return volume.range * (volume.cos_angle * along + volume.sin_angle * across) < margin;
 }
 
 // The largest and the smallest distance from the eye over pyramid ∩ volume are among the candidates'. If all of these
 // that may lie in the set are too near, or all too far, so is the set; and if there are none, it is empty.
-bool surely_misses(const ExactSpot& spot, const ShellPiece& cell) {
-  const Volume<Enclosure> volume = slightly_larger(spot);
-  const Pyramid<Enclosure> pyramid = pyramid_of<Enclosure>(cell.x0, cell.x1, cell.y0, cell.y1);
-  const Enclosure near(cell.distance0), far(cell.distance1);
+template <class Real>
+bool surely_misses(const Volume<Real>& volume, const ShellPiece& cell) {
+  const Pyramid<Real> pyramid = pyramid_of<Real>(cell.x0, cell.x1, cell.y0, cell.y1);
+  const Real near(cell.distance0), far(cell.distance1);
+  std::array<bool, 4> reached;
+  for (std::size_t i = 0; i < 4; ++i) reached[i] = !surely_ends_before(volume, pyramid.faces[i]);
   bool all_near = true, all_far = true;
-  pyramid_candidates(volume, pyramid, {true, true, true, true}, Precision<Enclosure>::k_place_bits,
-                     [&](const Point3<Enclosure>& p) {
-                       if (!all_near && !all_far) return;
-                       if (is_surely_outside(volume, pyramid, p)) return;
-                       const Enclosure square = dot(p, p);
-                       all_near = all_near && square < near * near;
-                       all_far = all_far && square > far * far;
-                     });
+  pyramid_candidates(volume, pyramid, reached, Precision<Real>::k_place_bits, [&](const Point3<Real>& p) {
+    if ((!all_near && !all_far) || is_surely_outside(volume, pyramid, p)) return;
+    const Real square = dot(p, p);
+    all_near = all_near && square < near * near;
+    all_far = all_far && square > far * far;
+  });
   return all_near || all_far;
 }
 
@@ -239,22 +331,26 @@ Verdict decide_spot(const LightVolume& light, const Box& cell) {
 }
 
 Verdict decide_spot(const LightVolume& light, const ShellPiece& cell) {
-  ExactSpot spot = exact_spot(light);
-  if (std::isinf(light.range)) spot.range = 4 * (norm_1(spot.apex) + exact(cell.distance1));
-  if (spot.apex == RationalPoint{0, 0, 0}) return decide_at_eye(light, spot, cell);
-  ShellWitness witness(spot, cell);
-  offer_found<double>(light, cell, witness);
-  if (witness.is_found()) return Verdict::yes;
-  if (is_surely_beside(light, spot, cell)) return Verdict::no;
+  const TightSpot tightly(light, reach_of(light, cell.distance1));
+  if (tightly_meets<double>(light, cell, tightly)) return Verdict::yes;
+  if (is_surely_beside<double>(light, cell, tightly)) return Verdict::no;
+  if (tightly_meets<Twofold>(light, cell, tightly)) return Verdict::yes;
+  if (is_surely_beside<Twofold>(light, cell, tightly)) return Verdict::no;
+  if (surely_misses(slightly_larger(light, tightly), cell)) return Verdict::no;
 
+  ExactSpot spot = exact_spot(light);
+  // No point of the cell is farther from the apex.
+  spot.range = std::min(spot.range, Rational(norm_1(spot.apex) + exact(cell.distance1)));
+  if (spot.apex == RationalPoint{0, 0, 0}) return decide_at_eye(light, spot, cell);
   const NearestOnShells nearest = nearest_point(cell, spot.apex);
   if (!reaches(spot.apex, spot.range, nearest)) return Verdict::no;
   if (nearest_surely_meets(spot, cell, nearest)) return Verdict::yes;
+  ShellWitness witness(spot, cell);
   witness.offer(spot.apex);
   offer_axis(spot, witness);
-  offer_found<Big>(light, cell, witness);
+  offer_found<Big>(light, cell, [&](const Point3<Big>& p) { witness.offer(exact(p)); });
   if (witness.is_found()) return Verdict::yes;
-  return surely_misses(spot, cell) ? Verdict::no : Verdict::open;
+  return surely_misses(slightly_larger(spot), cell) ? Verdict::no : Verdict::open;
 }
 
 }  // namespace clusterbench::geom

@@ -1,6 +1,7 @@
 #pragma once
 // A spot (ball ∩ solid cone) against a cell, for what the double-precision filter leaves open. Every yes and every no
-// is proven in exact numbers or between proven bounds; what 256 bits find only says where to look for a proof.
+// is proven between bounds of 106 bits (geom/tight_spot.h) or, where these cannot tell, in exact numbers or between
+// bounds of 1024 bits; what doubles, 106 and 256 bits find only says where to look for a proof.
 
 #include "geom/light_volume.h"
 #include "geom/shapes.h"
@@ -8,8 +9,8 @@
 
 namespace clusterbench::geom {
 
-// Open only if neither can be proven: volume and cell touch, or miss touching, by less than about 2^-150 of the scene's
-// size (shell pieces: 2^-75 where the volume is tangent to a tile plane). Exact touching is proven where it does not
+// Open only if neither can be proven. No bound is derived of how near to touching that needs to be; the tests' lattices
+// and pairs a few ulps from touching have none. Exact touching is proven where it does not
 // depend on the half-angle: at the apex, or where the cell's point nearest to the apex lies in the cone, at the range.
 // With cells bounded by planes no other exact touching exists for half-angles but 0: the cosine of a rational angle is
 // transcendental (Lindemann), and at a touch on the cone's side or rim it would be algebraic.

@@ -49,6 +49,22 @@ TEST(BoundsOfAngle, are_exact_for_an_angle_of_zero) {
   EXPECT_EQ(bounds.sine.hi, 0);
 }
 
+TEST(BoundsOfAngle, of_the_least_angles_are_bounds_of_a_cosine_below_1_and_of_a_sine_above_0) {
+  for (const double angle : {5e-324, 1e-300, 1e-160, 1e-100, 1e-60, 1e-30, 1e-20, 1e-9})
+    for (const unsigned bits : {320u, 1040u}) {
+      const AngleBounds bounds = bounds_of_angle(exact(angle), bits);
+      EXPECT_LE(bounds.cosine.hi, 1) << angle;
+      EXPECT_GE(bounds.sine.lo, 0) << angle;
+      const Rational x = exact(angle), square = squared(x);
+      EXPECT_LE(bounds.cosine.lo, 1 - square / 2 + squared(square) / 24) << angle;
+      EXPECT_GE(bounds.cosine.hi, 1 - square / 2) << angle;
+      EXPECT_LE(bounds.sine.lo, x) << angle;
+      EXPECT_GE(bounds.sine.hi, x - x * square / 6) << angle;
+      EXPECT_LE(bounds.cosine.hi - bounds.cosine.lo, Rational(1) / Rational(Integer(1) << (bits - 12)));
+      EXPECT_LE(bounds.sine.hi - bounds.sine.lo, Rational(1) / Rational(Integer(1) << (bits - 12)));
+    }
+}
+
 TEST(RootAbove, is_above_the_root_by_a_hair) {
   for (const Rational& value :
        {Rational(2), Rational(Integer(1), Integer(3)), exact(1e-300), exact(1e300), Rational(4)}) {
@@ -60,17 +76,17 @@ TEST(RootAbove, is_above_the_root_by_a_hair) {
 }
 
 TEST(AtMostRoot, compares_with_both_signs) {
-  EXPECT_TRUE(at_most_root(3, 1, 9));
-  EXPECT_FALSE(at_most_root(4, 1, 9));
-  EXPECT_TRUE(at_most_root(-3, -1, 9));
-  EXPECT_FALSE(at_most_root(-2, -1, 9));
-  EXPECT_TRUE(at_most_root(-4, -1, 9));
-  EXPECT_TRUE(at_most_root(-1, 1, 2));
-  EXPECT_FALSE(at_most_root(1, -1, 2));
-  EXPECT_TRUE(at_most_root(0, -1, 0));
-  EXPECT_FALSE(at_most_root(0, -1, 2));
-  EXPECT_TRUE(at_most_root(0, 0, 2));
-  EXPECT_FALSE(at_most_root(1, 0, 2));
+  EXPECT_TRUE(at_most_root<Rational>(3, 1, 9));
+  EXPECT_FALSE(at_most_root<Rational>(4, 1, 9));
+  EXPECT_TRUE(at_most_root<Rational>(-3, -1, 9));
+  EXPECT_FALSE(at_most_root<Rational>(-2, -1, 9));
+  EXPECT_TRUE(at_most_root<Rational>(-4, -1, 9));
+  EXPECT_TRUE(at_most_root<Rational>(-1, 1, 2));
+  EXPECT_FALSE(at_most_root<Rational>(1, -1, 2));
+  EXPECT_TRUE(at_most_root<Rational>(0, -1, 0));
+  EXPECT_FALSE(at_most_root<Rational>(0, -1, 2));
+  EXPECT_TRUE(at_most_root<Rational>(0, 0, 2));
+  EXPECT_FALSE(at_most_root<Rational>(1, 0, 2));
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "core/random.h"
 
 namespace clusterbench::geom {
@@ -56,6 +58,33 @@ TEST(Enclosure, knows_nothing_after_a_division_by_what_may_be_zero) {
   EXPECT_FALSE(nothing > Enclosure(-1e300));
   const Enclosure after = sqrt(Enclosure(0.0) * nothing + Enclosure(1.0));
   EXPECT_FALSE(after < Enclosure(1e300));
+}
+
+TEST(Enclosure, is_never_too_narrow_however_small_the_numbers_are) {
+  for (const unsigned exponent : {0u, 60u, 900u, 1074u, 1100u, 2200u}) {
+    const Rational scale = Rational(1) / Rational(Integer(1) << exponent), third = scale / 3;
+    const Enclosure x = Enclosure::of(third), y = Enclosure::of(scale) / Enclosure(3.0);
+    EXPECT_TRUE(holds(x, third)) << exponent;
+    EXPECT_TRUE(holds(y, third)) << exponent;
+    EXPECT_GT(x.radius(), 0.0) << exponent;
+    EXPECT_GT(y.radius(), 0.0) << exponent;
+    EXPECT_TRUE(holds(x * x, third * third)) << exponent;
+    EXPECT_GT((x * x).radius(), 0.0) << exponent;
+    EXPECT_TRUE(holds(x - y, 0)) << exponent;
+    const Enclosure around_0 = Enclosure::of(RationalInterval{-third, third});
+    EXPECT_TRUE(holds(around_0 * around_0, third * third)) << exponent;
+  }
+}
+
+TEST(Enclosure, is_never_too_narrow_near_the_largest_double) {
+  const Rational largest = exact(std::numeric_limits<double>::max());
+  for (const Rational& hi : {largest, Rational(2 * largest), Rational(8 * largest)}) {
+    const Enclosure wide = Enclosure::of(RationalInterval{1, hi});
+    EXPECT_TRUE(holds(Enclosure(1.0) / wide, 1));
+    EXPECT_TRUE(holds(Enclosure(1.0) / wide, 1 / hi));
+    EXPECT_TRUE(holds(sqrt(wide), 1));
+    EXPECT_FALSE(Enclosure(2.0) < wide);
+  }
 }
 
 Polynomial<Enclosure> with_roots(const std::array<double, 4>& roots) {

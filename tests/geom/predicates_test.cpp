@@ -11,17 +11,17 @@
 namespace clusterbench::geom {
 namespace {
 
-constexpr float k_infinity = std::numeric_limits<float>::infinity();
+constexpr float k_endless = std::numeric_limits<float>::infinity();
 
 // A double's place beside a number, ± a few float steps, often none.
 float nudged(double value, SplitMix64& random) {
   auto near = static_cast<float>(value);
   for (auto steps = random.below(4); steps > 0; --steps)
-    near = std::nextafter(near, random.unit() < 0.5 ? -k_infinity : k_infinity);
+    near = std::nextafter(near, random.unit() < 0.5 ? -k_endless : k_endless);
   return near;
 }
 
-Vec3d random_direction(SplitMix64& random) {
+Vec3d any_direction(SplitMix64& random) {
   const double z = random.between(-1, 1), turn = random.between(0, 2 * M_PI), beside = std::sqrt(1 - z * z);
   return {beside * std::cos(turn), beside * std::sin(turn), z};
 }
@@ -44,7 +44,7 @@ TEST(BallTouchesBox, touching_a_face_an_edge_or_a_corner_counts) {
 
 TEST(BallTouchesBox, the_centre_inside_or_no_end_to_the_ball_touches) {
   EXPECT_TRUE(ball_touches_box({{1, 1, 1}, 1e-30f}, {{0, 0, 0}, {2, 2, 2}}));
-  EXPECT_TRUE(ball_touches_box({{1e6f, 0, 0}, k_infinity}, {{0, 0, 0}, {2, 2, 2}}));
+  EXPECT_TRUE(ball_touches_box({{1e6f, 0, 0}, k_endless}, {{0, 0, 0}, {2, 2, 2}}));
 }
 
 TEST(BallTouchesBox, agrees_with_whole_number_arithmetic_where_single_precision_is_exact) {
@@ -74,7 +74,7 @@ TEST(BallTouchesBox, agrees_with_whole_number_arithmetic_where_single_precision_
 
 // --- Ball against planes ---
 
-FrustumPiece random_piece(SplitMix64& random, bool orthographic) {
+FrustumPiece any_piece(SplitMix64& random, bool orthographic) {
   const double size = orthographic ? 30.0 : 1.5;
   FrustumPiece cell{};
   cell.orthographic = orthographic;
@@ -99,7 +99,7 @@ TEST(OutwardPlanes, each_holds_its_face_and_has_the_rest_of_the_cell_behind_it) 
   SplitMix64 random(3);
   constexpr double k_faces[6][3] = {{0, .5, .5}, {1, .5, .5}, {.5, 0, .5}, {.5, 1, .5}, {.5, .5, 0}, {.5, .5, 1}};
   for (int i = 0; i < 200; ++i) {
-    const FrustumPiece cell = random_piece(random, i % 2 == 0);
+    const FrustumPiece cell = any_piece(random, i % 2 == 0);
     Plane planes[6];
     outward_planes(cell, planes);
     for (int face = 0; face < 6; ++face) {
@@ -143,7 +143,7 @@ TEST(BallTouchesPlanes, cannot_exclude_a_ball_beyond_an_edge_which_is_why_it_is_
 TEST(BoxAround, holds_every_corner_and_each_face_touches_one) {
   SplitMix64 random(4);
   for (int i = 0; i < 500; ++i) {
-    const FrustumPiece cell = random_piece(random, i % 2 == 0);
+    const FrustumPiece cell = any_piece(random, i % 2 == 0);
     const Box box = box_around(cell);
     Vec3d lo(1e30), hi(-1e30);
     for (int corner = 0; corner < 8; ++corner) {
@@ -163,7 +163,7 @@ TEST(BoxAround, holds_every_corner_and_each_face_touches_one) {
 TEST(BallAround, a_piece_is_held_by_a_ball_no_wider_than_the_one_around_its_box) {
   SplitMix64 random(5);
   for (int i = 0; i < 500; ++i) {
-    const FrustumPiece cell = random_piece(random, i % 2 == 0);
+    const FrustumPiece cell = any_piece(random, i % 2 == 0);
     const Ball ball = ball_around(cell);
     for (int corner = 0; corner < 8; ++corner)
       ASSERT_LE(glm::length(place_in(cell, corner & 1, corner >> 1 & 1, corner >> 2) - Vec3d(ball.center)),
@@ -183,7 +183,7 @@ TEST(BallAround, a_box_is_held_by_the_ball_through_its_corners) {
 TEST(BallAround, a_shell_piece_is_held_with_its_curved_ends) {
   SplitMix64 random(6);
   for (int i = 0; i < 200; ++i) {
-    const FrustumPiece like = random_piece(random, false);
+    const FrustumPiece like = any_piece(random, false);
     const ShellPiece cell{like.x0, like.x1, like.y0, like.y1, like.depth0, like.depth1};
     const Ball ball = ball_around(cell);
     for (int j = 0; j < 100; ++j) {
@@ -220,7 +220,7 @@ constexpr double k_half_angles[] = {0.0,           0.01 * k_degree, 0.5 * k_degr
 
 ExactCone random_cone(SplitMix64& random, double angle) {
   const double size = std::pow(10.0, random.between(-1, 3));
-  const Vec3d axis = random.unit() < 0.2 ? Vec3d{0, 0, -1} : random_direction(random);
+  const Vec3d axis = random.unit() < 0.2 ? Vec3d{0, 0, -1} : any_direction(random);
   return {size * Vec3d{random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)}, axis,
           std::pow(10.0, random.between(-1, 2)), angle};
 }
@@ -244,7 +244,7 @@ TEST(ConeTouchesBall, never_says_no_to_a_ball_that_holds_a_point_of_the_cone) {
     const Vec3d touch = cone.point(cone.range * share, off_axis, random.between(0, 2 * M_PI));
     const double r = std::pow(10.0, random.between(-3, 2));
     // Away from the cone as far as the ball allows; then the exact distance says how far it may really be.
-    Vec3d away = glm::normalize(touch - cone.apex + 0.3 * cone.range * random_direction(random));
+    Vec3d away = glm::normalize(touch - cone.apex + 0.3 * cone.range * any_direction(random));
     if (random.unit() < 0.3) away = -cone.axis;
     const Vec3d center = touch + r * away;
     const Ball ball{Vec3f(center), nudged(r, random)};
@@ -259,7 +259,7 @@ TEST(ConeTouchesBall, excludes_what_is_clearly_beside_beyond_or_behind) {
   for (int i = 0; i < 20000; ++i) {
     const ExactCone cone = random_cone(random, k_half_angles[random.below(8)]);
     const double r = random.between(0.01, 1) * cone.range;
-    const Vec3d center = cone.apex + 3.0 * cone.range * random.unit() * random_direction(random);
+    const Vec3d center = cone.apex + 3.0 * cone.range * random.unit() * any_direction(random);
     const Vec3d to = center - cone.apex;
     const double along = glm::dot(to, cone.axis), across = glm::length(to - along * cone.axis);
     const double margin = 1e-5 * (glm::length(cone.apex) + glm::length(to));
@@ -280,11 +280,11 @@ TEST(ConeTouchesBall, excludes_what_is_clearly_beside_beyond_or_behind) {
 }
 
 TEST(ConeTouchesBall, an_unbounded_cone_still_has_sides) {
-  const SphericalCone cone{{0, 0, 0}, k_infinity, {0, 0, -1}, std::cos(0.5f), std::sin(0.5f)};
+  const SphericalCone cone{{0, 0, 0}, k_endless, {0, 0, -1}, std::cos(0.5f), std::sin(0.5f)};
   EXPECT_TRUE(cone_touches_ball(cone, {{0, 0, -1e6f}, 1}));
   EXPECT_FALSE(cone_touches_ball(cone, {{0, 0, 10}, 1}));
   EXPECT_FALSE(cone_touches_ball(cone, {{100, 0, -10}, 1}));
-  EXPECT_TRUE(cone_touches_ball(cone, {{100, 0, -10}, k_infinity}));
+  EXPECT_TRUE(cone_touches_ball(cone, {{100, 0, -10}, k_endless}));
 }
 
 TEST(BoundingBall, has_the_centre_and_radius_that_trigonometry_gives) {
@@ -318,8 +318,8 @@ TEST(BoundingBall, holds_apex_rim_and_cap) {
 }
 
 TEST(BoundingBall, an_unbounded_cone_has_an_unbounded_ball) {
-  const SphericalCone cone{{1, 2, 3}, k_infinity, {0, 0, -1}, std::cos(0.5f), std::sin(0.5f)};
-  EXPECT_EQ(bounding_ball(cone).radius, k_infinity);
+  const SphericalCone cone{{1, 2, 3}, k_endless, {0, 0, -1}, std::cos(0.5f), std::sin(0.5f)};
+  EXPECT_EQ(bounding_ball(cone).radius, k_endless);
   EXPECT_EQ(bounding_ball(cone).center, cone.apex);
 }
 

@@ -72,4 +72,52 @@ inline Vec3d point_of(const ShellPiece& c, SplitMix64& random) {
   return random.between(c.distance0, c.distance1) / glm::length(ray) * ray;
 }
 
+// A place on a cell's surface and a direction out of the cell there: of its face, or one between those of the faces
+// that meet there.
+struct Contact {
+  Vec3d place, outward;
+};
+
+inline Contact random_contact(const Slopes& s, bool is_shell, SplitMix64& random) {
+  const double lo[3] = {s.x0, s.y0, s.near}, hi[3] = {s.x1, s.y1, s.far};
+  double at[3];
+  int side[3] = {0, 0, 0};
+  while (side[0] == 0 && side[1] == 0 && side[2] == 0)
+    for (int i = 0; i < 3; ++i) {
+      side[i] = static_cast<int>(random.below(3)) - 1;
+      at[i] = side[i] == 0 ? random.between(lo[i], hi[i]) : side[i] < 0 ? lo[i] : hi[i];
+    }
+  const Vec3d slopes{at[0], at[1], -1}, ray = is_shell ? glm::normalize(slopes) : slopes;
+  const Vec3d normals[3] = {glm::normalize(Vec3d(1, 0, at[0])), glm::normalize(Vec3d(0, 1, at[1])),
+                            is_shell ? ray : Vec3d(0, 0, -1)};
+  Vec3d outward(0);
+  for (int i = 0; i < 3; ++i) outward += side[i] * random.between(0.05, 1) * normals[i];
+  return {at[2] * ray, glm::normalize(outward)};
+}
+
+enum class By { ball, cap, rim, side };
+
+// How far from its apex a light reaches a place, and by how much: metres, of its side radians.
+struct Reach {
+  double along, half_angle, margin;
+};
+
+// A light that reaches the place with one part of its surface, and lies outward of it there.
+inline LightVolume light_against(const Contact& contact, By by, const Reach& reach, SplitMix64& random) {
+  const auto& [along, half_angle, margin] = reach;
+  LightVolume light;
+  light.is_cone = by != By::ball;
+  light.half_angle_rad = half_angle;
+  // From the apex to the place: against the cap's outward direction, along the side, or between them at the rim.
+  const double lean = by == By::side ? M_PI / 2 : by == By::rim ? random.between(0.1, 1.4) : 0.0;
+  const Vec3d beside = glm::normalize(glm::cross(contact.outward, random_direction(random)));
+  const Vec3d towards = -std::cos(lean) * contact.outward + std::sin(lean) * beside;
+  const Vec3d inward = std::sin(lean) * contact.outward + std::cos(lean) * beside;
+  const double off_axis = by == By::cap ? random.unit() * half_angle : half_angle - margin;
+  light.direction = std::cos(off_axis) * towards + std::sin(off_axis) * inward;
+  light.apex.position = contact.place - along * towards;
+  light.range = by == By::side ? along * random.between(1.1, 3.0) : along + margin;
+  return light;
+}
+
 }  // namespace clusterbench::geom

@@ -164,11 +164,30 @@ TEST(Spot, whose_apex_lies_in_a_tile_plane_reaches_along_the_plane) {
   EXPECT_EQ(verdict(light, shell_to(12.5f)), Verdict::yes);
 }
 
+TEST(Spot, of_nearly_no_angle_is_decided) {
+  const Box box{{1, -1, -9}, {3, 1, -5}};
+  const FrustumPiece piece{0.0f, 0.25f, -0.5f, 0.5f, 8.0f, 32.0f, false};
+  const ShellPiece shell{0.0f, 0.25f, -0.5f, 0.5f, 8.0f, 32.0f};
+  for (const double angle : {0.0, 5e-324, 1e-200, 1e-60, 1e-30, 1e-18}) {
+    EXPECT_EQ(verdict(spot({2, 0, 0}, 5.0, {0, 0, -1}, angle), box), Verdict::yes) << angle;
+    EXPECT_EQ(verdict(spot({2, 0, 0}, 4.0, {0, 0, -1}, angle), box), Verdict::no) << angle;
+    EXPECT_EQ(verdict(spot({1, 0, 0}, 6.0, {0, 0, -1}, angle), box), Verdict::yes) << angle;  // along a face
+    EXPECT_EQ(verdict(spot({moved(1, -1), 0, 0}, 6.0, {0, 0, -1}, angle), box), Verdict::no) << angle;
+    for (const Cell& cell : {Cell(piece), Cell(shell)}) {
+      EXPECT_EQ(verdict(spot({1, 0.25, 0}, 20.0, {0, 0, -1}, angle), cell), Verdict::yes) << angle;
+      EXPECT_EQ(verdict(spot({0, 0.25, 0}, 20.0, {0, 0, -1}, angle), cell), Verdict::yes) << angle;  // in a tile plane
+      EXPECT_EQ(verdict(spot({-0.125, 0.25, 0}, 20.0, {0, 0, -1}, angle), cell), Verdict::no) << angle;
+      EXPECT_EQ(verdict(spot({1, 0.25, 0}, 6.0, {0, 0, -1}, angle), cell), Verdict::no) << angle;
+    }
+  }
+}
+
 // Small whole numbers and their quarters: much is parallel, perpendicular, in one plane or equally far.
 LightVolume whole_number_light(SplitMix64& random) {
   const auto whole = [&](int lo, int hi) { return lo + static_cast<double>(random.below(std::uint64_t(hi - lo + 1))); };
-  const double angles[] = {k_pi / 2.0, k_pi / 3.0, k_pi / 4.0, k_pi / 6.0, std::atan(0.5), std::atan(2.0), 0.01, 0.0};
-  LightVolume light = spot({whole(-8, 8), whole(-8, 8), whole(-12, 8)}, whole(1, 12), {}, angles[random.below(8)]);
+  const double angles[] = {k_pi / 2.0, k_pi / 3.0, k_pi / 4.0, k_pi / 6.0, std::atan(0.5), std::atan(2.0), 0.01, 1e-60};
+  LightVolume light = spot({whole(-8, 8), whole(-8, 8), whole(-12, 8)}, whole(1, 12), {},
+                           random.below(16) == 0 ? 0.0 : angles[random.below(8)]);
   do light.direction = {whole(-2, 2), whole(-2, 2), whole(-2, 2)};
   while (light.direction == Vec3d(0.0));
   return light;

@@ -1,0 +1,370 @@
+#include "geom/ball.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "geom/exact_ball.h"
+#include "geom/exact_shell.h"
+
+namespace clusterbench::geom {
+namespace {
+
+constexpr double k_infinity = std::numeric_limits<double>::infinity();
+
+// What is between four tile planes and two depths; far may be infinite.
+struct Piece {
+  float x0, x1, y0, y1;
+  double near, far;
+};
+
+double slope_on(Side side, float low, float high) {
+  return side == Side::low ? low : side == Side::high ? high : 0.0;
+}
+
+// In doubles ------------------------------------------------------------------------------------------------------
+
+// How far a centre is outside of low <= x <= high, and on which side.
+struct Gap {
+  Bounded size;
+  Side side;
+};
+Gap gap_between(const Bounded& low, const Bounded& at, const Bounded& high) {
+  const Bounded below = low - at, above = at - high;
+  const Bounded size = largest_or_zero(below, above);
+  if (size.value > 0.0) return {size, below.value > above.value ? Side::low : Side::high};
+  return {size, Side::between};
+}
+
+Side side_of(double low, double at, double high) {
+  return at < low ? Side::low : at > high ? Side::high : Side::between;
+}
+
+// About where the squared distance is least, by Newton's steps, which end after two or three: between the places where
+// a tile plane begins or ceases to be the nearest thing, it is a parabola.
+double nearest_depth(double x, double y, double depth, const Piece& piece) {
+  double at = std::clamp(depth, piece.near, piece.far);
+  constexpr int k_most_steps = 8;
+  for (int i = 0; i < k_most_steps; ++i) {
+    const double slope_x = slope_on(side_of(piece.x0 * at, x, piece.x1 * at), piece.x0, piece.x1);
+    const double slope_y = slope_on(side_of(piece.y0 * at, y, piece.y1 * at), piece.y0, piece.y1);
+    const double next = std::clamp((depth + slope_x * x + slope_y * y) / (1.0 + slope_x * slope_x + slope_y * slope_y),
+                                   piece.near, piece.far);
+    if (next == at) break;
+    at = next;
+  }
+  return at;
+}
+
+// Half the slope, along depth, of a gap's square. A gap whose side is not certain is below its error, and its slope
+// below that times either plane's.
+Bounded half_slope(const Gap& gap, float low, float high) {
+  const double slope = gap.side == Side::low ? low : gap.side == Side::high ? -static_cast<double>(high) : 0.0;
+  Bounded product = Bounded(slope) * gap.size;
+  if (gap.size.error > 0.0)
+    product.error =
+        bounded::rounded_up(product.error + (std::abs(double{low}) + std::abs(double{high})) * gap.size.error);
+  return product;
+}
+
+NearestDepth nearest_between(const Bounded& x, const Bounded& y, const Bounded& depth, const Piece& piece) {
+  NearestDepth nearest;
+  nearest.at = nearest_depth(x.value, y.value, depth.value, piece);
+  const Gap gap_x = gap_between(Bounded(piece.x0) * nearest.at, x, Bounded(piece.x1) * nearest.at);
+  const Gap gap_y = gap_between(Bounded(piece.y0) * nearest.at, y, Bounded(piece.y1) * nearest.at);
+  const Bounded along = Bounded(nearest.at) - depth;
+  nearest.x = gap_x.side;
+  nearest.y = gap_y.side;
+  nearest.depth = nearest.at == piece.near ? Side::low : nearest.at == piece.far ? Side::high : Side::between;
+  nearest.square = gap_x.size * gap_x.size + gap_y.size * gap_y.size + along * along;
+  // At an end only a derivative that leads away from it leads lower.
+  const Bounded slope = half_slope(gap_x, piece.x0, piece.x1) + half_slope(gap_y, piece.y0, piece.y1) + along;
+  const double falls = nearest.at < piece.far ? slope.error - slope.value : 0.0;
+  const double rises = nearest.at > piece.near ? slope.error + slope.value : 0.0;
+  const double steep = std::max({0.0, falls, rises});
+  nearest.steepness = steep == 0.0 ? 0.0 : bounded::rounded_up(steep);
+  return nearest;
+}
+
+// The rays in which the tile planes of a pyramid meet: slopes of these.
+template <class Take>
+bool any_ray(const Piece& pyramid, Take&& take) {
+  for (const float x : {pyramid.x0, pyramid.x1})
+    for (const float y : {pyramid.y0, pyramid.y1})
+      if (take(x, y)) return true;
+  return false;
+}
+
+Piece pyramid_of(const ShellPiece& cell) {
+  return {cell.x0, cell.x1, cell.y0, cell.y1, 0.0, k_infinity};
+}
+
+// Exact numbers ---------------------------------------------------------------------------------------------------
+
+Dyadic slope_of(Side side, float low, float high) {
+  return side == Side::low ? Dyadic(low) : side == Side::high ? Dyadic(high) : Dyadic();
+}
+
+// Is low <= at <= high, or at beyond the side?
+bool is_on(Side side, const Dyadic& low, const Dyadic& at, const Dyadic& high) {
+  if (side == Side::low) return at <= low;
+  if (side == Side::high) return at >= high;
+  return low <= at && at <= high;
+}
+
+// A centre against the pieces of a pyramid of tile planes.
+class ExactPiece {
+ public:
+  ExactPiece(const Dyadic& x, const Dyadic& y, const Dyadic& depth, const Piece& piece)
+      : x_(x), y_(y), depth_(depth), piece_(piece) {}
+
+  // Which side of which plane the nearest point is on: the guess, if it is right.
+  NearestDepth nearest(NearestDepth guess) const {
+    if (is_nearest(guess)) return guess;
+    constexpr Side k_sides[] = {Side::low, Side::between, Side::high};
+    for (const Side depth : k_sides)
+      for (const Side x : k_sides)
+        for (const Side y : k_sides) {
+          guess.x = x;
+          guess.y = y;
+          guess.depth = depth;
+          if (is_nearest(guess)) return guess;
+        }
+    return guess;  // cannot be: a convex function has a least value
+  }
+
+  // Squared distance to the nearest point <= squared_radius?
+  bool is_within(const NearestDepth& nearest, const Dyadic& squared_radius) const {
+    const Dyadic slope_x = slope_of(nearest.x, piece_.x0, piece_.x1),
+                 slope_y = slope_of(nearest.y, piece_.y0, piece_.y1);
+    const bool has_x = nearest.x != Side::between, has_y = nearest.y != Side::between;
+    if (nearest.depth != Side::between) {
+      const Dyadic at = end_of(nearest.depth);
+      Dyadic square = squared(at - depth_);
+      if (has_x) square = square + squared(x_ - slope_x * at);
+      if (has_y) square = square + squared(y_ - slope_y * at);
+      return square <= squared_radius;
+    }
+    // The centre's distance from a line through the eye, or from a plane.
+    if (has_x && has_y)
+      return squared(x_ - slope_x * depth_) + squared(y_ - slope_y * depth_) + squared(x_ * slope_y - y_ * slope_x) <=
+             squared_radius * (Dyadic(1.0) + squared(slope_x) + squared(slope_y));
+    if (has_x) return squared(x_ - slope_x * depth_) <= squared_radius * (Dyadic(1.0) + squared(slope_x));
+    if (has_y) return squared(y_ - slope_y * depth_) <= squared_radius * (Dyadic(1.0) + squared(slope_y));
+    return true;
+  }
+
+  // The nearest point, if its depth is between the ends, is `depth` / `scale` deep: that of the centre's foot on what
+  // it lies on, with n = (slope_x, slope_y, 1) for the line of two planes: centre·n / n².
+  struct Foot {
+    Dyadic depth, scale;
+  };
+  Foot foot(Side x, Side y) const {
+    Foot foot{depth_, Dyadic(1.0)};
+    if (x != Side::between) add(foot, slope_of(x, piece_.x0, piece_.x1), x_);
+    if (y != Side::between) add(foot, slope_of(y, piece_.y0, piece_.y1), y_);
+    return foot;
+  }
+
+ private:
+  static void add(Foot& foot, const Dyadic& slope, const Dyadic& place) {
+    foot.depth = foot.depth + slope * place;
+    foot.scale = foot.scale + squared(slope);
+  }
+  Dyadic end_of(Side depth) const { return Dyadic(depth == Side::low ? piece_.near : piece_.far); }
+
+  // Where the derivative along depth is 0, or points out of the piece at an end, a convex function is least.
+  bool is_nearest(const NearestDepth& guess) const {
+    if (guess.depth == Side::high && piece_.far == k_infinity) return false;
+    if (guess.depth != Side::between) {
+      const Dyadic at = end_of(guess.depth);
+      if (!are_on_sides(guess, at, Dyadic(1.0))) return false;
+      const Foot foot = this->foot(guess.x, guess.y);
+      const int slope = (foot.scale * at - foot.depth).sign();
+      return guess.depth == Side::low ? slope >= 0 : slope <= 0;
+    }
+    const Foot foot = this->foot(guess.x, guess.y);
+    if (Dyadic(piece_.near) * foot.scale > foot.depth) return false;
+    if (piece_.far < k_infinity && Dyadic(piece_.far) * foot.scale < foot.depth) return false;
+    return are_on_sides(guess, foot.depth, foot.scale);
+  }
+  bool are_on_sides(const NearestDepth& guess, const Dyadic& depth, const Dyadic& scale) const {
+    return is_on(guess.x, Dyadic(piece_.x0) * depth, x_ * scale, Dyadic(piece_.x1) * depth) &&
+           is_on(guess.y, Dyadic(piece_.y0) * depth, y_ * scale, Dyadic(piece_.y1) * depth);
+  }
+
+  const Dyadic &x_, &y_, &depth_;
+  const Piece& piece_;
+};
+
+// A centre against the shells of a pyramid, see view_of().
+class ExactPyramid {
+ public:
+  ExactPyramid(const Dyadic& x, const Dyadic& y, const Dyadic& depth, const Piece& pyramid)
+      : x_(x), y_(y), depth_(depth), pyramid_(pyramid), piece_(x, y, depth, pyramid_) {}
+
+  bool is_within(const NearestDepth& guess, const Dyadic& near, const Dyadic& far, const Dyadic& squared_radius) const {
+    const NearestDepth nearest = piece_.nearest(guess);
+    const Dyadic excess = squared(x_) + squared(y_) + squared(depth_) - squared_radius;  // of the eye
+    if (nearest.depth == Side::low) return is_near_rays(near, excess);
+    const ExactPiece::Foot foot = piece_.foot(nearest.x, nearest.y);
+    const auto place = [&](Side side, const Dyadic& of_center, float low, float high) {
+      return side == Side::between ? of_center * foot.scale : slope_of(side, low, high) * foot.depth;
+    };
+    const Dyadic x = place(nearest.x, x_, pyramid_.x0, pyramid_.x1), y = place(nearest.y, y_, pyramid_.y0, pyramid_.y1);
+    const Dyadic square = squared(x) + squared(y) + squared(foot.depth), scale_square = squared(foot.scale);
+    if (square.sign() == 0) return is_near_rays(near, excess);
+    // t² - 2 t |q| + |p|² <= r² for |q| = sqrt(square) / scale.
+    const auto reaches = [&](const Dyadic& t) {
+      return at_most_root((squared(t) + excess) * foot.scale, Dyadic(2.0) * t, square);
+    };
+    if (square < squared(near) * scale_square) return reaches(near);
+    if (square > squared(far) * scale_square) return reaches(far);
+    return piece_.is_within(nearest, squared_radius);
+  }
+
+ private:
+  // t² - 2 t (u·p) + |p|² <= r² for a ray u.
+  bool is_near_rays(const Dyadic& t, const Dyadic& excess) const {
+    const Dyadic above = squared(t) + excess, twice = Dyadic(2.0) * t;
+    return any_ray(pyramid_, [&](float x, float y) {
+      const Dyadic slope_x(x), slope_y(y);
+      const Dyadic ahead = slope_x * x_ + slope_y * y_ + depth_;
+      return at_most_root(-(twice * ahead), -above, Dyadic(1.0) + squared(slope_x) + squared(slope_y));
+    });
+  }
+
+  const Dyadic &x_, &y_, &depth_;
+  const Piece pyramid_;
+  const ExactPiece piece_;
+};
+
+}  // namespace
+
+BallDecider::BallDecider(const Placement& center, double radius)
+    : placement_(center), radius_(radius), squared_radius_(Bounded(radius) * radius) {
+  assert(radius >= 0.0 && std::isfinite(radius));
+  Bounded from_origin[3], local[3];
+  for (int i = 0; i < 3; ++i) from_origin[i] = Bounded(center.position[i]) - center.origin[i];
+  for (int row = 0; row < 3; ++row)
+    local[row] = Bounded(center.rotation[0][row]) * from_origin[0] + Bounded(center.rotation[1][row]) * from_origin[1] +
+                 Bounded(center.rotation[2][row]) * from_origin[2];
+  x_ = local[0];
+  y_ = local[1];
+  depth_ = -local[2];
+}
+
+const BallDecider::Exactly& BallDecider::exactly() const {
+  if (exactly_) return *exactly_;
+  Dyadic from_origin[3];
+  for (int i = 0; i < 3; ++i) from_origin[i] = Dyadic(placement_.position[i]) - Dyadic(placement_.origin[i]);
+  const auto coordinate = [&](int row) {
+    return Dyadic(placement_.rotation[0][row]) * from_origin[0] + Dyadic(placement_.rotation[1][row]) * from_origin[1] +
+           Dyadic(placement_.rotation[2][row]) * from_origin[2];
+  };
+  exactly_.emplace(Exactly{coordinate(0), coordinate(1), -coordinate(2), squared(Dyadic(radius_))});
+  return *exactly_;
+}
+
+template <class AnyCell, class Exact>
+bool BallDecider::decided(const AnyCell& cell, Exact&& exact) const {
+  ++exact_decisions_;
+  try {
+    return exact(exactly());
+  } catch (const TooWide&) {
+    return ball_meets_exactly(placement_, radius_, cell);
+  }
+}
+
+bool BallDecider::meets(const Box& cell) const {
+  const auto square = [](const Bounded& lo, const Bounded& at, const Bounded& hi) {
+    const Bounded gap = gap_between(lo, at, hi).size;
+    return gap * gap;
+  };
+  const Bounded excess = square(cell.lo.x, x_, cell.hi.x) + square(cell.lo.y, y_, cell.hi.y) +
+                         square(-cell.hi.z, depth_, -cell.lo.z) - squared_radius_;
+  if (excess.is_surely_not_above(0.0)) return true;
+  if (excess.is_surely_above(0.0)) return false;
+  return decided(cell, [&](const Exactly& ball) {
+    const auto exact_square = [](double lo, const Dyadic& at, double hi) {
+      if (at < Dyadic(lo)) return squared(Dyadic(lo) - at);
+      return at > Dyadic(hi) ? squared(at - Dyadic(hi)) : Dyadic();
+    };
+    return exact_square(cell.lo.x, ball.x, cell.hi.x) + exact_square(cell.lo.y, ball.y, cell.hi.y) +
+               exact_square(-cell.hi.z, ball.depth, -cell.lo.z) <=
+           ball.squared_radius;
+  });
+}
+
+bool BallDecider::meets(const FrustumPiece& cell) const {
+  if (cell.orthographic) return meets(Box{{cell.x0, cell.y0, -cell.depth1}, {cell.x1, cell.y1, -cell.depth0}});
+  const Piece piece{cell.x0, cell.x1, cell.y0, cell.y1, cell.depth0, cell.depth1};
+  const NearestDepth nearest = nearest_between(x_, y_, depth_, piece);
+  const Bounded excess = nearest.square - squared_radius_;
+  if (excess.is_surely_not_above(0.0)) return true;
+  if (excess.is_surely_above(nearest.undershoot())) return false;
+  return decided(cell, [&](const Exactly& ball) {
+    const ExactPiece exact(ball.x, ball.y, ball.depth, piece);
+    return exact.is_within(exact.nearest(nearest), ball.squared_radius);
+  });
+}
+
+// The squared distance from p to t * u (u of unit length) is t² - 2 t (u·p) + |p|²: whatever t is, the best u is the
+// one with the largest u·p, and then the best t is u·p, pulled between the shells. If the pyramid's point nearest to p,
+// q, is not the eye, u = q/|q|, as u·p <= |q| for every u of the pyramid (the pyramid is convex, and p - q is
+// perpendicular to q and points away from it). If it is the eye, u·p <= 0 everywhere. Then u, a sum of the four rays
+// (each taken of unit length) with weights that add to 1 at least, leans no less towards p in one of these rays.
+//
+// With half of the derivative s at q' (a point at another depth d, nearest to p there), q'·p = |q'|² - d s; so in its
+// direction p is ahead by |q'| - s at least, and q, for which |p - q|² >= |p - q'|² - s², has |q| <= |q'| + |s|.
+PyramidView BallDecider::view_of(const ShellPiece& cell) const {
+  const Piece pyramid = pyramid_of(cell);
+  PyramidView view{nearest_between(x_, y_, depth_, pyramid), {}, false};
+  const NearestDepth& nearest = view.nearest;
+  view.is_behind = nearest.at == 0.0;
+  if (view.is_behind) {
+    view.along = -k_infinity;
+    any_ray(pyramid, [&](float x, float y) {
+      const Bounded ahead = Bounded(x) * x_ + Bounded(y) * y_ + depth_;
+      const double length = std::sqrt(1.0 + double{x} * double{x} + double{y} * double{y});
+      const double value = ahead.value / length;
+      const double error = bounded::rounded_up(ahead.error / length + std::abs(value) * 0x1p-50);
+      view.along = {std::max(value, view.along.value), std::max(error, view.along.error)};
+      return false;
+    });
+  } else {
+    const auto place = [&](Side side, const Bounded& of_center, float low, float high) {
+      if (side == Side::between) return of_center;
+      return Bounded(side == Side::low ? low : high) * nearest.at;
+    };
+    const Bounded x = place(nearest.x, x_, pyramid.x0, pyramid.x1), y = place(nearest.y, y_, pyramid.y0, pyramid.y1);
+    view.along = sqrt(x * x + y * y + Bounded(nearest.at) * nearest.at);
+  }
+  if (nearest.steepness > 0.0) view.along.error = bounded::rounded_up(view.along.error + nearest.steepness);
+  return view;
+}
+
+bool BallDecider::meets(const ShellPiece& cell, const PyramidView& view) const {
+  const Bounded near(cell.distance0), far(cell.distance1);
+  Bounded further;
+  if (view.is_behind) {
+    further = near * near - Bounded(2.0) * near * view.along;
+  } else {
+    const Bounded gap = gap_between(near, view.along, far).size;
+    further = gap * gap;
+  }
+  const Bounded excess = view.nearest.square + further - squared_radius_;
+  if (excess.is_surely_not_above(0.0)) return true;
+  if (excess.is_surely_above(view.nearest.undershoot())) return false;
+  return decided(cell, [&](const Exactly& ball) {
+    return ExactPyramid(ball.x, ball.y, ball.depth, pyramid_of(cell))
+        .is_within(view.nearest, Dyadic(cell.distance0), Dyadic(cell.distance1), ball.squared_radius);
+  });
+}
+
+bool BallDecider::meets(const Cell& cell) const {
+  return std::visit([&](const auto& shape) { return meets(shape); }, cell);
+}
+
+}  // namespace clusterbench::geom

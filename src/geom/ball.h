@@ -1,0 +1,74 @@
+#pragma once
+// Does a ball share a point with a cell? Touching counts. Always decided: in doubles with a bound of their error, which
+// is 0 where nothing is rounded, so that it decides most exact touches, too; what that leaves open by exact numbers
+// (geom/dyadic.h), in signs of polynomials.
+
+#include <cstdint>
+#include <optional>
+
+#include "geom/bounded.h"
+#include "geom/dyadic.h"
+#include "geom/placement.h"
+#include "geom/shapes.h"
+
+namespace clusterbench::geom {
+
+// Where a cell's point nearest to a centre lies along one axis: on the lower or upper side, or between them.
+enum class Side : std::int8_t { low, between, high };
+
+// Where, by depth, a piece between tile planes is nearest to a centre, about. The squared distance to what the piece
+// has at a depth is a convex function of depth whose second derivative is at least 2, so wherever it is looked at, the
+// least is not more than a quarter of the derivative's square below.
+struct NearestDepth {
+  Side x, y, depth;  // which planes the nearest point lies on: a guess
+  double at;         // a depth of the piece
+  Bounded square;    // of the distance there
+  double steepness;  // half of the derivative there is at most this
+
+  double undershoot() const { return steepness == 0.0 ? 0.0 : bounded::rounded_up(steepness * steepness); }
+};
+
+// The tile's whole pyramid as a ball's centre sees it: all that its cells in different shells have in common.
+struct PyramidView {
+  NearestDepth nearest;
+  // Of all directions in the pyramid, how far ahead the centre is in the one that leans to it most: the distance of the
+  // nearest point from the eye, or, where that is the eye itself (or nearly), not positive (or hardly).
+  Bounded along;
+  bool is_behind;
+};
+
+// One ball for many cells, and one thread.
+class BallDecider {
+ public:
+  // radius: finite, >= 0.
+  BallDecider(const Placement& center, double radius);
+
+  bool meets(const FrustumPiece& cell) const;
+  bool meets(const Box& cell) const;
+  bool meets(const ShellPiece& cell) const { return meets(cell, view_of(cell)); }
+  bool meets(const Cell& cell) const;
+
+  PyramidView view_of(const ShellPiece& cell) const;
+  // view: that of this cell, or of another one with the same tile.
+  bool meets(const ShellPiece& cell, const PyramidView& view) const;
+
+  // How many cells were decided by exact numbers.
+  std::uint64_t exact_decisions() const { return exact_decisions_; }
+
+ private:
+  struct Exactly {
+    Dyadic x, y, depth, squared_radius;
+  };
+  const Exactly& exactly() const;
+  // exact(ball): the answer in exact numbers, or TooWide.
+  template <class AnyCell, class Exact>
+  bool decided(const AnyCell& cell, Exact&& exact) const;
+
+  Placement placement_;
+  double radius_;
+  Bounded x_, y_, depth_, squared_radius_;
+  mutable std::optional<Exactly> exactly_;
+  mutable std::uint64_t exact_decisions_ = 0;
+};
+
+}  // namespace clusterbench::geom
