@@ -28,12 +28,17 @@ class KeysOf {
          node = scene_.nodes[static_cast<std::size_t>(node)].parent)
       is_wanted_[static_cast<std::size_t>(node)] = true;
   }
-  std::set<double> keys() const {
+  // Of each channel the first and the last, or all. Visibility moves no eye.
+  std::set<double> keys(bool all, bool visibility) const {
     std::set<double> keys;
     for (const Channel& channel : scene_.channels)
-      if (is_wanted_[static_cast<std::size_t>(channel.node)])
-        keys.insert(channel.times_s.begin(), channel.times_s.end());
+      if (is_wanted_[static_cast<std::size_t>(channel.node)] && (visibility || channel.path != ChannelPath::visible))
+        add_keys(channel, all, keys);
     return keys;
+  }
+  static void add_keys(const Channel& channel, bool all, std::set<double>& keys) {
+    keys.insert({channel.times_s.front(), channel.times_s.back()});
+    if (all) keys.insert(channel.times_s.begin(), channel.times_s.end());
   }
 
  private:
@@ -41,30 +46,30 @@ class KeysOf {
   std::vector<bool> is_wanted_;
 };
 
-// The keys that move the camera; a camera that stands still sees the lights move.
-std::set<double> keys_seen(const Scene& scene, const Camera& camera) {
+// The keys that move the camera; a camera that stands still sees the lights move and change. `all`, or at least the
+// first and the last.
+std::set<double> keys_seen(const Scene& scene, const Camera& camera, bool all) {
   KeysOf eye(scene), lights(scene);
   eye.add(camera.node);
-  std::set<double> keys = eye.keys();
+  std::set<double> keys = eye.keys(all, false);
+  for (const Channel& channel : scene.lens_channels)
+    if (channel.definition == camera.definition) KeysOf::add_keys(channel, all, keys);
   if (!keys.empty()) return keys;
   for (const Light& light : scene.lights) lights.add(light.node);
-  return lights.keys();
+  keys = lights.keys(all, true);
+  for (const Channel& channel : scene.light_channels) KeysOf::add_keys(channel, all, keys);
+  return keys;
 }
 
-struct Moments {
-  std::vector<double> times_s;
-  std::string how;
-};
-
-Moments equal_steps(double from, double to, int count) {
-  Moments moments;
+CameraMoments equal_steps(double from, double to, int count) {
+  CameraMoments moments;
   for (int i = 0; i < count; ++i) moments.times_s.push_back(count == 1 ? from : from + (to - from) * i / (count - 1));
   moments.how = std::to_string(count) + " equal steps over " + number(to - from) + " s";
   return moments;
 }
 
 // Which times a request asks for between the first and the last key.
-Moments moments_of(const std::set<double>& keys, const PathRequest& request) {
+CameraMoments moments_of(const std::set<double>& keys, const PathRequest& request) {
   if (keys.empty()) return {{0.0}, "nothing moves: one frame"};
   const double from = *keys.begin(), to = *keys.rbegin();
   if (from == to) return {{from}, "one key: one frame"};
@@ -75,16 +80,19 @@ Moments moments_of(const std::set<double>& keys, const PathRequest& request) {
   const double steps = std::floor((to - from) * request.rate_hz + 1e-9);
   if (!(steps < k_most_frames))
     throw Error("", "frames", "at " + number(request.rate_hz) + " per second are more than a million");
-  Moments moments;
+  CameraMoments moments;
   for (int i = 0; i <= static_cast<int>(steps); ++i) moments.times_s.push_back(from + i / request.rate_hz);
   moments.how = number(request.rate_hz) + " per second over " + number(to - from) + " s";
   return moments;
 }
 
 CameraPath path_of(const Scene& scene, const Camera& camera, const PathRequest& request) {
-  const Moments moments = moments_of(keys_seen(scene, camera), request);
-  CameraPath path{camera.name, false, (camera.animated ? "animated camera, " : "static camera, ") + moments.how, {}};
-  for (const double time : moments.times_s) path.shots.push_back({time, camera_pose(scene, camera, time), camera.lens});
+  const CameraMoments moments = camera_moments(scene, camera, request);
+  CameraPath path{camera.name, false, moments.how, {}};
+  for (const double time : moments.times_s) {
+    path.shots.push_back({time, camera_pose(scene, camera, time), camera_lens(scene, camera, time)});
+    path.shots.back().lens.fit = request.fit;
+  }
   return path;
 }
 
@@ -147,6 +155,12 @@ const Camera& camera_named(const Scene& scene, const std::string& name) {
 }
 
 }  // namespace
+
+CameraMoments camera_moments(const Scene& scene, const Camera& camera, const PathRequest& request) {
+  CameraMoments moments = moments_of(keys_seen(scene, camera, request.choice == FrameChoice::keys), request);
+  moments.how = (camera.animated ? "animated camera, " : "static camera, ") + moments.how;
+  return moments;
+}
 
 std::vector<CameraPath> camera_paths(const Scene& scene, const PathRequest& request) {
   if (!request.camera.empty()) return {path_of(scene, camera_named(scene, request.camera), request)};

@@ -15,6 +15,7 @@ struct PathRequest {
   FrameChoice choice = FrameChoice::count;
   int count = 60;  // N equal steps from the first to the last key
   double rate_hz = 30.0;
+  CameraFit fit = CameraFit::contain;
 };
 
 // One moment of one camera.
@@ -30,6 +31,13 @@ struct CameraPath {
   std::string how;     // one line for the result: "animated camera 'walk', 60 equal steps over 12 s"
   std::vector<Shot> shots;
 };
+
+// When a camera is looked through: times, and one line that says which.
+struct CameraMoments {
+  std::vector<double> times_s;
+  std::string how;  // "animated camera, 60 equal steps over 12 s"
+};
+CameraMoments camera_moments(const Scene& scene, const Camera& camera, const PathRequest& request);
 
 // A static camera gives one shot (more if lights are animated). Throws Error naming the cameras that exist when
 // request.camera is none of them, and when the scene has neither camera nor light.

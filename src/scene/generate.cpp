@@ -10,7 +10,7 @@
 namespace clusterbench::scene {
 
 std::span<const GeneratorRow> generators() {
-  static const std::array<GeneratorRow, 9> k_rows{{
+  static const std::array<GeneratorRow, 11> k_rows{{
       {"hall-512", "512 point lights of 13 m in a hall of 200 x 55 x 200 m", "DaveH355", 512,
        [](Stage& s, int n) { build_hall(s, n, 13.0); }},
       {"hall-1024", "1024 point lights of 7 m in the same hall", "DaveH355", 1024,
@@ -27,6 +27,12 @@ std::span<const GeneratorRow> generators() {
       {"mirror", "lights all around a camera that turns", "reflections that need lights behind the camera", 400,
        build_mirror},
       {"outlier", "a village, a light at 1,000 km and one of 100 km range", "levels in production", 160, build_outlier},
+      {"lattice", "lights on whole metres that just touch the picture's middle planes", "levels built on a lattice",
+       1000, [](Stage& s, int n) { build_lattice(s, n, Vec3d(0.0)); }},
+      {"lattice-off", "the same lights, a centimetre or two beside the lattice", "levels built on a lattice", 1000,
+       [](Stage& s, int n) {
+         build_lattice(s, n, {0.013, 0.017, 0.011});
+       }},
   }};
   return k_rows;
 }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
+#include <tuple>
 #include <utility>
 
 #include "core/error.h"
@@ -14,6 +16,7 @@
 #include "scene/gltf_checked.h"
 #include "scene/gltf_container.h"
 #include "scene/gltf_keys.h"
+#include "scene/gltf_pointers.h"
 #include "scene/scene.h"
 
 namespace clusterbench::scene {
@@ -42,7 +45,8 @@ Vec3d vec3_or(const std::vector<double>& numbers, const Vec3d& otherwise) {
   return numbers.size() == 3 ? Vec3d(numbers[0], numbers[1], numbers[2]) : otherwise;
 }
 
-Node node_of(const tinygltf::Node& from, int gltf_index, int parent) {
+// `definition` is the node's checked JSON: tinygltf knows no visibility.
+Node node_of(const tinygltf::Node& from, const nlohmann::json& definition, int gltf_index, int parent) {
   Node node;
   node.name = from.name;
   node.parent = parent;
@@ -53,6 +57,7 @@ Node node_of(const tinygltf::Node& from, int gltf_index, int parent) {
   }
   node.translation = vec3_or(from.translation, node.translation);
   node.scale = vec3_or(from.scale, node.scale);
+  node.visible = definition.value("visible", true);
   if (from.rotation.size() == 4)
     node.rotation = {from.rotation[0], from.rotation[1], from.rotation[2], from.rotation[3]};
   return node;
@@ -72,7 +77,7 @@ std::vector<int> roots_of(const tinygltf::Model& model) {
 }
 
 // Depth first, children in their order, parents before children. Returns scene node -> place in `nodes`.
-std::map<int, int> add_nodes(const tinygltf::Model& model, Scene& scene) {
+std::map<int, int> add_nodes(const tinygltf::Model& model, const nlohmann::json& definitions, Scene& scene) {
   std::map<int, int> placed;
   std::vector<std::pair<int, int>> waiting;  // glTF index, parent's place
   const auto push = [&](const std::vector<int>& nodes, int parent) {
@@ -84,7 +89,7 @@ std::map<int, int> add_nodes(const tinygltf::Model& model, Scene& scene) {
     waiting.pop_back();
     const int place = static_cast<int>(scene.nodes.size());
     const tinygltf::Node& from = model.nodes[static_cast<std::size_t>(index)];
-    scene.nodes.push_back(node_of(from, index, parent));
+    scene.nodes.push_back(node_of(from, definitions[static_cast<std::size_t>(index)], index, parent));
     placed.emplace(index, place);
     push(from.children, place);
   }
@@ -118,6 +123,11 @@ Light light_of(const tinygltf::Light& from, const nlohmann::json& definition, in
   return light;
 }
 
+// Absent (0) or the largest number of single precision: infinitely far.
+double far_of(double zfar) {
+  return zfar > 0.0 && !is_float_max(zfar) ? zfar : std::numeric_limits<double>::infinity();
+}
+
 Camera camera_of(const tinygltf::Camera& from, int node) {
   Camera camera;
   camera.node = node;
@@ -127,11 +137,12 @@ Camera camera_of(const tinygltf::Camera& from, int node) {
     lens.xmag_m = from.orthographic.xmag;
     lens.ymag_m = from.orthographic.ymag;
     lens.near_m = from.orthographic.znear;
-    lens.far_m = from.orthographic.zfar;
+    lens.far_m = far_of(from.orthographic.zfar);
   } else {
     lens.yfov_rad = from.perspective.yfov;
     lens.near_m = from.perspective.znear;
-    lens.far_m = from.perspective.zfar > 0.0 ? from.perspective.zfar : std::numeric_limits<double>::infinity();
+    lens.far_m = far_of(from.perspective.zfar);
+    if (from.perspective.aspectRatio > 0.0) lens.aspect_ratio = from.perspective.aspectRatio;
     if (from.extras.Has("clusterbench_sides")) {
       const tinygltf::Value sides = from.extras.Get("clusterbench_sides");
       const auto side = [&](std::size_t i) { return sides.Get(i).GetNumberAsDouble(); };
@@ -147,6 +158,7 @@ void add_light(const tinygltf::Model& model, const nlohmann::json& definitions, 
   if (reference == from.extensions.end()) return;
   const auto index = static_cast<std::size_t>(reference->second.Get("light").GetNumberAsInt());
   Light light = light_of(model.lights[index], definitions[index], node);
+  light.definition = static_cast<int>(index);
   light.name = first_name(from.name, model.lights[index].name, "light", scene.lights.size());
   scene.lights.push_back(std::move(light));
 }
@@ -155,6 +167,7 @@ void add_camera(const tinygltf::Model& model, const tinygltf::Node& from, int no
   if (from.camera < 0) return;
   const tinygltf::Camera& definition = model.cameras[static_cast<std::size_t>(from.camera)];
   Camera camera = camera_of(definition, node);
+  camera.definition = from.camera;
   camera.name = first_name(from.name, definition.name, "camera", scene.cameras.size());
   scene.cameras.push_back(std::move(camera));
 }
@@ -181,53 +194,111 @@ void add_things(const tinygltf::Model& model, const nlohmann::json& document, Sc
   }
 }
 
-ChannelPath path_of(const std::string& name) {
-  if (name == "rotation") return ChannelPath::rotation;
-  return name == "scale" ? ChannelPath::scale : ChannelPath::translation;
-}
-
 Interpolation interpolation_of(const std::string& name) {
   if (name == "STEP") return Interpolation::step;
   return name == "CUBICSPLINE" ? Interpolation::cubic_spline : Interpolation::linear;
 }
 
-// Which channel moves what, by node and path.
-using Taken = std::map<std::pair<int, ChannelPath>, std::size_t>;
+// Adds the channels of checked animations; of several that move the same the last one wins.
+class ChannelsOfFile {
+ public:
+  ChannelsOfFile(const std::map<int, int>& placed, AccessorReader& reader, Scene& scene)
+      : placed_(placed), reader_(reader), scene_(scene) {}
 
-void add_channels(const tinygltf::Animation& animation, const Place& place, const std::map<int, int>& placed,
-                  AccessorReader& reader, Taken& taken, Scene& scene) {
-  for (const tinygltf::AnimationChannel& from : animation.channels) {
-    const auto node = placed.find(from.target_node);
-    const tinygltf::AnimationSampler& sampler = animation.samplers[static_cast<std::size_t>(from.sampler)];
-    const Place sampler_place = place.at("samplers").at(static_cast<std::size_t>(from.sampler));
-    std::optional<Channel> keys = read_keys(reader, sampler_place, static_cast<std::size_t>(sampler.input),
-                                            static_cast<std::size_t>(sampler.output), path_of(from.target_path),
-                                            interpolation_of(sampler.interpolation));
-    if (!keys)
-      scene.warnings.push_back(warning_at(sampler_place, "its accessors hold no data; the channel is ignored"));
-    if (!keys || node == placed.end()) continue;  // checked, but its node may not be in the default scene
-    Channel channel = std::move(*keys);
-    channel.node = node->second;
-    scene.duration_s = std::max(scene.duration_s, channel.times_s.back());
-    const auto [known, first] = taken.try_emplace({channel.node, channel.path}, scene.channels.size());
-    if (first) {
-      scene.channels.push_back(std::move(channel));
-      continue;
+  void add(const nlohmann::json& animation, const Place& place) {
+    for (const nlohmann::json& channel : animation["channels"]) add_channel(animation["samplers"], channel, place);
+  }
+  // When all are added.
+  void finish() {
+    for (std::vector<Channel>* channels : {&scene_.light_channels, &scene_.lens_channels})
+      std::stable_sort(channels->begin(), channels->end(),
+                       [](const Channel& a, const Channel& b) { return a.definition < b.definition; });
+  }
+
+ private:
+  void add_channel(const nlohmann::json& samplers, const nlohmann::json& from, const Place& place) {
+    const std::size_t number = from["sampler"].get<std::size_t>();
+    const nlohmann::json& sampler = samplers[number];
+    const Place sampler_place = place.at("samplers").at(number);
+    std::optional<Channel> keys =
+        read_keys(reader_, sampler_place, sampler["input"].get<std::size_t>(), sampler["output"].get<std::size_t>(),
+                  static_cast<ChannelPath>(from["path"].get<int>()), from["is_pointer"].get<bool>(),
+                  interpolation_of(sampler["interpolation"].get<std::string>()));
+    if (!keys) {
+      sampler_place.warn("its accessors hold no data; the channel is ignored");
+      return;
     }
-    scene.warnings.push_back(warning_at(place, "moves node " + std::to_string(from.target_node) + " (" +
-                                                   from.target_path + ") again; this animation wins"));
-    scene.channels[known->second] = std::move(channel);
+    const auto kind = static_cast<TargetKind>(from["kind"].get<int>());
+    const int index = from["index"].get<int>();
+    const bool is_node = kind == TargetKind::node;
+    (is_node ? keys->node : keys->definition) = is_node ? placed_.at(index) : index;
+    scene_.duration_s = std::max(scene_.duration_s, keys->times_s.back());
+    std::vector<Channel>& channels = is_node                     ? scene_.channels
+                                     : kind == TargetKind::light ? scene_.light_channels
+                                                                 : scene_.lens_channels;
+    const auto [known, first] = taken_.try_emplace({kind, index, keys->path}, channels.size());
+    if (first) {
+      channels.push_back(std::move(*keys));
+      return;
+    }
+    place.at("channels")
+        .at(from["channel"].get<std::size_t>())
+        .warn((is_node                     ? "moves node "
+               : kind == TargetKind::light ? "moves light "
+                                           : "moves camera ") +
+              std::to_string(index) + " (" + from["name"].get<std::string>() + ") again; this animation wins");
+    channels[known->second] = std::move(*keys);
+  }
+
+  const std::map<int, int>& placed_;
+  AccessorReader& reader_;
+  Scene& scene_;
+  std::map<std::tuple<TargetKind, int, ChannelPath>, std::size_t> taken_;  // which channel moves what
+};
+
+// KHR_node_visibility: lights of nodes that are never visible are not rendered, so they are not counted.
+void leave_out_hidden_lights(Scene& scene, Warnings& warnings) {
+  std::vector<bool> may_show(scene.nodes.size()), may_change(scene.nodes.size(), false);
+  for (const Channel& channel : scene.channels)
+    if (channel.path == ChannelPath::visible) may_change[static_cast<std::size_t>(channel.node)] = true;
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+    const int parent = scene.nodes[i].parent;
+    may_show[i] =
+        (scene.nodes[i].visible || may_change[i]) && (parent < 0 || may_show[static_cast<std::size_t>(parent)]);
+  }
+  const auto is_hidden = [&](const Light& light) { return !may_show[static_cast<std::size_t>(light.node)]; };
+  const auto first = std::find_if(scene.lights.begin(), scene.lights.end(), is_hidden);
+  if (first == scene.lights.end()) return;
+  const std::string name = first->name;
+  const std::size_t hidden = std::erase_if(scene.lights, is_hidden);
+  warnings.add("/nodes", one_line(std::to_string(hidden) + (hidden == 1 ? " light" : " lights") +
+                                  " of invisible nodes (KHR_node_visibility) not rendered, so left out: " +
+                                  (hidden == 1 ? "'" : "first '") + name + "'"));
+}
+
+// Two cameras of one name become "name" and "name-2", so that each can be asked for.
+void tell_cameras_apart(Scene& scene) {
+  std::set<std::string> taken;
+  std::map<std::string, int> last;
+  for (Camera& camera : scene.cameras) {
+    const std::string name = camera.name;
+    int& number = last.try_emplace(name, 1).first->second;
+    while (!taken.insert(camera.name).second) camera.name = name + "-" + std::to_string(++number);
   }
 }
 
 void mark_animated_cameras(Scene& scene) {
   std::vector<char> moved(scene.nodes.size(), 0);
-  for (const Channel& channel : scene.channels) moved[static_cast<std::size_t>(channel.node)] = 1;
+  for (const Channel& channel : scene.channels)
+    if (channel.path != ChannelPath::visible) moved[static_cast<std::size_t>(channel.node)] = 1;
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     const int parent = scene.nodes[i].parent;
     if (parent >= 0 && moved[static_cast<std::size_t>(parent)]) moved[i] = 1;
   }
-  for (Camera& camera : scene.cameras) camera.animated = moved[static_cast<std::size_t>(camera.node)] != 0;
+  std::set<int> lenses;
+  for (const Channel& channel : scene.lens_channels) lenses.insert(channel.definition);
+  for (Camera& camera : scene.cameras)
+    camera.animated = moved[static_cast<std::size_t>(camera.node)] != 0 || lenses.contains(camera.definition);
 }
 
 // Numbers that are each fine can multiply to infinity down the tree.
@@ -245,36 +316,32 @@ void check_world(const Scene& scene, const Place& root) {
   }
 }
 
-void shorten(std::vector<std::string>& warnings) {
-  constexpr std::size_t k_most = 100;
-  if (warnings.size() <= k_most) return;
-  const std::size_t more = warnings.size() - k_most;
-  warnings.resize(k_most);
-  warnings.push_back("and " + std::to_string(more) + " more warnings");
-}
-
 }  // namespace
 
 Scene load_gltf(const std::filesystem::path& path) {
   GltfFile file;
   read_gltf_file(path, file);
-  AccessorReader reader(file);
+  Warnings warnings;
+  AccessorReader reader(file, warnings);
   const Place& root = reader.root();
   Scene scene;
-  scene.name = path.stem().string();
+  scene.name = printable(path.stem().string());
   scene.path = path;
-  const nlohmann::json document = checked_document(root, scene.warnings);
+  nlohmann::json document = checked_document(root);
+  const nlohmann::json animations = std::move(document["animations"]);
+  document.erase("animations");  // tinygltf knows no pointers
   const tinygltf::Model model = parsed_model(document, file.name);
-  const std::map<int, int> placed = add_nodes(model, scene);
+  const std::map<int, int> placed = add_nodes(model, document["nodes"], scene);
   add_things(model, document, scene);
-  Taken taken;
-  for (std::size_t i = 0; i < model.animations.size(); ++i) {
-    add_channels(model.animations[i], root.at("animations").at(i), placed, reader, taken, scene);
-  }
+  ChannelsOfFile channels(placed, reader, scene);
+  for (std::size_t i = 0; i < animations.size(); ++i) channels.add(animations[i], root.at("animations").at(i));
+  channels.finish();
   mark_animated_cameras(scene);
+  tell_cameras_apart(scene);
+  leave_out_hidden_lights(scene, warnings);
   check_world(scene, root);
   scene.sha256 = sha256_hex(file.bytes + reader.external_bytes());
-  shorten(scene.warnings);
+  scene.warnings = warnings.lines();
   return scene;
 }
 

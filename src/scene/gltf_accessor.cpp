@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/text.h"
+
 namespace clusterbench::scene {
 namespace {
 
@@ -117,6 +119,13 @@ bool has_scheme(const std::string& uri) {
   return colon != std::string::npos && colon < uri.find('/');
 }
 
+// A scene that somebody sends may name no file outside of its own folder.
+bool stays_in_folder(const std::filesystem::path& path) {
+  const std::filesystem::path plain = path.lexically_normal();
+  const bool escapes = plain.is_absolute() || (!plain.empty() && *plain.begin() == "..");
+  return !escapes && printable(path.native()) == path.native();
+}
+
 std::size_t array_size(const Place& root, const std::string& key) {
   if (!root.has(key)) return 0;
   root.at(key).expect_array();
@@ -150,14 +159,15 @@ std::string_view tight_elements(std::string_view view, const Place& object, std:
 
 }  // namespace
 
-AccessorReader::AccessorReader(const GltfFile& file) : file_(file), root_(file.name, file.json) {}
+AccessorReader::AccessorReader(const GltfFile& file, Warnings& warnings)
+    : file_(file), root_(file.name, file.json, warnings) {}
 
 AccessorHead AccessorReader::head(std::size_t accessor) const {
   const Place from = place(accessor);
   AccessorHead head;
   head.component = component_of(from.at("componentType"));
   head.type = from.at("type").text();
-  head.count = at_least_one(from.at("count"));
+  head.count = from.at("count").whole();  // 0 for an animation without keys
   if (from.has("normalized")) {
     if (!from.at("normalized").value().is_boolean()) from.at("normalized").refuse("true or false is needed");
     head.normalized = from.at("normalized").value().get<bool>();
@@ -278,10 +288,12 @@ std::string_view AccessorReader::buffer(std::size_t index) {
     if (comma == std::string::npos) place.at("uri").refuse("a data URI must be base64");
     bytes.owned = base64_decoded(std::string_view(uri).substr(comma + 8), place.at("uri"));
   } else {
-    if (has_scheme(uri)) place.at("uri").refuse("only files beside this one and data URIs are read");
+    const std::filesystem::path relative = percent_decoded(uri);
+    if (has_scheme(uri) || !stays_in_folder(relative))
+      place.at("uri").refuse("found '" + uri + "'; only files beside this one or below, and data URIs, are read");
     if (length > external_bytes_left_) place.refuse("more than 2 GiB of external buffers for animations");
     bytes.external = true;
-    const std::filesystem::path beside = std::filesystem::path(file_.name).parent_path() / percent_decoded(uri);
+    const std::filesystem::path beside = std::filesystem::path(file_.name).parent_path() / relative.lexically_normal();
     bytes.owned = read_bytes(beside, file_.name, place.at("uri").pointer(), length);
     external_bytes_left_ -= bytes.owned.size();
   }

@@ -24,8 +24,8 @@ struct AccessorHead {
 
 class AccessorReader {
  public:
-  // `file` must outlive the reader.
-  explicit AccessorReader(const GltfFile& file);
+  // Both must outlive the reader.
+  AccessorReader(const GltfFile& file, Warnings& warnings);
 
   const Place& root() const { return root_; }
   Place place(std::size_t accessor) const { return root_.at("accessors").at(accessor); }

@@ -26,20 +26,21 @@ std::pair<long, long> version_of(const Place& place) {
   return {std::stol(text.substr(0, dot)), std::stol(text.substr(dot + 1))};
 }
 
-void check_asset(const Place& root, std::vector<std::string>& warnings) {
+void check_asset(const Place& root) {
   const Place asset = root.at("asset");
   const auto version = version_of(asset.at("version"));
   if (version.first != 2) {
     asset.at("version").refuse("glTF " + asset.at("version").text() + " found, glTF 2.x is needed");
   }
-  if (version.second != 0) warnings.push_back(warning_at(asset.at("version"), "read as glTF 2.0"));
+  if (version.second != 0) asset.at("version").warn("read as glTF 2.0");
   if (!asset.has("minVersion")) return;
   const Place min_version = asset.at("minVersion");
   const auto least = version_of(min_version);
   if (least > version) min_version.refuse("greater than the asset's version");
 }
 
-// Extensions that a file may require although this tool does not know them: they speak of meshes, textures, materials.
+// Extensions that a file may require: this tool reads them, or they speak of meshes, textures, materials. Pointers of
+// KHR_animation_pointer are looked at one by one (gltf_checked_animations.cpp).
 bool changes_no_light(const std::string& name) {
   constexpr std::array k_harmless = {"KHR_draco_mesh_compression",
                                      "KHR_lights_punctual",
@@ -52,48 +53,58 @@ bool changes_no_light(const std::string& name) {
                                      "EXT_meshopt_",
                                      "EXT_structural_metadata",
                                      "MSFT_texture_",
-                                     "KHR_animation_pointer"};
+                                     "KHR_node_visibility",
+                                     k_pointers};
   return std::any_of(k_harmless.begin(), k_harmless.end(),
                      [&](const char* prefix) { return name.starts_with(prefix); });
 }
 
-void check_extensions(const Place& root, std::vector<std::string>& warnings) {
+void check_extensions(const Place& root) {
   if (!root.has("extensionsRequired")) return;
   const Place required = root.at("extensionsRequired");
-  required.expect_array();
-  for (std::size_t i = 0; i < required.size(); ++i) {
+  const std::size_t count = required.elements();
+  for (std::size_t i = 0; i < count; ++i) {
     const std::string name = required.at(i).text();
     if (name == "EXT_mesh_gpu_instancing") {
-      warnings.push_back(warning_at(required.at(i), "EXT_mesh_gpu_instancing multiplies meshes only, never lights"));
+      required.at(i).warn("EXT_mesh_gpu_instancing multiplies meshes only, never lights");
     } else if (!changes_no_light(name)) {
-      warnings.push_back(warning_at(required.at(i), "the extension '" + name + "' is not known and ignored"));
+      required.at(i).warn("the extension '" + name + "' is not known and ignored");
     }
   }
 }
 
-json checked_scenes(const Place& root, const json& nodes) {
+json checked_roots(const Place& scene, const std::vector<bool>& is_child) {
+  scene.expect_object();
+  json roots = json::array();
+  if (!scene.has("nodes")) return roots;
+  const Place list = scene.at("nodes");
+  const std::size_t count = list.elements();
+  std::set<std::size_t> seen;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t node = list.at(k).index(is_child.size(), "node");
+    if (is_child[node]) list.at(k).refuse("node " + std::to_string(node) + " has a parent; a scene lists roots");
+    if (!seen.insert(node).second) list.at(k).refuse("node " + std::to_string(node) + " is listed twice");
+    roots.push_back(node);
+  }
+  return roots;
+}
+
+json checked_scenes(const Place& root, const LoadedScene& loaded, const json& nodes) {
   json out = json::array();
   if (!root.has("scenes")) return out;
-  std::vector<char> is_child(nodes.size(), 0);
+  std::vector<bool> is_child(nodes.size(), false);
   for (const json& node : nodes) {
-    for (const json& child : node.value("children", json::array())) is_child[child.get<std::size_t>()] = 1;
+    for (const json& child : node.value("children", json::array())) is_child[child.get<std::size_t>()] = true;
   }
   const Place scenes = root.at("scenes");
-  scenes.expect_array();
-  for (std::size_t i = 0; i < scenes.size(); ++i) {
-    const Place scene = scenes.at(i);
-    scene.expect_object();
+  const std::size_t count = scenes.elements();
+  for (std::size_t i = 0; i < count; ++i) {
     json roots = json::array();
-    if (scene.has("nodes")) {
-      const Place list = scene.at("nodes");
-      list.expect_array();
-      std::set<std::size_t> seen;
-      for (std::size_t k = 0; k < list.size(); ++k) {
-        const std::size_t node = list.at(k).index(nodes.size(), "node");
-        if (is_child[node]) list.at(k).refuse("node " + std::to_string(node) + " has a parent; a scene lists roots");
-        if (!seen.insert(node).second) list.at(k).refuse("node " + std::to_string(node) + " is listed twice");
-        roots.push_back(node);
-      }
+    try {
+      roots = checked_roots(scenes.at(i), is_child);
+    } catch (const Error& fault) {
+      if (i == loaded.scene) throw;
+      warn_of_unloaded(scenes.at(i), fault);
     }
     out.push_back({{"nodes", std::move(roots)}});
   }
@@ -135,25 +146,41 @@ std::size_t count_of(const Place& root, const std::string& key) {
   return root.at(key).size();
 }
 
-std::string warning_at(const Place& place, const std::string& message) {
-  return place.pointer() + ": " + one_line(message);
+void warn_of_unloaded(const Place& place, const Error& fault) {
+  place.warn(fault.where() + ": " + fault.message() + "; not in the scene that is loaded, so left out");
+}
+
+bool is_required(const Place& root, const std::string& extension) {
+  const std::size_t count = count_of(root, "extensionsRequired");
+  for (std::size_t i = 0; i < count; ++i) {
+    if (root.at("extensionsRequired").at(i).text() == extension) return true;
+  }
+  return false;
 }
 
 void copy_name(const Place& object, json& out) {
-  if (object.has("name")) out["name"] = object.at("name").text();
+  if (!object.has("name")) return;
+  const Place name = object.at("name");
+  if (name.value().is_null()) {
+    name.warn("null, where glTF asks for a string; read as no name");
+  } else {
+    out["name"] = name.text();
+  }
 }
 
-json checked_document(const Place& root, std::vector<std::string>& warnings) {
+json checked_document(const Place& root) {
   root.expect_object();
-  check_asset(root, warnings);
-  check_extensions(root, warnings);
+  check_asset(root);
+  check_extensions(root);
   json out = {{"asset", {{"version", "2.0"}}}};
-  out["nodes"] = checked_nodes(root);
-  out["scenes"] = checked_scenes(root, out["nodes"]);
+  const LoadedScene loaded = loaded_scene(root);
+  out["nodes"] = checked_nodes(root, loaded);
+  out["scenes"] = checked_scenes(root, loaded, out["nodes"]);
   if (root.has("scene")) out["scene"] = root.at("scene").index(out["scenes"].size(), "scene");
-  out["cameras"] = checked_cameras(root, warnings);
-  out["extensions"] = {{"KHR_lights_punctual", {{"lights", checked_lights(root, warnings)}}}};
-  out["animations"] = checked_animations(root, warnings);
+  out["cameras"] = checked_cameras(root);
+  const json lights = checked_lights(root);
+  out["animations"] = checked_animations(root, loaded, lights, out["cameras"]);
+  out["extensions"] = {{"KHR_lights_punctual", {{"lights", lights}}}};
   drop_unknown_cameras(out);
   drop_unknown_lights(out);
   return out;

@@ -6,31 +6,52 @@
 #include <string>
 #include <vector>
 
+#include "core/error.h"
 #include "scene/gltf_place.h"
 
 namespace clusterbench::scene {
 
 // A glTF document with asset, scene, scenes, nodes, cameras, KHR_lights_punctual and the animation channels that move
 // nodes. Indices are in range, nodes form a forest, numbers are finite, transforms are possible. Accessors, bufferViews
-// and buffers stay in `root` (see gltf_accessor.h). Throws Error at the first fault; doubts go to `warnings`.
-nlohmann::json checked_document(const Place& root, std::vector<std::string>& warnings);
+// and buffers stay in `root` (see gltf_accessor.h). Throws Error at the first fault; what is wrong but clear, and what
+// is wrong in nodes that are not loaded, is a warning.
+nlohmann::json checked_document(const Place& root);
+
+// The scene that is loaded: the default one, else the first. Faults outside of it are no reason to refuse.
+struct LoadedScene {
+  std::size_t scene = 0;    // of several; 0 where there are none
+  std::vector<bool> nodes;  // which nodes stand in it: all where there is no scene
+};
+// Walks down without judging: what is broken on the way is left to those who check.
+LoadedScene loaded_scene(const Place& root);
 
 // Its parts, each in its own file.
-nlohmann::json checked_nodes(const Place& root);
-nlohmann::json checked_cameras(const Place& root, std::vector<std::string>& warnings);
-nlohmann::json checked_lights(const Place& root, std::vector<std::string>& warnings);
-nlohmann::json checked_animations(const Place& root, std::vector<std::string>& warnings);
+nlohmann::json checked_nodes(const Place& root, const LoadedScene& loaded);
+nlohmann::json checked_cameras(const Place& root);
+nlohmann::json checked_lights(const Place& root);
+// `lights` and `cameras` are the checked ones. A channel says what it moves by a TargetKind, an index and a
+// ChannelPath.
+nlohmann::json checked_animations(const Place& root, const LoadedScene& loaded, const nlohmann::json& lights,
+                                  const nlohmann::json& cameras);
 
 // How far from 1 a quaternion's length may be: what 8-bit components can be off, as in the Khronos glTF validator.
 inline constexpr double k_unit_tolerance = 0.00769;
 
+// pi/2 rounded up to single precision, as exporters write it, is still pi/2.
+inline constexpr double k_angle_slack_rad = 1e-6;
+
 // Elements of a top-level array, 0 if it is absent.
 std::size_t count_of(const Place& root, const std::string& key);
 
-// "pointer: message", for warnings.
-std::string warning_at(const Place& place, const std::string& message);
+// A fault in a part of the document that is not loaded.
+void warn_of_unloaded(const Place& place, const Error& fault);
 
-// Copies object[key] as a string if it is there.
+// Is the extension in extensionsRequired?
+bool is_required(const Place& root, const std::string& extension);
+
+inline constexpr const char* k_pointers = "KHR_animation_pointer";
+
+// Copies the name if there is one.
 void copy_name(const Place& object, nlohmann::json& out);
 
 }  // namespace clusterbench::scene

@@ -1,16 +1,23 @@
+#include <optional>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "scene/gltf_checked.h"
+#include "scene/gltf_pointers.h"
 
 namespace clusterbench::scene {
 namespace {
 
 using nlohmann::json;
 
-bool moves_a_node(const std::string& path) {
-  return path == "translation" || path == "rotation" || path == "scale";
-}
+// What channels are checked against.
+struct Document {
+  const Place& root;
+  const LoadedScene& loaded;
+  const json &lights, &cameras;  // checked
+  bool requires_pointers;
+};
 
 json checked_sampler(const Place& root, const Place& sampler) {
   sampler.expect_object();
@@ -26,43 +33,109 @@ json checked_sampler(const Place& root, const Place& sampler) {
   return out;
 }
 
-// null for a channel that moves no node.
-json checked_channel(const Place& root, const Place& channel, std::size_t samplers,
-                     std::vector<std::string>& warnings) {
-  const std::size_t sampler = channel.at("sampler").index(samplers, "sampler");
-  const Place target = channel.at("target");
-  const std::string path = target.at("path").text();
-  if (target.has("node")) target.at("node").index(count_of(root, "nodes"), "node");
-  if (!moves_a_node(path)) {
-    warnings.push_back(warning_at(target.at("path"), "'" + path + "' moves no node and is ignored"));
-    return json(nullptr);
+// What a channel with a core path moves: a node.
+std::optional<Target> core_target(const Place& target, const std::string& path) {
+  const auto known = target_of("/nodes/0/" + path);
+  if (!known) {
+    target.at("path").warn("'" + path + "' moves no node and is ignored");
+  } else if (!target.has("node")) {
+    target.warn("names no node and is ignored");
+  } else {
+    return Target{TargetKind::node, target.at("node").whole(), known->path};
   }
-  if (!target.has("node")) {
-    warnings.push_back(warning_at(target, "names no node and is ignored"));
-    return json(nullptr);
-  }
-  const std::size_t node = target.at("node").whole();
-  if (root.at("nodes").at(node).has("matrix")) {
-    target.refuse("node " + std::to_string(node) +
-                  " has a matrix; only translation, rotation and scale can be animated");
-  }
-  return {{"sampler", sampler}, {"target", {{"node", node}, {"path", path}}}};
+  return std::nullopt;
 }
 
-json checked_animation(const Place& root, const Place& animation, std::vector<std::string>& warnings) {
+// A file that requires pointers is not shown without them.
+void ignore_pointer(const Document& document, const Place& place, const std::string& message) {
+  if (document.requires_pointers) place.refuse(message + "; the file requires " + k_pointers);
+  place.warn(message + " and is ignored");
+}
+
+std::optional<Target> pointer_target(const Document& document, const Place& target) {
+  if (!target.has("extensions") || !target.at("extensions").has(k_pointers)) {
+    ignore_pointer(document, target, "'pointer' without a pointer in extensions/KHR_animation_pointer moves nothing");
+    return std::nullopt;
+  }
+  const Place place = target.at("extensions").at(k_pointers).at("pointer");
+  const std::string& pointer = place.text();
+  if (const auto known = target_of(pointer)) {
+    const std::size_t there = known->kind == TargetKind::light    ? document.lights.size()
+                              : known->kind == TargetKind::camera ? document.cameras.size()
+                                                                  : document.loaded.nodes.size();
+    if (known->index >= there) place.refuse("'" + pointer + "' leads nowhere: there are " + std::to_string(there));
+    return known;
+  }
+  if (moves_only_looks(pointer)) {
+    place.warn("a pointer to materials, textures, meshes or weights moves neither light nor camera and is ignored");
+  } else {
+    ignore_pointer(document, place, "the pointer '" + pointer + "' is not known");
+  }
+  return std::nullopt;
+}
+
+const char* name_of(ChannelPath path) {
+  constexpr const char* k_names[] = {"translation", "rotation", "scale",          "visible",        "range",
+                                     "intensity",   "color",    "innerConeAngle", "outerConeAngle", "yfov",
+                                     "aspectRatio", "znear",    "zfar",           "xmag",           "ymag"};
+  return k_names[static_cast<int>(path)];
+}
+
+void check_target(const Place& root, const Place& target, const Target& moved) {
+  if (moved.kind != TargetKind::node || moved.path == ChannelPath::visible ||
+      !root.at("nodes").at(moved.index).has("matrix"))
+    return;
+  target.refuse("node " + std::to_string(moved.index) +
+                " has a matrix; only translation, rotation and scale can be animated");
+}
+
+// A light has a range and angles, a camera an angle or a size, only if it is of a kind that does.
+bool has_property(const Document& document, const Target& moved) {
+  if (moved.kind == TargetKind::node) return true;
+  const json& definition = (moved.kind == TargetKind::light ? document.lights : document.cameras)[moved.index];
+  const std::string type = definition.is_null() ? "" : definition["type"].get<std::string>();
+  const ChannelPath path = moved.path;
+  if (path == ChannelPath::yfov || path == ChannelPath::aspect_ratio) return type == "perspective";
+  if (path == ChannelPath::xmag || path == ChannelPath::ymag) return type == "orthographic";
+  if (path == ChannelPath::inner_cone || path == ChannelPath::outer_cone) return type == "spot";
+  return path == ChannelPath::range ? type == "point" || type == "spot" : !type.empty();
+}
+
+// null for a channel that moves nothing that is loaded.
+json checked_channel(const Document& document, const Place& channel, std::size_t samplers) {
+  const std::size_t sampler = channel.at("sampler").index(samplers, "sampler");
+  const Place target = channel.at("target");
+  const std::string& path = target.at("path").text();
+  if (target.has("node")) target.at("node").index(document.loaded.nodes.size(), "node");
+  const std::optional<Target> moved = path == "pointer" ? pointer_target(document, target) : core_target(target, path);
+  if (!moved) return json(nullptr);
+  if (moved->kind == TargetKind::node && !document.loaded.nodes[moved->index]) return json(nullptr);
+  check_target(document.root, target, *moved);
+  if (!has_property(document, *moved)) {
+    target.warn((moved->kind == TargetKind::light ? "light " : "camera ") + std::to_string(moved->index) + " has no " +
+                name_of(moved->path) + "; the channel is ignored");
+    return json(nullptr);
+  }
+  return {{"sampler", sampler},    {"is_pointer", path == "pointer"},       {"kind", static_cast<int>(moved->kind)},
+          {"index", moved->index}, {"path", static_cast<int>(moved->path)}, {"name", name_of(moved->path)}};
+}
+
+json checked_animation(const Document& document, const Place& animation) {
   const Place samplers = animation.at("samplers"), channels = animation.at("channels");
-  samplers.expect_array();
-  channels.expect_array();
+  const std::size_t sampler_count = samplers.elements(), channel_count = channels.elements();
   json out = {{"samplers", json::array()}, {"channels", json::array()}};
-  for (std::size_t i = 0; i < samplers.size(); ++i) out["samplers"].push_back(checked_sampler(root, samplers.at(i)));
-  std::set<std::pair<std::size_t, std::string>> targets;
-  for (std::size_t i = 0; i < channels.size(); ++i) {
-    json channel = checked_channel(root, channels.at(i), samplers.size(), warnings);
+  for (std::size_t i = 0; i < sampler_count; ++i)
+    out["samplers"].push_back(checked_sampler(document.root, samplers.at(i)));
+  std::set<std::tuple<int, std::size_t, int>> targets;
+  for (std::size_t i = 0; i < channel_count; ++i) {
+    json channel = checked_channel(document, channels.at(i), sampler_count);
     if (channel.is_null()) continue;
-    const json& target = channel["target"];
-    if (!targets.emplace(target["node"].get<std::size_t>(), target["path"].get<std::string>()).second) {
-      channels.at(i).at("target").refuse("an earlier channel of this animation has the same node and path");
+    const std::tuple target(channel["kind"].get<int>(), channel["index"].get<std::size_t>(),
+                            channel["path"].get<int>());
+    if (!targets.insert(target).second) {
+      channels.at(i).at("target").refuse("an earlier channel of this animation moves the same");
     }
+    channel["channel"] = i;
     out["channels"].push_back(std::move(channel));
   }
   return out;
@@ -70,11 +143,12 @@ json checked_animation(const Place& root, const Place& animation, std::vector<st
 
 }  // namespace
 
-json checked_animations(const Place& root, std::vector<std::string>& warnings) {
+json checked_animations(const Place& root, const LoadedScene& loaded, const json& lights, const json& cameras) {
   json out = json::array();
-  const std::size_t count = count_of(root, "animations");
+  const Document document{root, loaded, lights, cameras, is_required(root, k_pointers)};
+  const std::size_t count = root.has("animations") ? root.at("animations").elements() : 0;
   for (std::size_t i = 0; i < count; ++i) {
-    out.push_back(checked_animation(root, root.at("animations").at(i), warnings));
+    out.push_back(checked_animation(document, root.at("animations").at(i)));
   }
   return out;
 }

@@ -14,22 +14,24 @@ double positive(const Place& place) {
   return number;
 }
 
-void check_far(const Place& lens, double near) {
-  if (lens.has("zfar") && lens.at("zfar").number() <= near) {
-    lens.refuse("zfar must be greater than znear");
-  }
+// The far plane if there is one.
+void copy_far(const Place& lens, json& out) {
+  if (!lens.has("zfar")) return;
+  const Place zfar = lens.at("zfar");
+  const double far = positive(zfar);
+  if (far <= out["znear"].get<double>()) lens.refuse("zfar must be greater than znear");
+  if (is_float_max(far)) zfar.warn("the largest number of single precision; read as infinitely far");
+  out["zfar"] = far;
 }
 
 // null for a lens that glTF allows and that shows nothing.
-json checked_perspective(const Place& lens, std::vector<std::string>& warnings) {
+json checked_perspective(const Place& lens) {
   lens.expect_object();
   json out = {{"yfov", positive(lens.at("yfov"))}, {"znear", positive(lens.at("znear"))}};
-  check_far(lens, out["znear"].get<double>());
-  if (lens.has("zfar")) out["zfar"] = positive(lens.at("zfar"));
-  if (lens.has("aspectRatio")) positive(lens.at("aspectRatio"));
+  copy_far(lens, out);
+  if (lens.has("aspectRatio")) out["aspectRatio"] = positive(lens.at("aspectRatio"));
   if (out["yfov"].get<double>() >= std::numbers::pi) {
-    warnings.push_back(
-        warning_at(lens.at("yfov"), "pi radians or more show nothing (degrees?); the camera is ignored"));
+    lens.at("yfov").warn("pi radians or more show nothing (degrees?); the camera is ignored");
     return json(nullptr);
   }
   return out;
@@ -47,26 +49,26 @@ void copy_sides(const Place& camera, json& out) {
 }
 
 // A negative magnification mirrors the picture; which lights it holds is the same.
-double magnification(const Place& place, std::vector<std::string>& warnings) {
+double magnification(const Place& place) {
   const double number = place.number();
   if (number == 0.0) place.refuse("found 0, another number is needed");
-  if (number < 0.0) warnings.push_back(warning_at(place, "negative, its sign is ignored"));
+  if (number < 0.0) place.warn("negative, its sign is ignored");
   return std::abs(number);
 }
 
-json checked_orthographic(const Place& lens, std::vector<std::string>& warnings) {
+json checked_orthographic(const Place& lens) {
   lens.expect_object();
-  json out = {{"xmag", magnification(lens.at("xmag"), warnings)},
-              {"ymag", magnification(lens.at("ymag"), warnings)},
-              {"znear", lens.at("znear").number()},
-              {"zfar", positive(lens.at("zfar"))}};
+  json out = {{"xmag", magnification(lens.at("xmag"))},
+              {"ymag", magnification(lens.at("ymag"))},
+              {"znear", lens.at("znear").number()}};
   if (out["znear"].get<double>() < 0.0)
     lens.at("znear").refuse("found " + kind_of(lens.at("znear").value()) + ", 0 or more is needed");
-  check_far(lens, out["znear"].get<double>());
+  lens.at("zfar");  // must be there
+  copy_far(lens, out);
   return out;
 }
 
-json checked_camera(const Place& camera, std::vector<std::string>& warnings) {
+json checked_camera(const Place& camera) {
   json out = json::object();
   const std::string& type = camera.at("type").text();
   copy_name(camera, out);
@@ -74,12 +76,12 @@ json checked_camera(const Place& camera, std::vector<std::string>& warnings) {
     camera.refuse("a camera is either perspective or orthographic, not both");
   }
   if (type == "perspective") {
-    out["perspective"] = checked_perspective(camera.at("perspective"), warnings);
+    out["perspective"] = checked_perspective(camera.at("perspective"));
     if (out["perspective"].is_null()) return json(nullptr);
   } else if (type == "orthographic") {
-    out["orthographic"] = checked_orthographic(camera.at("orthographic"), warnings);
+    out["orthographic"] = checked_orthographic(camera.at("orthographic"));
   } else {
-    warnings.push_back(warning_at(camera.at("type"), "the camera type is not known; the camera is ignored"));
+    camera.at("type").warn("the camera type is not known; the camera is ignored");
     return json(nullptr);
   }
   out["type"] = type;
@@ -89,10 +91,10 @@ json checked_camera(const Place& camera, std::vector<std::string>& warnings) {
 
 }  // namespace
 
-json checked_cameras(const Place& root, std::vector<std::string>& warnings) {
+json checked_cameras(const Place& root) {
   json out = json::array();
-  const std::size_t count = count_of(root, "cameras");
-  for (std::size_t i = 0; i < count; ++i) out.push_back(checked_camera(root.at("cameras").at(i), warnings));
+  const std::size_t count = root.has("cameras") ? root.at("cameras").elements() : 0;
+  for (std::size_t i = 0; i < count; ++i) out.push_back(checked_camera(root.at("cameras").at(i)));
   return out;
 }
 

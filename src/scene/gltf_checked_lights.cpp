@@ -8,9 +8,6 @@ namespace {
 
 using nlohmann::json;
 
-// pi/2 rounded up to single precision, as exporters write it, is still pi/2.
-constexpr double k_angle_slack_rad = 1e-6;
-
 json checked_spot(const Place& spot) {
   spot.expect_object();
   const double inner = spot.has("innerConeAngle") ? spot.at("innerConeAngle").number() : 0.0;
@@ -19,54 +16,66 @@ json checked_spot(const Place& spot) {
   if (outer > std::numbers::pi / 2.0 + k_angle_slack_rad || outer <= 0.0) {
     spot.at("outerConeAngle").refuse("found " + std::to_string(outer) + ", more than 0 and at most pi/2 is needed");
   }
-  if (inner >= outer) {
-    const Place blamed = spot.has("outerConeAngle") ? spot.at("outerConeAngle") : spot.at("innerConeAngle");
-    blamed.refuse("innerConeAngle " + std::to_string(inner) + " must be less than outerConeAngle " +
+  const Place blamed = spot.has("outerConeAngle")   ? spot.at("outerConeAngle")
+                       : spot.has("innerConeAngle") ? spot.at("innerConeAngle")
+                                                    : spot;
+  if (inner > outer + k_angle_slack_rad) {
+    blamed.refuse("innerConeAngle " + std::to_string(inner) + " must not be more than outerConeAngle " +
                   std::to_string(outer));
   }
-  return {{"innerConeAngle", inner}, {"outerConeAngle", std::min(outer, std::numbers::pi / 2.0)}};
+  // Exporters write it for a spot with a hard edge; it changes no cluster.
+  if (inner >= outer)
+    blamed.warn("innerConeAngle is outerConeAngle, where glTF asks for less; read as a spot with a hard edge");
+  const double widest = std::min(outer, std::numbers::pi / 2.0);
+  return {{"innerConeAngle", std::min(inner, widest)}, {"outerConeAngle", widest}};
 }
 
-void copy_range(const Place& light, json& out, std::vector<std::string>& warnings) {
+void copy_range(const Place& light, json& out) {
   if (!light.has("range")) return;
   const Place range = light.at("range");
   const double range_m = range.number();
   if (range_m < 0.0) range.refuse("found " + kind_of(range.value()) + ", a range of 0 or more is needed");
-  if (range_m == 0.0) warnings.push_back(warning_at(range, "a range of 0 lights nothing (glTF asks for more than 0)"));
+  if (is_float_max(range_m)) {
+    range.warn("the largest number of single precision; read as no range, which is what glTF has for an endless one");
+    return;
+  }
+  if (range_m == 0.0) range.warn("a range of 0 lights nothing (glTF asks for more than 0)");
   out["range"] = range_m;
 }
 
-void copy_colour(const Place& light, json& out, std::vector<std::string>& warnings) {
+void copy_colour(const Place& light, json& out) {
   if (!light.has("color")) return;
   const Place color = light.at("color");
-  const std::vector<double> rgb = color.numbers(3);
+  const bool has_alpha = color.value().is_array() && color.size() == 4;
+  if (has_alpha) color.warn("found 4 numbers, 3 are needed; the fourth is ignored");
+  std::vector<double> rgb = color.numbers(has_alpha ? 4 : 3);
+  rgb.resize(3);
   for (std::size_t i = 0; i < rgb.size(); ++i) {
     if (rgb[i] < 0.0) color.at(i).refuse("found " + kind_of(color.at(i).value()) + ", 0 to 1 is allowed");
-    if (rgb[i] > 1.0) warnings.push_back(warning_at(color.at(i), "a colour above 1; taken as it is"));
+    if (rgb[i] > 1.0) color.at(i).warn("a colour above 1; taken as it is");
   }
   out["color"] = rgb;
 }
 
-json checked_light(const Place& light, std::vector<std::string>& warnings) {
+json checked_light(const Place& light) {
   json out = json::object();
   const std::string& type = light.at("type").text();
   if (type != "point" && type != "spot" && type != "directional") {
-    warnings.push_back(warning_at(light.at("type"), "the light type is not known; the light is ignored"));
+    light.at("type").warn("the light type is not known; the light is ignored");
     return json(nullptr);
   }
   out["type"] = type;
   copy_name(light, out);
-  copy_colour(light, out, warnings);
+  copy_colour(light, out);
   if (light.has("intensity")) {
     out["intensity"] = light.at("intensity").number();
     if (out["intensity"].get<double>() < 0.0) {
       light.at("intensity").refuse("found " + kind_of(light.at("intensity").value()) + ", 0 or more is needed");
     }
   }
-  if (type != "directional") copy_range(light, out, warnings);
+  if (type != "directional") copy_range(light, out);
   if (type == "spot") {
-    if (!light.has("spot"))
-      warnings.push_back(warning_at(light, "a spot light without 'spot'; angles 0 and pi/4 taken"));
+    if (!light.has("spot")) light.warn("a spot light without 'spot'; angles 0 and pi/4 taken");
     out["spot"] = light.has("spot") ? checked_spot(light.at("spot"))
                                     : json({{"innerConeAngle", 0.0}, {"outerConeAngle", std::numbers::pi / 4.0}});
   }
@@ -75,15 +84,15 @@ json checked_light(const Place& light, std::vector<std::string>& warnings) {
 
 }  // namespace
 
-json checked_lights(const Place& root, std::vector<std::string>& warnings) {
+json checked_lights(const Place& root) {
   json out = json::array();
   if (!root.has("extensions")) return out;
   const Place extensions = root.at("extensions");
   extensions.expect_object();
   if (!extensions.has("KHR_lights_punctual")) return out;
   const Place lights = extensions.at("KHR_lights_punctual").at("lights");
-  lights.expect_array();
-  for (std::size_t i = 0; i < lights.size(); ++i) out.push_back(checked_light(lights.at(i), warnings));
+  const std::size_t count = lights.elements();
+  for (std::size_t i = 0; i < count; ++i) out.push_back(checked_light(lights.at(i)));
   return out;
 }
 

@@ -82,6 +82,17 @@ void copy_box(const Place& node, json& out) {
   out["extras"]["clusterbench_box"]["half_extents"] = half_extents;
 }
 
+// Inherited down the tree: whether a node is drawn, and with it its light.
+void copy_visibility(const Place& node, json& out) {
+  if (!node.has("extensions") || !node.at("extensions").has("KHR_node_visibility")) return;
+  const Place extension = node.at("extensions").at("KHR_node_visibility");
+  extension.expect_object();
+  if (!extension.has("visible")) return;
+  const Place visible = extension.at("visible");
+  if (!visible.value().is_boolean()) visible.refuse("found " + kind_of(visible.value()) + ", true or false is needed");
+  out["visible"] = visible.value();
+}
+
 json checked_node(const Place& root, const Place& node, std::size_t nodes) {
   node.expect_object();
   json out = json::object();
@@ -90,34 +101,41 @@ json checked_node(const Place& root, const Place& node, std::size_t nodes) {
   if (node.has("camera")) out["camera"] = node.at("camera").index(count_of(root, "cameras"), "camera");
   if (node.has("children")) {
     const Place children = node.at("children");
-    children.expect_array();
-    for (std::size_t i = 0; i < children.size(); ++i) {
+    const std::size_t count = children.elements();
+    for (std::size_t i = 0; i < count; ++i) {
       out["children"].push_back(children.at(i).index(nodes, "node"));
     }
   }
   copy_light(root, node, out);
+  copy_visibility(node, out);
   copy_box(node, out);
   return out;
 }
 
-// A node with two parents would stand in two places; a node above itself nowhere.
-void check_forest(const Place& nodes, const json& checked) {
-  constexpr std::size_t k_none = static_cast<std::size_t>(-1);
+constexpr std::size_t k_none = static_cast<std::size_t>(-1);
+
+// The parent of each node. A node with two would stand in two places.
+std::vector<std::size_t> parents_of(const Place& nodes, const json& checked, const std::vector<bool>& is_loaded) {
   std::vector<std::size_t> parent(checked.size(), k_none);
   for (std::size_t i = 0; i < checked.size(); ++i) {
     if (!checked[i].contains("children")) continue;
     const json& children = checked[i]["children"];
     for (std::size_t k = 0; k < children.size(); ++k) {
       const std::size_t child = children[k].get<std::size_t>();
-      if (parent[child] != k_none) {
-        nodes.at(i)
-            .at("children")
-            .at(k)
-            .refuse("node " + std::to_string(child) + " already has the parent " + std::to_string(parent[child]));
-      }
+      const Place place = nodes.at(i).at("children").at(k);
+      const std::string fault =
+          "node " + std::to_string(child) + " already has the parent " + std::to_string(parent[child]);
+      if (parent[child] != k_none && is_loaded[child]) place.refuse(fault);
+      if (parent[child] != k_none) place.warn(fault + "; not in the scene that is loaded");
       parent[child] = i;
     }
   }
+  return parent;
+}
+
+// A node above itself stands nowhere.
+void check_forest(const Place& nodes, const json& checked, const std::vector<bool>& is_loaded) {
+  const std::vector<std::size_t> parent = parents_of(nodes, checked, is_loaded);
   // With at most one parent each, walking up from every node finds every loop. 1: on the way up, 2: known to end.
   std::vector<char> state(checked.size(), 0);
   std::vector<std::size_t> way;
@@ -128,18 +146,32 @@ void check_forest(const Place& nodes, const json& checked) {
       state[at] = 1;
       way.push_back(at);
     }
-    if (at != k_none && state[at] == 1) nodes.at(at).refuse("the node is its own ancestor");
+    if (at != k_none && state[at] == 1) {
+      if (is_loaded[at]) nodes.at(at).refuse("the node is its own ancestor");
+      nodes.at(at).warn("the node is its own ancestor; not in the scene that is loaded");
+    }
     for (const std::size_t passed : way) state[passed] = 2;
   }
 }
 
 }  // namespace
 
-json checked_nodes(const Place& root) {
+json checked_nodes(const Place& root, const LoadedScene& loaded) {
   json out = json::array();
-  const std::size_t count = count_of(root, "nodes");
-  for (std::size_t i = 0; i < count; ++i) out.push_back(checked_node(root, root.at("nodes").at(i), count));
-  if (count > 0) check_forest(root.at("nodes"), out);
+  if (!root.has("nodes")) return out;
+  const Place nodes = root.at("nodes");
+  const std::size_t count = nodes.elements();
+  for (std::size_t i = 0; i < count; ++i) {
+    json node = json::object();
+    try {
+      node = checked_node(root, nodes.at(i), count);
+    } catch (const Error& fault) {
+      if (loaded.nodes[i]) throw;
+      warn_of_unloaded(nodes.at(i), fault);
+    }
+    out.push_back(std::move(node));
+  }
+  check_forest(nodes, out, loaded.nodes);
   return out;
 }
 

@@ -1,5 +1,6 @@
 #include "scene/gltf_keys.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -15,8 +16,11 @@ void check_times_format(const AccessorReader& reader, const Place& sampler, std:
     input.refuse("key times must be SCALAR floats, accessor " + std::to_string(accessor) + " is not");
   }
   for (const char* bound : {"min", "max"}) {
-    if (!place.has(bound)) place.refuse(std::string("'") + bound + "' is missing; glTF asks for it at key times");
-    place.at(bound).numbers(1);
+    if (place.has(bound)) {
+      place.at(bound).numbers(1);
+    } else {
+      place.warn(std::string("'") + bound + "' is missing, where glTF asks for it at key times; the times are read");
+    }
   }
 }
 
@@ -34,12 +38,47 @@ std::vector<double> read_times(AccessorReader& reader, const Place& sampler, std
   return times_s;
 }
 
-void check_format(const Place& output, const AccessorHead& head, ChannelPath path) {
-  if (path == ChannelPath::rotation) {
-    const bool number = head.component == Component::f32 || (head.normalized && head.component != Component::u32);
+std::size_t components_of(ChannelPath path) {
+  switch (path) {
+    case ChannelPath::rotation:
+      return 4;
+    case ChannelPath::translation:
+    case ChannelPath::scale:
+    case ChannelPath::color:
+      return 3;
+    default:
+      return 1;
+  }
+}
+
+void check_format(const Place& output, const AccessorHead& head, ChannelPath path, bool is_pointer) {
+  const bool number = head.component == Component::f32 || (head.normalized && head.component != Component::u32);
+  const std::size_t components = components_of(path);
+  if (path == ChannelPath::visible) {
+    if (head.type != "SCALAR" || head.component != Component::u8 || head.normalized)
+      output.refuse("visibility must be SCALAR unsigned bytes, 0 or 1");
+  } else if (path == ChannelPath::rotation) {
     if (head.type != "VEC4" || !number) output.refuse("rotations must be VEC4 floats or normalized integers");
-  } else if (head.type != "VEC3" || head.component != Component::f32) {
-    output.refuse("translations and scales must be VEC3 floats");
+  } else if (components == 3) {
+    if (head.type != "VEC3" || !(is_pointer ? number : head.component == Component::f32))
+      output.refuse(path == ChannelPath::color ? "colours must be VEC3 floats or normalized integers"
+                                               : "translations and scales must be VEC3 floats");
+  } else if (head.type != "SCALAR" || !number) {
+    output.refuse("a single number must be SCALAR floats or normalized integers");
+  }
+}
+
+// What a property of a light or a lens may be; a node's may be anything. A lens is looked at as a whole later on.
+void check_allowed(const Place& output, const Channel& channel) {
+  const bool cubic = channel.interpolation == Interpolation::cubic_spline;
+  const bool angle = channel.path == ChannelPath::inner_cone || channel.path == ChannelPath::outer_cone;
+  constexpr double k_widest = 1.57079632679489661923 + k_angle_slack_rad;
+  for (std::size_t i = cubic ? 1 : 0; i < channel.values.size(); i += cubic ? 3 : 1) {
+    const Vec4d& value = channel.values[i];
+    const double least = std::min({value.x, value.y, value.z});
+    if (least < 0.0 || (angle && value.x > k_widest))
+      output.refuse("found " + std::to_string(least) + " at element " + std::to_string(i) +
+                    (angle ? ", 0 to pi/2 is needed" : ", 0 or more is needed"));
   }
 }
 
@@ -57,27 +96,33 @@ void check_unit(const Place& output, const Channel& channel) {
 }  // namespace
 
 std::optional<Channel> read_keys(AccessorReader& reader, const Place& sampler, std::size_t input, std::size_t output,
-                                 ChannelPath path, Interpolation interpolation) {
+                                 ChannelPath path, bool is_pointer, Interpolation interpolation) {
   check_times_format(reader, sampler, input);
   const AccessorHead head = reader.head(output);
-  check_format(sampler.at("output"), head, path);
+  check_format(sampler.at("output"), head, path, is_pointer);
   const bool cubic = interpolation == Interpolation::cubic_spline;
+  if (path == ChannelPath::visible && interpolation != Interpolation::step)
+    sampler.refuse("visibility cannot lie between two values; the interpolation must be STEP");
   const std::size_t keys = reader.head(input).count, needed = keys * (cubic ? 3 : 1);
   if (cubic && keys < 2) sampler.at("input").refuse("a cubic spline needs two keys or more");
   if (head.count != needed) {
     sampler.at("output").refuse("found " + std::to_string(head.count) + " values, " + std::to_string(needed) +
                                 " are needed for " + std::to_string(keys) + " keys");
   }
+  if (keys == 0) return std::nullopt;
 
   Channel channel;
   channel.path = path;
   channel.interpolation = interpolation;
-  const std::size_t components = path == ChannelPath::rotation ? 4 : 3;
+  const std::size_t components = components_of(path);
   const std::vector<double> numbers = reader.numbers(output, components);
   channel.values.reserve(needed);
   for (std::size_t i = 0; i < numbers.size(); i += components) {
-    channel.values.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2], components == 4 ? numbers[i + 3] : 0.0);
+    Vec4d value{0.0};
+    for (std::size_t k = 0; k < components; ++k) value[static_cast<int>(k)] = numbers[i + k];
+    channel.values.push_back(value);
   }
+  if (path >= ChannelPath::range && path <= ChannelPath::outer_cone) check_allowed(sampler.at("output"), channel);
   const bool rotation = path == ChannelPath::rotation, turns = rotation && reader.has_data(output);
   if (turns) check_unit(sampler.at("output"), channel);
   if (keys > 1 && !reader.has_data(input)) return std::nullopt;

@@ -4,9 +4,13 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace clusterbench::scene {
 namespace {
+
+// What lies within half a step of the largest float rounds to it.
+constexpr double k_float_max = std::numeric_limits<float>::max(), k_half_step = 0x1p103;
 
 // RFC 6901: '~' and '/' inside a name are escaped.
 std::string escaped(const std::string& name) {
@@ -40,26 +44,30 @@ std::string one_line(std::string text) {
     while ((static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // not inside a UTF-8 sequence
     text = text.substr(0, end) + "...";
   }
-  for (char& c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if (code < 0x20 || code == 0x7F) c = '?';
-  }
-  return text;
+  return printable(text);
+}
+
+bool is_float_max(double number) {
+  return number > k_float_max - k_half_step && number < k_float_max + k_half_step;
 }
 
 void Place::refuse(const std::string& message) const {
   throw Error(*file_, pointer_.empty() ? "/" : pointer_, one_line(message));
 }
 
+void Place::warn(const std::string& message) const {
+  warnings_->add(pointer_.empty() ? "/" : pointer_, one_line(message));
+}
+
 Place Place::at(const std::string& key) const {
   expect_object();
   const auto found = value_->find(key);
   if (found == value_->end()) refuse("'" + key + "' is missing");
-  return Place(*file_, *found, pointer_ + "/" + escaped(key));
+  return Place(*file_, *found, *warnings_, pointer_ + "/" + escaped(key));
 }
 
 Place Place::at(std::size_t index) const {
-  return Place(*file_, (*value_)[index], pointer_ + "/" + std::to_string(index));
+  return Place(*file_, (*value_)[index], *warnings_, pointer_ + "/" + std::to_string(index));
 }
 
 void Place::expect_object() const {
@@ -67,9 +75,13 @@ void Place::expect_object() const {
 }
 
 void Place::expect_array() const {
-  if (!value_->is_array() || value_->empty()) {
-    refuse("found " + kind_of(*value_) + ", an array of one element or more is needed");
-  }
+  if (!value_->is_array()) refuse("found " + kind_of(*value_) + ", an array is needed");
+}
+
+std::size_t Place::elements() const {
+  expect_array();
+  if (value_->empty()) warn("an empty array, where glTF asks for one element or more; read as absent");
+  return value_->size();
 }
 
 const std::string& Place::text() const {
@@ -80,7 +92,7 @@ const std::string& Place::text() const {
 double Place::number() const {
   if (!value_->is_number()) refuse("found " + kind_of(*value_) + ", a number is needed");
   const double number = value_->get<double>();
-  if (!(std::abs(number) <= static_cast<double>(std::numeric_limits<float>::max()))) {
+  if (!(std::abs(number) < k_float_max + k_half_step)) {
     refuse("found " + kind_of(*value_) + ", a number that single precision can hold is needed");
   }
   return number;

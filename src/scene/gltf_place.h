@@ -6,13 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "scene/gltf_warnings.h"
+
 namespace clusterbench::scene {
 
 class Place {
  public:
-  // `file` must outlive the Place.
-  Place(const std::string& file, const nlohmann::json& value, std::string pointer = "")
-      : file_(&file), value_(&value), pointer_(std::move(pointer)) {}
+  // `file`, `value` and `warnings` must outlive the Place.
+  Place(const std::string& file, const nlohmann::json& value, Warnings& warnings, std::string pointer = "")
+      : file_(&file), value_(&value), warnings_(&warnings), pointer_(std::move(pointer)) {}
 
   const nlohmann::json& value() const { return *value_; }
   const std::string& pointer() const { return pointer_; }
@@ -25,23 +27,32 @@ class Place {
 
   // Each throws Error(file, pointer, ...) when the value is not of that kind.
   void expect_object() const;
-  void expect_array() const;  // of one element or more
+  void expect_array() const;
+  // Elements of an array. None at all is said once, since glTF asks for one or more: call it once per array.
+  std::size_t elements() const;
   const std::string& text() const;
-  double number() const;      // finite in single precision
+  double number() const;      // rounds to a finite number in single precision
   std::size_t whole() const;  // 0 .. 2^53
   std::size_t index(std::size_t count, const std::string& what) const;
   std::vector<double> numbers(std::size_t count) const;
 
   [[noreturn]] void refuse(const std::string& message) const;
+  // What is loaded all the same.
+  void warn(const std::string& message) const;
 
  private:
   const std::string* file_;
   const nlohmann::json* value_;
+  Warnings* warnings_;
   std::string pointer_;
 };
 
-// The text with control characters replaced and cut to a length that a line can bear: strings of a file in messages.
+// printable(), and cut to a length that a line can bear: strings of a file in messages.
 std::string one_line(std::string text);
+
+// The largest number of single precision, which stands for "no end" in files; also where its decimals say a little
+// more.
+bool is_float_max(double number);
 
 // "a number", "an array" ... for messages.
 std::string kind_of(const nlohmann::json& value);

@@ -4,9 +4,9 @@
 #include "scene/scene.h"
 
 namespace clusterbench::scene {
-namespace {
 
-void resolve(Light& light, const RangeRule& rule) {
+void resolve_range(Light& light, const RangeRule& rule) {
+  if (light.type == LightType::directional) return;
   if (light.range_given_m) {
     light.range_m = *light.range_given_m;
     light.range_source = RangeSource::given;
@@ -19,12 +19,9 @@ void resolve(Light& light, const RangeRule& rule) {
   light.range_m = std::min(reach_m, rule.max_range_m);
 }
 
-}  // namespace
-
 void resolve_ranges(Scene& scene, const RangeRule& rule) {
-  for (Light& light : scene.lights) {
-    if (light.type != LightType::directional) resolve(light, rule);
-  }
+  scene.range_rule = rule;
+  for (Light& light : scene.lights) resolve_range(light, rule);
 }
 
 }  // namespace clusterbench::scene

@@ -27,6 +27,7 @@ struct Light {
   std::optional<double> range_given_m;  // as the file gives it
   double range_m = 0.0;                 // after resolve_ranges(); >= 0, may be +inf
   RangeSource range_source = RangeSource::given;
+  int definition = -1;  // place among the file's light definitions, which light channels move
   double inner_cone_rad = 0.0, outer_cone_rad = 0.78539816339744831;  // half-angles, spots only
 };
 
@@ -46,10 +47,18 @@ struct LensSides {
   friend bool operator==(const LensSides&, const LensSides&) = default;
 };
 
-// A camera's lens as glTF gives it. The aspect ratio of a frame is its viewport's, the vertical extent is the lens's.
+// How a camera's rectangle is put into a viewport of another shape; pixels stay square.
+//   contain   the view is enlarged until it holds the whole rectangle, as glTF asks for: nothing is cropped
+//   vertical  the height is the camera's, the width follows from the viewport: a wider camera is cropped at its sides
+// They differ only for a camera that is wider than the viewport.
+enum class CameraFit : std::uint8_t { contain, vertical };
+
+// A camera's lens as glTF gives it.
 struct Lens {
   bool orthographic = false;
-  double yfov_rad = 0.0;  // perspective
+  double yfov_rad = 0.0;               // perspective
+  std::optional<double> aspect_ratio;  // perspective, width over height; without: the viewport's
+  CameraFit fit = CameraFit::contain;
   // Perspective, in place of yfov and aspect ratio. glTF has no such camera; this tool reads it from the camera's
   //   "extras": {"clusterbench_sides": [left, right, bottom, top]}
   std::optional<LensSides> sides;
@@ -61,7 +70,8 @@ struct Camera {
   std::string name;  // node name, else camera name, else "camera N"
   int node = -1;
   Lens lens;
-  bool animated = false;  // its node or one above it has an animation channel
+  bool animated = false;  // its lens, its node or one above it has an animation channel
+  int definition = -1;    // place among the file's cameras, which lens channels move
 };
 
 struct Node {
@@ -73,34 +83,37 @@ struct Node {
   Vec3d translation{0.0};
   Vec4d rotation{0.0, 0.0, 0.0, 1.0};  // quaternion x, y, z, w
   Vec3d scale{1.0};
+  bool visible = true;  // KHR_node_visibility: an invisible node hides the lights on it and below it
 };
 
 enum class Interpolation : std::uint8_t { linear, step, cubic_spline };
-enum class ChannelPath : std::uint8_t { translation, rotation, scale };
+// Of nodes: the first four; of light definitions: the next five; of camera definitions: the others. Angles in radians.
+enum class ChannelPath : std::uint8_t {
+  translation,
+  rotation,
+  scale,
+  visible,
+  range,
+  intensity,
+  color,
+  inner_cone,
+  outer_cone,
+  yfov,
+  aspect_ratio,
+  near,
+  far,
+  xmag,
+  ymag
+};
 
 struct Channel {
-  int node = -1;
+  int node = -1;        // a channel of a node, or
+  int definition = -1;  // of all lights, or all cameras, of one definition
   ChannelPath path = ChannelPath::translation;
   Interpolation interpolation = Interpolation::linear;
   std::vector<double> times_s;  // strictly ascending
   std::vector<Vec4d> values;    // one per key; cubic spline: in-tangent, value, out-tangent per key
 };
-
-struct Scene {
-  std::string name;  // file stem
-  std::filesystem::path path;
-  std::string sha256;         // of the file's bytes (external buffers' follow in order)
-  std::vector<Node> nodes;    // reachable from the default scene; parents first
-  std::vector<Light> lights;  // in node order
-  std::vector<Camera> cameras;
-  std::vector<OrientedBox> boxes;
-  std::vector<Channel> channels;  // of all animations, played together
-  double duration_s = 0.0;        // last key of any channel
-  std::vector<std::string> warnings;
-};
-
-// Reads .gltf or .glb. Throws Error (file, JSON pointer) for what is broken in a part that this tool reads.
-Scene load_gltf(const std::filesystem::path& path);
 
 // What a light without `range` gets: the distance at which its brightest colour channel falls to cutoff_lux,
 // sqrt(intensity * max(color) / cutoff_lux), at most max_range_m. Given ranges stay.
@@ -108,7 +121,28 @@ struct RangeRule {
   double cutoff_lux = 0.05;
   double max_range_m = 100.0;
 };
+
+struct Scene {
+  std::string name;  // file stem
+  std::filesystem::path path;
+  std::string sha256;         // of the file's bytes (external buffers' follow in order)
+  std::vector<Node> nodes;    // reachable from the default scene; parents first
+  std::vector<Light> lights;  // in node order; without those that are never visible
+  std::vector<Camera> cameras;
+  std::vector<OrientedBox> boxes;
+  std::vector<Channel> channels;        // that move nodes; of all animations, played together
+  std::vector<Channel> light_channels;  // that change lights; ascending by definition
+  std::vector<Channel> lens_channels;   // that change cameras' lenses; ascending by definition
+  double duration_s = 0.0;              // last key of any channel
+  RangeRule range_rule;                 // by which ranges were resolved; holds for intensities that change, too
+  std::vector<std::string> warnings;
+};
+
+// Reads .gltf or .glb. Throws Error (file, JSON pointer) for what is broken in a part that this tool reads.
+Scene load_gltf(const std::filesystem::path& path);
+
 void resolve_ranges(Scene& scene, const RangeRule& rule);
+void resolve_range(Light& light, const RangeRule& rule);
 
 // World transforms of all nodes at a time (animations clamp to their first and last key).
 std::vector<Mat4d> world_transforms(const Scene& scene, double time_s);
@@ -122,12 +156,15 @@ struct WorldLight {
   LightType type = LightType::point;
   Vec3d position{0.0};
   double range_m = 0.0;
-  Vec3d direction{0.0, 0.0, -1.0};  // unit up to rounding; spots
-  double outer_cone_rad = 0.0;      // spots; in [0, pi/2]
+  Vec3d direction{0.0, 0.0, -1.0};     // unit up to rounding; spots
+  double outer_cone_rad = 0.0;         // spots; in [0, pi/2]
+  double inner_cone_rad = 0.0;         // spots: where their light begins to fall off; changes no volume
+  double luminous_intensity_cd = 1.0;  // the intensity times the colour's luminance (Rec. 709)
 };
 
 // All point lights, then all spot lights, each in Scene::lights order. Directional lights touch everything and are left
-// out.
+// out. A light that is invisible at that time has a range of 0, so that it lights nothing and the others keep their
+// places.
 std::vector<WorldLight> world_lights(const Scene& scene, double time_s);
 
 // Where a camera stands: view = view_from_world * (world - eye). Rows are unit and orthogonal up to rounding: the
@@ -137,5 +174,10 @@ struct CameraPose {
   Mat3d view_from_world{1.0};
 };
 CameraPose camera_pose(const Scene& scene, const Camera& camera, double time_s);
+CameraPose camera_pose(const Mat4d& world);  // of the camera's node
+
+// A camera's lens at a time. Throws Error for one that shows nothing then (no angle, no size, zfar not beyond znear):
+// channels are moved apart from each other.
+Lens camera_lens(const Scene& scene, const Camera& camera, double time_s);
 
 }  // namespace clusterbench::scene

@@ -4,8 +4,11 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <map>
+#include <set>
 
 #include "scene/camera_path.h"
+#include "scene/domain.h"
 
 namespace clusterbench::scene {
 namespace {
@@ -85,56 +88,157 @@ double usual_distance(const Scene& scene) {
 
 void measure_bounds(const Scene& scene, Summary& summary) {
   Extent balls;
-  for (const double time : moments(scene))
-    for (const WorldLight& light : world_lights(scene, time))
+  for (const double time : moments(scene)) {
+    const std::vector<WorldLight> lights = world_lights(scene, time);
+    check_domain(scene, lights, time);
+    for (const WorldLight& light : lights)
       if (std::isfinite(light.range_m)) balls.add(light.position, light.range_m);
+  }
   if (balls.empty()) return;
   summary.bounds_lo = balls.lo;
   summary.bounds_hi = balls.hi;
 }
 
+// A camera wider than this is not held whole by the widest of usual viewports unless the view is enlarged.
+constexpr double k_usual_aspect = 16.0 / 9.0;
+
+// Half extents of the camera's own rectangle: slopes, or metres. Width 0: the viewport gives it.
+struct HalfExtents {
+  double width = 0.0, height = 0.0;
+};
+
+HalfExtents rectangle_of(const Lens& lens) {
+  if (lens.orthographic) return {lens.xmag_m, lens.ymag_m};
+  const double height = std::tan(lens.yfov_rad / 2.0);
+  return {lens.aspect_ratio.value_or(0.0) * height, height};
+}
+
 std::string lens_text(const Lens& lens) {
   const std::string reach =
       four_digits(lens.near_m) + " m to " + (std::isinf(lens.far_m) ? "infinity" : four_digits(lens.far_m) + " m");
-  if (lens.orthographic) return "orthographic, " + four_digits(2.0 * lens.ymag_m) + " m high, " + reach;
-  return "perspective, " + four_digits(lens.yfov_rad * 180.0 / 3.14159265358979323846) + " degrees high, " + reach;
+  if (lens.sides)
+    return "perspective, off-centre: slopes " + four_digits(lens.sides->left) + " to " +
+           four_digits(lens.sides->right) + " across, " + four_digits(lens.sides->bottom) + " to " +
+           four_digits(lens.sides->top) + " up, " + reach;
+  const HalfExtents half = rectangle_of(lens);
+  const bool is_wide = half.width > 1.01 * k_usual_aspect * half.height;
+  const std::string shape = is_wide ? four_digits(half.width / half.height) + " times as wide, " : "";
+  if (lens.orthographic) return "orthographic, " + four_digits(2.0 * lens.ymag_m) + " m high, " + shape + reach;
+  return "perspective, " + four_digits(lens.yfov_rad * 180.0 / 3.14159265358979323846) + " degrees high, " + shape +
+         reach;
 }
 
-// Does a light's ball reach into the half-spaces of a lens's view? The width is taken as for a picture of 32:9, wider
-// than any in use, so that no light is called out of reach that a camera could see.
-bool may_see(const Shot& shot, const WorldLight& light) {
+// The sides of a lens's view, wider than for any picture in use (32:9) and as high as in one of 16:9 that holds the
+// camera's whole rectangle, so that no light is called out of reach that a camera could see.
+LensSides largest_view(const Lens& lens) {
+  if (lens.sides) return *lens.sides;
   constexpr double k_widest = 32.0 / 9.0;
-  const Vec3d p = shot.pose.view_from_world * (light.position - shot.pose.eye);
+  const HalfExtents half = rectangle_of(lens);
+  const double height = std::max(half.height, half.width / k_usual_aspect);
+  const double width = std::max(half.width, half.height * k_widest);
+  return {-width, width, -height, height};
+}
+
+struct View {
+  CameraPose pose;
+  const Lens& lens;
+  LensSides sides;
+};
+
+// Does a light's ball reach into the half-spaces of a view?
+bool may_see(const View& view, const WorldLight& light) {
+  const Vec3d p = view.pose.view_from_world * (light.position - view.pose.eye);
   const double depth = -p.z, r = light.range_m;
-  if (depth + r < shot.lens.near_m || depth - r > shot.lens.far_m) return false;
-  const double up = shot.lens.orthographic ? shot.lens.ymag_m : std::tan(shot.lens.yfov_rad / 2.0);
+  if (depth + r < view.lens.near_m || depth - r > view.lens.far_m) return false;
   const auto beyond = [&](double across, double edge) {
-    if (shot.lens.orthographic) return across - edge;
+    if (view.lens.orthographic) return across - edge;
     return (across - edge * depth) / std::sqrt(1.0 + edge * edge);
   };
-  return beyond(std::abs(p.x), up * k_widest) <= r && beyond(std::abs(p.y), up) <= r;
+  return beyond(p.x, view.sides.right) <= r && beyond(-p.x, -view.sides.left) <= r &&
+         beyond(p.y, view.sides.top) <= r && beyond(-p.y, -view.sides.bottom) <= r;
 }
 
-// Cameras' lines, and which lights (places in Scene::lights) some camera can see at some moment.
-std::vector<bool> look_through_cameras(const Scene& scene, Summary& summary) {
-  std::vector<bool> is_seen(scene.lights.size(), false);
-  const auto look = [&](const CameraPath& path) {
-    summary.cameras.push_back(path.camera + ": " + lens_text(path.shots.front().lens) + "; " + path.how);
-    for (const Shot& shot : path.shots)
-      for (const WorldLight& light : world_lights(scene, shot.time_s))
-        if (may_see(shot, light)) is_seen[static_cast<std::size_t>(light.rig_index)] = true;
-  };
-  for (const Camera& camera : scene.cameras) {
-    PathRequest request;
-    request.camera = camera.name;
-    for (const CameraPath& path : camera_paths(scene, request)) look(path);
+// Which lights (places in Scene::lights) some camera can see at some moment.
+struct Sight {
+  std::vector<bool> is_seen;
+  bool is_known = true;  // false: too many cameras and lights to look
+  bool is_whole = true;  // every frame of every path was looked at
+};
+
+// What is looked at: pairs of a light and a moment of a camera, and nodes that are put in their places. More would take
+// longer than a second.
+constexpr double k_most_looks = 2e7, k_most_placings = 4e6;
+
+// The moments of all cameras, so thinned that looking stays quick: time -> cameras.
+std::map<double, std::vector<std::size_t>> moments_to_look_at(const Scene& scene,
+                                                              const std::vector<CameraMoments>& moments, Sight& sight) {
+  double all = 0.0;
+  std::set<double> times;
+  for (const CameraMoments& one : moments) {
+    all += static_cast<double>(one.times_s.size());
+    times.insert(one.times_s.begin(), one.times_s.end());
   }
-  const bool can_make_a_path = summary.points + summary.spots > 0;
-  if (scene.cameras.empty() && can_make_a_path) look(camera_paths(scene, {}).front());
-  return is_seen;
+  const double lights = static_cast<double>(scene.lights.size());
+  const double placed = static_cast<double>(scene.nodes.size() + scene.channels.size());
+  const double share =
+      std::max(all * lights / k_most_looks, static_cast<double>(times.size()) * placed / k_most_placings);
+  const auto stride = static_cast<std::size_t>(std::ceil(std::max(share, 1.0)));
+  sight.is_known = static_cast<double>(moments.size()) * lights <= k_most_looks;
+  sight.is_whole = stride == 1;
+  std::map<double, std::vector<std::size_t>> out;
+  if (!sight.is_known) return out;
+  for (std::size_t i = 0; i < moments.size(); ++i)
+    for (std::size_t k = 0; k < moments[i].times_s.size(); k += stride) out[moments[i].times_s[k]].push_back(i);
+  return out;
 }
 
-void warn_of_lights(const Scene& scene, const std::vector<bool>& is_seen, Summary& summary) {
+// All cameras that look at one time share the lights' places.
+void look_through(const Scene& scene, double time_s, const std::vector<std::size_t>& cameras, Sight& sight) {
+  const std::vector<Mat4d> world = world_transforms(scene, time_s);
+  std::vector<WorldLight> unseen = world_lights(scene, time_s);
+  check_domain(scene, unseen, time_s);
+  for (const std::size_t index : cameras) {
+    const Camera& camera = scene.cameras[index];
+    const Lens lens = camera_lens(scene, camera, time_s);
+    const View view{camera_pose(world[static_cast<std::size_t>(camera.node)]), lens, largest_view(lens)};
+    check_domain(scene, Shot{time_s, view.pose, lens});
+    std::erase_if(unseen, [&](const WorldLight& light) {
+      const auto place = static_cast<std::size_t>(light.rig_index);
+      if (!(light.range_m > 0.0)) return true;  // invisible, for now at least
+      if (!sight.is_seen[place]) sight.is_seen[place] = may_see(view, light);
+      return bool{sight.is_seen[place]};
+    });
+  }
+}
+
+void look_along_made_path(const Scene& scene, Summary& summary, Sight& sight) {
+  const CameraPath path = camera_paths(scene, {}).front();
+  check_domain(scene, path);
+  summary.cameras.push_back(path.camera + ": " + lens_text(path.shots.front().lens) + "; " + path.how);
+  for (const Shot& shot : path.shots) {
+    const View view{shot.pose, shot.lens, largest_view(shot.lens)};
+    for (const WorldLight& light : world_lights(scene, shot.time_s))
+      if (may_see(view, light)) sight.is_seen[static_cast<std::size_t>(light.rig_index)] = true;
+  }
+}
+
+// Cameras' lines, and what they see.
+Sight look_through_cameras(const Scene& scene, Summary& summary) {
+  Sight sight;
+  sight.is_seen.assign(scene.lights.size(), false);
+  std::vector<CameraMoments> moments;
+  for (const Camera& camera : scene.cameras) {
+    moments.push_back(camera_moments(scene, camera, {}));
+    summary.cameras.push_back(camera.name + ": " + lens_text(camera.lens) + "; " + moments.back().how);
+  }
+  for (const auto& [time, cameras] : moments_to_look_at(scene, moments, sight))
+    look_through(scene, time, cameras, sight);
+  const bool can_make_a_path = summary.points + summary.spots > 0;
+  if (scene.cameras.empty() && can_make_a_path) look_along_made_path(scene, summary, sight);
+  return sight;
+}
+
+void warn_of_lights(const Scene& scene, const Sight& sight, Summary& summary) {
   std::vector<std::string> without_range, useless, black, unseen;
   const double diagonal = usual_distance(scene);
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
@@ -144,12 +248,17 @@ void warn_of_lights(const Scene& scene, const std::vector<bool>& is_seen, Summar
     if (!is_assigned(light)) continue;
     if (!light.range_given_m) without_range.push_back(light.name);
     if (summary.points + summary.spots > 1 && light.range_m > diagonal) useless.push_back(light.name);
-    if (light.range_m > 0.0 && !is_seen[i]) unseen.push_back(light.name);
+    if (light.range_m > 0.0 && !sight.is_seen[i]) unseen.push_back(light.name);
   }
   warn_of(summary, without_range, "without range (the rule of the configuration gives one)");
   warn_of(summary, useless, "reaching farther than the lights are apart, for which clustering is useless");
   warn_of(summary, black, "black or of no range");
-  warn_of(summary, unseen, "never within any camera's reach, over the frames of its path");
+  if (sight.is_known)
+    warn_of(summary, unseen,
+            std::string("never within any camera's reach, over ") +
+                (sight.is_whole ? "the frames of its path" : "some evenly spaced frames of its path"));
+  else
+    summary.warnings.push_back("too many cameras and lights to tell which lights no camera reaches");
 }
 
 }  // namespace
@@ -159,8 +268,8 @@ Summary summarise(const Scene& scene) {
   summary.warnings = scene.warnings;
   count_lights(scene, summary);
   measure_bounds(scene, summary);
-  const std::vector<bool> is_seen = look_through_cameras(scene, summary);
-  warn_of_lights(scene, is_seen, summary);
+  const Sight sight = look_through_cameras(scene, summary);
+  warn_of_lights(scene, sight, summary);
   return summary;
 }
 

@@ -1,14 +1,23 @@
 // Where nodes, lights and cameras stand at a time.
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
+#include <span>
 
+#include "core/error.h"
+#include "core/text.h"
+#include "geom/domain.h"
 #include "scene/animation.h"
 #include "scene/scene.h"
 
 namespace clusterbench::scene {
 namespace {
+
+// How files write that there is no end.
+constexpr double k_endless = std::numeric_limits<float>::max();
 
 // Unit vector along v, or `otherwise` if v has no direction. Divides by the largest component first, so that neither
 // huge nor tiny vectors overflow or vanish.
@@ -46,7 +55,98 @@ void apply(const Channel& channel, double time_s, Node& node) {
     case ChannelPath::scale:
       node.scale = Vec3d(value);
       break;
+    case ChannelPath::visible:
+      node.visible = value.x != 0.0;
+      break;
+    default:
+      assert(false);  // the others are of lights
   }
+}
+
+// Of linear Rec. 709 primaries, in which glTF gives colours.
+double luminance(const Vec3d& color) {
+  return 0.2126 * color.x + 0.7152 * color.y + 0.0722 * color.z;
+}
+
+// A spline may swing below 0 between its keys, and an angle beyond a half-space.
+void apply(const Channel& channel, double time_s, Light& light) {
+  const Vec3d value = glm::max(Vec3d(sample(channel, time_s)), Vec3d(0.0));
+  constexpr double k_widest = 1.57079632679489661923;
+  switch (channel.path) {
+    case ChannelPath::range:
+      light.range_given_m = value.x;
+      break;
+    case ChannelPath::intensity:
+      light.intensity = value.x;
+      break;
+    case ChannelPath::color:
+      light.color = value;
+      break;
+    case ChannelPath::inner_cone:
+      light.inner_cone_rad = std::min(value.x, k_widest);
+      break;
+    case ChannelPath::outer_cone:
+      light.outer_cone_rad = std::min(value.x, k_widest);
+      break;
+    default:
+      assert(false);  // the others are of nodes
+  }
+}
+
+struct ByDefinition {
+  bool operator()(const Channel& channel, int definition) const { return channel.definition < definition; }
+  bool operator()(int definition, const Channel& channel) const { return definition < channel.definition; }
+};
+
+std::span<const Channel> channels_of(const std::vector<Channel>& channels, int definition) {
+  const auto [first, last] = std::equal_range(channels.begin(), channels.end(), definition, ByDefinition{});
+  return {first, last};
+}
+
+void apply(const Channel& channel, double time_s, Lens& lens) {
+  const double value = sample(channel, time_s).x;
+  switch (channel.path) {
+    case ChannelPath::yfov:
+      lens.yfov_rad = value;
+      break;
+    case ChannelPath::aspect_ratio:
+      lens.aspect_ratio = value;
+      break;
+    case ChannelPath::near:
+      lens.near_m = value;
+      break;
+    case ChannelPath::far:
+      lens.far_m = value >= k_endless ? std::numeric_limits<double>::infinity() : value;
+      break;
+    case ChannelPath::xmag:
+      lens.xmag_m = std::abs(value);
+      break;
+    case ChannelPath::ymag:
+      lens.ymag_m = std::abs(value);
+      break;
+    default:
+      assert(false);  // the others are of nodes and lights
+  }
+}
+
+// What the loader asks of a lens that stands still.
+bool shows_something(const Lens& lens) {
+  constexpr double k_half_turn = 3.14159265358979323846;
+  if (!(lens.far_m > lens.near_m)) return false;
+  if (lens.orthographic) return lens.near_m >= 0.0 && lens.xmag_m > 0.0 && lens.ymag_m > 0.0;
+  return lens.near_m > 0.0 && lens.yfov_rad > 0.0 && lens.yfov_rad < k_half_turn &&
+         lens.aspect_ratio.value_or(1.0) > 0.0;
+}
+
+// The light as its channels have it at a time.
+Light light_at(const Scene& scene, const Light& light, std::span<const Channel> channels, double time_s) {
+  Light out = light;
+  for (const Channel& channel : channels) apply(channel, time_s, out);
+  if (out.range_given_m && *out.range_given_m >= k_endless) out.range_given_m.reset();
+  resolve_range(out, scene.range_rule);
+  out.inner_cone_rad = std::min(out.inner_cone_rad, out.outer_cone_rad);
+  if (out.type == LightType::spot && out.outer_cone_rad == 0.0) out.range_m = 0.0;  // shut
+  return out;
 }
 
 WorldLight world_light(const Light& light, int rig_index, const Mat4d& world) {
@@ -54,10 +154,14 @@ WorldLight world_light(const Light& light, int rig_index, const Mat4d& world) {
   out.rig_index = rig_index;
   out.type = light.type;
   out.position = Vec3d(world[3]);
-  out.range_m = light.range_m;
+  out.range_m = geom::range_in_domain(light.range_m);
   // A node scaled to nothing has no direction; it keeps glTF's own -Z.
   out.direction = unit_or(-Vec3d(world[2]), Vec3d(0.0, 0.0, -1.0));
-  out.outer_cone_rad = light.type == LightType::spot ? light.outer_cone_rad : 0.0;
+  if (light.type == LightType::spot) {
+    out.outer_cone_rad = light.outer_cone_rad;
+    out.inner_cone_rad = light.inner_cone_rad;
+  }
+  out.luminous_intensity_cd = light.intensity * luminance(light.color);
   return out;
 }
 
@@ -92,13 +196,15 @@ Mat4d world_transform(const Scene& scene, int index, double time_s) {
   return world;
 }
 
-}  // namespace
-
-std::vector<Mat4d> world_transforms(const Scene& scene, double time_s) {
+std::vector<Node> posed_nodes(const Scene& scene, double time_s) {
   std::vector<Node> posed = scene.nodes;
   for (const Channel& channel : scene.channels) {
     apply(channel, time_s, posed[static_cast<std::size_t>(channel.node)]);
   }
+  return posed;
+}
+
+std::vector<Mat4d> transforms_of(const std::vector<Node>& posed) {
   std::vector<Mat4d> world;
   world.reserve(posed.size());
   for (const Node& node : posed) {
@@ -108,14 +214,34 @@ std::vector<Mat4d> world_transforms(const Scene& scene, double time_s) {
   return world;
 }
 
+std::vector<bool> visible_nodes(const std::vector<Node>& posed) {
+  std::vector<bool> visible;
+  visible.reserve(posed.size());
+  for (const Node& node : posed)
+    visible.push_back(node.visible && (node.parent < 0 || visible[static_cast<std::size_t>(node.parent)]));
+  return visible;
+}
+
+}  // namespace
+
+std::vector<Mat4d> world_transforms(const Scene& scene, double time_s) {
+  return transforms_of(posed_nodes(scene, time_s));
+}
+
 std::vector<WorldLight> world_lights(const Scene& scene, double time_s) {
-  const std::vector<Mat4d> world = world_transforms(scene, time_s);
+  const std::vector<Node> posed = posed_nodes(scene, time_s);
+  const std::vector<Mat4d> world = transforms_of(posed);
+  const std::vector<bool> visible = visible_nodes(posed);
   std::vector<WorldLight> out;
   for (const LightType type : {LightType::point, LightType::spot}) {
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
       const Light& light = scene.lights[i];
       if (light.type != type) continue;
-      out.push_back(world_light(light, static_cast<int>(i), world[static_cast<std::size_t>(light.node)]));
+      const auto node = static_cast<std::size_t>(light.node);
+      const auto channels = channels_of(scene.light_channels, light.definition);
+      out.push_back(world_light(channels.empty() ? light : light_at(scene, light, channels, time_s),
+                                static_cast<int>(i), world[node]));
+      if (!visible[node]) out.back().range_m = 0.0;
     }
   }
   return out;
@@ -123,8 +249,7 @@ std::vector<WorldLight> world_lights(const Scene& scene, double time_s) {
 
 // The camera looks along the world matrix's -Z; up is its Y made orthogonal to that (Gram-Schmidt); right follows from
 // the two as a right-handed frame, so X is not looked at and a mirrored node shows no mirrored picture.
-CameraPose camera_pose(const Scene& scene, const Camera& camera, double time_s) {
-  const Mat4d world = world_transform(scene, camera.node, time_s);
+CameraPose camera_pose(const Mat4d& world) {
   const Vec3d back = unit_or(Vec3d(world[2]), Vec3d(0.0, 0.0, 1.0));
   const Vec3d up = up_orthogonal_to(back, Vec3d(world[1]));
   const Vec3d right = glm::cross(up, back);
@@ -133,6 +258,21 @@ CameraPose camera_pose(const Scene& scene, const Camera& camera, double time_s) 
   pose.view_from_world = Mat3d(right.x, up.x, back.x,  // columns; the rows are right, up, back
                                right.y, up.y, back.y, right.z, up.z, back.z);
   return pose;
+}
+
+CameraPose camera_pose(const Scene& scene, const Camera& camera, double time_s) {
+  return camera_pose(world_transform(scene, camera.node, time_s));
+}
+
+Lens camera_lens(const Scene& scene, const Camera& camera, double time_s) {
+  const auto channels = channels_of(scene.lens_channels, camera.definition);
+  Lens lens = camera.lens;
+  for (const Channel& channel : channels) apply(channel, time_s, lens);
+  if (!channels.empty() && !shows_something(lens))
+    throw Error(scene.path.string(), "camera '" + printable(camera.name) + "'",
+                "shows nothing at " + std::to_string(time_s) +
+                    " s: its angle and size must be more than 0, its angle less than pi, its zfar beyond its znear");
+  return lens;
 }
 
 Vec4d rotation_towards(const Vec3d& direction) {

@@ -1,7 +1,9 @@
 #include "scene/write_gltf.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 namespace clusterbench::scene {
@@ -38,12 +40,15 @@ Json light_json(const Light& light) {
 
 Json camera_json(const Camera& camera) {
   const Lens& lens = camera.lens;
-  if (lens.orthographic)
-    return {
-        {"type", "orthographic"},
-        {"orthographic", {{"xmag", lens.xmag_m}, {"ymag", lens.ymag_m}, {"znear", lens.near_m}, {"zfar", lens.far_m}}}};
+  if (lens.orthographic) {
+    // glTF has no infinite orthographic view; the loader reads the largest float as one.
+    const double far_m = std::min(lens.far_m, static_cast<double>(std::numeric_limits<float>::max()));
+    return {{"type", "orthographic"},
+            {"orthographic", {{"xmag", lens.xmag_m}, {"ymag", lens.ymag_m}, {"znear", lens.near_m}, {"zfar", far_m}}}};
+  }
   Json out{{"type", "perspective"}, {"perspective", {{"yfov", lens.yfov_rad}, {"znear", lens.near_m}}}};
   if (std::isfinite(lens.far_m)) out["perspective"]["zfar"] = lens.far_m;
+  if (lens.aspect_ratio) out["perspective"]["aspectRatio"] = *lens.aspect_ratio;
   if (lens.sides)
     out["extras"]["clusterbench_sides"] = {lens.sides->left, lens.sides->right, lens.sides->bottom, lens.sides->top};
   return out;

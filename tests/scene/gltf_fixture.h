@@ -24,6 +24,7 @@ class Folder {
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
 
+  const std::filesystem::path& path() const { return path_; }
   std::filesystem::path write(const std::string& name, const std::string& bytes) const {
     std::ofstream(path_ / name, std::ios::binary) << bytes;
     return path_ / name;
@@ -95,14 +96,18 @@ struct Animation {
   std::size_t keys = 0, elements = 0;
   std::string times_format = R"("componentType": 5126, "type": "SCALAR", "min": [0], "max": [9])";
   std::string values_format = R"("componentType": 5126, "type": "VEC3")";
-  std::string uri;  // of the buffer; empty: a data URI
+  std::string uri;      // of the buffer; empty: a data URI
+  std::string pointer;  // in place of node 0, for the path "pointer"
 
   std::string text() const {
     const std::string n = std::to_string(times.size()), m = std::to_string(values.size());
     const std::string all = std::to_string(times.size() + values.size());
     const std::string data = uri.empty() ? "data:application/octet-stream;base64," + base64(times + values) : uri;
+    const std::string target = pointer.empty()
+                                   ? R"("node": 0)"
+                                   : R"("extensions": {"KHR_animation_pointer": {"pointer": ")" + pointer + R"("}})";
     return R"("animations": [{"samplers": [{"input": 0, "output": 1, "interpolation": ")" + interpolation +
-           R"("}], "channels": [{"sampler": 0, "target": {"node": 0, "path": ")" + path +
+           R"("}], "channels": [{"sampler": 0, "target": {)" + target + R"(, "path": ")" + path +
            R"("}}]}], "accessors": [{"bufferView": 0, "count": )" + std::to_string(keys) + ", " + times_format +
            R"(}, {"bufferView": 1, "count": )" + std::to_string(elements) + ", " + values_format +
            R"(}], "bufferViews": [{"buffer": 0, "byteLength": )" + n + R"(}, {"buffer": 0, "byteOffset": )" + n +

@@ -26,7 +26,6 @@ void expect_refused(const std::string& text, const std::string& where, const std
 TEST(GltfRefusals, a_broken_node_names_its_pointer) {
   const Broken cases[] = {
       {R"("nodes": {})", "/nodes", "an array"},
-      {R"("nodes": [])", "/nodes", "empty array"},
       {R"("nodes": [7])", "/nodes/0", "an object"},
       {R"("nodes": [{"camera": 0}])", "/nodes/0/camera", "camera 0"},
       {R"("nodes": [{"camera": "x"}])", "/nodes/0/camera", "whole number"},
@@ -66,15 +65,17 @@ TEST(GltfRefusals, a_broken_light_names_its_pointer) {
       {R"({"type": "point", "range": null})", "/range", "found null"},
       {R"({"type": "point", "intensity": -0.5})", "/intensity", "0 or more"},
       {R"({"type": "point", "color": [1, 1]})", "/color", "3 numbers"},
+      {R"({"type": "point", "color": [1, 1, 1, 1, 1]})", "/color", "3 numbers"},
+      {R"({"type": "point", "range": 3.5e38})", "/range", "single precision"},
       {R"({"type": "point", "color": [1, -1, 1]})", "/color/1", "0 to 1"},
       {R"({})", "", "'type' is missing"},
       {R"({"type": "spot", "spot": 3})", "/spot", "an object"},
       {R"({"type": "spot", "spot": {"innerConeAngle": -0.1}})", "/spot/innerConeAngle", "0 or more"},
       {R"({"type": "spot", "spot": {"outerConeAngle": 1.6}})", "/spot/outerConeAngle", "pi/2"},
       {R"({"type": "spot", "spot": {"outerConeAngle": 0}})", "/spot/outerConeAngle", "more than 0"},
-      {R"({"type": "spot", "spot": {"innerConeAngle": 0.5, "outerConeAngle": 0.5}})", "/spot/outerConeAngle",
-       "less than"},
-      {R"({"type": "spot", "spot": {"innerConeAngle": 0.9}})", "/spot/innerConeAngle", "less than"},
+      {R"({"type": "spot", "spot": {"innerConeAngle": 0.51, "outerConeAngle": 0.5}})", "/spot/outerConeAngle",
+       "not be more than"},
+      {R"({"type": "spot", "spot": {"innerConeAngle": 0.9}})", "/spot/innerConeAngle", "not be more than"},
   };
   for (const Broken& broken : cases) {
     expect_refused(
@@ -126,9 +127,9 @@ TEST(GltfRefusals, a_broken_animation_names_its_pointer) {
       {"LINEAR", "a\\nb", "/animations/0/samplers/0/interpolation", "a?b"},
       {"LINEAR", "CUBICSPLINE", "/animations/0/samplers/0/output", "6"},
       {R"("bufferView": 1)", R"("bufferView": 2)", "/accessors/1/bufferView", "bufferView 2"},
-      {R"("count": 2)", R"("count": 0)", "/accessors/0/count", "1 or more"},
+      {R"("count": 2)", R"("count": 0)", "/animations/0/samplers/0/output", "0 are needed"},
       {R"("count": 2)", R"("count": 3)", "/animations/0/samplers/0/output", "3"},
-      {R"("min": [0])", R"("mean": [0])", "/accessors/0", "'min' is missing"},
+      {R"("min": [0])", R"("min": [0, 0])", "/accessors/0/min", "1 numbers"},
       {R"("componentType": 5126)", R"("componentType": 5124)", "/accessors/0/componentType", "5126"},
       {R"("byteLength": 8)", R"("byteLength": 4)", "/accessors/0", "do not fit"},
       {R"("byteLength": 8)", R"("byteStride": 4, "byteLength": 8)", "/bufferViews/0/byteStride", "stride"},
@@ -156,6 +157,39 @@ TEST(GltfRefusals, broken_key_values_name_their_sampler) {
                  "length 1");
   expect_refused(text(animation("scale", "CUBICSPLINE", {0}, std::vector<float>(9))), "/animations/0/samplers/0/input",
                  "two keys");
+}
+
+TEST(GltfRefusals, a_visibility_that_is_neither_true_nor_false_names_its_pointer) {
+  expect_refused(document(R"("nodes": [{"extensions": {"KHR_node_visibility": {"visible": 0}}}])"),
+                 "/nodes/0/extensions/KHR_node_visibility/visible", "true or false");
+}
+
+TEST(GltfRefusals, a_buffer_beside_the_folder_of_the_file_is_not_read) {
+  const Folder folder;
+  folder.write("keys.bin", bytes_of(std::vector<float>{0, 0, 0, 0}));
+  std::filesystem::create_directory(folder.path() / "deep");
+  Animation keys = animation("translation", "LINEAR", {0}, {0, 0, 0});
+  const auto outcome = [&](const std::string& uri) {
+    keys.uri = uri;
+    const std::string text = document(R"("nodes": [{}], )" + keys.text());
+    try {
+      load_gltf(folder.write("deep/scene.gltf", text));
+    } catch (const Error& error) {
+      return error.where() + ": " + error.message();
+    }
+    return std::string("loads");
+  };
+  const std::string absolute = (folder.path() / "keys.bin").string();
+  for (const std::string& uri : {std::string("../keys.bin"), std::string("a/../../keys.bin"),
+                                 std::string("%2e%2e/keys.bin"), std::string("..%2Fkeys.bin"), absolute}) {
+    EXPECT_EQ(outcome(uri).find("/buffers/0/uri: "), 0U) << uri << ": " << outcome(uri);
+    EXPECT_NE(outcome(uri).find("beside this one or below"), std::string::npos) << uri << ": " << outcome(uri);
+  }
+  EXPECT_NE(outcome("keys%00.bin").find("beside this one or below"), std::string::npos);
+  folder.write("deep/keys.bin", bytes_of(std::vector<float>{0, 0, 0, 0}));
+  EXPECT_EQ(outcome("keys.bin"), "loads");
+  EXPECT_EQ(outcome("./keys.bin"), "loads");
+  EXPECT_EQ(outcome("a/../keys.bin"), "loads");
 }
 
 TEST(GltfRefusals, a_missing_external_buffer_is_named_when_an_animation_needs_it) {

@@ -59,6 +59,25 @@ TEST(GltfLights, a_nested_light_stands_where_the_transforms_above_it_put_it) {
   EXPECT_EQ(scene.lights[0].intensity, 8.0);
 }
 
+TEST(GltfLights, a_lights_luminous_intensity_is_its_intensity_times_its_colours_luminance) {
+  const auto intensity = [](const std::string& keys) {
+    return world_lights(loaded(document(nodes(lit(0, "")) + ", " + lights(R"({"type": "point", )" + keys + "}"))), 0.0)
+        .at(0)
+        .luminous_intensity_cd;
+  };
+  EXPECT_DOUBLE_EQ(intensity(R"("range": 1)"), 1.0);
+  EXPECT_DOUBLE_EQ(intensity(R"("intensity": 1000000)"), 1e6);
+  EXPECT_DOUBLE_EQ(intensity(R"("intensity": 10, "color": [1, 0, 0])"), 2.126);
+  EXPECT_DOUBLE_EQ(intensity(R"("intensity": 10, "color": [0, 1, 0])"), 7.152);
+  EXPECT_DOUBLE_EQ(intensity(R"("intensity": 10, "color": [0, 0, 0.5])"), 0.361);
+}
+
+TEST(GltfLights, a_spots_inner_cone_goes_with_it) {
+  const WorldLight spot = world_lights(loaded(spot_scene("")), 0.0).at(0);
+  EXPECT_EQ(spot.inner_cone_rad, 0.1);
+  EXPECT_EQ(spot.outer_cone_rad, 0.5);
+}
+
 TEST(GltfLights, a_spot_shines_along_its_nodes_minus_z_through_the_whole_matrix) {
   EXPECT_VEC3(world_lights(loaded(spot_scene("")), 0).at(0).direction, 0, 0, -1);
   EXPECT_VEC3(world_lights(loaded(spot_scene(R"("scale": [1, 1, -3])")), 0).at(0).direction, 0, 0, 1);

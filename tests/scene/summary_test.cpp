@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace clusterbench::scene {
@@ -93,6 +94,65 @@ TEST(Summary, black_lights_and_lights_without_volume_are_named) {
   Scene scene = scene_with({1.0, 0.0, 1.0});
   scene.lights[2].intensity = 0.0;
   EXPECT_TRUE(warns_of(summarise(scene), "2 lights black or of no range: first 'lamp 1'"));
+}
+
+TEST(Summary, cameras_of_one_name_are_each_looked_through) {
+  Scene scene = scene_with({1.0, 2.0});
+  scene.nodes[2].translation = {0.0, 0.0, 10.0};
+  Node behind;
+  behind.rotation = {0.0, 1.0, 0.0, 0.0};  // looks along +z
+  scene.nodes.push_back(behind);
+  scene.cameras.push_back(scene.cameras[0]);
+  scene.cameras[1].node = 3;
+  scene.cameras[1].lens.yfov_rad = 0.5;
+  const Summary summary = summarise(scene);
+  ASSERT_EQ(summary.cameras.size(), 2U);
+  EXPECT_NE(summary.cameras[0], summary.cameras[1]);
+  EXPECT_FALSE(warns_of(summary, "never within"));
+}
+
+TEST(Summary, the_sides_of_an_off_centre_camera_are_its_view) {
+  Scene scene = scene_with({1.0});
+  scene.cameras[0].lens.sides = LensSides{0.5, 0.6, -0.1, 0.1};
+  EXPECT_TRUE(warns_of(summarise(scene), "never within"));
+  scene.nodes[1].translation = {5.5, 0.0, -10.0};
+  const Summary summary = summarise(scene);
+  EXPECT_FALSE(warns_of(summary, "never within"));
+  EXPECT_NE(summary.cameras[0].find("slopes 0.5 to 0.6 across, -0.1 to 0.1 up"), std::string::npos);
+}
+
+TEST(Summary, a_wide_camera_sees_what_a_picture_that_holds_it_shows) {
+  Scene scene = scene_with({1.0});
+  scene.cameras[0].lens.yfov_rad = 2.0 * std::atan(0.1);
+  scene.nodes[1].translation = {0.0, 3.0, -10.0};
+  EXPECT_TRUE(warns_of(summarise(scene), "never within"));
+  scene.cameras[0].lens.aspect_ratio = 16.0;
+  const Summary summary = summarise(scene);
+  EXPECT_FALSE(warns_of(summary, "never within"));
+  EXPECT_NE(summary.cameras[0].find("16 times as wide"), std::string::npos);
+}
+
+// A row of cameras and a row of lights behind them, all moving.
+Scene crowd(int cameras, int lights) {
+  Scene scene = scene_with(std::vector<double>(static_cast<std::size_t>(lights), 1.0));
+  for (Node& node : scene.nodes) node.translation.z += 1000.0 + 10.0 * lights;
+  for (int i = 1; i < cameras; ++i) scene.cameras.push_back(scene.cameras[0]);
+  Channel channel;
+  channel.node = 0;
+  channel.times_s = {0.0, 1.0};
+  channel.values = {{0, 0, 0, 0}, {1, 0, 0, 0}};
+  scene.channels = {channel};
+  scene.duration_s = 1.0;
+  for (Camera& camera : scene.cameras) camera.animated = true;
+  return scene;
+}
+
+TEST(Summary, what_would_take_long_is_looked_at_in_fewer_frames_and_says_so) {
+  EXPECT_TRUE(warns_of(summarise(crowd(20, 20)), "never within any camera's reach, over the frames of its path"));
+  EXPECT_TRUE(warns_of(summarise(crowd(1000, 1000)), "reach, over some evenly spaced frames of its path"));
+  const Summary summary = summarise(crowd(5000, 5000));
+  EXPECT_TRUE(warns_of(summary, "too many cameras and lights to tell"));
+  EXPECT_FALSE(warns_of(summary, "never within"));
 }
 
 TEST(Summary, a_light_that_no_camera_reaches_is_named) {

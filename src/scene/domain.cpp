@@ -1,0 +1,74 @@
+#include "scene/domain.h"
+
+#include <cstdio>
+#include <set>
+
+#include "core/error.h"
+#include "geom/domain.h"
+
+namespace clusterbench::scene {
+namespace {
+
+std::string number_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", value);
+  return text;
+}
+
+std::string place_text(const Vec3d& p) {
+  return "(" + number_text(p.x) + ", " + number_text(p.y) + ", " + number_text(p.z) + ") m";
+}
+
+bool is_in_domain(const Vec3d& p) {
+  return geom::is_in_domain(p.x) && geom::is_in_domain(p.y) && geom::is_in_domain(p.z);
+}
+
+std::string node_place(const Scene& scene, const Light& light) {
+  const bool is_known = light.node >= 0 && static_cast<std::size_t>(light.node) < scene.nodes.size();
+  const int node = is_known ? scene.nodes[static_cast<std::size_t>(light.node)].gltf_index : -1;
+  return node < 0 ? "light '" + light.name + "'" : "/nodes/" + std::to_string(node);
+}
+
+[[noreturn]] void refuse(const Scene& scene, const std::string& where, const std::string& what, double time_s) {
+  throw Error(scene.path.string(), where, what + " at " + number_text(time_s) + " s");
+}
+
+}  // namespace
+
+void check_domain(const Scene& scene, std::span<const WorldLight> lights, double time_s) {
+  for (const WorldLight& light : lights) {
+    const bool has_place = is_in_domain(light.position), has_range = light.range_m >= 0.0;
+    if (has_place && has_range) continue;
+    const Light& source = scene.lights.at(static_cast<std::size_t>(light.rig_index));
+    const std::string subject = "the light '" + source.name + "' ";
+    if (!has_place)
+      refuse(scene, node_place(scene, source),
+             subject + "stands at " + place_text(light.position) + ", farther from the origin than " +
+                 number_text(geom::k_farthest_m) + " m along an axis",
+             time_s);
+    refuse(scene, node_place(scene, source),
+           subject + "has a range of " + number_text(light.range_m) + " m, and 0 or more is allowed", time_s);
+  }
+}
+
+void check_domain(const Scene& scene, const Shot& shot) {
+  const auto fail = [&](const std::string& what) { refuse(scene, "camera", what, shot.time_s); };
+  if (!is_in_domain(shot.pose.eye))
+    fail("stands at " + place_text(shot.pose.eye) + ", farther from the origin than " +
+         number_text(geom::k_farthest_m) + " m along an axis");
+  for (int column = 0; column < 3; ++column)
+    for (int row = 0; row < 3; ++row)
+      if (!(std::abs(shot.pose.view_from_world[column][row]) <= 2.0)) fail("has no rotation");
+}
+
+void check_domain(const Scene& scene, const CameraPath& path) {
+  std::set<double> times;
+  for (const Shot& shot : path.shots) {
+    check_domain(scene, shot);
+    const bool is_first = times.empty();
+    if (times.insert(shot.time_s).second && (is_first || !scene.channels.empty() || !scene.light_channels.empty()))
+      check_domain(scene, world_lights(scene, shot.time_s), shot.time_s);
+  }
+}
+
+}  // namespace clusterbench::scene

@@ -1,0 +1,18 @@
+#pragma once
+// Whether what is sampled from a scene lies in the domain (geom/domain.h). Numbers in a file can each be fine and make
+// places, by nested and animated transforms, that are not.
+
+#include <span>
+
+#include "scene/camera_path.h"
+#include "scene/scene.h"
+
+namespace clusterbench::scene {
+
+// Each throws Error (the scene's file, the node or the camera) with the value and the time.
+void check_domain(const Scene& scene, std::span<const WorldLight> lights, double time_s);
+void check_domain(const Scene& scene, const Shot& shot);
+// All frames of a path, before any of them is used.
+void check_domain(const Scene& scene, const CameraPath& path);
+
+}  // namespace clusterbench::scene

@@ -1,0 +1,32 @@
+#pragma once
+// What a loader doubts, gathered so that one doubt in many places is one line.
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace clusterbench::scene {
+
+class Warnings {
+ public:
+  // Warnings whose pointers and messages differ in numbers alone count as one; the first is the one that is shown.
+  void add(const std::string& pointer, const std::string& message);
+
+  // A line each, in the order of their first places: "pointer: message (and 69 more like it)".
+  std::vector<std::string> lines() const;
+
+  // Different warnings that are kept; the others are only counted.
+  static constexpr std::size_t k_most = 100;
+
+ private:
+  struct Kind {
+    std::string first;
+    std::size_t count = 1;
+  };
+  std::vector<Kind> kinds_;
+  std::map<std::string, std::size_t> known_;  // shape -> place in kinds_
+  std::size_t left_out_ = 0;
+};
+
+}  // namespace clusterbench::scene
