@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/memory.h"
+#include "geom/domain.h"
 #include "geom/predicates.h"
 
 namespace clusterbench::grid {
@@ -96,6 +98,16 @@ SliceRange slice_range(const GridInputs& inputs) {
   return {inputs.projection.near_m, inputs.projection.far_m, inputs.light_near_m, inputs.light_far_m};
 }
 
+// The farthest corners of a perspective grid are as far aside as their slopes say.
+void check_extent(const ScreenGrid& grid) {
+  const Tiles& tiles = grid.tiles;
+  if (tiles.orthographic) return;
+  const float steepest = std::max(
+      {std::fabs(tiles.x.front()), std::fabs(tiles.x.back()), std::fabs(tiles.y.front()), std::fabs(tiles.y.back())});
+  if (!geom::is_in_domain(static_cast<double>(steepest) * static_cast<double>(grid.slices.boundaries.back())))
+    throw Error("", "slices.far", "is too far for so wide a view: the picture's corners there are beyond 1e15 m");
+}
+
 Grid make_screen(const GridSpec& spec, const GridInputs& inputs) {
   if (spec.kind == Kind::distance && inputs.projection.orthographic)
     throw Error("", "kind", "distance grids have their shells around the eye; an orthographic camera has none");
@@ -103,6 +115,7 @@ Grid make_screen(const GridSpec& spec, const GridInputs& inputs) {
   grid.kind = spec.kind;
   grid.tiles = make_tiles(spec.tiles, inputs.projection, inputs.viewport);
   grid.slices = make_slices(spec.slices, slice_range(inputs), inputs.projection.orthographic);
+  check_extent(grid);
   return {grid};
 }
 
@@ -114,8 +127,10 @@ Grid make_cascades(const GridSpec& spec) {
                 "the finer level");
   if (spec.levels < 1 || spec.levels > 24) throw Error("", "levels", "must be 1 to 24");
   const auto finest_m = static_cast<float>(spec.finest_m);
-  if (!(finest_m >= std::numeric_limits<float>::min()) || !std::isfinite(std::ldexp(finest_m, spec.levels + 16)))
-    throw Error("", "finest", "must be above 0 m, and small enough for the coarsest level to be finite");
+  const double coarsest_m = std::ldexp(static_cast<double>(finest_m), spec.levels - 1);
+  if (!(static_cast<double>(finest_m) >= geom::k_nearest_m) ||
+      !geom::is_in_domain(coarsest_m * std::max({n.x, n.y, n.z})))
+    throw Error("", "finest", "must be at least 1e-15 m, and small enough for the coarsest level to end within 1e15 m");
   return {CascadesGrid{spec.levels, n, finest_m}};
 }
 
@@ -143,6 +158,8 @@ Grid make_world(const GridSpec& spec, const GridInputs& inputs) {
     if (spec.cells[axis] < 1) throw Error("", "cells", "must be at least 1 along each axis");
     if (spec.has_bounds && !(lo[axis] < hi[axis]))
       throw Error("", "bounds", "must have its minimum below its maximum on each axis");
+    if (spec.has_bounds && !(geom::is_in_domain(lo[axis]) && geom::is_in_domain(hi[axis])))
+      throw Error("", "bounds", "must be within 1e15 m from the origin");
     if (!(lo[axis] < hi[axis])) {  // a rig without extent
       lo[axis] -= 0.5;
       hi[axis] += 0.5;
@@ -163,13 +180,26 @@ struct LightReach {
   double near = std::numeric_limits<double>::infinity(), far = 0.0;
 };
 
+// Does a ball reach into the half-spaces of the camera's near and far planes and of the picture's sides? A ball outside
+// of an edge or a corner of the view may seem to.
+bool may_be_in_view(const view::Projection& projection, const Vec3d& center, double radius) {
+  const double depth = -center.z;
+  if (depth + radius < projection.near_m || depth - radius > projection.far_m) return false;
+  const auto beyond = [&](double place, double side) {
+    if (projection.orthographic) return place - side;
+    return (place - side * depth) / std::sqrt(1.0 + side * side);
+  };
+  return -beyond(center.x, projection.left) <= radius && beyond(center.x, projection.right) <= radius &&
+         -beyond(center.y, projection.bottom) <= radius && beyond(center.y, projection.top) <= radius;
+}
+
 LightReach reach_in_view(const view::Frame& frame, Kind kind) {
   LightReach reach;
   for (const scene::WorldLight& light : frame.lights) {
     if (light.range_m == 0.0 || !std::isfinite(light.range_m)) continue;
     const Vec3d c = frame.view_space.rotation * (light.position - frame.view_space.origin);
     const double along = kind == Kind::distance ? std::sqrt(c.x * c.x + c.y * c.y + c.z * c.z) : -c.z;
-    if (-c.z + light.range_m < frame.projection.near_m) continue;
+    if (!may_be_in_view(frame.projection, c, light.range_m)) continue;
     reach.near = std::min(reach.near, along - light.range_m);
     reach.far = std::max(reach.far, along + light.range_m);
   }
@@ -226,6 +256,7 @@ Vec3i Grid::cell_at(std::uint32_t index) const {
 
 std::vector<geom::Ball> Grid::balls_around_cells() const {
   std::vector<geom::Ball> balls;
+  check_memory("balls around cells", cell_count(), sizeof(geom::Ball));
   balls.reserve(cell_count());
   for (std::uint32_t index = 0; index < cell_count(); ++index)
     balls.push_back(is_hole(index) ? geom::Ball{} : geom::ball_around(cell(index)));

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "geom/domain.h"
 #include "geom/rounding.h"
 
 namespace clusterbench::grid {
@@ -46,8 +47,9 @@ Reach reach_of(const Slicing& slicing, const SliceRange& range) {
 
 void check(const Slicing& slicing, const Reach& reach, bool orthographic) {
   require(slicing.count >= 1, "slices.count", "must be at least 1");
-  require(std::isfinite(static_cast<float>(reach.far)), "slices.far",
-          "must be finite, in single precision too; where the camera's far plane is infinite, name one");
+  require(geom::is_in_domain(reach.far), "slices.far",
+          "must be finite and at most 1e15 m; where the camera's far plane is infinite, name one");
+  require(geom::is_in_domain(reach.near), "slices.near", "must be finite and at most 1e15 m from the eye");
   require(reach.near < reach.far, "slices.near",
           "is " + metres(reach.near) + ", which is not below far, " + metres(reach.far));
   const bool logarithmic = slicing.scheme != Scheme::linear && slicing.scheme != Scheme::list &&
@@ -62,6 +64,13 @@ void check(const Slicing& slicing, const Reach& reach, bool orthographic) {
                 metres(reach.far));
     require(slicing.count >= 2, "slices.count", "must be at least 2 for exponential-first");
   }
+}
+
+// A first slice from less than the domain's nearest depth on begins at the eye instead; others must not.
+void check_nearest(std::vector<float>& boundaries) {
+  if (static_cast<double>(boundaries.front()) < geom::k_nearest_m) boundaries.front() = 0.0f;
+  require(static_cast<double>(boundaries[1]) >= geom::k_nearest_m, "slices",
+          "must end at no less than 1e-15 m from the eye");
 }
 
 double boundary(const Slicing& slicing, const Reach& reach, int i) {
@@ -216,6 +225,7 @@ Slices make_slices(const Slicing& asked, const SliceRange& range, bool orthograp
   for (int i = 0; i <= slicing.count; ++i) slices.boundaries.push_back(static_cast<float>(boundary(slicing, reach, i)));
   // What lies between the camera's near plane and the first boundary looks itself up in slice 0, so it belongs to it.
   slices.boundaries.front() = geom::rounded_down(std::min(reach.near, range.camera_near_m));
+  if (!orthographic) check_nearest(slices.boundaries);
   for (int i = 0; i < slicing.count; ++i)
     require(slices.boundaries[static_cast<std::size_t>(i)] < slices.boundaries[static_cast<std::size_t>(i) + 1],
             "slices", "are too thin: two boundaries coincide in single precision");

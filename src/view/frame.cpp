@@ -1,20 +1,28 @@
 #include "view/frame.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "core/error.h"
+#include "geom/domain.h"
 #include "geom/rounding.h"
+#include "scene/domain.h"
 
 namespace clusterbench::view {
 namespace {
 
-bool is_finite(const scene::CameraPose& pose) {
-  double sum = std::abs(pose.eye.x) + std::abs(pose.eye.y) + std::abs(pose.eye.z);
-  for (int column = 0; column < 3; ++column)
-    for (int row = 0; row < 3; ++row) sum += std::abs(pose.view_from_world[column][row]);
-  return std::isfinite(sum);
+void check_picture(const Projection& projection) {
+  const double widest = std::max(
+      {std::abs(projection.left), std::abs(projection.right), std::abs(projection.bottom), std::abs(projection.top)});
+  const double most = projection.orthographic ? geom::k_farthest_m : geom::k_steepest_slope;
+  if (widest <= most) return;
+  throw Error("", "camera",
+              projection.orthographic
+                  ? "shows a picture of more than 1e15 m, half its width or height"
+                  : "shows more than 89.9994 degrees to one side (a slope of 1e5): its field of view is too wide");
 }
 
 void add_axis(LightArrays& out, const Mat3d& rotation, const scene::WorldLight& light) {
@@ -27,13 +35,52 @@ void add_axis(LightArrays& out, const Mat3d& rotation, const scene::WorldLight& 
   out.sin_angle.push_back(static_cast<float>(std::sin(light.outer_cone_rad)));
 }
 
+double aspect_of(Vec2i viewport) {
+  return static_cast<double>(viewport.x) / viewport.y;
+}
+
+double half_height(const scene::Lens& lens) {
+  return lens.orthographic ? lens.ymag_m : std::tan(lens.yfov_rad / 2.0);
+}
+
+// Half the width of the camera's rectangle where the viewport would crop it, else 0. Aspect ratios are written with a
+// few digits: what is less than half a pixel at each side is no difference.
+double cropped_width(const scene::Lens& lens, Vec2i viewport) {
+  if (lens.sides) return 0.0;
+  const double height = half_height(lens);
+  const double width = lens.orthographic ? lens.xmag_m : lens.aspect_ratio.value_or(0.0) * height;
+  const double held = aspect_of(viewport) * height;
+  return width - held > held / viewport.x ? width : 0.0;
+}
+
 }  // namespace
+
+std::string fit_warning(const scene::Lens& lens, Vec2i viewport) {
+  const double width = cropped_width(lens, viewport);
+  if (width == 0.0) return "";
+  char text[200];
+  const double height = half_height(lens), held = aspect_of(viewport) * height;
+  if (lens.fit == scene::CameraFit::contain) {
+    std::snprintf(text, sizeof text,
+                  "the camera is %.4g times as wide as high, wider than %dx%d: its view is enlarged to %.4g times its "
+                  "height (camera_fit: contain)",
+                  width / height, viewport.x, viewport.y, width / held);
+  } else {
+    std::snprintf(text, sizeof text,
+                  "the camera is %.4g times as wide as high, wider than %dx%d: %.3g %% of its width are cropped "
+                  "(camera_fit: vertical)",
+                  width / height, viewport.x, viewport.y, 100.0 * (1.0 - held / width));
+  }
+  return text;
+}
 
 Projection make_projection(const scene::Lens& lens, Vec2i viewport) {
   if (lens.sides)
     return {false, lens.sides->left, lens.sides->right, lens.sides->bottom, lens.sides->top, lens.near_m, lens.far_m};
-  const double aspect = static_cast<double>(viewport.x) / viewport.y;
-  const double top = lens.orthographic ? lens.ymag_m : std::tan(lens.yfov_rad / 2.0);
+  const double aspect = aspect_of(viewport);
+  double top = half_height(lens);
+  const double cropped = cropped_width(lens, viewport);
+  if (cropped > 0.0 && lens.fit == scene::CameraFit::contain) top = cropped / aspect;
   return {lens.orthographic, -top * aspect, top * aspect, -top, top, lens.near_m, lens.far_m};
 }
 
@@ -70,15 +117,16 @@ geom::LightVolume volume_of(const scene::WorldLight& light, const Space& space) 
 }
 
 Frame make_frame(const scene::Scene& scene, const scene::Shot& shot, int index, Vec2i viewport) {
-  if (!is_finite(shot.pose))
-    throw Error("", "camera", "has no finite place or rotation at " + std::to_string(shot.time_s) + " s");
+  scene::check_domain(scene, shot);
   Frame frame;
   frame.index = index;
   frame.time_s = shot.time_s;
   frame.viewport = viewport;
   frame.projection = make_projection(shot.lens, viewport);
+  check_picture(frame.projection);
   frame.view_space = {shot.pose.eye, shot.pose.view_from_world};
   frame.lights = scene::world_lights(scene, shot.time_s);
+  scene::check_domain(scene, frame.lights, shot.time_s);
   for (const scene::WorldLight& light : frame.lights)
     if (light.type == scene::LightType::point) ++frame.points;
   return frame;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "geom/meets.h"
@@ -21,9 +22,14 @@ struct Projection {
   friend bool operator==(const Projection&, const Projection&) = default;
 };
 
-// The vertical extent is the lens's, the horizontal one follows from the viewport's aspect ratio (square pixels); or
-// the lens has all four sides.
+// Pixels are square. The vertical extent is the lens's and the horizontal one follows from the viewport's aspect ratio,
+// unless that would cut half a pixel or more off the sides of the camera's rectangle and lens.fit is `contain`: then
+// the horizontal extent is the lens's and the vertical one follows. Or the lens has all four sides.
 Projection make_projection(const scene::Lens& lens, Vec2i viewport);
+
+// What a picture in this viewport shows beyond the camera's own rectangle, or leaves out, because the camera is wider
+// than the viewport: one line, "" if the rectangle fits.
+std::string fit_warning(const scene::Lens& lens, Vec2i viewport);
 
 // A rigid frame of reference: local = rotation * (world - origin).
 struct Space {
@@ -69,7 +75,7 @@ struct Frame {
   std::uint32_t points = 0;               // how many of them are points
 };
 
-// Throws Error for a camera that stands nowhere (NaN, infinity).
+// Throws Error for a frame outside of the domain (geom/domain.h).
 Frame make_frame(const scene::Scene& scene, const scene::Shot& shot, int index, Vec2i viewport);
 
 // What a method that uses these numbers has lost before it starts, in roundings: one for the centre (each coordinate is

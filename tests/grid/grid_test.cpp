@@ -254,6 +254,78 @@ TEST(Grids, whose_numbers_single_precision_cannot_hold_are_refused) {
   EXPECT_THROW(grid_for(world, frame), Error);
 }
 
+TEST(Grids, are_held_to_the_domain) {
+  view::Frame frame = frame_of({640, 360}, k_perspective);
+  const auto refused_key = [&](const GridSpec& spec) -> std::string {
+    try {
+      grid_for(spec, frame);
+    } catch (const Error& error) {
+      return error.where();
+    }
+    return "";
+  };
+  GridSpec screen = spec_of(Kind::frustum), cascades = spec_of(Kind::cascades), world = spec_of(Kind::world);
+  screen.slices.scheme = Scheme::exponential;
+  screen.slices.far_m = 7e14;
+  EXPECT_EQ(refused_key(screen), "");
+  screen.slices.far_m = 1.1e15;
+  EXPECT_EQ(refused_key(screen), "slices.far");
+  screen.slices.far_m = 7e14;
+  frame.projection.right = 100.0;  // the picture's corners are a hundred times as far aside
+  EXPECT_EQ(refused_key(screen), "slices.far");
+  frame.projection.right = 1.0;
+  screen.slices.scheme = Scheme::list;
+  screen.slices.boundaries_m = {0, 1e-16, 1};
+  EXPECT_EQ(refused_key(screen), "slices");
+  screen.slices.boundaries_m = {1e-16, 1e-14, 1};
+  EXPECT_EQ(refused_key(screen), "");
+  EXPECT_EQ(grid_for(screen, frame).screen().slices.boundaries.front(), 0.0F) << "nearer than the domain: at the eye";
+  world.has_bounds = true;
+  world.bounds_lo_m = Vec3d(-1e15);
+  world.bounds_hi_m = Vec3d(1e15);
+  EXPECT_EQ(refused_key(world), "");
+  world.bounds_hi_m.y = 1.001e15;
+  EXPECT_EQ(refused_key(world), "bounds");
+  for (const double finest : {0.9e-15, 1e14}) {
+    cascades.finest_m = finest;
+    EXPECT_EQ(refused_key(cascades), "finest");
+  }
+}
+
+// By its ball, before or behind the eye, or outside of one of the picture's sides.
+TEST(GridInputs, of_fit_slices_hold_the_reach_of_lights_in_view_and_of_no_others) {
+  const auto light_at = [](Vec3d place, double range) {
+    scene::WorldLight light;
+    light.position = place;
+    light.range_m = range;
+    return light;
+  };
+  for (const Kind kind : {Kind::frustum, Kind::distance})
+    for (const bool orthographic : {false, true}) {
+      if (orthographic && kind == Kind::distance) continue;
+      view::Frame frame = frame_of({640, 360}, orthographic ? k_orthographic : k_perspective);
+      frame.projection.far_m = 1000.0;
+      GridSpec spec = spec_of(kind);
+      spec.slices.scheme = Scheme::fit;
+      const view::Projection& picture = frame.projection;
+      const double w = orthographic ? 1.0 : 300.0;
+      frame.lights = {light_at({0, 0, -20}, 5)};
+      const GridInputs alone = grid_inputs(spec, frame, 0.0, {}, {});
+      EXPECT_DOUBLE_EQ(alone.light_near_m, 15.0);
+      EXPECT_DOUBLE_EQ(alone.light_far_m, 25.0);
+      for (const Vec3d& place :
+           {Vec3d{0, 0, 60}, Vec3d{0, 0, -1060}, Vec3d{picture.left * w - 60 - w, 0, -300},
+            Vec3d{picture.right * w + 60 + w, 0, -300}, Vec3d{0, picture.bottom * w - 60 - w, -300},
+            Vec3d{0, picture.top * w + 60 + w, -300}}) {
+        frame.lights.push_back(light_at(place, 50));
+        EXPECT_EQ(grid_inputs(spec, frame, 0.0, {}, {}), alone) << place.x << " " << place.y << " " << place.z;
+        frame.lights.pop_back();
+      }
+      frame.lights.push_back(light_at({picture.right * w + 40, 0, -300}, 50));
+      EXPECT_GT(grid_inputs(spec, frame, 0.0, {}, {}).light_far_m, 349.0);
+    }
+}
+
 TEST(Distance, grids_are_refused_for_orthographic_cameras) {
   EXPECT_THROW(grid_for(spec_of(Kind::distance), frame_of({640, 360}, k_orthographic)), Error);
 }

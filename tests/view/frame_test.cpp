@@ -39,6 +39,49 @@ TEST(Projection, keeps_the_lenss_height_and_takes_its_width_from_the_viewport) {
   EXPECT_DOUBLE_EQ(make_projection(lens, {50, 100}).right, 3.0);
 }
 
+TEST(Projection, of_a_camera_wider_than_the_viewport_holds_its_whole_rectangle) {
+  scene::Lens lens;
+  lens.yfov_rad = 2.0 * std::atan(0.5);
+  lens.aspect_ratio = 4.0;
+  const Projection whole = make_projection(lens, {200, 100});
+  EXPECT_DOUBLE_EQ(whole.right, 2.0);
+  EXPECT_DOUBLE_EQ(whole.left, -2.0);
+  EXPECT_DOUBLE_EQ(whole.top, 1.0);
+  EXPECT_DOUBLE_EQ(whole.bottom, -1.0);
+  EXPECT_NE(fit_warning(lens, {200, 100}).find("enlarged to 2 times its height"), std::string::npos)
+      << fit_warning(lens, {200, 100});
+  lens.orthographic = true;
+  lens.xmag_m = 20.0;
+  lens.ymag_m = 3.0;
+  EXPECT_DOUBLE_EQ(make_projection(lens, {200, 100}).right, 20.0);
+  EXPECT_DOUBLE_EQ(make_projection(lens, {200, 100}).top, 10.0);
+}
+
+TEST(Projection, of_a_wide_camera_is_cropped_where_the_height_is_asked_for) {
+  scene::Lens lens;
+  lens.yfov_rad = 2.0 * std::atan(0.5);
+  lens.aspect_ratio = 4.0;
+  lens.fit = scene::CameraFit::vertical;
+  EXPECT_DOUBLE_EQ(make_projection(lens, {200, 100}).right, 1.0);
+  EXPECT_NE(fit_warning(lens, {200, 100}).find("50 % of its width are cropped"), std::string::npos);
+}
+
+TEST(Projection, of_a_camera_that_the_viewport_holds_is_the_same_to_the_bit_with_both_fits) {
+  scene::Lens lens;
+  lens.yfov_rad = 1.047198;
+  const Projection plain = make_projection(lens, {1920, 1080});
+  for (const double aspect : {1.0, 1.777778, 1.7778, 1.778}) {  // 16/9 as exporters write it: less than half a pixel
+    lens.aspect_ratio = aspect;
+    EXPECT_EQ(make_projection(lens, {1920, 1080}), plain) << aspect;
+    EXPECT_EQ(fit_warning(lens, {1920, 1080}), "") << aspect;
+  }
+  lens.aspect_ratio = 1.78;
+  EXPECT_NE(make_projection(lens, {1920, 1080}), plain);
+  lens.sides = scene::LensSides{-1.0, 1.0, -0.1, 0.1};
+  EXPECT_EQ(make_projection(lens, {100, 100}).right, 1.0);
+  EXPECT_EQ(fit_warning(lens, {100, 100}), "");
+}
+
 TEST(Lights, far_from_the_origin_are_as_precise_as_near_it) {
   SplitMix64 random(1);
   const Vec3d offset{1e7, -3e6, 2e7};
