@@ -46,12 +46,24 @@ class Params {
   std::map<std::string, ParamValue> values_;
 };
 
+// Which lights a rig has: what serves none of them is not built.
+struct LightKinds {
+  bool spots = true;
+};
+inline LightKinds kinds_of(const view::LightArrays& lights) {
+  return {lights.spots > 0};
+}
+
 class Assigner {
  public:
   virtual ~Assigner() = default;
 
-  // Called when the grid changes (a new projection), before assign. The grid outlives its use. Timed as the build.
-  virtual void build(const grid::Grid& grid) = 0;
+  // Called when the grid changes (a new projection), before assign, with the kinds of light that frames may bring. The
+  // grid outlives its use. Makes all that does not depend on the frame; nothing of it may be left to assign. Timed as
+  // the build.
+  virtual void build(const grid::Grid& grid, const LightKinds& kinds) = 0;
+  // For lights of any kind.
+  void build(const grid::Grid& grid) { build(grid, LightKinds{}); }
 
   // Fills the lists of one frame. Lights are in the grid's space (grid::space_of). In a steady state (as many pairs as
   // before or fewer) it does not allocate. Timed as the assignment.

@@ -15,9 +15,9 @@ class BoxGridMethod final : public Assigner {
  public:
   explicit BoxGridMethod(const Params& params) : test_(params, k_box_roundings) {}
 
-  void build(const grid::Grid& grid) override {
+  void build(const grid::Grid& grid, const LightKinds& kinds) override {
     grid_ = &grid;
-    test_.start_grid(grid);
+    test_.start_grid(grid, kinds);
     levels_ = box_levels(grid);
   }
 

@@ -19,9 +19,9 @@ class BoxGridTwin final : public Assigner {
  public:
   explicit BoxGridTwin(const Params& params) : test_(params, k_box_roundings), lists_(test_) {}
 
-  void build(const grid::Grid& grid) override {
+  void build(const grid::Grid& grid, const LightKinds& kinds) override {
+    test_.start_grid(grid, kinds);
     lists_.start_grid(grid.cells(), "cells");
-    test_.start_grid(grid);
     levels_.clear();
     for (const BoxGrid& boxes : box_levels(grid)) levels_.emplace_back(boxes);
   }

@@ -21,7 +21,7 @@ class BoxedLists {
  public:
   explicit BoxedLists(const LightTest& test) : test_(test) {}
 
-  // Throws Error if there are too many columns. `key`: what they were given by.
+  // After the test's start_grid(). Throws Error if there are too many columns. `key`: what they were given by.
   void start_grid(const Vec3i& cells, const char* key) {
     if (cells.x > k_most_columns)
       throw Error("", key,
@@ -29,15 +29,14 @@ class BoxedLists {
                       std::to_string(k_most_columns));
     grid_cells_ = cells;
     is_left_.resize(static_cast<std::size_t>(cells.y));
-    cells_ = {};
+    cells_ = test_.cell_balls().empty() ? CellBalls() : CellBalls(test_.cell_balls());
   }
 
-  // After the test's start_frame(). Both must outlive finish().
+  // Both must outlive finish().
   void start_frame(const view::LightArrays& lights, Lists& out) {
     lights_ = &lights;
     tests_ = lights.size();
     next_slice_ = 0;
-    if (cells_.empty() && !test_.cell_balls().empty()) cells_ = CellBalls(test_.cell_balls());
     spans_.start(static_cast<std::uint32_t>(grid_cells_.z), static_cast<std::uint32_t>(grid_cells_.y),
                  static_cast<std::uint32_t>(grid_cells_.x), out);
   }

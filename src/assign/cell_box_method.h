@@ -1,5 +1,6 @@
 #pragma once
-// What the plain box methods share: visit cells of a frustum grid light by light, keep those that one predicate keeps.
+// What the plain box methods share: light by light the cells of a frustum grid within the light's box of cells, or all,
+// of which one predicate keeps some.
 
 #include <memory>
 #include <vector>
@@ -7,21 +8,26 @@
 #include "assign/assigner.h"
 #include "assign/cell_box.h"
 #include "assign/light_test.h"
+#include "assign/view_cull.h"
 
 namespace clusterbench::assign {
 
+// Which cells are looked at: all, or those of the light's box; or those of the box are taken as they are.
+enum class Looks { everywhere, in_box, nowhere };
+
 // CellTest: build(const grid::Grid&), bool touches(const geom::Ball&, std::uint32_t cell) const, capacity_bytes()
-// const, k_whole_grid: visit every cell instead of the ball's cell box, and k_roundings: what touches() loses.
+// const, k_looks, and k_roundings: what touches() loses. With Looks::nowhere there is no touches().
 template <class CellTest>
 class CellBoxMethod final : public Assigner {
  public:
   explicit CellBoxMethod(const Params& params) : test_(params, CellTest::k_roundings) {}
 
-  void build(const grid::Grid& grid) override {
+  void build(const grid::Grid& grid, const LightKinds& kinds) override {
     grid_ = &grid;
     cells_ = grid.cells();
     cell_test_.build(grid);
-    test_.start_grid(grid);
+    view_ = ViewCull(grid.screen());
+    test_.start_grid(grid, kinds);
   }
 
   void assign(const view::LightArrays& lights, Lists& out) override {
@@ -40,9 +46,12 @@ class CellBoxMethod final : public Assigner {
 
  private:
   void add_light(const view::LightArrays& lights, std::uint32_t light) {
+    const CellBox box = CellTest::k_looks == Looks::everywhere ? CellBox{Vec3i(0), cells_ - 1} : extents(lights, light);
+    if (box.empty()) return;
     const TestedLight tested = test_.tested(lights, light);
-    const CellBox box = CellTest::k_whole_grid ? CellBox{Vec3i(0), cells_ - 1} : extents(lights, light);
-    if (tested.has_cone) {
+    if constexpr (CellTest::k_looks == Looks::nowhere) {
+      add_rows(box, tested);
+    } else if (tested.has_cone) {
       visit(box, light, [&](std::uint32_t cell) {
         return cell_test_.touches(tested.ball, cell) && test_.cone_touches(tested, cell);
       });
@@ -52,12 +61,22 @@ class CellBoxMethod final : public Assigner {
   }
 
   CellBox extents(const view::LightArrays& lights, std::uint32_t light) const {
-    return cell_box(*grid_, test_.ball(lights, light, k_cell_box_roundings));
+    const geom::Ball ball = test_.ball(lights, light, k_cell_box_roundings);
+    return view_.misses(ball) ? CellBox{} : cell_box(*grid_, ball);
+  }
+
+  void add_rows(const CellBox& box, const TestedLight& light) {
+    const auto columns = static_cast<std::uint32_t>(box.last.x - box.first.x + 1);
+    for (int z = box.first.z; z <= box.last.z; ++z)
+      for (int y = box.first.y; y <= box.last.y; ++y) {
+        ++tests_;
+        test_.add_row(light, static_cast<std::uint32_t>((z * cells_.y + y) * cells_.x + box.first.x), columns, pairs_,
+                      tests_);
+      }
   }
 
   template <class Keep>
   void visit(const CellBox& box, std::uint32_t light, Keep&& keep) {
-    if (box.empty()) return;
     for (int z = box.first.z; z <= box.last.z; ++z) {
       for (int y = box.first.y; y <= box.last.y; ++y) {
         const auto row = static_cast<std::uint32_t>((z * cells_.y + y) * cells_.x);
@@ -74,6 +93,7 @@ class CellBoxMethod final : public Assigner {
   Vec3i cells_{0};
   CellTest cell_test_;
   LightTest test_;
+  ViewCull view_;
   PairBuffer pairs_;
   std::uint64_t tests_ = 0;
 };

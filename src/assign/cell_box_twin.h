@@ -24,12 +24,12 @@ class CellBoxTwin final : public Assigner {
  public:
   explicit CellBoxTwin(const Params& params) : test_(params, Rows::k_roundings), rows_(params), lists_(test_) {}
 
-  void build(const grid::Grid& grid) override {
+  void build(const grid::Grid& grid, const LightKinds& kinds) override {
+    test_.start_grid(grid, kinds);
     lists_.start_grid(grid.cells(), "tiles");
     planes_ = RowPlanes(grid.screen());
     box_planes_ = BoxPlanes(grid.screen());
     rows_.build(grid);
-    test_.start_grid(grid);
   }
 
   void assign(const view::LightArrays& lights, Lists& out) override {

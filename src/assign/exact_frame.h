@@ -50,7 +50,7 @@ class BatchReader {
     begin_ = count_ = next_ = 0;
   }
   // The slice's next batch, null after its last one. Slices must be read to their end, one after the other.
-  const BatchRows* next(int slice) {
+  BatchRows* next(int slice) {
     if (next_ == count_) find_more();
     if (next_ == count_ || balls_[next_].slice != slice) return nullptr;
     return &rows_.batches[next_++];

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "assign/simd/seen_balls.h"
+#include "geom/ball.h"
 #include "geom/meets.h"
 #include "geom/row_slopes.h"
 #include "grid/grid.h"
@@ -28,9 +29,17 @@ inline Row row_of(const grid::ScreenGrid& grid, int slice, int row) {
           grid.slices.boundaries[z + 1]};
 }
 
+inline geom::FrustumPiece piece_of(const grid::Tiles& tiles, const Row& row, int column) {
+  const auto x = static_cast<std::size_t>(column);
+  return {tiles.x[x], tiles.x[x + 1], row.y0, row.y1, row.depth0, row.depth1, tiles.orthographic};
+}
+
 // In single precision, in which centres and radii are: more than a centre's rounding (1) and the steps of row_slopes.h
 // (12) can add up to. Twice as many would double the decisions, which are rare; too few would lose lights.
 inline constexpr float k_exact_roundings = 32.0f;
+
+// Lights of more reach, which the domain does not have (geom/domain.h), are decided cell by cell.
+inline constexpr float k_most_exact_reach = 1e17f;
 
 // Columns of a row that a ball touches. The answer is right for some ball whose centre and surface are off by less than
 // k_exact_roundings.
@@ -65,10 +74,31 @@ class RowColumns {
   const grid::Tiles& tiles_;
 };
 
-// Decides cells of one light. Made for every light, and cheap until the first question.
-class CellJudge {
+// Decides cells of one point light. Made for every light, and cheap until the first question.
+class BallJudge {
  public:
-  CellJudge(const grid::Grid& grid, const view::LightArrays& lights, std::uint32_t light)
+  BallJudge(const grid::Grid& grid, const view::LightArrays& lights, std::uint32_t light)
+      : tiles_(grid.screen().tiles), lights_(lights), light_(light) {}
+
+  bool touches(const Row& row, int column) {
+    if (!decider_) {
+      const geom::LightVolume volume = lights_.volume(light_);
+      decider_.emplace(volume.apex, volume.range);
+    }
+    return decider_->meets(piece_of(tiles_, row, column));
+  }
+
+ private:
+  const grid::Tiles& tiles_;
+  const view::LightArrays& lights_;
+  std::uint32_t light_;
+  std::optional<geom::BallDecider> decider_;
+};
+
+// The same of a spot.
+class SpotJudge {
+ public:
+  SpotJudge(const grid::Grid& grid, const view::LightArrays& lights, std::uint32_t light)
       : grid_(grid), lights_(lights), light_(light) {}
 
   bool touches(std::uint32_t cell) {
@@ -107,13 +137,13 @@ grid::IndexRange narrowed(grid::IndexRange range, Misses&& misses) {
 // The columns of a row that a point light touches, all of them within `outer`. What single precision leaves open is
 // asked of the judge, which adds to `questions`.
 inline grid::IndexRange settled(const grid::IndexRange& outer, const RowColumns& columns, const geom::Ball& smaller,
-                                const Row& row, CellJudge& judge, std::uint64_t& questions) {
+                                const Row& row, BallJudge& judge, std::uint64_t& questions) {
   const grid::IndexRange inner = columns.touched(smaller, row, geom::Errs::inward);
   if (outer.first == inner.first && outer.last == inner.last) return outer;
   const auto misses = [&](int column) {
     if (inner.holds(column)) return false;
     ++questions;
-    return !judge.touches(row.first_cell + static_cast<std::uint32_t>(column));
+    return !judge.touches(row, column);
   };
   return hull(inner, narrowed(outer, misses));
 }

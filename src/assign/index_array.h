@@ -17,8 +17,9 @@ inline std::uint32_t narrowest_bits(std::uint32_t lights) {
 
 class IndexArray {
  public:
-  void resize(std::size_t entries, std::uint32_t bits) {
-    bytes_.resize(entries * (bits / 8));
+  // Never gives memory back: growing again would fill with zeros what is written next.
+  void make_room(std::size_t entries, std::uint32_t bits) {
+    if (bytes_.size() < entries * (bits / 8)) bytes_.resize(entries * (bits / 8));
     bits_ = bits;
   }
   void write(std::size_t at, const std::uint32_t* from, std::size_t count) {

@@ -1,5 +1,7 @@
 #include "assign/light_test.h"
 
+#include "core/error.h"
+
 namespace clusterbench::assign {
 
 ParamSpec spot_param() {
@@ -26,6 +28,11 @@ std::vector<ParamSpec> light_params() {
   return {spot_param(), inflation_param()};
 }
 
+void check_prepared(const view::LightArrays& lights, const std::vector<geom::Ball>& cell_balls) {
+  if (lights.spots > 0 && cell_balls.empty())
+    throw Error("", "lights", "have spots, which the build was not told of", ExitCode::internal);
+}
+
 LightTest::LightTest(const Params& params, float roundings)
     : spot_(SpotTest::both), inflation_(static_cast<float>(params.number("inflation"))), roundings_(roundings) {
   const std::string& name = params.text("spot");
@@ -33,13 +40,13 @@ LightTest::LightTest(const Params& params, float roundings)
   if (name == "cone-sphere") spot_ = SpotTest::cone_sphere;
 }
 
-void LightTest::start_grid(const grid::Grid& grid) {
-  grid_ = &grid;
+void LightTest::start_grid(const grid::Grid& grid, const LightKinds& kinds) {
   cell_balls_.clear();
+  if (kinds.spots && tests_cones()) cell_balls_ = grid.balls_around_cells();
 }
 
-void LightTest::start_frame(const view::LightArrays& lights) {
-  if (lights.spots > 0 && spot_ != SpotTest::ball && cell_balls_.empty()) cell_balls_ = grid_->balls_around_cells();
+void LightTest::start_frame(const view::LightArrays& lights) const {
+  if (tests_cones()) check_prepared(lights, cell_balls_);
 }
 
 geom::Ball LightTest::ball(const view::LightArrays& lights, std::uint32_t light, float roundings) const {

@@ -19,6 +19,9 @@ ParamSpec inflation_param();
 // Both, for most methods.
 std::vector<ParamSpec> light_params();
 
+// Throws Error (ExitCode::internal) for spots without the cells' balls: the build was not told of them.
+void check_prepared(const view::LightArrays& lights, const std::vector<geom::Ball>& cell_balls);
+
 struct TestedLight {
   std::uint32_t index = 0;
   geom::Ball ball{};           // a point's; a spot's bounding ball or, with cone-sphere, the ball of its range
@@ -32,9 +35,10 @@ class LightTest {
   // `roundings`: what the method's own steps lose.
   LightTest(const Params& params, float roundings);
 
-  void start_grid(const grid::Grid& grid);
-  // Makes the cells' bounding balls when the first spot that needs them comes.
-  void start_frame(const view::LightArrays& lights);
+  // Makes the cells' bounding balls where there are spots that are tested with them.
+  void start_grid(const grid::Grid& grid, const LightKinds& kinds);
+  // check_prepared(), where spots are tested with the balls.
+  void start_frame(const view::LightArrays& lights) const;
 
   // Not for lights that are empty.
   TestedLight tested(const view::LightArrays& lights, std::uint32_t light) const;
@@ -69,7 +73,6 @@ class LightTest {
 
   SpotTest spot_;
   float inflation_, roundings_;
-  const grid::Grid* grid_ = nullptr;
   std::vector<geom::Ball> cell_balls_;
 };
 

@@ -1,14 +1,16 @@
 #include "assign/lists.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "core/error.h"
+#include "core/memory.h"
 
 namespace clusterbench::assign {
 
 void check_pair_count(std::uint64_t pairs) {
   if (pairs > std::numeric_limits<std::uint32_t>::max())
-    throw Error("", "lists", "hold " + std::to_string(pairs) + " pairs; at most 2^32 - 1 fit", ExitCode::internal);
+    throw Error("", "lists", "hold " + std::to_string(pairs) + " pairs; at most 2^32 - 1 fit");
 }
 
 std::uint32_t Lists::fullest_cell() const {
@@ -24,17 +26,29 @@ std::uint32_t Lists::fullest_cell() const {
 }
 
 void PairBuffer::start(std::uint32_t cell_count) {
+  check_memory("lists of cells", std::uint64_t{cell_count} + 1, sizeof(std::uint32_t));
   cell_count_ = cell_count;
   pairs_ = 0;
+  most_pairs_ = memory_limit() / sizeof(std::uint32_t);
   spans_.clear();
 }
 
 void PairBuffer::add_row(std::uint32_t first_cell, std::uint32_t count, std::uint32_t light) {
+  if (spans_.size() == spans_.capacity()) grow();
   spans_.push_back({first_cell, count, light});
   pairs_ += count;
+  if (pairs_ > most_pairs_) check_memory("pairs of light lists", pairs_, sizeof(std::uint32_t));
+}
+
+// As a vector would by itself, but asks first.
+void PairBuffer::grow() {
+  const std::size_t wider = std::max<std::size_t>(1, 2 * spans_.capacity());
+  check_memory("spans of light lists", wider, sizeof(Span));
+  spans_.reserve(wider);
 }
 
 void PairBuffer::finish(Lists& out) {
+  check_memory("pairs of light lists", pairs_, sizeof(std::uint32_t));
   check_pair_count(pairs_);
 
   // begin[c] first counts cell c, then becomes its list's start, then its end while lights are written; shifted by one

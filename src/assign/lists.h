@@ -23,10 +23,11 @@ struct Lists {
   friend bool operator==(const Lists&, const Lists&) = default;
 };
 
-// Throws Error (ExitCode::internal) beyond 2^32 - 1 pairs.
+// Throws Error beyond 2^32 - 1 pairs, which is what offsets into lists can count.
 void check_pair_count(std::uint64_t pairs);
 
-// Collects pairs light by light and sorts them by cell with one counting pass. Keeps its memory between frames.
+// Collects pairs light by light and sorts them by cell with one counting pass. Keeps its memory between frames. Throws
+// Error where that would be more than the limit on memory (core/memory.h).
 class PairBuffer {
  public:
   void start(std::uint32_t cell_count);
@@ -34,16 +35,18 @@ class PairBuffer {
   void add(std::uint32_t cell, std::uint32_t light) { add_row(cell, 1, light); }
   // Cells first_cell .. first_cell + count - 1.
   void add_row(std::uint32_t first_cell, std::uint32_t count, std::uint32_t light);
-  // Throws Error (ExitCode::internal) beyond 2^32 - 1 pairs.
+  // Throws Error beyond 2^32 - 1 pairs.
   void finish(Lists& out);
   std::size_t capacity_bytes() const;
 
  private:
+  void grow();
+
   struct Span {
     std::uint32_t first_cell, count, light;
   };
   std::vector<Span> spans_;
-  std::uint64_t pairs_ = 0;
+  std::uint64_t pairs_ = 0, most_pairs_ = 0;
   std::uint32_t cell_count_ = 0;
 };
 

@@ -23,7 +23,7 @@ void SpotSpans::find(const ExactFrame& frame, int first, int last) {
 
 void SpotSpans::find_in_perspective(int first, int last) {
   const SpotsAndPlanes from{&frame_->lights, frame_->planes.side.data(), frame_->planes.slope.data(),
-                            frame_->planes.depth.data()};
+                            frame_->planes.depth.data(), frame_->planes.least_reach};
   slices_.count = 0;
   for (int slice = first; slice < last; ++slice)
     for (const std::uint32_t place : frame_->spots_of(slice))
@@ -237,7 +237,7 @@ void SpotSpans::decide_ends() {
 
 bool SpotSpans::decide(std::uint32_t place, int column) {
   ++fallbacks_;
-  CellJudge judge(frame_->grid, frame_->lights, rows_.spot[place] + frame_->lights.points);
+  SpotJudge judge(frame_->grid, frame_->lights, rows_.spot[place] + frame_->lights.points);
   const Row row =
       row_of(frame_->grid.screen(), static_cast<int>(rows_.slice[place]), static_cast<int>(rows_.row[place]));
   return judge.touches(row.first_cell + static_cast<std::uint32_t>(column));

@@ -22,7 +22,6 @@ struct StorageUse {
   std::uint64_t dropped_pairs = 0;  // overflow
   std::uint64_t overflowing_cells = 0;
   std::vector<std::uint32_t> dropped_lights;  // which, ascending, each once
-  std::uint32_t largest_cell = 0;             // the cell with the longest list before dropping
 };
 
 // The most that lists of this grid and rig could ever take.

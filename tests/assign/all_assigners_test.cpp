@@ -34,14 +34,18 @@ TEST(EveryAssigner, loses_no_light_at_boundaries_with_many_seeds) {
 // Lists every light with volume in every cell; or wrongly, as its fault says.
 class Everywhere : public Assigner {
  public:
-  enum class Fault { none, loses_last_light, lists_twice, keeps_frames, allocates };
+  enum class Fault { none, loses_last_light, lists_twice, keeps_frames, allocates, builds_late };
   explicit Everywhere(Fault fault) : fault_(fault) {}
 
-  void build(const grid::Grid& grid) override { grid_ = &grid; }
+  void build(const grid::Grid& grid, const LightKinds&) override {
+    grid_ = &grid;
+    table_.reset();
+  }
 
   void assign(const view::LightArrays& lights, Lists& out) override {
     tests_ = 0;
     if (fault_ == Fault::allocates) waste_ = std::make_unique<int>(1);
+    if (fault_ == Fault::builds_late && !table_) table_ = std::make_unique<int>(1);
     pairs_.start(grid_->cell_count());
     const std::uint32_t skipped = fault_ == Fault::loses_last_light && lights.size() > 0 ? 1 : 0;
     for (std::uint32_t light = 0; light + skipped < lights.size(); ++light)
@@ -66,7 +70,7 @@ class Everywhere : public Assigner {
   PairBuffer pairs_;
   std::uint64_t tests_ = 0;
   int frames_ = 0;
-  std::unique_ptr<int> waste_;
+  std::unique_ptr<int> waste_, table_;
 };
 
 template <Everywhere::Fault fault>
@@ -103,6 +107,10 @@ TEST(AddingAnAssigner, one_that_remembers_frames_is_caught) {
 
 TEST(AddingAnAssigner, one_that_allocates_in_a_steady_frame_is_caught) {
   EXPECT_NE(faults_of(everywhere_row<Everywhere::Fault::allocates>()).find("allocates 1 times"), std::string::npos);
+}
+
+TEST(AddingAnAssigner, one_that_leaves_its_build_to_the_first_frame_is_caught) {
+  EXPECT_NE(faults_of(everywhere_row<Everywhere::Fault::builds_late>()).find("after a build"), std::string::npos);
 }
 
 }  // namespace

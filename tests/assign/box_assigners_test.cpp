@@ -253,9 +253,10 @@ TEST(Spots, take_no_memory_where_there_are_none) {
     const view::Frame frame = frame_of({false, -1, 1, -1, 1, 1, 21}, {1000, 1000}, random_lights(20, spots, 10));
     const auto assigner = find_assigner("bounds")->make(
         Params(find_assigner("bounds")->params, std::map<std::string, ParamValue>{{"spot", std::string(spot)}}));
-    assigner->build(grid);
+    const view::LightArrays lights = view::lights_in(frame, frame.view_space);
+    assigner->build(grid, kinds_of(lights));
     Lists lists;
-    assigner->assign(view::lights_in(frame, frame.view_space), lists);
+    assigner->assign(lights, lists);
     return assigner->scratch_bytes();
   };
   EXPECT_EQ(scratch("both", 0), scratch("ball", 0));
@@ -277,7 +278,10 @@ TEST(CountedTests, are_the_cells_that_a_method_looks_at) {
     return assigner->tests_done();
   };
   EXPECT_EQ(tests("brute-force"), 2000u);
-  for (const char* name : {"bounds", "planes", "aabb"}) EXPECT_EQ(tests(name), 2u * 2u * 4u) << name;
+  for (const char* name : {"planes", "aabb"}) EXPECT_EQ(tests(name), 2u * 2u * 4u) << name;
+  EXPECT_EQ(tests("bounds"), 2u * 4u) << "rows are taken whole";
+  // Each slice, its two rows, and in each of these one plane from the left and one from the right.
+  EXPECT_EQ(tests("sphere-refinement"), 4u * (1u + 2u * (1u + 2u)));
 }
 
 }  // namespace

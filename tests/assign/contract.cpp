@@ -70,6 +70,17 @@ std::string memory_fault(Assigner& assigner, const Lists& expected, const Settin
   return lists == expected ? "" : "lists change when the grid is built again";
 }
 
+// A build leaves nothing to the first assignment after it, whose time would not be the build's. Memory has grown.
+std::string late_build_fault(Assigner& assigner, const grid::Grid& grid, Lists& lists,
+                             const view::LightArrays& lights) {
+  assigner.build(grid);
+  const std::uint64_t before = allocations();
+  assigner.assign(lights, lists);
+  const std::uint64_t taken = allocations() - before;
+  if (assigner.fallbacks() > 0) return "";
+  return taken == 0 ? "" : "the first frame after a build allocates " + std::to_string(taken) + " times";
+}
+
 // Exact arithmetic, which some lights here force a method into, allocates.
 std::string allocation_fault(Assigner& assigner, Lists& lists, const view::LightArrays& lights) {
   assigner.assign(lights, lists);
@@ -102,6 +113,7 @@ std::vector<std::string> contract_faults(const AssignerRow& row, const Params& p
   add(assigner->scratch_bytes() == 0 ? "no scratch memory is counted" : "");
   add(memory_fault(*assigner, Lists(lists), setting, lights));
   add(allocation_fault(*assigner, lists, lights));
+  add(late_build_fault(*assigner, setting.grid, lists, lights));
   return faults;
 }
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/memory.h"
 #include "core/random.h"
 
 namespace clusterbench::assign {
@@ -91,6 +92,7 @@ TEST(PairBuffer, a_frame_leaves_nothing_behind_for_the_next_one) {
 }
 
 TEST(PairBuffer, more_pairs_than_an_offset_can_count_are_refused) {
+  const MemoryLimitScope enough(std::uint64_t{1} << 40);
   PairBuffer pairs;
   Lists lists;
   pairs.start(1u << 16);
@@ -99,7 +101,7 @@ TEST(PairBuffer, more_pairs_than_an_offset_can_count_are_refused) {
     pairs.finish(lists);
     FAIL() << "2^32 pairs were taken";
   } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::internal);
+    EXPECT_EQ(error.code(), ExitCode::usage);
     EXPECT_NE(std::string(error.what()).find("4294967296"), std::string::npos) << error.what();
   }
 }

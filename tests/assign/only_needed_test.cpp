@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "assign/settings.h"
+#include "core/error.h"
 
 namespace clusterbench::assign {
 namespace {
@@ -18,8 +19,9 @@ struct Work {
 Work work_of(const AssignerRow& row, const Params& params, const Setting& setting) {
   const auto assigner = row.make(params);
   Work work{};
-  assigner->build(setting.grid);
-  assigner->assign(view::lights_in(setting.frame, grid::space_of(setting.grid, setting.frame)), work.lists);
+  const view::LightArrays lights = view::lights_in(setting.frame, grid::space_of(setting.grid, setting.frame));
+  assigner->build(setting.grid, kinds_of(lights));
+  assigner->assign(lights, work.lists);
   work.tests = assigner->tests_done();
   work.scratch_bytes = assigner->scratch_bytes();
   return work;
@@ -55,7 +57,7 @@ Setting points_only(Setting setting) {
   return setting;
 }
 
-// The balls around cells that cones are tested with are made with the first spot.
+// The balls around cells that cones are tested with are built where there are spots.
 TEST(OnlyWhatIsNeeded, without_spots_nothing_is_prepared_for_them) {
   int methods = 0;
   for (const AssignerRow* row : assigner_rows()) {
@@ -71,6 +73,19 @@ TEST(OnlyWhatIsNeeded, without_spots_nothing_is_prepared_for_them) {
     EXPECT_EQ(more.lists, few.lists) << row->name;
   }
   EXPECT_GT(methods, 5);
+}
+
+TEST(OnlyWhatIsNeeded, spots_that_the_build_was_not_told_of_are_refused) {
+  for (const char* name : {"aabb", "exact", "sphere-refinement-fast"}) {
+    const AssignerRow& row = *find_assigner(name);
+    const Setting setting = testing::settings_for(row, 3).front();
+    const auto assigner = row.make(Params(row.params));
+    assigner->build(setting.grid, {.spots = false});
+    Lists lists;
+    const view::LightArrays lights = view::lights_in(setting.frame, grid::space_of(setting.grid, setting.frame));
+    ASSERT_GT(lights.spots, 0u);
+    EXPECT_THROW(assigner->assign(lights, lists), Error) << name;
+  }
 }
 
 TEST(OnlyWhatIsNeeded, few_lights_are_not_shared_among_threads) {

@@ -8,6 +8,7 @@
 #include "assign/assigner.h"
 #include "assign/dense_check.h"
 #include "assign/touching_lights.h"
+#include "geom/domain.h"
 #include "grid/grid.h"
 #include "view/frame.h"
 
@@ -115,7 +116,88 @@ inline void add_lights(Setting& setting, const AssignerRow& row, std::uint64_t s
   }
 }
 
+// --- Nasty scales: cells and lights from the domain's least lengths (geom/domain.h) to its greatest ---
+
+// A grid whose cells are about so large, and its view.
+inline Plan plan_of_size(const AssignerRow& row, grid::Kind kind, double size_m, Random& random) {
+  Plan plan;
+  plan.name = std::to_string(static_cast<int>(std::lround(std::log10(size_m))));
+  plan.spec.kind = kind;
+  const bool orthographic = row.orthographic && kind == grid::Kind::frustum && random.unit() < 0.3;
+  const double most_slope = std::min(100.0, 0.25 * geom::k_farthest_m / (10 * size_m));  // in the domain at the far end
+  const double steepest = orthographic ? size_m * random.log_between(0.1, 10) : random.log_between(1e-3, most_slope);
+  const double left = -steepest * random.between(-0.5, 1), down = -steepest * random.between(-0.5, 1);
+  const double right = left + steepest * random.between(0.1, 1), up = down + steepest * random.between(0.1, 1);
+  plan.projection = {orthographic, left, right, down, up, 0.0, 100 * size_m};
+  plan.spec.tiles = {{random.unit() < 0.5 ? Vec2i{100, 90} : Vec2i{330, 100}}, {0, 0}};
+  plan.spec.slices.scheme = grid::Scheme::list;
+  plan.spec.slices.boundaries_m = {0, 0.1 * size_m, size_m, 3 * size_m, 10 * size_m};
+  if (random.unit() < 0.3) plan.spec.slices.boundaries_m.erase(plan.spec.slices.boundaries_m.begin());
+  plan.projection.near_m = plan.spec.slices.boundaries_m.front();
+  plan.spec.cells = kind == grid::Kind::world ? Vec3i{7, 3, 5} : Vec3i{8, 4, 4};
+  plan.spec.levels = 2;
+  plan.spec.finest_m = size_m;
+  plan.spec.has_bounds = true;
+  plan.spec.bounds_lo_m = Vec3d(-size_m * random.between(0.1, 1));
+  plan.spec.bounds_hi_m = Vec3d(size_m * random.between(0.1, 1));
+  return plan;
+}
+
+// Near cells' sides by a hair of any size, in them, and anywhere; the eye in some, by a hair of any size.
+inline scene::WorldLight light_of_any_size(const grid::Grid& grid, const view::Space& space, double size_m,
+                                           Random& random) {
+  const auto hair = [&] { return random.log_between(1e-17, 1e-2) * (random.unit() < 0.5 ? -1 : 1); };
+  const double least = 1.01 * geom::k_nearest_m, most = 0.5 * geom::k_farthest_m;
+  const double range = random.unit() < 0.5 ? random.log_between(least, most)
+                                           : std::clamp(size_m * random.log_between(1e-3, 1e4), least, most);
+  const double kind = random.unit();
+  if (kind < 0.2) return point_light(space.origin + range * random.direction(), range * (1 + hair()));
+  if (kind < 0.4) return point_light(space.origin + random.log_between(least, most) * random.direction(), range);
+  const std::uint32_t cell = touching::random_cell(grid, random);
+  const touching::Contact contact =
+      std::visit([&](const auto& shape) { return touching::contact_of(shape, random); }, grid.cell(cell));
+  return point_light(touching::in_world(contact.point + range * contact.outward, space), range * (1 + hair()));
+}
+
+inline bool stands_in_domain(const scene::WorldLight& light) {
+  return geom::is_in_domain(light.position.x) && geom::is_in_domain(light.position.y) &&
+         geom::is_in_domain(light.position.z);
+}
+
+inline void add_lights_of_any_size(Setting& setting, const AssignerRow& row, double size_m, int count, Random& random) {
+  const view::Space cells = grid::space_of(setting.grid, setting.frame);
+  std::vector<scene::WorldLight>& lights = setting.frame.lights;
+  for (const bool is_spot : {false, true}) {
+    for (int i = 0; i < count && (is_spot ? row.spots : row.points); ++i) {
+      scene::WorldLight light = light_of_any_size(setting.grid, cells, size_m, random);
+      if (is_spot)
+        light = spot_light(light.position, light.range_m, random.direction(), random.log_between(1e-5, 1.57));
+      light.range_m = geom::range_in_domain(light.range_m);
+      if (stands_in_domain(light)) lights.push_back(light);
+    }
+    if (!is_spot) setting.frame.points = static_cast<std::uint32_t>(lights.size());
+  }
+}
+
 }  // namespace settings
+
+// Settings at all scales of the domain, with lights of all sizes: `count` points and spots each.
+inline std::vector<Setting> settings_of_any_size(const AssignerRow& row, int count, std::uint64_t seed) {
+  std::vector<Setting> all;
+  Random random(seed);
+  for (const grid::Kind kind : row.kinds)
+    for (const double size_m : {1e-13, 1e-9, 1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e5, 1e8, 1e11, 1e13}) {
+      const settings::Plan plan = settings::plan_of_size(row, kind, size_m, random);
+      Setting setting;
+      setting.name = std::string(grid::kind_name(kind)) + " of 1e" + plan.name + " m";
+      setting.frame = frame_of(plan.projection, {1000, 640}, {});
+      setting.frame.view_space = random.unit() < 0.5 ? view::Space{} : settings::far_and_turned();
+      setting.grid = grid_of(plan.spec, setting.frame);
+      settings::add_lights_of_any_size(setting, row, size_m, count, random);
+      all.push_back(std::move(setting));
+    }
+  return all;
+}
 
 // Every grid kind that the row takes, in perspective, off-centre and (where the row allows it) orthographic views, with
 // random lights, lights that touch cells from outside by a hair, the eye in lights, lights behind the eye, lights

@@ -86,7 +86,7 @@ TEST(SpotLooks, say_yes_and_no_only_where_it_is_true_on_every_target) {
     std::vector<bool> touched;
     for (std::uint32_t spot = 0; spot < close.cells.size(); ++spot) {
       pairs.add(place_of(close.grid, spot, close.cells[spot]));
-      touched.push_back(CellJudge(close.grid, close.lights, spot).touches(close.cells[spot]));
+      touched.push_back(SpotJudge(close.grid, close.lights, spot).touches(close.cells[spot]));
     }
     on_each_target([&](const std::string& target) {
       for (const Look look : {Look::quick, Look::approach, Look::closer, Look::thorough}) {
@@ -119,7 +119,7 @@ TEST(SpotRows, know_only_what_is_true_on_every_target) {
     for (std::uint32_t spot = 0; spot < close.cells.size(); spot += 3) {
       const SpotCell cell = place_of(close.grid, spot, close.cells[spot]);
       slices.add(spot, cell.slice);
-      CellJudge judge(close.grid, close.lights, spot);
+      SpotJudge judge(close.grid, close.lights, spot);
       for (std::uint32_t row = cell.row - std::min(cell.row, 1u); row <= std::min(cell.row + 1, rows - 1); ++row) {
         const std::uint32_t first_cell = (cell.slice * rows + row) * columns;
         truth.push_back({spot, cell.slice, row, narrowed({0, planes.columns - 1}, [&](int column) {

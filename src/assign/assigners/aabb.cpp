@@ -6,7 +6,7 @@ namespace clusterbench::assign {
 namespace {
 
 struct AabbsInExtents : CellAabbs {
-  static constexpr bool k_whole_grid = false;
+  static constexpr Looks k_looks = Looks::in_box;
 };
 
 }  // namespace
@@ -15,7 +15,7 @@ extern const AssignerRow aabb_row;
 const AssignerRow aabb_row{
     .name = "aabb",
     .summary = "the cells of the light's extents whose view-space bounding box the ball touches",
-    .source = "DaveH355; Persson 2015, Practical Clustered Shading",
+    .source = "Persson 2015, Practical Clustered Shading; DaveH355's test, which visits every cell",
     .kinds = {grid::Kind::frustum},
     .params = light_params(),
     .make = make_cell_box_method<AabbsInExtents>,

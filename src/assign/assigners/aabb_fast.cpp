@@ -28,8 +28,8 @@ class RowsByBoxes {
 extern const AssignerRow aabb_fast_row;
 const AssignerRow aabb_fast_row{
     .name = "aabb-fast",
-    .summary = "aabb, one ball per lane, lists by compression (SIMD, dispatched at run time)",
-    .source = "DaveH355; Persson 2015, Practical Clustered Shading",
+    .summary = "aabb with gaps that rows share, one ball per lane, lists by compression (SIMD, dispatched at run time)",
+    .source = "Persson 2015, Practical Clustered Shading; DaveH355's test, which visits every cell",
     .kinds = {grid::Kind::frustum},
     .params = light_params(),
     .make = make_cell_box_twin<RowsByBoxes>,

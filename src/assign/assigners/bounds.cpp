@@ -6,10 +6,9 @@ namespace clusterbench::assign {
 namespace {
 
 struct NoTest {
-  static constexpr bool k_whole_grid = false;
+  static constexpr Looks k_looks = Looks::nowhere;
   static constexpr float k_roundings = 0.0f;
   void build(const grid::Grid&) {}
-  bool touches(const geom::Ball&, std::uint32_t) const { return true; }
   std::size_t capacity_bytes() const { return 0; }
 };
 
@@ -19,7 +18,9 @@ extern const AssignerRow bounds_row;
 const AssignerRow bounds_row{
     .name = "bounds",
     .summary = "all cells within the light's analytic extents on the screen and in depth",
-    .source = "Persson 2015, Practical Clustered Shading",
+    .source =
+        "Persson 2015, Practical Clustered Shading, made conservative: tangents rounded outward, slices without a "
+        "logarithm",
     .kinds = {grid::Kind::frustum},
     .params = light_params(),
     .make = make_cell_box_method<NoTest>,

@@ -27,7 +27,9 @@ extern const AssignerRow bounds_fast_row;
 const AssignerRow bounds_fast_row{
     .name = "bounds-fast",
     .summary = "bounds, a vector of balls at a time, lists by compression (SIMD, dispatched at run time)",
-    .source = "Persson 2015, Practical Clustered Shading",
+    .source =
+        "Persson 2015, Practical Clustered Shading, made conservative: tangents rounded outward, slices without a "
+        "logarithm",
     .kinds = {grid::Kind::frustum},
     .params = light_params(),
     .make = make_cell_box_twin<BoxedRows>,

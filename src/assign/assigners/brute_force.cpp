@@ -6,7 +6,7 @@ namespace clusterbench::assign {
 namespace {
 
 struct EveryAabb : CellAabbs {
-  static constexpr bool k_whole_grid = true;
+  static constexpr Looks k_looks = Looks::everywhere;
 };
 
 }  // namespace

@@ -9,7 +9,9 @@ extern const AssignerRow cascades_row;
 const AssignerRow cascades_row{
     .name = "cascades",
     .summary = "sphere against the cubical cells of nested view-space boxes, level by level",
-    .source = "nested camera-space cascades of light volumes; squared distance per axis as in Arvo 1990",
+    .source =
+        "this project's method: squared distance per axis as in Arvo 1990; cascades of boxes in view space are an idea "
+        "of Persson 2015",
     .kinds = {grid::Kind::cascades},
     .params = light_params(),
     .make = make_box_grid_method,

@@ -8,7 +8,9 @@ extern const AssignerRow cascades_fast_row;
 const AssignerRow cascades_fast_row{
     .name = "cascades-fast",
     .summary = "cascades, one ball per lane, lists by compression (SIMD, dispatched at run time)",
-    .source = "nested camera-space cascades of light volumes; squared distance per axis as in Arvo 1990",
+    .source =
+        "this project's method: squared distance per axis as in Arvo 1990; cascades of boxes in view space are an idea "
+        "of Persson 2015",
     .kinds = {grid::Kind::cascades},
     .params = light_params(),
     .make = make_box_grid_twin,

@@ -12,6 +12,7 @@
 #include "assign/assigner.h"
 #include "assign/light_test.h"
 #include "assign/shells.h"
+#include "assign/view_cull.h"
 #include "geom/tangents.h"
 #include "grid/index_range.h"
 
@@ -76,11 +77,17 @@ geom::SlopeRange hull(const geom::SlopeRange& a, const geom::SlopeRange& b) {
   return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)};
 }
 
+// A row's plane, and what it cuts out of the cap.
+struct RowCut {
+  float slope;
+  geom::SlopeRange cut;
+};
+
 // The cap's slopes x / depth in the row between two planes.
-geom::SlopeRange slopes_in_row(const Cap& cap, const geom::SlopeRange& tangents, float row_lo, float row_hi) {
-  geom::SlopeRange slopes = hull(cut_by_plane(cap, row_lo), cut_by_plane(cap, row_hi));
+geom::SlopeRange slopes_in_row(const Cap& cap, const geom::SlopeRange& tangents, const RowCut& lo, const RowCut& hi) {
+  geom::SlopeRange slopes = hull(lo.cut, hi.cut);
   for (const float tangent : {tangents.lo, tangents.hi})
-    if (touches_in_row(cap, tangent, row_lo, row_hi)) slopes = hull(slopes, {tangent, tangent});
+    if (touches_in_row(cap, tangent, lo.slope, hi.slope)) slopes = hull(slopes, {tangent, tangent});
   return slopes;
 }
 
@@ -88,9 +95,10 @@ class Distance final : public Assigner {
  public:
   explicit Distance(const Params& params) : test_(params, k_shell_roundings) {}
 
-  void build(const grid::Grid& grid) override {
+  void build(const grid::Grid& grid, const LightKinds& kinds) override {
     grid_ = &grid;
-    test_.start_grid(grid);
+    view_ = ViewCull(grid.screen());
+    test_.start_grid(grid, kinds);
   }
 
   void assign(const view::LightArrays& lights, Lists& out) override {
@@ -109,6 +117,7 @@ class Distance final : public Assigner {
     if (lights.is_empty(light)) return;
     const TestedLight tested = test_.tested(lights, light);
     const geom::Ball& ball = tested.ball;
+    if (view_.misses(ball)) return;
     const grid::Slices& shells = grid_->screen().slices;
     const double length = glm::length(Vec3d(ball.center)), r = ball.radius;
     for (int shell = 0; shell < shells.count(); ++shell) {
@@ -124,12 +133,17 @@ class Distance final : public Assigner {
     const grid::Tiles& tiles = grid_->screen().tiles;
     const geom::SlopeRange across = geom::slope_range(cap.x, cap.depth, cap.radius, 0.0f, k_inf);
     const geom::SlopeRange upright = geom::slope_range(cap.y, cap.depth, cap.radius, 0.0f, k_inf);
-    for (int row = 0; row < tiles.count.y; ++row) {
-      if (tiles.y_min(row) > upright.hi || tiles.y_max(row) < upright.lo) continue;
+    const grid::IndexRange rows = grid::descending_intervals_touched(tiles.y, upright.lo, upright.hi);
+    if (rows.empty()) return;
+    const auto cut_at = [&](float slope) { return RowCut{slope, cut_by_plane(cap, slope)}; };
+    RowCut top = cut_at(tiles.y_max(rows.first));
+    for (int row = rows.first; row <= rows.last; ++row) {
       ++tests_;
-      const geom::SlopeRange slopes = slopes_in_row(cap, across, tiles.y_min(row), tiles.y_max(row));
+      const RowCut bottom = cut_at(tiles.y_min(row));
+      const geom::SlopeRange slopes = slopes_in_row(cap, across, bottom, top);
       const grid::IndexRange columns = grid::intervals_touched(tiles.x, slopes.lo, slopes.hi);
       if (!columns.empty()) add_row(columns, row, shell, light);
+      top = bottom;
     }
   }
 
@@ -140,6 +154,7 @@ class Distance final : public Assigner {
   }
 
   LightTest test_;
+  ViewCull view_;
   const grid::Grid* grid_ = nullptr;
   PairBuffer pairs_;
   std::uint64_t tests_ = 0;
@@ -155,7 +170,7 @@ extern const AssignerRow distance_row;
 const AssignerRow distance_row{
     .name = "distance",
     .summary = "the circular cap that a ball covers in each distance shell, row by row of tiles",
-    .source = "this project: shells of distance with the closed form of the cap",
+    .source = "this project: the closed form of a ball's cap; shells of distance are an idea of Persson 2015",
     .kinds = {grid::Kind::distance},
     .orthographic = false,
     .params = light_params(),

@@ -16,9 +16,9 @@ class DistanceFast final : public Assigner {
  public:
   explicit DistanceFast(const Params& params) : test_(params, k_shell_roundings), lists_(test_) {}
 
-  void build(const grid::Grid& grid) override {
+  void build(const grid::Grid& grid, const LightKinds& kinds) override {
+    test_.start_grid(grid, kinds);
     lists_.start_grid(grid.cells(), "tiles");
-    test_.start_grid(grid);
     planes_ = ShellPlanes(grid.screen());
     shells_ = grid.cells().z;
   }
@@ -63,7 +63,7 @@ extern const AssignerRow distance_fast_row;
 const AssignerRow distance_fast_row{
     .name = "distance-fast",
     .summary = "distance, one ball per lane, lists by compression (SIMD, dispatched at run time)",
-    .source = "this project: shells of distance with the closed form of the cap",
+    .source = "this project: the closed form of a ball's cap; shells of distance are an idea of Persson 2015",
     .kinds = {grid::Kind::distance},
     .orthographic = false,
     .params = light_params(),

@@ -13,6 +13,8 @@
 
 #include "assign/assigner.h"
 #include "assign/exact_rows.h"
+#include "assign/light_test.h"
+#include "assign/view_cull.h"
 #include "geom/predicates.h"
 #include "grid/index_range.h"
 
@@ -25,14 +27,16 @@ class Exact final : public Assigner {
  public:
   explicit Exact(const Params&) {}
 
-  void build(const grid::Grid& grid) override {
+  void build(const grid::Grid& grid, const LightKinds& kinds) override {
     grid_ = &grid;
+    view_ = ViewCull(grid.screen());
     cell_balls_.clear();
+    if (kinds.spots) cell_balls_ = grid.balls_around_cells();
   }
 
   void assign(const view::LightArrays& lights, Lists& out) override {
     tests_ = fallbacks_ = 0;
-    if (lights.spots > 0 && cell_balls_.empty()) cell_balls_ = grid_->balls_around_cells();
+    check_prepared(lights, cell_balls_);
     pairs_.start(grid_->cell_count());
     for (std::uint32_t light = 0; light < lights.size(); ++light)
       if (!lights.is_empty(light)) lights.is_spot(light) ? add_spot(lights, light) : add_point(lights, light);
@@ -75,9 +79,11 @@ class Exact final : public Assigner {
 
   void add_point(const view::LightArrays& lights, std::uint32_t light) {
     if (std::isinf(lights.radius[light])) return pairs_.add_row(0, grid_->cell_count(), light);
-    CellJudge judge(*grid_, lights, light);
-    if (lights.reach[light] > k_most_row_reach) return add_cell_by_cell(light, judge);
     const geom::Ball larger = lights.ball(light, k_exact_roundings);
+    if (view_.misses(larger)) return;
+    BallJudge judge(*grid_, lights, light);
+    if (lights.reach[light] > k_most_exact_reach)
+      return add_cell_by_cell(light, [&](const Row& row, int column) { return judge.touches(row, column); });
     const geom::Ball smaller = lights.ball(light, -k_exact_roundings);
     const RowColumns columns(grid_->screen().tiles);
     each_row(larger, [&](const Row& row) {
@@ -88,11 +94,15 @@ class Exact final : public Assigner {
 
   void add_spot(const view::LightArrays& lights, std::uint32_t light) {
     const geom::SphericalCone cone = lights.cone(light, view::k_given_roundings);
-    CellJudge judge(*grid_, lights, light);
-    if (lights.reach[light] > k_most_row_reach) return add_cell_by_cell(light, judge);
     // Both hold the cone; neither holds the other.
     const geom::Ball around = geom::bounding_ball(cone), range = lights.ball(light, k_exact_roundings);
     const geom::Ball larger{around.center, around.radius + k_exact_roundings * 0x1p-24f * lights.reach[light]};
+    if (view_.misses(larger)) return;
+    SpotJudge judge(*grid_, lights, light);
+    if (lights.reach[light] > k_most_exact_reach)
+      return add_cell_by_cell(light, [&](const Row& row, int column) {
+        return judge.touches(row.first_cell + static_cast<std::uint32_t>(column));
+      });
     const RowColumns columns(grid_->screen().tiles);
     each_row(larger, [&](const Row& row) {
       const IndexRange seen = columns.touched(larger, row, geom::Errs::outward),
@@ -110,10 +120,16 @@ class Exact final : public Assigner {
     });
   }
 
-  void add_cell_by_cell(std::uint32_t light, CellJudge& judge) {
+  template <class Touches>
+  void add_cell_by_cell(std::uint32_t light, Touches&& touches) {
     fallbacks_ += grid_->cell_count();
-    for (std::uint32_t cell = 0; cell < grid_->cell_count(); ++cell)
-      if (judge.touches(cell)) pairs_.add(cell, light);
+    const Vec3i cells = grid_->cells();
+    for (int slice = 0; slice < cells.z; ++slice)
+      for (int y = 0; y < cells.y; ++y) {
+        const Row row = row_of(grid_->screen(), slice, y);
+        for (int column = 0; column < cells.x; ++column)
+          if (touches(row, column)) pairs_.add(row.first_cell + static_cast<std::uint32_t>(column), light);
+      }
   }
 
   void add_interval(const Row& row, const IndexRange& columns, std::uint32_t light) {
@@ -123,6 +139,7 @@ class Exact final : public Assigner {
   }
 
   const grid::Grid* grid_ = nullptr;
+  ViewCull view_;
   std::vector<geom::Ball> cell_balls_;
   PairBuffer pairs_;
   std::uint64_t tests_ = 0, fallbacks_ = 0;

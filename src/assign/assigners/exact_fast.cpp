@@ -11,6 +11,7 @@
 #include "assign/exact_slices.h"
 #include "assign/simd/spot_balls.h"
 #include "core/error.h"
+#include "core/memory.h"
 #include "core/parallel.h"
 #include "geom/predicates.h"
 
@@ -23,7 +24,7 @@ class ExactFast final : public Assigner {
     if (crew_.threads() > 1) parts_.resize(2 * static_cast<std::size_t>(crew_.threads()));
   }
 
-  void build(const grid::Grid& grid) override {
+  void build(const grid::Grid& grid, const LightKinds&) override {
     if (grid.cells().x > k_most_columns)
       throw Error("", "tiles",
                   "make " + std::to_string(grid.cells().x) + " columns; exact-fast takes at most " +
@@ -90,6 +91,7 @@ class ExactFast final : public Assigner {
       starts_.push_back(static_cast<std::uint32_t>(pairs));
       count(part.slices);
     }
+    check_memory("pairs of light lists", pairs, sizeof(std::uint32_t));
     out.begin.resize(grid_->cell_count() + std::size_t{1});
     out.lights.resize(pairs);
     out.begin.back() = starts_.back();
@@ -157,7 +159,9 @@ std::unique_ptr<Assigner> make(const Params& params) {
 extern const AssignerRow exact_fast_row;
 const AssignerRow exact_fast_row{
     .name = "exact-fast",
-    .summary = "exact, one ball per lane, lists by compression (SIMD, dispatched at run time)",
+    .summary =
+        "the lists of exact by another algorithm, one ball per lane, lists by compression (SIMD, dispatched at run "
+        "time)",
     .source = "this project",
     .kinds = {grid::Kind::frustum},
     .exact = true,

@@ -70,7 +70,7 @@ class NaiveBounds final : public Assigner {
  public:
   explicit NaiveBounds(const Params& params) : flaw_(flaw_from(params.text("flaw"))) {}
 
-  void build(const grid::Grid& grid) override { grid_ = &grid; }
+  void build(const grid::Grid& grid, const LightKinds&) override { grid_ = &grid; }
 
   void assign(const view::LightArrays& lights, Lists& out) override {
     tests_ = 0;

@@ -28,13 +28,15 @@ class NaiveCone final : public Assigner {
  public:
   explicit NaiveCone(const Params& params) : flaw_(flaw_from(params.text("flaw"))) {}
 
-  void build(const grid::Grid& grid) override {
+  void build(const grid::Grid& grid, const LightKinds& kinds) override {
     grid_ = &grid;
-    cell_balls_ = grid.balls_around_cells();
+    cell_balls_.clear();
+    if (kinds.spots) cell_balls_ = grid.balls_around_cells();
   }
 
   void assign(const view::LightArrays& lights, Lists& out) override {
     tests_ = 0;
+    check_prepared(lights, cell_balls_);
     pairs_.start(grid_->cell_count());
     for (std::uint32_t light = 0; light < lights.size(); ++light)
       if (!lights.is_empty(light)) lights.is_spot(light) ? add_spot(lights, light) : add_point(lights, light);

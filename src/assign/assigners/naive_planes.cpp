@@ -7,7 +7,7 @@ namespace clusterbench::assign {
 namespace {
 
 struct PlanesEverywhere : CellPlanes {
-  static constexpr bool k_whole_grid = true;
+  static constexpr Looks k_looks = Looks::everywhere;
 };
 
 }  // namespace

@@ -21,7 +21,7 @@ class NaiveRefinement final : public Assigner {
  public:
   explicit NaiveRefinement(const Params&) {}
 
-  void build(const grid::Grid& grid) override {
+  void build(const grid::Grid& grid, const LightKinds&) override {
     grid_ = &grid;
     columns_ = tile_planes(grid.screen().tiles.x, grid.screen().tiles.orthographic);
     rows_ = tile_planes(grid.screen().tiles.y, grid.screen().tiles.orthographic);
@@ -113,7 +113,7 @@ extern const AssignerRow naive_refinement_row;
 const AssignerRow naive_refinement_row{
     .name = "naive-refinement",
     .summary = "sphere refinement that does not take the centre's row and column again after each projection",
-    .source = "Persson 2015 as commonly read; Filament's froxels",
+    .source = "Persson 2015 as commonly read; Bevy's clusters, which take the centre row once",
     .kinds = {grid::Kind::frustum},
     .conservative = false,
     .naive = true,

@@ -8,7 +8,7 @@ namespace clusterbench::assign {
 namespace {
 
 struct PlanesInExtents : CellPlanes {
-  static constexpr bool k_whole_grid = false;
+  static constexpr Looks k_looks = Looks::in_box;
 };
 
 }  // namespace
@@ -17,7 +17,7 @@ extern const AssignerRow planes_row;
 const AssignerRow planes_row{
     .name = "planes",
     .summary = "the cells of the light's extents that none of their six planes excludes",
-    .source = "Wicked Engine, and most tiled renderers",
+    .source = "the test of Wicked Engine and most tiled renderers, which make it for every light and tile",
     .kinds = {grid::Kind::frustum},
     .params = light_params(),
     .make = make_cell_box_method<PlanesInExtents>,

@@ -1,6 +1,8 @@
 // Sphere refinement of a frustum grid. For each slice in a light's cell box the ball is replaced by a smaller one that
 // holds its part beyond the slice's nearer plane; for each row that one is replaced again at the row's nearer plane;
-// the columns that the rest reaches are the row's interval.
+// the columns that the rest reaches are the row's interval. Both planes of a column decide, each plane taken once from
+// either end: by one plane alone, as Persson has it, a rest behind the eye fills rows that it is beside (855 false
+// positives in place of 691 for 512 lights of 13 m).
 //
 // Beyond a plane at distance g from its centre, a ball of radius r lies within the ball around the centre's foot on the
 // plane with radius sqrt(r² - g²). The sides of the row's planes are taken with the centre where the slice's plane has
@@ -17,6 +19,7 @@
 #include "assign/light_test.h"
 #include "assign/refinement.h"
 #include "assign/tile_planes.h"
+#include "assign/view_cull.h"
 
 namespace clusterbench::assign {
 namespace {
@@ -34,8 +37,10 @@ Remainder cut_to_slice(Remainder ball, float depth0, float depth1) {
   return {ball.x, ball.y, nearer, ball.squared_radius - gap * gap};
 }
 
-Remainder cut_to_row(Remainder ball, const TilePlane& top, const TilePlane& bottom) {
-  const float above = top.distance(ball.y, ball.depth), below = -bottom.distance(ball.y, ball.depth);
+// Between the planes of a row, which the ball's centre is so far above.
+Remainder cut_to_row(const Remainder& ball, const TilePlane& top, float above, const TilePlane& bottom,
+                     float above_bottom) {
+  const float below = -above_bottom;
   if (above > 0.0f)
     return {ball.x, ball.y - above * top.across, ball.depth - above * top.along, ball.squared_radius - above * above};
   if (below > 0.0f)
@@ -44,8 +49,9 @@ Remainder cut_to_row(Remainder ball, const TilePlane& top, const TilePlane& bott
   return ball;
 }
 
-bool reaches_column(const Remainder& ball, const TilePlane& left, const TilePlane& right) {
-  const float gap = std::max(-left.distance(ball.x, ball.depth), right.distance(ball.x, ball.depth));
+// By the distances from the column's planes.
+bool reaches_column(const Remainder& ball, float from_left, float from_right) {
+  const float gap = std::max(-from_left, from_right);
   return gap <= 0.0f || gap * gap <= ball.squared_radius;
 }
 
@@ -54,12 +60,13 @@ class SphereRefinement final : public Assigner {
   explicit SphereRefinement(const Params& params)
       : test_(params, k_refinement_roundings), narrowing_(narrows(params)) {}
 
-  void build(const grid::Grid& grid) override {
+  void build(const grid::Grid& grid, const LightKinds& kinds) override {
     grid_ = &grid;
     const grid::Tiles& tiles = grid.screen().tiles;
     columns_ = tile_planes(tiles.x, tiles.orthographic);
     rows_ = tile_planes(tiles.y, tiles.orthographic);
-    test_.start_grid(grid);
+    view_ = ViewCull(grid.screen());
+    test_.start_grid(grid, kinds);
   }
 
   void assign(const view::LightArrays& lights, Lists& out) override {
@@ -79,9 +86,12 @@ class SphereRefinement final : public Assigner {
  private:
   void add_light(const view::LightArrays& lights, std::uint32_t light) {
     if (lights.is_empty(light)) return;
+    const geom::Ball for_box = test_.ball(lights, light, k_cell_box_roundings);
+    if (view_.misses(for_box)) return;
+    CellBox box = cell_box(*grid_, for_box);
+    if (box.empty()) return;
     const TestedLight tested = test_.tested(lights, light);
-    CellBox box = cell_box(*grid_, test_.ball(lights, light, k_cell_box_roundings));
-    if (tested.has_cone && narrowing_ && !box.empty())
+    if (tested.has_cone && narrowing_)
       narrow_from_six_sides(box, tested.cone, grid_->screen().slices.boundaries, columns_, rows_);
     if (!box.empty()) add_ball(box, tested);
   }
@@ -94,26 +104,46 @@ class SphereRefinement final : public Assigner {
       const auto z = static_cast<std::size_t>(slice);
       const Remainder in_slice = cut_to_slice(whole, depths[z], depths[z + 1]);
       ++tests_;
-      if (in_slice.empty()) continue;
-      for (int row = box.first.y; row <= box.last.y; ++row) {
-        const auto y = static_cast<std::size_t>(row);
-        const Remainder in_row = cut_to_row(in_slice, rows_[y], rows_[y + 1]);
-        ++tests_;
-        if (!in_row.empty()) add_columns(box, in_row, slice, row, light);
-      }
+      if (!in_slice.empty()) add_rows(box, in_slice, slice, light);
+    }
+  }
+
+  // A row's bottom plane is the next one's top plane.
+  void add_rows(const CellBox& box, const Remainder& ball, int slice, const TestedLight& light) {
+    const TilePlane* planes = rows_.data();
+    float above = planes[box.first.y].distance(ball.y, ball.depth);
+    for (int row = box.first.y; row <= box.last.y; ++row) {
+      const float above_bottom = planes[row + 1].distance(ball.y, ball.depth);
+      const Remainder in_row = cut_to_row(ball, planes[row], above, planes[row + 1], above_bottom);
+      ++tests_;
+      if (!in_row.empty()) add_columns(box, in_row, slice, row, light);
+      above = above_bottom;
     }
   }
 
   void add_columns(const CellBox& box, const Remainder& ball, int slice, int row, const TestedLight& light) {
-    const auto reached = [&](int column) {
-      ++tests_;
-      const auto x = static_cast<std::size_t>(column);
-      return reaches_column(ball, columns_[x], columns_[x + 1]);
+    const auto distance = [&](int plane) {
+      return columns_[static_cast<std::size_t>(plane)].distance(ball.x, ball.depth);
     };
     int first = box.first.x, last = box.last.x;
-    while (first <= last && !reached(first)) ++first;
-    while (last > first && !reached(last)) --last;
-    if (first > last) return;
+    float left = distance(first), right = distance(first + 1);
+    const auto misses = [&] {
+      ++tests_;
+      return !reaches_column(ball, left, right);
+    };
+    while (misses()) {
+      if (++first > last) return;
+      left = right;
+      right = distance(first + 1);
+    }
+    if (last > first) {
+      right = distance(last + 1);
+      left = distance(last);
+    }
+    while (last > first && misses()) {
+      right = left;
+      left = distance(--last);
+    }
     const Vec2i count = grid_->screen().tiles.count;
     const auto row_start = static_cast<std::uint32_t>((slice * count.y + row) * count.x);
     test_.add_row(light, row_start + static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last - first + 1),
@@ -123,6 +153,7 @@ class SphereRefinement final : public Assigner {
   LightTest test_;
   bool narrowing_;
   const grid::Grid* grid_ = nullptr;
+  ViewCull view_;
   std::vector<TilePlane> columns_, rows_;
   PairBuffer pairs_;
   std::uint64_t tests_ = 0;
@@ -138,7 +169,10 @@ extern const AssignerRow sphere_refinement_row;
 const AssignerRow sphere_refinement_row{
     .name = "sphere-refinement",
     .summary = "a light's ball cut down at the nearer plane of each slice and each row, then against the columns",
-    .source = "Persson 2015, Practical Clustered Shading; Filament's froxels",
+    .source =
+        "Persson 2015, Practical Clustered Shading, made conservative: sides are taken again after each cut, by both "
+        "planes of a row and a column, without a logarithm (Filament takes row and column again per slice, Bevy its "
+        "centre row once)",
     .kinds = {grid::Kind::frustum},
     .params = refinement_params(),
     .make = make,

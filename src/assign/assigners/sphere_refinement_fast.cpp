@@ -43,7 +43,10 @@ extern const AssignerRow sphere_refinement_fast_row;
 const AssignerRow sphere_refinement_fast_row{
     .name = "sphere-refinement-fast",
     .summary = "sphere-refinement, one ball per lane, lists by compression (SIMD, dispatched at run time)",
-    .source = "Persson 2015, Practical Clustered Shading; Filament's froxels",
+    .source =
+        "Persson 2015, Practical Clustered Shading, made conservative: sides are taken again after each cut, by both "
+        "planes of a row and a column, without a logarithm (Filament takes row and column again per slice, Bevy its "
+        "centre row once)",
     .kinds = {grid::Kind::frustum},
     .params = refinement_params(),
     .make = make_cell_box_twin<RefinedRows>,

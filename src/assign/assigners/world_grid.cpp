@@ -8,7 +8,9 @@ extern const AssignerRow world_grid_row;
 const AssignerRow world_grid_row{
     .name = "world-grid",
     .summary = "sphere against the boxes of a fixed world grid, row by row",
-    .source = "PlayCanvas clustered lighting",
+    .source =
+        "PlayCanvas clustered lighting, which lists a light's box in a grid over the frame's lights; here balls and "
+        "cones are tested, in a grid that stays",
     .kinds = {grid::Kind::world},
     .params = light_params(),
     .make = make_box_grid_method,

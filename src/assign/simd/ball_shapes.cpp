@@ -48,7 +48,11 @@ void shapes_of(const SeenBalls& seen, std::uint32_t count, float widest_slope, B
   const V zero = hn::Zero(d), one = all(1.0f), least_part = all(std::max(1.0f, widest_slope) / 7.0f);
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const auto load = [&](const auto& from) { return hn::LoadU(d, reinterpret_cast<const float*>(from.data() + i)); };
-    const V x = load(seen.x), y = load(seen.y), depth = load(seen.depth), given = load(seen.radius);
+    // Balls that are everywhere are around the eye, where no product of theirs is infinite minus infinite.
+    const V given = load(seen.radius);
+    const M is_bounded = hn::Lt(given, infinity());
+    const V x = hn::IfThenElseZero(is_bounded, load(seen.x)), y = hn::IfThenElseZero(is_bounded, load(seen.y));
+    const V depth = hn::IfThenElseZero(is_bounded, load(seen.depth));
     const V x_square = hn::Mul(x, x), y_square = hn::Mul(y, y), depth_square = hn::Mul(depth, depth);
     const V from_eye = hn::Add(hn::Add(x_square, y_square), depth_square);
     const V nearer = hn::Min(x_square, y_square), farther = hn::Max(x_square, y_square);
@@ -66,7 +70,7 @@ void shapes_of(const SeenBalls& seen, std::uint32_t count, float widest_slope, B
     const V least = hn::Max(hn::Mul(least_part, depth_square), of_small);
     const M is_precise = hn::Ge(hn::Abs(upright), least);
     const V inverse_upright =
-        hn::IfThenElse(is_outside, hn::IfThenElseZero(is_precise, hn::Div(one, upright)), all(BallShapes::k_at_eye));
+        hn::IfThenElse(is_outside, hn::IfThenElseZero(is_precise, hn::Div(one, upright)), infinity());
     const V lean = hn::IfThenElseZero(is_outside, hn::Div(x, root(square)));
     hn::StoreInterleaved4(x, y, depth, radius, d, out.sphere.data() + 4 * i);
     hn::StoreInterleaved4(slack, load(seen.light), lean, inverse_upright, d, out.touch.data() + 4 * i);

@@ -32,7 +32,7 @@ struct BallShapes {
 // The tangents from the eye to the circle that a tile plane of slope v cuts out touch it at the inverse depths
 // (depth + y v -+ lean s) * inverse_upright, with s² = radius² (1 + v²) - (y - v depth)². inverse_upright is 1 /
 // (depth² + y² - radius²), and 0 where that is not precise enough to say where; for balls around the eye, which nothing
-// touches, it is k_at_eye, and lean 0. How precise it needs to be: see Certainty in slice_rows.cpp. Balls whose surface
+// touches, it is infinite, and lean 0. How precise it needs to be: see Certainty in slice_rows.cpp. Balls whose surface
 // nearly goes through the eye, or as a circle seen from aside or from above, are made a little larger, and their slack.
 void shape_balls(const RowPlanes& planes, const SeenBalls& seen, std::uint32_t count, BallShapes& out);
 

@@ -44,9 +44,10 @@ HWY_INLINE V least_area_of(V radius, V slack, V rate, V farthest) {
   return hn::IfThenElse(holds_view, hn::Zero(D()), area);
 }
 
-// The same by a chord: with a place in the row from which the ball's surface is at least half a chord away, also rows
-// are certain where the way from an end to the next boundary inwards, in columns, times that is at least 4 slack R rate
-// (and some for rounding), and half the chord squared at least 4 slack R. `steepness` is least_area's.
+// The same by a chord: with a place in the row's part of the picture from which the ball's surface is at least half a
+// chord away, also rows are certain where the way from an end to the next boundary inwards, in columns, times that is
+// at least 4 slack R rate (and some for rounding), and half the chord squared at least 4 slack R. `steepness` is
+// least_area's.
 HWY_INLINE M is_certain_by_chord(V half_square, V inwards, V radius, V slack, V rate, V steepness) {
   const V least = hn::Mul(all(5.0f), hn::Mul(slack, radius)), way = hn::Mul(least, rate);
   // An infinite radius has no chord.
@@ -64,7 +65,7 @@ HWY_INLINE V farther_end(V place, float low, float high) {
   return hn::Max(hn::Abs(hn::Sub(place, all(low))), hn::Abs(hn::Sub(place, all(high))));
 }
 
-// Slopes from low to high as columns, as BatchRows has them. They are certain where the way from an end to the next
+// Slopes from low to high as columns, as BatchRows has them. An end is certain where the way from there to the next
 // boundary inwards, times the width, is at least least_area times steepness(low, high), all in columns, or where
 // by_chord(way inwards, steepness) says so.
 template <class Steepness, class ByChord>
@@ -78,16 +79,32 @@ HWY_INLINE VU columns_between(const RowPlanes& planes, V all_low, V all_high, M 
   const V last_column = all(static_cast<float>(planes.columns - 1));
   const V first = hn::Min(hn::Floor(hn::Max(hn::Sub(from, margin), hn::Zero(D()))), last_column);
   const V last = hn::Min(hn::Floor(hn::Add(to, margin)), last_column);
-  const V width = hn::Sub(to, from), steepness = steepness_of(low, high), area = hn::Mul(least_area, steepness);
-  const V inwards = hn::Sub(hn::Min(hn::Sub(hn::Add(first, one), from), hn::Sub(to, last)), margin);
-  M is_certain = hn::And(hn::Ge(hn::Mul(inwards, width), area), hn::Ge(hn::Mul(width, width), hn::Add(area, area)));
-  if (!hn::AllTrue(D(), hn::Or(is_certain, hn::Not(touches))))
-    is_certain = hn::Or(is_certain, by_chord(inwards, steepness));
+  // No wider than it is for certain: a small ball in a wide picture is narrower than places in it are rounded.
+  const V width = hn::Max(hn::Sub(hn::Sub(to, from), hn::Add(margin, margin)), hn::Zero(D())),
+          steepness = steepness_of(low, high), area = hn::Mul(least_area, steepness);
+  const V from_first = hn::Sub(hn::Sub(hn::Add(first, one), from), margin),
+          to_last = hn::Sub(hn::Sub(to, last), margin);
+  const V inwards = hn::Min(from_first, to_last);
+  const M is_wide = hn::Ge(hn::Mul(width, width), hn::Add(area, area));
+  const M is_certain = hn::And(hn::Ge(hn::Mul(inwards, width), area), is_wide);
   const DU du;
   const VU ends = hn::BitCast(du, hn::Or(whole(first), hn::ShiftLeft<16>(whole(last))));
-  const VU marked =
-      hn::IfThenElse(hn::RebindMask(du, is_certain), ends, hn::Or(ends, hn::Set(du, BatchRows::k_uncertain)));
-  return hn::IfThenElse(hn::RebindMask(du, touches), marked, hn::Set(du, BatchRows::k_none));
+  VU marks = hn::Zero(du);
+  if (!hn::AllTrue(D(), hn::Or(is_certain, hn::Not(touches)))) {
+    const auto end_is_certain = [&](V inwards_of_end) {
+      const M by_area = hn::And(hn::Ge(hn::Mul(inwards_of_end, width), area), is_wide);
+      return hn::Or(by_area, by_chord(inwards_of_end, steepness));
+    };
+    const auto mark = [&](M where, std::uint32_t bits) {
+      return hn::IfThenElseZero(hn::RebindMask(du, where), hn::Set(du, bits));
+    };
+    const M of_first = end_is_certain(from_first), of_last = end_is_certain(to_last);
+    const VU certain =
+        hn::Or(mark(of_first, BatchRows::k_first_is_certain), mark(of_last, BatchRows::k_last_is_certain));
+    marks = hn::IfThenElseZero(hn::RebindMask(du, hn::Not(hn::And(of_first, of_last))),
+                               hn::Or(certain, hn::Set(du, BatchRows::k_uncertain)));
+  }
+  return hn::IfThenElse(hn::RebindMask(du, touches), hn::Or(ends, marks), hn::Set(du, BatchRows::k_none));
 }
 
 }  // namespace HWY_NAMESPACE

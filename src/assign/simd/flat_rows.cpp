@@ -62,11 +62,17 @@ class FlatBatch {
     const V away = gap(all(planes_.slope[row + 1]), y_, all(planes_.slope[row]));
     const V square = hn::Sub(square_, hn::Mul(away, away)), zero = hn::Zero(D());
     const V half = hn::Sqrt(hn::Max(square, zero));
+    // Beside the picture a chord says nothing of what the ball has in it.
+    const auto chord_square_in_picture = [&] {
+      const V beside = gap(all(planes_.left), x_, all(planes_.right));
+      return hn::Sub(square, hn::Mul(beside, beside));
+    };
     return columns_between(
         planes_, hn::Sub(x_, half), hn::Add(x_, half), hn::And(wanted_, hn::Ge(square, zero)), least_area_,
         [](V, V) { return all(1.0f); },
         [&](V inwards, V steepness) {
-          return is_certain_by_chord(square, inwards, radius_, slack_, all(planes_.columns_per_slope), steepness);
+          return is_certain_by_chord(chord_square_in_picture(), inwards, radius_, slack_,
+                                     all(planes_.columns_per_slope), steepness);
         });
   }
 

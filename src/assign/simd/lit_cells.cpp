@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "assign/simd/slice_rows.h"
+#include "core/memory.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/simd/lit_cells.cpp"
@@ -96,6 +97,7 @@ HWY_EXPORT(lit_cells);
 
 CellBalls::CellBalls(std::span<const geom::Ball> balls) {
   const std::size_t padded = balls.size() + k_most_lanes;
+  check_memory("balls around cells, side by side", padded, 5 * sizeof(float));
   for (std::vector<float>* list : {&x, &y, &z, &radius, &size}) list->resize(padded);
   for (std::size_t cell = 0; cell < balls.size(); ++cell) {
     const Vec3f& center = balls[cell].center;

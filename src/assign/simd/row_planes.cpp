@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "assign/simd/seen_balls.h"
 #include "assign/simd/span_lists.h"
 
 namespace clusterbench::assign {
@@ -32,6 +33,20 @@ Scale scale_of(const std::vector<float>& planes) {
     off = std::max(off, std::fabs(from_first(i) * static_cast<double>(scale) - static_cast<double>(i)));
   const double rounding = 0x1p-22 * static_cast<double>(tiles + 1);
   return {scale, static_cast<float>(1.1 * off + rounding)};
+}
+
+float least_reach_of(const RowPlanes& planes) {
+  constexpr float k_least_normal = 1e-7f, k_ways = 16.0f;
+  if (planes.orthographic) return k_least_normal;
+  const float across = std::max(std::fabs(planes.left), std::fabs(planes.right));
+  const float up =
+      std::max(std::fabs(planes.slope.front()), std::fabs(planes.slope[static_cast<std::size_t>(planes.rows)]));
+  if (planes.depth[1] < RowPlanes::k_least_slice_m || planes.depth.back() > k_most_row_reach ||
+      std::max(across, up) > RowPlanes::k_most_slope)
+    return std::numeric_limits<float>::infinity();
+  if (planes.inverse_depth.front() <= RowPlanes::k_most_inverse_depth) return k_least_normal;
+  const float longest_way = std::sqrt(1.0f + across * across + up * up) / RowPlanes::k_most_inverse_depth;
+  return std::max(k_least_normal, k_ways * longest_way / (k_slice_rows_roundings * 0x1p-24f));
 }
 
 }  // namespace
@@ -62,6 +77,7 @@ RowPlanes::RowPlanes(const grid::ScreenGrid& grid)
   side = padded(grid.tiles.x, grid.tiles.x.size() + k_most_lanes, 0.0f);
   searched.assign(depth.begin(), depth.end() - 1);
   searched.resize(std::bit_ceil(searched.size()), std::numeric_limits<float>::infinity());
+  least_reach = least_reach_of(*this);
 }
 
 }  // namespace clusterbench::assign

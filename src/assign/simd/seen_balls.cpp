@@ -94,10 +94,6 @@ class SliceSearch {
   std::int32_t last_;
 };
 
-// From here to k_most_row_reach fourth powers of reaches, and these times a slope, are normal numbers, and a ball at
-// the eye is wide in all that is seen.
-constexpr float k_least_reach = 1e-7f;
-
 void see(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, SeenBalls& seen,
          float roundings) {
   const D d;
@@ -123,7 +119,7 @@ void see(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_l
     keep(y, seen.y);
     keep(depth, seen.depth);
     // Powers of a reach must be normal numbers; elsewhere the whole grid is left to be decided.
-    const M is_plain = is_between(all(k_least_reach), reach, all(k_most_row_reach));
+    const M is_plain = is_between(all(planes.least_reach), reach, all(k_most_row_reach));
     keep(hn::IfThenElse(is_plain, radius, infinity()), seen.radius);
     keep(slack, seen.slack);
     const auto lights = hn::BitCast(du, from_on(static_cast<std::int32_t>(first_light + i)));

@@ -31,7 +31,8 @@ struct SeenBalls {
 // distances to planes 3) and in the rows (see Certainty in slice_rows.cpp). A larger slack costs decisions only.
 inline constexpr float k_slice_rows_roundings = 28.0f;
 
-// Beyond this reach powers of it may overflow: such balls are taken to be everywhere, and decided cell by cell.
+// Beyond this reach, or below RowPlanes::least_reach, powers of it may overflow or vanish: such balls are taken to be
+// everywhere, of infinite radius around the eye, and their rows are decided.
 inline constexpr float k_most_row_reach = 1e9f;
 
 // Appends the balls that may reach into the grid; the first one's light is `first_light`. Those left out touch no cell,

@@ -7,7 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "assign/lists.h"
 #include "assign/simd/slice_rows.h"
+#include "core/memory.h"
 
 namespace clusterbench::assign {
 
@@ -19,6 +21,7 @@ class SliceBalls {
   void sort(const Balls& balls, int slices) {
     // How many more balls a slice has than the one before it, then how many it has, then where they end.
     begin_.assign(static_cast<std::size_t>(slices) + 3, 0);
+    if (std::uint64_t{balls.count} * static_cast<std::uint64_t>(slices) > k_surely_fit) check_room(balls);
     for (std::uint32_t i = 0; i < balls.count; ++i) {
       if (balls.first_slice[i] > balls.last_slice[i]) continue;
       ++begin_[at(balls.first_slice[i]) + 2];
@@ -44,6 +47,18 @@ class SliceBalls {
 
  private:
   static std::size_t at(int slice) { return static_cast<std::size_t>(slice); }
+
+  // So many are not counted before: they take 1 MiB, the least limit on memory.
+  static constexpr std::uint64_t k_surely_fit = (std::uint64_t{1} << 18) - k_most_lanes;
+
+  template <class Balls>
+  static void check_room(const Balls& balls) {
+    std::uint64_t in_slices = 0;
+    for (std::uint32_t i = 0; i < balls.count; ++i)
+      in_slices += static_cast<std::uint64_t>(std::max(0, balls.last_slice[i] - balls.first_slice[i] + 1));
+    check_memory("lights in slices", in_slices + k_most_lanes, sizeof(std::uint32_t));
+    check_pair_count(in_slices);
+  }
 
   AlignedVector<std::uint32_t> begin_, balls_;
 };

@@ -23,14 +23,14 @@ struct Hull {
   V low, high;
 };
 
-// One of the slice's two planes. The inverse depth of a plane through the eye is finite, so that its products with
-// reaches are.
+// One of the slice's two planes. The inverse depth of a plane at the eye ends where its products with reaches would not
+// be finite; for what that changes see RowPlanes::least_reach.
 struct SlicePlane {
   float depth, inverse;
 
   SlicePlane() = default;
   SlicePlane(const RowPlanes& planes, std::size_t k)
-      : depth(planes.depth[k]), inverse(std::min(planes.inverse_depth[k], 1e10f)) {}
+      : depth(planes.depth[k]), inverse(std::min(planes.inverse_depth[k], RowPlanes::k_most_inverse_depth)) {}
 };
 
 // Balls of a slice, one per lane.

@@ -28,8 +28,10 @@ namespace clusterbench::assign {
 struct BatchRows {
   static constexpr std::uint32_t k_none = SpanLists::k_no_span;         // no column
   static constexpr std::uint32_t k_uncertain = SpanLists::k_open_span;  // perhaps not all of the columns
-  static int first_of(std::uint32_t columns) { return static_cast<int>(columns & 0x7fff); }
-  static int last_of(std::uint32_t columns) { return static_cast<int>(columns >> 16 & 0x7fff); }
+  // With k_uncertain: which of the ends is certain all the same.
+  static constexpr std::uint32_t k_first_is_certain = 0x4000, k_last_is_certain = 0x8000;
+  static int first_of(std::uint32_t columns) { return static_cast<int>(columns & 0x3fff); }
+  static int last_of(std::uint32_t columns) { return static_cast<int>(columns >> 16 & 0x3fff); }
 
   std::uint32_t lanes = 0;
   alignas(64) std::uint32_t lights[k_most_lanes];
@@ -38,10 +40,12 @@ struct BatchRows {
   // One row more than the grid has, for what is not wanted.
   AlignedVector<std::uint32_t> columns;
 
+  std::uint32_t* columns_of(int row) { return columns.data() + static_cast<std::size_t>(row) * lanes; }
+  const std::uint32_t* columns_of(int row) const { return columns.data() + static_cast<std::size_t>(row) * lanes; }
   void make_room(int of_rows);
   std::size_t capacity_bytes() const { return columns.capacity() * sizeof(std::uint32_t); }
 };
-inline constexpr int k_most_columns = ColumnSpan::k_most_columns;
+inline constexpr int k_most_columns = 0x3fff;
 
 // How many balls a batch holds on this machine.
 std::uint32_t balls_per_batch();

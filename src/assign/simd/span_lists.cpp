@@ -9,6 +9,7 @@
 #include <hwy/highway.h>
 
 #include "assign/simd/compress-inl.h"
+#include "core/memory.h"
 
 #ifndef CLUSTERBENCH_SPAN_LISTS_ONCE  // what all targets share
 #define CLUSTERBENCH_SPAN_LISTS_ONCE
@@ -22,7 +23,7 @@ struct SpanRows {
 
 // What became of a batch: how many pairs its spans make; whether some rows were left alone.
 struct Added {
-  std::uint32_t pairs;
+  std::uint64_t pairs;
   bool some_are_left;
 };
 
@@ -65,7 +66,14 @@ Added add_rows(SpanRows rows, int first_row, int last_row, const std::uint32_t* 
     added.pairs += count;
     beyond = hn::Add(beyond, hn::IfThenElseZero(wanted, hn::Sub(hn::ShiftRight<16>(span), hn::And(span, half))));
   }
-  added.pairs += hn::GetLane(hn::SumOfLanes(du, beyond));
+  // A lane's sum is below 2^32, as a grid has no more cells; that of all lanes is where rows are not too many.
+  constexpr auto k_few_rows = static_cast<int>(UINT32_MAX / (k_row_lanes * ColumnSpan::k_most_columns));
+  if (last_row - first_row < k_few_rows) {
+    added.pairs += hn::GetLane(hn::SumOfLanes(du, beyond));
+    return added;
+  }
+  added.pairs += hn::GetLane(hn::SumOfLanes(du, hn::And(beyond, half)));
+  added.pairs += std::uint64_t{hn::GetLane(hn::SumOfLanes(du, hn::ShiftRight<16>(beyond)))} << 16;
   return added;
 }
 
@@ -96,11 +104,13 @@ void SpanLists::start(std::uint32_t bands, std::uint32_t rows, std::uint32_t col
   out_ = &out;
   sizes_.assign(rows, 0);
   if (pitch_ == 0) grow();
+  check_memory("lists of cells", std::uint64_t{bands} * rows * columns + 1, sizeof(std::uint32_t));
   out.begin.resize(std::size_t{bands} * rows * columns + 1);
 }
 
 void SpanLists::grow() {
   const std::size_t wider = std::max<std::size_t>(16, 2 * pitch_);
+  check_memory("spans of light lists", rows_ * wider + k_most_lanes, 2 * sizeof(std::uint32_t));
   const auto widen = [&](auto& list) {
     list.resize(rows_ * wider + k_most_lanes);
     for (std::size_t row = rows_; row-- > 1;)
@@ -152,10 +162,14 @@ std::uint32_t* SpanLists::finish_row(std::uint32_t row, const grid::IndexRange& 
 
 void SpanLists::finish_band(const BandHole& hole) {
   make_room(k_row_lanes);  // as a last batch would have, so that memory does not depend on how many lights a batch has
-  check_pair_count(pairs_ + band_pairs_);
   std::vector<std::uint32_t>& lists = out_->lights;
   const std::size_t needed = pairs_ + band_pairs_ + k_most_lanes;
-  if (lists.size() < needed) lists.resize(needed + needed / 16);
+  // No further than this band: what is beyond the old size is filled with zeros before it is written.
+  if (lists.size() < needed) {
+    check_memory("pairs of light lists", needed, sizeof(std::uint32_t));
+    check_pair_count(pairs_ + band_pairs_);
+    lists.resize(needed);
+  }
   std::uint32_t* begin = out_->begin.data() + std::size_t{band_} * rows_ * columns_;
   std::uint32_t* to = lists.data() + pairs_;
   const std::uint64_t spans = std::accumulate(sizes_.begin(), sizes_.end(), std::uint64_t{0});

@@ -46,7 +46,7 @@ class SpanLists {
   static constexpr std::uint32_t k_no_span = 0xffffffff, k_open_span = 0x80000000;
   bool add_batch(int first_row, int last_row, const std::uint32_t* columns, const std::uint32_t* lights,
                  std::uint8_t* is_left);
-  // Writes the band's lists; the next band begins. Throws Error (ExitCode::internal) beyond 2^32 - 1 pairs.
+  // Writes the band's lists; the next band begins. Throws Error beyond 2^32 - 1 pairs or the limit on memory.
   void finish_band(const BandHole& hole = {});
   // After the last band.
   void finish();

@@ -99,10 +99,15 @@ struct GivenSpots {
   }
 };
 
+// Which spots of these sizes are to be judged in single precision.
+HWY_INLINE M are_plain(const SpotsAndPlanes& from, V light) {
+  return is_between(all(from.least_reach), light, all(k_most_row_reach));
+}
+
 // Spots, each with its own piece of a row: tile planes below and above, slice planes in front and behind.
 struct SpotsInRows {
   Cone cone;
-  V light;
+  V light;  // GivenSpots::light
   V y0, y1, depth0, depth1;
 
   // Where columns between two sides are looked at.
@@ -128,10 +133,6 @@ HWY_INLINE VI places(const std::vector<std::uint32_t>& list, std::uint32_t first
 // A vector of cells, each with its own cone.
 class Cells {
  public:
-  HWY_INLINE Cells(const SpotsAndPlanes& from, const SpotCells& cells, std::uint32_t first)
-      : Cells(spots_in_rows(from, places(cells.spot, first), places(cells.slice, first), places(cells.row, first)),
-              gathered(from.side, places(cells.column, first)), gathered(from.side, places(cells.end_column, first))) {}
-
   // Those between two sides of columns.
   HWY_INLINE Cells(const SpotsInRows& rows, V left, V right)
       : cone_(rows.cone),
@@ -319,7 +320,8 @@ class Cells {
 
  private:
   static constexpr float k_none = 1e30f;
-  static constexpr float k_within = 1.25f;  // of the tolerance
+  static constexpr float k_within = 1.25f;         // of the tolerance
+  static constexpr float k_least_square = 1e-30f;  // below it quotients lose digits
   // Places that lie in cell and volume, by and large: their sum, and the one nearest to the apex of those that lie in
   // cell and endless cone.
   struct Extremes {
@@ -470,14 +472,17 @@ class Cells {
       for (const unsigned bit : {1u, 2u, 4u}) {
         if ((corner & bit) != 0) continue;
         const Point edge = from_apex_[corner | bit] - from_apex_[corner];
-        // x cos phi + y sin phi = z, phi around the axis from m.
-        const V x = hn::Mul(cone_.cosine, dot(edge, m)), y = hn::Mul(cone_.cosine, dot(edge, m2));
-        const V z = hn::Mul(cone_.sine, dot(edge, cone_.axis));
+        // x cos phi + y sin phi = z, phi around the axis from m. Not times the cosine, whose square would not be a
+        // number that single precision has where the angle is nearly 90 degrees.
+        const V x = dot(edge, m), y = dot(edge, m2);
+        const V z = hn::Div(hn::Mul(cone_.sine, dot(edge, cone_.axis)), cone_.cosine);
         const V square = hn::Add(hn::Mul(x, x), hn::Mul(y, y)), rest = hn::Sub(square, hn::Mul(z, z));
-        const M exists = hn::And(hn::Gt(square, zero), hn::Ge(rest, zero));
-        const V root = hn::Sqrt(hn::Max(rest, zero));
+        const M exists = hn::And(hn::Gt(square, all(k_least_square)), hn::Ge(rest, zero));
+        const V root = hn::Sqrt(hn::Max(rest, zero)), scale = hn::Div(one, square);
         for (const V w : {root, hn::Neg(root)}) {
-          const Point across = hn::Sub(hn::Mul(z, x), hn::Mul(w, y)) * m + hn::Add(hn::Mul(z, y), hn::Mul(w, x)) * m2;
+          const V along_m = hn::Mul(scale, hn::Sub(hn::Mul(z, x), hn::Mul(w, y)));
+          const V along_m2 = hn::Mul(scale, hn::Add(hn::Mul(z, y), hn::Mul(w, x)));
+          const Point across = along_m * m + along_m2 * m2;
           apart = hn::Or(apart, hn::And(exists, hn::Gt(least_along(side_normal(across)), tolerance_)));
         }
       }

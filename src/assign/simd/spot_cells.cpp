@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "assign/lists.h"
+#include "core/memory.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/simd/spot_cells.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
@@ -21,7 +24,10 @@ void look(const SpotsAndPlanes& from, Look how, SpotCells& cells) {
   const hn::Rebind<std::uint8_t, DU> du8;
   const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
   for (std::uint32_t first = 0; first < cells.count; first += lanes) {
-    const Cells these(from, cells, first);
+    const SpotsInRows rows =
+        spots_in_rows(from, places(cells.spot, first), places(cells.slice, first), places(cells.row, first));
+    const Cells these(rows, gathered(from.side, places(cells.column, first)),
+                      gathered(from.side, places(cells.end_column, first)));
     M common, apart;
     switch (how) {
       case Look::quick:
@@ -39,6 +45,9 @@ void look(const SpotsAndPlanes& from, Look how, SpotCells& cells) {
         these.settle(common, apart);
         break;
     }
+    const M plain = are_plain(from, rows.light);
+    common = hn::And(common, plain);
+    apart = hn::And(apart, plain);
     const auto code = [&](Touch touch) { return hn::Set(du, static_cast<std::uint32_t>(touch)); };
     const auto answer = hn::IfThenElse(hn::RebindMask(du, common), code(Touch::yes),
                                        hn::IfThenElse(hn::RebindMask(du, apart), code(Touch::no), code(Touch::open)));
@@ -58,6 +67,8 @@ HWY_EXPORT(look);
 
 void SpotCells::grow() {
   const std::size_t size = 2 * spot.size() + 4 * k_most_lanes;
+  check_pair_count(size);
+  check_memory("cells of spots", size, sizeof(SpotCell) + sizeof(Touch));
   for (std::vector<std::uint32_t>* list : {&spot, &slice, &row, &column, &end_column}) list->resize(size);
   touch.resize(size);
 }

@@ -42,9 +42,11 @@ struct SpotCells {
 };
 
 // What the pairs are made of: lights, sides of columns (x / depth), slopes of rows from the top, depths of slices.
+// Spots of less reach than least_reach, or of more than k_most_row_reach, are left open.
 struct SpotsAndPlanes {
   const view::LightArrays* lights;
   const float *side, *slope, *depth;
+  float least_reach = 0.0f;
 };
 
 // Each look settles most of the pairs that the one before leaves open, and costs several times as much.

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 
+#include "assign/lists.h"
+#include "core/memory.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/simd/spot_rows.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
@@ -156,7 +159,8 @@ void rows_of(const SpotsAndPlanes& from, const RowPlanes& planes, const PlaneTab
     const RowExtremes found(lookup.between(bottom, top, room), above, has_above, top, below, bottom);
     const SpotsInRows rows{spots.shapes.cone, spots.light, bottom, top, spots.between.near, spots.between.far};
     const Ends ends(from, planes, spots, rows, found);
-    const M none_before = ends.none_before(), none_behind = ends.none_behind();
+    const M plain = are_plain(from, spots.light);
+    const M none_before = hn::And(plain, ends.none_before()), none_behind = hn::And(plain, ends.none_behind());
     // No row, or proven to be beside all of the picture.
     const M is_out = hn::Or(hn::RebindMask(d, hn::Lt(row, hn::Zero(di))),
                             hn::And(ends.is_aside(), hn::And(none_before, none_behind)));
@@ -165,8 +169,8 @@ void rows_of(const SpotsAndPlanes& from, const RowPlanes& planes, const PlaneTab
     };
     const VU known =
         hn::Or(hn::Or(bit(none_before, SpotRows::k_none_before), bit(none_behind, SpotRows::k_none_behind)),
-               hn::Or(bit(ends.first_is_touched(), SpotRows::k_first_is_touched),
-                      bit(ends.last_is_touched(), SpotRows::k_last_is_touched)));
+               hn::Or(bit(hn::And(plain, ends.first_is_touched()), SpotRows::k_first_is_touched),
+                      bit(hn::And(plain, ends.last_is_touched()), SpotRows::k_last_is_touched)));
     const std::uint32_t to = out.count + static_cast<std::uint32_t>(t);
     const auto store = [&](VI value, auto& list) {
       hn::StoreU(hn::BitCast(du, value), du, reinterpret_cast<std::uint32_t*>(list.data()) + to);
@@ -204,6 +208,8 @@ HWY_EXPORT(spot_rows);
 
 void SpotSlices::make_room() {
   const std::size_t size = 2 * spot.size() + 4 * k_most_lanes;
+  check_pair_count(size);
+  check_memory("spots in slices", size, 2 * sizeof(std::uint32_t));
   spot.resize(size);
   slice.resize(size);
 }
@@ -221,10 +227,12 @@ void SpotRows::add(const SpotCell& columns) {
 // For so many rows more.
 void SpotRows::make_room(std::size_t rows) {
   const std::size_t listed = rows + 2 * k_most_lanes, all = count + listed;
+  check_pair_count(all);
   for (std::vector<std::int32_t>* list : {&listed_slice, &listed_row})
     if (list->size() < listed) list->resize(listed);
   if (known.size() >= all) return;
   const std::size_t size = std::max(all, 2 * known.size());
+  check_memory("rows of spots", size, 5 * sizeof(std::uint32_t) + sizeof(std::uint8_t));
   for (std::vector<std::uint32_t>* list : {&spot, &slice, &row}) list->resize(size);
   for (std::vector<std::int32_t>* list : {&first, &last}) list->resize(size);
   known.resize(size);

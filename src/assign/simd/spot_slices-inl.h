@@ -73,7 +73,8 @@ class Reached {
                      const SlicePlanes& between, V light)
       : planes_(planes), tables_(tables), spots_(spots.exchanged()), between_(between), light_(light) {}
 
-  HWY_INLINE RowsReached rows() const {
+  // `plain`: those of which single precision tells anything.
+  HWY_INLINE RowsReached rows(M plain) const {
     Extremes found;
     Ups ups{found};
     each_place_in_slice(spots_, between_, ups);
@@ -88,11 +89,11 @@ class Reached {
     VI first = hn::IfThenElse(is_below, rows, hn::Min(whole(hn::Floor(hn::Max(from, zero))), last_row));
     VI end = hn::IfThenElse(is_above, none, hn::Min(hn::Add(whole(hn::Floor(hn::Max(to, zero))), one), rows));
     const M exist = found.exist();
-    const M none_above = hn::And(exist, is_apart(found.high, tables_.slope.at(first), all(1.0f)));
-    const M none_below = hn::And(exist, is_apart(found.low, tables_.slope.at(end), all(-1.0f)));
+    const M none_above = hn::And(hn::And(plain, exist), is_apart(found.high, tables_.slope.at(first), all(1.0f)));
+    const M none_below = hn::And(hn::And(plain, exist), is_apart(found.low, tables_.slope.at(end), all(-1.0f)));
     first = hn::IfThenElseZero(hn::RebindMask(DI(), none_above), first);
     end = hn::IfThenElse(hn::RebindMask(DI(), none_below), end, rows);
-    end = hn::IfThenZeroElse(hn::RebindMask(DI(), misses_slice()), end);
+    end = hn::IfThenZeroElse(hn::RebindMask(DI(), hn::And(plain, misses_slice())), end);
     return {first, hn::Max(hn::Sub(end, first), none),
             hn::And(hn::Eq(first, none), hn::RebindMask(DI(), hn::Not(hn::Lt(high, top))))};
   }
@@ -150,7 +151,7 @@ class Slices {
                                    gathered(planes.inverse_depth, slice),
                                    gathered(planes.inverse_depth.data() + 1, slice)};
       const SpotShapes shapes(given.cone, tolerance_of(given.light, between.far, all(widest), all(highest)));
-      const RowsReached rows = Reached(planes, tables, shapes, between, given.light).rows();
+      const RowsReached rows = Reached(planes, tables, shapes, between, given.light).rows(are_plain(from, given.light));
       SpotsInSlices in_slices(shapes, between, given.light);
       const MI wanted = hn::And(hn::Gt(rows.count, hn::Zero(di)), hn::FirstN(di, end - i));
       Writer writer{*this, wanted};

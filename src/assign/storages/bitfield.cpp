@@ -1,10 +1,9 @@
 #include "assign/storage.h"
 
 #include <bit>
-#include <limits>
 
 #include "assign/simd/list_forms.h"
-#include "core/error.h"
+#include "core/memory.h"
 
 namespace clusterbench::assign {
 namespace {
@@ -17,24 +16,16 @@ class Bitfield final : public Storage {
   void start(std::uint32_t cell_count, std::uint32_t points, std::uint32_t spots) override {
     cell_count_ = cell_count;
     words_per_cell_ = (points + spots + k_bits - 1) / k_bits;
-    const std::uint64_t bytes = std::uint64_t{cell_count} * words_per_cell_ * sizeof(std::uint32_t);
-    if (bytes > std::numeric_limits<std::uint32_t>::max())
-      throw Error("", "bitfield",
-                  "takes " + std::to_string(bytes) + " bytes for " + std::to_string(points + spots) + " lights in " +
-                      std::to_string(cell_count) + " cells; at most 2^32 - 1 are allowed");
+    check_memory("words of bits", std::uint64_t{cell_count} * words_per_cell_, sizeof(std::uint32_t));
     words_.assign(std::size_t{cell_count} * words_per_cell_, 0);
   }
 
-  void store(const Lists& lists) override {
-    write_bits(lists, words_per_cell_, words_.data());
-    largest_cell_ = lists.fullest_cell();
-  }
+  void store(const Lists& lists) override { write_bits(lists, words_per_cell_, words_.data()); }
 
   StorageUse use() const override {
     StorageUse use;
     use.index_entries = words_.size();
     use.index_bytes = use.upload_bytes = words_.size() * sizeof(std::uint32_t);
-    use.largest_cell = largest_cell_;
     return use;
   }
 
@@ -57,7 +48,7 @@ class Bitfield final : public Storage {
  private:
   static constexpr std::uint32_t k_bits = 32;
 
-  std::uint32_t cell_count_ = 0, words_per_cell_ = 0, largest_cell_ = 0;
+  std::uint32_t cell_count_ = 0, words_per_cell_ = 0;
   std::vector<std::uint32_t> words_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "assign/index_array.h"
+#include "core/memory.h"
 
 namespace clusterbench::assign {
 namespace {
@@ -14,8 +15,10 @@ class Fixed final : public Storage {
 
   void start(std::uint32_t cell_count, std::uint32_t points, std::uint32_t spots) override {
     lights_ = points + spots;
+    check_memory("places of fixed lists", std::uint64_t{cell_count} * cap_, narrowest_bits(lights_) / 8);
+    check_memory("counts of fixed lists", cell_count, sizeof(std::uint32_t));
     counts_.assign(cell_count, 0);
-    indices_.resize(static_cast<std::size_t>(cell_count) * cap_, narrowest_bits(lights_));
+    indices_.make_room(static_cast<std::size_t>(cell_count) * cap_, narrowest_bits(lights_));
     is_dropped_.assign(lights_, false);
   }
 
@@ -33,7 +36,6 @@ class Fixed final : public Storage {
       dropped_pairs_ += list.size() - kept;
       for (const std::uint32_t light : list.subspan(kept)) is_dropped_[light] = true;
     }
-    largest_cell_ = lists.fullest_cell();
   }
 
   StorageUse use() const override {
@@ -46,7 +48,6 @@ class Fixed final : public Storage {
     use.overflowing_cells = overflowing_cells_;
     for (std::uint32_t light = 0; light < lights_; ++light)
       if (is_dropped_[light]) use.dropped_lights.push_back(light);
-    use.largest_cell = largest_cell_;
     return use;
   }
 
@@ -69,7 +70,7 @@ class Fixed final : public Storage {
   std::uint32_t index_bits() const override { return indices_.bits(); }
 
  private:
-  std::uint32_t cap_, lights_ = 0, largest_cell_ = 0;
+  std::uint32_t cap_, lights_ = 0;
   std::uint64_t kept_ = 0, dropped_pairs_ = 0, overflowing_cells_ = 0;
   std::vector<std::uint32_t> counts_;
   std::vector<bool> is_dropped_;

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "assign/storage.h"
+#include "core/memory.h"
 
 namespace clusterbench::assign {
 namespace {
@@ -12,6 +13,7 @@ class Linked final : public Storage {
   explicit Linked(const Params& params) : nodes_per_cell_(params.number("nodes_per_cell")) {}
 
   void start(std::uint32_t cell_count, std::uint32_t points, std::uint32_t spots) override {
+    check_memory("heads of linked lists", cell_count, sizeof(std::uint32_t));
     heads_.assign(cell_count, k_end);
     capacity_ = static_cast<std::uint64_t>(nodes_per_cell_ * cell_count);
     room_.assign(points + spots, 0);
@@ -20,14 +22,16 @@ class Linked final : public Storage {
 
   void store(const Lists& lists) override {
     const std::uint64_t kept = std::min<std::uint64_t>(capacity_, lists.pair_count());
-    if (nodes_.size() < kept) nodes_.resize(kept);
+    if (nodes_.size() < kept) {
+      check_memory("nodes of linked lists", kept, sizeof(Node));
+      nodes_.resize(kept);
+    }
     used_ = 0;
     overflowing_cells_ = 0;
     dropped_pairs_ = lists.pair_count() - kept;
     is_dropped_.assign(room_.size(), false);
     if (dropped_pairs_ > 0) share_room(lists);
     for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) store_cell(cell, lists.of(cell));
-    largest_cell_ = lists.fullest_cell();
   }
 
   StorageUse use() const override {
@@ -40,7 +44,6 @@ class Linked final : public Storage {
     use.overflowing_cells = overflowing_cells_;
     for (std::uint32_t light = 0; light < is_dropped_.size(); ++light)
       if (is_dropped_[light]) use.dropped_lights.push_back(light);
-    use.largest_cell = largest_cell_;
     return use;
   }
 
@@ -104,7 +107,7 @@ class Linked final : public Storage {
 
   double nodes_per_cell_;
   std::uint64_t capacity_ = 0, dropped_pairs_ = 0, overflowing_cells_ = 0;
-  std::uint32_t used_ = 0, largest_cell_ = 0;
+  std::uint32_t used_ = 0;
   std::vector<std::uint32_t> heads_;
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> room_;  // of each light, where the pool is too small

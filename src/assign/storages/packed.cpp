@@ -6,6 +6,7 @@
 
 #include "assign/index_array.h"
 #include "core/error.h"
+#include "core/memory.h"
 
 namespace clusterbench::assign {
 namespace {
@@ -28,45 +29,44 @@ class Packed final : public Storage {
                   "is " + wanted_bits_ + ", but " + std::to_string(lights_) + " lights need " + std::to_string(needed) +
                       " bits");
     cell_count_ = cell_count;
+    check_memory("headers of packed lists", cell_count, sizeof(Header));
     headers_.resize(cell_count);
+    wide_headers_.resize(can_be_wide() ? cell_count : 0);
     if (is_sparse_) blocks_.resize((cell_count + k_block - 1) / k_block);
   }
 
   void store(const Lists& lists) override {
-    indices_.resize(lists.lights.size(), bits_);
+    indices_.make_room(lists.lights.size(), bits_);
     indices_.write(0, lists.lights.data(), lists.lights.size());
-    header_count_ = widest_count_ = 0;
-    for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) {
-      if (is_sparse_ && !take_place(cell, !lists.of(cell).empty())) continue;
-      const Header& header = headers_[header_count_++] = header_of(lists, cell);
-      widest_count_ = std::max({widest_count_, header.points, header.spots});
-    }
+    is_wide_ = can_be_wide() && has_wide_count(lists);
+    if (is_wide_)
+      write_headers(lists, wide_headers_);
+    else
+      write_headers(lists, headers_);
     entries_ = lists.pair_count();
-    largest_cell_ = lists.fullest_cell();
   }
 
   StorageUse use() const override {
     StorageUse use;
     use.index_entries = entries_;
     use.index_bytes = entries_ * (bits_ / 8);
-    use.header_bytes = header_count_ * header_size() + blocks_.size() * sizeof(Block);
+    use.header_bytes =
+        header_count_ * (is_wide_ ? sizeof(WideHeader) : sizeof(Header)) + blocks_.size() * sizeof(Block);
     use.upload_bytes = use.index_bytes + use.header_bytes;
-    use.largest_cell = largest_cell_;
     return use;
   }
 
   StorageLimit limit() const override {
     const std::uint64_t entries = std::uint64_t{cell_count_} * lights_;
-    const bool wide = std::max(points_, lights_ - points_) > k_narrow_count;
-    return {entries,
-            entries * (bits_ / 8) + cell_count_ * (wide ? k_wide_header : k_header) + blocks_.size() * sizeof(Block)};
+    const std::uint64_t header_size = can_be_wide() ? sizeof(WideHeader) : sizeof(Header);
+    return {entries, entries * (bits_ / 8) + cell_count_ * header_size + blocks_.size() * sizeof(Block)};
   }
 
   Lists read_back() const override {
     Lists lists;
     lists.begin.push_back(0);
     for (std::uint32_t cell = 0; cell < cell_count_; ++cell) {
-      const Header header = found_header(cell);
+      const WideHeader header = found_header(cell);
       for (std::uint32_t i = 0; i < header.points + header.spots; ++i)
         lists.lights.push_back(indices_.read(header.offset + i));
       lists.begin.push_back(static_cast<std::uint32_t>(lists.lights.size()));
@@ -78,21 +78,47 @@ class Packed final : public Storage {
 
  private:
   static constexpr std::uint32_t k_narrow_count = std::numeric_limits<std::uint16_t>::max();
-  static constexpr std::uint64_t k_header = 8, k_wide_header = 12;
   struct Header {
-    std::uint32_t offset = 0, points = 0, spots = 0;
+    std::uint32_t offset;
+    std::uint16_t points, spots;
   };
+  struct WideHeader {
+    std::uint32_t offset, points, spots;
+  };
+  static_assert(sizeof(Header) == 8 && sizeof(WideHeader) == 12);
   static constexpr std::uint32_t k_block = 32;  // cells
   struct Block {
     std::uint32_t mask = 0, rank = 0;
   };
 
-  Header header_of(const Lists& lists, std::uint32_t cell) const {
+  bool can_be_wide() const { return std::max(points_, lights_ - points_) > k_narrow_count; }
+
+  bool has_wide_count(const Lists& lists) const {
+    for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) {
+      if (lists.of(cell).size() <= k_narrow_count) continue;
+      const WideHeader header = header_of<WideHeader>(lists, cell);
+      if (std::max(header.points, header.spots) > k_narrow_count) return true;
+    }
+    return false;
+  }
+
+  template <class H>
+  void write_headers(const Lists& lists, std::vector<H>& headers) {
+    header_count_ = 0;
+    for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) {
+      if (is_sparse_ && !take_place(cell, !lists.of(cell).empty())) continue;
+      headers[header_count_++] = header_of<H>(lists, cell);
+    }
+  }
+
+  template <class H>
+  H header_of(const Lists& lists, std::uint32_t cell) const {
+    using Count = decltype(H::points);
     const auto list = lists.of(cell);
     const bool has_spots = !list.empty() && list.back() >= points_;
     const auto spots_from = has_spots ? std::lower_bound(list.begin(), list.end(), points_) : list.end();
-    return {lists.begin[cell], static_cast<std::uint32_t>(spots_from - list.begin()),
-            static_cast<std::uint32_t>(list.end() - spots_from)};
+    return {lists.begin[cell], static_cast<Count>(spots_from - list.begin()),
+            static_cast<Count>(list.end() - spots_from)};
   }
 
   // In the cell's block. False if it gets no header.
@@ -104,22 +130,27 @@ class Packed final : public Storage {
   }
 
   // As a shader would.
-  Header found_header(std::uint32_t cell) const {
-    if (!is_sparse_) return headers_[cell];
+  WideHeader found_header(std::uint32_t cell) const {
+    if (!is_sparse_) return header_at(cell);
     const Block& block = blocks_[cell / k_block];
     const std::uint32_t bit = 1u << cell % k_block;
     if ((block.mask & bit) == 0) return {};
-    return headers_[block.rank + static_cast<std::uint32_t>(std::popcount(block.mask & (bit - 1)))];
+    return header_at(block.rank + static_cast<std::uint32_t>(std::popcount(block.mask & (bit - 1))));
   }
 
-  std::uint64_t header_size() const { return widest_count_ > k_narrow_count ? k_wide_header : k_header; }
+  WideHeader header_at(std::uint32_t place) const {
+    if (is_wide_) return wide_headers_[place];
+    const Header& header = headers_[place];
+    return {header.offset, header.points, header.spots};
+  }
 
   std::string wanted_bits_;
-  bool is_sparse_;
-  std::uint32_t bits_ = 8, lights_ = 0, points_ = 0, widest_count_ = 0, largest_cell_ = 0;
+  bool is_sparse_, is_wide_ = false;
+  std::uint32_t bits_ = 8, lights_ = 0, points_ = 0;
   std::uint32_t cell_count_ = 0, header_count_ = 0;
   std::uint64_t entries_ = 0;
   std::vector<Header> headers_;
+  std::vector<WideHeader> wide_headers_;  // in place of them, where the rig can need them
   std::vector<Block> blocks_;
   IndexArray indices_;
 };

@@ -1,0 +1,233 @@
+#include "assign/simd/ball_cells.h"
+
+#include <algorithm>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "assign/simd/ball_cells.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once per target
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace clusterbench::assign {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+#if HWY_NATIVE_FMA
+
+using DD = hn::ScalableTag<double>;
+using VD = hn::Vec<DD>;
+using MD = hn::Mask<DD>;
+static_assert(hn::MaxLanes(DD()) <= 8);  // bits of a byte
+
+HWY_INLINE VD every(double value) {
+  return hn::Set(DD(), value);
+}
+
+// geom::Bounded, one per lane.
+struct Bound {
+  VD value, error;
+};
+
+HWY_INLINE Bound exactly(VD value) {
+  return {value, hn::Zero(DD())};
+}
+HWY_INLINE VD rounded_up(VD error) {
+  const VD larger = hn::Add(hn::Mul(error, every(1.0 + 0x1p-48)), every(0x1p-1000));
+  return hn::IfThenElseZero(hn::Gt(error, hn::Zero(DD())), larger);
+}
+HWY_INLINE Bound operator+(const Bound& a, const Bound& b) {
+  const VD sum = hn::Add(a.value, b.value), from_b = hn::Sub(sum, a.value);
+  const VD lost = hn::Add(hn::Sub(a.value, hn::Sub(sum, from_b)), hn::Sub(b.value, from_b));
+  return {sum, rounded_up(hn::Add(hn::Add(a.error, b.error), hn::Abs(lost)))};
+}
+HWY_INLINE Bound operator-(const Bound& a, const Bound& b) {
+  return a + Bound{hn::Neg(b.value), b.error};
+}
+// What a product loses is what a fused multiply and subtract finds, if it is not below what a double can hold; neither
+// are the products of errors nothing where they are.
+HWY_INLINE Bound operator*(const Bound& a, const Bound& b) {
+  const VD zero = hn::Zero(DD());
+  const VD product = hn::Mul(a.value, b.value), lost = hn::Abs(hn::MulSub(a.value, b.value, product));
+  const VD size_of_a = hn::Add(hn::Abs(a.value), a.error), size_of_b = hn::Add(hn::Abs(b.value), b.error);
+  const MD is_something = hn::And(hn::Gt(size_of_a, zero), hn::Gt(size_of_b, zero));
+  const MD is_rough = hn::Or(hn::Lt(hn::Abs(product), every(0x1p-900)), hn::Gt(hn::Add(a.error, b.error), zero));
+  const VD rounding = hn::Max(lost, hn::IfThenElseZero(hn::And(is_something, is_rough), every(0x1p-1000)));
+  const VD of_a = hn::Mul(a.error, size_of_b), of_b = hn::Mul(hn::Abs(a.value), b.error);
+  return {product, rounded_up(hn::Add(hn::Add(of_a, of_b), rounding))};
+}
+
+// How far a centre is outside of low <= at <= high, and which side's slope makes it change with depth (0: neither's).
+struct Gap {
+  Bound size;
+  VD slope;
+};
+HWY_INLINE Gap gap_between(const Bound& low, const Bound& at, const Bound& high, VD slope_low, VD slope_high) {
+  const VD zero = hn::Zero(DD());
+  const Bound below = low - at, above = at - high;
+  const MD is_below = hn::Gt(below.value, above.value);
+  const VD value = hn::Max(below.value, above.value), error = hn::Max(below.error, above.error);
+  const MD is_outside = hn::Gt(value, zero);
+  const VD most = hn::Max(rounded_up(hn::Add(value, error)), zero);
+  const VD inside = hn::IfThenElseZero(hn::Gt(error, zero), most);
+  const VD slope = hn::IfThenElseZero(is_outside, hn::IfThenElse(is_below, slope_low, hn::Neg(slope_high)));
+  return {{hn::Max(value, zero), hn::IfThenElse(is_outside, error, inside)}, slope};
+}
+
+// Half the slope, along depth, of a gap's square.
+HWY_INLINE Bound half_slope(const Gap& gap, VD slope_low, VD slope_high) {
+  const Bound product = exactly(gap.slope) * gap.size;
+  const VD unsure = hn::Mul(hn::Add(hn::Abs(slope_low), hn::Abs(slope_high)), gap.size.error);
+  return {product.value, rounded_up(hn::Add(product.error, unsure))};
+}
+
+// A vector of pairs, from place `at` on.
+class Pairs {
+ public:
+  Pairs(const view::Space& space, bool orthographic, const BallCells& cells, std::size_t at)
+      : orthographic_(orthographic) {
+    const auto load = [&](const std::vector<double>& from) { return hn::LoadU(DD(), from.data() + at); };
+    x0_ = load(cells.x0);
+    x1_ = load(cells.x1);
+    y0_ = load(cells.y0);
+    y1_ = load(cells.y1);
+    depth0_ = load(cells.depth0);
+    depth1_ = load(cells.depth1);
+    const Bound range = exactly(load(cells.range));
+    squared_range_ = range * range;
+    const Bound from_origin[3] = {exactly(load(cells.x)) - exactly(every(space.origin.x)),
+                                  exactly(load(cells.y)) - exactly(every(space.origin.y)),
+                                  exactly(load(cells.z)) - exactly(every(space.origin.z))};
+    x_ = turned(space.rotation, 0, from_origin);
+    y_ = turned(space.rotation, 1, from_origin);
+    const Bound z = turned(space.rotation, 2, from_origin);
+    depth_ = {hn::Neg(z.value), z.error};
+  }
+
+  // As in geom/ball.cpp.
+  HWY_INLINE void look(MD& touches, MD& misses) const {
+    const VD zero = hn::Zero(DD()), at = nearest_depth();
+    const Bound depth = exactly(at), along = depth - depth_;
+    const Gap x = gap_between(plane(x0_, depth), x_, plane(x1_, depth), x0_, x1_);
+    const Gap y = gap_between(plane(y0_, depth), y_, plane(y1_, depth), y0_, y1_);
+    const Bound excess = x.size * x.size + y.size * y.size + along * along - squared_range_;
+    VD undershoot = zero;
+    if (!orthographic_) {
+      const Bound slope = half_slope(x, x0_, x1_) + half_slope(y, y0_, y1_) + along;
+      const VD falls = hn::IfThenElseZero(hn::Lt(at, depth1_), hn::Sub(slope.error, slope.value));
+      const VD rises = hn::IfThenElseZero(hn::Gt(at, depth0_), hn::Add(slope.error, slope.value));
+      const VD steepness = rounded_up(hn::Max(zero, hn::Max(falls, rises)));
+      undershoot = rounded_up(hn::Mul(steepness, steepness));
+      // A square too small for a double.
+      undershoot = hn::IfThenElse(hn::Gt(steepness, zero), hn::Max(undershoot, every(0x1p-1000)), zero);
+    }
+    const VD error = hn::Mul(excess.error, every(1.0 + 0x1p-50));
+    touches = hn::Le(excess.value, hn::Neg(error));
+    misses = hn::Gt(hn::Sub(excess.value, undershoot), error);
+  }
+
+ private:
+  // A coordinate of a vector in a space. What is multiplied by 0 or 1, as where cameras stand straight, costs nothing.
+  static HWY_INLINE Bound turned(const Mat3d& rotation, int row, const Bound (&vector)[3]) {
+    Bound sum = exactly(hn::Zero(DD()));
+    bool is_empty = true;
+    for (int column = 0; column < 3; ++column) {
+      const double factor = rotation[column][row];
+      if (factor == 0.0) continue;
+      const Bound part = factor == 1.0 ? vector[column] : exactly(every(factor)) * vector[column];
+      sum = is_empty ? part : sum + part;
+      is_empty = false;
+    }
+    return sum;
+  }
+
+  HWY_INLINE Bound plane(VD slope, const Bound& depth) const {
+    return orthographic_ ? exactly(slope) : exactly(slope) * depth;
+  }
+  HWY_INLINE VD slope_at(VD at, VD place, VD low, VD high) const {
+    return hn::IfThenElse(hn::Lt(place, hn::Mul(low, at)), low,
+                          hn::IfThenElseZero(hn::Gt(place, hn::Mul(high, at)), high));
+  }
+  HWY_INLINE VD clamped(VD depth) const { return hn::Min(hn::Max(depth, depth0_), depth1_); }
+
+  HWY_INLINE VD nearest_depth() const {
+    VD at = clamped(depth_.value);
+    if (orthographic_) return at;
+    constexpr int k_steps = 3;
+    for (int i = 0; i < k_steps; ++i) {
+      const VD slope_x = slope_at(at, x_.value, x0_, x1_), slope_y = slope_at(at, y_.value, y0_, y1_);
+      const VD along = hn::Add(depth_.value, hn::Add(hn::Mul(slope_x, x_.value), hn::Mul(slope_y, y_.value)));
+      const VD square = hn::Add(every(1.0), hn::Add(hn::Mul(slope_x, slope_x), hn::Mul(slope_y, slope_y)));
+      const VD next = clamped(hn::Div(along, square));
+      if (hn::AllTrue(DD(), hn::Eq(next, at))) break;
+      at = next;
+    }
+    return at;
+  }
+
+  bool orthographic_;
+  VD x0_, x1_, y0_, y1_, depth0_, depth1_;
+  Bound x_, y_, depth_, squared_range_;
+};
+
+void look(const view::Space& space, bool orthographic, BallCells& cells) {
+  const std::size_t lanes = hn::Lanes(DD());
+  for (std::size_t first = 0; first < cells.count; first += lanes) {
+    MD touches, misses;
+    Pairs(space, orthographic, cells, first).look(touches, misses);
+    std::uint8_t yes[8] = {}, no[8] = {};
+    hn::StoreMaskBits(DD(), touches, yes);
+    hn::StoreMaskBits(DD(), misses, no);
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      cells.touch[first + lane] = (yes[0] >> lane & 1) != 0  ? Touch::yes
+                                  : (no[0] >> lane & 1) != 0 ? Touch::no
+                                                             : Touch::open;
+  }
+}
+
+#else
+
+void look(const view::Space&, bool, BallCells& cells) {
+  std::fill_n(cells.touch.begin(), cells.count, Touch::open);
+}
+
+#endif
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace clusterbench::assign
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace clusterbench::assign {
+
+HWY_EXPORT(look);
+
+void BallCells::reserve(std::size_t most) {
+  const std::size_t size = most + k_most_lanes;
+  if (touch.size() >= size) return;
+  for (std::vector<double>* list : {&x, &y, &z, &range, &x0, &x1, &y0, &y1, &depth0, &depth1}) list->resize(size);
+  touch.resize(size);
+}
+
+void BallCells::add(const scene::WorldLight& light, const geom::FrustumPiece& cell) {
+  x[count] = light.position.x;
+  y[count] = light.position.y;
+  z[count] = light.position.z;
+  range[count] = light.range_m;
+  x0[count] = cell.x0;
+  x1[count] = cell.x1;
+  y0[count] = cell.y0;
+  y1[count] = cell.y1;
+  depth0[count] = cell.depth0;
+  depth1[count] = cell.depth1;
+  ++count;
+}
+
+void look_at_balls(const view::Space& space, bool orthographic, BallCells& cells) {
+  if (cells.count != 0) HWY_DYNAMIC_DISPATCH(look)(space, orthographic, cells);
+}
+
+}  // namespace clusterbench::assign
+#endif

@@ -1,0 +1,56 @@
+#pragma once
+// Which balls lie beside the view: what the scalar methods ask first, since most lights of a large level do.
+
+#include <cmath>
+#include <limits>
+
+#include "geom/shapes.h"
+#include "grid/grid.h"
+
+namespace clusterbench::assign {
+
+// The four sides of the picture, and how deep a grid of tiles reaches. In double precision, where numbers of floats
+// neither overflow nor lose what matters here.
+class ViewCull {
+ public:
+  ViewCull() = default;
+  explicit ViewCull(const grid::ScreenGrid& grid)
+      : left_(side(grid.tiles.x.front(), grid.tiles.orthographic)),
+        right_(side(grid.tiles.x.back(), grid.tiles.orthographic)),
+        top_(side(grid.tiles.y.front(), grid.tiles.orthographic)),
+        bottom_(side(grid.tiles.y.back(), grid.tiles.orthographic)),
+        // A direction leans away from the view axis: no shell is deeper than it is distant.
+        near_(grid.kind == grid::Kind::distance ? 0.0 : static_cast<double>(grid.slices.boundaries.front())),
+        far_(grid.slices.boundaries.back()) {}
+
+  // Whether the ball touches no cell even if it is larger by what a method's own steps may lose in single precision, so
+  // that no list depends on whether this was asked.
+  bool misses(const geom::Ball& ball) const {
+    const double x = ball.center.x, y = ball.center.y, depth = -ball.center.z, r = ball.radius;
+    const double size = std::fabs(x) + std::fabs(y) + std::fabs(depth) + r;
+    const double reach = r + k_roundings * 0x1p-24 * size + k_smallest;
+    return left_.beyond(x, depth) < -reach || right_.beyond(x, depth) > reach || top_.beyond(y, depth) > reach ||
+           bottom_.beyond(y, depth) < -reach || near_ - depth > reach || depth - far_ > reach;
+  }
+
+ private:
+  static constexpr double k_roundings = 64.0;  // distance loses most: some 20
+  static constexpr double k_smallest = std::numeric_limits<float>::min();
+
+  // A plane through the eye or along the view axis; positive to the right or above.
+  struct Side {
+    double across = 0.0, along = 0.0, offset = 0.0;
+
+    double beyond(double place, double depth) const { return across * place + along * depth + offset; }
+  };
+  static Side side(double boundary, bool orthographic) {
+    if (orthographic) return {1.0, 0.0, -boundary};
+    const double length = std::sqrt(1.0 + boundary * boundary);
+    return {1.0 / length, -boundary / length, 0.0};
+  }
+
+  Side left_, right_, top_, bottom_;
+  double near_ = 0.0, far_ = 0.0;
+};
+
+}  // namespace clusterbench::assign
