@@ -2,9 +2,14 @@
 
 #include <benchmark/benchmark.h>
 
+#include <numbers>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "benchmarks.h"
+#include "core/random.h"
+#include "geom/meets.h"
 #include "measure/truth.h"
 #include "setting.h"
 
@@ -28,9 +33,46 @@ void find(benchmark::State& state, const std::string& name, grid::Kind kind) {
   state.counters["pairs"] = pairs;
 }
 
+// Spots that the filter leaves open against cells, on a lattice or moved off it by roundings.
+std::vector<std::pair<geom::LightVolume, geom::Cell>> open_spots(bool is_shell, bool on_lattice) {
+  SplitMix64 random(5);
+  const auto whole = [&](int lo, int hi) { return lo + static_cast<double>(random.below(std::uint64_t(hi - lo + 1))); };
+  std::vector<std::pair<geom::LightVolume, geom::Cell>> found;
+  while (found.size() < 500) {
+    geom::LightVolume light;
+    light.is_cone = true;
+    light.apex.position = {whole(-8, 8), whole(-8, 8), whole(-12, 8)};
+    light.range = whole(1, 12);
+    light.direction = {whole(-1, 1), whole(-1, 1), whole(-1, 1)};
+    if (light.direction == Vec3d(0.0)) continue;
+    light.half_angle_rad = whole(1, 4) * (std::numbers::pi / 8.0);
+    if (!on_lattice) light.apex.position += 0x1p-45 * Vec3d(random.unit(), random.unit(), random.unit());
+    const auto x = static_cast<float>(0.25 * whole(-4, 3)), y = static_cast<float>(0.25 * whole(-4, 3));
+    const auto near = static_cast<float>(whole(0, 6)), far = near + static_cast<float>(whole(1, 6));
+    const geom::Cell cell = is_shell ? geom::Cell(geom::ShellPiece{x, x + 0.5f, y, y + 0.5f, near, far})
+                                     : geom::Cell(geom::FrustumPiece{x, x + 0.5f, y, y + 0.5f, near, far, false});
+    if (geom::filter_meets(light, cell) == geom::Verdict::open) found.emplace_back(light, cell);
+  }
+  return found;
+}
+
+void decide(benchmark::State& state, bool is_shell, bool on_lattice) {
+  const auto pairs = open_spots(is_shell, on_lattice);
+  for (auto _ : state)
+    for (const auto& [light, cell] : pairs) benchmark::DoNotOptimize(geom::decide_meets(light, cell));
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(pairs.size()));
+}
+
 }  // namespace
 
 void register_truth() {
+  for (const bool is_shell : {false, true})
+    for (const bool on_lattice : {false, true})
+      benchmark::RegisterBenchmark(
+          (std::string("decide_spot/") + (is_shell ? "shells" : "frustum") + (on_lattice ? "/lattice" : "/nudged"))
+              .c_str(),
+          [=](benchmark::State& state) { decide(state, is_shell, on_lattice); })
+          ->Unit(benchmark::kMillisecond);
   for (const char* name : {"hall-512", "hall-1024", "hall-4096", "open-world", "jam"})
     for (const grid::Kind kind : {grid::Kind::frustum, grid::Kind::distance, grid::Kind::cascades, grid::Kind::world})
       benchmark::RegisterBenchmark((std::string("truth/") + name + "/" + grid::kind_name(kind)).c_str(),

@@ -12,12 +12,13 @@ std::uint64_t with_margin(std::uint64_t high_water, double margin, std::uint64_t
 
 }  // namespace
 
-void BufferMeter::add_frame(int frame, const assign::Storage& storage, std::size_t scratch_bytes) {
+void BufferMeter::add_frame(int frame, const assign::Lists& lists, const assign::Storage& storage,
+                            std::size_t scratch_bytes) {
   const assign::StorageUse use = storage.use();
   const assign::StorageLimit limit = storage.limit();
   if (frames_ == 0 || use.index_entries > sum_.index_entries.high_water) {
     sum_.worst_frame = frame;
-    sum_.worst_cell = use.largest_cell;
+    sum_.worst_cell = lists.fullest_cell();
   }
   const auto raise = [](std::uint64_t& mark, std::uint64_t value) { mark = std::max(mark, value); };
   raise(sum_.index_entries.high_water, use.index_entries);

@@ -31,7 +31,7 @@ struct Buffers {
   std::set<std::uint32_t> dropped_lights;
   std::uint64_t scratch_bytes = 0;             // of the assigner, high water
   int worst_frame = 0;                         // that made the high-water mark of index entries
-  std::uint32_t worst_cell = 0;                // its longest list
+  std::uint32_t worst_cell = 0;                // its longest list, before anything is dropped
   double in_use_mean = 0.0, in_use_max = 0.0;  // share of the recommended entries in use per frame
   PathSeries bytes_along_path;                 // headers + indices
 };
@@ -39,7 +39,8 @@ struct Buffers {
 class BufferMeter {
  public:
   explicit BufferMeter(AllocationRule rule) : rule_(rule) {}
-  void add_frame(int frame, const assign::Storage& storage, std::size_t scratch_bytes);
+  // `storage` has stored the lists.
+  void add_frame(int frame, const assign::Lists& lists, const assign::Storage& storage, std::size_t scratch_bytes);
   Buffers result() const;
 
  private:

@@ -22,13 +22,27 @@ bool reaches(const scene::WorldLight& light, const Vec3d& place) {
   return glm::dot(to_place, light.direction) >= std::cos(light.outer_cone_rad) * distance;
 }
 
-// Inverse square with the glTF extension's recommended window, (1 - (d/r)^4) / d², per candela.
-double irradiance(const scene::WorldLight& light, const Vec3d& place) {
+// A spot's share of its intensity in a direction, as KHR_lights_punctual recommends it: 1 within the inner cone, 0 from
+// the outer one on. In between it falls with the square of the cosine's share, over no less than a thousandth.
+double spot_falloff(const scene::WorldLight& spot, double cos_to_place) {
+  constexpr double k_least_span = 0.001;
+  const double cos_outer = std::cos(spot.outer_cone_rad);
+  const double span = std::max(k_least_span, std::cos(spot.inner_cone_rad) - cos_outer);
+  const double share = std::clamp((cos_to_place - cos_outer) / span, 0.0, 1.0);
+  return share * share;
+}
+
+// What a surface that faces the light gets of it: inverse square with the extension's window, 1 - (d/r)^4.
+double irradiance_lux(const scene::WorldLight& light, const Vec3d& place) {
   const Vec3d to_place = place - light.position;
   constexpr double k_smallest_square = 1e-4;  // 1 cm: a sample within the lamp
-  const double square = std::max(glm::dot(to_place, to_place), k_smallest_square);
+  const double true_square = glm::dot(to_place, to_place);
+  const double square = std::max(true_square, k_smallest_square);
   const double share = square / (light.range_m * light.range_m);
-  return std::max(0.0, 1.0 - share * share) / square;
+  const double lux = light.luminous_intensity_cd * std::max(0.0, 1.0 - share * share) / square;
+  // At the apex there is no direction: as along the axis.
+  if (light.type != scene::LightType::spot || true_square == 0.0) return lux;
+  return lux * spot_falloff(light, glm::dot(to_place, light.direction) / std::sqrt(true_square));
 }
 
 }  // namespace
@@ -86,16 +100,16 @@ void add_frame(ShadingCounts& counts, const view::Frame& frame, const grid::Grid
     const auto list = cell < 0 ? std::span<const std::uint32_t>{} : reported.of(static_cast<std::uint32_t>(cell));
     counts.evaluated += list.size();
     for (const std::uint32_t light : reaching.of(i)) {
-      const double carried = irradiance(frame.lights[light], samples[i].world);
+      const double carried_lux = irradiance_lux(frame.lights[light], samples[i].world);
       ++counts.needed;
-      counts.total_sum += carried;
+      counts.total_lux += carried_lux;
       if (std::binary_search(list.begin(), list.end(), light)) continue;
       ++counts.missed;
-      counts.lost_sum += carried;
+      counts.lost_lux += carried_lux;
     }
   }
   counts.samples += samples.size();
-  counts.lost_irradiance = counts.total_sum > 0.0 ? counts.lost_sum / counts.total_sum : 0.0;
+  counts.lost_irradiance = counts.total_lux > 0.0 ? counts.lost_lux / counts.total_lux : 0.0;
 }
 
 }  // namespace clusterbench::measure

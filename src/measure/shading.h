@@ -1,6 +1,6 @@
 #pragma once
-// The currency that compares across grids: samples go through the lookup, get a list, and are compared with the lights
-// that reach them.
+// Samples go through the lookup, get a list, and are compared with the lights that reach them: comparable between
+// grids.
 
 #include <cstdint>
 #include <span>
@@ -16,9 +16,11 @@ struct ShadingCounts {
   std::uint64_t evaluated = 0;  // list entries of the samples' cells
   std::uint64_t needed = 0;     // lights that reach the samples
   std::uint64_t missed = 0;     // of those, not in the list
-  double lost_irradiance =
-      0.0;  // share of the irradiance (intensity / d², windowed by the range) that missed lights carry
-  double lost_sum = 0.0, total_sum = 0.0;
+  // Share of the irradiance that missed lights carry, 0 where there is none. Irradiance is photometric, in lux on a
+  // surface that faces the light: intensity times the colour's luminance, by KHR_lights_punctual's attenuation with the
+  // range's window and a spot's falloff.
+  double lost_irradiance = 0.0;
+  double lost_lux = 0.0, total_lux = 0.0;  // sums over the samples
 
   double overshade() const;  // evaluated / needed; NaN when nothing is needed
 };

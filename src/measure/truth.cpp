@@ -1,10 +1,14 @@
 #include "measure/truth.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <limits>
 #include <optional>
 
+#include "core/memory.h"
 #include "core/parallel.h"
+#include "geom/ball.h"
 #include "geom/meets.h"
 #include "measure/truth_rows.h"
 
@@ -36,7 +40,8 @@ struct QuickCone {
   // Is a ball outside of the cone's side, behind its apex or beyond its range?
   bool surely_misses(const geom::Ball& around) const {
     const Vec3d v = Vec3d(around.center) - apex;
-    const double along = glm::dot(v, axis), reach = around.radius * (1.0 + 0x1p-30) + slack;
+    const double along = glm::dot(v, axis);
+    const double reach = around.radius * (1.0 + 0x1p-30) + 0x1p-30 * glm::length(v) + slack;
     if (along < -reach || glm::length(v) > range + reach) return true;
     return cos_angle * glm::length(v - along * axis) - sin_angle * along > reach;
   }
@@ -86,6 +91,40 @@ struct LightCells {
   }
 };
 
+// What a spot reaches of one tile of a distance grid, as a filter knows it. What is proven of a shell is true of all
+// shells beyond it, or before it.
+class SpotTile {
+ public:
+  SpotTile(const geom::LightFilter& filter, const geom::ShellPiece& tile)
+      : filter_(filter), tile_(tile), reach_(filter.distances(tile)) {}
+
+  // Boundaries of the grid: near, far are numbers of single precision.
+  Verdict meets(double near, double far) {
+    if (!reach_.may_reach(near, far) || near >= ends_before_ || far <= begins_after_) return Verdict::no;
+    if (reach_.surely_reaches(near, far)) return Verdict::yes;
+    if (near > reach_.likely_hi && is_apart(near, tile_.distance1)) {
+      ends_before_ = near;
+      return Verdict::no;
+    }
+    if (far < reach_.likely_lo && is_apart(0.0, far)) {
+      begins_after_ = far;
+      return Verdict::no;
+    }
+    return Verdict::open;
+  }
+
+ private:
+  bool is_apart(double near, double far) const {
+    return filter_.is_surely_apart(
+        {tile_.x0, tile_.x1, tile_.y0, tile_.y1, static_cast<float>(near), static_cast<float>(far)});
+  }
+
+  const geom::LightFilter& filter_;
+  geom::ShellPiece tile_;
+  geom::DistanceInterval reach_;
+  double ends_before_ = std::numeric_limits<double>::infinity(), begins_after_ = -1.0;
+};
+
 // Finds true cells light by light. Made once per frame; const, so that threads can share it.
 class TruthFinder {
  public:
@@ -121,14 +160,19 @@ class TruthFinder {
   // One light in the making.
   struct Search {
     geom::LightVolume volume;
-    geom::LightFilter filter;
+    geom::BallDecider decider;  // of points
+    geom::LightFilter filter;   // of spots
     BallInSpace ball;
     QuickCone cone;
     grid::IndexRange shells;  // of a distance grid
     LightCells found;
 
     explicit Search(const geom::LightVolume& light)
-        : volume(light), filter(light), ball(ball_in_space(light)), cone(light, ball) {}
+        : volume(light),
+          decider(light.apex, std::isinf(light.range) ? 0.0 : light.range),  // endless ones ask nothing
+          filter(light),
+          ball(ball_in_space(light)),
+          cone(light, ball) {}
   };
 
   // Cells with sides through the eye.
@@ -140,7 +184,7 @@ class TruthFinder {
   void settle_row(const Row& row, Search& search) const {
     const auto decide_columns = [&](int first, int last) {
       for (int column = first; column <= last; ++column)
-        decide(row.first_cell + static_cast<std::uint32_t>(column), search);
+        decide_ball(row.first_cell + static_cast<std::uint32_t>(column), search);
     };
     if (row.inner.empty()) return decide_columns(row.outer.first, row.outer.last);
     decide_columns(row.outer.first, row.inner.first - 1);
@@ -185,25 +229,47 @@ class TruthFinder {
   }
 
   void settle_tile(std::uint32_t tile, Search& search) const {
-    const geom::DistanceInterval reach = search.filter.distances(std::get<geom::ShellPiece>(grid_.cell(tile)));
-    each_shell(tile, search, [&](std::uint32_t cell, double near, double far) {
-      if (!reach.may_reach(near, far)) return;
-      reach.surely_reaches(near, far) ? take(cell, search) : decide(cell, search);
+    const geom::PyramidView view = search.decider.view_of(std::get<geom::ShellPiece>(grid_.cell(tile)));
+    each_shell(tile, search, [&](std::uint32_t cell, double, double) {
+      count_ball(cell, search,
+                 [&] { return search.decider.meets(std::get<geom::ShellPiece>(grid_.cell(cell)), view); });
     });
+  }
+
+  void decide_ball(std::uint32_t cell, Search& search) const {
+    count_ball(cell, search, [&] { return search.decider.meets(grid_.cell(cell)); });
+  }
+
+  template <class Meets>
+  static void count_ball(std::uint32_t cell, Search& search, Meets&& meets) {
+    const std::uint64_t before = search.decider.exact_decisions();
+    if (meets()) search.found.add(cell);
+    ++(search.decider.exact_decisions() == before ? search.found.filter_decided : search.found.exact_decided);
   }
 
   // A spot's distances are dear: found only where a shell needs them.
   void settle_spot_tile(std::uint32_t tile, Search& search) const {
-    std::optional<geom::DistanceInterval> reach;
+    std::optional<SpotTile> found;
     each_shell(tile, search, [&](std::uint32_t cell, double near, double far) {
-      if (reach ? !reach->may_reach(near, far) : is_quick(cell, search)) return;
-      if (!reach) reach = search.filter.distances(std::get<geom::ShellPiece>(grid_.cell(tile)));
-      if (!reach->may_reach(near, far)) {
-        ++search.found.filter_decided;
-        return;
+      if (is_quick(cell, search)) return;
+      if (!found) found.emplace(search.filter, tile_up_to_last_shell(tile, search));
+      switch (found->meets(near, far)) {
+        case Verdict::no:
+          ++search.found.filter_decided;
+          break;
+        case Verdict::yes:
+          take(cell, search);
+          break;
+        case Verdict::open:
+          decide(cell, search);
       }
-      reach->surely_reaches(near, far) ? take(cell, search) : decide(cell, search);
     });
+  }
+
+  geom::ShellPiece tile_up_to_last_shell(std::uint32_t tile, const Search& search) const {
+    geom::ShellPiece piece = std::get<geom::ShellPiece>(grid_.cell(tile));
+    piece.distance1 = grid_.screen().slices.boundaries[static_cast<std::size_t>(search.shells.last) + 1];
+    return piece;
   }
 
   void settle_endless(std::uint32_t cell, Search& search) const {
@@ -254,8 +320,15 @@ class TruthFinder {
 Truth find_truth(const view::Frame& frame, const grid::Grid& grid, int threads) {
   const TruthFinder finder(frame, grid);
   std::vector<LightCells> found(frame.lights.size());
+  std::atomic<std::uint64_t> runs = 0, true_pairs = 0;
   parallel_ranges(found.size(), threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t light = begin; light < end; ++light) found[light] = finder.find(static_cast<std::uint32_t>(light));
+    for (std::size_t light = begin; light < end; ++light) {
+      found[light] = finder.find(static_cast<std::uint32_t>(light));
+      check_memory("runs of true cells", runs += found[light].runs.size(), sizeof(LightCells::Run));
+      std::uint64_t cells = 0;
+      for (const LightCells::Run& run : found[light].runs) cells += run.count;
+      check_memory("true pairs", true_pairs += cells, sizeof(std::uint32_t));
+    }
   });
 
   Truth truth;

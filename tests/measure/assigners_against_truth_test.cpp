@@ -62,5 +62,19 @@ TEST(AssignersAgainstTruth, the_truth_holds_every_light_that_touches_by_a_hair) 
     }
 }
 
+TEST(AssignersAgainstTruth, no_true_pair_is_lost_at_any_scale_of_the_domain_and_exact_lists_are_true) {
+  for (const assign::AssignerRow* row : assign::assigner_rows())
+    for (const Setting& setting : assign::testing::settings_of_any_size(*row, test::tries(16), 36)) {
+      if (!row->conservative) continue;
+      const Truth truth = find_truth(setting.frame, setting.grid, 2);
+      EXPECT_EQ(truth.undecided, 0u) << setting.name;
+      const assign::Lists found = lists_of(*row, assign::Params(row->params), setting);
+      EXPECT_EQ(first_loss(found, truth.lists, setting), "") << row->name << " on " << setting.name;
+      if (row->exact) {
+        EXPECT_EQ(found, truth.lists) << row->name << " on " << setting.name;
+      }
+    }
+}
+
 }  // namespace
 }  // namespace clusterbench::measure

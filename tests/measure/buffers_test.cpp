@@ -23,7 +23,7 @@ Buffers three_frames(assign::Storage& store, AllocationRule rule) {
   std::size_t scratch = 100;
   for (const assign::Lists& lists : frames) {
     store.store(lists);
-    meter.add_frame(frame++, store, scratch);
+    meter.add_frame(frame++, lists, store, scratch);
     scratch -= 10;
   }
   return meter.result();

@@ -15,15 +15,15 @@ using assign::testing::perspective;
 using assign::testing::point_light;
 using assign::testing::spot_light;
 
-constexpr double k_infinity = std::numeric_limits<double>::infinity();
+constexpr double k_endless = std::numeric_limits<double>::infinity();
 
-view::Frame frame_with(const std::vector<scene::WorldLight>& lights) {
+view::Frame frame_of_rig(const std::vector<scene::WorldLight>& lights) {
   return frame_of(perspective(1.0, 1.0, 0.1, 100), {64, 64}, lights);
 }
 
 TEST(PackingLoss, is_what_the_formats_definition_says) {
   // Near 1000 halves stand 0.5 apart, near 2000 1 apart.
-  const view::Frame frame = frame_with({point_light({1000.125, 0, 0}, 8), point_light({0, 1000.25, 2000}, 2000.25)});
+  const view::Frame frame = frame_of_rig({point_light({1000.125, 0, 0}, 8), point_light({0, 1000.25, 2000}, 2000.25)});
   PackingLossMeter meter;
   meter.add_frame(view::packed(view::lights_in(frame, {}), view::Packing::half));
   const PackingLoss loss = meter.result();
@@ -39,7 +39,7 @@ TEST(PackingLoss, is_what_the_formats_definition_says) {
 
 TEST(PackingLoss, of_spots_is_their_axis_and_angle_too) {
   const double angle = 0.5 + 0x1p-13;  // halves stand 2^-11 apart
-  const view::Frame frame = frame_with({spot_light({0, 0, 0}, 64, {0, 0, -1}, angle)});
+  const view::Frame frame = frame_of_rig({spot_light({0, 0, 0}, 64, {0, 0, -1}, angle)});
   PackingLossMeter meter;
   meter.add_frame(view::packed(view::lights_in(frame, {}), view::Packing::half));
   const PackingLoss loss = meter.result();
@@ -49,7 +49,7 @@ TEST(PackingLoss, of_spots_is_their_axis_and_angle_too) {
 }
 
 TEST(PackingLoss, of_float32_is_its_rounding_and_needs_no_inflation) {
-  const view::Frame frame = frame_with({point_light({1000.1, 0, 0}, 0.1), point_light({0, 0, 0}, k_infinity)});
+  const view::Frame frame = frame_of_rig({point_light({1000.1, 0, 0}, 0.1), point_light({0, 0, 0}, k_endless)});
   PackingLossMeter meter;
   meter.add_frame(view::packed(view::lights_in(frame, {}), view::Packing::float32));
   const PackingLoss loss = meter.result();
@@ -60,10 +60,10 @@ TEST(PackingLoss, of_float32_is_its_rounding_and_needs_no_inflation) {
 }
 
 TEST(PackingLoss, of_lights_that_the_format_does_not_hold_is_counted_apart) {
-  const view::Frame one = frame_with({point_light({7e4, 0, 0}, 8), point_light({1, 0, 0}, 8)});
+  const view::Frame one = frame_of_rig({point_light({7e4, 0, 0}, 8), point_light({1, 0, 0}, 8)});
   const view::Frame two =
-      frame_with({point_light({7e4, 0, 0}, 8), point_light({1, 0, 0}, 7e4), point_light({1000.125, 0, 0}, 8)});
-  const view::Frame none = frame_with({point_light({1, 0, 0}, 8)});
+      frame_of_rig({point_light({7e4, 0, 0}, 8), point_light({1, 0, 0}, 7e4), point_light({1000.125, 0, 0}, 8)});
+  const view::Frame none = frame_of_rig({point_light({1, 0, 0}, 8)});
   PackingLossMeter meter;
   for (const view::Frame* frame : {&one, &two, &none, &one})
     meter.add_frame(view::packed(view::lights_in(*frame, {}), view::Packing::half));

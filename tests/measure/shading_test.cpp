@@ -184,6 +184,49 @@ TEST(Shading, a_missed_light_weighs_what_it_would_have_given) {
   EXPECT_NEAR(counts.lost_irradiance, 0.9999 / (0.9999 + 0.9984 / 4.0), 1e-12);
 }
 
+TEST(Shading, a_missed_light_weighs_by_its_intensity) {
+  TwoSlices two;
+  two.frame.lights[0].luminous_intensity_cd = 1e6;
+  // Light 1 is missed, then light 0.
+  const double faint = 0.9999, strong = 1e6 * 0.9984 / 4.0;
+  EXPECT_NEAR(two.counts({{0, 1, 1}, {0}}).lost_irradiance, faint / (faint + strong), 1e-17);
+  EXPECT_NEAR(two.counts({{0, 1, 1}, {1}}).lost_irradiance, strong / (faint + strong), 1e-12);
+}
+
+// A spot at the origin that shines down -z, and a point light of 1 cd that every sample is 1 m away from; both reach
+// far beyond, so that the window is 1 up to rounding. Only the point light is listed.
+double lost_of_spot(double inner_rad, double outer_rad, double off_axis_rad) {
+  view::Frame frame = frame_along_x();
+  const Vec3d place{std::sin(off_axis_rad), 0.0, -std::cos(off_axis_rad)};
+  add_light(frame, {0.0, 0.0, 0.0}, 1e5);
+  scene::WorldLight spot = frame.lights[0];
+  spot.type = scene::LightType::spot;
+  spot.inner_cone_rad = inner_rad;
+  spot.outer_cone_rad = outer_rad;
+  frame.lights.push_back(spot);
+  grid::GridSpec spec;
+  spec.tiles.count = {1, 1};
+  spec.slices = {.scheme = grid::Scheme::list, .boundaries_m = {0.5, 64.0}};
+  const grid::Grid grid = grid::make_grid(spec, grid::grid_inputs(spec, frame, 0.0, {}, {}));
+  const std::vector<grid::Sample> samples{{100.0f, 50.0f, {0.0f, 0.0f, -4.0f}, place}};
+  ShadingCounts counts;
+  add_frame(counts, frame, grid, samples, lights_reaching(frame, samples), {{0, 1}, {0}});
+  EXPECT_EQ(counts.needed, 2u);
+  return counts.lost_irradiance;
+}
+
+TEST(Shading, a_missed_spot_weighs_by_its_falloff_between_the_cones) {
+  // 1 and 1 within the inner cone.
+  EXPECT_NEAR(lost_of_spot(0.3, 1.0, 0.29), 0.5, 1e-12);
+  // The extension: ((cos a - cos outer) / (cos inner - cos outer))², beside the point's 1.
+  const double share = (std::cos(0.7) - std::cos(1.0)) / (std::cos(0.3) - std::cos(1.0));
+  EXPECT_NEAR(lost_of_spot(0.3, 1.0, 0.7), share * share / (1.0 + share * share), 1e-12);
+  EXPECT_LT(lost_of_spot(0.3, 1.0, 0.9999), 1e-6);
+  // Cones nearer than a thousandth in their cosines fall off over a thousandth, as the extension has it.
+  const double thin = 1000.0 * (1.0 - std::cos(0.02));
+  EXPECT_NEAR(lost_of_spot(0.0, 0.02, 0.0), thin * thin / (1.0 + thin * thin), 1e-12);
+}
+
 TEST(Shading, where_nothing_is_needed_there_is_no_overshade) {
   EXPECT_TRUE(std::isnan(ShadingCounts{}.overshade()));
 }

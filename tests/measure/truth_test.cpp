@@ -152,6 +152,20 @@ TEST_P(TruthOn, lists_do_not_change_when_camera_and_lights_move_far_away_togethe
   EXPECT_EQ(find_truth(frame, grid, 1).lists, here.lists);
 }
 
+// A range that ends far beyond the grid tells as much as one that ends just beyond it, and costs no more.
+TEST_P(TruthOn, a_range_far_beyond_the_grid_needs_no_exact_decisions) {
+  view::Frame frame = frame_with(10, 20, 31, GetParam().orthographic);
+  const grid::Grid grid = small_grid(GetParam().kind, frame);
+  for (scene::WorldLight& light : frame.lights) light.range_m = 300.0;
+  const Truth near = find_truth(frame, grid, 1);
+  for (scene::WorldLight& light : frame.lights) light.range_m = 1e15;
+  const Truth far = find_truth(frame, grid, 1);
+  EXPECT_EQ(near.lists, far.lists);
+  EXPECT_EQ(far.lists, decided_one_by_one(frame, grid));
+  EXPECT_LE(far.exact_decided, near.exact_decided);
+  EXPECT_EQ(far.undecided, 0u);
+}
+
 // A camera far away and askew: places in its space are no numbers of double precision.
 view::Space far_and_turned() {
   const Vec3d back = glm::normalize(Vec3d{0.3, 0.2, 0.9}), right = glm::normalize(glm::cross(Vec3d{0.1, 1, 0}, back));
@@ -213,6 +227,33 @@ INSTANTIATE_TEST_SUITE_P(Grids, TruthOn,
                            return std::string(grid::kind_name(setting.param.kind)) +
                                   (setting.param.orthographic ? "_orthographic" : "");
                          });
+
+// Candidates far from the eye were once off by more than the filter's tolerance, and a "no" rested on them.
+TEST(Truth, has_the_shell_that_a_narrow_spot_of_a_metre_reaches_745_m_away) {
+  view::Frame frame;
+  frame.viewport = {1920, 1080};
+  const double top = std::tan(0.5 * 1.0471975511965976), right = top * 1920.0 / 1080.0;
+  frame.projection = {false, -right, right, -top, top, 0.1, 1000.0};
+  scene::WorldLight light;
+  light.type = scene::LightType::spot;
+  light.position = {282.75256402860356, 20.690891589702524, -688.8109666164794};
+  light.range_m = 0.7624139998386921;
+  light.direction = {0.13774809289466936, -0.71480981173595926, 0.68561825818007845};
+  light.outer_cone_rad = 0.09055462037691484;
+  // Which roundings lose the shell is chance.
+  for (int ulps = 0; ulps < 64; ++ulps) {
+    frame.lights.push_back(light);
+    light.direction.y = std::nextafter(light.direction.y, 0.0);
+  }
+  grid::GridSpec spec;
+  spec.kind = Kind::distance;
+  spec.tiles.pixels = {64, 64};
+  spec.slices = {.scheme = grid::Scheme::list, .boundaries_m = {0.1, 744.811279296875, 1000.0}};
+  const grid::Grid grid = grid::make_grid(spec, grid::grid_inputs(spec, frame, 0.0, {}, {}));
+  const Truth truth = find_truth(frame, grid, 1);
+  EXPECT_EQ(truth.lists.pair_count(), 8u * frame.lights.size());
+  EXPECT_EQ(truth.lists.of(230).size(), frame.lights.size());
+}
 
 TEST(RelativeDistance, is_the_share_of_the_range_at_which_the_light_begins_to_touch_the_cell) {
   view::Frame frame = frame_with(1, 0, 1, false);
