@@ -37,9 +37,10 @@ class ListMeter {
   }
 
   void add(const FrameAtHand& now, const grid::Grid& grid) {
-    if (now.is_new_grid) assigner_->build(grid);
+    const view::LightArrays& lights = now.lights.seen(measures_.method.precision);
+    if (now.is_new_grid) assigner_->build(grid, assign::kinds_of(lights));
     if (!occupancy_) occupancy_.emplace(real_cells(grid));
-    assigner_->assign(now.lights.seen(measures_.method.precision), lists_);
+    assigner_->assign(lights, lists_);
     measures_.tests_done += assigner_->tests_done();
     measures_.fallbacks += assigner_->fallbacks();
     occupancy_->add_frame(now.frame.index, lists_);
@@ -76,7 +77,7 @@ class CaseMeter {
   void add(const FrameAtHand& now, const grid::Grid& grid, const ListMeter& list) {
     if (now.is_new_grid) storage_->start(grid.cell_count(), now.frame.points, now.spots());
     storage_->store(list.lists());
-    buffers_.add_frame(now.frame.index, *storage_, list.scratch_bytes());
+    buffers_.add_frame(now.frame.index, list.lists(), *storage_, list.scratch_bytes());
   }
 
   const Method& method() const { return method_; }

@@ -37,6 +37,7 @@ std::string expanded(std::string path, const std::string& file, const std::strin
 scene::PathRequest path_request(const Json& scene) {
   scene::PathRequest request;
   request.camera = scene["camera"].get<std::string>();
+  if (scene["camera_fit"] == "vertical") request.fit = scene::CameraFit::vertical;
   const Json& frames = scene["frames"];
   if (frames.is_number()) {
     request.count = frames.get<int>();
@@ -225,6 +226,7 @@ void read_settings(const Json& document, Config& config) {
   config.details = details_request(document["details"]);
   const Json& all_pairs = document["limits"]["all_pairs"];
   if (all_pairs.is_number()) config.limits.all_pairs = all_pairs.get<std::uint64_t>();
+  config.limits.memory_mib = document["limits"]["memory_mib"].get<std::uint64_t>();
   const Json& timing = document["timing"];
   config.timing = {timing["measure"].get<bool>(), timing["rounds"].get<int>(), timing["min_time_ms"].get<double>(),
                    timing["frames"].get<int>()};

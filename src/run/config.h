@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "assign/assigner.h"
+#include "core/memory.h"
 #include "grid/grid.h"
 #include "measure/buffers.h"
 #include "measure/lookup.h"
@@ -77,9 +78,11 @@ struct DetailsRequest {
   std::size_t max_bytes = 2'000'000;
 };
 
-// Beyond which cases are skipped, with the reason.
+// Beyond all_pairs cases are skipped, with the reason; beyond the memory they are, too, where it is known before, or
+// the run ends with an error.
 struct LimitsRequest {
   std::optional<std::uint64_t> all_pairs;  // lights x cells of methods that test every light against every cell
+  std::uint64_t memory_mib = k_default_memory_limit >> 20;  // of one list, buffer or table: core/memory.h
 };
 
 struct Config {

@@ -27,7 +27,7 @@ std::vector<CountResult> count_method(TimedWork& work, InstructionCounter& count
   result.simd_target = assign::simd_target_name();
   result.frames = static_cast<int>(work.frame_count());
   result.build = counted(counter, [&] { work.build(); });
-  work.assign();  // makes what an assigner makes with the first spot
+  work.assign();  // so that memory has grown
   result.assign = counted(counter, [&] { work.assign(); });
   std::vector<CountResult> results;
   for (std::size_t store = 0; store < work.places().size(); ++store) {

@@ -27,8 +27,9 @@ class Track {
   void add(const view::Frame& frame, const scene::Scene& scene, const grid::Grid& grid, const grid::Grid& case_grid,
            const FrameLights& lights, const measure::Truth& truth) {
     if (!std::binary_search(frames_.begin(), frames_.end(), frame.index)) return;
-    assigner_->build(grid);
-    assigner_->assign(lights.seen(method_.precision), lists_);
+    const view::LightArrays& seen = lights.seen(method_.precision);
+    assigner_->build(grid, assign::kinds_of(seen));
+    assigner_->assign(seen, lists_);
     add_frame(details_,
               packed_frame(frame, scene, grid, case_grid, measure::find_details(truth.lists, lists_), with_pairs_));
   }

@@ -29,7 +29,21 @@ nlohmann::json rig_json(const scene::RigSpec& rig) {
           {"seed", rig.seed}};
 }
 
-SceneResult scene_result(const SceneData& data, const SceneRequest& request) {
+// A line per viewport in which cameras are not seen as they are.
+void add_fit_warnings(const SceneData& data, const std::vector<Vec2i>& viewports, std::vector<std::string>& warnings) {
+  for (const Vec2i viewport : viewports) {
+    std::string first;
+    int count = 0;
+    for (const scene::CameraPath& path : data.paths) {
+      const std::string text = view::fit_warning(path.shots.front().lens, viewport);
+      if (!text.empty() && count++ == 0) first = "camera '" + path.camera + "': " + text;
+    }
+    if (count > 1) first += " (and " + std::to_string(count - 1) + " more cameras)";
+    if (count > 0) warnings.push_back(first);
+  }
+}
+
+SceneResult scene_result(const SceneData& data, const SceneRequest& request, const std::vector<Vec2i>& viewports) {
   SceneResult out;
   if (request.rig) out.rig = rig_json(*request.rig);
   const scene::Scene& scene = data.scene;
@@ -51,6 +65,7 @@ SceneResult scene_result(const SceneData& data, const SceneRequest& request) {
     out.frames += static_cast<int>(path.shots.size());
     if (path.made) out.warnings.push_back(path.how);
   }
+  add_fit_warnings(data, viewports, out.warnings);
   out.range_rule = {{"cutoff_lux", request.range_rule.cutoff_lux},
                     {"max_range", request.range_rule.max_range_m},
                     {"given", given},
@@ -103,7 +118,7 @@ class Run {
     out.config = config_.resolved;
     out.skipped = plan_.skipped;
     for (std::size_t i = 0; i < plan_.scenes.size(); ++i) {
-      out.scenes.push_back(scene_result(plan_.scenes[i], config_.scenes[i]));
+      out.scenes.push_back(scene_result(plan_.scenes[i], config_.scenes[i], config_.viewports));
       if (listener_.on_scene) listener_.on_scene(out.scenes.back());
     }
     for (const GroupPlan& group : plan_.groups)

@@ -29,9 +29,11 @@ class ListsOfFrames {
 
   const assign::Lists& at(int index) {
     const view::Frame frame = path_.frame(index);
-    if (grids_.update(path_, frame)) assigner_->build(grids_.grid());
+    const bool is_new_grid = grids_.update(path_, frame);
     const FrameLights lights(config_.precisions, view::lights_in(frame, grid::space_of(grids_.grid(), frame)));
-    assigner_->assign(lights.seen(precision_), lists_);
+    const view::LightArrays& seen = lights.seen(precision_);
+    if (is_new_grid) assigner_->build(grids_.grid(), assign::kinds_of(seen));
+    assigner_->assign(seen, lists_);
     return lists_;
   }
   const grid::Grid& grid() const { return grids_.grid(); }

@@ -24,8 +24,9 @@ class StabilityTrack {
   }
 
   void add(const grid::Grid& grid, bool is_new_grid, const FrameLights& lights) {
-    if (is_new_grid) assigner_->build(grid);
-    assigner_->assign(lights.seen(method_.precision), lists_);
+    const view::LightArrays& seen = lights.seen(method_.precision);
+    if (is_new_grid) assigner_->build(grid, assign::kinds_of(seen));
+    assigner_->assign(seen, lists_);
     meter_.add(lists_);
   }
 

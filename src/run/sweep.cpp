@@ -7,8 +7,10 @@
 
 #include "assign/storage.h"
 #include "core/error.h"
+#include "core/memory.h"
 #include "core/text.h"
 #include "run/config_grids.h"
+#include "scene/domain.h"
 #include "view/frame.h"
 
 namespace clusterbench::run {
@@ -27,7 +29,7 @@ std::string unique_name(const std::string& name, std::set<std::string>& taken) {
 std::string name_part(std::string text) {
   for (char& c : text)
     if (c == '/' || std::iscntrl(static_cast<unsigned char>(c)) != 0) c = '_';
-  return text;
+  return printable(text);
 }
 
 std::vector<SceneData> load_scenes(const Config& config) {
@@ -40,7 +42,10 @@ std::vector<SceneData> load_scenes(const Config& config) {
     data.scene.name = unique_name(name_part(data.scene.name), names);
     data.paths = scene::camera_paths(data.scene, request.camera);
     std::set<std::string> cameras;
-    for (scene::CameraPath& path : data.paths) path.camera = unique_name(name_part(path.camera), cameras);
+    for (scene::CameraPath& path : data.paths) {
+      scene::check_domain(data.scene, path);
+      path.camera = unique_name(name_part(path.camera), cameras);
+    }
     scenes.push_back(std::move(data));
   }
   return scenes;
@@ -76,9 +81,11 @@ Json identity(const MethodRequest& method) {
 }
 
 Json identity(const SceneRequest& request, const scene::Scene& scene) {
-  return {{"sha256", scene.sha256},
-          {"frames", {static_cast<int>(request.camera.choice), request.camera.count, request.camera.rate_hz}},
-          {"range_rule", {request.range_rule.cutoff_lux, request.range_rule.max_range_m}}};
+  Json out{{"sha256", scene.sha256},
+           {"frames", {static_cast<int>(request.camera.choice), request.camera.count, request.camera.rate_hz}},
+           {"range_rule", {request.range_rule.cutoff_lux, request.range_rule.max_range_m}}};
+  if (request.camera.fit != scene::CameraFit::contain) out["camera_fit"] = "vertical";
+  return out;
 }
 
 // Settings that change what a case counts; timing and threads do not.
@@ -185,16 +192,16 @@ std::string limit_obstacle(const assign::AssignerRow& row, const LimitsRequest& 
 
 // Why this storage cannot keep lists of so many cells and lights; "" if it can.
 std::string storage_obstacle(const MethodRequest& request, const FirstFrame& first) {
-  constexpr std::uint64_t k_most_bytes = std::uint64_t{1} << 32;  // what 32-bit offsets reach
+  const std::uint64_t most_bytes = memory_limit();
   try {
     const auto one_cell = assign::find_storage(request.name)->make(request.params);
     one_cell->start(1, first.points, first.spots);
     // What it takes before anything is in it grows with the cells.
     const std::uint64_t bytes = one_cell->use().upload_bytes * first.cells;
-    if (bytes <= k_most_bytes) return "";
+    if (bytes <= most_bytes) return "";
     return request.label() + " would reserve " + std::to_string(bytes >> 20) + " MiB for " +
            std::to_string(first.cells) + " cells and " + std::to_string(first.lights()) + " lights; at most " +
-           std::to_string(k_most_bytes >> 20) + " MiB";
+           std::to_string(most_bytes >> 20) + " MiB";
   } catch (const Error& error) {
     return error.what();
   }
@@ -319,6 +326,7 @@ std::string method_label(const Config& config, const Method& method) {
 }
 
 Plan make_plan(const Config& config, const std::string& filter) {
+  set_memory_limit(config.limits.memory_mib << 20);
   Expansion expansion(config, filter);
   Plan plan;
   plan.scenes = load_scenes(config);

@@ -38,15 +38,17 @@ TimedWork::TimedWork(const Config& config, const GroupPlan& group, const Method&
 }
 
 void TimedWork::build() {
-  built_for_ = frames_.front().grid.get();
-  assigner_->build(*built_for_);
+  build_for(frames_.front());
+}
+
+void TimedWork::build_for(const TimedFrame& frame) {
+  assigner_->build(*frame.grid, assign::kinds_of(frame.lights.seen(precision_)));
+  built_for_ = frame.grid.get();
 }
 
 void TimedWork::assign() {
   for (std::size_t i = 0; i < frames_.size(); ++i) {
-    const grid::Grid* grid = frames_[i].grid.get();
-    if (grid != built_for_) assigner_->build(*grid);
-    built_for_ = grid;
+    if (frames_[i].grid.get() != built_for_) build_for(frames_[i]);
     assigner_->assign(frames_[i].lights.seen(precision_), lists_[i]);
   }
 }

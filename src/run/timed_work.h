@@ -45,6 +45,8 @@ class TimedWork {
   std::unique_ptr<assign::Storage> storage(const assign::StorageRow& row, const assign::Params& params) const;
 
  private:
+  void build_for(const TimedFrame& frame);
+
   const std::vector<TimedFrame>& frames_;
   std::size_t precision_;
   std::unique_ptr<assign::Assigner> assigner_;

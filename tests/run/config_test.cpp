@@ -197,6 +197,7 @@ TEST(Config, defaults_of_the_schema_agree_with_the_defaults_of_the_code) {
   EXPECT_EQ(config.timing.frames, plain.timing.frames);
   EXPECT_EQ(config.allocation.margin, plain.allocation.margin);
   EXPECT_EQ(config.allocation.warn_at, plain.allocation.warn_at);
+  EXPECT_EQ(config.scenes[0].camera.fit, scene::CameraFit::contain);
   EXPECT_EQ(config.scenes[0].range_rule.cutoff_lux, scene::RangeRule{}.cutoff_lux);
   EXPECT_EQ(config.scenes[0].range_rule.max_range_m, scene::RangeRule{}.max_range_m);
   EXPECT_EQ(config.scenes[0].camera.count, scene::PathRequest{}.count);

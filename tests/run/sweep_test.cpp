@@ -121,6 +121,8 @@ TEST_F(Sweep, an_id_depends_on_what_is_counted_and_not_on_how_it_is_timed_or_ord
   EXPECT_EQ(ids.size(), 5U);
   EXPECT_EQ(packed.at(0).id, id);
   EXPECT_NE(cases(plan(R"([{"path": "a.gltf", "range_rule": {"max_range": 3}}])", one)).at(0).id, id);
+  EXPECT_NE(cases(plan(R"([{"path": "a.gltf", "camera_fit": "vertical"}])", one)).at(0).id, id);
+  EXPECT_EQ(cases(plan(R"([{"path": "a.gltf", "camera_fit": "contain"}])", one)).at(0).id, id);
 }
 
 TEST_F(Sweep, a_name_tells_the_precision_where_it_is_not_float32) {
@@ -179,6 +181,17 @@ TEST_F(Sweep, a_storage_too_narrow_or_too_large_is_skipped_with_its_reason) {
   ASSERT_EQ(large.skipped.size(), 1U);
   EXPECT_EQ(large.skipped[0].reason,
             "fixed(cap=2000) would reserve 7034 MiB for 921600 cells and 70000 lights; at most 4096 MiB");
+}
+
+TEST_F(Sweep, the_limit_on_memory_is_the_configurations_and_holds_for_lists) {
+  const Plan little = plan(R"([{"rig": {"lights": 70000}}])",
+                           R"(, "grids": [{"tiles": {"count": [160, 90]}, "slices": {"count": 64}}],
+                               "assigners": ["bounds"], "storages": ["packed", {"name": "fixed", "cap": 2000}],
+                               "limits": {"memory_mib": 10000})");
+  EXPECT_EQ(little.skipped.size(), 0U);
+  EXPECT_EQ(memory_limit(), std::uint64_t{10000} << 20);
+  plan(R"([{"rig": {"lights": 10}}])", R"(, "grids": [{}], "assigners": ["bounds"])");
+  EXPECT_EQ(memory_limit(), k_default_memory_limit);
 }
 
 TEST_F(Sweep, a_filter_selects_by_name_and_says_when_it_selects_nothing) {

@@ -1,5 +1,5 @@
 #pragma once
-// The hard cases for numerical stability, H1 to H32 (H31, the search, has a file of its own). Each is a set of trials
+// The hard cases for numerical stability, H1 to H35 (H31, the search, has a file of its own). Each is a set of trials
 // on which a conservative assigner must lose nothing, and of checks of the tool itself.
 
 #include <cstdint>
@@ -34,5 +34,6 @@ std::vector<HardCase> depth_cases();  // H1 to H9
 std::vector<HardCase> lens_cases();   // H10 to H18
 std::vector<HardCase> shape_cases();  // H19 to H22, H27, H28, H30, H32
 std::vector<HardCase> list_cases();   // H23 to H26, H29
+std::vector<HardCase> map_cases();    // H33 to H35
 
 }  // namespace clusterbench::run

@@ -46,6 +46,13 @@ OrderedJson grid_json(const grid::GridSpec& spec) {
   return out;
 }
 
+OrderedJson assigner_json(const StressMethod& method) {
+  OrderedJson assigner{{"name", method.row->name}};
+  for (const auto& [key, value] : method.params.values())
+    std::visit([&, &name_of = key](const auto& held) { assigner[name_of] = held; }, value);
+  return assigner;
+}
+
 void write(const fs::path& path, const std::string& text) {
   std::ofstream file(path, std::ios::binary);
   file << text << std::flush;
@@ -55,19 +62,24 @@ void write(const fs::path& path, const std::string& text) {
 }  // namespace
 
 void write_replay(const fs::path& folder, const std::string& name, const Loss& loss, const StressMethod& method) {
+  write_replay(folder, name, loss.scene, {&method, 1});
+}
+
+void write_replay(const fs::path& folder, const std::string& name, const Trial& trial,
+                  std::span<const StressMethod> methods) {
   std::error_code failure;
   fs::create_directories(folder, failure);
   if (failure) throw Error(folder.string(), "", "cannot be made: " + failure.message());
-  OrderedJson assigner{{"name", method.row->name}};
-  for (const auto& [key, value] : method.params.values())
-    std::visit([&, &name_of = key](const auto& held) { assigner[name_of] = held; }, value);
+  OrderedJson assigners = OrderedJson::array();
+  for (const StressMethod& method : methods)
+    if (takes_trial(method, trial)) assigners.push_back(assigner_json(method));
   const OrderedJson config{{"name", name},
                            {"scenes", OrderedJson::array({OrderedJson{{"path", name + ".gltf"}}})},
-                           {"viewport", {loss.scene.viewport.x, loss.scene.viewport.y}},
-                           {"grids", OrderedJson::array({grid_json(loss.scene.grid)})},
-                           {"assigners", OrderedJson::array({assigner})},
+                           {"viewport", {trial.viewport.x, trial.viewport.y}},
+                           {"grids", OrderedJson::array({grid_json(trial.grid)})},
+                           {"assigners", assigners},
                            {"timing", {{"measure", false}}}};
-  write(folder / (name + ".gltf"), scene::to_gltf(loss.scene.scene, "clusterbench stress"));
+  write(folder / (name + ".gltf"), scene::to_gltf(trial.scene, "clusterbench stress"));
   write(folder / (name + ".json"), config.dump(1) + "\n");
 }
 

@@ -73,10 +73,6 @@ void add_trial(StressCell& cell, const StressMethod& method, const Trial& trial,
   add_lists(cell, method, trial, at);
 }
 
-bool takes(const StressMethod& method, const Trial& trial) {
-  return method.row->takes(trial.grid.kind) && (method.row->orthographic || !trial.scene.cameras[0].lens.orthographic);
-}
-
 std::vector<StressCell> run_case(const HardCase& hard, const std::vector<StressMethod>& methods,
                                  const StressRequest& request, const std::atomic<bool>& stop) {
   std::vector<StressCell> cells;
@@ -88,11 +84,12 @@ std::vector<StressCell> run_case(const HardCase& hard, const std::vector<StressM
   const std::vector<Trial> trials = hard.trials == nullptr ? std::vector<Trial>{} : hard.trials(request.seed);
   for (const Trial& trial : trials) {
     if (stop) break;
-    const bool is_wanted = std::any_of(methods.begin(), methods.end(), [&](const auto& m) { return takes(m, trial); });
+    const bool is_wanted =
+        std::any_of(methods.begin(), methods.end(), [&](const auto& m) { return takes_trial(m, trial); });
     if (!is_wanted) continue;
     const Prepared at = prepared(trial, request.threads);
     for (std::size_t i = 0; i < methods.size(); ++i)
-      if (takes(methods[i], trial)) add_trial(cells[i], methods[i], trial, at);
+      if (takes_trial(methods[i], trial)) add_trial(cells[i], methods[i], trial, at);
   }
   std::erase_if(cells, [](const StressCell& cell) { return cell.trials == 0; });
   return cells;
@@ -147,7 +144,8 @@ StressResult run_stress(const StressRequest& request, const StressListener& list
   for (const HardCase& hard : hard_cases())
     if (std::regex_match(hard.id, request.cases)) result.cases.push_back(hard);
   const bool searches = request.tries > 0 && std::regex_match("H31", request.cases);
-  const double whole = static_cast<double>(result.cases.size() + (searches ? result.methods.size() : 0));
+  const double parts = static_cast<double>(result.cases.size() + (searches ? result.methods.size() : 0));
+  const double whole = parts + static_cast<double>(request.random);
   const auto tell = [&](const std::string& doing, double done) {
     if (listener.on_progress) listener.on_progress(doing, done, whole);
   };
@@ -165,6 +163,12 @@ StressResult run_stress(const StressRequest& request, const StressListener& list
       tell("H31 " + method, done + methods_done);
     };
     result.searches = run_searches(result.methods, request, on_tries, stop);
+  }
+  if (request.random > 0 && !stop) {
+    const auto on_settings = [&](std::uint64_t settings, const std::string& doing) {
+      tell(doing, parts + static_cast<double>(settings));
+    };
+    result.random = search_at_random(result.methods, request, on_settings, stop);
   }
   return result;
 }

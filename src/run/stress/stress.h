@@ -11,6 +11,7 @@
 
 #include "assign/assigner.h"
 #include "run/stress/hard_cases.h"
+#include "run/stress/random_search.h"
 
 namespace clusterbench::run {
 
@@ -23,11 +24,15 @@ struct StressMethod {
 };
 // Every assigner with its defaults and with every other choice.
 std::vector<StressMethod> stress_methods();
+// The label of the method whose lists a fast one's must equal; empty if it is no twin.
+std::string reference_of(const std::string& label);
+bool takes_trial(const StressMethod& method, const Trial& trial);
 
 struct StressRequest {
   std::uint64_t seed = 1;
   std::uint64_t tries = 20'000;  // of the search, per method; 0 = no search
-  double seconds = 0.0;          // of the search, per method; 0 = as many as the tries take
+  double seconds = 0.0;          // of the search, per method, and of random settings; 0 = as many as these take
+  std::uint64_t random = 0;      // random settings to check, with the seeds from `seed` on
   std::regex cases{".*"}, methods{".*"};
   int threads = 1;
 };
@@ -65,6 +70,7 @@ struct StressResult {
   std::vector<std::vector<ToolCheck>> checks;  // per case
   std::vector<StressCell> cells;               // per case and method, where the method takes a grid of the case
   std::vector<SearchResult> searches;          // H31
+  std::optional<RandomSearch> random;
 };
 
 struct StressListener {
@@ -78,8 +84,17 @@ SearchResult search_for_losses(const StressMethod& method, const StressRequest& 
                                const std::function<void(std::uint64_t tries)>& on_progress,
                                const std::atomic<bool>& stop);
 
+// Checks random settings, each with a seed of its own, and shrinks what it finds. What comes out does not depend on the
+// number of threads, as long as time does not end it.
+RandomSearch search_at_random(std::span<const StressMethod> methods, const StressRequest& request,
+                              const std::function<void(std::uint64_t settings, const std::string& doing)>& on_progress,
+                              const std::atomic<bool>& stop);
+
 // Writes NAME.gltf and NAME.json into a folder, which `run NAME.json` then reproduces. Throws Error.
 void write_replay(const std::filesystem::path& folder, const std::string& name, const Loss& loss,
                   const StressMethod& method);
+// The same for a setting and all methods that take its grid.
+void write_replay(const std::filesystem::path& folder, const std::string& name, const Trial& trial,
+                  std::span<const StressMethod> methods);
 
 }  // namespace clusterbench::run
