@@ -51,7 +51,7 @@ export function costs(cases: Case[]): HTMLElement | null {
         { label: "assign µs", value: (one) => one.assignNs, show: (one) => format.microseconds(one.assignNs) },
         { label: "convert µs", value: (one) => one.raw.timing!.convert_ns.median, show: (one) => format.microseconds(one.raw.timing!.convert_ns.median) },
         { label: "write floor µs", value: (one) => one.raw.timing!.write_floor_ns, show: (one) => format.microseconds(one.raw.timing!.write_floor_ns) },
-        { label: "tests per frame", about: "Light-cell tests", value: (one) => one.raw.tests_done / one.raw.frames, show: (one) => format.count(one.raw.tests_done / one.raw.frames) },
+        { label: "tests per frame", about: "Cells, rows, lights or planes that the method looks at one by one", value: (one) => one.raw.tests_done / one.raw.frames, show: (one) => format.count(one.raw.tests_done / one.raw.frames) },
         { label: "fallbacks per frame", about: "Pairs decided at greater cost than single precision", value: (one) => one.raw.fallbacks === undefined ? null : one.raw.fallbacks / one.raw.frames, show: (one) => format.decimal((one.raw.fallbacks ?? 0) / one.raw.frames) },
         { label: "scratch", about: "The method's own memory", value: (one) => one.raw.buffers.scratch_bytes, show: (one) => format.bytes(one.raw.buffers.scratch_bytes) },
       ],

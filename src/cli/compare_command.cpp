@@ -35,7 +35,7 @@ ExitCode compare(const CompareFlags& flags) {
   const nlohmann::ordered_json next = report::read_result(flags.next, schema);
   check_comparable(flags, base, next);
   const nlohmann::ordered_json comparison = report::compare_results(base, next, flags.threshold_percent / 100.0);
-  std::cout << report::comparison_text(comparison);
+  std::cout << printable_lines(report::comparison_text(comparison));
   if (!flags.markdown.empty()) write_text(flags.markdown, report::comparison_markdown(comparison));
   if (!flags.json.empty()) write_output(flags.json, comparison);
   const ExitCode code = report::outcome(comparison, flags.is_strict);

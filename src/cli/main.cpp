@@ -4,16 +4,17 @@
 #include <iostream>
 
 #include "cli/commands.h"
+#include "core/text.h"
 
 int main(int argc, char** argv) {
   using clusterbench::ExitCode;
   try {
     return clusterbench::cli::run_command_line(argc, argv);
   } catch (const clusterbench::Error& error) {
-    std::cerr << "clusterbench: " << error.what() << "\n";
+    std::cerr << "clusterbench: " << clusterbench::printable_lines(error.what()) << "\n";
     return static_cast<int>(error.code());
   } catch (const std::exception& error) {
-    std::cerr << "clusterbench: internal error: " << error.what() << "\n";
+    std::cerr << "clusterbench: internal error: " << clusterbench::printable_lines(error.what()) << "\n";
     return static_cast<int>(ExitCode::internal);
   }
 }

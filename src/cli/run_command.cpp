@@ -82,9 +82,9 @@ std::size_t case_count(const run::Plan& plan) {
 
 ExitCode print_plan(const run::Plan& plan) {
   for (const run::GroupPlan& group : plan.groups)
-    for (const run::CasePlan& planned : group.cases) std::cout << planned.id << "  " << planned.name << "\n";
+    for (const run::CasePlan& planned : group.cases) std::cout << planned.id << "  " << printable(planned.name) << "\n";
   for (const run::Skipped& skipped : plan.skipped)
-    std::cout << "skipped  " << skipped.name << ": " << skipped.reason << "\n";
+    std::cout << "skipped  " << printable(skipped.name) << ": " << printable(skipped.reason) << "\n";
   std::cerr << case_count(plan) << " cases, " << plan.skipped.size() << " skipped\n";
   return ExitCode::ok;
 }
@@ -122,7 +122,7 @@ ExitCode interrupted(const report::Journal* journal) {
 
 ExitCode report_gates(const Json& result) {
   const std::vector<std::string> failures = report::gate_failures(result);
-  for (const std::string& failure : failures) std::cerr << "FAILED " << failure << "\n";
+  for (const std::string& failure : failures) std::cerr << "FAILED " << printable(failure) << "\n";
   return failures.empty() ? ExitCode::ok : ExitCode::gate_failed;
 }
 
@@ -158,7 +158,7 @@ bool add_baseline(const RunFlags& flags, const run::Config& config, const run::P
 // The gates of the comparison hold those of the run.
 ExitCode report_baseline(const RunFlags& flags, const Json& result) {
   const Json comparison = report::compare_results(result, result, flags.baseline.threshold_percent / 100.0);
-  std::cerr << report::comparison_text(comparison);
+  std::cerr << printable_lines(report::comparison_text(comparison));
   return report::outcome(comparison, false);
 }
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "core/text.h"
 #include "scene/generate.h"
 #include "scene/scene.h"
 #include "scene/summary.h"
@@ -43,16 +44,16 @@ Json to_json(const scene::Scene& scene, const scene::Summary& summary) {
 void print(const scene::Scene& scene, const scene::Summary& summary) {
   const auto& lo = summary.bounds_lo;
   const auto& hi = summary.bounds_hi;
-  std::printf("%s\n  lights   %d point, %d spot, %d directional, %d box\n", scene.name.c_str(), summary.points,
-              summary.spots, summary.directionals, summary.boxes);
+  std::printf("%s\n  lights   %d point, %d spot, %d directional, %d box\n", printable(scene.name).c_str(),
+              summary.points, summary.spots, summary.directionals, summary.boxes);
   if (summary.points + summary.spots > 0) {
     std::printf("  ranges   %.3g to %.3g m, median %.3g m; %d given, %d from intensity, %d clamped\n",
                 summary.range_min_m, summary.range_max_m, summary.range_median_m, summary.ranges_given,
                 summary.ranges_from_intensity, summary.ranges_clamped);
     std::printf("  bounds   (%.4g, %.4g, %.4g) to (%.4g, %.4g, %.4g) m\n", lo.x, lo.y, lo.z, hi.x, hi.y, hi.z);
   }
-  for (const std::string& camera : summary.cameras) std::printf("  camera   %s\n", camera.c_str());
-  for (const std::string& warning : summary.warnings) std::printf("  warning  %s\n", warning.c_str());
+  for (const std::string& camera : summary.cameras) std::printf("  camera   %s\n", printable(camera).c_str());
+  for (const std::string& warning : summary.warnings) std::printf("  warning  %s\n", printable(warning).c_str());
 }
 
 ExitCode info(const std::string& path, const scene::RangeRule& rule, bool as_json) {

@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "cli/commands.h"
+#include "core/text.h"
 #include "report/result_file.h"
 #include "report/size.h"
 
@@ -15,7 +16,7 @@ void add_size(Command& program, Action& action) {
   command.add_option("RESULT", *file, "A result file of `clusterbench run`").required();
   command.when_named([file, &action] {
     action = [file] {
-      std::cout << report::size_report(report::read_result(*file));
+      std::cout << printable_lines(report::size_report(report::read_result(*file)));
       return ExitCode::ok;
     };
   });

@@ -1,5 +1,7 @@
 // `clusterbench stress`: every assigner on every hard case.
 
+#include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <memory>
 
@@ -7,13 +9,14 @@
 #include "cli/output.h"
 #include "cli/stop.h"
 #include "cli/terminal.h"
+#include "core/text.h"
 #include "report/stress.h"
 
 namespace clusterbench::cli {
 namespace {
 
 struct StressFlags {
-  std::string output, cases = ".*", methods = ".*", failures;
+  std::string output, cases, methods = ".*", failures;
   run::StressRequest request;
   bool quiet = false;
 };
@@ -43,6 +46,12 @@ const run::StressMethod& method_of(const run::StressResult& result, const std::s
   throw Error("", "stress", "knows no method '" + label + "'", ExitCode::internal);
 }
 
+// Every hard case where nothing is named; none beside random settings.
+std::string cases_of(const StressFlags& flags) {
+  if (!flags.cases.empty()) return flags.cases;
+  return flags.request.random > 0 ? "none" : ".*";
+}
+
 void write_replays(const std::string& folder, const run::StressResult& result) {
   int written = 0;
   const auto write = [&](const std::string& hard_case, const std::string& label, const std::optional<run::Loss>& loss) {
@@ -52,18 +61,49 @@ void write_replays(const std::string& folder, const run::StressResult& result) {
   };
   for (const run::StressCell& cell : result.cells) write(cell.hard_case, cell.method, cell.deepest);
   for (const run::SearchResult& search : result.searches) write("H31", search.method, search.deepest);
-  std::cerr << written << " losses written to " << folder << ", each a configuration for `clusterbench run`\n";
+  if (result.random)
+    for (const run::RandomFault& found : result.random->faults) {
+      run::write_replay(folder, found.name(), found.scene, run::methods_that_show(found.fault, result.methods));
+      ++written;
+    }
+  std::cerr << written << " faults written to " << folder << ", each a configuration for `clusterbench run`\n";
 }
+
+// What a search is at, in a file, for the case that it does not live to tell: removed when it has ended.
+class AtWork {
+ public:
+  explicit AtWork(const StressFlags& flags) {
+    if (flags.failures.empty() || flags.request.random == 0) return;
+    std::error_code failed;
+    std::filesystem::create_directories(flags.failures, failed);
+    path_ = std::filesystem::path(flags.failures) / "at_work.txt";
+  }
+  ~AtWork() {
+    std::error_code ignored;
+    if (!path_.empty()) std::filesystem::remove(path_, ignored);
+  }
+  AtWork(const AtWork&) = delete;
+  AtWork& operator=(const AtWork&) = delete;
+
+  void write(const std::string& doing) const {
+    if (!path_.empty()) std::ofstream(path_) << doing << "\n";
+  }
+
+ private:
+  std::filesystem::path path_;
+};
 
 ExitCode stress(const StressFlags& flags) {
   run::StressRequest request = flags.request;
-  request.cases = pattern_of(flags.cases, "--cases");
+  request.cases = pattern_of(cases_of(flags), "--cases");
   request.methods = pattern_of(flags.methods, "--methods");
   probe_output(flags.output);
   const std::atomic<bool>& stop = stop_on_signals();
   ProgressLine progress(terminal(), flags.quiet);
+  const AtWork at_work(flags);
   run::StressListener listener;
   listener.on_progress = [&](const std::string& doing, double done, double whole) {
+    at_work.write(doing);
     progress.show({static_cast<std::size_t>(done), static_cast<std::size_t>(whole), done, whole, doing});
   };
   const run::StressResult result = run::run_stress(request, listener, stop);
@@ -73,13 +113,13 @@ ExitCode stress(const StressFlags& flags) {
     return stopped_exit_code();
   }
   if (result.methods.empty()) throw Error("", "--methods", "'" + flags.methods + "' names none");
-  if (result.cases.empty() && result.searches.empty())
-    throw Error("", "--cases", "'" + flags.cases + "' names none; there are H1 to H32");
+  if (result.cases.empty() && result.searches.empty() && (!result.random || !flags.cases.empty()))
+    throw Error("", "--cases", "'" + flags.cases + "' names none; there are H1 to H35");
   write_output(flags.output, report::stress_to_json(result, request));
   if (!flags.quiet) report::print_stress(std::cerr, result);
   if (!flags.failures.empty()) write_replays(flags.failures, result);
   const std::vector<std::string> failures = report::stress_failures(result);
-  for (const std::string& failure : failures) std::cerr << "FAILED " << failure << "\n";
+  for (const std::string& failure : failures) std::cerr << "FAILED " << printable(failure) << "\n";
   return failures.empty() ? ExitCode::ok : ExitCode::gate_failed;
 }
 
@@ -90,17 +130,25 @@ void add_stress(Command& program, Action& action) {
   Command command =
       program.add_command("stress", "Every assigner on the hard cases for numerical stability, and a search for more");
   command.add_option("-o,--output", flags->output, "JSON file; without it the JSON goes to standard output");
-  command.add_option("--cases", flags->cases, "Only hard cases that match this regular expression (H1 .. H32)");
+  command.add_option("--cases", flags->cases, "Only hard cases that match this regular expression (H1 .. H35)");
   command.add_option("--methods", flags->methods, "Only methods that contain a match of this regular expression");
   command.add_option("--tries", flags->request.tries, "Tries of the search H31 per method; 0 = no search")
-      .shows_standard();
-  command.add_option("--seconds", flags->request.seconds, "End the search of a method after so many; 0 = by tries")
       .non_negative()
       .shows_standard();
-  command.add_option("--seed", flags->request.seed, "Seed of everything random").shows_standard();
-  command.add_option("--threads", flags->request.threads, "Threads for the truth; results do not depend on it")
-      .range(1, 1024);
-  command.add_option("--failures", flags->failures, "Folder for every loss as a scene and a configuration");
+  command
+      .add_option("--random", flags->request.random,
+                  "Check so many random settings in place of the hard cases (with --cases: beside them); setting i has "
+                  "the seed "
+                  "--seed + i")
+      .non_negative();
+  command
+      .add_option("--seconds", flags->request.seconds,
+                  "End the search of a method, or that of random settings, after so many; 0 = by their number")
+      .non_negative()
+      .shows_standard();
+  command.add_option("--seed", flags->request.seed, "Seed of everything random").non_negative().shows_standard();
+  command.add_option("--threads", flags->request.threads, "Threads; results do not depend on them").range(1, 1024);
+  command.add_option("--failures", flags->failures, "Folder for every loss or fault as a scene and a configuration");
   command.add_flag("-q,--quiet", flags->quiet, "No progress and no table");
   command.when_named([flags, &action] { action = [flags] { return stress(*flags); }; });
 }

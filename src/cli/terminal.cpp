@@ -9,6 +9,8 @@
 #include <iostream>
 #include <string_view>
 
+#include "core/text.h"
+
 namespace clusterbench::cli {
 namespace {
 
@@ -46,7 +48,7 @@ void ProgressLine::show(const run::Progress& progress) {
   std::string line = "[" + std::to_string(progress.cases_done) + "/" + std::to_string(progress.cases_total) + "] ";
   line += std::to_string(static_cast<int>(100.0 * share)) + " %";
   if (share > 0.01) line += ", " + minutes_and_seconds(elapsed_s * (1.0 - share) / share) + " left";
-  line += "  " + progress.doing;
+  line += "  " + printable(progress.doing);
   if (line.size() >= static_cast<std::size_t>(terminal_.columns))
     line.resize(static_cast<std::size_t>(terminal_.columns) - 1);
   std::cerr << "\r\033[K" << line << std::flush;
@@ -55,7 +57,7 @@ void ProgressLine::show(const run::Progress& progress) {
 
 void ProgressLine::case_done(const run::CaseResult& done, std::size_t number, std::size_t total) {
   if (quiet_ || terminal_.interactive) return;
-  std::cerr << "[" << number << "/" << total << "] " << done.name;
+  std::cerr << "[" << number << "/" << total << "] " << printable(done.name);
   if (done.error) {
     char excess[32];
     std::snprintf(excess, sizeof excess, "%.1f", 100.0 * done.error->excess_ratio());

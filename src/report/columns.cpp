@@ -4,6 +4,8 @@
 #include <cctype>
 #include <cstdio>
 
+#include "core/text.h"
+
 namespace clusterbench::report {
 namespace {
 
@@ -37,12 +39,6 @@ std::string aligned(const Cells& cells, const std::vector<std::size_t>& widths) 
   return row + "\n";
 }
 
-std::string shown(std::string name) {
-  for (char& c : name)
-    if (std::iscntrl(static_cast<unsigned char>(c)) != 0) c = '?';
-  return name;
-}
-
 std::string text(const char* format, double value) {
   char buffer[64];
   std::snprintf(buffer, sizeof buffer, format, value);
@@ -61,14 +57,15 @@ std::string short_count(const Json& one, const char* pointer) {
 }
 
 std::string method_name(const Json& one) {
-  std::string label = one["assigner"]["label"];
+  const std::string label = printable(one["assigner"]["label"].get_ref<const std::string&>());
   if (!one.contains("precision") || one["precision"]["packing"] == "float32") return label;
-  return label + " " + one["precision"]["label"].get<std::string>();
+  return label + " " + printable(one["precision"]["label"].get_ref<const std::string&>());
 }
 
 std::string block_of(const Json& one) {
   const std::string viewport = one["viewport"][0].dump() + "x" + one["viewport"][1].dump();
-  return one["grid"]["name"].get<std::string>() + ", camera " + shown(one["camera"]) + ", " + viewport;
+  return printable(one["grid"]["name"].get_ref<const std::string&>()) + ", camera " +
+         printable(one["camera"].get_ref<const std::string&>()) + ", " + viewport;
 }
 
 std::vector<std::string> blocks_of(const Json& cases, const Json& scene) {
@@ -81,7 +78,7 @@ std::vector<std::string> blocks_of(const Json& cases, const Json& scene) {
 
 std::string markdown_cell(const std::string& text) {
   std::string out;
-  for (const char c : text) {
+  for (const char c : printable_lines(text)) {
     if (std::iscntrl(static_cast<unsigned char>(c)) != 0) {
       out += ' ';
       continue;

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/text.h"
+
 namespace clusterbench::report {
 
 using Cells = std::vector<std::string>;  // one line: a mark, a name, then numbers
@@ -14,8 +16,10 @@ std::vector<std::size_t> widths_of(const std::vector<Cells>& rows);
 // The first two columns to the left, numbers to the right.
 std::string aligned(const Cells& cells, const std::vector<std::size_t>& widths);
 
-// Names in a scene file may hold anything; a terminal must not obey them.
-std::string shown(std::string name);
+// printable() of a result's text: names in a scene file may hold anything, a terminal must not obey them.
+inline std::string shown(const std::string& text) {
+  return printable(text);
+}
 // A cell of a Markdown table: nothing in it is taken for markup.
 std::string markdown_cell(const std::string& text);
 // One number by a printf format.

@@ -36,6 +36,60 @@ Json to_json(const run::StressCell& cell) {
           {"faults", cell.faults}};
 }
 
+Json counts_json(const run::SettingCounts& counts) {
+  Json by_kind = Json::object();
+  for (std::size_t kind = 0; kind < counts.by_kind.size(); ++kind)
+    by_kind[grid::kind_name(static_cast<grid::Kind>(kind))] = counts.by_kind[kind];
+  return {{"settings", counts.settings},     {"refused", counts.refused},
+          {"settings_by_grid", by_kind},     {"points", counts.points},
+          {"spots", counts.spots},           {"pairs", counts.pairs},
+          {"true_pairs", counts.true_pairs}, {"listed_pairs", counts.compared_pairs},
+          {"decisions", counts.decisions},   {"cells_sampled", counts.sampled},
+          {"undecided", counts.undecided}};
+}
+
+Json to_json(const run::RandomFault& found) {
+  return {{"name", found.name()},
+          {"kind", run::fault_kind_name(found.fault.kind)},
+          {"method", found.fault.method.empty() ? Json(nullptr) : Json(found.fault.method)},
+          {"grid", grid::kind_name(found.grid)},
+          {"orthographic", found.orthographic},
+          {"light", found.fault.is_spot ? "spot" : "point"},
+          {"settings", found.settings},
+          {"seeds", found.seeds},
+          {"detail", found.fault.detail}};
+}
+
+Json to_json(const std::optional<run::RandomSearch>& random) {
+  if (!random) return nullptr;
+  Json out{{"first_seed", random->first_seed}};
+  out.update(counts_json(random->counts));
+  out["fault_count"] = Json::object();
+  for (int kind = 0; kind < run::k_fault_kinds; ++kind) {
+    std::uint64_t settings = 0;
+    for (const run::RandomFault& found : random->faults)
+      if (static_cast<int>(found.fault.kind) == kind) settings += found.settings;
+    out["fault_count"][run::fault_kind_name(static_cast<run::FaultKind>(kind))] = settings;
+  }
+  out["faults"] = Json::array();
+  for (const run::RandomFault& found : random->faults) out["faults"].push_back(to_json(found));
+  return out;
+}
+
+std::string in_lines(const run::RandomFault& found) {
+  return found.name() + ": " + found.fault.detail + " (seed " + std::to_string(found.seeds.front()) + ", shrunk; " +
+         std::to_string(found.settings) + " settings show it)";
+}
+
+void print_random(std::ostream& out, const run::RandomSearch& random) {
+  const run::SettingCounts& counts = random.counts;
+  out << "\nRandom settings: " << counts.settings << " (seeds from " << random.first_seed << " on), " << counts.refused
+      << " of them refused; " << counts.points << " points, " << counts.spots << " spots\n  " << counts.pairs
+      << " pairs, " << counts.true_pairs << " true; " << counts.decisions << " decided one by one, " << counts.undecided
+      << " undecided; " << random.faults.size() << " faults\n";
+  for (const run::RandomFault& found : random.faults) out << "  " << in_lines(found) << "\n";
+}
+
 const run::StressMethod& method_of(const run::StressResult& result, const std::string& label) {
   return *std::find_if(result.methods.begin(), result.methods.end(),
                        [&](const run::StressMethod& method) { return method.label == label; });
@@ -167,16 +221,20 @@ Json stress_to_json(const run::StressResult& result, const run::StressRequest& r
                                {"misses", search.misses},
                                {"least_margin_roundings", search.least_margin},
                                {"deepest_miss", to_json(search.deepest)}});
+  out["random"] = to_json(result.random);
   out["failures"] = stress_failures(result);
   return out;
 }
 
 void print_stress(std::ostream& out, const run::StressResult& result) {
-  print_matrix(out, result);
-  print_losses(out, result);
-  print_extra(out, result);
-  print_checks(out, result);
+  if (!result.cases.empty()) {
+    print_matrix(out, result);
+    print_losses(out, result);
+    print_extra(out, result);
+    print_checks(out, result);
+  }
   print_searches(out, result);
+  if (result.random) print_random(out, *result.random);
 }
 
 std::vector<std::string> stress_failures(const run::StressResult& result) {
@@ -196,6 +254,8 @@ std::vector<std::string> stress_failures(const run::StressResult& result) {
     if (search.deepest && method_of(result, search.method).conservative)
       failures.push_back("H31 " + search.method + ": " + std::to_string(search.misses) + " lights lost, the deepest " +
                          percent(search.deepest->depth) + " of its range inside");
+  if (result.random)
+    for (const run::RandomFault& found : result.random->faults) failures.push_back("random " + in_lines(found));
   return failures;
 }
 

@@ -104,6 +104,31 @@ TEST(SceneCommand, what_is_refused_exits_2_with_one_line_that_names_file_and_pla
   EXPECT_NE(done.err.find("broken.gltf: /nodes/0/camera"), std::string::npos) << done.err;
 }
 
+TEST(SceneCommand, control_characters_of_a_file_never_reach_the_terminal) {
+  const Folder folder;
+  const std::string evil = "\\u001b]0;gone\\u0007\\u009b31m\\u202e";
+  const auto file = folder.write(
+      "evil.gltf", R"({"asset": {"version": "2.0"}, "nodes": [{"name": ")" + evil +
+                       R"(", "camera": 0, "extensions": {"KHR_lights_punctual": {"light": 0}}}], "cameras": [{"type":
+      "perspective", "perspective": {"yfov": 1, "znear": 1}}], "extensionsRequired": [")" +
+                       evil + R"("], "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"}]}}})");
+  const auto is_clean = [](const std::string& text) {
+    return text.find_first_of("\x1b\x07\x7f\r") == std::string::npos && text.find("\xc2\x9b") == std::string::npos &&
+           text.find("\xe2\x80\xae") == std::string::npos;
+  };
+  const Outcome info = tool("scene info " + file.string());
+  EXPECT_EQ(info.code, 0) << info.err;
+  EXPECT_NE(info.out.find("camera   ?]0;gone??31m?: perspective"), std::string::npos) << info.out;
+  EXPECT_TRUE(is_clean(info.out)) << info.out;
+  const Outcome list = tool("run --dry-run " + file.string());
+  EXPECT_EQ(list.code, 0) << list.err;
+  EXPECT_TRUE(is_clean(list.out + list.err)) << list.out << list.err;
+  const Outcome refused =
+      tool("run --dry-run " + folder.write("x.json", R"({"scenes": [")" + evil + R"("]})").string());
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_TRUE(is_clean(refused.out + refused.err)) << refused.err;
+}
+
 TEST(SceneCommand, a_generated_scene_is_the_committed_one_and_can_be_looked_at) {
   const Folder folder;
   const std::string file = (folder / "street.glb").string();

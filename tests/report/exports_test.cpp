@@ -171,6 +171,20 @@ TEST(Csv, commas_quotes_and_line_ends_in_names_stay_in_their_field) {
   EXPECT_NE(text.find("slow,\"a, \"\"b\"\"\nc\",9000"), std::string::npos) << text;
 }
 
+TEST(Csv, names_that_begin_like_a_formula_are_text_and_numbers_stay_numbers) {
+  for (const std::string begin : {"=", "+", "-", "@", "\t", "\r"}) {
+    Json named = result();
+    named["cases"][0]["name"] = begin + "1+2";
+    const std::string text = exported(named, export_format("csv"), false);
+    EXPECT_NE(text.find("'" + begin + "1+2"), std::string::npos) << text;
+    EXPECT_EQ(text.find("'slow"), std::string::npos) << text;
+  }
+  Json quoted = result();
+  quoted["cases"][0]["name"] = "=HYPERLINK(\"a\",1)";
+  const std::string text = exported(quoted, export_format("csv"), false);
+  EXPECT_NE(text.find("slow,\"'=HYPERLINK(\"\"a\"\",1)\",9000"), std::string::npos) << text;
+}
+
 TEST(Markdown, every_row_has_the_columns_of_the_heading) {
   Json named = result();
   named["cases"][0]["name"] = "a|b\n<c>";

@@ -39,18 +39,18 @@ SearchResult searched(const StressMethod& method, std::uint64_t tries) {
       method, request, [](std::uint64_t) {}, k_never);
 }
 
-TEST(HardCases, are_all_of_h1_to_h32_but_the_search) {
+TEST(HardCases, are_all_of_h1_to_h35_but_the_search) {
   int number = 1;
   for (const HardCase& hard : hard_cases()) {
     if (number == 31) ++number;
     EXPECT_EQ(hard.id, "H" + std::to_string(number++));
     EXPECT_TRUE(hard.trials != nullptr || hard.checks != nullptr) << hard.id;
   }
-  EXPECT_EQ(number, 33);
+  EXPECT_EQ(number, 36);
 }
 
 TEST(HardCases, lose_nothing_in_conservative_methods_and_name_what_naive_ones_lose) {
-  const StressResult result = stressed("H(3|4|5|22|30|32)", ".*");
+  const StressResult result = stressed("H(3|4|5|22|30|32|35)", ".*");
   EXPECT_EQ(report::stress_failures(result), std::vector<std::string>{});
   std::set<std::string> losers;
   for (const StressCell& cell : result.cells)
@@ -78,12 +78,23 @@ TEST(HardCases, give_the_same_json_on_any_number_of_threads) {
   EXPECT_EQ(json(1), json(2));
 }
 
+TEST(HardCases, on_lattices_and_at_the_scales_of_maps_are_decided_and_right) {
+  const StressResult result = stressed("H3[34]", "^(exact|exact-fast|distance|cascades-fast|world-grid)$");
+  EXPECT_EQ(report::stress_failures(result), std::vector<std::string>{});
+  for (const StressCell& cell : result.cells) EXPECT_EQ(cell.undecided, 0U) << cell.hard_case << " " << cell.method;
+}
+
 TEST(Stress, is_written_as_its_schema_says) {
   StressRequest request;
   request.tries = 6000;
   request.cases = std::regex("H(12|22|31|32)");
   request.methods = std::regex("^(bounds|exact|naive-refinement)$");
-  const StressResult result = run_stress(request, {}, k_never);
+  request.random = 3;
+  StressResult result = run_stress(request, {}, k_never);
+  ASSERT_TRUE(result.random);
+  EXPECT_EQ(result.random->counts.settings, 3U);
+  result.random->faults.push_back(
+      {{FaultKind::truth, "", "a sentence", 1, 2, true}, grid::Kind::world, false, 1, {7}, {}});
   const auto json = nlohmann::json::parse(report::stress_to_json(result, request).dump());
   EXPECT_EQ(schema_violations(row_of(Document::stress).schema(), json), std::vector<std::string>{});
   EXPECT_EQ(document_of(json), Document::stress);

@@ -2,13 +2,22 @@
 // measured; a figure that a case lacks is an empty field.
 
 #include <cmath>
+#include <string_view>
 
 #include "report/exports/exports.h"
 
 namespace clusterbench::report {
 namespace {
 
-std::string field(const std::string& text) {
+// A spreadsheet takes a cell that begins like a formula for one and runs it: an apostrophe in front makes it text.
+// Names come from scene files, so anybody can have written them.
+std::string inert(const std::string& text) {
+  const bool is_formula = !text.empty() && std::string_view("=+-@\t\r\n").find(text.front()) != std::string_view::npos;
+  return is_formula ? "'" + text : text;
+}
+
+std::string field(const std::string& name) {
+  const std::string text = inert(name);
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
