@@ -1,0 +1,15 @@
+// A result read back, and what everything that reads one asks it first.
+
+#include "fuzz/input.h"
+#include "report/json.h"
+#include "report/result_file.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace clusterbench;
+  return fuzz::answered([&] {
+    const nlohmann::ordered_json result =
+        report::read_result(fuzz::written(data, size, ".json").string(), report::Schema::any);
+    static_cast<void>(report::gate_failures(result));
+    static_cast<void>(report::fronts(result["scenes"], result["cases"]));
+  });
+}
