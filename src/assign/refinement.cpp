@@ -11,9 +11,9 @@ namespace {
 
 constexpr float k_inf = std::numeric_limits<float>::infinity();
 
-// What support() can lose, as a length: 4 roundings of the apex for n·apex, 4 of the range for the cosine to the axis;
-// the sine's error e times sin a is at most 4 more, because (1 - cos²) is off by 8 and the sine is needed only where it
-// is larger than sin a; 3 for the sums.
+// What support() can lose, as a length, in roundings: of the apex 4 for n·apex; of the range 5 for the cosine to the
+// axis (n and the axis are rounded, products, sums), 7 for the sine, 2 for either's product with a rounded cos a or sin
+// a, so at most sqrt(7² + 9²) < 12 for their sum; 4 for the sums and the product with the range.
 float slack_of(const geom::SphericalCone& cone) {
   constexpr float k_support_roundings = 16.0f;
   const float size = std::fabs(cone.apex.x) + std::fabs(cone.apex.y) + std::fabs(cone.apex.z) + cone.range;
@@ -25,7 +25,9 @@ float slack_of(const geom::SphericalCone& cone) {
 float support(const geom::SphericalCone& cone, const Vec3f& n) {
   if (!std::isfinite(cone.range)) return k_inf;
   const float along_axis = std::clamp(glm::dot(n, cone.axis), -1.0f, 1.0f);
-  const float beside_axis = std::sqrt((1.0f - along_axis) * (1.0f + along_axis));
+  // Not by the cosine: close to the axis and its opposite that loses half of the sine's digits, and a half-angle of
+  // nearly 90 degrees needs them.
+  const float beside_axis = glm::length(glm::cross(n, cone.axis));
   const float steepest =
       along_axis >= cone.cos_angle ? 1.0f : along_axis * cone.cos_angle + beside_axis * cone.sin_angle;
   return glm::dot(n, cone.apex) + cone.range * std::max(0.0f, steepest) + slack_of(cone);

@@ -109,6 +109,21 @@ TEST(SphereRefinement, takes_what_an_unbounded_light_touches_and_skips_a_light_w
   EXPECT_EQ(listed[3], 0u);
 }
 
+// The picture's sides lean away from the axis of such a spot by nearly 180 degrees: the sine of that decides.
+TEST(SphereRefinement, keeps_spots_of_nearly_90_degrees_that_reach_a_wide_view_from_beside_it) {
+  const double slope = 7000.0, range = 1e5;
+  const view::Frame frame = frame_of(view::Projection{false, -slope, slope, -slope, slope, 4e-4, 2}, {64, 64},
+                                     {spot_light({-range, 0, -9}, range, {0, 0, 1}, 1.5707963)});
+  grid::GridSpec spec = frustum_12x12x24();
+  spec.tiles.count = {1, 1};
+  spec.slices.count = 1;
+  const grid::Grid grid = grid_of(spec, frame);
+  const Lists truth = lists_by("exact", frame, grid);
+  ASSERT_EQ(truth.pair_count(), 1u);
+  EXPECT_EQ(lists_by("sphere-refinement", frame, grid), truth);
+  EXPECT_EQ(lists_by("sphere-refinement-fast", frame, grid), truth);
+}
+
 TEST(SphereRefinement, lists_each_light_on_both_sides_of_a_plane_that_it_touches) {
   std::vector<scene::WorldLight> lights;
   const view::Frame empty = full_hd_frame({});

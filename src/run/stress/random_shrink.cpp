@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
+#include <numbers>
 
 #include "core/error.h"
 #include "run/stress/hard_cases.h"
@@ -27,9 +28,10 @@ double rounded_to(double value, int digits) {
 // Would a file with these numbers be read back?
 bool can_be_loaded(const Trial& trial) {
   const scene::Lens& lens = trial.scene.cameras[0].lens;
-  const bool is_lens = lens.far_m > lens.near_m && lens.near_m >= 0.0 &&
-                       (lens.orthographic ? lens.xmag_m > 0.0 && lens.ymag_m > 0.0
-                                          : lens.near_m > 0.0 && lens.yfov_rad > 0.0 && lens.yfov_rad < 3.14);
+  const bool is_lens =
+      lens.far_m > lens.near_m && lens.near_m >= 0.0 &&
+      (lens.orthographic ? lens.xmag_m > 0.0 && lens.ymag_m > 0.0
+                         : lens.near_m > 0.0 && lens.yfov_rad > 0.0 && lens.yfov_rad < std::numbers::pi);
   return is_lens && std::all_of(trial.scene.lights.begin(), trial.scene.lights.end(), [](const scene::Light& light) {
            return light.range_m > 0.0 && light.outer_cone_rad > 0.0 && light.outer_cone_rad <= 90.0 * k_degree;
          });
