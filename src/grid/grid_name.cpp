@@ -2,6 +2,7 @@
 
 #include <charconv>
 
+#include "core/text.h"
 #include "grid/grid.h"
 
 namespace clusterbench::grid {
@@ -31,6 +32,15 @@ std::string reach_name(const Slicing& slices) {
   return " " + near + ".." + (has_first ? number(slices.first_m) + ".." : "") + far;
 }
 
+// All of a short list; of a long one its ends, and a digest that tells it from others.
+std::string boundaries_name(const std::vector<double>& boundaries) {
+  constexpr std::size_t k_most_shown = 17;
+  std::string all;
+  for (const double boundary : boundaries) all += " " + number(boundary);
+  if (boundaries.size() <= k_most_shown) return all;
+  return " " + number(boundaries.front()) + ".." + number(boundaries.back()) + " #" + sha256_hex(all).substr(0, 8);
+}
+
 std::string slices_name(const Slicing& slices) {
   const std::string count = std::to_string(slices.scheme == Scheme::list ? slices.boundaries_m.size() - 1
                                                                          : static_cast<std::size_t>(slices.count));
@@ -48,9 +58,7 @@ std::string slices_name(const Slicing& slices) {
     case Scheme::list:
       break;
   }
-  std::string text = count + " list";
-  for (const double boundary : slices.boundaries_m) text += " " + number(boundary);
-  return text;
+  return count + " list" + boundaries_name(slices.boundaries_m);
 }
 
 std::string cells_name(Vec3i cells) {

@@ -207,6 +207,17 @@ TEST(GridInputs, hold_only_what_the_grid_depends_on) {
   }
 }
 
+TEST(GridSpec, a_long_list_of_boundaries_has_a_short_name_of_its_own) {
+  GridSpec spec = spec_of(Kind::frustum);
+  spec.slices.scheme = Scheme::list;
+  for (int i = 0; i <= 65536; ++i) spec.slices.boundaries_m.push_back(0.25 + i);
+  const std::string name = spec.name();
+  EXPECT_LT(name.size(), 80u) << name;
+  EXPECT_NE(name.find("65536 list 0.25..65536.25 #"), std::string::npos) << name;
+  spec.slices.boundaries_m[40000] += 0.25;
+  EXPECT_NE(spec.name(), name);
+}
+
 TEST(GridSpec, different_grids_have_different_names) {
   std::set<std::string> names;
   int count = 0;
