@@ -1,9 +1,30 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geom/domain.h"
 #include "scene/scene.h"
 
 namespace clusterbench::scene {
+namespace {
+
+// Ranges that the domain changes are said, in one line for all of a kind.
+void warn_of_ranges_beyond_the_domain(Scene& scene) {
+  const auto warn = [&](const std::string& what, auto&& is_meant) {
+    std::size_t count = 0;
+    std::string first;
+    for (const Light& light : scene.lights)
+      if (std::isfinite(light.range_m) && light.range_m > 0.0 && is_meant(geom::range_in_domain(light.range_m)) &&
+          count++ == 0)
+        first = light.name;
+    if (count > 0)
+      scene.warnings.push_back(std::to_string(count) + (count == 1 ? " light" : " lights") + what +
+                               (count == 1 ? ": '" : ": first '") + first + "'");
+  };
+  warn(" with a range above 1e15 m, taken as endless", [](double taken) { return std::isinf(taken); });
+  warn(" with a range below 1e-15 m, taken as none", [](double taken) { return taken == 0.0; });
+}
+
+}  // namespace
 
 void resolve_range(Light& light, const RangeRule& rule) {
   if (light.type == LightType::directional) return;
@@ -22,6 +43,7 @@ void resolve_range(Light& light, const RangeRule& rule) {
 void resolve_ranges(Scene& scene, const RangeRule& rule) {
   scene.range_rule = rule;
   for (Light& light : scene.lights) resolve_range(light, rule);
+  warn_of_ranges_beyond_the_domain(scene);
 }
 
 }  // namespace clusterbench::scene

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "geom/domain.h"
 #include "scene/camera_path.h"
 #include "scene/domain.h"
 
@@ -238,6 +239,16 @@ Sight look_through_cameras(const Scene& scene, Summary& summary) {
   return sight;
 }
 
+// `run` refuses them.
+void warn_of_steep_cameras(const Scene& scene, Summary& summary) {
+  for (const Camera& camera : scene.cameras) {
+    const HalfExtents half = rectangle_of(camera.lens);
+    if (!camera.lens.orthographic && !camera.lens.sides && std::max(half.width, half.height) > geom::k_steepest_slope)
+      summary.warnings.push_back("camera '" + camera.name +
+                                 "' shows more than 89.9994 degrees to one side and can not be measured");
+  }
+}
+
 void warn_of_lights(const Scene& scene, const Sight& sight, Summary& summary) {
   std::vector<std::string> without_range, useless, black, unseen;
   const double diagonal = usual_distance(scene);
@@ -269,6 +280,7 @@ Summary summarise(const Scene& scene) {
   count_lights(scene, summary);
   measure_bounds(scene, summary);
   const Sight sight = look_through_cameras(scene, summary);
+  warn_of_steep_cameras(scene, summary);
   warn_of_lights(scene, sight, summary);
   return summary;
 }

@@ -96,6 +96,16 @@ TEST(Summary, black_lights_and_lights_without_volume_are_named) {
   EXPECT_TRUE(warns_of(summarise(scene), "2 lights black or of no range: first 'lamp 1'"));
 }
 
+TEST(Summary, ranges_beyond_the_domain_and_cameras_that_cannot_be_measured_are_named) {
+  Scene scene = scene_with({1e16, 2e16, 1e-16, 1.0, 0.0});
+  scene.cameras[0].lens.yfov_rad = 3.14159;
+  resolve_ranges(scene, {});
+  const Summary summary = summarise(scene);
+  EXPECT_TRUE(warns_of(summary, "2 lights with a range above 1e15 m, taken as endless: first 'lamp 0'"));
+  EXPECT_TRUE(warns_of(summary, "1 light with a range below 1e-15 m, taken as none: 'lamp 2'"));
+  EXPECT_TRUE(warns_of(summary, "camera 'eye' shows more than 89.9994 degrees"));
+}
+
 TEST(Summary, cameras_of_one_name_are_each_looked_through) {
   Scene scene = scene_with({1.0, 2.0});
   scene.nodes[2].translation = {0.0, 0.0, 10.0};
