@@ -38,7 +38,7 @@ class ExactFast final : public Assigner {
     fallbacks_ = 0;
     lights_ = &lights;
     see_lights();
-    if (!planes_.orthographic) shape_balls(planes_, seen_, first_spot_place_, shapes_);
+    if (!planes_.orthographic) shape_balls(seen_, first_spot_place_, shapes_);
     slice_balls_.sort(seen_, planes_.slices);
     const ExactFrame frame{*grid_, planes_, lights, seen_, first_spot_place_, shapes_, slice_balls_};
     if (parts_.empty() || slice_balls_.count() < k_worth_threads) {

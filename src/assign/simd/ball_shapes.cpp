@@ -1,8 +1,5 @@
 #include "assign/simd/ball_shapes.h"
 
-#include <algorithm>
-#include <cmath>
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/simd/ball_shapes.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
@@ -43,9 +40,9 @@ HWY_INLINE V lifted(V radius, V distance_square) {
   return hn::IfThenElse(is_near, hn::Max(radius, hn::Mul(root(distance_square), all(1.0f + 0x1p-21f))), radius);
 }
 
-void shapes_of(const SeenBalls& seen, std::uint32_t count, float widest_slope, BallShapes& out) {
+void shapes_of(const SeenBalls& seen, std::uint32_t count, BallShapes& out) {
   const D d;
-  const V zero = hn::Zero(d), one = all(1.0f), least_part = all(std::max(1.0f, widest_slope) / 7.0f);
+  const V zero = hn::Zero(d), one = all(1.0f);
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const auto load = [&](const auto& from) { return hn::LoadU(d, reinterpret_cast<const float*>(from.data() + i)); };
     // Balls that are everywhere are around the eye, where no product of theirs is infinite minus infinite.
@@ -64,14 +61,19 @@ void shapes_of(const SeenBalls& seen, std::uint32_t count, float widest_slope, B
     const V ahead_square = hn::Mul(hn::Sub(depth, radius), hn::Add(depth, radius));
     const V upright = hn::Add(y_square, ahead_square), square = hn::Add(x_square, upright);
     const M is_outside = hn::Gt(square, zero);
-    // In the picture, where x <= slope * depth, the chord's error moves the touch point by up to slope * depth² /
-    // upright of itself, and upright's by 3 e c² / upright of how far it is away.
-    const V of_small = hn::Mul(from_eye, hn::Div(hn::Mul(all(0x1p-20f), root(from_eye)), radius));
-    const V least = hn::Max(hn::Mul(least_part, depth_square), of_small);
+    // A touch point is as far from the eye as a tangent is long, and not deeper than the ball. The chord's error moves
+    // it by up to |x| depth / upright of itself, and upright's, 3 e c², by that over upright of how far it is away:
+    // that is less than what Certainty asks for, sqrt(7 e radius), and also than 3/16 of the radius.
+    const V tangent = root(square), reach = root(from_eye);
+    const V deepest = hn::Min(hn::Max(zero, hn::Add(depth, radius)), tangent);
+    const V of_chord = hn::Mul(hn::Mul(hn::Abs(x), deepest), all(1.0f / 7.0f));
+    const V of_upright = hn::Mul(hn::Mul(all(0x1p-11f), from_eye), hn::Div(tangent, root(hn::Mul(reach, radius))));
+    const V of_small = hn::Mul(from_eye, hn::Div(hn::Mul(all(0x1p-20f), reach), radius));
+    const V least = hn::Max(of_chord, hn::Max(of_upright, of_small));
     const M is_precise = hn::Ge(hn::Abs(upright), least);
     const V inverse_upright =
         hn::IfThenElse(is_outside, hn::IfThenElseZero(is_precise, hn::Div(one, upright)), infinity());
-    const V lean = hn::IfThenElseZero(is_outside, hn::Div(x, root(square)));
+    const V lean = hn::IfThenElseZero(is_outside, hn::Div(x, tangent));
     hn::StoreInterleaved4(x, y, depth, radius, d, out.sphere.data() + 4 * i);
     hn::StoreInterleaved4(slack, load(seen.light), lean, inverse_upright, d, out.touch.data() + 4 * i);
     const Touches sideways = touches_of(x, depth, radius, ahead_square);
@@ -90,11 +92,11 @@ namespace clusterbench::assign {
 
 HWY_EXPORT(shapes_of);
 
-void shape_balls(const RowPlanes& planes, const SeenBalls& seen, std::uint32_t count, BallShapes& out) {
+void shape_balls(const SeenBalls& seen, std::uint32_t count, BallShapes& out) {
   const std::size_t size = 4 * seen.x.size();
   for (AlignedVector<float>* list : {&out.sphere, &out.touch, &out.extremes})
     if (list->size() < size) list->resize(size);
-  HWY_DYNAMIC_DISPATCH(shapes_of)(seen, count, std::max(std::fabs(planes.left), std::fabs(planes.right)), out);
+  HWY_DYNAMIC_DISPATCH(shapes_of)(seen, count, out);
 }
 
 }  // namespace clusterbench::assign

@@ -7,7 +7,6 @@
 
 #include <cstdint>
 
-#include "assign/simd/row_planes.h"
 #include "assign/simd/seen_balls.h"
 #include "core/aligned_vector.h"
 
@@ -34,6 +33,6 @@ struct BallShapes {
 // (depth² + y² - radius²), and 0 where that is not precise enough to say where; for balls around the eye, which nothing
 // touches, it is infinite, and lean 0. How precise it needs to be: see Certainty in slice_rows.cpp. Balls whose surface
 // nearly goes through the eye, or as a circle seen from aside or from above, are made a little larger, and their slack.
-void shape_balls(const RowPlanes& planes, const SeenBalls& seen, std::uint32_t count, BallShapes& out);
+void shape_balls(const SeenBalls& seen, std::uint32_t count, BallShapes& out);
 
 }  // namespace clusterbench::assign
