@@ -102,6 +102,8 @@ class SpotJudge {
   SpotJudge(const grid::Grid& grid, const view::LightArrays& lights, std::uint32_t light)
       : grid_(grid), lights_(lights), light_(light) {}
 
+  std::uint32_t light() const { return light_; }
+
   bool touches(std::uint32_t cell) {
     if (!decider_) decider_.emplace(lights_.volume(light_));
     const geom::Cell shape = grid_.cell(cell);

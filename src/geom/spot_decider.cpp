@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "geom/exact_axis.h"
@@ -14,8 +13,6 @@ namespace {
 
 using Point = Point3<double>;
 using BoundedPoint = Point3<Bounded>;
-
-constexpr double k_infinity = std::numeric_limits<double>::infinity();
 
 // What a search in doubles takes for nothing, relative to the numbers involved. Whatever it finds is proven, so it only
 // has to be more than rounding.
@@ -46,7 +43,7 @@ BoundedPoint turned(const Mat3d& rotation, const Vec3d& v) {
 
 // The library's sines and cosines are right to 2 roundings, see geom/meets.cpp.
 Bounded nearly(double value) {
-  return value == 0.0 ? Bounded(0.0) : Bounded(value, std::abs(value) * 0x1p-51);
+  return value == 0.0 ? Bounded(0.0) : Bounded(value, bounded::rounded_up(std::abs(value) * 0x1p-51));
 }
 
 template <class PlaneCell>
@@ -67,37 +64,26 @@ std::array<BoundedPoint, 8> corners_of(const ShellPiece& cell) {
   return corners;
 }
 
-// Into the cell, by sides.
-template <class Take>
-void each_slope_normal(float x0, float x1, float y0, float y1, Take&& take) {
-  take(Point{1.0, 0.0, x0});
-  take(Point{-1.0, 0.0, -x1});
-  take(Point{0.0, 1.0, y0});
-  take(Point{0.0, -1.0, -y1});
+// Normals into the cell, as any_of takes them.
+template <class Is>
+bool any_slope_normal(float x0, float x1, float y0, float y1, Is&& is) {
+  return is(Point{1.0, 0.0, x0}) || is(Point{-1.0, 0.0, -x1}) || is(Point{0.0, 1.0, y0}) || is(Point{0.0, -1.0, -y1});
 }
-template <class Take>
-void each_face_normal(const Box&, Take&& take) {
-  for (const double sign : {1.0, -1.0}) {
-    take(Point{sign, 0.0, 0.0});
-    take(Point{0.0, sign, 0.0});
-    take(Point{0.0, 0.0, sign});
-  }
+template <class Is>
+bool any_face_normal(const Box&, Is&& is) {
+  return is(Point{1.0, 0.0, 0.0}) || is(Point{-1.0, 0.0, 0.0}) || is(Point{0.0, 1.0, 0.0}) ||
+         is(Point{0.0, -1.0, 0.0}) || is(Point{0.0, 0.0, 1.0}) || is(Point{0.0, 0.0, -1.0});
 }
-template <class Take>
-void each_face_normal(const FrustumPiece& cell, Take&& take) {
-  if (cell.orthographic) return each_face_normal(Box{}, take);
-  take(Point{0.0, 0.0, 1.0});
-  take(Point{0.0, 0.0, -1.0});
-  each_slope_normal(cell.x0, cell.x1, cell.y0, cell.y1, take);
+template <class Is>
+bool any_face_normal(const FrustumPiece& cell, Is&& is) {
+  if (cell.orthographic) return any_face_normal(Box{}, is);
+  return is(Point{0.0, 0.0, 1.0}) || is(Point{0.0, 0.0, -1.0}) ||
+         any_slope_normal(cell.x0, cell.x1, cell.y0, cell.y1, is);
 }
-// A shell is nearest to the eye's plane at its corners, and has a middle.
-template <class Take>
-void each_face_normal(const ShellPiece& cell, Take&& take) {
-  const Point middle{0.5 * (double{cell.x0} + double{cell.x1}), 0.5 * (double{cell.y0} + double{cell.y1}), -1.0};
-  take(Point{0.0, 0.0, -1.0});
-  take(middle);
-  take(-1.0 * middle);
-  each_slope_normal(cell.x0, cell.x1, cell.y0, cell.y1, take);
+// A near shell lies beyond a plane across the view direction through the least deep of its corners.
+template <class Is>
+bool any_face_normal(const ShellPiece& cell, Is&& is) {
+  return is(Point{0.0, 0.0, -1.0}) || any_slope_normal(cell.x0, cell.x1, cell.y0, cell.y1, is);
 }
 
 // The least of normal·p over a cell.
@@ -119,36 +105,36 @@ Bounded least_over(const ShellPiece& cell, const std::array<BoundedPoint, 8>&, c
   return {0.0, bounded::rounded_up(cell.distance1 * (std::abs(ahead.value) + ahead.error))};
 }
 
-// Of the planes through the apex and an edge; w: corners from the apex.
-template <class PlaneCell, class Take>
-void each_edge_normal(const PlaneCell&, const Point&, const std::array<Point, 8>& w, Take&& take) {
+// Of the planes through the apex and an edge; corners from the apex.
+template <class PlaneCell, class Is>
+bool any_edge_normal(const PlaneCell&, const Point&, const std::array<Point, 8>& corners, Is&& is) {
   for (unsigned corner = 0; corner < 8; ++corner)
     for (const unsigned bit : {1u, 2u, 4u})
-      if ((corner & bit) == 0) take(cross(w[corner], w[corner | bit] - w[corner]));
+      if ((corner & bit) == 0 && is(cross(corners[corner], corners[corner | bit] - corners[corner]))) return true;
+  return false;
 }
 // Edges from shell to shell lie on rays.
-template <class Take>
-void each_edge_normal(const ShellPiece& cell, const Point& apex, const std::array<Point, 8>&, Take&& take) {
+template <class Is>
+bool any_edge_normal(const ShellPiece& cell, const Point& apex, const std::array<Point, 8>&, Is&& is) {
   for (const float x : {cell.x0, cell.x1})
-    for (const float y : {cell.y0, cell.y1}) take(cross(apex, Point{x, y, -1.0}));
+    for (const float y : {cell.y0, cell.y1})
+      if (is(cross(apex, Point{x, y, -1.0}))) return true;
+  return false;
 }
 
-// The cell's point where n·p is least, about.
-template <class PlaneCell>
-Point least_point(const PlaneCell&, const std::array<Point, 8>& corners, const Point& n) {
+Point least_corner(const std::array<Point, 8>& corners, const Point& n) {
   return *std::min_element(corners.begin(), corners.end(),
                            [&](const Point& a, const Point& b) { return dot(n, a) < dot(n, b); });
 }
-// With respect to the apex, as the corners. On the far shell wherever the pyramid's nearest point to -n is.
-Point least_point(const ShellPiece& cell, const std::array<Point, 8>& corners, const Point& n, const Point& apex) {
+// The cell's point where n·p is least, about, from the apex, as the corners are.
+template <class PlaneCell>
+Point least_point(const PlaneCell&, const Point&, const std::array<Point, 8>& corners, const Point& n) {
+  return least_corner(corners, n);
+}
+Point least_point(const ShellPiece& cell, const Point& apex, const std::array<Point, 8>& corners, const Point& n) {
   const Point ahead = about(foot_on_pyramid(Bounded(-1.0) * exactly(n), cell));
   const double size = length(ahead);
-  if (size > 0.0) return (cell.distance1 / size) * ahead - apex;
-  return least_point(FrustumPiece{}, corners, n);
-}
-template <class PlaneCell>
-Point least_point(const PlaneCell& cell, const std::array<Point, 8>& corners, const Point& n, const Point&) {
-  return least_point(cell, corners, n);
+  return size > 0.0 ? (cell.distance1 / size) * ahead - apex : least_corner(corners, n);
 }
 
 // The point of the volume where n·p is largest, from its apex; unit axis.
@@ -219,82 +205,81 @@ bool SpotDecider::leans_away(const Point& normal, const Bounded& along, const Bo
   return !less.is_surely_above(0.0) && tightly().surely_leans_away(tight(normal));
 }
 
+bool SpotDecider::holds_one_of(const std::array<BoundedPoint, 8>& ways) const {
+  const bool is_endless = std::isinf(light_.range);
+  const Bounded square_range = Bounded(light_.range) * light_.range;
+  return std::any_of(ways.begin(), ways.end(), [&](const BoundedPoint& way) {
+    const Bounded square = dot(way, way);
+    if (!(square.value <= square_range.value * (1.0 + k_hardly)) || leans(way) != Verdict::yes) return false;
+    return is_endless || (square - square_range).is_surely_not_above(0.0);
+  });
+}
+
+// Planes through the apex first. If cone and cell have a gap, so have the cone and the cell's own cone from the apex: a
+// plane that touches that along a corner's ray, leaning away from the axis, or along an edge, or along a face. All of
+// their normals are sums of products, exact on lattices. Then planes across the shortest way.
+template <class AnyCell>
+bool SpotDecider::is_separated(const AnyCell& cell, const std::array<BoundedPoint, 8>& corners,
+                               const std::array<Point, 8>& ways) const {
+  const BoundedPoint& apex = ball_.center();
+  const Point apex_about = about(apex), axis_about = about(axis_), axis = (1.0 / length(axis_about)) * axis_about;
+  const double cosine = cosine_.value, sine = sine_.value;
+  double size = 0.0;
+  for (const Point& way : ways) size = std::max(size, length(way));
+  const double hardly = k_hardly * size;
+  const auto is_proven = [&](const Point& normal) {
+    const BoundedPoint n = exactly(normal);
+    return separates(cell, normal, least_over(cell, corners, n) - dot(n, apex));
+  };
+  const auto is_between = [&](const Point& normal) {
+    const double normal_size = length(normal);
+    if (!(normal_size > 0.0)) return false;
+    const Point nearest = least_corner(ways, normal);
+    const double least = dot(normal, nearest) / normal_size;
+    if (!(least >= -hardly)) return false;
+    const double lean = (cosine * dot(normal, axis) + sine * length(cross(normal, axis))) / normal_size;
+    if (!(light_.range * lean <= least + hardly)) return false;
+    if (is_proven(normal)) return true;
+    // Nearly touching both cone and cell: half the way between them.
+    const double distance = length(nearest);
+    if (!(least < hardly && lean < 0.0 && lean > -k_hardly && distance > 0.0)) return false;
+    return is_proven(normal - (0.5 * lean * normal_size / distance) * nearest);
+  };
+  if (is_between(-1.0 * axis_about) || any_face_normal(cell, is_between)) return true;
+  for (const Point& way : ways)
+    if (is_between(dot(way, axis_about) * way - dot(way, way) * axis_about)) return true;
+  if (any_edge_normal(cell, apex_about, ways, [&](const Point& n) { return is_between(n) || is_between(-1.0 * n); }))
+    return true;
+  const double range = std::min(light_.range, 1.01 * size);
+  const auto least = [&](const Point& n) {
+    return least_point(cell, apex_about, ways, n) - farthest_of_volume(n, axis, range, cosine, sine);
+  };
+  return try_separating_directions(ways[0] + ways[7], least, is_proven);
+}
+
 template <class AnyCell>
 Verdict SpotDecider::by_evidence(const AnyCell& cell) const {
   const std::array<BoundedPoint, 8> corners = corners_of(cell);
-  const BoundedPoint& apex = ball_.center();
   std::array<BoundedPoint, 8> ways;
-  std::array<Point, 8> w;
-  double size = 0.0;
+  std::array<Point, 8> ways_about;
   for (std::size_t i = 0; i < 8; ++i) {
-    ways[i] = corners[i] - apex;
-    w[i] = about(ways[i]);
-    size = std::max(size, length(w[i]));
+    ways[i] = corners[i] - ball_.center();
+    ways_about[i] = about(ways[i]);
   }
-  const Bounded square_range = Bounded(light_.range) * light_.range;
-  for (const BoundedPoint& way : ways)
-    if (dot(way, way).value <= square_range.value * (1.0 + k_hardly) && leans(way) == Verdict::yes &&
-        (std::isinf(light_.range) || (dot(way, way) - square_range).is_surely_not_above(0.0)))
-      return Verdict::yes;
-
-  const Point axis_given = about(axis_), axis = (1.0 / length(axis_given)) * axis_given;
-  const double cosine = cosine_.value, sine = sine_.value;
-  bool found = false;
-  const auto prove = [&](const Point& normal) {
-    const BoundedPoint n = exactly(normal);
-    found = separates(cell, normal, least_over(cell, corners, n) - dot(n, apex));
-  };
-  // Of any length.
-  const auto try_normal = [&](const Point& normal) {
-    if (found) return;
-    const double normal_size = length(normal), hardly = k_hardly * size;
-    if (!(normal_size > 0.0)) return;
-    std::size_t least_at = 0;
-    double least = k_infinity;
-    for (std::size_t i = 0; i < 8 && least >= -hardly; ++i) {
-      const double ahead = dot(normal, w[i]) / normal_size;
-      if (ahead < least) least_at = i;
-      least = std::min(least, ahead);
-    }
-    if (!(least >= -hardly)) return;
-    const double lean = (cosine * dot(normal, axis) + sine * length(cross(normal, axis))) / normal_size;
-    if (!(light_.range * lean <= least + hardly)) return;
-    prove(normal);
-    // Through the apex, and nearly touching both cone and cell: half the way between them.
-    const double distance = length(w[least_at]);
-    if (found || !(least < hardly) || !(lean < 0.0) || !(lean > -k_hardly) || !(distance > 0.0)) return;
-    prove(normal - (0.5 * lean * normal_size / distance) * w[least_at]);
-  };
-  try_normal(-1.0 * axis_given);
-  each_face_normal(cell, try_normal);
-  for (const Point& way : w) try_normal(dot(way, axis_given) * way - dot(way, way) * axis_given);
-  each_edge_normal(cell, about(apex), w, [&](const Point& normal) {
-    try_normal(normal);
-    try_normal(-1.0 * normal);
-  });
-  if (found) return Verdict::no;
-  const double range = std::min(light_.range, 1.01 * size);
-  const auto least = [&](const Point& n) {
-    return least_point(cell, w, n, about(apex)) - farthest_of_volume(n, axis, range, cosine, sine);
-  };
-  const bool is_apart = try_separating_directions(w[0] + w[7], least, [&](const Point& n) {
-    prove(n);
-    return found;
-  });
-  return is_apart ? Verdict::no : Verdict::open;
+  if (holds_one_of(ways)) return Verdict::yes;
+  return is_separated(cell, corners, ways_about) ? Verdict::no : Verdict::open;
 }
 
 Verdict SpotDecider::meets_quickly(const Cell& cell) const {
   const bool is_endless = std::isinf(light_.range);
   if (!is_endless && !ball_.meets(cell)) return Verdict::no;
-  if (apex_.meets(cell)) return Verdict::yes;
   const auto nearest = std::visit([&](const auto& shape) { return ball_.nearest_point(shape); }, cell);
   if (nearest) {
     // Ball and cell have the nearest point in common, and nothing far from it.
     if (leans(nearest->way) == Verdict::yes) return Verdict::yes;
     if (!is_endless && leans(widened(nearest->way, nearest->play)) == Verdict::no) return Verdict::no;
   }
-  return Verdict::open;
+  return apex_.meets(cell) ? Verdict::yes : Verdict::open;
 }
 
 Verdict SpotDecider::meets_after_all(const Cell& cell) const {

@@ -21,7 +21,7 @@ class SpotDecider {
   Verdict meets(const Cell& cell) const;
   // In two parts: what half a microsecond tells, mostly, and the rest.
   Verdict meets_quickly(const Cell& cell) const;
-  Verdict meets_after_all(const Cell& cell) const;
+  Verdict meets_after_all(const Cell& cell) const;  // of a cell that meets_quickly leaves open
 
   // How many cells were decided by more than doubles.
   std::uint64_t exact_decisions() const { return ball_.exact_decisions() + apex_.exact_decisions() + exact_decisions_; }
@@ -37,6 +37,12 @@ class SpotDecider {
   bool leans_away(const Point3<double>& normal, const Bounded& along, const Bounded& square_across) const;
 
   const TightSpot& tightly() const;  // without its range
+  // Is one of the points, given from the apex, certainly in the volume?
+  bool holds_one_of(const std::array<Point3<Bounded>, 8>& ways) const;
+  // Is there a plane between? Its corners, and where these are, about, from the apex.
+  template <class AnyCell>
+  bool is_separated(const AnyCell& cell, const std::array<Point3<Bounded>, 8>& corners,
+                    const std::array<Point3<double>, 8>& ways) const;
   template <class AnyCell>
   Verdict by_evidence(const AnyCell& cell) const;
 

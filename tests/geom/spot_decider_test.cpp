@@ -178,7 +178,56 @@ TEST(SpotDecider, says_what_slow_proofs_say_far_from_the_eye) {
   EXPECT_GT(expect_agreement(900, make), 300);
 }
 
-// A tie that costs a wrong quick answer costs no error elsewhere: what is decided in doubles has to be the usual case.
+// The half-space in front of a spot of 90° begins at its apex; its edges' ends are out of range.
+TEST(SpotDecider, of_90_degrees_reaches_a_face_that_is_an_ulp_in_front_of_its_apex) {
+  LightVolume light;
+  light.is_cone = true;
+  light.range = 3.0;
+  light.direction = {1, 0, 0};
+  light.half_angle_rad = k_quarter_turn;
+  const Box box{{0, -10, -30}, {1, 10, -1}};
+  for (const double x : {1.0, by_ulps(1.0, 1), 2.0}) {
+    light.apex.position = {x, 0, 0};
+    EXPECT_EQ(SpotDecider(light).meets(box), Verdict::no) << x;
+  }
+  for (const double x : {by_ulps(1.0, -1), 0.999}) {
+    light.apex.position = {x, 0, 0};
+    EXPECT_EQ(SpotDecider(light).meets(box), Verdict::yes) << x;
+  }
+}
+
+// Of the plane through a centre: cells that touch it from its front.
+TEST(BallDecider, tells_whether_a_cell_is_in_front_of_a_plane_through_the_centre) {
+  struct Touch {
+    Cell cell;
+    Vec3d center;
+    Point3<double> normal;
+    int axis, back;  // where the cell sticks out
+  };
+  const std::array<Touch, 6> touches{
+      Touch{Box{{1, 2, -5}, {3, 4, -3}}, {7, -1, -8}, {1, 1, 1}, 0, 1},
+      Touch{FrustumPiece{0.25f, 0.5f, -1.0f, 2.0f, 4.0f, 8.0f, false}, {1, 9, -7}, {1, 0, 0}, 0, 1},
+      // With the far shell: a corner, an edge and the middle. With the near shell: a corner.
+      Touch{ShellPiece{0.5f, 1.0f, -0.5f, 0.0f, 1.0f, 3.0f}, {1, -2, -1}, {-1, 1, 0}, 0, -1},
+      Touch{ShellPiece{0.0f, 0.75f, -1.0f, 1.0f, 1.0f, 5.0f}, {3, 7, -4}, {-3, 0, 4}, 0, -1},
+      Touch{ShellPiece{0.25f, 0.75f, 0.5f, 1.0f, 1.0f, 7.0f}, {-2.5, 6, -6}, {-2, -3, 6}, 1, -1},
+      Touch{ShellPiece{0.0f, 0.5f, -1.0f, -0.5f, 3.0f, 7.0f}, {4, 1, -5}, {-1, 0, -1}, 0, -1}};
+  for (std::size_t i = 0; i < touches.size(); ++i) {
+    const Touch& touch = touches[i];
+    const auto is_in_front = [&](int ulps) {
+      Placement center;
+      center.position = touch.center;
+      center.position[touch.axis] = by_ulps(center.position[touch.axis], ulps);
+      return std::visit([&](const auto& cell) { return BallDecider(center, 1.0).has_in_front(touch.normal, cell); },
+                        touch.cell);
+    };
+    EXPECT_TRUE(is_in_front(0)) << i;
+    EXPECT_TRUE(is_in_front(-touch.back)) << i;
+    EXPECT_FALSE(is_in_front(touch.back)) << i;
+  }
+}
+
+// Ties of the scenes/lattice kind: decided before anything exact is needed, an ulp from touching included.
 TEST(SpotDecider, decides_spots_that_shine_straight_at_a_plane_they_just_reach_in_doubles) {
   SplitMix64 random(59);
   for (int i = 0; i < 300; ++i) {
