@@ -34,7 +34,7 @@ void find(benchmark::State& state, const std::string& name, grid::Kind kind) {
 }
 
 // Spots that the filter leaves open against cells, on a lattice or moved off it by roundings.
-std::vector<std::pair<geom::LightVolume, geom::Cell>> open_spots(bool is_shell, bool on_lattice) {
+std::vector<std::pair<geom::LightVolume, geom::Cell>> open_spots(const std::string& kind, bool on_lattice) {
   SplitMix64 random(5);
   const auto whole = [&](int lo, int hi) { return lo + static_cast<double>(random.below(std::uint64_t(hi - lo + 1))); };
   std::vector<std::pair<geom::LightVolume, geom::Cell>> found;
@@ -49,15 +49,16 @@ std::vector<std::pair<geom::LightVolume, geom::Cell>> open_spots(bool is_shell, 
     if (!on_lattice) light.apex.position += 0x1p-45 * Vec3d(random.unit(), random.unit(), random.unit());
     const auto x = static_cast<float>(0.25 * whole(-4, 3)), y = static_cast<float>(0.25 * whole(-4, 3));
     const auto near = static_cast<float>(whole(0, 6)), far = near + static_cast<float>(whole(1, 6));
-    const geom::Cell cell = is_shell ? geom::Cell(geom::ShellPiece{x, x + 0.5f, y, y + 0.5f, near, far})
-                                     : geom::Cell(geom::FrustumPiece{x, x + 0.5f, y, y + 0.5f, near, far, false});
+    geom::Cell cell = geom::FrustumPiece{x, x + 0.5f, y, y + 0.5f, near, far, false};
+    if (kind == "shells") cell = geom::ShellPiece{x, x + 0.5f, y, y + 0.5f, near, far};
+    if (kind == "boxes") cell = geom::Box{{8 * x, 8 * y, -far}, {8 * x + 4, 8 * y + 4, -near}};
     if (geom::filter_meets(light, cell) == geom::Verdict::open) found.emplace_back(light, cell);
   }
   return found;
 }
 
-void decide(benchmark::State& state, bool is_shell, bool on_lattice) {
-  const auto pairs = open_spots(is_shell, on_lattice);
+void decide(benchmark::State& state, const std::string& kind, bool on_lattice) {
+  const auto pairs = open_spots(kind, on_lattice);
   for (auto _ : state)
     for (const auto& [light, cell] : pairs) benchmark::DoNotOptimize(geom::decide_meets(light, cell));
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(pairs.size()));
@@ -66,12 +67,10 @@ void decide(benchmark::State& state, bool is_shell, bool on_lattice) {
 }  // namespace
 
 void register_truth() {
-  for (const bool is_shell : {false, true})
+  for (const std::string kind : {"frustum", "shells", "boxes"})
     for (const bool on_lattice : {false, true})
-      benchmark::RegisterBenchmark(
-          (std::string("decide_spot/") + (is_shell ? "shells" : "frustum") + (on_lattice ? "/lattice" : "/nudged"))
-              .c_str(),
-          [=](benchmark::State& state) { decide(state, is_shell, on_lattice); })
+      benchmark::RegisterBenchmark(("decide_spot/" + kind + (on_lattice ? "/lattice" : "/nudged")).c_str(),
+                                   [=](benchmark::State& state) { decide(state, kind, on_lattice); })
           ->Unit(benchmark::kMillisecond);
   for (const char* name : {"hall-512", "hall-1024", "hall-4096", "open-world", "jam"})
     for (const grid::Kind kind : {grid::Kind::frustum, grid::Kind::distance, grid::Kind::cascades, grid::Kind::world})

@@ -10,6 +10,7 @@
 #include "geom/ball.h"
 #include "geom/meets.h"
 #include "geom/row_slopes.h"
+#include "geom/spot_decider.h"
 #include "grid/grid.h"
 #include "grid/index_range.h"
 #include "view/frame.h"
@@ -101,14 +102,17 @@ class SpotJudge {
   SpotJudge(const grid::Grid& grid, const view::LightArrays& lights, std::uint32_t light)
       : grid_(grid), lights_(lights), light_(light) {}
 
+  std::uint32_t light() const { return light_; }
+
   bool touches(std::uint32_t cell) {
-    if (!filter_) {
-      volume_ = lights_.volume(light_);
-      filter_.emplace(volume_);
-    }
+    if (!decider_) decider_.emplace(lights_.volume(light_));
     const geom::Cell shape = grid_.cell(cell);
-    geom::Verdict verdict = filter_->meets(shape);
-    if (verdict == geom::Verdict::open) verdict = geom::decide_meets(volume_, shape);
+    geom::Verdict verdict = decider_->meets_quickly(shape);
+    if (verdict == geom::Verdict::open) {
+      if (!filter_) filter_.emplace(lights_.volume(light_));
+      verdict = filter_->meets(shape);
+    }
+    if (verdict == geom::Verdict::open) verdict = decider_->meets_after_all(shape);
     return verdict != geom::Verdict::no;
   }
 
@@ -116,7 +120,7 @@ class SpotJudge {
   const grid::Grid& grid_;
   const view::LightArrays& lights_;
   std::uint32_t light_;
-  geom::LightVolume volume_;
+  std::optional<geom::SpotDecider> decider_;
   std::optional<geom::LightFilter> filter_;
 };
 

@@ -10,6 +10,7 @@ void SpotSpans::find(const ExactFrame& frame, int first, int last) {
   frame_ = &frame;
   tests_ = fallbacks_ = 0;
   rows_.count = next_row_ = 0;
+  judge_.reset();
   if (frame.first_spot_place == frame.seen.count) return;
   if (frame.planes.orthographic) {
     batches_.start(frame, &ExactFrame::spots_of, first, last);
@@ -237,10 +238,11 @@ void SpotSpans::decide_ends() {
 
 bool SpotSpans::decide(std::uint32_t place, int column) {
   ++fallbacks_;
-  SpotJudge judge(frame_->grid, frame_->lights, rows_.spot[place] + frame_->lights.points);
+  const std::uint32_t light = rows_.spot[place] + frame_->lights.points;
+  if (!judge_ || judge_->light() != light) judge_.emplace(frame_->grid, frame_->lights, light);
   const Row row =
       row_of(frame_->grid.screen(), static_cast<int>(rows_.slice[place]), static_cast<int>(rows_.row[place]));
-  return judge.touches(row.first_cell + static_cast<std::uint32_t>(column));
+  return judge_->touches(row.first_cell + static_cast<std::uint32_t>(column));
 }
 
 }  // namespace clusterbench::assign

@@ -4,6 +4,8 @@
 // on that are as a whole not touched; then its ends are looked at a few cells at a time, until a cell at either end is
 // touched. In orthographic grids the rows of bounding balls, cell by cell.
 
+#include <optional>
+
 #include "assign/exact_frame.h"
 #include "assign/exact_rows.h"
 #include "assign/simd/spot_rows.h"
@@ -70,6 +72,7 @@ class SpotSpans {
   std::vector<std::uint32_t> waiting_;  // Lits or Ends without an answer
   SpotCells cells_, closer_;            // of all ends; those of them to look at closely
   std::vector<std::uint32_t> closer_places_;
+  std::optional<SpotJudge> judge_;  // of the spot that was asked for last
   std::uint64_t tests_ = 0, fallbacks_ = 0;
 };
 

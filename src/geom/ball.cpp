@@ -100,6 +100,71 @@ Piece pyramid_of(const ShellPiece& cell) {
   return {cell.x0, cell.x1, cell.y0, cell.y1, 0.0, k_infinity};
 }
 
+// From the centre to a gap's other end. Where the side is not certain, the gap is below its error.
+Bounded across(const Gap& gap) {
+  return gap.side == Side::high ? -gap.size : gap.size;
+}
+
+// From the centre to the nearest point of the piece, which is no farther from what was looked at along depth than half
+// the derivative there.
+Point3<Bounded> way_to(const NearestDepth& nearest, const Bounded& x, const Bounded& y, const Bounded& depth,
+                       const Piece& piece) {
+  Bounded way_x = across(gap_between(Bounded(piece.x0) * nearest.at, x, Bounded(piece.x1) * nearest.at));
+  Bounded way_y = across(gap_between(Bounded(piece.y0) * nearest.at, y, Bounded(piece.y1) * nearest.at));
+  Bounded way_z = depth - nearest.at;
+  if (nearest.steepness > 0.0) {
+    const auto move = [&](Bounded& part, double slope0, double slope1) {
+      part.error = bounded::rounded_up(part.error + nearest.steepness * std::max(std::abs(slope0), std::abs(slope1)));
+    };
+    move(way_x, piece.x0, piece.x1);
+    move(way_y, piece.y0, piece.y1);
+    move(way_z, 1.0, 1.0);
+  }
+  return {way_x, way_y, way_z};
+}
+
+// Points p of a convex set in a ball have |p - q|² <= radius² - |q - center|², q the set's nearest point to the centre.
+double play_of(const Bounded& excess, double undershoot) {
+  if (excess.value == 0.0 && excess.error == 0.0 && undershoot == 0.0) return 0.0;
+  return bounded::rounded_up(std::sqrt(bounded::rounded_up(std::max(0.0, -excess.value) + excess.error + undershoot)));
+}
+
+// The squared distance from p to t * u (u of unit length) is t² - 2 t (u·p) + |p|²: whatever t is, the best u is the
+// one with the largest u·p, and then the best t is u·p, pulled between the shells. If the pyramid's point nearest to p,
+// q, is not the eye, u = q/|q|, as u·p <= |q| for every u of the pyramid (the pyramid is convex, and p - q is
+// perpendicular to q and points away from it). If it is the eye, u·p <= 0 everywhere. Then u, a sum of the four rays
+// (each taken of unit length) with weights that add to 1 at least, leans no less towards p in one of these rays.
+//
+// With half of the derivative s at q' (a point at another depth d, nearest to p there), q'·p = |q'|² - d s; so in its
+// direction p is ahead by |q'| - s at least, and q, for which |p - q|² >= |p - q'|² - s², has |q| <= |q'| + |s|.
+PyramidView view_from(const Bounded& of_x, const Bounded& of_y, const Bounded& of_depth, const Piece& pyramid) {
+  PyramidView view{nearest_between(of_x, of_y, of_depth, pyramid), {}, false};
+  const NearestDepth& nearest = view.nearest;
+  view.is_behind = nearest.at == 0.0;
+  if (view.is_behind) {
+    view.along = -k_infinity;
+    any_ray(pyramid, [&](float x, float y) {
+      const Bounded ahead = Bounded(x) * of_x + Bounded(y) * of_y + of_depth;
+      const double length = std::sqrt(1.0 + double{x} * double{x} + double{y} * double{y});
+      const double value = ahead.value / length;
+      const bool is_nothing = ahead.value == 0.0 && ahead.error == 0.0;
+      const double error = is_nothing ? 0.0 : bounded::rounded_up(ahead.error / length + std::abs(value) * 0x1p-50);
+      view.along = larger_of({value, error}, view.along);
+      return false;
+    });
+  } else {
+    const auto place = [&](Side side, const Bounded& of_center, float low, float high) {
+      if (side == Side::between) return of_center;
+      return Bounded(side == Side::low ? low : high) * nearest.at;
+    };
+    const Bounded x = place(nearest.x, of_x, pyramid.x0, pyramid.x1),
+                  y = place(nearest.y, of_y, pyramid.y0, pyramid.y1);
+    view.along = sqrt(x * x + y * y + Bounded(nearest.at) * nearest.at);
+  }
+  if (nearest.steepness > 0.0) view.along.error = bounded::rounded_up(view.along.error + nearest.steepness);
+  return view;
+}
+
 // Exact numbers ---------------------------------------------------------------------------------------------------
 
 Dyadic slope_of(Side side, float low, float high) {
@@ -209,11 +274,7 @@ class ExactPyramid {
     const Dyadic excess = squared(x_) + squared(y_) + squared(depth_) - squared_radius;  // of the eye
     if (nearest.depth == Side::low) return is_near_rays(near, excess);
     const ExactPiece::Foot foot = piece_.foot(nearest.x, nearest.y);
-    const auto place = [&](Side side, const Dyadic& of_center, float low, float high) {
-      return side == Side::between ? of_center * foot.scale : slope_of(side, low, high) * foot.depth;
-    };
-    const Dyadic x = place(nearest.x, x_, pyramid_.x0, pyramid_.x1), y = place(nearest.y, y_, pyramid_.y0, pyramid_.y1);
-    const Dyadic square = squared(x) + squared(y) + squared(foot.depth), scale_square = squared(foot.scale);
+    const Dyadic square = squared_distance(foot, nearest), scale_square = squared(foot.scale);
     if (square.sign() == 0) return is_near_rays(near, excess);
     // t² - 2 t |q| + |p|² <= r² for |q| = sqrt(square) / scale.
     const auto reaches = [&](const Dyadic& t) {
@@ -224,7 +285,32 @@ class ExactPyramid {
     return piece_.is_within(nearest, squared_radius);
   }
 
+  // Is t u·p <= most for all directions u of the pyramid and near <= t <= far?
+  bool is_ahead_at_most(const NearestDepth& guess, const Dyadic& near, const Dyadic& far, const Dyadic& most) const {
+    const NearestDepth nearest = piece_.nearest(guess);
+    if (nearest.depth != Side::low) {
+      const ExactPiece::Foot foot = piece_.foot(nearest.x, nearest.y);
+      const Dyadic square = squared_distance(foot, nearest);
+      // far |q| <= most, |q| = sqrt(square) / scale
+      if (square.sign() != 0) return at_most_root(-(most * foot.scale), -far, square);
+    }
+    return !any_ray(pyramid_, [&](float x, float y) {
+      const Dyadic slope_x(x), slope_y(y);
+      const Dyadic ahead = near * (slope_x * x_ + slope_y * y_ + depth_);
+      return !at_most_root(ahead, most, Dyadic(1.0) + squared(slope_x) + squared(slope_y));
+    });
+  }
+
  private:
+  // The foot's from the eye, times the square of its scale.
+  Dyadic squared_distance(const ExactPiece::Foot& foot, const NearestDepth& nearest) const {
+    const auto place = [&](Side side, const Dyadic& of_center, float low, float high) {
+      return side == Side::between ? of_center * foot.scale : slope_of(side, low, high) * foot.depth;
+    };
+    return squared(place(nearest.x, x_, pyramid_.x0, pyramid_.x1)) +
+           squared(place(nearest.y, y_, pyramid_.y0, pyramid_.y1)) + squared(foot.depth);
+  }
+
   // t² - 2 t (u·p) + |p|² <= r² for a ray u.
   bool is_near_rays(const Dyadic& t, const Dyadic& excess) const {
     const Dyadic above = squared(t) + excess, twice = Dyadic(2.0) * t;
@@ -253,6 +339,7 @@ BallDecider::BallDecider(const Placement& center, double radius)
   x_ = local[0];
   y_ = local[1];
   depth_ = -local[2];
+  center_ = {local[0], local[1], local[2]};
 }
 
 const BallDecider::Exactly& BallDecider::exactly() const {
@@ -310,39 +397,8 @@ bool BallDecider::meets(const FrustumPiece& cell) const {
   });
 }
 
-// The squared distance from p to t * u (u of unit length) is t² - 2 t (u·p) + |p|²: whatever t is, the best u is the
-// one with the largest u·p, and then the best t is u·p, pulled between the shells. If the pyramid's point nearest to p,
-// q, is not the eye, u = q/|q|, as u·p <= |q| for every u of the pyramid (the pyramid is convex, and p - q is
-// perpendicular to q and points away from it). If it is the eye, u·p <= 0 everywhere. Then u, a sum of the four rays
-// (each taken of unit length) with weights that add to 1 at least, leans no less towards p in one of these rays.
-//
-// With half of the derivative s at q' (a point at another depth d, nearest to p there), q'·p = |q'|² - d s; so in its
-// direction p is ahead by |q'| - s at least, and q, for which |p - q|² >= |p - q'|² - s², has |q| <= |q'| + |s|.
 PyramidView BallDecider::view_of(const ShellPiece& cell) const {
-  const Piece pyramid = pyramid_of(cell);
-  PyramidView view{nearest_between(x_, y_, depth_, pyramid), {}, false};
-  const NearestDepth& nearest = view.nearest;
-  view.is_behind = nearest.at == 0.0;
-  if (view.is_behind) {
-    view.along = -k_infinity;
-    any_ray(pyramid, [&](float x, float y) {
-      const Bounded ahead = Bounded(x) * x_ + Bounded(y) * y_ + depth_;
-      const double length = std::sqrt(1.0 + double{x} * double{x} + double{y} * double{y});
-      const double value = ahead.value / length;
-      const double error = bounded::rounded_up(ahead.error / length + std::abs(value) * 0x1p-50);
-      view.along = {std::max(value, view.along.value), std::max(error, view.along.error)};
-      return false;
-    });
-  } else {
-    const auto place = [&](Side side, const Bounded& of_center, float low, float high) {
-      if (side == Side::between) return of_center;
-      return Bounded(side == Side::low ? low : high) * nearest.at;
-    };
-    const Bounded x = place(nearest.x, x_, pyramid.x0, pyramid.x1), y = place(nearest.y, y_, pyramid.y0, pyramid.y1);
-    view.along = sqrt(x * x + y * y + Bounded(nearest.at) * nearest.at);
-  }
-  if (nearest.steepness > 0.0) view.along.error = bounded::rounded_up(view.along.error + nearest.steepness);
-  return view;
+  return view_from(x_, y_, depth_, pyramid_of(cell));
 }
 
 bool BallDecider::meets(const ShellPiece& cell, const PyramidView& view) const {
@@ -361,6 +417,112 @@ bool BallDecider::meets(const ShellPiece& cell, const PyramidView& view) const {
     return ExactPyramid(ball.x, ball.y, ball.depth, pyramid_of(cell))
         .is_within(view.nearest, Dyadic(cell.distance0), Dyadic(cell.distance1), ball.squared_radius);
   });
+}
+
+bool BallDecider::has_corners_in_front(const Point3<double>& normal, const Corners& corners) const {
+  try {
+    const Exactly& ball = exactly();
+    const Dyadic x(normal.x), y(normal.y), z(normal.z), least = x * ball.x + y * ball.y - z * ball.depth;
+    return std::all_of(corners.begin(), corners.end(), [&](const Point3<double>& p) {
+      return x * Dyadic(p.x) + y * Dyadic(p.y) + z * Dyadic(p.z) >= least;
+    });
+  } catch (const TooWide&) {
+    return false;
+  }
+}
+
+bool BallDecider::has_in_front(const Point3<double>& normal, const FrustumPiece& cell) const {
+  return has_corners_in_front(normal, exact_corners(cell));
+}
+
+bool BallDecider::has_in_front(const Point3<double>& normal, const Box& cell) const {
+  return has_corners_in_front(normal, exact_corners(cell));
+}
+
+// Over t u for t between the shells and u a direction of the pyramid, normal·(t u) is least where u leans most towards
+// the opposite of the normal: far |q| below 0 for a point q of the pyramid (see view_from), or in a ray.
+bool BallDecider::has_in_front(const Point3<double>& normal, const ShellPiece& cell) const {
+  try {
+    const Exactly& ball = exactly();
+    const Dyadic x(-normal.x), y(-normal.y), depth(normal.z);
+    const NearestDepth guess = view_from(-normal.x, -normal.y, normal.z, pyramid_of(cell)).nearest;
+    return ExactPyramid(x, y, depth, pyramid_of(cell))
+        .is_ahead_at_most(guess, Dyadic(cell.distance0), Dyadic(cell.distance1),
+                          x * ball.x + y * ball.y + depth * ball.depth);
+  } catch (const TooWide&) {
+    return false;
+  }
+}
+
+Bounded farthest_ahead(const Point3<Bounded>& direction, const ShellPiece& tile) {
+  return view_from(direction.x, direction.y, -direction.z, pyramid_of(tile)).along;
+}
+
+std::optional<NearestPoint> BallDecider::nearest_point(const Box& cell) const {
+  const Gap x = gap_between(cell.lo.x, x_, cell.hi.x), y = gap_between(cell.lo.y, y_, cell.hi.y),
+            z = gap_between(cell.lo.z, -depth_, cell.hi.z);
+  const Bounded excess = x.size * x.size + y.size * y.size + z.size * z.size - squared_radius_;
+  return NearestPoint{{across(x), across(y), across(z)}, play_of(excess, 0.0)};
+}
+
+std::optional<NearestPoint> BallDecider::nearest_point(const FrustumPiece& cell) const {
+  if (cell.orthographic) return nearest_point(Box{{cell.x0, cell.y0, -cell.depth1}, {cell.x1, cell.y1, -cell.depth0}});
+  const Piece piece{cell.x0, cell.x1, cell.y0, cell.y1, cell.depth0, cell.depth1};
+  const NearestDepth nearest = nearest_between(x_, y_, depth_, piece);
+  return NearestPoint{way_to(nearest, x_, y_, depth_, piece),
+                      play_of(nearest.square - squared_radius_, nearest.undershoot())};
+}
+
+Point3<Bounded> foot_on_pyramid(const Point3<Bounded>& point, const ShellPiece& tile) {
+  const Piece pyramid = pyramid_of(tile);
+  const NearestDepth nearest = nearest_between(point.x, point.y, -point.z, pyramid);
+  return point + way_to(nearest, point.x, point.y, -point.z, pyramid);
+}
+
+// Seen from behind, the corner on the near shell whose ray leans to the centre most, if that is certain.
+std::optional<NearestPoint> BallDecider::nearest_ray(const PyramidView& view, const ShellPiece& cell) const {
+  if (view.nearest.steepness > 0.0 && !(-view.along).is_surely_above(0.0)) return std::nullopt;
+  std::optional<NearestPoint> nearest;
+  Bounded most_ahead;
+  bool is_certain = true;
+  any_ray(pyramid_of(cell), [&](float x, float y) {
+    const Point3<Bounded> ray{x, y, -1.0};
+    const Bounded length = sqrt(dot(ray, ray)), ahead = dot(ray, center_) / length;
+    const bool is_next = !nearest || ahead.value > most_ahead.value;
+    if (nearest) {
+      const Bounded less = is_next ? ahead - most_ahead : most_ahead - ahead;
+      is_certain = is_certain && (-less).is_surely_not_above(0.0);
+    }
+    if (!is_next) return false;
+    most_ahead = ahead;
+    nearest = NearestPoint{(Bounded(cell.distance0) / length) * ray - center_, k_infinity};
+    return false;
+  });
+  return is_certain ? nearest : std::nullopt;
+}
+
+// Not behind, see view_of(). If t, the distance of the nearest point from the eye, is not cut off by the near shell,
+// the pyramid up to the far shell is the convex set. Else points p = s u, s >= near = t, are at least as far from the
+// centre c as from its foot a u* on the nearest ray, aside of which it is: |p - c|² >= |p - a u*|² + |c|² - a². With e
+// = radius² - |c|² + a² - (near - a)² that leaves |p - near u*|² <= e near / a.
+std::optional<NearestPoint> BallDecider::nearest_point(const ShellPiece& cell) const {
+  const PyramidView view = view_of(cell);
+  const Bounded near(cell.distance0), far(cell.distance1);
+  if (view.is_behind) return nearest_ray(view, cell);
+  if (!view.along.is_surely_above(0.0)) return std::nullopt;
+  const Point3<Bounded> way = way_to(view.nearest, x_, y_, depth_, pyramid_of(cell));
+  const Gap gap = gap_between(near, view.along, far);
+  const Bounded excess = view.nearest.square + gap.size * gap.size - squared_radius_;
+  double play = play_of(excess, view.nearest.undershoot());
+  if (gap.side == Side::between && gap.size.error == 0.0) return NearestPoint{way, play};
+  if (gap.side == Side::low || gap.size.error > 0.0) {
+    const double factor = view.along.value - view.along.error;
+    if (play > 0.0)
+      play = factor > 0.0 ? bounded::rounded_up(play * std::sqrt(std::max(1.0, near.value / factor))) : k_infinity;
+  }
+  // From the foot on further along the ray.
+  const Bounded further = across(gap) / view.along;
+  return NearestPoint{way + further * (center_ + way), play};
 }
 
 bool BallDecider::meets(const Cell& cell) const {

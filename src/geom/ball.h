@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "geom/bounded.h"
+#include "geom/corners.h"
 #include "geom/dyadic.h"
 #include "geom/placement.h"
 #include "geom/shapes.h"
@@ -37,6 +38,20 @@ struct PyramidView {
   bool is_behind;
 };
 
+// How far a point (or its direction times its length) is ahead in the direction of a tile's pyramid that leans to it
+// most; negative if all lean away from it.
+Bounded farthest_ahead(const Point3<Bounded>& point, const ShellPiece& tile);
+
+// The point of a tile's pyramid that is nearest to a point, about.
+Point3<Bounded> foot_on_pyramid(const Point3<Bounded>& point, const ShellPiece& tile);
+
+// The way from a ball's centre to a cell's nearest point (of the convex set that a shell piece's outer side and its
+// pyramid bound, or of the shell). No point that ball and cell share is farther from it than `play`.
+struct NearestPoint {
+  Point3<Bounded> way;
+  double play;
+};
+
 // One ball for many cells, and one thread.
 class BallDecider {
  public:
@@ -52,6 +67,17 @@ class BallDecider {
   // view: that of this cell, or of another one with the same tile.
   bool meets(const ShellPiece& cell, const PyramidView& view) const;
 
+  const Point3<Bounded>& center() const { return center_; }
+  // Nothing where doubles tell too little.
+  std::optional<NearestPoint> nearest_point(const FrustumPiece& cell) const;
+  std::optional<NearestPoint> nearest_point(const Box& cell) const;
+  std::optional<NearestPoint> nearest_point(const ShellPiece& cell) const;
+
+  // Is normal·(p - center) >= 0 for all points p of the cell? Exactly; false also for numbers that are too wide for it.
+  bool has_in_front(const Point3<double>& normal, const FrustumPiece& cell) const;
+  bool has_in_front(const Point3<double>& normal, const Box& cell) const;
+  bool has_in_front(const Point3<double>& normal, const ShellPiece& cell) const;
+
   // How many cells were decided by exact numbers.
   std::uint64_t exact_decisions() const { return exact_decisions_; }
 
@@ -61,12 +87,15 @@ class BallDecider {
   };
   const Exactly& exactly() const;
   // exact(ball): the answer in exact numbers, or TooWide.
+  std::optional<NearestPoint> nearest_ray(const PyramidView& view, const ShellPiece& cell) const;
+  bool has_corners_in_front(const Point3<double>& normal, const Corners& corners) const;
   template <class AnyCell, class Exact>
   bool decided(const AnyCell& cell, Exact&& exact) const;
 
   Placement placement_;
   double radius_;
   Bounded x_, y_, depth_, squared_radius_;
+  Point3<Bounded> center_;
   mutable std::optional<Exactly> exactly_;
   mutable std::uint64_t exact_decisions_ = 0;
 };

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace clusterbench::geom {
 
@@ -71,6 +72,24 @@ inline Bounded operator*(const Bounded& a, const Bounded& b) {
   const double rounding = is_exact ? 0.0 : std::abs(product) * 0x1p-53;
   return {product, bounded::rounded_up(std::abs(a.value) * b.error + std::abs(b.value) * a.error + a.error * b.error +
                                        rounding)};
+}
+
+// |a/b - a'/b'| <= (error of a + |a'/b'| * error of b) / |b|. Exact where the product of quotient and divisor is.
+inline Bounded operator/(const Bounded& a, const Bounded& b) {
+  const double divisor = std::abs(b.value) * (1.0 - 0x1p-50) - b.error * (1.0 + 0x1p-50);
+  if (!(divisor > 0.0)) return {0.0, std::numeric_limits<double>::infinity()};
+  const double quotient = a.value / b.value, product = quotient * b.value;
+  if (a.error == 0.0 && b.error == 0.0 && product == a.value && bounded::is_exact_product(quotient, b.value, product))
+    return quotient;
+  return {quotient, bounded::rounded_up((a.error + std::abs(quotient) * b.error) / divisor +
+                                        std::abs(quotient) * 0x1p-53 + 0x1p-1000 / divisor)};
+}
+
+// The larger of two: the one that certainly is, or where that is not certain, either.
+inline Bounded larger_of(const Bounded& a, const Bounded& b) {
+  const Bounded &high = a.value < b.value ? b : a, &low = a.value < b.value ? a : b;
+  const bool is_sure = high.value - low.value >= bounded::rounded_up(high.error + low.error);
+  return {high.value, is_sure || (high.error == 0.0 && low.error == 0.0) ? high.error : std::max(a.error, b.error)};
 }
 
 // The largest of a, b and 0.

@@ -8,7 +8,7 @@
 #include "geom/candidates.h"
 #include "geom/search.h"
 #include "geom/separation.h"
-#include "geom/spot.h"
+#include "geom/spot_decider.h"
 
 namespace clusterbench::geom {
 namespace {
@@ -312,15 +312,6 @@ struct Filter {
   }
 };
 
-struct Decides {
-  const LightVolume& light;
-
-  template <class AnyCell>
-  Verdict operator()(const AnyCell& cell) const {
-    return decide_spot(light, cell);
-  }
-};
-
 }  // namespace
 
 LightFilter::LightFilter(const LightVolume& light) : volume_(volume_of<double>(light)) {}
@@ -341,13 +332,9 @@ Verdict filter_meets(const LightVolume& light, const Cell& cell) {
   return LightFilter(light).meets(cell);
 }
 
-// Of a spot its ball comes first: it says no to most, touches but for a rounding included, and whether the cell holds
-// the apex, the ball of radius 0, costs as little.
 Verdict decide_meets(const LightVolume& light, const Cell& cell) {
-  const bool ball_meets = std::isinf(light.range) || BallDecider(light.apex, light.range).meets(cell);
-  if (!light.is_cone || !ball_meets) return ball_meets ? Verdict::yes : Verdict::no;
-  if (BallDecider(light.apex, 0.0).meets(cell)) return Verdict::yes;
-  return std::visit(Decides{light}, cell);
+  if (light.is_cone) return SpotDecider(light).meets(cell);
+  return std::isinf(light.range) || BallDecider(light.apex, light.range).meets(cell) ? Verdict::yes : Verdict::no;
 }
 
 }  // namespace clusterbench::geom

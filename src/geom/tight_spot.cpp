@@ -26,13 +26,25 @@ TightSpot::TightSpot(const LightVolume& light, double range_m)
 }
 
 // Inside of the cone's side: sin² along² > cos² across², which keeps its digits for narrow cones.
+Verdict TightSpot::leans(const TightPoint& way) const {
+  const Tight along = dot(way, direction);
+  if (!(k_zero < along)) return Verdict::open;
+  const TightPoint across = cross(way, direction);
+  const Tight inside = squared(sine * along), outside = squared(cosine) * dot(across, across);
+  return outside < inside ? Verdict::yes : inside < outside ? Verdict::no : Verdict::open;
+}
+
+// cos along + sin across < 0
+bool TightSpot::surely_leans_away(const TightPoint& way) const {
+  const Tight along = dot(way, direction);
+  if (!(along < k_zero)) return false;
+  const TightPoint across = cross(way, direction);
+  return squared(sine) * dot(across, across) < squared(cosine * along);
+}
+
 bool TightSpot::surely_holds(const TightPoint& p) const {
   const TightPoint v = p - apex;
-  if (!(dot(v, v) < squared(range))) return false;
-  const Tight along = dot(v, direction);
-  if (!(k_zero < along)) return false;
-  const TightPoint across = cross(v, direction);
-  return squared(cosine) * dot(across, across) < squared(sine * along);
+  return dot(v, v) < squared(range) && leans(v) == Verdict::yes;
 }
 
 // The volume extends from its apex along a unit vector w by range if w is in the cone, else by range times

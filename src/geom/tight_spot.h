@@ -8,6 +8,7 @@
 
 #include "geom/light_volume.h"
 #include "geom/tight.h"
+#include "geom/verdict.h"
 
 namespace clusterbench::geom {
 
@@ -61,6 +62,10 @@ struct TightSpot {
   // range_m: finite, and the light's range as far as it matters.
   TightSpot(const LightVolume& light, double range_m);
 
+  // Is a direction from the apex (at less than 90° from the axis) in the cone?
+  Verdict leans(const TightPoint& way) const;
+  // Does it certainly lean more than 90° from all of the cone's?
+  bool surely_leans_away(const TightPoint& way) const;
   // Does the volume certainly hold p?
   bool surely_holds(const TightPoint& p) const;
   // Does a plane with this normal (from the volume to the corners; any length) certainly lie between?

@@ -10,6 +10,7 @@
 #include "core/parallel.h"
 #include "geom/ball.h"
 #include "geom/meets.h"
+#include "geom/spot_decider.h"
 #include "measure/truth_rows.h"
 
 namespace clusterbench::measure {
@@ -162,6 +163,7 @@ class TruthFinder {
     geom::LightVolume volume;
     geom::BallDecider decider;  // of points
     geom::LightFilter filter;   // of spots
+    std::optional<geom::SpotDecider> spot;
     BallInSpace ball;
     QuickCone cone;
     grid::IndexRange shells;  // of a distance grid
@@ -171,6 +173,7 @@ class TruthFinder {
         : volume(light),
           decider(light.apex, std::isinf(light.range) ? 0.0 : light.range),  // endless ones ask nothing
           filter(light),
+          spot(light.is_cone ? std::optional<geom::SpotDecider>(light) : std::nullopt),
           ball(ball_in_space(light)),
           cone(light, ball) {}
   };
@@ -291,15 +294,24 @@ class TruthFinder {
   }
 
   void filter(std::uint32_t cell, Search& search) const {
-    const Verdict verdict = search.filter.meets(grid_.cell(cell));
-    if (verdict == Verdict::open) return decide(cell, search);
-    ++search.found.filter_decided;
-    if (verdict == Verdict::yes) search.found.add(cell);
+    const std::uint64_t before = search.spot->exact_decisions();
+    const geom::Cell shape = grid_.cell(cell);
+    Verdict verdict = search.spot->meets_quickly(shape);
+    if (verdict == Verdict::open) verdict = search.filter.meets(shape);
+    if (verdict == Verdict::open) verdict = search.spot->meets_after_all(shape);
+    count_spot(cell, verdict, before, search);
   }
 
   void decide(std::uint32_t cell, Search& search) const {
-    const Verdict verdict = geom::decide_meets(search.volume, grid_.cell(cell));
-    ++(verdict == Verdict::open ? search.found.undecided : search.found.exact_decided);
+    const std::uint64_t before = search.spot->exact_decisions();
+    count_spot(cell, search.spot->meets(grid_.cell(cell)), before, search);
+  }
+
+  static void count_spot(std::uint32_t cell, Verdict verdict, std::uint64_t exact_before, Search& search) {
+    const bool is_exact = search.spot->exact_decisions() != exact_before;
+    ++(verdict == Verdict::open ? search.found.undecided
+       : is_exact               ? search.found.exact_decided
+                                : search.found.filter_decided);
     if (verdict != Verdict::no) search.found.add(cell);
   }
 

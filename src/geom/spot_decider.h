@@ -1,0 +1,57 @@
+#pragma once
+// Does a spot (ball ∩ solid cone) share a point with a cell? First what its ball and its apex tell, then points of the
+// cell that lie in the cone and planes that touch the cone at most at its apex, in doubles with a bound of their error,
+// which is 0 where nothing was rounded: that decides nearly all ties of lattices. The rest: geom/spot.h.
+
+#include <optional>
+
+#include "geom/ball.h"
+#include "geom/light_volume.h"
+#include "geom/tight_spot.h"
+#include "geom/verdict.h"
+
+namespace clusterbench::geom {
+
+// One spot for many cells, and one thread.
+class SpotDecider {
+ public:
+  explicit SpotDecider(const LightVolume& light);
+
+  // Proven, or open.
+  Verdict meets(const Cell& cell) const;
+  // In two parts: what half a microsecond tells, mostly, and the rest.
+  Verdict meets_quickly(const Cell& cell) const;
+  Verdict meets_after_all(const Cell& cell) const;  // of a cell that meets_quickly leaves open
+
+  // How many cells were decided by more than doubles.
+  std::uint64_t exact_decisions() const { return ball_.exact_decisions() + apex_.exact_decisions() + exact_decisions_; }
+
+ private:
+  // Is a direction from the apex, whatever it is within its bounds, in the cone?
+  Verdict leans(const Point3<Bounded>& way) const;
+  // Does a plane with this normal (from the volume to the cell, any length) lie between, `least` being the least that
+  // normal·(p - apex) is over the cell? A plane through the apex may touch the cone there, as the cell does not.
+  template <class AnyCell>
+  bool separates(const AnyCell& cell, const Point3<double>& normal, const Bounded& least) const;
+  // Does a direction lean more than 90° from all of the cone's? Its parts along the axis and, squared, across it.
+  bool leans_away(const Point3<double>& normal, const Bounded& along, const Bounded& square_across) const;
+
+  const TightSpot& tightly() const;  // without its range
+  // Is one of the points, given from the apex, certainly in the volume?
+  bool holds_one_of(const std::array<Point3<Bounded>, 8>& ways) const;
+  // Is there a plane between? Its corners, and where these are, about, from the apex.
+  template <class AnyCell>
+  bool is_separated(const AnyCell& cell, const std::array<Point3<Bounded>, 8>& corners,
+                    const std::array<Point3<double>, 8>& ways) const;
+  template <class AnyCell>
+  Verdict by_evidence(const AnyCell& cell) const;
+
+  LightVolume light_;
+  BallDecider ball_, apex_;  // of the range (if it is finite), and of radius 0
+  Point3<Bounded> axis_;     // any length
+  Bounded axis_square_, cosine_, sine_;
+  mutable std::optional<TightSpot> tightly_;
+  mutable std::uint64_t exact_decisions_ = 0;
+};
+
+}  // namespace clusterbench::geom
