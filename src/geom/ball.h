@@ -1,7 +1,7 @@
 #pragma once
 // Does a ball share a point with a cell? Touching counts. Always decided: in doubles with a bound of their error, which
-// is 0 where nothing is rounded, so that it decides most exact touches, too; what that leaves open by exact numbers
-// (geom/dyadic.h), in signs of polynomials.
+// is 0 where nothing is rounded, so that it decides most exact touches, too; what that leaves open in pairs of doubles
+// with a bound of their error; what even these do by exact numbers (geom/dyadic.h), in signs of polynomials.
 
 #include <cstdint>
 #include <optional>
@@ -10,6 +10,7 @@
 #include "geom/dyadic.h"
 #include "geom/placement.h"
 #include "geom/shapes.h"
+#include "geom/tight.h"
 
 namespace clusterbench::geom {
 
@@ -52,21 +53,26 @@ class BallDecider {
   // view: that of this cell, or of another one with the same tile.
   bool meets(const ShellPiece& cell, const PyramidView& view) const;
 
-  // How many cells were decided by exact numbers.
+  // How many cells doubles left open.
   std::uint64_t exact_decisions() const { return exact_decisions_; }
 
  private:
+  struct Closely {
+    Tight x, y, depth, squared_radius;
+  };
   struct Exactly {
     Dyadic x, y, depth, squared_radius;
   };
+  const Closely& closely() const;
   const Exactly& exactly() const;
-  // exact(ball): the answer in exact numbers, or TooWide.
-  template <class AnyCell, class Exact>
-  bool decided(const AnyCell& cell, Exact&& exact) const;
+  // close(ball): the answer in pairs of doubles; exact(ball): in exact numbers, or TooWide.
+  template <class AnyCell, class Close, class Exact>
+  bool decided(const AnyCell& cell, Close&& close, Exact&& exact) const;
 
   Placement placement_;
   double radius_;
   Bounded x_, y_, depth_, squared_radius_;
+  mutable std::optional<Closely> closely_;
   mutable std::optional<Exactly> exactly_;
   mutable std::uint64_t exact_decisions_ = 0;
 };
