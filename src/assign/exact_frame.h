@@ -49,11 +49,21 @@ class BatchReader {
     last_ = last;
     begin_ = count_ = next_ = 0;
   }
-  // The slice's next batch, null after its last one. Slices must be read to their end, one after the other.
-  BatchRows* next(int slice) {
-    if (next_ == count_) find_more();
+  // The slice's next batch, null after its last one. Slices must be read to their end, one after the other. Of batches
+  // that are found together settle(slice, batch) is called for each before one of them is returned, then finish().
+  template <class Settle, class Finish>
+  const BatchRows* next(int slice, Settle&& settle, Finish&& finish) {
+    if (next_ == count_) {
+      find_more();
+      for (std::size_t i = 0; i < count_; ++i) settle(balls_[i].slice, rows_.batches[i]);
+      finish();
+    }
     if (next_ == count_ || balls_[next_].slice != slice) return nullptr;
     return &rows_.batches[next_++];
+  }
+  const BatchRows* next(int slice) {
+    return next(
+        slice, [](int, BatchRows&) {}, [] {});
   }
   std::size_t capacity_bytes() const { return rows_.capacity_bytes(); }
 

@@ -1,5 +1,6 @@
 #include "assign/exact_slices.h"
 
+#include <bit>
 #include <cmath>
 
 namespace clusterbench::assign {
@@ -8,7 +9,9 @@ using grid::IndexRange;
 
 namespace {
 
+// As BatchRows has it.
 std::uint32_t span_of(const IndexRange& columns) {
+  if (columns.empty()) return BatchRows::k_none;
   return ColumnSpan::of(static_cast<std::uint32_t>(columns.first), static_cast<std::uint32_t>(columns.last));
 }
 
@@ -19,9 +22,8 @@ void ExactSlices::find(const ExactFrame& frame, int first, int last, Lists& out)
   tests_ = fallbacks_ = 0;
   const auto rows = static_cast<std::uint32_t>(frame.planes.rows);
   is_left_.resize(rows);
-  // Of one batch at most, on any machine.
-  open_.reserve(rows * k_row_lanes);
-  questions_.reserve(2 * rows * k_row_lanes);
+  open_.reserve(k_most_open);
+  questions_.reserve(2 * k_most_open);
   spots_.find(frame, first, last);
   batches_.start(frame, &ExactFrame::points_of, first, last);
   spans_.start(static_cast<std::uint32_t>(last - first), rows, static_cast<std::uint32_t>(frame.planes.columns), out);
@@ -39,73 +41,104 @@ std::size_t ExactSlices::scratch_bytes() const {
 }
 
 void ExactSlices::add_points(int slice) {
-  while (BatchRows* batch = batches_.next(slice)) {
+  const auto open = [&](int of_slice, BatchRows& batch) { open_spans(of_slice, batch); };
+  while (const BatchRows* batch = batches_.next(slice, open, [&] { settle_spans(); })) {
     tests_ += batch->tests;
-    if (batch->tests != 0) add_batch(slice, *batch);
+    if (batch->tests != 0)
+      spans_.add_batch(batch->first_row, batch->last_row, batch->columns.data(), batch->lights, is_left_.data());
   }
 }
 
-// Rows with open spans are added once these are decided.
-void ExactSlices::add_batch(int slice, BatchRows& batch) {
-  if (!spans_.add_batch(batch.first_row, batch.last_row, batch.columns.data(), batch.lights, is_left_.data())) return;
-  open_.clear();
-  questions_.count = 0;
-  for (int row = batch.first_row; row <= batch.last_row; ++row)
-    if (is_left_[static_cast<std::size_t>(row)] != 0) ask(slice, batch, row);
-  look_at_balls(frame_->lights.space, frame_->planes.orthographic, questions_);
-  for (const OpenSpan& span : open_) batch.columns_of(span.row)[span.lane] = decided(slice, batch, span);
-  int row = -1;
-  for (const OpenSpan& span : open_) {
-    if (span.row == row) continue;
-    row = span.row;
-    spans_.add_batch(row, row, batch.columns.data(), batch.lights, is_left_.data());
+void ExactSlices::open_spans(int slice, BatchRows& batch) {
+  const int lane_bits = std::countr_zero(batch.lanes);
+  for (std::uint32_t i = 0; i < batch.open_count; ++i) {
+    std::uint32_t& entry = batch.columns[batch.open[i]];
+    const std::uint32_t light = batch.lights[batch.open[i] & (batch.lanes - 1)];
+    OpenSpan span{&entry,
+                  light,
+                  slice,
+                  static_cast<int>(batch.open[i] >> lane_bits),
+                  {BatchRows::first_of(entry), BatchRows::last_of(entry)},
+                  (entry & BatchRows::k_first_is_certain) == 0,
+                  (entry & BatchRows::k_last_is_certain) == 0,
+                  0};
+    if (std::isinf(frame_->lights.radius[light])) {
+      entry = span_of(span.columns);
+      continue;
+    }
+    // What is asked later is not counted: it depends on what the machine could answer before.
+    fallbacks_ += span.asks_first && span.asks_last && span.columns.count() > 1 ? 2 : 1;
+    const float reach = frame_->lights.reach[light];
+    if (!(frame_->planes.least_reach <= reach && reach <= k_most_row_reach)) {
+      entry = span_of(touched_anywhere(span));
+      continue;
+    }
+    if (open_.size() == k_most_open) settle_spans();
+    open_.push_back(span);
   }
 }
 
-void ExactSlices::ask(int slice, const BatchRows& batch, int row) {
-  const Row shape = row_of(frame_->grid.screen(), slice, row);
-  const std::uint32_t* columns = batch.columns_of(row);
-  for (std::uint32_t lane = 0; lane < batch.lanes; ++lane) {
-    if (columns[lane] == BatchRows::k_none || (columns[lane] & BatchRows::k_uncertain) == 0) continue;
-    open_.push_back({row, lane, questions_.count});
-    const scene::WorldLight& light = frame_->lights.source[batch.lights[lane]];
-    const int first = BatchRows::first_of(columns[lane]), last = BatchRows::last_of(columns[lane]);
-    const bool asks_first = (columns[lane] & BatchRows::k_first_is_certain) == 0;
-    if (asks_first) questions_.add(light, piece_of(frame_->grid.screen().tiles, shape, first));
-    if ((columns[lane] & BatchRows::k_last_is_certain) == 0 && !(asks_first && last == first))
-      questions_.add(light, piece_of(frame_->grid.screen().tiles, shape, last));
+void ExactSlices::settle_spans() {
+  while (!open_.empty()) {
+    questions_.count = 0;
+    for (OpenSpan& span : open_) ask(span);
+    look_at_balls(frame_->lights, frame_->planes, questions_);
+    std::size_t kept = 0;
+    for (OpenSpan& span : open_) {
+      if (is_settled(span))
+        *span.entry = span_of(span.columns);
+      else
+        open_[kept++] = span;
+    }
+    open_.resize(kept);
   }
 }
 
-std::uint32_t ExactSlices::decided(int slice, const BatchRows& batch, const OpenSpan& span) {
-  const std::uint32_t light = batch.lights[span.lane], columns = batch.columns_of(span.row)[span.lane];
-  const IndexRange all{BatchRows::first_of(columns), BatchRows::last_of(columns)};
-  if (std::isinf(frame_->lights.radius[light])) return span_of(all);
-  const bool asks_first = (columns & BatchRows::k_first_is_certain) == 0,
-             asks_last = (columns & BatchRows::k_last_is_certain) == 0;
-  const Touch first = asks_first ? questions_.touch[span.first_question] : Touch::yes;
-  const bool has_own_answer = asks_last && !(asks_first && all.first == all.last);
-  const Touch last =
-      has_own_answer ? questions_.touch[span.first_question + (asks_first ? 1 : 0)] : (asks_last ? first : Touch::yes);
-  fallbacks_ += (asks_first ? 1 : 0) + (has_own_answer ? 1 : 0);
-  if (first == Touch::yes && last == Touch::yes) return span_of(all);
-  const IndexRange touched = narrowed_to_touched(all, row_of(frame_->grid.screen(), slice, span.row), light);
-  return touched.empty() ? BatchRows::k_none : span_of(touched);
+void ExactSlices::ask(OpenSpan& span) {
+  span.first_question = questions_.count;
+  if (span.asks_first) questions_.add(span.light, span.slice, span.row, span.columns.first);
+  if (span.asks_last && !(span.asks_first && span.columns.count() == 1))
+    questions_.add(span.light, span.slice, span.row, span.columns.last);
 }
 
-// One by one. What is asked here is not counted: it depends on what the machine could answer before.
-IndexRange ExactSlices::narrowed_to_touched(const IndexRange& columns, const Row& row, std::uint32_t light) const {
-  BallJudge judge(frame_->grid, frame_->lights, light);
-  const float reach = frame_->lights.reach[light];
-  if (reach > k_most_exact_reach) return narrowed(columns, [&](int column) { return !judge.touches(row, column); });
+bool ExactSlices::is_settled(OpenSpan& span) const {
+  std::uint32_t next = span.first_question;
+  const auto touches = [&](int column) {
+    const Touch touch = questions_.touch[next++];
+    if (touch != Touch::open) return touch == Touch::yes;
+    BallJudge judge(frame_->grid, frame_->lights, span.light);
+    return judge.touches(row_of(frame_->grid.screen(), span.slice, span.row), column);
+  };
+  IndexRange& columns = span.columns;
+  const bool is_one = columns.count() == 1, asked_first = span.asks_first;
+  if (span.asks_first) {
+    span.asks_first = !touches(columns.first);
+    if (span.asks_first) ++columns.first;
+  }
+  if (span.asks_last) {
+    if (is_one && asked_first) {
+      span.asks_last = false;
+    } else {
+      span.asks_last = !touches(columns.last);
+      if (span.asks_last) --columns.last;
+    }
+  }
+  // One column that one of the ends has been found to be is touched.
+  if (columns.count() == 1 && !(span.asks_first && span.asks_last)) return true;
+  return columns.empty() || !(span.asks_first || span.asks_last);
+}
+
+IndexRange ExactSlices::touched_anywhere(const OpenSpan& span) const {
+  const Row row = row_of(frame_->grid.screen(), span.slice, span.row);
+  BallJudge judge(frame_->grid, frame_->lights, span.light);
+  if (frame_->lights.reach[span.light] > k_most_exact_reach)
+    return narrowed(span.columns, [&](int column) { return !judge.touches(row, column); });
   const RowColumns row_columns(frame_->grid.screen().tiles);
-  const bool is_anywhere = !(frame_->planes.least_reach <= reach && reach <= k_most_row_reach);
   const IndexRange outer =
-      is_anywhere ? row_columns.touched(frame_->lights.ball(light, k_exact_roundings), row, geom::Errs::outward)
-                  : columns;
+      row_columns.touched(frame_->lights.ball(span.light, k_exact_roundings), row, geom::Errs::outward);
   if (outer.empty()) return {};
   std::uint64_t questions = 0;
-  return settled(outer, row_columns, frame_->lights.ball(light, -k_exact_roundings), row, judge, questions);
+  return settled(outer, row_columns, frame_->lights.ball(span.light, -k_exact_roundings), row, judge, questions);
 }
 
 }  // namespace clusterbench::assign

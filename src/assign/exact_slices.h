@@ -19,18 +19,26 @@ class ExactSlices {
   std::size_t scratch_bytes() const;
 
  private:
-  // A span of a batch whose ends may be beyond the cells that are touched; where the questions of its two ends are.
+  // A span of a batch whose ends may be beyond the cells that are touched.
   struct OpenSpan {
-    int row;
-    std::uint32_t lane, first_question;
+    std::uint32_t* entry;  // of the batch
+    std::uint32_t light;
+    int slice, row;
+    grid::IndexRange columns;
+    bool asks_first, asks_last;    // whether that column is touched
+    std::uint32_t first_question;  // of one or two
   };
+  // Vectors of questions are full, and memory does not depend on the lights.
+  static constexpr std::size_t k_most_open = 64;
 
   void add_points(int slice);
-  void add_batch(int slice, BatchRows& batch);
-  void ask(int slice, const BatchRows& batch, int row);
-  // The columns that the span's ball touches, as BatchRows has them.
-  std::uint32_t decided(int slice, const BatchRows& batch, const OpenSpan& span);
-  grid::IndexRange narrowed_to_touched(const grid::IndexRange& columns, const Row& row, std::uint32_t light) const;
+  void open_spans(int slice, BatchRows& batch);
+  void settle_spans();
+  void ask(OpenSpan& span);
+  // Takes the answers. False if more is to be asked.
+  bool is_settled(OpenSpan& span) const;
+  // Without a question before.
+  grid::IndexRange touched_anywhere(const OpenSpan& span) const;
 
   const ExactFrame* frame_ = nullptr;
   SpotSpans spots_;

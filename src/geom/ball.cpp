@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 
 #include "geom/exact_ball.h"
 #include "geom/exact_shell.h"
+#include "geom/verdict.h"
 
 namespace clusterbench::geom {
 namespace {
@@ -25,15 +27,47 @@ double slope_on(Side side, float low, float high) {
 
 // In doubles ------------------------------------------------------------------------------------------------------
 
+// About a number.
+double about(const Bounded& number) {
+  return number.value;
+}
+double about(const Tight& number) {
+  return number.middle().hi;
+}
+
+double error_of(const Bounded& number) {
+  return number.error;
+}
+double error_of(const Tight& number) {
+  return number.radius();
+}
+
+Bounded widened(const Bounded& number, double by) {
+  return {number.value, bounded::rounded_up(number.error + by)};
+}
+Tight widened(const Tight& number, double by) {
+  return {number.middle(), (number.radius() + by) * (1.0 + 0x1p-40)};
+}
+
+// The largest of a, b and 0.
+Tight largest_or_zero(const Tight& a, const Tight& b) {
+  const Twofold middle = a.middle() < b.middle() ? b.middle() : a.middle();
+  const double radius = std::max(a.radius(), b.radius());
+  if (middle.hi > 0.0) return {middle, radius};
+  return {Twofold(), -0.5 * middle.hi > radius ? 0.0 : radius};
+}
+
 // How far a centre is outside of low <= x <= high, and on which side.
+template <class Number>
 struct Gap {
-  Bounded size;
+  Number size;
   Side side;
 };
-Gap gap_between(const Bounded& low, const Bounded& at, const Bounded& high) {
-  const Bounded below = low - at, above = at - high;
-  const Bounded size = largest_or_zero(below, above);
-  if (size.value > 0.0) return {size, below.value > above.value ? Side::low : Side::high};
+template <class Number>
+Gap<Number> gap_between(const Number& low, const Number& at, const Number& high) {
+  const Number below = low - at, above = at - high;
+  const Number size = largest_or_zero(below, above);
+  if (about(size) > 0.0) return {size, about(below) > about(above) ? Side::low : Side::high};
   return {size, Side::between};
 }
 
@@ -59,32 +93,99 @@ double nearest_depth(double x, double y, double depth, const Piece& piece) {
 
 // Half the slope, along depth, of a gap's square. A gap whose side is not certain is below its error, and its slope
 // below that times either plane's.
-Bounded half_slope(const Gap& gap, float low, float high) {
+template <class Number>
+Number half_slope(const Gap<Number>& gap, float low, float high) {
   const double slope = gap.side == Side::low ? low : gap.side == Side::high ? -static_cast<double>(high) : 0.0;
-  Bounded product = Bounded(slope) * gap.size;
-  if (gap.size.error > 0.0)
-    product.error =
-        bounded::rounded_up(product.error + (std::abs(double{low}) + std::abs(double{high})) * gap.size.error);
-  return product;
+  const Number product = Number(slope) * gap.size;
+  const double error = error_of(gap.size);
+  return error > 0.0 ? widened(product, (std::abs(double{low}) + std::abs(double{high})) * error) : product;
 }
+
+// How large a number can be, at least 0.
+double most(const Bounded& number) {
+  return std::max(0.0, number.error + number.value);
+}
+double most(const Tight& number) {
+  return number.radius() + std::max(0.0, number.middle().hi);
+}
+
+// What a piece has at a depth, as a centre sees it.
+template <class Number>
+struct AtDepth {
+  Side x, y;
+  Number square;
+  double steepness;
+  double x_error,
+      y_error;  // how far the place on such a side can be from the nearest one, where the side is not certain
+
+  AtDepth(const Number& center_x, const Number& center_y, const Number& center_depth, const Piece& piece,
+          const Number& at, Side place) {
+    const auto plane = [&](float slope) { return Number(double{slope}) * at; };
+    const Gap<Number> gap_x = gap_between(plane(piece.x0), center_x, plane(piece.x1));
+    const Gap<Number> gap_y = gap_between(plane(piece.y0), center_y, plane(piece.y1));
+    const Number along = at - center_depth;
+    x = gap_x.side;
+    y = gap_y.side;
+    x_error = error_of(gap_x.size);
+    y_error = error_of(gap_y.size);
+    square = gap_x.size * gap_x.size + gap_y.size * gap_y.size + along * along;
+    // At an end only a derivative that leads away from it leads lower.
+    const Number slope = half_slope(gap_x, piece.x0, piece.x1) + half_slope(gap_y, piece.y0, piece.y1) + along;
+    const double falls = place != Side::high ? most(-slope) : 0.0;
+    const double rises = place != Side::low ? most(slope) : 0.0;
+    const double steep = std::max(falls, rises);
+    steepness = steep == 0.0 ? 0.0 : bounded::rounded_up(steep);
+  }
+};
 
 NearestDepth nearest_between(const Bounded& x, const Bounded& y, const Bounded& depth, const Piece& piece) {
   NearestDepth nearest;
   nearest.at = nearest_depth(x.value, y.value, depth.value, piece);
-  const Gap gap_x = gap_between(Bounded(piece.x0) * nearest.at, x, Bounded(piece.x1) * nearest.at);
-  const Gap gap_y = gap_between(Bounded(piece.y0) * nearest.at, y, Bounded(piece.y1) * nearest.at);
-  const Bounded along = Bounded(nearest.at) - depth;
-  nearest.x = gap_x.side;
-  nearest.y = gap_y.side;
   nearest.depth = nearest.at == piece.near ? Side::low : nearest.at == piece.far ? Side::high : Side::between;
-  nearest.square = gap_x.size * gap_x.size + gap_y.size * gap_y.size + along * along;
-  // At an end only a derivative that leads away from it leads lower.
-  const Bounded slope = half_slope(gap_x, piece.x0, piece.x1) + half_slope(gap_y, piece.y0, piece.y1) + along;
-  const double falls = nearest.at < piece.far ? slope.error - slope.value : 0.0;
-  const double rises = nearest.at > piece.near ? slope.error + slope.value : 0.0;
-  const double steep = std::max({0.0, falls, rises});
-  nearest.steepness = steep == 0.0 ? 0.0 : bounded::rounded_up(steep);
+  const AtDepth<Bounded> there(x, y, depth, piece, Bounded(nearest.at), nearest.depth);
+  nearest.x = there.x;
+  nearest.y = there.y;
+  nearest.square = there.square;
+  nearest.steepness = there.steepness;
   return nearest;
+}
+
+// Closer to where the squared distance is least: a depth of the piece, as any is that lies between its ends.
+Tight closer_depth(const Tight& x, const Tight& y, const Tight& depth, const Piece& piece, const NearestDepth& guess) {
+  if (guess.depth != Side::between) return Tight(guess.at);
+  const Twofold slope_x(slope_on(guess.x, piece.x0, piece.x1)), slope_y(slope_on(guess.y, piece.y0, piece.y1));
+  const Twofold at = (depth.middle() + slope_x * x.middle() + slope_y * y.middle()) /
+                     (Twofold(1.0) + slope_x * slope_x + slope_y * slope_y);
+  return Tight(Twofold(piece.near) < at && at.hi < piece.far ? at : Twofold(guess.at));
+}
+
+// Numbers whose products Tight can bound.
+bool are_usual(std::initializer_list<double> numbers) {
+  return std::ranges::all_of(numbers, [](double number) { return std::abs(number) < 0x1p60; });
+}
+bool is_usual(const Placement& place, double radius) {
+  const Vec3d &p = place.position, &o = place.origin;
+  return are_usual({p.x, p.y, p.z, o.x, o.y, o.z, radius});
+}
+bool is_usual(const FrustumPiece& cell) {
+  return are_usual({cell.x0, cell.x1, cell.y0, cell.y1, cell.depth0, cell.depth1});
+}
+bool is_usual(const ShellPiece& cell) {
+  return are_usual({cell.x0, cell.x1, cell.y0, cell.y1, cell.distance0, cell.distance1});
+}
+bool is_usual(const Box& cell) {
+  return are_usual({cell.lo.x, cell.lo.y, cell.lo.z, cell.hi.x, cell.hi.y, cell.hi.z});
+}
+
+// Half of the middle's leading part is less than all of it, and by more than is rounded here.
+Verdict verdict_of(const Tight& excess, double undershoot) {
+  const double half = 0.5 * excess.middle().hi;
+  if (-half >= excess.radius()) return Verdict::yes;
+  return half > undershoot + excess.radius() ? Verdict::no : Verdict::open;
+}
+
+double undershoot_of(double steepness) {
+  return steepness == 0.0 ? 0.0 : bounded::rounded_up(steepness * steepness);
 }
 
 // The rays in which the tile planes of a pyramid meet: slopes of these.
@@ -101,7 +202,7 @@ Piece pyramid_of(const ShellPiece& cell) {
 }
 
 // From the centre to a gap's other end. Where the side is not certain, the gap is below its error.
-Bounded across(const Gap& gap) {
+Bounded across(const Gap<Bounded>& gap) {
   return gap.side == Side::high ? -gap.size : gap.size;
 }
 
@@ -342,6 +443,19 @@ BallDecider::BallDecider(const Placement& center, double radius)
   center_ = {local[0], local[1], local[2]};
 }
 
+const BallDecider::Closely& BallDecider::closely() const {
+  if (closely_) return *closely_;
+  Tight from_origin[3];
+  for (int i = 0; i < 3; ++i) from_origin[i] = Tight(placement_.position[i]) - Tight(placement_.origin[i]);
+  const auto coordinate = [&](int row) {
+    return Tight(placement_.rotation[0][row]) * from_origin[0] + Tight(placement_.rotation[1][row]) * from_origin[1] +
+           Tight(placement_.rotation[2][row]) * from_origin[2];
+  };
+  const Tight radius(radius_);
+  closely_.emplace(Closely{coordinate(0), coordinate(1), -coordinate(2), radius * radius});
+  return *closely_;
+}
+
 const BallDecider::Exactly& BallDecider::exactly() const {
   if (exactly_) return *exactly_;
   Dyadic from_origin[3];
@@ -354,9 +468,13 @@ const BallDecider::Exactly& BallDecider::exactly() const {
   return *exactly_;
 }
 
-template <class AnyCell, class Exact>
-bool BallDecider::decided(const AnyCell& cell, Exact&& exact) const {
+template <class AnyCell, class Close, class Exact>
+bool BallDecider::decided(const AnyCell& cell, Close&& close, Exact&& exact) const {
   ++exact_decisions_;
+  if (is_usual(placement_, radius_) && is_usual(cell)) {
+    const Verdict verdict = close(closely());
+    if (verdict != Verdict::open) return verdict == Verdict::yes;
+  }
   try {
     return exact(exactly());
   } catch (const TooWide&) {
@@ -373,7 +491,16 @@ bool BallDecider::meets(const Box& cell) const {
                          square(-cell.hi.z, depth_, -cell.lo.z) - squared_radius_;
   if (excess.is_surely_not_above(0.0)) return true;
   if (excess.is_surely_above(0.0)) return false;
-  return decided(cell, [&](const Exactly& ball) {
+  const auto close = [&](const Closely& ball) {
+    const auto close_square = [](double lo, const Tight& at, double hi) {
+      const Tight gap = gap_between(Tight(lo), at, Tight(hi)).size;
+      return gap * gap;
+    };
+    return verdict_of(close_square(cell.lo.x, ball.x, cell.hi.x) + close_square(cell.lo.y, ball.y, cell.hi.y) +
+                          close_square(-cell.hi.z, ball.depth, -cell.lo.z) - ball.squared_radius,
+                      0.0);
+  };
+  return decided(cell, close, [&](const Exactly& ball) {
     const auto exact_square = [](double lo, const Dyadic& at, double hi) {
       if (at < Dyadic(lo)) return squared(Dyadic(lo) - at);
       return at > Dyadic(hi) ? squared(at - Dyadic(hi)) : Dyadic();
@@ -391,7 +518,12 @@ bool BallDecider::meets(const FrustumPiece& cell) const {
   const Bounded excess = nearest.square - squared_radius_;
   if (excess.is_surely_not_above(0.0)) return true;
   if (excess.is_surely_above(nearest.undershoot())) return false;
-  return decided(cell, [&](const Exactly& ball) {
+  const auto close = [&](const Closely& ball) {
+    const Tight at = closer_depth(ball.x, ball.y, ball.depth, piece, nearest);
+    const AtDepth<Tight> there(ball.x, ball.y, ball.depth, piece, at, nearest.depth);
+    return verdict_of(there.square - ball.squared_radius, undershoot_of(there.steepness));
+  };
+  return decided(cell, close, [&](const Exactly& ball) {
     const ExactPiece exact(ball.x, ball.y, ball.depth, piece);
     return exact.is_within(exact.nearest(nearest), ball.squared_radius);
   });
@@ -413,7 +545,21 @@ bool BallDecider::meets(const ShellPiece& cell, const PyramidView& view) const {
   const Bounded excess = view.nearest.square + further - squared_radius_;
   if (excess.is_surely_not_above(0.0)) return true;
   if (excess.is_surely_above(view.nearest.undershoot())) return false;
-  return decided(cell, [&](const Exactly& ball) {
+  const auto close = [&](const Closely& ball) {
+    if (view.is_behind) return Verdict::open;
+    const Piece pyramid = pyramid_of(cell);
+    const Tight at = closer_depth(ball.x, ball.y, ball.depth, pyramid, view.nearest);
+    const AtDepth<Tight> there(ball.x, ball.y, ball.depth, pyramid, at, view.nearest.depth);
+    const auto place = [&](Side side, const Tight& of_center, float low, float high, double error) {
+      return widened(side == Side::between ? of_center : Tight(double{side == Side::low ? low : high}) * at, error);
+    };
+    const Tight x = place(there.x, ball.x, cell.x0, cell.x1, there.x_error);
+    const Tight y = place(there.y, ball.y, cell.y0, cell.y1, there.y_error);
+    const Tight along = widened(sqrt(x * x + y * y + at * at), there.steepness);
+    const Tight gap = gap_between(Tight(double{cell.distance0}), along, Tight(double{cell.distance1})).size;
+    return verdict_of(there.square + gap * gap - ball.squared_radius, undershoot_of(there.steepness));
+  };
+  return decided(cell, close, [&](const Exactly& ball) {
     return ExactPyramid(ball.x, ball.y, ball.depth, pyramid_of(cell))
         .is_within(view.nearest, Dyadic(cell.distance0), Dyadic(cell.distance1), ball.squared_radius);
   });
@@ -459,8 +605,11 @@ Bounded farthest_ahead(const Point3<Bounded>& direction, const ShellPiece& tile)
 }
 
 std::optional<NearestPoint> BallDecider::nearest_point(const Box& cell) const {
-  const Gap x = gap_between(cell.lo.x, x_, cell.hi.x), y = gap_between(cell.lo.y, y_, cell.hi.y),
-            z = gap_between(cell.lo.z, -depth_, cell.hi.z);
+  const auto gap = [](float low, const Bounded& at, float high) {
+    return gap_between(Bounded(low), at, Bounded(high));
+  };
+  const Gap<Bounded> x = gap(cell.lo.x, x_, cell.hi.x), y = gap(cell.lo.y, y_, cell.hi.y),
+                     z = gap(cell.lo.z, -depth_, cell.hi.z);
   const Bounded excess = x.size * x.size + y.size * y.size + z.size * z.size - squared_radius_;
   return NearestPoint{{across(x), across(y), across(z)}, play_of(excess, 0.0)};
 }
@@ -511,7 +660,7 @@ std::optional<NearestPoint> BallDecider::nearest_point(const ShellPiece& cell) c
   if (view.is_behind) return nearest_ray(view, cell);
   if (!view.along.is_surely_above(0.0)) return std::nullopt;
   const Point3<Bounded> way = way_to(view.nearest, x_, y_, depth_, pyramid_of(cell));
-  const Gap gap = gap_between(near, view.along, far);
+  const Gap<Bounded> gap = gap_between(near, view.along, far);
   const Bounded excess = view.nearest.square + gap.size * gap.size - squared_radius_;
   double play = play_of(excess, view.nearest.undershoot());
   if (gap.side == Side::between && gap.size.error == 0.0) return NearestPoint{way, play};

@@ -1,7 +1,7 @@
 #pragma once
 // Does a ball share a point with a cell? Touching counts. Always decided: in doubles with a bound of their error, which
-// is 0 where nothing is rounded, so that it decides most exact touches, too; what that leaves open by exact numbers
-// (geom/dyadic.h), in signs of polynomials.
+// is 0 where nothing is rounded, so that it decides most exact touches, too; what that leaves open in pairs of doubles
+// with a bound of their error; what even these do by exact numbers (geom/dyadic.h), in signs of polynomials.
 
 #include <cstdint>
 #include <optional>
@@ -11,6 +11,7 @@
 #include "geom/dyadic.h"
 #include "geom/placement.h"
 #include "geom/shapes.h"
+#include "geom/tight.h"
 
 namespace clusterbench::geom {
 
@@ -78,24 +79,29 @@ class BallDecider {
   bool has_in_front(const Point3<double>& normal, const Box& cell) const;
   bool has_in_front(const Point3<double>& normal, const ShellPiece& cell) const;
 
-  // How many cells were decided by exact numbers.
+  // How many cells doubles left open.
   std::uint64_t exact_decisions() const { return exact_decisions_; }
 
  private:
+  struct Closely {
+    Tight x, y, depth, squared_radius;
+  };
   struct Exactly {
     Dyadic x, y, depth, squared_radius;
   };
+  const Closely& closely() const;
   const Exactly& exactly() const;
-  // exact(ball): the answer in exact numbers, or TooWide.
   std::optional<NearestPoint> nearest_ray(const PyramidView& view, const ShellPiece& cell) const;
   bool has_corners_in_front(const Point3<double>& normal, const Corners& corners) const;
-  template <class AnyCell, class Exact>
-  bool decided(const AnyCell& cell, Exact&& exact) const;
+  // close(ball): the answer in pairs of doubles; exact(ball): in exact numbers, or TooWide.
+  template <class AnyCell, class Close, class Exact>
+  bool decided(const AnyCell& cell, Close&& close, Exact&& exact) const;
 
   Placement placement_;
   double radius_;
   Bounded x_, y_, depth_, squared_radius_;
   Point3<Bounded> center_;
+  mutable std::optional<Closely> closely_;
   mutable std::optional<Exactly> exactly_;
   mutable std::uint64_t exact_decisions_ = 0;
 };

@@ -19,13 +19,17 @@ namespace hn = hwy::HWY_NAMESPACE;
 using DD = hn::ScalableTag<double>;
 using VD = hn::Vec<DD>;
 using MD = hn::Mask<DD>;
+using DF = hn::Rebind<float, DD>;  // as many lanes
+using DI = hn::Rebind<std::int32_t, DD>;
+using VI = hn::Vec<DI>;
 static_assert(hn::MaxLanes(DD()) <= 8);  // bits of a byte
 
 HWY_INLINE VD every(double value) {
   return hn::Set(DD(), value);
 }
 
-// geom::Bounded, one per lane.
+// geom::Bounded, one per lane; but what errors lose when they are added and multiplied, fewer than a hundred times, is
+// made up for where they are used, by rounded_up().
 struct Bound {
   VD value, error;
 };
@@ -34,13 +38,13 @@ HWY_INLINE Bound exactly(VD value) {
   return {value, hn::Zero(DD())};
 }
 HWY_INLINE VD rounded_up(VD error) {
-  const VD larger = hn::Add(hn::Mul(error, every(1.0 + 0x1p-48)), every(0x1p-1000));
+  const VD larger = hn::Add(hn::Mul(error, every(1.0 + 0x1p-44)), every(0x1p-1000));
   return hn::IfThenElseZero(hn::Gt(error, hn::Zero(DD())), larger);
 }
 HWY_INLINE Bound operator+(const Bound& a, const Bound& b) {
   const VD sum = hn::Add(a.value, b.value), from_b = hn::Sub(sum, a.value);
   const VD lost = hn::Add(hn::Sub(a.value, hn::Sub(sum, from_b)), hn::Sub(b.value, from_b));
-  return {sum, rounded_up(hn::Add(hn::Add(a.error, b.error), hn::Abs(lost)))};
+  return {sum, hn::Add(hn::Add(a.error, b.error), hn::Abs(lost))};
 }
 HWY_INLINE Bound operator-(const Bound& a, const Bound& b) {
   return a + Bound{hn::Neg(b.value), b.error};
@@ -55,7 +59,7 @@ HWY_INLINE Bound operator*(const Bound& a, const Bound& b) {
   const MD is_rough = hn::Or(hn::Lt(hn::Abs(product), every(0x1p-900)), hn::Gt(hn::Add(a.error, b.error), zero));
   const VD rounding = hn::Max(lost, hn::IfThenElseZero(hn::And(is_something, is_rough), every(0x1p-1000)));
   const VD of_a = hn::Mul(a.error, size_of_b), of_b = hn::Mul(hn::Abs(a.value), b.error);
-  return {product, rounded_up(hn::Add(hn::Add(of_a, of_b), rounding))};
+  return {product, hn::Add(hn::Add(of_a, of_b), rounding)};
 }
 
 // How far a centre is outside of low <= at <= high, and which side's slope makes it change with depth (0: neither's).
@@ -67,7 +71,7 @@ HWY_INLINE Gap gap_between(const Bound& low, const Bound& at, const Bound& high,
   const VD zero = hn::Zero(DD());
   const Bound below = low - at, above = at - high;
   const MD is_below = hn::Gt(below.value, above.value);
-  const VD value = hn::Max(below.value, above.value), error = hn::Max(below.error, above.error);
+  const VD value = hn::Max(below.value, above.value), error = rounded_up(hn::Max(below.error, above.error));
   const MD is_outside = hn::Gt(value, zero);
   const VD most = hn::Max(rounded_up(hn::Add(value, error)), zero);
   const VD inside = hn::IfThenElseZero(hn::Gt(error, zero), most);
@@ -85,20 +89,33 @@ HWY_INLINE Bound half_slope(const Gap& gap, VD slope_low, VD slope_high) {
 // A vector of pairs, from place `at` on.
 class Pairs {
  public:
-  Pairs(const view::Space& space, bool orthographic, const BallCells& cells, std::size_t at)
-      : orthographic_(orthographic) {
-    const auto load = [&](const std::vector<double>& from) { return hn::LoadU(DD(), from.data() + at); };
-    x0_ = load(cells.x0);
-    x1_ = load(cells.x1);
-    y0_ = load(cells.y0);
-    y1_ = load(cells.y1);
-    depth0_ = load(cells.depth0);
-    depth1_ = load(cells.depth1);
-    const Bound range = exactly(load(cells.range));
+  Pairs(const view::LightArrays& lights, const RowPlanes& planes, const BallCells& cells, std::size_t at)
+      : orthographic_(planes.orthographic) {
+    const auto load = [&](const std::vector<std::int32_t>& from) { return hn::LoadU(DI(), from.data() + at); };
+    const VI column = load(cells.column), row = load(cells.row), slice = load(cells.slice);
+    const auto plane_at = [&](const std::vector<float>& from, VI place) {
+      return hn::PromoteTo(DD(), hn::GatherIndex(DF(), from.data(), place));
+    };
+    const VI one = hn::Set(DI(), 1);
+    x0_ = plane_at(planes.side, column);
+    x1_ = plane_at(planes.side, hn::Add(column, one));
+    y0_ = plane_at(planes.slope, hn::Add(row, one));
+    y1_ = plane_at(planes.slope, row);
+    depth0_ = plane_at(planes.depth, slice);
+    depth1_ = plane_at(planes.depth, hn::Add(slice, one));
+
+    constexpr std::size_t k_stride = sizeof(scene::WorldLight) / sizeof(double);
+    static_assert(sizeof(scene::WorldLight) % sizeof(double) == 0);
+    const auto place = hn::Mul(hn::PromoteTo(hn::Rebind<std::int64_t, DD>(), load(cells.light)),
+                               hn::Set(hn::Rebind<std::int64_t, DD>(), std::int64_t{k_stride}));
+    const auto of_light = [&](const double& first) { return exactly(hn::GatherIndex(DD(), &first, place)); };
+    const scene::WorldLight& first = lights.source.front();
+    const Bound range = of_light(first.range_m);
     squared_range_ = range * range;
-    const Bound from_origin[3] = {exactly(load(cells.x)) - exactly(every(space.origin.x)),
-                                  exactly(load(cells.y)) - exactly(every(space.origin.y)),
-                                  exactly(load(cells.z)) - exactly(every(space.origin.z))};
+    const view::Space& space = lights.space;
+    const Bound from_origin[3] = {of_light(first.position.x) - exactly(every(space.origin.x)),
+                                  of_light(first.position.y) - exactly(every(space.origin.y)),
+                                  of_light(first.position.z) - exactly(every(space.origin.z))};
     x_ = turned(space.rotation, 0, from_origin);
     y_ = turned(space.rotation, 1, from_origin);
     const Bound z = turned(space.rotation, 2, from_origin);
@@ -112,18 +129,19 @@ class Pairs {
     const Gap x = gap_between(plane(x0_, depth), x_, plane(x1_, depth), x0_, x1_);
     const Gap y = gap_between(plane(y0_, depth), y_, plane(y1_, depth), y0_, y1_);
     const Bound excess = x.size * x.size + y.size * y.size + along * along - squared_range_;
+    const VD error = rounded_up(excess.error);
+    touches = hn::Le(excess.value, hn::Neg(error));
     VD undershoot = zero;
-    if (!orthographic_) {
+    if (!orthographic_ && !hn::AllTrue(DD(), touches)) {
       const Bound slope = half_slope(x, x0_, x1_) + half_slope(y, y0_, y1_) + along;
-      const VD falls = hn::IfThenElseZero(hn::Lt(at, depth1_), hn::Sub(slope.error, slope.value));
-      const VD rises = hn::IfThenElseZero(hn::Gt(at, depth0_), hn::Add(slope.error, slope.value));
+      const VD slope_error = rounded_up(slope.error);
+      const VD falls = hn::IfThenElseZero(hn::Lt(at, depth1_), hn::Sub(slope_error, slope.value));
+      const VD rises = hn::IfThenElseZero(hn::Gt(at, depth0_), hn::Add(slope_error, slope.value));
       const VD steepness = rounded_up(hn::Max(zero, hn::Max(falls, rises)));
       undershoot = rounded_up(hn::Mul(steepness, steepness));
       // A square too small for a double.
       undershoot = hn::IfThenElse(hn::Gt(steepness, zero), hn::Max(undershoot, every(0x1p-1000)), zero);
     }
-    const VD error = hn::Mul(excess.error, every(1.0 + 0x1p-50));
-    touches = hn::Le(excess.value, hn::Neg(error));
     misses = hn::Gt(hn::Sub(excess.value, undershoot), error);
   }
 
@@ -171,11 +189,11 @@ class Pairs {
   Bound x_, y_, depth_, squared_range_;
 };
 
-void look(const view::Space& space, bool orthographic, BallCells& cells) {
+void look(const view::LightArrays& lights, const RowPlanes& planes, BallCells& cells) {
   const std::size_t lanes = hn::Lanes(DD());
   for (std::size_t first = 0; first < cells.count; first += lanes) {
     MD touches, misses;
-    Pairs(space, orthographic, cells, first).look(touches, misses);
+    Pairs(lights, planes, cells, first).look(touches, misses);
     std::uint8_t yes[8] = {}, no[8] = {};
     hn::StoreMaskBits(DD(), touches, yes);
     hn::StoreMaskBits(DD(), misses, no);
@@ -188,7 +206,7 @@ void look(const view::Space& space, bool orthographic, BallCells& cells) {
 
 #else
 
-void look(const view::Space&, bool, BallCells& cells) {
+void look(const view::LightArrays&, const RowPlanes&, BallCells& cells) {
   std::fill_n(cells.touch.begin(), cells.count, Touch::open);
 }
 
@@ -207,26 +225,16 @@ HWY_EXPORT(look);
 void BallCells::reserve(std::size_t most) {
   const std::size_t size = most + k_most_lanes;
   if (touch.size() >= size) return;
-  for (std::vector<double>* list : {&x, &y, &z, &range, &x0, &x1, &y0, &y1, &depth0, &depth1}) list->resize(size);
+  for (std::vector<std::int32_t>* list : {&light, &slice, &row, &column}) list->resize(size);
   touch.resize(size);
 }
 
-void BallCells::add(const scene::WorldLight& light, const geom::FrustumPiece& cell) {
-  x[count] = light.position.x;
-  y[count] = light.position.y;
-  z[count] = light.position.z;
-  range[count] = light.range_m;
-  x0[count] = cell.x0;
-  x1[count] = cell.x1;
-  y0[count] = cell.y0;
-  y1[count] = cell.y1;
-  depth0[count] = cell.depth0;
-  depth1[count] = cell.depth1;
-  ++count;
-}
-
-void look_at_balls(const view::Space& space, bool orthographic, BallCells& cells) {
-  if (cells.count != 0) HWY_DYNAMIC_DISPATCH(look)(space, orthographic, cells);
+void look_at_balls(const view::LightArrays& lights, const RowPlanes& planes, BallCells& cells) {
+  if (cells.count == 0) return;
+  // What a whole vector reads beyond the end must be places that exist.
+  for (std::vector<std::int32_t>* list : {&cells.light, &cells.slice, &cells.row, &cells.column})
+    std::fill_n(list->begin() + cells.count, k_most_lanes, 0);
+  HWY_DYNAMIC_DISPATCH(look)(lights, planes, cells);
 }
 
 }  // namespace clusterbench::assign

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "assign/simd/row_planes.h"
 #include "assign/simd/spot_cells.h"
-#include "geom/shapes.h"
 #include "view/frame.h"
 
 namespace clusterbench::assign {
@@ -15,17 +15,21 @@ namespace clusterbench::assign {
 // Pairs of a ball and a cell, and the answers. Whole vectors can be read and written beyond `count`.
 struct BallCells {
   std::uint32_t count = 0;
-  std::vector<double> x, y, z, range;                  // the light, in world space; of endless ones nothing is said
-  std::vector<double> x0, x1, y0, y1, depth0, depth1;  // the cell, as in geom::FrustumPiece
+  std::vector<std::int32_t> light, slice, row, column;  // of endless lights nothing is said
   std::vector<Touch> touch;
 
   // Before the first add().
   void reserve(std::size_t most);
-  void add(const scene::WorldLight& light, const geom::FrustumPiece& cell);
-  std::size_t capacity_bytes() const { return touch.capacity() * (10 * sizeof(double) + sizeof(Touch)); }
+  void add(std::uint32_t of_light, int in_slice, int in_row, int in_column) {
+    light[count] = static_cast<std::int32_t>(of_light);
+    slice[count] = in_slice;
+    row[count] = in_row;
+    column[count++] = in_column;
+  }
+  std::size_t capacity_bytes() const { return touch.capacity() * (4 * sizeof(std::int32_t) + sizeof(Touch)); }
 };
 
-// `space`: that of the grid, in which the cells are given.
-void look_at_balls(const view::Space& space, bool orthographic, BallCells& cells);
+// `planes`: those of the grid in whose space the lights are.
+void look_at_balls(const view::LightArrays& lights, const RowPlanes& planes, BallCells& cells);
 
 }  // namespace clusterbench::assign

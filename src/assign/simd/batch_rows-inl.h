@@ -22,6 +22,7 @@ HWY_INLINE void start_batch(int grid_rows, VI first_row, VI row_count, VU lights
   const std::size_t n = hn::Lanes(di);
   out.lanes = static_cast<std::uint32_t>(n);
   out.make_room(grid_rows);
+  out.open_count = 0;
   hn::StoreU(lights, DU(), out.lights);
   out.tests = static_cast<std::uint32_t>(hn::GetLane(hn::SumOfLanes(di, row_count)));
   const MI touches = hn::Gt(row_count, hn::Zero(di));
@@ -30,6 +31,16 @@ HWY_INLINE void start_batch(int grid_rows, VI first_row, VI row_count, VU lights
   out.last_row = hn::GetLane(hn::MaxOfLanes(di, end)) - 1;
   for (int row = out.first_row; row <= out.last_row; ++row)
     hn::StoreU(columns, DU(), out.columns.data() + static_cast<std::size_t>(row) * n);
+}
+
+// Lists what is uncertain of some columns. `places`: where these stand in the batch.
+HWY_INLINE void list_open(VU columns, VI places, BatchRows& out) {
+  const DU du;
+  const auto is_open = hn::And(hn::TestBit(columns, hn::Set(du, BatchRows::k_uncertain)),
+                               hn::Ne(columns, hn::Set(du, BatchRows::k_none)));
+  if (hn::AllFalse(du, is_open)) return;
+  hn::StoreU(compressed(du, hn::BitCast(du, places), is_open), du, out.open.data() + out.open_count);
+  out.open_count += static_cast<std::uint32_t>(hn::CountTrue(du, is_open));
 }
 
 // See Certainty in slice_rows.cpp; for rows straight ahead. `rate`: the most columns that a metre to the side can be.

@@ -36,9 +36,12 @@ class FlatBatch {
   HWY_INLINE void find(BatchRows& out) const {
     start(out);
     const std::size_t n = hn::Lanes(D());
-    for (int row = out.first_row; row <= out.last_row; ++row)
-      hn::StoreU(columns_of(static_cast<std::size_t>(row)), DU(),
-                 out.columns.data() + static_cast<std::size_t>(row) * n);
+    for (int row = out.first_row; row <= out.last_row; ++row) {
+      const std::size_t place = static_cast<std::size_t>(row) * n;
+      const VU columns = columns_of(static_cast<std::size_t>(row));
+      hn::StoreU(columns, DU(), out.columns.data() + place);
+      list_open(columns, from_on(static_cast<std::int32_t>(place)), out);
+    }
   }
 
  private:

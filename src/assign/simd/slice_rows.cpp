@@ -318,6 +318,7 @@ HWY_INLINE void find_columns(const PlaneTable& slopes, const Batch& batch, const
     const VI to = hn::Add(hn::Mul(row, all_int(n)), lane);
     hn::ScatterIndex(hn::BitCast(di, columns), di, reinterpret_cast<std::int32_t*>(out.columns.data()),
                      hn::IfThenElse(wanted, to, nowhere));
+    list_open(columns, to, out);
   }
 }
 
@@ -356,7 +357,9 @@ HWY_EXPORT(rows_of_batches);
 
 void BatchRows::make_room(int of_rows) {
   const std::size_t size = (static_cast<std::size_t>(of_rows) + 1) * k_row_lanes;
-  if (columns.size() < size) columns.resize(size);
+  if (columns.size() >= size) return;
+  columns.resize(size);
+  open.resize(size);
 }
 
 void RowBatches::make_room(int of_rows) {

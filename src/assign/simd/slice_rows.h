@@ -39,11 +39,13 @@ struct BatchRows {
   std::uint32_t tests = 0;  // rows of single balls that were looked at
   // One row more than the grid has, for what is not wanted.
   AlignedVector<std::uint32_t> columns;
+  // Where in `columns` what is uncertain stands.
+  std::uint32_t open_count = 0;
+  AlignedVector<std::uint32_t> open;
 
-  std::uint32_t* columns_of(int row) { return columns.data() + static_cast<std::size_t>(row) * lanes; }
   const std::uint32_t* columns_of(int row) const { return columns.data() + static_cast<std::size_t>(row) * lanes; }
   void make_room(int of_rows);
-  std::size_t capacity_bytes() const { return columns.capacity() * sizeof(std::uint32_t); }
+  std::size_t capacity_bytes() const { return (columns.capacity() + open.capacity()) * sizeof(std::uint32_t); }
 };
 inline constexpr int k_most_columns = 0x3fff;
 
