@@ -148,7 +148,16 @@ export interface Result {
     simd_target: string;
     libraries: Record<string, string>;
   };
-  machine: { cpu: string; cores: number; ram_bytes: number; os: string };
+  machine: {
+    cpu: string;
+    family?: string;
+    model?: string;
+    stepping?: string;
+    caches?: Record<string, number>;
+    cores: number;
+    ram_bytes: number;
+    os: string;
+  };
   config: Record<string, unknown>;
   scenes: SceneResult[];
   cases: CaseResult[];

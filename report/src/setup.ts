@@ -32,7 +32,8 @@ function runView(run: Run, isAlone: boolean): HTMLElement {
     {},
     isAlone ? null : h("h3", {}, run.label),
     facts([
-      ["processor", machine.cpu],
+      ["processor", [machine.cpu, ...(["family", "model", "stepping"] as const).flatMap((key) => (machine[key] ? `${key} ${machine[key]}` : []))].join(", ")],
+      ["caches", Object.entries(machine.caches ?? {}).map(([level, size]) => `${level.toUpperCase()} ${format.bytes(size)}`).join(", ") || "unknown"],
       ["cores", String(machine.cores)],
       ["memory", format.bytes(machine.ram_bytes)],
       ["system", machine.os],

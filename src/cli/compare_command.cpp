@@ -16,25 +16,26 @@ namespace {
 struct CompareFlags {
   std::string base, next, markdown, json;
   double threshold_percent = 2.0;
-  bool is_strict = false, is_forced = false;
+  bool gates_separate = false, is_strict = false, is_forced = false;
 };
 
-void check_comparable(const CompareFlags& flags, const nlohmann::ordered_json& base,
-                      const nlohmann::ordered_json& next) {
-  const std::vector<std::string> obstacles = report::obstacles(base, next);
-  if (obstacles.empty() || flags.is_forced) return;
-  throw Error(
-      flags.next, "",
-      "cannot be compared with " + flags.base + ": " + joined(obstacles, "; ") + "; --force compares all the same",
-      ExitCode::nothing_comparable);
+// Who asks for a gate on times is told when there can be none.
+void check_gate(const CompareFlags& flags, const nlohmann::ordered_json& comparison) {
+  if (!flags.gates_separate || !comparison["left_out"].contains("times")) return;
+  throw Error(flags.next, "",
+              "its times cannot be compared with those of " + flags.base + ": " +
+                  joined(comparison["left_out"]["times"].get<std::vector<std::string>>(), "; ") +
+                  "; --force compares all the same",
+              ExitCode::nothing_comparable);
 }
 
 ExitCode compare(const CompareFlags& flags) {
   const report::Schema schema = flags.is_forced ? report::Schema::any : report::Schema::this_version;
   const nlohmann::ordered_json base = report::read_result(flags.base, schema);
   const nlohmann::ordered_json next = report::read_result(flags.next, schema);
-  check_comparable(flags, base, next);
-  const nlohmann::ordered_json comparison = report::compare_results(base, next, flags.threshold_percent / 100.0);
+  const nlohmann::ordered_json comparison =
+      report::compare_results(base, next, flags.threshold_percent / 100.0, {flags.gates_separate, flags.is_forced});
+  check_gate(flags, comparison);
   std::cout << printable_lines(report::comparison_text(comparison));
   if (!flags.markdown.empty()) write_text(flags.markdown, report::comparison_markdown(comparison));
   if (!flags.json.empty()) write_output(flags.json, comparison);
@@ -48,7 +49,8 @@ ExitCode compare(const CompareFlags& flags) {
 void add_compare(Command& program, Action& action) {
   auto flags = std::make_shared<CompareFlags>();
   Command command = program.add_command(
-      "compare", "Compare two results: what is counted exactly, times with intervals; exit code 1 for a regression");
+      "compare",
+      "Compare two results: exit code 1 where what is counted, or a time measured side by side, became worse");
   command.add_option("BASE", flags->base, "A result file of `clusterbench run`").required();
   command.add_option("NEW", flags->next, "The result that may have become worse").required();
   command.add_option("--threshold", flags->threshold_percent, "Smallest change of time that matters, in percent")
@@ -56,8 +58,13 @@ void add_compare(Command& program, Action& action) {
       .shows_standard();
   command.add_option("--markdown", flags->markdown, "Write the comparison for a pull request to this file");
   command.add_option("--json", flags->json, "Write the comparison as JSON to this file");
-  command.add_flag("--strict", flags->is_strict, "Exit with 4 where a verdict is inconclusive or a case is missing");
-  command.add_flag("--force", flags->is_forced, "Compare results of different machines, flags or schema versions, too");
+  command.add_flag(
+      "--gate-separate", flags->gates_separate,
+      "Verdicts on times of separate runs, too: for a machine that does nothing else, false alarms elsewhere");
+  command.add_flag("--strict", flags->is_strict,
+                   "Exit with 4 where a verdict is inconclusive, a case is missing or instructions cannot be compared");
+  command.add_flag("--force", flags->is_forced,
+                   "Compare times and instructions of different machines or flags, and other schema versions, too");
   command.when_named([flags, &action] { action = [flags] { return compare(*flags); }; });
 }
 

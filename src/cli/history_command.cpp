@@ -51,10 +51,10 @@ void add_show(Command& parent, Action& action) {
   Command command = parent.add_command("show", "Where the figures of a history have changed");
   command.add_option("FILE", flags->file, "The history").required();
   command.add_option("-o,--output", flags->page, "Also a page (HTML) with a chart for each series that varies");
-  command.add_option("--max-p", flags->max_p, "How likely chance alone may make what is called a change")
+  command.add_option("--max-p", flags->max_p, "Of series without a change, the share that may be said to have one")
       .shows_standard()
-      .range(0.0, 1.0);
-  command.add_option("--min-change", flags->min_change_percent, "Smallest change that matters, percent")
+      .range(1e-5, 1.0);
+  command.add_option("--min-change", flags->min_change_percent, "Smallest change that matters, in percent")
       .shows_standard()
       .non_negative();
   command.add_flag("--all", flags->all, "Also series without changes");

@@ -66,6 +66,10 @@ std::string without_controls(std::string_view text, bool keep_lines) {
 
 }  // namespace
 
+std::string number_of(std::uint64_t count, std::string_view word) {
+  return std::to_string(count) + " " + std::string(word) + (count == 1 ? "" : "s");
+}
+
 std::string printable(std::string_view text) {
   return without_controls(text, false);
 }

@@ -1,6 +1,7 @@
 #include "measure/change.h"
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -11,33 +12,11 @@ namespace {
 constexpr double k_level = 0.05;
 constexpr double k_infinity = std::numeric_limits<double>::infinity();
 
-// The continued fraction of the incomplete beta function (DLMF 8.17.22) from its first denominator on, by Lentz's
-// method.
-double beta_fraction(double x, double a, double b) {
-  constexpr double k_tiny = 1e-300, k_enough = 1e-15;
-  constexpr int k_most = 10000;
-  const auto not_zero = [](double value) { return std::abs(value) < k_tiny ? k_tiny : value; };
-  double c = 1.0, d = 0.0, fraction = 1.0;
-  for (int i = 1; i <= k_most; ++i) {
-    const double m = std::floor(0.5 * i);
-    const double term = i % 2 == 0 ? m * (b - m) * x / ((a + 2.0 * m - 1.0) * (a + 2.0 * m))
-                                   : -(a + m) * (a + b + m) * x / ((a + 2.0 * m) * (a + 2.0 * m + 1.0));
-    d = 1.0 / not_zero(1.0 + term * d);
-    c = not_zero(1.0 + term / c);
-    fraction *= c * d;
-    if (std::abs(c * d - 1.0) < k_enough) break;
-  }
-  return 1.0 / fraction;
-}
-
-// The regularised incomplete beta function I_x(a, b).
-double incomplete_beta(double x, double a, double b) {
-  if (x <= 0.0) return 0.0;
-  if (x >= 1.0) return 1.0;
-  if (x > (a + 1.0) / (a + b + 2.0)) return 1.0 - incomplete_beta(1.0 - x, b, a);
-  const double log_front = a * std::log(x) + b * std::log1p(-x) + std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b);
-  return std::exp(log_front) / a * beta_fraction(x, a, b);
-}
+// In double, not long double; what is not a number stays so.
+namespace policies = boost::math::policies;
+using Student = boost::math::students_t_distribution<
+    double, policies::policy<policies::promote_double<false>, policies::domain_error<policies::ignore_error>,
+                             policies::overflow_error<policies::ignore_error>>>;
 
 double mean_of(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -61,18 +40,11 @@ double lower_quartile(std::span<const double> values) {
 }  // namespace
 
 double student_two_sided(double t, double freedom) {
-  return incomplete_beta(freedom / (freedom + t * t), 0.5 * freedom, 0.5);
+  return 2.0 * boost::math::cdf(boost::math::complement(Student(freedom), std::abs(t)));
 }
 
 double student_quantile(double p, double freedom) {
-  double low = 0.0, high = 1.0;
-  while (student_two_sided(high, freedom) > p) high *= 2.0;
-  constexpr int k_bisections = 60;
-  for (int i = 0; i < k_bisections; ++i) {
-    const double middle = 0.5 * (low + high);
-    (student_two_sided(middle, freedom) > p ? low : high) = middle;
-  }
-  return high;
+  return boost::math::quantile(boost::math::complement(Student(freedom), 0.5 * p));
 }
 
 double launch_log_ratio(std::span<const double> base_ns, std::span<const double> next_ns) {
@@ -99,18 +71,6 @@ Change change_over_launches(std::span<const double> log_ratios) {
 Change change_of_medians(const MedianTime& base, const MedianTime& next) {
   const double freedom = static_cast<double>(std::min(base.samples, next.samples)) - 1.0;
   return {std::log(next.ns / base.ns), std::hypot(log_error(base.ci95), log_error(next.ci95)), freedom};
-}
-
-Change mean_change(std::span<const Change> changes) {
-  if (changes.empty()) return {};
-  Change mean{0.0, 0.0, k_infinity};
-  const auto count = static_cast<double>(changes.size());
-  for (const Change& one : changes) {
-    mean.log_ratio += one.log_ratio / count;
-    mean.error += one.error / count;
-    mean.freedom = std::min(mean.freedom, one.freedom);
-  }
-  return mean;
 }
 
 double half_width(const Change& change) {

@@ -33,9 +33,6 @@ struct MedianTime {
 // From two separate runs. Knows nothing of what differs between the runs themselves.
 Change change_of_medians(const MedianTime& base, const MedianTime& next);
 
-// The mean of the changes, as if their errors were all one: an upper bound of its error. An empty span: freedom 0.
-Change mean_change(std::span<const Change> changes);
-
 // new / base with its 95 % interval. Without freedom the interval is everything: 0 to infinity.
 Ratio ratio_of(const Change& change);
 

@@ -1,9 +1,12 @@
 #include "report/compare.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <map>
 #include <optional>
+#include <string_view>
 
+#include "core/text.h"
 #include "measure/change.h"
 #include "report/columns.h"
 #include "report/exact_differences.h"
@@ -95,6 +98,7 @@ std::optional<TimeChange> time_change(const Match& match, bool is_paired) {
 // The changes of all methods, in the order of their first cases, and what Holm's correction makes of their chances.
 class Times {
  public:
+  Times() = default;
   Times(const std::vector<Match>& matches, bool is_paired) {
     for (const Match& match : matches) {
       const std::string key = method_key(match.next);
@@ -118,14 +122,8 @@ class Times {
   double corrected_p(std::size_t place) const { return corrected_[place]; }
   std::size_t count() const { return changes_.size(); }
 
-  // Over all methods. What disturbs a launch as a whole is in each launch's mean.
-  measure::Change mean() const {
-    if (const std::vector<double> launches = launch_means(); !launches.empty())
-      return measure::change_over_launches(launches);
-    std::vector<measure::Change> changes;
-    for (const TimeChange& one : changes_) changes.push_back(one.change);
-    return measure::mean_change(changes);
-  }
+  // Over all methods. What disturbs a launch as a whole is in each launch's mean; of separate runs nothing is known.
+  measure::Change mean() const { return measure::change_over_launches(launch_means()); }
 
  private:
   // Further launches are of some methods only.
@@ -195,32 +193,77 @@ void add_list_difference(const Match& match, Json& out) {
   if (out["counts"] == "same" || !is_better) out["counts"] = is_better ? "better" : "worse";
 }
 
-Json compared(const Match& match, const Times& times, double threshold) {
-  Json out{{"id", match.next["id"]}, {"name", match.next["name"]}};
-  if (const auto place = times.place_of(match.next)) {
-    const TimeChange& time = times.at(*place);
-    out["verdict"] = measure::name_of(measure::verdict_on(time.change, times.corrected_p(*place), threshold));
-    add_ratio(out, time.change);
-    out["p_corrected"] = times.corrected_p(*place);
-    out["base_ns"] = time.base_ns;
-    out["new_ns"] = time.next_ns;
-    out["launches"] = time.launches.size();
+// What stands between two results, beside their exact counts.
+struct Scope {
+  Json left_out = Json::object();   // "times", "instructions": the obstacles
+  std::vector<std::string> forced;  // obstacles in spite of which they are compared
+
+  bool leaves_out(const char* what) const { return left_out.contains(what); }
+};
+
+Scope scope_of(const Json& base, const Json& next, const std::vector<Match>& matches, bool is_forced) {
+  const Obstacles found = obstacles(base, next);
+  Scope scope;
+  const auto add = [&](const char* what, const char* pointer, const std::vector<std::string>& in_the_way) {
+    if (in_the_way.empty() ||
+        std::none_of(matches.begin(), matches.end(), [&](const Match& one) { return both_have(one, pointer); }))
+      return;
+    if (is_forced)
+      scope.forced = in_the_way;
+    else
+      scope.left_out[what] = in_the_way;
+  };
+  add("instructions", "/count/source", found.to_instructions);
+  if (std::any_of(matches.begin(), matches.end(),
+                  [](const Match& one) { return both_have(one, "/count/source") && !are_counts_comparable(one); }))
+    scope.left_out["instructions"].push_back("/cases are counted by other means, or of other frames");
+  if (!is_paired(base, next)) add("times", "/timing/assign_ns/median", found.to_times);
+  return scope;
+}
+
+const char* hint_of(measure::Verdict verdict) {
+  return verdict == measure::Verdict::slower ? "longer" : verdict == measure::Verdict::faster ? "shorter" : "none";
+}
+
+void add_time(Json& out, const TimeChange& time, double corrected_p, double threshold, bool gates_separate) {
+  const measure::Verdict verdict = measure::verdict_on(time.change, corrected_p, threshold);
+  if (time.launches.empty() && !gates_separate) {
+    out["hint"] = hint_of(verdict);
+  } else {
+    out["verdict"] = measure::name_of(verdict);
+    out["p_corrected"] = corrected_p;
   }
+  add_ratio(out, time.change);
+  out["base_ns"] = time.base_ns;
+  out["new_ns"] = time.next_ns;
+  out["launches"] = time.launches.size();
+}
+
+Json compared(const Match& match, const Times& times, const Scope& scope, double threshold,
+              const CompareOptions& options) {
+  Json out{{"id", match.next["id"]}, {"name", match.next["name"]}};
+  if (const auto place = times.place_of(match.next))
+    add_time(out, times.at(*place), times.corrected_p(*place), threshold, options.gates_separate);
   out.update(exact_differences(match.base, match.next));
   add_list_difference(match, out);
-  if (are_counts_comparable(match)) out["instructions"] = instructions(match, threshold);
+  if (!scope.leaves_out("instructions") && are_counts_comparable(match))
+    out["instructions"] = instructions(match, threshold);
   return out;
+}
+
+std::size_t count_of(const Json& cases, const char* key, const char* value) {
+  return static_cast<std::size_t>(std::count_if(
+      cases.begin(), cases.end(), [&](const Json& one) { return one.contains(key) && one[key] == value; }));
 }
 
 Json summary_of(const Json& cases, const Times& times) {
   Json out{{"cases", cases.size()}, {"methods_timed", times.count()}};
   for (const char* verdict : {"faster", "slower", "same", "inconclusive"})
-    out[verdict] = std::count_if(cases.begin(), cases.end(),
-                                 [&](const Json& one) { return one.contains("verdict") && one["verdict"] == verdict; });
+    out[verdict] = count_of(cases, "verdict", verdict);
+  for (const char* hint : {"shorter", "longer"}) out[std::string("hints_") + hint] = count_of(cases, "hint", hint);
   for (const char* counts : {"better", "worse"})
-    out[std::string("counts_") + counts] =
-        std::count_if(cases.begin(), cases.end(), [&](const Json& one) { return one["counts"] == counts; });
-  if (times.count() > 0) add_ratio(out, times.mean());
+    out[std::string("counts_") + counts] = count_of(cases, "counts", counts);
+  if (const measure::Change mean = times.mean(); mean.freedom >= 1.0) add_ratio(out, mean);
   return out;
 }
 
@@ -253,14 +296,24 @@ std::string listed(const Json& names) {
   return names.size() > k_most ? text + " and " + std::to_string(names.size() - k_most) + " more" : text;
 }
 
-Json warnings_of(const Json& base, const Json& next, const Json& comparison, const Times& times) {
+constexpr const char* k_separate_hints =
+    "times are of separate runs, which differ by themselves, on a busy machine several times over: they are hints and "
+    "fail nothing; to gate on time use `run --baseline-binary`, on a noisy machine `run --count`";
+constexpr const char* k_separate_verdicts =
+    "--gate-separate: times are of separate runs, and intervals know nothing of what differs between runs; on a busy "
+    "machine every second comparison of a program with itself failed";
+
+Json warnings_of(const Json& base, const Json& next, const Json& comparison, const std::vector<std::string>& forced,
+                 bool gates_separate) {
   Json warnings = Json::array();
-  for (const std::string& obstacle : obstacles(base, next)) warnings.push_back("compared all the same: " + obstacle);
-  if (comparison["data"] == "separate" && times.count() > 0)
-    warnings.push_back(
-        "times are of separate runs, and intervals know nothing of what differs between runs (on a shared machine up "
-        "to "
-        "27 %); `run --baseline-binary` measures both side by side");
+  if (base["schema_version"] != next["schema_version"])
+    warnings.push_back("compared all the same: /schema_version is " + base["schema_version"].dump() + " and " +
+                       next["schema_version"].dump());
+  for (const std::string& obstacle : forced) warnings.push_back("compared all the same: " + obstacle);
+  for (const auto& [what, in_the_way] : comparison["left_out"].items())
+    warnings.push_back(what + " are not compared: " + joined(in_the_way.get<std::vector<std::string>>(), "; "));
+  if (comparison["data"] == "separate" && comparison["summary"]["methods_timed"] != 0)
+    warnings.push_back(gates_separate ? k_separate_verdicts : k_separate_hints);
   if (!comparison["only_in_base"].empty())
     warnings.push_back("only in the base: " + listed(comparison["only_in_base"]));
   if (!comparison["only_in_new"].empty())
@@ -268,54 +321,56 @@ Json warnings_of(const Json& base, const Json& next, const Json& comparison, con
   return warnings;
 }
 
-bool are_times_or_counts_compared(const Json& base, const Json& next) {
-  const bool by_pairs = is_paired(base, next);
-  const std::vector<Match> matches = matches_of(base, next);
-  return std::any_of(matches.begin(), matches.end(), [&](const Match& match) {
-    return (!by_pairs && both_have(match, "/timing/assign_ns/median")) || both_have(match, "/count/source");
-  });
-}
-
 }  // namespace
 
-std::vector<std::string> obstacles(const Json& base, const Json& next) {
-  std::vector<std::string> out;
-  const auto check = [&](const char* pointer) {
-    const Json none, &left = has(base, pointer) ? base[Pointer(pointer)] : none,
-                     &right = has(next, pointer) ? next[Pointer(pointer)] : none;
-    if (left != right) out.push_back(std::string(pointer) + " is " + left.dump() + " and " + right.dump());
+Obstacles obstacles(const Json& base, const Json& next) {
+  const auto differing = [&](std::initializer_list<const char*> pointers) {
+    std::vector<std::string> out;
+    for (const char* pointer : pointers) {
+      const Json none, &left = has(base, pointer) ? base[Pointer(pointer)] : none,
+                       &right = has(next, pointer) ? next[Pointer(pointer)] : none;
+      // Results of older versions do not know the processor's numbers and caches.
+      const bool is_unknown = left.is_null() != right.is_null() && std::string_view(pointer).starts_with("/machine/");
+      if (left != right && !is_unknown)
+        out.push_back(std::string(pointer) + " is " + left.dump() + " and " + right.dump());
+    }
+    return out;
   };
-  check("/schema_version");
-  if (!are_times_or_counts_compared(base, next)) return out;
-  for (const char* pointer : {"/machine/cpu", "/machine/cores", "/machine/ram_bytes", "/machine/os", "/tool/compiler",
-                              "/tool/flags", "/tool/build_type", "/tool/simd_target", "/config/timing/frames"})
-    check(pointer);
+  Obstacles out;
+  out.to_instructions =
+      differing({"/machine/cpu", "/machine/family", "/machine/model", "/machine/stepping", "/machine/caches",
+                 "/tool/compiler", "/tool/flags", "/tool/build_type", "/tool/simd_target", "/config/timing/frames"});
+  out.to_times = differing({"/machine/cores", "/machine/ram_bytes", "/machine/os"});
+  out.to_times.insert(out.to_times.begin(), out.to_instructions.begin(), out.to_instructions.end());
   return out;
 }
 
-Json compare_results(const Json& base, const Json& next, double threshold) {
+Json compare_results(const Json& base, const Json& next, double threshold, const CompareOptions& options) {
   const bool by_pairs = is_paired(base, next);
   const std::vector<Match> matches = matches_of(base, next);
-  const Times times(matches, by_pairs);
+  const Scope scope = scope_of(base, next, matches, options.is_forced);
+  const Times times = scope.leaves_out("times") ? Times() : Times(matches, by_pairs);
   Json out{{"comparison_version", 1},
            {"threshold", threshold},
            {"data", by_pairs ? "paired" : "separate"},
            {"base", {{"tool", by_pairs ? next["baseline"]["tool"] : base["tool"]}}},
            {"new", {{"tool", next["tool"]}}},
+           {"left_out", scope.left_out},
            {"cases", Json::array()}};
-  for (const Match& match : matches) out["cases"].push_back(compared(match, times, threshold));
+  for (const Match& match : matches) out["cases"].push_back(compared(match, times, scope, threshold, options));
   out["summary"] = summary_of(out["cases"], times);
   out["only_in_base"] = missing_from(next, base);
   out["only_in_new"] = missing_from(base, next);
   out["failures"] = failures_of(next, out["cases"]);
-  out["warnings"] = warnings_of(base, next, out, times);
+  out["warnings"] = warnings_of(base, next, out, scope.forced, options.gates_separate);
   return out;
 }
 
 ExitCode outcome(const Json& comparison, bool is_strict) {
   if (comparison["cases"].empty()) return ExitCode::nothing_comparable;
   if (!comparison["failures"].empty()) return ExitCode::gate_failed;
-  const bool is_open = comparison["summary"]["inconclusive"] != 0 || !comparison["only_in_base"].empty();
+  const bool is_open = comparison["summary"]["inconclusive"] != 0 || !comparison["only_in_base"].empty() ||
+                       comparison["left_out"].contains("instructions");
   return is_strict && is_open ? ExitCode::inconclusive : ExitCode::ok;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// Two results side by side: what is counted must be equal or better, what is timed gets a verdict per case.
+// Two results side by side: what is counted must be equal or better; times that were measured side by side get a
+// verdict per case, times of separate runs a hint.
 // docs/comparing.md says how a verdict is found.
 
 #include <nlohmann/json.hpp>
@@ -10,18 +11,26 @@
 
 namespace clusterbench::report {
 
-// "machine.cpu: 'A' and 'B'" for each field in which two results differ and that their times or instructions depend on.
-// None where neither are compared, and where times were measured side by side (run --baseline-binary).
-std::vector<std::string> obstacles(const nlohmann::ordered_json& base, const nlohmann::ordered_json& next);
+// "/machine/cpu is 'A' and 'B'" for each field in which two results differ and that the figures depend on. What is
+// counted of lists, buffers and errors depends on none.
+struct Obstacles {
+  std::vector<std::string> to_times, to_instructions;
+};
+Obstacles obstacles(const nlohmann::ordered_json& base, const nlohmann::ordered_json& next);
+
+struct CompareOptions {
+  bool gates_separate = false;  // times of separate runs get verdicts, not hints
+  bool is_forced = false;       // times and instructions are compared in spite of obstacles
+};
 
 // As src/run/schemas/comparison.schema.json says. `threshold`: the smallest change of time that matters, 0.02 for 2 %.
 // Times: of rounds side by side where the new result has them for this base ("data": "paired"), else of medians
 // ("separate").
 nlohmann::ordered_json compare_results(const nlohmann::ordered_json& base, const nlohmann::ordered_json& next,
-                                       double threshold);
+                                       double threshold, const CompareOptions& options = {});
 
 // ok, gate_failed (a failure), nothing_comparable (no case in common); with `is_strict` inconclusive where a verdict
-// is, or a case of the base is missing.
+// is, a case of the base is missing, or instructions could not be compared.
 ExitCode outcome(const nlohmann::ordered_json& comparison, bool is_strict);
 
 // For people: the table, and the same for a pull request.

@@ -31,15 +31,23 @@ std::string version(const Json& side) {
   return tool["version"].get<std::string>() + " (" + tool["git_sha"].get<std::string>() + ")";
 }
 
+const char* kind_of_times(const Json& comparison) {
+  if (comparison["data"] == "paired") return ", times side by side";
+  return comparison["summary"]["methods_timed"] == 0 ? ", no times" : ", times of separate runs";
+}
+
 std::string heading(const Json& comparison) {
-  const bool is_paired = comparison["data"] == "paired";
-  return "base " + version(comparison["base"]) + ", new " + version(comparison["new"]) + ", times " +
-         (is_paired ? "side by side" : "of separate runs") + ", threshold " +
-         text("%g", 100.0 * comparison["threshold"].get<double>()) + " %";
+  return "base " + version(comparison["base"]) + ", new " + version(comparison["new"]) + kind_of_times(comparison) +
+         ", threshold " + text("%g", 100.0 * comparison["threshold"].get<double>()) + " %";
+}
+
+bool is_hint(const Json& one) {
+  return one.contains("hint") && one["hint"] != "none";
 }
 
 std::string word_of(const Json& one) {
-  return one.contains("verdict") ? one["verdict"].get<std::string>() : "-";
+  if (one.contains("verdict")) return one["verdict"].get<std::string>();
+  return is_hint(one) ? one["hint"].get<std::string>() + "?" : "-";
 }
 
 std::string instructions(const Json& one) {
@@ -60,8 +68,21 @@ Cells row_of(const Json& one) {
 }
 
 bool is_remarkable(const Json& one) {
-  return word_of(one) != "same" || one["counts"] != "same" ||
+  return (one.contains("verdict") && one["verdict"] != "same") || one["counts"] != "same" ||
          (one.contains("instructions") && one["instructions"]["verdict"] != "same");
+}
+
+const char* mark_of(const Json& one) {
+  return is_remarkable(one) ? "!" : is_hint(one) ? "?" : " ";
+}
+
+// Of the marks that the table has.
+std::string legend(const Json& cases) {
+  const auto has = [&](const std::string& mark) {
+    return std::any_of(cases.begin(), cases.end(), [&](const Json& one) { return mark_of(one) == mark; });
+  };
+  return std::string(has("!") ? "! the verdict, the instructions or what is counted is not the same.\n" : "") +
+         (has("?") ? "? a hint: medians of separate runs differ beyond the threshold and their intervals.\n" : "");
 }
 
 // The first place where two lists part, both values elsewhere.
@@ -74,10 +95,10 @@ std::string times_text(const Json& base, const Json& next) {
 }
 
 std::string list_text(const Json& lists) {
-  return "lists differ in " + lists["frames"].dump() + " frames, first in frame " + lists["frame"].dump() + ", cell " +
-         lists["cell"].dump() + ", light " + lists["light"].dump() + ": only in the " +
-         (lists["in"] == "new" ? "new" : "base") + " lists; " + lists["base_pairs"].dump() + " -> " +
-         lists["new_pairs"].dump() + " pairs";
+  return "lists differ in " + number_of(lists["frames"].get<std::uint64_t>(), "frame") + ", first in frame " +
+         lists["frame"].dump() + ", cell " + lists["cell"].dump() + ", light " + lists["light"].dump() +
+         ": only in the " + (lists["in"] == "new" ? "new" : "base") + " lists; " + lists["base_pairs"].dump() + " -> " +
+         number_of(lists["new_pairs"].get<std::uint64_t>(), "pair");
 }
 
 // One line per difference of a case.
@@ -93,7 +114,7 @@ std::vector<std::string> details(const Json& one) {
 
 std::string summary_text(const Json& comparison) {
   const Json& summary = comparison["summary"];
-  std::string text = summary["cases"].dump() + " cases:";
+  std::string text = number_of(summary["cases"].get<std::uint64_t>(), "case") + ":";
   const char* separator = " ";
   for (const char* word : {"faster", "slower", "same", "inconclusive", "counts_better", "counts_worse"}) {
     if (summary[word] == 0) continue;
@@ -102,10 +123,14 @@ std::string summary_text(const Json& comparison) {
     text += separator + summary[word].dump() + " " + name;
     separator = ", ";
   }
-  if (*separator == ' ') text += " nothing has changed";
+  const bool has_hints = summary["hints_longer"] != 0 || summary["hints_shorter"] != 0;
+  if (*separator == ' ') text += has_hints ? " what is counted is the same" : " nothing has changed";
+  if (has_hints)
+    text += "; hints of time: " + summary["hints_longer"].dump() + " longer, " + summary["hints_shorter"].dump() +
+            " shorter";
   if (summary.contains("ratio"))
-    text += "; geometric mean of " + summary["methods_timed"].dump() + " methods " + percent(summary["ratio"]) + " (" +
-            interval(summary) + ")";
+    text += "; geometric mean of " + number_of(summary["methods_timed"].get<std::uint64_t>(), "method") + " " +
+            percent(summary["ratio"]) + " (" + interval(summary) + ")";
   return text;
 }
 
@@ -117,11 +142,11 @@ std::string table(const Json& cases) {
     rows.back().insert(rows.back().end(), cells.begin(), cells.end());
   };
   add({k_columns.begin(), k_columns.end()}, " ");
-  for (const Json& one : cases) add(row_of(one), is_remarkable(one) ? "!" : " ");
+  for (const Json& one : cases) add(row_of(one), mark_of(one));
   std::string text;
   const std::vector<std::size_t> widths = widths_of(rows);
   for (const Cells& row : rows) text += aligned(row, widths);
-  return text;
+  return text + legend(cases);
 }
 
 std::string markdown_row(const Cells& cells) {
@@ -170,8 +195,8 @@ std::string comparison_markdown(const Json& comparison) {
   out += markdown_list("What is counted", details_of_all(comparison["cases"]));
   out += markdown_list("Warnings", comparison["warnings"]);
   if (!rest.empty())
-    out += "\n<details><summary>" + std::to_string(rest.size()) + " cases without a change</summary>\n\n" +
-           markdown_table(rest) + "\n</details>\n";
+    out += "\n<details><summary>" + number_of(rest.size(), "case") +
+           " without a verdict or a change of counts</summary>\n\n" + markdown_table(rest) + "\n</details>\n";
   return out;
 }
 

@@ -10,8 +10,11 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <tuple>
 
 #include "core/error.h"
+#include "core/text.h"
+#include "report/machine.h"
 
 namespace clusterbench::report {
 namespace {
@@ -21,16 +24,25 @@ using Json = nlohmann::ordered_json;
 
 constexpr int k_history_version = 1;
 
+// A run has one.
+std::string counter_of(const Json& result) {
+  for (const Json& one : result["cases"])
+    if (one.contains("count")) return one["count"]["source"].get<std::string>();
+  return "";
+}
+
 Json history_line(const Json& result, const std::string& commit) {
   Json line{{"history_version", k_history_version},
             {"commit", commit},
             {"name", result.at("name")},
-            {"cpu", result.at("machine").at("cpu")},
-            {"simd_target", result.at("tool").at("simd_target")},
-            {"cases", Json::array()}};
+            {"cpu", machine_name(result.at("machine"))},
+            {"simd_target", result.at("tool").at("simd_target")}};
+  if (const std::string counter = counter_of(result); !counter.empty()) line["counter"] = counter;
+  line["cases"] = Json::array();
   for (const Json& one : result["cases"]) {
     Json figures = Json::object();
-    for (const Measured& figure : measured(one, false)) figures[std::string(figure.metric->name)] = figure.value;
+    for (const Measured& figure : measured(one, false))
+      if (basis_of(*figure.metric) != Basis::derived) figures[std::string(figure.metric->name)] = figure.value;
     line["cases"].push_back({{"id", one.at("id")}, {"name", one.at("name")}, {"figures", figures}});
   }
   return line;
@@ -48,6 +60,7 @@ HistoryEntry parsed(const std::string& line) {
     throw Error("", "", "history_version is " + json["history_version"].dump() + "; this version reads 1");
   HistoryEntry entry{json.at("commit").get<std::string>(),
                      json.at("cpu").get<std::string>() + ", " + json.at("simd_target").get<std::string>(),
+                     json.value("counter", std::string()),
                      {}};
   for (const Json& one : json.at("cases")) entry.cases.push_back(parsed_case(one));
   return entry;
@@ -111,17 +124,43 @@ const Metric* metric_named(const std::string& name) {
   return nullptr;
 }
 
-std::string series_text(const Series& series, bool has_machine) {
+// Whose figures are one series: times of another machine, or instructions that another counter counted, are not.
+std::string origin(const HistoryEntry& entry, const Metric& metric) {
+  switch (basis_of(metric)) {
+    case Basis::time:
+      return entry.machine;
+    case Basis::instructions:
+      return entry.machine + (entry.counter.empty() ? "" : ", " + entry.counter);
+    case Basis::count:
+    case Basis::derived:
+      break;
+  }
+  return "";
+}
+
+// What counting leaves open: hardware counts interrupts, too; even valgrind's depend a little on where memory lies.
+double counting_noise(const Series& series) {
+  if (basis_of(*series.metric) != Basis::instructions) return 0.0;
+  return series.machine.ends_with(", callgrind") ? 0.001 : 0.01;
+}
+
+std::vector<measure::ChangePoint> changes_of(const Series& series, const measure::ChangeRule& rule) {
+  if (basis_of(*series.metric) == Basis::time) return measure::change_points(series.values, rule);
+  return measure::counted_changes(series.values, std::max(rule.min_change, counting_noise(series)));
+}
+
+std::string series_text(const Series& series) {
   std::string text = series.case_name + "  " + std::string(series.metric->name) + " (" +
-                     std::string(series.metric->unit) + ")" + (has_machine ? "  on " + series.machine : "") + "\n  " +
-                     std::to_string(series.values.size()) + " values, " + figure_text(series.values.front()) + " to " +
-                     figure_text(series.values.back()) + "\n";
+                     std::string(series.metric->unit) + ")" + (series.machine.empty() ? "" : "  on " + series.machine) +
+                     "\n  " + number_of(series.values.size(), "value") + ", " + figure_text(series.values.front()) +
+                     " to " + figure_text(series.values.back()) + "\n";
   for (const measure::ChangePoint& change : series.changes) {
     char p[48];
-    std::snprintf(p, sizeof p, change.p < 1e-9 ? "p < 1e-9" : "p %.1g", change.p);
+    std::snprintf(p, sizeof p, " (p %.1g)", change.p);
     const std::string way = direction(*series.metric, change);
     text += "  at " + series.commits[change.index] + ": " + figure_text(change.before) + " to " +
-            figure_text(change.after) + ", " + change_text(change) + (way.empty() ? "" : ", " + way) + " (" + p + ")\n";
+            figure_text(change.after) + ", " + change_text(change) + (way.empty() ? "" : ", " + way) +
+            (change.p > 0.0 ? p : "") + "\n";
   }
   return text;
 }
@@ -141,18 +180,23 @@ void add_to_history(const std::string& path, const Json& result, const std::stri
 
 std::vector<Series> series_of(const std::vector<HistoryEntry>& history, const measure::ChangeRule& rule) {
   std::vector<Series> all;
-  std::map<std::pair<std::string, std::string>, std::map<const Metric*, std::size_t>> places;
+  std::map<std::tuple<std::string, const Metric*, std::string>, std::size_t> places;
   for (const HistoryEntry& entry : history)
     for (const HistoryEntry::Case& one : entry.cases)
       for (const auto& [name, value] : one.figures) {
         const Metric* metric = metric_named(name);
-        if (metric == nullptr) continue;  // of an older version
-        const auto [place, is_new] = places[{one.name, entry.machine}].try_emplace(metric, all.size());
-        if (is_new) all.push_back({one.name, entry.machine, metric, {}, {}, {}});
+        if (metric == nullptr || basis_of(*metric) == Basis::derived) continue;  // of an older version
+        const std::string from = origin(entry, *metric);
+        const auto [place, is_new] = places.try_emplace({one.name, metric, from}, all.size());
+        if (is_new) all.push_back({one.name, from, metric, {}, {}, false, {}});
         all[place->second].commits.push_back(entry.commit);
         all[place->second].values.push_back(value);
       }
-  for (Series& series : all) series.changes = measure::change_points(series.values, rule);
+  for (Series& series : all) {
+    series.is_too_short =
+        basis_of(*series.metric) == Basis::time && series.values.size() < measure::least_values(rule.max_p);
+    series.changes = changes_of(series, rule);
+  }
   return all;
 }
 
@@ -169,16 +213,18 @@ std::string change_text(const measure::ChangePoint& change) {
 }
 
 std::string history_text(const std::vector<Series>& series, std::size_t entries, bool all) {
-  const bool has_machines =
-      std::any_of(series.begin(), series.end(), [&](const Series& one) { return one.machine != series[0].machine; });
   std::string text;
-  std::size_t changes = 0;
+  std::size_t changes = 0, too_short = 0;
   for (const Series& one : series) {
     changes += one.changes.size();
-    if (all || !one.changes.empty()) text += series_text(one, has_machines);
+    too_short += one.is_too_short ? 1 : 0;
+    if (all || !one.changes.empty()) text += series_text(one);
   }
-  return text + std::to_string(entries) + " results, " + std::to_string(series.size()) + " series, " +
-         std::to_string(changes) + (changes == 1 ? " change\n" : " changes\n");
+  text += number_of(entries, "result") + ", " + std::to_string(series.size()) + " series, " +
+          number_of(changes, "change") + "\n";
+  return too_short == 0
+             ? text
+             : text + std::to_string(too_short) + " series of times are too short to tell changes from noise\n";
 }
 
 std::string figure_text(double value) {

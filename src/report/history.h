@@ -12,7 +12,8 @@ namespace clusterbench::report {
 
 struct HistoryEntry {
   std::string commit;   // as it was given
-  std::string machine;  // processor and instruction set; times of two machines are two series
+  std::string machine;  // processor and instruction set
+  std::string counter;  // of instructions: "callgrind", "perf"; "" if none, or of an older version
   struct Case {
     std::string name;
     std::vector<std::pair<std::string, double>> figures;  // by the metric's name
@@ -20,12 +21,14 @@ struct HistoryEntry {
   std::vector<Case> cases;
 };
 
-// One figure of one case on one machine, in the order of the file.
+// One figure of one case, in the order of the file.
 struct Series {
-  std::string case_name, machine;
+  std::string case_name;
+  std::string machine;  // and counter: two of them are two series; "" for what is counted, the same on all
   const Metric* metric;
   std::vector<std::string> commits;
   std::vector<double> values;
+  bool is_too_short = false;  // for any change to be told from noise
   std::vector<measure::ChangePoint> changes;
 };
 
@@ -37,7 +40,8 @@ std::vector<HistoryEntry> read_history(const std::string& path);
 // write.
 void add_to_history(const std::string& path, const nlohmann::ordered_json& result, const std::string& commit);
 
-// By case in order of first appearance, then by metric; the changes found by `rule`.
+// By case in order of first appearance, then by metric, without those that say another in another way; the changes
+// found by `rule`.
 std::vector<Series> series_of(const std::vector<HistoryEntry>& history, const measure::ChangeRule& rule);
 
 // Series with changes, or all of them, and a line of totals.

@@ -5,8 +5,10 @@
 #include <map>
 #include <set>
 
+#include "core/text.h"
 #include "measure/front.h"
 #include "report/details_json.h"
+#include "report/machine.h"
 
 namespace clusterbench::report {
 namespace {
@@ -331,10 +333,7 @@ Json case_to_json(const run::CaseResult& one) {
 
 Json result_to_json(const run::Result& result, const std::vector<Json>& earlier_cases) {
   Json out{{"schema_version", k_schema_version}, {"name", result.config_name}, {"tool", tool_to_json(result.tool)}};
-  out["machine"] = {{"cpu", result.machine.cpu},
-                    {"cores", result.machine.cores},
-                    {"ram_bytes", result.machine.ram_bytes},
-                    {"os", result.machine.os}};
+  out["machine"] = machine_to_json(result.machine);
   out["config"] = result.config;
   out["scenes"] = Json::array();
   for (const run::SceneResult& scene : result.scenes) out["scenes"].push_back(to_json(scene));
@@ -356,8 +355,9 @@ std::vector<std::string> gate_failures(const Json& result) {
     if (has_lost && (assigner["conservative"] == true || assigner["exact"] == true))
       failures.push_back(missing_light(one));
     if (has_excess && assigner["exact"] == true)
-      failures.push_back(one["name"].get<std::string>() + ": reported " + one["error"]["false_positives"].dump() +
-                         " pairs that are not true, and calls itself exact");
+      failures.push_back(one["name"].get<std::string>() + ": reported " +
+                         number_of(one["error"]["false_positives"].get<std::uint64_t>(), "pair") +
+                         " beside the truth, and calls itself exact");
   }
   return failures;
 }

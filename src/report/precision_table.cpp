@@ -45,8 +45,9 @@ std::string loss_text(const Json& precision) {
                      metres("safe_inflation_m") + "\n";
   const Json& beyond = precision["unrepresentable"];
   if (beyond["lights"] != 0)
-    text += "  " + name + " cannot hold up to " + beyond["lights"].dump() + " lights in " + beyond["frames"].dump() +
-            " frames (too far, too large or without end): here they stay in float32,\n" +
+    text += "  " + name + " cannot hold up to " + number_of(beyond["lights"].get<std::uint64_t>(), "light") + " in " +
+            number_of(beyond["frames"].get<std::uint64_t>(), "frame") +
+            " (too far, too large or without end): here they stay in float32,\n" +
             "  an engine's conversion makes them infinite or cuts them off\n";
   return text;
 }

@@ -77,16 +77,17 @@ Json to_json(const std::optional<run::RandomSearch>& random) {
 }
 
 std::string in_lines(const run::RandomFault& found) {
-  return found.name() + ": " + found.fault.detail + " (seed " + std::to_string(found.seeds.front()) + ", shrunk; " +
-         std::to_string(found.settings) + " settings show it)";
+  return found.name() + ": " + found.fault.detail + " (seed " + std::to_string(found.seeds.front()) +
+         ", shrunk; shown by " + number_of(found.settings, "setting") + ")";
 }
 
 void print_random(std::ostream& out, const run::RandomSearch& random) {
   const run::SettingCounts& counts = random.counts;
   out << "\nRandom settings: " << counts.settings << " (seeds from " << random.first_seed << " on), " << counts.refused
-      << " of them refused; " << counts.points << " points, " << counts.spots << " spots\n  " << counts.pairs
-      << " pairs, " << counts.true_pairs << " true; " << counts.decisions << " decided one by one, " << counts.undecided
-      << " undecided; " << random.faults.size() << " faults\n";
+      << " of them refused; " << number_of(counts.points, "point") << ", " << number_of(counts.spots, "spot") << "\n  "
+      << number_of(counts.pairs, "pair") << ", " << counts.true_pairs << " true; " << counts.decisions
+      << " decided one by one, " << counts.undecided << " undecided; " << number_of(random.faults.size(), "fault")
+      << "\n";
   for (const run::RandomFault& found : random.faults) out << "  " << in_lines(found) << "\n";
 }
 
@@ -126,7 +127,7 @@ std::string mark(const run::StressResult& result, const std::string& hard_case, 
 
 std::string in_lines(const run::StressCell& cell) {
   std::string text = cell.hard_case + " " + cell.method + ": " + std::to_string(cell.misses) + " of " +
-                     std::to_string(cell.true_pairs) + " pairs lost";
+                     number_of(cell.true_pairs, "pair") + " lost";
   if (cell.deepest)
     text += ", the deepest " + percent(cell.deepest->depth) + " of its range inside (" + cell.deepest->trial +
             ", cell " + std::to_string(cell.deepest->cell) + ", light " + std::to_string(cell.deepest->light) + ")";
@@ -136,7 +137,8 @@ std::string in_lines(const run::StressCell& cell) {
 void print_matrix(std::ostream& out, const run::StressResult& result) {
   constexpr int k_width = 7;
   const std::vector<std::string> names = columns(result);
-  out << "Pairs lost by hard case and method. ok: none; refused: as it should be; -: not taken by the method\n\n";
+  out << "Pairs lost by hard case and method. ok: none; refused: as it should be; -: not taken by the "
+         "method; FAULT: its lists are not what it promises\n\n";
   for (std::size_t i = 0; i < names.size(); ++i) out << std::setw(4) << i + 1 << "  " << names[i] << "\n";
   out << "\n    ";
   for (std::size_t i = 0; i < names.size(); ++i) out << std::setw(k_width) << i + 1;
@@ -244,15 +246,15 @@ std::vector<std::string> stress_failures(const run::StressResult& result) {
     const run::StressMethod& method = method_of(result, cell.method);
     if (method.conservative && cell.lost()) failures.push_back(in_lines(cell));
     if (method.row->exact && cell.extra_pairs > 0)
-      failures.push_back(cell.hard_case + " " + cell.method + ": exact, but " + std::to_string(cell.extra_pairs) +
-                         " pairs too many");
+      failures.push_back(cell.hard_case + " " + cell.method + ": exact, but " + number_of(cell.extra_pairs, "pair") +
+                         " too many");
   }
   for (std::size_t i = 0; i < result.cases.size(); ++i)
     for (const run::ToolCheck& check : result.checks[i])
       if (!check.passed) failures.push_back(std::string(result.cases[i].id) + ": " + check.what);
   for (const run::SearchResult& search : result.searches)
     if (search.deepest && method_of(result, search.method).conservative)
-      failures.push_back("H31 " + search.method + ": " + std::to_string(search.misses) + " lights lost, the deepest " +
+      failures.push_back("H31 " + search.method + ": " + number_of(search.misses, "light") + " lost, the deepest " +
                          percent(search.deepest->depth) + " of its range inside");
   if (result.random)
     for (const run::RandomFault& found : result.random->faults) failures.push_back("random " + in_lines(found));

@@ -114,38 +114,62 @@ std::string counters(const Json& cases) {
 
 std::string scene_heading(const Json& scene) {
   const Json& lights = scene["lights"];
-  return shown(scene["name"]) + "  (" + lights["point"].dump() + " points, " + lights["spot"].dump() + " spots, " +
-         scene["frames"].dump() + " frames)";
+  return shown(scene["name"]) + "  (" + number_of(lights["point"].get<std::uint64_t>(), "point") + ", " +
+         number_of(lights["spot"].get<std::uint64_t>(), "spot") + ", " +
+         number_of(scene["frames"].get<std::uint64_t>(), "frame") + ")";
 }
 
 std::string scene_warnings(const Json& result) {
   std::string out;
   for (const Json& scene : result["scenes"]) {
     const Json& rule = scene["range_rule"];
-    const int made = rule["from_intensity"].get<int>() + rule["clamped"].get<int>();
+    const auto made = rule["from_intensity"].get<std::uint64_t>() + rule["clamped"].get<std::uint64_t>();
     if (made > 0)
-      out += "warning: " + shown(scene["name"]) + ": " + std::to_string(made) +
-             " lights have no range; they end where they fall to " + text("%g", rule["cutoff_lux"].get<double>()) +
-             " lux, at most " + text("%g", rule["max_range"].get<double>()) + " m (range_rule)\n";
+      out +=
+          "warning: " + shown(scene["name"]) + ": " + number_of(made, "light") +
+          (made == 1 ? " has no range; it ends where it falls to " : " have no range; they end where they fall to ") +
+          text("%g", rule["cutoff_lux"].get<double>()) + " lux, at most " +
+          text("%g", rule["max_range"].get<double>()) + " m (range_rule)\n";
     for (const Json& warning : scene["warnings"])
       out += "warning: " + shown(scene["name"]) + ": " + shown(warning) + "\n";
   }
   return out;
 }
 
+std::string overflow_text(const Json& overflow) {
+  const auto number = [&](const char* key, const char* word) {
+    return number_of(overflow[key].get<std::uint64_t>(), word);
+  };
+  return number("dropped_pairs", "pair") + " dropped in " + number("cells", "cell") + " of " +
+         number("frames", "frame");
+}
+
 std::string case_warnings(const Json& cases) {
   std::string out;
   for (const Json& one : cases) {
     const Json& overflow = one["buffers"]["overflow"];
-    if (overflow["dropped_pairs"] != 0)
-      out += "warning: " + shown(one["name"]) + ": " + overflow["dropped_pairs"].dump() + " pairs dropped in " +
-             overflow["cells"].dump() + " cells of " + overflow["frames"].dump() + " frames\n";
+    if (overflow["dropped_pairs"] != 0) out += "warning: " + shown(one["name"]) + ": " + overflow_text(overflow) + "\n";
     for (const char* part : {"error", "stability"})
       if (one.contains(part) && one[part]["undecided"] != 0)
-        out += "warning: " + shown(one["name"]) + ": " + part + ": " + one[part]["undecided"].dump() +
-               " pairs are undecided and counted as true\n";
+        out += "warning: " + shown(one["name"]) + ": " + part + ": " +
+               number_of(one[part]["undecided"].get<std::uint64_t>(), "undecided pair") + " counted as true\n";
   }
   return out;
+}
+
+// Of the marks and columns that have something in them.
+std::string legend(const Json& cases, bool has_front) {
+  const auto is_timed = [](const Json& one) { return time_text(one) != "-"; };
+  const bool any_timed = std::any_of(cases.begin(), cases.end(), is_timed);
+  std::string out;
+  if (has_front)
+    out += std::string("* no other case of its scene, camera and viewport is better in ") +
+           (any_timed ? "time, bytes and overshade.\n" : "bytes and overshade.\n");
+  if (any_timed) out += "floor: assign time / time to copy the lists.\n";
+  if (!std::all_of(cases.begin(), cases.end(), is_timed)) out += "-: not measured.\n";
+  return out +
+         "excess: false positives in % of true pairs. missed: true pairs that are not listed. p99: lights per cell.\n"
+         "entries: allocation with margin.\n";
 }
 
 }  // namespace
@@ -177,13 +201,10 @@ std::string render_table(const Json& result, bool colour) {
     }
     out += "\n";
   }
-  out +=
-      "* no other case of its scene, camera and viewport is better in time, bytes and overshade.\n"
-      "floor: assign time / time to copy the lists.\n"
-      "excess: false positives in % of true pairs. p99: lights per cell. entries: allocation with margin.\n";
+  out += legend(cases, !on_front.empty());
   if (!counted_by.empty()) out += "instr: instructions of one frame's assignment, counted by " + counted_by + ".\n";
   if (!result["skipped"].empty())
-    out += std::to_string(result["skipped"].size()) + " combinations skipped; the result says why.\n";
+    out += number_of(result["skipped"].size(), "combination") + " skipped; the result says why.\n";
   return out + lookup_table(result) + stability_table(result) + precision_table(result) + scene_warnings(result) +
          case_warnings(cases);
 }

@@ -10,6 +10,7 @@
 
 #include "assign/simd/span_lists.h"
 #include "run/git_sha.h"
+#include "run/processor.h"
 #include "run/result.h"
 
 namespace clusterbench::run {
@@ -29,18 +30,6 @@ std::string dotted(int major, int minor, int patch) {
   return std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(patch);
 }
 
-// The value behind "key : value" in a file of /proc; "" where there is none.
-std::string proc_value(const char* file, const std::string& key) {
-  std::ifstream in(file);
-  for (std::string line; std::getline(in, line);) {
-    if (line.compare(0, key.size(), key) != 0) continue;
-    const std::size_t colon = line.find(':');
-    const std::size_t start = line.find_first_not_of(" \t", colon + 1);
-    return start == std::string::npos ? "" : line.substr(start);
-  }
-  return "";
-}
-
 }  // namespace
 
 ToolFacts tool_facts() {
@@ -56,9 +45,14 @@ ToolFacts tool_facts() {
 }
 
 MachineFacts machine_facts() {
+  std::ifstream cpuinfo("/proc/cpuinfo");
+  const Processor processor = processor_of(cpuinfo);
   MachineFacts facts;
-  facts.cpu = proc_value("/proc/cpuinfo", "model name");
-  if (facts.cpu.empty()) facts.cpu = "unknown";
+  facts.cpu = processor.name;
+  facts.family = processor.family;
+  facts.model = processor.model;
+  facts.stepping = processor.stepping;
+  facts.caches = caches_of("/sys/devices/system/cpu/cpu0/cache");
   facts.cores = static_cast<int>(std::thread::hardware_concurrency());
   facts.ram_bytes =
       static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));

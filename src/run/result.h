@@ -36,6 +36,8 @@ struct MachineFacts {
   std::string cpu, os;
   int cores = 0;
   std::uint64_t ram_bytes = 0;
+  std::string family, model, stepping;                        // run/processor.h
+  std::vector<std::pair<std::string, std::uint64_t>> caches;  // "l1d", bytes
 };
 MachineFacts machine_facts();
 

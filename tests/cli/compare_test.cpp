@@ -82,7 +82,7 @@ TEST(CompareCommand, another_schema_version_is_refused_unless_forced) {
       << broken.err;
 }
 
-TEST(CompareCommand, instructions_of_another_machine_are_refused_unless_forced) {
+TEST(CompareCommand, instructions_of_another_machine_are_left_out_unless_forced) {
   Json result = counted_result();
   for (Json& one : result["cases"])
     one["count"] = {{"source", "callgrind"},
@@ -93,11 +93,31 @@ TEST(CompareCommand, instructions_of_another_machine_are_refused_unless_forced) 
   const Folder folder;
   const std::string base = folder.write("base.json", result.dump()).string();
   result["machine"]["cpu"] = "another";
+  for (Json& one : result["cases"]) one["count"]["instructions_per_frame"]["assign"] = 20.0;
   const std::string next = folder.write("new.json", result.dump()).string();
-  const Outcome refused = tool("compare " + base + " " + next);
+  const Outcome done = tool("compare " + base + " " + next);
+  EXPECT_EQ(done.code, 0);
+  EXPECT_NE(done.out.find("instructions are not compared: /machine/cpu"), std::string::npos) << done.out;
+  EXPECT_EQ(tool("compare --strict " + base + " " + next).code, 4);
+  EXPECT_EQ(tool("compare --force " + base + " " + next).code, 1);
+}
+
+TEST(CompareCommand, times_of_separate_runs_fail_only_on_request) {
+  Json result = Json::parse(file_text(source_file("results/intel-r-xeon-r-processor/quick.json")));
+  const Folder folder;
+  const std::string base = folder.write("base.json", result.dump()).string();
+  for (Json& one : result["cases"])
+    for (const char* key : {"median", "ci95"})
+      for (Json& ns : one["timing"]["assign_ns"][key]) ns = 5.0 * ns.get<double>();
+  const std::string next = folder.write("new.json", result.dump()).string();
+  EXPECT_EQ(tool("compare --strict " + base + " " + next).code, 0);
+  EXPECT_EQ(tool("compare --gate-separate " + base + " " + next).code, 1);
+  result["machine"]["cpu"] = "another";
+  const std::string elsewhere = folder.write("elsewhere.json", result.dump()).string();
+  EXPECT_EQ(tool("compare " + base + " " + elsewhere).code, 0);
+  const Outcome refused = tool("compare --gate-separate " + base + " " + elsewhere);
   EXPECT_EQ(refused.code, 3);
   EXPECT_NE(refused.err.find("/machine/cpu"), std::string::npos) << refused.err;
-  EXPECT_EQ(tool("compare --force " + base + " " + next).code, 0);
 }
 
 TEST(CompareCommand, what_is_no_result_is_a_usage_error) {

@@ -52,6 +52,12 @@ TEST(Printable, keeps_lines_where_they_are_wanted) {
   EXPECT_EQ(printable_lines("a\nb\x1b\n"), "a\nb?\n");
 }
 
+TEST(NumberOf, has_the_plural_where_it_belongs) {
+  EXPECT_EQ(number_of(0, "light"), "0 lights");
+  EXPECT_EQ(number_of(1, "light"), "1 light");
+  EXPECT_EQ(number_of(2, "light"), "2 lights");
+}
+
 TEST(Sha256, agrees_with_the_examples_of_fips_180) {
   EXPECT_EQ(sha256_hex("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   EXPECT_EQ(sha256_hex(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");

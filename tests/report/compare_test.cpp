@@ -32,8 +32,8 @@ run::Result with_times(double slow_ns, double fast_ns) {
 }
 
 // Every comparison of these tests is held against its schema.
-Json compared(const Json& base, const Json& next, double threshold) {
-  Json comparison = compare_results(base, next, threshold);
+Json compared(const Json& base, const Json& next, double threshold, const CompareOptions& options = {}) {
+  Json comparison = compare_results(base, next, threshold, options);
   const Json violations =
       run::schema_violations(run::row_of(run::Document::comparison).schema(), nlohmann::json::parse(comparison.dump()));
   EXPECT_TRUE(violations.empty()) << violations.dump(1) << comparison.dump(1);
@@ -41,8 +41,10 @@ Json compared(const Json& base, const Json& next, double threshold) {
 }
 
 std::string verdict_of(const Json& comparison, std::size_t place) {
-  return comparison["cases"][place]["verdict"];
+  return comparison["cases"][place].value("verdict", "none");
 }
+
+constexpr CompareOptions k_gate_separate{.gates_separate = true};
 
 bool holds(const Json& lines, const std::string& part) {
   return lines.dump().find(part) != std::string::npos;
@@ -51,39 +53,71 @@ bool holds(const Json& lines, const std::string& part) {
 TEST(Compare, a_result_is_the_same_as_itself) {
   const Json result = json_of(result_by_hand());
   const Json comparison = compared(result, result, 0.02);
-  EXPECT_EQ(verdict_of(comparison, 0), "same");
+  EXPECT_EQ(comparison["cases"][0]["hint"], "none");
   EXPECT_EQ(comparison["cases"][0]["counts"], "same");
   EXPECT_TRUE(comparison["cases"][0]["differences"].empty());
   EXPECT_EQ(outcome(comparison, true), ExitCode::ok) << comparison.dump(1);
+  EXPECT_EQ(verdict_of(compared(result, result, 0.02, k_gate_separate), 0), "same");
 }
 
-TEST(Compare, times_of_separate_runs_get_a_verdict_and_a_warning) {
-  const Json comparison = compared(json_of(with_times(9000, 3000)), json_of(with_times(9900, 2700)), 0.02);
+TEST(Compare, times_of_separate_runs_give_hints_and_fail_nothing) {
+  const Json comparison = compared(json_of(with_times(9000, 3000)), json_of(with_times(90000, 300)), 0.02);
+  EXPECT_EQ(comparison["cases"][0]["hint"], "longer");
+  EXPECT_EQ(comparison["cases"][1]["hint"], "shorter");
+  EXPECT_EQ(verdict_of(comparison, 0), "none");
+  EXPECT_FALSE(comparison["summary"].contains("ratio")) << "a mean of hints";
+  EXPECT_EQ(outcome(comparison, true), ExitCode::ok) << comparison.dump(1);
+  const std::string text = comparison_text(comparison), markdown = comparison_markdown(comparison);
+  for (const std::string& said : {text, markdown}) {
+    EXPECT_NE(said.find("longer?"), std::string::npos) << said;
+    EXPECT_NE(said.find("baseline-binary"), std::string::npos) << said;
+    EXPECT_NE(said.find("hints of time: 1 longer, 1 shorter"), std::string::npos) << said;
+    for (const char* word : {"slower", "faster", "FAILED", "failed", "geometric"})
+      EXPECT_EQ(said.find(word), std::string::npos) << word << "\n" << said;
+  }
+}
+
+TEST(Compare, times_of_separate_runs_get_verdicts_on_request) {
+  const Json comparison =
+      compared(json_of(with_times(9000, 3000)), json_of(with_times(9900, 2700)), 0.02, k_gate_separate);
   EXPECT_EQ(verdict_of(comparison, 0), "slower");
   EXPECT_EQ(verdict_of(comparison, 1), "faster");
   EXPECT_NEAR(comparison["cases"][0]["ratio"].get<double>(), 1.1, 1e-12);
-  EXPECT_NEAR(comparison["summary"]["ratio"].get<double>(), std::sqrt(1.1 * 0.9), 1e-12);
-  EXPECT_TRUE(holds(comparison["warnings"], "separate runs"));
+  EXPECT_FALSE(comparison["summary"].contains("ratio"));
+  EXPECT_TRUE(holds(comparison["warnings"], "--gate-separate"));
   EXPECT_TRUE(holds(comparison["failures"], "slower by +10.0 %"));
   EXPECT_EQ(outcome(comparison, false), ExitCode::gate_failed);
 }
 
 TEST(Compare, the_threshold_says_what_matters) {
   const Json base = json_of(with_times(9000, 3000)), next = json_of(with_times(9900, 3000));
-  EXPECT_EQ(verdict_of(compared(base, next, 0.2), 0), "same");
-  EXPECT_EQ(outcome(compared(base, next, 0.2), true), ExitCode::ok);
+  EXPECT_EQ(compared(base, next, 0.2)["cases"][0]["hint"], "none");
+  EXPECT_EQ(verdict_of(compared(base, next, 0.2, k_gate_separate), 0), "same");
 }
 
 TEST(Compare, wide_intervals_are_inconclusive_and_fail_only_if_strict) {
   run::Result next = with_times(9900, 3000);
   next.cases[0].timing->assign_ns.ci95 = {5000, 15000};
-  const Json comparison = compared(json_of(with_times(9000, 3000)), json_of(next), 0.02);
+  const Json comparison = compared(json_of(with_times(9000, 3000)), json_of(next), 0.02, k_gate_separate);
   EXPECT_EQ(verdict_of(comparison, 0), "inconclusive");
   EXPECT_EQ(outcome(comparison, false), ExitCode::ok);
   EXPECT_EQ(outcome(comparison, true), ExitCode::inconclusive);
 }
 
-TEST(Compare, methods_with_two_storages_are_one_method_in_the_mean) {
+TEST(Compare, marks_have_a_legend_where_they_are_printed) {
+  const Json base = json_of(with_times(9000, 3000)), same = compared(base, base, 0.02);
+  Json next = json_of(with_times(9900, 3000));
+  next["cases"][1]["tests_done"] = base["cases"][1]["tests_done"].get<double>() + 1;
+  const std::string marked = comparison_text(compared(base, next, 0.02)), plain = comparison_text(same);
+  EXPECT_NE(marked.find("\n  ? hall"), std::string::npos) << marked;
+  EXPECT_NE(marked.find("\n  ! hall"), std::string::npos) << marked;
+  EXPECT_NE(marked.find("\n! the verdict"), std::string::npos) << marked;
+  EXPECT_NE(marked.find("\n? a hint"), std::string::npos) << marked;
+  EXPECT_EQ(plain.find('!'), std::string::npos) << plain;
+  EXPECT_EQ(plain.find('?'), std::string::npos) << plain;
+}
+
+TEST(Compare, methods_with_two_storages_are_one_method) {
   run::Result base = with_times(9000, 3000), next = with_times(9900, 3000);
   for (run::Result* result : {&base, &next}) {
     run::CaseResult copy = result->cases[0];
@@ -94,9 +128,8 @@ TEST(Compare, methods_with_two_storages_are_one_method_in_the_mean) {
   }
   const Json comparison = compared(json_of(base), json_of(next), 0.02);
   EXPECT_EQ(comparison["cases"].size(), 3u);
-  EXPECT_EQ(verdict_of(comparison, 2), "slower");
+  EXPECT_EQ(comparison["cases"][2]["hint"], "longer");
   EXPECT_EQ(comparison["summary"]["methods_timed"], 2);
-  EXPECT_NEAR(comparison["summary"]["ratio"].get<double>(), std::sqrt(1.1), 1e-12);
 }
 
 TEST(Compare, a_lost_light_is_named_with_frame_cell_and_light) {
@@ -173,29 +206,70 @@ TEST(Compare, instructions_gate_where_no_paired_time_does) {
   EXPECT_EQ(outcome(comparison, false), ExitCode::gate_failed);
   EXPECT_EQ(outcome(compared(json_of(next), json_of(base), 0.02), false), ExitCode::ok);
   next.cases[0].count->source = "perf";
-  EXPECT_FALSE(compared(json_of(base), json_of(next), 0.02)["cases"][0].contains("instructions"));
+  const Json other = compared(json_of(base), json_of(next), 0.02);
+  EXPECT_FALSE(other["cases"][0].contains("instructions"));
+  EXPECT_EQ(outcome(other, true), ExitCode::inconclusive);
 }
 
 TEST(Compare, fields_that_differ_are_named) {
   const Json base = json_of(result_by_hand());
-  EXPECT_TRUE(obstacles(base, base).empty());
+  EXPECT_TRUE(obstacles(base, base).to_times.empty());
   Json next = base;
   next["machine"]["cpu"] = "another";
+  next["machine"]["os"] = "another kernel";
   next["tool"]["flags"] = "-O0";
   next["tool"]["git_sha"] = "def";  // what is compared, no obstacle
-  const std::vector<std::string> fields = obstacles(base, next);
-  ASSERT_EQ(fields.size(), 2u);
-  EXPECT_EQ(fields[0], R"(/machine/cpu is "a processor" and "another")");
-  EXPECT_EQ(fields[1], R"(/tool/flags is "-O3" and "-O0")");
-  EXPECT_TRUE(holds(compared(base, next, 0.02)["warnings"], "/machine/cpu"));
+  const Obstacles fields = obstacles(base, next);
+  EXPECT_EQ(fields.to_instructions, (std::vector<std::string>{R"(/machine/cpu is "a processor" and "another")",
+                                                              R"(/tool/flags is "-O3" and "-O0")"}));
+  EXPECT_EQ(fields.to_times.size(), 3u);
+  EXPECT_TRUE(holds(compared(base, next, 0.02, {.is_forced = true})["warnings"], "all the same: /machine/cpu"));
 }
 
-TEST(Compare, counts_alone_compare_across_machines) {
-  run::Result base = result_by_hand(), next = base;
-  for (run::CaseResult& one : base.cases) one.timing.reset();
+TEST(Compare, processors_of_one_name_are_told_apart_and_what_an_older_result_does_not_know_is_passed_over) {
+  const Json base = json_of(result_by_hand());
+  for (const char* key : {"family", "model", "stepping"}) {
+    Json next = base;
+    next["machine"][key] = "99";
+    EXPECT_EQ(obstacles(base, next).to_instructions.size(), 1u) << key;
+    next["machine"].erase(key);
+    EXPECT_TRUE(obstacles(base, next).to_times.empty()) << key;
+  }
+  Json next = base;
+  next["machine"]["caches"]["l2"] = 5;
+  EXPECT_EQ(obstacles(base, next).to_instructions.size(), 1u);
+}
+
+TEST(Compare, of_another_machine_counts_are_compared_and_times_and_instructions_are_not) {
+  run::Result base = result_by_hand(), next = with_times(1, 1);
+  testing::add_count(base.cases[0]);
+  testing::add_count(next.cases[0]);
+  next.cases[0].count->assign.instructions *= 2;
   next.machine.cpu = "another";
-  EXPECT_TRUE(obstacles(json_of(base), json_of(next)).empty());
-  EXPECT_EQ(outcome(compared(json_of(base), json_of(next), 0.02), true), ExitCode::ok);
+  Json result = json_of(next);
+  const Json comparison = compared(json_of(base), result, 0.02);
+  EXPECT_FALSE(comparison["cases"][0].contains("hint"));
+  EXPECT_FALSE(comparison["cases"][0].contains("instructions"));
+  EXPECT_TRUE(holds(comparison["warnings"], "times are not compared"));
+  EXPECT_TRUE(holds(comparison["warnings"], "instructions are not compared"));
+  EXPECT_EQ(outcome(comparison, false), ExitCode::ok);
+  EXPECT_EQ(outcome(comparison, true), ExitCode::inconclusive) << "a gate that could not be";
+  EXPECT_EQ(outcome(compared(json_of(base), result, 0.02, {.is_forced = true}), false), ExitCode::gate_failed);
+  result["cases"][1]["error"]["reported_pairs"] = 61;
+  EXPECT_EQ(outcome(compared(json_of(base), result, 0.02), false), ExitCode::gate_failed);
+}
+
+TEST(Compare, another_kernel_or_memory_parts_times_and_nothing_else) {
+  run::Result base = result_by_hand();
+  testing::add_count(base.cases[0]);
+  run::Result next = base;
+  next.machine.os = "Linux, the next one";
+  next.machine.ram_bytes = 5;
+  const Json comparison = compared(json_of(base), json_of(next), 0.02);
+  EXPECT_TRUE(comparison["left_out"].contains("times"));
+  EXPECT_FALSE(comparison["left_out"].contains("instructions"));
+  EXPECT_EQ(comparison["cases"][0]["instructions"]["verdict"], "same");
+  EXPECT_EQ(outcome(comparison, true), ExitCode::ok);
 }
 
 // Three launches of two rounds each, in which the new program takes `percent` more, give or take 0.1 %.

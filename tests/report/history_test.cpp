@@ -29,6 +29,11 @@ class History : public ::testing::Test {
     result.cases[1] = testing::case_by_hand("fast", "aabb", assign_ns);
     add_to_history(file_, result_to_json(result, {}), commit);
   }
+  // Commits a1, a2, ..., whose times differ by 0.2 % at most.
+  void add_many(const std::string& commits, int count, double assign_ns, const std::string& cpu = "a processor") {
+    for (int i = 1; i <= count; ++i)
+      add(commits + std::to_string(i), assign_ns * (1.0 + 0.001 * (i * 3 % 7 - 3) / 3.0), cpu);
+  }
   std::string text() const {
     std::ifstream in(file_);
     return {std::istreambuf_iterator<char>(in), {}};
@@ -54,21 +59,79 @@ const Series& times_of_fast(const std::vector<Series>& all) {
 }
 
 TEST_F(History, a_slower_commit_is_named_with_its_change_and_direction) {
-  for (const char* commit : {"c1", "c2", "c3"}) add(commit, 3000.0);
-  for (const char* commit : {"c4", "c5", "c6"}) add(commit, 3300.0);
+  add_many("a", 7, 3000.0);
+  add_many("b", 7, 3300.0);
   const std::vector<Series> all = series_of(read_history(file_), {});
   ASSERT_EQ(times_of_fast(all).changes.size(), 1u);
-  const std::string said = history_text(all, 6, false);
-  EXPECT_NE(said.find("at c4: 3000 to 3300, +10 %, worse"), std::string::npos) << said;
+  const std::string said = history_text(all, 14, false);
+  EXPECT_NE(said.find("at b1: 3000 to 3300, +10 %, worse (p 0.0"), std::string::npos) << said;
   EXPECT_EQ(said.find("brute-force"), std::string::npos) << said;
-  EXPECT_NE(history_text(all, 6, true).find("brute-force"), std::string::npos);
-  EXPECT_NE(said.find("6 results, "), std::string::npos) << said;
+  EXPECT_NE(history_text(all, 14, true).find("brute-force"), std::string::npos);
+  EXPECT_NE(said.find("14 results, "), std::string::npos) << said;
+  EXPECT_NE(said.find(" series, 1 change\n"), std::string::npos) << "the same time per pair is no second one\n" << said;
 }
 
-TEST_F(History, times_of_two_machines_are_two_series) {
-  for (const char* commit : {"c1", "c2", "c3"}) add(commit, 3000.0);
-  for (const char* commit : {"c4", "c5", "c6"}) add(commit, 9000.0, "another processor");
-  for (const Series& one : series_of(read_history(file_), {})) EXPECT_TRUE(one.changes.empty()) << one.machine;
+TEST_F(History, series_of_times_that_are_too_short_to_tell_are_counted) {
+  add_many("a", 3, 3000.0);
+  add_many("b", 3, 3300.0);
+  const std::string said = history_text(series_of(read_history(file_), {}), 6, false);
+  EXPECT_NE(said.find("0 changes\n2 series of times are too short"), std::string::npos) << said;
+}
+
+const Series& bytes_of_fast(const std::vector<Series>& all) {
+  for (const Series& one : all)
+    if (one.metric->name == "list_bytes" && one.case_name.find("/aabb/") != std::string::npos) return one;
+  throw std::runtime_error("no such series");
+}
+
+TEST_F(History, times_of_two_machines_are_two_series_and_counts_are_one) {
+  add_many("a", 7, 3000.0);
+  add_many("b", 7, 9000.0, "another processor");
+  const std::vector<Series> all = series_of(read_history(file_), {});
+  EXPECT_EQ(times_of_fast(all).values.size(), 7u);
+  EXPECT_EQ(times_of_fast(all).machine, "a processor (family 6, model 85, stepping 7; L1d 32 KiB, L2 1 MiB), scalar");
+  EXPECT_EQ(bytes_of_fast(all).values.size(), 14u);
+  EXPECT_EQ(bytes_of_fast(all).machine, "");
+  for (const Series& one : all) EXPECT_TRUE(one.changes.empty()) << one.machine;
+}
+
+TEST_F(History, counts_change_at_their_first_other_value) {
+  run::Result result = testing::result_by_hand();
+  add_to_history(file_, result_to_json(result, {}), "c1");
+  result.cases[1].buffers.bytes.high_water += 100;
+  add_to_history(file_, result_to_json(result, {}), "c2");
+  const std::string said = history_text(series_of(read_history(file_), {}), 2, false);
+  EXPECT_NE(said.find("list_bytes (bytes)\n"), std::string::npos) << said;
+  EXPECT_NE(said.find("at c2: 232 to 332, +43.1 %, worse\n"), std::string::npos) << said;
+}
+
+TEST_F(History, instructions_change_beyond_what_counting_leaves_open) {
+  run::Result result = testing::result_by_hand();
+  testing::add_count(result.cases[1]);
+  const auto changes = [&](double instructions, const char* source) {
+    fs::remove(file_);
+    result.cases[1].count->source = source;
+    for (const double value : {40000.0, instructions}) {
+      result.cases[1].count->assign.instructions = static_cast<std::uint64_t>(value);
+      add_to_history(file_, result_to_json(result, {}), "c");
+    }
+    std::size_t found = 0;
+    for (const Series& one : series_of(read_history(file_), {.min_change = 0.0})) found += one.changes.size();
+    return found;
+  };
+  EXPECT_EQ(changes(40020, "callgrind"), 0u);
+  EXPECT_EQ(changes(40080, "callgrind"), 1u);
+  EXPECT_EQ(changes(40080, "perf"), 0u);
+  EXPECT_EQ(changes(40800, "perf"), 1u);
+}
+
+TEST_F(History, lines_of_the_first_version_are_read_without_their_pair_rates) {
+  const std::string line = R"({"history_version": 1, "commit": "c1", "name": "quick", "cpu": "AMD EPYC", "simd_target":
+    "AVX2", "cases": [{"id": "i", "name": "n", "figures": {"assign_time": 5, "pair_rate": 7, "list_bytes": 3}}]})";
+  write(std::string(line).replace(line.find('\n'), 1, " ") + "\n");
+  const std::vector<Series> all = series_of(read_history(file_), {});
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[0].machine, "AMD EPYC, AVX2");
 }
 
 TEST_F(History, adding_leaves_the_earlier_lines_as_they_are_and_no_other_file) {
@@ -109,15 +172,24 @@ TEST_F(History, what_is_no_history_is_not_added_to) {
 }
 
 TEST_F(History, the_page_draws_what_varies_and_escapes_names) {
-  for (const char* commit : {"c1", "c2"}) add(commit, 3000.0);
-  for (const char* commit : {"c3", "<c4>"}) add(commit, 3300.0);
-  const std::string page = history_page(series_of(read_history(file_), {}), 4);
+  add_many("a", 7, 3000.0);
+  add_many("<b>", 7, 3300.0);
+  const std::string page = history_page(series_of(read_history(file_), {}), 14);
   EXPECT_NE(page.find("aria-label=\"assign_time in ns of hall"), std::string::npos) << page;
-  EXPECT_NE(page.find("<li class=\"worse\">c3: 3000 to 3300, +10 %, worse</li>"), std::string::npos) << page;
-  EXPECT_EQ(page.find("<c4>"), std::string::npos);
-  EXPECT_NE(page.find("&lt;c4&gt;: 3300"), std::string::npos);
+  EXPECT_NE(page.find("<li class=\"worse\">&lt;b&gt;1: 3000 to 3300, +10 %, worse</li>"), std::string::npos) << page;
+  EXPECT_EQ(page.find("<b>1"), std::string::npos);
   EXPECT_EQ(page.find("list_bytes"), std::string::npos);
   EXPECT_NE(page.find("prefers-color-scheme: dark"), std::string::npos);
+}
+
+TEST_F(History, charts_have_an_axis_with_round_numbers_and_a_unit) {
+  add("c1", 3010.0);
+  add("c2", 3290.0);
+  const std::string page = history_page(series_of(read_history(file_), {}), 2);
+  EXPECT_NE(page.find(">ns</text>"), std::string::npos) << page;
+  for (const char* tick : {">3000</text>", ">3100</text>", ">3200</text>", ">3300</text>"})
+    EXPECT_NE(page.find(tick), std::string::npos) << tick << page;
+  EXPECT_EQ(page.find(">3400</text>"), std::string::npos) << page;
 }
 
 }  // namespace

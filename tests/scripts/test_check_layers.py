@@ -33,9 +33,10 @@ class CheckLayers(unittest.TestCase):
         self.assertIn("geom/a.h: includes grid/grid.h", out)
 
     def test_a_library_outside_its_home_is_found(self):
-        code, out = self.check({"grid/a.cpp": "#include <boost/multiprecision/cpp_int.hpp>\n"})
-        self.assertEqual(code, 1)
-        self.assertIn("whose home is geom", out)
+        for layer, library, home in (("grid", "multiprecision", "geom"), ("geom", "math", "measure")):
+            code, out = self.check({f"{layer}/a.cpp": f"#include <boost/{library}/x.hpp>\n"})
+            self.assertEqual(code, 1)
+            self.assertIn(f"whose home is {home}\n", out)
 
     def test_an_assigner_without_registry_line_is_found(self):
         code, out = self.check({"assign/assigners/mine.cpp": "", "assign/registry.inc": ""})

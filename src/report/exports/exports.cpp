@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "report/machine.h"
 
 namespace clusterbench::report {
 
@@ -59,7 +60,7 @@ ExportResult read(const Json& result, bool all) {
   out.flags = text_at(result, "/tool/flags");
   out.build_type = text_at(result, "/tool/build_type");
   out.simd_target = text_at(result, "/tool/simd_target");
-  out.cpu = text_at(result, "/machine/cpu");
+  out.machine = machine_name(result["machine"]);
   out.os = text_at(result, "/machine/os");
   if (const Json::json_pointer cores("/machine/cores"); result.contains(cores) && result[cores].is_number_integer())
     out.cores = result[cores].get<int>();

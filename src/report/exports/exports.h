@@ -21,7 +21,7 @@ struct ExportCase {
 
 struct ExportResult {
   std::string name, version, git_sha, compiler, flags, build_type, simd_target;
-  std::string cpu, os;
+  std::string machine, os;
   int cores = 0;
   bool all = false;  // figures of the whole table, not only the headline
   std::vector<ExportCase> cases;

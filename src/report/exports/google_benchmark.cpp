@@ -58,7 +58,7 @@ Json aggregate(const ExportCase& one, std::size_t family, const std::string& nam
 
 std::string google_benchmark(const ExportResult& result) {
   Json out{{"context",
-            {{"host_name", result.cpu},
+            {{"host_name", result.machine},
              {"executable", "clusterbench " + result.version + " (" + result.git_sha + ")"},
              {"num_cpus", result.cores},
              {"library_build_type", result.build_type == "Debug" ? "debug" : "release"}}},

@@ -30,7 +30,7 @@ Json test(const ExportCase& one) {
 
 std::string lnt(const ExportResult& result) {
   Json out{{"format_version", "2"},
-           {"machine", {{"name", result.cpu}, {"os", result.os}, {"cores", std::to_string(result.cores)}}},
+           {"machine", {{"name", result.machine}, {"os", result.os}, {"cores", std::to_string(result.cores)}}},
            {"run",
             {{"llvm_project_revision", result.git_sha},
              {"version", result.version},

@@ -90,6 +90,12 @@ std::optional<Measured> measured_by(const Json& one, const Metric& metric) {
 
 }  // namespace
 
+Basis basis_of(const Metric& metric) {
+  if (metric.place == "/timing/ns_per_pair" || metric.place == "/timing/floor_ratio") return Basis::derived;
+  if (metric.place.starts_with("/timing/")) return Basis::time;
+  return metric.place.starts_with("/count/") ? Basis::instructions : Basis::count;
+}
+
 std::span<const Metric> export_metrics() {
   return k_metrics;
 }

@@ -10,6 +10,14 @@ namespace clusterbench::report {
 
 enum class Better { smaller, bigger, neither };
 
+// What a figure rests on.
+enum class Basis {
+  count,         // of lists, buffers and errors: the same on every machine, and every time
+  instructions,  // nearly the same every time; of a compiler and an instruction set
+  time,          // of a machine, and noisy
+  derived        // another figure, said in another way
+};
+
 struct Metric {
   std::string_view name;      // lower-case words with underscores
   std::string_view unit;      // "ns", "bytes", "pairs", "ratio", ...
@@ -19,6 +27,8 @@ struct Metric {
   bool is_headline;       // exported unless everything is asked for
   double dividend = 0.0;  // the figure is dividend / value where this is not 0
 };
+
+Basis basis_of(const Metric& metric);
 
 // Headline first, else in the order of the result.
 std::span<const Metric> export_metrics();

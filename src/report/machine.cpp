@@ -1,0 +1,48 @@
+#include "report/machine.h"
+
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "core/text.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array k_numbers{"family", "model", "stepping"};
+
+std::string size_text(std::uint64_t bytes) {
+  constexpr std::uint64_t k_mebibyte = 1u << 20;
+  return bytes % k_mebibyte == 0 ? std::to_string(bytes / k_mebibyte) + " MiB" : std::to_string(bytes >> 10) + " KiB";
+}
+
+}  // namespace
+
+Json machine_to_json(const run::MachineFacts& machine) {
+  Json out{{"cpu", machine.cpu}};
+  for (const auto& [key, value] :
+       {std::pair("family", &machine.family), {"model", &machine.model}, {"stepping", &machine.stepping}})
+    if (!value->empty()) out[key] = *value;
+  for (const auto& [level, bytes] : machine.caches) out["caches"][level] = bytes;
+  out["cores"] = machine.cores;
+  out["ram_bytes"] = machine.ram_bytes;
+  out["os"] = machine.os;
+  return out;
+}
+
+std::string machine_name(const Json& machine) {
+  std::vector<std::string> numbers, caches, parts;
+  for (const char* key : k_numbers)
+    if (machine.contains(key)) numbers.push_back(std::string(key) + " " + machine[key].get<std::string>());
+  if (machine.contains("caches"))
+    for (const auto& [level, bytes] : machine["caches"].items())
+      caches.push_back("L" + level.substr(1) + " " + size_text(bytes.get<std::uint64_t>()));
+  for (const std::vector<std::string>* one : {&numbers, &caches})
+    if (!one->empty()) parts.push_back(joined(*one));
+  const std::string name = machine.at("cpu").get<std::string>();
+  return parts.empty() ? name : name + " (" + joined(parts, "; ") + ")";
+}
+
+}  // namespace clusterbench::report
