@@ -64,6 +64,14 @@ TEST(Baseline, both_programs_are_measured_and_the_result_carries_the_pairs) {
   EXPECT_NE(compared.out.find("times side by side"), std::string::npos) << compared.out;
 }
 
+TEST(Baseline, flags_that_change_the_configuration_reach_both_programs) {
+  const Place place;
+  const Outcome done = place.run(CLUSTERBENCH_BINARY, k_any_time + " --tiles 128 --set 'grids.*.slices.count=3'");
+  ASSERT_EQ(done.code, 0) << done.err;
+  for (const Json& one : Json::parse(file_text(place.out))["cases"])
+    EXPECT_TRUE(one["timing"].contains("baseline")) << one["name"];
+}
+
 TEST(Baseline, a_program_that_takes_several_times_as_long_fails_the_run) {
   const Place place;
   const std::string slowed = "CLUSTERBENCH_SLOWED_PERCENT=700 " CLUSTERBENCH_SLOWED " run -q " + place.config + " -o " +
