@@ -236,7 +236,7 @@ constexpr FlagRow k_rows[] = {
      choose_assigners},
     {{"--rounds", "N: timed rounds over all cases of a group"}, set_rounds},
     {{"--threads", "N: threads for the truth; results do not depend on it"}, set_threads},
-    {{"--set", "KEY=VALUE[,VALUE], repeatable: any key of the configuration, as in grids.*.slices.far=200,500", true},
+    {{"--set", "KEY=VALUE[,VALUE], repeatable: any key of the configuration, as in 'grids.*.slices.far=200,500'", true},
      set_any},
 };
 

@@ -68,8 +68,9 @@ TEST(Baseline, flags_that_change_the_configuration_reach_both_programs) {
   const Place place;
   const Outcome done = place.run(CLUSTERBENCH_BINARY, k_any_time + " --tiles 128 --set 'grids.*.slices.count=3'");
   ASSERT_EQ(done.code, 0) << done.err;
-  for (const Json& one : Json::parse(file_text(place.out))["cases"])
-    EXPECT_TRUE(one["timing"].contains("baseline")) << one["name"];
+  const Json cases = Json::parse(file_text(place.out))["cases"];
+  EXPECT_EQ(cases.size(), 4u);
+  for (const Json& one : cases) EXPECT_TRUE(one["timing"].contains("baseline")) << one["name"];
 }
 
 TEST(Baseline, a_program_that_takes_several_times_as_long_fails_the_run) {

@@ -261,7 +261,9 @@ TEST(Count, flags_that_change_the_configuration_reach_the_run_under_valgrind) {
   SKIP_WITHOUT(place, "callgrind");
   const Outcome done = place.run("--count=callgrind --viewport 320x180");
   ASSERT_EQ(done.code, 0) << done.err;
-  for (const Json& one : Json::parse(done.out)["cases"]) EXPECT_TRUE(one.contains("count")) << one["name"];
+  const Json cases = Json::parse(done.out)["cases"];
+  EXPECT_EQ(cases.size(), 6u);
+  for (const Json& one : cases) EXPECT_TRUE(one.contains("count")) << one["name"];
 }
 
 TEST(Count, a_resumed_run_counts_what_is_left) {
