@@ -11,6 +11,7 @@ function(clusterbench_install_output ARGUMENTS FOLDER NAME)
 endfunction()
 
 function(clusterbench_install)
+  install(FILES ${PROJECT_SOURCE_DIR}/docs/configuration.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
   clusterbench_install_output("man" ${CMAKE_INSTALL_MANDIR}/man1 clusterbench.1)
   clusterbench_install_output("completion bash" ${CMAKE_INSTALL_DATADIR}/bash-completion/completions clusterbench)
   clusterbench_install_output("completion zsh" ${CMAKE_INSTALL_DATADIR}/zsh/site-functions _clusterbench)

@@ -27,6 +27,8 @@ CASES = [
     ("clusterbench run --count=", ["perf", "callgrind"], ["csv"]),
     ("clusterbench stress --cases H2", ["H2", "H22"], ["H1"]),
     ("clusterbench stress --methods ex", ["exact", "exact-fast"], ["aabb"]),
+    ("clusterbench run --assigner exact-", ["exact-fast"], ["aabb"]),
+    ("clusterbench run --grid ", ["frustum", "world"], ["plan.json"]),
     ("clusterbench run pl", ["plan.json"], []),
     ("clusterbench run -o out --filter x pl", ["plan.json"], []),
     ("clusterbench run --export csv=pl", ["plan.json"], []),

@@ -7,6 +7,7 @@ import tempfile
 
 PARTS = {
     "bin/clusterbench": b"\x7fELF",
+    "share/doc/clusterbench/configuration.md": b"# Writing a configuration",
     "share/man/man1/clusterbench.1": b".TH CLUSTERBENCH 1",
     "share/bash-completion/completions/clusterbench": b"# bash completion",
     "share/zsh/site-functions/_clusterbench": b"#compdef clusterbench",

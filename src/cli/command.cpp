@@ -73,10 +73,6 @@ Option Command::add_option(const std::string& names, int& value, const std::stri
   return Option(app_->add_option(names, value, summary));
 }
 
-Option Command::add_option(const std::string& names, std::optional<int>& value, const std::string& summary) {
-  return Option(app_->add_option(names, value, summary));
-}
-
 Option Command::add_option(const std::string& names, std::uint64_t& value, const std::string& summary) {
   return Option(app_->add_option(names, value, summary));
 }
@@ -107,17 +103,62 @@ void Command::when_named(std::function<void()> call) {
 
 namespace {
 
-// CLI11 only says that an argument was not expected; a mistyped subcommand deserves a guess.
-void check_subcommand_name(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return;
+const CLI::App& named_command(const CLI::App& program) {
+  const std::vector<CLI::App*> named = program.get_subcommands();
+  return named.empty() ? program : named_command(*named.back());
+}
+
+// "scene generate"; "" for the program.
+std::string path_of(const CLI::App& command) {
+  if (command.get_parent() == nullptr) return "";
+  const std::string above = path_of(*command.get_parent());
+  return (above.empty() ? "" : above + " ") + command.get_name();
+}
+
+std::string help_of(const CLI::App& command) {
+  const std::string path = path_of(command);
+  return "; see `clusterbench " + (path.empty() ? "" : path + " ") + "--help`";
+}
+
+std::vector<std::string> option_names(const CLI::App& command) {
   std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-    names.push_back(command->get_name());
-  const std::string word = argv[1];
-  for (const std::string& name : names)
-    if (name == word) return;
-  throw Error("", "command line",
-              "no command '" + word + "'" + did_you_mean(word, names) + "; there are: " + joined(names));
+  for (const CLI::Option* option : command.get_options())
+    if (!option->get_group().empty())
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+std::vector<std::string> command_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::App* below : command.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(below->get_name());
+  return names;
+}
+
+// What is wrong with a word that the parser could not use.
+std::string complaint(const CLI::App& command, const std::string& word) {
+  const std::vector<std::string> commands = command_names(command);
+  if (word.starts_with('-')) {
+    const std::string name = word.substr(0, word.find('='));
+    return "no option '" + name + "'" + did_you_mean(name, option_names(command)) + help_of(command);
+  }
+  if (commands.empty()) return "'" + word + "' is one argument too many" + help_of(command);
+  return "no command '" + word + "'" + did_you_mean(word, commands) + "; there are: " + joined(commands);
+}
+
+bool names_unknown_command(const CLI::App& program) {
+  const std::vector<std::string> words = program.remaining(true);
+  return !words.empty() && !words.front().starts_with('-') && !command_names(named_command(program)).empty();
+}
+
+// The parser knows what a line lacks, but of a word that it does not know only that it was not expected.
+[[noreturn]] void refuse(const CLI::App& program, const CLI::ParseError& error) {
+  const CLI::App& command = named_command(program);
+  for (const std::string& word : program.remaining(true))
+    if (word != "--") throw Error("", path_of(command), complaint(command, word));
+  if (const std::vector<std::string> commands = command_names(command); !commands.empty())
+    throw Error("", path_of(command), "names no command; there are: " + joined(commands));
+  throw Error("", path_of(command), error.what() + help_of(command));
 }
 
 }  // namespace
@@ -130,12 +171,12 @@ int run_command_line(int argc, char** argv) {
   for (const auto add : {add_run, add_compare, add_size, add_report, add_export, add_scene, add_stress, add_list,
                          add_schema, add_validate, add_history, add_merge, add_completion, add_man, add_version})
     add(program, action);
-  check_subcommand_name(app, argc, argv);
   try {
     app.parse(argc, argv);
     if (!action) throw CLI::CallForHelp();
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::usage);
+    if (error.get_exit_code() != 0 || names_unknown_command(app)) refuse(app, error);
+    return app.exit(error);
   }
   return static_cast<int>(action());
 }

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,7 +43,6 @@ class Command {
   Option add_option(const std::string& names, std::string& value, const std::string& summary);
   Option add_option(const std::string& names, std::vector<std::string>& values, const std::string& summary);
   Option add_option(const std::string& names, int& value, const std::string& summary);
-  Option add_option(const std::string& names, std::optional<int>& value, const std::string& summary);
   Option add_option(const std::string& names, std::uint64_t& value, const std::string& summary);
   Option add_option(const std::string& names, double& value, const std::string& summary);
   Option add_flag(const std::string& names, bool& is_set, const std::string& summary);

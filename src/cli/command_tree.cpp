@@ -5,6 +5,7 @@
 #include <cctype>
 
 #include "assign/assigner.h"
+#include "grid/grid.h"
 #include "report/exports/exports.h"
 #include "run/stress/hard_cases.h"
 #include "scene/generate.h"
@@ -39,6 +40,12 @@ Values assigners() {
   for (const assign::AssignerRow* row : assign::assigner_rows()) values.words.push_back(row->name);
   return values;
 }
+Values grid_kinds() {
+  Values values{Kind::words, {}};
+  for (int kind = 0; kind < grid::k_kind_count; ++kind)
+    values.words.emplace_back(grid::kind_name(static_cast<grid::Kind>(kind)));
+  return values;
+}
 Values generators() {
   Values values{Kind::words, {}};
   for (const scene::GeneratorRow& row : scene::generators()) values.words.push_back(row.name);
@@ -54,9 +61,12 @@ struct WordsRow {
   Values (*values)();
 };
 constexpr WordsRow k_words[] = {
-    {"run", "--count", count_ways},         {"run", "--export", format_files},     {"run", "--filter", anything},
-    {"export", "--format", formats},        {"stress", "--cases", hard_cases},     {"stress", "--methods", assigners},
-    {"scene generate", "NAME", generators}, {"history add", "--commit", anything},
+    {"run", "--count", count_ways},        {"run", "--export", format_files},  {"run", "--filter", anything},
+    {"run", "--grid", grid_kinds},         {"run", "--assigner", assigners},   {"run", "--tiles", anything},
+    {"run", "--slices", anything},         {"run", "--viewport", anything},    {"run", "--rounds", anything},
+    {"run", "--threads", anything},        {"run", "--set", anything},         {"export", "--format", formats},
+    {"stress", "--cases", hard_cases},     {"stress", "--methods", assigners}, {"scene generate", "NAME", generators},
+    {"history add", "--commit", anything},
 };
 
 const WordsRow* words_row(const std::string& command, const std::string& option) {

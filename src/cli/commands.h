@@ -24,8 +24,7 @@ void add_completion(Command& program, Action& action);
 void add_man(Command& program, Action& action);
 void add_version(Command& program, Action& action);
 
-// Parses the command line and does what it says. Prints help and what is wrong with the line's grammar; throws Error
-// for all else.
+// Parses the command line and does what it says. Throws Error.
 int run_command_line(int argc, char** argv);
 
 }  // namespace clusterbench::cli

@@ -40,7 +40,7 @@ ExitCode compare(const CompareFlags& flags) {
   if (!flags.markdown.empty()) write_text(flags.markdown, report::comparison_markdown(comparison));
   if (!flags.json.empty()) write_output(flags.json, comparison);
   const ExitCode code = report::outcome(comparison, flags.is_strict);
-  if (code == ExitCode::nothing_comparable) std::cerr << "the results have no case in common\n";
+  if (code == ExitCode::nothing_comparable) tell("the results have no case in common");
   return code;
 }
 

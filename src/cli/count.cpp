@@ -59,8 +59,7 @@ std::vector<std::string> callgrind_command(const CountTask& task, const std::str
                                    "--count-dumps=" + dumps,
                                    "--count-ids"};
   command.insert(command.end(), task.ids.begin(), task.ids.end());
-  command.emplace_back("--");
-  command.insert(command.end(), task.inputs.begin(), task.inputs.end());
+  command.insert(command.end(), task.arguments.begin(), task.arguments.end());
   return command;
 }
 

@@ -22,8 +22,8 @@ const char* name_of(CountWay way);
 struct CountTask {
   const run::Config& config;
   const run::Plan& plan;
-  std::vector<std::string> inputs;  // of the command line that made config and plan
-  std::vector<std::string> ids;     // of the cases
+  std::vector<std::string> arguments;  // of the command line that made config and plan
+  std::vector<std::string> ids;        // of the cases
 };
 
 // Counts every case of the task, or those before `stop` became true. Throws Error if one could not be counted.

@@ -98,6 +98,11 @@ void print_section(const Json& all, const char* section) {
   }
 }
 
+void print_text(const Json& all) {
+  for (const char* section : {"assigners", "storages", "grids", "scenes"}) print_section(all, section);
+  std::cout << "All keys of a configuration: docs/configuration.md, or `clusterbench schema config`\n";
+}
+
 }  // namespace
 
 void add_list(Command& program, Action& action) {
@@ -111,7 +116,7 @@ void add_list(Command& program, Action& action) {
       if (*as_json)
         std::cout << all.dump(2) << "\n";
       else
-        for (const char* section : {"assigners", "storages", "grids", "scenes"}) print_section(all, section);
+        print_text(all);
       return ExitCode::ok;
     };
   });

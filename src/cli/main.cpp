@@ -1,20 +1,19 @@
-// clusterbench: measures clustered light assignment. The only place that prints errors and decides the exit code.
+// clusterbench: measures clustered light assignment. The only place that catches errors and decides the exit code.
 
 #include <exception>
-#include <iostream>
 
 #include "cli/commands.h"
-#include "core/text.h"
+#include "cli/output.h"
 
 int main(int argc, char** argv) {
   using clusterbench::ExitCode;
   try {
     return clusterbench::cli::run_command_line(argc, argv);
   } catch (const clusterbench::Error& error) {
-    std::cerr << "clusterbench: " << clusterbench::printable_lines(error.what()) << "\n";
+    clusterbench::cli::tell(error.what());
     return static_cast<int>(error.code());
   } catch (const std::exception& error) {
-    std::cerr << "clusterbench: internal error: " << clusterbench::printable_lines(error.what()) << "\n";
+    clusterbench::cli::tell(std::string("internal error: ") + error.what());
     return static_cast<int>(ExitCode::internal);
   }
 }

@@ -69,7 +69,7 @@ std::string section(const CommandNode& command) {
   return out;
 }
 
-constexpr const char* k_exit_status = R"(.SH EXIT STATUS
+constexpr const char* k_last_sections = R"(.SH EXIT STATUS
 .TP
 .B 0
 Done.
@@ -94,6 +94,12 @@ Interrupted; \fB\-\-resume\fR goes on.
 .TP
 .B 130
 Interrupted by the terminal.
+.SH CONFIGURATION
+A configuration is JSON with comments. All of its keys, with units, ranges, defaults and examples, are in
+.I configuration.md
+beside the program's documentation, and in the JSON Schema that
+.B clusterbench schema config
+prints.
 .SH ENVIRONMENT
 .TP
 .B CLUSTERBENCH_SCENE_LIBRARY
@@ -109,7 +115,7 @@ std::string man_page(const CommandNode& root, const std::string& version) {
                     escaped(root.description) + "\n" + entries(root) + ".SH COMMANDS\n";
   for (const CommandNode* command : all_commands(root))
     if (!command->path.empty() && command->commands.empty()) out += section(*command);
-  return out + k_exit_status;
+  return out + k_last_sections;
 }
 
 }  // namespace clusterbench::cli

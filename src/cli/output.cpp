@@ -5,10 +5,15 @@
 #include <iostream>
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace clusterbench::cli {
 
 namespace fs = std::filesystem;
+
+void tell(const std::string& message) {
+  std::cerr << "clusterbench: " << printable_lines(message) << "\n";
+}
 
 bool is_stream(const std::string& output) {
   return output.empty() || output == "-" ||

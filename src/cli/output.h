@@ -1,10 +1,13 @@
 #pragma once
-// Where results go: standard output, a device or pipe, or a file.
+// Where results go: standard output, a device or pipe, or a file; and where messages go.
 
 #include <nlohmann/json.hpp>
 #include <string>
 
 namespace clusterbench::cli {
+
+// A message on standard error, which begins with the program's name.
+void tell(const std::string& message);
 
 // "", "-", and what exists and is neither a file nor a folder.
 bool is_stream(const std::string& output);

@@ -1,10 +1,11 @@
 // `clusterbench run CONFIG|SCENE...`: plan, measure, show, write.
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <optional>
 
 #include "cli/baseline.h"
 #include "cli/commands.h"
@@ -33,7 +34,7 @@ struct RunFlags {
   std::vector<std::string> inputs;
   std::string output, filter, count;
   std::vector<std::string> exports;
-  std::optional<int> threads;
+  std::vector<std::vector<std::string>> settings{run::config_flags().size()};  // by flag
   bool resume = false, dry_run = false, no_timing = false, quiet = false;
 
   BaselineRequest baseline;
@@ -51,10 +52,23 @@ bool is_scene(const std::string& path) {
   return extension == ".glb" || extension == ".gltf";
 }
 
+std::vector<run::FlagValue> settings(const RunFlags& flags) {
+  std::vector<run::FlagValue> all;
+  for (std::size_t i = 0; i < flags.settings.size(); ++i) {
+    const run::ConfigFlag& flag = run::config_flags()[i];
+    const std::vector<std::string>& values = flags.settings[i];
+    if (!flag.is_repeatable && !values.empty()) all.push_back({flag.name, joined(values, ",")});
+    for (const std::string& value : flag.is_repeatable ? values : std::vector<std::string>{})
+      all.push_back({flag.name, value});
+  }
+  return all;
+}
+
 run::Config read_inputs(const RunFlags& flags) {
   const auto scenes = static_cast<std::size_t>(std::count_if(flags.inputs.begin(), flags.inputs.end(), is_scene));
-  if (scenes == flags.inputs.size()) return run::default_config({flags.inputs.begin(), flags.inputs.end()});
-  if (scenes == 0 && flags.inputs.size() == 1) return run::load_config(flags.inputs.front());
+  if (scenes == flags.inputs.size())
+    return run::default_config({flags.inputs.begin(), flags.inputs.end()}, settings(flags));
+  if (scenes == 0 && flags.inputs.size() == 1) return run::load_config(flags.inputs.front(), settings(flags));
   for (const char* way : {"perf", "callgrind", "auto"})
     if (!flags.count.empty() && flags.inputs.back() == way)
       throw Error("", "--count", std::string("takes its value with an equals sign: --count=") + way);
@@ -63,10 +77,6 @@ run::Config read_inputs(const RunFlags& flags) {
 }
 
 run::Config overridden(run::Config config, const RunFlags& flags) {
-  if (flags.threads) {
-    config.threads = *flags.threads;
-    config.resolved["threads"] = *flags.threads;
-  }
   if (flags.no_timing) {
     config.timing.measure = false;
     config.resolved["timing"]["measure"] = false;
@@ -108,21 +118,24 @@ std::unique_ptr<report::Journal> open_journal(const RunFlags& flags, const run::
     return nullptr;
   }
   const std::uint64_t per_case = k_bytes_per_case + (config.details ? config.details->max_bytes : 0);
-  return std::make_unique<report::Journal>(flags.output, journal_header(config, plan, flags), flags.resume,
-                                           per_case * case_count(plan));
+  auto journal = std::make_unique<report::Journal>(flags.output, journal_header(config, plan, flags), flags.resume,
+                                                   per_case * case_count(plan));
+  if (!journal->set_aside().empty())
+    tell(journal->partial_path().string() + ", left by a run that did not end, is now " +
+         journal->set_aside().string() + " (--resume goes on with such a file)");
+  return journal;
 }
 
 ExitCode interrupted(const report::Journal* journal) {
-  std::cerr << "interrupted";
-  if (journal != nullptr)
-    std::cerr << "; the finished cases are in " << journal->partial_path().string() << ", --resume goes on";
-  std::cerr << "\n";
+  tell("interrupted" +
+       (journal == nullptr ? ""
+                           : "; the finished cases are in " + journal->partial_path().string() + ", --resume goes on"));
   return stopped_exit_code();
 }
 
 ExitCode report_gates(const Json& result) {
   const std::vector<std::string> failures = report::gate_failures(result);
-  for (const std::string& failure : failures) std::cerr << "FAILED " << printable(failure) << "\n";
+  for (const std::string& failure : failures) tell("FAILED " + failure);
   return failures.empty() ? ExitCode::ok : ExitCode::gate_failed;
 }
 
@@ -130,7 +143,7 @@ ExitCode report_gates(const Json& result) {
 std::vector<std::string> plan_arguments(const RunFlags& flags) {
   std::vector<std::string> arguments;
   if (!flags.filter.empty()) arguments.push_back("--filter=" + flags.filter);
-  if (flags.threads) arguments.push_back("--threads=" + std::to_string(*flags.threads));
+  for (const run::FlagValue& setting : settings(flags)) arguments.push_back(setting.text());
   arguments.emplace_back("--");
   arguments.insert(arguments.end(), flags.inputs.begin(), flags.inputs.end());
   return arguments;
@@ -200,6 +213,19 @@ run::Counts count_instructions(CountWay way, const CountTask& task, ProgressLine
   return counts;
 }
 
+// Without a file on a terminal a person reads: the table, and not the JSON.
+bool is_for_reading(const RunFlags& flags) {
+  return flags.output.empty() && isatty(STDOUT_FILENO) != 0;
+}
+
+void show_table(const RunFlags& flags, const Json& result) {
+  if (flags.quiet) return;
+  const bool for_reading = is_for_reading(flags);
+  std::ostream& out = for_reading ? std::cout : std::cerr;
+  out << report::render_table(result, terminal(for_reading ? STDOUT_FILENO : STDERR_FILENO).colour) << std::flush;
+  if (for_reading) tell("the result is not kept; -o FILE keeps it, -o - prints it as JSON");
+}
+
 ExitCode measure(const RunFlags& flags, const run::Config& config, const run::Plan& plan, CountWay way) {
   if (is_stream(flags.output)) probe_output(flags.output);
   const std::vector<ExportTarget> exports = export_targets(flags.exports);
@@ -208,11 +234,12 @@ ExitCode measure(const RunFlags& flags, const run::Config& config, const run::Pl
   const std::vector<Json> earlier = journal ? journal->earlier_cases() : std::vector<Json>{};
   const std::vector<std::string> earlier_ids = journal ? journal->earlier_ids() : std::vector<std::string>{};
 
-  const Terminal screen = terminal();
+  const Terminal screen = terminal(STDERR_FILENO);
   run::Counts counts;
   if (way != CountWay::none) {
     ProgressLine progress(screen, flags.quiet);
-    counts = count_instructions(way, {config, plan, flags.inputs, ids_left(plan, earlier_ids)}, progress, stop);
+    counts =
+        count_instructions(way, {config, plan, plan_arguments(flags), ids_left(plan, earlier_ids)}, progress, stop);
     if (stop) return interrupted(journal.get());
   }
   ProgressLine progress(screen, flags.quiet);
@@ -227,10 +254,10 @@ ExitCode measure(const RunFlags& flags, const run::Config& config, const run::Pl
     return interrupted(journal.get());
   if (journal)
     journal->finish(result);
-  else
+  else if (!is_for_reading(flags))
     write_output(flags.output, result);
   write_exports(exports, result);
-  if (!flags.quiet) std::cerr << report::render_table(result, screen.colour);
+  show_table(flags, result);
   return flags.baseline.binary.empty() ? report_gates(result) : report_baseline(flags, result);
 }
 
@@ -255,7 +282,7 @@ ExitCode run(const RunFlags& flags) {
   const run::Plan plan = run::make_plan(config, flags.filter);
   if (flags.rounds_server != 0) return serve(flags, config, plan);
   if (!flags.count_dumps.empty()) {
-    print_callgrind_counts({config, plan, flags.inputs, flags.count_ids}, flags.count_dumps);
+    print_callgrind_counts({config, plan, {}, flags.count_ids}, flags.count_dumps);
     return ExitCode::ok;
   }
   if (flags.dry_run) return print_plan(plan);
@@ -269,11 +296,14 @@ void add_run(Command& program, Action& action) {
   auto flags = std::make_shared<RunFlags>();
   Command command = program.add_command("run", "Measure a configuration, or scenes with the default sweep");
   command.add_option("INPUT", flags->inputs, "One configuration (.json), or scenes (.glb, .gltf)").required();
-  command.add_option("-o,--output", flags->output, "Result file; without it the result goes to standard output");
+  command.add_option(
+      "-o,--output", flags->output,
+      "Result file; -: standard output. Without it a terminal shows the table only, a pipe gets the result");
   command.add_option("--export", flags->exports, "FORMAT=FILE, repeatable: also write another tool's format")
       .once_a_name();
   command.add_option("--filter", flags->filter, "Only cases whose name matches this regular expression");
-  command.add_option("--threads", flags->threads, "Threads for the truth; results do not depend on it").range(1, 1024);
+  for (std::size_t i = 0; i < flags->settings.size(); ++i)
+    command.add_option(run::config_flags()[i].name, flags->settings[i], run::config_flags()[i].summary).once_a_name();
   command.add_flag("--count{auto}", flags->count,
                    "Count instructions, too: --count=perf (hardware), =callgrind (valgrind), or what works");
   command.add_option("--count-dumps", flags->count_dumps, "").hidden();

@@ -5,7 +5,7 @@
 #include <iostream>
 
 #include "cli/commands.h"
-#include "core/text.h"
+#include "cli/output.h"
 #include "run/config.h"
 #include "run/documents.h"
 #include "run/schema_check.h"
@@ -22,7 +22,7 @@ std::string file_text(const std::string& path) {
 
 ExitCode validate_written(const std::string& path, const nlohmann::json& document, const run::DocumentRow& row) {
   const std::vector<std::string> violations = run::schema_violations(row.schema(), document);
-  for (const std::string& violation : violations) std::cerr << path << ": " << printable(violation) << "\n";
+  for (const std::string& violation : violations) tell(path + ": " + violation);
   if (!violations.empty()) return ExitCode::usage;
   std::cout << path << ": valid, " << row.title << " with " << document["cases"].size() << " cases\n";
   return ExitCode::ok;

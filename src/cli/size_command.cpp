@@ -14,9 +14,12 @@ void add_size(Command& program, Action& action) {
       "size", "Size the light-list allocation from a result: high-water marks, margins, C++ constants");
   auto file = std::make_shared<std::string>();
   command.add_option("RESULT", *file, "A result file of `clusterbench run`").required();
-  command.when_named([file, &action] {
-    action = [file] {
-      std::cout << printable_lines(report::size_report(report::read_result(*file)));
+  auto request = std::make_shared<report::SizeRequest>();
+  command.add_option("--filter", request->filter, "Only cases whose name matches this regular expression");
+  command.add_flag("--all", request->all, "Every case, not the best one of each scene, camera and grid");
+  command.when_named([file, request, &action] {
+    action = [file, request] {
+      std::cout << printable_lines(report::size_report(report::read_result(*file), *request));
       return ExitCode::ok;
     };
   });

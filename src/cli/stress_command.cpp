@@ -1,5 +1,7 @@
 // `clusterbench stress`: every assigner on every hard case.
 
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -99,7 +101,7 @@ ExitCode stress(const StressFlags& flags) {
   request.methods = pattern_of(flags.methods, "--methods");
   probe_output(flags.output);
   const std::atomic<bool>& stop = stop_on_signals();
-  ProgressLine progress(terminal(), flags.quiet);
+  ProgressLine progress(terminal(STDERR_FILENO), flags.quiet);
   const AtWork at_work(flags);
   run::StressListener listener;
   listener.on_progress = [&](const std::string& doing, double done, double whole) {
@@ -109,7 +111,7 @@ ExitCode stress(const StressFlags& flags) {
   const run::StressResult result = run::run_stress(request, listener, stop);
   progress.clear();
   if (stop) {
-    std::cerr << "interrupted\n";
+    tell("interrupted");
     return stopped_exit_code();
   }
   if (result.methods.empty()) throw Error("", "--methods", "'" + flags.methods + "' names none");
@@ -119,7 +121,7 @@ ExitCode stress(const StressFlags& flags) {
   if (!flags.quiet) report::print_stress(std::cerr, result);
   if (!flags.failures.empty()) write_replays(flags.failures, result);
   const std::vector<std::string> failures = report::stress_failures(result);
-  for (const std::string& failure : failures) std::cerr << "FAILED " << printable(failure) << "\n";
+  for (const std::string& failure : failures) tell("FAILED " + failure);
   return failures.empty() ? ExitCode::ok : ExitCode::gate_failed;
 }
 

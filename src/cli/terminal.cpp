@@ -26,15 +26,15 @@ std::string minutes_and_seconds(double seconds) {
 
 }  // namespace
 
-Terminal terminal() {
+Terminal terminal(int stream) {
   Terminal found;
   const char* term = std::getenv("TERM");
   const bool dumb = term == nullptr || std::string_view(term) == "dumb";
   const char* no_color = std::getenv("NO_COLOR");
-  found.interactive = isatty(STDERR_FILENO) != 0 && !dumb;
+  found.interactive = isatty(stream) != 0 && !dumb;
   found.colour = found.interactive && (no_color == nullptr || *no_color == '\0');
   winsize size{};
-  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) found.columns = size.ws_col;
+  if (ioctl(stream, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) found.columns = size.ws_col;
   return found;
 }
 

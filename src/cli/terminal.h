@@ -1,5 +1,5 @@
 #pragma once
-// What standard error can show, and the progress of a run on it.
+// What a terminal can show, and the progress of a run on standard error.
 
 #include <chrono>
 #include <cstdint>
@@ -10,11 +10,11 @@
 namespace clusterbench::cli {
 
 struct Terminal {
-  bool interactive = false;  // stderr is a terminal: one line, redrawn
+  bool interactive = false;  // can redraw a line
   bool colour = false;       // a terminal, and neither NO_COLOR nor TERM=dumb
   int columns = 80;
 };
-Terminal terminal();
+Terminal terminal(int stream);  // STDERR_FILENO, STDOUT_FILENO
 
 // A line with an estimate of the time left (by cost, not by count) on a terminal, else one line per finished case.
 class ProgressLine {

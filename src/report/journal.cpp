@@ -1,10 +1,10 @@
 #include "report/journal.h"
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 
 #include "core/error.h"
 #include "run/documents.h"
@@ -16,58 +16,55 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-std::string why() {
-  return std::strerror(errno);
+// The first name of "PATH.1", "PATH.2" ... that is free.
+fs::path free_name(const fs::path& path) {
+  for (int number = 1;; ++number)
+    if (fs::path name = path.string() + "." + std::to_string(number); !fs::exists(name)) return name;
 }
 
-// Reserves the room and gives it back: a full disk shows itself before anything is measured.
-void check_room(const fs::path& path, std::uint64_t bytes) {
-  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
-  if (file < 0) throw Error(path.string(), "", "cannot be written: " + why());
-  off_t size = ::lseek(file, 0, SEEK_END);
-  if (size < 0) size = 0;
-  const int failed = ::posix_fallocate(file, size, static_cast<off_t>(bytes));
-  const bool restored = ::ftruncate(file, size) == 0;
-  ::close(file);
-  if (failed == ENOSPC || failed == EDQUOT || failed == EFBIG || !restored)
-    throw Error(path.string(), "", "no room on the disk for a result of about " + std::to_string(bytes >> 10) + " KiB");
+fs::path partial_of(const fs::path& file) {
+  if (fs::is_directory(file)) throw Error(file.string(), "", "is a directory; name a file for the result");
+  return file.string() + ".partial";
 }
 
 }  // namespace
 
 Journal::Journal(const fs::path& file, const Json& header, bool resume, std::uint64_t expected_bytes)
-    : file_(file), partial_(file.string() + ".partial") {
-  if (fs::is_directory(file_)) throw Error(file_.string(), "", "is a directory; name a file for the result");
-  if (fs::exists(partial_)) read_earlier(header);
-  if (!resume && !earlier_cases_.empty())
-    throw Error(partial_.string(), "",
-                "holds " + std::to_string(earlier_cases_.size()) +
-                    " finished cases of an interrupted run; add --resume to go on, or remove it to start again");
-  check_room(partial_, expected_bytes);
+    : file_(file), partial_(partial_of(file)) {
+  if (resume)
+    read_earlier(header);
+  else
+    set_earlier_aside();
+  partial_.check_room(expected_bytes);
   if (fs::exists(file_) && ::access(file_.c_str(), W_OK) != 0)
-    throw Error(file_.string(), "", "cannot be written: " + why());
-  begin_partial(header);
+    throw Error(file_.string(), "", std::string("cannot be written: ") + std::strerror(errno));
+  if (partial_.text().empty()) partial_.append(Json{{"header", header}}.dump() + '\n');
 }
 
-// Earlier cases are copied to a new file that then takes the old one's place, so that no crash can lose them.
-void Journal::begin_partial(const Json& header) {
-  const fs::path fresh = partial_.string() + ".new";
-  out_.open(fresh, std::ios::binary | std::ios::trunc);
-  append(Json{{"header", header}});
-  for (const Json& finished : earlier_cases_) add_case(finished);
-  std::error_code failed;
-  fs::rename(fresh, partial_, failed);  // the open stream follows the file
-  if (failed) throw Error(partial_.string(), "", "cannot be replaced: " + failed.message());
+// A header alone holds nothing that was measured.
+void Journal::set_earlier_aside() {
+  const std::string text = partial_.text();
+  const std::size_t header_end = text.find('\n');
+  const bool is_header = Json::parse(text.substr(0, header_end), nullptr, false).contains("header");
+  const bool has_more = header_end != std::string::npos && header_end + 1 < text.size();
+  if (text.empty() || (is_header && !has_more)) {
+    partial_.cut_to(0);
+    return;
+  }
+  set_aside_ = free_name(partial_path());
+  partial_.move_text_to(set_aside_);
 }
 
 void Journal::read_earlier(const Json& header) {
-  std::ifstream in(partial_, std::ios::binary);
-  std::string line;
-  for (int number = 1; std::getline(in, line); ++number) {
-    Json entry = Json::parse(line, nullptr, false);
-    if (entry.is_discarded() && in.eof()) break;  // the line that was being written when the run ended
+  const std::string text = partial_.text();
+  std::size_t begin = 0;
+  for (int number = 1; begin < text.size(); ++number) {
+    const std::size_t end = text.find('\n', begin);
+    if (end == std::string::npos) break;  // the line that was being written when the run ended
+    Json entry = Json::parse(text.substr(begin, end - begin), nullptr, false);
     const auto refuse = [&](const std::string& what) {
-      throw Error(partial_.string(), "line " + std::to_string(number), what + "; remove the file to start again");
+      throw Error(partial_path().string(), "line " + std::to_string(number),
+                  what + "; without --resume the run begins anew and the file is kept under another name");
     };
     if (!entry.is_object() || !entry.contains(number == 1 ? "header" : "case"))
       refuse(number == 1 ? "does not say what was run" : "is not what a run writes");
@@ -75,16 +72,17 @@ void Journal::read_earlier(const Json& header) {
       earlier_cases_.push_back(std::move(entry["case"]));
     else if (entry["header"] != header)
       refuse("is an interrupted run of another configuration, --count, scene or build");
+    begin = end + 1;
   }
   check_earlier();
+  partial_.cut_to(begin);
 }
 
 void Journal::check_earlier() const {
   const nlohmann::json cases_schema = run::result_schema()["properties"]["cases"];
   const std::vector<std::string> violations = run::schema_violations(cases_schema, nlohmann::json(earlier_cases_));
   if (!violations.empty())
-    throw Error(partial_.string(), "",
-                "does not hold the cases of a run: " + violations.front() + "; remove it to start again");
+    throw Error(partial_path().string(), "", "does not hold the cases of a run: " + violations.front());
 }
 
 std::vector<std::string> Journal::earlier_ids() const {
@@ -93,13 +91,8 @@ std::vector<std::string> Journal::earlier_ids() const {
   return ids;
 }
 
-void Journal::append(const Json& line) {
-  out_ << line.dump() << '\n' << std::flush;
-  if (!out_) throw Error(partial_.string(), "", "cannot be written: " + why(), ExitCode::interrupted);
-}
-
 void Journal::add_case(const Json& finished) {
-  append(Json{{"case", finished}});
+  partial_.append(Json{{"case", finished}}.dump() + '\n');
 }
 
 void Journal::finish(const Json& result) {
@@ -108,13 +101,14 @@ void Journal::finish(const Json& result) {
     std::ofstream whole(fresh, std::ios::binary | std::ios::trunc);
     whole << result.dump(1) << '\n' << std::flush;
     if (!whole)
-      throw Error(fresh.string(), "", "cannot be written: " + why() + "; the cases are kept in " + partial_.string());
+      throw Error(fresh.string(), "",
+                  std::string("cannot be written: ") + std::strerror(errno) + "; the cases are kept in " +
+                      partial_path().string());
   }
   std::error_code failed;
   fs::rename(fresh, file_, failed);
   if (failed) throw Error(file_.string(), "", "cannot be replaced: " + failed.message());
-  out_.close();
-  fs::remove(partial_, failed);
+  partial_.remove();
 }
 
 }  // namespace clusterbench::report

@@ -1,9 +1,15 @@
 #include "report/size.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <limits>
+#include <regex>
 #include <set>
+#include <tuple>
+
+#include "core/error.h"
 
 namespace clusterbench::report {
 namespace {
@@ -76,9 +82,55 @@ std::string identifier(const std::string& name, std::set<std::string>& taken) {
   return unique;
 }
 
-std::string constants(const Json& result, const Json& one, std::set<std::string>& taken) {
+// "scene/camera/grid" of a case's name; its other parts are the method's.
+std::string group_of(const Json& one) {
+  const auto name = one["name"].get<std::string>();
+  std::size_t end = 0;
+  for (int part = 0; part < 3 && end != std::string::npos; ++part) end = name.find('/', end + (part > 0 ? 1 : 0));
+  return name.substr(0, end);
+}
+
+// Smaller is better.
+auto rank(const Json& one) {
+  const bool loses = (one.contains("error") && one["error"]["false_negatives"] != 0) ||
+                     one["buffers"]["overflow"]["dropped_pairs"] != 0;
+  const Json time =
+      one.value(Json::json_pointer("/timing/assign_ns/median"), Json());  // null where it was not measured
+  const double time_ns = time.is_number() ? time.get<double>() : std::numeric_limits<double>::infinity();
+  return std::tuple(loses, time_ns, one["buffers"]["bytes"]["recommended"].get<std::uint64_t>());
+}
+
+std::vector<Json> best_of_groups(const std::vector<Json>& cases) {
+  std::vector<Json> best;
+  for (const Json& one : cases) {
+    const auto earlier = std::ranges::find(best, group_of(one), group_of);
+    if (earlier == best.end())
+      best.push_back(one);
+    else if (rank(one) < rank(*earlier))
+      *earlier = one;
+  }
+  return best;
+}
+
+std::vector<Json> matching_cases(const Json& cases, const std::string& filter) {
+  std::vector<Json> out;
+  try {
+    const std::regex regex(filter, std::regex::ECMAScript);
+    for (const Json& one : cases)
+      if (std::regex_search(one["name"].get<std::string>(), regex)) out.push_back(one);
+  } catch (const std::regex_error& error) {
+    throw Error("", "--filter", "'" + filter + "' is no regular expression (ECMAScript): " + error.what());
+  }
+  if (out.empty() && !cases.empty())
+    throw Error("", "--filter",
+                "'" + filter + "' matches none of " + std::to_string(cases.size()) + " cases; one of them is '" +
+                    cases[0]["name"].get<std::string>() + "'");
+  return out;
+}
+
+std::string constants(const Json& result, const Json& one, const std::string& name, std::set<std::string>& taken) {
   const auto capacity = one["buffers"]["index_entries"]["recommended"].get<std::uint64_t>();
-  return comment(result, one) + "inline constexpr LightListBudget " + identifier(one["name"], taken) + "{" +
+  return comment(result, one) + "inline constexpr LightListBudget " + identifier(name, taken) + "{" +
          std::to_string(capacity) + "u, " + std::to_string(warning_level(result, capacity)) + "u, " +
          one["buffers"]["bytes"]["recommended"].dump() + "u};\n\n";
 }
@@ -118,10 +170,16 @@ inline void check(const LightListBudget& budget, std::uint64_t needed_entries, s
 
 }  // namespace
 
-std::string size_report(const Json& result) {
+std::string size_report(const Json& result, const SizeRequest& request) {
+  const std::vector<Json> cases = matching_cases(result["cases"], request.filter);
+  const std::vector<Json> shown = request.all ? cases : best_of_groups(cases);
   std::string header = k_header_start;
+  if (shown.size() < cases.size())
+    header += "// The best case of each grid: no light lost, fastest, smallest. --all has all " +
+              std::to_string(cases.size()) + ".\n\n";
   std::set<std::string> taken;
-  for (const Json& one : result["cases"]) header += constants(result, one, taken);
+  for (const Json& one : shown)
+    header += constants(result, one, request.all ? one["name"].get<std::string>() : group_of(one), taken);
   return header + k_header_end;
 }
 

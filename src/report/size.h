@@ -7,9 +7,17 @@
 
 namespace clusterbench::report {
 
+struct SizeRequest {
+  std::string filter;  // ECMAScript regex, "" = all: only cases whose name matches
+  // Every case, and constants named by it. Without: of each scene, camera and grid the case that loses no light and is
+  // fastest, or smallest where times are equal or were not measured, and constants that keep their names if that
+  // becomes another method.
+  bool all = false;
+};
+
 // A C++ header: for each case, as a comment, the high-water mark and the frame and cell that made it, its share of the
 // theoretical maximum, recommended capacity, warning level and bytes; below it the constants; at the end the run-time
-// check.
-std::string size_report(const nlohmann::ordered_json& result);
+// check. Throws Error if the filter is no regex or matches no case.
+std::string size_report(const nlohmann::ordered_json& result, const SizeRequest& request);
 
 }  // namespace clusterbench::report

@@ -7,6 +7,7 @@
 
 #include "assign/storage.h"
 #include "core/error.h"
+#include "run/assigner_names.h"
 #include "run/config_grids.h"
 #include "run/config_rigs.h"
 #include "run/documents.h"
@@ -103,8 +104,10 @@ std::vector<MethodRequest> methods(const Json& list, const char* key, const Json
       const bool twice = std::any_of(out.begin(), out.end(), [&](const MethodRequest& earlier) {
         return earlier.name == request.name && earlier.params.values() == request.params.values();
       });
+      const std::string pointer = std::string("/") + key;
+      const bool as_written = text.value.contains(key) && text.value[key].size() == list.size();  // no pattern
       if (twice)
-        throw Error(text.file, text.where(child_pointer(std::string("/") + key, i)),
+        throw Error(text.file, text.where(as_written ? child_pointer(pointer, i) : pointer),
                     "'" + request.label() + "' stands here twice with the same parameters");
       out.push_back(std::move(request));
     }
@@ -135,7 +138,24 @@ std::vector<PrecisionRequest> precisions(const Json& list, const JsonText& text)
   return out;
 }
 
-// Short forms written out: "aabb" is {"name": "aabb"}, a scene's path is {"path": ...}, viewport is one of viewports.
+// Patterns are kept until the list has been checked.
+bool is_assigner_glob(const std::string& list, const Json& entry) {
+  return list == "assigners" && is_glob(entry.get_ref<const std::string&>());
+}
+
+// "pixels": a number is a square. A list of exactly two numbers is one size, [width, height]; any other list is an
+// axis.
+Json square_tiles(Json pixels) {
+  const auto is_number = [](const Json& entry) { return entry.is_number(); };
+  if (pixels.is_number()) return Json::array({pixels, pixels});
+  if (!pixels.is_array() || (pixels.size() == 2 && std::all_of(pixels.begin(), pixels.end(), is_number))) return pixels;
+  for (Json& size : pixels)
+    if (size.is_number()) size = Json::array({size, size});
+  return pixels;
+}
+
+// Short forms written out: "aabb" is {"name": "aabb"}, a scene's path is {"path": ...}, viewport is one of viewports,
+// tiles of 64 pixels are of [64, 64].
 Json long_form(Json document, const JsonText& text) {
   if (!document.is_object()) return document;
   const std::pair<const char*, const char*> lists[] = {
@@ -143,11 +163,35 @@ Json long_form(Json document, const JsonText& text) {
   for (const auto& [list, key] : lists) {
     if (!document.contains(list) || !document[list].is_array()) continue;
     for (Json& entry : document[list])
-      if (entry.is_string()) entry = Json{{key, entry}};
+      if (entry.is_string() && !is_assigner_glob(list, entry)) entry = Json{{key, entry}};
   }
+  if (document.contains("grids") && document["grids"].is_array())
+    for (Json& grid : document["grids"])
+      if (const Json::json_pointer pixels("/tiles/pixels"); grid.is_object() && grid.contains(pixels))
+        grid[pixels] = square_tiles(grid[pixels]);
   if (document.contains("viewport") && document.contains("viewports"))
     throw Error(text.file, text.where_key("/viewport"), "viewport and viewports exclude each other");
   return document;
+}
+
+// A pattern stands for all methods that it matches and that the list does not name itself.
+Json without_globs(const Json& list, const JsonText& text) {
+  Json out = Json::array();
+  const auto is_named = [](const Json& entries, const std::string& name) {
+    return std::any_of(entries.begin(), entries.end(), [&](const Json& entry) {
+      return entry == name || (entry.is_object() && entry["name"] == name);
+    });
+  };
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (!list[i].is_string() || !is_glob(list[i].get_ref<const std::string&>())) {
+      out.push_back(list[i]);
+      continue;
+    }
+    const std::string where = text.where(child_pointer("/assigners", i));
+    for (const std::string& name : matching_assigners(list[i], text.file, where))
+      if (!is_named(list, name) && !is_named(out, name)) out.push_back(name);
+  }
+  return out;
 }
 
 // Defaults filled in; short forms in the defaults, too.
@@ -160,6 +204,7 @@ Json filled(const JsonText& text) {
   }
   document.erase("$schema");
   if (document["name"].get_ref<const std::string&>().empty()) document["name"] = fs::path(text.file).stem().string();
+  document["assigners"] = without_globs(document["assigners"], text);
   return read_by_schema(schema, long_form(document, text), text);
 }
 
@@ -251,6 +296,11 @@ Config read_config(const JsonText& text) {
   return config;
 }
 
+Config read_changed(const JsonText& text, std::span<const FlagValue> flags) {
+  Config config = read_config(text);
+  return flags.empty() ? config : read_config(changed_by_flags(config.resolved, text.file, flags));
+}
+
 std::string param_text(const assign::ParamSpec& spec, const assign::ParamValue& value) {
   if (const auto* text = std::get_if<std::string>(&value)) return *text;
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
@@ -279,18 +329,18 @@ std::string PrecisionRequest::label() const {
   return std::string(view::packing_name(packing)) + (inflate ? "+inflate" : "");
 }
 
-Config parse_config(const std::string& text, const fs::path& file) {
-  return read_config(parse_json_text(text, file.string()));
+Config parse_config(const std::string& text, const fs::path& file, std::span<const FlagValue> flags) {
+  return read_changed(parse_json_text(text, file.string()), flags);
 }
 
-Config load_config(const fs::path& path) {
+Config load_config(const fs::path& path, std::span<const FlagValue> flags) {
   std::ifstream in(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   if (!in || in.bad() || fs::is_directory(path)) throw Error(path.string(), "", "cannot be read");
-  return parse_config(text, path);
+  return parse_config(text, path, flags);
 }
 
-Config default_config(const std::vector<fs::path>& scenes) {
+Config default_config(const std::vector<fs::path>& scenes, std::span<const FlagValue> flags) {
   Json list = Json::array();
   for (const fs::path& path : scenes) list.push_back({{"path", path.string()}, {"frames", 30}});
   const Json document{{"name", scenes.size() == 1 ? scenes.front().stem().string() : "scenes"},
@@ -298,7 +348,7 @@ Config default_config(const std::vector<fs::path>& scenes) {
                       {"timing", {{"rounds", 15}, {"min_time_ms", 2}, {"frames", 4}}}};
   JsonText text;
   text.value = document;
-  return read_config(text);
+  return read_changed(text, flags);
 }
 
 }  // namespace clusterbench::run

@@ -14,6 +14,7 @@
 #include "grid/grid.h"
 #include "measure/buffers.h"
 #include "measure/lookup.h"
+#include "run/config_flags.h"
 #include "scene/camera_path.h"
 #include "scene/rig.h"
 #include "scene/scene.h"
@@ -111,11 +112,12 @@ struct Config {
   nlohmann::json resolved;  // the configuration with all defaults, as the result carries it
 };
 
-// Reads and checks a configuration file. Throws Error with "line:column /json/pointer" as its place.
-Config load_config(const std::filesystem::path& path);
+// Reads and checks a configuration file, and then what the command line's flags make of it. Throws Error with
+// "line:column /json/pointer" as its place, or with the flag.
+Config load_config(const std::filesystem::path& path, std::span<const FlagValue> flags = {});
 // The same from text; `file` is for messages and for relative paths.
-Config parse_config(const std::string& text, const std::filesystem::path& file);
+Config parse_config(const std::string& text, const std::filesystem::path& file, std::span<const FlagValue> flags = {});
 // The sweep that `run level.glb` does: sensible defaults.
-Config default_config(const std::vector<std::filesystem::path>& scenes);
+Config default_config(const std::vector<std::filesystem::path>& scenes, std::span<const FlagValue> flags = {});
 
 }  // namespace clusterbench::run

@@ -21,6 +21,7 @@ Json to_json(const assign::ParamValue& value) {
 Json param_schema(const assign::ParamSpec& param) {
   Json schema{{"default", to_json(param.standard)}, {"x-axis", true}};
   schema["description"] = param.summary + (param.unit.empty() ? "" : " [" + param.unit + "]");
+  if (!param.unit.empty()) schema["x-unit"] = param.unit;
   if (std::holds_alternative<bool>(param.standard)) {
     schema["type"] = "boolean";
   } else if (std::holds_alternative<double>(param.standard)) {
@@ -45,6 +46,13 @@ Json method_items(const std::vector<std::string>& names, const Json& objects) {
   return {{"anyOf", {{{"type", "string"}, {"enum", names}}, {{"oneOf", objects}}}}};
 }
 
+Json name_pattern() {
+  return {{"type", "string"},
+          {"pattern", "[*?[]"},
+          {"description", "Every method that the pattern matches (* any letters, ? one) and the list does not name."},
+          {"examples", {"*-fast"}}};
+}
+
 void insert_methods(Json& properties) {
   Json assigners = Json::array(), storages = Json::array();
   for (const assign::AssignerRow* row : assign::assigner_rows())
@@ -52,6 +60,8 @@ void insert_methods(Json& properties) {
   for (const assign::StorageRow* row : assign::storage_rows())
     storages.push_back(method_schema(row->name, row->summary, row->params));
   properties["assigners"]["items"] = method_items(assign::assigner_names(), assigners);
+  Json& choices = properties["assigners"]["items"]["anyOf"];
+  choices.insert(choices.begin(), name_pattern());
   properties["assigners"]["default"] = assign::standard_assigner_names();
   properties["storages"]["items"] = method_items(assign::storage_names(), storages);
 }
@@ -60,7 +70,7 @@ void insert_methods(Json& properties) {
 void expand_axis(Json& schema) {
   Json single = schema;
   Json outer{{"x-axis", true}};
-  for (const char* key : {"description", "default", "x-used-by", "x-axis"}) {
+  for (const char* key : {"description", "default", "examples", "x-unit", "x-used-by", "x-axis"}) {
     if (single.contains(key)) outer[key] = single[key];
     single.erase(key);
   }

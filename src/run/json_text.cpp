@@ -1,9 +1,11 @@
 #include "run/json_text.h"
 
 #include <algorithm>
+#include <set>
 #include <string_view>
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace clusterbench::run {
 namespace {
@@ -157,9 +159,18 @@ std::string child_pointer(const std::string& pointer, std::size_t index) {
 }
 
 std::string JsonText::where(std::string pointer) const {
+  if (!flags.empty()) return flag_of(pointer) + " " + pointer;
   while (!values.contains(pointer) && !pointer.empty()) pointer.resize(pointer.rfind('/'));
   const auto found = values.find(pointer);
   return to_text(found == values.end() ? TextPlace{} : found->second, pointer);
+}
+
+std::string JsonText::flag_of(std::string pointer) const {
+  for (; !pointer.empty(); pointer.resize(pointer.rfind('/')))
+    if (const auto found = flags.find(pointer); found != flags.end()) return found->second;
+  std::set<std::string> all;
+  for (const auto& [place, flag] : flags) all.insert(flag);
+  return joined(std::vector<std::string>(all.begin(), all.end()), " ");
 }
 
 std::string JsonText::where_key(const std::string& pointer) const {

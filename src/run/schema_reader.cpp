@@ -1,6 +1,7 @@
 #include "run/schema_reader.h"
 
 #include <algorithm>
+#include <regex>
 #include <set>
 
 #include "core/error.h"
@@ -84,6 +85,7 @@ std::string type_text(const Json& root, const Json& schema, const std::string& t
   if (type == "boolean") return "true or false";
   if (type == "array") return list_text(root, schema);
   if (type == "object") return "an object";
+  if (type == "string" && schema.contains("pattern")) return "a pattern such as " + quoted(schema["examples"][0]);
   if (type == "string") return schema.contains("enum") ? joined(texts_of(schema["enum"])) : "text";
   return type;
 }
@@ -146,6 +148,8 @@ class Reader {
     if (const Json* choices = alternatives(schema))
       return std::any_of(choices->begin(), choices->end(), [&](const Json& choice) { return fits(choice, value); });
     if (schema.contains("const")) return value == schema["const"];
+    if (schema.contains("pattern") && value.is_string())
+      return std::regex_search(value.get_ref<const std::string&>(), std::regex(schema["pattern"].get<std::string>()));
     const std::vector<std::string> types = types_of(schema);
     const bool typed = types.empty() || std::any_of(types.begin(), types.end(), [&](const std::string& type) {
                          return has_type(type == "integer" ? "number" : type, value);

@@ -64,6 +64,15 @@ TEST(Baseline, both_programs_are_measured_and_the_result_carries_the_pairs) {
   EXPECT_NE(compared.out.find("times side by side"), std::string::npos) << compared.out;
 }
 
+TEST(Baseline, flags_that_change_the_configuration_reach_both_programs) {
+  const Place place;
+  const Outcome done = place.run(CLUSTERBENCH_BINARY, k_any_time + " --tiles 128 --set 'grids.*.slices.count=3'");
+  ASSERT_EQ(done.code, 0) << done.err;
+  const Json cases = Json::parse(file_text(place.out))["cases"];
+  EXPECT_EQ(cases.size(), 4u);
+  for (const Json& one : cases) EXPECT_TRUE(one["timing"].contains("baseline")) << one["name"];
+}
+
 TEST(Baseline, a_program_that_takes_several_times_as_long_fails_the_run) {
   const Place place;
   const std::string slowed = "CLUSTERBENCH_SLOWED_PERCENT=700 " CLUSTERBENCH_SLOWED " run -q " + place.config + " -o " +
@@ -149,7 +158,6 @@ TEST(Baseline, an_answer_that_is_none_is_an_error) {
   const Outcome broken = place.run(place.script(killed_after_greeting() + "echo '{}'; exec sleep 1000"));
   EXPECT_EQ(broken.code, 2);
   EXPECT_NE(broken.err.find("answered what cannot be read"), std::string::npos) << broken.err;
-  std::filesystem::remove(place.out + ".partial");
   const Outcome nonsense = place.run(place.script(killed_after_greeting() + "echo nonsense; exec sleep 1000"));
   EXPECT_EQ(nonsense.code, 2);
   EXPECT_NE(nonsense.err.find("with 'nonsense'"), std::string::npos) << nonsense.err;

@@ -15,10 +15,26 @@ TEST(CommandLine, a_mistyped_command_is_answered_with_the_nearest_one) {
   EXPECT_NE(done.err.find("did you mean 'run'?"), std::string::npos) << done.err;
 }
 
-TEST(CommandLine, an_unknown_flag_is_a_usage_error) {
-  const Outcome done = tool("run --colour x.json");
-  EXPECT_EQ(done.code, 2);
-  EXPECT_NE(done.err.find("--colour"), std::string::npos) << done.err;
+TEST(CommandLine, what_is_unknown_or_missing_is_told_in_one_line_with_the_nearest_name) {
+  const std::pair<const char*, const char*> rows[] = {
+      {"run --gird frustum x.json", "run: no option '--gird' (did you mean '--grid'?); see `clusterbench run --help`"},
+      {"run --filtr=x x.json", "run: no option '--filtr' (did you mean '--filter'?); see `clusterbench run --help`"},
+      {"run --colour x.json", "run: no option '--colour'; see `clusterbench run --help`"},
+      {"run --rounds-servr", "run: no option '--rounds-servr'; see `clusterbench run --help`"},
+      {"--vresion", "no option '--vresion' (did you mean '--version'?); see `clusterbench --help`"},
+      {"scene inf x.glb", "scene: no command 'inf' (did you mean 'info'?); there are: info, generate"},
+      {"scene inf --help", "scene: no command 'inf' (did you mean 'info'?); there are: info, generate"},
+      {"scene", "scene: names no command; there are: info, generate"},
+      {"list all", "list: 'all' is one argument too many; see `clusterbench list --help`"},
+      {"compare a.json", "compare: NEW is required; see `clusterbench compare --help`"},
+      {"run", "run: INPUT is required; see `clusterbench run --help`"},
+  };
+  for (const auto& [line, message] : rows) {
+    const Outcome done = tool(line);
+    EXPECT_EQ(done.code, 2) << line;
+    EXPECT_EQ(done.err, std::string("clusterbench: ") + message + "\n");
+    EXPECT_EQ(done.out, "") << line;
+  }
 }
 
 TEST(CommandLine, without_arguments_the_help_is_shown) {

@@ -256,6 +256,16 @@ TEST(Count, a_termination_signal_ends_valgrind_and_keeps_finished_cases) {
   EXPECT_TRUE(std::filesystem::exists(ended)) << "valgrind went on";
 }
 
+TEST(Count, flags_that_change_the_configuration_reach_the_run_under_valgrind) {
+  const CountPlace place;
+  SKIP_WITHOUT(place, "callgrind");
+  const Outcome done = place.run("--count=callgrind --viewport 320x180");
+  ASSERT_EQ(done.code, 0) << done.err;
+  const Json cases = Json::parse(done.out)["cases"];
+  EXPECT_EQ(cases.size(), 6u);
+  for (const Json& one : cases) EXPECT_TRUE(one.contains("count")) << one["name"];
+}
+
 TEST(Count, a_resumed_run_counts_what_is_left) {
   const CountPlace place;
   SKIP_WITHOUT(place, "callgrind");

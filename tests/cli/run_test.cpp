@@ -65,6 +65,37 @@ TEST(Run, the_result_goes_to_standard_output_without_a_file) {
   EXPECT_EQ(done.err, "");
 }
 
+TEST(Run, on_a_terminal_the_table_is_shown_and_the_result_only_on_request) {
+  const Folder folder;
+  const std::string config = folder.write("small.json", small_config()).string();
+  const Outcome shown = tool_on_terminal("run --no-timing " + config);
+  EXPECT_EQ(shown.code, 0) << shown.out;
+  EXPECT_NE(shown.out.find("excess"), std::string::npos) << shown.out;
+  EXPECT_NE(shown.out.find("clusterbench: the result is not kept; -o FILE keeps it"), std::string::npos) << shown.out;
+  EXPECT_EQ(shown.out.find("schema_version"), std::string::npos) << shown.out;
+  EXPECT_NE(tool_on_terminal("run --no-timing -o - " + config).out.find("schema_version"), std::string::npos);
+  EXPECT_NE(tool("run --no-timing " + config).out.find("schema_version"), std::string::npos);
+}
+
+TEST(Run, flags_change_what_is_measured_and_stand_in_the_result_and_in_the_journal) {
+  const Folder folder;
+  const std::string config = folder.write("small.json", small_config()).string();
+  const std::string out = (folder / "r.json").string();
+  const std::string flags =
+      " --grid frustum --tiles 32,128 --slices 4 --assigner \"*-fast\" --viewport 320x180"
+      " --set \"scenes.*.frames=2\" --no-timing -q -o " +
+      out;
+  ASSERT_EQ(tool("run " + config + flags).code, 0);
+  const Json result = Json::parse(file_text(out));
+  EXPECT_EQ(result["config"]["grids"], Json::parse(R"([{"kind": "frustum", "tiles": {"pixels": [[32, 32], [128, 128]]},
+    "slices": {"scheme": "exponential-first", "count": 4, "near": null, "first": 5, "far": 200}}])"));
+  EXPECT_EQ(result["config"]["viewports"], Json::parse("[[320, 180]]"));
+  EXPECT_EQ(result["config"]["scenes"][0]["frames"], 2);
+  EXPECT_EQ(result["cases"].size(), 8u);
+  std::string dry = tool("run --dry-run -o x " + config + flags.substr(0, flags.find(" --no-timing"))).out;
+  EXPECT_NE(dry.find("frustum 128px x 4 exponential-first ..5..200/exact-fast/packed"), std::string::npos) << dry;
+}
+
 TEST(Run, a_dry_run_lists_cases_and_measures_nothing) {
   const Folder folder;
   const Outcome done = tool("run --dry-run " + folder.write("small.json", small_config()).string());
@@ -142,12 +173,27 @@ TEST(Run, an_interrupted_run_resumes_to_the_same_counts) {
   const Json complete = Json::parse(file_text(whole));
   std::ofstream(cut + ".partial", std::ios::app) << Json{{"case", complete["cases"][0]}}.dump() << "\n";
 
-  const Outcome refused = tool("run " + config + " -o " + cut);
+  const Outcome refused = tool("run -q --resume --filter aabb " + config + " -o " + cut);
   EXPECT_EQ(refused.code, 2);
-  EXPECT_NE(refused.err.find("--resume"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("is an interrupted run of another"), std::string::npos) << refused.err;
+  EXPECT_EQ(tool("run -q --resume --tiles 32 " + config + " -o " + cut).code, 2);
 
   ASSERT_EQ(tool("run -q --resume " + config + " -o " + cut).code, 0);
   EXPECT_EQ(without_timing(Json::parse(file_text(cut))).dump(), without_timing(complete).dump());
+}
+
+TEST(Run, a_run_that_died_does_not_block_the_next_one) {
+  const Folder folder;
+  const std::string config = folder.write("small.json", small_config()).string();
+  const std::string out = (folder / "r.json").string();
+  ASSERT_EQ(tool("run -q --no-timing " + config + " -o " + out).code, 0);
+  const Json kept{{"case", Json::parse(file_text(out))["cases"][0]}};
+  folder.write("r.json.partial", "{\"header\": {}}\n" + kept.dump() + "\n");
+  const Outcome again = tool("run -q --no-timing " + config + " -o " + out);
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_EQ(again.err, "clusterbench: " + out + ".partial, left by a run that did not end, is now " + out +
+                           ".partial.1 (--resume goes on with such a file)\n");
+  EXPECT_NE(file_text(out + ".partial.1").find(kept.dump()), std::string::npos);
 }
 
 TEST(Size, prints_constants_for_a_result) {

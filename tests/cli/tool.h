@@ -55,6 +55,15 @@ inline Outcome tool(const std::string& arguments) {
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128, file_text(folder / "out"), file_text(folder / "err")};
 }
 
+// The same with all of its output on one terminal.
+inline Outcome tool_on_terminal(const std::string& arguments) {
+  const Folder folder;
+  const std::string command = "script -qec '" + std::string(CLUSTERBENCH_BINARY) + " " + arguments + "' /dev/null >" +
+                              (folder / "out").string() + " </dev/null";
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128, file_text(folder / "out"), ""};
+}
+
 inline std::string source_file(const std::string& name) {
   return std::string(CLUSTERBENCH_SOURCE_DIR) + "/" + name;
 }

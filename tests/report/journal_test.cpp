@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "core/error.h"
 #include "report/json.h"
@@ -21,6 +22,11 @@ Json case_named(const std::string& id) {
   Json one = case_to_json(testing::result_by_hand().cases[0]);
   one["id"] = id;
   return one;
+}
+
+std::string text_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 class JournalTest : public ::testing::Test {
@@ -75,10 +81,55 @@ TEST_F(JournalTest, another_broken_line_is_an_error_that_names_it) {
   EXPECT_NE(refusal_with(R"({"case": {"id": 7}})").find("does not hold the cases of a run: /1"), std::string::npos);
 }
 
-TEST_F(JournalTest, finished_cases_are_not_overwritten_by_a_new_start) {
+TEST_F(JournalTest, a_new_start_sets_finished_cases_aside_under_a_name_that_is_free) {
+  const std::string partial = file_.string() + ".partial";
   leave_one_case();
-  EXPECT_THROW(Journal(file_, k_header, false, 100), Error);
-  EXPECT_EQ(Journal(file_, k_header, true, 100).earlier_ids().size(), 1u);
+  const std::string kept = text_of(partial);
+  std::ofstream(partial + ".1") << "set aside before";
+  const Journal fresh(file_, k_header, false, 100);
+  EXPECT_TRUE(fresh.earlier_ids().empty());
+  EXPECT_EQ(fresh.set_aside(), partial + ".2");
+  EXPECT_EQ(text_of(partial + ".2"), kept);
+  EXPECT_EQ(text_of(partial + ".1"), "set aside before");
+}
+
+TEST_F(JournalTest, a_new_start_sets_aside_what_no_run_wrote_too) {
+  std::ofstream(file_.string() + ".partial") << "notes";
+  EXPECT_EQ(text_of(Journal(file_, k_header, false, 100).set_aside()), "notes");
+}
+
+TEST_F(JournalTest, a_run_that_died_before_its_first_case_leaves_nothing_to_keep) {
+  Journal(file_, Json{{"config", "b"}}, false, 100);
+  const Journal fresh(file_, k_header, false, 100);
+  EXPECT_EQ(fresh.set_aside(), "");
+  EXPECT_EQ(text_of(fresh.partial_path()), R"({"header":{"config":"a"}})"
+                                           "\n");
+}
+
+TEST_F(JournalTest, a_second_run_to_the_same_file_is_refused_while_the_first_goes_on) {
+  Journal first(file_, k_header, false, 100);
+  first.add_case(case_named("first"));
+  for (const bool resume : {false, true}) {
+    try {
+      const Journal second(file_, k_header, resume, 100);
+      ADD_FAILURE() << "both write";
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("another run is writing here"), std::string::npos) << error.what();
+    }
+  }
+  first.finish(Json{{"cases", 1}});
+  EXPECT_EQ(text_of(file_), "{\n \"cases\": 1\n}\n");
+  const Journal later(file_, k_header, false, 100);
+  EXPECT_EQ(later.set_aside(), "");
+}
+
+// The second goes on with one end of the file cut off and the other added.
+TEST_F(JournalTest, a_resumed_run_can_die_and_be_resumed) {
+  leave_one_case();
+  std::ofstream(file_.string() + ".partial", std::ios::app) << R"({"case": {"id": "seco)";
+  Journal(file_, k_header, true, 100).add_case(case_named("second"));
+  const Journal later(file_, k_header, true, 100);
+  EXPECT_EQ(later.earlier_ids(), (std::vector<std::string>{"first", "second"}));
 }
 
 TEST_F(JournalTest, another_configuration_is_not_continued) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/error.h"
 #include "report/json.h"
 #include "report/result_by_hand.h"
 
@@ -16,8 +17,38 @@ namespace {
 namespace fs = std::filesystem;
 using testing::result_by_hand;
 
-std::string size_of(const run::Result& result) {
-  return size_report(result_to_json(result, {}));
+std::string size_of(const run::Result& result, const SizeRequest& request = {"", true}) {
+  return size_report(result_to_json(result, {}), request);
+}
+
+TEST(Size, of_each_grid_the_fastest_case_that_loses_nothing_is_shown_under_the_name_of_the_grid) {
+  run::Result result = result_by_hand();
+  run::CaseResult lossy = testing::case_by_hand("lossy", "broken", 0.5),
+                  other = testing::case_by_hand("other", "x", 9.0);
+  lossy.error->false_negatives = 1;
+  run::CaseResult dropping = testing::case_by_hand("dropping", "drops", 0.5);
+  dropping.buffers.dropped_pairs = 1;
+  other.name = "hall/walk/frustum 32px/x/packed";
+  for (const run::CaseResult& one : {lossy, dropping, other}) {
+    result.cases.push_back(one);
+    result.planned_ids.push_back(one.id);
+  }
+  const std::string report = size_of(result, {});
+  EXPECT_NE(report.find("// hall/walk/frustum 64px/aabb/packed\n"), std::string::npos) << report;
+  EXPECT_EQ(report.find("brute-force"), std::string::npos) << report;
+  EXPECT_NE(report.find("LightListBudget hall_walk_frustum_64px{"), std::string::npos) << report;
+  EXPECT_NE(report.find("LightListBudget hall_walk_frustum_32px{"), std::string::npos) << report;
+  EXPECT_EQ(report.find("broken"), std::string::npos) << report;
+  EXPECT_EQ(report.find("drops"), std::string::npos) << report;
+  EXPECT_NE(report.find("--all has all 5"), std::string::npos) << report;
+}
+
+TEST(Size, a_filter_selects_cases_by_name) {
+  const std::string report = size_of(result_by_hand(), {"/aabb/", true});
+  EXPECT_NE(report.find("// hall/walk/frustum 64px/aabb/packed"), std::string::npos) << report;
+  EXPECT_EQ(report.find("--all"), std::string::npos) << "nothing is left out";
+  EXPECT_THROW(size_of(result_by_hand(), {"no such", true}), Error);
+  EXPECT_THROW(size_of(result_by_hand(), {"(", true}), Error);
 }
 
 TEST(Size, says_what_was_seen_where_and_what_to_allocate) {

@@ -118,6 +118,10 @@ const Broken k_broken[] = {
      "1:36 /storages/0: found 'paked' (did you mean 'packed'?), allowed: STORAGES"},
     {R"({"scenes": ["a.glb"], "assigners": ["aaab"]})",
      "1:37 /assigners/0: found 'aaab' (did you mean 'aabb'?), allowed: ASSIGNERS"},
+    {R"({"scenes": ["a.glb"], "assigners": ["aabb", "*-fsat"]})",
+     "1:45 /assigners/1: '*-fsat' matches none of ASSIGNERS", false},
+    {R"({"scenes": ["a.glb"], "assigners": ["*-fast", "aabb", "aabb"]})",
+     "1:36 /assigners: 'aabb' stands here twice with the same parameters", false},
     {R"({"scenes": ["a.glb"], "assigners": [{}]})", "1:37 /assigners/0: lacks the key 'name', allowed: ASSIGNERS"},
     {R"({"scenes": ["a.glb"], "assigners": ["aabb", "aabb"]})",
      "1:45 /assigners/1: 'aabb' stands here twice with the same parameters", false},
@@ -131,7 +135,13 @@ const Broken k_broken[] = {
     {R"({"scenes": ["a.glb"], "grids": [{"kind": "cascades", "cells": [6, 4, 4]}]})",
      "1:63 /grids/0/cells: found [6,4,4], allowed: multiples of 4, 4 and 2", false},
     {R"({"scenes": ["a.glb"], "grids": [{"tiles": {"pixels": ["a", "b"]}}]})",
-     "1:55 /grids/0/tiles/pixels/0: found 'a', allowed: an integer from 1 to 32768"},
+     "1:55 /grids/0/tiles/pixels/0: found 'a', allowed: a list of 2, each an integer from 1 to 32768 or an integer "
+     "from 1 to 32768"},
+    {R"({"scenes": ["a.glb"], "grids": [{"tiles": {"pixels": [16, 0, 64]}}]})",
+     "1:59 /grids/0/tiles/pixels/1: found 0, allowed: an integer from 1 to 32768"},
+    {R"({"scenes": ["a.glb"], "grids": [{"tiles": {"pixels": "64"}}]})",
+     "1:54 /grids/0/tiles/pixels: found '64', allowed: a list of 2, each an integer from 1 to 32768 or an integer from "
+     "1 to 32768 or a list, each a list of 2, each an integer from 1 to 32768 or an integer from 1 to 32768"},
     {R"({"scenes": ["a.glb"], "grids": [{"tiles": {"pixels": [64, 64], "count": [1, 1]}}]})",
      "1:43 /grids/0/tiles: found 2 keys, allowed: exactly one of count, pixels"},
     {R"({"scenes": ["a.glb"], "grids": [{"slices": {"scheme": "lineer"}}]})",
@@ -242,12 +252,73 @@ TEST(Config, lights_are_in_float32_unless_another_precision_is_named) {
   EXPECT_EQ(labels, (std::vector<std::string>{"float32", "half+inflate", "unorm16+inflate", "half", "unorm16"}));
 }
 
+// Every key of a schema, with its place.
+void collect_keys(const nlohmann::json& schema, const std::string& place,
+                  std::vector<std::pair<std::string, nlohmann::json>>& out) {
+  if (!schema.is_structured()) return;
+  if (schema.is_object() && schema.contains("type") && schema.contains("properties"))
+    for (const auto& [key, property] : schema["properties"].items()) out.emplace_back(place + "/" + key, property);
+  for (const auto& [key, member] : schema.items()) collect_keys(member, place + "/" + key, out);
+}
+
+TEST(Config, every_key_of_the_schema_has_an_example_that_the_schema_accepts) {
+  const nlohmann::json schema = config_schema();
+  std::vector<std::pair<std::string, nlohmann::json>> keys;
+  collect_keys(schema, "", keys);
+  int examples = 0;
+  for (const auto& [place, property] : keys) {
+    if (place.starts_with("/properties/assigners/") || place.starts_with("/properties/storages/")) continue;
+    ASSERT_TRUE(property.contains("examples")) << place;
+    const nlohmann::json alone{{"definitions", schema["definitions"]}, {"allOf", {property}}};
+    for (const nlohmann::json& example : property["examples"]) {
+      EXPECT_EQ(schema_violations(alone, example), std::vector<std::string>{}) << place << " " << example;
+      ++examples;
+    }
+  }
+  EXPECT_GT(examples, 60);
+}
+
 TEST(Config, axes_expand_into_their_product) {
   EXPECT_EQ(grids_of(R"({"tiles": {"pixels": [[32, 32], [64, 64]]},
                          "slices": {"scheme": ["linear", "exponential"], "count": [8, 16, 32]}})"),
             12U);
   EXPECT_EQ(grids_of(R"({"kind": "cascades", "levels": [4, 5], "cells": [[16, 16, 16], [32, 32, 32]]})"), 4U);
   EXPECT_EQ(grids_of(R"({"slices": {"scheme": "list", "boundaries": [[0.1, 1, 2], [0.1, 5]]}})"), 2U);
+}
+
+std::vector<std::string> tiles_of(const std::string& pixels) {
+  std::vector<std::string> names;
+  for (const grid::GridSpec& grid :
+       parsed(R"(, "grids": [{"tiles": {"pixels": )" + pixels + R"(}, "slices": {"scheme": "linear"}}])").grids)
+    names.push_back(std::to_string(grid.tiles.pixels.x) + "x" + std::to_string(grid.tiles.pixels.y));
+  return names;
+}
+
+TEST(Config, a_number_is_a_square_tile_and_two_numbers_alone_are_one_size) {
+  using Sizes = std::vector<std::string>;
+  EXPECT_EQ(tiles_of("32"), Sizes{"32x32"});
+  EXPECT_EQ(tiles_of("[32]"), Sizes{"32x32"});
+  EXPECT_EQ(tiles_of("[32, 16]"), Sizes{"32x16"});
+  EXPECT_EQ(tiles_of("[[32, 16]]"), Sizes{"32x16"});
+  EXPECT_EQ(tiles_of("[16, 32, 64]"), (Sizes{"16x16", "32x32", "64x64"}));
+  EXPECT_EQ(tiles_of("[16, [64, 32]]"), (Sizes{"16x16", "64x32"}));
+  EXPECT_EQ(tiles_of("[[16, 16], [32, 32]]"), (Sizes{"16x16", "32x32"}));
+}
+
+TEST(Config, a_pattern_stands_for_the_assigners_that_the_list_does_not_name) {
+  const auto labels = [](const std::string& list) {
+    std::vector<std::string> all;
+    for (const MethodRequest& assigner : parsed(R"(, "assigners": )" + list).assigners) all.push_back(assigner.label());
+    return all;
+  };
+  using Labels = std::vector<std::string>;
+  EXPECT_EQ(labels(R"(["exact*", "bounds"])"), (Labels{"exact", "exact-fast", "bounds"}));
+  EXPECT_EQ(labels(R"(["*exact*", "exact-?ast", {"name": "exact-fast", "threads": 2}])"),
+            (Labels{"exact", "exact-fast(threads=2)"}));
+  EXPECT_EQ(labels(R"(["naive-*"])").size(), 4u);
+  EXPECT_EQ(labels(R"(["*planes"])"), Labels{"planes"}) << "naive methods run only where they are named";
+  const nlohmann::json resolved = parsed(R"(, "assigners": ["exact*"])").resolved["assigners"];
+  EXPECT_EQ(resolved[1]["name"], "exact-fast");
 }
 
 TEST(Config, an_axis_of_one_scheme_does_not_multiply_the_others) {

@@ -16,7 +16,7 @@ namespace clusterbench::run {
 namespace {
 
 // Fewer digits first; 17 would change nothing.
-constexpr int k_digits[] = {1, 2, 3, 4, 6, 8, 12};
+constexpr int k_decimal_digits[] = {1, 2, 3, 4, 6, 8, 12};
 constexpr int k_most_checks = 1500;
 
 double rounded_to(double value, int digits) {
@@ -210,7 +210,7 @@ class Shrinker {
   }
 
   void round_direction(std::size_t index) {
-    for (const int digits : k_digits) {
+    for (const int digits : k_decimal_digits) {
       const bool done = attempt([&](Trial& trial) {
         scene::Node& node = trial.scene.nodes[static_cast<std::size_t>(trial.scene.lights[index].node)];
         Vec3d direction(0.0);
@@ -240,7 +240,7 @@ class Shrinker {
   }
   void round_each(std::initializer_list<double*> numbers) {
     for (double* number : numbers)
-      for (const int digits : k_digits) {
+      for (const int digits : k_decimal_digits) {
         const double value = rounded_to(*number, digits);
         if (value == *number || set_to(*number, value)) break;
       }

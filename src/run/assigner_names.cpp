@@ -1,0 +1,25 @@
+#include "run/assigner_names.h"
+
+#include <fnmatch.h>
+
+#include "assign/assigner.h"
+#include "core/error.h"
+#include "core/text.h"
+
+namespace clusterbench::run {
+
+bool is_glob(const std::string& name) {
+  return name.find_first_of("*?[") != std::string::npos;
+}
+
+std::vector<std::string> matching_assigners(const std::string& pattern, const std::string& file,
+                                            const std::string& where) {
+  std::vector<std::string> standard, naive;
+  for (const assign::AssignerRow* row : assign::assigner_rows())
+    if (fnmatch(pattern.c_str(), row->name.c_str(), 0) == 0) (row->naive ? naive : standard).push_back(row->name);
+  if (standard.empty() && naive.empty())
+    throw Error(file, where, "'" + pattern + "' matches none of " + joined(assign::assigner_names()));
+  return standard.empty() ? naive : standard;
+}
+
+}  // namespace clusterbench::run
