@@ -362,11 +362,11 @@ FrameLists frame_lists(const Setting& setting, std::uint32_t most_lights) {
                    std::min(most_lights, setting.lights.size()),
                    {},
                    {}};
-  const assign::AssignerRow& row = *assign::find_assigner("exact-fast");
+  const assign::AssignerDescriptor& row = *assign::find_assigner("exact-fast");
   const auto assigner = row.make(assign::Params(row.params));
   assign::Lists all;
   assigner->build(setting.grid);
-  assigner->assign(setting.lights, all);
+  assigner->assign({setting.frame, setting.lights}, all);
   frame.lists.begin.push_back(0);
   for (std::uint32_t cell = 0; cell < all.cell_count(); ++cell) {
     for (const std::uint32_t light : all.of(cell))
