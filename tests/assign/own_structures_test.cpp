@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "assign/assigner_run.h"
+#include "assign/each_target.h"
 #include "assign/radix_sort.h"
 #include "assign/settings.h"
+#include "assign/simd/ball_boxes.h"
+#include "geom/predicates.h"
 
 namespace clusterbench::assign {
 namespace {
@@ -92,6 +95,30 @@ TEST(Bvh, a_sample_gets_the_lights_whose_boxes_hold_it_wherever_it_lies) {
   EXPECT_EQ(run.structure()->use().index_entries, 8u * (13u + 2u + 1u + 1u));
   EXPECT_EQ(run.structure()->use().index_bytes, 24u * run.structure()->use().index_entries);
   EXPECT_EQ(run.structure()->limit().index_entries, run.structure()->use().index_entries);
+}
+
+TEST(BallLanes, touch_what_each_ball_touches_alone_on_every_target) {
+  testing::Random random(6);
+  for (const std::uint32_t count : {0u, 1u, 7u, 16u, 33u, 200u}) {
+    BallLanes lanes;
+    std::vector<geom::Ball> balls;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const Vec3d at{random.between(-9.0, 9.0), random.between(-9.0, 9.0), random.between(-9.0, 9.0)};
+      // Whole numbers, so that some touch by nothing; and one that is everywhere.
+      balls.push_back({Vec3f(glm::round(at)), i == 5 ? std::numeric_limits<float>::infinity()
+                                                     : static_cast<float>(std::round(random.between(0.0, 5.0)))});
+      lanes.add(100 + i, balls.back());
+    }
+    const geom::Box box{{-2, -1, -3}, {2, 4, 1}};
+    std::vector<std::uint32_t> expected;
+    for (std::uint32_t i = 0; i < count; ++i)
+      if (geom::ball_touches_box(balls[i], box)) expected.push_back(100 + i);
+    testing::on_each_target([&](const std::string& target) {
+      std::vector<std::uint32_t> found(count + k_most_lanes);
+      found.resize(lanes.touching(box, found.data()));
+      EXPECT_EQ(found, expected) << target << ", " << count;
+    });
+  }
 }
 
 TEST(RadixSort, sorts_as_a_stable_sort_does_and_floats_by_their_bits) {

@@ -269,6 +269,34 @@ TEST(Bitfield, one_that_no_buffer_can_hold_is_refused) {
   }
 }
 
+// Points before spots, each type's lights in any order.
+Lists shuffled(Lists lists, std::uint32_t points, std::uint64_t seed) {
+  SplitMix64 random(seed);
+  for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell)
+    for (std::uint32_t i = lists.begin[cell]; i < lists.begin[cell + 1]; ++i) {
+      const std::uint32_t other = i + static_cast<std::uint32_t>(random.below(lists.begin[cell + 1] - i));
+      if ((lists.lights[i] < points) == (lists.lights[other] < points)) std::swap(lists.lights[i], lists.lights[other]);
+    }
+  return lists;
+}
+
+TEST(EveryStorage, keeps_lists_in_any_order) {
+  for (const StorageDescriptor* row : storage_descriptors())
+    for (const std::uint32_t lights : {9u, 60u, 700u})
+      for (const double share : {0.1, 0.6, 1.0}) {
+        Lists lists = random_lists(60, lights, share, lights);
+        const auto kept = row->make(row->name == "linked"  ? Params(row->params, {{"nodes_per_cell", 700.0}})
+                                    : row->name == "fixed" ? Params(row->params, {{"cap", 700.0}})
+                                                           : Params(row->params));
+        kept->start(60, lights / 2, lights - lights / 2);
+        kept->store(shuffled(lists, lights / 2, 5));
+        Lists back = kept->expanded();
+        EXPECT_EQ(lists_fault(back, 60, lights / 2, lights - lights / 2), "") << row->name;
+        make_ascending(back);
+        EXPECT_EQ(back, lists) << row->name << ", " << lights << " lights, " << share;
+      }
+}
+
 TEST(Linked, lists_read_back_as_they_were_stored) {
   for (const double share : {0.0, 0.02, 0.7}) {
     const Lists lists = random_lists(40, 300, share, 3);

@@ -15,6 +15,7 @@
 #include "assign/cell_box_method.h"
 #include "assign/light_test.h"
 #include "assign/radix_sort.h"
+#include "assign/simd/ball_boxes.h"
 #include "assign/view_cull.h"
 #include "core/aligned_vector.h"
 #include "core/error.h"
@@ -209,58 +210,6 @@ class TreeBuilder {
   RadixSort<std::uint64_t> by_code_;
 };
 
-// Balls side by side, in whole groups: the last ones touch nothing.
-class Candidates {
- public:
-  void clear() { count_ = 0; }
-  void add(std::uint32_t light, const geom::Ball& ball) {
-    if (count_ == light_.size()) grow();
-    x_[count_] = ball.center.x;
-    y_[count_] = ball.center.y;
-    z_[count_] = ball.center.z;
-    squared_radius_[count_] = ball.radius * ball.radius;
-    light_[count_++] = light;
-  }
-  void finish() {
-    if (count_ > 0) std::fill_n(squared_radius_.begin() + count_, (k_width - count_ % k_width) % k_width, -1.0f);
-  }
-  std::uint32_t count() const { return count_; }
-
-  // Writes the lights of those that touch a box to `out`, which has room for count(), and returns how many. The
-  // operations are those of geom::ball_touches_box.
-  std::uint32_t touching(const geom::Box& box, std::uint32_t* out) const {
-    std::uint32_t found = 0;
-    for (std::uint32_t begin = 0; begin < count_; begin += k_width) {
-      std::uint32_t touches[k_width];
-      for (std::uint32_t i = 0; i < k_width; ++i) {
-        const float x = gap(box.lo.x, box.hi.x, x_[begin + i]), y = gap(box.lo.y, box.hi.y, y_[begin + i]),
-                    z = gap(box.lo.z, box.hi.z, z_[begin + i]);
-        touches[i] = x * x + y * y + z * z <= squared_radius_[begin + i] ? 1u << i : 0u;
-      }
-      std::uint32_t left = 0;
-      for (std::uint32_t i = 0; i < k_width; ++i) left |= touches[i];
-      for (; left != 0; left &= left - 1)
-        out[found++] = light_[begin + static_cast<std::uint32_t>(std::countr_zero(left))];
-    }
-    return found;
-  }
-
-  std::size_t capacity_bytes() const { return light_.size() * (4 * sizeof(float) + sizeof(std::uint32_t)); }
-
- private:
-  static float gap(float lo, float hi, float at) { return std::max(0.0f, std::max(lo - at, at - hi)); }
-
-  void grow() {
-    const std::size_t room = std::max<std::size_t>(64, 2 * light_.size());
-    for (auto* numbers : {&x_, &y_, &z_, &squared_radius_}) numbers->resize(room);
-    light_.resize(room);
-  }
-
-  std::uint32_t count_ = 0;
-  AlignedVector<float> x_, y_, z_, squared_radius_;
-  std::vector<std::uint32_t> light_;
-};
-
 // Runs of neighbours in a row ask the hierarchy; each cell asks what its run got.
 class BvhLists final : public ListAssigner {
  public:
@@ -327,8 +276,7 @@ class BvhLists final : public ListAssigner {
     candidates_.clear();
     if (run.lo.x <= run.hi.x)
       tests_ += trees_.each_touched(run, [&](std::uint32_t light) { candidates_.add(light, builder_.balls[light]); });
-    candidates_.finish();
-    if (found_.size() < candidates_.count()) found_.resize(candidates_.count());
+    if (found_.size() < candidates_.count() + k_most_lanes) found_.resize(candidates_.count() + k_most_lanes);
   }
 
   void add_cell(const view::LightArrays& lights, std::uint32_t cell, Lists& out) {
@@ -360,7 +308,7 @@ class BvhLists final : public ListAssigner {
   geom::Box all_{};
   std::optional<ViewCull> view_;
   std::vector<geom::SphericalCone> cones_;  // of the spots
-  Candidates candidates_;                   // of the run at hand
+  BallLanes candidates_;                    // of the run at hand
   std::vector<std::uint32_t> found_;        // of the cell at hand
   std::uint64_t tests_ = 0;
 };
