@@ -185,7 +185,7 @@ assign::Lists random_lists() {
 }
 
 void store(benchmark::State& state, const char* name) {
-  const assign::StorageRow* row = assign::find_storage(name);
+  const assign::StorageDescriptor* row = assign::find_storage(name);
   const auto storage = row->make(assign::Params(row->params));
   const assign::Lists lists = random_lists();
   storage->start(cell_total(), k_lights, 0);

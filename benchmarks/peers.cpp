@@ -9,6 +9,7 @@
 #include <string>
 
 #include "assign/assigner.h"
+#include "assign/assigner_run.h"
 #include "benchmarks.h"
 #include "geom/predicates.h"
 #include "setting.h"
@@ -49,15 +50,12 @@ grid::GridSpec spec_of(const Workload& workload) {
   return spec;
 }
 
-void assign_frame(benchmark::State& state, const Setting& setting, const assign::AssignerRow& row) {
-  const auto assigner = row.make(assign::Params(row.params));
-  assigner->build(setting.grid);
-  assign::Lists lists;
-  for (auto _ : state) {
-    assigner->assign(setting.lights, lists);
-    benchmark::DoNotOptimize(lists.lights.data());
-  }
-  state.counters["pairs"] = lists.pair_count();
+void assign_frame(benchmark::State& state, const Setting& setting, const assign::AssignerDescriptor& row) {
+  const assign::Params params(row.params);
+  assign::AssignerRun run(row, params, assign::answers_with_cells(row, params).front());
+  run.build(setting.grid);
+  for (auto _ : state) run.assign({setting.frame, setting.lights});
+  state.counters["pairs"] = run.cell_lists().pair_count();
 }
 
 // Cell by cell, light by light, with boxes made beforehand.
@@ -98,7 +96,7 @@ void register_peers() {
       })->Unit(benchmark::kMicrosecond);
     };
     add("brute", [](benchmark::State& state, const Setting& setting) { brute_frame(state, setting); });
-    for (const assign::AssignerRow* row : assign::assigner_rows())
+    for (const assign::AssignerDescriptor* row : assign::assigner_descriptors())
       if (!row->naive && row->takes(grid::Kind::frustum))
         add(row->name, [row](benchmark::State& state, const Setting& setting) { assign_frame(state, setting, *row); });
   }

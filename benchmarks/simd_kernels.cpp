@@ -162,7 +162,7 @@ void find_rows(State& state) {
   const assign::RowPlanes planes(setting.grid.screen());
   const assign::SeenBalls seen = seen_in(setting, planes);
   assign::BallShapes shapes;
-  assign::shape_balls(planes, seen, seen.count, shapes);
+  assign::shape_balls(seen, seen.count, shapes);
   assign::SliceBalls balls;
   balls.sort(seen, planes.slices);
   const assign::ExactFrame frame{setting.grid, planes, setting.lights, seen, seen.count, shapes, balls};
@@ -362,11 +362,11 @@ FrameLists frame_lists(const Setting& setting, std::uint32_t most_lights) {
                    std::min(most_lights, setting.lights.size()),
                    {},
                    {}};
-  const assign::AssignerRow& row = *assign::find_assigner("exact-fast");
+  const assign::AssignerDescriptor& row = *assign::find_assigner("exact-fast");
   const auto assigner = row.make(assign::Params(row.params));
   assign::Lists all;
   assigner->build(setting.grid);
-  assigner->assign(setting.lights, all);
+  assigner->assign({setting.frame, setting.lights}, all);
   frame.lists.begin.push_back(0);
   for (std::uint32_t cell = 0; cell < all.cell_count(); ++cell) {
     for (const std::uint32_t light : all.of(cell))

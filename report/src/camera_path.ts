@@ -17,8 +17,8 @@ interface Along {
 }
 
 const alongs: Along[] = [
-  { title: "pairs", values: (one) => one.raw.occupancy.along_path?.pairs, show: format.short },
-  { title: "longest list", values: (one) => one.raw.occupancy.along_path?.longest_list, show: format.count },
+  { title: "pairs", values: (one) => one.raw.occupancy?.along_path?.pairs, show: format.short },
+  { title: "longest list", values: (one) => one.raw.occupancy?.along_path?.longest_list, show: format.count },
   { title: "bytes", values: (one) => one.raw.buffers.along_path?.bytes, show: format.bytes, allocation: (one) => one.recommended },
 ];
 
@@ -54,10 +54,10 @@ function lines(view: View, along: Along, all: Series[], framesPerEntry: number):
 }
 
 export function cameraPath(view: View, cases: Case[]): HTMLElement {
-  const shown = cases.filter((one) => one.raw.occupancy.along_path && one.raw.buffers.along_path);
+  const shown = cases.filter((one) => one.raw.occupancy?.along_path && one.raw.buffers.along_path);
   if (shown.length === 0)
-    return h("p", { class: "note" }, "This result holds no figures frame by frame: an earlier version measured it. Run it again to see them along the camera path.");
-  const framesPerEntry = shown[0]!.raw.occupancy.along_path!.frames_per_entry;
+    return h("p", { class: "note" }, "These cases have no lists frame by frame: an earlier version measured them (run it again), or their methods leave structures without cells.");
+  const framesPerEntry = shown[0]!.raw.occupancy!.along_path!.frames_per_entry;
   const drawn = alongs.map((along) => ({ along, all: seriesOf(shown, along.values) }));
   return figureView({
     id: "camera-path",
@@ -75,7 +75,7 @@ export function cameraPath(view: View, cases: Case[]): HTMLElement {
         { label: "allocate", value: (row) => row.one.recommended, show: (row) => format.count(row.one.recommended) },
       ],
       rows: shown.flatMap((one) => {
-        const { pairs, longest_list } = one.raw.occupancy.along_path!;
+        const { pairs, longest_list } = one.raw.occupancy!.along_path!;
         const { bytes } = one.raw.buffers.along_path!;
         return pairs.map((value, at) => ({ one, frame: at * framesPerEntry, pairs: value, longest: longest_list[at]!, bytes: bytes[at]! }));
       }),

@@ -16,7 +16,7 @@ const parts = ["write floor", "rest of the assignment", "conversion"];
 
 function partsOf(one: Case): Part[] {
   const { assign_ns, convert_ns, write_floor_ns } = one.raw.timing!;
-  const [assign, convert, floor] = [assign_ns.median ?? 0, convert_ns.median ?? 0, write_floor_ns ?? 0];
+  const [assign, convert, floor] = [assign_ns.median ?? 0, convert_ns?.median ?? 0, write_floor_ns ?? 0];
   const values = [floor, Math.max(0, assign - floor), convert];
   return values.map((ns, at) => ({ method: one.assigner, part: parts[at]!, ns, share: ns / (Math.max(floor, assign) + convert || 1) }));
 }
@@ -28,7 +28,7 @@ export function costs(cases: Case[]): HTMLElement | null {
   return figureView({
     id: "costs",
     title: "Where a frame's time goes",
-    lead: "Write floor: copying the finished lists and headers once, which no method can do without. Conversion: from lists to the storage's layout. Fastest first.",
+    lead: "Write floor: copying the finished lists (or the method's own structure) and headers once, which no method can do without. Conversion: from lists to the storage's layout. Fastest first.",
     chart: chart(`Shares of write floor, assignment and conversion of ${methods.join(", ")}`, {
       width: chartWidth(),
       height: 56 + 24 * new Set(methods).size,
@@ -39,7 +39,7 @@ export function costs(cases: Case[]): HTMLElement | null {
       color: { domain: parts, range: ["var(--part-0)", "var(--part-1)", "var(--part-2)"], legend: false },
       marks: [
         Plot.barX(timed.flatMap(partsOf), { x: "share", y: "method", fill: "part", inset: 1.5, insetLeft: 0.5, insetRight: 0.5, title: ({ part, ns, share }: Part) => `${part}: ${format.microseconds(ns)} µs, ${format.percent(share)}` }),
-        Plot.text(timed, { x: 1, y: "assigner", text: (one: Case) => `${format.microseconds(one.assignNs! + (one.raw.timing!.convert_ns.median ?? 0))} µs`, textAnchor: "start", dx: 6, fill: "var(--ink)" }),
+        Plot.text(timed, { x: 1, y: "assigner", text: (one: Case) => `${format.microseconds(one.assignNs! + (one.raw.timing!.convert_ns?.median ?? 0))} µs`, textAnchor: "start", dx: 6, fill: "var(--ink)" }),
       ],
     }),
     legend: parts.map((label, at) => ({ label, colour: `var(--part-${at})` })),
@@ -49,7 +49,7 @@ export function costs(cases: Case[]): HTMLElement | null {
         { label: "method", value: (one) => one.assigner },
         { label: "build µs", about: "Once per projection", value: (one) => one.raw.timing!.build_ns.median, show: (one) => format.microseconds(one.raw.timing!.build_ns.median) },
         { label: "assign µs", value: (one) => one.assignNs, show: (one) => format.microseconds(one.assignNs) },
-        { label: "convert µs", value: (one) => one.raw.timing!.convert_ns.median, show: (one) => format.microseconds(one.raw.timing!.convert_ns.median) },
+        { label: "convert µs", about: "None where a method leaves its own structure", value: (one) => one.raw.timing!.convert_ns?.median ?? null, show: (one) => format.microseconds(one.raw.timing!.convert_ns?.median ?? null) },
         { label: "write floor µs", value: (one) => one.raw.timing!.write_floor_ns, show: (one) => format.microseconds(one.raw.timing!.write_floor_ns) },
         { label: "tests per frame", about: "Cells, rows, lights or planes that the method looks at one by one", value: (one) => one.raw.tests_done / one.raw.frames, show: (one) => format.count(one.raw.tests_done / one.raw.frames) },
         { label: "fallbacks per frame", about: "Pairs decided at greater cost than single precision", value: (one) => one.raw.fallbacks === undefined ? null : one.raw.fallbacks / one.raw.frames, show: (one) => format.decimal((one.raw.fallbacks ?? 0) / one.raw.frames) },

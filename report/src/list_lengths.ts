@@ -26,7 +26,7 @@ function binned(all: Series[], width: number): Bin[] {
 }
 
 export function listLengths(view: View, cases: Case[]): HTMLElement {
-  const all = seriesOf(cases, (one) => one.raw.occupancy.lights_per_cluster.histogram);
+  const all = seriesOf(cases, (one) => one.raw.occupancy?.lights_per_cluster.histogram);
   const longest = all.reduce((most, series) => Math.max(most, series.values.length), 1);
   const width = Math.ceil(longest / mostBins);
   const bins = binned(all, width);

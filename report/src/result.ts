@@ -81,7 +81,7 @@ export interface CaseResult {
   storage: string;
   tests_done: number;
   fallbacks?: number;
-  occupancy: {
+  occupancy?: {
     pairs: Spread;
     lights_per_cluster: Spread & { histogram: number[] };
     occupied_fraction: Spread;
@@ -117,13 +117,13 @@ export interface CaseResult {
     frames_timed: number;
     build_ns: TimeStats;
     assign_ns: TimeStats;
-    convert_ns: TimeStats;
+    convert_ns?: TimeStats;
     ns_per_pair: Maybe;
     write_floor_ns: Maybe;
     floor_ratio: Maybe;
     vs?: { assigner: string; ratio: Maybe; ci95: [Maybe, Maybe] };
   };
-  count?: { source: string; instructions_per_frame: { assign: number; convert: number } };
+  count?: { source: string; instructions_per_frame: { assign: number; convert?: number } };
   details?: Details;
 }
 

@@ -11,7 +11,7 @@
 
 namespace clusterbench::assign {
 
-class BoxGridMethod final : public Assigner {
+class BoxGridMethod final : public ListAssigner {
  public:
   explicit BoxGridMethod(const Params& params) : test_(params, k_box_roundings) {}
 
@@ -21,7 +21,8 @@ class BoxGridMethod final : public Assigner {
     levels_ = box_levels(grid);
   }
 
-  void assign(const view::LightArrays& lights, Lists& out) override {
+  void assign(const FrameInput& input, Lists& out) override {
+    const view::LightArrays& lights = input.lights;
     tests_ = 0;
     test_.start_frame(lights);
     pairs_.start(grid_->cell_count());
@@ -46,7 +47,7 @@ class BoxGridMethod final : public Assigner {
   std::uint64_t tests_ = 0;
 };
 
-inline std::unique_ptr<Assigner> make_box_grid_method(const Params& params) {
+inline std::unique_ptr<ListAssigner> make_box_grid_method(const Params& params) {
   return std::make_unique<BoxGridMethod>(params);
 }
 

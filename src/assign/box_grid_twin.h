@@ -15,7 +15,7 @@
 
 namespace clusterbench::assign {
 
-class BoxGridTwin final : public Assigner {
+class BoxGridTwin final : public ListAssigner {
  public:
   explicit BoxGridTwin(const Params& params) : test_(params, k_box_roundings), lists_(test_) {}
 
@@ -26,7 +26,8 @@ class BoxGridTwin final : public Assigner {
     for (const BoxGrid& boxes : box_levels(grid)) levels_.emplace_back(boxes);
   }
 
-  void assign(const view::LightArrays& lights, Lists& out) override {
+  void assign(const FrameInput& input, Lists& out) override {
+    const view::LightArrays& lights = input.lights;
     test_.start_frame(lights);
     lists_.start_frame(lights, out);
     boxed_.reserve(lights.size());
@@ -71,7 +72,7 @@ class BoxGridTwin final : public Assigner {
   BoxedLists lists_;
 };
 
-inline std::unique_ptr<Assigner> make_box_grid_twin(const Params& params) {
+inline std::unique_ptr<ListAssigner> make_box_grid_twin(const Params& params) {
   return std::make_unique<BoxGridTwin>(params);
 }
 

@@ -18,7 +18,7 @@ enum class Looks { everywhere, in_box, nowhere };
 // CellTest: build(const grid::Grid&), bool touches(const geom::Ball&, std::uint32_t cell) const, capacity_bytes()
 // const, k_looks, and k_roundings: what touches() loses. With Looks::nowhere there is no touches().
 template <class CellTest>
-class CellBoxMethod final : public Assigner {
+class CellBoxMethod final : public ListAssigner {
  public:
   explicit CellBoxMethod(const Params& params) : test_(params, CellTest::k_roundings) {}
 
@@ -30,7 +30,8 @@ class CellBoxMethod final : public Assigner {
     test_.start_grid(grid, kinds);
   }
 
-  void assign(const view::LightArrays& lights, Lists& out) override {
+  void assign(const FrameInput& input, Lists& out) override {
+    const view::LightArrays& lights = input.lights;
     tests_ = 0;
     test_.start_frame(lights);
     pairs_.start(grid_->cell_count());
@@ -135,7 +136,7 @@ class CellPlanes {
 };
 
 template <class CellTest>
-std::unique_ptr<Assigner> make_cell_box_method(const Params& params) {
+std::unique_ptr<ListAssigner> make_cell_box_method(const Params& params) {
   return std::make_unique<CellBoxMethod<CellTest>>(params);
 }
 

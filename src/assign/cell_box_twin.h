@@ -20,7 +20,7 @@ namespace clusterbench::assign {
 // k_roundings: what they lose, bool narrows() const: whether they narrow the boxes of spots, and void narrow(CellBox&,
 // const geom::SphericalCone&) const.
 template <class Rows>
-class CellBoxTwin final : public Assigner {
+class CellBoxTwin final : public ListAssigner {
  public:
   explicit CellBoxTwin(const Params& params) : test_(params, Rows::k_roundings), rows_(params), lists_(test_) {}
 
@@ -32,7 +32,8 @@ class CellBoxTwin final : public Assigner {
     rows_.build(grid);
   }
 
-  void assign(const view::LightArrays& lights, Lists& out) override {
+  void assign(const FrameInput& input, Lists& out) override {
+    const view::LightArrays& lights = input.lights;
     lights_ = &lights;
     test_.start_frame(lights);
     box_lights();
@@ -97,7 +98,7 @@ class CellBoxTwin final : public Assigner {
 };
 
 template <class Rows>
-std::unique_ptr<Assigner> make_cell_box_twin(const Params& params) {
+std::unique_ptr<ListAssigner> make_cell_box_twin(const Params& params) {
   return std::make_unique<CellBoxTwin<Rows>>(params);
 }
 

@@ -21,7 +21,8 @@ ParamSpec inflation_param() {
           .unit = "",
           .min = 0.0,
           .max = 1e6,
-          .choices = {}};
+          .choices = {},
+          .conservative_from = 1.0};
 }
 
 std::vector<ParamSpec> light_params() {

@@ -25,6 +25,36 @@ std::uint32_t Lists::fullest_cell() const {
   return fullest;
 }
 
+std::string lists_fault(const Lists& lists, std::uint32_t cell_count, std::uint32_t points, std::uint32_t spots) {
+  if (lists.begin.size() != cell_count + std::size_t{1}) return "not one list per cell";
+  if (lists.begin.front() != 0 || lists.begin.back() != lists.lights.size()) return "lists do not cover the indices";
+  std::vector<std::uint32_t> listed_in(points + std::size_t{spots}, cell_count);
+  for (std::uint32_t cell = 0; cell < cell_count; ++cell) {
+    const std::string place = " (cell " + std::to_string(cell) + ")";
+    if (lists.begin[cell] > lists.begin[cell + 1]) return "a list of negative length" + place;
+    bool has_spots = false;
+    for (const std::uint32_t light : lists.of(cell)) {
+      if (light >= listed_in.size()) return "a light that does not exist" + place;
+      if (listed_in[light] == cell) return "lights not each once" + place;
+      listed_in[light] = cell;
+      if (light < points && has_spots) return "a point light behind spots" + place;
+      has_spots = light >= points;
+    }
+  }
+  return "";
+}
+
+bool are_ascending(const Lists& lists) {
+  for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell)
+    if (!std::is_sorted(lists.of(cell).begin(), lists.of(cell).end())) return false;
+  return true;
+}
+
+void make_ascending(Lists& lists) {
+  for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell)
+    std::sort(lists.lights.begin() + lists.begin[cell], lists.lights.begin() + lists.begin[cell + 1]);
+}
+
 void PairBuffer::start(std::uint32_t cell_count) {
   check_memory("lists of cells", std::uint64_t{cell_count} + 1, sizeof(std::uint32_t));
   cell_count_ = cell_count;

@@ -3,12 +3,13 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace clusterbench::assign {
 
-// The lights of cell c are lights[begin[c]] .. lights[begin[c + 1] - 1], ascending (so points come before spots), each
-// once.
+// The lights of cell c are lights[begin[c]] .. lights[begin[c + 1] - 1]: points before spots, each once, in any order
+// besides. Truth's lists ascend.
 struct Lists {
   std::vector<std::uint32_t> begin;  // cell count + 1
   std::vector<std::uint32_t> lights;
@@ -23,6 +24,13 @@ struct Lists {
   friend bool operator==(const Lists&, const Lists&) = default;
 };
 
+// What keeps these from being lists of so many cells and lights, as a sentence; "" if nothing does.
+std::string lists_fault(const Lists& lists, std::uint32_t cell_count, std::uint32_t points, std::uint32_t spots);
+
+// Whether every list ascends, as merges and binary searches want it; and makes it so.
+bool are_ascending(const Lists& lists);
+void make_ascending(Lists& lists);
+
 // Throws Error beyond 2^32 - 1 pairs, which is what offsets into lists can count.
 void check_pair_count(std::uint64_t pairs);
 
@@ -35,6 +43,13 @@ class PairBuffer {
   void add(std::uint32_t cell, std::uint32_t light) { add_row(cell, 1, light); }
   // Cells first_cell .. first_cell + count - 1.
   void add_row(std::uint32_t first_cell, std::uint32_t count, std::uint32_t light);
+  // What keeps these from being lists of so many cells and lights, as a sentence; "" if nothing does.
+  std::string lists_fault(const Lists& lists, std::uint32_t cell_count, std::uint32_t points, std::uint32_t spots);
+
+  // Whether every list ascends, as merges and binary searches want it; and makes it so.
+  bool are_ascending(const Lists& lists);
+  void make_ascending(Lists& lists);
+
   // Throws Error beyond 2^32 - 1 pairs.
   void finish(Lists& out);
   std::size_t capacity_bytes() const;

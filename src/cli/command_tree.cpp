@@ -37,7 +37,7 @@ Values hard_cases() {
 }
 Values assigners() {
   Values values{Kind::words, {}};
-  for (const assign::AssignerRow* row : assign::assigner_rows()) values.words.push_back(row->name);
+  for (const assign::AssignerDescriptor* row : assign::assigner_descriptors()) values.words.push_back(row->name);
   return values;
 }
 Values grid_kinds() {

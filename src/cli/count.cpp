@@ -66,7 +66,8 @@ std::vector<std::string> callgrind_command(const CountTask& task, const std::str
 std::string line_of(const std::string& id, const run::CountResult& count) {
   std::ostringstream line;
   line << id << ' ' << count.simd_target << ' ' << count.frames << ' ' << count.build.instructions << ' '
-       << count.assign.instructions << ' ' << count.convert.instructions;
+       << count.assign.instructions;
+  if (count.convert) line << ' ' << count.convert->instructions;
   return line.str();
 }
 
@@ -75,9 +76,11 @@ std::pair<std::string, run::CountResult> count_in(const std::string& line) {
   auto& [id, count] = read;
   count.source = "callgrind";
   std::istringstream in(line);
-  in >> id >> count.simd_target >> count.frames >> count.build.instructions >> count.assign.instructions >>
-      count.convert.instructions;
-  if (!in || count.frames <= 0) throw Error("", k_callgrind, "the run under valgrind printed '" + line + "'");
+  in >> id >> count.simd_target >> count.frames >> count.build.instructions >> count.assign.instructions;
+  const bool is_read = static_cast<bool>(in);
+  run::Counted convert;
+  if (in >> convert.instructions) count.convert = convert;
+  if (!is_read || count.frames <= 0) throw Error("", k_callgrind, "the run under valgrind printed '" + line + "'");
   return read;
 }
 

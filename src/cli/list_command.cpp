@@ -1,5 +1,6 @@
 // `clusterbench list`: everything that a configuration can name, with its parameters.
 
+#include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -22,6 +23,8 @@ Json to_json(const std::vector<assign::ParamSpec>& params) {
   for (const assign::ParamSpec& param : params) {
     Json entry{{"name", param.name}, {"summary", param.summary}, {"default", to_json(param.standard)}};
     if (!param.unit.empty()) entry["unit"] = param.unit;
+    if (std::isfinite(param.conservative_from)) entry["conservative_from"] = param.conservative_from;
+    if (param.is_thread_count) entry["threads"] = true;
     if (std::holds_alternative<double>(param.standard)) entry["range"] = {param.min, param.max};
     if (!param.choices.empty()) entry["choices"] = param.choices;
     list.push_back(entry);
@@ -29,29 +32,35 @@ Json to_json(const std::vector<assign::ParamSpec>& params) {
   return list;
 }
 
-Json to_json(const assign::AssignerRow& row) {
+Json to_json(const assign::AssignerDescriptor& assigner) {
   Json kinds = Json::array();
-  for (const grid::Kind kind : row.kinds) kinds.push_back(grid::kind_name(kind));
+  for (const grid::Kind kind : assigner.kinds) kinds.push_back(grid::kind_name(kind));
   Json lights = Json::array();
-  if (row.points) lights.push_back("point");
-  if (row.spots) lights.push_back("spot");
-  return Json{{"name", row.name},
-              {"summary", row.summary},
-              {"source", row.source},
+  if (assigner.points) lights.push_back("point");
+  if (assigner.spots) lights.push_back("spot");
+  Json needs = Json::array(), answers = Json::array();
+  if (assigner.needs.depth) needs.push_back("depth");
+  if (assigner.answers(assign::Answer::lists)) answers.push_back("lists");
+  if (assigner.answers(assign::Answer::structure)) answers.push_back("structure");
+  return Json{{"name", assigner.name},
+              {"summary", assigner.summary},
+              {"source", assigner.source},
               {"grids", kinds},
               {"lights", lights},
-              {"needs_depth", row.needs_depth},
-              {"conservative", row.conservative},
-              {"exact", row.exact},
-              {"naive", row.naive},
-              {"orthographic", row.orthographic},
-              {"params", to_json(row.params)}};
+              {"needs", needs},
+              {"answers", answers},
+              {"conservative", assigner.conservative},
+              {"exact", assigner.exact},
+              {"naive", assigner.naive},
+              {"orthographic", assigner.orthographic},
+              {"params", to_json(assigner.params)}};
 }
 
 Json everything() {
   Json all{{"assigners", Json::array()}, {"storages", Json::array()}, {"grids", Json::array()}};
-  for (const assign::AssignerRow* row : assign::assigner_rows()) all["assigners"].push_back(to_json(*row));
-  for (const assign::StorageRow* row : assign::storage_rows())
+  for (const assign::AssignerDescriptor* assigner : assign::assigner_descriptors())
+    all["assigners"].push_back(to_json(*assigner));
+  for (const assign::StorageDescriptor* row : assign::storage_descriptors())
     all["storages"].push_back(
         {{"name", row->name}, {"summary", row->summary}, {"source", row->source}, {"params", to_json(row->params)}});
   for (int kind = 0; kind < grid::k_kind_count; ++kind)
@@ -90,6 +99,7 @@ void print_section(const Json& all, const char* section) {
               << row["source"].get<std::string>() << "]\n";
     if (row.contains("grids"))
       std::cout << "      grids: " << words(row["grids"]) << "; lights: " << words(row["lights"])
+                << "; answers with: " << words(row["answers"])
                 << (row["exact"]          ? "; exact"
                     : row["conservative"] ? "; conservative"
                                           : "; NOT conservative")

@@ -82,6 +82,12 @@ struct BallAround {
   Ball operator()(const Box& cell) const { return ball_around_box(cell); }
 };
 
+struct BoxAround {
+  Box operator()(const FrustumPiece& cell) const { return box_around(cell); }
+  Box operator()(const ShellPiece& cell) const { return box_around(piece_around(cell)); }
+  Box operator()(const Box& cell) const { return cell; }
+};
+
 }  // namespace
 
 bool ball_touches_box(const Ball& ball, const Box& box) {
@@ -142,6 +148,10 @@ Box box_around(const FrustumPiece& cell) {
   }
   return {{rounded_down(lo.x), rounded_down(lo.y), rounded_down(lo.z)},
           {rounded_up(hi.x), rounded_up(hi.y), rounded_up(hi.z)}};
+}
+
+Box box_around(const Cell& cell) {
+  return std::visit(BoxAround{}, cell);
 }
 
 Ball ball_around(const Cell& cell) {

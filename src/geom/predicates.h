@@ -34,6 +34,10 @@ Ball bounding_ball(const SphericalCone& cone);
 // The smallest axis-aligned box around a frustum piece, rounded outward.
 Box box_around(const FrustumPiece& cell);
 
+// An axis-aligned box around a cell, rounded outward; of a shell piece one around the pyramid piece between the depths
+// that it can have.
+Box box_around(const Cell& cell);
+
 // A small ball around a cell, rounded up. A shell piece's holds the pyramid piece between the depths that it can have.
 Ball ball_around(const Cell& cell);
 

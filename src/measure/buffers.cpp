@@ -12,13 +12,13 @@ std::uint64_t with_margin(std::uint64_t high_water, double margin, std::uint64_t
 
 }  // namespace
 
-void BufferMeter::add_frame(int frame, const assign::Lists& lists, const assign::Storage& storage,
+void BufferMeter::add_frame(int frame, const assign::LightStructure& structure, const assign::Lists* lists,
                             std::size_t scratch_bytes) {
-  const assign::StorageUse use = storage.use();
-  const assign::StorageLimit limit = storage.limit();
+  const assign::StructureUse use = structure.use();
+  const assign::StructureLimit limit = structure.limit();
   if (frames_ == 0 || use.index_entries > sum_.index_entries.high_water) {
     sum_.worst_frame = frame;
-    sum_.worst_cell = lists.fullest_cell();
+    if (lists != nullptr) sum_.worst_cell = lists->fullest_cell();
   }
   const auto raise = [](std::uint64_t& mark, std::uint64_t value) { mark = std::max(mark, value); };
   raise(sum_.index_entries.high_water, use.index_entries);
@@ -29,8 +29,8 @@ void BufferMeter::add_frame(int frame, const assign::Lists& lists, const assign:
   raise(sum_.index_entries.theoretical_max, limit.index_entries);
   raise(sum_.bytes.theoretical_max, limit.bytes);
   sum_.bytes_along_path.add_frame(use.index_bytes + use.header_bytes);
-  sum_.index_bits = storage.index_bits();
-  raise(laid_out_entries_, use.index_bytes * 8 / storage.index_bits());
+  sum_.index_bits = structure.index_bits();
+  raise(laid_out_entries_, use.index_bytes * 8 / structure.index_bits());
   sum_.dropped_pairs += use.dropped_pairs;
   sum_.overflowing_cells += use.overflowing_cells;
   if (use.dropped_pairs > 0) ++sum_.overflowing_frames;

@@ -1,10 +1,11 @@
 #pragma once
-// Buffer high-water marks of one storage over all frames, and what to allocate.
+// Buffer high-water marks of one light structure over all frames, and what to allocate.
 
 #include <cstdint>
+#include <optional>
 #include <set>
 
-#include "assign/storage.h"
+#include "assign/light_structure.h"
 #include "measure/path_series.h"
 
 namespace clusterbench::measure {
@@ -31,7 +32,7 @@ struct Buffers {
   std::set<std::uint32_t> dropped_lights;
   std::uint64_t scratch_bytes = 0;             // of the assigner, high water
   int worst_frame = 0;                         // that made the high-water mark of index entries
-  std::uint32_t worst_cell = 0;                // its longest list, before anything is dropped
+  std::optional<std::uint32_t> worst_cell;     // its longest list, before anything is dropped; none without cells
   double in_use_mean = 0.0, in_use_max = 0.0;  // share of the recommended entries in use per frame
   PathSeries bytes_along_path;                 // headers + indices
 };
@@ -39,8 +40,9 @@ struct Buffers {
 class BufferMeter {
  public:
   explicit BufferMeter(AllocationRule rule) : rule_(rule) {}
-  // `storage` has stored the lists.
-  void add_frame(int frame, const assign::Lists& lists, const assign::Storage& storage, std::size_t scratch_bytes);
+  // `lists`: of the cells, before anything was dropped; null where there are none.
+  void add_frame(int frame, const assign::LightStructure& structure, const assign::Lists* lists,
+                 std::size_t scratch_bytes);
   Buffers result() const;
 
  private:

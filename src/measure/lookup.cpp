@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "core/random.h"
@@ -142,41 +143,43 @@ LookupFrame::LookupFrame(const view::Frame& frame, const grid::Grid& grid, const
   std::erase_if(places, [&](const grid::Sample& place) { return is_beyond(frame, grid, place); });
   reaching_ = lights_reaching(frame, places);
   for (const LookupWay& way : ways) {
-    Found found{way, 0, {}, {}};
-    const std::vector<grid::Log2> ends = ends_of(way.logarithm);
-    for (const grid::Sample& place : places) {
-      const grid::Sample seen = read_back(frame, place, way.depth);
-      found.first.push_back(grid::lookup(grid, seen, ends.front()));
-      found.second.push_back(ends.size() > 1 ? grid::lookup(grid, seen, ends.back()) : found.first.back());
+    Way tried{way, {grid::Log2::rounded}, 0, {}};
+    if (takes_logarithm(grid)) {
+      tried.ends = ends_of(way.logarithm);
+      for (const grid::Log2 end : tried.ends)
+        tried.padding = std::max(tried.padding, grid::safe_padding_ulps(grid.screen().slices, end));
     }
-    if (takes_logarithm(grid))
-      for (const grid::Log2 end : ends)
-        found.padding = std::max(found.padding, grid::safe_padding_ulps(grid.screen().slices, end));
-    found_.push_back(std::move(found));
+    for (const grid::Sample& place : places) tried.samples.push_back(read_back(frame, place, way.depth));
+    ways_.push_back(std::move(tried));
   }
 }
 
-void LookupFrame::add(const assign::Lists& reported, std::vector<LookupCounts>& counts) const {
-  counts.resize(found_.size());
-  for (std::size_t i = 0; i < found_.size(); ++i) add_way(found_[i], reported, counts[i]);
+void LookupFrame::add(const assign::LightStructure& structure, std::vector<LookupCounts>& counts) const {
+  counts.resize(ways_.size());
+  for (std::size_t i = 0; i < ways_.size(); ++i) add_way(ways_[i], structure, counts[i]);
 }
 
-void LookupFrame::add_way(const Found& found, const assign::Lists& reported, LookupCounts& counts) const {
-  counts.way = found.way;
-  counts.samples += found.first.size();
-  counts.safe_padding_ulps = std::max(counts.safe_padding_ulps, found.padding);
-  const auto lists_it = [&](std::int64_t cell, std::uint32_t light) {
-    if (cell < 0) return false;
-    const auto list = reported.of(static_cast<std::uint32_t>(cell));
-    return std::binary_search(list.begin(), list.end(), light);
-  };
-  for (std::uint32_t i = 0; i < found.first.size(); ++i) {
-    std::uint64_t missed = 0;
-    for (const std::uint32_t light : reaching_.of(i))
-      missed += lists_it(found.first[i], light) && lists_it(found.second[i], light) ? 0 : 1;
+void LookupFrame::add_way(const Way& way, const assign::LightStructure& structure, LookupCounts& counts) const {
+  counts.way = way.way;
+  counts.samples += way.samples.size();
+  counts.safe_padding_ulps = std::max(counts.safe_padding_ulps, way.padding);
+  std::vector<std::uint32_t> given, left, missed;
+  for (std::uint32_t i = 0; i < way.samples.size(); ++i) {
+    missed.clear();
+    for (const grid::Log2 end : way.ends) {
+      structure.lights_at(way.samples[i], end, given);
+      std::sort(given.begin(), given.end());
+      left.clear();
+      std::set_difference(reaching_.of(i).begin(), reaching_.of(i).end(), given.begin(), given.end(),
+                          std::back_inserter(left));
+      missed.insert(missed.end(), left.begin(), left.end());
+    }
+    // A light that both ends miss is missed once.
+    std::sort(missed.begin(), missed.end());
+    missed.erase(std::unique(missed.begin(), missed.end()), missed.end());
     counts.needed += reaching_.of(i).size();
-    counts.missed += missed;
-    counts.wrong_samples += missed > 0 ? 1 : 0;
+    counts.missed += missed.size();
+    counts.wrong_samples += missed.empty() ? 0 : 1;
   }
 }
 

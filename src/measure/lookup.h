@@ -1,11 +1,12 @@
 #pragma once
-// Does a shader's lookup land in a cell whose list has every light that reaches the place? Places are drawn at random
+// Does a shader's lookup find every light that reaches the place? Places are drawn at random
 // and on purpose at slice boundaries, at the edges of tiles and around lights' ends; the lookup takes its logarithm,
 // and reads its depth, in the ways that shaders do.
 
 #include <cstdint>
 #include <vector>
 
+#include "assign/light_structure.h"
 #include "grid/grid.h"
 #include "measure/truth.h"
 
@@ -26,7 +27,7 @@ struct LookupCounts {
   LookupWay way;
   std::uint64_t samples = 0;
   std::uint64_t needed = 0;  // lights that reach the samples
-  std::uint64_t missed = 0;  // of those, not in the list that the lookup found
+  std::uint64_t missed = 0;  // of those, not in what the lookup found
   std::uint64_t wrong_samples = 0;
   // Of the slices, as grid::safe_padding_ulps; 0 where the lookup takes no logarithm. The largest over the frames.
   std::int64_t safe_padding_ulps = 0;
@@ -36,26 +37,26 @@ struct LookupCounts {
 // clamp to it. D24 stores the nearest of 2^24 - 1 steps.
 double read_depth(const view::Projection& lens, DepthRead read, double depth);
 
-// The samples of one frame, looked up in every way. Places beyond the grid's far end are left out.
+// The samples of one frame, as they are read back in every way. Places beyond the grid's far end are left out.
 class LookupFrame {
  public:
   LookupFrame(const view::Frame& frame, const grid::Grid& grid, const std::vector<LookupWay>& ways, double far_m,
               int samples, std::uint64_t seed);
 
   // `counts`: one per way, in their order.
-  void add(const assign::Lists& reported, std::vector<LookupCounts>& counts) const;
+  void add(const assign::LightStructure& structure, std::vector<LookupCounts>& counts) const;
 
  private:
-  // The cell or the two cells that a way can find for each sample; -1: none.
-  struct Found {
+  struct Way {
     LookupWay way;
+    std::vector<grid::Log2> ends;  // of what its logarithm may give: one or two
     std::int64_t padding = 0;
-    std::vector<std::int64_t> first, second;
+    std::vector<grid::Sample> samples;
   };
-  void add_way(const Found& found, const assign::Lists& reported, LookupCounts& counts) const;
+  void add_way(const Way& way, const assign::LightStructure& structure, LookupCounts& counts) const;
 
   assign::Lists reaching_;  // per sample
-  std::vector<Found> found_;
+  std::vector<Way> ways_;
 };
 
 // Seeded places in the frame: a quarter as volume_samples; a quarter at slice boundaries and a few ulp beside them; a

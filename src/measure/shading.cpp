@@ -93,17 +93,18 @@ assign::Lists lights_reaching(const view::Frame& frame, std::span<const grid::Sa
   return lists;
 }
 
-void add_frame(ShadingCounts& counts, const view::Frame& frame, const grid::Grid& grid,
-               std::span<const grid::Sample> samples, const assign::Lists& reaching, const assign::Lists& reported) {
+void add_frame(ShadingCounts& counts, const view::Frame& frame, std::span<const grid::Sample> samples,
+               const assign::Lists& reaching, const assign::LightStructure& structure) {
+  std::vector<std::uint32_t> given;
   for (std::uint32_t i = 0; i < samples.size(); ++i) {
-    const std::int64_t cell = grid::lookup(grid, samples[i]);
-    const auto list = cell < 0 ? std::span<const std::uint32_t>{} : reported.of(static_cast<std::uint32_t>(cell));
-    counts.evaluated += list.size();
+    structure.lights_at(samples[i], grid::Log2::rounded, given);
+    std::sort(given.begin(), given.end());
+    counts.evaluated += given.size();
     for (const std::uint32_t light : reaching.of(i)) {
       const double carried_lux = irradiance_lux(frame.lights[light], samples[i].world);
       ++counts.needed;
       counts.total_lux += carried_lux;
-      if (std::binary_search(list.begin(), list.end(), light)) continue;
+      if (std::binary_search(given.begin(), given.end(), light)) continue;
       ++counts.missed;
       counts.lost_lux += carried_lux;
     }

@@ -1,11 +1,12 @@
 #pragma once
-// Samples go through the lookup, get a list, and are compared with the lights that reach them: comparable between
-// grids.
+// Samples ask the light structure, and what it gives is compared with the lights that reach them: comparable between
+// grids and methods.
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "assign/light_structure.h"
 #include "grid/grid.h"
 #include "measure/truth.h"
 
@@ -13,9 +14,9 @@ namespace clusterbench::measure {
 
 struct ShadingCounts {
   std::uint64_t samples = 0;
-  std::uint64_t evaluated = 0;  // list entries of the samples' cells
+  std::uint64_t evaluated = 0;  // lights that the structure gives at the samples
   std::uint64_t needed = 0;     // lights that reach the samples
-  std::uint64_t missed = 0;     // of those, not in the list
+  std::uint64_t missed = 0;     // of those, not given, whatever the reason
   // Share of the irradiance that missed lights carry, 0 where there is none. Irradiance is photometric, in lux on a
   // surface that faces the light: intensity times the colour's luminance, by KHR_lights_punctual's attenuation with the
   // range's window and a spot's falloff.
@@ -35,7 +36,7 @@ std::vector<grid::Sample> volume_samples(const view::Frame& frame, double far_m,
 // lists.
 assign::Lists lights_reaching(const view::Frame& frame, std::span<const grid::Sample> samples);
 
-void add_frame(ShadingCounts& counts, const view::Frame& frame, const grid::Grid& grid,
-               std::span<const grid::Sample> samples, const assign::Lists& reaching, const assign::Lists& reported);
+void add_frame(ShadingCounts& counts, const view::Frame& frame, std::span<const grid::Sample> samples,
+               const assign::Lists& reaching, const assign::LightStructure& structure);
 
 }  // namespace clusterbench::measure

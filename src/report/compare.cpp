@@ -171,7 +171,11 @@ Json instructions(const Match& match, double threshold) {
     const double next = match.next["count"][Pointer(pointer)].get<double>();
     return base > 0.0 ? next / base : next > 0.0 ? std::nan("") : 1.0;
   };
-  const double assign = ratio("/instructions_per_frame/assign"), convert = ratio("/instructions_per_frame/convert");
+  // What leaves its own structure converts nothing.
+  const bool converts = has(match.base, "/count/instructions_per_frame/convert") &&
+                        has(match.next, "/count/instructions_per_frame/convert");
+  const double assign = ratio("/instructions_per_frame/assign"),
+               convert = converts ? ratio("/instructions_per_frame/convert") : 1.0;
   const double limit = std::max(threshold, count_tolerance(match.next["count"]));
   const char* verdict = assign > 1.0 + limit || convert > 1.0 + limit   ? "more"
                         : assign < 1.0 - limit || convert < 1.0 - limit ? "fewer"

@@ -47,7 +47,7 @@ Json cell_place(std::uint32_t cell, const nlohmann::json& cells) {
 }
 
 Json occupancy(const run::CaseResult& one) {
-  const measure::Occupancy& o = one.occupancy;
+  const measure::Occupancy& o = *one.occupancy;
   Json lights = to_json(o.lights_per_cluster);
   lights["histogram"] = o.histogram;
   return {{"pairs", to_json(o.pairs)},
@@ -63,22 +63,23 @@ Json occupancy(const run::CaseResult& one) {
 
 Json buffers(const run::CaseResult& one) {
   const measure::Buffers& b = one.buffers;
-  return {{"index_entries", to_json(b.index_entries)},
-          {"bytes", to_json(b.bytes)},
-          {"index_bits", b.index_bits},
-          {"header_bytes", b.header_bytes},
-          {"upload_bytes", {{"mean", number_or_null(b.upload_bytes_mean)}, {"max", b.upload_bytes_max}}},
-          {"in_use", {{"mean", number_or_null(b.in_use_mean)}, {"max", number_or_null(b.in_use_max)}}},
-          {"overflow",
-           {{"dropped_pairs", b.dropped_pairs},
-            {"cells", b.overflowing_cells},
-            {"frames", b.overflowing_frames},
-            {"lights", b.dropped_lights}}},
-          {"scratch_bytes", b.scratch_bytes},
-          {"worst_frame", b.worst_frame},
-          {"worst_cell", cell_place(b.worst_cell, one.grid["cells"])},
-          {"along_path",
-           {{"frames_per_entry", b.bytes_along_path.frames_per_entry()}, {"bytes", b.bytes_along_path.entries()}}}};
+  Json out{{"index_entries", to_json(b.index_entries)},
+           {"bytes", to_json(b.bytes)},
+           {"index_bits", b.index_bits},
+           {"header_bytes", b.header_bytes},
+           {"upload_bytes", {{"mean", number_or_null(b.upload_bytes_mean)}, {"max", b.upload_bytes_max}}},
+           {"in_use", {{"mean", number_or_null(b.in_use_mean)}, {"max", number_or_null(b.in_use_max)}}},
+           {"overflow",
+            {{"dropped_pairs", b.dropped_pairs},
+             {"cells", b.overflowing_cells},
+             {"frames", b.overflowing_frames},
+             {"lights", b.dropped_lights}}},
+           {"scratch_bytes", b.scratch_bytes},
+           {"worst_frame", b.worst_frame}};
+  if (b.worst_cell) out["worst_cell"] = cell_place(*b.worst_cell, one.grid["cells"]);
+  out["along_path"] = {{"frames_per_entry", b.bytes_along_path.frames_per_entry()},
+                       {"bytes", b.bytes_along_path.entries()}};
+  return out;
 }
 
 Json error(const run::CaseResult& one) {
@@ -169,13 +170,11 @@ Json precision(const run::PrecisionResult& p) {
 }
 
 Json timing(const run::TimingResult& t) {
-  Json out{{"frames_timed", t.frames_timed},
-           {"build_ns", to_json(t.build_ns)},
-           {"assign_ns", to_json(t.assign_ns)},
-           {"convert_ns", to_json(t.convert_ns)},
-           {"ns_per_pair", number_or_null(t.ns_per_pair)},
-           {"write_floor_ns", number_or_null(t.write_floor_ns)},
-           {"floor_ratio", number_or_null(t.floor_ratio)}};
+  Json out{{"frames_timed", t.frames_timed}, {"build_ns", to_json(t.build_ns)}, {"assign_ns", to_json(t.assign_ns)}};
+  if (t.convert_ns) out["convert_ns"] = to_json(*t.convert_ns);
+  out["ns_per_pair"] = number_or_null(t.ns_per_pair);
+  out["write_floor_ns"] = number_or_null(t.write_floor_ns);
+  out["floor_ratio"] = number_or_null(t.floor_ratio);
   if (t.vs)
     out["vs"] = {{"assigner", t.vs->assigner},
                  {"ratio", number_or_null(t.vs->ratio.ratio)},
@@ -189,10 +188,11 @@ Json count(const run::CountResult& c) {
            {"simd_target", c.simd_target},
            {"frames", c.frames},
            {"instructions_per_build", c.build.instructions},
-           {"instructions_per_frame",
-            {{"assign", per_frame(c.assign.instructions)}, {"convert", per_frame(c.convert.instructions)}}}};
-  if (c.assign.cycles && c.convert.cycles)
-    out["cycles_per_frame"] = {{"assign", per_frame(*c.assign.cycles)}, {"convert", per_frame(*c.convert.cycles)}};
+           {"instructions_per_frame", {{"assign", per_frame(c.assign.instructions)}}}};
+  if (c.convert) out["instructions_per_frame"]["convert"] = per_frame(c.convert->instructions);
+  if (!c.assign.cycles || (c.convert && !c.convert->cycles)) return out;
+  out["cycles_per_frame"] = {{"assign", per_frame(*c.assign.cycles)}};
+  if (c.convert) out["cycles_per_frame"]["convert"] = per_frame(*c.convert->cycles);
   return out;
 }
 
@@ -317,9 +317,9 @@ Json case_to_json(const run::CaseResult& one) {
              {"exact", one.exact}}},
            {"storage", one.storage_label},
            {"tests_done", one.tests_done},
-           {"fallbacks", one.fallbacks},
-           {"occupancy", occupancy(one)},
-           {"buffers", buffers(one)}};
+           {"fallbacks", one.fallbacks}};
+  if (one.occupancy) out["occupancy"] = occupancy(one);
+  out["buffers"] = buffers(one);
   if (one.error) out["error"] = error(one);
   if (one.shading) out["shading"] = shading(*one.shading);
   if (!one.lookup.empty()) out["lookup"] = lookup(one.lookup);

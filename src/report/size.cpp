@@ -52,8 +52,8 @@ std::string comment(const Json& result, const Json& one) {
   const auto capacity = entries["recommended"].get<std::uint64_t>();
   std::string out = "// " + comment_text(one["name"]) + "\n";
   out += "//   high water  " + std::to_string(high) + " entries in frame " + buffers["worst_frame"].dump() +
-         ", longest list in cell " + buffers["worst_cell"].dump() + "; " + share(high, most) + " of the theoretical " +
-         std::to_string(most) + "\n";
+         (buffers.contains("worst_cell") ? ", longest list in cell " + buffers["worst_cell"].dump() : "") + "; " +
+         share(high, most) + " of the theoretical " + std::to_string(most) + "\n";
   out += "//   allocate    " + std::to_string(capacity) + " entries of " + buffers["index_bits"].dump() +
          " bits (high water x " + text("%g", margin(result)) + "), " + buffers["bytes"]["recommended"].dump() +
          " bytes with headers\n";

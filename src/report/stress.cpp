@@ -98,7 +98,7 @@ const run::StressMethod& method_of(const run::StressResult& result, const std::s
 
 // Columns of the matrix: a conservative assigner with all its choices is one, of others each choice is.
 std::string column_of(const run::StressMethod& method) {
-  return method.row->conservative ? method.row->name : method.label;
+  return method.assigner->conservative ? method.assigner->name : method.label;
 }
 
 std::vector<std::string> columns(const run::StressResult& result) {
@@ -206,7 +206,7 @@ Json stress_to_json(const run::StressResult& result, const run::StressRequest& r
   out["methods"] = Json::array();
   for (const run::StressMethod& method : result.methods)
     out["methods"].push_back(
-        {{"label", method.label}, {"conservative", method.conservative}, {"exact", method.row->exact}});
+        {{"label", method.label}, {"conservative", method.conservative}, {"exact", method.assigner->exact}});
   out["cases"] = Json::array();
   for (std::size_t i = 0; i < result.cases.size(); ++i) {
     Json one{{"id", result.cases[i].id}, {"title", result.cases[i].title}, {"checks", Json::array()}};
@@ -245,7 +245,7 @@ std::vector<std::string> stress_failures(const run::StressResult& result) {
     for (const std::string& fault : cell.faults) failures.push_back(cell.hard_case + " " + cell.method + ": " + fault);
     const run::StressMethod& method = method_of(result, cell.method);
     if (method.conservative && cell.lost()) failures.push_back(in_lines(cell));
-    if (method.row->exact && cell.extra_pairs > 0)
+    if (method.assigner->exact && cell.extra_pairs > 0)
       failures.push_back(cell.hard_case + " " + cell.method + ": exact, but " + number_of(cell.extra_pairs, "pair") +
                          " too many");
   }

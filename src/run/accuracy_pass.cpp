@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "assign/storage.h"
 #include "run/frame_lights.h"
 
 namespace clusterbench::run {
@@ -28,72 +29,76 @@ struct FrameAtHand {
   std::uint32_t spots() const { return static_cast<std::uint32_t>(frame.lights.size()) - frame.points; }
 };
 
-class ListMeter {
+class MethodMeter {
  public:
-  ListMeter(const Config& config, const Method& method) : config_(config) {
-    const MethodRequest& assigner = config.assigners[method.assigner];
-    assigner_ = assign::find_assigner(assigner.name)->make(assigner.params);
+  MethodMeter(const Config& config, const Method& method) : config_(config), run_(start_method(config, method)) {
     measures_.method = method;
+    measures_.has_cells = run_.has_cells();
   }
 
   void add(const FrameAtHand& now, const grid::Grid& grid) {
     const view::LightArrays& lights = now.lights.seen(measures_.method.precision);
-    if (now.is_new_grid) assigner_->build(grid, assign::kinds_of(lights));
+    if (now.is_new_grid) run_.build(grid, assign::kinds_of(lights));
+    run_.assign({now.frame, lights});
+    measures_.tests_done += run_.tests_done();
+    measures_.fallbacks += run_.fallbacks();
+    if (!measures_.has_cells) return;
     if (!occupancy_) occupancy_.emplace(real_cells(grid));
-    assigner_->assign(lights, lists_);
-    measures_.tests_done += assigner_->tests_done();
-    measures_.fallbacks += assigner_->fallbacks();
-    occupancy_->add_frame(now.frame.index, lists_);
-    if (config_.check_accuracy) measure::add_frame(measures_.error, now.frame, grid, now.truth, lists_);
-    if (now.lookup) now.lookup->add(lists_, measures_.lookup);
-    if (!now.samples.empty()) measure::add_frame(measures_.shading, now.frame, grid, now.samples, now.reaching, lists_);
+    lists_ = &run_.cell_lists();
+    occupancy_->add_frame(now.frame.index, *lists_);
+    if (config_.check_accuracy) measure::add_frame(measures_.error, now.frame, grid, now.truth, *lists_);
   }
 
-  const assign::Lists& lists() const { return lists_; }
-  std::size_t scratch_bytes() const { return assigner_->scratch_bytes(); }
+  const assign::AssignerRun& run() const { return run_; }
+  const assign::Lists* cell_lists() const { return lists_; }
   const Method& method() const { return measures_.method; }
 
-  ListMeasures result() const {
-    ListMeasures out = measures_;
+  MethodMeasures result() const {
+    MethodMeasures out = measures_;
     if (occupancy_) out.occupancy = occupancy_->result();
     return out;
   }
 
  private:
   const Config& config_;
-  std::unique_ptr<assign::Assigner> assigner_;
+  assign::AssignerRun run_;
+  const assign::Lists* lists_ = nullptr;  // of the cells, in the frame at hand
   std::optional<measure::OccupancyMeter> occupancy_;
-  ListMeasures measures_;
-  assign::Lists lists_;
+  MethodMeasures measures_;
 };
 
 class CaseMeter {
  public:
   CaseMeter(const Config& config, const CasePlan& plan) : method_(plan.method()), buffers_(config.allocation) {
-    const MethodRequest& method = config.storages[plan.storage];
-    storage_ = assign::find_storage(method.name)->make(method.params);
+    if (!plan.storage) return;
+    const MethodRequest& request = config.storages[*plan.storage];
+    storage_ = assign::find_storage(request.name)->make(request.params);
   }
 
-  void add(const FrameAtHand& now, const grid::Grid& grid, const ListMeter& list) {
-    if (now.is_new_grid) storage_->start(grid.cell_count(), now.frame.points, now.spots());
-    storage_->store(list.lists());
-    buffers_.add_frame(now.frame.index, list.lists(), *storage_, list.scratch_bytes());
+  void add(const FrameAtHand& now, const grid::Grid& grid, const MethodMeter& method) {
+    if (storage_) {
+      if (now.is_new_grid) storage_->start(grid, now.frame.points, now.spots());
+      storage_->store(*method.run().filled_lists());
+    }
+    const assign::LightStructure& structure = storage_ ? *storage_ : *method.run().structure();
+    buffers_.add_frame(now.frame.index, structure, method.cell_lists(), method.run().scratch_bytes());
+    if (now.lookup) now.lookup->add(structure, measures_.lookup);
+    if (!now.samples.empty()) measure::add_frame(measures_.shading, now.frame, now.samples, now.reaching, structure);
   }
 
   const Method& method() const { return method_; }
-  measure::Buffers result() const { return buffers_.result(); }
+  StructureMeasures result() const {
+    StructureMeasures out = measures_;
+    out.buffers = buffers_.result();
+    return out;
+  }
 
  private:
   Method method_;
-  std::unique_ptr<assign::Storage> storage_;
+  std::unique_ptr<assign::Storage> storage_;  // none: the method's own structure
   measure::BufferMeter buffers_;
+  StructureMeasures measures_;
 };
-
-// How far samples are spread: as far as the camera sees and lights reach, the same for all grids, so that their
-// overshade compares. A grid that ends before that misses lights, and the samples say so.
-double sample_far(const view::Frame& frame, double path_far_m) {
-  return std::max(std::min(frame.projection.far_m, path_far_m), 2.0 * std::abs(frame.projection.near_m) + 1.0);
-}
 
 FrameAtHand look_at(const Config& config, const PathFrames& path, GridOfFrames& grids, int index) {
   FrameAtHand now;
@@ -115,8 +120,8 @@ FrameAtHand look_at(const Config& config, const PathFrames& path, GridOfFrames& 
 
 AccuracyResult accuracy_pass(const Config& config, const GroupPlan& group, const PathFrames& path,
                              const std::function<void(int frame)>& on_frame, const std::atomic<bool>& stop) {
-  std::vector<ListMeter> lists;
-  for (const Method& method : methods_of(group)) lists.emplace_back(config, method);
+  std::vector<MethodMeter> methods;
+  for (const Method& method : methods_of(group)) methods.emplace_back(config, method);
   std::vector<CaseMeter> cases;
   for (const CasePlan& one : group.cases) cases.emplace_back(config, one);
 
@@ -129,14 +134,14 @@ AccuracyResult accuracy_pass(const Config& config, const GroupPlan& group, const
     on_frame(index);
     const FrameAtHand now = look_at(config, path, grids, index);
     for (std::size_t i = 0; i < losses.size(); ++i) losses[i].add_frame(now.lights.packed(i));
-    for (ListMeter& list : lists) {
-      list.add(now, grids.grid());
+    for (MethodMeter& method : methods) {
+      method.add(now, grids.grid());
       for (CaseMeter& one : cases)
-        if (one.method() == list.method()) one.add(now, grids.grid(), list);
+        if (one.method() == method.method()) one.add(now, grids.grid(), method);
     }
   }
-  for (const ListMeter& list : lists) result.lists.push_back(list.result());
-  for (const CaseMeter& one : cases) result.buffers.push_back(one.result());
+  for (const MethodMeter& method : methods) result.methods.push_back(method.result());
+  for (const CaseMeter& one : cases) result.structures.push_back(one.result());
   for (const measure::PackingLossMeter& loss : losses) result.losses.push_back(loss.result());
   result.last_grid = grids.grid();
   result.is_complete = true;

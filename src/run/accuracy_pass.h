@@ -1,5 +1,5 @@
 #pragma once
-// The first pass over a group's frames: lists against truth, occupancy, buffers, shading. Nothing is timed before it.
+// The first pass over a group's frames: lists against truth, occupancy, buffers, samples. Nothing is timed before it.
 
 #include <atomic>
 #include <functional>
@@ -11,20 +11,26 @@
 
 namespace clusterbench::run {
 
-// What one method's lists say, whatever they are stored in.
-struct ListMeasures {
+// What a method answers, whatever keeps its lists.
+struct MethodMeasures {
   Method method;
+  bool has_cells = true;  // without: neither occupancy nor error
   measure::Occupancy occupancy;
-  measure::ErrorCounts error;
-  measure::ShadingCounts shading;
-  std::vector<measure::LookupCounts> lookup;
+  measure::ErrorCounts error;  // of the lists, before a storage drops anything
   std::uint64_t tests_done = 0, fallbacks = 0;
 };
 
+// What samples find in one case's light structure, and what it takes.
+struct StructureMeasures {
+  measure::Buffers buffers;
+  measure::ShadingCounts shading;
+  std::vector<measure::LookupCounts> lookup;
+};
+
 struct AccuracyResult {
-  std::vector<ListMeasures> lists;           // one per method of the group, in order of first use
-  std::vector<measure::Buffers> buffers;     // one per case of the group
-  std::vector<measure::PackingLoss> losses;  // one per precision of the configuration; none if it has float32 alone
+  std::vector<MethodMeasures> methods;        // of the group, in order of first use
+  std::vector<StructureMeasures> structures;  // one per case of the group
+  std::vector<measure::PackingLoss> losses;   // one per precision of the configuration; none if it has float32 alone
   grid::Grid last_grid;
   bool is_complete = false;  // false: stopped before the end
 };

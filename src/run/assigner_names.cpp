@@ -15,8 +15,8 @@ bool is_glob(const std::string& name) {
 std::vector<std::string> matching_assigners(const std::string& pattern, const std::string& file,
                                             const std::string& where) {
   std::vector<std::string> standard, naive;
-  for (const assign::AssignerRow* row : assign::assigner_rows())
-    if (fnmatch(pattern.c_str(), row->name.c_str(), 0) == 0) (row->naive ? naive : standard).push_back(row->name);
+  for (const assign::AssignerDescriptor* one : assign::assigner_descriptors())
+    if (fnmatch(pattern.c_str(), one->name.c_str(), 0) == 0) (one->naive ? naive : standard).push_back(one->name);
   if (standard.empty() && naive.empty())
     throw Error(file, where, "'" + pattern + "' matches none of " + joined(assign::assigner_names()));
   return standard.empty() ? naive : standard;

@@ -311,8 +311,8 @@ std::string param_text(const assign::ParamSpec& spec, const assign::ParamValue& 
 }  // namespace
 
 std::string MethodRequest::label() const {
-  const assign::AssignerRow* assigner = assign::find_assigner(name);
-  const assign::StorageRow* storage = assign::find_storage(name);
+  const assign::AssignerDescriptor* assigner = assign::find_assigner(name);
+  const assign::StorageDescriptor* storage = assign::find_storage(name);
   std::span<const assign::ParamSpec> specs;
   if (assigner != nullptr) specs = assigner->params;
   if (assigner == nullptr && storage != nullptr) specs = storage->params;

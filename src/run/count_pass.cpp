@@ -29,6 +29,7 @@ std::vector<CountResult> count_method(TimedWork& work, InstructionCounter& count
   result.build = counted(counter, [&] { work.build(); });
   work.assign();  // so that memory has grown
   result.assign = counted(counter, [&] { work.assign(); });
+  if (!work.converts()) return {result};
   std::vector<CountResult> results;
   for (std::size_t store = 0; store < work.places().size(); ++store) {
     work.convert(store);

@@ -11,31 +11,31 @@ namespace {
 // The frames of one method, and what was found in them.
 class Track {
  public:
-  Track(const Config& config, const ListMeasures& counted, int path_frames)
-      : method_(counted.method), with_pairs_(config.details->lists) {
-    const MethodRequest& assigner = config.assigners[method_.assigner];
-    assigner_ = assign::find_assigner(assigner.name)->make(assigner.params);
-    details_.max_bytes = config.details->max_bytes;
+  Track(const Config& config, const MethodMeasures& counted, int path_frames)
+      : method_(counted.method), with_pairs_(config.details->lists), run_(start_method(config, counted.method)) {
+    if (!counted.has_cells) return;
+    details_.emplace();
+    details_->max_bytes = config.details->max_bytes;
     for (const int frame : wanted(*config.details, counted, path_frames))
-      (frame < path_frames ? frames_ : details_.frames_not_on_path).push_back(frame);
+      (frame < path_frames ? frames_ : details_->frames_not_on_path).push_back(frame);
   }
 
   const Method& method() const { return method_; }
   const std::vector<int>& frames() const { return frames_; }
-  const Details& details() const { return details_; }
+  const std::optional<Details>& details() const { return details_; }
 
   void add(const view::Frame& frame, const scene::Scene& scene, const grid::Grid& grid, const grid::Grid& case_grid,
            const FrameLights& lights, const measure::Truth& truth) {
     if (!std::binary_search(frames_.begin(), frames_.end(), frame.index)) return;
     const view::LightArrays& seen = lights.seen(method_.precision);
-    assigner_->build(grid, assign::kinds_of(seen));
-    assigner_->assign(seen, lists_);
-    add_frame(details_,
-              packed_frame(frame, scene, grid, case_grid, measure::find_details(truth.lists, lists_), with_pairs_));
+    run_.build(grid, assign::kinds_of(seen));
+    run_.assign({frame, seen});
+    const measure::FrameDetails found = measure::find_details(truth.lists, run_.cell_lists());
+    add_frame(*details_, packed_frame(frame, scene, grid, case_grid, found, with_pairs_));
   }
 
  private:
-  static std::vector<int> wanted(const DetailsRequest& request, const ListMeasures& counted, int path_frames) {
+  static std::vector<int> wanted(const DetailsRequest& request, const MethodMeasures& counted, int path_frames) {
     if (request.choice == DetailsRequest::Choice::worst) return {counted.occupancy.worst_frame};
     if (request.choice == DetailsRequest::Choice::evenly) return evenly_spaced(request.count, path_frames);
     return request.frames;
@@ -43,10 +43,9 @@ class Track {
 
   Method method_;
   bool with_pairs_;
-  std::unique_ptr<assign::Assigner> assigner_;
-  assign::Lists lists_;
+  assign::AssignerRun run_;
   std::vector<int> frames_;
-  Details details_;
+  std::optional<Details> details_;  // none without cells
 };
 
 std::vector<int> frames_of(const std::vector<Track>& tracks) {
@@ -59,11 +58,11 @@ std::vector<int> frames_of(const std::vector<Track>& tracks) {
 
 }  // namespace
 
-std::vector<Details> details_pass(const Config& config, const GroupPlan& group, const PathFrames& path,
-                                  const scene::Scene& scene, const AccuracyResult& counted,
-                                  const std::atomic<bool>& stop) {
+std::vector<std::optional<Details>> details_pass(const Config& config, const GroupPlan& group, const PathFrames& path,
+                                                 const scene::Scene& scene, const AccuracyResult& counted,
+                                                 const std::atomic<bool>& stop) {
   std::vector<Track> tracks;
-  for (const ListMeasures& lists : counted.lists) tracks.emplace_back(config, lists, path.count());
+  for (const MethodMeasures& method : counted.methods) tracks.emplace_back(config, method, path.count());
 
   GridOfFrames grids(config.grids[group.grid]);
   for (const int index : frames_of(tracks)) {
@@ -76,7 +75,7 @@ std::vector<Details> details_pass(const Config& config, const GroupPlan& group, 
     for (Track& track : tracks) track.add(frame, scene, grid, counted.last_grid, lights, truth);
   }
 
-  std::vector<Details> results;
+  std::vector<std::optional<Details>> results;
   for (const CasePlan& one : group.cases)
     results.push_back(std::find_if(tracks.begin(), tracks.end(), [&](const Track& track) {
                         return track.method() == one.method();

@@ -55,9 +55,9 @@ Json name_pattern() {
 
 void insert_methods(Json& properties) {
   Json assigners = Json::array(), storages = Json::array();
-  for (const assign::AssignerRow* row : assign::assigner_rows())
+  for (const assign::AssignerDescriptor* row : assign::assigner_descriptors())
     assigners.push_back(method_schema(row->name, row->summary, row->params));
-  for (const assign::StorageRow* row : assign::storage_rows())
+  for (const assign::StorageDescriptor* row : assign::storage_descriptors())
     storages.push_back(method_schema(row->name, row->summary, row->params));
   properties["assigners"]["items"] = method_items(assign::assigner_names(), assigners);
   Json& choices = properties["assigners"]["items"]["anyOf"];

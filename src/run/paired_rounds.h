@@ -24,7 +24,7 @@ struct ListDigest {
 };
 
 struct FrameLists {
-  Vec3i cells{0, 0, 0};                            // of the grid
+  Vec3i cells{0, 0, 0};                            // of the grid; samples x 1 x 1 of a method without cells
   std::vector<std::vector<std::uint32_t>> lights;  // of each cell
 };
 

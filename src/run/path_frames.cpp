@@ -29,6 +29,10 @@ grid::GridInputs PathFrames::inputs(const grid::GridSpec& spec, const view::Fram
   return grid::grid_inputs(spec, frame, far_m_, rig_lo_, rig_hi_);
 }
 
+double sample_far(const view::Frame& frame, double path_far_m) {
+  return std::max(std::min(frame.projection.far_m, path_far_m), 2.0 * std::abs(frame.projection.near_m) + 1.0);
+}
+
 std::vector<int> evenly_spaced(int wanted, int path_frames) {
   const int count = std::min(wanted, path_frames);
   std::vector<int> frames;

@@ -39,6 +39,10 @@ class PathFrames {
   double far_m_ = 0.0;
 };
 
+// How far samples are spread: as far as the camera sees and lights reach, the same for all grids, so that their
+// overshade compares. A grid that ends before that misses lights, and the samples say so.
+double sample_far(const view::Frame& frame, double path_far_m);
+
 // So many of the path's frames, evenly spaced from its first to its last; all if it has fewer.
 std::vector<int> evenly_spaced(int wanted, int path_frames);
 

@@ -56,8 +56,9 @@ struct Versus {
 };
 
 struct TimingResult {
-  measure::TimeStats build_ns, assign_ns, convert_ns;             // assign and convert: per frame
-  double ns_per_pair = std::numeric_limits<double>::quiet_NaN();  // without pairs: not a number
+  measure::TimeStats build_ns, assign_ns;                         // assign: per frame
+  std::optional<measure::TimeStats> convert_ns;                   // per frame; only where lists are converted
+  double ns_per_pair = std::numeric_limits<double>::quiet_NaN();  // without pairs in lists: not a number
   double write_floor_ns = 0.0;                                    // per frame
   double floor_ratio = 0.0;
   std::optional<Versus> vs;  // against the group's first assigner
@@ -70,7 +71,8 @@ struct CountResult {
   std::string simd_target;  // of the counted code: valgrind shows a program fewer instruction sets than the machine has
   int frames = 0;           // counted, the same that are timed
   Counted build;            // of one build
-  Counted assign, convert;  // over all frames
+  Counted assign;           // over all frames
+  std::optional<Counted> convert;  // over all frames; only where lists are converted
 };
 
 // One method's lists along a finely sampled piece of the path, beside the true lists along the same piece.
@@ -100,20 +102,20 @@ struct CaseResult {
   std::string assigner, assigner_label;
   nlohmann::json assigner_params;
   bool conservative = true, exact = false;  // conservative: on lights that are packed, only if they are inflated
-  std::string storage, storage_label;
-  measure::Occupancy occupancy;
+  std::string storage_label;
+  std::optional<measure::Occupancy> occupancy;  // with cells
   measure::Buffers buffers;
-  std::uint64_t tests_done = 0;  // over all frames
-  std::uint64_t fallbacks = 0;   // over all frames
-  std::optional<measure::ErrorCounts> error;
-  std::string deepest_miss_light;  // name in the rig
+  std::uint64_t tests_done = 0;               // over all frames
+  std::uint64_t fallbacks = 0;                // over all frames
+  std::optional<measure::ErrorCounts> error;  // with cells, where asked for
+  std::string deepest_miss_light;             // name in the rig
   std::optional<measure::ShadingCounts> shading;
   std::vector<measure::LookupCounts> lookup;  // one per way; empty where not asked for
   std::optional<PrecisionResult> precision;   // where the configuration asks for more than float32
-  std::optional<StabilityResult> stability;
+  std::optional<StabilityResult> stability;   // with cells, where asked for
   std::optional<TimingResult> timing;
   std::optional<CountResult> count;  // where asked for
-  std::optional<Details> details;    // where asked for
+  std::optional<Details> details;    // with cells, where asked for
 };
 
 struct Result {

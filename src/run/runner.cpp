@@ -179,14 +179,14 @@ class Run {
     const AccuracyResult counted = accuracy_pass(
         config_, group, path, [&](int) { tell(group, "truth and counts", per_frame); }, stop_);
     if (!counted.is_complete) return;
-    std::vector<StabilityResult> stabilities;
+    std::vector<std::optional<StabilityResult>> stabilities;
     if (config_.stability) {
       const double cost = stability_cost_of(group);
       stabilities = stability_pass(
           config_, group, path, [&](double share) { tell(group, "stability", cost * share); }, stop_);
       if (stabilities.empty()) return;
     }
-    std::vector<Details> details;
+    std::vector<std::optional<Details>> details;
     if (config_.details) {
       tell(group, "details", details_cost_of(group));
       details = details_pass(config_, group, path, data.scene, counted, stop_);
@@ -214,10 +214,10 @@ class Run {
   CaseResult case_result(const CasePlan& plan, int frames, const AccuracyResult& counted, std::size_t place) const {
     const scene::Scene& scene = plan_.scenes[plan.scene].scene;
     const MethodRequest& assigner = config_.assigners[plan.assigner];
-    const MethodRequest& storage = config_.storages[plan.storage];
-    const assign::AssignerRow& row = *assign::find_assigner(assigner.name);
-    const ListMeasures& lists = *std::find_if(counted.lists.begin(), counted.lists.end(),
-                                              [&](const ListMeasures& one) { return one.method == plan.method(); });
+    const assign::AssignerDescriptor& descriptor = *assign::find_assigner(assigner.name);
+    const MethodMeasures& method = *std::find_if(counted.methods.begin(), counted.methods.end(),
+                                                 [&](const auto& one) { return one.method == plan.method(); });
+    const StructureMeasures& structure = counted.structures[place];
     CaseResult out;
     out.id = plan.id;
     out.name = plan.name;
@@ -230,22 +230,22 @@ class Run {
     out.assigner_label = assigner.label();
     out.assigner_params = params_json(assigner.params);
     const PrecisionRequest& precision = config_.precisions[plan.precision];
-    out.conservative = assign::is_conservative(row, assigner.params) && (precision.inflate || !precision.is_lossy());
+    out.conservative =
+        assign::is_conservative(descriptor, assigner.params) && (precision.inflate || !precision.is_lossy());
     if (!counted.losses.empty())
       out.precision = {view::packing_name(precision.packing), precision.label(), precision.inflate,
                        counted.losses[plan.precision]};
-    out.exact = row.exact;
-    out.storage = storage.name;
-    out.storage_label = storage.label();
-    out.occupancy = lists.occupancy;
-    out.buffers = counted.buffers[place];
-    out.tests_done = lists.tests_done;
-    out.fallbacks = lists.fallbacks;
-    if (config_.check_accuracy) out.error = lists.error;
+    out.exact = descriptor.exact;
+    out.storage_label = storage_label(config_, plan);
+    out.buffers = structure.buffers;
+    out.tests_done = method.tests_done;
+    out.fallbacks = method.fallbacks;
+    if (method.has_cells) out.occupancy = method.occupancy;
+    if (method.has_cells && config_.check_accuracy) out.error = method.error;
     if (out.error && out.error->deepest)
       out.deepest_miss_light = scene.lights[static_cast<std::size_t>(out.error->deepest->rig_index)].name;
-    if (config_.shading_samples > 0) out.shading = lists.shading;
-    out.lookup = lists.lookup;
+    if (config_.shading_samples > 0) out.shading = structure.shading;
+    out.lookup = structure.lookup;
     return out;
   }
 

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "measure/shading.h"
 #include "run/repeated.h"
 #include "run/timed_work.h"
 
@@ -18,33 +19,52 @@ ListDigest digest_of(const assign::Lists& lists) {
   return {lists.pair_count(), sha256_hex(sha256_hex(bytes_of(lists.begin)) + sha256_hex(bytes_of(lists.lights)))};
 }
 
-// One method's lists of the path's frames, in their order.
+// One method's lists of the path's frames, in their order: of its cells or, without cells, at samples.
 class ListsOfFrames {
  public:
   ListsOfFrames(const Config& config, const GroupPlan& group, const CasePlan& one, const PathFrames& path)
-      : config_(config), path_(path), grids_(config.grids[group.grid]), precision_(one.precision) {
-    const MethodRequest& request = config.assigners[one.assigner];
-    assigner_ = assign::find_assigner(request.name)->make(request.params);
-  }
+      : config_(config),
+        path_(path),
+        grids_(config.grids[group.grid]),
+        precision_(one.precision),
+        run_(start_method(config, one.method())) {}
 
   const assign::Lists& at(int index) {
     const view::Frame frame = path_.frame(index);
     const bool is_new_grid = grids_.update(path_, frame);
     const FrameLights lights(config_.precisions, view::lights_in(frame, grid::space_of(grids_.grid(), frame)));
     const view::LightArrays& seen = lights.seen(precision_);
-    if (is_new_grid) assigner_->build(grids_.grid(), assign::kinds_of(seen));
-    assigner_->assign(seen, lists_);
-    return lists_;
+    if (is_new_grid) run_.build(grids_.grid(), assign::kinds_of(seen));
+    run_.assign({frame, seen});
+    if (run_.has_cells()) return run_.cell_lists();
+    ask_at_samples(frame);
+    return lists_at_samples_;
   }
-  const grid::Grid& grid() const { return grids_.grid(); }
+  Vec3i cells() const { return run_.has_cells() ? grids_.grid().cells() : Vec3i{k_samples, 1, 1}; }
 
  private:
+  static constexpr int k_samples = 4096;
+
+  void ask_at_samples(const view::Frame& frame) {
+    assign::Lists& lists = lists_at_samples_;
+    lists.lights.clear();
+    lists.begin.assign(1, 0);
+    for (const grid::Sample& sample :
+         measure::volume_samples(frame, sample_far(frame, path_.far_m()), k_samples, config_.seed)) {
+      run_.structure()->lights_at(sample, grid::Log2::rounded, given_);
+      lists.lights.insert(lists.lights.end(), given_.begin(), given_.end());
+      lists.begin.push_back(lists.pair_count());
+    }
+    assign::make_ascending(lists);
+  }
+
   const Config& config_;
   const PathFrames& path_;
   GridOfFrames grids_;
   std::size_t precision_;
-  std::unique_ptr<assign::Assigner> assigner_;
-  assign::Lists lists_;
+  assign::AssignerRun run_;
+  assign::Lists lists_at_samples_;
+  std::vector<std::uint32_t> given_;
 };
 
 PathFrames path_of(const Config& config, const Plan& plan, const GroupPlan& group) {
@@ -125,7 +145,7 @@ FrameLists ServedCases::frame_lists(const std::string& id, int frame) {
   if (frame < 0 || frame >= path.count()) throw Error("", id, "has no frame " + std::to_string(frame));
   ListsOfFrames lists(config_, place.group, place.one, path);
   const assign::Lists& found = lists.at(frame);
-  FrameLists out{lists.grid().cells(), {}};
+  FrameLists out{lists.cells(), {}};
   for (std::uint32_t cell = 0; cell < found.cell_count(); ++cell)
     out.lights.emplace_back(found.of(cell).begin(), found.of(cell).end());
   return out;

@@ -18,25 +18,24 @@ scene::FineSteps fine_steps(const StabilityRequest& request) {
 // One method along the piece.
 class StabilityTrack {
  public:
-  StabilityTrack(const Config& config, const Method& method) : method_(method), meter_(config.stability->window) {
-    const MethodRequest& assigner = config.assigners[method.assigner];
-    assigner_ = assign::find_assigner(assigner.name)->make(assigner.params);
-  }
+  StabilityTrack(const Config& config, const Method& method)
+      : method_(method), run_(start_method(config, method)), meter_(config.stability->window) {}
 
-  void add(const grid::Grid& grid, bool is_new_grid, const FrameLights& lights) {
+  void add(const view::Frame& frame, const grid::Grid& grid, bool is_new_grid, const FrameLights& lights) {
+    if (!run_.has_cells()) return;
     const view::LightArrays& seen = lights.seen(method_.precision);
-    if (is_new_grid) assigner_->build(grid, assign::kinds_of(seen));
-    assigner_->assign(seen, lists_);
-    meter_.add(lists_);
+    if (is_new_grid) run_.build(grid, assign::kinds_of(seen));
+    run_.assign({frame, seen});
+    meter_.add(run_.cell_lists());
   }
 
   const Method& method() const { return method_; }
+  bool has_cells() const { return run_.has_cells(); }
   const measure::Churn& churn() const { return meter_.result(); }
 
  private:
   Method method_;
-  std::unique_ptr<assign::Assigner> assigner_;
-  assign::Lists lists_;
+  assign::AssignerRun run_;
   measure::ChurnMeter meter_;
 };
 
@@ -52,23 +51,26 @@ StabilityResult piece_facts(const scene::FinePath& piece, int window) {
   return facts;
 }
 
-std::vector<StabilityResult> per_case(const GroupPlan& group, const std::vector<StabilityTrack>& tracks,
-                                      const StabilityResult& common) {
-  std::vector<StabilityResult> results;
+std::vector<std::optional<StabilityResult>> per_case(const GroupPlan& group, const std::vector<StabilityTrack>& tracks,
+                                                     const StabilityResult& common) {
+  std::vector<std::optional<StabilityResult>> results;
   for (const CasePlan& one : group.cases) {
-    results.push_back(common);
-    results.back().method = std::find_if(tracks.begin(), tracks.end(), [&](const StabilityTrack& track) {
-                              return track.method() == one.method();
-                            })->churn();
+    const StabilityTrack& track = *std::find_if(
+        tracks.begin(), tracks.end(), [&](const StabilityTrack& any) { return any.method() == one.method(); });
+    results.emplace_back();
+    if (!track.has_cells()) continue;
+    results.back() = common;
+    results.back()->method = track.churn();
   }
   return results;
 }
 
 }  // namespace
 
-std::vector<StabilityResult> stability_pass(const Config& config, const GroupPlan& group, const PathFrames& path,
-                                            const std::function<void(double share)>& on_step,
-                                            const std::atomic<bool>& stop) {
+std::vector<std::optional<StabilityResult>> stability_pass(const Config& config, const GroupPlan& group,
+                                                           const PathFrames& path,
+                                                           const std::function<void(double share)>& on_step,
+                                                           const std::atomic<bool>& stop) {
   const scene::FinePath piece = scene::fine_path(path.camera_path(), fine_steps(*config.stability));
   const PathFrames steps = path.along(piece.path);
   StabilityResult common = piece_facts(piece, config.stability->window);
@@ -86,7 +88,7 @@ std::vector<StabilityResult> stability_pass(const Config& config, const GroupPla
     const FrameLights lights(config.precisions, view::lights_in(frame, grid::space_of(grid, frame)));
     const measure::Truth truth = measure::find_truth(frame, grid, config.threads);
     truth_meter.add(truth.lists);
-    for (StabilityTrack& track : tracks) track.add(grid, is_new_grid, lights);
+    for (StabilityTrack& track : tracks) track.add(frame, grid, is_new_grid, lights);
     common.grids += is_new_grid ? 1 : 0;
     common.undecided += truth.undecided;
   }

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 
 #include "run/path_frames.h"
 #include "run/result.h"
@@ -10,10 +11,11 @@
 
 namespace clusterbench::run {
 
-// One result per case of the group; empty if stopped before the end. Config::stability is set. `on_step` is told which
-// share of the whole pass the step is.
-std::vector<StabilityResult> stability_pass(const Config& config, const GroupPlan& group, const PathFrames& path,
-                                            const std::function<void(double share)>& on_step,
-                                            const std::atomic<bool>& stop);
+// One result per case of the group, none where a method has no cells; empty if stopped before the end.
+// Config::stability is set. `on_step` is told which share of the whole pass the step is.
+std::vector<std::optional<StabilityResult>> stability_pass(const Config& config, const GroupPlan& group,
+                                                           const PathFrames& path,
+                                                           const std::function<void(double share)>& on_step,
+                                                           const std::atomic<bool>& stop);
 
 }  // namespace clusterbench::run

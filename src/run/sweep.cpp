@@ -96,7 +96,7 @@ std::string case_id(const Config& config, const SceneData& data, const CasePlan&
            {"viewport", {viewport.x, viewport.y}},
            {"grid", identity(config.grids[plan.grid])},
            {"assigner", identity(config.assigners[plan.assigner])},
-           {"storage", identity(config.storages[plan.storage])},
+           {"storage", plan.storage ? identity(config.storages[*plan.storage]) : Json(k_own_structure)},
            {"seed", config.seed},
            {"shading_samples", config.shading_samples}};
   if (config.lookup) {
@@ -124,20 +124,23 @@ bool has_lights(const scene::Scene& scene, scene::LightType type) {
   return std::any_of(scene.lights.begin(), scene.lights.end(), [&](const auto& light) { return light.type == type; });
 }
 
-// Why this assigner cannot fill this grid in this scene; "" if it can.
-std::string obstacle(const assign::AssignerRow& row, grid::Kind kind, const scene::Scene& scene, bool orthographic) {
-  if (!row.takes(kind)) return row.name + " takes " + listed(row.kinds) + " grids, not " + grid::kind_name(kind);
-  if (row.needs_depth) return row.name + " needs a depth buffer, and this run has none";
-  if (orthographic && !row.orthographic) return row.name + " does not take orthographic cameras";
-  if (!row.points && has_lights(scene, scene::LightType::point)) return row.name + " takes no point lights";
-  if (!row.spots && has_lights(scene, scene::LightType::spot)) return row.name + " takes no spot lights";
-  return "";
+// Why this assigner cannot take this grid in this scene; "" if it can.
+std::string obstacle(const MethodRequest& request, grid::Kind kind, const scene::Scene& scene, bool orthographic) {
+  const assign::AssignerDescriptor& assigner = *assign::find_assigner(request.name);
+  const std::string& name = assigner.name;
+  if (!assigner.takes(kind)) return name + " takes " + listed(assigner.kinds) + " grids, not " + grid::kind_name(kind);
+  if (assigner.needs.depth) return name + " needs a depth buffer, and this run has none";
+  if (orthographic && !assigner.orthographic) return name + " does not take orthographic cameras";
+  if (!assigner.points && has_lights(scene, scene::LightType::point)) return name + " takes no point lights";
+  if (!assigner.spots && has_lights(scene, scene::LightType::spot)) return name + " takes no spot lights";
+  const std::string reason = assign::unavailability(assigner, request.params);
+  return reason.empty() ? "" : name + " cannot run here: " + reason;
 }
 
 // Why it cannot see lights in this precision; "" if it can.
-std::string precision_obstacle(const assign::AssignerRow& row, const PrecisionRequest& precision) {
-  if (!row.exact || !precision.is_lossy()) return "";
-  return row.name + " decides from the scene's own numbers, whatever the lights are packed in; run it in float32";
+std::string precision_obstacle(const assign::AssignerDescriptor& assigner, const PrecisionRequest& precision) {
+  if (!assigner.exact || !precision.is_lossy()) return "";
+  return assigner.name + " decides from the scene's own numbers, whatever the lights are packed in; run it in float32";
 }
 
 struct Reach {
@@ -182,12 +185,14 @@ FirstFrame first_frame(const grid::GridSpec& spec, const SceneData& data, const 
 }
 
 // Why this assigner would take too long; "" if it would not.
-std::string limit_obstacle(const assign::AssignerRow& row, const LimitsRequest& limits, const FirstFrame& first) {
-  if (!row.all_pairs || !limits.all_pairs) return "";
+std::string limit_obstacle(const assign::AssignerDescriptor& assigner, const LimitsRequest& limits,
+                           const FirstFrame& first) {
+  if (!assigner.all_pairs || !limits.all_pairs) return "";
   const std::uint64_t tests = first.lights() * first.cells;
   if (tests <= *limits.all_pairs) return "";
-  return row.name + " would test " + std::to_string(first.lights()) + " lights against " + std::to_string(first.cells) +
-         " cells, " + std::to_string(tests) + " pairs; limits.all_pairs allows " + std::to_string(*limits.all_pairs);
+  return assigner.name + " would test " + std::to_string(first.lights()) + " lights against " +
+         std::to_string(first.cells) + " cells, " + std::to_string(tests) + " pairs; limits.all_pairs allows " +
+         std::to_string(*limits.all_pairs);
 }
 
 // Why this storage cannot keep lists of so many cells and lights; "" if it can.
@@ -259,44 +264,50 @@ class Expansion {
     const MethodRequest& method = config_.assigners[assigner];
     const std::string name = group_name + "/" + name_part(method.label());
     const SceneData& data = plan.scenes[group.scene];
-    const assign::AssignerRow& row = *assign::find_assigner(method.name);
-    std::string impossible = obstacle(row, config_.grids[group.grid].kind, data.scene,
+    std::string impossible = obstacle(method, config_.grids[group.grid].kind, data.scene,
                                       data.paths[group.camera].shots.front().lens.orthographic);
-    if (impossible.empty()) impossible = limit_obstacle(row, config_.limits, first);
+    if (impossible.empty()) impossible = limit_obstacle(*assign::find_assigner(method.name), config_.limits, first);
     if (!impossible.empty()) {
       skip(plan, name, impossible);
       return;
     }
     for (std::size_t precision = 0; precision < config_.precisions.size(); ++precision)
-      expand_precision(plan, group, {assigner, precision}, first, name);
+      expand_precision(plan, group, assigner, precision, first, name);
   }
 
-  void expand_precision(Plan& plan, GroupPlan& group, const Method& method, const FirstFrame& first,
-                        const std::string& name) {
-    const PrecisionRequest& precision = config_.precisions[method.precision];
-    const std::string part = precision.is_lossy() ? "/" + precision.label() : "";
-    const assign::AssignerRow& row = *assign::find_assigner(config_.assigners[method.assigner].name);
-    const std::string impossible = precision_obstacle(row, precision);
+  void expand_precision(Plan& plan, GroupPlan& group, std::size_t assigner, std::size_t precision,
+                        const FirstFrame& first, const std::string& name) {
+    const PrecisionRequest& request = config_.precisions[precision];
+    const std::string part = request.is_lossy() ? "/" + request.label() : "";
+    const assign::AssignerDescriptor& descriptor = *assign::find_assigner(config_.assigners[assigner].name);
+    const std::string impossible = precision_obstacle(descriptor, request);
     if (!impossible.empty()) {
       skip(plan, name + part, impossible);
       return;
     }
-    const SceneData& data = plan.scenes[group.scene];
-    for (std::size_t storage = 0; storage < config_.storages.size(); ++storage) {
-      const std::string whole_name = name + "/" + name_part(config_.storages[storage].label()) + part;
+    CasePlan one{"", "", group.scene, group.camera, group.viewport, group.grid, assigner, {}, precision};
+    for (std::size_t storage = 0; descriptor.answers(assign::Answer::lists) && storage < config_.storages.size();
+         ++storage) {
+      one.storage = storage;
+      one.name = name + "/" + name_part(config_.storages[storage].label()) + part;
       const std::string too_much = storage_obstacle(config_.storages[storage], first);
-      if (!too_much.empty()) {
-        skip(plan, whole_name, too_much);
-        continue;
-      }
-      CasePlan one{
-          "", "", group.scene, group.camera, group.viewport, group.grid, method.assigner, storage, method.precision};
-      one.name = unique_name(whole_name, names_);
-      one.id = unique_name(case_id(config_, data, one), ids_);
-      ++all_cases_;
-      if (example_.empty()) example_ = one.name;
-      if (std::regex_search(one.name, filter_)) group.cases.push_back(std::move(one));
+      if (too_much.empty())
+        add_case(plan, group, one);
+      else
+        skip(plan, one.name, too_much);
     }
+    if (!descriptor.answers(assign::Answer::structure)) return;
+    one.storage.reset();
+    one.name = name + "/" + k_own_structure + part;
+    add_case(plan, group, one);
+  }
+
+  void add_case(const Plan& plan, GroupPlan& group, CasePlan one) {
+    one.name = unique_name(one.name, names_);
+    one.id = unique_name(case_id(config_, plan.scenes[group.scene], one), ids_);
+    ++all_cases_;
+    if (example_.empty()) example_ = one.name;
+    if (std::regex_search(one.name, filter_)) group.cases.push_back(std::move(one));
   }
 
   // What the filter leaves out is not listed as skipped either.
@@ -322,7 +333,20 @@ std::vector<Method> methods_of(const GroupPlan& group) {
 
 std::string method_label(const Config& config, const Method& method) {
   const PrecisionRequest& precision = config.precisions[method.precision];
-  return config.assigners[method.assigner].label() + (precision.is_lossy() ? " " + precision.label() : "");
+  const MethodRequest& assigner = config.assigners[method.assigner];
+  const bool is_one_of_two = method.answer == assign::Answer::structure &&
+                             assign::find_assigner(assigner.name)->answers(assign::Answer::lists);
+  return assigner.label() + (is_one_of_two ? std::string(" ") + k_own_structure : "") +
+         (precision.is_lossy() ? " " + precision.label() : "");
+}
+
+std::string storage_label(const Config& config, const CasePlan& one) {
+  return one.storage ? config.storages[*one.storage].label() : k_own_structure;
+}
+
+assign::AssignerRun start_method(const Config& config, const Method& method) {
+  const MethodRequest& request = config.assigners[method.assigner];
+  return {*assign::find_assigner(request.name), request.params, method.answer};
 }
 
 Plan make_plan(const Config& config, const std::string& filter) {

@@ -1,18 +1,21 @@
 #pragma once
 // A configuration's product of axes, as cases.
 
+#include <optional>
 #include <regex>
 #include <string>
 #include <vector>
 
+#include "assign/assigner_run.h"
 #include "run/config.h"
 #include "run/result.h"
 
 namespace clusterbench::run {
 
-// What lists depend on within a group: places in the configuration's lists.
+// What answers depend on within a group: places in the configuration's lists, and the form of the answer.
 struct Method {
   std::size_t assigner = 0, precision = 0;
+  assign::Answer answer = assign::Answer::lists;
 
   friend bool operator==(const Method&, const Method&) = default;
 };
@@ -23,11 +26,15 @@ struct CasePlan {
   // it is not float32.
   std::string name;
   std::string id;  // short hash of everything that identifies the case: stable over runs and machines
-  std::size_t scene, camera, viewport, grid, assigner, storage;
+  std::size_t scene, camera, viewport, grid, assigner;
+  std::optional<std::size_t> storage;  // none: the assigner's own structure
   std::size_t precision = 0;
 
-  Method method() const { return {assigner, precision}; }
+  Method method() const { return {assigner, precision, storage ? assign::Answer::lists : assign::Answer::structure}; }
 };
+
+// What stands in the place of a storage's name where an assigner leaves its own structure.
+inline constexpr const char* k_own_structure = "own";
 
 // Cases of one scene, camera, viewport and grid: measured together, in interleaved rounds.
 struct GroupPlan {
@@ -39,6 +46,10 @@ struct GroupPlan {
 std::vector<Method> methods_of(const GroupPlan& group);
 // The assigner's label, and the precision's where it is not float32.
 std::string method_label(const Config& config, const Method& method);
+// A case's storage as it is shown.
+std::string storage_label(const Config& config, const CasePlan& one);
+// A case's method, ready to be built.
+assign::AssignerRun start_method(const Config& config, const Method& method);
 
 struct SceneData {
   scene::Scene scene;

@@ -19,20 +19,28 @@ std::vector<TimedFrame> timed_frames(const Config& config, const GroupPlan& grou
 }
 
 bool is_threaded(const MethodRequest& assigner) {
-  const auto threads = assigner.params.values().find("threads");
-  return threads != assigner.params.values().end() && std::get<double>(threads->second) > 1.0;
+  return assign::thread_count(*assign::find_assigner(assigner.name), assigner.params) > 1;
 }
 
 TimedWork::TimedWork(const Config& config, const GroupPlan& group, const Method& method,
                      const std::vector<TimedFrame>& frames)
-    : frames_(frames), precision_(method.precision), lists_(frames.size()) {
-  const MethodRequest& assigner = config.assigners[method.assigner];
-  assigner_ = assign::find_assigner(assigner.name)->make(assigner.params);
+    : frames_(frames), precision_(method.precision) {
+  const MethodRequest& request = config.assigners[method.assigner];
+  const assign::AssignerDescriptor& descriptor = *assign::find_assigner(request.name);
+  if (method.answer == assign::Answer::lists) {
+    lists_assigner_ = descriptor.make(request.params);
+    lists_.resize(frames.size());
+  } else {
+    structure_assigner_ = descriptor.make_own(request.params);
+    for (std::size_t i = 0; i < frames.size(); ++i) structures_.push_back(structure_assigner_->make_structure());
+  }
   for (std::size_t place = 0; place < group.cases.size(); ++place) {
-    if (group.cases[place].method() != method) continue;
-    const MethodRequest& request = config.storages[group.cases[place].storage];
+    const CasePlan& one = group.cases[place];
+    if (one.method() != method) continue;
     places_.push_back(place);
-    stores_.push_back(storage(*assign::find_storage(request.name), request.params));
+    if (!one.storage) continue;
+    const MethodRequest& store = config.storages[*one.storage];
+    stores_.push_back(storage(*assign::find_storage(store.name), store.params));
   }
   assign();
 }
@@ -42,14 +50,21 @@ void TimedWork::build() {
 }
 
 void TimedWork::build_for(const TimedFrame& frame) {
-  assigner_->build(*frame.grid, assign::kinds_of(frame.lights.seen(precision_)));
+  assign::Assigner& assigner = lists_assigner_ ? static_cast<assign::Assigner&>(*lists_assigner_)
+                                               : static_cast<assign::Assigner&>(*structure_assigner_);
+  assigner.build(*frame.grid, assign::kinds_of(frame.lights.seen(precision_)));
   built_for_ = frame.grid.get();
 }
 
 void TimedWork::assign() {
   for (std::size_t i = 0; i < frames_.size(); ++i) {
-    if (frames_[i].grid.get() != built_for_) build_for(frames_[i]);
-    assigner_->assign(frames_[i].lights.seen(precision_), lists_[i]);
+    const TimedFrame& frame = frames_[i];
+    if (frame.grid.get() != built_for_) build_for(frame);
+    const assign::FrameInput input{frame.frame, frame.lights.seen(precision_)};
+    if (lists_assigner_)
+      lists_assigner_->assign(input, lists_[i]);
+    else
+      structure_assigner_->assign(input, *structures_[i]);
   }
 }
 
@@ -57,11 +72,12 @@ void TimedWork::convert(std::size_t store) const {
   for (const assign::Lists& lists : lists_) stores_[store]->store(lists);
 }
 
-std::unique_ptr<assign::Storage> TimedWork::storage(const assign::StorageRow& row, const assign::Params& params) const {
+std::unique_ptr<assign::Storage> TimedWork::storage(const assign::StorageDescriptor& storage,
+                                                    const assign::Params& params) const {
   const TimedFrame& frame = frames_.front();
-  auto storage = row.make(params);
-  storage->start(frame.grid->cell_count(), frame.lights.seen(precision_).points, frame.lights.seen(precision_).spots);
-  return storage;
+  auto made = storage.make(params);
+  made->start(*frame.grid, frame.lights.seen(precision_).points, frame.lights.seen(precision_).spots);
+  return made;
 }
 
 }  // namespace clusterbench::run

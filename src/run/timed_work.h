@@ -24,8 +24,8 @@ std::vector<TimedFrame> timed_frames(const Config& config, const GroupPlan& grou
 // Does this method share its work among threads?
 bool is_threaded(const MethodRequest& assigner);
 
-// One method over the frames, with the storages that its cases use. The frames outlive it. Its lists are made once at
-// the start, so that memory has grown.
+// One method over the frames, with the storages that its cases use. The frames outlive it. Its lists, or its own light
+// structures, are made once at the start, so that memory has grown; each frame has its own.
 class TimedWork {
  public:
   TimedWork(const Config& config, const GroupPlan& group, const Method& method, const std::vector<TimedFrame>& frames);
@@ -34,24 +34,30 @@ class TimedWork {
   void build();
   // All frames. A grid that changes between frames (fit) is built within: that is what such a method costs.
   void assign();
+  // Whether its lists are converted to what its cases are named after; a structure of its own is not.
+  bool converts() const { return lists_assigner_ != nullptr; }
   // Puts the lists of all frames into the storage of one case.
   void convert(std::size_t store) const;
 
-  // Each store's case: its place in the group.
+  // The method's cases by their place in the group; a storage each, where it converts.
   const std::vector<std::size_t>& places() const { return places_; }
   std::size_t frame_count() const { return frames_.size(); }
   const std::vector<assign::Lists>& lists() const { return lists_; }
+  const std::vector<std::unique_ptr<assign::LightStructure>>& structures() const { return structures_; }
   // A storage that is ready for these frames.
-  std::unique_ptr<assign::Storage> storage(const assign::StorageRow& row, const assign::Params& params) const;
+  std::unique_ptr<assign::Storage> storage(const assign::StorageDescriptor& storage,
+                                           const assign::Params& params) const;
 
  private:
   void build_for(const TimedFrame& frame);
 
   const std::vector<TimedFrame>& frames_;
   std::size_t precision_;
-  std::unique_ptr<assign::Assigner> assigner_;
+  std::unique_ptr<assign::ListAssigner> lists_assigner_;
+  std::unique_ptr<assign::StructureAssigner> structure_assigner_;  // one of the two
   const grid::Grid* built_for_ = nullptr;
   std::vector<assign::Lists> lists_;
+  std::vector<std::unique_ptr<assign::LightStructure>> structures_;
   std::vector<std::size_t> places_;
   std::vector<std::unique_ptr<assign::Storage>> stores_;
 };

@@ -9,12 +9,12 @@
 namespace clusterbench::run {
 namespace {
 
-// Memory traffic that no way of assigning can avoid: the finished lists and headers of each frame, copied once. Each
+// Memory traffic that no way of assigning can avoid: what each frame leaves, headers and indices, copied once. Each
 // frame has buffers of its own, one for headers and one for indices, as each frame's lists have: one pair of buffers
 // for all would stay in the cache where the lists of a long path do not.
 class WriteFloor {
  public:
-  void add_frame(const assign::StorageUse& use) {
+  void add_frame(const assign::StructureUse& use) {
     for (const std::uint64_t bytes : {use.header_bytes, use.index_bytes})
       if (bytes > 0) copies_.push_back({std::vector<unsigned char>(bytes, 1), std::vector<unsigned char>(bytes, 2)});
   }
@@ -37,8 +37,9 @@ class TimingTrack {
  public:
   TimingTrack(const Config& config, const GroupPlan& group, const Method& method, const std::vector<TimedFrame>& frames)
       : min_ns_(config.timing.min_time_ms * 1e6), work_(config, group, method, frames) {
-    for (std::size_t store = 0; store < work_.places().size(); ++store)
-      stores_.push_back({work_.places()[store], Repeated([this, store] { work_.convert(store); }, min_ns_ / 10.0), {}});
+    if (work_.converts())
+      for (std::size_t store = 0; store < work_.places().size(); ++store)
+        stores_.push_back({Repeated([this, store] { work_.convert(store); }, min_ns_ / 10.0), {}});
     prepare_floor();
   }
 
@@ -67,22 +68,24 @@ class TimingTrack {
     timing.floor_ratio = measure::paired_ratio(assign_ns_, floor_ns_, seed).ratio;
     timing.frames_timed = static_cast<int>(work_.frame_count());
     if (this != &first) timing.vs = Versus{first_name, measure::paired_ratio(assign_ns_, first.assign_ns_, seed)};
-    for (const Store& store : stores_) {
-      out[store.place] = timing;
-      out[store.place].convert_ns = measure::time_stats(store.convert_ns, seed);
+    for (std::size_t i = 0; i < work_.places().size(); ++i) {
+      TimingResult& one = out[work_.places()[i]];
+      one = timing;
+      if (work_.converts()) one.convert_ns = measure::time_stats(stores_[i].convert_ns, seed);
     }
   }
 
  private:
   struct Store {
-    std::size_t place;  // in the group's cases
     Repeated convert;
     std::vector<double> convert_ns;
   };
 
-  // What the tight storage writes for these lists.
+  // What the tight storage writes for these lists; or the method's own structure, as it is.
   void prepare_floor() {
-    const assign::StorageRow& packed = *assign::find_storage("packed");
+    for (const auto& structure : work_.structures()) write_floor_.add_frame(structure->use());
+    if (!work_.converts()) return;
+    const assign::StorageDescriptor& packed = *assign::find_storage("packed");
     const auto storage = work_.storage(packed, assign::Params(packed.params));
     for (const assign::Lists& lists : work_.lists()) {
       storage->store(lists);
@@ -92,7 +95,7 @@ class TimingTrack {
 
   double min_ns_;
   TimedWork work_;
-  std::vector<Store> stores_;
+  std::vector<Store> stores_;  // in the order of the work's cases
   WriteFloor write_floor_;
   std::vector<double> build_ns_, assign_ns_, floor_ns_;
   Repeated assign_{[this] { work_.assign(); }, min_ns_};

@@ -9,7 +9,7 @@ namespace clusterbench::assign::testing {
 namespace {
 
 TEST(EveryAssigner, keeps_the_contract_in_every_view_with_every_choice) {
-  for (const AssignerRow* row : assigner_rows())
+  for (const AssignerDescriptor* row : assigner_descriptors())
     for (const Setting& setting : settings_for(*row, 7))
       for (const Params& params : params_of(*row)) {
         const std::vector<std::string> faults = contract_faults(*row, params, setting);
@@ -21,7 +21,7 @@ TEST(EveryAssigner, keeps_the_contract_in_every_view_with_every_choice) {
 }
 
 TEST(EveryAssigner, loses_no_light_at_boundaries_with_many_seeds) {
-  for (const AssignerRow* row : assigner_rows())
+  for (const AssignerDescriptor* row : assigner_descriptors())
     for (int i = 0; i < test::tries(6); ++i)
       for (const Setting& setting : settings_for(*row, 10 * (100 + static_cast<std::uint64_t>(i)))) {
         const std::vector<std::string> faults = contract_faults(*row, Params(row->params), setting);
@@ -32,7 +32,7 @@ TEST(EveryAssigner, loses_no_light_at_boundaries_with_many_seeds) {
 // --- Adding an assigner: a class and a row, as in a file of src/assign/assigners ---
 
 // Lists every light with volume in every cell; or wrongly, as its fault says.
-class Everywhere : public Assigner {
+class Everywhere : public ListAssigner {
  public:
   enum class Fault { none, loses_last_light, lists_twice, keeps_frames, allocates, builds_late };
   explicit Everywhere(Fault fault) : fault_(fault) {}
@@ -42,7 +42,8 @@ class Everywhere : public Assigner {
     table_.reset();
   }
 
-  void assign(const view::LightArrays& lights, Lists& out) override {
+  void assign(const FrameInput& input, Lists& out) override {
+    const view::LightArrays& lights = input.lights;
     tests_ = 0;
     if (fault_ == Fault::allocates) waste_ = std::make_unique<int>(1);
     if (fault_ == Fault::builds_late && !table_) table_ = std::make_unique<int>(1);
@@ -74,16 +75,16 @@ class Everywhere : public Assigner {
 };
 
 template <Everywhere::Fault fault>
-AssignerRow everywhere_row() {
+AssignerDescriptor everywhere_row() {
   return {.name = "everywhere",
           .summary = "every light in every cell",
           .source = "forward rendering without culling",
           .kinds = {grid::Kind::cascades, grid::Kind::world},
           .params = {},
-          .make = [](const Params&) -> std::unique_ptr<Assigner> { return std::make_unique<Everywhere>(fault); }};
+          .make = [](const Params&) -> std::unique_ptr<ListAssigner> { return std::make_unique<Everywhere>(fault); }};
 }
 
-std::string faults_of(const AssignerRow& row) {
+std::string faults_of(const AssignerDescriptor& row) {
   std::string all;
   for (const Setting& setting : settings_for(row, 8)) all += joined(contract_faults(row, Params(), setting), "; ");
   return all;

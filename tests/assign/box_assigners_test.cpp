@@ -256,7 +256,7 @@ TEST(Spots, take_no_memory_where_there_are_none) {
     const view::LightArrays lights = view::lights_in(frame, frame.view_space);
     assigner->build(grid, kinds_of(lights));
     Lists lists;
-    assigner->assign(lights, lists);
+    assigner->assign({frame, lights}, lists);
     return assigner->scratch_bytes();
   };
   EXPECT_EQ(scratch("both", 0), scratch("ball", 0));
@@ -270,11 +270,11 @@ TEST(CountedTests, are_the_cells_that_a_method_looks_at) {
   const view::Frame frame =
       frame_of({false, -1, 1, -1, 1, 1, 21}, {1000, 1000}, {point_light({0, 0, -10}, 1), point_light({0, 0, -10}, 0)});
   const auto tests = [&](const char* name) {
-    const AssignerRow* row = find_assigner(name);
+    const AssignerDescriptor* row = find_assigner(name);
     const auto assigner = row->make(Params(row->params));
     assigner->build(grid);
     Lists lists;
-    assigner->assign(view::lights_in(frame, frame.view_space), lists);
+    assigner->assign({frame, view::lights_in(frame, frame.view_space)}, lists);
     return assigner->tests_done();
   };
   EXPECT_EQ(tests("brute-force"), 2000u);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "assign/assigner.h"
+#include "assign/assigner_run.h"
 #include "grid/grid.h"
 #include "view/frame.h"
 
@@ -153,13 +154,13 @@ inline int count_misses(const view::Frame& frame, const grid::Grid& grid, const 
 
 inline Lists lists_by(const std::string& assigner, const view::Frame& frame, const grid::Grid& grid,
                       const std::map<std::string, ParamValue>& params = {}) {
-  const AssignerRow* row = find_assigner(assigner);
+  const AssignerDescriptor* row = find_assigner(assigner);
   if (row == nullptr) throw std::runtime_error("no assigner " + assigner);
-  const auto made = row->make(Params(row->params, params));
-  made->build(grid);
-  Lists lists;
-  made->assign(view::lights_in(frame, grid::space_of(grid, frame)), lists);
-  return lists;
+  const Params chosen(row->params, params);
+  AssignerRun run(*row, chosen, answers_with_cells(*row, chosen).front());
+  run.build(grid);
+  run.assign({frame, view::lights_in(frame, grid::space_of(grid, frame))});
+  return run.cell_lists();
 }
 
 // Every pair of `part` is in `whole`.

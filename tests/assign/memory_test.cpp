@@ -54,7 +54,7 @@ TEST(Memory, of_every_method_is_bounded_by_the_limit_and_no_more_is_asked_of_sma
   const MemoryLimitScope little(4 * k_mib);
   for (const bool spots : {false, true}) {
     const LongTile small(100, 10, spots), large(1500, 1500, spots);
-    for (const AssignerRow* row : assigner_rows()) {
+    for (const AssignerDescriptor* row : assigner_descriptors()) {
       if (!row->takes(grid::Kind::frustum)) continue;
       EXPECT_EQ(refusal(row->name, small), "") << row->name;
       EXPECT_NE(refusal(row->name, large).find("and 4 MiB are allowed"), std::string::npos)
@@ -65,7 +65,7 @@ TEST(Memory, of_every_method_is_bounded_by_the_limit_and_no_more_is_asked_of_sma
 
 TEST(Memory, of_storages_is_bounded_by_the_limit) {
   const MemoryLimitScope little(4 * k_mib);
-  for (const StorageRow* row : storage_rows()) {
+  for (const StorageDescriptor* row : storage_descriptors()) {
     const auto storage = row->make(Params(row->params));
     storage->start(100, 100, 100);
     EXPECT_THROW(storage->start(2'000'000, 100'000, 100'000), Error) << row->name;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "assign/assigner_run.h"
 #include "assign/settings.h"
 #include "core/error.h"
 
@@ -16,14 +17,16 @@ struct Work {
   Lists lists;
 };
 
-Work work_of(const AssignerRow& row, const Params& params, const Setting& setting) {
-  const auto assigner = row.make(params);
+Work work_of(const AssignerDescriptor& row, const Params& params, const Setting& setting,
+             Answer answer = Answer::lists) {
+  AssignerRun run(row, params, answer);
   Work work{};
   const view::LightArrays lights = view::lights_in(setting.frame, grid::space_of(setting.grid, setting.frame));
-  assigner->build(setting.grid, kinds_of(lights));
-  assigner->assign(lights, work.lists);
-  work.tests = assigner->tests_done();
-  work.scratch_bytes = assigner->scratch_bytes();
+  run.build(setting.grid, kinds_of(lights));
+  run.assign({setting.frame, lights});
+  work.lists = run.cell_lists();
+  work.tests = run.tests_done();
+  work.scratch_bytes = run.scratch_bytes();
   return work;
 }
 
@@ -40,15 +43,17 @@ void add_distant_points(Setting& setting, int count) {
 
 TEST(OnlyWhatIsNeeded, a_light_outside_of_the_view_costs_at_most_one_test_and_makes_no_pair) {
   constexpr int k_more = 500;
-  for (const AssignerRow* row : assigner_rows()) {
+  for (const AssignerDescriptor* row : assigner_descriptors()) {
     if (row->name == "brute-force" || row->naive) continue;
-    for (const Setting& setting : testing::settings_for(*row, 3)) {
-      Setting more = setting;
-      add_distant_points(more, k_more);
-      const Work before = work_of(*row, Params(row->params), setting), after = work_of(*row, Params(row->params), more);
-      EXPECT_LE(after.tests, before.tests + k_more) << row->name << ", " << setting.name;
-      EXPECT_EQ(after.lists.pair_count(), before.lists.pair_count()) << row->name << ", " << setting.name;
-    }
+    const Params params(row->params);
+    for (const Setting& setting : testing::settings_for(*row, 3))
+      for (const Answer answer : answers_with_cells(*row, params)) {
+        Setting more = setting;
+        add_distant_points(more, k_more);
+        const Work before = work_of(*row, params, setting, answer), after = work_of(*row, params, more, answer);
+        EXPECT_LE(after.tests, before.tests + k_more) << row->name << ", " << setting.name;
+        EXPECT_EQ(after.lists.pair_count(), before.lists.pair_count()) << row->name << ", " << setting.name;
+      }
   }
 }
 
@@ -60,9 +65,9 @@ Setting points_only(Setting setting) {
 // The balls around cells that cones are tested with are built where there are spots.
 TEST(OnlyWhatIsNeeded, without_spots_nothing_is_prepared_for_them) {
   int methods = 0;
-  for (const AssignerRow* row : assigner_rows()) {
+  for (const AssignerDescriptor* row : assigner_descriptors()) {
     const Params params(row->params);
-    if (row->naive || !params.values().contains("spot")) continue;
+    if (row->naive || !row->answers(Answer::lists) || !params.values().contains("spot")) continue;
     ++methods;
     const Setting without = points_only(testing::settings_for(*row, 3).front());
     Setting with = without;
@@ -77,19 +82,19 @@ TEST(OnlyWhatIsNeeded, without_spots_nothing_is_prepared_for_them) {
 
 TEST(OnlyWhatIsNeeded, spots_that_the_build_was_not_told_of_are_refused) {
   for (const char* name : {"aabb", "exact", "sphere-refinement-fast"}) {
-    const AssignerRow& row = *find_assigner(name);
+    const AssignerDescriptor& row = *find_assigner(name);
     const Setting setting = testing::settings_for(row, 3).front();
     const auto assigner = row.make(Params(row.params));
     assigner->build(setting.grid, {.spots = false});
     Lists lists;
     const view::LightArrays lights = view::lights_in(setting.frame, grid::space_of(setting.grid, setting.frame));
     ASSERT_GT(lights.spots, 0u);
-    EXPECT_THROW(assigner->assign(lights, lists), Error) << name;
+    EXPECT_THROW(assigner->assign({setting.frame, lights}, lists), Error) << name;
   }
 }
 
 TEST(OnlyWhatIsNeeded, few_lights_are_not_shared_among_threads) {
-  const AssignerRow& row = *find_assigner("exact-fast");
+  const AssignerDescriptor& row = *find_assigner("exact-fast");
   Setting few = testing::settings_for(row, 3).front();
   few.frame.points = 20;
   few = points_only(few);

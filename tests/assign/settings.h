@@ -63,7 +63,7 @@ struct Plan {
   view::Space view_space;
 };
 
-inline std::vector<Plan> plans_for(const AssignerRow& row, grid::Kind kind) {
+inline std::vector<Plan> plans_for(const AssignerDescriptor& row, grid::Kind kind) {
   const view::Projection usual = perspective(60 * k_degree, 16.0 / 9.0, 0.1, 300);
   const view::Projection off_centre{false, -0.3, 1.1, -0.9, 0.2, 0.1, 300};
   const view::Projection boxy{true, -40, 40, -22.5, 22.5, 0, 300};
@@ -93,7 +93,7 @@ inline void add_touching(Setting& setting, const std::vector<TouchingLight>& tou
   }
 }
 
-inline void add_lights(Setting& setting, const AssignerRow& row, std::uint64_t seed) {
+inline void add_lights(Setting& setting, const AssignerDescriptor& row, std::uint64_t seed) {
   const view::Space cells = grid::space_of(setting.grid, setting.frame);
   const Vec3d ahead = setting.frame.view_space.origin - 10.0 * glm::transpose(setting.frame.view_space.rotation)[2];
   std::vector<scene::WorldLight>& lights = setting.frame.lights;
@@ -119,7 +119,7 @@ inline void add_lights(Setting& setting, const AssignerRow& row, std::uint64_t s
 // --- Nasty scales: cells and lights from the domain's least lengths (geom/domain.h) to its greatest ---
 
 // A grid whose cells are about so large, and its view.
-inline Plan plan_of_size(const AssignerRow& row, grid::Kind kind, double size_m, Random& random) {
+inline Plan plan_of_size(const AssignerDescriptor& row, grid::Kind kind, double size_m, Random& random) {
   Plan plan;
   plan.name = std::to_string(static_cast<int>(std::lround(std::log10(size_m))));
   plan.spec.kind = kind;
@@ -164,7 +164,8 @@ inline bool stands_in_domain(const scene::WorldLight& light) {
          geom::is_in_domain(light.position.z);
 }
 
-inline void add_lights_of_any_size(Setting& setting, const AssignerRow& row, double size_m, int count, Random& random) {
+inline void add_lights_of_any_size(Setting& setting, const AssignerDescriptor& row, double size_m, int count,
+                                   Random& random) {
   const view::Space cells = grid::space_of(setting.grid, setting.frame);
   std::vector<scene::WorldLight>& lights = setting.frame.lights;
   for (const bool is_spot : {false, true}) {
@@ -182,7 +183,7 @@ inline void add_lights_of_any_size(Setting& setting, const AssignerRow& row, dou
 }  // namespace settings
 
 // Settings at all scales of the domain, with lights of all sizes: `count` points and spots each.
-inline std::vector<Setting> settings_of_any_size(const AssignerRow& row, int count, std::uint64_t seed) {
+inline std::vector<Setting> settings_of_any_size(const AssignerDescriptor& row, int count, std::uint64_t seed) {
   std::vector<Setting> all;
   Random random(seed);
   for (const grid::Kind kind : row.kinds)
@@ -202,7 +203,7 @@ inline std::vector<Setting> settings_of_any_size(const AssignerRow& row, int cou
 // Every grid kind that the row takes, in perspective, off-centre and (where the row allows it) orthographic views, with
 // random lights, lights that touch cells from outside by a hair, the eye in lights, lights behind the eye, lights
 // without volume and without end.
-inline std::vector<Setting> settings_for(const AssignerRow& row, std::uint64_t seed) {
+inline std::vector<Setting> settings_for(const AssignerDescriptor& row, std::uint64_t seed) {
   std::vector<Setting> settings;
   for (const grid::Kind kind : row.kinds)
     for (const settings::Plan& plan : settings::plans_for(row, kind)) {
@@ -218,7 +219,7 @@ inline std::vector<Setting> settings_for(const AssignerRow& row, std::uint64_t s
 }
 
 // The row's defaults, and each choice of each text parameter.
-inline std::vector<Params> params_of(const AssignerRow& row) {
+inline std::vector<Params> params_of(const AssignerDescriptor& row) {
   std::vector<Params> all{Params(row.params)};
   for (const ParamSpec& param : row.params)
     for (const std::string& choice : param.choices)

@@ -89,7 +89,7 @@ Answer answer_of(const std::string& name, const Params& params, const Setting& s
   const auto assigner = find_assigner(name)->make(params);
   assigner->build(setting.grid);
   Lists lists;
-  assigner->assign(view::lights_in(setting.frame, grid::space_of(setting.grid, setting.frame)), lists);
+  assigner->assign({setting.frame, view::lights_in(setting.frame, grid::space_of(setting.grid, setting.frame))}, lists);
   return {std::move(lists), assigner->tests_done(), assigner->fallbacks(), assigner->scratch_bytes()};
 }
 
@@ -145,7 +145,7 @@ struct View {
   view::Projection projection;
 };
 
-std::vector<View> odd_views(const AssignerRow& row) {
+std::vector<View> odd_views(const AssignerDescriptor& row) {
   const auto wide = [](double deg) { return testing::perspective(deg * testing::settings::k_degree, 1.2, 0.1, 300); };
   if (row.takes(grid::Kind::cascades) || row.takes(grid::Kind::world)) return {{"any view", wide(50)}};
   std::vector<View> views{{"50 degrees", wide(50)}, {"165 degrees", wide(165)}};
@@ -154,7 +154,7 @@ std::vector<View> odd_views(const AssignerRow& row) {
 }
 
 // Beside the usual lights some that hold nearly everything, or end at the eye or at the depth of 5 m by a hair.
-std::vector<Setting> odd_settings(const AssignerRow& row, std::uint64_t seed) {
+std::vector<Setting> odd_settings(const AssignerDescriptor& row, std::uint64_t seed) {
   std::vector<Setting> settings;
   for (const grid::GridSpec& spec : odd_grids(row.kinds.front()))
     for (const View& view : odd_views(row)) {
@@ -181,7 +181,7 @@ std::vector<Setting> odd_settings(const AssignerRow& row, std::uint64_t seed) {
 }
 
 // The defaults, each choice, and no or too much padding where there is a choice.
-std::vector<Params> params_of(const AssignerRow& row) {
+std::vector<Params> params_of(const AssignerDescriptor& row) {
   std::vector<Params> all = testing::params_of(row);
   if (all.front().values().contains("inflation"))
     for (const double inflation : {0.0, 1e5})
@@ -229,7 +229,7 @@ TEST(ExactFast, gives_the_lists_of_exact_on_every_target) {
 }
 
 TEST(ExactFast, gives_the_lists_of_exact_on_clipped_tiles) {
-  const AssignerRow& row = *find_assigner("exact-fast");
+  const AssignerDescriptor& row = *find_assigner("exact-fast");
   grid::GridSpec spec =
       testing::settings::screen_spec(grid::Kind::frustum, {16, 9}, grid::Scheme::exponential_first, 8, 0.1);
   spec.tiles = {{48, 64}, {0, 0}};
@@ -261,7 +261,7 @@ TEST(ExactFast, gives_the_lists_of_exact_and_of_each_cell_for_lights_of_any_size
 
 // Far to the side of the view axis tile planes are slopes with few digits left for their distances.
 TEST(ExactFast, gives_the_lists_of_exact_on_narrow_tiles_far_aside) {
-  const AssignerRow& row = *find_assigner("exact-fast");
+  const AssignerDescriptor& row = *find_assigner("exact-fast");
   for (const std::uint64_t seed : {1u, 2u}) {
     Setting setting;
     setting.frame = testing::frame_of(testing::perspective(0.9, 1.2, 0.1, 300), {4000, 717}, {});
@@ -294,7 +294,7 @@ std::vector<scene::WorldLight> lights_nearly_at_the_eye(int count, std::uint64_t
 }
 
 TEST(ExactFast, gives_the_lists_of_exact_for_lights_nearly_at_the_eye) {
-  const AssignerRow& row = *find_assigner("exact-fast");
+  const AssignerDescriptor& row = *find_assigner("exact-fast");
   for (const double fov : {60 * testing::settings::k_degree, 150 * testing::settings::k_degree})
     for (const double near_m : {1e-3, 0.5}) {
       Setting setting;
@@ -331,7 +331,7 @@ std::vector<scene::WorldLight> lights_touched_at_the_eye(const grid::ScreenGrid&
 }
 
 TEST(ExactFast, gives_the_lists_of_exact_for_lights_that_a_tile_plane_touches_at_the_eye) {
-  const AssignerRow& row = *find_assigner("exact-fast");
+  const AssignerDescriptor& row = *find_assigner("exact-fast");
   for (const double near_m : {1e-4, 4e-3}) {
     Setting setting;
     setting.frame = testing::frame_of({false, -0.74, 0.78, -0.45, 0.45, near_m, 300}, {1000, 587}, {});
@@ -420,7 +420,7 @@ TEST(ExactFast, gives_the_same_lists_on_any_number_of_threads) {
   const std::vector<Setting> settings = testing::settings_for(*find_assigner("exact-fast"), 7);
   for (std::size_t i = 0; i < settings.size(); i += 3) {
     const Setting setting = repeated(settings[i], 10);
-    const AssignerRow& row = *find_assigner("exact-fast");
+    const AssignerDescriptor& row = *find_assigner("exact-fast");
     const Lists expected = answer_of(row.name, Params(row.params), setting).lists;
     EXPECT_GT(expected.pair_count(), 10000U) << setting.name;
     for (const double threads : {2.0, 5.0})

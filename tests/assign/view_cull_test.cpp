@@ -46,13 +46,13 @@ TEST(ViewCull, of_shells_begins_at_the_eye) {
 // Lights that touch cells by a hair, too, and are not padded.
 TEST(ViewCull, leaves_out_no_ball_that_is_listed) {
   for (const char* name : {"exact-fast", "distance-fast"}) {
-    const AssignerRow& row = *find_assigner(name);
+    const AssignerDescriptor& row = *find_assigner(name);
     for (const Setting& setting : testing::settings_for(row, 4)) {
       const view::LightArrays lights = view::lights_in(setting.frame, grid::space_of(setting.grid, setting.frame));
       const auto assigner = row.make(Params(row.params));
       assigner->build(setting.grid);
       Lists lists;
-      assigner->assign(lights, lists);
+      assigner->assign({setting.frame, lights}, lists);
       const ViewCull view(setting.grid.screen());
       for (const std::uint32_t light : lists.lights)
         ASSERT_FALSE(view.misses(lights.ball(light, 0.0f))) << setting.name << ", light " << light;

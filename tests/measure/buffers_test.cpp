@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include "assign/storage.h"
+
 namespace clusterbench::measure {
 namespace {
 
 std::unique_ptr<assign::Storage> storage(const std::string& name,
                                          const std::map<std::string, assign::ParamValue>& params = {}) {
-  const assign::StorageRow& row = *assign::find_storage(name);
+  const assign::StorageDescriptor& row = *assign::find_storage(name);
   return row.make(assign::Params(row.params, params));
 }
 
@@ -23,7 +25,7 @@ Buffers three_frames(assign::Storage& store, AllocationRule rule) {
   std::size_t scratch = 100;
   for (const assign::Lists& lists : frames) {
     store.store(lists);
-    meter.add_frame(frame++, lists, store, scratch);
+    meter.add_frame(frame++, store, &lists, scratch);
     scratch -= 10;
   }
   return meter.result();

@@ -9,6 +9,8 @@
 #include "core/random.h"
 #include "measure/shading.h"
 
+#include "measure/packed_lists.h"
+
 namespace clusterbench::measure {
 namespace {
 
@@ -114,7 +116,8 @@ TEST(Lookup, misses_nothing_where_it_is_rounded_and_lights_where_it_is_fast) {
   const std::vector<LookupWay> ways{
       {Logarithm::rounded, DepthRead::given}, {Logarithm::glsl, DepthRead::given}, {Logarithm::fast, DepthRead::given}};
   std::vector<LookupCounts> counts;
-  LookupFrame(frame, grid, ways, 150, 20000, 3).add(find_truth(frame, grid, 1).lists, counts);
+  LookupFrame(frame, grid, ways, 150, 20000, 3)
+      .add(*packed_lists(find_truth(frame, grid, 1).lists, grid, frame), counts);
   ASSERT_EQ(counts.size(), 3U);
   EXPECT_GT(counts[0].needed, 1000U);
   EXPECT_EQ(counts[0].missed, 0U);
@@ -142,7 +145,8 @@ TEST(Lookup, is_safe_with_slices_that_are_padded_by_what_it_says) {
     padded.begin.push_back(padded.pair_count());
   }
   std::vector<LookupCounts> counts;
-  LookupFrame(frame, grid, {{Logarithm::fast, DepthRead::given}}, 150, 20000, 3).add(padded, counts);
+  LookupFrame(frame, grid, {{Logarithm::fast, DepthRead::given}}, 150, 20000, 3)
+      .add(*packed_lists(padded, grid, frame), counts);
   EXPECT_GT(counts[0].needed, 1000U);
   EXPECT_EQ(counts[0].missed, 0U);
 }
@@ -153,7 +157,8 @@ TEST(Lookup, counts_a_light_that_a_list_lacks_once_per_sample) {
   assign::Lists none;
   none.begin.assign(grid.cell_count() + 1, 0);
   std::vector<LookupCounts> counts;
-  LookupFrame(frame, grid, {{Logarithm::rounded, DepthRead::d32f}}, 300, 900, 3).add(none, counts);
+  LookupFrame(frame, grid, {{Logarithm::rounded, DepthRead::d32f}}, 300, 900, 3)
+      .add(*packed_lists(none, grid, frame), counts);
   EXPECT_EQ(counts[0].missed, counts[0].needed);
   EXPECT_EQ(counts[0].wrong_samples, counts[0].samples);
 }

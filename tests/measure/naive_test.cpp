@@ -34,11 +34,11 @@ Case case_of(const scene::WorldLight& light, Vec2i tiles, int slices, double fir
 
 // True cells that the method leaves out.
 int lost_cells(const Case& one, const std::string& name, const std::map<std::string, assign::ParamValue>& params = {}) {
-  const assign::AssignerRow& row = *assign::find_assigner(name);
+  const assign::AssignerDescriptor& row = *assign::find_assigner(name);
   const auto assigner = row.make(assign::Params(row.params, params));
   assigner->build(one.grid);
   assign::Lists lists;
-  assigner->assign(view::lights_in(one.frame, one.frame.view_space), lists);
+  assigner->assign({one.frame, view::lights_in(one.frame, one.frame.view_space)}, lists);
   const Truth truth = find_truth(one.frame, one.grid, 1);
   EXPECT_EQ(truth.undecided, 0u);
   EXPECT_GT(truth.lists.pair_count(), 0u);
@@ -125,11 +125,11 @@ TEST(NaiveForm, a_sine_from_the_cosine_loses_a_narrow_spot) {
 TEST(NaiveForm, a_loose_form_loses_nothing_and_lists_more) {
   const Case one = case_of(spot_light({3, 1, -20}, 15, {0.5, -0.3, -0.8}, 0.6), {30, 17}, 16, 5.0, 500);
   const auto pairs = [&](const std::string& name, const std::map<std::string, assign::ParamValue>& params) {
-    const assign::AssignerRow& row = *assign::find_assigner(name);
+    const assign::AssignerDescriptor& row = *assign::find_assigner(name);
     const auto assigner = row.make(assign::Params(row.params, params));
     assigner->build(one.grid);
     assign::Lists lists;
-    assigner->assign(view::lights_in(one.frame, one.frame.view_space), lists);
+    assigner->assign({one.frame, view::lights_in(one.frame, one.frame.view_space)}, lists);
     return lists.pair_count();
   };
   for (const char* flaw : {"no-range", "flat-cap-ball"}) {

@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "assign/assigner_run.h"
 #include "assign/settings.h"
 #include "measure/truth.h"
 #include "view/packing.h"
@@ -23,40 +24,39 @@ std::uint64_t missing(const assign::Lists& found, const assign::Lists& truth) {
   return count;
 }
 
-assign::Lists lists_of(const assign::AssignerRow& row, const assign::Params& params, const grid::Grid& grid,
+assign::Lists lists_of(const assign::AssignerDescriptor& row, const assign::Params& params, const Setting& setting,
                        const view::LightArrays& lights) {
-  const auto assigner = row.make(params);
-  assigner->build(grid);
-  assign::Lists lists;
-  assigner->assign(lights, lists);
-  return lists;
+  assign::AssignerRun run(row, params, assign::answers_with_cells(row, params).front());
+  run.build(setting.grid);
+  run.assign({setting.frame, lights});
+  return run.cell_lists();
 }
 
 // Adds what is lost without inflation to `lost`, by packing; with inflation nothing may be.
-void check(const assign::AssignerRow& row, const Setting& setting, const Truth& truth,
+void check(const assign::AssignerDescriptor& row, const Setting& setting, const Truth& truth,
            const std::vector<assign::Params>& choices, std::map<Packing, std::uint64_t>& lost) {
   const view::LightArrays lights = view::lights_in(setting.frame, grid::space_of(setting.grid, setting.frame));
   for (const Packing packing : k_lossy) {
     const view::PackedLights packed = view::packed(lights, packing);
     const view::LightArrays inflated = view::inflated(packed);
     for (const assign::Params& params : choices) {
-      lost[packing] += missing(lists_of(row, params, setting.grid, packed.lights), truth.lists);
-      EXPECT_EQ(missing(lists_of(row, params, setting.grid, inflated), truth.lists), 0u)
+      lost[packing] += missing(lists_of(row, params, setting, packed.lights), truth.lists);
+      EXPECT_EQ(missing(lists_of(row, params, setting, inflated), truth.lists), 0u)
           << row.name << " on " << setting.name << ", " << view::packing_name(packing);
     }
   }
 }
 
 // Those that see the packed numbers: an exact one goes back to the scene's.
-std::vector<const assign::AssignerRow*> conservative_rows() {
-  std::vector<const assign::AssignerRow*> rows;
-  for (const assign::AssignerRow* row : assign::assigner_rows())
+std::vector<const assign::AssignerDescriptor*> conservative_rows() {
+  std::vector<const assign::AssignerDescriptor*> rows;
+  for (const assign::AssignerDescriptor* row : assign::assigner_descriptors())
     if (row->conservative && !row->exact) rows.push_back(row);
   return rows;
 }
 
 TEST(PackedLights, lose_pairs_with_every_conservative_assigner_unless_they_are_inflated) {
-  for (const assign::AssignerRow* row : conservative_rows()) {
+  for (const assign::AssignerDescriptor* row : conservative_rows()) {
     std::map<Packing, std::uint64_t> lost;
     for (const Setting& setting : assign::testing::settings_for(*row, 41))
       check(*row, setting, find_truth(setting.frame, setting.grid, 2), assign::testing::params_of(*row), lost);
@@ -89,7 +89,7 @@ TEST(PackedLights, of_the_projects_scenes_lose_pairs_unless_they_are_inflated) {
       for (const scene::Shot& shot : path.shots) {
         const Setting setting = setting_of(scene, shot, kind);
         const Truth truth = find_truth(setting.frame, setting.grid, 2);
-        for (const assign::AssignerRow* row : conservative_rows())
+        for (const assign::AssignerDescriptor* row : conservative_rows())
           if (row->takes(kind)) check(*row, setting, truth, {assign::Params(row->params)}, lost);
       }
   }

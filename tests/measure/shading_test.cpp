@@ -10,6 +10,8 @@
 #include "core/random.h"
 #include "measure/sample_tree.h"
 
+#include "measure/packed_lists.h"
+
 namespace clusterbench::measure {
 namespace {
 
@@ -161,7 +163,7 @@ struct TwoSlices {
   }
   ShadingCounts counts(const assign::Lists& reported) const {
     ShadingCounts out;
-    add_frame(out, frame, grid, samples, lights_reaching(frame, samples), reported);
+    add_frame(out, frame, samples, lights_reaching(frame, samples), *packed_lists(reported, grid, frame));
     return out;
   }
 };
@@ -210,7 +212,7 @@ double lost_of_spot(double inner_rad, double outer_rad, double off_axis_rad) {
   const grid::Grid grid = grid::make_grid(spec, grid::grid_inputs(spec, frame, 0.0, {}, {}));
   const std::vector<grid::Sample> samples{{100.0f, 50.0f, {0.0f, 0.0f, -4.0f}, place}};
   ShadingCounts counts;
-  add_frame(counts, frame, grid, samples, lights_reaching(frame, samples), {{0, 1}, {0}});
+  add_frame(counts, frame, samples, lights_reaching(frame, samples), *packed_lists({{0, 1}, {0}}, grid, frame));
   EXPECT_EQ(counts.needed, 2u);
   return counts.lost_irradiance;
 }

@@ -1,4 +1,5 @@
 #include "measure/truth.h"
+#include "assign/assigner_run.h"
 
 #include <gtest/gtest.h>
 
@@ -112,17 +113,20 @@ TEST_P(TruthOn, no_conservative_assigner_misses_a_true_pair) {
     const grid::Grid grid = small_grid(GetParam().kind, frame);
     const Truth truth = find_truth(frame, grid, 2);
     const view::LightArrays lights = view::lights_in(frame, grid::space_of(grid, frame));
-    for (const assign::AssignerRow* row : assign::assigner_rows()) {
+    for (const assign::AssignerDescriptor* row : assign::assigner_descriptors()) {
       if (!row->conservative || !row->takes(GetParam().kind) || (GetParam().orthographic && !row->orthographic))
         continue;
-      const auto assigner = row->make(assign::Params(row->params));
-      assigner->build(grid);
-      assign::Lists lists;
-      assigner->assign(lights, lists);
-      for (std::uint32_t cell = 0; cell < grid.cell_count(); ++cell) {
-        const auto wanted = truth.lists.of(cell), listed = lists.of(cell);
-        EXPECT_TRUE(std::includes(listed.begin(), listed.end(), wanted.begin(), wanted.end()))
-            << row->name << " cell " << cell << " seed " << seed;
+      const assign::Params params(row->params);
+      for (const assign::Answer answer : assign::answers_with_cells(*row, params)) {
+        assign::AssignerRun run(*row, params, answer);
+        run.build(grid);
+        run.assign({frame, lights});
+        const assign::Lists& lists = run.cell_lists();
+        for (std::uint32_t cell = 0; cell < grid.cell_count(); ++cell) {
+          const auto wanted = truth.lists.of(cell), listed = lists.of(cell);
+          EXPECT_TRUE(std::includes(listed.begin(), listed.end(), wanted.begin(), wanted.end()))
+              << row->name << " cell " << cell << " seed " << seed;
+        }
       }
     }
   }

@@ -122,7 +122,7 @@ TEST(Compare, methods_with_two_storages_are_one_method) {
   for (run::Result* result : {&base, &next}) {
     run::CaseResult copy = result->cases[0];
     copy.id += "2";
-    copy.storage = copy.storage_label = "fixed";
+    copy.storage_label = "fixed";
     result->cases.push_back(copy);
     result->planned_ids.push_back(copy.id);
   }

@@ -54,7 +54,7 @@ TEST(ResultJson, instructions_are_those_of_one_frame) {
   add_count(result.cases[0]);
   add_count(result.cases[1]);
   result.cases[1].count->assign.cycles = 5000;
-  result.cases[1].count->convert.cycles = 1000;
+  result.cases[1].count->convert->cycles = 1000;
   const Json json = result_to_json(result, {}), count = json["cases"][0]["count"];
   EXPECT_EQ(count["source"], "callgrind");
   EXPECT_EQ(count["simd_target"], "AVX2");
@@ -97,7 +97,7 @@ run::Result with_half() {
   add_precision(result.cases[0]);
   add_precision(result.cases[1]);
   add_precision(result.cases[2], "half", true);
-  result.cases[2].occupancy.pairs.mean = 33.0;
+  result.cases[2].occupancy->pairs.mean = 33.0;
   result.planned_ids.push_back(result.cases[2].id);
   return result;
 }

@@ -27,7 +27,7 @@ StressResult stressed(const std::string& cases, const std::string& methods, int 
 }
 
 StressMethod method_named(const std::string& name, const std::map<std::string, assign::ParamValue>& params = {}) {
-  const assign::AssignerRow& row = *assign::find_assigner(name);
+  const assign::AssignerDescriptor& row = *assign::find_assigner(name);
   const assign::Params resolved(row.params, params);
   return {name, &row, resolved, assign::is_conservative(row, resolved)};
 }

@@ -192,7 +192,7 @@ run::Result in_three_precisions() {
     for (const auto& [packing, inflate] : {std::pair{"float32", false}, {"half", false}, {"half", true}}) {
       run::CaseResult& added = result.cases.emplace_back(one);
       add_precision(added, packing, inflate);
-      if (added.precision->packing == "half") added.occupancy.pairs.mean = inflate ? 33.0 : 29.0;
+      if (added.precision->packing == "half") added.occupancy->pairs.mean = inflate ? 33.0 : 29.0;
       if (added.precision->label == "half") lose_a_light(added);
       added.conservative = added.precision->label != "half";
       result.planned_ids.push_back(added.id);

@@ -326,7 +326,7 @@ TEST(Config, an_axis_of_one_scheme_does_not_multiply_the_others) {
 }
 
 TEST(Config, every_choice_of_a_parameter_can_be_an_axis) {
-  for (const assign::AssignerRow* row : assign::assigner_rows()) {
+  for (const assign::AssignerDescriptor* row : assign::assigner_descriptors()) {
     for (const assign::ParamSpec& param : row->params) {
       if (param.choices.empty()) continue;
       const nlohmann::json method{{"name", row->name}, {param.name, param.choices}};
@@ -400,7 +400,7 @@ TEST(Config, scenes_of_the_command_line_get_the_default_sweep) {
 
 TEST(Config, a_label_names_only_parameters_that_differ_from_the_default) {
   EXPECT_EQ(parsed(R"(, "storages": ["packed"])").storages[0].label(), "packed");
-  const assign::StorageRow& fixed = *assign::find_storage("fixed");
+  const assign::StorageDescriptor& fixed = *assign::find_storage("fixed");
   ASSERT_FALSE(fixed.params.empty());
   const nlohmann::json storage{{"name", "fixed"}, {fixed.params[0].name, 7}};
   EXPECT_EQ(parsed(R"(, "storages": [)" + storage.dump() + "]").storages[0].label(),

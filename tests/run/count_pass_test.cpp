@@ -74,8 +74,8 @@ TEST(CountPass, build_assignment_and_each_conversion_are_counted_apart) {
     EXPECT_EQ(one->build.instructions, 10u);
     EXPECT_EQ(one->assign.instructions, 20u);
   }
-  EXPECT_EQ(packed.convert.instructions, 30u);
-  EXPECT_EQ(fixed.convert.instructions, 40u);
+  EXPECT_EQ(packed.convert->instructions, 30u);
+  EXPECT_EQ(fixed.convert->instructions, 40u);
   EXPECT_EQ(counter.starts, 4);
 }
 
@@ -130,8 +130,8 @@ TEST(CountPass, a_method_on_several_threads_needs_a_counter_that_sees_them) {
 TEST(Runner, a_count_goes_to_the_result_of_its_case) {
   Walk walk = walk_of(R"("assigners": ["aabb", "planes"])");
   const std::atomic<bool> never{false};
-  const Result result =
-      run_plan(walk.config, walk.plan, {}, {}, never, {{"0-1-0", {"steps", "AVX2", 4, {10, {}}, {20, {}}, {30, {}}}}});
+  const Result result = run_plan(walk.config, walk.plan, {}, {}, never,
+                                 {{"0-1-0", {"steps", "AVX2", 4, {10, {}}, {20, {}}, Counted{30, {}}}}});
   EXPECT_FALSE(result.cases[0].count);
   ASSERT_TRUE(result.cases[1].count);
   EXPECT_EQ(result.cases[1].count->assign.instructions, 20u);

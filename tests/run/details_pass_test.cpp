@@ -61,7 +61,7 @@ TEST(DetailsPass, is_left_out_where_nobody_asks_for_it) {
 
 TEST(DetailsPass, changes_nothing_else_in_a_result) {
   const CaseResult without = crowd("null").run().cases.at(0), with = crowd("{}").run().cases.at(0);
-  EXPECT_EQ(with.occupancy.histogram, without.occupancy.histogram);
+  EXPECT_EQ(with.occupancy->histogram, without.occupancy->histogram);
   EXPECT_EQ(with.error->false_positives, without.error->false_positives);
   EXPECT_EQ(with.tests_done, without.tests_done);
   EXPECT_EQ(with.grid, without.grid);
@@ -94,8 +94,8 @@ TEST(DetailsPass, counts_are_those_of_error_and_occupancy_on_every_kind_of_grid)
     EXPECT_EQ(truth, one.error->true_pairs) << kind.assigner;
     EXPECT_EQ(false_positives, one.error->false_positives) << kind.assigner;
     EXPECT_EQ(false_negatives, one.error->false_negatives) << kind.assigner;
-    EXPECT_EQ(most, one.occupancy.worst_count) << kind.assigner;
-    const auto& histogram = one.occupancy.histogram;
+    EXPECT_EQ(most, one.occupancy->worst_count) << kind.assigner;
+    const auto& histogram = one.occupancy->histogram;
     EXPECT_EQ(occupied, std::accumulate(histogram.begin() + 1, histogram.end(), std::uint64_t{0})) << kind.assigner;
   }
 }
@@ -138,7 +138,7 @@ TEST(DetailsPass, a_light_on_the_axis_stands_in_the_cells_that_its_depths_meet) 
 
 TEST(DetailsPass, worst_is_the_frame_with_each_cases_longest_list) {
   for (const CaseResult& one : crowd("{}", k_kinds[0].grid, R"(bounds", "aabb)", 6).run().cases)
-    EXPECT_EQ(frames_of(*one.details), std::vector<int>{one.occupancy.worst_frame});
+    EXPECT_EQ(frames_of(*one.details), std::vector<int>{one.occupancy->worst_frame});
 }
 
 TEST(DetailsPass, frames_are_evenly_spaced_or_those_of_the_list_and_what_the_path_lacks_is_named) {

@@ -17,17 +17,17 @@ namespace {
 const std::atomic<bool> k_going{false};
 
 // Methods with a flaw, under the name of one that promises to have none.
-enum class Flaw { forgets, adds, throws, unsorted, moody };
+enum class Flaw { forgets, adds, throws, repeats, moody };
 
 template <Flaw flaw>
-class Flawed : public assign::Assigner {
+class Flawed : public assign::ListAssigner {
  public:
   Flawed() : exact_(row().make(assign::Params(row().params))) {}
-  static const assign::AssignerRow& row() { return *assign::find_assigner("exact"); }
+  static const assign::AssignerDescriptor& row() { return *assign::find_assigner("exact"); }
 
   void build(const grid::Grid& grid, const assign::LightKinds& kinds) override { exact_->build(grid, kinds); }
-  void assign(const view::LightArrays& lights, assign::Lists& out) override {
-    exact_->assign(lights, out);
+  void assign(const assign::FrameInput& input, assign::Lists& out) override {
+    exact_->assign(input, out);
     const std::size_t cells = out.begin.size() - 1;
     if (flaw == Flaw::throws) throw std::runtime_error("has no mind to");
     if ((flaw == Flaw::forgets || (flaw == Flaw::moody && calls_++ % 2 == 1)) && !out.lights.empty()) {
@@ -38,21 +38,24 @@ class Flawed : public assign::Assigner {
       out.lights.push_back(0);
       ++out.begin[cells];
     }
-    if (flaw == Flaw::unsorted) std::reverse(out.lights.begin(), out.lights.end());
+    if (flaw == Flaw::repeats && !out.lights.empty()) {
+      out.lights.push_back(out.lights.back());
+      for (std::size_t cell = cells; out.begin[cell] == out.lights.size() - 1; --cell) ++out.begin[cell];
+    }
   }
   std::uint64_t tests_done() const override { return 0; }
   std::size_t scratch_bytes() const override { return 0; }
 
  private:
-  std::unique_ptr<assign::Assigner> exact_;
+  std::unique_ptr<assign::ListAssigner> exact_;
   int calls_ = 0;
 };
 
 template <Flaw flaw>
 StressMethod flawed() {
-  static const assign::AssignerRow row = [] {
-    assign::AssignerRow copy = Flawed<flaw>::row();
-    copy.make = [](const assign::Params&) -> std::unique_ptr<assign::Assigner> {
+  static const assign::AssignerDescriptor row = [] {
+    assign::AssignerDescriptor copy = Flawed<flaw>::row();
+    copy.make = [](const assign::Params&) -> std::unique_ptr<assign::ListAssigner> {
       return std::make_unique<Flawed<flaw>>();
     };
     return copy;
@@ -61,7 +64,7 @@ StressMethod flawed() {
 }
 
 StressMethod sound(const char* name) {
-  const assign::AssignerRow& row = *assign::find_assigner(name);
+  const assign::AssignerDescriptor& row = *assign::find_assigner(name);
   return {name, &row, assign::Params(row.params), true};
 }
 
@@ -133,7 +136,7 @@ TEST(RandomSearch, finds_an_exact_method_that_lists_a_pair_too_many) {
 
 TEST(RandomSearch, finds_what_throws_what_gives_no_lists_and_what_gives_other_ones_when_asked_again) {
   EXPECT_EQ(kinds_of(searched_at_random({flawed<Flaw::throws>()}, 8)), (std::set<FaultKind>{FaultKind::error}));
-  EXPECT_EQ(kinds_of(searched_at_random({flawed<Flaw::unsorted>()}, 8)), (std::set<FaultKind>{FaultKind::lists}));
+  EXPECT_EQ(kinds_of(searched_at_random({flawed<Flaw::repeats>()}, 8)), (std::set<FaultKind>{FaultKind::lists}));
   EXPECT_TRUE(kinds_of(searched_at_random({flawed<Flaw::moody>()}, 8)).contains(FaultKind::lists));
 }
 
@@ -156,7 +159,7 @@ TEST(RandomSearch, checks_a_setting_alone_by_its_seed) {
 
 // Without its padding a method loses lights: one light stays, and `run` shows the loss.
 TEST(RandomSearch, shrinks_a_fault_to_what_run_replays) {
-  const assign::AssignerRow& row = *assign::find_assigner("world-grid");
+  const assign::AssignerDescriptor& row = *assign::find_assigner("world-grid");
   const StressMethod bare{"world-grid", &row, assign::Params(row.params, {{"inflation", 0.0}}), true};
   const RandomSearch search = searched_at_random({bare}, 120);
   ASSERT_FALSE(search.faults.empty());

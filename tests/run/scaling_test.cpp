@@ -21,7 +21,7 @@ Result counted(const std::string& text) {
 double work_of(const CaseResult& one, double lights) {
   double cells = 1.0;
   for (const nlohmann::json& along : one.grid["cells"]) cells *= along.get<double>();
-  return lights + cells + one.occupancy.pairs.mean;
+  return lights + cells + (one.occupancy ? one.occupancy->pairs.mean : 0.0);
 }
 
 // Method and grid kind -> tests per unit of work, small before large.
@@ -32,8 +32,9 @@ Curves curves_of(const Result& result) {
   for (const SceneResult& scene : result.scenes) lights[scene.name] = scene.points + scene.spots;
   Curves curves;
   for (const CaseResult& one : result.cases)
-    curves[one.assigner_label + " on " + one.grid["kind"].get<std::string>()].push_back(
-        static_cast<double>(one.tests_done) / work_of(one, lights[one.scene]));
+    curves[one.assigner_label + (one.storage_label == k_own_structure ? " asked by samples" : "") + " on " +
+           one.grid["kind"].get<std::string>()]
+        .push_back(static_cast<double>(one.tests_done) / work_of(one, lights[one.scene]));
   return curves;
 }
 

@@ -11,8 +11,8 @@ struct AabbsInExtents : CellAabbs {
 
 }  // namespace
 
-extern const AssignerRow aabb_row;
-const AssignerRow aabb_row{
+extern const AssignerDescriptor aabb_descriptor;
+const AssignerDescriptor aabb_descriptor{
     .name = "aabb",
     .summary = "the cells of the light's extents whose view-space bounding box the ball touches",
     .source = "Persson 2015, Practical Clustered Shading; DaveH355's test, which visits every cell",

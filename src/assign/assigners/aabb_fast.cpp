@@ -25,8 +25,8 @@ class RowsByBoxes {
 
 }  // namespace
 
-extern const AssignerRow aabb_fast_row;
-const AssignerRow aabb_fast_row{
+extern const AssignerDescriptor aabb_fast_descriptor;
+const AssignerDescriptor aabb_fast_descriptor{
     .name = "aabb-fast",
     .summary = "aabb with gaps that rows share, one ball per lane, lists by compression (SIMD, dispatched at run time)",
     .source = "Persson 2015, Practical Clustered Shading; DaveH355's test, which visits every cell",

@@ -14,8 +14,8 @@ struct NoTest {
 
 }  // namespace
 
-extern const AssignerRow bounds_row;
-const AssignerRow bounds_row{
+extern const AssignerDescriptor bounds_descriptor;
+const AssignerDescriptor bounds_descriptor{
     .name = "bounds",
     .summary = "all cells within the light's analytic extents on the screen and in depth",
     .source =

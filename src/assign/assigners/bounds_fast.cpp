@@ -23,8 +23,8 @@ class BoxedRows {
 
 }  // namespace
 
-extern const AssignerRow bounds_fast_row;
-const AssignerRow bounds_fast_row{
+extern const AssignerDescriptor bounds_fast_descriptor;
+const AssignerDescriptor bounds_fast_descriptor{
     .name = "bounds-fast",
     .summary = "bounds, a vector of balls at a time, lists by compression (SIMD, dispatched at run time)",
     .source =

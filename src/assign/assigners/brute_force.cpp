@@ -11,8 +11,8 @@ struct EveryAabb : CellAabbs {
 
 }  // namespace
 
-extern const AssignerRow brute_force_row;
-const AssignerRow brute_force_row{
+extern const AssignerDescriptor brute_force_descriptor;
+const AssignerDescriptor brute_force_descriptor{
     .name = "brute-force",
     .summary = "every light against every cell's view-space bounding box",
     .source = "DaveH355, three.js",

@@ -5,8 +5,8 @@
 
 namespace clusterbench::assign {
 
-extern const AssignerRow cascades_row;
-const AssignerRow cascades_row{
+extern const AssignerDescriptor cascades_descriptor;
+const AssignerDescriptor cascades_descriptor{
     .name = "cascades",
     .summary = "sphere against the cubical cells of nested view-space boxes, level by level",
     .source =

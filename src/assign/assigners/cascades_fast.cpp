@@ -4,8 +4,8 @@
 
 namespace clusterbench::assign {
 
-extern const AssignerRow cascades_fast_row;
-const AssignerRow cascades_fast_row{
+extern const AssignerDescriptor cascades_fast_descriptor;
+const AssignerDescriptor cascades_fast_descriptor{
     .name = "cascades-fast",
     .summary = "cascades, one ball per lane, lists by compression (SIMD, dispatched at run time)",
     .source =

@@ -91,7 +91,7 @@ geom::SlopeRange slopes_in_row(const Cap& cap, const geom::SlopeRange& tangents,
   return slopes;
 }
 
-class Distance final : public Assigner {
+class Distance final : public ListAssigner {
  public:
   explicit Distance(const Params& params) : test_(params, k_shell_roundings) {}
 
@@ -101,7 +101,8 @@ class Distance final : public Assigner {
     test_.start_grid(grid, kinds);
   }
 
-  void assign(const view::LightArrays& lights, Lists& out) override {
+  void assign(const FrameInput& input, Lists& out) override {
+    const view::LightArrays& lights = input.lights;
     tests_ = 0;
     test_.start_frame(lights);
     pairs_.start(grid_->cell_count());
@@ -160,14 +161,14 @@ class Distance final : public Assigner {
   std::uint64_t tests_ = 0;
 };
 
-std::unique_ptr<Assigner> make(const Params& params) {
+std::unique_ptr<ListAssigner> make(const Params& params) {
   return std::make_unique<Distance>(params);
 }
 
 }  // namespace
 
-extern const AssignerRow distance_row;
-const AssignerRow distance_row{
+extern const AssignerDescriptor distance_descriptor;
+const AssignerDescriptor distance_descriptor{
     .name = "distance",
     .summary = "the circular cap that a ball covers in each distance shell, row by row of tiles",
     .source = "this project: the closed form of a ball's cap; shells of distance are an idea of Persson 2015",

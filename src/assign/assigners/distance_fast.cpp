@@ -12,7 +12,7 @@
 namespace clusterbench::assign {
 namespace {
 
-class DistanceFast final : public Assigner {
+class DistanceFast final : public ListAssigner {
  public:
   explicit DistanceFast(const Params& params) : test_(params, k_shell_roundings), lists_(test_) {}
 
@@ -23,7 +23,8 @@ class DistanceFast final : public Assigner {
     shells_ = grid.cells().z;
   }
 
-  void assign(const view::LightArrays& lights, Lists& out) override {
+  void assign(const FrameInput& input, Lists& out) override {
+    const view::LightArrays& lights = input.lights;
     test_.start_frame(lights);
     boxed_.count = 0;
     boxed_.reserve(lights.size());
@@ -53,14 +54,14 @@ class DistanceFast final : public Assigner {
   BoxedLists lists_;
 };
 
-std::unique_ptr<Assigner> make(const Params& params) {
+std::unique_ptr<ListAssigner> make(const Params& params) {
   return std::make_unique<DistanceFast>(params);
 }
 
 }  // namespace
 
-extern const AssignerRow distance_fast_row;
-const AssignerRow distance_fast_row{
+extern const AssignerDescriptor distance_fast_descriptor;
+const AssignerDescriptor distance_fast_descriptor{
     .name = "distance-fast",
     .summary = "distance, one ball per lane, lists by compression (SIMD, dispatched at run time)",
     .source = "this project: the closed form of a ball's cap; shells of distance are an idea of Persson 2015",

@@ -23,7 +23,7 @@ namespace {
 
 using grid::IndexRange;
 
-class Exact final : public Assigner {
+class Exact final : public ListAssigner {
  public:
   explicit Exact(const Params&) {}
 
@@ -34,7 +34,8 @@ class Exact final : public Assigner {
     if (kinds.spots) cell_balls_ = grid.balls_around_cells();
   }
 
-  void assign(const view::LightArrays& lights, Lists& out) override {
+  void assign(const FrameInput& input, Lists& out) override {
+    const view::LightArrays& lights = input.lights;
     tests_ = fallbacks_ = 0;
     check_prepared(lights, cell_balls_);
     pairs_.start(grid_->cell_count());
@@ -145,14 +146,14 @@ class Exact final : public Assigner {
   std::uint64_t tests_ = 0, fallbacks_ = 0;
 };
 
-std::unique_ptr<Assigner> make(const Params& params) {
+std::unique_ptr<ListAssigner> make(const Params& params) {
   return std::make_unique<Exact>(params);
 }
 
 }  // namespace
 
-extern const AssignerRow exact_row;
-const AssignerRow exact_row{
+extern const AssignerDescriptor exact_descriptor;
+const AssignerDescriptor exact_descriptor{
     .name = "exact",
     .summary = "the true lists: each row's interval in closed form, what single precision leaves open decided exactly",
     .source = "this project",

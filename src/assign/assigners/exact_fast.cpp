@@ -18,7 +18,7 @@
 namespace clusterbench::assign {
 namespace {
 
-class ExactFast final : public Assigner {
+class ExactFast final : public ListAssigner {
  public:
   explicit ExactFast(const Params& params) : crew_(static_cast<int>(params.number("threads"))) {
     if (crew_.threads() > 1) parts_.resize(2 * static_cast<std::size_t>(crew_.threads()));
@@ -33,7 +33,8 @@ class ExactFast final : public Assigner {
     planes_ = RowPlanes(grid.screen());
   }
 
-  void assign(const view::LightArrays& lights, Lists& out) override {
+  void assign(const FrameInput& input, Lists& out) override {
+    const view::LightArrays& lights = input.lights;
     tests_ = lights.size();
     fallbacks_ = 0;
     lights_ = &lights;
@@ -150,14 +151,14 @@ class ExactFast final : public Assigner {
   std::uint64_t tests_ = 0, fallbacks_ = 0;
 };
 
-std::unique_ptr<Assigner> make(const Params& params) {
+std::unique_ptr<ListAssigner> make(const Params& params) {
   return std::make_unique<ExactFast>(params);
 }
 
 }  // namespace
 
-extern const AssignerRow exact_fast_row;
-const AssignerRow exact_fast_row{
+extern const AssignerDescriptor exact_fast_descriptor;
+const AssignerDescriptor exact_fast_descriptor{
     .name = "exact-fast",
     .summary =
         "the lists of exact by another algorithm, one ball per lane, lists by compression (SIMD, dispatched at run "
@@ -172,7 +173,8 @@ const AssignerRow exact_fast_row{
                 .min = 1.0,
                 .max = 256.0,
                 .choices = {},
-                .whole = true}},
+                .whole = true,
+                .is_thread_count = true}},
     .make = make,
 };
 

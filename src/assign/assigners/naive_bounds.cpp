@@ -66,13 +66,14 @@ geom::SlopeRange textbook_slopes(float u, float depth, float r) {
   return u > 0.0f ? geom::SlopeRange{low, k_infinity} : geom::SlopeRange{-k_infinity, high};
 }
 
-class NaiveBounds final : public Assigner {
+class NaiveBounds final : public ListAssigner {
  public:
   explicit NaiveBounds(const Params& params) : flaw_(flaw_from(params.text("flaw"))) {}
 
   void build(const grid::Grid& grid, const LightKinds&) override { grid_ = &grid; }
 
-  void assign(const view::LightArrays& lights, Lists& out) override {
+  void assign(const FrameInput& input, Lists& out) override {
+    const view::LightArrays& lights = input.lights;
     tests_ = 0;
     pairs_.start(grid_->cell_count());
     for (std::uint32_t light = 0; light < lights.size(); ++light) {
@@ -177,14 +178,14 @@ class NaiveBounds final : public Assigner {
   std::uint64_t tests_ = 0;
 };
 
-std::unique_ptr<Assigner> make(const Params& params) {
+std::unique_ptr<ListAssigner> make(const Params& params) {
   return std::make_unique<NaiveBounds>(params);
 }
 
 }  // namespace
 
-extern const AssignerRow naive_bounds_row;
-const AssignerRow naive_bounds_row{
+extern const AssignerDescriptor naive_bounds_descriptor;
+const AssignerDescriptor naive_bounds_descriptor{
     .name = "naive-bounds",
     .summary = "the light's extents with one mistake that engines have shipped",
     .source = "Filament (fast-log-slice), Bevy (padded-tiles), textbooks (textbook-tangents)",

@@ -24,7 +24,7 @@ geom::Ball flat_cap_ball(const geom::SphericalCone& cone) {
   return {cone.apex + along * cone.axis, along};
 }
 
-class NaiveCone final : public Assigner {
+class NaiveCone final : public ListAssigner {
  public:
   explicit NaiveCone(const Params& params) : flaw_(flaw_from(params.text("flaw"))) {}
 
@@ -34,7 +34,8 @@ class NaiveCone final : public Assigner {
     if (kinds.spots) cell_balls_ = grid.balls_around_cells();
   }
 
-  void assign(const view::LightArrays& lights, Lists& out) override {
+  void assign(const FrameInput& input, Lists& out) override {
+    const view::LightArrays& lights = input.lights;
     tests_ = 0;
     check_prepared(lights, cell_balls_);
     pairs_.start(grid_->cell_count());
@@ -92,14 +93,14 @@ class NaiveCone final : public Assigner {
   std::uint64_t tests_ = 0;
 };
 
-std::unique_ptr<Assigner> make(const Params& params) {
+std::unique_ptr<ListAssigner> make(const Params& params) {
   return std::make_unique<NaiveCone>(params);
 }
 
 }  // namespace
 
-extern const AssignerRow naive_cone_row;
-const AssignerRow naive_cone_row{
+extern const AssignerDescriptor naive_cone_descriptor;
+const AssignerDescriptor naive_cone_descriptor{
     .name = "naive-cone",
     .summary = "spots by a cone test with one mistake that engines have shipped",
     .source = "Wicked Engine (flat-cap-ball), articles on cone culling (no-range, sine-from-cosine)",

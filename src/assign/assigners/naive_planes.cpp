@@ -12,8 +12,8 @@ struct PlanesEverywhere : CellPlanes {
 
 }  // namespace
 
-extern const AssignerRow naive_planes_row;
-const AssignerRow naive_planes_row{
+extern const AssignerDescriptor naive_planes_descriptor;
+const AssignerDescriptor naive_planes_descriptor{
     .name = "naive-planes",
     .summary = "every light against the six planes of every cell, without extents",
     .source = "many tiled renderers",

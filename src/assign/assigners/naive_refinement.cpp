@@ -17,7 +17,7 @@ struct Remainder {
   float x, y, depth, squared_radius;
 };
 
-class NaiveRefinement final : public Assigner {
+class NaiveRefinement final : public ListAssigner {
  public:
   explicit NaiveRefinement(const Params&) {}
 
@@ -27,7 +27,8 @@ class NaiveRefinement final : public Assigner {
     rows_ = tile_planes(grid.screen().tiles.y, grid.screen().tiles.orthographic);
   }
 
-  void assign(const view::LightArrays& lights, Lists& out) override {
+  void assign(const FrameInput& input, Lists& out) override {
+    const view::LightArrays& lights = input.lights;
     tests_ = 0;
     pairs_.start(grid_->cell_count());
     for (std::uint32_t light = 0; light < lights.size(); ++light)
@@ -103,14 +104,14 @@ class NaiveRefinement final : public Assigner {
   std::uint64_t tests_ = 0;
 };
 
-std::unique_ptr<Assigner> make(const Params& params) {
+std::unique_ptr<ListAssigner> make(const Params& params) {
   return std::make_unique<NaiveRefinement>(params);
 }
 
 }  // namespace
 
-extern const AssignerRow naive_refinement_row;
-const AssignerRow naive_refinement_row{
+extern const AssignerDescriptor naive_refinement_descriptor;
+const AssignerDescriptor naive_refinement_descriptor{
     .name = "naive-refinement",
     .summary = "sphere refinement that does not take the centre's row and column again after each projection",
     .source = "Persson 2015 as commonly read; Bevy's clusters, which take the centre row once",

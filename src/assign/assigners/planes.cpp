@@ -13,8 +13,8 @@ struct PlanesInExtents : CellPlanes {
 
 }  // namespace
 
-extern const AssignerRow planes_row;
-const AssignerRow planes_row{
+extern const AssignerDescriptor planes_descriptor;
+const AssignerDescriptor planes_descriptor{
     .name = "planes",
     .summary = "the cells of the light's extents that none of their six planes excludes",
     .source = "the test of Wicked Engine and most tiled renderers, which make it for every light and tile",

@@ -55,7 +55,7 @@ bool reaches_column(const Remainder& ball, float from_left, float from_right) {
   return gap <= 0.0f || gap * gap <= ball.squared_radius;
 }
 
-class SphereRefinement final : public Assigner {
+class SphereRefinement final : public ListAssigner {
  public:
   explicit SphereRefinement(const Params& params)
       : test_(params, k_refinement_roundings), narrowing_(narrows(params)) {}
@@ -69,7 +69,8 @@ class SphereRefinement final : public Assigner {
     test_.start_grid(grid, kinds);
   }
 
-  void assign(const view::LightArrays& lights, Lists& out) override {
+  void assign(const FrameInput& input, Lists& out) override {
+    const view::LightArrays& lights = input.lights;
     tests_ = 0;
     test_.start_frame(lights);
     pairs_.start(grid_->cell_count());
@@ -159,14 +160,14 @@ class SphereRefinement final : public Assigner {
   std::uint64_t tests_ = 0;
 };
 
-std::unique_ptr<Assigner> make(const Params& params) {
+std::unique_ptr<ListAssigner> make(const Params& params) {
   return std::make_unique<SphereRefinement>(params);
 }
 
 }  // namespace
 
-extern const AssignerRow sphere_refinement_row;
-const AssignerRow sphere_refinement_row{
+extern const AssignerDescriptor sphere_refinement_descriptor;
+const AssignerDescriptor sphere_refinement_descriptor{
     .name = "sphere-refinement",
     .summary = "a light's ball cut down at the nearer plane of each slice and each row, then against the columns",
     .source =

@@ -39,8 +39,8 @@ class RefinedRows {
 
 }  // namespace
 
-extern const AssignerRow sphere_refinement_fast_row;
-const AssignerRow sphere_refinement_fast_row{
+extern const AssignerDescriptor sphere_refinement_fast_descriptor;
+const AssignerDescriptor sphere_refinement_fast_descriptor{
     .name = "sphere-refinement-fast",
     .summary = "sphere-refinement, one ball per lane, lists by compression (SIMD, dispatched at run time)",
     .source =

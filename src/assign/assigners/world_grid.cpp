@@ -4,8 +4,8 @@
 
 namespace clusterbench::assign {
 
-extern const AssignerRow world_grid_row;
-const AssignerRow world_grid_row{
+extern const AssignerDescriptor world_grid_descriptor;
+const AssignerDescriptor world_grid_descriptor{
     .name = "world-grid",
     .summary = "sphere against the boxes of a fixed world grid, row by row",
     .source =

@@ -4,8 +4,8 @@
 
 namespace clusterbench::assign {
 
-extern const AssignerRow world_grid_fast_row;
-const AssignerRow world_grid_fast_row{
+extern const AssignerDescriptor world_grid_fast_descriptor;
+const AssignerDescriptor world_grid_fast_descriptor{
     .name = "world-grid-fast",
     .summary = "world-grid, one ball per lane, lists by compression (SIMD, dispatched at run time)",
     .source =

@@ -51,6 +51,11 @@ HWY_INLINE void set_bits(const std::uint32_t* lights, std::size_t count, std::ui
     }
     const auto light = hn::LoadU(d, lights + i);
     const auto bit = hn::Shl(one, hn::And(light, low)), word = hn::ShiftRight<5>(light);
+    const auto between = hn::Min(hn::Max(word, hn::Set(d, first)), hn::Set(d, last));
+    if (!hn::AllTrue(d, hn::Eq(between, word))) {  // lights that do not ascend
+      for (std::size_t k = i; k < i + lanes; ++k) set_bit(lights[k], words);
+      continue;
+    }
     for (std::uint32_t at = first; at <= last; ++at)
       words[at] |= hn::GetLane(hn::SumOfLanes(d, hn::IfThenElseZero(hn::Eq(word, hn::Set(d, at)), bit)));
   }

@@ -22,26 +22,22 @@ class Bitfield final : public Storage {
 
   void store(const Lists& lists) override { write_bits(lists, words_per_cell_, words_.data()); }
 
-  StorageUse use() const override {
-    StorageUse use;
+  StructureUse use() const override {
+    StructureUse use;
     use.index_entries = words_.size();
     use.index_bytes = use.upload_bytes = words_.size() * sizeof(std::uint32_t);
     return use;
   }
 
-  StorageLimit limit() const override { return {words_.size(), words_.size() * sizeof(std::uint32_t)}; }
+  StructureLimit limit() const override { return {words_.size(), words_.size() * sizeof(std::uint32_t)}; }
 
-  Lists read_back() const override {
-    Lists lists;
-    lists.begin.push_back(0);
-    for (std::size_t cell = 0; cell < cell_count_; ++cell) {
-      for (std::uint32_t word = 0; word < words_per_cell_; ++word)
-        for (std::uint32_t left = words_[cell * words_per_cell_ + word]; left != 0; left &= left - 1)
-          lists.lights.push_back(k_bits * word + static_cast<std::uint32_t>(std::countr_zero(left)));
-      lists.begin.push_back(static_cast<std::uint32_t>(lists.lights.size()));
-    }
-    return lists;
+  void read_cell(std::uint32_t cell, std::vector<std::uint32_t>& out) const override {
+    for (std::uint32_t word = 0; word < words_per_cell_; ++word)
+      for (std::uint32_t left = words_[std::size_t{cell} * words_per_cell_ + word]; left != 0; left &= left - 1)
+        out.push_back(k_bits * word + static_cast<std::uint32_t>(std::countr_zero(left)));
   }
+
+  std::uint32_t cell_count() const override { return cell_count_; }
 
   std::uint32_t index_bits() const override { return k_bits; }
 
@@ -58,8 +54,8 @@ std::unique_ptr<Storage> make(const Params& params) {
 
 }  // namespace
 
-extern const StorageRow bitfield_row;
-const StorageRow bitfield_row{
+extern const StorageDescriptor bitfield_descriptor;
+const StorageDescriptor bitfield_descriptor{
     .name = "bitfield",
     .summary = "one bit per light and cell, in words of 32 bits; entries are words",
     .source = "Humus, Clustered Shading 2015; per tile: Drobot 2017, flat bit array",

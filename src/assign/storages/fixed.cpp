@@ -8,7 +8,8 @@
 namespace clusterbench::assign {
 namespace {
 
-// A u32 count and room for `cap` indices per cell. What does not fit is dropped: the highest light indices.
+// A u32 count and room for `cap` indices per cell. What does not fit is dropped: the last of the list, which are the
+// highest light indices where lists ascend.
 class Fixed final : public Storage {
  public:
   explicit Fixed(const Params& params) : cap_(static_cast<std::uint32_t>(params.number("cap"))) {}
@@ -38,8 +39,8 @@ class Fixed final : public Storage {
     }
   }
 
-  StorageUse use() const override {
-    StorageUse use;
+  StructureUse use() const override {
+    StructureUse use;
     use.index_entries = kept_;
     use.index_bytes = counts_.size() * cap_ * (indices_.bits() / 8);
     use.header_bytes = counts_.size() * sizeof(std::uint32_t);
@@ -52,20 +53,16 @@ class Fixed final : public Storage {
   }
 
   // Its size never changes.
-  StorageLimit limit() const override {
+  StructureLimit limit() const override {
     const std::uint64_t entries = counts_.size() * cap_;
     return {entries, entries * (indices_.bits() / 8) + counts_.size() * sizeof(std::uint32_t)};
   }
 
-  Lists read_back() const override {
-    Lists lists;
-    lists.begin.push_back(0);
-    for (std::size_t cell = 0; cell < counts_.size(); ++cell) {
-      for (std::uint32_t i = 0; i < counts_[cell]; ++i) lists.lights.push_back(indices_.read(cell * cap_ + i));
-      lists.begin.push_back(static_cast<std::uint32_t>(lists.lights.size()));
-    }
-    return lists;
+  void read_cell(std::uint32_t cell, std::vector<std::uint32_t>& out) const override {
+    for (std::uint32_t i = 0; i < counts_[cell]; ++i) out.push_back(indices_.read(std::size_t{cell} * cap_ + i));
   }
+
+  std::uint32_t cell_count() const override { return static_cast<std::uint32_t>(counts_.size()); }
 
   std::uint32_t index_bits() const override { return indices_.bits(); }
 
@@ -83,8 +80,8 @@ std::unique_ptr<Storage> make(const Params& params) {
 
 }  // namespace
 
-extern const StorageRow fixed_row;
-const StorageRow fixed_row{
+extern const StorageDescriptor fixed_descriptor;
+const StorageDescriptor fixed_descriptor{
     .name = "fixed",
     .summary =
         "room for the same number of lights in every cell; what does not fit is dropped, the highest light indices "

@@ -34,8 +34,8 @@ class Linked final : public Storage {
     for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) store_cell(cell, lists.of(cell));
   }
 
-  StorageUse use() const override {
-    StorageUse use;
+  StructureUse use() const override {
+    StructureUse use;
     use.index_entries = used_;
     use.index_bytes = used_ * sizeof(Node);
     use.header_bytes = heads_.size() * sizeof(std::uint32_t);
@@ -47,21 +47,16 @@ class Linked final : public Storage {
     return use;
   }
 
-  StorageLimit limit() const override {
+  StructureLimit limit() const override {
     const std::uint64_t entries = std::min(capacity_, std::uint64_t{heads_.size()} * room_.size());
     return {entries, entries * sizeof(Node) + heads_.size() * sizeof(std::uint32_t)};
   }
 
-  Lists read_back() const override {
-    Lists lists;
-    lists.begin.push_back(0);
-    for (const std::uint32_t head : heads_) {
-      for (std::uint32_t node = head; node != k_end; node = nodes_[node].next)
-        lists.lights.push_back(nodes_[node].light);
-      lists.begin.push_back(static_cast<std::uint32_t>(lists.lights.size()));
-    }
-    return lists;
+  void read_cell(std::uint32_t cell, std::vector<std::uint32_t>& out) const override {
+    for (std::uint32_t node = heads_[cell]; node != k_end; node = nodes_[node].next) out.push_back(nodes_[node].light);
   }
+
+  std::uint32_t cell_count() const override { return static_cast<std::uint32_t>(heads_.size()); }
 
   std::uint32_t index_bits() const override { return 8 * sizeof(Node); }
 
@@ -92,7 +87,7 @@ class Linked final : public Storage {
     return true;
   }
 
-  // New nodes go to the front; from the last light on, so that the list ascends.
+  // New nodes go to the front; from the last light on, so that the list keeps its order.
   void store_cell(std::uint32_t cell, std::span<const std::uint32_t> list) {
     const std::uint32_t used_before = used_;
     std::uint32_t head = k_end;
@@ -120,8 +115,8 @@ std::unique_ptr<Storage> make(const Params& params) {
 
 }  // namespace
 
-extern const StorageRow linked_row;
-const StorageRow linked_row{
+extern const StorageDescriptor linked_descriptor;
+const StorageDescriptor linked_descriptor{
     .name = "linked",
     .summary =
         "head per cell (4 bytes), nodes of light and next (8 bytes) from one pool; what does not fit is dropped, "

@@ -46,8 +46,8 @@ class Packed final : public Storage {
     entries_ = lists.pair_count();
   }
 
-  StorageUse use() const override {
-    StorageUse use;
+  StructureUse use() const override {
+    StructureUse use;
     use.index_entries = entries_;
     use.index_bytes = entries_ * (bits_ / 8);
     use.header_bytes =
@@ -56,23 +56,18 @@ class Packed final : public Storage {
     return use;
   }
 
-  StorageLimit limit() const override {
+  StructureLimit limit() const override {
     const std::uint64_t entries = std::uint64_t{cell_count_} * lights_;
     const std::uint64_t header_size = can_be_wide() ? sizeof(WideHeader) : sizeof(Header);
     return {entries, entries * (bits_ / 8) + cell_count_ * header_size + blocks_.size() * sizeof(Block)};
   }
 
-  Lists read_back() const override {
-    Lists lists;
-    lists.begin.push_back(0);
-    for (std::uint32_t cell = 0; cell < cell_count_; ++cell) {
-      const WideHeader header = found_header(cell);
-      for (std::uint32_t i = 0; i < header.points + header.spots; ++i)
-        lists.lights.push_back(indices_.read(header.offset + i));
-      lists.begin.push_back(static_cast<std::uint32_t>(lists.lights.size()));
-    }
-    return lists;
+  void read_cell(std::uint32_t cell, std::vector<std::uint32_t>& out) const override {
+    const WideHeader header = found_header(cell);
+    for (std::uint32_t i = 0; i < header.points + header.spots; ++i) out.push_back(indices_.read(header.offset + i));
   }
+
+  std::uint32_t cell_count() const override { return cell_count_; }
 
   std::uint32_t index_bits() const override { return bits_; }
 
@@ -116,7 +111,8 @@ class Packed final : public Storage {
     using Count = decltype(H::points);
     const auto list = lists.of(cell);
     const bool has_spots = !list.empty() && list.back() >= points_;
-    const auto spots_from = has_spots ? std::lower_bound(list.begin(), list.end(), points_) : list.end();
+    const auto is_point = [this](std::uint32_t light) { return light < points_; };
+    const auto spots_from = has_spots ? std::partition_point(list.begin(), list.end(), is_point) : list.end();
     return {lists.begin[cell], static_cast<Count>(spots_from - list.begin()),
             static_cast<Count>(list.end() - spots_from)};
   }
@@ -161,8 +157,8 @@ std::unique_ptr<Storage> make(const Params& params) {
 
 }  // namespace
 
-extern const StorageRow packed_row;
-const StorageRow packed_row{
+extern const StorageDescriptor packed_descriptor;
+const StorageDescriptor packed_descriptor{
     .name = "packed",
     .summary = "offset and counts per cell (8 bytes), one tight index list for all cells",
     .source = "Persson 2015, Practical Clustered Shading",

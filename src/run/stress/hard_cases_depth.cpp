@@ -169,9 +169,9 @@ std::vector<Trial> around_far(std::uint64_t) {
 
 // The lists of a light that moves through far in steps of a millimetre change once, in every slice.
 std::vector<ToolCheck> far_sweep(std::uint64_t) {
-  const assign::AssignerRow* const rows[] = {assign::find_assigner("bounds"), assign::find_assigner("exact")};
+  const assign::AssignerDescriptor* const rows[] = {assign::find_assigner("bounds"), assign::find_assigner("exact")};
   std::vector<ToolCheck> checks;
-  for (const assign::AssignerRow* row : rows) {
+  for (const assign::AssignerDescriptor* row : rows) {
     int changes = 0;
     bool was_listed = true;
     for (int mm = -500; mm <= 500; ++mm) {
@@ -181,7 +181,7 @@ std::vector<ToolCheck> far_sweep(std::uint64_t) {
       const auto assigner = row->make(assign::Params(row->params));
       assigner->build(grid);
       assign::Lists lists;
-      assigner->assign(view::lights_in(frame, frame.view_space), lists);
+      assigner->assign({frame, view::lights_in(frame, frame.view_space)}, lists);
       changes += (lists.pair_count() > 0) != was_listed;
       was_listed = lists.pair_count() > 0;
     }

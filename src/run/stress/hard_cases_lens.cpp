@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "assign/assigner.h"
+#include "assign/assigner_run.h"
 #include "core/random.h"
 #include "measure/truth.h"
 #include "run/stress/hard_cases.h"
@@ -149,17 +149,16 @@ std::vector<Trial> odd_pictures(std::uint64_t seed) {
   return trials;
 }
 
-assign::Lists lists_after(assign::Assigner& assigner, const grid::Grid& grid, const view::Frame& frame) {
-  assigner.build(grid);
-  assign::Lists lists;
-  assigner.assign(view::lights_in(frame, grid::space_of(grid, frame)), lists);
-  return lists;
+assign::Lists lists_after(assign::AssignerRun& run, const grid::Grid& grid, const view::Frame& frame) {
+  run.build(grid);
+  run.assign({frame, view::lights_in(frame, grid::space_of(grid, frame))});
+  return run.cell_lists();
 }
 
 // Half the resolution and back: nothing of the other size may stay.
 std::vector<ToolCheck> resized(std::uint64_t seed) {
   std::vector<ToolCheck> checks;
-  for (const assign::AssignerRow* row : assign::assigner_rows()) {
+  for (const assign::AssignerDescriptor* row : assign::assigner_descriptors()) {
     Rig rig;
     scatter(rig, 1.0, 0.6, 150, seed);
     grid::GridSpec spec = grids_of_every_kind()[0];
@@ -168,12 +167,15 @@ std::vector<ToolCheck> resized(std::uint64_t seed) {
     const Trial full = rig.on(spec), half = rig.show({960, 540}).on(spec);
     const view::Frame full_frame = frame_of(full), half_frame = frame_of(half);
     const grid::Grid full_grid = grid_of(full, full_frame), half_grid = grid_of(half, half_frame);
-    const auto used = row->make(assign::Params(row->params)), fresh = row->make(assign::Params(row->params));
-    const assign::Lists before = lists_after(*used, full_grid, full_frame);
-    const assign::Lists small = lists_after(*used, half_grid, half_frame);
-    const bool same =
-        small == lists_after(*fresh, half_grid, half_frame) && before == lists_after(*used, full_grid, full_frame);
-    checks.push_back({row->name + ": nothing stale after the resolution changes and changes back", same, ""});
+    const assign::Params params(row->params);
+    for (const assign::Answer answer : assign::answers_with_cells(*row, params)) {
+      assign::AssignerRun used(*row, params, answer), fresh(*row, params, answer);
+      const assign::Lists before = lists_after(used, full_grid, full_frame);
+      const assign::Lists small = lists_after(used, half_grid, half_frame);
+      const bool same =
+          small == lists_after(fresh, half_grid, half_frame) && before == lists_after(used, full_grid, full_frame);
+      checks.push_back({row->name + ": nothing stale after the resolution changes and changes back", same, ""});
+    }
   }
   return checks;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "assign/assigner_run.h"
 #include "assign/storage.h"
 #include "core/error.h"
 #include "core/random.h"
@@ -38,7 +39,7 @@ assign::Lists one_full_cell(std::uint32_t lights) {
 
 std::unique_ptr<assign::Storage> filled(const char* name, const std::map<std::string, assign::ParamValue>& params,
                                         std::uint32_t lights) {
-  const assign::StorageRow& row = *assign::find_storage(name);
+  const assign::StorageDescriptor& row = *assign::find_storage(name);
   auto storage = row.make(assign::Params(row.params, params));
   storage->start(3, lights, 0);
   storage->store(one_full_cell(lights));
@@ -50,12 +51,12 @@ std::vector<ToolCheck> caps_are_counted(std::uint64_t) {
   for (const std::uint32_t lights : k_counts) {
     const auto storage = filled("fixed", {{"cap", 100.0}}, lights);
     const std::uint32_t kept = std::min(lights, 100u), dropped = lights - kept;
-    const assign::StorageUse use = storage->use();
+    const assign::StructureUse use = storage->use();
     const bool highest = std::all_of(use.dropped_lights.begin(), use.dropped_lights.end(),
                                      [&](std::uint32_t light) { return light >= kept; });
     checks.push_back({"fixed, cap 100, " + std::to_string(lights) + " lights in a cell",
                       use.dropped_pairs == dropped && use.dropped_lights.size() == dropped && highest &&
-                          storage->read_back().of(1).size() == kept,
+                          storage->expanded().of(1).size() == kept,
                       std::to_string(use.dropped_pairs) + " dropped, the highest indices"});
   }
   return checks;
@@ -65,8 +66,8 @@ std::vector<ToolCheck> pools_hold_what_they_say(std::uint64_t) {
   std::vector<ToolCheck> checks;
   for (const std::uint32_t lights : {255u, 256u, 257u, 65535u, 65536u, 65537u}) {
     const auto storage = filled("packed", {}, lights);
-    const assign::StorageUse use = storage->use();
-    const assign::Lists back = storage->read_back();
+    const assign::StructureUse use = storage->use();
+    const assign::Lists back = storage->expanded();
     const auto kept = static_cast<std::uint64_t>(back.of(1).size());
     const std::uint32_t bits = lights <= 256 ? 8 : lights <= 65536 ? 16 : 32;
     checks.push_back(
@@ -114,38 +115,47 @@ std::vector<Trial> in_another_order(std::uint64_t seed) {
   return trials;
 }
 
+bool has_same_sets(const assign::AssignerDescriptor& assigner, const assign::Params& params, assign::Answer answer,
+                   const Trial (&trials)[2]) {
+  assign::Lists lists[2];
+  std::uint32_t points = 0, spots = 0;
+  for (int i = 0; i < 2; ++i) {
+    const view::Frame frame = frame_of(trials[i]);
+    points = frame.points;
+    spots = static_cast<std::uint32_t>(frame.lights.size()) - points;
+    const grid::Grid grid = grid_of(trials[i], frame);
+    assign::AssignerRun run(assigner, params, answer);
+    run.build(grid);
+    run.assign({frame, view::lights_in(frame, frame.view_space)});
+    lists[i] = run.cell_lists();
+  }
+  bool same = lists[0].begin == lists[1].begin;
+  for (std::uint32_t cell = 0; same && cell < lists[0].cell_count(); ++cell) {
+    std::vector<std::uint32_t> back;
+    for (const std::uint32_t light : lists[1].of(cell))
+      back.push_back(light < points ? points - 1 - light : 2 * points + spots - 1 - light);
+    std::sort(back.begin(), back.end());
+    same = std::equal(back.begin(), back.end(), lists[0].of(cell).begin());
+  }
+  return same;
+}
+
 std::vector<ToolCheck> order_does_not_matter(std::uint64_t seed) {
   std::vector<ToolCheck> checks;
   const Trial trials[] = {mixed_lights(seed, false), mixed_lights(seed, true)};
-  for (const assign::AssignerRow* row : assign::assigner_rows()) {
+  for (const assign::AssignerDescriptor* row : assign::assigner_descriptors()) {
     if (!row->takes(grid::Kind::frustum)) continue;
-    assign::Lists lists[2];
-    std::uint32_t points = 0, spots = 0;
-    for (int i = 0; i < 2; ++i) {
-      const view::Frame frame = frame_of(trials[i]);
-      points = frame.points;
-      spots = static_cast<std::uint32_t>(frame.lights.size()) - points;
-      const grid::Grid grid = grid_of(trials[i], frame);
-      const auto assigner = row->make(assign::Params(row->params));
-      assigner->build(grid);
-      assigner->assign(view::lights_in(frame, frame.view_space), lists[i]);
-    }
-    bool same = lists[0].begin == lists[1].begin;
-    for (std::uint32_t cell = 0; same && cell < lists[0].cell_count(); ++cell) {
-      std::vector<std::uint32_t> back;
-      for (const std::uint32_t light : lists[1].of(cell))
-        back.push_back(light < points ? points - 1 - light : 2 * points + spots - 1 - light);
-      std::sort(back.begin(), back.end());
-      same = std::equal(back.begin(), back.end(), lists[0].of(cell).begin());
-    }
-    checks.push_back({row->name + ": the same sets when the lights come in reverse", same, ""});
+    const assign::Params params(row->params);
+    for (const assign::Answer answer : assign::answers_with_cells(*row, params))
+      checks.push_back({row->name + ": the same sets when the lights come in reverse",
+                        has_same_sets(*row, params, answer, trials), ""});
   }
   return checks;
 }
 
 std::vector<ToolCheck> depth_masks(std::uint64_t) {
-  const auto& rows = assign::assigner_rows();
-  const auto needing = std::count_if(rows.begin(), rows.end(), [](const auto* row) { return row->needs_depth; });
+  const auto& rows = assign::assigner_descriptors();
+  const auto needing = std::count_if(rows.begin(), rows.end(), [](const auto* row) { return row->needs.depth; });
   return {{"no method here needs depth, so no mask of a tile without geometry has to be defined", needing == 0,
            std::to_string(needing) + " methods need depth"}};
 }

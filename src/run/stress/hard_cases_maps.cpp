@@ -106,13 +106,13 @@ struct FrameTimes {
   double truth = 0.0, exact = 0.0, exact_fast = 0.0;
 };
 
-double assign_seconds(const char* name, const grid::Grid& grid, const view::LightArrays& lights) {
-  const assign::AssignerRow& row = *assign::find_assigner(name);
+double assign_seconds(const char* name, const grid::Grid& grid, const assign::FrameInput& input) {
+  const assign::AssignerDescriptor& row = *assign::find_assigner(name);
   const auto assigner = row.make(assign::Params(row.params));
   assigner->build(grid);
   assign::Lists lists;
-  assigner->assign(lights, lists);
-  return seconds_of([&] { assigner->assign(lights, lists); });
+  assigner->assign(input, lists);
+  return seconds_of([&] { assigner->assign(input, lists); });
 }
 
 FrameTimes frame_times(std::uint64_t seed, const Vec3d& off) {
@@ -123,8 +123,8 @@ FrameTimes frame_times(std::uint64_t seed, const Vec3d& off) {
   const view::LightArrays lights = view::lights_in(frame, frame.view_space);
   FrameTimes times;
   times.truth = seconds_of([&] { static_cast<void>(measure::find_truth(frame, grid, 1)); });
-  times.exact = assign_seconds("exact", grid, lights);
-  times.exact_fast = assign_seconds("exact-fast", grid, lights);
+  times.exact = assign_seconds("exact", grid, {frame, lights});
+  times.exact_fast = assign_seconds("exact-fast", grid, {frame, lights});
   return times;
 }
 

@@ -49,17 +49,6 @@ bool holds_clearly(const geom::LightVolume& volume, const Vec3d& p) {
   return std::sin(volume.half_angle_rad) * along - std::cos(volume.half_angle_rad) * across > margin;
 }
 
-bool is_lists_form(const assign::Lists& lists, std::uint32_t cells, std::size_t lights) {
-  if (lists.begin.size() != cells + std::size_t{1}) return false;
-  for (std::uint32_t cell = 0; cell < cells; ++cell) {
-    const auto list = lists.of(cell);
-    for (std::size_t i = 1; i < list.size(); ++i)
-      if (list[i - 1] >= list[i]) return false;
-    if (!list.empty() && list.back() >= lights) return false;
-  }
-  return true;
-}
-
 // Pairs as bits.
 class PairSet {
  public:
@@ -113,7 +102,7 @@ class SettingCheck {
   };
 
   bool is_checked(const StressMethod& method) const {
-    return method.conservative && !method.row->naive && takes_trial(method, trial_);
+    return method.conservative && !method.assigner->naive && takes_trial(method, trial_);
   }
 
   void count() {
@@ -130,16 +119,18 @@ class SettingCheck {
       if (!is_checked(method)) continue;
       Answer answer{&method, {}};
       try {
-        assign::Lists again;
-        const auto assigner = method.row->make(method.params);
-        assigner->build(grid_);
-        assigner->assign(lights_, answer.lists);
-        assigner->assign(lights_, again);
-        if (!is_lists_form(answer.lists, grid_.cell_count(), frame_.lights.size())) {
+        assign::AssignerRun run = method.start();
+        run.build(grid_);
+        run.assign({frame_, lights_});
+        answer.lists = run.cell_lists();
+        run.assign({frame_, lights_});
+        const assign::Lists& filled = run.filled_lists() ? *run.filled_lists() : answer.lists;
+        if (!assign::lists_fault(filled, grid_.cell_count(), lights_.points, lights_.spots).empty()) {
           add(FaultKind::lists, method.label, "what it gave are no lists", 0, 0);
           continue;
         }
-        if (answer.lists != again) add(FaultKind::lists, method.label, "the same frame gave other lists", 0, 0);
+        if (answer.lists != run.cell_lists())
+          add(FaultKind::lists, method.label, "the same frame gave other lists", 0, 0);
       } catch (const std::exception& error) {
         add(FaultKind::error, method.label, error.what(), 0, 0);
         continue;
@@ -242,7 +233,7 @@ class SettingCheck {
     for (std::uint32_t light = 0; light < frame_.lights.size(); ++light)
       for (std::uint32_t cell = 0; cell < grid_.cell_count(); ++cell) {
         const bool is_true = truth.has(cell, light), is_listed = listed.has(cell, light);
-        if (is_true == is_listed || (is_listed && !answer.method->row->exact)) continue;
+        if (is_true == is_listed || (is_listed && !answer.method->assigner->exact)) continue;
         constexpr int k_most = 12;
         if (++looked_at > k_most) return;
         const Verdict verdict = decided(cell, light);
@@ -315,7 +306,8 @@ std::string reference_of(const std::string& label) {
 }
 
 bool takes_trial(const StressMethod& method, const Trial& trial) {
-  return method.row->takes(trial.grid.kind) && (method.row->orthographic || !trial.scene.cameras[0].lens.orthographic);
+  return method.assigner->takes(trial.grid.kind) &&
+         (method.assigner->orthographic || !trial.scene.cameras[0].lens.orthographic);
 }
 
 SettingReport check_setting(const Trial& trial, std::span<const StressMethod> methods) {

@@ -47,7 +47,7 @@ OrderedJson grid_json(const grid::GridSpec& spec) {
 }
 
 OrderedJson assigner_json(const StressMethod& method) {
-  OrderedJson assigner{{"name", method.row->name}};
+  OrderedJson assigner{{"name", method.assigner->name}};
   for (const auto& [key, value] : method.params.values())
     std::visit([&, &name_of = key](const auto& held) { assigner[name_of] = held; }, value);
   return assigner;

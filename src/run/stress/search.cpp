@@ -44,7 +44,7 @@ double log_between(SplitMix64& random, double lo, double hi) {
   return lo * std::exp(random.unit() * std::log(hi / lo));
 }
 
-World random_world(SplitMix64& random, const assign::AssignerRow& row) {
+World random_world(SplitMix64& random, const assign::AssignerDescriptor& row) {
   World world{};
   world.near_m = log_between(random, 1e-3, 1.0);
   world.far_ratio = log_between(random, 20.0, 1e7);
@@ -59,7 +59,7 @@ World random_world(SplitMix64& random, const assign::AssignerRow& row) {
   return world;
 }
 
-World mutated(World world, SplitMix64& random, const assign::AssignerRow& row) {
+World mutated(World world, SplitMix64& random, const assign::AssignerDescriptor& row) {
   const World other = random_world(random, row);
   switch (random.below(7)) {
     case 0:
@@ -208,13 +208,12 @@ class Ladder {
 class Climb {
  public:
   Climb(const StressMethod& method, const World& world, const Ladder& ladder)
-      : method_(method), ladder_(ladder), trial_(trial_of(world)) {
+      : method_(method), ladder_(ladder), trial_(trial_of(world)), run_(method.start()) {
     frame_ = frame_of(trial_);
     grid_ = grid_of(trial_, frame_);
     space_ = grid::space_of(grid_, frame_);
     far_m_ = world.near_m * world.far_ratio;
-    assigner_ = method.row->make(method.params);
-    assigner_->build(grid_);
+    run_.build(grid_);
   }
 
   void start(std::size_t population, SplitMix64& random) {
@@ -256,7 +255,8 @@ class Climb {
     frame.points = static_cast<std::uint32_t>(
         std::count_if(touches.begin(), touches.end(), [](const Touch& t) { return !t.is_spot; }) *
         static_cast<std::ptrdiff_t>(ladder_.size()));
-    assigner_->assign(view::lights_in(frame, space_), lists_);
+    run_.assign({frame, view::lights_in(frame, space_)});
+    lists_ = &run_.cell_lists();
 
     std::vector<std::size_t> lost(touches.size(), 0);
     std::uint32_t first = 0;
@@ -288,7 +288,7 @@ class Climb {
   }
 
   std::size_t not_listed(std::uint32_t cell, std::uint32_t first_light) const {
-    const auto list = lists_.of(cell);
+    const auto list = lists_->of(cell);
     for (std::size_t step = ladder_.size(); step > 0; --step)
       if (!std::binary_search(list.begin(), list.end(), first_light + static_cast<std::uint32_t>(step - 1)))
         return step;
@@ -325,11 +325,10 @@ class Climb {
   }
 
   bool is_listed(const view::Frame& frame, std::uint32_t cell) const {
-    const auto assigner = method_.row->make(method_.params);
-    assigner->build(grid_);
-    assign::Lists lists;
-    assigner->assign(view::lights_in(frame, space_), lists);
-    return !lists.of(cell).empty();
+    assign::AssignerRun run = method_.start();
+    run.build(grid_);
+    run.assign({frame, view::lights_in(frame, space_)});
+    return !run.cell_lists().of(cell).empty();
   }
 
   const StressMethod& method_;
@@ -339,8 +338,8 @@ class Climb {
   grid::Grid grid_;
   view::Space space_;
   double far_m_ = 0.0;
-  std::unique_ptr<assign::Assigner> assigner_;
-  assign::Lists lists_;
+  assign::AssignerRun run_;
+  const assign::Lists* lists_ = nullptr;  // of the cells
   std::vector<Touch> touches_;
   std::vector<std::size_t> lost_steps_;
 };
@@ -362,10 +361,11 @@ SearchResult search_for_losses(const StressMethod& method, const StressRequest& 
   SearchResult result;
   result.method = method.label;
   SplitMix64 random(request.seed);
-  World world = random_world(random, *method.row);
+  World world = random_world(random, *method.assigner);
   std::size_t best = 0;
   while (!is_over(result.tries)) {
-    const World next = random.below(3) == 0 ? random_world(random, *method.row) : mutated(world, random, *method.row);
+    const World next =
+        random.below(3) == 0 ? random_world(random, *method.assigner) : mutated(world, random, *method.assigner);
     Climb climb(method, next, ladder);
     climb.start(k_population, random);
     result.tries += k_population;

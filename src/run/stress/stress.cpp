@@ -32,26 +32,17 @@ Prepared prepared(const Trial& trial, int threads) {
   return out;
 }
 
-// Ascending indices of lights that exist, in one list per cell.
-bool are_lists(const assign::Lists& lists, const Prepared& at) {
-  if (lists.begin.size() != at.grid.cell_count() + std::size_t{1}) return false;
-  for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) {
-    const auto list = lists.of(cell);
-    if (!std::is_sorted(list.begin(), list.end(), std::less_equal<>()) && list.size() > 1) return false;
-    if (!list.empty() && list.back() >= at.frame.lights.size()) return false;
-  }
-  return true;
-}
-
 void add_lists(StressCell& cell, const StressMethod& method, const Trial& trial, const Prepared& at) {
-  const auto assigner = method.row->make(method.params);
-  assigner->build(at.grid);
-  assign::Lists lists, again;
+  assign::AssignerRun run = method.start();
+  run.build(at.grid);
   const view::LightArrays lights = view::lights_in(at.frame, grid::space_of(at.grid, at.frame));
-  assigner->assign(lights, lists);
-  assigner->assign(lights, again);
-  if (!are_lists(lists, at)) return cell.faults.push_back(trial.label + ": what it gave are no lists");
-  if (lists != again) cell.faults.push_back(trial.label + ": the same frame gave other lists");
+  run.assign({at.frame, lights});
+  const assign::Lists lists = run.cell_lists();
+  run.assign({at.frame, lights});
+  const assign::Lists* filled = run.filled_lists();
+  if (!assign::lists_fault(filled ? *filled : lists, at.grid.cell_count(), lights.points, lights.spots).empty())
+    return cell.faults.push_back(trial.label + ": what it gave are no lists");
+  if (lists != run.cell_lists()) cell.faults.push_back(trial.label + ": the same frame gave other lists");
   measure::ErrorCounts counts;
   measure::add_frame(counts, at.frame, at.grid, at.truth, lists);
   cell.true_pairs += counts.true_pairs;
@@ -117,22 +108,25 @@ std::vector<SearchResult> run_searches(const std::vector<StressMethod>& methods,
   return results;
 }
 
-std::string label_of(const assign::AssignerRow& row, const assign::Params& params) {
-  return MethodRequest{row.name, params}.label();
+std::string label_of(const assign::AssignerDescriptor& assigner, const assign::Params& params) {
+  return MethodRequest{assigner.name, params}.label();
 }
 
 }  // namespace
 
 std::vector<StressMethod> stress_methods() {
   std::vector<StressMethod> methods;
-  const auto add = [&](const assign::AssignerRow& row, const assign::Params& params) {
-    methods.push_back({label_of(row, params), &row, params, assign::is_conservative(row, params)});
+  const auto add = [&](const assign::AssignerDescriptor& assigner, const assign::Params& params) {
+    const bool conservative = assign::is_conservative(assigner, params);
+    for (const assign::Answer answer : assign::answers_with_cells(assigner, params))
+      methods.push_back({label_of(assigner, params), &assigner, params, conservative, answer});
   };
-  for (const assign::AssignerRow* row : assign::assigner_rows()) {
-    add(*row, assign::Params(row->params));
-    for (const assign::ParamSpec& spec : row->params)
+  for (const assign::AssignerDescriptor* assigner : assign::assigner_descriptors()) {
+    add(*assigner, assign::Params(assigner->params));
+    for (const assign::ParamSpec& spec : assigner->params)
       for (const std::string& choice : spec.choices)
-        if (assign::ParamValue(choice) != spec.standard) add(*row, assign::Params(row->params, {{spec.name, choice}}));
+        if (assign::ParamValue(choice) != spec.standard)
+          add(*assigner, assign::Params(assigner->params, {{spec.name, choice}}));
   }
   return methods;
 }

@@ -9,20 +9,23 @@
 #include <string>
 #include <vector>
 
-#include "assign/assigner.h"
+#include "assign/assigner_run.h"
 #include "run/stress/hard_cases.h"
 #include "run/stress/random_search.h"
 
 namespace clusterbench::run {
 
-// An assigner with one choice of its parameters.
+// An assigner with one choice of its parameters, in a form with lists per cell.
 struct StressMethod {
   std::string label;  // "sphere-refinement(spot=ball)"
-  const assign::AssignerRow* row = nullptr;
+  const assign::AssignerDescriptor* assigner = nullptr;
   assign::Params params;
   bool conservative = true;
+  assign::Answer answer = assign::Answer::lists;
+
+  assign::AssignerRun start() const { return {*assigner, params, answer}; }
 };
-// Every assigner with its defaults and with every other choice.
+// Every assigner that has cells with its defaults and with every other choice.
 std::vector<StressMethod> stress_methods();
 // The label of the method whose lists a fast one's must equal; empty if it is no twin.
 std::string reference_of(const std::string& label);

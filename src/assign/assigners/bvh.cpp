@@ -1,0 +1,401 @@
+// A hierarchy over the lights, built anew in every frame: sorted along a Morton curve, eight neighbours to a group,
+// eight groups to a group of the next level. Asked per cell it fills lists; left as it is, samples ask it.
+//
+// Roundings: a ball's box is off by one rounding in each of its sides, a sample's place by one. The test of a ball
+// against a cell's box loses as much as that of `aabb`, and is the larger.
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "assign/assigner.h"
+#include "assign/cell_box_method.h"
+#include "assign/light_test.h"
+#include "assign/radix_sort.h"
+#include "assign/simd/ball_boxes.h"
+#include "assign/view_cull.h"
+#include "core/aligned_vector.h"
+#include "core/error.h"
+#include "core/memory.h"
+
+namespace clusterbench::assign {
+namespace {
+
+constexpr float k_inf = std::numeric_limits<float>::infinity();
+constexpr float k_roundings = CellAabbs::k_roundings;
+constexpr std::uint32_t k_width = 8;
+
+// Boxes of neighbours; those that are not there are empty.
+struct alignas(k_cache_line) Group {
+  float lo_x[k_width], lo_y[k_width], lo_z[k_width], hi_x[k_width], hi_y[k_width], hi_z[k_width];
+
+  void set(std::uint32_t at, const geom::Box& box) {
+    lo_x[at] = box.lo.x;
+    lo_y[at] = box.lo.y;
+    lo_z[at] = box.lo.z;
+    hi_x[at] = box.hi.x;
+    hi_y[at] = box.hi.y;
+    hi_z[at] = box.hi.z;
+  }
+  geom::Box around() const {
+    geom::Box box{{lo_x[0], lo_y[0], lo_z[0]}, {hi_x[0], hi_y[0], hi_z[0]}};
+    for (std::uint32_t i = 1; i < k_width; ++i) {
+      box.lo = glm::min(box.lo, Vec3f(lo_x[i], lo_y[i], lo_z[i]));
+      box.hi = glm::max(box.hi, Vec3f(hi_x[i], hi_y[i], hi_z[i]));
+    }
+    return box;
+  }
+  // A bit for each box that touches this one.
+  std::uint32_t touched(const geom::Box& box) const {
+    std::uint32_t touches[k_width];
+    for (std::uint32_t i = 0; i < k_width; ++i)
+      touches[i] =
+          static_cast<std::uint32_t>(static_cast<int>(lo_x[i] <= box.hi.x) & static_cast<int>(hi_x[i] >= box.lo.x) &
+                                     static_cast<int>(lo_y[i] <= box.hi.y) & static_cast<int>(hi_y[i] >= box.lo.y) &
+                                     static_cast<int>(lo_z[i] <= box.hi.z) & static_cast<int>(hi_z[i] >= box.lo.z));
+    std::uint32_t bits = 0;
+    for (std::uint32_t i = 0; i < k_width; ++i) bits |= touches[i] << i;
+    return bits;
+  }
+};
+
+constexpr geom::Box k_empty_box{Vec3f(k_inf), Vec3f(-k_inf)};
+
+// The balls of lights of one type.
+class Tree {
+ public:
+  // Level 0 has a box per ball, in the order of their codes; box i of the next one is around group i.
+  void build(const RadixSort<std::uint64_t>& by_code, const std::vector<geom::Ball>& balls) {
+    const auto count = static_cast<std::uint32_t>(by_code.entries.size());
+    order_.resize(count);
+    start_levels(count);
+    for (std::uint32_t i = 0; i < count; ++i) order_[i] = by_code.entries[i].value;
+    for (std::uint32_t i = 0; i < group_count(count) * k_width; ++i)
+      groups_[i / k_width].set(i % k_width, i < count ? box_of(balls[order_[i]]) : k_empty_box);
+    for (std::size_t level = 1; level < levels_; ++level) {
+      const std::uint32_t below = begin_[level] - begin_[level - 1];
+      for (std::uint32_t i = 0; i < group_count(below) * k_width; ++i)
+        groups_[begin_[level] + i / k_width].set(i % k_width,
+                                                 i < below ? groups_[begin_[level - 1] + i].around() : k_empty_box);
+    }
+  }
+
+  // Calls found(light) for those whose ball's box touches this one. Returns how many boxes were tested.
+  template <class Found>
+  std::uint64_t each_touched(const geom::Box& box, Found&& found) const {
+    if (order_.empty()) return 0;
+    std::uint64_t groups = 0;
+    struct Open {
+      std::uint32_t level, group;
+    };
+    std::array<Open, k_most_levels * k_width> open;
+    std::size_t count = 0;
+    open[count++] = {static_cast<std::uint32_t>(levels_ - 1), 0};
+    while (count > 0) {
+      const Open at = open[--count];
+      ++groups;
+      for (std::uint32_t left = groups_[begin_[at.level] + at.group].touched(box); left != 0; left &= left - 1) {
+        const std::uint32_t child = at.group * k_width + static_cast<std::uint32_t>(std::countr_zero(left));
+        if (at.level == 0)
+          found(order_[child]);
+        else
+          open[count++] = {at.level - 1, child};
+      }
+    }
+    return groups * k_width;
+  }
+
+  // Boxes that are stored, empty ones included.
+  std::uint64_t boxes() const { return std::uint64_t{order_.empty() ? 0 : begin_[levels_]} * k_width; }
+  static std::uint64_t boxes_for(std::uint32_t balls) {
+    std::uint64_t groups = 0;
+    for (std::uint32_t count = balls; count > 0; count = count > k_width ? group_count(count) : 0)
+      groups += group_count(count);
+    return groups * k_width;
+  }
+  std::size_t size() const { return order_.size(); }
+  std::size_t capacity_bytes() const {
+    return groups_.capacity() * sizeof(Group) + order_.capacity() * sizeof(std::uint32_t);
+  }
+
+ private:
+  static constexpr std::size_t k_most_levels = 11;  // 8^11 > 2^32
+
+  static std::uint32_t group_count(std::uint32_t boxes) { return boxes / k_width + (boxes % k_width != 0 ? 1 : 0); }
+  static geom::Box box_of(const geom::Ball& ball) { return {ball.center - ball.radius, ball.center + ball.radius}; }
+
+  void start_levels(std::uint32_t count) {
+    levels_ = 0;
+    begin_[0] = 0;
+    for (std::uint32_t boxes = count; boxes > 0; boxes = boxes > k_width ? group_count(boxes) : 0, ++levels_)
+      begin_[levels_ + 1] = begin_[levels_] + group_count(boxes);
+    check_memory("boxes of a light hierarchy", begin_[levels_], sizeof(Group));
+    if (groups_.size() < begin_[levels_]) groups_.resize(begin_[levels_]);
+  }
+
+  AlignedVector<Group> groups_;                           // level by level, from the balls' own boxes on
+  std::array<std::uint32_t, k_most_levels + 1> begin_{};  // of the levels
+  std::size_t levels_ = 0;
+  std::vector<std::uint32_t> order_;  // the light of each box of level 0
+};
+
+struct Trees {
+  Tree points, spots;
+
+  // The points among them first.
+  template <class Found>
+  std::uint64_t each_touched(const geom::Box& box, Found&& found) const {
+    const std::uint64_t tests = points.each_touched(box, found);
+    return tests + spots.each_touched(box, found);
+  }
+};
+
+// Every third bit of the result is one of these 21.
+std::uint64_t spread(std::uint64_t bits) {
+  bits = (bits | bits << 32) & 0x001f00000000ffff;
+  bits = (bits | bits << 16) & 0x001f0000ff0000ff;
+  bits = (bits | bits << 8) & 0x100f00f00f00f00f;
+  bits = (bits | bits << 4) & 0x10c30c30c30c30c3;
+  return (bits | bits << 2) & 0x1249249249249249;
+}
+
+// Keeps its memory between frames.
+class TreeBuilder {
+ public:
+  explicit TreeBuilder(const Params& params) : test(params, k_roundings) {}
+
+  // Of the lights with volume for which keeps(ball).
+  template <class Keeps>
+  void build(const view::LightArrays& lights, Keeps&& keeps, Trees& out) {
+    balls.resize(lights.size());
+    for (std::uint32_t light = 0; light < lights.size(); ++light)
+      balls[light] = lights.is_empty(light) ? geom::Ball{} : test.ball(lights, light, k_roundings);
+    build_tree(lights, 0, lights.points, keeps, out.points);
+    build_tree(lights, lights.points, lights.size(), keeps, out.spots);
+  }
+
+  std::size_t capacity_bytes() const {
+    return balls.capacity() * sizeof(geom::Ball) + by_code_.capacity_bytes() + test.capacity_bytes();
+  }
+
+  LightTest test;
+  std::vector<geom::Ball> balls;  // of the lights
+
+ private:
+  template <class Keeps>
+  void build_tree(const view::LightArrays& lights, std::uint32_t begin, std::uint32_t end, Keeps&& keeps, Tree& out) {
+    by_code_.entries.clear();
+    Vec3f lo(k_inf), hi(-k_inf);
+    for (std::uint32_t light = begin; light < end; ++light) {
+      if (lights.is_empty(light) || !keeps(balls[light])) continue;
+      by_code_.entries.push_back({0, light});
+      lo = glm::min(lo, balls[light].center);
+      hi = glm::max(hi, balls[light].center);
+    }
+    const Vec3d origin(lo), extent = Vec3d(hi) - origin;
+    const double longest = std::max({extent.x, extent.y, extent.z, 1e-30});
+    for (auto& [code, light] : by_code_.entries) {
+      constexpr double k_steps = (1 << 21) - 1;
+      const Vec3d at = (Vec3d(balls[light].center) - origin) * (k_steps / longest);
+      code = spread(static_cast<std::uint64_t>(at.x)) | spread(static_cast<std::uint64_t>(at.y)) << 1 |
+             spread(static_cast<std::uint64_t>(at.z)) << 2;
+    }
+    by_code_.sort();
+    out.build(by_code_, balls);
+  }
+
+  RadixSort<std::uint64_t> by_code_;
+};
+
+// Runs of neighbours in a row ask the hierarchy; each cell asks what its run got.
+class BvhLists final : public ListAssigner {
+ public:
+  explicit BvhLists(const Params& params) : builder_(params) {}
+
+  void build(const grid::Grid& grid, const LightKinds& kinds) override {
+    builder_.test.start_grid(grid, kinds);
+    check_memory("boxes around cells", grid.cell_count(), sizeof(geom::Box));
+    columns_ = static_cast<std::uint32_t>(grid.cells().x);
+    cells_.clear();
+    all_ = k_empty_box;
+    for (std::uint32_t cell = 0; cell < grid.cell_count(); ++cell) {
+      cells_.push_back(grid.is_hole(cell) ? k_empty_box : geom::box_around(grid.cell(cell)));
+      extend(all_, cells_.back());
+    }
+    view_.reset();
+    if (std::holds_alternative<grid::ScreenGrid>(grid.shape)) view_ = ViewCull(grid.screen());
+  }
+
+  void assign(const FrameInput& input, Lists& out) override {
+    const view::LightArrays& lights = input.lights;
+    builder_.test.start_frame(lights);
+    tests_ = lights.size();
+    builder_.build(
+        lights,
+        [&](const geom::Ball& ball) { return geom::ball_touches_box(ball, all_) && !(view_ && view_->misses(ball)); },
+        trees_);
+    set_cones(lights);
+    out.lights.clear();
+    out.begin.resize(cells_.size() + 1);
+    out.begin[0] = 0;
+    for (std::uint32_t cell = 0; cell < cells_.size();) {
+      const std::uint32_t end = cell + std::min(k_run, columns_ - cell % columns_);
+      find_candidates(cell, end);
+      for (; cell < end; ++cell) add_cell(lights, cell, out);
+    }
+  }
+
+  std::uint64_t tests_done() const override { return tests_; }
+  std::size_t scratch_bytes() const override {
+    return builder_.capacity_bytes() + trees_.points.capacity_bytes() + trees_.spots.capacity_bytes() +
+           candidates_.capacity_bytes() + found_.capacity() * sizeof(std::uint32_t) +
+           cells_.capacity() * sizeof(geom::Box) + cones_.capacity() * sizeof(geom::SphericalCone);
+  }
+
+ private:
+  static constexpr std::uint32_t k_run = 8;  // cells
+
+  static void extend(geom::Box& box, const geom::Box& by) {
+    box.lo = glm::min(box.lo, by.lo);
+    box.hi = glm::max(box.hi, by.hi);
+  }
+
+  void set_cones(const view::LightArrays& lights) {
+    if (!builder_.test.tests_cones()) return;
+    cones_.resize(lights.spots);
+    for (std::uint32_t spot = 0; spot < lights.spots; ++spot)
+      cones_[spot] = builder_.test.cone(lights, lights.points + spot);
+  }
+
+  void find_candidates(std::uint32_t begin, std::uint32_t end) {
+    geom::Box run = k_empty_box;
+    for (std::uint32_t cell = begin; cell < end; ++cell) extend(run, cells_[cell]);
+    candidates_.clear();
+    if (run.lo.x <= run.hi.x)
+      tests_ += trees_.each_touched(run, [&](std::uint32_t light) { candidates_.add(light, builder_.balls[light]); });
+    if (found_.size() < candidates_.count() + k_most_lanes) found_.resize(candidates_.count() + k_most_lanes);
+  }
+
+  void add_cell(const view::LightArrays& lights, std::uint32_t cell, Lists& out) {
+    const LightTest& test = builder_.test;
+    std::uint32_t count = 0;
+    if (cells_[cell].lo.x <= cells_[cell].hi.x) {
+      count = candidates_.touching(cells_[cell], found_.data());
+      tests_ += candidates_.count();
+    }
+    if (test.tests_cones() && count > 0 && lights.is_spot(found_[count - 1])) {
+      const auto is_missed = [&](std::uint32_t light) {
+        return lights.is_spot(light) &&
+               !geom::cone_touches_ball(cones_[light - lights.points], test.cell_balls()[cell]);
+      };
+      count = static_cast<std::uint32_t>(std::remove_if(found_.begin(), found_.begin() + count, is_missed) -
+                                         found_.begin());
+    }
+    const std::uint64_t pairs = out.lights.size() + std::uint64_t{count};
+    if (pairs > out.lights.capacity()) check_memory("pairs of light lists", 2 * pairs, sizeof(std::uint32_t));
+    check_pair_count(pairs);
+    out.lights.insert(out.lights.end(), found_.begin(), found_.begin() + count);
+    out.begin[cell + 1] = static_cast<std::uint32_t>(pairs);
+  }
+
+  TreeBuilder builder_;
+  Trees trees_;
+  std::uint32_t columns_ = 1;
+  std::vector<geom::Box> cells_;
+  geom::Box all_{};
+  std::optional<ViewCull> view_;
+  std::vector<geom::SphericalCone> cones_;  // of the spots
+  BallLanes candidates_;                    // of the run at hand
+  std::vector<std::uint32_t> found_;        // of the cell at hand
+  std::uint64_t tests_ = 0;
+};
+
+// The hierarchy as samples ask it: lights whose ball's box holds the sample. Beyond the grid, too.
+class LightHierarchy final : public LightStructure {
+ public:
+  Trees trees;
+  std::uint32_t points = 0, spots = 0;
+  std::optional<Vec3d> world_origin;  // of the space in which the lights are, if it is not view space
+
+  void lights_at(const grid::Sample& sample, grid::Log2, std::vector<std::uint32_t>& out) const override {
+    out.clear();
+    const Vec3f at = world_origin ? Vec3f(sample.world - *world_origin) : sample.view;
+    trees.each_touched({at, at}, [&](std::uint32_t light) { out.push_back(light); });
+  }
+
+  StructureUse use() const override {
+    StructureUse use;
+    use.index_entries = trees.points.boxes() + trees.spots.boxes();
+    use.index_bytes = use.index_entries * k_box_bytes;
+    use.header_bytes = (trees.points.size() + trees.spots.size()) * sizeof(std::uint32_t);
+    use.upload_bytes = use.index_bytes + use.header_bytes;
+    return use;
+  }
+  StructureLimit limit() const override {
+    const std::uint64_t entries = Tree::boxes_for(points) + Tree::boxes_for(spots);
+    return {entries, entries * k_box_bytes + (std::uint64_t{points} + spots) * sizeof(std::uint32_t)};
+  }
+  std::uint32_t index_bits() const override { return 8 * k_box_bytes; }
+  bool has_cells() const override { return false; }
+  void expand(Lists&) const override {
+    throw Error("", "bvh", "has no cells where samples ask the hierarchy", ExitCode::internal);
+  }
+
+ private:
+  static constexpr std::uint32_t k_box_bytes = sizeof(Group) / k_width;
+};
+
+class BvhQueries final : public AssignerOf<LightHierarchy> {
+ public:
+  explicit BvhQueries(const Params& params) : builder_(params) {}
+
+  void build(const grid::Grid& grid, const LightKinds&) override {
+    world_origin_.reset();
+    if (grid.kind() == grid::Kind::world) world_origin_ = grid.world().origin;
+  }
+
+  void fill(const FrameInput& input, LightHierarchy& out) override {
+    out.points = input.lights.points;
+    out.spots = input.lights.spots;
+    out.world_origin = world_origin_;
+    builder_.build(
+        input.lights, [](const geom::Ball&) { return true; }, out.trees);
+    tests_ = input.lights.size();
+  }
+
+  std::uint64_t tests_done() const override { return tests_; }
+  std::size_t scratch_bytes() const override { return builder_.capacity_bytes(); }
+
+ private:
+  TreeBuilder builder_;
+  std::optional<Vec3d> world_origin_;
+  std::uint64_t tests_ = 0;
+};
+
+std::unique_ptr<ListAssigner> make(const Params& params) {
+  return std::make_unique<BvhLists>(params);
+}
+
+std::unique_ptr<StructureAssigner> make_own(const Params& params) {
+  return std::make_unique<BvhQueries>(params);
+}
+
+}  // namespace
+
+extern const AssignerDescriptor bvh_descriptor;
+const AssignerDescriptor bvh_descriptor{
+    .name = "bvh",
+    .summary =
+        "a hierarchy of boxes over Morton-sorted lights, built every frame; asked by each cell's box for lists, or "
+        "left for samples to ask",
+    .source = "Olsson, Billeter and Assarsson 2012, Clustered Deferred and Forward Shading; van Oosten 2015",
+    .kinds = {grid::Kind::frustum, grid::Kind::distance, grid::Kind::cascades, grid::Kind::world},
+    .params = light_params(),
+    .make = make,
+    .make_own = make_own,
+};
+
+}  // namespace clusterbench::assign

@@ -1,0 +1,207 @@
+// Lights sorted by depth; per depth bin the first and the last of them that reach it; per tile of the screen a bit for
+// each. A sample's lights are its tile's bits within its bin's range. Tiles and bins are the grid's tiles and slices,
+// so that a cell is what its tile and its slice have in common.
+//
+// Roundings: all that is tested are the cell boxes of balls, as `bounds-fast` finds them.
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include "assign/assigner.h"
+#include "assign/light_test.h"
+#include "assign/radix_sort.h"
+#include "assign/simd/cell_boxes.h"
+#include "assign/simd/spot_balls.h"
+#include "core/error.h"
+#include "core/memory.h"
+
+namespace clusterbench::assign {
+namespace {
+
+constexpr std::uint32_t k_bits = 32;  // of a word
+
+// Places among the sorted lights, from `first` to before `end`.
+struct Range {
+  std::uint32_t first = std::numeric_limits<std::uint32_t>::max(), end = 0;
+
+  void take(std::uint32_t place) {
+    first = std::min(first, place);
+    end = place + 1;
+  }
+};
+
+struct Bin {
+  Range points, spots;
+};
+
+class BinsAndMasks final : public LightStructure {
+ public:
+  void start(const grid::Grid& grid, std::uint32_t lights, std::uint32_t listed) {
+    grid_ = &grid;
+    lights_ = lights;
+    const Vec3i cells = grid.cells();
+    tiles_ = static_cast<std::uint32_t>(cells.x * cells.y);
+    words_ = words_for(listed);
+    check_memory("words of tile masks", std::uint64_t{tiles_} * words_, sizeof(std::uint32_t));
+    masks_.assign(std::size_t{tiles_} * words_, 0);
+    bins_.assign(static_cast<std::size_t>(cells.z), {});
+    order_.resize(listed);
+  }
+
+  // The light at a place of the sorted ones, which come in this order, points before spots.
+  void add(std::uint32_t place, std::uint32_t light, bool is_spot, const CellBox& box) {
+    order_[place] = light;
+    for (int z = box.first.z; z <= box.last.z; ++z)
+      (is_spot ? bins_[static_cast<std::size_t>(z)].spots : bins_[static_cast<std::size_t>(z)].points).take(place);
+    const std::uint32_t bit = 1u << place % k_bits;
+    const auto columns = static_cast<std::size_t>(grid_->screen().tiles.count.x);
+    for (int y = box.first.y; y <= box.last.y; ++y) {
+      std::size_t word = (static_cast<std::size_t>(y) * columns + static_cast<std::size_t>(box.first.x)) * words_;
+      word += place / k_bits;
+      for (int x = box.first.x; x <= box.last.x; ++x, word += words_) masks_[word] |= bit;
+    }
+  }
+
+  void lights_at(const grid::Sample& sample, grid::Log2 way, std::vector<std::uint32_t>& out) const override {
+    out.clear();
+    const std::int64_t cell = grid::lookup(*grid_, sample, way);
+    if (cell >= 0) read(static_cast<std::uint32_t>(cell), out);
+  }
+
+  StructureUse use() const override {
+    StructureUse use;
+    use.index_entries = masks_.size();
+    use.index_bytes = masks_.size() * sizeof(std::uint32_t);
+    use.header_bytes = header_bytes(order_.size());
+    use.upload_bytes = use.index_bytes + use.header_bytes;
+    return use;
+  }
+
+  StructureLimit limit() const override {
+    const std::uint64_t entries = std::uint64_t{tiles_} * words_for(lights_);
+    return {entries, entries * sizeof(std::uint32_t) + header_bytes(lights_)};
+  }
+
+  std::uint32_t index_bits() const override { return k_bits; }
+  bool has_cells() const override { return true; }
+
+  void expand(Lists& out) const override {
+    out.lights.clear();
+    out.begin.assign(1, 0);
+    for (std::uint32_t cell = 0; cell < grid_->cell_count(); ++cell) {
+      read(cell, out.lights);
+      check_memory("pairs of light lists", out.lights.size(), sizeof(std::uint32_t));
+      check_pair_count(out.lights.size());
+      out.begin.push_back(out.pair_count());
+    }
+  }
+
+ private:
+  static std::uint32_t words_for(std::uint32_t lights) { return (lights + k_bits - 1) / k_bits; }
+  std::uint64_t header_bytes(std::uint64_t listed) const {
+    return bins_.size() * sizeof(Bin) + listed * sizeof(std::uint32_t);
+  }
+
+  void read(std::uint32_t cell, std::vector<std::uint32_t>& out) const {
+    const std::uint32_t* mask = masks_.data() + std::size_t{cell % tiles_} * words_;
+    const Bin& bin = bins_[cell / tiles_];
+    for (const Range& range : {bin.points, bin.spots})
+      for (std::uint32_t from = range.first; from < range.end; from = (from / k_bits + 1) * k_bits) {
+        std::uint32_t left = mask[from / k_bits] & ~0u << from % k_bits;
+        if (range.end / k_bits == from / k_bits) left &= (1u << range.end % k_bits) - 1;
+        for (; left != 0; left &= left - 1)
+          out.push_back(order_[from / k_bits * k_bits + static_cast<std::uint32_t>(std::countr_zero(left))]);
+      }
+  }
+
+  const grid::Grid* grid_ = nullptr;
+  std::uint32_t lights_ = 0, tiles_ = 0, words_ = 0;
+  std::vector<std::uint32_t> masks_;  // tile by tile
+  std::vector<Bin> bins_;
+  std::vector<std::uint32_t> order_;  // the light at each place
+};
+
+// Spots as the balls around their cones.
+Params as_balls(const Params& params) {
+  return Params(light_params(), {{"spot", std::string("ball")}, {"inflation", params.number("inflation")}});
+}
+
+class ZBinning final : public AssignerOf<BinsAndMasks> {
+ public:
+  explicit ZBinning(const Params& params) : test_(as_balls(params), 0.0f) {}
+
+  void build(const grid::Grid& grid, const LightKinds&) override {
+    grid_ = &grid;
+    planes_ = RowPlanes(grid.screen());
+    box_planes_ = BoxPlanes(grid.screen());
+  }
+
+  void fill(const FrameInput& input, BinsAndMasks& out) override {
+    const view::LightArrays& lights = input.lights;
+    tests_ = lights.size();
+    seen_.count = boxed_.count = 0;
+    seen_.reserve(lights.size());
+    boxed_.reserve(lights.size());
+    box_balls(given_points(lights), 0, test_.padding(k_cell_box_roundings));
+    const std::uint32_t points = boxed_.count;
+    if (lights.spots > 0) {
+      find_spot_balls(lights, test_.padding(k_cell_box_roundings), true, spots_);
+      box_balls(given_spots(lights, spots_), lights.points, 0.0f);
+    }
+    out.start(*grid_, lights.size(), boxed_.count);
+    add_sorted(0, points, false, out);
+    add_sorted(points, boxed_.count, true, out);
+  }
+
+  std::uint64_t tests_done() const override { return tests_; }
+  std::size_t scratch_bytes() const override {
+    return seen_.capacity_bytes() + boxed_.capacity_bytes() + spots_.capacity_bytes() + by_depth_.capacity_bytes();
+  }
+
+ private:
+  void box_balls(const GivenBalls& balls, std::uint32_t first_light, float padding) {
+    const std::uint32_t begin = seen_.count;
+    see_balls(planes_, balls, first_light, seen_, padding + k_slice_rows_roundings);
+    find_cell_boxes(box_planes_, seen_, begin, balls, first_light, {padding, padding}, boxed_);
+  }
+
+  // The middles of what balls reach in depth are their centres.
+  void add_sorted(std::uint32_t begin, std::uint32_t end, bool are_spots, BinsAndMasks& out) {
+    by_depth_.entries.resize(end - begin);
+    for (std::uint32_t i = begin; i < end; ++i) by_depth_.entries[i - begin] = {ordered_bits(boxed_.depth[i]), i};
+    by_depth_.sort();
+    std::uint32_t place = begin;
+    for (const auto& [key, ball] : by_depth_.entries) out.add(place++, boxed_.light[ball], are_spots, boxed_.box(ball));
+  }
+
+  LightTest test_;
+  const grid::Grid* grid_ = nullptr;
+  RowPlanes planes_;
+  BoxPlanes box_planes_;
+  BallArrays spots_;
+  SeenBalls seen_;
+  BoxedBalls boxed_;
+  RadixSort<std::uint32_t> by_depth_;
+  std::uint64_t tests_ = 0;
+};
+
+std::unique_ptr<StructureAssigner> make_own(const Params& params) {
+  return std::make_unique<ZBinning>(params);
+}
+
+}  // namespace
+
+extern const AssignerDescriptor z_binning_descriptor;
+const AssignerDescriptor z_binning_descriptor{
+    .name = "z-binning",
+    .summary =
+        "lights sorted by depth: the first and last index per depth bin, bit masks per tile; a sample loops over "
+        "its tile's bits within its bin's range",
+    .source = "Drobot 2017, Improved Culling for Tiled and Clustered Rendering; Unity's URP",
+    .kinds = {grid::Kind::frustum},
+    .params = {inflation_param()},
+    .make_own = make_own,
+};
+
+}  // namespace clusterbench::assign
