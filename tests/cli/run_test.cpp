@@ -57,6 +57,38 @@ TEST(Run, counts_are_byte_identical_on_any_number_of_threads) {
   EXPECT_EQ(first.dump(), second.dump());
 }
 
+// Structures without lists leave out what they do not have, and all that reads results takes that.
+TEST(Run, light_structures_of_their_own_give_results_that_everything_reads) {
+  const Folder folder;
+  const std::string config =
+      folder
+          .write("own.json", R"({"scenes": [{"path": ")" + source_file("scenes/street.glb") + R"(", "frames": 2}],
+              "viewport": [640, 360], "grids": [{"kind": "frustum"}, {"kind": "world", "cells": [16, 4, 16]}],
+              "assigners": ["z-binning", "bvh"], "timing": {"rounds": 2, "min_time_ms": 0.1, "frames": 1},
+              "details": {}, "lookup": {"samples": 200}, "stability": {"steps": 3}})")
+          .string();
+  const std::string out = (folder / "own result.json").string(), quoted = "'" + out + "'";
+  const Outcome done = tool("run " + config + " -o " + quoted);
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_EQ(tool("validate " + quoted).code, 0) << tool("validate " + quoted).err;
+  const Json result = Json::parse(file_text(out));
+  ASSERT_EQ(result["cases"].size(), 5u) << "z-binning on one grid, bvh on two, by cells and by samples";
+  for (const Json& one : result["cases"]) {
+    EXPECT_EQ(one["storage"] == "own", !one["timing"].contains("convert_ns")) << one["name"];
+    EXPECT_EQ(one["storage"] == "own" && one["assigner"]["name"] == "bvh", !one.contains("error")) << one["name"];
+    EXPECT_EQ(one.contains("error"), one.contains("occupancy") && one.contains("details") && one.contains("stability"));
+    if (one.contains("error")) {
+      EXPECT_EQ(one["error"]["false_negatives"], 0) << one["name"];
+    }
+    EXPECT_GT(one["shading"]["needed"], 0) << one["name"];
+  }
+  const std::string page = (folder / "page.html").string(), history = (folder / "history.jsonl").string();
+  for (const std::string& command :
+       {"compare " + quoted + " " + quoted, "size " + quoted, "export --format csv " + quoted, "merge " + quoted,
+        "report -o " + page + " " + quoted, "history add " + quoted + " " + history})
+    EXPECT_EQ(tool(command).code, 0) << command << ": " << tool(command).err;
+}
+
 TEST(Run, the_result_goes_to_standard_output_without_a_file) {
   const Folder folder;
   const Outcome done = tool("run --quiet --no-timing " + folder.write("small.json", small_config()).string());
