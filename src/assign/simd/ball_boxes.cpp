@@ -19,25 +19,25 @@ using FloatLanes = hn::ScalableTag<float>;
 // geom::ball_touches_box, along one axis.
 HWY_INLINE hn::Vec<FloatLanes> squared_gap_of(const float* centers, float lo, float hi) {
   const FloatLanes d;
-  const auto center = hn::LoadU(d, centers);
-  const auto gap = hn::Max(hn::Zero(d), hn::Max(hn::Sub(hn::Set(d, lo), center), hn::Sub(center, hn::Set(d, hi))));
-  return hn::Mul(gap, gap);
+  const auto center = LoadU(d, centers);
+  const auto gap = Max(Zero(d), Max(Set(d, lo) - center, center - Set(d, hi)));
+  return gap * gap;
 }
 
 std::uint32_t lights_touching(const float* const* centers, const float* squared_radii, const std::uint32_t* lights,
                               std::uint32_t count, const geom::Box& box, std::uint32_t* out) {
   const FloatLanes d;
   const hn::RebindToUnsigned<FloatLanes> du;
-  const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
+  const auto lanes = static_cast<std::uint32_t>(Lanes(d));
   std::uint32_t found = 0;
   for (std::uint32_t i = 0; i < count; i += lanes) {
-    const auto squared = hn::Add(
-        hn::Add(squared_gap_of(centers[0] + i, box.lo.x, box.hi.x), squared_gap_of(centers[1] + i, box.lo.y, box.hi.y)),
-        squared_gap_of(centers[2] + i, box.lo.z, box.hi.z));
-    const auto is_there = hn::FirstN(d, count - i);
-    const auto touches = hn::And(is_there, hn::Le(squared, hn::LoadU(d, squared_radii + i)));
-    hn::StoreU(compressed(du, hn::LoadU(du, lights + i), hn::RebindMask(du, touches)), du, out + found);
-    found += static_cast<std::uint32_t>(hn::CountTrue(d, touches));
+    const auto squared = squared_gap_of(centers[0] + i, box.lo.x, box.hi.x) +
+                         squared_gap_of(centers[1] + i, box.lo.y, box.hi.y) +
+                         squared_gap_of(centers[2] + i, box.lo.z, box.hi.z);
+    const auto is_there = FirstN(d, count - i);
+    const auto touches = And(is_there, squared <= LoadU(d, squared_radii + i));
+    StoreU(compressed(du, LoadU(du, lights + i), RebindMask(du, touches)), du, out + found);
+    found += static_cast<std::uint32_t>(CountTrue(d, touches));
   }
   return found;
 }

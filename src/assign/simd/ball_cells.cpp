@@ -22,10 +22,10 @@ using MD = hn::Mask<DD>;
 using DF = hn::Rebind<float, DD>;  // as many lanes
 using DI = hn::Rebind<std::int32_t, DD>;
 using VI = hn::Vec<DI>;
-static_assert(hn::MaxLanes(DD()) <= 8);  // bits of a byte
+static_assert(MaxLanes(DD()) <= 8);  // bits of a byte
 
 HWY_INLINE VD every(double value) {
-  return hn::Set(DD(), value);
+  return Set(DD(), value);
 }
 
 // geom::Bounded, one per lane; but what errors lose when they are added and multiplied, fewer than a hundred times, is
@@ -35,31 +35,31 @@ struct Bound {
 };
 
 HWY_INLINE Bound exactly(VD value) {
-  return {value, hn::Zero(DD())};
+  return {value, Zero(DD())};
 }
 HWY_INLINE VD rounded_up(VD error) {
-  const VD larger = hn::Add(hn::Mul(error, every(1.0 + 0x1p-44)), every(0x1p-1000));
-  return hn::IfThenElseZero(hn::Gt(error, hn::Zero(DD())), larger);
+  const VD larger = error * every(1.0 + 0x1p-44) + every(0x1p-1000);
+  return IfThenElseZero(error > Zero(DD()), larger);
 }
 HWY_INLINE Bound operator+(const Bound& a, const Bound& b) {
-  const VD sum = hn::Add(a.value, b.value), from_b = hn::Sub(sum, a.value);
-  const VD lost = hn::Add(hn::Sub(a.value, hn::Sub(sum, from_b)), hn::Sub(b.value, from_b));
-  return {sum, hn::Add(hn::Add(a.error, b.error), hn::Abs(lost))};
+  const VD sum = a.value + b.value, from_b = sum - a.value;
+  const VD lost = a.value - (sum - from_b) + (b.value - from_b);
+  return {sum, a.error + b.error + Abs(lost)};
 }
 HWY_INLINE Bound operator-(const Bound& a, const Bound& b) {
-  return a + Bound{hn::Neg(b.value), b.error};
+  return a + Bound{Neg(b.value), b.error};
 }
 // What a product loses is what a fused multiply and subtract finds, if it is not below what a double can hold; neither
 // are the products of errors nothing where they are.
 HWY_INLINE Bound operator*(const Bound& a, const Bound& b) {
-  const VD zero = hn::Zero(DD());
-  const VD product = hn::Mul(a.value, b.value), lost = hn::Abs(hn::MulSub(a.value, b.value, product));
-  const VD size_of_a = hn::Add(hn::Abs(a.value), a.error), size_of_b = hn::Add(hn::Abs(b.value), b.error);
-  const MD is_something = hn::And(hn::Gt(size_of_a, zero), hn::Gt(size_of_b, zero));
-  const MD is_rough = hn::Or(hn::Lt(hn::Abs(product), every(0x1p-900)), hn::Gt(hn::Add(a.error, b.error), zero));
-  const VD rounding = hn::Max(lost, hn::IfThenElseZero(hn::And(is_something, is_rough), every(0x1p-1000)));
-  const VD of_a = hn::Mul(a.error, size_of_b), of_b = hn::Mul(hn::Abs(a.value), b.error);
-  return {product, hn::Add(hn::Add(of_a, of_b), rounding)};
+  const VD zero = Zero(DD());
+  const VD product = a.value * b.value, lost = Abs(MulSub(a.value, b.value, product));
+  const VD size_of_a = Abs(a.value) + a.error, size_of_b = Abs(b.value) + b.error;
+  const MD is_something = And(size_of_a > zero, size_of_b > zero);
+  const MD is_rough = Or(Abs(product) < every(0x1p-900), a.error + b.error > zero);
+  const VD rounding = Max(lost, IfThenElseZero(And(is_something, is_rough), every(0x1p-1000)));
+  const VD of_a = a.error * size_of_b, of_b = Abs(a.value) * b.error;
+  return {product, of_a + of_b + rounding};
 }
 
 // How far a centre is outside of low <= at <= high, and which side's slope makes it change with depth (0: neither's).
@@ -68,22 +68,22 @@ struct Gap {
   VD slope;
 };
 HWY_INLINE Gap gap_between(const Bound& low, const Bound& at, const Bound& high, VD slope_low, VD slope_high) {
-  const VD zero = hn::Zero(DD());
+  const VD zero = Zero(DD());
   const Bound below = low - at, above = at - high;
-  const MD is_below = hn::Gt(below.value, above.value);
-  const VD value = hn::Max(below.value, above.value), error = rounded_up(hn::Max(below.error, above.error));
-  const MD is_outside = hn::Gt(value, zero);
-  const VD most = hn::Max(rounded_up(hn::Add(value, error)), zero);
-  const VD inside = hn::IfThenElseZero(hn::Gt(error, zero), most);
-  const VD slope = hn::IfThenElseZero(is_outside, hn::IfThenElse(is_below, slope_low, hn::Neg(slope_high)));
-  return {{hn::Max(value, zero), hn::IfThenElse(is_outside, error, inside)}, slope};
+  const MD is_below = below.value > above.value;
+  const VD value = Max(below.value, above.value), error = rounded_up(Max(below.error, above.error));
+  const MD is_outside = value > zero;
+  const VD most = Max(rounded_up(value + error), zero);
+  const VD inside = IfThenElseZero(error > zero, most);
+  const VD slope = IfThenElseZero(is_outside, IfThenElse(is_below, slope_low, Neg(slope_high)));
+  return {{Max(value, zero), IfThenElse(is_outside, error, inside)}, slope};
 }
 
 // Half the slope, along depth, of a gap's square.
 HWY_INLINE Bound half_slope(const Gap& gap, VD slope_low, VD slope_high) {
   const Bound product = exactly(gap.slope) * gap.size;
-  const VD unsure = hn::Mul(hn::Add(hn::Abs(slope_low), hn::Abs(slope_high)), gap.size.error);
-  return {product.value, rounded_up(hn::Add(product.error, unsure))};
+  const VD unsure = (Abs(slope_low) + Abs(slope_high)) * gap.size.error;
+  return {product.value, rounded_up(product.error + unsure)};
 }
 
 // A vector of pairs, from place `at` on.
@@ -91,24 +91,24 @@ class Pairs {
  public:
   Pairs(const view::LightArrays& lights, const RowPlanes& planes, const BallCells& cells, std::size_t at)
       : orthographic_(planes.orthographic) {
-    const auto load = [&](const std::vector<std::int32_t>& from) { return hn::LoadU(DI(), from.data() + at); };
+    const auto load = [&](const std::vector<std::int32_t>& from) { return LoadU(DI(), from.data() + at); };
     const VI column = load(cells.column), row = load(cells.row), slice = load(cells.slice);
     const auto plane_at = [&](const std::vector<float>& from, VI place) {
-      return hn::PromoteTo(DD(), hn::GatherIndex(DF(), from.data(), place));
+      return PromoteTo(DD(), GatherIndex(DF(), from.data(), place));
     };
-    const VI one = hn::Set(DI(), 1);
+    const VI one = Set(DI(), 1);
     x0_ = plane_at(planes.side, column);
-    x1_ = plane_at(planes.side, hn::Add(column, one));
-    y0_ = plane_at(planes.slope, hn::Add(row, one));
+    x1_ = plane_at(planes.side, column + one);
+    y0_ = plane_at(planes.slope, row + one);
     y1_ = plane_at(planes.slope, row);
     depth0_ = plane_at(planes.depth, slice);
-    depth1_ = plane_at(planes.depth, hn::Add(slice, one));
+    depth1_ = plane_at(planes.depth, slice + one);
 
     constexpr std::size_t k_stride = sizeof(scene::WorldLight) / sizeof(double);
     static_assert(sizeof(scene::WorldLight) % sizeof(double) == 0);
-    const auto place = hn::Mul(hn::PromoteTo(hn::Rebind<std::int64_t, DD>(), load(cells.light)),
-                               hn::Set(hn::Rebind<std::int64_t, DD>(), std::int64_t{k_stride}));
-    const auto of_light = [&](const double& first) { return exactly(hn::GatherIndex(DD(), &first, place)); };
+    const auto place = PromoteTo(hn::Rebind<std::int64_t, DD>(), load(cells.light)) *
+                       Set(hn::Rebind<std::int64_t, DD>(), std::int64_t{k_stride});
+    const auto of_light = [&](const double& first) { return exactly(GatherIndex(DD(), &first, place)); };
     const scene::WorldLight& first = lights.source.front();
     const Bound range = of_light(first.range_m);
     squared_range_ = range * range;
@@ -119,36 +119,36 @@ class Pairs {
     x_ = turned(space.rotation, 0, from_origin);
     y_ = turned(space.rotation, 1, from_origin);
     const Bound z = turned(space.rotation, 2, from_origin);
-    depth_ = {hn::Neg(z.value), z.error};
+    depth_ = {Neg(z.value), z.error};
   }
 
   // As in geom/ball.cpp.
   HWY_INLINE void look(MD& touches, MD& misses) const {
-    const VD zero = hn::Zero(DD()), at = nearest_depth();
+    const VD zero = Zero(DD()), at = nearest_depth();
     const Bound depth = exactly(at), along = depth - depth_;
     const Gap x = gap_between(plane(x0_, depth), x_, plane(x1_, depth), x0_, x1_);
     const Gap y = gap_between(plane(y0_, depth), y_, plane(y1_, depth), y0_, y1_);
     const Bound excess = x.size * x.size + y.size * y.size + along * along - squared_range_;
     const VD error = rounded_up(excess.error);
-    touches = hn::Le(excess.value, hn::Neg(error));
+    touches = excess.value <= Neg(error);
     VD undershoot = zero;
-    if (!orthographic_ && !hn::AllTrue(DD(), touches)) {
+    if (!orthographic_ && !AllTrue(DD(), touches)) {
       const Bound slope = half_slope(x, x0_, x1_) + half_slope(y, y0_, y1_) + along;
       const VD slope_error = rounded_up(slope.error);
-      const VD falls = hn::IfThenElseZero(hn::Lt(at, depth1_), hn::Sub(slope_error, slope.value));
-      const VD rises = hn::IfThenElseZero(hn::Gt(at, depth0_), hn::Add(slope_error, slope.value));
-      const VD steepness = rounded_up(hn::Max(zero, hn::Max(falls, rises)));
-      undershoot = rounded_up(hn::Mul(steepness, steepness));
+      const VD falls = IfThenElseZero(at < depth1_, slope_error - slope.value);
+      const VD rises = IfThenElseZero(at > depth0_, slope_error + slope.value);
+      const VD steepness = rounded_up(Max(zero, Max(falls, rises)));
+      undershoot = rounded_up(steepness * steepness);
       // A square too small for a double.
-      undershoot = hn::IfThenElse(hn::Gt(steepness, zero), hn::Max(undershoot, every(0x1p-1000)), zero);
+      undershoot = IfThenElse(steepness > zero, Max(undershoot, every(0x1p-1000)), zero);
     }
-    misses = hn::Gt(hn::Sub(excess.value, undershoot), error);
+    misses = excess.value - undershoot > error;
   }
 
  private:
   // A coordinate of a vector in a space. What is multiplied by 0 or 1, as where cameras stand straight, costs nothing.
   static HWY_INLINE Bound turned(const Mat3d& rotation, int row, const Bound (&vector)[3]) {
-    Bound sum = exactly(hn::Zero(DD()));
+    Bound sum = exactly(Zero(DD()));
     bool is_empty = true;
     for (int column = 0; column < 3; ++column) {
       const double factor = rotation[column][row];
@@ -164,10 +164,9 @@ class Pairs {
     return orthographic_ ? exactly(slope) : exactly(slope) * depth;
   }
   HWY_INLINE VD slope_at(VD at, VD place, VD low, VD high) const {
-    return hn::IfThenElse(hn::Lt(place, hn::Mul(low, at)), low,
-                          hn::IfThenElseZero(hn::Gt(place, hn::Mul(high, at)), high));
+    return IfThenElse(place < low * at, low, IfThenElseZero(place > high * at, high));
   }
-  HWY_INLINE VD clamped(VD depth) const { return hn::Min(hn::Max(depth, depth0_), depth1_); }
+  HWY_INLINE VD clamped(VD depth) const { return Min(Max(depth, depth0_), depth1_); }
 
   HWY_INLINE VD nearest_depth() const {
     VD at = clamped(depth_.value);
@@ -175,10 +174,10 @@ class Pairs {
     constexpr int k_steps = 3;
     for (int i = 0; i < k_steps; ++i) {
       const VD slope_x = slope_at(at, x_.value, x0_, x1_), slope_y = slope_at(at, y_.value, y0_, y1_);
-      const VD along = hn::Add(depth_.value, hn::Add(hn::Mul(slope_x, x_.value), hn::Mul(slope_y, y_.value)));
-      const VD square = hn::Add(every(1.0), hn::Add(hn::Mul(slope_x, slope_x), hn::Mul(slope_y, slope_y)));
-      const VD next = clamped(hn::Div(along, square));
-      if (hn::AllTrue(DD(), hn::Eq(next, at))) break;
+      const VD along = depth_.value + (slope_x * x_.value + slope_y * y_.value);
+      const VD square = every(1.0) + (slope_x * slope_x + slope_y * slope_y);
+      const VD next = clamped(along / square);
+      if (AllTrue(DD(), next == at)) break;
       at = next;
     }
     return at;
@@ -190,13 +189,13 @@ class Pairs {
 };
 
 void look(const view::LightArrays& lights, const RowPlanes& planes, BallCells& cells) {
-  const std::size_t lanes = hn::Lanes(DD());
+  const std::size_t lanes = Lanes(DD());
   for (std::size_t first = 0; first < cells.count; first += lanes) {
     MD touches, misses;
     Pairs(lights, planes, cells, first).look(touches, misses);
     std::uint8_t yes[8] = {}, no[8] = {};
-    hn::StoreMaskBits(DD(), touches, yes);
-    hn::StoreMaskBits(DD(), misses, no);
+    StoreMaskBits(DD(), touches, yes);
+    StoreMaskBits(DD(), misses, no);
     for (std::size_t lane = 0; lane < lanes; ++lane)
       cells.touch[first + lane] = (yes[0] >> lane & 1) != 0  ? Touch::yes
                                   : (no[0] >> lane & 1) != 0 ? Touch::no

@@ -21,26 +21,26 @@ template <class Passes>
 HWY_INLINE VI last_passed(const std::vector<float>& boundaries, VI guess, int least, Passes&& passes) {
   const DI di;
   const auto count = static_cast<std::int32_t>(boundaries.size()) - 1;
-  const VI zero = hn::Zero(di), one = hn::Set(di, 1), from = hn::Set(di, least), to = hn::Set(di, count + least);
-  const auto at = [&](VI place) { return hn::RebindMask(di, passes(gathered(boundaries, place))); };
-  VI place = hn::Min(hn::Max(guess, from), to);
+  const VI zero = Zero(di), one = Set(di, 1), from = Set(di, least), to = Set(di, count + least);
+  const auto at = [&](VI place) { return RebindMask(di, passes(gathered(boundaries, place))); };
+  VI place = Min(Max(guess, from), to);
   for (;;) {
-    const VI next = hn::Add(place, one);
-    const auto goes_on = hn::And(hn::Lt(place, to), at(hn::Min(next, to)));
-    if (hn::AllFalse(di, goes_on)) break;
-    place = hn::IfThenElse(goes_on, next, place);
+    const VI next = place + one;
+    const auto goes_on = And(place < to, at(Min(next, to)));
+    if (AllFalse(di, goes_on)) break;
+    place = IfThenElse(goes_on, next, place);
   }
   for (;;) {
-    const auto goes_back = hn::AndNot(at(hn::Max(place, zero)), hn::Gt(place, from));
-    if (hn::AllFalse(di, goes_back)) return place;
-    place = hn::IfThenElse(goes_back, hn::Sub(place, one), place);
+    const auto goes_back = AndNot(at(Max(place, zero)), place > from);
+    if (AllFalse(di, goes_back)) return place;
+    place = IfThenElse(goes_back, place - one, place);
   }
 }
 
 HWY_INLINE VI guessed(const BoundaryAxis& axis, V value) {
-  const V at = hn::Mul(hn::Sub(value, all(axis.start)), all(axis.per_length));
+  const V at = (value - all(axis.start)) * all(axis.per_length);
   const V most = all(static_cast<float>(axis.boundaries.size()));
-  return hn::ConvertTo(DI(), hn::Min(hn::Max(at, hn::Zero(D())), most));
+  return ConvertTo(DI(), Min(Max(at, Zero(D())), most));
 }
 
 struct Indices {
@@ -49,10 +49,10 @@ struct Indices {
 
 // Looks first where a value is guessed to be.
 HWY_INLINE VI first_touched(const std::vector<float>& boundaries, VI guess, V low) {
-  return last_passed(boundaries, guess, 0, [&](V boundary) { return hn::Lt(boundary, low); });
+  return last_passed(boundaries, guess, 0, [&](V boundary) { return boundary < low; });
 }
 HWY_INLINE VI last_touched(const std::vector<float>& boundaries, VI guess, V high) {
-  return last_passed(boundaries, guess, -1, [&](V boundary) { return hn::Le(boundary, high); });
+  return last_passed(boundaries, guess, -1, [&](V boundary) { return boundary <= high; });
 }
 
 // grid::intervals_touched for low <= high. Empty if first > last.

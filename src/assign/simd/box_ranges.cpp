@@ -16,42 +16,41 @@ namespace {
 
 // Along an axis; a negated place has the same distances from negated boundaries.
 HWY_INLINE V on_axis(const RangeAxis& axis, V place) {
-  return axis.descends ? hn::Neg(place) : place;
+  return axis.descends ? Neg(place) : place;
 }
 
 // Whether the grid as a whole is within reach. Boxes are adjacent: so is one of them, then.
 HWY_INLINE M reaches(const RangeAxis& axis, V given, V radius) {
   const V place = on_axis(axis, given), start = all(axis.boundaries.front()), end = all(axis.boundaries.back());
-  return hn::Not(hn::Or(hn::Gt(hn::Sub(start, place), radius), hn::Gt(hn::Sub(place, end), radius)));
+  return Not(Or(start - place > radius, place - end > radius));
 }
 
 HWY_INLINE Indices range_on(const RangeAxis& axis, V given, V radius) {
   const V place = on_axis(axis, given);
-  const auto is_before = [&](V end) { return hn::Gt(hn::Sub(place, end), radius); };
-  const auto is_reached = [&](V start) { return hn::Not(hn::Gt(hn::Sub(start, place), radius)); };
-  return {last_passed(axis.boundaries, guessed(axis, hn::Sub(place, radius)), 0, is_before),
-          last_passed(axis.boundaries, guessed(axis, hn::Add(place, radius)), -1, is_reached)};
+  const auto is_before = [&](V end) { return place - end > radius; };
+  const auto is_reached = [&](V start) { return Not(start - place > radius); };
+  return {last_passed(axis.boundaries, guessed(axis, place - radius), 0, is_before),
+          last_passed(axis.boundaries, guessed(axis, place + radius), -1, is_reached)};
 }
 
 HWY_INLINE MI lies_in(const Indices& range, const grid::IndexRange& hole) {
   const DI di;
-  return hn::AndNot(hn::Lt(range.first, hn::Set(di, hole.first)), hn::Not(hn::Gt(range.last, hn::Set(di, hole.last))));
+  return AndNot(range.first < Set(di, hole.first), Not(range.last > Set(di, hole.last)));
 }
 
 // Those that reach the grid; without their ranges.
 void see_reaching(const RangeAxes& axes, const GivenBalls& balls, std::uint32_t first_light, float roundings,
                   BoxedBalls& boxed) {
   const D d;
-  const auto n = static_cast<std::uint32_t>(hn::Lanes(d));
+  const auto n = static_cast<std::uint32_t>(Lanes(d));
   for (std::uint32_t i = 0; i < balls.count; i += n) {
     const std::uint32_t left = std::min(n, balls.count - i);
     const auto load = [&](const float* from) { return loaded(from + i, left); };
     const V x = load(balls.x), y = load(balls.y), z = load(balls.z), given = load(balls.radius);
     const V radius = padded(given, load(balls.reach), roundings);
-    const M on_all =
-        hn::And(reaches(axes.x, x, radius), hn::And(reaches(axes.y, y, radius), reaches(axes.z, z, radius)));
-    const M wanted = hn::And(hn::And(hn::Gt(given, hn::Zero(d)), hn::FirstN(d, left)), on_all);
-    keep_balls(wanted, {x, y, hn::Neg(z), radius}, first_light + i, boxed);
+    const M on_all = And(reaches(axes.x, x, radius), And(reaches(axes.y, y, radius), reaches(axes.z, z, radius)));
+    const M wanted = And(And(given > Zero(d), FirstN(d, left)), on_all);
+    keep_balls(wanted, {x, y, Neg(z), radius}, first_light + i, boxed);
   }
 }
 
@@ -59,17 +58,17 @@ void see_reaching(const RangeAxes& axes, const GivenBalls& balls, std::uint32_t 
 void find_ranges(const RangeAxes& axes, std::uint32_t begin, BoxedBalls& boxed) {
   const D d;
   const DI di;
-  const auto n = static_cast<std::uint32_t>(hn::Lanes(d));
+  const auto n = static_cast<std::uint32_t>(Lanes(d));
   for (std::uint32_t i = begin; i < boxed.count; i += n) {
-    const auto at = [&](const AlignedVector<float>& list) { return hn::LoadU(d, list.data() + i); };
+    const auto at = [&](const AlignedVector<float>& list) { return LoadU(d, list.data() + i); };
     const V radius = at(boxed.radius);
     const Indices x = range_on(axes.x, at(boxed.x), radius), y = range_on(axes.y, at(boxed.y), radius);
-    Indices z = range_on(axes.z, hn::Neg(at(boxed.depth)), radius);
-    const MI in_hole = hn::And(lies_in(x, axes.hole_x), hn::And(lies_in(y, axes.hole_y), lies_in(z, axes.hole_z)));
-    z.last = hn::IfThenElse(in_hole, hn::Set(di, -1), z.last);
+    Indices z = range_on(axes.z, Neg(at(boxed.depth)), radius);
+    const MI in_hole = And(lies_in(x, axes.hole_x), And(lies_in(y, axes.hole_y), lies_in(z, axes.hole_z)));
+    z.last = IfThenElse(in_hole, Set(di, -1), z.last);
     const auto keep = [&](const Indices& range, AlignedVector<std::int32_t>& first, AlignedVector<std::int32_t>& last) {
-      hn::StoreU(range.first, di, first.data() + i);
-      hn::StoreU(range.last, di, last.data() + i);
+      StoreU(range.first, di, first.data() + i);
+      StoreU(range.last, di, last.data() + i);
     };
     keep(x, boxed.first_column, boxed.last_column);
     keep(y, boxed.first_row, boxed.last_row);

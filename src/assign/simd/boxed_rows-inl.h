@@ -19,42 +19,40 @@ namespace HWY_NAMESPACE {
 class Boxes {
  public:
   HWY_INLINE explicit Boxes(const BallBatch& batch)
-      : places(hn::BitCast(DI(), hn::LoadU(DU(), batch.balls))),
+      : places(BitCast(DI(), LoadU(DU(), batch.balls))),
         first_row(gathered(batch.boxed.first_row, places)),
         first_column(gathered(batch.boxed.first_column, places)) {
     const VI one = all_int(1);
-    lights = hn::GatherIndex(DU(), batch.boxed.light.data(), places);
-    rows = hn::Add(hn::Sub(gathered(batch.boxed.last_row, places), first_row), one);
-    rows = hn::IfThenElseZero(hn::FirstN(DI(), batch.count), rows);
-    columns = hn::Add(hn::Sub(gathered(batch.boxed.last_column, places), first_column), one);
+    lights = GatherIndex(DU(), batch.boxed.light.data(), places);
+    rows = gathered(batch.boxed.last_row, places) - first_row + one;
+    rows = IfThenElseZero(FirstN(DI(), batch.count), rows);
+    columns = gathered(batch.boxed.last_column, places) - first_column + one;
     // Below all lights (lights are fewer than 2^31), not even one is open.
-    open = hn::IfThenElseZero(hn::Not(hn::Lt(lights, hn::Set(DU(), batch.first_open))),
-                              hn::Set(DU(), BatchRows::k_uncertain));
+    open = IfThenElseZero(Not(lights < Set(DU(), batch.first_open)), Set(DU(), BatchRows::k_uncertain));
   }
 
   // Leaves out the balls that do not reach the slice.
-  HWY_INLINE void keep(M reaches) { rows = hn::IfThenElseZero(hn::RebindMask(DI(), reaches), rows); }
+  HWY_INLINE void keep(M reaches) { rows = IfThenElseZero(RebindMask(DI(), reaches), rows); }
 
   // Prepares the answer; false if there are no rows.
   HWY_INLINE bool start(int grid_rows, std::uint32_t count, BatchRows& out) const {
     const DI di;
-    out.lanes = static_cast<std::uint32_t>(hn::Lanes(di));
-    const auto row_count = static_cast<std::uint32_t>(hn::GetLane(hn::SumOfLanes(di, rows)));
+    out.lanes = static_cast<std::uint32_t>(Lanes(di));
+    const auto row_count = static_cast<std::uint32_t>(GetLane(SumOfLanes(di, rows)));
     out.tests = count + row_count;
-    const auto has_rows = hn::Gt(rows, hn::Zero(di));
-    out.first_row = hn::GetLane(hn::MinOfLanes(di, hn::IfThenElse(has_rows, first_row, all_int(grid_rows))));
-    out.last_row = hn::GetLane(hn::MaxOfLanes(di, hn::IfThenElseZero(has_rows, hn::Add(first_row, rows)))) - 1;
+    const auto has_rows = rows > Zero(di);
+    out.first_row = GetLane(MinOfLanes(di, IfThenElse(has_rows, first_row, all_int(grid_rows))));
+    out.last_row = GetLane(MaxOfLanes(di, IfThenElseZero(has_rows, first_row + rows))) - 1;
     if (row_count == 0) return false;
-    hn::StoreU(lights, DU(), out.lights);
+    StoreU(lights, DU(), out.lights);
     out.make_room(grid_rows);
     return true;
   }
 
   // The columns first .. last (counted from the box's first) as a batch's answer has them.
   HWY_INLINE VU entry(VI first, VI last) const {
-    const VU from = hn::BitCast(DU(), hn::Add(first_column, first)),
-             to = hn::BitCast(DU(), hn::Add(first_column, last));
-    return hn::Or(hn::Or(from, hn::ShiftLeft<16>(to)), open);
+    const VU from = BitCast(DU(), first_column + first), to = BitCast(DU(), first_column + last);
+    return Or(Or(from, ShiftLeft<16>(to)), open);
   }
 
   VI places, first_row, rows, first_column, columns;  // how many rows and columns
@@ -65,18 +63,18 @@ class Boxes {
 template <class EntryOf>
 HWY_INLINE void walk_rows(const Boxes& boxes, int grid_rows, BatchRows& out, EntryOf&& entry_of) {
   const DI di;
-  const auto lanes = static_cast<int>(hn::Lanes(di));
+  const auto lanes = static_cast<int>(Lanes(di));
   for (int row = out.first_row; row <= out.last_row; ++row)
-    hn::StoreU(hn::Set(DU(), BatchRows::k_none), DU(), out.columns.data() + row * lanes);
-  const int most = hn::GetLane(hn::MaxOfLanes(di, boxes.rows));
-  VI row = boxes.first_row, to = hn::Add(hn::Mul(row, all_int(lanes)), hn::Iota(di, 0));
+    StoreU(Set(DU(), BatchRows::k_none), DU(), out.columns.data() + row * lanes);
+  const int most = GetLane(MaxOfLanes(di, boxes.rows));
+  VI row = boxes.first_row, to = row * all_int(lanes) + Iota(di, 0);
   for (int i = 0; i < most; ++i) {
-    const MI wanted = hn::Gt(boxes.rows, all_int(i));
+    const MI wanted = boxes.rows > all_int(i);
     const VU entry = entry_of(row, wanted);
-    hn::ScatterIndex(hn::BitCast(di, entry), di, reinterpret_cast<std::int32_t*>(out.columns.data()),
-                     hn::IfThenElse(wanted, to, all_int(grid_rows * lanes)));
-    row = hn::Add(row, all_int(1));
-    to = hn::Add(to, all_int(lanes));
+    ScatterIndex(BitCast(di, entry), di, reinterpret_cast<std::int32_t*>(out.columns.data()),
+                 IfThenElse(wanted, to, all_int(grid_rows * lanes)));
+    row = row + all_int(1);
+    to = to + all_int(lanes);
   }
 }
 
@@ -87,15 +85,15 @@ struct Balls {
 // Appends the wanted ones of a vector of balls, of lights `first_light` .., without their boxes.
 HWY_INLINE void keep_balls(M wanted, const Balls& balls, std::uint32_t first_light, BoxedBalls& boxed) {
   const auto keep = [&](V value, AlignedVector<float>& to) {
-    hn::StoreU(compressed(D(), value, wanted), D(), to.data() + boxed.count);
+    StoreU(compressed(D(), value, wanted), D(), to.data() + boxed.count);
   };
   keep(balls.x, boxed.x);
   keep(balls.y, boxed.y);
   keep(balls.depth, boxed.depth);
   keep(balls.radius, boxed.radius);
-  const VU lights = hn::Iota(DU(), first_light);
-  hn::StoreU(compressed(DU(), lights, hn::RebindMask(DU(), wanted)), DU(), boxed.light.data() + boxed.count);
-  boxed.count += static_cast<std::uint32_t>(hn::CountTrue(D(), wanted));
+  const VU lights = Iota(DU(), first_light);
+  StoreU(compressed(DU(), lights, RebindMask(DU(), wanted)), DU(), boxed.light.data() + boxed.count);
+  boxed.count += static_cast<std::uint32_t>(CountTrue(D(), wanted));
 }
 
 }  // namespace HWY_NAMESPACE

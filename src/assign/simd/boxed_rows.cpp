@@ -19,7 +19,7 @@ namespace HWY_NAMESPACE {
 namespace {
 
 M is_none(V square) {
-  return hn::Lt(square, hn::Zero(D()));
+  return square < Zero(D());
 }
 
 // The first and the last of a lane's columns that touches(column) says it touches, as an entry; none if there is none.
@@ -27,32 +27,32 @@ M is_none(V square) {
 template <class Touches>
 HWY_INLINE VU ends(const Boxes& boxes, int most, Touches&& touches) {
   const VI beyond = all_int(std::numeric_limits<std::int32_t>::max());
-  VI first = beyond, last = hn::Zero(DI());
+  VI first = beyond, last = Zero(DI());
   for (int column = 0; column < most; ++column) {
     const VI place = all_int(column);
-    const MI is_touched = hn::And(hn::RebindMask(DI(), touches(column)), hn::Gt(boxes.columns, place));
-    first = hn::Min(first, hn::IfThenElse(is_touched, place, beyond));
-    last = hn::IfThenElse(is_touched, place, last);
+    const MI is_touched = And(RebindMask(DI(), touches(column)), boxes.columns > place);
+    first = Min(first, IfThenElse(is_touched, place, beyond));
+    last = IfThenElse(is_touched, place, last);
   }
-  const auto is_some = hn::RebindMask(DU(), hn::Lt(first, beyond));
-  return hn::IfThenElse(is_some, boxes.entry(first, last), hn::Set(DU(), BatchRows::k_none));
+  const auto is_some = RebindMask(DU(), first < beyond);
+  return IfThenElse(is_some, boxes.entry(first, last), Set(DU(), BatchRows::k_none));
 }
 
 int most_columns(const Boxes& boxes) {
-  const MI wanted = hn::Gt(boxes.rows, hn::Zero(DI()));
-  return hn::GetLane(hn::MaxOfLanes(DI(), hn::IfThenElseZero(wanted, boxes.columns)));
+  const MI wanted = boxes.rows > Zero(DI());
+  return GetLane(MaxOfLanes(DI(), IfThenElseZero(wanted, boxes.columns)));
 }
 
 void boxed_rows(int grid_rows, const BallBatch& batch, BatchRows& out) {
   const Boxes boxes(batch);
   if (!boxes.start(grid_rows, batch.count, out)) return;
-  const VU entry = boxes.entry(hn::Zero(DI()), hn::Sub(boxes.columns, all_int(1)));
-  const VI end = hn::Add(boxes.first_row, boxes.rows);
+  const VU entry = boxes.entry(Zero(DI()), boxes.columns - all_int(1));
+  const VI end = boxes.first_row + boxes.rows;
   for (int row = out.first_row; row <= out.last_row; ++row) {
     const VI place = all_int(row);
-    const MI holds = hn::AndNot(hn::Lt(place, boxes.first_row), hn::Lt(place, end));
-    hn::StoreU(hn::IfThenElse(hn::RebindMask(DU(), holds), entry, hn::Set(DU(), BatchRows::k_none)), DU(),
-               out.columns.data() + static_cast<std::size_t>(row) * out.lanes);
+    const MI holds = AndNot(place < boxes.first_row, place < end);
+    StoreU(IfThenElse(RebindMask(DU(), holds), entry, Set(DU(), BatchRows::k_none)), DU(),
+           out.columns.data() + static_cast<std::size_t>(row) * out.lanes);
   }
 }
 
@@ -63,9 +63,9 @@ struct Remainder {
 };
 
 HWY_INLINE Remainder cut_to_slice(V depth, V radius, float depth0, float depth1) {
-  const V nearer = hn::Min(hn::Max(depth, all(depth0)), all(depth1));
-  const V gap = hn::Sub(nearer, depth);
-  return {nearer, hn::Sub(hn::Mul(radius, radius), hn::Mul(gap, gap))};
+  const V nearer = Min(Max(depth, all(depth0)), all(depth1));
+  const V gap = nearer - depth;
+  return {nearer, radius * radius - gap * gap};
 }
 
 // A row's plane, and how far above it a ball's centre is.
@@ -74,41 +74,41 @@ struct RowPlane {
 };
 
 HWY_INLINE Remainder cut_to_row(const Remainder& ball, const RowPlane& top, const RowPlane& bottom) {
-  const M is_above = hn::Gt(top.distance, hn::Zero(D()));
-  const V gap = hn::Max(hn::IfThenElse(is_above, top.distance, hn::Neg(bottom.distance)), hn::Zero(D()));
-  const V along = hn::IfThenElse(is_above, top.along, hn::Neg(bottom.along));
-  return {hn::Sub(ball.depth, hn::Mul(gap, along)), hn::Sub(ball.squared_radius, hn::Mul(gap, gap))};
+  const M is_above = top.distance > Zero(D());
+  const V gap = Max(IfThenElse(is_above, top.distance, Neg(bottom.distance)), Zero(D()));
+  const V along = IfThenElse(is_above, top.along, Neg(bottom.along));
+  return {ball.depth - gap * along, ball.squared_radius - gap * gap};
 }
 
 // For each column's plane of the lanes' boxes: its normal's part along the depth, and what the centre's x adds to the
 // distance from it, which no cut changes.
 HWY_INLINE void prepare_columns(const RefinementPlanes& planes, const Boxes& boxes, int most, V x, LaneColumns& out) {
-  const std::size_t lanes = hn::Lanes(D());
+  const std::size_t lanes = Lanes(D());
   out.reserve(planes.column_across.size() * k_row_lanes);
   const VI last = all_int(static_cast<int>(planes.column_across.size()) - 1);
   for (int i = 0; i <= most; ++i) {
-    const VI place = hn::Min(hn::Add(boxes.first_column, all_int(i)), last);
+    const VI place = Min(boxes.first_column + all_int(i), last);
     const std::size_t to = static_cast<std::size_t>(i) * lanes;
-    V distance = hn::Mul(gathered(planes.column_across, place), x);
-    if (!planes.column_offset.empty()) distance = hn::Add(distance, gathered(planes.column_offset, place));
-    hn::StoreU(distance, D(), out.first.data() + to);
-    hn::StoreU(gathered(planes.column_along, place), D(), out.second.data() + to);
+    V distance = gathered(planes.column_across, place) * x;
+    if (!planes.column_offset.empty()) distance = distance + gathered(planes.column_offset, place);
+    StoreU(distance, D(), out.first.data() + to);
+    StoreU(gathered(planes.column_along, place), D(), out.second.data() + to);
   }
 }
 
 HWY_INLINE VU columns_reached(const Boxes& boxes, int most, const Remainder& ball, const LaneColumns& columns) {
-  const std::size_t lanes = hn::Lanes(D());
+  const std::size_t lanes = Lanes(D());
   const auto distance = [&](int plane) {
     const std::size_t at = static_cast<std::size_t>(plane) * lanes;
-    const V along = hn::Mul(hn::LoadU(D(), columns.second.data() + at), ball.depth);
-    return hn::Add(hn::LoadU(D(), columns.first.data() + at), along);
+    const V along = LoadU(D(), columns.second.data() + at) * ball.depth;
+    return LoadU(D(), columns.first.data() + at) + along;
   };
   V left = distance(0);
   return ends(boxes, most, [&](int column) {
     const V right = distance(column + 1);
-    const V gap = hn::Max(hn::Neg(left), right);
+    const V gap = Max(Neg(left), right);
     left = right;
-    return hn::Or(hn::Le(gap, hn::Zero(D())), hn::Le(hn::Mul(gap, gap), ball.squared_radius));
+    return Or(gap <= Zero(D()), gap * gap <= ball.squared_radius);
   });
 }
 
@@ -119,45 +119,45 @@ void refined_rows(const RefinementPlanes& planes, const BallBatch& batch, LaneCo
   Boxes boxes(batch);
   const Remainder ball = cut_to_slice(gathered(boxed.depth, boxes.places), gathered(boxed.radius, boxes.places),
                                       planes.depths[z], planes.depths[z + 1]);
-  boxes.keep(hn::Not(is_none(ball.squared_radius)));
+  boxes.keep(Not(is_none(ball.squared_radius)));
   if (!boxes.start(grid_rows, batch.count, out)) return;
   const V y = gathered(boxed.y, boxes.places);
   const int most = most_columns(boxes);
   prepare_columns(planes, boxes, most, gathered(boxed.x, boxes.places), columns);
   const auto plane_at = [&](VI place) {
-    const VI plane = hn::Min(place, all_int(grid_rows));
+    const VI plane = Min(place, all_int(grid_rows));
     const V along = gathered(planes.row_along, plane);
-    V distance = hn::Add(hn::Mul(gathered(planes.row_across, plane), y), hn::Mul(along, ball.depth));
-    if (!planes.row_offset.empty()) distance = hn::Add(distance, gathered(planes.row_offset, plane));
+    V distance = gathered(planes.row_across, plane) * y + along * ball.depth;
+    if (!planes.row_offset.empty()) distance = distance + gathered(planes.row_offset, plane);
     return RowPlane{along, distance};
   };
   RowPlane top = plane_at(boxes.first_row);
   walk_rows(boxes, grid_rows, out, [&](VI row, MI wanted) {
-    const RowPlane bottom = plane_at(hn::Add(row, all_int(1)));
+    const RowPlane bottom = plane_at(row + all_int(1));
     const Remainder in_row = cut_to_row(ball, top, bottom);
     top = bottom;
-    const VU none = hn::Set(DU(), BatchRows::k_none);
-    const MI reaches = hn::AndNot(hn::RebindMask(DI(), is_none(in_row.squared_radius)), wanted);
-    if (hn::AllFalse(DI(), reaches)) return none;
-    return hn::IfThenElse(hn::RebindMask(DU(), reaches), columns_reached(boxes, most, in_row, columns), none);
+    const VU none = Set(DU(), BatchRows::k_none);
+    const MI reaches = AndNot(RebindMask(DI(), is_none(in_row.squared_radius)), wanted);
+    if (AllFalse(DI(), reaches)) return none;
+    return IfThenElse(RebindMask(DU(), reaches), columns_reached(boxes, most, in_row, columns), none);
   });
 }
 
 // --- Boxes around cells ---
 
 HWY_INLINE V squared_gap(const CellExtents::Axis& axis, VI place, V center) {
-  const V below = hn::Sub(gathered(axis.lo, place), center), above = hn::Sub(center, gathered(axis.hi, place));
-  const V gap = hn::Max(hn::Zero(D()), hn::Max(below, above));
-  return hn::Mul(gap, gap);
+  const V below = gathered(axis.lo, place) - center, above = center - gathered(axis.hi, place);
+  const V gap = Max(Zero(D()), Max(below, above));
+  return gap * gap;
 }
 
 HWY_INLINE void prepare_gaps(const CellExtents& cells, const Boxes& boxes, int slice, int most, V x, LaneColumns& out) {
-  const std::size_t lanes = hn::Lanes(D());
+  const std::size_t lanes = Lanes(D());
   out.reserve(static_cast<std::size_t>(cells.columns) * k_row_lanes);
   const VI last = all_int(cells.columns - 1), before = all_int(slice * cells.x.pitch);
   for (int i = 0; i < most; ++i) {
-    const VI place = hn::Add(hn::Min(hn::Add(boxes.first_column, all_int(i)), last), before);
-    hn::StoreU(squared_gap(cells.x, place, x), D(), out.first.data() + static_cast<std::size_t>(i) * lanes);
+    const VI place = Min(boxes.first_column + all_int(i), last) + before;
+    StoreU(squared_gap(cells.x, place, x), D(), out.first.data() + static_cast<std::size_t>(i) * lanes);
   }
 }
 
@@ -166,24 +166,24 @@ HWY_INLINE void prepare_gaps(const CellExtents& cells, const Boxes& boxes, int s
 void box_rows(const CellExtents& cells, const BallBatch& batch, LaneColumns& columns, BatchRows& out) {
   const BoxedBalls& boxed = batch.boxed;
   Boxes boxes(batch);
-  const V radius = gathered(boxed.radius, boxes.places), squared_radius = hn::Mul(radius, radius);
-  const V z = hn::Neg(gathered(boxed.depth, boxes.places)), gap_z = squared_gap(cells.z, all_int(batch.slice), z);
-  boxes.keep(hn::Le(gap_z, squared_radius));
+  const V radius = gathered(boxed.radius, boxes.places), squared_radius = radius * radius;
+  const V z = Neg(gathered(boxed.depth, boxes.places)), gap_z = squared_gap(cells.z, all_int(batch.slice), z);
+  boxes.keep(gap_z <= squared_radius);
   if (!boxes.start(cells.rows, batch.count, out)) return;
   const V y = gathered(boxed.y, boxes.places);
   const int most = most_columns(boxes);
   prepare_gaps(cells, boxes, batch.slice, most, gathered(boxed.x, boxes.places), columns);
   const VI last = all_int(cells.rows - 1), before = all_int(batch.slice * cells.y.pitch);
   walk_rows(boxes, cells.rows, out, [&](VI row, MI wanted) {
-    const V gap_y = squared_gap(cells.y, hn::Add(hn::Min(row, last), before), y);
-    const VU none = hn::Set(DU(), BatchRows::k_none);
-    const MI reaches = hn::And(wanted, hn::RebindMask(DI(), hn::Le(hn::Add(gap_y, gap_z), squared_radius)));
-    if (hn::AllFalse(DI(), reaches)) return none;
+    const V gap_y = squared_gap(cells.y, Min(row, last) + before, y);
+    const VU none = Set(DU(), BatchRows::k_none);
+    const MI reaches = And(wanted, RebindMask(DI(), gap_y + gap_z <= squared_radius));
+    if (AllFalse(DI(), reaches)) return none;
     const VU found = ends(boxes, most, [&](int column) {  // geom::ball_touches_box, summed in its order
-      const V gap_x = hn::LoadU(D(), columns.first.data() + static_cast<std::size_t>(column) * hn::Lanes(D()));
-      return hn::Le(hn::Add(hn::Add(gap_x, gap_y), gap_z), squared_radius);
+      const V gap_x = LoadU(D(), columns.first.data() + static_cast<std::size_t>(column) * Lanes(D()));
+      return gap_x + gap_y + gap_z <= squared_radius;
     });
-    return hn::IfThenElse(hn::RebindMask(DU(), reaches), found, none);
+    return IfThenElse(RebindMask(DU(), reaches), found, none);
   });
 }
 

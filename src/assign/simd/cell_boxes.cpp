@@ -17,11 +17,9 @@ namespace {
 void find_extents(const BoxPlanes& planes, const SeenBalls& seen, std::uint32_t begin, BoxedBalls& boxed) {
   const DD dd;
   const DF df;
-  const auto n = static_cast<std::uint32_t>(hn::Lanes(dd));
+  const auto n = static_cast<std::uint32_t>(Lanes(dd));
   for (std::uint32_t i = begin; i < seen.count; i += n) {
-    const auto wide = [&](const AlignedVector<float>& from) {
-      return hn::PromoteTo(dd, hn::LoadU(df, from.data() + i));
-    };
+    const auto wide = [&](const AlignedVector<float>& from) { return PromoteTo(dd, LoadU(df, from.data() + i)); };
     const Disks disks(wide(seen.depth), wide(boxed.box_radius), planes.depths.front(), planes.depths.back());
     const auto find = [&](const AlignedVector<float>& center, AlignedVector<float>& to_low,
                           AlignedVector<float>& to_high) {
@@ -30,8 +28,8 @@ void find_extents(const BoxPlanes& planes, const SeenBalls& seen, std::uint32_t 
         disks.offset_range(wide(center), low, high);
       else
         disks.slope_range(wide(center), low, high);
-      hn::StoreU(low, df, to_low.data() + i);
-      hn::StoreU(high, df, to_high.data() + i);
+      StoreU(low, df, to_low.data() + i);
+      StoreU(high, df, to_high.data() + i);
     };
     find(seen.x, boxed.low_x, boxed.high_x);
     find(seen.y, boxed.low_y, boxed.high_y);
@@ -43,13 +41,13 @@ void find_radii(const SeenBalls& seen, std::uint32_t begin, const GivenBalls& gi
   const D d;
   const DI di;
   const hn::RebindToUnsigned<D> du;
-  const auto n = static_cast<std::uint32_t>(hn::Lanes(d));
+  const auto n = static_cast<std::uint32_t>(Lanes(d));
   for (std::uint32_t i = begin; i < seen.count; i += n) {
-    const auto light = hn::Min(hn::LoadU(du, seen.light.data() + i), hn::Set(du, first_light + given.count - 1));
-    const VI place = hn::BitCast(di, hn::Sub(hn::Max(light, hn::Set(du, first_light)), hn::Set(du, first_light)));
-    const V radius = hn::GatherIndex(d, given.radius, place), reach = hn::GatherIndex(d, given.reach, place);
-    hn::StoreU(padded(radius, reach, padding.box), d, boxed.box_radius.data() + i);
-    hn::StoreU(padded(radius, reach, padding.ball), d, boxed.ball_radius.data() + i);
+    const auto light = Min(LoadU(du, seen.light.data() + i), Set(du, first_light + given.count - 1));
+    const VI place = BitCast(di, Max(light, Set(du, first_light)) - Set(du, first_light));
+    const V radius = GatherIndex(d, given.radius, place), reach = GatherIndex(d, given.reach, place);
+    StoreU(padded(radius, reach, padding.box), d, boxed.box_radius.data() + i);
+    StoreU(padded(radius, reach, padding.ball), d, boxed.ball_radius.data() + i);
   }
 }
 
@@ -58,39 +56,39 @@ void box_balls(const BoxPlanes& planes, const SeenBalls& seen, std::uint32_t beg
   const D d;
   const DI di;
   const hn::RebindToUnsigned<D> du;
-  const auto n = static_cast<std::uint32_t>(hn::Lanes(d));
+  const auto n = static_cast<std::uint32_t>(Lanes(d));
   for (std::uint32_t i = begin; i < seen.count; i += n) {
-    const auto at = [&](const AlignedVector<float>& list) { return hn::LoadU(d, list.data() + i); };
+    const auto at = [&](const AlignedVector<float>& list) { return LoadU(d, list.data() + i); };
     const V x = at(seen.x), y = at(seen.y), depth = at(seen.depth), r = at(boxed.box_radius);
     const V low_x = at(boxed.low_x), high_x = at(boxed.high_x), low_y = at(boxed.low_y), high_y = at(boxed.high_y);
     const Indices columns = touched(planes.columns, low_x, high_x);
-    const Indices rows = touched(planes.rows, hn::Neg(high_y), hn::Neg(low_y));
-    const auto guess = [&](const AlignedVector<std::int32_t>& list) { return hn::LoadU(di, list.data() + i); };
-    const Indices slices{first_touched(planes.depths, guess(seen.first_slice), hn::Sub(depth, r)),
-                         last_touched(planes.depths, guess(seen.last_slice), hn::Add(depth, r))};
-    const auto is_some = [&](const Indices& some) { return hn::RebindMask(d, hn::Not(hn::Lt(some.last, some.first))); };
-    const auto has_extents = hn::And(hn::Le(low_x, high_x), hn::Le(low_y, high_y));
-    const auto has_cells = hn::And(is_some(columns), hn::And(is_some(rows), is_some(slices)));
-    const auto wanted = hn::And(hn::FirstN(d, seen.count - i), hn::And(has_extents, has_cells));
+    const Indices rows = touched(planes.rows, Neg(high_y), Neg(low_y));
+    const auto guess = [&](const AlignedVector<std::int32_t>& list) { return LoadU(di, list.data() + i); };
+    const Indices slices{first_touched(planes.depths, guess(seen.first_slice), depth - r),
+                         last_touched(planes.depths, guess(seen.last_slice), depth + r)};
+    const auto is_some = [&](const Indices& some) { return RebindMask(d, Not(some.last < some.first)); };
+    const auto has_extents = And(low_x <= high_x, low_y <= high_y);
+    const auto has_cells = And(is_some(columns), And(is_some(rows), is_some(slices)));
+    const auto wanted = And(FirstN(d, seen.count - i), And(has_extents, has_cells));
     const auto keep = [&](V value, AlignedVector<float>& to) {
-      hn::StoreU(compressed(d, value, wanted), d, to.data() + boxed.count);
+      StoreU(compressed(d, value, wanted), d, to.data() + boxed.count);
     };
     keep(x, boxed.x);
     keep(y, boxed.y);
     keep(depth, boxed.depth);
     keep(at(boxed.ball_radius), boxed.radius);
-    hn::StoreU(compressed(du, hn::LoadU(du, seen.light.data() + i), hn::RebindMask(du, wanted)), du,
-               boxed.light.data() + boxed.count);
+    StoreU(compressed(du, LoadU(du, seen.light.data() + i), RebindMask(du, wanted)), du,
+           boxed.light.data() + boxed.count);
     const auto keep_indices = [&](const Indices& some, AlignedVector<std::int32_t>& first,
                                   AlignedVector<std::int32_t>& last) {
-      const auto wanted_int = hn::RebindMask(di, wanted);
-      hn::StoreU(compressed(di, some.first, wanted_int), di, first.data() + boxed.count);
-      hn::StoreU(compressed(di, some.last, wanted_int), di, last.data() + boxed.count);
+      const auto wanted_int = RebindMask(di, wanted);
+      StoreU(compressed(di, some.first, wanted_int), di, first.data() + boxed.count);
+      StoreU(compressed(di, some.last, wanted_int), di, last.data() + boxed.count);
     };
     keep_indices(columns, boxed.first_column, boxed.last_column);
     keep_indices(rows, boxed.first_row, boxed.last_row);
     keep_indices(slices, boxed.first_slice, boxed.last_slice);
-    boxed.count += static_cast<std::uint32_t>(hn::CountTrue(d, wanted));
+    boxed.count += static_cast<std::uint32_t>(CountTrue(d, wanted));
   }
 }
 

@@ -45,9 +45,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <class D, class M>
 HWY_INLINE auto places_of(D d, M wanted) {
   std::uint8_t bits[8];
-  hn::StoreMaskBits(d, wanted, bits);
-  const auto places = hn::LoadU(hn::Rebind<std::uint8_t, D>(), k_places_of_bits[bits[0]].data());
-  return hn::IndicesFromVec(d, hn::PromoteTo(hn::RebindToSigned<D>(), places));
+  StoreMaskBits(d, wanted, bits);
+  const auto places = LoadU(hn::Rebind<std::uint8_t, D>(), k_places_of_bits[bits[0]].data());
+  return IndicesFromVec(d, PromoteTo(hn::RebindToSigned<D>(), places));
 }
 
 // Lanes of 32 bits, the wanted ones first.
@@ -56,12 +56,12 @@ HWY_INLINE V compressed([[maybe_unused]] D d, V lanes, M wanted) {
 #if HWY_TARGET <= HWY_AVX3
   // Not with zeros behind them, as Highway has it: on Zen 5 that waits for what was in the register before.
   const hn::RebindToFloat<D> df;
-  const auto raw = hn::BitCast(df, lanes).raw;
-  return hn::BitCast(d, hn::Vec<decltype(df)>{_mm512_mask_compress_ps(raw, wanted.raw, raw)});
+  const auto raw = BitCast(df, lanes).raw;
+  return BitCast(d, hn::Vec<decltype(df)>{_mm512_mask_compress_ps(raw, wanted.raw, raw)});
 #elif HWY_TARGET == HWY_SCALAR
-  return hn::Compress(lanes, wanted);
+  return Compress(lanes, wanted);
 #else
-  return hn::TableLookupLanes(lanes, places_of(d, wanted));
+  return TableLookupLanes(lanes, places_of(d, wanted));
 #endif
 }
 

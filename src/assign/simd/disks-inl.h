@@ -25,7 +25,7 @@ using MD = hn::Mask<DD>;
 constexpr double k_epsilon = std::numeric_limits<double>::epsilon();
 
 HWY_INLINE VD all(double value) {
-  return hn::Set(DD(), value);
+  return Set(DD(), value);
 }
 HWY_INLINE VD infinite() {
   return all(std::numeric_limits<double>::infinity());
@@ -35,47 +35,46 @@ HWY_INLINE VD infinite() {
 HWY_INLINE VF rounded_down(VD value) {
   const DF df;
   const hn::RebindToUnsigned<DF> du;
-  const VF nearest = hn::DemoteTo(df, value);
-  const auto bits = hn::BitCast(du, nearest);
-  const auto is_negative = hn::TestBit(bits, hn::Set(du, 0x80000000));
-  const auto one = hn::Set(du, 1);
-  const VF below = hn::BitCast(df, hn::IfThenElse(is_negative, hn::Add(bits, one), hn::Sub(bits, one)));
+  const VF nearest = DemoteTo(df, value);
+  const auto bits = BitCast(du, nearest);
+  const auto is_negative = TestBit(bits, Set(du, 0x80000000));
+  const auto one = Set(du, 1);
+  const VF below = BitCast(df, IfThenElse(is_negative, bits + one, bits - one));
   // Where the double is smaller, brought to the float's lanes as a number.
-  const VF is_above = hn::DemoteTo(df, hn::IfThenElseZero(hn::Gt(hn::PromoteTo(DD(), nearest), value), all(1.0)));
-  return hn::IfThenElse(hn::Gt(is_above, hn::Zero(df)), below, nearest);
+  const VF is_above = DemoteTo(df, IfThenElseZero(PromoteTo(DD(), nearest) > value, all(1.0)));
+  return IfThenElse(is_above > Zero(df), below, nearest);
 }
 
 HWY_INLINE VF rounded_up(VD value) {
-  return hn::Neg(rounded_down(hn::Neg(value)));
+  return Neg(rounded_down(Neg(value)));
 }
 
 HWY_INLINE VD reach_past(VD line, VD depth, VD r) {
-  const VD small = hn::Min(line, depth), large = hn::Max(line, depth);
-  return hn::IfThenElse(hn::Ge(small, hn::Mul(all(0.5), large)), hn::Sub(r, hn::Sub(large, small)),
-                        hn::Add(hn::Sub(r, large), small));
+  const VD small = Min(line, depth), large = Max(line, depth);
+  return IfThenElse(small >= all(0.5) * large, r - (large - small), r - large + small);
 }
 
 struct Hull {
   VD low, high;
 
   HWY_INLINE void add(MD where, VD value, VD error) {
-    low = hn::Min(low, hn::IfThenElse(where, hn::Sub(value, error), infinite()));
-    high = hn::Max(high, hn::IfThenElse(where, hn::Add(value, error), hn::Neg(infinite())));
+    low = Min(low, IfThenElse(where, value - error, infinite()));
+    high = Max(high, IfThenElse(where, value + error, Neg(infinite())));
   }
   // At depth 0 the slope is infinite, on both sides where the side is not certain.
   HWY_INLINE void add_slope(MD where, VD u, VD depth, VD u_error) {
-    const MD ahead = hn::Gt(depth, hn::Zero(DD()));
-    const VD slope = hn::Div(u, depth);
-    add(hn::And(where, ahead), slope, hn::Add(hn::Div(u_error, depth), hn::Mul(all(2.0 * k_epsilon), hn::Abs(slope))));
-    if (hn::AllTrue(DD(), ahead)) return;
-    const MD beside = hn::AndNot(ahead, where);
-    high = hn::IfThenElse(hn::And(beside, hn::Ge(u, hn::Neg(u_error))), infinite(), high);
-    low = hn::IfThenElse(hn::And(beside, hn::Le(u, u_error)), hn::Neg(infinite()), low);
+    const MD ahead = depth > Zero(DD());
+    const VD slope = u / depth;
+    add(And(where, ahead), slope, u_error / depth + all(2.0 * k_epsilon) * Abs(slope));
+    if (AllTrue(DD(), ahead)) return;
+    const MD beside = AndNot(ahead, where);
+    high = IfThenElse(And(beside, u >= Neg(u_error)), infinite(), high);
+    low = IfThenElse(And(beside, u <= u_error), Neg(infinite()), low);
   }
 };
 
 HWY_INLINE Hull empty_hull() {
-  return {infinite(), hn::Neg(infinite())};
+  return {infinite(), Neg(infinite())};
 }
 
 // Disks of given depths and radii between two depths (the farther one may be infinite), seen along x or y.
@@ -85,22 +84,22 @@ class Disks {
       : depth_(depth), r_(r), near_(all(nearest)), far_(all(farthest)) {
     near_past_ = reach_past(near_, depth, r);
     far_past_ = reach_past(far_, depth, r);
-    const VD none = hn::Zero(DD());
-    const MD is_before = hn::Lt(depth, near_), is_beyond = hn::Gt(depth, far_);
-    misses_ = hn::Or(hn::And(is_before, hn::Lt(near_past_, none)), hn::And(is_beyond, hn::Lt(far_past_, none)));
-    is_endless_ = hn::Eq(r, infinite());
+    const VD none = Zero(DD());
+    const MD is_before = depth<near_, is_beyond = depth> far_;
+    misses_ = Or(And(is_before, near_past_ < none), And(is_beyond, far_past_ < none));
+    is_endless_ = r == infinite();
     // A disk that keeps clear of both depths has no chords there, and its tangents touch between them: by more than
     // double precision loses, so that they need not be asked.
     const VD clear = all(-0x1p-30);
-    const MD is_clear = hn::And(hn::Lt(near_past_, hn::Mul(clear, depth)), hn::Le(far_past_, hn::Mul(clear, far_)));
-    is_between_ = hn::Not(hn::Or(is_before, is_beyond));
-    all_are_clear_ = hn::AllTrue(DD(), hn::And(is_between_, is_clear));
+    const MD is_clear = And(near_past_ < clear * depth, far_past_ <= clear * far_);
+    is_between_ = Not(Or(is_before, is_beyond));
+    all_are_clear_ = AllTrue(DD(), And(is_between_, is_clear));
   }
 
   // geom::slope_range
   HWY_INLINE void slope_range(VD u, VF& low, VF& high) const {
     Hull hull = empty_hull();
-    hull.add_slope(is_between_, u, depth_, hn::Zero(DD()));
+    hull.add_slope(is_between_, u, depth_, Zero(DD()));
     add_tangents(u, hull);
     if (!all_are_clear_) {
       add_chord(near_, near_past_, u, hull);
@@ -111,59 +110,59 @@ class Disks {
 
   // geom::offset_range
   HWY_INLINE void offset_range(VD u, VF& low, VF& high) const {
-    const VD line = hn::Min(hn::Max(depth_, near_), far_);
-    const VD past = hn::IfThenElse(hn::Lt(depth_, near_), near_past_, far_past_);
-    const VD chord = hn::Sqrt(hn::Mul(past, hn::Add(r_, hn::Abs(hn::Sub(line, depth_)))));
-    const VD half = hn::IfThenElse(is_between_, r_, chord);
-    const VD error = hn::Mul(all(4.0 * k_epsilon), hn::Add(hn::Abs(u), half));
-    round(hn::Sub(hn::Sub(u, half), error), hn::Add(hn::Add(u, half), error), low, high);
+    const VD line = Min(Max(depth_, near_), far_);
+    const VD past = IfThenElse(depth_ < near_, near_past_, far_past_);
+    const VD chord = Sqrt(past * (r_ + Abs(line - depth_)));
+    const VD half = IfThenElse(is_between_, r_, chord);
+    const VD error = all(4.0 * k_epsilon) * (Abs(u) + half);
+    round(u - half - error, u + half + error, low, high);
   }
 
  private:
   HWY_INLINE void round(VD from, VD to, VF& low, VF& high) const {
     const VD inf = infinite();
-    low = rounded_down(hn::IfThenElse(misses_, inf, hn::IfThenElse(is_endless_, hn::Neg(inf), from)));
-    high = rounded_up(hn::IfThenElse(misses_, hn::Neg(inf), hn::IfThenElse(is_endless_, inf, to)));
+    low = rounded_down(IfThenElse(misses_, inf, IfThenElse(is_endless_, Neg(inf), from)));
+    high = rounded_up(IfThenElse(misses_, Neg(inf), IfThenElse(is_endless_, inf, to)));
   }
 
   HWY_INLINE VD squared_tangent(VD u) const {
-    const VD u_square = hn::Mul(u, u), depth_square = hn::Mul(depth_, depth_);
-    const VD large = hn::Max(u_square, depth_square), small = hn::Min(u_square, depth_square);
-    const VD sum = hn::Add(large, small);
-    const VD lost = hn::Sub(small, hn::Sub(sum, large));
-    return hn::Add(hn::Sub(sum, hn::Mul(r_, r_)), lost);
+    const VD u_square = u * u, depth_square = depth_ * depth_;
+    const VD large = Max(u_square, depth_square), small = Min(u_square, depth_square);
+    const VD sum = large + small;
+    const VD lost = small - (sum - large);
+    return sum - r_ * r_ + lost;
   }
 
   HWY_INLINE void add_tangents(VD u, Hull& hull) const {
-    const VD none = hn::Zero(DD());
+    const VD none = Zero(DD());
     const VD squared = squared_tangent(u);
-    const VD length = hn::Sqrt(squared), product = hn::Mul(u, depth_);
-    const VD q = hn::Add(product, hn::CopySign(hn::Mul(r_, length), product));
-    const VD root_q = hn::Div(q, hn::Mul(hn::Sub(depth_, r_), hn::Add(depth_, r_)));
-    const VD root_product = hn::Div(hn::Mul(hn::Sub(u, r_), hn::Add(u, r_)), q);
-    const MD other_side = hn::Lt(hn::CopySign(all(1.0), product), none);
-    const MD exist = hn::And(hn::Gt(squared, none), hn::Gt(r_, none));
-    const MD ahead = hn::Gt(depth_, r_), astride = hn::Gt(depth_, hn::Neg(r_));
-    const MD has_low = hn::Or(ahead, hn::And(astride, hn::Gt(u, none)));
-    const MD has_high = hn::Or(ahead, hn::And(astride, hn::Lt(u, none)));
-    add_tangent(hn::And(exist, has_low), hn::IfThenElse(other_side, root_q, root_product), length, hull);
-    add_tangent(hn::And(exist, has_high), hn::IfThenElse(other_side, root_product, root_q), length, hull);
+    const VD length = Sqrt(squared), product = u * depth_;
+    const VD q = product + CopySign(r_ * length, product);
+    const VD root_q = q / ((depth_ - r_) * (depth_ + r_));
+    const VD root_product = (u - r_) * (u + r_) / q;
+    const MD other_side = CopySign(all(1.0), product) < none;
+    const MD exist = And(squared > none, r_ > none);
+    const MD ahead = depth_ > r_, astride = depth_ > Neg(r_);
+    const MD has_low = Or(ahead, And(astride, u > none));
+    const MD has_high = Or(ahead, And(astride, u < none));
+    add_tangent(And(exist, has_low), IfThenElse(other_side, root_q, root_product), length, hull);
+    add_tangent(And(exist, has_high), IfThenElse(other_side, root_product, root_q), length, hull);
   }
 
   HWY_INLINE void add_tangent(MD exists, VD slope, VD length, Hull& hull) const {
     if (!all_are_clear_) {
-      const VD touch_depth = hn::Div(length, hn::Sqrt(hn::Add(all(1.0), hn::Mul(slope, slope))));
-      exists = hn::And(exists, hn::And(hn::Ge(touch_depth, near_), hn::Le(touch_depth, far_)));
+      const VD touch_depth = length / Sqrt(all(1.0) + slope * slope);
+      exists = And(exists, And(touch_depth >= near_, touch_depth <= far_));
     }
-    hull.add(exists, slope, hn::Mul(all(16.0 * k_epsilon), hn::Abs(slope)));
+    hull.add(exists, slope, all(16.0 * k_epsilon) * Abs(slope));
   }
 
   HWY_INLINE void add_chord(VD line, VD past, VD u, Hull& hull) const {
-    const MD exists = hn::Ge(past, hn::Zero(DD()));
-    const VD half = hn::Sqrt(hn::Mul(past, hn::Add(r_, hn::Abs(hn::Sub(line, depth_)))));
-    const VD error = hn::Mul(all(4.0 * k_epsilon), hn::Add(hn::Abs(u), half));
-    hull.add_slope(exists, hn::Sub(u, half), line, error);
-    hull.add_slope(exists, hn::Add(u, half), line, error);
+    const MD exists = past >= Zero(DD());
+    const VD half = Sqrt(past * (r_ + Abs(line - depth_)));
+    const VD error = all(4.0 * k_epsilon) * (Abs(u) + half);
+    hull.add_slope(exists, u - half, line, error);
+    hull.add_slope(exists, u + half, line, error);
   }
 
   VD depth_, r_, near_, far_, near_past_, far_past_;

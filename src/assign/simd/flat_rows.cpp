@@ -18,28 +18,28 @@ class FlatBatch {
   // `places`: a vector of them; `wanted`: the lanes that hold a ball.
   HWY_INLINE FlatBatch(const RowPlanes& planes, const SeenBalls& seen, int slice, const std::uint32_t* places, M wanted)
       : planes_(planes), wanted_(wanted) {
-    const VI at = hn::BitCast(DI(), hn::LoadU(DU(), places));
+    const VI at = BitCast(DI(), LoadU(DU(), places));
     x_ = gathered(seen.x, at);
     y_ = gathered(seen.y, at);
     radius_ = gathered(seen.radius, at);
     slack_ = gathered(seen.slack, at);
     const auto k = static_cast<std::size_t>(slice);
     const V away = gap(all(planes.depth[k]), gathered(seen.depth, at), all(planes.depth[k + 1]));
-    square_ = hn::Mul(hn::Sub(radius_, away), hn::Add(radius_, away));
+    square_ = (radius_ - away) * (radius_ + away);
     const V along = farther_end(gathered(seen.depth, at), planes.depth[k], planes.depth[k + 1]);
     const V across = farther_end(x_, planes.left, planes.right), up = farther_end(y_, bottom(), planes.slope.front());
-    const V farthest = hn::Add(hn::Add(hn::Mul(across, across), hn::Mul(up, up)), hn::Mul(along, along));
+    const V farthest = across * across + up * up + along * along;
     least_area_ = least_area_of(radius_, slack_, all(planes.columns_per_slope), farthest);
-    lights_ = hn::GatherIndex(DU(), seen.light.data(), at);
+    lights_ = GatherIndex(DU(), seen.light.data(), at);
   }
 
   HWY_INLINE void find(BatchRows& out) const {
     start(out);
-    const std::size_t n = hn::Lanes(D());
+    const std::size_t n = Lanes(D());
     for (int row = out.first_row; row <= out.last_row; ++row) {
       const std::size_t place = static_cast<std::size_t>(row) * n;
       const VU columns = columns_of(static_cast<std::size_t>(row));
-      hn::StoreU(columns, DU(), out.columns.data() + place);
+      StoreU(columns, DU(), out.columns.data() + place);
       list_open(columns, from_on(static_cast<std::int32_t>(place)), out);
     }
   }
@@ -49,30 +49,29 @@ class FlatBatch {
 
   // The rows between the disk's top and bottom.
   HWY_INLINE void start(BatchRows& out) const {
-    const V zero = hn::Zero(D()), half = hn::Sqrt(hn::Max(square_, zero));
+    const V zero = Zero(D()), half = Sqrt(Max(square_, zero));
     const V scale = all(planes_.rows_per_slope), margin = all(planes_.row_margin), top = all(planes_.slope.front());
-    const V high = hn::Min(hn::Add(y_, half), top), low = hn::Max(hn::Sub(y_, half), all(bottom()));
-    const M touches = hn::And(hn::And(wanted_, hn::Ge(square_, zero)), hn::Le(low, high));
-    const V from = hn::Max(hn::Sub(hn::Mul(hn::Sub(top, high), scale), margin), zero);
-    const V to = hn::Add(hn::Mul(hn::Sub(top, low), scale), margin);
+    const V high = Min(y_ + half, top), low = Max(y_ - half, all(bottom()));
+    const M touches = And(And(wanted_, square_ >= zero), low <= high);
+    const V from = Max((top - high) * scale - margin, zero);
+    const V to = (top - low) * scale + margin;
     const VI last_row = all_int(planes_.rows - 1);
-    const VI first = hn::Min(hn::ConvertTo(DI(), from), last_row), last = hn::Min(hn::ConvertTo(DI(), to), last_row);
-    const VI count = hn::IfThenElseZero(hn::RebindMask(DI(), touches), hn::Add(hn::Sub(last, first), all_int(1)));
-    start_batch(planes_.rows, first, count, lights_, hn::Set(DU(), BatchRows::k_none), out);
+    const VI first = Min(ConvertTo(DI(), from), last_row), last = Min(ConvertTo(DI(), to), last_row);
+    const VI count = IfThenElseZero(RebindMask(DI(), touches), last - first + all_int(1));
+    start_batch(planes_.rows, first, count, lights_, Set(DU(), BatchRows::k_none), out);
   }
 
   HWY_INLINE VU columns_of(std::size_t row) const {
     const V away = gap(all(planes_.slope[row + 1]), y_, all(planes_.slope[row]));
-    const V square = hn::Sub(square_, hn::Mul(away, away)), zero = hn::Zero(D());
-    const V half = hn::Sqrt(hn::Max(square, zero));
+    const V square = square_ - away * away, zero = Zero(D());
+    const V half = Sqrt(Max(square, zero));
     // Beside the picture a chord says nothing of what the ball has in it.
     const auto chord_square_in_picture = [&] {
       const V beside = gap(all(planes_.left), x_, all(planes_.right));
-      return hn::Sub(square, hn::Mul(beside, beside));
+      return square - beside * beside;
     };
     return columns_between(
-        planes_, hn::Sub(x_, half), hn::Add(x_, half), hn::And(wanted_, hn::Ge(square, zero)), least_area_,
-        [](V, V) { return all(1.0f); },
+        planes_, x_ - half, x_ + half, And(wanted_, square >= zero), least_area_, [](V, V) { return all(1.0f); },
         [&](V inwards, V steepness) {
           return is_certain_by_chord(chord_square_in_picture(), inwards, radius_, slack_,
                                      all(planes_.columns_per_slope), steepness);
@@ -89,7 +88,7 @@ class FlatBatch {
 
 void flat_rows(const RowPlanes& planes, const SeenBalls& seen, std::span<const BallsOfSlice> balls, RowBatches& out) {
   for (std::size_t i = 0; i < balls.size(); ++i)
-    FlatBatch(planes, seen, balls[i].slice, balls[i].places, hn::FirstN(D(), balls[i].count)).find(out.batches[i]);
+    FlatBatch(planes, seen, balls[i].slice, balls[i].places, FirstN(D(), balls[i].count)).find(out.batches[i]);
 }
 
 }  // namespace

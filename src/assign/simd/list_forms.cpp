@@ -18,9 +18,9 @@ template <class T>
 void narrow_to(const std::uint32_t* from, std::size_t count, T* to) {
   const hn::ScalableTag<std::uint32_t> wide;
   const hn::Rebind<T, decltype(wide)> slim;
-  const std::size_t lanes = hn::Lanes(wide);
+  const std::size_t lanes = Lanes(wide);
   std::size_t i = 0;
-  for (; i + lanes <= count; i += lanes) hn::StoreU(hn::TruncateTo(slim, hn::LoadU(wide, from + i)), slim, to + i);
+  for (; i + lanes <= count; i += lanes) StoreU(TruncateTo(slim, LoadU(wide, from + i)), slim, to + i);
   for (; i < count; ++i) to[i] = static_cast<T>(from[i]);
 }
 
@@ -39,9 +39,9 @@ HWY_INLINE void set_bit(std::uint32_t light, std::uint32_t* words) {
 // Where lists are dense, a vector of lights fills few words: each takes the sum of its bits. Elsewhere, light by light.
 HWY_INLINE void set_bits(const std::uint32_t* lights, std::size_t count, std::uint32_t* words) {
   const hn::ScalableTag<std::uint32_t> d;
-  const std::size_t lanes = hn::Lanes(d);
+  const std::size_t lanes = Lanes(d);
   constexpr std::size_t k_lanes_per_word = 4;  // below, a sum costs more than it saves
-  const auto one = hn::Set(d, 1), low = hn::Set(d, 31);
+  const auto one = Set(d, 1), low = Set(d, 31);
   std::size_t i = 0;
   for (; i + lanes <= count; i += lanes) {
     const std::uint32_t first = lights[i] / 32, last = lights[i + lanes - 1] / 32;
@@ -49,15 +49,15 @@ HWY_INLINE void set_bits(const std::uint32_t* lights, std::size_t count, std::ui
       for (std::size_t k = i; k < i + lanes; ++k) set_bit(lights[k], words);
       continue;
     }
-    const auto light = hn::LoadU(d, lights + i);
-    const auto bit = hn::Shl(one, hn::And(light, low)), word = hn::ShiftRight<5>(light);
-    const auto between = hn::Min(hn::Max(word, hn::Set(d, first)), hn::Set(d, last));
-    if (!hn::AllTrue(d, hn::Eq(between, word))) {  // lights that do not ascend
+    const auto light = LoadU(d, lights + i);
+    const auto bit = Shl(one, And(light, low)), word = ShiftRight<5>(light);
+    const auto between = Min(Max(word, Set(d, first)), Set(d, last));
+    if (!AllTrue(d, between == word)) {  // lights that do not ascend
       for (std::size_t k = i; k < i + lanes; ++k) set_bit(lights[k], words);
       continue;
     }
     for (std::uint32_t at = first; at <= last; ++at)
-      words[at] |= hn::GetLane(hn::SumOfLanes(d, hn::IfThenElseZero(hn::Eq(word, hn::Set(d, at)), bit)));
+      words[at] |= GetLane(SumOfLanes(d, IfThenElseZero(word == Set(d, at), bit)));
   }
   for (; i < count; ++i) set_bit(lights[i], words);
 }

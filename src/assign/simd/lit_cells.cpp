@@ -21,7 +21,7 @@ using D = hn::CappedTag<float, 8>;  // rows are short: longer vectors would hold
 using V = hn::Vec<D>;
 
 V all(float value) {
-  return hn::Set(D(), value);
+  return Set(D(), value);
 }
 
 struct Vector {
@@ -29,10 +29,10 @@ struct Vector {
 };
 
 HWY_INLINE V dot(const Vector& a, const Vector& b) {
-  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+  return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 HWY_INLINE V length(const Vector& a) {
-  return hn::Sqrt(dot(a, a));
+  return Sqrt(dot(a, a));
 }
 
 class Cone {
@@ -47,19 +47,18 @@ class Cone {
 
   HWY_INLINE hn::Mask<D> touches(const CellBalls& cells, std::size_t cell) const {
     const D d;
-    const auto at = [&](const std::vector<float>& list) { return hn::LoadU(d, list.data() + cell); };
-    const Vector to_center{hn::Sub(at(cells.x), apex_.x), hn::Sub(at(cells.y), apex_.y), hn::Sub(at(cells.z), apex_.z)};
+    const auto at = [&](const std::vector<float>& list) { return LoadU(d, list.data() + cell); };
+    const Vector to_center{at(cells.x) - apex_.x, at(cells.y) - apex_.y, at(cells.z) - apex_.z};
     const V along = dot(to_center, axis_), radius = at(cells.radius);
     const V across =
-        length({hn::Sub(to_center.x, hn::Mul(along, axis_.x)), hn::Sub(to_center.y, hn::Mul(along, axis_.y)),
-                hn::Sub(to_center.z, hn::Mul(along, axis_.z))});
-    const V reach = hn::Add(radius, hn::Mul(all(0x1p-20f), hn::Add(apex_size_, at(cells.size))));
-    const V farthest = hn::Add(range_, reach);
-    const auto beside = hn::Gt(hn::Sub(hn::Mul(cos_angle_, across), hn::Mul(sin_angle_, along)), reach);
-    const auto beyond = hn::Or(hn::Gt(along, farthest), hn::Gt(length(to_center), farthest));
-    const auto behind = hn::Lt(along, hn::Neg(reach));
-    const auto is_endless = hn::Eq(radius, all(std::numeric_limits<float>::infinity()));
-    return hn::Or(is_endless, hn::Not(hn::Or(beside, hn::Or(beyond, behind))));
+        length({to_center.x - along * axis_.x, to_center.y - along * axis_.y, to_center.z - along * axis_.z});
+    const V reach = radius + all(0x1p-20f) * (apex_size_ + at(cells.size));
+    const V farthest = range_ + reach;
+    const auto beside = cos_angle_ * across - sin_angle_ * along > reach;
+    const auto beyond = Or(along > farthest, length(to_center) > farthest);
+    const auto behind = along < Neg(reach);
+    const auto is_endless = radius == all(std::numeric_limits<float>::infinity());
+    return Or(is_endless, Not(Or(beside, Or(beyond, behind))));
   }
 
  private:
@@ -69,11 +68,11 @@ class Cone {
 
 std::uint64_t lit_of(const CellRun& run, const Cone& cone, const CellBalls& cells) {
   const D d;
-  const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
+  const auto lanes = static_cast<std::uint32_t>(Lanes(d));
   std::uint64_t bits = 0;
   for (std::uint32_t i = 0; i < run.count; i += lanes) {
     std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(d, cone.touches(cells, std::size_t{run.cell} + i), bytes);
+    StoreMaskBits(d, cone.touches(cells, std::size_t{run.cell} + i), bytes);
     for (std::uint32_t byte = 0; 8 * byte < lanes; ++byte) bits |= std::uint64_t{bytes[byte]} << (i + 8 * byte);
   }
   return run.count < 64 ? bits & ((std::uint64_t{1} << run.count) - 1) : bits;

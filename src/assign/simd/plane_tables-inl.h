@@ -21,7 +21,7 @@ class PlaneTable {
   HWY_INLINE PlaneTable(const std::vector<float>& values, int planes)
       : values_(values.data()),
         is_small_(static_cast<std::size_t>(planes) <= RegisterTable::size()),
-        table_(hn::LoadU(D(), values_), hn::LoadU(D(), values_ + hn::Lanes(D()))) {}
+        table_(LoadU(D(), values_), LoadU(D(), values_ + Lanes(D()))) {}
 
   HWY_INLINE V at(VI place) const { return is_small_ ? table_.at(place) : gathered(values_, place); }
 

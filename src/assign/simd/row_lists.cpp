@@ -21,16 +21,16 @@ using VI = hn::Vec<DI>;
 using MU = hn::Mask<DU>;
 
 HWY_INLINE VI all_int(std::uint32_t value) {
-  return hn::Set(DI(), static_cast<std::int32_t>(value));
+  return Set(DI(), static_cast<std::int32_t>(value));
 }
 
 // Lights in lanes of 32 bits, whatever they are kept in.
 template <class Index>
 HWY_INLINE VU loaded(const Index* from) {
   if constexpr (sizeof(Index) == 4) {
-    return hn::LoadU(DU(), from);
+    return LoadU(DU(), from);
   } else {
-    return hn::PromoteTo(DU(), hn::LoadU(hn::Rebind<Index, DU>(), from));
+    return PromoteTo(DU(), LoadU(hn::Rebind<Index, DU>(), from));
   }
 }
 
@@ -41,12 +41,12 @@ HWY_INLINE Index* append(VU numbers, MU wanted, Index* to) {
   // Compressing in a register and storing it whole is faster than a compressing store.
   const VU first = compressed(DU(), numbers, wanted);
   if constexpr (sizeof(Index) == 4) {
-    hn::StoreU(first, DU(), to);
+    StoreU(first, DU(), to);
   } else {
     const hn::Rebind<Index, DU> slim;
-    hn::StoreU(hn::TruncateTo(slim, first), slim, to);
+    StoreU(TruncateTo(slim, first), slim, to);
   }
-  return to + hn::CountTrue(DU(), wanted);
+  return to + CountTrue(DU(), wanted);
 }
 
 // Some columns.
@@ -59,31 +59,30 @@ struct Spans {
   VI first, last;
 
   HWY_INLINE explicit Spans(VU columns)
-      : first(hn::BitCast(DI(), hn::And(columns, hn::Set(DU(), 0xffff)))),
-        last(hn::BitCast(DI(), hn::ShiftRight<16>(columns))) {}
+      : first(BitCast(DI(), And(columns, Set(DU(), 0xffff)))), last(BitCast(DI(), ShiftRight<16>(columns))) {}
 
   // Which of them hold some of these columns.
   HWY_INLINE MU some(const Columns& of) const {
-    return hn::RebindMask(DU(), hn::And(hn::Lt(first, all_int(of.end)), hn::Gt(last, all_int(of.begin - 1))));
+    return RebindMask(DU(), And(first<all_int(of.end), last> all_int(of.begin - 1)));
   }
 
   // What each has of at most 32 columns: a bit for each of these, the first one's lowest.
   HWY_INLINE VU bits(const Columns& of) const {
     const DU du;
     const VI begin = all_int(of.begin), most = all_int(31);
-    const VI from = hn::Sub(hn::Max(first, begin), begin);
-    const VI to = hn::Sub(hn::Min(last, all_int(of.end - 1)), begin);
+    const VI from = Max(first, begin) - begin;
+    const VI to = Min(last, all_int(of.end - 1)) - begin;
     // Shifts are by less than 32, also where there is nothing.
-    const VU before = hn::BitCast(du, hn::And(from, most)), behind = hn::BitCast(du, hn::AndNot(to, most));
-    const VU all = hn::Set(du, 0xffffffff);
-    const MU none = hn::RebindMask(du, hn::Gt(from, to));
-    return hn::IfThenZeroElse(none, hn::And(hn::Shl(all, before), hn::Shr(all, behind)));
+    const VU before = BitCast(du, And(from, most)), behind = BitCast(du, AndNot(to, most));
+    const VU all = Set(du, 0xffffffff);
+    const MU none = RebindMask(du, from > to);
+    return IfThenZeroElse(none, And(Shl(all, before), Shr(all, behind)));
   }
 };
 
 // The bit of the column behind `skipped` others.
 HWY_INLINE VU bit_of(std::uint32_t skipped) {
-  return hn::Set(DU(), 1u << skipped);
+  return Set(DU(), 1u << skipped);
 }
 
 // `vectors` vectors of spans, which stay in registers: their lights and what they have of some columns.
@@ -95,8 +94,8 @@ struct SpansInRegisters {
   HWY_INLINE SpansInRegisters(const Light* from_lights, const std::uint32_t* from_bits) {
     const DU du;
     for (std::size_t i = 0; i < vectors; ++i) {
-      lights[i] = loaded(from_lights + i * hn::Lanes(du));
-      bits[i] = hn::LoadU(du, from_bits + i * hn::Lanes(du));
+      lights[i] = loaded(from_lights + i * Lanes(du));
+      bits[i] = LoadU(du, from_bits + i * Lanes(du));
     }
   }
   HWY_INLINE SpansInRegisters(VU some_lights, VU some_bits) : lights{some_lights}, bits{some_bits} {}
@@ -108,8 +107,8 @@ struct SpansInRegisters {
     VU bit = bit_of(skipped);
     for (std::uint32_t column = columns.begin; column < columns.end; ++column) {
       begin[column] = static_cast<std::uint32_t>(to - lists);
-      for (std::size_t i = 0; i < vectors; ++i) to = append(lights[i], hn::TestBit(bits[i], bit), to);
-      bit = hn::ShiftLeft<1>(bit);
+      for (std::size_t i = 0; i < vectors; ++i) to = append(lights[i], TestBit(bits[i], bit), to);
+      bit = ShiftLeft<1>(bit);
     }
     return to;
   }
@@ -139,7 +138,7 @@ struct StoredSpans {
     if constexpr (vectors > k_most_vectors) {
       return write_many(columns, skipped, to, lists, begin);
     } else {
-      if (count <= vectors * hn::Lanes(DU()))
+      if (count <= vectors * Lanes(DU()))
         return SpansInRegisters<vectors>(lights, bits).write(columns, skipped, to, lists, begin);
       return write_from<vectors + 1>(columns, skipped, to, lists, begin);
     }
@@ -152,9 +151,9 @@ struct StoredSpans {
     VU bit = bit_of(skipped);
     for (std::uint32_t column = columns.begin; column < columns.end; ++column) {
       begin[column] = static_cast<std::uint32_t>(to - lists);
-      for (std::size_t i = 0; i < count; i += hn::Lanes(du))
-        to = append(loaded(lights + i), hn::TestBit(hn::LoadU(du, bits + i), bit), to);
-      bit = hn::ShiftLeft<1>(bit);
+      for (std::size_t i = 0; i < count; i += Lanes(du))
+        to = append(loaded(lights + i), TestBit(LoadU(du, bits + i), bit), to);
+      bit = ShiftLeft<1>(bit);
     }
     return to;
   }
@@ -177,9 +176,9 @@ HWY_INLINE Index* lists_at_once(const RowSpans<Index>& row, const Columns& windo
                                 const Index* lists, std::uint32_t* begin) {
   const DU du;
   std::uint32_t* bits = few.strips[0].bits.data();
-  for (std::size_t i = 0; i < row.count; i += hn::Lanes(du)) {
-    const VU some = Spans(hn::LoadU(du, row.columns + i)).bits(window);
-    hn::StoreU(hn::IfThenElseZero(hn::FirstN(du, row.count - i), some), du, bits + i);
+  for (std::size_t i = 0; i < row.count; i += Lanes(du)) {
+    const VU some = Spans(LoadU(du, row.columns + i)).bits(window);
+    StoreU(IfThenElseZero(FirstN(du, row.count - i), some), du, bits + i);
   }
   return StoredSpans<Index>{row.lights, bits, row.count}.write(window, 0, to, lists, begin);
 }
@@ -196,21 +195,21 @@ HWY_INLINE Index* lists_by_strips(const RowSpans<Index>& row, const Columns& win
     const std::uint32_t from = window.begin + static_cast<std::uint32_t>(i) * strip;
     return Columns{from, std::min(window.end, from + strip)};
   };
-  for (std::size_t i = 0; i < row.count; i += hn::Lanes(du)) {
-    const Spans spans(hn::LoadU(du, row.columns + i));
+  for (std::size_t i = 0; i < row.count; i += Lanes(du)) {
+    const Spans spans(LoadU(du, row.columns + i));
     const VU lights = loaded(row.lights + i), bits = spans.bits(window);
-    const MU there = hn::FirstN(du, row.count - i);
+    const MU there = FirstN(du, row.count - i);
     for (std::size_t s = 0; s < k_strips; ++s) {
-      const MU some = hn::And(spans.some(columns_of(s)), there);
+      const MU some = And(spans.some(columns_of(s)), there);
       append(lights, some, few.strips[s].lights.data() + counts[s]);
       append(bits, some, few.strips[s].bits.data() + counts[s]);
-      counts[s] += hn::CountTrue(du, some);
+      counts[s] += CountTrue(du, some);
     }
   }
   for (std::size_t s = 0; s < k_strips; ++s) {
     const Columns columns = columns_of(s);
     const FewColumns::Strip& chosen = few.strips[s];
-    hn::StoreU(hn::Zero(du), du, few.strips[s].bits.data() + counts[s]);
+    StoreU(Zero(du), du, few.strips[s].bits.data() + counts[s]);
     to = StoredSpans<std::uint32_t>{chosen.lights.data(), chosen.bits.data(), counts[s]}.write(
         columns, columns.begin - window.begin, to, lists, begin);
   }
@@ -229,12 +228,11 @@ HWY_INLINE bool all_are_full(const RowSpans<Index>& row) {
 template <class Index>
 HWY_INLINE Index* equal_lists(const RowSpans<Index>& row, Index* to, const Index* lists, std::uint32_t* begin) {
   const hn::ScalableTag<Index> d;
-  const auto first = hn::LoadU(d, row.lights);
+  const auto first = LoadU(d, row.lights);
   for (std::uint32_t column = row.column; column < row.end_column; ++column) {
     begin[column] = static_cast<std::uint32_t>(to - lists);
-    hn::StoreU(first, d, to);
-    for (std::size_t i = hn::Lanes(d); i < row.count; i += hn::Lanes(d))
-      hn::StoreU(hn::LoadU(d, row.lights + i), d, to + i);
+    StoreU(first, d, to);
+    for (std::size_t i = Lanes(d); i < row.count; i += Lanes(d)) StoreU(LoadU(d, row.lights + i), d, to + i);
     to += row.count;
   }
   return to;
@@ -249,9 +247,9 @@ HWY_INLINE Index* lists_of(const RowSpans<Index>& row, FewColumns& few, Index* t
   const std::uint32_t most = FewColumns::k_strips * strip;
   for (std::uint32_t column = row.column; column < row.end_column; column += most) {
     const Columns window = {column, std::min(row.end_column, column + most)};
-    if (row.count <= hn::Lanes(du)) {
-      const VU bits = Spans(hn::LoadU(du, row.columns)).bits(window);
-      SpansInRegisters<1> spans(loaded(row.lights), hn::IfThenElseZero(hn::FirstN(du, row.count), bits));
+    if (row.count <= Lanes(du)) {
+      const VU bits = Spans(LoadU(du, row.columns)).bits(window);
+      SpansInRegisters<1> spans(loaded(row.lights), IfThenElseZero(FirstN(du, row.count), bits));
       to = spans.write(window, 0, to, lists, begin);
     } else if (are_narrow(row, window, strip)) {
       to = lists_by_strips(row, window, strip, few, to, lists, begin);
@@ -280,22 +278,22 @@ std::uint32_t* lists_32(const RowSpans<std::uint32_t>& row, FewColumns& few, std
 // A vector of cells at a time gathers the bits of all lights of one word.
 void bits_of(const RowSpans<std::uint32_t>& row, std::uint32_t words_per_cell, std::uint32_t* words) {
   const hn::ScalableTag<std::int32_t> d;
-  const std::size_t lanes = hn::Lanes(d);
+  const std::size_t lanes = Lanes(d);
   std::int32_t gathered[k_most_lanes];
   std::fill(words + std::size_t{row.column} * words_per_cell, words + std::size_t{row.end_column} * words_per_cell, 0);
   for (std::size_t column = row.column; column < row.end_column; column += lanes) {
-    const auto place = hn::Iota(d, static_cast<std::int32_t>(column));
+    const auto place = Iota(d, static_cast<std::int32_t>(column));
     const std::size_t cells = std::min<std::size_t>(lanes, row.end_column - column);
     for (std::uint32_t i = 0; i < row.count;) {
       const std::uint32_t word = row.lights[i] / 32;
-      auto sum = hn::Zero(d);
+      auto sum = Zero(d);
       for (; i < row.count && row.lights[i] / 32 == word; ++i) {
-        const auto before = hn::Set(d, static_cast<std::int32_t>(ColumnSpan::first(row.columns[i])) - 1);
-        const auto after = hn::Set(d, static_cast<std::int32_t>(ColumnSpan::last(row.columns[i])) + 1);
-        const auto bit = hn::Set(d, static_cast<std::int32_t>(1u << row.lights[i] % 32));
-        sum = hn::Or(sum, hn::IfThenElseZero(hn::And(hn::Gt(place, before), hn::Gt(after, place)), bit));
+        const auto before = Set(d, static_cast<std::int32_t>(ColumnSpan::first(row.columns[i])) - 1);
+        const auto after = Set(d, static_cast<std::int32_t>(ColumnSpan::last(row.columns[i])) + 1);
+        const auto bit = Set(d, static_cast<std::int32_t>(1u << row.lights[i] % 32));
+        sum = Or(sum, IfThenElseZero(And(place > before, after > place), bit));
       }
-      hn::StoreU(sum, d, gathered);
+      StoreU(sum, d, gathered);
       for (std::size_t cell = 0; cell < cells; ++cell)
         words[(column + cell) * words_per_cell + word] = static_cast<std::uint32_t>(gathered[cell]);
     }

@@ -31,10 +31,10 @@ class View {
 
   // How far a place is outside, at least.
   HWY_INLINE V gap(V x, V y, V depth) const {
-    const V across = hn::Max(hn::Neg(beyond(left_, x, depth)), beyond(right_, x, depth));
-    const V up = hn::Max(beyond(top_, y, depth), hn::Neg(beyond(bottom_, y, depth)));
-    const V along = hn::Max(hn::Sub(all(near_), depth), hn::Sub(depth, all(far_)));
-    return hn::Max(across, hn::Max(up, along));
+    const V across = Max(Neg(beyond(left_, x, depth)), beyond(right_, x, depth));
+    const V up = Max(beyond(top_, y, depth), Neg(beyond(bottom_, y, depth)));
+    const V along = Max(all(near_) - depth, depth - all(far_));
+    return Max(across, Max(up, along));
   }
 
  private:
@@ -43,8 +43,8 @@ class View {
   };
   static Side side(float slope) { return {slope, 1.0f / std::sqrt(1.0f + slope * slope)}; }
   HWY_INLINE V beyond(const Side& side, V place, V depth) const {
-    if (orthographic_) return hn::Sub(place, all(side.slope));
-    return hn::Mul(hn::Sub(place, hn::Mul(all(side.slope), depth)), all(side.length));
+    if (orthographic_) return place - all(side.slope);
+    return (place - all(side.slope) * depth) * all(side.length);
   }
 
   bool orthographic_;
@@ -59,33 +59,33 @@ class SliceSearch {
       : planes_(planes.searched.data()),
         count_(static_cast<std::int32_t>(planes.searched.size())),
         stride_(std::max(1, count_ / static_cast<std::int32_t>(RegisterTable::size()))),
-        some_(every(0), every(static_cast<std::int32_t>(hn::Lanes(D())))),
+        some_(every(0), every(static_cast<std::int32_t>(Lanes(D())))),
         last_(planes.slices - 1) {}
 
   // How many of the planes between two slices are below a depth (or at it, with or_at).
   template <bool or_at>
   HWY_INLINE VI planes_below(V depth) const {
-    VI below = hn::Zero(DI());
+    VI below = Zero(DI());
     const auto go_on = [&](VI probe, V plane) {
-      const M is_below = or_at ? hn::Le(plane, depth) : hn::Lt(plane, depth);
-      below = hn::IfThenElse(hn::RebindMask(DI(), is_below), probe, below);
+      const M is_below = or_at ? plane <= depth : plane < depth;
+      below = IfThenElse(RebindMask(DI(), is_below), probe, below);
     };
     for (std::int32_t step = count_ / stride_ / 2; step > 0; step /= 2) {
-      const VI probe = hn::Add(below, all_int(step));
+      const VI probe = below + all_int(step);
       go_on(probe, some_.at(probe));
     }
-    below = hn::Mul(below, all_int(stride_));
+    below = below * all_int(stride_);
     for (std::int32_t step = stride_ / 2; step > 0; step /= 2) {
-      const VI probe = hn::Add(below, all_int(step));
+      const VI probe = below + all_int(step);
       go_on(probe, gathered(planes_, probe));
     }
-    return hn::Min(below, all_int(last_));
+    return Min(below, all_int(last_));
   }
 
  private:
   // Of every stride-th plane those from `first` on.
   V every(std::int32_t first) const {
-    return gathered(planes_, hn::Min(hn::Mul(from_on(first), all_int(stride_)), all_int(count_ - 1)));
+    return gathered(planes_, Min(from_on(first) * all_int(stride_), all_int(count_ - 1)));
   }
 
   const float* planes_;
@@ -99,40 +99,40 @@ void see(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_l
   const D d;
   const DI di;
   const hn::RebindToUnsigned<D> du;
-  const auto n = static_cast<std::uint32_t>(hn::Lanes(d));
+  const auto n = static_cast<std::uint32_t>(Lanes(d));
   const View view(planes);
   const std::uint32_t before = seen.count;
   for (std::uint32_t i = 0; i < balls.count; i += n) {
     const std::uint32_t left = std::min(n, balls.count - i);
     const auto load = [&](const float* from) { return loaded(from + i, left); };
-    const V x = load(balls.x), y = load(balls.y), depth = hn::Neg(load(balls.z)), given = load(balls.radius);
-    const V reach = load(balls.reach), slack = hn::Mul(reach, all(roundings * 0x1p-24f));
-    const V radius = hn::Add(given, slack);
-    const M reaches = hn::And(hn::Le(view.gap(x, y, depth), radius), hn::Gt(given, hn::Zero(d)));
-    const M wanted = hn::And(reaches, hn::FirstN(d, left));
-    const std::size_t kept = hn::CountTrue(d, wanted);
+    const V x = load(balls.x), y = load(balls.y), depth = Neg(load(balls.z)), given = load(balls.radius);
+    const V reach = load(balls.reach), slack = reach * all(roundings * 0x1p-24f);
+    const V radius = given + slack;
+    const M reaches = And(view.gap(x, y, depth) <= radius, given > Zero(d));
+    const M wanted = And(reaches, FirstN(d, left));
+    const std::size_t kept = CountTrue(d, wanted);
     if (kept == 0) continue;
     const auto keep = [&](V value, AlignedVector<float>& to) {
-      hn::StoreU(compressed(d, value, wanted), d, to.data() + seen.count);
+      StoreU(compressed(d, value, wanted), d, to.data() + seen.count);
     };
     keep(x, seen.x);
     keep(y, seen.y);
     keep(depth, seen.depth);
     // Powers of a reach must be normal numbers; elsewhere the whole grid is left to be decided.
     const M is_plain = is_between(all(planes.least_reach), reach, all(k_most_row_reach));
-    keep(hn::IfThenElse(is_plain, radius, infinity()), seen.radius);
+    keep(IfThenElse(is_plain, radius, infinity()), seen.radius);
     keep(slack, seen.slack);
-    const auto lights = hn::BitCast(du, from_on(static_cast<std::int32_t>(first_light + i)));
-    hn::StoreU(compressed(du, lights, hn::RebindMask(du, wanted)), du, seen.light.data() + seen.count);
+    const auto lights = BitCast(du, from_on(static_cast<std::int32_t>(first_light + i)));
+    StoreU(compressed(du, lights, RebindMask(du, wanted)), du, seen.light.data() + seen.count);
     seen.count += static_cast<std::uint32_t>(kept);
   }
   const SliceSearch search(planes);
   for (std::uint32_t i = before; i < seen.count; i += n) {
-    const V depth = hn::LoadU(d, seen.depth.data() + i), radius = hn::LoadU(d, seen.radius.data() + i);
-    const VI first = search.planes_below<false>(hn::Sub(depth, radius));
-    const VI last = search.planes_below<true>(hn::Add(depth, radius));
-    hn::StoreU(first, di, seen.first_slice.data() + i);
-    hn::StoreU(last, di, seen.last_slice.data() + i);
+    const V depth = LoadU(d, seen.depth.data() + i), radius = LoadU(d, seen.radius.data() + i);
+    const VI first = search.planes_below<false>(depth - radius);
+    const VI last = search.planes_below<true>(depth + radius);
+    StoreU(first, di, seen.first_slice.data() + i);
+    StoreU(last, di, seen.last_slice.data() + i);
   }
 }
 

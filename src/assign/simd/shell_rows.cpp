@@ -27,64 +27,62 @@ constexpr float k_slack_roundings = 64.0f;
 constexpr float k_least_reach = 1e-15f, k_most_reach = 1e18f;
 
 HWY_INLINE V outside(const TilePlane& plane, V place, V depth) {
-  return hn::Add(hn::Mul(all(plane.across), place), hn::Mul(all(plane.along), depth));
+  return all(plane.across) * place + all(plane.along) * depth;
 }
 
 // How far outside of one of the view's sides.
 HWY_INLINE V side_gap(const ShellPlanes& planes, V x, V y, V depth) {
-  const V beside = hn::Max(hn::Neg(outside(planes.left, x, depth)), outside(planes.right, x, depth));
-  return hn::Max(beside, hn::Max(outside(planes.top, y, depth), hn::Neg(outside(planes.bottom, y, depth))));
+  const V beside = Max(Neg(outside(planes.left, x, depth)), outside(planes.right, x, depth));
+  return Max(beside, Max(outside(planes.top, y, depth), Neg(outside(planes.bottom, y, depth))));
 }
 
 // How many of boundaries begin .. end - 1 pass.
 template <class Passes>
 HWY_INLINE VI count_passed(const std::vector<float>& boundaries, std::size_t begin, std::size_t end, Passes&& passes) {
-  VI count = hn::Zero(DI());
+  VI count = Zero(DI());
   for (std::size_t i = begin; i < end; ++i)
-    count = hn::Sub(count, hn::VecFromMask(DI(), hn::RebindMask(DI(), passes(all(boundaries[i])))));
+    count = count - VecFromMask(DI(), RebindMask(DI(), passes(all(boundaries[i]))));
   return count;
 }
 
 // The shells that balls may reach; the answer says which balls may reach one within the view.
 HWY_INLINE M reach_shells(const ShellPlanes& planes, const Balls& balls, Indices& found) {
-  const V squares =
-      hn::Add(hn::Add(hn::Mul(balls.x, balls.x), hn::Mul(balls.y, balls.y)), hn::Mul(balls.depth, balls.depth));
-  const V length = hn::Sqrt(squares);
-  const V reach = hn::Add(hn::Add(hn::Add(hn::Abs(balls.x), hn::Abs(balls.y)), hn::Abs(balls.depth)), balls.radius);
-  const V radius = hn::Add(balls.radius, hn::Mul(all(k_slack_roundings * 0x1p-24f), reach));
-  const M is_plain = hn::And(hn::Ge(reach, all(k_least_reach)), hn::Le(reach, all(k_most_reach)));
+  const V squares = balls.x * balls.x + balls.y * balls.y + balls.depth * balls.depth;
+  const V length = Sqrt(squares);
+  const V reach = Abs(balls.x) + Abs(balls.y) + Abs(balls.depth) + balls.radius;
+  const V radius = balls.radius + all(k_slack_roundings * 0x1p-24f) * reach;
+  const M is_plain = And(reach >= all(k_least_reach), reach <= all(k_most_reach));
   const V inf = all(std::numeric_limits<float>::infinity());
-  const V low = hn::IfThenElse(is_plain, hn::Sub(length, radius), hn::Neg(inf));
-  const V high = hn::IfThenElse(is_plain, hn::Add(length, radius), inf);
+  const V low = IfThenElse(is_plain, length - radius, Neg(inf));
+  const V high = IfThenElse(is_plain, length + radius, inf);
   const std::vector<float>& shells = planes.boundaries.depths;
-  found.first = count_passed(shells, 1, shells.size(), [&](V shell) { return hn::Lt(shell, low); });
-  const VI begun = count_passed(shells, 0, shells.size() - 1, [&](V shell) { return hn::Le(shell, high); });
-  found.last = hn::Sub(begun, hn::Set(DI(), 1));
+  found.first = count_passed(shells, 1, shells.size(), [&](V shell) { return shell < low; });
+  const VI begun = count_passed(shells, 0, shells.size() - 1, [&](V shell) { return shell <= high; });
+  found.last = begun - Set(DI(), 1);
   // A ball that holds the eye, which the reference may list in all directions of a shell, is outside of no side: they
   // all pass through the eye.
-  const M is_beside = hn::Gt(side_gap(planes, balls.x, balls.y, balls.depth), radius);
-  const M has_shells = hn::RebindMask(D(), hn::Not(hn::Lt(found.last, found.first)));
-  return hn::AndNot(hn::And(is_plain, is_beside), has_shells);
+  const M is_beside = side_gap(planes, balls.x, balls.y, balls.depth) > radius;
+  const M has_shells = RebindMask(D(), Not(found.last < found.first));
+  return AndNot(And(is_plain, is_beside), has_shells);
 }
 
 void shells(const ShellPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, float roundings,
             BoxedBalls& boxed) {
   const D d;
   const DI di;
-  const auto n = static_cast<std::uint32_t>(hn::Lanes(d));
-  const VI none = hn::Zero(di), last_row = hn::Set(di, planes.rows() - 1);
+  const auto n = static_cast<std::uint32_t>(Lanes(d));
+  const VI none = Zero(di), last_row = Set(di, planes.rows() - 1);
   for (std::uint32_t i = 0; i < balls.count; i += n) {
     const std::uint32_t left = std::min(n, balls.count - i);
     const auto load = [&](const float* from) { return loaded(from + i, left); };
     const V given = load(balls.radius);
-    const Balls found{load(balls.x), load(balls.y), hn::Neg(load(balls.z)),
-                      padded(given, load(balls.reach), roundings)};
+    const Balls found{load(balls.x), load(balls.y), Neg(load(balls.z)), padded(given, load(balls.reach), roundings)};
     Indices shells_reached{none, none};
     const M may_reach = reach_shells(planes, found, shells_reached);
-    const M wanted = hn::And(may_reach, hn::And(hn::Gt(given, hn::Zero(d)), hn::FirstN(d, left)));
-    if (hn::AllFalse(d, wanted)) continue;
+    const M wanted = And(may_reach, And(given > Zero(d), FirstN(d, left)));
+    if (AllFalse(d, wanted)) continue;
     const auto keep_index = [&](VI index, AlignedVector<std::int32_t>& to) {
-      hn::StoreU(compressed(di, index, hn::RebindMask(di, wanted)), di, to.data() + boxed.count);
+      StoreU(compressed(di, index, RebindMask(di, wanted)), di, to.data() + boxed.count);
     };
     keep_index(shells_reached.first, boxed.first_slice);
     keep_index(shells_reached.last, boxed.last_slice);
@@ -99,7 +97,7 @@ void shells(const ShellPlanes& planes, const GivenBalls& balls, std::uint32_t fi
 // --- Rows of one shell ---
 
 // As many balls as there are doubles in a vector.
-constexpr std::size_t k_half = hn::MaxLanes(DD()), k_halves = hn::MaxLanes(D()) / k_half;
+constexpr std::size_t k_half = MaxLanes(DD()), k_halves = MaxLanes(D()) / k_half;
 
 struct Cut {
   VF low, high;
@@ -111,17 +109,17 @@ class Caps {
   Caps() = default;
   HWY_INLINE Caps(VD x, VD y, VD depth, VD length, VD r, double distance0, double distance1)
       : x_(x), y_(y), depth_(depth), radius_(radius_in_shell(length, r, distance0, distance1)) {
-    const VD none = hn::Zero(DD()), one = all(1.0);
-    is_endless_ = hn::Eq(radius_, infinite());
-    const VD squared = hn::Sub(hn::Add(hn::Mul(x, x), hn::Mul(depth, depth)), hn::Mul(radius_, radius_));
+    const VD none = Zero(DD()), one = all(1.0);
+    is_endless_ = radius_ == infinite();
+    const VD squared = x * x + depth * depth - radius_ * radius_;
     const Disks disks(depth, radius_, 0.0, std::numeric_limits<double>::infinity());
     VF low, high;
     disks.slope_range(x, low, high);
     const auto tangent = [&](VF slope) {
-      const VD s = hn::PromoteTo(DD(), slope);
-      const VD touch = hn::Sqrt(hn::Div(hn::Max(none, squared), hn::Add(one, hn::Mul(s, s))));
-      const VD margin = hn::Mul(all(k_touch_margin), hn::Add(touch, hn::Abs(y_)));
-      return Tangent{s, touch, margin, hn::Lt(hn::Abs(s), infinite())};
+      const VD s = PromoteTo(DD(), slope);
+      const VD touch = Sqrt(Max(none, squared) / (one + s * s));
+      const VD margin = all(k_touch_margin) * (touch + Abs(y_));
+      return Tangent{s, touch, margin, Abs(s) < infinite()};
     };
     low_ = tangent(low);
     high_ = tangent(high);
@@ -133,32 +131,31 @@ class Caps {
   // What the planes y = slope * depth cut out of the caps, as slopes x / depth.
   HWY_INLINE Cut cut_by_planes(VD slope, VD stretch) const {
     const VD inf = infinite();
-    const VD away = hn::Div(hn::Sub(y_, hn::Mul(slope, depth_)), stretch);
-    const VD along = hn::Div(hn::Add(depth_, hn::Mul(slope, y_)), stretch);
-    const VD squared = hn::Mul(hn::Sub(radius_, away), hn::Add(radius_, away));
-    const MD is_cut = hn::Not(hn::Lt(squared, hn::Zero(DD())));
-    const VD chord = in_single(hn::Sqrt(hn::IfThenElseZero(is_cut, squared)));
+    const VD away = (y_ - slope * depth_) / stretch;
+    const VD along = (depth_ + slope * y_) / stretch;
+    const VD squared = (radius_ - away) * (radius_ + away);
+    const MD is_cut = Not(squared < Zero(DD()));
+    const VD chord = in_single(Sqrt(IfThenElseZero(is_cut, squared)));
     Cut cut;
     Disks(in_single(along), chord, 0.0, std::numeric_limits<double>::infinity()).slope_range(x_, cut.low, cut.high);
     const auto stretched = [&](VF value, VD if_endless, VD if_missed) {
-      const VD of_cut = hn::IfThenElse(is_cut, hn::Mul(hn::PromoteTo(DD(), value), stretch), if_missed);
-      return hn::DemoteTo(DF(), hn::IfThenElse(is_endless_, if_endless, of_cut));
+      const VD of_cut = IfThenElse(is_cut, PromoteTo(DD(), value) * stretch, if_missed);
+      return DemoteTo(DF(), IfThenElse(is_endless_, if_endless, of_cut));
     };
-    return {stretched(cut.low, hn::Neg(inf), inf), stretched(cut.high, inf, hn::Neg(inf))};
+    return {stretched(cut.low, Neg(inf), inf), stretched(cut.high, inf, Neg(inf))};
   }
 
   // The caps' slopes x / depth in rows between two planes.
   HWY_INLINE Cut slopes_in_rows(const Cut& top, const Cut& bottom, VD top_slope, VD bottom_slope) const {
-    VD low = infinite(), high = hn::Neg(infinite());
+    VD low = infinite(), high = Neg(infinite());
     for (const Tangent* tangent : {&low_, &high_}) {
-      const MD from = hn::Ge(y_, hn::Sub(hn::Mul(bottom_slope, tangent->touch), tangent->margin));
-      const MD to = hn::Le(y_, hn::Add(hn::Mul(top_slope, tangent->touch), tangent->margin));
-      const MD touches = hn::And(tangent->exists, hn::And(from, to));
-      low = hn::Min(low, hn::IfThenElse(touches, tangent->slope, infinite()));
-      high = hn::Max(high, hn::IfThenElse(touches, tangent->slope, hn::Neg(infinite())));
+      const MD from = y_ >= bottom_slope * tangent->touch - tangent->margin;
+      const MD to = y_ <= top_slope * tangent->touch + tangent->margin;
+      const MD touches = And(tangent->exists, And(from, to));
+      low = Min(low, IfThenElse(touches, tangent->slope, infinite()));
+      high = Max(high, IfThenElse(touches, tangent->slope, Neg(infinite())));
     }
-    return {hn::Min(hn::Min(top.low, bottom.low), hn::DemoteTo(DF(), low)),
-            hn::Max(hn::Max(top.high, bottom.high), hn::DemoteTo(DF(), high))};
+    return {Min(Min(top.low, bottom.low), DemoteTo(DF(), low)), Max(Max(top.high, bottom.high), DemoteTo(DF(), high))};
   }
 
  private:
@@ -167,21 +164,21 @@ class Caps {
     MD exists;
   };
 
-  static HWY_INLINE VD in_single(VD value) { return hn::PromoteTo(DD(), hn::DemoteTo(DF(), value)); }
+  static HWY_INLINE VD in_single(VD value) { return PromoteTo(DD(), DemoteTo(DF(), value)); }
 
   static HWY_INLINE VD radius_in_shell(VD length, VD r, double distance0, double distance1) {
-    const VD none = hn::Zero(DD());
-    const VD reach = hn::Mul(hn::Sub(length, r), hn::Add(length, r));
-    const VD touch = hn::Sqrt(hn::IfThenElseZero(hn::Gt(length, r), reach));
-    const VD distance = hn::Min(hn::Max(touch, all(distance0)), all(distance1));
-    const VD twice = hn::Mul(hn::Mul(all(2.0), distance), length);
-    const VD cosine = hn::Div(hn::Add(hn::Mul(distance, distance), reach), twice);
-    const VD apart = hn::Abs(hn::Sub(distance, length));
-    const VD cap = hn::Div(hn::Mul(hn::Sub(r, apart), hn::Add(r, apart)), twice);
-    const VD squared_sine = hn::Mul(cap, hn::Add(all(1.0), cosine));
-    const VD sine = hn::Sqrt(hn::IfThenElseZero(hn::Gt(squared_sine, none), squared_sine));
-    const VD lost = hn::Mul(all(0x1p-24 * static_cast<double>(k_shell_roundings)), length);
-    return hn::IfThenElse(hn::Gt(cosine, none), in_single(hn::Add(hn::Mul(length, sine), lost)), infinite());
+    const VD none = Zero(DD());
+    const VD reach = (length - r) * (length + r);
+    const VD touch = Sqrt(IfThenElseZero(length > r, reach));
+    const VD distance = Min(Max(touch, all(distance0)), all(distance1));
+    const VD twice = all(2.0) * distance * length;
+    const VD cosine = (distance * distance + reach) / twice;
+    const VD apart = Abs(distance - length);
+    const VD cap = (r - apart) * (r + apart) / twice;
+    const VD squared_sine = cap * (all(1.0) + cosine);
+    const VD sine = Sqrt(IfThenElseZero(squared_sine > none, squared_sine));
+    const VD lost = all(0x1p-24 * static_cast<double>(k_shell_roundings)) * length;
+    return IfThenElse(cosine > none, in_single(length * sine + lost), infinite());
   }
 
   VD x_, y_, depth_, radius_;
@@ -201,14 +198,13 @@ class Shell {
     Lanes low, high;
     for (std::size_t half = 0; half < k_halves; ++half) {
       const VD wide_x = x.wide(half), wide_y = y.wide(half), wide_depth = depth.wide(half), r = radius.wide(half);
-      const VD squares =
-          hn::Add(hn::Add(hn::Mul(wide_x, wide_x), hn::Mul(wide_y, wide_y)), hn::Mul(wide_depth, wide_depth));
-      const VD length = hn::Sqrt(squares);
+      const VD squares = wide_x * wide_x + wide_y * wide_y + wide_depth * wide_depth;
+      const VD length = Sqrt(squares);
       halves_[half] = Caps(wide_x, wide_y, wide_depth, length, r, distance0, distance1);
-      const MD misses = hn::Or(hn::Gt(hn::Sub(length, r), all(distance1)), hn::Lt(hn::Add(length, r), all(distance0)));
+      const MD misses = Or(length - r > all(distance1), length + r < all(distance0));
       low.set(half, halves_[half].upright().low);
       high.set(half, halves_[half].upright().high);
-      missed_.set(half, hn::DemoteTo(DF(), hn::IfThenElseZero(misses, all(1.0))));
+      missed_.set(half, DemoteTo(DF(), IfThenElseZero(misses, all(1.0))));
     }
     low_ = low.whole();
     high_ = high.whole();
@@ -216,12 +212,12 @@ class Shell {
 
   // Of the balls that reach the shell, the rows that they may touch.
   HWY_INLINE void find_rows(Boxes& boxes) const {
-    const Indices rows = touched(planes_.boundaries.rows, hn::Neg(high_), hn::Neg(low_));
-    const M reaches = hn::And(hn::Eq(missed_.whole(), hn::Zero(D())), hn::Le(low_, high_));
-    const MI wanted = hn::And(hn::RebindMask(DI(), reaches), hn::Gt(boxes.rows, hn::Zero(DI())));
+    const Indices rows = touched(planes_.boundaries.rows, Neg(high_), Neg(low_));
+    const M reaches = And(missed_.whole() == Zero(D()), low_ <= high_);
+    const MI wanted = And(RebindMask(DI(), reaches), boxes.rows > Zero(DI()));
     boxes.first_row = rows.first;
-    const VI count = hn::Sub(rows.last, hn::Sub(rows.first, all_int(1)));
-    boxes.rows = hn::IfThenElseZero(wanted, hn::Max(count, hn::Zero(DI())));
+    const VI count = rows.last - (rows.first - all_int(1));
+    boxes.rows = IfThenElseZero(wanted, Max(count, Zero(DI())));
   }
 
   // The cuts by the planes above rows are kept for the call with the rows below them.
@@ -239,10 +235,10 @@ class Shell {
       above_[half] = below[half];
     }
     const Indices columns = touched(planes_.boundaries.columns, low.whole(), high.whole());
-    const M has_slopes = hn::Le(low.whole(), high.whole());
-    const MI has_columns = hn::AndNot(hn::Lt(columns.last, columns.first), hn::RebindMask(DI(), has_slopes));
-    return hn::IfThenElse(hn::RebindMask(DU(), has_columns), boxes.entry(columns.first, columns.last),
-                          hn::Set(DU(), BatchRows::k_none));
+    const M has_slopes = low.whole() <= high.whole();
+    const MI has_columns = AndNot(columns.last < columns.first, RebindMask(DI(), has_slopes));
+    return IfThenElse(RebindMask(DU(), has_columns), boxes.entry(columns.first, columns.last),
+                      Set(DU(), BatchRows::k_none));
   }
 
  private:
@@ -250,13 +246,13 @@ class Shell {
   class Lanes {
    public:
     Lanes() = default;
-    HWY_INLINE explicit Lanes(V value) { hn::Store(value, D(), lanes_); }
-    HWY_INLINE VD wide(std::size_t half) const { return hn::PromoteTo(DD(), hn::LoadU(DF(), lanes_ + half * k_half)); }
-    HWY_INLINE void set(std::size_t half, VF value) { hn::StoreU(value, DF(), lanes_ + half * k_half); }
-    HWY_INLINE V whole() const { return hn::Load(D(), lanes_); }
+    HWY_INLINE explicit Lanes(V value) { Store(value, D(), lanes_); }
+    HWY_INLINE VD wide(std::size_t half) const { return PromoteTo(DD(), LoadU(DF(), lanes_ + half * k_half)); }
+    HWY_INLINE void set(std::size_t half, VF value) { StoreU(value, DF(), lanes_ + half * k_half); }
+    HWY_INLINE V whole() const { return Load(D(), lanes_); }
 
    private:
-    HWY_ALIGN float lanes_[hn::MaxLanes(D())];
+    HWY_ALIGN float lanes_[MaxLanes(D())];
   };
 
   struct Plane {
@@ -267,12 +263,12 @@ class Shell {
   HWY_INLINE void cut(VI plane, Plane (&planes)[k_halves]) const {
     const hn::RebindToSigned<DF> dh;
     const hn::RebindToSigned<DD> dl;
-    HWY_ALIGN std::int32_t places[hn::MaxLanes(D())];
-    hn::Store(hn::Min(plane, all_int(planes_.rows())), DI(), places);
+    HWY_ALIGN std::int32_t places[MaxLanes(D())];
+    Store(Min(plane, all_int(planes_.rows())), DI(), places);
     for (std::size_t half = 0; half < k_halves; ++half) {
-      const auto place = hn::LoadU(dh, places + half * k_half);
-      planes[half].slope = hn::PromoteTo(DD(), hn::GatherIndex(DF(), planes_.slope.data(), place));
-      const VD stretch = hn::GatherIndex(DD(), planes_.stretch.data(), hn::PromoteTo(dl, place));
+      const auto place = LoadU(dh, places + half * k_half);
+      planes[half].slope = PromoteTo(DD(), GatherIndex(DF(), planes_.slope.data(), place));
+      const VD stretch = GatherIndex(DD(), planes_.stretch.data(), PromoteTo(dl, place));
       planes[half].cut = halves_[half].cut_by_planes(planes[half].slope, stretch);
     }
   }
@@ -290,8 +286,7 @@ void shell_rows(const ShellPlanes& planes, const BallBatch& batch, BatchRows& ou
   shell.find_rows(boxes);
   if (!boxes.start(planes.rows(), batch.count, out)) return;
   shell.start_rows(boxes.first_row);
-  walk_rows(boxes, planes.rows(), out,
-            [&](VI row, MI) { return shell.columns_above(hn::Add(row, all_int(1)), boxes); });
+  walk_rows(boxes, planes.rows(), out, [&](VI row, MI) { return shell.columns_above(row + all_int(1), boxes); });
 }
 
 }  // namespace

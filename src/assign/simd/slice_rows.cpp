@@ -43,9 +43,9 @@ struct Spheres {
   // At an inverse depth a ball is a disk around (x, y) times that; half of what it has of a line that is `aside` from
   // its centre.
   HWY_INLINE V half_chord(V inverse, V aside) const {
-    const V before = hn::Sub(hn::Mul(hn::Add(radius, depth), inverse), all(1.0f));
-    const V behind = hn::Sub(all(1.0f), hn::Mul(hn::Sub(depth, radius), inverse));
-    return root(hn::Sub(hn::Mul(before, behind), hn::Mul(aside, aside)));
+    const V before = (radius + depth) * inverse - all(1.0f);
+    const V behind = all(1.0f) - (depth - radius) * inverse;
+    return root(before * behind - aside * aside);
   }
 };
 
@@ -66,15 +66,15 @@ class Batch {
     balls_ = {sphere.first, sphere.second, sphere.third, sphere.fourth};
     const Fours touch = gathered_fours(shapes.touch.data(), balls.places);
     slack_ = touch.first;
-    lights_ = hn::BitCast(DU(), touch.second);
+    lights_ = BitCast(DU(), touch.second);
     lean_ = touch.third;
     inverse_upright_ = touch.fourth;
-    const M is_ball = hn::FirstN(D(), balls.count);
-    is_precise_ = hn::AllFalse(D(), hn::And(is_ball, hn::Eq(inverse_upright_, hn::Zero(D()))));
+    const M is_ball = FirstN(D(), balls.count);
+    is_precise_ = AllFalse(D(), And(is_ball, inverse_upright_ == Zero(D())));
     const Fours extremes = gathered_fours(shapes.extremes.data(), balls.places);
     find_extremes({within(extremes.first), within(extremes.second)}, {within(extremes.third), within(extremes.fourth)});
-    const V nearest = hn::Max(all(near_.depth), hn::Sub(balls_.depth, hn::Add(balls_.radius, slack_)));
-    rate_ = hn::Div(all(planes.columns_per_slope), nearest);
+    const V nearest = Max(all(near_.depth), balls_.depth - (balls_.radius + slack_));
+    rate_ = all(planes.columns_per_slope) / nearest;
     least_area_ = least_area_of(balls_.radius, slack_, rate_, farthest_corner());
   }
 
@@ -84,25 +84,24 @@ class Batch {
   // The rows that each ball may touch. `wanted`: the lanes that hold a ball.
   HWY_INLINE BallRows find_rows(M wanted) const {
     const V top = all(planes_->slope.front()), bottom = all(planes_->slope[static_cast<std::size_t>(planes_->rows)]);
-    const M is_level = hn::And(hn::Le(upwards_.low, top), hn::Ge(upwards_.high, bottom));
-    const M is_between_sides =
-        hn::And(hn::Le(sideways_.low, all(planes_->right)), hn::Ge(sideways_.high, all(planes_->left)));
-    const M touches = hn::And(wanted, hn::And(is_level, is_between_sides));
-    const V scale = all(planes_->rows_per_slope), margin = all(planes_->row_margin), zero = hn::Zero(D());
-    const V from = hn::Sub(hn::Mul(hn::Sub(top, hn::Min(upwards_.high, top)), scale), margin);
-    const V to = hn::Add(hn::Mul(hn::Sub(top, hn::Max(upwards_.low, bottom)), scale), margin);
+    const M is_level = And(upwards_.low <= top, upwards_.high >= bottom);
+    const M is_between_sides = And(sideways_.low <= all(planes_->right), sideways_.high >= all(planes_->left));
+    const M touches = And(wanted, And(is_level, is_between_sides));
+    const V scale = all(planes_->rows_per_slope), margin = all(planes_->row_margin), zero = Zero(D());
+    const V from = (top - Min(upwards_.high, top)) * scale - margin;
+    const V to = (top - Max(upwards_.low, bottom)) * scale + margin;
     const VI last_row = all_int(planes_->rows - 1);
-    const VI held = hn::VecFromMask(DI(), hn::RebindMask(DI(), hn::And(wanted, holds_view())));
-    const VI first = hn::Min(whole(hn::Floor(hn::Max(from, zero))), last_row);
-    const VI last = hn::Min(whole(hn::Floor(hn::Max(to, zero))), last_row);
-    const VI count = hn::IfThenElseZero(hn::RebindMask(DI(), touches), hn::Add(hn::Sub(last, first), all_int(1)));
-    return {hn::AndNot(held, first), hn::Or(hn::AndNot(held, count), hn::And(held, all_int(planes_->rows))), held};
+    const VI held = VecFromMask(DI(), RebindMask(DI(), And(wanted, holds_view())));
+    const VI first = Min(whole(Floor(Max(from, zero))), last_row);
+    const VI last = Min(whole(Floor(Max(to, zero))), last_row);
+    const VI count = IfThenElseZero(RebindMask(DI(), touches), last - first + all_int(1));
+    return {AndNot(held, first), Or(AndNot(held, count), And(held, all_int(planes_->rows))), held};
   }
 
   // All columns of the held ones, none of others.
   HWY_INLINE VU columns_of_held(VI held) const {
-    const VU all_columns = hn::Set(DU(), ColumnSpan::of(0, static_cast<std::uint32_t>(planes_->columns) - 1));
-    return hn::Or(hn::And(hn::BitCast(DU(), held), all_columns), hn::Not(hn::BitCast(DU(), held)));
+    const VU all_columns = Set(DU(), ColumnSpan::of(0, static_cast<std::uint32_t>(planes_->columns) - 1));
+    return Or(And(BitCast(DU(), held), all_columns), Not(BitCast(DU(), held)));
   }
 
   // What the balls in which[i] have between two tile planes. At each depth a ball is a disk, so it reaches farthest
@@ -110,7 +109,7 @@ class Batch {
   // tangent touches, or in the slice's plane that is nearer to that.
   HWY_INLINE Hull hull_of(Which which, V top, V bottom) const {
     const RowBalls balls = {balls_.of(which), taken(lean_, which), taken(inverse_upright_, which)};
-    const auto in_row = [&](V slope) { return hn::Min(hn::Max(taken(slope, which), bottom), top); };
+    const auto in_row = [&](V slope) { return Min(Max(taken(slope, which), bottom), top); };
     return {end_of<-1>(balls, in_row(farthest_left_)), end_of<1>(balls, in_row(farthest_right_))};
   }
 
@@ -141,11 +140,11 @@ class Batch {
   HWY_INLINE VU columns_of(Which which, const PlaneTable& slopes, VI row, const Hull& hull, M wanted) const {
     return columns_between(
         *planes_, hull.low, hull.high, wanted, taken(least_area_, which),
-        [](V least, V most) { return hn::Add(all(1.0f), hn::Max(hn::Mul(least, least), hn::Mul(most, most))); },
+        [](V least, V most) { return all(1.0f) + Max(least * least, most * most); },
         [&](V inwards, V steepness) {
           const V radius = taken(balls_.radius, which), slack = taken(slack_, which);
-          const VI above = hn::Min(row, all_int(last_row()));
-          const V top = slopes.at(above), bottom = slopes.at(hn::Add(above, all_int(1)));
+          const VI above = Min(row, all_int(last_row()));
+          const V top = slopes.at(above), bottom = slopes.at(above + all_int(1));
           return is_certain_by_chord(half_chord_square(which, top, bottom), inwards, radius, slack, taken(rate_, which),
                                      steepness);
         });
@@ -159,73 +158,70 @@ class Batch {
   };
 
   // The nearest inverse depth in the slice.
-  HWY_INLINE V within(V inverse) const { return hn::Min(hn::Max(inverse, all(far_.inverse)), all(near_.inverse)); }
+  HWY_INLINE V within(V inverse) const { return Min(Max(inverse, all(far_.inverse)), all(near_.inverse)); }
 
   // `sideways`, `upwards`: the inverse depths where the balls reach farthest within the slice.
   HWY_INLINE void find_extremes(const Hull& sideways, const Hull& upwards) {
-    const auto radius_at = [&](V inverse) { return balls_.half_chord(inverse, hn::Zero(D())); };
-    upwards_ = {hn::Sub(hn::Mul(balls_.y, upwards.low), radius_at(upwards.low)),
-                hn::Add(hn::Mul(balls_.y, upwards.high), radius_at(upwards.high))};
-    sideways_ = {hn::Mul(hn::Sub(balls_.x, balls_.radius), sideways.low),
-                 hn::Mul(hn::Add(balls_.x, balls_.radius), sideways.high)};
-    farthest_left_ = hn::Mul(balls_.y, sideways.low);
-    farthest_right_ = hn::Mul(balls_.y, sideways.high);
+    const auto radius_at = [&](V inverse) { return balls_.half_chord(inverse, Zero(D())); };
+    upwards_ = {balls_.y * upwards.low - radius_at(upwards.low), balls_.y * upwards.high + radius_at(upwards.high)};
+    sideways_ = {(balls_.x - balls_.radius) * sideways.low, (balls_.x + balls_.radius) * sideways.high};
+    farthest_left_ = balls_.y * sideways.low;
+    farthest_right_ = balls_.y * sideways.high;
   }
 
   // The least (side = -1) or greatest (side = 1) slope x / depth in tile planes of some slopes.
   template <int side>
   HWY_INLINE V end_of(const RowBalls& balls, V slope) const {
-    const auto go = [](V from, V by) { return side < 0 ? hn::Sub(from, by) : hn::Add(from, by); };
+    const auto go = [](V from, V by) { return side < 0 ? from - by : from + by; };
     const Spheres& ball = balls.spheres;
-    const V away = hn::Sub(ball.y, hn::Mul(slope, ball.depth));
-    const V tilt_square = hn::Add(all(1.0f), hn::Mul(slope, slope));
-    const V chord = root(hn::Sub(hn::Mul(hn::Mul(ball.radius, ball.radius), tilt_square), hn::Mul(away, away)));
-    const V ahead = hn::Add(ball.depth, hn::Mul(slope, ball.y));
-    V touch = hn::Mul(go(ahead, hn::Mul(balls.lean, chord)), balls.inverse_upright);
+    const V away = ball.y - slope * ball.depth;
+    const V tilt_square = all(1.0f) + slope * slope;
+    const V chord = root(ball.radius * ball.radius * tilt_square - away * away);
+    const V ahead = ball.depth + slope * ball.y;
+    V touch = go(ahead, balls.lean * chord) * balls.inverse_upright;
     if (!is_precise_) touch = precise_touch<side>(balls, chord, ahead, tilt_square, touch);
     // Where none touches ahead of the eye the ball grows towards it.
-    const M is_ahead = hn::Gt(touch, hn::Zero(D()));
-    const V inverse = hn::IfThenElse(is_ahead, within(touch), all(near_.inverse));
-    const V aside = hn::Sub(slope, hn::Mul(ball.y, inverse));
-    return go(hn::Mul(ball.x, inverse), ball.half_chord(inverse, aside));
+    const M is_ahead = touch > Zero(D());
+    const V inverse = IfThenElse(is_ahead, within(touch), all(near_.inverse));
+    const V aside = slope - ball.y * inverse;
+    return go(ball.x * inverse, ball.half_chord(inverse, aside));
   }
 
   // Where the tangent touches, for balls of which inverse_upright does not say so precisely enough.
   template <int side>
   HWY_NOINLINE V precise_touch(const RowBalls& balls, V chord, V ahead, V tilt_square, V otherwise) const {
     const Spheres& ball = balls.spheres;
-    const V zero = hn::Zero(D()), at_eye = all(BallShapes::k_at_eye);
-    const V ahead_square = hn::Mul(hn::Sub(ball.depth, ball.radius), hn::Add(ball.depth, ball.radius));
-    const V upright = hn::Add(hn::Mul(ball.y, ball.y), ahead_square), x_square = hn::Mul(ball.x, ball.x);
-    const V sum = hn::Add(ahead, hn::Mul(hn::Abs(balls.lean), chord));
-    const V square = hn::Add(x_square, upright);
-    const V from_eye = hn::Add(hn::Mul(ahead, ahead), hn::Mul(x_square, tilt_square));
-    const V outer = hn::IfThenElse(hn::Gt(upright, zero), hn::Div(sum, upright), at_eye);
-    const V inner = hn::IfThenElse(hn::Gt(sum, zero), hn::Div(from_eye, hn::Mul(square, sum)), at_eye);
-    const M is_outer = side < 0 ? hn::Lt(ball.x, zero) : hn::Ge(ball.x, zero);
-    const V precise = hn::IfThenElse(is_outer, outer, inner);
-    return hn::IfThenElse(hn::Eq(balls.inverse_upright, zero), precise, otherwise);
+    const V zero = Zero(D()), at_eye = all(BallShapes::k_at_eye);
+    const V ahead_square = (ball.depth - ball.radius) * (ball.depth + ball.radius);
+    const V upright = ball.y * ball.y + ahead_square, x_square = ball.x * ball.x;
+    const V sum = ahead + Abs(balls.lean) * chord;
+    const V square = x_square + upright;
+    const V from_eye = ahead * ahead + x_square * tilt_square;
+    const V outer = IfThenElse(upright > zero, sum / upright, at_eye);
+    const V inner = IfThenElse(sum > zero, from_eye / (square * sum), at_eye);
+    const M is_outer = side < 0 ? ball.x < zero : ball.x >= zero;
+    const V precise = IfThenElse(is_outer, outer, inner);
+    return IfThenElse(balls.inverse_upright == zero, precise, otherwise);
   }
 
-  HWY_INLINE M holds_view() const { return hn::Eq(least_area_, hn::Zero(D())); }
+  HWY_INLINE M holds_view() const { return least_area_ == Zero(D()); }
 
   // Of a place in the row that is about as near to the centre as any, how far it is from the surface, squared.
   HWY_INLINE V half_chord_square(Which which, V top, V bottom) const {
     const V centre = taken(balls_.depth, which), radius = taken(balls_.radius, which);
-    const V depth = hn::Min(hn::Max(centre, all(near_.depth)), all(far_.depth)), along = hn::Sub(centre, depth);
-    const V across =
-        gap(hn::Mul(all(planes_->left), depth), taken(balls_.x, which), hn::Mul(all(planes_->right), depth));
-    const V up = gap(hn::Mul(bottom, depth), taken(balls_.y, which), hn::Mul(top, depth));
-    const V square = hn::Add(hn::Add(hn::Mul(across, across), hn::Mul(up, up)), hn::Mul(along, along));
-    return hn::Sub(hn::Mul(radius, radius), square);
+    const V depth = Min(Max(centre, all(near_.depth)), all(far_.depth)), along = centre - depth;
+    const V across = gap(all(planes_->left) * depth, taken(balls_.x, which), all(planes_->right) * depth);
+    const V up = gap(bottom * depth, taken(balls_.y, which), top * depth);
+    const V square = across * across + up * up + along * along;
+    return radius * radius - square;
   }
 
   // At least the squared distance to the farthest corner of the slice's part of the view. Balls smaller than half its
   // width do not hold it anyway.
   HWY_INLINE V farthest_corner() const {
     const float half_width = 0.49f * far_.depth * (planes_->right - planes_->left);
-    if (hn::AllTrue(D(), hn::Lt(balls_.radius, all(half_width)))) return infinity();
-    return hn::Max(farthest_corner(near_), farthest_corner(far_));
+    if (AllTrue(D(), balls_.radius < all(half_width))) return infinity();
+    return Max(farthest_corner(near_), farthest_corner(far_));
   }
 
   // The squared distance to the picture's farthest corner in a slice's plane.
@@ -233,8 +229,8 @@ class Batch {
     const auto bottom = planes_->slope[static_cast<std::size_t>(planes_->rows)], top = planes_->slope.front();
     const V across = farther_end(balls_.x, planes_->left * plane.depth, planes_->right * plane.depth);
     const V up = farther_end(balls_.y, bottom * plane.depth, top * plane.depth);
-    const V along = hn::Sub(balls_.depth, all(plane.depth));
-    return hn::Add(hn::Add(hn::Mul(across, across), hn::Mul(up, up)), hn::Mul(along, along));
+    const V along = balls_.depth - all(plane.depth);
+    return across * across + up * up + along * along;
   }
 
   const RowPlanes* planes_;
@@ -252,7 +248,7 @@ class Batch {
 };
 
 std::uint32_t lanes() {
-  return static_cast<std::uint32_t>(hn::Lanes(D()));
+  return static_cast<std::uint32_t>(Lanes(D()));
 }
 
 // The rows of a batch, ball by ball from the top, one per lane: row t belongs to the ball in lane lane_of(t).
@@ -263,25 +259,25 @@ class RowsOfBatch {
     list_ = list;
     count_ = 0;
     const DI di;
-    const auto n = static_cast<std::int32_t>(hn::Lanes(di));
-    const VI listed = hn::AndNot(rows.held, rows.count), end = sums(listed);
-    shift_ = hn::Sub(rows.first, hn::Sub(end, listed));
+    const auto n = static_cast<std::int32_t>(Lanes(di));
+    const VI listed = AndNot(rows.held, rows.count), end = sums(listed);
+    shift_ = rows.first - (end - listed);
     std::int32_t ends[k_most_lanes];
-    hn::StoreU(end, di, ends);
+    StoreU(end, di, ends);
     // What is written beyond a lane's end, the next one overwrites.
-    const bool are_short = hn::AllTrue(di, hn::Lt(listed, all_int(n + 1)));
+    const bool are_short = AllTrue(di, listed < all_int(n + 1));
     for (std::int32_t lane = 0; lane < n; ++lane) {
-      hn::StoreU(all_int(lane), di, list + count_);
+      StoreU(all_int(lane), di, list + count_);
       if (!are_short)
-        for (count_ += n; count_ < ends[lane]; count_ += n) hn::StoreU(all_int(lane), di, list + count_);
+        for (count_ += n; count_ < ends[lane]; count_ += n) StoreU(all_int(lane), di, list + count_);
       count_ = ends[lane];
     }
-    hn::StoreU(hn::Zero(di), di, list + count_);
+    StoreU(Zero(di), di, list + count_);
   }
 
   std::int32_t count() const { return count_; }
-  HWY_INLINE VI lane_of(std::int32_t t) const { return hn::LoadU(DI(), list_ + t); }
-  HWY_INLINE VI number_of(Which which, VI t) const { return hn::Add(taken(shift_, which), t); }
+  HWY_INLINE VI lane_of(std::int32_t t) const { return LoadU(DI(), list_ + t); }
+  HWY_INLINE VI number_of(Which which, VI t) const { return taken(shift_, which) + t; }
 
  private:
   const std::int32_t* list_;
@@ -292,12 +288,12 @@ class RowsOfBatch {
 // What the balls have in all rows, as slopes.
 HWY_INLINE void find_hulls(const PlaneTable& slopes, const Batch& batch, const RowsOfBatch& rows, RowHulls& out) {
   const D d;
-  for (std::int32_t begin = 0; begin < rows.count(); begin += static_cast<std::int32_t>(hn::Lanes(d))) {
-    const Which which = hn::IndicesFromVec(DI(), rows.lane_of(begin));
-    const VI above = hn::Min(rows.number_of(which, from_on(begin)), all_int(batch.last_row()));
-    const Hull hull = batch.hull_of(which, slopes.at(above), slopes.at(hn::Add(above, all_int(1))));
-    hn::StoreU(hull.low, d, out.low.data() + begin);
-    hn::StoreU(hull.high, d, out.high.data() + begin);
+  for (std::int32_t begin = 0; begin < rows.count(); begin += static_cast<std::int32_t>(Lanes(d))) {
+    const Which which = IndicesFromVec(DI(), rows.lane_of(begin));
+    const VI above = Min(rows.number_of(which, from_on(begin)), all_int(batch.last_row()));
+    const Hull hull = batch.hull_of(which, slopes.at(above), slopes.at(above + all_int(1)));
+    StoreU(hull.low, d, out.low.data() + begin);
+    StoreU(hull.high, d, out.high.data() + begin);
   }
 }
 
@@ -306,18 +302,18 @@ HWY_INLINE void find_columns(const PlaneTable& slopes, const Batch& batch, const
                              const RowHulls& hulls, BatchRows& out) {
   const D d;
   const DI di;
-  const auto n = static_cast<std::int32_t>(hn::Lanes(di));
+  const auto n = static_cast<std::int32_t>(Lanes(di));
   const VI nowhere = all_int(grid_rows * n);
   for (std::int32_t begin = 0; begin < rows.count(); begin += n) {
     const VI t = from_on(begin), lane = rows.lane_of(begin);
-    const Which which = hn::IndicesFromVec(di, lane);
-    const MI wanted = hn::Lt(t, all_int(rows.count()));
+    const Which which = IndicesFromVec(di, lane);
+    const MI wanted = t < all_int(rows.count());
     const VI row = rows.number_of(which, t);
-    const Hull hull = {hn::LoadU(d, hulls.low.data() + begin), hn::LoadU(d, hulls.high.data() + begin)};
-    const VU columns = batch.columns_of(which, slopes, row, hull, hn::RebindMask(d, wanted));
-    const VI to = hn::Add(hn::Mul(row, all_int(n)), lane);
-    hn::ScatterIndex(hn::BitCast(di, columns), di, reinterpret_cast<std::int32_t*>(out.columns.data()),
-                     hn::IfThenElse(wanted, to, nowhere));
+    const Hull hull = {LoadU(d, hulls.low.data() + begin), LoadU(d, hulls.high.data() + begin)};
+    const VU columns = batch.columns_of(which, slopes, row, hull, RebindMask(d, wanted));
+    const VI to = row * all_int(n) + lane;
+    ScatterIndex(BitCast(di, columns), di, reinterpret_cast<std::int32_t*>(out.columns.data()),
+                 IfThenElse(wanted, to, nowhere));
     list_open(columns, to, out);
   }
 }
@@ -332,7 +328,7 @@ void rows_of_batches(const RowPlanes& planes, const BallShapes& shapes, std::spa
   RowsOfBatch rows[k_batches_at_once];
   for (std::size_t i = 0; i < count; ++i) {
     batches[i].start(planes, shapes, balls[i]);
-    ball_rows[i] = batches[i].find_rows(hn::FirstN(D(), balls[i].count));
+    ball_rows[i] = batches[i].find_rows(FirstN(D(), balls[i].count));
   }
   for (std::size_t i = 0; i < count; ++i) {
     start_batch(planes.rows, ball_rows[i].first, ball_rows[i].count, batches[i].lights(),

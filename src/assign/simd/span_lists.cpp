@@ -43,37 +43,37 @@ const char* target_name() {
 Added add_rows(SpanRows rows, int first_row, int last_row, const std::uint32_t* columns, const std::uint32_t* lights,
                std::uint8_t* is_left) {
   const hn::ScalableTag<std::uint32_t> du;
-  const std::size_t lanes = hn::Lanes(du);
-  const auto light = hn::LoadU(du, lights), none = hn::Set(du, SpanLists::k_no_span);
-  const auto half = hn::Set(du, 0xffff);
-  auto beyond = hn::Zero(du);  // how many columns a span has behind its first one
+  const std::size_t lanes = Lanes(du);
+  const auto light = LoadU(du, lights), none = Set(du, SpanLists::k_no_span);
+  const auto half = Set(du, 0xffff);
+  auto beyond = Zero(du);  // how many columns a span has behind its first one
   Added added{0, false};
   for (int row = first_row; row <= last_row; ++row) {
     const auto r = static_cast<std::size_t>(row);
-    const auto span = hn::LoadU(du, columns + r * lanes);
-    const auto wanted = hn::Ne(span, none);
-    const auto open = hn::TestBit(span, hn::Set(du, SpanLists::k_open_span));
-    is_left[r] = hn::AllFalse(du, hn::And(wanted, open)) ? 0 : 1;
+    const auto span = LoadU(du, columns + r * lanes);
+    const auto wanted = Ne(span, none);
+    const auto open = TestBit(span, Set(du, SpanLists::k_open_span));
+    is_left[r] = AllFalse(du, And(wanted, open)) ? 0 : 1;
     if (is_left[r] != 0) {
       added.some_are_left = true;
       continue;
     }
     const std::size_t to = r * rows.pitch + rows.sizes[r];
-    const auto count = static_cast<std::uint32_t>(hn::CountTrue(du, wanted));
-    hn::StoreU(compressed(du, light, wanted), du, rows.lights + to);
-    hn::StoreU(compressed(du, span, wanted), du, rows.columns + to);
+    const auto count = static_cast<std::uint32_t>(CountTrue(du, wanted));
+    StoreU(compressed(du, light, wanted), du, rows.lights + to);
+    StoreU(compressed(du, span, wanted), du, rows.columns + to);
     rows.sizes[r] += count;
     added.pairs += count;
-    beyond = hn::Add(beyond, hn::IfThenElseZero(wanted, hn::Sub(hn::ShiftRight<16>(span), hn::And(span, half))));
+    beyond = beyond + IfThenElseZero(wanted, ShiftRight<16>(span) - And(span, half));
   }
   // A lane's sum is below 2^32, as a grid has no more cells; that of all lanes is where rows are not too many.
   constexpr auto k_few_rows = static_cast<int>(UINT32_MAX / (k_row_lanes * ColumnSpan::k_most_columns));
   if (last_row - first_row < k_few_rows) {
-    added.pairs += hn::GetLane(hn::SumOfLanes(du, beyond));
+    added.pairs += GetLane(SumOfLanes(du, beyond));
     return added;
   }
-  added.pairs += hn::GetLane(hn::SumOfLanes(du, hn::And(beyond, half)));
-  added.pairs += std::uint64_t{hn::GetLane(hn::SumOfLanes(du, hn::ShiftRight<16>(beyond)))} << 16;
+  added.pairs += GetLane(SumOfLanes(du, And(beyond, half)));
+  added.pairs += std::uint64_t{GetLane(SumOfLanes(du, ShiftRight<16>(beyond)))} << 16;
   return added;
 }
 

@@ -27,22 +27,20 @@ struct Cones {
 
 // geom::bounding_ball
 HWY_INLINE Spheres around(const Spheres& range, const Cones& cone) {
-  const auto is_narrow = hn::Gt(cone.cos_angle, cone.sin_angle);
-  const V along = hn::IfThenElse(is_narrow, hn::Div(range.radius, hn::Mul(all(2.0f), cone.cos_angle)),
-                                 hn::Mul(range.radius, cone.cos_angle));
-  const V radius = hn::IfThenElse(is_narrow, along, hn::Mul(range.radius, cone.sin_angle));
-  const V size = hn::Add(hn::Add(hn::Abs(range.x), hn::Abs(range.y)), hn::Abs(range.z));
-  const Spheres ball{hn::Add(range.x, hn::Mul(along, cone.axis_x)), hn::Add(range.y, hn::Mul(along, cone.axis_y)),
-                     hn::Add(range.z, hn::Mul(along, cone.axis_z)),
-                     hn::Add(radius, hn::Mul(all(0x1p-20f), hn::Add(size, range.radius)))};
-  const auto is_endless = hn::Eq(range.radius, all(std::numeric_limits<float>::infinity()));
-  return {hn::IfThenElse(is_endless, range.x, ball.x), hn::IfThenElse(is_endless, range.y, ball.y),
-          hn::IfThenElse(is_endless, range.z, ball.z), hn::IfThenElse(is_endless, range.radius, ball.radius)};
+  const auto is_narrow = cone.cos_angle > cone.sin_angle;
+  const V along = IfThenElse(is_narrow, range.radius / (all(2.0f) * cone.cos_angle), range.radius * cone.cos_angle);
+  const V radius = IfThenElse(is_narrow, along, range.radius * cone.sin_angle);
+  const V size = Abs(range.x) + Abs(range.y) + Abs(range.z);
+  const Spheres ball{range.x + along * cone.axis_x, range.y + along * cone.axis_y, range.z + along * cone.axis_z,
+                     radius + all(0x1p-20f) * (size + range.radius)};
+  const auto is_endless = range.radius == all(std::numeric_limits<float>::infinity());
+  return {IfThenElse(is_endless, range.x, ball.x), IfThenElse(is_endless, range.y, ball.y),
+          IfThenElse(is_endless, range.z, ball.z), IfThenElse(is_endless, range.radius, ball.radius)};
 }
 
 void spot_balls(const view::LightArrays& lights, float roundings, bool around_cones, BallArrays& balls) {
   const D d;
-  const auto n = static_cast<std::uint32_t>(hn::Lanes(d));
+  const auto n = static_cast<std::uint32_t>(Lanes(d));
   for (std::uint32_t i = 0; i < lights.spots; i += n) {
     const std::uint32_t left = std::min(n, lights.spots - i);
     const auto load = [&](const float* from) { return loaded(from + i, left); };
@@ -54,11 +52,11 @@ void spot_balls(const view::LightArrays& lights, float roundings, bool around_co
     if (around_cones)
       ball = around(ball, {of_spot(lights.axis_x), of_spot(lights.axis_y), of_spot(lights.axis_z),
                            of_spot(lights.cos_angle), of_spot(lights.sin_angle)});
-    hn::StoreU(ball.x, d, balls.x.data() + i);
-    hn::StoreU(ball.y, d, balls.y.data() + i);
-    hn::StoreU(ball.z, d, balls.z.data() + i);
-    const auto has_volume = hn::Gt(given, hn::Zero(d));
-    hn::StoreU(hn::IfThenElseZero(has_volume, ball.radius), d, balls.radius.data() + i);
+    StoreU(ball.x, d, balls.x.data() + i);
+    StoreU(ball.y, d, balls.y.data() + i);
+    StoreU(ball.z, d, balls.z.data() + i);
+    const auto has_volume = given > Zero(d);
+    StoreU(IfThenElseZero(has_volume, ball.radius), d, balls.radius.data() + i);
   }
 }
 

@@ -22,7 +22,7 @@ void look(const SpotsAndPlanes& from, Look how, SpotCells& cells) {
   const D d;
   const DU du;
   const hn::Rebind<std::uint8_t, DU> du8;
-  const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
+  const auto lanes = static_cast<std::uint32_t>(Lanes(d));
   for (std::uint32_t first = 0; first < cells.count; first += lanes) {
     const SpotsInRows rows =
         spots_in_rows(from, places(cells.spot, first), places(cells.slice, first), places(cells.row, first));
@@ -38,7 +38,7 @@ void look(const SpotsAndPlanes& from, Look how, SpotCells& cells) {
         these.approach(common, apart);
         break;
       case Look::closer:
-        common = hn::Or(these.holds_axis_point(), these.holds_edge_point());
+        common = Or(these.holds_axis_point(), these.holds_edge_point());
         apart = these.is_apart_from_corners();
         break;
       case Look::thorough:
@@ -46,12 +46,12 @@ void look(const SpotsAndPlanes& from, Look how, SpotCells& cells) {
         break;
     }
     const M plain = are_plain(from, rows.light);
-    common = hn::And(common, plain);
-    apart = hn::And(apart, plain);
-    const auto code = [&](Touch touch) { return hn::Set(du, static_cast<std::uint32_t>(touch)); };
-    const auto answer = hn::IfThenElse(hn::RebindMask(du, common), code(Touch::yes),
-                                       hn::IfThenElse(hn::RebindMask(du, apart), code(Touch::no), code(Touch::open)));
-    hn::StoreU(hn::U8FromU32(answer), du8, reinterpret_cast<std::uint8_t*>(cells.touch.data()) + first);
+    common = And(common, plain);
+    apart = And(apart, plain);
+    const auto code = [&](Touch touch) { return Set(du, static_cast<std::uint32_t>(touch)); };
+    const auto answer = IfThenElse(RebindMask(du, common), code(Touch::yes),
+                                   IfThenElse(RebindMask(du, apart), code(Touch::no), code(Touch::open)));
+    StoreU(U8FromU32(answer), du8, reinterpret_cast<std::uint8_t*>(cells.touch.data()) + first);
   }
 }
 

@@ -16,27 +16,26 @@ namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
 
 HWY_INLINE V square_of(V x) {
-  return hn::Mul(x, x);
+  return x * x;
 }
 HWY_INLINE V inverse(V x) {
-  return hn::Div(all(1.0f), x);
+  return all(1.0f) / x;
 }
 
 // A place as the eye sees it: x / depth, y / depth, depth.
 struct Place {
   V across, up, depth;
 
-  HWY_INLINE Point point() const { return {hn::Mul(across, depth), hn::Mul(up, depth), depth}; }
+  HWY_INLINE Point point() const { return {across * depth, up * depth, depth}; }
 };
 HWY_INLINE Place place_of(const Point& p, V inverse_depth) {
-  return {hn::Mul(p.x, inverse_depth), hn::Mul(p.y, inverse_depth), p.depth};
+  return {p.x * inverse_depth, p.y * inverse_depth, p.depth};
 }
 HWY_INLINE Place place_of(const Point& p) {
   return place_of(p, inverse(p.depth));
 }
 HWY_INLINE Place chosen(M where, const Place& a, const Place& b) {
-  return {hn::IfThenElse(where, a.across, b.across), hn::IfThenElse(where, a.up, b.up),
-          hn::IfThenElse(where, a.depth, b.depth)};
+  return {IfThenElse(where, a.across, b.across), IfThenElse(where, a.up, b.up), IfThenElse(where, a.depth, b.depth)};
 }
 
 // The two places found so far that lean most across.
@@ -45,17 +44,13 @@ struct Extremes {
 
   HWY_INLINE Extremes() : low{all(k_none), all(0.0f), all(1.0f)}, high{all(-k_none), all(0.0f), all(1.0f)} {}
 
-  HWY_INLINE void take_low(M where, const Place& p) {
-    low = chosen(hn::And(where, hn::Lt(p.across, low.across)), p, low);
-  }
-  HWY_INLINE void take_high(M where, const Place& p) {
-    high = chosen(hn::And(where, hn::Gt(p.across, high.across)), p, high);
-  }
+  HWY_INLINE void take_low(M where, const Place& p) { low = chosen(And(where, p.across < low.across), p, low); }
+  HWY_INLINE void take_high(M where, const Place& p) { high = chosen(And(where, p.across > high.across), p, high); }
   HWY_INLINE void take(M where, const Place& p) {
     take_low(where, p);
     take_high(where, p);
   }
-  HWY_INLINE M exist() const { return hn::Lt(low.across, all(k_none)); }
+  HWY_INLINE M exist() const { return low.across < all(k_none); }
 
   static constexpr float k_none = 1e15f;
 };
@@ -72,16 +67,16 @@ struct SpotShapes {
   HWY_INLINE SpotShapes(const Cone& of_cone, V of_slack) : cone(of_cone), slack(of_slack) {
     const Point toward = Point{all(0.3f), all(0.5f), all(0.8f)}, aside = Point{all(0.8f), all(-0.5f), all(0.1f)};
     const V along = dot(toward, cone.axis);
-    const M is_good = hn::Lt(hn::Abs(along), all(0.9f));
+    const M is_good = Abs(along) < all(0.9f);
     const Point from = chosen(is_good, toward, aside);
     const Point part = from - dot(from, cone.axis) * cone.axis;
     m1 = inverse(length(part)) * part;
     m2 = cross(cone.axis, m1);
-    const V forth = hn::Mul(cone.range, cone.cosine), out = hn::Mul(cone.range, cone.sine);
+    const V forth = cone.range * cone.cosine, out = cone.range * cone.sine;
     rim = cone.apex + forth * cone.axis;
     rim1 = out * m1;
     rim2 = out * m2;
-    least_along = hn::Sub(forth, hn::Mul(slack, cone.sine));
+    least_along = forth - slack * cone.sine;
   }
 
   // The same with x and y exchanged: what leans most across is then what leans most up and down.
@@ -100,18 +95,18 @@ struct SpotShapes {
   }
 
   // Is a place of the sphere in the cone that is so far along the axis from the apex?
-  HWY_INLINE M is_in_cone(V along) const { return hn::Ge(along, least_along); }
+  HWY_INLINE M is_in_cone(V along) const { return along >= least_along; }
   HWY_INLINE M is_sphere_in_cone(const Point& p) const { return is_in_cone(dot(p - cone.apex, cone.axis)); }
 
   // Angles phi with a cos phi + b sin phi = c, as places of the rim.
   template <class Take>
   HWY_INLINE void each_rim_place(V a, V b, V c, Take&& take) const {
-    const V square = hn::Add(square_of(a), square_of(b)), rest = hn::Sub(square, square_of(c));
-    const M exists = hn::And(hn::Ge(rest, hn::Zero(D())), hn::Gt(square, hn::Zero(D())));
+    const V square = square_of(a) + square_of(b), rest = square - square_of(c);
+    const M exists = And(rest >= Zero(D()), square > Zero(D()));
     const V w = root(rest), scale = inverse(square);
-    for (const V turned : {w, hn::Neg(w)}) {
-      const V cosine = hn::Mul(scale, hn::Sub(hn::Mul(a, c), hn::Mul(b, turned)));
-      const V sine = hn::Mul(scale, hn::Add(hn::Mul(b, c), hn::Mul(a, turned)));
+    for (const V turned : {w, Neg(w)}) {
+      const V cosine = scale * (a * c - b * turned);
+      const V sine = scale * (b * c + a * turned);
       take(exists, rim + cosine * rim1 + sine * rim2);
     }
   }
@@ -120,29 +115,29 @@ struct SpotShapes {
   // numbers.
   HWY_INLINE void find_generators(const Point& direction, Point (&generators)[2]) const {
     const V along = dot(direction, cone.axis), a = dot(direction, m1), b = dot(direction, m2);
-    const V square = hn::Add(square_of(a), square_of(b));
-    const V c = hn::Mul(hn::Div(cone.sine, hn::Max(cone.cosine, all(1e-6f))), along);
-    const V w = hn::Sqrt(hn::Sub(square, square_of(c))), scale = hn::Mul(cone.sine, inverse(square));
-    const V turned[2] = {w, hn::Neg(w)};
+    const V square = square_of(a) + square_of(b);
+    const V c = cone.sine / Max(cone.cosine, all(1e-6f)) * along;
+    const V w = Sqrt(square - square_of(c)), scale = cone.sine * inverse(square);
+    const V turned[2] = {w, Neg(w)};
     for (int i = 0; i < 2; ++i) {
-      const V to1 = hn::Mul(scale, hn::Sub(hn::Mul(a, c), hn::Mul(b, turned[i])));
-      const V to2 = hn::Mul(scale, hn::Add(hn::Mul(b, c), hn::Mul(a, turned[i])));
+      const V to1 = scale * (a * c - b * turned[i]);
+      const V to2 = scale * (b * c + a * turned[i]);
       generators[i] = cone.cosine * cone.axis + to1 * m1 + to2 * m2;
     }
   }
   // So far from the apex.
-  HWY_INLINE M is_on_generator(V t) const { return is_between(hn::Zero(D()), t, hn::Add(cone.range, slack)); }
+  HWY_INLINE M is_on_generator(V t) const { return is_between(Zero(D()), t, cone.range + slack); }
 
   // The places of the sphere as far to the left and to the right of the apex, `up` and `ahead` from there: where they
   // are and whether they exist.
   template <class TakeLow, class TakeHigh>
   HWY_INLINE void each_sphere_place(V up, V ahead, TakeLow&& take_low, TakeHigh&& take_high) const {
-    const V square = hn::Sub(square_of(cone.range), hn::Add(square_of(up), square_of(ahead))), half = root(square);
-    const V middle = hn::Add(hn::Mul(up, cone.axis.y), hn::Mul(ahead, cone.axis.depth));
-    const V lean = hn::Mul(half, cone.axis.x);
-    const M exist = hn::Ge(square, hn::Zero(D()));
-    take_low(hn::And(exist, is_in_cone(hn::Sub(middle, lean))), hn::Sub(cone.apex.x, half));
-    take_high(hn::And(exist, is_in_cone(hn::Add(middle, lean))), hn::Add(cone.apex.x, half));
+    const V square = square_of(cone.range) - (square_of(up) + square_of(ahead)), half = root(square);
+    const V middle = up * cone.axis.y + ahead * cone.axis.depth;
+    const V lean = half * cone.axis.x;
+    const M exist = square >= Zero(D());
+    take_low(And(exist, is_in_cone(middle - lean)), cone.apex.x - half);
+    take_high(And(exist, is_in_cone(middle + lean)), cone.apex.x + half);
   }
 };
 
@@ -150,7 +145,7 @@ struct SpotShapes {
 struct SlicePlanes {
   V near, far, inverse_near, inverse_far;
 
-  HWY_INLINE M hold(V depth, V slack) const { return is_between(hn::Sub(near, slack), depth, hn::Add(far, slack)); }
+  HWY_INLINE M hold(V depth, V slack) const { return is_between(near - slack, depth, far + slack); }
 };
 
 // What of spots between two slice planes can lean most across, wherever it is up and down: take.both(where, place), or
@@ -162,53 +157,48 @@ inline constexpr SlotCounts k_slots_in_slice = {3, 3, 11};
 template <class Take>
 HWY_INLINE void each_place_in_slice(const SpotShapes& spots, const SlicePlanes& planes, Take& take) {
   const Point& a = spots.cone.apex;
-  const V zero = hn::Zero(D());
+  const V zero = Zero(D());
   take.both(planes.hold(a.depth, spots.slack), place_of(a));
 
   // The sphere's tangents at the apex's height.
-  const V range_square = square_of(spots.cone.range), square = hn::Add(square_of(a.x), square_of(a.depth));
-  const V tangent_square = hn::Sub(square, range_square), scale = inverse(square);
-  const V turn = hn::Mul(scale, root(hn::Mul(range_square, tangent_square))), shrink = hn::Mul(scale, tangent_square);
+  const V range_square = square_of(spots.cone.range), square = square_of(a.x) + square_of(a.depth);
+  const V tangent_square = square - range_square, scale = inverse(square);
+  const V turn = scale * root(range_square * tangent_square), shrink = scale * tangent_square;
   const auto tangent = [&](V turned) {
-    return Point{hn::Sub(hn::Mul(shrink, a.x), hn::Mul(turned, a.depth)), a.y,
-                 hn::Add(hn::Mul(shrink, a.depth), hn::Mul(turned, a.x))};
+    return Point{shrink * a.x - turned * a.depth, a.y, shrink * a.depth + turned * a.x};
   };
   const auto is_in = [&](const Point& p) {
-    return hn::And(hn::Gt(tangent_square, zero),
-                   hn::And(planes.hold(p.depth, spots.slack), spots.is_sphere_in_cone(p)));
+    return And(tangent_square > zero, And(planes.hold(p.depth, spots.slack), spots.is_sphere_in_cone(p)));
   };
-  const Point low = tangent(turn), high = tangent(hn::Neg(turn));
+  const Point low = tangent(turn), high = tangent(Neg(turn));
   take.low(is_in(low), place_of(low));
   take.high(is_in(high), place_of(high));
 
   // The rim's tangents.
-  const auto wedge = [](const Point& p, const Point& q) {
-    return hn::Sub(hn::Mul(p.x, q.depth), hn::Mul(q.x, p.depth));
-  };
+  const auto wedge = [](const Point& p, const Point& q) { return p.x * q.depth - q.x * p.depth; };
   spots.each_rim_place(
       wedge(spots.rim2, spots.rim), wedge(spots.rim, spots.rim1), wedge(spots.rim1, spots.rim2),
-      [&](M exists, const Point& p) { take.both(hn::And(exists, planes.hold(p.depth, spots.slack)), place_of(p)); });
+      [&](M exists, const Point& p) { take.both(And(exists, planes.hold(p.depth, spots.slack)), place_of(p)); });
 
   // In the slice planes sphere, rim, and the cone's side where upright planes touch it.
   Point generators[2];
   spots.find_generators({zero, all(1.0f), zero}, generators);
   const V lean[2] = {inverse(generators[0].depth), inverse(generators[1].depth)};
   const auto take_in = [&](V depth, V inverse_depth) {
-    const V ahead = hn::Sub(depth, a.depth), up = hn::Mul(a.y, inverse_depth);
+    const V ahead = depth - a.depth, up = a.y * inverse_depth;
     spots.each_sphere_place(
         zero, ahead,
         [&](M exists, V x) {
-          take.low(exists, Place{hn::Mul(x, inverse_depth), up, depth});
+          take.low(exists, Place{x * inverse_depth, up, depth});
         },
         [&](M exists, V x) {
-          take.high(exists, Place{hn::Mul(x, inverse_depth), up, depth});
+          take.high(exists, Place{x * inverse_depth, up, depth});
         });
-    spots.each_rim_place(spots.rim1.depth, spots.rim2.depth, hn::Sub(depth, spots.rim.depth),
-                         [&](M exists, const Point& p) {
-                           take.both(exists, place_of({p.x, p.y, depth}, inverse_depth));
-                         });
+    spots.each_rim_place(spots.rim1.depth, spots.rim2.depth, depth - spots.rim.depth, [&](M exists, const Point& p) {
+      take.both(exists, place_of({p.x, p.y, depth}, inverse_depth));
+    });
     for (int i = 0; i < 2; ++i) {
-      const V t = hn::Mul(ahead, lean[i]);
+      const V t = ahead * lean[i];
       const Point p = a + t * generators[i];
       take.both(spots.is_on_generator(t), place_of({p.x, p.y, depth}, inverse_depth));
     }
@@ -225,20 +215,20 @@ struct PlaneExtremes {
       : low(all(Extremes::k_none)), low_depth(all(1.0f)), high(all(-Extremes::k_none)), high_depth(all(1.0f)) {}
 
   HWY_INLINE void take_low(M where, V slope, V depth) {
-    const M is_lower = hn::And(where, hn::Lt(slope, low));
-    low = hn::IfThenElse(is_lower, slope, low);
-    low_depth = hn::IfThenElse(is_lower, depth, low_depth);
+    const M is_lower = And(where, slope < low);
+    low = IfThenElse(is_lower, slope, low);
+    low_depth = IfThenElse(is_lower, depth, low_depth);
   }
   HWY_INLINE void take_high(M where, V slope, V depth) {
-    const M is_higher = hn::And(where, hn::Gt(slope, high));
-    high = hn::IfThenElse(is_higher, slope, high);
-    high_depth = hn::IfThenElse(is_higher, depth, high_depth);
+    const M is_higher = And(where, slope > high);
+    high = IfThenElse(is_higher, slope, high);
+    high_depth = IfThenElse(is_higher, depth, high_depth);
   }
   HWY_INLINE void take(M where, V slope, V depth) {
     take_low(where, slope, depth);
     take_high(where, slope, depth);
   }
-  HWY_INLINE M exist() const { return hn::Lt(low, all(Extremes::k_none)); }
+  HWY_INLINE M exist() const { return low < all(Extremes::k_none); }
 
   // One lane on.
   HWY_INLINE PlaneExtremes carried(const Carried& carry, PlaneExtremes& turned) const {
@@ -264,9 +254,9 @@ struct SpotsInSlices {
   HWY_INLINE SpotsInSlices(const SpotShapes& of_shapes, const SlicePlanes& of_between, V of_light)
       : shapes(of_shapes), between(of_between), light(of_light) {
     const Cone& cone = shapes.cone;
-    tangent = root(hn::Sub(dot(cone.apex, cone.apex), square_of(cone.range)));
+    tangent = root(dot(cone.apex, cone.apex) - square_of(cone.range));
     shapes.find_generators(cone.apex, generators);
-    inverse_lean = inverse(hn::Sub(square_of(cone.axis.x), square_of(cone.cosine)));
+    inverse_lean = inverse(square_of(cone.axis.x) - square_of(cone.cosine));
   }
 
   // Calls take for each of its vectors, in the same order every time.
@@ -301,66 +291,62 @@ struct SpotsInSlices {
  private:
   HWY_INLINE void take_tangents(V slope, V tilt, V inverse_tilt, PlaneExtremes& found) const {
     const Point& a = shapes.cone.apex;
-    const V range = shapes.cone.range, zero = hn::Zero(D());
-    const V away = hn::Mul(hn::Sub(a.y, hn::Mul(slope, a.depth)), inverse_tilt);
-    const V ahead = hn::Mul(hn::Add(hn::Mul(slope, a.y), a.depth), inverse_tilt);
-    const V rho_square = hn::Mul(hn::Sub(range, away), hn::Add(range, away)), rho = root(rho_square);
-    const M exist = hn::And(hn::Ge(rho_square, zero), hn::Gt(tangent, zero));
-    const V shrink = hn::Mul(tangent, inverse(hn::Add(square_of(a.x), square_of(ahead))));
-    const V b = hn::Mul(ahead, tangent), c = hn::Mul(a.x, rho), d = hn::Mul(a.x, tangent), e = hn::Mul(ahead, rho);
-    const V low_lean = hn::Add(b, c), high_lean = hn::Sub(b, c), both = inverse(hn::Mul(low_lean, high_lean));
-    const V low = hn::Mul(tilt, hn::Mul(hn::Mul(hn::Sub(d, e), high_lean), both));
-    const V high = hn::Mul(tilt, hn::Mul(hn::Mul(hn::Add(d, e), low_lean), both));
-    const V to_depth = hn::Mul(shrink, inverse_tilt);
+    const V range = shapes.cone.range, zero = Zero(D());
+    const V away = (a.y - slope * a.depth) * inverse_tilt;
+    const V ahead = (slope * a.y + a.depth) * inverse_tilt;
+    const V rho_square = (range - away) * (range + away), rho = root(rho_square);
+    const M exist = And(rho_square >= zero, tangent > zero);
+    const V shrink = tangent * inverse(square_of(a.x) + square_of(ahead));
+    const V b = ahead * tangent, c = a.x * rho, d = a.x * tangent, e = ahead * rho;
+    const V low_lean = b + c, high_lean = b - c, both = inverse(low_lean * high_lean);
+    const V low = tilt * ((d - e) * high_lean * both);
+    const V high = tilt * ((d + e) * low_lean * both);
+    const V to_depth = shrink * inverse_tilt;
     const auto is_in = [&](V across, V depth) {
       const Point p = Place{across, slope, depth}.point();
-      return hn::And(exist, hn::And(between.hold(depth, shapes.slack), shapes.is_sphere_in_cone(p)));
+      return And(exist, And(between.hold(depth, shapes.slack), shapes.is_sphere_in_cone(p)));
     };
-    const V low_depth = hn::Mul(to_depth, low_lean), high_depth = hn::Mul(to_depth, high_lean);
+    const V low_depth = to_depth * low_lean, high_depth = to_depth * high_lean;
     found.take_low(is_in(low, low_depth), low, low_depth);
     found.take_high(is_in(high, high_depth), high, high_depth);
   }
 
   HWY_INLINE void take_rim(V slope, PlaneExtremes& found) const {
-    const auto part = [&](const Point& p) { return hn::Sub(p.y, hn::Mul(slope, p.depth)); };
-    shapes.each_rim_place(
-        part(shapes.rim1), part(shapes.rim2), hn::Neg(part(shapes.rim)), [&](M exists, const Point& p) {
-          found.take(hn::And(exists, between.hold(p.depth, shapes.slack)), hn::Div(p.x, p.depth), p.depth);
-        });
+    const auto part = [&](const Point& p) { return p.y - slope * p.depth; };
+    shapes.each_rim_place(part(shapes.rim1), part(shapes.rim2), Neg(part(shapes.rim)), [&](M exists, const Point& p) {
+      found.take(And(exists, between.hold(p.depth, shapes.slack)), p.x / p.depth, p.depth);
+    });
   }
 
   // Where planes through the eye touch the cone's side.
   HWY_INLINE void take_generators(V slope, PlaneExtremes& found) const {
     const Point& a = shapes.cone.apex;
-    const V above = hn::Sub(hn::Mul(slope, a.depth), a.y);
+    const V above = slope * a.depth - a.y;
     for (const Point& g : {generators[0], generators[1]}) {
-      const V t = hn::Div(above, hn::Sub(g.y, hn::Mul(slope, g.depth)));
-      const V x = hn::Add(a.x, hn::Mul(t, g.x)), depth = hn::Add(a.depth, hn::Mul(t, g.depth));
-      found.take(hn::And(shapes.is_on_generator(t), between.hold(depth, shapes.slack)), hn::Div(x, depth), depth);
+      const V t = above / (g.y - slope * g.depth);
+      const V x = a.x + t * g.x, depth = a.depth + t * g.depth;
+      found.take(And(shapes.is_on_generator(t), between.hold(depth, shapes.slack)), x / depth, depth);
     }
   }
 
   // Where sphere and cone's side meet a slice plane: along² = cosine² (x² + rest), along = x axis.x + k.
   HWY_INLINE void take_edge(V slope, V depth, V inverse_depth, PlaneExtremes& found) const {
     const Cone& cone = shapes.cone;
-    const V up = hn::Sub(hn::Mul(slope, depth), cone.apex.y), ahead = hn::Sub(depth, cone.apex.depth);
+    const V up = slope * depth - cone.apex.y, ahead = depth - cone.apex.depth;
     shapes.each_sphere_place(
-        up, ahead, [&](M exists, V x) { found.take_low(exists, hn::Mul(x, inverse_depth), depth); },
-        [&](M exists, V x) { found.take_high(exists, hn::Mul(x, inverse_depth), depth); });
-    const V rest = hn::Add(square_of(up), square_of(ahead));
-    const V k = hn::Add(hn::Mul(up, cone.axis.y), hn::Mul(ahead, cone.axis.depth)),
-            cosine_square = square_of(cone.cosine);
-    const V qa = hn::Sub(square_of(cone.axis.x), cosine_square), qb = hn::Mul(k, cone.axis.x);
-    const V qc = hn::Sub(square_of(k), hn::Mul(cosine_square, rest));
+        up, ahead, [&](M exists, V x) { found.take_low(exists, x * inverse_depth, depth); },
+        [&](M exists, V x) { found.take_high(exists, x * inverse_depth, depth); });
+    const V rest = square_of(up) + square_of(ahead);
+    const V k = up * cone.axis.y + ahead * cone.axis.depth, cosine_square = square_of(cone.cosine);
+    const V qa = square_of(cone.axis.x) - cosine_square, qb = k * cone.axis.x;
+    const V qc = square_of(k) - cosine_square * rest;
     // qb² - qa qc, but for wide cones without its cancellation.
-    const V inside = hn::Add(square_of(k), hn::Mul(qa, rest)),
-            longest_square = square_of(hn::Add(cone.range, shapes.slack));
-    const M exist = hn::Ge(inside, hn::Zero(D()));
-    const V q = hn::Neg(hn::Add(qb, hn::CopySign(hn::Mul(cone.cosine, root(inside)), qb)));
-    for (const V x : {hn::Mul(q, inverse_lean), hn::Div(qc, q)}) {
-      const M is_in = hn::And(hn::Ge(hn::Add(hn::Mul(x, cone.axis.x), k), hn::Neg(shapes.slack)),
-                              hn::Le(hn::Add(square_of(x), rest), longest_square));
-      found.take(hn::And(exist, is_in), hn::Mul(hn::Add(cone.apex.x, x), inverse_depth), depth);
+    const V inside = square_of(k) + qa * rest, longest_square = square_of(cone.range + shapes.slack);
+    const M exist = inside >= Zero(D());
+    const V q = Neg(qb + CopySign(cone.cosine * root(inside), qb));
+    for (const V x : {q * inverse_lean, qc / q}) {
+      const M is_in = And(x * cone.axis.x + k >= Neg(shapes.slack), square_of(x) + rest <= longest_square);
+      found.take(And(exist, is_in), (cone.apex.x + x) * inverse_depth, depth);
     }
   }
 };

@@ -26,18 +26,18 @@ struct RowExtremes {
   HWY_INLINE RowExtremes(const Extremes& between, const PlaneExtremes& above, M has_above, V top,
                          const PlaneExtremes& below, V bottom)
       : outmost(between) {
-    add(hn::FirstN(D(), hn::Lanes(D())), below, bottom);
+    add(FirstN(D(), Lanes(D())), below, bottom);
     add(has_above, above, top);
-    const V one = all(1.0f), zero = hn::Zero(D());
+    const V one = all(1.0f), zero = Zero(D());
     middle = outmost.low.point() + outmost.high.point();
-    V count = hn::Add(one, one);
+    V count = one + one;
     const auto add_plane = [&](M where, const PlaneExtremes& plane, V slope) {
-      const M exist = hn::And(where, plane.exist());
-      const V low = hn::IfThenElseZero(exist, plane.low_depth), high = hn::IfThenElseZero(exist, plane.high_depth);
+      const M exist = And(where, plane.exist());
+      const V low = IfThenElseZero(exist, plane.low_depth), high = IfThenElseZero(exist, plane.high_depth);
       middle = middle + low * Point{plane.low, slope, one} + high * Point{plane.high, slope, one};
-      count = hn::Add(count, hn::IfThenElse(exist, hn::Add(one, one), zero));
+      count = count + IfThenElse(exist, one + one, zero);
     };
-    add_plane(hn::FirstN(D(), hn::Lanes(D())), below, bottom);
+    add_plane(FirstN(D(), Lanes(D())), below, bottom);
     add_plane(has_above, above, top);
     middle = inverse(count) * middle;
   }
@@ -58,31 +58,30 @@ class Ends {
       : from_(from), spots_(spots), rows_(rows), found_(found), exist_(found.outmost.exist()) {
     const V left = all(planes.left), right = all(planes.right), scale = all(planes.columns_per_slope);
     const V low = found.outmost.low.across, high = found.outmost.high.across;
-    const VI columns = all_int(planes.columns), last_column = hn::Sub(columns, all_int(1));
+    const VI columns = all_int(planes.columns), last_column = columns - all_int(1);
     const auto column_at = [&](V slope) {
-      const V at = hn::Mul(hn::Sub(hn::Min(hn::Max(slope, left), right), left), scale);
-      return hn::Min(whole(hn::Floor(at)), last_column);
+      const V at = (Min(Max(slope, left), right) - left) * scale;
+      return Min(whole(Floor(at)), last_column);
     };
-    const MI is_right = hn::RebindMask(DI(), hn::Gt(low, right)), is_left = hn::RebindMask(DI(), hn::Lt(high, left));
-    first_ = hn::IfThenElse(is_right, columns, column_at(low));
-    last_ = hn::IfThenElse(is_left, all_int(-1), column_at(high));
-    is_first_column_ = hn::RebindMask(D(), hn::Eq(first_, hn::Zero(DI())));
-    is_last_column_ = hn::RebindMask(D(), hn::Eq(last_, last_column));
-    is_aside_ = hn::RebindMask(D(), hn::Or(is_right, is_left));
+    const MI is_right = RebindMask(DI(), low > right), is_left = RebindMask(DI(), high < left);
+    first_ = IfThenElse(is_right, columns, column_at(low));
+    last_ = IfThenElse(is_left, all_int(-1), column_at(high));
+    is_first_column_ = RebindMask(D(), first_ == Zero(DI()));
+    is_last_column_ = RebindMask(D(), last_ == last_column);
+    is_aside_ = RebindMask(D(), Or(is_right, is_left));
   }
 
   VI first() const { return first_; }
   VI last() const { return last_; }
 
   HWY_INLINE M none_before() const {
-    return hn::Or(is_first_column_, hn::And(exist_, is_apart(found_.outmost.low, side(first_), all(-1.0f))));
+    return Or(is_first_column_, And(exist_, is_apart(found_.outmost.low, side(first_), all(-1.0f))));
   }
   HWY_INLINE M none_behind() const {
-    return hn::Or(is_last_column_,
-                  hn::And(exist_, is_apart(found_.outmost.high, side(hn::Add(last_, all_int(1))), all(1.0f))));
+    return Or(is_last_column_, And(exist_, is_apart(found_.outmost.high, side(last_ + all_int(1)), all(1.0f))));
   }
   HWY_INLINE M first_is_touched() const { return is_touched(first_); }
-  HWY_INLINE M last_is_touched() const { return is_touched(hn::Max(last_, hn::Zero(DI()))); }
+  HWY_INLINE M last_is_touched() const { return is_touched(Max(last_, Zero(DI()))); }
   // All is left or right of the picture.
   HWY_INLINE M is_aside() const { return is_aside_; }
 
@@ -90,12 +89,11 @@ class Ends {
   HWY_INLINE V side(VI column) const { return gathered(from_.side, column); }
 
   HWY_INLINE M is_apart(const Place& place, V boundary, V to_side) const {
-    const V zero = hn::Zero(D()), one = all(1.0f);
+    const V zero = Zero(D()), one = all(1.0f);
     const Point p = place.point();
-    const M in_slice_plane = hn::Or(hn::Eq(p.depth, rows_.depth0), hn::Eq(p.depth, rows_.depth1));
+    const M in_slice_plane = Or(p.depth == rows_.depth0, p.depth == rows_.depth1);
     const Point edge = chosen(in_slice_plane, {zero, one, zero}, p);
-    const Point normal =
-        touching_plane(spots_.shapes, p, edge, {to_side, zero, hn::Neg(hn::Mul(to_side, place.across))});
+    const Point normal = touching_plane(spots_.shapes, p, edge, {to_side, zero, Neg(to_side * place.across)});
     return Beyond{boundary, to_side, rows_.y0, rows_.y1, spots_.between}.is_apart(rows_.cone, normal,
                                                                                   rows_.tolerance(boundary, boundary));
   }
@@ -103,25 +101,25 @@ class Ends {
   // Is there a common place near the way from an extreme to the middle?
   HWY_INLINE M is_touched(VI column) const {
     const Point& middle = found_.middle;
-    const V left = side(column), right = side(hn::Add(column, all_int(1)));
-    const V from = hn::Max(left, found_.outmost.low.across), to = hn::Min(right, found_.outmost.high.across);
-    const V quarter = hn::Mul(all(0.25f), hn::Sub(to, from)), amid = hn::Div(middle.x, middle.depth);
-    const V slope = hn::Max(hn::Add(from, quarter), hn::Min(amid, hn::Sub(to, quarter)));
-    const Point start = chosen(hn::Lt(slope, amid), found_.outmost.low.point(), found_.outmost.high.point());
+    const V left = side(column), right = side(column + all_int(1));
+    const V from = Max(left, found_.outmost.low.across), to = Min(right, found_.outmost.high.across);
+    const V quarter = all(0.25f) * (to - from), amid = middle.x / middle.depth;
+    const V slope = Max(from + quarter, Min(amid, to - quarter));
+    const Point start = chosen(slope < amid, found_.outmost.low.point(), found_.outmost.high.point());
     const Point way = middle - start;
-    const V span = hn::Sub(way.x, hn::Mul(slope, way.depth));
-    const V part = hn::Sub(hn::Mul(slope, start.depth), start.x);
-    const V t = hn::Div(part, hn::IfThenElse(hn::Eq(span, hn::Zero(D())), all(1.0f), span));
-    const Point place = start + hn::Min(hn::Max(t, hn::Zero(D())), all(1.0f)) * way;
+    const V span = way.x - slope * way.depth;
+    const V part = slope * start.depth - start.x;
+    const V t = part / IfThenElse(span == Zero(D()), all(1.0f), span);
+    const Point place = start + Min(Max(t, Zero(D())), all(1.0f)) * way;
     const Cells cell(rows_, left, right);
-    const M wanted = hn::AndNot(is_aside_, exist_);
+    const M wanted = AndNot(is_aside_, exist_);
     Point v = cell.near_in_cell(place - rows_.cone.apex);
     M touched = cell.is_common(v);
-    for (int again = 0; again < 3 && !hn::AllTrue(D(), hn::Or(touched, hn::Not(wanted))); ++again) {
+    for (int again = 0; again < 3 && !AllTrue(D(), Or(touched, Not(wanted))); ++again) {
       v = cell.closer_to_volume(v);
-      touched = hn::Or(touched, cell.is_common(v));
+      touched = Or(touched, cell.is_common(v));
     }
-    return hn::And(wanted, touched);
+    return And(wanted, touched);
   }
 
   const SpotsAndPlanes& from_;
@@ -139,49 +137,45 @@ void rows_of(const SpotsAndPlanes& from, const RowPlanes& planes, const PlaneTab
   const DI di;
   const DU du;
   const hn::Rebind<std::uint8_t, DU> du8;
-  const auto n = static_cast<std::int32_t>(hn::Lanes(d));
+  const auto n = static_cast<std::int32_t>(Lanes(d));
   const std::int32_t count = slices.list_rows(out);
   Carried carry;
   PlaneExtremes turned;
   VI turned_slice = all_int(-1);
   for (std::int32_t t = 0; t < count; t += n) {
-    const VI in_slice = hn::LoadU(di, out.listed_slice.data() + t), row = hn::LoadU(di, out.listed_row.data() + t);
-    const std::int32_t first_slice = hn::GetLane(in_slice);
-    const Slices::Lookup lookup{slices, first_slice, hn::IndicesFromVec(di, hn::Sub(in_slice, all_int(first_slice)))};
+    const VI in_slice = LoadU(di, out.listed_slice.data() + t), row = LoadU(di, out.listed_row.data() + t);
+    const std::int32_t first_slice = GetLane(in_slice);
+    const Slices::Lookup lookup{slices, first_slice, IndicesFromVec(di, in_slice - all_int(first_slice))};
     const SpotsInSlices spots = lookup.spots();
-    const VI above_row = hn::Max(row, hn::Zero(di)), below_row = hn::Add(row, all_int(1));
+    const VI above_row = Max(row, Zero(di)), below_row = row + all_int(1);
     const V top = tables.slope.at(above_row), bottom = tables.slope.at(below_row);
     const PlaneExtremes below =
         spots.in_tile_plane(bottom, tables.tilt.at(below_row), tables.inverse_tilt.at(below_row));
     const PlaneExtremes above = below.carried(carry, turned);
-    const M has_above = hn::RebindMask(d, hn::Eq(carry(in_slice, turned_slice), in_slice));
-    const V room = hn::Mul(spots.shapes.slack, spots.between.inverse_far);
+    const M has_above = RebindMask(d, carry(in_slice, turned_slice) == in_slice);
+    const V room = spots.shapes.slack * spots.between.inverse_far;
     const RowExtremes found(lookup.between(bottom, top, room), above, has_above, top, below, bottom);
     const SpotsInRows rows{spots.shapes.cone, spots.light, bottom, top, spots.between.near, spots.between.far};
     const Ends ends(from, planes, spots, rows, found);
     const M plain = are_plain(from, spots.light);
-    const M none_before = hn::And(plain, ends.none_before()), none_behind = hn::And(plain, ends.none_behind());
+    const M none_before = And(plain, ends.none_before()), none_behind = And(plain, ends.none_behind());
     // No row, or proven to be beside all of the picture.
-    const M is_out = hn::Or(hn::RebindMask(d, hn::Lt(row, hn::Zero(di))),
-                            hn::And(ends.is_aside(), hn::And(none_before, none_behind)));
-    const auto bit = [&](M where, std::uint8_t value) {
-      return hn::IfThenElseZero(hn::RebindMask(du, where), hn::Set(du, value));
-    };
-    const VU known =
-        hn::Or(hn::Or(bit(none_before, SpotRows::k_none_before), bit(none_behind, SpotRows::k_none_behind)),
-               hn::Or(bit(hn::And(plain, ends.first_is_touched()), SpotRows::k_first_is_touched),
-                      bit(hn::And(plain, ends.last_is_touched()), SpotRows::k_last_is_touched)));
+    const M is_out = Or(RebindMask(d, row < Zero(di)), And(ends.is_aside(), And(none_before, none_behind)));
+    const auto bit = [&](M where, std::uint8_t value) { return IfThenElseZero(RebindMask(du, where), Set(du, value)); };
+    const VU known = Or(Or(bit(none_before, SpotRows::k_none_before), bit(none_behind, SpotRows::k_none_behind)),
+                        Or(bit(And(plain, ends.first_is_touched()), SpotRows::k_first_is_touched),
+                           bit(And(plain, ends.last_is_touched()), SpotRows::k_last_is_touched)));
     const std::uint32_t to = out.count + static_cast<std::uint32_t>(t);
     const auto store = [&](VI value, auto& list) {
-      hn::StoreU(hn::BitCast(du, value), du, reinterpret_cast<std::uint32_t*>(list.data()) + to);
+      StoreU(BitCast(du, value), du, reinterpret_cast<std::uint32_t*>(list.data()) + to);
     };
-    const MI out_lanes = hn::RebindMask(di, is_out);
+    const MI out_lanes = RebindMask(di, is_out);
     store(lookup.spot(), out.spot);
     store(lookup.slice(), out.slice);
     store(row, out.row);
-    store(hn::IfThenElse(out_lanes, all_int(1), ends.first()), out.first);
-    store(hn::IfThenZeroElse(out_lanes, ends.last()), out.last);
-    hn::StoreU(hn::U8FromU32(hn::Or(known, bit(is_out, SpotRows::k_all))), du8, out.known.data() + to);
+    store(IfThenElse(out_lanes, all_int(1), ends.first()), out.first);
+    store(IfThenZeroElse(out_lanes, ends.last()), out.last);
+    StoreU(U8FromU32(Or(known, bit(is_out, SpotRows::k_all))), du8, out.known.data() + to);
   }
   out.count += static_cast<std::uint32_t>(count);
 }

@@ -26,16 +26,16 @@ HWY_INLINE Point touching_plane(const SpotShapes& spots, const Point& place, con
   const V square = dot(v, v), range_square = square_of(cone.range), along = dot(v, cone.axis);
   const Point part = v - along * cone.axis;
   const V across = length(part);
-  const Point side = cone.cosine * part - hn::Mul(cone.sine, across) * cone.axis;
-  const V off = hn::Max(spots.slack, hn::Mul(all(0x1p-12f), cone.range));  // what a place can be off by
-  const M on_sphere = hn::Ge(square, square_of(hn::Sub(cone.range, off)));
-  const V inwards = hn::Sub(hn::Mul(cone.sine, along), hn::Mul(cone.cosine, across));
-  const M on_rim = hn::And(on_sphere, hn::Le(inwards, off));
-  const V of_sphere = hn::Abs(dot(side, edge)), of_side = hn::Abs(dot(v, edge)), sum = hn::Add(of_sphere, of_side);
-  const M is_held = hn::Lt(square_of(sum), hn::Mul(all(0x1p-20f), hn::Mul(range_square, dot(edge, edge))));
-  const M at_apex = hn::Lt(square, square_of(spots.slack));
+  const Point side = cone.cosine * part - (cone.sine * across) * cone.axis;
+  const V off = Max(spots.slack, all(0x1p-12f) * cone.range);  // what a place can be off by
+  const M on_sphere = square >= square_of(cone.range - off);
+  const V inwards = cone.sine * along - cone.cosine * across;
+  const M on_rim = And(on_sphere, inwards <= off);
+  const V of_sphere = Abs(dot(side, edge)), of_side = Abs(dot(v, edge)), sum = of_sphere + of_side;
+  const M is_held = square_of(sum) < all(0x1p-20f) * (range_square * dot(edge, edge));
+  const M at_apex = square < square_of(spots.slack);
   const Point between = of_sphere * v + of_side * side;
-  return chosen(hn::Or(at_apex, hn::And(on_rim, is_held)), given, chosen(on_rim, between, chosen(on_sphere, v, side)));
+  return chosen(Or(at_apex, And(on_rim, is_held)), given, chosen(on_rim, between, chosen(on_sphere, v, side)));
 }
 
 // All whose slope x / depth is beyond a boundary to one side (1 or -1), between two slice planes and two tile planes.
@@ -48,15 +48,15 @@ struct Beyond {
   // outwards, so that nothing is nearer than the corners at the boundary.
   HWY_INLINE M is_apart(const Cone& cone, const Point& normal, V tolerance) const {
     const auto corner = [&](V up, V depth) {
-      return dot(normal, Point{hn::Mul(boundary, depth), hn::Mul(up, depth), depth} - cone.apex);
+      return dot(normal, Point{boundary * depth, up * depth, depth} - cone.apex);
     };
-    const V least = hn::Min(hn::Min(corner(up0, planes.near), corner(up1, planes.near)),
-                            hn::Min(corner(up0, planes.far), corner(up1, planes.far)));
+    const V least = Min(Min(corner(up0, planes.near), corner(up1, planes.near)),
+                        Min(corner(up0, planes.far), corner(up1, planes.far)));
     const V size = length(normal);
-    const M is_apart = hn::Gt(hn::Sub(least, extent_of(cone, normal, size)), hn::Mul(tolerance, size));
+    const M is_apart = least - extent_of(cone, normal, size) > tolerance * size;
     // Squares of much shorter ones lose digits.
-    const M is_measured = hn::Gt(size, all(1e-10f));
-    return hn::And(hn::And(is_apart, is_measured), hn::Ge(hn::Mul(normal.x, side), hn::Zero(D())));
+    const M is_measured = size > all(1e-10f);
+    return And(And(is_apart, is_measured), normal.x * side >= Zero(D()));
   }
 };
 
@@ -79,23 +79,22 @@ class Reached {
     Ups ups{found};
     each_place_in_slice(spots_, between_, ups);
     const V top = all(planes_.slope.front()), bottom = all(planes_.slope[static_cast<std::size_t>(planes_.rows)]);
-    const V high = hn::Add(found.high.across, hn::Div(spots_.slack, found.high.depth));
-    const V low = hn::Sub(found.low.across, hn::Div(spots_.slack, found.low.depth));
-    const V scale = all(planes_.rows_per_slope), margin = all(planes_.row_margin), zero = hn::Zero(D());
-    const VI none = hn::Zero(DI()), rows = all_int(planes_.rows), one = all_int(1), last_row = hn::Sub(rows, one);
-    const V from = hn::Sub(hn::Mul(hn::Sub(top, hn::Min(high, top)), scale), margin);
-    const V to = hn::Add(hn::Mul(hn::Sub(top, hn::Max(low, bottom)), scale), margin);
-    const MI is_below = hn::RebindMask(DI(), hn::Lt(high, bottom)), is_above = hn::RebindMask(DI(), hn::Gt(low, top));
-    VI first = hn::IfThenElse(is_below, rows, hn::Min(whole(hn::Floor(hn::Max(from, zero))), last_row));
-    VI end = hn::IfThenElse(is_above, none, hn::Min(hn::Add(whole(hn::Floor(hn::Max(to, zero))), one), rows));
+    const V high = found.high.across + spots_.slack / found.high.depth;
+    const V low = found.low.across - spots_.slack / found.low.depth;
+    const V scale = all(planes_.rows_per_slope), margin = all(planes_.row_margin), zero = Zero(D());
+    const VI none = Zero(DI()), rows = all_int(planes_.rows), one = all_int(1), last_row = rows - one;
+    const V from = (top - Min(high, top)) * scale - margin;
+    const V to = (top - Max(low, bottom)) * scale + margin;
+    const MI is_below = RebindMask(DI(), high < bottom), is_above = RebindMask(DI(), low > top);
+    VI first = IfThenElse(is_below, rows, Min(whole(Floor(Max(from, zero))), last_row));
+    VI end = IfThenElse(is_above, none, Min(whole(Floor(Max(to, zero))) + one, rows));
     const M exist = found.exist();
-    const M none_above = hn::And(hn::And(plain, exist), is_apart(found.high, tables_.slope.at(first), all(1.0f)));
-    const M none_below = hn::And(hn::And(plain, exist), is_apart(found.low, tables_.slope.at(end), all(-1.0f)));
-    first = hn::IfThenElseZero(hn::RebindMask(DI(), none_above), first);
-    end = hn::IfThenElse(hn::RebindMask(DI(), none_below), end, rows);
-    end = hn::IfThenZeroElse(hn::RebindMask(DI(), hn::And(plain, misses_slice())), end);
-    return {first, hn::Max(hn::Sub(end, first), none),
-            hn::And(hn::Eq(first, none), hn::RebindMask(DI(), hn::Not(hn::Lt(high, top))))};
+    const M none_above = And(And(plain, exist), is_apart(found.high, tables_.slope.at(first), all(1.0f)));
+    const M none_below = And(And(plain, exist), is_apart(found.low, tables_.slope.at(end), all(-1.0f)));
+    first = IfThenElseZero(RebindMask(DI(), none_above), first);
+    end = IfThenElse(RebindMask(DI(), none_below), end, rows);
+    end = IfThenZeroElse(RebindMask(DI(), And(plain, misses_slice())), end);
+    return {first, Max(end - first, none), And(first == none, RebindMask(DI(), Not(high < top)))};
   }
 
  private:
@@ -107,21 +106,19 @@ class Reached {
   };
 
   HWY_INLINE M is_apart(const Place& place, V boundary, V side) const {
-    const V zero = hn::Zero(D()), one = all(1.0f);
-    Point normal =
-        touching_plane(spots_, place.point(), {zero, one, zero}, {side, zero, hn::Neg(hn::Mul(side, place.across))});
+    const V zero = Zero(D()), one = all(1.0f);
+    Point normal = touching_plane(spots_, place.point(), {zero, one, zero}, {side, zero, Neg(side * place.across)});
     normal.y = zero;  // rows are endless to both sides
-    const V tolerance = tolerance_of(light_, between_.far, hn::Abs(boundary), zero);
+    const V tolerance = tolerance_of(light_, between_.far, Abs(boundary), zero);
     return Beyond{boundary, side, zero, zero, between_}.is_apart(spots_.cone, normal, tolerance);
   }
 
   HWY_INLINE M misses_slice() const {
-    const V zero = hn::Zero(D()), one = all(1.0f), tolerance = tolerance_of(light_, between_.far, zero, zero);
+    const V zero = Zero(D()), one = all(1.0f), tolerance = tolerance_of(light_, between_.far, zero, zero);
     const V ahead = spots_.cone.apex.depth;
-    const V farthest = hn::Add(ahead, extent_of(spots_.cone, {zero, zero, one}, one));
-    const V nearest = hn::Sub(ahead, extent_of(spots_.cone, {zero, zero, hn::Neg(one)}, one));
-    return hn::Or(hn::Gt(hn::Sub(between_.near, farthest), tolerance),
-                  hn::Gt(hn::Sub(nearest, between_.far), tolerance));
+    const V farthest = ahead + extent_of(spots_.cone, {zero, zero, one}, one);
+    const V nearest = ahead - extent_of(spots_.cone, {zero, zero, Neg(one)}, one);
+    return Or(between_.near - farthest > tolerance, nearest - between_.far > tolerance);
   }
 
   const RowPlanes& planes_;
@@ -140,7 +137,7 @@ class Slices {
                     const SpotSlices& slices, std::uint32_t begin, std::uint32_t end) {
     const D d;
     const DI di;
-    const auto n = static_cast<std::uint32_t>(hn::Lanes(d));
+    const auto n = static_cast<std::uint32_t>(Lanes(d));
     const float widest = std::max(std::abs(planes.left), std::abs(planes.right));
     const float highest =
         std::max(std::abs(planes.slope.front()), std::abs(planes.slope[static_cast<std::size_t>(planes.rows)]));
@@ -153,35 +150,35 @@ class Slices {
       const SpotShapes shapes(given.cone, tolerance_of(given.light, between.far, all(widest), all(highest)));
       const RowsReached rows = Reached(planes, tables, shapes, between, given.light).rows(are_plain(from, given.light));
       SpotsInSlices in_slices(shapes, between, given.light);
-      const MI wanted = hn::And(hn::Gt(rows.count, hn::Zero(di)), hn::FirstN(di, end - i));
+      const MI wanted = And(rows.count > Zero(di), FirstN(di, end - i));
       Writer writer{*this, wanted};
       in_slices.each([&](V& value) { writer.put(value); });
       Slots slots{writer};
       each_place_in_slice(shapes, between, slots);
-      hn::StoreU(compressed(di, spot, wanted), di, spot_ + count_);
-      hn::StoreU(compressed(di, slice, wanted), di, slice_ + count_);
-      const VI lead = hn::IfThenElseZero(rows.with_top, all_int(1));
-      hn::StoreU(compressed(di, hn::Sub(rows.first, lead), wanted), di, first_row_ + count_);
-      hn::StoreU(compressed(di, hn::Add(rows.count, lead), wanted), di, row_count_ + count_);
-      count_ += static_cast<std::int32_t>(hn::CountTrue(di, wanted));
+      StoreU(compressed(di, spot, wanted), di, spot_ + count_);
+      StoreU(compressed(di, slice, wanted), di, slice_ + count_);
+      const VI lead = IfThenElseZero(rows.with_top, all_int(1));
+      StoreU(compressed(di, rows.first - lead, wanted), di, first_row_ + count_);
+      StoreU(compressed(di, rows.count + lead, wanted), di, row_count_ + count_);
+      count_ += static_cast<std::int32_t>(CountTrue(di, wanted));
     }
   }
 
   // Lists the rows. The first ones of a slice may be above the picture. Returns how many.
   HWY_INLINE std::int32_t list_rows(SpotRows& out) const {
     const DI di;
-    const auto n = static_cast<std::int32_t>(hn::Lanes(di));
+    const auto n = static_cast<std::int32_t>(Lanes(di));
     std::int32_t count = 0;
     for (std::int32_t i = 0; i < count_; ++i) {
       // What is written beyond a slice's end, the next one overwrites.
       for (std::int32_t at = 0; at < row_count_[i]; at += n) {
-        hn::StoreU(all_int(i), di, out.listed_slice.data() + count + at);
-        hn::StoreU(from_on(first_row_[i] + at), di, out.listed_row.data() + count + at);
+        StoreU(all_int(i), di, out.listed_slice.data() + count + at);
+        StoreU(from_on(first_row_[i] + at), di, out.listed_row.data() + count + at);
       }
       count += row_count_[i];
     }
-    hn::StoreU(all_int(std::max(count_ - 1, 0)), di, out.listed_slice.data() + count);
-    hn::StoreU(hn::Zero(di), di, out.listed_row.data() + count);
+    StoreU(all_int(std::max(count_ - 1, 0)), di, out.listed_slice.data() + count);
+    StoreU(Zero(di), di, out.listed_row.data() + count);
     return count;
   }
 
@@ -191,20 +188,20 @@ class Slices {
     std::int32_t first;
     Which which;
 
-    HWY_INLINE V operator()(int field) const { return taken(hn::LoadU(D(), slices.values_[field] + first), which); }
+    HWY_INLINE V operator()(int field) const { return taken(LoadU(D(), slices.values_[field] + first), which); }
     HWY_INLINE SpotsInSlices spots() const {
       SpotsInSlices spots;
       int field = 0;
       spots.each([&](V& value) { value = (*this)(field++); });
       return spots;
     }
-    HWY_INLINE VI spot() const { return taken(hn::LoadU(DI(), slices.spot_ + first), which); }
-    HWY_INLINE VI slice() const { return taken(hn::LoadU(DI(), slices.slice_ + first), which); }
+    HWY_INLINE VI spot() const { return taken(LoadU(DI(), slices.spot_ + first), which); }
+    HWY_INLINE VI slice() const { return taken(LoadU(DI(), slices.slice_ + first), which); }
 
     // Of the places that can lean most, those between two tile planes, by and large.
     HWY_INLINE Extremes between(V bottom, V top, V room) const {
       Extremes found;
-      const V low = hn::Sub(bottom, room), high = hn::Add(top, room);
+      const V low = bottom - room, high = top + room;
       int field = SpotsInSlices::k_vectors;
       const auto each = [&](int count, auto&& take) {
         for (int i = 0; i < count; ++i, field += 3) {
@@ -231,7 +228,7 @@ class Slices {
 
     HWY_INLINE void put(V value) { put_at(field++, value); }
     HWY_INLINE void put_at(int at, V value) {
-      hn::StoreU(compressed(D(), value, hn::RebindMask(D(), wanted)), D(), to.values_[at] + to.count_);
+      StoreU(compressed(D(), value, RebindMask(D(), wanted)), D(), to.values_[at] + to.count_);
     }
   };
   // Places go to their own fields; those that do not exist are neither above nor below anything.
@@ -245,7 +242,7 @@ class Slices {
     HWY_INLINE void both(M where, const Place& p) { put(next_both, where, p); }
     HWY_INLINE void put(int& next, M where, const Place& p) {
       writer.put_at(next++, p.across);
-      writer.put_at(next++, hn::IfThenElse(where, p.up, all(std::numeric_limits<float>::quiet_NaN())));
+      writer.put_at(next++, IfThenElse(where, p.up, all(std::numeric_limits<float>::quiet_NaN())));
       writer.put_at(next++, p.depth);
     }
   };

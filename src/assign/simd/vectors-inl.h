@@ -30,25 +30,25 @@ using VI = hn::Vec<DI>;
 using VU = hn::Vec<DU>;
 using M = hn::Mask<D>;
 using MI = hn::Mask<DI>;
-static_assert(hn::MaxLanes(D()) <= k_row_lanes);
+static_assert(MaxLanes(D()) <= k_row_lanes);
 
 HWY_INLINE V all(float value) {
-  return hn::Set(D(), value);
+  return Set(D(), value);
 }
 HWY_INLINE V infinity() {
   return all(std::numeric_limits<float>::infinity());
 }
 HWY_INLINE M is_between(V low, V value, V high) {
-  return hn::And(hn::Le(low, value), hn::Le(value, high));
+  return And(low <= value, value <= high);
 }
 HWY_INLINE VI all_int(std::int32_t value) {
-  return hn::Set(DI(), value);
+  return Set(DI(), value);
 }
 HWY_INLINE V gathered(const float* from, VI places) {
-  return hn::GatherIndex(D(), from, places);
+  return GatherIndex(D(), from, places);
 }
 HWY_INLINE VI gathered(const std::int32_t* from, VI places) {
-  return hn::GatherIndex(DI(), from, places);
+  return GatherIndex(DI(), from, places);
 }
 template <class Allocated>
 HWY_INLINE auto gathered(const Allocated& from, VI places) {
@@ -66,52 +66,50 @@ HWY_INLINE Fours gathered_fours(const float* from, const std::uint32_t* places) 
   const auto at = [&](std::size_t lane) { return from + 4 * std::size_t{places[lane]}; };
 #if HWY_TARGET == HWY_SCALAR
   const float* four = at(0);
-  return {hn::LoadU(d, four), hn::LoadU(d, four + 1), hn::LoadU(d, four + 2), hn::LoadU(d, four + 3)};
+  return {LoadU(d, four), LoadU(d, four + 1), LoadU(d, four + 2), LoadU(d, four + 3)};
 #else
   // Block by block of four lanes: vector i of them has what is of lane i. Then they are turned.
   const auto of_lane = [&](std::size_t i) {
-    V all_blocks = hn::LoadDup128(d, at(i));
-    for (std::size_t lane = 4; lane < hn::Lanes(d); lane += 4) {
-      const M from_here_on = hn::Not(hn::FirstN(d, lane));
-      all_blocks = hn::IfThenElse(from_here_on, hn::LoadDup128(d, at(lane + i)), all_blocks);
+    V all_blocks = LoadDup128(d, at(i));
+    for (std::size_t lane = 4; lane < Lanes(d); lane += 4) {
+      const M from_here_on = Not(FirstN(d, lane));
+      all_blocks = IfThenElse(from_here_on, LoadDup128(d, at(lane + i)), all_blocks);
     }
     return all_blocks;
   };
   const V a = of_lane(0), b = of_lane(1), c = of_lane(2), e = of_lane(3);
   const hn::RepartitionToWide<D> pairs;
-  const auto low = hn::BitCast(pairs, hn::InterleaveLower(d, a, b));
-  const auto high = hn::BitCast(pairs, hn::InterleaveUpper(d, a, b));
-  const auto next_low = hn::BitCast(pairs, hn::InterleaveLower(d, c, e));
-  const auto next_high = hn::BitCast(pairs, hn::InterleaveUpper(d, c, e));
-  return {hn::BitCast(d, hn::InterleaveLower(pairs, low, next_low)),
-          hn::BitCast(d, hn::InterleaveUpper(pairs, low, next_low)),
-          hn::BitCast(d, hn::InterleaveLower(pairs, high, next_high)),
-          hn::BitCast(d, hn::InterleaveUpper(pairs, high, next_high))};
+  const auto low = BitCast(pairs, InterleaveLower(d, a, b));
+  const auto high = BitCast(pairs, InterleaveUpper(d, a, b));
+  const auto next_low = BitCast(pairs, InterleaveLower(d, c, e));
+  const auto next_high = BitCast(pairs, InterleaveUpper(d, c, e));
+  return {BitCast(d, InterleaveLower(pairs, low, next_low)), BitCast(d, InterleaveUpper(pairs, low, next_low)),
+          BitCast(d, InterleaveLower(pairs, high, next_high)), BitCast(d, InterleaveUpper(pairs, high, next_high))};
 #endif
 }
 
 // Lane i of the answer is lane which[i] of the value.
-using Which = decltype(hn::IndicesFromVec(DI(), VI()));
+using Which = decltype(IndicesFromVec(DI(), VI()));
 HWY_INLINE VI taken(VI value, Which which) {
-  return hn::TableLookupLanes(value, which);
+  return TableLookupLanes(value, which);
 }
 HWY_INLINE V taken(V value, Which which) {
-  return hn::BitCast(D(), taken(hn::BitCast(DI(), value), which));
+  return BitCast(D(), taken(BitCast(DI(), value), which));
 }
 
 // As many values as two registers hold, looked up there: several times as fast as gathering.
 class RegisterTable {
  public:
-  static std::size_t size() { return 2 * hn::Lanes(D()); }
+  static std::size_t size() { return 2 * Lanes(D()); }
   HWY_INLINE RegisterTable(V first, V second) : first_(first), second_(second) {}
 
   HWY_INLINE V at(VI place) const {
 #if HWY_TARGET <= HWY_AVX3
     return V{_mm512_permutex2var_ps(first_.raw, place.raw, second_.raw)};
 #else
-    const VI last = hn::Set(DI(), static_cast<std::int32_t>(hn::Lanes(D())) - 1);
-    const Which within = hn::IndicesFromVec(DI(), hn::And(place, last));
-    return hn::IfThenElse(hn::RebindMask(D(), hn::Gt(place, last)), taken(second_, within), taken(first_, within));
+    const VI last = Set(DI(), static_cast<std::int32_t>(Lanes(D())) - 1);
+    const Which within = IndicesFromVec(DI(), And(place, last));
+    return IfThenElse(RebindMask(D(), place > last), taken(second_, within), taken(first_, within));
 #endif
   }
 
@@ -121,43 +119,43 @@ class RegisterTable {
 
 // first, first + 1, ... Highway's Iota of a number that is not constant goes through memory.
 HWY_INLINE VI from_on(std::int32_t first) {
-  return hn::Add(all_int(first), hn::Iota(DI(), 0));
+  return all_int(first) + Iota(DI(), 0);
 }
 
 // A whole number from 0 to 2^22 as an integer, with less ado than ConvertTo, which looks for ones that do not fit. From
 // others something that is not negative.
 HWY_INLINE VI whole(V number) {
-  return hn::Xor(hn::BitCast(DI(), hn::Add(number, all(0x1p23f))), hn::BitCast(DI(), all(0x1p23f)));
+  return Xor(BitCast(DI(), number + all(0x1p23f)), BitCast(DI(), all(0x1p23f)));
 }
 
 // The sums of the lanes up to each one.
 HWY_INLINE VI sums(VI values) {
-  const VI place = hn::Iota(DI(), 0);
-  const auto n = static_cast<std::int32_t>(hn::Lanes(DI()));
+  const VI place = Iota(DI(), 0);
+  const auto n = static_cast<std::int32_t>(Lanes(DI()));
   for (std::int32_t step = 1; step < n; step *= 2) {
-    const Which before = hn::IndicesFromVec(DI(), hn::And(hn::Sub(place, all_int(step)), all_int(n - 1)));
-    values = hn::Add(values, hn::IfThenElseZero(hn::Gt(place, all_int(step - 1)), taken(values, before)));
+    const Which before = IndicesFromVec(DI(), And(place - all_int(step), all_int(n - 1)));
+    values = values + IfThenElseZero(place > all_int(step - 1), taken(values, before));
   }
   return values;
 }
 
 // Of a square that rounding may have made negative.
 HWY_INLINE V root(V square) {
-  return hn::Sqrt(hn::Max(square, hn::Zero(D())));
+  return Sqrt(Max(square, Zero(D())));
 }
 
 // Vectors one lane on, vector by vector: the first lane is the last one of the vector before.
 class Carried {
  public:
   HWY_INLINE Carried() {
-    const auto n = static_cast<std::int32_t>(hn::Lanes(D()));
-    one_back_ = hn::IndicesFromVec(DI(), hn::And(from_on(n - 1), all_int(n - 1)));
+    const auto n = static_cast<std::int32_t>(Lanes(D()));
+    one_back_ = IndicesFromVec(DI(), And(from_on(n - 1), all_int(n - 1)));
   }
   // `turned`: what the call for the vector before left there.
   template <class Vector>
   HWY_INLINE Vector operator()(Vector value, Vector& turned) const {
     const Vector now = taken(value, one_back_);
-    const Vector carried = hn::IfThenElse(hn::FirstN(hn::DFromV<Vector>(), 1), turned, now);
+    const Vector carried = IfThenElse(FirstN(hn::DFromV<Vector>(), 1), turned, now);
     turned = now;
     return carried;
   }
@@ -169,16 +167,16 @@ class Carried {
 // from[0] .. from[count - 1], and 0 beyond if that is less than a vector.
 HWY_INLINE V loaded(const float* from, std::uint32_t count) {
   const D d;
-  if (count >= hn::Lanes(d)) return hn::LoadU(d, from);
+  if (count >= Lanes(d)) return LoadU(d, from);
   float rest[k_most_lanes] = {};
   std::copy(from, from + count, rest);
-  return hn::LoadU(d, rest);
+  return LoadU(d, rest);
 }
 
 // LightArrays::padded_radius
 HWY_INLINE V padded(V radius, V reach, float roundings) {
   if (roundings == 0.0f) return radius;
-  return hn::Add(radius, hn::Mul(all(roundings), hn::Mul(all(0x1p-24f), reach)));
+  return radius + all(roundings) * (all(0x1p-24f) * reach);
 }
 
 }  // namespace HWY_NAMESPACE
