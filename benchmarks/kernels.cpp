@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "assign/lists.h"
-#include "assign/storage.h"
+#include "assign/contract/lists.h"
+#include "assign/contract/storage.h"
 #include "core/random.h"
 #include "geom/predicates.h"
 #include "geom/tangents.h"

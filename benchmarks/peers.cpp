@@ -8,8 +8,8 @@
 #include <array>
 #include <string>
 
-#include "assign/assigner.h"
-#include "assign/assigner_run.h"
+#include "assign/contract/assigner.h"
+#include "assign/contract/assigner_run.h"
 #include "benchmarks.h"
 #include "geom/predicates.h"
 #include "setting.h"

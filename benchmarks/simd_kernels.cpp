@@ -15,20 +15,20 @@
 #include <limits>
 #include <set>
 
-#include "assign/assigner.h"
-#include "assign/box_levels.h"
-#include "assign/exact_frame.h"
-#include "assign/simd/box_ranges.h"
-#include "assign/simd/boxed_rows.h"
-#include "assign/simd/list_forms.h"
-#include "assign/simd/lit_cells.h"
-#include "assign/simd/row_lists.h"
-#include "assign/simd/shell_rows.h"
-#include "assign/simd/slice_balls.h"
-#include "assign/simd/slice_rows.h"
-#include "assign/simd/span_lists.h"
-#include "assign/simd/spot_balls.h"
-#include "assign/simd/spot_rows.h"
+#include "assign/bounds/bounds_rows.h"
+#include "assign/box_grid/box_levels.h"
+#include "assign/box_grid/box_ranges.h"
+#include "assign/cone/cone_spheres.h"
+#include "assign/cone/spot_rows.h"
+#include "assign/cone/spot_spheres.h"
+#include "assign/contract/assigner.h"
+#include "assign/cull/slice_bins.h"
+#include "assign/exact/exact_frame.h"
+#include "assign/lists/list_builder.h"
+#include "assign/lists/row_lists.h"
+#include "assign/rows/shell_rows.h"
+#include "assign/rows/slice_rows.h"
+#include "assign/storages/list_forms.h"
 #include "benchmarks.h"
 #include "geom/predicates.h"
 #include "setting.h"
@@ -69,38 +69,38 @@ Setting open_world() {
 
 // --- Lights ---
 
-assign::SeenBalls seen_in(const Setting& setting, const assign::RowPlanes& planes) {
-  assign::SeenBalls seen;
-  seen.reserve(setting.lights.size());
-  assign::see_balls(planes, assign::given_points(setting.lights), 0, seen);
-  return seen;
+assign::VisibleBalls visible_in(const Setting& setting, const assign::RowPlanes& planes) {
+  assign::VisibleBalls visible;
+  visible.reserve(setting.lights.size());
+  assign::see_balls(planes, assign::given_points(setting.lights), 0, visible);
+  return visible;
 }
 
 void see_balls(State& state) {
   const Setting setting = hall();
   const assign::RowPlanes planes(setting.grid.screen());
-  assign::SeenBalls seen = seen_in(setting, planes);
+  assign::VisibleBalls visible = visible_in(setting, planes);
   for (auto _ : state) {
-    seen.count = 0;
-    assign::see_balls(planes, assign::given_points(setting.lights), 0, seen);
+    visible.count = 0;
+    assign::see_balls(planes, assign::given_points(setting.lights), 0, visible);
     benchmark::ClobberMemory();
   }
   items(state, setting.lights.points);
 }
 
-void find_cell_boxes(State& state) {
+void find_screen_bounds(State& state) {
   const Setting setting = hall();
   const assign::RowPlanes planes(setting.grid.screen());
   const assign::BoxPlanes box_planes(setting.grid.screen());
-  const assign::SeenBalls seen = seen_in(setting, planes);
+  const assign::VisibleBalls visible = visible_in(setting, planes);
   assign::BoxedBalls boxed;
   boxed.reserve(setting.lights.size());
   for (auto _ : state) {
     boxed.count = 0;
-    assign::find_cell_boxes(box_planes, seen, 0, assign::given_points(setting.lights), 0, {8.0f, 8.0f}, boxed);
+    assign::find_screen_bounds(box_planes, visible, 0, assign::given_points(setting.lights), 0, {8.0f, 8.0f}, boxed);
     benchmark::ClobberMemory();
   }
-  items(state, seen.count);
+  items(state, visible.count);
 }
 
 void find_box_ranges(State& state) {
@@ -143,7 +143,7 @@ void find_spot_balls(State& state) {
 
 // Calls find(slice, balls, count) for every `most` balls of a slice; it returns how many rows it looked at.
 template <class Find>
-void each_batch(State& state, const assign::SliceBalls& balls, int slices, std::uint32_t most, Find&& find) {
+void each_batch(State& state, const assign::SliceBins& balls, int slices, std::uint32_t most, Find&& find) {
   std::uint64_t tests = 0;
   for (auto _ : state) {
     tests = 0;
@@ -160,12 +160,12 @@ void each_batch(State& state, const assign::SliceBalls& balls, int slices, std::
 void find_rows(State& state) {
   const Setting setting = hall();
   const assign::RowPlanes planes(setting.grid.screen());
-  const assign::SeenBalls seen = seen_in(setting, planes);
-  assign::BallShapes shapes;
-  assign::shape_balls(seen, seen.count, shapes);
-  assign::SliceBalls balls;
-  balls.sort(seen, planes.slices);
-  const assign::ExactFrame frame{setting.grid, planes, setting.lights, seen, seen.count, shapes, balls};
+  const assign::VisibleBalls visible = visible_in(setting, planes);
+  assign::SphereSetup shapes;
+  assign::set_up_spheres(visible, visible.count, shapes);
+  assign::SliceBins balls;
+  balls.sort(visible, planes.slices);
+  const assign::ExactFrame frame{setting.grid, planes, setting.lights, visible, visible.count, shapes, balls};
   assign::BatchReader batches;
   std::uint64_t tests = 0;
   for (auto _ : state) {
@@ -180,14 +180,14 @@ void find_rows(State& state) {
 
 // Calls find(batch, rows) for every batch of balls with their cell boxes.
 template <class Find>
-void boxed_rows(State& state, const Setting& setting, Find&& find) {
+void bounds_rows(State& state, const Setting& setting, Find&& find) {
   const assign::RowPlanes planes(setting.grid.screen());
-  const assign::SeenBalls seen = seen_in(setting, planes);
+  const assign::VisibleBalls visible = visible_in(setting, planes);
   assign::BoxedBalls boxed;
   boxed.reserve(setting.lights.size());
-  assign::find_cell_boxes(assign::BoxPlanes(setting.grid.screen()), seen, 0, assign::given_points(setting.lights), 0,
-                          {8.0f, 8.0f}, boxed);
-  assign::SliceBalls balls;
+  assign::find_screen_bounds(assign::BoxPlanes(setting.grid.screen()), visible, 0, assign::given_points(setting.lights),
+                             0, {8.0f, 8.0f}, boxed);
+  assign::SliceBins balls;
   balls.sort(boxed, planes.slices);
   assign::BatchRows rows;
   each_batch(state, balls, planes.slices, assign::balls_per_batch(),
@@ -197,11 +197,11 @@ void boxed_rows(State& state, const Setting& setting, Find&& find) {
              });
 }
 
-void find_boxed_rows(State& state) {
+void find_bounds_rows(State& state) {
   const Setting setting = hall();
   const int rows = setting.grid.cells().y;
-  boxed_rows(state, setting, [&](const assign::BallBatch& batch, assign::BatchRows& out) {
-    assign::find_boxed_rows(rows, batch, out);
+  bounds_rows(state, setting, [&](const assign::BallBatch& batch, assign::BatchRows& out) {
+    assign::find_bounds_rows(rows, batch, out);
   });
 }
 
@@ -209,7 +209,7 @@ void find_refined_rows(State& state) {
   const Setting setting = hall();
   const assign::RefinementPlanes planes(setting.grid.screen());
   assign::LaneColumns columns;
-  boxed_rows(state, setting, [&](const assign::BallBatch& batch, assign::BatchRows& out) {
+  bounds_rows(state, setting, [&](const assign::BallBatch& batch, assign::BatchRows& out) {
     assign::find_refined_rows(planes, batch, columns, out);
   });
 }
@@ -218,7 +218,7 @@ void find_box_rows(State& state) {
   const Setting setting = hall();
   const assign::CellExtents cells(setting.grid);
   assign::LaneColumns columns;
-  boxed_rows(state, setting, [&](const assign::BallBatch& batch, assign::BatchRows& out) {
+  bounds_rows(state, setting, [&](const assign::BallBatch& batch, assign::BatchRows& out) {
     assign::find_box_rows(cells, batch, columns, out);
   });
 }
@@ -229,7 +229,7 @@ void find_shell_rows(State& state) {
   assign::BoxedBalls boxed;
   boxed.reserve(setting.lights.size());
   assign::find_shells(planes, assign::given_points(setting.lights), 0, 8.0f, boxed);
-  assign::SliceBalls balls;
+  assign::SliceBins balls;
   balls.sort(boxed, setting.grid.cells().z);
   assign::BatchRows rows;
   each_batch(state, balls, setting.grid.cells().z, assign::balls_per_batch(),
@@ -246,14 +246,15 @@ void find_spot_rows(State& state) {
   const assign::SpotsAndPlanes from{&setting.lights, planes.side.data(), planes.slope.data(), planes.depth.data()};
   assign::BallArrays around;
   assign::find_spot_balls(setting.lights, view::k_given_roundings, true, around);
-  assign::SeenBalls seen;
-  seen.reserve(setting.lights.spots);
-  assign::see_balls(planes, assign::given_spots(setting.lights, around), 0, seen);
-  assign::SliceBalls balls;
-  balls.sort(seen, planes.slices);
+  assign::VisibleBalls visible;
+  visible.reserve(setting.lights.spots);
+  assign::see_balls(planes, assign::given_spots(setting.lights, around), 0, visible);
+  assign::SliceBins balls;
+  balls.sort(visible, planes.slices);
   assign::SpotSlices slices;
   for (int slice = 0; slice < planes.slices; ++slice)
-    for (const std::uint32_t place : balls.of(slice)) slices.add(seen.light[place], static_cast<std::uint32_t>(slice));
+    for (const std::uint32_t place : balls.of(slice))
+      slices.add(visible.light[place], static_cast<std::uint32_t>(slice));
   assign::SpotRows rows;
   for (auto _ : state) {
     assign::find_spot_rows(from, planes, slices, rows);
@@ -411,7 +412,7 @@ void against_copy(State& state, std::size_t bytes, std::uint64_t pairs, Write&& 
 }
 
 void span_lists(State& state, const FrameLists& frame) {
-  assign::SpanLists builder;
+  assign::ListBuilder builder;
   assign::Lists lists;
   const std::size_t bytes = (frame.lists.begin.size() + frame.lists.lights.size()) * sizeof(std::uint32_t);
   against_copy(state, bytes, frame.lists.pair_count(), [&] {
@@ -500,12 +501,12 @@ struct Kernel {
 
 constexpr Kernel k_kernels[] = {
     {"see_balls", see_balls},
-    {"find_cell_boxes", find_cell_boxes},
+    {"find_screen_bounds", find_screen_bounds},
     {"find_box_ranges", find_box_ranges},
     {"find_shells", find_shells},
     {"find_spot_balls", find_spot_balls},
     {"find_rows", find_rows},
-    {"find_boxed_rows", find_boxed_rows},
+    {"find_bounds_rows", find_bounds_rows},
     {"find_refined_rows", find_refined_rows},
     {"find_box_rows", find_box_rows},
     {"find_shell_rows", find_shell_rows},

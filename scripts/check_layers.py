@@ -47,13 +47,13 @@ def layer_faults(name, layer, file_includes):
 
 def registry_faults(src):
     folder = src / "assign" / "assigners"
-    registry = src / "assign" / "registry.inc"
+    registry = src / "assign" / "contract" / "registry.inc"
     lines = REGISTRY_LINE.findall(registry.read_text()) if registry.exists() else []
     files = {path.stem for path in folder.glob("*.cpp")}
     for stem in sorted(files - set(lines)):
-        yield f"src/assign/assigners/{stem}.cpp: has no line CLUSTERBENCH_ASSIGNER({stem}) in src/assign/registry.inc"
+        yield f"src/assign/assigners/{stem}.cpp: has no line CLUSTERBENCH_ASSIGNER({stem}) in src/assign/contract/registry.inc"
     for stem in sorted(set(lines) - files):
-        yield f"src/assign/registry.inc: names {stem}, but src/assign/assigners/{stem}.cpp does not exist"
+        yield f"src/assign/contract/registry.inc: names {stem}, but src/assign/assigners/{stem}.cpp does not exist"
 
 
 def circle_faults(graph):

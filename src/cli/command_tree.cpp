@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "assign/assigner.h"
+#include "assign/contract/assigner.h"
 #include "grid/grid.h"
 #include "report/exports/exports.h"
 #include "run/stress/hard_cases.h"

@@ -4,8 +4,8 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "assign/assigner.h"
-#include "assign/storage.h"
+#include "assign/contract/assigner.h"
+#include "assign/contract/storage.h"
 #include "cli/commands.h"
 #include "scene/generate.h"
 

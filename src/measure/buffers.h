@@ -5,7 +5,7 @@
 #include <optional>
 #include <set>
 
-#include "assign/light_structure.h"
+#include "assign/contract/light_structure.h"
 #include "measure/path_series.h"
 
 namespace clusterbench::measure {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "assign/light_structure.h"
+#include "assign/contract/light_structure.h"
 #include "grid/grid.h"
 #include "measure/truth.h"
 

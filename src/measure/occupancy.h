@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "assign/lists.h"
+#include "assign/contract/lists.h"
 #include "measure/path_series.h"
 
 namespace clusterbench::measure {

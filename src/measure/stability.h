@@ -5,7 +5,7 @@
 #include <deque>
 #include <vector>
 
-#include "assign/lists.h"
+#include "assign/contract/lists.h"
 
 namespace clusterbench::measure {
 

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "assign/lists.h"
+#include "assign/contract/lists.h"
 #include "grid/grid.h"
 #include "view/frame.h"
 

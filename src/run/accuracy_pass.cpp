@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "assign/storage.h"
+#include "assign/contract/storage.h"
 #include "run/frame_lights.h"
 
 namespace clusterbench::run {

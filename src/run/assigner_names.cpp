@@ -2,7 +2,7 @@
 
 #include <fnmatch.h>
 
-#include "assign/assigner.h"
+#include "assign/contract/assigner.h"
 #include "core/error.h"
 #include "core/text.h"
 

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <set>
 
-#include "assign/storage.h"
+#include "assign/contract/storage.h"
 #include "core/error.h"
 #include "run/assigner_names.h"
 #include "run/config_grids.h"

@@ -9,7 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "assign/assigner.h"
+#include "assign/contract/assigner.h"
 #include "core/memory.h"
 #include "grid/grid.h"
 #include "measure/buffers.h"

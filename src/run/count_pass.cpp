@@ -1,6 +1,6 @@
 #include "run/count_pass.h"
 
-#include "assign/simd/span_lists.h"
+#include "assign/lists/list_builder.h"
 #include "core/error.h"
 #include "run/timed_work.h"
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 
-#include "assign/assigner.h"
-#include "assign/storage.h"
+#include "assign/contract/assigner.h"
+#include "assign/contract/storage.h"
 #include "run/schema_text.h"
 
 namespace clusterbench::run {

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "assign/simd/span_lists.h"
+#include "assign/lists/list_builder.h"
 #include "run/git_sha.h"
 #include "run/processor.h"
 #include "run/result.h"

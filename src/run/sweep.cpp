@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "assign/storage.h"
+#include "assign/contract/storage.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/text.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "assign/assigner_run.h"
+#include "assign/contract/assigner_run.h"
 #include "run/config.h"
 #include "run/result.h"
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "assign/storage.h"
+#include "assign/contract/storage.h"
 #include "run/frame_lights.h"
 #include "run/path_frames.h"
 #include "run/sweep.h"

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "assign/cell_box.h"
+#include "assign/bounds/cell_bounds.h"
 #include "assign/contract.h"
 #include "assign/dense_check.h"
 

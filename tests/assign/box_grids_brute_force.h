@@ -1,7 +1,7 @@
 #pragma once
 // Every light against every box, with the assigners' predicate.
 
-#include "assign/box_rows.h"
+#include "assign/box_grid/box_rows.h"
 #include "assign/dense_check.h"
 #include "geom/predicates.h"
 

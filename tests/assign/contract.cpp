@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "assign/allocations.h"
-#include "assign/assigner_run.h"
+#include "assign/contract/assigner_run.h"
 
 namespace clusterbench::assign::testing {
 namespace {

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "assign/assigner.h"
-#include "assign/assigner_run.h"
+#include "assign/contract/assigner.h"
+#include "assign/contract/assigner_run.h"
 #include "grid/grid.h"
 #include "view/frame.h"
 

@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "assign/simd/span_lists.h"
+#include "assign/lists/list_builder.h"
 
 namespace clusterbench::assign::testing {
 

@@ -1,6 +1,6 @@
 // What the SIMD conversions of lists and the row builders give is what plain loops give, on every instruction set.
 
-#include "assign/simd/list_forms.h"
+#include "assign/storages/list_forms.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "assign/each_target.h"
-#include "assign/simd/row_lists.h"
+#include "assign/lists/row_lists.h"
 #include "core/random.h"
 
 namespace clusterbench::assign {

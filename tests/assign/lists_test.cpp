@@ -1,4 +1,4 @@
-#include "assign/lists.h"
+#include "assign/contract/lists.h"
 
 #include <gtest/gtest.h>
 

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "assign/contract/storage.h"
 #include "assign/dense_check.h"
-#include "assign/simd/slice_rows.h"
-#include "assign/simd/span_lists.h"
-#include "assign/storage.h"
+#include "assign/lists/list_builder.h"
+#include "assign/rows/slice_rows.h"
 #include "core/error.h"
 #include "core/memory.h"
 
@@ -78,14 +78,14 @@ TEST(Memory, of_a_product_that_no_64_bits_hold_is_refused) {
 }
 
 // As many columns and rows of as many lights as a vector holds as make 2^32 pairs.
-TEST(SpanLists, count_the_pairs_of_a_batch_beyond_32_bits) {
+TEST(ListBuilder, count_the_pairs_of_a_batch_beyond_32_bits) {
   constexpr std::uint32_t k_wide = 1u << 14;
   const std::uint32_t lanes = balls_per_batch(), high = (1u << 18) / lanes;
   const std::vector<std::uint32_t> columns(std::size_t{high} * lanes, ColumnSpan::of(0, k_wide - 1));
   std::vector<std::uint32_t> lights(k_most_lanes);
   for (std::uint32_t i = 0; i < lights.size(); ++i) lights[i] = i;
   std::vector<std::uint8_t> is_left(high);
-  SpanLists spans;
+  ListBuilder spans;
   Lists lists;
   spans.start(0, high, k_wide, lists);  // no band has room: none is to be finished
   spans.add_batch(0, static_cast<int>(high) - 1, columns.data(), lights.data(), is_left.data());

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "assign/assigner_run.h"
+#include "assign/contract/assigner_run.h"
 #include "assign/settings.h"
 #include "core/error.h"
 

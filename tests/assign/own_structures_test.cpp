@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include "assign/assigner_run.h"
+#include "assign/bounds/ball_boxes.h"
+#include "assign/contract/assigner_run.h"
 #include "assign/each_target.h"
-#include "assign/radix_sort.h"
+#include "assign/lists/radix_sort.h"
 #include "assign/settings.h"
-#include "assign/simd/ball_boxes.h"
 #include "geom/predicates.h"
 
 namespace clusterbench::assign {

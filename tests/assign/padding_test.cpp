@@ -5,8 +5,8 @@
 #include <functional>
 #include <limits>
 
-#include "assign/box_rows.h"
-#include "assign/cell_box_method.h"
+#include "assign/bounds/bounds_method.h"
+#include "assign/box_grid/box_rows.h"
 #include "assign/settings.h"
 
 namespace clusterbench::assign::testing {

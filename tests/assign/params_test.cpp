@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "assign/assigner.h"
+#include "assign/contract/assigner.h"
 #include "core/error.h"
 
 namespace clusterbench::assign {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <set>
 
-#include "assign/assigner.h"
-#include "assign/storage.h"
+#include "assign/contract/assigner.h"
+#include "assign/contract/storage.h"
 #include "core/error.h"
 
 namespace clusterbench::assign {

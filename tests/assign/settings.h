@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "assign/assigner.h"
+#include "assign/contract/assigner.h"
 #include "assign/dense_check.h"
 #include "assign/touching_lights.h"
 #include "geom/domain.h"

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "assign/cull/frustum_cull.h"
 #include "assign/each_target.h"
+#include "assign/lists/list_builder.h"
 #include "assign/settings.h"
-#include "assign/simd/seen_balls.h"
-#include "assign/simd/span_lists.h"
 #include "core/random.h"
 
 namespace clusterbench::assign {
@@ -47,7 +47,7 @@ Lists by_scattering(const RandomSpans& spans) {
 }
 
 // In bands of this many rows.
-Lists by_compression(const RandomSpans& spans, std::uint32_t band_rows, SpanLists& compressed) {
+Lists by_compression(const RandomSpans& spans, std::uint32_t band_rows, ListBuilder& compressed) {
   Lists lists;
   const std::uint32_t bands = spans.rows / band_rows;
   compressed.start(bands, band_rows, spans.columns, lists);
@@ -60,9 +60,9 @@ Lists by_compression(const RandomSpans& spans, std::uint32_t band_rows, SpanList
   return lists;
 }
 
-TEST(SpanLists, are_those_of_a_pair_buffer_on_every_target) {
+TEST(ListBuilder, are_those_of_a_pair_buffer_on_every_target) {
   on_each_target([](const std::string& target) {
-    SpanLists compressed;
+    ListBuilder compressed;
     for (const auto& [band_rows, rows, columns, lights] : {std::array<std::uint32_t, 4>{1, 1, 1, 1},
                                                            {1, 3, 7, 0},
                                                            {5, 5, 30, 17},

@@ -8,10 +8,10 @@
 #include <limits>
 #include <optional>
 
+#include "assign/cone/spot_rows.h"
 #include "assign/each_target.h"
-#include "assign/exact_rows.h"
+#include "assign/exact/exact_rows.h"
 #include "assign/settings.h"
-#include "assign/simd/spot_rows.h"
 
 namespace clusterbench::assign {
 namespace {

@@ -1,4 +1,4 @@
-#include "assign/storage.h"
+#include "assign/contract/storage.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "assign/view_cull.h"
+#include "assign/cull/view_cull.h"
 
 #include <gtest/gtest.h>
 

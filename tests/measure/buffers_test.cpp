@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "assign/storage.h"
+#include "assign/contract/storage.h"
 
 namespace clusterbench::measure {
 namespace {

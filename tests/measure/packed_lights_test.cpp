@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "assign/assigner_run.h"
+#include "assign/contract/assigner_run.h"
 #include "assign/settings.h"
 #include "measure/truth.h"
 #include "view/packing.h"

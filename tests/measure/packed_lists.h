@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "assign/storage.h"
+#include "assign/contract/storage.h"
 
 namespace clusterbench::measure {
 

@@ -1,5 +1,5 @@
 #include "measure/truth.h"
-#include "assign/assigner_run.h"
+#include "assign/contract/assigner_run.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <limits>
 
-#include "assign/assigner.h"
+#include "assign/contract/assigner.h"
 #include "core/random.h"
 #include "geom/meets.h"
 #include "scene/camera_path.h"

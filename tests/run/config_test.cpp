@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "assign/storage.h"
+#include "assign/contract/storage.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "run/documents.h"

@@ -23,7 +23,7 @@ class CheckLayers(unittest.TestCase):
         code, out = self.check({
             "geom/a.h": '#include "core/error.h"\n#include <boost/x.hpp>\n',
             "assign/assigners/aabb.cpp": '#include "geom/a.h"\n',
-            "assign/registry.inc": "CLUSTERBENCH_ASSIGNER(aabb)\n",
+            "assign/contract/registry.inc": "CLUSTERBENCH_ASSIGNER(aabb)\n",
         })
         self.assertEqual((code, out), (0, ""))
 
@@ -39,12 +39,12 @@ class CheckLayers(unittest.TestCase):
             self.assertIn(f"whose home is {home}\n", out)
 
     def test_an_assigner_without_registry_line_is_found(self):
-        code, out = self.check({"assign/assigners/mine.cpp": "", "assign/registry.inc": ""})
+        code, out = self.check({"assign/assigners/mine.cpp": "", "assign/contract/registry.inc": ""})
         self.assertEqual(code, 1)
         self.assertIn("CLUSTERBENCH_ASSIGNER(mine)", out)
 
     def test_a_registry_line_without_file_is_found(self):
-        code, out = self.check({"assign/registry.inc": "CLUSTERBENCH_ASSIGNER(gone)\n"})
+        code, out = self.check({"assign/contract/registry.inc": "CLUSTERBENCH_ASSIGNER(gone)\n"})
         self.assertEqual(code, 1)
         self.assertIn("names gone", out)
 

@@ -1,6 +1,6 @@
 // The cells of the light's extents whose view-space bounding box the ball touches.
 
-#include "assign/cell_box_method.h"
+#include "assign/bounds/bounds_method.h"
 
 namespace clusterbench::assign {
 namespace {

@@ -1,7 +1,7 @@
 // `aabb` for speed: the same lists, SIMD.
 
-#include "assign/cell_box_method.h"
-#include "assign/cell_box_twin.h"
+#include "assign/bounds/bounds_method.h"
+#include "assign/bounds/fast_bounds_method.h"
 
 namespace clusterbench::assign {
 namespace {
@@ -32,7 +32,7 @@ const AssignerDescriptor aabb_fast_descriptor{
     .source = "Persson 2015, Practical Clustered Shading; DaveH355's test, which visits every cell",
     .kinds = {grid::Kind::frustum},
     .params = light_params(),
-    .make = make_cell_box_twin<RowsByBoxes>,
+    .make = make_fast_bounds_method<RowsByBoxes>,
 };
 
 }  // namespace clusterbench::assign

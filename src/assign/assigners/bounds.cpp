@@ -1,6 +1,6 @@
 // All cells within a light's analytic screen and depth extents: Persson's "cube", which the finer methods cull from.
 
-#include "assign/cell_box_method.h"
+#include "assign/bounds/bounds_method.h"
 
 namespace clusterbench::assign {
 namespace {

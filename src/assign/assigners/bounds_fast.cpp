@@ -1,6 +1,6 @@
 // `bounds` for speed: the same lists, SIMD.
 
-#include "assign/cell_box_twin.h"
+#include "assign/bounds/fast_bounds_method.h"
 
 namespace clusterbench::assign {
 namespace {
@@ -14,7 +14,7 @@ class BoxedRows {
   void build(const grid::Grid& grid) { rows_ = grid.cells().y; }
   bool narrows() const { return false; }
   void narrow(CellBox&, const geom::SphericalCone&) const {}
-  void find(const BallBatch& batch, BatchRows& out) const { find_boxed_rows(rows_, batch, out); }
+  void find(const BallBatch& batch, BatchRows& out) const { find_bounds_rows(rows_, batch, out); }
   std::size_t capacity_bytes() const { return 0; }
 
  private:
@@ -32,7 +32,7 @@ const AssignerDescriptor bounds_fast_descriptor{
         "logarithm",
     .kinds = {grid::Kind::frustum},
     .params = light_params(),
-    .make = make_cell_box_twin<BoxedRows>,
+    .make = make_fast_bounds_method<BoxedRows>,
 };
 
 }  // namespace clusterbench::assign

@@ -1,6 +1,6 @@
 // Every light against every cell's view-space bounding box: what a first compute shader does, and the yardstick.
 
-#include "assign/cell_box_method.h"
+#include "assign/bounds/bounds_method.h"
 
 namespace clusterbench::assign {
 namespace {

@@ -11,12 +11,12 @@
 #include <limits>
 #include <optional>
 
-#include "assign/assigner.h"
-#include "assign/cell_box_method.h"
-#include "assign/light_test.h"
-#include "assign/radix_sort.h"
-#include "assign/simd/ball_boxes.h"
-#include "assign/view_cull.h"
+#include "assign/bounds/ball_boxes.h"
+#include "assign/bounds/bounds_method.h"
+#include "assign/contract/assigner.h"
+#include "assign/contract/light_test.h"
+#include "assign/cull/view_cull.h"
+#include "assign/lists/radix_sort.h"
 #include "core/aligned_vector.h"
 #include "core/error.h"
 #include "core/memory.h"

@@ -1,7 +1,7 @@
 // Nested view-space boxes: per level the index range of a light's box, then the squared distance per axis. Cells that
 // lie in the finer level's box are skipped.
 
-#include "assign/box_grid_method.h"
+#include "assign/box_grid/box_grid_method.h"
 
 namespace clusterbench::assign {
 

@@ -1,6 +1,6 @@
 // `cascades` for speed: the same lists, SIMD.
 
-#include "assign/box_grid_twin.h"
+#include "assign/box_grid/fast_box_grid_method.h"
 
 namespace clusterbench::assign {
 
@@ -13,7 +13,7 @@ const AssignerDescriptor cascades_fast_descriptor{
         "of Persson 2015",
     .kinds = {grid::Kind::cascades},
     .params = light_params(),
-    .make = make_box_grid_twin,
+    .make = make_fast_box_grid_method,
 };
 
 }  // namespace clusterbench::assign

@@ -9,10 +9,10 @@
 #include <memory>
 #include <vector>
 
-#include "assign/assigner.h"
-#include "assign/light_test.h"
-#include "assign/shells.h"
-#include "assign/view_cull.h"
+#include "assign/contract/assigner.h"
+#include "assign/contract/light_test.h"
+#include "assign/cull/view_cull.h"
+#include "assign/rows/shells.h"
 #include "geom/tangents.h"
 #include "grid/index_range.h"
 

@@ -2,12 +2,12 @@
 
 #include <memory>
 
-#include "assign/assigner.h"
-#include "assign/boxed_lists.h"
-#include "assign/light_test.h"
-#include "assign/shells.h"
-#include "assign/simd/shell_rows.h"
-#include "assign/simd/spot_balls.h"
+#include "assign/bounds/bounds_lists.h"
+#include "assign/cone/spot_spheres.h"
+#include "assign/contract/assigner.h"
+#include "assign/contract/light_test.h"
+#include "assign/rows/shell_rows.h"
+#include "assign/rows/shells.h"
 
 namespace clusterbench::assign {
 namespace {

@@ -11,10 +11,10 @@
 #include <memory>
 #include <vector>
 
-#include "assign/assigner.h"
-#include "assign/exact_rows.h"
-#include "assign/light_test.h"
-#include "assign/view_cull.h"
+#include "assign/contract/assigner.h"
+#include "assign/contract/light_test.h"
+#include "assign/cull/view_cull.h"
+#include "assign/exact/exact_rows.h"
 #include "geom/predicates.h"
 #include "grid/index_range.h"
 
@@ -106,10 +106,10 @@ class Exact final : public ListAssigner {
       });
     const RowColumns columns(grid_->screen().tiles);
     each_row(larger, [&](const Row& row) {
-      const IndexRange seen = columns.touched(larger, row, geom::Errs::outward),
-                       lit = columns.touched(range, row, geom::Errs::outward);
-      const IndexRange both{std::max(seen.first, lit.first), std::min(seen.last, lit.last)};
-      if (seen.empty() || lit.empty() || both.empty()) return;
+      const IndexRange around_cone = columns.touched(larger, row, geom::Errs::outward),
+                       in_range = columns.touched(range, row, geom::Errs::outward);
+      const IndexRange both{std::max(around_cone.first, in_range.first), std::min(around_cone.last, in_range.last)};
+      if (around_cone.empty() || in_range.empty() || both.empty()) return;
       const auto misses = [&](int column) {
         const std::uint32_t cell = row.first_cell + static_cast<std::uint32_t>(column);
         ++tests_;

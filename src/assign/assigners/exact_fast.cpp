@@ -7,9 +7,9 @@
 #include <cmath>
 #include <memory>
 
-#include "assign/assigner.h"
-#include "assign/exact_slices.h"
-#include "assign/simd/spot_balls.h"
+#include "assign/cone/spot_spheres.h"
+#include "assign/contract/assigner.h"
+#include "assign/exact/exact_slices.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel.h"
@@ -39,10 +39,10 @@ class ExactFast final : public ListAssigner {
     fallbacks_ = 0;
     lights_ = &lights;
     see_lights();
-    if (!planes_.orthographic) shape_balls(seen_, first_spot_place_, shapes_);
-    slice_balls_.sort(seen_, planes_.slices);
-    const ExactFrame frame{*grid_, planes_, lights, seen_, first_spot_place_, shapes_, slice_balls_};
-    if (parts_.empty() || slice_balls_.count() < k_worth_threads) {
+    if (!planes_.orthographic) set_up_spheres(visible_, first_spot_place_, shapes_);
+    slice_bins_.sort(visible_, planes_.slices);
+    const ExactFrame frame{*grid_, planes_, lights, visible_, first_spot_place_, shapes_, slice_bins_};
+    if (parts_.empty() || slice_bins_.count() < k_worth_threads) {
       whole_.find(frame, 0, planes_.slices, out);
       count(whole_);
     } else {
@@ -53,7 +53,7 @@ class ExactFast final : public ListAssigner {
   std::uint64_t tests_done() const override { return tests_; }
   std::uint64_t fallbacks() const override { return fallbacks_; }
   std::size_t scratch_bytes() const override {
-    std::size_t bytes = whole_.scratch_bytes() + slice_balls_.capacity_bytes() + seen_.capacity_bytes() +
+    std::size_t bytes = whole_.scratch_bytes() + slice_bins_.capacity_bytes() + visible_.capacity_bytes() +
                         spots_.capacity_bytes() + shapes_.capacity_bytes();
     for (const Part& part : parts_)
       bytes += part.slices.scratch_bytes() +
@@ -112,11 +112,11 @@ class ExactFast final : public ListAssigner {
   void cut_into_parts() {
     const auto slices = static_cast<std::size_t>(planes_.slices);
     const std::size_t row_cost = static_cast<std::size_t>(planes_.rows);
-    const std::size_t whole = slice_balls_.count() + slices * row_cost;
+    const std::size_t whole = slice_bins_.count() + slices * row_cost;
     std::size_t done = 0, part = 0;
     parts_[0].first = 0;
     for (int slice = 0; slice < planes_.slices; ++slice) {
-      done += slice_balls_.of(slice).size() + row_cost;
+      done += slice_bins_.of(slice).size() + row_cost;
       while (part + 1 < parts_.size() && done * parts_.size() >= whole * (part + 1)) {
         parts_[part].last = slice + 1;
         parts_[++part].first = slice + 1;
@@ -127,23 +127,23 @@ class ExactFast final : public ListAssigner {
   }
 
   void see_lights() {
-    seen_.count = 0;
-    seen_.reserve(lights_->size());
-    see_balls(planes_, given_points(*lights_), 0, seen_);
-    first_spot_place_ = seen_.count;
+    visible_.count = 0;
+    visible_.reserve(lights_->size());
+    see_balls(planes_, given_points(*lights_), 0, visible_);
+    first_spot_place_ = visible_.count;
     if (lights_->spots == 0) return;
     find_spot_balls(*lights_, view::k_given_roundings, true, spots_);
-    see_balls(planes_, given_spots(*lights_, spots_), lights_->points, seen_);
+    see_balls(planes_, given_spots(*lights_, spots_), lights_->points, visible_);
   }
 
   const grid::Grid* grid_ = nullptr;
   const view::LightArrays* lights_ = nullptr;  // of the frame at hand
   RowPlanes planes_;
   BallArrays spots_;  // around their cones
-  SeenBalls seen_;
+  VisibleBalls visible_;
   std::uint32_t first_spot_place_ = 0;  // among them
-  BallShapes shapes_;
-  SliceBalls slice_balls_;
+  SphereSetup shapes_;
+  SliceBins slice_bins_;
   ExactSlices whole_;
   Crew crew_;
   std::vector<Part> parts_;

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <memory>
 
-#include "assign/assigner.h"
-#include "assign/cell_box.h"
+#include "assign/bounds/cell_bounds.h"
+#include "assign/contract/assigner.h"
 #include "geom/predicates.h"
 #include "geom/tangents.h"
 #include "grid/index_range.h"

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <memory>
 
-#include "assign/assigner.h"
-#include "assign/cell_box.h"
-#include "assign/cell_box_method.h"
+#include "assign/bounds/bounds_method.h"
+#include "assign/bounds/cell_bounds.h"
+#include "assign/contract/assigner.h"
 
 namespace clusterbench::assign {
 namespace {

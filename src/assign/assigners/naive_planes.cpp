@@ -1,7 +1,7 @@
 // Every light against the six planes of every cell, and nothing else: loses nothing, but takes every cell near whose
 // edges and corners a large ball passes.
 
-#include "assign/cell_box_method.h"
+#include "assign/bounds/bounds_method.h"
 
 namespace clusterbench::assign {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <memory>
 
-#include "assign/assigner.h"
-#include "assign/cell_box.h"
-#include "assign/tile_planes.h"
+#include "assign/bounds/cell_bounds.h"
+#include "assign/bounds/tile_planes.h"
+#include "assign/contract/assigner.h"
 #include "geom/predicates.h"
 
 namespace clusterbench::assign {

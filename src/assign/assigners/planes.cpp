@@ -2,7 +2,7 @@
 // ball that passes a cell's edge or corner. A frustum cell's planes are the grid's, and the extents are what those
 // planes leave, so within the extents it excludes next to nothing; it stands here to show what it costs.
 
-#include "assign/cell_box_method.h"
+#include "assign/bounds/bounds_method.h"
 
 namespace clusterbench::assign {
 namespace {

@@ -14,12 +14,12 @@
 #include <memory>
 #include <vector>
 
-#include "assign/assigner.h"
-#include "assign/cell_box.h"
-#include "assign/light_test.h"
-#include "assign/refinement.h"
-#include "assign/tile_planes.h"
-#include "assign/view_cull.h"
+#include "assign/bounds/cell_bounds.h"
+#include "assign/bounds/refinement.h"
+#include "assign/bounds/tile_planes.h"
+#include "assign/contract/assigner.h"
+#include "assign/contract/light_test.h"
+#include "assign/cull/view_cull.h"
 
 namespace clusterbench::assign {
 namespace {

@@ -1,7 +1,7 @@
 // `sphere-refinement` for speed: the same lists, SIMD.
 
-#include "assign/cell_box_twin.h"
-#include "assign/refinement.h"
+#include "assign/bounds/fast_bounds_method.h"
+#include "assign/bounds/refinement.h"
 
 namespace clusterbench::assign {
 namespace {
@@ -49,7 +49,7 @@ const AssignerDescriptor sphere_refinement_fast_descriptor{
         "centre row once)",
     .kinds = {grid::Kind::frustum},
     .params = refinement_params(),
-    .make = make_cell_box_twin<RefinedRows>,
+    .make = make_fast_bounds_method<RefinedRows>,
 };
 
 }  // namespace clusterbench::assign

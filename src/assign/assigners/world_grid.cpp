@@ -1,6 +1,6 @@
 // The world's box grid: lights come relative to its origin, along the world's axes.
 
-#include "assign/box_grid_method.h"
+#include "assign/box_grid/box_grid_method.h"
 
 namespace clusterbench::assign {
 

@@ -1,6 +1,6 @@
 // `world-grid` for speed: the same lists, SIMD.
 
-#include "assign/box_grid_twin.h"
+#include "assign/box_grid/fast_box_grid_method.h"
 
 namespace clusterbench::assign {
 
@@ -13,7 +13,7 @@ const AssignerDescriptor world_grid_fast_descriptor{
         "cones are tested, in a grid that stays",
     .kinds = {grid::Kind::world},
     .params = light_params(),
-    .make = make_box_grid_twin,
+    .make = make_fast_box_grid_method,
 };
 
 }  // namespace clusterbench::assign

@@ -8,11 +8,11 @@
 #include <bit>
 #include <limits>
 
-#include "assign/assigner.h"
-#include "assign/light_test.h"
-#include "assign/radix_sort.h"
-#include "assign/simd/cell_boxes.h"
-#include "assign/simd/spot_balls.h"
+#include "assign/bounds/screen_bounds.h"
+#include "assign/cone/spot_spheres.h"
+#include "assign/contract/assigner.h"
+#include "assign/contract/light_test.h"
+#include "assign/lists/radix_sort.h"
 #include "core/error.h"
 #include "core/memory.h"
 
@@ -140,8 +140,8 @@ class ZBinning final : public AssignerOf<BinsAndMasks> {
   void fill(const FrameInput& input, BinsAndMasks& out) override {
     const view::LightArrays& lights = input.lights;
     tests_ = lights.size();
-    seen_.count = boxed_.count = 0;
-    seen_.reserve(lights.size());
+    visible_.count = boxed_.count = 0;
+    visible_.reserve(lights.size());
     boxed_.reserve(lights.size());
     box_balls(given_points(lights), 0, test_.padding(k_cell_box_roundings));
     const std::uint32_t points = boxed_.count;
@@ -156,14 +156,14 @@ class ZBinning final : public AssignerOf<BinsAndMasks> {
 
   std::uint64_t tests_done() const override { return tests_; }
   std::size_t scratch_bytes() const override {
-    return seen_.capacity_bytes() + boxed_.capacity_bytes() + spots_.capacity_bytes() + by_depth_.capacity_bytes();
+    return visible_.capacity_bytes() + boxed_.capacity_bytes() + spots_.capacity_bytes() + by_depth_.capacity_bytes();
   }
 
  private:
   void box_balls(const GivenBalls& balls, std::uint32_t first_light, float padding) {
-    const std::uint32_t begin = seen_.count;
-    see_balls(planes_, balls, first_light, seen_, padding + k_slice_rows_roundings);
-    find_cell_boxes(box_planes_, seen_, begin, balls, first_light, {padding, padding}, boxed_);
+    const std::uint32_t begin = visible_.count;
+    see_balls(planes_, balls, first_light, visible_, padding + k_slice_rows_roundings);
+    find_screen_bounds(box_planes_, visible_, begin, balls, first_light, {padding, padding}, boxed_);
   }
 
   // The middles of what balls reach in depth are their centres.
@@ -180,7 +180,7 @@ class ZBinning final : public AssignerOf<BinsAndMasks> {
   RowPlanes planes_;
   BoxPlanes box_planes_;
   BallArrays spots_;
-  SeenBalls seen_;
+  VisibleBalls visible_;
   BoxedBalls boxed_;
   RadixSort<std::uint32_t> by_depth_;
   std::uint64_t tests_ = 0;

@@ -15,8 +15,8 @@
 #include <limits>
 #include <vector>
 
+#include "assign/lists/row_lists.h"
 #include "assign/simd/compress-inl.h"
-#include "assign/simd/row_lists.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign {
@@ -56,12 +56,12 @@ HWY_INLINE auto gathered(const Allocated& from, VI places) {
 }
 
 // Four numbers of each lane.
-struct Fours {
+struct Quads {
   V first, second, third, fourth;
 };
 
 // Lane i of the answer is what lies side by side at from[4 * places[i]]: several times as fast as gathering each.
-HWY_INLINE Fours gathered_fours(const float* from, const std::uint32_t* places) {
+HWY_INLINE Quads gathered_quads(const float* from, const std::uint32_t* places) {
   const D d;
   const auto at = [&](std::size_t lane) { return from + 4 * std::size_t{places[lane]}; };
 #if HWY_TARGET == HWY_SCALAR

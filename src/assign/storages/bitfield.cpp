@@ -1,8 +1,8 @@
-#include "assign/storage.h"
+#include "assign/contract/storage.h"
 
 #include <bit>
 
-#include "assign/simd/list_forms.h"
+#include "assign/storages/list_forms.h"
 #include "core/memory.h"
 
 namespace clusterbench::assign {

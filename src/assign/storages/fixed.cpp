@@ -1,8 +1,8 @@
-#include "assign/storage.h"
+#include "assign/contract/storage.h"
 
 #include <algorithm>
 
-#include "assign/index_array.h"
+#include "assign/storages/index_array.h"
 #include "core/memory.h"
 
 namespace clusterbench::assign {

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "assign/storage.h"
+#include "assign/contract/storage.h"
 #include "core/memory.h"
 
 namespace clusterbench::assign {

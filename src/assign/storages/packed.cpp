@@ -1,10 +1,10 @@
-#include "assign/storage.h"
+#include "assign/contract/storage.h"
 
 #include <algorithm>
 #include <bit>
 #include <limits>
 
-#include "assign/index_array.h"
+#include "assign/storages/index_array.h"
 #include "core/error.h"
 #include "core/memory.h"
 

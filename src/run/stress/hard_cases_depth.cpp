@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "assign/assigner.h"
+#include "assign/contract/assigner.h"
 #include "core/random.h"
 #include "measure/truth.h"
 #include "run/stress/contact.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "assign/assigner_run.h"
+#include "assign/contract/assigner_run.h"
 #include "core/random.h"
 #include "measure/truth.h"
 #include "run/stress/hard_cases.h"

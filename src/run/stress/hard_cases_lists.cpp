@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "assign/assigner_run.h"
-#include "assign/storage.h"
+#include "assign/contract/assigner_run.h"
+#include "assign/contract/storage.h"
 #include "core/error.h"
 #include "core/random.h"
 #include "measure/truth.h"

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <functional>
 
-#include "assign/assigner.h"
+#include "assign/contract/assigner.h"
 #include "core/error.h"
 #include "measure/truth.h"
 #include "run/stress/contact.h"

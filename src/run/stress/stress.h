@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "assign/assigner_run.h"
+#include "assign/contract/assigner_run.h"
 #include "run/stress/hard_cases.h"
 #include "run/stress/random_search.h"
 

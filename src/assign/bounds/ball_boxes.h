@@ -1,0 +1,45 @@
+#pragma once
+// Many balls against one box.
+
+#include <algorithm>
+#include <cstdint>
+
+#include "assign/lists/row_lists.h"
+#include "core/aligned_vector.h"
+#include "geom/shapes.h"
+
+namespace clusterbench::assign {
+
+// Balls side by side, with their lights. Keeps its memory.
+class BallLanes {
+ public:
+  void clear() { count_ = 0; }
+  void add(std::uint32_t light, const geom::Ball& ball) {
+    if (count_ + k_most_lanes >= light_.size()) grow();
+    x_[count_] = ball.center.x;
+    y_[count_] = ball.center.y;
+    z_[count_] = ball.center.z;
+    squared_radius_[count_] = ball.radius * ball.radius;
+    light_[count_++] = light;
+  }
+  std::uint32_t count() const { return count_; }
+
+  // Writes the lights of those that geom::ball_touches_box() says touch the box, in their order, and returns how many.
+  // `out` has room for k_most_lanes more than count().
+  std::uint32_t touching(const geom::Box& box, std::uint32_t* out) const;
+
+  std::size_t capacity_bytes() const { return light_.size() * (4 * sizeof(float) + sizeof(std::uint32_t)); }
+
+ private:
+  void grow() {
+    const std::size_t room = 2 * light_.size() + 2 * k_most_lanes;
+    for (auto* numbers : {&x_, &y_, &z_, &squared_radius_}) numbers->resize(room);
+    light_.resize(room);
+  }
+
+  std::uint32_t count_ = 0;
+  AlignedVector<float> x_, y_, z_, squared_radius_;  // with room for whole vectors beyond the last
+  AlignedVector<std::uint32_t> light_;
+};
+
+}  // namespace clusterbench::assign

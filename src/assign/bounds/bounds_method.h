@@ -1,0 +1,143 @@
+#pragma once
+// What the plain box methods share: light by light the cells of a frustum grid within the light's box of cells, or all,
+// of which one predicate keeps some.
+
+#include <memory>
+#include <vector>
+
+#include "assign/bounds/cell_bounds.h"
+#include "assign/contract/assigner.h"
+#include "assign/contract/light_test.h"
+#include "assign/cull/view_cull.h"
+
+namespace clusterbench::assign {
+
+// Which cells are looked at: all, or those of the light's box; or those of the box are taken as they are.
+enum class Looks { everywhere, in_box, nowhere };
+
+// CellTest: build(const grid::Grid&), bool touches(const geom::Ball&, std::uint32_t cell) const, capacity_bytes()
+// const, k_looks, and k_roundings: what touches() loses. With Looks::nowhere there is no touches().
+template <class CellTest>
+class CellBoxMethod final : public ListAssigner {
+ public:
+  explicit CellBoxMethod(const Params& params) : test_(params, CellTest::k_roundings) {}
+
+  void build(const grid::Grid& grid, const LightKinds& kinds) override {
+    grid_ = &grid;
+    cells_ = grid.cells();
+    cell_test_.build(grid);
+    view_ = ViewCull(grid.screen());
+    test_.start_grid(grid, kinds);
+  }
+
+  void assign(const FrameInput& input, Lists& out) override {
+    const view::LightArrays& lights = input.lights;
+    tests_ = 0;
+    test_.start_frame(lights);
+    pairs_.start(grid_->cell_count());
+    for (std::uint32_t light = 0; light < lights.size(); ++light)
+      if (!lights.is_empty(light)) add_light(lights, light);
+    pairs_.finish(out);
+  }
+
+  std::uint64_t tests_done() const override { return tests_; }
+  std::size_t scratch_bytes() const override {
+    return pairs_.capacity_bytes() + test_.capacity_bytes() + cell_test_.capacity_bytes();
+  }
+
+ private:
+  void add_light(const view::LightArrays& lights, std::uint32_t light) {
+    const CellBox box = CellTest::k_looks == Looks::everywhere ? CellBox{Vec3i(0), cells_ - 1} : extents(lights, light);
+    if (box.empty()) return;
+    const TestedLight tested = test_.tested(lights, light);
+    if constexpr (CellTest::k_looks == Looks::nowhere) {
+      add_rows(box, tested);
+    } else if (tested.has_cone) {
+      visit(box, light, [&](std::uint32_t cell) {
+        return cell_test_.touches(tested.ball, cell) && test_.cone_touches(tested, cell);
+      });
+    } else {
+      visit(box, light, [&](std::uint32_t cell) { return cell_test_.touches(tested.ball, cell); });
+    }
+  }
+
+  CellBox extents(const view::LightArrays& lights, std::uint32_t light) const {
+    const geom::Ball ball = test_.ball(lights, light, k_cell_box_roundings);
+    return view_.misses(ball) ? CellBox{} : cell_box(*grid_, ball);
+  }
+
+  void add_rows(const CellBox& box, const TestedLight& light) {
+    const auto columns = static_cast<std::uint32_t>(box.last.x - box.first.x + 1);
+    for (int z = box.first.z; z <= box.last.z; ++z)
+      for (int y = box.first.y; y <= box.last.y; ++y) {
+        ++tests_;
+        test_.add_row(light, static_cast<std::uint32_t>((z * cells_.y + y) * cells_.x + box.first.x), columns, pairs_,
+                      tests_);
+      }
+  }
+
+  template <class Keep>
+  void visit(const CellBox& box, std::uint32_t light, Keep&& keep) {
+    for (int z = box.first.z; z <= box.last.z; ++z) {
+      for (int y = box.first.y; y <= box.last.y; ++y) {
+        const auto row = static_cast<std::uint32_t>((z * cells_.y + y) * cells_.x);
+        for (int x = box.first.x; x <= box.last.x; ++x) {
+          const std::uint32_t cell = row + static_cast<std::uint32_t>(x);
+          if (keep(cell)) pairs_.add(cell, light);
+        }
+        tests_ += static_cast<std::uint64_t>(box.last.x - box.first.x + 1);
+      }
+    }
+  }
+
+  const grid::Grid* grid_ = nullptr;
+  Vec3i cells_{0};
+  CellTest cell_test_;
+  LightTest test_;
+  ViewCull view_;
+  PairBuffer pairs_;
+  std::uint64_t tests_ = 0;
+};
+
+// Ball against the view-space boxes around the cells, made once per grid.
+//
+// Roundings: as for box_rows.h, the boxes being rounded outward.
+class CellAabbs {
+ public:
+  static constexpr float k_roundings = 4.0f;
+
+  void build(const grid::Grid& grid);
+  bool touches(const geom::Ball& ball, std::uint32_t cell) const { return geom::ball_touches_box(ball, boxes_[cell]); }
+  std::size_t capacity_bytes() const { return boxes_.capacity() * sizeof(geom::Box); }
+
+ private:
+  std::vector<geom::Box> boxes_;
+};
+
+// Ball against the six planes of the cells, made once per grid.
+//
+// Roundings: a float normal is off by 1, the three products and two sums of n·c by 3 more, the offset by 1 and the last
+// difference by 2 (both its numbers are at most |c| + r where it matters): 7.
+class CellPlanes {
+ public:
+  static constexpr float k_roundings = 7.0f;
+
+  void build(const grid::Grid& grid);
+  bool touches(const geom::Ball& ball, std::uint32_t cell) const {
+    return geom::ball_touches_planes(ball, planes_[cell].of, 6);
+  }
+  std::size_t capacity_bytes() const { return planes_.capacity() * sizeof(SixPlanes); }
+
+ private:
+  struct SixPlanes {
+    geom::Plane of[6];
+  };
+  std::vector<SixPlanes> planes_;
+};
+
+template <class CellTest>
+std::unique_ptr<ListAssigner> make_cell_box_method(const Params& params) {
+  return std::make_unique<CellBoxMethod<CellTest>>(params);
+}
+
+}  // namespace clusterbench::assign

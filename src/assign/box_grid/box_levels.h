@@ -1,0 +1,14 @@
+#pragma once
+// The boxes of the grids whose cells are boxes.
+
+#include <vector>
+
+#include "assign/box_grid/box_rows.h"
+#include "grid/grid.h"
+
+namespace clusterbench::assign {
+
+// World: one level; cascades: one per level, from the finest, one after the other in the order of cells.
+std::vector<BoxGrid> box_levels(const grid::Grid& grid);
+
+}  // namespace clusterbench::assign

@@ -1,0 +1,32 @@
+#pragma once
+// Which boxes of a grid of axis-aligned boxes are within reach of many balls on each axis: indices_within()
+// (assign/box_grid/box_rows.h) a vector of balls at a time, because each lane compares the same differences.
+
+#include "assign/bounds/screen_bounds.h"
+#include "assign/box_grid/box_rows.h"
+#include "assign/simd/boundary_axis.h"
+
+namespace clusterbench::assign {
+
+// The boundaries between the boxes along one axis, negated if the boxes descend.
+struct RangeAxis : BoundaryAxis {
+  bool descends = false;
+
+  explicit RangeAxis(const BoxAxis& axis);
+};
+
+// A grid of boxes, or a level of one. Made once per grid.
+struct RangeAxes {
+  RangeAxis x, y, z;
+  grid::IndexRange hole_x, hole_y, hole_z;
+
+  explicit RangeAxes(const BoxGrid& boxes);
+  std::size_t capacity_bytes() const;
+};
+
+// Appends those of the balls, larger by these roundings, that reach a box outside of the hole. The first ball belongs
+// to light `first_light`. boxed's columns are along x, its rows along y, its slices along z, and depth is -z.
+void find_box_ranges(const RangeAxes& axes, const GivenBalls& balls, std::uint32_t first_light, float roundings,
+                     BoxedBalls& boxed);
+
+}  // namespace clusterbench::assign

@@ -1,0 +1,81 @@
+#pragma once
+// Balls and spots against a grid of axis-aligned boxes, row by row: what the assigners of world and cascades share.
+// A ball touches a box iff the squared distance from its centre to the box, summed over the axes, is at most r².
+// Along a row only x changes, so the boxes that a ball touches there are one interval.
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "assign/contract/light_test.h"
+#include "assign/contract/lists.h"
+#include "geom/shapes.h"
+#include "grid/index_range.h"
+#include "view/frame.h"
+
+namespace clusterbench::assign {
+
+struct Interval {
+  float lo, hi;
+};
+
+// The boxes' extents along one axis in index order: adjacent, ascending or descending.
+using BoxAxis = std::vector<Interval>;
+
+using grid::IndexRange;
+
+// Boxes that are numbered x fastest, then y, then z, from first_cell on.
+struct BoxGrid {
+  BoxAxis x, y, z;
+  std::uint32_t first_cell = 0;
+  IndexRange hole_x, hole_y, hole_z;  // boxes that take no lights; empty: none
+
+  std::size_t capacity_bytes() const { return (x.capacity() + y.capacity() + z.capacity()) * sizeof(Interval); }
+};
+
+// Distance from a place on the axis to an extent; 0 inside.
+inline float gap_to(const Interval& extent, float place) {
+  return std::max(0.0f, std::max(extent.lo - place, place - extent.hi));
+}
+
+inline float squared_gap(const Interval& extent, float place) {
+  const float gap = gap_to(extent, place);
+  return gap * gap;
+}
+
+// The indices whose extent lies within r of the place.
+IndexRange indices_within(const BoxAxis& axis, float place, float r);
+
+// Calls row(y, z, first_x, last_x) for each row of boxes that the ball touches, and adds the boxes that it tested to
+// `tests`. The interval is found by going inward from both ends of the ball's x range.
+template <class Row>
+void for_each_row_touched(const BoxGrid& boxes, const geom::Ball& ball, std::uint64_t& tests, Row&& row) {
+  const float squared_radius = ball.radius * ball.radius;
+  const IndexRange xs = indices_within(boxes.x, ball.center.x, ball.radius);
+  const IndexRange ys = indices_within(boxes.y, ball.center.y, ball.radius);
+  const IndexRange zs = indices_within(boxes.z, ball.center.z, ball.radius);
+  for (int z = zs.first; z <= zs.last; ++z) {
+    const float gap_z = squared_gap(boxes.z[static_cast<std::size_t>(z)], ball.center.z);
+    for (int y = ys.first; y <= ys.last; ++y) {
+      const float gap_y = squared_gap(boxes.y[static_cast<std::size_t>(y)], ball.center.y);
+      const auto touched = [&](int x) {
+        ++tests;  // geom::ball_touches_box, summed in its order
+        return squared_gap(boxes.x[static_cast<std::size_t>(x)], ball.center.x) + gap_y + gap_z <= squared_radius;
+      };
+      int first = xs.first, last = xs.last;
+      while (first <= last && !touched(first)) ++first;
+      while (last > first && !touched(last)) --last;
+      if (first <= last) row(y, z, first, last);
+    }
+  }
+}
+
+// Adds the cells that a light touches.
+//
+// Roundings: each axis's gap is one difference, off by 2^-24 of itself; squaring, two sums and the squared radius leave
+// the compared squares off by at most 5 * 2^-24 of themselves, so the distance by 2.5; with the gaps' 1: 3.5.
+inline constexpr float k_box_roundings = 4.0f;
+void add_light(const BoxGrid& boxes, const LightTest& test, const view::LightArrays& lights, std::uint32_t light,
+               PairBuffer& pairs, std::uint64_t& tests);
+
+}  // namespace clusterbench::assign

@@ -1,0 +1,56 @@
+#pragma once
+// Do spots touch cells? Many pairs at once: a filter in single precision that says yes or no only with
+// evidence (a point that is in cell and volume, or a plane between them) that is larger than its own error, and leaves
+// the rest to exact arithmetic.
+
+#include <cstdint>
+#include <vector>
+
+#include "assign/rows/slice_rows.h"
+#include "view/frame.h"
+
+namespace clusterbench::assign {
+
+enum class Touch : std::uint8_t { no, yes, open };
+
+// A spot (light index - points) and neighbouring cells of a row as one: columns column .. end_column - 1.
+struct SpotCell {
+  std::uint32_t spot, slice, row, column, end_column;
+};
+
+// Pairs of a spot and one or more cells, and the answers. Whole vectors can be read and written beyond `count`.
+struct SpotCells {
+  std::uint32_t count = 0;
+  std::vector<std::uint32_t> spot, slice, row, column, end_column;
+  std::vector<Touch> touch;
+
+  void add(const SpotCell& pair) {
+    if (count + k_most_lanes >= spot.size()) grow();
+    spot[count] = pair.spot;
+    slice[count] = pair.slice;
+    row[count] = pair.row;
+    column[count] = pair.column;
+    end_column[count++] = pair.end_column;
+  }
+  void grow();
+  // What a whole vector reads beyond the end must be places that exist.
+  void pad();
+  SpotCell at(std::uint32_t place) const {
+    return {spot[place], slice[place], row[place], column[place], end_column[place]};
+  }
+  std::size_t capacity_bytes() const { return spot.capacity() * (sizeof(SpotCell) + sizeof(Touch)); }
+};
+
+// What the pairs are made of: lights, sides of columns (x / depth), slopes of rows from the top, depths of slices.
+// Spots of less reach than least_reach, or of more than k_most_row_reach, are left open.
+struct SpotsAndPlanes {
+  const view::LightArrays* lights;
+  const float *side, *slope, *depth;
+  float least_reach = 0.0f;
+};
+
+// Each look settles most of the pairs that the one before leaves open, and costs several times as much.
+enum class Look { quick, approach, closer, thorough };
+void look_at_cells(const SpotsAndPlanes& from, Look how, SpotCells& cells);
+
+}  // namespace clusterbench::assign

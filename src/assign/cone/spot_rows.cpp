@@ -1,0 +1,245 @@
+#include "assign/cone/spot_rows.h"
+
+#include <algorithm>
+#include <array>
+
+#include "assign/contract/lists.h"
+#include "core/memory.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "assign/cone/spot_rows.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once per target
+#include <hwy/highway.h>
+
+#include "assign/cone/spot_slices-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace clusterbench::assign {
+namespace HWY_NAMESPACE {
+namespace {
+
+// What leans most in the tile planes of rows and between them.
+struct RowExtremes {
+  Extremes outmost;
+  Point middle;  // of some of the places, and so within the spot
+
+  HWY_INLINE RowExtremes(const Extremes& between, const PlaneExtremes& above, M has_above, V top,
+                         const PlaneExtremes& below, V bottom)
+      : outmost(between) {
+    add(FirstN(D(), Lanes(D())), below, bottom);
+    add(has_above, above, top);
+    const V one = all(1.0f), zero = Zero(D());
+    middle = outmost.low.point() + outmost.high.point();
+    V count = one + one;
+    const auto add_plane = [&](M where, const PlaneExtremes& plane, V slope) {
+      const M exist = And(where, plane.exist());
+      const V low = IfThenElseZero(exist, plane.low_depth), high = IfThenElseZero(exist, plane.high_depth);
+      middle = middle + low * Point{plane.low, slope, one} + high * Point{plane.high, slope, one};
+      count = count + IfThenElse(exist, one + one, zero);
+    };
+    add_plane(FirstN(D(), Lanes(D())), below, bottom);
+    add_plane(has_above, above, top);
+    middle = inverse(count) * middle;
+  }
+
+ private:
+  HWY_INLINE void add(M where, const PlaneExtremes& plane, V slope) {
+    outmost.take_low(where, {plane.low, slope, plane.low_depth});
+    outmost.take_high(where, {plane.high, slope, plane.high_depth});
+  }
+};
+
+// A vector of rows and what is guessed of them.
+class Ends {
+ public:
+  // `rows`: their pieces of these spots' slices.
+  HWY_INLINE Ends(const SpotsAndPlanes& from, const RowPlanes& planes, const SpotsInSlices& spots,
+                  const SpotsInRows& rows, const RowExtremes& found)
+      : from_(from), spots_(spots), rows_(rows), found_(found), exist_(found.outmost.exist()) {
+    const V left = all(planes.left), right = all(planes.right), scale = all(planes.columns_per_slope);
+    const V low = found.outmost.low.across, high = found.outmost.high.across;
+    const VI columns = all_int(planes.columns), last_column = columns - all_int(1);
+    const auto column_at = [&](V slope) {
+      const V at = (Min(Max(slope, left), right) - left) * scale;
+      return Min(whole(Floor(at)), last_column);
+    };
+    const MI is_right = RebindMask(DI(), low > right), is_left = RebindMask(DI(), high < left);
+    first_ = IfThenElse(is_right, columns, column_at(low));
+    last_ = IfThenElse(is_left, all_int(-1), column_at(high));
+    is_first_column_ = RebindMask(D(), first_ == Zero(DI()));
+    is_last_column_ = RebindMask(D(), last_ == last_column);
+    is_aside_ = RebindMask(D(), Or(is_right, is_left));
+  }
+
+  VI first() const { return first_; }
+  VI last() const { return last_; }
+
+  HWY_INLINE M none_before() const {
+    return Or(is_first_column_, And(exist_, is_apart(found_.outmost.low, side(first_), all(-1.0f))));
+  }
+  HWY_INLINE M none_behind() const {
+    return Or(is_last_column_, And(exist_, is_apart(found_.outmost.high, side(last_ + all_int(1)), all(1.0f))));
+  }
+  HWY_INLINE M first_is_touched() const { return is_touched(first_); }
+  HWY_INLINE M last_is_touched() const { return is_touched(Max(last_, Zero(DI()))); }
+  // All is left or right of the picture.
+  HWY_INLINE M is_aside() const { return is_aside_; }
+
+ private:
+  HWY_INLINE V side(VI column) const { return gathered(from_.side, column); }
+
+  HWY_INLINE M is_apart(const Place& place, V boundary, V to_side) const {
+    const V zero = Zero(D()), one = all(1.0f);
+    const Point p = place.point();
+    const M in_slice_plane = Or(p.depth == rows_.depth0, p.depth == rows_.depth1);
+    const Point edge = chosen(in_slice_plane, {zero, one, zero}, p);
+    const Point normal = touching_plane(spots_.shapes, p, edge, {to_side, zero, Neg(to_side * place.across)});
+    return Beyond{boundary, to_side, rows_.y0, rows_.y1, spots_.between}.is_apart(rows_.cone, normal,
+                                                                                  rows_.tolerance(boundary, boundary));
+  }
+
+  // Is there a common place near the way from an extreme to the middle?
+  HWY_INLINE M is_touched(VI column) const {
+    const Point& middle = found_.middle;
+    const V left = side(column), right = side(column + all_int(1));
+    const V from = Max(left, found_.outmost.low.across), to = Min(right, found_.outmost.high.across);
+    const V quarter = all(0.25f) * (to - from), amid = middle.x / middle.depth;
+    const V slope = Max(from + quarter, Min(amid, to - quarter));
+    const Point start = chosen(slope < amid, found_.outmost.low.point(), found_.outmost.high.point());
+    const Point way = middle - start;
+    const V span = way.x - slope * way.depth;
+    const V part = slope * start.depth - start.x;
+    const V t = part / IfThenElse(span == Zero(D()), all(1.0f), span);
+    const Point place = start + Min(Max(t, Zero(D())), all(1.0f)) * way;
+    const Cells cell(rows_, left, right);
+    const M wanted = AndNot(is_aside_, exist_);
+    Point v = cell.near_in_cell(place - rows_.cone.apex);
+    M touched = cell.is_common(v);
+    for (int again = 0; again < 3 && !AllTrue(D(), Or(touched, Not(wanted))); ++again) {
+      v = cell.closer_to_volume(v);
+      touched = Or(touched, cell.is_common(v));
+    }
+    return And(wanted, touched);
+  }
+
+  const SpotsAndPlanes& from_;
+  const SpotsInSlices& spots_;
+  const SpotsInRows& rows_;
+  const RowExtremes& found_;
+  M exist_, is_first_column_, is_last_column_, is_aside_;
+  VI first_, last_;
+};
+
+// The rows of some spots in slices, to the end of what was found.
+void rows_of(const SpotsAndPlanes& from, const RowPlanes& planes, const PlaneTables& tables, const Slices& slices,
+             SpotRows& out) {
+  const D d;
+  const DI di;
+  const DU du;
+  const hn::Rebind<std::uint8_t, DU> du8;
+  const auto n = static_cast<std::int32_t>(Lanes(d));
+  const std::int32_t count = slices.list_rows(out);
+  Carried carry;
+  PlaneExtremes turned;
+  VI turned_slice = all_int(-1);
+  for (std::int32_t t = 0; t < count; t += n) {
+    const VI in_slice = LoadU(di, out.listed_slice.data() + t), row = LoadU(di, out.listed_row.data() + t);
+    const std::int32_t first_slice = GetLane(in_slice);
+    const Slices::Lookup lookup{slices, first_slice, IndicesFromVec(di, in_slice - all_int(first_slice))};
+    const SpotsInSlices spots = lookup.spots();
+    const VI above_row = Max(row, Zero(di)), below_row = row + all_int(1);
+    const V top = tables.slope.at(above_row), bottom = tables.slope.at(below_row);
+    const PlaneExtremes below =
+        spots.in_tile_plane(bottom, tables.tilt.at(below_row), tables.inverse_tilt.at(below_row));
+    const PlaneExtremes above = below.carried(carry, turned);
+    const M has_above = RebindMask(d, carry(in_slice, turned_slice) == in_slice);
+    const V room = spots.shapes.slack * spots.between.inverse_far;
+    const RowExtremes found(lookup.between(bottom, top, room), above, has_above, top, below, bottom);
+    const SpotsInRows rows{spots.shapes.cone, spots.light, bottom, top, spots.between.near, spots.between.far};
+    const Ends ends(from, planes, spots, rows, found);
+    const M plain = are_plain(from, spots.light);
+    const M none_before = And(plain, ends.none_before()), none_behind = And(plain, ends.none_behind());
+    // No row, or proven to be beside all of the picture.
+    const M is_out = Or(RebindMask(d, row < Zero(di)), And(ends.is_aside(), And(none_before, none_behind)));
+    const auto bit = [&](M where, std::uint8_t value) { return IfThenElseZero(RebindMask(du, where), Set(du, value)); };
+    const VU known = Or(Or(bit(none_before, SpotRows::k_none_before), bit(none_behind, SpotRows::k_none_behind)),
+                        Or(bit(And(plain, ends.first_is_touched()), SpotRows::k_first_is_touched),
+                           bit(And(plain, ends.last_is_touched()), SpotRows::k_last_is_touched)));
+    const std::uint32_t to = out.count + static_cast<std::uint32_t>(t);
+    const auto store = [&](VI value, auto& list) {
+      StoreU(BitCast(du, value), du, reinterpret_cast<std::uint32_t*>(list.data()) + to);
+    };
+    const MI out_lanes = RebindMask(di, is_out);
+    store(lookup.spot(), out.spot);
+    store(lookup.slice(), out.slice);
+    store(row, out.row);
+    store(IfThenElse(out_lanes, all_int(1), ends.first()), out.first);
+    store(IfThenZeroElse(out_lanes, ends.last()), out.last);
+    StoreU(U8FromU32(Or(known, bit(is_out, SpotRows::k_all))), du8, out.known.data() + to);
+  }
+  out.count += static_cast<std::uint32_t>(count);
+}
+
+void spot_rows(const SpotsAndPlanes& from, const RowPlanes& planes, const SpotSlices& slices, SpotRows& out) {
+  const PlaneTables tables(planes);
+  for (std::uint32_t begin = 0; begin < slices.count; begin += Slices::k_most) {
+    const std::uint32_t end = std::min(begin + Slices::k_most, slices.count);
+    const Slices some(from, planes, tables, slices, begin, end);
+    out.make_room(std::size_t{Slices::k_most} * static_cast<std::size_t>(planes.rows + 1));
+    rows_of(from, planes, tables, some, out);
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace clusterbench::assign
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace clusterbench::assign {
+
+HWY_EXPORT(spot_rows);
+
+void SpotSlices::make_room() {
+  const std::size_t size = 2 * spot.size() + 4 * k_most_lanes;
+  check_pair_count(size);
+  check_memory("spots in slices", size, 2 * sizeof(std::uint32_t));
+  spot.resize(size);
+  slice.resize(size);
+}
+
+void SpotRows::add(const SpotCell& columns) {
+  make_room(1);
+  spot[count] = columns.spot;
+  slice[count] = columns.slice;
+  row[count] = columns.row;
+  first[count] = static_cast<std::int32_t>(columns.column);
+  last[count] = static_cast<std::int32_t>(columns.end_column) - 1;
+  known[count++] = 0;
+}
+
+// For so many rows more.
+void SpotRows::make_room(std::size_t rows) {
+  const std::size_t listed = rows + 2 * k_most_lanes, all = count + listed;
+  check_pair_count(all);
+  for (std::vector<std::int32_t>* list : {&listed_slice, &listed_row})
+    if (list->size() < listed) list->resize(listed);
+  if (known.size() >= all) return;
+  const std::size_t size = std::max(all, 2 * known.size());
+  check_memory("rows of spots", size, 5 * sizeof(std::uint32_t) + sizeof(std::uint8_t));
+  for (std::vector<std::uint32_t>* list : {&spot, &slice, &row}) list->resize(size);
+  for (std::vector<std::int32_t>* list : {&first, &last}) list->resize(size);
+  known.resize(size);
+}
+
+void find_spot_rows(const SpotsAndPlanes& from, const RowPlanes& planes, SpotSlices& slices, SpotRows& out) {
+  out.count = 0;
+  // What a whole vector reads beyond the end must be places that exist.
+  if (slices.count + k_most_lanes > slices.spot.size()) slices.make_room();
+  for (std::vector<std::uint32_t>* list : {&slices.spot, &slices.slice})
+    std::fill_n(list->begin() + slices.count, k_most_lanes, 0);
+  HWY_DYNAMIC_DISPATCH(spot_rows)(from, planes, slices, out);
+}
+
+}  // namespace clusterbench::assign
+#endif

@@ -1,0 +1,259 @@
+// What is found once for all rows of spots in slices: the rows, proven, and the places that can lean most between tile
+// planes. For files that are compiled once per target; included after hwy/highway.h; defines its names anew for each
+// target.
+
+#if defined(CLUSTERBENCH_SPOT_SLICES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef CLUSTERBENCH_SPOT_SLICES_INL_H
+#undef CLUSTERBENCH_SPOT_SLICES_INL_H
+#else
+#define CLUSTERBENCH_SPOT_SLICES_INL_H
+#endif
+
+#include "assign/cone/spot_extremes-inl.h"
+#include "assign/cone/spot_rows.h"
+#include "assign/rows/plane_tables-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace clusterbench::assign {
+namespace HWY_NAMESPACE {
+
+// Outwards, of a plane that touches spots in a place of their surface; any length. In places of the rim one that holds
+// the direction of an edge, between the sphere's tangent plane and that of the cone's side. At the apex, and where both
+// of these hold the edge, one that is given.
+HWY_INLINE Point touching_plane(const SpotShapes& spots, const Point& place, const Point& edge, const Point& given) {
+  const Cone& cone = spots.cone;
+  const Point v = place - cone.apex;
+  const V square = dot(v, v), range_square = square_of(cone.range), along = dot(v, cone.axis);
+  const Point part = v - along * cone.axis;
+  const V across = length(part);
+  const Point side = cone.cosine * part - (cone.sine * across) * cone.axis;
+  const V off = Max(spots.slack, all(0x1p-12f) * cone.range);  // what a place can be off by
+  const M on_sphere = square >= square_of(cone.range - off);
+  const V inwards = cone.sine * along - cone.cosine * across;
+  const M on_rim = And(on_sphere, inwards <= off);
+  const V of_sphere = Abs(dot(side, edge)), of_side = Abs(dot(v, edge)), sum = of_sphere + of_side;
+  const M is_held = square_of(sum) < all(0x1p-20f) * (range_square * dot(edge, edge));
+  const M at_apex = square < square_of(spots.slack);
+  const Point between = of_sphere * v + of_side * side;
+  return chosen(Or(at_apex, And(on_rim, is_held)), given, chosen(on_rim, between, chosen(on_sphere, v, side)));
+}
+
+// All whose slope x / depth is beyond a boundary to one side (1 or -1), between two slice planes and two tile planes.
+struct Beyond {
+  V boundary, side;
+  V up0, up1;
+  const SlicePlanes& planes;
+
+  // Is it apart from spots by a plane, given as its outward normal of any length? Where that has an x, it must be
+  // outwards, so that nothing is nearer than the corners at the boundary.
+  HWY_INLINE M is_apart(const Cone& cone, const Point& normal, V tolerance) const {
+    const auto corner = [&](V up, V depth) {
+      return dot(normal, Point{boundary * depth, up * depth, depth} - cone.apex);
+    };
+    const V least = Min(Min(corner(up0, planes.near), corner(up1, planes.near)),
+                        Min(corner(up0, planes.far), corner(up1, planes.far)));
+    const V size = length(normal);
+    const M is_apart = least - extent_of(cone, normal, size) > tolerance * size;
+    // Squares of much shorter ones lose digits.
+    const M is_measured = size > all(1e-10f);
+    return And(And(is_apart, is_measured), normal.x * side >= Zero(D()));
+  }
+};
+
+// Rows that spots in slices may touch.
+struct RowsReached {
+  VI first, count;
+  MI with_top;  // what leans most in the first row may be in the picture's top
+};
+
+// A vector of spots in slices, and which rows they touch.
+class Reached {
+ public:
+  HWY_INLINE Reached(const RowPlanes& planes, const PlaneTables& tables, const SpotShapes& spots,
+                     const SlicePlanes& between, V light)
+      : planes_(planes), tables_(tables), spots_(spots.exchanged()), between_(between), light_(light) {}
+
+  // `plain`: those of which single precision tells anything.
+  HWY_INLINE RowsReached rows(M plain) const {
+    Extremes found;
+    Ups ups{found};
+    each_place_in_slice(spots_, between_, ups);
+    const V top = all(planes_.slope.front()), bottom = all(planes_.slope[static_cast<std::size_t>(planes_.rows)]);
+    const V high = found.high.across + spots_.slack / found.high.depth;
+    const V low = found.low.across - spots_.slack / found.low.depth;
+    const V scale = all(planes_.rows_per_slope), margin = all(planes_.row_margin), zero = Zero(D());
+    const VI none = Zero(DI()), rows = all_int(planes_.rows), one = all_int(1), last_row = rows - one;
+    const V from = (top - Min(high, top)) * scale - margin;
+    const V to = (top - Max(low, bottom)) * scale + margin;
+    const MI is_below = RebindMask(DI(), high < bottom), is_above = RebindMask(DI(), low > top);
+    VI first = IfThenElse(is_below, rows, Min(whole(Floor(Max(from, zero))), last_row));
+    VI end = IfThenElse(is_above, none, Min(whole(Floor(Max(to, zero))) + one, rows));
+    const M exist = found.exist();
+    const M none_above = And(And(plain, exist), is_apart(found.high, tables_.slope.at(first), all(1.0f)));
+    const M none_below = And(And(plain, exist), is_apart(found.low, tables_.slope.at(end), all(-1.0f)));
+    first = IfThenElseZero(RebindMask(DI(), none_above), first);
+    end = IfThenElse(RebindMask(DI(), none_below), end, rows);
+    end = IfThenZeroElse(RebindMask(DI(), And(plain, misses_slice())), end);
+    return {first, Max(end - first, none), And(first == none, RebindMask(DI(), Not(high < top)))};
+  }
+
+ private:
+  struct Ups {
+    Extremes& found;
+    HWY_INLINE void low(M where, const Place& p) { found.take_low(where, p); }
+    HWY_INLINE void high(M where, const Place& p) { found.take_high(where, p); }
+    HWY_INLINE void both(M where, const Place& p) { found.take(where, p); }
+  };
+
+  HWY_INLINE M is_apart(const Place& place, V boundary, V side) const {
+    const V zero = Zero(D()), one = all(1.0f);
+    Point normal = touching_plane(spots_, place.point(), {zero, one, zero}, {side, zero, Neg(side * place.across)});
+    normal.y = zero;  // rows are endless to both sides
+    const V tolerance = tolerance_of(light_, between_.far, Abs(boundary), zero);
+    return Beyond{boundary, side, zero, zero, between_}.is_apart(spots_.cone, normal, tolerance);
+  }
+
+  HWY_INLINE M misses_slice() const {
+    const V zero = Zero(D()), one = all(1.0f), tolerance = tolerance_of(light_, between_.far, zero, zero);
+    const V ahead = spots_.cone.apex.depth;
+    const V farthest = ahead + extent_of(spots_.cone, {zero, zero, one}, one);
+    const V nearest = ahead - extent_of(spots_.cone, {zero, zero, Neg(one)}, one);
+    return Or(between_.near - farthest > tolerance, nearest - between_.far > tolerance);
+  }
+
+  const RowPlanes& planes_;
+  const PlaneTables& tables_;
+  SpotShapes spots_;  // x and y exchanged
+  const SlicePlanes& between_;
+  V light_;
+};
+
+// Spots in slices, field by field.
+class Slices {
+ public:
+  static constexpr std::uint32_t k_most = 64;
+
+  HWY_INLINE Slices(const SpotsAndPlanes& from, const RowPlanes& planes, const PlaneTables& tables,
+                    const SpotSlices& slices, std::uint32_t begin, std::uint32_t end) {
+    const D d;
+    const DI di;
+    const auto n = static_cast<std::uint32_t>(Lanes(d));
+    const float widest = std::max(std::abs(planes.left), std::abs(planes.right));
+    const float highest =
+        std::max(std::abs(planes.slope.front()), std::abs(planes.slope[static_cast<std::size_t>(planes.rows)]));
+    for (std::uint32_t i = begin; i < end; i += n) {
+      const VI spot = places(slices.spot, i), slice = places(slices.slice, i);
+      const GivenSpots given(*from.lights, spot);
+      const SlicePlanes between = {gathered(planes.depth, slice), gathered(planes.depth.data() + 1, slice),
+                                   gathered(planes.inverse_depth, slice),
+                                   gathered(planes.inverse_depth.data() + 1, slice)};
+      const SpotShapes shapes(given.cone, tolerance_of(given.light, between.far, all(widest), all(highest)));
+      const RowsReached rows = Reached(planes, tables, shapes, between, given.light).rows(are_plain(from, given.light));
+      SpotsInSlices in_slices(shapes, between, given.light);
+      const MI wanted = And(rows.count > Zero(di), FirstN(di, end - i));
+      Writer writer{*this, wanted};
+      in_slices.each([&](V& value) { writer.put(value); });
+      Slots slots{writer};
+      each_place_in_slice(shapes, between, slots);
+      StoreU(compressed(di, spot, wanted), di, spot_ + count_);
+      StoreU(compressed(di, slice, wanted), di, slice_ + count_);
+      const VI lead = IfThenElseZero(rows.with_top, all_int(1));
+      StoreU(compressed(di, rows.first - lead, wanted), di, first_row_ + count_);
+      StoreU(compressed(di, rows.count + lead, wanted), di, row_count_ + count_);
+      count_ += static_cast<std::int32_t>(CountTrue(di, wanted));
+    }
+  }
+
+  // Lists the rows. The first ones of a slice may be above the picture. Returns how many.
+  HWY_INLINE std::int32_t list_rows(SpotRows& out) const {
+    const DI di;
+    const auto n = static_cast<std::int32_t>(Lanes(di));
+    std::int32_t count = 0;
+    for (std::int32_t i = 0; i < count_; ++i) {
+      // What is written beyond a slice's end, the next one overwrites.
+      for (std::int32_t at = 0; at < row_count_[i]; at += n) {
+        StoreU(all_int(i), di, out.listed_slice.data() + count + at);
+        StoreU(from_on(first_row_[i] + at), di, out.listed_row.data() + count + at);
+      }
+      count += row_count_[i];
+    }
+    StoreU(all_int(std::max(count_ - 1, 0)), di, out.listed_slice.data() + count);
+    StoreU(Zero(di), di, out.listed_row.data() + count);
+    return count;
+  }
+
+  // Looks up values of slices for rows: of those that are `which` lanes after the first one.
+  struct Lookup {
+    const Slices& slices;
+    std::int32_t first;
+    Which which;
+
+    HWY_INLINE V operator()(int field) const { return taken(LoadU(D(), slices.values_[field] + first), which); }
+    HWY_INLINE SpotsInSlices spots() const {
+      SpotsInSlices spots;
+      int field = 0;
+      spots.each([&](V& value) { value = (*this)(field++); });
+      return spots;
+    }
+    HWY_INLINE VI spot() const { return taken(LoadU(DI(), slices.spot_ + first), which); }
+    HWY_INLINE VI slice() const { return taken(LoadU(DI(), slices.slice_ + first), which); }
+
+    // Of the places that can lean most, those between two tile planes, by and large.
+    HWY_INLINE Extremes between(V bottom, V top, V room) const {
+      Extremes found;
+      const V low = bottom - room, high = top + room;
+      int field = SpotsInSlices::k_vectors;
+      const auto each = [&](int count, auto&& take) {
+        for (int i = 0; i < count; ++i, field += 3) {
+          const Place p = {(*this)(field), (*this)(field + 1), (*this)(field + 2)};
+          take(is_between(low, p.up, high), p);
+        }
+      };
+      each(k_slots_in_slice.low, [&](M where, const Place& p) { found.take_low(where, p); });
+      each(k_slots_in_slice.high, [&](M where, const Place& p) { found.take_high(where, p); });
+      each(k_slots_in_slice.both, [&](M where, const Place& p) { found.take(where, p); });
+      return found;
+    }
+  };
+
+ private:
+  static constexpr int k_fields =
+      SpotsInSlices::k_vectors + 3 * (k_slots_in_slice.low + k_slots_in_slice.high + k_slots_in_slice.both);
+  static constexpr std::size_t k_pitch = k_most + k_most_lanes;
+
+  struct Writer {
+    Slices& to;
+    MI wanted;
+    int field = 0;
+
+    HWY_INLINE void put(V value) { put_at(field++, value); }
+    HWY_INLINE void put_at(int at, V value) {
+      StoreU(compressed(D(), value, RebindMask(D(), wanted)), D(), to.values_[at] + to.count_);
+    }
+  };
+  // Places go to their own fields; those that do not exist are neither above nor below anything.
+  struct Slots {
+    Writer& writer;
+    int next_low = SpotsInSlices::k_vectors, next_high = next_low + 3 * k_slots_in_slice.low,
+        next_both = next_high + 3 * k_slots_in_slice.high;
+
+    HWY_INLINE void low(M where, const Place& p) { put(next_low, where, p); }
+    HWY_INLINE void high(M where, const Place& p) { put(next_high, where, p); }
+    HWY_INLINE void both(M where, const Place& p) { put(next_both, where, p); }
+    HWY_INLINE void put(int& next, M where, const Place& p) {
+      writer.put_at(next++, p.across);
+      writer.put_at(next++, IfThenElse(where, p.up, all(std::numeric_limits<float>::quiet_NaN())));
+      writer.put_at(next++, p.depth);
+    }
+  };
+
+  std::int32_t count_ = 0;
+  alignas(64) float values_[k_fields][k_pitch];
+  std::int32_t spot_[k_pitch], slice_[k_pitch], first_row_[k_pitch], row_count_[k_pitch];
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace clusterbench::assign
+HWY_AFTER_NAMESPACE();
+
+#endif

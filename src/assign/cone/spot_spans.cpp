@@ -1,0 +1,248 @@
+#include "assign/cone/spot_spans.h"
+
+#include <algorithm>
+
+namespace clusterbench::assign {
+
+using grid::IndexRange;
+
+void SpotSpans::find(const ExactFrame& frame, int first, int last) {
+  frame_ = &frame;
+  tests_ = fallbacks_ = 0;
+  rows_.count = next_row_ = 0;
+  judge_.reset();
+  if (frame.first_spot_place == frame.visible.count) return;
+  if (frame.planes.orthographic) {
+    batches_.start(frame, &ExactFrame::spots_of, first, last);
+    for (int slice = first; slice < last; ++slice) add_orthographic_rows(slice);
+    decide_ends();
+  } else {
+    find_in_perspective(first, last);
+  }
+  tests_ += rows_.count;
+}
+
+void SpotSpans::find_in_perspective(int first, int last) {
+  const SpotsAndPlanes from{&frame_->lights, frame_->planes.side.data(), frame_->planes.slope.data(),
+                            frame_->planes.depth.data(), frame_->planes.least_reach};
+  slices_.count = 0;
+  for (int slice = first; slice < last; ++slice)
+    for (const std::uint32_t place : frame_->spots_of(slice))
+      slices_.add(frame_->visible.light[place] - frame_->lights.points, static_cast<std::uint32_t>(slice));
+  find_spot_rows(from, frame_->planes, slices_, rows_);
+  take_open_rows();
+  if (lit_.empty()) return;
+  drop_missed_rows(from);
+  shorten(from);
+  while (ask_for_ends()) {
+    tests_ += cells_.count;
+    look_at_cells(from, Look::quick, cells_);
+    for (const Look how : {Look::approach, Look::closer, Look::thorough}) {
+      ask_more_closely();
+      look_at_cells(from, how, closer_);
+      for (std::uint32_t i = 0; i < closer_.count; ++i) cells_.touch[closer_places_[i]] = closer_.touch[i];
+    }
+    for (const Ends& ends : ends_) settle(ends);
+  }
+  for (const Lit& lit : lit_) {
+    rows_.first[lit.place] = lit.columns.first;
+    rows_.last[lit.place] = lit.columns.last;
+  }
+}
+
+void SpotSpans::add_to(int slice, ListBuilder& spans) {
+  for (; next_row_ < rows_.count && rows_.slice[next_row_] == static_cast<std::uint32_t>(slice); ++next_row_) {
+    const std::int32_t first = rows_.first[next_row_], last = rows_.last[next_row_];
+    if (first <= last)
+      spans.add(rows_.row[next_row_], static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last),
+                rows_.spot[next_row_] + frame_->lights.points);
+  }
+}
+
+std::size_t SpotSpans::capacity_bytes() const {
+  return batches_.capacity_bytes() + slices_.capacity_bytes() + rows_.capacity_bytes() + cells_.capacity_bytes() +
+         closer_.capacity_bytes() + open_.capacity() * sizeof(std::uint32_t) +
+         closer_places_.capacity() * sizeof(std::uint32_t) + lit_.capacity() * sizeof(Lit) +
+         ends_.capacity() * sizeof(Ends) + waiting_.capacity() * sizeof(std::uint32_t) +
+         long_.capacity() * sizeof(Long);
+}
+
+// Those of the spots' bounding balls.
+void SpotSpans::add_orthographic_rows(int slice) {
+  while (const BatchRows* batch = batches_.next(slice))
+    for (int row = batch->first_row; row <= batch->last_row; ++row)
+      each_span(*batch, row, [&](std::uint32_t light, const IndexRange& columns, bool) {
+        rows_.add({light - frame_->lights.points, static_cast<std::uint32_t>(slice), static_cast<std::uint32_t>(row),
+                   static_cast<std::uint32_t>(columns.first), static_cast<std::uint32_t>(columns.last) + 1});
+      });
+}
+
+void SpotSpans::take_open_rows() {
+  lit_.clear();
+  const int last_column = frame_->planes.columns - 1;
+  for (std::uint32_t i = 0; i < rows_.count; ++i) {
+    const std::uint8_t known = rows_.known[i];
+    if (known == SpotRows::k_all) continue;
+    const auto is = [&](std::uint8_t bit) { return (known & bit) != 0; };
+    lit_.push_back(
+        {i,
+         {is(SpotRows::k_none_before) ? rows_.first[i] : 0, is(SpotRows::k_none_behind) ? rows_.last[i] : last_column},
+         !is(SpotRows::k_none_before) || !is(SpotRows::k_first_is_touched),
+         !is(SpotRows::k_none_behind) || !is(SpotRows::k_last_is_touched)});
+  }
+}
+
+// Takes away rows that are as a whole not touched.
+void SpotSpans::drop_missed_rows(const SpotsAndPlanes& from) {
+  waiting_.clear();
+  for (std::uint32_t i = 0; i < lit_.size(); ++i)
+    if (lit_[i].left_is_open && lit_[i].right_is_open && !lit_[i].columns.empty()) waiting_.push_back(i);
+  for (const Look how : {Look::approach, Look::closer, Look::thorough}) {
+    closer_.count = 0;
+    for (const std::uint32_t i : waiting_) closer_.add(cells_of(lit_[i], lit_[i].columns));
+    look_at_cells(from, how, closer_);
+    std::size_t kept = 0;
+    for (std::uint32_t at = 0; at < closer_.count; ++at) {
+      if (closer_.touch[at] == Touch::no) lit_[waiting_[at]].columns = {};
+      if (closer_.touch[at] == Touch::open) waiting_[kept++] = waiting_[at];
+    }
+    waiting_.resize(kept);
+  }
+  open_.clear();
+  for (std::uint32_t i = 0; i < lit_.size(); ++i)
+    if (lit_[i].is_open()) open_.push_back(i);
+}
+
+// Takes away what a quick look at several columns at once can tell is not touched: half of each span at its open ends,
+// where they are touched or in doubt a quarter, and so on.
+void SpotSpans::shorten(const SpotsAndPlanes& from) {
+  long_.clear();
+  for (const std::uint32_t i : open_) {
+    const int half = lit_[i].columns.count() / 2;
+    if (half < k_least_piece) continue;
+    if (lit_[i].left_is_open) long_.push_back({i, half, true});
+    if (lit_[i].right_is_open) long_.push_back({i, half, false});
+  }
+  while (!long_.empty()) {
+    cells_.count = 0;
+    for (const Long& piece : long_) {
+      const IndexRange& columns = lit_[piece.lit].columns;
+      cells_.add(cells_of(lit_[piece.lit], piece.from_left
+                                               ? IndexRange{columns.first, columns.first + piece.columns - 1}
+                                               : IndexRange{columns.last - piece.columns + 1, columns.last}));
+    }
+    tests_ += cells_.count;
+    look_at_cells(from, Look::quick, cells_);
+    std::size_t kept = 0;
+    for (std::size_t at = 0; at < long_.size(); ++at) {
+      Long piece = long_[at];
+      IndexRange& columns = lit_[piece.lit].columns;
+      if (cells_.touch[at] != Touch::no)
+        piece.columns /= 2;
+      else if (piece.from_left)
+        columns.first += piece.columns;
+      else
+        columns.last -= piece.columns;
+      piece.columns = std::min(piece.columns, columns.count() / 2);
+      if (piece.columns >= k_least_piece) long_[kept++] = piece;
+    }
+    long_.resize(kept);
+  }
+}
+
+// Puts the cells at the open ends of all spans into cells_. False if there are none.
+bool SpotSpans::ask_for_ends() {
+  constexpr int k_at_once = 4;
+  cells_.count = 0;
+  ends_.clear();
+  waiting_.clear();
+  std::erase_if(open_, [&](std::uint32_t i) { return !lit_[i].is_open(); });
+  for (const std::uint32_t i : open_) {
+    const Lit& lit = lit_[i];
+    const int count = lit.columns.count();
+    if (lit.left_is_open && lit.right_is_open && count <= 2 * k_at_once) {
+      ask(i, lit.columns, true, true);
+      continue;
+    }
+    const int some = std::min(count, k_at_once);
+    if (lit.left_is_open) ask(i, {lit.columns.first, lit.columns.first + some - 1}, true, false);
+    if (lit.right_is_open) ask(i, {lit.columns.last - some + 1, lit.columns.last}, false, true);
+  }
+  return !ends_.empty();
+}
+
+void SpotSpans::ask(std::uint32_t i, const IndexRange& columns, bool from_left, bool from_right) {
+  waiting_.push_back(static_cast<std::uint32_t>(ends_.size()));
+  ends_.push_back({i, cells_.count, columns, from_left, from_right});
+  for (int column = columns.first; column <= columns.last; ++column) cells_.add(cells_of(lit_[i], {column, column}));
+}
+
+SpotCell SpotSpans::cells_of(const Lit& lit, const IndexRange& columns) const {
+  return {rows_.spot[lit.place], rows_.slice[lit.place], rows_.row[lit.place],
+          static_cast<std::uint32_t>(columns.first), static_cast<std::uint32_t>(columns.last) + 1};
+}
+
+// Cells without an answer that lie before the first one that is touched.
+void SpotSpans::ask_more_closely() {
+  closer_.count = 0;
+  const auto is = [&](std::uint32_t place, Touch touch) { return cells_.touch[place] == touch; };
+  std::size_t kept = 0;
+  for (const std::uint32_t number : waiting_) {
+    const Ends& ends = ends_[number];
+    const std::uint32_t begin = ends.place, end = begin + static_cast<std::uint32_t>(ends.columns.count());
+    const std::uint32_t before = closer_.count;
+    std::uint32_t left = begin, right = end;
+    for (; ends.from_left && left < end && !is(left, Touch::yes); ++left)
+      if (is(left, Touch::open)) add_closer(left);
+    for (; ends.from_right && right > left && !is(right - 1, Touch::yes); --right)
+      if (is(right - 1, Touch::open)) add_closer(right - 1);
+    if (closer_.count != before) waiting_[kept++] = number;
+  }
+  waiting_.resize(kept);
+}
+
+void SpotSpans::add_closer(std::uint32_t place) {
+  if (closer_places_.size() <= closer_.count) closer_places_.resize(2 * closer_places_.size() + 64);
+  closer_places_[closer_.count] = place;
+  closer_.add(cells_.at(place));
+}
+
+// Shortens the span by its cells that are not touched. An end is settled where one is.
+void SpotSpans::settle(const Ends& ends) {
+  Lit& lit = lit_[ends.lit];
+  const auto touches = [&](int column) {
+    Touch& touch = cells_.touch[ends.place + static_cast<std::uint32_t>(column - ends.columns.first)];
+    if (touch == Touch::open) touch = decide(lit.place, column) ? Touch::yes : Touch::no;
+    return touch == Touch::yes;
+  };
+  IndexRange& span = lit.columns;
+  if (ends.from_left) {
+    while (span.first <= ends.columns.last && !touches(span.first)) ++span.first;
+    lit.left_is_open = span.first > ends.columns.last;
+  }
+  if (ends.from_right) {
+    const int end = std::max(ends.columns.first, span.first);
+    while (span.last >= end && !touches(span.last)) --span.last;
+    lit.right_is_open = span.last < end;
+  }
+}
+
+void SpotSpans::decide_ends() {
+  for (std::uint32_t i = 0; i < rows_.count; ++i) {
+    const IndexRange touched =
+        narrowed({rows_.first[i], rows_.last[i]}, [&](int column) { return !decide(i, column); });
+    rows_.first[i] = touched.first;
+    rows_.last[i] = touched.last;
+  }
+}
+
+bool SpotSpans::decide(std::uint32_t place, int column) {
+  ++fallbacks_;
+  const std::uint32_t light = rows_.spot[place] + frame_->lights.points;
+  if (!judge_ || judge_->light() != light) judge_.emplace(frame_->grid, frame_->lights, light);
+  const Row row =
+      row_of(frame_->grid.screen(), static_cast<int>(rows_.slice[place]), static_cast<int>(rows_.row[place]));
+  return judge_->touches(row.first_cell + static_cast<std::uint32_t>(column));
+}
+
+}  // namespace clusterbench::assign

@@ -1,0 +1,79 @@
+#pragma once
+// The columns that spots touch in each row of some slices, all slices at once so that vectors are full: rows and ends
+// that are guessed and proven (spot_rows.h), which nearly all are. What is left is shortened by halves, quarters and so
+// on that are as a whole not touched; then its ends are looked at a few cells at a time, until a cell at either end is
+// touched. In orthographic grids the rows of bounding balls, cell by cell.
+
+#include <optional>
+
+#include "assign/cone/spot_rows.h"
+#include "assign/exact/exact_frame.h"
+#include "assign/exact/exact_rows.h"
+
+namespace clusterbench::assign {
+
+class SpotSpans {
+ public:
+  // Those of slices first .. last - 1.
+  void find(const ExactFrame& frame, int first, int last);
+  // Adds a slice's spans; slices in ascending order.
+  void add_to(int slice, ListBuilder& spans);
+
+  std::uint64_t tests() const { return tests_; }
+  std::uint64_t fallbacks() const { return fallbacks_; }
+  std::size_t capacity_bytes() const;
+
+ private:
+  // A row that is not settled: its columns as far as they are known; those that are not touched go from both ends.
+  struct Lit {
+    std::uint32_t place;  // in rows_
+    grid::IndexRange columns;
+    bool left_is_open, right_is_open;  // the end may yet not be touched
+
+    bool is_open() const { return !columns.empty() && (left_is_open || right_is_open); }
+  };
+  // An end of a Lit that is to be shortened, and how many columns there are looked at as one.
+  struct Long {
+    std::uint32_t lit;
+    int columns;
+    bool from_left;
+  };
+  static constexpr int k_least_piece = 3;
+  // Cells at one or both ends of a Lit that are asked for, from cells_[place] on.
+  struct Ends {
+    std::uint32_t lit, place;
+    grid::IndexRange columns;
+    bool from_left, from_right;
+  };
+
+  void find_in_perspective(int first, int last);
+  void add_orthographic_rows(int slice);  // of orthographic grids, whose cells no look knows
+  void decide_ends();                     // of these
+  void take_open_rows();
+  void drop_missed_rows(const SpotsAndPlanes& from);
+  void shorten(const SpotsAndPlanes& from);
+  bool ask_for_ends();
+  SpotCell cells_of(const Lit& lit, const grid::IndexRange& columns) const;
+  void ask(std::uint32_t i, const grid::IndexRange& columns, bool from_left, bool from_right);
+  void ask_more_closely();
+  void add_closer(std::uint32_t place);
+  void settle(const Ends& ends);
+  bool decide(std::uint32_t place, int column);
+
+  const ExactFrame* frame_ = nullptr;
+  BatchReader batches_;
+  SpotSlices slices_;
+  SpotRows rows_;               // slice by slice
+  std::uint32_t next_row_ = 0;  // to be added
+  std::vector<Lit> lit_;
+  std::vector<std::uint32_t> open_;  // among them
+  std::vector<Long> long_;
+  std::vector<Ends> ends_;
+  std::vector<std::uint32_t> waiting_;  // Lits or Ends without an answer
+  SpotCells cells_, closer_;            // of all ends; those of them to look at closely
+  std::vector<std::uint32_t> closer_places_;
+  std::optional<SpotJudge> judge_;  // of the spot that was asked for last
+  std::uint64_t tests_ = 0, fallbacks_ = 0;
+};
+
+}  // namespace clusterbench::assign

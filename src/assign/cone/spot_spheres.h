@@ -1,0 +1,33 @@
+#pragma once
+// The balls around many spots at once: geom::bounding_ball of LightArrays::cone, the same operations in the same order.
+
+#include <cstdint>
+#include <vector>
+
+#include "assign/cull/frustum_cull.h"
+#include "view/frame.h"
+
+namespace clusterbench::assign {
+
+// Balls in arrays, with room for whole vectors beyond the last.
+struct BallArrays {
+  std::vector<float> x, y, z, radius;
+
+  void resize(std::size_t size);
+  std::size_t capacity_bytes() const { return 4 * x.capacity() * sizeof(float); }
+};
+
+// Ball i is that of spot i, larger by these roundings: around its cone or, if not `around_cones`, the ball of its
+// range. Spots without volume get radius 0.
+void find_spot_balls(const view::LightArrays& lights, float roundings, bool around_cones, BallArrays& balls);
+
+inline GivenBalls given_points(const view::LightArrays& lights) {
+  return {lights.x.data(), lights.y.data(), lights.z.data(), lights.radius.data(), lights.reach.data(), lights.points};
+}
+// `balls`: those of all spots.
+inline GivenBalls given_spots(const view::LightArrays& lights, const BallArrays& balls) {
+  return {balls.x.data(), balls.y.data(), balls.z.data(), balls.radius.data(), lights.reach.data() + lights.points,
+          lights.spots};
+}
+
+}  // namespace clusterbench::assign

@@ -1,0 +1,54 @@
+#pragma once
+// What an assigner leaves for a shader to ask.
+
+#include <cstdint>
+#include <vector>
+
+#include "assign/contract/lists.h"
+#include "grid/grid.h"
+
+namespace clusterbench::assign {
+
+// What one frame takes. Entries are light indices, the words of a bitfield, the nodes of linked lists or of a
+// hierarchy.
+struct StructureUse {
+  std::uint64_t index_entries = 0;
+  std::uint64_t index_bytes = 0;
+  std::uint64_t header_bytes = 0;
+  std::uint64_t upload_bytes = 0;   // what is copied to the GPU this frame
+  std::uint64_t dropped_pairs = 0;  // overflow
+  std::uint64_t overflowing_cells = 0;
+  std::vector<std::uint32_t> dropped_lights;  // which, ascending, each once
+};
+
+// The most that this grid and rig could ever take.
+struct StructureLimit {
+  std::uint64_t index_entries = 0;
+  std::uint64_t bytes = 0;  // headers included
+};
+
+class LightStructure {
+ public:
+  virtual ~LightStructure() = default;
+
+  // Puts what a shader would loop over at a sample into `out`, whose memory is kept: points before spots, each once, in
+  // any order. `way`: how the shader takes a logarithm, if its lookup takes one.
+  virtual void lights_at(const grid::Sample& sample, grid::Log2 way, std::vector<std::uint32_t>& out) const = 0;
+
+  virtual StructureUse use() const = 0;
+  virtual StructureLimit limit() const = 0;
+  virtual std::uint32_t index_bits() const = 0;  // of an entry
+
+  // Whether a sample's lights depend on its cell of the grid alone.
+  virtual bool has_cells() const = 0;
+  // Each cell's lights, as lights_at() gives them at a sample that is looked up in it. For truth, details and pictures:
+  // not timed. Only with cells.
+  virtual void expand(Lists& out) const = 0;
+  Lists expanded() const {
+    Lists lists;
+    expand(lists);
+    return lists;
+  }
+};
+
+}  // namespace clusterbench::assign

@@ -1,0 +1,75 @@
+#include "assign/contract/light_test.h"
+
+#include "core/error.h"
+
+namespace clusterbench::assign {
+
+ParamSpec spot_param() {
+  return {
+      .name = "spot",
+      .summary =
+          "spots: the cone's bounding ball; the range's ball with the cone against cells' bounding spheres; or both",
+      .standard = std::string("both"),
+      .unit = "",
+      .choices = {"ball", "cone-sphere", "both"}};
+}
+
+ParamSpec inflation_param() {
+  return {.name = "inflation",
+          .summary = "padding of the radius in units of the derived rounding error; below 1 lights can be lost",
+          .standard = 1.0,
+          .unit = "",
+          .min = 0.0,
+          .max = 1e6,
+          .choices = {},
+          .conservative_from = 1.0};
+}
+
+std::vector<ParamSpec> light_params() {
+  return {spot_param(), inflation_param()};
+}
+
+void check_prepared(const view::LightArrays& lights, const std::vector<geom::Ball>& cell_balls) {
+  if (lights.spots > 0 && cell_balls.empty())
+    throw Error("", "lights", "have spots, which the build was not told of", ExitCode::internal);
+}
+
+LightTest::LightTest(const Params& params, float roundings)
+    : spot_(SpotTest::both), inflation_(static_cast<float>(params.number("inflation"))), roundings_(roundings) {
+  const std::string& name = params.text("spot");
+  if (name == "ball") spot_ = SpotTest::ball;
+  if (name == "cone-sphere") spot_ = SpotTest::cone_sphere;
+}
+
+void LightTest::start_grid(const grid::Grid& grid, const LightKinds& kinds) {
+  cell_balls_.clear();
+  if (kinds.spots && tests_cones()) cell_balls_ = grid.balls_around_cells();
+}
+
+void LightTest::start_frame(const view::LightArrays& lights) const {
+  if (tests_cones()) check_prepared(lights, cell_balls_);
+}
+
+geom::Ball LightTest::ball(const view::LightArrays& lights, std::uint32_t light, float roundings) const {
+  const float all = padding(roundings);
+  if (!lights.is_spot(light) || spot_ == SpotTest::cone_sphere) return lights.ball(light, all);
+  return geom::bounding_ball(lights.cone(light, all));
+}
+
+TestedLight LightTest::tested(const view::LightArrays& lights, std::uint32_t light) const {
+  TestedLight tested{light, ball(lights, light, roundings_), false, {}};
+  if (!lights.is_spot(light) || spot_ == SpotTest::ball) return tested;
+  tested.has_cone = true;
+  tested.cone = cone(lights, light);
+  return tested;
+}
+
+void LightTest::add_row(const TestedLight& light, std::uint32_t first_cell, std::uint32_t count, PairBuffer& pairs,
+                        std::uint64_t& tests) const {
+  if (!light.has_cone) return pairs.add_row(first_cell, count, light.index);
+  tests += count;
+  for (std::uint32_t cell = first_cell; cell < first_cell + count; ++cell)
+    if (cone_touches(light, cell)) pairs.add(cell, light.index);
+}
+
+}  // namespace clusterbench::assign

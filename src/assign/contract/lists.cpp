@@ -1,0 +1,107 @@
+#include "assign/contract/lists.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/error.h"
+#include "core/memory.h"
+
+namespace clusterbench::assign {
+
+void check_pair_count(std::uint64_t pairs) {
+  if (pairs > std::numeric_limits<std::uint32_t>::max())
+    throw Error("", "lists", "hold " + std::to_string(pairs) + " pairs; at most 2^32 - 1 fit");
+}
+
+std::uint32_t Lists::fullest_cell() const {
+  std::uint32_t longest = 0, fullest = 0;
+  for (std::uint32_t cell = 0; cell < cell_count(); ++cell) {
+    const std::uint32_t count = begin[cell + 1] - begin[cell];
+    if (count > longest) {
+      longest = count;
+      fullest = cell;
+    }
+  }
+  return fullest;
+}
+
+std::string lists_fault(const Lists& lists, std::uint32_t cell_count, std::uint32_t points, std::uint32_t spots) {
+  if (lists.begin.size() != cell_count + std::size_t{1}) return "not one list per cell";
+  if (lists.begin.front() != 0 || lists.begin.back() != lists.lights.size()) return "lists do not cover the indices";
+  std::vector<std::uint32_t> listed_in(points + std::size_t{spots}, cell_count);
+  for (std::uint32_t cell = 0; cell < cell_count; ++cell) {
+    const std::string place = " (cell " + std::to_string(cell) + ")";
+    if (lists.begin[cell] > lists.begin[cell + 1]) return "a list of negative length" + place;
+    bool has_spots = false;
+    for (const std::uint32_t light : lists.of(cell)) {
+      if (light >= listed_in.size()) return "a light that does not exist" + place;
+      if (listed_in[light] == cell) return "lights not each once" + place;
+      listed_in[light] = cell;
+      if (light < points && has_spots) return "a point light behind spots" + place;
+      has_spots = light >= points;
+    }
+  }
+  return "";
+}
+
+bool are_ascending(const Lists& lists) {
+  for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell)
+    if (!std::is_sorted(lists.of(cell).begin(), lists.of(cell).end())) return false;
+  return true;
+}
+
+void make_ascending(Lists& lists) {
+  for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell)
+    std::sort(lists.lights.begin() + lists.begin[cell], lists.lights.begin() + lists.begin[cell + 1]);
+}
+
+void PairBuffer::start(std::uint32_t cell_count) {
+  check_memory("lists of cells", std::uint64_t{cell_count} + 1, sizeof(std::uint32_t));
+  cell_count_ = cell_count;
+  pairs_ = 0;
+  most_pairs_ = memory_limit() / sizeof(std::uint32_t);
+  spans_.clear();
+}
+
+void PairBuffer::add_row(std::uint32_t first_cell, std::uint32_t count, std::uint32_t light) {
+  if (spans_.size() == spans_.capacity()) grow();
+  spans_.push_back({first_cell, count, light});
+  pairs_ += count;
+  if (pairs_ > most_pairs_) check_memory("pairs of light lists", pairs_, sizeof(std::uint32_t));
+}
+
+// As a vector would by itself, but asks first.
+void PairBuffer::grow() {
+  const std::size_t wider = std::max<std::size_t>(1, 2 * spans_.capacity());
+  check_memory("spans of light lists", wider, sizeof(Span));
+  spans_.reserve(wider);
+}
+
+void PairBuffer::finish(Lists& out) {
+  check_memory("pairs of light lists", pairs_, sizeof(std::uint32_t));
+  check_pair_count(pairs_);
+
+  // begin[c] first counts cell c, then becomes its list's start, then its end while lights are written; shifted by one
+  // place, the ends are the starts again.
+  out.begin.assign(cell_count_ + std::size_t{1}, 0);
+  for (const Span& span : spans_)
+    for (std::uint32_t cell = span.first_cell; cell < span.first_cell + span.count; ++cell) ++out.begin[cell];
+  out.lights.resize(pairs_);
+  std::uint32_t start = 0;
+  for (std::uint32_t& entry : out.begin) {
+    const std::uint32_t count = entry;
+    entry = start;
+    start += count;
+  }
+  for (const Span& span : spans_)
+    for (std::uint32_t cell = span.first_cell; cell < span.first_cell + span.count; ++cell)
+      out.lights[out.begin[cell]++] = span.light;
+  for (std::size_t cell = cell_count_; cell > 0; --cell) out.begin[cell] = out.begin[cell - 1];
+  out.begin[0] = 0;
+}
+
+std::size_t PairBuffer::capacity_bytes() const {
+  return spans_.capacity() * sizeof(Span);
+}
+
+}  // namespace clusterbench::assign

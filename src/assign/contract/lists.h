@@ -1,0 +1,61 @@
+#pragma once
+// Light lists per cell, the form in which every assigner answers and truth is kept.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace clusterbench::assign {
+
+// The lights of cell c are lights[begin[c]] .. lights[begin[c + 1] - 1]: points before spots, each once, in any order
+// besides. Truth's lists ascend.
+struct Lists {
+  std::vector<std::uint32_t> begin;  // cell count + 1
+  std::vector<std::uint32_t> lights;
+
+  std::uint32_t cell_count() const { return static_cast<std::uint32_t>(begin.size()) - 1; }
+  std::uint32_t pair_count() const { return static_cast<std::uint32_t>(lights.size()); }
+  std::span<const std::uint32_t> of(std::uint32_t cell) const {
+    return {lights.data() + begin[cell], begin[cell + 1] - begin[cell]};
+  }
+  // The first one with the longest list.
+  std::uint32_t fullest_cell() const;
+  friend bool operator==(const Lists&, const Lists&) = default;
+};
+
+// What keeps these from being lists of so many cells and lights, as a sentence; "" if nothing does.
+std::string lists_fault(const Lists& lists, std::uint32_t cell_count, std::uint32_t points, std::uint32_t spots);
+
+// Whether every list ascends, as merges and binary searches want it; and makes it so.
+bool are_ascending(const Lists& lists);
+void make_ascending(Lists& lists);
+
+// Throws Error beyond 2^32 - 1 pairs, which is what offsets into lists can count.
+void check_pair_count(std::uint64_t pairs);
+
+// Collects pairs light by light and sorts them by cell with one counting pass. Keeps its memory between frames. Throws
+// Error where that would be more than the limit on memory (core/memory.h).
+class PairBuffer {
+ public:
+  void start(std::uint32_t cell_count);
+  // Lights must come in ascending order; one light's cells in any order, each once.
+  void add(std::uint32_t cell, std::uint32_t light) { add_row(cell, 1, light); }
+  // Cells first_cell .. first_cell + count - 1.
+  void add_row(std::uint32_t first_cell, std::uint32_t count, std::uint32_t light);
+  // Throws Error beyond 2^32 - 1 pairs.
+  void finish(Lists& out);
+  std::size_t capacity_bytes() const;
+
+ private:
+  void grow();
+
+  struct Span {
+    std::uint32_t first_cell, count, light;
+  };
+  std::vector<Span> spans_;
+  std::uint64_t pairs_ = 0, most_pairs_ = 0;
+  std::uint32_t cell_count_ = 0;
+};
+
+}  // namespace clusterbench::assign

@@ -1,0 +1,47 @@
+#pragma once
+// Structures that are made from lists: how they are kept in the buffers that an engine uploads, and what that costs.
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "assign/contract/assigner.h"
+#include "assign/contract/light_structure.h"
+
+namespace clusterbench::assign {
+
+class Storage : public LightStructure {
+ public:
+  // For frames of this grid, which outlives the storage's use. The lookup of a sample goes through it.
+  void start(const grid::Grid& grid, std::uint32_t points, std::uint32_t spots);
+  // Without a lookup.
+  virtual void start(std::uint32_t cell_count, std::uint32_t points, std::uint32_t spots) = 0;
+  // Converts one frame's lists; no allocation in a steady state. Timed as the conversion.
+  virtual void store(const Lists& lists) = 0;
+  // Appends what a shader would read of a cell: its list, less what was dropped.
+  virtual void read_cell(std::uint32_t cell, std::vector<std::uint32_t>& out) const = 0;
+  virtual std::uint32_t cell_count() const = 0;
+
+  void lights_at(const grid::Sample& sample, grid::Log2 way, std::vector<std::uint32_t>& out) const final;
+  bool has_cells() const final { return true; }
+  void expand(Lists& out) const final;
+
+ private:
+  const grid::Grid* grid_ = nullptr;
+};
+
+struct StorageDescriptor {
+  std::string name;
+  std::string summary;
+  std::string source;
+  std::vector<ParamSpec> params;
+  std::unique_ptr<Storage> (*make)(const Params& params);
+};
+
+std::span<const StorageDescriptor* const> storage_descriptors();
+const StorageDescriptor* find_storage(const std::string& name);
+std::vector<std::string> storage_names();
+
+}  // namespace clusterbench::assign

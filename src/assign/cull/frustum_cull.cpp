@@ -1,0 +1,168 @@
+#include "assign/cull/frustum_cull.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "assign/cull/frustum_cull.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once per target
+#include <hwy/highway.h>
+
+#include "assign/simd/compress-inl.h"
+#include "assign/simd/vectors-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace clusterbench::assign {
+namespace HWY_NAMESPACE {
+namespace {
+
+// The sides of the picture as planes through the eye (orthographic: along the view axis), and the grid's ends in depth.
+class View {
+ public:
+  explicit View(const RowPlanes& planes)
+      : orthographic_(planes.orthographic),
+        left_(side(planes.left)),
+        right_(side(planes.right)),
+        top_(side(planes.slope.front())),
+        bottom_(side(planes.slope[static_cast<std::size_t>(planes.rows)])),
+        near_(planes.depth.front()),
+        far_(planes.depth.back()) {}
+
+  // How far a place is outside, at least.
+  HWY_INLINE V gap(V x, V y, V depth) const {
+    const V across = Max(Neg(beyond(left_, x, depth)), beyond(right_, x, depth));
+    const V up = Max(beyond(top_, y, depth), Neg(beyond(bottom_, y, depth)));
+    const V along = Max(all(near_) - depth, depth - all(far_));
+    return Max(across, Max(up, along));
+  }
+
+ private:
+  struct Side {
+    float slope, length;
+  };
+  static Side side(float slope) { return {slope, 1.0f / std::sqrt(1.0f + slope * slope)}; }
+  HWY_INLINE V beyond(const Side& side, V place, V depth) const {
+    if (orthographic_) return place - all(side.slope);
+    return (place - all(side.slope) * depth) * all(side.length);
+  }
+
+  bool orthographic_;
+  Side left_, right_, top_, bottom_;
+  float near_, far_;
+};
+
+// Where depths are among the slice planes: a search by halves, the first ones of them in registers.
+class SliceSearch {
+ public:
+  explicit SliceSearch(const RowPlanes& planes)
+      : planes_(planes.searched.data()),
+        count_(static_cast<std::int32_t>(planes.searched.size())),
+        stride_(std::max(1, count_ / static_cast<std::int32_t>(RegisterTable::size()))),
+        some_(every(0), every(static_cast<std::int32_t>(Lanes(D())))),
+        last_(planes.slices - 1) {}
+
+  // How many of the planes between two slices are below a depth (or at it, with or_at).
+  template <bool or_at>
+  HWY_INLINE VI planes_below(V depth) const {
+    VI below = Zero(DI());
+    const auto go_on = [&](VI probe, V plane) {
+      const M is_below = or_at ? plane <= depth : plane < depth;
+      below = IfThenElse(RebindMask(DI(), is_below), probe, below);
+    };
+    for (std::int32_t step = count_ / stride_ / 2; step > 0; step /= 2) {
+      const VI probe = below + all_int(step);
+      go_on(probe, some_.at(probe));
+    }
+    below = below * all_int(stride_);
+    for (std::int32_t step = stride_ / 2; step > 0; step /= 2) {
+      const VI probe = below + all_int(step);
+      go_on(probe, gathered(planes_, probe));
+    }
+    return Min(below, all_int(last_));
+  }
+
+ private:
+  // Of every stride-th plane those from `first` on.
+  V every(std::int32_t first) const {
+    return gathered(planes_, Min(from_on(first) * all_int(stride_), all_int(count_ - 1)));
+  }
+
+  const float* planes_;
+  std::int32_t count_, stride_;
+  RegisterTable some_;
+  std::int32_t last_;
+};
+
+void see(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, VisibleBalls& visible,
+         float roundings) {
+  const D d;
+  const DI di;
+  const hn::RebindToUnsigned<D> du;
+  const auto n = static_cast<std::uint32_t>(Lanes(d));
+  const View view(planes);
+  const std::uint32_t before = visible.count;
+  for (std::uint32_t i = 0; i < balls.count; i += n) {
+    const std::uint32_t left = std::min(n, balls.count - i);
+    const auto load = [&](const float* from) { return loaded(from + i, left); };
+    const V x = load(balls.x), y = load(balls.y), depth = Neg(load(balls.z)), given = load(balls.radius);
+    const V reach = load(balls.reach), slack = reach * all(roundings * 0x1p-24f);
+    const V radius = given + slack;
+    const M reaches = And(view.gap(x, y, depth) <= radius, given > Zero(d));
+    const M wanted = And(reaches, FirstN(d, left));
+    const std::size_t kept = CountTrue(d, wanted);
+    if (kept == 0) continue;
+    const auto keep = [&](V value, AlignedVector<float>& to) {
+      StoreU(compressed(d, value, wanted), d, to.data() + visible.count);
+    };
+    keep(x, visible.x);
+    keep(y, visible.y);
+    keep(depth, visible.depth);
+    // Powers of a reach must be normal numbers; elsewhere the whole grid is left to be decided.
+    const M is_plain = is_between(all(planes.least_reach), reach, all(k_most_row_reach));
+    keep(IfThenElse(is_plain, radius, infinity()), visible.radius);
+    keep(slack, visible.slack);
+    const auto lights = BitCast(du, from_on(static_cast<std::int32_t>(first_light + i)));
+    StoreU(compressed(du, lights, RebindMask(du, wanted)), du, visible.light.data() + visible.count);
+    visible.count += static_cast<std::uint32_t>(kept);
+  }
+  const SliceSearch search(planes);
+  for (std::uint32_t i = before; i < visible.count; i += n) {
+    const V depth = LoadU(d, visible.depth.data() + i), radius = LoadU(d, visible.radius.data() + i);
+    const VI first = search.planes_below<false>(depth - radius);
+    const VI last = search.planes_below<true>(depth + radius);
+    StoreU(first, di, visible.first_slice.data() + i);
+    StoreU(last, di, visible.last_slice.data() + i);
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace clusterbench::assign
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace clusterbench::assign {
+
+HWY_EXPORT(see);
+
+void VisibleBalls::reserve(std::uint32_t most) {
+  const std::size_t size = most + k_most_lanes;
+  for (AlignedVector<float>* list : {&x, &y, &depth, &radius, &slack})
+    if (list->size() < size) list->resize(size);
+  for (AlignedVector<std::int32_t>* list : {&first_slice, &last_slice})
+    if (list->size() < size) list->resize(size);
+  if (light.size() < size) light.resize(size);
+}
+
+std::size_t VisibleBalls::capacity_bytes() const {
+  return 8 * light.capacity() * sizeof(float);
+}
+
+void see_balls(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, VisibleBalls& visible,
+               float roundings) {
+  HWY_DYNAMIC_DISPATCH(see)(planes, balls, first_light, visible, roundings);
+}
+
+}  // namespace clusterbench::assign
+#endif

@@ -1,0 +1,43 @@
+#pragma once
+// Which balls a frustum grid can see, many at a time, and the slices that each may reach.
+
+#include <cstdint>
+
+#include "assign/rows/row_planes.h"
+#include "core/aligned_vector.h"
+
+namespace clusterbench::assign {
+
+// Balls as they are given: count places of each.
+struct GivenBalls {
+  const float *x, *y, *z, *radius, *reach;
+  std::uint32_t count;
+};
+
+// Balls that may touch cells, ascending by light. All arrays have room for whole vectors beyond `count`.
+struct VisibleBalls {
+  std::uint32_t count = 0;
+  AlignedVector<float> x, y, depth;
+  AlignedVector<float> radius;  // with slack
+  AlignedVector<float> slack;
+  AlignedVector<std::uint32_t> light;
+  AlignedVector<std::int32_t> first_slice, last_slice;
+
+  void reserve(std::uint32_t most);
+  std::size_t capacity_bytes() const;
+};
+
+// Units of 2^-24 of a light's reach by which a ball is made larger: more than rounding loses here (a centre 1,
+// distances to planes 3) and in the rows (see Certainty in slice_rows.cpp). A larger slack costs decisions only.
+inline constexpr float k_slice_rows_roundings = 28.0f;
+
+// Beyond this reach, or below RowPlanes::least_reach, powers of it may overflow or vanish: such balls are taken to be
+// everywhere, of infinite radius around the eye, and their rows are decided.
+inline constexpr float k_most_row_reach = 1e9f;
+
+// Appends the balls that may reach into the grid; the first one's light is `first_light`. Those left out touch no cell,
+// even if they are larger by these roundings.
+void see_balls(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, VisibleBalls& visible,
+               float roundings = k_slice_rows_roundings);
+
+}  // namespace clusterbench::assign

@@ -1,0 +1,35 @@
+#pragma once
+// Do point lights touch single cells of a frustum grid? Many pairs at once, in doubles with a bound of their error, as
+// geom::BallDecider does before it turns to exact numbers (its answers are the same; which pairs are left open is not).
+// Where a machine cannot multiply and add with one rounding, every pair is.
+
+#include <cstdint>
+#include <vector>
+
+#include "assign/cone/spot_cells.h"
+#include "assign/rows/row_planes.h"
+#include "view/frame.h"
+
+namespace clusterbench::assign {
+
+// Pairs of a ball and a cell, and the answers. Whole vectors can be read and written beyond `count`.
+struct BallCells {
+  std::uint32_t count = 0;
+  std::vector<std::int32_t> light, slice, row, column;  // of endless lights nothing is said
+  std::vector<Touch> touch;
+
+  // Before the first add().
+  void reserve(std::size_t most);
+  void add(std::uint32_t of_light, int in_slice, int in_row, int in_column) {
+    light[count] = static_cast<std::int32_t>(of_light);
+    slice[count] = in_slice;
+    row[count] = in_row;
+    column[count++] = in_column;
+  }
+  std::size_t capacity_bytes() const { return touch.capacity() * (4 * sizeof(std::int32_t) + sizeof(Touch)); }
+};
+
+// `planes`: those of the grid in whose space the lights are.
+void look_at_balls(const view::LightArrays& lights, const RowPlanes& planes, BallCells& cells);
+
+}  // namespace clusterbench::assign

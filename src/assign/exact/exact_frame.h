@@ -1,0 +1,107 @@
+#pragma once
+// A frame on a frustum grid as all threads of exact-fast see it, and its balls slice by slice.
+
+#include <algorithm>
+#include <array>
+
+#include "assign/contract/lists.h"
+#include "assign/cull/slice_bins.h"
+#include "view/frame.h"
+
+namespace clusterbench::assign {
+
+struct ExactFrame {
+  const grid::Grid& grid;
+  const RowPlanes& planes;
+  const view::LightArrays& lights;
+  const VisibleBalls& visible;     // first those of points; a spot's ball bounds it
+  std::uint32_t first_spot_place;  // in `seen`
+  const SphereSetup& shapes;       // of the points
+  const SliceBins& balls;
+
+  // Places in `seen` of a slice's points and spots, ascending.
+  std::span<const std::uint32_t> points_of(int slice) const {
+    return balls.of(slice).first(points_before_spots(slice));
+  }
+  std::span<const std::uint32_t> spots_of(int slice) const {
+    return balls.of(slice).subspan(points_before_spots(slice));
+  }
+
+ private:
+  std::size_t points_before_spots(int slice) const {
+    const std::span<const std::uint32_t> all = balls.of(slice);
+    if (first_spot_place == visible.count) return all.size();
+    return static_cast<std::size_t>(std::ranges::lower_bound(all, first_spot_place) - all.begin());
+  }
+};
+
+// The rows of some slices' balls, slice by slice and batch by batch. As many batches as can be are found at once, of
+// several slices where one has fewer.
+class BatchReader {
+ public:
+  using PlacesOf = std::span<const std::uint32_t> (ExactFrame::*)(int slice) const;
+
+  // Of slices first .. last - 1.
+  void start(const ExactFrame& frame, PlacesOf places_of, int first, int last) {
+    frame_ = &frame;
+    places_of_ = places_of;
+    slice_ = first;
+    last_ = last;
+    begin_ = count_ = next_ = 0;
+  }
+  // The slice's next batch, null after its last one. Slices must be read to their end, one after the other. Of batches
+  // that are found together settle(slice, batch) is called for each before one of them is returned, then finish().
+  template <class Settle, class Finish>
+  const BatchRows* next(int slice, Settle&& settle, Finish&& finish) {
+    if (next_ == count_) {
+      find_more();
+      for (std::size_t i = 0; i < count_; ++i) settle(balls_[i].slice, rows_.batches[i]);
+      finish();
+    }
+    if (next_ == count_ || balls_[next_].slice != slice) return nullptr;
+    return &rows_.batches[next_++];
+  }
+  const BatchRows* next(int slice) {
+    return next(
+        slice, [](int, BatchRows&) {}, [] {});
+  }
+  std::size_t capacity_bytes() const { return rows_.capacity_bytes(); }
+
+ private:
+  void find_more() {
+    const std::uint32_t most = balls_per_batch();
+    count_ = next_ = 0;
+    while (count_ < k_batches_at_once && slice_ < last_) {
+      const std::span<const std::uint32_t> places = (frame_->*places_of_)(slice_).subspan(begin_);
+      if (places.size() <= most) {
+        if (!places.empty()) balls_[count_++] = {slice_, places.data(), static_cast<std::uint32_t>(places.size())};
+        ++slice_;
+        begin_ = 0;
+      } else {
+        balls_[count_++] = {slice_, places.data(), most};
+        begin_ += most;
+      }
+    }
+    if (count_ != 0) find_rows(frame_->planes, frame_->visible, frame_->shapes, std::span(balls_).first(count_), rows_);
+  }
+
+  const ExactFrame* frame_ = nullptr;
+  PlacesOf places_of_ = nullptr;
+  int slice_ = 0, last_ = 0;  // the next one of which batches are to be found; where to stop
+  std::size_t begin_ = 0;     // among its balls
+  std::array<BallsOfSlice, k_batches_at_once> balls_{};
+  std::size_t count_ = 0, next_ = 0;  // of the batches found; the next one to be read
+  RowBatches rows_;
+};
+
+// Calls take(light, columns, is_uncertain) for a batch's spans of a row.
+template <class Take>
+void each_span(const BatchRows& batch, int row, Take&& take) {
+  const std::uint32_t* columns = batch.columns.data() + static_cast<std::size_t>(row) * batch.lanes;
+  for (std::uint32_t lane = 0; lane < batch.lanes; ++lane)
+    if (columns[lane] != BatchRows::k_none)
+      take(batch.lights[lane], grid::IndexRange{BatchRows::first_of(columns[lane]), BatchRows::last_of(columns[lane])},
+           (columns[lane] & BatchRows::k_uncertain) != 0);
+}
+
+}  // namespace clusterbench::assign

@@ -1,0 +1,155 @@
+#pragma once
+// What the exact assigners share: a row's columns in closed form, single cells decided from the scene's own numbers,
+// and intervals narrowed to the cells that are touched.
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "assign/cull/frustum_cull.h"
+#include "geom/ball.h"
+#include "geom/meets.h"
+#include "geom/row_slopes.h"
+#include "geom/spot_decider.h"
+#include "grid/grid.h"
+#include "grid/index_range.h"
+#include "view/frame.h"
+
+namespace clusterbench::assign {
+
+// One row of cells (one slice, one row of tiles): its first cell's index, and what bounds it.
+struct Row {
+  std::uint32_t first_cell;
+  float y0, y1, depth0, depth1;
+};
+
+inline Row row_of(const grid::ScreenGrid& grid, int slice, int row) {
+  const auto z = static_cast<std::size_t>(slice);
+  const auto first_cell = static_cast<std::uint32_t>((slice * grid.tiles.count.y + row) * grid.tiles.count.x);
+  return {first_cell, grid.tiles.y_min(row), grid.tiles.y_max(row), grid.slices.boundaries[z],
+          grid.slices.boundaries[z + 1]};
+}
+
+inline geom::FrustumPiece piece_of(const grid::Tiles& tiles, const Row& row, int column) {
+  const auto x = static_cast<std::size_t>(column);
+  return {tiles.x[x], tiles.x[x + 1], row.y0, row.y1, row.depth0, row.depth1, tiles.orthographic};
+}
+
+// In single precision, in which centres and radii are: more than a centre's rounding (1) and the steps of row_slopes.h
+// (12) can add up to. Twice as many would double the decisions, which are rare; too few would lose lights.
+inline constexpr float k_exact_roundings = 32.0f;
+
+// Lights of more reach, which the domain does not have (geom/domain.h), are decided cell by cell.
+inline constexpr float k_most_exact_reach = 1e17f;
+
+// Columns of a row that a ball touches. The answer is right for some ball whose centre and surface are off by less than
+// k_exact_roundings.
+class RowColumns {
+ public:
+  explicit RowColumns(const grid::Tiles& tiles) : tiles_(tiles) {}
+
+  grid::IndexRange touched(const geom::Ball& ball, const Row& row, geom::Errs errs) const {
+    if (!(ball.radius > 0.0f)) return {};
+    return tiles_.orthographic ? in_box(ball, row) : in_wedge(ball, row, errs);
+  }
+
+ private:
+  grid::IndexRange in_wedge(const geom::Ball& ball, const Row& row, geom::Errs errs) const {
+    // In double precision: where the surface nearly goes through the eye, the tangents touch too close to it for single
+    // precision.
+    const geom::BallFromEye<double> visible{ball.center.x, ball.center.y, -ball.center.z, ball.radius};
+    const geom::SlopeHull<double> slopes =
+        geom::row_slopes<double>(visible, row.y0, row.y1, {row.depth0, row.depth1}, errs);
+    return grid::intervals_touched(tiles_.x, slopes.lo, slopes.hi);
+  }
+  grid::IndexRange in_box(const geom::Ball& ball, const Row& row) const {
+    const float depth = -ball.center.z;
+    const float gap_z = std::max({0.0f, row.depth0 - depth, depth - row.depth1});
+    const float gap_y = std::max({0.0f, row.y0 - ball.center.y, ball.center.y - row.y1});
+    const float square = ball.radius * ball.radius - gap_z * gap_z - gap_y * gap_y;
+    if (!(square >= 0.0f)) return {};
+    const float half = std::sqrt(square);
+    return grid::intervals_touched(tiles_.x, ball.center.x - half, ball.center.x + half);
+  }
+
+  const grid::Tiles& tiles_;
+};
+
+// Decides cells of one point light. Made for every light, and cheap until the first question.
+class BallJudge {
+ public:
+  BallJudge(const grid::Grid& grid, const view::LightArrays& lights, std::uint32_t light)
+      : tiles_(grid.screen().tiles), lights_(lights), light_(light) {}
+
+  bool touches(const Row& row, int column) {
+    if (!decider_) {
+      const geom::LightVolume volume = lights_.volume(light_);
+      decider_.emplace(volume.apex, volume.range);
+    }
+    return decider_->meets(piece_of(tiles_, row, column));
+  }
+
+ private:
+  const grid::Tiles& tiles_;
+  const view::LightArrays& lights_;
+  std::uint32_t light_;
+  std::optional<geom::BallDecider> decider_;
+};
+
+// The same of a spot.
+class SpotJudge {
+ public:
+  SpotJudge(const grid::Grid& grid, const view::LightArrays& lights, std::uint32_t light)
+      : grid_(grid), lights_(lights), light_(light) {}
+
+  std::uint32_t light() const { return light_; }
+
+  bool touches(std::uint32_t cell) {
+    if (!decider_) decider_.emplace(lights_.volume(light_));
+    const geom::Cell shape = grid_.cell(cell);
+    geom::Verdict verdict = decider_->meets_quickly(shape);
+    if (verdict == geom::Verdict::open) {
+      if (!filter_) filter_.emplace(lights_.volume(light_));
+      verdict = filter_->meets(shape);
+    }
+    if (verdict == geom::Verdict::open) verdict = decider_->meets_after_all(shape);
+    return verdict != geom::Verdict::no;
+  }
+
+ private:
+  const grid::Grid& grid_;
+  const view::LightArrays& lights_;
+  std::uint32_t light_;
+  std::optional<geom::SpotDecider> decider_;
+  std::optional<geom::LightFilter> filter_;
+};
+
+inline grid::IndexRange hull(const grid::IndexRange& a, const grid::IndexRange& b) {
+  if (a.empty() || b.empty()) return a.empty() ? b : a;
+  return {std::min(a.first, b.first), std::max(a.last, b.last)};
+}
+
+// The cells of a range without those at its ends that misses(column) says are not touched. All cells between two
+// touched ones are, so only the ends are asked.
+template <class Misses>
+grid::IndexRange narrowed(grid::IndexRange range, Misses&& misses) {
+  while (!range.empty() && misses(range.first)) ++range.first;
+  while (range.last > range.first && misses(range.last)) --range.last;
+  return range;
+}
+
+// The columns of a row that a point light touches, all of them within `outer`. What single precision leaves open is
+// asked of the judge, which adds to `questions`.
+inline grid::IndexRange settled(const grid::IndexRange& outer, const RowColumns& columns, const geom::Ball& smaller,
+                                const Row& row, BallJudge& judge, std::uint64_t& questions) {
+  const grid::IndexRange inner = columns.touched(smaller, row, geom::Errs::inward);
+  if (outer.first == inner.first && outer.last == inner.last) return outer;
+  const auto misses = [&](int column) {
+    if (inner.holds(column)) return false;
+    ++questions;
+    return !judge.touches(row, column);
+  };
+  return hull(inner, narrowed(outer, misses));
+}
+
+}  // namespace clusterbench::assign

@@ -1,0 +1,73 @@
+#pragma once
+// Lists without scattering over the grid: the spans of a row of cells are collected side by side; then each cell
+// compares all of them at once and compress-stores the lights whose span holds it (row_lists.h). Bands of rows are
+// finished one after the other, so that what was collected is still in the cache. SIMD, dispatched at run time; the
+// same lists as PairBuffer on every target.
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "assign/contract/lists.h"
+#include "assign/lists/row_lists.h"
+#include "grid/index_range.h"
+
+namespace clusterbench::assign {
+
+// Cells that take no lights: spans may cover them, their lists stay empty.
+struct BandHole {
+  grid::IndexRange rows, columns;
+};
+
+// The instruction set that is used: "AVX3", "AVX2", "SSE4", "NEON", "SCALAR" ... as Highway names it.
+const char* simd_target_name();
+
+// Keeps its memory between frames.
+class ListBuilder {
+ public:
+  // A frame of `bands` bands; a band is `rows` rows (a slice, say) of `columns` cells, at most
+  // ColumnSpan::k_most_columns. `out` must outlive finish().
+  void start(std::uint32_t bands, std::uint32_t rows, std::uint32_t columns, Lists& out);
+  // To the present band. Lights must come in ascending order within a row, in each cell once.
+  // first <= last < columns.
+  void add(std::uint32_t row, std::uint32_t first, std::uint32_t last, std::uint32_t light) {
+    std::uint32_t& size = sizes_[row];
+    if (size == pitch_) grow();
+    const std::size_t place = row * pitch_ + size++;
+    most_ = std::max(most_, size);
+    lights_[place] = light;
+    columns_of_[place] = ColumnSpan::of(first, last);
+    band_pairs_ += last - first + 1;
+  }
+  // Adds a batch of lights' spans to rows first_row .. last_row. columns[row * lanes + i]: the span of lights[i] as
+  // a ColumnSpan, k_no_span, or with k_open_span set one that is not to be added as it is. Rows
+  // with such spans are left alone: is_left[row] says so, and the answer whether there are any. `lanes`: as many as fit
+  // into a vector.
+  static constexpr std::uint32_t k_no_span = 0xffffffff, k_open_span = 0x80000000;
+  bool add_batch(int first_row, int last_row, const std::uint32_t* columns, const std::uint32_t* lights,
+                 std::uint8_t* is_left);
+  // Writes the band's lists; the next band begins. Throws Error beyond 2^32 - 1 pairs or the limit on memory.
+  void finish_band(const BandHole& hole = {});
+  // After the last band.
+  void finish();
+
+  std::size_t capacity_bytes() const;
+
+ private:
+  void make_room(std::uint32_t spans);
+  std::uint32_t* finish_row(std::uint32_t row, const grid::IndexRange& hole, std::uint32_t* begin, std::uint32_t* to);
+  void grow();
+
+  std::uint32_t rows_ = 0, columns_ = 0, band_ = 0;
+  std::uint64_t pairs_ = 0, band_pairs_ = 0;
+  Lists* out_ = nullptr;
+  std::vector<std::uint32_t> sizes_;  // of the rows
+  std::uint32_t most_ = 0;            // no row has more spans
+  std::uint32_t width_ = 0;           // about how many columns the band's spans have
+  FewColumns few_;
+  // Row r's spans are at r * pitch_; whole vectors can be read and written beyond the last row.
+  std::size_t pitch_ = 0;
+  AlignedVector<std::uint32_t> lights_, columns_of_;
+};
+
+}  // namespace clusterbench::assign

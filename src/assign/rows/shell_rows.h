@@ -1,0 +1,36 @@
+#pragma once
+// The columns that balls touch in the rows of a shell of distances: assigners/distance.cpp with one ball per lane, the
+// same operations in the same order, in double precision where it takes that.
+
+#include <vector>
+
+#include "assign/bounds/bounds_rows.h"
+#include "assign/bounds/screen_bounds.h"
+#include "assign/bounds/tile_planes.h"
+#include "grid/grid.h"
+
+namespace clusterbench::assign {
+
+// The planes and shells of a distance grid. Made once per grid.
+struct ShellPlanes {
+  BoxPlanes boundaries;                // `depths` are the shells' distances
+  std::vector<float> slope;            // y / depth of the tile planes from the top
+  std::vector<double> stretch;         // sqrt(1 + slope²)
+  TilePlane left, right, top, bottom;  // of the view
+
+  explicit ShellPlanes(const grid::ScreenGrid& grid);
+  ShellPlanes() = default;
+  int rows() const { return static_cast<int>(slope.size()) - 1; }
+  std::size_t capacity_bytes() const;
+};
+
+// Appends those of the balls, larger by these roundings, that may reach a shell within the view, with all shells that
+// they may reach and all rows. The first ball belongs to light `first_light`. Those left out touch no cell, not even by
+// what rounding adds.
+void find_shells(const ShellPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, float roundings,
+                 BoxedBalls& boxed);
+
+// The batch's slice is the shell.
+void find_shell_rows(const ShellPlanes& planes, const BallBatch& batch, BatchRows& out);
+
+}  // namespace clusterbench::assign

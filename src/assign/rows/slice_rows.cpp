@@ -1,0 +1,388 @@
+#include "assign/rows/slice_rows.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "assign/rows/orthographic_rows.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "assign/rows/slice_rows.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once per target
+#include <hwy/highway.h>
+
+#include "assign/rows/batch_rows-inl.h"
+#include "assign/rows/plane_tables-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace clusterbench::assign {
+namespace HWY_NAMESPACE {
+namespace {
+
+// Slopes x / depth from low to high.
+struct Hull {
+  V low, high;
+};
+
+// One of the slice's two planes. The inverse depth of a plane at the eye ends where its products with reaches would not
+// be finite; for what that changes see RowPlanes::least_reach.
+struct SlicePlane {
+  float depth, inverse;
+
+  SlicePlane() = default;
+  SlicePlane(const RowPlanes& planes, std::size_t k)
+      : depth(planes.depth[k]), inverse(std::min(planes.inverse_depth[k], RowPlanes::k_most_inverse_depth)) {}
+};
+
+// Balls of a slice, one per lane.
+struct Spheres {
+  V x, y, depth, radius;
+
+  HWY_INLINE Spheres of(Which which) const {
+    return {taken(x, which), taken(y, which), taken(depth, which), taken(radius, which)};
+  }
+  // At an inverse depth a ball is a disk around (x, y) times that; half of what it has of a line that is `aside` from
+  // its centre.
+  HWY_INLINE V half_chord(V inverse, V aside) const {
+    const V before = (radius + depth) * inverse - all(1.0f);
+    const V behind = all(1.0f) - (depth - radius) * inverse;
+    return root(before * behind - aside * aside);
+  }
+};
+
+// The rows that balls may touch.
+struct BallRows {
+  VI first, count;
+  VI held;  // all bits of those that hold all of the slice's part of the view: all columns of all rows are theirs
+};
+
+// Rows of one batch.
+class Batch {
+ public:
+  HWY_INLINE void start(const RowPlanes& planes, const SphereSetup& shapes, const BallsOfSlice& balls) {
+    planes_ = &planes;
+    near_ = {planes, static_cast<std::size_t>(balls.slice)};
+    far_ = {planes, static_cast<std::size_t>(balls.slice) + 1};
+    const Quads sphere = gathered_quads(shapes.sphere.data(), balls.places);
+    balls_ = {sphere.first, sphere.second, sphere.third, sphere.fourth};
+    const Quads touch = gathered_quads(shapes.touch.data(), balls.places);
+    slack_ = touch.first;
+    lights_ = BitCast(DU(), touch.second);
+    lean_ = touch.third;
+    inverse_upright_ = touch.fourth;
+    const M is_ball = FirstN(D(), balls.count);
+    is_precise_ = AllFalse(D(), And(is_ball, inverse_upright_ == Zero(D())));
+    const Quads extremes = gathered_quads(shapes.extremes.data(), balls.places);
+    find_extremes({within(extremes.first), within(extremes.second)}, {within(extremes.third), within(extremes.fourth)});
+    const V nearest = Max(all(near_.depth), balls_.depth - (balls_.radius + slack_));
+    rate_ = all(planes.columns_per_slope) / nearest;
+    least_area_ = least_area_of(balls_.radius, slack_, rate_, farthest_corner());
+  }
+
+  VU lights() const { return lights_; }
+  std::int32_t last_row() const { return planes_->rows - 1; }
+
+  // The rows that each ball may touch. `wanted`: the lanes that hold a ball.
+  HWY_INLINE BallRows find_rows(M wanted) const {
+    const V top = all(planes_->slope.front()), bottom = all(planes_->slope[static_cast<std::size_t>(planes_->rows)]);
+    const M is_level = And(upwards_.low <= top, upwards_.high >= bottom);
+    const M is_between_sides = And(sideways_.low <= all(planes_->right), sideways_.high >= all(planes_->left));
+    const M touches = And(wanted, And(is_level, is_between_sides));
+    const V scale = all(planes_->rows_per_slope), margin = all(planes_->row_margin), zero = Zero(D());
+    const V from = (top - Min(upwards_.high, top)) * scale - margin;
+    const V to = (top - Max(upwards_.low, bottom)) * scale + margin;
+    const VI last_row = all_int(planes_->rows - 1);
+    const VI held = VecFromMask(DI(), RebindMask(DI(), And(wanted, holds_view())));
+    const VI first = Min(whole(Floor(Max(from, zero))), last_row);
+    const VI last = Min(whole(Floor(Max(to, zero))), last_row);
+    const VI count = IfThenElseZero(RebindMask(DI(), touches), last - first + all_int(1));
+    return {AndNot(held, first), Or(AndNot(held, count), And(held, all_int(planes_->rows))), held};
+  }
+
+  // All columns of the held ones, none of others.
+  HWY_INLINE VU columns_of_held(VI held) const {
+    const VU all_columns = Set(DU(), ColumnSpan::of(0, static_cast<std::uint32_t>(planes_->columns) - 1));
+    return Or(And(BitCast(DU(), held), all_columns), Not(BitCast(DU(), held)));
+  }
+
+  // What the balls in which[i] have between two tile planes. At each depth a ball is a disk, so it reaches farthest
+  // aside at its centre's height, or in the tile plane that is nearer to that; within a tile plane it does so where the
+  // tangent touches, or in the slice's plane that is nearer to that.
+  HWY_INLINE Hull hull_of(Which which, V top, V bottom) const {
+    const RowBalls balls = {balls_.of(which), taken(lean_, which), taken(inverse_upright_, which)};
+    const auto in_row = [&](V slope) { return Min(Max(taken(slope, which), bottom), top); };
+    return {end_of<-1>(balls, in_row(farthest_left_)), end_of<1>(balls, in_row(farthest_right_))};
+  }
+
+  // The columns of that.
+  //
+  // Certainty. Let r be the given radius, d the slack, R = r + d, and e = 2^-24 of the reach, so that d >= 28 e. An end
+  // is x / depth of a point of the larger ball: its depth and its plane through the eye are chosen within the slice and
+  // the row, and what follows from them is less than 8 e off; so the ball of r + 2 d has such a point. And it is no
+  // further in than the given ball's. For where the end is looked for is rounded, too, by s along the circle of radius
+  // w that a tile plane cuts out; near the circle's farthest point that loses s² / 2 w, while the given ball's circle
+  // is smaller by at least d R / w. So s may be sqrt(7 e R) for an eighth of that. Depths and heights make it up to 3
+  // e; the circle's chord, which is up to 2 e R / w off, and inverse_upright as much as set_up_spheres() lets them. It
+  // also makes certain whether the eye is inside the ball or a circle, where all depends on a sign.
+  //
+  // So the hull is that of a ball between the given one and the given one with twice the slack, D = 2 d. Let m be the
+  // row's point nearest to the centre, g away, and w = sqrt(R² - g²) for the larger radius R. A point p of the larger
+  // ball in the row is within w of m; moved towards m by the share D / (R - g) of that it is in the given ball, and
+  // still in the row (here its part in the picture). That is D w / (R - g) = D (R + g) / w <= 2 D R / w far. From a
+  // point of slope s on, a metre is at most q = sqrt(1 + s²) / near of slope, where no point of the larger ball in the
+  // slice is nearer in depth than `near`, so the given ball's extremes are within 2 D R q / w of the hull's, and
+  // the hull's width in the picture, h, is at most 2 w q; so that is at most 4 D R q² / h. The
+  // columns are certainly right if the hull's ends are farther than that from the next boundary inwards: that is, if
+  // the distance times h is at least 4 D R q² = 8 slack R q², in columns the `least_area`. And the given ball reaches
+  // the row at all if R - g >= D, which follows from h² >= 8 D R q². Large balls near the eye are far wider than the
+  // picture, and h says little of w. For them any place in the row does instead of m: it is no nearer, so its w is no
+  // larger. The columns are certain if the way inwards is at least 2 D R q / w, and the ball reaches the row if w² >= 2
+  // D R.
+  HWY_INLINE VU columns_of(Which which, const PlaneTable& slopes, VI row, const Hull& hull, M wanted) const {
+    return columns_between(
+        *planes_, hull.low, hull.high, wanted, taken(least_area_, which),
+        [](V least, V most) { return all(1.0f) + Max(least * least, most * most); },
+        [&](V inwards, V steepness) {
+          const V radius = taken(balls_.radius, which), slack = taken(slack_, which);
+          const VI above = Min(row, all_int(last_row()));
+          const V top = slopes.at(above), bottom = slopes.at(above + all_int(1));
+          return is_certain_by_chord(half_chord_square(which, top, bottom), inwards, radius, slack, taken(rate_, which),
+                                     steepness);
+        });
+  }
+
+ private:
+  // What rows want of their balls.
+  struct RowBalls {
+    Spheres spheres;
+    V lean, inverse_upright;
+  };
+
+  // The nearest inverse depth in the slice.
+  HWY_INLINE V within(V inverse) const { return Min(Max(inverse, all(far_.inverse)), all(near_.inverse)); }
+
+  // `sideways`, `upwards`: the inverse depths where the balls reach farthest within the slice.
+  HWY_INLINE void find_extremes(const Hull& sideways, const Hull& upwards) {
+    const auto radius_at = [&](V inverse) { return balls_.half_chord(inverse, Zero(D())); };
+    upwards_ = {balls_.y * upwards.low - radius_at(upwards.low), balls_.y * upwards.high + radius_at(upwards.high)};
+    sideways_ = {(balls_.x - balls_.radius) * sideways.low, (balls_.x + balls_.radius) * sideways.high};
+    farthest_left_ = balls_.y * sideways.low;
+    farthest_right_ = balls_.y * sideways.high;
+  }
+
+  // The least (side = -1) or greatest (side = 1) slope x / depth in tile planes of some slopes.
+  template <int side>
+  HWY_INLINE V end_of(const RowBalls& balls, V slope) const {
+    const auto go = [](V from, V by) { return side < 0 ? from - by : from + by; };
+    const Spheres& ball = balls.spheres;
+    const V away = ball.y - slope * ball.depth;
+    const V tilt_square = all(1.0f) + slope * slope;
+    const V chord = root(ball.radius * ball.radius * tilt_square - away * away);
+    const V ahead = ball.depth + slope * ball.y;
+    V touch = go(ahead, balls.lean * chord) * balls.inverse_upright;
+    if (!is_precise_) touch = precise_touch<side>(balls, chord, ahead, tilt_square, touch);
+    // Where none touches ahead of the eye the ball grows towards it.
+    const M is_ahead = touch > Zero(D());
+    const V inverse = IfThenElse(is_ahead, within(touch), all(near_.inverse));
+    const V aside = slope - ball.y * inverse;
+    return go(ball.x * inverse, ball.half_chord(inverse, aside));
+  }
+
+  // Where the tangent touches, for balls of which inverse_upright does not say so precisely enough.
+  template <int side>
+  HWY_NOINLINE V precise_touch(const RowBalls& balls, V chord, V ahead, V tilt_square, V otherwise) const {
+    const Spheres& ball = balls.spheres;
+    const V zero = Zero(D()), at_eye = all(SphereSetup::k_at_eye);
+    const V ahead_square = (ball.depth - ball.radius) * (ball.depth + ball.radius);
+    const V upright = ball.y * ball.y + ahead_square, x_square = ball.x * ball.x;
+    const V sum = ahead + Abs(balls.lean) * chord;
+    const V square = x_square + upright;
+    const V from_eye = ahead * ahead + x_square * tilt_square;
+    const V outer = IfThenElse(upright > zero, sum / upright, at_eye);
+    const V inner = IfThenElse(sum > zero, from_eye / (square * sum), at_eye);
+    const M is_outer = side < 0 ? ball.x < zero : ball.x >= zero;
+    const V precise = IfThenElse(is_outer, outer, inner);
+    return IfThenElse(balls.inverse_upright == zero, precise, otherwise);
+  }
+
+  HWY_INLINE M holds_view() const { return least_area_ == Zero(D()); }
+
+  // Of a place in the row that is about as near to the centre as any, how far it is from the surface, squared.
+  HWY_INLINE V half_chord_square(Which which, V top, V bottom) const {
+    const V centre = taken(balls_.depth, which), radius = taken(balls_.radius, which);
+    const V depth = Min(Max(centre, all(near_.depth)), all(far_.depth)), along = centre - depth;
+    const V across = gap(all(planes_->left) * depth, taken(balls_.x, which), all(planes_->right) * depth);
+    const V up = gap(bottom * depth, taken(balls_.y, which), top * depth);
+    const V square = across * across + up * up + along * along;
+    return radius * radius - square;
+  }
+
+  // At least the squared distance to the farthest corner of the slice's part of the view. Balls smaller than half its
+  // width do not hold it anyway.
+  HWY_INLINE V farthest_corner() const {
+    const float half_width = 0.49f * far_.depth * (planes_->right - planes_->left);
+    if (AllTrue(D(), balls_.radius < all(half_width))) return infinity();
+    return Max(farthest_corner(near_), farthest_corner(far_));
+  }
+
+  // The squared distance to the picture's farthest corner in a slice's plane.
+  HWY_INLINE V farthest_corner(const SlicePlane& plane) const {
+    const auto bottom = planes_->slope[static_cast<std::size_t>(planes_->rows)], top = planes_->slope.front();
+    const V across = farther_end(balls_.x, planes_->left * plane.depth, planes_->right * plane.depth);
+    const V up = farther_end(balls_.y, bottom * plane.depth, top * plane.depth);
+    const V along = balls_.depth - all(plane.depth);
+    return across * across + up * up + along * along;
+  }
+
+  const RowPlanes* planes_;
+  SlicePlane near_, far_;
+  Spheres balls_;
+  V slack_;
+  VU lights_;
+  V lean_, inverse_upright_;          // SphereSetup::touch
+  bool is_precise_;                   // that is, everywhere
+  Hull upwards_;                      // of what balls have in the slice, y / depth
+  Hull sideways_;                     // at least that, x / depth
+  V farthest_left_, farthest_right_;  // where that is farthest to a side, y / depth
+  V rate_;                            // the most columns that a metre to the side can be
+  V least_area_;                      // for rows straight ahead
+};
+
+std::uint32_t lanes() {
+  return static_cast<std::uint32_t>(Lanes(D()));
+}
+
+// The rows of a batch, ball by ball from the top, one per lane: row t belongs to the ball in lane lane_of(t).
+class RowsOfBatch {
+ public:
+  // `list`: where the lanes are listed.
+  HWY_INLINE void start(const BallRows& rows, std::int32_t* list) {
+    list_ = list;
+    count_ = 0;
+    const DI di;
+    const auto n = static_cast<std::int32_t>(Lanes(di));
+    const VI listed = AndNot(rows.held, rows.count), end = sums(listed);
+    shift_ = rows.first - (end - listed);
+    std::int32_t ends[k_most_lanes];
+    StoreU(end, di, ends);
+    // What is written beyond a lane's end, the next one overwrites.
+    const bool are_short = AllTrue(di, listed < all_int(n + 1));
+    for (std::int32_t lane = 0; lane < n; ++lane) {
+      StoreU(all_int(lane), di, list + count_);
+      if (!are_short)
+        for (count_ += n; count_ < ends[lane]; count_ += n) StoreU(all_int(lane), di, list + count_);
+      count_ = ends[lane];
+    }
+    StoreU(Zero(di), di, list + count_);
+  }
+
+  std::int32_t count() const { return count_; }
+  HWY_INLINE VI lane_of(std::int32_t t) const { return LoadU(DI(), list_ + t); }
+  HWY_INLINE VI number_of(Which which, VI t) const { return taken(shift_, which) + t; }
+
+ private:
+  const std::int32_t* list_;
+  std::int32_t count_;
+  VI shift_;  // of each ball: what is to be added to where its rows are listed for their numbers
+};
+
+// What the balls have in all rows, as slopes.
+HWY_INLINE void find_hulls(const PlaneTable& slopes, const Batch& batch, const RowsOfBatch& rows, RowHulls& out) {
+  const D d;
+  for (std::int32_t begin = 0; begin < rows.count(); begin += static_cast<std::int32_t>(Lanes(d))) {
+    const Which which = IndicesFromVec(DI(), rows.lane_of(begin));
+    const VI above = Min(rows.number_of(which, from_on(begin)), all_int(batch.last_row()));
+    const Hull hull = batch.hull_of(which, slopes.at(above), slopes.at(above + all_int(1)));
+    StoreU(hull.low, d, out.low.data() + begin);
+    StoreU(hull.high, d, out.high.data() + begin);
+  }
+}
+
+// The columns of all rows.
+HWY_INLINE void find_columns(const PlaneTable& slopes, const Batch& batch, const RowsOfBatch& rows, int grid_rows,
+                             const RowHulls& hulls, BatchRows& out) {
+  const D d;
+  const DI di;
+  const auto n = static_cast<std::int32_t>(Lanes(di));
+  const VI nowhere = all_int(grid_rows * n);
+  for (std::int32_t begin = 0; begin < rows.count(); begin += n) {
+    const VI t = from_on(begin), lane = rows.lane_of(begin);
+    const Which which = IndicesFromVec(di, lane);
+    const MI wanted = t < all_int(rows.count());
+    const VI row = rows.number_of(which, t);
+    const Hull hull = {LoadU(d, hulls.low.data() + begin), LoadU(d, hulls.high.data() + begin)};
+    const VU columns = batch.columns_of(which, slopes, row, hull, RebindMask(d, wanted));
+    const VI to = row * all_int(n) + lane;
+    ScatterIndex(BitCast(di, columns), di, reinterpret_cast<std::int32_t*>(out.columns.data()),
+                 IfThenElse(wanted, to, nowhere));
+    list_open(columns, to, out);
+  }
+}
+
+// Step by step for all batches, because the steps of one wait for each other.
+void rows_of_batches(const RowPlanes& planes, const SphereSetup& shapes, std::span<const BallsOfSlice> balls,
+                     RowBatches& out) {
+  const std::size_t count = balls.size();
+  const PlaneTable slopes(planes.slope, planes.rows + 1);
+  Batch batches[k_batches_at_once];
+  BallRows ball_rows[k_batches_at_once];
+  RowsOfBatch rows[k_batches_at_once];
+  for (std::size_t i = 0; i < count; ++i) {
+    batches[i].start(planes, shapes, balls[i]);
+    ball_rows[i] = batches[i].find_rows(FirstN(D(), balls[i].count));
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    start_batch(planes.rows, ball_rows[i].first, ball_rows[i].count, batches[i].lights(),
+                batches[i].columns_of_held(ball_rows[i].held), out.batches[i]);
+    rows[i].start(ball_rows[i], out.lanes[i].data());
+  }
+  for (std::size_t i = 0; i < count; ++i) find_hulls(slopes, batches[i], rows[i], out.hulls[i]);
+  for (std::size_t i = 0; i < count; ++i)
+    find_columns(slopes, batches[i], rows[i], planes.rows, out.hulls[i], out.batches[i]);
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace clusterbench::assign
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace clusterbench::assign {
+
+HWY_EXPORT(lanes);
+HWY_EXPORT(rows_of_batches);
+
+void BatchRows::make_room(int of_rows) {
+  const std::size_t size = (static_cast<std::size_t>(of_rows) + 1) * k_row_lanes;
+  if (columns.size() >= size) return;
+  columns.resize(size);
+  open.resize(size);
+}
+
+void RowBatches::make_room(int of_rows) {
+  const std::size_t size = (static_cast<std::size_t>(of_rows) + 2) * k_row_lanes;
+  if (lanes.back().size() >= size) return;
+  for (BatchRows& batch : batches) batch.make_room(of_rows);
+  for (AlignedVector<std::int32_t>& list : lanes) list.resize(size);
+  for (RowHulls& list : hulls) list.make_room(size);
+}
+
+std::size_t RowBatches::capacity_bytes() const {
+  std::size_t bytes = 0;
+  for (const BatchRows& batch : batches) bytes += batch.capacity_bytes();
+  for (const AlignedVector<std::int32_t>& list : lanes) bytes += list.capacity() * sizeof(std::int32_t);
+  return bytes;
+}
+
+std::uint32_t balls_per_batch() {
+  return HWY_DYNAMIC_DISPATCH(lanes)();
+}
+
+void find_rows(const RowPlanes& planes, const VisibleBalls& visible, const SphereSetup& shapes,
+               std::span<const BallsOfSlice> balls, RowBatches& out) {
+  out.make_room(planes.rows);  // of all batches, however many a machine needs
+  if (planes.orthographic) return find_orthographic_rows(planes, visible, balls, out);
+  HWY_DYNAMIC_DISPATCH(rows_of_batches)(planes, shapes, balls, out);
+}
+
+}  // namespace clusterbench::assign
+#endif

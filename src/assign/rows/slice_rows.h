@@ -1,0 +1,88 @@
+#pragma once
+// The columns that balls touch in every row of cells of a frustum grid: slice by slice, many balls at once, one per
+// lane, each through its own rows. Of orthographic grids orthographic_rows.h.
+//
+// With x / depth, y / depth and 1 / depth as coordinates, columns, rows and slices are slabs, and of a convex body what
+// lies in a row of a slice reaches farthest aside in one place, which follows from the ball (sphere_setup.h) and is
+// moved into the row, then into the slice. A row's columns reach from the least slope x / depth in it to the greatest
+// (the interval property, as in geom/row_slopes.h).
+//
+// Every ball is taken larger by its slack, which is more than rounding can lose, so no column is forgotten. How much
+// too large an answer can be is bounded, too: see Certainty in slice_rows.cpp. Rows for which that may matter are
+// marked.
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "assign/cull/frustum_cull.h"
+#include "assign/lists/list_builder.h"
+#include "assign/rows/row_planes.h"
+#include "assign/rows/sphere_setup.h"
+#include "core/aligned_vector.h"
+
+namespace clusterbench::assign {
+
+// Rows of a batch of balls within one slice. Of ball i, row r (first_row <= r <= last_row, the rows that any ball may
+// touch) has the columns at columns[r * lanes + i].
+struct BatchRows {
+  static constexpr std::uint32_t k_none = ListBuilder::k_no_span;         // no column
+  static constexpr std::uint32_t k_uncertain = ListBuilder::k_open_span;  // perhaps not all of the columns
+  // With k_uncertain: which of the ends is certain all the same.
+  static constexpr std::uint32_t k_first_is_certain = 0x4000, k_last_is_certain = 0x8000;
+  static int first_of(std::uint32_t columns) { return static_cast<int>(columns & 0x3fff); }
+  static int last_of(std::uint32_t columns) { return static_cast<int>(columns >> 16 & 0x3fff); }
+
+  std::uint32_t lanes = 0;
+  alignas(64) std::uint32_t lights[k_most_lanes];
+  int first_row = 0, last_row = -1;
+  std::uint32_t tests = 0;  // rows of single balls that were looked at
+  // One row more than the grid has, for what is not wanted.
+  AlignedVector<std::uint32_t> columns;
+  // Where in `columns` what is uncertain stands.
+  std::uint32_t open_count = 0;
+  AlignedVector<std::uint32_t> open;
+
+  const std::uint32_t* columns_of(int row) const { return columns.data() + static_cast<std::size_t>(row) * lanes; }
+  void make_room(int of_rows);
+  std::size_t capacity_bytes() const { return (columns.capacity() + open.capacity()) * sizeof(std::uint32_t); }
+};
+inline constexpr int k_most_columns = 0x3fff;
+
+// How many balls a batch holds on this machine.
+std::uint32_t balls_per_batch();
+
+// What balls have in rows, one after the other: slopes x / depth from low to high.
+struct RowHulls {
+  AlignedVector<float> low, high;
+
+  void make_room(std::size_t rows) {
+    low.resize(rows);
+    high.resize(rows);
+  }
+  std::size_t capacity_bytes() const { return (low.capacity() + high.capacity()) * sizeof(float); }
+};
+
+// Some batches, each of one slice.
+inline constexpr std::uint32_t k_batches_at_once = 4;
+struct RowBatches {
+  std::array<BatchRows, k_batches_at_once> batches;
+  // Of each batch's rows one after the other: in which lane their ball is.
+  std::array<AlignedVector<std::int32_t>, k_batches_at_once> lanes;
+  std::array<RowHulls, k_batches_at_once> hulls;
+
+  void make_room(int of_rows);
+  std::size_t capacity_bytes() const;
+};
+
+// Balls of one slice: places in VisibleBalls, from which a whole vector can be read beyond `count`.
+struct BallsOfSlice {
+  int slice;
+  const std::uint32_t* places;
+  std::uint32_t count;  // at most balls_per_batch()
+};
+// A batch for each of `balls`, which are at most k_batches_at_once. `shapes` of orthographic grids can be empty.
+void find_rows(const RowPlanes& planes, const VisibleBalls& visible, const SphereSetup& shapes,
+               std::span<const BallsOfSlice> balls, RowBatches& out);
+
+}  // namespace clusterbench::assign

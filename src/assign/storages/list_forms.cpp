@@ -1,0 +1,96 @@
+#include "assign/storages/list_forms.h"
+
+#include <algorithm>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "assign/storages/list_forms.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once per target
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace clusterbench::assign {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <class T>
+void narrow_to(const std::uint32_t* from, std::size_t count, T* to) {
+  const hn::ScalableTag<std::uint32_t> wide;
+  const hn::Rebind<T, decltype(wide)> slim;
+  const std::size_t lanes = Lanes(wide);
+  std::size_t i = 0;
+  for (; i + lanes <= count; i += lanes) StoreU(TruncateTo(slim, LoadU(wide, from + i)), slim, to + i);
+  for (; i < count; ++i) to[i] = static_cast<T>(from[i]);
+}
+
+void narrow_to_8(const std::uint32_t* from, std::size_t count, std::uint8_t* to) {
+  narrow_to(from, count, to);
+}
+
+void narrow_to_16(const std::uint32_t* from, std::size_t count, std::uint16_t* to) {
+  narrow_to(from, count, to);
+}
+
+HWY_INLINE void set_bit(std::uint32_t light, std::uint32_t* words) {
+  words[light / 32] |= 1u << light % 32;
+}
+
+// Where lists are dense, a vector of lights fills few words: each takes the sum of its bits. Elsewhere, light by light.
+HWY_INLINE void set_bits(const std::uint32_t* lights, std::size_t count, std::uint32_t* words) {
+  const hn::ScalableTag<std::uint32_t> d;
+  const std::size_t lanes = Lanes(d);
+  constexpr std::size_t k_lanes_per_word = 4;  // below, a sum costs more than it saves
+  const auto one = Set(d, 1), low = Set(d, 31);
+  std::size_t i = 0;
+  for (; i + lanes <= count; i += lanes) {
+    const std::uint32_t first = lights[i] / 32, last = lights[i + lanes - 1] / 32;
+    if ((last - first + 1) * k_lanes_per_word > lanes) {
+      for (std::size_t k = i; k < i + lanes; ++k) set_bit(lights[k], words);
+      continue;
+    }
+    const auto light = LoadU(d, lights + i);
+    const auto bit = Shl(one, And(light, low)), word = ShiftRight<5>(light);
+    const auto between = Min(Max(word, Set(d, first)), Set(d, last));
+    if (!AllTrue(d, between == word)) {  // lights that do not ascend
+      for (std::size_t k = i; k < i + lanes; ++k) set_bit(lights[k], words);
+      continue;
+    }
+    for (std::uint32_t at = first; at <= last; ++at)
+      words[at] |= GetLane(SumOfLanes(d, IfThenElseZero(word == Set(d, at), bit)));
+  }
+  for (; i < count; ++i) set_bit(lights[i], words);
+}
+
+void bits(const Lists& lists, std::uint32_t words_per_cell, std::uint32_t* words) {
+  std::fill_n(words, std::size_t{lists.cell_count()} * words_per_cell, 0);
+  for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell, words += words_per_cell)
+    set_bits(lists.lights.data() + lists.begin[cell], lists.begin[cell + 1] - lists.begin[cell], words);
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace clusterbench::assign
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace clusterbench::assign {
+
+HWY_EXPORT(narrow_to_8);
+HWY_EXPORT(narrow_to_16);
+HWY_EXPORT(bits);
+
+void narrow(const std::uint32_t* from, std::size_t count, std::uint8_t* to) {
+  HWY_DYNAMIC_DISPATCH(narrow_to_8)(from, count, to);
+}
+
+void narrow(const std::uint32_t* from, std::size_t count, std::uint16_t* to) {
+  HWY_DYNAMIC_DISPATCH(narrow_to_16)(from, count, to);
+}
+
+void write_bits(const Lists& lists, std::uint32_t words_per_cell, std::uint32_t* words) {
+  HWY_DYNAMIC_DISPATCH(bits)(lists, words_per_cell, words);
+}
+
+}  // namespace clusterbench::assign
+#endif
