@@ -63,7 +63,7 @@ struct Spans {
 
   // Which of them hold some of these columns.
   HWY_INLINE MU some(const Columns& of) const {
-    return RebindMask(DU(), And(first<all_int(of.end), last> all_int(of.begin - 1)));
+    return RebindMask(DU(), And(all_int(of.end) > first, last > all_int(of.begin - 1)));
   }
 
   // What each has of at most 32 columns: a bit for each of these, the first one's lowest.
