@@ -26,7 +26,7 @@ const measures: Record<string, Measure> = {
 };
 
 interface Cell {
-  assigner: string;
+  method: string; // with the grid's kind and the storage, where there are several
   tiling: string;
   slicing: string;
   value: number; // mean over the scenes
@@ -36,23 +36,26 @@ interface Cell {
 // A grid is named "frustum 64px x 16 exponential 0.1..500": kind, tiling, slicing. Other kinds have neither.
 const cut = (grid: Grid) => /^(?:frustum|distance) (\S+) x (.+)$/.exec(grid.name);
 
+const unique = (values: string[]) => [...new Set(values)];
+
 function cellsOf(cases: Case[], measure: Measure): Cell[] {
+  const hasKinds = unique(cases.filter((one) => cut(one.raw.grid)).map((one) => one.raw.grid.kind)).length > 1;
+  const hasStorages = unique(cases.map((one) => one.storage)).length > 1;
+  const methodOf = (one: Case) => [one.assigner, ...(hasKinds ? [one.raw.grid.kind] : []), ...(hasStorages ? [one.storage] : [])].join(" / ");
   const placed = cases.flatMap((one) => {
     const [, tiling, slicing] = cut(one.raw.grid) ?? [];
     const value = measure.of(one);
     return tiling === undefined || slicing === undefined || value === null ? [] : [{ one, tiling, slicing, value }];
   });
-  const groups = Map.groupBy(placed, ({ one, tiling, slicing }) => [one.assigner, tiling, slicing].join("\n"));
+  const groups = Map.groupBy(placed, ({ one, tiling, slicing }) => [methodOf(one), tiling, slicing].join("\n"));
   return [...groups.values()].map((group) => ({
-    assigner: group[0]!.one.assigner,
+    method: methodOf(group[0]!.one),
     tiling: group[0]!.tiling,
     slicing: group[0]!.slicing,
     value: group.reduce((total, { value }) => total + value, 0) / group.length,
     scenes: new Set(group.map(({ one }) => one.scene)).size,
   }));
 }
-
-const unique = (values: string[]) => [...new Set(values)];
 
 // Of "rgb(0, 32, 81)", up to 255.
 function luminance(colour: string): number {
@@ -90,7 +93,7 @@ export const heatMapSection: Section = (view, redraw) => {
   const cells = cellsOf(cases, measure);
   const positive = cells.map((cell) => cell.value).filter((value) => value > 0);
   const range: [number, number] = [positive.reduce((a, b) => Math.min(a, b), Infinity), positive.reduce((a, b) => Math.max(a, b), 0)];
-  const maps = [...Map.groupBy(cells, (cell) => cell.assigner)];
+  const maps = [...Map.groupBy(cells, (cell) => cell.method)];
   const isSweep = positive.length > 0 && maps.some(([, some]) => some.length > 1);
   return h(
     "section",
@@ -106,7 +109,7 @@ export const heatMapSection: Section = (view, redraw) => {
           table: () => ({
             caption: `${measure.label} by method, tiling and slicing`,
             columns: [
-              { label: "method", value: (cell) => cell.assigner },
+              { label: "method", value: (cell) => cell.method },
               { label: "tiling", value: (cell) => cell.tiling },
               { label: "slicing", value: (cell) => cell.slicing },
               { label: measure.label, value: (cell) => cell.value, show: (cell) => measure.show(cell.value) },

@@ -54,9 +54,9 @@ std::string comment(const Json& result, const Json& one) {
   out += "//   high water  " + std::to_string(high) + " entries in frame " + buffers["worst_frame"].dump() +
          (buffers.contains("worst_cell") ? ", longest list in cell " + buffers["worst_cell"].dump() : "") + "; " +
          share(high, most) + " of the theoretical " + std::to_string(most) + "\n";
-  out += "//   allocate    " + std::to_string(capacity) + " entries of " + buffers["index_bits"].dump() +
-         " bits (high water x " + text("%g", margin(result)) + "), " + buffers["bytes"]["recommended"].dump() +
-         " bytes with headers\n";
+  out += "//   allocate    " + std::to_string(capacity) + " entries of " + buffers["index_bits"].dump() + " bits (" +
+         (capacity == most ? std::string("all that there can be") : "high water x " + text("%g", margin(result))) +
+         "), " + buffers["bytes"]["recommended"].dump() + " bytes with headers\n";
   out += "//   warn above  " + std::to_string(warning_level(result, capacity)) + " entries (" +
          text("%g", warn_at(result)) + " of the capacity)\n";
   if (buffers["overflow"]["dropped_pairs"] != 0)
@@ -90,14 +90,19 @@ std::string group_of(const Json& one) {
   return name.substr(0, end);
 }
 
-// Smaller is better.
+// A light structure of the method's own, not lists.
+bool is_own(const Json& one) {
+  return one["storage"] == "own";
+}
+
+// Smaller is better. Structures of their own come after all lists: what samples pay for them differs.
 auto rank(const Json& one) {
   const bool loses = (one.contains("error") && one["error"]["false_negatives"] != 0) ||
                      one["buffers"]["overflow"]["dropped_pairs"] != 0;
   const Json time =
       one.value(Json::json_pointer("/timing/assign_ns/median"), Json());  // null where it was not measured
   const double time_ns = time.is_number() ? time.get<double>() : std::numeric_limits<double>::infinity();
-  return std::tuple(loses, time_ns, one["buffers"]["bytes"]["recommended"].get<std::uint64_t>());
+  return std::tuple(is_own(one), loses, time_ns, one["buffers"]["bytes"]["recommended"].get<std::uint64_t>());
 }
 
 std::vector<Json> best_of_groups(const std::vector<Json>& cases) {

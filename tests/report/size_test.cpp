@@ -29,7 +29,9 @@ TEST(Size, of_each_grid_the_fastest_case_that_loses_nothing_is_shown_under_the_n
   run::CaseResult dropping = testing::case_by_hand("dropping", "drops", 0.5);
   dropping.buffers.dropped_pairs = 1;
   other.name = "hall/walk/frustum 32px/x/packed";
-  for (const run::CaseResult& one : {lossy, dropping, other}) {
+  run::CaseResult own = testing::case_by_hand("own", "hierarchy", 0.5);
+  own.storage_label = "own";  // has no lists to allocate for
+  for (const run::CaseResult& one : {lossy, dropping, own, other}) {
     result.cases.push_back(one);
     result.planned_ids.push_back(one.id);
   }
@@ -40,7 +42,8 @@ TEST(Size, of_each_grid_the_fastest_case_that_loses_nothing_is_shown_under_the_n
   EXPECT_NE(report.find("LightListBudget hall_walk_frustum_32px{"), std::string::npos) << report;
   EXPECT_EQ(report.find("broken"), std::string::npos) << report;
   EXPECT_EQ(report.find("drops"), std::string::npos) << report;
-  EXPECT_NE(report.find("--all has all 5"), std::string::npos) << report;
+  EXPECT_EQ(report.find("hierarchy"), std::string::npos) << report;
+  EXPECT_NE(report.find("--all has all 6"), std::string::npos) << report;
 }
 
 TEST(Size, a_filter_selects_cases_by_name) {
