@@ -221,21 +221,25 @@ std::string view_of(const Json& one) {
   return Json{one["camera"], one["viewport"], lights}.dump();
 }
 
-// Short lists are no merit where lights are missing from them: a case whose samples miss more than one light in a
-// thousand (rounding at cell boundaries misses far fewer) has no overshade to compare.
-double comparable_overshade(const Json& one) {
+// Does a case leave out lights: drops pairs that its storage has no room for, or misses more than one needed light in a
+// thousand at the samples (rounding at cell boundaries misses far fewer)? Short lists are no merit then.
+bool leaves_out_lights(const Json& one) {
   constexpr double k_most_missed = 1e-3;
-  const double missed = number_at(one, "/shading/missed"), needed = number_at(one, "/shading/needed");
-  return missed > k_most_missed * needed ? std::nan("") : number_at(one, "/shading/overshade");
+  return number_at(one, "/buffers/overflow/dropped_pairs") > 0.0 ||
+         number_at(one, "/shading/missed") > k_most_missed * number_at(one, "/shading/needed");
 }
 
 // The cases of one view that none beats in time, list bytes and overshade together.
 void add_front(const std::vector<const Json*>& cases, std::set<std::string>& ids) {
+  std::vector<const Json*> whole;
   std::vector<measure::Costs> costs;
-  for (const Json* one : cases)
+  for (const Json* one : cases) {
+    if (leaves_out_lights(*one)) continue;
+    whole.push_back(one);
     costs.push_back({number_at(*one, "/timing/assign_ns/median"), number_at(*one, "/buffers/bytes/high_water"),
-                     comparable_overshade(*one)});
-  for (const std::size_t place : measure::pareto_front(costs)) ids.insert((*cases[place])["id"].get<std::string>());
+                     number_at(*one, "/shading/overshade")});
+  }
+  for (const std::size_t place : measure::pareto_front(costs)) ids.insert((*whole[place])["id"].get<std::string>());
 }
 
 // Pairs per frame against the same case in float32; null where there is none.

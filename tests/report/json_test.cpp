@@ -171,6 +171,13 @@ TEST(ResultJson, cases_of_an_interrupted_run_stand_in_the_plans_order) {
   EXPECT_EQ(json["cases"][1]["id"], "slow");
 }
 
+TEST(Front, a_case_that_leaves_out_lights_is_on_no_front) {
+  run::Result result = result_by_hand();
+  for (run::CaseResult& one : result.cases)
+    if (one.id == "fast") one.buffers.dropped_pairs = 1;
+  EXPECT_EQ(result_to_json(result, {})["front"][0]["ids"], (Json{"slow"}));
+}
+
 TEST(Front, of_equal_lists_only_the_fastest_case_is_on_it) {
   EXPECT_EQ(result_to_json(result_by_hand(), {})["front"], (Json::array({{{"scene", "hall"}, {"ids", {"fast"}}}})));
 }
