@@ -56,10 +56,12 @@ bool is_paired(const Json& base, const Json& next) {
   return has(next, "/baseline/tool") && (next["baseline"]["tool"] == base["tool"] || base == next);
 }
 
-// What differs between methods, and not between a method's storages: those share their times.
+// What differs between methods, and not between a method's storages: those share their times, but for a light structure
+// of the method's own.
 std::string method_key(const Json& one) {
   Json key{one["scene"], one["camera"], one["viewport"], one["grid"], one["assigner"]["label"]};
   if (one.contains("precision")) key.push_back(one["precision"]["label"]);
+  key.push_back(one["storage"] == "own");
   return key.dump();
 }
 
