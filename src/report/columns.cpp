@@ -57,7 +57,7 @@ std::string short_count(const Json& one, const char* pointer) {
 }
 
 std::string method_name(const Json& one) {
-  const std::string label = printable(one["assigner"]["label"].get_ref<const std::string&>());
+  std::string label = printable(one["assigner"]["label"].get_ref<const std::string&>());
   if (!one.contains("precision") || one["precision"]["packing"] == "float32") return label;
   return label + " " + printable(one["precision"]["label"].get_ref<const std::string&>());
 }

@@ -17,7 +17,7 @@ std::string inert(const std::string& text) {
 }
 
 std::string field(const std::string& name) {
-  const std::string text = inert(name);
+  std::string text = inert(name);
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
