@@ -1,8 +1,8 @@
-# clusterbench_embed_schemas(TARGET NAMES...): adds src/run/schemas/NAME.schema.json to the target as NAME_schema_text().
+# clusterbench_embed_schemas(TARGET NAMES...): adds src/config/schemas/NAME.schema.json to the target as NAME_schema_text().
 function(clusterbench_embed_schemas TARGET)
-  set(SOURCE "#include \"run/schema_text.h\"\n\nnamespace clusterbench::run {\n")
+  set(SOURCE "#include \"config/schema_text.h\"\n\nnamespace clusterbench::config {\n")
   foreach(NAME ${ARGN})
-    set(FILE ${CMAKE_CURRENT_SOURCE_DIR}/src/run/schemas/${NAME}.schema.json)
+    set(FILE ${CMAKE_CURRENT_SOURCE_DIR}/src/config/schemas/${NAME}.schema.json)
     set(TEXT "{}")
     if(EXISTS ${FILE})
       file(READ ${FILE} TEXT)
@@ -11,7 +11,7 @@ function(clusterbench_embed_schemas TARGET)
     string(APPEND SOURCE
            "\nstd::string_view ${NAME}_schema_text() {\n  return R\"__schema__(${TEXT})__schema__\";\n}\n")
   endforeach()
-  string(APPEND SOURCE "\n}  // namespace clusterbench::run\n")
+  string(APPEND SOURCE "\n}  // namespace clusterbench::config\n")
 
   set(OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/embedded/schema_text.cpp)
   set(BEFORE "")

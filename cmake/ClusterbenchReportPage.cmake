@@ -1,12 +1,12 @@
-# clusterbench_report_page(TARGET): bundles report/ into the page that `clusterbench report` fills in, and adds it to the
-# target as page_template(). Needs Node.js and npm, and brings report/node_modules up to its lock file. Where that cannot be,
+# clusterbench_report_page(TARGET): bundles page/ into the page that `clusterbench report` fills in, and adds it to the
+# target as page_template(). Needs Node.js and npm, and brings page/node_modules up to its lock file. Where that cannot be,
 # the build leaves the page out, says so here, and `clusterbench report` says what was missing.
 function(clusterbench_report_page TARGET)
-  set(REPORT ${CMAKE_CURRENT_SOURCE_DIR}/report)
-  set(FOLDER ${CMAKE_CURRENT_BINARY_DIR}/report)
+  set(PAGE ${CMAKE_CURRENT_SOURCE_DIR}/page)
+  set(FOLDER ${CMAKE_CURRENT_BINARY_DIR}/page)
   set(EMBEDDED ${FOLDER}/page_template.cpp)
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${REPORT}/package-lock.json ${REPORT}/.npmrc)
-  clusterbench_report_modules(${REPORT} OBSTACLE)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PAGE}/package-lock.json ${PAGE}/.npmrc)
+  clusterbench_report_modules(${PAGE} OBSTACLE)
   set(CLUSTERBENCH_NO_PAGE "${OBSTACLE}" PARENT_SCOPE)
   if(OBSTACLE)
     message(STATUS "Leaving out the page of `clusterbench report`: ${OBSTACLE}")
@@ -20,18 +20,18 @@ std::string_view page_obstacle() { return R\"__(@OBSTACLE@)__\"; }
 }  // namespace clusterbench::report
 " @ONLY)
   else()
-    file(GLOB_RECURSE SOURCES CONFIGURE_DEPENDS ${REPORT}/src/*.ts ${REPORT}/src/*.css ${REPORT}/src/*.html)
+    file(GLOB_RECURSE SOURCES CONFIGURE_DEPENDS ${PAGE}/src/*.ts ${PAGE}/src/*.css ${PAGE}/src/*.html)
     add_custom_command(OUTPUT ${EMBEDDED} BYPRODUCTS ${FOLDER}/template.html
-      COMMAND ${NODE} ${REPORT}/build.mjs ${FOLDER}
-      DEPENDS ${SOURCES} ${REPORT}/build.mjs ${REPORT}/package-lock.json
+      COMMAND ${NODE} ${PAGE}/build.mjs ${FOLDER}
+      DEPENDS ${SOURCES} ${PAGE}/build.mjs ${PAGE}/package-lock.json
       COMMENT "Bundling the report page")
     set_source_files_properties(${EMBEDDED} PROPERTIES COMPILE_OPTIONS -Wno-overlength-strings)
   endif()
   target_sources(${TARGET} PRIVATE ${EMBEDDED})
 endfunction()
 
-# Sets OBSTACLE to "" once report/node_modules is what the lock file says, else to what keeps it from being so.
-function(clusterbench_report_modules REPORT OBSTACLE)
+# Sets OBSTACLE to "" once page/node_modules is what the lock file says, else to what keeps it from being so.
+function(clusterbench_report_modules PAGE OBSTACLE)
   find_program(NODE node)
   find_program(NPM npm)
   if(NOT NODE OR NOT NPM)
@@ -39,13 +39,13 @@ function(clusterbench_report_modules REPORT OBSTACLE)
     return()
   endif()
   set(${OBSTACLE} "" PARENT_SCOPE)
-  if(NOT ${REPORT}/package-lock.json IS_NEWER_THAN ${REPORT}/node_modules/.package-lock.json)
+  if(NOT ${PAGE}/package-lock.json IS_NEWER_THAN ${PAGE}/node_modules/.package-lock.json)
     return()
   endif()
-  execute_process(COMMAND ${NPM} ci --no-progress WORKING_DIRECTORY ${REPORT}
+  execute_process(COMMAND ${NPM} ci --no-progress WORKING_DIRECTORY ${PAGE}
                   RESULT_VARIABLE FAILED OUTPUT_VARIABLE SAID ERROR_VARIABLE SAID)
   if(FAILED)
     message(STATUS "npm ci: ${SAID}")
-    set(${OBSTACLE} "`npm ci` in report/ failed when this build was configured: run it there to see why, then configure and build again" PARENT_SCOPE)
+    set(${OBSTACLE} "`npm ci` in page/ failed when this build was configured: run it there to see why, then configure and build again" PARENT_SCOPE)
   endif()
 endfunction()

@@ -9,7 +9,7 @@ import re
 import sys
 
 # A file includes only its own layer and those before it.
-LAYERS = ["core", "geom", "scene", "view", "grid", "assign", "measure", "run", "report", "cli"]
+LAYERS = ["core", "geom", "scene", "view", "grid", "assign", "measure", "config", "run", "stress", "report", "cli"]
 
 # Library header -> the only layers that include it.
 HOMES = {
@@ -22,7 +22,7 @@ HOMES = {
     "tiny_gltf.h": ["scene"],
     "embree": ["view"],
     "hwy/": ["assign"],
-    "valijson/": ["run"],
+    "valijson/": ["config"],
     "valgrind/": ["run"],
     "CLI/": ["cli"],
 }

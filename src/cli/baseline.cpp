@@ -15,13 +15,13 @@ namespace {
 namespace fs = std::filesystem;
 
 // Rounds of one launch: together about as many as the configuration asks for, and enough for a median.
-int rounds_per_launch(const run::Config& config, int launches) {
+int rounds_per_launch(const config::Config& config, int launches) {
   constexpr int k_least = 4;
   return std::max(k_least, (config.timing.rounds + launches - 1) / launches);
 }
 
 // An interval that reaches half of the threshold to either side tells a change of the threshold and a half from it.
-run::PairedRequest paired_request(const BaselineRequest& request, const run::Config& config) {
+run::PairedRequest paired_request(const BaselineRequest& request, const config::Config& config) {
   return {request.launches, request.most_launches, std::log1p(0.5 * request.threshold_percent / 100.0),
           rounds_per_launch(config, request.launches)};
 }
@@ -42,7 +42,7 @@ void probe_baseline(const BaselineRequest& request, const std::vector<std::strin
 }
 
 void measure_beside(const BaselineRequest& request, const std::vector<std::string>& arguments,
-                    const run::Config& config, const run::Plan& plan, const run::OnPairedRound& on_round,
+                    const config::Config& config, const run::Plan& plan, const run::OnPairedRound& on_round,
                     const std::atomic<bool>& stop, nlohmann::ordered_json& result) {
   const TemporaryFolder folder;
   nlohmann::ordered_json tool;

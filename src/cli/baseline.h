@@ -26,7 +26,7 @@ void probe_baseline(const BaselineRequest& request, const std::vector<std::strin
 // result. Throws Error if the other program cannot do it, breaks down or hangs; with stopped_exit_code() once `stop`
 // is true.
 void measure_beside(const BaselineRequest& request, const std::vector<std::string>& arguments,
-                    const run::Config& config, const run::Plan& plan, const run::OnPairedRound& on_round,
+                    const config::Config& config, const run::Plan& plan, const run::OnPairedRound& on_round,
                     const std::atomic<bool>& stop, nlohmann::ordered_json& result);
 
 }  // namespace clusterbench::cli

@@ -7,8 +7,8 @@
 #include "assign/contract/assigner.h"
 #include "grid/grid.h"
 #include "report/exports/exports.h"
-#include "run/stress/hard_cases.h"
 #include "scene/generate.h"
+#include "stress/hard_cases.h"
 
 namespace clusterbench::cli {
 namespace {
@@ -32,7 +32,7 @@ Values count_ways() {
 }
 Values hard_cases() {
   Values values{Kind::words, {}};
-  for (const run::HardCase& one : run::hard_cases()) values.words.emplace_back(one.id);
+  for (const stress::HardCase& one : stress::hard_cases()) values.words.emplace_back(one.id);
   return values;
 }
 Values assigners() {

@@ -12,8 +12,8 @@
 #include "cli/temporary_folder.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "run/callgrind_counter.h"
-#include "run/perf_counter.h"
+#include "run/counters/callgrind_counter.h"
+#include "run/counters/perf_counter.h"
 
 namespace clusterbench::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "run/count_pass.h"
+#include "run/passes/count_pass.h"
 
 namespace clusterbench::cli {
 
@@ -20,7 +20,7 @@ const char* name_of(CountWay way);
 
 // What is to be counted.
 struct CountTask {
-  const run::Config& config;
+  const config::Config& config;
   const run::Plan& plan;
   std::vector<std::string> arguments;  // of the command line that made config and plan
   std::vector<std::string> ids;        // of the cases

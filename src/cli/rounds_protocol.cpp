@@ -46,7 +46,7 @@ Json answer_to(run::Program& cases, const std::string& line) {
 
 }  // namespace
 
-void serve_rounds(const run::Config& config, const run::Plan& plan) {
+void serve_rounds(const config::Config& config, const run::Plan& plan) {
   run::ServedCases cases(config, plan);
   put({{k_version_key, k_rounds_protocol},
        {"tool", report::tool_to_json(run::tool_facts())},

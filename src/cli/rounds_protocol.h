@@ -19,7 +19,7 @@ namespace clusterbench::cli {
 inline constexpr int k_rounds_protocol = 1;
 
 // Greets, and answers on standard output what comes on standard input, to its end.
-void serve_rounds(const run::Config& config, const run::Plan& plan);
+void serve_rounds(const config::Config& config, const run::Plan& plan);
 
 // Another program that serves rounds. Throws Error where it cannot be started, is none of the kind, dies, gives no
 // answer for `patience_s`, or answers nonsense; with stopped_exit_code() once `stop` is true.

@@ -15,12 +15,12 @@
 #include "cli/rounds_protocol.h"
 #include "cli/stop.h"
 #include "cli/terminal.h"
+#include "config/config.h"
 #include "core/text.h"
 #include "report/compare.h"
 #include "report/journal.h"
 #include "report/json.h"
 #include "report/table.h"
-#include "run/config.h"
 #include "run/runner.h"
 #include "run/sweep.h"
 
@@ -34,7 +34,7 @@ struct RunFlags {
   std::vector<std::string> inputs;
   std::string output, filter, count;
   std::vector<std::string> exports;
-  std::vector<std::vector<std::string>> settings{run::config_flags().size()};  // by flag
+  std::vector<std::vector<std::string>> settings{config::config_flags().size()};  // by flag
   bool resume = false, dry_run = false, no_timing = false, quiet = false;
 
   BaselineRequest baseline;
@@ -52,10 +52,10 @@ bool is_scene(const std::string& path) {
   return extension == ".glb" || extension == ".gltf";
 }
 
-std::vector<run::FlagValue> settings(const RunFlags& flags) {
-  std::vector<run::FlagValue> all;
+std::vector<config::FlagValue> settings(const RunFlags& flags) {
+  std::vector<config::FlagValue> all;
   for (std::size_t i = 0; i < flags.settings.size(); ++i) {
-    const run::ConfigFlag& flag = run::config_flags()[i];
+    const config::ConfigFlag& flag = config::config_flags()[i];
     const std::vector<std::string>& values = flags.settings[i];
     if (!flag.is_repeatable && !values.empty()) all.push_back({flag.name, joined(values, ",")});
     for (const std::string& value : flag.is_repeatable ? values : std::vector<std::string>{})
@@ -64,11 +64,11 @@ std::vector<run::FlagValue> settings(const RunFlags& flags) {
   return all;
 }
 
-run::Config read_inputs(const RunFlags& flags) {
+config::Config read_inputs(const RunFlags& flags) {
   const auto scenes = static_cast<std::size_t>(std::count_if(flags.inputs.begin(), flags.inputs.end(), is_scene));
   if (scenes == flags.inputs.size())
-    return run::default_config({flags.inputs.begin(), flags.inputs.end()}, settings(flags));
-  if (scenes == 0 && flags.inputs.size() == 1) return run::load_config(flags.inputs.front(), settings(flags));
+    return config::default_config({flags.inputs.begin(), flags.inputs.end()}, settings(flags));
+  if (scenes == 0 && flags.inputs.size() == 1) return config::load_config(flags.inputs.front(), settings(flags));
   for (const char* way : {"perf", "callgrind", "auto"})
     if (!flags.count.empty() && flags.inputs.back() == way)
       throw Error("", "--count", std::string("takes its value with an equals sign: --count=") + way);
@@ -76,7 +76,7 @@ run::Config read_inputs(const RunFlags& flags) {
               "takes one configuration (.json), or one or more scenes (.glb, .gltf), not " + joined(flags.inputs));
 }
 
-run::Config overridden(run::Config config, const RunFlags& flags) {
+config::Config overridden(config::Config config, const RunFlags& flags) {
   if (flags.no_timing) {
     config.timing.measure = false;
     config.resolved["timing"]["measure"] = false;
@@ -100,7 +100,7 @@ ExitCode print_plan(const run::Plan& plan) {
 }
 
 // What an interrupted run must have had in common with the one that continues it.
-Json journal_header(const run::Config& config, const run::Plan& plan, const RunFlags& flags) {
+Json journal_header(const config::Config& config, const run::Plan& plan, const RunFlags& flags) {
   const run::ToolFacts tool = run::tool_facts();
   Json scenes = Json::array();
   for (const run::SceneData& data : plan.scenes) scenes.push_back(data.scene.sha256);
@@ -111,7 +111,8 @@ Json journal_header(const run::Config& config, const run::Plan& plan, const RunF
 }
 
 // A file gets a journal; a device or a pipe takes the result at the end.
-std::unique_ptr<report::Journal> open_journal(const RunFlags& flags, const run::Config& config, const run::Plan& plan) {
+std::unique_ptr<report::Journal> open_journal(const RunFlags& flags, const config::Config& config,
+                                              const run::Plan& plan) {
   constexpr std::uint64_t k_bytes_per_case = 24 << 10;
   if (is_stream(flags.output)) {
     if (flags.resume) throw Error("", "--resume", "needs the result file of the interrupted run: add -o FILE");
@@ -143,14 +144,14 @@ ExitCode report_gates(const Json& result) {
 std::vector<std::string> plan_arguments(const RunFlags& flags) {
   std::vector<std::string> arguments;
   if (!flags.filter.empty()) arguments.push_back("--filter=" + flags.filter);
-  for (const run::FlagValue& setting : settings(flags)) arguments.push_back(setting.text());
+  for (const config::FlagValue& setting : settings(flags)) arguments.push_back(setting.text());
   arguments.emplace_back("--");
   arguments.insert(arguments.end(), flags.inputs.begin(), flags.inputs.end());
   return arguments;
 }
 
 // False once it is to stop.
-bool add_baseline(const RunFlags& flags, const run::Config& config, const run::Plan& plan, ProgressLine& progress,
+bool add_baseline(const RunFlags& flags, const config::Config& config, const run::Plan& plan, ProgressLine& progress,
                   const std::atomic<bool>& stop, Json& result) {
   run::Progress now;
   now.cost_total = 1.0;
@@ -226,7 +227,7 @@ void show_table(const RunFlags& flags, const Json& result) {
   if (for_reading) tell("the result is not kept; -o FILE keeps it, -o - prints it as JSON");
 }
 
-ExitCode measure(const RunFlags& flags, const run::Config& config, const run::Plan& plan, CountWay way) {
+ExitCode measure(const RunFlags& flags, const config::Config& config, const run::Plan& plan, CountWay way) {
   if (is_stream(flags.output)) probe_output(flags.output);
   const std::vector<ExportTarget> exports = export_targets(flags.exports);
   const std::atomic<bool>& stop = stop_on_signals();  // before there is anything to keep
@@ -267,7 +268,7 @@ void check_baseline(const RunFlags& flags) {
   probe_baseline(flags.baseline, plan_arguments(flags), stop_on_signals());
 }
 
-ExitCode serve(const RunFlags& flags, const run::Config& config, const run::Plan& plan) {
+ExitCode serve(const RunFlags& flags, const config::Config& config, const run::Plan& plan) {
   if (flags.rounds_server != k_rounds_protocol)
     throw Error("", "--rounds-server",
                 "version " + std::to_string(flags.rounds_server) + " is asked for, and this program speaks " +
@@ -277,7 +278,7 @@ ExitCode serve(const RunFlags& flags, const run::Config& config, const run::Plan
 }
 
 ExitCode run(const RunFlags& flags) {
-  const run::Config config = overridden(read_inputs(flags), flags);
+  const config::Config config = overridden(read_inputs(flags), flags);
   const CountWay way = count_way(flags.count);
   const run::Plan plan = run::make_plan(config, flags.filter);
   if (flags.rounds_server != 0) return serve(flags, config, plan);
@@ -303,7 +304,8 @@ void add_run(Command& program, Action& action) {
       .once_a_name();
   command.add_option("--filter", flags->filter, "Only cases whose name matches this regular expression");
   for (std::size_t i = 0; i < flags->settings.size(); ++i)
-    command.add_option(run::config_flags()[i].name, flags->settings[i], run::config_flags()[i].summary).once_a_name();
+    command.add_option(config::config_flags()[i].name, flags->settings[i], config::config_flags()[i].summary)
+        .once_a_name();
   command.add_flag("--count{auto}", flags->count,
                    "Count instructions, too: --count=perf (hardware), =callgrind (valgrind), or what works");
   command.add_option("--count-dumps", flags->count_dumps, "").hidden();

@@ -6,9 +6,9 @@
 
 #include "cli/commands.h"
 #include "cli/output.h"
-#include "run/config.h"
-#include "run/documents.h"
-#include "run/schema_check.h"
+#include "config/config.h"
+#include "config/documents.h"
+#include "config/schema_check.h"
 #include "run/sweep.h"
 
 namespace clusterbench::cli {
@@ -20,8 +20,8 @@ std::string file_text(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-ExitCode validate_written(const std::string& path, const nlohmann::json& document, const run::DocumentRow& row) {
-  const std::vector<std::string> violations = run::schema_violations(row.schema(), document);
+ExitCode validate_written(const std::string& path, const nlohmann::json& document, const config::DocumentRow& row) {
+  const std::vector<std::string> violations = config::schema_violations(row.schema(), document);
   for (const std::string& violation : violations) tell(path + ": " + violation);
   if (!violations.empty()) return ExitCode::usage;
   std::cout << path << ": valid, " << row.title << " with " << document["cases"].size() << " cases\n";
@@ -29,7 +29,7 @@ ExitCode validate_written(const std::string& path, const nlohmann::json& documen
 }
 
 ExitCode validate_config(const std::string& path) {
-  const run::Config config = run::load_config(path);
+  const config::Config config = config::load_config(path);
   const run::Plan plan = run::make_plan(config, "");
   std::size_t cases = 0;
   for (const run::GroupPlan& group : plan.groups) cases += group.cases.size();
@@ -40,8 +40,8 @@ ExitCode validate_config(const std::string& path) {
 
 ExitCode validate(const std::string& path) {
   const nlohmann::json document = nlohmann::json::parse(file_text(path), nullptr, false, true);
-  const run::DocumentRow& row = run::row_of(run::document_of(document));
-  return row.document == run::Document::config ? validate_config(path) : validate_written(path, document, row);
+  const config::DocumentRow& row = config::row_of(config::document_of(document));
+  return row.document == config::Document::config ? validate_config(path) : validate_written(path, document, row);
 }
 
 }  // namespace
@@ -49,15 +49,15 @@ ExitCode validate(const std::string& path) {
 void add_schema(Command& program, Action& action) {
   Command command = program.add_command("schema", "Print the JSON Schema (draft-07) of a document");
   std::vector<std::string> names;
-  for (const run::DocumentRow& row : run::document_rows()) names.emplace_back(row.name);
+  for (const config::DocumentRow& row : config::document_rows()) names.emplace_back(row.name);
   auto which = std::make_shared<std::string>();
   command.add_option("WHICH", *which, "Of a configuration, or of what run, compare --json or stress write")
       .required()
       .one_of(names);
   command.when_named([which, &action] {
     action = [which] {
-      const auto rows = run::document_rows();
-      std::cout << std::ranges::find(rows, *which, &run::DocumentRow::name)->schema().dump(2) << "\n";
+      const auto rows = config::document_rows();
+      std::cout << std::ranges::find(rows, *which, &config::DocumentRow::name)->schema().dump(2) << "\n";
       return ExitCode::ok;
     };
   });

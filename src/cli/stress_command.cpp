@@ -19,7 +19,7 @@ namespace {
 
 struct StressFlags {
   std::string output, cases, methods = ".*", failures;
-  run::StressRequest request;
+  stress::StressRequest request;
   bool quiet = false;
 };
 
@@ -42,8 +42,8 @@ std::string file_name(const std::string& hard_case, const std::string& method) {
   return name;
 }
 
-const run::StressMethod& method_of(const run::StressResult& result, const std::string& label) {
-  for (const run::StressMethod& method : result.methods)
+const stress::StressMethod& method_of(const stress::StressResult& result, const std::string& label) {
+  for (const stress::StressMethod& method : result.methods)
     if (method.label == label) return method;
   throw Error("", "stress", "knows no method '" + label + "'", ExitCode::internal);
 }
@@ -54,18 +54,19 @@ std::string cases_of(const StressFlags& flags) {
   return flags.request.random > 0 ? "none" : ".*";
 }
 
-void write_replays(const std::string& folder, const run::StressResult& result) {
+void write_replays(const std::string& folder, const stress::StressResult& result) {
   int written = 0;
-  const auto write = [&](const std::string& hard_case, const std::string& label, const std::optional<run::Loss>& loss) {
+  const auto write = [&](const std::string& hard_case, const std::string& label,
+                         const std::optional<stress::Loss>& loss) {
     if (!loss) return;
-    run::write_replay(folder, file_name(hard_case, label), *loss, method_of(result, label));
+    stress::write_replay(folder, file_name(hard_case, label), *loss, method_of(result, label));
     ++written;
   };
-  for (const run::StressCell& cell : result.cells) write(cell.hard_case, cell.method, cell.deepest);
-  for (const run::SearchResult& search : result.searches) write("H31", search.method, search.deepest);
+  for (const stress::StressCell& cell : result.cells) write(cell.hard_case, cell.method, cell.deepest);
+  for (const stress::SearchResult& search : result.searches) write("H31", search.method, search.deepest);
   if (result.random)
-    for (const run::RandomFault& found : result.random->faults) {
-      run::write_replay(folder, found.name(), found.scene, run::methods_that_show(found.fault, result.methods));
+    for (const stress::RandomFault& found : result.random->faults) {
+      stress::write_replay(folder, found.name(), found.scene, stress::methods_that_show(found.fault, result.methods));
       ++written;
     }
   std::cerr << written << " faults written to " << folder << ", each a configuration for `clusterbench run`\n";
@@ -96,19 +97,19 @@ class AtWork {
 };
 
 ExitCode stress(const StressFlags& flags) {
-  run::StressRequest request = flags.request;
+  stress::StressRequest request = flags.request;
   request.cases = pattern_of(cases_of(flags), "--cases");
   request.methods = pattern_of(flags.methods, "--methods");
   probe_output(flags.output);
   const std::atomic<bool>& stop = stop_on_signals();
   ProgressLine progress(terminal(STDERR_FILENO), flags.quiet);
   const AtWork at_work(flags);
-  run::StressListener listener;
+  stress::StressListener listener;
   listener.on_progress = [&](const std::string& doing, double done, double whole) {
     at_work.write(doing);
     progress.show({static_cast<std::size_t>(done), static_cast<std::size_t>(whole), done, whole, doing});
   };
-  const run::StressResult result = run::run_stress(request, listener, stop);
+  const stress::StressResult result = stress::run_stress(request, listener, stop);
   progress.clear();
   if (stop) {
     tell("interrupted");

@@ -23,8 +23,8 @@ struct CompareOptions {
   bool is_forced = false;       // times and instructions are compared in spite of obstacles
 };
 
-// As src/run/schemas/comparison.schema.json says. `threshold`: the smallest change of time that matters, 0.02 for 2 %.
-// Times: of rounds side by side where the new result has them for this base ("data": "paired"), else of medians
+// As src/config/schemas/comparison.schema.json says. `threshold`: the smallest change of time that matters, 0.02 for 2
+// %. Times: of rounds side by side where the new result has them for this base ("data": "paired"), else of medians
 // ("separate").
 nlohmann::ordered_json compare_results(const nlohmann::ordered_json& base, const nlohmann::ordered_json& next,
                                        double threshold, const CompareOptions& options = {});

@@ -6,9 +6,9 @@
 #include <cstring>
 #include <fstream>
 
+#include "config/documents.h"
+#include "config/schema_check.h"
 #include "core/error.h"
-#include "run/documents.h"
-#include "run/schema_check.h"
 
 namespace clusterbench::report {
 namespace {
@@ -79,8 +79,8 @@ void Journal::read_earlier(const Json& header) {
 }
 
 void Journal::check_earlier() const {
-  const nlohmann::json cases_schema = run::result_schema()["properties"]["cases"];
-  const std::vector<std::string> violations = run::schema_violations(cases_schema, nlohmann::json(earlier_cases_));
+  const nlohmann::json cases_schema = config::result_schema()["properties"]["cases"];
+  const std::vector<std::string> violations = config::schema_violations(cases_schema, nlohmann::json(earlier_cases_));
   if (!violations.empty())
     throw Error(partial_path().string(), "", "does not hold the cases of a run: " + violations.front());
 }

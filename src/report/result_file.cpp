@@ -2,10 +2,10 @@
 
 #include <fstream>
 
+#include "config/documents.h"
+#include "config/schema_check.h"
 #include "core/error.h"
 #include "report/json.h"
-#include "run/documents.h"
-#include "run/schema_check.h"
 
 namespace clusterbench::report {
 namespace {
@@ -32,12 +32,12 @@ void relax(nlohmann::json& schema) {
 
 // Whoever reads results relies on what the schema promises.
 void check(const std::string& path, const Json& result, Schema version) {
-  nlohmann::json schema = run::result_schema();
+  nlohmann::json schema = config::result_schema();
   if (version == Schema::any) {
     relax(schema);
     schema["properties"].erase("schema_version");
   }
-  const std::vector<std::string> violations = run::schema_violations(schema, nlohmann::json(result));
+  const std::vector<std::string> violations = config::schema_violations(schema, nlohmann::json(result));
   if (!violations.empty())
     throw Error(path, "", "is not a valid result: " + violations.front() + "; `clusterbench validate` lists all");
 }
@@ -58,11 +58,11 @@ Json read_result(const std::string& path, Schema schema) {
   } catch (const nlohmann::json::parse_error& error) {
     throw Error(path, "byte " + std::to_string(error.byte), "is not JSON");
   }
-  if (const run::Document document = run::document_of(result); document != run::Document::result)
+  if (const config::Document document = config::document_of(result); document != config::Document::result)
     throw Error(path, "",
-                document == run::Document::config
+                document == config::Document::config
                     ? "is not a result file of `clusterbench run`"
-                    : "is "s + run::row_of(document).title + "; wanted is one of `clusterbench run`");
+                    : "is "s + config::row_of(document).title + "; wanted is one of `clusterbench run`");
   if (schema == Schema::this_version && result["schema_version"] != k_schema_version)
     throw Error(path, "/schema_version",
                 "is " + result["schema_version"].dump() + "; this version reads " + std::to_string(k_schema_version));

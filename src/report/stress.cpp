@@ -18,12 +18,12 @@ std::string percent(double share) {
   return text;
 }
 
-Json to_json(const std::optional<run::Loss>& loss) {
+Json to_json(const std::optional<stress::Loss>& loss) {
   if (!loss) return nullptr;
   return {{"trial", loss->trial}, {"cell", loss->cell}, {"light", loss->light}, {"depth", loss->depth}};
 }
 
-Json to_json(const run::StressCell& cell) {
+Json to_json(const stress::StressCell& cell) {
   return {{"case", cell.hard_case},
           {"method", cell.method},
           {"trials", cell.trials},
@@ -36,7 +36,7 @@ Json to_json(const run::StressCell& cell) {
           {"faults", cell.faults}};
 }
 
-Json counts_json(const run::SettingCounts& counts) {
+Json counts_json(const stress::SettingCounts& counts) {
   Json by_kind = Json::object();
   for (std::size_t kind = 0; kind < counts.by_kind.size(); ++kind)
     by_kind[grid::kind_name(static_cast<grid::Kind>(kind))] = counts.by_kind[kind];
@@ -48,9 +48,9 @@ Json counts_json(const run::SettingCounts& counts) {
           {"undecided", counts.undecided}};
 }
 
-Json to_json(const run::RandomFault& found) {
+Json to_json(const stress::RandomFault& found) {
   return {{"name", found.name()},
-          {"kind", run::fault_kind_name(found.fault.kind)},
+          {"kind", stress::fault_kind_name(found.fault.kind)},
           {"method", found.fault.method.empty() ? Json(nullptr) : Json(found.fault.method)},
           {"grid", grid::kind_name(found.grid)},
           {"orthographic", found.orthographic},
@@ -60,59 +60,59 @@ Json to_json(const run::RandomFault& found) {
           {"detail", found.fault.detail}};
 }
 
-Json to_json(const std::optional<run::RandomSearch>& random) {
+Json to_json(const std::optional<stress::RandomSearch>& random) {
   if (!random) return nullptr;
   Json out{{"first_seed", random->first_seed}};
   out.update(counts_json(random->counts));
   out["fault_count"] = Json::object();
-  for (int kind = 0; kind < run::k_fault_kinds; ++kind) {
+  for (int kind = 0; kind < stress::k_fault_kinds; ++kind) {
     std::uint64_t settings = 0;
-    for (const run::RandomFault& found : random->faults)
+    for (const stress::RandomFault& found : random->faults)
       if (static_cast<int>(found.fault.kind) == kind) settings += found.settings;
-    out["fault_count"][run::fault_kind_name(static_cast<run::FaultKind>(kind))] = settings;
+    out["fault_count"][stress::fault_kind_name(static_cast<stress::FaultKind>(kind))] = settings;
   }
   out["faults"] = Json::array();
-  for (const run::RandomFault& found : random->faults) out["faults"].push_back(to_json(found));
+  for (const stress::RandomFault& found : random->faults) out["faults"].push_back(to_json(found));
   return out;
 }
 
-std::string in_lines(const run::RandomFault& found) {
+std::string in_lines(const stress::RandomFault& found) {
   return found.name() + ": " + found.fault.detail + " (seed " + std::to_string(found.seeds.front()) +
          ", shrunk; shown by " + number_of(found.settings, "setting") + ")";
 }
 
-void print_random(std::ostream& out, const run::RandomSearch& random) {
-  const run::SettingCounts& counts = random.counts;
+void print_random(std::ostream& out, const stress::RandomSearch& random) {
+  const stress::SettingCounts& counts = random.counts;
   out << "\nRandom settings: " << counts.settings << " (seeds from " << random.first_seed << " on), " << counts.refused
       << " of them refused; " << number_of(counts.points, "point") << ", " << number_of(counts.spots, "spot") << "\n  "
       << number_of(counts.pairs, "pair") << ", " << counts.true_pairs << " true; " << counts.decisions
       << " decided one by one, " << counts.undecided << " undecided; " << number_of(random.faults.size(), "fault")
       << "\n";
-  for (const run::RandomFault& found : random.faults) out << "  " << in_lines(found) << "\n";
+  for (const stress::RandomFault& found : random.faults) out << "  " << in_lines(found) << "\n";
 }
 
-const run::StressMethod& method_of(const run::StressResult& result, const std::string& label) {
+const stress::StressMethod& method_of(const stress::StressResult& result, const std::string& label) {
   return *std::find_if(result.methods.begin(), result.methods.end(),
-                       [&](const run::StressMethod& method) { return method.label == label; });
+                       [&](const stress::StressMethod& method) { return method.label == label; });
 }
 
 // Columns of the matrix: a conservative assigner with all its choices is one, of others each choice is.
-std::string column_of(const run::StressMethod& method) {
+std::string column_of(const stress::StressMethod& method) {
   return method.assigner->conservative ? method.assigner->name : method.label;
 }
 
-std::vector<std::string> columns(const run::StressResult& result) {
+std::vector<std::string> columns(const stress::StressResult& result) {
   std::vector<std::string> list;
-  for (const run::StressMethod& method : result.methods)
+  for (const stress::StressMethod& method : result.methods)
     if (std::find(list.begin(), list.end(), column_of(method)) == list.end()) list.push_back(column_of(method));
   return list;
 }
 
-std::string mark(const run::StressResult& result, const std::string& hard_case, const std::string& column) {
+std::string mark(const stress::StressResult& result, const std::string& hard_case, const std::string& column) {
   std::uint64_t misses = 0;
   int trials = 0, refused = 0;
   bool has_fault = false;
-  for (const run::StressCell& cell : result.cells) {
+  for (const stress::StressCell& cell : result.cells) {
     if (cell.hard_case != hard_case || column_of(method_of(result, cell.method)) != column) continue;
     misses += cell.misses;
     trials += cell.trials;
@@ -125,7 +125,7 @@ std::string mark(const run::StressResult& result, const std::string& hard_case, 
   return refused == trials ? "refused" : "ok";
 }
 
-std::string in_lines(const run::StressCell& cell) {
+std::string in_lines(const stress::StressCell& cell) {
   std::string text = cell.hard_case + " " + cell.method + ": " + std::to_string(cell.misses) + " of " +
                      number_of(cell.true_pairs, "pair") + " lost";
   if (cell.deepest)
@@ -134,7 +134,7 @@ std::string in_lines(const run::StressCell& cell) {
   return text;
 }
 
-void print_matrix(std::ostream& out, const run::StressResult& result) {
+void print_matrix(std::ostream& out, const stress::StressResult& result) {
   constexpr int k_width = 7;
   const std::vector<std::string> names = columns(result);
   out << "Pairs lost by hard case and method. ok: none; refused: as it should be; -: not taken by the "
@@ -143,23 +143,23 @@ void print_matrix(std::ostream& out, const run::StressResult& result) {
   out << "\n    ";
   for (std::size_t i = 0; i < names.size(); ++i) out << std::setw(k_width) << i + 1;
   out << "\n";
-  for (const run::HardCase& hard : result.cases) {
+  for (const stress::HardCase& hard : result.cases) {
     if (hard.trials == nullptr) continue;
     out << std::left << std::setw(4) << hard.id << std::right;
     for (const std::string& name : names) out << std::setw(k_width) << mark(result, hard.id, name);
     out << "  " << hard.title << "\n";
   }
   std::uint64_t undecided = 0;
-  for (const run::StressCell& cell : result.cells) undecided += cell.undecided;
+  for (const stress::StressCell& cell : result.cells) undecided += cell.undecided;
   out << "\nPairs that the truth left undecided: " << undecided << "\n";
 }
 
 // Extra pairs over all cases, in % of the true ones.
-void print_extra(std::ostream& out, const run::StressResult& result) {
+void print_extra(std::ostream& out, const stress::StressResult& result) {
   out << "\nExtra pairs over all hard cases, in % of the true ones\n";
-  for (const run::StressMethod& method : result.methods) {
+  for (const stress::StressMethod& method : result.methods) {
     std::uint64_t extra = 0, whole = 0;
-    for (const run::StressCell& cell : result.cells)
+    for (const stress::StressCell& cell : result.cells)
       if (cell.method == method.label) {
         extra += cell.extra_pairs;
         whole += cell.true_pairs;
@@ -169,28 +169,28 @@ void print_extra(std::ostream& out, const run::StressResult& result) {
   }
 }
 
-void print_losses(std::ostream& out, const run::StressResult& result) {
+void print_losses(std::ostream& out, const stress::StressResult& result) {
   bool any = false;
-  for (const run::StressCell& cell : result.cells) {
+  for (const stress::StressCell& cell : result.cells) {
     if (cell.lost()) out << (any ? "" : "\nLosses\n") << "  " << in_lines(cell) << "\n";
     any = any || cell.lost();
   }
 }
 
-void print_checks(std::ostream& out, const run::StressResult& result) {
+void print_checks(std::ostream& out, const stress::StressResult& result) {
   out << "\nChecks of the tool\n";
   for (std::size_t i = 0; i < result.cases.size(); ++i)
-    for (const run::ToolCheck& check : result.checks[i])
+    for (const stress::ToolCheck& check : result.checks[i])
       out << "  " << std::left << std::setw(4) << result.cases[i].id << std::right
           << (check.passed ? "ok      " : "FAILED  ") << check.what
           << (check.detail.empty() ? "" : " (" + check.detail + ")") << "\n";
 }
 
-void print_searches(std::ostream& out, const run::StressResult& result) {
+void print_searches(std::ostream& out, const stress::StressResult& result) {
   if (result.searches.empty()) return;
   out << "\nH31, search for lights that touch a cell and are not listed (margin: the least padding that was found, in "
          "roundings of 2^-24)\n";
-  for (const run::SearchResult& search : result.searches) {
+  for (const stress::SearchResult& search : result.searches) {
     out << "  " << search.method << ": " << search.tries << " tries, ";
     if (search.deepest)
       out << search.misses << " lost, the deepest " << percent(search.deepest->depth) << " of its range inside\n";
@@ -201,23 +201,23 @@ void print_searches(std::ostream& out, const run::StressResult& result) {
 
 }  // namespace
 
-Json stress_to_json(const run::StressResult& result, const run::StressRequest& request) {
+Json stress_to_json(const stress::StressResult& result, const stress::StressRequest& request) {
   Json out{{"schema_version", 1}, {"kind", "stress"}, {"seed", request.seed}, {"tries", request.tries}};
   out["methods"] = Json::array();
-  for (const run::StressMethod& method : result.methods)
+  for (const stress::StressMethod& method : result.methods)
     out["methods"].push_back(
         {{"label", method.label}, {"conservative", method.conservative}, {"exact", method.assigner->exact}});
   out["cases"] = Json::array();
   for (std::size_t i = 0; i < result.cases.size(); ++i) {
     Json one{{"id", result.cases[i].id}, {"title", result.cases[i].title}, {"checks", Json::array()}};
-    for (const run::ToolCheck& check : result.checks[i])
+    for (const stress::ToolCheck& check : result.checks[i])
       one["checks"].push_back({{"what", check.what}, {"passed", check.passed}, {"detail", check.detail}});
     out["cases"].push_back(one);
   }
   out["results"] = Json::array();
-  for (const run::StressCell& cell : result.cells) out["results"].push_back(to_json(cell));
+  for (const stress::StressCell& cell : result.cells) out["results"].push_back(to_json(cell));
   out["searches"] = Json::array();
-  for (const run::SearchResult& search : result.searches)
+  for (const stress::SearchResult& search : result.searches)
     out["searches"].push_back({{"method", search.method},
                                {"tries", search.tries},
                                {"misses", search.misses},
@@ -228,7 +228,7 @@ Json stress_to_json(const run::StressResult& result, const run::StressRequest& r
   return out;
 }
 
-void print_stress(std::ostream& out, const run::StressResult& result) {
+void print_stress(std::ostream& out, const stress::StressResult& result) {
   if (!result.cases.empty()) {
     print_matrix(out, result);
     print_losses(out, result);
@@ -239,25 +239,25 @@ void print_stress(std::ostream& out, const run::StressResult& result) {
   if (result.random) print_random(out, *result.random);
 }
 
-std::vector<std::string> stress_failures(const run::StressResult& result) {
+std::vector<std::string> stress_failures(const stress::StressResult& result) {
   std::vector<std::string> failures;
-  for (const run::StressCell& cell : result.cells) {
+  for (const stress::StressCell& cell : result.cells) {
     for (const std::string& fault : cell.faults) failures.push_back(cell.hard_case + " " + cell.method + ": " + fault);
-    const run::StressMethod& method = method_of(result, cell.method);
+    const stress::StressMethod& method = method_of(result, cell.method);
     if (method.conservative && cell.lost()) failures.push_back(in_lines(cell));
     if (method.assigner->exact && cell.extra_pairs > 0)
       failures.push_back(cell.hard_case + " " + cell.method + ": exact, but " + number_of(cell.extra_pairs, "pair") +
                          " too many");
   }
   for (std::size_t i = 0; i < result.cases.size(); ++i)
-    for (const run::ToolCheck& check : result.checks[i])
+    for (const stress::ToolCheck& check : result.checks[i])
       if (!check.passed) failures.push_back(std::string(result.cases[i].id) + ": " + check.what);
-  for (const run::SearchResult& search : result.searches)
+  for (const stress::SearchResult& search : result.searches)
     if (search.deepest && method_of(result, search.method).conservative)
       failures.push_back("H31 " + search.method + ": " + number_of(search.misses, "light") + " lost, the deepest " +
                          percent(search.deepest->depth) + " of its range inside");
   if (result.random)
-    for (const run::RandomFault& found : result.random->faults) failures.push_back("random " + in_lines(found));
+    for (const stress::RandomFault& found : result.random->faults) failures.push_back("random " + in_lines(found));
   return failures;
 }
 

@@ -4,16 +4,16 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
-#include "run/stress/stress.h"
+#include "stress/stress.h"
 
 namespace clusterbench::report {
 
-nlohmann::ordered_json stress_to_json(const run::StressResult& result, const run::StressRequest& request);
+nlohmann::ordered_json stress_to_json(const stress::StressResult& result, const stress::StressRequest& request);
 
 // A matrix hard case x method, then every loss, fault and failed check in a line of its own, then the search.
-void print_stress(std::ostream& out, const run::StressResult& result);
+void print_stress(std::ostream& out, const stress::StressResult& result);
 
 // What stress fails for, a line each: a conservative or exact method that lost a light, a check of the tool, a fault.
-std::vector<std::string> stress_failures(const run::StressResult& result);
+std::vector<std::string> stress_failures(const stress::StressResult& result);
 
 }  // namespace clusterbench::report

@@ -9,8 +9,8 @@
 #include <thread>
 
 #include "assign/lists/list_builder.h"
+#include "run/counters/processor.h"
 #include "run/git_sha.h"
-#include "run/processor.h"
 #include "run/result.h"
 
 namespace clusterbench::run {

@@ -2,8 +2,8 @@
 
 namespace clusterbench::run {
 
-FrameLights::FrameLights(const std::vector<PrecisionRequest>& precisions, const view::LightArrays& lights) {
-  for (const PrecisionRequest& precision : precisions) {
+FrameLights::FrameLights(const std::vector<config::PrecisionRequest>& precisions, const view::LightArrays& lights) {
+  for (const config::PrecisionRequest& precision : precisions) {
     Lights& now = lights_.emplace_back(Lights{view::packed(lights, precision.packing), {}, precision.inflate});
     if (now.is_inflated) now.inflated = view::inflated(now.packed);
   }

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "run/config.h"
+#include "config/config.h"
 #include "view/packing.h"
 
 namespace clusterbench::run {
@@ -11,7 +11,7 @@ namespace clusterbench::run {
 class FrameLights {
  public:
   FrameLights() = default;
-  FrameLights(const std::vector<PrecisionRequest>& precisions, const view::LightArrays& lights);
+  FrameLights(const std::vector<config::PrecisionRequest>& precisions, const view::LightArrays& lights);
 
   // `precision`: place in the list. What its assigners get.
   const view::LightArrays& seen(std::size_t precision) const;

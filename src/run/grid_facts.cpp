@@ -1,6 +1,6 @@
 #include "run/grid_facts.h"
 
-#include "run/config_grids.h"
+#include "config/config_grids.h"
 
 namespace clusterbench::run {
 namespace {
@@ -21,7 +21,7 @@ void add_screen(Json& facts, const grid::GridSpec& spec, const grid::ScreenGrid&
   const bool by_count = spec.tiles.count.x != 0;
   facts["tiles"] = {{by_count ? "count" : "pixels", by_count ? Json{spec.tiles.count.x, spec.tiles.count.y}
                                                              : Json{spec.tiles.pixels.x, spec.tiles.pixels.y}}};
-  facts["slices"] = {{"scheme", scheme_name(spec.slices.scheme)},
+  facts["slices"] = {{"scheme", config::scheme_name(spec.slices.scheme)},
                      {"boundaries", grid.slices.boundaries},
                      {"lookup", lookup_facts(grid.slices.lookup)}};
   if (spec.slices.scheme == grid::Scheme::fit)

@@ -17,8 +17,8 @@
 #include "measure/shading.h"
 #include "measure/stability.h"
 #include "measure/timing.h"
+#include "run/counters/instruction_counter.h"
 #include "run/details.h"
-#include "run/instruction_counter.h"
 
 namespace clusterbench::run {
 
@@ -36,7 +36,7 @@ struct MachineFacts {
   std::string cpu, os;
   int cores = 0;
   std::uint64_t ram_bytes = 0;
-  std::string family, model, stepping;                        // run/processor.h
+  std::string family, model, stepping;                        // run/counters/processor.h
   std::vector<std::pair<std::string, std::uint64_t>> caches;  // "l1d", bytes
 };
 MachineFacts machine_facts();

@@ -4,12 +4,12 @@
 #include <set>
 
 #include "core/error.h"
-#include "run/accuracy_pass.h"
-#include "run/details_pass.h"
 #include "run/grid_facts.h"
+#include "run/passes/accuracy_pass.h"
+#include "run/passes/details_pass.h"
+#include "run/passes/stability_pass.h"
+#include "run/passes/timing_pass.h"
 #include "run/path_frames.h"
-#include "run/stability_pass.h"
-#include "run/timing_pass.h"
 
 namespace clusterbench::run {
 namespace {
@@ -43,7 +43,8 @@ void add_fit_warnings(const SceneData& data, const std::vector<Vec2i>& viewports
   }
 }
 
-SceneResult scene_result(const SceneData& data, const SceneRequest& request, const std::vector<Vec2i>& viewports) {
+SceneResult scene_result(const SceneData& data, const config::SceneRequest& request,
+                         const std::vector<Vec2i>& viewports) {
   SceneResult out;
   if (request.rig) out.rig = rig_json(*request.rig);
   const scene::Scene& scene = data.scene;
@@ -75,7 +76,7 @@ SceneResult scene_result(const SceneData& data, const SceneRequest& request, con
 }
 
 // An estimate of work in nanoseconds, only for the time that is left: truth, samples and lists of some frames.
-double list_cost(const Config& config, const GroupPlan& group, std::size_t lights, int frames, int samples) {
+double list_cost(const config::Config& config, const GroupPlan& group, std::size_t lights, int frames, int samples) {
   constexpr double k_ns_per_light = 2000.0, k_ns_per_brute_pair = 3.0, k_cells = 8000.0, k_ns_per_sample = 1000.0;
   double per_frame = static_cast<double>(lights) * k_ns_per_light + k_ns_per_sample * samples;
   for (const Method& method : methods_of(group))
@@ -85,14 +86,14 @@ double list_cost(const Config& config, const GroupPlan& group, std::size_t light
   return per_frame * frames;
 }
 
-double timing_cost(const Config& config, const GroupPlan& group) {
+double timing_cost(const config::Config& config, const GroupPlan& group) {
   if (!config.timing.measure) return 0.0;
   return 1.3e6 * config.timing.min_time_ms * config.timing.rounds * static_cast<double>(methods_of(group).size());
 }
 
 class Run {
  public:
-  Run(const Config& config, const Plan& plan, const std::vector<std::string>& done, const Listener& listener,
+  Run(const config::Config& config, const Plan& plan, const std::vector<std::string>& done, const Listener& listener,
       const std::atomic<bool>& stop, const Counts& counts)
       : config_(config),
         plan_(plan),
@@ -150,7 +151,7 @@ class Run {
 
   double details_cost_of(const GroupPlan& group) const {
     if (!config_.details) return 0.0;
-    const DetailsRequest& request = *config_.details;
+    const config::DetailsRequest& request = *config_.details;
     const int frames = std::max({1, request.count, static_cast<int>(request.frames.size())});
     return list_cost(config_, group, plan_.scenes[group.scene].scene.lights.size(), frames, 0);
   }
@@ -213,7 +214,7 @@ class Run {
 
   CaseResult case_result(const CasePlan& plan, int frames, const AccuracyResult& counted, std::size_t place) const {
     const scene::Scene& scene = plan_.scenes[plan.scene].scene;
-    const MethodRequest& assigner = config_.assigners[plan.assigner];
+    const config::MethodRequest& assigner = config_.assigners[plan.assigner];
     const assign::AssignerDescriptor& descriptor = *assign::find_assigner(assigner.name);
     const MethodMeasures& method = *std::find_if(counted.methods.begin(), counted.methods.end(),
                                                  [&](const auto& one) { return one.method == plan.method(); });
@@ -229,7 +230,7 @@ class Run {
     out.assigner = assigner.name;
     out.assigner_label = assigner.label();
     out.assigner_params = params_json(assigner.params);
-    const PrecisionRequest& precision = config_.precisions[plan.precision];
+    const config::PrecisionRequest& precision = config_.precisions[plan.precision];
     out.conservative =
         assign::is_conservative(descriptor, assigner.params) && (precision.inflate || !precision.is_lossy());
     if (!counted.losses.empty())
@@ -249,7 +250,7 @@ class Run {
     return out;
   }
 
-  const Config& config_;
+  const config::Config& config_;
   const Plan& plan_;
   std::set<std::string> done_;
   const Listener& listener_;
@@ -260,8 +261,8 @@ class Run {
 
 }  // namespace
 
-Result run_plan(const Config& config, const Plan& plan, const std::vector<std::string>& done, const Listener& listener,
-                const std::atomic<bool>& stop, const Counts& counts) {
+Result run_plan(const config::Config& config, const Plan& plan, const std::vector<std::string>& done,
+                const Listener& listener, const std::atomic<bool>& stop, const Counts& counts) {
   return Run(config, plan, done, listener, stop, counts).result();
 }
 

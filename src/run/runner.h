@@ -4,7 +4,7 @@
 #include <atomic>
 #include <functional>
 
-#include "run/count_pass.h"
+#include "run/passes/count_pass.h"
 #include "run/result.h"
 #include "run/sweep.h"
 
@@ -26,7 +26,7 @@ struct Listener {
 // `done`: ids of cases that an earlier, interrupted run has finished; they are passed over. `counts`: what was
 // counted of cases before, for their results. `stop` is looked at between
 // steps; when it becomes true the runner returns what is complete.
-Result run_plan(const Config& config, const Plan& plan, const std::vector<std::string>& done, const Listener& listener,
-                const std::atomic<bool>& stop, const Counts& counts = {});
+Result run_plan(const config::Config& config, const Plan& plan, const std::vector<std::string>& done,
+                const Listener& listener, const std::atomic<bool>& stop, const Counts& counts = {});
 
 }  // namespace clusterbench::run

@@ -22,7 +22,7 @@ ListDigest digest_of(const assign::Lists& lists) {
 // One method's lists of the path's frames, in their order: of its cells or, without cells, at samples.
 class ListsOfFrames {
  public:
-  ListsOfFrames(const Config& config, const GroupPlan& group, const CasePlan& one, const PathFrames& path)
+  ListsOfFrames(const config::Config& config, const GroupPlan& group, const CasePlan& one, const PathFrames& path)
       : config_(config),
         path_(path),
         grids_(config.grids[group.grid]),
@@ -58,7 +58,7 @@ class ListsOfFrames {
     assign::make_ascending(lists);
   }
 
-  const Config& config_;
+  const config::Config& config_;
   const PathFrames& path_;
   GridOfFrames grids_;
   std::size_t precision_;
@@ -67,7 +67,7 @@ class ListsOfFrames {
   std::vector<std::uint32_t> given_;
 };
 
-PathFrames path_of(const Config& config, const Plan& plan, const GroupPlan& group) {
+PathFrames path_of(const config::Config& config, const Plan& plan, const GroupPlan& group) {
   const SceneData& data = plan.scenes[group.scene];
   return {data.scene, data.paths[group.camera], config.viewports[group.viewport]};
 }
@@ -76,7 +76,7 @@ PathFrames path_of(const Config& config, const Plan& plan, const GroupPlan& grou
 
 class ServedCases::OpenGroup {
  public:
-  OpenGroup(const Config& config, const Plan& plan, const GroupPlan& group)
+  OpenGroup(const config::Config& config, const Plan& plan, const GroupPlan& group)
       : config_(config), group_(group), frames_(timed_frames(config, group, path_of(config, plan, group))) {}
 
   const GroupPlan& group() const { return group_; }
@@ -89,7 +89,7 @@ class ServedCases::OpenGroup {
 
  private:
   struct Track {
-    Track(const Config& config, const GroupPlan& group, const Method& of, const std::vector<TimedFrame>& frames)
+    Track(const config::Config& config, const GroupPlan& group, const Method& of, const std::vector<TimedFrame>& frames)
         : method(of),
           work(config, group, of, frames),
           assign([this] { work.assign(); }, config.timing.min_time_ms * 1e6,
@@ -107,13 +107,13 @@ class ServedCases::OpenGroup {
     return *tracks_.back();
   }
 
-  const Config& config_;
+  const config::Config& config_;
   const GroupPlan& group_;
   std::vector<TimedFrame> frames_;
   std::vector<std::unique_ptr<Track>> tracks_;
 };
 
-ServedCases::ServedCases(const Config& config, const Plan& plan) : config_(config), plan_(plan) {}
+ServedCases::ServedCases(const config::Config& config, const Plan& plan) : config_(config), plan_(plan) {}
 ServedCases::~ServedCases() = default;
 
 std::vector<std::string> ServedCases::case_ids() {

@@ -14,7 +14,7 @@ namespace clusterbench::run {
 class ServedCases : public Program {
  public:
   // Both outlive it.
-  ServedCases(const Config& config, const Plan& plan);
+  ServedCases(const config::Config& config, const Plan& plan);
   ~ServedCases() override;
 
   std::vector<std::string> case_ids() override;
@@ -32,7 +32,7 @@ class ServedCases : public Program {
   // Throws Error for an id that is not in the plan.
   Place find(const std::string& id) const;
 
-  const Config& config_;
+  const config::Config& config_;
   const Plan& plan_;
   std::unique_ptr<OpenGroup> open_;
 };

@@ -6,10 +6,10 @@
 #include <set>
 
 #include "assign/contract/storage.h"
+#include "config/config_grids.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/text.h"
-#include "run/config_grids.h"
 #include "scene/domain.h"
 #include "view/frame.h"
 
@@ -32,10 +32,10 @@ std::string name_part(std::string text) {
   return printable(text);
 }
 
-std::vector<SceneData> load_scenes(const Config& config) {
+std::vector<SceneData> load_scenes(const config::Config& config) {
   std::vector<SceneData> scenes;
   std::set<std::string> names;
-  for (const SceneRequest& request : config.scenes) {
+  for (const config::SceneRequest& request : config.scenes) {
     SceneData data;
     data.scene = request.rig ? scene::make_rig(*request.rig) : scene::load_gltf(request.path);
     scene::resolve_ranges(data.scene, request.range_rule);
@@ -61,7 +61,8 @@ Json identity(const grid::GridSpec& spec) {
   if (spec.kind == grid::Kind::frustum || spec.kind == grid::Kind::distance) {
     const grid::Slicing& slices = spec.slices;
     out["tiles"] = {spec.tiles.pixels.x, spec.tiles.pixels.y, spec.tiles.count.x, spec.tiles.count.y};
-    out["slices"] = {scheme_name(slices.scheme), slices.count, slices.near_m, slices.far_m, slices.boundaries_m};
+    out["slices"] = {config::scheme_name(slices.scheme), slices.count, slices.near_m, slices.far_m,
+                     slices.boundaries_m};
     if (slices.scheme == grid::Scheme::exponential_first) out["first"] = slices.first_m;
     if (slices.scheme == grid::Scheme::power) out["lambda"] = slices.lambda;
     return out;
@@ -73,14 +74,14 @@ Json identity(const grid::GridSpec& spec) {
   return out;
 }
 
-Json identity(const MethodRequest& method) {
+Json identity(const config::MethodRequest& method) {
   Json params = Json::object();
   for (const auto& [name, value] : method.params.values())
     params[name] = std::visit([](const auto& held) { return Json(held); }, value);
   return {{"name", method.name}, {"params", params}};
 }
 
-Json identity(const SceneRequest& request, const scene::Scene& scene) {
+Json identity(const config::SceneRequest& request, const scene::Scene& scene) {
   Json out{{"sha256", scene.sha256},
            {"frames", {static_cast<int>(request.camera.choice), request.camera.count, request.camera.rate_hz}},
            {"range_rule", {request.range_rule.cutoff_lux, request.range_rule.max_range_m}}};
@@ -89,7 +90,7 @@ Json identity(const SceneRequest& request, const scene::Scene& scene) {
 }
 
 // Settings that change what a case counts; timing and threads do not.
-std::string case_id(const Config& config, const SceneData& data, const CasePlan& plan) {
+std::string case_id(const config::Config& config, const SceneData& data, const CasePlan& plan) {
   const Vec2i viewport = config.viewports[plan.viewport];
   Json all{{"scene", identity(config.scenes[plan.scene], data.scene)},
            {"camera", {data.paths[plan.camera].camera, plan.camera}},
@@ -105,10 +106,10 @@ std::string case_id(const Config& config, const SceneData& data, const CasePlan&
       all["lookup"].push_back({measure::name_of(way.logarithm), measure::name_of(way.depth)});
   }
   if (config.stability) {
-    const StabilityRequest& stability = *config.stability;
+    const config::StabilityRequest& stability = *config.stability;
     all["stability"] = {stability.steps, stability.step_mm, stability.step_deg, stability.window};
   }
-  const PrecisionRequest& precision = config.precisions[plan.precision];
+  const config::PrecisionRequest& precision = config.precisions[plan.precision];
   if (precision.is_lossy()) all["precision"] = {view::packing_name(precision.packing), precision.inflate};
   constexpr std::size_t k_digits = 12;
   return sha256_hex(all.dump()).substr(0, k_digits);
@@ -125,7 +126,8 @@ bool has_lights(const scene::Scene& scene, scene::LightType type) {
 }
 
 // Why this assigner cannot take this grid in this scene; "" if it can.
-std::string obstacle(const MethodRequest& request, grid::Kind kind, const scene::Scene& scene, bool orthographic) {
+std::string obstacle(const config::MethodRequest& request, grid::Kind kind, const scene::Scene& scene,
+                     bool orthographic) {
   const assign::AssignerDescriptor& assigner = *assign::find_assigner(request.name);
   const std::string& name = assigner.name;
   if (!assigner.takes(kind)) return name + " takes " + listed(assigner.kinds) + " grids, not " + grid::kind_name(kind);
@@ -138,7 +140,7 @@ std::string obstacle(const MethodRequest& request, grid::Kind kind, const scene:
 }
 
 // Why it cannot see lights in this precision; "" if it can.
-std::string precision_obstacle(const assign::AssignerDescriptor& assigner, const PrecisionRequest& precision) {
+std::string precision_obstacle(const assign::AssignerDescriptor& assigner, const config::PrecisionRequest& precision) {
   if (!assigner.exact || !precision.is_lossy()) return "";
   return assigner.name + " decides from the scene's own numbers, whatever the lights are packed in; run it in float32";
 }
@@ -185,7 +187,7 @@ FirstFrame first_frame(const grid::GridSpec& spec, const SceneData& data, const 
 }
 
 // Why this assigner would take too long; "" if it would not.
-std::string limit_obstacle(const assign::AssignerDescriptor& assigner, const LimitsRequest& limits,
+std::string limit_obstacle(const assign::AssignerDescriptor& assigner, const config::LimitsRequest& limits,
                            const FirstFrame& first) {
   if (!assigner.all_pairs || !limits.all_pairs) return "";
   const std::uint64_t tests = first.lights() * first.cells;
@@ -196,7 +198,7 @@ std::string limit_obstacle(const assign::AssignerDescriptor& assigner, const Lim
 }
 
 // Why this storage cannot keep lists of so many cells and lights; "" if it can.
-std::string storage_obstacle(const MethodRequest& request, const FirstFrame& first) {
+std::string storage_obstacle(const config::MethodRequest& request, const FirstFrame& first) {
   const std::uint64_t most_bytes = memory_limit();
   try {
     const auto one_cell = assign::find_storage(request.name)->make(request.params);
@@ -214,7 +216,7 @@ std::string storage_obstacle(const MethodRequest& request, const FirstFrame& fir
 
 class Expansion {
  public:
-  Expansion(const Config& config, const std::string& filter) : config_(config) {
+  Expansion(const config::Config& config, const std::string& filter) : config_(config) {
     try {
       filter_ = std::regex(filter, std::regex::ECMAScript);
     } catch (const std::regex_error& error) {
@@ -261,7 +263,7 @@ class Expansion {
 
   void expand_assigner(Plan& plan, GroupPlan& group, std::size_t assigner, const FirstFrame& first,
                        const std::string& group_name) {
-    const MethodRequest& method = config_.assigners[assigner];
+    const config::MethodRequest& method = config_.assigners[assigner];
     const std::string name = group_name + "/" + name_part(method.label());
     const SceneData& data = plan.scenes[group.scene];
     std::string impossible = obstacle(method, config_.grids[group.grid].kind, data.scene,
@@ -277,7 +279,7 @@ class Expansion {
 
   void expand_precision(Plan& plan, GroupPlan& group, std::size_t assigner, std::size_t precision,
                         const FirstFrame& first, const std::string& name) {
-    const PrecisionRequest& request = config_.precisions[precision];
+    const config::PrecisionRequest& request = config_.precisions[precision];
     const std::string part = request.is_lossy() ? "/" + request.label() : "";
     const assign::AssignerDescriptor& descriptor = *assign::find_assigner(config_.assigners[assigner].name);
     const std::string impossible = precision_obstacle(descriptor, request);
@@ -315,7 +317,7 @@ class Expansion {
     if (std::regex_search(name, filter_)) plan.skipped.push_back({name, reason});
   }
 
-  const Config& config_;
+  const config::Config& config_;
   std::regex filter_;
   std::set<std::string> names_, ids_;
   std::size_t all_cases_ = 0;
@@ -331,25 +333,25 @@ std::vector<Method> methods_of(const GroupPlan& group) {
   return list;
 }
 
-std::string method_label(const Config& config, const Method& method) {
-  const PrecisionRequest& precision = config.precisions[method.precision];
-  const MethodRequest& assigner = config.assigners[method.assigner];
+std::string method_label(const config::Config& config, const Method& method) {
+  const config::PrecisionRequest& precision = config.precisions[method.precision];
+  const config::MethodRequest& assigner = config.assigners[method.assigner];
   const bool is_one_of_two = method.answer == assign::Answer::structure &&
                              assign::find_assigner(assigner.name)->answers(assign::Answer::lists);
   return assigner.label() + (is_one_of_two ? std::string(" ") + k_own_structure : "") +
          (precision.is_lossy() ? " " + precision.label() : "");
 }
 
-std::string storage_label(const Config& config, const CasePlan& one) {
+std::string storage_label(const config::Config& config, const CasePlan& one) {
   return one.storage ? config.storages[*one.storage].label() : k_own_structure;
 }
 
-assign::AssignerRun start_method(const Config& config, const Method& method) {
-  const MethodRequest& request = config.assigners[method.assigner];
+assign::AssignerRun start_method(const config::Config& config, const Method& method) {
+  const config::MethodRequest& request = config.assigners[method.assigner];
   return {*assign::find_assigner(request.name), request.params, method.answer};
 }
 
-Plan make_plan(const Config& config, const std::string& filter) {
+Plan make_plan(const config::Config& config, const std::string& filter) {
   set_memory_limit(config.limits.memory_mib << 20);
   Expansion expansion(config, filter);
   Plan plan;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "assign/contract/assigner_run.h"
-#include "run/config.h"
+#include "config/config.h"
 #include "run/result.h"
 
 namespace clusterbench::run {
@@ -45,11 +45,11 @@ struct GroupPlan {
 // The distinct methods of a group's cases, in order of first use.
 std::vector<Method> methods_of(const GroupPlan& group);
 // The assigner's label, and the precision's where it is not float32.
-std::string method_label(const Config& config, const Method& method);
+std::string method_label(const config::Config& config, const Method& method);
 // A case's storage as it is shown.
-std::string storage_label(const Config& config, const CasePlan& one);
+std::string storage_label(const config::Config& config, const CasePlan& one);
 // A case's method, ready to be built.
-assign::AssignerRun start_method(const Config& config, const Method& method);
+assign::AssignerRun start_method(const config::Config& config, const Method& method);
 
 struct SceneData {
   scene::Scene scene;
@@ -63,6 +63,6 @@ struct Plan {
 };
 
 // Loads the scenes and expands. `filter` (ECMAScript regex, "" = all) selects cases by name.
-Plan make_plan(const Config& config, const std::string& filter);
+Plan make_plan(const config::Config& config, const std::string& filter);
 
 }  // namespace clusterbench::run

@@ -2,7 +2,7 @@
 
 namespace clusterbench::run {
 
-std::vector<TimedFrame> timed_frames(const Config& config, const GroupPlan& group, const PathFrames& path) {
+std::vector<TimedFrame> timed_frames(const config::Config& config, const GroupPlan& group, const PathFrames& path) {
   const std::vector<int> chosen =
       evenly_spaced(config.timing.frames == 0 ? path.count() : config.timing.frames, path.count());
   std::vector<TimedFrame> frames;
@@ -18,14 +18,14 @@ std::vector<TimedFrame> timed_frames(const Config& config, const GroupPlan& grou
   return frames;
 }
 
-bool is_threaded(const MethodRequest& assigner) {
+bool is_threaded(const config::MethodRequest& assigner) {
   return assign::thread_count(*assign::find_assigner(assigner.name), assigner.params) > 1;
 }
 
-TimedWork::TimedWork(const Config& config, const GroupPlan& group, const Method& method,
+TimedWork::TimedWork(const config::Config& config, const GroupPlan& group, const Method& method,
                      const std::vector<TimedFrame>& frames)
     : frames_(frames), precision_(method.precision) {
-  const MethodRequest& request = config.assigners[method.assigner];
+  const config::MethodRequest& request = config.assigners[method.assigner];
   const assign::AssignerDescriptor& descriptor = *assign::find_assigner(request.name);
   if (method.answer == assign::Answer::lists) {
     lists_assigner_ = descriptor.make(request.params);
@@ -39,7 +39,7 @@ TimedWork::TimedWork(const Config& config, const GroupPlan& group, const Method&
     if (one.method() != method) continue;
     places_.push_back(place);
     if (!one.storage) continue;
-    const MethodRequest& store = config.storages[*one.storage];
+    const config::MethodRequest& store = config.storages[*one.storage];
     stores_.push_back(storage(*assign::find_storage(store.name), store.params));
   }
   assign();

@@ -19,16 +19,17 @@ struct TimedFrame {
 };
 
 // `timing.frames` frames, evenly spaced over the path; all where it is 0.
-std::vector<TimedFrame> timed_frames(const Config& config, const GroupPlan& group, const PathFrames& path);
+std::vector<TimedFrame> timed_frames(const config::Config& config, const GroupPlan& group, const PathFrames& path);
 
 // Does this method share its work among threads?
-bool is_threaded(const MethodRequest& assigner);
+bool is_threaded(const config::MethodRequest& assigner);
 
 // One method over the frames, with the storages that its cases use. The frames outlive it. Its lists, or its own light
 // structures, are made once at the start, so that memory has grown; each frame has its own.
 class TimedWork {
  public:
-  TimedWork(const Config& config, const GroupPlan& group, const Method& method, const std::vector<TimedFrame>& frames);
+  TimedWork(const config::Config& config, const GroupPlan& group, const Method& method,
+            const std::vector<TimedFrame>& frames);
 
   // Prepares for the first frame's grid.
   void build();

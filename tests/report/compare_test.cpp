@@ -4,10 +4,10 @@
 
 #include <cmath>
 
+#include "config/documents.h"
+#include "config/schema_check.h"
 #include "report/json.h"
 #include "report/result_by_hand.h"
-#include "run/documents.h"
-#include "run/schema_check.h"
 
 namespace clusterbench::report {
 namespace {
@@ -34,8 +34,8 @@ run::Result with_times(double slow_ns, double fast_ns) {
 // Every comparison of these tests is held against its schema.
 Json compared(const Json& base, const Json& next, double threshold, const CompareOptions& options = {}) {
   Json comparison = compare_results(base, next, threshold, options);
-  const Json violations =
-      run::schema_violations(run::row_of(run::Document::comparison).schema(), nlohmann::json::parse(comparison.dump()));
+  const Json violations = config::schema_violations(config::row_of(config::Document::comparison).schema(),
+                                                    nlohmann::json::parse(comparison.dump()));
   EXPECT_TRUE(violations.empty()) << violations.dump(1) << comparison.dump(1);
   return comparison;
 }

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "config/config.h"
+#include "config/documents.h"
+#include "config/schema_check.h"
 #include "report/json.h"
-#include "run/config.h"
-#include "run/documents.h"
-#include "run/schema_check.h"
 #include "run/walk.h"
 
 namespace clusterbench::report {
@@ -37,7 +37,7 @@ std::string text(const run::Result& result) {
 TEST(DetailsJson, follows_the_schema) {
   run::Result result = detailed(R"({"frames": [0, 2, 9]})");
   Json json = result_to_json(result, {});
-  EXPECT_EQ(run::schema_violations(run::result_schema(), json), std::vector<std::string>{});
+  EXPECT_EQ(config::schema_violations(config::result_schema(), json), std::vector<std::string>{});
   const Json& details = json["cases"][0]["details"];
   EXPECT_EQ(details["frames"].size(), 2u);
   EXPECT_EQ(details["left_out"], (Json{{"frames", Json::array()}, {"pairs", Json::array()}, {"not_on_path", {9}}}));
@@ -45,7 +45,7 @@ TEST(DetailsJson, follows_the_schema) {
   EXPECT_EQ(details["frames"][1]["camera"]["far_m"], 64.0);
   result.cases[0].details->frames[0].projection.far_m = std::numeric_limits<double>::infinity();
   json = result_to_json(result, {});
-  EXPECT_EQ(run::schema_violations(run::result_schema(), json), std::vector<std::string>{});
+  EXPECT_EQ(config::schema_violations(config::result_schema(), json), std::vector<std::string>{});
 }
 
 TEST(DetailsJson, a_result_without_details_does_not_speak_of_them) {

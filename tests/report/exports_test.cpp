@@ -10,11 +10,11 @@
 #include <regex>
 #include <sstream>
 
+#include "config/schema_check.h"
+#include "config/schema_text.h"
 #include "core/error.h"
 #include "report/json.h"
 #include "report/result_by_hand.h"
-#include "run/schema_check.h"
-#include "run/schema_text.h"
 
 namespace clusterbench::report {
 namespace {
@@ -40,12 +40,12 @@ Json json_of(const std::string& format, bool all = false) {
 }
 
 std::vector<std::string> violations(const char* schema, const std::string& instance) {
-  return run::schema_violations(nlohmann::json::parse(schema), nlohmann::json::parse(instance));
+  return config::schema_violations(nlohmann::json::parse(schema), nlohmann::json::parse(instance));
 }
 
 // Follows a JSON pointer through the result schema's case.
 bool is_in_schema(const std::string& pointer) {
-  const Json schema = Json::parse(run::result_schema_text());
+  const Json schema = Json::parse(config::result_schema_text());
   const Json* at = &schema["properties"]["cases"]["items"];
   std::istringstream parts(pointer.substr(1));
   for (std::string part; std::getline(parts, part, '/');) {

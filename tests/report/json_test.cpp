@@ -4,9 +4,9 @@
 
 #include <limits>
 
+#include "config/documents.h"
+#include "config/schema_check.h"
 #include "report/result_by_hand.h"
-#include "run/documents.h"
-#include "run/schema_check.h"
 
 namespace clusterbench::report {
 namespace {
@@ -20,7 +20,7 @@ using testing::lose_a_light;
 using testing::result_by_hand;
 
 std::vector<std::string> violations(const Json& result) {
-  return run::schema_violations(run::result_schema(), nlohmann::json::parse(result.dump()));
+  return config::schema_violations(config::result_schema(), nlohmann::json::parse(result.dump()));
 }
 
 TEST(ResultJson, is_what_the_schema_says) {

@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "config/schema_check.h"
+#include "config/schema_text.h"
 #include "core/error.h"
 #include "report/json.h"
 #include "report/result_by_hand.h"
-#include "run/schema_check.h"
-#include "run/schema_text.h"
 
 namespace clusterbench::report {
 namespace {
@@ -41,7 +41,8 @@ TEST(Merge, different_configurations_are_all_kept_and_fit_the_schema) {
   other.result["config"]["seed"] = 2;
   other.result["name"] = "other";
   const Json all = merged({shard("a", "slow"), other});
-  EXPECT_EQ(run::schema_violations(nlohmann::json::parse(run::result_schema_text()), all), std::vector<std::string>{});
+  EXPECT_EQ(config::schema_violations(nlohmann::json::parse(config::result_schema_text()), all),
+            std::vector<std::string>{});
   EXPECT_EQ(all["name"], "by hand + other");
   EXPECT_EQ(all["config"]["merged"][1]["seed"], 2);
   EXPECT_EQ(all["config"]["allocation"], other.result["config"]["allocation"]);

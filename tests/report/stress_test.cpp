@@ -4,15 +4,15 @@
 #include <filesystem>
 #include <set>
 
+#include "config/config.h"
+#include "config/documents.h"
+#include "config/schema_check.h"
 #include "report/stress.h"
-#include "run/config.h"
-#include "run/documents.h"
 #include "run/runner.h"
-#include "run/schema_check.h"
-#include "run/stress/contact.h"
-#include "run/stress/stress.h"
+#include "stress/contact.h"
+#include "stress/stress.h"
 
-namespace clusterbench::run {
+namespace clusterbench::stress {
 namespace {
 
 const std::atomic<bool> k_never{false};
@@ -96,8 +96,8 @@ TEST(Stress, is_written_as_its_schema_says) {
   result.random->faults.push_back(
       {{FaultKind::truth, "", "a sentence", 1, 2, true}, grid::Kind::world, false, 1, {7}, {}});
   const auto json = nlohmann::json::parse(report::stress_to_json(result, request).dump());
-  EXPECT_EQ(schema_violations(row_of(Document::stress).schema(), json), std::vector<std::string>{});
-  EXPECT_EQ(document_of(json), Document::stress);
+  EXPECT_EQ(config::schema_violations(row_of(config::Document::stress).schema(), json), std::vector<std::string>{});
+  EXPECT_EQ(config::document_of(json), config::Document::stress);
   const auto is_lost = [](const auto& one) { return !one["deepest_miss"].is_null(); };
   EXPECT_TRUE(std::ranges::any_of(json["results"], is_lost));
   EXPECT_TRUE(std::ranges::any_of(json["searches"], is_lost));
@@ -171,8 +171,8 @@ TEST(Replay, reproduces_the_loss) {
   for (std::size_t i = 0; i < losses.size(); ++i) {
     const std::string name = "loss" + std::to_string(i);
     write_replay(folder, name, losses[i], naive);
-    const Config config = load_config(folder / (name + ".json"));
-    const Result result = run_plan(config, make_plan(config, ""), {}, {}, k_never);
+    const config::Config config = config::load_config(folder / (name + ".json"));
+    const run::Result result = run::run_plan(config, run::make_plan(config, ""), {}, {}, k_never);
     ASSERT_EQ(result.cases.size(), 1U);
     ASSERT_TRUE(result.cases[0].error && result.cases[0].error->deepest) << losses[i].trial;
     EXPECT_EQ(result.cases[0].error->deepest->cell, losses[i].cell) << losses[i].trial;
@@ -182,4 +182,4 @@ TEST(Replay, reproduces_the_loss) {
 }
 
 }  // namespace
-}  // namespace clusterbench::run
+}  // namespace clusterbench::stress

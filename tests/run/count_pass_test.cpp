@@ -1,4 +1,4 @@
-#include "run/count_pass.h"
+#include "run/passes/count_pass.h"
 
 #include <gtest/gtest.h>
 #include <malloc.h>

@@ -1,4 +1,4 @@
-#include "run/details_pass.h"
+#include "run/passes/details_pass.h"
 
 #include <gtest/gtest.h>
 

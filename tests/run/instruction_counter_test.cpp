@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "core/error.h"
-#include "run/callgrind_counter.h"
-#include "run/perf_counter.h"
+#include "run/counters/callgrind_counter.h"
+#include "run/counters/perf_counter.h"
 
 namespace clusterbench::run {
 namespace {

@@ -114,11 +114,11 @@ struct Ran {
 constexpr int k_rig_lights = 60;
 
 Ran ran(const std::string& rest) {
-  const Config config = parse_config(R"({"scenes": [{"rig": {"lights": 60, "spots": 0.4, "range": 20}}],
+  const config::Config config = config::parse_config(R"({"scenes": [{"rig": {"lights": 60, "spots": 0.4, "range": 20}}],
       "viewport": [160, 90], "grids": [{"tiles": {"count": [5, 4]}, "slices": {"count": 6, "near": 0.1, "far": 60}}],
       "timing": {"rounds": 2, "min_time_ms": 0.01, "frames": 1}, )" +
-                                         rest + "}",
-                                     "c.json");
+                                                         rest + "}",
+                                                     "c.json");
   Ran out{make_plan(config, ""), {}};
   const std::atomic<bool> stop{false};
   out.result = run_plan(config, out.plan, {}, {}, stop);
@@ -208,7 +208,7 @@ TEST(LightStructures, a_method_of_both_forms_has_a_case_for_each) {
   EXPECT_EQ(own.shading->needed, lists.shading->needed);
   EXPECT_NE(own.id, lists.id);
   EXPECT_TRUE(own.timing->vs);
-  EXPECT_EQ(method_label(parse_config(R"({"scenes": ["a.glb"], "assigners": ["bvh"]})", "c.json"),
+  EXPECT_EQ(method_label(config::parse_config(R"({"scenes": ["a.glb"], "assigners": ["bvh"]})", "c.json"),
                          all.plan.groups[0].cases[2].method()),
             "bvh own");
 }

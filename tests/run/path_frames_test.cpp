@@ -7,7 +7,7 @@
 namespace clusterbench::run {
 namespace {
 
-int grids_made(const Config& config, std::size_t grid, const PathFrames& path) {
+int grids_made(const config::Config& config, std::size_t grid, const PathFrames& path) {
   GridOfFrames grids(config.grids[grid]);
   int made = 0;
   for (int i = 0; i < path.count(); ++i) made += grids.update(path, path.frame(i)) ? 1 : 0;

@@ -1,4 +1,4 @@
-#include "run/processor.h"
+#include "run/counters/processor.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

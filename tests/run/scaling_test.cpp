@@ -12,7 +12,7 @@ namespace clusterbench::run {
 namespace {
 
 Result counted(const std::string& text) {
-  const Config config = parse_config(
+  const config::Config config = config::parse_config(
       R"({"shading": {"samples": 0}, "accuracy": {"check": false}, "timing": {"measure": false}, )" + text, "c.json");
   const std::atomic<bool> stop{false};
   return run_plan(config, make_plan(config, ""), {}, {}, stop);

@@ -1,4 +1,4 @@
-#include "run/stability_pass.h"
+#include "run/passes/stability_pass.h"
 
 #include <gtest/gtest.h>
 

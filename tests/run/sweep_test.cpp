@@ -35,7 +35,7 @@ class Sweep : public ::testing::Test {
   }
 
   Plan plan(const std::string& scenes, const std::string& rest, const std::string& filter = "") const {
-    return make_plan(parse_config(R"({"scenes": )" + scenes + rest + "}", folder_ / "c.json"), filter);
+    return make_plan(config::parse_config(R"({"scenes": )" + scenes + rest + "}", folder_ / "c.json"), filter);
   }
 
   static std::vector<CasePlan> cases(const Plan& plan) {

@@ -11,11 +11,11 @@ namespace clusterbench::run::testing {
 
 // Lights at fixed places before a camera that walks towards them along -z, a metre a frame.
 struct Walk {
-  Config config;
+  config::Config config;
   Plan plan;
 
   explicit Walk(const std::string& settings, int frames = 3) {
-    config = parse_config(R"({"scenes": ["walk.glb"], "viewport": [100, 100], )" + settings + "}", "c.json");
+    config = config::parse_config(R"({"scenes": ["walk.glb"], "viewport": [100, 100], )" + settings + "}", "c.json");
     config.timing.measure = false;
     SceneData data;
     data.scene.name = "walk";

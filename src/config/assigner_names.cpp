@@ -1,0 +1,25 @@
+#include "config/assigner_names.h"
+
+#include <fnmatch.h>
+
+#include "assign/contract/assigner.h"
+#include "core/error.h"
+#include "core/text.h"
+
+namespace clusterbench::config {
+
+bool is_glob(const std::string& name) {
+  return name.find_first_of("*?[") != std::string::npos;
+}
+
+std::vector<std::string> matching_assigners(const std::string& pattern, const std::string& file,
+                                            const std::string& where) {
+  std::vector<std::string> standard, naive;
+  for (const assign::AssignerDescriptor* one : assign::assigner_descriptors())
+    if (fnmatch(pattern.c_str(), one->name.c_str(), 0) == 0) (one->naive ? naive : standard).push_back(one->name);
+  if (standard.empty() && naive.empty())
+    throw Error(file, where, "'" + pattern + "' matches none of " + joined(assign::assigner_names()));
+  return standard.empty() ? naive : standard;
+}
+
+}  // namespace clusterbench::config

@@ -1,0 +1,354 @@
+#include "config/config.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <set>
+
+#include "assign/contract/storage.h"
+#include "config/assigner_names.h"
+#include "config/config_grids.h"
+#include "config/config_rigs.h"
+#include "config/documents.h"
+#include "config/json_text.h"
+#include "config/schema_reader.h"
+#include "core/error.h"
+
+namespace clusterbench::config {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+// "${NAME}" becomes the environment variable's value.
+std::string expanded(std::string path, const std::string& file, const std::string& where) {
+  for (std::size_t begin = path.find("${"); begin != std::string::npos; begin = path.find("${", begin)) {
+    const std::size_t end = path.find('}', begin);
+    if (end == std::string::npos) throw Error(file, where, "found '${' without '}' in '" + path + "'");
+    const std::string name = path.substr(begin + 2, end - begin - 2);
+    const char* value = std::getenv(name.c_str());
+    if (value == nullptr)
+      throw Error(file, where, "the environment variable '" + name + "' is not set; set it to use '" + path + "'");
+    path.replace(begin, end + 1 - begin, value);
+    begin += std::string(value).size();
+  }
+  return path;
+}
+
+scene::PathRequest path_request(const Json& scene) {
+  scene::PathRequest request;
+  request.camera = scene["camera"].get<std::string>();
+  if (scene["camera_fit"] == "vertical") request.fit = scene::CameraFit::vertical;
+  const Json& frames = scene["frames"];
+  if (frames.is_number()) {
+    request.count = frames.get<int>();
+  } else if (frames.is_string()) {
+    request.choice = scene::FrameChoice::keys;
+  } else {
+    request.choice = scene::FrameChoice::rate;
+    request.rate_hz = frames["rate"].get<double>();
+  }
+  return request;
+}
+
+void add_scenes(const Json& scene, const std::string& pointer, const JsonText& text, std::vector<SceneRequest>& out) {
+  const bool single = scene.contains("path"), has_rig = scene.contains("rig");
+  if (single + scene.contains("paths") + has_rig != 1)
+    throw Error(text.file, text.where(pointer), "a scene takes exactly one of path, paths, rig");
+  SceneRequest request;
+  request.camera = path_request(scene);
+  request.range_rule = {scene["range_rule"]["cutoff_lux"].get<double>(),
+                        scene["range_rule"]["max_range"].get<double>()};
+  if (has_rig) {
+    for (const scene::RigSpec& rig : rig_specs(scene["rig"])) {
+      request.rig = rig;
+      out.push_back(request);
+    }
+    return;
+  }
+  const Json paths = single ? Json::array({scene["path"]}) : scene["paths"];
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const std::string place = single ? pointer + "/path" : child_pointer(pointer + "/paths", i);
+    const fs::path path = expanded(paths[i].get<std::string>(), text.file, text.where(place));
+    request.path = (fs::path(text.file).parent_path() / path).lexically_normal();
+    out.push_back(request);
+  }
+}
+
+assign::ParamValue param_value(const Json& value) {
+  if (value.is_boolean()) return value.get<bool>();
+  if (value.is_number()) return value.get<double>();
+  return value.get<std::string>();
+}
+
+MethodRequest method(const Json& object, std::span<const assign::ParamSpec> specs) {
+  std::map<std::string, assign::ParamValue> given;
+  for (const auto& [key, value] : object.items())
+    if (key != "name") given[key] = param_value(value);
+  return {object["name"].get<std::string>(), assign::Params(specs, given)};
+}
+
+std::span<const assign::ParamSpec> assigner_params(const std::string& name) {
+  return assign::find_assigner(name)->params;
+}
+std::span<const assign::ParamSpec> storage_params(const std::string& name) {
+  return assign::find_storage(name)->params;
+}
+
+template <class SpecsOf>
+std::vector<MethodRequest> methods(const Json& list, const char* key, const JsonText& text, SpecsOf specs_of) {
+  std::vector<MethodRequest> out;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    for (const Json& object : expand_all_axes(list[i])) {
+      MethodRequest request = method(object, specs_of(object["name"].get<std::string>()));
+      const bool twice = std::any_of(out.begin(), out.end(), [&](const MethodRequest& earlier) {
+        return earlier.name == request.name && earlier.params.values() == request.params.values();
+      });
+      const std::string pointer = std::string("/") + key;
+      const bool as_written = text.value.contains(key) && text.value[key].size() == list.size();  // no pattern
+      if (twice)
+        throw Error(text.file, text.where(as_written ? child_pointer(pointer, i) : pointer),
+                    "'" + request.label() + "' stands here twice with the same parameters");
+      out.push_back(std::move(request));
+    }
+  }
+  return out;
+}
+
+view::Packing packing_of(const std::string& name) {
+  return *std::find_if(std::begin(view::k_packings), std::end(view::k_packings),
+                       [&](view::Packing packing) { return name == view::packing_name(packing); });
+}
+
+std::vector<PrecisionRequest> precisions(const Json& list, const JsonText& text) {
+  std::vector<PrecisionRequest> out;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::string where = text.where(child_pointer("/precision", i));
+    for (const Json& object : expand_all_axes(list[i])) {
+      const PrecisionRequest request{packing_of(object["packing"].get<std::string>()), object["inflate"].get<bool>()};
+      if (request.inflate && !request.is_lossy())
+        throw Error(text.file, where,
+                    "float32 loses nothing that assigners do not pad for themselves; inflate what "
+                    "half or unorm16 loses");
+      if (std::find(out.begin(), out.end(), request) != out.end())
+        throw Error(text.file, where, "'" + request.label() + "' stands here twice");
+      out.push_back(request);
+    }
+  }
+  return out;
+}
+
+// Patterns are kept until the list has been checked.
+bool is_assigner_glob(const std::string& list, const Json& entry) {
+  return list == "assigners" && is_glob(entry.get_ref<const std::string&>());
+}
+
+// "pixels": a number is a square. A list of exactly two numbers is one size, [width, height]; any other list is an
+// axis.
+Json square_tiles(Json pixels) {
+  const auto is_number = [](const Json& entry) { return entry.is_number(); };
+  if (pixels.is_number()) return Json::array({pixels, pixels});
+  if (!pixels.is_array() || (pixels.size() == 2 && std::all_of(pixels.begin(), pixels.end(), is_number))) return pixels;
+  for (Json& size : pixels)
+    if (size.is_number()) size = Json::array({size, size});
+  return pixels;
+}
+
+// Short forms written out: "aabb" is {"name": "aabb"}, a scene's path is {"path": ...}, viewport is one of viewports,
+// tiles of 64 pixels are of [64, 64].
+Json long_form(Json document, const JsonText& text) {
+  if (!document.is_object()) return document;
+  const std::pair<const char*, const char*> lists[] = {
+      {"scenes", "path"}, {"assigners", "name"}, {"storages", "name"}, {"precision", "packing"}};
+  for (const auto& [list, key] : lists) {
+    if (!document.contains(list) || !document[list].is_array()) continue;
+    for (Json& entry : document[list])
+      if (entry.is_string() && !is_assigner_glob(list, entry)) entry = Json{{key, entry}};
+  }
+  if (document.contains("grids") && document["grids"].is_array())
+    for (Json& grid : document["grids"])
+      if (const Json::json_pointer pixels("/tiles/pixels"); grid.is_object() && grid.contains(pixels))
+        grid[pixels] = square_tiles(grid[pixels]);
+  if (document.contains("viewport") && document.contains("viewports"))
+    throw Error(text.file, text.where_key("/viewport"), "viewport and viewports exclude each other");
+  return document;
+}
+
+// A pattern stands for all methods that it matches and that the list does not name itself.
+Json without_globs(const Json& list, const JsonText& text) {
+  Json out = Json::array();
+  const auto is_named = [](const Json& entries, const std::string& name) {
+    return std::any_of(entries.begin(), entries.end(), [&](const Json& entry) {
+      return entry == name || (entry.is_object() && entry["name"] == name);
+    });
+  };
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (!list[i].is_string() || !is_glob(list[i].get_ref<const std::string&>())) {
+      out.push_back(list[i]);
+      continue;
+    }
+    const std::string where = text.where(child_pointer("/assigners", i));
+    for (const std::string& name : matching_assigners(list[i], text.file, where))
+      if (!is_named(list, name) && !is_named(out, name)) out.push_back(name);
+  }
+  return out;
+}
+
+// Defaults filled in; short forms in the defaults, too.
+Json filled(const JsonText& text) {
+  const Json schema = config_schema();
+  Json document = read_by_schema(schema, long_form(text.value, text), text);
+  if (document.contains("viewport")) {
+    document["viewports"] = Json::array({document["viewport"]});
+    document.erase("viewport");
+  }
+  document.erase("$schema");
+  if (document["name"].get_ref<const std::string&>().empty()) document["name"] = fs::path(text.file).stem().string();
+  document["assigners"] = without_globs(document["assigners"], text);
+  return read_by_schema(schema, long_form(document, text), text);
+}
+
+std::vector<Vec2i> viewports(const Json& list, const JsonText& text) {
+  std::vector<Vec2i> out;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const Vec2i size{list[i][0].get<int>(), list[i][1].get<int>()};
+    if (std::find(out.begin(), out.end(), size) != out.end())
+      throw Error(text.file, text.where(child_pointer("/viewports", i)), "this viewport stands here twice");
+    out.push_back(size);
+  }
+  return out;
+}
+
+std::optional<StabilityRequest> stability_request(const Json& stability) {
+  if (stability.is_null()) return std::nullopt;
+  return StabilityRequest{stability["steps"].get<int>(), stability["step_mm"].get<double>(),
+                          stability["step_deg"].get<double>(), stability["window"].get<int>()};
+}
+
+// The place of a name among the first `count` values of an enumeration.
+template <class Named>
+Named named(const std::string& name, int count) {
+  int i = 0;
+  while (i + 1 < count && name != measure::name_of(static_cast<Named>(i))) ++i;
+  return static_cast<Named>(i);
+}
+
+// Every logarithm with every depth.
+std::optional<LookupRequest> lookup_request(const Json& lookup) {
+  if (lookup.is_null()) return std::nullopt;
+  LookupRequest request{lookup["samples"].get<int>(), {}};
+  for (const std::string logarithm : lookup["logarithms"])
+    for (const std::string depth : lookup["depths"])
+      request.ways.push_back({named<measure::Logarithm>(logarithm, measure::k_logarithm_count),
+                              named<measure::DepthRead>(depth, measure::k_depth_read_count)});
+  return request;
+}
+
+std::optional<DetailsRequest> details_request(const Json& details) {
+  if (details.is_null()) return std::nullopt;
+  DetailsRequest request;
+  request.lists = details["lists"].get<bool>();
+  request.max_bytes = details["max_bytes"].get<std::size_t>();
+  const Json& frames = details["frames"];
+  if (frames.is_number()) {
+    request.choice = DetailsRequest::Choice::evenly;
+    request.count = frames.get<int>();
+  } else if (frames.is_array()) {
+    request.choice = DetailsRequest::Choice::listed;
+    const auto once = frames.get<std::set<int>>();
+    request.frames.assign(once.begin(), once.end());
+  }
+  return request;
+}
+
+void read_settings(const Json& document, Config& config) {
+  config.threads = document["threads"].get<int>();
+  config.seed = document["seed"].get<std::uint64_t>();
+  config.check_accuracy = document["accuracy"]["check"].get<bool>();
+  config.shading_samples = document["shading"]["samples"].get<int>();
+  config.stability = stability_request(document["stability"]);
+  config.lookup = lookup_request(document["lookup"]);
+  config.details = details_request(document["details"]);
+  const Json& all_pairs = document["limits"]["all_pairs"];
+  if (all_pairs.is_number()) config.limits.all_pairs = all_pairs.get<std::uint64_t>();
+  config.limits.memory_mib = document["limits"]["memory_mib"].get<std::uint64_t>();
+  const Json& timing = document["timing"];
+  config.timing = {timing["measure"].get<bool>(), timing["rounds"].get<int>(), timing["min_time_ms"].get<double>(),
+                   timing["frames"].get<int>()};
+  config.allocation = {document["allocation"]["margin"].get<double>(), document["allocation"]["warn_at"].get<double>()};
+}
+
+Config read_config(const JsonText& text) {
+  Config config;
+  config.file = text.file;
+  config.resolved = filled(text);
+  config.resolved.erase("$schema");
+  const Json& document = config.resolved;
+  config.name = document["name"].get<std::string>();
+  for (std::size_t i = 0; i < document["scenes"].size(); ++i)
+    add_scenes(document["scenes"][i], child_pointer("/scenes", i), text, config.scenes);
+  config.viewports = viewports(document["viewports"], text);
+  config.grids = grid_specs(document["grids"], text);
+  config.assigners = methods(document["assigners"], "assigners", text, assigner_params);
+  config.storages = methods(document["storages"], "storages", text, storage_params);
+  config.precisions = precisions(document["precision"], text);
+  read_settings(document, config);
+  return config;
+}
+
+Config read_changed(const JsonText& text, std::span<const FlagValue> flags) {
+  Config config = read_config(text);
+  return flags.empty() ? config : read_config(changed_by_flags(config.resolved, text.file, flags));
+}
+
+std::string param_text(const assign::ParamSpec& spec, const assign::ParamValue& value) {
+  if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+  const double number = std::get<double>(value);
+  return spec.whole ? Json(static_cast<std::int64_t>(number)).dump() : Json(number).dump();
+}
+
+}  // namespace
+
+std::string MethodRequest::label() const {
+  const assign::AssignerDescriptor* assigner = assign::find_assigner(name);
+  const assign::StorageDescriptor* storage = assign::find_storage(name);
+  std::span<const assign::ParamSpec> specs;
+  if (assigner != nullptr) specs = assigner->params;
+  if (assigner == nullptr && storage != nullptr) specs = storage->params;
+  std::string inner;
+  for (const assign::ParamSpec& spec : specs) {
+    const auto value = params.values().find(spec.name);
+    if (value == params.values().end() || value->second == spec.standard) continue;
+    inner += (inner.empty() ? "" : ",") + spec.name + "=" + param_text(spec, value->second);
+  }
+  return inner.empty() ? name : name + "(" + inner + ")";
+}
+
+std::string PrecisionRequest::label() const {
+  return std::string(view::packing_name(packing)) + (inflate ? "+inflate" : "");
+}
+
+Config parse_config(const std::string& text, const fs::path& file, std::span<const FlagValue> flags) {
+  return read_changed(parse_json_text(text, file.string()), flags);
+}
+
+Config load_config(const fs::path& path, std::span<const FlagValue> flags) {
+  std::ifstream in(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (!in || in.bad() || fs::is_directory(path)) throw Error(path.string(), "", "cannot be read");
+  return parse_config(text, path, flags);
+}
+
+Config default_config(const std::vector<fs::path>& scenes, std::span<const FlagValue> flags) {
+  Json list = Json::array();
+  for (const fs::path& path : scenes) list.push_back({{"path", path.string()}, {"frames", 30}});
+  const Json document{{"name", scenes.size() == 1 ? scenes.front().stem().string() : "scenes"},
+                      {"scenes", list},
+                      {"timing", {{"rounds", 15}, {"min_time_ms", 2}, {"frames", 4}}}};
+  JsonText text;
+  text.value = document;
+  return read_changed(text, flags);
+}
+
+}  // namespace clusterbench::config

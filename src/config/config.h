@@ -1,0 +1,123 @@
+#pragma once
+// A configuration after checking: every key has a value, paths are resolved.
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "assign/contract/assigner.h"
+#include "config/config_flags.h"
+#include "core/memory.h"
+#include "grid/grid.h"
+#include "measure/buffers.h"
+#include "measure/lookup.h"
+#include "scene/camera_path.h"
+#include "scene/rig.h"
+#include "scene/scene.h"
+#include "view/packing.h"
+
+namespace clusterbench::config {
+
+struct SceneRequest {
+  std::filesystem::path path;         // "" with a rig
+  std::optional<scene::RigSpec> rig;  // made in memory, in place of a file
+  scene::PathRequest camera;
+  scene::RangeRule range_rule;
+};
+
+// A named method with its resolved parameters: an assigner or a storage.
+struct MethodRequest {
+  std::string name;
+  assign::Params params;
+  std::string label()
+      const;  // "sphere-refinement(spot=narrowing)": the name and the parameters that differ from the default
+};
+
+// How lights are handed to the assigners. The truth is that of the scene whatever this is.
+struct PrecisionRequest {
+  view::Packing packing = view::Packing::float32;
+  bool inflate = false;  // grow each light by what packing can have lost
+
+  bool is_lossy() const { return packing != view::Packing::float32; }
+  std::string label() const;  // "float32", "half", "half+inflate"
+
+  friend bool operator==(const PrecisionRequest&, const PrecisionRequest&) = default;
+};
+
+struct TimingRequest {
+  bool measure = true;
+  int rounds = 31;
+  double min_time_ms = 20.0;  // of one round of one case
+  int frames = 8;             // evenly spaced frames that are timed; 0 = all
+};
+
+// How lists change along a finely sampled piece of the path.
+struct StabilityRequest {
+  int steps = 200;
+  double step_mm = 1.0;    // largest move of the eye in a step
+  double step_deg = 0.01;  // largest turn of the view in a step
+  int window = 8;          // a pair that changes back within so many steps flickers
+};
+
+// How a shader's lookup is tried on samples.
+struct LookupRequest {
+  int samples = 4096;  // per frame
+  std::vector<measure::LookupWay> ways;
+};
+
+// Which frames a result carries cell by cell.
+struct DetailsRequest {
+  enum class Choice : std::uint8_t { worst, evenly, listed };  // the one with the case's longest list; count; frames
+  Choice choice = Choice::worst;
+  int count = 0;
+  std::vector<int> frames;  // ascending, each once
+  bool lists = true;        // each cell's lights, too
+  std::size_t max_bytes = 2'000'000;
+};
+
+// Beyond all_pairs cases are skipped, with the reason; beyond the memory they are, too, where it is known before, or
+// the run ends with an error.
+struct LimitsRequest {
+  std::optional<std::uint64_t> all_pairs;  // lights x cells of methods that test every light against every cell
+  std::uint64_t memory_mib = k_default_memory_limit >> 20;  // of one list, buffer or table: core/memory.h
+};
+
+struct Config {
+  std::string name;
+  std::filesystem::path file;  // "" = made from scenes on the command line
+  std::vector<SceneRequest> scenes;
+  std::vector<Vec2i> viewports;
+  std::vector<grid::GridSpec> grids;
+  std::vector<MethodRequest> assigners;
+  std::vector<MethodRequest> storages;
+  std::vector<PrecisionRequest> precisions;
+  int threads = 1;
+  std::uint64_t seed = 1;
+  bool check_accuracy = true;
+  int shading_samples = 1024;                 // per frame; 0 = off
+  std::optional<StabilityRequest> stability;  // without: not measured
+  std::optional<LookupRequest> lookup;        // without: not measured
+  std::optional<DetailsRequest> details;      // without: none
+  TimingRequest timing;
+  LimitsRequest limits;
+  measure::AllocationRule allocation;
+
+  // More than float32, and so results tell what each precision loses.
+  bool compares_precisions() const { return precisions != std::vector<PrecisionRequest>{{}}; }
+
+  nlohmann::json resolved;  // the configuration with all defaults, as the result carries it
+};
+
+// Reads and checks a configuration file, and then what the command line's flags make of it. Throws Error with
+// "line:column /json/pointer" as its place, or with the flag.
+Config load_config(const std::filesystem::path& path, std::span<const FlagValue> flags = {});
+// The same from text; `file` is for messages and for relative paths.
+Config parse_config(const std::string& text, const std::filesystem::path& file, std::span<const FlagValue> flags = {});
+// The sweep that `run level.glb` does: sensible defaults.
+Config default_config(const std::vector<std::filesystem::path>& scenes, std::span<const FlagValue> flags = {});
+
+}  // namespace clusterbench::config

@@ -1,0 +1,295 @@
+#include "config/config_flags.h"
+
+#include <algorithm>
+#include <array>
+#include <regex>
+
+#include "config/assigner_names.h"
+#include "config/documents.h"
+#include "core/error.h"
+
+namespace clusterbench::config {
+namespace {
+
+using Json = nlohmann::json;
+
+[[noreturn]] void refuse(const FlagValue& flag, const std::string& what) {
+  throw Error("", flag.text(), what);
+}
+
+// "a,[b,c],{d,e}" at its commas outside of brackets and quotes.
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> parts(1);
+  int depth = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"' && (i == 0 || text[i - 1] != '\\')) quoted = !quoted;
+    if (!quoted && (c == '[' || c == '{')) ++depth;
+    if (!quoted && (c == ']' || c == '}')) --depth;
+    if (c == ',' && depth == 0 && !quoted)
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
+
+// JSON, or a word that needs no quotes; several make a list.
+Json value_of(const std::string& text) {
+  Json list = Json::array();
+  for (const std::string& part : split(text)) {
+    Json value = Json::parse(part, nullptr, false);
+    list.push_back(value.is_discarded() ? Json(part) : std::move(value));
+  }
+  return list.size() == 1 ? list.front() : list;
+}
+
+// A configuration, and which flag has set what.
+class FlaggedConfig {
+ public:
+  explicit FlaggedConfig(JsonText& text) : text_(text) {}
+
+  Json& root() { return text_.value; }
+  Json& operator[](const char* key) { return text_.value[key]; }
+  void mark(const std::string& pointer, const FlagValue& flag) { text_.flags[pointer] = flag.text(); }
+
+  // Sets what `steps` lead to from `at`, which stands at `pointer`: a key, an entry by its number, or "*" for each
+  // entry that has the next key. Says how many there were.
+  int set(Json& at, const std::string& pointer, std::span<const std::string> steps, const FlagValue& flag,
+          const Json& value) {
+    if (steps.empty()) {
+      at = value;
+      mark(pointer, flag);
+      return 1;
+    }
+    if (at.is_array()) return set_in_list(at, pointer, steps, flag, value);
+    if (at.is_null()) at = Json::object();  // "stability" and the like, which are off
+    if (!at.is_object()) refuse(flag, pointer + " has no keys");
+    const std::string member = child_pointer(pointer, steps.front());
+    if (!at.contains(steps.front())) mark(member, flag);
+    return set(at[steps.front()], member, steps.subspan(1), flag, value);
+  }
+
+ private:
+  int set_in_list(Json& list, const std::string& pointer, std::span<const std::string> steps, const FlagValue& flag,
+                  const Json& value) {
+    const Json number = Json::parse(steps.front(), nullptr, false);
+    const bool is_entry = number.is_number_unsigned() && number < list.size();
+    if (!is_entry && steps.front() != "*")
+      refuse(flag, pointer + " has " + std::to_string(list.size()) +
+                       " entries: takes a number from 0, or * for all, not '" + steps.front() + "'");
+    int count = 0;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const bool is_meant = is_entry ? number == i : steps.size() == 1 || list[i].contains(steps[1]);
+      if (is_meant) count += set(list[i], child_pointer(pointer, i), steps.subspan(1), flag, value);
+    }
+    return count;
+  }
+
+  JsonText& text_;
+};
+
+bool has_tiles(const Json& grid) {
+  return grid["kind"] == "frustum" || grid["kind"] == "distance";
+}
+
+// Grids of these kinds stay; a kind that is not there comes with its defaults.
+void choose_grids(FlaggedConfig& document, const FlagValue& flag) {
+  Json chosen = Json::array();
+  for (const std::string& kind : split(flag.value)) {
+    const std::size_t before = chosen.size();
+    for (const Json& grid : document["grids"])
+      if (grid["kind"] == kind) chosen.push_back(grid);
+    if (chosen.size() > before) continue;
+    document.mark(child_pointer("/grids", before), flag);
+    chosen.push_back({{"kind", kind}});
+  }
+  document["grids"] = chosen;
+}
+
+// Pixels per tile, and tiles per screen.
+struct TileSizes {
+  Json pixels = Json::array(), counts = Json::array();
+};
+
+TileSizes tile_sizes(const FlagValue& flag) {
+  static const std::regex form("([0-9]{1,9})(?:x([0-9]{1,9}))?(px|t)?");
+  TileSizes sizes;
+  for (const std::string& part : split(flag.value)) {
+    std::smatch found;
+    const bool is_size = std::regex_match(part, found, form);
+    const bool is_count = is_size && found[3] == "t";
+    if (!is_size || (is_count && !found[2].matched))
+      refuse(flag,
+             "'" + part + "' is no tile size; takes 64 or 64x32 (pixels of a tile), or 16x9t (tiles across and down)");
+    const int width = std::stoi(found[1]), height = found[2].matched ? std::stoi(found[2]) : width;
+    (is_count ? sizes.counts : sizes.pixels).push_back({width, height});
+  }
+  return sizes;
+}
+
+void choose_tiles(FlaggedConfig& document, const FlagValue& flag) {
+  const TileSizes sizes = tile_sizes(flag);
+  Json grids = Json::array();
+  for (const Json& grid : document["grids"]) {
+    if (!has_tiles(grid)) grids.push_back(grid);
+    for (const auto& [key, axis] : {std::pair{"pixels", &sizes.pixels}, std::pair{"count", &sizes.counts}}) {
+      if (!has_tiles(grid) || axis->empty()) continue;
+      document.mark(child_pointer("/grids", grids.size()) + "/tiles", flag);
+      grids.push_back(grid);
+      grids.back()["tiles"] = {{key, *axis}};
+    }
+  }
+  if (std::none_of(grids.begin(), grids.end(), has_tiles)) refuse(flag, "no grid has tiles; add --grid frustum");
+  document["grids"] = grids;
+}
+
+void choose_slices(FlaggedConfig& document, const FlagValue& flag) {
+  Json& grids = document["grids"];
+  if (std::none_of(grids.begin(), grids.end(), has_tiles)) refuse(flag, "no grid has slices; add --grid frustum");
+  const std::string steps[] = {"slices", "count"};
+  for (std::size_t i = 0; i < grids.size(); ++i)
+    if (has_tiles(grids[i])) document.set(grids[i], child_pointer("/grids", i), steps, flag, value_of(flag.value));
+}
+
+void choose_viewports(FlaggedConfig& document, const FlagValue& flag) {
+  static const std::regex form("([0-9]{1,9})x([0-9]{1,9})");
+  Json viewports = Json::array();
+  for (const std::string& part : split(flag.value)) {
+    std::smatch found;
+    if (!std::regex_match(part, found, form))
+      refuse(flag, "'" + part + "' is no image size; takes WIDTHxHEIGHT, as in 1920x1080");
+    viewports.push_back({std::stoi(found[1]), std::stoi(found[2])});
+  }
+  document["viewports"] = viewports;
+  document.mark("/viewports", flag);
+}
+
+// The configuration's own entries keep their parameters.
+void choose_assigners(FlaggedConfig& document, const FlagValue& flag) {
+  std::vector<std::string> names;
+  for (const std::string& part : split(flag.value))
+    for (const std::string& name : is_glob(part) ? matching_assigners(part, "", flag.text()) : std::vector{part})
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  Json chosen = Json::array();
+  for (const std::string& name : names) {
+    const std::size_t before = chosen.size();
+    for (const Json& own : document["assigners"])
+      if (own["name"] == name) chosen.push_back(own);
+    if (chosen.size() == before) chosen.push_back({{"name", name}});
+  }
+  document["assigners"] = chosen;
+  document.mark("/assigners", flag);
+}
+
+void set_key(FlaggedConfig& document, const std::vector<std::string>& steps, const FlagValue& flag, const Json& value) {
+  Json& root = document.root();
+  if (document.set(root, "", steps, flag, value) == 0) refuse(flag, "no entry has this key");
+}
+
+void set_rounds(FlaggedConfig& document, const FlagValue& flag) {
+  set_key(document, {"timing", "rounds"}, flag, value_of(flag.value));
+}
+
+void set_threads(FlaggedConfig& document, const FlagValue& flag) {
+  set_key(document, {"threads"}, flag, value_of(flag.value));
+}
+
+// "a.b.0.c", or as a JSON pointer, "/a/b/0/c".
+std::vector<std::string> steps_of(const std::string& key) {
+  const bool is_pointer = key.starts_with('/');
+  std::vector<std::string> steps(1);
+  for (const char c : key.substr(is_pointer ? 1 : 0))
+    if (c == (is_pointer ? '/' : '.'))
+      steps.emplace_back();
+    else
+      steps.back() += c;
+  return steps;
+}
+
+void set_any(FlaggedConfig& document, const FlagValue& flag) {
+  const std::size_t equals = flag.value.find('=');
+  if (equals == 0 || equals == std::string::npos) refuse(flag, "takes KEY=VALUE, as in --set timing.frames=4");
+  std::vector<std::string> steps = steps_of(flag.value.substr(0, equals));
+  Json value = value_of(flag.value.substr(equals + 1));
+  if (steps == std::vector<std::string>{"viewport"}) {
+    steps = {"viewports"};
+    value = Json::array({value});
+  }
+  set_key(document, steps, flag, value);
+}
+
+struct FlagRow {
+  ConfigFlag flag;
+  void (*apply)(FlaggedConfig& document, const FlagValue& flag);
+};
+
+// In the order in which they are applied.
+constexpr FlagRow k_rows[] = {
+    {{"--grid", "KIND[,KIND]: only grids of these kinds; one that the configuration lacks comes with its defaults"},
+     choose_grids},
+    {{"--tiles", "SIZE[,SIZE]: pixels of a tile, 64 or 64x32; or tiles across and down, 16x9t"}, choose_tiles},
+    {{"--slices", "N[,N]: how many slices depth or distance is cut into"}, choose_slices},
+    {{"--viewport", "WxH[,WxH]: image sizes in pixels, as 1920x1080"}, choose_viewports},
+    {{"--assigner", "NAME[,NAME]: only these assigners; * and ? stand for any letters, as in '*-fast'"},
+     choose_assigners},
+    {{"--rounds", "N: timed rounds over all cases of a group"}, set_rounds},
+    {{"--threads", "N: threads for the truth; results do not depend on it"}, set_threads},
+    {{"--set", "KEY=VALUE[,VALUE], repeatable: any key of the configuration, as in 'grids.*.slices.far=200,500'", true},
+     set_any},
+};
+
+// Keys of `slices` that none of its schemes uses, and that no flag has set: another scheme has been chosen.
+void drop_unused_slice_keys(JsonText& text) {
+  const Json properties = config_schema()["definitions"]["slices"]["properties"];
+  Json& grids = text.value["grids"];
+  for (std::size_t i = 0; i < grids.size(); ++i) {
+    if (!grids[i].contains("slices") || !grids[i]["slices"].contains("scheme")) continue;
+    Json& slices = grids[i]["slices"];
+    const Json& scheme = slices["scheme"];
+    for (const auto& [key, property] : properties.items()) {
+      const Json users = property.value("x-used-by", Json::array());
+      const auto is_user = [&](const Json& one) { return std::find(users.begin(), users.end(), one) != users.end(); };
+      const bool is_used = scheme.is_array() ? std::any_of(scheme.begin(), scheme.end(), is_user) : is_user(scheme);
+      const std::string pointer = child_pointer("/grids", i) + "/slices/" + key;
+      if (!users.empty() && !is_used && !text.flags.contains(pointer)) slices.erase(key);
+    }
+  }
+}
+
+// Two grids that differed in what a flag has set.
+void drop_repeated(Json& list) {
+  Json once = Json::array();
+  for (const Json& entry : list)
+    if (std::find(once.begin(), once.end(), entry) == once.end()) once.push_back(entry);
+  list = once;
+}
+
+}  // namespace
+
+std::span<const ConfigFlag> config_flags() {
+  static const auto flags = [] {
+    std::array<ConfigFlag, std::size(k_rows)> all{};
+    std::transform(std::begin(k_rows), std::end(k_rows), all.begin(), [](const FlagRow& row) { return row.flag; });
+    return all;
+  }();
+  return flags;
+}
+
+JsonText changed_by_flags(const Json& document, const std::string& file, std::span<const FlagValue> values) {
+  JsonText text;
+  text.file = file;
+  text.value = document;
+  FlaggedConfig changed(text);
+  for (const FlagRow& row : k_rows)
+    for (const FlagValue& flag : values)
+      if (flag.name == row.flag.name) row.apply(changed, flag);
+  if (text.value["grids"].is_array()) {
+    drop_unused_slice_keys(text);
+    drop_repeated(text.value["grids"]);
+  }
+  return text;
+}
+
+}  // namespace clusterbench::config

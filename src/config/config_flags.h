@@ -1,0 +1,29 @@
+#pragma once
+// What the command line changes of a configuration: a flag for each thing that people change, and --set for every key.
+
+#include <span>
+#include <string>
+
+#include "config/json_text.h"
+
+namespace clusterbench::config {
+
+struct ConfigFlag {
+  const char* name;  // "--tiles"
+  const char* summary;
+  bool is_repeatable = false;  // each time another setting; of the others repetition makes a longer list
+};
+std::span<const ConfigFlag> config_flags();
+
+struct FlagValue {
+  std::string name, value;
+
+  std::string text() const { return name + "=" + value; }
+};
+
+// `document` is a configuration with all its defaults. Applied in the order of config_flags(), whatever that of
+// `values`. The result is to be read by the schema again: its `flags` say which flag has set what. Throws Error that
+// names the flag.
+JsonText changed_by_flags(const nlohmann::json& document, const std::string& file, std::span<const FlagValue> values);
+
+}  // namespace clusterbench::config

@@ -1,0 +1,189 @@
+#include "config/config_grids.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+
+namespace clusterbench::config {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::pair<const char*, grid::Scheme> k_schemes[] = {{"linear", grid::Scheme::linear},
+                                                              {"exponential", grid::Scheme::exponential},
+                                                              {"exponential-first", grid::Scheme::exponential_first},
+                                                              {"power", grid::Scheme::power},
+                                                              {"list", grid::Scheme::list},
+                                                              {"fit", grid::Scheme::fit}};
+
+// A key that can be an axis, and how deep lists are nested in a single value of it.
+struct Axis {
+  const char* pointer;
+  int depth;
+};
+constexpr Axis k_axes[] = {{"/tiles/pixels", 1}, {"/tiles/count", 1},   {"/slices/scheme", 0},
+                           {"/slices/count", 0}, {"/slices/near", 0},   {"/slices/first", 0},
+                           {"/slices/far", 0},   {"/slices/lambda", 0}, {"/slices/boundaries", 1},
+                           {"/cells", 1},        {"/levels", 0},        {"/finest", 0}};
+
+int nesting(const Json& value) {
+  return value.is_array() && !value.empty() ? 1 + nesting(value.front()) : 0;
+}
+
+// Every object of `all` with the axis' list replaced by each of its values.
+std::vector<Json> expand_axis(const std::vector<Json>& all, const Json::json_pointer& axis, int depth) {
+  std::vector<Json> out;
+  for (const Json& object : all) {
+    if (!object.contains(axis) || nesting(object[axis]) <= depth) {
+      out.push_back(object);
+      continue;
+    }
+    for (const Json& value : object[axis]) {
+      out.push_back(object);
+      out.back()[axis] = value;
+    }
+  }
+  return out;
+}
+
+// A key that only other schemes of the axis use must not make several equal grids.
+void drop_unused(Json& grid) {
+  if (!grid.contains("slices")) return;
+  Json& slices = grid["slices"];
+  const std::string scheme = slices["scheme"].get<std::string>();
+  if (scheme != "exponential-first") slices.erase("first");
+  if (scheme != "power") slices.erase("lambda");
+  if (scheme != "list") slices.erase("boundaries");
+  if (scheme == "list")
+    for (const char* key : {"count", "near", "far"}) slices.erase(key);
+}
+
+std::vector<Json> expanded(const Json& grid) {
+  std::vector<Json> all{grid};
+  for (const Axis& axis : k_axes) all = expand_axis(all, Json::json_pointer(axis.pointer), axis.depth);
+  std::vector<Json> out;
+  for (Json& single : all) {
+    drop_unused(single);
+    if (std::find(out.begin(), out.end(), single) == out.end()) out.push_back(std::move(single));
+  }
+  return out;
+}
+
+double metres(const Json& slices, const char* key) {
+  return slices.contains(key) && slices[key].is_number() ? slices[key].get<double>() : 0.0;
+}
+
+grid::Slicing slicing_of(const Json& slices) {
+  grid::Slicing out;
+  const std::string name = slices["scheme"].get<std::string>();
+  out.scheme = std::find_if(std::begin(k_schemes), std::end(k_schemes), [&](const auto& row) {
+                 return name == row.first;
+               })->second;
+  out.near_m = metres(slices, "near");
+  out.far_m = metres(slices, "far");
+  if (slices.contains("first")) out.first_m = metres(slices, "first");
+  if (slices.contains("lambda")) out.lambda = slices["lambda"].get<double>();
+  if (slices.contains("boundaries")) out.boundaries_m = slices["boundaries"].get<std::vector<double>>();
+  out.count = slices.contains("count") ? slices["count"].get<int>() : static_cast<int>(out.boundaries_m.size()) - 1;
+  return out;
+}
+
+grid::Tiling tiling_of(const Json& tiles) {
+  const auto pair = [&](const char* key) {
+    return tiles.contains(key) ? Vec2i{tiles[key][0].get<int>(), tiles[key][1].get<int>()} : Vec2i{0, 0};
+  };
+  return {pair("pixels"), pair("count")};
+}
+
+Vec3d place_of(const Json& list) {
+  return {list[0].get<double>(), list[1].get<double>(), list[2].get<double>()};
+}
+
+grid::GridSpec spec_of(const Json& grid) {
+  grid::GridSpec spec;
+  for (int kind = 0; kind < grid::k_kind_count; ++kind)
+    if (grid["kind"] == grid::kind_name(static_cast<grid::Kind>(kind))) spec.kind = static_cast<grid::Kind>(kind);
+  if (grid.contains("tiles")) spec.tiles = tiling_of(grid["tiles"]);
+  if (grid.contains("slices")) spec.slices = slicing_of(grid["slices"]);
+  if (grid.contains("cells"))
+    spec.cells = {grid["cells"][0].get<int>(), grid["cells"][1].get<int>(), grid["cells"][2].get<int>()};
+  if (grid.contains("levels")) spec.levels = grid["levels"].get<int>();
+  if (grid.contains("finest")) spec.finest_m = grid["finest"].get<double>();
+  if (grid.contains("bounds") && grid["bounds"].is_object()) {
+    spec.has_bounds = true;
+    spec.bounds_lo_m = place_of(grid["bounds"]["min"]);
+    spec.bounds_hi_m = place_of(grid["bounds"]["max"]);
+  }
+  return spec;
+}
+
+void check_slices(const Json& slices, const std::string& pointer, const JsonText& text) {
+  const auto fail = [&](const char* key, const std::string& message) {
+    throw Error(text.file, text.where(pointer + key), message);
+  };
+  const double near = metres(slices, "near"), far = metres(slices, "far"), first = metres(slices, "first");
+  if (near > 0 && far > 0 && near >= far)
+    fail("/far", "found " + slices["far"].dump() + ", allowed: a number above near, " + slices["near"].dump());
+  if (first > 0 && near >= first)
+    fail("/first", "found " + slices["first"].dump() + ", allowed: a number above near, " + slices["near"].dump());
+  if (first > 0 && far > 0 && first >= far)
+    fail("/first", "found " + slices["first"].dump() + ", allowed: a number below far, " + slices["far"].dump());
+  if (slices["scheme"] == "exponential-first" && slices["count"] == 1)
+    fail("/count", "found 1, allowed: at least 2 slices with scheme exponential-first");
+  const Json boundaries = slices.value("boundaries", Json::array());
+  for (std::size_t i = 1; i < boundaries.size(); ++i)
+    if (boundaries[i] <= boundaries[i - 1])
+      fail(("/boundaries/" + std::to_string(i)).c_str(),
+           "found " + boundaries[i].dump() + " after " + boundaries[i - 1].dump() + ", allowed: ascending numbers");
+}
+
+void check_boxes(const Json& grid, const std::string& pointer, const JsonText& text) {
+  const Json& cells = grid["cells"];
+  if (grid["kind"] == "cascades" &&
+      (cells[0].get<int>() % 4 != 0 || cells[1].get<int>() % 4 != 0 || cells[2].get<int>() % 2 != 0))
+    throw Error(text.file, text.where(pointer + "/cells"),
+                "found " + cells.dump() + ", allowed: multiples of 4, 4 and 2");
+  if (!grid.contains("bounds") || grid["bounds"].is_null()) return;
+  const Json& bounds = grid["bounds"];
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (bounds["min"][axis] >= bounds["max"][axis])
+      throw Error(
+          text.file, text.where(child_pointer(pointer + "/bounds/max", axis)),
+          "found " + bounds["max"][axis].dump() + ", allowed: a number above min, " + bounds["min"][axis].dump());
+}
+
+}  // namespace
+
+std::vector<Json> expand_all_axes(const Json& object, const std::set<std::string>& triples) {
+  std::vector<Json> all{object};
+  for (const auto& [key, value] : object.items())
+    all = expand_axis(all, Json::json_pointer(child_pointer("", key)), triples.contains(key) ? 1 : 0);
+  return all;
+}
+
+const char* scheme_name(grid::Scheme scheme) {
+  return std::find_if(std::begin(k_schemes), std::end(k_schemes), [&](const auto& row) { return scheme == row.second; })
+      ->first;
+}
+
+std::vector<grid::GridSpec> grid_specs(const Json& grids, const JsonText& text) {
+  std::vector<grid::GridSpec> out;
+  std::vector<Json> seen;
+  for (std::size_t i = 0; i < grids.size(); ++i) {
+    const std::string pointer = child_pointer("/grids", i);
+    const std::vector<Json> singles = expanded(grids[i]);
+    if (singles.size() == 1) {
+      if (singles[0].contains("slices")) check_slices(singles[0]["slices"], pointer + "/slices", text);
+      if (singles[0].contains("cells")) check_boxes(singles[0], pointer, text);
+    }
+    for (const Json& single : singles) {
+      if (std::find(seen.begin(), seen.end(), single) != seen.end())
+        throw Error(text.file, text.where(pointer), "this grid stands here twice: " + single.dump());
+      seen.push_back(single);
+      out.push_back(spec_of(single));
+    }
+  }
+  return out;
+}
+
+}  // namespace clusterbench::config

@@ -1,0 +1,132 @@
+// The schemas: the embedded text; of configurations also the rows of assigners and storages, and the axes written out.
+
+#include "config/documents.h"
+
+#include <algorithm>
+#include <array>
+
+#include "assign/contract/assigner.h"
+#include "assign/contract/storage.h"
+#include "config/schema_text.h"
+
+namespace clusterbench::config {
+namespace {
+
+using Json = nlohmann::json;
+
+Json to_json(const assign::ParamValue& value) {
+  return std::visit([](const auto& held) { return Json(held); }, value);
+}
+
+Json param_schema(const assign::ParamSpec& param) {
+  Json schema{{"default", to_json(param.standard)}, {"x-axis", true}};
+  schema["description"] = param.summary + (param.unit.empty() ? "" : " [" + param.unit + "]");
+  if (!param.unit.empty()) schema["x-unit"] = param.unit;
+  if (std::holds_alternative<bool>(param.standard)) {
+    schema["type"] = "boolean";
+  } else if (std::holds_alternative<double>(param.standard)) {
+    schema.update({{"type", "number"}, {"minimum", param.min}, {"maximum", param.max}});
+  } else {
+    schema.update({{"type", "string"}, {"enum", param.choices}});
+  }
+  return schema;
+}
+
+Json method_schema(const std::string& name, const std::string& summary, const std::vector<assign::ParamSpec>& params) {
+  Json properties{{"name", {{"const", name}, {"description", summary}}}};
+  for (const assign::ParamSpec& param : params) properties[param.name] = param_schema(param);
+  return {{"type", "object"},
+          {"additionalProperties", false},
+          {"required", Json::array({"name"})},
+          {"description", summary},
+          {"properties", properties}};
+}
+
+Json method_items(const std::vector<std::string>& names, const Json& objects) {
+  return {{"anyOf", {{{"type", "string"}, {"enum", names}}, {{"oneOf", objects}}}}};
+}
+
+Json name_pattern() {
+  return {{"type", "string"},
+          {"pattern", "[*?[]"},
+          {"description", "Every method that the pattern matches (* any letters, ? one) and the list does not name."},
+          {"examples", {"*-fast"}}};
+}
+
+void insert_methods(Json& properties) {
+  Json assigners = Json::array(), storages = Json::array();
+  for (const assign::AssignerDescriptor* row : assign::assigner_descriptors())
+    assigners.push_back(method_schema(row->name, row->summary, row->params));
+  for (const assign::StorageDescriptor* row : assign::storage_descriptors())
+    storages.push_back(method_schema(row->name, row->summary, row->params));
+  properties["assigners"]["items"] = method_items(assign::assigner_names(), assigners);
+  Json& choices = properties["assigners"]["items"]["anyOf"];
+  choices.insert(choices.begin(), name_pattern());
+  properties["assigners"]["default"] = assign::standard_assigner_names();
+  properties["storages"]["items"] = method_items(assign::storage_names(), storages);
+}
+
+// {"x-axis": true, ...single} becomes a single value or a list of them.
+void expand_axis(Json& schema) {
+  Json single = schema;
+  Json outer{{"x-axis", true}};
+  for (const char* key : {"description", "default", "examples", "x-unit", "x-used-by", "x-axis"}) {
+    if (single.contains(key)) outer[key] = single[key];
+    single.erase(key);
+  }
+  outer["anyOf"] = {single, {{"type", "array"}, {"minItems", 1}, {"items", single}}};
+  schema = outer;
+}
+
+// What x-used-by says, for validators that know only draft-07.
+void require_users(Json& object) {
+  const std::string selector = object["x-selector"].get<std::string>();
+  const Json standard = object["properties"][selector]["default"];
+  for (const auto& [key, property] : object["properties"].items()) {
+    if (!property.contains("x-used-by")) continue;
+    const Json one{{"enum", property["x-used-by"]}};
+    Json needed{{"properties", {{selector, {{"anyOf", {one, {{"type", "array"}, {"contains", one}}}}}}}}};
+    const Json& users = property["x-used-by"];
+    if (std::find(users.begin(), users.end(), standard) == users.end()) needed["required"] = Json::array({selector});
+    object["dependencies"][key] = needed;
+  }
+}
+
+void expand(Json& schema) {
+  if (schema.is_object() && schema.contains("x-selector")) require_users(schema);
+  if (schema.is_structured())
+    for (Json& member : schema) expand(member);
+  if (schema.is_object() && schema.contains("x-axis") && !schema.contains("anyOf")) expand_axis(schema);
+}
+
+}  // namespace
+
+Json config_schema() {
+  Json schema = Json::parse(config_schema_text());
+  insert_methods(schema["properties"]);
+  expand(schema);
+  return schema;
+}
+
+Json result_schema() {
+  return Json::parse(result_schema_text());
+}
+
+std::span<const DocumentRow> document_rows() {
+  static const std::array<DocumentRow, 4> rows{{
+      {Document::config, "config", "a configuration", config_schema},
+      {Document::result, "result", "a result of `clusterbench run`", result_schema},
+      {Document::comparison, "comparison", "a comparison of `clusterbench compare`",
+       [] { return Json::parse(comparison_schema_text()); }},
+      {Document::stress, "stress", "a result of `clusterbench stress`",
+       [] { return Json::parse(stress_schema_text()); }},
+  }};
+  return rows;
+}
+
+const DocumentRow& row_of(Document document) {
+  const std::span<const DocumentRow> rows = document_rows();
+  return *std::ranges::find(rows, document, &DocumentRow::document);
+}
+
+}  // namespace clusterbench::config

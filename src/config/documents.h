@@ -1,0 +1,33 @@
+#pragma once
+// The JSON documents that clusterbench reads and writes, each with its JSON Schema (draft-07).
+
+#include <nlohmann/json.hpp>
+#include <span>
+
+namespace clusterbench::config {
+
+enum class Document { config, result, comparison, stress };
+
+struct DocumentRow {
+  Document document;
+  const char* name;   // as `clusterbench schema` takes it
+  const char* title;  // for messages: "a result of `clusterbench run`"
+  nlohmann::json (*schema)();
+};
+std::span<const DocumentRow> document_rows();
+const DocumentRow& row_of(Document document);
+
+// What a JSON value is meant to be. What has the keys of none of the others is taken for a configuration.
+template <class Json>
+Document document_of(const Json& value) {
+  if (!value.is_object()) return Document::config;
+  if (value.contains("comparison_version")) return Document::comparison;
+  if (!value.contains("schema_version") || !value.contains("cases")) return Document::config;
+  return value.contains("kind") && value["kind"] == "stress" ? Document::stress : Document::result;
+}
+
+// Assembled from the embedded text and the rows of assigners and storages.
+nlohmann::json config_schema();
+nlohmann::json result_schema();
+
+}  // namespace clusterbench::config

@@ -1,0 +1,189 @@
+#include "config/json_text.h"
+
+#include <algorithm>
+#include <set>
+#include <string_view>
+
+#include "core/error.h"
+#include "core/text.h"
+
+namespace clusterbench::config {
+namespace {
+
+constexpr int k_max_depth = 64;
+
+TextPlace place_of(std::string_view text, std::size_t offset) {
+  TextPlace place;
+  for (const char c : text.substr(0, std::min(offset, text.size()))) {
+    const bool continues_character = (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
+    if (c == '\n') {
+      ++place.line;
+      place.column = 1;
+    } else if (!continues_character) {
+      ++place.column;
+    }
+  }
+  return place;
+}
+
+std::string to_text(TextPlace place, const std::string& pointer) {
+  return std::to_string(place.line) + ":" + std::to_string(place.column) + " " + (pointer.empty() ? "/" : pointer);
+}
+
+// Walks over text that the parser has accepted and notes where things stand.
+class Scanner {
+ public:
+  Scanner(std::string_view text, JsonText& out) : text_(text), out_(out) {
+    if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
+  }
+
+  void value(const std::string& pointer, int depth) {
+    skip_blank();
+    out_.values[pointer] = here();
+    if (depth > k_max_depth) throw Error(out_.file, to_text(here(), ""), "nested deeper than 64 levels");
+    if (text_[at_] == '{') {
+      object(pointer, depth);
+    } else if (text_[at_] == '[') {
+      array(pointer, depth);
+    } else if (text_[at_] == '"') {
+      string();
+    } else {
+      at_ = std::min(text_.find_first_of(",]} \t\r\n/", at_), text_.size());
+    }
+  }
+
+ private:
+  // Places are asked for in ascending order, so each character is counted once.
+  TextPlace here() {
+    const TextPlace step = place_of(text_.substr(counted_), at_ - counted_);
+    place_.column = step.line == 1 ? place_.column + step.column - 1 : step.column;
+    place_.line += step.line - 1;
+    counted_ = at_;
+    return place_;
+  }
+
+  void skip_blank() {
+    while (at_ < text_.size()) {
+      if (text_.substr(at_).starts_with("//")) {
+        at_ = std::min(text_.find('\n', at_), text_.size());
+      } else if (text_.substr(at_).starts_with("/*")) {
+        at_ = text_.find("*/", at_ + 2) + 2;
+      } else if (std::string_view(" \t\r\n").find(text_[at_]) != std::string_view::npos) {
+        ++at_;
+      } else {
+        return;
+      }
+    }
+  }
+
+  std::string string() {
+    const std::size_t begin = at_++;
+    while (text_[at_] != '"') at_ += text_[at_] == '\\' ? 2 : 1;
+    ++at_;
+    return nlohmann::json::parse(text_.substr(begin, at_ - begin)).get<std::string>();
+  }
+
+  void object(const std::string& pointer, int depth) {
+    ++at_;
+    for (skip_blank(); text_[at_] != '}'; skip_blank()) {
+      const TextPlace key_place = here();
+      const std::string key = string();
+      const std::string member = child_pointer(pointer, key);
+      const auto [earlier, is_new] = out_.keys.emplace(member, key_place);
+      if (!is_new) {
+        throw Error(out_.file, to_text(key_place, member),
+                    "duplicate key '" + key + "'; the first one is at " + std::to_string(earlier->second.line) + ":" +
+                        std::to_string(earlier->second.column));
+      }
+      skip_blank();
+      ++at_;  // the colon
+      value(member, depth + 1);
+      skip_comma();
+    }
+    ++at_;
+  }
+
+  void array(const std::string& pointer, int depth) {
+    ++at_;
+    std::size_t index = 0;
+    for (skip_blank(); text_[at_] != ']'; skip_blank()) {
+      value(child_pointer(pointer, index++), depth + 1);
+      skip_comma();
+    }
+    ++at_;
+  }
+
+  void skip_comma() {
+    skip_blank();
+    if (text_[at_] == ',') ++at_;
+  }
+
+  std::string_view text_;
+  JsonText& out_;
+  std::size_t at_ = 0, counted_ = 0;
+  TextPlace place_;
+};
+
+// The library's message without its own prefix and position.
+std::string plain_message(const std::string& what) {
+  const std::size_t position = what.find("column ");
+  const std::size_t colon = what.find(": ", position == std::string::npos ? 0 : position);
+  const std::size_t bracket = what.find("] ");
+  if (position != std::string::npos && colon != std::string::npos) return what.substr(colon + 2);
+  return bracket == std::string::npos ? what : what.substr(bracket + 2);
+}
+
+nlohmann::json parsed(const std::string& text, const std::string& file) {
+  try {
+    return nlohmann::json::parse(text, nullptr, true, true);
+  } catch (const nlohmann::json::parse_error& error) {
+    throw Error(file, to_text(place_of(text, error.byte > 0 ? error.byte - 1 : 0), ""), plain_message(error.what()));
+  } catch (const nlohmann::json::out_of_range& error) {
+    const std::string message = plain_message(error.what());
+    const std::size_t open = message.find('\''), close = message.rfind('\'');
+    const std::size_t offset = open < close ? text.find(message.substr(open + 1, close - open - 1)) : 0;
+    throw Error(file, to_text(place_of(text, offset), ""), message);
+  }
+}
+
+}  // namespace
+
+std::string child_pointer(const std::string& pointer, const std::string& key) {
+  std::string escaped;
+  for (const char c : key) escaped += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+  return pointer + "/" + escaped;
+}
+
+std::string child_pointer(const std::string& pointer, std::size_t index) {
+  return pointer + "/" + std::to_string(index);
+}
+
+std::string JsonText::where(std::string pointer) const {
+  if (!flags.empty()) return flag_of(pointer) + " " + pointer;
+  while (!values.contains(pointer) && !pointer.empty()) pointer.resize(pointer.rfind('/'));
+  const auto found = values.find(pointer);
+  return to_text(found == values.end() ? TextPlace{} : found->second, pointer);
+}
+
+std::string JsonText::flag_of(std::string pointer) const {
+  for (; !pointer.empty(); pointer.resize(pointer.rfind('/')))
+    if (const auto found = flags.find(pointer); found != flags.end()) return found->second;
+  std::set<std::string> all;
+  for (const auto& [place, flag] : flags) all.insert(flag);
+  return joined(std::vector<std::string>(all.begin(), all.end()), " ");
+}
+
+std::string JsonText::where_key(const std::string& pointer) const {
+  const auto found = keys.find(pointer);
+  return found == keys.end() ? where(pointer) : to_text(found->second, pointer);
+}
+
+JsonText parse_json_text(const std::string& text, const std::string& file) {
+  JsonText out;
+  out.file = file;
+  out.value = parsed(text, file);
+  Scanner(text, out).value("", 0);
+  return out;
+}
+
+}  // namespace clusterbench::config

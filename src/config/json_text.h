@@ -1,0 +1,43 @@
+#pragma once
+// JSON as a person writes it: with // and /* */ comments, and with the place of every key and value in the text, so
+// that a message can say where. Trailing commas and duplicate keys are refused.
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace clusterbench::config {
+
+// Both count from 1; columns are characters, not bytes.
+struct TextPlace {
+  int line = 1, column = 1;
+  friend bool operator==(const TextPlace&, const TextPlace&) = default;
+};
+
+struct JsonText {
+  std::string file;  // for messages
+  nlohmann::json value;
+  std::map<std::string, TextPlace> keys;     // JSON pointer of a member -> where its key stands
+  std::map<std::string, TextPlace> values;   // JSON pointer -> where its value begins; "" is the whole document
+  std::map<std::string, std::string> flags;  // JSON pointer -> the command line's flag that has set it; has no places
+
+  bool has(const std::string& pointer) const { return values.contains(pointer); }
+  // "line:column /pointer" of the value, or of the nearest value around it that the text has. Where flags have changed
+  // the text: "--flag=value /pointer" of the flag that has set it, or of all flags.
+  std::string where(std::string pointer) const;
+  // The same for a member's key.
+  std::string where_key(const std::string& pointer) const;
+
+ private:
+  std::string flag_of(std::string pointer) const;
+};
+
+// Throws Error (file, "line:column /pointer") for broken syntax, a duplicate key, or nesting deeper than 64.
+JsonText parse_json_text(const std::string& text, const std::string& file);
+
+// pointer + "/" + key with ~ and / escaped (RFC 6901).
+std::string child_pointer(const std::string& pointer, const std::string& key);
+std::string child_pointer(const std::string& pointer, std::size_t index);
+
+}  // namespace clusterbench::config

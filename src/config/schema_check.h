@@ -1,0 +1,13 @@
+#pragma once
+// The verdict of an independent JSON Schema validator.
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace clusterbench::config {
+
+// "/pointer: what is wrong" for each violation of the draft-07 schema; empty when the instance is valid.
+std::vector<std::string> schema_violations(const nlohmann::json& schema, const nlohmann::json& instance);
+
+}  // namespace clusterbench::config

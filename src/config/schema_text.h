@@ -1,0 +1,13 @@
+#pragma once
+// The schema files of src/config/schemas, embedded by the build (cmake/ClusterbenchEmbed.cmake).
+
+#include <string_view>
+
+namespace clusterbench::config {
+
+std::string_view config_schema_text();
+std::string_view result_schema_text();
+std::string_view comparison_schema_text();
+std::string_view stress_schema_text();
+
+}  // namespace clusterbench::config

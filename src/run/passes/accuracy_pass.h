@@ -1,0 +1,41 @@
+#pragma once
+// The first pass over a group's frames: lists against truth, occupancy, buffers, samples. Nothing is timed before it.
+
+#include <atomic>
+#include <functional>
+#include <memory>
+
+#include "run/path_frames.h"
+#include "run/result.h"
+#include "run/sweep.h"
+
+namespace clusterbench::run {
+
+// What a method answers, whatever keeps its lists.
+struct MethodMeasures {
+  Method method;
+  bool has_cells = true;  // without: neither occupancy nor error
+  measure::Occupancy occupancy;
+  measure::ErrorCounts error;  // of the lists, before a storage drops anything
+  std::uint64_t tests_done = 0, fallbacks = 0;
+};
+
+// What samples find in one case's light structure, and what it takes.
+struct StructureMeasures {
+  measure::Buffers buffers;
+  measure::ShadingCounts shading;
+  std::vector<measure::LookupCounts> lookup;
+};
+
+struct AccuracyResult {
+  std::vector<MethodMeasures> methods;        // of the group, in order of first use
+  std::vector<StructureMeasures> structures;  // one per case of the group
+  std::vector<measure::PackingLoss> losses;   // one per precision of the configuration; none if it has float32 alone
+  grid::Grid last_grid;
+  bool is_complete = false;  // false: stopped before the end
+};
+
+AccuracyResult accuracy_pass(const config::Config& config, const GroupPlan& group, const PathFrames& path,
+                             const std::function<void(int frame)>& on_frame, const std::atomic<bool>& stop);
+
+}  // namespace clusterbench::run

@@ -1,0 +1,63 @@
+#include "run/passes/count_pass.h"
+
+#include "assign/lists/list_builder.h"
+#include "core/error.h"
+#include "run/timed_work.h"
+
+namespace clusterbench::run {
+namespace {
+
+template <class Work>
+Counted counted(InstructionCounter& counter, Work work) {
+  counter.start();
+  work();
+  return counter.stop();
+}
+
+void check_threads(const config::MethodRequest& assigner, const InstructionCounter& counter) {
+  if (!counter.counts_all_threads() && is_threaded(assigner))
+    throw Error("", std::string("--count=") + counter.source(),
+                "counts one thread, and " + assigner.label() + " takes several; take --count=callgrind, or one thread");
+}
+
+// The counts of one method's cases, in the order of its storages.
+std::vector<CountResult> count_method(TimedWork& work, InstructionCounter& counter) {
+  CountResult result;
+  result.source = counter.source();
+  result.simd_target = assign::simd_target_name();
+  result.frames = static_cast<int>(work.frame_count());
+  result.build = counted(counter, [&] { work.build(); });
+  work.assign();  // so that memory has grown
+  result.assign = counted(counter, [&] { work.assign(); });
+  if (!work.converts()) return {result};
+  std::vector<CountResult> results;
+  for (std::size_t store = 0; store < work.places().size(); ++store) {
+    work.convert(store);
+    result.convert = counted(counter, [&] { work.convert(store); });
+    results.push_back(result);
+  }
+  return results;
+}
+
+}  // namespace
+
+void count_pass(const config::Config& config, const Plan& plan, const std::function<bool(const CasePlan&)>& is_wanted,
+                InstructionCounter& counter, const std::function<void(const CasePlan&, const CountResult&)>& on_case,
+                const std::atomic<bool>& stop) {
+  for (GroupPlan group : plan.groups) {
+    std::erase_if(group.cases, [&](const CasePlan& one) { return !is_wanted(one); });
+    if (group.cases.empty()) continue;
+    const SceneData& data = plan.scenes[group.scene];
+    const PathFrames path(data.scene, data.paths[group.camera], config.viewports[group.viewport]);
+    const std::vector<TimedFrame> frames = timed_frames(config, group, path);
+    for (const Method& method : methods_of(group)) {
+      if (stop) return;
+      check_threads(config.assigners[method.assigner], counter);
+      TimedWork work(config, group, method, frames);
+      const std::vector<CountResult> results = count_method(work, counter);
+      for (std::size_t i = 0; i < results.size(); ++i) on_case(group.cases[work.places()[i]], results[i]);
+    }
+  }
+}
+
+}  // namespace clusterbench::run

@@ -1,0 +1,24 @@
+#pragma once
+// Instructions of what the timing pass times, over the same frames.
+
+#include <atomic>
+#include <functional>
+#include <map>
+
+#include "run/counters/instruction_counter.h"
+#include "run/result.h"
+#include "run/sweep.h"
+
+namespace clusterbench::run {
+
+// By the case's id.
+using Counts = std::map<std::string, CountResult>;
+
+// Counts the cases of the plan that `is_wanted`; everything runs once before it is counted, so that memory has grown.
+// Throws Error for a method on several threads where the counter sees only one. `on_case` gets each as soon as it is
+// counted. `stop` is looked at between methods.
+void count_pass(const config::Config& config, const Plan& plan, const std::function<bool(const CasePlan&)>& is_wanted,
+                InstructionCounter& counter, const std::function<void(const CasePlan&, const CountResult&)>& on_case,
+                const std::atomic<bool>& stop);
+
+}  // namespace clusterbench::run

@@ -1,0 +1,87 @@
+#include "run/passes/details_pass.h"
+
+#include <algorithm>
+
+#include "measure/truth.h"
+#include "run/frame_lights.h"
+
+namespace clusterbench::run {
+namespace {
+
+// The frames of one method, and what was found in them.
+class Track {
+ public:
+  Track(const config::Config& config, const MethodMeasures& counted, int path_frames)
+      : method_(counted.method), with_pairs_(config.details->lists), run_(start_method(config, counted.method)) {
+    if (!counted.has_cells) return;
+    details_.emplace();
+    details_->max_bytes = config.details->max_bytes;
+    for (const int frame : wanted(*config.details, counted, path_frames))
+      (frame < path_frames ? frames_ : details_->frames_not_on_path).push_back(frame);
+  }
+
+  const Method& method() const { return method_; }
+  const std::vector<int>& frames() const { return frames_; }
+  const std::optional<Details>& details() const { return details_; }
+
+  void add(const view::Frame& frame, const scene::Scene& scene, const grid::Grid& grid, const grid::Grid& case_grid,
+           const FrameLights& lights, const measure::Truth& truth) {
+    if (!std::binary_search(frames_.begin(), frames_.end(), frame.index)) return;
+    const view::LightArrays& seen = lights.seen(method_.precision);
+    run_.build(grid, assign::kinds_of(seen));
+    run_.assign({frame, seen});
+    const measure::FrameDetails found = measure::find_details(truth.lists, run_.cell_lists());
+    add_frame(*details_, packed_frame(frame, scene, grid, case_grid, found, with_pairs_));
+  }
+
+ private:
+  static std::vector<int> wanted(const config::DetailsRequest& request, const MethodMeasures& counted,
+                                 int path_frames) {
+    if (request.choice == config::DetailsRequest::Choice::worst) return {counted.occupancy.worst_frame};
+    if (request.choice == config::DetailsRequest::Choice::evenly) return evenly_spaced(request.count, path_frames);
+    return request.frames;
+  }
+
+  Method method_;
+  bool with_pairs_;
+  assign::AssignerRun run_;
+  std::vector<int> frames_;
+  std::optional<Details> details_;  // none without cells
+};
+
+std::vector<int> frames_of(const std::vector<Track>& tracks) {
+  std::vector<int> all;
+  for (const Track& track : tracks) all.insert(all.end(), track.frames().begin(), track.frames().end());
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+}  // namespace
+
+std::vector<std::optional<Details>> details_pass(const config::Config& config, const GroupPlan& group,
+                                                 const PathFrames& path, const scene::Scene& scene,
+                                                 const AccuracyResult& counted, const std::atomic<bool>& stop) {
+  std::vector<Track> tracks;
+  for (const MethodMeasures& method : counted.methods) tracks.emplace_back(config, method, path.count());
+
+  GridOfFrames grids(config.grids[group.grid]);
+  for (const int index : frames_of(tracks)) {
+    if (stop) return {};
+    const view::Frame frame = path.frame(index);
+    grids.update(path, frame);
+    const grid::Grid& grid = grids.grid();
+    const FrameLights lights(config.precisions, view::lights_in(frame, grid::space_of(grid, frame)));
+    const measure::Truth truth = measure::find_truth(frame, grid, config.threads);
+    for (Track& track : tracks) track.add(frame, scene, grid, counted.last_grid, lights, truth);
+  }
+
+  std::vector<std::optional<Details>> results;
+  for (const CasePlan& one : group.cases)
+    results.push_back(std::find_if(tracks.begin(), tracks.end(), [&](const Track& track) {
+                        return track.method() == one.method();
+                      })->details());
+  return results;
+}
+
+}  // namespace clusterbench::run

@@ -1,0 +1,18 @@
+#pragma once
+// Chosen frames once more, cell by cell, for results that are looked into.
+
+#include <atomic>
+#include <optional>
+
+#include "run/details.h"
+#include "run/passes/accuracy_pass.h"
+
+namespace clusterbench::run {
+
+// One per case of the group, none where a method has no cells; empty if stopped before the end. Config::details is set.
+// `counted` names each method's worst frame and the case's grid.
+std::vector<std::optional<Details>> details_pass(const config::Config& config, const GroupPlan& group,
+                                                 const PathFrames& path, const scene::Scene& scene,
+                                                 const AccuracyResult& counted, const std::atomic<bool>& stop);
+
+}  // namespace clusterbench::run

@@ -1,0 +1,99 @@
+#include "run/passes/stability_pass.h"
+
+#include <algorithm>
+#include <glm/trigonometric.hpp>
+#include <memory>
+
+#include "measure/truth.h"
+#include "run/frame_lights.h"
+#include "scene/fine_path.h"
+
+namespace clusterbench::run {
+namespace {
+
+scene::FineSteps fine_steps(const config::StabilityRequest& request) {
+  return {request.steps, request.step_mm / 1e3, glm::radians(request.step_deg)};
+}
+
+// One method along the piece.
+class StabilityTrack {
+ public:
+  StabilityTrack(const config::Config& config, const Method& method)
+      : method_(method), run_(start_method(config, method)), meter_(config.stability->window) {}
+
+  void add(const view::Frame& frame, const grid::Grid& grid, bool is_new_grid, const FrameLights& lights) {
+    if (!run_.has_cells()) return;
+    const view::LightArrays& seen = lights.seen(method_.precision);
+    if (is_new_grid) run_.build(grid, assign::kinds_of(seen));
+    run_.assign({frame, seen});
+    meter_.add(run_.cell_lists());
+  }
+
+  const Method& method() const { return method_; }
+  bool has_cells() const { return run_.has_cells(); }
+  const measure::Churn& churn() const { return meter_.result(); }
+
+ private:
+  Method method_;
+  assign::AssignerRun run_;
+  measure::ChurnMeter meter_;
+};
+
+// What all methods of the group have in common.
+StabilityResult piece_facts(const scene::FinePath& piece, int window) {
+  StabilityResult facts;
+  facts.window = window;
+  facts.step_m = piece.move_m;
+  facts.step_deg = glm::degrees(piece.turn_rad);
+  facts.from_frame = piece.from_shot;
+  facts.is_drift = piece.is_drift;
+  facts.path = piece.path.how;
+  return facts;
+}
+
+std::vector<std::optional<StabilityResult>> per_case(const GroupPlan& group, const std::vector<StabilityTrack>& tracks,
+                                                     const StabilityResult& common) {
+  std::vector<std::optional<StabilityResult>> results;
+  for (const CasePlan& one : group.cases) {
+    const StabilityTrack& track = *std::find_if(
+        tracks.begin(), tracks.end(), [&](const StabilityTrack& any) { return any.method() == one.method(); });
+    results.emplace_back();
+    if (!track.has_cells()) continue;
+    results.back() = common;
+    results.back()->method = track.churn();
+  }
+  return results;
+}
+
+}  // namespace
+
+std::vector<std::optional<StabilityResult>> stability_pass(const config::Config& config, const GroupPlan& group,
+                                                           const PathFrames& path,
+                                                           const std::function<void(double share)>& on_step,
+                                                           const std::atomic<bool>& stop) {
+  const scene::FinePath piece = scene::fine_path(path.camera_path(), fine_steps(*config.stability));
+  const PathFrames steps = path.along(piece.path);
+  StabilityResult common = piece_facts(piece, config.stability->window);
+  std::vector<StabilityTrack> tracks;
+  for (const Method& method : methods_of(group)) tracks.emplace_back(config, method);
+
+  GridOfFrames grids(config.grids[group.grid]);
+  measure::ChurnMeter truth_meter(config.stability->window);
+  for (int step = 0; step < steps.count(); ++step) {
+    if (stop) return {};
+    on_step(1.0 / steps.count());
+    const view::Frame frame = steps.frame(step);
+    const bool is_new_grid = grids.update(steps, frame);
+    const grid::Grid& grid = grids.grid();
+    const FrameLights lights(config.precisions, view::lights_in(frame, grid::space_of(grid, frame)));
+    const measure::Truth truth = measure::find_truth(frame, grid, config.threads);
+    truth_meter.add(truth.lists);
+    for (StabilityTrack& track : tracks) track.add(frame, grid, is_new_grid, lights);
+    common.grids += is_new_grid ? 1 : 0;
+    common.undecided += truth.undecided;
+  }
+  common.truth = truth_meter.result();
+  return per_case(group, tracks, common);
+}
+
+}  // namespace clusterbench::run

@@ -1,0 +1,21 @@
+#pragma once
+// Lists and truth along a finely sampled piece of the path: what changes from step to step, and what changes back.
+
+#include <atomic>
+#include <functional>
+#include <optional>
+
+#include "run/path_frames.h"
+#include "run/result.h"
+#include "run/sweep.h"
+
+namespace clusterbench::run {
+
+// One result per case of the group, none where a method has no cells; empty if stopped before the end.
+// Config::stability is set. `on_step` is told which share of the whole pass the step is.
+std::vector<std::optional<StabilityResult>> stability_pass(const config::Config& config, const GroupPlan& group,
+                                                           const PathFrames& path,
+                                                           const std::function<void(double share)>& on_step,
+                                                           const std::atomic<bool>& stop);
+
+}  // namespace clusterbench::run

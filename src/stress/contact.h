@@ -1,0 +1,22 @@
+#pragma once
+// Places on the surface of a cell and the directions in which a light can lie there and just touch it.
+
+#include "core/random.h"
+#include "grid/grid.h"
+
+namespace clusterbench::stress {
+
+// A convex body on the side of `outward` (unit) that touches the plane through `place` touches the cell there and
+// nowhere else nearer.
+struct Contact {
+  Vec3d place{0.0}, outward{0.0, 0.0, 1.0};
+};
+
+// A cell that is no hole.
+std::uint32_t random_cell(const grid::Grid& grid, SplitMix64& random);
+
+// On a face, an edge or a corner. Of a shell piece: on its outer shell or its planes; its inner shell, which bulges
+// into the cell, takes balls only.
+Contact random_contact(const geom::Cell& cell, SplitMix64& random);
+
+}  // namespace clusterbench::stress

@@ -1,0 +1,317 @@
+// One setting of the random search, held against everything that it can be held against.
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+
+#include "core/error.h"
+#include "measure/truth.h"
+#include "stress/random_search.h"
+#include "stress/random_setting.h"
+#include "stress/stress.h"
+
+namespace clusterbench::stress {
+namespace {
+
+using geom::Verdict;
+
+// Decisions of the slow way take up to a millisecond: so many for each light of a setting that has few.
+constexpr std::size_t k_decisions_per_setting = 240, k_least_per_light = 4;
+constexpr int k_points_per_cell = 12;
+
+// A point of a cell by its place between the sides.
+struct PointOf {
+  double x, y, z;
+
+  static double mix(double lo, double hi, double t) { return t == 0.0 ? lo : t == 1.0 ? hi : lo + t * (hi - lo); }
+  Vec3d operator()(const geom::FrustumPiece& c) const {
+    const double depth = mix(c.depth0, c.depth1, z), scale = c.orthographic ? 1.0 : depth;
+    return {mix(c.x0, c.x1, x) * scale, mix(c.y0, c.y1, y) * scale, -depth};
+  }
+  Vec3d operator()(const geom::ShellPiece& c) const {
+    const Vec3d ray{mix(c.x0, c.x1, x), mix(c.y0, c.y1, y), -1.0};
+    return (mix(c.distance0, c.distance1, z) / glm::length(ray)) * ray;
+  }
+  Vec3d operator()(const geom::Box& c) const {
+    return {mix(c.lo.x, c.hi.x, x), mix(c.lo.y, c.hi.y, y), mix(c.lo.z, c.hi.z, z)};
+  }
+};
+
+// Does the volume hold the point, by more than double precision can lose?
+bool holds_clearly(const geom::LightVolume& volume, const Vec3d& p) {
+  const geom::LocalPoint apex = geom::local_point(volume.apex);
+  const Vec3d v = p - apex.at;
+  const double margin = 1e-12 * (glm::length(p) + glm::length(apex.at) + volume.range) + 4.0 * apex.rounding_error;
+  if (!(glm::length(v) < volume.range - margin)) return false;
+  if (!volume.is_cone) return true;
+  const Vec3d axis = glm::normalize(volume.apex.rotation * volume.direction);
+  const double along = glm::dot(v, axis), across = glm::length(v - along * axis);
+  return std::sin(volume.half_angle_rad) * along - std::cos(volume.half_angle_rad) * across > margin;
+}
+
+// Pairs as bits.
+class PairSet {
+ public:
+  PairSet(std::uint32_t cells, std::size_t lights) : lights_(lights), bits_(cells * lights) {}
+  PairSet(const assign::Lists& lists, std::size_t lights) : PairSet(lists.cell_count(), lights) { add(lists); }
+  void add(const assign::Lists& lists) {
+    for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell)
+      for (const std::uint32_t light : lists.of(cell)) bits_[cell * lights_ + light] = true;
+  }
+  bool has(std::uint32_t cell, std::uint32_t light) const { return bits_[cell * lights_ + light]; }
+
+ private:
+  std::size_t lights_;
+  std::vector<bool> bits_;
+};
+
+std::string pair_text(std::uint32_t cell, std::uint32_t light) {
+  return "cell " + std::to_string(cell) + ", light " + std::to_string(light);
+}
+
+class SettingCheck {
+ public:
+  SettingCheck(const Trial& trial, std::span<const StressMethod> methods) : trial_(trial), methods_(methods) {}
+
+  SettingReport run() {
+    ++report_.counts.settings;
+    ++report_.counts.by_kind[static_cast<std::size_t>(trial_.grid.kind)];
+    if (std::none_of(methods_.begin(), methods_.end(), [&](const auto& method) { return is_checked(method); }))
+      return std::move(report_);
+    try {
+      frame_ = frame_of(trial_);
+      grid_ = grid_of(trial_, frame_);
+      lights_ = view::lights_in(frame_, grid::space_of(grid_, frame_));
+    } catch (const Error&) {
+      ++report_.counts.refused;
+      return std::move(report_);
+    }
+    truth_ = measure::find_truth(frame_, grid_, 1);
+    count();
+    if (frame_.lights.empty()) return std::move(report_);
+    run_methods();
+    check_truth();
+    check_methods();
+    return std::move(report_);
+  }
+
+ private:
+  struct Answer {
+    const StressMethod* method;
+    assign::Lists lists;
+  };
+
+  bool is_checked(const StressMethod& method) const {
+    return method.conservative && !method.assigner->naive && takes_trial(method, trial_);
+  }
+
+  void count() {
+    SettingCounts& counts = report_.counts;
+    counts.points += frame_.points;
+    counts.spots += frame_.lights.size() - frame_.points;
+    counts.pairs += std::uint64_t{grid_.cell_count()} * frame_.lights.size();
+    counts.true_pairs += truth_.lists.pair_count();
+    counts.undecided += truth_.undecided;
+  }
+
+  void run_methods() {
+    for (const StressMethod& method : methods_) {
+      if (!is_checked(method)) continue;
+      Answer answer{&method, {}};
+      try {
+        assign::AssignerRun run = method.start();
+        run.build(grid_);
+        run.assign({frame_, lights_});
+        answer.lists = run.cell_lists();
+        run.assign({frame_, lights_});
+        const assign::Lists& filled = run.filled_lists() ? *run.filled_lists() : answer.lists;
+        if (!assign::lists_fault(filled, grid_.cell_count(), lights_.points, lights_.spots).empty()) {
+          add(FaultKind::lists, method.label, "what it gave are no lists", 0, 0);
+          continue;
+        }
+        if (answer.lists != run.cell_lists())
+          add(FaultKind::lists, method.label, "the same frame gave other lists", 0, 0);
+      } catch (const std::exception& error) {
+        add(FaultKind::error, method.label, error.what(), 0, 0);
+        continue;
+      }
+      report_.counts.compared_pairs += answer.lists.pair_count();
+      answers_.push_back(std::move(answer));
+    }
+  }
+
+  // Pair by pair: what the filter or a point in both contradicts, what the filter leaves open, what lies at the border
+  // of the true cells, and what a method lists beside them.
+  void check_truth() {
+    const std::size_t lights = frame_.lights.size();
+    const PairSet truth(truth_.lists, lights);
+    PairSet listed(grid_.cell_count(), lights);
+    for (const Answer& answer : answers_) listed.add(answer.lists);
+    const std::size_t most = std::max(k_least_per_light, k_decisions_per_setting / lights);
+    for (std::uint32_t light = 0; light < lights; ++light) check_light(light, truth, listed, most);
+  }
+
+  void check_light(std::uint32_t light, const PairSet& truth, const PairSet& listed, std::size_t most) {
+    const geom::LightVolume volume = lights_.volume(light);
+    if (!(volume.range > 0.0) || std::isinf(volume.range)) return;
+    const geom::LightFilter filter(volume);
+    std::vector<std::uint32_t> contradicted, near;
+    for (std::uint32_t cell = 0; cell < grid_.cell_count(); ++cell) {
+      if (grid_.is_hole(cell)) continue;
+      const bool is_true = truth.has(cell, light);
+      const bool is_border = listed.has(cell, light) != is_true || has_other_neighbour(cell, light, truth);
+      const Verdict verdict = filter.meets(grid_.cell(cell));
+      const bool is_contradicted = verdict != Verdict::open && (verdict == Verdict::yes) != is_true;
+      if (is_contradicted || (is_border && !is_true && shares_a_point(volume, cell)))
+        contradicted.push_back(cell);
+      else if (is_border || verdict == Verdict::open)
+        near.push_back(cell);
+    }
+    contradicted.resize(std::min<std::size_t>(contradicted.size(), 20));
+    for (const std::uint32_t cell : contradicted) settle(cell, light, truth);
+    const std::size_t step = std::max<std::size_t>(1, (near.size() + most - 1) / most);
+    for (std::size_t i = 0; i < near.size(); i += step) settle(near[i], light, truth);
+  }
+
+  bool has_other_neighbour(std::uint32_t cell, std::uint32_t light, const PairSet& truth) const {
+    const Vec3i n = grid_.cells(), at = grid_.cell_at(cell);
+    const std::uint32_t steps[] = {1, static_cast<std::uint32_t>(n.x), static_cast<std::uint32_t>(n.x * n.y)};
+    for (int axis = 0; axis < 3; ++axis) {
+      if (at[axis] > 0 && truth.has(cell - steps[axis], light) != truth.has(cell, light)) return true;
+      if (at[axis] + 1 < n[axis] && truth.has(cell + steps[axis], light) != truth.has(cell, light)) return true;
+    }
+    return false;
+  }
+
+  // Corners, the middle and some points between.
+  bool shares_a_point(const geom::LightVolume& volume, std::uint32_t cell) {
+    ++report_.counts.sampled;
+    const geom::Cell shape = grid_.cell(cell);
+    SplitMix64 random(cell);
+    for (int i = 0; i < 9 + k_points_per_cell; ++i) {
+      PointOf at{0.5, 0.5, 0.5};
+      if (i < 8) at = {i & 1 ? 1.0 : 0.0, i & 2 ? 1.0 : 0.0, i & 4 ? 1.0 : 0.0};
+      if (i > 8) at = {random.unit(), random.unit(), random.unit()};
+      if (holds_clearly(volume, std::visit(at, shape))) return true;
+    }
+    return false;
+  }
+
+  void settle(std::uint32_t cell, std::uint32_t light, const PairSet& truth) {
+    const geom::LightVolume volume = lights_.volume(light);
+    const Verdict verdict = decided(cell, light);
+    const bool is_true = truth.has(cell, light);
+    if (verdict != Verdict::open && (verdict == Verdict::yes) != is_true)
+      add(FaultKind::truth, "",
+          pair_text(cell, light) + ": the true lists say " + (is_true ? "yes" : "no") + ", its own decision says " +
+              (is_true ? "no" : "yes"),
+          cell, light);
+    if (verdict == Verdict::no && shares_a_point(volume, cell))
+      add(FaultKind::truth, "", pair_text(cell, light) + ": decided as no, but a point lies in both", cell, light);
+  }
+
+  Verdict decided(std::uint32_t cell, std::uint32_t light) {
+    ++report_.counts.decisions;
+    const Verdict verdict = geom::decide_meets(lights_.volume(light), grid_.cell(cell));
+    if (verdict == Verdict::open) ++report_.counts.undecided;
+    return verdict;
+  }
+
+  void check_methods() {
+    const PairSet truth(truth_.lists, frame_.lights.size());
+    for (const Answer& answer : answers_) {
+      check_pairs(answer, truth);
+      check_twin(answer);
+    }
+  }
+
+  // A pair that method and truth differ in is decided once more, so that a fault of the truth is no fault of the
+  // method.
+  void check_pairs(const Answer& answer, const PairSet& truth) {
+    const PairSet listed(answer.lists, frame_.lights.size());
+    int looked_at = 0;
+    for (std::uint32_t light = 0; light < frame_.lights.size(); ++light)
+      for (std::uint32_t cell = 0; cell < grid_.cell_count(); ++cell) {
+        const bool is_true = truth.has(cell, light), is_listed = listed.has(cell, light);
+        if (is_true == is_listed || (is_listed && !answer.method->assigner->exact)) continue;
+        constexpr int k_most = 12;
+        if (++looked_at > k_most) return;
+        const Verdict verdict = decided(cell, light);
+        if (is_true && verdict == Verdict::yes)
+          add(FaultKind::loss, answer.method->label, pair_text(cell, light) + " is true and not listed", cell, light);
+        if (is_listed && verdict == Verdict::no)
+          add(FaultKind::extra, answer.method->label, pair_text(cell, light) + " is listed and not true", cell, light);
+      }
+  }
+
+  void check_twin(const Answer& answer) {
+    const std::string reference = reference_of(answer.method->label);
+    for (const Answer& other : answers_) {
+      if (reference.empty() || other.method->label != reference || other.lists == answer.lists) continue;
+      const PairSet mine(answer.lists, frame_.lights.size()), its(other.lists, frame_.lights.size());
+      for (std::uint32_t cell = 0; cell < grid_.cell_count(); ++cell)
+        for (std::uint32_t light = 0; light < frame_.lights.size(); ++light)
+          if (mine.has(cell, light) != its.has(cell, light))
+            return add(FaultKind::twin, answer.method->label,
+                       pair_text(cell, light) + " is listed by " +
+                           (mine.has(cell, light) ? answer.method->label : reference) + " only",
+                       cell, light);
+    }
+  }
+
+  void add(FaultKind kind, const std::string& method, const std::string& detail, std::uint32_t cell,
+           std::uint32_t light) {
+    const bool is_spot = lights_.size() > 0 && lights_.is_spot(light) && kind != FaultKind::error;
+    for (const SettingFault& fault : report_.faults)
+      if (fault.kind == kind && fault.method == method && fault.is_spot == is_spot) return;
+    report_.faults.push_back({kind, method, detail, cell, light, is_spot});
+  }
+
+  const Trial& trial_;
+  std::span<const StressMethod> methods_;
+  view::Frame frame_;
+  grid::Grid grid_;
+  view::LightArrays lights_;
+  measure::Truth truth_;
+  std::vector<Answer> answers_;
+  SettingReport report_;
+};
+
+}  // namespace
+
+const char* fault_kind_name(FaultKind kind) {
+  constexpr const char* k_names[k_fault_kinds] = {"truth", "loss", "extra", "twin", "lists", "error"};
+  return k_names[static_cast<int>(kind)];
+}
+
+void SettingCounts::add(const SettingCounts& other) {
+  settings += other.settings;
+  refused += other.refused;
+  for (std::size_t i = 0; i < by_kind.size(); ++i) by_kind[i] += other.by_kind[i];
+  points += other.points;
+  spots += other.spots;
+  pairs += other.pairs;
+  true_pairs += other.true_pairs;
+  compared_pairs += other.compared_pairs;
+  decisions += other.decisions;
+  sampled += other.sampled;
+  undecided += other.undecided;
+}
+
+// A fast method is called as its reference with "-fast" behind the name.
+std::string reference_of(const std::string& label) {
+  const std::string ending = "-fast";
+  const std::size_t at = label.find(ending);
+  return at == std::string::npos ? "" : label.substr(0, at) + label.substr(at + ending.size());
+}
+
+bool takes_trial(const StressMethod& method, const Trial& trial) {
+  return method.assigner->takes(trial.grid.kind) &&
+         (method.assigner->orthographic || !trial.scene.cameras[0].lens.orthographic);
+}
+
+SettingReport check_setting(const Trial& trial, std::span<const StressMethod> methods) {
+  return SettingCheck(trial, methods).run();
+}
+
+}  // namespace clusterbench::stress

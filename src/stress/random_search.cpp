@@ -1,0 +1,80 @@
+#include "stress/random_search.h"
+
+#include <algorithm>
+#include <chrono>
+#include <tuple>
+
+#include "core/parallel.h"
+#include "stress/random_setting.h"
+#include "stress/stress.h"
+
+namespace clusterbench::stress {
+namespace {
+
+constexpr std::size_t k_most_seeds = 16;
+
+// Faults of one kind, method, grid and type of light are one fault, however many settings show it.
+std::tuple<FaultKind, std::string, grid::Kind, bool, bool> class_of(const RandomFault& fault) {
+  return {fault.fault.kind, fault.fault.method, fault.grid, fault.orthographic, fault.fault.is_spot};
+}
+
+void collect(const SettingReport& report, std::uint64_t seed, const Trial& trial, RandomSearch& search) {
+  search.counts.add(report.counts);
+  for (const SettingFault& fault : report.faults) {
+    RandomFault found{fault, trial.grid.kind, trial.scene.cameras[0].lens.orthographic, 0, {}, trial};
+    auto same = std::find_if(search.faults.begin(), search.faults.end(),
+                             [&](const RandomFault& other) { return class_of(other) == class_of(found); });
+    if (same == search.faults.end()) same = search.faults.insert(same, found);
+    ++same->settings;
+    if (same->seeds.size() < k_most_seeds) same->seeds.push_back(seed);
+  }
+}
+
+void shrink(RandomFault& found, std::span<const StressMethod> methods) {
+  found.scene = shrunk(found.scene, found.fault, methods);
+  for (const SettingFault& fault : check_setting(found.scene, methods).faults)
+    if (fault.kind == found.fault.kind && fault.method == found.fault.method && fault.is_spot == found.fault.is_spot)
+      found.fault = fault;
+}
+
+}  // namespace
+
+std::string RandomFault::name() const {
+  std::string text = std::string(fault_kind_name(fault.kind)) + "-";
+  for (const char c : fault.method.empty() ? "" : fault.method + "-")
+    if (c != ')') text += c == '(' || c == ',' || c == ' ' ? '-' : c;
+  text += grid::kind_name(grid);
+  text += orthographic ? "-orthographic" : "";
+  return text + (fault.is_spot ? "-spot" : "-point");
+}
+
+RandomSearch search_at_random(std::span<const StressMethod> methods, const StressRequest& request,
+                              const std::function<void(std::uint64_t settings, const std::string& doing)>& on_progress,
+                              const std::atomic<bool>& stop) {
+  using Clock = std::chrono::steady_clock;
+  const auto begin = Clock::now();
+  const auto is_over = [&](std::uint64_t settings) {
+    const double passed = std::chrono::duration<double>(Clock::now() - begin).count();
+    return stop || settings >= request.random || (request.seconds > 0.0 && passed >= request.seconds);
+  };
+  RandomSearch search;
+  search.first_seed = request.seed;
+  Crew crew(request.threads);
+  constexpr std::uint64_t k_batch = 64;
+  while (!is_over(search.counts.settings)) {
+    const std::uint64_t first = search.counts.settings, count = std::min(k_batch, request.random - first);
+    on_progress(first, "settings from seed " + std::to_string(request.seed + first) + " on");
+    std::vector<Trial> trials(count);
+    std::vector<SettingReport> reports(count);
+    crew.each(count, [&](std::size_t i) {
+      trials[i] = random_setting(request.seed + first + i);
+      reports[i] = check_setting(trials[i], methods);
+    });
+    for (std::size_t i = 0; i < count; ++i) collect(reports[i], request.seed + first + i, trials[i], search);
+  }
+  on_progress(search.counts.settings, "shrinking " + std::to_string(search.faults.size()) + " faults");
+  if (!stop) crew.each(search.faults.size(), [&](std::size_t i) { shrink(search.faults[i], methods); });
+  return search;
+}
+
+}  // namespace clusterbench::stress

@@ -1,0 +1,81 @@
+#pragma once
+// `stress --random`: settings drawn from seeds, on which every method is held against the truth, every fast twin
+// against its reference, and the truth against pair-by-pair decisions. What is found is shrunk to a setting that a
+// person can read.
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "stress/trial.h"
+
+namespace clusterbench::stress {
+
+struct StressMethod;
+
+enum class FaultKind : std::uint8_t {
+  truth,  // the true lists differ from what the pair's own decision, or a point in both, says
+  loss,   // a conservative method lacks a true pair
+  extra,  // an exact method has a pair that is not true
+  twin,   // a fast method's lists differ from its reference's
+  lists,  // not ascending, not one per cell, or other ones when asked again
+  error   // it threw
+};
+inline constexpr int k_fault_kinds = 6;
+const char* fault_kind_name(FaultKind kind);
+
+// A fault of one setting: the first pair that shows it.
+struct SettingFault {
+  FaultKind kind = FaultKind::truth;
+  std::string method;  // label; empty: the truth
+  std::string detail;  // a sentence
+  std::uint32_t cell = 0, light = 0;
+  bool is_spot = false;
+};
+
+struct SettingCounts {
+  std::uint64_t settings = 0, refused = 0;  // refused: the grid cannot be
+  std::array<std::uint64_t, grid::k_kind_count> by_kind{};
+  std::uint64_t points = 0, spots = 0, pairs = 0, true_pairs = 0;  // pairs: cells x lights
+  std::uint64_t compared_pairs = 0;                                // listed by methods
+  std::uint64_t decisions = 0, sampled = 0, undecided = 0;         // of the slow way
+
+  void add(const SettingCounts& other);
+};
+
+struct SettingReport {
+  SettingCounts counts;
+  std::vector<SettingFault> faults;  // one per kind, method and type of light
+};
+
+// Settings that none of the methods takes are counted and left at that.
+SettingReport check_setting(const Trial& trial, std::span<const StressMethod> methods);
+
+// The method of the fault and that whose twin it is; of a fault of the truth all, since it shows where they list what
+// the truth denies.
+std::vector<StressMethod> methods_that_show(const SettingFault& fault, std::span<const StressMethod> methods);
+
+// A setting with the same fault (kind, method, type of light) and less in it: fewer lights and cells, rounder numbers.
+Trial shrunk(const Trial& trial, const SettingFault& fault, std::span<const StressMethod> methods);
+
+// A fault as the search reports it: faults of one kind, method, grid and type of light are one.
+struct RandomFault {
+  SettingFault fault;  // of the shrunk setting
+  grid::Kind grid = grid::Kind::frustum;
+  bool orthographic = false;
+  std::uint64_t settings = 0;        // that show it
+  std::vector<std::uint64_t> seeds;  // the first of these
+  Trial scene;                       // shrunk
+
+  std::string name() const;  // of files: "truth-distance-spot"
+};
+
+struct RandomSearch {
+  std::uint64_t first_seed = 0;
+  SettingCounts counts;
+  std::vector<RandomFault> faults;
+};
+
+}  // namespace clusterbench::stress

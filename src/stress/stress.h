@@ -1,0 +1,103 @@
+#pragma once
+// `clusterbench stress`: every assigner on every hard case, held against the truth.
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "assign/contract/assigner_run.h"
+#include "stress/hard_cases.h"
+#include "stress/random_search.h"
+
+namespace clusterbench::stress {
+
+// An assigner with one choice of its parameters, in a form with lists per cell.
+struct StressMethod {
+  std::string label;  // "sphere-refinement(spot=ball)"
+  const assign::AssignerDescriptor* assigner = nullptr;
+  assign::Params params;
+  bool conservative = true;
+  assign::Answer answer = assign::Answer::lists;
+
+  assign::AssignerRun start() const { return {*assigner, params, answer}; }
+};
+// Every assigner that has cells with its defaults and with every other choice.
+std::vector<StressMethod> stress_methods();
+// The label of the method whose lists a fast one's must equal; empty if it is no twin.
+std::string reference_of(const std::string& label);
+bool takes_trial(const StressMethod& method, const Trial& trial);
+
+struct StressRequest {
+  std::uint64_t seed = 1;
+  std::uint64_t tries = 20'000;  // of the search, per method; 0 = no search
+  double seconds = 0.0;          // of the search, per method, and of random settings; 0 = as many as these take
+  std::uint64_t random = 0;      // random settings to check, with the seeds from `seed` on
+  std::regex cases{".*"}, methods{".*"};
+  int threads = 1;
+};
+
+// A miss that `run` can reproduce.
+struct Loss {
+  std::string trial;
+  std::uint32_t cell = 0, light = 0;
+  double depth = 0.0;  // 1 - d/r
+  Trial scene;
+};
+
+struct StressCell {
+  std::string hard_case, method;
+  int trials = 0, refused = 0;      // refused: as it should be
+  std::vector<std::string> faults;  // a refusal that did not come, an unexpected one, lists that are not lists
+  std::uint64_t true_pairs = 0, misses = 0, extra_pairs = 0, undecided = 0;
+  std::optional<Loss> deepest;
+
+  bool lost() const { return misses > 0; }
+};
+
+// What the search found for one method.
+struct SearchResult {
+  std::string method;
+  std::uint64_t tries = 0, misses = 0;
+  double least_margin =
+      0.0;  // of the padding: roundings that the nearest light could be moved away and still be listed
+  std::optional<Loss> deepest;
+};
+
+struct StressResult {
+  std::vector<StressMethod> methods;
+  std::vector<HardCase> cases;                 // those asked for
+  std::vector<std::vector<ToolCheck>> checks;  // per case
+  std::vector<StressCell> cells;               // per case and method, where the method takes a grid of the case
+  std::vector<SearchResult> searches;          // H31
+  std::optional<RandomSearch> random;
+};
+
+struct StressListener {
+  std::function<void(const std::string& doing, double done, double whole)> on_progress;
+};
+
+StressResult run_stress(const StressRequest& request, const StressListener& listener, const std::atomic<bool>& stop);
+
+// H31 for one method: hill-climbs lights, lenses and grids towards a light that touches a cell and is not listed.
+SearchResult search_for_losses(const StressMethod& method, const StressRequest& request,
+                               const std::function<void(std::uint64_t tries)>& on_progress,
+                               const std::atomic<bool>& stop);
+
+// Checks random settings, each with a seed of its own, and shrinks what it finds. What comes out does not depend on the
+// number of threads, as long as time does not end it.
+RandomSearch search_at_random(std::span<const StressMethod> methods, const StressRequest& request,
+                              const std::function<void(std::uint64_t settings, const std::string& doing)>& on_progress,
+                              const std::atomic<bool>& stop);
+
+// Writes NAME.gltf and NAME.json into a folder, which `run NAME.json` then reproduces. Throws Error.
+void write_replay(const std::filesystem::path& folder, const std::string& name, const Loss& loss,
+                  const StressMethod& method);
+// The same for a setting and all methods that take its grid.
+void write_replay(const std::filesystem::path& folder, const std::string& name, const Trial& trial,
+                  std::span<const StressMethod> methods);
+
+}  // namespace clusterbench::stress

@@ -1,0 +1,54 @@
+#pragma once
+// What a hard case tries: one scene, camera, picture and grid. Everything that a person needs to run it again.
+
+#include <string>
+#include <vector>
+
+#include "grid/grid.h"
+#include "scene/scene.h"
+
+namespace clusterbench::stress {
+
+struct Trial {
+  std::string label;
+  scene::Scene scene;  // one standing camera; ranges resolved
+  Vec2i viewport{1920, 1080};
+  grid::GridSpec grid;
+  bool is_refused = false;  // the grid must be refused for this camera
+};
+
+// A trial in the making: lights around a camera at the origin that looks down -z (vertical field of view 60 degrees,
+// 0.1 to 500 m) unless it is placed elsewhere.
+class Rig {
+ public:
+  Rig();
+
+  Rig& point(const Vec3d& place, double range_m, int parent = -1);
+  Rig& spot(const Vec3d& place, const Vec3d& direction, double range_m, double half_angle_rad);
+  // A node for lights; the number to give as a parent.
+  int node(const scene::Node& node);
+  scene::Lens& lens() { return scene_.cameras[0].lens; }
+  Rig& look(const Vec3d& eye, double yaw_rad);
+  Rig& show(Vec2i viewport);
+
+  Trial on(const grid::GridSpec& grid, const std::string& label = "") const;
+  // Added to the trials, on each of the grids.
+  void on_each(const std::vector<grid::GridSpec>& grids, const std::string& label, std::vector<Trial>& trials) const;
+
+ private:
+  scene::Scene scene_;
+  Vec2i viewport_{1920, 1080};
+};
+
+// Grids of a perspective picture.
+grid::GridSpec frustum_grid(Vec2i tiles, grid::Scheme scheme, int slices, double near_m, double far_m,
+                            double first_m = 5.0);
+grid::GridSpec pixel_grid(Vec2i tile_pixels);  // 16 slices 0.1..5..500
+// One of each kind: two of frustum, distance, cascades, world.
+std::vector<grid::GridSpec> grids_of_every_kind();
+
+// The frame of a trial's camera, and its grid. Throws Error for what cannot be.
+view::Frame frame_of(const Trial& trial);
+grid::Grid grid_of(const Trial& trial, const view::Frame& frame);
+
+}  // namespace clusterbench::stress

@@ -1,0 +1,155 @@
+#include "config/config_flags.h"
+
+#include <gtest/gtest.h>
+
+#include "config/config.h"
+#include "core/error.h"
+
+namespace clusterbench::config {
+namespace {
+
+using Flags = std::vector<FlagValue>;
+using Names = std::vector<std::string>;
+
+// A configuration with every kind of entry that flags change.
+constexpr const char* k_flagged = R"({"scenes": [{"path": "a.glb", "frames": 3}],
+  "grids": [{"tiles": {"pixels": [64, 64]}, "slices": {"scheme": "exponential-first", "count": 8, "near": 0.1, "far": 90}},
+            {"kind": "world", "cells": [8, 4, 8]},
+            {"tiles": {"count": [16, 9]}, "slices": {"scheme": "exponential-first", "count": 8, "near": 0.1, "far": 90}}],
+  "assigners": ["aabb", {"name": "exact-fast", "threads": 2}]})";
+
+Config flagged(const Flags& flags) {
+  return parse_config(k_flagged, "c.json", flags);
+}
+
+Names grid_names(const Flags& flags) {
+  Names names;
+  for (const grid::GridSpec& grid : flagged(flags).grids) names.push_back(grid.name());
+  return names;
+}
+
+Names assigner_labels(const Flags& flags) {
+  Names labels;
+  for (const MethodRequest& assigner : flagged(flags).assigners) labels.push_back(assigner.label());
+  return labels;
+}
+
+std::string refusal_of(const Flags& flags) {
+  try {
+    flagged(flags);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(ConfigFlags, grids_of_the_named_kinds_stay_and_others_come_with_their_defaults) {
+  EXPECT_EQ(grid_names({{"--grid", "world,cascades"}}), (Names{"world 8x4x8", "cascades 5 x 16x16x16 of 0.5"}));
+  EXPECT_EQ(grid_names({{"--grid", "frustum"}}).size(), 2u);
+}
+
+TEST(ConfigFlags, tiles_are_pixels_or_a_count_on_the_screen) {
+  EXPECT_EQ(grid_names({{"--tiles", "32,16x9t,64x48px"}}),
+            (Names{"frustum 32px x 8 exponential-first 0.1..5..90", "frustum 64x48px x 8 exponential-first 0.1..5..90",
+                   "frustum 16x9 x 8 exponential-first 0.1..5..90", "world 8x4x8"}))
+      << "grids that differed only in their tiles are one";
+  EXPECT_EQ(grid_names({{"--tiles", "16,32"}, {"--grid", "frustum"}}).size(), 2u) << "two squares, not one of 16 x 32";
+}
+
+TEST(ConfigFlags, slices_are_counted_in_every_grid_that_has_them) {
+  EXPECT_EQ(grid_names({{"--slices", "4,12"}}),
+            (Names{"frustum 64px x 4 exponential-first 0.1..5..90", "frustum 64px x 12 exponential-first 0.1..5..90",
+                   "world 8x4x8", "frustum 16x9 x 4 exponential-first 0.1..5..90",
+                   "frustum 16x9 x 12 exponential-first 0.1..5..90"}));
+  EXPECT_EQ(grid_names({{"--grid", "distance"}, {"--slices", "4"}}),
+            (Names{"distance 64px x 4 exponential-first first 5"}));
+}
+
+TEST(ConfigFlags, chosen_assigners_keep_the_parameters_of_the_configuration) {
+  EXPECT_EQ(assigner_labels({{"--assigner", "exact-fast,bounds,bounds"}}), (Names{"exact-fast(threads=2)", "bounds"}));
+  EXPECT_EQ(assigner_labels({{"--assigner", "exact*"}}), (Names{"exact", "exact-fast(threads=2)"}));
+}
+
+TEST(ConfigFlags, simple_settings_are_those_of_the_configuration) {
+  const Config config =
+      flagged({{"--viewport", "640x360,1280x720"}, {"--rounds", "7"}, {"--threads", "3"}, {"--set", "seed=9"}});
+  EXPECT_EQ(config.viewports, (std::vector<Vec2i>{{640, 360}, {1280, 720}}));
+  EXPECT_EQ(config.timing.rounds, 7);
+  EXPECT_EQ(config.threads, 3);
+  EXPECT_EQ(config.seed, 9u);
+  EXPECT_EQ(config.resolved["timing"]["rounds"], 7);
+  EXPECT_EQ(parse_config(config.resolved.dump(), "c.json").resolved, config.resolved);
+}
+
+TEST(ConfigFlags, any_key_can_be_set_by_its_place) {
+  const Config config = flagged({{"--set", "grids.*.slices.far=200,500"},
+                                 {"--set", "/grids/1/cells=[4,4,4],[8,8,8]"},
+                                 {"--set", "scenes.*.frames={\"rate\": 30}"},
+                                 {"--set", "stability.steps=5"},
+                                 {"--set", "viewport=[640,360]"},
+                                 {"--set", "storages=packed,bitfield"}});
+  EXPECT_EQ(config.grids.size(), 6u);
+  EXPECT_EQ(config.scenes[0].camera.rate_hz, 30.0);
+  EXPECT_EQ(config.stability->steps, 5);
+  EXPECT_EQ(config.viewports, (std::vector<Vec2i>{{640, 360}}));
+  EXPECT_EQ(config.storages.size(), 2u);
+}
+
+TEST(ConfigFlags, another_scheme_leaves_out_what_only_the_old_one_used) {
+  EXPECT_EQ(grid_names({{"--grid", "frustum"}, {"--set", "grids.*.slices.scheme=linear,power"}})[0],
+            "frustum 64px x 8 linear 0.1..90");
+  EXPECT_NE(refusal_of({{"--set", "grids.0.slices.scheme=linear"}, {"--set", "grids.0.slices.first=2"}})
+                .find("--set=grids.0.slices.first=2 /grids/0/slices/first: 'first' is used by scheme"),
+            std::string::npos);
+}
+
+TEST(ConfigFlags, what_is_wrong_is_said_with_the_flag) {
+  const std::pair<Flags, const char*> rows[] = {
+      {{{"--grid", "frustrum"}}, "c.json: --grid=frustrum /grids/0/kind: found 'frustrum' (did you mean 'frustum'?)"},
+      {{{"--tiles", "16t"}}, "--tiles=16t: '16t' is no tile size"},
+      {{{"--tiles", "0"}}, "c.json: --tiles=0 /grids/0/tiles/pixels/0/0: found 0"},
+      {{{"--grid", "world"}, {"--tiles", "8"}}, "--tiles=8: no grid has tiles"},
+      {{{"--grid", "world"}, {"--slices", "8"}}, "--slices=8: no grid has slices"},
+      {{{"--slices", "many"}}, "c.json: --slices=many /grids/0/slices/count: found 'many'"},
+      {{{"--viewport", "1280"}}, "--viewport=1280: '1280' is no image size"},
+      {{{"--assigner", "exat"}}, "c.json: --assigner=exat /assigners/0/name: found 'exat' (did you mean 'exact'?)"},
+      {{{"--assigner", "*-fsat"}}, "--assigner=*-fsat: '*-fsat' matches none of brute-force, "},
+      {{{"--rounds", "0"}}, "c.json: --rounds=0 /timing/rounds: found 0"},
+      {{{"--set", "timing.rounds"}}, "--set=timing.rounds: takes KEY=VALUE"},
+      {{{"--set", "timng.rounds=1"}},
+       "c.json: --set=timng.rounds=1 /timng: unknown key 'timng' (did you mean 'timing'?)"},
+      {{{"--set", "seed=1,2"}}, "c.json: --set=seed=1,2 /seed: found a list of 2"},
+      {{{"--set", "seed.x=1"}}, "--set=seed.x=1: /seed has no keys"},
+      {{{"--set", "grids.3.levels=1"}}, "--set=grids.3.levels=1: /grids has 3 entries"},
+      {{{"--set", "grids.*.levels=1"}}, "--set=grids.*.levels=1: no entry has this key"},
+      // What only together is wrong stands at a key that no flag has set.
+      {{{"--rounds", "3"}, {"--set", "grids.0.slices.near=100"}},
+       "c.json: --rounds=3 --set=grids.0.slices.near=100 /grids/0/slices/far: found 90"},
+  };
+  for (const auto& [flags, message] : rows)
+    EXPECT_EQ(refusal_of(flags).substr(0, std::string(message).size()), message) << refusal_of(flags);
+}
+
+TEST(ConfigFlags, the_file_is_told_before_a_flag) {
+  const Flags flags{{"--rounds", "0"}};
+  EXPECT_THROW(
+      {
+        try {
+          parse_config(R"({"scenes": ["a.glb"], "threads": 0})", "c.json", flags);
+        } catch (const Error& error) {
+          EXPECT_EQ(error.where(), "1:34 /threads");
+          throw;
+        }
+      },
+      Error);
+}
+
+TEST(ConfigFlags, scenes_without_a_configuration_take_them_too) {
+  const Config config = default_config({"level.glb"}, Flags{{"--grid", "cascades"}, {"--rounds", "4"}});
+  EXPECT_EQ(config.grids.size(), 1u);
+  EXPECT_EQ(config.timing.rounds, 4);
+  EXPECT_EQ(config.name, "level");
+}
+
+}  // namespace
+}  // namespace clusterbench::config

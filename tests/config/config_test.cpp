@@ -1,0 +1,411 @@
+#include "config/config.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+
+#include "assign/contract/storage.h"
+#include "config/documents.h"
+#include "config/schema_check.h"
+#include "core/error.h"
+#include "core/text.h"
+
+namespace clusterbench::config {
+namespace {
+
+std::string message_of(const std::string& text) {
+  try {
+    parse_config(text, "configs/c.json");
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+Config parsed(const std::string& rest) {
+  return parse_config(R"({"scenes": ["a.glb"])" + rest + "}", "configs/c.json");
+}
+
+std::size_t grids_of(const std::string& grid) {
+  return parsed(R"(, "grids": [)" + grid + "]").grids.size();
+}
+
+struct Broken {
+  const char* text;
+  const char* message;         // without the file
+  bool schema_refuses = true;  // false: beyond what a JSON Schema can say
+};
+
+const Broken k_broken[] = {
+    {"[1]", "1:1 /: found a list of 1, allowed: an object"},
+    {"{}", "1:1 /: lacks the key 'scenes'"},
+    {R"({"scenes": []})", "1:12 /scenes: found an empty list, allowed: a list, each text or an object"},
+    {R"({"scenes": [""]})", "1:13 /scenes/0: found an empty text, allowed: a text that is not empty"},
+    {R"({"scenes": [7]})", "1:13 /scenes/0: found 7, allowed: text or an object"},
+    {R"({"scenes": [{"frames": 3}]})", "1:13 /scenes/0: a scene takes exactly one of path, paths, rig"},
+    {R"({"scenes": [{"path": "a.glb", "rig": {}}]})", "1:13 /scenes/0: a scene takes exactly one of path, paths, rig"},
+    {R"({"scenes": [{"rig": {"lights": 0}}]})",
+     "1:32 /scenes/0/rig/lights: found 0, allowed: an integer from 1 to 10000000"},
+    {R"({"scenes": [{"rig": {"lights": [10, 2.5]}}]})",
+     "1:37 /scenes/0/rig/lights/1: found 2.5, allowed: an integer from 1 to 10000000"},
+    {R"({"scenes": [{"rig": {"radius": 2}}]})",
+     "1:22 /scenes/0/rig/radius: unknown key 'radius', allowed: lights, range, seed, size, spots"},
+    {R"({"scenes": [{"rig": {"size": [1, 2]}}]})",
+     "1:30 /scenes/0/rig/size: found a list of 2, allowed: a list of 3, each a number above 0, at most 1000000.0"},
+    {R"({"scenes": [{"path": "a.glb", "frames": "all"}]})",
+     "1:41 /scenes/0/frames: found 'all', allowed: an integer from 1 to 1000000 or 'keys' or an object"},
+    {R"({"scenes": [{"path": "a.glb", "frames": {"rate": 0}}]})",
+     "1:50 /scenes/0/frames/rate: found 0, allowed: a number above 0, at most 10000"},
+    {R"({"scenes": [{"path": "a.glb", "range_rule": {"cutof_lux": 1}}]})",
+     "1:46 /scenes/0/range_rule/cutof_lux: unknown key 'cutof_lux' (did you mean 'cutoff_lux'?), allowed: cutoff_lux, "
+     "max_range"},
+    {"{\"scenes\": [\"a.glb\"],\n  // comment\n  \"thread\": 1}",
+     "3:3 /thread: unknown key 'thread' (did you mean 'threads'?), allowed: $schema, accuracy, allocation, assigners, "
+     "details, grids, limits, lookup, name, precision, scenes, seed, shading, stability, storages, threads, timing, "
+     "viewport, viewports"},
+    {R"({"scenes": ["a.glb"], "threads": 0})", "1:34 /threads: found 0, allowed: an integer from 1 to 1024"},
+    {R"({"scenes": ["a.glb"], "threads": "2"})", "1:34 /threads: found '2', allowed: an integer from 1 to 1024"},
+    {R"({"scenes": ["a.glb"], "seed": 1.5})", "1:31 /seed: found 1.5, allowed: an integer from 0 to 9007199254740991"},
+    {R"({"scenes": ["a.glb"], "accuracy": {"check": 1}})", "1:45 /accuracy/check: found 1, allowed: true or false"},
+    {R"({"scenes": ["a.glb"], "allocation": {"margin": 0.5}})",
+     "1:48 /allocation/margin: found 0.5, allowed: a number from 1 to 1000"},
+    {R"({"scenes": ["a.glb"], "stability": {"steps": 0}})",
+     "1:46 /stability/steps: found 0, allowed: an integer from 1 to 100000"},
+    {R"({"scenes": ["a.glb"], "stability": {"step_mm": 0}})",
+     "1:48 /stability/step_mm: found 0, allowed: a number from 0.001 to 1000"},
+    {R"({"scenes": ["a.glb"], "stability": {"step_degrees": 1}})",
+     "1:37 /stability/step_degrees: unknown key 'step_degrees' (did you mean 'step_deg'?), allowed: step_deg, step_mm, "
+     "steps, window"},
+    {R"({"scenes": ["a.glb"], "stability": true})", "1:36 /stability: found true, allowed: null or an object"},
+    {R"({"scenes": ["a.glb"], "details": true})", "1:34 /details: found true, allowed: null or an object"},
+    {R"({"scenes": ["a.glb"], "details": {"frames": "best"}})",
+     "1:45 /details/frames: found 'best', allowed: 'worst' or an integer from 1 to 100 or a list, each an integer from "
+     "0 to 999999"},
+    {R"({"scenes": ["a.glb"], "details": {"frames": 0}})",
+     "1:45 /details/frames: found 0, allowed: an integer from 1 to 100"},
+    {R"({"scenes": ["a.glb"], "details": {"frames": [3, -1]}})",
+     "1:49 /details/frames/1: found -1, allowed: an integer from 0 to 999999"},
+    {R"({"scenes": ["a.glb"], "details": {"max_bytes": 500}})",
+     "1:48 /details/max_bytes: found 500, allowed: an integer from 10000 to 1000000000"},
+    {R"({"scenes": ["a.glb"], "details": {"max_byte": 50000}})",
+     "1:35 /details/max_byte: unknown key 'max_byte' (did you mean 'max_bytes'?), allowed: frames, lists, max_bytes"},
+    {R"({"scenes": ["a.glb"], "precision": "half"})",
+     "1:36 /precision: found 'half', allowed: a list, each float32, half, unorm16 or an object"},
+    {R"({"scenes": ["a.glb"], "precision": []})",
+     "1:36 /precision: found an empty list, allowed: a list, each float32, half, unorm16 or an object"},
+    {R"({"scenes": ["a.glb"], "precision": ["float16"]})",
+     "1:37 /precision/0: found 'float16' (did you mean 'float32'?), allowed: float32, half, unorm16"},
+    {R"({"scenes": ["a.glb"], "precision": [{"inflate": true}]})", "1:37 /precision/0: lacks the key 'packing'"},
+    {R"({"scenes": ["a.glb"], "precision": [{"packing": "half", "inflate": 1}]})",
+     "1:68 /precision/0/inflate: found 1, allowed: true or false or a list, each true or false"},
+    {R"({"scenes": ["a.glb"], "precision": [{"packing": "half", "pad": true}]})",
+     "1:57 /precision/0/pad: unknown key 'pad', allowed: inflate, packing"},
+    {R"({"scenes": ["a.glb"], "precision": [{"packing": "float32", "inflate": true}]})",
+     "1:37 /precision/0: float32 loses nothing that assigners do not pad for themselves; inflate what half or unorm16 "
+     "loses"},
+    {R"({"scenes": ["a.glb"], "precision": [{"packing": ["half", "float32"], "inflate": true}]})",
+     "1:37 /precision/0: float32 loses nothing that assigners do not pad for themselves; inflate what half or unorm16 "
+     "loses",
+     false},
+    {R"({"scenes": ["a.glb"], "precision": ["half", {"packing": "half"}]})",
+     "1:45 /precision/1: 'half' stands here twice", false},
+    {R"({"scenes": ["a.glb"], "viewport": [0, 5]})", "1:36 /viewport/0: found 0, allowed: an integer from 1 to 32768"},
+    {R"({"scenes": ["a.glb"], "viewport": [1, 2], "viewports": [[1, 2]]})",
+     "1:23 /viewport: viewport and viewports exclude each other"},
+    {R"({"scenes": ["a.glb"], "storages": ["paked"]})",
+     "1:36 /storages/0: found 'paked' (did you mean 'packed'?), allowed: STORAGES"},
+    {R"({"scenes": ["a.glb"], "assigners": ["aaab"]})",
+     "1:37 /assigners/0: found 'aaab' (did you mean 'aabb'?), allowed: ASSIGNERS"},
+    {R"({"scenes": ["a.glb"], "assigners": ["aabb", "*-fsat"]})",
+     "1:45 /assigners/1: '*-fsat' matches none of ASSIGNERS", false},
+    {R"({"scenes": ["a.glb"], "assigners": ["*-fast", "aabb", "aabb"]})",
+     "1:36 /assigners: 'aabb' stands here twice with the same parameters", false},
+    {R"({"scenes": ["a.glb"], "assigners": [{}]})", "1:37 /assigners/0: lacks the key 'name', allowed: ASSIGNERS"},
+    {R"({"scenes": ["a.glb"], "assigners": ["aabb", "aabb"]})",
+     "1:45 /assigners/1: 'aabb' stands here twice with the same parameters", false},
+    {R"({"scenes": ["a.glb"], "grids": [5]})", "1:33 /grids/0: found 5, allowed: an object"},
+    {R"({"scenes": ["a.glb"], "grids": [{"kind": "frustrum"}]})",
+     "1:42 /grids/0/kind: found 'frustrum' (did you mean 'frustum'?), allowed: frustum, distance, cascades, world"},
+    {R"({"scenes": ["a.glb"], "grids": [{"kind": "frustum", "levels": 3}]})",
+     "1:53 /grids/0/levels: 'levels' belongs to cascades, not to frustum, allowed: kind, slices, tiles"},
+    {R"({"scenes": ["a.glb"], "grids": [{"kind": "world", "cells": [1, 2]}]})",
+     "1:60 /grids/0/cells: found a list of 2, allowed: a list of 3, each an integer from 1 to 4096"},
+    {R"({"scenes": ["a.glb"], "grids": [{"kind": "cascades", "cells": [6, 4, 4]}]})",
+     "1:63 /grids/0/cells: found [6,4,4], allowed: multiples of 4, 4 and 2", false},
+    {R"({"scenes": ["a.glb"], "grids": [{"tiles": {"pixels": ["a", "b"]}}]})",
+     "1:55 /grids/0/tiles/pixels/0: found 'a', allowed: a list of 2, each an integer from 1 to 32768 or an integer "
+     "from 1 to 32768"},
+    {R"({"scenes": ["a.glb"], "grids": [{"tiles": {"pixels": [16, 0, 64]}}]})",
+     "1:59 /grids/0/tiles/pixels/1: found 0, allowed: an integer from 1 to 32768"},
+    {R"({"scenes": ["a.glb"], "grids": [{"tiles": {"pixels": "64"}}]})",
+     "1:54 /grids/0/tiles/pixels: found '64', allowed: a list of 2, each an integer from 1 to 32768 or an integer from "
+     "1 to 32768 or a list, each a list of 2, each an integer from 1 to 32768 or an integer from 1 to 32768"},
+    {R"({"scenes": ["a.glb"], "grids": [{"tiles": {"pixels": [64, 64], "count": [1, 1]}}]})",
+     "1:43 /grids/0/tiles: found 2 keys, allowed: exactly one of count, pixels"},
+    {R"({"scenes": ["a.glb"], "grids": [{"slices": {"scheme": "lineer"}}]})",
+     "1:55 /grids/0/slices/scheme: found 'lineer' (did you mean 'linear'?), allowed: linear, exponential, "
+     "exponential-first, power, list, fit"},
+    {R"({"scenes": ["a.glb"], "grids": [{"slices": {"scheme": "linear", "lambda": 0.5}}]})",
+     "1:65 /grids/0/slices/lambda: 'lambda' is used by scheme power, not by linear"},
+    {R"({"scenes": ["a.glb"], "grids": [{"slices": {"boundaries": [1, 2]}}]})",
+     "1:45 /grids/0/slices/boundaries: 'boundaries' is used by scheme list, not by exponential-first"},
+    {R"({"scenes": ["a.glb"], "grids": [{"slices": {"near": 10, "far": 5}}]})",
+     "1:64 /grids/0/slices/far: found 5, allowed: a number above near, 10", false},
+    {R"({"scenes": ["a.glb"], "grids": [{"slices": {"scheme": "list", "boundaries": [1, 3, 2]}}]})",
+     "1:84 /grids/0/slices/boundaries/2: found 2 after 3, allowed: ascending numbers", false},
+    {R"({"scenes": ["${CLUSTERBENCH_NO_SUCH}/a.glb"]})",
+     "1:13 /scenes/0: the environment variable 'CLUSTERBENCH_NO_SUCH' is not set; set it to use "
+     "'${CLUSTERBENCH_NO_SUCH}/a.glb'",
+     false},
+};
+
+std::string with_names(std::string message) {
+  const std::pair<std::string, std::vector<std::string>> lists[] = {{"ASSIGNERS", assign::assigner_names()},
+                                                                    {"STORAGES", assign::storage_names()}};
+  for (const auto& [word, names] : lists)
+    if (const std::size_t at = message.find(word); at != std::string::npos)
+      message.replace(at, word.size(), joined(names));
+  return message;
+}
+
+TEST(Config, a_fault_is_named_with_its_place_what_was_found_and_what_is_allowed) {
+  for (const Broken& broken : k_broken)
+    EXPECT_EQ(message_of(broken.text), "configs/c.json: " + with_names(broken.message)) << broken.text;
+}
+
+TEST(Config, the_schema_alone_refuses_what_the_reader_refuses) {
+  const nlohmann::json schema = config_schema();
+  for (const Broken& broken : k_broken) {
+    const nlohmann::json document = nlohmann::json::parse(broken.text, nullptr, true, true);
+    EXPECT_EQ(schema_violations(schema, document).empty(), !broken.schema_refuses) << broken.text;
+  }
+}
+
+TEST(Config, a_scene_alone_is_enough) {
+  const Config config = parsed("");
+  EXPECT_EQ(config.name, "c");
+  ASSERT_EQ(config.scenes.size(), 1U);
+  EXPECT_EQ(config.scenes[0].path, std::filesystem::path("configs/a.glb"));
+  EXPECT_EQ(config.viewports, (std::vector<Vec2i>{{1920, 1080}}));
+  EXPECT_EQ(config.assigners.size(), assign::standard_assigner_names().size());
+  EXPECT_EQ(config.storages.size(), 1U);
+  EXPECT_EQ(config.grids.size(), 5U);
+}
+
+TEST(Config, defaults_of_the_schema_agree_with_the_defaults_of_the_code) {
+  const Config config = parsed(R"(, "grids": [{}, {"kind": "cascades"}, {"kind": "world"}])");
+  const Config plain;
+  EXPECT_EQ(config.threads, plain.threads);
+  EXPECT_EQ(config.seed, plain.seed);
+  EXPECT_EQ(config.check_accuracy, plain.check_accuracy);
+  EXPECT_EQ(config.shading_samples, plain.shading_samples);
+  EXPECT_EQ(config.timing.measure, plain.timing.measure);
+  EXPECT_EQ(config.timing.rounds, plain.timing.rounds);
+  EXPECT_EQ(config.timing.min_time_ms, plain.timing.min_time_ms);
+  EXPECT_EQ(config.timing.frames, plain.timing.frames);
+  EXPECT_EQ(config.allocation.margin, plain.allocation.margin);
+  EXPECT_EQ(config.allocation.warn_at, plain.allocation.warn_at);
+  EXPECT_EQ(config.scenes[0].camera.fit, scene::CameraFit::contain);
+  EXPECT_EQ(config.scenes[0].range_rule.cutoff_lux, scene::RangeRule{}.cutoff_lux);
+  EXPECT_EQ(config.scenes[0].range_rule.max_range_m, scene::RangeRule{}.max_range_m);
+  EXPECT_EQ(config.scenes[0].camera.count, scene::PathRequest{}.count);
+  const grid::GridSpec standard;
+  EXPECT_EQ(config.grids[0].tiles.pixels, standard.tiles.pixels);
+  EXPECT_EQ(config.grids[0].slices.scheme, standard.slices.scheme);
+  EXPECT_EQ(config.grids[0].slices.count, standard.slices.count);
+  EXPECT_EQ(config.grids[0].slices.first_m, standard.slices.first_m);
+  EXPECT_EQ(config.grids[0].slices.near_m, standard.slices.near_m);
+  EXPECT_EQ(config.grids[0].slices.far_m, standard.slices.far_m);
+  EXPECT_EQ(config.grids[1].levels, standard.levels);
+  EXPECT_EQ(config.grids[1].finest_m, standard.finest_m);
+  EXPECT_EQ(config.grids[2].cells, standard.cells);
+  EXPECT_EQ(config.grids[2].has_bounds, standard.has_bounds);
+}
+
+TEST(Config, stability_is_measured_only_where_it_is_asked_for) {
+  EXPECT_FALSE(parsed("").stability);
+  const Config config = parsed(R"(, "stability": {})");
+  ASSERT_TRUE(config.stability);
+  const StabilityRequest plain;
+  EXPECT_EQ(config.stability->steps, plain.steps);
+  EXPECT_EQ(config.stability->step_mm, plain.step_mm);
+  EXPECT_EQ(config.stability->step_deg, plain.step_deg);
+  EXPECT_EQ(config.stability->window, plain.window);
+  const Config own = parsed(R"(, "stability": {"steps": 7, "step_mm": 0.5, "step_deg": 0.25, "window": 3})");
+  EXPECT_EQ(own.stability->steps, 7);
+  EXPECT_EQ(own.stability->step_mm, 0.5);
+  EXPECT_EQ(own.stability->step_deg, 0.25);
+  EXPECT_EQ(own.stability->window, 3);
+}
+
+TEST(Config, lights_are_in_float32_unless_another_precision_is_named) {
+  EXPECT_EQ(parsed("").precisions, std::vector<PrecisionRequest>{{}});
+  EXPECT_FALSE(parsed("").compares_precisions());
+  EXPECT_FALSE(parsed(R"(, "precision": ["float32"])").compares_precisions());
+  EXPECT_TRUE(parsed(R"(, "precision": ["half"])").compares_precisions());
+  std::vector<std::string> labels;
+  for (const PrecisionRequest& request :
+       parsed(R"(, "precision": ["float32", {"packing": ["half", "unorm16"], "inflate": [true, false]}])").precisions)
+    labels.push_back(request.label());
+  EXPECT_EQ(labels, (std::vector<std::string>{"float32", "half+inflate", "unorm16+inflate", "half", "unorm16"}));
+}
+
+// Every key of a schema, with its place.
+void collect_keys(const nlohmann::json& schema, const std::string& place,
+                  std::vector<std::pair<std::string, nlohmann::json>>& out) {
+  if (!schema.is_structured()) return;
+  if (schema.is_object() && schema.contains("type") && schema.contains("properties"))
+    for (const auto& [key, property] : schema["properties"].items()) out.emplace_back(place + "/" + key, property);
+  for (const auto& [key, member] : schema.items()) collect_keys(member, place + "/" + key, out);
+}
+
+TEST(Config, every_key_of_the_schema_has_an_example_that_the_schema_accepts) {
+  const nlohmann::json schema = config_schema();
+  std::vector<std::pair<std::string, nlohmann::json>> keys;
+  collect_keys(schema, "", keys);
+  int examples = 0;
+  for (const auto& [place, property] : keys) {
+    if (place.starts_with("/properties/assigners/") || place.starts_with("/properties/storages/")) continue;
+    ASSERT_TRUE(property.contains("examples")) << place;
+    const nlohmann::json alone{{"definitions", schema["definitions"]}, {"allOf", {property}}};
+    for (const nlohmann::json& example : property["examples"]) {
+      EXPECT_EQ(schema_violations(alone, example), std::vector<std::string>{}) << place << " " << example;
+      ++examples;
+    }
+  }
+  EXPECT_GT(examples, 60);
+}
+
+TEST(Config, axes_expand_into_their_product) {
+  EXPECT_EQ(grids_of(R"({"tiles": {"pixels": [[32, 32], [64, 64]]},
+                         "slices": {"scheme": ["linear", "exponential"], "count": [8, 16, 32]}})"),
+            12U);
+  EXPECT_EQ(grids_of(R"({"kind": "cascades", "levels": [4, 5], "cells": [[16, 16, 16], [32, 32, 32]]})"), 4U);
+  EXPECT_EQ(grids_of(R"({"slices": {"scheme": "list", "boundaries": [[0.1, 1, 2], [0.1, 5]]}})"), 2U);
+}
+
+std::vector<std::string> tiles_of(const std::string& pixels) {
+  std::vector<std::string> names;
+  for (const grid::GridSpec& grid :
+       parsed(R"(, "grids": [{"tiles": {"pixels": )" + pixels + R"(}, "slices": {"scheme": "linear"}}])").grids)
+    names.push_back(std::to_string(grid.tiles.pixels.x) + "x" + std::to_string(grid.tiles.pixels.y));
+  return names;
+}
+
+TEST(Config, a_number_is_a_square_tile_and_two_numbers_alone_are_one_size) {
+  using Sizes = std::vector<std::string>;
+  EXPECT_EQ(tiles_of("32"), Sizes{"32x32"});
+  EXPECT_EQ(tiles_of("[32]"), Sizes{"32x32"});
+  EXPECT_EQ(tiles_of("[32, 16]"), Sizes{"32x16"});
+  EXPECT_EQ(tiles_of("[[32, 16]]"), Sizes{"32x16"});
+  EXPECT_EQ(tiles_of("[16, 32, 64]"), (Sizes{"16x16", "32x32", "64x64"}));
+  EXPECT_EQ(tiles_of("[16, [64, 32]]"), (Sizes{"16x16", "64x32"}));
+  EXPECT_EQ(tiles_of("[[16, 16], [32, 32]]"), (Sizes{"16x16", "32x32"}));
+}
+
+TEST(Config, a_pattern_stands_for_the_assigners_that_the_list_does_not_name) {
+  const auto labels = [](const std::string& list) {
+    std::vector<std::string> all;
+    for (const MethodRequest& assigner : parsed(R"(, "assigners": )" + list).assigners) all.push_back(assigner.label());
+    return all;
+  };
+  using Labels = std::vector<std::string>;
+  EXPECT_EQ(labels(R"(["exact*", "bounds"])"), (Labels{"exact", "exact-fast", "bounds"}));
+  EXPECT_EQ(labels(R"(["*exact*", "exact-?ast", {"name": "exact-fast", "threads": 2}])"),
+            (Labels{"exact", "exact-fast(threads=2)"}));
+  EXPECT_EQ(labels(R"(["naive-*"])").size(), 4u);
+  EXPECT_EQ(labels(R"(["*planes"])"), Labels{"planes"}) << "naive methods run only where they are named";
+  const nlohmann::json resolved = parsed(R"(, "assigners": ["exact*"])").resolved["assigners"];
+  EXPECT_EQ(resolved[1]["name"], "exact-fast");
+}
+
+TEST(Config, an_axis_of_one_scheme_does_not_multiply_the_others) {
+  EXPECT_EQ(grids_of(R"({"slices": {"scheme": ["linear", "exponential-first"], "first": [2, 5]}})"), 3U);
+}
+
+TEST(Config, every_choice_of_a_parameter_can_be_an_axis) {
+  for (const assign::AssignerDescriptor* row : assign::assigner_descriptors()) {
+    for (const assign::ParamSpec& param : row->params) {
+      if (param.choices.empty()) continue;
+      const nlohmann::json method{{"name", row->name}, {param.name, param.choices}};
+      EXPECT_EQ(parsed(R"(, "assigners": [)" + method.dump() + "]").assigners.size(), param.choices.size());
+    }
+  }
+}
+
+TEST(Config, axes_of_a_rig_expand_into_their_product) {
+  const Config config = parse_config(
+      R"({"scenes": [{"rig": {"lights": [10, 100, 1000], "size": [[20, 5, 20], [2, 2, 2]], "spots": 0.5}}, "a.glb"]})",
+      "c.json");
+  ASSERT_EQ(config.scenes.size(), 7u);
+  EXPECT_EQ(config.scenes[0].rig->name(), "rig-10-r2-s0.5-20x5x20");
+  EXPECT_EQ(config.scenes[5].rig->name(), "rig-1000-r2-s0.5-2x2x2");
+  EXPECT_FALSE(config.scenes[6].rig);
+  const Config plain = parse_config(R"({"scenes": [{"rig": {}}]})", "c.json");
+  ASSERT_EQ(plain.scenes.size(), 1u);
+  EXPECT_EQ(plain.scenes[0].rig->name(), scene::RigSpec().name());
+}
+
+TEST(Config, a_path_is_relative_to_the_file_and_may_name_an_environment_variable) {
+  setenv("CLUSTERBENCH_TEST_FOLDER", "/maps", 1);
+  const Config config = parse_config(
+      R"({"scenes": ["../s/a.glb", {"paths": ["b.glb", "${CLUSTERBENCH_TEST_FOLDER}/c.glb"], "frames": "keys"}]})",
+      "configs/c.json");
+  ASSERT_EQ(config.scenes.size(), 3U);
+  EXPECT_EQ(config.scenes[0].path, std::filesystem::path("s/a.glb"));
+  EXPECT_EQ(config.scenes[1].path, std::filesystem::path("configs/b.glb"));
+  EXPECT_EQ(config.scenes[2].path, std::filesystem::path("/maps/c.glb"));
+  EXPECT_EQ(config.scenes[2].camera.choice, scene::FrameChoice::keys);
+}
+
+TEST(Config, the_resolved_configuration_is_a_configuration_that_means_the_same) {
+  for (const char* rest :
+       {"", R"(, "stability": {"steps": 5})", R"(, "precision": ["half", {"packing": "unorm16", "inflate": true}])",
+        R"(, "viewport": [640, 480], "grids": [{"slices": {"scheme": ["linear", "power"], "near": 1}}])",
+        R"(, "grids": [{"kind": "world", "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]}}], "assigners": ["aabb"])"}) {
+    const Config config = parsed(rest);
+    const Config again = parse_config(config.resolved.dump(), config.file);
+    EXPECT_EQ(again.resolved, config.resolved);
+    ASSERT_EQ(again.grids.size(), config.grids.size());
+    for (std::size_t i = 0; i < config.grids.size(); ++i) EXPECT_EQ(again.grids[i].name(), config.grids[i].name());
+    EXPECT_EQ(again.scenes[0].path, config.scenes[0].path);
+    EXPECT_EQ(again.precisions, config.precisions);
+    EXPECT_TRUE(schema_violations(config_schema(), config.resolved).empty());
+  }
+}
+
+TEST(Config, the_committed_configurations_are_valid_for_reader_and_schema) {
+  setenv("CLUSTERBENCH_SCENE_LIBRARY", "library", 0);
+  for (const char* name : {"quick", "sweep", "library", "trends", "stability", "precision"}) {
+    const std::string path = std::string(CLUSTERBENCH_SOURCE_DIR) + "/configs/" + name + ".json";
+    const Config config = load_config(path);
+    EXPECT_EQ(config.name, name);
+    EXPECT_EQ(schema_violations(config_schema(), config.resolved), std::vector<std::string>{}) << path;
+    std::ifstream in(path);
+    const nlohmann::json document = nlohmann::json::parse(in, nullptr, true, true);
+    EXPECT_EQ(schema_violations(config_schema(), document), std::vector<std::string>{}) << path;
+  }
+}
+
+TEST(Config, scenes_of_the_command_line_get_the_default_sweep) {
+  const Config config = default_config({"maps/level.glb"});
+  EXPECT_EQ(config.name, "level");
+  EXPECT_EQ(config.scenes[0].path, std::filesystem::path("maps/level.glb"));
+  EXPECT_EQ(config.scenes[0].camera.count, 30);
+  EXPECT_EQ(config.timing.rounds, 15);
+  EXPECT_EQ(config.grids.size(), 5U);
+}
+
+TEST(Config, a_label_names_only_parameters_that_differ_from_the_default) {
+  EXPECT_EQ(parsed(R"(, "storages": ["packed"])").storages[0].label(), "packed");
+  const assign::StorageDescriptor& fixed = *assign::find_storage("fixed");
+  ASSERT_FALSE(fixed.params.empty());
+  const nlohmann::json storage{{"name", "fixed"}, {fixed.params[0].name, 7}};
+  EXPECT_EQ(parsed(R"(, "storages": [)" + storage.dump() + "]").storages[0].label(),
+            "fixed(" + fixed.params[0].name + "=7)");
+}
+
+}  // namespace
+}  // namespace clusterbench::config
