@@ -73,6 +73,8 @@ def methods(lines):
         if not re.match(r"^ {2}[* ] \S", line):
             break
         rows.append(line)
+    names = {row.split()[0 if row[2] == " " else 1] for row in rows[1:]}
+    rows = [row for row in rows if f"{row[4:].split()[0]}-fast" not in names]  # the fast forms speak for those
     spans = columns_of(rows[0])
     wanted = [name for name in COLUMNS if name in spans and not (name == "assign us" and "frame us" in spans)]
     return block("".join(row[slice(*spans[name])] for name in wanted) for row in rows)
