@@ -12,8 +12,8 @@ from peers_table import put
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROGRESS = re.compile(r"^(\[\d+/\d+\]|Building|Installing)")
-GRID = "frustum 16x9 x 24 exponential"  # of the README's second table
-COLUMNS = ["", "assigner", "frame us", "assign us", "excess", "missed", "unlit", "bytes", "entries"]  # those there are
+GRID = "frustum 16x9 x 24 exponential"  # of the README's second table, which has these columns where the program does
+COLUMNS = ["", "assigner", "frame us", "frame", "assign us", "excess", "missed", "unlit", "dropped", "bytes", "entries"]
 
 
 def block(lines):
@@ -44,13 +44,15 @@ def best_of_grids(result):
 
 
 def grids(result):
-    rows = ["| grid | fastest method | µs per frame | lights looped over per light needed | KB to allocate |",
-            "|---|---|---:|---:|---:|"]
+    rows = ["| grid | fastest method | µs per frame | lights looped over per light needed | needed and missing | KB to allocate |",
+            "|---|---|---:|---:|---:|---:|"]
     for case in best_of_grids(result):
         size = case["buffers"]["bytes"]["recommended"] / 1e3
+        shading = case["shading"]
+        missing = f"{100 * shading['missed'] / shading['needed']:.2f} %" if shading["missed"] else "0"
         grid = case["grid"]["name"] if "occupancy" in case else "none"
         rows.append(f"| {grid} | `{case['assigner']['label']}`{'' if case['storage'] != 'own' else ', no lists'} | "
-                    f"{frame_us(case):.0f} | {case['shading']['overshade']:.2f} | {size:.0f} |")
+                    f"{frame_us(case):.0f} | {shading['overshade']:.2f} | {missing} | {size:.0f} |")
     return "\n".join(rows)
 
 
@@ -76,7 +78,8 @@ def methods(lines):
     names = {row.split()[0 if row[2] == " " else 1] for row in rows[1:]}
     rows = [row for row in rows if f"{row[4:].split()[0]}-fast" not in names]  # the fast forms speak for those
     spans = columns_of(rows[0])
-    wanted = [name for name in COLUMNS if name in spans and not (name == "assign us" and "frame us" in spans)]
+    has_frame = "frame us" in spans or "frame" in spans
+    wanted = [name for name in COLUMNS if name in spans and not (name == "assign us" and has_frame)]
     return block("".join(row[slice(*spans[name])] for name in wanted) for row in rows)
 
 
