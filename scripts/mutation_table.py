@@ -417,7 +417,7 @@ MUTATIONS = [
              "assign.ExactFast.gives_the_lists_of_exact_for_lights_that_a_tile_plane_touches_at_the_eye",
              "exact-fast loses a light's row where rounding puts the eye into it"),
     Mutation("fast-spot-mean-anywhere", "assign/cone/spot_cells-inl.h",
-             "      is_in = And(is_in, margin > tolerance_ * length(outward));\n", "",
+             "      is_in = And(is_in, margin > tolerance_ * face_length(outward));\n", "",
              "assign.ExactFast.gives_the_lists_of_exact_on_every_target",
              "exact-fast takes places beside a cell for places in it"),
     Mutation("fast-spot-edge-planes-anywhere", "assign/cone/spot_cells-inl.h",
