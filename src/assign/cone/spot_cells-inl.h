@@ -86,15 +86,24 @@ struct GivenSpots {
   V light;  // size of the numbers that describe it
 
   HWY_INLINE GivenSpots(const view::LightArrays& lights, VI spot) {
+    // Gathering takes longer than much of what follows, and where spots are few, vectors are often of one.
+    const std::int32_t first = GetLane(spot);
+    if (AllTrue(DI(), spot == all_int(first)))
+      take(lights, [&](const float* from) { return all(from[first]); });
+    else
+      take(lights, [&](const float* from) { return gathered(from, spot); });
+  }
+
+ private:
+  template <class Get>
+  HWY_INLINE void take(const view::LightArrays& lights, Get&& get) {
     const std::uint32_t points = lights.points;
-    cone = {{gathered(lights.x.data() + points, spot), gathered(lights.y.data() + points, spot),
-             Neg(gathered(lights.z.data() + points, spot))},
-            {gathered(lights.axis_x.data(), spot), gathered(lights.axis_y.data(), spot),
-             Neg(gathered(lights.axis_z.data(), spot))},
-            gathered(lights.radius.data() + points, spot),
-            gathered(lights.cos_angle.data(), spot),
-            gathered(lights.sin_angle.data(), spot)};
-    light = gathered(lights.reach.data() + points, spot) + cone.range;
+    cone = {{get(lights.x.data() + points), get(lights.y.data() + points), Neg(get(lights.z.data() + points))},
+            {get(lights.axis_x.data()), get(lights.axis_y.data()), Neg(get(lights.axis_z.data()))},
+            get(lights.radius.data() + points),
+            get(lights.cos_angle.data()),
+            get(lights.sin_angle.data())};
+    light = get(lights.reach.data() + points) + cone.range;
   }
 };
 

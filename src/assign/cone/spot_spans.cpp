@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace clusterbench::assign {
 
@@ -183,10 +184,14 @@ void SpotSpans::take_touch(const Piece& piece, std::uint32_t place) {
 
 // Takes away rows that are as a whole not touched.
 void SpotSpans::drop_missed_rows(const SpotsAndPlanes& from) {
+  // Most rows of bounding balls are touched: more than a quick look would be in vain.
+  static constexpr Look k_thorough[] = {Look::approach, Look::closer, Look::thorough}, k_quick[] = {Look::quick};
+  const std::span<const Look> looks =
+      from.orthographic ? std::span<const Look>(k_quick) : std::span<const Look>(k_thorough);
   waiting_.clear();
   for (std::uint32_t i = 0; i < lit_.size(); ++i)
     if (lit_[i].left_is_open && lit_[i].right_is_open && !lit_[i].columns.empty()) waiting_.push_back(i);
-  for (const Look how : {Look::approach, Look::closer, Look::thorough}) {
+  for (const Look how : looks) {
     closer_.count = 0;
     for (const std::uint32_t i : waiting_) closer_.add(cells_of(lit_[i], lit_[i].columns));
     look_at_cells(from, how, closer_);
