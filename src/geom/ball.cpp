@@ -118,12 +118,12 @@ struct AtDepth {
   double x_error,
       y_error;  // how far the place on such a side can be from the nearest one, where the side is not certain
 
-  AtDepth(const Number& center_x, const Number& center_y, const Number& center_depth, const Piece& piece,
-          const Number& at, Side place) {
+  // along: from the centre's depth.
+  AtDepth(const Number& center_x, const Number& center_y, const Piece& piece, const Number& at, const Number& along,
+          Side place) {
     const auto plane = [&](float slope) { return Number(double{slope}) * at; };
     const Gap<Number> gap_x = gap_between(plane(piece.x0), center_x, plane(piece.x1));
     const Gap<Number> gap_y = gap_between(plane(piece.y0), center_y, plane(piece.y1));
-    const Number along = at - center_depth;
     x = gap_x.side;
     y = gap_y.side;
     x_error = error_of(gap_x.size);
@@ -138,11 +138,24 @@ struct AtDepth {
   }
 };
 
+// Is the piece's nearest point surely as deep as the centre? Then it is looked at there, however deep that is, and the
+// way to it is as exact as the coordinates across: so are touches of planes through the eye's own axes.
+bool is_level(const Bounded& x, const Bounded& y, const Bounded& depth, const Piece& piece) {
+  const auto is_upright = [&](float low, const Bounded& center, float high) {
+    return slope_on(side_of(low * depth.value, center.value, high * depth.value), low, high) == 0.0;
+  };
+  return (depth - piece.near).is_surely_above(0.0) && (Bounded(piece.far) - depth).is_surely_above(0.0) &&
+         is_upright(piece.x0, x, piece.x1) && is_upright(piece.y0, y, piece.y1);
+}
+
 NearestDepth nearest_between(const Bounded& x, const Bounded& y, const Bounded& depth, const Piece& piece) {
   NearestDepth nearest;
   nearest.at = nearest_depth(x.value, y.value, depth.value, piece);
   nearest.depth = nearest.at == piece.near ? Side::low : nearest.at == piece.far ? Side::high : Side::between;
-  const AtDepth<Bounded> there(x, y, depth, piece, Bounded(nearest.at), nearest.depth);
+  nearest.is_level = depth.error > 0.0 && nearest.at == depth.value && is_level(x, y, depth, piece);
+  nearest.place = nearest.is_level ? depth : Bounded(nearest.at);
+  const Bounded along = nearest.is_level ? Bounded(0.0) : nearest.place - depth;
+  const AtDepth<Bounded> there(x, y, piece, nearest.place, along, nearest.depth);
   nearest.x = there.x;
   nearest.y = there.y;
   nearest.square = there.square;
@@ -210,9 +223,9 @@ Bounded across(const Gap<Bounded>& gap) {
 // the derivative there.
 Point3<Bounded> way_to(const NearestDepth& nearest, const Bounded& x, const Bounded& y, const Bounded& depth,
                        const Piece& piece) {
-  Bounded way_x = across(gap_between(Bounded(piece.x0) * nearest.at, x, Bounded(piece.x1) * nearest.at));
-  Bounded way_y = across(gap_between(Bounded(piece.y0) * nearest.at, y, Bounded(piece.y1) * nearest.at));
-  Bounded way_z = depth - nearest.at;
+  Bounded way_x = across(gap_between(Bounded(piece.x0) * nearest.place, x, Bounded(piece.x1) * nearest.place));
+  Bounded way_y = across(gap_between(Bounded(piece.y0) * nearest.place, y, Bounded(piece.y1) * nearest.place));
+  Bounded way_z = nearest.is_level ? Bounded(0.0) : depth - nearest.place;
   if (nearest.steepness > 0.0) {
     const auto move = [&](Bounded& part, double slope0, double slope1) {
       part.error = bounded::rounded_up(part.error + nearest.steepness * std::max(std::abs(slope0), std::abs(slope1)));
@@ -256,11 +269,11 @@ PyramidView view_from(const Bounded& of_x, const Bounded& of_y, const Bounded& o
   } else {
     const auto place = [&](Side side, const Bounded& of_center, float low, float high) {
       if (side == Side::between) return of_center;
-      return Bounded(side == Side::low ? low : high) * nearest.at;
+      return Bounded(side == Side::low ? low : high) * nearest.place;
     };
     const Bounded x = place(nearest.x, of_x, pyramid.x0, pyramid.x1),
                   y = place(nearest.y, of_y, pyramid.y0, pyramid.y1);
-    view.along = sqrt(x * x + y * y + Bounded(nearest.at) * nearest.at);
+    view.along = sqrt(x * x + y * y + nearest.place * nearest.place);
   }
   if (nearest.steepness > 0.0) view.along.error = bounded::rounded_up(view.along.error + nearest.steepness);
   return view;
@@ -520,7 +533,7 @@ bool BallDecider::meets(const FrustumPiece& cell) const {
   if (excess.is_surely_above(nearest.undershoot())) return false;
   const auto close = [&](const Closely& ball) {
     const Tight at = closer_depth(ball.x, ball.y, ball.depth, piece, nearest);
-    const AtDepth<Tight> there(ball.x, ball.y, ball.depth, piece, at, nearest.depth);
+    const AtDepth<Tight> there(ball.x, ball.y, piece, at, at - ball.depth, nearest.depth);
     return verdict_of(there.square - ball.squared_radius, undershoot_of(there.steepness));
   };
   return decided(cell, close, [&](const Exactly& ball) {
@@ -549,7 +562,7 @@ bool BallDecider::meets(const ShellPiece& cell, const PyramidView& view) const {
     if (view.is_behind) return Verdict::open;
     const Piece pyramid = pyramid_of(cell);
     const Tight at = closer_depth(ball.x, ball.y, ball.depth, pyramid, view.nearest);
-    const AtDepth<Tight> there(ball.x, ball.y, ball.depth, pyramid, at, view.nearest.depth);
+    const AtDepth<Tight> there(ball.x, ball.y, pyramid, at, at - ball.depth, view.nearest.depth);
     const auto place = [&](Side side, const Tight& of_center, float low, float high, double error) {
       return widened(side == Side::between ? of_center : Tight(double{side == Side::low ? low : high}) * at, error);
     };

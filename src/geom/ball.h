@@ -24,6 +24,8 @@ enum class Side : std::int8_t { low, between, high };
 struct NearestDepth {
   Side x, y, depth;  // which planes the nearest point lies on: a guess
   double at;         // a depth of the piece
+  Bounded place;     // that depth, or, if it is_level, the centre's, which is one, too: where was looked
+  bool is_level;     // nothing nearer is less deep or deeper
   Bounded square;    // of the distance there
   double steepness;  // half of the derivative there is at most this
 

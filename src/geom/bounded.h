@@ -94,9 +94,9 @@ inline Bounded larger_of(const Bounded& a, const Bounded& b) {
 
 // The largest of a, b and 0.
 inline Bounded largest_or_zero(const Bounded& a, const Bounded& b) {
-  const double value = std::max(a.value, b.value), error = std::max(a.error, b.error);
-  if (value > 0.0) return {value, error};
-  const double most = error == 0.0 ? 0.0 : bounded::rounded_up(value + error);
+  const Bounded larger = larger_of(a, b);
+  if (larger.value > 0.0) return larger;
+  const double most = larger.error == 0.0 ? 0.0 : bounded::rounded_up(larger.value + larger.error);
   return {0.0, std::max(most, 0.0)};
 }
 

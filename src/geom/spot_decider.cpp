@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "geom/exact_axis.h"
@@ -270,6 +271,30 @@ Verdict SpotDecider::by_evidence(const AnyCell& cell) const {
   return is_separated(cell, corners, ways_about) ? Verdict::no : Verdict::open;
 }
 
+// Shells have no faces that end them.
+bool SpotDecider::ends_at_face(const ShellPiece&) const {
+  return false;
+}
+// Rims of lattices' spots end at a plane but for roundings: then 106 bits tell whether it is between, without a search.
+template <class PlaneCell>
+bool SpotDecider::ends_at_face(const PlaneCell& cell) const {
+  if (std::isinf(light_.range)) return false;
+  const Point apex = about(ball_.center()), axis_about = about(axis_), axis = (1.0 / length(axis_about)) * axis_about;
+  const Corners corners = exact_corners(cell);
+  return any_face_normal(cell, [&](const Point& normal) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Point& corner : corners) least = std::min(least, dot(normal, corner - apex));
+    const double lean = cosine_.value * dot(normal, axis) + sine_.value * length(cross(normal, axis));
+    const double end = light_.range * lean;
+    if (!(end > 0.0) || !(std::abs(least - end) <= k_hardly * (std::abs(least) + end))) return false;
+    TightSpot spot = tightly();
+    spot.range = Tight(light_.range);
+    std::array<TightPoint, 8> exactly_there;
+    for (std::size_t i = 0; i < 8; ++i) exactly_there[i] = corner_of(cell, i);
+    return spot.surely_separated(tight(normal), exactly_there);
+  });
+}
+
 Verdict SpotDecider::meets_quickly(const Cell& cell) const {
   const bool is_endless = std::isinf(light_.range);
   if (!is_endless && !ball_.meets(cell)) return Verdict::no;
@@ -279,7 +304,8 @@ Verdict SpotDecider::meets_quickly(const Cell& cell) const {
     if (leans(nearest->way) == Verdict::yes) return Verdict::yes;
     if (!is_endless && leans(widened(nearest->way, nearest->play)) == Verdict::no) return Verdict::no;
   }
-  return apex_.meets(cell) ? Verdict::yes : Verdict::open;
+  if (apex_.meets(cell)) return Verdict::yes;
+  return std::visit([&](const auto& shape) { return ends_at_face(shape); }, cell) ? Verdict::no : Verdict::open;
 }
 
 Verdict SpotDecider::meets_after_all(const Cell& cell) const {

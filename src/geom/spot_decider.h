@@ -45,6 +45,10 @@ class SpotDecider {
                     const std::array<Point3<double>, 8>& ways) const;
   template <class AnyCell>
   Verdict by_evidence(const AnyCell& cell) const;
+  // Is the plane of a face, at which the volume ends but for roundings, certainly between?
+  bool ends_at_face(const ShellPiece& cell) const;
+  template <class PlaneCell>
+  bool ends_at_face(const PlaneCell& cell) const;
 
   LightVolume light_;
   BallDecider ball_, apex_;  // of the range (if it is finite), and of radius 0

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "assign/cone/spot_rows.h"
+#include "assign/cone/spot_touches.h"
 #include "assign/each_target.h"
 #include "assign/exact/exact_rows.h"
 #include "assign/settings.h"
@@ -58,21 +59,23 @@ SpotCell place_of(const grid::Grid& grid, std::uint32_t spot, std::uint32_t cell
   return {spot, cell / columns / rows, cell / columns % rows, column, column + 1};
 }
 
+std::vector<testing::settings::Plan> all_plans() {
+  return testing::settings::plans_for(*find_assigner("exact"), grid::Kind::frustum);
+}
 std::vector<testing::settings::Plan> plans_in_perspective() {
-  std::vector<testing::settings::Plan> plans =
-      testing::settings::plans_for(*find_assigner("exact"), grid::Kind::frustum);
+  std::vector<testing::settings::Plan> plans = all_plans();
   std::erase_if(plans, [](const testing::settings::Plan& plan) { return plan.projection.orthographic; });
   return plans;
 }
 
 SpotsAndPlanes from_these(const view::LightArrays& lights, const RowPlanes& planes) {
-  return {&lights, planes.side.data(), planes.slope.data(), planes.depth.data()};
+  return {&lights, planes.side.data(), planes.slope.data(), planes.depth.data(), 0.0f, planes.orthographic};
 }
 
-// Calls check(plan, close, planes, from) for each view in perspective.
+// Calls check(plan, close, planes, from) for each view.
 template <class Check>
-void for_close_spots(std::uint64_t seed, Check&& check) {
-  for (const testing::settings::Plan& plan : plans_in_perspective()) {
+void for_close_spots(const std::vector<testing::settings::Plan>& plans, std::uint64_t seed, Check&& check) {
+  for (const testing::settings::Plan& plan : plans) {
     const CloseSpots close = close_spots(plan, seed);
     const RowPlanes planes(close.grid.screen());
     check(plan, close, planes, from_these(close.lights, planes));
@@ -80,28 +83,124 @@ void for_close_spots(std::uint64_t seed, Check&& check) {
 }
 
 TEST(SpotLooks, say_yes_and_no_only_where_it_is_true_on_every_target) {
-  for_close_spots(5, [](const testing::settings::Plan& plan, const CloseSpots& close, const RowPlanes&,
-                        const SpotsAndPlanes& from) {
-    SpotCells pairs;
-    std::vector<bool> touched;
-    for (std::uint32_t spot = 0; spot < close.cells.size(); ++spot) {
-      pairs.add(place_of(close.grid, spot, close.cells[spot]));
-      touched.push_back(SpotJudge(close.grid, close.lights, spot).touches(close.cells[spot]));
-    }
-    on_each_target([&](const std::string& target) {
-      for (const Look look : {Look::quick, Look::approach, Look::closer, Look::thorough}) {
-        look_at_cells(from, look, pairs);
-        std::size_t wrong = 0, settled = 0;
-        for (std::uint32_t i = 0; i < pairs.count; ++i) {
-          if (pairs.touch[i] == Touch::open) continue;
-          ++settled;
-          if ((pairs.touch[i] == Touch::yes) != touched[i]) ++wrong;
+  for_close_spots(
+      all_plans(), 5,
+      [](const testing::settings::Plan& plan, const CloseSpots& close, const RowPlanes&, const SpotsAndPlanes& from) {
+        SpotCells pairs;
+        std::vector<bool> touched;
+        for (std::uint32_t spot = 0; spot < close.cells.size(); ++spot) {
+          pairs.add(place_of(close.grid, spot, close.cells[spot]));
+          touched.push_back(SpotJudge(close.grid, close.lights, spot).touches(close.cells[spot]));
         }
-        EXPECT_EQ(wrong, 0u) << target << ", " << plan.name << ", look " << static_cast<int>(look);
-        EXPECT_GT(settled, pairs.count / 100) << target << ", " << plan.name << ", look " << static_cast<int>(look);
+        on_each_target([&](const std::string& target) {
+          for (const Look look : {Look::quick, Look::approach, Look::closer, Look::thorough}) {
+            look_at_cells(from, look, pairs);
+            std::size_t wrong = 0, settled = 0;
+            for (std::uint32_t i = 0; i < pairs.count; ++i) {
+              if (pairs.touch[i] == Touch::open) continue;
+              ++settled;
+              if ((pairs.touch[i] == Touch::yes) != touched[i]) ++wrong;
+            }
+            EXPECT_EQ(wrong, 0u) << target << ", " << plan.name << ", look " << static_cast<int>(look);
+            EXPECT_GT(settled, pairs.count / 100) << target << ", " << plan.name << ", look " << static_cast<int>(look);
+          }
+        });
+      });
+}
+
+// The columns of a row that a spot touches.
+grid::IndexRange touched_columns(SpotJudge& judge, const RowPlanes& planes, const SpotCell& in_row) {
+  const auto columns = static_cast<std::uint32_t>(planes.columns);
+  const std::uint32_t first_cell = (in_row.slice * static_cast<std::uint32_t>(planes.rows) + in_row.row) * columns;
+  return narrowed({0, planes.columns - 1},
+                  [&](int column) { return !judge.touches(first_cell + static_cast<std::uint32_t>(column)); });
+}
+
+// Pieces of rows and what is known to be true of them, against what is found: wrong answers and settled ones.
+struct Pieces {
+  SpotTouches touches;
+  std::vector<SpotCell> asked;
+  std::vector<grid::IndexRange> touched;  // of the row
+  std::size_t wrong = 0, settled = 0, alone = 0;
+
+  void add(const SpotCell& piece, const grid::IndexRange& in_row) {
+    touches.add(piece);
+    asked.push_back(piece);
+    touched.push_back(in_row);
+  }
+  void look(const SpotsAndPlanes& from, const RowPlanes& planes) {
+    touches.look(from, planes);
+    wrong = settled = alone = 0;
+    for (std::uint32_t i = 0; i < touches.count(); ++i) {
+      const Touch touch = touches.touch(i);
+      const int first = std::max(touched[i].first, static_cast<int>(asked[i].column));
+      const int last = std::min(touched[i].last, static_cast<int>(asked[i].end_column) - 1);
+      settled += touch != Touch::open ? 1 : 0;
+      if (touch != Touch::open && (touch == Touch::yes) != (first <= last)) ++wrong;
+      const grid::IndexRange only = touches.only_columns(i, planes);
+      alone += only.empty() ? 0 : 1;
+      if (!only.empty() && (touch != Touch::yes || only.first != first || only.last != last)) ++wrong;
+    }
+  }
+};
+
+TEST(SpotTouches, are_true_on_every_target) {
+  for_close_spots(all_plans(), 9,
+                  [](const testing::settings::Plan& plan, const CloseSpots& close, const RowPlanes& planes,
+                     const SpotsAndPlanes& from) {
+                    Pieces pieces;
+                    const auto columns = static_cast<std::uint32_t>(planes.columns);
+                    for (std::uint32_t spot = 0; spot < close.cells.size(); spot += 3) {
+                      SpotCell cell = place_of(close.grid, spot, close.cells[spot]);
+                      SpotJudge judge(close.grid, close.lights, spot);
+                      const grid::IndexRange touched = touched_columns(judge, planes, cell);
+                      pieces.add(cell, touched);
+                      pieces.add({cell.spot, cell.slice, cell.row, 0, columns}, touched);
+                      pieces.add({cell.spot, cell.slice, cell.row, 0, cell.column + 1}, touched);
+                    }
+                    on_each_target([&](const std::string& target) {
+                      pieces.look(from, planes);
+                      EXPECT_EQ(pieces.wrong, 0u) << target << ", " << plan.name;
+                      EXPECT_GT(pieces.settled, pieces.asked.size() / 4) << target << ", " << plan.name;
+                    });
+                  });
+}
+
+// Spots at whole places that shine at the middle planes of the picture and end there, before a camera that has come to
+// where depths are rounded.
+TEST(SpotTouches, say_which_columns_share_a_single_point) {
+  for (const double turn : {0.0, 0.7}) {
+    testing::settings::Plan plan = all_plans().front();
+    plan.spec = testing::settings::screen_spec(grid::Kind::frustum, {16, 8}, grid::Scheme::exponential, 24, 0.1);
+    view::Frame frame = testing::frame_of(plan.projection, {1280, 720}, {});
+    frame.view_space.origin = {0.0, 0.0, 1.0 / 3.0};
+    frame.view_space.rotation = Mat3d(std::cos(turn), 0, -std::sin(turn), 0, 1, 0, std::sin(turn), 0, std::cos(turn));
+    for (int i = 0; i < 60; ++i) {
+      const double size = 1 + i % 5, along = i % 9 - 4, depth = -3 - i % 31;
+      frame.lights.push_back(testing::spot_light({along, size, depth}, size, {0, -1, 0}, 0.2 + 0.01 * i));
+      if (turn == 0.0) frame.lights.push_back(testing::spot_light({size, along, depth}, size, {-1, 0, 0}, 0.5));
+    }
+    const grid::Grid grid = testing::grid_of(plan.spec, frame);
+    const view::LightArrays lights = view::lights_in(frame, grid::space_of(grid, frame));
+    const RowPlanes planes(grid.screen());
+    const auto rows = static_cast<std::uint32_t>(planes.rows), columns = static_cast<std::uint32_t>(planes.columns);
+    Pieces pieces;
+    for (std::uint32_t spot = 0; spot < lights.spots; ++spot)
+      for (std::uint32_t slice = 0; slice < static_cast<std::uint32_t>(planes.slices); ++slice) {
+        SpotJudge judge(grid, lights, spot);
+        const SpotCell below{spot, slice, rows / 2, 0, columns};
+        pieces.add(below, touched_columns(judge, planes, below));
+        for (std::uint32_t row = 0; row < rows; ++row) {
+          const SpotCell left{spot, slice, row, 0, columns / 2};
+          pieces.add(left, touched_columns(judge, planes, left));
+        }
       }
+    on_each_target([&](const std::string& target) {
+      pieces.look(from_these(lights, planes), planes);
+      EXPECT_EQ(pieces.wrong, 0u) << target << ", turned by " << turn;
+      EXPECT_GT(pieces.alone, lights.spots / 3) << target << ", turned by " << turn;
     });
-  });
+  }
 }
 
 // A row of cells, the columns of it that a spot touches, and its spot's place among the spots.
@@ -111,55 +210,57 @@ struct TrueRow {
 };
 
 TEST(SpotRows, know_only_what_is_true_on_every_target) {
-  for_close_spots(6, [](const testing::settings::Plan& plan, const CloseSpots& close, const RowPlanes& planes,
-                        const SpotsAndPlanes& from) {
-    const auto columns = static_cast<std::uint32_t>(planes.columns), rows = static_cast<std::uint32_t>(planes.rows);
-    SpotSlices slices;
-    std::vector<TrueRow> truth;  // the row that is touched by a hair, and its neighbours
-    for (std::uint32_t spot = 0; spot < close.cells.size(); spot += 3) {
-      const SpotCell cell = place_of(close.grid, spot, close.cells[spot]);
-      slices.add(spot, cell.slice);
-      SpotJudge judge(close.grid, close.lights, spot);
-      for (std::uint32_t row = cell.row - std::min(cell.row, 1u); row <= std::min(cell.row + 1, rows - 1); ++row) {
-        const std::uint32_t first_cell = (cell.slice * rows + row) * columns;
-        truth.push_back({spot, cell.slice, row, narrowed({0, planes.columns - 1}, [&](int column) {
-                           return !judge.touches(first_cell + static_cast<std::uint32_t>(column));
-                         })});
-      }
-    }
-    on_each_target([&](const std::string& target) {
-      SpotRows found;
-      find_spot_rows(from, planes, slices, found);
-      std::size_t wrong = 0, settled = 0, listed = 0, at = 0;
-      for (const TrueRow& row : truth) {
-        while (at < found.count &&
-               (found.spot[at] < row.spot || (found.spot[at] == row.spot && static_cast<std::int32_t>(found.row[at]) <
-                                                                                static_cast<std::int32_t>(row.row))))
-          ++at;
-        if (at == found.count || found.spot[at] != row.spot || found.row[at] != row.row) {
-          if (!row.columns.empty()) ++wrong;
-          continue;
+  for_close_spots(
+      plans_in_perspective(), 6,
+      [](const testing::settings::Plan& plan, const CloseSpots& close, const RowPlanes& planes,
+         const SpotsAndPlanes& from) {
+        const auto columns = static_cast<std::uint32_t>(planes.columns), rows = static_cast<std::uint32_t>(planes.rows);
+        SpotSlices slices;
+        std::vector<TrueRow> truth;  // the row that is touched by a hair, and its neighbours
+        for (std::uint32_t spot = 0; spot < close.cells.size(); spot += 3) {
+          const SpotCell cell = place_of(close.grid, spot, close.cells[spot]);
+          slices.add(spot, cell.slice);
+          SpotJudge judge(close.grid, close.lights, spot);
+          for (std::uint32_t row = cell.row - std::min(cell.row, 1u); row <= std::min(cell.row + 1, rows - 1); ++row) {
+            const std::uint32_t first_cell = (cell.slice * rows + row) * columns;
+            truth.push_back({spot, cell.slice, row, narrowed({0, planes.columns - 1}, [&](int column) {
+                               return !judge.touches(first_cell + static_cast<std::uint32_t>(column));
+                             })});
+          }
         }
-        ++listed;
-        EXPECT_EQ(found.slice[at], row.slice);
-        const std::uint8_t known = found.known[at];
-        const auto is = [&](std::uint8_t bit) { return (known & bit) != 0; };
-        const auto touches = [&](int column) { return row.columns.first <= column && column <= row.columns.last; };
-        if (is(SpotRows::k_none_before) && !row.columns.empty() && row.columns.first < found.first[at]) ++wrong;
-        if (is(SpotRows::k_none_behind) && !row.columns.empty() && row.columns.last > found.last[at]) ++wrong;
-        if (known == SpotRows::k_all && found.first[at] > found.last[at]) {
-          if (!row.columns.empty()) ++wrong;
-        } else {
-          if (is(SpotRows::k_first_is_touched) && !touches(found.first[at])) ++wrong;
-          if (is(SpotRows::k_last_is_touched) && !touches(found.last[at])) ++wrong;
-        }
-        settled += known == SpotRows::k_all ? 1 : 0;
-      }
-      EXPECT_EQ(wrong, 0u) << target << ", " << plan.name;
-      EXPECT_GT(listed, truth.size() / 4) << target << ", " << plan.name;
-      EXPECT_GT(settled, listed / 3) << target << ", " << plan.name;
-    });
-  });
+        on_each_target([&](const std::string& target) {
+          SpotRows found;
+          find_spot_rows(from, planes, slices, found);
+          std::size_t wrong = 0, settled = 0, listed = 0, at = 0;
+          for (const TrueRow& row : truth) {
+            while (at < found.count && (found.spot[at] < row.spot ||
+                                        (found.spot[at] == row.spot && static_cast<std::int32_t>(found.row[at]) <
+                                                                           static_cast<std::int32_t>(row.row))))
+              ++at;
+            if (at == found.count || found.spot[at] != row.spot || found.row[at] != row.row) {
+              if (!row.columns.empty()) ++wrong;
+              continue;
+            }
+            ++listed;
+            EXPECT_EQ(found.slice[at], row.slice);
+            const std::uint8_t known = found.known[at];
+            const auto is = [&](std::uint8_t bit) { return (known & bit) != 0; };
+            const auto touches = [&](int column) { return row.columns.first <= column && column <= row.columns.last; };
+            if (is(SpotRows::k_none_before) && !row.columns.empty() && row.columns.first < found.first[at]) ++wrong;
+            if (is(SpotRows::k_none_behind) && !row.columns.empty() && row.columns.last > found.last[at]) ++wrong;
+            if (known == SpotRows::k_all && found.first[at] > found.last[at]) {
+              if (!row.columns.empty()) ++wrong;
+            } else {
+              if (is(SpotRows::k_first_is_touched) && !touches(found.first[at])) ++wrong;
+              if (is(SpotRows::k_last_is_touched) && !touches(found.last[at])) ++wrong;
+            }
+            settled += known == SpotRows::k_all ? 1 : 0;
+          }
+          EXPECT_EQ(wrong, 0u) << target << ", " << plan.name;
+          EXPECT_GT(listed, truth.size() / 4) << target << ", " << plan.name;
+          EXPECT_GT(settled, listed / 3) << target << ", " << plan.name;
+        });
+      });
 }
 
 // Spots in all slices of a grid.

@@ -66,7 +66,7 @@ struct Cone {
 constexpr float k_tolerance = 0x1p-19f;
 
 // Evidence must be larger than this. `light`: the size of the numbers that describe it; the cells reach to a depth, and
-// to slopes across and up.
+// to slopes across and up (without perspective: to places; then corners and normals are exact).
 HWY_INLINE V tolerance_of(V light, V depth, V across, V up) {
   return all(k_tolerance) * (light + depth * (all(1.0f) + (across + up)));
 }
@@ -86,15 +86,24 @@ struct GivenSpots {
   V light;  // size of the numbers that describe it
 
   HWY_INLINE GivenSpots(const view::LightArrays& lights, VI spot) {
+    // Gathering takes longer than much of what follows, and where spots are few, vectors are often of one.
+    const std::int32_t first = GetLane(spot);
+    if (AllTrue(DI(), spot == all_int(first)))
+      take(lights, [&](const float* from) { return all(from[first]); });
+    else
+      take(lights, [&](const float* from) { return gathered(from, spot); });
+  }
+
+ private:
+  template <class Get>
+  HWY_INLINE void take(const view::LightArrays& lights, Get&& get) {
     const std::uint32_t points = lights.points;
-    cone = {{gathered(lights.x.data() + points, spot), gathered(lights.y.data() + points, spot),
-             Neg(gathered(lights.z.data() + points, spot))},
-            {gathered(lights.axis_x.data(), spot), gathered(lights.axis_y.data(), spot),
-             Neg(gathered(lights.axis_z.data(), spot))},
-            gathered(lights.radius.data() + points, spot),
-            gathered(lights.cos_angle.data(), spot),
-            gathered(lights.sin_angle.data(), spot)};
-    light = gathered(lights.reach.data() + points, spot) + cone.range;
+    cone = {{get(lights.x.data() + points), get(lights.y.data() + points), Neg(get(lights.z.data() + points))},
+            {get(lights.axis_x.data()), get(lights.axis_y.data()), Neg(get(lights.axis_z.data()))},
+            get(lights.radius.data() + points),
+            get(lights.cos_angle.data()),
+            get(lights.sin_angle.data())};
+    light = get(lights.reach.data() + points) + cone.range;
   }
 };
 
@@ -113,6 +122,11 @@ struct SpotsInRows {
   HWY_INLINE V tolerance(V left, V right) const {
     return tolerance_of(light, depth1, Max(Abs(left), Abs(right)), Max(Abs(y0), Abs(y1)));
   }
+  // The same without perspective.
+  HWY_INLINE V parallel_tolerance(V left, V right) const {
+    const V depth = Max(Abs(depth0), Abs(depth1));
+    return all(k_tolerance) * (light + (depth + (Max(Abs(left), Abs(right)) + Max(Abs(y0), Abs(y1)))));
+  }
 };
 HWY_INLINE SpotsInRows spots_in_rows(const SpotsAndPlanes& from, VI spot, VI slice, VI row) {
   const GivenSpots given(*from.lights, spot);
@@ -129,11 +143,12 @@ HWY_INLINE VI places(const std::vector<std::uint32_t>& list, std::uint32_t first
   return BitCast(DI(), LoadU(DU(), list.data() + first));
 }
 
-// A vector of cells, each with its own cone.
-class Cells {
+// A vector of cells, each with its own cone. In perspective sides and rows are slopes, else places.
+template <bool k_perspective>
+class CellsOf {
  public:
   // Those between two sides of columns.
-  HWY_INLINE Cells(const SpotsInRows& rows, V left, V right)
+  HWY_INLINE CellsOf(const SpotsInRows& rows, V left, V right)
       : cone_(rows.cone),
         left_(left),
         right_(right),
@@ -141,7 +156,7 @@ class Cells {
         y1_(rows.y1),
         depth0_(rows.depth0),
         depth1_(rows.depth1),
-        tolerance_(rows.tolerance(left, right)),
+        tolerance_(k_perspective ? rows.tolerance(left, right) : rows.parallel_tolerance(left, right)),
         safe_range_(cone_.range - tolerance_) {
     for (unsigned i = 0; i < 8; ++i) from_apex_[i] = corner(i) - cone_.apex;
   }
@@ -201,7 +216,7 @@ class Cells {
   HWY_INLINE M is_apart() const {
     M apart = is_beside(sum_of_corners());
     each_face([&](const Point& normal, V offset) {
-      const V scale = all(1.0f) / length(normal);
+      const V scale = all(1.0f) / face_length(normal);
       const V beyond = scale * (dot(normal, cone_.apex) - offset);
       apart = Or(apart, beyond - extent(Neg(scale) * normal) > tolerance_);
     });
@@ -257,7 +272,7 @@ class Cells {
         if ((corner & bit) == 0) take_edge(from_apex_[corner], from_apex_[corner | bit], extremes);
     }
     each_face([&](const Point& outward, V offset) {
-      const V scale = all(1.0f) / length(outward);
+      const V scale = all(1.0f) / face_length(outward);
       take_face(scale * outward, scale * (offset - dot(outward, cone_.apex)), extremes);
     });
     take_in_cell(cone_.range * cone_.axis, yes(), extremes);
@@ -276,8 +291,13 @@ class Cells {
     const V within = all(k_within) * tolerance_;
     const Point place = v + cone_.apex;
     const auto between = [](V low, V x, V high) { return Min(Max(x, low), high); };
-    const auto inset = [&](V slope) { return within * (all(1.0f) + Abs(slope)); };
     const V depth = between(depth0_ + within, place.depth, depth1_ - within);
+    if constexpr (!k_perspective) {
+      const V x = between(left_ + within, place.x, right_ - within);
+      const V y = between(y0_ + within, place.y, y1_ - within);
+      return Point{x, y, depth} - cone_.apex;
+    }
+    const auto inset = [&](V slope) { return within * (all(1.0f) + Abs(slope)); };
     const V x = between(left_ * depth + inset(left_), place.x, right_ * depth - inset(right_));
     const V y = between(y0_ * depth + inset(y0_), place.y, y1_ * depth - inset(y1_));
     return Point{x, y, depth} - cone_.apex;
@@ -290,7 +310,7 @@ class Cells {
     M is_in = is_inside(v);
     each_face([&](const Point& outward, V offset) {
       const V margin = offset - dot(outward, cone_.apex + v);
-      is_in = And(is_in, margin > tolerance_ * length(outward));
+      is_in = And(is_in, margin > tolerance_ * face_length(outward));
     });
     return is_in;
   }
@@ -505,19 +525,34 @@ class Cells {
 
   HWY_INLINE Point corner(unsigned i) const {
     const V depth = (i & 4) != 0 ? depth1_ : depth0_;
-    return {((i & 1) != 0 ? right_ : left_) * depth, ((i & 2) != 0 ? y1_ : y0_) * depth, depth};
+    const V side = (i & 1) != 0 ? right_ : left_, up = (i & 2) != 0 ? y1_ : y0_;
+    if constexpr (!k_perspective) return {side, up, depth};
+    return {side * depth, up * depth, depth};
   }
 
   // Outward normals (any length) and the faces' places along them.
   template <class Take>
   HWY_INLINE void each_face(Take&& take) const {
     const V zero = Zero(D()), one = all(1.0f);
-    take(Point{Neg(one), zero, left_}, zero);
-    take(Point{one, zero, Neg(right_)}, zero);
-    take(Point{zero, Neg(one), y0_}, zero);
-    take(Point{zero, one, Neg(y1_)}, zero);
+    if constexpr (k_perspective) {
+      take(Point{Neg(one), zero, left_}, zero);
+      take(Point{one, zero, Neg(right_)}, zero);
+      take(Point{zero, Neg(one), y0_}, zero);
+      take(Point{zero, one, Neg(y1_)}, zero);
+    } else {
+      take(Point{Neg(one), zero, zero}, Neg(left_));
+      take(Point{one, zero, zero}, right_);
+      take(Point{zero, Neg(one), zero}, Neg(y0_));
+      take(Point{zero, one, zero}, y1_);
+    }
     take(Point{zero, zero, Neg(one)}, Neg(depth0_));
     take(Point{zero, zero, one}, depth1_);
+  }
+
+  // Of a face's normal.
+  static HWY_INLINE V face_length(const Point& outward) {
+    if constexpr (!k_perspective) return all(1.0f);
+    return length(outward);
   }
 
   // Cuts a line from the apex's place + start, along step, to the cell.
@@ -554,6 +589,7 @@ class Cells {
   V left_, right_, y0_, y1_, depth0_, depth1_, tolerance_, safe_range_;
   Point from_apex_[8];
 };
+using Cells = CellsOf<true>;
 
 }  // namespace HWY_NAMESPACE
 }  // namespace clusterbench::assign

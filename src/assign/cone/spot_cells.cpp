@@ -18,7 +18,8 @@ namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
 namespace {
 
-void look(const SpotsAndPlanes& from, Look how, SpotCells& cells) {
+template <class AnyCells>
+void look_at(const SpotsAndPlanes& from, Look how, SpotCells& cells) {
   const D d;
   const DU du;
   const hn::Rebind<std::uint8_t, DU> du8;
@@ -26,8 +27,8 @@ void look(const SpotsAndPlanes& from, Look how, SpotCells& cells) {
   for (std::uint32_t first = 0; first < cells.count; first += lanes) {
     const SpotsInRows rows =
         spots_in_rows(from, places(cells.spot, first), places(cells.slice, first), places(cells.row, first));
-    const Cells these(rows, gathered(from.side, places(cells.column, first)),
-                      gathered(from.side, places(cells.end_column, first)));
+    const AnyCells these(rows, gathered(from.side, places(cells.column, first)),
+                         gathered(from.side, places(cells.end_column, first)));
     M common, apart;
     switch (how) {
       case Look::quick:
@@ -53,6 +54,10 @@ void look(const SpotsAndPlanes& from, Look how, SpotCells& cells) {
                                    IfThenElse(RebindMask(du, apart), code(Touch::no), code(Touch::open)));
     StoreU(U8FromU32(answer), du8, reinterpret_cast<std::uint8_t*>(cells.touch.data()) + first);
   }
+}
+
+void look(const SpotsAndPlanes& from, Look how, SpotCells& cells) {
+  from.orthographic ? look_at<CellsOf<false>>(from, how, cells) : look_at<Cells>(from, how, cells);
 }
 
 }  // namespace

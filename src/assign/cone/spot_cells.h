@@ -41,12 +41,14 @@ struct SpotCells {
   std::size_t capacity_bytes() const { return spot.capacity() * (sizeof(SpotCell) + sizeof(Touch)); }
 };
 
-// What the pairs are made of: lights, sides of columns (x / depth), slopes of rows from the top, depths of slices.
-// Spots of less reach than least_reach, or of more than k_most_row_reach, are left open.
+// What the pairs are made of: lights, sides of columns (x / depth), slopes of rows from the top, depths of slices. As
+// in RowPlanes, sides and slopes are x and y where the projection is orthographic. Spots of less reach than
+// least_reach, or of more than k_most_row_reach, are left open.
 struct SpotsAndPlanes {
   const view::LightArrays* lights;
   const float *side, *slope, *depth;
   float least_reach = 0.0f;
+  bool orthographic = false;
 };
 
 // Each look settles most of the pairs that the one before leaves open, and costs several times as much.

@@ -208,14 +208,14 @@ void SpotSlices::make_room() {
   slice.resize(size);
 }
 
-void SpotRows::add(const SpotCell& columns) {
+void SpotRows::add(const SpotCell& columns, std::uint8_t what_is_known) {
   make_room(1);
   spot[count] = columns.spot;
   slice[count] = columns.slice;
   row[count] = columns.row;
   first[count] = static_cast<std::int32_t>(columns.column);
   last[count] = static_cast<std::int32_t>(columns.end_column) - 1;
-  known[count++] = 0;
+  known[count++] = what_is_known;
 }
 
 // For so many rows more.

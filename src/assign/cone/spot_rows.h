@@ -44,7 +44,7 @@ struct SpotRows {
   // The rows of some spots in slices, one after the other: the place of their slice among these, the row's number.
   std::vector<std::int32_t> listed_slice, listed_row;
 
-  void add(const SpotCell& columns);
+  void add(const SpotCell& columns, std::uint8_t what_is_known);
   void make_room(std::size_t rows);
   std::size_t capacity_bytes() const {
     return known.capacity() + (5 * spot.capacity() + 2 * listed_row.capacity()) * sizeof(std::uint32_t);

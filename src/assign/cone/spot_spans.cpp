@@ -1,10 +1,27 @@
 #include "assign/cone/spot_spans.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
 
 namespace clusterbench::assign {
 
 using grid::IndexRange;
+
+namespace {
+
+// Of spots that looks at cells are for. Squares of wider orthographic grids might overflow.
+float least_reach_of(const RowPlanes& planes) {
+  if (!planes.orthographic) return planes.least_reach;
+  float widest = std::max(std::abs(planes.left), std::abs(planes.right));
+  for (const float end : {planes.slope.front(), planes.slope[static_cast<std::size_t>(planes.rows)],
+                          planes.depth.front(), planes.depth.back()})
+    widest = std::max(widest, std::abs(end));
+  return widest <= k_most_row_reach ? planes.least_reach : std::numeric_limits<float>::infinity();
+}
+
+}  // namespace
 
 void SpotSpans::find(const ExactFrame& frame, int first, int last) {
   frame_ = &frame;
@@ -12,26 +29,27 @@ void SpotSpans::find(const ExactFrame& frame, int first, int last) {
   rows_.count = next_row_ = 0;
   judge_.reset();
   if (frame.first_spot_place == frame.visible.count) return;
-  if (frame.planes.orthographic) {
+  const RowPlanes& planes = frame.planes;
+  const SpotsAndPlanes from{&frame.lights,       planes.side.data(),     planes.slope.data(),
+                            planes.depth.data(), least_reach_of(planes), planes.orthographic};
+  if (planes.orthographic) {
     batches_.start(frame, &ExactFrame::spots_of, first, last);
     for (int slice = first; slice < last; ++slice) add_orthographic_rows(slice);
-    decide_ends();
   } else {
-    find_in_perspective(first, last);
+    slices_.count = 0;
+    for (int slice = first; slice < last; ++slice)
+      for (const std::uint32_t place : frame.spots_of(slice))
+        slices_.add(frame.visible.light[place] - frame.lights.points, static_cast<std::uint32_t>(slice));
+    find_spot_rows(from, planes, slices_, rows_);
   }
   tests_ += rows_.count;
+  settle_open_rows(from);
 }
 
-void SpotSpans::find_in_perspective(int first, int last) {
-  const SpotsAndPlanes from{&frame_->lights, frame_->planes.side.data(), frame_->planes.slope.data(),
-                            frame_->planes.depth.data(), frame_->planes.least_reach};
-  slices_.count = 0;
-  for (int slice = first; slice < last; ++slice)
-    for (const std::uint32_t place : frame_->spots_of(slice))
-      slices_.add(frame_->visible.light[place] - frame_->lights.points, static_cast<std::uint32_t>(slice));
-  find_spot_rows(from, frame_->planes, slices_, rows_);
+void SpotSpans::settle_open_rows(const SpotsAndPlanes& from) {
   take_open_rows();
   if (lit_.empty()) return;
+  if (!frame_->planes.orthographic) settle_touches(from);
   drop_missed_rows(from);
   shorten(from);
   while (ask_for_ends()) {
@@ -64,7 +82,7 @@ std::size_t SpotSpans::capacity_bytes() const {
          closer_.capacity_bytes() + open_.capacity() * sizeof(std::uint32_t) +
          closer_places_.capacity() * sizeof(std::uint32_t) + lit_.capacity() * sizeof(Lit) +
          ends_.capacity() * sizeof(Ends) + waiting_.capacity() * sizeof(std::uint32_t) +
-         long_.capacity() * sizeof(Long);
+         long_.capacity() * sizeof(Long) + pieces_.capacity() * sizeof(Piece) + touches_.capacity_bytes();
 }
 
 // Those of the spots' bounding balls.
@@ -73,7 +91,8 @@ void SpotSpans::add_orthographic_rows(int slice) {
     for (int row = batch->first_row; row <= batch->last_row; ++row)
       each_span(*batch, row, [&](std::uint32_t light, const IndexRange& columns, bool) {
         rows_.add({light - frame_->lights.points, static_cast<std::uint32_t>(slice), static_cast<std::uint32_t>(row),
-                   static_cast<std::uint32_t>(columns.first), static_cast<std::uint32_t>(columns.last) + 1});
+                   static_cast<std::uint32_t>(columns.first), static_cast<std::uint32_t>(columns.last) + 1},
+                  SpotRows::k_none_before | SpotRows::k_none_behind);
       });
 }
 
@@ -92,12 +111,87 @@ void SpotSpans::take_open_rows() {
   }
 }
 
+void SpotSpans::settle_touches(const SpotsAndPlanes& from) {
+  pieces_.clear();
+  touches_.clear();
+  for (std::uint32_t i = 0; i < lit_.size(); ++i) ask_for_touches(i);
+  touches_.look(from, frame_->planes);
+  tests_ += pieces_.size();
+  for (std::uint32_t place = 0; place < pieces_.size(); ++place) take_touch(pieces_[place], place);
+}
+
+void SpotSpans::ask_for_touches(std::uint32_t i) {
+  const Lit& lit = lit_[i];
+  const std::uint8_t known = rows_.known[lit.place];
+  const auto ask = [&](Part part, const IndexRange& columns) {
+    if (columns.empty()) return;
+    pieces_.push_back({i, part});
+    touches_.add(cells_of(lit, columns));
+  };
+  const auto is = [&](std::uint8_t bit) { return (known & bit) != 0; };
+  const int first = rows_.first[lit.place], last = rows_.last[lit.place];
+  if (lit.left_is_open && lit.right_is_open) return ask(Part::whole, lit.columns);
+  if (lit.left_is_open && lit.columns.holds(first)) {
+    if (!is(SpotRows::k_none_before)) ask(Part::before, {lit.columns.first, first - 1});
+    if (!is(SpotRows::k_first_is_touched)) ask(Part::first, {first, first});
+  }
+  if (lit.right_is_open && lit.columns.holds(last)) {
+    if (!is(SpotRows::k_none_behind)) ask(Part::behind, {last + 1, lit.columns.last});
+    if (!is(SpotRows::k_last_is_touched)) ask(Part::last, {last, last});
+  }
+}
+
+// What is before (behind) the first (last) column was asked before that column, which is an end only where nothing
+// there is touched.
+void SpotSpans::take_touch(const Piece& piece, std::uint32_t place) {
+  const Touch touch = touches_.touch(place);
+  if (touch == Touch::open) return;
+  Lit& lit = lit_[piece.lit];
+  IndexRange& columns = lit.columns;
+  const std::uint8_t known = rows_.known[lit.place];
+  const int first = rows_.first[lit.place], last = rows_.last[lit.place];
+  const bool is_missed = touch == Touch::no;
+  const IndexRange only = is_missed ? IndexRange{} : touches_.only_columns(place, frame_->planes);
+  const bool is_known = is_missed || !only.empty();
+  switch (piece.part) {
+    case Part::whole:
+      if (!is_known) break;
+      columns = only;
+      lit.left_is_open = lit.right_is_open = false;
+      break;
+    case Part::before:
+      if (!is_known) break;
+      columns.first = is_missed ? first : only.first;
+      lit.left_is_open = is_missed && (known & SpotRows::k_first_is_touched) == 0;
+      break;
+    case Part::first:
+      if (columns.first != first) break;
+      columns.first += is_missed ? 1 : 0;
+      lit.left_is_open = is_missed;
+      break;
+    case Part::behind:
+      if (!is_known) break;
+      columns.last = is_missed ? last : only.last;
+      lit.right_is_open = is_missed && (known & SpotRows::k_last_is_touched) == 0;
+      break;
+    case Part::last:
+      if (columns.last != last) break;
+      columns.last -= is_missed ? 1 : 0;
+      lit.right_is_open = is_missed;
+      break;
+  }
+}
+
 // Takes away rows that are as a whole not touched.
 void SpotSpans::drop_missed_rows(const SpotsAndPlanes& from) {
+  // Most rows of bounding balls are touched: more than a quick look would be in vain.
+  static constexpr Look k_thorough[] = {Look::approach, Look::closer, Look::thorough}, k_quick[] = {Look::quick};
+  const std::span<const Look> looks =
+      from.orthographic ? std::span<const Look>(k_quick) : std::span<const Look>(k_thorough);
   waiting_.clear();
   for (std::uint32_t i = 0; i < lit_.size(); ++i)
     if (lit_[i].left_is_open && lit_[i].right_is_open && !lit_[i].columns.empty()) waiting_.push_back(i);
-  for (const Look how : {Look::approach, Look::closer, Look::thorough}) {
+  for (const Look how : looks) {
     closer_.count = 0;
     for (const std::uint32_t i : waiting_) closer_.add(cells_of(lit_[i], lit_[i].columns));
     look_at_cells(from, how, closer_);
@@ -224,15 +318,6 @@ void SpotSpans::settle(const Ends& ends) {
     const int end = std::max(ends.columns.first, span.first);
     while (span.last >= end && !touches(span.last)) --span.last;
     lit.right_is_open = span.last < end;
-  }
-}
-
-void SpotSpans::decide_ends() {
-  for (std::uint32_t i = 0; i < rows_.count; ++i) {
-    const IndexRange touched =
-        narrowed({rows_.first[i], rows_.last[i]}, [&](int column) { return !decide(i, column); });
-    rows_.first[i] = touched.first;
-    rows_.last[i] = touched.last;
   }
 }
 

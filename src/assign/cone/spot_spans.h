@@ -1,12 +1,14 @@
 #pragma once
 // The columns that spots touch in each row of some slices, all slices at once so that vectors are full: rows and ends
-// that are guessed and proven (spot_rows.h), which nearly all are. What is left is shortened by halves, quarters and so
-// on that are as a whole not touched; then its ends are looked at a few cells at a time, until a cell at either end is
-// touched. In orthographic grids the rows of bounding balls, cell by cell.
+// that are guessed and proven (spot_rows.h), which nearly all are. Of what is left, ends that are touched in a single
+// point come first (spot_touches.h), as most are on lattices. The rest is shortened by halves, quarters and so on that
+// are as a whole not touched; then its ends are looked at a few cells at a time, until a cell at either end is touched.
+// In orthographic grids all rows of bounding balls are left.
 
 #include <optional>
 
 #include "assign/cone/spot_rows.h"
+#include "assign/cone/spot_touches.h"
 #include "assign/exact/exact_frame.h"
 #include "assign/exact/exact_rows.h"
 
@@ -39,6 +41,13 @@ class SpotSpans {
     bool from_left;
   };
   static constexpr int k_least_piece = 3;
+  // A piece of a Lit that may just be touched: its row, what is before or behind the columns guessed, the first or the
+  // last of these.
+  enum class Part : std::uint8_t { whole, before, first, behind, last };
+  struct Piece {
+    std::uint32_t lit;
+    Part part;
+  };
   // Cells at one or both ends of a Lit that are asked for, from cells_[place] on.
   struct Ends {
     std::uint32_t lit, place;
@@ -46,10 +55,12 @@ class SpotSpans {
     bool from_left, from_right;
   };
 
-  void find_in_perspective(int first, int last);
-  void add_orthographic_rows(int slice);  // of orthographic grids, whose cells no look knows
-  void decide_ends();                     // of these
+  void add_orthographic_rows(int slice);
+  void settle_open_rows(const SpotsAndPlanes& from);
   void take_open_rows();
+  void settle_touches(const SpotsAndPlanes& from);
+  void ask_for_touches(std::uint32_t i);
+  void take_touch(const Piece& piece, std::uint32_t place);
   void drop_missed_rows(const SpotsAndPlanes& from);
   void shorten(const SpotsAndPlanes& from);
   bool ask_for_ends();
@@ -66,6 +77,8 @@ class SpotSpans {
   SpotRows rows_;               // slice by slice
   std::uint32_t next_row_ = 0;  // to be added
   std::vector<Lit> lit_;
+  std::vector<Piece> pieces_;
+  SpotTouches touches_;              // of these
   std::vector<std::uint32_t> open_;  // among them
   std::vector<Long> long_;
   std::vector<Ends> ends_;

@@ -1,7 +1,6 @@
 #pragma once
 // Do point lights touch single cells of a frustum grid? Many pairs at once, in doubles with a bound of their error, as
 // geom::BallDecider does before it turns to exact numbers (its answers are the same; which pairs are left open is not).
-// Where a machine cannot multiply and add with one rounding, every pair is.
 
 #include <cstdint>
 #include <vector>

@@ -1,0 +1,166 @@
+#include "assign/cone/spot_touches.h"
+
+#include <algorithm>
+
+#include "assign/cull/frustum_cull.h"
+#include "geom/bounded.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "assign/cone/spot_touches.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once per target
+#include <hwy/highway.h>
+
+#include "assign/exact/ball_pieces-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace clusterbench::assign {
+namespace HWY_NAMESPACE {
+namespace {
+
+// A vector of cones in single precision: axes of length 1 to 5 u, all numbers off by u of themselves, u = 2^-24.
+struct Cones {
+  VD axis_x, axis_y, axis_depth, cosine, sine;
+
+  Cones(const view::LightArrays& lights, VH spot) {
+    const auto of = [&](const std::vector<float>& list) {
+      return PromoteTo(DD(), GatherIndex(DF(), list.data(), spot));
+    };
+    axis_x = of(lights.axis_x);
+    axis_y = of(lights.axis_y);
+    axis_depth = Neg(of(lights.axis_z));
+    cosine = of(lights.cos_angle);
+    sine = of(lights.sin_angle);
+  }
+
+  // How far inside of the cone's side a way from the apex ends, which changes by no more than the way does. The numbers
+  // above make it off by less than 20 u of the way's length.
+  HWY_INLINE VD margin(VD x, VD y, VD depth) const {
+    const VD along = x * axis_x + y * axis_y + depth * axis_depth;
+    const VD across_x = x - along * axis_x, across_y = y - along * axis_y, across_depth = depth - along * axis_depth;
+    const VD across = Sqrt(across_x * across_x + across_y * across_y + across_depth * across_depth);
+    return sine * along - cosine * across;
+  }
+};
+constexpr double k_cone_error = 0x1p-19;  // 32 u
+
+// From the centre to a gap's other end.
+HWY_INLINE VD across(const Gap& gap) {
+  return IfThenElse(gap.is_below, gap.size.value, Neg(gap.size.value));
+}
+
+void look_at(const SpotsAndPlanes& from, const RowPlanes& planes, SpotTouches& out) {
+  const view::LightArrays& lights = *from.lights;
+  const SpotCells& pieces = out.pieces_;
+  const std::size_t lanes = Lanes(DD());
+  const VD zero = Zero(DD());
+  for (std::size_t first = 0; first < pieces.count; first += lanes) {
+    const auto load = [&](const std::vector<std::uint32_t>& list) {
+      return BitCast(DH(), LoadU(hn::RebindToUnsigned<DH>(), list.data() + first));
+    };
+    const VH spot = load(pieces.spot), light = spot + Set(DH(), static_cast<std::int32_t>(lights.points));
+    const BallPieces balls(lights, planes,
+                           {light, load(pieces.slice), load(pieces.row), load(pieces.column), load(pieces.end_column)});
+    const BallPieces::Nearest nearest = balls.nearest();
+    const VD error = rounded_up(nearest.excess.error), excess = nearest.excess.value;
+    const VD steep = balls.steepness(nearest), undershoot = BallPieces::undershoot(steep);
+    // The nearest point is no farther from the place that was looked at than `shift`; common points are no farther
+    // from it than `play`.
+    const VD shift = rounded_up(steep * (every(1.0) + (balls.widest() + balls.highest())));
+    const VD play_square = rounded_up(Max(zero, Neg(excess)) + (error + undershoot));
+    const VD play = rounded_up(Sqrt(play_square));
+    const MD is_exact = And(And(excess == zero, error == zero), steep == zero);
+
+    const VD x = across(nearest.x), y = across(nearest.y), depth = nearest.along.value;
+    const VD off = nearest.x.size.error + nearest.y.size.error + nearest.along.error;
+    const VD length = Sqrt(x * x + y * y + depth * depth);
+    const Cones cones(lights, spot);
+    const VD margin = cones.margin(x, y, depth);
+    const VD slack = every(k_cone_error) * length + every(2.0) * off;
+    const MD is_in_cone = margin > slack;
+    const MD is_beside = margin + every(2.0) * (shift + play) < Neg(slack);
+
+    const auto value_of = [&](const std::vector<float>& list) {
+      return PromoteTo(DD(), GatherIndex(DF(), list.data(), light));
+    };
+    const VD reach = value_of(lights.reach);
+    const MD is_plain = And(every(from.least_reach) <= reach, reach <= every(k_most_row_reach));
+    const MD touches = And(is_plain, And(excess <= Neg(error), is_in_cone));
+    const MD misses = And(is_plain, Or(excess - undershoot > error, is_beside));
+    const auto store = [&](VD value, std::vector<double>& list) { StoreU(value, DD(), list.data() + first); };
+    const MD is_x_sure = And(nearest.x.is_outside, nearest.x.size.value > every(2.0) * nearest.x.size.error);
+    store(balls.x().value, out.x);
+    store(rounded_up(balls.x().error), out.x_error);
+    store(nearest.depth.value, out.depth);
+    store(rounded_up(nearest.depth.error), out.depth_error);
+    const auto bits = [&](MD mask) {
+      std::uint8_t byte[8] = {};
+      StoreMaskBits(DD(), mask, byte);
+      return static_cast<unsigned>(byte[0]);
+    };
+    const unsigned yes = bits(touches), no = bits(misses);
+    const MD is_alone = And(And(touches, is_exact), Or(is_x_sure, Not(nearest.x.is_outside)));
+    const unsigned alone = bits(is_alone), outside = bits(nearest.x.is_outside), below = bits(nearest.x.is_below);
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const auto is = [&](unsigned mask) { return (mask >> lane & 1) != 0; };
+      out.pieces_.touch[first + lane] = is(yes) ? Touch::yes : is(no) ? Touch::no : Touch::open;
+      out.is_alone[first + lane] = is(alone);
+      out.side[first + lane] = static_cast<std::int8_t>(!is(outside) ? 0 : is(below) ? -1 : 1);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace clusterbench::assign
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace clusterbench::assign {
+
+HWY_EXPORT(look_at);
+
+void SpotTouches::look(const SpotsAndPlanes& from, const RowPlanes& planes) {
+  if (pieces_.count == 0) return;
+  pieces_.pad();
+  for (std::vector<double>* list : {&x, &x_error, &depth, &depth_error}) list->resize(pieces_.spot.size());
+  is_alone.resize(pieces_.spot.size());
+  side.resize(pieces_.spot.size());
+  HWY_DYNAMIC_DISPATCH(look_at)(from, planes, *this);
+}
+
+grid::IndexRange SpotTouches::only_columns(std::uint32_t place, const RowPlanes& planes) const {
+  using geom::Bounded;
+  const grid::IndexRange none{},
+      columns{static_cast<int>(pieces_.column[place]), static_cast<int>(pieces_.end_column[place]) - 1};
+  const Bounded at_x(x[place], x_error[place]), at_depth(depth[place], depth_error[place]);
+  // At the eye all columns meet.
+  if (is_alone[place] == 0 || (!planes.orthographic && !at_depth.is_surely_above(0.0))) return none;
+  if (side[place] < 0) return {columns.first, columns.first};
+  if (side[place] > 0) return {columns.last, columns.last};
+  const auto plane = [&](int column) {
+    const Bounded given(double{planes.side[static_cast<std::size_t>(column)]});
+    return planes.orthographic ? given : given * at_depth;
+  };
+  const auto begin = planes.side.begin();
+  const double slope = planes.orthographic ? at_x.value : at_x.value / at_depth.value;
+  const auto above = std::upper_bound(begin + columns.first, begin + columns.last + 2, slope,
+                                      [](double value, float side_of) { return value < double{side_of}; });
+  const int column = static_cast<int>(above - begin) - 1;
+  if (column < columns.first || column > columns.last + 1) return none;
+  const int middle = std::min(column, columns.last);
+  grid::IndexRange touched{middle, middle};
+  const Bounded beyond_left = at_x - plane(middle), before_right = plane(middle + 1) - at_x;
+  const auto is_nothing = [](const Bounded& number) { return number.value == 0.0 && number.error == 0.0; };
+  if (is_nothing(beyond_left))
+    touched.first = std::max(columns.first, middle - 1);
+  else if (!beyond_left.is_surely_above(0.0))
+    return none;
+  if (is_nothing(before_right))
+    touched.last = std::min(columns.last, middle + 1);
+  else if (!before_right.is_surely_above(0.0))
+    return none;
+  return touched;
+}
+
+}  // namespace clusterbench::assign
+#endif

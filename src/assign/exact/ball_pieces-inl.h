@@ -1,0 +1,249 @@
+// A vector of balls, each with its own piece of a row of cells, in doubles with a bound of their error. For files that
+// are compiled once per target; included after hwy/highway.h; defines its names anew for each target.
+
+#if defined(CLUSTERBENCH_BALL_PIECES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef CLUSTERBENCH_BALL_PIECES_INL_H
+#undef CLUSTERBENCH_BALL_PIECES_INL_H
+#else
+#define CLUSTERBENCH_BALL_PIECES_INL_H
+#endif
+
+#include <vector>
+
+#include "assign/rows/row_planes.h"
+#include "view/frame.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace clusterbench::assign {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// In doubles.
+using DD = hn::ScalableTag<double>;
+using VD = hn::Vec<DD>;
+using MD = hn::Mask<DD>;
+using DF = hn::Rebind<float, DD>;  // as many lanes
+using DH = hn::Rebind<std::int32_t, DD>;
+using VH = hn::Vec<DH>;
+static_assert(MaxLanes(DD()) <= 8);  // bits of a byte
+
+HWY_INLINE VD every(double value) {
+  return Set(DD(), value);
+}
+
+// geom::Bounded, one per lane; but what errors lose when they are added and multiplied, fewer than a hundred times, is
+// made up for where they are used, by rounded_up().
+struct Bound {
+  VD value, error;
+};
+
+HWY_INLINE Bound exactly(VD value) {
+  return {value, Zero(DD())};
+}
+HWY_INLINE VD rounded_up(VD error) {
+  const VD larger = error * every(1.0 + 0x1p-44) + every(0x1p-1000);
+  return IfThenElseZero(error > Zero(DD()), larger);
+}
+HWY_INLINE Bound operator+(const Bound& a, const Bound& b) {
+  const VD sum = a.value + b.value, from_b = sum - a.value;
+  const VD lost = a.value - (sum - from_b) + (b.value - from_b);
+  return {sum, a.error + b.error + Abs(lost)};
+}
+HWY_INLINE Bound operator-(const Bound& a, const Bound& b) {
+  return a + Bound{Neg(b.value), b.error};
+}
+// What a product loses, up to its sign: what a fused multiply and subtract finds, or else the products of halves of 26
+// bits (Veltkamp's split), for factors below 2^990.
+HWY_INLINE VD lost_by_product(VD a, VD b, VD product) {
+#if HWY_NATIVE_FMA
+  return MulSub(a, b, product);
+#else
+  const auto high = [](VD value) {
+    const VD big = every(0x1p27 + 1.0) * value;
+    return big - (big - value);
+  };
+  const VD a_high = high(a), b_high = high(b), a_low = a - a_high, b_low = b - b_high;
+  return ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low;
+#endif
+}
+// What a product loses is always a double, if it is not below what a double can hold; neither are the products of
+// errors nothing where they are.
+HWY_INLINE Bound operator*(const Bound& a, const Bound& b) {
+  const VD zero = Zero(DD());
+  const VD product = a.value * b.value, lost = Abs(lost_by_product(a.value, b.value, product));
+  const VD size_of_a = Abs(a.value) + a.error, size_of_b = Abs(b.value) + b.error;
+  const MD is_something = And(size_of_a > zero, size_of_b > zero);
+  const MD is_rough = Or(Abs(product) < every(0x1p-900), a.error + b.error > zero);
+  const VD rounding = Max(lost, IfThenElseZero(And(is_something, is_rough), every(0x1p-1000)));
+  const VD of_a = a.error * size_of_b, of_b = Abs(a.value) * b.error;
+  return {product, of_a + of_b + rounding};
+}
+
+// How far a centre is outside of low <= at <= high, and which side's slope makes it change with depth (0: neither's).
+struct Gap {
+  Bound size;
+  VD slope;
+  MD is_below, is_outside;
+};
+HWY_INLINE Gap gap_between(const Bound& low, const Bound& at, const Bound& high, VD slope_low, VD slope_high) {
+  const VD zero = Zero(DD());
+  const Bound below = low - at, above = at - high;
+  const MD is_below = below.value > above.value;
+  const VD value = Max(below.value, above.value);
+  // Beyond one side for certain, it is not beyond the other: only that side's error counts.
+  const VD larger = rounded_up(Max(below.error, above.error));
+  const VD own = rounded_up(IfThenElse(is_below, below.error, above.error));
+  const VD error = IfThenElse(value >= own, own, larger);
+  const MD is_outside = value > zero;
+  const VD most = Max(rounded_up(value + error), zero);
+  const VD inside = IfThenElseZero(error > zero, most);
+  const VD slope = IfThenElseZero(is_outside, IfThenElse(is_below, slope_low, Neg(slope_high)));
+  return {{Max(value, zero), IfThenElse(is_outside, error, inside)}, slope, is_below, is_outside};
+}
+
+// Half the slope, along depth, of a gap's square.
+HWY_INLINE Bound half_slope(const Gap& gap, VD slope_low, VD slope_high) {
+  const Bound product = exactly(gap.slope) * gap.size;
+  const VD unsure = (Abs(slope_low) + Abs(slope_high)) * gap.size.error;
+  return {product.value, rounded_up(product.error + unsure)};
+}
+
+// Neighbouring cells of a row as one: those between two planes of columns.
+struct RowPieces {
+  VH light, slice, row, column, end_column;
+};
+
+// A vector of balls, each with its own piece.
+class BallPieces {
+ public:
+  HWY_INLINE BallPieces(const view::LightArrays& lights, const RowPlanes& planes, const RowPieces& pieces)
+      : orthographic_(planes.orthographic) {
+    const auto plane_at = [&](const std::vector<float>& from, VH place) {
+      return PromoteTo(DD(), GatherIndex(DF(), from.data(), place));
+    };
+    const VH one = Set(DH(), 1);
+    x0_ = plane_at(planes.side, pieces.column);
+    x1_ = plane_at(planes.side, pieces.end_column);
+    y0_ = plane_at(planes.slope, pieces.row + one);
+    y1_ = plane_at(planes.slope, pieces.row);
+    depth0_ = plane_at(planes.depth, pieces.slice);
+    depth1_ = plane_at(planes.depth, pieces.slice + one);
+
+    constexpr std::size_t k_stride = sizeof(scene::WorldLight) / sizeof(double);
+    static_assert(sizeof(scene::WorldLight) % sizeof(double) == 0);
+    const auto place = PromoteTo(hn::Rebind<std::int64_t, DD>(), pieces.light) *
+                       Set(hn::Rebind<std::int64_t, DD>(), std::int64_t{k_stride});
+    const auto of_light = [&](const double& first) { return exactly(GatherIndex(DD(), &first, place)); };
+    const scene::WorldLight& first = lights.source.front();
+    const Bound range = of_light(first.range_m);
+    squared_range_ = range * range;
+    const view::Space& space = lights.space;
+    const Bound from_origin[3] = {of_light(first.position.x) - exactly(every(space.origin.x)),
+                                  of_light(first.position.y) - exactly(every(space.origin.y)),
+                                  of_light(first.position.z) - exactly(every(space.origin.z))};
+    x_ = turned(space.rotation, 0, from_origin);
+    y_ = turned(space.rotation, 1, from_origin);
+    const Bound z = turned(space.rotation, 2, from_origin);
+    depth_ = {Neg(z.value), z.error};
+  }
+
+  // The piece's nearest point, about: where was looked for it, and what was measured there. As in geom/ball.cpp.
+  struct Nearest {
+    Gap x, y;
+    Bound depth, along;  // along: from the centre's depth
+    VD at;
+    Bound excess;  // of the squared distance over that of the surface
+  };
+  HWY_INLINE Nearest nearest() const {
+    const VD at = nearest_depth();
+    const MD is_level = is_level_at(at);
+    const Bound along_at = exactly(at) - depth_;
+    Nearest found;
+    found.at = at;
+    found.depth = {at, IfThenElseZero(is_level, depth_.error)};
+    found.along = {IfThenZeroElse(is_level, along_at.value), IfThenZeroElse(is_level, along_at.error)};
+    found.x = gap_between(plane(x0_, found.depth), x_, plane(x1_, found.depth), x0_, x1_);
+    found.y = gap_between(plane(y0_, found.depth), y_, plane(y1_, found.depth), y0_, y1_);
+    found.excess =
+        found.x.size * found.x.size + found.y.size * found.y.size + found.along * found.along - squared_range_;
+    return found;
+  }
+  // Half the slope, along depth, of the squared distance is at most this, in directions that lead to the piece's
+  // nearest point: this is how much less deep or deeper that can be, and its square how much nearer.
+  HWY_INLINE VD steepness(const Nearest& found) const {
+    const VD zero = Zero(DD());
+    if (orthographic_) return zero;
+    const Bound slope = half_slope(found.x, x0_, x1_) + half_slope(found.y, y0_, y1_) + found.along;
+    const VD slope_error = rounded_up(slope.error);
+    const VD falls = IfThenElseZero(found.at < depth1_, slope_error - slope.value);
+    const VD rises = IfThenElseZero(found.at > depth0_, slope_error + slope.value);
+    return rounded_up(Max(zero, Max(falls, rises)));
+  }
+  // A square too small for a double is not nothing.
+  static HWY_INLINE VD undershoot(VD steepness) {
+    const VD square = Max(rounded_up(steepness * steepness), every(0x1p-1000));
+    return IfThenElseZero(steepness > Zero(DD()), square);
+  }
+
+  const Bound& x() const { return x_; }
+  // The larger one of the slopes' sizes, across and up.
+  VD widest() const { return Max(Abs(x0_), Abs(x1_)); }
+  VD highest() const { return Max(Abs(y0_), Abs(y1_)); }
+
+ private:
+  // A coordinate of a vector in a space. What is multiplied by 0 or 1, as where cameras stand straight, costs nothing.
+  static HWY_INLINE Bound turned(const Mat3d& rotation, int row, const Bound (&vector)[3]) {
+    Bound sum = exactly(Zero(DD()));
+    bool is_empty = true;
+    for (int column = 0; column < 3; ++column) {
+      const double factor = rotation[column][row];
+      if (factor == 0.0) continue;
+      const Bound part = factor == 1.0 ? vector[column] : exactly(every(factor)) * vector[column];
+      sum = is_empty ? part : sum + part;
+      is_empty = false;
+    }
+    return sum;
+  }
+
+  HWY_INLINE Bound plane(VD slope, const Bound& depth) const {
+    return orthographic_ ? exactly(slope) : exactly(slope) * depth;
+  }
+  // Is the nearest point surely as deep as the centre? Then it is looked at there, however deep that is, and the way to
+  // it is as exact as the coordinates across. So are all touches of planes through the eye's own axes.
+  HWY_INLINE MD is_level_at(VD at) const {
+    const VD zero = Zero(DD()), error = rounded_up(depth_.error);
+    const MD is_within = And(depth0_ < depth_.value - error, depth_.value + error < depth1_);
+    const MD is_upright = And(slope_at(at, x_.value, x0_, x1_) == zero, slope_at(at, y_.value, y0_, y1_) == zero);
+    return And(And(is_within, at == depth_.value), is_upright);
+  }
+  HWY_INLINE VD slope_at(VD at, VD place, VD low, VD high) const {
+    return IfThenElse(place < low * at, low, IfThenElseZero(place > high * at, high));
+  }
+  HWY_INLINE VD clamped(VD depth) const { return Min(Max(depth, depth0_), depth1_); }
+
+  HWY_INLINE VD nearest_depth() const {
+    VD at = clamped(depth_.value);
+    if (orthographic_) return at;
+    constexpr int k_steps = 3;
+    for (int i = 0; i < k_steps; ++i) {
+      const VD slope_x = slope_at(at, x_.value, x0_, x1_), slope_y = slope_at(at, y_.value, y0_, y1_);
+      const VD along = depth_.value + (slope_x * x_.value + slope_y * y_.value);
+      const VD square = every(1.0) + (slope_x * slope_x + slope_y * slope_y);
+      const VD next = clamped(along / square);
+      if (AllTrue(DD(), next == at)) break;
+      at = next;
+    }
+    return at;
+  }
+
+  bool orthographic_;
+  VD x0_, x1_, y0_, y1_, depth0_, depth1_;
+  Bound x_, y_, depth_, squared_range_;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace clusterbench::assign
+HWY_AFTER_NAMESPACE();
+
+#endif
