@@ -22,7 +22,7 @@ std::vector<grid::Sample> samples_in(const Setting& setting) {
     const Vec3d local{(lens.left + (lens.right - lens.left) * x) * scale,
                       (lens.top - (lens.top - lens.bottom) * y) * scale, -depth};
     samples.push_back({static_cast<float>(x * frame.viewport.x), static_cast<float>(y * frame.viewport.y), Vec3f(local),
-                       glm::transpose(frame.view_space.rotation) * local + frame.view_space.origin});
+                       glm::transpose(frame.view_space.rotation) * local, frame.view_space.origin});
   }
   return samples;
 }
