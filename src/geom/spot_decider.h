@@ -1,7 +1,8 @@
 #pragma once
-// Does a spot (ball ∩ solid cone) share a point with a cell? First what its ball and its apex tell, then points of the
-// cell that lie in the cone and planes that touch the cone at most at its apex, in doubles with a bound of their error,
-// which is 0 where nothing was rounded: that decides nearly all ties of lattices. The rest: geom/spot.h.
+// Does a spot (ball ∩ solid cone) share a point with a cell? First what its ball and its apex tell, then the filter
+// (geom/meets.h), then points of the cell that lie in the cone and planes that touch the cone at most at its apex, in
+// doubles with a bound of their error, which is 0 where nothing was rounded: that decides nearly all ties of lattices.
+// The rest: geom/spot.h.
 
 #include <optional>
 
@@ -27,8 +28,8 @@ class SpotDecider {
 
   const LightFilter& filter() const;
 
-  // How many steps of more than doubles were taken: those of meets_after_all, and of the balls'. A cell can take several,
-  // so only whether the count has changed says something of it.
+  // How many steps of more than doubles were taken: those of meets_after_all, and of the balls'. A cell can take
+  // several, so only whether the count has changed says something of it.
   std::uint64_t exact_decisions() const { return ball_.exact_decisions() + apex_.exact_decisions() + exact_decisions_; }
 
  private:

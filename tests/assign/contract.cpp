@@ -177,7 +177,9 @@ std::string lost_sample_fault(const LightStructure& structure, const Setting& se
     for (int i = 0; i < 60; ++i) {
       const Vec3d world = point_in(at, random);
       const Vec3d local = setting.frame.view_space.rotation * (world - setting.frame.view_space.origin);
-      structure.lights_at({0.0f, 0.0f, Vec3f(local), world}, grid::Log2::rounded, given);
+      structure.lights_at(
+          {0.0f, 0.0f, Vec3f(local), world - setting.frame.view_space.origin, setting.frame.view_space.origin},
+          grid::Log2::rounded, given);
       if (std::find(given.begin(), given.end(), light) == given.end())
         return "light " + std::to_string(light) + " is lost at a sample";
     }

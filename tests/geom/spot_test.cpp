@@ -275,7 +275,8 @@ TEST(Spot, that_holds_much_of_a_shell_piece_is_proven_to_however_far_it_reaches_
   }
 }
 
-// Cells around the eye and spots beside them that reach far beyond: into the pyramid before a shell piece and behind it.
+// Cells around the eye and spots beside them that reach far beyond: into the pyramid before a shell piece and behind
+// it.
 TEST(Spot, of_any_range_beside_wide_cells_near_the_eye_is_always_decided_and_never_against_the_filter) {
   SplitMix64 random(31);
   const double ranges[] = {4.0, 10.0, 1e3, 1e15, std::numeric_limits<double>::infinity()};

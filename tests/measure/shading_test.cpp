@@ -8,8 +8,8 @@
 #include <set>
 
 #include "core/random.h"
-#include "measure/truth.h"
 #include "measure/sample_tree.h"
+#include "measure/truth.h"
 
 #include "measure/packed_lists.h"
 

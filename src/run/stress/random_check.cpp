@@ -109,7 +109,7 @@ class SettingCheck {
     run_methods();
     if (truth_.undecided > 0)
       add(FaultKind::undecided, "", "the true lists leave " + std::to_string(truth_.undecided) + " pairs undecided", 0,
-          0);
+          lights_.points);
     check_truth();
     check_methods();
     check_shading();
@@ -368,7 +368,8 @@ class SettingCheck {
 }  // namespace
 
 const char* fault_kind_name(FaultKind kind) {
-  constexpr const char* k_names[k_fault_kinds] = {"truth", "loss", "extra", "twin", "lists", "error", "undecided", "shading"};
+  constexpr const char* k_names[k_fault_kinds] = {"truth", "loss",  "extra",     "twin",
+                                                  "lists", "error", "undecided", "shading"};
   return k_names[static_cast<int>(kind)];
 }
 

@@ -259,7 +259,7 @@ std::vector<StressMethod> methods_that_show(const SettingFault& fault, std::span
   std::vector<StressMethod> shown;
   for (const StressMethod& method : methods)
     if (fault.method.empty() ? method.conservative && !method.assigner->naive
-                                       : method.label == fault.method || method.label == reference_of(fault.method))
+                             : method.label == fault.method || method.label == reference_of(fault.method))
       shown.push_back(method);
   return shown;
 }
