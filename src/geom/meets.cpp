@@ -333,7 +333,15 @@ Verdict filter_meets(const LightVolume& light, const Cell& cell) {
 }
 
 Verdict decide_meets(const LightVolume& light, const Cell& cell) {
-  if (light.is_cone) return SpotDecider(light).meets(cell);
+  return light.is_cone ? SpotDecider(light).meets(cell) : prove_meets(light, cell);
+}
+
+Verdict prove_meets(const LightVolume& light, const Cell& cell) {
+  if (light.is_cone) {
+    const SpotDecider spot(light);
+    const Verdict verdict = spot.meets_quickly(cell);
+    return verdict == Verdict::open ? spot.meets_after_all(cell) : verdict;
+  }
   return std::isinf(light.range) || BallDecider(light.apex, light.range).meets(cell) ? Verdict::yes : Verdict::no;
 }
 

@@ -9,8 +9,10 @@
 
 namespace clusterbench::geom {
 
-// Slower, for what the filter leaves open. Balls: exact, never open. Spots: proven, or open (geom/spot.h).
+// Balls: exact, never open. Spots: proven, or open, in the order of geom/spot_decider.h.
 Verdict decide_meets(const LightVolume& light, const Cell& cell);
+// The same without the filter, to hold it against: slower.
+Verdict prove_meets(const LightVolume& light, const Cell& cell);
 
 // Distances from the eye over pyramid ∩ volume: one interval. All true distances lie in [outer_lo, outer_hi]; every
 // distance in [inner_lo, inner_hi] is certainly reached; between them, [likely_lo, likely_hi] is where the extremes

@@ -26,13 +26,7 @@ bool axis_surely_meets(const ExactSpot& spot, const Planes& planes) {
   return span && surely_holds(spot, at(spot, span->from));
 }
 
-Rational reach_of(const std::array<RationalPoint, 8>& corners) {
-  Rational reach = 0;
-  for (const RationalPoint& corner : corners) reach = std::max(reach, norm_1(corner));
-  return reach;
-}
-
-// A spot and a cell bounded by planes, ready for checks.
+// A spot (limited to its cell) and a cell bounded by planes, ready for checks.
 struct PlaneCase {
   std::array<RationalPoint, 8> corners;
   Planes planes;
@@ -40,10 +34,7 @@ struct PlaneCase {
 
   template <class PlaneCell>
   PlaneCase(const LightVolume& light, const PlaneCell& cell)
-      : corners(corners_of(cell)), planes(planes_of(cell)), spot(exact_spot(light)) {
-    // No point of the cell is farther from the apex.
-    spot.range = std::min(spot.range, Rational(norm_1(spot.apex) + reach_of(corners)));
-  }
+      : corners(corners_of(cell)), planes(planes_of(cell)), spot(exact_spot(light)) {}
 };
 
 // What a search in Real finds, checked between bounds of 106 bits. Faces that the volume clearly does not reach, in
@@ -65,10 +56,13 @@ Verdict tightly_proven(const LightVolume& light, const PlaneCell& cell, const st
   return spot.surely_separated(tight(separation.normal), corners) ? Verdict::no : Verdict::open;
 }
 
-// More than the distance of any point of the cell from the apex: the range beyond that does not matter.
-double reach_of(const LightVolume& light, double farthest) {
+// The light without the range that no point of a cell needs, `farthest` from the eye at most. Searches and proofs have
+// to take the same range: a point that a search finds beyond that of the proof would prove nothing.
+LightVolume limited(LightVolume light, double farthest) {
+  constexpr double k_least = 1e-150;  // the length of less may come out as 0
   const LocalPoint apex = local_point(light.apex);
-  return std::min(light.range, 1.01 * (glm::length(apex.at) + 2.0 * apex.rounding_error + farthest));
+  light.range = std::min(light.range, 1.01 * (glm::length(apex.at) + 2.0 * apex.rounding_error + farthest) + k_least);
+  return light;
 }
 
 double farthest_corner(const Polytope<double>& polytope) {
@@ -94,11 +88,12 @@ Verdict proven_by_search(const LightVolume& light, const PlaneCell& cell, const 
 }
 
 template <class PlaneCell>
-Verdict decide(const LightVolume& light, const PlaneCell& cell) {
+Verdict decide(const LightVolume& given, const PlaneCell& cell) {
   const Polytope<double> polytope = polytope_of<double>(cell);
+  const LightVolume light = limited(given, farthest_corner(polytope));
   const Setting<double> setting(volume_of<double>(light), polytope);
   const std::array<bool, 6> reached = reached_faces(setting.volume, polytope.faces, setting.tolerance).faces;
-  const TightSpot tightly(light, reach_of(light, farthest_corner(polytope)));
+  const TightSpot tightly(light, light.range);
   Verdict verdict = tightly_proven<double>(light, cell, reached, tightly);
   if (verdict == Verdict::open) verdict = tightly_proven<Twofold>(light, cell, reached, tightly);
   if (verdict != Verdict::open) return verdict;
@@ -176,7 +171,7 @@ void offer_axis(const ExactSpot& spot, ShellWitness& witness) {
 // What a search in Real finds.
 template <class Real, class Offer>
 void offer_found(const LightVolume& light, const ShellPiece& cell, Offer&& offer) {
-  const Volume<Real> volume = within(volume_of<Real>(light), Real(cell.distance1));
+  const Volume<Real> volume = volume_of<Real>(light);
   const PyramidReach<Real> reach = pyramid_reach(volume, pyramid_of<Real>(cell.x0, cell.x1, cell.y0, cell.y1));
   if (reach.is_empty || !(reach.inside.margin > reach.tolerance)) return;
   offer(reach.inside.at);
@@ -330,17 +325,16 @@ Verdict decide_spot(const LightVolume& light, const Box& cell) {
   return decide(light, cell);
 }
 
-Verdict decide_spot(const LightVolume& light, const ShellPiece& cell) {
-  const TightSpot tightly(light, reach_of(light, cell.distance1));
+Verdict decide_spot(const LightVolume& given, const ShellPiece& cell) {
+  const LightVolume light = limited(given, cell.distance1);
+  const TightSpot tightly(light, light.range);
   if (tightly_meets<double>(light, cell, tightly)) return Verdict::yes;
   if (is_surely_beside<double>(light, cell, tightly)) return Verdict::no;
   if (tightly_meets<Twofold>(light, cell, tightly)) return Verdict::yes;
   if (is_surely_beside<Twofold>(light, cell, tightly)) return Verdict::no;
   if (surely_misses(slightly_larger(light, tightly), cell)) return Verdict::no;
 
-  ExactSpot spot = exact_spot(light);
-  // No point of the cell is farther from the apex.
-  spot.range = std::min(spot.range, Rational(norm_1(spot.apex) + exact(cell.distance1)));
+  const ExactSpot spot = exact_spot(light);
   if (spot.apex == RationalPoint{0, 0, 0}) return decide_at_eye(light, spot, cell);
   const NearestOnShells nearest = nearest_point(cell, spot.apex);
   if (!reaches(spot.apex, spot.range, nearest)) return Verdict::no;

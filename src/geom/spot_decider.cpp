@@ -321,8 +321,14 @@ Verdict SpotDecider::meets_after_all(const Cell& cell) const {
 }
 
 Verdict SpotDecider::meets(const Cell& cell) const {
-  const Verdict verdict = meets_quickly(cell);
+  Verdict verdict = meets_quickly(cell);
+  if (verdict == Verdict::open) verdict = filter().meets(cell);
   return verdict == Verdict::open ? meets_after_all(cell) : verdict;
+}
+
+const LightFilter& SpotDecider::filter() const {
+  if (!filter_) filter_.emplace(light_);
+  return *filter_;
 }
 
 }  // namespace clusterbench::geom

@@ -1,12 +1,14 @@
 #pragma once
-// Does a spot (ball ∩ solid cone) share a point with a cell? First what its ball and its apex tell, then points of the
-// cell that lie in the cone and planes that touch the cone at most at its apex, in doubles with a bound of their error,
-// which is 0 where nothing was rounded: that decides nearly all ties of lattices. The rest: geom/spot.h.
+// Does a spot (ball ∩ solid cone) share a point with a cell? First what its ball and its apex tell, then the filter
+// (geom/meets.h), then points of the cell that lie in the cone and planes that touch the cone at most at its apex, in
+// doubles with a bound of their error, which is 0 where nothing was rounded: that decides nearly all ties of lattices.
+// The rest: geom/spot.h.
 
 #include <optional>
 
 #include "geom/ball.h"
 #include "geom/light_volume.h"
+#include "geom/meets.h"
 #include "geom/tight_spot.h"
 #include "geom/verdict.h"
 
@@ -17,13 +19,17 @@ class SpotDecider {
  public:
   explicit SpotDecider(const LightVolume& light);
 
-  // Proven, or open.
+  // Proven, or open: by meets_quickly, then by the filter, then by meets_after_all.
   Verdict meets(const Cell& cell) const;
-  // In two parts: what half a microsecond tells, mostly, and the rest.
+  // What half a microsecond tells, mostly.
   Verdict meets_quickly(const Cell& cell) const;
-  Verdict meets_after_all(const Cell& cell) const;  // of a cell that meets_quickly leaves open
+  // Of a cell that meets_quickly leaves open, without the filter.
+  Verdict meets_after_all(const Cell& cell) const;
 
-  // How many cells were decided by more than doubles.
+  const LightFilter& filter() const;
+
+  // How many steps of more than doubles were taken: those of meets_after_all, and of the balls'. A cell can take
+  // several, so only whether the count has changed says something of it.
   std::uint64_t exact_decisions() const { return ball_.exact_decisions() + apex_.exact_decisions() + exact_decisions_; }
 
  private:
@@ -54,6 +60,7 @@ class SpotDecider {
   BallDecider ball_, apex_;  // of the range (if it is finite), and of radius 0
   Point3<Bounded> axis_;     // any length
   Bounded axis_square_, cosine_, sine_;
+  mutable std::optional<LightFilter> filter_;
   mutable std::optional<TightSpot> tightly_;
   mutable std::uint64_t exact_decisions_ = 0;
 };

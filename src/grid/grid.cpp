@@ -83,9 +83,10 @@ std::int64_t lookup_cascades(const CascadesGrid& grid, Vec3i cells, const Sample
 std::int64_t lookup_world(const WorldGrid& grid, Vec3i cells, const Sample& sample) {
   Vec3i cell{0};
   const std::vector<float>* axes[3] = {&grid.x, &grid.y, &grid.z};
+  const Vec3f place_in_grid(sample.from(grid.origin));
   for (int axis = 0; axis < 3; ++axis) {
     const std::vector<float>& bounds = *axes[axis];
-    const auto local = static_cast<float>(sample.world[axis] - grid.origin[axis]);
+    const float local = place_in_grid[axis];
     const float scale = static_cast<float>(cells[axis]) / (bounds.back() - bounds.front());
     const float place = std::floor((local - bounds.front()) * scale);
     if (!(local >= bounds.front() && local <= bounds.back())) return -1;

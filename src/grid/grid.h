@@ -71,7 +71,10 @@ view::Space space_of(const Grid& grid, const view::Frame& frame);
 struct Sample {
   float pixel_x, pixel_y;  // from the top left
   Vec3f view;              // view space, single precision
-  Vec3d world;             // exact place
+  // The exact place, along the world's axes: from the eye, as far from the origin a double holds metres only.
+  Vec3d from_eye, eye;
+
+  Vec3d from(const Vec3d& origin) const { return from_eye + (eye - origin); }
 };
 
 // The lookup that a shader would do, in single precision. -1: outside the grid.

@@ -19,7 +19,7 @@ float moved(float value, int ulps) {
 
 // The depth at which a pixel's ray is so far from the eye.
 double depth_at_distance(const view::Frame& frame, double pixel_x, double pixel_y, double distance) {
-  const Vec3d ray = sample_at(frame, pixel_x, pixel_y, 1.0).world - frame.view_space.origin;
+  const Vec3d ray = sample_at(frame, pixel_x, pixel_y, 1.0).from_eye;
   return distance / glm::length(ray);
 }
 
@@ -63,7 +63,7 @@ void add_at_light_end(const view::Frame& frame, bool by_distance, SplitMix64& ra
 
 grid::Sample read_back(const view::Frame& frame, const grid::Sample& sample, DepthRead read) {
   if (read == DepthRead::given) return sample;
-  const Vec3d local = frame.view_space.rotation * (sample.world - frame.view_space.origin);
+  const Vec3d local = frame.view_space.rotation * sample.from_eye;
   const double depth = read_depth(frame.projection, read, -local.z);
   return sample_at(frame, static_cast<double>(sample.pixel_x), static_cast<double>(sample.pixel_y), depth);
 }
@@ -76,7 +76,7 @@ bool takes_logarithm(const grid::Grid& grid) {
 // Where the grid has no cells, no lookup is to blame.
 bool is_beyond(const view::Frame& frame, const grid::Grid& grid, const grid::Sample& place) {
   if (grid.kind() != grid::Kind::frustum && grid.kind() != grid::Kind::distance) return grid::lookup(grid, place) < 0;
-  const Vec3d local = frame.view_space.rotation * (place.world - frame.view_space.origin);
+  const Vec3d local = frame.view_space.rotation * place.from_eye;
   const double along = grid.kind() == grid::Kind::distance ? glm::length(local) : -local.z;
   return along > static_cast<double>(grid.screen().slices.boundaries.back());
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Samples in a tree of boxes, so that a light finds those in its reach without looking at all of them.
+// A frame's samples in a tree of boxes, so that a light finds those in its reach without looking at all of them.
 
 #include <cstdint>
 #include <span>
@@ -13,7 +13,8 @@ class SampleTree {
  public:
   explicit SampleTree(std::span<const grid::Sample> samples);
 
-  // Calls take(sample) for every sample within radius of a place, and for some beyond, each once.
+  // Calls take(sample) for every sample within radius of a place (from the eye, along the world's axes), and for some
+  // beyond, each once.
   template <class Take>
   void each_near(const Vec3d& place, double radius, Take&& take) const {
     if (!nodes_.empty()) visit(0, place, radius * (1.0 + k_slack), take);

@@ -10,12 +10,12 @@
 namespace clusterbench::measure {
 namespace {
 
-Vec3d to_world(const view::Space& space, const Vec3d& local) {
-  return glm::transpose(space.rotation) * local + space.origin;
+// From a light to a sample, by their places seen from the eye: those in the world may be rounded to metres.
+Vec3d way_to(const grid::Sample& sample, const scene::WorldLight& light) {
+  return sample.from_eye - (light.position - sample.eye);
 }
 
-bool reaches(const scene::WorldLight& light, const Vec3d& place) {
-  const Vec3d to_place = place - light.position;
+bool reaches(const scene::WorldLight& light, const Vec3d& to_place) {
   const double distance = glm::length(to_place);
   if (light.range_m == 0.0 || distance > light.range_m) return false;
   if (light.type != scene::LightType::spot) return true;
@@ -33,16 +33,14 @@ double spot_falloff(const scene::WorldLight& spot, double cos_to_place) {
 }
 
 // What a surface that faces the light gets of it: inverse square with the extension's window, 1 - (d/r)^4.
-double irradiance_lux(const scene::WorldLight& light, const Vec3d& place) {
-  const Vec3d to_place = place - light.position;
-  constexpr double k_smallest_square = 1e-4;  // 1 cm: a sample within the lamp
-  const double true_square = glm::dot(to_place, to_place);
-  const double square = std::max(true_square, k_smallest_square);
-  const double share = square / (light.range_m * light.range_m);
-  const double lux = light.luminous_intensity_cd * std::max(0.0, 1.0 - share * share) / square;
+double irradiance_lux(const scene::WorldLight& light, const Vec3d& to_place) {
+  constexpr double k_smallest_square = 1e-4;  // 1 cm: a sample within the lamp. The window has no such limit.
+  const double square = glm::dot(to_place, to_place), share = square / (light.range_m * light.range_m);
+  const double window = std::clamp(1.0 - share * share, 0.0, 1.0);
+  const double lux = light.luminous_intensity_cd * window / std::max(square, k_smallest_square);
   // At the apex there is no direction: as along the axis.
-  if (light.type != scene::LightType::spot || true_square == 0.0) return lux;
-  return lux * spot_falloff(light, glm::dot(to_place, light.direction) / std::sqrt(true_square));
+  if (light.type != scene::LightType::spot || square == 0.0) return lux;
+  return lux * spot_falloff(light, glm::dot(to_place, light.direction) / std::sqrt(square));
 }
 
 }  // namespace
@@ -53,7 +51,8 @@ grid::Sample sample_at(const view::Frame& frame, double pixel_x, double pixel_y,
   const double up = lens.top - (lens.top - lens.bottom) * pixel_y / frame.viewport.y;
   const double scale = lens.orthographic ? 1.0 : depth;
   const Vec3d local{across * scale, up * scale, -depth};
-  return {static_cast<float>(pixel_x), static_cast<float>(pixel_y), Vec3f(local), to_world(frame.view_space, local)};
+  return {static_cast<float>(pixel_x), static_cast<float>(pixel_y), Vec3f(local),
+          glm::transpose(frame.view_space.rotation) * local, frame.view_space.origin};
 }
 
 double ShadingCounts::overshade() const {
@@ -84,8 +83,8 @@ assign::Lists lights_reaching(const view::Frame& frame, std::span<const grid::Sa
   pairs.start(static_cast<std::uint32_t>(samples.size()));
   for (std::uint32_t index = 0; index < frame.lights.size(); ++index) {
     const scene::WorldLight& light = frame.lights[index];
-    tree.each_near(light.position, light.range_m, [&](std::uint32_t sample) {
-      if (reaches(light, samples[sample].world)) pairs.add(sample, index);
+    tree.each_near(light.position - frame.view_space.origin, light.range_m, [&](std::uint32_t sample) {
+      if (reaches(light, way_to(samples[sample], light))) pairs.add(sample, index);
     });
   }
   assign::Lists lists;
@@ -101,7 +100,7 @@ void add_frame(ShadingCounts& counts, const view::Frame& frame, std::span<const 
     std::sort(given.begin(), given.end());
     counts.evaluated += given.size();
     for (const std::uint32_t light : reaching.of(i)) {
-      const double carried_lux = irradiance_lux(frame.lights[light], samples[i].world);
+      const double carried_lux = irradiance_lux(frame.lights[light], way_to(samples[i], frame.lights[light]));
       ++counts.needed;
       counts.total_lux += carried_lux;
       if (std::binary_search(given.begin(), given.end(), light)) continue;

@@ -32,8 +32,8 @@ grid::Sample sample_at(const view::Frame& frame, double pixel_x, double pixel_y,
 // Seeded points in the frame's view: pixels uniform, depth uniform in log from near to far_m.
 std::vector<grid::Sample> volume_samples(const view::Frame& frame, double far_m, int count, std::uint64_t seed);
 
-// Which lights reach each sample, in exact terms (double-precision distance with the tie counted as reached), CSR like
-// lists.
+// Which lights reach each of the frame's samples, in exact terms (double-precision distance with the tie counted as
+// reached), CSR like lists.
 assign::Lists lights_reaching(const view::Frame& frame, std::span<const grid::Sample> samples);
 
 void add_frame(ShadingCounts& counts, const view::Frame& frame, std::span<const grid::Sample> samples,

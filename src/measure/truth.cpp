@@ -162,7 +162,6 @@ class TruthFinder {
   struct Search {
     geom::LightVolume volume;
     geom::BallDecider decider;  // of points
-    geom::LightFilter filter;   // of spots
     std::optional<geom::SpotDecider> spot;
     BallInSpace ball;
     QuickCone cone;
@@ -172,7 +171,6 @@ class TruthFinder {
     explicit Search(const geom::LightVolume& light)
         : volume(light),
           decider(light.apex, std::isinf(light.range) ? 0.0 : light.range),  // endless ones ask nothing
-          filter(light),
           spot(light.is_cone ? std::optional<geom::SpotDecider>(light) : std::nullopt),
           ball(ball_in_space(light)),
           cone(light, ball) {}
@@ -200,7 +198,7 @@ class TruthFinder {
   void settle_spot_row(const Row& row, Search& search) const {
     for (int column = row.outer.first; column <= row.outer.last; ++column) {
       const std::uint32_t cell = row.first_cell + static_cast<std::uint32_t>(column);
-      if (!is_quick(cell, search)) filter(cell, search);
+      if (!is_quick(cell, search)) decide(cell, search);
     }
   }
 
@@ -255,7 +253,7 @@ class TruthFinder {
     std::optional<SpotTile> found;
     each_shell(tile, search, [&](std::uint32_t cell, double near, double far) {
       if (is_quick(cell, search)) return;
-      if (!found) found.emplace(search.filter, tile_up_to_last_shell(tile, search));
+      if (!found) found.emplace(search.spot->filter(), tile_up_to_last_shell(tile, search));
       switch (found->meets(near, far)) {
         case Verdict::no:
           ++search.found.filter_decided;
@@ -277,7 +275,7 @@ class TruthFinder {
 
   void settle_endless(std::uint32_t cell, Search& search) const {
     if (grid_.is_hole(cell)) return;
-    search.volume.is_cone ? filter(cell, search) : take(cell, search);
+    search.volume.is_cone ? decide(cell, search) : take(cell, search);
   }
 
   // Settles a spot's cell that lies far outside of the cone's side, or whose middle lies well inside the volume.
@@ -291,15 +289,6 @@ class TruthFinder {
     if (!search.cone.surely_holds(middle) || !std::visit(WellInside{middle}, grid_.cell(cell))) return false;
     take(cell, search);
     return true;
-  }
-
-  void filter(std::uint32_t cell, Search& search) const {
-    const std::uint64_t before = search.spot->exact_decisions();
-    const geom::Cell shape = grid_.cell(cell);
-    Verdict verdict = search.spot->meets_quickly(shape);
-    if (verdict == Verdict::open) verdict = search.filter.meets(shape);
-    if (verdict == Verdict::open) verdict = search.spot->meets_after_all(shape);
-    count_spot(cell, verdict, before, search);
   }
 
   void decide(std::uint32_t cell, Search& search) const {

@@ -45,7 +45,7 @@ Json counts_json(const stress::SettingCounts& counts) {
           {"spots", counts.spots},           {"pairs", counts.pairs},
           {"true_pairs", counts.true_pairs}, {"listed_pairs", counts.compared_pairs},
           {"decisions", counts.decisions},   {"cells_sampled", counts.sampled},
-          {"undecided", counts.undecided}};
+          {"undecided", counts.undecided},   {"lights_shaded", counts.shaded}};
 }
 
 Json to_json(const stress::RandomFault& found) {
@@ -196,6 +196,7 @@ void print_searches(std::ostream& out, const stress::StressResult& result) {
       out << search.misses << " lost, the deepest " << percent(search.deepest->depth) << " of its range inside\n";
     else
       out << "none lost, margin " << search.least_margin << "\n";
+    if (search.undecided > 0) out << "    " << search.undecided << " more not listed, and undecided\n";
   }
 }
 
@@ -221,6 +222,7 @@ Json stress_to_json(const stress::StressResult& result, const stress::StressRequ
     out["searches"].push_back({{"method", search.method},
                                {"tries", search.tries},
                                {"misses", search.misses},
+                               {"undecided", search.undecided},
                                {"least_margin_roundings", search.least_margin},
                                {"deepest_miss", to_json(search.deepest)}});
   out["random"] = to_json(result.random);
@@ -256,6 +258,10 @@ std::vector<std::string> stress_failures(const stress::StressResult& result) {
     if (search.deepest && method_of(result, search.method).conservative)
       failures.push_back("H31 " + search.method + ": " + number_of(search.misses, "light") + " lost, the deepest " +
                          percent(search.deepest->depth) + " of its range inside");
+  for (const run::SearchResult& search : result.searches)
+    if (search.undecided > 0 && method_of(result, search.method).conservative)
+      failures.push_back("H31 " + search.method + ": " + number_of(search.undecided, "light") +
+                         " not listed, and undecided");
   if (result.random)
     for (const stress::RandomFault& found : result.random->faults) failures.push_back("random " + in_lines(found));
   return failures;

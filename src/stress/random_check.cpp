@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "core/error.h"
+#include "measure/shading.h"
 #include "measure/truth.h"
 #include "stress/random_search.h"
 #include "stress/random_setting.h"
@@ -49,6 +50,22 @@ bool holds_clearly(const geom::LightVolume& volume, const Vec3d& p) {
   return std::sin(volume.half_angle_rad) * along - std::cos(volume.half_angle_rad) * across > margin;
 }
 
+// As holds_clearly, of a place that a shader looks up in single precision, which loses up to `margin` of it.
+bool clearly_reaches(const scene::WorldLight& light, const grid::Sample& sample, double margin) {
+  const Vec3d apex = light.position - sample.eye, v = sample.from_eye - apex;
+  const double distance = glm::length(v);
+  margin += 1e-12 * (glm::length(apex) + light.range_m);
+  if (!(distance < light.range_m - margin)) return false;
+  if (light.type != scene::LightType::spot) return true;
+  const Vec3d axis = glm::normalize(light.direction);
+  const double along = glm::dot(v, axis), across = glm::length(v - along * axis);
+  return std::sin(light.outer_cone_rad) * along - std::cos(light.outer_cone_rad) * across > margin;
+}
+
+double largest_of(const std::vector<float>& boundaries) {
+  return std::max(std::abs(boundaries.front()), std::abs(boundaries.back()));
+}
+
 // Pairs as bits.
 class PairSet {
  public:
@@ -90,8 +107,12 @@ class SettingCheck {
     count();
     if (frame_.lights.empty()) return std::move(report_);
     run_methods();
+    if (truth_.undecided > 0)
+      add(FaultKind::undecided, "", "the true lists leave " + std::to_string(truth_.undecided) + " pairs undecided", 0,
+          lights_.points);
     check_truth();
     check_methods();
+    check_shading();
     return std::move(report_);
   }
 
@@ -199,7 +220,7 @@ class SettingCheck {
 
   void settle(std::uint32_t cell, std::uint32_t light, const PairSet& truth) {
     const geom::LightVolume volume = lights_.volume(light);
-    const Verdict verdict = decided(cell, light);
+    const Verdict verdict = counted(geom::prove_meets(volume, grid_.cell(cell)), cell, light);
     const bool is_true = truth.has(cell, light);
     if (verdict != Verdict::open && (verdict == Verdict::yes) != is_true)
       add(FaultKind::truth, "",
@@ -210,10 +231,11 @@ class SettingCheck {
       add(FaultKind::truth, "", pair_text(cell, light) + ": decided as no, but a point lies in both", cell, light);
   }
 
-  Verdict decided(std::uint32_t cell, std::uint32_t light) {
+  Verdict counted(Verdict verdict, std::uint32_t cell, std::uint32_t light) {
     ++report_.counts.decisions;
-    const Verdict verdict = geom::decide_meets(lights_.volume(light), grid_.cell(cell));
-    if (verdict == Verdict::open) ++report_.counts.undecided;
+    if (verdict != Verdict::open) return verdict;
+    ++report_.counts.undecided;
+    add(FaultKind::undecided, "", pair_text(cell, light) + " is neither proven nor refuted", cell, light);
     return verdict;
   }
 
@@ -236,7 +258,8 @@ class SettingCheck {
         if (is_true == is_listed || (is_listed && !answer.method->assigner->exact)) continue;
         constexpr int k_most = 12;
         if (++looked_at > k_most) return;
-        const Verdict verdict = decided(cell, light);
+        const geom::LightVolume volume = lights_.volume(light);
+        const Verdict verdict = counted(geom::decide_meets(volume, grid_.cell(cell)), cell, light);
         if (is_true && verdict == Verdict::yes)
           add(FaultKind::loss, answer.method->label, pair_text(cell, light) + " is true and not listed", cell, light);
         if (is_listed && verdict == Verdict::no)
@@ -257,6 +280,71 @@ class SettingCheck {
                            (mine.has(cell, light) ? answer.method->label : reference) + " only",
                        cell, light);
     }
+  }
+
+  // Places in the view and in its lights, looked up as a shader does.
+  void check_shading() {
+    const std::vector<grid::Sample> samples = places_to_shade();
+    for (const grid::Sample& sample : samples) {
+      const std::int64_t cell = grid::lookup(grid_, sample);
+      if (cell < 0) continue;
+      const double margin = lost_by_lookup(sample);
+      for (std::uint32_t light = 0; light < frame_.lights.size(); ++light) {
+        if (lights_.is_empty(light) || !clearly_reaches(frame_.lights[light], sample, margin)) continue;
+        ++report_.counts.shaded;
+        check_place(static_cast<std::uint32_t>(cell), light);
+      }
+    }
+  }
+
+  void check_place(std::uint32_t cell, std::uint32_t light) {
+    for (const Answer& answer : answers_) {
+      const auto list = answer.lists.of(cell);
+      if (!std::binary_search(list.begin(), list.end(), light))
+        add(FaultKind::shading, answer.method->label,
+            pair_text(cell, light) + " is not listed, but the light reaches a place that is looked up there", cell,
+            light);
+    }
+  }
+
+  std::vector<grid::Sample> places_to_shade() const {
+    constexpr int k_in_view = 32, k_per_light = 3;
+    const view::Projection& lens = frame_.projection;
+    const double far = std::isfinite(lens.far_m) ? lens.far_m : 1e4 * std::max(lens.near_m, 1e-15);
+    std::vector<grid::Sample> samples = measure::volume_samples(frame_, far, k_in_view, 1);
+    SplitMix64 random(1);
+    for (const scene::WorldLight& light : frame_.lights) {
+      const Vec3d apex = frame_.view_space.rotation * (light.position - frame_.view_space.origin);
+      for (int i = 0; i < k_per_light; ++i) {
+        const double reach = std::min(light.range_m, far), x = random.between(-1.0, 1.0), y = random.between(-1.0, 1.0);
+        const Vec3d place = apex + 0.7 * reach * Vec3d(x, y, random.between(-1.0, 1.0));
+        const double depth = -place.z, scale = lens.orthographic ? 1.0 : depth;
+        const double pixel_x = (place.x / scale - lens.left) / (lens.right - lens.left) * frame_.viewport.x;
+        const double pixel_y = (lens.top - place.y / scale) / (lens.top - lens.bottom) * frame_.viewport.y;
+        const bool is_seen = depth > lens.near_m && depth < lens.far_m && pixel_x >= 0.0 && pixel_y >= 0.0 &&
+                             pixel_x < frame_.viewport.x && pixel_y < frame_.viewport.y;
+        if (is_seen) samples.push_back(measure::sample_at(frame_, pixel_x, pixel_y, depth));
+      }
+    }
+    return samples;
+  }
+
+  // More than single precision loses between a place and its cell: relative to the place, and to the whole picture or
+  // all boxes, whose sides it is compared with.
+  double lost_by_lookup(const grid::Sample& sample) const {
+    const view::Projection& lens = frame_.projection;
+    double size = glm::length(sample.from_eye);
+    if (grid_.kind() == grid::Kind::world) {
+      const grid::WorldGrid& world = grid_.world();
+      size += largest_of(world.x) + largest_of(world.y) + largest_of(world.z);
+    } else if (grid_.kind() == grid::Kind::cascades) {
+      const grid::CascadesGrid& cascades = grid_.cascades();
+      size += double{cascades.edge_m(cascades.levels - 1)} * glm::length(Vec3d(cascades.cells));
+    } else {
+      const double scale = lens.orthographic ? 1.0 : -double{sample.view.z};
+      size += scale * (std::abs(lens.left) + std::abs(lens.right) + std::abs(lens.bottom) + std::abs(lens.top));
+    }
+    return 0x1p-18 * size;
   }
 
   void add(FaultKind kind, const std::string& method, const std::string& detail, std::uint32_t cell,
@@ -280,7 +368,8 @@ class SettingCheck {
 }  // namespace
 
 const char* fault_kind_name(FaultKind kind) {
-  constexpr const char* k_names[k_fault_kinds] = {"truth", "loss", "extra", "twin", "lists", "error"};
+  constexpr const char* k_names[k_fault_kinds] = {"truth", "loss",  "extra",     "twin",
+                                                  "lists", "error", "undecided", "shading"};
   return k_names[static_cast<int>(kind)];
 }
 
@@ -296,6 +385,7 @@ void SettingCounts::add(const SettingCounts& other) {
   decisions += other.decisions;
   sampled += other.sampled;
   undecided += other.undecided;
+  shaded += other.shaded;
 }
 
 // A fast method is called as its reference with "-fast" behind the name.

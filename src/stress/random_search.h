@@ -21,9 +21,12 @@ enum class FaultKind : std::uint8_t {
   extra,  // an exact method has a pair that is not true
   twin,   // a fast method's lists differ from its reference's
   lists,  // not ascending, not one per cell, or other ones when asked again
-  error   // it threw
+  error,  // it threw
+  // A pair that is neither proven nor refuted: whatever is at fault may hide behind it.
+  undecided,
+  shading  // a place that a conservative method's light clearly reaches is looked up in a cell without it
 };
-inline constexpr int k_fault_kinds = 6;
+inline constexpr int k_fault_kinds = 8;
 const char* fault_kind_name(FaultKind kind);
 
 // A fault of one setting: the first pair that shows it.
@@ -41,6 +44,7 @@ struct SettingCounts {
   std::uint64_t points = 0, spots = 0, pairs = 0, true_pairs = 0;  // pairs: cells x lights
   std::uint64_t compared_pairs = 0;                                // listed by methods
   std::uint64_t decisions = 0, sampled = 0, undecided = 0;         // of the slow way
+  std::uint64_t shaded = 0;                                        // lights that clearly reach places in the view
 
   void add(const SettingCounts& other);
 };

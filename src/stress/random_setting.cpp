@@ -85,7 +85,8 @@ Vec3d random_eye(Draw& draw, const Extent& extent) {
   const int way = draw.whole(0, 99);
   if (way < 45) return Vec3d(0.0);
   if (way < 65) return whole_place(draw, extent.step_m, 50);
-  const double scale = way < 85 ? extent.far_m : at_most_largest(extent.far_m * draw.log_between(1.0, 1e6));
+  const double far_off = way < 93 ? extent.far_m * draw.log_between(1.0, 1e6) : draw.log_between(1e12, k_largest_m);
+  const double scale = way < 85 ? extent.far_m : at_most_largest(far_off);
   return 0.5 * scale * random_direction(draw);
 }
 

@@ -258,8 +258,8 @@ class Shrinker {
 std::vector<StressMethod> methods_that_show(const SettingFault& fault, std::span<const StressMethod> methods) {
   std::vector<StressMethod> shown;
   for (const StressMethod& method : methods)
-    if (fault.kind == FaultKind::truth ? method.conservative && !method.assigner->naive
-                                       : method.label == fault.method || method.label == reference_of(fault.method))
+    if (fault.method.empty() ? method.conservative && !method.assigner->naive
+                             : method.label == fault.method || method.label == reference_of(fault.method))
       shown.push_back(method);
   return shown;
 }

@@ -306,9 +306,12 @@ class Climb {
     replay.scene.cameras = trial_.scene.cameras;
     const view::Frame frame = frame_of(replay);
     const geom::LightVolume volume = view::volume_of(frame.lights[0], space_);
-    geom::Verdict verdict = geom::filter_meets(volume, grid_.cell(touch.cell));
-    if (verdict == geom::Verdict::open) verdict = geom::decide_meets(volume, grid_.cell(touch.cell));
-    if (verdict != geom::Verdict::yes || is_listed(frame, touch.cell)) return;
+    const geom::Verdict verdict = geom::decide_meets(volume, grid_.cell(touch.cell));
+    if (verdict == geom::Verdict::no || is_listed(frame, touch.cell)) return;
+    if (verdict == geom::Verdict::open) {
+      ++result.undecided;
+      return;
+    }
     ++result.misses;
     const double depth = 1.0 - measure::relative_distance(frame, grid_, touch.cell, 0);
     if (!result.deepest || depth > result.deepest->depth)

@@ -62,6 +62,7 @@ struct StressCell {
 struct SearchResult {
   std::string method;
   std::uint64_t tries = 0, misses = 0;
+  std::uint64_t undecided = 0;  // not listed, and neither proven nor refuted to be in the cell
   double least_margin =
       0.0;  // of the padding: roundings that the nearest light could be moved away and still be listed
   std::optional<Loss> deepest;

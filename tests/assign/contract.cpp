@@ -22,7 +22,7 @@ std::vector<grid::Sample> samples_in(const Setting& setting) {
     const Vec3d local{(lens.left + (lens.right - lens.left) * x) * scale,
                       (lens.top - (lens.top - lens.bottom) * y) * scale, -depth};
     samples.push_back({static_cast<float>(x * frame.viewport.x), static_cast<float>(y * frame.viewport.y), Vec3f(local),
-                       glm::transpose(frame.view_space.rotation) * local + frame.view_space.origin});
+                       glm::transpose(frame.view_space.rotation) * local, frame.view_space.origin});
   }
   return samples;
 }
@@ -177,7 +177,9 @@ std::string lost_sample_fault(const LightStructure& structure, const Setting& se
     for (int i = 0; i < 60; ++i) {
       const Vec3d world = point_in(at, random);
       const Vec3d local = setting.frame.view_space.rotation * (world - setting.frame.view_space.origin);
-      structure.lights_at({0.0f, 0.0f, Vec3f(local), world}, grid::Log2::rounded, given);
+      structure.lights_at(
+          {0.0f, 0.0f, Vec3f(local), world - setting.frame.view_space.origin, setting.frame.view_space.origin},
+          grid::Log2::rounded, given);
       if (std::find(given.begin(), given.end(), light) == given.end())
         return "light " + std::to_string(light) + " is lost at a sample";
     }

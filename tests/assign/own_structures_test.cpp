@@ -41,7 +41,7 @@ struct TwoTiles {
 
 std::vector<std::uint32_t> at(const AssignerRun& run, float pixel_x, const Vec3f& place) {
   std::vector<std::uint32_t> lights;
-  run.structure()->lights_at({pixel_x, 50.0f, place, Vec3d(place)}, grid::Log2::rounded, lights);
+  run.structure()->lights_at({pixel_x, 50.0f, place, Vec3d(place), Vec3d(0.0)}, grid::Log2::rounded, lights);
   return lights;
 }
 

@@ -30,7 +30,7 @@ void expect_agreement(const LightVolume& light, const Cell& cell, int (&said)[3]
   const Verdict filtered = filter_meets(light, cell);
   ++said[static_cast<int>(filtered)];
   if (filtered == Verdict::open) return;
-  EXPECT_EQ(decide_meets(light, cell), filtered) << "range " << light.range;
+  EXPECT_EQ(prove_meets(light, cell), filtered) << "range " << light.range;
 }
 
 TEST_P(FilterOn, random_pairs_is_never_contradicted) {

@@ -24,7 +24,7 @@ void expect_no_sampled_point_to_be_denied(bool is_cone, Cell (*make_cell)(SplitM
     if (!has_common_point) continue;
     ++found;
     EXPECT_NE(filter_meets(light, cell), Verdict::no) << "pair " << i;
-    EXPECT_EQ(decide_meets(light, cell), Verdict::yes) << "pair " << i;
+    EXPECT_EQ(prove_meets(light, cell), Verdict::yes) << "pair " << i;
   }
   EXPECT_GT(found, 20);
 }
@@ -53,7 +53,7 @@ TEST(Meets, a_light_that_reaches_a_face_edge_or_corner_by_a_hair_meets_the_cell)
         const Cell cell = is_shell ? Cell(ShellPiece{s.x0, s.x1, s.y0, s.y1, s.near, s.far})
                                    : Cell(FrustumPiece{s.x0, s.x1, s.y0, s.y1, s.near, s.far, false});
         Verdict verdict = filter_meets(light, cell);
-        if (verdict == Verdict::open) verdict = decide_meets(light, cell);
+        if (verdict == Verdict::open) verdict = prove_meets(light, cell);
         EXPECT_EQ(verdict, Verdict::yes) << i << ", part " << static_cast<int>(by) << ", shell " << is_shell;
       }
   }
@@ -71,7 +71,7 @@ TEST(Meets, a_light_that_passes_through_the_middle_of_a_thin_cell_meets_it) {
   for (const Vec3d& direction : {Vec3d(0, 0, -1), Vec3d(1, 0, -1), Vec3d(-1, 1, -1)}) {
     light.direction = glm::normalize(direction);
     EXPECT_EQ(filter_meets(light, sheet), Verdict::yes);
-    EXPECT_EQ(decide_meets(light, sheet), Verdict::yes);
+    EXPECT_EQ(prove_meets(light, sheet), Verdict::yes);
   }
 }
 
@@ -114,7 +114,7 @@ TEST(Meets, the_filter_never_contradicts_exact_arithmetic_within_a_few_ulps_of_t
     for (const int ulps : {-4, -1, 0, 1, 4}) {
       light.range = touching;
       for (int step = 0; step < std::abs(ulps); ++step) light.range = std::nextafter(light.range, ulps < 0 ? 0.0 : 1e9);
-      const Verdict exact = decide_meets(light, cell);
+      const Verdict exact = prove_meets(light, cell);
       EXPECT_EQ(exact, ulps < 0 ? Verdict::no : Verdict::yes);
       const Verdict filtered = filter_meets(light, cell);
       EXPECT_TRUE(filtered == Verdict::open || filtered == exact) << "ulps " << ulps;
@@ -129,7 +129,7 @@ TEST(Meets, filter_and_proof_agree_wherever_the_filter_speaks) {
     for (const Cell& cell : {Cell(random_piece(random)), Cell(random_shell(random))}) {
       const Verdict filtered = filter_meets(light, cell);
       if (filtered != Verdict::open) {
-        EXPECT_EQ(decide_meets(light, cell), filtered);
+        EXPECT_EQ(prove_meets(light, cell), filtered);
       }
     }
   }
@@ -143,9 +143,9 @@ TEST(Meets, an_apex_on_a_corner_of_the_cell_is_a_common_point_wherever_the_cone_
   light.is_cone = true;
   light.direction = {0.0, 0.0, 1.0};  // away from the cell
   light.half_angle_rad = 0.2;
-  EXPECT_EQ(decide_meets(light, cell), Verdict::yes);
+  EXPECT_EQ(prove_meets(light, cell), Verdict::yes);
   light.apex.position.z = -7.999;
-  EXPECT_EQ(decide_meets(light, cell), Verdict::no);
+  EXPECT_EQ(prove_meets(light, cell), Verdict::no);
 }
 
 TEST(Meets, a_ball_tangent_to_the_side_of_a_shell_piece_is_decided) {
@@ -154,9 +154,9 @@ TEST(Meets, a_ball_tangent_to_the_side_of_a_shell_piece_is_decided) {
   light.apex.position = {16.0, 0.0, -13.0};
   light.range = 5.0;
   EXPECT_EQ(filter_meets(light, cell), Verdict::open);
-  EXPECT_EQ(decide_meets(light, cell), Verdict::yes);
+  EXPECT_EQ(prove_meets(light, cell), Verdict::yes);
   light.range = std::nextafter(5.0, 0.0);
-  EXPECT_EQ(decide_meets(light, cell), Verdict::no);
+  EXPECT_EQ(prove_meets(light, cell), Verdict::no);
 }
 
 TEST(Meets, a_very_narrow_cone_meets_the_cells_that_its_axis_passes_within_its_angle) {

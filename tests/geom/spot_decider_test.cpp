@@ -40,7 +40,8 @@ int expect_agreement(int pairs, Make&& make) {
   for (int i = 0; i < pairs; ++i) {
     const SpotPair pair = make(static_cast<std::size_t>(i % 3));
     const SpotDecider decider(pair.light);
-    const Verdict quick = decider.meets_quickly(pair.cell), decided = decider.meets(pair.cell);
+    const Verdict quick = decider.meets_quickly(pair.cell), decided = prove_meets(pair.light, pair.cell);
+    EXPECT_EQ(decider.meets(pair.cell), decided) << "pair " << i;
     Verdict expected = filter_meets(pair.light, pair.cell);
     if (expected == Verdict::open) {
       ++open;

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 
 #include "geom/meets.h"
@@ -33,7 +34,7 @@ double moved(double value, int ulps) {
 }
 
 Verdict verdict(const LightVolume& light, const Cell& cell) {
-  const Verdict decided = decide_meets(light, cell), filtered = filter_meets(light, cell);
+  const Verdict decided = prove_meets(light, cell), filtered = filter_meets(light, cell);
   EXPECT_TRUE(filtered == Verdict::open || filtered == decided);
   return decided;
 }
@@ -218,7 +219,7 @@ TEST(Spot, of_whole_numbers_is_always_decided_and_never_against_the_filter) {
     for (int i = 0; i < 4000; ++i) {
       const LightVolume light = whole_number_light(random);
       const Cell cell = whole_number_cell(random, kind);
-      const Verdict decided = decide_meets(light, cell), filtered = filter_meets(light, cell);
+      const Verdict decided = prove_meets(light, cell), filtered = filter_meets(light, cell);
       EXPECT_NE(decided, Verdict::open) << "kind " << kind << " pair " << i;
       EXPECT_TRUE(filtered == Verdict::open || filtered == decided) << "kind " << kind << " pair " << i;
       met += decided == Verdict::yes;
@@ -236,7 +237,7 @@ double touching_range(LightVolume light, const Cell& cell) {
     light.range = 0.5 * (apart + touching);
     if (light.range <= apart || light.range >= touching) return touching;
     Verdict now = filter_meets(light, cell);
-    if (now == Verdict::open) now = decide_meets(light, cell);
+    if (now == Verdict::open) now = prove_meets(light, cell);
     EXPECT_NE(now, Verdict::open);
     (now == Verdict::no ? apart : touching) = light.range;
   }
@@ -256,6 +257,47 @@ TEST(Spot, begins_to_touch_at_one_range_and_is_decided_around_it) {
       }
     }
   }
+}
+
+// Without the filter, which settles such pairs before.
+Verdict proven(const LightVolume& light, const Cell& cell) {
+  return std::visit([&](const auto& shape) { return decide_spot(light, shape); }, cell);
+}
+
+TEST(Spot, that_holds_much_of_a_shell_piece_is_proven_to_however_far_it_reaches_beyond) {
+  const ShellPiece wide{-2, 4, 2, 8, 2, 2.5}, thin{-2, 2, -1, 5, 3.95591521f, 4.11773014f};
+  for (const double range : {10.0, 1000.0, 1e15, std::numeric_limits<double>::infinity()}) {
+    const Vec3d up(0x1.c9fbd7d1994bdp-2, 0x1.8302cf63f3da8p-1, -0x1.e99be1c6b8f42p-2);
+    EXPECT_EQ(proven(spot({-1, -1.5, -0.5}, range, glm::normalize(up), 0x1.0c152382d7365p-1), wide), Verdict::yes);
+    const Vec3d apex(-0.080428729675795729, 2.2406449120687872, 1.8565740992412714);
+    const Vec3d down(-0.25884664601274504, -0.8506932619609241, -0.45751435813779129);
+    EXPECT_EQ(proven(spot(apex, range, down, 0.26733714044650803), thin), Verdict::yes) << range;
+  }
+}
+
+// Cells around the eye and spots beside them that reach far beyond: into the pyramid before a shell piece and behind
+// it.
+TEST(Spot, of_any_range_beside_wide_cells_near_the_eye_is_always_decided_and_never_against_the_filter) {
+  SplitMix64 random(31);
+  const double ranges[] = {4.0, 10.0, 1e3, 1e15, std::numeric_limits<double>::infinity()};
+  int met = 0;
+  for (int i = 0; i < 6000; ++i) {
+    LightVolume light = random_light(random, true);
+    light.apex.position = {random.between(-3, 3), random.between(-3, 3), random.between(-3, 3)};
+    light.range = ranges[random.below(5)];
+    light.half_angle_rad = random.between(0.1, 0.6);
+    const auto f = [&](double lo, double hi) { return static_cast<float>(random.between(lo, hi)); };
+    const float x = f(-3, 2), y = f(-3, 2), near = f(1, 5);
+    const ShellPiece shell{x, x + f(1, 6), y, y + f(1, 6), near, near + f(0.01, 0.5)};
+    const FrustumPiece piece{shell.x0, shell.x1, shell.y0, shell.y1, shell.distance0, shell.distance1, false};
+    for (const Cell& cell : {Cell(shell), Cell(piece)}) {
+      const Verdict decided = proven(light, cell), filtered = filter_meets(light, cell);
+      EXPECT_NE(decided, Verdict::open) << "pair " << i;
+      EXPECT_TRUE(filtered == Verdict::open || filtered == decided) << "pair " << i;
+      met += decided == Verdict::yes;
+    }
+  }
+  EXPECT_GT(met, 1000);
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ Sample sample_in_view(const view::Frame& frame, SplitMix64& random) {
   const double depth = random.between(lens.near_m, 70.0), scale = lens.orthographic ? 1.0 : depth;
   const Vec3d p{(lens.left + (lens.right - lens.left) * px / frame.viewport.x) * scale,
                 (lens.top - (lens.top - lens.bottom) * py / frame.viewport.y) * scale, -depth};
-  return {static_cast<float>(px), static_cast<float>(py), Vec3f(p), p};
+  return {static_cast<float>(px), static_cast<float>(py), Vec3f(p), p, Vec3d(0.0)};
 }
 
 struct Setting {
@@ -83,7 +83,7 @@ TEST_P(Partition, every_point_lies_in_the_one_cell_that_the_lookup_gives) {
   int inside = 0;
   for (int i = 0; i < 300; ++i) {
     const Sample sample = sample_in_view(frame, random);
-    const Vec3d local = grid.kind() == Kind::world ? sample.world - grid.world().origin : Vec3d(sample.view);
+    const Vec3d local = grid.kind() == Kind::world ? sample.from(grid.world().origin) : Vec3d(sample.view);
     const std::int64_t found = lookup(grid, sample);
     int holding = 0;
     bool is_at_boundary = false;

@@ -9,6 +9,7 @@
 
 #include "core/random.h"
 #include "measure/sample_tree.h"
+#include "measure/truth.h"
 
 #include "measure/packed_lists.h"
 
@@ -34,19 +35,25 @@ void add_light(view::Frame& frame, const Vec3d& position, double range_m) {
   ++frame.points;
 }
 
+const Vec3d k_eye = frame_along_x().view_space.origin;
+
+Vec3d world_of(const grid::Sample& sample) {
+  return sample.from(Vec3d(0.0));
+}
+
 grid::Sample sample_in(const Vec3d& world) {
-  return {0.0f, 0.0f, Vec3f(0.0f), world};
+  return {0.0f, 0.0f, Vec3f(0.0f), world - k_eye, k_eye};
 }
 
 TEST(Shading, samples_lie_in_the_view_where_their_pixel_and_depth_say) {
   const view::Frame frame = frame_along_x();
   for (const grid::Sample& sample : volume_samples(frame, 64.0, 1000, 1)) {
-    const double depth = 100.0 - sample.world.x;
+    const double depth = 100.0 - world_of(sample).x;
     ASSERT_GE(depth, 0.5 - 1e-9);
     ASSERT_LE(depth, 64.0 + 1e-9);
     ASSERT_NEAR(-sample.view.z, depth, 1e-4);
-    ASSERT_NEAR((50.0 - sample.world.z) / depth, -1.0 + sample.pixel_x / 100.0, 1e-6);
-    ASSERT_NEAR((sample.world.y - 2.0) / depth, 0.5 - sample.pixel_y / 100.0, 1e-6);
+    ASSERT_NEAR((50.0 - world_of(sample).z) / depth, -1.0 + sample.pixel_x / 100.0, 1e-6);
+    ASSERT_NEAR((world_of(sample).y - 2.0) / depth, 0.5 - sample.pixel_y / 100.0, 1e-6);
   }
 }
 
@@ -65,7 +72,7 @@ TEST(Shading, samples_of_an_orthographic_view_are_spread_evenly_over_depth) {
   frame.projection = {true, -10.0, 10.0, -5.0, 5.0, 0.0, 64.0};
   int nearer_half = 0;
   for (const grid::Sample& sample : volume_samples(frame, 64.0, 2000, 1)) {
-    ASSERT_NEAR(50.0 - sample.world.z, -10.0 + sample.pixel_x / 10.0, 1e-5);
+    ASSERT_NEAR(50.0 - world_of(sample).z, -10.0 + sample.pixel_x / 10.0, 1e-5);
     nearer_half += -sample.view.z < 32.0f ? 1 : 0;
   }
   EXPECT_NEAR(nearer_half, 1000, 120);
@@ -74,7 +81,7 @@ TEST(Shading, samples_of_an_orthographic_view_are_spread_evenly_over_depth) {
 TEST(Shading, the_same_seed_and_frame_give_the_same_samples) {
   const auto first = volume_samples(frame_along_x(3), 64.0, 10, 9),
              again = volume_samples(frame_along_x(3), 64.0, 10, 9);
-  for (std::size_t i = 0; i < first.size(); ++i) EXPECT_EQ(first[i].world, again[i].world);
+  for (std::size_t i = 0; i < first.size(); ++i) EXPECT_EQ(first[i].from_eye, again[i].from_eye);
 }
 
 TEST(Shading, no_two_frames_share_samples) {
@@ -127,7 +134,7 @@ TEST(Shading, every_light_is_found_that_reaches_a_sample) {
   for (std::uint32_t i = 0; i < samples.size(); ++i) {
     std::vector<std::uint32_t> expected;
     for (std::uint32_t light = 0; light < frame.lights.size(); ++light)
-      if (glm::length(samples[i].world - frame.lights[light].position) <= frame.lights[light].range_m)
+      if (glm::length(world_of(samples[i]) - frame.lights[light].position) <= frame.lights[light].range_m)
         expected.push_back(light);
     ASSERT_EQ(std::vector(found.of(i).begin(), found.of(i).end()), expected) << i;
   }
@@ -139,7 +146,7 @@ TEST(Shading, a_small_light_looks_at_few_of_many_samples) {
   const SampleTree tree(samples);
   int looked_at = 0;
   for (int i = 0; i < 1000; ++i)
-    tree.each_near(samples[static_cast<std::size_t>(i)].world, 0.0, [&](std::uint32_t) { ++looked_at; });
+    tree.each_near(samples[static_cast<std::size_t>(i)].from_eye, 0.0, [&](std::uint32_t) { ++looked_at; });
   EXPECT_GE(looked_at, 1000);
   EXPECT_LE(looked_at, 1000 * 64);
 }
@@ -157,9 +164,9 @@ struct TwoSlices {
     spec.tiles.count = {1, 1};
     spec.slices = {.scheme = grid::Scheme::list, .boundaries_m = {0.5, 8.0, 64.0}};
     grid = grid::make_grid(spec, grid::grid_inputs(spec, frame, 0.0, {}, {}));
-    samples = {{100.0f, 50.0f, {0.0f, 0.0f, -4.0f}, {96.0, 2.0, 50.0}},
-               {100.0f, 50.0f, {0.0f, 0.0f, -60.0f}, {40.0, 2.0, 50.0}},
-               {100.0f, 50.0f, {0.0f, 0.0f, -90.0f}, {10.0, 2.0, 50.0}}};
+    samples = {{100.0f, 50.0f, {0.0f, 0.0f, -4.0f}, Vec3d{96.0, 2.0, 50.0} - k_eye, k_eye},
+               {100.0f, 50.0f, {0.0f, 0.0f, -60.0f}, Vec3d{40.0, 2.0, 50.0} - k_eye, k_eye},
+               {100.0f, 50.0f, {0.0f, 0.0f, -90.0f}, Vec3d{10.0, 2.0, 50.0} - k_eye, k_eye}};
   }
   ShadingCounts counts(const assign::Lists& reported) const {
     ShadingCounts out;
@@ -210,7 +217,7 @@ double lost_of_spot(double inner_rad, double outer_rad, double off_axis_rad) {
   spec.tiles.count = {1, 1};
   spec.slices = {.scheme = grid::Scheme::list, .boundaries_m = {0.5, 64.0}};
   const grid::Grid grid = grid::make_grid(spec, grid::grid_inputs(spec, frame, 0.0, {}, {}));
-  const std::vector<grid::Sample> samples{{100.0f, 50.0f, {0.0f, 0.0f, -4.0f}, place}};
+  const std::vector<grid::Sample> samples{{100.0f, 50.0f, {0.0f, 0.0f, -4.0f}, place - k_eye, k_eye}};
   ShadingCounts counts;
   add_frame(counts, frame, samples, lights_reaching(frame, samples), *packed_lists({{0, 1}, {0}}, grid, frame));
   EXPECT_EQ(counts.needed, 2u);
@@ -227,6 +234,52 @@ TEST(Shading, a_missed_spot_weighs_by_its_falloff_between_the_cones) {
   // Cones nearer than a thousandth in their cosines fall off over a thousandth, as the extension has it.
   const double thin = 1000.0 * (1.0 - std::cos(0.02));
   EXPECT_NEAR(lost_of_spot(0.0, 0.02, 0.0), thin * thin / (1.0 + thin * thin), 1e-12);
+}
+
+TEST(Shading, a_missed_light_of_a_centimetre_weighs_what_it_gives) {
+  for (const double range_m : {0.01, 0.004}) {
+    TwoSlices two;
+    two.frame.lights.resize(1);
+    two.frame.points = 1;
+    two.frame.lights[0].range_m = range_m;
+    two.frame.lights[0].position = Vec3d(96.0, 2.0, 50.0) + Vec3d(0.5 * range_m, 0.0, 0.0);
+    const ShadingCounts counts = two.counts({{0, 0, 0}, {}});
+    EXPECT_EQ(counts.missed, 1u);
+    // The window is that of the true distance; 1 / d² is held at 1 cm.
+    EXPECT_NEAR(counts.lost_lux, (1.0 - 1.0 / 16.0) / 1e-4, 1e-3);
+    EXPECT_EQ(counts.lost_irradiance, 1.0);
+  }
+}
+
+// Where a double holds decimetres, true lists miss nothing.
+TEST(Shading, true_lists_miss_nothing_far_from_the_origin) {
+  for (const grid::Kind kind : {grid::Kind::frustum, grid::Kind::distance, grid::Kind::cascades, grid::Kind::world}) {
+    view::Frame frame = frame_along_x();
+    frame.view_space.origin = {5e14, -9e14, 0.25};
+    SplitMix64 random(7);
+    for (int i = 0; i < 200; ++i) {
+      const Vec3d way{random.between(-40.0, 0.0), random.between(-15.0, 15.0), random.between(-30.0, 30.0)};
+      add_light(frame, frame.view_space.origin + way, random.between(0.1, 4.0));
+    }
+    grid::GridSpec spec;
+    spec.kind = kind;
+    spec.tiles.count = {16, 8};
+    spec.slices.scheme = grid::Scheme::linear;
+    spec.slices.count = 32;
+    spec.slices.far_m = 64.0;
+    spec.cells = {32, 16, 32};
+    spec.finest_m = 0.5;
+    spec.has_bounds = true;
+    spec.bounds_lo_m = frame.view_space.origin - Vec3d(40.0, 20.0, 40.0);
+    spec.bounds_hi_m = frame.view_space.origin + Vec3d(2.0, 20.0, 40.0);
+    const grid::Grid grid = grid::make_grid(spec, grid::grid_inputs(spec, frame, 0.0, {}, {}));
+    const std::vector<grid::Sample> samples = volume_samples(frame, 30.0, 4000, 1);
+    ShadingCounts counts;
+    add_frame(counts, frame, samples, lights_reaching(frame, samples),
+              *packed_lists(find_truth(frame, grid, 1).lists, grid, frame));
+    EXPECT_GT(counts.needed, 100u);
+    EXPECT_EQ(counts.missed, 0u) << grid::kind_name(kind);
+  }
 }
 
 TEST(Shading, where_nothing_is_needed_there_is_no_overshade) {

@@ -17,7 +17,7 @@ namespace {
 const std::atomic<bool> k_going{false};
 
 // Methods with a flaw, under the name of one that promises to have none.
-enum class Flaw { forgets, adds, throws, repeats, moody };
+enum class Flaw { forgets, forgets_all, adds, throws, repeats, moody };
 
 template <Flaw flaw>
 class Flawed : public assign::ListAssigner {
@@ -33,6 +33,10 @@ class Flawed : public assign::ListAssigner {
     if ((flaw == Flaw::forgets || (flaw == Flaw::moody && calls_++ % 2 == 1)) && !out.lights.empty()) {
       out.lights.pop_back();
       for (std::uint32_t& begin : out.begin) begin = std::min(begin, static_cast<std::uint32_t>(out.lights.size()));
+    }
+    if (flaw == Flaw::forgets_all) {
+      out.lights.clear();
+      std::fill(out.begin.begin(), out.begin.end(), 0U);
     }
     if (flaw == Flaw::adds && out.begin[cells] == out.begin[cells - 1]) {
       out.lights.push_back(0);
@@ -138,6 +142,40 @@ TEST(RandomSearch, finds_what_throws_what_gives_no_lists_and_what_gives_other_on
   EXPECT_EQ(kinds_of(searched_at_random({flawed<Flaw::throws>()}, 8)), (std::set<FaultKind>{FaultKind::error}));
   EXPECT_EQ(kinds_of(searched_at_random({flawed<Flaw::repeats>()}, 8)), (std::set<FaultKind>{FaultKind::lists}));
   EXPECT_TRUE(kinds_of(searched_at_random({flawed<Flaw::moody>()}, 8)).contains(FaultKind::lists));
+}
+
+// A cone of 1e-60 rad whose side runs along the plane between two cells, up to rounding: geom/spot.h leaves it open.
+TEST(RandomSearch, reports_pairs_that_stay_undecided_as_a_fault) {
+  Rig rig;
+  rig.spot({0.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, 4e4, 1e-60).point({0.0, 0.0, 0.0}, 10.0).show({64, 64});
+  rig.lens().orthographic = true;
+  rig.lens().xmag_m = rig.lens().ymag_m = 0.6;
+  rig.lens().near_m = 20.0;
+  rig.lens().far_m = 100.0;
+  grid::GridSpec world;
+  world.kind = grid::Kind::world;
+  world.cells = {6, 1, 3};
+  Trial trial = rig.on(world);
+  trial.scene.nodes[1].rotation = {-5e-10, -5e-61, 0.0, 1.0};
+  const std::vector<StressMethod> methods{sound("world-grid")};
+  const SettingReport report = check_setting(trial, methods);
+  ASSERT_FALSE(report.faults.empty());
+  EXPECT_GT(report.counts.undecided, 0U);
+  for (const SettingFault& fault : report.faults) {
+    EXPECT_EQ(fault.kind, FaultKind::undecided) << fault.detail;
+    EXPECT_TRUE(fault.is_spot);
+  }
+}
+
+// A light that reaches places in the view of which a list knows nothing.
+TEST(RandomSearch, finds_places_that_a_method_leaves_without_a_light) {
+  Rig rig;
+  rig.point({0.0, 0.0, -10.0}, 4.0);
+  const std::vector<StressMethod> methods{flawed<Flaw::forgets_all>()};
+  std::set<FaultKind> kinds;
+  for (const SettingFault& fault : check_setting(rig.on(pixel_grid({128, 128})), methods).faults)
+    kinds.insert(fault.kind);
+  EXPECT_EQ(kinds, (std::set<FaultKind>{FaultKind::loss, FaultKind::shading}));
 }
 
 TEST(RandomSearch, gives_the_same_on_any_number_of_threads) {

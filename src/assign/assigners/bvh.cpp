@@ -322,7 +322,7 @@ class LightHierarchy final : public LightStructure {
 
   void lights_at(const grid::Sample& sample, grid::Log2, std::vector<std::uint32_t>& out) const override {
     out.clear();
-    const Vec3f at = world_origin ? Vec3f(sample.world - *world_origin) : sample.view;
+    const Vec3f at = world_origin ? Vec3f(sample.from(*world_origin)) : sample.view;
     trees.each_touched({at, at}, [&](std::uint32_t light) { out.push_back(light); });
   }
 

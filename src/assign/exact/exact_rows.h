@@ -106,14 +106,7 @@ class SpotJudge {
 
   bool touches(std::uint32_t cell) {
     if (!decider_) decider_.emplace(lights_.volume(light_));
-    const geom::Cell shape = grid_.cell(cell);
-    geom::Verdict verdict = decider_->meets_quickly(shape);
-    if (verdict == geom::Verdict::open) {
-      if (!filter_) filter_.emplace(lights_.volume(light_));
-      verdict = filter_->meets(shape);
-    }
-    if (verdict == geom::Verdict::open) verdict = decider_->meets_after_all(shape);
-    return verdict != geom::Verdict::no;
+    return decider_->meets(grid_.cell(cell)) != geom::Verdict::no;
   }
 
  private:
@@ -121,7 +114,6 @@ class SpotJudge {
   const view::LightArrays& lights_;
   std::uint32_t light_;
   std::optional<geom::SpotDecider> decider_;
-  std::optional<geom::LightFilter> filter_;
 };
 
 inline grid::IndexRange hull(const grid::IndexRange& a, const grid::IndexRange& b) {

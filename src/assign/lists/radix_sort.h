@@ -8,7 +8,7 @@
 
 namespace clusterbench::assign {
 
-// Floats (no NaN) as numbers of the same order.
+// Floats (no NaN) as numbers of the same order; -0 comes before 0.
 inline std::uint32_t ordered_bits(float value) {
   std::uint32_t bits;
   std::memcpy(&bits, &value, sizeof bits);

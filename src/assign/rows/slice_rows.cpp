@@ -120,9 +120,10 @@ class Batch {
   // the row, and what follows from them is less than 8 e off; so the ball of r + 2 d has such a point. And it is no
   // further in than the given ball's. For where the end is looked for is rounded, too, by s along the circle of radius
   // w that a tile plane cuts out; near the circle's farthest point that loses s² / 2 w, while the given ball's circle
-  // is smaller by at least d R / w. So s may be sqrt(7 e R) for an eighth of that. Depths and heights make it up to 3
-  // e; the circle's chord, which is up to 2 e R / w off, and inverse_upright as much as set_up_spheres() lets them. It
-  // also makes certain whether the eye is inside the ball or a circle, where all depends on a sign.
+  // is smaller by at least d R / w. So s = sqrt(7 e R) costs an eighth of that. Depths and heights make it up to 3 e;
+  // the circle's chord, which is up to 2 e R / w off, and inverse_upright as much as set_up_spheres() lets them, 1.6
+  // times sqrt(7 e R) together: a third. It also makes certain whether the eye is inside the ball or a circle, where
+  // all depends on a sign.
   //
   // So the hull is that of a ball between the given one and the given one with twice the slack, D = 2 d. Let m be the
   // row's point nearest to the centre, g away, and w = sqrt(R² - g²) for the larger radius R. A point p of the larger

@@ -63,7 +63,7 @@ void setup_of(const VisibleBalls& visible, std::uint32_t count, SphereSetup& out
     const M is_outside = square > zero;
     // A touch point is as far from the eye as a tangent is long, and not deeper than the ball. The chord's error moves
     // it by up to |x| depth / upright of itself, and upright's, 3 e c², by that over upright of how far it is away:
-    // that is less than what Certainty asks for, sqrt(7 e radius), and also than 3/16 of the radius.
+    // the chord's part is at most sqrt(7 e radius), upright's 0.57 of that and also 3/16 of the radius: see Certainty.
     const V tangent = root(square), reach = root(from_eye);
     const V deepest = Min(Max(zero, depth + radius), tangent);
     const V of_chord = Abs(x) * deepest * all(1.0f / 7.0f);
