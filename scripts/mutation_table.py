@@ -631,7 +631,7 @@ MUTATIONS = [
 
     # --- measure: details ---
     Mutation("irradiance-without-intensity", "measure/shading.cpp",
-             "light.luminous_intensity_cd * std::max(", "std::max(",
+             "light.luminous_intensity_cd * window", "window",
              "measure.Shading.a_missed_light_weighs_by_its_intensity",
              "a lost candle weighs as much as a lost floodlight"),
     Mutation("details-pair-told-twice", "measure/details.cpp",
