@@ -591,7 +591,7 @@ bool BallDecider::meets(const ShellPiece& cell, const PyramidView& view) const {
   const auto close = [&](const Closely& ball) {
     const Piece pyramid = pyramid_of(cell);
     if (view.is_behind) {
-      const AtDepth<Tight> at_eye(ball.x, ball.y, ball.depth, pyramid, Tight(0.0), Side::low);
+      const AtDepth<Tight> at_eye(ball.x, ball.y, pyramid, Tight(0.0), -ball.depth, Side::low);
       const Tight t(double{cell.distance0});
       const Tight along = widened(along_rays(ball.x, ball.y, ball.depth, pyramid), at_eye.steepness);
       return verdict_of(at_eye.square + t * t - Tight(2.0) * t * along - ball.squared_radius,

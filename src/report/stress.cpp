@@ -258,7 +258,7 @@ std::vector<std::string> stress_failures(const stress::StressResult& result) {
     if (search.deepest && method_of(result, search.method).conservative)
       failures.push_back("H31 " + search.method + ": " + number_of(search.misses, "light") + " lost, the deepest " +
                          percent(search.deepest->depth) + " of its range inside");
-  for (const run::SearchResult& search : result.searches)
+  for (const stress::SearchResult& search : result.searches)
     if (search.undecided > 0 && method_of(result, search.method).conservative)
       failures.push_back("H31 " + search.method + ": " + number_of(search.undecided, "light") +
                          " not listed, and undecided");
