@@ -21,6 +21,8 @@ class SpotDecider {
   Verdict meets(const Cell& cell) const;
   // In two parts: what half a microsecond tells, mostly, and the rest.
   Verdict meets_quickly(const Cell& cell) const;
+  // The first part for cells that are known to be touched or missed by a hair: tells of some more.
+  Verdict meets_nearly(const Cell& cell) const;
   Verdict meets_after_all(const Cell& cell) const;  // of a cell that meets_quickly leaves open
 
   // How many cells were decided by more than doubles.

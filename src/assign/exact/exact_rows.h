@@ -104,10 +104,11 @@ class SpotJudge {
 
   std::uint32_t light() const { return light_; }
 
-  bool touches(std::uint32_t cell) {
+  // is_close: known to be touched or missed by a hair.
+  bool touches(std::uint32_t cell, bool is_close = false) {
     if (!decider_) decider_.emplace(lights_.volume(light_));
     const geom::Cell shape = grid_.cell(cell);
-    geom::Verdict verdict = decider_->meets_quickly(shape);
+    geom::Verdict verdict = is_close ? decider_->meets_nearly(shape) : decider_->meets_quickly(shape);
     if (verdict == geom::Verdict::open) {
       if (!filter_) filter_.emplace(lights_.volume(light_));
       verdict = filter_->meets(shape);
