@@ -304,7 +304,12 @@ Verdict SpotDecider::meets_quickly(const Cell& cell) const {
     if (leans(nearest->way) == Verdict::yes) return Verdict::yes;
     if (!is_endless && leans(widened(nearest->way, nearest->play)) == Verdict::no) return Verdict::no;
   }
-  if (apex_.meets(cell)) return Verdict::yes;
+  return apex_.meets(cell) ? Verdict::yes : Verdict::open;
+}
+
+Verdict SpotDecider::meets_nearly(const Cell& cell) const {
+  const Verdict verdict = meets_quickly(cell);
+  if (verdict != Verdict::open) return verdict;
   return std::visit([&](const auto& shape) { return ends_at_face(shape); }, cell) ? Verdict::no : Verdict::open;
 }
 
@@ -320,8 +325,8 @@ Verdict SpotDecider::meets_after_all(const Cell& cell) const {
   return std::visit([&](const auto& shape) { return decide_spot(light_, shape); }, cell);
 }
 
-Verdict SpotDecider::meets(const Cell& cell) const {
-  Verdict verdict = meets_quickly(cell);
+Verdict SpotDecider::meets(const Cell& cell, bool is_close) const {
+  Verdict verdict = is_close ? meets_nearly(cell) : meets_quickly(cell);
   if (verdict == Verdict::open) verdict = filter().meets(cell);
   return verdict == Verdict::open ? meets_after_all(cell) : verdict;
 }

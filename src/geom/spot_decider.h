@@ -19,11 +19,14 @@ class SpotDecider {
  public:
   explicit SpotDecider(const LightVolume& light);
 
-  // Proven, or open: by meets_quickly, then by the filter, then by meets_after_all.
-  Verdict meets(const Cell& cell) const;
+  // Proven, or open: by meets_quickly, then by the filter, then by meets_after_all. is_close: known to be touched or
+  // missed by a hair; then by meets_nearly first.
+  Verdict meets(const Cell& cell, bool is_close = false) const;
   // What half a microsecond tells, mostly.
   Verdict meets_quickly(const Cell& cell) const;
-  // Of a cell that meets_quickly leaves open, without the filter.
+  // The same for cells that are known to be touched or missed by a hair: tells of some more.
+  Verdict meets_nearly(const Cell& cell) const;
+  // Of a cell that these leave open, without the filter.
   Verdict meets_after_all(const Cell& cell) const;
 
   const LightFilter& filter() const;

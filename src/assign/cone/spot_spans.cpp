@@ -327,7 +327,7 @@ bool SpotSpans::decide(std::uint32_t place, int column) {
   if (!judge_ || judge_->light() != light) judge_.emplace(frame_->grid, frame_->lights, light);
   const Row row =
       row_of(frame_->grid.screen(), static_cast<int>(rows_.slice[place]), static_cast<int>(rows_.row[place]));
-  return judge_->touches(row.first_cell + static_cast<std::uint32_t>(column));
+  return judge_->touches(row.first_cell + static_cast<std::uint32_t>(column), true);
 }
 
 }  // namespace clusterbench::assign

@@ -104,9 +104,10 @@ class SpotJudge {
 
   std::uint32_t light() const { return light_; }
 
-  bool touches(std::uint32_t cell) {
+  // is_close: known to be touched or missed by a hair.
+  bool touches(std::uint32_t cell, bool is_close = false) {
     if (!decider_) decider_.emplace(lights_.volume(light_));
-    return decider_->meets(grid_.cell(cell)) != geom::Verdict::no;
+    return decider_->meets(grid_.cell(cell), is_close) != geom::Verdict::no;
   }
 
  private:
