@@ -1,5 +1,5 @@
 #pragma once
-// Floating point with 256 bits, for finding what is then proven in exact numbers.
+// Floating point with 256 and 1024 bits, for finding what is then proven in exact numbers.
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
@@ -8,9 +8,13 @@
 
 namespace clusterbench::geom {
 
-using Big =
-    boost::multiprecision::number<boost::multiprecision::cpp_bin_float<256, boost::multiprecision::digit_base_2>,
+template <unsigned bits>
+using FloatOf =
+    boost::multiprecision::number<boost::multiprecision::cpp_bin_float<bits, boost::multiprecision::digit_base_2>,
                                   boost::multiprecision::et_off>;
+
+using Big = FloatOf<256>;
+using Huge = FloatOf<1024>;
 
 template <>
 struct Precision<Big> {
@@ -18,17 +22,24 @@ struct Precision<Big> {
   static constexpr int k_place_bits = 240;
 };
 
+template <>
+struct Precision<Huge> {
+  static Huge tolerance() { return ldexp(Huge(1), -800); }
+  static constexpr int k_place_bits = 1000;
+};
+
 // Finite.
-inline Rational exact(const Big& value) {
-  constexpr int k_digits = 256;
+template <unsigned bits>
+Rational exact(const FloatOf<bits>& value) {
   int exponent = 0;
-  const Integer digits(ldexp(frexp(value, &exponent), k_digits));
-  exponent -= k_digits;
+  const Integer digits(ldexp(frexp(value, &exponent), static_cast<int>(bits)));
+  exponent -= static_cast<int>(bits);
   return exponent >= 0 ? Rational(digits << exponent) : Rational(digits, Integer(1) << -exponent);
 }
 
-inline RationalPoint exact(const Point3<Big>& p) {
-  return {exact(p.x), exact(p.y), exact(p.z)};
+template <unsigned bits>
+RationalPoint exact(const Point3<FloatOf<bits>>& p) {
+  return {exact<bits>(p.x), exact<bits>(p.y), exact<bits>(p.z)};
 }
 
 }  // namespace clusterbench::geom

@@ -14,14 +14,14 @@ const Rational& largest_for(const Rational& factor, const RationalInterval& valu
 
 }  // namespace
 
-ExactSpot exact_spot(const LightVolume& light) {
+ExactSpot exact_spot(const LightVolume& light, unsigned angle_bits) {
   ExactSpot spot;
   spot.apex = exact_point(light.apex);
   spot.direction = exact_point({light.direction, Vec3d(0.0), light.apex.rotation});
   spot.range = exact(std::min(light.range, std::numeric_limits<double>::max()));
   // The double nearest to pi / 2 is below it.
   spot.half_angle_rad = exact(std::min(light.half_angle_rad, std::numbers::pi / 2.0));
-  spot.half_angle = bounds_of_angle(spot.half_angle_rad, 320);
+  spot.half_angle = bounds_of_angle(spot.half_angle_rad, angle_bits);
   return spot;
 }
 

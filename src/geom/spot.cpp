@@ -33,8 +33,8 @@ struct PlaneCase {
   ExactSpot spot;
 
   template <class PlaneCell>
-  PlaneCase(const LightVolume& light, const PlaneCell& cell)
-      : corners(corners_of(cell)), planes(planes_of(cell)), spot(exact_spot(light)) {}
+  PlaneCase(const LightVolume& light, const PlaneCell& cell, unsigned angle_bits = k_angle_bits)
+      : corners(corners_of(cell)), planes(planes_of(cell)), spot(exact_spot(light, angle_bits)) {}
 };
 
 // What a search in Real finds, checked between bounds of 106 bits. Faces that the volume clearly does not reach, in
@@ -71,6 +71,12 @@ double farthest_corner(const Polytope<double>& polytope) {
   return farthest;
 }
 
+// So narrow that numbers of 256 bits cannot tell its side from its axis with digits to spare: what they square is below
+// the square of the angle.
+bool is_needle(const LightVolume& light) {
+  return light.half_angle_rad < 0x1p-40;
+}
+
 // What a search in Real finds, checked.
 template <class Real, class PlaneCell>
 Verdict proven_by_search(const LightVolume& light, const PlaneCell& cell, const PlaneCase& exactly) {
@@ -100,7 +106,9 @@ Verdict decide(const LightVolume& given, const PlaneCell& cell) {
   const PlaneCase exactly(light, cell);
   if (surely_holds(exactly.spot, nearest_point(cell, exactly.spot.apex))) return Verdict::yes;
   if (axis_surely_meets(exactly.spot, exactly.planes)) return Verdict::yes;
-  return proven_by_search<Big>(light, cell, exactly);
+  verdict = proven_by_search<Big>(light, cell, exactly);
+  if (verdict != Verdict::open || !is_needle(light)) return verdict;
+  return proven_by_search<Huge>(light, cell, PlaneCase(light, cell, 1040));
 }
 
 // Points of pyramid ∩ spot on both sides of a shell piece, or in it: the set is convex, so its distances from the eye
