@@ -23,14 +23,6 @@ struct StressFlags {
   bool quiet = false;
 };
 
-std::regex pattern_of(const std::string& text, const char* option) {
-  try {
-    return std::regex(text);
-  } catch (const std::regex_error& error) {
-    throw Error("", option, "'" + text + "' is not a regular expression: " + error.what());
-  }
-}
-
 // A name for a file: "H32-naive-bounds-flaw=log-slice".
 std::string file_name(const std::string& hard_case, const std::string& method) {
   std::string name = hard_case + "-";
@@ -98,8 +90,8 @@ class AtWork {
 
 ExitCode stress(const StressFlags& flags) {
   stress::StressRequest request = flags.request;
-  request.cases = pattern_of(cases_of(flags), "--cases");
-  request.methods = pattern_of(flags.methods, "--methods");
+  request.cases = Pattern(cases_of(flags), "--cases");
+  request.methods = Pattern(flags.methods, "--methods");
   probe_output(flags.output);
   const std::atomic<bool>& stop = stop_on_signals();
   ProgressLine progress(terminal(STDERR_FILENO), flags.quiet);

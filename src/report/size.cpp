@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <regex>
 #include <set>
 #include <tuple>
 
 #include "core/error.h"
+#include "core/pattern.h"
 
 namespace clusterbench::report {
 namespace {
@@ -119,13 +119,9 @@ std::vector<Json> best_of_groups(const std::vector<Json>& cases) {
 
 std::vector<Json> matching_cases(const Json& cases, const std::string& filter) {
   std::vector<Json> out;
-  try {
-    const std::regex regex(filter, std::regex::ECMAScript);
-    for (const Json& one : cases)
-      if (std::regex_search(one["name"].get<std::string>(), regex)) out.push_back(one);
-  } catch (const std::regex_error& error) {
-    throw Error("", "--filter", "'" + filter + "' is no regular expression (ECMAScript): " + error.what());
-  }
+  const Pattern pattern(filter, "--filter");
+  for (const Json& one : cases)
+    if (pattern.is_in(one["name"].get_ref<const std::string&>())) out.push_back(one);
   if (out.empty() && !cases.empty())
     throw Error("", "--filter",
                 "'" + filter + "' matches none of " + std::to_string(cases.size()) + " cases; one of them is '" +

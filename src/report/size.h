@@ -8,7 +8,7 @@
 namespace clusterbench::report {
 
 struct SizeRequest {
-  std::string filter;  // ECMAScript regex, "" = all: only cases whose name matches
+  std::string filter;  // a regular expression as RE2 has them, "" = all: only cases whose name matches
   // Every case, and constants named by it. Without: of each scene, camera and grid the case that loses no light and is
   // fastest, or smallest where times are equal or were not measured, and constants that keep their names if that
   // becomes another method.

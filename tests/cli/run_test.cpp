@@ -143,6 +143,7 @@ TEST(Run, a_filter_selects_cases_by_name) {
   ASSERT_EQ(done.code, 0) << done.err;
   EXPECT_EQ(Json::parse(done.out)["cases"].size(), 1u);
   EXPECT_EQ(tool("run --filter '(' " + config).code, 2);
+  EXPECT_EQ(tool("run --filter '([a-z/ 0-9.-]+)+!' " + config).code, 2) << "ends, though by backtracking it would not";
   EXPECT_EQ(tool("run --filter nothing-like-this " + config).code, 2);
 }
 

@@ -206,7 +206,7 @@ TEST_F(Sweep, a_filter_selects_by_name_and_says_when_it_selects_nothing) {
     }
     return "accepted";
   };
-  EXPECT_TRUE(message("(").starts_with("--filter: '(' is no regular expression (ECMAScript): ")) << message("(");
+  EXPECT_TRUE(message("(").starts_with("--filter: '(' is no regular expression (as RE2 has them): ")) << message("(");
   EXPECT_TRUE(message("nothing").starts_with("--filter: 'nothing' matches none of ")) << message("nothing");
 }
 
