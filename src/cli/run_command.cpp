@@ -100,12 +100,20 @@ ExitCode print_plan(const run::Plan& plan) {
 }
 
 // What an interrupted run must have had in common with the one that continues it.
+// The configuration without what no result depends on.
+Json what_is_measured(const config::Config& config) {
+  Json out = config.resolved;
+  out.erase("threads");
+  out["limits"].erase("fail_if");
+  return out;
+}
+
 Json journal_header(const config::Config& config, const run::Plan& plan, const RunFlags& flags) {
   const run::ToolFacts tool = run::tool_facts();
   Json scenes = Json::array();
   for (const run::SceneData& data : plan.scenes) scenes.push_back(data.scene.sha256);
   Json header{{"version", tool.version}, {"git_sha", tool.git_sha}, {"flags", tool.flags},
-              {"scenes", scenes},        {"filter", flags.filter},  {"config", config.resolved}};
+              {"scenes", scenes},        {"filter", flags.filter},  {"config", what_is_measured(config)}};
   if (!flags.count.empty()) header["count"] = flags.count;
   return header;
 }
@@ -122,6 +130,8 @@ std::unique_ptr<report::Journal> open_journal(const RunFlags& flags, const confi
   auto journal = std::make_unique<report::Journal>(flags.output, journal_header(config, plan, flags), flags.resume,
                                                    per_case * case_count(plan));
   if (!journal->set_aside().empty())
+  if (flags.resume && journal->earlier_cases().empty())
+    tell("--resume begins anew: no finished case of an interrupted run is in " + journal->partial_path().string());
     tell(journal->partial_path().string() + ", left by a run that did not end, is now " +
          journal->set_aside().string() + " (--resume goes on with such a file)");
   return journal;
