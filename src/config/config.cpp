@@ -51,6 +51,16 @@ scene::PathRequest path_request(const Json& scene) {
   return request;
 }
 
+std::vector<Vec2d> jitter_of(const Json& jitter) {
+  constexpr int k_usual = 8;
+  std::vector<Vec2d> offsets;
+  if (jitter.is_string()) return scene::halton_jitter(k_usual);
+  if (jitter.is_object()) return scene::halton_jitter(jitter["halton"].get<int>());
+  if (jitter.is_array())
+    for (const Json& offset : jitter) offsets.emplace_back(offset[0].get<double>(), offset[1].get<double>());
+  return offsets;
+}
+
 void add_scenes(const Json& scene, const std::string& pointer, const JsonText& text, std::vector<SceneRequest>& out) {
   const bool single = scene.contains("path"), has_rig = scene.contains("rig");
   if (single + scene.contains("paths") + has_rig != 1)
@@ -294,6 +304,7 @@ Config read_config(const JsonText& text) {
   config.precisions = precisions(document["precision"], text);
   read_settings(document, config);
   return config;
+  for (SceneRequest& scene : config.scenes) scene.camera.jitter_px = jitter_of(document["jitter"]);
 }
 
 Config read_changed(const JsonText& text, std::span<const FlagValue> flags) {

@@ -87,6 +87,7 @@ Json identity(const config::SceneRequest& request, const scene::Scene& scene) {
            {"frames", {static_cast<int>(request.camera.choice), request.camera.count, request.camera.rate_hz}},
            {"range_rule", {request.range_rule.cutoff_lux, request.range_rule.max_range_m}}};
   if (request.camera.fit != scene::CameraFit::contain) out["camera_fit"] = "vertical";
+  for (const Vec2d& offset : request.camera.jitter_px) out["jitter"].push_back({offset.x, offset.y});
   return out;
 }
 
