@@ -20,6 +20,7 @@
 #include "report/compare.h"
 #include "report/journal.h"
 #include "report/json.h"
+#include "report/limits.h"
 #include "report/table.h"
 #include "run/runner.h"
 #include "run/sweep.h"
@@ -99,7 +100,6 @@ ExitCode print_plan(const run::Plan& plan) {
   return ExitCode::ok;
 }
 
-// What an interrupted run must have had in common with the one that continues it.
 // The configuration without what no result depends on.
 Json what_is_measured(const config::Config& config) {
   Json out = config.resolved;
@@ -108,6 +108,7 @@ Json what_is_measured(const config::Config& config) {
   return out;
 }
 
+// What an interrupted run must have had in common with the one that continues it.
 Json journal_header(const config::Config& config, const run::Plan& plan, const RunFlags& flags) {
   const run::ToolFacts tool = run::tool_facts();
   Json scenes = Json::array();
@@ -129,9 +130,9 @@ std::unique_ptr<report::Journal> open_journal(const RunFlags& flags, const confi
   const std::uint64_t per_case = k_bytes_per_case + (config.details ? config.details->max_bytes : 0);
   auto journal = std::make_unique<report::Journal>(flags.output, journal_header(config, plan, flags), flags.resume,
                                                    per_case * case_count(plan));
-  if (!journal->set_aside().empty())
   if (flags.resume && journal->earlier_cases().empty())
     tell("--resume begins anew: no finished case of an interrupted run is in " + journal->partial_path().string());
+  if (!journal->set_aside().empty())
     tell(journal->partial_path().string() + ", left by a run that did not end, is now " +
          journal->set_aside().string() + " (--resume goes on with such a file)");
   return journal;
@@ -148,6 +149,13 @@ ExitCode report_gates(const Json& result) {
   const std::vector<std::string> failures = report::gate_failures(result);
   for (const std::string& failure : failures) tell("FAILED " + failure);
   return failures.empty() ? ExitCode::ok : ExitCode::gate_failed;
+}
+
+ExitCode report_limits(const config::Config& config, const Json& result) {
+  const report::LimitFindings findings = report::limit_findings(result, config.limits.fail_if);
+  for (const std::string& line : findings.near) tell("warning: " + line);
+  for (const std::string& line : findings.broken) tell("FAILED " + line);
+  return findings.broken.empty() ? ExitCode::ok : ExitCode::gate_failed;
 }
 
 // What makes the same plan in another program.
@@ -269,7 +277,9 @@ ExitCode measure(const RunFlags& flags, const config::Config& config, const run:
     write_output(flags.output, result);
   write_exports(exports, result);
   show_table(flags, result);
-  return flags.baseline.binary.empty() ? report_gates(result) : report_baseline(flags, result);
+  const ExitCode gates = flags.baseline.binary.empty() ? report_gates(result) : report_baseline(flags, result);
+  const ExitCode limits = report_limits(config, result);
+  return gates == ExitCode::ok ? limits : gates;
 }
 
 void check_baseline(const RunFlags& flags) {

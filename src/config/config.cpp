@@ -271,6 +271,13 @@ std::optional<DetailsRequest> details_request(const Json& details) {
   return request;
 }
 
+std::vector<LimitRule> limit_rules(const Json& list, const JsonText& text) {
+  std::vector<LimitRule> rules;
+  for (std::size_t i = 0; i < list.size(); ++i)
+    rules.push_back(limit_rule(list[i].get<std::string>(), text.file, text.where(child_pointer("/limits/fail_if", i))));
+  return rules;
+}
+
 void read_settings(const Json& document, Config& config) {
   config.threads = document["threads"].get<int>();
   config.seed = document["seed"].get<std::uint64_t>();
@@ -297,19 +304,21 @@ Config read_config(const JsonText& text) {
   config.name = document["name"].get<std::string>();
   for (std::size_t i = 0; i < document["scenes"].size(); ++i)
     add_scenes(document["scenes"][i], child_pointer("/scenes", i), text, config.scenes);
+  for (SceneRequest& scene : config.scenes) scene.camera.jitter_px = jitter_of(document["jitter"]);
   config.viewports = viewports(document["viewports"], text);
   config.grids = grid_specs(document["grids"], text);
   config.assigners = methods(document["assigners"], "assigners", text, assigner_params);
   config.storages = methods(document["storages"], "storages", text, storage_params);
   config.precisions = precisions(document["precision"], text);
   read_settings(document, config);
+  config.limits.fail_if = limit_rules(document["limits"]["fail_if"], text);
   return config;
-  for (SceneRequest& scene : config.scenes) scene.camera.jitter_px = jitter_of(document["jitter"]);
 }
 
 Config read_changed(const JsonText& text, std::span<const FlagValue> flags) {
   Config config = read_config(text);
-  return flags.empty() ? config : read_config(changed_by_flags(config.resolved, text.file, flags));
+  const GridsFrom grids = text.value.contains("grids") ? GridsFrom::file : GridsFrom::defaults;
+  return flags.empty() ? config : read_config(changed_by_flags(config.resolved, grids, text.file, flags));
 }
 
 std::string param_text(const assign::ParamSpec& spec, const assign::ParamValue& value) {
