@@ -17,7 +17,7 @@ struct PathRequest {
   int count = 60;  // N equal steps from the first to the last key
   double rate_hz = 30.0;
   CameraFit fit = CameraFit::contain;
-  std::vector<Vec2d> jitter_px;  // a Shot's, frame by frame and then from the first again; empty: none
+  std::vector<Vec2d> jitter_px{};  // a Shot's, frame by frame and then from the first again; empty: none
 };
 
 // One moment of one camera.
