@@ -158,11 +158,12 @@ ExitCode report_limits(const config::Config& config, const Json& result) {
   return findings.broken.empty() ? ExitCode::ok : ExitCode::gate_failed;
 }
 
-// What makes the same plan in another program.
+// What makes the same plan in another program, which can be older and know no budgets.
 std::vector<std::string> plan_arguments(const RunFlags& flags) {
   std::vector<std::string> arguments;
   if (!flags.filter.empty()) arguments.push_back("--filter=" + flags.filter);
-  for (const config::FlagValue& setting : settings(flags)) arguments.push_back(setting.text());
+  for (const config::FlagValue& setting : settings(flags))
+    if (setting.name != "--fail-if") arguments.push_back(setting.text());
   arguments.emplace_back("--");
   arguments.insert(arguments.end(), flags.inputs.begin(), flags.inputs.end());
   return arguments;
