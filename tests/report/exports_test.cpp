@@ -217,9 +217,19 @@ TEST(Csv, names_that_begin_like_a_formula_are_text_and_numbers_stay_numbers) {
   EXPECT_NE(text.find("slow,\"'=HYPERLINK(\"\"a\"\",1)\",hall,walk,"), std::string::npos) << text;
 }
 
+TEST(Markdown, viewport_and_precision_are_columns_only_where_they_differ) {
+  Json two = result();
+  EXPECT_TRUE(
+      exported(two, export_format("markdown"), false).starts_with("| scene | camera | grid | assigner | storage |"));
+  two["cases"][0]["viewport"] = {640, 360};
+  const std::string text = exported(two, export_format("markdown"), false);
+  EXPECT_TRUE(text.starts_with("| scene | camera | viewport | grid | assigner | storage |")) << text;
+  EXPECT_NE(text.find("\n| hall | walk | 640x360 | frustum 64px | brute-force | packed |"), std::string::npos) << text;
+}
+
 TEST(Markdown, every_row_has_the_columns_of_the_heading) {
   Json named = result();
-  named["cases"][0]["name"] = "a|b\n<c>";
+  named["cases"][0]["scene"] = "a|b\n<c>";
   std::istringstream lines(exported(named, export_format("markdown"), true));
   std::string line;
   std::getline(lines, line);
