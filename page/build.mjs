@@ -40,13 +40,16 @@ function packageOf(input) {
   return found && found[1];
 }
 
+// Packages whose code is inside of d3's own files.
+const within = ["delaunator", "internmap", "robust-predicates"];
+
 // What the bundled packages' licences ask to be kept with copies.
 function notices(inputs) {
-  const names = [...new Set(inputs.map(packageOf).filter(Boolean))].sort();
+  const names = [...new Set([...inputs.map(packageOf).filter(Boolean), ...within])].sort();
   return names
     .map((name) => {
       const folder = join(root, "node_modules", name);
-      const file = readdirSync(folder).find((entry) => /^licen[cs]e/i.test(entry));
+      const file = readdirSync(folder).find((entry) => /^(un)?licen[cs]e/i.test(entry));
       if (!file) throw new Error(`${name} has no licence file`);
       return `${name}\n\n${readFileSync(join(folder, file), "utf8").trim()}`;
     })

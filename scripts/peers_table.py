@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Puts the peers' workloads into README.md and docs/performance.md: scripts/peers_table.py FOLDER.
+"""Puts the peers' workloads into docs/performance.md: scripts/peers_table.py FOLDER.
 
 FOLDER holds peers-*.json, results of configs/peers/. How many times faster than `brute-force` a method is comes from
 rounds that were measured side by side: the median of the rounds' ratios, and the 95 % interval of that median. It holds
@@ -105,8 +105,8 @@ def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     workloads = load(pathlib.Path(sys.argv[1]))
-    put(ROOT / "README.md", "peers-speed", table(workloads, speed))
     performance = ROOT / "docs" / "performance.md"
+    put(performance, "peers-speed", table(workloads, speed))
     put(performance, "peers-cost", table(workloads, cost))
     put(performance, "peers-error", table(workloads, error))
     put(performance, "peers-twins", twin_table(workloads))

@@ -1,13 +1,102 @@
 #!/usr/bin/env python3
-"""Puts a measured table between the README's two table marks: scripts/readme_table.py FILE."""
+"""Puts measured tables into README.md and docs/results.md: scripts/readme_table.py FOLDER.
+
+FOLDER holds quick.txt, the table of configs/quick.json; street.json and street.txt, result and table of
+`clusterbench run scenes/street.glb`; and street-size.txt, what `clusterbench size` says of one of its cases."""
+import json
 import pathlib
 import re
 import sys
 
-readme = pathlib.Path(__file__).resolve().parent.parent / "README.md"
-lines = pathlib.Path(sys.argv[1]).read_text().splitlines()
-table = "\n".join(line.rstrip() for line in lines if not re.match(r"^(\[\d+/\d+\]|Building|Installing)", line)).strip("\n")
-begin, end = "<!-- table begin: scripts/regenerate -->", "<!-- table end -->"
-text = readme.read_text()
-head, rest = text.split(begin)
-readme.write_text(head + begin + "\n\n```text\n" + table + "\n```\n\n" + end + rest.split(end)[1])
+from peers_table import put
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+PROGRESS = re.compile(r"^(\[\d+/\d+\]|Building|Installing)")
+GRID = "frustum 16x9 x 24 exponential"  # of the README's second table, which has these columns where the program does
+COLUMNS = ["", "assigner", "frame us", "frame", "assign us", "excess", "missed", "unlit", "dropped", "bytes", "entries"]
+
+
+def block(lines):
+    return "```text\n" + "\n".join(line.rstrip() for line in lines).strip("\n") + "\n```"
+
+
+def table_of(path):
+    return [line for line in path.read_text().splitlines() if not PROGRESS.match(line)]
+
+
+def frame_us(case):
+    """What a frame takes: the assignment, and making the structure from its lists."""
+    timing = case["timing"]
+    if "frame_ns" in timing:
+        return timing["frame_ns"]["median"] / 1e3
+    return (timing["assign_ns"]["median"] + timing.get("convert_ns", {}).get("median", 0)) / 1e3
+
+
+def best_of_grids(result):
+    """Of each grid the fastest method that fills lists, and what leaves a structure of its own on the first one."""
+    best = {}
+    for case in result["cases"]:
+        lists = case["storage"] != "own"
+        key = (case["grid"]["name"] if lists else "", "" if lists else case["assigner"]["label"])
+        if key not in best or (lists and frame_us(case) < frame_us(best[key])):
+            best[key] = case
+    return [case for key, case in best.items() if key[0]] + [case for key, case in best.items() if not key[0]]
+
+
+def grids(result):
+    rows = ["| grid | fastest method | µs per frame | lights looped over per light needed | needed and missing | KB to allocate |",
+            "|---|---|---:|---:|---:|---:|"]
+    for case in best_of_grids(result):
+        size = case["buffers"]["bytes"]["recommended"] / 1e3
+        shading = case["shading"]
+        missing = f"{100 * shading['missed'] / shading['needed']:.2f} %" if shading["missed"] else "0"
+        grid = case["grid"]["name"] if "occupancy" in case else "none"
+        rows.append(f"| {grid} | `{case['assigner']['label']}`{'' if case['storage'] != 'own' else ', no lists'} | "
+                    f"{frame_us(case):.0f} | {shading['overshade']:.2f} | {missing} | {size:.0f} |")
+    return "\n".join(rows)
+
+
+def columns_of(heading):
+    """Heading -> where its column begins and ends. All but the assigner's are aligned to the right."""
+    found = [(match[0], match.end()) for match in re.finditer(r"\S+(?: \S+)*", heading)]
+    begin, spans = len(heading) - len(heading.lstrip()), {"": (0, 4)}
+    for place, (name, end) in enumerate(found):
+        if place == 0:  # up to where the next column's cells can begin: at least two blanks before its heading
+            end = found[1][1] - len(found[1][0]) - 2
+        spans[name] = (begin, end)
+        begin = end
+    return spans
+
+
+def methods(lines):
+    start = next(at for at, line in enumerate(lines) if line.strip().startswith(GRID + ","))
+    rows = [lines[start + 1]]
+    for line in lines[start + 2:]:
+        if not re.match(r"^ {2}[* ] \S", line):
+            break
+        rows.append(line)
+    names = {row.split()[0 if row[2] == " " else 1] for row in rows[1:]}
+    rows = [row for row in rows if f"{row[4:].split()[0]}-fast" not in names]  # the fast forms speak for those
+    spans = columns_of(rows[0])
+    has_frame = "frame us" in spans or "frame" in spans
+    wanted = [name for name in COLUMNS if name in spans and not (name == "assign us" and has_frame)]
+    return block("".join(row[slice(*spans[name])] for name in wanted) for row in rows)
+
+
+def size(lines):
+    return "```cpp\n" + "\n".join(line for line in lines if line.startswith(("//   ", "inline constexpr"))) + "\n```"
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    folder = pathlib.Path(sys.argv[1])
+    readme = ROOT / "README.md"
+    put(readme, "grids", grids(json.loads((folder / "street.json").read_text())))
+    put(readme, "methods", methods(table_of(folder / "street.txt")))
+    put(readme, "size", size((folder / "street-size.txt").read_text().splitlines()))
+    put(ROOT / "docs" / "results.md", "quick", block(table_of(folder / "quick.txt")))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,8 +1,8 @@
 """Files that somebody or some disk has mangled: test_mangled_input.py CLUSTERBENCH SCENE [--tries N] [--seed S].
 
 Scenes, configurations, results, histories and what interrupted runs left, all of the program's own, are changed at
-random (the same for the same seed), and every command that reads them must end in time with an exit code that the
-README names: never by a signal, an internal error or a sanitizer's report. What failed is kept and named."""
+random (the same for the same seed), and every command that reads them must end in time with an exit code that
+docs/commands.md names: never by a signal, an internal error or a sanitizer's report. What failed is kept and named."""
 
 import argparse
 import copy
@@ -17,7 +17,7 @@ import sys
 import tempfile
 import time
 
-ANSWERS = {0, 1, 2, 3, 4}  # the README's exit codes without internal errors and interrupts
+ANSWERS = {0, 1, 2, 3, 4}  # the exit codes of docs/commands.md without internal errors and interrupts
 TIMEOUT_S = 120
 STRANGE = [None, True, False, 0, -1, 0.5, 255, 65536, 2**31, 2**32, 2**53, -(2**63), 1e300, -1e300, 1e-320, "", "x" * 300,
            "\0", "é", [], {}, [1, 2, 3], [[[]]], {"a": {}}]
