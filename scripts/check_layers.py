@@ -16,6 +16,7 @@ HOMES = {
     "oneapi/tbb": ["core"],
     "tbb/": ["core"],
     "openssl/": ["core"],
+    "re2/": ["core"],
     "boost/": ["geom", "measure"],
     "boost/multiprecision": ["geom"],
     "boost/math": ["measure"],

@@ -22,6 +22,7 @@ TABLES = {
     "precision": [("", "/definitions/precision")],
     "measuring": [(key + ".", f"/properties/{key}") for key in ("accuracy", "shading")]
                  + [(key + ".", f"/properties/{key}/anyOf/1") for key in ("lookup", "stability", "details")]
+                 + [("jitter.", "/properties/jitter/anyOf/2")]
                  + [(key + ".", f"/properties/{key}") for key in ("timing", "limits", "allocation")],
 }
 SAME_AS_FRUSTUM = "/definitions/distance"

@@ -1,11 +1,66 @@
 #include "cli/command.h"
 
 #include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <optional>
+#include <type_traits>
 
 #include "cli/commands.h"
 #include "core/text.h"
 
 namespace clusterbench::cli {
+namespace {
+
+template <class Number>
+constexpr Number k_largest = std::numeric_limits<Number>::max();
+
+// The whole word as a number: decimal, finite, and no larger than the type holds. The parser's own reading lets "nan"
+// pass every range and takes 2^64 for 2^64 - 1.
+template <class Number>
+std::optional<Number> number_of(const std::string& word) {
+  Number value{};
+  const auto [end, failed] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (failed != std::errc() || end != word.data() + word.size()) return {};
+  if constexpr (std::is_floating_point_v<Number>)
+    if (!std::isfinite(value)) return {};
+  return value;
+}
+
+template <class Number>
+std::string takes(const std::string& allowed, const std::string& word) {
+  return std::string("takes ") + (std::is_floating_point_v<Number> ? "a number" : "a whole number") + " " + allowed +
+         ", not '" + word + "'";
+}
+
+constexpr const char* k_of_its_type = "of its type";
+
+// What a type can hold, where no narrower range is given.
+template <class Number>
+CLI::Option* with_number(CLI::Option* option) {
+  const auto check = [](const std::string& word) -> std::string {
+    if (number_of<Number>(word)) return "";
+    if (std::is_floating_point_v<Number>) return "takes a number, not '" + word + "'";
+    return takes<Number>(
+        "from " + std::to_string(std::numeric_limits<Number>::min()) + " to " + std::to_string(k_largest<Number>),
+        word);
+  };
+  return option->check(check, "", k_of_its_type);
+}
+
+template <class Number>
+void limit(CLI::Option& option, Number least, Number most, const std::string& allowed) {
+  const auto check = [=](const std::string& word) -> std::string {
+    const std::optional<Number> value = number_of<Number>(word);
+    return value && *value >= least && *value <= most ? "" : takes<Number>(allowed, word);
+  };
+  option.get_validator(k_of_its_type)->active(false);
+  option.check(check, allowed);
+}
+
+}  // namespace
 
 Option& Option::required() {
   option_->required();
@@ -23,22 +78,29 @@ Option& Option::shows_standard() {
 }
 
 Option& Option::range(int least, int most) {
-  option_->check(CLI::Range(least, most));
+  limit(*option_, least, most, "from " + std::to_string(least) + " to " + std::to_string(most));
   return *this;
 }
 
 Option& Option::range(double least, double most) {
-  option_->check(CLI::Range(least, most));
+  char allowed[64];
+  std::snprintf(allowed, sizeof allowed, "from %g to %g", least, most);
+  limit(*option_, least, most, allowed);
+  return *this;
+}
+
+Option& Option::at_least(std::uint64_t least) {
+  limit(*option_, least, k_largest<std::uint64_t>, "of at least " + std::to_string(least));
   return *this;
 }
 
 Option& Option::positive() {
-  option_->check(CLI::PositiveNumber);
+  limit(*option_, std::numeric_limits<double>::min(), k_largest<double>, "above 0");
   return *this;
 }
 
 Option& Option::non_negative() {
-  option_->check(CLI::NonNegativeNumber);
+  limit(*option_, 0.0, k_largest<double>, "of at least 0");
   return *this;
 }
 
@@ -70,15 +132,15 @@ Option Command::add_option(const std::string& names, std::vector<std::string>& v
 }
 
 Option Command::add_option(const std::string& names, int& value, const std::string& summary) {
-  return Option(app_->add_option(names, value, summary));
+  return Option(with_number<int>(app_->add_option(names, value, summary)));
 }
 
 Option Command::add_option(const std::string& names, std::uint64_t& value, const std::string& summary) {
-  return Option(app_->add_option(names, value, summary));
+  return Option(with_number<std::uint64_t>(app_->add_option(names, value, summary)));
 }
 
 Option Command::add_option(const std::string& names, double& value, const std::string& summary) {
-  return Option(app_->add_option(names, value, summary));
+  return Option(with_number<double>(app_->add_option(names, value, summary)));
 }
 
 Option Command::add_flag(const std::string& names, bool& is_set, const std::string& summary) {

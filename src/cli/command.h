@@ -23,6 +23,7 @@ class Option {
   Option& shows_standard();  // the value before parsing, in the help
   Option& range(int least, int most);
   Option& range(double least, double most);
+  Option& at_least(std::uint64_t least);
   Option& positive();
   Option& non_negative();
   Option& one_of(std::vector<std::string> words);

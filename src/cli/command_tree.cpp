@@ -61,12 +61,12 @@ struct WordsRow {
   Values (*values)();
 };
 constexpr WordsRow k_words[] = {
-    {"run", "--count", count_ways},        {"run", "--export", format_files},  {"run", "--filter", anything},
-    {"run", "--grid", grid_kinds},         {"run", "--assigner", assigners},   {"run", "--tiles", anything},
-    {"run", "--slices", anything},         {"run", "--viewport", anything},    {"run", "--rounds", anything},
-    {"run", "--threads", anything},        {"run", "--set", anything},         {"export", "--format", formats},
-    {"stress", "--cases", hard_cases},     {"stress", "--methods", assigners}, {"scene generate", "NAME", generators},
-    {"history add", "--commit", anything},
+    {"run", "--count", count_ways},         {"run", "--export", format_files},     {"run", "--filter", anything},
+    {"run", "--grid", grid_kinds},          {"run", "--assigner", assigners},      {"run", "--tiles", anything},
+    {"run", "--slices", anything},          {"run", "--viewport", anything},       {"run", "--rounds", anything},
+    {"run", "--threads", anything},         {"run", "--fail-if", anything},        {"run", "--set", anything},
+    {"export", "--format", formats},        {"stress", "--cases", hard_cases},     {"stress", "--methods", assigners},
+    {"scene generate", "NAME", generators}, {"history add", "--commit", anything},
 };
 
 const WordsRow* words_row(const std::string& command, const std::string& option) {

@@ -75,7 +75,7 @@ constexpr const char* k_last_sections = R"(.SH EXIT STATUS
 Done.
 .TP
 .B 1
-A gate failed: a conservative assigner lost a light, or a regression was found.
+A gate failed: a conservative assigner lost a light, a budget was exceeded, or a regression was found.
 .TP
 .B 2
 A bad command line, configuration or input file.

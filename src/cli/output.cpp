@@ -16,8 +16,10 @@ void tell(const std::string& message) {
 }
 
 bool is_stream(const std::string& output) {
+  std::error_code none;
+  const fs::file_status status = fs::status(output, none);
   return output.empty() || output == "-" ||
-         (fs::exists(output) && !fs::is_regular_file(output) && !fs::is_directory(output));
+         (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status));
 }
 
 void probe_output(const std::string& output) {

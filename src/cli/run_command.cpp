@@ -20,6 +20,7 @@
 #include "report/compare.h"
 #include "report/journal.h"
 #include "report/json.h"
+#include "report/limits.h"
 #include "report/table.h"
 #include "run/runner.h"
 #include "run/sweep.h"
@@ -99,13 +100,21 @@ ExitCode print_plan(const run::Plan& plan) {
   return ExitCode::ok;
 }
 
+// The configuration without what no result depends on.
+Json what_is_measured(const config::Config& config) {
+  Json out = config.resolved;
+  out.erase("threads");
+  out["limits"].erase("fail_if");
+  return out;
+}
+
 // What an interrupted run must have had in common with the one that continues it.
 Json journal_header(const config::Config& config, const run::Plan& plan, const RunFlags& flags) {
   const run::ToolFacts tool = run::tool_facts();
   Json scenes = Json::array();
   for (const run::SceneData& data : plan.scenes) scenes.push_back(data.scene.sha256);
   Json header{{"version", tool.version}, {"git_sha", tool.git_sha}, {"flags", tool.flags},
-              {"scenes", scenes},        {"filter", flags.filter},  {"config", config.resolved}};
+              {"scenes", scenes},        {"filter", flags.filter},  {"config", what_is_measured(config)}};
   if (!flags.count.empty()) header["count"] = flags.count;
   return header;
 }
@@ -121,6 +130,8 @@ std::unique_ptr<report::Journal> open_journal(const RunFlags& flags, const confi
   const std::uint64_t per_case = k_bytes_per_case + (config.details ? config.details->max_bytes : 0);
   auto journal = std::make_unique<report::Journal>(flags.output, journal_header(config, plan, flags), flags.resume,
                                                    per_case * case_count(plan));
+  if (flags.resume && journal->earlier_cases().empty())
+    tell("--resume begins anew: no finished case of an interrupted run is in " + journal->partial_path().string());
   if (!journal->set_aside().empty())
     tell(journal->partial_path().string() + ", left by a run that did not end, is now " +
          journal->set_aside().string() + " (--resume goes on with such a file)");
@@ -140,11 +151,19 @@ ExitCode report_gates(const Json& result) {
   return failures.empty() ? ExitCode::ok : ExitCode::gate_failed;
 }
 
-// What makes the same plan in another program.
+ExitCode report_limits(const config::Config& config, const Json& result) {
+  const report::LimitFindings findings = report::limit_findings(result, config.limits.fail_if);
+  for (const std::string& line : findings.near) tell("warning: " + line);
+  for (const std::string& line : findings.broken) tell("FAILED " + line);
+  return findings.broken.empty() ? ExitCode::ok : ExitCode::gate_failed;
+}
+
+// What makes the same plan in another program, which can be older and know no budgets.
 std::vector<std::string> plan_arguments(const RunFlags& flags) {
   std::vector<std::string> arguments;
   if (!flags.filter.empty()) arguments.push_back("--filter=" + flags.filter);
-  for (const config::FlagValue& setting : settings(flags)) arguments.push_back(setting.text());
+  for (const config::FlagValue& setting : settings(flags))
+    if (setting.name != "--fail-if") arguments.push_back(setting.text());
   arguments.emplace_back("--");
   arguments.insert(arguments.end(), flags.inputs.begin(), flags.inputs.end());
   return arguments;
@@ -259,7 +278,9 @@ ExitCode measure(const RunFlags& flags, const config::Config& config, const run:
     write_output(flags.output, result);
   write_exports(exports, result);
   show_table(flags, result);
-  return flags.baseline.binary.empty() ? report_gates(result) : report_baseline(flags, result);
+  const ExitCode gates = flags.baseline.binary.empty() ? report_gates(result) : report_baseline(flags, result);
+  const ExitCode limits = report_limits(config, result);
+  return gates == ExitCode::ok ? limits : gates;
 }
 
 void check_baseline(const RunFlags& flags) {

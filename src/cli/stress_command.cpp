@@ -23,14 +23,6 @@ struct StressFlags {
   bool quiet = false;
 };
 
-std::regex pattern_of(const std::string& text, const char* option) {
-  try {
-    return std::regex(text);
-  } catch (const std::regex_error& error) {
-    throw Error("", option, "'" + text + "' is not a regular expression: " + error.what());
-  }
-}
-
 // A name for a file: "H32-naive-bounds-flaw=log-slice".
 std::string file_name(const std::string& hard_case, const std::string& method) {
   std::string name = hard_case + "-";
@@ -98,8 +90,8 @@ class AtWork {
 
 ExitCode stress(const StressFlags& flags) {
   stress::StressRequest request = flags.request;
-  request.cases = pattern_of(cases_of(flags), "--cases");
-  request.methods = pattern_of(flags.methods, "--methods");
+  request.cases = Pattern(cases_of(flags), "--cases");
+  request.methods = Pattern(flags.methods, "--methods");
   probe_output(flags.output);
   const std::atomic<bool>& stop = stop_on_signals();
   ProgressLine progress(terminal(STDERR_FILENO), flags.quiet);
@@ -136,20 +128,19 @@ void add_stress(Command& program, Action& action) {
   command.add_option("--cases", flags->cases, "Only hard cases that match this regular expression (H1 .. H35)");
   command.add_option("--methods", flags->methods, "Only methods that contain a match of this regular expression");
   command.add_option("--tries", flags->request.tries, "Tries of the search H31 per method; 0 = no search")
-      .non_negative()
       .shows_standard();
   command
       .add_option("--random", flags->request.random,
                   "Check so many random settings in place of the hard cases (with --cases: beside them); setting i has "
                   "the seed "
                   "--seed + i")
-      .non_negative();
+      .at_least(1);
   command
       .add_option("--seconds", flags->request.seconds,
                   "End the search of a method, or that of random settings, after so many; 0 = by their number")
       .non_negative()
       .shows_standard();
-  command.add_option("--seed", flags->request.seed, "Seed of everything random").non_negative().shows_standard();
+  command.add_option("--seed", flags->request.seed, "Seed of everything random").shows_standard();
   command.add_option("--threads", flags->request.threads, "Threads; results do not depend on them").range(1, 1024);
   command.add_option("--failures", flags->failures, "Folder for every loss or fault as a scene and a configuration");
   command.add_flag("-q,--quiet", flags->quiet, "No progress and no table");

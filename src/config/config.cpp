@@ -51,6 +51,16 @@ scene::PathRequest path_request(const Json& scene) {
   return request;
 }
 
+std::vector<Vec2d> jitter_of(const Json& jitter) {
+  constexpr int k_usual = 8;
+  std::vector<Vec2d> offsets;
+  if (jitter.is_string()) return scene::halton_jitter(k_usual);
+  if (jitter.is_object()) return scene::halton_jitter(jitter["halton"].get<int>());
+  if (jitter.is_array())
+    for (const Json& offset : jitter) offsets.emplace_back(offset[0].get<double>(), offset[1].get<double>());
+  return offsets;
+}
+
 void add_scenes(const Json& scene, const std::string& pointer, const JsonText& text, std::vector<SceneRequest>& out) {
   const bool single = scene.contains("path"), has_rig = scene.contains("rig");
   if (single + scene.contains("paths") + has_rig != 1)
@@ -261,6 +271,13 @@ std::optional<DetailsRequest> details_request(const Json& details) {
   return request;
 }
 
+std::vector<LimitRule> limit_rules(const Json& list, const JsonText& text) {
+  std::vector<LimitRule> rules;
+  for (std::size_t i = 0; i < list.size(); ++i)
+    rules.push_back(limit_rule(list[i].get<std::string>(), text.file, text.where(child_pointer("/limits/fail_if", i))));
+  return rules;
+}
+
 void read_settings(const Json& document, Config& config) {
   config.threads = document["threads"].get<int>();
   config.seed = document["seed"].get<std::uint64_t>();
@@ -287,18 +304,21 @@ Config read_config(const JsonText& text) {
   config.name = document["name"].get<std::string>();
   for (std::size_t i = 0; i < document["scenes"].size(); ++i)
     add_scenes(document["scenes"][i], child_pointer("/scenes", i), text, config.scenes);
+  for (SceneRequest& scene : config.scenes) scene.camera.jitter_px = jitter_of(document["jitter"]);
   config.viewports = viewports(document["viewports"], text);
   config.grids = grid_specs(document["grids"], text);
   config.assigners = methods(document["assigners"], "assigners", text, assigner_params);
   config.storages = methods(document["storages"], "storages", text, storage_params);
   config.precisions = precisions(document["precision"], text);
   read_settings(document, config);
+  config.limits.fail_if = limit_rules(document["limits"]["fail_if"], text);
   return config;
 }
 
 Config read_changed(const JsonText& text, std::span<const FlagValue> flags) {
   Config config = read_config(text);
-  return flags.empty() ? config : read_config(changed_by_flags(config.resolved, text.file, flags));
+  const GridsFrom grids = text.value.contains("grids") ? GridsFrom::file : GridsFrom::defaults;
+  return flags.empty() ? config : read_config(changed_by_flags(config.resolved, grids, text.file, flags));
 }
 
 std::string param_text(const assign::ParamSpec& spec, const assign::ParamValue& value) {

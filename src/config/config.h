@@ -11,6 +11,7 @@
 
 #include "assign/contract/assigner.h"
 #include "config/config_flags.h"
+#include "config/limit_rules.h"
 #include "core/memory.h"
 #include "grid/grid.h"
 #include "measure/buffers.h"
@@ -84,6 +85,7 @@ struct DetailsRequest {
 struct LimitsRequest {
   std::optional<std::uint64_t> all_pairs;  // lights x cells of methods that test every light against every cell
   std::uint64_t memory_mib = k_default_memory_limit >> 20;  // of one list, buffer or table: core/memory.h
+  std::vector<LimitRule> fail_if;                           // what fails the run
 };
 
 struct Config {

@@ -14,7 +14,7 @@ namespace {
 using Json = nlohmann::json;
 
 [[noreturn]] void refuse(const FlagValue& flag, const std::string& what) {
-  throw Error("", flag.text(), what);
+  throw Error("", flag.shown(), what);
 }
 
 // "a,[b,c],{d,e}" at its commas outside of brackets and quotes.
@@ -52,7 +52,7 @@ class FlaggedConfig {
 
   Json& root() { return text_.value; }
   Json& operator[](const char* key) { return text_.value[key]; }
-  void mark(const std::string& pointer, const FlagValue& flag) { text_.flags[pointer] = flag.text(); }
+  void mark(const std::string& pointer, const FlagValue& flag) { text_.flags[pointer] = flag.shown(); }
 
   // Sets what `steps` lead to from `at`, which stands at `pointer`: a key, an entry by its number, or "*" for each
   // entry that has the next key. Says how many there were.
@@ -72,6 +72,12 @@ class FlaggedConfig {
   }
 
  private:
+  static bool has_step(const Json& entry, const std::string& step) {
+    if (!entry.is_array()) return entry.contains(step);
+    const Json number = Json::parse(step, nullptr, false);
+    return step == "*" || (number.is_number_unsigned() && number < entry.size());
+  }
+
   int set_in_list(Json& list, const std::string& pointer, std::span<const std::string> steps, const FlagValue& flag,
                   const Json& value) {
     const Json number = Json::parse(steps.front(), nullptr, false);
@@ -81,7 +87,7 @@ class FlaggedConfig {
                        " entries: takes a number from 0, or * for all, not '" + steps.front() + "'");
     int count = 0;
     for (std::size_t i = 0; i < list.size(); ++i) {
-      const bool is_meant = is_entry ? number == i : steps.size() == 1 || list[i].contains(steps[1]);
+      const bool is_meant = is_entry ? number == i : steps.size() == 1 || has_step(list[i], steps[1]);
       if (is_meant) count += set(list[i], child_pointer(pointer, i), steps.subspan(1), flag, value);
     }
     return count;
@@ -170,7 +176,7 @@ void choose_viewports(FlaggedConfig& document, const FlagValue& flag) {
 void choose_assigners(FlaggedConfig& document, const FlagValue& flag) {
   std::vector<std::string> names;
   for (const std::string& part : split(flag.value))
-    for (const std::string& name : is_glob(part) ? matching_assigners(part, "", flag.text()) : std::vector{part})
+    for (const std::string& name : is_glob(part) ? matching_assigners(part, "", flag.shown()) : std::vector{part})
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   Json chosen = Json::array();
   for (const std::string& name : names) {
@@ -196,22 +202,51 @@ void set_threads(FlaggedConfig& document, const FlagValue& flag) {
   set_key(document, {"threads"}, flag, value_of(flag.value));
 }
 
+// A step of a JSON pointer (RFC 6901): ~1 is a slash, ~0 a tilde.
+std::string unescaped(const std::string& step, const FlagValue& flag) {
+  std::string out;
+  for (std::size_t i = 0; i < step.size(); ++i) {
+    const char next = i + 1 < step.size() ? step[i + 1] : ' ';
+    if (step[i] != '~') {
+      out += step[i];
+      continue;
+    }
+    if (next != '0' && next != '1') refuse(flag, "in a JSON pointer ~ stands before 0 (~) or 1 (/) only");
+    out += next == '0' ? '~' : '/';
+    ++i;
+  }
+  return out;
+}
+
+void add_budget(FlaggedConfig& document, const FlagValue& flag) {
+  Json& budgets = document["limits"]["fail_if"];
+  document.mark(child_pointer("/limits/fail_if", budgets.size()), flag);
+  budgets.push_back(flag.value);
+}
+
 // "a.b.0.c", or as a JSON pointer, "/a/b/0/c".
-std::vector<std::string> steps_of(const std::string& key) {
+std::vector<std::string> steps_of(const std::string& key, const FlagValue& flag) {
+  constexpr std::size_t k_most_steps = 16;  // no key is as deep
   const bool is_pointer = key.starts_with('/');
+  const auto depth = static_cast<std::size_t>(std::count(key.begin(), key.end(), is_pointer ? '/' : '.'));
+  if (depth > k_most_steps)
+    throw Error("", flag.name,
+                "a key with " + std::to_string(depth) + " steps; at most " + std::to_string(k_most_steps));
   std::vector<std::string> steps(1);
   for (const char c : key.substr(is_pointer ? 1 : 0))
     if (c == (is_pointer ? '/' : '.'))
       steps.emplace_back();
     else
       steps.back() += c;
+  if (is_pointer)
+    for (std::string& step : steps) step = unescaped(step, flag);
   return steps;
 }
 
 void set_any(FlaggedConfig& document, const FlagValue& flag) {
   const std::size_t equals = flag.value.find('=');
   if (equals == 0 || equals == std::string::npos) refuse(flag, "takes KEY=VALUE, as in --set timing.frames=4");
-  std::vector<std::string> steps = steps_of(flag.value.substr(0, equals));
+  std::vector<std::string> steps = steps_of(flag.value.substr(0, equals), flag);
   Json value = value_of(flag.value.substr(equals + 1));
   if (steps == std::vector<std::string>{"viewport"}) {
     steps = {"viewports"};
@@ -236,6 +271,8 @@ constexpr FlagRow k_rows[] = {
      choose_assigners},
     {{"--rounds", "N: timed rounds over all cases of a group"}, set_rounds},
     {{"--threads", "N: threads for the truth; results do not depend on it"}, set_threads},
+    {{"--fail-if", "BUDGET, repeatable: fail where a case exceeds it, as in 'frame_us.max > 200' or 'unlit > 0'", true},
+     add_budget},
     {{"--set", "KEY=VALUE[,VALUE], repeatable: any key of the configuration, as in 'grids.*.slices.far=200,500'", true},
      set_any},
 };
@@ -258,6 +295,16 @@ void drop_unused_slice_keys(JsonText& text) {
   }
 }
 
+// The default has several grids of a kind, which differ in their tiles and slices: who names tiles or slices wants one
+// of each kind with these.
+void keep_one_of_each_kind(Json& grids) {
+  Json kept = Json::array();
+  for (const Json& grid : grids)
+    if (std::none_of(kept.begin(), kept.end(), [&](const Json& one) { return one["kind"] == grid["kind"]; }))
+      kept.push_back(grid);
+  grids = kept;
+}
+
 // Two grids that differed in what a flag has set.
 void drop_repeated(Json& list) {
   Json once = Json::array();
@@ -277,11 +324,21 @@ std::span<const ConfigFlag> config_flags() {
   return flags;
 }
 
-JsonText changed_by_flags(const Json& document, const std::string& file, std::span<const FlagValue> values) {
+std::string FlagValue::shown() const {
+  constexpr std::size_t k_longest = 100;
+  const std::string whole = text();
+  return whole.size() > k_longest ? whole.substr(0, k_longest) + "..." : whole;
+}
+
+JsonText changed_by_flags(const Json& document, GridsFrom grids, const std::string& file,
+                          std::span<const FlagValue> values) {
   JsonText text;
   text.file = file;
   text.value = document;
   FlaggedConfig changed(text);
+  const auto shapes_grids = [](const FlagValue& flag) { return flag.name == "--tiles" || flag.name == "--slices"; };
+  if (grids == GridsFrom::defaults && std::any_of(values.begin(), values.end(), shapes_grids))
+    keep_one_of_each_kind(text.value["grids"]);
   for (const FlagRow& row : k_rows)
     for (const FlagValue& flag : values)
       if (flag.name == row.flag.name) row.apply(changed, flag);

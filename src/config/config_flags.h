@@ -1,6 +1,7 @@
 #pragma once
 // What the command line changes of a configuration: a flag for each thing that people change, and --set for every key.
 
+#include <cstdint>
 #include <span>
 #include <string>
 
@@ -19,11 +20,15 @@ struct FlagValue {
   std::string name, value;
 
   std::string text() const { return name + "=" + value; }
+  std::string shown() const;  // the same, cut where it is too long for a message
 };
+
+enum class GridsFrom : std::uint8_t { file, defaults };
 
 // `document` is a configuration with all its defaults. Applied in the order of config_flags(), whatever that of
 // `values`. The result is to be read by the schema again: its `flags` say which flag has set what. Throws Error that
 // names the flag.
-JsonText changed_by_flags(const nlohmann::json& document, const std::string& file, std::span<const FlagValue> values);
+JsonText changed_by_flags(const nlohmann::json& document, GridsFrom grids, const std::string& file,
+                          std::span<const FlagValue> values);
 
 }  // namespace clusterbench::config

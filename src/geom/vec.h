@@ -12,6 +12,7 @@ namespace clusterbench {
 
 using Vec3f = glm::vec3;
 using Vec3d = glm::dvec3;
+using Vec2d = glm::dvec2;
 using Vec4d = glm::dvec4;
 using Vec2i = glm::ivec2;
 using Vec3i = glm::ivec3;

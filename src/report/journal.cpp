@@ -22,6 +22,18 @@ fs::path free_name(const fs::path& path) {
     if (fs::path name = path.string() + "." + std::to_string(number); !fs::exists(name)) return name;
 }
 
+// Where links lead; the file itself need not be there.
+fs::path target_of(fs::path file) {
+  constexpr int k_most_links = 40;  // as the system follows
+  std::error_code failed;
+  for (int count = 0; fs::is_symlink(file, failed); ++count) {
+    if (count == k_most_links) throw Error(file.string(), "", "is a circle of links");
+    const fs::path next = fs::read_symlink(file);
+    file = next.is_absolute() ? next : file.parent_path() / next;
+  }
+  return file;
+}
+
 fs::path partial_of(const fs::path& file) {
   if (fs::is_directory(file)) throw Error(file.string(), "", "is a directory; name a file for the result");
   return file.string() + ".partial";
@@ -30,7 +42,7 @@ fs::path partial_of(const fs::path& file) {
 }  // namespace
 
 Journal::Journal(const fs::path& file, const Json& header, bool resume, std::uint64_t expected_bytes)
-    : file_(file), partial_(partial_of(file)) {
+    : file_(target_of(file)), partial_(partial_of(file_)) {
   if (resume)
     read_earlier(header);
   else

@@ -1,6 +1,7 @@
 #pragma once
 // Results on disk while they come in: FILE.partial has a header line and a line per finished case, each
-// written at once, so that a crash loses at most the case at hand. finish() replaces FILE in one step.
+// written at once, so that a crash loses at most the case at hand. finish() replaces FILE in one step. Where FILE is a
+// link, all this is at its target, and the link stays.
 
 #include <filesystem>
 #include <string>

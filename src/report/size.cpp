@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <regex>
 #include <set>
 #include <tuple>
 
 #include "core/error.h"
+#include "core/pattern.h"
 
 namespace clusterbench::report {
 namespace {
@@ -65,7 +65,7 @@ std::string comment(const Json& result, const Json& one) {
   return out;
 }
 
-// A case's name as a C++ identifier; a number is added where two become the same.
+// A case's name as an identifier of C++ and of shaders' languages; a number is added where two become the same.
 std::string identifier(const std::string& name, std::set<std::string>& taken) {
   std::string id;
   for (const char c : name) {
@@ -76,7 +76,8 @@ std::string identifier(const std::string& name, std::set<std::string>& taken) {
       id += '_';
   }
   while (!id.empty() && id.back() == '_') id.pop_back();
-  if (id.empty() || std::isdigit(static_cast<unsigned char>(id.front())) != 0) id = "case_" + id;
+  const bool is_reserved = id.starts_with("gl_") || id.empty();  // of GLSL
+  if (is_reserved || std::isdigit(static_cast<unsigned char>(id.front())) != 0) id = "case_" + id;
   std::string unique = id;
   for (int number = 2; !taken.insert(unique).second; ++number) unique = id + "_" + std::to_string(number);
   return unique;
@@ -119,13 +120,9 @@ std::vector<Json> best_of_groups(const std::vector<Json>& cases) {
 
 std::vector<Json> matching_cases(const Json& cases, const std::string& filter) {
   std::vector<Json> out;
-  try {
-    const std::regex regex(filter, std::regex::ECMAScript);
-    for (const Json& one : cases)
-      if (std::regex_search(one["name"].get<std::string>(), regex)) out.push_back(one);
-  } catch (const std::regex_error& error) {
-    throw Error("", "--filter", "'" + filter + "' is no regular expression (ECMAScript): " + error.what());
-  }
+  const Pattern pattern(filter, "--filter");
+  for (const Json& one : cases)
+    if (pattern.is_in(one["name"].get_ref<const std::string&>())) out.push_back(one);
   if (out.empty() && !cases.empty())
     throw Error("", "--filter",
                 "'" + filter + "' matches none of " + std::to_string(cases.size()) + " cases; one of them is '" +
@@ -133,11 +130,45 @@ std::vector<Json> matching_cases(const Json& cases, const std::string& filter) {
   return out;
 }
 
-std::string constants(const Json& result, const Json& one, const std::string& name, std::set<std::string>& taken) {
-  const auto capacity = one["buffers"]["index_entries"]["recommended"].get<std::uint64_t>();
-  return comment(result, one) + "inline constexpr LightListBudget " + identifier(name, taken) + "{" +
-         std::to_string(capacity) + "u, " + std::to_string(warning_level(result, capacity)) + "u, " +
-         one["buffers"]["bytes"]["recommended"].dump() + "u};\n\n";
+// What a case is to be given, under a name that programs can have.
+struct Budget {
+  const Json* one = nullptr;
+  std::string name;
+  std::uint64_t capacity_entries = 0, warn_entries = 0, bytes = 0;
+};
+
+std::string cpp_constants(const Json& result, const Budget& budget) {
+  return comment(result, *budget.one) + "inline constexpr LightListBudget " + budget.name + "{" +
+         std::to_string(budget.capacity_entries) + "u, " + std::to_string(budget.warn_entries) + "u, " +
+         std::to_string(budget.bytes) + "u};\n\n";
+}
+
+// `type`: what a constant is declared with. Bytes that 32 bits do not hold are in the comment alone.
+std::string shader_constants(const Json& result, const Budget& budget, const std::string& type) {
+  const auto line = [&](const char* what, std::uint64_t value) {
+    if (value > std::numeric_limits<std::uint32_t>::max()) return std::string();
+    return type + " " + budget.name + "_" + what + " = " + std::to_string(value) + "u;\n";
+  };
+  return comment(result, *budget.one) + line("capacity_entries", budget.capacity_entries) +
+         line("warn_entries", budget.warn_entries) + line("bytes", budget.bytes) + "\n";
+}
+
+Json budget_json(const Budget& budget) {
+  const Json& one = *budget.one;
+  const Json &buffers = one["buffers"], &entries = buffers["index_entries"];
+  Json out{{"name", budget.name},
+           {"id", one["id"]},
+           {"case", one["name"]},
+           {"capacity_entries", budget.capacity_entries},
+           {"warn_entries", budget.warn_entries},
+           {"bytes", budget.bytes},
+           {"index_bits", buffers["index_bits"]},
+           {"high_water_entries", entries["high_water"]},
+           {"theoretical_max_entries", entries["theoretical_max"]},
+           {"worst_frame", buffers["worst_frame"]}};
+  if (buffers.contains("worst_cell")) out["worst_cell"] = buffers["worst_cell"];
+  out["dropped_pairs"] = buffers["overflow"]["dropped_pairs"];
+  return out;
 }
 
 constexpr const char* k_header_start = R"(#pragma once
@@ -173,19 +204,55 @@ inline void check(const LightListBudget& budget, std::uint64_t needed_entries, s
 }  // namespace light_lists
 )";
 
+// What is left out, as a comment line.
+std::string left_out_text(std::size_t shown, std::size_t all) {
+  if (shown == all) return "";
+  return "// The best case of each grid: no light lost, fastest, smallest. --all has all " + std::to_string(all) +
+         ".\n\n";
+}
+
+std::string cpp_report(const Json& result, const std::vector<Budget>& budgets, std::size_t all) {
+  std::string text = k_header_start + left_out_text(budgets.size(), all);
+  for (const Budget& budget : budgets) text += cpp_constants(result, budget);
+  return text + k_header_end;
+}
+
+std::string shader_report(const Json& result, const std::vector<Budget>& budgets, std::size_t all, const char* type) {
+  std::string text =
+      "// Light-list allocation, measured by clusterbench. Measure again when levels, lights or the clustering "
+      "change.\n\n" +
+      left_out_text(budgets.size(), all);
+  for (const Budget& budget : budgets) text += shader_constants(result, budget, type);
+  text.pop_back();
+  return text;
+}
+
+std::string json_report(const Json& result, const std::vector<Budget>& budgets, std::size_t all) {
+  Json out{{"margin", margin(result)}, {"warn_at", warn_at(result)}, {"cases", all}, {"budgets", Json::array()}};
+  for (const Budget& budget : budgets) out["budgets"].push_back(budget_json(budget));
+  return out.dump(1) + "\n";
+}
+
 }  // namespace
+
+std::vector<std::string> size_formats() {
+  return {"cpp", "hlsl", "glsl", "json"};
+}
 
 std::string size_report(const Json& result, const SizeRequest& request) {
   const std::vector<Json> cases = matching_cases(result["cases"], request.filter);
   const std::vector<Json> shown = request.all ? cases : best_of_groups(cases);
-  std::string header = k_header_start;
-  if (shown.size() < cases.size())
-    header += "// The best case of each grid: no light lost, fastest, smallest. --all has all " +
-              std::to_string(cases.size()) + ".\n\n";
   std::set<std::string> taken;
-  for (const Json& one : shown)
-    header += constants(result, one, request.all ? one["name"].get<std::string>() : group_of(one), taken);
-  return header + k_header_end;
+  std::vector<Budget> budgets;
+  for (const Json& one : shown) {
+    const auto capacity = one["buffers"]["index_entries"]["recommended"].get<std::uint64_t>();
+    budgets.push_back({&one, identifier(request.all ? one["name"].get<std::string>() : group_of(one), taken), capacity,
+                       warning_level(result, capacity), one["buffers"]["bytes"]["recommended"].get<std::uint64_t>()});
+  }
+  if (request.format == "hlsl") return shader_report(result, budgets, cases.size(), "static const uint");
+  if (request.format == "glsl") return shader_report(result, budgets, cases.size(), "const uint");
+  if (request.format == "json") return json_report(result, budgets, cases.size());
+  return cpp_report(result, budgets, cases.size());
 }
 
 }  // namespace clusterbench::report

@@ -4,20 +4,26 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace clusterbench::report {
 
 struct SizeRequest {
-  std::string filter;  // ECMAScript regex, "" = all: only cases whose name matches
+  std::string filter;  // a regular expression as RE2 has them, "" = all: only cases whose name matches
   // Every case, and constants named by it. Without: of each scene, camera and grid the case that loses no light and is
   // fastest, or smallest where times are equal or were not measured, and constants that keep their names if that
   // becomes another method.
   bool all = false;
+  std::string format = "cpp";  // one of size_formats()
 };
 
-// A C++ header: for each case, as a comment, the high-water mark and the frame and cell that made it, its share of the
-// theoretical maximum, recommended capacity, warning level and bytes; below it the constants; at the end the run-time
-// check. Throws Error if the filter is no regex or matches no case.
+// C++, the languages of shaders, and for other programs JSON.
+std::vector<std::string> size_formats();
+
+// In C++ a header: for each case, as a comment, the high-water mark and the frame and cell that made it, its share of
+// the theoretical maximum, recommended capacity, warning level and bytes; below it the constants; at the end the
+// run-time check. In a shader's language the same without the check. Throws Error if the filter is no regex or matches
+// no case.
 std::string size_report(const nlohmann::ordered_json& result, const SizeRequest& request);
 
 }  // namespace clusterbench::report

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "run/grid_facts.h"
 #include "run/passes/accuracy_pass.h"
 #include "run/passes/details_pass.h"
@@ -66,6 +67,9 @@ SceneResult scene_result(const SceneData& data, const config::SceneRequest& requ
     out.frames += static_cast<int>(path.shots.size());
     if (path.made) out.warnings.push_back(path.how);
   }
+  if (const std::vector<std::string> others = scene::cameras_left_out(scene, request.camera); !others.empty())
+    out.warnings.push_back("not measured, though animated: " + number_of(others.size(), "camera") + " beside '" +
+                           data.paths.front().camera + "': " + joined(others) + "; \"camera\": \"*\" measures all");
   add_fit_warnings(data, viewports, out.warnings);
   out.range_rule = {{"cutoff_lux", request.range_rule.cutoff_lux},
                     {"max_range", request.range_rule.max_range_m},

@@ -9,6 +9,7 @@
 #include "config/config_grids.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/pattern.h"
 #include "core/text.h"
 #include "scene/domain.h"
 #include "view/frame.h"
@@ -86,6 +87,7 @@ Json identity(const config::SceneRequest& request, const scene::Scene& scene) {
            {"frames", {static_cast<int>(request.camera.choice), request.camera.count, request.camera.rate_hz}},
            {"range_rule", {request.range_rule.cutoff_lux, request.range_rule.max_range_m}}};
   if (request.camera.fit != scene::CameraFit::contain) out["camera_fit"] = "vertical";
+  for (const Vec2d& offset : request.camera.jitter_px) out["jitter"].push_back({offset.x, offset.y});
   return out;
 }
 
@@ -216,13 +218,7 @@ std::string storage_obstacle(const config::MethodRequest& request, const FirstFr
 
 class Expansion {
  public:
-  Expansion(const config::Config& config, const std::string& filter) : config_(config) {
-    try {
-      filter_ = std::regex(filter, std::regex::ECMAScript);
-    } catch (const std::regex_error& error) {
-      throw Error("", "--filter", "'" + filter + "' is no regular expression (ECMAScript): " + error.what());
-    }
-  }
+  Expansion(const config::Config& config, const std::string& filter) : config_(config), filter_(filter, "--filter") {}
 
   void expand(Plan& plan) {
     for (std::size_t scene = 0; scene < plan.scenes.size(); ++scene) expand_scene(plan, scene);
@@ -309,16 +305,16 @@ class Expansion {
     one.id = unique_name(case_id(config_, plan.scenes[group.scene], one), ids_);
     ++all_cases_;
     if (example_.empty()) example_ = one.name;
-    if (std::regex_search(one.name, filter_)) group.cases.push_back(std::move(one));
+    if (filter_.is_in(one.name)) group.cases.push_back(std::move(one));
   }
 
   // What the filter leaves out is not listed as skipped either.
   void skip(Plan& plan, const std::string& name, const std::string& reason) const {
-    if (std::regex_search(name, filter_)) plan.skipped.push_back({name, reason});
+    if (filter_.is_in(name)) plan.skipped.push_back({name, reason});
   }
 
   const config::Config& config_;
-  std::regex filter_;
+  Pattern filter_;
   std::set<std::string> names_, ids_;
   std::size_t all_cases_ = 0;
   std::string example_;

@@ -2,7 +2,6 @@
 // A configuration's product of axes, as cases.
 
 #include <optional>
-#include <regex>
 #include <string>
 #include <vector>
 
@@ -62,7 +61,7 @@ struct Plan {
   std::vector<Skipped> skipped;  // combinations that cannot be, each with its reason
 };
 
-// Loads the scenes and expands. `filter` (ECMAScript regex, "" = all) selects cases by name.
+// Loads the scenes and expands. `filter` (a regular expression as RE2 has them, "" = all) selects cases by name.
 Plan make_plan(const config::Config& config, const std::string& filter);
 
 }  // namespace clusterbench::run

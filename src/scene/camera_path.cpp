@@ -154,6 +154,24 @@ const Camera& camera_named(const Scene& scene, const std::string& name) {
                   (names.empty() ? "; it has none" : "; it has: " + joined(names)));
 }
 
+std::vector<CameraPath> paths_without_jitter(const Scene& scene, const PathRequest& request) {
+  const bool is_every = request.camera == "*";
+  if (!request.camera.empty() && !is_every) return {path_of(scene, camera_named(scene, request.camera), request)};
+  for (const Camera& camera : scene.cameras)
+    if (camera.animated && !is_every) return {path_of(scene, camera, request)};
+  std::vector<CameraPath> paths;
+  for (const Camera& camera : scene.cameras) paths.push_back(path_of(scene, camera, request));
+  if (paths.empty()) paths.push_back(path_around_lights(scene, request));
+  return paths;
+}
+
+// The digits of `index` in a base, mirrored_digits at the point: 6 is 110 in base 2, and so 0.011.
+double mirrored_digits(int index, int base) {
+  double value = 0.0;
+  for (double digit = 1.0 / base; index > 0; index /= base, digit /= base) value += digit * (index % base);
+  return value;
+}
+
 }  // namespace
 
 CameraMoments camera_moments(const Scene& scene, const Camera& camera, const PathRequest& request) {
@@ -163,13 +181,27 @@ CameraMoments camera_moments(const Scene& scene, const Camera& camera, const Pat
 }
 
 std::vector<CameraPath> camera_paths(const Scene& scene, const PathRequest& request) {
-  if (!request.camera.empty()) return {path_of(scene, camera_named(scene, request.camera), request)};
-  for (const Camera& camera : scene.cameras)
-    if (camera.animated) return {path_of(scene, camera, request)};
-  std::vector<CameraPath> paths;
-  for (const Camera& camera : scene.cameras) paths.push_back(path_of(scene, camera, request));
-  if (paths.empty()) paths.push_back(path_around_lights(scene, request));
+  std::vector<CameraPath> paths = paths_without_jitter(scene, request);
+  if (!request.jitter_px.empty())
+    for (CameraPath& path : paths)
+      for (std::size_t i = 0; i < path.shots.size(); ++i)
+        path.shots[i].jitter_px = request.jitter_px[i % request.jitter_px.size()];
   return paths;
+}
+
+std::vector<std::string> cameras_left_out(const Scene& scene, const PathRequest& request) {
+  std::vector<std::string> names;
+  if (!request.camera.empty()) return names;
+  for (const Camera& camera : scene.cameras)
+    if (camera.animated) names.push_back(camera.name);
+  if (!names.empty()) names.erase(names.begin());
+  return names;
+}
+
+std::vector<Vec2d> halton_jitter(int count) {
+  std::vector<Vec2d> offsets;
+  for (int i = 1; i <= count; ++i) offsets.emplace_back(mirrored_digits(i, 2) - 0.5, mirrored_digits(i, 3) - 0.5);
+  return offsets;
 }
 
 }  // namespace clusterbench::scene

@@ -11,11 +11,13 @@ namespace clusterbench::scene {
 enum class FrameChoice : std::uint8_t { count, rate, keys };
 
 struct PathRequest {
-  std::string camera;  // name; "" = default: first animated, else each static one, else a path that the tool makes
+  // Name; "*" = every camera; "" = default: first animated, else each static one, else a path that the tool makes.
+  std::string camera;
   FrameChoice choice = FrameChoice::count;
   int count = 60;  // N equal steps from the first to the last key
   double rate_hz = 30.0;
   CameraFit fit = CameraFit::contain;
+  std::vector<Vec2d> jitter_px{};  // a Shot's, frame by frame and then from the first again; empty: none
 };
 
 // One moment of one camera.
@@ -23,6 +25,7 @@ struct Shot {
   double time_s = 0.0;
   CameraPose pose;
   Lens lens;
+  Vec2d jitter_px{0.0};  // the picture is moved by so many pixels to the right and down, as for TAA
 };
 
 struct CameraPath {
@@ -42,5 +45,10 @@ CameraMoments camera_moments(const Scene& scene, const Camera& camera, const Pat
 // A static camera gives one shot (more if lights are animated). Throws Error naming the cameras that exist when
 // request.camera is none of them, and when the scene has neither camera nor light.
 std::vector<CameraPath> camera_paths(const Scene& scene, const PathRequest& request);
+// Animated cameras that the default leaves out, by name.
+std::vector<std::string> cameras_left_out(const Scene& scene, const PathRequest& request);
+
+// So many points of the Halton sequence in bases 2 and 3, from its first, less a half: offsets within a pixel.
+std::vector<Vec2d> halton_jitter(int count);
 
 }  // namespace clusterbench::scene

@@ -121,6 +121,7 @@ FinePath fine_path(const CameraPath& path, const FineSteps& steps) {
     fine.path.how = std::to_string(fine.path.shots.size() - 1) + " steps from frame " + std::to_string(from) +
                     ", where the camera moves most";
   }
+  for (Shot& shot : fine.path.shots) shot.jitter_px = Vec2d(0.0);  // a pixel is more than a step
   measure_steps(fine, steps);
   return fine;
 }

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <set>
 #include <string_view>
 #include <utility>
+
+#include "core/text.h"
 
 namespace clusterbench::scene {
 namespace {
@@ -156,6 +159,23 @@ bool is_required(const Place& root, const std::string& extension) {
     if (root.at("extensionsRequired").at(i).text() == extension) return true;
   }
   return false;
+}
+
+void warn_of_unknown_extras(const Place& object, const std::vector<std::string>& own) {
+  constexpr std::string_view k_tool = "clusterbench";
+  if (!object.has("extras") || !object.at("extras").value().is_object()) return;
+  for (const auto& [key, value] : object.at("extras").value().items()) {
+    std::string letters;  // whatever the case, with or without dashes
+    for (const char c : key)
+      if (std::isalpha(static_cast<unsigned char>(c)) != 0)
+        letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const bool is_own = std::find(own.begin(), own.end(), key) != own.end();
+    // "clusterbnch_box" is near enough to be meant, too.
+    const std::vector<std::string> all{k_box, k_sides};
+    if (is_own || (!letters.starts_with(k_tool) && nearest_name(key, all).empty())) continue;
+    object.at("extras").at(key).warn("is not read" + did_you_mean(key, own) + "; nodes can have " + k_box +
+                                     ", cameras " + k_sides);
+  }
 }
 
 void copy_name(const Place& object, json& out) {

@@ -51,6 +51,12 @@ bool is_required(const Place& root, const std::string& extension);
 
 inline constexpr const char* k_pointers = "KHR_animation_pointer";
 
+// Extras of this tool's own.
+inline constexpr const char* k_box = "clusterbench_box";      // of nodes
+inline constexpr const char* k_sides = "clusterbench_sides";  // of cameras
+// Keys of an object's extras that begin like this tool's own and are none. `own`: those that the object can have.
+void warn_of_unknown_extras(const Place& object, const std::vector<std::string>& own);
+
 // Copies the name if there is one.
 void copy_name(const Place& object, nlohmann::json& out);
 

@@ -39,13 +39,15 @@ json checked_perspective(const Place& lens) {
 
 // An off-centre picture, an invention of this tool: see LensSides.
 void copy_sides(const Place& camera, json& out) {
-  if (!camera.has("extras") || !camera.at("extras").has("clusterbench_sides")) return;
-  const Place place = camera.at("extras").at("clusterbench_sides");
+  if (!camera.has("extras")) return;
+  warn_of_unknown_extras(camera, {k_sides});
+  if (!camera.at("extras").has(k_sides)) return;
+  const Place place = camera.at("extras").at(k_sides);
   const std::vector<double> sides = place.numbers(4);
   if (!(sides[0] < sides[1]) || !(sides[2] < sides[3]))
     place.refuse("left must be less than right and bottom less than top: [left, right, bottom, top]");
   if (out.contains("orthographic")) place.refuse("only a perspective camera can have it");
-  out["extras"]["clusterbench_sides"] = sides;
+  out["extras"][k_sides] = sides;
 }
 
 // A negative magnification mirrors the picture; which lights it holds is the same.

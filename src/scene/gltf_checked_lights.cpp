@@ -66,6 +66,7 @@ json checked_light(const Place& light) {
   }
   out["type"] = type;
   copy_name(light, out);
+  warn_of_unknown_extras(light, {});
   copy_colour(light, out);
   if (light.has("intensity")) {
     out["intensity"] = light.at("intensity").number();

@@ -73,13 +73,15 @@ void copy_light(const Place& root, const Place& node, json& out) {
 
 // Half extents of an oriented box (decal, probe), an invention of this tool: see OrientedBox.
 void copy_box(const Place& node, json& out) {
-  if (!node.has("extras") || !node.at("extras").has("clusterbench_box")) return;
-  const Place place = node.at("extras").at("clusterbench_box").at("half_extents");
+  if (!node.has("extras")) return;
+  warn_of_unknown_extras(node, {k_box});
+  if (!node.at("extras").has(k_box)) return;
+  const Place place = node.at("extras").at(k_box).at("half_extents");
   const std::vector<double> half_extents = place.numbers(3);
   if (std::any_of(half_extents.begin(), half_extents.end(), [](double h) { return h < 0.0; })) {
     place.refuse("half extents must not be negative");
   }
-  out["extras"]["clusterbench_box"]["half_extents"] = half_extents;
+  out["extras"][k_box]["half_extents"] = half_extents;
 }
 
 // Inherited down the tree: whether a node is drawn, and with it its light.

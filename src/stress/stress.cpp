@@ -134,10 +134,10 @@ std::vector<StressMethod> stress_methods() {
 StressResult run_stress(const StressRequest& request, const StressListener& listener, const std::atomic<bool>& stop) {
   StressResult result;
   for (const StressMethod& method : stress_methods())
-    if (std::regex_search(method.label, request.methods)) result.methods.push_back(method);
+    if (request.methods.is_in(method.label)) result.methods.push_back(method);
   for (const HardCase& hard : hard_cases())
-    if (std::regex_match(hard.id, request.cases)) result.cases.push_back(hard);
-  const bool searches = request.tries > 0 && std::regex_match("H31", request.cases);
+    if (request.cases.is_all_of(hard.id)) result.cases.push_back(hard);
+  const bool searches = request.tries > 0 && request.cases.is_all_of("H31");
   const double parts = static_cast<double>(result.cases.size() + (searches ? result.methods.size() : 0));
   const double whole = parts + static_cast<double>(request.random);
   const auto tell = [&](const std::string& doing, double done) {

@@ -5,11 +5,11 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
-#include <regex>
 #include <string>
 #include <vector>
 
 #include "assign/contract/assigner_run.h"
+#include "core/pattern.h"
 #include "stress/hard_cases.h"
 #include "stress/random_search.h"
 
@@ -36,7 +36,7 @@ struct StressRequest {
   std::uint64_t tries = 20'000;  // of the search, per method; 0 = no search
   double seconds = 0.0;          // of the search, per method, and of random settings; 0 = as many as these take
   std::uint64_t random = 0;      // random settings to check, with the seeds from `seed` on
-  std::regex cases{".*"}, methods{".*"};
+  Pattern cases, methods;
   int threads = 1;
 };
 

@@ -53,6 +53,18 @@ double cropped_width(const scene::Lens& lens, Vec2i viewport) {
   return width - held > held / viewport.x ? width : 0.0;
 }
 
+// The rectangle moved against the picture.
+Projection jittered(Projection projection, Vec2d jitter_px, Vec2i viewport) {
+  if (jitter_px == Vec2d(0.0)) return projection;
+  const double right = jitter_px.x * (projection.right - projection.left) / viewport.x;
+  const double down = jitter_px.y * (projection.top - projection.bottom) / viewport.y;
+  projection.left -= right;
+  projection.right -= right;
+  projection.bottom += down;
+  projection.top += down;
+  return projection;
+}
+
 }  // namespace
 
 std::string fit_warning(const scene::Lens& lens, Vec2i viewport) {
@@ -122,7 +134,7 @@ Frame make_frame(const scene::Scene& scene, const scene::Shot& shot, int index, 
   frame.index = index;
   frame.time_s = shot.time_s;
   frame.viewport = viewport;
-  frame.projection = make_projection(shot.lens, viewport);
+  frame.projection = jittered(make_projection(shot.lens, viewport), shot.jitter_px, viewport);
   check_picture(frame.projection);
   frame.view_space = {shot.pose.eye, shot.pose.view_from_world};
   frame.lights = scene::world_lights(scene, shot.time_s);

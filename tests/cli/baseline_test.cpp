@@ -73,6 +73,16 @@ TEST(Baseline, flags_that_change_the_configuration_reach_both_programs) {
   for (const Json& one : cases) EXPECT_TRUE(one["timing"].contains("baseline")) << one["name"];
 }
 
+TEST(Baseline, budgets_are_held_here_and_not_asked_of_a_program_that_may_not_know_them) {
+  const Place place;
+  const std::string older = place.script(
+      "case \"$*\" in *fail-if*) echo 'unknown option' >&2; exit 2;; esac; exec " CLUSTERBENCH_BINARY " \"$@\"");
+  EXPECT_EQ(place.run(older, k_any_time + " --fail-if 'longest > 1e6'").code, 0);
+  const Outcome broken = place.run(older, k_any_time + " --fail-if 'longest > 0'");
+  EXPECT_EQ(broken.code, 1);
+  EXPECT_NE(broken.err.find("FAILED "), std::string::npos) << broken.err;
+}
+
 TEST(Baseline, a_program_that_takes_several_times_as_long_fails_the_run) {
   const Place place;
   const std::string slowed = "CLUSTERBENCH_SLOWED_PERCENT=700 " CLUSTERBENCH_SLOWED " run -q " + place.config + " -o " +

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "cli/tool.h"
 
@@ -35,6 +36,56 @@ TEST(CommandLine, what_is_unknown_or_missing_is_told_in_one_line_with_the_neares
     EXPECT_EQ(done.err, std::string("clusterbench: ") + message + "\n");
     EXPECT_EQ(done.out, "") << line;
   }
+}
+
+// Options with a number, as the help of a command has them.
+std::vector<std::string> options_with(const std::string& type, const std::string& command) {
+  std::vector<std::string> names;
+  std::istringstream help(tool(command + " --help").out);
+  for (std::string line; std::getline(help, line);)
+    if (const std::size_t at = line.find(" " + type), name = line.find("--"); at < line.size() && name < at)
+      names.push_back(line.substr(name, at - name));
+  return names;
+}
+
+constexpr const char* k_commands[] = {"run",          "compare",     "size",           "report", "export",
+                                      "history show", "history add", "scene info",     "stress", "merge",
+                                      "list",         "validate",    "scene generate", "schema", "completion"};
+
+TEST(CommandLine, no_option_takes_what_is_not_a_finite_number) {
+  int options = 0;
+  for (const std::string command : k_commands)
+    for (const std::string& option : options_with("FLOAT", command))
+      for (const std::string word : {"nan", "inf", "-1", "1e999", "2x"}) {
+        const Outcome done = tool(command + " " + option + "=" + word);
+        EXPECT_EQ(done.code, 2) << command << option << word;
+        EXPECT_NE(done.err.find(command + ": " + option + ": takes a number "), std::string::npos) << done.err;
+        EXPECT_NE(done.err.find(", not '" + word + "'"), std::string::npos) << done.err;
+        EXPECT_LT(done.err.size(), 200u);
+        ++options;
+      }
+  EXPECT_GE(options, 8 * 5);
+}
+
+TEST(CommandLine, no_option_takes_a_whole_number_that_its_type_does_not_hold) {
+  int options = 0;
+  for (const std::string command : k_commands)
+    for (const char* type : {"UINT", "INT"})
+      for (const std::string& option : options_with(type, command))
+        for (const std::string word : {"-1", "18446744073709551616", "1e3", "nan"}) {
+          const Outcome done = tool(command + " " + option + "=" + word);
+          EXPECT_EQ(done.code, 2) << command << option << word;
+          EXPECT_NE(done.err.find(": takes a whole number "), std::string::npos) << done.err;
+          EXPECT_LT(done.err.size(), 200u);
+          ++options;
+        }
+  EXPECT_GE(options, 7 * 4);
+}
+
+TEST(CommandLine, no_random_settings_are_not_all_hard_cases) {
+  const Outcome done = tool("stress --random 0");
+  EXPECT_EQ(done.code, 2);
+  EXPECT_NE(done.err.find("--random: takes a whole number of at least 1, not '0'"), std::string::npos) << done.err;
 }
 
 TEST(CommandLine, without_arguments_the_help_is_shown) {

@@ -143,6 +143,7 @@ TEST(Run, a_filter_selects_cases_by_name) {
   ASSERT_EQ(done.code, 0) << done.err;
   EXPECT_EQ(Json::parse(done.out)["cases"].size(), 1u);
   EXPECT_EQ(tool("run --filter '(' " + config).code, 2);
+  EXPECT_EQ(tool("run --filter '([a-z/ 0-9.-]+)+!' " + config).code, 2) << "ends, though by backtracking it would not";
   EXPECT_EQ(tool("run --filter nothing-like-this " + config).code, 2);
 }
 
@@ -210,8 +211,58 @@ TEST(Run, an_interrupted_run_resumes_to_the_same_counts) {
   EXPECT_NE(refused.err.find("is an interrupted run of another"), std::string::npos) << refused.err;
   EXPECT_EQ(tool("run -q --resume --tiles 32 " + config + " -o " + cut).code, 2);
 
-  ASSERT_EQ(tool("run -q --resume " + config + " -o " + cut).code, 0);
-  EXPECT_EQ(without_timing(Json::parse(file_text(cut))).dump(), without_timing(complete).dump());
+  const Outcome resumed = tool("run -q --resume --threads 2 " + config + " -o " + cut);
+  ASSERT_EQ(resumed.code, 0) << resumed.err;
+  EXPECT_EQ(resumed.err, "");
+  Json same = without_timing(Json::parse(file_text(cut)));
+  EXPECT_EQ(same["config"]["threads"], 2);
+  same["config"]["threads"] = 1;
+  EXPECT_EQ(same.dump(), without_timing(complete).dump());
+}
+
+TEST(Run, resuming_without_an_interrupted_run_says_that_it_begins_anew) {
+  const Folder folder;
+  const std::string config = folder.write("small.json", small_config()).string(), out = (folder / "r.json").string();
+  const Outcome done = tool("run -q --no-timing --resume " + config + " -o " + out);
+  EXPECT_EQ(done.code, 0);
+  EXPECT_EQ(done.err,
+            "clusterbench: --resume begins anew: no finished case of an interrupted run is in " + out + ".partial\n");
+}
+
+TEST(Run, a_budget_that_is_exceeded_fails_the_run_and_one_nearly_reached_is_warned_about) {
+  const Folder folder;
+  const std::string config = folder.write("small.json", small_config()).string(), out = (folder / "r.json").string();
+  const std::string run = "run -q --no-timing --filter /aabb/ " + config + " -o " + out;
+  ASSERT_EQ(tool(run).code, 0);
+  const Json one = Json::parse(file_text(out))["cases"][0];
+  const int longest = one["occupancy"]["lights_per_cluster"]["max"];
+  const auto with = [&](const std::string& rule) { return tool(run + " --fail-if '" + rule + "'"); };
+  const Outcome broken = with("longest > " + std::to_string(longest - 1));
+  EXPECT_EQ(broken.code, 1);
+  EXPECT_NE(broken.err.find("FAILED " + one["name"].get<std::string>() + ": longest is "), std::string::npos);
+  EXPECT_NE(broken.err.find(", cell ["), std::string::npos) << broken.err;
+  const Outcome near = with("longest > " + std::to_string(longest));
+  EXPECT_EQ(near.code, 0);
+  EXPECT_NE(near.err.find("warning: " + one["name"].get<std::string>()), std::string::npos) << near.err;
+  const Outcome far = with("longest > " + std::to_string(2 * longest));
+  EXPECT_EQ(far.code, 0);
+  EXPECT_EQ(far.err, "");
+  EXPECT_EQ(Json::parse(file_text(out))["config"]["limits"]["fail_if"][0], "longest > " + std::to_string(2 * longest));
+  EXPECT_EQ(with("frame_us > 1e6").code, 1) << "times are not measured";
+  EXPECT_EQ(with("lngest > 1").code, 2);
+}
+
+TEST(Run, a_result_goes_where_a_link_leads) {
+  const Folder folder;
+  const std::string config = folder.write("small.json", small_config()).string();
+  const std::filesystem::path link = folder / "link.json", target = folder / "target.json";
+  std::filesystem::create_symlink("target.json", link);
+  ASSERT_EQ(tool("run -q --no-timing " + config + " -o " + link.string()).code, 0);
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_EQ(Json::parse(file_text(target))["name"], "small");
+  const std::filesystem::path circle = folder / "circle.json";
+  std::filesystem::create_symlink("circle.json", circle);
+  EXPECT_EQ(tool("run -q --no-timing " + config + " -o " + circle.string()).code, 2);
 }
 
 TEST(Run, a_run_that_died_does_not_block_the_next_one) {

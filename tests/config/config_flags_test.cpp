@@ -103,6 +103,60 @@ TEST(ConfigFlags, another_scheme_leaves_out_what_only_the_old_one_used) {
             std::string::npos);
 }
 
+TEST(ConfigFlags, tiles_or_slices_of_the_default_sweep_give_one_grid_of_each_kind) {
+  const auto names = [](const Flags& flags) {
+    Names all;
+    for (const grid::GridSpec& grid : default_config({"level.glb"}, flags).grids) all.push_back(grid.name());
+    return all;
+  };
+  EXPECT_EQ(names({{"--tiles", "16x9t"}, {"--grid", "frustum"}}),
+            (Names{"frustum 16x9 x 16 exponential-first first 5"}));
+  EXPECT_EQ(names({{"--tiles", "16,32"}, {"--slices", "8,24"}, {"--grid", "frustum"}}).size(), 4u);
+  EXPECT_EQ(names({{"--slices", "8"}}).size(), 4u) << "of frustum, distance, cascades and world one each";
+  EXPECT_EQ(names({{"--grid", "frustum"}}).size(), 2u) << "whose tiles and slices are the default's";
+  EXPECT_EQ(parse_config(R"({"scenes": ["a.glb"]})", "c.json", Flags{{"--slices", "8"}}).grids.size(), 4u);
+}
+
+TEST(ConfigFlags, a_star_goes_over_lists_of_lists_and_a_pointer_has_its_escapes) {
+  const Flags sizes{{"--viewport", "640x360,1280x720"}};
+  const auto with = [&](const std::string& set) { return Flags{sizes[0], {"--set", set}}; };
+  EXPECT_EQ(flagged(with("viewports.*.1=400")).viewports, (std::vector<Vec2i>{{640, 400}, {1280, 400}}));
+  EXPECT_EQ(flagged(with("/viewports/1/0=800")).viewports, (std::vector<Vec2i>{{640, 360}, {800, 720}}));
+  const std::pair<const char*, const char*> rows[] = {
+      {"viewports.*.2=1", "--set=viewports.*.2=1: no entry has this key"},
+      {"/na~1me=x", "c.json: --set=/na~1me=x /na~1me: unknown key 'na/me' (did you mean 'name'?)"},
+      {"/na~0me=x", "c.json: --set=/na~0me=x /na~0me: unknown key 'na~me' (did you mean 'name'?)"},
+      {"/na~2me=x", "--set=/na~2me=x: in a JSON pointer ~ stands before 0 (~) or 1 (/) only"},
+      {"/name~=x", "--set=/name~=x: in a JSON pointer ~ stands before 0 (~) or 1 (/) only"},
+      {"na~me=x", "c.json: --set=na~me=x /na~0me: unknown key 'na~me'"},
+  };
+  for (const auto& [set, message] : rows)
+    EXPECT_EQ(refusal_of(with(set)).substr(0, std::string(message).size()), message) << refusal_of(with(set));
+}
+
+TEST(ConfigFlags, two_equal_viewports_are_refused) {
+  const std::string refusal = refusal_of({{"--viewport", "640x360,1280x360"}, {"--set", "viewports.*.0=640"}});
+  EXPECT_NE(refusal.find(" /viewports/1: this viewport stands here twice"), std::string::npos) << refusal;
+  EXPECT_NE(refusal_of({{"--viewport", "640x360,640x360"}}).find("this viewport stands here twice"), std::string::npos);
+}
+
+TEST(ConfigFlags, budgets_are_added_to_those_of_the_file) {
+  const Config config = parse_config(R"({"scenes": ["a.glb"], "limits": {"fail_if": ["dropped > 0"]}})", "c.json",
+                                     Flags{{"--fail-if", "unlit > 0"}, {"--fail-if", "longest>64"}});
+  ASSERT_EQ(config.limits.fail_if.size(), 3u);
+  EXPECT_EQ(config.limits.fail_if[2].figure, "longest");
+  EXPECT_TRUE(refusal_of({{"--fail-if", "lngest > 64"}})
+                  .starts_with("c.json: --fail-if=lngest > 64 /limits/fail_if/0: 'lngest > 64' names no figure of a "
+                               "case (did you mean 'longest'?); there are: "));
+}
+
+TEST(ConfigFlags, a_key_of_thousands_of_steps_is_refused_at_once_and_in_short) {
+  std::string deep = "a";
+  for (int i = 0; i < 50'000; ++i) deep += ".a";
+  EXPECT_EQ(refusal_of({{"--set", deep + "=1"}}), "--set: a key with 50000 steps; at most 16");
+  EXPECT_LT(refusal_of({{"--set", "details=" + std::string(50'000, '[') + std::string(50'000, ']')}}).size(), 1000u);
+}
+
 TEST(ConfigFlags, what_is_wrong_is_said_with_the_flag) {
   const std::pair<Flags, const char*> rows[] = {
       {{{"--grid", "frustrum"}}, "c.json: --grid=frustrum /grids/0/kind: found 'frustrum' (did you mean 'frustum'?)"},

@@ -63,7 +63,8 @@ const Broken k_broken[] = {
      "max_range"},
     {"{\"scenes\": [\"a.glb\"],\n  // comment\n  \"thread\": 1}",
      "3:3 /thread: unknown key 'thread' (did you mean 'threads'?), allowed: $schema, accuracy, allocation, assigners, "
-     "details, grids, limits, lookup, name, precision, scenes, seed, shading, stability, storages, threads, timing, "
+     "details, grids, jitter, limits, lookup, name, precision, scenes, seed, shading, stability, storages, threads, "
+     "timing, "
      "viewport, viewports"},
     {R"({"scenes": ["a.glb"], "threads": 0})", "1:34 /threads: found 0, allowed: an integer from 1 to 1024"},
     {R"({"scenes": ["a.glb"], "threads": "2"})", "1:34 /threads: found '2', allowed: an integer from 1 to 1024"},
@@ -238,6 +239,41 @@ TEST(Config, stability_is_measured_only_where_it_is_asked_for) {
   EXPECT_EQ(own.stability->step_mm, 0.5);
   EXPECT_EQ(own.stability->step_deg, 0.25);
   EXPECT_EQ(own.stability->window, 3);
+}
+
+TEST(Config, jitter_is_a_halton_sequence_or_a_list_of_offsets) {
+  const auto jitter = [](const std::string& value) {
+    return parsed(R"(, "jitter": )" + value).scenes[0].camera.jitter_px;
+  };
+  EXPECT_TRUE(parsed("").scenes[0].camera.jitter_px.empty());
+  EXPECT_EQ(jitter(R"([[0.25, -0.25], [-0.5, 0]])"), (std::vector<Vec2d>{{0.25, -0.25}, {-0.5, 0.0}}));
+  EXPECT_EQ(jitter(R"("halton")").size(), 8u);
+  EXPECT_EQ(jitter(R"({"halton": 16})").size(), 16u);
+  EXPECT_EQ(message_of(R"({"scenes": ["a.glb"], "jitter": "hlton"})"),
+            "configs/c.json: 1:33 /jitter: found 'hlton', allowed: null or 'halton' or an object or a list, each a "
+            "list of 2, "
+            "each a number from -16 to 16");
+}
+
+TEST(Config, budgets_are_checked_with_their_place) {
+  const Config config = parsed(R"(, "limits": {"fail_if": ["frame_us.max > 200", "unlit>=1e-3"]})");
+  ASSERT_EQ(config.limits.fail_if.size(), 2u);
+  EXPECT_EQ(config.limits.fail_if[0].figure, "frame_us.max");
+  EXPECT_EQ(config.limits.fail_if[0].limit, 200.0);
+  EXPECT_FALSE(config.limits.fail_if[0].is_inclusive);
+  EXPECT_TRUE(config.limits.fail_if[1].is_inclusive);
+  const auto refusal = [](const std::string& rule) {
+    return message_of(R"({"scenes": ["a.glb"], "limits": {"fail_if": [")" + rule + R"("]}})").substr(16);
+  };
+  const std::string place = "1:46 /limits/fail_if/0: ";
+  EXPECT_TRUE(refusal("frme_us > 1")
+                  .starts_with(place + "'frme_us > 1' names no figure of a case (did you mean 'frame_us'?); there are: "
+                                       "frame_us, frame_us.max, "))
+      << refusal("frme_us > 1");
+  EXPECT_EQ(refusal("unlit"),
+            place + "'unlit' is no budget; takes a figure, > or >=, and a number, as in 'frame_us > 200'");
+  for (const char* number : {"", "x", "nan", "inf", "1e999", "1 2", "= 3"})
+    EXPECT_NE(refusal("unlit > " + std::string(number)).find("which is no number"), std::string::npos) << number;
 }
 
 TEST(Config, lights_are_in_float32_unless_another_precision_is_named) {

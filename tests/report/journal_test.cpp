@@ -54,6 +54,28 @@ TEST_F(JournalTest, a_finished_case_survives_the_end_of_the_process) {
   EXPECT_EQ(later.earlier_ids(), std::vector<std::string>{"first"});
 }
 
+TEST_F(JournalTest, a_link_stays_and_its_target_gets_the_result) {
+  const fs::path target = folder_ / "kept" / "target.json", link = folder_ / "link.json";
+  fs::create_directory(target.parent_path());
+  fs::create_symlink("kept/target.json", file_);
+  fs::create_symlink(file_, link);
+  {
+    Journal journal(link, k_header, false, 100);
+    EXPECT_EQ(journal.partial_path(), target.string() + ".partial") << "where the next run looks for it, link or not";
+    journal.finish(Json{{"is", "new"}});
+  }
+  EXPECT_TRUE(fs::is_symlink(file_));
+  EXPECT_TRUE(fs::is_symlink(link));
+  EXPECT_FALSE(fs::is_symlink(target));
+  EXPECT_EQ(Json::parse(text_of(target)), (Json{{"is", "new"}}));
+}
+
+TEST_F(JournalTest, a_circle_of_links_is_an_error) {
+  fs::create_symlink("other.json", file_);
+  fs::create_symlink("result.json", folder_ / "other.json");
+  EXPECT_THROW(Journal(file_, k_header, false, 100), Error);
+}
+
 TEST_F(JournalTest, a_line_cut_in_the_middle_is_passed_over) {
   leave_one_case();
   std::ofstream(file_.string() + ".partial", std::ios::app) << R"({"case": {"id": "seco)";

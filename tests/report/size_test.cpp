@@ -62,6 +62,16 @@ TEST(Size, says_what_was_seen_where_and_what_to_allocate) {
     EXPECT_NE(report.find(part), std::string::npos) << part << " in\n" << report;
 }
 
+TEST(Size, json_has_every_number_of_a_budget) {
+  const nlohmann::json report = nlohmann::json::parse(size_of(result_by_hand(), {"/aabb/", false, "json"}));
+  ASSERT_EQ(report["budgets"].size(), 1u);
+  const nlohmann::json expected = nlohmann::json::parse(R"({"name": "hall_walk_frustum_64px", "id": "fast",
+    "case": "hall/walk/frustum 64px/aabb/packed", "capacity_entries": 80, "warn_entries": 72, "bytes": 272, "index_bits": 8,
+    "high_water_entries": 40, "theoretical_max_entries": 480, "worst_frame": 1, "worst_cell": [3, 2, 1], "dropped_pairs": 0})");
+  EXPECT_EQ(report["budgets"][0], expected);
+  EXPECT_EQ(report["warn_at"], 0.9);
+}
+
 TEST(Size, says_where_lists_overflowed) {
   run::Result result = result_by_hand();
   result.cases[0].buffers.dropped_pairs = 7;
@@ -123,6 +133,24 @@ TEST_F(SizeHeader, compiles_whatever_cases_are_called) {
   result.cases.back().name = "\xC3\xA9t\xC3\xA9/__x__//y\\";
   result.planned_ids = {"slow", "fast", "third", "fourth"};
   EXPECT_TRUE(compiles(size_of(result), "int main() {}\n"));
+  // A C++ compiler reads the declarations of shaders, too; what GLSL reserves are names with two underscores.
+  for (const char* format : {"hlsl", "glsl"}) {
+    const std::string report = size_of(result, {"", true, format});
+    EXPECT_TRUE(compiles("using uint = unsigned;\n" + report, "int main() {}\n")) << report;
+    for (std::size_t at = report.find("const uint "); at != std::string::npos; at = report.find("const uint ", at + 1))
+      EXPECT_EQ(report.substr(at, report.find(" =", at) - at).find("__"), std::string::npos) << report;
+  }
+}
+
+TEST_F(SizeHeader, of_a_shader_has_the_same_constants) {
+  const std::string hlsl = size_of(result_by_hand(), {"/aabb/", false, "hlsl"});
+  EXPECT_NE(hlsl.find("static const uint hall_walk_frustum_64px_capacity_entries = 80u;\n"), std::string::npos) << hlsl;
+  const std::string glsl = size_of(result_by_hand(), {"/aabb/", false, "glsl"});
+  EXPECT_NE(glsl.find("\nconst uint hall_walk_frustum_64px_bytes = 272u;\n"), std::string::npos) << glsl;
+  run::Result huge = result_by_hand();
+  for (run::CaseResult& one : huge.cases) one.buffers.bytes.recommended = std::uint64_t{1} << 32;
+  EXPECT_EQ(size_of(huge, {"", false, "glsl"}).find("_bytes ="), std::string::npos) << "32 bits do not hold it";
+  EXPECT_NE(size_of(huge, {"", false, "cpp"}).find(", 4294967296u}"), std::string::npos);
 }
 
 }  // namespace

@@ -20,8 +20,8 @@ const std::atomic<bool> k_never{false};
 StressResult stressed(const std::string& cases, const std::string& methods, int threads = 1) {
   StressRequest request;
   request.tries = 0;
-  request.cases = std::regex(cases);
-  request.methods = std::regex(methods);
+  request.cases = Pattern(cases, "--cases");
+  request.methods = Pattern(methods, "--methods");
   request.threads = threads;
   return run_stress(request, {}, k_never);
 }
@@ -69,8 +69,8 @@ TEST(HardCases, refuse_exponential_slices_from_a_near_of_zero) {
 TEST(HardCases, give_the_same_json_on_any_number_of_threads) {
   StressRequest request;
   request.tries = 500;
-  request.cases = std::regex("H(2|8|31)");
-  request.methods = std::regex("^(aabb|exact|naive-refinement)$");
+  request.cases = Pattern("H(2|8|31)", "--cases");
+  request.methods = Pattern("^(aabb|exact|naive-refinement)$", "--methods");
   const auto json = [&](int threads) {
     request.threads = threads;
     return report::stress_to_json(run_stress(request, {}, k_never), request).dump();
@@ -87,8 +87,8 @@ TEST(HardCases, on_lattices_and_at_the_scales_of_maps_are_decided_and_right) {
 TEST(Stress, is_written_as_its_schema_says) {
   StressRequest request;
   request.tries = 6000;
-  request.cases = std::regex("H(12|22|31|32)");
-  request.methods = std::regex("^(bounds|exact|naive-refinement)$");
+  request.cases = Pattern("H(12|22|31|32)", "--cases");
+  request.methods = Pattern("^(bounds|exact|naive-refinement)$", "--methods");
   request.random = 3;
   StressResult result = run_stress(request, {}, k_never);
   ASSERT_TRUE(result.random);

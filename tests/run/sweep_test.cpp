@@ -105,6 +105,8 @@ TEST_F(Sweep, an_id_depends_on_what_is_counted_and_not_on_how_it_is_timed_or_ord
       id);
   EXPECT_NE(cases(plan(R"(["a.gltf"])", one + R"(, "viewport": [640, 480])")).at(0).id, id);
   EXPECT_NE(cases(plan(R"(["a.gltf"])", one + R"(, "storages": ["fixed"])")).at(0).id, id);
+  EXPECT_EQ(cases(plan(R"(["a.gltf"])", one + R"(, "limits": {"fail_if": ["unlit > 0"]})")).at(0).id, id);
+  EXPECT_NE(cases(plan(R"(["a.gltf"])", one + R"(, "jitter": "halton")")).at(0).id, id);
   EXPECT_EQ(cases(plan(R"(["a.gltf"])", one + R"(, "stability": null)")).at(0).id, id);
   const std::string stable = cases(plan(R"(["a.gltf"])", one + R"(, "stability": {})")).at(0).id;
   EXPECT_NE(stable, id);
@@ -206,7 +208,7 @@ TEST_F(Sweep, a_filter_selects_by_name_and_says_when_it_selects_nothing) {
     }
     return "accepted";
   };
-  EXPECT_TRUE(message("(").starts_with("--filter: '(' is no regular expression (ECMAScript): ")) << message("(");
+  EXPECT_TRUE(message("(").starts_with("--filter: '(' is no regular expression (as RE2 has them): ")) << message("(");
   EXPECT_TRUE(message("nothing").starts_with("--filter: 'nothing' matches none of ")) << message("nothing");
 }
 

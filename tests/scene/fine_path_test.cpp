@@ -50,6 +50,16 @@ TEST(FinePath, both_limits_hold_when_the_eye_moves_fast_and_when_the_view_turns_
   EXPECT_NEAR(turning.turn_rad, 0.0701 / 351, 1e-9);
 }
 
+TEST(FinePath, is_not_jittered) {
+  Shot first = shot_at(0, {0, 0, 0}), second = shot_at(1, {0.35, 0, 0});
+  first.jitter_px = second.jitter_px = {0.25, -0.25};
+  for (const FineSteps& steps : {FineSteps{400, 1e-3, 2e-4}, FineSteps{5, 1e-3, 2e-4}})
+    for (const Shot& shot : fine_path(path_with({first, second}), steps).path.shots)
+      EXPECT_EQ(shot.jitter_px, Vec2d(0.0));
+  for (const Shot& shot : fine_path(path_with({first}), {5, 1e-3, 2e-4}).path.shots)
+    EXPECT_EQ(shot.jitter_px, Vec2d(0.0)) << "drifting";
+}
+
 TEST(FinePath, begins_where_the_camera_moves_most_in_terms_of_the_limits) {
   // By 0.2 m; by 0.1 rad, which are more steps; by 0.3 m.
   const std::vector<Shot> shots{shot_at(0, {0, 0, 0}), shot_at(1, {0.2, 0, 0}), shot_at(2, {0.2, 0, 0}, 0.1),

@@ -192,6 +192,30 @@ TEST(GltfScenes, parents_stand_before_their_children_whatever_the_files_order) {
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) EXPECT_LT(scene.nodes[i].parent, static_cast<int>(i));
 }
 
+TEST(GltfScenes, misspelt_extras_of_this_tool_are_told_with_what_was_meant) {
+  const auto warning = [](const std::string& key) {
+    const Scene scene =
+        loaded(document(nodes(R"({"extras": {"mass": 3, ")" + key + R"(": {"half_extents": [1, 2, 3]}}})")));
+    EXPECT_TRUE(scene.boxes.empty() || key == "clusterbench_box");
+    return scene.warnings.empty() ? "none" : scene.warnings.front();
+  };
+  const std::string rest = "; nodes can have clusterbench_box, cameras clusterbench_sides";
+  EXPECT_EQ(warning("clusterbench_box"), "none");
+  EXPECT_EQ(warning("clusterbench_bxo"),
+            "/nodes/0/extras/clusterbench_bxo: is not read (did you mean 'clusterbench_box'?)" + rest);
+  EXPECT_EQ(warning("clusterbnch_box"),
+            "/nodes/0/extras/clusterbnch_box: is not read (did you mean 'clusterbench_box'?)" + rest);
+  EXPECT_NE(warning("Clusterbench-Box").find("is not read"), std::string::npos);
+  EXPECT_EQ(warning("clusterbench_volume"),
+            "/nodes/0/extras/clusterbench_volume: is not read (did you mean 'clusterbench_box'?)" + rest);
+  EXPECT_EQ(warning("clusterbench_sides").find("/nodes/0/extras/clusterbench_sides: is not read"), 0u);
+  EXPECT_EQ(warning("cluster"), "none") << "another program's";
+  const Scene light = loaded(document(
+      R"("extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "extras": {"clusterbench_range": 3}}]}})"));
+  ASSERT_EQ(light.warnings.size(), 1u);
+  EXPECT_NE(light.warnings[0].find("/lights/0/extras/clusterbench_range: is not read"), std::string::npos);
+}
+
 TEST(GltfScenes, a_box_comes_from_a_nodes_extras) {
   const Scene scene =
       loaded(document(nodes(R"({"name": "decal", "extras": {"clusterbench_box": {"half_extents": [1, 2, 0.5]}}})")));

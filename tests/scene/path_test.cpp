@@ -53,6 +53,52 @@ TEST(CameraPaths, the_first_animated_camera_is_taken_when_none_is_named) {
   EXPECT_FALSE(paths[0].made);
 }
 
+TEST(CameraPaths, a_star_takes_every_camera) {
+  PathRequest request;
+  request.camera = "*";
+  const auto paths = camera_paths(scene_with_cameras(true), request);
+  ASSERT_EQ(paths.size(), 2u);
+  EXPECT_EQ(paths[0].camera, "standing");
+  EXPECT_EQ(paths[1].camera, "moving");
+  Scene without = scene_with_cameras(true);
+  without.cameras.clear();
+  EXPECT_EQ(camera_paths(without, request).at(0).camera, "around-lights");
+}
+
+TEST(CameraPaths, animated_cameras_that_the_default_leaves_out_are_known_by_name) {
+  Scene scene = scene_with_cameras(true);
+  EXPECT_TRUE(cameras_left_out(scene, {}).empty());
+  for (const char* name : {"third", "fourth"}) {
+    scene.cameras.push_back(scene.cameras[1]);
+    scene.cameras.back().name = name;
+  }
+  EXPECT_EQ(cameras_left_out(scene, {}), (std::vector<std::string>{"third", "fourth"}));
+  PathRequest named;
+  named.camera = "third";
+  EXPECT_TRUE(cameras_left_out(scene, named).empty()) << "somebody has chosen";
+}
+
+TEST(CameraPaths, jitter_is_gone_through_frame_by_frame_and_again_from_its_first) {
+  PathRequest request;
+  request.count = 5;
+  request.jitter_px = {{0.25, 0.0}, {0.0, -0.5}};
+  std::vector<Vec2d> seen;
+  for (const Shot& shot : camera_paths(scene_with_cameras(true), request).at(0).shots) seen.push_back(shot.jitter_px);
+  const Vec2d a{0.25, 0.0}, b{0.0, -0.5};
+  EXPECT_EQ(seen, (std::vector<Vec2d>{a, b, a, b, a}));
+}
+
+TEST(CameraPaths, halton_offsets_are_mirrored_digits_within_a_pixel) {
+  const std::vector<Vec2d> offsets = halton_jitter(6);
+  ASSERT_EQ(offsets.size(), 6u);
+  const double x[] = {0.5, 0.25, 0.75, 0.125, 0.625, 0.375};
+  const double y[] = {1.0 / 3, 2.0 / 3, 1.0 / 9, 4.0 / 9, 7.0 / 9, 2.0 / 9};
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_DOUBLE_EQ(offsets[i].x + 0.5, x[i]);
+    EXPECT_NEAR(offsets[i].y + 0.5, y[i], 1e-15);
+  }
+}
+
 TEST(CameraPaths, without_an_animated_camera_each_static_one_gives_one_frame) {
   const auto paths = camera_paths(scene_with_cameras(false), {});
   ASSERT_EQ(paths.size(), 2u);

@@ -82,6 +82,24 @@ TEST(Projection, of_a_camera_that_the_viewport_holds_is_the_same_to_the_bit_with
   EXPECT_EQ(fit_warning(lens, {100, 100}), "");
 }
 
+// With the picture moved by (2, -3) pixels, pixel (12, 17) shows what (10, 20) did.
+TEST(Projection, of_a_jittered_frame_moves_the_picture_by_its_pixels) {
+  const scene::Scene scene;
+  scene::Shot shot;
+  shot.lens.yfov_rad = 1.0;
+  shot.lens.near_m = 0.1;
+  shot.lens.far_m = 100.0;
+  const Projection still = make_frame(scene, shot, 0, {100, 50}).projection;
+  EXPECT_EQ(still, make_projection(shot.lens, {100, 50}));
+  shot.jitter_px = {2.0, -3.0};
+  const Projection moved = make_frame(scene, shot, 0, {100, 50}).projection;
+  const auto right_of = [](const Projection& p, double x) { return p.left + x / 100.0 * (p.right - p.left); };
+  const auto up_of = [](const Projection& p, double y) { return p.top - y / 50.0 * (p.top - p.bottom); };
+  EXPECT_NEAR(right_of(moved, 12.0), right_of(still, 10.0), 1e-15);
+  EXPECT_NEAR(up_of(moved, 17.0), up_of(still, 20.0), 1e-15);
+  EXPECT_NEAR(moved.right - moved.left, still.right - still.left, 1e-15);
+}
+
 TEST(Lights, far_from_the_origin_are_as_precise_as_near_it) {
   SplitMix64 random(1);
   const Vec3d offset{1e7, -3e6, 2e7};

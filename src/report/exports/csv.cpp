@@ -1,5 +1,6 @@
-// Comma-separated values (RFC 4180, lines end in a line feed): a row per case. The columns do not depend on what was
-// measured; a figure that a case lacks is an empty field.
+// Comma-separated values (RFC 4180, lines end in a line feed): a row per case, with the parts of its name in columns of
+// their own. The columns do not depend on what was measured, and name their units; a figure that a case lacks is an
+// empty field.
 
 #include <cmath>
 #include <string_view>
@@ -35,11 +36,19 @@ bool has_column(const Metric& metric, const ExportResult& result) {
   return metric.is_headline || result.all;
 }
 
+// "assign_time_ns"; the unit only where the name does not have it.
+std::string csv_column(const Metric& metric) {
+  std::string name(metric.name);
+  if (metric.unit == "ratio" || name.find(metric.unit) != std::string::npos) return name;
+  const std::string unit = metric.unit == "pairs/s" ? "pairs_per_s" : std::string(metric.unit);
+  return name + "_" + unit;
+}
+
 std::string heading(const ExportResult& result) {
-  std::string line = "id,name";
+  std::string line = "id,name,scene,camera,viewport,grid,assigner,precision,storage";
   for (const Metric& metric : export_metrics()) {
     if (!has_column(metric, result)) continue;
-    const std::string name(metric.name);
+    const std::string name = csv_column(metric);
     line += "," + name;
     if (!metric.interval.empty()) line += "," + name + "_low," + name + "_high";
   }
@@ -48,6 +57,7 @@ std::string heading(const ExportResult& result) {
 
 std::string row(const ExportResult& result, const ExportCase& one) {
   std::string line = field(one.id) + "," + field(one.name);
+  for (const auto& [part, text] : one.parts) line += "," + field(text);
   for (const Metric& metric : export_metrics()) {
     if (!has_column(metric, result)) continue;
     const Measured* figure = find_figure(one, metric.name);

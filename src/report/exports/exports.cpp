@@ -40,6 +40,21 @@ std::string needed_text(const Json& one, std::size_t index, const char* key) {
   return text;
 }
 
+// "" where a case lacks it.
+std::vector<std::pair<std::string, std::string>> parts_of(const Json& one) {
+  const Json::json_pointer width("/viewport/0"), height("/viewport/1");
+  const std::string viewport =
+      one.contains(width) && one.contains(height) ? one[width].dump() + "x" + one[height].dump() : "";
+  const std::string precision = text_at(one, "/precision/label");
+  return {{"scene", text_at(one, "/scene")},
+          {"camera", text_at(one, "/camera")},
+          {"viewport", viewport},
+          {"grid", text_at(one, "/grid/name")},
+          {"assigner", text_at(one, "/assigner/label")},
+          {"precision", precision.empty() ? "float32" : precision},
+          {"storage", text_at(one, "/storage")}};
+}
+
 ExportCase read_case(const Json& one, std::size_t index, bool all) {
   ExportCase out{needed_text(one, index, "id"), needed_text(one, index, "name"), measured(one, all), {}, 0};
   const Json::json_pointer samples("/timing/assign_ns/samples"), frames("/timing/frames_timed");
@@ -47,6 +62,7 @@ ExportCase read_case(const Json& one, std::size_t index, bool all) {
     for (const Json& sample : one[samples])
       if (sample.is_number()) out.assign_samples_ns.push_back(sample.get<double>());
   if (one.contains(frames) && one[frames].is_number_integer()) out.frames_timed = one[frames].get<int>();
+  out.parts = parts_of(one);
   return out;
 }
 

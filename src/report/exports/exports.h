@@ -17,6 +17,8 @@ struct ExportCase {
   std::vector<Measured> figures;
   std::vector<double> assign_samples_ns;  // of the rounds, in order; empty if nothing was timed
   int frames_timed = 0;
+  // What the name is made of: "scene", "camera", "viewport", "grid", "assigner", "precision", "storage", in this order.
+  std::vector<std::pair<std::string, std::string>> parts{};
 };
 
 struct ExportResult {

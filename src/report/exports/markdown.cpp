@@ -1,4 +1,5 @@
-// A table as GitHub and GitLab render it. Only columns in which a case has a figure.
+// A table as GitHub and GitLab render it. Only columns in which a case has a figure; of what a name is made of,
+// viewport and precision only where they differ.
 
 #include <algorithm>
 #include <cmath>
@@ -36,6 +37,20 @@ std::string heading(const Metric& metric) {
              : name + " (" + std::string(metric.unit) + ")";
 }
 
+// Places of the parts that are shown.
+std::vector<std::size_t> shown_parts(const ExportResult& result) {
+  std::vector<std::size_t> shown;
+  if (result.cases.empty()) return shown;
+  const auto& first = result.cases.front().parts;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const bool may_hide = first[i].first == "viewport" || first[i].first == "precision";
+    const bool differs = std::any_of(result.cases.begin(), result.cases.end(),
+                                     [&](const ExportCase& one) { return one.parts[i] != first[i]; });
+    if (!may_hide || differs) shown.push_back(i);
+  }
+  return shown;
+}
+
 }  // namespace
 
 std::string markdown(const ExportResult& result) {
@@ -43,14 +58,20 @@ std::string markdown(const ExportResult& result) {
   for (const Metric& metric : export_metrics())
     if (is_used(metric, result)) columns.push_back(&metric);
 
-  std::string out = "| case |", rule = "|---|";
+  const std::vector<std::size_t> parts = shown_parts(result);
+  std::string out = "|", rule = "|";
+  for (const std::size_t part : parts) {
+    out += " " + result.cases.front().parts[part].first + " |";
+    rule += "---|";
+  }
   for (const Metric* metric : columns) {
     out += " " + heading(*metric) + " |";
     rule += "---:|";
   }
   out += "\n" + rule + "\n";
   for (const ExportCase& one : result.cases) {
-    out += "| " + markdown_cell(one.name) + " |";
+    out += "|";
+    for (const std::size_t part : parts) out += " " + markdown_cell(one.parts[part].second) + " |";
     for (const Metric* metric : columns) {
       const Measured* figure = find_figure(one, metric->name);
       out += " " + (figure == nullptr ? "" : short_number(figure->value)) + " |";

@@ -1,0 +1,112 @@
+#include "report/limits.h"
+
+#include <cstdio>
+#include <optional>
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Where a case has a figure, as JSON pointers; "" where there is none. The sum of `place` and `more`, by `divisor`,
+// times `scale`.
+struct FigureRow {
+  const char* name;
+  const char* place;
+  double scale = 1.0;
+  const char* frame = "";
+  const char* cell = "";
+  const char* more = "";
+  const char* divisor = "";
+};
+constexpr double k_ns_to_us = 1e-3;
+constexpr FigureRow k_figure_rows[] = {
+    {"frame_us", "/timing/frame_ns/median", k_ns_to_us},
+    {"frame_us", "/timing/assign_ns/median", k_ns_to_us, "", "", "/timing/convert_ns/median"},
+    {"frame_us.max", "/timing/worst_frame/ns", k_ns_to_us, "/timing/worst_frame/frame"},
+    {"assign_us", "/timing/assign_ns/median", k_ns_to_us},
+    {"convert_us", "/timing/convert_ns/median", k_ns_to_us},
+    {"build_us", "/timing/build_ns/median", k_ns_to_us},
+    {"index_entries", "/buffers/index_entries/high_water", 1.0, "/buffers/worst_frame", "/buffers/worst_cell"},
+    {"bytes", "/buffers/bytes/high_water", 1.0, "/buffers/worst_frame", "/buffers/worst_cell"},
+    {"upload_bytes", "/buffers/upload_bytes/max"},
+    {"scratch_bytes", "/buffers/scratch_bytes"},
+    {"longest", "/occupancy/lights_per_cluster/max", 1.0, "/occupancy/worst_frame", "/occupancy/worst_cell"},
+    {"pairs", "/occupancy/pairs/max"},
+    {"dropped", "/buffers/overflow/dropped_pairs"},
+    {"missed", "/error/false_negatives", 1.0, "/error/deepest/frame", "/error/deepest/cell"},
+    {"excess", "/error/excess_ratio"},
+    {"undecided", "/error/undecided"},
+    {"unlit", "/shading/missed", 1.0, "/shading/worst_frame/frame", "", "", "/shading/needed"},
+    {"lost_irradiance", "/shading/lost_irradiance"},
+    {"overshade", "/shading/overshade"},
+};
+
+std::optional<double> figure_at(const Json& one, const char* place) {
+  const Json::json_pointer pointer(place);
+  if (!one.contains(pointer) || !one[pointer].is_number()) return {};
+  return one[pointer].get<double>();
+}
+
+// With the row that has it. Of several rows of a name the first that has one.
+struct Found {
+  const FigureRow* row = nullptr;
+  double value = 0.0;
+};
+std::optional<Found> found_in(const Json& one, const std::string& name) {
+  for (const FigureRow& row : k_figure_rows) {
+    if (row.name != name) continue;
+    std::optional<double> value = figure_at(one, row.place);
+    if (!value) continue;
+    if (*row.more != '\0') *value += figure_at(one, row.more).value_or(0.0);
+    if (*row.divisor != '\0') {
+      const double whole = figure_at(one, row.divisor).value_or(0.0);
+      if (!(whole > 0.0)) continue;  // a share of nothing
+      *value /= whole;
+    }
+    return Found{&row, *value * row.scale};
+  }
+  return {};
+}
+
+std::string budget_number(double value) {
+  char text[48];
+  const bool is_count = value == static_cast<double>(static_cast<long long>(value)) && value < 1e15;
+  std::snprintf(text, sizeof text, is_count ? "%.0f" : "%.7g", value);
+  return text;
+}
+
+std::string place_of_worst(const Json& one, const FigureRow& row) {
+  std::string text;
+  for (const auto& [word, place] : {std::pair("frame ", row.frame), std::pair("cell ", row.cell)})
+    if (const Json::json_pointer pointer(place); *place != '\0' && one.contains(pointer))
+      text += (text.empty() ? "" : ", ") + std::string(word) + one[pointer].dump();
+  return text.empty() ? "" : " (" + text + ")";
+}
+
+std::string rule_text(const config::LimitRule& rule) {
+  return rule.figure + (rule.is_inclusive ? " >= " : " > ") + budget_number(rule.limit);
+}
+
+}  // namespace
+
+LimitFindings limit_findings(const Json& result, std::span<const config::LimitRule> rules) {
+  LimitFindings findings;
+  for (const config::LimitRule& rule : rules) {
+    bool is_known = false;
+    for (const Json& one : result["cases"]) {
+      const std::optional<Found> found = found_in(one, rule.figure);
+      if (!found) continue;
+      is_known = true;
+      const std::string text = one["name"].get<std::string>() + ": " + rule.figure + " is " +
+                               budget_number(found->value) + place_of_worst(one, *found->row);
+      if (rule.is_broken_by(found->value)) findings.broken.push_back(text + ", and fails with " + rule_text(rule));
+      if (rule.is_near(found->value)) findings.near.push_back(text + ", less than 10 % below " + rule_text(rule));
+    }
+    if (!is_known)
+      findings.broken.push_back("'" + rule_text(rule) + "' could not be checked: no case has " + rule.figure);
+  }
+  return findings;
+}
+
+}  // namespace clusterbench::report

@@ -1,0 +1,20 @@
+#pragma once
+// A result held against its budgets: `limits.fail_if` of its configuration.
+
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "config/limit_rules.h"
+
+namespace clusterbench::report {
+
+// Lines with case, figure and, where they are known, frame and cell.
+struct LimitFindings {
+  std::vector<std::string> broken;  // also a budget about what no case has: it could not be checked
+  std::vector<std::string> near;    // less than 10 % below
+};
+LimitFindings limit_findings(const nlohmann::ordered_json& result, std::span<const config::LimitRule> rules);
+
+}  // namespace clusterbench::report

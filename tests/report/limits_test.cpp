@@ -1,0 +1,90 @@
+#include "report/limits.h"
+
+#include <gtest/gtest.h>
+
+#include "config/documents.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Lines = std::vector<std::string>;
+
+Json case_with_budget_figures() {
+  return Json::parse(R"({"name": "hall/walk/frustum/bounds/packed",
+    "timing": {"frame_ns": {"median": 195000.5}, "assign_ns": {"median": 150000}, "convert_ns": {"median": 45000},
+               "build_ns": {"median": 1000}, "worst_frame": {"frame": 12, "ns": 250000}},
+    "buffers": {"index_entries": {"high_water": 4097}, "bytes": {"high_water": 950000}, "upload_bytes": {"max": 7},
+                "scratch_bytes": 8, "overflow": {"dropped_pairs": 3}, "worst_frame": 9, "worst_cell": [1, 2, 3]},
+    "occupancy": {"lights_per_cluster": {"max": 64}, "pairs": {"max": 4000}, "worst_frame": 8, "worst_cell": [4, 5, 6]},
+    "error": {"false_negatives": 2, "excess_ratio": 0.5, "undecided": 0, "deepest": {"frame": 7, "cell": [0, 0, 1]}},
+    "shading": {"missed": 1, "needed": 1000, "lost_irradiance": 0.25, "overshade": 1.5, "worst_frame": {"frame": 3}}})");
+}
+
+LimitFindings findings_of(const std::string& rule, Json one = case_with_budget_figures()) {
+  const config::LimitRule rules[] = {config::limit_rule(rule, "", "--fail-if")};
+  return limit_findings(Json{{"cases", Json::array({std::move(one)})}}, rules);
+}
+
+std::string broken_by(const std::string& rule) {
+  const Lines lines = findings_of(rule).broken;
+  const std::string name = "hall/walk/frustum/bounds/packed: ";
+  return lines.empty() ? "kept" : lines.front().substr(lines.front().starts_with(name) ? name.size() : 0);
+}
+
+TEST(Limits, what_breaks_one_is_told_with_case_frame_and_cell) {
+  const std::pair<const char*, const char*> rows[] = {
+      {"frame_us.max > 200", "frame_us.max is 250 (frame 12), and fails with frame_us.max > 200"},
+      {"index_entries > 4096", "index_entries is 4097 (frame 9, cell [1,2,3]), and fails with index_entries > 4096"},
+      {"unlit > 0", "unlit is 0.001 (frame 3), and fails with unlit > 0"},
+      {"dropped>0", "dropped is 3, and fails with dropped > 0"},
+      {"missed > 0", "missed is 2 (frame 7, cell [0,0,1]), and fails with missed > 0"},
+      {"longest > 63", "longest is 64 (frame 8, cell [4,5,6]), and fails with longest > 63"},
+      {"longest > 64", "kept"},
+      {"longest >= 64", "longest is 64 (frame 8, cell [4,5,6]), and fails with longest >= 64"},
+      {"bytes > 1e6", "kept"},
+      {"frame_us > 195", "frame_us is 195.0005, and fails with frame_us > 195"},
+  };
+  for (const auto& [rule, line] : rows) EXPECT_EQ(broken_by(rule), line);
+  EXPECT_TRUE(findings_of("longest > 63").broken.front().starts_with("hall/walk/frustum/bounds/packed: "));
+}
+
+TEST(Limits, what_is_less_than_a_tenth_below_is_a_warning) {
+  const auto near = [](const std::string& rule) { return findings_of(rule).near; };
+  EXPECT_EQ(near("bytes > 1e6"), (Lines{"hall/walk/frustum/bounds/packed: bytes is 950000 (frame 9, cell [1,2,3]), "
+                                        "less than 10 % below bytes > 1000000"}));
+  EXPECT_EQ(near("bytes > 1.1e6"), Lines{});
+  EXPECT_EQ(near("longest > 64").size(), 1u);
+  EXPECT_EQ(near("longest >= 64"), Lines{}) << "it is broken";
+  EXPECT_EQ(near("undecided > 0"), Lines{});
+}
+
+// A gate that is never held must not look like one that was passed.
+TEST(Limits, what_no_case_has_fails) {
+  Json bare{{"name", "a"}};
+  EXPECT_EQ(findings_of("frame_us > 200", bare).broken,
+            (Lines{"'frame_us > 200' could not be checked: no case has frame_us"}));
+  bare["shading"] = {{"missed", 0}, {"needed", 0}};
+  EXPECT_EQ(findings_of("unlit > 0", bare).broken.size(), 1u) << "a share of nothing";
+}
+
+TEST(Limits, a_result_without_frame_times_has_them_from_their_parts) {
+  Json one = case_with_budget_figures();
+  one["timing"].erase("frame_ns");
+  EXPECT_EQ(findings_of("frame_us > 194.9", one).broken.size(), 1u);
+  one["timing"].erase("convert_ns");
+  EXPECT_EQ(findings_of("frame_us > 151", one).broken.size(), 0u);
+}
+
+TEST(Limits, every_figure_can_be_read_and_stands_in_the_schema_that_documents_it) {
+  const std::string documented =
+      config::config_schema()["properties"]["limits"]["properties"]["fail_if"]["description"].get<std::string>();
+  for (const config::LimitFigure& figure : config::limit_figures()) {
+    EXPECT_EQ(findings_of(std::string(figure.name) + " >= 0").broken.size(), 1u) << figure.name;
+    EXPECT_EQ(findings_of(std::string(figure.name) + " >= 0").broken.front().find("could not"), std::string::npos);
+    EXPECT_NE(documented.find(figure.name), std::string::npos) << figure.name;
+  }
+}
+
+}  // namespace
+}  // namespace clusterbench::report
