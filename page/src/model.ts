@@ -20,6 +20,7 @@ export interface Case {
   storage: string; // and lights, where they are packed
   setting: string; // what cases must share to be compared pair by pair
   isOnFront: boolean;
+  isOut: boolean; // fails, drops pairs or leaves too many lights unlit: beats nothing
   frameNs: Maybe; // assignment and conversion
   interval: [Maybe, Maybe]; // of frameNs
   worstNs: Maybe; // of the slowest timed frame
@@ -50,6 +51,8 @@ export interface Model {
   assigners: string[];
   families: string[];
 }
+
+export const mostUnlit = 1e-3; // rounding at cell boundaries leaves far fewer unlit
 
 const unique = (values: string[]) => [...new Set(values)];
 
@@ -84,6 +87,7 @@ function toCase(raw: CaseResult, run: Run, front: Set<string>): Case {
     storage,
     setting: [run.label, raw.scene, raw.camera, raw.viewport.join("×"), raw.grid.name, storage].join(" · "),
     isOnFront: front.has(raw.id),
+    isOut: (raw.failures ?? []).length > 0 || raw.buffers.overflow.dropped_pairs > 0 || (raw.shading?.unlit ?? 0) > mostUnlit,
     frameNs: frameTime(raw),
     interval: raw.timing?.frame_ns?.ci95 ?? [null, null],
     worstNs: raw.timing?.worst_frame?.ns ?? null,

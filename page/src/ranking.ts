@@ -3,10 +3,9 @@
 import { h } from "./dom.ts";
 import * as format from "./format.ts";
 import { copyButton, csv, downloadButton } from "./handover.ts";
-import type { Case } from "./model.ts";
+import { mostUnlit, type Case } from "./model.ts";
 import { standings, type Standing } from "./overall.ts";
 import { icon } from "./palette.ts";
-import { mostUnlit } from "./warnings.ts";
 import { tableView, type Column, type Table } from "./table.ts";
 import type { Section, View } from "./view.ts";
 
@@ -79,7 +78,7 @@ function overallColumns(view: View, rows: Standing[]): Column<Standing>[] {
     { label: "grid", value: (one) => one.grid },
     differ(rows, (one) => one.storage) && { label: "storage", value: (one) => one.storage },
     differ(rows, (one) => one.run) && { label: "result", value: (one) => one.run },
-    timed && { label: "time / best", about: "Frame time by that of the scene's fastest case: geometric mean over the scenes", value: (one) => one.timeByBest, show: (one) => format.factor(one.timeByBest) },
+    timed && { label: "time / best", about: "Frame time by that of the scene's fastest case that loses no light: geometric mean over the scenes", value: (one) => one.timeByBest, show: (one) => format.factor(one.timeByBest) },
     timed && { label: "worst", about: "The same in the scene where it is largest", value: (one) => one.worstTimeByBest, show: (one) => format.factor(one.worstTimeByBest) },
     { label: "on front", about: "In how many of its cases it is on the Pareto front in time, bytes and overshade", value: (one) => one.fronts, show: (one) => `${one.fronts} of ${one.cases.length}` },
     { label: "excess", about: "False positives by true pairs, over all scenes", value: (one) => one.excess, show: (one) => format.percent(one.excess) },

@@ -69,7 +69,7 @@ export interface Lookup {
   safe_padding_ulps: number;
 }
 
-export type FailureKind = "lost_pairs" | "extra_pairs" | "lost_at_samples" | "dropped_pairs" | "unlit";
+export type FailureKind = "lost_pairs" | "extra_pairs" | "lost_at_samples" | "dropped_pairs";
 
 export interface CaseResult {
   id: string;

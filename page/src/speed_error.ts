@@ -80,7 +80,7 @@ function names(best: Point[], all: Point[], { x, y }: Scales, width: number, hei
 }
 
 function panel(view: View, all: Point[], measure: Measure, scales: Scales, width: number): Element {
-  const best = front(all);
+  const best = front(all.filter(({ one }) => !one.isOut));
   const look = (point: Point) => view.palette(point.one);
   const height = Math.round(Math.min(420, Math.max(230, width * 0.5)));
   return chart(`Frame time against ${measure.label} of ${all.length} cases; on the front: ${best.map(({ one }) => one.assigner).join(", ")}`, {

@@ -2,7 +2,7 @@
 
 import { h } from "./dom.ts";
 import * as format from "./format.ts";
-import type { Case, Model, Run } from "./model.ts";
+import { mostUnlit, type Case, type Model, type Run } from "./model.ts";
 import type { FailureKind, SceneResult } from "./result.ts";
 import type { Section } from "./view.ts";
 
@@ -12,14 +12,12 @@ export interface Warning {
 }
 
 const noisy = 0.1; // half interval by median
-export const mostUnlit = 1e-3; // rounding at cell boundaries leaves far fewer unlit
 
 const failures: Record<FailureKind, string> = {
   lost_pairs: "lost lights and call themselves conservative",
   extra_pairs: "reported pairs that are not true and call themselves exact",
   lost_at_samples: "lost lights at samples and call themselves conservative",
   dropped_pairs: "dropped more pairs than the configuration allows",
-  unlit: "leave more lights unlit than the configuration allows",
 };
 
 function counted(cases: Case[], what: string): string {

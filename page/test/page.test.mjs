@@ -181,6 +181,14 @@ describe("what a case loses", () => {
     }
   });
 
+  it("takes no part in the chart's front", async () => {
+    const page = await open(pages.lossy);
+    await page.selectOption("#speed-error-measure", "bytes");
+    const label = await page.locator("#speed-error svg[role=img]").first().getAttribute("aria-label");
+    const names = label.replace(/.*on the front: /, "").split(", ");
+    assert.ok(names.length <= 2, `${label}: fixed storage takes fewest bytes, and drops pairs`);
+  });
+
   it("is a warning", async () => {
     const page = await open(pages.lossy);
     const text = (await textsOf(page, "#warnings li")).join("\n");

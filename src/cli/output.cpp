@@ -1,5 +1,7 @@
 #include "cli/output.h"
 
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -18,6 +20,14 @@ void tell(const std::string& message) {
 bool is_stream(const std::string& output) {
   return output.empty() || output == "-" ||
          (fs::exists(output) && !fs::is_regular_file(output) && !fs::is_directory(output));
+}
+
+bool is_for_reading(const std::string& output) {
+  return output.empty() && isatty(STDOUT_FILENO) != 0;
+}
+
+void tell_of_keeping() {
+  tell("the result is not kept; -o FILE keeps it, -o - prints it as JSON");
 }
 
 void probe_output(const std::string& output) {

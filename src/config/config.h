@@ -84,9 +84,8 @@ struct DetailsRequest {
 struct LimitsRequest {
   std::optional<std::uint64_t> all_pairs;  // lights x cells of methods that test every light against every cell
   std::uint64_t memory_mib = k_default_memory_limit >> 20;  // of one list, buffer or table: core/memory.h
-  // What a case may leave out before it fails the run; without: all that it likes.
-  std::optional<std::uint64_t> dropped_pairs = 0;  // of its storage, over all frames
-  std::optional<double> unlit;                     // share of the lights that samples need
+  // What a case's storage may drop over all frames before it fails the run; without: all that it likes.
+  std::optional<std::uint64_t> dropped_pairs = 0;
 };
 
 struct Config {

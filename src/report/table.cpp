@@ -200,13 +200,14 @@ std::string overflow_text(const Json& overflow) {
 std::string unlit_warning(const Json& shading) {
   const Json* unlit = at(shading, "/unlit");
   if (unlit == nullptr || unlit->get<double>() <= measure::k_most_unlit) return "";
+  const auto count = [&](const char* pointer) { return number_text(shading, pointer, "%.0f"); };
   std::string out = text("%.3g %%", 100.0 * unlit->get<double>()) + " of the lights that samples need are unlit, " +
-                    text("%.3g %%", 100.0 * shading["lost_irradiance"].get<double>()) +
-                    " of the irradiance: " + shading["missed_in_cells"].dump() + " in cells, " +
-                    shading["missed_outside"].dump() + " outside of the grid";
+                    number_text(shading, "/lost_irradiance", "%.3g %%", 100.0) +
+                    " of the irradiance: " + count("/missed_in_cells") + " in cells, " + count("/missed_outside") +
+                    " outside of the grid";
   if (shading.contains("worst_frame"))
-    out += "; most in frame " + shading["worst_frame"]["frame"].dump() + ", " +
-           shading["worst_frame"]["missed"].dump() + " of " + shading["worst_frame"]["needed"].dump();
+    out += "; most in frame " + count("/worst_frame/frame") + ", " + count("/worst_frame/missed") + " of " +
+           count("/worst_frame/needed");
   return out;
 }
 

@@ -40,11 +40,6 @@ std::string worst_text(const CaseResult& one) {
          " of " + std::to_string(one.worst_unlit->needed);
 }
 
-std::string missed_text(const CaseResult& one, std::uint64_t missed, std::uint64_t needed, const char* at) {
-  return "lost " + std::to_string(missed) + " of " + number_of(needed, "light") + " that " + at + " need" +
-         worst_text(one);
-}
-
 // What a lookup finds whose arithmetic is that of the samples; other ways err by themselves.
 const measure::LookupCounts* plain_lookup(const CaseResult& one) {
   for (const measure::LookupCounts& counts : one.lookup)
@@ -61,7 +56,8 @@ bool misses_without_cells(const CaseResult& one) {
 
 std::string missed_without_cells_text(const CaseResult& one) {
   if (one.shading && one.shading->missed > 0)
-    return missed_text(one, one.shading->missed, one.shading->needed, "its samples");
+    return "lost " + std::to_string(one.shading->missed) + " of " + number_of(one.shading->needed, "light") +
+           " that its samples need" + worst_text(one);
   const measure::LookupCounts& lookup = *plain_lookup(one);
   return "lost " + std::to_string(lookup.missed) + " of " + number_of(lookup.needed, "light") +
          " that the samples of its lookup need";
@@ -74,7 +70,7 @@ double unlit_share(const CaseResult& one) {
 }  // namespace
 
 const char* name_of(Failure::Kind kind) {
-  constexpr const char* k_names[] = {"lost_pairs", "extra_pairs", "lost_at_samples", "dropped_pairs", "unlit"};
+  constexpr const char* k_names[] = {"lost_pairs", "extra_pairs", "lost_at_samples", "dropped_pairs"};
   return k_names[static_cast<std::size_t>(kind)];
 }
 
@@ -96,10 +92,6 @@ std::vector<Failure> failures_of(const CaseResult& one, const config::LimitsRequ
                             number_of(buffers.overflowing_cells, "cell") + " of " +
                             number_of(static_cast<std::uint64_t>(buffers.overflowing_frames), "frame") +
                             ", more than limits.dropped_pairs allows (" + std::to_string(*limits.dropped_pairs) + ")"});
-  if (limits.unlit && unlit_share(one) > *limits.unlit)
-    failures.push_back({Kind::unlit, missed_text(one, one.shading->missed, one.shading->needed, "samples") + "; " +
-                                         percent(unlit_share(one)) + ", more than limits.unlit allows (" +
-                                         percent(*limits.unlit) + ")"});
   return failures;
 }
 

@@ -14,7 +14,7 @@ namespace clusterbench::run {
 const char* name_of(Failure::Kind kind);  // "lost_pairs", ...
 
 // A conservative method that lost a light, in lists or, without cells, at samples; an exact one with any difference;
-// dropped pairs and unlit shares beyond the limits.
+// more dropped pairs than the limits allow.
 std::vector<Failure> failures_of(const CaseResult& one, const config::LimitsRequest& limits);
 
 // Whether a shader that loops over what the case gives lacks lights: pairs that are not listed or were dropped, lights

@@ -115,7 +115,7 @@ struct PrecisionResult {
 
 // What a run fails for.
 struct Failure {
-  enum class Kind : std::uint8_t { lost_pairs, extra_pairs, lost_at_samples, dropped_pairs, unlit };
+  enum class Kind : std::uint8_t { lost_pairs, extra_pairs, lost_at_samples, dropped_pairs };
   Kind kind = Kind::lost_pairs;
   std::string text;  // without the case's name
 };

@@ -47,12 +47,6 @@ config::LimitsRequest with_dropped(std::optional<std::uint64_t> pairs) {
   return limits;
 }
 
-config::LimitsRequest with_unlit(double share) {
-  config::LimitsRequest limits;
-  limits.unlit = share;
-  return limits;
-}
-
 TEST(Gate, what_loses_and_drops_nothing_passes) {
   EXPECT_TRUE(kinds(with_cells()).empty());
   EXPECT_TRUE(kinds(without_cells()).empty());
@@ -116,16 +110,15 @@ TEST(Gate, dropped_pairs_fail_unless_the_configuration_allows_them) {
   EXPECT_TRUE(loses_lights(one));
 }
 
-TEST(Gate, unlit_lights_fail_beyond_the_limit_with_their_frame) {
+TEST(Gate, what_lies_outside_of_the_grid_loses_lights_and_is_told_with_its_frame) {
   CaseResult one = with_cells();
   miss(one, 100, 90);
-  EXPECT_TRUE(kinds(one).empty());
+  EXPECT_TRUE(kinds(one).empty()) << "a choice of the grid";
   EXPECT_TRUE(loses_lights(one));
-  EXPECT_TRUE(kinds(one, with_unlit(0.1)).empty());
-  EXPECT_EQ(kinds(one, with_unlit(0.09)), (std::vector{Kind::unlit}));
-  const std::string text = failures_of(one, with_unlit(0.09))[0].text;
-  for (const char* part : {"100 of 1000 lights", "frame 7, 100 of 140", "10 %", "limits.unlit allows (9 %)"})
-    EXPECT_NE(text.find(part), std::string::npos) << part << " in " << text;
+  CaseResult own = without_cells();
+  miss(own, 100, 90);
+  const std::string text = failures_of(own, {})[0].text;
+  EXPECT_EQ(text, "lost 100 of 1000 lights that its samples need; most in frame 7, 100 of 140");
 }
 
 Contender contender(const std::string& id, double time_ns, const std::string& view = "view") {
