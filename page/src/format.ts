@@ -26,6 +26,7 @@ export const count: Format = ifKnown((value) => grouped.format(value));
 export const decimal: Format = ifKnown(significant);
 export const microseconds: Format = ifKnown((ns) => significant(ns / 1e3)); // of nanoseconds
 export const percent: Format = ifKnown((ratio) => `${(100 * ratio).toFixed(1)} %`);
+export const share: Format = ifKnown((ratio) => (ratio === 0 ? "0 %" : ratio < 1e-4 ? "<0.01 %" : `${(100 * ratio).toFixed(ratio < 0.01 ? 2 : 1)} %`)); // what is not nothing never looks like it
 export const factor: Format = ifKnown((value) => `${significant(value)}×`);
 export const bytes: Format = ifKnown((value) => {
   const units = ["B", "KiB", "MiB", "GiB"];

@@ -16,7 +16,7 @@ interface Measure {
 }
 
 const measures: Record<string, Measure> = {
-  time: { label: "assign µs", of: (one) => one.assignNs, show: format.microseconds },
+  time: { label: "frame µs", of: (one) => one.frameNs, show: format.microseconds },
   instructions: { label: "instructions", of: (one) => one.instructions, show: format.short },
   overshade: { label: "overshade", of: (one) => one.overshade, show: format.factor },
   excess: { label: "excess", of: (one) => one.excess, show: format.percent },

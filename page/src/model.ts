@@ -20,14 +20,21 @@ export interface Case {
   storage: string; // and lights, where they are packed
   setting: string; // what cases must share to be compared pair by pair
   isOnFront: boolean;
+  isOut: boolean; // fails, drops pairs or leaves too many lights unlit: beats nothing
+  frameNs: Maybe; // assignment and conversion
+  interval: [Maybe, Maybe]; // of frameNs
+  worstNs: Maybe; // of the slowest timed frame
   assignNs: Maybe;
-  interval: [Maybe, Maybe];
+  convertNs: Maybe;
   nsPerPair: Maybe;
   floorRatio: Maybe;
   instructions: Maybe;
-  pairs: Maybe;
+  pairs: Maybe; // of the timed frames; without times of all
+  mostPairs: Maybe;
   excess: Maybe;
   missed: Maybe;
+  dropped: number;
+  unlit: Maybe;
   overshade: Maybe;
   p99: Maybe;
   longest: Maybe;
@@ -45,6 +52,8 @@ export interface Model {
   families: string[];
 }
 
+export const mostUnlit = 1e-3; // rounding at cell boundaries leaves far fewer unlit
+
 const unique = (values: string[]) => [...new Set(values)];
 
 // The shortest ends of paths that tell them apart.
@@ -56,6 +65,13 @@ function labels(files: string[]): string[] {
       if (files.every((other, place) => other === file || tail(place, length) !== tail(at, length))) return tail(at, length);
     return file;
   });
+}
+
+// Of a result that has only its parts, their sum.
+function frameTime({ timing }: CaseResult): Maybe {
+  if (!timing) return null;
+  const assign = timing.assign_ns.median;
+  return timing.frame_ns?.median ?? (assign === null ? null : assign + (timing.convert_ns?.median ?? 0));
 }
 
 function toCase(raw: CaseResult, run: Run, front: Set<string>): Case {
@@ -71,14 +87,21 @@ function toCase(raw: CaseResult, run: Run, front: Set<string>): Case {
     storage,
     setting: [run.label, raw.scene, raw.camera, raw.viewport.join("×"), raw.grid.name, storage].join(" · "),
     isOnFront: front.has(raw.id),
+    isOut: (raw.failures ?? []).length > 0 || raw.buffers.overflow.dropped_pairs > 0 || (raw.shading?.unlit ?? 0) > mostUnlit,
+    frameNs: frameTime(raw),
+    interval: raw.timing?.frame_ns?.ci95 ?? [null, null],
+    worstNs: raw.timing?.worst_frame?.ns ?? null,
     assignNs: raw.timing?.assign_ns.median ?? null,
-    interval: raw.timing?.assign_ns.ci95 ?? [null, null],
+    convertNs: raw.timing?.convert_ns?.median ?? null,
     nsPerPair: raw.timing?.ns_per_pair ?? null,
     floorRatio: raw.timing?.floor_ratio ?? null,
     instructions: raw.count?.instructions_per_frame.assign ?? null,
-    pairs: raw.occupancy?.pairs.mean ?? null,
+    pairs: raw.timing?.pairs?.mean ?? raw.occupancy?.pairs.mean ?? null,
+    mostPairs: raw.timing?.pairs?.max ?? raw.occupancy?.pairs.max ?? null,
     excess: raw.error?.excess_ratio ?? null,
     missed: raw.error?.false_negatives ?? null,
+    dropped: raw.buffers.overflow.dropped_pairs,
+    unlit: raw.shading?.unlit ?? null,
     overshade: raw.shading?.overshade ?? null,
     p99: raw.occupancy?.lights_per_cluster.p99 ?? null,
     longest: raw.occupancy?.lights_per_cluster.max ?? null,

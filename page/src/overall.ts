@@ -11,10 +11,12 @@ export interface Standing {
   storage: string;
   run: string;
   cases: Case[];
-  timeByBest: Maybe; // geometric mean over its cases
+  timeByBest: Maybe; // geometric mean over its cases; below 1 where it is faster than all that lose nothing
   worstTimeByBest: Maybe;
   excess: Maybe; // over the pairs of all cases together
   missed: Maybe;
+  dropped: number;
+  unlit: Maybe; // largest of a case
   overshade: Maybe; // over the samples of all cases together
   longest: Maybe;
   bytes: number;
@@ -24,10 +26,12 @@ export interface Standing {
 // Cases that see the same, whatever cells they use.
 const seenBy = (one: Case) => [one.run.label, one.scene, one.raw.camera, one.raw.viewport.join("x"), one.storage].join("\n");
 
+// Of those that lose nothing, where there are any.
 function bestTimes(cases: Case[]): Map<string, number> {
   const best = new Map<string, number>();
+  const whole = new Set(cases.filter((one) => !one.isOut).map(seenBy));
   for (const one of cases)
-    if (one.assignNs !== null) best.set(seenBy(one), Math.min(best.get(seenBy(one)) ?? Infinity, one.assignNs));
+    if (one.frameNs !== null && (!one.isOut || !whole.has(seenBy(one)))) best.set(seenBy(one), Math.min(best.get(seenBy(one)) ?? Infinity, one.frameNs));
   return best;
 }
 
@@ -37,7 +41,7 @@ const sum = (values: number[]) => values.reduce((total, value) => total + value,
 const ratio = (part: number, whole: number): Maybe => (whole > 0 ? part / whole : null);
 
 function standing(cases: Case[], best: Map<string, number>): Standing {
-  const ratios = known(cases.map((one) => one.assignNs && one.assignNs / best.get(seenBy(one))!));
+  const ratios = known(cases.map((one) => one.frameNs && one.frameNs / best.get(seenBy(one))!));
   const errors = cases.flatMap((one) => one.raw.error ?? []);
   const shadings = cases.flatMap((one) => (one.raw.shading?.overshade == null ? [] : one.raw.shading));
   const first = cases[0]!;
@@ -53,6 +57,8 @@ function standing(cases: Case[], best: Map<string, number>): Standing {
     worstTimeByBest: most(ratios),
     excess: ratio(sum(errors.map((one) => one.false_positives)), sum(errors.map((one) => one.true_pairs))),
     missed: errors.length ? sum(errors.map((one) => one.false_negatives)) : null,
+    dropped: sum(cases.map((one) => one.dropped)),
+    unlit: most(cases.map((one) => one.unlit)),
     overshade: ratio(sum(shadings.map((one) => one.overshade! * one.needed)), sum(shadings.map((one) => one.needed))),
     longest: most(cases.map((one) => one.longest)),
     bytes: Math.max(...cases.map((one) => one.bytes)),

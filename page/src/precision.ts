@@ -13,6 +13,7 @@ type Looked = { one: Case; lookup: Lookup };
 
 const packedColumns: Column<Packed>[] = [
   { label: "method", value: ({ one }) => one.assigner },
+  { label: "storage", value: ({ one }) => one.raw.storage },
   { label: "scene", value: ({ one }) => one.scene },
   { label: "grid", value: ({ one }) => one.grid },
   { label: "lights", value: ({ precision }) => precision.label },
@@ -24,6 +25,7 @@ const packedColumns: Column<Packed>[] = [
 
 const lookedColumns: Column<Looked>[] = [
   { label: "method", value: ({ one }) => one.assigner },
+  { label: "storage", about: "What the lookup asks, with how its lights are packed; own: a light structure of the method's own", value: ({ one }) => one.storage },
   { label: "scene", value: ({ one }) => one.scene },
   { label: "grid", value: ({ one }) => one.grid },
   { label: "logarithm", value: ({ lookup }) => lookup.logarithm },

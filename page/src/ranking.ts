@@ -3,7 +3,7 @@
 import { h } from "./dom.ts";
 import * as format from "./format.ts";
 import { copyButton, csv, downloadButton } from "./handover.ts";
-import type { Case } from "./model.ts";
+import { mostUnlit, type Case } from "./model.ts";
 import { standings, type Standing } from "./overall.ts";
 import { icon } from "./palette.ts";
 import { tableView, type Column, type Table } from "./table.ts";
@@ -18,6 +18,17 @@ function interval(one: Case): string {
   return low === null || high === null ? "" : `95 %: ${format.microseconds(low)} to ${format.microseconds(high)} µs`;
 }
 
+function worst({ raw }: Case): string {
+  const frame = raw.timing?.worst_frame;
+  return frame ? `frame ${frame.frame}${frame.pairs === undefined ? "" : `, ${format.count(frame.pairs)} pairs`}` : "";
+}
+
+function unlit({ raw, unlit }: Case): HTMLElement {
+  const { missed_in_cells, missed_outside } = raw.shading ?? {};
+  const title = missed_outside === undefined ? "" : `${format.count(missed_in_cells ?? null)} in cells, ${format.count(missed_outside)} outside of the grid`;
+  return h("span", { class: (unlit ?? 0) > mostUnlit ? "bad" : "", title }, format.share(unlit));
+}
+
 const missed = (lost: number | null) => h("span", { class: lost ? "bad" : "" }, format.count(lost));
 const differ = <Row>(rows: Row[], value: (row: Row) => unknown) => new Set(rows.map(value)).size > 1;
 const kept = <Row>(columns: (Column<Row> | false)[]) => columns.filter((column): column is Column<Row> => column !== false);
@@ -26,22 +37,28 @@ function caseColumns(view: View, rows: Case[]): Column<Case>[] {
   const measured = (value: (one: Case) => unknown) => rows.some((one) => value(one) !== null);
   return kept<Case>([
     { label: "method", value: (one) => one.assigner, show: (one) => method(view, one) },
-    { label: "front", about: "On its scene's Pareto front in time, bytes and overshade", value: (one) => (one.isOnFront ? "yes" : null), show: (one) => (one.isOnFront ? h("span", { class: "front", role: "img", "aria-label": "yes" }, "●") : "") },
+    { label: "front", about: "On its scene's Pareto front in frame time, bytes and overshade: nothing that loses no light is better, beyond the intervals of time", value: (one) => (one.isOnFront ? "yes" : null), show: (one) => (one.isOnFront ? h("span", { class: "front", role: "img", "aria-label": "yes" }, "●") : "") },
     differ(rows, (one) => one.scene) && { label: "scene", value: (one) => one.scene },
     differ(rows, (one) => one.raw.camera) && { label: "camera", value: (one) => one.raw.camera },
     differ(rows, (one) => String(one.raw.viewport)) && { label: "viewport", value: (one) => one.raw.viewport.join("×") },
     { label: "grid", value: (one) => one.grid },
     differ(rows, (one) => one.storage) && { label: "storage", value: (one) => one.storage },
     differ(rows, (one) => one.run) && { label: "result", value: (one) => one.run.label },
-    measured((one) => one.assignNs) && { label: "assign µs", about: "Median time of one frame's assignment, lists included, on one core", value: (one) => one.assignNs, show: (one) => h("span", { title: interval(one) }, format.microseconds(one.assignNs)) },
-    measured((one) => one.assignNs) && { label: "±", about: "Half of the 95 % interval, by the median", value: halfInterval, show: (one) => format.percent(halfInterval(one)) },
+    measured((one) => one.frameNs) && { label: "frame µs", about: "Median time of what a frame takes: assignment and conversion to the storage, with builds where the grid changes from frame to frame", value: (one) => one.frameNs, show: (one) => h("span", { title: interval(one) }, format.microseconds(one.frameNs)) },
+    measured((one) => one.frameNs) && { label: "±", about: "Half of the 95 % interval, by the median", value: halfInterval, show: (one) => format.percent(halfInterval(one)) },
+    measured((one) => one.worstNs) && { label: "worst µs", about: "The slowest of the timed frames; its number at the pointer", value: (one) => one.worstNs, show: (one) => h("span", { title: worst(one) }, format.microseconds(one.worstNs)) },
+    measured((one) => one.assignNs) && { label: "assign µs", about: "Of the frame's time: assignment, lists included", value: (one) => one.assignNs, show: (one) => format.microseconds(one.assignNs) },
+    measured((one) => one.convertNs) && { label: "convert µs", about: "Of the frame's time: from lists to the storage's layout", value: (one) => one.convertNs, show: (one) => format.microseconds(one.convertNs) },
     measured((one) => one.instructions) && { label: "instr", about: "Instructions of one frame's assignment", value: (one) => one.instructions, show: (one) => format.short(one.instructions) },
-    measured((one) => one.nsPerPair) && { label: "ns/pair", about: "Assignment time by the pairs written", value: (one) => one.nsPerPair, show: (one) => format.decimal(one.nsPerPair) },
+    measured((one) => one.nsPerPair) && { label: "ns/pair", about: "Frame time by pairs", value: (one) => one.nsPerPair, show: (one) => format.decimal(one.nsPerPair) },
     measured((one) => one.floorRatio) && { label: "× floor", about: "Assignment time by the time to copy the finished lists once", value: (one) => one.floorRatio, show: (one) => format.decimal(one.floorRatio) },
-    { label: "pairs", about: "References per frame, mean; comparable on one grid only", value: (one) => one.pairs, show: (one) => format.short(one.pairs) },
+    { label: "pairs", about: "(cell, light) pairs per frame, mean of the frames that are timed; comparable on one grid only", value: (one) => one.pairs, show: (one) => format.short(one.pairs) },
+    { label: "most pairs", about: "Of one of these frames", value: (one) => one.mostPairs, show: (one) => format.short(one.mostPairs) },
     { label: "excess", about: "False positives by true pairs", value: (one) => one.excess, show: (one) => format.percent(one.excess) },
     { label: "missed", about: "False negatives: lights that reach a cell and are not in its list", value: (one) => one.missed, show: (one) => missed(one.missed) },
-    measured((one) => one.overshade) && { label: "overshade", about: "Lights evaluated by lights needed, at the samples", value: (one) => one.overshade, show: (one) => format.factor(one.overshade) },
+    rows.some((one) => one.dropped > 0) && { label: "dropped", about: "Pairs that the storage had no room for, over all frames", value: (one) => one.dropped, show: (one) => missed(one.dropped) },
+    measured((one) => one.unlit) && { label: "unlit", about: "Share of the lights that samples need and are not given: their cell lacks them, the storage dropped them, or they are outside of the grid", value: (one) => one.unlit, show: (one) => unlit(one) },
+    measured((one) => one.overshade) && { label: "overshade", about: "Lights evaluated by lights needed, at the samples; none where lights are unlit or few are needed", value: (one) => one.overshade, show: (one) => format.factor(one.overshade) },
     { label: "p99", about: "Lights per cell that 99 % of the cells do not exceed", value: (one) => one.p99, show: (one) => format.count(one.p99) },
     { label: "longest", about: "Longest list of the path", value: (one) => one.longest, show: (one) => format.count(one.longest) },
     { label: "bytes", about: "High-water mark of headers and indices", value: (one) => one.bytes, show: (one) => format.bytes(one.bytes) },
@@ -51,7 +68,7 @@ function caseColumns(view: View, rows: Case[]): Column<Case>[] {
 
 function halfInterval(one: Case): number | null {
   const [low, high] = one.interval;
-  return low === null || high === null || !one.assignNs ? null : (high - low) / 2 / one.assignNs;
+  return low === null || high === null || !one.frameNs ? null : (high - low) / 2 / one.frameNs;
 }
 
 function overallColumns(view: View, rows: Standing[]): Column<Standing>[] {
@@ -61,12 +78,14 @@ function overallColumns(view: View, rows: Standing[]): Column<Standing>[] {
     { label: "grid", value: (one) => one.grid },
     differ(rows, (one) => one.storage) && { label: "storage", value: (one) => one.storage },
     differ(rows, (one) => one.run) && { label: "result", value: (one) => one.run },
-    timed && { label: "time / best", about: "Assignment time by that of the scene's fastest case: geometric mean over the scenes", value: (one) => one.timeByBest, show: (one) => format.factor(one.timeByBest) },
+    timed && { label: "time / best", about: "Frame time by that of the scene's fastest case that loses no light: geometric mean over the scenes", value: (one) => one.timeByBest, show: (one) => format.factor(one.timeByBest) },
     timed && { label: "worst", about: "The same in the scene where it is largest", value: (one) => one.worstTimeByBest, show: (one) => format.factor(one.worstTimeByBest) },
     { label: "on front", about: "In how many of its cases it is on the Pareto front in time, bytes and overshade", value: (one) => one.fronts, show: (one) => `${one.fronts} of ${one.cases.length}` },
     { label: "excess", about: "False positives by true pairs, over all scenes", value: (one) => one.excess, show: (one) => format.percent(one.excess) },
     { label: "missed", about: "False negatives over all scenes", value: (one) => one.missed, show: (one) => missed(one.missed) },
-    { label: "overshade", about: "Lights evaluated by lights needed, over the samples of all scenes", value: (one) => one.overshade, show: (one) => format.factor(one.overshade) },
+    rows.some((one) => one.dropped > 0) && { label: "dropped", about: "Pairs that storages had no room for", value: (one) => one.dropped, show: (one) => missed(one.dropped) },
+    rows.some((one) => one.unlit !== null) && { label: "unlit", about: "Largest share of needed lights that the samples of a scene lack", value: (one) => one.unlit, show: (one) => h("span", { class: (one.unlit ?? 0) > mostUnlit ? "bad" : "" }, format.share(one.unlit)) },
+    { label: "overshade", about: "Lights evaluated by lights needed, over the samples of all scenes in which it compares", value: (one) => one.overshade, show: (one) => format.factor(one.overshade) },
     { label: "longest", about: "Longest list of any scene", value: (one) => one.longest, show: (one) => format.count(one.longest) },
     { label: "bytes", about: "Largest high-water mark of any scene", value: (one) => one.bytes, show: (one) => format.bytes(one.bytes) },
   ]);
@@ -74,7 +93,7 @@ function overallColumns(view: View, rows: Standing[]): Column<Standing>[] {
 
 // By the first of these columns that the table has.
 function sortedBy<Row>(columns: Column<Row>[]): Table<Row>["sort"] {
-  const places = ["assign µs", "time / best", "instr", "excess"].map((label) => columns.findIndex((column) => column.label === label));
+  const places = ["frame µs", "time / best", "instr", "excess"].map((label) => columns.findIndex((column) => column.label === label));
   return { column: places.find((place) => place >= 0) ?? 0, descending: false };
 }
 

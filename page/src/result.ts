@@ -69,6 +69,8 @@ export interface Lookup {
   safe_padding_ulps: number;
 }
 
+export type FailureKind = "lost_pairs" | "extra_pairs" | "lost_at_samples" | "dropped_pairs";
+
 export interface CaseResult {
   id: string;
   name: string;
@@ -79,6 +81,8 @@ export interface CaseResult {
   grid: Grid;
   assigner: { name: string; label: string; params: object; conservative: boolean; exact: boolean };
   storage: string;
+  failures?: { kind: FailureKind; text: string }[];
+  loses_lights?: boolean;
   tests_done: number;
   fallbacks?: number;
   occupancy?: {
@@ -109,12 +113,25 @@ export interface CaseResult {
     deepest_miss: Maybe;
     undecided: number;
   };
-  shading?: { samples: number; missed: number; needed: number; overshade: Maybe };
+  shading?: {
+    samples: number;
+    missed: number;
+    missed_in_cells?: number;
+    missed_outside?: number;
+    needed: number;
+    unlit?: Maybe;
+    worst_frame?: { frame: number; missed: number; needed: number };
+    overshade: Maybe;
+  };
   stability?: Stability;
   precision?: Precision;
   lookup?: Lookup[];
   timing?: {
     frames_timed: number;
+    frame_ns?: TimeStats;
+    worst_frame?: { frame: number; ns: Maybe; ci95: [Maybe, Maybe]; pairs?: number };
+    pairs?: { mean: Maybe; max: number };
+    builds_per_frame?: number;
     build_ns: TimeStats;
     assign_ns: TimeStats;
     convert_ns?: TimeStats;

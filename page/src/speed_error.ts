@@ -21,6 +21,7 @@ const measures: Record<string, Measure> = {
   overshade: { label: "overshade", of: (one) => one.overshade, show: format.factor, about: "lights evaluated by lights needed at the samples; compares across grids" },
   excess: { label: "excess", of: (one) => one.excess, show: format.percent, about: "false positives by true pairs; compares within one grid" },
   bytes: { label: "bytes", of: (one) => one.bytes, show: format.bytes, about: "high-water mark of headers and indices" },
+  unlit: { label: "unlit", of: (one) => one.unlit, show: format.share, about: "share of needed lights that samples are not given" },
   missed: { label: "missed", of: (one) => one.missed, show: format.count, about: "lights lost" },
 };
 
@@ -35,7 +36,7 @@ const mostPanels = 12;
 function points(cases: Case[], measure: Measure): Point[] {
   return cases.flatMap((one) => {
     const error = measure.of(one);
-    return one.assignNs === null || error === null ? [] : [{ one, us: one.assignNs / 1e3, error }];
+    return one.frameNs === null || error === null ? [] : [{ one, us: one.frameNs / 1e3, error }];
   });
 }
 
@@ -79,13 +80,13 @@ function names(best: Point[], all: Point[], { x, y }: Scales, width: number, hei
 }
 
 function panel(view: View, all: Point[], measure: Measure, scales: Scales, width: number): Element {
-  const best = front(all);
+  const best = front(all.filter(({ one }) => !one.isOut));
   const look = (point: Point) => view.palette(point.one);
   const height = Math.round(Math.min(420, Math.max(230, width * 0.5)));
-  return chart(`Assignment time against ${measure.label} of ${all.length} cases; on the front: ${best.map(({ one }) => one.assigner).join(", ")}`, {
+  return chart(`Frame time against ${measure.label} of ${all.length} cases; on the front: ${best.map(({ one }) => one.assigner).join(", ")}`, {
     width,
     height,
-    x: { type: "log", domain: scales.x, label: "assign µs", ticks: width < 500 ? 4 : 8, tickFormat: format.short, grid: true },
+    x: { type: "log", domain: scales.x, label: "frame µs", ticks: width < 500 ? 4 : 8, tickFormat: format.short, grid: true },
     y: { domain: scales.y, label: measure.label, ticks: 5, tickFormat: (value: number) => measure.show(value), grid: true },
     ...margin,
     marks: [
@@ -132,7 +133,7 @@ export const speedErrorSection: Section = (view, redraw) => {
     h("h2", {}, "Speed against error"),
     figureView({
       id: "speed-error",
-      title: `Assignment time against ${measure.label}`,
+      title: `Frame time against ${measure.label}`,
       lead: `Down and left is better. ${measure.label[0]!.toUpperCase()}${measure.label.slice(1)}: ${measure.about}. The line joins what nothing beats in both; bars are 95 % intervals of the median time. Each scene has its own scale upwards.${more}`,
       controls: [control],
       chart: multiples(panels),
@@ -142,7 +143,7 @@ export const speedErrorSection: Section = (view, redraw) => {
           { label: "method", value: ({ one }) => one.assigner },
           { label: "scene", value: ({ one }) => one.scene },
           { label: "grid", value: ({ one }) => one.grid },
-          { label: "assign µs", value: ({ us }) => us, show: ({ us }) => format.decimal(us) },
+          { label: "frame µs", value: ({ us }) => us, show: ({ us }) => format.decimal(us) },
           { label: "low", about: "Of the 95 % interval", value: ({ one }) => one.interval[0] && one.interval[0] / 1e3, show: ({ one }) => format.microseconds(one.interval[0]) },
           { label: "high", about: "Of the 95 % interval", value: ({ one }) => one.interval[1] && one.interval[1] / 1e3, show: ({ one }) => format.microseconds(one.interval[1]) },
           { label: measure.label, value: ({ error }) => error, show: ({ error }) => measure.show(error) },

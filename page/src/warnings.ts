@@ -2,8 +2,8 @@
 
 import { h } from "./dom.ts";
 import * as format from "./format.ts";
-import type { Case, Model, Run } from "./model.ts";
-import type { SceneResult } from "./result.ts";
+import { mostUnlit, type Case, type Model, type Run } from "./model.ts";
+import type { FailureKind, SceneResult } from "./result.ts";
 import type { Section } from "./view.ts";
 
 export interface Warning {
@@ -13,24 +13,30 @@ export interface Warning {
 
 const noisy = 0.1; // half interval by median
 
+const failures: Record<FailureKind, string> = {
+  lost_pairs: "lost lights and call themselves conservative",
+  extra_pairs: "reported pairs that are not true and call themselves exact",
+  lost_at_samples: "lost lights at samples and call themselves conservative",
+  dropped_pairs: "dropped more pairs than the configuration allows",
+};
+
 function counted(cases: Case[], what: string): string {
   const names = cases.slice(0, 3).map((one) => one.raw.name).join("; ");
   return `${cases.length} ${cases.length === 1 ? "case" : "cases"} ${what}: ${names}${cases.length > 3 ? "; …" : ""}`;
 }
 
 function failuresOf(cases: Case[]): Warning[] {
-  const lost = cases.filter(({ raw }) => raw.assigner.conservative && raw.error && raw.error.false_negatives > 0);
-  const excess = cases.filter(({ raw }) => raw.assigner.exact && raw.error && raw.error.false_positives > 0);
-  return [
-    { cases: lost, what: "lost lights and call themselves conservative" },
-    { cases: excess, what: "reported pairs that are not true and call themselves exact" },
-  ].flatMap(({ cases: some, what }) => (some.length ? [{ isFailure: true, text: counted(some, what) }] : []));
+  return Object.entries(failures).flatMap(([kind, what]) => {
+    const some = cases.filter(({ raw }) => raw.failures?.some((failure) => failure.kind === kind));
+    return some.length ? [{ isFailure: true, text: counted(some, what) }] : [];
+  });
 }
 
 function doubtsOf(cases: Case[]): Warning[] {
-  const width = ({ interval: [low, high], assignNs }: Case) => (low === null || high === null || !assignNs ? 0 : (high - low) / 2 / assignNs);
+  const width = ({ interval: [low, high], frameNs }: Case) => (low === null || high === null || !frameNs ? 0 : (high - low) / 2 / frameNs);
   const kinds: [(one: Case) => boolean, string][] = [
-    [({ raw }) => raw.buffers.overflow.dropped_pairs > 0, "dropped lights because their storage was full"],
+    [(one) => one.dropped > 0, "dropped lights because their storage was full"],
+    [(one) => (one.unlit ?? 0) > mostUnlit, `leave more than ${format.percent(mostUnlit)} of the lights that samples need unlit, in cells or outside of the grid`],
     [({ raw }) => (raw.error?.undecided ?? 0) > 0, "have pairs that stayed undecided, counted as true"],
     [({ raw }) => !raw.error, "were not checked against the truth"],
     [(one) => width(one) > noisy, `have times that are known to no better than ${format.percent(noisy)}`],

@@ -6,7 +6,7 @@ import { createRequire } from "node:module";
 import { join } from "node:path";
 import { after, afterEach, before, describe, it } from "node:test";
 import { chromiumPath, folder, launch, makePage, open as openPage } from "./browser.mjs";
-import { committedResult, measureSweep } from "./results.mjs";
+import { committedResult, lossy, measureSweep } from "./results.mjs";
 
 if (!chromiumPath) {
   console.log("skipped: there is no Chromium (scripts/setup test installs it)");
@@ -22,6 +22,7 @@ before(async () => {
   pages.quick = makePage(tool, [committedResult], join(place, "quick.html"));
   sweepFile = measureSweep(tool, place);
   pages.sweep = makePage(tool, [sweepFile], join(place, "sweep.html"));
+  pages.lossy = makePage(tool, [measureSweep(tool, place, lossy)], join(place, "lossy.html"));
   pages.two = makePage(tool, [committedResult, sweepFile], join(place, "two.html"));
   browser = await launch();
 });
@@ -146,6 +147,54 @@ describe("the ranking", () => {
     assert.deepEqual(names, [...names].sort((a, b) => a.localeCompare(b, "en")));
     const outline = await page.evaluate(() => getComputedStyle(document.activeElement).outlineStyle);
     assert.equal(outline, "solid");
+  });
+});
+
+describe("what a case loses", () => {
+  const rows = async (page) => {
+    const labels = (await textsOf(page, "#ranking thead th")).map((text) => text.replace(/ [↑↓]$/, ""));
+    const cells = await page.locator("#ranking tbody tr").evaluateAll((all) => all.map((row) => [...row.children].map((cell) => cell.innerText)));
+    const dots = await page.locator("#ranking tbody tr").evaluateAll((all) => all.map((row) => row.querySelector(".front") !== null));
+    return cells.map((one, at) => ({ ...Object.fromEntries(one.map((text, column) => [labels[column], text])), isOnFront: dots[at] }));
+  };
+
+  it("stands beside its time, takes its overshade and its place on the front", async () => {
+    const page = await open(pages.lossy);
+    const all = await rows(page);
+    assert.equal(all.length, 8);
+    const whole = all.filter((one) => one.dropped === "0" && parseFloat(one.unlit) === 0);
+    assert.equal(whole.length, 2, JSON.stringify(all));
+    assert.ok(whole.some((one) => one.isOnFront) && whole.every((one) => one.overshade.endsWith("×")), JSON.stringify(whole));
+    for (const one of all.filter((other) => !whole.includes(other))) {
+      assert.ok(parseFloat(one.unlit) > 0.1 && one.overshade === "–" && !one.isOnFront, JSON.stringify(one));
+    }
+  });
+
+  it("is ranked by what a frame takes, with its parts and its worst frame beside it", async () => {
+    const page = await open(pages.lossy);
+    const all = (await rows(page)).map((one) => Object.fromEntries(Object.entries(one).map(([label, text]) => [label, parseFloat(String(text).replaceAll(",", ""))])));
+    assert.ok(isAscending(all.map((one) => one["frame µs"])), JSON.stringify(all));
+    for (const one of all) {
+      assert.ok(one["worst µs"] >= 0.99 * one["frame µs"], JSON.stringify(one));
+      assert.ok(one["assign µs"] < one["frame µs"] && one["convert µs"] < one["frame µs"], JSON.stringify(one));
+      assert.ok(one["most pairs"] >= one.pairs, JSON.stringify(one));
+    }
+  });
+
+  it("takes no part in the chart's front", async () => {
+    const page = await open(pages.lossy);
+    await page.selectOption("#speed-error-measure", "bytes");
+    const label = await page.locator("#speed-error svg[role=img]").first().getAttribute("aria-label");
+    const names = label.replace(/.*on the front: /, "").split(", ");
+    assert.ok(names.length <= 2, `${label}: fixed storage takes fewest bytes, and drops pairs`);
+  });
+
+  it("is a warning", async () => {
+    const page = await open(pages.lossy);
+    const text = (await textsOf(page, "#warnings li")).join("\n");
+    assert.match(text, /Note\. 4 cases dropped lights because their storage was full/);
+    assert.match(text, /Note\. 6 cases leave more than 0\.1 % of the lights that samples need unlit/);
+    assert.doesNotMatch(text, /Failed/);
   });
 });
 

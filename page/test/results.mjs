@@ -29,10 +29,24 @@ const sweep = {
   timing: { rounds: 3, min_time_ms: 0, frames: 1 },
 };
 
-export function measureSweep(tool, folder) {
-  writeFileSync(join(folder, "sweep-config.json"), JSON.stringify(sweep));
-  const file = join(folder, "sweep.json");
-  execFileSync(tool, ["run", join(folder, "sweep-config.json"), "-q", "-o", file], { stdio: ["ignore", "ignore", "inherit"] });
+// A grid that ends too near, and a storage with too little room.
+export const lossy = {
+  name: "lossy",
+  scenes: [{ path: join(root, "scenes/street.glb"), frames: 3 }],
+  grids: [
+    { kind: "frustum", tiles: { pixels: [64, 64] }, slices: { scheme: "exponential", count: 16, near: 0.1, far: 500 } },
+    { kind: "frustum", tiles: { pixels: [64, 64] }, slices: { scheme: "linear", count: 8, near: 0.1, far: 10 } },
+  ],
+  assigners: ["bounds-fast", "exact-fast"],
+  storages: ["packed", { name: "fixed", cap: 2 }],
+  limits: { dropped_pairs: null },
+  timing: { rounds: 3, min_time_ms: 0, frames: 2 },
+};
+
+export function measureSweep(tool, folder, config = sweep) {
+  const file = join(folder, `${config.name}.json`), from = join(folder, `${config.name}-config.json`);
+  writeFileSync(from, JSON.stringify(config));
+  execFileSync(tool, ["run", from, "-q", "-o", file], { stdio: ["ignore", "ignore", "inherit"] });
   return file;
 }
 

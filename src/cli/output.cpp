@@ -1,5 +1,7 @@
 #include "cli/output.h"
 
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -20,6 +22,14 @@ bool is_stream(const std::string& output) {
   const fs::file_status status = fs::status(output, none);
   return output.empty() || output == "-" ||
          (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status));
+}
+
+bool is_for_reading(const std::string& output) {
+  return output.empty() && isatty(STDOUT_FILENO) != 0;
+}
+
+void tell_of_keeping() {
+  tell("the result is not kept; -o FILE keeps it, -o - prints it as JSON");
 }
 
 void probe_output(const std::string& output) {

@@ -12,6 +12,11 @@ void tell(const std::string& message);
 // "", "-", and what exists and is neither a file nor a folder.
 bool is_stream(const std::string& output);
 
+// Without a file on a terminal a person reads: a table, and not the JSON.
+bool is_for_reading(const std::string& output);
+// Then it is said how the result is kept.
+void tell_of_keeping();
+
 // Throws Error if nothing can be written there. A stream is tried with a space, which JSON ignores, before minutes go
 // into measuring.
 void probe_output(const std::string& output);

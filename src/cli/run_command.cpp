@@ -233,17 +233,12 @@ run::Counts count_instructions(CountWay way, const CountTask& task, ProgressLine
   return counts;
 }
 
-// Without a file on a terminal a person reads: the table, and not the JSON.
-bool is_for_reading(const RunFlags& flags) {
-  return flags.output.empty() && isatty(STDOUT_FILENO) != 0;
-}
-
 void show_table(const RunFlags& flags, const Json& result) {
   if (flags.quiet) return;
-  const bool for_reading = is_for_reading(flags);
+  const bool for_reading = is_for_reading(flags.output);
   std::ostream& out = for_reading ? std::cout : std::cerr;
   out << report::render_table(result, terminal(for_reading ? STDOUT_FILENO : STDERR_FILENO).colour) << std::flush;
-  if (for_reading) tell("the result is not kept; -o FILE keeps it, -o - prints it as JSON");
+  if (for_reading) tell_of_keeping();
 }
 
 ExitCode measure(const RunFlags& flags, const config::Config& config, const run::Plan& plan, CountWay way) {
@@ -274,7 +269,7 @@ ExitCode measure(const RunFlags& flags, const config::Config& config, const run:
     return interrupted(journal.get());
   if (journal)
     journal->finish(result);
-  else if (!is_for_reading(flags))
+  else if (!is_for_reading(flags.output))
     write_output(flags.output, result);
   write_exports(exports, result);
   show_table(flags, result);

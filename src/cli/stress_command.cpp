@@ -61,7 +61,9 @@ void write_replays(const std::string& folder, const stress::StressResult& result
       stress::write_replay(folder, found.name(), found.scene, stress::methods_that_show(found.fault, result.methods));
       ++written;
     }
-  std::cerr << written << " faults written to " << folder << ", each a configuration for `clusterbench run`\n";
+  tell(written == 0 ? "no fault to write to " + folder
+                    : number_of(static_cast<std::uint64_t>(written), "fault") + " written to " + folder +
+                          (written == 1 ? ", a configuration" : ", each a configuration") + " for `clusterbench run`");
 }
 
 // What a search is at, in a file, for the case that it does not live to tell: removed when it has ended.
@@ -92,7 +94,7 @@ ExitCode stress(const StressFlags& flags) {
   stress::StressRequest request = flags.request;
   request.cases = Pattern(cases_of(flags), "--cases");
   request.methods = Pattern(flags.methods, "--methods");
-  probe_output(flags.output);
+  if (!is_for_reading(flags.output)) probe_output(flags.output);
   const std::atomic<bool>& stop = stop_on_signals();
   ProgressLine progress(terminal(STDERR_FILENO), flags.quiet);
   const AtWork at_work(flags);
@@ -110,8 +112,10 @@ ExitCode stress(const StressFlags& flags) {
   if (result.methods.empty()) throw Error("", "--methods", "'" + flags.methods + "' names none");
   if (result.cases.empty() && result.searches.empty() && (!result.random || !flags.cases.empty()))
     throw Error("", "--cases", "'" + flags.cases + "' names none; there are H1 to H35");
-  write_output(flags.output, report::stress_to_json(result, request));
-  if (!flags.quiet) report::print_stress(std::cerr, result);
+  const bool for_reading = is_for_reading(flags.output);
+  if (!for_reading) write_output(flags.output, report::stress_to_json(result, request));
+  if (!flags.quiet) report::print_stress(for_reading ? std::cout : std::cerr, result);
+  if (for_reading) tell_of_keeping();
   if (!flags.failures.empty()) write_replays(flags.failures, result);
   const std::vector<std::string> failures = report::stress_failures(result);
   for (const std::string& failure : failures) tell("FAILED " + failure);
@@ -124,7 +128,8 @@ void add_stress(Command& program, Action& action) {
   auto flags = std::make_shared<StressFlags>();
   Command command =
       program.add_command("stress", "Every assigner on the hard cases for numerical stability, and a search for more");
-  command.add_option("-o,--output", flags->output, "JSON file; without it the JSON goes to standard output");
+  command.add_option("-o,--output", flags->output,
+                     "JSON file; without it the JSON goes to standard output, on a terminal the table alone");
   command.add_option("--cases", flags->cases, "Only hard cases that match this regular expression (H1 .. H35)");
   command.add_option("--methods", flags->methods, "Only methods that contain a match of this regular expression");
   command.add_option("--tries", flags->request.tries, "Tries of the search H31 per method; 0 = no search")

@@ -65,7 +65,7 @@ void ProgressLine::case_done(const run::CaseResult& done, std::size_t number, st
   }
   if (done.timing) {
     char micros[32];
-    std::snprintf(micros, sizeof micros, "%.1f", done.timing->assign_ns.median / 1000.0);
+    std::snprintf(micros, sizeof micros, "%.1f", done.timing->frame_ns.median / 1000.0);
     std::cerr << ", " << micros << " us";
   }
   if (done.count)

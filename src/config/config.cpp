@@ -289,6 +289,8 @@ void read_settings(const Json& document, Config& config) {
   const Json& all_pairs = document["limits"]["all_pairs"];
   if (all_pairs.is_number()) config.limits.all_pairs = all_pairs.get<std::uint64_t>();
   config.limits.memory_mib = document["limits"]["memory_mib"].get<std::uint64_t>();
+  const Json& dropped = document["limits"]["dropped_pairs"];
+  config.limits.dropped_pairs = dropped.is_null() ? std::nullopt : std::optional(dropped.get<std::uint64_t>());
   const Json& timing = document["timing"];
   config.timing = {timing["measure"].get<bool>(), timing["rounds"].get<int>(), timing["min_time_ms"].get<double>(),
                    timing["frames"].get<int>()};

@@ -1,5 +1,5 @@
 #pragma once
-// Floating point with 256 and 1024 bits, for finding what is then proven in exact numbers.
+// Floating point with 256 and 3072 bits, for finding what is then proven in exact numbers.
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
@@ -14,7 +14,7 @@ using FloatOf =
                                   boost::multiprecision::et_off>;
 
 using Big = FloatOf<256>;
-using Huge = FloatOf<1024>;
+using Huge = FloatOf<3072>;
 
 template <>
 struct Precision<Big> {
@@ -24,8 +24,8 @@ struct Precision<Big> {
 
 template <>
 struct Precision<Huge> {
-  static Huge tolerance() { return ldexp(Huge(1), -800); }
-  static constexpr int k_place_bits = 1000;
+  static Huge tolerance() { return ldexp(Huge(1), -2600); }
+  static constexpr int k_place_bits = 3000;
 };
 
 // Finite.

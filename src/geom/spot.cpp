@@ -71,12 +71,6 @@ double farthest_corner(const Polytope<double>& polytope) {
   return farthest;
 }
 
-// So narrow that numbers of 256 bits cannot tell its side from its axis with digits to spare: what they square is below
-// the square of the angle.
-bool is_needle(const LightVolume& light) {
-  return light.half_angle_rad < 0x1p-40;
-}
-
 // What a search in Real finds, checked.
 template <class Real, class PlaneCell>
 Verdict proven_by_search(const LightVolume& light, const PlaneCell& cell, const PlaneCase& exactly) {
@@ -107,8 +101,9 @@ Verdict decide(const LightVolume& given, const PlaneCell& cell) {
   if (surely_holds(exactly.spot, nearest_point(cell, exactly.spot.apex))) return Verdict::yes;
   if (axis_surely_meets(exactly.spot, exactly.planes)) return Verdict::yes;
   verdict = proven_by_search<Big>(light, cell, exactly);
-  if (verdict != Verdict::open || !is_needle(light)) return verdict;
-  return proven_by_search<Huge>(light, cell, PlaneCase(light, cell, 1040));
+  if (verdict != Verdict::open) return verdict;
+  // Needles of 1e-60 rad, and doubles next to 0 beside others: both differ from touching by less than 256 bits tell.
+  return proven_by_search<Huge>(light, cell, PlaneCase(light, cell, 3100));
 }
 
 // Points of pyramid ∩ spot on both sides of a shell piece, or in it: the set is convex, so its distances from the eye

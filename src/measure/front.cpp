@@ -12,12 +12,11 @@ double known(double cost) {
 }
 
 bool dominates(const Costs& a, const Costs& b) {
-  bool is_better = false;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    if (known(a[i]) > known(b[i])) return false;
-    is_better = is_better || known(a[i]) < known(b[i]);
-  }
-  return is_better;
+  if (known(a.time_ns.low) > known(b.time_ns.high) || known(a.bytes) > known(b.bytes) ||
+      known(a.overshade) > known(b.overshade))
+    return false;
+  return known(a.time_ns.high) < known(b.time_ns.low) || known(a.bytes) < known(b.bytes) ||
+         known(a.overshade) < known(b.overshade);
 }
 
 }  // namespace

@@ -60,6 +60,16 @@ double ShadingCounts::overshade() const {
   return static_cast<double>(evaluated) / static_cast<double>(needed);
 }
 
+double ShadingCounts::comparable_overshade() const {
+  if (needed < k_least_needed || unlit() > k_most_unlit) return std::numeric_limits<double>::quiet_NaN();
+  return overshade();
+}
+
+double ShadingCounts::unlit() const {
+  if (needed == 0) return std::numeric_limits<double>::quiet_NaN();
+  return static_cast<double>(missed) / static_cast<double>(needed);
+}
+
 std::vector<grid::Sample> volume_samples(const view::Frame& frame, double far_m, int count, std::uint64_t seed) {
   // Mixed once more: neighbouring states of this generator give the same numbers one step apart.
   SplitMix64 random(SplitMix64(seed + static_cast<std::uint64_t>(frame.index)).next());
@@ -93,7 +103,8 @@ assign::Lists lights_reaching(const view::Frame& frame, std::span<const grid::Sa
 }
 
 void add_frame(ShadingCounts& counts, const view::Frame& frame, std::span<const grid::Sample> samples,
-               const assign::Lists& reaching, const assign::LightStructure& structure) {
+               const assign::Lists& reaching, const assign::LightStructure& structure,
+               const std::vector<bool>& is_outside) {
   std::vector<std::uint32_t> given;
   for (std::uint32_t i = 0; i < samples.size(); ++i) {
     structure.lights_at(samples[i], grid::Log2::rounded, given);
@@ -105,6 +116,7 @@ void add_frame(ShadingCounts& counts, const view::Frame& frame, std::span<const 
       counts.total_lux += carried_lux;
       if (std::binary_search(given.begin(), given.end(), light)) continue;
       ++counts.missed;
+      if (!is_outside.empty() && is_outside[i]) ++counts.missed_outside;
       counts.lost_lux += carried_lux;
     }
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/random.h"
 
@@ -57,6 +58,23 @@ Ratio paired_ratio(std::span<const double> numerator, std::span<const double> de
   if (ratios.empty()) return {};
   const Interval interval = bootstrap_median(ratios, seed);
   return {median_of(ratios), interval};
+}
+
+WorstFrame worst_frame(std::span<const std::vector<double>> frames_ns, std::span<const double> pass_ns,
+                       std::uint64_t seed) {
+  const std::size_t count = frames_ns.front().size();
+  WorstFrame worst;
+  for (std::size_t frame = 0; frame < count; ++frame) {
+    std::vector<double> times;
+    for (std::size_t round = 0; round < frames_ns.size(); ++round) {
+      const std::vector<double>& all = frames_ns[round];
+      const double mean = std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(count);
+      times.push_back(mean > 0.0 ? pass_ns[round] * all[frame] / mean : pass_ns[round]);
+    }
+    const TimeStats stats = time_stats(times, seed);
+    if (frame == 0 || stats.median > worst.ns) worst = {frame, stats.median, stats.ci95};
+  }
+  return worst;
 }
 
 }  // namespace clusterbench::measure

@@ -27,4 +27,15 @@ struct Ratio {
 // Median of the paired ratios numerator[i] / denominator[i], with its bootstrap interval. Both spans are equally long.
 Ratio paired_ratio(std::span<const double> numerator, std::span<const double> denominator, std::uint64_t seed);
 
+// The frame that takes longest of a pass over several frames.
+struct WorstFrame {
+  std::size_t place = 0;  // in the pass
+  double ns = 0.0;        // median over the rounds
+  Interval ci95;
+};
+// `frames_ns`: of each round, what each frame took; only its share of them counts. `pass_ns`: of each round, the mean
+// of a frame, measured over the pass as a whole. So of one frame alone the worst is the mean. At least one round.
+WorstFrame worst_frame(std::span<const std::vector<double>> frames_ns, std::span<const double> pass_ns,
+                       std::uint64_t seed);
+
 }  // namespace clusterbench::measure

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <map>
 
 #include "core/text.h"
 
@@ -60,6 +61,27 @@ std::string method_name(const Json& one) {
   std::string label = printable(one["assigner"]["label"].get_ref<const std::string&>());
   if (!one.contains("precision") || one["precision"]["packing"] == "float32") return label;
   return label + " " + printable(one["precision"]["label"].get_ref<const std::string&>());
+}
+
+std::vector<NamedCase> distinct_cases(const Json& cases, const Json& scene, const std::string& block,
+                                      const std::vector<std::string>& parts) {
+  std::vector<NamedCase> out;
+  for (const Json& one : cases) {
+    const auto has = [&](const std::string& part) { return one.contains(part); };
+    const auto is_same = [&](const NamedCase& other) {
+      return other.name == method_name(one) && std::all_of(parts.begin(), parts.end(), [&](const std::string& part) {
+               return one.value(part, Json()) == other.one->value(part, Json());
+             });
+    };
+    if (std::any_of(parts.begin(), parts.end(), has) && one["scene"] == scene["name"] && block_of(one) == block &&
+        std::none_of(out.begin(), out.end(), is_same))
+      out.push_back({method_name(one), &one});
+  }
+  std::map<std::string, int> uses;
+  for (const NamedCase& one : out) ++uses[one.name];
+  for (NamedCase& one : out)
+    if (uses[one.name] > 1) one.name += " / " + printable((*one.one)["storage"].get_ref<const std::string&>());
+  return out;
 }
 
 std::string block_of(const Json& one) {

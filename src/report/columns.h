@@ -32,6 +32,14 @@ std::string short_count(const nlohmann::ordered_json& one, const char* pointer);
 // The assigner's label, and how its lights are packed where that is not float32.
 std::string method_name(const nlohmann::ordered_json& one);
 
+struct NamedCase {
+  std::string name;  // the method's, with the storage where the same method has others
+  const nlohmann::ordered_json* one;
+};
+// The cases of a scene's block that have one of the parts, once where method and all parts are the same.
+std::vector<NamedCase> distinct_cases(const nlohmann::ordered_json& cases, const nlohmann::ordered_json& scene,
+                                      const std::string& block, const std::vector<std::string>& parts);
+
 // What cases of one block have in common: camera, viewport and grid.
 std::string block_of(const nlohmann::ordered_json& one);
 // The blocks of a scene in the order of its cases.

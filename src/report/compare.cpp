@@ -34,14 +34,73 @@ std::vector<Match> matches_of(const Json& base, const Json& next) {
   return matches;
 }
 
-// Names of the cases of `one` that `other` has not.
-Json missing_from(const Json& other, const Json& one) {
-  Json names = Json::array();
+// The cases of `one` that `other` has not.
+std::vector<const Json*> missing_from(const Json& other, const Json& one) {
+  std::vector<const Json*> missing;
   for (const Json& wanted : one["cases"])
     if (std::none_of(other["cases"].begin(), other["cases"].end(),
                      [&](const Json& had) { return had["id"] == wanted["id"]; }))
-      names.push_back(wanted["name"]);
+      missing.push_back(&wanted);
+  return missing;
+}
+
+Json names_of(const std::vector<const Json*>& cases) {
+  Json names = Json::array();
+  for (const Json* one : cases) names.push_back((*one)["name"]);
   return names;
+}
+
+Json scene_of(const Json& result, const Json& one) {
+  for (const Json& scene : result["scenes"])
+    if (scene["name"] == one["scene"]) return scene;
+  return {};
+}
+
+// Why a case that both results name alike is another one: the settings in which it differs.
+std::vector<std::string> other_settings(const Json& base, const Json& base_case, const Json& next,
+                                        const Json& next_case) {
+  std::vector<std::string> out;
+  const auto tell = [&](const Json& left, const Json& right, const std::string& what, const char* pointer) {
+    if (left.value(Pointer(pointer), Json()) != right.value(Pointer(pointer), Json())) out.push_back(what);
+  };
+  const Json base_scene = scene_of(base, base_case), next_scene = scene_of(next, next_case);
+  tell(base_scene, next_scene, "the scene itself (sha256)", "/sha256");
+  tell(base_scene, next_scene, "range_rule", "/range_rule/cutoff_lux");
+  tell(base_scene, next_scene, "range_rule", "/range_rule/max_range");
+  for (const char* key : {"camera", "viewport", "frames", "grid", "storage"})
+    tell(base_case, next_case, key, (std::string("/") + key).c_str());
+  tell(base_case, next_case, "the assigner's parameters", "/assigner/params");
+  tell(base_case, next_case, "precision", "/precision/label");
+  for (const char* key : {"seed", "shading", "lookup", "stability"})
+    tell(base["config"], next["config"], key, (std::string("/") + key).c_str());
+  if (out.empty()) out.emplace_back("something that results do not tell");
+  return out;
+}
+
+// The same name on both sides, and not the same case.
+Json renamed(const Json& base, const std::vector<const Json*>& only_in_base, const Json& next,
+             const std::vector<const Json*>& only_in_new) {
+  Json out = Json::array();
+  for (const Json* one : only_in_base)
+    for (const Json* other : only_in_new)
+      if ((*one)["name"] == (*other)["name"])
+        out.push_back({{"name", (*one)["name"]}, {"differs_in", other_settings(base, *one, next, *other)}});
+  return out;
+}
+
+// Of the cases of both, how many have a part in one result alone.
+Json parts_of_one(const std::vector<Match>& matches) {
+  Json out = Json::array();
+  for (const char* part : {"occupancy", "error", "shading", "lookup", "stability", "precision", "timing", "count"}) {
+    std::size_t base = 0, next = 0;
+    for (const Match& match : matches) {
+      base += match.base.contains(part) && !match.next.contains(part) ? 1 : 0;
+      next += match.next.contains(part) && !match.base.contains(part) ? 1 : 0;
+    }
+    if (base > 0) out.push_back({{"part", part}, {"only_in", "base"}, {"cases", base}});
+    if (next > 0) out.push_back({{"part", part}, {"only_in", "new"}, {"cases", next}});
+  }
+  return out;
 }
 
 bool has(const Json& one, const char* pointer) {
@@ -51,14 +110,21 @@ bool both_have(const Match& match, const char* pointer) {
   return has(match.base, pointer) && has(match.next, pointer);
 }
 
+// What is compared of two separate runs: what a frame takes, or of results that do not say it, its assignment.
+const char* time_of(const Match& match) {
+  return both_have(match, "/timing/frame_ns/median") ? "frame_ns" : "assign_ns";
+}
+
 // Did the new result measure this base beside itself? The same result twice is a question about just that.
 bool is_paired(const Json& base, const Json& next) {
   return has(next, "/baseline/tool") && (next["baseline"]["tool"] == base["tool"] || base == next);
 }
 
-// What differs between methods, and not between a method's storages: those share their times, but for a light structure
-// of the method's own.
-std::string method_key(const Json& one) {
+// What differs between methods, and not between a method's storages: those share the times of assignment, but for a
+// light structure of the method's own. What a frame takes is each case's own.
+std::string time_key(const Match& match, bool is_paired) {
+  const Json& one = match.next;
+  if (!is_paired && time_of(match) == std::string_view("frame_ns")) return one["id"].get<std::string>();
   Json key{one["scene"], one["camera"], one["viewport"], one["grid"], one["assigner"]["label"]};
   if (one.contains("precision")) key.push_back(one["precision"]["label"]);
   key.push_back(one["storage"] == "own");
@@ -82,15 +148,21 @@ TimeChange paired_change(const Json& paired) {
   return out;
 }
 
+// Without an interval nothing can be concluded: as of no samples.
 measure::MedianTime median_time(const Json& time) {
-  return {time["median"], {time["ci95"][0], time["ci95"][1]}, time["samples"].size()};
+  const Json &low = time["ci95"][0], &high = time["ci95"][1];
+  if (!low.is_number() || !high.is_number()) return {time["median"], {}, 0};
+  return {time["median"], {low, high}, time["samples"].size()};
 }
 
 std::optional<TimeChange> time_change(const Match& match, bool is_paired) {
-  if (is_paired && has(match.next, "/timing/baseline/ratio")) return paired_change(match.next["timing"]["baseline"]);
-  constexpr const char* k_median = "/timing/assign_ns/median";
-  if (!both_have(match, k_median) || is_paired) return std::nullopt;
-  const Json &base_time = match.base["timing"]["assign_ns"], &next_time = match.next["timing"]["assign_ns"];
+  const auto is_known = [&](const char* pointer) { return has(match.next, pointer); };
+  if (is_paired && is_known("/timing/baseline/ratio") && is_known("/timing/baseline/base_ns") &&
+      is_known("/timing/baseline/new_ns"))
+    return paired_change(match.next["timing"]["baseline"]);
+  if (is_paired || !both_have(match, (std::string("/timing/") + time_of(match) + "/median").c_str()))
+    return std::nullopt;
+  const Json &base_time = match.base["timing"][time_of(match)], &next_time = match.next["timing"][time_of(match)];
   const measure::MedianTime base = median_time(base_time), next = median_time(next_time);
   if (!(base.ns > 0.0) || !(next.ns > 0.0)) return std::nullopt;
   if (base_time == next_time) return TimeChange{{0.0, 0.0, 1.0}, {}, base.ns, next.ns};  // one measurement, twice
@@ -101,9 +173,9 @@ std::optional<TimeChange> time_change(const Match& match, bool is_paired) {
 class Times {
  public:
   Times() = default;
-  Times(const std::vector<Match>& matches, bool is_paired) {
+  Times(const std::vector<Match>& matches, bool is_paired) : is_paired_(is_paired) {
     for (const Match& match : matches) {
-      const std::string key = method_key(match.next);
+      const std::string key = time_key(match, is_paired);
       if (places_.contains(key)) continue;
       if (const std::optional<TimeChange> change = time_change(match, is_paired)) {
         places_[key] = changes_.size();
@@ -116,8 +188,8 @@ class Times {
   }
 
   // nullopt where the case has no times to compare.
-  std::optional<std::size_t> place_of(const Json& one) const {
-    const auto found = places_.find(method_key(one));
+  std::optional<std::size_t> place_of(const Match& match) const {
+    const auto found = places_.find(time_key(match, is_paired_));
     return found == places_.end() ? std::nullopt : std::optional(found->second);
   }
   const TimeChange& at(std::size_t place) const { return changes_[place]; }
@@ -143,6 +215,7 @@ class Times {
     return means;
   }
 
+  bool is_paired_ = false;
   std::map<std::string, std::size_t> places_;
   std::vector<TimeChange> changes_;
   std::vector<double> corrected_;
@@ -248,7 +321,7 @@ void add_time(Json& out, const TimeChange& time, double corrected_p, double thre
 Json compared(const Match& match, const Times& times, const Scope& scope, double threshold,
               const CompareOptions& options) {
   Json out{{"id", match.next["id"]}, {"name", match.next["name"]}};
-  if (const auto place = times.place_of(match.next))
+  if (const auto place = times.place_of(match))
     add_time(out, times.at(*place), times.corrected_p(*place), threshold, options.gates_separate);
   out.update(exact_differences(match.base, match.next));
   add_list_difference(match, out);
@@ -320,11 +393,33 @@ Json warnings_of(const Json& base, const Json& next, const Json& comparison, con
     warnings.push_back(what + " are not compared: " + joined(in_the_way.get<std::vector<std::string>>(), "; "));
   if (comparison["data"] == "separate" && comparison["summary"]["methods_timed"] != 0)
     warnings.push_back(gates_separate ? k_separate_verdicts : k_separate_hints);
+  const bool is_beside = comparison["data"] == "paired" && base == next;
   if (!comparison["only_in_base"].empty())
-    warnings.push_back("only in the base: " + listed(comparison["only_in_base"]));
+    warnings.push_back("only in the base, not compared: " + listed(comparison["only_in_base"]));
   if (!comparison["only_in_new"].empty())
-    warnings.push_back("only in the new result: " + listed(comparison["only_in_new"]));
+    warnings.push_back(std::string(is_beside ? "the other program does not have them, not compared: "
+                                             : "only in the new result, not compared: ") +
+                       listed(comparison["only_in_new"]));
+  std::map<std::string, Json> by_reason;
+  for (const Json& one : comparison["renamed"])
+    by_reason[joined(one["differs_in"].get<std::vector<std::string>>())].push_back(one["name"]);
+  for (const auto& [reason, names] : by_reason)
+    warnings.push_back("of one name, but not the same, for they differ in " + reason + ": " + listed(names));
+  for (const Json& part : comparison["not_compared"])
+    warnings.push_back(part["part"].get<std::string>() + " is not compared in " +
+                       number_of(part["cases"].get<std::uint64_t>(), "case") + ": only the " +
+                       (part["only_in"] == "base" ? "base" : "new result") + " has it");
+  if (is_beside)
+    warnings.push_back(
+        "times and lists of both programs were compared; bytes, samples and whatever else is counted were not: that "
+        "takes a result of the other program");
   return warnings;
+}
+
+// Something that would have failed the comparison had it become worse.
+bool is_gated_part_missing(const Json& comparison) {
+  return std::any_of(comparison["not_compared"].begin(), comparison["not_compared"].end(),
+                     [](const Json& one) { return one["only_in"] == "base" && one["part"] != "timing"; });
 }
 
 }  // namespace
@@ -353,20 +448,38 @@ Obstacles obstacles(const Json& base, const Json& next) {
 
 Json compare_results(const Json& base, const Json& next, double threshold, const CompareOptions& options) {
   const bool by_pairs = is_paired(base, next);
-  const std::vector<Match> matches = matches_of(base, next);
+  std::vector<Match> matches = matches_of(base, next);
+  const std::vector<const Json*> only_in_base = missing_from(next, base);
+  std::vector<const Json*> only_in_new = missing_from(base, next);
+  if (by_pairs && base == next) {  // one result, and what the other program had beside it
+    std::vector<Match> beside;
+    for (const Match& match : matches)
+      if (has(match.next, "/timing/baseline"))
+        beside.push_back(match);
+      else
+        only_in_new.push_back(&match.next);
+    matches.swap(beside);
+  }
   const Scope scope = scope_of(base, next, matches, options.is_forced);
   const Times times = scope.leaves_out("times") ? Times() : Times(matches, by_pairs);
-  Json out{{"comparison_version", 1},
-           {"threshold", threshold},
-           {"data", by_pairs ? "paired" : "separate"},
-           {"base", {{"tool", by_pairs ? next["baseline"]["tool"] : base["tool"]}}},
-           {"new", {{"tool", next["tool"]}}},
-           {"left_out", scope.left_out},
-           {"cases", Json::array()}};
+  Json out{
+      {"comparison_version", 1},
+      {"threshold", threshold},
+      {"data", by_pairs ? "paired" : "separate"},
+      {"time", by_pairs || std::any_of(matches.begin(), matches.end(),
+                                       [](const Match& one) { return time_of(one) != std::string_view("frame_ns"); })
+                   ? "assign"
+                   : "frame"},
+      {"base", {{"tool", by_pairs ? next["baseline"]["tool"] : base["tool"]}}},
+      {"new", {{"tool", next["tool"]}}},
+      {"left_out", scope.left_out},
+      {"cases", Json::array()}};
   for (const Match& match : matches) out["cases"].push_back(compared(match, times, scope, threshold, options));
   out["summary"] = summary_of(out["cases"], times);
-  out["only_in_base"] = missing_from(next, base);
-  out["only_in_new"] = missing_from(base, next);
+  out["only_in_base"] = names_of(only_in_base);
+  out["only_in_new"] = names_of(only_in_new);
+  out["renamed"] = renamed(base, only_in_base, next, only_in_new);
+  out["not_compared"] = parts_of_one(matches);
   out["failures"] = failures_of(next, out["cases"]);
   out["warnings"] = warnings_of(base, next, out, scope.forced, options.gates_separate);
   return out;
@@ -376,7 +489,7 @@ ExitCode outcome(const Json& comparison, bool is_strict) {
   if (comparison["cases"].empty()) return ExitCode::nothing_comparable;
   if (!comparison["failures"].empty()) return ExitCode::gate_failed;
   const bool is_open = comparison["summary"]["inconclusive"] != 0 || !comparison["only_in_base"].empty() ||
-                       comparison["left_out"].contains("instructions");
+                       comparison["left_out"].contains("instructions") || is_gated_part_missing(comparison);
   return is_strict && is_open ? ExitCode::inconclusive : ExitCode::ok;
 }
 

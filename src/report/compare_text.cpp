@@ -32,8 +32,9 @@ std::string version(const Json& side) {
 }
 
 const char* kind_of_times(const Json& comparison) {
-  if (comparison["data"] == "paired") return ", times side by side";
-  return comparison["summary"]["methods_timed"] == 0 ? ", no times" : ", times of separate runs";
+  if (comparison["data"] == "paired") return ", times of assignment side by side";
+  if (comparison["summary"]["methods_timed"] == 0) return ", no times";
+  return comparison["time"] == "frame" ? ", frame times of separate runs" : ", times of assignment of separate runs";
 }
 
 std::string heading(const Json& comparison) {
@@ -72,8 +73,17 @@ bool is_remarkable(const Json& one) {
          (one.contains("instructions") && one["instructions"]["verdict"] != "same");
 }
 
+bool is_worse(const Json& one) {
+  return (one.contains("verdict") && one["verdict"] == "slower") || one["counts"] == "worse" ||
+         (one.contains("instructions") && one["instructions"]["verdict"] == "more");
+}
+
+bool is_open(const Json& one) {
+  return is_hint(one) || (one.contains("verdict") && one["verdict"] == "inconclusive");
+}
+
 const char* mark_of(const Json& one) {
-  return is_remarkable(one) ? "!" : is_hint(one) ? "?" : " ";
+  return is_worse(one) ? "!" : is_open(one) ? "?" : is_remarkable(one) ? "+" : " ";
 }
 
 // Of the marks that the table has.
@@ -81,8 +91,13 @@ std::string legend(const Json& cases) {
   const auto has = [&](const std::string& mark) {
     return std::any_of(cases.begin(), cases.end(), [&](const Json& one) { return mark_of(one) == mark; });
   };
-  return std::string(has("!") ? "! the verdict, the instructions or what is counted is not the same.\n" : "") +
-         (has("?") ? "? a hint: medians of separate runs differ beyond the threshold and their intervals.\n" : "");
+  const bool has_hint = std::any_of(cases.begin(), cases.end(), is_hint);
+  std::string out = has("!") ? "! slower, more instructions, or what is counted is worse.\n" : "";
+  if (has("+")) out += "+ faster, fewer instructions, or what is counted is better.\n";
+  if (has("?"))
+    out += has_hint ? "? a hint: medians of separate runs differ beyond the threshold and their intervals.\n"
+                    : "? inconclusive: too noisy to tell.\n";
+  return out;
 }
 
 // The first place where two lists part, both values elsewhere.
@@ -114,7 +129,7 @@ std::vector<std::string> details(const Json& one) {
 
 std::string summary_text(const Json& comparison) {
   const Json& summary = comparison["summary"];
-  std::string text = number_of(summary["cases"].get<std::uint64_t>(), "case") + ":";
+  std::string text = number_of(summary["cases"].get<std::uint64_t>(), "case") + " in common:";
   const char* separator = " ";
   for (const char* word : {"faster", "slower", "same", "inconclusive", "counts_better", "counts_worse"}) {
     if (summary[word] == 0) continue;
@@ -124,13 +139,19 @@ std::string summary_text(const Json& comparison) {
     separator = ", ";
   }
   const bool has_hints = summary["hints_longer"] != 0 || summary["hints_shorter"] != 0;
-  if (*separator == ' ') text += has_hints ? " what is counted is the same" : " nothing has changed";
+  if (summary["cases"] == 0)
+    text += " nothing was compared";
+  else if (*separator == ' ')
+    text += has_hints ? " what is counted is the same" : " nothing has changed of what was compared";
   if (has_hints)
     text += "; hints of time: " + summary["hints_longer"].dump() + " longer, " + summary["hints_shorter"].dump() +
             " shorter";
   if (summary.contains("ratio"))
     text += "; geometric mean of " + number_of(summary["methods_timed"].get<std::uint64_t>(), "method") + " " +
             percent(summary["ratio"]) + " (" + interval(summary) + ")";
+  for (const auto& [key, side] : {std::pair{"only_in_base", "base"}, std::pair{"only_in_new", "new"}})
+    if (!comparison[key].empty())
+      text += "; " + number_of(comparison[key].size(), "case") + " of the " + side + " not compared";
   return text;
 }
 

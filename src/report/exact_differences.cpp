@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 enum class Kind {
   cost,     // less is better
   follows,  // says the same as some cost in another way
-  aside,    // how the truth was found, not what
+  aside,    // says nothing of the case by itself: how the truth was found, what limits make of the counts
   fixed     // what both must have in common
 };
 
@@ -25,6 +25,8 @@ struct Rule {
 
 // The first that fits; what none fits is fixed.
 constexpr std::array k_rules{
+    Rule{"/failures", Kind::aside},  // they fail by themselves
+    Rule{"/loses_lights", Kind::follows},
     Rule{"/tests_done", Kind::cost},
     Rule{"/fallbacks", Kind::cost},
     Rule{"/occupancy/pairs", Kind::cost},
@@ -43,6 +45,7 @@ constexpr std::array k_rules{
     Rule{"/error", Kind::cost},
     Rule{"/shading/samples", Kind::fixed},
     Rule{"/shading/needed", Kind::fixed},
+    Rule{"/shading/worst_frame", Kind::follows},
     Rule{"/shading", Kind::cost},
     Rule{"/lookup", Kind::cost},
     Rule{"/stability/changed/method", Kind::cost},
@@ -59,6 +62,8 @@ Kind kind_of(const std::string& pointer) {
 
 const char* judged(Kind kind, const Json& base, const Json& next) {
   if (kind == Kind::aside || kind == Kind::follows) return "changed";
+  // A quotient that says nothing on one side; what it is made of is compared.
+  if (kind == Kind::cost && (base.is_null() || next.is_null())) return "changed";
   if (kind == Kind::fixed || !base.is_number() || !next.is_number()) return "worse";
   return next.get<double>() < base.get<double>() ? "better" : "worse";
 }

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "core/error.h"
@@ -49,7 +50,7 @@ Json history_line(const Json& result, const std::string& commit) {
 }
 
 HistoryEntry::Case parsed_case(const Json& one) {
-  HistoryEntry::Case out{one.at("name").get<std::string>(), {}};
+  HistoryEntry::Case out{one.at("id").get<std::string>(), one.at("name").get<std::string>(), {}};
   for (const auto& [name, value] : one.at("figures").items()) out.figures.emplace_back(name, value.get<double>());
   return out;
 }
@@ -150,10 +151,14 @@ std::vector<measure::ChangePoint> changes_of(const Series& series, const measure
 }
 
 std::string series_text(const Series& series) {
-  std::string text = series.case_name + "  " + std::string(series.metric->name) + " (" +
-                     std::string(series.metric->unit) + ")" + (series.machine.empty() ? "" : "  on " + series.machine) +
-                     "\n  " + number_of(series.values.size(), "value") + ", " + figure_text(series.values.front()) +
-                     " to " + figure_text(series.values.back()) + "\n";
+  std::string text =
+      series.case_name + "  " + std::string(series.metric->name) + " (" + std::string(series.metric->unit) + ")" +
+      (series.machine.empty() ? "" : "  on " + series.machine) + "\n" +
+      (series.settings_since.empty()
+           ? ""
+           : "  other settings than before, from " + series.settings_since + " on: a series of its own\n") +
+      "  " + number_of(series.values.size(), "value") + ", " + figure_text(series.values.front()) + " to " +
+      figure_text(series.values.back()) + "\n";
   for (const measure::ChangePoint& change : series.changes) {
     char p[48];
     std::snprintf(p, sizeof p, " (p %.1g)", change.p);
@@ -180,15 +185,19 @@ void add_to_history(const std::string& path, const Json& result, const std::stri
 
 std::vector<Series> series_of(const std::vector<HistoryEntry>& history, const measure::ChangeRule& rule) {
   std::vector<Series> all;
-  std::map<std::tuple<std::string, const Metric*, std::string>, std::size_t> places;
+  std::map<std::tuple<std::string, std::string, const Metric*, std::string>, std::size_t> places;
+  std::map<std::string, std::string> first_ids;  // by name
   for (const HistoryEntry& entry : history)
     for (const HistoryEntry::Case& one : entry.cases)
       for (const auto& [name, value] : one.figures) {
         const Metric* metric = metric_named(name);
         if (metric == nullptr || basis_of(*metric) == Basis::derived) continue;  // of an older version
         const std::string from = origin(entry, *metric);
-        const auto [place, is_new] = places.try_emplace({one.name, metric, from}, all.size());
-        if (is_new) all.push_back({one.name, from, metric, {}, {}, false, {}});
+        const auto [place, is_new] = places.try_emplace({one.name, one.id, metric, from}, all.size());
+        const bool has_others_before = first_ids.try_emplace(one.name, one.id).first->second != one.id;
+        if (is_new)
+          all.push_back(
+              {one.name, one.id, has_others_before ? entry.commit : std::string(), from, metric, {}, {}, false, {}});
         all[place->second].commits.push_back(entry.commit);
         all[place->second].values.push_back(value);
       }
@@ -220,6 +229,12 @@ std::string history_text(const std::vector<Series>& series, std::size_t entries,
     too_short += one.is_too_short ? 1 : 0;
     if (all || !one.changes.empty()) text += series_text(one);
   }
+  std::set<std::pair<std::string, std::string>> renewed;
+  for (const Series& one : series)
+    if (!one.settings_since.empty())
+      renewed.insert({one.case_id, one.case_name + " from " + one.settings_since + " on"});
+  for (const auto& [id, what] : renewed)
+    text += "warning: other settings (case " + id + "), not joined with what was before: " + what + "\n";
   text += number_of(entries, "result") + ", " + std::to_string(series.size()) + " series, " +
           number_of(changes, "change") + "\n";
   return too_short == 0

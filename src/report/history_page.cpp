@@ -141,6 +141,9 @@ std::string figure(const Series& series) {
                     escaped(series.case_name) + "<br>" + figure_text(series.values.front()) + " to " +
                     figure_text(series.values.back()) + " " + std::string(series.metric->unit) +
                     (series.machine.empty() ? "" : " on " + escaped(series.machine)) +
+                    (series.settings_since.empty()
+                         ? ""
+                         : "<br>other settings than before, from " + escaped(series.settings_since) + " on") +
                     "</figcaption>\n<svg role=\"img\" viewBox=\"0 0 " + coordinate(k_width) + " " +
                     coordinate(k_height) + "\" aria-label=\"" + title + ", " + std::to_string(series.values.size()) +
                     " values from " + figure_text(*low) + " to " + figure_text(*high) + "\">" + axis(series, scale) +

@@ -91,7 +91,9 @@ void Journal::read_earlier(const Json& header) {
 }
 
 void Journal::check_earlier() const {
-  const nlohmann::json cases_schema = config::result_schema()["properties"]["cases"];
+  const nlohmann::json schema = config::result_schema();
+  nlohmann::json cases_schema = schema["properties"]["cases"];
+  cases_schema["definitions"] = schema["definitions"];  // which its parts refer to
   const std::vector<std::string> violations = config::schema_violations(cases_schema, nlohmann::json(earlier_cases_));
   if (!violations.empty())
     throw Error(partial_path().string(), "", "does not hold the cases of a run: " + violations.front());

@@ -1,14 +1,12 @@
 #include "report/json.h"
 
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <set>
 
-#include "core/text.h"
-#include "measure/front.h"
 #include "report/details_json.h"
 #include "report/machine.h"
+#include "run/gate.h"
 
 namespace clusterbench::report {
 namespace {
@@ -103,13 +101,21 @@ Json error(const run::CaseResult& one) {
   return out;
 }
 
-Json shading(const measure::ShadingCounts& s) {
-  return {{"samples", s.samples},
-          {"evaluated", s.evaluated},
-          {"needed", s.needed},
-          {"missed", s.missed},
-          {"lost_irradiance", number_or_null(s.lost_irradiance)},
-          {"overshade", number_or_null(s.overshade())}};
+Json shading(const run::CaseResult& one) {
+  const measure::ShadingCounts& s = *one.shading;
+  Json out{{"samples", s.samples},
+           {"evaluated", s.evaluated},
+           {"needed", s.needed},
+           {"missed", s.missed},
+           {"missed_in_cells", s.missed - s.missed_outside},
+           {"missed_outside", s.missed_outside},
+           {"unlit", number_or_null(s.unlit())},
+           {"lost_irradiance", number_or_null(s.lost_irradiance)},
+           {"overshade", number_or_null(s.comparable_overshade())}};
+  if (one.worst_unlit)
+    out["worst_frame"] = {
+        {"frame", one.worst_unlit->frame}, {"missed", one.worst_unlit->missed}, {"needed", one.worst_unlit->needed}};
+  return out;
 }
 
 Json to_json(const measure::Churn& churn) {
@@ -170,7 +176,15 @@ Json precision(const run::PrecisionResult& p) {
 }
 
 Json timing(const run::TimingResult& t) {
-  Json out{{"frames_timed", t.frames_timed}, {"build_ns", to_json(t.build_ns)}, {"assign_ns", to_json(t.assign_ns)}};
+  Json out{
+      {"frames_timed", t.frames_timed},
+      {"frame_ns", to_json(t.frame_ns)},
+      {"worst_frame", {{"frame", t.worst.frame}, {"ns", number_or_null(t.worst.ns)}, {"ci95", to_json(t.worst.ci95)}}}};
+  if (t.worst.pairs) out["worst_frame"]["pairs"] = *t.worst.pairs;
+  if (t.pairs_mean) out["pairs"] = {{"mean", number_or_null(*t.pairs_mean)}, {"max", t.pairs_max}};
+  out["builds_per_frame"] = t.builds_per_frame;
+  out["build_ns"] = to_json(t.build_ns);
+  out["assign_ns"] = to_json(t.assign_ns);
   if (t.convert_ns) out["convert_ns"] = to_json(*t.convert_ns);
   out["ns_per_pair"] = number_or_null(t.ns_per_pair);
   out["write_floor_ns"] = number_or_null(t.write_floor_ns);
@@ -214,32 +228,29 @@ double number_at(const Json& one, const char* pointer) {
   return one.contains(place) && one[place].is_number() ? one[place].get<double>() : std::nan("");
 }
 
-// Only cases that see the same can beat each other: an empty view costs less than a full one in every respect, and
-// packed lights that lose a pair less than those that do not.
 std::string view_of(const Json& one) {
   const Json lights = one.contains("precision") ? one["precision"]["label"] : Json("float32");
   return Json{one["camera"], one["viewport"], lights}.dump();
 }
 
-// Does a case leave out lights: drops pairs that its storage has no room for, or misses more than one needed light in a
-// thousand at the samples (rounding at cell boundaries misses far fewer)? Short lists are no merit then.
-bool leaves_out_lights(const Json& one) {
-  constexpr double k_most_missed = 1e-3;
-  return number_at(one, "/buffers/overflow/dropped_pairs") > 0.0 ||
-         number_at(one, "/shading/missed") > k_most_missed * number_at(one, "/shading/needed");
+// A time of before frame_ns was known is that of the assignment.
+measure::Interval time_of(const Json& one) {
+  for (const std::string time : {"/timing/frame_ns", "/timing/assign_ns"}) {
+    const measure::Interval ci95{number_at(one, (time + "/ci95/0").c_str()),
+                                 number_at(one, (time + "/ci95/1").c_str())};
+    if (!std::isnan(ci95.low) && !std::isnan(ci95.high)) return ci95;
+  }
+  return measure::Costs{}.time_ns;
 }
 
-// The cases of one view that none beats in time, list bytes and overshade together.
-void add_front(const std::vector<const Json*>& cases, std::set<std::string>& ids) {
-  std::vector<const Json*> whole;
-  std::vector<measure::Costs> costs;
-  for (const Json* one : cases) {
-    if (leaves_out_lights(*one)) continue;
-    whole.push_back(one);
-    costs.push_back({number_at(*one, "/timing/assign_ns/median"), number_at(*one, "/buffers/bytes/high_water"),
-                     number_at(*one, "/shading/overshade")});
-  }
-  for (const std::size_t place : measure::pareto_front(costs)) ids.insert((*whole[place])["id"].get<std::string>());
+run::Contender contender(const Json& one) {
+  const double unlit = number_at(one, "/shading/missed") / number_at(one, "/shading/needed");
+  return {one["id"],
+          one["scene"],
+          view_of(one),
+          {time_of(one), number_at(one, "/buffers/bytes/high_water"), number_at(one, "/shading/overshade")},
+          !one.value("failures", Json::array()).empty() || number_at(one, "/buffers/overflow/dropped_pairs") > 0.0 ||
+              unlit > measure::k_most_unlit};
 }
 
 // Pairs per frame against the same case in float32; null where there is none.
@@ -266,32 +277,18 @@ Json in_plan_order(const run::Result& result, const std::vector<Json>& earlier_c
   return cases;
 }
 
-std::string missing_light(const Json& one) {
-  const Json& error = one["error"];
-  std::string text = one["name"].get<std::string>() + ": lost " + error["false_negatives"].dump() + " of " +
-                     error["true_pairs"].dump() + " true pairs";
-  if (!error.contains("deepest")) return text;
-  const Json& deepest = error["deepest"];
-  char percent[32];
-  std::snprintf(percent, sizeof percent, "%.3g", 100.0 * error["deepest_miss"].get<double>());
-  return text + "; deepest in frame " + deepest["frame"].dump() + ", cell " + deepest["cell"].dump() + ", light " +
-         deepest["light"].dump() + " ('" + deepest["light_name"].get<std::string>() + "'), " + percent +
-         " % of its range inside";
-}
-
 }  // namespace
 
 Json fronts(const Json& scenes, const Json& cases) {
+  std::vector<run::Contender> all;
+  for (const Json& one : cases) all.push_back(contender(one));
+  const std::vector<std::string> ids = run::on_front(all);
+  const std::set<std::string> best(ids.begin(), ids.end());
   Json list = Json::array();
   for (const Json& scene : scenes) {
-    std::map<std::string, std::vector<const Json*>> views;
-    for (const Json& one : cases)
-      if (one["scene"] == scene["name"]) views[view_of(one)].push_back(&one);
-    std::set<std::string> ids;
-    for (const auto& [view, seen] : views) add_front(seen, ids);
     Json front = Json::array();
     for (const Json& one : cases)
-      if (ids.contains(one["id"].get<std::string>())) front.push_back(one["id"]);
+      if (one["scene"] == scene["name"] && best.contains(one["id"].get<std::string>())) front.push_back(one["id"]);
     list.push_back({{"scene", scene["name"]}, {"ids", front}});
   }
   return list;
@@ -320,12 +317,16 @@ Json case_to_json(const run::CaseResult& one) {
              {"conservative", one.conservative},
              {"exact", one.exact}}},
            {"storage", one.storage_label},
+           {"failures", Json::array()},
+           {"loses_lights", run::loses_lights(one)},
            {"tests_done", one.tests_done},
            {"fallbacks", one.fallbacks}};
+  for (const run::Failure& failure : one.failures)
+    out["failures"].push_back({{"kind", run::name_of(failure.kind)}, {"text", failure.text}});
   if (one.occupancy) out["occupancy"] = occupancy(one);
   out["buffers"] = buffers(one);
   if (one.error) out["error"] = error(one);
-  if (one.shading) out["shading"] = shading(*one.shading);
+  if (one.shading) out["shading"] = shading(one);
   if (!one.lookup.empty()) out["lookup"] = lookup(one.lookup);
   if (one.stability) out["stability"] = stability(*one.stability);
   if (one.precision) out["precision"] = precision(*one.precision);
@@ -351,19 +352,11 @@ Json result_to_json(const run::Result& result, const std::vector<Json>& earlier_
 }
 
 std::vector<std::string> gate_failures(const Json& result) {
-  std::vector<std::string> failures;
-  for (const Json& one : result["cases"]) {
-    if (!one.contains("error")) continue;
-    const Json& assigner = one["assigner"];
-    const bool has_lost = one["error"]["false_negatives"] != 0, has_excess = one["error"]["false_positives"] != 0;
-    if (has_lost && (assigner["conservative"] == true || assigner["exact"] == true))
-      failures.push_back(missing_light(one));
-    if (has_excess && assigner["exact"] == true)
-      failures.push_back(one["name"].get<std::string>() + ": reported " +
-                         number_of(one["error"]["false_positives"].get<std::uint64_t>(), "pair") +
-                         " beside the truth, and calls itself exact");
-  }
-  return failures;
+  std::vector<std::string> lines;
+  for (const Json& one : result["cases"])
+    for (const Json& failure : one.value("failures", Json::array()))
+      lines.push_back(one["name"].get<std::string>() + ": " + failure["text"].get<std::string>());
+  return lines;
 }
 
 Json number_or_null(double value) {

@@ -22,10 +22,11 @@ nlohmann::ordered_json case_to_json(const run::CaseResult& one);
 nlohmann::ordered_json result_to_json(const run::Result& result,
                                       const std::vector<nlohmann::ordered_json>& earlier_cases);
 
-// Per scene the cases that none beats in assign time, list bytes and overshade together, in the order of the cases.
+// Per scene the cases that none beats in frame time, list bytes and overshade together (run/gate.h), in the order of
+// the cases.
 nlohmann::ordered_json fronts(const nlohmann::ordered_json& scenes, const nlohmann::ordered_json& cases);
 
-// What a run fails for, a line each: a conservative assigner that lost a light, an exact one with any difference.
+// What a run fails for, a line each, as its cases' `failures` say.
 std::vector<std::string> gate_failures(const nlohmann::ordered_json& result);
 
 }  // namespace clusterbench::report

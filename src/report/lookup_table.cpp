@@ -1,7 +1,5 @@
 #include "report/lookup_table.h"
 
-#include <algorithm>
-
 #include "report/columns.h"
 
 namespace clusterbench::report {
@@ -15,16 +13,16 @@ std::string missed_text(const Json& way) {
 }
 
 // Assigners as lines, ways as columns.
-std::string lookup_block(const std::string& block, const std::vector<const Json*>& cases) {
+std::string lookup_block(const std::string& block, const std::vector<NamedCase>& cases) {
   Cells headings{"", "assigner"}, padding{"", "(safe padding, ulps)"};
-  for (const Json& way : (*cases.front())["lookup"]) {
+  for (const Json& way : (*cases.front().one)["lookup"]) {
     headings.push_back(way["logarithm"].get<std::string>() + "/" + way["depth"].get<std::string>());
     padding.push_back(way["safe_padding_ulps"].dump());
   }
   std::vector<Cells> rows{headings};
-  for (const Json* one : cases) {
-    Cells row{"", (*one)["assigner"]["label"].get<std::string>()};
-    for (const Json& way : (*one)["lookup"]) row.push_back(missed_text(way));
+  for (const NamedCase& one : cases) {
+    Cells row{"", one.name};
+    for (const Json& way : (*one.one)["lookup"]) row.push_back(missed_text(way));
     rows.push_back(row);
   }
   rows.push_back(padding);
@@ -41,12 +39,7 @@ std::string lookup_table(const Json& result) {
   for (const Json& scene : result["scenes"]) {
     std::string blocks;
     for (const std::string& block : blocks_of(result["cases"], scene)) {
-      std::vector<const Json*> cases;
-      for (const Json& one : result["cases"])
-        if (one.contains("lookup") && one["scene"] == scene["name"] && block_of(one) == block &&
-            std::none_of(cases.begin(), cases.end(),
-                         [&](const Json* other) { return (*other)["assigner"]["label"] == one["assigner"]["label"]; }))
-          cases.push_back(&one);
+      const std::vector<NamedCase> cases = distinct_cases(result["cases"], scene, block, {"lookup"});
       if (!cases.empty()) blocks += lookup_block(block, cases);
     }
     if (!blocks.empty()) out += "lookup on " + shown(scene["name"]) + "\n" + blocks + "\n";

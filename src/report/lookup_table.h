@@ -6,7 +6,8 @@
 
 namespace clusterbench::report {
 
-// Per scene and grid, one line per assigner and way of looking up; "" where no case has it.
+// Per scene and grid, one line per method, and storage or structure of its own where they miss otherwise; "" where no
+// case has it.
 std::string lookup_table(const nlohmann::ordered_json& result);
 
 }  // namespace clusterbench::report

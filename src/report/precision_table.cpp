@@ -1,6 +1,5 @@
 #include "report/precision_table.h"
 
-#include <algorithm>
 #include <set>
 
 #include "report/columns.h"
@@ -12,10 +11,11 @@ using Json = nlohmann::ordered_json;
 
 const Cells k_precision_headings{"", "assigner", "lights", "missed", "deepest", "pairs", "extra"};
 
-Cells precision_row(const Json& one) {
+Cells precision_row(const NamedCase& named) {
+  const Json& one = *named.one;
   const bool has_lost = one.contains("error") && one["error"]["false_negatives"] != 0;
   return {"",
-          one["assigner"]["label"].get<std::string>(),
+          named.name,
           one["precision"]["label"].get<std::string>(),
           number_text(one, "/error/false_negatives", "%.0f"),
           has_lost ? number_text(one, "/error/deepest_miss", "%.3g %%", 100.0) : "-",
@@ -23,14 +23,15 @@ Cells precision_row(const Json& one) {
           number_text(one, "/precision/extra_pairs/ratio", "%+.2f %%", 100.0)};
 }
 
-// Cases of a block, once per assigner and precision: lists do not depend on their storage.
-std::vector<const Json*> precision_lines(const Json& cases, const Json& scene, const std::string& block) {
-  std::vector<const Json*> lines;
-  std::set<std::string> known;
-  for (const Json& one : cases)
-    if (one.contains("precision") && one["scene"] == scene["name"] && block_of(one) == block &&
-        known.insert(method_name(one)).second)
-      lines.push_back(&one);
+// Cases of a block, once per method, precision and what that loses. The precision has a column of its own.
+std::vector<NamedCase> precision_lines(const Json& cases, const Json& scene, const std::string& block) {
+  std::vector<NamedCase> lines = distinct_cases(cases, scene, block, {"precision", "error", "occupancy"});
+  std::erase_if(lines, [](const NamedCase& line) { return !line.one->contains("precision"); });
+  for (NamedCase& line : lines) {
+    const Json& one = *line.one;
+    const std::string storage = line.name.substr(method_name(one).size());
+    line.name = shown(one["assigner"]["label"]) + storage;
+  }
   return lines;
 }
 
@@ -52,15 +53,15 @@ std::string loss_text(const Json& precision) {
   return text;
 }
 
-std::string precision_block(const std::string& block, const std::vector<const Json*>& lines) {
+std::string precision_block(const std::string& block, const std::vector<NamedCase>& lines) {
   std::string out = " " + block + "\n";
   std::set<std::string> told;
   std::vector<Cells> rows{k_precision_headings};
-  for (const Json* one : lines) {
-    const Json& precision = (*one)["precision"];
+  for (const NamedCase& one : lines) {
+    const Json& precision = (*one.one)["precision"];
     const std::string packing = precision["packing"];
     if (packing != "float32" && told.insert(packing).second) out += loss_text(precision);
-    rows.push_back(precision_row(*one));
+    rows.push_back(precision_row(one));
   }
   const std::vector<std::size_t> widths = widths_of(rows);
   for (const Cells& row : rows) out += aligned(row, widths);
@@ -74,7 +75,7 @@ std::string precision_table(const Json& result) {
   for (const Json& scene : result["scenes"]) {
     std::string blocks;
     for (const std::string& block : blocks_of(result["cases"], scene)) {
-      const std::vector<const Json*> lines = precision_lines(result["cases"], scene, block);
+      const std::vector<NamedCase> lines = precision_lines(result["cases"], scene, block);
       if (!lines.empty()) blocks += precision_block(block, lines);
     }
     if (!blocks.empty()) out += "precision of " + shown(scene["name"]) + "\n" + blocks + "\n";

@@ -98,12 +98,10 @@ bool is_own(const Json& one) {
 
 // Smaller is better. Structures of their own come after all lists: what samples pay for them differs.
 auto rank(const Json& one) {
-  const bool loses = (one.contains("error") && one["error"]["false_negatives"] != 0) ||
-                     one["buffers"]["overflow"]["dropped_pairs"] != 0;
-  const Json time =
-      one.value(Json::json_pointer("/timing/assign_ns/median"), Json());  // null where it was not measured
+  const bool loses = one.value("loses_lights", false) || !one.value("failures", Json::array()).empty();
+  const Json time = one.value(Json::json_pointer("/timing/frame_ns/median"), Json());  // null where it was not measured
   const double time_ns = time.is_number() ? time.get<double>() : std::numeric_limits<double>::infinity();
-  return std::tuple(is_own(one), loses, time_ns, one["buffers"]["bytes"]["recommended"].get<std::uint64_t>());
+  return std::tuple(loses, is_own(one), time_ns, one["buffers"]["bytes"]["recommended"].get<std::uint64_t>());
 }
 
 std::vector<Json> best_of_groups(const std::vector<Json>& cases) {

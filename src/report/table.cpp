@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/text.h"
+#include "measure/shading.h"
 #include "report/columns.h"
 #include "report/lookup_table.h"
 #include "report/precision_table.h"
@@ -21,69 +22,110 @@ constexpr const char* k_plain = "\033[0m";
 
 constexpr const char* k_instructions = "/count/instructions_per_frame/assign";
 
-// The place of the instructions' column, where there is one.
-constexpr std::ptrdiff_t k_instructions_column = 3;
-
-const Cells k_headings{"",       "assigner", "assign us", "ns/pair", "floor",  "pairs",
-                       "excess", "missed",   "p99",       "bytes",   "entries"};
-
 struct Line {
   Cells cells;
   bool has_failed = false;
   double sort_key = 0.0;
 };
 
-std::string time_text(const Json& one) {
-  const Json::json_pointer place("/timing/assign_ns/median");
-  if (!one.contains(place) || !one[place].is_number()) return "-";
-  const double us = one[place].get<double>() / 1e3;
+// What some cases have and others have not.
+struct Extras {
+  bool storages = false, times = false, conversions = false, builds = false, instructions = false, samples = false,
+       dropped = false;
+};
+
+const Json* at(const Json& one, const char* pointer) {
+  const Json::json_pointer place(pointer);
+  return one.contains(place) && one[place].is_number() ? &one[place] : nullptr;
+}
+
+std::string time_text(const Json& one, const char* pointer) {
+  const Json* found = at(one, pointer);
+  if (found == nullptr) return "-";
+  const double us = found->get<double>() / 1e3;
   return text(us < 10.0 ? "%.2f" : us < 1000.0 ? "%.1f" : "%.0f", us);
 }
 
+// Half of the interval, of the time.
+std::string interval_text(const Json& one) {
+  const Json *low = at(one, "/timing/frame_ns/ci95/0"), *high = at(one, "/timing/frame_ns/ci95/1"),
+             *median = at(one, "/timing/frame_ns/median");
+  if (low == nullptr || high == nullptr || median == nullptr || median->get<double>() <= 0.0) return "-";
+  return text("%.1f %%", 50.0 * (high->get<double>() - low->get<double>()) / median->get<double>());
+}
+
+std::string worst_text(const Json& one) {
+  const Json* frame = at(one, "/timing/worst_frame/frame");
+  return frame == nullptr ? "-" : time_text(one, "/timing/worst_frame/ns") + " @" + frame->dump();
+}
+
+// The pairs of the frames that the time is of; without times those of all frames.
+std::string pairs_text(const Json& one) {
+  return short_count(one,
+                     at(one, "/timing/frame_ns/median") != nullptr ? "/timing/pairs/mean" : "/occupancy/pairs/mean");
+}
+
+// A share that is small and not nothing never looks like nothing.
+std::string unlit_text(const Json& one) {
+  const Json* share = at(one, "/shading/unlit");
+  if (share == nullptr) return "-";
+  const double percent = 100.0 * share->get<double>();
+  if (percent == 0.0) return "0 %";
+  return percent < 0.01 ? "<0.01 %" : text(percent < 1.0 ? "%.2f %%" : "%.1f %%", percent);
+}
+
 double sort_key(const Json& one) {
-  for (const char* pointer : {"/timing/assign_ns/median", k_instructions, "/error/excess_ratio"}) {
-    const Json::json_pointer place(pointer);
-    if (one.contains(place) && one[place].is_number()) return one[place].get<double>();
-  }
+  for (const char* pointer : {"/timing/frame_ns/median", k_instructions, "/error/excess_ratio"})
+    if (const Json* found = at(one, pointer)) return found->get<double>();
   return 0.0;
 }
 
 bool has_failed(const Json& one) {
-  if (!one.contains("error")) return false;
-  const Json &error = one["error"], &assigner = one["assigner"];
-  const bool is_exact = assigner["exact"] == true;
-  return (error["false_negatives"] != 0 && (is_exact || assigner["conservative"] == true)) ||
-         (error["false_positives"] != 0 && is_exact);
+  return one.contains("failures") && !one["failures"].empty();
 }
 
-// What the table has beside the usual.
-struct Extras {
-  bool storages = false, instructions = false;
+struct Column {
+  const char* heading;
+  std::string (*text)(const Json& one);
+  bool Extras::*needed = nullptr;  // left out where the table has none of it
 };
 
+constexpr Column k_columns[] = {
+    {"frame us", [](const Json& one) { return time_text(one, "/timing/frame_ns/median"); }, &Extras::times},
+    {"+-", interval_text, &Extras::times},
+    {"worst us", worst_text, &Extras::times},
+    {"assign", [](const Json& one) { return time_text(one, "/timing/assign_ns/median"); }, &Extras::times},
+    {"convert", [](const Json& one) { return time_text(one, "/timing/convert_ns/median"); }, &Extras::conversions},
+    {"build", [](const Json& one) { return time_text(one, "/timing/build_ns/median"); }, &Extras::builds},
+    {"instr", [](const Json& one) { return short_count(one, k_instructions); }, &Extras::instructions},
+    {"pairs", pairs_text},
+    {"ns/pair", [](const Json& one) { return number_text(one, "/timing/ns_per_pair", "%.2f"); }, &Extras::times},
+    {"excess", [](const Json& one) { return number_text(one, "/error/excess_ratio", "%.1f %%", 100.0); }},
+    {"missed", [](const Json& one) { return number_text(one, "/error/false_negatives", "%.0f"); }},
+    {"dropped", [](const Json& one) { return short_count(one, "/buffers/overflow/dropped_pairs"); }, &Extras::dropped},
+    {"unlit", unlit_text, &Extras::samples},
+    {"shade", [](const Json& one) { return number_text(one, "/shading/overshade", "%.2f"); }, &Extras::samples},
+    {"bytes", [](const Json& one) { return short_count(one, "/buffers/bytes/high_water"); }},
+};
+
+bool is_shown(const Column& column, const Extras& extras) {
+  return column.needed == nullptr || extras.*column.needed;
+}
+
 Cells headings(const Extras& extras) {
-  Cells cells = k_headings;
-  if (extras.instructions) cells.insert(cells.begin() + k_instructions_column, "instr");
+  Cells cells{"", "assigner"};
+  for (const Column& column : k_columns)
+    if (is_shown(column, extras)) cells.emplace_back(column.heading);
   return cells;
 }
 
 Line line_of(const Json& one, bool is_on_front, const Extras& extras) {
   Line line;
   std::string label = method_name(one);
-  if (extras.storages) label += " / " + one["storage"].get<std::string>();
-  line.cells = {is_on_front ? "*" : "",
-                label,
-                time_text(one),
-                number_text(one, "/timing/ns_per_pair", "%.2f"),
-                number_text(one, "/timing/floor_ratio", "%.1f"),
-                short_count(one, "/occupancy/pairs/mean"),
-                number_text(one, "/error/excess_ratio", "%.1f %%", 100.0),
-                number_text(one, "/error/false_negatives", "%.0f"),
-                number_text(one, "/occupancy/lights_per_cluster/p99", "%.0f"),
-                short_count(one, "/buffers/bytes/high_water"),
-                short_count(one, "/buffers/index_entries/recommended")};
-  if (extras.instructions)
-    line.cells.insert(line.cells.begin() + k_instructions_column, short_count(one, k_instructions));
+  if (extras.storages) label += " / " + shown(one["storage"]);
+  line.cells = {is_on_front ? "*" : "", label};
+  for (const Column& column : k_columns)
+    if (is_shown(column, extras)) line.cells.push_back(column.text(one));
   line.has_failed = has_failed(one);
   line.sort_key = sort_key(one);
   return line;
@@ -96,10 +138,20 @@ std::set<std::string> ids_on_front(const Json& result) {
   return ids;
 }
 
-bool has_several_storages(const Json& cases) {
+Extras extras_of(const Json& cases) {
+  Extras extras;
   std::set<std::string> storages;
-  for (const Json& one : cases) storages.insert(one["storage"].get<std::string>());
-  return storages.size() > 1;
+  for (const Json& one : cases) {
+    storages.insert(one["storage"].get<std::string>());
+    extras.times |= at(one, "/timing/frame_ns/median") != nullptr;
+    extras.conversions |= at(one, "/timing/convert_ns/median") != nullptr;
+    extras.builds |= at(one, "/timing/builds_per_frame") != nullptr && one["timing"]["builds_per_frame"] != 0.0;
+    extras.instructions |= one.contains("count");
+    extras.samples |= one.contains("shading");
+    extras.dropped |= one["buffers"]["overflow"]["dropped_pairs"] != 0;
+  }
+  extras.storages = storages.size() > 1;
+  return extras;
 }
 
 // Who counted, on which instruction sets: "callgrind (AVX2)". "" where nobody did.
@@ -144,6 +196,38 @@ std::string overflow_text(const Json& overflow) {
          number("frames", "frame");
 }
 
+// What the samples lack, where that is more than rounding at cell boundaries makes of it.
+std::string unlit_warning(const Json& shading) {
+  const Json* unlit = at(shading, "/unlit");
+  if (unlit == nullptr || unlit->get<double>() <= measure::k_most_unlit) return "";
+  const auto count = [&](const char* pointer) { return number_text(shading, pointer, "%.0f"); };
+  std::string out = text("%.3g %%", 100.0 * unlit->get<double>()) + " of the lights that samples need are unlit, " +
+                    number_text(shading, "/lost_irradiance", "%.3g %%", 100.0) +
+                    " of the irradiance: " + count("/missed_in_cells") + " in cells, " + count("/missed_outside") +
+                    " outside of the grid";
+  if (shading.contains("worst_frame"))
+    out += "; most in frame " + count("/worst_frame/frame") + ", " + count("/worst_frame/missed") + " of " +
+           count("/worst_frame/needed");
+  return out;
+}
+
+// One line for all cases that lack the same: lists of one grid lack what lies outside of it, whatever made them.
+std::string unlit_warnings(const Json& cases) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> told;  // what, and of which cases
+  for (const Json& one : cases) {
+    const std::string what = one.contains("shading") ? unlit_warning(one["shading"]) : "";
+    if (what.empty()) continue;
+    const auto same = std::find_if(told.begin(), told.end(), [&](const auto& had) { return had.first == what; });
+    (same == told.end() ? told.emplace_back(what, std::vector<std::string>{}) : *same)
+        .second.push_back(shown(one["name"]));
+  }
+  std::string out;
+  for (const auto& [what, names] : told)
+    out += "warning: " + names.front() +
+           (names.size() > 1 ? " and " + number_of(names.size() - 1, "more case") : std::string()) + ": " + what + "\n";
+  return out;
+}
+
 std::string case_warnings(const Json& cases) {
   std::string out;
   for (const Json& one : cases) {
@@ -154,22 +238,28 @@ std::string case_warnings(const Json& cases) {
         out += "warning: " + shown(one["name"]) + ": " + part + ": " +
                number_of(one[part]["undecided"].get<std::uint64_t>(), "undecided pair") + " counted as true\n";
   }
-  return out;
+  return out + unlit_warnings(cases);
 }
 
-// Of the marks and columns that have something in them.
-std::string legend(const Json& cases, bool has_front) {
-  const auto is_timed = [](const Json& one) { return time_text(one) != "-"; };
-  const bool any_timed = std::any_of(cases.begin(), cases.end(), is_timed);
+// Of the marks and columns that the table has.
+std::string legend(const Extras& extras, bool has_front, bool is_complete) {
   std::string out;
   if (has_front)
-    out += std::string("* no other case of its scene, camera and viewport is better in ") +
-           (any_timed ? "time, bytes and overshade.\n" : "bytes and overshade.\n");
-  if (any_timed) out += "floor: assign time / time to copy the lists.\n";
-  if (!std::all_of(cases.begin(), cases.end(), is_timed)) out += "-: not measured.\n";
-  return out +
-         "excess: false positives in % of true pairs. missed: true pairs that are not listed. p99: lights per cell.\n"
-         "entries: allocation with margin.\n";
+    out += "* no other case of its scene, camera and viewport is better in " +
+           std::string(extras.times ? "time (beyond the intervals), " : "") + "bytes and overshade.\n";
+  if (extras.times)
+    out += std::string("frame: time of a frame, assign") + (extras.conversions ? " + convert" : "") +
+           "; +-: half of its 95 % interval; worst: the slowest of the timed frames, @ its number.\n";
+  if (extras.builds) out += "build: the grid changes between frames, and assign holds its builds.\n";
+  if (!is_complete) out += "-: not measured, or not comparable.\n";
+  out += std::string("pairs: (cell, light) per frame") + (extras.times ? ", of the timed frames" : "") +
+         ".\nexcess: false positives in % of true pairs. missed: true pairs that are not listed.\n";
+  if (extras.dropped) out += "dropped: pairs that the storage has no room for, over all frames.\n";
+  if (extras.samples)
+    out +=
+        "unlit: share of the lights that samples need and are not given. shade: overshade, lights given at the "
+        "samples / lights needed.\n";
+  return out + "bytes: headers and indices, largest of all frames.\n";
 }
 
 }  // namespace
@@ -178,7 +268,8 @@ std::string render_table(const Json& result, bool colour) {
   const Json& cases = result["cases"];
   const std::set<std::string> on_front = ids_on_front(result);
   const std::string counted_by = counters(cases);
-  const Extras extras{has_several_storages(cases), !counted_by.empty()};
+  const Extras extras = extras_of(cases);
+  bool is_complete = true;
   const Cells heads = headings(extras);
   std::string out;
   for (const Json& scene : result["scenes"]) {
@@ -193,7 +284,10 @@ std::string render_table(const Json& result, bool colour) {
       std::stable_sort(lines.begin(), lines.end(),
                        [](const Line& a, const Line& b) { return a.sort_key < b.sort_key; });
       std::vector<Cells> rows{heads};
-      for (const Line& line : lines) rows.push_back(line.cells);
+      for (const Line& line : lines) {
+        rows.push_back(line.cells);
+        is_complete = is_complete && std::find(line.cells.begin(), line.cells.end(), "-") == line.cells.end();
+      }
       const std::vector<std::size_t> widths = widths_of(rows);
       out += " " + block + "\n" + aligned(heads, widths);
       for (const Line& line : lines)
@@ -201,7 +295,7 @@ std::string render_table(const Json& result, bool colour) {
     }
     out += "\n";
   }
-  out += legend(cases, !on_front.empty());
+  out += legend(extras, !on_front.empty(), is_complete);
   if (!counted_by.empty()) out += "instr: instructions of one frame's assignment, counted by " + counted_by + ".\n";
   if (!result["skipped"].empty())
     out += number_of(result["skipped"].size(), "combination") + " skipped; the result says why.\n";

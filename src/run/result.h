@@ -52,16 +52,29 @@ struct SceneResult {
 
 struct Versus {
   std::string assigner;
-  measure::Ratio ratio;  // this case's assign time / that assigner's
+  measure::Ratio ratio;  // this case's frame time / that assigner's
+};
+
+// The slowest of the frames that are timed.
+struct WorstTimedFrame {
+  int frame = 0;  // of the path
+  double ns = 0.0;
+  measure::Interval ci95;
+  std::optional<std::uint64_t> pairs;
 };
 
 struct TimingResult {
-  measure::TimeStats build_ns, assign_ns;                         // assign: per frame
-  std::optional<measure::TimeStats> convert_ns;                   // per frame; only where lists are converted
-  double ns_per_pair = std::numeric_limits<double>::quiet_NaN();  // without pairs in lists: not a number
+  measure::TimeStats frame_ns;                   // per frame: assign and convert, of the same rounds
+  measure::TimeStats build_ns, assign_ns;        // assign: per frame, with the builds that the frames need
+  std::optional<measure::TimeStats> convert_ns;  // per frame; only where lists are converted
+  double builds_per_frame = 0.0;                 // 0 where the grid stays, 1 where each frame has its own
+  WorstTimedFrame worst;
+  std::optional<double> pairs_mean;  // of the frames that are timed; none without cells
+  std::uint64_t pairs_max = 0;
+  double ns_per_pair = std::numeric_limits<double>::quiet_NaN();  // frame time / pairs in lists; without: not a number
   double write_floor_ns = 0.0;                                    // per frame
   double floor_ratio = 0.0;
-  std::optional<Versus> vs;  // against the group's first assigner
+  std::optional<Versus> vs;  // against the group's first assigner, in the same storage if it has it
   int frames_timed = 0;
 };
 
@@ -87,11 +100,24 @@ struct StabilityResult {
   std::uint64_t undecided = 0;          // pairs of the truth over all steps; counted as true
 };
 
+// The frame whose samples lack most of the lights that they need.
+struct UnlitFrame {
+  int frame = 0;
+  std::uint64_t missed = 0, needed = 0;
+};
+
 // How the lights were handed over, and what that loses.
 struct PrecisionResult {
   std::string packing, label;  // "half"; "half+inflate"
   bool inflate = false;
   measure::PackingLoss loss;  // before inflation
+};
+
+// What a run fails for.
+struct Failure {
+  enum class Kind : std::uint8_t { lost_pairs, extra_pairs, lost_at_samples, dropped_pairs };
+  Kind kind = Kind::lost_pairs;
+  std::string text;  // without the case's name
 };
 
 struct CaseResult {
@@ -110,12 +136,14 @@ struct CaseResult {
   std::optional<measure::ErrorCounts> error;  // with cells, where asked for
   std::string deepest_miss_light;             // name in the rig
   std::optional<measure::ShadingCounts> shading;
+  std::optional<UnlitFrame> worst_unlit;      // where a sample lacks a light
   std::vector<measure::LookupCounts> lookup;  // one per way; empty where not asked for
   std::optional<PrecisionResult> precision;   // where the configuration asks for more than float32
   std::optional<StabilityResult> stability;   // with cells, where asked for
   std::optional<TimingResult> timing;
   std::optional<CountResult> count;  // where asked for
   std::optional<Details> details;    // with cells, where asked for
+  std::vector<Failure> failures;     // run/gate.h
 };
 
 struct Result {

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "run/gate.h"
 #include "run/grid_facts.h"
 #include "run/passes/accuracy_pass.h"
 #include "run/passes/details_pass.h"
@@ -92,7 +93,7 @@ double list_cost(const config::Config& config, const GroupPlan& group, std::size
 
 double timing_cost(const config::Config& config, const GroupPlan& group) {
   if (!config.timing.measure) return 0.0;
-  return 1.3e6 * config.timing.min_time_ms * config.timing.rounds * static_cast<double>(methods_of(group).size());
+  return 1.5e6 * config.timing.min_time_ms * config.timing.rounds * static_cast<double>(methods_of(group).size());
 }
 
 class Run {
@@ -250,7 +251,9 @@ class Run {
     if (out.error && out.error->deepest)
       out.deepest_miss_light = scene.lights[static_cast<std::size_t>(out.error->deepest->rig_index)].name;
     if (config_.shading_samples > 0) out.shading = structure.shading;
+    out.worst_unlit = structure.worst_unlit;
     out.lookup = structure.lookup;
+    out.failures = failures_of(out, config_.limits);
     return out;
   }
 

@@ -2,6 +2,17 @@
 
 namespace clusterbench::run {
 
+namespace {
+
+// The first frame has none before it: what holds of the second is taken to hold of it.
+bool is_grid_new(const grid::GridSpec& spec, const PathFrames& path, const view::Frame& frame) {
+  if (path.count() < 2) return false;
+  const int other = frame.index > 0 ? frame.index - 1 : 1;
+  return !(path.inputs(spec, frame) == path.inputs(spec, path.frame(other)));
+}
+
+}  // namespace
+
 std::vector<TimedFrame> timed_frames(const config::Config& config, const GroupPlan& group, const PathFrames& path) {
   const std::vector<int> chosen =
       evenly_spaced(config.timing.frames == 0 ? path.count() : config.timing.frames, path.count());
@@ -13,7 +24,8 @@ std::vector<TimedFrame> timed_frames(const config::Config& config, const GroupPl
     view::Frame frame = path.frame(index);
     if (grids.update(path, frame)) grid = std::make_shared<grid::Grid>(grids.grid());
     FrameLights lights(config.precisions, view::lights_in(frame, grid::space_of(*grid, frame)));
-    frames.push_back({grid, std::move(frame), std::move(lights)});
+    const bool is_new = is_grid_new(config.grids[group.grid], path, frame);
+    frames.push_back({grid, std::move(frame), std::move(lights), is_new});
   }
   return frames;
 }
@@ -57,19 +69,34 @@ void TimedWork::build_for(const TimedFrame& frame) {
 }
 
 void TimedWork::assign() {
+  for (std::size_t i = 0; i < frames_.size(); ++i) assign_frame(i);
+}
+
+void TimedWork::assign_frame(std::size_t frame) {
+  const TimedFrame& now = frames_[frame];
+  if (now.is_grid_new || now.grid.get() != built_for_) build_for(now);
+  const assign::FrameInput input{now.frame, now.lights.seen(precision_)};
+  if (lists_assigner_)
+    lists_assigner_->assign(input, lists_[frame]);
+  else
+    structure_assigner_->assign(input, *structures_[frame]);
+}
+
+std::size_t TimedWork::builds() const {
+  std::size_t count = 0;
   for (std::size_t i = 0; i < frames_.size(); ++i) {
-    const TimedFrame& frame = frames_[i];
-    if (frame.grid.get() != built_for_) build_for(frame);
-    const assign::FrameInput input{frame.frame, frame.lights.seen(precision_)};
-    if (lists_assigner_)
-      lists_assigner_->assign(input, lists_[i]);
-    else
-      structure_assigner_->assign(input, *structures_[i]);
+    const TimedFrame& before = frames_[i > 0 ? i - 1 : frames_.size() - 1];
+    count += frames_[i].is_grid_new || frames_[i].grid != before.grid ? 1 : 0;
   }
+  return count;
 }
 
 void TimedWork::convert(std::size_t store) const {
-  for (const assign::Lists& lists : lists_) stores_[store]->store(lists);
+  for (std::size_t i = 0; i < lists_.size(); ++i) convert_frame(store, i);
+}
+
+void TimedWork::convert_frame(std::size_t store, std::size_t frame) const {
+  stores_[store]->store(lists_[frame]);
 }
 
 std::unique_ptr<assign::Storage> TimedWork::storage(const assign::StorageDescriptor& storage,

@@ -16,6 +16,7 @@ struct TimedFrame {
   std::shared_ptr<const grid::Grid> grid;
   view::Frame frame;
   FrameLights lights;
+  bool is_grid_new = false;  // another one than that of the path's frame before: an assigner is built for it
 };
 
 // `timing.frames` frames, evenly spaced over the path; all where it is 0.
@@ -35,14 +36,20 @@ class TimedWork {
   void build();
   // All frames. A grid that changes between frames (fit) is built within: that is what such a method costs.
   void assign();
+  // One of them, as assign() does it.
+  void assign_frame(std::size_t frame);
+  // In one assign() after another.
+  std::size_t builds() const;
   // Whether its lists are converted to what its cases are named after; a structure of its own is not.
   bool converts() const { return lists_assigner_ != nullptr; }
   // Puts the lists of all frames into the storage of one case.
   void convert(std::size_t store) const;
+  void convert_frame(std::size_t store, std::size_t frame) const;
 
   // The method's cases by their place in the group; a storage each, where it converts.
   const std::vector<std::size_t>& places() const { return places_; }
   std::size_t frame_count() const { return frames_.size(); }
+  int path_frame(std::size_t frame) const { return frames_[frame].frame.index; }
   const std::vector<assign::Lists>& lists() const { return lists_; }
   const std::vector<std::unique_ptr<assign::LightStructure>>& structures() const { return structures_; }
   // A storage that is ready for these frames.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 namespace clusterbench::measure {
@@ -9,8 +10,11 @@ namespace {
 
 using Places = std::vector<std::size_t>;
 
-Places front_of(const std::vector<Costs>& cases) {
-  return pareto_front(cases);
+// Of cases whose times are known exactly: time, bytes, overshade.
+Places front_of(const std::vector<std::array<double, 3>>& cases) {
+  std::vector<Costs> costs;
+  for (const auto& [time, bytes, overshade] : cases) costs.push_back({{time, time}, bytes, overshade});
+  return pareto_front(costs);
 }
 
 TEST(Front, what_is_worse_in_every_respect_is_not_on_it) {
@@ -33,6 +37,16 @@ TEST(Front, what_is_not_known_counts_as_the_worst) {
   const double unknown = std::nan("");
   EXPECT_EQ(front_of({{1, 1, unknown}, {1, 1, 1}}), (Places{1}));
   EXPECT_EQ(front_of({{unknown, 1, unknown}, {unknown, 2, unknown}}), (Places{0}));
+}
+
+TEST(Front, times_whose_intervals_overlap_are_the_same_time) {
+  const auto front = [](Interval a, Interval b, double overshade_b) {
+    return pareto_front(std::vector<Costs>{{a, 1, 2}, {b, 1, overshade_b}});
+  };
+  EXPECT_EQ(front({90, 110}, {100, 120}, 2), (Places{0, 1})) << "nothing says that the first is faster";
+  EXPECT_EQ(front({90, 110}, {100, 120}, 1), (Places{1})) << "nor that it is for its longer lists";
+  EXPECT_EQ(front({90, 110}, {111, 120}, 2), (Places{0}));
+  EXPECT_EQ(front({90, 110}, {111, 120}, 1), (Places{0, 1}));
 }
 
 TEST(Front, of_nothing_is_empty) {

@@ -76,5 +76,22 @@ TEST(Timing, of_no_samples_everything_is_zero) {
   EXPECT_EQ(paired_ratio({}, {}, 1).ratio, 0.0);
 }
 
+TEST(WorstFrame, is_the_frame_with_the_largest_share_of_a_pass) {
+  // Three rounds of two frames; the second takes three quarters of a pass, whatever the clock adds.
+  const std::vector<std::vector<double>> frames{{100, 300}, {110, 330}, {500, 1500}};
+  const std::vector<double> pass{180, 200, 190};
+  const WorstFrame worst = worst_frame(frames, pass, 1);
+  EXPECT_EQ(worst.place, 1u);
+  EXPECT_DOUBLE_EQ(worst.ns, 1.5 * 190);
+  EXPECT_DOUBLE_EQ(worst.ci95.low, 1.5 * 180);
+  EXPECT_DOUBLE_EQ(worst.ci95.high, 1.5 * 200);
+}
+
+TEST(WorstFrame, of_one_frame_is_the_mean) {
+  const std::vector<std::vector<double>> frames{{100}, {130}, {90}};
+  const std::vector<double> pass{70, 80, 90};
+  EXPECT_EQ(worst_frame(frames, pass, 1).ns, 80.0);
+}
+
 }  // namespace
 }  // namespace clusterbench::measure

@@ -16,12 +16,12 @@ using Json = nlohmann::ordered_json;
 using testing::result_by_hand;
 
 Json json_of(const run::Result& result) {
-  return result_to_json(result, {});
+  return result_to_json(testing::judged(result), {});
 }
 
 // 31 samples with a median's interval of +-0.2 % around `ns`.
 void set_time(run::CaseResult& one, double ns) {
-  one.timing->assign_ns = {ns, 1.0, ns, ns, {0.998 * ns, 1.002 * ns}, std::vector<double>(31, ns)};
+  one.timing->frame_ns = {ns, 1.0, ns, ns, {0.998 * ns, 1.002 * ns}, std::vector<double>(31, ns)};
 }
 
 run::Result with_times(double slow_ns, double fast_ns) {
@@ -48,6 +48,16 @@ constexpr CompareOptions k_gate_separate{.gates_separate = true};
 
 bool holds(const Json& lines, const std::string& part) {
   return lines.dump().find(part) != std::string::npos;
+}
+
+// Three launches of two rounds each, in which the new program takes `percent` more, give or take 0.1 %.
+Json paired(double percent) {
+  Json launches = Json::array();
+  for (const double noise : {-0.1, 0.0, 0.1}) {
+    const double next_ns = 1000.0 * (1.0 + (percent + noise) / 100.0);
+    launches.push_back({{"base_ns", {1000.0, 2000.0}}, {"new_ns", {next_ns, 2.0 * next_ns}}});
+  }
+  return {{"launches", launches}, {"base_ns", 1500.0}, {"new_ns", 1500.0}, {"ratio", 1.0}, {"ci95", {1.0, 1.0}}};
 }
 
 TEST(Compare, a_result_is_the_same_as_itself) {
@@ -97,7 +107,7 @@ TEST(Compare, the_threshold_says_what_matters) {
 
 TEST(Compare, wide_intervals_are_inconclusive_and_fail_only_if_strict) {
   run::Result next = with_times(9900, 3000);
-  next.cases[0].timing->assign_ns.ci95 = {5000, 15000};
+  next.cases[0].timing->frame_ns.ci95 = {5000, 15000};
   const Json comparison = compared(json_of(with_times(9000, 3000)), json_of(next), 0.02, k_gate_separate);
   EXPECT_EQ(verdict_of(comparison, 0), "inconclusive");
   EXPECT_EQ(outcome(comparison, false), ExitCode::ok);
@@ -111,7 +121,7 @@ TEST(Compare, marks_have_a_legend_where_they_are_printed) {
   const std::string marked = comparison_text(compared(base, next, 0.02)), plain = comparison_text(same);
   EXPECT_NE(marked.find("\n  ? hall"), std::string::npos) << marked;
   EXPECT_NE(marked.find("\n  ! hall"), std::string::npos) << marked;
-  EXPECT_NE(marked.find("\n! the verdict"), std::string::npos) << marked;
+  EXPECT_NE(marked.find("\n! slower"), std::string::npos) << marked;
   EXPECT_NE(marked.find("\n? a hint"), std::string::npos) << marked;
   EXPECT_EQ(plain.find('!'), std::string::npos) << plain;
   EXPECT_EQ(plain.find('?'), std::string::npos) << plain;
@@ -129,7 +139,77 @@ TEST(Compare, methods_with_two_storages_are_one_method) {
   const Json comparison = compared(json_of(base), json_of(next), 0.02);
   EXPECT_EQ(comparison["cases"].size(), 3u);
   EXPECT_EQ(comparison["cases"][2]["hint"], "longer");
-  EXPECT_EQ(comparison["summary"]["methods_timed"], 2);
+  EXPECT_EQ(comparison["time"], "frame");
+  EXPECT_EQ(comparison["summary"]["methods_timed"], 3) << "each case has a frame time of its own";
+  Json next_json = json_of(next);
+  for (Json& one : next_json["cases"]) one["timing"]["baseline"] = paired(3.0);
+  next_json["baseline"]["tool"] = next_json["tool"];
+  EXPECT_EQ(compared(next_json, next_json, 0.02)["summary"]["methods_timed"], 2) << "assignment is shared";
+}
+
+TEST(Compare, only_what_is_worse_is_marked_as_such) {
+  const Json base = json_of(with_times(9000, 3000));
+  run::Result next = with_times(8000, 3000);
+  next.cases[1].timing->frame_ns.ci95 = {2000, 5000};
+  const std::string text = comparison_text(compared(base, json_of(next), 0.02, k_gate_separate));
+  EXPECT_NE(text.find("\n  + hall/walk/frustum 64px/brute-force"), std::string::npos) << text;
+  EXPECT_NE(text.find("\n  ? hall/walk/frustum 64px/aabb"), std::string::npos) << text;
+  EXPECT_NE(text.find("\n+ faster"), std::string::npos) << text;
+  EXPECT_NE(text.find("\n? inconclusive"), std::string::npos) << text;
+  EXPECT_EQ(text.find('!'), std::string::npos) << text;
+}
+
+TEST(Compare, a_time_without_an_interval_concludes_nothing) {
+  const Json base = json_of(with_times(9000, 3000));
+  Json next = json_of(with_times(90000, 3000));
+  next["cases"][0]["timing"]["frame_ns"]["ci95"] = {nullptr, nullptr};
+  EXPECT_EQ(compared(base, next, 0.02)["cases"][0]["hint"], "none");
+  EXPECT_EQ(verdict_of(compared(base, next, 0.02, k_gate_separate), 0), "inconclusive");
+  EXPECT_EQ(verdict_of(compared(next, base, 0.02, k_gate_separate), 0), "inconclusive");
+}
+
+TEST(Compare, results_that_do_not_tell_a_frames_time_are_compared_by_assignment) {
+  Json base = json_of(result_by_hand());
+  const Json next = base;
+  for (Json& one : base["cases"]) one["timing"].erase("frame_ns");
+  const Json comparison = compared(base, next, 0.02);
+  EXPECT_EQ(comparison["time"], "assign");
+  EXPECT_EQ(comparison["cases"][0]["base_ns"], 9000.0);
+  EXPECT_NE(comparison_text(comparison).find("times of assignment of separate runs"), std::string::npos);
+}
+
+TEST(Compare, cases_of_one_name_that_are_not_the_same_are_told_with_what_differs) {
+  const Json base = json_of(result_by_hand());
+  Json next = base;
+  for (Json& one : next["cases"]) one["id"] = one["id"].get<std::string>() + "'";
+  next["scenes"][0]["sha256"] = std::string(64, 'b');
+  next["config"]["seed"] = 2;
+  next["cases"][1]["frames"] = 7;
+  const Json comparison = compared(base, next, 0.02);
+  EXPECT_EQ(comparison["renamed"][0]["differs_in"], (Json{"the scene itself (sha256)", "seed"}));
+  EXPECT_EQ(comparison["renamed"][1]["differs_in"], (Json{"the scene itself (sha256)", "frames", "seed"}));
+  EXPECT_TRUE(holds(comparison["warnings"], "differ in the scene itself (sha256), seed: hall/walk/frustum 64px/brute"));
+  EXPECT_EQ(outcome(comparison, false), ExitCode::nothing_comparable);
+  const std::string text = comparison_text(comparison);
+  EXPECT_NE(text.find("0 cases in common: nothing was compared; 2 cases of the base not compared; 2 cases of the new"),
+            std::string::npos)
+      << text;
+  EXPECT_EQ(text.find("nothing has changed"), std::string::npos) << text;
+}
+
+TEST(Compare, a_measure_that_only_one_result_has_is_told) {
+  const Json base = json_of(result_by_hand());
+  Json next = base;
+  for (Json& one : next["cases"]) one.erase("shading");
+  next["cases"][0].erase("timing");
+  const Json comparison = compared(base, next, 0.02);
+  EXPECT_EQ(comparison["not_compared"], Json::parse(R"([{"part": "shading", "only_in": "base", "cases": 2},
+      {"part": "timing", "only_in": "base", "cases": 1}])"));
+  EXPECT_TRUE(holds(comparison["warnings"], "shading is not compared in 2 cases: only the base has it"));
+  EXPECT_EQ(outcome(comparison, false), ExitCode::ok);
+  EXPECT_EQ(outcome(comparison, true), ExitCode::inconclusive);
+  EXPECT_TRUE(holds(compared(next, base, 0.02)["warnings"], "shading is not compared in 2 cases: only the new result"));
+  EXPECT_EQ(outcome(compared(next, base, 0.02), true), ExitCode::ok) << "nothing to have become worse than";
 }
 
 TEST(Compare, a_lost_light_is_named_with_frame_cell_and_light) {
@@ -272,16 +352,6 @@ TEST(Compare, another_kernel_or_memory_parts_times_and_nothing_else) {
   EXPECT_EQ(outcome(comparison, true), ExitCode::ok);
 }
 
-// Three launches of two rounds each, in which the new program takes `percent` more, give or take 0.1 %.
-Json paired(double percent) {
-  Json launches = Json::array();
-  for (const double noise : {-0.1, 0.0, 0.1}) {
-    const double next_ns = 1000.0 * (1.0 + (percent + noise) / 100.0);
-    launches.push_back({{"base_ns", {1000.0, 2000.0}}, {"new_ns", {next_ns, 2.0 * next_ns}}});
-  }
-  return {{"launches", launches}, {"base_ns", 1500.0}, {"new_ns", 1500.0}, {"ratio", 1.0}, {"ci95", {1.0, 1.0}}};
-}
-
 Json measured_beside(const Json& base, double percent) {
   Json next = json_of(with_times(9000, 3000));
   next["tool"]["git_sha"] = "def";
@@ -343,6 +413,19 @@ TEST(Compare, lists_that_differ_side_by_side_fail_unless_they_are_shorter_and_co
       << text;
   lists["new_pairs"] = 59;
   EXPECT_EQ(outcome(compared(base, next, 0.02), false), ExitCode::ok);
+}
+
+TEST(Compare, beside_another_program_only_what_both_did_is_compared) {
+  const Json base = json_of(result_by_hand());
+  Json next = measured_beside(base, 0.0);
+  next["cases"][1]["timing"].erase("baseline");
+  const Json comparison = compared(next, next, 0.02);
+  EXPECT_EQ(comparison["cases"].size(), 1u);
+  EXPECT_TRUE(holds(comparison["only_in_new"], "/aabb/"));
+  EXPECT_TRUE(holds(comparison["warnings"], "the other program does not have them, not compared: hall/walk"));
+  EXPECT_TRUE(holds(comparison["warnings"], "bytes, samples and whatever else is counted were not"));
+  EXPECT_NE(comparison_text(comparison).find("1 case of the new not compared"), std::string::npos);
+  EXPECT_FALSE(holds(compared(base, next, 0.02)["warnings"], "the other program")) << "its own result is at hand";
 }
 
 TEST(Compare, names_in_markdown_are_no_markup) {

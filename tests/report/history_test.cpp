@@ -58,6 +58,12 @@ const Series& times_of_fast(const std::vector<Series>& all) {
   throw std::runtime_error("no such series");
 }
 
+const Series& bytes_of_fast(const std::vector<Series>& all) {
+  for (const Series& one : all)
+    if (one.metric->name == "list_bytes" && one.case_name.find("/aabb/") != std::string::npos) return one;
+  throw std::runtime_error("no such series");
+}
+
 TEST_F(History, a_slower_commit_is_named_with_its_change_and_direction) {
   add_many("a", 7, 3000.0);
   add_many("b", 7, 3300.0);
@@ -71,17 +77,32 @@ TEST_F(History, a_slower_commit_is_named_with_its_change_and_direction) {
   EXPECT_NE(said.find(" series, 1 change\n"), std::string::npos) << "the same time per pair is no second one\n" << said;
 }
 
+TEST_F(History, other_settings_begin_a_series_of_their_own_and_are_told) {
+  add_many("a", 7, 3000.0);
+  for (const char* commit : {"b1", "b2"}) {
+    run::Result result = testing::result_by_hand();
+    result.cases[1] = testing::case_by_hand("fast with other samples", "aabb", 9000.0);
+    result.planned_ids[1] = result.cases[1].id;
+    result.cases[1].buffers.bytes.high_water = 500;
+    add_to_history(file_, result_to_json(result, {}), commit);
+  }
+  const std::vector<Series> all = series_of(read_history(file_), {});
+  EXPECT_EQ(bytes_of_fast(all).values.size(), 7u);
+  for (const Series& one : all) EXPECT_TRUE(one.changes.empty()) << one.case_name << " " << one.metric->name;
+  const std::string said = history_text(all, 9, false);
+  EXPECT_NE(said.find("warning: other settings (case fast with other samples), not joined with what was before: "
+                      "hall/walk/frustum 64px/aabb/packed from b1 on\n"),
+            std::string::npos)
+      << said;
+  EXPECT_NE(history_text(all, 9, true).find("  other settings than before, from b1 on: a series of its own"),
+            std::string::npos);
+}
+
 TEST_F(History, series_of_times_that_are_too_short_to_tell_are_counted) {
   add_many("a", 3, 3000.0);
   add_many("b", 3, 3300.0);
   const std::string said = history_text(series_of(read_history(file_), {}), 6, false);
-  EXPECT_NE(said.find("0 changes\n2 series of times are too short"), std::string::npos) << said;
-}
-
-const Series& bytes_of_fast(const std::vector<Series>& all) {
-  for (const Series& one : all)
-    if (one.metric->name == "list_bytes" && one.case_name.find("/aabb/") != std::string::npos) return one;
-  throw std::runtime_error("no such series");
+  EXPECT_NE(said.find("0 changes\n4 series of times are too short"), std::string::npos) << said;
 }
 
 TEST_F(History, times_of_two_machines_are_two_series_and_counts_are_one) {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 
+#include "run/gate.h"
 #include "run/result.h"
 
 namespace clusterbench::report::testing {
@@ -48,8 +49,14 @@ inline run::CaseResult case_by_hand(const std::string& id, const std::string& as
   shading.needed = 200;
   one.shading = shading;
   run::TimingResult timing;
-  timing.assign_ns = {assign_ns, 1.0, assign_ns, assign_ns, {assign_ns, assign_ns}, {assign_ns, assign_ns}};
-  timing.ns_per_pair = assign_ns / 30.0;
+  const auto time = [](double ns) { return measure::TimeStats{ns, 1.0, ns, ns, {ns, ns}, {ns, ns}}; };
+  timing.assign_ns = time(assign_ns);
+  timing.convert_ns = time(500.0);
+  timing.frame_ns = time(assign_ns + 500.0);
+  timing.worst = {1, 1.2 * (assign_ns + 500.0), {assign_ns, 2.0 * assign_ns}, 40};
+  timing.pairs_mean = 25.0;
+  timing.pairs_max = 40;
+  timing.ns_per_pair = (assign_ns + 500.0) / 25.0;
   timing.write_floor_ns = 100.0;
   timing.floor_ratio = assign_ns / 100.0;
   timing.frames_timed = 2;
@@ -97,6 +104,12 @@ inline void lose_a_light(run::CaseResult& one) {
   one.error->deepest = measure::Miss{.frame = 5, .cell = 17, .light = 8, .rig_index = 9, .depth = 0.125};
   one.error->deepest_miss = 0.125;
   one.deepest_miss_light = "torch";
+}
+
+// As the runner does it.
+inline run::Result judged(run::Result result, const config::LimitsRequest& limits = {}) {
+  for (run::CaseResult& one : result.cases) one.failures = run::failures_of(one, limits);
+  return result;
 }
 
 inline run::Result result_by_hand() {

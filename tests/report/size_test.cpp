@@ -31,7 +31,9 @@ TEST(Size, of_each_grid_the_fastest_case_that_loses_nothing_is_shown_under_the_n
   other.name = "hall/walk/frustum 32px/x/packed";
   run::CaseResult own = testing::case_by_hand("own", "hierarchy", 0.5);
   own.storage_label = "own";  // has no lists to allocate for
-  for (const run::CaseResult& one : {lossy, dropping, own, other}) {
+  run::CaseResult dark = testing::case_by_hand("dark", "short-sighted", 0.5);
+  dark.shading->missed = 1;  // of 200 that its samples need
+  for (const run::CaseResult& one : {lossy, dropping, dark, own, other}) {
     result.cases.push_back(one);
     result.planned_ids.push_back(one.id);
   }
@@ -43,7 +45,25 @@ TEST(Size, of_each_grid_the_fastest_case_that_loses_nothing_is_shown_under_the_n
   EXPECT_EQ(report.find("broken"), std::string::npos) << report;
   EXPECT_EQ(report.find("drops"), std::string::npos) << report;
   EXPECT_EQ(report.find("hierarchy"), std::string::npos) << report;
-  EXPECT_NE(report.find("--all has all 6"), std::string::npos) << report;
+  EXPECT_EQ(report.find("short-sighted"), std::string::npos) << report;
+  EXPECT_NE(report.find("--all has all 7"), std::string::npos) << report;
+}
+
+TEST(Size, a_structure_of_its_own_that_loses_lights_comes_after_one_that_loses_none) {
+  run::Result result = result_by_hand();
+  result.cases.clear();
+  result.planned_ids = {"loses", "keeps"};
+  for (const std::string& id : result.planned_ids) {
+    run::CaseResult own = testing::case_by_hand(id, id, id == "loses" ? 1.0 : 9.0);
+    own.storage_label = "own";
+    own.occupancy.reset();
+    own.error.reset();
+    own.shading->missed = id == "loses" ? 1 : 0;
+    own.shading->needed = 1000000;
+    result.cases.push_back(own);
+  }
+  EXPECT_NE(size_of(result, {}).find("// hall/walk/frustum 64px/keeps/packed\n"), std::string::npos)
+      << size_of(result, {});
 }
 
 TEST(Size, a_filter_selects_cases_by_name) {

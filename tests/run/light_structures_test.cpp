@@ -196,6 +196,13 @@ TEST(LightStructures, samples_miss_what_a_storage_dropped) {
   EXPECT_GT(fixed.buffers.dropped_pairs, 0u);
   EXPECT_GT(fixed.shading->missed, packed.shading->missed);
   EXPECT_EQ(fixed.error->false_negatives, 0u) << "no fault of the assigner";
+  EXPECT_EQ(fixed.shading->missed_outside, packed.shading->missed_outside);
+  ASSERT_EQ(fixed.failures.size(), 1u);
+  EXPECT_EQ(fixed.failures[0].kind, Failure::Kind::dropped_pairs);
+  EXPECT_TRUE(packed.failures.empty());
+  const Ran allowed = ran(R"("assigners": ["aabb"], "storages": [{"name": "fixed", "cap": 1}],
+      "limits": {"dropped_pairs": null})");
+  EXPECT_TRUE(allowed.result.cases.at(0).failures.empty());
 }
 
 TEST(LightStructures, a_method_of_both_forms_has_a_case_for_each) {

@@ -102,7 +102,7 @@ TEST(Precision, is_seen_by_what_is_timed_and_stored) {
   walk.config.timing = {.measure = true, .rounds = 1, .min_time_ms = 0.0, .frames = 0};
   const Result result = walk.run();
   for (const CaseResult& one : result.cases) {
-    const double pairs = one.timing->assign_ns.median * one.timing->frames_timed / one.timing->ns_per_pair;
+    const double pairs = one.timing->frame_ns.median * one.timing->frames_timed / one.timing->ns_per_pair;
     EXPECT_NEAR(pairs, one.occupancy->pairs.mean * one.frames, 0.01) << one.id;
     EXPECT_EQ(static_cast<double>(one.buffers.index_entries.high_water), one.occupancy->pairs.max) << one.id;
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "run/gate.h"
 #include "run/walk.h"
 
 namespace clusterbench::run {
@@ -118,6 +119,57 @@ TEST(Runner, an_assigner_is_timed_once_for_all_its_storages) {
   EXPECT_EQ(packed.frames_timed, 2);
   EXPECT_GT(packed.assign_ns.min, 0.0);
   EXPECT_GT(packed.write_floor_ns, 0.0);
+  for (const TimingResult* timing : {&packed, &fixed})
+    for (std::size_t round = 0; round < 4; ++round)
+      EXPECT_EQ(timing->frame_ns.samples[round], timing->assign_ns.samples[round] + timing->convert_ns->samples[round]);
+}
+
+TEST(Runner, pairs_of_a_timing_are_those_of_its_frames) {
+  Walk walk = timed(R"("assigners": ["aabb"])");  // 3 frames, of which 2 are timed: the first and the last
+  const CaseResult one = walk.run().cases.at(0);
+  const std::vector<std::uint64_t>& pairs = one.occupancy->pairs_along_path.entries();
+  ASSERT_EQ(pairs.size(), 3u);
+  const double mean = static_cast<double>(pairs[0] + pairs[2]) / 2.0;
+  EXPECT_EQ(one.timing->pairs_mean, mean);
+  EXPECT_EQ(one.timing->pairs_max, std::max(pairs[0], pairs[2]));
+  EXPECT_EQ(one.timing->ns_per_pair, one.timing->frame_ns.median / mean);
+  EXPECT_TRUE(one.timing->worst.frame == 0 || one.timing->worst.frame == 2);
+  EXPECT_EQ(one.timing->worst.pairs, pairs[static_cast<std::size_t>(one.timing->worst.frame)]);
+  EXPECT_EQ(one.timing->builds_per_frame, 0.0);
+}
+
+TEST(Runner, of_one_timed_frame_the_worst_is_the_mean) {
+  Walk walk = timed(R"("assigners": ["aabb"])");
+  walk.config.timing.frames = 1;
+  const TimingResult timing = *walk.run().cases.at(0).timing;
+  EXPECT_EQ(timing.worst.ns, timing.frame_ns.median);
+}
+
+TEST(Runner, a_grid_that_follows_the_lights_is_built_for_each_frame_even_if_one_is_timed) {
+  for (const int frames : {1, 3}) {
+    Walk walk(
+        R"("grids": [{"tiles": {"count": [4, 4]}, "slices": {"scheme": "fit", "count": 8}}], "assigners": ["aabb"])");
+    walk.config.timing = {.measure = true, .rounds = 2, .min_time_ms = 0.01, .frames = frames};
+    for (int i = 0; i < 10; ++i) walk.add_light({std::sin(i * 2.0), std::cos(i * 3.0), -8.0 - i}, 1.5);
+    EXPECT_EQ(walk.run().cases.at(0).timing->builds_per_frame, 1.0) << frames;
+  }
+}
+
+TEST(Runner, lights_beyond_the_grid_are_unlit_and_named_so) {
+  Walk walk(R"("grids": [{"tiles": {"count": [4, 4]}, "slices": {"count": 8, "near": 0.5, "far": 8}}],
+               "assigners": ["exact-fast"])");
+  walk.add_light({0, 0, -6}, 5);
+  walk.add_light({0, 0, -30}, 15);
+  const CaseResult one = walk.run().cases.at(0);
+  EXPECT_EQ(one.error->false_negatives, 0u);
+  EXPECT_GT(one.shading->missed, 0u);
+  EXPECT_EQ(one.shading->missed_outside, one.shading->missed);
+  EXPECT_GT(one.shading->unlit(), measure::k_most_unlit);
+  EXPECT_TRUE(std::isnan(one.shading->comparable_overshade()));
+  ASSERT_TRUE(one.worst_unlit);
+  EXPECT_GE(3 * one.worst_unlit->missed, one.shading->missed);
+  EXPECT_TRUE(one.failures.empty()) << "a warning";
+  EXPECT_TRUE(loses_lights(one));
 }
 
 TEST(Runner, assigners_are_compared_with_the_first_pair_by_pair) {
@@ -125,7 +177,7 @@ TEST(Runner, assigners_are_compared_with_the_first_pair_by_pair) {
   EXPECT_FALSE(result.cases[0].timing->vs);
   ASSERT_TRUE(result.cases[1].timing->vs);
   EXPECT_EQ(result.cases[1].timing->vs->assigner, "brute-force");
-  const auto &own = result.cases[1].timing->assign_ns.samples, &first = result.cases[0].timing->assign_ns.samples;
+  const auto &own = result.cases[1].timing->frame_ns.samples, &first = result.cases[0].timing->frame_ns.samples;
   EXPECT_EQ(result.cases[1].timing->vs->ratio.ratio, measure::paired_ratio(own, first, 1).ratio);
 }
 

@@ -12,7 +12,7 @@ using Json = nlohmann::ordered_json;
 
 // Bencher knows the time of a benchmark as `latency`, in nanoseconds; its other names have dashes.
 std::string measure_name(std::string_view metric) {
-  if (metric == "assign_time") return "latency";
+  if (metric == "frame_time") return "latency";
   std::string name(metric);
   std::replace(name.begin(), name.end(), '_', '-');
   return name;

@@ -56,11 +56,18 @@ std::vector<std::pair<std::string, std::string>> parts_of(const Json& one) {
 }
 
 ExportCase read_case(const Json& one, std::size_t index, bool all) {
-  ExportCase out{needed_text(one, index, "id"), needed_text(one, index, "name"), measured(one, all), {}, 0};
-  const Json::json_pointer samples("/timing/assign_ns/samples"), frames("/timing/frames_timed");
+  const bool has_frame_time = one.contains(Json::json_pointer("/timing/frame_ns"));
+  ExportCase out{needed_text(one, index, "id"),
+                 needed_text(one, index, "name"),
+                 measured(one, all),
+                 has_frame_time ? "frame_time" : "assign_time",
+                 {},
+                 0};
+  const Json::json_pointer samples(has_frame_time ? "/timing/frame_ns/samples" : "/timing/assign_ns/samples"),
+      frames("/timing/frames_timed");
   if (one.contains(samples))
     for (const Json& sample : one[samples])
-      if (sample.is_number()) out.assign_samples_ns.push_back(sample.get<double>());
+      if (sample.is_number()) out.samples_ns.push_back(sample.get<double>());
   if (one.contains(frames) && one[frames].is_number_integer()) out.frames_timed = one[frames].get<int>();
   out.parts = parts_of(one);
   return out;

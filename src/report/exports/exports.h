@@ -15,7 +15,8 @@ namespace clusterbench::report {
 struct ExportCase {
   std::string id, name;
   std::vector<Measured> figures;
-  std::vector<double> assign_samples_ns;  // of the rounds, in order; empty if nothing was timed
+  std::string_view time;           // the metric of the samples: assign_time of results that do not tell a frame's
+  std::vector<double> samples_ns;  // of the rounds, in order; empty if nothing was timed
   int frames_timed = 0;
   // What the name is made of: "scene", "camera", "viewport", "grid", "assigner", "precision", "storage", in this order.
   std::vector<std::pair<std::string, std::string>> parts{};

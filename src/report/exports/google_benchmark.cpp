@@ -26,7 +26,7 @@ double standard_deviation(const std::vector<double>& samples) {
 
 Json entry(const ExportCase& one, std::size_t family, const std::string& name, const char* run_type) {
   return {{"name", name},         {"family_index", family}, {"per_family_instance_index", 0},
-          {"run_name", one.name}, {"run_type", run_type},   {"repetitions", one.assign_samples_ns.size()}};
+          {"run_name", one.name}, {"run_type", run_type},   {"repetitions", one.samples_ns.size()}};
 }
 
 void add_time(Json& entry, double time_ns, int iterations) {
@@ -40,9 +40,9 @@ void add_time(Json& entry, double time_ns, int iterations) {
 Json repetition(const ExportCase& one, std::size_t family, std::size_t index) {
   Json out = entry(one, family, one.name, "iteration");
   out["repetition_index"] = index;
-  add_time(out, one.assign_samples_ns[index], one.frames_timed);
+  add_time(out, one.samples_ns[index], one.frames_timed);
   for (const Measured& figure : one.figures)
-    if (figure.metric->name != "assign_time") out[std::string(figure.metric->name)] = figure.value;
+    if (figure.metric->name != one.time) out[std::string(figure.metric->name)] = figure.value;
   return out;
 }
 
@@ -50,7 +50,7 @@ Json aggregate(const ExportCase& one, std::size_t family, const std::string& nam
   Json out = entry(one, family, one.name + "_" + name, "aggregate");
   out["aggregate_name"] = name;
   out["aggregate_unit"] = "time";
-  add_time(out, time_ns, static_cast<int>(one.assign_samples_ns.size()));
+  add_time(out, time_ns, static_cast<int>(one.samples_ns.size()));
   return out;
 }
 
@@ -66,13 +66,12 @@ std::string google_benchmark(const ExportResult& result) {
   Json& all = out["benchmarks"];
   for (std::size_t family = 0; family < result.cases.size(); ++family) {
     const ExportCase& one = result.cases[family];
-    const Measured* median = find_figure(one, "assign_time");
-    if (one.assign_samples_ns.empty() || median == nullptr) continue;
-    for (std::size_t index = 0; index < one.assign_samples_ns.size(); ++index)
-      all.push_back(repetition(one, family, index));
-    all.push_back(aggregate(one, family, "mean", mean(one.assign_samples_ns)));
+    const Measured* median = find_figure(one, one.time);
+    if (one.samples_ns.empty() || median == nullptr) continue;
+    for (std::size_t index = 0; index < one.samples_ns.size(); ++index) all.push_back(repetition(one, family, index));
+    all.push_back(aggregate(one, family, "mean", mean(one.samples_ns)));
     all.push_back(aggregate(one, family, "median", median->value));
-    all.push_back(aggregate(one, family, "stddev", standard_deviation(one.assign_samples_ns)));
+    all.push_back(aggregate(one, family, "stddev", standard_deviation(one.samples_ns)));
   }
   if (all.empty()) throw Error("", "google-benchmark", "takes times, and no case has one: run it without --no-timing");
   return out.dump(1) + "\n";

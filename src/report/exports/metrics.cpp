@@ -12,13 +12,18 @@ using enum Better;
 constexpr bool k_headline = true, k_detail = false;
 
 constexpr Metric k_metrics[] = {
+    {"frame_time", "ns", "/timing/frame_ns/median", "/timing/frame_ns/ci95", smaller, k_headline},
+    {"worst_frame_time", "ns", "/timing/worst_frame/ns", "/timing/worst_frame/ci95", smaller, k_headline},
     {"assign_time", "ns", "/timing/assign_ns/median", "/timing/assign_ns/ci95", smaller, k_headline},
+    {"convert_time", "ns", "/timing/convert_ns/median", "/timing/convert_ns/ci95", smaller, k_headline},
     {"assign_instructions", "instructions", "/count/instructions_per_frame/assign", "", smaller, k_headline},
     {"speedup", "ratio", "/timing/vs/ratio", "/timing/vs/ci95", bigger, k_headline, 1.0},
     {"pair_rate", "pairs/s", "/timing/ns_per_pair", "", bigger, k_headline, 1e9},
     {"list_bytes", "bytes", "/buffers/bytes/high_water", "", smaller, k_headline},
     {"excess_ratio", "ratio", "/error/excess_ratio", "", smaller, k_headline},
     {"missed_pairs", "pairs", "/error/false_negatives", "", smaller, k_headline},
+    {"unlit", "ratio", "/shading/unlit", "", smaller, k_headline},
+    {"dropped_pairs", "pairs", "/buffers/overflow/dropped_pairs", "", smaller, k_headline},
     {"overshade", "ratio", "/shading/overshade", "", smaller, k_headline},
 
     {"tests_done", "tests", "/tests_done", "", smaller, k_detail},
@@ -34,7 +39,6 @@ constexpr Metric k_metrics[] = {
     {"bytes_recommended", "bytes", "/buffers/bytes/recommended", "", smaller, k_detail},
     {"upload_bytes_mean", "bytes", "/buffers/upload_bytes/mean", "", smaller, k_detail},
     {"upload_bytes_max", "bytes", "/buffers/upload_bytes/max", "", smaller, k_detail},
-    {"dropped_pairs", "pairs", "/buffers/overflow/dropped_pairs", "", smaller, k_detail},
     {"scratch_bytes", "bytes", "/buffers/scratch_bytes", "", smaller, k_detail},
     {"true_pairs", "pairs", "/error/true_pairs", "", neither, k_detail},
     {"reported_pairs", "pairs", "/error/reported_pairs", "", neither, k_detail},
@@ -43,12 +47,14 @@ constexpr Metric k_metrics[] = {
     {"deepest_miss", "ratio", "/error/deepest_miss", "", smaller, k_detail},
     {"undecided", "pairs", "/error/undecided", "", smaller, k_detail},
     {"samples_missed", "lights", "/shading/missed", "", smaller, k_detail},
+    {"samples_missed_outside", "lights", "/shading/missed_outside", "", smaller, k_detail},
     {"lost_irradiance", "ratio", "/shading/lost_irradiance", "", smaller, k_detail},
     {"changed_pairs", "pairs", "/stability/changed/method/mean", "", smaller, k_detail},
     {"flickers", "pairs", "/stability/flickers/method", "", smaller, k_detail},
     {"extra_pairs", "pairs", "/precision/extra_pairs/mean", "", smaller, k_detail},
     {"build_time", "ns", "/timing/build_ns/median", "/timing/build_ns/ci95", smaller, k_detail},
-    {"convert_time", "ns", "/timing/convert_ns/median", "/timing/convert_ns/ci95", smaller, k_detail},
+    {"pairs_timed", "pairs", "/timing/pairs/mean", "", neither, k_detail},
+    {"builds_per_frame", "builds", "/timing/builds_per_frame", "", smaller, k_detail},
     {"time_per_pair", "ns", "/timing/ns_per_pair", "", smaller, k_detail},
     {"write_floor", "ns", "/timing/write_floor_ns", "", neither, k_detail},
     {"floor_ratio", "ratio", "/timing/floor_ratio", "", smaller, k_detail},
@@ -91,7 +97,10 @@ std::optional<Measured> measured_by(const Json& one, const Metric& metric) {
 }  // namespace
 
 Basis basis_of(const Metric& metric) {
-  if (metric.place == "/timing/ns_per_pair" || metric.place == "/timing/floor_ratio") return Basis::derived;
+  constexpr std::string_view k_derived[] = {"/timing/frame_ns/median", "/timing/worst_frame/ns", "/timing/ns_per_pair",
+                                            "/timing/floor_ratio"};
+  if (std::find(std::begin(k_derived), std::end(k_derived), metric.place) != std::end(k_derived)) return Basis::derived;
+  if (metric.place == "/timing/pairs/mean" || metric.place == "/timing/builds_per_frame") return Basis::count;
   if (metric.place.starts_with("/timing/")) return Basis::time;
   return metric.place.starts_with("/count/") ? Basis::instructions : Basis::count;
 }

@@ -23,6 +23,7 @@ struct FrameAtHand {
   FrameLights lights;
   measure::Truth truth;
   std::vector<grid::Sample> samples;
+  std::vector<bool> is_outside;  // of each sample: of the grid
   assign::Lists reaching;
   std::optional<measure::LookupFrame> lookup;
 
@@ -84,7 +85,7 @@ class CaseMeter {
     const assign::LightStructure& structure = storage_ ? *storage_ : *method.run().structure();
     buffers_.add_frame(now.frame.index, structure, method.cell_lists(), method.run().scratch_bytes());
     if (now.lookup) now.lookup->add(structure, measures_.lookup);
-    if (!now.samples.empty()) measure::add_frame(measures_.shading, now.frame, now.samples, now.reaching, structure);
+    if (!now.samples.empty()) ask_at_samples(now, structure);
   }
 
   const Method& method() const { return method_; }
@@ -95,6 +96,14 @@ class CaseMeter {
   }
 
  private:
+  void ask_at_samples(const FrameAtHand& now, const assign::LightStructure& structure) {
+    const measure::ShadingCounts before = measures_.shading;
+    measure::add_frame(measures_.shading, now.frame, now.samples, now.reaching, structure, now.is_outside);
+    const UnlitFrame unlit{now.frame.index, measures_.shading.missed - before.missed,
+                           measures_.shading.needed - before.needed};
+    if (unlit.missed > (measures_.worst_unlit ? measures_.worst_unlit->missed : 0)) measures_.worst_unlit = unlit;
+  }
+
   Method method_;
   std::unique_ptr<assign::Storage> storage_;  // none: the method's own structure
   measure::BufferMeter buffers_;
@@ -113,6 +122,7 @@ FrameAtHand look_at(const config::Config& config, const PathFrames& path, GridOf
   if (config.shading_samples > 0) {
     now.samples = measure::volume_samples(now.frame, far, config.shading_samples, config.seed);
     now.reaching = measure::lights_reaching(now.frame, now.samples);
+    for (const grid::Sample& sample : now.samples) now.is_outside.push_back(grid::lookup(grid, sample) < 0);
   }
   return now;
 }

@@ -24,6 +24,7 @@ struct MethodMeasures {
 struct StructureMeasures {
   measure::Buffers buffers;
   measure::ShadingCounts shading;
+  std::optional<UnlitFrame> worst_unlit;
   std::vector<measure::LookupCounts> lookup;
 };
 

@@ -1,0 +1,116 @@
+#include "run/gate.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <utility>
+
+#include "core/text.h"
+
+namespace clusterbench::run {
+namespace {
+
+std::string percent(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g %%", 100.0 * share);
+  return text;
+}
+
+// Without cells there are no pairs to hold against the truth, and no cell boundary where a lookup may round.
+bool has_cells(const CaseResult& one) {
+  return one.occupancy.has_value();
+}
+
+std::string lost_text(const CaseResult& one) {
+  const measure::ErrorCounts& error = *one.error;
+  std::string text =
+      "lost " + std::to_string(error.false_negatives) + " of " + number_of(error.true_pairs, "true pair");
+  if (!error.deepest) return text;
+  const measure::Miss& deepest = *error.deepest;
+  const auto nx = one.grid["cells"][0].get<std::uint32_t>(), ny = one.grid["cells"][1].get<std::uint32_t>();
+  return text + "; deepest in frame " + std::to_string(deepest.frame) + ", cell [" + std::to_string(deepest.cell % nx) +
+         "," + std::to_string(deepest.cell / nx % ny) + "," + std::to_string(deepest.cell / nx / ny) + "], light " +
+         std::to_string(deepest.light) + " ('" + one.deepest_miss_light + "'), " + percent(error.deepest_miss) +
+         " of its range inside";
+}
+
+std::string worst_text(const CaseResult& one) {
+  if (!one.worst_unlit) return "";
+  return "; most in frame " + std::to_string(one.worst_unlit->frame) + ", " + std::to_string(one.worst_unlit->missed) +
+         " of " + std::to_string(one.worst_unlit->needed);
+}
+
+// What a lookup finds whose arithmetic is that of the samples; other ways err by themselves.
+const measure::LookupCounts* plain_lookup(const CaseResult& one) {
+  for (const measure::LookupCounts& counts : one.lookup)
+    if (counts.way.logarithm == measure::Logarithm::rounded && counts.way.depth == measure::DepthRead::given)
+      return &counts;
+  return nullptr;
+}
+
+bool misses_without_cells(const CaseResult& one) {
+  if (has_cells(one)) return false;
+  const measure::LookupCounts* lookup = plain_lookup(one);
+  return (one.shading && one.shading->missed > 0) || (lookup != nullptr && lookup->missed > 0);
+}
+
+std::string missed_without_cells_text(const CaseResult& one) {
+  if (one.shading && one.shading->missed > 0)
+    return "lost " + std::to_string(one.shading->missed) + " of " + number_of(one.shading->needed, "light") +
+           " that its samples need" + worst_text(one);
+  const measure::LookupCounts& lookup = *plain_lookup(one);
+  return "lost " + std::to_string(lookup.missed) + " of " + number_of(lookup.needed, "light") +
+         " that the samples of its lookup need";
+}
+
+double unlit_share(const CaseResult& one) {
+  return one.shading && one.shading->needed > 0 ? one.shading->unlit() : 0.0;
+}
+
+}  // namespace
+
+const char* name_of(Failure::Kind kind) {
+  constexpr const char* k_names[] = {"lost_pairs", "extra_pairs", "lost_at_samples", "dropped_pairs"};
+  return k_names[static_cast<std::size_t>(kind)];
+}
+
+std::vector<Failure> failures_of(const CaseResult& one, const config::LimitsRequest& limits) {
+  using Kind = Failure::Kind;
+  std::vector<Failure> failures;
+  const bool may_not_lose = one.conservative || one.exact;
+  if (may_not_lose && one.error && one.error->false_negatives > 0)
+    failures.push_back({Kind::lost_pairs, lost_text(one)});
+  if (one.exact && one.error && one.error->false_positives > 0)
+    failures.push_back({Kind::extra_pairs, "reported " + number_of(one.error->false_positives, "pair") +
+                                               " beside the truth, and calls itself exact"});
+  if (may_not_lose && misses_without_cells(one))
+    failures.push_back({Kind::lost_at_samples, missed_without_cells_text(one)});
+  const measure::Buffers& buffers = one.buffers;
+  if (limits.dropped_pairs && buffers.dropped_pairs > *limits.dropped_pairs)
+    failures.push_back({Kind::dropped_pairs,
+                        "dropped " + number_of(buffers.dropped_pairs, "pair") + " in " +
+                            number_of(buffers.overflowing_cells, "cell") + " of " +
+                            number_of(static_cast<std::uint64_t>(buffers.overflowing_frames), "frame") +
+                            ", more than limits.dropped_pairs allows (" + std::to_string(*limits.dropped_pairs) + ")"});
+  return failures;
+}
+
+bool loses_lights(const CaseResult& one) {
+  return (one.error && one.error->false_negatives > 0) || one.buffers.dropped_pairs > 0 || misses_without_cells(one) ||
+         unlit_share(one) > measure::k_most_unlit;
+}
+
+std::vector<std::string> on_front(std::span<const Contender> cases) {
+  std::map<std::pair<std::string, std::string>, std::vector<const Contender*>> views;
+  for (const Contender& one : cases)
+    if (!one.is_out) views[{one.scene, one.view}].push_back(&one);
+  std::vector<std::string> ids;
+  for (const auto& [view, seen] : views) {
+    std::vector<measure::Costs> costs;
+    for (const Contender* one : seen) costs.push_back(one->costs);
+    for (const std::size_t place : measure::pareto_front(costs)) ids.push_back(seen[place]->id);
+  }
+  return ids;
+}
+
+}  // namespace clusterbench::run

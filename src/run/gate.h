@@ -1,0 +1,40 @@
+#pragma once
+// What a case is judged by: whether it fails its run, loses lights, and stands on its scene's front.
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "config/config.h"
+#include "measure/front.h"
+#include "run/result.h"
+
+namespace clusterbench::run {
+
+const char* name_of(Failure::Kind kind);  // "lost_pairs", ...
+
+// A conservative method that lost a light, in lists or, without cells, at samples; an exact one with any difference;
+// more dropped pairs than the limits allow.
+std::vector<Failure> failures_of(const CaseResult& one, const config::LimitsRequest& limits);
+
+// Whether a shader that loops over what the case gives lacks lights: pairs that are not listed or were dropped, lights
+// that are missed at samples though the structure has no cells to look up, or more than measure::k_most_unlit of them
+// wherever they are.
+bool loses_lights(const CaseResult& one);
+
+// A case beside others. Results are continued and merged from files, so this is apart from CaseResult.
+struct Contender {
+  std::string id;
+  // Only cases that see the same can beat each other: an empty view costs less than a full one in every respect, and
+  // packed lights that lose a pair less than those that do not.
+  std::string scene, view;
+  measure::Costs costs;
+  // Fails its run, drops pairs, or has more than measure::k_most_unlit of the needed lights unlit: short lists are no
+  // merit then.
+  bool is_out = false;
+};
+
+// Ids of the cases that no other case of their scene and view beats in time, bytes and overshade together.
+std::vector<std::string> on_front(std::span<const Contender> cases);
+
+}  // namespace clusterbench::run

@@ -1,0 +1,140 @@
+#include "run/gate.h"
+
+#include <gtest/gtest.h>
+
+namespace clusterbench::run {
+namespace {
+
+using Kind = Failure::Kind;
+
+// 30 pairs in cells, all true; samples need 1000 lights.
+CaseResult with_cells() {
+  CaseResult one;
+  one.id = "one";
+  one.grid = {{"cells", {4, 3, 2}}};
+  one.occupancy.emplace();
+  one.error.emplace();
+  one.error->true_pairs = one.error->reported_pairs = 30;
+  one.shading.emplace();
+  one.shading->needed = 1000;
+  return one;
+}
+
+// A structure of a method's own that has none, as a light hierarchy.
+CaseResult without_cells() {
+  CaseResult one = with_cells();
+  one.occupancy.reset();
+  one.error.reset();
+  one.storage_label = "own";
+  return one;
+}
+
+void miss(CaseResult& one, std::uint64_t lights, std::uint64_t outside) {
+  one.shading->missed = lights;
+  one.shading->missed_outside = outside;
+  one.worst_unlit = UnlitFrame{7, lights, 140};
+}
+
+std::vector<Kind> kinds(const CaseResult& one, const config::LimitsRequest& limits = {}) {
+  std::vector<Kind> out;
+  for (const Failure& failure : failures_of(one, limits)) out.push_back(failure.kind);
+  return out;
+}
+
+config::LimitsRequest with_dropped(std::optional<std::uint64_t> pairs) {
+  config::LimitsRequest limits;
+  limits.dropped_pairs = pairs;
+  return limits;
+}
+
+TEST(Gate, what_loses_and_drops_nothing_passes) {
+  EXPECT_TRUE(kinds(with_cells()).empty());
+  EXPECT_TRUE(kinds(without_cells()).empty());
+  EXPECT_FALSE(loses_lights(with_cells()));
+  EXPECT_FALSE(loses_lights(without_cells()));
+}
+
+TEST(Gate, a_lost_pair_of_a_conservative_method_fails_and_of_another_loses_lights) {
+  CaseResult one = with_cells();
+  one.error->false_negatives = 3;
+  EXPECT_EQ(kinds(one), (std::vector{Kind::lost_pairs}));
+  one.conservative = false;
+  EXPECT_TRUE(kinds(one).empty());
+  EXPECT_TRUE(loses_lights(one));
+}
+
+TEST(Gate, any_difference_of_an_exact_method_fails) {
+  CaseResult one = with_cells();
+  one.error->false_positives = 1;
+  EXPECT_TRUE(kinds(one).empty());
+  one.exact = true;
+  EXPECT_EQ(kinds(one), (std::vector{Kind::extra_pairs}));
+}
+
+TEST(Gate, without_cells_a_light_missed_at_a_sample_is_a_lost_one) {
+  CaseResult one = without_cells();
+  miss(one, 1, 1);
+  EXPECT_EQ(kinds(one), (std::vector{Kind::lost_at_samples})) << "no grid whose end could excuse it";
+  EXPECT_TRUE(loses_lights(one));
+  one.conservative = false;
+  EXPECT_TRUE(kinds(one).empty());
+  EXPECT_TRUE(loses_lights(one));
+  CaseResult listed = with_cells();
+  miss(listed, 1, 0);
+  EXPECT_TRUE(kinds(listed).empty()) << "a lookup may round at a cell boundary; its pairs are held against the truth";
+  EXPECT_FALSE(loses_lights(listed));
+}
+
+TEST(Gate, without_cells_a_light_that_the_lookup_misses_is_a_lost_one) {
+  CaseResult one = without_cells();
+  measure::LookupCounts rough;
+  rough.way = {measure::Logarithm::rounded, measure::DepthRead::d24};
+  rough.missed = 5;
+  one.lookup = {rough};
+  EXPECT_TRUE(kinds(one).empty()) << "a depth buffer of 24 bits is no fault of the method";
+  one.lookup.push_back({});
+  one.lookup.back().missed = 2;
+  one.lookup.back().needed = 50;
+  EXPECT_EQ(kinds(one), (std::vector{Kind::lost_at_samples}));
+  EXPECT_NE(failures_of(one, {})[0].text.find("2 of 50"), std::string::npos);
+  EXPECT_TRUE(loses_lights(one));
+}
+
+TEST(Gate, dropped_pairs_fail_unless_the_configuration_allows_them) {
+  CaseResult one = with_cells();
+  one.buffers.dropped_pairs = 5;
+  EXPECT_EQ(kinds(one), (std::vector{Kind::dropped_pairs}));
+  EXPECT_EQ(kinds(one, with_dropped(4)), (std::vector{Kind::dropped_pairs}));
+  EXPECT_TRUE(kinds(one, with_dropped(5)).empty());
+  EXPECT_TRUE(kinds(one, with_dropped(std::nullopt)).empty());
+  EXPECT_TRUE(loses_lights(one));
+}
+
+TEST(Gate, what_lies_outside_of_the_grid_loses_lights_and_is_told_with_its_frame) {
+  CaseResult one = with_cells();
+  miss(one, 100, 90);
+  EXPECT_TRUE(kinds(one).empty()) << "a choice of the grid";
+  EXPECT_TRUE(loses_lights(one));
+  CaseResult own = without_cells();
+  miss(own, 100, 90);
+  const std::string text = failures_of(own, {})[0].text;
+  EXPECT_EQ(text, "lost 100 of 1000 lights that its samples need; most in frame 7, 100 of 140");
+}
+
+Contender contender(const std::string& id, double time_ns, const std::string& view = "view") {
+  return {id, "hall", view, {{time_ns, time_ns}, 100.0, 1.5}, false};
+}
+
+TEST(OnFront, cases_beat_each_other_within_one_scene_and_view) {
+  EXPECT_EQ(on_front(std::vector{contender("slow", 2), contender("fast", 1), contender("else", 3, "other view")}),
+            (std::vector<std::string>{"else", "fast"}));
+}
+
+TEST(OnFront, what_is_out_beats_nothing) {
+  std::vector<Contender> all{contender("slow", 2), contender("fast", 1)};
+  all[1].is_out = true;
+  EXPECT_EQ(on_front(all), (std::vector<std::string>{"slow"}));
+}
+
+}  // namespace
+}  // namespace clusterbench::run
