@@ -83,7 +83,8 @@ TEST(CameraPaths, jitter_is_gone_through_frame_by_frame_and_again_from_its_first
   request.count = 5;
   request.jitter_px = {{0.25, 0.0}, {0.0, -0.5}};
   std::vector<Vec2d> seen;
-  for (const Shot& shot : camera_paths(scene_with_cameras(true), request).at(0).shots) seen.push_back(shot.jitter_px);
+  const std::vector<CameraPath> paths = camera_paths(scene_with_cameras(true), request);
+  for (const Shot& shot : paths.at(0).shots) seen.push_back(shot.jitter_px);
   const Vec2d a{0.25, 0.0}, b{0.0, -0.5};
   EXPECT_EQ(seen, (std::vector<Vec2d>{a, b, a, b, a}));
 }
