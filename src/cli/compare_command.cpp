@@ -30,6 +30,7 @@ void check_gate(const CompareFlags& flags, const nlohmann::ordered_json& compari
 }
 
 ExitCode compare(const CompareFlags& flags) {
+  refuse_overwriting({flags.markdown, flags.json}, {flags.base, flags.next});
   const report::Schema schema = flags.is_forced ? report::Schema::any : report::Schema::this_version;
   const nlohmann::ordered_json base = report::read_result(flags.base, schema);
   const nlohmann::ordered_json next = report::read_result(flags.next, schema);

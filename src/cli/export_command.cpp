@@ -16,6 +16,7 @@ struct ExportFlags {
 };
 
 ExitCode export_result(const ExportFlags& flags) {
+  refuse_overwriting({flags.output}, {flags.result});
   const report::ExportFormat& format = report::export_format(flags.format);
   write_text(flags.output, report::exported(report::read_result(flags.result), format, flags.all));
   return ExitCode::ok;

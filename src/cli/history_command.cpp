@@ -29,6 +29,7 @@ ExitCode add(const AddFlags& flags) {
 }
 
 ExitCode show(const ShowFlags& flags) {
+  refuse_overwriting({flags.page}, {flags.file});
   const std::vector<report::HistoryEntry> history = report::read_history(flags.file);
   const std::vector<report::Series> series =
       report::series_of(history, {flags.max_p, flags.min_change_percent / 100.0});

@@ -39,6 +39,22 @@ void probe_output(const std::string& output) {
   if (!file) throw Error(output, "", "cannot be written");
 }
 
+void refuse_overwriting(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
+  const auto are_one = [](const std::string& a, const std::string& b) {
+    std::error_code none;
+    return fs::equivalent(a, b, none) || fs::weakly_canonical(a, none) == fs::weakly_canonical(b, none);
+  };
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    if (is_stream(outputs[i])) continue;
+    for (const std::string& input : inputs)
+      if (!input.empty() && are_one(outputs[i], input))
+        throw Error(outputs[i], "", "is read by this command and would be lost: name another file for the output");
+    for (std::size_t k = 0; k < i; ++k)
+      if (!is_stream(outputs[k]) && are_one(outputs[i], outputs[k]))
+        throw Error(outputs[i], "", "is to hold two outputs of this command: name a file for each");
+  }
+}
+
 void write_text(const std::string& output, const std::string& text) {
   std::ofstream file;
   const bool has_file = !output.empty() && output != "-";

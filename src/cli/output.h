@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace clusterbench::cli {
 
@@ -20,6 +21,9 @@ void tell_of_keeping();
 // Throws Error if nothing can be written there. A stream is tried with a space, which JSON ignores, before minutes go
 // into measuring.
 void probe_output(const std::string& output);
+
+// Throws Error if an output is one of the inputs, which would be lost, or is another output, too. "" is none.
+void refuse_overwriting(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
 
 // Throws Error if it could not be written whole.
 void write_text(const std::string& output, const std::string& text);

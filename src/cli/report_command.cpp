@@ -35,6 +35,7 @@ std::string command_of(const ReportOptions& options) {
 }
 
 ExitCode write_report(const ReportOptions& options) {
+  refuse_overwriting({options.output}, options.files);
   std::vector<report::NamedResult> results;
   for (const std::string& file : options.files) results.push_back({file, report::read_result(file)});
   const std::string page = report::page(results, command_of(options));

@@ -241,7 +241,16 @@ void show_table(const RunFlags& flags, const Json& result) {
   if (for_reading) tell_of_keeping();
 }
 
+// Before minutes go into measuring.
+void refuse_losses(const RunFlags& flags, const config::Config& config) {
+  std::vector<std::string> outputs{flags.output}, inputs = flags.inputs;
+  for (const std::string& text : flags.exports) outputs.push_back(text.substr(text.find('=') + 1));
+  for (const config::SceneRequest& scene : config.scenes) inputs.push_back(scene.path.string());
+  refuse_overwriting(outputs, inputs);
+}
+
 ExitCode measure(const RunFlags& flags, const config::Config& config, const run::Plan& plan, CountWay way) {
+  refuse_losses(flags, config);
   if (is_stream(flags.output)) probe_output(flags.output);
   const std::vector<ExportTarget> exports = export_targets(flags.exports);
   const std::atomic<bool>& stop = stop_on_signals();  // before there is anything to keep

@@ -9,16 +9,11 @@
 #include "config/config.h"
 #include "config/documents.h"
 #include "config/schema_check.h"
+#include "core/file_text.h"
 #include "run/sweep.h"
 
 namespace clusterbench::cli {
 namespace {
-
-std::string file_text(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw Error(path, "", "cannot be read");
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 ExitCode validate_written(const std::string& path, const nlohmann::json& document, const config::DocumentRow& row) {
   const std::vector<std::string> violations = config::schema_violations(row.schema(), document);

@@ -13,6 +13,7 @@
 #include "config/json_text.h"
 #include "config/schema_reader.h"
 #include "core/error.h"
+#include "core/file_text.h"
 
 namespace clusterbench::config {
 namespace {
@@ -356,10 +357,7 @@ Config parse_config(const std::string& text, const fs::path& file, std::span<con
 }
 
 Config load_config(const fs::path& path, std::span<const FlagValue> flags) {
-  std::ifstream in(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (!in || in.bad() || fs::is_directory(path)) throw Error(path.string(), "", "cannot be read");
-  return parse_config(text, path, flags);
+  return parse_config(file_text(path), path, flags);
 }
 
 Config default_config(const std::vector<fs::path>& scenes, std::span<const FlagValue> flags) {

@@ -17,6 +17,8 @@ using Json = nlohmann::json;
   throw Error("", flag.shown(), what);
 }
 
+constexpr int k_most_nested = 64;  // as in a configuration's file
+
 // "a,[b,c],{d,e}" at its commas outside of brackets and quotes.
 std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> parts(1);
@@ -26,6 +28,7 @@ std::vector<std::string> split(const std::string& text) {
     const char c = text[i];
     if (c == '"' && (i == 0 || text[i - 1] != '\\')) quoted = !quoted;
     if (!quoted && (c == '[' || c == '{')) ++depth;
+    if (depth > k_most_nested) throw Error("", "--set", "a value nested deeper than 64 levels");
     if (!quoted && (c == ']' || c == '}')) --depth;
     if (c == ',' && depth == 0 && !quoted)
       parts.emplace_back();

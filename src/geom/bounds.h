@@ -13,7 +13,7 @@ struct AngleBounds {
   RationalInterval cosine, sine;
 };
 
-// Bounds narrower than 2^(12 - bits); of an angle of 0 exact. angle: radians, 0 <= angle < 2. bits: at most 1100.
+// Bounds narrower than 2^(12 - bits); of an angle of 0 exact. angle: radians, 0 <= angle < 2. bits: at most 3100.
 AngleBounds bounds_of_angle(const Rational& angle, unsigned bits);
 
 // At least sqrt(value) and above it by less than 2^-300 of it; value >= 0.

@@ -1,7 +1,7 @@
 #pragma once
 // Where a light's volume and a cell can be nearest or farthest, in closed form, over any number type: double for the
-// filter, 256 bits for what it leaves open. The volume is a ball, or a ball ∩ solid cone (a spot); cells are bounded by
-// planes, or a pyramid through the eye cut by two shells.
+// filter, 256 bits and more for what it leaves open. The volume is a ball, or a ball ∩ solid cone (a spot); cells are
+// bounded by planes, or a pyramid through the eye cut by two shells.
 //
 // Every list of candidates is complete for its question, and whatever else is on it does no harm: a candidate counts
 // only if it lies in volume and cell up to a tolerance.

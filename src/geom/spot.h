@@ -1,7 +1,7 @@
 #pragma once
 // A spot (ball ∩ solid cone) against a cell, for what cheaper evidence leaves open. Every yes and every no
 // is proven between bounds of 106 bits (geom/tight_spot.h) or, where these cannot tell, in exact numbers or between
-// bounds of 1024 bits; what doubles, 106 and 256 bits find only says where to look for a proof.
+// bounds of 1024 bits; what doubles, 106, 256 and 3,072 bits find only says where to look for a proof.
 
 #include "geom/light_volume.h"
 #include "geom/shapes.h"

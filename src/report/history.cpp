@@ -14,6 +14,7 @@
 #include <tuple>
 
 #include "core/error.h"
+#include "core/file_text.h"
 #include "core/text.h"
 #include "report/machine.h"
 
@@ -44,13 +45,16 @@ Json history_line(const Json& result, const std::string& commit) {
     Json figures = Json::object();
     for (const Measured& figure : measured(one, false))
       if (basis_of(*figure.metric) != Basis::derived) figures[std::string(figure.metric->name)] = figure.value;
-    line["cases"].push_back({{"id", one.at("id")}, {"name", one.at("name")}, {"figures", figures}});
+    line["cases"].push_back({{"id", one.at("id")},
+                             {"settings", one.value("settings", "")},
+                             {"name", one.at("name")},
+                             {"figures", figures}});
   }
   return line;
 }
 
 HistoryEntry::Case parsed_case(const Json& one) {
-  HistoryEntry::Case out{one.at("id").get<std::string>(), one.at("name").get<std::string>(), {}};
+  HistoryEntry::Case out{one.value("settings", ""), one.at("name").get<std::string>(), {}};
   for (const auto& [name, value] : one.at("figures").items()) out.figures.emplace_back(name, value.get<double>());
   return out;
 }
@@ -78,12 +82,6 @@ HistoryEntry parsed_at(const std::string& path, const std::string& line, std::si
   } catch (const Error& error) {
     throw Error(path, where, error.message());
   }
-}
-
-std::string file_text(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in || fs::is_directory(path)) throw Error(path, "", "cannot be read");
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 std::vector<HistoryEntry> parsed_file(const std::string& path, const std::string& text) {
@@ -185,22 +183,31 @@ void add_to_history(const std::string& path, const Json& result, const std::stri
 
 std::vector<Series> series_of(const std::vector<HistoryEntry>& history, const measure::ChangeRule& rule) {
   std::vector<Series> all;
-  std::map<std::tuple<std::string, std::string, const Metric*, std::string>, std::size_t> places;
-  std::map<std::string, std::string> first_ids;  // by name
+  std::map<std::tuple<std::string, std::ptrdiff_t, const Metric*, std::string>, std::size_t> places;
+  std::map<std::string, std::vector<std::string>> settings_of;  // by name, in the order in which they came
   for (const HistoryEntry& entry : history)
-    for (const HistoryEntry::Case& one : entry.cases)
+    for (const HistoryEntry::Case& one : entry.cases) {
+      // Lines that do not tell the settings are taken to have those of their neighbours.
+      std::vector<std::string>& known = settings_of[one.name];
+      if (known.empty())
+        known.push_back(one.settings);
+      else if (known.back().empty())
+        known.back() = one.settings;
+      else if (!one.settings.empty() && std::ranges::find(known, one.settings) == known.end())
+        known.push_back(one.settings);
+      const auto at = one.settings.empty() ? known.end() - 1 : std::ranges::find(known, one.settings);
+      const auto version = at - known.begin();
       for (const auto& [name, value] : one.figures) {
         const Metric* metric = metric_named(name);
         if (metric == nullptr || basis_of(*metric) == Basis::derived) continue;  // of an older version
         const std::string from = origin(entry, *metric);
-        const auto [place, is_new] = places.try_emplace({one.name, one.id, metric, from}, all.size());
-        const bool has_others_before = first_ids.try_emplace(one.name, one.id).first->second != one.id;
+        const auto [place, is_new] = places.try_emplace({one.name, version, metric, from}, all.size());
         if (is_new)
-          all.push_back(
-              {one.name, one.id, has_others_before ? entry.commit : std::string(), from, metric, {}, {}, false, {}});
+          all.push_back({one.name, *at, version > 0 ? entry.commit : std::string(), from, metric, {}, {}, false, {}});
         all[place->second].commits.push_back(entry.commit);
         all[place->second].values.push_back(value);
       }
+    }
   for (Series& series : all) {
     series.is_too_short =
         basis_of(*series.metric) == Basis::time && series.values.size() < measure::least_values(rule.max_p);
@@ -232,9 +239,9 @@ std::string history_text(const std::vector<Series>& series, std::size_t entries,
   std::set<std::pair<std::string, std::string>> renewed;
   for (const Series& one : series)
     if (!one.settings_since.empty())
-      renewed.insert({one.case_id, one.case_name + " from " + one.settings_since + " on"});
-  for (const auto& [id, what] : renewed)
-    text += "warning: other settings (case " + id + "), not joined with what was before: " + what + "\n";
+      renewed.insert({one.settings, one.case_name + " from " + one.settings_since + " on"});
+  for (const auto& [settings, what] : renewed)
+    text += "warning: other settings (" + settings + "), not joined with what was before: " + what + "\n";
   text += number_of(entries, "result") + ", " + std::to_string(series.size()) + " series, " +
           number_of(changes, "change") + "\n";
   return too_short == 0

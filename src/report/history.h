@@ -15,7 +15,7 @@ struct HistoryEntry {
   std::string machine;  // processor and instruction set
   std::string counter;  // of instructions: "callgrind", "perf"; "" if none, or of an older version
   struct Case {
-    std::string id, name;
+    std::string settings, name;                           // the first is "" in lines of older versions
     std::vector<std::pair<std::string, double>> figures;  // by the metric's name
   };
   std::vector<Case> cases;
@@ -24,7 +24,7 @@ struct HistoryEntry {
 // One figure of one case, in the order of the file.
 struct Series {
   std::string case_name;
-  std::string case_id;         // of other settings another one, and another series
+  std::string settings;        // others are another series
   std::string settings_since;  // the commit from which on the case has these settings; "" if it has no others before
   std::string machine;         // and counter: two of them are two series; "" for what is counted, the same on all
   const Metric* metric;

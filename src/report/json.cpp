@@ -304,6 +304,7 @@ Json tool_to_json(const run::ToolFacts& tool) {
 
 Json case_to_json(const run::CaseResult& one) {
   Json out{{"id", one.id},
+           {"settings", one.settings},
            {"name", one.name},
            {"scene", one.scene},
            {"camera", one.camera},

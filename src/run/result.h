@@ -121,7 +121,7 @@ struct Failure {
 };
 
 struct CaseResult {
-  std::string id, name, scene, camera;
+  std::string id, settings, name, scene, camera;  // the first two: of CasePlan
   Vec2i viewport{0, 0};
   int frames = 0;
   nlohmann::json grid;  // {kind, cells, ... boundaries, lookup constants}

@@ -226,6 +226,7 @@ class Run {
     const StructureMeasures& structure = counted.structures[place];
     CaseResult out;
     out.id = plan.id;
+    out.settings = plan.settings;
     out.name = plan.name;
     out.scene = scene.name;
     out.camera = plan_.scenes[plan.scene].paths[plan.camera].camera;

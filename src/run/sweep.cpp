@@ -91,8 +91,13 @@ Json identity(const config::SceneRequest& request, const scene::Scene& scene) {
   return out;
 }
 
+std::string short_hash(const Json& all) {
+  constexpr std::size_t k_digits = 12;
+  return sha256_hex(all.dump()).substr(0, k_digits);
+}
+
 // Settings that change what a case counts; timing and threads do not.
-std::string case_id(const config::Config& config, const SceneData& data, const CasePlan& plan) {
+Json identity(const config::Config& config, const SceneData& data, const CasePlan& plan) {
   const Vec2i viewport = config.viewports[plan.viewport];
   Json all{{"scene", identity(config.scenes[plan.scene], data.scene)},
            {"camera", {data.paths[plan.camera].camera, plan.camera}},
@@ -113,8 +118,7 @@ std::string case_id(const config::Config& config, const SceneData& data, const C
   }
   const config::PrecisionRequest& precision = config.precisions[plan.precision];
   if (precision.is_lossy()) all["precision"] = {view::packing_name(precision.packing), precision.inflate};
-  constexpr std::size_t k_digits = 12;
-  return sha256_hex(all.dump()).substr(0, k_digits);
+  return all;
 }
 
 std::string listed(const std::vector<grid::Kind>& kinds) {
@@ -302,7 +306,10 @@ class Expansion {
 
   void add_case(const Plan& plan, GroupPlan& group, CasePlan one) {
     one.name = unique_name(one.name, names_);
-    one.id = unique_name(case_id(config_, plan.scenes[group.scene], one), ids_);
+    Json all = identity(config_, plan.scenes[group.scene], one);
+    one.id = unique_name(short_hash(all), ids_);
+    all["scene"].erase("sha256");
+    one.settings = short_hash(all);
     ++all_cases_;
     if (example_.empty()) example_ = one.name;
     if (filter_.is_in(one.name)) group.cases.push_back(std::move(one));

@@ -290,5 +290,33 @@ TEST(Size, prints_constants_for_a_result) {
   EXPECT_EQ(tool("size " + config).code, 2);
 }
 
+// What a command reads is not written over, nor one output by another.
+TEST(Run, an_output_over_an_input_or_another_output_is_refused) {
+  const Folder folder;
+  const std::string scene = (folder / "level.glb").string(), link = (folder / "link.glb").string();
+  const std::string results = (folder / "r.json").string();
+  std::filesystem::copy_file(source_file("scenes/street.glb"), scene);
+  std::filesystem::create_symlink("level.glb", link);
+  const std::string before = file_text(scene);
+  const std::string config =
+      folder.write("c.json", R"({"scenes": [{"path": "level.glb", "frames": 1}], "assigners": ["aabb"]})").string();
+  for (const std::string& arguments :
+       {scene + " -o " + scene, scene + " -o " + link, config + " -o " + config, config + " -o " + scene,
+        config + " -o " + results + " --export csv=" + scene, config + " -o " + results + " --export csv=" + results}) {
+    const Outcome refused = tool("run --no-timing " + arguments);
+    EXPECT_EQ(refused.code, 2) << arguments << refused.err;
+    EXPECT_NE(refused.err.find("name a"), std::string::npos) << refused.err;
+  }
+  EXPECT_EQ(file_text(scene), before);
+}
+
+TEST(Run, a_folder_is_no_input) {
+  for (const char* command : {"run", "validate"}) {
+    const Outcome refused = tool(std::string(command) + " " + std::filesystem::temp_directory_path().string());
+    EXPECT_EQ(refused.code, 2) << refused.err;
+    EXPECT_NE(refused.err.find("is a folder, not a file"), std::string::npos) << refused.err;
+  }
+}
+
 }  // namespace
 }  // namespace clusterbench::test

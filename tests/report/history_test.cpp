@@ -82,6 +82,7 @@ TEST_F(History, other_settings_begin_a_series_of_their_own_and_are_told) {
   for (const char* commit : {"b1", "b2"}) {
     run::Result result = testing::result_by_hand();
     result.cases[1] = testing::case_by_hand("fast with other samples", "aabb", 9000.0);
+    result.cases[1].settings = "others";
     result.planned_ids[1] = result.cases[1].id;
     result.cases[1].buffers.bytes.high_water = 500;
     add_to_history(file_, result_to_json(result, {}), commit);
@@ -90,12 +91,40 @@ TEST_F(History, other_settings_begin_a_series_of_their_own_and_are_told) {
   EXPECT_EQ(bytes_of_fast(all).values.size(), 7u);
   for (const Series& one : all) EXPECT_TRUE(one.changes.empty()) << one.case_name << " " << one.metric->name;
   const std::string said = history_text(all, 9, false);
-  EXPECT_NE(said.find("warning: other settings (case fast with other samples), not joined with what was before: "
+  EXPECT_NE(said.find("warning: other settings (others), not joined with what was before: "
                       "hall/walk/frustum 64px/aabb/packed from b1 on\n"),
             std::string::npos)
       << said;
   EXPECT_NE(history_text(all, 9, true).find("  other settings than before, from b1 on: a series of its own"),
             std::string::npos);
+}
+
+TEST_F(History, a_level_that_changes_goes_on_in_the_same_series) {
+  add_many("a", 7, 3000.0);
+  for (const char* commit : {"b1", "b2"}) {
+    run::Result result = testing::result_by_hand();
+    result.cases[1] = testing::case_by_hand("fast of another level", "aabb", 3000.0);
+    result.planned_ids[1] = result.cases[1].id;
+    result.cases[1].buffers.bytes.high_water = 500;
+    add_to_history(file_, result_to_json(result, {}), commit);
+  }
+  const std::string said = history_text(series_of(read_history(file_), {}), 9, false);
+  EXPECT_NE(said.find("at b1: 232 to 500"), std::string::npos) << said;
+  EXPECT_EQ(said.find("other settings"), std::string::npos) << said;
+}
+
+// As versions wrote them that did not tell the settings.
+TEST_F(History, lines_without_settings_go_on_in_the_series_of_their_name) {
+  add_many("a", 3, 3000.0);
+  std::string older = text();
+  for (std::size_t at; (at = older.find("\"settings\":\"settings of aabb\",")) != std::string::npos;)
+    older.erase(at, std::string("\"settings\":\"settings of aabb\",").size());
+  ASSERT_EQ(older.find("settings of aabb"), std::string::npos);
+  write(older);
+  add_many("b", 4, 3000.0);
+  const std::vector<Series> all = series_of(read_history(file_), {});
+  EXPECT_EQ(times_of_fast(all).values.size(), 7u);
+  EXPECT_EQ(history_text(all, 7, false).find("other settings"), std::string::npos);
 }
 
 TEST_F(History, series_of_times_that_are_too_short_to_tell_are_counted) {

@@ -12,6 +12,7 @@ namespace clusterbench::report::testing {
 inline run::CaseResult case_by_hand(const std::string& id, const std::string& assigner, double assign_ns) {
   run::CaseResult one;
   one.id = id;
+  one.settings = "settings of " + assigner;
   one.name = "hall/walk/frustum 64px/" + assigner + "/packed";
   one.scene = "hall";
   one.camera = "walk";

@@ -61,13 +61,13 @@ void look_at(const SpotsAndPlanes& from, const RowPlanes& planes, SpotTouches& o
     const BallPieces balls(lights, planes,
                            {light, load(pieces.slice), load(pieces.row), load(pieces.column), load(pieces.end_column)});
     const BallPieces::Nearest nearest = balls.nearest();
-    const VD error = rounded_up(nearest.excess.error), excess = nearest.excess.value;
+    const VD error = enlarged(nearest.excess.error), excess = nearest.excess.value;
     const VD steep = balls.steepness(nearest), undershoot = BallPieces::undershoot(steep);
     // The nearest point is no farther from the place that was looked at than `shift`; common points are no farther
     // from it than `play`.
-    const VD shift = rounded_up(steep * (every(1.0) + (balls.widest() + balls.highest())));
-    const VD play_square = rounded_up(Max(zero, Neg(excess)) + (error + undershoot));
-    const VD play = rounded_up(Sqrt(play_square));
+    const VD shift = enlarged(steep * (every(1.0) + (balls.widest() + balls.highest())));
+    const VD play_square = enlarged(Max(zero, Neg(excess)) + (error + undershoot));
+    const VD play = enlarged(Sqrt(play_square));
     const MD is_exact = And(And(excess == zero, error == zero), steep == zero);
 
     const VD x = across(nearest.x), y = across(nearest.y), depth = nearest.along.value;
@@ -89,9 +89,9 @@ void look_at(const SpotsAndPlanes& from, const RowPlanes& planes, SpotTouches& o
     const auto store = [&](VD value, std::vector<double>& list) { StoreU(value, DD(), list.data() + first); };
     const MD is_x_sure = And(nearest.x.is_outside, nearest.x.size.value > every(2.0) * nearest.x.size.error);
     store(balls.x().value, out.x);
-    store(rounded_up(balls.x().error), out.x_error);
+    store(enlarged(balls.x().error), out.x_error);
     store(nearest.depth.value, out.depth);
-    store(rounded_up(nearest.depth.error), out.depth_error);
+    store(enlarged(nearest.depth.error), out.depth_error);
     const auto bits = [&](MD mask) {
       std::uint8_t byte[8] = {};
       StoreMaskBits(DD(), mask, byte);

@@ -22,7 +22,7 @@ void look(const view::LightArrays& lights, const RowPlanes& planes, BallCells& c
     const BallPieces balls(lights, planes,
                            {load(cells.light), load(cells.slice), load(cells.row), column, column + Set(DH(), 1)});
     const BallPieces::Nearest nearest = balls.nearest();
-    const VD error = rounded_up(nearest.excess.error);
+    const VD error = enlarged(nearest.excess.error);
     const MD touches = nearest.excess.value <= Neg(error);
     VD undershoot = Zero(DD());
     if (!AllTrue(DD(), touches)) undershoot = BallPieces::undershoot(balls.steepness(nearest));

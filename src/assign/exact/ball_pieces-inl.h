@@ -33,7 +33,7 @@ HWY_INLINE VD every(double value) {
 }
 
 // geom::Bounded, one per lane; but what errors lose when they are added and multiplied, fewer than a hundred times, is
-// made up for where they are used, by rounded_up().
+// made up for where they are used, by enlarged().
 struct Bound {
   VD value, error;
 };
@@ -41,9 +41,9 @@ struct Bound {
 HWY_INLINE Bound exactly(VD value) {
   return {value, Zero(DD())};
 }
-HWY_INLINE VD rounded_up(VD error) {
+HWY_INLINE VD enlarged(VD error) {
   const VD larger = error * every(1.0 + 0x1p-44) + every(0x1p-1000);
-  return IfThenElseZero(error > Zero(DD()), larger);
+  return IfThenZeroElse(error == Zero(DD()), larger);  // what is no number stays none
 }
 HWY_INLINE Bound operator+(const Bound& a, const Bound& b) {
   const VD sum = a.value + b.value, from_b = sum - a.value;
@@ -92,11 +92,11 @@ HWY_INLINE Gap gap_between(const Bound& low, const Bound& at, const Bound& high,
   const MD is_below = below.value > above.value;
   const VD value = Max(below.value, above.value);
   // Beyond one side for certain, it is not beyond the other: only that side's error counts.
-  const VD larger = rounded_up(Max(below.error, above.error));
-  const VD own = rounded_up(IfThenElse(is_below, below.error, above.error));
+  const VD larger = enlarged(Max(below.error, above.error));
+  const VD own = enlarged(IfThenElse(is_below, below.error, above.error));
   const VD error = IfThenElse(value >= own, own, larger);
   const MD is_outside = value > zero;
-  const VD most = Max(rounded_up(value + error), zero);
+  const VD most = Max(enlarged(value + error), zero);
   const VD inside = IfThenElseZero(error > zero, most);
   const VD slope = IfThenElseZero(is_outside, IfThenElse(is_below, slope_low, Neg(slope_high)));
   return {{Max(value, zero), IfThenElse(is_outside, error, inside)}, slope, is_below, is_outside};
@@ -106,7 +106,7 @@ HWY_INLINE Gap gap_between(const Bound& low, const Bound& at, const Bound& high,
 HWY_INLINE Bound half_slope(const Gap& gap, VD slope_low, VD slope_high) {
   const Bound product = exactly(gap.slope) * gap.size;
   const VD unsure = (Abs(slope_low) + Abs(slope_high)) * gap.size.error;
-  return {product.value, rounded_up(product.error + unsure)};
+  return {product.value, enlarged(product.error + unsure)};
 }
 
 // Neighbouring cells of a row as one: those between two planes of columns.
@@ -175,14 +175,14 @@ class BallPieces {
     const VD zero = Zero(DD());
     if (orthographic_) return zero;
     const Bound slope = half_slope(found.x, x0_, x1_) + half_slope(found.y, y0_, y1_) + found.along;
-    const VD slope_error = rounded_up(slope.error);
+    const VD slope_error = enlarged(slope.error);
     const VD falls = IfThenElseZero(found.at < depth1_, slope_error - slope.value);
     const VD rises = IfThenElseZero(found.at > depth0_, slope_error + slope.value);
-    return rounded_up(Max(zero, Max(falls, rises)));
+    return enlarged(Max(zero, Max(falls, rises)));
   }
   // A square too small for a double is not nothing.
   static HWY_INLINE VD undershoot(VD steepness) {
-    const VD square = Max(rounded_up(steepness * steepness), every(0x1p-1000));
+    const VD square = Max(enlarged(steepness * steepness), every(0x1p-1000));
     return IfThenElseZero(steepness > Zero(DD()), square);
   }
 
@@ -212,7 +212,7 @@ class BallPieces {
   // Is the nearest point surely as deep as the centre? Then it is looked at there, however deep that is, and the way to
   // it is as exact as the coordinates across. So are all touches of planes through the eye's own axes.
   HWY_INLINE MD is_level_at(VD at) const {
-    const VD zero = Zero(DD()), error = rounded_up(depth_.error);
+    const VD zero = Zero(DD()), error = enlarged(depth_.error);
     const MD is_within = And(depth0_ < depth_.value - error, depth_.value + error < depth1_);
     const MD is_upright = And(slope_at(at, x_.value, x0_, x1_) == zero, slope_at(at, y_.value, y0_, y1_) == zero);
     return And(And(is_within, at == depth_.value), is_upright);

@@ -1,0 +1,19 @@
+#include "core/file_text.h"
+
+#include <fstream>
+#include <iterator>
+
+#include "core/error.h"
+
+namespace clusterbench {
+
+std::string file_text(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) throw Error(path.string(), "", "is a folder, not a file");
+  std::ifstream in(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (!in || in.bad()) throw Error(path.string(), "", "cannot be read");
+  return text;
+}
+
+}  // namespace clusterbench
