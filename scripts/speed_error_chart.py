@@ -23,7 +23,7 @@ def mark(name, x, y, title=""):
 
 def points(result, scene):
     for case in result["cases"]:
-        if case["scene"] == scene and case.get("timing") and case["error"]["excess_ratio"] is not None:
+        if case["scene"] == scene and case.get("timing") and case.get("error", {}).get("excess_ratio") is not None:
             timing = case["timing"]
             time = timing.get("frame_ns", timing["assign_ns"])  # older results tell the assignment alone
             yield (case["assigner"]["name"], time["median"] / 1e3,
