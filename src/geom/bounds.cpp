@@ -27,8 +27,8 @@ AngleBounds bounds_of_small(const Rational& x) {
 // In fixed point with unit u = 2^-bits. Term n of the exponential series is term n-1 times x/n. Terms are at most 2, as
 // x < 2, so its error is at most the inherited one times 2/n, 2/n u from the rounding of x, and u + u/n from rounding
 // product and quotient: 3 u, 5.5 u, 5.7 u, 4.6 u and less after that. When a computed term has become 0, the exact one
-// is below 8 u, and those after it sum up to less than that. There are fewer than 500 terms at 3100 bits, half of them in
-// each of the two sums: 250 * 8 u + 16 u < 2^11 u.
+// is below 8 u, and those after it sum up to less than that. There are fewer than 500 terms at 3100 bits, half of them
+// in each of the two sums: 250 * 8 u + 16 u < 2^11 u.
 AngleBounds bounds_of_angle(const Rational& angle, unsigned bits) {
   if (angle.sign() == 0) return {{1, 1}, {0, 0}};
   if (angle * Rational(Integer(1) << (bits / 4)) < 1) return bounds_of_small(angle);
