@@ -29,7 +29,7 @@ struct CasePlan {
   std::optional<std::size_t> storage;  // none: the assigner's own structure
   std::size_t precision = 0;
   // A hash as id is, but for the scene's contents: stable while a level changes.
-  std::string settings = "";
+  std::string settings = {};
 
   Method method() const { return {assigner, precision, storage ? assign::Answer::lists : assign::Answer::structure}; }
 };
