@@ -98,11 +98,12 @@ describe("the ranking", () => {
     const head = page.locator("#ranking thead th", { hasText: "excess" });
     await head.getByRole("button").click();
     assert.equal(await head.getAttribute("aria-sort"), "ascending");
-    const up = numbers(await column(page, "excess"));
+    const told = (texts) => numbers(texts.filter((text) => /\d/.test(text))); // a structure without cells has none, and stands last
+    const up = told(await column(page, "excess"));
     assert.ok(isAscending(up), String(up));
     await head.getByRole("button").click();
     assert.equal(await head.getAttribute("aria-sort"), "descending");
-    assert.deepEqual(numbers(await column(page, "excess")), [...up].reverse());
+    assert.deepEqual(told(await column(page, "excess")), [...up].reverse());
     assert.equal(await page.locator("#ranking [aria-sort]").count(), 1);
   });
 
