@@ -326,8 +326,9 @@ Verdict SpotDecider::meets_after_all(const Cell& cell) const {
 }
 
 Verdict SpotDecider::meets(const Cell& cell, bool is_close) const {
-  Verdict verdict = is_close ? meets_nearly(cell) : meets_quickly(cell);
+  Verdict verdict = is_close ? meets_nearly(cell) : Verdict::open;
   if (verdict == Verdict::open) verdict = filter().meets(cell);
+  if (verdict == Verdict::open && !is_close) verdict = meets_quickly(cell);
   return verdict == Verdict::open ? meets_after_all(cell) : verdict;
 }
 

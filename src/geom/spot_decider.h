@@ -1,6 +1,6 @@
 #pragma once
-// Does a spot (ball ∩ solid cone) share a point with a cell? First what its ball and its apex tell, then the filter
-// (geom/meets.h), then points of the cell that lie in the cone and planes that touch the cone at most at its apex, in
+// Does a spot (ball ∩ solid cone) share a point with a cell? First the filter (geom/meets.h), then what its ball and
+// its apex tell, then points of the cell that lie in the cone and planes that touch the cone at most at its apex, in
 // doubles with a bound of their error, which is 0 where nothing was rounded: that decides nearly all ties of lattices.
 // The rest: geom/spot.h.
 
@@ -19,8 +19,8 @@ class SpotDecider {
  public:
   explicit SpotDecider(const LightVolume& light);
 
-  // Proven, or open: by meets_quickly, then by the filter, then by meets_after_all. is_close: known to be touched or
-  // missed by a hair; then by meets_nearly first.
+  // Proven, or open: by the filter, then by meets_quickly, then by meets_after_all. is_close: known to be touched or
+  // missed by a hair, which the filter seldom tells; then by meets_nearly first and the filter second.
   Verdict meets(const Cell& cell, bool is_close = false) const;
   // What half a microsecond tells, mostly.
   Verdict meets_quickly(const Cell& cell) const;
