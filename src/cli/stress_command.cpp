@@ -105,12 +105,9 @@ ExitCode stress(const StressFlags& flags) {
   };
   const stress::StressResult result = stress::run_stress(request, listener, stop);
   progress.clear();
-  if (stop) {
-    tell("interrupted");
-    return stopped_exit_code();
-  }
   if (result.methods.empty()) throw Error("", "--methods", "'" + flags.methods + "' names none");
-  if (result.cases.empty() && result.searches.empty() && (!result.random || !flags.cases.empty()))
+  if (!result.interrupted && result.cases.empty() && result.searches.empty() &&
+      (!result.random || !flags.cases.empty()))
     throw Error("", "--cases", "'" + flags.cases + "' names none; there are H1 to H35");
   const bool for_reading = is_for_reading(flags.output);
   if (!for_reading) write_output(flags.output, report::stress_to_json(result, request));
@@ -119,6 +116,10 @@ ExitCode stress(const StressFlags& flags) {
   if (!flags.failures.empty()) write_replays(flags.failures, result);
   const std::vector<std::string> failures = report::stress_failures(result);
   for (const std::string& failure : failures) tell("FAILED " + failure);
+  if (result.interrupted) {
+    tell("interrupted: what was done by then is all that is told");
+    return stopped_exit_code();
+  }
   return failures.empty() ? ExitCode::ok : ExitCode::gate_failed;
 }
 

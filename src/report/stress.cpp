@@ -204,6 +204,7 @@ void print_searches(std::ostream& out, const stress::StressResult& result) {
 
 Json stress_to_json(const stress::StressResult& result, const stress::StressRequest& request) {
   Json out{{"schema_version", 1}, {"kind", "stress"}, {"seed", request.seed}, {"tries", request.tries}};
+  out["interrupted"] = result.interrupted;
   out["methods"] = Json::array();
   for (const stress::StressMethod& method : result.methods)
     out["methods"].push_back(

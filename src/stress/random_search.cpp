@@ -65,12 +65,15 @@ RandomSearch search_at_random(std::span<const StressMethod> methods, const Stres
     const std::uint64_t first = search.counts.settings, count = std::min(k_batch, request.random - first);
     on_progress(first, "settings from seed " + std::to_string(request.seed + first) + " on");
     std::vector<Trial> trials(count);
-    std::vector<SettingReport> reports(count);
+    std::vector<std::optional<SettingReport>> reports(count);
     crew.each(count, [&](std::size_t i) {
+      if (stop) return;
       trials[i] = random_setting(request.seed + first + i);
       reports[i] = check_setting(trials[i], methods);
     });
-    for (std::size_t i = 0; i < count; ++i) collect(reports[i], request.seed + first + i, trials[i], search);
+    // Up to the first that a stop has left out, so that the seeds are told by the first and their number.
+    for (std::size_t i = 0; i < count && reports[i]; ++i)
+      collect(*reports[i], request.seed + first + i, trials[i], search);
   }
   on_progress(search.counts.settings, "shrinking " + std::to_string(search.faults.size()) + " faults");
   if (!stop) crew.each(search.faults.size(), [&](std::size_t i) { shrink(search.faults[i], methods); });

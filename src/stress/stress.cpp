@@ -147,16 +147,19 @@ StressResult run_stress(const StressRequest& request, const StressListener& list
   for (const HardCase& hard : result.cases) {
     if (stop) break;
     tell(std::string(hard.id) + " " + hard.title, done++);
-    result.checks.push_back(hard.checks == nullptr ? std::vector<ToolCheck>{} : hard.checks(request.seed));
+    std::vector<ToolCheck> checks = hard.checks == nullptr ? std::vector<ToolCheck>{} : hard.checks(request.seed);
     const std::vector<StressCell> cells = run_case(hard, result.methods, request, stop);
+    if (stop) break;  // the case is not whole
+    result.checks.push_back(std::move(checks));
     result.cells.insert(result.cells.end(), cells.begin(), cells.end());
   }
-  result.checks.resize(result.cases.size());
+  result.cases.resize(result.checks.size());
   if (searches && !stop) {
     const auto on_tries = [&](const std::string& method, double methods_done) {
       tell("H31 " + method, done + methods_done);
     };
     result.searches = run_searches(result.methods, request, on_tries, stop);
+    std::erase_if(result.searches, [](const SearchResult& search) { return search.tries == 0; });
   }
   if (request.random > 0 && !stop) {
     const auto on_settings = [&](std::uint64_t settings, const std::string& doing) {
@@ -164,6 +167,7 @@ StressResult run_stress(const StressRequest& request, const StressListener& list
     };
     result.random = search_at_random(result.methods, request, on_settings, stop);
   }
+  result.interrupted = stop;
   return result;
 }
 

@@ -75,12 +75,14 @@ struct StressResult {
   std::vector<StressCell> cells;               // per case and method, where the method takes a grid of the case
   std::vector<SearchResult> searches;          // H31
   std::optional<RandomSearch> random;
+  bool interrupted = false;  // the above is what was done by then
 };
 
 struct StressListener {
   std::function<void(const std::string& doing, double done, double whole)> on_progress;
 };
 
+// On `stop` it ends with the cases, searches and settings that are done.
 StressResult run_stress(const StressRequest& request, const StressListener& listener, const std::atomic<bool>& stop);
 
 // H31 for one method: hill-climbs lights, lenses and grids towards a light that touches a cell and is not listed.

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "cli/tool.h"
 
 namespace clusterbench::test {
@@ -25,6 +27,21 @@ TEST(Stress, a_search_without_a_fault_says_that_nothing_was_written) {
   EXPECT_EQ(done.code, 0) << done.err;
   EXPECT_NE(done.err.find("no fault to write to " + place), std::string::npos) << done.err;
   EXPECT_EQ(done.err.find("0 faults"), std::string::npos) << done.err;
+}
+
+TEST(Stress, a_termination_signal_ends_it_with_what_is_done_and_75) {
+  const Folder folder;
+  const std::string at_work = (folder / "faults/at_work.txt").string(), out = (folder / "out.json").string();
+  const std::string search = std::string(CLUSTERBENCH_BINARY) +
+                             " stress -q --random 100000 --methods '^bounds$' --failures " +
+                             (folder / "faults").string() + " -o " + out + " 2>" + (folder / "err").string();
+  const std::string wait = "until grep -qs ' from seed 65 ' " + at_work + "; do sleep 0.01; done";
+  const int status = std::system((search + " & pid=$!; " + wait + "; kill -TERM $pid; wait $pid").c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 75) << file_text(folder / "err");
+  const auto result = nlohmann::json::parse(file_text(out));
+  EXPECT_EQ(result["interrupted"], true);
+  EXPECT_GE(result["random"]["settings"], 64);
+  EXPECT_EQ(tool("validate " + out).code, 0);
 }
 
 }  // namespace

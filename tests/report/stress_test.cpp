@@ -84,6 +84,26 @@ TEST(HardCases, on_lattices_and_at_the_scales_of_maps_are_decided_and_right) {
   for (const StressCell& cell : result.cells) EXPECT_EQ(cell.undecided, 0U) << cell.hard_case << " " << cell.method;
 }
 
+TEST(Stress, that_is_stopped_tells_of_the_cases_that_are_whole) {
+  std::atomic<bool> stop{false};
+  StressRequest request;
+  request.tries = 100;
+  request.random = 100;
+  request.cases = Pattern("^H(1|2|3)$", "--cases");
+  request.methods = Pattern("^bounds$", "--methods");
+  StressListener listener;
+  listener.on_progress = [&](const std::string& doing, double, double) { stop = doing.starts_with("H2 "); };
+  const StressResult result = run_stress(request, listener, stop);
+  EXPECT_TRUE(result.interrupted);
+  ASSERT_EQ(result.cases.size(), 1U);
+  EXPECT_STREQ(result.cases[0].id, "H1");
+  EXPECT_EQ(result.checks.size(), 1U);
+  for (const StressCell& cell : result.cells) EXPECT_EQ(cell.hard_case, "H1");
+  EXPECT_TRUE(result.searches.empty());
+  EXPECT_FALSE(result.random);
+  EXPECT_EQ(report::stress_to_json(result, request)["interrupted"], true);
+}
+
 TEST(Stress, is_written_as_its_schema_says) {
   StressRequest request;
   request.tries = 6000;

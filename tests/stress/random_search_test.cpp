@@ -191,6 +191,20 @@ TEST(RandomSearch, checks_a_setting_alone_by_its_seed) {
   EXPECT_EQ(texts_of(alone).at(0), texts_of(whole).at(0));
 }
 
+TEST(RandomSearch, that_is_stopped_keeps_the_settings_done_by_then) {
+  std::atomic<bool> stop{false};
+  StressRequest request;
+  request.random = 1000;
+  request.seed = 1;
+  const std::vector<StressMethod> methods{flawed<Flaw::adds>()};
+  const auto stop_at_second_batch = [&](std::uint64_t settings, const std::string&) { stop = settings >= 64; };
+  const RandomSearch stopped = search_at_random(methods, request, stop_at_second_batch, stop);
+  EXPECT_EQ(stopped.counts.settings, 64U);
+  const RandomSearch whole = searched_at_random(methods, 64);
+  EXPECT_EQ(stopped.counts.pairs, whole.counts.pairs);
+  EXPECT_EQ(stopped.faults.size(), whole.faults.size());
+}
+
 // Without its padding a method loses lights: one light stays, and `run` shows the loss.
 TEST(RandomSearch, shrinks_a_fault_to_what_run_replays) {
   const assign::AssignerDescriptor& row = *assign::find_assigner("world-grid");
