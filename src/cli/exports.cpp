@@ -19,12 +19,15 @@ ExportTarget target_of(const std::string& text) {
 
 std::vector<ExportTarget> export_targets(const std::vector<std::string>& texts) {
   std::vector<ExportTarget> targets;
-  for (const std::string& text : texts) {
-    targets.push_back(target_of(text));
-    const std::string& file = targets.back().file;
-    if (file != "-" && !std::ofstream(file, std::ios::app)) throw Error(file, "", "cannot be written");
-  }
+  targets.reserve(texts.size());
+  for (const std::string& text : texts) targets.push_back(target_of(text));
   return targets;
+}
+
+void probe_exports(const std::vector<ExportTarget>& targets) {
+  for (const ExportTarget& target : targets)
+    if (target.file != "-" && !std::ofstream(target.file, std::ios::app))
+      throw Error(target.file, "", "cannot be written");
 }
 
 void write_exports(const std::vector<ExportTarget>& targets, const nlohmann::ordered_json& result) {

@@ -14,9 +14,11 @@ struct ExportTarget {
   std::string file;  // "-": standard output
 };
 
-// From "FORMAT=FILE" each. Throws Error for what is not that, for an unknown format, and for a file that cannot be
-// written, so that it is known before minutes go into measuring.
+// From "FORMAT=FILE" each. Throws Error for what is not that, and for an unknown format.
 std::vector<ExportTarget> export_targets(const std::vector<std::string>& texts);
+
+// Throws Error for a file that cannot be written, so that it is known before minutes go into measuring.
+void probe_exports(const std::vector<ExportTarget>& targets);
 
 void write_exports(const std::vector<ExportTarget>& targets, const nlohmann::ordered_json& result);
 

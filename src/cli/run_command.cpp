@@ -22,7 +22,9 @@
 #include "report/json.h"
 #include "report/limits.h"
 #include "report/table.h"
+#include "report/warnings.h"
 #include "run/runner.h"
+#include "run/scene_facts.h"
 #include "run/sweep.h"
 
 namespace clusterbench::cli {
@@ -91,12 +93,16 @@ std::size_t case_count(const run::Plan& plan) {
   return count;
 }
 
-ExitCode print_plan(const run::Plan& plan) {
+ExitCode print_plan(const config::Config& config, const run::Plan& plan) {
   for (const run::GroupPlan& group : plan.groups)
     for (const run::CasePlan& planned : group.cases) std::cout << planned.id << "  " << printable(planned.name) << "\n";
   for (const run::Skipped& skipped : plan.skipped)
     std::cout << "skipped  " << printable(skipped.name) << ": " << printable(skipped.reason) << "\n";
-  std::cerr << case_count(plan) << " cases, " << plan.skipped.size() << " skipped\n";
+  std::cerr << number_of(case_count(plan), "case") << ", " << plan.skipped.size() << " skipped\n";
+  for (std::size_t i = 0; i < plan.scenes.size(); ++i) {
+    const run::SceneResult scene = run::scene_result(plan.scenes[i], config.scenes[i], config.viewports);
+    for (const std::string& warning : scene.warnings) tell("warning: " + scene.name + ": " + warning);
+  }
   return ExitCode::ok;
 }
 
@@ -153,6 +159,7 @@ ExitCode report_gates(const Json& result) {
 
 ExitCode report_limits(const config::Config& config, const Json& result) {
   const report::LimitFindings findings = report::limit_findings(result, config.limits.fail_if);
+  for (const std::string& line : findings.unchecked) tell("warning: " + line);
   for (const std::string& line : findings.near) tell("warning: " + line);
   for (const std::string& line : findings.broken) tell("FAILED " + line);
   return findings.broken.empty() ? ExitCode::ok : ExitCode::gate_failed;
@@ -233,8 +240,12 @@ run::Counts count_instructions(CountWay way, const CountTask& task, ProgressLine
   return counts;
 }
 
+// Warnings also where no table is wanted.
 void show_table(const RunFlags& flags, const Json& result) {
-  if (flags.quiet) return;
+  if (flags.quiet) {
+    std::cerr << report::warnings_text(result);
+    return;
+  }
   const bool for_reading = is_for_reading(flags.output);
   std::ostream& out = for_reading ? std::cout : std::cerr;
   out << report::render_table(result, terminal(for_reading ? STDOUT_FILENO : STDERR_FILENO).colour) << std::flush;
@@ -249,10 +260,11 @@ void refuse_losses(const RunFlags& flags, const config::Config& config) {
   refuse_overwriting(outputs, inputs);
 }
 
-ExitCode measure(const RunFlags& flags, const config::Config& config, const run::Plan& plan, CountWay way) {
+ExitCode measure(const RunFlags& flags, const config::Config& config, const run::Plan& plan, CountWay way,
+                 const std::vector<ExportTarget>& exports) {
   refuse_losses(flags, config);
   if (is_stream(flags.output)) probe_output(flags.output);
-  const std::vector<ExportTarget> exports = export_targets(flags.exports);
+  probe_exports(exports);
   const std::atomic<bool>& stop = stop_on_signals();  // before there is anything to keep
   const std::unique_ptr<report::Journal> journal = open_journal(flags, config, plan);
   const std::vector<Json> earlier = journal ? journal->earlier_cases() : std::vector<Json>{};
@@ -311,9 +323,10 @@ ExitCode run(const RunFlags& flags) {
     print_callgrind_counts({config, plan, {}, flags.count_ids}, flags.count_dumps);
     return ExitCode::ok;
   }
-  if (flags.dry_run) return print_plan(plan);
+  const std::vector<ExportTarget> exports = export_targets(flags.exports);
+  if (flags.dry_run) return print_plan(config, plan);
   if (!flags.baseline.binary.empty()) check_baseline(flags);
-  return measure(flags, config, plan, way);
+  return measure(flags, config, plan, way, exports);
 }
 
 }  // namespace

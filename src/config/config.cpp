@@ -80,7 +80,10 @@ void add_scenes(const Json& scene, const std::string& pointer, const JsonText& t
   const Json paths = single ? Json::array({scene["path"]}) : scene["paths"];
   for (std::size_t i = 0; i < paths.size(); ++i) {
     const std::string place = single ? pointer + "/path" : child_pointer(pointer + "/paths", i);
-    const fs::path path = expanded(paths[i].get<std::string>(), text.file, text.where(place));
+    const auto given = paths[i].get<std::string>();
+    if (given.find("://") != std::string::npos)
+      throw Error(text.file, text.where(place), "'" + given + "' is a web address; a scene is a file here");
+    const fs::path path = expanded(given, text.file, text.where(place));
     request.path = (fs::path(text.file).parent_path() / path).lexically_normal();
     out.push_back(request);
   }

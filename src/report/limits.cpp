@@ -1,7 +1,11 @@
 #include "report/limits.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <optional>
+#include <string_view>
+
+#include "core/text.h"
 
 namespace clusterbench::report {
 namespace {
@@ -88,23 +92,42 @@ std::string rule_text(const config::LimitRule& rule) {
   return rule.figure + (rule.is_inclusive ? " >= " : " > ") + budget_number(rule.limit);
 }
 
+// Why a case may lack a figure.
+std::string reason_for_none(const std::string& figure) {
+  const auto row = std::find_if(std::begin(k_figure_rows), std::end(k_figure_rows),
+                                [&](const FigureRow& one) { return one.name == figure; });
+  const std::string_view place = row == std::end(k_figure_rows) ? "" : row->place;
+  if (place.starts_with("/timing/")) return " (--no-timing or timing.measure: false leaves times out)";
+  if (place.starts_with("/shading/")) return " (shading.samples: 0 leaves samples out)";
+  if (place.starts_with("/error/"))
+    return " (accuracy.check: false leaves errors out; structures without cells have none)";
+  if (place.starts_with("/occupancy/")) return " (structures without cells have none)";
+  return "";
+}
+
 }  // namespace
 
 LimitFindings limit_findings(const Json& result, std::span<const config::LimitRule> rules) {
   LimitFindings findings;
   for (const config::LimitRule& rule : rules) {
-    bool is_known = false;
+    std::vector<std::string> without;
     for (const Json& one : result["cases"]) {
       const std::optional<Found> found = found_in(one, rule.figure);
-      if (!found) continue;
-      is_known = true;
+      if (!found) {
+        without.push_back(one["name"].get<std::string>());
+        continue;
+      }
       const std::string text = one["name"].get<std::string>() + ": " + rule.figure + " is " +
                                budget_number(found->value) + place_of_worst(one, *found->row);
       if (rule.is_broken_by(found->value)) findings.broken.push_back(text + ", and fails with " + rule_text(rule));
       if (rule.is_near(found->value)) findings.near.push_back(text + ", less than 10 % below " + rule_text(rule));
     }
-    if (!is_known)
-      findings.broken.push_back("'" + rule_text(rule) + "' could not be checked: no case has " + rule.figure);
+    const std::string quoted = "'" + rule_text(rule) + "'", hint = reason_for_none(rule.figure);
+    if (without.size() == result["cases"].size())
+      findings.broken.push_back(quoted + " could not be checked: no case has " + rule.figure + hint);
+    else if (!without.empty())
+      findings.unchecked.push_back(quoted + " was not checked for " + number_of(without.size(), "case") + " without " +
+                                   rule.figure + hint + ": " + without.front() + (without.size() > 1 ? " ..." : ""));
   }
   return findings;
 }

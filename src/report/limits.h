@@ -14,6 +14,8 @@ namespace clusterbench::report {
 struct LimitFindings {
   std::vector<std::string> broken;  // also a budget about what no case has: it could not be checked
   std::vector<std::string> near;    // less than 10 % below
+  // Budgets about what some cases do not have.
+  std::vector<std::string> unchecked;
 };
 LimitFindings limit_findings(const nlohmann::ordered_json& result, std::span<const config::LimitRule> rules);
 

@@ -3,24 +3,18 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <set>
 #include <tuple>
 
 #include "core/error.h"
 #include "core/pattern.h"
+#include "report/columns.h"
 
 namespace clusterbench::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string text(const char* format, double value) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, format, value);
-  return buffer;
-}
 
 double warn_at(const Json& result) {
   return result["config"]["allocation"]["warn_at"].get<double>();

@@ -191,10 +191,11 @@ std::vector<CameraPath> camera_paths(const Scene& scene, const PathRequest& requ
 
 std::vector<std::string> cameras_left_out(const Scene& scene, const PathRequest& request) {
   std::vector<std::string> names;
-  if (!request.camera.empty()) return names;
-  for (const Camera& camera : scene.cameras)
-    if (camera.animated) names.push_back(camera.name);
-  if (!names.empty()) names.erase(names.begin());
+  const auto first =
+      std::find_if(scene.cameras.begin(), scene.cameras.end(), [](const Camera& c) { return c.animated; });
+  if (!request.camera.empty() || first == scene.cameras.end()) return names;
+  for (auto camera = scene.cameras.begin(); camera != scene.cameras.end(); ++camera)
+    if (camera != first) names.push_back(camera->name + (camera->animated ? "" : " (static)"));
   return names;
 }
 

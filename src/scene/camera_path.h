@@ -45,7 +45,7 @@ CameraMoments camera_moments(const Scene& scene, const Camera& camera, const Pat
 // A static camera gives one shot (more if lights are animated). Throws Error naming the cameras that exist when
 // request.camera is none of them, and when the scene has neither camera nor light.
 std::vector<CameraPath> camera_paths(const Scene& scene, const PathRequest& request);
-// Animated cameras that the default leaves out, by name.
+// Cameras that the default leaves out, by name; static ones say so.
 std::vector<std::string> cameras_left_out(const Scene& scene, const PathRequest& request);
 
 // So many points of the Halton sequence in bases 2 and 3, from its first, less a half: offsets within a pixel.

@@ -63,9 +63,19 @@ TEST(Limits, what_is_less_than_a_tenth_below_is_a_warning) {
 TEST(Limits, what_no_case_has_fails) {
   Json bare{{"name", "a"}};
   EXPECT_EQ(findings_of("frame_us > 200", bare).broken,
-            (Lines{"'frame_us > 200' could not be checked: no case has frame_us"}));
+            (Lines{"'frame_us > 200' could not be checked: no case has frame_us (--no-timing or "
+                   "timing.measure: false leaves times out)"}));
   bare["shading"] = {{"missed", 0}, {"needed", 0}};
   EXPECT_EQ(findings_of("unlit > 0", bare).broken.size(), 1u) << "a share of nothing";
+}
+
+TEST(Limits, what_some_cases_have_is_held_there_and_the_others_are_named) {
+  const Json cases = Json::array({Json{{"name", "a"}}, case_with_budget_figures(), Json{{"name", "c"}}});
+  const config::LimitRule rules[] = {config::limit_rule("pairs > 9000", "", "--fail-if")};
+  const LimitFindings findings = limit_findings(Json{{"cases", cases}}, rules);
+  EXPECT_EQ(findings.broken, Lines{});
+  EXPECT_EQ(findings.unchecked, (Lines{"'pairs > 9000' was not checked for 2 cases without pairs (structures without "
+                                       "cells have none): a ..."}));
 }
 
 TEST(Limits, a_result_without_frame_times_has_them_from_their_parts) {

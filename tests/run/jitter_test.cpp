@@ -81,7 +81,7 @@ TEST(Cameras, that_are_animated_and_not_measured_are_named_in_a_warning) {
     walk.plan.scenes[0].scene.cameras.push_back(camera);
   }
   EXPECT_EQ(walk.run().scenes.at(0).warnings,
-            (std::vector<std::string>{"not measured, though animated: 2 cameras beside 'eye': drone, cutscene; "
+            (std::vector<std::string>{"not measured: 2 cameras beside 'eye': drone, cutscene; "
                                       "\"camera\": \"*\" measures all"}));
 }
 

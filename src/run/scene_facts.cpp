@@ -1,0 +1,78 @@
+#include "run/scene_facts.h"
+
+#include "core/text.h"
+#include "scene/camera_path.h"
+#include "view/frame.h"
+
+namespace clusterbench::run {
+namespace {
+
+nlohmann::json rig_json(const scene::RigSpec& rig) {
+  return {{"lights", rig.lights},
+          {"spots", rig.spots},
+          {"range", rig.range_m},
+          {"size", {rig.size_m.x, rig.size_m.y, rig.size_m.z}},
+          {"seed", rig.seed}};
+}
+
+// A line per viewport in which cameras are not seen as they are.
+void add_fit_warnings(const SceneData& data, const std::vector<Vec2i>& viewports, std::vector<std::string>& warnings) {
+  for (const Vec2i viewport : viewports) {
+    std::string first;
+    int count = 0;
+    for (const scene::CameraPath& path : data.paths) {
+      const std::string text = view::fit_warning(path.shots.front().lens, viewport);
+      if (!text.empty() && count++ == 0) first = "camera '" + path.camera + "': " + text;
+    }
+    if (count > 1) first += " (and " + std::to_string(count - 1) + " more cameras)";
+    if (count > 0) warnings.push_back(first);
+  }
+}
+
+std::string first_names(std::vector<std::string> names) {
+  constexpr std::size_t k_most = 8;
+  if (names.size() <= k_most) return joined(names);
+  const std::size_t more = names.size() - k_most;
+  names.resize(k_most);
+  return joined(names) + " and " + std::to_string(more) + " more";
+}
+
+}  // namespace
+
+SceneResult scene_result(const SceneData& data, const config::SceneRequest& request,
+                         const std::vector<Vec2i>& viewports) {
+  SceneResult out;
+  if (request.rig) out.rig = rig_json(*request.rig);
+  const scene::Scene& scene = data.scene;
+  out.name = scene.name;
+  out.sha256 = scene.sha256;
+  out.warnings = scene.warnings;
+  out.boxes = static_cast<int>(scene.boxes.size());
+  int given = 0, from_intensity = 0, clamped = 0;
+  for (const scene::Light& light : scene.lights) {
+    ++(light.type == scene::LightType::point  ? out.points
+       : light.type == scene::LightType::spot ? out.spots
+                                              : out.directionals);
+    if (light.type == scene::LightType::directional) continue;
+    ++(light.range_source == scene::RangeSource::given            ? given
+       : light.range_source == scene::RangeSource::clamped_to_max ? clamped
+                                                                  : from_intensity);
+  }
+  for (const scene::CameraPath& path : data.paths) {
+    out.frames += static_cast<int>(path.shots.size());
+    if (path.made) out.warnings.push_back(path.how);
+  }
+  if (const std::vector<std::string> others = scene::cameras_left_out(scene, request.camera); !others.empty())
+    out.warnings.push_back("not measured: " + number_of(others.size(), "camera") + " beside '" +
+                           data.paths.front().camera + "': " + first_names(others) +
+                           "; \"camera\": \"*\" measures all");
+  add_fit_warnings(data, viewports, out.warnings);
+  out.range_rule = {{"cutoff_lux", request.range_rule.cutoff_lux},
+                    {"max_range", request.range_rule.max_range_m},
+                    {"given", given},
+                    {"from_intensity", from_intensity},
+                    {"clamped", clamped}};
+  return out;
+}
+
+}  // namespace clusterbench::run
