@@ -52,13 +52,12 @@ class Separator {
     };
     for (const Point3<Real>& corner : corners_) try_at(unit_across(volume_.axis, corner));
     each_edge(corners_, [&](const Point3<Real>& start, const Point3<Real>& end) {
-      using std::sqrt;
       const Point3<Real> edge = end - start;
       // x cos phi + y sin phi = z, phi around the axis from m.
       const Real x = volume_.cos_angle * dot(edge, m), y = volume_.cos_angle * dot(edge, m2);
       const Real z = volume_.sin_angle * dot(edge, volume_.axis), square = x * x + y * y;
       if (!(square > Real(0)) || square < z * z) return;
-      const Real root = sqrt(square - z * z);
+      const Real root = SquareRoot<Real>::of(square - z * z);
       for (const Real& w : {root, -root}) try_at(((z * x - w * y) / square) * m + ((z * y + w * x) / square) * m2);
     });
   }
