@@ -122,15 +122,17 @@ Point3<Real> nearest_in(const Polytope<Real>& cell, const Point3<Real>& p, const
   return best;
 }
 
-// The place of cell ∩ infinite cone that is nearest to the apex, if the cone meets the cell.
+// The place of cell ∩ infinite cone that is nearest to the apex, if the cone meets the cell; or the nearest of those
+// inside and on these faces.
 template <class Real>
-std::optional<Point3<Real>> nearest_in_cone(const Setting<Real>& setting) {
+std::optional<Point3<Real>> nearest_in_cone(const Setting<Real>& setting, const std::array<bool, 6>& on_faces = {
+                                                                              true, true, true, true, true, true}) {
   Volume<Real> endless = setting.volume;
   Real farthest(0);
   for (const Point3<Real>& corner : setting.cell.corners) farthest = std::max(farthest, length(corner - endless.apex));
   endless.range = Real(2) * farthest + endless.range;
   std::optional<Point3<Real>> nearest;
-  polytope_candidates(endless, setting.cell, {true, true, true, true, true, true}, [&](const Point3<Real>& p) {
+  polytope_candidates(endless, setting.cell, on_faces, [&](const Point3<Real>& p) {
     if (!is_within(endless, setting.cell.faces, p, setting.tolerance)) return;
     if (!nearest || length(p - endless.apex) < length(*nearest - endless.apex)) nearest = p;
   });

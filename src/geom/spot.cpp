@@ -73,6 +73,29 @@ Verdict tightly_proven(const LightVolume& light, const PlaneCell& cell, const st
   return spot.surely_separated(tight(separation.normal), corners) ? Verdict::no : Verdict::open;
 }
 
+// On lattices rims of spots touch edges but for rounding. What doubles find nearest to the apex says which faces the
+// edge is between; there alone the plane is found in sums of two doubles, at a fifth of the time.
+template <class PlaneCell>
+bool is_apart_where_nearest(const LightVolume& light, const PlaneCell& cell, const TightSpot& spot) {
+  const Polytope<double> roughly = polytope_of<double>(cell);
+  const Setting<double> rough_setting(volume_of<double>(light), roughly);
+  const std::optional<Point3<double>> near = nearest_in_cone(rough_setting);
+  if (!near) return false;
+  std::array<bool, 6> on_faces;
+  for (std::size_t i = 0; i < 6; ++i)
+    on_faces[i] = std::abs(roughly.faces[i].margin(*near)) <= 16.0 * rough_setting.tolerance;
+  const Polytope<Twofold> polytope = polytope_of<Twofold>(cell);
+  const Setting<Twofold> setting(volume_of<Twofold>(light), polytope);
+  const std::optional<Point3<Twofold>> nearest = nearest_in_cone(setting, on_faces);
+  if (!nearest) return false;
+  Separator<Twofold> separator(setting.volume, setting.cell);
+  separator.try_leaning(*nearest);
+  if (!(separator.best().gap > Twofold(0.0))) return false;
+  std::array<TightPoint, 8> corners;
+  for (std::size_t i = 0; i < 8; ++i) corners[i] = corner_of(cell, i);
+  return spot.surely_separated(tight(separator.best().normal), corners);
+}
+
 // The light without the range that no point of a cell needs, `farthest` from the eye at most. Searches and proofs have
 // to take the same range: a point that a search finds beyond that of the proof would prove nothing.
 LightVolume limited(LightVolume light, double farthest) {
@@ -113,6 +136,7 @@ Verdict decide(const LightVolume& given, const PlaneCell& cell) {
   const std::array<bool, 6> reached = reached_faces(setting.volume, polytope.faces, setting.tolerance).faces;
   const TightSpot tightly(light, light.range);
   Verdict verdict = tightly_proven<double>(light, cell, reached, tightly);
+  if (verdict == Verdict::open && is_apart_where_nearest(light, cell, tightly)) return Verdict::no;
   if (verdict == Verdict::open) verdict = tightly_proven<Twofold>(light, cell, reached, tightly);
   if (verdict != Verdict::open) return verdict;
   const PlaneCase exactly(light, cell, angle_bits_for<Big>());
@@ -411,8 +435,9 @@ Verdict decide_spot(const LightVolume& given, const ShellPiece& cell) {
   if (is_surely_beyond(cell, tightly)) return Verdict::no;
   if (tightly_meets<double>(light, cell, tightly)) return Verdict::yes;
   if (is_surely_beside<double>(light, cell, tightly)) return Verdict::no;
-  if (is_surely_beside<Twofold>(light, cell, tightly)) return Verdict::no;
+  if (is_apart_where_nearest(light, pyramid_to_far(cell), tightly)) return Verdict::no;
   if (tightly_meets<Twofold>(light, cell, tightly)) return Verdict::yes;
+  if (is_surely_beside<Twofold>(light, cell, tightly)) return Verdict::no;
   if (surely_misses(slightly_larger(light, tightly), cell)) return Verdict::no;
 
   const ExactSpot spot = exact_spot(light, angle_bits_for<Big>());

@@ -223,8 +223,8 @@ TEST(Spot, of_the_narrowest_cone_along_a_tile_plane_is_decided_in_the_cells_behi
       EXPECT_EQ(proven(spot({0, 0, -1}, 40, {-angle, -1e-9, -1}, angle), cell), Verdict::yes) << angle;
       EXPECT_EQ(proven(spot({0, 0, -1}, 40, {-moved(angle, 1), 0, -1}, angle), cell), Verdict::no) << angle;
       // sin(angle - atan(angle)) is angle³ / 3.
-      if (angle < 1e-250) continue;
-      EXPECT_EQ(proven(spot({0, 0, -1}, 40, {-angle, 0, -1}, angle), cell), Verdict::yes) << angle;
+      const Verdict nearly = proven(spot({0, 0, -1}, 40, {-angle, 0, -1}, angle), cell);
+      EXPECT_TRUE(nearly == Verdict::yes || (angle < 1e-250 && nearly == Verdict::open)) << angle;
     }
 }
 
