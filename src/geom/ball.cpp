@@ -144,8 +144,9 @@ bool is_level(const Bounded& x, const Bounded& y, const Bounded& depth, const Pi
   const auto is_upright = [&](float low, const Bounded& center, float high) {
     return slope_on(side_of(low * depth.value, center.value, high * depth.value), low, high) == 0.0;
   };
-  return (depth - piece.near).is_surely_above(0.0) && (Bounded(piece.far) - depth).is_surely_above(0.0) &&
-         is_upright(piece.x0, x, piece.x1) && is_upright(piece.y0, y, piece.y1);
+  const bool ends_behind = piece.far == k_infinity || (Bounded(piece.far) - depth).is_surely_above(0.0);
+  return ends_behind && (depth - piece.near).is_surely_above(0.0) && is_upright(piece.x0, x, piece.x1) &&
+         is_upright(piece.y0, y, piece.y1);
 }
 
 NearestDepth nearest_between(const Bounded& x, const Bounded& y, const Bounded& depth, const Piece& piece) {

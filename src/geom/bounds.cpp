@@ -16,10 +16,11 @@ RationalInterval cut_to_1(const RationalInterval& bounds) {
 }
 
 // The series' first terms: whatever their fixed point is, it would be too coarse for some angle. The next ones are
-// below 2^-bits for an angle below 2^(-bits / 4).
+// below 2^-bits for an angle below 2^(-bits / 6).
 AngleBounds bounds_of_small(const Rational& x) {
-  const Rational square = x * x, fourth = square * square, cosine = 1 - square / 2, sine = x - x * square / 6;
-  return {{cosine, cosine + fourth / 24}, {sine, sine + x * fourth / 120}};
+  const Rational square = x * x, fourth = square * square;
+  const Rational cosine = 1 - square / 2 + fourth / 24, sine = x * (1 - square / 6 + fourth / 120);
+  return {{cosine - fourth * square / 720, cosine}, {sine - x * fourth * square / 5040, sine}};
 }
 
 }  // namespace
@@ -31,7 +32,7 @@ AngleBounds bounds_of_small(const Rational& x) {
 // in each of the two sums: 250 * 8 u + 16 u < 2^11 u.
 AngleBounds bounds_of_angle(const Rational& angle, unsigned bits) {
   if (angle.sign() == 0) return {{1, 1}, {0, 0}};
-  if (angle * Rational(Integer(1) << (bits / 4)) < 1) return bounds_of_small(angle);
+  if (angle * Rational(Integer(1) << (bits / 6)) < 1) return bounds_of_small(angle);
   const Integer x = (numerator(angle) << bits) / denominator(angle);
   Integer term = Integer(1) << bits, sums[2] = {term, 0};  // cosine, sine
   for (int n = 1; term != 0; ++n) {

@@ -12,6 +12,15 @@
 
 namespace clusterbench::geom {
 
+// How a number type takes square roots.
+template <class Real>
+struct SquareRoot {
+  static Real of(const Real& square) {
+    using std::sqrt;
+    return sqrt(square);
+  }
+};
+
 template <class Real>
 struct Point3 {
   Real x, y, z;
@@ -24,10 +33,7 @@ struct Point3 {
   friend Point3 cross(const Point3& a, const Point3& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
   }
-  friend Real length(const Point3& a) {
-    using std::sqrt;
-    return sqrt(dot(a, a));
-  }
+  friend Real length(const Point3& a) { return SquareRoot<Real>::of(dot(a, a)); }
 };
 
 template <class Real>
@@ -101,12 +107,11 @@ Point3<Real> unit_across(const Point3<Real>& axis, const Point3<Real>& n) {
 // Real roots of a t² + 2 b t + c, and where it is least: near a double root rounding may hide the roots themselves.
 template <class Real, class Take>
 void quadratic_places(const Real& a, const Real& b, const Real& c, Take&& take) {
-  using std::sqrt;
   const Real zero(0);
   const Real discriminant = b * b - a * c;
   if (a != zero) take(-b / a);
   if (discriminant < zero) return;
-  const Real root = sqrt(discriminant);
+  const Real root = SquareRoot<Real>::of(discriminant);
   const Real q = b < zero ? root - b : -root - b;
   if (a != zero) take(q / a);
   if (q != zero) take(c / q);
@@ -153,7 +158,6 @@ void line_on_sphere(const Volume<Real>& volume, const Point3<Real>& start, const
 // Where a plane meets the rim: sphere, cone and plane at once.
 template <class Real, class Take>
 void plane_on_rim(const Volume<Real>& volume, const HalfSpace<Real>& plane, Take&& take) {
-  using std::sqrt;
   const Point3<Real> m = unit_across(volume.axis, plane.normal), m2 = cross(volume.axis, m);
   const Real along = volume.range * volume.cos_angle, across = volume.range * volume.sin_angle;
   const Real lean = across * dot(plane.normal, m);
@@ -161,7 +165,7 @@ void plane_on_rim(const Volume<Real>& volume, const HalfSpace<Real>& plane, Take
   const Real cosine = (plane.margin(volume.apex) - along * dot(plane.normal, volume.axis)) / lean;
   const Real square = Real(1) - cosine * cosine;
   // A plane tangent to the rim may be computed as just missing it: the caller's tolerance decides.
-  const Real sine = square < Real(0) ? Real(0) : sqrt(square);
+  const Real sine = square < Real(0) ? Real(0) : SquareRoot<Real>::of(square);
   const Point3<Real> middle = volume.apex + along * volume.axis + (across * cosine) * m;
   take(middle + (across * sine) * m2);
   take(middle - (across * sine) * m2);
@@ -348,14 +352,13 @@ void pyramid_candidates(const Volume<Real>& volume, const Pyramid<Real>& pyramid
     take(volume.apex + volume.range * volume.axis);
   }
   for (std::size_t i = 0; i < 4; ++i) {
-    using std::sqrt;
     const HalfSpace<Real>& face = pyramid.faces[i];
     take(volume.apex - volume.range * face.normal);
     if (!reached[i]) continue;
     const Real height = face.margin(volume.apex);
     const Real square = volume.range * volume.range - height * height;
     // A tangent plane may be computed as just missing the ball: the caller's tolerance decides.
-    take_ends(volume.apex + height * face.normal, square < zero ? zero : sqrt(square));
+    take_ends(volume.apex + height * face.normal, square < zero ? zero : SquareRoot<Real>::of(square));
     if (!volume.is_cone) continue;
     conic_extremes(volume, face, bits, take);
     plane_on_rim(volume, face, take);

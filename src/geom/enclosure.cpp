@@ -8,104 +8,143 @@
 namespace clusterbench::geom {
 namespace {
 
-using Middle = Enclosure::Middle;
+// Radii: never nothing where something was rounded, however small it is.
+template <class Radius>
+struct Least;
+template <>
+struct Least<double> {
+  static double value() { return std::numeric_limits<double>::denorm_min(); }
+  static double most() { return std::numeric_limits<double>::max(); }
+};
+template <>
+struct Least<FloatOf<64>> {
+  static FloatOf<64> value() { return ldexp(FloatOf<64>(1), -1000000); }
+  static FloatOf<64> most() { return ldexp(FloatOf<64>(1), 1000000); }
+};
 
-constexpr double k_infinity = std::numeric_limits<double>::infinity();
-constexpr double k_least = std::numeric_limits<double>::denorm_min();
+// Sums, products and quotients of a few non-negative radii are rounded by far less than this factor.
+template <class Radius>
+Radius rounded_up(const Radius& value) {
+  return value * (1.0 + 0x1p-40) + 16.0 * Least<Radius>::value();
+}
+template <class Radius, class Middle>
+Radius at_least(const Middle& value) {
+  using std::abs;
+  return rounded_up<Radius>(abs(static_cast<Radius>(value)));
+}
+// What is beyond the largest number counts as that: as infinity it would make every radius beside it nothing.
+template <class Radius, class Middle>
+Radius at_most(const Middle& value) {
+  using std::abs;
+  const Radius size = std::min(Radius(abs(static_cast<Radius>(value))), Least<Radius>::most());
+  return std::max(Radius(0), Radius(size * (1.0 - 0x1p-40) - 16.0 * Least<Radius>::value()));
+}
 
-// Sums, products and quotients of a few non-negative doubles are rounded by far less than this factor.
-double rounded_up(double value) {
-  return value * (1.0 + 0x1p-40) + 16.0 * k_least;
-}
-double at_least(const Middle& value) {
-  return rounded_up(std::abs(static_cast<double>(value)));
-}
-// What is beyond the largest double counts as that: as infinity it would make every radius beside it nothing.
-double at_most(const Middle& value) {
-  const double size = std::min(std::abs(static_cast<double>(value)), std::numeric_limits<double>::max());
-  return std::max(0.0, size * (1.0 - 0x1p-40) - 16.0 * k_least);
+template <class Radius>
+bool is_known(const Radius& radius) {
+  return radius < std::numeric_limits<Radius>::infinity();
 }
 
-// What rounding a middle to 1024 bits can have cost, four times over; never nothing, however small the middle is.
-double rounding_of(const Middle& value) {
-  return value == 0 ? 0.0 : rounded_up(at_least(value) * 0x1p-1020);
+// What rounding a middle can have cost, eight times over; never nothing, however small the middle is.
+template <class Radius, unsigned bits>
+Radius rounding_of(const FloatOf<bits>& value) {
+  using std::ldexp;
+  if (value == 0) return 0;
+  return rounded_up<Radius>(at_least<Radius>(value) * ldexp(Radius(1), 4 - static_cast<int>(bits)));
 }
 
 // A sum of products of radii: only if there are none is it nothing.
-double unless_exact(double sum, double radius_a, double radius_b) {
-  return radius_a == 0.0 && radius_b == 0.0 ? 0.0 : rounded_up(sum);
+template <class Radius>
+Radius unless_exact(const Radius& sum, const Radius& radius_a, const Radius& radius_b) {
+  return radius_a == 0 && radius_b == 0 ? Radius(0) : rounded_up(sum);
 }
 
-Enclosure nothing_known() {
-  return {0, k_infinity};
+template <unsigned bits, class Radius>
+EnclosureOf<bits, Radius> made(const FloatOf<bits>& middle, const Radius& radius) {
+  const Radius total = radius + rounding_of<Radius, bits>(middle);
+  return {middle, total == 0 ? Radius(0) : rounded_up(total)};
 }
 
-Enclosure made(const Middle& middle, double radius) {
-  const double total = radius + rounding_of(middle);
-  return {middle, total == 0.0 ? 0.0 : rounded_up(total)};
+template <class Interval>
+Interval nothing_known() {
+  return {0, std::numeric_limits<typename Interval::Radius>::infinity()};
 }
 
 }  // namespace
 
-Enclosure Enclosure::of(const Rational& value) {
+template <unsigned bits, class Radius>
+EnclosureOf<bits, Radius> EnclosureOf<bits, Radius>::of(const Rational& value) {
   // Numerator, denominator and quotient are rounded.
   const Middle middle = Middle(numerator(value)) / Middle(denominator(value));
-  return {middle, 4.0 * rounding_of(middle)};
+  return {middle, 4.0 * rounding_of<Radius, bits>(middle)};
 }
 
-Enclosure Enclosure::of(const RationalInterval& bounds) {
-  const Enclosure lo = of(bounds.lo), hi = of(bounds.hi);
-  return made(lo.middle_, at_least(hi.middle_ - lo.middle_) + lo.radius_ + hi.radius_);
+template <unsigned bits, class Radius>
+EnclosureOf<bits, Radius> EnclosureOf<bits, Radius>::of(const RationalInterval& bounds) {
+  const EnclosureOf lo = of(bounds.lo), hi = of(bounds.hi);
+  return made<bits, Radius>(lo.middle_, at_least<Radius>(Middle(hi.middle_ - lo.middle_)) + lo.radius_ + hi.radius_);
 }
 
-Enclosure Enclosure::of(const Middle& lo, const Middle& hi) {
+template <unsigned bits, class Radius>
+EnclosureOf<bits, Radius> EnclosureOf<bits, Radius>::of(const Middle& lo, const Middle& hi) {
   const Middle middle = (lo + hi) / 2;
-  return made(middle, at_least(hi - lo) / 2.0);
+  return made<bits, Radius>(middle, at_least<Radius>(Middle(hi - lo)) / 2.0);
 }
 
-Enclosure operator+(const Enclosure& a, const Enclosure& b) {
-  return made(a.middle_ + b.middle_, a.radius_ + b.radius_);
+template <unsigned bits, class Radius>
+EnclosureOf<bits, Radius> EnclosureOf<bits, Radius>::plus(const EnclosureOf& b) const {
+  return made<bits, Radius>(middle_ + b.middle_, radius_ + b.radius_);
 }
 
-Enclosure operator-(const Enclosure& a, const Enclosure& b) {
-  return made(a.middle_ - b.middle_, a.radius_ + b.radius_);
-}
-
-Enclosure operator*(const Enclosure& a, const Enclosure& b) {
-  if (!(a.radius_ < k_infinity && b.radius_ < k_infinity)) return nothing_known();
-  const double sum = at_least(a.middle_) * b.radius_ + at_least(b.middle_) * a.radius_ + a.radius_ * b.radius_;
-  return made(a.middle_ * b.middle_, unless_exact(sum, a.radius_, b.radius_));
+template <unsigned bits, class Radius>
+EnclosureOf<bits, Radius> EnclosureOf<bits, Radius>::times(const EnclosureOf& b) const {
+  if (!is_known(radius_) || !is_known(b.radius_)) return nothing_known<EnclosureOf>();
+  const Radius sum =
+      at_least<Radius>(middle_) * b.radius_ + at_least<Radius>(b.middle_) * radius_ + radius_ * b.radius_;
+  return made<bits, Radius>(middle_ * b.middle_, unless_exact(sum, radius_, b.radius_));
 }
 
 // |a/b - a'/b'| = |(a - a') b' - a' (b - b')| / |b b'| <= (radius of a + |a'/b'| * radius of b) / |b|
-Enclosure operator/(const Enclosure& a, const Enclosure& b) {
-  const double divisor = at_most(b.middle_) - rounded_up(b.radius_);
-  if (!(divisor > 0.0 && a.radius_ < k_infinity)) return nothing_known();
-  const Middle quotient = a.middle_ / b.middle_;
-  const double widest = unless_exact(a.radius_ + at_least(quotient) * b.radius_, a.radius_, b.radius_);
-  return made(quotient, widest == 0.0 ? 0.0 : rounded_up(widest / (divisor * (1.0 - 0x1p-40))));
+template <unsigned bits, class Radius>
+EnclosureOf<bits, Radius> EnclosureOf<bits, Radius>::over(const EnclosureOf& b) const {
+  if (!is_known(radius_) || !is_known(b.radius_)) return nothing_known<EnclosureOf>();
+  const Radius divisor = at_most<Radius>(b.middle_) - rounded_up(b.radius_);
+  if (!(divisor > 0)) return nothing_known<EnclosureOf>();
+  const Middle quotient = middle_ / b.middle_;
+  const Radius widest = unless_exact<Radius>(radius_ + at_least<Radius>(quotient) * b.radius_, radius_, b.radius_);
+  return made<bits, Radius>(quotient,
+                            widest == 0 ? Radius(0) : rounded_up<Radius>(widest / (divisor * (1.0 - 0x1p-40))));
 }
 
 // |sqrt(x) - sqrt(m)| = |x - m| / (sqrt(x) + sqrt(m)) <= |x - m| / sqrt(m)
-Enclosure sqrt(const Enclosure& a) {
-  if (!(a.radius_ < k_infinity)) return nothing_known();
-  if (at_most(a.middle_) > a.radius_ && a.middle_ > 0) {
-    const Middle root = sqrt(a.middle_);
-    return made(root, a.radius_ == 0.0 ? 0.0 : rounded_up(a.radius_ / at_most(root)));
+template <unsigned bits, class Radius>
+EnclosureOf<bits, Radius> EnclosureOf<bits, Radius>::root() const {
+  if (!is_known(radius_)) return nothing_known<EnclosureOf>();
+  if (middle_ > 0 && at_most<Radius>(middle_) > radius_) {
+    const Middle root = SquareRoot<Middle>::of(middle_);
+    return made<bits, Radius>(root, radius_ == 0 ? Radius(0) : rounded_up<Radius>(radius_ / at_most<Radius>(root)));
   }
-  const Middle highest = a.middle_ + Middle(rounded_up(a.radius_));
-  if (highest <= 0) return Enclosure(0.0);
-  const Middle half = sqrt(highest) / 2;
-  return made(half, at_least(half));
+  const Middle highest = middle_ + Middle(rounded_up(radius_));
+  if (highest <= 0) return EnclosureOf(0.0);
+  const Middle half = SquareRoot<Middle>::of(highest) / 2;
+  return made<bits, Radius>(half, at_least<Radius>(half));
 }
 
-bool operator<(const Enclosure& a, const Enclosure& b) {
-  const Middle difference = b.middle_ - a.middle_;
-  return difference > 0 && at_most(difference) > rounded_up(a.radius_ + b.radius_);
+template <unsigned bits, class Radius>
+bool EnclosureOf<bits, Radius>::is_surely_below(const EnclosureOf& b) const {
+  if (!is_known(radius_) || !is_known(b.radius_)) return false;
+  const Middle difference = b.middle_ - middle_;
+  return difference > 0 && at_most<Radius>(difference) > rounded_up<Radius>(radius_ + b.radius_);
 }
+
+template class EnclosureOf<1024, double>;
+template class EnclosureOf<3072, FloatOf<64>>;
 
 Places<Enclosure> root_places(const Polynomial<Enclosure>& polynomial, int bits) {
   return RootSearch<Enclosure>(polynomial, bits).run();
+}
+Places<HugeEnclosure> root_places(const Polynomial<HugeEnclosure>& polynomial, int bits) {
+  return RootSearch<HugeEnclosure>(polynomial, bits).run();
 }
 
 }  // namespace clusterbench::geom

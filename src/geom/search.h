@@ -17,8 +17,8 @@ template <class Real>
 struct Precision;
 template <>
 struct Precision<double> {
+  static constexpr int k_tolerance_bits = 38, k_place_bits = 53;
   static double tolerance() { return 0x1p-38; }
-  static constexpr int k_place_bits = 53;
 };
 
 template <class Real>
@@ -169,24 +169,44 @@ Point3<Real> inward_of(const Volume<Real>& volume, const std::array<HalfSpace<Re
 }
 
 // The mean of points of a convex set lies in it. Where they all lie on the same surfaces, so does their mean: then the
-// search goes on from there, inward, in shorter and shorter steps.
+// search goes on from there, inward. How far inside a point is, is a concave function of the step: of range / 2^k, the
+// best is found by halving the k that may be it.
 template <class Real, std::size_t N>
 Witness<Real> find_witness(const Volume<Real>& volume, const std::array<HalfSpace<Real>, N>& faces,
                            const Point3<Real>& mean, const Real& tolerance) {
+  using std::ldexp;
   Witness<Real> best = witness_at(volume, faces, mean);
   if (best.margin > tolerance) return best;
   const Point3<Real> inward = inward_of(volume, faces, mean, tolerance);
-  for (Real step = volume.range / Real(2); step > tolerance && !(best.margin > tolerance); step /= Real(2)) {
-    const Witness<Real> next = witness_at(volume, faces, mean + step * inward);
+  const auto margin_after = [&](int k) -> Real {
+    const Witness<Real> next = witness_at(volume, faces, mean + ldexp(volume.range, -k) * inward);
     if (next.margin > best.margin) best = next;
+    return next.margin;
+  };
+  int least = 1, most = Precision<Real>::k_tolerance_bits;  // then a step is no more than the tolerance
+  while (least < most && !(best.margin > tolerance)) {
+    const int k = (least + most) / 2;
+    if (margin_after(k) < margin_after(k + 1))
+      least = k + 1;
+    else
+      most = k;
   }
   return best;
 }
+
+// Does less than all of a number's digits show that p is before a face, by far more than the tolerance? That spares the
+// rest.
+template <class Real>
+struct Glance {
+  static bool is_before(const HalfSpace<Real>&, const Point3<Real>&) { return false; }
+};
 
 // Is p in the volume and behind all faces, give or take the tolerance?
 template <class Real, std::size_t N>
 bool is_within(const Volume<Real>& volume, const std::array<HalfSpace<Real>, N>& faces, const Point3<Real>& p,
                const Real& tolerance) {
+  for (const HalfSpace<Real>& face : faces)
+    if (Glance<Real>::is_before(face, p)) return false;
   const Point3<Real> v = p - volume.apex;
   const Real reach = volume.range + tolerance;
   if (dot(v, v) > reach * reach) return false;

@@ -52,13 +52,12 @@ class Separator {
     };
     for (const Point3<Real>& corner : corners_) try_at(unit_across(volume_.axis, corner));
     each_edge(corners_, [&](const Point3<Real>& start, const Point3<Real>& end) {
-      using std::sqrt;
       const Point3<Real> edge = end - start;
       // x cos phi + y sin phi = z, phi around the axis from m.
       const Real x = volume_.cos_angle * dot(edge, m), y = volume_.cos_angle * dot(edge, m2);
       const Real z = volume_.sin_angle * dot(edge, volume_.axis), square = x * x + y * y;
       if (!(square > Real(0)) || square < z * z) return;
-      const Real root = sqrt(square - z * z);
+      const Real root = SquareRoot<Real>::of(square - z * z);
       for (const Real& w : {root, -root}) try_at(((z * x - w * y) / square) * m + ((z * y + w * x) / square) * m2);
     });
   }
@@ -123,15 +122,17 @@ Point3<Real> nearest_in(const Polytope<Real>& cell, const Point3<Real>& p, const
   return best;
 }
 
-// The place of cell ∩ infinite cone that is nearest to the apex, if the cone meets the cell.
+// The place of cell ∩ infinite cone that is nearest to the apex, if the cone meets the cell; or the nearest of those
+// inside and on these faces.
 template <class Real>
-std::optional<Point3<Real>> nearest_in_cone(const Setting<Real>& setting) {
+std::optional<Point3<Real>> nearest_in_cone(const Setting<Real>& setting, const std::array<bool, 6>& on_faces = {
+                                                                              true, true, true, true, true, true}) {
   Volume<Real> endless = setting.volume;
   Real farthest(0);
   for (const Point3<Real>& corner : setting.cell.corners) farthest = std::max(farthest, length(corner - endless.apex));
   endless.range = Real(2) * farthest + endless.range;
   std::optional<Point3<Real>> nearest;
-  polytope_candidates(endless, setting.cell, {true, true, true, true, true, true}, [&](const Point3<Real>& p) {
+  polytope_candidates(endless, setting.cell, on_faces, [&](const Point3<Real>& p) {
     if (!is_within(endless, setting.cell.faces, p, setting.tolerance)) return;
     if (!nearest || length(p - endless.apex) < length(*nearest - endless.apex)) nearest = p;
   });

@@ -20,10 +20,27 @@ RationalPoint at(const ExactSpot& spot, const Rational& t) {
   return spot.apex + t * spot.direction;
 }
 
+// Does the apex, which is not in the cell, lie in or beyond one of the cell's planes, from which all of the cone's
+// directions certainly lead away?
+bool surely_leans_away(const ExactSpot& spot, const Planes& planes) {
+  const Rational most = squared(spot.half_angle.sine.hi) * dot(spot.direction, spot.direction);
+  return std::any_of(planes.begin(), planes.end(), [&](const HalfSpace<Rational>& plane) {
+    if (plane.margin(spot.apex).sign() > 0) return false;
+    const Rational along = dot(plane.normal, spot.direction);
+    return along.sign() > 0 && squared(along) > most * dot(plane.normal, plane.normal);
+  });
+}
+
 // Where the axis enters the cell, if it does. A cone of half-angle 0 has no other points.
 bool axis_surely_meets(const ExactSpot& spot, const Planes& planes) {
   const std::optional<Span> span = span_within(planes, spot.apex, spot.direction);
   return span && surely_holds(spot, at(spot, span->from));
+}
+
+// Of the half-angle's cosine and sine, for the proof of what a search in Real finds.
+template <class Real>
+constexpr unsigned angle_bits_for() {
+  return Precision<Real>::k_tolerance_bits + (Precision<Real>::k_tolerance_bits < 1000 ? 160 : 500);
 }
 
 // A spot (limited to its cell) and a cell bounded by planes, ready for checks.
@@ -33,7 +50,7 @@ struct PlaneCase {
   ExactSpot spot;
 
   template <class PlaneCell>
-  PlaneCase(const LightVolume& light, const PlaneCell& cell, unsigned angle_bits = k_angle_bits)
+  PlaneCase(const LightVolume& light, const PlaneCell& cell, unsigned angle_bits)
       : corners(corners_of(cell)), planes(planes_of(cell)), spot(exact_spot(light, angle_bits)) {}
 };
 
@@ -56,6 +73,29 @@ Verdict tightly_proven(const LightVolume& light, const PlaneCell& cell, const st
   return spot.surely_separated(tight(separation.normal), corners) ? Verdict::no : Verdict::open;
 }
 
+// On lattices rims of spots touch edges but for rounding. What doubles find nearest to the apex says which faces the
+// edge is between; there alone the plane is found in sums of two doubles, at a fifth of the time.
+template <class PlaneCell>
+bool is_apart_where_nearest(const LightVolume& light, const PlaneCell& cell, const TightSpot& spot) {
+  const Polytope<double> roughly = polytope_of<double>(cell);
+  const Setting<double> rough_setting(volume_of<double>(light), roughly);
+  const std::optional<Point3<double>> near = nearest_in_cone(rough_setting);
+  if (!near) return false;
+  std::array<bool, 6> on_faces;
+  for (std::size_t i = 0; i < 6; ++i)
+    on_faces[i] = std::abs(roughly.faces[i].margin(*near)) <= 16.0 * rough_setting.tolerance;
+  const Polytope<Twofold> polytope = polytope_of<Twofold>(cell);
+  const Setting<Twofold> setting(volume_of<Twofold>(light), polytope);
+  const std::optional<Point3<Twofold>> nearest = nearest_in_cone(setting, on_faces);
+  if (!nearest) return false;
+  Separator<Twofold> separator(setting.volume, setting.cell);
+  separator.try_leaning(*nearest);
+  if (!(separator.best().gap > Twofold(0.0))) return false;
+  std::array<TightPoint, 8> corners;
+  for (std::size_t i = 0; i < 8; ++i) corners[i] = corner_of(cell, i);
+  return spot.surely_separated(tight(separator.best().normal), corners);
+}
+
 // The light without the range that no point of a cell needs, `farthest` from the eye at most. Searches and proofs have
 // to take the same range: a point that a search finds beyond that of the proof would prove nothing.
 LightVolume limited(LightVolume light, double farthest) {
@@ -71,9 +111,10 @@ double farthest_corner(const Polytope<double>& polytope) {
   return farthest;
 }
 
-// What a search in Real finds, checked.
+// What a search in Real finds, checked. The apex is not in the cell.
 template <class Real, class PlaneCell>
 Verdict proven_by_search(const LightVolume& light, const PlaneCell& cell, const PlaneCase& exactly) {
+  if (surely_leans_away(exactly.spot, exactly.planes)) return Verdict::no;
   const Polytope<Real> polytope = polytope_of<Real>(cell);
   const Setting<Real> setting(volume_of<Real>(light), polytope);
   const Witness<Real> witness = setting.common_point({true, true, true, true, true, true});
@@ -95,15 +136,19 @@ Verdict decide(const LightVolume& given, const PlaneCell& cell) {
   const std::array<bool, 6> reached = reached_faces(setting.volume, polytope.faces, setting.tolerance).faces;
   const TightSpot tightly(light, light.range);
   Verdict verdict = tightly_proven<double>(light, cell, reached, tightly);
+  if (verdict == Verdict::open && is_apart_where_nearest(light, cell, tightly)) return Verdict::no;
   if (verdict == Verdict::open) verdict = tightly_proven<Twofold>(light, cell, reached, tightly);
   if (verdict != Verdict::open) return verdict;
-  const PlaneCase exactly(light, cell);
+  const PlaneCase exactly(light, cell, angle_bits_for<Big>());
   if (surely_holds(exactly.spot, nearest_point(cell, exactly.spot.apex))) return Verdict::yes;
   if (axis_surely_meets(exactly.spot, exactly.planes)) return Verdict::yes;
   verdict = proven_by_search<Big>(light, cell, exactly);
-  if (verdict != Verdict::open) return verdict;
   // Needles of 1e-60 rad, and doubles next to 0 beside others: both differ from touching by less than 256 bits tell.
-  return proven_by_search<Huge>(light, cell, PlaneCase(light, cell, 3100));
+  if (verdict == Verdict::open)
+    verdict = proven_by_search<Large>(light, cell, PlaneCase(light, cell, angle_bits_for<Large>()));
+  if (verdict == Verdict::open)
+    verdict = proven_by_search<Huge>(light, cell, PlaneCase(light, cell, angle_bits_for<Huge>()));
+  return verdict;
 }
 
 // Points of pyramid ∩ spot on both sides of a shell piece, or in it: the set is convex, so its distances from the eye
@@ -141,8 +186,8 @@ bool surely_holds(const ExactSpot& spot, const NearestOnShells& on_shell) {
   if (!reaches(spot.apex, spot.range, on_shell)) return false;
   if (!on_shell.distance) return surely_leans(spot, on_shell.towards - spot.apex);
   const Enclosure length = sqrt(Enclosure::of(dot(on_shell.towards, on_shell.towards)));
-  const Point3<Enclosure> p = (Enclosure::of(*on_shell.distance) / length) * enclosed(on_shell.towards);
-  const Point3<Enclosure> v = p - enclosed(spot.apex), axis = enclosed(spot.direction);
+  const Point3<Enclosure> p = (Enclosure::of(*on_shell.distance) / length) * enclosed<Enclosure>(on_shell.towards);
+  const Point3<Enclosure> v = p - enclosed<Enclosure>(spot.apex), axis = enclosed<Enclosure>(spot.direction);
   const Enclosure along = dot(v, axis), cosine = Enclosure::of(spot.half_angle.cosine);
   return along > Enclosure(0.0) && along * along > cosine * cosine * dot(v, v) * dot(axis, axis);
 }
@@ -202,10 +247,31 @@ bool tightly_meets(const LightVolume& light, const ShellPiece& cell, const Tight
   return has_near && has_far;
 }
 
-// Is there a plane between the spot and the whole pyramid, cut where the shell ends?
+// Does the spot certainly end before it comes as near to the eye as the far shell? On lattices the generator on the
+// eye's side often touches that but for rounding: then a plane along it, ever so little away from it, lies between; or
+// one across the way to the generator's end.
+bool is_surely_beyond(const ShellPiece& cell, const TightSpot& spot) {
+  const TightPoint axis = (Tight(1.0) / sqrt(dot(spot.direction, spot.direction))) * spot.direction;
+  const TightPoint part = dot(spot.apex, axis) * axis - spot.apex;
+  const Tight size = sqrt(dot(part, part));
+  if (!(Tight(0.0) < size)) return false;
+  const TightPoint across = (Tight(1.0) / size) * part;
+  const TightPoint generator = spot.cosine * axis + spot.sine * across;
+  const Tight far(cell.distance1), to_nearest = -dot(spot.apex, generator);
+  if (!(Tight(0.0) < to_nearest)) return false;
+  if (spot.range < to_nearest) return spot.surely_separated(Tight(-1.0) * (spot.apex + spot.range * generator), far);
+  return spot.surely_separated(spot.cosine * across - (spot.sine + Tight(0x1p-75)) * axis, far);
+}
+
+// The whole pyramid, cut where the shell ends.
+FrustumPiece pyramid_to_far(const ShellPiece& cell) {
+  return {cell.x0, cell.x1, cell.y0, cell.y1, 0.0f, cell.distance1, false};
+}
+
+// Is there a plane between the spot and that?
 template <class Real>
 bool is_surely_beside(const LightVolume& light, const ShellPiece& cell, const TightSpot& spot) {
-  const FrustumPiece whole{cell.x0, cell.x1, cell.y0, cell.y1, 0.0f, cell.distance1, false};
+  const FrustumPiece whole = pyramid_to_far(cell);
   const Polytope<Real> polytope = polytope_of<Real>(whole);
   const Setting<Real> setting(volume_of<Real>(light), polytope);
   const Separation<Real> separation = find_separation(setting);
@@ -214,12 +280,21 @@ bool is_surely_beside(const LightVolume& light, const ShellPiece& cell, const Ti
   for (std::size_t i = 0; i < 8; ++i) corners[i] = corner_of(whole, i);
   return spot.surely_separated(tight(separation.normal), corners);
 }
+template <class Real>
+bool is_exactly_beside(const LightVolume& light, const ShellPiece& cell, const ExactSpot& spot) {
+  const FrustumPiece whole = pyramid_to_far(cell);
+  const Polytope<Real> polytope = polytope_of<Real>(whole);
+  const Setting<Real> setting(volume_of<Real>(light), polytope);
+  const Separation<Real> separation = find_separation(setting);
+  return separation.gap > Real(0) && surely_separates(exact(separation.normal), spot, corners_of(whole));
+}
 
-// A volume that holds the spot's, larger by about 2^-160 and turned and moved by as much in directions that have
+// A volume that holds the spot's, larger by about 2^-bits and turned and moved by as much in directions that have
 // nothing to do with scene or cell. Whatever is parallel, tangent or zero in the spot is not in it, so no formula
 // divides by 0.
-Volume<Enclosure> slightly_larger(const ExactSpot& spot) {
-  const Rational delta = Rational(1) / Rational(Integer(1) << 160);
+template <class Interval>
+Volume<Interval> slightly_larger(const ExactSpot& spot, unsigned bits, unsigned angle_bits) {
+  const Rational delta = Rational(1) / Rational(Integer(1) << bits);
   const RationalPoint aside{exact(0.618), exact(-0.382), exact(0.732)}, back{exact(-0.271), exact(0.828), exact(0.577)};
   // Made longer than 1: then adding delta * aside turns it by less than 3 delta.
   const Rational largest =
@@ -231,15 +306,15 @@ Volume<Enclosure> slightly_larger(const ExactSpot& spot) {
   const Rational step = delta * (norm_1(spot.apex) + spot.range);
   const RationalPoint apex = spot.apex - step * (direction + lean * back);
 
-  Volume<Enclosure> volume;
+  Volume<Interval> volume;
   volume.is_cone = true;
-  volume.apex = enclosed(apex);
-  const Point3<Enclosure> axis = enclosed(direction);
-  volume.axis = (Enclosure(1.0) / length(axis)) * axis;
-  volume.range = Enclosure::of(Rational(spot.range + 4 * step));
-  const AngleBounds angle = bounds_of_angle(spot.half_angle_rad + 4 * delta, 1040);
-  volume.cos_angle = Enclosure::of(angle.cosine);
-  volume.sin_angle = Enclosure::of(angle.sine);
+  volume.apex = enclosed<Interval>(apex);
+  const Point3<Interval> axis = enclosed<Interval>(direction);
+  volume.axis = (Interval(1.0) / length(axis)) * axis;
+  volume.range = Interval::of(Rational(spot.range + 4 * step));
+  const AngleBounds angle = bounds_of_angle(spot.half_angle_rad + 4 * delta, angle_bits);
+  volume.cos_angle = Interval::of(angle.cosine);
+  volume.sin_angle = Interval::of(angle.sine);
   return volume;
 }
 
@@ -308,6 +383,32 @@ bool surely_misses(const Volume<Real>& volume, const ShellPiece& cell) {
   return all_near || all_far;
 }
 
+// Does a search in Real find points that prove the spot to meet the shell piece?
+template <class Real>
+bool meets_by_search(const LightVolume& light, const ShellPiece& cell, const ExactSpot& spot) {
+  ShellWitness witness(spot, cell);
+  witness.offer(spot.apex);
+  offer_axis(spot, witness);
+  offer_found<Real>(light, cell, [&](const Point3<Real>& p) { witness.offer(exact(p)); });
+  return witness.is_found();
+}
+
+// The apex is not in the cell.
+template <class Real>
+Verdict proven_by_search(const LightVolume& light, const ShellPiece& cell, const ExactSpot& spot) {
+  if (surely_leans_away(spot, planes_of(cell))) return Verdict::no;
+  if (meets_by_search<Real>(light, cell, spot)) return Verdict::yes;
+  return is_exactly_beside<Real>(light, cell, spot) ? Verdict::no : Verdict::open;
+}
+
+// What differs from touching by less than 1024 bits tell.
+Verdict proven_at_last(const LightVolume& light, const ShellPiece& cell) {
+  const ExactSpot spot = exact_spot(light, angle_bits_for<Huge>());
+  const Verdict verdict = proven_by_search<Huge>(light, cell, spot);
+  if (verdict != Verdict::open) return verdict;
+  return surely_misses(slightly_larger<HugeEnclosure>(spot, 900, 3090), cell) ? Verdict::no : Verdict::open;
+}
+
 // A spot at the eye reaches equally far in all its directions. Whether one of them is the pyramid's, any flat piece of
 // the pyramid tells.
 Verdict decide_at_eye(const LightVolume& light, const ExactSpot& spot, const ShellPiece& cell) {
@@ -331,23 +432,24 @@ Verdict decide_spot(const LightVolume& light, const Box& cell) {
 Verdict decide_spot(const LightVolume& given, const ShellPiece& cell) {
   const LightVolume light = limited(given, cell.distance1);
   const TightSpot tightly(light, light.range);
+  if (is_surely_beyond(cell, tightly)) return Verdict::no;
   if (tightly_meets<double>(light, cell, tightly)) return Verdict::yes;
   if (is_surely_beside<double>(light, cell, tightly)) return Verdict::no;
+  if (is_apart_where_nearest(light, pyramid_to_far(cell), tightly)) return Verdict::no;
   if (tightly_meets<Twofold>(light, cell, tightly)) return Verdict::yes;
   if (is_surely_beside<Twofold>(light, cell, tightly)) return Verdict::no;
   if (surely_misses(slightly_larger(light, tightly), cell)) return Verdict::no;
 
-  const ExactSpot spot = exact_spot(light);
+  const ExactSpot spot = exact_spot(light, angle_bits_for<Big>());
   if (spot.apex == RationalPoint{0, 0, 0}) return decide_at_eye(light, spot, cell);
   const NearestOnShells nearest = nearest_point(cell, spot.apex);
   if (!reaches(spot.apex, spot.range, nearest)) return Verdict::no;
   if (nearest_surely_meets(spot, cell, nearest)) return Verdict::yes;
-  ShellWitness witness(spot, cell);
-  witness.offer(spot.apex);
-  offer_axis(spot, witness);
-  offer_found<Big>(light, cell, [&](const Point3<Big>& p) { witness.offer(exact(p)); });
-  if (witness.is_found()) return Verdict::yes;
-  return surely_misses(slightly_larger(spot), cell) ? Verdict::no : Verdict::open;
+  if (surely_leans_away(spot, planes_of(cell))) return Verdict::no;
+  if (meets_by_search<Big>(light, cell, spot)) return Verdict::yes;
+  if (surely_misses(slightly_larger<Enclosure>(spot, 160, 1040), cell)) return Verdict::no;
+  const Verdict verdict = proven_by_search<Large>(light, cell, exact_spot(light, angle_bits_for<Large>()));
+  return verdict == Verdict::open ? proven_at_last(light, cell) : verdict;
 }
 
 }  // namespace clusterbench::geom

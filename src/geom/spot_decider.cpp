@@ -114,9 +114,11 @@ bool any_edge_normal(const PlaneCell&, const Point&, const std::array<Point, 8>&
       if ((corner & bit) == 0 && is(cross(corners[corner], corners[corner | bit] - corners[corner]))) return true;
   return false;
 }
-// Edges from shell to shell lie on rays.
+// Edges from shell to shell lie on rays. A plane across the way to the eye has all that the far shell bounds behind it
+// where the apex is beyond that.
 template <class Is>
 bool any_edge_normal(const ShellPiece& cell, const Point& apex, const std::array<Point, 8>&, Is&& is) {
+  if (is(-1.0 * apex)) return true;
   for (const float x : {cell.x0, cell.x1})
     for (const float y : {cell.y0, cell.y1})
       if (is(cross(apex, Point{x, y, -1.0}))) return true;

@@ -47,9 +47,11 @@ bool TightSpot::surely_holds(const TightPoint& p) const {
   return dot(v, v) < squared(range) && leans(v) == Verdict::yes;
 }
 
-// The volume extends from its apex along a unit vector w by range if w is in the cone, else by range times
-// cos(angle of w to the axis - half-angle), if that is positive.
-bool TightSpot::surely_separated(const TightPoint& normal, const std::array<TightPoint, 8>& corners) const {
+// Does the volume certainly extend along a normal (of any length) from its apex by less than all of these? It extends
+// along a unit vector w by range if w is in the cone, else by range times cos(angle of w to the axis - half-angle), if
+// that is positive.
+template <std::size_t N>
+bool TightSpot::is_surely_below(const TightPoint& normal, const std::array<Tight, N>& least) const {
   const Tight size = dot(normal, normal), squared_reach = squared(range) * size;
   const Tight along = dot(normal, direction);
   const TightPoint across = cross(normal, direction);
@@ -59,14 +61,22 @@ bool TightSpot::surely_separated(const TightPoint& normal, const std::array<Tigh
   const Tight lean = cosine * along + sine * sqrt(squared_across);
   const bool is_behind = is_outside && lean < k_zero;
   const Tight axis_size = dot(direction, direction), squared_extent = squared(range * lean);
-  for (const TightPoint& corner : corners) {
-    const Tight least = dot(normal, corner - apex);
-    if (!(k_zero < least)) return false;
-    if (is_behind) continue;
-    const Tight square = squared(least);
-    if (!(squared_reach < square) && !(is_outside && squared_extent < square * axis_size)) return false;
-  }
-  return true;
+  return std::all_of(least.begin(), least.end(), [&](const Tight& distance) {
+    if (!(k_zero < distance)) return false;
+    if (is_behind) return true;
+    const Tight square = squared(distance);
+    return squared_reach < square || (is_outside && squared_extent < square * axis_size);
+  });
+}
+
+bool TightSpot::surely_separated(const TightPoint& normal, const std::array<TightPoint, 8>& corners) const {
+  std::array<Tight, 8> least;
+  for (std::size_t i = 0; i < 8; ++i) least[i] = dot(normal, corners[i] - apex);
+  return is_surely_below(normal, least);
+}
+
+bool TightSpot::surely_separated(const TightPoint& normal, const Tight& radius) const {
+  return is_surely_below<1>(normal, {-dot(normal, apex) - radius * sqrt(dot(normal, normal))});
 }
 
 }  // namespace clusterbench::geom

@@ -70,6 +70,12 @@ struct TightSpot {
   bool surely_holds(const TightPoint& p) const;
   // Does a plane with this normal (from the volume to the corners; any length) certainly lie between?
   bool surely_separated(const TightPoint& normal, const std::array<TightPoint, 8>& corners) const;
+  // The same between the volume and all p with |p| <= radius.
+  bool surely_separated(const TightPoint& normal, const Tight& radius) const;
+
+ private:
+  template <std::size_t N>
+  bool is_surely_below(const TightPoint& normal, const std::array<Tight, N>& least) const;
 };
 
 }  // namespace clusterbench::geom

@@ -87,8 +87,17 @@ struct Twofold {
 
 template <>
 struct Precision<Twofold> {
+  static constexpr int k_tolerance_bits = 88, k_place_bits = 100;
   static Twofold tolerance() { return Twofold(0x1p-88); }
-  static constexpr int k_place_bits = 100;
+};
+
+template <>
+struct Glance<Twofold> {
+  static bool is_before(const HalfSpace<Twofold>& face, const Point3<Twofold>& p) {
+    const double x = face.normal.x.hi * p.x.hi, y = face.normal.y.hi * p.y.hi, z = face.normal.z.hi * p.z.hi;
+    const double size = std::abs(face.offset.hi) + std::abs(x) + std::abs(y) + std::abs(z);
+    return face.offset.hi - (x + y + z) < -0x1p-30 * size;
+  }
 };
 
 }  // namespace clusterbench::geom

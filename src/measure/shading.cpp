@@ -19,7 +19,9 @@ bool reaches(const scene::WorldLight& light, const Vec3d& to_place) {
   const double distance = glm::length(to_place);
   if (light.range_m == 0.0 || distance > light.range_m) return false;
   if (light.type != scene::LightType::spot) return true;
-  return glm::dot(to_place, light.direction) >= std::cos(light.outer_cone_rad) * distance;
+  // By both parts of the way, along and across: the cosine of a cone below 1e-8 rad is that of 0.
+  const double along = glm::dot(to_place, light.direction), across = glm::length(glm::cross(to_place, light.direction));
+  return along >= 0.0 && std::cos(light.outer_cone_rad) * across <= std::sin(light.outer_cone_rad) * along;
 }
 
 // A spot's share of its intensity in a direction, as KHR_lights_punctual recommends it: 1 within the inner cone, 0 from

@@ -203,6 +203,52 @@ TEST(BallDecider, decides_exact_touches_on_a_lattice_without_exact_numbers) {
   }
 }
 
+// A camera that is turned about its x axis: depths are rounded, what lies across is not. The ball touches the plane x =
+// 0, straight from its side; an ulp less and it does not.
+TEST(BallDecider, decides_touches_of_upright_planes_in_doubles_however_depths_are_rounded) {
+  const double cosine = std::cos(0.7), sine = std::sin(0.7);
+  Placement center;
+  center.rotation = glm::transpose(Mat3d{{1, 0, 0}, {0, cosine, -sine}, {0, sine, cosine}});
+  for (const double depth : {4.3, 5.1, 6.7}) {
+    center.position = glm::transpose(center.rotation) * Vec3d(0.75, 0.3, -depth);
+    for (const Cell& cell : {Cell(FrustumPiece{-0.5f, 0.0f, -0.5f, 0.5f, 3.0f, 9.0f, false}),
+                             Cell(ShellPiece{-0.5f, 0.0f, -0.5f, 0.5f, 3.0f, 9.0f})}) {
+      const BallDecider touching(center, 0.75);
+      EXPECT_TRUE(touching.meets(cell));
+      EXPECT_EQ(touching.exact_decisions(), 0u) << depth;
+      EXPECT_FALSE(BallDecider(center, std::nextafter(0.75, 0.0)).meets(cell));
+    }
+  }
+}
+
+// Of a centre on the edge of what lies behind all of a pyramid: whether the eye is the nearest point, or one of the ray
+// through (1, 0.5, -1), rounding hides.
+TEST(BallDecider, tells_no_nearest_corner_where_rounding_hides_whether_the_centre_is_behind_the_pyramid) {
+  const ShellPiece cell{0.5f, 1.0f, 0.25f, 0.5f, 1.0f, 3.0f};
+  const double cosine = std::cos(0.7), sine = std::sin(0.7);
+  Placement center;
+  center.rotation = glm::transpose(Mat3d{{1, 0, 0}, {0, cosine, -sine}, {0, sine, cosine}});
+  int hidden = 0;
+  for (int ulps = -12; ulps <= 12; ++ulps) {
+    const Vec3d from_eye(1.3, 0.7, 1.65 + 0x1p-52 * ulps);
+    center.position = glm::transpose(center.rotation) * from_eye;
+    const BallDecider ball(center, 4.0);
+    const PyramidView view = ball.view_of(cell);
+    if (!view.is_behind) continue;
+    const bool is_known = (-view.along).is_surely_above(0.0);
+    hidden += is_known ? 0 : 1;
+    EXPECT_EQ(ball.nearest_point(cell).has_value(), is_known) << ulps;
+  }
+  EXPECT_GT(hidden, 0);
+  // Farther behind, it is the ray's corner.
+  center.position = glm::transpose(center.rotation) * Vec3d(1.3, 0.7, 1.66);
+  const std::optional<NearestPoint> nearest = BallDecider(center, 4.0).nearest_point(cell);
+  ASSERT_TRUE(nearest.has_value());
+  EXPECT_NEAR(nearest->way.x.value, 1.0 / 1.5 - 1.3, 1e-12);
+  EXPECT_NEAR(nearest->way.y.value, 0.5 / 1.5 - 0.7, 1e-12);
+  EXPECT_NEAR(nearest->way.z.value, -1.0 / 1.5 - 1.66, 1e-12);
+}
+
 // Squares of errors that a double cannot hold are not nothing.
 TEST(BallDecider, is_not_fooled_by_what_is_too_small_for_a_double) {
   const Placement beside{{1.0, 0.0, 0.0}, {-0x1p-540, 0.0, 0.0}, Mat3d(1.0)};

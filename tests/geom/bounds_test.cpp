@@ -58,6 +58,12 @@ TEST(BoundsOfAngle, of_the_least_angles_are_bounds_of_a_cosine_below_1_and_of_a_
       const Rational x = exact(angle), square = squared(x);
       EXPECT_LE(bounds.cosine.lo, 1 - square / 2 + squared(square) / 24) << angle;
       EXPECT_GE(bounds.cosine.hi, 1 - square / 2) << angle;
+      EXPECT_GE(bounds.sine.hi, x - x * square / 6) << angle;
+      // To the third power of the angle at least, relative to it: what tells a touch from none is of that size.
+      if (bits == 1040u && angle < 1e-80) {
+        EXPECT_LT(bounds.cosine.hi - bounds.cosine.lo, squared(square) / 1000) << angle;
+        EXPECT_LT(bounds.sine.hi - bounds.sine.lo, x * square / 1000) << angle;
+      }
       EXPECT_LE(bounds.sine.lo, x) << angle;
       EXPECT_GE(bounds.sine.hi, x - x * square / 6) << angle;
       EXPECT_LE(bounds.cosine.hi - bounds.cosine.lo, Rational(1) / Rational(Integer(1) << (bits - 12)));

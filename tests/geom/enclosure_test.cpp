@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "core/random.h"
@@ -12,21 +13,23 @@ namespace {
 const Rational k_slack = Rational(1) / Rational(Integer(1) << 60);
 
 // An enclosure around a rational number, off-centre and wider than rounding makes it.
-Enclosure loosely(const Rational& value, SplitMix64& random) {
-  return Enclosure::of(
-      RationalInterval{value - exact(random.unit()) * k_slack, value + exact(random.unit()) * k_slack});
+template <class Interval = Enclosure>
+Interval loosely(const Rational& value, SplitMix64& random) {
+  return Interval::of(RationalInterval{value - exact(random.unit()) * k_slack, value + exact(random.unit()) * k_slack});
 }
 
-bool holds(const Enclosure& enclosure, const Rational& value) {
-  const Enclosure exactly = Enclosure::of(value);
+template <class Interval>
+bool holds(const Interval& enclosure, const Rational& value) {
+  const Interval exactly = Interval::of(value);
   return !(enclosure < exactly) && !(exactly < enclosure);
 }
 
-TEST(Enclosure, holds_what_exact_arithmetic_gives) {
+template <class Interval>
+void expect_holds_what_exact_arithmetic_gives(int tries) {
   SplitMix64 random(3);
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < tries; ++i) {
     const Rational a = exact(random.between(-2, 2)), b = exact(random.between(0.1, 2));
-    const Enclosure x = loosely(a, random), y = loosely(b, random);
+    const Interval x = loosely<Interval>(a, random), y = loosely<Interval>(b, random);
     EXPECT_TRUE(holds(x + y, a + b));
     EXPECT_TRUE(holds(x - y, a - b));
     EXPECT_TRUE(holds(x * y, a * b));
@@ -35,8 +38,51 @@ TEST(Enclosure, holds_what_exact_arithmetic_gives) {
     EXPECT_TRUE(holds(sqrt(x * x), abs(a)));
     EXPECT_TRUE(holds(sqrt(y) * sqrt(y), b));
     // Not by being wide.
-    for (const Enclosure& result : {x + y, x - y, x * y, x / y, sqrt(y)}) EXPECT_LT(result.radius(), 0x1p-48);
+    for (const Interval& result : {x + y, x - y, x * y, x / y, sqrt(y)}) EXPECT_LT(result.radius(), 0x1p-48);
   }
+}
+
+TEST(Enclosure, holds_what_exact_arithmetic_gives) {
+  expect_holds_what_exact_arithmetic_gives<Enclosure>(2000);
+  expect_holds_what_exact_arithmetic_gives<HugeEnclosure>(100);
+}
+
+// Where 1024 bits and a double's exponent tell nothing.
+TEST(Enclosure, of_3072_bits_tells_numbers_apart_that_differ_by_2_to_the_minus_2900) {
+  const Rational hair = Rational(1) / Rational(Integer(1) << 2900), third = Rational(1) / 3;
+  const HugeEnclosure x = HugeEnclosure::of(third), y = HugeEnclosure::of(Rational(third + hair));
+  EXPECT_TRUE(x < y);
+  EXPECT_TRUE(holds(y - x, hair));
+  EXPECT_TRUE(sqrt(x) < sqrt(y));
+  EXPECT_FALSE(y < x);
+  EXPECT_FALSE(Enclosure::of(third) < Enclosure::of(Rational(third + hair)));
+  EXPECT_TRUE(holds(HugeEnclosure::of(hair) * HugeEnclosure::of(hair), hair * hair));
+  EXPECT_TRUE(HugeEnclosure(0.0) < HugeEnclosure::of(hair) * HugeEnclosure::of(hair));
+  const HugeEnclosure nothing = HugeEnclosure(1.0) / (x - x);
+  EXPECT_FALSE(nothing < HugeEnclosure(1e300));
+  EXPECT_FALSE(nothing > HugeEnclosure(-1e300));
+}
+
+template <unsigned bits>
+void expect_square_roots(int tries) {
+  SplitMix64 random(11);
+  for (int i = 0; i < tries; ++i) {
+    const auto exponent = static_cast<int>(random.below(4000)) - 2000;
+    const FloatOf<bits> third = FloatOf<bits>(random.between(0.1, 1.0)) / 3, square = ldexp(third, exponent);
+    const FloatOf<bits> root = SquareRoot<FloatOf<bits>>::of(square);
+    // In the last place: of the root, half of what its square is off by.
+    const Rational off = abs(squared(exact<bits>(root)) / exact<bits>(square) - 1) * Rational(Integer(1) << bits);
+    EXPECT_LT(off, 6) << bits << " bits, 2^" << exponent;
+  }
+  for (const double exactly : {0.0, 1.0, 0.5, 3.0, 0x1p-537, 1.5})
+    EXPECT_EQ(SquareRoot<FloatOf<bits>>::of(FloatOf<bits>(exactly * exactly)), FloatOf<bits>(exactly)) << exactly;
+  EXPECT_EQ(SquareRoot<FloatOf<bits>>::of(FloatOf<bits>(-1)), 0);
+}
+
+TEST(SquareRoot, is_right_to_the_last_bits) {
+  expect_square_roots<256>(2000);
+  expect_square_roots<1024>(500);
+  expect_square_roots<3072>(100);
 }
 
 TEST(Enclosure, compares_only_what_is_certain) {

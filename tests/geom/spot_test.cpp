@@ -183,6 +183,51 @@ TEST(Spot, of_nearly_no_angle_is_decided) {
   }
 }
 
+// Without the filter, which settles such pairs before.
+Verdict proven(const LightVolume& light, const Cell& cell) {
+  return std::visit([&](const auto& shape) { return decide_spot(light, shape); }, cell);
+}
+
+// The generator on the eye's side comes as near to the eye as 5 sin(45°) sqrt 2 = 5 but for rounding: that of the
+// half-angle leaves 1.5e-16 m.
+TEST(Spot, whose_side_touches_the_far_shell_is_decided_an_ulp_either_way) {
+  const auto shell_to = [](float far) { return ShellPiece{0.25f, 0.75f, 0.0f, 0.75f, 3, far}; };
+  const auto light = [](int ulps) { return spot({5, 5, 0}, 8, {0, 0, -1}, moved(0.78539816339744828, ulps)); };
+  EXPECT_EQ(verdict(light(0), shell_to(5)), Verdict::no);
+  EXPECT_EQ(verdict(light(1), shell_to(5)), Verdict::yes);
+  EXPECT_EQ(verdict(light(0), shell_to(std::nextafter(5.0f, 6.0f))), Verdict::yes);
+  EXPECT_EQ(verdict(light(1), shell_to(std::nextafter(5.0f, 4.0f))), Verdict::no);
+}
+
+// All of these were open where 256 bits were the last to be tried.
+TEST(Spot, that_differs_from_touching_a_shell_by_next_to_nothing_is_decided) {
+  // Beyond the far shell by 1e-110 m, and every direction of the cone leads farther away from the eye.
+  const ShellPiece shell{-1, 0, -1, 0, 3, 4};
+  EXPECT_EQ(proven(spot({-4.70687e-184, -3.26265e-55, -4}, std::sqrt(3.0), {0, 1, -1}, 0.3), shell), Verdict::no);
+  // From the eye itself. Of v = d (x, y, -1) - apex, where 0.5 <= y: v·axis / |v| <= (d (1 - y) + 1e-50) / (d + 1e-50)
+  // / sqrt 2 <= cos 45°, and the half-angle is 3e-17 less than that.
+  const ShellPiece whole{0.5f, 1.5f, 0.5f, 1.0f, 0, 4};
+  EXPECT_EQ(proven(spot({0, 0, 1e-50}, 5, {0, -1, -1}, 0.78539816339744828), whole), Verdict::no);
+  // An ulp wider, 1.4e-16 more than 45°: the eye itself is in it.
+  EXPECT_EQ(proven(spot({0, 0, 1e-50}, 5, {0, -1, -1}, moved(0.78539816339744828, 1)), whole), Verdict::yes);
+}
+
+// Needles along the tile plane x = 0, whose axes lean from it by less than their half-angles, or by as much, or more:
+// they reach beyond it by 5e-19 of their width, by the square of the angle, or not at all.
+TEST(Spot, of_the_narrowest_cone_along_a_tile_plane_is_decided_in_the_cells_behind_it) {
+  const ShellPiece shell{0.0f, 0.5f, -0.25f, 0.25f, 3, 8};
+  const FrustumPiece piece{0.0f, 0.5f, -0.25f, 0.25f, 3, 8, false};
+  const Box box{{0, -1, -8}, {2, 1, -3}};
+  for (const double angle : {1e-24, 1e-30, 1e-60, 1e-100, 1e-150, 1e-200, 1e-233, 1e-250, 1e-300})
+    for (const Cell& cell : {Cell(shell), Cell(piece), Cell(box)}) {
+      EXPECT_EQ(proven(spot({0, 0, -1}, 40, {-angle, -1e-9, -1}, angle), cell), Verdict::yes) << angle;
+      EXPECT_EQ(proven(spot({0, 0, -1}, 40, {-moved(angle, 1), 0, -1}, angle), cell), Verdict::no) << angle;
+      // sin(angle - atan(angle)) is angle³ / 3.
+      const Verdict nearly = proven(spot({0, 0, -1}, 40, {-angle, 0, -1}, angle), cell);
+      EXPECT_TRUE(nearly == Verdict::yes || (angle < 1e-250 && nearly == Verdict::open)) << angle;
+    }
+}
+
 // Small whole numbers and their quarters: much is parallel, perpendicular, in one plane or equally far.
 LightVolume whole_number_light(SplitMix64& random) {
   const auto whole = [&](int lo, int hi) { return lo + static_cast<double>(random.below(std::uint64_t(hi - lo + 1))); };
@@ -257,11 +302,6 @@ TEST(Spot, begins_to_touch_at_one_range_and_is_decided_around_it) {
       }
     }
   }
-}
-
-// Without the filter, which settles such pairs before.
-Verdict proven(const LightVolume& light, const Cell& cell) {
-  return std::visit([&](const auto& shape) { return decide_spot(light, shape); }, cell);
 }
 
 TEST(Spot, that_holds_much_of_a_shell_piece_is_proven_to_however_far_it_reaches_beyond) {

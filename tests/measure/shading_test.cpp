@@ -120,6 +120,24 @@ TEST(Shading, a_spot_reaches_only_into_its_cone) {
   EXPECT_EQ(lights_reaching(frame, samples), (assign::Lists{{0, 1, 1, 1, 2, 2}, {0, 0}}));
 }
 
+// Their cosine is 1 in doubles.
+TEST(Shading, a_spot_as_narrow_as_a_needle_reaches_its_axis_and_nothing_beside_its_cone) {
+  for (const double angle : {1e-7, 1e-9, 1e-12, 1e-100}) {
+    view::Frame frame = frame_along_x();
+    frame.view_space.origin = {0, 0, 0};
+    scene::WorldLight spot;
+    spot.type = scene::LightType::spot;
+    spot.range_m = 10.0;
+    spot.direction = {0, -1, 0};
+    spot.outer_cone_rad = angle;
+    frame.lights = {spot};
+    const auto at = [](const Vec3d& place) { return grid::Sample{0.0f, 0.0f, Vec3f(0.0f), place, Vec3d(0.0)}; };
+    const std::vector<grid::Sample> samples{at({0, -7, 0}), at({0.99 * angle, -1, 0}), at({0, -1, 1.01 * angle}),
+                                            at({0, 1, 0})};
+    EXPECT_EQ(lights_reaching(frame, samples), (assign::Lists{{0, 1, 2, 2, 2}, {0, 0}})) << angle;
+  }
+}
+
 TEST(Shading, every_light_is_found_that_reaches_a_sample) {
   view::Frame frame = frame_along_x();
   SplitMix64 random(1);

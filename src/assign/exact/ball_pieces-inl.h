@@ -214,6 +214,7 @@ class BallPieces {
   HWY_INLINE MD is_level_at(VD at) const {
     const VD zero = Zero(DD()), error = enlarged(depth_.error);
     const MD is_within = And(depth0_ < depth_.value - error, depth_.value + error < depth1_);
+    if (orthographic_) return is_within;
     const MD is_upright = And(slope_at(at, x_.value, x0_, x1_) == zero, slope_at(at, y_.value, y0_, y1_) == zero);
     return And(And(is_within, at == depth_.value), is_upright);
   }
