@@ -72,17 +72,17 @@ Setting open_world() {
 assign::VisibleBalls visible_in(const Setting& setting, const assign::RowPlanes& planes) {
   assign::VisibleBalls visible;
   visible.reserve(setting.lights.size());
-  assign::see_balls(planes, assign::given_points(setting.lights), 0, visible);
+  assign::cull_balls(planes, assign::given_points(setting.lights), 0, visible);
   return visible;
 }
 
-void see_balls(State& state) {
+void cull_balls(State& state) {
   const Setting setting = hall();
   const assign::RowPlanes planes(setting.grid.screen());
   assign::VisibleBalls visible = visible_in(setting, planes);
   for (auto _ : state) {
     visible.count = 0;
-    assign::see_balls(planes, assign::given_points(setting.lights), 0, visible);
+    assign::cull_balls(planes, assign::given_points(setting.lights), 0, visible);
     benchmark::ClobberMemory();
   }
   items(state, setting.lights.points);
@@ -93,11 +93,11 @@ void find_screen_bounds(State& state) {
   const assign::RowPlanes planes(setting.grid.screen());
   const assign::BoxPlanes box_planes(setting.grid.screen());
   const assign::VisibleBalls visible = visible_in(setting, planes);
-  assign::BoxedBalls boxed;
-  boxed.reserve(setting.lights.size());
+  assign::BoundedBalls bounded;
+  bounded.reserve(setting.lights.size());
   for (auto _ : state) {
-    boxed.count = 0;
-    assign::find_screen_bounds(box_planes, visible, 0, assign::given_points(setting.lights), 0, {8.0f, 8.0f}, boxed);
+    bounded.count = 0;
+    assign::find_screen_bounds(box_planes, visible, 0, assign::given_points(setting.lights), 0, {8.0f, 8.0f}, bounded);
     benchmark::ClobberMemory();
   }
   items(state, visible.count);
@@ -106,11 +106,11 @@ void find_screen_bounds(State& state) {
 void find_box_ranges(State& state) {
   const Setting setting = make_setting(own_scene("hall-512"), kind_spec(grid::Kind::world), 0.5);
   const assign::RangeAxes axes(assign::box_levels(setting.grid).front());
-  assign::BoxedBalls boxed;
-  boxed.reserve(setting.lights.size());
+  assign::BoundedBalls bounded;
+  bounded.reserve(setting.lights.size());
   for (auto _ : state) {
-    boxed.count = 0;
-    assign::find_box_ranges(axes, assign::given_points(setting.lights), 0, 8.0f, boxed);
+    bounded.count = 0;
+    assign::find_box_ranges(axes, assign::given_points(setting.lights), 0, 8.0f, bounded);
     benchmark::ClobberMemory();
   }
   items(state, setting.lights.points);
@@ -119,11 +119,11 @@ void find_box_ranges(State& state) {
 void find_shells(State& state) {
   const Setting setting = make_setting(own_scene("hall-512"), kind_spec(grid::Kind::distance), 0.5);
   const assign::ShellPlanes planes(setting.grid.screen());
-  assign::BoxedBalls boxed;
-  boxed.reserve(setting.lights.size());
+  assign::BoundedBalls bounded;
+  bounded.reserve(setting.lights.size());
   for (auto _ : state) {
-    boxed.count = 0;
-    assign::find_shells(planes, assign::given_points(setting.lights), 0, 8.0f, boxed);
+    bounded.count = 0;
+    assign::find_shells(planes, assign::given_points(setting.lights), 0, 8.0f, bounded);
     benchmark::ClobberMemory();
   }
   items(state, setting.lights.points);
@@ -183,16 +183,16 @@ template <class Find>
 void bounds_rows(State& state, const Setting& setting, Find&& find) {
   const assign::RowPlanes planes(setting.grid.screen());
   const assign::VisibleBalls visible = visible_in(setting, planes);
-  assign::BoxedBalls boxed;
-  boxed.reserve(setting.lights.size());
+  assign::BoundedBalls bounded;
+  bounded.reserve(setting.lights.size());
   assign::find_screen_bounds(assign::BoxPlanes(setting.grid.screen()), visible, 0, assign::given_points(setting.lights),
-                             0, {8.0f, 8.0f}, boxed);
+                             0, {8.0f, 8.0f}, bounded);
   assign::SliceBins balls;
-  balls.sort(boxed, planes.slices);
+  balls.sort(bounded, planes.slices);
   assign::BatchRows rows;
   each_batch(state, balls, planes.slices, assign::balls_per_batch(),
              [&](int slice, const std::uint32_t* batch, std::uint32_t count) {
-               find(assign::BallBatch{boxed, slice, batch, count, setting.lights.size()}, rows);
+               find(assign::BallBatch{bounded, slice, batch, count, setting.lights.size()}, rows);
                return rows.tests;
              });
 }
@@ -226,15 +226,15 @@ void find_box_rows(State& state) {
 void find_shell_rows(State& state) {
   const Setting setting = make_setting(own_scene("hall-512"), kind_spec(grid::Kind::distance), 0.5);
   const assign::ShellPlanes planes(setting.grid.screen());
-  assign::BoxedBalls boxed;
-  boxed.reserve(setting.lights.size());
-  assign::find_shells(planes, assign::given_points(setting.lights), 0, 8.0f, boxed);
+  assign::BoundedBalls bounded;
+  bounded.reserve(setting.lights.size());
+  assign::find_shells(planes, assign::given_points(setting.lights), 0, 8.0f, bounded);
   assign::SliceBins balls;
-  balls.sort(boxed, setting.grid.cells().z);
+  balls.sort(bounded, setting.grid.cells().z);
   assign::BatchRows rows;
   each_batch(state, balls, setting.grid.cells().z, assign::balls_per_batch(),
              [&](int slice, const std::uint32_t* batch, std::uint32_t count) {
-               assign::find_shell_rows(planes, {boxed, slice, batch, count, setting.lights.size()}, rows);
+               assign::find_shell_rows(planes, {bounded, slice, batch, count, setting.lights.size()}, rows);
                return rows.tests;
              });
 }
@@ -248,7 +248,7 @@ void find_spot_rows(State& state) {
   assign::find_spot_balls(setting.lights, view::k_given_roundings, true, around);
   assign::VisibleBalls visible;
   visible.reserve(setting.lights.spots);
-  assign::see_balls(planes, assign::given_spots(setting.lights, around), 0, visible);
+  assign::cull_balls(planes, assign::given_spots(setting.lights, around), 0, visible);
   assign::SliceBins balls;
   balls.sort(visible, planes.slices);
   assign::SpotSlices slices;
@@ -500,7 +500,7 @@ struct Kernel {
 };
 
 constexpr Kernel k_kernels[] = {
-    {"see_balls", see_balls},
+    {"cull_balls", cull_balls},
     {"find_screen_bounds", find_screen_bounds},
     {"find_box_ranges", find_box_ranges},
     {"find_shells", find_shells},

@@ -488,7 +488,7 @@ MUTATIONS = [
              "    if (AllFalse(di, goes_on)) break;\n", "    if (AllFalse(di, goes_on) || true) break;\n",
              "assign.BoundsFast.gives_the_lists_of_bounds_on_every_target",
              "fast cell box methods lose lights in the last column or row where rounding guesses one too few"),
-    Mutation("fast-cull-without-inflation", "assign/bounds/fast_bounds_method.h",
+    Mutation("fast-cull-without-inflation", "assign/bounds/frustum_bounds.h",
              "visible_, padding.box + k_slice_rows_roundings);", "visible_, k_slice_rows_roundings);",
              "assign.BoundsFast.gives_the_lists_of_bounds_on_every_target",
              "lights that only their inflation brings into view are left out by the fast methods"),

@@ -48,17 +48,13 @@ geom::Cell world_cell(const WorldGrid& grid, Vec3i cell) {
                    {grid.x[at(cell.x) + 1], grid.y[at(cell.y) + 1], grid.z[at(cell.z) + 1]}};
 }
 
-std::int64_t index_of(Vec3i cell, Vec3i cells) {
-  return (static_cast<std::int64_t>(cell.z) * cells.y + cell.y) * cells.x + cell.x;
-}
-
 std::int64_t lookup_screen(const ScreenGrid& grid, Vec3i cells, const Sample& sample, Log2 way) {
   const Vec3f& p = sample.view;
   const float along = grid.kind == Kind::distance ? std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z) : -p.z;
   const int slice = grid.slices.slice_of(along, way);
   if (slice < 0) return -1;
   const Vec2i tile = grid.tiles.tile_of(sample.pixel_x, sample.pixel_y);
-  return index_of({tile.x, tile.y, slice}, cells);
+  return cell_index({tile.x, tile.y, slice}, cells);
 }
 
 bool lies_within(const Vec3f& place, const Vec3i& cells) {
@@ -75,7 +71,7 @@ std::int64_t lookup_cascades(const CascadesGrid& grid, Vec3i cells, const Sample
     const Vec3i cell(place);
     // A point that rounds out of a level rounds out of the hole that this level fills: both divide by powers of two
     // apart.
-    if (!grid.is_hole(level, cell)) return index_of({cell.x, cell.y, level * grid.cells.z + cell.z}, cells);
+    if (!grid.is_hole(level, cell)) return cell_index({cell.x, cell.y, level * grid.cells.z + cell.z}, cells);
   }
   return -1;
 }
@@ -92,7 +88,7 @@ std::int64_t lookup_world(const WorldGrid& grid, Vec3i cells, const Sample& samp
     if (!(local >= bounds.front() && local <= bounds.back())) return -1;
     cell[axis] = std::clamp(static_cast<int>(place), 0, cells[axis] - 1);
   }
-  return index_of(cell, cells);
+  return cell_index(cell, cells);
 }
 
 SliceRange slice_range(const GridInputs& inputs) {

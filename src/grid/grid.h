@@ -1,6 +1,6 @@
 #pragma once
 // A grid: a partition of space into cells, with two faces: the exact cell and the single-precision lookup of a shader.
-// Cells are numbered x fastest, then y, then z: index = (z * cells.y + y) * cells.x + x, so that a row is contiguous.
+// Cells are numbered x fastest, then y, then z, so that a row is contiguous.
 
 #include <cstdint>
 #include <string>
@@ -13,6 +13,11 @@
 #include "view/frame.h"
 
 namespace clusterbench::grid {
+
+// The index of a cell among so many along each axis. At most 10^9 there are.
+inline std::uint32_t cell_index(Vec3i cell, Vec3i cells) {
+  return static_cast<std::uint32_t>((cell.z * cells.y + cell.y) * cells.x + cell.x);
+}
 
 enum class Kind : std::uint8_t { frustum, distance, cascades, world };
 inline constexpr int k_kind_count = 4;

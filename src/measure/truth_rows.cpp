@@ -32,7 +32,7 @@ void append_slab(const grid::Tiles& tiles, const BallInSpace& ball, DepthRange r
     if (found.outer.empty()) continue;
     if (with_inner && ball.radius > ball.slack)
       found.inner = columns_touched(tiles, geom::row_slopes(smaller, y0, y1, range, geom::Errs::inward));
-    found.first_cell = static_cast<std::uint32_t>((slice * tiles.count.y + row) * tiles.count.x);
+    found.first_cell = grid::cell_index({0, row, slice}, {tiles.count.x, tiles.count.y, 0});
     rows.push_back(found);
   }
 }
@@ -54,14 +54,13 @@ BoxBlock cascade_block(const grid::Grid& grid, int level) {
   const Vec3i cells = grid.cascades().cells;
   // Holes have no cell, so extents come from the outermost column and row, which are never part of one.
   const auto box_at = [&](int x, int y, int z) {
-    return std::get<geom::Box>(
-        grid.cell(static_cast<std::uint32_t>(((level * cells.z + z) * cells.y + y) * cells.x + x)));
+    return std::get<geom::Box>(grid.cell(grid::cell_index({x, y, level * cells.z + z}, cells)));
   };
   BoxBlock block;
   for (int x = 0; x < cells.x; ++x) block.x.push_back({box_at(x, 0, 0).lo.x, box_at(x, 0, 0).hi.x});
   for (int y = 0; y < cells.y; ++y) block.y.push_back({box_at(0, y, 0).lo.y, box_at(0, y, 0).hi.y});
   for (int z = 0; z < cells.z; ++z) block.z.push_back({box_at(0, 0, z).lo.z, box_at(0, 0, z).hi.z});
-  block.first_cell = static_cast<std::uint32_t>(level * cells.z * cells.y * cells.x);
+  block.first_cell = grid::cell_index({0, 0, level * cells.z}, cells);
   const auto hole = [&](int count, const auto& is_hole) {
     ColumnRange range{count, -1};
     for (int i = 0; i < count; ++i)

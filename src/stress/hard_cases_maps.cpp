@@ -91,7 +91,7 @@ ToolCheck mirrored_lists(std::uint64_t seed) {
   std::uint64_t unlike = 0;
   for (std::uint32_t cell = 0; cell < grid.cell_count(); ++cell) {
     const Vec3i at = grid.cell_at(cell);
-    const auto beside = static_cast<std::uint32_t>((at.z * cells.y + at.y) * cells.x + cells.x - 1 - at.x);
+    const std::uint32_t beside = grid::cell_index({cells.x - 1 - at.x, at.y, at.z}, cells);
     unlike += lists.of(cell).size() != lists.of(beside).size();
   }
   return {"mirrored cells have as many lights of a mirrored rig", unlike == 0, std::to_string(unlike) + " have not"};

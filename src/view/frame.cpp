@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "geom/domain.h"
+#include "geom/predicates.h"
 #include "geom/rounding.h"
 #include "scene/domain.h"
 
@@ -114,6 +115,10 @@ geom::SphericalCone LightArrays::cone(std::uint32_t light, float roundings) cons
           {axis_x[spot], axis_y[spot], axis_z[spot]},
           cos_angle[spot],
           sin_angle[spot]};
+}
+
+geom::Ball LightArrays::bounding_ball(std::uint32_t light, float roundings) const {
+  return is_spot(light) ? geom::bounding_ball(cone(light, roundings)) : ball(light, roundings);
 }
 
 geom::LightVolume LightArrays::volume(std::uint32_t light) const {

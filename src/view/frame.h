@@ -58,7 +58,9 @@ struct LightArrays {
   float padded_radius(std::uint32_t light, float roundings) const;
   geom::Ball ball(std::uint32_t light, float roundings) const;
   geom::SphericalCone cone(std::uint32_t light, float roundings) const;  // light must be a spot
-  geom::LightVolume volume(std::uint32_t light) const;                   // exact
+  // A point's ball; of a spot the one around its cone.
+  geom::Ball bounding_ball(std::uint32_t light, float roundings) const;
+  geom::LightVolume volume(std::uint32_t light) const;  // exact
 };
 
 // A light of the scene by its exact ingredients, as a space sees it.

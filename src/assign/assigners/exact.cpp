@@ -11,10 +11,11 @@
 #include <memory>
 #include <vector>
 
-#include "assign/contract/assigner.h"
 #include "assign/contract/light_test.h"
 #include "assign/cull/view_cull.h"
 #include "assign/exact/exact_rows.h"
+#include "assign/pipeline/light_by_light.h"
+#include "core/arrays.h"
 #include "geom/predicates.h"
 #include "grid/index_range.h"
 
@@ -23,32 +24,26 @@ namespace {
 
 using grid::IndexRange;
 
-class Exact final : public ListAssigner {
+class Exact final : public LightByLight<Exact> {
  public:
   explicit Exact(const Params&) {}
 
   void build(const grid::Grid& grid, const LightKinds& kinds) override {
-    grid_ = &grid;
+    start_grid(grid);
     view_ = ViewCull(grid.screen());
     cell_balls_.clear();
     if (kinds.spots) cell_balls_ = grid.balls_around_cells();
   }
 
-  void assign(const FrameInput& input, Lists& out) override {
-    const view::LightArrays& lights = input.lights;
-    tests_ = fallbacks_ = 0;
+  void start_frame(const view::LightArrays& lights) {
+    fallbacks_ = 0;
     check_prepared(lights, cell_balls_);
-    pairs_.start(grid_->cell_count());
-    for (std::uint32_t light = 0; light < lights.size(); ++light)
-      if (!lights.is_empty(light)) lights.is_spot(light) ? add_spot(lights, light) : add_point(lights, light);
-    pairs_.finish(out);
   }
-
-  std::uint64_t tests_done() const override { return tests_; }
+  void add_light(const view::LightArrays& lights, std::uint32_t light) {
+    lights.is_spot(light) ? add_spot(lights, light) : add_point(lights, light);
+  }
   std::uint64_t fallbacks() const override { return fallbacks_; }
-  std::size_t scratch_bytes() const override {
-    return pairs_.capacity_bytes() + cell_balls_.capacity() * sizeof(geom::Ball);
-  }
+  std::size_t own_bytes() const { return bytes_of(cell_balls_); }
 
  private:
   // Calls take(row) for the rows that a ball may touch, and perhaps a few more.
@@ -139,11 +134,9 @@ class Exact final : public ListAssigner {
                    static_cast<std::uint32_t>(columns.count()), light);
   }
 
-  const grid::Grid* grid_ = nullptr;
   ViewCull view_;
   std::vector<geom::Ball> cell_balls_;
-  PairBuffer pairs_;
-  std::uint64_t tests_ = 0, fallbacks_ = 0;
+  std::uint64_t fallbacks_ = 0;
 };
 
 std::unique_ptr<ListAssigner> make(const Params& params) {

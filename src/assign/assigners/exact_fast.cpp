@@ -129,11 +129,11 @@ class ExactFast final : public ListAssigner {
   void see_lights() {
     visible_.count = 0;
     visible_.reserve(lights_->size());
-    see_balls(planes_, given_points(*lights_), 0, visible_);
+    cull_balls(planes_, given_points(*lights_), 0, visible_);
     first_spot_place_ = visible_.count;
     if (lights_->spots == 0) return;
     find_spot_balls(*lights_, view::k_given_roundings, true, spots_);
-    see_balls(planes_, given_spots(*lights_, spots_), lights_->points, visible_);
+    cull_balls(planes_, given_spots(*lights_, spots_), lights_->points, visible_);
   }
 
   const grid::Grid* grid_ = nullptr;

@@ -8,7 +8,7 @@
 #include <bit>
 #include <limits>
 
-#include "assign/bounds/screen_bounds.h"
+#include "assign/bounds/frustum_bounds.h"
 #include "assign/cone/spot_spheres.h"
 #include "assign/contract/assigner.h"
 #include "assign/contract/light_test.h"
@@ -133,55 +133,48 @@ class ZBinning final : public AssignerOf<BinsAndMasks> {
 
   void build(const grid::Grid& grid, const LightKinds&) override {
     grid_ = &grid;
-    planes_ = RowPlanes(grid.screen());
-    box_planes_ = BoxPlanes(grid.screen());
+    bounds_.build(grid.screen());
   }
 
   void fill(const FrameInput& input, BinsAndMasks& out) override {
     const view::LightArrays& lights = input.lights;
     tests_ = lights.size();
-    visible_.count = boxed_.count = 0;
-    visible_.reserve(lights.size());
-    boxed_.reserve(lights.size());
-    box_balls(given_points(lights), 0, test_.padding(k_cell_box_roundings));
-    const std::uint32_t points = boxed_.count;
+    bounded_.count = 0;
+    bounded_.reserve(lights.size());
+    bounds_.start_frame(lights.size());
+    const float padding = test_.padding(k_cell_box_roundings);
+    bounds_.find(given_points(lights), 0, {padding, padding}, bounded_);
+    const std::uint32_t points = bounded_.count;
     if (lights.spots > 0) {
-      find_spot_balls(lights, test_.padding(k_cell_box_roundings), true, spots_);
-      box_balls(given_spots(lights, spots_), lights.points, 0.0f);
+      find_spot_balls(lights, padding, true, spots_);
+      bounds_.find(given_spots(lights, spots_), lights.points, {0.0f, 0.0f}, bounded_);
     }
-    out.start(*grid_, lights.size(), boxed_.count);
+    out.start(*grid_, lights.size(), bounded_.count);
     add_sorted(0, points, false, out);
-    add_sorted(points, boxed_.count, true, out);
+    add_sorted(points, bounded_.count, true, out);
   }
 
   std::uint64_t tests_done() const override { return tests_; }
   std::size_t scratch_bytes() const override {
-    return visible_.capacity_bytes() + boxed_.capacity_bytes() + spots_.capacity_bytes() + by_depth_.capacity_bytes();
+    return bounds_.capacity_bytes() + bounded_.capacity_bytes() + spots_.capacity_bytes() + by_depth_.capacity_bytes();
   }
 
  private:
-  void box_balls(const GivenBalls& balls, std::uint32_t first_light, float padding) {
-    const std::uint32_t begin = visible_.count;
-    see_balls(planes_, balls, first_light, visible_, padding + k_slice_rows_roundings);
-    find_screen_bounds(box_planes_, visible_, begin, balls, first_light, {padding, padding}, boxed_);
-  }
-
   // The middles of what balls reach in depth are their centres.
   void add_sorted(std::uint32_t begin, std::uint32_t end, bool are_spots, BinsAndMasks& out) {
     by_depth_.entries.resize(end - begin);
-    for (std::uint32_t i = begin; i < end; ++i) by_depth_.entries[i - begin] = {ordered_bits(boxed_.depth[i]), i};
+    for (std::uint32_t i = begin; i < end; ++i) by_depth_.entries[i - begin] = {ordered_bits(bounded_.depth[i]), i};
     by_depth_.sort();
     std::uint32_t place = begin;
-    for (const auto& [key, ball] : by_depth_.entries) out.add(place++, boxed_.light[ball], are_spots, boxed_.box(ball));
+    for (const auto& [key, ball] : by_depth_.entries)
+      out.add(place++, bounded_.light[ball], are_spots, bounded_.box(ball));
   }
 
   LightTest test_;
   const grid::Grid* grid_ = nullptr;
-  RowPlanes planes_;
-  BoxPlanes box_planes_;
+  FrustumBounds bounds_;
   BallArrays spots_;
-  VisibleBalls visible_;
-  BoxedBalls boxed_;
+  BoundedBalls bounded_;
   RadixSort<std::uint32_t> by_depth_;
   std::uint64_t tests_ = 0;
 };

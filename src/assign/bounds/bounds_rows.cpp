@@ -113,17 +113,17 @@ HWY_INLINE VU columns_reached(const Boxes& boxes, int most, const Remainder& bal
 }
 
 void refined_rows(const RefinementPlanes& planes, const BallBatch& batch, LaneColumns& columns, BatchRows& out) {
-  const BoxedBalls& boxed = batch.boxed;
+  const BoundedBalls& bounded = batch.bounded;
   const int grid_rows = static_cast<int>(planes.row_across.size()) - 1;
   const auto z = static_cast<std::size_t>(batch.slice);
   Boxes boxes(batch);
-  const Remainder ball = cut_to_slice(gathered(boxed.depth, boxes.places), gathered(boxed.radius, boxes.places),
+  const Remainder ball = cut_to_slice(gathered(bounded.depth, boxes.places), gathered(bounded.radius, boxes.places),
                                       planes.depths[z], planes.depths[z + 1]);
   boxes.keep(Not(is_none(ball.squared_radius)));
   if (!boxes.start(grid_rows, batch.count, out)) return;
-  const V y = gathered(boxed.y, boxes.places);
+  const V y = gathered(bounded.y, boxes.places);
   const int most = most_columns(boxes);
-  prepare_columns(planes, boxes, most, gathered(boxed.x, boxes.places), columns);
+  prepare_columns(planes, boxes, most, gathered(bounded.x, boxes.places), columns);
   const auto plane_at = [&](VI place) {
     const VI plane = Min(place, all_int(grid_rows));
     const V along = gathered(planes.row_along, plane);
@@ -164,15 +164,15 @@ HWY_INLINE void prepare_gaps(const CellExtents& cells, const Boxes& boxes, int s
 // Sums of squares are rounded to what is at least each square and grows with each: so what one gap puts out of reach,
 // no other brings back, and the columns that a row's boxes reach are one interval, because the boxes' ends ascend.
 void box_rows(const CellExtents& cells, const BallBatch& batch, LaneColumns& columns, BatchRows& out) {
-  const BoxedBalls& boxed = batch.boxed;
+  const BoundedBalls& bounded = batch.bounded;
   Boxes boxes(batch);
-  const V radius = gathered(boxed.radius, boxes.places), squared_radius = radius * radius;
-  const V z = Neg(gathered(boxed.depth, boxes.places)), gap_z = squared_gap(cells.z, all_int(batch.slice), z);
+  const V radius = gathered(bounded.radius, boxes.places), squared_radius = radius * radius;
+  const V z = Neg(gathered(bounded.depth, boxes.places)), gap_z = squared_gap(cells.z, all_int(batch.slice), z);
   boxes.keep(gap_z <= squared_radius);
   if (!boxes.start(cells.rows, batch.count, out)) return;
-  const V y = gathered(boxed.y, boxes.places);
+  const V y = gathered(bounded.y, boxes.places);
   const int most = most_columns(boxes);
-  prepare_gaps(cells, boxes, batch.slice, most, gathered(boxed.x, boxes.places), columns);
+  prepare_gaps(cells, boxes, batch.slice, most, gathered(bounded.x, boxes.places), columns);
   const VI last = all_int(cells.rows - 1), before = all_int(batch.slice * cells.y.pitch);
   walk_rows(boxes, cells.rows, out, [&](VI row, MI wanted) {
     const V gap_y = squared_gap(cells.y, Min(row, last) + before, y);

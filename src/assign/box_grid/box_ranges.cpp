@@ -40,7 +40,7 @@ HWY_INLINE MI lies_in(const Indices& range, const grid::IndexRange& hole) {
 
 // Those that reach the grid; without their ranges.
 void see_reaching(const RangeAxes& axes, const GivenBalls& balls, std::uint32_t first_light, float roundings,
-                  BoxedBalls& boxed) {
+                  BoundedBalls& bounded) {
   const D d;
   const auto n = static_cast<std::uint32_t>(Lanes(d));
   for (std::uint32_t i = 0; i < balls.count; i += n) {
@@ -50,37 +50,37 @@ void see_reaching(const RangeAxes& axes, const GivenBalls& balls, std::uint32_t 
     const V radius = padded(given, load(balls.reach), roundings);
     const M on_all = And(reaches(axes.x, x, radius), And(reaches(axes.y, y, radius), reaches(axes.z, z, radius)));
     const M wanted = And(And(given > Zero(d), FirstN(d, left)), on_all);
-    keep_balls(wanted, {x, y, Neg(z), radius}, first_light + i, boxed);
+    keep_balls(wanted, {x, y, Neg(z), radius}, first_light + i, bounded);
   }
 }
 
 // The ranges of the balls from `begin` on. Those in the hole reach no slice.
-void find_ranges(const RangeAxes& axes, std::uint32_t begin, BoxedBalls& boxed) {
+void find_ranges(const RangeAxes& axes, std::uint32_t begin, BoundedBalls& bounded) {
   const D d;
   const DI di;
   const auto n = static_cast<std::uint32_t>(Lanes(d));
-  for (std::uint32_t i = begin; i < boxed.count; i += n) {
+  for (std::uint32_t i = begin; i < bounded.count; i += n) {
     const auto at = [&](const AlignedVector<float>& list) { return LoadU(d, list.data() + i); };
-    const V radius = at(boxed.radius);
-    const Indices x = range_on(axes.x, at(boxed.x), radius), y = range_on(axes.y, at(boxed.y), radius);
-    Indices z = range_on(axes.z, Neg(at(boxed.depth)), radius);
+    const V radius = at(bounded.radius);
+    const Indices x = range_on(axes.x, at(bounded.x), radius), y = range_on(axes.y, at(bounded.y), radius);
+    Indices z = range_on(axes.z, Neg(at(bounded.depth)), radius);
     const MI in_hole = And(lies_in(x, axes.hole_x), And(lies_in(y, axes.hole_y), lies_in(z, axes.hole_z)));
     z.last = IfThenElse(in_hole, Set(di, -1), z.last);
     const auto keep = [&](const Indices& range, AlignedVector<std::int32_t>& first, AlignedVector<std::int32_t>& last) {
       StoreU(range.first, di, first.data() + i);
       StoreU(range.last, di, last.data() + i);
     };
-    keep(x, boxed.first_column, boxed.last_column);
-    keep(y, boxed.first_row, boxed.last_row);
-    keep(z, boxed.first_slice, boxed.last_slice);
+    keep(x, bounded.first_column, bounded.last_column);
+    keep(y, bounded.first_row, bounded.last_row);
+    keep(z, bounded.first_slice, bounded.last_slice);
   }
 }
 
 void box_ranges(const RangeAxes& axes, const GivenBalls& balls, std::uint32_t first_light, float roundings,
-                BoxedBalls& boxed) {
-  const std::uint32_t begin = boxed.count;
-  see_reaching(axes, balls, first_light, roundings, boxed);
-  find_ranges(axes, begin, boxed);
+                BoundedBalls& bounded) {
+  const std::uint32_t begin = bounded.count;
+  see_reaching(axes, balls, first_light, roundings, bounded);
+  find_ranges(axes, begin, bounded);
 }
 
 }  // namespace
@@ -108,8 +108,8 @@ std::size_t RangeAxes::capacity_bytes() const {
 }
 
 void find_box_ranges(const RangeAxes& axes, const GivenBalls& balls, std::uint32_t first_light, float roundings,
-                     BoxedBalls& boxed) {
-  HWY_DYNAMIC_DISPATCH(box_ranges)(axes, balls, first_light, roundings, boxed);
+                     BoundedBalls& bounded) {
+  HWY_DYNAMIC_DISPATCH(box_ranges)(axes, balls, first_light, roundings, bounded);
 }
 
 }  // namespace clusterbench::assign

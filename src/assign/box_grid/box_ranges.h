@@ -25,8 +25,8 @@ struct RangeAxes {
 };
 
 // Appends those of the balls, larger by these roundings, that reach a box outside of the hole. The first ball belongs
-// to light `first_light`. boxed's columns are along x, its rows along y, its slices along z, and depth is -z.
+// to light `first_light`. bounded's columns are along x, its rows along y, its slices along z, and depth is -z.
 void find_box_ranges(const RangeAxes& axes, const GivenBalls& balls, std::uint32_t first_light, float roundings,
-                     BoxedBalls& boxed);
+                     BoundedBalls& bounded);
 
 }  // namespace clusterbench::assign

@@ -47,12 +47,10 @@ IndexRange indices_within(const BoxAxis& axis, float place, float r) {
   return {static_cast<int>(first - axis.begin()), static_cast<int>(end - axis.begin()) - 1};
 }
 
-void add_light(const BoxGrid& boxes, const LightTest& test, const view::LightArrays& lights, std::uint32_t light,
-               PairBuffer& pairs, std::uint64_t& tests) {
-  if (lights.is_empty(light)) return;
-  const TestedLight tested = test.tested(lights, light);
-  RowSink sink(boxes, test, tested, pairs, tests);
-  for_each_row_touched(boxes, tested.ball, tests,
+void add_boxes(const BoxGrid& boxes, const LightTest& test, const TestedLight& light, PairBuffer& pairs,
+               std::uint64_t& tests) {
+  RowSink sink(boxes, test, light, pairs, tests);
+  for_each_row_touched(boxes, light.ball, tests,
                        [&](int y, int z, int first, int last) { sink.add_row(y, z, first, last); });
 }
 

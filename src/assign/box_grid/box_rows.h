@@ -11,7 +11,6 @@
 #include "assign/contract/lists.h"
 #include "geom/shapes.h"
 #include "grid/index_range.h"
-#include "view/frame.h"
 
 namespace clusterbench::assign {
 
@@ -70,12 +69,12 @@ void for_each_row_touched(const BoxGrid& boxes, const geom::Ball& ball, std::uin
   }
 }
 
-// Adds the cells that a light touches.
+// Adds the cells of these boxes that a light touches.
 //
 // Roundings: each axis's gap is one difference, off by 2^-24 of itself; squaring, two sums and the squared radius leave
 // the compared squares off by at most 5 * 2^-24 of themselves, so the distance by 2.5; with the gaps' 1: 3.5.
 inline constexpr float k_box_roundings = 4.0f;
-void add_light(const BoxGrid& boxes, const LightTest& test, const view::LightArrays& lights, std::uint32_t light,
-               PairBuffer& pairs, std::uint64_t& tests);
+void add_boxes(const BoxGrid& boxes, const LightTest& test, const TestedLight& light, PairBuffer& pairs,
+               std::uint64_t& tests);
 
 }  // namespace clusterbench::assign

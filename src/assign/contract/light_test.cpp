@@ -52,8 +52,7 @@ void LightTest::start_frame(const view::LightArrays& lights) const {
 
 geom::Ball LightTest::ball(const view::LightArrays& lights, std::uint32_t light, float roundings) const {
   const float all = padding(roundings);
-  if (!lights.is_spot(light) || spot_ == SpotTest::cone_sphere) return lights.ball(light, all);
-  return geom::bounding_ball(lights.cone(light, all));
+  return balls_are_around_cones() ? lights.bounding_ball(light, all) : lights.ball(light, all);
 }
 
 TestedLight LightTest::tested(const view::LightArrays& lights, std::uint32_t light) const {

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/cull/frustum_cull.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
 #include <hwy/highway.h>
 
-#include "assign/simd/compress-inl.h"
 #include "assign/simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -94,11 +92,10 @@ class SliceSearch {
   std::int32_t last_;
 };
 
-void see(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, VisibleBalls& visible,
-         float roundings) {
+void cull(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, VisibleBalls& visible,
+          float roundings) {
   const D d;
   const DI di;
-  const hn::RebindToUnsigned<D> du;
   const auto n = static_cast<std::uint32_t>(Lanes(d));
   const View view(planes);
   const std::uint32_t before = visible.count;
@@ -112,18 +109,15 @@ void see(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_l
     const M wanted = And(reaches, FirstN(d, left));
     const std::size_t kept = CountTrue(d, wanted);
     if (kept == 0) continue;
-    const auto keep = [&](V value, AlignedVector<float>& to) {
-      StoreU(compressed(d, value, wanted), d, to.data() + visible.count);
-    };
-    keep(x, visible.x);
-    keep(y, visible.y);
-    keep(depth, visible.depth);
+    const Appender append(wanted, visible.count);
+    append(x, visible.x);
+    append(y, visible.y);
+    append(depth, visible.depth);
     // Powers of a reach must be normal numbers; elsewhere the whole grid is left to be decided.
     const M is_plain = is_between(all(planes.least_reach), reach, all(k_most_row_reach));
-    keep(IfThenElse(is_plain, radius, infinity()), visible.radius);
-    keep(slack, visible.slack);
-    const auto lights = BitCast(du, from_on(static_cast<std::int32_t>(first_light + i)));
-    StoreU(compressed(du, lights, RebindMask(du, wanted)), du, visible.light.data() + visible.count);
+    append(IfThenElse(is_plain, radius, infinity()), visible.radius);
+    append(slack, visible.slack);
+    append(BitCast(DU(), from_on(static_cast<std::int32_t>(first_light + i))), visible.light);
     visible.count += static_cast<std::uint32_t>(kept);
   }
   const SliceSearch search(planes);
@@ -144,24 +138,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace clusterbench::assign {
 
-HWY_EXPORT(see);
+HWY_EXPORT(cull);
 
-void VisibleBalls::reserve(std::uint32_t most) {
-  const std::size_t size = most + k_most_lanes;
-  for (AlignedVector<float>* list : {&x, &y, &depth, &radius, &slack})
-    if (list->size() < size) list->resize(size);
-  for (AlignedVector<std::int32_t>* list : {&first_slice, &last_slice})
-    if (list->size() < size) list->resize(size);
-  if (light.size() < size) light.resize(size);
-}
-
-std::size_t VisibleBalls::capacity_bytes() const {
-  return 8 * light.capacity() * sizeof(float);
-}
-
-void see_balls(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, VisibleBalls& visible,
-               float roundings) {
-  HWY_DYNAMIC_DISPATCH(see)(planes, balls, first_light, visible, roundings);
+void cull_balls(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, VisibleBalls& visible,
+                float roundings) {
+  HWY_DYNAMIC_DISPATCH(cull)(planes, balls, first_light, visible, roundings);
 }
 
 }  // namespace clusterbench::assign

@@ -4,7 +4,9 @@
 #include <cstdint>
 
 #include "assign/rows/row_planes.h"
+#include "assign/simd/lanes.h"
 #include "core/aligned_vector.h"
+#include "core/arrays.h"
 
 namespace clusterbench::assign {
 
@@ -23,8 +25,10 @@ struct VisibleBalls {
   AlignedVector<std::uint32_t> light;
   AlignedVector<std::int32_t> first_slice, last_slice;
 
-  void reserve(std::uint32_t most);
-  std::size_t capacity_bytes() const;
+  void reserve(std::uint32_t most) {
+    grow_to(most + k_most_lanes, x, y, depth, radius, slack, light, first_slice, last_slice);
+  }
+  std::size_t capacity_bytes() const { return bytes_of(x, y, depth, radius, slack, light, first_slice, last_slice); }
 };
 
 // Units of 2^-24 of a light's reach by which a ball is made larger: more than rounding loses here (a centre 1,
@@ -37,7 +41,7 @@ inline constexpr float k_most_row_reach = 1e9f;
 
 // Appends the balls that may reach into the grid; the first one's light is `first_light`. Those left out touch no cell,
 // even if they are larger by these roundings.
-void see_balls(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, VisibleBalls& visible,
-               float roundings = k_slice_rows_roundings);
+void cull_balls(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, VisibleBalls& visible,
+                float roundings = k_slice_rows_roundings);
 
 }  // namespace clusterbench::assign

@@ -25,9 +25,9 @@ struct Row {
 
 inline Row row_of(const grid::ScreenGrid& grid, int slice, int row) {
   const auto z = static_cast<std::size_t>(slice);
-  const auto first_cell = static_cast<std::uint32_t>((slice * grid.tiles.count.y + row) * grid.tiles.count.x);
-  return {first_cell, grid.tiles.y_min(row), grid.tiles.y_max(row), grid.slices.boundaries[z],
-          grid.slices.boundaries[z + 1]};
+  const Vec2i tiles = grid.tiles.count;
+  return {grid::cell_index({0, row, slice}, {tiles.x, tiles.y, grid.slices.count()}), grid.tiles.y_min(row),
+          grid.tiles.y_max(row), grid.slices.boundaries[z], grid.slices.boundaries[z + 1]};
 }
 
 inline geom::FrustumPiece piece_of(const grid::Tiles& tiles, const Row& row, int column) {

@@ -67,7 +67,7 @@ HWY_INLINE M reach_shells(const ShellPlanes& planes, const Balls& balls, Indices
 }
 
 void shells(const ShellPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, float roundings,
-            BoxedBalls& boxed) {
+            BoundedBalls& bounded) {
   const D d;
   const DI di;
   const auto n = static_cast<std::uint32_t>(Lanes(d));
@@ -81,16 +81,14 @@ void shells(const ShellPlanes& planes, const GivenBalls& balls, std::uint32_t fi
     const M may_reach = reach_shells(planes, found, shells_reached);
     const M wanted = And(may_reach, And(given > Zero(d), FirstN(d, left)));
     if (AllFalse(d, wanted)) continue;
-    const auto keep_index = [&](VI index, AlignedVector<std::int32_t>& to) {
-      StoreU(compressed(di, index, RebindMask(di, wanted)), di, to.data() + boxed.count);
-    };
-    keep_index(shells_reached.first, boxed.first_slice);
-    keep_index(shells_reached.last, boxed.last_slice);
-    keep_index(none, boxed.first_column);
-    keep_index(none, boxed.last_column);
-    keep_index(none, boxed.first_row);
-    keep_index(last_row, boxed.last_row);
-    keep_balls(wanted, found, first_light + i, boxed);
+    const Appender append(wanted, bounded.count);
+    append(shells_reached.first, bounded.first_slice);
+    append(shells_reached.last, bounded.last_slice);
+    append(none, bounded.first_column);
+    append(none, bounded.last_column);
+    append(none, bounded.first_row);
+    append(last_row, bounded.last_row);
+    keep_balls(wanted, found, first_light + i, bounded);
   }
 }
 
@@ -193,8 +191,8 @@ class Shell {
   HWY_INLINE Shell(const ShellPlanes& planes, const BallBatch& batch, VI places) : planes_(planes) {
     const auto shell = static_cast<std::size_t>(batch.slice);
     const double distance0 = planes.boundaries.depths[shell], distance1 = planes.boundaries.depths[shell + 1];
-    const Lanes x(gathered(batch.boxed.x, places)), y(gathered(batch.boxed.y, places));
-    const Lanes depth(gathered(batch.boxed.depth, places)), radius(gathered(batch.boxed.radius, places));
+    const Lanes x(gathered(batch.bounded.x, places)), y(gathered(batch.bounded.y, places));
+    const Lanes depth(gathered(batch.bounded.depth, places)), radius(gathered(batch.bounded.radius, places));
     Lanes low, high;
     for (std::size_t half = 0; half < k_halves; ++half) {
       const VD wide_x = x.wide(half), wide_y = y.wide(half), wide_depth = depth.wide(half), r = radius.wide(half);
@@ -316,8 +314,8 @@ std::size_t ShellPlanes::capacity_bytes() const {
 }
 
 void find_shells(const ShellPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, float roundings,
-                 BoxedBalls& boxed) {
-  HWY_DYNAMIC_DISPATCH(shells)(planes, balls, first_light, roundings, boxed);
+                 BoundedBalls& bounded) {
+  HWY_DYNAMIC_DISPATCH(shells)(planes, balls, first_light, roundings, bounded);
 }
 
 void find_shell_rows(const ShellPlanes& planes, const BallBatch& batch, BatchRows& out) {

@@ -28,7 +28,7 @@ struct ShellPlanes {
 // they may reach and all rows. The first ball belongs to light `first_light`. Those left out touch no cell, not even by
 // what rounding adds.
 void find_shells(const ShellPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, float roundings,
-                 BoxedBalls& boxed);
+                 BoundedBalls& bounded);
 
 // The batch's slice is the shell.
 void find_shell_rows(const ShellPlanes& planes, const BallBatch& batch, BatchRows& out);

@@ -15,8 +15,9 @@
 #include <limits>
 #include <vector>
 
-#include "assign/lists/row_lists.h"
 #include "assign/simd/compress-inl.h"
+#include "assign/simd/lanes.h"
+#include "core/aligned_vector.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign {
@@ -162,6 +163,26 @@ class Carried {
 
  private:
   Which one_back_;
+};
+
+// Appends the wanted lanes of vectors to arrays, which have room for a whole vector from index `at` on.
+class Appender {
+ public:
+  HWY_INLINE Appender(M wanted, std::uint32_t at) : wanted_(wanted), at_(at) {}
+
+  HWY_INLINE void operator()(V value, AlignedVector<float>& to) const {
+    StoreU(compressed(D(), value, wanted_), D(), to.data() + at_);
+  }
+  HWY_INLINE void operator()(VI value, AlignedVector<std::int32_t>& to) const {
+    StoreU(compressed(DI(), value, RebindMask(DI(), wanted_)), DI(), to.data() + at_);
+  }
+  HWY_INLINE void operator()(VU value, AlignedVector<std::uint32_t>& to) const {
+    StoreU(compressed(DU(), value, RebindMask(DU(), wanted_)), DU(), to.data() + at_);
+  }
+
+ private:
+  M wanted_;
+  std::uint32_t at_;
 };
 
 // from[0] .. from[count - 1], and 0 beyond if that is less than a vector.

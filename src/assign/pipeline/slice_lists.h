@@ -16,10 +16,18 @@
 
 namespace clusterbench::assign {
 
+// Slices that are taken together: all of a grid, or a cascade's level.
+struct Level {
+  int slices = 0;
+  // Cells that take no lights, in the first `hole_slices` slices.
+  BandHole hole{};
+  int hole_slices = 0;
+};
+
 // Keeps its memory between frames.
-class BoxedLists {
+class SliceLists {
  public:
-  explicit BoxedLists(const LightTest& test) : test_(test) {}
+  explicit SliceLists(const LightTest& test) : test_(test) {}
 
   // After the test's start_grid(). Throws Error if there are too many columns. `key`: what they were given by.
   void start_grid(const Vec3i& cells, const char* key) {
@@ -41,14 +49,13 @@ class BoxedLists {
                  static_cast<std::uint32_t>(grid_cells_.x), out);
   }
 
-  // The next `slices` slices of the grid, which the balls' boxes count from 0. find(batch, rows) finds a batch's rows.
-  // Cells of the hole take no lights in the first hole_slices slices.
+  // The grid's next slices, which the balls' boxes count from 0. find(batch, rows) finds a batch's rows.
   template <class Find>
-  void add_slices(const BoxedBalls& boxed, int slices, Find&& find, const BandHole& hole = {}, int hole_slices = 0) {
-    slice_bins_.sort(boxed, slices);
-    for (int slice = 0; slice < slices; ++slice) {
-      add_slice(boxed, slice, find);
-      spans_.finish_band(slice < hole_slices ? hole : BandHole{});
+  void add_slices(const BoundedBalls& bounded, const Level& level, Find&& find) {
+    slice_bins_.sort(bounded, level.slices);
+    for (int slice = 0; slice < level.slices; ++slice) {
+      add_slice(bounded, slice, find);
+      spans_.finish_band(slice < level.hole_slices ? level.hole : BandHole{});
       ++next_slice_;
     }
   }
@@ -64,24 +71,24 @@ class BoxedLists {
 
  private:
   template <class Find>
-  void add_slice(const BoxedBalls& boxed, int slice, Find&& find) {
+  void add_slice(const BoundedBalls& bounded, int slice, Find&& find) {
     const std::span<const std::uint32_t> balls = slice_bins_.of(slice);
     const std::uint32_t most = balls_per_batch(), first_open = test_.tests_cones() ? lights_->points : lights_->size();
     for (std::uint32_t begin = 0; begin < balls.size(); begin += most) {
       const auto count = std::min(most, static_cast<std::uint32_t>(balls.size()) - begin);
-      find(BallBatch{boxed, slice, balls.data() + begin, count, first_open}, batch_);
+      find(BallBatch{bounded, slice, balls.data() + begin, count, first_open}, batch_);
       tests_ += batch_.tests;
       if (spans_.add_batch(batch_.first_row, batch_.last_row, batch_.columns.data(), batch_.lights, is_left_.data()))
-        add_left_rows(boxed, balls.data() + begin, count);
+        add_left_rows(bounded, balls.data() + begin, count);
     }
   }
 
   // Ball by ball, which for each row is the order of the lights.
-  void add_left_rows(const BoxedBalls& boxed, const std::uint32_t* balls, std::uint32_t count) {
+  void add_left_rows(const BoundedBalls& bounded, const std::uint32_t* balls, std::uint32_t count) {
     for (std::uint32_t lane = 0; lane < count; ++lane) {
       runs_.clear();
       const std::uint32_t light = batch_.lights[lane];
-      for (int row = boxed.first_row[balls[lane]]; row <= boxed.last_row[balls[lane]]; ++row) {
+      for (int row = bounded.first_row[balls[lane]]; row <= bounded.last_row[balls[lane]]; ++row) {
         const auto place = static_cast<std::size_t>(row);
         if (row < batch_.first_row || row > batch_.last_row || is_left_[place] == 0) continue;
         const std::uint32_t entry = batch_.columns[place * batch_.lanes + lane];
@@ -98,8 +105,7 @@ class BoxedLists {
   }
 
   void add_runs(std::uint32_t row, std::uint32_t first, std::uint32_t last) {
-    const auto row_start = static_cast<std::uint32_t>(next_slice_ * grid_cells_.y + static_cast<int>(row)) *
-                           static_cast<std::uint32_t>(grid_cells_.x);
+    const std::uint32_t row_start = grid::cell_index({0, static_cast<int>(row), next_slice_}, grid_cells_);
     tests_ += last - first + 1;
     for (std::uint32_t column = first; column <= last; column += 64)
       runs_.push_back({row, column, row_start + column, std::min(64u, last - column + 1)});
