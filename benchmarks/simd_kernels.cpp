@@ -133,7 +133,7 @@ void find_spot_balls(State& state) {
   const Setting setting = open_world();
   assign::BallArrays balls;
   for (auto _ : state) {
-    assign::find_spot_balls(setting.lights, view::k_given_roundings, true, balls);
+    assign::find_spot_balls(setting.lights, view::k_given_roundoffs, true, balls);
     benchmark::ClobberMemory();
   }
   items(state, setting.lights.spots);
@@ -245,7 +245,7 @@ void find_spot_rows(State& state) {
   const assign::RowPlanes planes(setting.grid.screen());
   const assign::SpotsAndPlanes from{&setting.lights, planes.side.data(), planes.slope.data(), planes.depth.data()};
   assign::BallArrays around;
-  assign::find_spot_balls(setting.lights, view::k_given_roundings, true, around);
+  assign::find_spot_balls(setting.lights, view::k_given_roundoffs, true, around);
   assign::VisibleBalls visible;
   visible.reserve(setting.lights.spots);
   assign::cull_balls(planes, assign::given_spots(setting.lights, around), 0, visible);
@@ -310,7 +310,7 @@ void look_thoroughly(State& state) {
 }
 
 // Every spot against a row of cells in each slice.
-void find_lit_cells(State& state) {
+void find_touched_cells(State& state) {
   const Setting setting = open_world();
   const Vec3i size = setting.grid.cells();
   std::vector<geom::Ball> balls;
@@ -324,7 +324,7 @@ void find_lit_cells(State& state) {
   std::vector<std::uint64_t> lit;
   for (auto _ : state)
     for (std::uint32_t spot = setting.lights.points; spot < setting.lights.size(); ++spot) {
-      assign::find_lit_cells(setting.lights.cone(spot, 8.0f), cells, runs, lit);
+      assign::find_touched_cells(setting.lights.cone(spot, 8.0f), cells, runs, lit);
       benchmark::ClobberMemory();
     }
   items(state, std::uint64_t{setting.lights.spots} * runs.size() * columns);
@@ -515,7 +515,7 @@ constexpr Kernel k_kernels[] = {
     {"look_approaching", look_approaching},
     {"look_closer", look_closer},
     {"look_thoroughly", look_thoroughly},
-    {"find_lit_cells", find_lit_cells},
+    {"find_touched_cells", find_touched_cells},
 };
 
 struct ListKernel {

@@ -57,18 +57,18 @@ std::int64_t lookup_screen(const ScreenGrid& grid, Vec3i cells, const Sample& sa
   return cell_index({tile.x, tile.y, slice}, cells);
 }
 
-bool lies_within(const Vec3f& place, const Vec3i& cells) {
+bool lies_within(const Vec3f& point, const Vec3i& cells) {
   const Vec3f end(cells);
-  return place.x >= 0.0f && place.y >= 0.0f && place.z >= 0.0f && place.x < end.x && place.y < end.y && place.z < end.z;
+  return point.x >= 0.0f && point.y >= 0.0f && point.z >= 0.0f && point.x < end.x && point.y < end.y && point.z < end.z;
 }
 
 std::int64_t lookup_cascades(const CascadesGrid& grid, Vec3i cells, const Sample& sample) {
   for (int level = 0; level < grid.levels; ++level) {
     const float edge = grid.edge_m(level);
     const float half_x = 0.5f * static_cast<float>(grid.cells.x), half_y = 0.5f * static_cast<float>(grid.cells.y);
-    const Vec3f place{sample.view.x / edge + half_x, half_y - sample.view.y / edge, -sample.view.z / edge};
-    if (!lies_within(place, grid.cells)) continue;
-    const Vec3i cell(place);
+    const Vec3f in_cells{sample.view.x / edge + half_x, half_y - sample.view.y / edge, -sample.view.z / edge};
+    if (!lies_within(in_cells, grid.cells)) continue;
+    const Vec3i cell(in_cells);
     // A point that rounds out of a level rounds out of the hole that this level fills: both divide by powers of two
     // apart.
     if (!grid.is_hole(level, cell)) return cell_index({cell.x, cell.y, level * grid.cells.z + cell.z}, cells);
@@ -79,14 +79,14 @@ std::int64_t lookup_cascades(const CascadesGrid& grid, Vec3i cells, const Sample
 std::int64_t lookup_world(const WorldGrid& grid, Vec3i cells, const Sample& sample) {
   Vec3i cell{0};
   const std::vector<float>* axes[3] = {&grid.x, &grid.y, &grid.z};
-  const Vec3f place_in_grid(sample.from(grid.origin));
+  const Vec3f point_in_grid(sample.from(grid.origin));
   for (int axis = 0; axis < 3; ++axis) {
     const std::vector<float>& bounds = *axes[axis];
-    const float local = place_in_grid[axis];
+    const float local = point_in_grid[axis];
     const float scale = static_cast<float>(cells[axis]) / (bounds.back() - bounds.front());
-    const float place = std::floor((local - bounds.front()) * scale);
+    const float index = std::floor((local - bounds.front()) * scale);
     if (!(local >= bounds.front() && local <= bounds.back())) return -1;
-    cell[axis] = std::clamp(static_cast<int>(place), 0, cells[axis] - 1);
+    cell[axis] = std::clamp(static_cast<int>(index), 0, cells[axis] - 1);
   }
   return cell_index(cell, cells);
 }
@@ -95,7 +95,7 @@ SliceRange slice_range(const GridInputs& inputs) {
   return {inputs.projection.near_m, inputs.projection.far_m, inputs.light_near_m, inputs.light_far_m};
 }
 
-// The farthest corners of a perspective grid are as far aside as their slopes say.
+// The farthest corners of a perspective grid are as far to the side as their slopes say.
 void check_extent(const ScreenGrid& grid) {
   const Tiles& tiles = grid.tiles;
   if (tiles.orthographic) return;
@@ -182,9 +182,9 @@ struct LightReach {
 bool may_be_in_view(const view::Projection& projection, const Vec3d& center, double radius) {
   const double depth = -center.z;
   if (depth + radius < projection.near_m || depth - radius > projection.far_m) return false;
-  const auto beyond = [&](double place, double side) {
-    if (projection.orthographic) return place - side;
-    return (place - side * depth) / std::sqrt(1.0 + side * side);
+  const auto beyond = [&](double coordinate, double side) {
+    if (projection.orthographic) return coordinate - side;
+    return (coordinate - side * depth) / std::sqrt(1.0 + side * side);
   };
   return -beyond(center.x, projection.left) <= radius && beyond(center.x, projection.right) <= radius &&
          -beyond(center.y, projection.bottom) <= radius && beyond(center.y, projection.top) <= radius;
@@ -268,10 +268,10 @@ bool Grid::is_hole(std::uint32_t index) const {
 }
 
 geom::Cell Grid::cell(std::uint32_t index) const {
-  const Vec3i place = cell_at(index);
-  return std::visit(Overloaded{[&](const ScreenGrid& g) { return screen_cell(g, place); },
-                               [&](const CascadesGrid& g) { return cascade_cell(g, place); },
-                               [&](const WorldGrid& g) { return world_cell(g, place); }},
+  const Vec3i at = cell_at(index);
+  return std::visit(Overloaded{[&](const ScreenGrid& g) { return screen_cell(g, at); },
+                               [&](const CascadesGrid& g) { return cascade_cell(g, at); },
+                               [&](const WorldGrid& g) { return world_cell(g, at); }},
                     shape);
 }
 

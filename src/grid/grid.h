@@ -72,11 +72,11 @@ struct Grid {
 // The space in which the grid's cells are given.
 view::Space space_of(const Grid& grid, const view::Frame& frame);
 
-// A place where shading happens.
+// A point where shading happens.
 struct Sample {
   float pixel_x, pixel_y;  // from the top left
   Vec3f view;              // view space, single precision
-  // The exact place, along the world's axes: from the eye, as far from the origin a double holds metres only.
+  // The exact position, along the world's axes: from the eye, as far from the origin a double holds metres only.
   Vec3d from_eye, eye;
 
   Vec3d from(const Vec3d& origin) const { return from_eye + (eye - origin); }

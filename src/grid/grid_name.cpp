@@ -23,7 +23,7 @@ std::string tiles_name(const Tiling& tiles) {
   return by_count ? pair(tiles.count.x, tiles.count.y, "") : pair(tiles.pixels.x, tiles.pixels.y, "px");
 }
 
-// "near..far", or "near..first..far"; what the camera or the lights decide is left open.
+// "near..far", or "near..first..far"; what the camera or the lights decide is left out.
 std::string reach_name(const Slicing& slices) {
   const std::string near = slices.near_m == 0.0 ? "" : number(slices.near_m);
   const std::string far = slices.far_m == 0.0 ? "" : number(slices.far_m);

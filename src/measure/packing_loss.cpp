@@ -39,8 +39,8 @@ void PackingLossMeter::add_frame(const view::PackedLights& packed) {
 void PackingLossMeter::add_light(const view::PackedLights& packed, std::uint32_t light) {
   const view::LightArrays& lights = packed.lights;
   const scene::WorldLight& exact = lights.source[light];
-  const Vec3d place{lights.x[light], lights.y[light], lights.z[light]};
-  position_.add(glm::length(place - lights.space.rotation * (exact.position - lights.space.origin)));
+  const Vec3d position{lights.x[light], lights.y[light], lights.z[light]};
+  position_.add(glm::length(position - lights.space.rotation * (exact.position - lights.space.origin)));
   range_.add(static_cast<double>(lights.radius[light]) - exact.range_m);
   inflation_.add(packed.bounds[light].inflation_m(lights.radius[light]));
   if (lights.is_spot(light)) add_cone(lights, light);

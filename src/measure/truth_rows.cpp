@@ -75,17 +75,21 @@ BoxBlock cascade_block(const grid::Grid& grid, int level) {
   return block;
 }
 
-double gap_to(const Extent& extent, double place) {
-  return std::max({0.0, extent.lo - place, place - extent.hi});
+double gap_to(const Extent& extent, double coordinate) {
+  return std::max({0.0, extent.lo - coordinate, coordinate - extent.hi});
 }
 
-// Extents that may lie within `reach` of a place; they ascend or descend.
-grid::IndexRange extents_near(const std::vector<Extent>& extents, double place, double reach) {
+// Extents that may lie within `reach` of a coordinate; they ascend or descend.
+grid::IndexRange extents_near(const std::vector<Extent>& extents, double coordinate, double reach) {
   constexpr double k_slack = 1e-12;  // far more than the rounding of a gap
-  const double wider = reach + k_slack * (std::abs(place) + reach);
+  const double wider = reach + k_slack * (std::abs(coordinate) + reach);
   const bool ascend = extents.front().lo <= extents.back().lo;
-  const auto is_before = [&](const Extent& e) { return ascend ? e.hi < place - wider : e.lo > place + wider; };
-  const auto is_not_beyond = [&](const Extent& e) { return ascend ? e.lo <= place + wider : e.hi >= place - wider; };
+  const auto is_before = [&](const Extent& e) {
+    return ascend ? e.hi < coordinate - wider : e.lo > coordinate + wider;
+  };
+  const auto is_not_beyond = [&](const Extent& e) {
+    return ascend ? e.lo <= coordinate + wider : e.hi >= coordinate - wider;
+  };
   const auto from = std::partition_point(extents.begin(), extents.end(), is_before);
   const auto to = std::partition_point(from, extents.end(), is_not_beyond);
   return {static_cast<int>(from - extents.begin()), static_cast<int>(to - extents.begin()) - 1};

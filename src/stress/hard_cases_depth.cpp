@@ -101,7 +101,7 @@ std::vector<Trial> tangent_to_everything(std::uint64_t seed) {
         const std::uint32_t cell = random_cell(grid, random);
         const Contact contact = random_contact(grid.cell(cell), random);
         const double range = std::exp(std::log(0.05) + random.unit() * std::log(400.0));
-        const Vec3d local = contact.place + range * contact.outward;
+        const Vec3d local = contact.point + range * contact.outward;
         const double nudged = static_cast<double>(moved(static_cast<float>(range), ulps));
         rig.point(glm::transpose(space.rotation) * local + space.origin, ulps == 0 ? range : nudged);
       }

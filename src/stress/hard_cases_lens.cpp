@@ -19,14 +19,14 @@ Rig& scatter(Rig& rig, double slope_x, double slope_y, int count, std::uint64_t 
   for (int i = 0; i < count; ++i) {
     const double depth = std::exp(std::log(0.05) + random.unit() * std::log(600.0 / 0.05));
     const double across = 1.4 * (2.0 * random.unit() - 1.0), up = 1.4 * (2.0 * random.unit() - 1.0);
-    const Vec3d place{across * slope_x * depth, up * slope_y * depth, -depth};
+    const Vec3d position{across * slope_x * depth, up * slope_y * depth, -depth};
     const double range = depth * std::exp(std::log(1e-3) + random.unit() * std::log(1e3));
     const double yaw = 360.0 * k_degree * random.unit(), pitch = random.unit() - 0.5,
                  angle = 1e-3 + 1.5 * random.unit();
     if (i % 3 == 2)
-      rig.spot(place, {std::cos(yaw), pitch, std::sin(yaw)}, range, angle);
+      rig.spot(position, {std::cos(yaw), pitch, std::sin(yaw)}, range, angle);
     else
-      rig.point(place, range);
+      rig.point(position, range);
   }
   return rig;
 }
@@ -125,11 +125,11 @@ std::vector<Trial> infinite_far(std::uint64_t seed) {
   rig.lens().far_m = std::numeric_limits<double>::infinity();
   scatter(rig, slope_of(60.0) * 16 / 9, slope_of(60.0), 150, seed)
       .on_each(grids_of_every_kind(), "far from the configuration", trials);
-  grid::GridSpec open = pixel_grid({128, 128});
-  open.slices.far_m = 0.0;
-  trials.push_back(rig.on(open, "far from the lights"));
-  open.slices.scheme = Scheme::fit;
-  trials.push_back(rig.on(open, "slices that fit the lights"));
+  grid::GridSpec far_unnamed = pixel_grid({128, 128});
+  far_unnamed.slices.far_m = 0.0;
+  trials.push_back(rig.on(far_unnamed, "far from the lights"));
+  far_unnamed.slices.scheme = Scheme::fit;
+  trials.push_back(rig.on(far_unnamed, "slices that fit the lights"));
   return trials;
 }
 
@@ -189,12 +189,12 @@ std::vector<Trial> far_from_the_origin(std::uint64_t seed) {
     Rig rig;
     for (int i = 0; i < 150; ++i) {
       const double x = random.between(-40, 40), y = random.between(-10, 10), z = random.between(-80, 10);
-      const Vec3d place = glm::round(Vec3d(x, y, z) * 64.0) / 64.0;
+      const Vec3d position = glm::round(Vec3d(x, y, z) * 64.0) / 64.0;
       const double range = random.between(0.2, 12.0), angle = random.between(0.05, 1.5);
       if (i % 3 == 2)
-        rig.spot(place + away, {x, y, 30}, range, angle);
+        rig.spot(position + away, {x, y, 30}, range, angle);
       else
-        rig.point(place + away, range);
+        rig.point(position + away, range);
     }
     rig.look(away, 0.0).on_each(grids_of_every_kind(), "offset " + std::to_string(static_cast<long>(offset)), trials);
   }

@@ -28,13 +28,13 @@ Rig lattice_rig(std::uint64_t seed, int lights, const Vec3d& off) {
   SplitMix64 random(seed);
   Rig rig;
   for (int i = 0; i < lights; i += 4) {
-    Vec3d place{0, 0, -whole_between(random, 1, 60)};
+    Vec3d position{0, 0, -whole_between(random, 1, 60)};
     const int axis = whole_between(random, 0, 1);
-    place[axis] = whole_between(random, 1, 6);
-    place[1 - axis] = whole_between(random, -12, 12);
-    double range = place[axis];
+    position[axis] = whole_between(random, 1, 6);
+    position[1 - axis] = whole_between(random, -12, 12);
+    double range = position[axis];
     if (i % 32 == 0) {
-      place = {3, 4, place.z};
+      position = {3, 4, position.z};
       range = 5;
     }
     Vec3d towards(0.0);
@@ -42,7 +42,7 @@ Rig lattice_rig(std::uint64_t seed, int lights, const Vec3d& off) {
     const double angle = whole_between(random, 1, 4) * 15 * k_degree;
     for (const double x : {1.0, -1.0})
       for (const double y : {1.0, -1.0}) {
-        const Vec3d side{x, y, 1.0}, at = side * place + off;
+        const Vec3d side{x, y, 1.0}, at = side * position + off;
         i % 20 == 16 ? rig.spot(at, side * towards, range, angle) : rig.point(at, range);
       }
   }
@@ -168,12 +168,12 @@ std::vector<Trial> far_and_small(std::uint64_t seed) {
       const auto cell = static_cast<std::uint32_t>(grid.cell_count() * 3 / 4 + random.below(grid.cell_count() / 4));
       const Contact contact = random_contact(grid.cell(cell), random);
       const double range = std::exp(random.between(std::log(0.002), std::log(2.0)));
-      const Vec3d at = contact.place + (i % 2 == 0 ? 1.0 : random.between(0.0, 1.0)) * range * contact.outward;
-      const Vec3d aside = glm::normalize(glm::cross(contact.outward, Vec3d(0.3, 0.5, 0.8)));
+      const Vec3d at = contact.point + (i % 2 == 0 ? 1.0 : random.between(0.0, 1.0)) * range * contact.outward;
+      const Vec3d along = glm::normalize(glm::cross(contact.outward, Vec3d(0.3, 0.5, 0.8)));
       if (i % 3 == 0)
         rig.point(at, range);
       else
-        rig.spot(at, i % 2 == 0 ? -contact.outward : aside, range, i % 3 == 1 ? 1e-5 : random.between(0.01, 1.5));
+        rig.spot(at, i % 2 == 0 ? -contact.outward : along, range, i % 3 == 1 ? 1e-5 : random.between(0.01, 1.5));
     }
     trials.push_back(rig.on(spec, "centimetres at kilometres"));
   }
@@ -247,12 +247,12 @@ Rig beside_the_picture(double right, double top, bool orthographic, std::uint64_
     const double along = random.between(-1.3, 1.3);
     const bool is_column = i % 2 == 0;
     const Vec3d side = is_column ? Vec3d(beyond, along, 0) : Vec3d(along, -beyond, 0);
-    const Vec3d place{side.x * right * scale, side.y * top * scale, -depth};
+    const Vec3d position{side.x * right * scale, side.y * top * scale, -depth};
     // From the side of the picture, along the perspective's lean or straight, to the centre.
     const double gap = is_column ? (beyond - 1.0) * right * scale : (beyond - 1.0) * top * scale;
     const double lean = orthographic ? 1.0 : std::sqrt(1.0 + (is_column ? right * right : top * top));
-    rig.point(place, gap / lean * (1.0 + (i % 4 < 2 ? 1e-6 : random.between(-1e-5, 0.1))));
-    if (i % 5 == 0) rig.spot(place, {-side.x, -side.y, 0.1}, gap / lean * 1.2, 0.4);
+    rig.point(position, gap / lean * (1.0 + (i % 4 < 2 ? 1e-6 : random.between(-1e-5, 0.1))));
+    if (i % 5 == 0) rig.spot(position, {-side.x, -side.y, 0.1}, gap / lean * 1.2, 0.4);
   }
   return rig;
 }

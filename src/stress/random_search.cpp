@@ -59,21 +59,21 @@ RandomSearch search_at_random(std::span<const StressMethod> methods, const Stres
   };
   RandomSearch search;
   search.first_seed = request.seed;
-  Crew crew(request.threads);
+  ThreadPool threads(request.threads);
   constexpr std::uint64_t k_batch = 64;
   while (!is_over(search.counts.settings)) {
     const std::uint64_t first = search.counts.settings, count = std::min(k_batch, request.random - first);
     on_progress(first, "settings from seed " + std::to_string(request.seed + first) + " on");
     std::vector<Trial> trials(count);
     std::vector<SettingReport> reports(count);
-    crew.each(count, [&](std::size_t i) {
+    threads.each(count, [&](std::size_t i) {
       trials[i] = random_setting(request.seed + first + i);
       reports[i] = check_setting(trials[i], methods);
     });
     for (std::size_t i = 0; i < count; ++i) collect(reports[i], request.seed + first + i, trials[i], search);
   }
   on_progress(search.counts.settings, "shrinking " + std::to_string(search.faults.size()) + " faults");
-  if (!stop) crew.each(search.faults.size(), [&](std::size_t i) { shrink(search.faults[i], methods); });
+  if (!stop) threads.each(search.faults.size(), [&](std::size_t i) { shrink(search.faults[i], methods); });
   return search;
 }
 

@@ -75,16 +75,16 @@ Vec4d random_rotation(Draw& draw) {
   return turned(axis, draw.between(0.0, 360.0 * k_degree));
 }
 
-Vec3d whole_place(Draw& draw, double step_m, int most) {
-  Vec3d place(0.0);
-  for (int axis = 0; axis < 3; ++axis) place[axis] = step_m * draw.whole(-most, most);
-  return place;
+Vec3d whole_position(Draw& draw, double step_m, int most) {
+  Vec3d position(0.0);
+  for (int axis = 0; axis < 3; ++axis) position[axis] = step_m * draw.whole(-most, most);
+  return position;
 }
 
 Vec3d random_eye(Draw& draw, const Extent& extent) {
   const int way = draw.whole(0, 99);
   if (way < 45) return Vec3d(0.0);
-  if (way < 65) return whole_place(draw, extent.step_m, 50);
+  if (way < 65) return whole_position(draw, extent.step_m, 50);
   const double far_off = way < 93 ? extent.far_m * draw.log_between(1.0, 1e6) : draw.log_between(1e12, k_largest_m);
   const double scale = way < 85 ? extent.far_m : at_most_largest(far_off);
   return 0.5 * scale * random_direction(draw);
@@ -236,18 +236,18 @@ class Lights {
   // Laid against a cell's face, edge or corner; then, perhaps, pushed in or pulled away by a little or by ulps.
   void touching() {
     const Contact contact = random_contact(grid_.cell(random_cell(grid_, draw_.random())), draw_.random());
-    const double distance = std::max(glm::length(contact.place), extent_.near_m);
+    const double distance = std::max(glm::length(contact.point), extent_.near_m);
     double range = draw_.percent(70)   ? distance * draw_.log_between(1e-3, 10.0)
                    : draw_.percent(50) ? distance * draw_.log_between(1e-8, 1e-3)
                                        : extent_.far_m * draw_.log_between(1.0, 1e3);
     range = at_most_largest(range);
-    const Vec3d place = contact.place + range * contact.outward;
+    const Vec3d position = contact.point + range * contact.outward;
     if (draw_.percent(40)) range *= draw_.about_one(1e-16, 1e-3);
-    if (!draw_.percent(45)) return light(in_world(place), range);
+    if (!draw_.percent(45)) return light(in_world(position), range);
     const Vec3d other = draw_.percent(50) ? random_direction(draw_) : axis_direction(draw_);
     const double angle = random_angle();
     const Vec3d generator = glm::normalize(glm::cross(contact.outward, other) + 1e-9 * other);
-    spot(in_world(contact.place + draw_.between(0.0, 1.0) * range * generator),
+    spot(in_world(contact.point + draw_.between(0.0, 1.0) * range * generator),
          world_direction(-std::cos(angle) * generator + std::sin(angle) * contact.outward), range, angle);
   }
 
@@ -255,14 +255,14 @@ class Lights {
   void on_lattice() {
     const double step = extent_.step_m;
     const bool of_camera = draw_.percent(60);
-    Vec3d place = whole_place(draw_, step, draw_.percent(70) ? 8 : 64);
-    if (of_camera) place.z = -std::abs(place.z);
+    Vec3d position = whole_position(draw_, step, draw_.percent(70) ? 8 : 64);
+    if (of_camera) position.z = -std::abs(position.z);
     double range = step * draw_.whole(1, 12);
-    if (draw_.percent(30)) range = std::abs(place[draw_.whole(0, 2)]);
+    if (draw_.percent(30)) range = std::abs(position[draw_.whole(0, 2)]);
     const Vec3d corners[] = {{3, 4, 0}, {0, 3, 4}, {4, 0, 3}, {1, 2, 2}, {2, 3, 6}};
     if (draw_.percent(20)) {
       const Vec3d corner = draw_.one_of(corners);
-      place += (draw_.sign() * step) * corner;
+      position += (draw_.sign() * step) * corner;
       range = step * glm::length(corner);
     }
     if (range == 0.0) range = step;
@@ -272,7 +272,7 @@ class Lights {
     const bool is_spot = draw_.percent(35);
     const int mirrored = draw_.percent(60) ? draw_.whole(1, 2) : -1;
     for (int copy = 0; copy < (mirrored < 0 ? 1 : 2); ++copy) {
-      Vec3d at = place, towards = axis;
+      Vec3d at = position, towards = axis;
       if (copy == 1) {
         at[mirrored - 1] = -at[mirrored - 1];
         towards[mirrored - 1] = -towards[mirrored - 1];
@@ -289,24 +289,25 @@ class Lights {
                                               : at_most_largest(extent_.far_m * draw_.log_between(1e-6, 1e3));
     const Vec3d way = draw_.percent(60) ? Vec3d(0.0, 0.0, draw_.sign()) : random_direction(draw_);
     const double range = distance * draw_.about_one(1e-16, 0.5);
-    const Vec3d place = frame_.view_space.origin + glm::transpose(frame_.view_space.rotation) * (distance * way);
-    if (draw_.percent(70)) return light(place, range);
+    const Vec3d position = frame_.view_space.origin + glm::transpose(frame_.view_space.rotation) * (distance * way);
+    if (draw_.percent(70)) return light(position, range);
     const Vec3d direction = draw_.percent(50) ? random_direction(draw_) : axis_direction(draw_);
-    spot(place, direction, range, random_angle());
+    spot(position, direction, range, random_angle());
   }
 
   // In and around the view, of all sizes; far away with a range of centimetres, too.
   void anywhere() {
     const double depth = extent_.far_m * draw_.log_between(1e-5, 2.0);
-    const view::Projection& lens = frame_.projection;
-    const double scale = lens.orthographic ? 1.0 : depth;
+    const view::Projection& projection = frame_.projection;
+    const double scale = projection.orthographic ? 1.0 : depth;
     const double x = draw_.between(-0.2, 1.2), y = draw_.between(-0.2, 1.2);
-    const Vec3d place{scale * (lens.left + x * (lens.right - lens.left)),
-                      scale * (lens.bottom + y * (lens.top - lens.bottom)), draw_.percent(90) ? -depth : depth};
-    const double size = std::max(glm::length(place), extent_.near_m);
+    const Vec3d position{scale * (projection.left + x * (projection.right - projection.left)),
+                         scale * (projection.bottom + y * (projection.top - projection.bottom)),
+                         draw_.percent(90) ? -depth : depth};
+    const double size = std::max(glm::length(position), extent_.near_m);
     const double range =
         at_most_largest(draw_.percent(50) ? size * draw_.log_between(1e-2, 2.0) : size * draw_.log_between(1e-8, 1e4));
-    const Vec3d at = frame_.view_space.origin + glm::transpose(frame_.view_space.rotation) * place;
+    const Vec3d at = frame_.view_space.origin + glm::transpose(frame_.view_space.rotation) * position;
     if (draw_.percent(50)) return light(at, range);
     const Vec3d direction = random_direction(draw_);
     spot(at, direction, range, random_angle());
@@ -323,34 +324,34 @@ class Lights {
   Vec3d in_world(const Vec3d& local) const { return glm::transpose(space_.rotation) * local + space_.origin; }
   Vec3d world_direction(const Vec3d& local) const { return glm::transpose(space_.rotation) * local; }
 
-  void light(Vec3d place, double range) {
-    nudge(place, range);
-    put(place, range);
+  void light(Vec3d position, double range) {
+    nudge(position, range);
+    put(position, range);
   }
-  void spot(Vec3d place, const Vec3d& direction, double range, double angle) {
-    nudge(place, range);
-    put_spot(place, direction, range, angle);
+  void spot(Vec3d position, const Vec3d& direction, double range, double angle) {
+    nudge(position, range);
+    put_spot(position, direction, range, angle);
   }
-  void nudge(Vec3d& place, double& range) {
+  void nudge(Vec3d& position, double& range) {
     if (!draw_.percent(50)) return;
-    for (int axis = 0; axis < 3; ++axis) place[axis] = draw_.nudged(place[axis], 4);
+    for (int axis = 0; axis < 3; ++axis) position[axis] = draw_.nudged(position[axis], 4);
     range = draw_.nudged(range, 4);
   }
 
-  void put(const Vec3d& place, double range) {
-    const double size = std::max({std::abs(place.x), std::abs(place.y), std::abs(place.z)});
+  void put(const Vec3d& position, double range) {
+    const double size = std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z)});
     if (!(size <= k_largest_m) || !(range > 1e-30) || !(range <= k_largest_m)) return;
     scene::Light added;
     added.node = static_cast<int>(trial_.scene.nodes.size());
     added.name = "light " + std::to_string(trial_.scene.lights.size());
     added.range_m = range;
-    trial_.scene.nodes.push_back({.name = added.name, .translation = place});
+    trial_.scene.nodes.push_back({.name = added.name, .translation = position});
     trial_.scene.lights.push_back(added);
   }
 
-  void put_spot(const Vec3d& place, const Vec3d& direction, double range, double angle) {
+  void put_spot(const Vec3d& position, const Vec3d& direction, double range, double angle) {
     const std::size_t before = trial_.scene.lights.size();
-    put(place, range);
+    put(position, range);
     if (trial_.scene.lights.size() == before) return;
     scene::Light& added = trial_.scene.lights.back();
     added.type = scene::LightType::spot;

@@ -1,5 +1,5 @@
 #pragma once
-// `clusterbench stress`: every assigner on every hard case, held against the truth.
+// `clusterbench stress`: every assigner on every hard case, checked against the truth.
 
 #include <atomic>
 #include <filesystem>
@@ -27,7 +27,7 @@ struct StressMethod {
 };
 // Every assigner that has cells with its defaults and with every other choice.
 std::vector<StressMethod> stress_methods();
-// The label of the method whose lists a fast one's must equal; empty if it is no twin.
+// The label of the method whose lists a fast one's must equal; empty if it is no SIMD variant.
 std::string reference_of(const std::string& label);
 bool takes_trial(const StressMethod& method, const Trial& trial);
 
@@ -64,7 +64,7 @@ struct SearchResult {
   std::uint64_t tries = 0, misses = 0;
   std::uint64_t undecided = 0;  // not listed, and neither proven nor refuted to be in the cell
   double least_margin =
-      0.0;  // of the padding: roundings that the nearest light could be moved away and still be listed
+      0.0;  // of the padding: roundoffs that the nearest light could be moved away and still be listed
   std::optional<Loss> deepest;
 };
 

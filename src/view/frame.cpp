@@ -50,8 +50,8 @@ double cropped_width(const scene::Lens& lens, Vec2i viewport) {
   if (lens.sides) return 0.0;
   const double height = half_height(lens);
   const double width = lens.orthographic ? lens.xmag_m : lens.aspect_ratio.value_or(0.0) * height;
-  const double held = aspect_of(viewport) * height;
-  return width - held > held / viewport.x ? width : 0.0;
+  const double shown = aspect_of(viewport) * height;
+  return width - shown > shown / viewport.x ? width : 0.0;
 }
 
 // The rectangle moved against the picture.
@@ -72,17 +72,17 @@ std::string fit_warning(const scene::Lens& lens, Vec2i viewport) {
   const double width = cropped_width(lens, viewport);
   if (width == 0.0) return "";
   char text[200];
-  const double height = half_height(lens), held = aspect_of(viewport) * height;
+  const double height = half_height(lens), shown = aspect_of(viewport) * height;
   if (lens.fit == scene::CameraFit::contain) {
     std::snprintf(text, sizeof text,
                   "the camera is %.4g times as wide as high, wider than %dx%d: its view is enlarged to %.4g times its "
                   "height (camera_fit: contain)",
-                  width / height, viewport.x, viewport.y, width / held);
+                  width / height, viewport.x, viewport.y, width / shown);
   } else {
     std::snprintf(text, sizeof text,
                   "the camera is %.4g times as wide as high, wider than %dx%d: %.3g %% of its width are cropped "
                   "(camera_fit: vertical)",
-                  width / height, viewport.x, viewport.y, 100.0 * (1.0 - held / width));
+                  width / height, viewport.x, viewport.y, 100.0 * (1.0 - shown / width));
   }
   return text;
 }
@@ -97,28 +97,28 @@ Projection make_projection(const scene::Lens& lens, Vec2i viewport) {
   return {lens.orthographic, -top * aspect, top * aspect, -top, top, lens.near_m, lens.far_m};
 }
 
-float LightArrays::padded_radius(std::uint32_t light, float roundings) const {
-  if (roundings == 0.0f || is_empty(light)) return radius[light];
+float LightArrays::padded_radius(std::uint32_t light, float roundoffs) const {
+  if (roundoffs == 0.0f || is_empty(light)) return radius[light];
   constexpr float k_rounding = 0x1p-24f;
-  return radius[light] + roundings * (k_rounding * reach[light]);
+  return radius[light] + roundoffs * (k_rounding * reach[light]);
 }
 
-geom::Ball LightArrays::ball(std::uint32_t light, float roundings) const {
-  return {{x[light], y[light], z[light]}, padded_radius(light, roundings)};
+geom::Ball LightArrays::ball(std::uint32_t light, float roundoffs) const {
+  return {{x[light], y[light], z[light]}, padded_radius(light, roundoffs)};
 }
 
-geom::SphericalCone LightArrays::cone(std::uint32_t light, float roundings) const {
+geom::SphericalCone LightArrays::cone(std::uint32_t light, float roundoffs) const {
   assert(is_spot(light));
   const std::uint32_t spot = light - points;
   return {{x[light], y[light], z[light]},
-          padded_radius(light, roundings),
+          padded_radius(light, roundoffs),
           {axis_x[spot], axis_y[spot], axis_z[spot]},
           cos_angle[spot],
           sin_angle[spot]};
 }
 
-geom::Ball LightArrays::bounding_ball(std::uint32_t light, float roundings) const {
-  return is_spot(light) ? geom::bounding_ball(cone(light, roundings)) : ball(light, roundings);
+geom::Ball LightArrays::bounding_ball(std::uint32_t light, float roundoffs) const {
+  return is_spot(light) ? geom::bounding_ball(cone(light, roundoffs)) : ball(light, roundoffs);
 }
 
 geom::LightVolume LightArrays::volume(std::uint32_t light) const {

@@ -43,8 +43,8 @@ struct LightArrays {
   std::uint32_t points = 0, spots = 0;
   std::vector<float> x, y, z;  // centre or apex, each coordinate rounded to nearest
   std::vector<float> radius;   // the range, rounded up; 0 and +inf stay
-  std::vector<float> reach;    // |x| + |y| + |z| + radius: what roundings are relative to
-  // Spots only; place i - points. Axis is unit up to rounding.
+  std::vector<float> reach;    // |x| + |y| + |z| + radius: what roundoffs are relative to
+  // Spots only; index i - points. Axis is unit up to rounding.
   std::vector<float> axis_x, axis_y, axis_z, cos_angle, sin_angle;
 
   std::uint32_t size() const { return points + spots; }
@@ -54,12 +54,12 @@ struct LightArrays {
 
   bool is_spot(std::uint32_t light) const { return light >= points; }
   bool is_empty(std::uint32_t light) const { return !(radius[light] > 0.0f); }
-  // The radius grown by a number of roundings: units of 2^-24 of its reach. 0: as it is.
-  float padded_radius(std::uint32_t light, float roundings) const;
-  geom::Ball ball(std::uint32_t light, float roundings) const;
-  geom::SphericalCone cone(std::uint32_t light, float roundings) const;  // light must be a spot
+  // The radius grown by a number of roundoffs: units of 2^-24 of its reach. 0: as it is.
+  float padded_radius(std::uint32_t light, float roundoffs) const;
+  geom::Ball ball(std::uint32_t light, float roundoffs) const;
+  geom::SphericalCone cone(std::uint32_t light, float roundoffs) const;  // light must be a spot
   // A point's ball; of a spot the one around its cone.
-  geom::Ball bounding_ball(std::uint32_t light, float roundings) const;
+  geom::Ball bounding_ball(std::uint32_t light, float roundoffs) const;
   geom::LightVolume volume(std::uint32_t light) const;  // exact
 };
 
@@ -80,9 +80,9 @@ struct Frame {
 // Throws Error for a frame outside of the domain (geom/domain.h).
 Frame make_frame(const scene::Scene& scene, const scene::Shot& shot, int index, Vec2i viewport);
 
-// What a method that uses these numbers has lost before it starts, in roundings: one for the centre (each coordinate is
+// What a method that uses these numbers has lost before it starts, in roundoffs: one for the centre (each coordinate is
 // off by 2^-24 of itself, so the centre by 2^-24 of its length), one for the sum that pads the radius.
-inline constexpr float k_given_roundings = 2.0f;
+inline constexpr float k_given_roundoffs = 2.0f;
 
 // The frame's lights in a space: the difference to the origin is taken in double, then rounded once.
 LightArrays lights_in(const Frame& frame, const Space& space);

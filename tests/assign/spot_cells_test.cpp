@@ -20,7 +20,7 @@ namespace {
 using testing::on_each_target;
 
 // Spots that touch cells by a hair, and the same ones a little longer, shorter, wider and narrower: some of these still
-// touch, and what they leave between them is of the size of roundings.
+// touch, and what they leave between them is of the size of roundoffs.
 struct CloseSpots {
   grid::Grid grid;
   view::Frame frame;
@@ -97,7 +97,7 @@ TEST(SpotLooks, say_yes_and_no_only_where_it_is_true_on_every_target) {
             look_at_cells(from, look, pairs);
             std::size_t wrong = 0, settled = 0;
             for (std::uint32_t i = 0; i < pairs.count; ++i) {
-              if (pairs.touch[i] == Touch::open) continue;
+              if (pairs.touch[i] == Touch::uncertain) continue;
               ++settled;
               if ((pairs.touch[i] == Touch::yes) != touched[i]) ++wrong;
             }
@@ -135,8 +135,8 @@ struct Pieces {
       const Touch touch = touches.touch(i);
       const int first = std::max(touched[i].first, static_cast<int>(asked[i].column));
       const int last = std::min(touched[i].last, static_cast<int>(asked[i].end_column) - 1);
-      settled += touch != Touch::open ? 1 : 0;
-      if (touch != Touch::open && (touch == Touch::yes) != (first <= last)) ++wrong;
+      settled += touch != Touch::uncertain ? 1 : 0;
+      if (touch != Touch::uncertain && (touch == Touch::yes) != (first <= last)) ++wrong;
       const grid::IndexRange only = touches.only_columns(i, planes);
       alone += only.empty() ? 0 : 1;
       if (!only.empty() && (touch != Touch::yes || only.first != first || only.last != last)) ++wrong;

@@ -131,7 +131,7 @@ TEST(RandomSearch, finds_no_fault_in_sound_methods) {
 
 TEST(RandomSearch, finds_a_method_that_forgets_a_pair_and_that_it_is_unlike_its_reference) {
   const std::set<FaultKind> kinds = kinds_of(searched_at_random({sound("exact"), flawed<Flaw::forgets>()}, 8));
-  EXPECT_EQ(kinds, (std::set<FaultKind>{FaultKind::loss, FaultKind::twin}));
+  EXPECT_EQ(kinds, (std::set<FaultKind>{FaultKind::loss, FaultKind::simd_variant}));
 }
 
 TEST(RandomSearch, finds_an_exact_method_that_lists_a_pair_too_many) {

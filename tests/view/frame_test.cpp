@@ -127,8 +127,8 @@ TEST(Lights, have_a_radius_that_is_never_below_their_range) {
     EXPECT_GE(static_cast<double>(arrays.radius[i]), lights[i].range_m);
     const auto light = static_cast<std::uint32_t>(i);
     EXPECT_EQ(arrays.padded_radius(light, 0.0f), arrays.radius[i]);
-    // The roundings that are given with the numbers cover the rounded centre, and a rounding more does not matter.
-    const double pad = arrays.padded_radius(light, k_given_roundings) - lights[i].range_m,
+    // The roundoffs that are given with the numbers cover the rounded centre, and a rounding more does not matter.
+    const double pad = arrays.padded_radius(light, k_given_roundoffs) - lights[i].range_m,
                  moved = std::abs(arrays.x[i] - lights[i].position.x);
     EXPECT_GE(pad, moved);
     EXPECT_LT(pad, 3e-7 * (std::abs(lights[i].position.x) + lights[i].range_m));

@@ -8,7 +8,7 @@ namespace {
 
 class RowsByBoxes {
  public:
-  static constexpr float k_roundings = CellAabbs::k_roundings;
+  static constexpr float k_roundoffs = CellAabbs::k_roundoffs;
 
   explicit RowsByBoxes(const Params&) {}
 

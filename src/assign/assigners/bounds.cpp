@@ -7,7 +7,7 @@ namespace {
 
 struct NoTest {
   static constexpr Looks k_looks = Looks::nowhere;
-  static constexpr float k_roundings = 0.0f;
+  static constexpr float k_roundoffs = 0.0f;
   void build(const grid::Grid&) {}
   std::size_t capacity_bytes() const { return 0; }
 };

@@ -7,7 +7,7 @@ namespace {
 
 class AllRows {
  public:
-  static constexpr float k_roundings = 0.0f;
+  static constexpr float k_roundoffs = 0.0f;
 
   explicit AllRows(const Params&) {}
 

@@ -1,7 +1,7 @@
 // A hierarchy over the lights, built anew in every frame: sorted along a Morton curve, eight neighbours to a group,
 // eight groups to a group of the next level. Asked per cell it fills lists; left as it is, samples ask it.
 //
-// Roundings: a ball's box is off by one rounding in each of its sides, a sample's place by one. The test of a ball
+// Roundoffs: a ball's box is off by one rounding in each of its sides, a sample's position by one. The test of a ball
 // against a cell's box loses as much as that of `aabb`, and is the larger.
 
 #include <algorithm>
@@ -25,7 +25,7 @@ namespace clusterbench::assign {
 namespace {
 
 constexpr float k_inf = std::numeric_limits<float>::infinity();
-constexpr float k_roundings = CellAabbs::k_roundings;
+constexpr float k_roundoffs = CellAabbs::k_roundoffs;
 constexpr std::uint32_t k_width = 8;
 
 // Boxes of neighbours; those that are not there are empty.
@@ -88,21 +88,21 @@ class Tree {
   std::uint64_t each_touched(const geom::Box& box, Found&& found) const {
     if (order_.empty()) return 0;
     std::uint64_t groups = 0;
-    struct Open {
+    struct ToVisit {
       std::uint32_t level, group;
     };
-    std::array<Open, k_most_levels * k_width> open;
+    std::array<ToVisit, k_most_levels * k_width> to_visit;
     std::size_t count = 0;
-    open[count++] = {static_cast<std::uint32_t>(levels_ - 1), 0};
+    to_visit[count++] = {static_cast<std::uint32_t>(levels_ - 1), 0};
     while (count > 0) {
-      const Open at = open[--count];
+      const ToVisit at = to_visit[--count];
       ++groups;
       for (std::uint32_t left = groups_[begin_[at.level] + at.group].touched(box); left != 0; left &= left - 1) {
         const std::uint32_t child = at.group * k_width + static_cast<std::uint32_t>(std::countr_zero(left));
         if (at.level == 0)
           found(order_[child]);
         else
-          open[count++] = {at.level - 1, child};
+          to_visit[count++] = {at.level - 1, child};
       }
     }
     return groups * k_width;
@@ -165,14 +165,14 @@ std::uint64_t spread(std::uint64_t bits) {
 // Keeps its memory between frames.
 class TreeBuilder {
  public:
-  explicit TreeBuilder(const Params& params) : test(params, k_roundings) {}
+  explicit TreeBuilder(const Params& params) : test(params, k_roundoffs) {}
 
   // Of the lights with volume for which keeps(ball).
   template <class Keeps>
   void build(const view::LightArrays& lights, Keeps&& keeps, Trees& out) {
     balls.resize(lights.size());
     for (std::uint32_t light = 0; light < lights.size(); ++light)
-      balls[light] = lights.is_empty(light) ? geom::Ball{} : test.ball(lights, light, k_roundings);
+      balls[light] = lights.is_empty(light) ? geom::Ball{} : test.ball(lights, light, k_roundoffs);
     build_tree(lights, 0, lights.points, keeps, out.points);
     build_tree(lights, lights.points, lights.size(), keeps, out.spots);
   }

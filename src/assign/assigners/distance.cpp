@@ -43,7 +43,7 @@ Cap cap_in_shell(const geom::Ball& ball, double length, double distance) {
   if (!(cosine > 0.0)) return cap;  // 90° and more, the eye in the ball, or an unbounded one
   const double apart = std::fabs(distance - length);
   const double squared_sine = (r - apart) * (r + apart) / twice * (1.0 + cosine);
-  const double lost = 0x1p-24 * static_cast<double>(k_shell_roundings) * length;
+  const double lost = 0x1p-24 * static_cast<double>(k_shell_roundoffs) * length;
   cap.radius = static_cast<float>(length * std::sqrt(std::max(0.0, squared_sine)) + lost);
   return cap;
 }
@@ -93,7 +93,7 @@ geom::SlopeRange slopes_in_row(const Cap& cap, const geom::SlopeRange& tangents,
 
 class Distance final : public LightByLight<Distance> {
  public:
-  explicit Distance(const Params& params) : test_(params, k_shell_roundings) {}
+  explicit Distance(const Params& params) : test_(params, k_shell_roundoffs) {}
 
   void build(const grid::Grid& grid, const LightKinds& kinds) override {
     start_grid(grid);

@@ -9,7 +9,7 @@ namespace {
 
 class ShellKernel {
  public:
-  static constexpr float k_roundings = k_shell_roundings;
+  static constexpr float k_roundoffs = k_shell_roundoffs;
   static constexpr const char* k_columns_key = "tiles";
 
   explicit ShellKernel(const Params&) {}

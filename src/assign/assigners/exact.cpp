@@ -75,12 +75,12 @@ class Exact final : public LightByLight<Exact> {
 
   void add_point(const view::LightArrays& lights, std::uint32_t light) {
     if (std::isinf(lights.radius[light])) return pairs_.add_row(0, grid_->cell_count(), light);
-    const geom::Ball larger = lights.ball(light, k_exact_roundings);
+    const geom::Ball larger = lights.ball(light, k_exact_roundoffs);
     if (view_.misses(larger)) return;
     BallJudge judge(*grid_, lights, light);
     if (lights.reach[light] > k_most_exact_reach)
       return add_cell_by_cell(light, [&](const Row& row, int column) { return judge.touches(row, column); });
-    const geom::Ball smaller = lights.ball(light, -k_exact_roundings);
+    const geom::Ball smaller = lights.ball(light, -k_exact_roundoffs);
     const RowColumns columns(grid_->screen().tiles);
     each_row(larger, [&](const Row& row) {
       const IndexRange outer = columns.touched(larger, row, geom::Errs::outward);
@@ -89,10 +89,10 @@ class Exact final : public LightByLight<Exact> {
   }
 
   void add_spot(const view::LightArrays& lights, std::uint32_t light) {
-    const geom::SphericalCone cone = lights.cone(light, view::k_given_roundings);
+    const geom::SphericalCone cone = lights.cone(light, view::k_given_roundoffs);
     // Both hold the cone; neither holds the other.
-    const geom::Ball around = geom::bounding_ball(cone), range = lights.ball(light, k_exact_roundings);
-    const geom::Ball larger{around.center, around.radius + k_exact_roundings * 0x1p-24f * lights.reach[light]};
+    const geom::Ball around = geom::bounding_ball(cone), range = lights.ball(light, k_exact_roundoffs);
+    const geom::Ball larger{around.center, around.radius + k_exact_roundoffs * 0x1p-24f * lights.reach[light]};
     if (view_.misses(larger)) return;
     SpotJudge judge(*grid_, lights, light);
     if (lights.reach[light] > k_most_exact_reach)
@@ -148,7 +148,8 @@ std::unique_ptr<ListAssigner> make(const Params& params) {
 extern const AssignerDescriptor exact_descriptor;
 const AssignerDescriptor exact_descriptor{
     .name = "exact",
-    .summary = "the true lists: each row's interval in closed form, what single precision leaves open decided exactly",
+    .summary =
+        "the true lists: each row's interval in closed form, what single precision leaves uncertain decided exactly",
     .source = "this project",
     .kinds = {grid::Kind::frustum},
     .exact = true,

@@ -43,9 +43,9 @@ class LogSlices {
     const float near = slices_.boundaries[static_cast<std::size_t>(special_)], far = slices_.boundaries.back();
     if (!(depth > near)) return depth > 0.0f && special_ > 0 && depth >= near ? special_ : 0;
     const auto count = static_cast<float>(slices_.count() - special_);
-    const float place = fast_ ? grid::log2_by(grid::Log2::fast, depth / far) * (count / std::log2(far / near)) + count
+    const float slice = fast_ ? grid::log2_by(grid::Log2::fast, depth / far) * (count / std::log2(far / near)) + count
                               : std::log(depth / near) * count / std::log(far / near);
-    return special_ + static_cast<int>(std::clamp(place, 0.0f, count - 1.0f));
+    return special_ + static_cast<int>(std::clamp(slice, 0.0f, count - 1.0f));
   }
 
   const grid::Slices& slices_;

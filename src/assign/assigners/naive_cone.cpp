@@ -43,12 +43,12 @@ class NaiveCone final : public LightByLight<NaiveCone> {
 
  private:
   void add_point(const view::LightArrays& lights, std::uint32_t light) {
-    visit(cell_box(*grid_, lights.ball(light, view::k_given_roundings + k_cell_box_roundings)), light,
+    visit(cell_box(*grid_, lights.ball(light, view::k_given_roundoffs + k_cell_box_roundoffs)), light,
           [](std::uint32_t) { return true; });
   }
 
   void add_spot(const view::LightArrays& lights, std::uint32_t light) {
-    geom::SphericalCone cone = lights.cone(light, view::k_given_roundings);
+    geom::SphericalCone cone = lights.cone(light, view::k_given_roundoffs);
     if (flaw_ == Flaw::flat_cap_ball)
       return visit(cell_box(*grid_, flat_cap_ball(cone)), light, [](std::uint32_t) { return true; });
     if (flaw_ == Flaw::sine_from_cosine) cone.sin_angle = std::sqrt(1.0f - cone.cos_angle * cone.cos_angle);

@@ -59,7 +59,7 @@ bool reaches_column(const Remainder& ball, float from_left, float from_right) {
 class SphereRefinement final : public LightByLight<SphereRefinement> {
  public:
   explicit SphereRefinement(const Params& params)
-      : test_(params, k_refinement_roundings), narrowing_(narrows(params)) {}
+      : test_(params, k_refinement_roundoffs), narrowing_(narrows(params)) {}
 
   void build(const grid::Grid& grid, const LightKinds& kinds) override {
     start_grid(grid);
@@ -72,7 +72,7 @@ class SphereRefinement final : public LightByLight<SphereRefinement> {
 
   void start_frame(const view::LightArrays& lights) { test_.start_frame(lights); }
   void add_light(const view::LightArrays& lights, std::uint32_t light) {
-    const geom::Ball for_box = test_.ball(lights, light, k_cell_box_roundings);
+    const geom::Ball for_box = test_.ball(lights, light, k_cell_box_roundoffs);
     if (view_.misses(for_box)) return;
     CellBox box = cell_box(*grid_, for_box);
     if (box.empty()) return;

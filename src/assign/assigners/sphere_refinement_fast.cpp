@@ -8,7 +8,7 @@ namespace {
 
 class RefinedRows {
  public:
-  static constexpr float k_roundings = k_refinement_roundings;
+  static constexpr float k_roundoffs = k_refinement_roundoffs;
 
   explicit RefinedRows(const Params& params) : narrowing_(assign::narrows(params)) {}
 

@@ -2,7 +2,7 @@
 // each. A sample's lights are its tile's bits within its bin's range. Tiles and bins are the grid's tiles and slices,
 // so that a cell is what its tile and its slice have in common.
 //
-// Roundings: all that is tested are the cell boxes of balls, as `bounds-fast` finds them.
+// Roundoffs: all that is tested are the cell boxes of balls, as `bounds-fast` finds them.
 
 #include <algorithm>
 #include <bit>
@@ -21,13 +21,13 @@ namespace {
 
 constexpr std::uint32_t k_bits = 32;  // of a word
 
-// Places among the sorted lights, from `first` to before `end`.
+// Ranks among the sorted lights, from `first` to before `end`.
 struct Range {
   std::uint32_t first = std::numeric_limits<std::uint32_t>::max(), end = 0;
 
-  void take(std::uint32_t place) {
-    first = std::min(first, place);
-    end = place + 1;
+  void take(std::uint32_t rank) {
+    first = std::min(first, rank);
+    end = rank + 1;
   }
 };
 
@@ -49,16 +49,16 @@ class BinsAndMasks final : public LightStructure {
     order_.resize(listed);
   }
 
-  // The light at a place of the sorted ones, which come in this order, points before spots.
-  void add(std::uint32_t place, std::uint32_t light, bool is_spot, const CellBox& box) {
-    order_[place] = light;
+  // The light of a rank among the sorted ones, which come in this order, points before spots.
+  void add(std::uint32_t rank, std::uint32_t light, bool is_spot, const CellBox& box) {
+    order_[rank] = light;
     for (int z = box.first.z; z <= box.last.z; ++z)
-      (is_spot ? bins_[static_cast<std::size_t>(z)].spots : bins_[static_cast<std::size_t>(z)].points).take(place);
-    const std::uint32_t bit = 1u << place % k_bits;
+      (is_spot ? bins_[static_cast<std::size_t>(z)].spots : bins_[static_cast<std::size_t>(z)].points).take(rank);
+    const std::uint32_t bit = 1u << rank % k_bits;
     const auto columns = static_cast<std::size_t>(grid_->screen().tiles.count.x);
     for (int y = box.first.y; y <= box.last.y; ++y) {
       std::size_t word = (static_cast<std::size_t>(y) * columns + static_cast<std::size_t>(box.first.x)) * words_;
-      word += place / k_bits;
+      word += rank / k_bits;
       for (int x = box.first.x; x <= box.last.x; ++x, word += words_) masks_[word] |= bit;
     }
   }
@@ -119,7 +119,7 @@ class BinsAndMasks final : public LightStructure {
   std::uint32_t lights_ = 0, tiles_ = 0, words_ = 0;
   std::vector<std::uint32_t> masks_;  // tile by tile
   std::vector<Bin> bins_;
-  std::vector<std::uint32_t> order_;  // the light at each place
+  std::vector<std::uint32_t> order_;  // the light of each rank
 };
 
 // Spots as the balls around their cones.
@@ -142,7 +142,7 @@ class ZBinning final : public AssignerOf<BinsAndMasks> {
     bounded_.count = 0;
     bounded_.reserve(lights.size());
     bounds_.start_frame(lights.size());
-    const float padding = test_.padding(k_cell_box_roundings);
+    const float padding = test_.padding(k_cell_box_roundoffs);
     bounds_.find(given_points(lights), 0, {padding, padding}, bounded_);
     const std::uint32_t points = bounded_.count;
     if (lights.spots > 0) {
@@ -165,9 +165,9 @@ class ZBinning final : public AssignerOf<BinsAndMasks> {
     by_depth_.entries.resize(end - begin);
     for (std::uint32_t i = begin; i < end; ++i) by_depth_.entries[i - begin] = {ordered_bits(bounded_.depth[i]), i};
     by_depth_.sort();
-    std::uint32_t place = begin;
+    std::uint32_t rank = begin;
     for (const auto& [key, ball] : by_depth_.entries)
-      out.add(place++, bounded_.light[ball], are_spots, bounded_.box(ball));
+      out.add(rank++, bounded_.light[ball], are_spots, bounded_.box(ball));
   }
 
   LightTest test_;

@@ -16,7 +16,7 @@ namespace clusterbench::assign {
 enum class Looks { everywhere, in_box, nowhere };
 
 // CellTest: build(const grid::Grid&), bool touches(const geom::Ball&, std::uint32_t cell) const, capacity_bytes()
-// const, k_looks, and k_roundings: what touches() loses. With Looks::nowhere there is no touches().
+// const, k_looks, and k_roundoffs: what touches() loses. With Looks::nowhere there is no touches().
 template <class CellTest>
 class CellBoxMethod final : public LightByLight<CellBoxMethod<CellTest>> {
   using LightByLight<CellBoxMethod>::cells_;
@@ -25,7 +25,7 @@ class CellBoxMethod final : public LightByLight<CellBoxMethod<CellTest>> {
   using LightByLight<CellBoxMethod>::tests_;
 
  public:
-  explicit CellBoxMethod(const Params& params) : test_(params, CellTest::k_roundings) {}
+  explicit CellBoxMethod(const Params& params) : test_(params, CellTest::k_roundoffs) {}
 
   void build(const grid::Grid& grid, const LightKinds& kinds) override {
     this->start_grid(grid);
@@ -53,7 +53,7 @@ class CellBoxMethod final : public LightByLight<CellBoxMethod<CellTest>> {
 
  private:
   CellBox extents(const view::LightArrays& lights, std::uint32_t light) const {
-    const geom::Ball ball = test_.ball(lights, light, k_cell_box_roundings);
+    const geom::Ball ball = test_.ball(lights, light, k_cell_box_roundoffs);
     return view_.misses(ball) ? CellBox{} : cell_box(*grid_, ball);
   }
 
@@ -87,10 +87,10 @@ class CellBoxMethod final : public LightByLight<CellBoxMethod<CellTest>> {
 
 // Ball against the view-space boxes around the cells, made once per grid.
 //
-// Roundings: as for box_rows.h, the boxes being rounded outward.
+// Roundoffs: as for box_rows.h, the boxes being rounded outward.
 class CellAabbs {
  public:
-  static constexpr float k_roundings = 4.0f;
+  static constexpr float k_roundoffs = 4.0f;
 
   void build(const grid::Grid& grid);
   bool touches(const geom::Ball& ball, std::uint32_t cell) const { return geom::ball_touches_box(ball, boxes_[cell]); }
@@ -102,11 +102,11 @@ class CellAabbs {
 
 // Ball against the six planes of the cells, made once per grid.
 //
-// Roundings: a float normal is off by 1, the three products and two sums of n·c by 3 more, the offset by 1 and the last
+// Roundoffs: a float normal is off by 1, the three products and two sums of n·c by 3 more, the offset by 1 and the last
 // difference by 2 (both its numbers are at most |c| + r where it matters): 7.
 class CellPlanes {
  public:
-  static constexpr float k_roundings = 7.0f;
+  static constexpr float k_roundoffs = 7.0f;
 
   void build(const grid::Grid& grid);
   bool touches(const geom::Ball& ball, std::uint32_t cell) const {

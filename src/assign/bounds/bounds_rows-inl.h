@@ -19,16 +19,16 @@ namespace HWY_NAMESPACE {
 class Boxes {
  public:
   HWY_INLINE explicit Boxes(const BallBatch& batch)
-      : places(BitCast(DI(), LoadU(DU(), batch.balls))),
-        first_row(gathered(batch.bounded.first_row, places)),
-        first_column(gathered(batch.bounded.first_column, places)) {
+      : indices(BitCast(DI(), LoadU(DU(), batch.balls))),
+        first_row(gathered(batch.bounded.first_row, indices)),
+        first_column(gathered(batch.bounded.first_column, indices)) {
     const VI one = all_int(1);
-    lights = GatherIndex(DU(), batch.bounded.light.data(), places);
-    rows = gathered(batch.bounded.last_row, places) - first_row + one;
+    lights = GatherIndex(DU(), batch.bounded.light.data(), indices);
+    rows = gathered(batch.bounded.last_row, indices) - first_row + one;
     rows = IfThenElseZero(FirstN(DI(), batch.count), rows);
-    columns = gathered(batch.bounded.last_column, places) - first_column + one;
-    // Below all lights (lights are fewer than 2^31), not even one is open.
-    open = IfThenElseZero(Not(lights < Set(DU(), batch.first_open)), Set(DU(), BatchRows::k_uncertain));
+    columns = gathered(batch.bounded.last_column, indices) - first_column + one;
+    // Below all lights (lights are fewer than 2^31), none is uncertain.
+    uncertain = IfThenElseZero(Not(lights < Set(DU(), batch.first_uncertain)), Set(DU(), BatchRows::k_uncertain));
   }
 
   // Leaves out the balls that do not reach the slice.
@@ -52,11 +52,11 @@ class Boxes {
   // The columns first .. last (counted from the box's first) as a batch's answer has them.
   HWY_INLINE VU entry(VI first, VI last) const {
     const VU from = BitCast(DU(), first_column + first), to = BitCast(DU(), first_column + last);
-    return Or(Or(from, ShiftLeft<16>(to)), open);
+    return Or(Or(from, ShiftLeft<16>(to)), uncertain);
   }
 
-  VI places, first_row, rows, first_column, columns;  // how many rows and columns
-  VU lights, open;
+  VI indices, first_row, rows, first_column, columns;  // how many rows and columns
+  VU lights, uncertain;
 };
 
 // Takes each lane through its rows. entry_of(row, wanted) is the answer of the wanted lanes for their row.

@@ -14,13 +14,13 @@
 
 namespace clusterbench::assign {
 
-// One batch: places in `bounded`, from which a whole vector can be read; `count` of them, at most balls_per_batch(),
-// are wanted. The rows of lights from `first_open` on are all marked as uncertain: there is more to test.
+// One batch: indices in `bounded`, from which a whole vector can be read; `count` of them, at most balls_per_batch(),
+// are wanted. The rows of lights from `first_uncertain` on are all marked as uncertain: there is more to test.
 struct BallBatch {
   const BoundedBalls& bounded;
   int slice;
   const std::uint32_t* balls;
-  std::uint32_t count, first_open;
+  std::uint32_t count, first_uncertain;
 };
 
 // Memory for what a batch's lanes know of their columns; kept between batches.

@@ -13,9 +13,9 @@ struct CellBox {
 };
 
 // Frustum grids. Boundaries are compared directly, so no logarithm can disagree with them. Conservative for a ball
-// padded by k_cell_box_roundings: slopes are bounded outward in double precision, depth - r and depth + r are rounded
+// padded by k_cell_box_roundoffs: slopes are bounded outward in double precision, depth - r and depth + r are rounded
 // once.
-inline constexpr float k_cell_box_roundings = 1.0f;
+inline constexpr float k_cell_box_roundoffs = 1.0f;
 CellBox cell_box(const grid::Grid& grid, const geom::Ball& ball);
 
 }  // namespace clusterbench::assign

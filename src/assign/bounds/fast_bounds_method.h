@@ -12,12 +12,12 @@
 namespace clusterbench::assign {
 
 // Rows: Rows(const Params&), build(const grid::Grid&), void find(const BallBatch&, BatchRows&), capacity_bytes() const,
-// k_roundings: what they lose, bool narrows() const: whether they narrow the boxes of spots, and void narrow(CellBox&,
+// k_roundoffs: what they lose, bool narrows() const: whether they narrow the boxes of spots, and void narrow(CellBox&,
 // const geom::SphericalCone&) const.
 template <class Rows>
 class FrustumKernel {
  public:
-  static constexpr float k_roundings = Rows::k_roundings;
+  static constexpr float k_roundoffs = Rows::k_roundoffs;
   static constexpr const char* k_columns_key = "tiles";
 
   explicit FrustumKernel(const Params& params) : rows_(params) {}
@@ -31,7 +31,7 @@ class FrustumKernel {
 
   void bound(int, const FrameLights& lights, BoundedBalls& out) {
     bounds_.start_frame(lights.all.size());
-    bounds_.find(given_points(lights.all), 0, {lights.test.padding(k_cell_box_roundings), lights.test.own_padding()},
+    bounds_.find(given_points(lights.all), 0, {lights.test.padding(k_cell_box_roundoffs), lights.test.own_padding()},
                  out);
     if (lights.all.spots > 0) bound_spots(lights, out);
   }
@@ -45,7 +45,7 @@ class FrustumKernel {
   // A spot's ball for its box and the one for its rows differ in their centres, too.
   void bound_spots(const FrameLights& lights, BoundedBalls& out) {
     const std::uint32_t begin = out.count;
-    find_spot_balls(lights.all, lights.test.padding(k_cell_box_roundings), lights.test.balls_are_around_cones(),
+    find_spot_balls(lights.all, lights.test.padding(k_cell_box_roundoffs), lights.test.balls_are_around_cones(),
                     spots_for_boxes_);
     bounds_.find(given_spots(lights.all, spots_for_boxes_), lights.all.points, {0.0f, 0.0f}, out);
     for (std::uint32_t i = begin; i < out.count; ++i) take_spot(lights, i, out);

@@ -23,7 +23,7 @@ class FrustumBounds {
   // Appends the balls that have a box of cells; the first ball's light is `first_light`. `out` has room for all lights.
   void find(const GivenBalls& balls, std::uint32_t first_light, const BallPadding& padding, BoundedBalls& out) {
     const std::uint32_t begin = visible_.count;
-    cull_balls(planes_, balls, first_light, visible_, padding.box + k_slice_rows_roundings);
+    cull_balls(planes_, balls, first_light, visible_, padding.box + k_slice_rows_roundoffs);
     find_screen_bounds(boundaries_, visible_, begin, balls, first_light, padding, out);
   }
 

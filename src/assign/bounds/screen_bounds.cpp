@@ -44,14 +44,14 @@ void find_radii(const VisibleBalls& visible, std::uint32_t begin, const GivenBal
   const auto n = static_cast<std::uint32_t>(Lanes(d));
   for (std::uint32_t i = begin; i < visible.count; i += n) {
     const auto light = Min(LoadU(du, visible.light.data() + i), Set(du, first_light + given.count - 1));
-    const VI place = BitCast(di, Max(light, Set(du, first_light)) - Set(du, first_light));
-    const V radius = GatherIndex(d, given.radius, place), reach = GatherIndex(d, given.reach, place);
+    const VI index = BitCast(di, Max(light, Set(du, first_light)) - Set(du, first_light));
+    const V radius = GatherIndex(d, given.radius, index), reach = GatherIndex(d, given.reach, index);
     StoreU(padded(radius, reach, padding.box), d, bounded.box_radius.data() + i);
     StoreU(padded(radius, reach, padding.ball), d, bounded.ball_radius.data() + i);
   }
 }
 
-// Those of the seen balls from `begin` on whose extents touch cells.
+// Those of the visible balls from `begin` on whose extents touch cells.
 void box_balls(const BoxPlanes& planes, const VisibleBalls& visible, std::uint32_t begin, BoundedBalls& bounded) {
   const D d;
   const DI di;

@@ -13,7 +13,7 @@ namespace clusterbench::assign {
 
 class BoxGridMethod final : public LightByLight<BoxGridMethod> {
  public:
-  explicit BoxGridMethod(const Params& params) : test_(params, k_box_roundings) {}
+  explicit BoxGridMethod(const Params& params) : test_(params, k_box_roundoffs) {}
 
   void build(const grid::Grid& grid, const LightKinds& kinds) override {
     start_grid(grid);

@@ -14,23 +14,23 @@ namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
 namespace {
 
-// Along an axis; a negated place has the same distances from negated boundaries.
-HWY_INLINE V on_axis(const RangeAxis& axis, V place) {
-  return axis.descends ? Neg(place) : place;
+// Along an axis; a negated coordinate has the same distances from negated boundaries.
+HWY_INLINE V on_axis(const RangeAxis& axis, V coordinate) {
+  return axis.descends ? Neg(coordinate) : coordinate;
 }
 
 // Whether the grid as a whole is within reach. Boxes are adjacent: so is one of them, then.
 HWY_INLINE M reaches(const RangeAxis& axis, V given, V radius) {
-  const V place = on_axis(axis, given), start = all(axis.boundaries.front()), end = all(axis.boundaries.back());
-  return Not(Or(start - place > radius, place - end > radius));
+  const V coordinate = on_axis(axis, given), start = all(axis.boundaries.front()), end = all(axis.boundaries.back());
+  return Not(Or(start - coordinate > radius, coordinate - end > radius));
 }
 
 HWY_INLINE Indices range_on(const RangeAxis& axis, V given, V radius) {
-  const V place = on_axis(axis, given);
-  const auto is_before = [&](V end) { return place - end > radius; };
-  const auto is_reached = [&](V start) { return Not(start - place > radius); };
-  return {last_passed(axis.boundaries, guessed(axis, place - radius), 0, is_before),
-          last_passed(axis.boundaries, guessed(axis, place + radius), -1, is_reached)};
+  const V coordinate = on_axis(axis, given);
+  const auto is_before = [&](V end) { return coordinate - end > radius; };
+  const auto is_reached = [&](V start) { return Not(start - coordinate > radius); };
+  return {last_passed(axis.boundaries, guessed(axis, coordinate - radius), 0, is_before),
+          last_passed(axis.boundaries, guessed(axis, coordinate + radius), -1, is_reached)};
 }
 
 HWY_INLINE MI lies_in(const Indices& range, const grid::IndexRange& hole) {
@@ -39,7 +39,7 @@ HWY_INLINE MI lies_in(const Indices& range, const grid::IndexRange& hole) {
 }
 
 // Those that reach the grid; without their ranges.
-void see_reaching(const RangeAxes& axes, const GivenBalls& balls, std::uint32_t first_light, float roundings,
+void see_reaching(const RangeAxes& axes, const GivenBalls& balls, std::uint32_t first_light, float roundoffs,
                   BoundedBalls& bounded) {
   const D d;
   const auto n = static_cast<std::uint32_t>(Lanes(d));
@@ -47,7 +47,7 @@ void see_reaching(const RangeAxes& axes, const GivenBalls& balls, std::uint32_t 
     const std::uint32_t left = std::min(n, balls.count - i);
     const auto load = [&](const float* from) { return loaded(from + i, left); };
     const V x = load(balls.x), y = load(balls.y), z = load(balls.z), given = load(balls.radius);
-    const V radius = padded(given, load(balls.reach), roundings);
+    const V radius = padded(given, load(balls.reach), roundoffs);
     const M on_all = And(reaches(axes.x, x, radius), And(reaches(axes.y, y, radius), reaches(axes.z, z, radius)));
     const M wanted = And(And(given > Zero(d), FirstN(d, left)), on_all);
     keep_balls(wanted, {x, y, Neg(z), radius}, first_light + i, bounded);
@@ -76,10 +76,10 @@ void find_ranges(const RangeAxes& axes, std::uint32_t begin, BoundedBalls& bound
   }
 }
 
-void box_ranges(const RangeAxes& axes, const GivenBalls& balls, std::uint32_t first_light, float roundings,
+void box_ranges(const RangeAxes& axes, const GivenBalls& balls, std::uint32_t first_light, float roundoffs,
                 BoundedBalls& bounded) {
   const std::uint32_t begin = bounded.count;
-  see_reaching(axes, balls, first_light, roundings, bounded);
+  see_reaching(axes, balls, first_light, roundoffs, bounded);
   find_ranges(axes, begin, bounded);
 }
 
@@ -107,9 +107,9 @@ std::size_t RangeAxes::capacity_bytes() const {
   return (x.boundaries.capacity() + y.boundaries.capacity() + z.boundaries.capacity()) * sizeof(float);
 }
 
-void find_box_ranges(const RangeAxes& axes, const GivenBalls& balls, std::uint32_t first_light, float roundings,
+void find_box_ranges(const RangeAxes& axes, const GivenBalls& balls, std::uint32_t first_light, float roundoffs,
                      BoundedBalls& bounded) {
-  HWY_DYNAMIC_DISPATCH(box_ranges)(axes, balls, first_light, roundings, bounded);
+  HWY_DYNAMIC_DISPATCH(box_ranges)(axes, balls, first_light, roundoffs, bounded);
 }
 
 }  // namespace clusterbench::assign

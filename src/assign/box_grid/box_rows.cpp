@@ -34,13 +34,15 @@ class RowSink {
 
 }  // namespace
 
-IndexRange indices_within(const BoxAxis& axis, float place, float r) {
+IndexRange indices_within(const BoxAxis& axis, float coordinate, float r) {
   if (axis.empty()) return {};
   const bool ascending = axis.front().lo <= axis.back().lo;
   // Both differences are monotonous along the axis, in single precision too.
-  const auto before = [&](const Interval& extent) { return (ascending ? place - extent.hi : extent.lo - place) > r; };
+  const auto before = [&](const Interval& extent) {
+    return (ascending ? coordinate - extent.hi : extent.lo - coordinate) > r;
+  };
   const auto not_beyond = [&](const Interval& extent) {
-    return !((ascending ? extent.lo - place : place - extent.hi) > r);
+    return !((ascending ? extent.lo - coordinate : coordinate - extent.hi) > r);
   };
   const auto first = std::partition_point(axis.begin(), axis.end(), before);
   const auto end = std::partition_point(first, axis.end(), not_beyond);

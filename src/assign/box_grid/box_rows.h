@@ -32,18 +32,18 @@ struct BoxGrid {
   std::size_t capacity_bytes() const { return (x.capacity() + y.capacity() + z.capacity()) * sizeof(Interval); }
 };
 
-// Distance from a place on the axis to an extent; 0 inside.
-inline float gap_to(const Interval& extent, float place) {
-  return std::max(0.0f, std::max(extent.lo - place, place - extent.hi));
+// Distance from a coordinate on the axis to an extent; 0 inside.
+inline float gap_to(const Interval& extent, float coordinate) {
+  return std::max(0.0f, std::max(extent.lo - coordinate, coordinate - extent.hi));
 }
 
-inline float squared_gap(const Interval& extent, float place) {
-  const float gap = gap_to(extent, place);
+inline float squared_gap(const Interval& extent, float coordinate) {
+  const float gap = gap_to(extent, coordinate);
   return gap * gap;
 }
 
-// The indices whose extent lies within r of the place.
-IndexRange indices_within(const BoxAxis& axis, float place, float r);
+// The indices whose extent lies within r of the coordinate.
+IndexRange indices_within(const BoxAxis& axis, float coordinate, float r);
 
 // Calls row(y, z, first_x, last_x) for each row of boxes that the ball touches, and adds the boxes that it tested to
 // `tests`. The interval is found by going inward from both ends of the ball's x range.
@@ -71,9 +71,9 @@ void for_each_row_touched(const BoxGrid& boxes, const geom::Ball& ball, std::uin
 
 // Adds the cells of these boxes that a light touches.
 //
-// Roundings: each axis's gap is one difference, off by 2^-24 of itself; squaring, two sums and the squared radius leave
+// Roundoffs: each axis's gap is one difference, off by 2^-24 of itself; squaring, two sums and the squared radius leave
 // the compared squares off by at most 5 * 2^-24 of themselves, so the distance by 2.5; with the gaps' 1: 3.5.
-inline constexpr float k_box_roundings = 4.0f;
+inline constexpr float k_box_roundoffs = 4.0f;
 void add_boxes(const BoxGrid& boxes, const LightTest& test, const TestedLight& light, PairBuffer& pairs,
                std::uint64_t& tests);
 

@@ -15,7 +15,7 @@ namespace clusterbench::assign {
 
 class BoxGridKernel {
  public:
-  static constexpr float k_roundings = k_box_roundings;
+  static constexpr float k_roundoffs = k_box_roundoffs;
   static constexpr const char* k_columns_key = "cells";
 
   explicit BoxGridKernel(const Params&) {}

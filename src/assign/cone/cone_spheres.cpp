@@ -66,7 +66,7 @@ class Cone {
   V range_, cos_angle_, sin_angle_, apex_size_;
 };
 
-std::uint64_t lit_of(const CellRun& run, const Cone& cone, const CellBalls& cells) {
+std::uint64_t touched_of(const CellRun& run, const Cone& cone, const CellBalls& cells) {
   const D d;
   const auto lanes = static_cast<std::uint32_t>(Lanes(d));
   std::uint64_t bits = 0;
@@ -78,10 +78,10 @@ std::uint64_t lit_of(const CellRun& run, const Cone& cone, const CellBalls& cell
   return run.count < 64 ? bits & ((std::uint64_t{1} << run.count) - 1) : bits;
 }
 
-void lit_cells(const geom::SphericalCone& given, const CellBalls& cells, std::span<const CellRun> runs,
-               std::uint64_t* lit) {
+void touched_cells(const geom::SphericalCone& given, const CellBalls& cells, std::span<const CellRun> runs,
+                   std::uint64_t* touched) {
   const Cone cone(given);
-  for (std::size_t i = 0; i < runs.size(); ++i) lit[i] = lit_of(runs[i], cone, cells);
+  for (std::size_t i = 0; i < runs.size(); ++i) touched[i] = touched_of(runs[i], cone, cells);
 }
 
 }  // namespace
@@ -92,7 +92,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace clusterbench::assign {
 
-HWY_EXPORT(lit_cells);
+HWY_EXPORT(touched_cells);
 
 CellBalls::CellBalls(std::span<const geom::Ball> balls) {
   const std::size_t padded = balls.size() + k_most_lanes;
@@ -112,10 +112,10 @@ std::size_t CellBalls::capacity_bytes() const {
   return 5 * x.capacity() * sizeof(float);
 }
 
-void find_lit_cells(const geom::SphericalCone& cone, const CellBalls& cells, std::span<const CellRun> runs,
-                    std::vector<std::uint64_t>& lit) {
-  if (lit.size() < runs.size()) lit.resize(runs.size());
-  HWY_DYNAMIC_DISPATCH(lit_cells)(cone, cells, runs, lit.data());
+void find_touched_cells(const geom::SphericalCone& cone, const CellBalls& cells, std::span<const CellRun> runs,
+                        std::vector<std::uint64_t>& touched) {
+  if (touched.size() < runs.size()) touched.resize(runs.size());
+  HWY_DYNAMIC_DISPATCH(touched_cells)(cone, cells, runs, touched.data());
 }
 
 }  // namespace clusterbench::assign

@@ -17,9 +17,9 @@ struct BallArrays {
   std::size_t capacity_bytes() const { return 4 * x.capacity() * sizeof(float); }
 };
 
-// Ball i is that of spot i, larger by these roundings: around its cone or, if not `around_cones`, the ball of its
+// Ball i is that of spot i, larger by these roundoffs: around its cone or, if not `around_cones`, the ball of its
 // range. Spots without volume get radius 0.
-void find_spot_balls(const view::LightArrays& lights, float roundings, bool around_cones, BallArrays& balls);
+void find_spot_balls(const view::LightArrays& lights, float roundoffs, bool around_cones, BallArrays& balls);
 
 inline GivenBalls given_points(const view::LightArrays& lights) {
   return {lights.x.data(), lights.y.data(), lights.z.data(), lights.radius.data(), lights.reach.data(), lights.points};

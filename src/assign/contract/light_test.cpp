@@ -34,8 +34,8 @@ void check_prepared(const view::LightArrays& lights, const std::vector<geom::Bal
     throw Error("", "lights", "have spots, which the build was not told of", ExitCode::internal);
 }
 
-LightTest::LightTest(const Params& params, float roundings)
-    : spot_(SpotTest::both), inflation_(static_cast<float>(params.number("inflation"))), roundings_(roundings) {
+LightTest::LightTest(const Params& params, float roundoffs)
+    : spot_(SpotTest::both), inflation_(static_cast<float>(params.number("inflation"))), roundings_(roundoffs) {
   const std::string& name = params.text("spot");
   if (name == "ball") spot_ = SpotTest::ball;
   if (name == "cone-sphere") spot_ = SpotTest::cone_sphere;
@@ -50,8 +50,8 @@ void LightTest::start_frame(const view::LightArrays& lights) const {
   if (tests_cones()) check_prepared(lights, cell_balls_);
 }
 
-geom::Ball LightTest::ball(const view::LightArrays& lights, std::uint32_t light, float roundings) const {
-  const float all = padding(roundings);
+geom::Ball LightTest::ball(const view::LightArrays& lights, std::uint32_t light, float roundoffs) const {
+  const float all = padding(roundoffs);
   return balls_are_around_cones() ? lights.bounding_ball(light, all) : lights.ball(light, all);
 }
 

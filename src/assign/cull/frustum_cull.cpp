@@ -27,7 +27,7 @@ class View {
         near_(planes.depth.front()),
         far_(planes.depth.back()) {}
 
-  // How far a place is outside, at least.
+  // How far a point is outside, at least.
   HWY_INLINE V gap(V x, V y, V depth) const {
     const V across = Max(Neg(beyond(left_, x, depth)), beyond(right_, x, depth));
     const V up = Max(beyond(top_, y, depth), Neg(beyond(bottom_, y, depth)));
@@ -40,9 +40,9 @@ class View {
     float slope, length;
   };
   static Side side(float slope) { return {slope, 1.0f / std::sqrt(1.0f + slope * slope)}; }
-  HWY_INLINE V beyond(const Side& side, V place, V depth) const {
-    if (orthographic_) return place - all(side.slope);
-    return (place - all(side.slope) * depth) * all(side.length);
+  HWY_INLINE V beyond(const Side& side, V coordinate, V depth) const {
+    if (orthographic_) return coordinate - all(side.slope);
+    return (coordinate - all(side.slope) * depth) * all(side.length);
   }
 
   bool orthographic_;
@@ -93,7 +93,7 @@ class SliceSearch {
 };
 
 void cull(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, VisibleBalls& visible,
-          float roundings) {
+          float roundoffs) {
   const D d;
   const DI di;
   const auto n = static_cast<std::uint32_t>(Lanes(d));
@@ -103,7 +103,7 @@ void cull(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_
     const std::uint32_t left = std::min(n, balls.count - i);
     const auto load = [&](const float* from) { return loaded(from + i, left); };
     const V x = load(balls.x), y = load(balls.y), depth = Neg(load(balls.z)), given = load(balls.radius);
-    const V reach = load(balls.reach), slack = reach * all(roundings * 0x1p-24f);
+    const V reach = load(balls.reach), slack = reach * all(roundoffs * 0x1p-24f);
     const V radius = given + slack;
     const M reaches = And(view.gap(x, y, depth) <= radius, given > Zero(d));
     const M wanted = And(reaches, FirstN(d, left));
@@ -141,8 +141,8 @@ namespace clusterbench::assign {
 HWY_EXPORT(cull);
 
 void cull_balls(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, VisibleBalls& visible,
-                float roundings) {
-  HWY_DYNAMIC_DISPATCH(cull)(planes, balls, first_light, visible, roundings);
+                float roundoffs) {
+  HWY_DYNAMIC_DISPATCH(cull)(planes, balls, first_light, visible, roundoffs);
 }
 
 }  // namespace clusterbench::assign

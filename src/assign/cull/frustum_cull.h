@@ -10,7 +10,7 @@
 
 namespace clusterbench::assign {
 
-// Balls as they are given: count places of each.
+// Balls as they are given: `count` of each.
 struct GivenBalls {
   const float *x, *y, *z, *radius, *reach;
   std::uint32_t count;
@@ -33,15 +33,15 @@ struct VisibleBalls {
 
 // Units of 2^-24 of a light's reach by which a ball is made larger: more than rounding loses here (a centre 1,
 // distances to planes 3) and in the rows (see Certainty in slice_rows.cpp). A larger slack costs decisions only.
-inline constexpr float k_slice_rows_roundings = 28.0f;
+inline constexpr float k_slice_rows_roundoffs = 28.0f;
 
 // Beyond this reach, or below RowPlanes::least_reach, powers of it may overflow or vanish: such balls are taken to be
 // everywhere, of infinite radius around the eye, and their rows are decided.
 inline constexpr float k_most_row_reach = 1e9f;
 
 // Appends the balls that may reach into the grid; the first one's light is `first_light`. Those left out touch no cell,
-// even if they are larger by these roundings.
+// even if they are larger by these roundoffs.
 void cull_balls(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, VisibleBalls& visible,
-                float roundings = k_slice_rows_roundings);
+                float roundoffs = k_slice_rows_roundoffs);
 
 }  // namespace clusterbench::assign

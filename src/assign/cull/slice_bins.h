@@ -39,7 +39,7 @@ class SliceBins {
 
   // How many there are in all slices.
   std::uint32_t count() const { return begin_.back(); }
-  // Places in the balls as they were sorted; a whole vector can be read from each of them.
+  // Indices of the balls as they were sorted; a whole vector can be read from each of them.
   std::span<const std::uint32_t> of(int slice) const {
     return {balls_.data() + begin_[at(slice)], begin_[at(slice) + 1] - begin_[at(slice)]};
   }

@@ -1,6 +1,7 @@
 #pragma once
 // Do point lights touch single cells of a frustum grid? Many pairs at once, in doubles with a bound of their error, as
-// geom::BallDecider does before it turns to exact numbers (its answers are the same; which pairs are left open is not).
+// geom::BallDecider does before it turns to exact numbers (its answers are the same; which pairs are left uncertain is
+// not).
 
 #include <cstdint>
 #include <vector>

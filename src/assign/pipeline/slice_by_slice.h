@@ -20,7 +20,7 @@ struct FrameLights {
 };
 
 // Kernel:
-//   k_roundings, what its own steps lose, and k_columns_key, what the columns were given by,
+//   k_roundoffs, what its own steps lose, and k_columns_key, what the columns were given by,
 //   Kernel(const Params&), build(const grid::Grid&), capacity_bytes() const,
 //   levels() const -> int and level(int) const -> Level, which follow one another in the order of the cells,
 //   bound(int level, const FrameLights&, BoundedBalls&): appends the balls that have cells there, ascending by light,
@@ -28,7 +28,7 @@ struct FrameLights {
 template <class Kernel>
 class SliceBySlice final : public ListAssigner {
  public:
-  explicit SliceBySlice(const Params& params) : test_(params, Kernel::k_roundings), kernel_(params), lists_(test_) {}
+  explicit SliceBySlice(const Params& params) : test_(params, Kernel::k_roundoffs), kernel_(params), lists_(test_) {}
 
   void build(const grid::Grid& grid, const LightKinds& kinds) override {
     test_.start_grid(grid, kinds);

@@ -66,17 +66,18 @@ class SliceLists {
   std::size_t capacity_bytes() const {
     return spans_.capacity_bytes() + slice_bins_.capacity_bytes() + cells_.capacity_bytes() +
            batch_.columns.capacity() * sizeof(std::uint32_t) + runs_.capacity() * sizeof(CellRun) +
-           lit_.capacity() * sizeof(std::uint64_t);
+           touched_.capacity() * sizeof(std::uint64_t);
   }
 
  private:
   template <class Find>
   void add_slice(const BoundedBalls& bounded, int slice, Find&& find) {
     const std::span<const std::uint32_t> balls = slice_bins_.of(slice);
-    const std::uint32_t most = balls_per_batch(), first_open = test_.tests_cones() ? lights_->points : lights_->size();
+    const std::uint32_t most = balls_per_batch(),
+                        first_uncertain = test_.tests_cones() ? lights_->points : lights_->size();
     for (std::uint32_t begin = 0; begin < balls.size(); begin += most) {
       const auto count = std::min(most, static_cast<std::uint32_t>(balls.size()) - begin);
-      find(BallBatch{bounded, slice, balls.data() + begin, count, first_open}, batch_);
+      find(BallBatch{bounded, slice, balls.data() + begin, count, first_uncertain}, batch_);
       tests_ += batch_.tests;
       if (spans_.add_batch(batch_.first_row, batch_.last_row, batch_.columns.data(), batch_.lights, is_left_.data()))
         add_left_rows(bounded, balls.data() + begin, count);
@@ -89,9 +90,9 @@ class SliceLists {
       runs_.clear();
       const std::uint32_t light = batch_.lights[lane];
       for (int row = bounded.first_row[balls[lane]]; row <= bounded.last_row[balls[lane]]; ++row) {
-        const auto place = static_cast<std::size_t>(row);
-        if (row < batch_.first_row || row > batch_.last_row || is_left_[place] == 0) continue;
-        const std::uint32_t entry = batch_.columns[place * batch_.lanes + lane];
+        const auto index = static_cast<std::size_t>(row);
+        if (row < batch_.first_row || row > batch_.last_row || is_left_[index] == 0) continue;
+        const std::uint32_t entry = batch_.columns[index * batch_.lanes + lane];
         if (entry == BatchRows::k_none) continue;
         const auto first = static_cast<std::uint32_t>(BatchRows::first_of(entry));
         const auto last = static_cast<std::uint32_t>(BatchRows::last_of(entry));
@@ -100,7 +101,7 @@ class SliceLists {
         else
           spans_.add(static_cast<std::uint32_t>(row), first, last, light);
       }
-      if (!runs_.empty()) add_lit(light);
+      if (!runs_.empty()) add_touched(light);
     }
   }
 
@@ -112,17 +113,17 @@ class SliceLists {
   }
 
   // Those of the runs' cells that a spot's cone may touch.
-  void add_lit(std::uint32_t light) {
-    find_lit_cells(test_.cone(*lights_, light), cells_, runs_, lit_);
+  void add_touched(std::uint32_t light) {
+    find_touched_cells(test_.cone(*lights_, light), cells_, runs_, touched_);
     for (std::size_t i = 0; i < runs_.size(); ++i) {
-      std::uint64_t lit = lit_[i];
+      std::uint64_t touched = touched_[i];
       std::uint32_t column = runs_[i].column;
-      while (lit != 0) {
-        const int dark = std::countr_zero(lit), bright = std::countr_one(lit >> dark);
-        column += static_cast<std::uint32_t>(dark);
-        spans_.add(runs_[i].row, column, column + static_cast<std::uint32_t>(bright) - 1, light);
-        column += static_cast<std::uint32_t>(bright);
-        lit = dark + bright < 64 ? lit >> (dark + bright) : 0;
+      while (touched != 0) {
+        const int skipped = std::countr_zero(touched), taken = std::countr_one(touched >> skipped);
+        column += static_cast<std::uint32_t>(skipped);
+        spans_.add(runs_[i].row, column, column + static_cast<std::uint32_t>(taken) - 1, light);
+        column += static_cast<std::uint32_t>(taken);
+        touched = skipped + taken < 64 ? touched >> (skipped + taken) : 0;
       }
     }
   }
@@ -134,8 +135,8 @@ class SliceLists {
   CellBalls cells_;
   SliceBins slice_bins_;
   BatchRows batch_;
-  std::vector<CellRun> runs_;       // of a spot in a slice
-  std::vector<std::uint64_t> lit_;  // of the runs
+  std::vector<CellRun> runs_;           // of a spot in a slice
+  std::vector<std::uint64_t> touched_;  // of the runs
   std::vector<std::uint8_t> is_left_;
   ListBuilder spans_;
   std::uint64_t tests_ = 0;

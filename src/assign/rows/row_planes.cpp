@@ -46,7 +46,7 @@ float least_reach_of(const RowPlanes& planes) {
     return std::numeric_limits<float>::infinity();
   if (planes.inverse_depth.front() <= RowPlanes::k_most_inverse_depth) return k_least_normal;
   const float longest_way = std::sqrt(1.0f + across * across + up * up) / RowPlanes::k_most_inverse_depth;
-  return std::max(k_least_normal, k_ways * longest_way / (k_slice_rows_roundings * 0x1p-24f));
+  return std::max(k_least_normal, k_ways * longest_way / (k_slice_rows_roundoffs * 0x1p-24f));
 }
 
 }  // namespace

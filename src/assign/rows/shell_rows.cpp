@@ -21,13 +21,13 @@ namespace {
 
 // --- Which shells ---
 
-// More than what the reference's caps, cuts and slopes lose: positions by some 20 roundings.
-constexpr float k_slack_roundings = 64.0f;
+// More than what the reference's caps, cuts and slopes lose: positions by some 20 roundoffs.
+constexpr float k_slack_roundoffs = 64.0f;
 // Within these squares of a reach are normal numbers; elsewhere nothing is left out.
 constexpr float k_least_reach = 1e-15f, k_most_reach = 1e18f;
 
-HWY_INLINE V outside(const TilePlane& plane, V place, V depth) {
-  return all(plane.across) * place + all(plane.along) * depth;
+HWY_INLINE V outside(const TilePlane& plane, V coordinate, V depth) {
+  return all(plane.across) * coordinate + all(plane.along) * depth;
 }
 
 // How far outside of one of the view's sides.
@@ -50,7 +50,7 @@ HWY_INLINE M reach_shells(const ShellPlanes& planes, const Balls& balls, Indices
   const V squares = balls.x * balls.x + balls.y * balls.y + balls.depth * balls.depth;
   const V length = Sqrt(squares);
   const V reach = Abs(balls.x) + Abs(balls.y) + Abs(balls.depth) + balls.radius;
-  const V radius = balls.radius + all(k_slack_roundings * 0x1p-24f) * reach;
+  const V radius = balls.radius + all(k_slack_roundoffs * 0x1p-24f) * reach;
   const M is_plain = And(reach >= all(k_least_reach), reach <= all(k_most_reach));
   const V inf = all(std::numeric_limits<float>::infinity());
   const V low = IfThenElse(is_plain, length - radius, Neg(inf));
@@ -66,7 +66,7 @@ HWY_INLINE M reach_shells(const ShellPlanes& planes, const Balls& balls, Indices
   return AndNot(And(is_plain, is_beside), has_shells);
 }
 
-void shells(const ShellPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, float roundings,
+void shells(const ShellPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, float roundoffs,
             BoundedBalls& bounded) {
   const D d;
   const DI di;
@@ -76,7 +76,7 @@ void shells(const ShellPlanes& planes, const GivenBalls& balls, std::uint32_t fi
     const std::uint32_t left = std::min(n, balls.count - i);
     const auto load = [&](const float* from) { return loaded(from + i, left); };
     const V given = load(balls.radius);
-    const Balls found{load(balls.x), load(balls.y), Neg(load(balls.z)), padded(given, load(balls.reach), roundings)};
+    const Balls found{load(balls.x), load(balls.y), Neg(load(balls.z)), padded(given, load(balls.reach), roundoffs)};
     Indices shells_reached{none, none};
     const M may_reach = reach_shells(planes, found, shells_reached);
     const M wanted = And(may_reach, And(given > Zero(d), FirstN(d, left)));
@@ -175,7 +175,7 @@ class Caps {
     const VD cap = (r - apart) * (r + apart) / twice;
     const VD squared_sine = cap * (all(1.0) + cosine);
     const VD sine = Sqrt(IfThenElseZero(squared_sine > none, squared_sine));
-    const VD lost = all(0x1p-24 * static_cast<double>(k_shell_roundings)) * length;
+    const VD lost = all(0x1p-24 * static_cast<double>(k_shell_roundoffs)) * length;
     return IfThenElse(cosine > none, in_single(length * sine + lost), infinite());
   }
 
@@ -188,11 +188,11 @@ class Caps {
 // A batch in one shell.
 class Shell {
  public:
-  HWY_INLINE Shell(const ShellPlanes& planes, const BallBatch& batch, VI places) : planes_(planes) {
+  HWY_INLINE Shell(const ShellPlanes& planes, const BallBatch& batch, VI indices) : planes_(planes) {
     const auto shell = static_cast<std::size_t>(batch.slice);
     const double distance0 = planes.boundaries.depths[shell], distance1 = planes.boundaries.depths[shell + 1];
-    const Lanes x(gathered(batch.bounded.x, places)), y(gathered(batch.bounded.y, places));
-    const Lanes depth(gathered(batch.bounded.depth, places)), radius(gathered(batch.bounded.radius, places));
+    const Lanes x(gathered(batch.bounded.x, indices)), y(gathered(batch.bounded.y, indices));
+    const Lanes depth(gathered(batch.bounded.depth, indices)), radius(gathered(batch.bounded.radius, indices));
     Lanes low, high;
     for (std::size_t half = 0; half < k_halves; ++half) {
       const VD wide_x = x.wide(half), wide_y = y.wide(half), wide_depth = depth.wide(half), r = radius.wide(half);
@@ -261,12 +261,12 @@ class Shell {
   HWY_INLINE void cut(VI plane, Plane (&planes)[k_halves]) const {
     const hn::RebindToSigned<DF> dh;
     const hn::RebindToSigned<DD> dl;
-    HWY_ALIGN std::int32_t places[MaxLanes(D())];
-    Store(Min(plane, all_int(planes_.rows())), DI(), places);
+    HWY_ALIGN std::int32_t indices[MaxLanes(D())];
+    Store(Min(plane, all_int(planes_.rows())), DI(), indices);
     for (std::size_t half = 0; half < k_halves; ++half) {
-      const auto place = LoadU(dh, places + half * k_half);
-      planes[half].slope = PromoteTo(DD(), GatherIndex(DF(), planes_.slope.data(), place));
-      const VD stretch = GatherIndex(DD(), planes_.stretch.data(), PromoteTo(dl, place));
+      const auto index = LoadU(dh, indices + half * k_half);
+      planes[half].slope = PromoteTo(DD(), GatherIndex(DF(), planes_.slope.data(), index));
+      const VD stretch = GatherIndex(DD(), planes_.stretch.data(), PromoteTo(dl, index));
       planes[half].cut = halves_[half].cut_by_planes(planes[half].slope, stretch);
     }
   }
@@ -280,7 +280,7 @@ class Shell {
 
 void shell_rows(const ShellPlanes& planes, const BallBatch& batch, BatchRows& out) {
   Boxes boxes(batch);
-  Shell shell(planes, batch, boxes.places);
+  Shell shell(planes, batch, boxes.indices);
   shell.find_rows(boxes);
   if (!boxes.start(planes.rows(), batch.count, out)) return;
   shell.start_rows(boxes.first_row);
@@ -313,9 +313,9 @@ std::size_t ShellPlanes::capacity_bytes() const {
   return floats * sizeof(float) + stretch.capacity() * sizeof(double);
 }
 
-void find_shells(const ShellPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, float roundings,
+void find_shells(const ShellPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, float roundoffs,
                  BoundedBalls& bounded) {
-  HWY_DYNAMIC_DISPATCH(shells)(planes, balls, first_light, roundings, bounded);
+  HWY_DYNAMIC_DISPATCH(shells)(planes, balls, first_light, roundoffs, bounded);
 }
 
 void find_shell_rows(const ShellPlanes& planes, const BallBatch& batch, BatchRows& out) {
