@@ -72,7 +72,7 @@ Setting open_world() {
 assign::VisibleBalls visible_in(const Setting& setting, const assign::RowPlanes& planes) {
   assign::VisibleBalls visible;
   visible.reserve(setting.lights.size());
-  assign::cull_balls(planes, assign::given_points(setting.lights), 0, visible);
+  assign::cull_balls(planes, assign::given_points(setting.lights), visible);
   return visible;
 }
 
@@ -82,10 +82,10 @@ void cull_balls(State& state) {
   assign::VisibleBalls visible = visible_in(setting, planes);
   for (auto _ : state) {
     visible.count = 0;
-    assign::cull_balls(planes, assign::given_points(setting.lights), 0, visible);
+    assign::cull_balls(planes, assign::given_points(setting.lights), visible);
     benchmark::ClobberMemory();
   }
-  items(state, setting.lights.points);
+  items(state, setting.lights.points.count);
 }
 
 void find_screen_bounds(State& state) {
@@ -97,7 +97,7 @@ void find_screen_bounds(State& state) {
   bounded.reserve(setting.lights.size());
   for (auto _ : state) {
     bounded.count = 0;
-    assign::find_screen_bounds(box_planes, visible, 0, assign::given_points(setting.lights), 0, {8.0f, 8.0f}, bounded);
+    assign::find_screen_bounds(box_planes, visible, 0, assign::given_points(setting.lights), {8.0f, 8.0f}, bounded);
     benchmark::ClobberMemory();
   }
   items(state, visible.count);
@@ -110,10 +110,10 @@ void find_box_ranges(State& state) {
   bounded.reserve(setting.lights.size());
   for (auto _ : state) {
     bounded.count = 0;
-    assign::find_box_ranges(axes, assign::given_points(setting.lights), 0, 8.0f, bounded);
+    assign::find_box_ranges(axes, assign::given_points(setting.lights), 8.0f, bounded);
     benchmark::ClobberMemory();
   }
-  items(state, setting.lights.points);
+  items(state, setting.lights.points.count);
 }
 
 void find_shells(State& state) {
@@ -123,10 +123,10 @@ void find_shells(State& state) {
   bounded.reserve(setting.lights.size());
   for (auto _ : state) {
     bounded.count = 0;
-    assign::find_shells(planes, assign::given_points(setting.lights), 0, 8.0f, bounded);
+    assign::find_shells(planes, assign::given_points(setting.lights), 8.0f, bounded);
     benchmark::ClobberMemory();
   }
-  items(state, setting.lights.points);
+  items(state, setting.lights.points.count);
 }
 
 void find_spot_balls(State& state) {
@@ -136,7 +136,7 @@ void find_spot_balls(State& state) {
     assign::find_spot_balls(setting.lights, view::k_given_roundoffs, true, balls);
     benchmark::ClobberMemory();
   }
-  items(state, setting.lights.spots);
+  items(state, setting.lights.spots.count);
 }
 
 // --- Rows: items are rows of single balls ---
@@ -228,7 +228,7 @@ void find_shell_rows(State& state) {
   const assign::ShellPlanes planes(setting.grid.screen());
   assign::BoundedBalls bounded;
   bounded.reserve(setting.lights.size());
-  assign::find_shells(planes, assign::given_points(setting.lights), 0, 8.0f, bounded);
+  assign::find_shells(planes, assign::given_points(setting.lights), 8.0f, bounded);
   assign::SliceBins balls;
   balls.sort(bounded, setting.grid.cells().z);
   assign::BatchRows rows;
@@ -247,8 +247,8 @@ void find_spot_rows(State& state) {
   assign::BallArrays around;
   assign::find_spot_balls(setting.lights, view::k_given_roundoffs, true, around);
   assign::VisibleBalls visible;
-  visible.reserve(setting.lights.spots);
-  assign::cull_balls(planes, assign::given_spots(setting.lights, around), 0, visible);
+  visible.reserve(setting.lights.spots.count);
+  assign::cull_balls(planes, assign::given_spots(setting.lights, around), visible);
   assign::SliceBins balls;
   balls.sort(visible, planes.slices);
   assign::SpotSlices slices;
@@ -269,9 +269,9 @@ void find_spot_rows(State& state) {
 assign::SpotCells some_spot_cells(const Setting& setting, int slice) {
   assign::SpotCells cells;
   const Vec3i size = setting.grid.cells();
-  for (std::uint32_t spot = 0; spot < setting.lights.spots; ++spot) {
+  for (std::uint32_t spot = 0; spot < setting.lights.spots.count; ++spot) {
     const view::LightArrays& lights = setting.lights;
-    const std::uint32_t light = lights.points + spot;
+    const std::uint32_t light = lights.spots.first + spot;
     const float depth = -lights.z[light];
     if (depth + lights.radius[light] < setting.grid.screen().slices.boundaries[static_cast<std::size_t>(slice)])
       continue;
@@ -323,11 +323,11 @@ void find_touched_cells(State& state) {
     runs.push_back({row, 0, static_cast<std::uint32_t>((slice * size.y + size.y / 2) * size.x), columns});
   std::vector<std::uint64_t> lit;
   for (auto _ : state)
-    for (std::uint32_t spot = setting.lights.points; spot < setting.lights.size(); ++spot) {
+    for (std::uint32_t spot = setting.lights.spots.first; spot < setting.lights.size(); ++spot) {
       assign::find_touched_cells(setting.lights.cone(spot, 8.0f), cells, runs, lit);
       benchmark::ClobberMemory();
     }
-  items(state, std::uint64_t{setting.lights.spots} * runs.size() * columns);
+  items(state, std::uint64_t{setting.lights.spots.count} * runs.size() * columns);
 }
 
 // --- Lists: items are pairs ---

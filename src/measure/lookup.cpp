@@ -30,7 +30,7 @@ grid::Sample at_boundary(const view::Frame& frame, const grid::ScreenGrid& grid,
   const float boundary = boundaries[random.below(boundaries.size())];
   constexpr int k_offsets[] = {-16, -4, -2, -1, 0, 1, 2, 4, 16};
   const double along = moved(boundary, k_offsets[random.below(std::size(k_offsets))]);
-  const double depth = grid.kind == grid::Kind::distance ? depth_at_distance(frame, x, y, along) : along;
+  const double depth = grid.by_distance ? depth_at_distance(frame, x, y, along) : along;
   return sample_at(frame, x, y, depth);
 }
 
@@ -69,16 +69,14 @@ grid::Sample read_back(const view::Frame& frame, const grid::Sample& sample, Dep
 }
 
 bool takes_logarithm(const grid::Grid& grid) {
-  return (grid.kind() == grid::Kind::frustum || grid.kind() == grid::Kind::distance) &&
-         grid.screen().slices.lookup.form == grid::SliceLookup::Form::log2;
+  return grid.has_tiles() && grid.screen().slices.lookup.form == grid::SliceLookup::Form::log2;
 }
 
 // Where the grid has no cells, no lookup is to blame.
 bool is_beyond(const view::Frame& frame, const grid::Grid& grid, const grid::Sample& sample) {
-  if (grid.kind() != grid::Kind::frustum && grid.kind() != grid::Kind::distance) return grid::lookup(grid, sample) < 0;
+  if (!grid.has_tiles()) return grid::lookup(grid, sample) < 0;
   const Vec3d local = frame.view_space.rotation * sample.from_eye;
-  const double along = grid.kind() == grid::Kind::distance ? glm::length(local) : -local.z;
-  return along > static_cast<double>(grid.screen().slices.boundaries.back());
+  return grid.screen().along(local) > static_cast<double>(grid.screen().slices.boundaries.back());
 }
 
 // The ends of what a logarithm may give.
@@ -118,12 +116,12 @@ double read_depth(const view::Projection& projection, DepthRead read, double dep
 
 std::vector<grid::Sample> edge_samples(const view::Frame& frame, const grid::Grid& grid, double far_m, int count,
                                        std::uint64_t seed) {
-  const bool on_screen = grid.kind() == grid::Kind::frustum || grid.kind() == grid::Kind::distance;
+  const bool on_screen = grid.has_tiles(), by_distance = on_screen && grid.screen().by_distance;
   std::vector<grid::Sample> samples = volume_samples(frame, far_m, on_screen ? count / 4 : count * 3 / 4, seed);
   SplitMix64 random(SplitMix64(seed + 77 + static_cast<std::uint64_t>(frame.index)).next());
   const double near = std::max(frame.projection.near_m, 1e-3 * far_m);
   const int in_view = static_cast<int>(samples.size());
-  for (int i = 0; i < count / 4; ++i) add_at_light_end(frame, grid.kind() == grid::Kind::distance, random, samples);
+  for (int i = 0; i < count / 4; ++i) add_at_light_end(frame, by_distance, random, samples);
   for (int i = 0; on_screen && i < count - 2 * in_view; ++i) {
     if (i % 2 == 0) {
       samples.push_back(at_boundary(frame, grid.screen(), random));

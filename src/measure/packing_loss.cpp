@@ -47,7 +47,7 @@ void PackingLossMeter::add_light(const view::PackedLights& packed, std::uint32_t
 }
 
 void PackingLossMeter::add_cone(const view::LightArrays& lights, std::uint32_t light) {
-  const std::uint32_t spot = light - lights.points;
+  const std::uint32_t spot = light - lights.spots.first;
   const scene::WorldLight& exact = lights.source[light];
   const Vec3d axis{lights.axis_x[spot], lights.axis_y[spot], lights.axis_z[spot]};
   axis_.add(angle_between(axis, lights.space.rotation * exact.direction));

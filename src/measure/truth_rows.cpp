@@ -135,9 +135,8 @@ void append_tile_rows(const grid::ScreenGrid& grid, const BallInSpace& ball, std
 }
 
 std::vector<BoxBlock> box_blocks(const grid::Grid& grid) {
-  if (grid.kind() == grid::Kind::world)
-    return {{extents(grid.world().x), extents(grid.world().y), extents(grid.world().z), 0}};
-  if (grid.kind() == grid::Kind::frustum) return {orthographic_block(grid.screen())};
+  if (grid.world_origin()) return {{extents(grid.world().x), extents(grid.world().y), extents(grid.world().z), 0}};
+  if (grid.has_tiles()) return {orthographic_block(grid.screen())};
   std::vector<BoxBlock> blocks;
   for (int level = 0; level < grid.cascades().levels; ++level) blocks.push_back(cascade_block(grid, level));
   return blocks;

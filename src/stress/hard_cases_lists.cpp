@@ -41,7 +41,7 @@ std::unique_ptr<assign::Storage> filled(const char* name, const std::map<std::st
                                         std::uint32_t lights) {
   const assign::StorageDescriptor& row = *assign::find_storage(name);
   auto storage = row.make(assign::Params(row.params, params));
-  storage->start(3, lights, 0);
+  storage->start(3, {lights, 0});
   storage->store(one_full_cell(lights));
   return storage;
 }

@@ -189,9 +189,9 @@ std::vector<Trial> from_zero_on() {
     spec.slices.boundaries_m = {0, 1, 10, 100};
     Rig rig;
     for (const double distance : {1e-6, 1e-5, 1e-3, 1.0, 1e3, 1e6})
-      for (const double slack : {-1e-9, 0.0, 2e-16, 2e-11, 2e-6, 1e-2}) {
-        rig.point({0, 0, -distance}, distance * (1.0 + slack)).point({0, 0, distance}, distance * (1.0 + slack));
-        rig.point({0.6 * distance, -0.8 * distance, 0}, distance * (1.0 + slack));
+      for (const double excess : {-1e-9, 0.0, 2e-16, 2e-11, 2e-6, 1e-2}) {
+        rig.point({0, 0, -distance}, distance * (1.0 + excess)).point({0, 0, distance}, distance * (1.0 + excess));
+        rig.point({0.6 * distance, -0.8 * distance, 0}, distance * (1.0 + excess));
       }
     rig.spot({0, 0, 1e-5}, {0, 0, -1}, 1e-5, 0.3).spot({0, 0, -1e-5}, {0, 0, 1}, 1e-5 + 2e-11, 0.3);
     trials.push_back(rig.on(spec, "slices that begin at 0"));

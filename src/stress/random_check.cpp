@@ -109,7 +109,7 @@ class SettingCheck {
     run_methods();
     if (truth_.undecided > 0)
       add(FaultKind::undecided, "", "the true lists leave " + std::to_string(truth_.undecided) + " pairs undecided", 0,
-          lights_.points);
+          lights_.points.count);
     check_truth();
     check_methods();
     check_shading();
@@ -146,7 +146,7 @@ class SettingCheck {
         answer.lists = run.cell_lists();
         run.assign({frame_, lights_});
         const assign::Lists& filled = run.filled_lists() ? *run.filled_lists() : answer.lists;
-        if (!assign::lists_fault(filled, grid_.cell_count(), lights_.points, lights_.spots).empty()) {
+        if (!assign::lists_fault(filled, grid_.cell_count(), lights_).empty()) {
           add(FaultKind::lists, method.label, "what it gave are no lists", 0, 0);
           continue;
         }

@@ -198,7 +198,7 @@ grid::GridSpec random_grid(Draw& draw, const Extent& extent, const scene::Lens& 
   grid::GridSpec spec;
   spec.kind = draw.one_of(kinds);
   if (spec.kind == Kind::distance && lens.orthographic && !draw.percent(5)) spec.kind = Kind::frustum;
-  if (spec.kind == Kind::cascades || spec.kind == Kind::world) {
+  if (!spec.has_tiles()) {
     random_boxes(spec, draw, extent, eye);
   } else {
     random_tiles(spec.tiles, draw, picture);

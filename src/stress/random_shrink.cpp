@@ -133,7 +133,7 @@ class Shrinker {
   }
 
   void simplify_grid() {
-    if (best_.grid.kind == grid::Kind::cascades || best_.grid.kind == grid::Kind::world) return simplify_boxes();
+    if (!best_.grid.has_tiles()) return simplify_boxes();
     list_boundaries();
     for (std::size_t i = best_.grid.slices.boundaries_m.size(); i > 0 && best_.grid.slices.boundaries_m.size() > 2; --i)
       attempt([&](Trial& trial) {

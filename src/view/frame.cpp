@@ -109,7 +109,7 @@ geom::Ball LightArrays::ball(std::uint32_t light, float roundoffs) const {
 
 geom::SphericalCone LightArrays::cone(std::uint32_t light, float roundoffs) const {
   assert(is_spot(light));
-  const std::uint32_t spot = light - points;
+  const std::uint32_t spot = light - spots.first;
   return {{x[light], y[light], z[light]},
           padded_radius(light, roundoffs),
           {axis_x[spot], axis_y[spot], axis_z[spot]},
@@ -151,8 +151,7 @@ Frame make_frame(const scene::Scene& scene, const scene::Shot& shot, int index, 
 
 LightArrays lights_in(const Frame& frame, const Space& space) {
   LightArrays out;
-  out.points = frame.points;
-  out.spots = static_cast<std::uint32_t>(frame.lights.size()) - frame.points;
+  static_cast<LightRanges&>(out) = frame.ranges();
   out.source = frame.lights;
   out.space = space;
   for (const scene::WorldLight& light : frame.lights) {

@@ -37,22 +37,38 @@ struct Space {
   Mat3d rotation{1.0};
 };
 
-// Lights in a space, single precision, one array per component (what an engine hands to an assigner). Index i is the
-// light index of all lists: points first, then spots.
-struct LightArrays {
-  std::uint32_t points = 0, spots = 0;
+// Lights of one type, which follow one another.
+struct LightRange {
+  std::uint32_t first = 0, count = 0;
+
+  bool empty() const { return count == 0; }
+  std::uint32_t end() const { return first + count; }
+};
+
+// A frame's lights by type. Indices of lights, in all lists, run through the types in this order.
+struct LightRanges {
+  LightRange points, spots;
+
+  LightRanges() = default;
+  LightRanges(std::uint32_t point_count, std::uint32_t spot_count)
+      : points{0, point_count}, spots{point_count, spot_count} {}
+
+  std::uint32_t size() const { return spots.end(); }
+  bool is_spot(std::uint32_t light) const { return light >= spots.first; }
+};
+
+// Lights in a space, single precision, one array per component (what an engine hands to an assigner).
+struct LightArrays : LightRanges {
   std::vector<float> x, y, z;  // centre or apex, each coordinate rounded to nearest
   std::vector<float> radius;   // the range, rounded up; 0 and +inf stay
   std::vector<float> reach;    // |x| + |y| + |z| + radius: what roundoffs are relative to
-  // Spots only; index i - points. Axis is unit up to rounding.
+  // Spots only; index i - spots.first. Axis is unit up to rounding.
   std::vector<float> axis_x, axis_y, axis_z, cos_angle, sin_angle;
 
-  std::uint32_t size() const { return points + spots; }
   // What the numbers were rounded from, for methods that go back to it. Belongs to the frame, which must live on.
   std::span<const scene::WorldLight> source;
   Space space;
 
-  bool is_spot(std::uint32_t light) const { return light >= points; }
   bool is_empty(std::uint32_t light) const { return !(radius[light] > 0.0f); }
   // The radius grown by a number of roundoffs: units of 2^-24 of its reach. 0: as it is.
   float padded_radius(std::uint32_t light, float roundoffs) const;
@@ -73,8 +89,10 @@ struct Frame {
   Vec2i viewport{0, 0};
   Projection projection;
   Space view_space;                       // eye and view rotation
-  std::vector<scene::WorldLight> lights;  // points first, then spots: the light indices of all lists
+  std::vector<scene::WorldLight> lights;  // as ranges() has them
   std::uint32_t points = 0;               // how many of them are points
+
+  LightRanges ranges() const { return {points, static_cast<std::uint32_t>(lights.size()) - points}; }
 };
 
 // Throws Error for a frame outside of the domain (geom/domain.h).

@@ -95,9 +95,9 @@ class Unorm16Format {
   double largest_range_ = 0.0;
 };
 
-float reach_of(const LightArrays& lights, std::uint32_t light, double slack_m) {
+float reach_of(const LightArrays& lights, std::uint32_t light, double inflation_m) {
   const auto size = [&](const std::vector<float>& numbers) { return std::fabs(static_cast<double>(numbers[light])); };
-  return geom::rounded_up(size(lights.x) + size(lights.y) + size(lights.z) + size(lights.radius) + slack_m);
+  return geom::rounded_up(size(lights.x) + size(lights.y) + size(lights.z) + size(lights.radius) + inflation_m);
 }
 
 void set_axis(LightArrays& lights, std::uint32_t spot, const Vec3d& unit) {
@@ -129,7 +129,7 @@ void pack_ball(const Format& format, LightArrays& lights, std::uint32_t light, P
 
 template <class Format>
 void pack_cone(const Format& format, LightArrays& lights, std::uint32_t light, PackingBound& bound) {
-  const std::uint32_t spot = light - lights.points;
+  const std::uint32_t spot = light - lights.spots.first;
   const Axis axis = format.axis(axis_of(lights, spot));
   const Number angle = format.angle(lights.source[light].outer_cone_rad);
   set_axis(lights, spot, axis.unit);
@@ -175,7 +175,7 @@ void inflate_point(LightArrays& lights, std::uint32_t light, const PackingBound&
 }
 
 void inflate_spot(LightArrays& lights, std::uint32_t light, const PackingBound& bound) {
-  const std::uint32_t spot = light - lights.points;
+  const std::uint32_t spot = light - lights.spots.first;
   const double range = lights.radius[light];
   const Widening change = widening_of(std::atan2(lights.sin_angle[spot], lights.cos_angle[spot]), range, bound);
   const Vec3d apex = Vec3d(position_of(lights, light)) - change.back_m * glm::normalize(axis_of(lights, spot));

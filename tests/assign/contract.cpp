@@ -35,11 +35,11 @@ std::string at_cell(std::uint32_t cell) {
 
 std::string form_fault(const AssignerRun& run, const grid::Grid& grid, const view::LightArrays& lights) {
   if (run.filled_lists() != nullptr) {
-    const std::string fault = lists_fault(*run.filled_lists(), grid.cell_count(), lights.points, lights.spots);
+    const std::string fault = lists_fault(*run.filled_lists(), grid.cell_count(), lights);
     if (!fault.empty()) return fault;
   }
   if (run.structure() != nullptr && run.has_cells()) {
-    const std::string fault = lists_fault(run.structure()->expanded(), grid.cell_count(), lights.points, lights.spots);
+    const std::string fault = lists_fault(run.structure()->expanded(), grid.cell_count(), lights);
     if (!fault.empty()) return "expanded: " + fault;
   }
   if (!run.has_cells()) return "";
@@ -71,7 +71,7 @@ std::string lost_light_fault(const Lists& lists, const Setting& setting) {
 }
 
 std::string unbounded_fault(const Lists& lists, const Setting& setting, const view::LightArrays& lights) {
-  for (std::uint32_t light = 0; light < lights.points; ++light)
+  for (std::uint32_t light = 0; light < lights.points.count; ++light)
     for (std::uint32_t cell = 0; std::isinf(lights.radius[light]) && cell < lists.cell_count(); ++cell)
       if (!setting.grid.is_hole(cell) && !lists_light(lists, cell, light))
         return "an unbounded point light is not everywhere" + at_cell(cell);

@@ -21,7 +21,7 @@ struct Comparison {
 
 geom::Ball padded(const geom::Ball& ball, float roundoffs) {
   view::LightArrays lights;
-  lights.points = 1;
+  static_cast<view::LightRanges&>(lights) = {1, 0};
   lights.x = {ball.center.x};
   lights.y = {ball.center.y};
   lights.z = {ball.center.z};

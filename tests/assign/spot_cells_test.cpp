@@ -185,7 +185,7 @@ TEST(SpotTouches, say_which_columns_share_a_single_point) {
     const RowPlanes planes(grid.screen());
     const auto rows = static_cast<std::uint32_t>(planes.rows), columns = static_cast<std::uint32_t>(planes.columns);
     Pieces pieces;
-    for (std::uint32_t spot = 0; spot < lights.spots; ++spot)
+    for (std::uint32_t spot = 0; spot < lights.spots.count; ++spot)
       for (std::uint32_t slice = 0; slice < static_cast<std::uint32_t>(planes.slices); ++slice) {
         SpotJudge judge(grid, lights, spot);
         const SpotCell below{spot, slice, rows / 2, 0, columns};
@@ -198,7 +198,7 @@ TEST(SpotTouches, say_which_columns_share_a_single_point) {
     on_each_target([&](const std::string& target) {
       pieces.look(from_these(lights, planes), planes);
       EXPECT_EQ(pieces.wrong, 0u) << target << ", turned by " << turn;
-      EXPECT_GT(pieces.alone, lights.spots / 3) << target << ", turned by " << turn;
+      EXPECT_GT(pieces.alone, lights.spots.count / 3) << target << ", turned by " << turn;
     });
   }
 }
@@ -275,7 +275,7 @@ struct SpotsInGrid {
     lights = view::lights_in(frame, grid::space_of(grid, frame));
     planes = RowPlanes(grid.screen());
     for (std::uint32_t slice = 0; slice < static_cast<std::uint32_t>(planes.slices); ++slice)
-      for (std::uint32_t spot = 0; spot < lights.spots; ++spot) slices.add(spot, slice);
+      for (std::uint32_t spot = 0; spot < lights.spots.count; ++spot) slices.add(spot, slice);
   }
   SpotRows rows() {
     SpotRows found;

@@ -173,8 +173,8 @@ class TreeBuilder {
     balls.resize(lights.size());
     for (std::uint32_t light = 0; light < lights.size(); ++light)
       balls[light] = lights.is_empty(light) ? geom::Ball{} : test.ball(lights, light, k_roundoffs);
-    build_tree(lights, 0, lights.points, keeps, out.points);
-    build_tree(lights, lights.points, lights.size(), keeps, out.spots);
+    build_tree(lights, lights.points, keeps, out.points);
+    build_tree(lights, lights.spots, keeps, out.spots);
   }
 
   std::size_t capacity_bytes() const {
@@ -186,10 +186,10 @@ class TreeBuilder {
 
  private:
   template <class Keeps>
-  void build_tree(const view::LightArrays& lights, std::uint32_t begin, std::uint32_t end, Keeps&& keeps, Tree& out) {
+  void build_tree(const view::LightArrays& lights, const view::LightRange& range, Keeps&& keeps, Tree& out) {
     by_code_.entries.clear();
     Vec3f lo(k_inf), hi(-k_inf);
-    for (std::uint32_t light = begin; light < end; ++light) {
+    for (std::uint32_t light = range.first; light < range.end(); ++light) {
       if (lights.is_empty(light) || !keeps(balls[light])) continue;
       by_code_.entries.push_back({0, light});
       lo = glm::min(lo, balls[light].center);
@@ -226,7 +226,7 @@ class BvhLists final : public ListAssigner {
       extend(all_, cells_.back());
     }
     view_.reset();
-    if (std::holds_alternative<grid::ScreenGrid>(grid.shape)) view_ = ViewCull(grid.screen());
+    if (grid.has_tiles()) view_ = ViewCull(grid.screen());
   }
 
   void assign(const FrameInput& input, Lists& out) override {
@@ -265,9 +265,9 @@ class BvhLists final : public ListAssigner {
 
   void set_cones(const view::LightArrays& lights) {
     if (!builder_.test.tests_cones()) return;
-    cones_.resize(lights.spots);
-    for (std::uint32_t spot = 0; spot < lights.spots; ++spot)
-      cones_[spot] = builder_.test.cone(lights, lights.points + spot);
+    cones_.resize(lights.spots.count);
+    for (std::uint32_t spot = 0; spot < lights.spots.count; ++spot)
+      cones_[spot] = builder_.test.cone(lights, lights.spots.first + spot);
   }
 
   void find_candidates(std::uint32_t begin, std::uint32_t end) {
@@ -289,7 +289,7 @@ class BvhLists final : public ListAssigner {
     if (test.tests_cones() && count > 0 && lights.is_spot(found_[count - 1])) {
       const auto is_missed = [&](std::uint32_t light) {
         return lights.is_spot(light) &&
-               !geom::cone_touches_ball(cones_[light - lights.points], test.cell_balls()[cell]);
+               !geom::cone_touches_ball(cones_[light - lights.spots.first], test.cell_balls()[cell]);
       };
       count = static_cast<std::uint32_t>(std::remove_if(found_.begin(), found_.begin() + count, is_missed) -
                                          found_.begin());
@@ -317,7 +317,7 @@ class BvhLists final : public ListAssigner {
 class LightHierarchy final : public LightStructure {
  public:
   Trees trees;
-  std::uint32_t points = 0, spots = 0;
+  view::LightRanges ranges;
   std::optional<Vec3d> world_origin;  // of the space in which the lights are, if it is not view space
 
   void lights_at(const grid::Sample& sample, grid::Log2, std::vector<std::uint32_t>& out) const override {
@@ -335,8 +335,8 @@ class LightHierarchy final : public LightStructure {
     return use;
   }
   StructureLimit limit() const override {
-    const std::uint64_t entries = Tree::boxes_for(points) + Tree::boxes_for(spots);
-    return {entries, entries * k_box_bytes + (std::uint64_t{points} + spots) * sizeof(std::uint32_t)};
+    const std::uint64_t entries = Tree::boxes_for(ranges.points.count) + Tree::boxes_for(ranges.spots.count);
+    return {entries, entries * k_box_bytes + std::uint64_t{ranges.size()} * sizeof(std::uint32_t)};
   }
   std::uint32_t index_bits() const override { return 8 * k_box_bytes; }
   bool has_cells() const override { return false; }
@@ -352,14 +352,10 @@ class BvhQueries final : public AssignerOf<LightHierarchy> {
  public:
   explicit BvhQueries(const Params& params) : builder_(params) {}
 
-  void build(const grid::Grid& grid, const LightKinds&) override {
-    world_origin_.reset();
-    if (grid.kind() == grid::Kind::world) world_origin_ = grid.world().origin;
-  }
+  void build(const grid::Grid& grid, const LightKinds&) override { world_origin_ = grid.world_origin(); }
 
   void fill(const FrameInput& input, LightHierarchy& out) override {
-    out.points = input.lights.points;
-    out.spots = input.lights.spots;
+    out.ranges = input.lights;
     out.world_origin = world_origin_;
     builder_.build(
         input.lights, [](const geom::Ball&) { return true; }, out.trees);

@@ -69,8 +69,8 @@ bool touches_in_row(const Cap& cap, float slope, float row_lo, float row_hi) {
   if (!std::isfinite(slope)) return false;
   const double x = cap.x, depth = cap.depth, r = cap.radius, s = slope;
   const double touch_depth = std::sqrt(std::max(0.0, x * x + depth * depth - r * r) / (1.0 + s * s));
-  const double margin = k_touch_margin * (touch_depth + std::fabs(static_cast<double>(cap.y)));
-  return cap.y >= row_lo * touch_depth - margin && cap.y <= row_hi * touch_depth + margin;
+  const double tolerance = k_touch_tolerance * (touch_depth + std::fabs(static_cast<double>(cap.y)));
+  return cap.y >= row_lo * touch_depth - tolerance && cap.y <= row_hi * touch_depth + tolerance;
 }
 
 geom::SlopeRange hull(const geom::SlopeRange& a, const geom::SlopeRange& b) {

@@ -18,9 +18,9 @@ class ShellKernel {
   int levels() const { return 1; }
   Level level(int) const { return {planes_.boundaries.slices()}; }
 
-  void bound(int, const FrameLights& lights, BoundedBalls& out) const {
-    find_shells(planes_, given_points(lights.all), 0, lights.test.own_padding(), out);
-    if (lights.all.spots > 0) find_shells(planes_, given_spots(lights.all, lights.spots), lights.all.points, 0.0f, out);
+  void bound(int, const KernelLights& lights, BoundedBalls& out) const {
+    find_shells(planes_, given_points(lights.all), lights.test.own_padding(), out);
+    if (!lights.all.spots.empty()) find_shells(planes_, given_spots(lights.all, lights.spots), 0.0f, out);
   }
   void find_rows(int, const BallBatch& batch, BatchRows& out) const { find_shell_rows(planes_, batch, out); }
 

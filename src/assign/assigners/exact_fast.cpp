@@ -129,11 +129,11 @@ class ExactFast final : public ListAssigner {
   void cull_lights() {
     visible_.count = 0;
     visible_.reserve(lights_->size());
-    cull_balls(planes_, given_points(*lights_), 0, visible_);
+    cull_balls(planes_, given_points(*lights_), visible_);
     first_spot_ = visible_.count;
-    if (lights_->spots == 0) return;
+    if (lights_->spots.empty()) return;
     find_spot_balls(*lights_, view::k_given_roundoffs, true, spots_);
-    cull_balls(planes_, given_spots(*lights_, spots_), lights_->points, visible_);
+    cull_balls(planes_, given_spots(*lights_, spots_), visible_);
   }
 
   const grid::Grid* grid_ = nullptr;

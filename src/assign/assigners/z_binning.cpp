@@ -143,11 +143,11 @@ class ZBinning final : public AssignerOf<BinsAndMasks> {
     bounded_.reserve(lights.size());
     bounds_.start_frame(lights.size());
     const float padding = test_.padding(k_cell_box_roundoffs);
-    bounds_.find(given_points(lights), 0, {padding, padding}, bounded_);
+    bounds_.find(given_points(lights), {padding, padding}, bounded_);
     const std::uint32_t points = bounded_.count;
-    if (lights.spots > 0) {
+    if (!lights.spots.empty()) {
       find_spot_balls(lights, padding, true, spots_);
-      bounds_.find(given_spots(lights, spots_), lights.points, {0.0f, 0.0f}, bounded_);
+      bounds_.find(given_spots(lights, spots_), {0.0f, 0.0f}, bounded_);
     }
     out.start(*grid_, lights.size(), bounded_.count);
     add_sorted(0, points, false, out);

@@ -29,11 +29,10 @@ class FrustumKernel {
   int levels() const { return 1; }
   Level level(int) const { return {bounds_.slices()}; }
 
-  void bound(int, const FrameLights& lights, BoundedBalls& out) {
+  void bound(int, const KernelLights& lights, BoundedBalls& out) {
     bounds_.start_frame(lights.all.size());
-    bounds_.find(given_points(lights.all), 0, {lights.test.padding(k_cell_box_roundoffs), lights.test.own_padding()},
-                 out);
-    if (lights.all.spots > 0) bound_spots(lights, out);
+    bounds_.find(given_points(lights.all), {lights.test.padding(k_cell_box_roundoffs), lights.test.own_padding()}, out);
+    if (!lights.all.spots.empty()) bound_spots(lights, out);
   }
   void find_rows(int, const BallBatch& batch, BatchRows& out) { rows_.find(batch, out); }
 
@@ -43,16 +42,16 @@ class FrustumKernel {
 
  private:
   // A spot's ball for its box and the one for its rows differ in their centres, too.
-  void bound_spots(const FrameLights& lights, BoundedBalls& out) {
+  void bound_spots(const KernelLights& lights, BoundedBalls& out) {
     const std::uint32_t begin = out.count;
     find_spot_balls(lights.all, lights.test.padding(k_cell_box_roundoffs), lights.test.balls_are_around_cones(),
                     spots_for_boxes_);
-    bounds_.find(given_spots(lights.all, spots_for_boxes_), lights.all.points, {0.0f, 0.0f}, out);
+    bounds_.find(given_spots(lights.all, spots_for_boxes_), {0.0f, 0.0f}, out);
     for (std::uint32_t i = begin; i < out.count; ++i) take_spot(lights, i, out);
   }
 
-  void take_spot(const FrameLights& lights, std::uint32_t ball, BoundedBalls& out) const {
-    const std::uint32_t light = out.light[ball], spot = light - lights.all.points;
+  void take_spot(const KernelLights& lights, std::uint32_t ball, BoundedBalls& out) const {
+    const std::uint32_t light = out.light[ball], spot = light - lights.all.spots.first;
     out.x[ball] = lights.spots.x[spot];
     out.y[ball] = lights.spots.y[spot];
     out.depth[ball] = -lights.spots.z[spot];

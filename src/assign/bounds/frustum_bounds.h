@@ -20,11 +20,11 @@ class FrustumBounds {
     visible_.count = 0;
     visible_.reserve(lights);
   }
-  // Appends the balls that have a box of cells; the first ball's light is `first_light`. `out` has room for all lights.
-  void find(const GivenBalls& balls, std::uint32_t first_light, const BallPadding& padding, BoundedBalls& out) {
+  // Appends the balls that have a box of cells. `out` has room for all lights.
+  void find(const GivenBalls& balls, const BallPadding& padding, BoundedBalls& out) {
     const std::uint32_t begin = visible_.count;
-    cull_balls(planes_, balls, first_light, visible_, padding.box + k_slice_rows_roundoffs);
-    find_screen_bounds(boundaries_, visible_, begin, balls, first_light, padding, out);
+    cull_balls(planes_, balls, visible_, padding.box + k_slice_rows_roundoffs);
+    find_screen_bounds(boundaries_, visible_, begin, balls, padding, out);
   }
 
   std::size_t capacity_bytes() const { return visible_.capacity_bytes(); }

@@ -36,15 +36,15 @@ void find_extents(const BoxPlanes& planes, const VisibleBalls& visible, std::uin
   }
 }
 
-void find_radii(const VisibleBalls& visible, std::uint32_t begin, const GivenBalls& given, std::uint32_t first_light,
-                const BallPadding& padding, BoundedBalls& bounded) {
+void find_radii(const VisibleBalls& visible, std::uint32_t begin, const GivenBalls& given, const BallPadding& padding,
+                BoundedBalls& bounded) {
   const D d;
   const DI di;
   const hn::RebindToUnsigned<D> du;
   const auto n = static_cast<std::uint32_t>(Lanes(d));
   for (std::uint32_t i = begin; i < visible.count; i += n) {
-    const auto light = Min(LoadU(du, visible.light.data() + i), Set(du, first_light + given.count - 1));
-    const VI index = BitCast(di, Max(light, Set(du, first_light)) - Set(du, first_light));
+    const auto light = Min(LoadU(du, visible.light.data() + i), Set(du, given.lights.end() - 1));
+    const VI index = BitCast(di, Max(light, Set(du, given.lights.first)) - Set(du, given.lights.first));
     const V radius = GatherIndex(d, given.radius, index), reach = GatherIndex(d, given.reach, index);
     StoreU(padded(radius, reach, padding.box), d, bounded.box_radius.data() + i);
     StoreU(padded(radius, reach, padding.ball), d, bounded.ball_radius.data() + i);
@@ -87,8 +87,8 @@ void box_balls(const BoxPlanes& planes, const VisibleBalls& visible, std::uint32
 }
 
 void find_boxes(const BoxPlanes& planes, const VisibleBalls& visible, std::uint32_t begin, const GivenBalls& given,
-                std::uint32_t first_light, const BallPadding& padding, BoundedBalls& bounded) {
-  find_radii(visible, begin, given, first_light, padding, bounded);
+                const BallPadding& padding, BoundedBalls& bounded) {
+  find_radii(visible, begin, given, padding, bounded);
   find_extents(planes, visible, begin, bounded);
   box_balls(planes, visible, begin, bounded);
 }
@@ -113,9 +113,8 @@ BoxPlanes::BoxPlanes(const grid::ScreenGrid& grid)
 }
 
 void find_screen_bounds(const BoxPlanes& planes, const VisibleBalls& visible, std::uint32_t begin,
-                        const GivenBalls& given, std::uint32_t first_light, const BallPadding& padding,
-                        BoundedBalls& bounded) {
-  HWY_DYNAMIC_DISPATCH(find_boxes)(planes, visible, begin, given, first_light, padding, bounded);
+                        const GivenBalls& given, const BallPadding& padding, BoundedBalls& bounded) {
+  HWY_DYNAMIC_DISPATCH(find_boxes)(planes, visible, begin, given, padding, bounded);
 }
 
 }  // namespace clusterbench::assign

@@ -30,10 +30,8 @@ struct BallPadding {
   float ball;  // for the ball that is kept
 };
 
-// Appends the balls of `visible` from index `begin` on that have a cell box. They are balls of `given`, of which the
-// first belongs to light `first_light`.
+// Appends the balls of `visible` from index `begin` on that have a box of cells. They are balls of `given`.
 void find_screen_bounds(const BoxPlanes& planes, const VisibleBalls& visible, std::uint32_t begin,
-                        const GivenBalls& given, std::uint32_t first_light, const BallPadding& padding,
-                        BoundedBalls& bounded);
+                        const GivenBalls& given, const BallPadding& padding, BoundedBalls& bounded);
 
 }  // namespace clusterbench::assign

@@ -43,7 +43,7 @@ BoxAxis axis_of(const std::vector<float>& boundaries) {
 }  // namespace
 
 std::vector<BoxGrid> box_levels(const grid::Grid& grid) {
-  if (grid.kind() == grid::Kind::world) {
+  if (grid.world_origin()) {
     const grid::WorldGrid& world = grid.world();
     BoxGrid boxes;
     boxes.x = axis_of(world.x);

@@ -39,18 +39,17 @@ HWY_INLINE MI lies_in(const Indices& range, const grid::IndexRange& hole) {
 }
 
 // Those that reach the grid; without their ranges.
-void see_reaching(const RangeAxes& axes, const GivenBalls& balls, std::uint32_t first_light, float roundoffs,
-                  BoundedBalls& bounded) {
+void see_reaching(const RangeAxes& axes, const GivenBalls& balls, float roundoffs, BoundedBalls& bounded) {
   const D d;
   const auto n = static_cast<std::uint32_t>(Lanes(d));
-  for (std::uint32_t i = 0; i < balls.count; i += n) {
-    const std::uint32_t left = std::min(n, balls.count - i);
+  for (std::uint32_t i = 0; i < balls.lights.count; i += n) {
+    const std::uint32_t left = std::min(n, balls.lights.count - i);
     const auto load = [&](const float* from) { return loaded(from + i, left); };
     const V x = load(balls.x), y = load(balls.y), z = load(balls.z), given = load(balls.radius);
     const V radius = padded(given, load(balls.reach), roundoffs);
     const M on_all = And(reaches(axes.x, x, radius), And(reaches(axes.y, y, radius), reaches(axes.z, z, radius)));
     const M wanted = And(And(given > Zero(d), FirstN(d, left)), on_all);
-    keep_balls(wanted, {x, y, Neg(z), radius}, first_light + i, bounded);
+    keep_balls(wanted, {x, y, Neg(z), radius}, balls.lights.first + i, bounded);
   }
 }
 
@@ -76,10 +75,9 @@ void find_ranges(const RangeAxes& axes, std::uint32_t begin, BoundedBalls& bound
   }
 }
 
-void box_ranges(const RangeAxes& axes, const GivenBalls& balls, std::uint32_t first_light, float roundoffs,
-                BoundedBalls& bounded) {
+void box_ranges(const RangeAxes& axes, const GivenBalls& balls, float roundoffs, BoundedBalls& bounded) {
   const std::uint32_t begin = bounded.count;
-  see_reaching(axes, balls, first_light, roundoffs, bounded);
+  see_reaching(axes, balls, roundoffs, bounded);
   find_ranges(axes, begin, bounded);
 }
 
@@ -107,9 +105,8 @@ std::size_t RangeAxes::capacity_bytes() const {
   return (x.boundaries.capacity() + y.boundaries.capacity() + z.boundaries.capacity()) * sizeof(float);
 }
 
-void find_box_ranges(const RangeAxes& axes, const GivenBalls& balls, std::uint32_t first_light, float roundoffs,
-                     BoundedBalls& bounded) {
-  HWY_DYNAMIC_DISPATCH(box_ranges)(axes, balls, first_light, roundoffs, bounded);
+void find_box_ranges(const RangeAxes& axes, const GivenBalls& balls, float roundoffs, BoundedBalls& bounded) {
+  HWY_DYNAMIC_DISPATCH(box_ranges)(axes, balls, roundoffs, bounded);
 }
 
 }  // namespace clusterbench::assign

@@ -24,9 +24,8 @@ struct RangeAxes {
   std::size_t capacity_bytes() const;
 };
 
-// Appends those of the balls, larger by these roundoffs, that reach a box outside of the hole. The first ball belongs
-// to light `first_light`. bounded's columns are along x, its rows along y, its slices along z, and depth is -z.
-void find_box_ranges(const RangeAxes& axes, const GivenBalls& balls, std::uint32_t first_light, float roundoffs,
-                     BoundedBalls& bounded);
+// Appends those of the balls, larger by these roundoffs, that reach a box outside of the hole.
+// bounded's columns are along x, its rows along y, its slices along z, and depth is -z.
+void find_box_ranges(const RangeAxes& axes, const GivenBalls& balls, float roundoffs, BoundedBalls& bounded);
 
 }  // namespace clusterbench::assign

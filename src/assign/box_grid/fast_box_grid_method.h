@@ -31,11 +31,10 @@ class BoxGridKernel {
     return {boxes.slices, {boxes.axes.hole_y, boxes.axes.hole_x}, boxes.axes.hole_z.count()};
   }
 
-  void bound(int level, const FrameLights& lights, BoundedBalls& out) const {
+  void bound(int level, const KernelLights& lights, BoundedBalls& out) const {
     const RangeAxes& axes = at(level).axes;
-    find_box_ranges(axes, given_points(lights.all), 0, lights.test.own_padding(), out);
-    if (lights.all.spots > 0)
-      find_box_ranges(axes, given_spots(lights.all, lights.spots), lights.all.points, 0.0f, out);
+    find_box_ranges(axes, given_points(lights.all), lights.test.own_padding(), out);
+    if (!lights.all.spots.empty()) find_box_ranges(axes, given_spots(lights.all, lights.spots), 0.0f, out);
   }
   void find_rows(int level, const BallBatch& batch, BatchRows& out) {
     find_box_rows(at(level).cells, batch, lane_columns_, out);

@@ -81,10 +81,10 @@ class Reached {
     const V top = all(planes_.slope.front()), bottom = all(planes_.slope[static_cast<std::size_t>(planes_.rows)]);
     const V high = found.high.across + spots_.slack / found.high.depth;
     const V low = found.low.across - spots_.slack / found.low.depth;
-    const V scale = all(planes_.rows_per_slope), margin = all(planes_.row_margin), zero = Zero(D());
+    const V scale = all(planes_.rows_per_slope), tolerance = all(planes_.row_tolerance), zero = Zero(D());
     const VI none = Zero(DI()), rows = all_int(planes_.rows), one = all_int(1), last_row = rows - one;
-    const V from = (top - Min(high, top)) * scale - margin;
-    const V to = (top - Max(low, bottom)) * scale + margin;
+    const V from = (top - Min(high, top)) * scale - tolerance;
+    const V to = (top - Max(low, bottom)) * scale + tolerance;
     const MI is_below = RebindMask(DI(), high < bottom), is_above = RebindMask(DI(), low > top);
     VI first = IfThenElse(is_below, rows, Min(whole(Floor(Max(from, zero))), last_row));
     VI end = IfThenElse(is_above, none, Min(whole(Floor(Max(to, zero))) + one, rows));

@@ -39,7 +39,7 @@ void SpotSpans::find(const ExactFrame& frame, int first, int last) {
     slices_.count = 0;
     for (int slice = first; slice < last; ++slice)
       for (const std::uint32_t ball : frame.spots_of(slice))
-        slices_.add(frame.visible.light[ball] - frame.lights.points, static_cast<std::uint32_t>(slice));
+        slices_.add(frame.visible.light[ball] - frame.lights.spots.first, static_cast<std::uint32_t>(slice));
     find_spot_rows(from, planes, slices_, rows_);
   }
   tests_ += rows_.count;
@@ -73,7 +73,7 @@ void SpotSpans::add_to(int slice, ListBuilder& spans) {
     const std::int32_t first = rows_.first[next_row_], last = rows_.last[next_row_];
     if (first <= last)
       spans.add(rows_.row[next_row_], static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last),
-                rows_.spot[next_row_] + frame_->lights.points);
+                rows_.spot[next_row_] + frame_->lights.spots.first);
   }
 }
 
@@ -90,9 +90,10 @@ void SpotSpans::add_orthographic_rows(int slice) {
   while (const BatchRows* batch = batches_.next(slice))
     for (int row = batch->first_row; row <= batch->last_row; ++row)
       each_span(*batch, row, [&](std::uint32_t light, const IndexRange& columns, bool) {
-        rows_.add({light - frame_->lights.points, static_cast<std::uint32_t>(slice), static_cast<std::uint32_t>(row),
-                   static_cast<std::uint32_t>(columns.first), static_cast<std::uint32_t>(columns.last) + 1},
-                  SpotRows::k_none_before | SpotRows::k_none_behind);
+        rows_.add(
+            {light - frame_->lights.spots.first, static_cast<std::uint32_t>(slice), static_cast<std::uint32_t>(row),
+             static_cast<std::uint32_t>(columns.first), static_cast<std::uint32_t>(columns.last) + 1},
+            SpotRows::k_none_before | SpotRows::k_none_behind);
       });
 }
 
@@ -323,7 +324,7 @@ void SpotSpans::settle(const Ends& ends) {
 
 bool SpotSpans::decide(std::uint32_t row, int column) {
   ++fallbacks_;
-  const std::uint32_t light = rows_.spot[row] + frame_->lights.points;
+  const std::uint32_t light = rows_.spot[row] + frame_->lights.spots.first;
   if (!judge_ || judge_->light() != light) judge_.emplace(frame_->grid, frame_->lights, light);
   const Row cells = row_of(frame_->grid.screen(), static_cast<int>(rows_.slice[row]), static_cast<int>(rows_.row[row]));
   return judge_->touches(cells.first_cell + static_cast<std::uint32_t>(column), true);

@@ -41,10 +41,10 @@ HWY_INLINE Spheres around(const Spheres& range, const Cones& cone) {
 void spot_balls(const view::LightArrays& lights, float roundoffs, bool around_cones, BallArrays& balls) {
   const D d;
   const auto n = static_cast<std::uint32_t>(Lanes(d));
-  for (std::uint32_t i = 0; i < lights.spots; i += n) {
-    const std::uint32_t left = std::min(n, lights.spots - i);
+  for (std::uint32_t i = 0; i < lights.spots.count; i += n) {
+    const std::uint32_t left = std::min(n, lights.spots.count - i);
     const auto load = [&](const float* from) { return loaded(from + i, left); };
-    const auto of_light = [&](const std::vector<float>& list) { return load(list.data() + lights.points); };
+    const auto of_light = [&](const std::vector<float>& list) { return load(list.data() + lights.spots.first); };
     const auto of_spot = [&](const std::vector<float>& list) { return load(list.data()); };
     const V given = of_light(lights.radius);
     Spheres ball{of_light(lights.x), of_light(lights.y), of_light(lights.z),
@@ -75,7 +75,7 @@ void BallArrays::resize(std::size_t size) {
 }
 
 void find_spot_balls(const view::LightArrays& lights, float roundoffs, bool around_cones, BallArrays& balls) {
-  balls.resize(lights.spots);
+  balls.resize(lights.spots.count);
   HWY_DYNAMIC_DISPATCH(spot_balls)(lights, roundoffs, around_cones, balls);
 }
 

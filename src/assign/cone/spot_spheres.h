@@ -26,7 +26,7 @@ inline GivenBalls given_points(const view::LightArrays& lights) {
 }
 // `balls`: those of all spots.
 inline GivenBalls given_spots(const view::LightArrays& lights, const BallArrays& balls) {
-  return {balls.x.data(), balls.y.data(), balls.z.data(), balls.radius.data(), lights.reach.data() + lights.points,
+  return {balls.x.data(), balls.y.data(), balls.z.data(), balls.radius.data(), lights.reach.data() + lights.spots.first,
           lights.spots};
 }
 

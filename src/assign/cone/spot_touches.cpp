@@ -57,7 +57,7 @@ void look_at(const SpotsAndPlanes& from, const RowPlanes& planes, SpotTouches& o
     const auto load = [&](const std::vector<std::uint32_t>& list) {
       return BitCast(DH(), LoadU(hn::RebindToUnsigned<DH>(), list.data() + first));
     };
-    const VH spot = load(runs.spot), light = spot + Set(DH(), static_cast<std::int32_t>(lights.points));
+    const VH spot = load(runs.spot), light = spot + Set(DH(), static_cast<std::int32_t>(lights.spots.first));
     const BallRuns balls(lights, planes,
                          {light, load(runs.slice), load(runs.row), load(runs.column), load(runs.end_column)});
     const BallRuns::Nearest nearest = balls.nearest();
@@ -75,9 +75,9 @@ void look_at(const SpotsAndPlanes& from, const RowPlanes& planes, SpotTouches& o
     const VD length = Sqrt(x * x + y * y + depth * depth);
     const Cones cones(lights, spot);
     const VD margin = cones.margin(x, y, depth);
-    const VD slack = every(k_cone_error) * length + every(2.0) * off;
-    const MD is_in_cone = margin > slack;
-    const MD is_beside = margin + every(2.0) * (shift + play) < Neg(slack);
+    const VD tolerance = every(k_cone_error) * length + every(2.0) * off;
+    const MD is_in_cone = margin > tolerance;
+    const MD is_beside = margin + every(2.0) * (shift + play) < Neg(tolerance);
 
     const auto value_of = [&](const std::vector<float>& list) {
       return PromoteTo(DD(), GatherIndex(DF(), list.data(), light));

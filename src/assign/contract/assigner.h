@@ -56,7 +56,7 @@ struct LightKinds {
   bool spots = true;
 };
 inline LightKinds kinds_of(const view::LightArrays& lights) {
-  return {lights.spots > 0};
+  return {!lights.spots.empty()};
 }
 
 // What a method gets of one frame.

@@ -30,7 +30,7 @@ std::vector<ParamSpec> light_params() {
 }
 
 void check_prepared(const view::LightArrays& lights, const std::vector<geom::Ball>& cell_balls) {
-  if (lights.spots > 0 && cell_balls.empty())
+  if (!lights.spots.empty() && cell_balls.empty())
     throw Error("", "lights", "have spots, which the build was not told of", ExitCode::internal);
 }
 

@@ -15,9 +15,9 @@ namespace clusterbench::assign {
 class Storage : public LightStructure {
  public:
   // For frames of this grid, which outlives the storage's use. The lookup of a sample goes through it.
-  void start(const grid::Grid& grid, std::uint32_t points, std::uint32_t spots);
+  void start(const grid::Grid& grid, const view::LightRanges& lights);
   // Without a lookup.
-  virtual void start(std::uint32_t cell_count, std::uint32_t points, std::uint32_t spots) = 0;
+  virtual void start(std::uint32_t cell_count, const view::LightRanges& lights) = 0;
   // Converts one frame's lists; no allocation in a steady state. Timed as the conversion.
   virtual void store(const Lists& lists) = 0;
   // Appends what a shader would read of a cell: its list, less what was dropped.

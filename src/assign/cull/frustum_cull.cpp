@@ -92,15 +92,14 @@ class SliceSearch {
   std::int32_t last_;
 };
 
-void cull(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, VisibleBalls& visible,
-          float roundoffs) {
+void cull(const RowPlanes& planes, const GivenBalls& balls, VisibleBalls& visible, float roundoffs) {
   const D d;
   const DI di;
   const auto n = static_cast<std::uint32_t>(Lanes(d));
   const View view(planes);
   const std::uint32_t before = visible.count;
-  for (std::uint32_t i = 0; i < balls.count; i += n) {
-    const std::uint32_t left = std::min(n, balls.count - i);
+  for (std::uint32_t i = 0; i < balls.lights.count; i += n) {
+    const std::uint32_t left = std::min(n, balls.lights.count - i);
     const auto load = [&](const float* from) { return loaded(from + i, left); };
     const V x = load(balls.x), y = load(balls.y), depth = Neg(load(balls.z)), given = load(balls.radius);
     const V reach = load(balls.reach), slack = reach * all(roundoffs * 0x1p-24f);
@@ -117,7 +116,7 @@ void cull(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_
     const M is_plain = is_between(all(planes.least_reach), reach, all(k_most_row_reach));
     append(IfThenElse(is_plain, radius, infinity()), visible.radius);
     append(slack, visible.slack);
-    append(BitCast(DU(), from_on(static_cast<std::int32_t>(first_light + i))), visible.light);
+    append(BitCast(DU(), from_on(static_cast<std::int32_t>(balls.lights.first + i))), visible.light);
     visible.count += static_cast<std::uint32_t>(kept);
   }
   const SliceSearch search(planes);
@@ -140,9 +139,8 @@ namespace clusterbench::assign {
 
 HWY_EXPORT(cull);
 
-void cull_balls(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, VisibleBalls& visible,
-                float roundoffs) {
-  HWY_DYNAMIC_DISPATCH(cull)(planes, balls, first_light, visible, roundoffs);
+void cull_balls(const RowPlanes& planes, const GivenBalls& balls, VisibleBalls& visible, float roundoffs) {
+  HWY_DYNAMIC_DISPATCH(cull)(planes, balls, visible, roundoffs);
 }
 
 }  // namespace clusterbench::assign

@@ -10,10 +10,10 @@
 
 namespace clusterbench::assign {
 
-// Balls as they are given: `count` of each.
+// The balls of lights of one type, side by side.
 struct GivenBalls {
   const float *x, *y, *z, *radius, *reach;
-  std::uint32_t count;
+  view::LightRange lights;
 };
 
 // Balls that may touch cells, ascending by light. All arrays have room for whole vectors beyond `count`.
@@ -39,9 +39,9 @@ inline constexpr float k_slice_rows_roundoffs = 28.0f;
 // everywhere, of infinite radius around the eye, and their rows are decided.
 inline constexpr float k_most_row_reach = 1e9f;
 
-// Appends the balls that may reach into the grid; the first one's light is `first_light`. Those left out touch no cell,
-// even if they are larger by these roundoffs.
-void cull_balls(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, VisibleBalls& visible,
+// Appends the balls that may reach into the grid. Those left out touch no cell, even if they are larger by these
+// roundoffs.
+void cull_balls(const RowPlanes& planes, const GivenBalls& balls, VisibleBalls& visible,
                 float roundoffs = k_slice_rows_roundoffs);
 
 }  // namespace clusterbench::assign

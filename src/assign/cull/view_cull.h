@@ -20,7 +20,7 @@ class ViewCull {
         top_(side(grid.tiles.y.front(), grid.tiles.orthographic)),
         bottom_(side(grid.tiles.y.back(), grid.tiles.orthographic)),
         // A direction leans away from the view axis: no shell is deeper than it is distant.
-        near_(grid.kind == grid::Kind::distance ? 0.0 : static_cast<double>(grid.slices.boundaries.front())),
+        near_(grid.by_distance ? 0.0 : static_cast<double>(grid.slices.boundaries.front())),
         far_(grid.slices.boundaries.back()) {}
 
   // Whether the ball touches no cell even if it is larger by what a method's own steps may lose in single precision, so

@@ -36,7 +36,9 @@ struct ExactFrame {
 };
 
 // The rows of some slices' balls, slice by slice and batch by batch. As many batches as can be are found at once, of
-// several slices where one has fewer.
+// several slices where one has fewer. pipeline/slice_lists.h takes one batch at a time: its kernels walk rows that each
+// ball's box has told them, while here a batch's rows follow from square roots and divisions, whose latency four
+// batches side by side hide.
 class BatchReader {
  public:
   using IndicesOf = std::span<const std::uint32_t> (ExactFrame::*)(int slice) const;

@@ -13,7 +13,7 @@
 namespace clusterbench::assign {
 
 // A frame's lights as a kernel finds their balls.
-struct FrameLights {
+struct KernelLights {
   const view::LightArrays& all;
   const LightTest& test;
   const BallArrays& spots;  // the spots' balls with the method's padding; none where there are no spots
@@ -23,7 +23,7 @@ struct FrameLights {
 //   k_roundoffs, what its own steps lose, and k_columns_key, what the columns were given by,
 //   Kernel(const Params&), build(const grid::Grid&), capacity_bytes() const,
 //   levels() const -> int and level(int) const -> Level, which follow one another in the order of the cells,
-//   bound(int level, const FrameLights&, BoundedBalls&): appends the balls that have cells there, ascending by light,
+//   bound(int level, const KernelLights&, BoundedBalls&): appends the balls that have cells there, ascending by light,
 //   find_rows(int level, const BallBatch&, BatchRows&).
 template <class Kernel>
 class SliceBySlice final : public ListAssigner {
@@ -40,7 +40,7 @@ class SliceBySlice final : public ListAssigner {
     const view::LightArrays& lights = input.lights;
     test_.start_frame(lights);
     bounded_.reserve(lights.size());
-    if (lights.spots > 0) find_spot_balls(lights, test_.own_padding(), test_.balls_are_around_cones(), spots_);
+    if (!lights.spots.empty()) find_spot_balls(lights, test_.own_padding(), test_.balls_are_around_cones(), spots_);
     lists_.start_frame(lights, out);
     for (int level = 0; level < kernel_.levels(); ++level) {
       bounded_.count = 0;

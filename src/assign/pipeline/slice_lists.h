@@ -74,7 +74,7 @@ class SliceLists {
   void add_slice(const BoundedBalls& bounded, int slice, Find&& find) {
     const std::span<const std::uint32_t> balls = slice_bins_.of(slice);
     const std::uint32_t most = balls_per_batch(),
-                        first_uncertain = test_.tests_cones() ? lights_->points : lights_->size();
+                        first_uncertain = test_.tests_cones() ? lights_->spots.first : lights_->size();
     for (std::uint32_t begin = 0; begin < balls.size(); begin += most) {
       const auto count = std::min(most, static_cast<std::uint32_t>(balls.size()) - begin);
       find(BallBatch{bounded, slice, balls.data() + begin, count, first_uncertain}, batch_);

@@ -51,11 +51,12 @@ class FlatBatch {
   // The rows between the disk's top and bottom.
   HWY_INLINE void start(BatchRows& out) const {
     const V zero = Zero(D()), half = Sqrt(Max(square_, zero));
-    const V scale = all(planes_.rows_per_slope), margin = all(planes_.row_margin), top = all(planes_.slope.front());
+    const V scale = all(planes_.rows_per_slope), tolerance = all(planes_.row_tolerance),
+            top = all(planes_.slope.front());
     const V high = Min(y_ + half, top), low = Max(y_ - half, all(bottom()));
     const M touches = And(And(wanted_, square_ >= zero), low <= high);
-    const V from = Max((top - high) * scale - margin, zero);
-    const V to = (top - low) * scale + margin;
+    const V from = Max((top - high) * scale - tolerance, zero);
+    const V to = (top - low) * scale + tolerance;
     const VI last_row = all_int(planes_.rows - 1);
     const VI first = Min(ConvertTo(DI(), from), last_row), last = Min(ConvertTo(DI(), to), last_row);
     const VI count = IfThenElseZero(RebindMask(DI(), touches), last - first + all_int(1));

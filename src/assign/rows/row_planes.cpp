@@ -19,7 +19,7 @@ std::vector<float> padded(std::vector<float> list, std::size_t size, float with)
 // Tiles per slope along one axis, and by how many tiles (slope - first plane) * scale can be off: planes are rounded,
 // so they are not quite evenly spaced, and the last tile may be clipped; then difference and product are rounded.
 struct Scale {
-  float tiles_per_slope, margin;
+  float tiles_per_slope, tolerance;
 };
 
 Scale scale_of(const std::vector<float>& planes) {
@@ -60,9 +60,9 @@ RowPlanes::RowPlanes(const grid::ScreenGrid& grid)
       right(grid.tiles.x.back()) {
   const Scale across = scale_of(grid.tiles.x), down = scale_of(grid.tiles.y);
   columns_per_slope = across.tiles_per_slope;
-  column_margin = across.margin;
+  column_tolerance = across.tolerance;
   rows_per_slope = down.tiles_per_slope;
-  row_margin = down.margin;
+  row_tolerance = down.tolerance;
   for (const float s : grid.tiles.y) {
     const double t = std::sqrt(1.0 + static_cast<double>(s) * static_cast<double>(s));
     slope.push_back(s);

@@ -66,14 +66,13 @@ HWY_INLINE M reach_shells(const ShellPlanes& planes, const Balls& balls, Indices
   return AndNot(And(is_plain, is_beside), has_shells);
 }
 
-void shells(const ShellPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, float roundoffs,
-            BoundedBalls& bounded) {
+void shells(const ShellPlanes& planes, const GivenBalls& balls, float roundoffs, BoundedBalls& bounded) {
   const D d;
   const DI di;
   const auto n = static_cast<std::uint32_t>(Lanes(d));
   const VI none = Zero(di), last_row = Set(di, planes.rows() - 1);
-  for (std::uint32_t i = 0; i < balls.count; i += n) {
-    const std::uint32_t left = std::min(n, balls.count - i);
+  for (std::uint32_t i = 0; i < balls.lights.count; i += n) {
+    const std::uint32_t left = std::min(n, balls.lights.count - i);
     const auto load = [&](const float* from) { return loaded(from + i, left); };
     const V given = load(balls.radius);
     const Balls found{load(balls.x), load(balls.y), Neg(load(balls.z)), padded(given, load(balls.reach), roundoffs)};
@@ -88,7 +87,7 @@ void shells(const ShellPlanes& planes, const GivenBalls& balls, std::uint32_t fi
     append(none, bounded.last_column);
     append(none, bounded.first_row);
     append(last_row, bounded.last_row);
-    keep_balls(wanted, found, first_light + i, bounded);
+    keep_balls(wanted, found, balls.lights.first + i, bounded);
   }
 }
 
@@ -116,8 +115,8 @@ class Caps {
     const auto tangent = [&](VF slope) {
       const VD s = PromoteTo(DD(), slope);
       const VD touch = Sqrt(Max(none, squared) / (one + s * s));
-      const VD margin = all(k_touch_margin) * (touch + Abs(y_));
-      return Tangent{s, touch, margin, Abs(s) < infinite()};
+      const VD tolerance = all(k_touch_tolerance) * (touch + Abs(y_));
+      return Tangent{s, touch, tolerance, Abs(s) < infinite()};
     };
     low_ = tangent(low);
     high_ = tangent(high);
@@ -147,8 +146,8 @@ class Caps {
   HWY_INLINE Cut slopes_in_rows(const Cut& top, const Cut& bottom, VD top_slope, VD bottom_slope) const {
     VD low = infinite(), high = Neg(infinite());
     for (const Tangent* tangent : {&low_, &high_}) {
-      const MD from = y_ >= bottom_slope * tangent->touch - tangent->margin;
-      const MD to = y_ <= top_slope * tangent->touch + tangent->margin;
+      const MD from = y_ >= bottom_slope * tangent->touch - tangent->tolerance;
+      const MD to = y_ <= top_slope * tangent->touch + tangent->tolerance;
       const MD touches = And(tangent->exists, And(from, to));
       low = Min(low, IfThenElse(touches, tangent->slope, infinite()));
       high = Max(high, IfThenElse(touches, tangent->slope, Neg(infinite())));
@@ -158,7 +157,7 @@ class Caps {
 
  private:
   struct Tangent {
-    VD slope, touch, margin;  // touch: depth
+    VD slope, touch, tolerance;  // touch: depth
     MD exists;
   };
 
@@ -313,9 +312,8 @@ std::size_t ShellPlanes::capacity_bytes() const {
   return floats * sizeof(float) + stretch.capacity() * sizeof(double);
 }
 
-void find_shells(const ShellPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, float roundoffs,
-                 BoundedBalls& bounded) {
-  HWY_DYNAMIC_DISPATCH(shells)(planes, balls, first_light, roundoffs, bounded);
+void find_shells(const ShellPlanes& planes, const GivenBalls& balls, float roundoffs, BoundedBalls& bounded) {
+  HWY_DYNAMIC_DISPATCH(shells)(planes, balls, roundoffs, bounded);
 }
 
 void find_shell_rows(const ShellPlanes& planes, const BallBatch& batch, BatchRows& out) {

@@ -9,6 +9,6 @@ inline constexpr float k_shell_roundoffs = 4.0f;
 
 // A tangent touches a row if its touch point is no farther outside, relative to its coordinates. One slope too many
 // only widens the interval.
-inline constexpr double k_touch_margin = 1e-6;
+inline constexpr double k_touch_tolerance = 1e-6;
 
 }  // namespace clusterbench::assign

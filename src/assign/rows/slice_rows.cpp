@@ -87,9 +87,9 @@ class Batch {
     const M is_level = And(upwards_.low <= top, upwards_.high >= bottom);
     const M is_between_sides = And(sideways_.low <= all(planes_->right), sideways_.high >= all(planes_->left));
     const M touches = And(wanted, And(is_level, is_between_sides));
-    const V scale = all(planes_->rows_per_slope), margin = all(planes_->row_margin), zero = Zero(D());
-    const V from = (top - Min(upwards_.high, top)) * scale - margin;
-    const V to = (top - Max(upwards_.low, bottom)) * scale + margin;
+    const V scale = all(planes_->rows_per_slope), tolerance = all(planes_->row_tolerance), zero = Zero(D());
+    const V from = (top - Min(upwards_.high, top)) * scale - tolerance;
+    const V to = (top - Max(upwards_.low, bottom)) * scale + tolerance;
     const VI last_row = all_int(planes_->rows - 1);
     const VI full = VecFromMask(DI(), RebindMask(DI(), And(wanted, holds_view())));
     const VI first = Min(whole(Floor(Max(from, zero))), last_row);

@@ -13,9 +13,9 @@ class Bitfield final : public Storage {
  public:
   explicit Bitfield(const Params&) {}
 
-  void start(std::uint32_t cell_count, std::uint32_t points, std::uint32_t spots) override {
+  void start(std::uint32_t cell_count, const view::LightRanges& lights) override {
     cell_count_ = cell_count;
-    words_per_cell_ = (points + spots + k_bits - 1) / k_bits;
+    words_per_cell_ = (lights.size() + k_bits - 1) / k_bits;
     check_memory("words of bits", std::uint64_t{cell_count} * words_per_cell_, sizeof(std::uint32_t));
     words_.assign(std::size_t{cell_count} * words_per_cell_, 0);
   }

@@ -12,12 +12,12 @@ class Linked final : public Storage {
  public:
   explicit Linked(const Params& params) : nodes_per_cell_(params.number("nodes_per_cell")) {}
 
-  void start(std::uint32_t cell_count, std::uint32_t points, std::uint32_t spots) override {
+  void start(std::uint32_t cell_count, const view::LightRanges& lights) override {
     check_memory("heads of linked lists", cell_count, sizeof(std::uint32_t));
     heads_.assign(cell_count, k_end);
     capacity_ = static_cast<std::uint64_t>(nodes_per_cell_ * cell_count);
-    room_.assign(points + spots, 0);
-    is_dropped_.assign(points + spots, false);
+    room_.assign(lights.size(), 0);
+    is_dropped_.assign(lights.size(), false);
   }
 
   void store(const Lists& lists) override {
