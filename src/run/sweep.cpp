@@ -244,7 +244,7 @@ class Expansion {
     const std::string name = group_name + "/" + name_part(method.label());
     const SceneData& data = plan.scenes[group.scene];
     std::string impossible = obstacle(method, config_.grids[group.grid].kind, data.scene,
-                                      data.paths[group.camera].shots.front().lens.orthographic);
+                                      data.paths[group.camera].shots.front().projection.orthographic);
     if (impossible.empty()) impossible = limit_obstacle(*assign::find_assigner(method.name), config_.limits, first);
     if (!impossible.empty()) {
       skip(plan, name, impossible);

@@ -28,8 +28,8 @@ grid::GridSpec grid_of_slicing(const Slicing& s) {
 
 Rig rig_of_slicing(const Slicing& s) {
   Rig rig;
-  rig.lens().near_m = s.near_m;
-  rig.lens().far_m = s.far_m;
+  rig.projection().near_m = s.near_m;
+  rig.projection().far_m = s.far_m;
   return rig;
 }
 

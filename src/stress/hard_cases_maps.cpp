@@ -72,7 +72,7 @@ std::vector<Trial> lattices(std::uint64_t seed) {
   std::vector<Trial> trials;
   for (const double eighths : {0.0, 1.0, 2.0, 4.0}) {
     Rig rig = lattice_rig(seed, k_lights, Vec3d(0.0));
-    rig.lens().yfov_rad = 90 * k_degree;
+    rig.projection().yfov_rad = 90 * k_degree;
     rig.look({0, 0, eighths == 0.0 ? 0.0 : -20.0}, eighths * 45 * k_degree);
     rig.on_each(lattice_grids(), "turned by " + std::to_string(static_cast<int>(45 * eighths)) + " degrees", trials);
   }
@@ -82,7 +82,7 @@ std::vector<Trial> lattices(std::uint64_t seed) {
 // The same rig mirrored by swapping its lights: the lists must be mirrored, too.
 ToolCheck mirrored_lists(std::uint64_t seed) {
   Rig rig = lattice_rig(seed, 240, Vec3d(0.0));
-  rig.lens().yfov_rad = 90 * k_degree;
+  rig.projection().yfov_rad = 90 * k_degree;
   const Trial trial = rig.on(lattice_grids()[0]);
   const view::Frame frame = frame_of(trial);
   const grid::Grid grid = grid_of(trial, frame);
@@ -211,7 +211,7 @@ std::vector<Trial> map_scales(std::uint64_t seed) {
     const double depth = random.between(0.5, 4000.0);
     many.point({0.3 * x * depth / 1e-4, 0.2 * y * depth / 1e-4, -depth}, range * 1e5);
   }
-  small.lens().near_m = 1e-6;
+  small.projection().near_m = 1e-6;
   trials.push_back(small.on(frustum_grid({16, 9}, Scheme::exponential, 12, 1e-6, 5e-4), "micrometres"));
   grid::GridSpec thin = frustum_grid({4, 2}, Scheme::list, 0, 0.0, 0.0);
   for (int i = 0; i <= 4000; ++i) thin.slices.boundaries_m.push_back(i);
@@ -273,12 +273,12 @@ std::vector<Trial> clipped_tiles(std::uint64_t seed) {
     Rig parallel = beside_the_picture(5.0, 3.2, true, seed);
     // The one that was found first, as the camera at (5, 3.2, 0) saw it.
     parallel.point({9.0, -0.67, -5.1}, 3.99999).show({1000, 640});
-    parallel.lens() = {};
-    parallel.lens().orthographic = true;
-    parallel.lens().xmag_m = 5.0;
-    parallel.lens().ymag_m = 3.2;
-    parallel.lens().near_m = 0.0;
-    parallel.lens().far_m = 100.0;
+    parallel.projection() = {};
+    parallel.projection().orthographic = true;
+    parallel.projection().xmag_m = 5.0;
+    parallel.projection().ymag_m = 3.2;
+    parallel.projection().near_m = 0.0;
+    parallel.projection().far_m = 100.0;
     grid::GridSpec linear = frustum_grid({0, 0}, Scheme::linear, 10, 0.0, 100.0);
     linear.tiles = {tile, {0, 0}};
     trials.push_back(parallel.on(linear, label + ", orthographic"));

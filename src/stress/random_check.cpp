@@ -400,7 +400,7 @@ std::string reference_of(const std::string& label) {
 
 bool takes_trial(const StressMethod& method, const Trial& trial) {
   return method.assigner->takes(trial.grid.kind) &&
-         (method.assigner->orthographic || !trial.scene.cameras[0].lens.orthographic);
+         (method.assigner->orthographic || !trial.scene.cameras[0].projection.orthographic);
 }
 
 SettingReport check_setting(const Trial& trial, std::span<const StressMethod> methods) {

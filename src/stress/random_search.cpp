@@ -21,7 +21,7 @@ std::tuple<FaultKind, std::string, grid::Kind, bool, bool> class_of(const Random
 void collect(const SettingReport& report, std::uint64_t seed, const Trial& trial, RandomSearch& search) {
   search.counts.add(report.counts);
   for (const SettingFault& fault : report.faults) {
-    RandomFault found{fault, trial.grid.kind, trial.scene.cameras[0].lens.orthographic, 0, {}, trial};
+    RandomFault found{fault, trial.grid.kind, trial.scene.cameras[0].projection.orthographic, 0, {}, trial};
     auto same = std::find_if(search.faults.begin(), search.faults.end(),
                              [&](const RandomFault& other) { return class_of(other) == class_of(found); });
     if (same == search.faults.end()) same = search.faults.insert(same, found);

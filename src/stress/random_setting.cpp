@@ -96,36 +96,37 @@ Vec2i random_picture(Draw& draw) {
   return draw.one_of(pictures);
 }
 
-void random_sides(scene::Lens& lens, Draw& draw, Vec2i picture) {
-  const double top = std::tan(lens.yfov_rad / 2.0), right = top * picture.x / picture.y;
+void random_sides(scene::CameraProjection& projection, Draw& draw, Vec2i picture) {
+  const double top = std::tan(projection.yfov_rad / 2.0), right = top * picture.x / picture.y;
   if (draw.percent(40)) {  // moved by parts of a pixel
     const double x = draw.between(-0.5, 0.5) * 2.0 * right / picture.x;
     const double y = draw.between(-0.5, 0.5) * 2.0 * top / picture.y;
-    lens.sides = scene::LensSides{-right + x, right + x, -top + y, top + y};
+    projection.sides = scene::ProjectionSides{-right + x, right + x, -top + y, top + y};
     return;
   }
   const double x = draw.between(-1.5, 1.5) * right, y = draw.between(-1.5, 1.5) * top;
-  lens.sides = scene::LensSides{x - right, x + right, y - top, y + top};
+  projection.sides = scene::ProjectionSides{x - right, x + right, y - top, y + top};
 }
 
-scene::Lens random_lens(Draw& draw, const Extent& extent, Vec2i picture) {
-  scene::Lens lens;
-  lens.near_m = extent.near_m;
-  lens.far_m = extent.far_m;
-  lens.orthographic = draw.percent(25);
-  if (lens.orthographic) {
-    lens.ymag_m = draw.percent(50) ? extent.step_m * draw.whole(1, 32) : extent.far_m * draw.log_between(1e-3, 2.0);
-    lens.xmag_m = lens.ymag_m * picture.x / picture.y;
-    if (draw.percent(40)) lens.near_m = 0.0;
-    return lens;
+scene::CameraProjection random_projection(Draw& draw, const Extent& extent, Vec2i picture) {
+  scene::CameraProjection projection;
+  projection.near_m = extent.near_m;
+  projection.far_m = extent.far_m;
+  projection.orthographic = draw.percent(25);
+  if (projection.orthographic) {
+    projection.ymag_m =
+        draw.percent(50) ? extent.step_m * draw.whole(1, 32) : extent.far_m * draw.log_between(1e-3, 2.0);
+    projection.xmag_m = projection.ymag_m * picture.x / picture.y;
+    if (draw.percent(40)) projection.near_m = 0.0;
+    return projection;
   }
   const double usual[] = {60.0, 90.0, 45.0, 75.0};
-  lens.yfov_rad = draw.percent(70)   ? draw.one_of(usual) * k_degree
-                  : draw.percent(70) ? draw.log_between(0.01, 3.0)
-                                     : 2.0 * std::atan(draw.log_between(10.0, 1e4));
-  if (draw.percent(30)) random_sides(lens, draw, picture);
-  if (!draw.percent(80)) lens.far_m = std::numeric_limits<double>::infinity();
-  return lens;
+  projection.yfov_rad = draw.percent(70)   ? draw.one_of(usual) * k_degree
+                        : draw.percent(70) ? draw.log_between(0.01, 3.0)
+                                           : 2.0 * std::atan(draw.log_between(10.0, 1e4));
+  if (draw.percent(30)) random_sides(projection, draw, picture);
+  if (!draw.percent(80)) projection.far_m = std::numeric_limits<double>::infinity();
+  return projection;
 }
 
 std::vector<double> random_boundaries(Draw& draw, const Extent& extent) {
@@ -143,17 +144,17 @@ std::vector<double> random_boundaries(Draw& draw, const Extent& extent) {
   return list;
 }
 
-void random_slices(grid::Slicing& slices, Draw& draw, const Extent& extent, const scene::Lens& lens) {
+void random_slices(grid::Slicing& slices, Draw& draw, const Extent& extent, const scene::CameraProjection& projection) {
   using grid::Scheme;
   const Scheme schemes[] = {Scheme::linear, Scheme::exponential, Scheme::exponential_first, Scheme::power, Scheme::list,
                             Scheme::list,   Scheme::fit};
   slices.scheme = draw.one_of(schemes);
-  if (lens.near_m == 0.0 && !draw.percent(10) && slices.scheme != Scheme::list) slices.scheme = Scheme::linear;
+  if (projection.near_m == 0.0 && !draw.percent(10) && slices.scheme != Scheme::list) slices.scheme = Scheme::linear;
   slices.count = draw.percent(85) ? draw.whole(2, 16) : draw.whole(1, 60);
   slices.far_m = extent.far_m;
   if (slices.scheme == Scheme::list) slices.boundaries_m = random_boundaries(draw, extent);
-  if (draw.percent(30)) slices.near_m = lens.near_m * draw.log_between(0.5, 4.0);
-  const double near = slices.near_m != 0.0 ? slices.near_m : lens.near_m;
+  if (draw.percent(30)) slices.near_m = projection.near_m * draw.log_between(0.5, 4.0);
+  const double near = slices.near_m != 0.0 ? slices.near_m : projection.near_m;
   slices.first_m = draw.percent(50) ? std::sqrt(near * extent.far_m) : draw.between(near, extent.far_m);
   slices.lambda = draw.percent(20) ? 0.0 : draw.between(0.0, 1.0);
 }
@@ -191,18 +192,19 @@ void random_boxes(grid::GridSpec& spec, Draw& draw, const Extent& extent, const 
   }
 }
 
-grid::GridSpec random_grid(Draw& draw, const Extent& extent, const scene::Lens& lens, Vec2i picture, const Vec3d& eye) {
+grid::GridSpec random_grid(Draw& draw, const Extent& extent, const scene::CameraProjection& projection, Vec2i picture,
+                           const Vec3d& eye) {
   using grid::Kind;
   const Kind kinds[] = {Kind::frustum,  Kind::frustum,  Kind::frustum,  Kind::frustum, Kind::frustum,
                         Kind::distance, Kind::distance, Kind::cascades, Kind::world};
   grid::GridSpec spec;
   spec.kind = draw.one_of(kinds);
-  if (spec.kind == Kind::distance && lens.orthographic && !draw.percent(5)) spec.kind = Kind::frustum;
+  if (spec.kind == Kind::distance && projection.orthographic && !draw.percent(5)) spec.kind = Kind::frustum;
   if (!spec.has_tiles()) {
     random_boxes(spec, draw, extent, eye);
   } else {
     random_tiles(spec.tiles, draw, picture);
-    random_slices(spec.slices, draw, extent, lens);
+    random_slices(spec.slices, draw, extent, projection);
   }
   return spec;
 }
@@ -395,10 +397,10 @@ Trial random_setting(std::uint64_t seed) {
   Rig rig;
   const Vec2i picture = random_picture(draw);
   rig.show(picture);
-  rig.lens() = random_lens(draw, extent, picture);
+  rig.projection() = random_projection(draw, extent, picture);
   const Vec3d eye = random_eye(draw, extent);
   const Vec4d rotation = random_rotation(draw);
-  Trial trial = rig.on(random_grid(draw, extent, rig.lens(), picture, eye), "seed " + std::to_string(seed));
+  Trial trial = rig.on(random_grid(draw, extent, rig.projection(), picture, eye), "seed " + std::to_string(seed));
   trial.scene.nodes[0].translation = eye;
   trial.scene.nodes[0].rotation = rotation;
   try {

@@ -1,10 +1,10 @@
 // H31: a search for lights that touch a cell and are not listed.
 //
-// A state is a world (lens, picture, grid) and, in it, lights that touch a chosen cell: a contact on the cell's surface
-// and a light laid against it. Each light is tried at several positions: touching, moved away by some roundoffs (a
-// conservative method lists it still: how far is the margin that the search drives down) and, for methods that promise
-// nothing, pushed into the cell by parts of its range. Children differ in one number; they stay if their margin is no
-// larger. The best worlds have children, too.
+// A state is a world (projection, picture, grid) and, in it, lights that touch a chosen cell: a contact on the cell's
+// surface and a light laid against it. Each light is tried at several positions: touching, moved away by some roundoffs
+// (a conservative method lists it still: how far is the margin that the search drives down) and, for methods that
+// promise nothing, pushed into the cell by parts of its range. Children differ in one number; they stay if their margin
+// is no larger. The best worlds have children, too.
 
 #include <algorithm>
 #include <chrono>
@@ -89,12 +89,12 @@ World mutated(World world, SplitMix64& random, const assign::AssignerDescriptor&
 
 Trial trial_of(const World& world) {
   Rig rig;
-  rig.lens().yfov_rad = world.fov_rad;
-  rig.lens().near_m = world.near_m;
+  rig.projection().yfov_rad = world.fov_rad;
+  rig.projection().near_m = world.near_m;
   const double far = world.near_m * world.far_ratio;
-  rig.lens().far_m = far;
+  rig.projection().far_m = far;
   const double top = std::tan(world.fov_rad / 2.0), right = top * world.aspect;
-  rig.lens().sides = scene::LensSides{-right * (1.0 - world.shift), right * (1.0 + world.shift), -top, top};
+  rig.projection().sides = scene::ProjectionSides{-right * (1.0 - world.shift), right * (1.0 + world.shift), -top, top};
   rig.show({1000, std::clamp(static_cast<int>(1000 / world.aspect), 20, 4000)});
   constexpr grid::Scheme k_schemes[] = {grid::Scheme::linear, grid::Scheme::exponential,
                                         grid::Scheme::exponential_first};

@@ -83,7 +83,7 @@ struct StressListener {
 
 StressResult run_stress(const StressRequest& request, const StressListener& listener, const std::atomic<bool>& stop);
 
-// H31 for one method: hill-climbs lights, lenses and grids towards a light that touches a cell and is not listed.
+// H31 for one method: hill-climbs lights, projections and grids towards a light that touches a cell and is not listed.
 SearchResult search_for_losses(const StressMethod& method, const StressRequest& request,
                                const std::function<void(std::uint64_t tries)>& on_progress,
                                const std::atomic<bool>& stop);

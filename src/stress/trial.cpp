@@ -11,9 +11,9 @@ Rig::Rig() {
   scene::Camera camera;
   camera.name = "camera";
   camera.node = 0;
-  camera.lens.yfov_rad = 3.14159265358979323846 / 3.0;
-  camera.lens.near_m = 0.1;
-  camera.lens.far_m = 500.0;
+  camera.projection.yfov_rad = 3.14159265358979323846 / 3.0;
+  camera.projection.near_m = 0.1;
+  camera.projection.far_m = 500.0;
   scene_.cameras.push_back(camera);
 }
 

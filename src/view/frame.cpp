@@ -40,16 +40,16 @@ double aspect_of(Vec2i viewport) {
   return static_cast<double>(viewport.x) / viewport.y;
 }
 
-double half_height(const scene::Lens& lens) {
-  return lens.orthographic ? lens.ymag_m : std::tan(lens.yfov_rad / 2.0);
+double half_height(const scene::CameraProjection& projection) {
+  return projection.orthographic ? projection.ymag_m : std::tan(projection.yfov_rad / 2.0);
 }
 
 // Half the width of the camera's rectangle where the viewport would crop it, else 0. Aspect ratios are written with a
 // few digits: what is less than half a pixel at each side is no difference.
-double cropped_width(const scene::Lens& lens, Vec2i viewport) {
-  if (lens.sides) return 0.0;
-  const double height = half_height(lens);
-  const double width = lens.orthographic ? lens.xmag_m : lens.aspect_ratio.value_or(0.0) * height;
+double cropped_width(const scene::CameraProjection& projection, Vec2i viewport) {
+  if (projection.sides) return 0.0;
+  const double height = half_height(projection);
+  const double width = projection.orthographic ? projection.xmag_m : projection.aspect_ratio.value_or(0.0) * height;
   const double shown = aspect_of(viewport) * height;
   return width - shown > shown / viewport.x ? width : 0.0;
 }
@@ -68,12 +68,12 @@ Projection jittered(Projection projection, Vec2d jitter_px, Vec2i viewport) {
 
 }  // namespace
 
-std::string fit_warning(const scene::Lens& lens, Vec2i viewport) {
-  const double width = cropped_width(lens, viewport);
+std::string fit_warning(const scene::CameraProjection& projection, Vec2i viewport) {
+  const double width = cropped_width(projection, viewport);
   if (width == 0.0) return "";
   char text[200];
-  const double height = half_height(lens), shown = aspect_of(viewport) * height;
-  if (lens.fit == scene::CameraFit::contain) {
+  const double height = half_height(projection), shown = aspect_of(viewport) * height;
+  if (projection.fit == scene::CameraFit::contain) {
     std::snprintf(text, sizeof text,
                   "the camera is %.4g times as wide as high, wider than %dx%d: its view is enlarged to %.4g times its "
                   "height (camera_fit: contain)",
@@ -87,14 +87,20 @@ std::string fit_warning(const scene::Lens& lens, Vec2i viewport) {
   return text;
 }
 
-Projection make_projection(const scene::Lens& lens, Vec2i viewport) {
-  if (lens.sides)
-    return {false, lens.sides->left, lens.sides->right, lens.sides->bottom, lens.sides->top, lens.near_m, lens.far_m};
+Projection make_projection(const scene::CameraProjection& projection, Vec2i viewport) {
+  if (projection.sides)
+    return {false,
+            projection.sides->left,
+            projection.sides->right,
+            projection.sides->bottom,
+            projection.sides->top,
+            projection.near_m,
+            projection.far_m};
   const double aspect = aspect_of(viewport);
-  double top = half_height(lens);
-  const double cropped = cropped_width(lens, viewport);
-  if (cropped > 0.0 && lens.fit == scene::CameraFit::contain) top = cropped / aspect;
-  return {lens.orthographic, -top * aspect, top * aspect, -top, top, lens.near_m, lens.far_m};
+  double top = half_height(projection);
+  const double cropped = cropped_width(projection, viewport);
+  if (cropped > 0.0 && projection.fit == scene::CameraFit::contain) top = cropped / aspect;
+  return {projection.orthographic, -top * aspect, top * aspect, -top, top, projection.near_m, projection.far_m};
 }
 
 float LightArrays::padded_radius(std::uint32_t light, float roundoffs) const {
@@ -139,7 +145,7 @@ Frame make_frame(const scene::Scene& scene, const scene::Shot& shot, int index, 
   frame.index = index;
   frame.time_s = shot.time_s;
   frame.viewport = viewport;
-  frame.projection = jittered(make_projection(shot.lens, viewport), shot.jitter_px, viewport);
+  frame.projection = jittered(make_projection(shot.projection, viewport), shot.jitter_px, viewport);
   check_picture(frame.projection);
   frame.view_space = {shot.pose.eye, shot.pose.view_from_world};
   frame.lights = scene::world_lights(scene, shot.time_s);

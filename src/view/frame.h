@@ -22,14 +22,15 @@ struct Projection {
   friend bool operator==(const Projection&, const Projection&) = default;
 };
 
-// Pixels are square. The vertical extent is the lens's and the horizontal one follows from the viewport's aspect ratio,
-// unless that would cut half a pixel or more off the sides of the camera's rectangle and lens.fit is `contain`: then
-// the horizontal extent is the lens's and the vertical one follows. Or the lens has all four sides.
-Projection make_projection(const scene::Lens& lens, Vec2i viewport);
+// Pixels are square. The vertical extent is the projection's and the horizontal one follows from the viewport's aspect
+// ratio, unless that would cut half a pixel or more off the sides of the camera's rectangle and projection.fit is
+// `contain`: then the horizontal extent is the projection's and the vertical one follows. Or the projection has all
+// four sides.
+Projection make_projection(const scene::CameraProjection& projection, Vec2i viewport);
 
 // What a picture in this viewport shows beyond the camera's own rectangle, or leaves out, because the camera is wider
 // than the viewport: one line, "" if the rectangle fits.
-std::string fit_warning(const scene::Lens& lens, Vec2i viewport);
+std::string fit_warning(const scene::CameraProjection& projection, Vec2i viewport);
 
 // A rigid frame of reference: local = rotation * (world - origin).
 struct Space {

@@ -11,16 +11,16 @@ namespace {
 // Pixels and depths all over the view, a few beyond the grid.
 std::vector<grid::Sample> samples_in(const Setting& setting) {
   const view::Frame& frame = setting.frame;
-  const view::Projection& lens = frame.projection;
-  const double far = std::isfinite(lens.far_m) ? lens.far_m : 1e3;
+  const view::Projection& projection = frame.projection;
+  const double far = std::isfinite(projection.far_m) ? projection.far_m : 1e3;
   Random random(97);
   std::vector<grid::Sample> samples;
   for (int i = 0; i < 300; ++i) {
     const double x = random.between(0.0, 1.0), y = random.between(0.0, 1.0);
-    const double depth = lens.near_m + (1.05 * far - lens.near_m) * std::pow(random.between(0.0, 1.0), 3.0);
-    const double scale = lens.orthographic ? 1.0 : depth;
-    const Vec3d local{(lens.left + (lens.right - lens.left) * x) * scale,
-                      (lens.top - (lens.top - lens.bottom) * y) * scale, -depth};
+    const double depth = projection.near_m + (1.05 * far - projection.near_m) * std::pow(random.between(0.0, 1.0), 3.0);
+    const double scale = projection.orthographic ? 1.0 : depth;
+    const Vec3d local{(projection.left + (projection.right - projection.left) * x) * scale,
+                      (projection.top - (projection.top - projection.bottom) * y) * scale, -depth};
     samples.push_back({static_cast<float>(x * frame.viewport.x), static_cast<float>(y * frame.viewport.y), Vec3f(local),
                        glm::transpose(frame.view_space.rotation) * local, frame.view_space.origin});
   }

@@ -110,7 +110,7 @@ TEST(RandomSettings, have_grids_of_all_kinds_both_projections_and_both_types_of_
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     const Trial trial = random_setting(seed);
     kinds.insert(trial.grid.kind);
-    orthographic.insert(trial.scene.cameras[0].lens.orthographic);
+    orthographic.insert(trial.scene.cameras[0].projection.orthographic);
     for (const scene::Light& light : trial.scene.lights) spots.insert(light.type == scene::LightType::spot);
     lights += trial.scene.lights.size();
   }
