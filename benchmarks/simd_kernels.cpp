@@ -23,10 +23,10 @@
 #include "assign/cone/spot_spheres.h"
 #include "assign/contract/assigner.h"
 #include "assign/cull/slice_bins.h"
+#include "assign/distance/shell_rows.h"
 #include "assign/exact/exact_frame.h"
 #include "assign/lists/list_builder.h"
 #include "assign/lists/row_lists.h"
-#include "assign/rows/shell_rows.h"
 #include "assign/rows/slice_rows.h"
 #include "assign/storages/list_forms.h"
 #include "benchmarks.h"
@@ -186,7 +186,7 @@ void bounds_rows(State& state, const Setting& setting, Find&& find) {
   assign::BoundedBalls bounded;
   bounded.reserve(setting.lights.size());
   assign::find_screen_bounds(assign::BoxPlanes(setting.grid.screen()), visible, 0, assign::given_points(setting.lights),
-                             0, {8.0f, 8.0f}, bounded);
+                             {8.0f, 8.0f}, bounded);
   assign::SliceBins balls;
   balls.sort(bounded, planes.slices);
   assign::BatchRows rows;

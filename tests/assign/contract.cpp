@@ -147,16 +147,15 @@ std::string allocation_fault(AssignerRun& run, const FrameInput& input) {
 // up in expands to.
 std::string sample_fault(const LightStructure& structure, const Setting& setting) {
   const Lists cells = structure.has_cells() ? structure.expanded() : Lists{};
-  const std::uint32_t points = setting.frame.points;
-  const auto lights = static_cast<std::uint32_t>(setting.frame.lights.size());
+  const view::LightRanges ranges = setting.frame.ranges();
   std::vector<std::uint32_t> given;
   for (const grid::Sample& sample : samples_in(setting)) {
-    given.assign(3, lights);  // what is there before is no answer
+    given.assign(3, ranges.size());  // what is there before is no answer
     structure.lights_at(sample, grid::Log2::rounded, given);
     Lists alone;
     alone.lights = given;
     alone.begin = {0, alone.pair_count()};
-    const std::string fault = lists_fault(alone, 1, points, lights - points);
+    const std::string fault = lists_fault(alone, 1, ranges);
     if (!fault.empty()) return "at a sample: " + fault;
     if (!structure.has_cells()) continue;
     const std::int64_t cell = grid::lookup(setting.grid, sample);

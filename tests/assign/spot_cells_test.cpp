@@ -9,9 +9,9 @@
 #include <optional>
 
 #include "assign/cone/spot_rows.h"
-#include "assign/cone/spot_touches.h"
 #include "assign/each_target.h"
 #include "assign/exact/exact_rows.h"
+#include "assign/exact/spot_touches.h"
 #include "assign/settings.h"
 
 namespace clusterbench::assign {

@@ -291,7 +291,7 @@ TEST(EveryStorage, keeps_lists_in_any_order) {
         kept->start(60, {lights / 2, lights - lights / 2});
         kept->store(shuffled(lists, lights / 2, 5));
         Lists back = kept->expanded();
-        EXPECT_EQ(lists_fault(back, 60, lights / 2, lights - lights / 2), "") << row->name;
+        EXPECT_EQ(lists_fault(back, 60, {lights / 2, lights - lights / 2}), "") << row->name;
         make_ascending(back);
         EXPECT_EQ(back, lists) << row->name << ", " << lights << " lights, " << share;
       }

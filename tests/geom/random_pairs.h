@@ -115,7 +115,7 @@ inline LightVolume light_against(const Contact& contact, By by, const Reach& rea
   const Vec3d inward = std::sin(lean) * contact.outward + std::cos(lean) * beside;
   const double off_axis = by == By::cap ? random.unit() * half_angle : half_angle - margin;
   light.direction = std::cos(off_axis) * towards + std::sin(off_axis) * inward;
-  light.apex.position = contact.point - along * towards;
+  light.apex.position = contact.place - along * towards;
   light.range = by == By::side ? along * random.between(1.1, 3.0) : along + margin;
   return light;
 }

@@ -165,7 +165,7 @@ TEST(SpotDecider, says_what_slow_proofs_say_far_from_the_eye) {
     pair.light.is_cone = true;
     pair.light.range = random.between(0.01, 2.0);
     pair.light.apex.origin = {1e4, 100.0, -3e3};
-    pair.light.apex.position = contact.point + pair.light.range * contact.outward + pair.light.apex.origin;
+    pair.light.apex.position = contact.place + pair.light.range * contact.outward + pair.light.apex.origin;
     pair.light.direction = random.below(2) == 0 ? -contact.outward : random_direction(random) - contact.outward;
     pair.light.half_angle_rad = random.between(0.001, 1.57);
     if (is_shell)
@@ -173,7 +173,7 @@ TEST(SpotDecider, says_what_slow_proofs_say_far_from_the_eye) {
     else if (kind == 0)
       pair.cell = FrustumPiece{s.x0, s.x1, s.y0, s.y1, s.near, s.far, false};
     else
-      pair.cell = Box{Vec3f(contact.point) - 1.0f, Vec3f(contact.point)};
+      pair.cell = Box{Vec3f(contact.place) - 1.0f, Vec3f(contact.place)};
     return pair;
   };
   EXPECT_GT(expect_agreement(900, make), 300);

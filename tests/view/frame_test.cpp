@@ -150,8 +150,8 @@ TEST(Lights, of_spots_have_their_axis_turned_into_view_space) {
   // A camera that looks along +x: world x is ahead, view -z.
   const Mat3d turned(Vec3d(0, 0, -1), Vec3d(0, 1, 0), Vec3d(1, 0, 0));
   const LightArrays arrays = lights_in(frame_with({point({0, 0, 0}, 1.0), spot}), {Vec3d(0.0), turned});
-  EXPECT_EQ(arrays.points, 1u);
-  EXPECT_EQ(arrays.spots, 1u);
+  EXPECT_EQ(arrays.points.count, 1u);
+  EXPECT_EQ(arrays.spots.count, 1u);
   const geom::SphericalCone cone = arrays.cone(1, 0.0f);
   EXPECT_FLOAT_EQ(cone.axis.z, -1.0f);
   EXPECT_FLOAT_EQ(cone.cos_angle, std::cos(0.5f));

@@ -23,7 +23,7 @@ const AssignerDescriptor bounds_descriptor{
         "logarithm",
     .kinds = {grid::Kind::frustum},
     .params = light_params(),
-    .make = make_cell_box_method<NoTest>,
+    .make = make_list_assigner<CellBoxMethod<NoTest>>,
 };
 
 }  // namespace clusterbench::assign

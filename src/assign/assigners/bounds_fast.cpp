@@ -1,5 +1,6 @@
 // `bounds` for speed: the same lists, SIMD.
 
+#include "assign/bounds/bounds_rows.h"
 #include "assign/bounds/fast_bounds_method.h"
 
 namespace clusterbench::assign {
@@ -32,7 +33,7 @@ const AssignerDescriptor bounds_fast_descriptor{
         "logarithm",
     .kinds = {grid::Kind::frustum},
     .params = light_params(),
-    .make = make_fast_bounds_method<AllRows>,
+    .make = make_list_assigner<SliceBySlice<FrustumKernel<AllRows>>>,
 };
 
 }  // namespace clusterbench::assign

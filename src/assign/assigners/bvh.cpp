@@ -371,14 +371,6 @@ class BvhQueries final : public AssignerOf<LightHierarchy> {
   std::uint64_t tests_ = 0;
 };
 
-std::unique_ptr<ListAssigner> make(const Params& params) {
-  return std::make_unique<BvhLists>(params);
-}
-
-std::unique_ptr<StructureAssigner> make_own(const Params& params) {
-  return std::make_unique<BvhQueries>(params);
-}
-
 }  // namespace
 
 extern const AssignerDescriptor bvh_descriptor;
@@ -390,8 +382,8 @@ const AssignerDescriptor bvh_descriptor{
     .source = "Olsson, Billeter and Assarsson 2012, Clustered Deferred and Forward Shading; van Oosten 2015",
     .kinds = {grid::Kind::frustum, grid::Kind::distance, grid::Kind::cascades, grid::Kind::world},
     .params = light_params(),
-    .make = make,
-    .make_own = make_own,
+    .make = make_list_assigner<BvhLists>,
+    .make_own = make_structure_assigner<BvhQueries>,
 };
 
 }  // namespace clusterbench::assign

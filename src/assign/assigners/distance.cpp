@@ -6,13 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <vector>
 
 #include "assign/contract/light_test.h"
 #include "assign/cull/view_cull.h"
+#include "assign/distance/shells.h"
 #include "assign/pipeline/light_by_light.h"
-#include "assign/rows/shells.h"
 #include "geom/tangents.h"
 #include "grid/index_range.h"
 
@@ -146,10 +145,6 @@ class Distance final : public LightByLight<Distance> {
   ViewCull view_;
 };
 
-std::unique_ptr<ListAssigner> make(const Params& params) {
-  return std::make_unique<Distance>(params);
-}
-
 }  // namespace
 
 extern const AssignerDescriptor distance_descriptor;
@@ -160,7 +155,7 @@ const AssignerDescriptor distance_descriptor{
     .kinds = {grid::Kind::distance},
     .orthographic = false,
     .params = light_params(),
-    .make = make,
+    .make = make_list_assigner<Distance>,
 };
 
 }  // namespace clusterbench::assign

@@ -1,8 +1,8 @@
 // `distance` for speed: the same lists, SIMD.
 
+#include "assign/distance/shell_rows.h"
+#include "assign/distance/shells.h"
 #include "assign/pipeline/slice_by_slice.h"
-#include "assign/rows/shell_rows.h"
-#include "assign/rows/shells.h"
 
 namespace clusterbench::assign {
 namespace {
@@ -40,7 +40,7 @@ const AssignerDescriptor distance_fast_descriptor{
     .kinds = {grid::Kind::distance},
     .orthographic = false,
     .params = light_params(),
-    .make = make_slice_by_slice<ShellKernel>,
+    .make = make_list_assigner<SliceBySlice<ShellKernel>>,
 };
 
 }  // namespace clusterbench::assign

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <vector>
 
 #include "assign/contract/light_test.h"
@@ -139,10 +138,6 @@ class Exact final : public LightByLight<Exact> {
   std::uint64_t fallbacks_ = 0;
 };
 
-std::unique_ptr<ListAssigner> make(const Params& params) {
-  return std::make_unique<Exact>(params);
-}
-
 }  // namespace
 
 extern const AssignerDescriptor exact_descriptor;
@@ -154,7 +149,7 @@ const AssignerDescriptor exact_descriptor{
     .kinds = {grid::Kind::frustum},
     .exact = true,
     .params = {},
-    .make = make,
+    .make = make_list_assigner<Exact>,
 };
 
 }  // namespace clusterbench::assign

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "assign/cone/spot_spheres.h"
 #include "assign/contract/assigner.h"
@@ -151,10 +150,6 @@ class ExactFast final : public ListAssigner {
   std::uint64_t tests_ = 0, fallbacks_ = 0;
 };
 
-std::unique_ptr<ListAssigner> make(const Params& params) {
-  return std::make_unique<ExactFast>(params);
-}
-
 }  // namespace
 
 extern const AssignerDescriptor exact_fast_descriptor;
@@ -175,7 +170,7 @@ const AssignerDescriptor exact_fast_descriptor{
                 .choices = {},
                 .whole = true,
                 .is_thread_count = true}},
-    .make = make,
+    .make = make_list_assigner<ExactFast>,
 };
 
 }  // namespace clusterbench::assign

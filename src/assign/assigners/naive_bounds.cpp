@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "assign/bounds/cell_bounds.h"
 #include "assign/pipeline/light_by_light.h"
@@ -163,10 +162,6 @@ class NaiveBounds final : public LightByLight<NaiveBounds> {
   Flaw flaw_;
 };
 
-std::unique_ptr<ListAssigner> make(const Params& params) {
-  return std::make_unique<NaiveBounds>(params);
-}
-
 }  // namespace
 
 extern const AssignerDescriptor naive_bounds_descriptor;
@@ -183,7 +178,7 @@ const AssignerDescriptor naive_bounds_descriptor{
                 .standard = std::string("log-slice"),
                 .unit = "",
                 .choices = {"log-slice", "fast-log-slice", "textbook-tangents", "tile-division", "padded-tiles"}}},
-    .make = make,
+    .make = make_list_assigner<NaiveBounds>,
 };
 
 }  // namespace clusterbench::assign

@@ -2,7 +2,6 @@
 // left to their cell boxes.
 
 #include <cmath>
-#include <memory>
 
 #include "assign/bounds/cell_bounds.h"
 #include "assign/contract/light_test.h"
@@ -81,10 +80,6 @@ class NaiveCone final : public LightByLight<NaiveCone> {
   std::vector<geom::Ball> cell_balls_;
 };
 
-std::unique_ptr<ListAssigner> make(const Params& params) {
-  return std::make_unique<NaiveCone>(params);
-}
-
 }  // namespace
 
 extern const AssignerDescriptor naive_cone_descriptor;
@@ -101,7 +96,7 @@ const AssignerDescriptor naive_cone_descriptor{
                 .standard = std::string("sine-from-cosine"),
                 .unit = "",
                 .choices = {"sine-from-cosine", "no-range", "flat-cap-ball"}}},
-    .make = make,
+    .make = make_list_assigner<NaiveCone>,
 };
 
 }  // namespace clusterbench::assign

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "assign/bounds/cell_bounds.h"
 #include "assign/bounds/tile_planes.h"
@@ -89,10 +88,6 @@ class NaiveRefinement final : public LightByLight<NaiveRefinement> {
   std::vector<TilePlane> columns_, rows_;
 };
 
-std::unique_ptr<ListAssigner> make(const Params& params) {
-  return std::make_unique<NaiveRefinement>(params);
-}
-
 }  // namespace
 
 extern const AssignerDescriptor naive_refinement_descriptor;
@@ -104,7 +99,7 @@ const AssignerDescriptor naive_refinement_descriptor{
     .conservative = false,
     .naive = true,
     .params = {},
-    .make = make,
+    .make = make_list_assigner<NaiveRefinement>,
 };
 
 }  // namespace clusterbench::assign

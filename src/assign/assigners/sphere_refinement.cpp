@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "assign/bounds/cell_bounds.h"
@@ -141,10 +140,6 @@ class SphereRefinement final : public LightByLight<SphereRefinement> {
   std::vector<TilePlane> columns_, rows_;
 };
 
-std::unique_ptr<ListAssigner> make(const Params& params) {
-  return std::make_unique<SphereRefinement>(params);
-}
-
 }  // namespace
 
 extern const AssignerDescriptor sphere_refinement_descriptor;
@@ -157,7 +152,7 @@ const AssignerDescriptor sphere_refinement_descriptor{
         "centre row once)",
     .kinds = {grid::Kind::frustum},
     .params = refinement_params(),
-    .make = make,
+    .make = make_list_assigner<SphereRefinement>,
 };
 
 }  // namespace clusterbench::assign

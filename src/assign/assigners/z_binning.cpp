@@ -8,6 +8,7 @@
 #include <bit>
 #include <limits>
 
+#include "assign/bounds/cell_bounds.h"
 #include "assign/bounds/frustum_bounds.h"
 #include "assign/cone/spot_spheres.h"
 #include "assign/contract/assigner.h"
@@ -179,10 +180,6 @@ class ZBinning final : public AssignerOf<BinsAndMasks> {
   std::uint64_t tests_ = 0;
 };
 
-std::unique_ptr<StructureAssigner> make_own(const Params& params) {
-  return std::make_unique<ZBinning>(params);
-}
-
 }  // namespace
 
 extern const AssignerDescriptor z_binning_descriptor;
@@ -194,7 +191,7 @@ const AssignerDescriptor z_binning_descriptor{
     .source = "Drobot 2017, Improved Culling for Tiled and Clustered Rendering; Unity's URP",
     .kinds = {grid::Kind::frustum},
     .params = {inflation_param()},
-    .make_own = make_own,
+    .make_own = make_structure_assigner<ZBinning>,
 };
 
 }  // namespace clusterbench::assign

@@ -2,7 +2,6 @@
 // What the plain box methods share: light by light the cells of a frustum grid within the light's box of cells, or all,
 // of which one predicate keeps some.
 
-#include <memory>
 #include <vector>
 
 #include "assign/bounds/cell_bounds.h"
@@ -120,10 +119,5 @@ class CellPlanes {
   };
   std::vector<SixPlanes> planes_;
 };
-
-template <class CellTest>
-std::unique_ptr<ListAssigner> make_cell_box_method(const Params& params) {
-  return std::make_unique<CellBoxMethod<CellTest>>(params);
-}
 
 }  // namespace clusterbench::assign

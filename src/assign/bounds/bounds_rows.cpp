@@ -214,9 +214,7 @@ RefinementPlanes::RefinementPlanes(const grid::ScreenGrid& grid) : depths(grid.s
 }
 
 std::size_t RefinementPlanes::capacity_bytes() const {
-  return (2 * column_across.capacity() + 2 * row_across.capacity() + column_offset.capacity() + row_offset.capacity() +
-          depths.capacity()) *
-         sizeof(float);
+  return bytes_of(column_across, column_along, row_across, row_along, column_offset, row_offset, depths);
 }
 
 CellExtents::CellExtents(const grid::Grid& grid) : columns(grid.cells().x), rows(grid.cells().y) {
@@ -236,23 +234,8 @@ CellExtents::CellExtents(const grid::Grid& grid) : columns(grid.cells().x), rows
   }
 }
 
-CellExtents::CellExtents(const BoxGrid& boxes)
-    : columns(static_cast<int>(boxes.x.size())), rows(static_cast<int>(boxes.y.size())) {
-  const auto add = [](Axis& axis, const BoxAxis& extents) {
-    for (const Interval& extent : extents) {
-      axis.lo.push_back(extent.lo);
-      axis.hi.push_back(extent.hi);
-    }
-  };
-  add(x, boxes.x);
-  add(y, boxes.y);
-  add(z, boxes.z);
-}
-
 std::size_t CellExtents::capacity_bytes() const {
-  std::size_t size = 0;
-  for (const Axis* axis : {&x, &y, &z}) size += (axis->lo.capacity() + axis->hi.capacity()) * sizeof(float);
-  return size;
+  return bytes_of(x.lo, x.hi, y.lo, y.hi, z.lo, z.hi);
 }
 
 void find_bounds_rows(int rows, const BallBatch& batch, BatchRows& out) {

@@ -3,8 +3,6 @@
 // boxes of cells are found a vector at a time (frustum_bounds.h); which columns of a row they touch, Rows knows. Every
 // step gives what the scalar method gives.
 
-#include <memory>
-
 #include "assign/bounds/cell_bounds.h"
 #include "assign/bounds/frustum_bounds.h"
 #include "assign/pipeline/slice_by_slice.h"
@@ -66,10 +64,5 @@ class FrustumKernel {
   FrustumBounds bounds_;
   BallArrays spots_for_boxes_;
 };
-
-template <class Rows>
-std::unique_ptr<ListAssigner> make_fast_bounds_method(const Params& params) {
-  return make_slice_by_slice<FrustumKernel<Rows>>(params);
-}
 
 }  // namespace clusterbench::assign

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "assign/bounds/bounded_balls.h"
+#include "assign/pipeline/bounded_balls.h"
 #include "assign/rows/slice_rows.h"
 #include "assign/simd/boundary_axis.h"
 #include "grid/grid.h"

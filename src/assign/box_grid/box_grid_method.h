@@ -1,7 +1,6 @@
 #pragma once
 // What `cascades` and `world-grid` share: every light against the boxes of every level, row by row.
 
-#include <memory>
 #include <vector>
 
 #include "assign/box_grid/box_levels.h"
@@ -36,9 +35,5 @@ class BoxGridMethod final : public LightByLight<BoxGridMethod> {
   LightTest test_;
   std::vector<BoxGrid> levels_;
 };
-
-inline std::unique_ptr<ListAssigner> make_box_grid_method(const Params& params) {
-  return std::make_unique<BoxGridMethod>(params);
-}
 
 }  // namespace clusterbench::assign

@@ -102,7 +102,25 @@ RangeAxes::RangeAxes(const BoxGrid& boxes)
     : x(boxes.x), y(boxes.y), z(boxes.z), hole_x(boxes.hole_x), hole_y(boxes.hole_y), hole_z(boxes.hole_z) {}
 
 std::size_t RangeAxes::capacity_bytes() const {
-  return (x.boundaries.capacity() + y.boundaries.capacity() + z.boundaries.capacity()) * sizeof(float);
+  return bytes_of(x.boundaries, y.boundaries, z.boundaries);
+}
+
+CellExtents extents_of(const BoxGrid& boxes) {
+  CellExtents cells;
+  const auto axis_of = [](const BoxAxis& extents) {
+    CellExtents::Axis axis;
+    for (const Interval& extent : extents) {
+      axis.lo.push_back(extent.lo);
+      axis.hi.push_back(extent.hi);
+    }
+    return axis;
+  };
+  cells.x = axis_of(boxes.x);
+  cells.y = axis_of(boxes.y);
+  cells.z = axis_of(boxes.z);
+  cells.columns = static_cast<int>(boxes.x.size());
+  cells.rows = static_cast<int>(boxes.y.size());
+  return cells;
 }
 
 void find_box_ranges(const RangeAxes& axes, const GivenBalls& balls, float roundoffs, BoundedBalls& bounded) {

@@ -2,8 +2,9 @@
 // Which boxes of a grid of axis-aligned boxes are within reach of many balls on each axis: indices_within()
 // (assign/box_grid/box_rows.h) a vector of balls at a time, because each lane compares the same differences.
 
-#include "assign/bounds/screen_bounds.h"
+#include "assign/bounds/bounds_rows.h"
 #include "assign/box_grid/box_rows.h"
+#include "assign/cull/frustum_cull.h"
 #include "assign/simd/boundary_axis.h"
 
 namespace clusterbench::assign {
@@ -23,6 +24,9 @@ struct RangeAxes {
   explicit RangeAxes(const BoxGrid& boxes);
   std::size_t capacity_bytes() const;
 };
+
+// The boxes' extents, for find_box_rows().
+CellExtents extents_of(const BoxGrid& boxes);
 
 // Appends those of the balls, larger by these roundoffs, that reach a box outside of the hole.
 // bounded's columns are along x, its rows along y, its slices along z, and depth is -z.

@@ -9,6 +9,7 @@
 
 #include "assign/contract/light_test.h"
 #include "assign/contract/lists.h"
+#include "core/arrays.h"
 #include "geom/shapes.h"
 #include "grid/index_range.h"
 
@@ -29,7 +30,7 @@ struct BoxGrid {
   std::uint32_t first_cell = 0;
   IndexRange hole_x, hole_y, hole_z;  // boxes that take no lights; empty: none
 
-  std::size_t capacity_bytes() const { return (x.capacity() + y.capacity() + z.capacity()) * sizeof(Interval); }
+  std::size_t capacity_bytes() const { return bytes_of(x, y, z); }
 };
 
 // Distance from a coordinate on the axis to an extent; 0 inside.

@@ -3,7 +3,6 @@
 // level the ranges of boxes that balls reach are found a vector of balls at a time. Every step gives what box_rows.h
 // gives.
 
-#include <memory>
 #include <vector>
 
 #include "assign/bounds/bounds_rows.h"
@@ -52,7 +51,8 @@ class BoxGridKernel {
     CellExtents cells;
     int slices;
 
-    explicit BoxLevel(const BoxGrid& boxes) : axes(boxes), cells(boxes), slices(static_cast<int>(boxes.z.size())) {}
+    explicit BoxLevel(const BoxGrid& boxes)
+        : axes(boxes), cells(extents_of(boxes)), slices(static_cast<int>(boxes.z.size())) {}
   };
 
   const BoxLevel& at(int level) const { return levels_[static_cast<std::size_t>(level)]; }
@@ -60,9 +60,5 @@ class BoxGridKernel {
   std::vector<BoxLevel> levels_;
   LaneColumns lane_columns_;
 };
-
-inline std::unique_ptr<ListAssigner> make_fast_box_grid_method(const Params& params) {
-  return make_slice_by_slice<BoxGridKernel>(params);
-}
 
 }  // namespace clusterbench::assign

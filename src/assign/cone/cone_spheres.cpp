@@ -3,7 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "assign/rows/slice_rows.h"
+#include "assign/simd/lanes.h"
+#include "core/arrays.h"
 #include "core/memory.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -97,7 +98,7 @@ HWY_EXPORT(touched_cells);
 CellBalls::CellBalls(std::span<const geom::Ball> balls) {
   const std::size_t padded = balls.size() + k_most_lanes;
   check_memory("balls around cells, side by side", padded, 5 * sizeof(float));
-  for (std::vector<float>* list : {&x, &y, &z, &radius, &size}) list->resize(padded);
+  grow_to(padded, x, y, z, radius, size);
   for (std::size_t cell = 0; cell < balls.size(); ++cell) {
     const Vec3f& center = balls[cell].center;
     x[cell] = center.x;
@@ -109,7 +110,7 @@ CellBalls::CellBalls(std::span<const geom::Ball> balls) {
 }
 
 std::size_t CellBalls::capacity_bytes() const {
-  return 5 * x.capacity() * sizeof(float);
+  return bytes_of(x, y, z, radius, size);
 }
 
 void find_touched_cells(const geom::SphericalCone& cone, const CellBalls& cells, std::span<const CellRun> runs,

@@ -74,8 +74,7 @@ void SpotCells::grow() {
   const std::size_t size = 2 * spot.size() + 4 * k_most_lanes;
   check_pair_count(size);
   check_memory("cells of spots", size, sizeof(SpotCell) + sizeof(Touch));
-  for (std::vector<std::uint32_t>* list : {&spot, &slice, &row, &column, &end_column}) list->resize(size);
-  touch.resize(size);
+  grow_to(size, spot, slice, row, column, end_column, touch);
 }
 
 void SpotCells::pad() {

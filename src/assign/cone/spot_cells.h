@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "assign/rows/slice_rows.h"
+#include "core/arrays.h"
 #include "view/frame.h"
 
 namespace clusterbench::assign {
@@ -36,7 +37,7 @@ struct SpotCells {
   // What a whole vector reads beyond the end must be indices that exist.
   void pad();
   SpotCell at(std::uint32_t pair) const { return {spot[pair], slice[pair], row[pair], column[pair], end_column[pair]}; }
-  std::size_t capacity_bytes() const { return spot.capacity() * (sizeof(SpotCell) + sizeof(Touch)); }
+  std::size_t capacity_bytes() const { return bytes_of(spot, slice, row, column, end_column, touch); }
 };
 
 // What the pairs are made of: lights, sides of columns (x / depth), slopes of rows from the top, depths of slices. As

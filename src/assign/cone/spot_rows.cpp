@@ -204,8 +204,7 @@ void SpotSlices::make_room() {
   const std::size_t size = 2 * spot.size() + 4 * k_most_lanes;
   check_pair_count(size);
   check_memory("spots in slices", size, 2 * sizeof(std::uint32_t));
-  spot.resize(size);
-  slice.resize(size);
+  grow_to(size, spot, slice);
 }
 
 void SpotRows::add(const SpotCell& columns, std::uint8_t what_is_known) {
@@ -222,14 +221,11 @@ void SpotRows::add(const SpotCell& columns, std::uint8_t what_is_known) {
 void SpotRows::make_room(std::size_t rows) {
   const std::size_t listed = rows + 2 * k_most_lanes, all = count + listed;
   check_pair_count(all);
-  for (std::vector<std::int32_t>* list : {&listed_slice, &listed_row})
-    if (list->size() < listed) list->resize(listed);
+  grow_to(listed, listed_slice, listed_row);
   if (known.size() >= all) return;
   const std::size_t size = std::max(all, 2 * known.size());
   check_memory("rows of spots", size, 5 * sizeof(std::uint32_t) + sizeof(std::uint8_t));
-  for (std::vector<std::uint32_t>* list : {&spot, &slice, &row}) list->resize(size);
-  for (std::vector<std::int32_t>* list : {&first, &last}) list->resize(size);
-  known.resize(size);
+  grow_to(size, spot, slice, row, first, last, known);
 }
 
 void find_spot_rows(const SpotsAndPlanes& from, const RowPlanes& planes, SpotSlices& slices, SpotRows& out) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "assign/cone/spot_cells.h"
+#include "core/arrays.h"
 
 namespace clusterbench::assign {
 
@@ -27,7 +28,7 @@ struct SpotSlices {
     slice[count++] = of_slice;
   }
   void make_room();
-  std::size_t capacity_bytes() const { return 2 * spot.capacity() * sizeof(std::uint32_t); }
+  std::size_t capacity_bytes() const { return bytes_of(spot, slice); }
 };
 
 // The rows that spots in slices can touch, in the order of these and from the top: no other row is touched. Of each the
@@ -47,7 +48,7 @@ struct SpotRows {
   void add(const SpotCell& columns, std::uint8_t what_is_known);
   void make_room(std::size_t rows);
   std::size_t capacity_bytes() const {
-    return known.capacity() + (5 * spot.capacity() + 2 * listed_row.capacity()) * sizeof(std::uint32_t);
+    return bytes_of(spot, slice, row, first, last, known, listed_slice, listed_row);
   }
 };
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "assign/rows/slice_rows.h"
+#include "assign/simd/lanes.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/cone/spot_spheres.cpp"

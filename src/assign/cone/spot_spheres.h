@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "assign/cull/frustum_cull.h"
+#include "core/arrays.h"
 #include "view/frame.h"
 
 namespace clusterbench::assign {
@@ -14,7 +15,7 @@ struct BallArrays {
   std::vector<float> x, y, z, radius;
 
   void resize(std::size_t size);
-  std::size_t capacity_bytes() const { return 4 * x.capacity() * sizeof(float); }
+  std::size_t capacity_bytes() const { return bytes_of(x, y, z, radius); }
 };
 
 // Ball i is that of spot i, larger by these roundoffs: around its cone or, if not `around_cones`, the ball of its

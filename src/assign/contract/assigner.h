@@ -145,6 +145,16 @@ struct AssignerDescriptor {
   bool answers(Answer answer) const;
 };
 
+// For descriptors: what makes a method of its parameters.
+template <class Method>
+std::unique_ptr<ListAssigner> make_list_assigner(const Params& params) {
+  return std::make_unique<Method>(params);
+}
+template <class Method>
+std::unique_ptr<StructureAssigner> make_structure_assigner(const Params& params) {
+  return std::make_unique<Method>(params);
+}
+
 // As the descriptor says, and with no parameter that takes it away.
 bool is_conservative(const AssignerDescriptor& descriptor, const Params& params);
 // How many threads it shares its work among.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "assign/contract/assigner.h"
+#include "core/arrays.h"
 #include "geom/predicates.h"
 
 namespace clusterbench::assign {
@@ -66,7 +67,7 @@ class LightTest {
   void add_row(const TestedLight& light, std::uint32_t first_cell, std::uint32_t count, PairBuffer& pairs,
                std::uint64_t& tests) const;
 
-  std::size_t capacity_bytes() const { return cell_balls_.capacity() * sizeof(geom::Ball); }
+  std::size_t capacity_bytes() const { return bytes_of(cell_balls_); }
 
  private:
   enum class SpotTest { ball, cone_sphere, both };

@@ -40,6 +40,12 @@ struct StorageDescriptor {
   std::unique_ptr<Storage> (*make)(const Params& params);
 };
 
+// For descriptors: what makes a storage of its parameters.
+template <class Kept>
+std::unique_ptr<Storage> make_storage(const Params& params) {
+  return std::make_unique<Kept>(params);
+}
+
 std::span<const StorageDescriptor* const> storage_descriptors();
 const StorageDescriptor* find_storage(const std::string& name);
 std::vector<std::string> storage_names();

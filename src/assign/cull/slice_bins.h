@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "assign/contract/lists.h"
-#include "assign/rows/slice_rows.h"
+#include "assign/simd/lanes.h"
+#include "core/aligned_vector.h"
 #include "core/memory.h"
 
 namespace clusterbench::assign {

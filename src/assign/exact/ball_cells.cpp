@@ -48,10 +48,7 @@ namespace clusterbench::assign {
 HWY_EXPORT(look);
 
 void BallCells::reserve(std::size_t most) {
-  const std::size_t size = most + k_most_lanes;
-  if (touch.size() >= size) return;
-  for (std::vector<std::int32_t>* list : {&light, &slice, &row, &column}) list->resize(size);
-  touch.resize(size);
+  grow_to(most + k_most_lanes, light, slice, row, column, touch);
 }
 
 void look_at_balls(const view::LightArrays& lights, const RowPlanes& planes, BallCells& cells) {

@@ -10,7 +10,7 @@
 
 #include <vector>
 
-#include "assign/rows/row_planes.h"
+#include "assign/cull/row_planes.h"
 #include "view/frame.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -2,12 +2,10 @@
 // The driver of the vector methods: cull, bin by slice, columns of rows, lists. A kernel says which balls have cells
 // and which columns they touch in a row; the rest is the same for frustum, distance, cascade and world grids.
 
-#include <memory>
-
-#include "assign/bounds/bounded_balls.h"
 #include "assign/cone/spot_spheres.h"
 #include "assign/contract/assigner.h"
 #include "assign/contract/light_test.h"
+#include "assign/pipeline/bounded_balls.h"
 #include "assign/pipeline/slice_lists.h"
 
 namespace clusterbench::assign {
@@ -64,10 +62,5 @@ class SliceBySlice final : public ListAssigner {
   BoundedBalls bounded_;
   SliceLists lists_;
 };
-
-template <class Kernel>
-std::unique_ptr<ListAssigner> make_slice_by_slice(const Params& params) {
-  return std::make_unique<SliceBySlice<Kernel>>(params);
-}
 
 }  // namespace clusterbench::assign

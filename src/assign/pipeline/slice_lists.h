@@ -7,11 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "assign/bounds/bounds_rows.h"
 #include "assign/cone/cone_spheres.h"
 #include "assign/contract/light_test.h"
 #include "assign/cull/slice_bins.h"
 #include "assign/lists/list_builder.h"
+#include "assign/pipeline/bounded_balls.h"
+#include "assign/rows/slice_rows.h"
+#include "core/arrays.h"
 #include "core/error.h"
 
 namespace clusterbench::assign {
@@ -65,8 +67,7 @@ class SliceLists {
   std::uint64_t tests_done() const { return tests_; }
   std::size_t capacity_bytes() const {
     return spans_.capacity_bytes() + slice_bins_.capacity_bytes() + cells_.capacity_bytes() +
-           batch_.columns.capacity() * sizeof(std::uint32_t) + runs_.capacity() * sizeof(CellRun) +
-           touched_.capacity() * sizeof(std::uint64_t);
+           bytes_of(batch_.columns, runs_, touched_);
   }
 
  private:

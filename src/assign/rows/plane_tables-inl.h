@@ -8,7 +8,7 @@
 #define CLUSTERBENCH_PLANE_TABLES_INL_H
 #endif
 
-#include "assign/rows/row_planes.h"
+#include "assign/cull/row_planes.h"
 #include "assign/simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -16,8 +16,8 @@
 #include <span>
 
 #include "assign/cull/frustum_cull.h"
+#include "assign/cull/row_planes.h"
 #include "assign/lists/list_builder.h"
-#include "assign/rows/row_planes.h"
 #include "assign/rows/sphere_setup.h"
 #include "core/aligned_vector.h"
 

@@ -48,10 +48,6 @@ class Bitfield final : public Storage {
   std::vector<std::uint32_t> words_;
 };
 
-std::unique_ptr<Storage> make(const Params& params) {
-  return std::make_unique<Bitfield>(params);
-}
-
 }  // namespace
 
 extern const StorageDescriptor bitfield_descriptor;
@@ -60,7 +56,7 @@ const StorageDescriptor bitfield_descriptor{
     .summary = "one bit per light and cell, in words of 32 bits; entries are words",
     .source = "Humus, Clustered Shading 2015; per tile: Drobot 2017, flat bit array",
     .params = {},
-    .make = make,
+    .make = make_storage<Bitfield>,
 };
 
 }  // namespace clusterbench::assign

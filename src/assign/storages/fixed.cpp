@@ -74,10 +74,6 @@ class Fixed final : public Storage {
   IndexArray indices_;
 };
 
-std::unique_ptr<Storage> make(const Params& params) {
-  return std::make_unique<Fixed>(params);
-}
-
 }  // namespace
 
 extern const StorageDescriptor fixed_descriptor;
@@ -95,7 +91,7 @@ const StorageDescriptor fixed_descriptor{
                 .max = 65535.0,
                 .choices = {},
                 .whole = true}},
-    .make = make,
+    .make = make_storage<Fixed>,
 };
 
 }  // namespace clusterbench::assign

@@ -109,10 +109,6 @@ class Linked final : public Storage {
   std::vector<bool> is_dropped_;
 };
 
-std::unique_ptr<Storage> make(const Params& params) {
-  return std::make_unique<Linked>(params);
-}
-
 }  // namespace
 
 extern const StorageDescriptor linked_descriptor;
@@ -129,7 +125,7 @@ const StorageDescriptor linked_descriptor{
                 .min = 0.01,
                 .max = 65535.0,
                 .choices = {}}},
-    .make = make,
+    .make = make_storage<Linked>,
 };
 
 }  // namespace clusterbench::assign

@@ -151,10 +151,6 @@ class Packed final : public Storage {
   IndexArray indices_;
 };
 
-std::unique_ptr<Storage> make(const Params& params) {
-  return std::make_unique<Packed>(params);
-}
-
 }  // namespace
 
 extern const StorageDescriptor packed_descriptor;
@@ -173,7 +169,7 @@ const StorageDescriptor packed_descriptor{
                 .standard = std::string("dense"),
                 .unit = "",
                 .choices = {"dense", "sparse"}}},
-    .make = make,
+    .make = make_storage<Packed>,
 };
 
 }  // namespace clusterbench::assign

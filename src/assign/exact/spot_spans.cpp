@@ -1,4 +1,4 @@
-#include "assign/cone/spot_spans.h"
+#include "assign/exact/spot_spans.h"
 
 #include <algorithm>
 #include <cmath>
@@ -79,10 +79,8 @@ void SpotSpans::add_to(int slice, ListBuilder& spans) {
 
 std::size_t SpotSpans::capacity_bytes() const {
   return batches_.capacity_bytes() + slices_.capacity_bytes() + rows_.capacity_bytes() + cells_.capacity_bytes() +
-         closer_.capacity_bytes() + uncertain_.capacity() * sizeof(std::uint32_t) +
-         closer_cells_.capacity() * sizeof(std::uint32_t) + spans_.capacity() * sizeof(Span) +
-         ends_.capacity() * sizeof(Ends) + waiting_.capacity() * sizeof(std::uint32_t) +
-         long_.capacity() * sizeof(Long) + runs_.capacity() * sizeof(Run) + touches_.capacity_bytes();
+         closer_.capacity_bytes() + touches_.capacity_bytes() +
+         bytes_of(uncertain_, closer_cells_, spans_, ends_, waiting_, long_, runs_);
 }
 
 // Those of the spots' bounding balls.

@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "assign/cone/spot_rows.h"
-#include "assign/cone/spot_touches.h"
 #include "assign/exact/exact_frame.h"
 #include "assign/exact/exact_rows.h"
+#include "assign/exact/spot_touches.h"
 
 namespace clusterbench::assign {
 

@@ -3,12 +3,19 @@
 
 #include <cstdint>
 
-#include "assign/bounds/cell_bounds.h"
-#include "assign/lists/row_lists.h"
+#include "assign/simd/lanes.h"
 #include "core/aligned_vector.h"
 #include "core/arrays.h"
+#include "geom/vec.h"
 
 namespace clusterbench::assign {
+
+// Cells that are neighbours along all three axes.
+struct CellBox {
+  Vec3i first{0}, last{-1};  // inclusive
+
+  bool empty() const { return first.x > last.x || first.y > last.y || first.z > last.z; }
+};
 
 // Ascending by light. All arrays have room for whole vectors beyond `count`.
 struct BoundedBalls {
@@ -39,6 +46,15 @@ struct BoundedBalls {
     return bytes_of(x, y, depth, radius, light, first_column, last_column, first_row, last_row, first_slice, last_slice,
                     low_x, high_x, low_y, high_y, box_radius, ball_radius);
   }
+};
+
+// One batch: indices in `bounded`, from which a whole vector can be read; `count` of them, at most balls_per_batch(),
+// are wanted. The rows of lights from `first_uncertain` on are all marked as uncertain: there is more to test.
+struct BallBatch {
+  const BoundedBalls& bounded;
+  int slice;
+  const std::uint32_t* balls;
+  std::uint32_t count, first_uncertain;
 };
 
 }  // namespace clusterbench::assign

@@ -1,11 +1,11 @@
-#include "assign/rows/shell_rows.h"
+#include "assign/distance/shell_rows.h"
 
 #include <cmath>
 
-#include "assign/rows/shells.h"
+#include "assign/distance/shells.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "assign/rows/shell_rows.cpp"
+#define HWY_TARGET_INCLUDE "assign/distance/shell_rows.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
 #include <hwy/highway.h>
 
@@ -307,9 +307,7 @@ ShellPlanes::ShellPlanes(const grid::ScreenGrid& grid) : boundaries(grid), slope
 }
 
 std::size_t ShellPlanes::capacity_bytes() const {
-  const std::size_t floats = boundaries.columns.boundaries.capacity() + boundaries.rows.boundaries.capacity() +
-                             boundaries.depths.capacity() + slope.capacity();
-  return floats * sizeof(float) + stretch.capacity() * sizeof(double);
+  return bytes_of(boundaries.columns.boundaries, boundaries.rows.boundaries, boundaries.depths, slope, stretch);
 }
 
 void find_shells(const ShellPlanes& planes, const GivenBalls& balls, float roundoffs, BoundedBalls& bounded) {

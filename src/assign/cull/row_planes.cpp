@@ -1,4 +1,4 @@
-#include "assign/rows/row_planes.h"
+#include "assign/cull/row_planes.h"
 
 #include <algorithm>
 #include <bit>
@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "assign/cull/frustum_cull.h"
-#include "assign/lists/list_builder.h"
+#include "assign/simd/lanes.h"
 
 namespace clusterbench::assign {
 namespace {

@@ -1,4 +1,4 @@
-#include "assign/cone/spot_touches.h"
+#include "assign/exact/spot_touches.h"
 
 #include <algorithm>
 
@@ -6,7 +6,7 @@
 #include "geom/bounded.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "assign/cone/spot_touches.cpp"
+#define HWY_TARGET_INCLUDE "assign/exact/spot_touches.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
 #include <hwy/highway.h>
 

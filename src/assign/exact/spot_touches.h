@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "assign/cone/spot_cells.h"
-#include "assign/rows/row_planes.h"
+#include "assign/cull/row_planes.h"
 #include "grid/index_range.h"
 
 namespace clusterbench::assign {
