@@ -16,24 +16,9 @@ bool lies_within(const Vec3f& point, const Vec3i& cells) {
 
 }  // namespace
 
-float CascadesGrid::edge_m(int level) const {
-  return std::ldexp(finest_m, level);
-}
-
 bool CascadesGrid::is_hole(int level, Vec3i cell) const {
   return level > 0 && cell.x >= cells.x / 4 && cell.x < 3 * cells.x / 4 && cell.y >= cells.y / 4 &&
          cell.y < 3 * cells.y / 4 && cell.z < cells.z / 2;
-}
-
-geom::Cell CascadesGrid::cell(Vec3i at) const {
-  const int level = at.z / cells.z;
-  const float edge = edge_m(level);
-  // Whole multiples of a power of two times `finest`: the same real boundary rounds to the same float on every level.
-  const auto times = [edge](int n) { return static_cast<float>(n) * edge; };
-  const int left = at.x - cells.x / 2;
-  const int top = cells.y / 2 - at.y;
-  const int depth = at.z % cells.z;
-  return geom::Box{{times(left), times(top - 1), -times(depth + 1)}, {times(left + 1), times(top), -times(depth)}};
 }
 
 std::int64_t CascadesGrid::lookup(const Sample& sample, Log2) const {

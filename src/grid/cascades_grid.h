@@ -1,6 +1,8 @@
 #pragma once
 // Cascades: boxes around the eye, each level twice as coarse and as wide as the one before.
 
+#include <cmath>
+
 #include "geom/shapes.h"
 #include "grid/cells.h"
 #include "grid/grid_spec.h"
@@ -25,6 +27,22 @@ struct CascadesGrid {
   geom::Cell cell(Vec3i at) const;
   std::int64_t lookup(const Sample& sample, Log2 way) const;
 };
+
+// Inline, since methods and truth ask for every cell.
+inline float CascadesGrid::edge_m(int level) const {
+  return std::ldexp(finest_m, level);
+}
+
+inline geom::Cell CascadesGrid::cell(Vec3i at) const {
+  const int level = at.z / cells.z;
+  const float edge = edge_m(level);
+  // Whole multiples of a power of two times `finest`: the same real boundary rounds to the same float on every level.
+  const auto times = [edge](int n) { return static_cast<float>(n) * edge; };
+  const int left = at.x - cells.x / 2;
+  const int top = cells.y / 2 - at.y;
+  const int depth = at.z % cells.z;
+  return geom::Box{{times(left), times(top - 1), -times(depth + 1)}, {times(left + 1), times(top), -times(depth)}};
+}
 
 // Throws Error (where = configuration key) for what cannot be.
 CascadesGrid make_cascades_grid(const GridSpec& spec, const GridInputs& inputs);

@@ -27,16 +27,6 @@ std::vector<float> world_planes(double lo, double hi, double origin, int count) 
 
 }  // namespace
 
-Vec3i WorldGrid::counts() const {
-  const auto count = [](const std::vector<float>& planes) { return static_cast<int>(planes.size()) - 1; };
-  return {count(x), count(y), count(z)};
-}
-
-geom::Cell WorldGrid::cell(Vec3i at) const {
-  const auto i = static_cast<std::size_t>(at.x), j = static_cast<std::size_t>(at.y), k = static_cast<std::size_t>(at.z);
-  return geom::Box{{x[i], y[j], z[k]}, {x[i + 1], y[j + 1], z[k + 1]}};
-}
-
 std::int64_t WorldGrid::lookup(const Sample& sample, Log2) const {
   const Vec3i cells = counts();
   Vec3i at{0};

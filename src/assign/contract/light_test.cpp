@@ -52,7 +52,8 @@ void LightTest::start_frame(const view::LightArrays& lights) const {
 
 geom::Ball LightTest::ball(const view::LightArrays& lights, std::uint32_t light, float roundoffs) const {
   const float all = padding(roundoffs);
-  return balls_are_around_cones() ? lights.bounding_ball(light, all) : lights.ball(light, all);
+  if (!lights.is_spot(light) || !balls_are_around_cones()) return lights.ball(light, all);
+  return lights.bounding_ball(light, all);
 }
 
 TestedLight LightTest::tested(const view::LightArrays& lights, std::uint32_t light) const {
