@@ -188,7 +188,7 @@ void store(benchmark::State& state, const char* name) {
   const assign::StorageDescriptor* row = assign::find_storage(name);
   const auto storage = row->make(assign::Params(row->params));
   const assign::Lists lists = random_lists();
-  storage->start(cell_total(), k_lights, 0);
+  storage->start(cell_total(), {k_lights, 0});
   for (auto _ : state) {
     storage->store(lists);
     benchmark::ClobberMemory();

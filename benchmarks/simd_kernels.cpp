@@ -23,10 +23,10 @@
 #include "assign/cone/spot_spheres.h"
 #include "assign/contract/assigner.h"
 #include "assign/cull/slice_bins.h"
+#include "assign/distance/shell_rows.h"
 #include "assign/exact/exact_frame.h"
 #include "assign/lists/list_builder.h"
 #include "assign/lists/row_lists.h"
-#include "assign/rows/shell_rows.h"
 #include "assign/rows/slice_rows.h"
 #include "assign/storages/list_forms.h"
 #include "benchmarks.h"
@@ -72,20 +72,20 @@ Setting open_world() {
 assign::VisibleBalls visible_in(const Setting& setting, const assign::RowPlanes& planes) {
   assign::VisibleBalls visible;
   visible.reserve(setting.lights.size());
-  assign::see_balls(planes, assign::given_points(setting.lights), 0, visible);
+  assign::cull_balls(planes, assign::given_points(setting.lights), visible);
   return visible;
 }
 
-void see_balls(State& state) {
+void cull_balls(State& state) {
   const Setting setting = hall();
   const assign::RowPlanes planes(setting.grid.screen());
   assign::VisibleBalls visible = visible_in(setting, planes);
   for (auto _ : state) {
     visible.count = 0;
-    assign::see_balls(planes, assign::given_points(setting.lights), 0, visible);
+    assign::cull_balls(planes, assign::given_points(setting.lights), visible);
     benchmark::ClobberMemory();
   }
-  items(state, setting.lights.points);
+  items(state, setting.lights.points.count);
 }
 
 void find_screen_bounds(State& state) {
@@ -93,11 +93,11 @@ void find_screen_bounds(State& state) {
   const assign::RowPlanes planes(setting.grid.screen());
   const assign::BoxPlanes box_planes(setting.grid.screen());
   const assign::VisibleBalls visible = visible_in(setting, planes);
-  assign::BoxedBalls boxed;
-  boxed.reserve(setting.lights.size());
+  assign::BoundedBalls bounded;
+  bounded.reserve(setting.lights.size());
   for (auto _ : state) {
-    boxed.count = 0;
-    assign::find_screen_bounds(box_planes, visible, 0, assign::given_points(setting.lights), 0, {8.0f, 8.0f}, boxed);
+    bounded.count = 0;
+    assign::find_screen_bounds(box_planes, visible, 0, assign::given_points(setting.lights), {8.0f, 8.0f}, bounded);
     benchmark::ClobberMemory();
   }
   items(state, visible.count);
@@ -106,37 +106,37 @@ void find_screen_bounds(State& state) {
 void find_box_ranges(State& state) {
   const Setting setting = make_setting(own_scene("hall-512"), kind_spec(grid::Kind::world), 0.5);
   const assign::RangeAxes axes(assign::box_levels(setting.grid).front());
-  assign::BoxedBalls boxed;
-  boxed.reserve(setting.lights.size());
+  assign::BoundedBalls bounded;
+  bounded.reserve(setting.lights.size());
   for (auto _ : state) {
-    boxed.count = 0;
-    assign::find_box_ranges(axes, assign::given_points(setting.lights), 0, 8.0f, boxed);
+    bounded.count = 0;
+    assign::find_box_ranges(axes, assign::given_points(setting.lights), 8.0f, bounded);
     benchmark::ClobberMemory();
   }
-  items(state, setting.lights.points);
+  items(state, setting.lights.points.count);
 }
 
 void find_shells(State& state) {
   const Setting setting = make_setting(own_scene("hall-512"), kind_spec(grid::Kind::distance), 0.5);
   const assign::ShellPlanes planes(setting.grid.screen());
-  assign::BoxedBalls boxed;
-  boxed.reserve(setting.lights.size());
+  assign::BoundedBalls bounded;
+  bounded.reserve(setting.lights.size());
   for (auto _ : state) {
-    boxed.count = 0;
-    assign::find_shells(planes, assign::given_points(setting.lights), 0, 8.0f, boxed);
+    bounded.count = 0;
+    assign::find_shells(planes, assign::given_points(setting.lights), 8.0f, bounded);
     benchmark::ClobberMemory();
   }
-  items(state, setting.lights.points);
+  items(state, setting.lights.points.count);
 }
 
 void find_spot_balls(State& state) {
   const Setting setting = open_world();
   assign::BallArrays balls;
   for (auto _ : state) {
-    assign::find_spot_balls(setting.lights, view::k_given_roundings, true, balls);
+    assign::find_spot_balls(setting.lights, view::k_given_roundoffs, true, balls);
     benchmark::ClobberMemory();
   }
-  items(state, setting.lights.spots);
+  items(state, setting.lights.spots.count);
 }
 
 // --- Rows: items are rows of single balls ---
@@ -183,16 +183,16 @@ template <class Find>
 void bounds_rows(State& state, const Setting& setting, Find&& find) {
   const assign::RowPlanes planes(setting.grid.screen());
   const assign::VisibleBalls visible = visible_in(setting, planes);
-  assign::BoxedBalls boxed;
-  boxed.reserve(setting.lights.size());
+  assign::BoundedBalls bounded;
+  bounded.reserve(setting.lights.size());
   assign::find_screen_bounds(assign::BoxPlanes(setting.grid.screen()), visible, 0, assign::given_points(setting.lights),
-                             0, {8.0f, 8.0f}, boxed);
+                             {8.0f, 8.0f}, bounded);
   assign::SliceBins balls;
-  balls.sort(boxed, planes.slices);
+  balls.sort(bounded, planes.slices);
   assign::BatchRows rows;
   each_batch(state, balls, planes.slices, assign::balls_per_batch(),
              [&](int slice, const std::uint32_t* batch, std::uint32_t count) {
-               find(assign::BallBatch{boxed, slice, batch, count, setting.lights.size()}, rows);
+               find(assign::BallBatch{bounded, slice, batch, count, setting.lights.size()}, rows);
                return rows.tests;
              });
 }
@@ -226,15 +226,15 @@ void find_box_rows(State& state) {
 void find_shell_rows(State& state) {
   const Setting setting = make_setting(own_scene("hall-512"), kind_spec(grid::Kind::distance), 0.5);
   const assign::ShellPlanes planes(setting.grid.screen());
-  assign::BoxedBalls boxed;
-  boxed.reserve(setting.lights.size());
-  assign::find_shells(planes, assign::given_points(setting.lights), 0, 8.0f, boxed);
+  assign::BoundedBalls bounded;
+  bounded.reserve(setting.lights.size());
+  assign::find_shells(planes, assign::given_points(setting.lights), 8.0f, bounded);
   assign::SliceBins balls;
-  balls.sort(boxed, setting.grid.cells().z);
+  balls.sort(bounded, setting.grid.cells().z);
   assign::BatchRows rows;
   each_batch(state, balls, setting.grid.cells().z, assign::balls_per_batch(),
              [&](int slice, const std::uint32_t* batch, std::uint32_t count) {
-               assign::find_shell_rows(planes, {boxed, slice, batch, count, setting.lights.size()}, rows);
+               assign::find_shell_rows(planes, {bounded, slice, batch, count, setting.lights.size()}, rows);
                return rows.tests;
              });
 }
@@ -245,10 +245,10 @@ void find_spot_rows(State& state) {
   const assign::RowPlanes planes(setting.grid.screen());
   const assign::SpotsAndPlanes from{&setting.lights, planes.side.data(), planes.slope.data(), planes.depth.data()};
   assign::BallArrays around;
-  assign::find_spot_balls(setting.lights, view::k_given_roundings, true, around);
+  assign::find_spot_balls(setting.lights, view::k_given_roundoffs, true, around);
   assign::VisibleBalls visible;
-  visible.reserve(setting.lights.spots);
-  assign::see_balls(planes, assign::given_spots(setting.lights, around), 0, visible);
+  visible.reserve(setting.lights.spots.count);
+  assign::cull_balls(planes, assign::given_spots(setting.lights, around), visible);
   assign::SliceBins balls;
   balls.sort(visible, planes.slices);
   assign::SpotSlices slices;
@@ -269,9 +269,9 @@ void find_spot_rows(State& state) {
 assign::SpotCells some_spot_cells(const Setting& setting, int slice) {
   assign::SpotCells cells;
   const Vec3i size = setting.grid.cells();
-  for (std::uint32_t spot = 0; spot < setting.lights.spots; ++spot) {
+  for (std::uint32_t spot = 0; spot < setting.lights.spots.count; ++spot) {
     const view::LightArrays& lights = setting.lights;
-    const std::uint32_t light = lights.points + spot;
+    const std::uint32_t light = lights.spots.first + spot;
     const float depth = -lights.z[light];
     if (depth + lights.radius[light] < setting.grid.screen().slices.boundaries[static_cast<std::size_t>(slice)])
       continue;
@@ -310,7 +310,7 @@ void look_thoroughly(State& state) {
 }
 
 // Every spot against a row of cells in each slice.
-void find_lit_cells(State& state) {
+void find_touched_cells(State& state) {
   const Setting setting = open_world();
   const Vec3i size = setting.grid.cells();
   std::vector<geom::Ball> balls;
@@ -323,11 +323,11 @@ void find_lit_cells(State& state) {
     runs.push_back({row, 0, static_cast<std::uint32_t>((slice * size.y + size.y / 2) * size.x), columns});
   std::vector<std::uint64_t> lit;
   for (auto _ : state)
-    for (std::uint32_t spot = setting.lights.points; spot < setting.lights.size(); ++spot) {
-      assign::find_lit_cells(setting.lights.cone(spot, 8.0f), cells, runs, lit);
+    for (std::uint32_t spot = setting.lights.spots.first; spot < setting.lights.size(); ++spot) {
+      assign::find_touched_cells(setting.lights.cone(spot, 8.0f), cells, runs, lit);
       benchmark::ClobberMemory();
     }
-  items(state, std::uint64_t{setting.lights.spots} * runs.size() * columns);
+  items(state, std::uint64_t{setting.lights.spots.count} * runs.size() * columns);
 }
 
 // --- Lists: items are pairs ---
@@ -500,7 +500,7 @@ struct Kernel {
 };
 
 constexpr Kernel k_kernels[] = {
-    {"see_balls", see_balls},
+    {"cull_balls", cull_balls},
     {"find_screen_bounds", find_screen_bounds},
     {"find_box_ranges", find_box_ranges},
     {"find_shells", find_shells},
@@ -515,7 +515,7 @@ constexpr Kernel k_kernels[] = {
     {"look_approaching", look_approaching},
     {"look_closer", look_closer},
     {"look_thoroughly", look_thoroughly},
-    {"find_lit_cells", find_lit_cells},
+    {"find_touched_cells", find_touched_cells},
 };
 
 struct ListKernel {

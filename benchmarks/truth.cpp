@@ -33,7 +33,7 @@ void find(benchmark::State& state, const std::string& name, grid::Kind kind) {
   state.counters["pairs"] = pairs;
 }
 
-// Spots that the filter leaves open against cells, on a lattice or moved off it by roundings.
+// Spots that the filter leaves open against cells, on a lattice or moved off it by roundoffs.
 std::vector<std::pair<geom::LightVolume, geom::Cell>> open_spots(const std::string& kind, bool on_lattice) {
   SplitMix64 random(5);
   const auto whole = [&](int lo, int hi) { return lo + static_cast<double>(random.below(std::uint64_t(hi - lo + 1))); };

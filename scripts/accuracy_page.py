@@ -101,8 +101,8 @@ def search():
     for one in found["searches"]:
         if one["method"] in conservative:
             rows.append([f"`{one['method']}`", f"{one['tries']:,}", str(one["misses"]),
-                         f"{one['least_margin_roundings']:g}"])
-    return table(["conservative method", "tries", "lost", "least margin found, roundings"], rows)
+                         f"{one['least_margin_roundoffs']:g}"])
+    return table(["conservative method", "tries", "lost", "least margin found, roundoffs"], rows)
 
 
 text = page.read_text()

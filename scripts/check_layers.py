@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Checks the structure that CONTRIBUTING.md describes: scripts/check_layers.py [ROOT].
 
-Fails on an #include against the order of layers, on a library included outside of its one home, on a file of
+Fails on an #include against the order of layers, or of the folders of src/assign, on a library included outside of its one home, on a file of
 src/assign/assigners without its line in registry.inc (or a line without its file), and on a circle of includes.
 """
 import pathlib
@@ -10,6 +10,13 @@ import sys
 
 # A file includes only its own layer and those before it.
 LAYERS = ["core", "geom", "scene", "view", "grid", "assign", "measure", "config", "run", "stress", "report", "cli"]
+
+# The same for the folders of a layer; files beside them are bound by nothing. Those that stand side by side do not include
+# each other.
+FOLDERS = {
+    "assign": [["contract", "simd"], ["lists"], ["cull"], ["rows"], ["cone"], ["pipeline"], ["bounds"],
+               ["box_grid", "distance", "exact", "storages"], ["assigners"]],
+}
 
 # Library header -> the only layers that include it.
 HOMES = {
@@ -44,6 +51,22 @@ def layer_faults(name, layer, file_includes):
         for library, homes in HOMES.items():
             if included.startswith(library) and layer not in homes:
                 yield f"{name}: includes {included}, whose home is {' and '.join(homes)}"
+
+
+def floor_of(layer, folder):
+    return next((i for i, floor in enumerate(FOLDERS[layer]) if folder in floor), None)
+
+
+def folder_faults(name, layer, folder, file_includes):
+    for kind, included in file_includes:
+        parts = included.split("/")
+        if kind != '"' or parts[0] != layer or len(parts) < 3 or parts[1] == folder:
+            continue
+        here, there = floor_of(layer, folder), floor_of(layer, parts[1])
+        if here is None or there is None:
+            yield f"{name}: includes {included}, but {folder if here is None else parts[1]} is no folder of {layer} that FOLDERS knows"
+        elif there >= here:
+            yield f"{name}: includes {included}, but {layer}/{folder} is not above {layer}/{parts[1]}"
 
 
 def registry_faults(src):
@@ -88,6 +111,8 @@ def faults(root):
         file_includes = includes_of(path)
         graph[str(relative)] = [name for kind, name in file_includes if kind == '"']
         yield from layer_faults(f"src/{relative}", layer, file_includes)
+        if layer in FOLDERS and len(relative.parts) > 2:
+            yield from folder_faults(f"src/{relative}", layer, relative.parts[1], file_includes)
     yield from circle_faults(graph)
     yield from registry_faults(src)
 

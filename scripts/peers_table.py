@@ -13,7 +13,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 UNIT = "brute-force"
 # Fast methods with the algorithm and the arithmetic of their reference; others have its lists only.
-TWINS = {"bounds-fast", "sphere-refinement-fast"}
+SIMD_VARIANTS = {"bounds-fast", "sphere-refinement-fast"}
 
 
 def rounds(case):
@@ -73,7 +73,7 @@ def error(case, _):
     return f"{100 * excess:.1f} % / {case['error']['false_negatives']}"
 
 
-def twin(case, cases):
+def variant(case, cases):
     name = case["assigner"]["name"]
     reference = cases.get(name.removesuffix("-fast"))
     if reference is None or reference is case:
@@ -82,13 +82,13 @@ def twin(case, cases):
     return f"{short(ratio)}× ({short(low)}–{short(high)})"
 
 
-def twin_table(workloads):
+def variant_table(workloads):
     """Fast methods by how many times faster than their references they are."""
     fast = {name: {k: c for k, c in cases.items() if k.endswith("-fast") or k.removesuffix("-fast") + "-fast" in cases}
             for name, cases in workloads.items()}
-    lines = [line for line in table(fast, twin).splitlines() if re.search(r"\d|---|^\| \| ", line.split("|", 2)[-1])]
+    lines = [line for line in table(fast, variant).splitlines() if re.search(r"\d|---|^\| \| ", line.split("|", 2)[-1])]
     names = [re.match(r"\| `([^`]+)` ", line) for line in lines]
-    return "\n".join(line if name is None or name[1] in TWINS else line.replace("` |", "`, another algorithm |", 1)
+    return "\n".join(line if name is None or name[1] in SIMD_VARIANTS else line.replace("` |", "`, another algorithm |", 1)
                      for line, name in zip(lines, names))
 
 
@@ -109,7 +109,7 @@ def main():
     put(performance, "peers-speed", table(workloads, speed))
     put(performance, "peers-cost", table(workloads, cost))
     put(performance, "peers-error", table(workloads, error))
-    put(performance, "peers-twins", twin_table(workloads))
+    put(performance, "peers-variants", variant_table(workloads))
 
 
 if __name__ == "__main__":

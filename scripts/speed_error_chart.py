@@ -14,7 +14,7 @@ COLOURS = {  # Okabe and Ito's palette
 
 
 def mark(name, x, y, title=""):
-    """A disc in the method's colour; of a fast twin a ring in its reference's."""
+    """A disc in the method's colour; of a SIMD variant a ring in its reference's."""
     colour = COLOURS.get(name.removesuffix("-fast"), "#333")
     paint = f'fill="white" stroke="{colour}" stroke-width="3"' if name.endswith("-fast") else f'fill="{colour}"'
     radius = 5 if name.endswith("-fast") else 6

@@ -2,19 +2,13 @@
 
 #include <algorithm>
 
+#include "config/grid_json.h"
 #include "core/error.h"
 
 namespace clusterbench::config {
 namespace {
 
 using Json = nlohmann::json;
-
-constexpr std::pair<const char*, grid::Scheme> k_schemes[] = {{"linear", grid::Scheme::linear},
-                                                              {"exponential", grid::Scheme::exponential},
-                                                              {"exponential-first", grid::Scheme::exponential_first},
-                                                              {"power", grid::Scheme::power},
-                                                              {"list", grid::Scheme::list},
-                                                              {"fit", grid::Scheme::fit}};
 
 // A key that can be an axis, and how deep lists are nested in a single value of it.
 struct Axis {
@@ -69,59 +63,12 @@ std::vector<Json> expanded(const Json& grid) {
   return out;
 }
 
-double metres(const Json& slices, const char* key) {
-  return slices.contains(key) && slices[key].is_number() ? slices[key].get<double>() : 0.0;
-}
-
-grid::Slicing slicing_of(const Json& slices) {
-  grid::Slicing out;
-  const std::string name = slices["scheme"].get<std::string>();
-  out.scheme = std::find_if(std::begin(k_schemes), std::end(k_schemes), [&](const auto& row) {
-                 return name == row.first;
-               })->second;
-  out.near_m = metres(slices, "near");
-  out.far_m = metres(slices, "far");
-  if (slices.contains("first")) out.first_m = metres(slices, "first");
-  if (slices.contains("lambda")) out.lambda = slices["lambda"].get<double>();
-  if (slices.contains("boundaries")) out.boundaries_m = slices["boundaries"].get<std::vector<double>>();
-  out.count = slices.contains("count") ? slices["count"].get<int>() : static_cast<int>(out.boundaries_m.size()) - 1;
-  return out;
-}
-
-grid::Tiling tiling_of(const Json& tiles) {
-  const auto pair = [&](const char* key) {
-    return tiles.contains(key) ? Vec2i{tiles[key][0].get<int>(), tiles[key][1].get<int>()} : Vec2i{0, 0};
-  };
-  return {pair("pixels"), pair("count")};
-}
-
-Vec3d place_of(const Json& list) {
-  return {list[0].get<double>(), list[1].get<double>(), list[2].get<double>()};
-}
-
-grid::GridSpec spec_of(const Json& grid) {
-  grid::GridSpec spec;
-  for (int kind = 0; kind < grid::k_kind_count; ++kind)
-    if (grid["kind"] == grid::kind_name(static_cast<grid::Kind>(kind))) spec.kind = static_cast<grid::Kind>(kind);
-  if (grid.contains("tiles")) spec.tiles = tiling_of(grid["tiles"]);
-  if (grid.contains("slices")) spec.slices = slicing_of(grid["slices"]);
-  if (grid.contains("cells"))
-    spec.cells = {grid["cells"][0].get<int>(), grid["cells"][1].get<int>(), grid["cells"][2].get<int>()};
-  if (grid.contains("levels")) spec.levels = grid["levels"].get<int>();
-  if (grid.contains("finest")) spec.finest_m = grid["finest"].get<double>();
-  if (grid.contains("bounds") && grid["bounds"].is_object()) {
-    spec.has_bounds = true;
-    spec.bounds_lo_m = place_of(grid["bounds"]["min"]);
-    spec.bounds_hi_m = place_of(grid["bounds"]["max"]);
-  }
-  return spec;
-}
-
 void check_slices(const Json& slices, const std::string& pointer, const JsonText& text) {
   const auto fail = [&](const char* key, const std::string& message) {
     throw Error(text.file, text.where(pointer + key), message);
   };
-  const double near = metres(slices, "near"), far = metres(slices, "far"), first = metres(slices, "first");
+  const double near = slices_metres(slices, "near"), far = slices_metres(slices, "far"),
+               first = slices_metres(slices, "first");
   if (near > 0 && far > 0 && near >= far)
     fail("/far", "found " + slices["far"].dump() + ", allowed: a number above near, " + slices["near"].dump());
   if (first > 0 && near >= first)
@@ -161,11 +108,6 @@ std::vector<Json> expand_all_axes(const Json& object, const std::set<std::string
   return all;
 }
 
-const char* scheme_name(grid::Scheme scheme) {
-  return std::find_if(std::begin(k_schemes), std::end(k_schemes), [&](const auto& row) { return scheme == row.second; })
-      ->first;
-}
-
 std::vector<grid::GridSpec> grid_specs(const Json& grids, const JsonText& text) {
   std::vector<grid::GridSpec> out;
   std::vector<Json> seen;
@@ -180,7 +122,7 @@ std::vector<grid::GridSpec> grid_specs(const Json& grids, const JsonText& text) 
       if (std::find(seen.begin(), seen.end(), single) != seen.end())
         throw Error(text.file, text.where(pointer), "this grid stands here twice: " + single.dump());
       seen.push_back(single);
-      out.push_back(spec_of(single));
+      out.push_back(grid_spec(single));
     }
   }
   return out;

@@ -1,5 +1,5 @@
 #pragma once
-// Grids of a configuration: axes expanded into their product, keys into specs.
+// Grids of a configuration: axes expanded into their product.
 
 #include <nlohmann/json.hpp>
 #include <set>
@@ -18,7 +18,5 @@ std::vector<grid::GridSpec> grid_specs(const nlohmann::json& grids, const JsonTe
 // An object whose members are single values or lists of them: every combination, the last key fastest. A single value
 // of `triples` is a list of numbers itself.
 std::vector<nlohmann::json> expand_all_axes(const nlohmann::json& object, const std::set<std::string>& triples = {});
-
-const char* scheme_name(grid::Scheme scheme);
 
 }  // namespace clusterbench::config

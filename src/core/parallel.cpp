@@ -54,18 +54,18 @@ int workers(int threads) {
 
 }  // namespace
 
-struct Crew::Arena {
+struct ThreadPool::Arena {
   oneapi::tbb::task_arena workers;
 };
 
-Crew::Crew(int threads) : threads_(threads) {
+ThreadPool::ThreadPool(int threads) : threads_(threads) {
   if (threads > 1) arena_ = std::make_unique<Arena>(Arena{oneapi::tbb::task_arena(workers(threads))});
 }
-Crew::~Crew() = default;
-Crew::Crew(Crew&&) noexcept = default;
-Crew& Crew::operator=(Crew&&) noexcept = default;
+ThreadPool::~ThreadPool() = default;
+ThreadPool::ThreadPool(ThreadPool&&) noexcept = default;
+ThreadPool& ThreadPool::operator=(ThreadPool&&) noexcept = default;
 
-void Crew::each(std::size_t count, const std::function<void(std::size_t i)>& work) {
+void ThreadPool::each(std::size_t count, const std::function<void(std::size_t i)>& work) {
   if (!arena_) {
     for (std::size_t i = 0; i < count; ++i) work(i);
     return;

@@ -13,12 +13,12 @@ void parallel_ranges(std::size_t count, int threads,
                      const std::function<void(std::size_t begin, std::size_t end)>& work);
 
 // Threads that stay, for work that comes again and again and is short.
-class Crew {
+class ThreadPool {
  public:
-  explicit Crew(int threads);
-  ~Crew();
-  Crew(Crew&&) noexcept;
-  Crew& operator=(Crew&&) noexcept;
+  explicit ThreadPool(int threads);
+  ~ThreadPool();
+  ThreadPool(ThreadPool&&) noexcept;
+  ThreadPool& operator=(ThreadPool&&) noexcept;
 
   int threads() const { return threads_; }
   // Calls work(i) for 0 <= i < count, each once, on any thread.

@@ -38,8 +38,9 @@ Reach reach_of(const Slicing& slicing, const SliceRange& range) {
   if (reach.far == 0.0) reach.far = std::isfinite(range.camera_far_m) ? range.camera_far_m : range.light_far_m;
   if (slicing.scheme == Scheme::fit) {
     const double last = std::max(reach.near, reach.far);  // no far is named and all lights end before near
-    const Reach lit{std::clamp(range.light_near_m, reach.near, last), std::clamp(range.light_far_m, reach.near, last)};
-    if (lit.near < lit.far) return lit;
+    const Reach lights{std::clamp(range.light_near_m, reach.near, last),
+                       std::clamp(range.light_far_m, reach.near, last)};
+    if (lights.near < lights.far) return lights;
     reach.far = reach.near < last ? last : reach.near * 2.0 + 1.0;  // no light in view
   }
   return reach;

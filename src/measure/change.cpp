@@ -31,10 +31,10 @@ double log_error(const Interval& ci95) {
 double lower_quartile(std::span<const double> values) {
   std::vector<double> sorted(values.begin(), values.end());
   std::sort(sorted.begin(), sorted.end());
-  const double place = 0.25 * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
+  const double rank = 0.25 * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(rank);
   const double above = sorted[std::min(below + 1, sorted.size() - 1)];
-  return sorted[below] + (place - static_cast<double>(below)) * (above - sorted[below]);
+  return sorted[below] + (rank - static_cast<double>(below)) * (above - sorted[below]);
 }
 
 }  // namespace

@@ -136,7 +136,7 @@ Found tested(std::span<const double> values, Shape shape, double level) {
 }
 
 struct Edge {
-  std::size_t place;
+  std::size_t index;
   double p;
 };
 
@@ -148,11 +148,11 @@ void add_edges(std::span<const double> series, std::size_t begin, std::size_t en
   if (found.p == 1.0) found = tested(values, Shape::excursion, (1.0 - k_share_of_steps) * max_p);
   if (found.p == 1.0) return;
   std::size_t from = begin;
-  for (const std::size_t place : {begin + found.stretch.begin, begin + found.stretch.end}) {
-    add_edges(series, from, place, max_p, edges);
-    if (place == end) return;
-    edges.push_back({place, found.p});
-    from = place;
+  for (const std::size_t index : {begin + found.stretch.begin, begin + found.stretch.end}) {
+    add_edges(series, from, index, max_p, edges);
+    if (index == end) return;
+    edges.push_back({index, found.p});
+    from = index;
   }
   add_edges(series, from, end, max_p, edges);
 }
@@ -161,9 +161,9 @@ void add_edges(std::span<const double> series, std::size_t begin, std::size_t en
 std::vector<ChangePoint> described(std::span<const double> series, const std::vector<Edge>& edges) {
   std::vector<ChangePoint> points;
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    const std::size_t begin = i == 0 ? 0 : edges[i - 1].place, place = edges[i].place;
-    const std::size_t end = i + 1 == edges.size() ? series.size() : edges[i + 1].place;
-    points.push_back({place, mean_of(series.subspan(begin, place - begin)), mean_of(series.subspan(place, end - place)),
+    const std::size_t begin = i == 0 ? 0 : edges[i - 1].index, index = edges[i].index;
+    const std::size_t end = i + 1 == edges.size() ? series.size() : edges[i + 1].index;
+    points.push_back({index, mean_of(series.subspan(begin, index - begin)), mean_of(series.subspan(index, end - index)),
                       edges[i].p});
   }
   return points;

@@ -33,10 +33,10 @@ void add_frame(ErrorCounts& counts, const view::Frame& frame, const grid::Grid& 
                const assign::Lists& reported) {
   for (std::uint32_t cell = 0; cell < truth.lists.cell_count(); ++cell) {
     const auto wanted = truth.lists.of(cell), listed = reported.of(cell);
-    std::size_t place = 0, found = 0;
+    std::size_t next = 0, found = 0;
     for (const std::uint32_t light : wanted) {
-      while (place < listed.size() && listed[place] < light) ++place;
-      if (place < listed.size() && listed[place] == light)
+      while (next < listed.size() && listed[next] < light) ++next;
+      if (next < listed.size() && listed[next] == light)
         ++found;
       else
         add_miss(counts, frame, grid, cell, light);

@@ -13,7 +13,7 @@ struct Miss {
   int frame = 0;
   std::uint32_t cell = 0;
   std::uint32_t light = 0;  // index of the lists
-  int rig_index = -1;       // place in Scene::lights
+  int rig_index = -1;       // index in Scene::lights
   double depth = 0.0;       // 1 - d/r: how far inside its range the light is lost
 };
 

@@ -30,7 +30,7 @@ grid::Sample at_boundary(const view::Frame& frame, const grid::ScreenGrid& grid,
   const float boundary = boundaries[random.below(boundaries.size())];
   constexpr int k_offsets[] = {-16, -4, -2, -1, 0, 1, 2, 4, 16};
   const double along = moved(boundary, k_offsets[random.below(std::size(k_offsets))]);
-  const double depth = grid.kind == grid::Kind::distance ? depth_at_distance(frame, x, y, along) : along;
+  const double depth = grid.by_distance ? depth_at_distance(frame, x, y, along) : along;
   return sample_at(frame, x, y, depth);
 }
 
@@ -49,14 +49,14 @@ void add_at_light_end(const view::Frame& frame, bool by_distance, SplitMix64& ra
   const scene::WorldLight& light = frame.lights[random.below(frame.lights.size())];
   const double side = random.below(2) == 0 ? -1.0 : 1.0;
   if (!std::isfinite(light.range_m)) return;
-  const view::Projection& lens = frame.projection;
+  const view::Projection& projection = frame.projection;
   const Vec3d center = frame.view_space.rotation * (light.position - frame.view_space.origin);
   const Vec3d away = by_distance && glm::length(center) > 0.0 ? glm::normalize(center) : Vec3d(0.0, 0.0, -1.0);
-  const Vec3d place = center + side * (1.0 - 1e-6) * light.range_m * away;
-  const double depth = -place.z, scale = lens.orthographic ? 1.0 : depth;
-  if (!(depth > lens.near_m && depth < lens.far_m)) return;
-  const double pixel_x = (place.x / scale - lens.left) / (lens.right - lens.left) * frame.viewport.x;
-  const double pixel_y = (lens.top - place.y / scale) / (lens.top - lens.bottom) * frame.viewport.y;
+  const Vec3d point = center + side * (1.0 - 1e-6) * light.range_m * away;
+  const double depth = -point.z, scale = projection.orthographic ? 1.0 : depth;
+  if (!(depth > projection.near_m && depth < projection.far_m)) return;
+  const double pixel_x = (point.x / scale - projection.left) / (projection.right - projection.left) * frame.viewport.x;
+  const double pixel_y = (projection.top - point.y / scale) / (projection.top - projection.bottom) * frame.viewport.y;
   if (pixel_x < 0.0 || pixel_y < 0.0 || pixel_x > frame.viewport.x || pixel_y > frame.viewport.y) return;
   samples.push_back(sample_at(frame, pixel_x, pixel_y, depth));
 }
@@ -69,16 +69,14 @@ grid::Sample read_back(const view::Frame& frame, const grid::Sample& sample, Dep
 }
 
 bool takes_logarithm(const grid::Grid& grid) {
-  return (grid.kind() == grid::Kind::frustum || grid.kind() == grid::Kind::distance) &&
-         grid.screen().slices.lookup.form == grid::SliceLookup::Form::log2;
+  return grid.has_tiles() && grid.screen().slices.lookup.form == grid::SliceLookup::Form::log2;
 }
 
 // Where the grid has no cells, no lookup is to blame.
-bool is_beyond(const view::Frame& frame, const grid::Grid& grid, const grid::Sample& place) {
-  if (grid.kind() != grid::Kind::frustum && grid.kind() != grid::Kind::distance) return grid::lookup(grid, place) < 0;
-  const Vec3d local = frame.view_space.rotation * place.from_eye;
-  const double along = grid.kind() == grid::Kind::distance ? glm::length(local) : -local.z;
-  return along > static_cast<double>(grid.screen().slices.boundaries.back());
+bool is_beyond(const view::Frame& frame, const grid::Grid& grid, const grid::Sample& sample) {
+  if (!grid.has_tiles()) return grid::lookup(grid, sample) < 0;
+  const Vec3d local = frame.view_space.rotation * sample.from_eye;
+  return grid.screen().along(local) > static_cast<double>(grid.screen().slices.boundaries.back());
 }
 
 // The ends of what a logarithm may give.
@@ -99,17 +97,17 @@ const char* name_of(DepthRead depth) {
   return k_names[static_cast<int>(depth)];
 }
 
-double read_depth(const view::Projection& lens, DepthRead read, double depth) {
+double read_depth(const view::Projection& projection, DepthRead read, double depth) {
   if (read == DepthRead::given) return static_cast<double>(static_cast<float>(depth));
-  const double near = lens.near_m, far = lens.far_m, clamped = std::clamp(depth, near, far);
+  const double near = projection.near_m, far = projection.far_m, clamped = std::clamp(depth, near, far);
   double stored;
-  if (lens.orthographic)
+  if (projection.orthographic)
     stored = (far - clamped) / (far - near);
   else
     stored = std::isinf(far) ? near / clamped : near * (far - clamped) / ((far - near) * clamped);
   constexpr double k_steps = (1 << 24) - 1;
   stored = read == DepthRead::d24 ? std::round(stored * k_steps) / k_steps : static_cast<float>(stored);
-  if (lens.orthographic) return static_cast<float>(far - stored * (far - near));
+  if (projection.orthographic) return static_cast<float>(far - stored * (far - near));
   // As a shader does it: in single precision, from constants that were rounded once. Nothing stored is the far end.
   if (std::isinf(far)) return static_cast<float>(near) / static_cast<float>(stored);
   const auto scale = static_cast<float>((far - near) / (near * far)), bias = static_cast<float>(1.0 / far);
@@ -118,12 +116,12 @@ double read_depth(const view::Projection& lens, DepthRead read, double depth) {
 
 std::vector<grid::Sample> edge_samples(const view::Frame& frame, const grid::Grid& grid, double far_m, int count,
                                        std::uint64_t seed) {
-  const bool on_screen = grid.kind() == grid::Kind::frustum || grid.kind() == grid::Kind::distance;
+  const bool on_screen = grid.has_tiles(), by_distance = on_screen && grid.screen().by_distance;
   std::vector<grid::Sample> samples = volume_samples(frame, far_m, on_screen ? count / 4 : count * 3 / 4, seed);
   SplitMix64 random(SplitMix64(seed + 77 + static_cast<std::uint64_t>(frame.index)).next());
   const double near = std::max(frame.projection.near_m, 1e-3 * far_m);
   const int in_view = static_cast<int>(samples.size());
-  for (int i = 0; i < count / 4; ++i) add_at_light_end(frame, grid.kind() == grid::Kind::distance, random, samples);
+  for (int i = 0; i < count / 4; ++i) add_at_light_end(frame, by_distance, random, samples);
   for (int i = 0; on_screen && i < count - 2 * in_view; ++i) {
     if (i % 2 == 0) {
       samples.push_back(at_boundary(frame, grid.screen(), random));
@@ -139,9 +137,9 @@ std::vector<grid::Sample> edge_samples(const view::Frame& frame, const grid::Gri
 
 LookupFrame::LookupFrame(const view::Frame& frame, const grid::Grid& grid, const std::vector<LookupWay>& ways,
                          double far_m, int samples, std::uint64_t seed) {
-  std::vector<grid::Sample> places = edge_samples(frame, grid, far_m, samples, seed);
-  std::erase_if(places, [&](const grid::Sample& place) { return is_beyond(frame, grid, place); });
-  reaching_ = lights_reaching(frame, places);
+  std::vector<grid::Sample> samples_at_edges = edge_samples(frame, grid, far_m, samples, seed);
+  std::erase_if(samples_at_edges, [&](const grid::Sample& sample) { return is_beyond(frame, grid, sample); });
+  reaching_ = lights_reaching(frame, samples_at_edges);
   for (const LookupWay& way : ways) {
     Way tried{way, {grid::Log2::rounded}, 0, {}};
     if (takes_logarithm(grid)) {
@@ -149,7 +147,7 @@ LookupFrame::LookupFrame(const view::Frame& frame, const grid::Grid& grid, const
       for (const grid::Log2 end : tried.ends)
         tried.padding = std::max(tried.padding, grid::safe_padding_ulps(grid.screen().slices, end));
     }
-    for (const grid::Sample& place : places) tried.samples.push_back(read_back(frame, place, way.depth));
+    for (const grid::Sample& sample : samples_at_edges) tried.samples.push_back(read_back(frame, sample, way.depth));
     ways_.push_back(std::move(tried));
   }
 }

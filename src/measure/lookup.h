@@ -1,5 +1,5 @@
 #pragma once
-// Does a shader's lookup find every light that reaches the place? Places are drawn at random
+// Does a shader's lookup find every light that reaches the sample? Samples are drawn at random
 // and on purpose at slice boundaries, at the edges of tiles and around lights' ends; the lookup takes its logarithm,
 // and reads its depth, in the ways that shaders do.
 
@@ -35,9 +35,9 @@ struct LookupCounts {
 
 // What the depth buffer gives back of a depth. Reversed: 1 at near, 0 at far (or infinity). Depths in front of near
 // clamp to it. D24 stores the nearest of 2^24 - 1 steps.
-double read_depth(const view::Projection& lens, DepthRead read, double depth);
+double read_depth(const view::Projection& projection, DepthRead read, double depth);
 
-// The samples of one frame, as they are read back in every way. Places beyond the grid's far end are left out.
+// The samples of one frame, as they are read back in every way. Points beyond the grid's far end are left out.
 class LookupFrame {
  public:
   LookupFrame(const view::Frame& frame, const grid::Grid& grid, const std::vector<LookupWay>& ways, double far_m,
@@ -59,7 +59,7 @@ class LookupFrame {
   std::vector<Way> ways_;
 };
 
-// Seeded places in the frame: a quarter as volume_samples; a quarter at slice boundaries and a few ulp beside them; a
+// Seeded samples in the frame: a quarter as volume_samples; a quarter at slice boundaries and a few ulp beside them; a
 // quarter in pixels beside the edges of tiles; a quarter where lights just end, nearest to the eye and farthest from
 // it. Grids of boxes, which have neither slices nor tiles, take more random ones.
 std::vector<grid::Sample> edge_samples(const view::Frame& frame, const grid::Grid& grid, double far_m, int count,

@@ -39,15 +39,15 @@ void PackingLossMeter::add_frame(const view::PackedLights& packed) {
 void PackingLossMeter::add_light(const view::PackedLights& packed, std::uint32_t light) {
   const view::LightArrays& lights = packed.lights;
   const scene::WorldLight& exact = lights.source[light];
-  const Vec3d place{lights.x[light], lights.y[light], lights.z[light]};
-  position_.add(glm::length(place - lights.space.rotation * (exact.position - lights.space.origin)));
+  const Vec3d position{lights.x[light], lights.y[light], lights.z[light]};
+  position_.add(glm::length(position - lights.space.rotation * (exact.position - lights.space.origin)));
   range_.add(static_cast<double>(lights.radius[light]) - exact.range_m);
   inflation_.add(packed.bounds[light].inflation_m(lights.radius[light]));
   if (lights.is_spot(light)) add_cone(lights, light);
 }
 
 void PackingLossMeter::add_cone(const view::LightArrays& lights, std::uint32_t light) {
-  const std::uint32_t spot = light - lights.points;
+  const std::uint32_t spot = light - lights.spots.first;
   const scene::WorldLight& exact = lights.source[light];
   const Vec3d axis{lights.axis_x[spot], lights.axis_y[spot], lights.axis_z[spot]};
   axis_.add(angle_between(axis, lights.space.rotation * exact.direction));

@@ -11,11 +11,11 @@ SampleTree::SampleTree(std::span<const grid::Sample> samples) : samples_(samples
 }
 
 void SampleTree::add_node(std::uint32_t begin, std::uint32_t end) {
-  const auto place = [&](std::uint32_t i) -> const Vec3d& { return samples_[order_[i]].from_eye; };
-  Node node{place(begin), place(begin), begin, end, 0};
+  const auto position = [&](std::uint32_t i) -> const Vec3d& { return samples_[order_[i]].from_eye; };
+  Node node{position(begin), position(begin), begin, end, 0};
   for (std::uint32_t i = begin; i < end; ++i) {
-    node.lo = glm::min(node.lo, place(i));
-    node.hi = glm::max(node.hi, place(i));
+    node.lo = glm::min(node.lo, position(i));
+    node.hi = glm::max(node.hi, position(i));
   }
   const auto index = nodes_.size();
   nodes_.push_back(node);

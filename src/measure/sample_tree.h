@@ -13,11 +13,11 @@ class SampleTree {
  public:
   explicit SampleTree(std::span<const grid::Sample> samples);
 
-  // Calls take(sample) for every sample within radius of a place (from the eye, along the world's axes), and for some
+  // Calls take(sample) for every sample within radius of a point (from the eye, along the world's axes), and for some
   // beyond, each once.
   template <class Take>
-  void each_near(const Vec3d& place, double radius, Take&& take) const {
-    if (!nodes_.empty()) visit(0, place, radius * (1.0 + k_slack), take);
+  void each_near(const Vec3d& point, double radius, Take&& take) const {
+    if (!nodes_.empty()) visit(0, point, radius * (1.0 + k_slack), take);
   }
 
  private:
@@ -34,13 +34,13 @@ class SampleTree {
   void add_node(std::uint32_t begin, std::uint32_t end);
 
   template <class Take>
-  void visit(std::uint32_t index, const Vec3d& place, double radius, Take& take) const {
+  void visit(std::uint32_t index, const Vec3d& point, double radius, Take& take) const {
     const Node& node = nodes_[index];
-    const Vec3d gap = glm::max(Vec3d(0.0), glm::max(node.lo - place, place - node.hi));
+    const Vec3d gap = glm::max(Vec3d(0.0), glm::max(node.lo - point, point - node.hi));
     if (glm::dot(gap, gap) > radius * radius) return;
     if (node.second != 0) {
-      visit(index + 1, place, radius, take);
-      visit(node.second, place, radius, take);
+      visit(index + 1, point, radius, take);
+      visit(node.second, point, radius, take);
       return;
     }
     for (std::uint32_t i = node.begin; i < node.end; ++i) take(order_[i]);

@@ -10,7 +10,7 @@
 namespace clusterbench::measure {
 namespace {
 
-// From a light to a sample, by their places seen from the eye: those in the world may be rounded to metres.
+// From a light to a sample, by their positions seen from the eye: those in the world may be rounded to metres.
 Vec3d way_to(const grid::Sample& sample, const scene::WorldLight& light) {
   return sample.from_eye - (light.position - sample.eye);
 }
@@ -48,10 +48,10 @@ double irradiance_lux(const scene::WorldLight& light, const Vec3d& to_place) {
 }  // namespace
 
 grid::Sample sample_at(const view::Frame& frame, double pixel_x, double pixel_y, double depth) {
-  const view::Projection& lens = frame.projection;
-  const double across = lens.left + (lens.right - lens.left) * pixel_x / frame.viewport.x;
-  const double up = lens.top - (lens.top - lens.bottom) * pixel_y / frame.viewport.y;
-  const double scale = lens.orthographic ? 1.0 : depth;
+  const view::Projection& projection = frame.projection;
+  const double across = projection.left + (projection.right - projection.left) * pixel_x / frame.viewport.x;
+  const double up = projection.top - (projection.top - projection.bottom) * pixel_y / frame.viewport.y;
+  const double scale = projection.orthographic ? 1.0 : depth;
   const Vec3d local{across * scale, up * scale, -depth};
   return {static_cast<float>(pixel_x), static_cast<float>(pixel_y), Vec3f(local),
           glm::transpose(frame.view_space.rotation) * local, frame.view_space.origin};

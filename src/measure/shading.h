@@ -36,7 +36,7 @@ struct ShadingCounts {
   double unlit() const;  // missed / needed; NaN when nothing is needed
 };
 
-// The place on a pixel's ray at a depth. Pixels from the top left.
+// The point on a pixel's ray at a depth. Pixels from the top left.
 grid::Sample sample_at(const view::Frame& frame, double pixel_x, double pixel_y, double depth);
 
 // Seeded points in the frame's view: pixels uniform, depth uniform in log from near to far_m.

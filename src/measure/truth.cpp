@@ -132,7 +132,7 @@ class TruthFinder {
   TruthFinder(const view::Frame& frame, const grid::Grid& grid)
       : frame_(frame), grid_(grid), space_(grid::space_of(grid, frame)) {
     if (!is_tilted()) blocks_ = box_blocks(grid);
-    if (frame.lights.size() > frame.points) cell_balls_ = grid_.balls_around_cells();
+    if (!frame.ranges().spots.empty()) cell_balls_ = grid_.balls_around_cells();
   }
 
   LightCells find(std::uint32_t light) const {
@@ -144,7 +144,7 @@ class TruthFinder {
       return std::move(search.found);
     }
     std::vector<Row> rows;
-    if (grid_.kind() == grid::Kind::distance) {
+    if (has_shells()) {
       search.shells = shells_near(search.ball);
       if (search.shells.empty()) return {};
       append_tile_rows(grid_.screen(), search.ball, rows);
@@ -176,11 +176,9 @@ class TruthFinder {
           cone(light, ball) {}
   };
 
+  bool has_shells() const { return grid_.has_tiles() && grid_.screen().by_distance; }
   // Cells with sides through the eye.
-  bool is_tilted() const {
-    return grid_.kind() == grid::Kind::distance ||
-           (grid_.kind() == grid::Kind::frustum && !grid_.screen().tiles.orthographic);
-  }
+  bool is_tilted() const { return grid_.has_tiles() && !grid_.screen().tiles.orthographic; }
 
   void settle_row(const Row& row, Search& search) const {
     const auto decide_columns = [&](int first, int last) {

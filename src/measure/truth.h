@@ -14,8 +14,8 @@ namespace clusterbench::measure {
 struct Truth {
   assign::Lists lists;               // an undecided pair counts as true
   std::uint64_t filter_decided = 0;  // pairs near the boundary and others that the double-precision filter decided
-  std::uint64_t exact_decided = 0;   // left open by the filter, decided or proven in exact arithmetic
-  std::uint64_t undecided = 0;       // open even then
+  std::uint64_t exact_decided = 0;   // left undecided by the filter, decided or proven in exact arithmetic
+  std::uint64_t undecided = 0;       // even then
 };
 
 // Independent of the number of threads.

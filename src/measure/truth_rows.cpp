@@ -32,7 +32,7 @@ void append_slab(const grid::Tiles& tiles, const BallInSpace& ball, DepthRange r
     if (found.outer.empty()) continue;
     if (with_inner && ball.radius > ball.slack)
       found.inner = columns_touched(tiles, geom::row_slopes(smaller, y0, y1, range, geom::Errs::inward));
-    found.first_cell = static_cast<std::uint32_t>((slice * tiles.count.y + row) * tiles.count.x);
+    found.first_cell = grid::cell_index({0, row, slice}, {tiles.count.x, tiles.count.y, 0});
     rows.push_back(found);
   }
 }
@@ -54,14 +54,13 @@ BoxBlock cascade_block(const grid::Grid& grid, int level) {
   const Vec3i cells = grid.cascades().cells;
   // Holes have no cell, so extents come from the outermost column and row, which are never part of one.
   const auto box_at = [&](int x, int y, int z) {
-    return std::get<geom::Box>(
-        grid.cell(static_cast<std::uint32_t>(((level * cells.z + z) * cells.y + y) * cells.x + x)));
+    return std::get<geom::Box>(grid.cell(grid::cell_index({x, y, level * cells.z + z}, cells)));
   };
   BoxBlock block;
   for (int x = 0; x < cells.x; ++x) block.x.push_back({box_at(x, 0, 0).lo.x, box_at(x, 0, 0).hi.x});
   for (int y = 0; y < cells.y; ++y) block.y.push_back({box_at(0, y, 0).lo.y, box_at(0, y, 0).hi.y});
   for (int z = 0; z < cells.z; ++z) block.z.push_back({box_at(0, 0, z).lo.z, box_at(0, 0, z).hi.z});
-  block.first_cell = static_cast<std::uint32_t>(level * cells.z * cells.y * cells.x);
+  block.first_cell = grid::cell_index({0, 0, level * cells.z}, cells);
   const auto hole = [&](int count, const auto& is_hole) {
     ColumnRange range{count, -1};
     for (int i = 0; i < count; ++i)
@@ -76,17 +75,21 @@ BoxBlock cascade_block(const grid::Grid& grid, int level) {
   return block;
 }
 
-double gap_to(const Extent& extent, double place) {
-  return std::max({0.0, extent.lo - place, place - extent.hi});
+double gap_to(const Extent& extent, double coordinate) {
+  return std::max({0.0, extent.lo - coordinate, coordinate - extent.hi});
 }
 
-// Extents that may lie within `reach` of a place; they ascend or descend.
-grid::IndexRange extents_near(const std::vector<Extent>& extents, double place, double reach) {
+// Extents that may lie within `reach` of a coordinate; they ascend or descend.
+grid::IndexRange extents_near(const std::vector<Extent>& extents, double coordinate, double reach) {
   constexpr double k_slack = 1e-12;  // far more than the rounding of a gap
-  const double wider = reach + k_slack * (std::abs(place) + reach);
+  const double wider = reach + k_slack * (std::abs(coordinate) + reach);
   const bool ascend = extents.front().lo <= extents.back().lo;
-  const auto is_before = [&](const Extent& e) { return ascend ? e.hi < place - wider : e.lo > place + wider; };
-  const auto is_not_beyond = [&](const Extent& e) { return ascend ? e.lo <= place + wider : e.hi >= place - wider; };
+  const auto is_before = [&](const Extent& e) {
+    return ascend ? e.hi < coordinate - wider : e.lo > coordinate + wider;
+  };
+  const auto is_not_beyond = [&](const Extent& e) {
+    return ascend ? e.lo <= coordinate + wider : e.hi >= coordinate - wider;
+  };
   const auto from = std::partition_point(extents.begin(), extents.end(), is_before);
   const auto to = std::partition_point(from, extents.end(), is_not_beyond);
   return {static_cast<int>(from - extents.begin()), static_cast<int>(to - extents.begin()) - 1};
@@ -132,9 +135,8 @@ void append_tile_rows(const grid::ScreenGrid& grid, const BallInSpace& ball, std
 }
 
 std::vector<BoxBlock> box_blocks(const grid::Grid& grid) {
-  if (grid.kind() == grid::Kind::world)
-    return {{extents(grid.world().x), extents(grid.world().y), extents(grid.world().z), 0}};
-  if (grid.kind() == grid::Kind::frustum) return {orthographic_block(grid.screen())};
+  if (grid.world_origin()) return {{extents(grid.world().x), extents(grid.world().y), extents(grid.world().z), 0}};
+  if (grid.has_tiles()) return {orthographic_block(grid.screen())};
   std::vector<BoxBlock> blocks;
   for (int level = 0; level < grid.cascades().levels; ++level) blocks.push_back(cascade_block(grid, level));
   return blocks;

@@ -4,7 +4,7 @@
 //
 // Outer and inner come from the same formulas with the radius made larger or smaller by a slack. All that double
 // precision loses in them (rounded squares under a root, rounded centres, rounded quotients) moves a result no further
-// than moving the centre or the surface by a few roundings of the coordinates would; the slack is hundreds of these.
+// than moving the centre or the surface by a few roundoffs of the coordinates would; the slack is hundreds of these.
 
 #include <vector>
 
@@ -46,7 +46,7 @@ struct BoxBlock {
 
 // The grid's boxes: an orthographic frustum grid, a world grid, or one block per level of cascades.
 std::vector<BoxBlock> box_blocks(const grid::Grid& grid);
-// Rows beside a hole come in two pieces.
+// Rows beside a hole come in two runs.
 void append_rows(const BoxBlock& block, const BallInSpace& ball, std::vector<Row>& rows);
 
 }  // namespace clusterbench::measure

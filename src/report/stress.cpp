@@ -189,7 +189,7 @@ void print_checks(std::ostream& out, const stress::StressResult& result) {
 void print_searches(std::ostream& out, const stress::StressResult& result) {
   if (result.searches.empty()) return;
   out << "\nH31, search for lights that touch a cell and are not listed (margin: the least padding that was found, in "
-         "roundings of 2^-24)\n";
+         "roundoffs of 2^-24)\n";
   for (const stress::SearchResult& search : result.searches) {
     out << "  " << search.method << ": " << search.tries << " tries, ";
     if (search.deepest)
@@ -224,7 +224,7 @@ Json stress_to_json(const stress::StressResult& result, const stress::StressRequ
                                {"tries", search.tries},
                                {"misses", search.misses},
                                {"undecided", search.undecided},
-                               {"least_margin_roundings", search.least_margin},
+                               {"least_margin_roundoffs", search.least_margin},
                                {"deepest_miss", to_json(search.deepest)}});
   out["random"] = to_json(result.random);
   out["failures"] = stress_failures(result);

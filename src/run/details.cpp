@@ -83,7 +83,7 @@ void pack_pairs(DetailsFrame& out, const measure::FrameDetails& found) {
 
 // "" for a grid without slices, and where they are the case's.
 std::string own_boundaries(const grid::Grid& grid, const grid::Grid& case_grid) {
-  if (!std::holds_alternative<grid::ScreenGrid>(grid.shape)) return "";
+  if (!grid.has_tiles()) return "";
   const std::vector<float>& own = grid.screen().slices.boundaries;
   if (own == case_grid.screen().slices.boundaries) return "";
   return number_text(std::vector<double>(own.begin(), own.end()));

@@ -1,6 +1,6 @@
 #include "run/grid_facts.h"
 
-#include "config/config_grids.h"
+#include "config/grid_json.h"
 
 namespace clusterbench::run {
 namespace {

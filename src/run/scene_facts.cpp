@@ -21,7 +21,7 @@ void add_fit_warnings(const SceneData& data, const std::vector<Vec2i>& viewports
     std::string first;
     int count = 0;
     for (const scene::CameraPath& path : data.paths) {
-      const std::string text = view::fit_warning(path.shots.front().lens, viewport);
+      const std::string text = view::fit_warning(path.shots.front().projection, viewport);
       if (!text.empty() && count++ == 0) first = "camera '" + path.camera + "': " + text;
     }
     if (count > 1) first += " (and " + std::to_string(count - 1) + " more cameras)";

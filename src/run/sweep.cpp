@@ -6,7 +6,7 @@
 #include <set>
 
 #include "assign/contract/storage.h"
-#include "config/config_grids.h"
+#include "config/grid_json.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/pattern.h"
@@ -52,29 +52,6 @@ std::vector<SceneData> load_scenes(const config::Config& config) {
   return scenes;
 }
 
-Json to_json(const Vec3d& v) {
-  return {v.x, v.y, v.z};
-}
-
-// Everything that tells two grid requests apart; keys that the kind does not use are left out.
-Json identity(const grid::GridSpec& spec) {
-  Json out{{"kind", grid::kind_name(spec.kind)}};
-  if (spec.kind == grid::Kind::frustum || spec.kind == grid::Kind::distance) {
-    const grid::Slicing& slices = spec.slices;
-    out["tiles"] = {spec.tiles.pixels.x, spec.tiles.pixels.y, spec.tiles.count.x, spec.tiles.count.y};
-    out["slices"] = {config::scheme_name(slices.scheme), slices.count, slices.near_m, slices.far_m,
-                     slices.boundaries_m};
-    if (slices.scheme == grid::Scheme::exponential_first) out["first"] = slices.first_m;
-    if (slices.scheme == grid::Scheme::power) out["lambda"] = slices.lambda;
-    return out;
-  }
-  out["cells"] = {spec.cells.x, spec.cells.y, spec.cells.z};
-  if (spec.kind == grid::Kind::cascades) out["levels"] = {spec.levels, spec.finest_m};
-  if (spec.kind == grid::Kind::world && spec.has_bounds)
-    out["bounds"] = {to_json(spec.bounds_lo_m), to_json(spec.bounds_hi_m)};
-  return out;
-}
-
 Json identity(const config::MethodRequest& method) {
   Json params = Json::object();
   for (const auto& [name, value] : method.params.values())
@@ -102,7 +79,7 @@ Json identity(const config::Config& config, const SceneData& data, const CasePla
   Json all{{"scene", identity(config.scenes[plan.scene], data.scene)},
            {"camera", {data.paths[plan.camera].camera, plan.camera}},
            {"viewport", {viewport.x, viewport.y}},
-           {"grid", identity(config.grids[plan.grid])},
+           {"grid", config::grid_identity(config.grids[plan.grid])},
            {"assigner", identity(config.assigners[plan.assigner])},
            {"storage", plan.storage ? identity(config.storages[*plan.storage]) : Json(k_own_structure)},
            {"seed", config.seed},
@@ -208,7 +185,7 @@ std::string storage_obstacle(const config::MethodRequest& request, const FirstFr
   const std::uint64_t most_bytes = memory_limit();
   try {
     const auto one_cell = assign::find_storage(request.name)->make(request.params);
-    one_cell->start(1, first.points, first.spots);
+    one_cell->start(1, {first.points, first.spots});
     // What it takes before anything is in it grows with the cells.
     const std::uint64_t bytes = one_cell->use().upload_bytes * first.cells;
     if (bytes <= most_bytes) return "";
@@ -267,7 +244,7 @@ class Expansion {
     const std::string name = group_name + "/" + name_part(method.label());
     const SceneData& data = plan.scenes[group.scene];
     std::string impossible = obstacle(method, config_.grids[group.grid].kind, data.scene,
-                                      data.paths[group.camera].shots.front().lens.orthographic);
+                                      data.paths[group.camera].shots.front().projection.orthographic);
     if (impossible.empty()) impossible = limit_obstacle(*assign::find_assigner(method.name), config_.limits, first);
     if (!impossible.empty()) {
       skip(plan, name, impossible);

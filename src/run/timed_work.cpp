@@ -103,7 +103,7 @@ std::unique_ptr<assign::Storage> TimedWork::storage(const assign::StorageDescrip
                                                     const assign::Params& params) const {
   const TimedFrame& frame = frames_.front();
   auto made = storage.make(params);
-  made->start(*frame.grid, frame.lights.seen(precision_).points, frame.lights.seen(precision_).spots);
+  made->start(*frame.grid, frame.lights.seen(precision_));
   return made;
 }
 

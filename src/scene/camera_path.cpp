@@ -52,7 +52,7 @@ std::set<double> keys_seen(const Scene& scene, const Camera& camera, bool all) {
   KeysOf eye(scene), lights(scene);
   eye.add(camera.node);
   std::set<double> keys = eye.keys(all, false);
-  for (const Channel& channel : scene.lens_channels)
+  for (const Channel& channel : scene.camera_channels)
     if (channel.definition == camera.definition) KeysOf::add_keys(channel, all, keys);
   if (!keys.empty()) return keys;
   for (const Light& light : scene.lights) lights.add(light.node);
@@ -90,8 +90,8 @@ CameraPath path_of(const Scene& scene, const Camera& camera, const PathRequest& 
   const CameraMoments moments = camera_moments(scene, camera, request);
   CameraPath path{camera.name, false, moments.how, {}};
   for (const double time : moments.times_s) {
-    path.shots.push_back({time, camera_pose(scene, camera, time), camera_lens(scene, camera, time)});
-    path.shots.back().lens.fit = request.fit;
+    path.shots.push_back({time, camera_pose(scene, camera, time), projection_at(scene, camera, time)});
+    path.shots.back().projection.fit = request.fit;
   }
   return path;
 }
@@ -127,9 +127,9 @@ CameraPath path_around_lights(const Scene& scene, const PathRequest& request) {
   const double height = std::min(extent.lo.y + k_eye_height_m, std::max(extent.hi.y, extent.lo.y));
   const int count = request.choice == FrameChoice::count ? request.count : 60;
 
-  Lens lens;
-  lens.yfov_rad = k_half_turn / 3.0;
-  lens.far_m = std::numeric_limits<double>::infinity();
+  CameraProjection projection;
+  projection.yfov_rad = k_half_turn / 3.0;
+  projection.far_m = std::numeric_limits<double>::infinity();
   CameraPath path{"around-lights",
                   true,
                   "no camera in the file: a walk of " + std::to_string(count) + " frames around the lights",
@@ -138,7 +138,7 @@ CameraPath path_around_lights(const Scene& scene, const PathRequest& request) {
     const double turn = 2.0 * k_half_turn * i / count, time = scene.duration_s * i / count;
     const Vec3d eye{middle.x + a * std::cos(turn), height, middle.z + b * std::sin(turn)};
     const Vec3d forward = glm::normalize(Vec3d{-a * std::sin(turn), 0.0, b * std::cos(turn)});
-    path.shots.push_back({time, level_pose(eye, forward), lens});
+    path.shots.push_back({time, level_pose(eye, forward), projection});
   }
   return path;
 }

@@ -24,7 +24,7 @@ struct PathRequest {
 struct Shot {
   double time_s = 0.0;
   CameraPose pose;
-  Lens lens;
+  CameraProjection projection;
   Vec2d jitter_px{0.0};  // the picture is moved by so many pixels to the right and down, as for TAA
 };
 

@@ -131,22 +131,22 @@ double far_of(double zfar) {
 Camera camera_of(const tinygltf::Camera& from, int node) {
   Camera camera;
   camera.node = node;
-  Lens& lens = camera.lens;
-  lens.orthographic = from.type == "orthographic";
-  if (lens.orthographic) {
-    lens.xmag_m = from.orthographic.xmag;
-    lens.ymag_m = from.orthographic.ymag;
-    lens.near_m = from.orthographic.znear;
-    lens.far_m = far_of(from.orthographic.zfar);
+  CameraProjection& projection = camera.projection;
+  projection.orthographic = from.type == "orthographic";
+  if (projection.orthographic) {
+    projection.xmag_m = from.orthographic.xmag;
+    projection.ymag_m = from.orthographic.ymag;
+    projection.near_m = from.orthographic.znear;
+    projection.far_m = far_of(from.orthographic.zfar);
   } else {
-    lens.yfov_rad = from.perspective.yfov;
-    lens.near_m = from.perspective.znear;
-    lens.far_m = far_of(from.perspective.zfar);
-    if (from.perspective.aspectRatio > 0.0) lens.aspect_ratio = from.perspective.aspectRatio;
+    projection.yfov_rad = from.perspective.yfov;
+    projection.near_m = from.perspective.znear;
+    projection.far_m = far_of(from.perspective.zfar);
+    if (from.perspective.aspectRatio > 0.0) projection.aspect_ratio = from.perspective.aspectRatio;
     if (from.extras.Has("clusterbench_sides")) {
       const tinygltf::Value sides = from.extras.Get("clusterbench_sides");
       const auto side = [&](std::size_t i) { return sides.Get(i).GetNumberAsDouble(); };
-      lens.sides = LensSides{side(0), side(1), side(2), side(3)};
+      projection.sides = ProjectionSides{side(0), side(1), side(2), side(3)};
     }
   }
   return camera;
@@ -210,7 +210,7 @@ class ChannelsOfFile {
   }
   // When all are added.
   void finish() {
-    for (std::vector<Channel>* channels : {&scene_.light_channels, &scene_.lens_channels})
+    for (std::vector<Channel>* channels : {&scene_.light_channels, &scene_.camera_channels})
       std::stable_sort(channels->begin(), channels->end(),
                        [](const Channel& a, const Channel& b) { return a.definition < b.definition; });
   }
@@ -235,7 +235,7 @@ class ChannelsOfFile {
     scene_.duration_s = std::max(scene_.duration_s, keys->times_s.back());
     std::vector<Channel>& channels = is_node                     ? scene_.channels
                                      : kind == TargetKind::light ? scene_.light_channels
-                                                                 : scene_.lens_channels;
+                                                                 : scene_.camera_channels;
     const auto [known, first] = taken_.try_emplace({kind, index, keys->path}, channels.size());
     if (first) {
       channels.push_back(std::move(*keys));
@@ -295,10 +295,10 @@ void mark_animated_cameras(Scene& scene) {
     const int parent = scene.nodes[i].parent;
     if (parent >= 0 && moved[static_cast<std::size_t>(parent)]) moved[i] = 1;
   }
-  std::set<int> lenses;
-  for (const Channel& channel : scene.lens_channels) lenses.insert(channel.definition);
+  std::set<int> moved_cameras;
+  for (const Channel& channel : scene.camera_channels) moved_cameras.insert(channel.definition);
   for (Camera& camera : scene.cameras)
-    camera.animated = moved[static_cast<std::size_t>(camera.node)] != 0 || lenses.contains(camera.definition);
+    camera.animated = moved[static_cast<std::size_t>(camera.node)] != 0 || moved_cameras.contains(camera.definition);
 }
 
 // Numbers that are each fine can multiply to infinity down the tree.

@@ -15,29 +15,29 @@ double positive(const Place& place) {
 }
 
 // The far plane if there is one.
-void copy_far(const Place& lens, json& out) {
-  if (!lens.has("zfar")) return;
-  const Place zfar = lens.at("zfar");
+void copy_far(const Place& projection, json& out) {
+  if (!projection.has("zfar")) return;
+  const Place zfar = projection.at("zfar");
   const double far = positive(zfar);
-  if (far <= out["znear"].get<double>()) lens.refuse("zfar must be greater than znear");
+  if (far <= out["znear"].get<double>()) projection.refuse("zfar must be greater than znear");
   if (is_float_max(far)) zfar.warn("the largest number of single precision; read as infinitely far");
   out["zfar"] = far;
 }
 
-// null for a lens that glTF allows and that shows nothing.
-json checked_perspective(const Place& lens) {
-  lens.expect_object();
-  json out = {{"yfov", positive(lens.at("yfov"))}, {"znear", positive(lens.at("znear"))}};
-  copy_far(lens, out);
-  if (lens.has("aspectRatio")) out["aspectRatio"] = positive(lens.at("aspectRatio"));
+// null for a projection that glTF allows and that shows nothing.
+json checked_perspective(const Place& projection) {
+  projection.expect_object();
+  json out = {{"yfov", positive(projection.at("yfov"))}, {"znear", positive(projection.at("znear"))}};
+  copy_far(projection, out);
+  if (projection.has("aspectRatio")) out["aspectRatio"] = positive(projection.at("aspectRatio"));
   if (out["yfov"].get<double>() >= std::numbers::pi) {
-    lens.at("yfov").warn("pi radians or more show nothing (degrees?); the camera is ignored");
+    projection.at("yfov").warn("pi radians or more show nothing (degrees?); the camera is ignored");
     return json(nullptr);
   }
   return out;
 }
 
-// An off-centre picture, an invention of this tool: see LensSides.
+// An off-centre picture, an invention of this tool: see ProjectionSides.
 void copy_sides(const Place& camera, json& out) {
   if (!camera.has("extras")) return;
   warn_of_unknown_extras(camera, {k_sides});
@@ -58,15 +58,15 @@ double magnification(const Place& place) {
   return std::abs(number);
 }
 
-json checked_orthographic(const Place& lens) {
-  lens.expect_object();
-  json out = {{"xmag", magnification(lens.at("xmag"))},
-              {"ymag", magnification(lens.at("ymag"))},
-              {"znear", lens.at("znear").number()}};
+json checked_orthographic(const Place& projection) {
+  projection.expect_object();
+  json out = {{"xmag", magnification(projection.at("xmag"))},
+              {"ymag", magnification(projection.at("ymag"))},
+              {"znear", projection.at("znear").number()}};
   if (out["znear"].get<double>() < 0.0)
-    lens.at("znear").refuse("found " + kind_of(lens.at("znear").value()) + ", 0 or more is needed");
-  lens.at("zfar");  // must be there
-  copy_far(lens, out);
+    projection.at("znear").refuse("found " + kind_of(projection.at("znear").value()) + ", 0 or more is needed");
+  projection.at("zfar");  // must be there
+  copy_far(projection, out);
   return out;
 }
 

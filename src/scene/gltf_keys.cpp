@@ -68,7 +68,8 @@ void check_format(const Place& output, const AccessorHead& head, ChannelPath pat
   }
 }
 
-// What a property of a light or a lens may be; a node's may be anything. A lens is looked at as a whole later on.
+// What a property of a light or a projection may be; a node's may be anything. A projection is looked at as a whole
+// later on.
 void check_allowed(const Place& output, const Channel& channel) {
   const bool cubic = channel.interpolation == Interpolation::cubic_spline;
   const bool angle = channel.path == ChannelPath::inner_cone || channel.path == ChannelPath::outer_cone;

@@ -56,9 +56,9 @@ void add_camera(const RigSpec& spec, Scene& scene) {
   Camera camera;
   camera.name = "look";
   camera.node = static_cast<int>(scene.nodes.size());
-  camera.lens.yfov_rad = k_pi / 3.0;
-  camera.lens.near_m = 0.1;
-  camera.lens.far_m = camera.lens.near_m + glm::length(spec.size_m);
+  camera.projection.yfov_rad = k_pi / 3.0;
+  camera.projection.near_m = 0.1;
+  camera.projection.far_m = camera.projection.near_m + glm::length(spec.size_m);
   scene.nodes.push_back(std::move(node));
   scene.cameras.push_back(std::move(camera));
 }
@@ -81,7 +81,7 @@ std::string hash_of(const Scene& scene) {
   }
   const Camera& camera = scene.cameras.front();
   const Vec3d& eye = scene.nodes[static_cast<std::size_t>(camera.node)].translation;
-  for (const double value : {eye.x, eye.y, eye.z, camera.lens.far_m}) append_bytes(bytes, value);
+  for (const double value : {eye.x, eye.y, eye.z, camera.projection.far_m}) append_bytes(bytes, value);
   return sha256_hex(bytes);
 }
 

@@ -41,10 +41,10 @@ struct OrientedBox {
 };
 
 // The sides of an off-centre or jittered picture, as slopes: left < right, bottom < top.
-struct LensSides {
+struct ProjectionSides {
   double left, right, bottom, top;
 
-  friend bool operator==(const LensSides&, const LensSides&) = default;
+  friend bool operator==(const ProjectionSides&, const ProjectionSides&) = default;
 };
 
 // How a camera's rectangle is put into a viewport of another shape; pixels stay square.
@@ -53,15 +53,15 @@ struct LensSides {
 // They differ only for a camera that is wider than the viewport.
 enum class CameraFit : std::uint8_t { contain, vertical };
 
-// A camera's lens as glTF gives it.
-struct Lens {
+// A camera's projection as glTF gives it.
+struct CameraProjection {
   bool orthographic = false;
   double yfov_rad = 0.0;               // perspective
   std::optional<double> aspect_ratio;  // perspective, width over height; without: the viewport's
   CameraFit fit = CameraFit::contain;
   // Perspective, in place of yfov and aspect ratio. glTF has no such camera; this tool reads it from the camera's
   //   "extras": {"clusterbench_sides": [left, right, bottom, top]}
-  std::optional<LensSides> sides;
+  std::optional<ProjectionSides> sides;
   double xmag_m = 0.0, ymag_m = 0.0;  // orthographic: half extents
   double near_m = 0.1, far_m = 0.0;   // far may be +inf (perspective without zfar)
 };
@@ -69,9 +69,9 @@ struct Lens {
 struct Camera {
   std::string name;  // node name, else camera name, else "camera N"
   int node = -1;
-  Lens lens;
-  bool animated = false;  // its lens, its node or one above it has an animation channel
-  int definition = -1;    // place among the file's cameras, which lens channels move
+  CameraProjection projection;
+  bool animated = false;  // its projection, its node or one above it has an animation channel
+  int definition = -1;    // place among the file's cameras, which projection channels move
 };
 
 struct Node {
@@ -130,11 +130,11 @@ struct Scene {
   std::vector<Light> lights;  // in node order; without those that are never visible
   std::vector<Camera> cameras;
   std::vector<OrientedBox> boxes;
-  std::vector<Channel> channels;        // that move nodes; of all animations, played together
-  std::vector<Channel> light_channels;  // that change lights; ascending by definition
-  std::vector<Channel> lens_channels;   // that change cameras' lenses; ascending by definition
-  double duration_s = 0.0;              // last key of any channel
-  RangeRule range_rule;                 // by which ranges were resolved; holds for intensities that change, too
+  std::vector<Channel> channels;         // that move nodes; of all animations, played together
+  std::vector<Channel> light_channels;   // that change lights; ascending by definition
+  std::vector<Channel> camera_channels;  // that change cameras' projections; ascending by definition
+  double duration_s = 0.0;               // last key of any channel
+  RangeRule range_rule;                  // by which ranges were resolved; holds for intensities that change, too
   std::vector<std::string> warnings;
 };
 
@@ -176,8 +176,8 @@ struct CameraPose {
 CameraPose camera_pose(const Scene& scene, const Camera& camera, double time_s);
 CameraPose camera_pose(const Mat4d& world);  // of the camera's node
 
-// A camera's lens at a time. Throws Error for one that shows nothing then (no angle, no size, zfar not beyond znear):
-// channels are moved apart from each other.
-Lens camera_lens(const Scene& scene, const Camera& camera, double time_s);
+// A camera's projection at a time. Throws Error for one that shows nothing then (no angle, no size, zfar not beyond
+// znear): channels are moved apart from each other.
+CameraProjection projection_at(const Scene& scene, const Camera& camera, double time_s);
 
 }  // namespace clusterbench::scene

@@ -108,33 +108,34 @@ struct HalfExtents {
   double width = 0.0, height = 0.0;
 };
 
-HalfExtents rectangle_of(const Lens& lens) {
-  if (lens.orthographic) return {lens.xmag_m, lens.ymag_m};
-  const double height = std::tan(lens.yfov_rad / 2.0);
-  return {lens.aspect_ratio.value_or(0.0) * height, height};
+HalfExtents rectangle_of(const CameraProjection& projection) {
+  if (projection.orthographic) return {projection.xmag_m, projection.ymag_m};
+  const double height = std::tan(projection.yfov_rad / 2.0);
+  return {projection.aspect_ratio.value_or(0.0) * height, height};
 }
 
-std::string lens_text(const Lens& lens) {
-  const std::string reach =
-      four_digits(lens.near_m) + " m to " + (std::isinf(lens.far_m) ? "infinity" : four_digits(lens.far_m) + " m");
-  if (lens.sides)
-    return "perspective, off-centre: slopes " + four_digits(lens.sides->left) + " to " +
-           four_digits(lens.sides->right) + " across, " + four_digits(lens.sides->bottom) + " to " +
-           four_digits(lens.sides->top) + " up, " + reach;
-  const HalfExtents half = rectangle_of(lens);
+std::string projection_text(const CameraProjection& projection) {
+  const std::string reach = four_digits(projection.near_m) + " m to " +
+                            (std::isinf(projection.far_m) ? "infinity" : four_digits(projection.far_m) + " m");
+  if (projection.sides)
+    return "perspective, off-centre: slopes " + four_digits(projection.sides->left) + " to " +
+           four_digits(projection.sides->right) + " across, " + four_digits(projection.sides->bottom) + " to " +
+           four_digits(projection.sides->top) + " up, " + reach;
+  const HalfExtents half = rectangle_of(projection);
   const bool is_wide = half.width > 1.01 * k_usual_aspect * half.height;
   const std::string shape = is_wide ? four_digits(half.width / half.height) + " times as wide, " : "";
-  if (lens.orthographic) return "orthographic, " + four_digits(2.0 * lens.ymag_m) + " m high, " + shape + reach;
-  return "perspective, " + four_digits(lens.yfov_rad * 180.0 / 3.14159265358979323846) + " degrees high, " + shape +
-         reach;
+  if (projection.orthographic)
+    return "orthographic, " + four_digits(2.0 * projection.ymag_m) + " m high, " + shape + reach;
+  return "perspective, " + four_digits(projection.yfov_rad * 180.0 / 3.14159265358979323846) + " degrees high, " +
+         shape + reach;
 }
 
-// The sides of a lens's view, wider than for any picture in use (32:9) and as high as in one of 16:9 that holds the
-// camera's whole rectangle, so that no light is called out of reach that a camera could see.
-LensSides largest_view(const Lens& lens) {
-  if (lens.sides) return *lens.sides;
+// The sides of a projection's view, wider than for any picture in use (32:9) and as high as in one of 16:9 that holds
+// the camera's whole rectangle, so that no light is called out of reach that a camera could see.
+ProjectionSides largest_view(const CameraProjection& projection) {
+  if (projection.sides) return *projection.sides;
   constexpr double k_widest = 32.0 / 9.0;
-  const HalfExtents half = rectangle_of(lens);
+  const HalfExtents half = rectangle_of(projection);
   const double height = std::max(half.height, half.width / k_usual_aspect);
   const double width = std::max(half.width, half.height * k_widest);
   return {-width, width, -height, height};
@@ -142,17 +143,17 @@ LensSides largest_view(const Lens& lens) {
 
 struct View {
   CameraPose pose;
-  const Lens& lens;
-  LensSides sides;
+  const CameraProjection& projection;
+  ProjectionSides sides;
 };
 
 // Does a light's ball reach into the half-spaces of a view?
 bool may_see(const View& view, const WorldLight& light) {
   const Vec3d p = view.pose.view_from_world * (light.position - view.pose.eye);
   const double depth = -p.z, r = light.range_m;
-  if (depth + r < view.lens.near_m || depth - r > view.lens.far_m) return false;
+  if (depth + r < view.projection.near_m || depth - r > view.projection.far_m) return false;
   const auto beyond = [&](double across, double edge) {
-    if (view.lens.orthographic) return across - edge;
+    if (view.projection.orthographic) return across - edge;
     return (across - edge * depth) / std::sqrt(1.0 + edge * edge);
   };
   return beyond(p.x, view.sides.right) <= r && beyond(-p.x, -view.sides.left) <= r &&
@@ -200,9 +201,9 @@ void look_through(const Scene& scene, double time_s, const std::vector<std::size
   check_domain(scene, unseen, time_s);
   for (const std::size_t index : cameras) {
     const Camera& camera = scene.cameras[index];
-    const Lens lens = camera_lens(scene, camera, time_s);
-    const View view{camera_pose(world[static_cast<std::size_t>(camera.node)]), lens, largest_view(lens)};
-    check_domain(scene, Shot{time_s, view.pose, lens});
+    const CameraProjection projection = projection_at(scene, camera, time_s);
+    const View view{camera_pose(world[static_cast<std::size_t>(camera.node)]), projection, largest_view(projection)};
+    check_domain(scene, Shot{time_s, view.pose, projection});
     std::erase_if(unseen, [&](const WorldLight& light) {
       const auto place = static_cast<std::size_t>(light.rig_index);
       if (!(light.range_m > 0.0)) return true;  // invisible, for now at least
@@ -215,9 +216,9 @@ void look_through(const Scene& scene, double time_s, const std::vector<std::size
 void look_along_made_path(const Scene& scene, Summary& summary, Sight& sight) {
   const CameraPath path = camera_paths(scene, {}).front();
   check_domain(scene, path);
-  summary.cameras.push_back(path.camera + ": " + lens_text(path.shots.front().lens) + "; " + path.how);
+  summary.cameras.push_back(path.camera + ": " + projection_text(path.shots.front().projection) + "; " + path.how);
   for (const Shot& shot : path.shots) {
-    const View view{shot.pose, shot.lens, largest_view(shot.lens)};
+    const View view{shot.pose, shot.projection, largest_view(shot.projection)};
     for (const WorldLight& light : world_lights(scene, shot.time_s))
       if (may_see(view, light)) sight.is_seen[static_cast<std::size_t>(light.rig_index)] = true;
   }
@@ -230,7 +231,7 @@ Sight look_through_cameras(const Scene& scene, Summary& summary) {
   std::vector<CameraMoments> moments;
   for (const Camera& camera : scene.cameras) {
     moments.push_back(camera_moments(scene, camera, {}));
-    summary.cameras.push_back(camera.name + ": " + lens_text(camera.lens) + "; " + moments.back().how);
+    summary.cameras.push_back(camera.name + ": " + projection_text(camera.projection) + "; " + moments.back().how);
   }
   for (const auto& [time, cameras] : moments_to_look_at(scene, moments, sight))
     look_through(scene, time, cameras, sight);
@@ -242,8 +243,9 @@ Sight look_through_cameras(const Scene& scene, Summary& summary) {
 // `run` refuses them.
 void warn_of_steep_cameras(const Scene& scene, Summary& summary) {
   for (const Camera& camera : scene.cameras) {
-    const HalfExtents half = rectangle_of(camera.lens);
-    if (!camera.lens.orthographic && !camera.lens.sides && std::max(half.width, half.height) > geom::k_steepest_slope)
+    const HalfExtents half = rectangle_of(camera.projection);
+    if (!camera.projection.orthographic && !camera.projection.sides &&
+        std::max(half.width, half.height) > geom::k_steepest_slope)
       summary.warnings.push_back("camera '" + camera.name +
                                  "' shows more than 89.9994 degrees to one side and can not be measured");
   }

@@ -103,39 +103,39 @@ std::span<const Channel> channels_of(const std::vector<Channel>& channels, int d
   return {first, last};
 }
 
-void apply(const Channel& channel, double time_s, Lens& lens) {
+void apply(const Channel& channel, double time_s, CameraProjection& projection) {
   const double value = sample(channel, time_s).x;
   switch (channel.path) {
     case ChannelPath::yfov:
-      lens.yfov_rad = value;
+      projection.yfov_rad = value;
       break;
     case ChannelPath::aspect_ratio:
-      lens.aspect_ratio = value;
+      projection.aspect_ratio = value;
       break;
     case ChannelPath::near:
-      lens.near_m = value;
+      projection.near_m = value;
       break;
     case ChannelPath::far:
-      lens.far_m = value >= k_endless ? std::numeric_limits<double>::infinity() : value;
+      projection.far_m = value >= k_endless ? std::numeric_limits<double>::infinity() : value;
       break;
     case ChannelPath::xmag:
-      lens.xmag_m = std::abs(value);
+      projection.xmag_m = std::abs(value);
       break;
     case ChannelPath::ymag:
-      lens.ymag_m = std::abs(value);
+      projection.ymag_m = std::abs(value);
       break;
     default:
       assert(false);  // the others are of nodes and lights
   }
 }
 
-// What the loader asks of a lens that stands still.
-bool shows_something(const Lens& lens) {
+// What the loader asks of a projection that stands still.
+bool shows_something(const CameraProjection& projection) {
   constexpr double k_half_turn = 3.14159265358979323846;
-  if (!(lens.far_m > lens.near_m)) return false;
-  if (lens.orthographic) return lens.near_m >= 0.0 && lens.xmag_m > 0.0 && lens.ymag_m > 0.0;
-  return lens.near_m > 0.0 && lens.yfov_rad > 0.0 && lens.yfov_rad < k_half_turn &&
-         lens.aspect_ratio.value_or(1.0) > 0.0;
+  if (!(projection.far_m > projection.near_m)) return false;
+  if (projection.orthographic) return projection.near_m >= 0.0 && projection.xmag_m > 0.0 && projection.ymag_m > 0.0;
+  return projection.near_m > 0.0 && projection.yfov_rad > 0.0 && projection.yfov_rad < k_half_turn &&
+         projection.aspect_ratio.value_or(1.0) > 0.0;
 }
 
 // The light as its channels have it at a time.
@@ -264,15 +264,15 @@ CameraPose camera_pose(const Scene& scene, const Camera& camera, double time_s) 
   return camera_pose(world_transform(scene, camera.node, time_s));
 }
 
-Lens camera_lens(const Scene& scene, const Camera& camera, double time_s) {
-  const auto channels = channels_of(scene.lens_channels, camera.definition);
-  Lens lens = camera.lens;
-  for (const Channel& channel : channels) apply(channel, time_s, lens);
-  if (!channels.empty() && !shows_something(lens))
+CameraProjection projection_at(const Scene& scene, const Camera& camera, double time_s) {
+  const auto channels = channels_of(scene.camera_channels, camera.definition);
+  CameraProjection projection = camera.projection;
+  for (const Channel& channel : channels) apply(channel, time_s, projection);
+  if (!channels.empty() && !shows_something(projection))
     throw Error(scene.path.string(), "camera '" + printable(camera.name) + "'",
                 "shows nothing at " + std::to_string(time_s) +
                     " s: its angle and size must be more than 0, its angle less than pi, its zfar beyond its znear");
-  return lens;
+  return projection;
 }
 
 Vec4d rotation_towards(const Vec3d& direction) {

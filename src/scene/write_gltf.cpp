@@ -39,18 +39,21 @@ Json light_json(const Light& light) {
 }
 
 Json camera_json(const Camera& camera) {
-  const Lens& lens = camera.lens;
-  if (lens.orthographic) {
+  const CameraProjection& projection = camera.projection;
+  if (projection.orthographic) {
     // glTF has no infinite orthographic view; the loader reads the largest float as one.
-    const double far_m = std::min(lens.far_m, static_cast<double>(std::numeric_limits<float>::max()));
-    return {{"type", "orthographic"},
-            {"orthographic", {{"xmag", lens.xmag_m}, {"ymag", lens.ymag_m}, {"znear", lens.near_m}, {"zfar", far_m}}}};
+    const double far_m = std::min(projection.far_m, static_cast<double>(std::numeric_limits<float>::max()));
+    return {
+        {"type", "orthographic"},
+        {"orthographic",
+         {{"xmag", projection.xmag_m}, {"ymag", projection.ymag_m}, {"znear", projection.near_m}, {"zfar", far_m}}}};
   }
-  Json out{{"type", "perspective"}, {"perspective", {{"yfov", lens.yfov_rad}, {"znear", lens.near_m}}}};
-  if (std::isfinite(lens.far_m)) out["perspective"]["zfar"] = lens.far_m;
-  if (lens.aspect_ratio) out["perspective"]["aspectRatio"] = *lens.aspect_ratio;
-  if (lens.sides)
-    out["extras"]["clusterbench_sides"] = {lens.sides->left, lens.sides->right, lens.sides->bottom, lens.sides->top};
+  Json out{{"type", "perspective"}, {"perspective", {{"yfov", projection.yfov_rad}, {"znear", projection.near_m}}}};
+  if (std::isfinite(projection.far_m)) out["perspective"]["zfar"] = projection.far_m;
+  if (projection.aspect_ratio) out["perspective"]["aspectRatio"] = *projection.aspect_ratio;
+  if (projection.sides)
+    out["extras"]["clusterbench_sides"] = {projection.sides->left, projection.sides->right, projection.sides->bottom,
+                                           projection.sides->top};
   return out;
 }
 

@@ -13,13 +13,13 @@ Side random_side(SplitMix64& random) {
   return static_cast<Side>(random.below(3));
 }
 
-double place_on(Side side, double lo, double hi, SplitMix64& random) {
+double coordinate_on(Side side, double lo, double hi, SplitMix64& random) {
   const double t = random.unit();
   if (side == Side::between) return lo + t * (hi - lo);
   return side == Side::low ? lo : hi;
 }
 
-// Adds a random share of a face's outward normal if the place lies on that face.
+// Adds a random share of a face's outward normal if the point lies on that face.
 void lean(Vec3d& outward, Side side, const Vec3d& low, const Vec3d& high, SplitMix64& random) {
   const double share = random.unit() + 1e-3;
   if (side == Side::low) outward += share * low;
@@ -36,7 +36,7 @@ struct ContactOn {
     for (int axis = 0; axis < 3; ++axis) {
       Side side = random_side(random);
       if (static_cast<int>(forced) == axis && side == Side::between) side = Side::low;
-      contact.place[axis] = place_on(side, box.lo[axis], box.hi[axis], random);
+      contact.point[axis] = coordinate_on(side, box.lo[axis], box.hi[axis], random);
       Vec3d unit(0.0);
       unit[axis] = 1.0;
       lean(contact.outward, side, -unit, unit, random);
@@ -51,8 +51,8 @@ struct ContactOn {
     Side x = random_side(random), y = random_side(random);
     const Side depth = random_side(random);
     if (x == Side::between && y == Side::between && depth == Side::between) x = Side::high;
-    Contact contact =
-        on_sides(piece.x0, piece.x1, piece.y0, piece.y1, x, y, place_on(depth, piece.depth0, piece.depth1, random));
+    Contact contact = on_sides(piece.x0, piece.x1, piece.y0, piece.y1, x, y,
+                               coordinate_on(depth, piece.depth0, piece.depth1, random));
     lean(contact.outward, depth, {0, 0, 1}, {0, 0, -1}, random);
     contact.outward = glm::normalize(contact.outward);
     return contact;
@@ -63,18 +63,18 @@ struct ContactOn {
     const bool on_shell = random.below(2) == 0;
     if (x == Side::between && y == Side::between && !on_shell) x = Side::high;
     Contact contact = on_sides(piece.x0, piece.x1, piece.y0, piece.y1, x, y, 1.0);
-    const Vec3d ray = glm::normalize(contact.place);
+    const Vec3d ray = glm::normalize(contact.point);
     const double t = random.unit();
     const double distance = on_shell ? piece.distance1 : piece.distance0 + t * (piece.distance1 - piece.distance0);
-    contact.place = distance * ray;
+    contact.point = distance * ray;
     if (on_shell) contact.outward += (random.unit() + 1e-3) * ray;
     contact.outward = glm::normalize(contact.outward);
     return contact;
   }
 
-  // A place between or on the planes through the eye, with the lean that these give.
+  // A point between or on the planes through the eye, with the lean that these give.
   Contact on_sides(double x0, double x1, double y0, double y1, Side x, Side y, double depth) const {
-    const double sx = place_on(x, x0, x1, random), sy = place_on(y, y0, y1, random);
+    const double sx = coordinate_on(x, x0, x1, random), sy = coordinate_on(y, y0, y1, random);
     Contact contact{{sx * depth, sy * depth, -depth}, Vec3d(0.0)};
     lean(contact.outward, x, {-1, 0, -sx}, {1, 0, sx}, random);
     lean(contact.outward, y, {0, -1, -sy}, {0, 1, sy}, random);

@@ -6,10 +6,10 @@
 
 namespace clusterbench::stress {
 
-// A convex body on the side of `outward` (unit) that touches the plane through `place` touches the cell there and
+// A convex body on the side of `outward` (unit) that touches the plane through `point` touches the cell there and
 // nowhere else nearer.
 struct Contact {
-  Vec3d place{0.0}, outward{0.0, 0.0, 1.0};
+  Vec3d point{0.0}, outward{0.0, 0.0, 1.0};
 };
 
 // A cell that is no hole.

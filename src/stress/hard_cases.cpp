@@ -8,7 +8,8 @@ namespace clusterbench::stress {
 std::span<const HardCase> hard_cases() {
   static const std::vector<HardCase> all = [] {
     std::vector<HardCase> cases;
-    for (const std::vector<HardCase>& theme : {depth_cases(), lens_cases(), shape_cases(), list_cases(), map_cases()})
+    for (const std::vector<HardCase>& theme :
+         {depth_cases(), projection_cases(), shape_cases(), list_cases(), map_cases()})
       cases.insert(cases.end(), theme.begin(), theme.end());
     std::sort(cases.begin(), cases.end(),
               [](const HardCase& a, const HardCase& b) { return std::atoi(a.id + 1) < std::atoi(b.id + 1); });

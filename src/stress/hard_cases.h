@@ -30,10 +30,10 @@ struct HardCase {
 std::span<const HardCase> hard_cases();
 
 // By theme, each in its own file.
-std::vector<HardCase> depth_cases();  // H1 to H9
-std::vector<HardCase> lens_cases();   // H10 to H18
-std::vector<HardCase> shape_cases();  // H19 to H22, H27, H28, H30, H32
-std::vector<HardCase> list_cases();   // H23 to H26, H29
-std::vector<HardCase> map_cases();    // H33 to H35
+std::vector<HardCase> depth_cases();       // H1 to H9
+std::vector<HardCase> projection_cases();  // H10 to H18
+std::vector<HardCase> shape_cases();       // H19 to H22, H27, H28, H30, H32
+std::vector<HardCase> list_cases();        // H23 to H26, H29
+std::vector<HardCase> map_cases();         // H33 to H35
 
 }  // namespace clusterbench::stress

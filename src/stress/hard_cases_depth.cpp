@@ -28,8 +28,8 @@ grid::GridSpec grid_of_slicing(const Slicing& s) {
 
 Rig rig_of_slicing(const Slicing& s) {
   Rig rig;
-  rig.lens().near_m = s.near_m;
-  rig.lens().far_m = s.far_m;
+  rig.projection().near_m = s.near_m;
+  rig.projection().far_m = s.far_m;
   return rig;
 }
 
@@ -101,7 +101,7 @@ std::vector<Trial> tangent_to_everything(std::uint64_t seed) {
         const std::uint32_t cell = random_cell(grid, random);
         const Contact contact = random_contact(grid.cell(cell), random);
         const double range = std::exp(std::log(0.05) + random.unit() * std::log(400.0));
-        const Vec3d local = contact.place + range * contact.outward;
+        const Vec3d local = contact.point + range * contact.outward;
         const double nudged = static_cast<double>(moved(static_cast<float>(range), ulps));
         rig.point(glm::transpose(space.rotation) * local + space.origin, ulps == 0 ? range : nudged);
       }

@@ -41,7 +41,7 @@ std::unique_ptr<assign::Storage> filled(const char* name, const std::map<std::st
                                         std::uint32_t lights) {
   const assign::StorageDescriptor& row = *assign::find_storage(name);
   auto storage = row.make(assign::Params(row.params, params));
-  storage->start(3, lights, 0);
+  storage->start(3, {lights, 0});
   storage->store(one_full_cell(lights));
   return storage;
 }
@@ -82,14 +82,14 @@ std::vector<ToolCheck> pools_hold_what_they_say(std::uint64_t) {
 Trial mixed_lights(std::uint64_t seed, bool reversed) {
   SplitMix64 random(seed);
   struct Made {
-    Vec3d place, direction;
+    Vec3d position, direction;
     double range, angle;
   };
   std::vector<Made> made;
   for (int i = 0; i < 200; ++i) {
     Made one;
-    for (int axis = 0; axis < 3; ++axis) one.place[axis] = random.between(-20, 20);
-    one.place.z = i % 4 == 0 ? -12.0 : one.place.z - 20.0;
+    for (int axis = 0; axis < 3; ++axis) one.position[axis] = random.between(-20, 20);
+    one.position.z = i % 4 == 0 ? -12.0 : one.position.z - 20.0;
     for (int axis = 0; axis < 3; ++axis) one.direction[axis] = random.between(-1, 1);
     one.range = random.between(0.2, 9.0);
     one.angle = random.between(0.02, 1.5);
@@ -98,8 +98,8 @@ Trial mixed_lights(std::uint64_t seed, bool reversed) {
   if (reversed) std::reverse(made.begin(), made.end());
   Rig rig;
   for (const Made& one : made) {
-    rig.point(one.place, one.range);
-    rig.spot(one.place, one.direction, one.range, one.angle);
+    rig.point(one.position, one.range);
+    rig.spot(one.position, one.direction, one.range, one.angle);
   }
   return rig.on(pixel_grid({64, 64}));
 }

@@ -28,13 +28,13 @@ Rig lattice_rig(std::uint64_t seed, int lights, const Vec3d& off) {
   SplitMix64 random(seed);
   Rig rig;
   for (int i = 0; i < lights; i += 4) {
-    Vec3d place{0, 0, -whole_between(random, 1, 60)};
+    Vec3d position{0, 0, -whole_between(random, 1, 60)};
     const int axis = whole_between(random, 0, 1);
-    place[axis] = whole_between(random, 1, 6);
-    place[1 - axis] = whole_between(random, -12, 12);
-    double range = place[axis];
+    position[axis] = whole_between(random, 1, 6);
+    position[1 - axis] = whole_between(random, -12, 12);
+    double range = position[axis];
     if (i % 32 == 0) {
-      place = {3, 4, place.z};
+      position = {3, 4, position.z};
       range = 5;
     }
     Vec3d towards(0.0);
@@ -42,7 +42,7 @@ Rig lattice_rig(std::uint64_t seed, int lights, const Vec3d& off) {
     const double angle = whole_between(random, 1, 4) * 15 * k_degree;
     for (const double x : {1.0, -1.0})
       for (const double y : {1.0, -1.0}) {
-        const Vec3d side{x, y, 1.0}, at = side * place + off;
+        const Vec3d side{x, y, 1.0}, at = side * position + off;
         i % 20 == 16 ? rig.spot(at, side * towards, range, angle) : rig.point(at, range);
       }
   }
@@ -72,7 +72,7 @@ std::vector<Trial> lattices(std::uint64_t seed) {
   std::vector<Trial> trials;
   for (const double eighths : {0.0, 1.0, 2.0, 4.0}) {
     Rig rig = lattice_rig(seed, k_lights, Vec3d(0.0));
-    rig.lens().yfov_rad = 90 * k_degree;
+    rig.projection().yfov_rad = 90 * k_degree;
     rig.look({0, 0, eighths == 0.0 ? 0.0 : -20.0}, eighths * 45 * k_degree);
     rig.on_each(lattice_grids(), "turned by " + std::to_string(static_cast<int>(45 * eighths)) + " degrees", trials);
   }
@@ -82,7 +82,7 @@ std::vector<Trial> lattices(std::uint64_t seed) {
 // The same rig mirrored by swapping its lights: the lists must be mirrored, too.
 ToolCheck mirrored_lists(std::uint64_t seed) {
   Rig rig = lattice_rig(seed, 240, Vec3d(0.0));
-  rig.lens().yfov_rad = 90 * k_degree;
+  rig.projection().yfov_rad = 90 * k_degree;
   const Trial trial = rig.on(lattice_grids()[0]);
   const view::Frame frame = frame_of(trial);
   const grid::Grid grid = grid_of(trial, frame);
@@ -91,7 +91,7 @@ ToolCheck mirrored_lists(std::uint64_t seed) {
   std::uint64_t unlike = 0;
   for (std::uint32_t cell = 0; cell < grid.cell_count(); ++cell) {
     const Vec3i at = grid.cell_at(cell);
-    const auto beside = static_cast<std::uint32_t>((at.z * cells.y + at.y) * cells.x + cells.x - 1 - at.x);
+    const std::uint32_t beside = grid::cell_index({cells.x - 1 - at.x, at.y, at.z}, cells);
     unlike += lists.of(cell).size() != lists.of(beside).size();
   }
   return {"mirrored cells have as many lights of a mirrored rig", unlike == 0, std::to_string(unlike) + " have not"};
@@ -168,12 +168,12 @@ std::vector<Trial> far_and_small(std::uint64_t seed) {
       const auto cell = static_cast<std::uint32_t>(grid.cell_count() * 3 / 4 + random.below(grid.cell_count() / 4));
       const Contact contact = random_contact(grid.cell(cell), random);
       const double range = std::exp(random.between(std::log(0.002), std::log(2.0)));
-      const Vec3d at = contact.place + (i % 2 == 0 ? 1.0 : random.between(0.0, 1.0)) * range * contact.outward;
-      const Vec3d aside = glm::normalize(glm::cross(contact.outward, Vec3d(0.3, 0.5, 0.8)));
+      const Vec3d at = contact.point + (i % 2 == 0 ? 1.0 : random.between(0.0, 1.0)) * range * contact.outward;
+      const Vec3d along = glm::normalize(glm::cross(contact.outward, Vec3d(0.3, 0.5, 0.8)));
       if (i % 3 == 0)
         rig.point(at, range);
       else
-        rig.spot(at, i % 2 == 0 ? -contact.outward : aside, range, i % 3 == 1 ? 1e-5 : random.between(0.01, 1.5));
+        rig.spot(at, i % 2 == 0 ? -contact.outward : along, range, i % 3 == 1 ? 1e-5 : random.between(0.01, 1.5));
     }
     trials.push_back(rig.on(spec, "centimetres at kilometres"));
   }
@@ -189,9 +189,9 @@ std::vector<Trial> from_zero_on() {
     spec.slices.boundaries_m = {0, 1, 10, 100};
     Rig rig;
     for (const double distance : {1e-6, 1e-5, 1e-3, 1.0, 1e3, 1e6})
-      for (const double slack : {-1e-9, 0.0, 2e-16, 2e-11, 2e-6, 1e-2}) {
-        rig.point({0, 0, -distance}, distance * (1.0 + slack)).point({0, 0, distance}, distance * (1.0 + slack));
-        rig.point({0.6 * distance, -0.8 * distance, 0}, distance * (1.0 + slack));
+      for (const double excess : {-1e-9, 0.0, 2e-16, 2e-11, 2e-6, 1e-2}) {
+        rig.point({0, 0, -distance}, distance * (1.0 + excess)).point({0, 0, distance}, distance * (1.0 + excess));
+        rig.point({0.6 * distance, -0.8 * distance, 0}, distance * (1.0 + excess));
       }
     rig.spot({0, 0, 1e-5}, {0, 0, -1}, 1e-5, 0.3).spot({0, 0, -1e-5}, {0, 0, 1}, 1e-5 + 2e-11, 0.3);
     trials.push_back(rig.on(spec, "slices that begin at 0"));
@@ -211,7 +211,7 @@ std::vector<Trial> map_scales(std::uint64_t seed) {
     const double depth = random.between(0.5, 4000.0);
     many.point({0.3 * x * depth / 1e-4, 0.2 * y * depth / 1e-4, -depth}, range * 1e5);
   }
-  small.lens().near_m = 1e-6;
+  small.projection().near_m = 1e-6;
   trials.push_back(small.on(frustum_grid({16, 9}, Scheme::exponential, 12, 1e-6, 5e-4), "micrometres"));
   grid::GridSpec thin = frustum_grid({4, 2}, Scheme::list, 0, 0.0, 0.0);
   for (int i = 0; i <= 4000; ++i) thin.slices.boundaries_m.push_back(i);
@@ -247,12 +247,12 @@ Rig beside_the_picture(double right, double top, bool orthographic, std::uint64_
     const double along = random.between(-1.3, 1.3);
     const bool is_column = i % 2 == 0;
     const Vec3d side = is_column ? Vec3d(beyond, along, 0) : Vec3d(along, -beyond, 0);
-    const Vec3d place{side.x * right * scale, side.y * top * scale, -depth};
+    const Vec3d position{side.x * right * scale, side.y * top * scale, -depth};
     // From the side of the picture, along the perspective's lean or straight, to the centre.
     const double gap = is_column ? (beyond - 1.0) * right * scale : (beyond - 1.0) * top * scale;
     const double lean = orthographic ? 1.0 : std::sqrt(1.0 + (is_column ? right * right : top * top));
-    rig.point(place, gap / lean * (1.0 + (i % 4 < 2 ? 1e-6 : random.between(-1e-5, 0.1))));
-    if (i % 5 == 0) rig.spot(place, {-side.x, -side.y, 0.1}, gap / lean * 1.2, 0.4);
+    rig.point(position, gap / lean * (1.0 + (i % 4 < 2 ? 1e-6 : random.between(-1e-5, 0.1))));
+    if (i % 5 == 0) rig.spot(position, {-side.x, -side.y, 0.1}, gap / lean * 1.2, 0.4);
   }
   return rig;
 }
@@ -273,12 +273,12 @@ std::vector<Trial> clipped_tiles(std::uint64_t seed) {
     Rig parallel = beside_the_picture(5.0, 3.2, true, seed);
     // The one that was found first, as the camera at (5, 3.2, 0) saw it.
     parallel.point({9.0, -0.67, -5.1}, 3.99999).show({1000, 640});
-    parallel.lens() = {};
-    parallel.lens().orthographic = true;
-    parallel.lens().xmag_m = 5.0;
-    parallel.lens().ymag_m = 3.2;
-    parallel.lens().near_m = 0.0;
-    parallel.lens().far_m = 100.0;
+    parallel.projection() = {};
+    parallel.projection().orthographic = true;
+    parallel.projection().xmag_m = 5.0;
+    parallel.projection().ymag_m = 3.2;
+    parallel.projection().near_m = 0.0;
+    parallel.projection().far_m = 100.0;
     grid::GridSpec linear = frustum_grid({0, 0}, Scheme::linear, 10, 0.0, 100.0);
     linear.tiles = {tile, {0, 0}};
     trials.push_back(parallel.on(linear, label + ", orthographic"));

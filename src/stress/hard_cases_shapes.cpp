@@ -59,8 +59,8 @@ std::vector<Trial> cone_axes(std::uint64_t) {
   for (const double degrees : {5.0, 30.0, 60.0, 89.0})
     for (const Vec3d& axis : {Vec3d(1, 0, 0), Vec3d(-1, 0, 0), Vec3d(0, 1, 0), Vec3d(0, -1, 0), Vec3d(0, 0, 1),
                               Vec3d(0, 0, -1), Vec3d(1, 1, 0), Vec3d(0, 1, -1)})
-      for (const Vec3d& place : {Vec3d(0, 0, -10), Vec3d(3, -2, -25), Vec3d(-8, 4, -6)})
-        rig.spot(place, axis, 12.0, degrees * k_degree);
+      for (const Vec3d& position : {Vec3d(0, 0, -10), Vec3d(3, -2, -25), Vec3d(-8, 4, -6)})
+        rig.spot(position, axis, 12.0, degrees * k_degree);
   rig.on_each(grids_of_every_kind(), "axes along the axes", trials);
   return trials;
 }

@@ -1,4 +1,4 @@
-// One setting of the random search, held against everything that it can be held against.
+// One setting of the random search, checked against everything that it can be checked against.
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ using geom::Verdict;
 constexpr std::size_t k_decisions_per_setting = 240, k_least_per_light = 4;
 constexpr int k_points_per_cell = 12;
 
-// A point of a cell by its place between the sides.
+// A point of a cell by its position between the sides.
 struct PointOf {
   double x, y, z;
 
@@ -50,7 +50,7 @@ bool holds_clearly(const geom::LightVolume& volume, const Vec3d& p) {
   return std::sin(volume.half_angle_rad) * along - std::cos(volume.half_angle_rad) * across > margin;
 }
 
-// As holds_clearly, of a place that a shader looks up in single precision, which loses up to `margin` of it.
+// As holds_clearly, of a point that a shader looks up in single precision, which loses up to `margin` of it.
 bool clearly_reaches(const scene::WorldLight& light, const grid::Sample& sample, double margin) {
   const Vec3d apex = light.position - sample.eye, v = sample.from_eye - apex;
   const double distance = glm::length(v);
@@ -109,7 +109,7 @@ class SettingCheck {
     run_methods();
     if (truth_.undecided > 0)
       add(FaultKind::undecided, "", "the true lists leave " + std::to_string(truth_.undecided) + " pairs undecided", 0,
-          lights_.points);
+          lights_.points.count);
     check_truth();
     check_methods();
     check_shading();
@@ -146,7 +146,7 @@ class SettingCheck {
         answer.lists = run.cell_lists();
         run.assign({frame_, lights_});
         const assign::Lists& filled = run.filled_lists() ? *run.filled_lists() : answer.lists;
-        if (!assign::lists_fault(filled, grid_.cell_count(), lights_.points, lights_.spots).empty()) {
+        if (!assign::lists_fault(filled, grid_.cell_count(), lights_).empty()) {
           add(FaultKind::lists, method.label, "what it gave are no lists", 0, 0);
           continue;
         }
@@ -161,8 +161,8 @@ class SettingCheck {
     }
   }
 
-  // Pair by pair: what the filter or a point in both contradicts, what the filter leaves open, what lies at the border
-  // of the true cells, and what a method lists beside them.
+  // Pair by pair: what the filter or a point in both contradicts, what the filter leaves undecided, what lies at the
+  // border of the true cells, and what a method lists beside them.
   void check_truth() {
     const std::size_t lights = frame_.lights.size();
     const PairSet truth(truth_.lists, lights);
@@ -275,7 +275,7 @@ class SettingCheck {
       for (std::uint32_t cell = 0; cell < grid_.cell_count(); ++cell)
         for (std::uint32_t light = 0; light < frame_.lights.size(); ++light)
           if (mine.has(cell, light) != its.has(cell, light))
-            return add(FaultKind::twin, answer.method->label,
+            return add(FaultKind::simd_variant, answer.method->label,
                        pair_text(cell, light) + " is listed by " +
                            (mine.has(cell, light) ? answer.method->label : reference) + " only",
                        cell, light);
@@ -302,37 +302,39 @@ class SettingCheck {
       const auto list = answer.lists.of(cell);
       if (!std::binary_search(list.begin(), list.end(), light))
         add(FaultKind::shading, answer.method->label,
-            pair_text(cell, light) + " is not listed, but the light reaches a place that is looked up there", cell,
+            pair_text(cell, light) + " is not listed, but the light reaches a point that is looked up there", cell,
             light);
     }
   }
 
   std::vector<grid::Sample> places_to_shade() const {
     constexpr int k_in_view = 32, k_per_light = 3;
-    const view::Projection& lens = frame_.projection;
-    const double far = std::isfinite(lens.far_m) ? lens.far_m : 1e4 * std::max(lens.near_m, 1e-15);
+    const view::Projection& projection = frame_.projection;
+    const double far = std::isfinite(projection.far_m) ? projection.far_m : 1e4 * std::max(projection.near_m, 1e-15);
     std::vector<grid::Sample> samples = measure::volume_samples(frame_, far, k_in_view, 1);
     SplitMix64 random(1);
     for (const scene::WorldLight& light : frame_.lights) {
       const Vec3d apex = frame_.view_space.rotation * (light.position - frame_.view_space.origin);
       for (int i = 0; i < k_per_light; ++i) {
         const double reach = std::min(light.range_m, far), x = random.between(-1.0, 1.0), y = random.between(-1.0, 1.0);
-        const Vec3d place = apex + 0.7 * reach * Vec3d(x, y, random.between(-1.0, 1.0));
-        const double depth = -place.z, scale = lens.orthographic ? 1.0 : depth;
-        const double pixel_x = (place.x / scale - lens.left) / (lens.right - lens.left) * frame_.viewport.x;
-        const double pixel_y = (lens.top - place.y / scale) / (lens.top - lens.bottom) * frame_.viewport.y;
-        const bool is_seen = depth > lens.near_m && depth < lens.far_m && pixel_x >= 0.0 && pixel_y >= 0.0 &&
-                             pixel_x < frame_.viewport.x && pixel_y < frame_.viewport.y;
-        if (is_seen) samples.push_back(measure::sample_at(frame_, pixel_x, pixel_y, depth));
+        const Vec3d point = apex + 0.7 * reach * Vec3d(x, y, random.between(-1.0, 1.0));
+        const double depth = -point.z, scale = projection.orthographic ? 1.0 : depth;
+        const double pixel_x =
+            (point.x / scale - projection.left) / (projection.right - projection.left) * frame_.viewport.x;
+        const double pixel_y =
+            (projection.top - point.y / scale) / (projection.top - projection.bottom) * frame_.viewport.y;
+        const bool is_in_picture = depth > projection.near_m && depth < projection.far_m && pixel_x >= 0.0 &&
+                                   pixel_y >= 0.0 && pixel_x < frame_.viewport.x && pixel_y < frame_.viewport.y;
+        if (is_in_picture) samples.push_back(measure::sample_at(frame_, pixel_x, pixel_y, depth));
       }
     }
     return samples;
   }
 
-  // More than single precision loses between a place and its cell: relative to the place, and to the whole picture or
+  // More than single precision loses between a point and its cell: relative to the point, and to the whole picture or
   // all boxes, whose sides it is compared with.
   double lost_by_lookup(const grid::Sample& sample) const {
-    const view::Projection& lens = frame_.projection;
+    const view::Projection& projection = frame_.projection;
     double size = glm::length(sample.from_eye);
     if (grid_.kind() == grid::Kind::world) {
       const grid::WorldGrid& world = grid_.world();
@@ -341,8 +343,9 @@ class SettingCheck {
       const grid::CascadesGrid& cascades = grid_.cascades();
       size += double{cascades.edge_m(cascades.levels - 1)} * glm::length(Vec3d(cascades.cells));
     } else {
-      const double scale = lens.orthographic ? 1.0 : -double{sample.view.z};
-      size += scale * (std::abs(lens.left) + std::abs(lens.right) + std::abs(lens.bottom) + std::abs(lens.top));
+      const double scale = projection.orthographic ? 1.0 : -double{sample.view.z};
+      size += scale * (std::abs(projection.left) + std::abs(projection.right) + std::abs(projection.bottom) +
+                       std::abs(projection.top));
     }
     return 0x1p-18 * size;
   }
@@ -368,7 +371,7 @@ class SettingCheck {
 }  // namespace
 
 const char* fault_kind_name(FaultKind kind) {
-  constexpr const char* k_names[k_fault_kinds] = {"truth", "loss",  "extra",     "twin",
+  constexpr const char* k_names[k_fault_kinds] = {"truth", "loss",  "extra",     "simd-variant",
                                                   "lists", "error", "undecided", "shading"};
   return k_names[static_cast<int>(kind)];
 }
@@ -397,7 +400,7 @@ std::string reference_of(const std::string& label) {
 
 bool takes_trial(const StressMethod& method, const Trial& trial) {
   return method.assigner->takes(trial.grid.kind) &&
-         (method.assigner->orthographic || !trial.scene.cameras[0].lens.orthographic);
+         (method.assigner->orthographic || !trial.scene.cameras[0].projection.orthographic);
 }
 
 SettingReport check_setting(const Trial& trial, std::span<const StressMethod> methods) {

@@ -21,7 +21,7 @@ std::tuple<FaultKind, std::string, grid::Kind, bool, bool> class_of(const Random
 void collect(const SettingReport& report, std::uint64_t seed, const Trial& trial, RandomSearch& search) {
   search.counts.add(report.counts);
   for (const SettingFault& fault : report.faults) {
-    RandomFault found{fault, trial.grid.kind, trial.scene.cameras[0].lens.orthographic, 0, {}, trial};
+    RandomFault found{fault, trial.grid.kind, trial.scene.cameras[0].projection.orthographic, 0, {}, trial};
     auto same = std::find_if(search.faults.begin(), search.faults.end(),
                              [&](const RandomFault& other) { return class_of(other) == class_of(found); });
     if (same == search.faults.end()) same = search.faults.insert(same, found);
@@ -59,14 +59,14 @@ RandomSearch search_at_random(std::span<const StressMethod> methods, const Stres
   };
   RandomSearch search;
   search.first_seed = request.seed;
-  Crew crew(request.threads);
+  ThreadPool threads(request.threads);
   constexpr std::uint64_t k_batch = 64;
   while (!is_over(search.counts.settings)) {
     const std::uint64_t first = search.counts.settings, count = std::min(k_batch, request.random - first);
     on_progress(first, "settings from seed " + std::to_string(request.seed + first) + " on");
     std::vector<Trial> trials(count);
     std::vector<std::optional<SettingReport>> reports(count);
-    crew.each(count, [&](std::size_t i) {
+    threads.each(count, [&](std::size_t i) {
       if (stop) return;
       trials[i] = random_setting(request.seed + first + i);
       reports[i] = check_setting(trials[i], methods);
@@ -76,7 +76,7 @@ RandomSearch search_at_random(std::span<const StressMethod> methods, const Stres
       collect(*reports[i], request.seed + first + i, trials[i], search);
   }
   on_progress(search.counts.settings, "shrinking " + std::to_string(search.faults.size()) + " faults");
-  if (!stop) crew.each(search.faults.size(), [&](std::size_t i) { shrink(search.faults[i], methods); });
+  if (!stop) threads.each(search.faults.size(), [&](std::size_t i) { shrink(search.faults[i], methods); });
   return search;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// `stress --random`: settings drawn from seeds, on which every method is held against the truth, every fast twin
+// `stress --random`: settings drawn from seeds, on which every method is checked against the truth, every SIMD variant
 // against its reference, and the truth against pair-by-pair decisions. What is found is shrunk to a setting that a
 // person can read.
 
@@ -16,15 +16,15 @@ namespace clusterbench::stress {
 struct StressMethod;
 
 enum class FaultKind : std::uint8_t {
-  truth,  // the true lists differ from what the pair's own decision, or a point in both, says
-  loss,   // a conservative method lacks a true pair
-  extra,  // an exact method has a pair that is not true
-  twin,   // a fast method's lists differ from its reference's
-  lists,  // not ascending, not one per cell, or other ones when asked again
-  error,  // it threw
+  truth,         // the true lists differ from what the pair's own decision, or a point in both, says
+  loss,          // a conservative method lacks a true pair
+  extra,         // an exact method has a pair that is not true
+  simd_variant,  // a fast method's lists differ from its reference's
+  lists,         // not ascending, not one per cell, or other ones when asked again
+  error,         // it threw
   // A pair that is neither proven nor refuted: whatever is at fault may hide behind it.
   undecided,
-  shading  // a place that a conservative method's light clearly reaches is looked up in a cell without it
+  shading  // a point that a conservative method's light clearly reaches is looked up in a cell without it
 };
 inline constexpr int k_fault_kinds = 8;
 const char* fault_kind_name(FaultKind kind);
@@ -44,7 +44,7 @@ struct SettingCounts {
   std::uint64_t points = 0, spots = 0, pairs = 0, true_pairs = 0;  // pairs: cells x lights
   std::uint64_t compared_pairs = 0;                                // listed by methods
   std::uint64_t decisions = 0, sampled = 0, undecided = 0;         // of the slow way
-  std::uint64_t shaded = 0;                                        // lights that clearly reach places in the view
+  std::uint64_t shaded = 0;                                        // lights that clearly reach points in the view
 
   void add(const SettingCounts& other);
 };
@@ -57,8 +57,8 @@ struct SettingReport {
 // Settings that none of the methods takes are counted and left at that.
 SettingReport check_setting(const Trial& trial, std::span<const StressMethod> methods);
 
-// The method of the fault and that whose twin it is; of a fault of the truth all, since it shows where they list what
-// the truth denies.
+// The method of the fault and that whose simd_variant it is; of a fault of the truth all, since it shows where they
+// list what the truth denies.
 std::vector<StressMethod> methods_that_show(const SettingFault& fault, std::span<const StressMethod> methods);
 
 // A setting with the same fault (kind, method, type of light) and less in it: fewer lights and cells, rounder numbers.

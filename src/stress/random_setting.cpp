@@ -75,16 +75,16 @@ Vec4d random_rotation(Draw& draw) {
   return turned(axis, draw.between(0.0, 360.0 * k_degree));
 }
 
-Vec3d whole_place(Draw& draw, double step_m, int most) {
-  Vec3d place(0.0);
-  for (int axis = 0; axis < 3; ++axis) place[axis] = step_m * draw.whole(-most, most);
-  return place;
+Vec3d whole_position(Draw& draw, double step_m, int most) {
+  Vec3d position(0.0);
+  for (int axis = 0; axis < 3; ++axis) position[axis] = step_m * draw.whole(-most, most);
+  return position;
 }
 
 Vec3d random_eye(Draw& draw, const Extent& extent) {
   const int way = draw.whole(0, 99);
   if (way < 45) return Vec3d(0.0);
-  if (way < 65) return whole_place(draw, extent.step_m, 50);
+  if (way < 65) return whole_position(draw, extent.step_m, 50);
   const double far_off = way < 93 ? extent.far_m * draw.log_between(1.0, 1e6) : draw.log_between(1e12, k_largest_m);
   const double scale = way < 85 ? extent.far_m : at_most_largest(far_off);
   return 0.5 * scale * random_direction(draw);
@@ -96,36 +96,37 @@ Vec2i random_picture(Draw& draw) {
   return draw.one_of(pictures);
 }
 
-void random_sides(scene::Lens& lens, Draw& draw, Vec2i picture) {
-  const double top = std::tan(lens.yfov_rad / 2.0), right = top * picture.x / picture.y;
+void random_sides(scene::CameraProjection& projection, Draw& draw, Vec2i picture) {
+  const double top = std::tan(projection.yfov_rad / 2.0), right = top * picture.x / picture.y;
   if (draw.percent(40)) {  // moved by parts of a pixel
     const double x = draw.between(-0.5, 0.5) * 2.0 * right / picture.x;
     const double y = draw.between(-0.5, 0.5) * 2.0 * top / picture.y;
-    lens.sides = scene::LensSides{-right + x, right + x, -top + y, top + y};
+    projection.sides = scene::ProjectionSides{-right + x, right + x, -top + y, top + y};
     return;
   }
   const double x = draw.between(-1.5, 1.5) * right, y = draw.between(-1.5, 1.5) * top;
-  lens.sides = scene::LensSides{x - right, x + right, y - top, y + top};
+  projection.sides = scene::ProjectionSides{x - right, x + right, y - top, y + top};
 }
 
-scene::Lens random_lens(Draw& draw, const Extent& extent, Vec2i picture) {
-  scene::Lens lens;
-  lens.near_m = extent.near_m;
-  lens.far_m = extent.far_m;
-  lens.orthographic = draw.percent(25);
-  if (lens.orthographic) {
-    lens.ymag_m = draw.percent(50) ? extent.step_m * draw.whole(1, 32) : extent.far_m * draw.log_between(1e-3, 2.0);
-    lens.xmag_m = lens.ymag_m * picture.x / picture.y;
-    if (draw.percent(40)) lens.near_m = 0.0;
-    return lens;
+scene::CameraProjection random_projection(Draw& draw, const Extent& extent, Vec2i picture) {
+  scene::CameraProjection projection;
+  projection.near_m = extent.near_m;
+  projection.far_m = extent.far_m;
+  projection.orthographic = draw.percent(25);
+  if (projection.orthographic) {
+    projection.ymag_m =
+        draw.percent(50) ? extent.step_m * draw.whole(1, 32) : extent.far_m * draw.log_between(1e-3, 2.0);
+    projection.xmag_m = projection.ymag_m * picture.x / picture.y;
+    if (draw.percent(40)) projection.near_m = 0.0;
+    return projection;
   }
   const double usual[] = {60.0, 90.0, 45.0, 75.0};
-  lens.yfov_rad = draw.percent(70)   ? draw.one_of(usual) * k_degree
-                  : draw.percent(70) ? draw.log_between(0.01, 3.0)
-                                     : 2.0 * std::atan(draw.log_between(10.0, 1e4));
-  if (draw.percent(30)) random_sides(lens, draw, picture);
-  if (!draw.percent(80)) lens.far_m = std::numeric_limits<double>::infinity();
-  return lens;
+  projection.yfov_rad = draw.percent(70)   ? draw.one_of(usual) * k_degree
+                        : draw.percent(70) ? draw.log_between(0.01, 3.0)
+                                           : 2.0 * std::atan(draw.log_between(10.0, 1e4));
+  if (draw.percent(30)) random_sides(projection, draw, picture);
+  if (!draw.percent(80)) projection.far_m = std::numeric_limits<double>::infinity();
+  return projection;
 }
 
 std::vector<double> random_boundaries(Draw& draw, const Extent& extent) {
@@ -143,17 +144,17 @@ std::vector<double> random_boundaries(Draw& draw, const Extent& extent) {
   return list;
 }
 
-void random_slices(grid::Slicing& slices, Draw& draw, const Extent& extent, const scene::Lens& lens) {
+void random_slices(grid::Slicing& slices, Draw& draw, const Extent& extent, const scene::CameraProjection& projection) {
   using grid::Scheme;
   const Scheme schemes[] = {Scheme::linear, Scheme::exponential, Scheme::exponential_first, Scheme::power, Scheme::list,
                             Scheme::list,   Scheme::fit};
   slices.scheme = draw.one_of(schemes);
-  if (lens.near_m == 0.0 && !draw.percent(10) && slices.scheme != Scheme::list) slices.scheme = Scheme::linear;
+  if (projection.near_m == 0.0 && !draw.percent(10) && slices.scheme != Scheme::list) slices.scheme = Scheme::linear;
   slices.count = draw.percent(85) ? draw.whole(2, 16) : draw.whole(1, 60);
   slices.far_m = extent.far_m;
   if (slices.scheme == Scheme::list) slices.boundaries_m = random_boundaries(draw, extent);
-  if (draw.percent(30)) slices.near_m = lens.near_m * draw.log_between(0.5, 4.0);
-  const double near = slices.near_m != 0.0 ? slices.near_m : lens.near_m;
+  if (draw.percent(30)) slices.near_m = projection.near_m * draw.log_between(0.5, 4.0);
+  const double near = slices.near_m != 0.0 ? slices.near_m : projection.near_m;
   slices.first_m = draw.percent(50) ? std::sqrt(near * extent.far_m) : draw.between(near, extent.far_m);
   slices.lambda = draw.percent(20) ? 0.0 : draw.between(0.0, 1.0);
 }
@@ -191,18 +192,19 @@ void random_boxes(grid::GridSpec& spec, Draw& draw, const Extent& extent, const 
   }
 }
 
-grid::GridSpec random_grid(Draw& draw, const Extent& extent, const scene::Lens& lens, Vec2i picture, const Vec3d& eye) {
+grid::GridSpec random_grid(Draw& draw, const Extent& extent, const scene::CameraProjection& projection, Vec2i picture,
+                           const Vec3d& eye) {
   using grid::Kind;
   const Kind kinds[] = {Kind::frustum,  Kind::frustum,  Kind::frustum,  Kind::frustum, Kind::frustum,
                         Kind::distance, Kind::distance, Kind::cascades, Kind::world};
   grid::GridSpec spec;
   spec.kind = draw.one_of(kinds);
-  if (spec.kind == Kind::distance && lens.orthographic && !draw.percent(5)) spec.kind = Kind::frustum;
-  if (spec.kind == Kind::cascades || spec.kind == Kind::world) {
+  if (spec.kind == Kind::distance && projection.orthographic && !draw.percent(5)) spec.kind = Kind::frustum;
+  if (!spec.has_tiles()) {
     random_boxes(spec, draw, extent, eye);
   } else {
     random_tiles(spec.tiles, draw, picture);
-    random_slices(spec.slices, draw, extent, lens);
+    random_slices(spec.slices, draw, extent, projection);
   }
   return spec;
 }
@@ -236,18 +238,18 @@ class Lights {
   // Laid against a cell's face, edge or corner; then, perhaps, pushed in or pulled away by a little or by ulps.
   void touching() {
     const Contact contact = random_contact(grid_.cell(random_cell(grid_, draw_.random())), draw_.random());
-    const double distance = std::max(glm::length(contact.place), extent_.near_m);
+    const double distance = std::max(glm::length(contact.point), extent_.near_m);
     double range = draw_.percent(70)   ? distance * draw_.log_between(1e-3, 10.0)
                    : draw_.percent(50) ? distance * draw_.log_between(1e-8, 1e-3)
                                        : extent_.far_m * draw_.log_between(1.0, 1e3);
     range = at_most_largest(range);
-    const Vec3d place = contact.place + range * contact.outward;
+    const Vec3d position = contact.point + range * contact.outward;
     if (draw_.percent(40)) range *= draw_.about_one(1e-16, 1e-3);
-    if (!draw_.percent(45)) return light(in_world(place), range);
+    if (!draw_.percent(45)) return light(in_world(position), range);
     const Vec3d other = draw_.percent(50) ? random_direction(draw_) : axis_direction(draw_);
     const double angle = random_angle();
     const Vec3d generator = glm::normalize(glm::cross(contact.outward, other) + 1e-9 * other);
-    spot(in_world(contact.place + draw_.between(0.0, 1.0) * range * generator),
+    spot(in_world(contact.point + draw_.between(0.0, 1.0) * range * generator),
          world_direction(-std::cos(angle) * generator + std::sin(angle) * contact.outward), range, angle);
   }
 
@@ -255,14 +257,14 @@ class Lights {
   void on_lattice() {
     const double step = extent_.step_m;
     const bool of_camera = draw_.percent(60);
-    Vec3d place = whole_place(draw_, step, draw_.percent(70) ? 8 : 64);
-    if (of_camera) place.z = -std::abs(place.z);
+    Vec3d position = whole_position(draw_, step, draw_.percent(70) ? 8 : 64);
+    if (of_camera) position.z = -std::abs(position.z);
     double range = step * draw_.whole(1, 12);
-    if (draw_.percent(30)) range = std::abs(place[draw_.whole(0, 2)]);
+    if (draw_.percent(30)) range = std::abs(position[draw_.whole(0, 2)]);
     const Vec3d corners[] = {{3, 4, 0}, {0, 3, 4}, {4, 0, 3}, {1, 2, 2}, {2, 3, 6}};
     if (draw_.percent(20)) {
       const Vec3d corner = draw_.one_of(corners);
-      place += (draw_.sign() * step) * corner;
+      position += (draw_.sign() * step) * corner;
       range = step * glm::length(corner);
     }
     if (range == 0.0) range = step;
@@ -272,7 +274,7 @@ class Lights {
     const bool is_spot = draw_.percent(35);
     const int mirrored = draw_.percent(60) ? draw_.whole(1, 2) : -1;
     for (int copy = 0; copy < (mirrored < 0 ? 1 : 2); ++copy) {
-      Vec3d at = place, towards = axis;
+      Vec3d at = position, towards = axis;
       if (copy == 1) {
         at[mirrored - 1] = -at[mirrored - 1];
         towards[mirrored - 1] = -towards[mirrored - 1];
@@ -289,24 +291,25 @@ class Lights {
                                               : at_most_largest(extent_.far_m * draw_.log_between(1e-6, 1e3));
     const Vec3d way = draw_.percent(60) ? Vec3d(0.0, 0.0, draw_.sign()) : random_direction(draw_);
     const double range = distance * draw_.about_one(1e-16, 0.5);
-    const Vec3d place = frame_.view_space.origin + glm::transpose(frame_.view_space.rotation) * (distance * way);
-    if (draw_.percent(70)) return light(place, range);
+    const Vec3d position = frame_.view_space.origin + glm::transpose(frame_.view_space.rotation) * (distance * way);
+    if (draw_.percent(70)) return light(position, range);
     const Vec3d direction = draw_.percent(50) ? random_direction(draw_) : axis_direction(draw_);
-    spot(place, direction, range, random_angle());
+    spot(position, direction, range, random_angle());
   }
 
   // In and around the view, of all sizes; far away with a range of centimetres, too.
   void anywhere() {
     const double depth = extent_.far_m * draw_.log_between(1e-5, 2.0);
-    const view::Projection& lens = frame_.projection;
-    const double scale = lens.orthographic ? 1.0 : depth;
+    const view::Projection& projection = frame_.projection;
+    const double scale = projection.orthographic ? 1.0 : depth;
     const double x = draw_.between(-0.2, 1.2), y = draw_.between(-0.2, 1.2);
-    const Vec3d place{scale * (lens.left + x * (lens.right - lens.left)),
-                      scale * (lens.bottom + y * (lens.top - lens.bottom)), draw_.percent(90) ? -depth : depth};
-    const double size = std::max(glm::length(place), extent_.near_m);
+    const Vec3d position{scale * (projection.left + x * (projection.right - projection.left)),
+                         scale * (projection.bottom + y * (projection.top - projection.bottom)),
+                         draw_.percent(90) ? -depth : depth};
+    const double size = std::max(glm::length(position), extent_.near_m);
     const double range =
         at_most_largest(draw_.percent(50) ? size * draw_.log_between(1e-2, 2.0) : size * draw_.log_between(1e-8, 1e4));
-    const Vec3d at = frame_.view_space.origin + glm::transpose(frame_.view_space.rotation) * place;
+    const Vec3d at = frame_.view_space.origin + glm::transpose(frame_.view_space.rotation) * position;
     if (draw_.percent(50)) return light(at, range);
     const Vec3d direction = random_direction(draw_);
     spot(at, direction, range, random_angle());
@@ -323,34 +326,34 @@ class Lights {
   Vec3d in_world(const Vec3d& local) const { return glm::transpose(space_.rotation) * local + space_.origin; }
   Vec3d world_direction(const Vec3d& local) const { return glm::transpose(space_.rotation) * local; }
 
-  void light(Vec3d place, double range) {
-    nudge(place, range);
-    put(place, range);
+  void light(Vec3d position, double range) {
+    nudge(position, range);
+    put(position, range);
   }
-  void spot(Vec3d place, const Vec3d& direction, double range, double angle) {
-    nudge(place, range);
-    put_spot(place, direction, range, angle);
+  void spot(Vec3d position, const Vec3d& direction, double range, double angle) {
+    nudge(position, range);
+    put_spot(position, direction, range, angle);
   }
-  void nudge(Vec3d& place, double& range) {
+  void nudge(Vec3d& position, double& range) {
     if (!draw_.percent(50)) return;
-    for (int axis = 0; axis < 3; ++axis) place[axis] = draw_.nudged(place[axis], 4);
+    for (int axis = 0; axis < 3; ++axis) position[axis] = draw_.nudged(position[axis], 4);
     range = draw_.nudged(range, 4);
   }
 
-  void put(const Vec3d& place, double range) {
-    const double size = std::max({std::abs(place.x), std::abs(place.y), std::abs(place.z)});
+  void put(const Vec3d& position, double range) {
+    const double size = std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z)});
     if (!(size <= k_largest_m) || !(range > 1e-30) || !(range <= k_largest_m)) return;
     scene::Light added;
     added.node = static_cast<int>(trial_.scene.nodes.size());
     added.name = "light " + std::to_string(trial_.scene.lights.size());
     added.range_m = range;
-    trial_.scene.nodes.push_back({.name = added.name, .translation = place});
+    trial_.scene.nodes.push_back({.name = added.name, .translation = position});
     trial_.scene.lights.push_back(added);
   }
 
-  void put_spot(const Vec3d& place, const Vec3d& direction, double range, double angle) {
+  void put_spot(const Vec3d& position, const Vec3d& direction, double range, double angle) {
     const std::size_t before = trial_.scene.lights.size();
-    put(place, range);
+    put(position, range);
     if (trial_.scene.lights.size() == before) return;
     scene::Light& added = trial_.scene.lights.back();
     added.type = scene::LightType::spot;
@@ -394,10 +397,10 @@ Trial random_setting(std::uint64_t seed) {
   Rig rig;
   const Vec2i picture = random_picture(draw);
   rig.show(picture);
-  rig.lens() = random_lens(draw, extent, picture);
+  rig.projection() = random_projection(draw, extent, picture);
   const Vec3d eye = random_eye(draw, extent);
   const Vec4d rotation = random_rotation(draw);
-  Trial trial = rig.on(random_grid(draw, extent, rig.lens(), picture, eye), "seed " + std::to_string(seed));
+  Trial trial = rig.on(random_grid(draw, extent, rig.projection(), picture, eye), "seed " + std::to_string(seed));
   trial.scene.nodes[0].translation = eye;
   trial.scene.nodes[0].rotation = rotation;
   try {

@@ -27,12 +27,13 @@ double rounded_to(double value, int digits) {
 
 // Would a file with these numbers be read back?
 bool can_be_loaded(const Trial& trial) {
-  const scene::Lens& lens = trial.scene.cameras[0].lens;
-  const bool is_lens =
-      lens.far_m > lens.near_m && lens.near_m >= 0.0 &&
-      (lens.orthographic ? lens.xmag_m > 0.0 && lens.ymag_m > 0.0
-                         : lens.near_m > 0.0 && lens.yfov_rad > 0.0 && lens.yfov_rad < std::numbers::pi);
-  return is_lens && std::all_of(trial.scene.lights.begin(), trial.scene.lights.end(), [](const scene::Light& light) {
+  const scene::CameraProjection& projection = trial.scene.cameras[0].projection;
+  const bool is_projection = projection.far_m > projection.near_m && projection.near_m >= 0.0 &&
+                             (projection.orthographic ? projection.xmag_m > 0.0 && projection.ymag_m > 0.0
+                                                      : projection.near_m > 0.0 && projection.yfov_rad > 0.0 &&
+                                                            projection.yfov_rad < std::numbers::pi);
+  return is_projection &&
+         std::all_of(trial.scene.lights.begin(), trial.scene.lights.end(), [](const scene::Light& light) {
            return light.range_m > 0.0 && light.outer_cone_rad > 0.0 && light.outer_cone_rad <= 90.0 * k_degree;
          });
 }
@@ -48,7 +49,7 @@ class Shrinker {
       has_changed_ = false;
       simplify_camera();
       simplify_grid();
-      simplify_lens();
+      simplify_projection();
       round_lights();
       if (!has_changed_) break;
     }
@@ -133,7 +134,7 @@ class Shrinker {
   }
 
   void simplify_grid() {
-    if (best_.grid.kind == grid::Kind::cascades || best_.grid.kind == grid::Kind::world) return simplify_boxes();
+    if (!best_.grid.has_tiles()) return simplify_boxes();
     list_boundaries();
     for (std::size_t i = best_.grid.slices.boundaries_m.size(); i > 0 && best_.grid.slices.boundaries_m.size() > 2; --i)
       attempt([&](Trial& trial) {
@@ -184,14 +185,16 @@ class Shrinker {
       round_each({&best_.grid.bounds_lo_m[axis], &best_.grid.bounds_hi_m[axis]});
   }
 
-  void simplify_lens() {
+  void simplify_projection() {
     if (best_.viewport != Vec2i{64, 64}) attempt([](Trial& trial) { trial.viewport = {64, 64}; });
-    const scene::Lens before = best_.scene.cameras[0].lens;
-    if (before.sides) attempt([](Trial& trial) { trial.scene.cameras[0].lens.sides.reset(); });
-    if (!before.orthographic) attempt([](Trial& trial) { trial.scene.cameras[0].lens.yfov_rad = 1.0; });
-    scene::Lens& lens = best_.scene.cameras[0].lens;
-    if (lens.sides) round_each({&lens.sides->left, &lens.sides->right, &lens.sides->bottom, &lens.sides->top});
-    round_each({&lens.near_m, &lens.far_m, &lens.yfov_rad, &lens.xmag_m, &lens.ymag_m});
+    const scene::CameraProjection before = best_.scene.cameras[0].projection;
+    if (before.sides) attempt([](Trial& trial) { trial.scene.cameras[0].projection.sides.reset(); });
+    if (!before.orthographic) attempt([](Trial& trial) { trial.scene.cameras[0].projection.yfov_rad = 1.0; });
+    scene::CameraProjection& projection = best_.scene.cameras[0].projection;
+    if (projection.sides)
+      round_each(
+          {&projection.sides->left, &projection.sides->right, &projection.sides->bottom, &projection.sides->top});
+    round_each({&projection.near_m, &projection.far_m, &projection.yfov_rad, &projection.xmag_m, &projection.ymag_m});
   }
 
   void round_lights() {

@@ -1,10 +1,10 @@
 // H31: a search for lights that touch a cell and are not listed.
 //
-// A state is a world (lens, picture, grid) and, in it, lights that touch a chosen cell: a contact on the cell's surface
-// and a light laid against it. Each light is tried at several places: touching, moved away by some roundings (a
-// conservative method lists it still: how far is the margin that the search drives down) and, for methods that promise
-// nothing, pushed into the cell by parts of its range. Children differ in one number; they stay if their margin is no
-// larger. The best worlds have children, too.
+// A state is a world (projection, picture, grid) and, in it, lights that touch a chosen cell: a contact on the cell's
+// surface and a light laid against it. Each light is tried at several positions: touching, moved away by some roundoffs
+// (a conservative method lists it still: how far is the margin that the search drives down) and, for methods that
+// promise nothing, pushed into the cell by parts of its range. Children differ in one number; they stay if their margin
+// is no larger. The best worlds have children, too.
 
 #include <algorithm>
 #include <chrono>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr double k_pi = 3.14159265358979323846;
 
-// Roundings (2^-24 of the light's reach) by which a light is moved away from its cell; and parts of its range by which
+// Roundoffs (2^-24 of the light's reach) by which a light is moved away from its cell; and parts of its range by which
 // it is pushed in.
 constexpr double k_away[] = {32, 24, 16, 12, 8, 6, 4, 3, 2, 1};
 constexpr double k_into[] = {1e-6, 1e-4, 1e-3, 0.01, 0.03, 0.1, 0.3};
@@ -37,7 +37,7 @@ struct Touch {
   std::uint64_t contact = 0;  // seed of the contact
   double range = 1.0, angle = 0.5, turn = 0.0, along = 0.5;
   bool is_spot = false;
-  double nudge = 0.0;  // roundings, of the centre, across the contact
+  double nudge = 0.0;  // roundoffs, of the centre, across the contact
 };
 
 double log_between(SplitMix64& random, double lo, double hi) {
@@ -89,12 +89,12 @@ World mutated(World world, SplitMix64& random, const assign::AssignerDescriptor&
 
 Trial trial_of(const World& world) {
   Rig rig;
-  rig.lens().yfov_rad = world.fov_rad;
-  rig.lens().near_m = world.near_m;
+  rig.projection().yfov_rad = world.fov_rad;
+  rig.projection().near_m = world.near_m;
   const double far = world.near_m * world.far_ratio;
-  rig.lens().far_m = far;
+  rig.projection().far_m = far;
   const double top = std::tan(world.fov_rad / 2.0), right = top * world.aspect;
-  rig.lens().sides = scene::LensSides{-right * (1.0 - world.shift), right * (1.0 + world.shift), -top, top};
+  rig.projection().sides = scene::ProjectionSides{-right * (1.0 - world.shift), right * (1.0 + world.shift), -top, top};
   rig.show({1000, std::clamp(static_cast<int>(1000 / world.aspect), 20, 4000)});
   constexpr grid::Scheme k_schemes[] = {grid::Scheme::linear, grid::Scheme::exponential,
                                         grid::Scheme::exponential_first};
@@ -162,13 +162,13 @@ Vec3d across(const Vec3d& n, double turn) {
 scene::WorldLight light_of(const Touch& touch, const Contact& contact, double moved_m) {
   scene::WorldLight light;
   light.range_m = touch.range;
-  light.position = contact.place + touch.range * contact.outward;
+  light.position = contact.point + touch.range * contact.outward;
   if (touch.is_spot) {
     const Vec3d generator = across(contact.outward, touch.turn);
     light.type = scene::LightType::spot;
     light.outer_cone_rad = touch.angle;
     light.direction = glm::normalize(std::cos(touch.angle) * generator + std::sin(touch.angle) * contact.outward);
-    light.position = contact.place - touch.along * touch.range * generator;
+    light.position = contact.point - touch.along * touch.range * generator;
   }
   light.position += moved_m * contact.outward;
   const double size = glm::length(light.position) + touch.range;
@@ -176,11 +176,11 @@ scene::WorldLight light_of(const Touch& touch, const Contact& contact, double mo
   return light;
 }
 
-// Lights at the places of one touch, from the farthest away to the deepest in.
+// Lights at the positions of one touch, from the farthest away to the deepest in.
 class Ladder {
  public:
   explicit Ladder(bool conservative) {
-    for (const double roundings : k_away) steps_.push_back({roundings, 0.0});
+    for (const double roundoffs : k_away) steps_.push_back({roundoffs, 0.0});
     steps_.push_back({-0x1p-16, 0.0});  // touching for certain
     touching_ = steps_.size() - 1;
     if (!conservative)
@@ -189,16 +189,16 @@ class Ladder {
 
   std::size_t size() const { return steps_.size(); }
   std::size_t touching() const { return touching_; }
-  double roundings(std::size_t step) const { return steps_[step].roundings; }
+  double roundoffs(std::size_t step) const { return steps_[step].roundoffs; }
   double moved_m(std::size_t step, const Touch& touch, const Contact& contact) const {
     const double reach =
-        std::abs(contact.place.x) + std::abs(contact.place.y) + std::abs(contact.place.z) + 2.0 * touch.range;
-    return steps_[step].roundings * 0x1p-24 * reach + steps_[step].of_range * touch.range;
+        std::abs(contact.point.x) + std::abs(contact.point.y) + std::abs(contact.point.z) + 2.0 * touch.range;
+    return steps_[step].roundoffs * 0x1p-24 * reach + steps_[step].of_range * touch.range;
   }
 
  private:
   struct Step {
-    double roundings, of_range;
+    double roundoffs, of_range;
   };
   std::vector<Step> steps_;
   std::size_t touching_;
@@ -382,7 +382,7 @@ SearchResult search_for_losses(const StressMethod& method, const StressRequest& 
     on_progress(result.tries);
   }
   // Steps 0 .. best - 1 are not listed: the first that is, is the margin.
-  result.least_margin = best >= ladder.touching() ? 0.0 : ladder.roundings(best);
+  result.least_margin = best >= ladder.touching() ? 0.0 : ladder.roundoffs(best);
   return result;
 }
 

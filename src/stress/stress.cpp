@@ -40,7 +40,7 @@ void add_lists(StressCell& cell, const StressMethod& method, const Trial& trial,
   const assign::Lists lists = run.cell_lists();
   run.assign({at.frame, lights});
   const assign::Lists* filled = run.filled_lists();
-  if (!assign::lists_fault(filled ? *filled : lists, at.grid.cell_count(), lights.points, lights.spots).empty())
+  if (!assign::lists_fault(filled ? *filled : lists, at.grid.cell_count(), lights).empty())
     return cell.faults.push_back(trial.label + ": what it gave are no lists");
   if (lists != run.cell_lists()) cell.faults.push_back(trial.label + ": the same frame gave other lists");
   measure::ErrorCounts counts;

@@ -1,5 +1,5 @@
 #pragma once
-// `clusterbench stress`: every assigner on every hard case, held against the truth.
+// `clusterbench stress`: every assigner on every hard case, checked against the truth.
 
 #include <atomic>
 #include <filesystem>
@@ -27,7 +27,7 @@ struct StressMethod {
 };
 // Every assigner that has cells with its defaults and with every other choice.
 std::vector<StressMethod> stress_methods();
-// The label of the method whose lists a fast one's must equal; empty if it is no twin.
+// The label of the method whose lists a fast one's must equal; empty if it is no SIMD variant.
 std::string reference_of(const std::string& label);
 bool takes_trial(const StressMethod& method, const Trial& trial);
 
@@ -64,7 +64,7 @@ struct SearchResult {
   std::uint64_t tries = 0, misses = 0;
   std::uint64_t undecided = 0;  // not listed, and neither proven nor refuted to be in the cell
   double least_margin =
-      0.0;  // of the padding: roundings that the nearest light could be moved away and still be listed
+      0.0;  // of the padding: roundoffs that the nearest light could be moved away and still be listed
   std::optional<Loss> deepest;
 };
 
@@ -85,7 +85,7 @@ struct StressListener {
 // On `stop` it ends with the cases, searches and settings that are done.
 StressResult run_stress(const StressRequest& request, const StressListener& listener, const std::atomic<bool>& stop);
 
-// H31 for one method: hill-climbs lights, lenses and grids towards a light that touches a cell and is not listed.
+// H31 for one method: hill-climbs lights, projections and grids towards a light that touches a cell and is not listed.
 SearchResult search_for_losses(const StressMethod& method, const StressRequest& request,
                                const std::function<void(std::uint64_t tries)>& on_progress,
                                const std::atomic<bool>& stop);

@@ -11,9 +11,9 @@ Rig::Rig() {
   scene::Camera camera;
   camera.name = "camera";
   camera.node = 0;
-  camera.lens.yfov_rad = 3.14159265358979323846 / 3.0;
-  camera.lens.near_m = 0.1;
-  camera.lens.far_m = 500.0;
+  camera.projection.yfov_rad = 3.14159265358979323846 / 3.0;
+  camera.projection.near_m = 0.1;
+  camera.projection.far_m = 500.0;
   scene_.cameras.push_back(camera);
 }
 
@@ -22,17 +22,17 @@ int Rig::node(const scene::Node& node) {
   return static_cast<int>(scene_.nodes.size()) - 1;
 }
 
-Rig& Rig::point(const Vec3d& place, double range_m, int parent) {
+Rig& Rig::point(const Vec3d& position, double range_m, int parent) {
   scene::Light light;
   light.name = "light " + std::to_string(scene_.lights.size());
-  light.node = node({.name = light.name, .parent = parent, .translation = place});
+  light.node = node({.name = light.name, .parent = parent, .translation = position});
   light.range_m = range_m;
   scene_.lights.push_back(light);
   return *this;
 }
 
-Rig& Rig::spot(const Vec3d& place, const Vec3d& direction, double range_m, double half_angle_rad) {
-  point(place, range_m);
+Rig& Rig::spot(const Vec3d& position, const Vec3d& direction, double range_m, double half_angle_rad) {
+  point(position, range_m);
   scene::Light& light = scene_.lights.back();
   light.type = scene::LightType::spot;
   light.inner_cone_rad = 0.0;

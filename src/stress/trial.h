@@ -23,11 +23,11 @@ class Rig {
  public:
   Rig();
 
-  Rig& point(const Vec3d& place, double range_m, int parent = -1);
-  Rig& spot(const Vec3d& place, const Vec3d& direction, double range_m, double half_angle_rad);
+  Rig& point(const Vec3d& position, double range_m, int parent = -1);
+  Rig& spot(const Vec3d& position, const Vec3d& direction, double range_m, double half_angle_rad);
   // A node for lights; the number to give as a parent.
   int node(const scene::Node& node);
-  scene::Lens& lens() { return scene_.cameras[0].lens; }
+  scene::CameraProjection& projection() { return scene_.cameras[0].projection; }
   Rig& look(const Vec3d& eye, double yaw_rad);
   Rig& show(Vec2i viewport);
 

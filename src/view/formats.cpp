@@ -79,8 +79,8 @@ Octahedral octahedral_of(const Vec3d& unit) {
   return {snorm16_of(u), snorm16_of(v)};
 }
 
-Vec3d unit_of(const Octahedral& place) {
-  const double u = place.u / k_snorm16_steps, v = place.v / k_snorm16_steps;
+Vec3d unit_of(const Octahedral& point) {
+  const double u = point.u / k_snorm16_steps, v = point.v / k_snorm16_steps;
   Vec3d p{u, v, 1.0 - std::fabs(u) - std::fabs(v)};
   if (p.z < 0.0) {
     p.x = with_sign_of(1.0 - std::fabs(v), u);

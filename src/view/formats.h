@@ -24,14 +24,14 @@ std::uint16_t unorm16_of(double share);
 std::uint16_t unorm16_not_below(double share);
 std::int16_t snorm16_of(double share);
 
-// A unit vector (up to rounding) as a place on the octahedron |x| + |y| + |z| = 1, unfolded to a square (Cigolle and
+// A unit vector (up to rounding) as a point on the octahedron |x| + |y| + |z| = 1, unfolded to a square (Cigolle and
 // others 2014).
 struct Octahedral {
   std::int16_t u, v;
 };
 Octahedral octahedral_of(const Vec3d& unit);
-Vec3d unit_of(const Octahedral& place);
-// The largest angle in radians between a vector and what comes back: a place is off by e = 1/2 step in u and v, so on
+Vec3d unit_of(const Octahedral& point);
+// The largest angle in radians between a vector and what comes back: a point is off by e = 1/2 step in u and v, so on
 // the octahedron by sqrt(e² + e² + (2e)²) along its faces, which are nowhere nearer to the centre than 1 / sqrt(3).
 inline constexpr double k_octahedral_rad = 4.2426406871192857 * 0.5 / k_snorm16_steps;
 

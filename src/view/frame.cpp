@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "geom/domain.h"
+#include "geom/predicates.h"
 #include "geom/rounding.h"
 #include "scene/domain.h"
 
@@ -39,18 +40,18 @@ double aspect_of(Vec2i viewport) {
   return static_cast<double>(viewport.x) / viewport.y;
 }
 
-double half_height(const scene::Lens& lens) {
-  return lens.orthographic ? lens.ymag_m : std::tan(lens.yfov_rad / 2.0);
+double half_height(const scene::CameraProjection& projection) {
+  return projection.orthographic ? projection.ymag_m : std::tan(projection.yfov_rad / 2.0);
 }
 
 // Half the width of the camera's rectangle where the viewport would crop it, else 0. Aspect ratios are written with a
 // few digits: what is less than half a pixel at each side is no difference.
-double cropped_width(const scene::Lens& lens, Vec2i viewport) {
-  if (lens.sides) return 0.0;
-  const double height = half_height(lens);
-  const double width = lens.orthographic ? lens.xmag_m : lens.aspect_ratio.value_or(0.0) * height;
-  const double held = aspect_of(viewport) * height;
-  return width - held > held / viewport.x ? width : 0.0;
+double cropped_width(const scene::CameraProjection& projection, Vec2i viewport) {
+  if (projection.sides) return 0.0;
+  const double height = half_height(projection);
+  const double width = projection.orthographic ? projection.xmag_m : projection.aspect_ratio.value_or(0.0) * height;
+  const double shown = aspect_of(viewport) * height;
+  return width - shown > shown / viewport.x ? width : 0.0;
 }
 
 // The rectangle moved against the picture.
@@ -67,53 +68,63 @@ Projection jittered(Projection projection, Vec2d jitter_px, Vec2i viewport) {
 
 }  // namespace
 
-std::string fit_warning(const scene::Lens& lens, Vec2i viewport) {
-  const double width = cropped_width(lens, viewport);
+std::string fit_warning(const scene::CameraProjection& projection, Vec2i viewport) {
+  const double width = cropped_width(projection, viewport);
   if (width == 0.0) return "";
   char text[200];
-  const double height = half_height(lens), held = aspect_of(viewport) * height;
-  if (lens.fit == scene::CameraFit::contain) {
+  const double height = half_height(projection), shown = aspect_of(viewport) * height;
+  if (projection.fit == scene::CameraFit::contain) {
     std::snprintf(text, sizeof text,
                   "the camera is %.4g times as wide as high, wider than %dx%d: its view is enlarged to %.4g times its "
                   "height (camera_fit: contain)",
-                  width / height, viewport.x, viewport.y, width / held);
+                  width / height, viewport.x, viewport.y, width / shown);
   } else {
     std::snprintf(text, sizeof text,
                   "the camera is %.4g times as wide as high, wider than %dx%d: %.3g %% of its width are cropped "
                   "(camera_fit: vertical)",
-                  width / height, viewport.x, viewport.y, 100.0 * (1.0 - held / width));
+                  width / height, viewport.x, viewport.y, 100.0 * (1.0 - shown / width));
   }
   return text;
 }
 
-Projection make_projection(const scene::Lens& lens, Vec2i viewport) {
-  if (lens.sides)
-    return {false, lens.sides->left, lens.sides->right, lens.sides->bottom, lens.sides->top, lens.near_m, lens.far_m};
+Projection make_projection(const scene::CameraProjection& projection, Vec2i viewport) {
+  if (projection.sides)
+    return {false,
+            projection.sides->left,
+            projection.sides->right,
+            projection.sides->bottom,
+            projection.sides->top,
+            projection.near_m,
+            projection.far_m};
   const double aspect = aspect_of(viewport);
-  double top = half_height(lens);
-  const double cropped = cropped_width(lens, viewport);
-  if (cropped > 0.0 && lens.fit == scene::CameraFit::contain) top = cropped / aspect;
-  return {lens.orthographic, -top * aspect, top * aspect, -top, top, lens.near_m, lens.far_m};
+  double top = half_height(projection);
+  const double cropped = cropped_width(projection, viewport);
+  if (cropped > 0.0 && projection.fit == scene::CameraFit::contain) top = cropped / aspect;
+  return {projection.orthographic, -top * aspect, top * aspect, -top, top, projection.near_m, projection.far_m};
 }
 
-float LightArrays::padded_radius(std::uint32_t light, float roundings) const {
-  if (roundings == 0.0f || is_empty(light)) return radius[light];
+float LightArrays::padded_radius(std::uint32_t light, float roundoffs) const {
+  if (roundoffs == 0.0f || is_empty(light)) return radius[light];
   constexpr float k_rounding = 0x1p-24f;
-  return radius[light] + roundings * (k_rounding * reach[light]);
+  return radius[light] + roundoffs * (k_rounding * reach[light]);
 }
 
-geom::Ball LightArrays::ball(std::uint32_t light, float roundings) const {
-  return {{x[light], y[light], z[light]}, padded_radius(light, roundings)};
+geom::Ball LightArrays::ball(std::uint32_t light, float roundoffs) const {
+  return {{x[light], y[light], z[light]}, padded_radius(light, roundoffs)};
 }
 
-geom::SphericalCone LightArrays::cone(std::uint32_t light, float roundings) const {
+geom::SphericalCone LightArrays::cone(std::uint32_t light, float roundoffs) const {
   assert(is_spot(light));
-  const std::uint32_t spot = light - points;
+  const std::uint32_t spot = light - spots.first;
   return {{x[light], y[light], z[light]},
-          padded_radius(light, roundings),
+          padded_radius(light, roundoffs),
           {axis_x[spot], axis_y[spot], axis_z[spot]},
           cos_angle[spot],
           sin_angle[spot]};
+}
+
+geom::Ball LightArrays::bounding_ball(std::uint32_t light, float roundoffs) const {
+  return is_spot(light) ? geom::bounding_ball(cone(light, roundoffs)) : ball(light, roundoffs);
 }
 
 geom::LightVolume LightArrays::volume(std::uint32_t light) const {
@@ -134,7 +145,7 @@ Frame make_frame(const scene::Scene& scene, const scene::Shot& shot, int index, 
   frame.index = index;
   frame.time_s = shot.time_s;
   frame.viewport = viewport;
-  frame.projection = jittered(make_projection(shot.lens, viewport), shot.jitter_px, viewport);
+  frame.projection = jittered(make_projection(shot.projection, viewport), shot.jitter_px, viewport);
   check_picture(frame.projection);
   frame.view_space = {shot.pose.eye, shot.pose.view_from_world};
   frame.lights = scene::world_lights(scene, shot.time_s);
@@ -146,8 +157,7 @@ Frame make_frame(const scene::Scene& scene, const scene::Shot& shot, int index, 
 
 LightArrays lights_in(const Frame& frame, const Space& space) {
   LightArrays out;
-  out.points = frame.points;
-  out.spots = static_cast<std::uint32_t>(frame.lights.size()) - frame.points;
+  static_cast<LightRanges&>(out) = frame.ranges();
   out.source = frame.lights;
   out.space = space;
   for (const scene::WorldLight& light : frame.lights) {

@@ -22,14 +22,15 @@ struct Projection {
   friend bool operator==(const Projection&, const Projection&) = default;
 };
 
-// Pixels are square. The vertical extent is the lens's and the horizontal one follows from the viewport's aspect ratio,
-// unless that would cut half a pixel or more off the sides of the camera's rectangle and lens.fit is `contain`: then
-// the horizontal extent is the lens's and the vertical one follows. Or the lens has all four sides.
-Projection make_projection(const scene::Lens& lens, Vec2i viewport);
+// Pixels are square. The vertical extent is the projection's and the horizontal one follows from the viewport's aspect
+// ratio, unless that would cut half a pixel or more off the sides of the camera's rectangle and projection.fit is
+// `contain`: then the horizontal extent is the projection's and the vertical one follows. Or the projection has all
+// four sides.
+Projection make_projection(const scene::CameraProjection& projection, Vec2i viewport);
 
 // What a picture in this viewport shows beyond the camera's own rectangle, or leaves out, because the camera is wider
 // than the viewport: one line, "" if the rectangle fits.
-std::string fit_warning(const scene::Lens& lens, Vec2i viewport);
+std::string fit_warning(const scene::CameraProjection& projection, Vec2i viewport);
 
 // A rigid frame of reference: local = rotation * (world - origin).
 struct Space {
@@ -37,28 +38,46 @@ struct Space {
   Mat3d rotation{1.0};
 };
 
-// Lights in a space, single precision, one array per component (what an engine hands to an assigner). Index i is the
-// light index of all lists: points first, then spots.
-struct LightArrays {
-  std::uint32_t points = 0, spots = 0;
+// Lights of one type, which follow one another.
+struct LightRange {
+  std::uint32_t first = 0, count = 0;
+
+  bool empty() const { return count == 0; }
+  std::uint32_t end() const { return first + count; }
+};
+
+// A frame's lights by type. Indices of lights, in all lists, run through the types in this order.
+struct LightRanges {
+  LightRange points, spots;
+
+  LightRanges() = default;
+  LightRanges(std::uint32_t point_count, std::uint32_t spot_count)
+      : points{0, point_count}, spots{point_count, spot_count} {}
+
+  std::uint32_t size() const { return spots.end(); }
+  bool is_spot(std::uint32_t light) const { return light >= spots.first; }
+};
+
+// Lights in a space, single precision, one array per component (what an engine hands to an assigner).
+struct LightArrays : LightRanges {
   std::vector<float> x, y, z;  // centre or apex, each coordinate rounded to nearest
   std::vector<float> radius;   // the range, rounded up; 0 and +inf stay
-  std::vector<float> reach;    // |x| + |y| + |z| + radius: what roundings are relative to
-  // Spots only; place i - points. Axis is unit up to rounding.
+  std::vector<float> reach;    // |x| + |y| + |z| + radius: what roundoffs are relative to
+  // Spots only; index i - spots.first. Axis is unit up to rounding.
   std::vector<float> axis_x, axis_y, axis_z, cos_angle, sin_angle;
 
-  std::uint32_t size() const { return points + spots; }
   // What the numbers were rounded from, for methods that go back to it. Belongs to the frame, which must live on.
   std::span<const scene::WorldLight> source;
   Space space;
 
-  bool is_spot(std::uint32_t light) const { return light >= points; }
   bool is_empty(std::uint32_t light) const { return !(radius[light] > 0.0f); }
-  // The radius grown by a number of roundings: units of 2^-24 of its reach. 0: as it is.
-  float padded_radius(std::uint32_t light, float roundings) const;
-  geom::Ball ball(std::uint32_t light, float roundings) const;
-  geom::SphericalCone cone(std::uint32_t light, float roundings) const;  // light must be a spot
-  geom::LightVolume volume(std::uint32_t light) const;                   // exact
+  // The radius grown by a number of roundoffs: units of 2^-24 of its reach. 0: as it is.
+  float padded_radius(std::uint32_t light, float roundoffs) const;
+  geom::Ball ball(std::uint32_t light, float roundoffs) const;
+  geom::SphericalCone cone(std::uint32_t light, float roundoffs) const;  // light must be a spot
+  // A point's ball; of a spot the one around its cone.
+  geom::Ball bounding_ball(std::uint32_t light, float roundoffs) const;
+  geom::LightVolume volume(std::uint32_t light) const;  // exact
 };
 
 // A light of the scene by its exact ingredients, as a space sees it.
@@ -71,16 +90,18 @@ struct Frame {
   Vec2i viewport{0, 0};
   Projection projection;
   Space view_space;                       // eye and view rotation
-  std::vector<scene::WorldLight> lights;  // points first, then spots: the light indices of all lists
+  std::vector<scene::WorldLight> lights;  // as ranges() has them
   std::uint32_t points = 0;               // how many of them are points
+
+  LightRanges ranges() const { return {points, static_cast<std::uint32_t>(lights.size()) - points}; }
 };
 
 // Throws Error for a frame outside of the domain (geom/domain.h).
 Frame make_frame(const scene::Scene& scene, const scene::Shot& shot, int index, Vec2i viewport);
 
-// What a method that uses these numbers has lost before it starts, in roundings: one for the centre (each coordinate is
+// What a method that uses these numbers has lost before it starts, in roundoffs: one for the centre (each coordinate is
 // off by 2^-24 of itself, so the centre by 2^-24 of its length), one for the sum that pads the radius.
-inline constexpr float k_given_roundings = 2.0f;
+inline constexpr float k_given_roundoffs = 2.0f;
 
 // The frame's lights in a space: the difference to the origin is taken in double, then rounded once.
 LightArrays lights_in(const Frame& frame, const Space& space);

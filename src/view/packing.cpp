@@ -23,7 +23,7 @@ struct Axis {
   double bound_rad = 0.0;
 };
 
-Vec3f place_of(const LightArrays& lights, std::uint32_t light) {
+Vec3f position_of(const LightArrays& lights, std::uint32_t light) {
   return {lights.x[light], lights.y[light], lights.z[light]};
 }
 
@@ -35,9 +35,9 @@ class HalfFormat {
  public:
   explicit HalfFormat(const LightArrays&) {}
 
-  static bool holds(const Vec3f& place, float range) {
-    const auto is_held = [](float value) { return std::isfinite(float_of_half(half_of(value))); };
-    return is_held(place.x) && is_held(place.y) && is_held(place.z) && range <= k_largest_half;
+  static bool holds(const Vec3f& position, float range) {
+    const auto is_in_half = [](float value) { return std::isfinite(float_of_half(half_of(value))); };
+    return is_in_half(position.x) && is_in_half(position.y) && is_in_half(position.z) && range <= k_largest_half;
   }
   static Number coordinate(float value, int) { return number(value); }
   static float range(float value) { return float_of_half(half_not_below(value)); }
@@ -63,9 +63,9 @@ class Unorm16Format {
     bool is_first = true;
     for (std::uint32_t light = 0; light < lights.size(); ++light) {
       if (!std::isfinite(lights.radius[light])) continue;
-      const Vec3d place(place_of(lights, light));
-      lo_ = is_first ? place : glm::min(lo_, place);
-      hi_ = is_first ? place : glm::max(hi_, place);
+      const Vec3d position(position_of(lights, light));
+      lo_ = is_first ? position : glm::min(lo_, position);
+      hi_ = is_first ? position : glm::max(hi_, position);
       largest_range_ = std::max(largest_range_, static_cast<double>(lights.radius[light]));
       is_first = false;
     }
@@ -95,9 +95,9 @@ class Unorm16Format {
   double largest_range_ = 0.0;
 };
 
-float reach_of(const LightArrays& lights, std::uint32_t light, double slack_m) {
+float reach_of(const LightArrays& lights, std::uint32_t light, double inflation_m) {
   const auto size = [&](const std::vector<float>& numbers) { return std::fabs(static_cast<double>(numbers[light])); };
-  return geom::rounded_up(size(lights.x) + size(lights.y) + size(lights.z) + size(lights.radius) + slack_m);
+  return geom::rounded_up(size(lights.x) + size(lights.y) + size(lights.z) + size(lights.radius) + inflation_m);
 }
 
 void set_axis(LightArrays& lights, std::uint32_t spot, const Vec3d& unit) {
@@ -129,7 +129,7 @@ void pack_ball(const Format& format, LightArrays& lights, std::uint32_t light, P
 
 template <class Format>
 void pack_cone(const Format& format, LightArrays& lights, std::uint32_t light, PackingBound& bound) {
-  const std::uint32_t spot = light - lights.points;
+  const std::uint32_t spot = light - lights.spots.first;
   const Axis axis = format.axis(axis_of(lights, spot));
   const Number angle = format.angle(lights.source[light].outer_cone_rad);
   set_axis(lights, spot, axis.unit);
@@ -143,7 +143,7 @@ PackedLights packed_as(const LightArrays& lights) {
   const Format format(lights);
   PackedLights out{lights, std::vector<PackingBound>(lights.size()), {}};
   for (std::uint32_t light = 0; light < lights.size(); ++light) {
-    if (!format.holds(place_of(lights, light), lights.radius[light])) {
+    if (!format.holds(position_of(lights, light), lights.radius[light])) {
       out.unrepresentable.push_back(light);
       continue;
     }
@@ -175,10 +175,10 @@ void inflate_point(LightArrays& lights, std::uint32_t light, const PackingBound&
 }
 
 void inflate_spot(LightArrays& lights, std::uint32_t light, const PackingBound& bound) {
-  const std::uint32_t spot = light - lights.points;
+  const std::uint32_t spot = light - lights.spots.first;
   const double range = lights.radius[light];
   const Widening change = widening_of(std::atan2(lights.sin_angle[spot], lights.cos_angle[spot]), range, bound);
-  const Vec3d apex = Vec3d(place_of(lights, light)) - change.back_m * glm::normalize(axis_of(lights, spot));
+  const Vec3d apex = Vec3d(position_of(lights, light)) - change.back_m * glm::normalize(axis_of(lights, spot));
   lights.x[light] = static_cast<float>(apex.x);
   lights.y[light] = static_cast<float>(apex.y);
   lights.z[light] = static_cast<float>(apex.z);
@@ -211,7 +211,7 @@ LightArrays inflated(const PackedLights& packed) {
     const PackingBound& bound = packed.bounds[light];
     if (out.is_empty(light) || bound.inflation_m(out.radius[light]) == 0.0) continue;
     out.is_spot(light) ? inflate_spot(out, light, bound) : inflate_point(out, light, bound);
-    // The roundings that methods pad for are relative to where the light may have been.
+    // The roundoffs that methods pad for are relative to where the light may have been.
     out.reach[light] = reach_of(out, light, 2.0 * bound.position_m);
   }
   return out;

@@ -44,7 +44,7 @@ struct PackedLights {
 PackedLights packed(const LightArrays& lights, Packing packing);
 
 // Each light grown by its bound, so that it holds the volume that was packed. A spot's apex moves back along its axis
-// far enough for its cone to hold all places where the apex can be, and the cone is widened by what axis and angle can
+// far enough for its cone to hold all points where the apex can be, and the cone is widened by what axis and angle can
 // be off, or by more where the apex would else move back by over half of the range.
 LightArrays inflated(const PackedLights& packed);
 

@@ -14,7 +14,7 @@ inline Lists every_box_by_distance(const view::LightArrays& lights, const grid::
     if (!grid.is_hole(cell)) {
       const auto box = std::get<geom::Box>(grid.cell(cell));
       for (std::uint32_t light = 0; light < lights.size(); ++light) {
-        const geom::Ball ball = lights.ball(light, view::k_given_roundings + k_box_roundings);
+        const geom::Ball ball = lights.ball(light, view::k_given_roundoffs + k_box_roundoffs);
         if (!(ball.radius > 0.0f)) continue;
         if (geom::ball_touches_box(ball, box)) lists.lights.push_back(light);
       }

@@ -11,16 +11,16 @@ namespace {
 // Pixels and depths all over the view, a few beyond the grid.
 std::vector<grid::Sample> samples_in(const Setting& setting) {
   const view::Frame& frame = setting.frame;
-  const view::Projection& lens = frame.projection;
-  const double far = std::isfinite(lens.far_m) ? lens.far_m : 1e3;
+  const view::Projection& projection = frame.projection;
+  const double far = std::isfinite(projection.far_m) ? projection.far_m : 1e3;
   Random random(97);
   std::vector<grid::Sample> samples;
   for (int i = 0; i < 300; ++i) {
     const double x = random.between(0.0, 1.0), y = random.between(0.0, 1.0);
-    const double depth = lens.near_m + (1.05 * far - lens.near_m) * std::pow(random.between(0.0, 1.0), 3.0);
-    const double scale = lens.orthographic ? 1.0 : depth;
-    const Vec3d local{(lens.left + (lens.right - lens.left) * x) * scale,
-                      (lens.top - (lens.top - lens.bottom) * y) * scale, -depth};
+    const double depth = projection.near_m + (1.05 * far - projection.near_m) * std::pow(random.between(0.0, 1.0), 3.0);
+    const double scale = projection.orthographic ? 1.0 : depth;
+    const Vec3d local{(projection.left + (projection.right - projection.left) * x) * scale,
+                      (projection.top - (projection.top - projection.bottom) * y) * scale, -depth};
     samples.push_back({static_cast<float>(x * frame.viewport.x), static_cast<float>(y * frame.viewport.y), Vec3f(local),
                        glm::transpose(frame.view_space.rotation) * local, frame.view_space.origin});
   }
@@ -35,11 +35,11 @@ std::string at_cell(std::uint32_t cell) {
 
 std::string form_fault(const AssignerRun& run, const grid::Grid& grid, const view::LightArrays& lights) {
   if (run.filled_lists() != nullptr) {
-    const std::string fault = lists_fault(*run.filled_lists(), grid.cell_count(), lights.points, lights.spots);
+    const std::string fault = lists_fault(*run.filled_lists(), grid.cell_count(), lights);
     if (!fault.empty()) return fault;
   }
   if (run.structure() != nullptr && run.has_cells()) {
-    const std::string fault = lists_fault(run.structure()->expanded(), grid.cell_count(), lights.points, lights.spots);
+    const std::string fault = lists_fault(run.structure()->expanded(), grid.cell_count(), lights);
     if (!fault.empty()) return "expanded: " + fault;
   }
   if (!run.has_cells()) return "";
@@ -71,7 +71,7 @@ std::string lost_light_fault(const Lists& lists, const Setting& setting) {
 }
 
 std::string unbounded_fault(const Lists& lists, const Setting& setting, const view::LightArrays& lights) {
-  for (std::uint32_t light = 0; light < lights.points; ++light)
+  for (std::uint32_t light = 0; light < lights.points.count; ++light)
     for (std::uint32_t cell = 0; std::isinf(lights.radius[light]) && cell < lists.cell_count(); ++cell)
       if (!setting.grid.is_hole(cell) && !lists_light(lists, cell, light))
         return "an unbounded point light is not everywhere" + at_cell(cell);
@@ -147,16 +147,15 @@ std::string allocation_fault(AssignerRun& run, const FrameInput& input) {
 // up in expands to.
 std::string sample_fault(const LightStructure& structure, const Setting& setting) {
   const Lists cells = structure.has_cells() ? structure.expanded() : Lists{};
-  const std::uint32_t points = setting.frame.points;
-  const auto lights = static_cast<std::uint32_t>(setting.frame.lights.size());
+  const view::LightRanges ranges = setting.frame.ranges();
   std::vector<std::uint32_t> given;
   for (const grid::Sample& sample : samples_in(setting)) {
-    given.assign(3, lights);  // what is there before is no answer
+    given.assign(3, ranges.size());  // what is there before is no answer
     structure.lights_at(sample, grid::Log2::rounded, given);
     Lists alone;
     alone.lights = given;
     alone.begin = {0, alone.pair_count()};
-    const std::string fault = lists_fault(alone, 1, points, lights - points);
+    const std::string fault = lists_fault(alone, 1, ranges);
     if (!fault.empty()) return "at a sample: " + fault;
     if (!structure.has_cells()) continue;
     const std::int64_t cell = grid::lookup(setting.grid, sample);

@@ -83,7 +83,7 @@ inline std::int64_t cell_index(Vec3i cells, int x, int y, int z) {
 
 inline std::int64_t screen_cell(const grid::ScreenGrid& screen, Vec3i cells, Vec3d p) {
   const double depth = -p.z;
-  const bool by_depth = screen.kind == grid::Kind::frustum;
+  const bool by_depth = !screen.by_distance;
   const double divisor = screen.tiles.orthographic ? 1.0 : depth;
   if (divisor <= 0.0) return -1;
   return cell_index(cells, interval_of(screen.tiles.x, p.x / divisor), interval_of(screen.tiles.y, p.y / divisor),

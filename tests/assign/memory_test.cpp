@@ -67,8 +67,8 @@ TEST(Memory, of_storages_is_bounded_by_the_limit) {
   const MemoryLimitScope little(4 * k_mib);
   for (const StorageDescriptor* row : storage_descriptors()) {
     const auto storage = row->make(Params(row->params));
-    storage->start(100, 100, 100);
-    EXPECT_THROW(storage->start(2'000'000, 100'000, 100'000), Error) << row->name;
+    storage->start(100, {100, 100});
+    EXPECT_THROW(storage->start(2'000'000, {100'000, 100'000}), Error) << row->name;
   }
 }
 

@@ -1,4 +1,4 @@
-// What each comparison of a ball and a cell loses in single precision is covered by the roundings that it derives for
+// What each comparison of a ball and a cell loses in single precision is covered by the roundoffs that it derives for
 // itself: tried on balls that single precision holds exactly and that reach their cell by less than one step of the
 // radius. In lists the padding for the light's rounded centre, which lies on top, hides a padding that is too small.
 
@@ -14,20 +14,20 @@ namespace {
 
 // A method's comparison: the true distance from a place to a cell, and what the method says.
 struct Comparison {
-  float roundings;
+  float roundoffs;
   std::function<double(std::uint32_t cell, const Vec3d& place)> distance;
   std::function<bool(std::uint32_t cell, const geom::Ball& ball)> touches;
 };
 
-geom::Ball padded(const geom::Ball& ball, float roundings) {
+geom::Ball padded(const geom::Ball& ball, float roundoffs) {
   view::LightArrays lights;
-  lights.points = 1;
+  static_cast<view::LightRanges&>(lights) = {1, 0};
   lights.x = {ball.center.x};
   lights.y = {ball.center.y};
   lights.z = {ball.center.z};
   lights.radius = {ball.radius};
   lights.reach = {std::fabs(ball.center.x) + std::fabs(ball.center.y) + std::fabs(ball.center.z) + ball.radius};
-  return lights.ball(0, roundings);
+  return lights.ball(0, roundoffs);
 }
 
 // The balls of 20,000 that are lost without padding; with it none may be.
@@ -44,7 +44,7 @@ int lost_without_padding(const Comparison& comparison, const std::vector<geom::B
     geom::Ball ball{center, static_cast<float>(distance)};
     if (static_cast<double>(ball.radius) < distance)
       ball.radius = std::nextafter(ball.radius, std::numeric_limits<float>::infinity());
-    EXPECT_TRUE(comparison.touches(cell, padded(ball, comparison.roundings))) << "cell " << cell << ", ball " << i;
+    EXPECT_TRUE(comparison.touches(cell, padded(ball, comparison.roundoffs))) << "cell " << cell << ", ball " << i;
     lost_without += !comparison.touches(cell, ball);
   }
   return lost_without;
@@ -78,11 +78,11 @@ TEST(Padding, of_boxes_and_planes_around_frustum_cells_covers_what_their_compari
       return height_above(std::get<geom::FrustumPiece>(setting.grid.cell(cell)), place);
     };
     lost_by_boxes += lost_without_padding(
-        {CellAabbs::k_roundings, [&](std::uint32_t cell, const Vec3d& p) { return distance_to(cells[cell], p); },
+        {CellAabbs::k_roundoffs, [&](std::uint32_t cell, const Vec3d& p) { return distance_to(cells[cell], p); },
          [&](std::uint32_t cell, const geom::Ball& ball) { return aabbs.touches(ball, cell); }},
         cells);
     lost_by_planes +=
-        lost_without_padding({CellPlanes::k_roundings, height,
+        lost_without_padding({CellPlanes::k_roundoffs, height,
                               [&](std::uint32_t cell, const geom::Ball& ball) { return planes.touches(ball, cell); }},
                              cells);
   }
@@ -113,7 +113,7 @@ TEST(Padding, of_rows_of_boxes_covers_what_their_comparison_loses) {
     });
     return is_in_row;
   };
-  const Comparison comparison{k_box_roundings,
+  const Comparison comparison{k_box_roundoffs,
                               [&](std::uint32_t cell, const Vec3d& p) { return distance_to(cells[cell], p); }, touches};
   EXPECT_GT(lost_without_padding(comparison, cells), 10);
 }

@@ -1,4 +1,4 @@
-// Fast twins give the same lists on every instruction set that this machine has.
+// SIMD variants give the same lists on every instruction set that this machine has.
 
 #include <gtest/gtest.h>
 
@@ -190,13 +190,13 @@ std::vector<Params> params_of(const AssignerDescriptor& row) {
   return all;
 }
 
-void expect_same_lists(const std::string& twin, const std::string& reference, const Setting& setting) {
-  for (const Params& params : params_of(*find_assigner(twin))) {
+void expect_same_lists(const std::string& variant, const std::string& reference, const Setting& setting) {
+  for (const Params& params : params_of(*find_assigner(variant))) {
     const Lists expected = answer_of(reference, params, setting).lists;
-    const Answer best = answer_of(twin, params, setting);
+    const Answer best = answer_of(variant, params, setting);
     EXPECT_GT(expected.pair_count(), 0U);
     on_each_target([&](const std::string& target) {
-      const Answer answer = answer_of(twin, params, setting);
+      const Answer answer = answer_of(variant, params, setting);
       EXPECT_TRUE(answer.lists == expected) << "LISTS";
       EXPECT_TRUE(answer.tests == best.tests && answer.fallbacks == best.fallbacks)
           << target << ", " << setting.name << ", "
@@ -209,21 +209,21 @@ void expect_same_lists(const std::string& twin, const std::string& reference, co
 }
 
 // With lights of all sizes, spots, and lights that touch cells by a hair.
-void expect_same_lists_on_every_target(const std::string& twin, const std::string& reference) {
+void expect_same_lists_on_every_target(const std::string& variant, const std::string& reference) {
   for (const std::uint64_t seed : {5u, 6u})
-    for (const Setting& setting : test::some(testing::settings_for(*find_assigner(twin), seed)))
-      expect_same_lists(twin, reference, setting);
+    for (const Setting& setting : test::some(testing::settings_for(*find_assigner(variant), seed)))
+      expect_same_lists(variant, reference, setting);
 }
 
-void expect_same_lists_at_any_size(const std::string& twin, const std::string& reference) {
+void expect_same_lists_at_any_size(const std::string& variant, const std::string& reference) {
   for (const std::uint64_t seed : {8u, 9u, 10u})
-    for (const Setting& setting : testing::settings_of_any_size(*find_assigner(twin), test::tries(120), seed))
-      expect_same_lists(twin, reference, setting);
+    for (const Setting& setting : testing::settings_of_any_size(*find_assigner(variant), test::tries(120), seed))
+      expect_same_lists(variant, reference, setting);
 }
 
-void expect_same_lists_on_odd_grids(const std::string& twin, const std::string& reference) {
-  for (const Setting& setting : test::some(odd_settings(*find_assigner(twin), 7)))
-    expect_same_lists(twin, reference, setting);
+void expect_same_lists_on_odd_grids(const std::string& variant, const std::string& reference) {
+  for (const Setting& setting : test::some(odd_settings(*find_assigner(variant), 7)))
+    expect_same_lists(variant, reference, setting);
 }
 
 TEST(ExactFast, gives_the_lists_of_exact_on_every_target) {
@@ -315,7 +315,7 @@ TEST(ExactFast, gives_the_lists_of_exact_for_lights_nearly_at_the_eye) {
 }
 
 // Lights that a tile plane nearly touches close to the eye, and that would reach to the eye itself, give or take a few
-// roundings, with the slack that exact-fast gives them: in single precision the eye is inside or outside by chance.
+// roundoffs, with the slack that exact-fast gives them: in single precision the eye is inside or outside by chance.
 std::vector<scene::WorldLight> lights_touched_at_the_eye(const grid::ScreenGrid& screen, int count,
                                                          std::uint64_t seed) {
   testing::Random random(seed);
@@ -326,7 +326,7 @@ std::vector<scene::WorldLight> lights_touched_at_the_eye(const grid::ScreenGrid&
     const auto askew = [&] { return random.log_between(1e-7, 1e-2) * (random.unit() < 0.5 ? -1 : 1); };
     const Vec3d up = glm::normalize(Vec3d{askew(), 1, slope + askew()});  // from the plane; depth is -z
     const double distance = random.log_between(0.5, 2000) * (random.unit() < 0.5 ? -1 : 1);
-    const double slack = 2 * k_slice_rows_roundings + random.between(-40, 40);
+    const double slack = 2 * k_slice_rows_roundoffs + random.between(-40, 40);
     lights.push_back(testing::point_light(distance * up, std::fabs(distance) * (1 - slack * 0x1p-24)));
   }
   return lights;

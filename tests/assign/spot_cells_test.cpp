@@ -9,9 +9,9 @@
 #include <optional>
 
 #include "assign/cone/spot_rows.h"
-#include "assign/cone/spot_touches.h"
 #include "assign/each_target.h"
 #include "assign/exact/exact_rows.h"
+#include "assign/exact/spot_touches.h"
 #include "assign/settings.h"
 
 namespace clusterbench::assign {
@@ -20,7 +20,7 @@ namespace {
 using testing::on_each_target;
 
 // Spots that touch cells by a hair, and the same ones a little longer, shorter, wider and narrower: some of these still
-// touch, and what they leave between them is of the size of roundings.
+// touch, and what they leave between them is of the size of roundoffs.
 struct CloseSpots {
   grid::Grid grid;
   view::Frame frame;
@@ -97,7 +97,7 @@ TEST(SpotLooks, say_yes_and_no_only_where_it_is_true_on_every_target) {
             look_at_cells(from, look, pairs);
             std::size_t wrong = 0, settled = 0;
             for (std::uint32_t i = 0; i < pairs.count; ++i) {
-              if (pairs.touch[i] == Touch::open) continue;
+              if (pairs.touch[i] == Touch::uncertain) continue;
               ++settled;
               if ((pairs.touch[i] == Touch::yes) != touched[i]) ++wrong;
             }
@@ -135,8 +135,8 @@ struct Pieces {
       const Touch touch = touches.touch(i);
       const int first = std::max(touched[i].first, static_cast<int>(asked[i].column));
       const int last = std::min(touched[i].last, static_cast<int>(asked[i].end_column) - 1);
-      settled += touch != Touch::open ? 1 : 0;
-      if (touch != Touch::open && (touch == Touch::yes) != (first <= last)) ++wrong;
+      settled += touch != Touch::uncertain ? 1 : 0;
+      if (touch != Touch::uncertain && (touch == Touch::yes) != (first <= last)) ++wrong;
       const grid::IndexRange only = touches.only_columns(i, planes);
       alone += only.empty() ? 0 : 1;
       if (!only.empty() && (touch != Touch::yes || only.first != first || only.last != last)) ++wrong;
@@ -185,7 +185,7 @@ TEST(SpotTouches, say_which_columns_share_a_single_point) {
     const RowPlanes planes(grid.screen());
     const auto rows = static_cast<std::uint32_t>(planes.rows), columns = static_cast<std::uint32_t>(planes.columns);
     Pieces pieces;
-    for (std::uint32_t spot = 0; spot < lights.spots; ++spot)
+    for (std::uint32_t spot = 0; spot < lights.spots.count; ++spot)
       for (std::uint32_t slice = 0; slice < static_cast<std::uint32_t>(planes.slices); ++slice) {
         SpotJudge judge(grid, lights, spot);
         const SpotCell below{spot, slice, rows / 2, 0, columns};
@@ -198,7 +198,7 @@ TEST(SpotTouches, say_which_columns_share_a_single_point) {
     on_each_target([&](const std::string& target) {
       pieces.look(from_these(lights, planes), planes);
       EXPECT_EQ(pieces.wrong, 0u) << target << ", turned by " << turn;
-      EXPECT_GT(pieces.alone, lights.spots / 3) << target << ", turned by " << turn;
+      EXPECT_GT(pieces.alone, lights.spots.count / 3) << target << ", turned by " << turn;
     });
   }
 }
@@ -275,7 +275,7 @@ struct SpotsInGrid {
     lights = view::lights_in(frame, grid::space_of(grid, frame));
     planes = RowPlanes(grid.screen());
     for (std::uint32_t slice = 0; slice < static_cast<std::uint32_t>(planes.slices); ++slice)
-      for (std::uint32_t spot = 0; spot < lights.spots; ++spot) slices.add(spot, slice);
+      for (std::uint32_t spot = 0; spot < lights.spots.count; ++spot) slices.add(spot, slice);
   }
   SpotRows rows() {
     SpotRows found;

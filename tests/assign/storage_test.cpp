@@ -38,7 +38,7 @@ TEST(Packed, lists_read_back_as_they_were_stored) {
   for (const std::uint32_t lights : {1u, 200u, 256u, 257u, 3000u, 70000u}) {
     const Lists lists = random_lists(40, lights, 0.02, lights);
     const auto packed = storage("packed");
-    packed->start(40, lights / 2, lights - lights / 2);
+    packed->start(40, {lights / 2, lights - lights / 2});
     packed->store(lists);
     EXPECT_EQ(packed->expanded(), lists) << lights << " lights";
     EXPECT_EQ(packed->use().dropped_pairs, 0u);
@@ -48,7 +48,7 @@ TEST(Packed, lists_read_back_as_they_were_stored) {
 TEST(Packed, takes_the_narrowest_index_that_holds_the_last_light) {
   const auto bits = [](std::uint32_t points, std::uint32_t spots) {
     const auto packed = storage("packed");
-    packed->start(1, points, spots);
+    packed->start(1, {points, spots});
     return packed->index_bits();
   };
   EXPECT_EQ(bits(0, 0), 8u);
@@ -62,7 +62,7 @@ TEST(Packed, counts_8_bytes_per_cell_and_the_index_width_per_pair) {
   const Lists lists = lists_from({{0, 7}, {}, {1, 2, 6}});
   for (const char* bits : {"8", "16", "32"}) {
     const auto packed = storage("packed", {{"index_bits", std::string(bits)}});
-    packed->start(3, 5, 3);
+    packed->start(3, {5, 3});
     packed->store(lists);
     const StructureUse use = packed->use();
     const std::uint64_t width = std::stoul(bits) / 8;
@@ -78,9 +78,9 @@ TEST(Packed, counts_8_bytes_per_cell_and_the_index_width_per_pair) {
 
 TEST(Packed, a_forced_width_that_cannot_hold_the_rig_is_refused) {
   const auto packed = storage("packed", {{"index_bits", std::string("8")}});
-  EXPECT_NO_THROW(packed->start(1, 256, 0));
+  EXPECT_NO_THROW(packed->start(1, {256, 0}));
   try {
-    packed->start(1, 256, 1);
+    packed->start(1, {256, 1});
     FAIL() << "257 lights were taken";
   } catch (const Error& error) {
     EXPECT_EQ(error.where(), "index_bits");
@@ -94,7 +94,7 @@ TEST(Packed, headers_widen_when_a_count_does_not_fit_16_bits) {
     for (std::uint32_t i = 0; i < in_cell; ++i) cell[i] = i;
     const Lists lists = lists_from({cell, {}});
     const auto packed = storage("packed");
-    packed->start(2, points, 80000 - points);
+    packed->start(2, {points, 80000 - points});
     packed->store(lists);
     EXPECT_EQ(packed->expanded(), lists);
     return packed->use().header_bytes;
@@ -106,7 +106,7 @@ TEST(Packed, headers_widen_when_a_count_does_not_fit_16_bits) {
 
 TEST(Packed, headers_are_as_wide_as_this_frame_needs_them) {
   const auto packed = storage("packed");
-  packed->start(2, 70000, 0);
+  packed->start(2, {70000, 0});
   Ids all(70000);
   for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
   for (const Ids& first : {Ids{1, 5}, all, Ids{69999}}) {
@@ -120,7 +120,7 @@ TEST(Packed, headers_are_as_wide_as_this_frame_needs_them) {
 TEST(Packed, the_limit_has_wide_headers_only_where_a_count_can_need_them) {
   const auto limit = [](std::uint32_t points, std::uint32_t spots) {
     const auto packed = storage("packed");
-    packed->start(2, points, spots);
+    packed->start(2, {points, spots});
     return packed->limit().bytes;
   };
   EXPECT_EQ(limit(40000, 40000), 2u * 80000u * 4u + 16u);
@@ -131,7 +131,7 @@ TEST(Packed, sparse_headers_read_back_as_they_were_stored) {
   for (const std::uint32_t cells : {1u, 31u, 32u, 33u, 200u})
     for (const double share : {0.0, 0.01, 0.3, 1.0}) {
       const auto packed = storage("packed", {{"headers", std::string("sparse")}});
-      packed->start(cells, 20, 20);
+      packed->start(cells, {20, 20});
       for (const std::uint64_t seed : {1u, 2u}) {
         const Lists lists = random_lists(cells, 40, share, seed);
         packed->store(lists);
@@ -145,7 +145,7 @@ TEST(Packed, with_sparse_headers_a_cell_without_lights_costs_nothing_but_its_bit
     std::vector<Ids> cells(64);
     for (std::uint32_t cell = 0; cell < touched; ++cell) cells[3 * cell] = {1, 2};
     const auto packed = storage("packed", {{"headers", std::string(headers)}});
-    packed->start(64, 4, 0);
+    packed->start(64, {4, 0});
     packed->store(lists_from(cells));
     EXPECT_EQ(packed->use().upload_bytes, packed->use().header_bytes + 2 * touched);
     return packed->use().header_bytes;
@@ -155,7 +155,7 @@ TEST(Packed, with_sparse_headers_a_cell_without_lights_costs_nothing_but_its_bit
   EXPECT_EQ(header_bytes("sparse", 0), 2u * 8);
   EXPECT_EQ(header_bytes("sparse", 5), 2u * 8 + 5 * 8);
   const auto sparse = storage("packed", {{"headers", std::string("sparse")}});
-  sparse->start(64, 4, 0);
+  sparse->start(64, {4, 0});
   EXPECT_EQ(sparse->limit().bytes, 64u * 4 + 64 * 8 + 2 * 8);
 }
 
@@ -163,7 +163,7 @@ TEST(Fixed, lists_within_the_cap_read_back_as_they_were_stored) {
   for (const std::uint32_t lights : {90u, 300u, 70000u}) {
     const Lists lists = random_lists(30, lights, 10.0 / lights, lights);
     const auto fixed = storage("fixed");
-    fixed->start(30, lights, 0);
+    fixed->start(30, {lights, 0});
     fixed->store(lists);
     EXPECT_EQ(fixed->expanded(), lists);
     EXPECT_EQ(fixed->use().dropped_pairs, 0u);
@@ -174,7 +174,7 @@ TEST(Fixed, lists_within_the_cap_read_back_as_they_were_stored) {
 
 TEST(Fixed, drops_the_highest_light_indices_and_counts_what_it_dropped) {
   const auto fixed = storage("fixed", {{"cap", 2.0}});
-  fixed->start(4, 6, 4);
+  fixed->start(4, {6, 4});
   fixed->store(lists_from({{0, 1}, {3, 5, 7, 9}, {}, {1, 2, 7}}));
   EXPECT_EQ(fixed->expanded(), lists_from({{0, 1}, {3, 5}, {}, {1, 2}}));
   const StructureUse use = fixed->use();
@@ -186,7 +186,7 @@ TEST(Fixed, drops_the_highest_light_indices_and_counts_what_it_dropped) {
 
 TEST(Fixed, takes_the_same_bytes_whatever_is_stored) {
   const auto fixed = storage("fixed", {{"cap", 10.0}});
-  fixed->start(4, 300, 0);
+  fixed->start(4, {300, 0});
   for (const double share : {0.0, 0.5}) {
     fixed->store(random_lists(4, 300, share, 3));
     const StructureUse use = fixed->use();
@@ -200,7 +200,7 @@ TEST(Fixed, takes_the_same_bytes_whatever_is_stored) {
 
 TEST(Fixed, forgets_the_overflow_of_the_frame_before) {
   const auto fixed = storage("fixed", {{"cap", 1.0}});
-  fixed->start(2, 3, 0);
+  fixed->start(2, {3, 0});
   fixed->store(lists_from({{0, 1, 2}, {2}}));
   EXPECT_EQ(fixed->use().dropped_pairs, 2u);
   fixed->store(lists_from({{1}, {}}));
@@ -220,7 +220,7 @@ TEST(Bitfield, lists_read_back_as_they_were_stored) {
     for (const double share : {0.0, 0.02, 0.7, 1.0}) {
       const Lists lists = random_lists(40, lights, share, lights);
       const auto bitfield = storage("bitfield");
-      bitfield->start(40, lights / 2, lights - lights / 2);
+      bitfield->start(40, {lights / 2, lights - lights / 2});
       bitfield->store(lists);
       EXPECT_EQ(bitfield->expanded(), lists) << lights << " lights, " << share;
       EXPECT_EQ(bitfield->use().dropped_pairs, 0u);
@@ -230,7 +230,7 @@ TEST(Bitfield, lists_read_back_as_they_were_stored) {
 TEST(Bitfield, takes_a_word_for_every_32_lights_in_each_cell_whatever_is_stored) {
   const auto words = [](std::uint32_t lights, double share) {
     const auto bitfield = storage("bitfield");
-    bitfield->start(5, lights, 0);
+    bitfield->start(5, {lights, 0});
     bitfield->store(random_lists(5, lights, share, 1));
     const StructureUse use = bitfield->use();
     EXPECT_EQ(use.index_entries * 4, use.index_bytes);
@@ -251,7 +251,7 @@ TEST(Bitfield, takes_a_word_for_every_32_lights_in_each_cell_whatever_is_stored)
 
 TEST(Bitfield, forgets_the_bits_of_the_frame_before) {
   const auto bitfield = storage("bitfield");
-  bitfield->start(2, 40, 0);
+  bitfield->start(2, {40, 0});
   bitfield->store(lists_from({{0, 1, 39}, {2}}));
   bitfield->store(lists_from({{}, {1, 2}}));
   EXPECT_EQ(bitfield->expanded(), lists_from({{}, {1, 2}}));
@@ -259,7 +259,7 @@ TEST(Bitfield, forgets_the_bits_of_the_frame_before) {
 
 TEST(Bitfield, one_that_no_buffer_can_hold_is_refused) {
   try {
-    storage("bitfield")->start(100'000, 500'000, 0);
+    storage("bitfield")->start(100'000, {500'000, 0});
     FAIL() << "6 GB were taken";
   } catch (const Error& error) {
     EXPECT_EQ(error.where(), "limits.memory_mib");
@@ -288,10 +288,10 @@ TEST(EveryStorage, keeps_lists_in_any_order) {
         const auto kept = row->make(row->name == "linked"  ? Params(row->params, {{"nodes_per_cell", 700.0}})
                                     : row->name == "fixed" ? Params(row->params, {{"cap", 700.0}})
                                                            : Params(row->params));
-        kept->start(60, lights / 2, lights - lights / 2);
+        kept->start(60, {lights / 2, lights - lights / 2});
         kept->store(shuffled(lists, lights / 2, 5));
         Lists back = kept->expanded();
-        EXPECT_EQ(lists_fault(back, 60, lights / 2, lights - lights / 2), "") << row->name;
+        EXPECT_EQ(lists_fault(back, 60, {lights / 2, lights - lights / 2}), "") << row->name;
         make_ascending(back);
         EXPECT_EQ(back, lists) << row->name << ", " << lights << " lights, " << share;
       }
@@ -301,7 +301,7 @@ TEST(Linked, lists_read_back_as_they_were_stored) {
   for (const double share : {0.0, 0.02, 0.7}) {
     const Lists lists = random_lists(40, 300, share, 3);
     const auto linked = storage("linked", {{"nodes_per_cell", 300.0}});
-    linked->start(40, 200, 100);
+    linked->start(40, {200, 100});
     linked->store(lists);
     EXPECT_EQ(linked->expanded(), lists) << share;
     EXPECT_EQ(linked->use().dropped_pairs, 0u);
@@ -311,7 +311,7 @@ TEST(Linked, lists_read_back_as_they_were_stored) {
 
 TEST(Linked, counts_4_bytes_per_cell_and_8_per_pair) {
   const auto linked = storage("linked");
-  linked->start(4, 5, 3);
+  linked->start(4, {5, 3});
   linked->store(lists_from({{0, 7}, {}, {1, 2, 6}, {}}));
   const StructureUse use = linked->use();
   EXPECT_EQ(use.index_entries, 5u);
@@ -325,7 +325,7 @@ TEST(Linked, counts_4_bytes_per_cell_and_8_per_pair) {
 
 TEST(Linked, a_full_pool_drops_what_it_would_if_lights_came_one_after_the_other) {
   const auto linked = storage("linked", {{"nodes_per_cell", 1.25}});
-  linked->start(4, 6, 4);
+  linked->start(4, {6, 4});
   linked->store(lists_from({{0, 5, 9}, {5}, {0, 5}, {5, 7}}));  // 8 pairs, 5 nodes: 0 twice, 5 three times
   EXPECT_EQ(linked->expanded(), lists_from({{0, 5}, {5}, {0, 5}, {}}));
   const StructureUse use = linked->use();
@@ -338,7 +338,7 @@ TEST(Linked, a_full_pool_drops_what_it_would_if_lights_came_one_after_the_other)
 
 TEST(Linked, forgets_the_overflow_of_the_frame_before) {
   const auto linked = storage("linked", {{"nodes_per_cell", 1.0}});
-  linked->start(2, 3, 0);
+  linked->start(2, {3, 0});
   linked->store(lists_from({{0, 1, 2}, {2}}));
   EXPECT_EQ(linked->use().dropped_pairs, 2u);
   linked->store(lists_from({{1}, {}}));

@@ -59,11 +59,11 @@ struct Outside {
 };
 
 Sample sample_in_view(const view::Frame& frame, SplitMix64& random) {
-  const view::Projection& lens = frame.projection;
+  const view::Projection& projection = frame.projection;
   const double px = random.between(0.0, frame.viewport.x), py = random.between(0.0, frame.viewport.y);
-  const double depth = random.between(lens.near_m, 70.0), scale = lens.orthographic ? 1.0 : depth;
-  const Vec3d p{(lens.left + (lens.right - lens.left) * px / frame.viewport.x) * scale,
-                (lens.top - (lens.top - lens.bottom) * py / frame.viewport.y) * scale, -depth};
+  const double depth = random.between(projection.near_m, 70.0), scale = projection.orthographic ? 1.0 : depth;
+  const Vec3d p{(projection.left + (projection.right - projection.left) * px / frame.viewport.x) * scale,
+                (projection.top - (projection.top - projection.bottom) * py / frame.viewport.y) * scale, -depth};
   return {static_cast<float>(px), static_cast<float>(py), Vec3f(p), p, Vec3d(0.0)};
 }
 
@@ -140,15 +140,15 @@ TEST(Tiles, at_the_right_and_bottom_edge_are_clipped_to_the_viewport) {
 }
 
 TEST(Tiles, every_pixel_centre_finds_the_tile_whose_planes_enclose_it) {
-  const view::Projection lens{false, -1.25, 0.75, -0.5, 0.625, 0.1, 10.0};
+  const view::Projection projection{false, -1.25, 0.75, -0.5, 0.625, 0.1, 10.0};
   for (const Vec2i viewport : {Vec2i{1366, 768}, Vec2i{7680, 4320}, Vec2i{640, 360}}) {
     for (const Vec2i count : {Vec2i{12, 12}, Vec2i{30, 17}, Vec2i{61, 50}}) {
       Tiling tiling;
       tiling.count = count;
-      const Tiles tiles = make_tiles(tiling, lens, viewport);
+      const Tiles tiles = make_tiles(tiling, projection, viewport);
       for (int pixel = 0; pixel < viewport.x; ++pixel) {
         const int column = tiles.tile_of(static_cast<float>(pixel) + 0.5f, 0.5f).x;
-        const double slope = lens.left + (lens.right - lens.left) * (pixel + 0.5) / viewport.x;
+        const double slope = projection.left + (projection.right - projection.left) * (pixel + 0.5) / viewport.x;
         EXPECT_LE(tiles.x[static_cast<std::size_t>(column)], slope + 1e-6);
         EXPECT_GE(tiles.x[static_cast<std::size_t>(column) + 1], slope - 1e-6);
       }
@@ -157,10 +157,10 @@ TEST(Tiles, every_pixel_centre_finds_the_tile_whose_planes_enclose_it) {
 }
 
 TEST(Tiles, that_cannot_be_are_refused) {
-  const view::Projection lens{false, -1.0, 1.0, -1.0, 1.0, 0.1, 10.0};
-  EXPECT_THROW(make_tiles({.pixels = {0, 64}, .count = {0, 0}}, lens, {640, 360}), Error);
-  EXPECT_THROW(make_tiles({.pixels = {64, 64}, .count = {641, 1}}, lens, {640, 360}), Error);
-  EXPECT_THROW(make_tiles({.pixels = {64, 64}, .count = {8, -1}}, lens, {640, 360}), Error);
+  const view::Projection projection{false, -1.0, 1.0, -1.0, 1.0, 0.1, 10.0};
+  EXPECT_THROW(make_tiles({.pixels = {0, 64}, .count = {0, 0}}, projection, {640, 360}), Error);
+  EXPECT_THROW(make_tiles({.pixels = {64, 64}, .count = {641, 1}}, projection, {640, 360}), Error);
+  EXPECT_THROW(make_tiles({.pixels = {64, 64}, .count = {8, -1}}, projection, {640, 360}), Error);
 }
 
 TEST(Cascades, levels_share_their_boundaries_exactly_and_fill_each_others_holes) {

@@ -26,8 +26,8 @@ const view::Projection k_left_eye{
 const view::Projection k_off_centre_box{true, -20.0, 30.0, -10.0, 15.0, 0.0, 100.0};
 const Vec2i k_viewports[] = {{1366, 768}, {1000, 700}, {1, 1}, {7680, 4320}, {640, 360}};
 
-// A symmetric lens for a viewport of square pixels.
-view::Projection lens_of(double fov_degrees, Vec2i viewport) {
+// A symmetric projection for a viewport of square pixels.
+view::Projection projection_of(double fov_degrees, Vec2i viewport) {
   const double top = tan_of_degrees(fov_degrees / 2.0), right = top * viewport.x / viewport.y;
   return {false, -right, right, -top, top, 0.1, 100.0};
 }
@@ -62,13 +62,13 @@ void expect_whole_tiles_and_a_rest(const std::vector<float>& planes, int tile, d
 TEST(Tiling, by_pixels_clips_the_last_column_and_row_to_the_viewport) {
   for (const Vec2i viewport : k_viewports)
     for (const Vec2i pixels : {Vec2i{64, 64}, Vec2i{1, 1}, Vec2i{8, 128}, Vec2i{49, 30}, Vec2i{9000, 9000}})
-      for (const view::Projection& lens : {k_left_eye, k_off_centre_box, lens_of(60.0, viewport)}) {
+      for (const view::Projection& projection : {k_left_eye, k_off_centre_box, projection_of(60.0, viewport)}) {
         SCOPED_TRACE(std::to_string(viewport.x) + " by " + std::to_string(pixels.x));
-        const Tiles tiles = make_tiles({.pixels = pixels, .count = {0, 0}}, lens, viewport);
+        const Tiles tiles = make_tiles({.pixels = pixels, .count = {0, 0}}, projection, viewport);
         EXPECT_EQ(Vec2i(tiles.x.size() - 1, tiles.y.size() - 1), tiles.count);
         EXPECT_EQ(tiles.viewport, viewport);
-        expect_whole_tiles_and_a_rest(tiles.x, pixels.x, lens.left, lens.right, viewport.x);
-        expect_whole_tiles_and_a_rest(tiles.y, pixels.y, lens.top, lens.bottom, viewport.y);
+        expect_whole_tiles_and_a_rest(tiles.x, pixels.x, projection.left, projection.right, viewport.x);
+        expect_whole_tiles_and_a_rest(tiles.y, pixels.y, projection.top, projection.bottom, viewport.y);
       }
 }
 
@@ -83,20 +83,20 @@ TEST(Tiling, by_count_cuts_between_pixels_where_the_count_does_not_divide) {
 TEST(Tiling, encloses_the_view_by_less_than_one_step_of_single_precision) {
   SplitMix64 random(11);
   for (int i = 0; i < 2000; ++i) {
-    view::Projection lens = k_left_eye;
-    lens.left = random.between(-3.0, -0.1);
-    lens.right = random.between(0.1, 3.0);
-    lens.top = random.between(0.1, 3.0);
-    lens.bottom = random.between(-3.0, -0.1);
-    const Tiles tiles = make_tiles({.pixels = {64, 64}, .count = {0, 0}}, lens, {1000, 700});
-    EXPECT_LE(tiles.x.front(), lens.left);
-    EXPECT_GE(tiles.x.back(), lens.right);
-    EXPECT_GE(tiles.y.front(), lens.top);
-    EXPECT_LE(tiles.y.back(), lens.bottom);
-    EXPECT_GT(std::nextafter(tiles.x.front(), k_float_infinity), lens.left);
-    EXPECT_LT(std::nextafter(tiles.x.back(), -k_float_infinity), lens.right);
-    EXPECT_LT(std::nextafter(tiles.y.front(), -k_float_infinity), lens.top);
-    EXPECT_GT(std::nextafter(tiles.y.back(), k_float_infinity), lens.bottom);
+    view::Projection projection = k_left_eye;
+    projection.left = random.between(-3.0, -0.1);
+    projection.right = random.between(0.1, 3.0);
+    projection.top = random.between(0.1, 3.0);
+    projection.bottom = random.between(-3.0, -0.1);
+    const Tiles tiles = make_tiles({.pixels = {64, 64}, .count = {0, 0}}, projection, {1000, 700});
+    EXPECT_LE(tiles.x.front(), projection.left);
+    EXPECT_GE(tiles.x.back(), projection.right);
+    EXPECT_GE(tiles.y.front(), projection.top);
+    EXPECT_LE(tiles.y.back(), projection.bottom);
+    EXPECT_GT(std::nextafter(tiles.x.front(), k_float_infinity), projection.left);
+    EXPECT_LT(std::nextafter(tiles.x.back(), -k_float_infinity), projection.right);
+    EXPECT_LT(std::nextafter(tiles.y.front(), -k_float_infinity), projection.top);
+    EXPECT_GT(std::nextafter(tiles.y.back(), k_float_infinity), projection.bottom);
   }
 }
 
@@ -133,7 +133,7 @@ TEST(Tiling, of_the_other_eye_is_the_mirror_image) {
 
 TEST(Tiling, moves_with_a_projection_that_is_jittered_by_half_a_pixel) {
   const Vec2i viewport{1366, 768};
-  const view::Projection still = lens_of(60.0, viewport);
+  const view::Projection still = projection_of(60.0, viewport);
   const double half_pixel = (still.right - still.left) / viewport.x / 2.0;
   view::Projection moved = still;
   moved.left += half_pixel;
@@ -149,8 +149,8 @@ TEST(Tiling, holds_for_extreme_fields_of_view_and_aspect_ratios) {
   for (const Vec2i viewport : {Vec2i{1366, 768}, Vec2i{6400, 64}, Vec2i{64, 6400}})
     for (const double fov : {0.1, 1.0, 170.0, 179.0})
       for (const int tile : {64, 1}) {
-        const view::Projection lens = lens_of(fov, viewport);
-        const Tiles tiles = make_tiles({.pixels = {tile, tile}, .count = {0, 0}}, lens, viewport);
+        const view::Projection projection = projection_of(fov, viewport);
+        const Tiles tiles = make_tiles({.pixels = {tile, tile}, .count = {0, 0}}, projection, viewport);
         for (int i = 0; i < tiles.count.x; ++i) EXPECT_LT(tiles.x[at(i)], tiles.x[at(i) + 1]);
         for (int i = 0; i < tiles.count.y; ++i) EXPECT_LT(tiles.y_min(i), tiles.y_max(i));
       }
@@ -160,7 +160,7 @@ TEST(Tiling, holds_for_extreme_fields_of_view_and_aspect_ratios) {
 TEST(Lookup, of_every_pixel_centre_is_the_whole_quotient_of_pixel_and_tile_size) {
   const Vec2i viewport{7680, 4320};
   for (int tile = 1; tile <= 300; ++tile) {
-    const Tiles tiles = make_tiles({.pixels = {tile, tile}, .count = {0, 0}}, lens_of(60.0, viewport), viewport);
+    const Tiles tiles = make_tiles({.pixels = {tile, tile}, .count = {0, 0}}, projection_of(60.0, viewport), viewport);
     int wrong = 0;
     for (int pixel = 0; pixel < viewport.x; ++pixel) {
       const float center = static_cast<float>(pixel) + 0.5f;
@@ -189,7 +189,7 @@ TEST(Lookup, of_every_pixel_centre_agrees_with_whole_numbers_for_counts_that_do_
   for (const Vec2i viewport : k_viewports)
     for (const int count : {1, 7, 12, 16, 30, 61, 256, 683, 1000}) {
       if (count > viewport.x) continue;
-      const Tiles tiles = make_tiles({.pixels = {0, 0}, .count = {count, 1}}, lens_of(60.0, viewport), viewport);
+      const Tiles tiles = make_tiles({.pixels = {0, 0}, .count = {count, 1}}, projection_of(60.0, viewport), viewport);
       for (int pixel = 0; pixel < viewport.x; ++pixel) expect_tile_of_centre(tiles, pixel);
     }
 }
@@ -221,7 +221,7 @@ TEST(Lookup, of_any_place_in_the_image_is_the_one_tile_whose_planes_enclose_it) 
 
 TEST(Lookup, beside_the_viewport_is_clamped_and_never_wraps_to_the_next_row) {
   for (const Vec2i viewport : k_viewports) {
-    const Tiles tiles = make_tiles({}, lens_of(60.0, viewport), viewport);
+    const Tiles tiles = make_tiles({}, projection_of(60.0, viewport), viewport);
     const Vec2i last = tiles.count - 1;
     const auto width = static_cast<float>(viewport.x), height = static_cast<float>(viewport.y);
     EXPECT_EQ(tiles.tile_of(width, height), last);
@@ -233,9 +233,9 @@ TEST(Lookup, beside_the_viewport_is_clamped_and_never_wraps_to_the_next_row) {
 }
 
 // The key that is named when such tiles are refused.
-std::string refused_key(const Tiling& tiling, Vec2i viewport, const view::Projection& lens = k_left_eye) {
+std::string refused_key(const Tiling& tiling, Vec2i viewport, const view::Projection& projection = k_left_eye) {
   try {
-    make_tiles(tiling, lens, viewport);
+    make_tiles(tiling, projection, viewport);
   } catch (const Error& error) {
     return error.where();
   }

@@ -17,7 +17,7 @@ constexpr std::uint32_t k_cells = 4, k_points = 2, k_spots = 1;
 
 // Four cells and three lights: frames of 3, 5 and 1 pairs.
 Buffers three_frames(assign::Storage& store, AllocationRule rule) {
-  store.start(k_cells, k_points, k_spots);
+  store.start(k_cells, {k_points, k_spots});
   BufferMeter meter(rule);
   const assign::Lists frames[] = {
       {{0, 1, 2, 3, 3}, {0, 1, 2}}, {{0, 0, 3, 5, 5}, {0, 1, 2, 0, 2}}, {{0, 0, 0, 0, 1}, {1}}};

@@ -92,22 +92,22 @@ TEST(SafePadding, is_the_farthest_that_a_depth_lies_beyond_the_slice_that_it_is_
 }
 
 TEST(DepthBuffer, gives_back_depths_within_its_steps) {
-  view::Projection lens = assign::testing::perspective(M_PI / 3, 1.5, 0.1, 500);
+  view::Projection projection = assign::testing::perspective(M_PI / 3, 1.5, 0.1, 500);
   for (const double far : {500.0, k_infinity}) {
-    lens.far_m = far;
+    projection.far_m = far;
     for (double depth = 0.1; depth < 499; depth *= 1.01) {
       // Reversed floats keep their digits far away; the reconstruction is in single precision.
-      EXPECT_NEAR(read_depth(lens, DepthRead::d32f, depth) / depth, 1.0, 4e-7) << depth;
+      EXPECT_NEAR(read_depth(projection, DepthRead::d32f, depth) / depth, 1.0, 4e-7) << depth;
       // 24-bit steps of near / depth: an error of depth² / near / 2^25.
-      EXPECT_NEAR(read_depth(lens, DepthRead::d24, depth), depth, depth * depth / 0.1 * 0x1p-24 + 4e-7 * depth)
+      EXPECT_NEAR(read_depth(projection, DepthRead::d24, depth), depth, depth * depth / 0.1 * 0x1p-24 + 4e-7 * depth)
           << depth;
     }
-    EXPECT_NEAR(read_depth(lens, DepthRead::d32f, 0.05), 0.1, 1e-7) << "in front of near";
+    EXPECT_NEAR(read_depth(projection, DepthRead::d32f, 0.05), 0.1, 1e-7) << "in front of near";
   }
-  lens.orthographic = true;
-  lens.far_m = 200;
-  EXPECT_NEAR(read_depth(lens, DepthRead::d32f, 73.0), 73.0, 2e-5);
-  EXPECT_NEAR(read_depth(lens, DepthRead::d24, 73.0), 73.0, 2e-5);
+  projection.orthographic = true;
+  projection.far_m = 200;
+  EXPECT_NEAR(read_depth(projection, DepthRead::d32f, 73.0), 73.0, 2e-5);
+  EXPECT_NEAR(read_depth(projection, DepthRead::d24, 73.0), 73.0, 2e-5);
 }
 
 TEST(Lookup, misses_nothing_where_it_is_rounded_and_lights_where_it_is_fast) {

@@ -12,7 +12,7 @@ inline std::unique_ptr<assign::Storage> packed_lists(const assign::Lists& lists,
                                                      const view::Frame& frame) {
   const assign::StorageDescriptor& packed = *assign::find_storage("packed");
   auto structure = packed.make(assign::Params(packed.params));
-  structure->start(grid, frame.points, static_cast<std::uint32_t>(frame.lights.size()) - frame.points);
+  structure->start(grid, frame.ranges());
   structure->store(lists);
   return structure;
 }

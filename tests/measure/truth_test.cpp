@@ -244,7 +244,7 @@ TEST(Truth, has_the_shell_that_a_narrow_spot_of_a_metre_reaches_745_m_away) {
   light.range_m = 0.7624139998386921;
   light.direction = {0.13774809289466936, -0.71480981173595926, 0.68561825818007845};
   light.outer_cone_rad = 0.09055462037691484;
-  // Which roundings lose the shell is chance.
+  // Which roundoffs lose the shell is chance.
   for (int ulps = 0; ulps < 64; ++ulps) {
     frame.lights.push_back(light);
     light.direction.y = std::nextafter(light.direction.y, 0.0);

@@ -143,7 +143,7 @@ TEST(Contacts, lie_on_their_cell_and_a_ball_against_them_touches_it_and_no_more)
       const Contact contact = random_contact(cell, random);
       const double range = random.between(0.5, 5.0);
       geom::LightVolume light;
-      light.apex.position = contact.place + range * contact.outward;
+      light.apex.position = contact.point + range * contact.outward;
       const double slack = 1e-9 * (glm::length(light.apex.position) + range);
       const auto meets = [&] {
         const geom::Verdict verdict = geom::filter_meets(light, cell);

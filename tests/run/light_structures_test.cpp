@@ -79,7 +79,7 @@ class Backwards final : public assign::ListAssigner {
     aabb_->assign(input, out);
     for (std::uint32_t cell = 0; cell < out.cell_count(); ++cell) {
       const auto begin = out.lights.begin() + out.begin[cell], end = out.lights.begin() + out.begin[cell + 1];
-      const auto spots = std::lower_bound(begin, end, input.lights.points);
+      const auto spots = std::lower_bound(begin, end, input.lights.spots.first);
       std::reverse(begin, spots);
       std::reverse(spots, end);
     }

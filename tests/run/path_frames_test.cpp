@@ -14,13 +14,13 @@ int grids_made(const config::Config& config, std::size_t grid, const PathFrames&
   return made;
 }
 
-TEST(GridOfFrames, is_made_once_along_a_path_and_again_only_where_its_lens_changes) {
+TEST(GridOfFrames, is_made_once_along_a_path_and_again_only_where_its_projection_changes) {
   testing::Walk walk(R"("grids": [{"kind": "frustum"}, {"kind": "distance"}, {"kind": "cascades"}, {"kind": "world"}])",
                      6);
   walk.add_light({0.0, 0.0, -20.0}, 5.0);
   const SceneData& data = walk.plan.scenes[0];
   scene::CameraPath zooms = data.paths[0];
-  zooms.shots[3].lens.yfov_rad = 1.0;
+  zooms.shots[3].projection.yfov_rad = 1.0;
   const PathFrames steady(data.scene, data.paths[0], {100, 100}), zooming(data.scene, zooms, {100, 100});
   for (std::size_t grid = 0; grid < walk.config.grids.size(); ++grid)
     EXPECT_EQ(grids_made(walk.config, grid, steady), 1) << grid;

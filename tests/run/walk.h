@@ -24,9 +24,9 @@ struct Walk {
     for (int i = 0; i < frames; ++i) {
       scene::Shot shot;
       shot.pose.eye = {0.0, 0.0, -static_cast<double>(i)};
-      shot.lens.yfov_rad = M_PI / 2;
-      shot.lens.near_m = 0.5;
-      shot.lens.far_m = 64.0;
+      shot.projection.yfov_rad = M_PI / 2;
+      shot.projection.near_m = 0.5;
+      shot.projection.far_m = 64.0;
       path.shots.push_back(shot);
     }
     data.paths.push_back(path);

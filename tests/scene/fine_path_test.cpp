@@ -15,7 +15,7 @@ Shot shot_at(double time_s, const Vec3d& eye, double yaw_rad = 0.0) {
   Shot shot;
   shot.time_s = time_s;
   shot.pose = {eye, Mat3d(c, 0.0, s, 0.0, 1.0, 0.0, -s, 0.0, c)};
-  shot.lens.yfov_rad = 1.0;
+  shot.projection.yfov_rad = 1.0;
   return shot;
 }
 
@@ -81,7 +81,7 @@ TEST(FinePath, place_time_and_view_change_evenly_and_go_on_through_the_next_shot
   EXPECT_NEAR(yaw_of(shots[3]), 0.006, 1e-12);
   EXPECT_NEAR(shots[12].pose.eye.y, 2 + 2 * k_step_m, 1e-12);
   EXPECT_NEAR(shots[12].time_s, 7.0, 1e-12);
-  EXPECT_EQ(shots[12].lens.yfov_rad, 1.0);
+  EXPECT_EQ(shots[12].projection.yfov_rad, 1.0);
 }
 
 TEST(FinePath, a_view_that_does_not_turn_stays_the_same_to_the_last_bit) {

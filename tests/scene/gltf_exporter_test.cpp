@@ -54,7 +54,7 @@ TEST(GltfAsExported, a_zfar_of_the_largest_float_is_infinitely_far) {
        {R"({"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1, "zfar": 3.4028235e+38}})",
         R"({"type": "orthographic", "orthographic": {"xmag": 1, "ymag": 1, "znear": 0.1, "zfar": 3.4028235e+38}})"}) {
     const Scene scene = loaded(document(R"("nodes": [{"camera": 0}], "cameras": [)" + std::string(camera) + "]"));
-    EXPECT_TRUE(std::isinf(scene.cameras.at(0).lens.far_m));
+    EXPECT_TRUE(std::isinf(scene.cameras.at(0).projection.far_m));
     expect_one_warning(scene, "zfar: the largest number of single precision; read as infinitely far");
   }
 }
@@ -329,11 +329,12 @@ TEST(GltfPointers, to_values_that_no_light_can_have_are_refused_at_their_sampler
 }
 
 // A camera seen by a channel to one of its numbers.
-Scene zoomed(const Animation& keys, const std::string& lens) {
-  return loaded(document(R"("nodes": [{"name": "eye", "camera": 0}], "cameras": [)" + lens + "], " + keys.text()));
+Scene zoomed(const Animation& keys, const std::string& projection) {
+  return loaded(
+      document(R"("nodes": [{"name": "eye", "camera": 0}], "cameras": [)" + projection + "], " + keys.text()));
 }
 
-TEST(GltfPointers, to_a_camera_change_its_lens_in_every_frame) {
+TEST(GltfPointers, to_a_camera_change_its_projection_in_every_frame) {
   const std::string perspective = R"({"type": "perspective", "perspective": {"yfov": 1, "znear": 0.5, "zfar": 8}})";
   const std::string orthographic =
       R"({"type": "orthographic", "orthographic": {"xmag": 1, "ymag": 1, "znear": 0, "zfar": 8}})";
@@ -345,24 +346,24 @@ TEST(GltfPointers, to_a_camera_change_its_lens_in_every_frame) {
   request.fit = CameraFit::vertical;
   const std::vector<Shot> shots = camera_paths(scene, request).at(0).shots;
   ASSERT_EQ(shots.size(), 3U);
-  EXPECT_EQ(shots[1].lens.yfov_rad, 1.5);
-  EXPECT_EQ(shots[1].lens.fit, CameraFit::vertical);
+  EXPECT_EQ(shots[1].projection.yfov_rad, 1.5);
+  EXPECT_EQ(shots[1].projection.fit, CameraFit::vertical);
   scene = zoomed(pointed("/cameras/0/orthographic/xmag", "STEP", {0}, {-7}), orthographic);
-  EXPECT_EQ(camera_lens(scene, scene.cameras.at(0), 0.0).xmag_m, 7.0);
+  EXPECT_EQ(projection_at(scene, scene.cameras.at(0), 0.0).xmag_m, 7.0);
   const float endless = std::numeric_limits<float>::max();
   scene = zoomed(pointed("/cameras/0/orthographic/zfar", "STEP", {0}, {endless}), orthographic);
-  EXPECT_TRUE(std::isinf(camera_lens(scene, scene.cameras.at(0), 0.0).far_m));
+  EXPECT_TRUE(std::isinf(projection_at(scene, scene.cameras.at(0), 0.0).far_m));
   expect_one_warning(zoomed(pointed("/cameras/0/orthographic/xmag", "STEP", {0}, {1}), perspective),
                      "camera 0 has no xmag");
 }
 
-TEST(GltfPointers, to_a_lens_that_shows_nothing_are_refused_at_the_camera_and_the_time) {
+TEST(GltfPointers, to_a_projection_that_shows_nothing_are_refused_at_the_camera_and_the_time) {
   const std::string perspective = R"({"type": "perspective", "perspective": {"yfov": 1, "znear": 0.5, "zfar": 8}})";
   for (const auto& [path, value] : {std::pair("yfov", 3.2F), std::pair("yfov", 0.0F), std::pair("zfar", 0.5F),
                                     std::pair("znear", 8.0F), std::pair("aspectRatio", 0.0F)}) {
     const Scene scene =
         zoomed(pointed(std::string("/cameras/0/perspective/") + path, "STEP", {0, 2}, {1, value}), perspective);
-    EXPECT_NO_THROW(camera_lens(scene, scene.cameras.at(0), 1.0)) << path;
+    EXPECT_NO_THROW(projection_at(scene, scene.cameras.at(0), 1.0)) << path;
     try {
       camera_paths(scene, {});
       FAIL() << path;

@@ -325,28 +325,29 @@ TEST(GltfAnimations, weights_and_pointers_are_ignored_with_a_warning) {
   }
 }
 
-Scene camera_scene(const std::string& node, const std::string& lens) {
-  return loaded(document(nodes(node) + R"(, "cameras": [)" + lens + "]"));
+Scene camera_scene(const std::string& node, const std::string& projection) {
+  return loaded(document(nodes(node) + R"(, "cameras": [)" + projection + "]"));
 }
 
-const std::string k_lens = R"({"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}})";
+const std::string k_projection = R"({"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}})";
 
-TEST(GltfCameras, a_lens_is_as_the_file_gives_it) {
-  const Lens open = camera_scene(R"({"camera": 0})", k_lens).cameras.at(0).lens;
+TEST(GltfCameras, a_projection_is_as_the_file_gives_it) {
+  const CameraProjection open = camera_scene(R"({"camera": 0})", k_projection).cameras.at(0).projection;
   EXPECT_FALSE(open.orthographic);
   EXPECT_EQ(open.yfov_rad, 1.0);
   EXPECT_EQ(open.near_m, 0.1);
   EXPECT_TRUE(std::isinf(open.far_m));
-  const Lens closed = camera_scene(R"({"camera": 0})",
-                                   R"({"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1, "zfar": 50}})")
-                          .cameras.at(0)
-                          .lens;
+  const CameraProjection closed =
+      camera_scene(R"({"camera": 0})",
+                   R"({"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1, "zfar": 50}})")
+          .cameras.at(0)
+          .projection;
   EXPECT_EQ(closed.far_m, 50.0);
-  const Lens flat =
+  const CameraProjection flat =
       camera_scene(R"({"camera": 0})",
                    R"({"type": "orthographic", "orthographic": {"xmag": 4, "ymag": 3, "znear": 0, "zfar": 9}})")
           .cameras.at(0)
-          .lens;
+          .projection;
   EXPECT_TRUE(flat.orthographic);
   EXPECT_EQ(flat.xmag_m, 4.0);
   EXPECT_EQ(flat.ymag_m, 3.0);
@@ -367,7 +368,7 @@ TEST(GltfCameras, scale_shear_and_mirroring_are_taken_out_of_a_pose) {
       R"({"camera": 0, "rotation": [0.1825741858350554, 0.3651483716701107, 0.5477225575051661, 0.7302967433402214]})";
   for (const char* above : {R"("scale": [3, 0.2, 7])", R"("scale": [-1, 1, 1])", R"("scale": [1e-30, 1e30, -5])",
                             R"("scale": [1, 1, 1])", R"("scale": [0, 0, 0])", R"("scale": [1, 0, 1])"}) {
-    const Scene scene = camera_scene(std::string(R"({"children": [1], )") + above + "}, " + turned, k_lens);
+    const Scene scene = camera_scene(std::string(R"({"children": [1], )") + above + "}, " + turned, k_projection);
     const CameraPose pose = camera_pose(scene, scene.cameras.at(0), 0.0);
     expect_orthonormal(pose.view_from_world);
     const Vec3d z(world_transforms(scene, 0.0).at(1)[2]);
@@ -379,7 +380,8 @@ TEST(GltfCameras, scale_shear_and_mirroring_are_taken_out_of_a_pose) {
 
 TEST(GltfCameras, an_unscaled_pose_is_the_inverse_of_the_nodes_rotation) {
   const Scene scene = camera_scene(
-      R"({"camera": 0, "translation": [1, 2, 3], "rotation": [0, 0.7071067811865476, 0, 0.7071067811865476]})", k_lens);
+      R"({"camera": 0, "translation": [1, 2, 3], "rotation": [0, 0.7071067811865476, 0, 0.7071067811865476]})",
+      k_projection);
   const CameraPose pose = camera_pose(scene, scene.cameras.at(0), 0.0);
   EXPECT_VEC3(pose.eye, 1, 2, 3);
   EXPECT_VEC3(pose.view_from_world * Vec3d(-1, 0, 0), 0, 0, -1);  // it looks along world -x

@@ -16,8 +16,8 @@ Scene scene_with(const std::vector<double>& ranges) {
   Camera camera;
   camera.name = "eye";
   camera.node = 0;
-  camera.lens.yfov_rad = 1.0;
-  camera.lens.far_m = 1000.0;
+  camera.projection.yfov_rad = 1.0;
+  camera.projection.far_m = 1000.0;
   scene.cameras = {camera};
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     Node node;
@@ -98,7 +98,7 @@ TEST(Summary, black_lights_and_lights_without_volume_are_named) {
 
 TEST(Summary, ranges_beyond_the_domain_and_cameras_that_cannot_be_measured_are_named) {
   Scene scene = scene_with({1e16, 2e16, 1e-16, 1.0, 0.0});
-  scene.cameras[0].lens.yfov_rad = 3.14159;
+  scene.cameras[0].projection.yfov_rad = 3.14159;
   resolve_ranges(scene, {});
   const Summary summary = summarise(scene);
   EXPECT_TRUE(warns_of(summary, "2 lights with a range above 1e15 m, taken as endless: first 'lamp 0'"));
@@ -114,7 +114,7 @@ TEST(Summary, cameras_of_one_name_are_each_looked_through) {
   scene.nodes.push_back(behind);
   scene.cameras.push_back(scene.cameras[0]);
   scene.cameras[1].node = 3;
-  scene.cameras[1].lens.yfov_rad = 0.5;
+  scene.cameras[1].projection.yfov_rad = 0.5;
   const Summary summary = summarise(scene);
   ASSERT_EQ(summary.cameras.size(), 2U);
   EXPECT_NE(summary.cameras[0], summary.cameras[1]);
@@ -123,7 +123,7 @@ TEST(Summary, cameras_of_one_name_are_each_looked_through) {
 
 TEST(Summary, the_sides_of_an_off_centre_camera_are_its_view) {
   Scene scene = scene_with({1.0});
-  scene.cameras[0].lens.sides = LensSides{0.5, 0.6, -0.1, 0.1};
+  scene.cameras[0].projection.sides = ProjectionSides{0.5, 0.6, -0.1, 0.1};
   EXPECT_TRUE(warns_of(summarise(scene), "never within"));
   scene.nodes[1].translation = {5.5, 0.0, -10.0};
   const Summary summary = summarise(scene);
@@ -133,10 +133,10 @@ TEST(Summary, the_sides_of_an_off_centre_camera_are_its_view) {
 
 TEST(Summary, a_wide_camera_sees_what_a_picture_that_holds_it_shows) {
   Scene scene = scene_with({1.0});
-  scene.cameras[0].lens.yfov_rad = 2.0 * std::atan(0.1);
+  scene.cameras[0].projection.yfov_rad = 2.0 * std::atan(0.1);
   scene.nodes[1].translation = {0.0, 3.0, -10.0};
   EXPECT_TRUE(warns_of(summarise(scene), "never within"));
-  scene.cameras[0].lens.aspect_ratio = 16.0;
+  scene.cameras[0].projection.aspect_ratio = 16.0;
   const Summary summary = summarise(scene);
   EXPECT_FALSE(warns_of(summary, "never within"));
   EXPECT_NE(summary.cameras[0].find("16 times as wide"), std::string::npos);

@@ -32,6 +32,14 @@ class CheckLayers(unittest.TestCase):
         self.assertEqual(code, 1)
         self.assertIn("geom/a.h: includes grid/grid.h", out)
 
+    def test_an_include_of_a_folder_that_is_not_below_is_found(self):
+        code, out = self.check({"assign/rows/a.h": '#include "assign/pipeline/b.h"\n', "assign/rows/b.h": "",
+                                "assign/exact/c.h": '#include "assign/distance/d.h"\n#include "assign/rows/b.h"\n'})
+        self.assertEqual(code, 1)
+        self.assertEqual(out, "src/assign/exact/c.h: includes assign/distance/d.h, but assign/exact is not above "
+                              "assign/distance\nsrc/assign/rows/a.h: includes assign/pipeline/b.h, but assign/rows is "
+                              "not above assign/pipeline\n")
+
     def test_a_library_outside_its_home_is_found(self):
         for layer, library, home in (("grid", "multiprecision", "geom"), ("geom", "math", "measure")):
             code, out = self.check({f"{layer}/a.cpp": f"#include <boost/{library}/x.hpp>\n"})

@@ -110,7 +110,7 @@ TEST(RandomSettings, have_grids_of_all_kinds_both_projections_and_both_types_of_
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     const Trial trial = random_setting(seed);
     kinds.insert(trial.grid.kind);
-    orthographic.insert(trial.scene.cameras[0].lens.orthographic);
+    orthographic.insert(trial.scene.cameras[0].projection.orthographic);
     for (const scene::Light& light : trial.scene.lights) spots.insert(light.type == scene::LightType::spot);
     lights += trial.scene.lights.size();
   }
@@ -131,7 +131,7 @@ TEST(RandomSearch, finds_no_fault_in_sound_methods) {
 
 TEST(RandomSearch, finds_a_method_that_forgets_a_pair_and_that_it_is_unlike_its_reference) {
   const std::set<FaultKind> kinds = kinds_of(searched_at_random({sound("exact"), flawed<Flaw::forgets>()}, 8));
-  EXPECT_EQ(kinds, (std::set<FaultKind>{FaultKind::loss, FaultKind::twin}));
+  EXPECT_EQ(kinds, (std::set<FaultKind>{FaultKind::loss, FaultKind::simd_variant}));
 }
 
 TEST(RandomSearch, finds_an_exact_method_that_lists_a_pair_too_many) {

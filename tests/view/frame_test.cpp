@@ -26,71 +26,71 @@ scene::WorldLight point(Vec3d place, double range) {
   return light;
 }
 
-TEST(Projection, keeps_the_lenss_height_and_takes_its_width_from_the_viewport) {
-  scene::Lens lens;
-  lens.yfov_rad = 2.0 * std::atan(0.5);
-  const Projection wide = make_projection(lens, {200, 100});
+TEST(Projection, keeps_the_projections_height_and_takes_its_width_from_the_viewport) {
+  scene::CameraProjection projection;
+  projection.yfov_rad = 2.0 * std::atan(0.5);
+  const Projection wide = make_projection(projection, {200, 100});
   EXPECT_DOUBLE_EQ(wide.top, 0.5);
   EXPECT_DOUBLE_EQ(wide.right, 1.0);
   EXPECT_DOUBLE_EQ(wide.left, -1.0);
-  lens.orthographic = true;
-  lens.ymag_m = 6.0;
-  lens.xmag_m = 1.0;
-  EXPECT_DOUBLE_EQ(make_projection(lens, {50, 100}).right, 3.0);
+  projection.orthographic = true;
+  projection.ymag_m = 6.0;
+  projection.xmag_m = 1.0;
+  EXPECT_DOUBLE_EQ(make_projection(projection, {50, 100}).right, 3.0);
 }
 
 TEST(Projection, of_a_camera_wider_than_the_viewport_holds_its_whole_rectangle) {
-  scene::Lens lens;
-  lens.yfov_rad = 2.0 * std::atan(0.5);
-  lens.aspect_ratio = 4.0;
-  const Projection whole = make_projection(lens, {200, 100});
+  scene::CameraProjection projection;
+  projection.yfov_rad = 2.0 * std::atan(0.5);
+  projection.aspect_ratio = 4.0;
+  const Projection whole = make_projection(projection, {200, 100});
   EXPECT_DOUBLE_EQ(whole.right, 2.0);
   EXPECT_DOUBLE_EQ(whole.left, -2.0);
   EXPECT_DOUBLE_EQ(whole.top, 1.0);
   EXPECT_DOUBLE_EQ(whole.bottom, -1.0);
-  EXPECT_NE(fit_warning(lens, {200, 100}).find("enlarged to 2 times its height"), std::string::npos)
-      << fit_warning(lens, {200, 100});
-  lens.orthographic = true;
-  lens.xmag_m = 20.0;
-  lens.ymag_m = 3.0;
-  EXPECT_DOUBLE_EQ(make_projection(lens, {200, 100}).right, 20.0);
-  EXPECT_DOUBLE_EQ(make_projection(lens, {200, 100}).top, 10.0);
+  EXPECT_NE(fit_warning(projection, {200, 100}).find("enlarged to 2 times its height"), std::string::npos)
+      << fit_warning(projection, {200, 100});
+  projection.orthographic = true;
+  projection.xmag_m = 20.0;
+  projection.ymag_m = 3.0;
+  EXPECT_DOUBLE_EQ(make_projection(projection, {200, 100}).right, 20.0);
+  EXPECT_DOUBLE_EQ(make_projection(projection, {200, 100}).top, 10.0);
 }
 
 TEST(Projection, of_a_wide_camera_is_cropped_where_the_height_is_asked_for) {
-  scene::Lens lens;
-  lens.yfov_rad = 2.0 * std::atan(0.5);
-  lens.aspect_ratio = 4.0;
-  lens.fit = scene::CameraFit::vertical;
-  EXPECT_DOUBLE_EQ(make_projection(lens, {200, 100}).right, 1.0);
-  EXPECT_NE(fit_warning(lens, {200, 100}).find("50 % of its width are cropped"), std::string::npos);
+  scene::CameraProjection projection;
+  projection.yfov_rad = 2.0 * std::atan(0.5);
+  projection.aspect_ratio = 4.0;
+  projection.fit = scene::CameraFit::vertical;
+  EXPECT_DOUBLE_EQ(make_projection(projection, {200, 100}).right, 1.0);
+  EXPECT_NE(fit_warning(projection, {200, 100}).find("50 % of its width are cropped"), std::string::npos);
 }
 
 TEST(Projection, of_a_camera_that_the_viewport_holds_is_the_same_to_the_bit_with_both_fits) {
-  scene::Lens lens;
-  lens.yfov_rad = 1.047198;
-  const Projection plain = make_projection(lens, {1920, 1080});
+  scene::CameraProjection projection;
+  projection.yfov_rad = 1.047198;
+  const Projection plain = make_projection(projection, {1920, 1080});
   for (const double aspect : {1.0, 1.777778, 1.7778, 1.778}) {  // 16/9 as exporters write it: less than half a pixel
-    lens.aspect_ratio = aspect;
-    EXPECT_EQ(make_projection(lens, {1920, 1080}), plain) << aspect;
-    EXPECT_EQ(fit_warning(lens, {1920, 1080}), "") << aspect;
+    projection.aspect_ratio = aspect;
+    EXPECT_EQ(make_projection(projection, {1920, 1080}), plain) << aspect;
+    EXPECT_EQ(fit_warning(projection, {1920, 1080}), "") << aspect;
   }
-  lens.aspect_ratio = 1.78;
-  EXPECT_NE(make_projection(lens, {1920, 1080}), plain);
-  lens.sides = scene::LensSides{-1.0, 1.0, -0.1, 0.1};
-  EXPECT_EQ(make_projection(lens, {100, 100}).right, 1.0);
-  EXPECT_EQ(fit_warning(lens, {100, 100}), "");
+  projection.aspect_ratio = 1.78;
+  EXPECT_NE(make_projection(projection, {1920, 1080}), plain);
+  projection.sides = scene::ProjectionSides{-1.0, 1.0, -0.1, 0.1};
+  EXPECT_EQ(make_projection(projection, {100, 100}).right, 1.0);
+  EXPECT_EQ(fit_warning(projection, {100, 100}), "");
 }
 
 // With the picture moved by (2, -3) pixels, pixel (12, 17) shows what (10, 20) did.
 TEST(Projection, of_a_jittered_frame_moves_the_picture_by_its_pixels) {
   const scene::Scene scene;
   scene::Shot shot;
-  shot.lens.yfov_rad = 1.0;
-  shot.lens.near_m = 0.1;
-  shot.lens.far_m = 100.0;
+  shot.projection.yfov_rad = 1.0;
+  shot.projection.near_m = 0.1;
+  shot.projection.far_m = 100.0;
   const Projection still = make_frame(scene, shot, 0, {100, 50}).projection;
-  EXPECT_EQ(still, make_projection(shot.lens, {100, 50}));
+  EXPECT_EQ(still, make_projection(shot.projection, {100, 50}));
   shot.jitter_px = {2.0, -3.0};
   const Projection moved = make_frame(scene, shot, 0, {100, 50}).projection;
   const auto right_of = [](const Projection& p, double x) { return p.left + x / 100.0 * (p.right - p.left); };
@@ -127,8 +127,8 @@ TEST(Lights, have_a_radius_that_is_never_below_their_range) {
     EXPECT_GE(static_cast<double>(arrays.radius[i]), lights[i].range_m);
     const auto light = static_cast<std::uint32_t>(i);
     EXPECT_EQ(arrays.padded_radius(light, 0.0f), arrays.radius[i]);
-    // The roundings that are given with the numbers cover the rounded centre, and a rounding more does not matter.
-    const double pad = arrays.padded_radius(light, k_given_roundings) - lights[i].range_m,
+    // The roundoffs that are given with the numbers cover the rounded centre, and a rounding more does not matter.
+    const double pad = arrays.padded_radius(light, k_given_roundoffs) - lights[i].range_m,
                  moved = std::abs(arrays.x[i] - lights[i].position.x);
     EXPECT_GE(pad, moved);
     EXPECT_LT(pad, 3e-7 * (std::abs(lights[i].position.x) + lights[i].range_m));
@@ -150,8 +150,8 @@ TEST(Lights, of_spots_have_their_axis_turned_into_view_space) {
   // A camera that looks along +x: world x is ahead, view -z.
   const Mat3d turned(Vec3d(0, 0, -1), Vec3d(0, 1, 0), Vec3d(1, 0, 0));
   const LightArrays arrays = lights_in(frame_with({point({0, 0, 0}, 1.0), spot}), {Vec3d(0.0), turned});
-  EXPECT_EQ(arrays.points, 1u);
-  EXPECT_EQ(arrays.spots, 1u);
+  EXPECT_EQ(arrays.points.count, 1u);
+  EXPECT_EQ(arrays.spots.count, 1u);
   const geom::SphericalCone cone = arrays.cone(1, 0.0f);
   EXPECT_FLOAT_EQ(cone.axis.z, -1.0f);
   EXPECT_FLOAT_EQ(cone.cos_angle, std::cos(0.5f));

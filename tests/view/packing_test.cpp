@@ -100,7 +100,7 @@ TEST(Packing, no_light_is_farther_off_than_its_bound_and_no_bound_is_far_too_lar
       EXPECT_GE(static_cast<double>(found.lights.radius[i]), light.range_m);
       nearest_place = std::max(nearest_place, off / bound.position_m);
       if (!found.lights.is_spot(i)) continue;
-      const std::uint32_t spot = i - found.lights.points;
+      const std::uint32_t spot = i - found.lights.spots.first;
       const double turned = angle_between(axis_of(found.lights, spot), space.rotation * light.direction);
       const double angle = std::atan2(found.lights.sin_angle[spot], found.lights.cos_angle[spot]);
       EXPECT_LE(turned, bound.axis_rad);
@@ -128,7 +128,7 @@ double outside_by(const LightArrays& lights, std::uint32_t light, const Vec3d& p
   const Vec3d to_point = point - place_of(lights, light);
   const double beyond = glm::length(to_point) - lights.radius[light];
   if (!lights.is_spot(light)) return beyond;
-  const std::uint32_t spot = light - lights.points;
+  const std::uint32_t spot = light - lights.spots.first;
   const Vec3d axis = axis_of(lights, spot);
   const double along = glm::dot(to_point, axis), across = glm::length(to_point - along * axis);
   return std::max(beyond, static_cast<double>(lights.cos_angle[spot]) * across -

@@ -18,7 +18,7 @@ const AssignerDescriptor aabb_descriptor{
     .source = "Persson 2015, Practical Clustered Shading; DaveH355's test, which visits every cell",
     .kinds = {grid::Kind::frustum},
     .params = light_params(),
-    .make = make_cell_box_method<AabbsInExtents>,
+    .make = make_list_assigner<CellBoxMethod<AabbsInExtents>>,
 };
 
 }  // namespace clusterbench::assign

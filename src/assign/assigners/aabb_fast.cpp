@@ -1,6 +1,7 @@
 // `aabb` for speed: the same lists, SIMD.
 
 #include "assign/bounds/bounds_method.h"
+#include "assign/bounds/bounds_rows.h"
 #include "assign/bounds/fast_bounds_method.h"
 
 namespace clusterbench::assign {
@@ -8,7 +9,7 @@ namespace {
 
 class RowsByBoxes {
  public:
-  static constexpr float k_roundings = CellAabbs::k_roundings;
+  static constexpr float k_roundoffs = CellAabbs::k_roundoffs;
 
   explicit RowsByBoxes(const Params&) {}
 
@@ -32,7 +33,7 @@ const AssignerDescriptor aabb_fast_descriptor{
     .source = "Persson 2015, Practical Clustered Shading; DaveH355's test, which visits every cell",
     .kinds = {grid::Kind::frustum},
     .params = light_params(),
-    .make = make_fast_bounds_method<RowsByBoxes>,
+    .make = make_list_assigner<SliceBySlice<FrustumKernel<RowsByBoxes>>>,
 };
 
 }  // namespace clusterbench::assign

@@ -7,7 +7,7 @@ namespace {
 
 struct NoTest {
   static constexpr Looks k_looks = Looks::nowhere;
-  static constexpr float k_roundings = 0.0f;
+  static constexpr float k_roundoffs = 0.0f;
   void build(const grid::Grid&) {}
   std::size_t capacity_bytes() const { return 0; }
 };
@@ -23,7 +23,7 @@ const AssignerDescriptor bounds_descriptor{
         "logarithm",
     .kinds = {grid::Kind::frustum},
     .params = light_params(),
-    .make = make_cell_box_method<NoTest>,
+    .make = make_list_assigner<CellBoxMethod<NoTest>>,
 };
 
 }  // namespace clusterbench::assign

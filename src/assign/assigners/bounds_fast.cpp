@@ -1,15 +1,16 @@
 // `bounds` for speed: the same lists, SIMD.
 
+#include "assign/bounds/bounds_rows.h"
 #include "assign/bounds/fast_bounds_method.h"
 
 namespace clusterbench::assign {
 namespace {
 
-class BoxedRows {
+class AllRows {
  public:
-  static constexpr float k_roundings = 0.0f;
+  static constexpr float k_roundoffs = 0.0f;
 
-  explicit BoxedRows(const Params&) {}
+  explicit AllRows(const Params&) {}
 
   void build(const grid::Grid& grid) { rows_ = grid.cells().y; }
   bool narrows() const { return false; }
@@ -32,7 +33,7 @@ const AssignerDescriptor bounds_fast_descriptor{
         "logarithm",
     .kinds = {grid::Kind::frustum},
     .params = light_params(),
-    .make = make_fast_bounds_method<BoxedRows>,
+    .make = make_list_assigner<SliceBySlice<FrustumKernel<AllRows>>>,
 };
 
 }  // namespace clusterbench::assign

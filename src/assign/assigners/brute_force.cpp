@@ -19,7 +19,7 @@ const AssignerDescriptor brute_force_descriptor{
     .kinds = {grid::Kind::frustum},
     .all_pairs = true,
     .params = light_params(),
-    .make = make_cell_box_method<EveryAabb>,
+    .make = make_list_assigner<CellBoxMethod<EveryAabb>>,
 };
 
 }  // namespace clusterbench::assign

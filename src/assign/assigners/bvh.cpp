@@ -1,7 +1,7 @@
 // A hierarchy over the lights, built anew in every frame: sorted along a Morton curve, eight neighbours to a group,
 // eight groups to a group of the next level. Asked per cell it fills lists; left as it is, samples ask it.
 //
-// Roundings: a ball's box is off by one rounding in each of its sides, a sample's place by one. The test of a ball
+// Roundoffs: a ball's box is off by one rounding in each of its sides, a sample's position by one. The test of a ball
 // against a cell's box loses as much as that of `aabb`, and is the larger.
 
 #include <algorithm>
@@ -25,7 +25,7 @@ namespace clusterbench::assign {
 namespace {
 
 constexpr float k_inf = std::numeric_limits<float>::infinity();
-constexpr float k_roundings = CellAabbs::k_roundings;
+constexpr float k_roundoffs = CellAabbs::k_roundoffs;
 constexpr std::uint32_t k_width = 8;
 
 // Boxes of neighbours; those that are not there are empty.
@@ -88,21 +88,21 @@ class Tree {
   std::uint64_t each_touched(const geom::Box& box, Found&& found) const {
     if (order_.empty()) return 0;
     std::uint64_t groups = 0;
-    struct Open {
+    struct ToVisit {
       std::uint32_t level, group;
     };
-    std::array<Open, k_most_levels * k_width> open;
+    std::array<ToVisit, k_most_levels * k_width> to_visit;
     std::size_t count = 0;
-    open[count++] = {static_cast<std::uint32_t>(levels_ - 1), 0};
+    to_visit[count++] = {static_cast<std::uint32_t>(levels_ - 1), 0};
     while (count > 0) {
-      const Open at = open[--count];
+      const ToVisit at = to_visit[--count];
       ++groups;
       for (std::uint32_t left = groups_[begin_[at.level] + at.group].touched(box); left != 0; left &= left - 1) {
         const std::uint32_t child = at.group * k_width + static_cast<std::uint32_t>(std::countr_zero(left));
         if (at.level == 0)
           found(order_[child]);
         else
-          open[count++] = {at.level - 1, child};
+          to_visit[count++] = {at.level - 1, child};
       }
     }
     return groups * k_width;
@@ -165,16 +165,16 @@ std::uint64_t spread(std::uint64_t bits) {
 // Keeps its memory between frames.
 class TreeBuilder {
  public:
-  explicit TreeBuilder(const Params& params) : test(params, k_roundings) {}
+  explicit TreeBuilder(const Params& params) : test(params, k_roundoffs) {}
 
   // Of the lights with volume for which keeps(ball).
   template <class Keeps>
   void build(const view::LightArrays& lights, Keeps&& keeps, Trees& out) {
     balls.resize(lights.size());
     for (std::uint32_t light = 0; light < lights.size(); ++light)
-      balls[light] = lights.is_empty(light) ? geom::Ball{} : test.ball(lights, light, k_roundings);
-    build_tree(lights, 0, lights.points, keeps, out.points);
-    build_tree(lights, lights.points, lights.size(), keeps, out.spots);
+      balls[light] = lights.is_empty(light) ? geom::Ball{} : test.ball(lights, light, k_roundoffs);
+    build_tree(lights, lights.points, keeps, out.points);
+    build_tree(lights, lights.spots, keeps, out.spots);
   }
 
   std::size_t capacity_bytes() const {
@@ -186,10 +186,10 @@ class TreeBuilder {
 
  private:
   template <class Keeps>
-  void build_tree(const view::LightArrays& lights, std::uint32_t begin, std::uint32_t end, Keeps&& keeps, Tree& out) {
+  void build_tree(const view::LightArrays& lights, const view::LightRange& range, Keeps&& keeps, Tree& out) {
     by_code_.entries.clear();
     Vec3f lo(k_inf), hi(-k_inf);
-    for (std::uint32_t light = begin; light < end; ++light) {
+    for (std::uint32_t light = range.first; light < range.end(); ++light) {
       if (lights.is_empty(light) || !keeps(balls[light])) continue;
       by_code_.entries.push_back({0, light});
       lo = glm::min(lo, balls[light].center);
@@ -226,7 +226,7 @@ class BvhLists final : public ListAssigner {
       extend(all_, cells_.back());
     }
     view_.reset();
-    if (std::holds_alternative<grid::ScreenGrid>(grid.shape)) view_ = ViewCull(grid.screen());
+    if (grid.has_tiles()) view_ = ViewCull(grid.screen());
   }
 
   void assign(const FrameInput& input, Lists& out) override {
@@ -265,9 +265,9 @@ class BvhLists final : public ListAssigner {
 
   void set_cones(const view::LightArrays& lights) {
     if (!builder_.test.tests_cones()) return;
-    cones_.resize(lights.spots);
-    for (std::uint32_t spot = 0; spot < lights.spots; ++spot)
-      cones_[spot] = builder_.test.cone(lights, lights.points + spot);
+    cones_.resize(lights.spots.count);
+    for (std::uint32_t spot = 0; spot < lights.spots.count; ++spot)
+      cones_[spot] = builder_.test.cone(lights, lights.spots.first + spot);
   }
 
   void find_candidates(std::uint32_t begin, std::uint32_t end) {
@@ -289,7 +289,7 @@ class BvhLists final : public ListAssigner {
     if (test.tests_cones() && count > 0 && lights.is_spot(found_[count - 1])) {
       const auto is_missed = [&](std::uint32_t light) {
         return lights.is_spot(light) &&
-               !geom::cone_touches_ball(cones_[light - lights.points], test.cell_balls()[cell]);
+               !geom::cone_touches_ball(cones_[light - lights.spots.first], test.cell_balls()[cell]);
       };
       count = static_cast<std::uint32_t>(std::remove_if(found_.begin(), found_.begin() + count, is_missed) -
                                          found_.begin());
@@ -317,7 +317,7 @@ class BvhLists final : public ListAssigner {
 class LightHierarchy final : public LightStructure {
  public:
   Trees trees;
-  std::uint32_t points = 0, spots = 0;
+  view::LightRanges ranges;
   std::optional<Vec3d> world_origin;  // of the space in which the lights are, if it is not view space
 
   void lights_at(const grid::Sample& sample, grid::Log2, std::vector<std::uint32_t>& out) const override {
@@ -335,8 +335,8 @@ class LightHierarchy final : public LightStructure {
     return use;
   }
   StructureLimit limit() const override {
-    const std::uint64_t entries = Tree::boxes_for(points) + Tree::boxes_for(spots);
-    return {entries, entries * k_box_bytes + (std::uint64_t{points} + spots) * sizeof(std::uint32_t)};
+    const std::uint64_t entries = Tree::boxes_for(ranges.points.count) + Tree::boxes_for(ranges.spots.count);
+    return {entries, entries * k_box_bytes + std::uint64_t{ranges.size()} * sizeof(std::uint32_t)};
   }
   std::uint32_t index_bits() const override { return 8 * k_box_bytes; }
   bool has_cells() const override { return false; }
@@ -352,14 +352,10 @@ class BvhQueries final : public AssignerOf<LightHierarchy> {
  public:
   explicit BvhQueries(const Params& params) : builder_(params) {}
 
-  void build(const grid::Grid& grid, const LightKinds&) override {
-    world_origin_.reset();
-    if (grid.kind() == grid::Kind::world) world_origin_ = grid.world().origin;
-  }
+  void build(const grid::Grid& grid, const LightKinds&) override { world_origin_ = grid.world_origin(); }
 
   void fill(const FrameInput& input, LightHierarchy& out) override {
-    out.points = input.lights.points;
-    out.spots = input.lights.spots;
+    out.ranges = input.lights;
     out.world_origin = world_origin_;
     builder_.build(
         input.lights, [](const geom::Ball&) { return true; }, out.trees);
@@ -375,14 +371,6 @@ class BvhQueries final : public AssignerOf<LightHierarchy> {
   std::uint64_t tests_ = 0;
 };
 
-std::unique_ptr<ListAssigner> make(const Params& params) {
-  return std::make_unique<BvhLists>(params);
-}
-
-std::unique_ptr<StructureAssigner> make_own(const Params& params) {
-  return std::make_unique<BvhQueries>(params);
-}
-
 }  // namespace
 
 extern const AssignerDescriptor bvh_descriptor;
@@ -394,8 +382,8 @@ const AssignerDescriptor bvh_descriptor{
     .source = "Olsson, Billeter and Assarsson 2012, Clustered Deferred and Forward Shading; van Oosten 2015",
     .kinds = {grid::Kind::frustum, grid::Kind::distance, grid::Kind::cascades, grid::Kind::world},
     .params = light_params(),
-    .make = make,
-    .make_own = make_own,
+    .make = make_list_assigner<BvhLists>,
+    .make_own = make_structure_assigner<BvhQueries>,
 };
 
 }  // namespace clusterbench::assign

@@ -14,7 +14,7 @@ const AssignerDescriptor cascades_descriptor{
         "of Persson 2015",
     .kinds = {grid::Kind::cascades},
     .params = light_params(),
-    .make = make_box_grid_method,
+    .make = make_list_assigner<BoxGridMethod>,
 };
 
 }  // namespace clusterbench::assign

@@ -13,7 +13,7 @@ const AssignerDescriptor cascades_fast_descriptor{
         "of Persson 2015",
     .kinds = {grid::Kind::cascades},
     .params = light_params(),
-    .make = make_fast_box_grid_method,
+    .make = make_list_assigner<SliceBySlice<BoxGridKernel>>,
 };
 
 }  // namespace clusterbench::assign

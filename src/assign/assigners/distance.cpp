@@ -6,13 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <vector>
 
-#include "assign/contract/assigner.h"
 #include "assign/contract/light_test.h"
 #include "assign/cull/view_cull.h"
-#include "assign/rows/shells.h"
+#include "assign/distance/shells.h"
+#include "assign/pipeline/light_by_light.h"
 #include "geom/tangents.h"
 #include "grid/index_range.h"
 
@@ -43,7 +42,7 @@ Cap cap_in_shell(const geom::Ball& ball, double length, double distance) {
   if (!(cosine > 0.0)) return cap;  // 90° and more, the eye in the ball, or an unbounded one
   const double apart = std::fabs(distance - length);
   const double squared_sine = (r - apart) * (r + apart) / twice * (1.0 + cosine);
-  const double lost = 0x1p-24 * static_cast<double>(k_shell_roundings) * length;
+  const double lost = 0x1p-24 * static_cast<double>(k_shell_roundoffs) * length;
   cap.radius = static_cast<float>(length * std::sqrt(std::max(0.0, squared_sine)) + lost);
   return cap;
 }
@@ -69,8 +68,8 @@ bool touches_in_row(const Cap& cap, float slope, float row_lo, float row_hi) {
   if (!std::isfinite(slope)) return false;
   const double x = cap.x, depth = cap.depth, r = cap.radius, s = slope;
   const double touch_depth = std::sqrt(std::max(0.0, x * x + depth * depth - r * r) / (1.0 + s * s));
-  const double margin = k_touch_margin * (touch_depth + std::fabs(static_cast<double>(cap.y)));
-  return cap.y >= row_lo * touch_depth - margin && cap.y <= row_hi * touch_depth + margin;
+  const double tolerance = k_touch_tolerance * (touch_depth + std::fabs(static_cast<double>(cap.y)));
+  return cap.y >= row_lo * touch_depth - tolerance && cap.y <= row_hi * touch_depth + tolerance;
 }
 
 geom::SlopeRange hull(const geom::SlopeRange& a, const geom::SlopeRange& b) {
@@ -91,31 +90,18 @@ geom::SlopeRange slopes_in_row(const Cap& cap, const geom::SlopeRange& tangents,
   return slopes;
 }
 
-class Distance final : public ListAssigner {
+class Distance final : public LightByLight<Distance> {
  public:
-  explicit Distance(const Params& params) : test_(params, k_shell_roundings) {}
+  explicit Distance(const Params& params) : test_(params, k_shell_roundoffs) {}
 
   void build(const grid::Grid& grid, const LightKinds& kinds) override {
-    grid_ = &grid;
+    start_grid(grid);
     view_ = ViewCull(grid.screen());
     test_.start_grid(grid, kinds);
   }
 
-  void assign(const FrameInput& input, Lists& out) override {
-    const view::LightArrays& lights = input.lights;
-    tests_ = 0;
-    test_.start_frame(lights);
-    pairs_.start(grid_->cell_count());
-    for (std::uint32_t light = 0; light < lights.size(); ++light) add_light(lights, light);
-    pairs_.finish(out);
-  }
-
-  std::uint64_t tests_done() const override { return tests_; }
-  std::size_t scratch_bytes() const override { return pairs_.capacity_bytes() + test_.capacity_bytes(); }
-
- private:
+  void start_frame(const view::LightArrays& lights) { test_.start_frame(lights); }
   void add_light(const view::LightArrays& lights, std::uint32_t light) {
-    if (lights.is_empty(light)) return;
     const TestedLight tested = test_.tested(lights, light);
     const geom::Ball& ball = tested.ball;
     if (view_.misses(ball)) return;
@@ -129,7 +115,9 @@ class Distance final : public ListAssigner {
       add_cap(cap, shell, tested);
     }
   }
+  std::size_t own_bytes() const { return test_.capacity_bytes(); }
 
+ private:
   void add_cap(const Cap& cap, int shell, const TestedLight& light) {
     const grid::Tiles& tiles = grid_->screen().tiles;
     const geom::SlopeRange across = geom::slope_range(cap.x, cap.depth, cap.radius, 0.0f, k_inf);
@@ -149,21 +137,13 @@ class Distance final : public ListAssigner {
   }
 
   void add_row(const grid::IndexRange& columns, int row, int shell, const TestedLight& light) {
-    const Vec2i count = grid_->screen().tiles.count;
-    const auto first = static_cast<std::uint32_t>((shell * count.y + row) * count.x + columns.first);
-    test_.add_row(light, first, static_cast<std::uint32_t>(columns.count()), pairs_, tests_);
+    test_.add_row(light, index_of({columns.first, row, shell}), static_cast<std::uint32_t>(columns.count()), pairs_,
+                  tests_);
   }
 
   LightTest test_;
   ViewCull view_;
-  const grid::Grid* grid_ = nullptr;
-  PairBuffer pairs_;
-  std::uint64_t tests_ = 0;
 };
-
-std::unique_ptr<ListAssigner> make(const Params& params) {
-  return std::make_unique<Distance>(params);
-}
 
 }  // namespace
 
@@ -175,7 +155,7 @@ const AssignerDescriptor distance_descriptor{
     .kinds = {grid::Kind::distance},
     .orthographic = false,
     .params = light_params(),
-    .make = make,
+    .make = make_list_assigner<Distance>,
 };
 
 }  // namespace clusterbench::assign

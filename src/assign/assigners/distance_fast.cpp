@@ -1,62 +1,34 @@
 // `distance` for speed: the same lists, SIMD.
 
-#include <memory>
-
-#include "assign/bounds/bounds_lists.h"
-#include "assign/cone/spot_spheres.h"
-#include "assign/contract/assigner.h"
-#include "assign/contract/light_test.h"
-#include "assign/rows/shell_rows.h"
-#include "assign/rows/shells.h"
+#include "assign/distance/shell_rows.h"
+#include "assign/distance/shells.h"
+#include "assign/pipeline/slice_by_slice.h"
 
 namespace clusterbench::assign {
 namespace {
 
-class DistanceFast final : public ListAssigner {
+class ShellKernel {
  public:
-  explicit DistanceFast(const Params& params) : test_(params, k_shell_roundings), lists_(test_) {}
+  static constexpr float k_roundoffs = k_shell_roundoffs;
+  static constexpr const char* k_columns_key = "tiles";
 
-  void build(const grid::Grid& grid, const LightKinds& kinds) override {
-    test_.start_grid(grid, kinds);
-    lists_.start_grid(grid.cells(), "tiles");
-    planes_ = ShellPlanes(grid.screen());
-    shells_ = grid.cells().z;
-  }
+  explicit ShellKernel(const Params&) {}
 
-  void assign(const FrameInput& input, Lists& out) override {
-    const view::LightArrays& lights = input.lights;
-    test_.start_frame(lights);
-    boxed_.count = 0;
-    boxed_.reserve(lights.size());
-    find_shells(planes_, given_points(lights), 0, test_.own_padding(), boxed_);
-    if (lights.spots > 0) {
-      find_spot_balls(lights, test_.own_padding(), test_.balls_are_around_cones(), spots_);
-      find_shells(planes_, given_spots(lights, spots_), lights.points, 0.0f, boxed_);
-    }
-    lists_.start_frame(lights, out);
-    lists_.add_slices(boxed_, shells_,
-                      [&](const BallBatch& batch, BatchRows& rows) { find_shell_rows(planes_, batch, rows); });
-    lists_.finish();
-  }
+  void build(const grid::Grid& grid) { planes_ = ShellPlanes(grid.screen()); }
+  int levels() const { return 1; }
+  Level level(int) const { return {planes_.boundaries.slices()}; }
 
-  std::uint64_t tests_done() const override { return lists_.tests_done(); }
-  std::size_t scratch_bytes() const override {
-    return lists_.capacity_bytes() + test_.capacity_bytes() + boxed_.capacity_bytes() + spots_.capacity_bytes() +
-           planes_.capacity_bytes();
+  void bound(int, const KernelLights& lights, BoundedBalls& out) const {
+    find_shells(planes_, given_points(lights.all), lights.test.own_padding(), out);
+    if (!lights.all.spots.empty()) find_shells(planes_, given_spots(lights.all, lights.spots), 0.0f, out);
   }
+  void find_rows(int, const BallBatch& batch, BatchRows& out) const { find_shell_rows(planes_, batch, out); }
+
+  std::size_t capacity_bytes() const { return planes_.capacity_bytes(); }
 
  private:
-  LightTest test_;
   ShellPlanes planes_;
-  int shells_ = 0;
-  BallArrays spots_;
-  BoxedBalls boxed_;
-  BoxedLists lists_;
 };
-
-std::unique_ptr<ListAssigner> make(const Params& params) {
-  return std::make_unique<DistanceFast>(params);
-}
 
 }  // namespace
 
@@ -68,7 +40,7 @@ const AssignerDescriptor distance_fast_descriptor{
     .kinds = {grid::Kind::distance},
     .orthographic = false,
     .params = light_params(),
-    .make = make,
+    .make = make_list_assigner<SliceBySlice<ShellKernel>>,
 };
 
 }  // namespace clusterbench::assign

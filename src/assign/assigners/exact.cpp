@@ -8,13 +8,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <vector>
 
-#include "assign/contract/assigner.h"
 #include "assign/contract/light_test.h"
 #include "assign/cull/view_cull.h"
 #include "assign/exact/exact_rows.h"
+#include "assign/pipeline/light_by_light.h"
+#include "core/arrays.h"
 #include "geom/predicates.h"
 #include "grid/index_range.h"
 
@@ -23,32 +23,26 @@ namespace {
 
 using grid::IndexRange;
 
-class Exact final : public ListAssigner {
+class Exact final : public LightByLight<Exact> {
  public:
   explicit Exact(const Params&) {}
 
   void build(const grid::Grid& grid, const LightKinds& kinds) override {
-    grid_ = &grid;
+    start_grid(grid);
     view_ = ViewCull(grid.screen());
     cell_balls_.clear();
     if (kinds.spots) cell_balls_ = grid.balls_around_cells();
   }
 
-  void assign(const FrameInput& input, Lists& out) override {
-    const view::LightArrays& lights = input.lights;
-    tests_ = fallbacks_ = 0;
+  void start_frame(const view::LightArrays& lights) {
+    fallbacks_ = 0;
     check_prepared(lights, cell_balls_);
-    pairs_.start(grid_->cell_count());
-    for (std::uint32_t light = 0; light < lights.size(); ++light)
-      if (!lights.is_empty(light)) lights.is_spot(light) ? add_spot(lights, light) : add_point(lights, light);
-    pairs_.finish(out);
   }
-
-  std::uint64_t tests_done() const override { return tests_; }
+  void add_light(const view::LightArrays& lights, std::uint32_t light) {
+    lights.is_spot(light) ? add_spot(lights, light) : add_point(lights, light);
+  }
   std::uint64_t fallbacks() const override { return fallbacks_; }
-  std::size_t scratch_bytes() const override {
-    return pairs_.capacity_bytes() + cell_balls_.capacity() * sizeof(geom::Ball);
-  }
+  std::size_t own_bytes() const { return bytes_of(cell_balls_); }
 
  private:
   // Calls take(row) for the rows that a ball may touch, and perhaps a few more.
@@ -80,12 +74,12 @@ class Exact final : public ListAssigner {
 
   void add_point(const view::LightArrays& lights, std::uint32_t light) {
     if (std::isinf(lights.radius[light])) return pairs_.add_row(0, grid_->cell_count(), light);
-    const geom::Ball larger = lights.ball(light, k_exact_roundings);
+    const geom::Ball larger = lights.ball(light, k_exact_roundoffs);
     if (view_.misses(larger)) return;
     BallJudge judge(*grid_, lights, light);
     if (lights.reach[light] > k_most_exact_reach)
       return add_cell_by_cell(light, [&](const Row& row, int column) { return judge.touches(row, column); });
-    const geom::Ball smaller = lights.ball(light, -k_exact_roundings);
+    const geom::Ball smaller = lights.ball(light, -k_exact_roundoffs);
     const RowColumns columns(grid_->screen().tiles);
     each_row(larger, [&](const Row& row) {
       const IndexRange outer = columns.touched(larger, row, geom::Errs::outward);
@@ -94,10 +88,10 @@ class Exact final : public ListAssigner {
   }
 
   void add_spot(const view::LightArrays& lights, std::uint32_t light) {
-    const geom::SphericalCone cone = lights.cone(light, view::k_given_roundings);
+    const geom::SphericalCone cone = lights.cone(light, view::k_given_roundoffs);
     // Both hold the cone; neither holds the other.
-    const geom::Ball around = geom::bounding_ball(cone), range = lights.ball(light, k_exact_roundings);
-    const geom::Ball larger{around.center, around.radius + k_exact_roundings * 0x1p-24f * lights.reach[light]};
+    const geom::Ball around = geom::bounding_ball(cone), range = lights.ball(light, k_exact_roundoffs);
+    const geom::Ball larger{around.center, around.radius + k_exact_roundoffs * 0x1p-24f * lights.reach[light]};
     if (view_.misses(larger)) return;
     SpotJudge judge(*grid_, lights, light);
     if (lights.reach[light] > k_most_exact_reach)
@@ -139,28 +133,23 @@ class Exact final : public ListAssigner {
                    static_cast<std::uint32_t>(columns.count()), light);
   }
 
-  const grid::Grid* grid_ = nullptr;
   ViewCull view_;
   std::vector<geom::Ball> cell_balls_;
-  PairBuffer pairs_;
-  std::uint64_t tests_ = 0, fallbacks_ = 0;
+  std::uint64_t fallbacks_ = 0;
 };
-
-std::unique_ptr<ListAssigner> make(const Params& params) {
-  return std::make_unique<Exact>(params);
-}
 
 }  // namespace
 
 extern const AssignerDescriptor exact_descriptor;
 const AssignerDescriptor exact_descriptor{
     .name = "exact",
-    .summary = "the true lists: each row's interval in closed form, what single precision leaves open decided exactly",
+    .summary =
+        "the true lists: each row's interval in closed form, what single precision leaves uncertain decided exactly",
     .source = "this project",
     .kinds = {grid::Kind::frustum},
     .exact = true,
     .params = {},
-    .make = make,
+    .make = make_list_assigner<Exact>,
 };
 
 }  // namespace clusterbench::assign

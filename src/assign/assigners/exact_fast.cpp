@@ -1,11 +1,10 @@
 // `exact` for speed. Balls outside of the view are left out a vector at a time; slice by slice the rows of many balls
 // are found at once, one ball per lane; a slice's lists are built by compression while its spans are in the cache. Rows
-// that single precision leaves open, and the ends of a spot's rows, are decided as in exact.cpp. Threads share the
+// that single precision leaves uncertain, and the ends of a spot's rows, are decided as in exact.cpp. Threads share the
 // slices.
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "assign/cone/spot_spheres.h"
 #include "assign/contract/assigner.h"
@@ -20,8 +19,8 @@ namespace {
 
 class ExactFast final : public ListAssigner {
  public:
-  explicit ExactFast(const Params& params) : crew_(static_cast<int>(params.number("threads"))) {
-    if (crew_.threads() > 1) parts_.resize(2 * static_cast<std::size_t>(crew_.threads()));
+  explicit ExactFast(const Params& params) : thread_pool_(static_cast<int>(params.number("threads"))) {
+    if (thread_pool_.threads() > 1) parts_.resize(2 * static_cast<std::size_t>(thread_pool_.threads()));
   }
 
   void build(const grid::Grid& grid, const LightKinds&) override {
@@ -38,10 +37,10 @@ class ExactFast final : public ListAssigner {
     tests_ = lights.size();
     fallbacks_ = 0;
     lights_ = &lights;
-    see_lights();
-    if (!planes_.orthographic) set_up_spheres(visible_, first_spot_place_, shapes_);
+    cull_lights();
+    if (!planes_.orthographic) set_up_spheres(visible_, first_spot_, shapes_);
     slice_bins_.sort(visible_, planes_.slices);
-    const ExactFrame frame{*grid_, planes_, lights, visible_, first_spot_place_, shapes_, slice_bins_};
+    const ExactFrame frame{*grid_, planes_, lights, visible_, first_spot_, shapes_, slice_bins_};
     if (parts_.empty() || slice_bins_.count() < k_worth_threads) {
       whole_.find(frame, 0, planes_.slices, out);
       count(whole_);
@@ -80,7 +79,7 @@ class ExactFast final : public ListAssigner {
   // Each part finds its own lists; then all are copied to where they belong.
   void find_in_parts(const ExactFrame& frame, Lists& out) {
     cut_into_parts();
-    crew_.each(parts_.size(), [&](std::size_t i) {
+    thread_pool_.each(parts_.size(), [&](std::size_t i) {
       Part& part = parts_[i];
       part.slices.find(frame, part.first, part.last, part.lists);
     });
@@ -97,7 +96,7 @@ class ExactFast final : public ListAssigner {
     out.lights.resize(pairs);
     out.begin.back() = starts_.back();
     const std::size_t slice_cells = grid_->cell_count() / static_cast<std::size_t>(planes_.slices);
-    crew_.each(parts_.size(), [&](std::size_t i) {
+    thread_pool_.each(parts_.size(), [&](std::size_t i) {
       const Part& part = parts_[i];
       const std::size_t first_cell = static_cast<std::size_t>(part.first) * slice_cells;
       std::transform(part.lists.begin.begin(), part.lists.begin.end() - 1,
@@ -126,14 +125,14 @@ class ExactFast final : public ListAssigner {
     for (++part; part < parts_.size(); ++part) parts_[part].first = parts_[part].last = planes_.slices;
   }
 
-  void see_lights() {
+  void cull_lights() {
     visible_.count = 0;
     visible_.reserve(lights_->size());
-    see_balls(planes_, given_points(*lights_), 0, visible_);
-    first_spot_place_ = visible_.count;
-    if (lights_->spots == 0) return;
-    find_spot_balls(*lights_, view::k_given_roundings, true, spots_);
-    see_balls(planes_, given_spots(*lights_, spots_), lights_->points, visible_);
+    cull_balls(planes_, given_points(*lights_), visible_);
+    first_spot_ = visible_.count;
+    if (lights_->spots.empty()) return;
+    find_spot_balls(*lights_, view::k_given_roundoffs, true, spots_);
+    cull_balls(planes_, given_spots(*lights_, spots_), visible_);
   }
 
   const grid::Grid* grid_ = nullptr;
@@ -141,19 +140,15 @@ class ExactFast final : public ListAssigner {
   RowPlanes planes_;
   BallArrays spots_;  // around their cones
   VisibleBalls visible_;
-  std::uint32_t first_spot_place_ = 0;  // among them
+  std::uint32_t first_spot_ = 0;  // among them
   SphereSetup shapes_;
   SliceBins slice_bins_;
   ExactSlices whole_;
-  Crew crew_;
+  ThreadPool thread_pool_;
   std::vector<Part> parts_;
   std::vector<std::uint32_t> starts_;  // of the parts' pairs
   std::uint64_t tests_ = 0, fallbacks_ = 0;
 };
-
-std::unique_ptr<ListAssigner> make(const Params& params) {
-  return std::make_unique<ExactFast>(params);
-}
 
 }  // namespace
 
@@ -175,7 +170,7 @@ const AssignerDescriptor exact_fast_descriptor{
                 .choices = {},
                 .whole = true,
                 .is_thread_count = true}},
-    .make = make,
+    .make = make_list_assigner<ExactFast>,
 };
 
 }  // namespace clusterbench::assign

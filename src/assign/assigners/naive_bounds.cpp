@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "assign/bounds/cell_bounds.h"
-#include "assign/contract/assigner.h"
-#include "geom/predicates.h"
+#include "assign/pipeline/light_by_light.h"
 #include "geom/tangents.h"
 #include "grid/index_range.h"
 
@@ -44,9 +42,9 @@ class LogSlices {
     const float near = slices_.boundaries[static_cast<std::size_t>(special_)], far = slices_.boundaries.back();
     if (!(depth > near)) return depth > 0.0f && special_ > 0 && depth >= near ? special_ : 0;
     const auto count = static_cast<float>(slices_.count() - special_);
-    const float place = fast_ ? grid::log2_by(grid::Log2::fast, depth / far) * (count / std::log2(far / near)) + count
+    const float slice = fast_ ? grid::log2_by(grid::Log2::fast, depth / far) * (count / std::log2(far / near)) + count
                               : std::log(depth / near) * count / std::log(far / near);
-    return special_ + static_cast<int>(std::clamp(place, 0.0f, count - 1.0f));
+    return special_ + static_cast<int>(std::clamp(slice, 0.0f, count - 1.0f));
   }
 
   const grid::Slices& slices_;
@@ -66,27 +64,18 @@ geom::SlopeRange textbook_slopes(float u, float depth, float r) {
   return u > 0.0f ? geom::SlopeRange{low, k_infinity} : geom::SlopeRange{-k_infinity, high};
 }
 
-class NaiveBounds final : public ListAssigner {
+class NaiveBounds final : public LightByLight<NaiveBounds> {
  public:
   explicit NaiveBounds(const Params& params) : flaw_(flaw_from(params.text("flaw"))) {}
 
-  void build(const grid::Grid& grid, const LightKinds&) override { grid_ = &grid; }
+  void build(const grid::Grid& grid, const LightKinds&) override { start_grid(grid); }
 
-  void assign(const FrameInput& input, Lists& out) override {
-    const view::LightArrays& lights = input.lights;
-    tests_ = 0;
-    pairs_.start(grid_->cell_count());
-    for (std::uint32_t light = 0; light < lights.size(); ++light) {
-      if (lights.is_empty(light)) continue;
-      ++tests_;
-      add_box(box_of(lights.is_spot(light) ? geom::bounding_ball(lights.cone(light, 0.0f)) : lights.ball(light, 0.0f)),
-              light);
-    }
-    pairs_.finish(out);
+  void start_frame(const view::LightArrays&) {}
+  void add_light(const view::LightArrays& lights, std::uint32_t light) {
+    ++tests_;
+    add_box(box_of(lights.bounding_ball(light, 0.0f)), light);
   }
-
-  std::uint64_t tests_done() const override { return tests_; }
-  std::size_t scratch_bytes() const override { return pairs_.capacity_bytes(); }
+  std::size_t own_bytes() const { return 0; }
 
  private:
   CellBox box_of(const geom::Ball& ball) const {
@@ -165,22 +154,13 @@ class NaiveBounds final : public ListAssigner {
 
   void add_box(const CellBox& box, std::uint32_t light) {
     if (box.empty()) return;
-    const Vec2i count = grid_->screen().tiles.count;
     for (int z = box.first.z; z <= box.last.z; ++z)
       for (int y = box.first.y; y <= box.last.y; ++y)
-        pairs_.add_row(static_cast<std::uint32_t>((z * count.y + y) * count.x + box.first.x),
-                       static_cast<std::uint32_t>(box.last.x - box.first.x + 1), light);
+        pairs_.add_row(index_of({box.first.x, y, z}), static_cast<std::uint32_t>(box.last.x - box.first.x + 1), light);
   }
 
   Flaw flaw_;
-  const grid::Grid* grid_ = nullptr;
-  PairBuffer pairs_;
-  std::uint64_t tests_ = 0;
 };
-
-std::unique_ptr<ListAssigner> make(const Params& params) {
-  return std::make_unique<NaiveBounds>(params);
-}
 
 }  // namespace
 
@@ -198,7 +178,7 @@ const AssignerDescriptor naive_bounds_descriptor{
                 .standard = std::string("log-slice"),
                 .unit = "",
                 .choices = {"log-slice", "fast-log-slice", "textbook-tangents", "tile-division", "padded-tiles"}}},
-    .make = make,
+    .make = make_list_assigner<NaiveBounds>,
 };
 
 }  // namespace clusterbench::assign

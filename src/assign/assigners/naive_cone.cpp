@@ -2,11 +2,11 @@
 // left to their cell boxes.
 
 #include <cmath>
-#include <memory>
 
-#include "assign/bounds/bounds_method.h"
 #include "assign/bounds/cell_bounds.h"
-#include "assign/contract/assigner.h"
+#include "assign/contract/light_test.h"
+#include "assign/pipeline/light_by_light.h"
+#include "core/arrays.h"
 
 namespace clusterbench::assign {
 namespace {
@@ -24,39 +24,30 @@ geom::Ball flat_cap_ball(const geom::SphericalCone& cone) {
   return {cone.apex + along * cone.axis, along};
 }
 
-class NaiveCone final : public ListAssigner {
+class NaiveCone final : public LightByLight<NaiveCone> {
  public:
   explicit NaiveCone(const Params& params) : flaw_(flaw_from(params.text("flaw"))) {}
 
   void build(const grid::Grid& grid, const LightKinds& kinds) override {
-    grid_ = &grid;
+    start_grid(grid);
     cell_balls_.clear();
     if (kinds.spots) cell_balls_ = grid.balls_around_cells();
   }
 
-  void assign(const FrameInput& input, Lists& out) override {
-    const view::LightArrays& lights = input.lights;
-    tests_ = 0;
-    check_prepared(lights, cell_balls_);
-    pairs_.start(grid_->cell_count());
-    for (std::uint32_t light = 0; light < lights.size(); ++light)
-      if (!lights.is_empty(light)) lights.is_spot(light) ? add_spot(lights, light) : add_point(lights, light);
-    pairs_.finish(out);
+  void start_frame(const view::LightArrays& lights) { check_prepared(lights, cell_balls_); }
+  void add_light(const view::LightArrays& lights, std::uint32_t light) {
+    lights.is_spot(light) ? add_spot(lights, light) : add_point(lights, light);
   }
-
-  std::uint64_t tests_done() const override { return tests_; }
-  std::size_t scratch_bytes() const override {
-    return pairs_.capacity_bytes() + cell_balls_.capacity() * sizeof(geom::Ball);
-  }
+  std::size_t own_bytes() const { return bytes_of(cell_balls_); }
 
  private:
   void add_point(const view::LightArrays& lights, std::uint32_t light) {
-    visit(cell_box(*grid_, lights.ball(light, view::k_given_roundings + k_cell_box_roundings)), light,
+    visit(cell_box(*grid_, lights.ball(light, view::k_given_roundoffs + k_cell_box_roundoffs)), light,
           [](std::uint32_t) { return true; });
   }
 
   void add_spot(const view::LightArrays& lights, std::uint32_t light) {
-    geom::SphericalCone cone = lights.cone(light, view::k_given_roundings);
+    geom::SphericalCone cone = lights.cone(light, view::k_given_roundoffs);
     if (flaw_ == Flaw::flat_cap_ball)
       return visit(cell_box(*grid_, flat_cap_ball(cone)), light, [](std::uint32_t) { return true; });
     if (flaw_ == Flaw::sine_from_cosine) cone.sin_angle = std::sqrt(1.0f - cone.cos_angle * cone.cos_angle);
@@ -76,26 +67,18 @@ class NaiveCone final : public ListAssigner {
   void visit(const CellBox& box, std::uint32_t light, Keep&& keep) {
     ++tests_;
     if (box.empty()) return;
-    const Vec2i count = grid_->screen().tiles.count;
     for (int z = box.first.z; z <= box.last.z; ++z)
       for (int y = box.first.y; y <= box.last.y; ++y)
         for (int x = box.first.x; x <= box.last.x; ++x) {
-          const auto cell = static_cast<std::uint32_t>((z * count.y + y) * count.x + x);
+          const std::uint32_t cell = index_of({x, y, z});
           ++tests_;
           if (keep(cell)) pairs_.add(cell, light);
         }
   }
 
   Flaw flaw_;
-  const grid::Grid* grid_ = nullptr;
   std::vector<geom::Ball> cell_balls_;
-  PairBuffer pairs_;
-  std::uint64_t tests_ = 0;
 };
-
-std::unique_ptr<ListAssigner> make(const Params& params) {
-  return std::make_unique<NaiveCone>(params);
-}
 
 }  // namespace
 
@@ -113,7 +96,7 @@ const AssignerDescriptor naive_cone_descriptor{
                 .standard = std::string("sine-from-cosine"),
                 .unit = "",
                 .choices = {"sine-from-cosine", "no-range", "flat-cap-ball"}}},
-    .make = make,
+    .make = make_list_assigner<NaiveCone>,
 };
 
 }  // namespace clusterbench::assign

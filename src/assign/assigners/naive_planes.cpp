@@ -20,7 +20,7 @@ const AssignerDescriptor naive_planes_descriptor{
     .kinds = {grid::Kind::frustum},
     .naive = true,
     .params = light_params(),
-    .make = make_cell_box_method<PlanesEverywhere>,
+    .make = make_list_assigner<CellBoxMethod<PlanesEverywhere>>,
 };
 
 }  // namespace clusterbench::assign

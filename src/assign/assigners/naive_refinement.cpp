@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "assign/bounds/cell_bounds.h"
 #include "assign/bounds/tile_planes.h"
-#include "assign/contract/assigner.h"
-#include "geom/predicates.h"
+#include "assign/pipeline/light_by_light.h"
+#include "core/arrays.h"
 
 namespace clusterbench::assign {
 namespace {
@@ -17,31 +16,21 @@ struct Remainder {
   float x, y, depth, squared_radius;
 };
 
-class NaiveRefinement final : public ListAssigner {
+class NaiveRefinement final : public LightByLight<NaiveRefinement> {
  public:
   explicit NaiveRefinement(const Params&) {}
 
   void build(const grid::Grid& grid, const LightKinds&) override {
-    grid_ = &grid;
+    start_grid(grid);
     columns_ = tile_planes(grid.screen().tiles.x, grid.screen().tiles.orthographic);
     rows_ = tile_planes(grid.screen().tiles.y, grid.screen().tiles.orthographic);
   }
 
-  void assign(const FrameInput& input, Lists& out) override {
-    const view::LightArrays& lights = input.lights;
-    tests_ = 0;
-    pairs_.start(grid_->cell_count());
-    for (std::uint32_t light = 0; light < lights.size(); ++light)
-      if (!lights.is_empty(light))
-        add_ball(lights.is_spot(light) ? geom::bounding_ball(lights.cone(light, 0.0f)) : lights.ball(light, 0.0f),
-                 light);
-    pairs_.finish(out);
+  void start_frame(const view::LightArrays&) {}
+  void add_light(const view::LightArrays& lights, std::uint32_t light) {
+    add_ball(lights.bounding_ball(light, 0.0f), light);
   }
-
-  std::uint64_t tests_done() const override { return tests_; }
-  std::size_t scratch_bytes() const override {
-    return pairs_.capacity_bytes() + (columns_.capacity() + rows_.capacity()) * sizeof(TilePlane);
-  }
+  std::size_t own_bytes() const { return bytes_of(columns_, rows_); }
 
  private:
   void add_ball(const geom::Ball& ball, std::uint32_t light) {
@@ -90,23 +79,14 @@ class NaiveRefinement final : public ListAssigner {
     while (first <= last && first < center.x && misses(first)) ++first;
     while (last >= first && last > center.x && misses(last)) --last;
     if (first > last) return;
-    const Vec2i count = grid_->screen().tiles.count;
-    pairs_.add_row(static_cast<std::uint32_t>((slice * count.y + y) * count.x + first),
-                   static_cast<std::uint32_t>(last - first + 1), light);
+    pairs_.add_row(index_of({first, y, slice}), static_cast<std::uint32_t>(last - first + 1), light);
   }
 
   const TilePlane& column(int i) const { return columns_[static_cast<std::size_t>(i)]; }
   const TilePlane& row(int i) const { return rows_[static_cast<std::size_t>(i)]; }
 
-  const grid::Grid* grid_ = nullptr;
   std::vector<TilePlane> columns_, rows_;
-  PairBuffer pairs_;
-  std::uint64_t tests_ = 0;
 };
-
-std::unique_ptr<ListAssigner> make(const Params& params) {
-  return std::make_unique<NaiveRefinement>(params);
-}
 
 }  // namespace
 
@@ -119,7 +99,7 @@ const AssignerDescriptor naive_refinement_descriptor{
     .conservative = false,
     .naive = true,
     .params = {},
-    .make = make,
+    .make = make_list_assigner<NaiveRefinement>,
 };
 
 }  // namespace clusterbench::assign

@@ -20,7 +20,7 @@ const AssignerDescriptor planes_descriptor{
     .source = "the test of Wicked Engine and most tiled renderers, which make it for every light and tile",
     .kinds = {grid::Kind::frustum},
     .params = light_params(),
-    .make = make_cell_box_method<PlanesInExtents>,
+    .make = make_list_assigner<CellBoxMethod<PlanesInExtents>>,
 };
 
 }  // namespace clusterbench::assign

@@ -11,15 +11,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "assign/bounds/cell_bounds.h"
 #include "assign/bounds/refinement.h"
 #include "assign/bounds/tile_planes.h"
-#include "assign/contract/assigner.h"
 #include "assign/contract/light_test.h"
 #include "assign/cull/view_cull.h"
+#include "assign/pipeline/light_by_light.h"
+#include "core/arrays.h"
 
 namespace clusterbench::assign {
 namespace {
@@ -55,13 +55,13 @@ bool reaches_column(const Remainder& ball, float from_left, float from_right) {
   return gap <= 0.0f || gap * gap <= ball.squared_radius;
 }
 
-class SphereRefinement final : public ListAssigner {
+class SphereRefinement final : public LightByLight<SphereRefinement> {
  public:
   explicit SphereRefinement(const Params& params)
-      : test_(params, k_refinement_roundings), narrowing_(narrows(params)) {}
+      : test_(params, k_refinement_roundoffs), narrowing_(narrows(params)) {}
 
   void build(const grid::Grid& grid, const LightKinds& kinds) override {
-    grid_ = &grid;
+    start_grid(grid);
     const grid::Tiles& tiles = grid.screen().tiles;
     columns_ = tile_planes(tiles.x, tiles.orthographic);
     rows_ = tile_planes(tiles.y, tiles.orthographic);
@@ -69,25 +69,9 @@ class SphereRefinement final : public ListAssigner {
     test_.start_grid(grid, kinds);
   }
 
-  void assign(const FrameInput& input, Lists& out) override {
-    const view::LightArrays& lights = input.lights;
-    tests_ = 0;
-    test_.start_frame(lights);
-    pairs_.start(grid_->cell_count());
-    for (std::uint32_t light = 0; light < lights.size(); ++light) add_light(lights, light);
-    pairs_.finish(out);
-  }
-
-  std::uint64_t tests_done() const override { return tests_; }
-  std::size_t scratch_bytes() const override {
-    return pairs_.capacity_bytes() + test_.capacity_bytes() +
-           (columns_.capacity() + rows_.capacity()) * sizeof(TilePlane);
-  }
-
- private:
+  void start_frame(const view::LightArrays& lights) { test_.start_frame(lights); }
   void add_light(const view::LightArrays& lights, std::uint32_t light) {
-    if (lights.is_empty(light)) return;
-    const geom::Ball for_box = test_.ball(lights, light, k_cell_box_roundings);
+    const geom::Ball for_box = test_.ball(lights, light, k_cell_box_roundoffs);
     if (view_.misses(for_box)) return;
     CellBox box = cell_box(*grid_, for_box);
     if (box.empty()) return;
@@ -96,7 +80,9 @@ class SphereRefinement final : public ListAssigner {
       narrow_from_six_sides(box, tested.cone, grid_->screen().slices.boundaries, columns_, rows_);
     if (!box.empty()) add_ball(box, tested);
   }
+  std::size_t own_bytes() const { return test_.capacity_bytes() + bytes_of(columns_, rows_); }
 
+ private:
   void add_ball(const CellBox& box, const TestedLight& light) {
     const std::vector<float>& depths = grid_->screen().slices.boundaries;
     const geom::Ball& ball = light.ball;
@@ -145,24 +131,14 @@ class SphereRefinement final : public ListAssigner {
       right = left;
       left = distance(--last);
     }
-    const Vec2i count = grid_->screen().tiles.count;
-    const auto row_start = static_cast<std::uint32_t>((slice * count.y + row) * count.x);
-    test_.add_row(light, row_start + static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last - first + 1),
-                  pairs_, tests_);
+    test_.add_row(light, index_of({first, row, slice}), static_cast<std::uint32_t>(last - first + 1), pairs_, tests_);
   }
 
   LightTest test_;
   bool narrowing_;
-  const grid::Grid* grid_ = nullptr;
   ViewCull view_;
   std::vector<TilePlane> columns_, rows_;
-  PairBuffer pairs_;
-  std::uint64_t tests_ = 0;
 };
-
-std::unique_ptr<ListAssigner> make(const Params& params) {
-  return std::make_unique<SphereRefinement>(params);
-}
 
 }  // namespace
 
@@ -176,7 +152,7 @@ const AssignerDescriptor sphere_refinement_descriptor{
         "centre row once)",
     .kinds = {grid::Kind::frustum},
     .params = refinement_params(),
-    .make = make,
+    .make = make_list_assigner<SphereRefinement>,
 };
 
 }  // namespace clusterbench::assign

@@ -1,5 +1,6 @@
 // `sphere-refinement` for speed: the same lists, SIMD.
 
+#include "assign/bounds/bounds_rows.h"
 #include "assign/bounds/fast_bounds_method.h"
 #include "assign/bounds/refinement.h"
 
@@ -8,7 +9,7 @@ namespace {
 
 class RefinedRows {
  public:
-  static constexpr float k_roundings = k_refinement_roundings;
+  static constexpr float k_roundoffs = k_refinement_roundoffs;
 
   explicit RefinedRows(const Params& params) : narrowing_(assign::narrows(params)) {}
 
@@ -25,8 +26,7 @@ class RefinedRows {
   }
   void find(const BallBatch& batch, BatchRows& out) { find_refined_rows(planes_, batch, lane_columns_, out); }
   std::size_t capacity_bytes() const {
-    return planes_.capacity_bytes() + lane_columns_.capacity_bytes() + depths_.capacity() * sizeof(float) +
-           (columns_.capacity() + rows_.capacity()) * sizeof(TilePlane);
+    return planes_.capacity_bytes() + lane_columns_.capacity_bytes() + bytes_of(depths_, columns_, rows_);
   }
 
  private:
@@ -49,7 +49,7 @@ const AssignerDescriptor sphere_refinement_fast_descriptor{
         "centre row once)",
     .kinds = {grid::Kind::frustum},
     .params = refinement_params(),
-    .make = make_fast_bounds_method<RefinedRows>,
+    .make = make_list_assigner<SliceBySlice<FrustumKernel<RefinedRows>>>,
 };
 
 }  // namespace clusterbench::assign

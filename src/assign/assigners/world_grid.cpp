@@ -13,7 +13,7 @@ const AssignerDescriptor world_grid_descriptor{
         "cones are tested, in a grid that stays",
     .kinds = {grid::Kind::world},
     .params = light_params(),
-    .make = make_box_grid_method,
+    .make = make_list_assigner<BoxGridMethod>,
 };
 
 }  // namespace clusterbench::assign

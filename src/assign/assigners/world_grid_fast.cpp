@@ -13,7 +13,7 @@ const AssignerDescriptor world_grid_fast_descriptor{
         "cones are tested, in a grid that stays",
     .kinds = {grid::Kind::world},
     .params = light_params(),
-    .make = make_fast_box_grid_method,
+    .make = make_list_assigner<SliceBySlice<BoxGridKernel>>,
 };
 
 }  // namespace clusterbench::assign

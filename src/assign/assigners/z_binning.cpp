@@ -2,13 +2,14 @@
 // each. A sample's lights are its tile's bits within its bin's range. Tiles and bins are the grid's tiles and slices,
 // so that a cell is what its tile and its slice have in common.
 //
-// Roundings: all that is tested are the cell boxes of balls, as `bounds-fast` finds them.
+// Roundoffs: all that is tested are the cell boxes of balls, as `bounds-fast` finds them.
 
 #include <algorithm>
 #include <bit>
 #include <limits>
 
-#include "assign/bounds/screen_bounds.h"
+#include "assign/bounds/cell_bounds.h"
+#include "assign/bounds/frustum_bounds.h"
 #include "assign/cone/spot_spheres.h"
 #include "assign/contract/assigner.h"
 #include "assign/contract/light_test.h"
@@ -21,13 +22,13 @@ namespace {
 
 constexpr std::uint32_t k_bits = 32;  // of a word
 
-// Places among the sorted lights, from `first` to before `end`.
+// Ranks among the sorted lights, from `first` to before `end`.
 struct Range {
   std::uint32_t first = std::numeric_limits<std::uint32_t>::max(), end = 0;
 
-  void take(std::uint32_t place) {
-    first = std::min(first, place);
-    end = place + 1;
+  void take(std::uint32_t rank) {
+    first = std::min(first, rank);
+    end = rank + 1;
   }
 };
 
@@ -49,16 +50,16 @@ class BinsAndMasks final : public LightStructure {
     order_.resize(listed);
   }
 
-  // The light at a place of the sorted ones, which come in this order, points before spots.
-  void add(std::uint32_t place, std::uint32_t light, bool is_spot, const CellBox& box) {
-    order_[place] = light;
+  // The light of a rank among the sorted ones, which come in this order, points before spots.
+  void add(std::uint32_t rank, std::uint32_t light, bool is_spot, const CellBox& box) {
+    order_[rank] = light;
     for (int z = box.first.z; z <= box.last.z; ++z)
-      (is_spot ? bins_[static_cast<std::size_t>(z)].spots : bins_[static_cast<std::size_t>(z)].points).take(place);
-    const std::uint32_t bit = 1u << place % k_bits;
+      (is_spot ? bins_[static_cast<std::size_t>(z)].spots : bins_[static_cast<std::size_t>(z)].points).take(rank);
+    const std::uint32_t bit = 1u << rank % k_bits;
     const auto columns = static_cast<std::size_t>(grid_->screen().tiles.count.x);
     for (int y = box.first.y; y <= box.last.y; ++y) {
       std::size_t word = (static_cast<std::size_t>(y) * columns + static_cast<std::size_t>(box.first.x)) * words_;
-      word += place / k_bits;
+      word += rank / k_bits;
       for (int x = box.first.x; x <= box.last.x; ++x, word += words_) masks_[word] |= bit;
     }
   }
@@ -119,7 +120,7 @@ class BinsAndMasks final : public LightStructure {
   std::uint32_t lights_ = 0, tiles_ = 0, words_ = 0;
   std::vector<std::uint32_t> masks_;  // tile by tile
   std::vector<Bin> bins_;
-  std::vector<std::uint32_t> order_;  // the light at each place
+  std::vector<std::uint32_t> order_;  // the light of each rank
 };
 
 // Spots as the balls around their cones.
@@ -133,62 +134,51 @@ class ZBinning final : public AssignerOf<BinsAndMasks> {
 
   void build(const grid::Grid& grid, const LightKinds&) override {
     grid_ = &grid;
-    planes_ = RowPlanes(grid.screen());
-    box_planes_ = BoxPlanes(grid.screen());
+    bounds_.build(grid.screen());
   }
 
   void fill(const FrameInput& input, BinsAndMasks& out) override {
     const view::LightArrays& lights = input.lights;
     tests_ = lights.size();
-    visible_.count = boxed_.count = 0;
-    visible_.reserve(lights.size());
-    boxed_.reserve(lights.size());
-    box_balls(given_points(lights), 0, test_.padding(k_cell_box_roundings));
-    const std::uint32_t points = boxed_.count;
-    if (lights.spots > 0) {
-      find_spot_balls(lights, test_.padding(k_cell_box_roundings), true, spots_);
-      box_balls(given_spots(lights, spots_), lights.points, 0.0f);
+    bounded_.count = 0;
+    bounded_.reserve(lights.size());
+    bounds_.start_frame(lights.size());
+    const float padding = test_.padding(k_cell_box_roundoffs);
+    bounds_.find(given_points(lights), {padding, padding}, bounded_);
+    const std::uint32_t points = bounded_.count;
+    if (!lights.spots.empty()) {
+      find_spot_balls(lights, padding, true, spots_);
+      bounds_.find(given_spots(lights, spots_), {0.0f, 0.0f}, bounded_);
     }
-    out.start(*grid_, lights.size(), boxed_.count);
+    out.start(*grid_, lights.size(), bounded_.count);
     add_sorted(0, points, false, out);
-    add_sorted(points, boxed_.count, true, out);
+    add_sorted(points, bounded_.count, true, out);
   }
 
   std::uint64_t tests_done() const override { return tests_; }
   std::size_t scratch_bytes() const override {
-    return visible_.capacity_bytes() + boxed_.capacity_bytes() + spots_.capacity_bytes() + by_depth_.capacity_bytes();
+    return bounds_.capacity_bytes() + bounded_.capacity_bytes() + spots_.capacity_bytes() + by_depth_.capacity_bytes();
   }
 
  private:
-  void box_balls(const GivenBalls& balls, std::uint32_t first_light, float padding) {
-    const std::uint32_t begin = visible_.count;
-    see_balls(planes_, balls, first_light, visible_, padding + k_slice_rows_roundings);
-    find_screen_bounds(box_planes_, visible_, begin, balls, first_light, {padding, padding}, boxed_);
-  }
-
   // The middles of what balls reach in depth are their centres.
   void add_sorted(std::uint32_t begin, std::uint32_t end, bool are_spots, BinsAndMasks& out) {
     by_depth_.entries.resize(end - begin);
-    for (std::uint32_t i = begin; i < end; ++i) by_depth_.entries[i - begin] = {ordered_bits(boxed_.depth[i]), i};
+    for (std::uint32_t i = begin; i < end; ++i) by_depth_.entries[i - begin] = {ordered_bits(bounded_.depth[i]), i};
     by_depth_.sort();
-    std::uint32_t place = begin;
-    for (const auto& [key, ball] : by_depth_.entries) out.add(place++, boxed_.light[ball], are_spots, boxed_.box(ball));
+    std::uint32_t rank = begin;
+    for (const auto& [key, ball] : by_depth_.entries)
+      out.add(rank++, bounded_.light[ball], are_spots, bounded_.box(ball));
   }
 
   LightTest test_;
   const grid::Grid* grid_ = nullptr;
-  RowPlanes planes_;
-  BoxPlanes box_planes_;
+  FrustumBounds bounds_;
   BallArrays spots_;
-  VisibleBalls visible_;
-  BoxedBalls boxed_;
+  BoundedBalls bounded_;
   RadixSort<std::uint32_t> by_depth_;
   std::uint64_t tests_ = 0;
 };
-
-std::unique_ptr<StructureAssigner> make_own(const Params& params) {
-  return std::make_unique<ZBinning>(params);
-}
 
 }  // namespace
 
@@ -201,7 +191,7 @@ const AssignerDescriptor z_binning_descriptor{
     .source = "Drobot 2017, Improved Culling for Tiled and Clustered Rendering; Unity's URP",
     .kinds = {grid::Kind::frustum},
     .params = {inflation_param()},
-    .make_own = make_own,
+    .make_own = make_structure_assigner<ZBinning>,
 };
 
 }  // namespace clusterbench::assign

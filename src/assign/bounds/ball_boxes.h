@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "assign/lists/row_lists.h"
+#include "assign/simd/lanes.h"
 #include "core/aligned_vector.h"
+#include "core/arrays.h"
 #include "geom/shapes.h"
 
 namespace clusterbench::assign {
@@ -33,8 +34,7 @@ class BallLanes {
  private:
   void grow() {
     const std::size_t room = 2 * light_.size() + 2 * k_most_lanes;
-    for (auto* numbers : {&x_, &y_, &z_, &squared_radius_}) numbers->resize(room);
-    light_.resize(room);
+    grow_to(room, x_, y_, z_, squared_radius_, light_);
   }
 
   std::uint32_t count_ = 0;

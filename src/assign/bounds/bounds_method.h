@@ -2,13 +2,12 @@
 // What the plain box methods share: light by light the cells of a frustum grid within the light's box of cells, or all,
 // of which one predicate keeps some.
 
-#include <memory>
 #include <vector>
 
 #include "assign/bounds/cell_bounds.h"
-#include "assign/contract/assigner.h"
 #include "assign/contract/light_test.h"
 #include "assign/cull/view_cull.h"
+#include "assign/pipeline/light_by_light.h"
 
 namespace clusterbench::assign {
 
@@ -16,36 +15,25 @@ namespace clusterbench::assign {
 enum class Looks { everywhere, in_box, nowhere };
 
 // CellTest: build(const grid::Grid&), bool touches(const geom::Ball&, std::uint32_t cell) const, capacity_bytes()
-// const, k_looks, and k_roundings: what touches() loses. With Looks::nowhere there is no touches().
+// const, k_looks, and k_roundoffs: what touches() loses. With Looks::nowhere there is no touches().
 template <class CellTest>
-class CellBoxMethod final : public ListAssigner {
+class CellBoxMethod final : public LightByLight<CellBoxMethod<CellTest>> {
+  using LightByLight<CellBoxMethod>::cells_;
+  using LightByLight<CellBoxMethod>::grid_;
+  using LightByLight<CellBoxMethod>::pairs_;
+  using LightByLight<CellBoxMethod>::tests_;
+
  public:
-  explicit CellBoxMethod(const Params& params) : test_(params, CellTest::k_roundings) {}
+  explicit CellBoxMethod(const Params& params) : test_(params, CellTest::k_roundoffs) {}
 
   void build(const grid::Grid& grid, const LightKinds& kinds) override {
-    grid_ = &grid;
-    cells_ = grid.cells();
+    this->start_grid(grid);
     cell_test_.build(grid);
     view_ = ViewCull(grid.screen());
     test_.start_grid(grid, kinds);
   }
 
-  void assign(const FrameInput& input, Lists& out) override {
-    const view::LightArrays& lights = input.lights;
-    tests_ = 0;
-    test_.start_frame(lights);
-    pairs_.start(grid_->cell_count());
-    for (std::uint32_t light = 0; light < lights.size(); ++light)
-      if (!lights.is_empty(light)) add_light(lights, light);
-    pairs_.finish(out);
-  }
-
-  std::uint64_t tests_done() const override { return tests_; }
-  std::size_t scratch_bytes() const override {
-    return pairs_.capacity_bytes() + test_.capacity_bytes() + cell_test_.capacity_bytes();
-  }
-
- private:
+  void start_frame(const view::LightArrays& lights) { test_.start_frame(lights); }
   void add_light(const view::LightArrays& lights, std::uint32_t light) {
     const CellBox box = CellTest::k_looks == Looks::everywhere ? CellBox{Vec3i(0), cells_ - 1} : extents(lights, light);
     if (box.empty()) return;
@@ -60,9 +48,11 @@ class CellBoxMethod final : public ListAssigner {
       visit(box, light, [&](std::uint32_t cell) { return cell_test_.touches(tested.ball, cell); });
     }
   }
+  std::size_t own_bytes() const { return test_.capacity_bytes() + cell_test_.capacity_bytes(); }
 
+ private:
   CellBox extents(const view::LightArrays& lights, std::uint32_t light) const {
-    const geom::Ball ball = test_.ball(lights, light, k_cell_box_roundings);
+    const geom::Ball ball = test_.ball(lights, light, k_cell_box_roundoffs);
     return view_.misses(ball) ? CellBox{} : cell_box(*grid_, ball);
   }
 
@@ -71,8 +61,7 @@ class CellBoxMethod final : public ListAssigner {
     for (int z = box.first.z; z <= box.last.z; ++z)
       for (int y = box.first.y; y <= box.last.y; ++y) {
         ++tests_;
-        test_.add_row(light, static_cast<std::uint32_t>((z * cells_.y + y) * cells_.x + box.first.x), columns, pairs_,
-                      tests_);
+        test_.add_row(light, this->index_of({box.first.x, y, z}), columns, pairs_, tests_);
       }
   }
 
@@ -80,7 +69,7 @@ class CellBoxMethod final : public ListAssigner {
   void visit(const CellBox& box, std::uint32_t light, Keep&& keep) {
     for (int z = box.first.z; z <= box.last.z; ++z) {
       for (int y = box.first.y; y <= box.last.y; ++y) {
-        const auto row = static_cast<std::uint32_t>((z * cells_.y + y) * cells_.x);
+        const std::uint32_t row = this->index_of({0, y, z});
         for (int x = box.first.x; x <= box.last.x; ++x) {
           const std::uint32_t cell = row + static_cast<std::uint32_t>(x);
           if (keep(cell)) pairs_.add(cell, light);
@@ -90,21 +79,17 @@ class CellBoxMethod final : public ListAssigner {
     }
   }
 
-  const grid::Grid* grid_ = nullptr;
-  Vec3i cells_{0};
   CellTest cell_test_;
   LightTest test_;
   ViewCull view_;
-  PairBuffer pairs_;
-  std::uint64_t tests_ = 0;
 };
 
 // Ball against the view-space boxes around the cells, made once per grid.
 //
-// Roundings: as for box_rows.h, the boxes being rounded outward.
+// Roundoffs: as for box_rows.h, the boxes being rounded outward.
 class CellAabbs {
  public:
-  static constexpr float k_roundings = 4.0f;
+  static constexpr float k_roundoffs = 4.0f;
 
   void build(const grid::Grid& grid);
   bool touches(const geom::Ball& ball, std::uint32_t cell) const { return geom::ball_touches_box(ball, boxes_[cell]); }
@@ -116,11 +101,11 @@ class CellAabbs {
 
 // Ball against the six planes of the cells, made once per grid.
 //
-// Roundings: a float normal is off by 1, the three products and two sums of n·c by 3 more, the offset by 1 and the last
+// Roundoffs: a float normal is off by 1, the three products and two sums of n·c by 3 more, the offset by 1 and the last
 // difference by 2 (both its numbers are at most |c| + r where it matters): 7.
 class CellPlanes {
  public:
-  static constexpr float k_roundings = 7.0f;
+  static constexpr float k_roundoffs = 7.0f;
 
   void build(const grid::Grid& grid);
   bool touches(const geom::Ball& ball, std::uint32_t cell) const {
@@ -134,10 +119,5 @@ class CellPlanes {
   };
   std::vector<SixPlanes> planes_;
 };
-
-template <class CellTest>
-std::unique_ptr<ListAssigner> make_cell_box_method(const Params& params) {
-  return std::make_unique<CellBoxMethod<CellTest>>(params);
-}
 
 }  // namespace clusterbench::assign

@@ -1,11 +1,11 @@
-// Boxed balls in vectors, for files that are compiled once per target. Included after hwy/highway.h; defines its names
-// anew for each target.
+// Balls with their boxes of cells in vectors, for files that are compiled once per target. Included after
+// hwy/highway.h; defines its names anew for each target.
 
-#if defined(CLUSTERBENCH_BOXED_ROWS_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef CLUSTERBENCH_BOXED_ROWS_INL_H
-#undef CLUSTERBENCH_BOXED_ROWS_INL_H
+#if defined(CLUSTERBENCH_BOUNDS_ROWS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef CLUSTERBENCH_BOUNDS_ROWS_INL_H
+#undef CLUSTERBENCH_BOUNDS_ROWS_INL_H
 #else
-#define CLUSTERBENCH_BOXED_ROWS_INL_H
+#define CLUSTERBENCH_BOUNDS_ROWS_INL_H
 #endif
 
 #include "assign/bounds/bounds_rows.h"
@@ -19,16 +19,16 @@ namespace HWY_NAMESPACE {
 class Boxes {
  public:
   HWY_INLINE explicit Boxes(const BallBatch& batch)
-      : places(BitCast(DI(), LoadU(DU(), batch.balls))),
-        first_row(gathered(batch.boxed.first_row, places)),
-        first_column(gathered(batch.boxed.first_column, places)) {
+      : indices(BitCast(DI(), LoadU(DU(), batch.balls))),
+        first_row(gathered(batch.bounded.first_row, indices)),
+        first_column(gathered(batch.bounded.first_column, indices)) {
     const VI one = all_int(1);
-    lights = GatherIndex(DU(), batch.boxed.light.data(), places);
-    rows = gathered(batch.boxed.last_row, places) - first_row + one;
+    lights = GatherIndex(DU(), batch.bounded.light.data(), indices);
+    rows = gathered(batch.bounded.last_row, indices) - first_row + one;
     rows = IfThenElseZero(FirstN(DI(), batch.count), rows);
-    columns = gathered(batch.boxed.last_column, places) - first_column + one;
-    // Below all lights (lights are fewer than 2^31), not even one is open.
-    open = IfThenElseZero(Not(lights < Set(DU(), batch.first_open)), Set(DU(), BatchRows::k_uncertain));
+    columns = gathered(batch.bounded.last_column, indices) - first_column + one;
+    // Below all lights (lights are fewer than 2^31), none is uncertain.
+    uncertain = IfThenElseZero(Not(lights < Set(DU(), batch.first_uncertain)), Set(DU(), BatchRows::k_uncertain));
   }
 
   // Leaves out the balls that do not reach the slice.
@@ -52,11 +52,11 @@ class Boxes {
   // The columns first .. last (counted from the box's first) as a batch's answer has them.
   HWY_INLINE VU entry(VI first, VI last) const {
     const VU from = BitCast(DU(), first_column + first), to = BitCast(DU(), first_column + last);
-    return Or(Or(from, ShiftLeft<16>(to)), open);
+    return Or(Or(from, ShiftLeft<16>(to)), uncertain);
   }
 
-  VI places, first_row, rows, first_column, columns;  // how many rows and columns
-  VU lights, open;
+  VI indices, first_row, rows, first_column, columns;  // how many rows and columns
+  VU lights, uncertain;
 };
 
 // Takes each lane through its rows. entry_of(row, wanted) is the answer of the wanted lanes for their row.
@@ -83,17 +83,14 @@ struct Balls {
 };
 
 // Appends the wanted ones of a vector of balls, of lights `first_light` .., without their boxes.
-HWY_INLINE void keep_balls(M wanted, const Balls& balls, std::uint32_t first_light, BoxedBalls& boxed) {
-  const auto keep = [&](V value, AlignedVector<float>& to) {
-    StoreU(compressed(D(), value, wanted), D(), to.data() + boxed.count);
-  };
-  keep(balls.x, boxed.x);
-  keep(balls.y, boxed.y);
-  keep(balls.depth, boxed.depth);
-  keep(balls.radius, boxed.radius);
-  const VU lights = Iota(DU(), first_light);
-  StoreU(compressed(DU(), lights, RebindMask(DU(), wanted)), DU(), boxed.light.data() + boxed.count);
-  boxed.count += static_cast<std::uint32_t>(CountTrue(D(), wanted));
+HWY_INLINE void keep_balls(M wanted, const Balls& balls, std::uint32_t first_light, BoundedBalls& bounded) {
+  const Appender append(wanted, bounded.count);
+  append(balls.x, bounded.x);
+  append(balls.y, bounded.y);
+  append(balls.depth, bounded.depth);
+  append(balls.radius, bounded.radius);
+  append(Iota(DU(), first_light), bounded.light);
+  bounded.count += static_cast<std::uint32_t>(CountTrue(D(), wanted));
 }
 
 }  // namespace HWY_NAMESPACE

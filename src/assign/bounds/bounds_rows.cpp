@@ -29,10 +29,10 @@ HWY_INLINE VU ends(const Boxes& boxes, int most, Touches&& touches) {
   const VI beyond = all_int(std::numeric_limits<std::int32_t>::max());
   VI first = beyond, last = Zero(DI());
   for (int column = 0; column < most; ++column) {
-    const VI place = all_int(column);
-    const MI is_touched = And(RebindMask(DI(), touches(column)), boxes.columns > place);
-    first = Min(first, IfThenElse(is_touched, place, beyond));
-    last = IfThenElse(is_touched, place, last);
+    const VI index = all_int(column);
+    const MI is_touched = And(RebindMask(DI(), touches(column)), boxes.columns > index);
+    first = Min(first, IfThenElse(is_touched, index, beyond));
+    last = IfThenElse(is_touched, index, last);
   }
   const auto is_some = RebindMask(DU(), first < beyond);
   return IfThenElse(is_some, boxes.entry(first, last), Set(DU(), BatchRows::k_none));
@@ -49,8 +49,8 @@ void bounds_rows(int grid_rows, const BallBatch& batch, BatchRows& out) {
   const VU entry = boxes.entry(Zero(DI()), boxes.columns - all_int(1));
   const VI end = boxes.first_row + boxes.rows;
   for (int row = out.first_row; row <= out.last_row; ++row) {
-    const VI place = all_int(row);
-    const MI holds = AndNot(place < boxes.first_row, place < end);
+    const VI index = all_int(row);
+    const MI holds = AndNot(index < boxes.first_row, index < end);
     StoreU(IfThenElse(RebindMask(DU(), holds), entry, Set(DU(), BatchRows::k_none)), DU(),
            out.columns.data() + static_cast<std::size_t>(row) * out.lanes);
   }
@@ -87,12 +87,12 @@ HWY_INLINE void prepare_columns(const RefinementPlanes& planes, const Boxes& box
   out.reserve(planes.column_across.size() * k_row_lanes);
   const VI last = all_int(static_cast<int>(planes.column_across.size()) - 1);
   for (int i = 0; i <= most; ++i) {
-    const VI place = Min(boxes.first_column + all_int(i), last);
+    const VI index = Min(boxes.first_column + all_int(i), last);
     const std::size_t to = static_cast<std::size_t>(i) * lanes;
-    V distance = gathered(planes.column_across, place) * x;
-    if (!planes.column_offset.empty()) distance = distance + gathered(planes.column_offset, place);
+    V distance = gathered(planes.column_across, index) * x;
+    if (!planes.column_offset.empty()) distance = distance + gathered(planes.column_offset, index);
     StoreU(distance, D(), out.first.data() + to);
-    StoreU(gathered(planes.column_along, place), D(), out.second.data() + to);
+    StoreU(gathered(planes.column_along, index), D(), out.second.data() + to);
   }
 }
 
@@ -113,19 +113,19 @@ HWY_INLINE VU columns_reached(const Boxes& boxes, int most, const Remainder& bal
 }
 
 void refined_rows(const RefinementPlanes& planes, const BallBatch& batch, LaneColumns& columns, BatchRows& out) {
-  const BoxedBalls& boxed = batch.boxed;
+  const BoundedBalls& bounded = batch.bounded;
   const int grid_rows = static_cast<int>(planes.row_across.size()) - 1;
   const auto z = static_cast<std::size_t>(batch.slice);
   Boxes boxes(batch);
-  const Remainder ball = cut_to_slice(gathered(boxed.depth, boxes.places), gathered(boxed.radius, boxes.places),
+  const Remainder ball = cut_to_slice(gathered(bounded.depth, boxes.indices), gathered(bounded.radius, boxes.indices),
                                       planes.depths[z], planes.depths[z + 1]);
   boxes.keep(Not(is_none(ball.squared_radius)));
   if (!boxes.start(grid_rows, batch.count, out)) return;
-  const V y = gathered(boxed.y, boxes.places);
+  const V y = gathered(bounded.y, boxes.indices);
   const int most = most_columns(boxes);
-  prepare_columns(planes, boxes, most, gathered(boxed.x, boxes.places), columns);
-  const auto plane_at = [&](VI place) {
-    const VI plane = Min(place, all_int(grid_rows));
+  prepare_columns(planes, boxes, most, gathered(bounded.x, boxes.indices), columns);
+  const auto plane_at = [&](VI index) {
+    const VI plane = Min(index, all_int(grid_rows));
     const V along = gathered(planes.row_along, plane);
     V distance = gathered(planes.row_across, plane) * y + along * ball.depth;
     if (!planes.row_offset.empty()) distance = distance + gathered(planes.row_offset, plane);
@@ -145,8 +145,8 @@ void refined_rows(const RefinementPlanes& planes, const BallBatch& batch, LaneCo
 
 // --- Boxes around cells ---
 
-HWY_INLINE V squared_gap(const CellExtents::Axis& axis, VI place, V center) {
-  const V below = gathered(axis.lo, place) - center, above = center - gathered(axis.hi, place);
+HWY_INLINE V squared_gap(const CellExtents::Axis& axis, VI index, V center) {
+  const V below = gathered(axis.lo, index) - center, above = center - gathered(axis.hi, index);
   const V gap = Max(Zero(D()), Max(below, above));
   return gap * gap;
 }
@@ -156,23 +156,23 @@ HWY_INLINE void prepare_gaps(const CellExtents& cells, const Boxes& boxes, int s
   out.reserve(static_cast<std::size_t>(cells.columns) * k_row_lanes);
   const VI last = all_int(cells.columns - 1), before = all_int(slice * cells.x.pitch);
   for (int i = 0; i < most; ++i) {
-    const VI place = Min(boxes.first_column + all_int(i), last) + before;
-    StoreU(squared_gap(cells.x, place, x), D(), out.first.data() + static_cast<std::size_t>(i) * lanes);
+    const VI index = Min(boxes.first_column + all_int(i), last) + before;
+    StoreU(squared_gap(cells.x, index, x), D(), out.first.data() + static_cast<std::size_t>(i) * lanes);
   }
 }
 
 // Sums of squares are rounded to what is at least each square and grows with each: so what one gap puts out of reach,
 // no other brings back, and the columns that a row's boxes reach are one interval, because the boxes' ends ascend.
 void box_rows(const CellExtents& cells, const BallBatch& batch, LaneColumns& columns, BatchRows& out) {
-  const BoxedBalls& boxed = batch.boxed;
+  const BoundedBalls& bounded = batch.bounded;
   Boxes boxes(batch);
-  const V radius = gathered(boxed.radius, boxes.places), squared_radius = radius * radius;
-  const V z = Neg(gathered(boxed.depth, boxes.places)), gap_z = squared_gap(cells.z, all_int(batch.slice), z);
+  const V radius = gathered(bounded.radius, boxes.indices), squared_radius = radius * radius;
+  const V z = Neg(gathered(bounded.depth, boxes.indices)), gap_z = squared_gap(cells.z, all_int(batch.slice), z);
   boxes.keep(gap_z <= squared_radius);
   if (!boxes.start(cells.rows, batch.count, out)) return;
-  const V y = gathered(boxed.y, boxes.places);
+  const V y = gathered(bounded.y, boxes.indices);
   const int most = most_columns(boxes);
-  prepare_gaps(cells, boxes, batch.slice, most, gathered(boxed.x, boxes.places), columns);
+  prepare_gaps(cells, boxes, batch.slice, most, gathered(bounded.x, boxes.indices), columns);
   const VI last = all_int(cells.rows - 1), before = all_int(batch.slice * cells.y.pitch);
   walk_rows(boxes, cells.rows, out, [&](VI row, MI wanted) {
     const V gap_y = squared_gap(cells.y, Min(row, last) + before, y);
@@ -214,9 +214,7 @@ RefinementPlanes::RefinementPlanes(const grid::ScreenGrid& grid) : depths(grid.s
 }
 
 std::size_t RefinementPlanes::capacity_bytes() const {
-  return (2 * column_across.capacity() + 2 * row_across.capacity() + column_offset.capacity() + row_offset.capacity() +
-          depths.capacity()) *
-         sizeof(float);
+  return bytes_of(column_across, column_along, row_across, row_along, column_offset, row_offset, depths);
 }
 
 CellExtents::CellExtents(const grid::Grid& grid) : columns(grid.cells().x), rows(grid.cells().y) {
@@ -236,23 +234,8 @@ CellExtents::CellExtents(const grid::Grid& grid) : columns(grid.cells().x), rows
   }
 }
 
-CellExtents::CellExtents(const BoxGrid& boxes)
-    : columns(static_cast<int>(boxes.x.size())), rows(static_cast<int>(boxes.y.size())) {
-  const auto add = [](Axis& axis, const BoxAxis& extents) {
-    for (const Interval& extent : extents) {
-      axis.lo.push_back(extent.lo);
-      axis.hi.push_back(extent.hi);
-    }
-  };
-  add(x, boxes.x);
-  add(y, boxes.y);
-  add(z, boxes.z);
-}
-
 std::size_t CellExtents::capacity_bytes() const {
-  std::size_t size = 0;
-  for (const Axis* axis : {&x, &y, &z}) size += (axis->lo.capacity() + axis->hi.capacity()) * sizeof(float);
-  return size;
+  return bytes_of(x.lo, x.hi, y.lo, y.hi, z.lo, z.hi);
 }
 
 void find_bounds_rows(int rows, const BallBatch& batch, BatchRows& out) {

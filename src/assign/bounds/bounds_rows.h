@@ -6,32 +6,20 @@
 #include <cstdint>
 #include <vector>
 
-#include "assign/bounds/screen_bounds.h"
 #include "assign/bounds/tile_planes.h"
-#include "assign/box_grid/box_rows.h"
+#include "assign/pipeline/bounded_balls.h"
 #include "assign/rows/slice_rows.h"
+#include "core/arrays.h"
 #include "grid/grid.h"
 
 namespace clusterbench::assign {
-
-// One batch: places in `boxed`, from which a whole vector can be read; `count` of them, at most balls_per_batch(), are
-// wanted. The rows of lights from `first_open` on are all marked as uncertain: there is more to test.
-struct BallBatch {
-  const BoxedBalls& boxed;
-  int slice;
-  const std::uint32_t* balls;
-  std::uint32_t count, first_open;
-};
 
 // Memory for what a batch's lanes know of their columns; kept between batches.
 struct LaneColumns {
   AlignedVector<float> first, second;
 
-  void reserve(std::size_t size) {
-    for (AlignedVector<float>* list : {&first, &second})
-      if (list->size() < size) list->resize(size);
-  }
-  std::size_t capacity_bytes() const { return (first.capacity() + second.capacity()) * sizeof(float); }
+  void reserve(std::size_t size) { grow_to(size, first, second); }
+  std::size_t capacity_bytes() const { return bytes_of(first, second); }
 };
 
 // All cells of the boxes.
@@ -49,7 +37,7 @@ struct RefinementPlanes {
 };
 void find_refined_rows(const RefinementPlanes& planes, const BallBatch& batch, LaneColumns& columns, BatchRows& out);
 
-// The boxes around the cells (assigners/aabb.cpp), or those that are the cells (assign/box_grid/box_rows.h). Within a
+// The boxes around the cells (assigners/aabb.cpp), or those that are the cells (assign/box_grid/box_ranges.h). Within a
 // slice a cell's box has its column's extent in x, its row's in y and the slice's in z.
 struct CellExtents {
   struct Axis {
@@ -60,7 +48,6 @@ struct CellExtents {
   int columns = 0, rows = 0;
 
   explicit CellExtents(const grid::Grid& grid);
-  explicit CellExtents(const BoxGrid& boxes);
   CellExtents() = default;
   std::size_t capacity_bytes() const;
 };

@@ -1,21 +1,16 @@
 #pragma once
 // The box of cells that a ball's extents on the screen and in depth cover: Persson's "cube" of clusters around a light.
 
+#include "assign/pipeline/bounded_balls.h"
 #include "geom/shapes.h"
 #include "grid/grid.h"
 
 namespace clusterbench::assign {
 
-struct CellBox {
-  Vec3i first{0}, last{-1};  // inclusive
-
-  bool empty() const { return first.x > last.x || first.y > last.y || first.z > last.z; }
-};
-
 // Frustum grids. Boundaries are compared directly, so no logarithm can disagree with them. Conservative for a ball
-// padded by k_cell_box_roundings: slopes are bounded outward in double precision, depth - r and depth + r are rounded
+// padded by k_cell_box_roundoffs: slopes are bounded outward in double precision, depth - r and depth + r are rounded
 // once.
-inline constexpr float k_cell_box_roundings = 1.0f;
+inline constexpr float k_cell_box_roundoffs = 1.0f;
 CellBox cell_box(const grid::Grid& grid, const geom::Ball& ball);
 
 }  // namespace clusterbench::assign

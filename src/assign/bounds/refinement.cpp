@@ -11,13 +11,13 @@ namespace {
 
 constexpr float k_inf = std::numeric_limits<float>::infinity();
 
-// What support() can lose, as a length, in roundings: of the apex 4 for n·apex; of the range 5 for the cosine to the
+// What support() can lose, as a length, in roundoffs: of the apex 4 for n·apex; of the range 5 for the cosine to the
 // axis (n and the axis are rounded, products, sums), 7 for the sine, 2 for either's product with a rounded cos a or sin
 // a, so at most sqrt(7² + 9²) < 12 for their sum; 4 for the sums and the product with the range.
-float slack_of(const geom::SphericalCone& cone) {
-  constexpr float k_support_roundings = 16.0f;
+float padding_of(const geom::SphericalCone& cone) {
+  constexpr float k_support_roundoffs = 16.0f;
   const float size = std::fabs(cone.apex.x) + std::fabs(cone.apex.y) + std::fabs(cone.apex.z) + cone.range;
-  return k_support_roundings * 0x1p-24f * size;
+  return k_support_roundoffs * 0x1p-24f * size;
 }
 
 // Largest value of n·p over the cone, n of unit length. The cone's farthest point along n is the ball's if n lies
@@ -30,7 +30,7 @@ float support(const geom::SphericalCone& cone, const Vec3f& n) {
   const float beside_axis = glm::length(glm::cross(n, cone.axis));
   const float steepest =
       along_axis >= cone.cos_angle ? 1.0f : along_axis * cone.cos_angle + beside_axis * cone.sin_angle;
-  return glm::dot(n, cone.apex) + cone.range * std::max(0.0f, steepest) + slack_of(cone);
+  return glm::dot(n, cone.apex) + cone.range * std::max(0.0f, steepest) + padding_of(cone);
 }
 
 // Narrows a range of cells, first..last, from both sides by their boundaries: the end cells go while the cone lies

@@ -12,9 +12,9 @@ namespace clusterbench::assign {
 
 // With sizes as units: the gap to a slice is off by 1. The distance to a row's plane by 3 (a rounded normal, two
 // products and a sum), so the foot on it by 3 + 2 and, seen from a column's plane, 3 + 2 + 3 more. The squares'
-// roundings, 8 of r² in all, are 4 of r. A test that compares gap² + gap'² + gap''² with r² is off by no more than the
+// roundoffs, 8 of r² in all, are 4 of r. A test that compares gap² + gap'² + gap''² with r² is off by no more than the
 // gaps' sum: 1 + 5 + 8 + 4 = 18.
-inline constexpr float k_refinement_roundings = 18.0f;
+inline constexpr float k_refinement_roundoffs = 18.0f;
 
 // As light_params(); `spot` may be "narrowing", too, and is.
 std::vector<ParamSpec> refinement_params();

@@ -14,13 +14,13 @@ namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
 namespace {
 
-void find_extents(const BoxPlanes& planes, const VisibleBalls& visible, std::uint32_t begin, BoxedBalls& boxed) {
+void find_extents(const BoxPlanes& planes, const VisibleBalls& visible, std::uint32_t begin, BoundedBalls& bounded) {
   const DD dd;
   const DF df;
   const auto n = static_cast<std::uint32_t>(Lanes(dd));
   for (std::uint32_t i = begin; i < visible.count; i += n) {
     const auto wide = [&](const AlignedVector<float>& from) { return PromoteTo(dd, LoadU(df, from.data() + i)); };
-    const Disks disks(wide(visible.depth), wide(boxed.box_radius), planes.depths.front(), planes.depths.back());
+    const Disks disks(wide(visible.depth), wide(bounded.box_radius), planes.depths.front(), planes.depths.back());
     const auto find = [&](const AlignedVector<float>& center, AlignedVector<float>& to_low,
                           AlignedVector<float>& to_high) {
       VF low, high;
@@ -31,36 +31,36 @@ void find_extents(const BoxPlanes& planes, const VisibleBalls& visible, std::uin
       StoreU(low, df, to_low.data() + i);
       StoreU(high, df, to_high.data() + i);
     };
-    find(visible.x, boxed.low_x, boxed.high_x);
-    find(visible.y, boxed.low_y, boxed.high_y);
+    find(visible.x, bounded.low_x, bounded.high_x);
+    find(visible.y, bounded.low_y, bounded.high_y);
   }
 }
 
-void find_radii(const VisibleBalls& visible, std::uint32_t begin, const GivenBalls& given, std::uint32_t first_light,
-                const BallPadding& padding, BoxedBalls& boxed) {
+void find_radii(const VisibleBalls& visible, std::uint32_t begin, const GivenBalls& given, const BallPadding& padding,
+                BoundedBalls& bounded) {
   const D d;
   const DI di;
   const hn::RebindToUnsigned<D> du;
   const auto n = static_cast<std::uint32_t>(Lanes(d));
   for (std::uint32_t i = begin; i < visible.count; i += n) {
-    const auto light = Min(LoadU(du, visible.light.data() + i), Set(du, first_light + given.count - 1));
-    const VI place = BitCast(di, Max(light, Set(du, first_light)) - Set(du, first_light));
-    const V radius = GatherIndex(d, given.radius, place), reach = GatherIndex(d, given.reach, place);
-    StoreU(padded(radius, reach, padding.box), d, boxed.box_radius.data() + i);
-    StoreU(padded(radius, reach, padding.ball), d, boxed.ball_radius.data() + i);
+    const auto light = Min(LoadU(du, visible.light.data() + i), Set(du, given.lights.end() - 1));
+    const VI index = BitCast(di, Max(light, Set(du, given.lights.first)) - Set(du, given.lights.first));
+    const V radius = GatherIndex(d, given.radius, index), reach = GatherIndex(d, given.reach, index);
+    StoreU(padded(radius, reach, padding.box), d, bounded.box_radius.data() + i);
+    StoreU(padded(radius, reach, padding.ball), d, bounded.ball_radius.data() + i);
   }
 }
 
-// Those of the seen balls from `begin` on whose extents touch cells.
-void box_balls(const BoxPlanes& planes, const VisibleBalls& visible, std::uint32_t begin, BoxedBalls& boxed) {
+// Those of the visible balls from `begin` on whose extents touch cells.
+void box_balls(const BoxPlanes& planes, const VisibleBalls& visible, std::uint32_t begin, BoundedBalls& bounded) {
   const D d;
   const DI di;
-  const hn::RebindToUnsigned<D> du;
   const auto n = static_cast<std::uint32_t>(Lanes(d));
   for (std::uint32_t i = begin; i < visible.count; i += n) {
     const auto at = [&](const AlignedVector<float>& list) { return LoadU(d, list.data() + i); };
-    const V x = at(visible.x), y = at(visible.y), depth = at(visible.depth), r = at(boxed.box_radius);
-    const V low_x = at(boxed.low_x), high_x = at(boxed.high_x), low_y = at(boxed.low_y), high_y = at(boxed.high_y);
+    const V x = at(visible.x), y = at(visible.y), depth = at(visible.depth), r = at(bounded.box_radius);
+    const V low_x = at(bounded.low_x), high_x = at(bounded.high_x), low_y = at(bounded.low_y),
+            high_y = at(bounded.high_y);
     const Indices columns = touched(planes.columns, low_x, high_x);
     const Indices rows = touched(planes.rows, Neg(high_y), Neg(low_y));
     const auto guess = [&](const AlignedVector<std::int32_t>& list) { return LoadU(di, list.data() + i); };
@@ -70,33 +70,27 @@ void box_balls(const BoxPlanes& planes, const VisibleBalls& visible, std::uint32
     const auto has_extents = And(low_x <= high_x, low_y <= high_y);
     const auto has_cells = And(is_some(columns), And(is_some(rows), is_some(slices)));
     const auto wanted = And(FirstN(d, visible.count - i), And(has_extents, has_cells));
-    const auto keep = [&](V value, AlignedVector<float>& to) {
-      StoreU(compressed(d, value, wanted), d, to.data() + boxed.count);
-    };
-    keep(x, boxed.x);
-    keep(y, boxed.y);
-    keep(depth, boxed.depth);
-    keep(at(boxed.ball_radius), boxed.radius);
-    StoreU(compressed(du, LoadU(du, visible.light.data() + i), RebindMask(du, wanted)), du,
-           boxed.light.data() + boxed.count);
-    const auto keep_indices = [&](const Indices& some, AlignedVector<std::int32_t>& first,
-                                  AlignedVector<std::int32_t>& last) {
-      const auto wanted_int = RebindMask(di, wanted);
-      StoreU(compressed(di, some.first, wanted_int), di, first.data() + boxed.count);
-      StoreU(compressed(di, some.last, wanted_int), di, last.data() + boxed.count);
-    };
-    keep_indices(columns, boxed.first_column, boxed.last_column);
-    keep_indices(rows, boxed.first_row, boxed.last_row);
-    keep_indices(slices, boxed.first_slice, boxed.last_slice);
-    boxed.count += static_cast<std::uint32_t>(CountTrue(d, wanted));
+    const Appender append(wanted, bounded.count);
+    append(x, bounded.x);
+    append(y, bounded.y);
+    append(depth, bounded.depth);
+    append(at(bounded.ball_radius), bounded.radius);
+    append(LoadU(DU(), visible.light.data() + i), bounded.light);
+    append(columns.first, bounded.first_column);
+    append(columns.last, bounded.last_column);
+    append(rows.first, bounded.first_row);
+    append(rows.last, bounded.last_row);
+    append(slices.first, bounded.first_slice);
+    append(slices.last, bounded.last_slice);
+    bounded.count += static_cast<std::uint32_t>(CountTrue(d, wanted));
   }
 }
 
 void find_boxes(const BoxPlanes& planes, const VisibleBalls& visible, std::uint32_t begin, const GivenBalls& given,
-                std::uint32_t first_light, const BallPadding& padding, BoxedBalls& boxed) {
-  find_radii(visible, begin, given, first_light, padding, boxed);
-  find_extents(planes, visible, begin, boxed);
-  box_balls(planes, visible, begin, boxed);
+                const BallPadding& padding, BoundedBalls& bounded) {
+  find_radii(visible, begin, given, padding, bounded);
+  find_extents(planes, visible, begin, bounded);
+  box_balls(planes, visible, begin, bounded);
 }
 
 }  // namespace
@@ -118,25 +112,9 @@ BoxPlanes::BoxPlanes(const grid::ScreenGrid& grid)
   for (float& slope : rows.boundaries) slope = -slope;
 }
 
-void BoxedBalls::reserve(std::uint32_t most) {
-  const std::size_t size = most + k_most_lanes;
-  for (AlignedVector<float>* list :
-       {&x, &y, &depth, &radius, &low_x, &high_x, &low_y, &high_y, &box_radius, &ball_radius})
-    if (list->size() < size) list->resize(size);
-  for (AlignedVector<std::int32_t>* list :
-       {&first_column, &last_column, &first_row, &last_row, &first_slice, &last_slice})
-    if (list->size() < size) list->resize(size);
-  if (light.size() < size) light.resize(size);
-}
-
-std::size_t BoxedBalls::capacity_bytes() const {
-  return 17 * sizeof(float) * light.capacity();
-}
-
 void find_screen_bounds(const BoxPlanes& planes, const VisibleBalls& visible, std::uint32_t begin,
-                        const GivenBalls& given, std::uint32_t first_light, const BallPadding& padding,
-                        BoxedBalls& boxed) {
-  HWY_DYNAMIC_DISPATCH(find_boxes)(planes, visible, begin, given, first_light, padding, boxed);
+                        const GivenBalls& given, const BallPadding& padding, BoundedBalls& bounded) {
+  HWY_DYNAMIC_DISPATCH(find_boxes)(planes, visible, begin, given, padding, bounded);
 }
 
 }  // namespace clusterbench::assign

@@ -13,7 +13,7 @@ namespace clusterbench::assign {
 struct TilePlane {
   float across, along, offset;  // unit normal (across, along)
 
-  float distance(float place, float depth) const { return across * place + along * depth + offset; }
+  float distance(float coordinate, float depth) const { return across * coordinate + along * depth + offset; }
 };
 
 inline TilePlane tile_plane(float boundary, bool orthographic) {

@@ -3,19 +3,17 @@
 namespace clusterbench::assign {
 namespace {
 
-std::uint32_t index_of(Vec3i cells, Vec3i cell) {
-  return static_cast<std::uint32_t>((cell.z * cells.y + cell.y) * cells.x + cell.x);
-}
-
 // The boxes of one level. Its extents are read from cells of the top row, the left column and the farthest layer, which
 // are never holes.
 BoxGrid boxes_of_level(const grid::Grid& grid, int level) {
   const grid::CascadesGrid& cascades = grid.cascades();
   const Vec3i cells = grid.cells(), of_level = cascades.cells;
   const int z0 = level * of_level.z, farthest = z0 + of_level.z - 1;
-  const auto box = [&](int x, int y, int z) { return std::get<geom::Box>(grid.cell(index_of(cells, {x, y, z}))); };
+  const auto box = [&](int x, int y, int z) {
+    return std::get<geom::Box>(grid.cell(grid::cell_index({x, y, z}, cells)));
+  };
   BoxGrid boxes;
-  boxes.first_cell = index_of(cells, {0, 0, z0});
+  boxes.first_cell = grid::cell_index({0, 0, z0}, cells);
   for (int x = 0; x < of_level.x; ++x) {
     const geom::Box cell = box(x, 0, farthest);
     boxes.x.push_back({cell.lo.x, cell.hi.x});
@@ -45,7 +43,7 @@ BoxAxis axis_of(const std::vector<float>& boundaries) {
 }  // namespace
 
 std::vector<BoxGrid> box_levels(const grid::Grid& grid) {
-  if (grid.kind() == grid::Kind::world) {
+  if (grid.world_origin()) {
     const grid::WorldGrid& world = grid.world();
     BoxGrid boxes;
     boxes.x = axis_of(world.x);

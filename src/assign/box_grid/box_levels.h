@@ -1,5 +1,6 @@
 #pragma once
-// The boxes of the grids whose cells are boxes.
+// The boxes of the grids whose cells are boxes. measure/truth_rows.h finds them by itself, in its own way: truth shares
+// no step with what it judges.
 
 #include <vector>
 

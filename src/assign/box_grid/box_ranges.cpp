@@ -14,23 +14,23 @@ namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
 namespace {
 
-// Along an axis; a negated place has the same distances from negated boundaries.
-HWY_INLINE V on_axis(const RangeAxis& axis, V place) {
-  return axis.descends ? Neg(place) : place;
+// Along an axis; a negated coordinate has the same distances from negated boundaries.
+HWY_INLINE V on_axis(const RangeAxis& axis, V coordinate) {
+  return axis.descends ? Neg(coordinate) : coordinate;
 }
 
 // Whether the grid as a whole is within reach. Boxes are adjacent: so is one of them, then.
 HWY_INLINE M reaches(const RangeAxis& axis, V given, V radius) {
-  const V place = on_axis(axis, given), start = all(axis.boundaries.front()), end = all(axis.boundaries.back());
-  return Not(Or(start - place > radius, place - end > radius));
+  const V coordinate = on_axis(axis, given), start = all(axis.boundaries.front()), end = all(axis.boundaries.back());
+  return Not(Or(start - coordinate > radius, coordinate - end > radius));
 }
 
 HWY_INLINE Indices range_on(const RangeAxis& axis, V given, V radius) {
-  const V place = on_axis(axis, given);
-  const auto is_before = [&](V end) { return place - end > radius; };
-  const auto is_reached = [&](V start) { return Not(start - place > radius); };
-  return {last_passed(axis.boundaries, guessed(axis, place - radius), 0, is_before),
-          last_passed(axis.boundaries, guessed(axis, place + radius), -1, is_reached)};
+  const V coordinate = on_axis(axis, given);
+  const auto is_before = [&](V end) { return coordinate - end > radius; };
+  const auto is_reached = [&](V start) { return Not(start - coordinate > radius); };
+  return {last_passed(axis.boundaries, guessed(axis, coordinate - radius), 0, is_before),
+          last_passed(axis.boundaries, guessed(axis, coordinate + radius), -1, is_reached)};
 }
 
 HWY_INLINE MI lies_in(const Indices& range, const grid::IndexRange& hole) {
@@ -39,48 +39,46 @@ HWY_INLINE MI lies_in(const Indices& range, const grid::IndexRange& hole) {
 }
 
 // Those that reach the grid; without their ranges.
-void see_reaching(const RangeAxes& axes, const GivenBalls& balls, std::uint32_t first_light, float roundings,
-                  BoxedBalls& boxed) {
+void see_reaching(const RangeAxes& axes, const GivenBalls& balls, float roundoffs, BoundedBalls& bounded) {
   const D d;
   const auto n = static_cast<std::uint32_t>(Lanes(d));
-  for (std::uint32_t i = 0; i < balls.count; i += n) {
-    const std::uint32_t left = std::min(n, balls.count - i);
+  for (std::uint32_t i = 0; i < balls.lights.count; i += n) {
+    const std::uint32_t left = std::min(n, balls.lights.count - i);
     const auto load = [&](const float* from) { return loaded(from + i, left); };
     const V x = load(balls.x), y = load(balls.y), z = load(balls.z), given = load(balls.radius);
-    const V radius = padded(given, load(balls.reach), roundings);
+    const V radius = padded(given, load(balls.reach), roundoffs);
     const M on_all = And(reaches(axes.x, x, radius), And(reaches(axes.y, y, radius), reaches(axes.z, z, radius)));
     const M wanted = And(And(given > Zero(d), FirstN(d, left)), on_all);
-    keep_balls(wanted, {x, y, Neg(z), radius}, first_light + i, boxed);
+    keep_balls(wanted, {x, y, Neg(z), radius}, balls.lights.first + i, bounded);
   }
 }
 
 // The ranges of the balls from `begin` on. Those in the hole reach no slice.
-void find_ranges(const RangeAxes& axes, std::uint32_t begin, BoxedBalls& boxed) {
+void find_ranges(const RangeAxes& axes, std::uint32_t begin, BoundedBalls& bounded) {
   const D d;
   const DI di;
   const auto n = static_cast<std::uint32_t>(Lanes(d));
-  for (std::uint32_t i = begin; i < boxed.count; i += n) {
+  for (std::uint32_t i = begin; i < bounded.count; i += n) {
     const auto at = [&](const AlignedVector<float>& list) { return LoadU(d, list.data() + i); };
-    const V radius = at(boxed.radius);
-    const Indices x = range_on(axes.x, at(boxed.x), radius), y = range_on(axes.y, at(boxed.y), radius);
-    Indices z = range_on(axes.z, Neg(at(boxed.depth)), radius);
+    const V radius = at(bounded.radius);
+    const Indices x = range_on(axes.x, at(bounded.x), radius), y = range_on(axes.y, at(bounded.y), radius);
+    Indices z = range_on(axes.z, Neg(at(bounded.depth)), radius);
     const MI in_hole = And(lies_in(x, axes.hole_x), And(lies_in(y, axes.hole_y), lies_in(z, axes.hole_z)));
     z.last = IfThenElse(in_hole, Set(di, -1), z.last);
     const auto keep = [&](const Indices& range, AlignedVector<std::int32_t>& first, AlignedVector<std::int32_t>& last) {
       StoreU(range.first, di, first.data() + i);
       StoreU(range.last, di, last.data() + i);
     };
-    keep(x, boxed.first_column, boxed.last_column);
-    keep(y, boxed.first_row, boxed.last_row);
-    keep(z, boxed.first_slice, boxed.last_slice);
+    keep(x, bounded.first_column, bounded.last_column);
+    keep(y, bounded.first_row, bounded.last_row);
+    keep(z, bounded.first_slice, bounded.last_slice);
   }
 }
 
-void box_ranges(const RangeAxes& axes, const GivenBalls& balls, std::uint32_t first_light, float roundings,
-                BoxedBalls& boxed) {
-  const std::uint32_t begin = boxed.count;
-  see_reaching(axes, balls, first_light, roundings, boxed);
-  find_ranges(axes, begin, boxed);
+void box_ranges(const RangeAxes& axes, const GivenBalls& balls, float roundoffs, BoundedBalls& bounded) {
+  const std::uint32_t begin = bounded.count;
+  see_reaching(axes, balls, roundoffs, bounded);
+  find_ranges(axes, begin, bounded);
 }
 
 }  // namespace
@@ -104,12 +102,29 @@ RangeAxes::RangeAxes(const BoxGrid& boxes)
     : x(boxes.x), y(boxes.y), z(boxes.z), hole_x(boxes.hole_x), hole_y(boxes.hole_y), hole_z(boxes.hole_z) {}
 
 std::size_t RangeAxes::capacity_bytes() const {
-  return (x.boundaries.capacity() + y.boundaries.capacity() + z.boundaries.capacity()) * sizeof(float);
+  return bytes_of(x.boundaries, y.boundaries, z.boundaries);
 }
 
-void find_box_ranges(const RangeAxes& axes, const GivenBalls& balls, std::uint32_t first_light, float roundings,
-                     BoxedBalls& boxed) {
-  HWY_DYNAMIC_DISPATCH(box_ranges)(axes, balls, first_light, roundings, boxed);
+CellExtents extents_of(const BoxGrid& boxes) {
+  CellExtents cells;
+  const auto axis_of = [](const BoxAxis& extents) {
+    CellExtents::Axis axis;
+    for (const Interval& extent : extents) {
+      axis.lo.push_back(extent.lo);
+      axis.hi.push_back(extent.hi);
+    }
+    return axis;
+  };
+  cells.x = axis_of(boxes.x);
+  cells.y = axis_of(boxes.y);
+  cells.z = axis_of(boxes.z);
+  cells.columns = static_cast<int>(boxes.x.size());
+  cells.rows = static_cast<int>(boxes.y.size());
+  return cells;
+}
+
+void find_box_ranges(const RangeAxes& axes, const GivenBalls& balls, float roundoffs, BoundedBalls& bounded) {
+  HWY_DYNAMIC_DISPATCH(box_ranges)(axes, balls, roundoffs, bounded);
 }
 
 }  // namespace clusterbench::assign

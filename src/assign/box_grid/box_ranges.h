@@ -2,8 +2,9 @@
 // Which boxes of a grid of axis-aligned boxes are within reach of many balls on each axis: indices_within()
 // (assign/box_grid/box_rows.h) a vector of balls at a time, because each lane compares the same differences.
 
-#include "assign/bounds/screen_bounds.h"
+#include "assign/bounds/bounds_rows.h"
 #include "assign/box_grid/box_rows.h"
+#include "assign/cull/frustum_cull.h"
 #include "assign/simd/boundary_axis.h"
 
 namespace clusterbench::assign {
@@ -24,9 +25,11 @@ struct RangeAxes {
   std::size_t capacity_bytes() const;
 };
 
-// Appends those of the balls, larger by these roundings, that reach a box outside of the hole. The first ball belongs
-// to light `first_light`. boxed's columns are along x, its rows along y, its slices along z, and depth is -z.
-void find_box_ranges(const RangeAxes& axes, const GivenBalls& balls, std::uint32_t first_light, float roundings,
-                     BoxedBalls& boxed);
+// The boxes' extents, for find_box_rows().
+CellExtents extents_of(const BoxGrid& boxes);
+
+// Appends those of the balls, larger by these roundoffs, that reach a box outside of the hole.
+// bounded's columns are along x, its rows along y, its slices along z, and depth is -z.
+void find_box_ranges(const RangeAxes& axes, const GivenBalls& balls, float roundoffs, BoundedBalls& bounded);
 
 }  // namespace clusterbench::assign

@@ -34,25 +34,25 @@ class RowSink {
 
 }  // namespace
 
-IndexRange indices_within(const BoxAxis& axis, float place, float r) {
+IndexRange indices_within(const BoxAxis& axis, float coordinate, float r) {
   if (axis.empty()) return {};
   const bool ascending = axis.front().lo <= axis.back().lo;
   // Both differences are monotonous along the axis, in single precision too.
-  const auto before = [&](const Interval& extent) { return (ascending ? place - extent.hi : extent.lo - place) > r; };
+  const auto before = [&](const Interval& extent) {
+    return (ascending ? coordinate - extent.hi : extent.lo - coordinate) > r;
+  };
   const auto not_beyond = [&](const Interval& extent) {
-    return !((ascending ? extent.lo - place : place - extent.hi) > r);
+    return !((ascending ? extent.lo - coordinate : coordinate - extent.hi) > r);
   };
   const auto first = std::partition_point(axis.begin(), axis.end(), before);
   const auto end = std::partition_point(first, axis.end(), not_beyond);
   return {static_cast<int>(first - axis.begin()), static_cast<int>(end - axis.begin()) - 1};
 }
 
-void add_light(const BoxGrid& boxes, const LightTest& test, const view::LightArrays& lights, std::uint32_t light,
-               PairBuffer& pairs, std::uint64_t& tests) {
-  if (lights.is_empty(light)) return;
-  const TestedLight tested = test.tested(lights, light);
-  RowSink sink(boxes, test, tested, pairs, tests);
-  for_each_row_touched(boxes, tested.ball, tests,
+void add_boxes(const BoxGrid& boxes, const LightTest& test, const TestedLight& light, PairBuffer& pairs,
+               std::uint64_t& tests) {
+  RowSink sink(boxes, test, light, pairs, tests);
+  for_each_row_touched(boxes, light.ball, tests,
                        [&](int y, int z, int first, int last) { sink.add_row(y, z, first, last); });
 }
 

@@ -9,9 +9,9 @@
 
 #include "assign/contract/light_test.h"
 #include "assign/contract/lists.h"
+#include "core/arrays.h"
 #include "geom/shapes.h"
 #include "grid/index_range.h"
-#include "view/frame.h"
 
 namespace clusterbench::assign {
 
@@ -30,21 +30,21 @@ struct BoxGrid {
   std::uint32_t first_cell = 0;
   IndexRange hole_x, hole_y, hole_z;  // boxes that take no lights; empty: none
 
-  std::size_t capacity_bytes() const { return (x.capacity() + y.capacity() + z.capacity()) * sizeof(Interval); }
+  std::size_t capacity_bytes() const { return bytes_of(x, y, z); }
 };
 
-// Distance from a place on the axis to an extent; 0 inside.
-inline float gap_to(const Interval& extent, float place) {
-  return std::max(0.0f, std::max(extent.lo - place, place - extent.hi));
+// Distance from a coordinate on the axis to an extent; 0 inside.
+inline float gap_to(const Interval& extent, float coordinate) {
+  return std::max(0.0f, std::max(extent.lo - coordinate, coordinate - extent.hi));
 }
 
-inline float squared_gap(const Interval& extent, float place) {
-  const float gap = gap_to(extent, place);
+inline float squared_gap(const Interval& extent, float coordinate) {
+  const float gap = gap_to(extent, coordinate);
   return gap * gap;
 }
 
-// The indices whose extent lies within r of the place.
-IndexRange indices_within(const BoxAxis& axis, float place, float r);
+// The indices whose extent lies within r of the coordinate.
+IndexRange indices_within(const BoxAxis& axis, float coordinate, float r);
 
 // Calls row(y, z, first_x, last_x) for each row of boxes that the ball touches, and adds the boxes that it tested to
 // `tests`. The interval is found by going inward from both ends of the ball's x range.
@@ -70,12 +70,12 @@ void for_each_row_touched(const BoxGrid& boxes, const geom::Ball& ball, std::uin
   }
 }
 
-// Adds the cells that a light touches.
+// Adds the cells of these boxes that a light touches.
 //
-// Roundings: each axis's gap is one difference, off by 2^-24 of itself; squaring, two sums and the squared radius leave
+// Roundoffs: each axis's gap is one difference, off by 2^-24 of itself; squaring, two sums and the squared radius leave
 // the compared squares off by at most 5 * 2^-24 of themselves, so the distance by 2.5; with the gaps' 1: 3.5.
-inline constexpr float k_box_roundings = 4.0f;
-void add_light(const BoxGrid& boxes, const LightTest& test, const view::LightArrays& lights, std::uint32_t light,
-               PairBuffer& pairs, std::uint64_t& tests);
+inline constexpr float k_box_roundoffs = 4.0f;
+void add_boxes(const BoxGrid& boxes, const LightTest& test, const TestedLight& light, PairBuffer& pairs,
+               std::uint64_t& tests);
 
 }  // namespace clusterbench::assign

@@ -1,79 +1,64 @@
 #pragma once
-// What the fast forms of `cascades` and `world-grid` share: level by level the ranges of boxes that balls reach are
-// found a vector of balls at a time, then their lists are made slice by slice (bounds_lists.h). Every step gives what
-// box_rows.h gives.
+// What the fast forms of `cascades` and `world-grid` share: the kernel of slice_by_slice.h for grids of boxes. Level by
+// level the ranges of boxes that balls reach are found a vector of balls at a time. Every step gives what box_rows.h
+// gives.
 
-#include <memory>
 #include <vector>
 
-#include "assign/bounds/bounds_lists.h"
+#include "assign/bounds/bounds_rows.h"
 #include "assign/box_grid/box_levels.h"
 #include "assign/box_grid/box_ranges.h"
-#include "assign/cone/spot_spheres.h"
-#include "assign/contract/assigner.h"
-#include "assign/contract/light_test.h"
+#include "assign/pipeline/slice_by_slice.h"
 
 namespace clusterbench::assign {
 
-class FastBoxGridMethod final : public ListAssigner {
+class BoxGridKernel {
  public:
-  explicit FastBoxGridMethod(const Params& params) : test_(params, k_box_roundings), lists_(test_) {}
+  static constexpr float k_roundoffs = k_box_roundoffs;
+  static constexpr const char* k_columns_key = "cells";
 
-  void build(const grid::Grid& grid, const LightKinds& kinds) override {
-    test_.start_grid(grid, kinds);
-    lists_.start_grid(grid.cells(), "cells");
+  explicit BoxGridKernel(const Params&) {}
+
+  void build(const grid::Grid& grid) {
     levels_.clear();
     for (const BoxGrid& boxes : box_levels(grid)) levels_.emplace_back(boxes);
   }
-
-  void assign(const FrameInput& input, Lists& out) override {
-    const view::LightArrays& lights = input.lights;
-    test_.start_frame(lights);
-    lists_.start_frame(lights, out);
-    boxed_.reserve(lights.size());
-    if (lights.spots > 0) find_spot_balls(lights, test_.own_padding(), test_.balls_are_around_cones(), spots_);
-    for (const Level& level : levels_) add_level(level, lights);
-    lists_.finish();
+  int levels() const { return static_cast<int>(levels_.size()); }
+  Level level(int index) const {
+    const BoxLevel& boxes = at(index);
+    // A hole begins at the first slice.
+    return {boxes.slices, {boxes.axes.hole_y, boxes.axes.hole_x}, boxes.axes.hole_z.count()};
   }
 
-  std::uint64_t tests_done() const override { return lists_.tests_done(); }
-  std::size_t scratch_bytes() const override {
-    std::size_t bytes = lists_.capacity_bytes() + test_.capacity_bytes() + boxed_.capacity_bytes() +
-                        lane_columns_.capacity_bytes() + spots_.capacity_bytes();
-    for (const Level& level : levels_) bytes += level.axes.capacity_bytes() + level.cells.capacity_bytes();
+  void bound(int level, const KernelLights& lights, BoundedBalls& out) const {
+    const RangeAxes& axes = at(level).axes;
+    find_box_ranges(axes, given_points(lights.all), lights.test.own_padding(), out);
+    if (!lights.all.spots.empty()) find_box_ranges(axes, given_spots(lights.all, lights.spots), 0.0f, out);
+  }
+  void find_rows(int level, const BallBatch& batch, BatchRows& out) {
+    find_box_rows(at(level).cells, batch, lane_columns_, out);
+  }
+
+  std::size_t capacity_bytes() const {
+    std::size_t bytes = lane_columns_.capacity_bytes();
+    for (const BoxLevel& level : levels_) bytes += level.axes.capacity_bytes() + level.cells.capacity_bytes();
     return bytes;
   }
 
  private:
-  struct Level {
+  struct BoxLevel {
     RangeAxes axes;
     CellExtents cells;
     int slices;
 
-    explicit Level(const BoxGrid& boxes) : axes(boxes), cells(boxes), slices(static_cast<int>(boxes.z.size())) {}
+    explicit BoxLevel(const BoxGrid& boxes)
+        : axes(boxes), cells(extents_of(boxes)), slices(static_cast<int>(boxes.z.size())) {}
   };
 
-  void add_level(const Level& level, const view::LightArrays& lights) {
-    boxed_.count = 0;
-    find_box_ranges(level.axes, given_points(lights), 0, test_.own_padding(), boxed_);
-    if (lights.spots > 0) find_box_ranges(level.axes, given_spots(lights, spots_), lights.points, 0.0f, boxed_);
-    const auto find = [&](const BallBatch& batch, BatchRows& rows) {
-      find_box_rows(level.cells, batch, lane_columns_, rows);
-    };
-    // A hole begins at the first slice.
-    lists_.add_slices(boxed_, level.slices, find, {level.axes.hole_y, level.axes.hole_x}, level.axes.hole_z.count());
-  }
+  const BoxLevel& at(int level) const { return levels_[static_cast<std::size_t>(level)]; }
 
-  LightTest test_;
-  std::vector<Level> levels_;
-  BallArrays spots_;
-  BoxedBalls boxed_;
+  std::vector<BoxLevel> levels_;
   LaneColumns lane_columns_;
-  BoxedLists lists_;
 };
-
-inline std::unique_ptr<ListAssigner> make_fast_box_grid_method(const Params& params) {
-  return std::make_unique<FastBoxGridMethod>(params);
-}
 
 }  // namespace clusterbench::assign

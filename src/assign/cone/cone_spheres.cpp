@@ -3,7 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "assign/rows/slice_rows.h"
+#include "assign/simd/lanes.h"
+#include "core/arrays.h"
 #include "core/memory.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -66,7 +67,7 @@ class Cone {
   V range_, cos_angle_, sin_angle_, apex_size_;
 };
 
-std::uint64_t lit_of(const CellRun& run, const Cone& cone, const CellBalls& cells) {
+std::uint64_t touched_of(const CellRun& run, const Cone& cone, const CellBalls& cells) {
   const D d;
   const auto lanes = static_cast<std::uint32_t>(Lanes(d));
   std::uint64_t bits = 0;
@@ -78,10 +79,10 @@ std::uint64_t lit_of(const CellRun& run, const Cone& cone, const CellBalls& cell
   return run.count < 64 ? bits & ((std::uint64_t{1} << run.count) - 1) : bits;
 }
 
-void lit_cells(const geom::SphericalCone& given, const CellBalls& cells, std::span<const CellRun> runs,
-               std::uint64_t* lit) {
+void touched_cells(const geom::SphericalCone& given, const CellBalls& cells, std::span<const CellRun> runs,
+                   std::uint64_t* touched) {
   const Cone cone(given);
-  for (std::size_t i = 0; i < runs.size(); ++i) lit[i] = lit_of(runs[i], cone, cells);
+  for (std::size_t i = 0; i < runs.size(); ++i) touched[i] = touched_of(runs[i], cone, cells);
 }
 
 }  // namespace
@@ -92,12 +93,12 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace clusterbench::assign {
 
-HWY_EXPORT(lit_cells);
+HWY_EXPORT(touched_cells);
 
 CellBalls::CellBalls(std::span<const geom::Ball> balls) {
   const std::size_t padded = balls.size() + k_most_lanes;
   check_memory("balls around cells, side by side", padded, 5 * sizeof(float));
-  for (std::vector<float>* list : {&x, &y, &z, &radius, &size}) list->resize(padded);
+  grow_to(padded, x, y, z, radius, size);
   for (std::size_t cell = 0; cell < balls.size(); ++cell) {
     const Vec3f& center = balls[cell].center;
     x[cell] = center.x;
@@ -109,13 +110,13 @@ CellBalls::CellBalls(std::span<const geom::Ball> balls) {
 }
 
 std::size_t CellBalls::capacity_bytes() const {
-  return 5 * x.capacity() * sizeof(float);
+  return bytes_of(x, y, z, radius, size);
 }
 
-void find_lit_cells(const geom::SphericalCone& cone, const CellBalls& cells, std::span<const CellRun> runs,
-                    std::vector<std::uint64_t>& lit) {
-  if (lit.size() < runs.size()) lit.resize(runs.size());
-  HWY_DYNAMIC_DISPATCH(lit_cells)(cone, cells, runs, lit.data());
+void find_touched_cells(const geom::SphericalCone& cone, const CellBalls& cells, std::span<const CellRun> runs,
+                        std::vector<std::uint64_t>& touched) {
+  if (touched.size() < runs.size()) touched.resize(runs.size());
+  HWY_DYNAMIC_DISPATCH(touched_cells)(cone, cells, runs, touched.data());
 }
 
 }  // namespace clusterbench::assign

@@ -26,8 +26,8 @@ struct CellRun {
   std::uint32_t cell, count;  // its index, and how many
 };
 
-// lit[i]: a bit for each cell of runs[i], the lowest for the first: whether the cone may touch it.
-void find_lit_cells(const geom::SphericalCone& cone, const CellBalls& cells, std::span<const CellRun> runs,
-                    std::vector<std::uint64_t>& lit);
+// touched[i]: a bit for each cell of runs[i], the lowest for the first: whether the cone may touch it.
+void find_touched_cells(const geom::SphericalCone& cone, const CellBalls& cells, std::span<const CellRun> runs,
+                        std::vector<std::uint64_t>& touched);
 
 }  // namespace clusterbench::assign

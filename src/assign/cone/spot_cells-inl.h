@@ -8,142 +8,13 @@
 #define CLUSTERBENCH_SPOT_CELLS_INL_H
 #endif
 
-#include "assign/cone/spot_cells.h"
-#include "assign/simd/vectors-inl.h"
+#include "assign/cone/spot_vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
 
-// Places and directions as x to the right, y up, depth ahead.
-struct Point {
-  V x, y, depth;
-};
-HWY_INLINE Point operator+(const Point& a, const Point& b) {
-  return {a.x + b.x, a.y + b.y, a.depth + b.depth};
-}
-HWY_INLINE Point operator-(const Point& a, const Point& b) {
-  return {a.x - b.x, a.y - b.y, a.depth - b.depth};
-}
-HWY_INLINE Point operator*(V s, const Point& a) {
-  return {s * a.x, s * a.y, s * a.depth};
-}
-HWY_INLINE V dot(const Point& a, const Point& b) {
-  return a.x * b.x + a.y * b.y + a.depth * b.depth;
-}
-HWY_INLINE Point cross(const Point& a, const Point& b) {
-  return {a.y * b.depth - a.depth * b.y, a.depth * b.x - a.x * b.depth, a.x * b.y - a.y * b.x};
-}
-HWY_INLINE V length(const Point& a) {
-  return Sqrt(dot(a, a));
-}
-
-HWY_INLINE Point chosen(M where, const Point& a, const Point& b) {
-  return {IfThenElse(where, a.x, b.x), IfThenElse(where, a.y, b.y), IfThenElse(where, a.depth, b.depth)};
-}
-
-struct Cone {
-  Point apex, axis;
-  V range, cosine, sine;
-};
-
-// Evidence: a point that is in cell and volume, or a plane between them, by more than the tolerance 2^-19 S = 32 u S;
-// u = 2^-24, S = |apex| + 2 range + the cell's largest coordinates. A point counts as apex + v, exactly; a plane's
-// normal as it came out, of length 1 to 5 u, or of another one by which all margins and the tolerance are then larger.
-// How either was found does not matter, only how well it is measured. Given numbers are off by u of themselves: range,
-// sine, cosine and each coordinate of apex and axis. Sums and products of three lose 3 u of the vectors' lengths, a
-// length 3 u. Then margins are off by at most
-//    9 u S  of a point in the sphere: 5 u range, u |apex|; in the cone: along the axis 4 u range + u |apex|, across it
-//           3 u range + u |apex|, both times sine and cosine, squared and compared 5 u range
-//    6 u S  of a point in the cell: apex + v is rounded, 2 u of a product and a sum
-//    5 u S  of corners along a normal: u of a corner, u of it from the apex, 3 u of the product
-//   10 u S  of how far the volume extends along a normal: along the axis 6 u range, across it 11 u range, 3 u for the
-//   rest
-//    7 u S  of a plane along the cone's side, whose extent is taken to be 0: its direction across the axis is at right
-//           angles to it to 6 u, of length 1 to 5 u, and 3 u for the rest, times range
-//   10 u S  of the apex from a face: 5 u for the product and the offset, 5 u for the length of the normal
-// so under 20 u S for a plane.
-constexpr float k_tolerance = 0x1p-19f;
-
-// Evidence must be larger than this. `light`: the size of the numbers that describe it; the cells reach to a depth, and
-// to slopes across and up (without perspective: to places; then corners and normals are exact).
-HWY_INLINE V tolerance_of(V light, V depth, V across, V up) {
-  return all(k_tolerance) * (light + depth * (all(1.0f) + (across + up)));
-}
-
-// How far a volume extends from its apex along a normal of this length. What is across the axis is measured as a
-// vector: a root of 1 - cosine² would lose half the digits.
-HWY_INLINE V extent_of(const Cone& cone, const Point& normal, V size) {
-  const V along = dot(normal, cone.axis), across = length(normal - along * cone.axis);
-  const M is_in_cone = cone.sine * along >= cone.cosine * across;
-  const V lean = Max(Zero(D()), along * cone.cosine + across * cone.sine);
-  return cone.range * IfThenElse(is_in_cone, size, lean);
-}
-
-// A vector of spots.
-struct GivenSpots {
-  Cone cone;
-  V light;  // size of the numbers that describe it
-
-  HWY_INLINE GivenSpots(const view::LightArrays& lights, VI spot) {
-    // Gathering takes longer than much of what follows, and where spots are few, vectors are often of one.
-    const std::int32_t first = GetLane(spot);
-    if (AllTrue(DI(), spot == all_int(first)))
-      take(lights, [&](const float* from) { return all(from[first]); });
-    else
-      take(lights, [&](const float* from) { return gathered(from, spot); });
-  }
-
- private:
-  template <class Get>
-  HWY_INLINE void take(const view::LightArrays& lights, Get&& get) {
-    const std::uint32_t points = lights.points;
-    cone = {{get(lights.x.data() + points), get(lights.y.data() + points), Neg(get(lights.z.data() + points))},
-            {get(lights.axis_x.data()), get(lights.axis_y.data()), Neg(get(lights.axis_z.data()))},
-            get(lights.radius.data() + points),
-            get(lights.cos_angle.data()),
-            get(lights.sin_angle.data())};
-    light = get(lights.reach.data() + points) + cone.range;
-  }
-};
-
-// Which spots of these sizes are to be judged in single precision.
-HWY_INLINE M are_plain(const SpotsAndPlanes& from, V light) {
-  return is_between(all(from.least_reach), light, all(k_most_row_reach));
-}
-
-// Spots, each with its own piece of a row: tile planes below and above, slice planes in front and behind.
-struct SpotsInRows {
-  Cone cone;
-  V light;  // GivenSpots::light
-  V y0, y1, depth0, depth1;
-
-  // Where columns between two sides are looked at.
-  HWY_INLINE V tolerance(V left, V right) const {
-    return tolerance_of(light, depth1, Max(Abs(left), Abs(right)), Max(Abs(y0), Abs(y1)));
-  }
-  // The same without perspective.
-  HWY_INLINE V parallel_tolerance(V left, V right) const {
-    const V depth = Max(Abs(depth0), Abs(depth1));
-    return all(k_tolerance) * (light + (depth + (Max(Abs(left), Abs(right)) + Max(Abs(y0), Abs(y1)))));
-  }
-};
-HWY_INLINE SpotsInRows spots_in_rows(const SpotsAndPlanes& from, VI spot, VI slice, VI row) {
-  const GivenSpots given(*from.lights, spot);
-  return {given.cone,
-          given.light,
-          gathered(from.slope + 1, row),
-          gathered(from.slope, row),
-          gathered(from.depth, slice),
-          gathered(from.depth + 1, slice)};
-}
-
-// The places of a list from `first` on.
-HWY_INLINE VI places(const std::vector<std::uint32_t>& list, std::uint32_t first) {
-  return BitCast(DI(), LoadU(DU(), list.data() + first));
-}
-
-// A vector of cells, each with its own cone. In perspective sides and rows are slopes, else places.
+// A vector of cells, each with its own cone. In perspective sides and rows are slopes, else coordinates.
 template <bool k_perspective>
 class CellsOf {
  public:
@@ -188,7 +59,7 @@ class CellsOf {
   }
 
   // The middle of the axis within the cell; and where the way from the axis to the cell's own middle line, between the
-  // places where these are nearest to each other, has just entered the cell.
+  // points where these are nearest to each other, has just entered the cell.
   HWY_INLINE M holds_axis_point() const {
     const V zero = Zero(D()), half = all(0.5f);
     V from = zero, to = cone_.range;
@@ -224,7 +95,7 @@ class CellsOf {
   }
 
   // More planes: along the cone's side towards each corner, and across the way to the nearest corner and to the nearest
-  // place of the edges.
+  // point of the edges.
   HWY_INLINE M is_apart_from_corners() const {
     M apart = FirstN(D(), 0);
     Point nearest = from_apex_[0];
@@ -250,7 +121,7 @@ class CellsOf {
   }
 
   // From the cell to the volume and back a few times, both smaller by a little more than the tolerance. Where they
-  // share room, both soon hold the same place; where they do not, the way from one to the other crosses a plane
+  // share room, both soon hold the same point; where they do not, the way from one to the other crosses a plane
   // between.
   HWY_INLINE void approach(M& common, M& apart) const {
     constexpr int k_ways = 3;
@@ -261,8 +132,8 @@ class CellsOf {
     apart = Or(is_past(in_cell - in_volume), is_apart());
   }
 
-  // The mean of all places where cell ∩ volume can be extreme (geom/candidates.h), which lies inside of it; and planes
-  // along the cone's side that are equally far from both ends of an edge. The nearest such place tells more of them.
+  // The mean of all points where cell ∩ volume can be extreme (geom/candidates.h), which lies inside of it; and planes
+  // along the cone's side that are equally far from both ends of an edge. The nearest such point tells more of them.
   HWY_INLINE void settle(M& common, M& apart) const {
     const V zero = Zero(D());
     Extremes extremes{{zero, zero, zero}, zero, {zero, zero, zero}, all(k_none)};
@@ -280,32 +151,32 @@ class CellsOf {
     apart = Or(is_beside_edges(), is_beyond(extremes));
   }
 
-  // From a place of the cell to the volume and back, a little too far.
+  // From a point of the cell to the volume and back, a little too far.
   HWY_INLINE Point closer_to_volume(const Point& v) const {
     return near_in_cell(v + all(1.5f) * (nearest_in_volume(v) - v));
   }
 
-  // A place of the cell made smaller by a little more than the tolerance: not the nearest one where its sides lean, but
+  // A point of the cell made smaller by a little more than the tolerance: not the nearest one where its sides lean, but
   // one nearby.
   HWY_INLINE Point near_in_cell(const Point& v) const {
     const V within = all(k_within) * tolerance_;
-    const Point place = v + cone_.apex;
+    const Point point = v + cone_.apex;
     const auto between = [](V low, V x, V high) { return Min(Max(x, low), high); };
-    const V depth = between(depth0_ + within, place.depth, depth1_ - within);
+    const V depth = between(depth0_ + within, point.depth, depth1_ - within);
     if constexpr (!k_perspective) {
-      const V x = between(left_ + within, place.x, right_ - within);
-      const V y = between(y0_ + within, place.y, y1_ - within);
+      const V x = between(left_ + within, point.x, right_ - within);
+      const V y = between(y0_ + within, point.y, y1_ - within);
       return Point{x, y, depth} - cone_.apex;
     }
     const auto inset = [&](V slope) { return within * (all(1.0f) + Abs(slope)); };
-    const V x = between(left_ * depth + inset(left_), place.x, right_ * depth - inset(right_));
-    const V y = between(y0_ * depth + inset(y0_), place.y, y1_ * depth - inset(y1_));
+    const V x = between(left_ * depth + inset(left_), point.x, right_ * depth - inset(right_));
+    const V y = between(y0_ * depth + inset(y0_), point.y, y1_ * depth - inset(y1_));
     return Point{x, y, depth} - cone_.apex;
   }
 
   // Evidence.
 
-  // Is the place v from the apex in volume and cell, by more than the tolerance?
+  // Is the point v from the apex in volume and cell, by more than the tolerance?
   HWY_INLINE M is_common(const Point& v) const {
     M is_in = is_inside(v);
     each_face([&](const Point& outward, V offset) {
@@ -375,13 +246,13 @@ class CellsOf {
     const V within = all(k_within) * tolerance_;
     const V ahead = Min(within / Max(cone_.sine, tiny), all(0.5f) * cone_.range);
     const V along = dot(v, cone_.axis) - ahead;
-    const Point aside = v - (along + ahead) * cone_.axis;
-    const V across = length(aside);
+    const Point offset = v - (along + ahead) * cone_.axis;
+    const V across = length(offset);
     const M is_in = cone_.sine * along >= cone_.cosine * across;
     const V t = Max(zero, along * cone_.cosine + across * cone_.sine);
     const V to_along = IfThenElse(is_in, along, t * cone_.cosine);
     const V narrowed = t * cone_.sine / Max(across, tiny);
-    const Point to = (to_along + ahead) * cone_.axis + IfThenElse(is_in, all(1.0f), narrowed) * aside;
+    const Point to = (to_along + ahead) * cone_.axis + IfThenElse(is_in, all(1.0f), narrowed) * offset;
     const V range = cone_.range - within;
     return Min(all(1.0f), range / Max(length(to), tiny)) * to;
   }
@@ -407,7 +278,7 @@ class CellsOf {
   HWY_INLINE void take_corner(const Point& v, Extremes& extremes) const {
     extremes.take(is_in_cone(v), is_in_range(v), v);
   }
-  // A place of the volume's surface, if it is in the cell.
+  // A point of the volume's surface, if it is in the cell.
   HWY_INLINE void take_in_cell(const Point& v, M where, Extremes& extremes) const {
     extremes.take(And(where, is_in_cell(v)), is_in_range(v), v);
   }
@@ -442,8 +313,8 @@ class CellsOf {
                form(start_along, start_along, start_across, start_across));
   }
 
-  // Unit normal; margin: how far the apex is on the inner side. The foot of the apex, the sphere's deepest place,
-  // the generators in the plane of axis and normal: where they meet the face, and their ends; and two places on the
+  // Unit normal; margin: how far the apex is on the inner side. The foot of the apex, the sphere's deepest point,
+  // the generators in the plane of axis and normal: where they meet the face, and their ends; and two points on the
   // rim.
   HWY_INLINE void take_face(const Point& outward, V margin, Extremes& extremes) const {
     const Point foot = margin * outward, deepest = Neg(cone_.range) * outward;
@@ -464,9 +335,9 @@ class CellsOf {
     const M meets = square >= Zero(D());
     const V sine = Sqrt(Max(square, Zero(D())));
     const Point middle = rim_along * cone_.axis + (rim_across * cosine) * across;
-    const Point aside = (rim_across * sine) * cross(cone_.axis, across);
-    take_in_cell(middle + aside, meets, extremes);
-    take_in_cell(middle - aside, meets, extremes);
+    const Point offset = (rim_across * sine) * cross(cone_.axis, across);
+    take_in_cell(middle + offset, meets, extremes);
+    take_in_cell(middle - offset, meets, extremes);
   }
 
   // A unit vector across the axis, towards v where v is not nearly along the axis.
@@ -507,7 +378,7 @@ class CellsOf {
     return apart;
   }
 
-  // Where cell and endless cone meet beyond the range only: is there a plane through the nearest place, between the
+  // Where cell and endless cone meet beyond the range only: is there a plane through the nearest point, between the
   // sphere's tangent there and the cone's side, that an edge says how to lean?
   HWY_INLINE M is_beyond(const Extremes& extremes) const {
     const Point generator = (all(1.0f) / Sqrt(extremes.least)) * extremes.nearest;
@@ -530,7 +401,7 @@ class CellsOf {
     return {side * depth, up * depth, depth};
   }
 
-  // Outward normals (any length) and the faces' places along them.
+  // Outward normals (any length) and the faces along them.
   template <class Take>
   HWY_INLINE void each_face(Take&& take) const {
     const V zero = Zero(D()), one = all(1.0f);
@@ -555,7 +426,7 @@ class CellsOf {
     return length(outward);
   }
 
-  // Cuts a line from the apex's place + start, along step, to the cell.
+  // Cuts a line from the apex + start, along step, to the cell.
   HWY_INLINE void clip(const Point& start, const Point& step, V& from, V& to) const {
     each_face([&](const Point& outward, V offset) {
       const V margin = offset - dot(outward, cone_.apex + start), lean = dot(outward, step);
@@ -572,13 +443,13 @@ class CellsOf {
     return least;
   }
 
-  // Is the place v from the apex in the volume, by more than the tolerance?
+  // Is the point v from the apex in the volume, by more than the tolerance?
   HWY_INLINE M is_inside(const Point& v) const {
     const V zero = Zero(D()), along = dot(v, cone_.axis);
-    const Point aside = v - along * cone_.axis;
+    const Point offset = v - along * cone_.axis;
     // Squares, because roots are slow. They add a few u to what the tolerance is for.
     const V side = cone_.sine * along - tolerance_;
-    const M is_in_cone = And(side > zero, side * side > cone_.cosine * cone_.cosine * dot(aside, aside));
+    const M is_in_cone = And(side > zero, side * side > cone_.cosine * cone_.cosine * dot(offset, offset));
     return And(is_in_cone, And(safe_range_ > zero, dot(v, v) < safe_range_ * safe_range_));
   }
 

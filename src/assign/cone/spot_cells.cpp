@@ -25,10 +25,10 @@ void look_at(const SpotsAndPlanes& from, Look how, SpotCells& cells) {
   const hn::Rebind<std::uint8_t, DU> du8;
   const auto lanes = static_cast<std::uint32_t>(Lanes(d));
   for (std::uint32_t first = 0; first < cells.count; first += lanes) {
-    const SpotsInRows rows =
-        spots_in_rows(from, places(cells.spot, first), places(cells.slice, first), places(cells.row, first));
-    const AnyCells these(rows, gathered(from.side, places(cells.column, first)),
-                         gathered(from.side, places(cells.end_column, first)));
+    const SpotsInRows rows = spots_in_rows(from, loaded_indices(cells.spot, first), loaded_indices(cells.slice, first),
+                                           loaded_indices(cells.row, first));
+    const AnyCells these(rows, gathered(from.side, loaded_indices(cells.column, first)),
+                         gathered(from.side, loaded_indices(cells.end_column, first)));
     M common, apart;
     switch (how) {
       case Look::quick:
@@ -51,7 +51,7 @@ void look_at(const SpotsAndPlanes& from, Look how, SpotCells& cells) {
     apart = And(apart, plain);
     const auto code = [&](Touch touch) { return Set(du, static_cast<std::uint32_t>(touch)); };
     const auto answer = IfThenElse(RebindMask(du, common), code(Touch::yes),
-                                   IfThenElse(RebindMask(du, apart), code(Touch::no), code(Touch::open)));
+                                   IfThenElse(RebindMask(du, apart), code(Touch::no), code(Touch::uncertain)));
     StoreU(U8FromU32(answer), du8, reinterpret_cast<std::uint8_t*>(cells.touch.data()) + first);
   }
 }
@@ -74,8 +74,7 @@ void SpotCells::grow() {
   const std::size_t size = 2 * spot.size() + 4 * k_most_lanes;
   check_pair_count(size);
   check_memory("cells of spots", size, sizeof(SpotCell) + sizeof(Touch));
-  for (std::vector<std::uint32_t>* list : {&spot, &slice, &row, &column, &end_column}) list->resize(size);
-  touch.resize(size);
+  grow_to(size, spot, slice, row, column, end_column, touch);
 }
 
 void SpotCells::pad() {

@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "assign/rows/slice_rows.h"
+#include "core/arrays.h"
 #include "view/frame.h"
 
 namespace clusterbench::assign {
 
-enum class Touch : std::uint8_t { no, yes, open };
+enum class Touch : std::uint8_t { no, yes, uncertain };
 
 // A spot (light index - points) and neighbouring cells of a row as one: columns column .. end_column - 1.
 struct SpotCell {
@@ -33,17 +34,15 @@ struct SpotCells {
     end_column[count++] = pair.end_column;
   }
   void grow();
-  // What a whole vector reads beyond the end must be places that exist.
+  // What a whole vector reads beyond the end must be indices that exist.
   void pad();
-  SpotCell at(std::uint32_t place) const {
-    return {spot[place], slice[place], row[place], column[place], end_column[place]};
-  }
-  std::size_t capacity_bytes() const { return spot.capacity() * (sizeof(SpotCell) + sizeof(Touch)); }
+  SpotCell at(std::uint32_t pair) const { return {spot[pair], slice[pair], row[pair], column[pair], end_column[pair]}; }
+  std::size_t capacity_bytes() const { return bytes_of(spot, slice, row, column, end_column, touch); }
 };
 
 // What the pairs are made of: lights, sides of columns (x / depth), slopes of rows from the top, depths of slices. As
 // in RowPlanes, sides and slopes are x and y where the projection is orthographic. Spots of less reach than
-// least_reach, or of more than k_most_row_reach, are left open.
+// least_reach, or of more than k_most_row_reach, are left uncertain.
 struct SpotsAndPlanes {
   const view::LightArrays* lights;
   const float *side, *slope, *depth;
@@ -51,7 +50,7 @@ struct SpotsAndPlanes {
   bool orthographic = false;
 };
 
-// Each look settles most of the pairs that the one before leaves open, and costs several times as much.
+// Each look settles most of the pairs that the one before leaves uncertain, and costs several times as much.
 enum class Look { quick, approach, closer, thorough };
 void look_at_cells(const SpotsAndPlanes& from, Look how, SpotCells& cells);
 

@@ -2,11 +2,11 @@
 // proof. For files that are compiled once per target; included after hwy/highway.h; defines its names anew for each
 // target.
 
-#if defined(CLUSTERBENCH_SPOT_PLACES_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef CLUSTERBENCH_SPOT_PLACES_INL_H
-#undef CLUSTERBENCH_SPOT_PLACES_INL_H
+#if defined(CLUSTERBENCH_SPOT_EXTREMES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef CLUSTERBENCH_SPOT_EXTREMES_INL_H
+#undef CLUSTERBENCH_SPOT_EXTREMES_INL_H
 #else
-#define CLUSTERBENCH_SPOT_PLACES_INL_H
+#define CLUSTERBENCH_SPOT_EXTREMES_INL_H
 #endif
 
 #include "assign/cone/spot_cells-inl.h"
@@ -22,31 +22,35 @@ HWY_INLINE V inverse(V x) {
   return all(1.0f) / x;
 }
 
-// A place as the eye sees it: x / depth, y / depth, depth.
-struct Place {
+// A point as the eye sees it: x / depth, y / depth, depth.
+struct ProjectedPoint {
   V across, up, depth;
 
   HWY_INLINE Point point() const { return {across * depth, up * depth, depth}; }
 };
-HWY_INLINE Place place_of(const Point& p, V inverse_depth) {
+HWY_INLINE ProjectedPoint projected(const Point& p, V inverse_depth) {
   return {p.x * inverse_depth, p.y * inverse_depth, p.depth};
 }
-HWY_INLINE Place place_of(const Point& p) {
-  return place_of(p, inverse(p.depth));
+HWY_INLINE ProjectedPoint projected(const Point& p) {
+  return projected(p, inverse(p.depth));
 }
-HWY_INLINE Place chosen(M where, const Place& a, const Place& b) {
+HWY_INLINE ProjectedPoint chosen(M where, const ProjectedPoint& a, const ProjectedPoint& b) {
   return {IfThenElse(where, a.across, b.across), IfThenElse(where, a.up, b.up), IfThenElse(where, a.depth, b.depth)};
 }
 
-// The two places found so far that lean most across.
+// The two points found so far that lean most across.
 struct Extremes {
-  Place low, high;
+  ProjectedPoint low, high;
 
   HWY_INLINE Extremes() : low{all(k_none), all(0.0f), all(1.0f)}, high{all(-k_none), all(0.0f), all(1.0f)} {}
 
-  HWY_INLINE void take_low(M where, const Place& p) { low = chosen(And(where, p.across < low.across), p, low); }
-  HWY_INLINE void take_high(M where, const Place& p) { high = chosen(And(where, p.across > high.across), p, high); }
-  HWY_INLINE void take(M where, const Place& p) {
+  HWY_INLINE void take_low(M where, const ProjectedPoint& p) {
+    low = chosen(And(where, p.across < low.across), p, low);
+  }
+  HWY_INLINE void take_high(M where, const ProjectedPoint& p) {
+    high = chosen(And(where, p.across > high.across), p, high);
+  }
+  HWY_INLINE void take(M where, const ProjectedPoint& p) {
     take_low(where, p);
     take_high(where, p);
   }
@@ -60,15 +64,15 @@ struct SpotShapes {
   Cone cone;
   V slack;
   Point m1, m2;           // unit vectors across the axis
-  Point rim, rim1, rim2;  // its middle, and from there to two of its places
-  V least_along;          // the axis, of places of the sphere that are in the cone
+  Point rim, rim1, rim2;  // its middle, and from there to two of its points
+  V least_along;          // the axis, of points of the sphere that are in the cone
 
   SpotShapes() = default;
   HWY_INLINE SpotShapes(const Cone& of_cone, V of_slack) : cone(of_cone), slack(of_slack) {
-    const Point toward = Point{all(0.3f), all(0.5f), all(0.8f)}, aside = Point{all(0.8f), all(-0.5f), all(0.1f)};
+    const Point toward = Point{all(0.3f), all(0.5f), all(0.8f)}, other = Point{all(0.8f), all(-0.5f), all(0.1f)};
     const V along = dot(toward, cone.axis);
     const M is_good = Abs(along) < all(0.9f);
-    const Point from = chosen(is_good, toward, aside);
+    const Point from = chosen(is_good, toward, other);
     const Point part = from - dot(from, cone.axis) * cone.axis;
     m1 = inverse(length(part)) * part;
     m2 = cross(cone.axis, m1);
@@ -94,11 +98,11 @@ struct SpotShapes {
     return other;
   }
 
-  // Is a place of the sphere in the cone that is so far along the axis from the apex?
+  // Is a point of the sphere in the cone that is so far along the axis from the apex?
   HWY_INLINE M is_in_cone(V along) const { return along >= least_along; }
   HWY_INLINE M is_sphere_in_cone(const Point& p) const { return is_in_cone(dot(p - cone.apex, cone.axis)); }
 
-  // Angles phi with a cos phi + b sin phi = c, as places of the rim.
+  // Angles phi with a cos phi + b sin phi = c, as points of the rim.
   template <class Take>
   HWY_INLINE void each_rim_place(V a, V b, V c, Take&& take) const {
     const V square = square_of(a) + square_of(b), rest = square - square_of(c);
@@ -128,7 +132,7 @@ struct SpotShapes {
   // So far from the apex.
   HWY_INLINE M is_on_generator(V t) const { return is_between(Zero(D()), t, cone.range + slack); }
 
-  // The places of the sphere as far to the left and to the right of the apex, `up` and `ahead` from there: where they
+  // The points of the sphere as far to the left and to the right of the apex, `up` and `ahead` from there: where they
   // are and whether they exist.
   template <class TakeLow, class TakeHigh>
   HWY_INLINE void each_sphere_place(V up, V ahead, TakeLow&& take_low, TakeHigh&& take_high) const {
@@ -148,7 +152,7 @@ struct SlicePlanes {
   HWY_INLINE M hold(V depth, V slack) const { return is_between(near - slack, depth, far + slack); }
 };
 
-// What of spots between two slice planes can lean most across, wherever it is up and down: take.both(where, place), or
+// What of spots between two slice planes can lean most across, wherever it is up and down: take.both(where, point), or
 // take.low and take.high for what can do so to one side only.
 struct SlotCounts {
   int low, high, both;
@@ -158,7 +162,7 @@ template <class Take>
 HWY_INLINE void each_place_in_slice(const SpotShapes& spots, const SlicePlanes& planes, Take& take) {
   const Point& a = spots.cone.apex;
   const V zero = Zero(D());
-  take.both(planes.hold(a.depth, spots.slack), place_of(a));
+  take.both(planes.hold(a.depth, spots.slack), projected(a));
 
   // The sphere's tangents at the apex's height.
   const V range_square = square_of(spots.cone.range), square = square_of(a.x) + square_of(a.depth);
@@ -171,14 +175,14 @@ HWY_INLINE void each_place_in_slice(const SpotShapes& spots, const SlicePlanes& 
     return And(tangent_square > zero, And(planes.hold(p.depth, spots.slack), spots.is_sphere_in_cone(p)));
   };
   const Point low = tangent(turn), high = tangent(Neg(turn));
-  take.low(is_in(low), place_of(low));
-  take.high(is_in(high), place_of(high));
+  take.low(is_in(low), projected(low));
+  take.high(is_in(high), projected(high));
 
   // The rim's tangents.
   const auto wedge = [](const Point& p, const Point& q) { return p.x * q.depth - q.x * p.depth; };
   spots.each_rim_place(
       wedge(spots.rim2, spots.rim), wedge(spots.rim, spots.rim1), wedge(spots.rim1, spots.rim2),
-      [&](M exists, const Point& p) { take.both(And(exists, planes.hold(p.depth, spots.slack)), place_of(p)); });
+      [&](M exists, const Point& p) { take.both(And(exists, planes.hold(p.depth, spots.slack)), projected(p)); });
 
   // In the slice planes sphere, rim, and the cone's side where upright planes touch it.
   Point generators[2];
@@ -189,18 +193,18 @@ HWY_INLINE void each_place_in_slice(const SpotShapes& spots, const SlicePlanes& 
     spots.each_sphere_place(
         zero, ahead,
         [&](M exists, V x) {
-          take.low(exists, Place{x * inverse_depth, up, depth});
+          take.low(exists, ProjectedPoint{x * inverse_depth, up, depth});
         },
         [&](M exists, V x) {
-          take.high(exists, Place{x * inverse_depth, up, depth});
+          take.high(exists, ProjectedPoint{x * inverse_depth, up, depth});
         });
     spots.each_rim_place(spots.rim1.depth, spots.rim2.depth, depth - spots.rim.depth, [&](M exists, const Point& p) {
-      take.both(exists, place_of({p.x, p.y, depth}, inverse_depth));
+      take.both(exists, projected({p.x, p.y, depth}, inverse_depth));
     });
     for (int i = 0; i < 2; ++i) {
       const V t = ahead * lean[i];
       const Point p = a + t * generators[i];
-      take.both(spots.is_on_generator(t), place_of({p.x, p.y, depth}, inverse_depth));
+      take.both(spots.is_on_generator(t), projected({p.x, p.y, depth}, inverse_depth));
     }
   };
   take_in(planes.near, planes.inverse_near);
@@ -303,7 +307,7 @@ struct SpotsInSlices {
     const V high = tilt * ((d + e) * low_lean * both);
     const V to_depth = shrink * inverse_tilt;
     const auto is_in = [&](V across, V depth) {
-      const Point p = Place{across, slope, depth}.point();
+      const Point p = ProjectedPoint{across, slope, depth}.point();
       return And(exist, And(between.hold(depth, shapes.slack), shapes.is_sphere_in_cone(p)));
     };
     const V low_depth = to_depth * low_lean, high_depth = to_depth * high_lean;

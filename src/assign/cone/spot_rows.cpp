@@ -21,7 +21,7 @@ namespace {
 // What leans most in the tile planes of rows and between them.
 struct RowExtremes {
   Extremes outmost;
-  Point middle;  // of some of the places, and so within the spot
+  Point middle;  // of some of the points, and so within the spot
 
   HWY_INLINE RowExtremes(const Extremes& between, const PlaneExtremes& above, M has_above, V top,
                          const PlaneExtremes& below, V bottom)
@@ -52,7 +52,7 @@ struct RowExtremes {
 // A vector of rows and what is guessed of them.
 class Ends {
  public:
-  // `rows`: their pieces of these spots' slices.
+  // `rows`: their rows of these spots' slices.
   HWY_INLINE Ends(const SpotsAndPlanes& from, const RowPlanes& planes, const SpotsInSlices& spots,
                   const SpotsInRows& rows, const RowExtremes& found)
       : from_(from), spots_(spots), rows_(rows), found_(found), exist_(found.outmost.exist()) {
@@ -68,7 +68,7 @@ class Ends {
     last_ = IfThenElse(is_left, all_int(-1), column_at(high));
     is_first_column_ = RebindMask(D(), first_ == Zero(DI()));
     is_last_column_ = RebindMask(D(), last_ == last_column);
-    is_aside_ = RebindMask(D(), Or(is_right, is_left));
+    is_beside_view_ = RebindMask(D(), Or(is_right, is_left));
   }
 
   VI first() const { return first_; }
@@ -83,22 +83,22 @@ class Ends {
   HWY_INLINE M first_is_touched() const { return is_touched(first_); }
   HWY_INLINE M last_is_touched() const { return is_touched(Max(last_, Zero(DI()))); }
   // All is left or right of the picture.
-  HWY_INLINE M is_aside() const { return is_aside_; }
+  HWY_INLINE M is_beside_view() const { return is_beside_view_; }
 
  private:
   HWY_INLINE V side(VI column) const { return gathered(from_.side, column); }
 
-  HWY_INLINE M is_apart(const Place& place, V boundary, V to_side) const {
+  HWY_INLINE M is_apart(const ProjectedPoint& extreme, V boundary, V to_side) const {
     const V zero = Zero(D()), one = all(1.0f);
-    const Point p = place.point();
+    const Point p = extreme.point();
     const M in_slice_plane = Or(p.depth == rows_.depth0, p.depth == rows_.depth1);
     const Point edge = chosen(in_slice_plane, {zero, one, zero}, p);
-    const Point normal = touching_plane(spots_.shapes, p, edge, {to_side, zero, Neg(to_side * place.across)});
+    const Point normal = touching_plane(spots_.shapes, p, edge, {to_side, zero, Neg(to_side * extreme.across)});
     return Beyond{boundary, to_side, rows_.y0, rows_.y1, spots_.between}.is_apart(rows_.cone, normal,
                                                                                   rows_.tolerance(boundary, boundary));
   }
 
-  // Is there a common place near the way from an extreme to the middle?
+  // Is there a common point near the way from an extreme to the middle?
   HWY_INLINE M is_touched(VI column) const {
     const Point& middle = found_.middle;
     const V left = side(column), right = side(column + all_int(1));
@@ -110,10 +110,10 @@ class Ends {
     const V span = way.x - slope * way.depth;
     const V part = slope * start.depth - start.x;
     const V t = part / IfThenElse(span == Zero(D()), all(1.0f), span);
-    const Point place = start + Min(Max(t, Zero(D())), all(1.0f)) * way;
+    const Point point = start + Min(Max(t, Zero(D())), all(1.0f)) * way;
     const Cells cell(rows_, left, right);
-    const M wanted = AndNot(is_aside_, exist_);
-    Point v = cell.near_in_cell(place - rows_.cone.apex);
+    const M wanted = AndNot(is_beside_view_, exist_);
+    Point v = cell.near_in_cell(point - rows_.cone.apex);
     M touched = cell.is_common(v);
     for (int again = 0; again < 3 && !AllTrue(D(), Or(touched, Not(wanted))); ++again) {
       v = cell.closer_to_volume(v);
@@ -126,7 +126,7 @@ class Ends {
   const SpotsInSlices& spots_;
   const SpotsInRows& rows_;
   const RowExtremes& found_;
-  M exist_, is_first_column_, is_last_column_, is_aside_;
+  M exist_, is_first_column_, is_last_column_, is_beside_view_;
   VI first_, last_;
 };
 
@@ -160,7 +160,7 @@ void rows_of(const SpotsAndPlanes& from, const RowPlanes& planes, const PlaneTab
     const M plain = are_plain(from, spots.light);
     const M none_before = And(plain, ends.none_before()), none_behind = And(plain, ends.none_behind());
     // No row, or proven to be beside all of the picture.
-    const M is_out = Or(RebindMask(d, row < Zero(di)), And(ends.is_aside(), And(none_before, none_behind)));
+    const M is_out = Or(RebindMask(d, row < Zero(di)), And(ends.is_beside_view(), And(none_before, none_behind)));
     const auto bit = [&](M where, std::uint8_t value) { return IfThenElseZero(RebindMask(du, where), Set(du, value)); };
     const VU known = Or(Or(bit(none_before, SpotRows::k_none_before), bit(none_behind, SpotRows::k_none_behind)),
                         Or(bit(And(plain, ends.first_is_touched()), SpotRows::k_first_is_touched),
@@ -204,8 +204,7 @@ void SpotSlices::make_room() {
   const std::size_t size = 2 * spot.size() + 4 * k_most_lanes;
   check_pair_count(size);
   check_memory("spots in slices", size, 2 * sizeof(std::uint32_t));
-  spot.resize(size);
-  slice.resize(size);
+  grow_to(size, spot, slice);
 }
 
 void SpotRows::add(const SpotCell& columns, std::uint8_t what_is_known) {
@@ -222,19 +221,16 @@ void SpotRows::add(const SpotCell& columns, std::uint8_t what_is_known) {
 void SpotRows::make_room(std::size_t rows) {
   const std::size_t listed = rows + 2 * k_most_lanes, all = count + listed;
   check_pair_count(all);
-  for (std::vector<std::int32_t>* list : {&listed_slice, &listed_row})
-    if (list->size() < listed) list->resize(listed);
+  grow_to(listed, listed_slice, listed_row);
   if (known.size() >= all) return;
   const std::size_t size = std::max(all, 2 * known.size());
   check_memory("rows of spots", size, 5 * sizeof(std::uint32_t) + sizeof(std::uint8_t));
-  for (std::vector<std::uint32_t>* list : {&spot, &slice, &row}) list->resize(size);
-  for (std::vector<std::int32_t>* list : {&first, &last}) list->resize(size);
-  known.resize(size);
+  grow_to(size, spot, slice, row, first, last, known);
 }
 
 void find_spot_rows(const SpotsAndPlanes& from, const RowPlanes& planes, SpotSlices& slices, SpotRows& out) {
   out.count = 0;
-  // What a whole vector reads beyond the end must be places that exist.
+  // What a whole vector reads beyond the end must be indices that exist.
   if (slices.count + k_most_lanes > slices.spot.size()) slices.make_room();
   for (std::vector<std::uint32_t>* list : {&slices.spot, &slices.slice})
     std::fill_n(list->begin() + slices.count, k_most_lanes, 0);

@@ -3,7 +3,7 @@
 // once.
 //
 // What a spot has in a slice is convex, and so is what it has in a row (between two tile planes and two slice planes).
-// So its extreme slopes y / depth and x / depth are at places that can be listed: the apex, where the sphere, the rim
+// So its extreme slopes y / depth and x / depth are at points that can be listed: the apex, where the sphere, the rim
 // and the cone's side lean most, and where these meet the planes. That is a guess in single precision, and may be
 // wrong. It counts where there is evidence larger than its own error (spot_cells-inl.h): a common point for the cell
 // at an end, and a plane between the spot and all that is beyond it.
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "assign/cone/spot_cells.h"
+#include "core/arrays.h"
 
 namespace clusterbench::assign {
 
@@ -27,7 +28,7 @@ struct SpotSlices {
     slice[count++] = of_slice;
   }
   void make_room();
-  std::size_t capacity_bytes() const { return 2 * spot.capacity() * sizeof(std::uint32_t); }
+  std::size_t capacity_bytes() const { return bytes_of(spot, slice); }
 };
 
 // The rows that spots in slices can touch, in the order of these and from the top: no other row is touched. Of each the
@@ -41,13 +42,13 @@ struct SpotRows {
   static constexpr std::uint8_t k_none_before = 1, k_none_behind = 2, k_first_is_touched = 4, k_last_is_touched = 8;
   static constexpr std::uint8_t k_all = 15;
 
-  // The rows of some spots in slices, one after the other: the place of their slice among these, the row's number.
+  // The rows of some spots in slices, one after the other: the index of their slice among these, the row's number.
   std::vector<std::int32_t> listed_slice, listed_row;
 
   void add(const SpotCell& columns, std::uint8_t what_is_known);
   void make_room(std::size_t rows);
   std::size_t capacity_bytes() const {
-    return known.capacity() + (5 * spot.capacity() + 2 * listed_row.capacity()) * sizeof(std::uint32_t);
+    return bytes_of(spot, slice, row, first, last, known, listed_slice, listed_row);
   }
 };
 

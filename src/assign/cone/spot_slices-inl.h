@@ -1,4 +1,4 @@
-// What is found once for all rows of spots in slices: the rows, proven, and the places that can lean most between tile
+// What is found once for all rows of spots in slices: the rows, proven, and the points that can lean most between tile
 // planes. For files that are compiled once per target; included after hwy/highway.h; defines its names anew for each
 // target.
 
@@ -17,17 +17,17 @@ HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
 
-// Outwards, of a plane that touches spots in a place of their surface; any length. In places of the rim one that holds
+// Outwards, of a plane that touches spots in a point of their surface; any length. In points of the rim one that holds
 // the direction of an edge, between the sphere's tangent plane and that of the cone's side. At the apex, and where both
 // of these hold the edge, one that is given.
-HWY_INLINE Point touching_plane(const SpotShapes& spots, const Point& place, const Point& edge, const Point& given) {
+HWY_INLINE Point touching_plane(const SpotShapes& spots, const Point& point, const Point& edge, const Point& given) {
   const Cone& cone = spots.cone;
-  const Point v = place - cone.apex;
+  const Point v = point - cone.apex;
   const V square = dot(v, v), range_square = square_of(cone.range), along = dot(v, cone.axis);
   const Point part = v - along * cone.axis;
   const V across = length(part);
   const Point side = cone.cosine * part - (cone.sine * across) * cone.axis;
-  const V off = Max(spots.slack, all(0x1p-12f) * cone.range);  // what a place can be off by
+  const V off = Max(spots.slack, all(0x1p-12f) * cone.range);  // what a point can be off by
   const M on_sphere = square >= square_of(cone.range - off);
   const V inwards = cone.sine * along - cone.cosine * across;
   const M on_rim = And(on_sphere, inwards <= off);
@@ -81,10 +81,10 @@ class Reached {
     const V top = all(planes_.slope.front()), bottom = all(planes_.slope[static_cast<std::size_t>(planes_.rows)]);
     const V high = found.high.across + spots_.slack / found.high.depth;
     const V low = found.low.across - spots_.slack / found.low.depth;
-    const V scale = all(planes_.rows_per_slope), margin = all(planes_.row_margin), zero = Zero(D());
+    const V scale = all(planes_.rows_per_slope), tolerance = all(planes_.row_tolerance), zero = Zero(D());
     const VI none = Zero(DI()), rows = all_int(planes_.rows), one = all_int(1), last_row = rows - one;
-    const V from = (top - Min(high, top)) * scale - margin;
-    const V to = (top - Max(low, bottom)) * scale + margin;
+    const V from = (top - Min(high, top)) * scale - tolerance;
+    const V to = (top - Max(low, bottom)) * scale + tolerance;
     const MI is_below = RebindMask(DI(), high < bottom), is_above = RebindMask(DI(), low > top);
     VI first = IfThenElse(is_below, rows, Min(whole(Floor(Max(from, zero))), last_row));
     VI end = IfThenElse(is_above, none, Min(whole(Floor(Max(to, zero))) + one, rows));
@@ -100,14 +100,14 @@ class Reached {
  private:
   struct Ups {
     Extremes& found;
-    HWY_INLINE void low(M where, const Place& p) { found.take_low(where, p); }
-    HWY_INLINE void high(M where, const Place& p) { found.take_high(where, p); }
-    HWY_INLINE void both(M where, const Place& p) { found.take(where, p); }
+    HWY_INLINE void low(M where, const ProjectedPoint& p) { found.take_low(where, p); }
+    HWY_INLINE void high(M where, const ProjectedPoint& p) { found.take_high(where, p); }
+    HWY_INLINE void both(M where, const ProjectedPoint& p) { found.take(where, p); }
   };
 
-  HWY_INLINE M is_apart(const Place& place, V boundary, V side) const {
+  HWY_INLINE M is_apart(const ProjectedPoint& extreme, V boundary, V side) const {
     const V zero = Zero(D()), one = all(1.0f);
-    Point normal = touching_plane(spots_, place.point(), {zero, one, zero}, {side, zero, Neg(side * place.across)});
+    Point normal = touching_plane(spots_, extreme.point(), {zero, one, zero}, {side, zero, Neg(side * extreme.across)});
     normal.y = zero;  // rows are endless to both sides
     const V tolerance = tolerance_of(light_, between_.far, Abs(boundary), zero);
     return Beyond{boundary, side, zero, zero, between_}.is_apart(spots_.cone, normal, tolerance);
@@ -142,7 +142,7 @@ class Slices {
     const float highest =
         std::max(std::abs(planes.slope.front()), std::abs(planes.slope[static_cast<std::size_t>(planes.rows)]));
     for (std::uint32_t i = begin; i < end; i += n) {
-      const VI spot = places(slices.spot, i), slice = places(slices.slice, i);
+      const VI spot = loaded_indices(slices.spot, i), slice = loaded_indices(slices.slice, i);
       const GivenSpots given(*from.lights, spot);
       const SlicePlanes between = {gathered(planes.depth, slice), gathered(planes.depth.data() + 1, slice),
                                    gathered(planes.inverse_depth, slice),
@@ -198,20 +198,20 @@ class Slices {
     HWY_INLINE VI spot() const { return taken(LoadU(DI(), slices.spot_ + first), which); }
     HWY_INLINE VI slice() const { return taken(LoadU(DI(), slices.slice_ + first), which); }
 
-    // Of the places that can lean most, those between two tile planes, by and large.
+    // Of the points that can lean most, those between two tile planes, by and large.
     HWY_INLINE Extremes between(V bottom, V top, V room) const {
       Extremes found;
       const V low = bottom - room, high = top + room;
       int field = SpotsInSlices::k_vectors;
       const auto each = [&](int count, auto&& take) {
         for (int i = 0; i < count; ++i, field += 3) {
-          const Place p = {(*this)(field), (*this)(field + 1), (*this)(field + 2)};
+          const ProjectedPoint p = {(*this)(field), (*this)(field + 1), (*this)(field + 2)};
           take(is_between(low, p.up, high), p);
         }
       };
-      each(k_slots_in_slice.low, [&](M where, const Place& p) { found.take_low(where, p); });
-      each(k_slots_in_slice.high, [&](M where, const Place& p) { found.take_high(where, p); });
-      each(k_slots_in_slice.both, [&](M where, const Place& p) { found.take(where, p); });
+      each(k_slots_in_slice.low, [&](M where, const ProjectedPoint& p) { found.take_low(where, p); });
+      each(k_slots_in_slice.high, [&](M where, const ProjectedPoint& p) { found.take_high(where, p); });
+      each(k_slots_in_slice.both, [&](M where, const ProjectedPoint& p) { found.take(where, p); });
       return found;
     }
   };
@@ -237,10 +237,10 @@ class Slices {
     int next_low = SpotsInSlices::k_vectors, next_high = next_low + 3 * k_slots_in_slice.low,
         next_both = next_high + 3 * k_slots_in_slice.high;
 
-    HWY_INLINE void low(M where, const Place& p) { put(next_low, where, p); }
-    HWY_INLINE void high(M where, const Place& p) { put(next_high, where, p); }
-    HWY_INLINE void both(M where, const Place& p) { put(next_both, where, p); }
-    HWY_INLINE void put(int& next, M where, const Place& p) {
+    HWY_INLINE void low(M where, const ProjectedPoint& p) { put(next_low, where, p); }
+    HWY_INLINE void high(M where, const ProjectedPoint& p) { put(next_high, where, p); }
+    HWY_INLINE void both(M where, const ProjectedPoint& p) { put(next_both, where, p); }
+    HWY_INLINE void put(int& next, M where, const ProjectedPoint& p) {
       writer.put_at(next++, p.across);
       writer.put_at(next++, IfThenElse(where, p.up, all(std::numeric_limits<float>::quiet_NaN())));
       writer.put_at(next++, p.depth);

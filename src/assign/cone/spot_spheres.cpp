@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "assign/rows/slice_rows.h"
+#include "assign/simd/lanes.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/cone/spot_spheres.cpp"
@@ -38,17 +38,17 @@ HWY_INLINE Spheres around(const Spheres& range, const Cones& cone) {
           IfThenElse(is_endless, range.z, ball.z), IfThenElse(is_endless, range.radius, ball.radius)};
 }
 
-void spot_balls(const view::LightArrays& lights, float roundings, bool around_cones, BallArrays& balls) {
+void spot_balls(const view::LightArrays& lights, float roundoffs, bool around_cones, BallArrays& balls) {
   const D d;
   const auto n = static_cast<std::uint32_t>(Lanes(d));
-  for (std::uint32_t i = 0; i < lights.spots; i += n) {
-    const std::uint32_t left = std::min(n, lights.spots - i);
+  for (std::uint32_t i = 0; i < lights.spots.count; i += n) {
+    const std::uint32_t left = std::min(n, lights.spots.count - i);
     const auto load = [&](const float* from) { return loaded(from + i, left); };
-    const auto of_light = [&](const std::vector<float>& list) { return load(list.data() + lights.points); };
+    const auto of_light = [&](const std::vector<float>& list) { return load(list.data() + lights.spots.first); };
     const auto of_spot = [&](const std::vector<float>& list) { return load(list.data()); };
     const V given = of_light(lights.radius);
     Spheres ball{of_light(lights.x), of_light(lights.y), of_light(lights.z),
-                 padded(given, of_light(lights.reach), roundings)};
+                 padded(given, of_light(lights.reach), roundoffs)};
     if (around_cones)
       ball = around(ball, {of_spot(lights.axis_x), of_spot(lights.axis_y), of_spot(lights.axis_z),
                            of_spot(lights.cos_angle), of_spot(lights.sin_angle)});
@@ -74,9 +74,9 @@ void BallArrays::resize(std::size_t size) {
   for (std::vector<float>* list : {&x, &y, &z, &radius}) list->resize(size + k_most_lanes);
 }
 
-void find_spot_balls(const view::LightArrays& lights, float roundings, bool around_cones, BallArrays& balls) {
-  balls.resize(lights.spots);
-  HWY_DYNAMIC_DISPATCH(spot_balls)(lights, roundings, around_cones, balls);
+void find_spot_balls(const view::LightArrays& lights, float roundoffs, bool around_cones, BallArrays& balls) {
+  balls.resize(lights.spots.count);
+  HWY_DYNAMIC_DISPATCH(spot_balls)(lights, roundoffs, around_cones, balls);
 }
 
 }  // namespace clusterbench::assign

@@ -56,7 +56,7 @@ struct LightKinds {
   bool spots = true;
 };
 inline LightKinds kinds_of(const view::LightArrays& lights) {
-  return {lights.spots > 0};
+  return {!lights.spots.empty()};
 }
 
 // What a method gets of one frame.
@@ -144,6 +144,16 @@ struct AssignerDescriptor {
   bool takes(grid::Kind kind) const;
   bool answers(Answer answer) const;
 };
+
+// For descriptors: what makes a method of its parameters.
+template <class Method>
+std::unique_ptr<ListAssigner> make_list_assigner(const Params& params) {
+  return std::make_unique<Method>(params);
+}
+template <class Method>
+std::unique_ptr<StructureAssigner> make_structure_assigner(const Params& params) {
+  return std::make_unique<Method>(params);
+}
 
 // As the descriptor says, and with no parameter that takes it away.
 bool is_conservative(const AssignerDescriptor& descriptor, const Params& params);

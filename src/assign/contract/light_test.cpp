@@ -30,12 +30,12 @@ std::vector<ParamSpec> light_params() {
 }
 
 void check_prepared(const view::LightArrays& lights, const std::vector<geom::Ball>& cell_balls) {
-  if (lights.spots > 0 && cell_balls.empty())
+  if (!lights.spots.empty() && cell_balls.empty())
     throw Error("", "lights", "have spots, which the build was not told of", ExitCode::internal);
 }
 
-LightTest::LightTest(const Params& params, float roundings)
-    : spot_(SpotTest::both), inflation_(static_cast<float>(params.number("inflation"))), roundings_(roundings) {
+LightTest::LightTest(const Params& params, float roundoffs)
+    : spot_(SpotTest::both), inflation_(static_cast<float>(params.number("inflation"))), roundings_(roundoffs) {
   const std::string& name = params.text("spot");
   if (name == "ball") spot_ = SpotTest::ball;
   if (name == "cone-sphere") spot_ = SpotTest::cone_sphere;
@@ -50,10 +50,10 @@ void LightTest::start_frame(const view::LightArrays& lights) const {
   if (tests_cones()) check_prepared(lights, cell_balls_);
 }
 
-geom::Ball LightTest::ball(const view::LightArrays& lights, std::uint32_t light, float roundings) const {
-  const float all = padding(roundings);
-  if (!lights.is_spot(light) || spot_ == SpotTest::cone_sphere) return lights.ball(light, all);
-  return geom::bounding_ball(lights.cone(light, all));
+geom::Ball LightTest::ball(const view::LightArrays& lights, std::uint32_t light, float roundoffs) const {
+  const float all = padding(roundoffs);
+  if (!lights.is_spot(light) || !balls_are_around_cones()) return lights.ball(light, all);
+  return lights.bounding_ball(light, all);
 }
 
 TestedLight LightTest::tested(const view::LightArrays& lights, std::uint32_t light) const {

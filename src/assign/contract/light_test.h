@@ -3,11 +3,12 @@
 // padded by what the method's own single-precision steps can lose, and by no more.
 //
 // A rounding is 2^-24 of the light's reach, |x| + |y| + |z| + r in its space. A method derives how many of them its
-// steps can add up to, in the comment above its row; view::k_given_roundings come on top.
+// steps can add up to, in the comment above its row; view::k_given_roundoffs come on top.
 
 #include <vector>
 
 #include "assign/contract/assigner.h"
+#include "core/arrays.h"
 #include "geom/predicates.h"
 
 namespace clusterbench::assign {
@@ -32,8 +33,8 @@ struct TestedLight {
 // The tests of one assigner.
 class LightTest {
  public:
-  // `roundings`: what the method's own steps lose.
-  LightTest(const Params& params, float roundings);
+  // `roundoffs`: what the method's own steps lose.
+  LightTest(const Params& params, float roundoffs);
 
   // Makes the cells' bounding balls where there are spots that are tested with them.
   void start_grid(const grid::Grid& grid, const LightKinds& kinds);
@@ -42,16 +43,16 @@ class LightTest {
 
   // Not for lights that are empty.
   TestedLight tested(const view::LightArrays& lights, std::uint32_t light) const;
-  // The same ball as a method with no more than these roundings of its own would have it: for steps before the method's
+  // The same ball as a method with no more than these roundoffs of its own would have it: for steps before the method's
   // test that lose less.
-  geom::Ball ball(const view::LightArrays& lights, std::uint32_t light, float roundings) const;
+  geom::Ball ball(const view::LightArrays& lights, std::uint32_t light, float roundoffs) const;
   // The cone that the cells' balls are tested with, of a spot.
   geom::SphericalCone cone(const view::LightArrays& lights, std::uint32_t light) const {
     // What the cone's tests lose, they add themselves.
     return lights.cone(light, padding(0.0f));
   }
-  // Roundings that a method with no more than these of its own pads by.
-  float padding(float roundings) const { return inflation_ * (view::k_given_roundings + roundings); }
+  // Roundoffs that a method with no more than these of its own pads by.
+  float padding(float roundoffs) const { return inflation_ * (view::k_given_roundoffs + roundoffs); }
   float own_padding() const { return padding(roundings_); }
   // Whether a spot's ball is the one around its cone, not that of its range.
   bool balls_are_around_cones() const { return spot_ != SpotTest::cone_sphere; }
@@ -66,7 +67,7 @@ class LightTest {
   void add_row(const TestedLight& light, std::uint32_t first_cell, std::uint32_t count, PairBuffer& pairs,
                std::uint64_t& tests) const;
 
-  std::size_t capacity_bytes() const { return cell_balls_.capacity() * sizeof(geom::Ball); }
+  std::size_t capacity_bytes() const { return bytes_of(cell_balls_); }
 
  private:
   enum class SpotTest { ball, cone_sphere, both };

@@ -25,20 +25,20 @@ std::uint32_t Lists::fullest_cell() const {
   return fullest;
 }
 
-std::string lists_fault(const Lists& lists, std::uint32_t cell_count, std::uint32_t points, std::uint32_t spots) {
+std::string lists_fault(const Lists& lists, std::uint32_t cell_count, const view::LightRanges& ranges) {
   if (lists.begin.size() != cell_count + std::size_t{1}) return "not one list per cell";
   if (lists.begin.front() != 0 || lists.begin.back() != lists.lights.size()) return "lists do not cover the indices";
-  std::vector<std::uint32_t> listed_in(points + std::size_t{spots}, cell_count);
+  std::vector<std::uint32_t> listed_in(ranges.size(), cell_count);
   for (std::uint32_t cell = 0; cell < cell_count; ++cell) {
-    const std::string place = " (cell " + std::to_string(cell) + ")";
-    if (lists.begin[cell] > lists.begin[cell + 1]) return "a list of negative length" + place;
+    const std::string where = " (cell " + std::to_string(cell) + ")";
+    if (lists.begin[cell] > lists.begin[cell + 1]) return "a list of negative length" + where;
     bool has_spots = false;
     for (const std::uint32_t light : lists.of(cell)) {
-      if (light >= listed_in.size()) return "a light that does not exist" + place;
-      if (listed_in[light] == cell) return "lights not each once" + place;
+      if (light >= listed_in.size()) return "a light that does not exist" + where;
+      if (listed_in[light] == cell) return "lights not each once" + where;
       listed_in[light] = cell;
-      if (light < points && has_spots) return "a point light behind spots" + place;
-      has_spots = light >= points;
+      if (!ranges.is_spot(light) && has_spots) return "a point light behind spots" + where;
+      has_spots = ranges.is_spot(light);
     }
   }
   return "";

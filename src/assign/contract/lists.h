@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "view/frame.h"
+
 namespace clusterbench::assign {
 
 // The lights of cell c are lights[begin[c]] .. lights[begin[c + 1] - 1]: points before spots, each once, in any order
@@ -25,7 +27,7 @@ struct Lists {
 };
 
 // What keeps these from being lists of so many cells and lights, as a sentence; "" if nothing does.
-std::string lists_fault(const Lists& lists, std::uint32_t cell_count, std::uint32_t points, std::uint32_t spots);
+std::string lists_fault(const Lists& lists, std::uint32_t cell_count, const view::LightRanges& ranges);
 
 // Whether every list ascends, as merges and binary searches want it; and makes it so.
 bool are_ascending(const Lists& lists);

@@ -5,9 +5,9 @@ namespace clusterbench::assign {
 // One per file in storages/.
 extern const StorageDescriptor packed_descriptor, fixed_descriptor, bitfield_descriptor, linked_descriptor;
 
-void Storage::start(const grid::Grid& grid, std::uint32_t points, std::uint32_t spots) {
+void Storage::start(const grid::Grid& grid, const view::LightRanges& lights) {
   grid_ = &grid;
-  start(grid.cell_count(), points, spots);
+  start(grid.cell_count(), lights);
 }
 
 void Storage::lights_at(const grid::Sample& sample, grid::Log2 way, std::vector<std::uint32_t>& out) const {

@@ -15,9 +15,9 @@ namespace clusterbench::assign {
 class Storage : public LightStructure {
  public:
   // For frames of this grid, which outlives the storage's use. The lookup of a sample goes through it.
-  void start(const grid::Grid& grid, std::uint32_t points, std::uint32_t spots);
+  void start(const grid::Grid& grid, const view::LightRanges& lights);
   // Without a lookup.
-  virtual void start(std::uint32_t cell_count, std::uint32_t points, std::uint32_t spots) = 0;
+  virtual void start(std::uint32_t cell_count, const view::LightRanges& lights) = 0;
   // Converts one frame's lists; no allocation in a steady state. Timed as the conversion.
   virtual void store(const Lists& lists) = 0;
   // Appends what a shader would read of a cell: its list, less what was dropped.
@@ -39,6 +39,12 @@ struct StorageDescriptor {
   std::vector<ParamSpec> params;
   std::unique_ptr<Storage> (*make)(const Params& params);
 };
+
+// For descriptors: what makes a storage of its parameters.
+template <class Kept>
+std::unique_ptr<Storage> make_storage(const Params& params) {
+  return std::make_unique<Kept>(params);
+}
 
 std::span<const StorageDescriptor* const> storage_descriptors();
 const StorageDescriptor* find_storage(const std::string& name);

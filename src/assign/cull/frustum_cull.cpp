@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/cull/frustum_cull.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
 #include <hwy/highway.h>
 
-#include "assign/simd/compress-inl.h"
 #include "assign/simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -29,7 +27,7 @@ class View {
         near_(planes.depth.front()),
         far_(planes.depth.back()) {}
 
-  // How far a place is outside, at least.
+  // How far a point is outside, at least.
   HWY_INLINE V gap(V x, V y, V depth) const {
     const V across = Max(Neg(beyond(left_, x, depth)), beyond(right_, x, depth));
     const V up = Max(beyond(top_, y, depth), Neg(beyond(bottom_, y, depth)));
@@ -42,9 +40,9 @@ class View {
     float slope, length;
   };
   static Side side(float slope) { return {slope, 1.0f / std::sqrt(1.0f + slope * slope)}; }
-  HWY_INLINE V beyond(const Side& side, V place, V depth) const {
-    if (orthographic_) return place - all(side.slope);
-    return (place - all(side.slope) * depth) * all(side.length);
+  HWY_INLINE V beyond(const Side& side, V coordinate, V depth) const {
+    if (orthographic_) return coordinate - all(side.slope);
+    return (coordinate - all(side.slope) * depth) * all(side.length);
   }
 
   bool orthographic_;
@@ -94,36 +92,31 @@ class SliceSearch {
   std::int32_t last_;
 };
 
-void see(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, VisibleBalls& visible,
-         float roundings) {
+void cull(const RowPlanes& planes, const GivenBalls& balls, VisibleBalls& visible, float roundoffs) {
   const D d;
   const DI di;
-  const hn::RebindToUnsigned<D> du;
   const auto n = static_cast<std::uint32_t>(Lanes(d));
   const View view(planes);
   const std::uint32_t before = visible.count;
-  for (std::uint32_t i = 0; i < balls.count; i += n) {
-    const std::uint32_t left = std::min(n, balls.count - i);
+  for (std::uint32_t i = 0; i < balls.lights.count; i += n) {
+    const std::uint32_t left = std::min(n, balls.lights.count - i);
     const auto load = [&](const float* from) { return loaded(from + i, left); };
     const V x = load(balls.x), y = load(balls.y), depth = Neg(load(balls.z)), given = load(balls.radius);
-    const V reach = load(balls.reach), slack = reach * all(roundings * 0x1p-24f);
+    const V reach = load(balls.reach), slack = reach * all(roundoffs * 0x1p-24f);
     const V radius = given + slack;
     const M reaches = And(view.gap(x, y, depth) <= radius, given > Zero(d));
     const M wanted = And(reaches, FirstN(d, left));
     const std::size_t kept = CountTrue(d, wanted);
     if (kept == 0) continue;
-    const auto keep = [&](V value, AlignedVector<float>& to) {
-      StoreU(compressed(d, value, wanted), d, to.data() + visible.count);
-    };
-    keep(x, visible.x);
-    keep(y, visible.y);
-    keep(depth, visible.depth);
+    const Appender append(wanted, visible.count);
+    append(x, visible.x);
+    append(y, visible.y);
+    append(depth, visible.depth);
     // Powers of a reach must be normal numbers; elsewhere the whole grid is left to be decided.
     const M is_plain = is_between(all(planes.least_reach), reach, all(k_most_row_reach));
-    keep(IfThenElse(is_plain, radius, infinity()), visible.radius);
-    keep(slack, visible.slack);
-    const auto lights = BitCast(du, from_on(static_cast<std::int32_t>(first_light + i)));
-    StoreU(compressed(du, lights, RebindMask(du, wanted)), du, visible.light.data() + visible.count);
+    append(IfThenElse(is_plain, radius, infinity()), visible.radius);
+    append(slack, visible.slack);
+    append(BitCast(DU(), from_on(static_cast<std::int32_t>(balls.lights.first + i))), visible.light);
     visible.count += static_cast<std::uint32_t>(kept);
   }
   const SliceSearch search(planes);
@@ -144,24 +137,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace clusterbench::assign {
 
-HWY_EXPORT(see);
+HWY_EXPORT(cull);
 
-void VisibleBalls::reserve(std::uint32_t most) {
-  const std::size_t size = most + k_most_lanes;
-  for (AlignedVector<float>* list : {&x, &y, &depth, &radius, &slack})
-    if (list->size() < size) list->resize(size);
-  for (AlignedVector<std::int32_t>* list : {&first_slice, &last_slice})
-    if (list->size() < size) list->resize(size);
-  if (light.size() < size) light.resize(size);
-}
-
-std::size_t VisibleBalls::capacity_bytes() const {
-  return 8 * light.capacity() * sizeof(float);
-}
-
-void see_balls(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, VisibleBalls& visible,
-               float roundings) {
-  HWY_DYNAMIC_DISPATCH(see)(planes, balls, first_light, visible, roundings);
+void cull_balls(const RowPlanes& planes, const GivenBalls& balls, VisibleBalls& visible, float roundoffs) {
+  HWY_DYNAMIC_DISPATCH(cull)(planes, balls, visible, roundoffs);
 }
 
 }  // namespace clusterbench::assign

@@ -3,15 +3,17 @@
 
 #include <cstdint>
 
-#include "assign/rows/row_planes.h"
+#include "assign/cull/row_planes.h"
+#include "assign/simd/lanes.h"
 #include "core/aligned_vector.h"
+#include "core/arrays.h"
 
 namespace clusterbench::assign {
 
-// Balls as they are given: count places of each.
+// The balls of lights of one type, side by side.
 struct GivenBalls {
   const float *x, *y, *z, *radius, *reach;
-  std::uint32_t count;
+  view::LightRange lights;
 };
 
 // Balls that may touch cells, ascending by light. All arrays have room for whole vectors beyond `count`.
@@ -23,21 +25,23 @@ struct VisibleBalls {
   AlignedVector<std::uint32_t> light;
   AlignedVector<std::int32_t> first_slice, last_slice;
 
-  void reserve(std::uint32_t most);
-  std::size_t capacity_bytes() const;
+  void reserve(std::uint32_t most) {
+    grow_to(most + k_most_lanes, x, y, depth, radius, slack, light, first_slice, last_slice);
+  }
+  std::size_t capacity_bytes() const { return bytes_of(x, y, depth, radius, slack, light, first_slice, last_slice); }
 };
 
 // Units of 2^-24 of a light's reach by which a ball is made larger: more than rounding loses here (a centre 1,
 // distances to planes 3) and in the rows (see Certainty in slice_rows.cpp). A larger slack costs decisions only.
-inline constexpr float k_slice_rows_roundings = 28.0f;
+inline constexpr float k_slice_rows_roundoffs = 28.0f;
 
 // Beyond this reach, or below RowPlanes::least_reach, powers of it may overflow or vanish: such balls are taken to be
 // everywhere, of infinite radius around the eye, and their rows are decided.
 inline constexpr float k_most_row_reach = 1e9f;
 
-// Appends the balls that may reach into the grid; the first one's light is `first_light`. Those left out touch no cell,
-// even if they are larger by these roundings.
-void see_balls(const RowPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, VisibleBalls& visible,
-               float roundings = k_slice_rows_roundings);
+// Appends the balls that may reach into the grid. Those left out touch no cell, even if they are larger by these
+// roundoffs.
+void cull_balls(const RowPlanes& planes, const GivenBalls& balls, VisibleBalls& visible,
+                float roundoffs = k_slice_rows_roundoffs);
 
 }  // namespace clusterbench::assign

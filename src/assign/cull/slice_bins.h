@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "assign/contract/lists.h"
-#include "assign/rows/slice_rows.h"
+#include "assign/simd/lanes.h"
+#include "core/aligned_vector.h"
 #include "core/memory.h"
 
 namespace clusterbench::assign {
@@ -39,7 +40,7 @@ class SliceBins {
 
   // How many there are in all slices.
   std::uint32_t count() const { return begin_.back(); }
-  // Places in the balls as they were sorted; a whole vector can be read from each of them.
+  // Indices of the balls as they were sorted; a whole vector can be read from each of them.
   std::span<const std::uint32_t> of(int slice) const {
     return {balls_.data() + begin_[at(slice)], begin_[at(slice) + 1] - begin_[at(slice)]};
   }

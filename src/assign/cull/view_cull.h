@@ -20,7 +20,7 @@ class ViewCull {
         top_(side(grid.tiles.y.front(), grid.tiles.orthographic)),
         bottom_(side(grid.tiles.y.back(), grid.tiles.orthographic)),
         // A direction leans away from the view axis: no shell is deeper than it is distant.
-        near_(grid.kind == grid::Kind::distance ? 0.0 : static_cast<double>(grid.slices.boundaries.front())),
+        near_(grid.by_distance ? 0.0 : static_cast<double>(grid.slices.boundaries.front())),
         far_(grid.slices.boundaries.back()) {}
 
   // Whether the ball touches no cell even if it is larger by what a method's own steps may lose in single precision, so
@@ -28,20 +28,20 @@ class ViewCull {
   bool misses(const geom::Ball& ball) const {
     const double x = ball.center.x, y = ball.center.y, depth = -ball.center.z, r = ball.radius;
     const double size = std::fabs(x) + std::fabs(y) + std::fabs(depth) + r;
-    const double reach = r + k_roundings * 0x1p-24 * size + k_smallest;
+    const double reach = r + k_roundoffs * 0x1p-24 * size + k_smallest;
     return left_.beyond(x, depth) < -reach || right_.beyond(x, depth) > reach || top_.beyond(y, depth) > reach ||
            bottom_.beyond(y, depth) < -reach || near_ - depth > reach || depth - far_ > reach;
   }
 
  private:
-  static constexpr double k_roundings = 64.0;  // distance loses most: some 20
+  static constexpr double k_roundoffs = 64.0;  // distance loses most: some 20
   static constexpr double k_smallest = std::numeric_limits<float>::min();
 
   // A plane through the eye or along the view axis; positive to the right or above.
   struct Side {
     double across = 0.0, along = 0.0, offset = 0.0;
 
-    double beyond(double place, double depth) const { return across * place + along * depth + offset; }
+    double beyond(double coordinate, double depth) const { return across * coordinate + along * depth + offset; }
   };
   static Side side(double boundary, bool orthographic) {
     if (orthographic) return {1.0, 0.0, -boundary};

@@ -7,7 +7,7 @@
 #include <hwy/foreach_target.h>  // compiles this file once per target
 #include <hwy/highway.h>
 
-#include "assign/exact/ball_pieces-inl.h"
+#include "assign/exact/ball_runs-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign {
@@ -19,13 +19,13 @@ void look(const view::LightArrays& lights, const RowPlanes& planes, BallCells& c
   for (std::size_t first = 0; first < cells.count; first += lanes) {
     const auto load = [&](const std::vector<std::int32_t>& from) { return LoadU(DH(), from.data() + first); };
     const VH column = load(cells.column);
-    const BallPieces balls(lights, planes,
-                           {load(cells.light), load(cells.slice), load(cells.row), column, column + Set(DH(), 1)});
-    const BallPieces::Nearest nearest = balls.nearest();
+    const BallRuns balls(lights, planes,
+                         {load(cells.light), load(cells.slice), load(cells.row), column, column + Set(DH(), 1)});
+    const BallRuns::Nearest nearest = balls.nearest();
     const VD error = enlarged(nearest.excess.error);
     const MD touches = nearest.excess.value <= Neg(error);
     VD undershoot = Zero(DD());
-    if (!AllTrue(DD(), touches)) undershoot = BallPieces::undershoot(balls.steepness(nearest));
+    if (!AllTrue(DD(), touches)) undershoot = BallRuns::undershoot(balls.steepness(nearest));
     const MD misses = nearest.excess.value - undershoot > error;
     std::uint8_t yes[8] = {}, no[8] = {};
     StoreMaskBits(DD(), touches, yes);
@@ -33,7 +33,7 @@ void look(const view::LightArrays& lights, const RowPlanes& planes, BallCells& c
     for (std::size_t lane = 0; lane < lanes; ++lane)
       cells.touch[first + lane] = (yes[0] >> lane & 1) != 0  ? Touch::yes
                                   : (no[0] >> lane & 1) != 0 ? Touch::no
-                                                             : Touch::open;
+                                                             : Touch::uncertain;
   }
 }
 
@@ -48,15 +48,12 @@ namespace clusterbench::assign {
 HWY_EXPORT(look);
 
 void BallCells::reserve(std::size_t most) {
-  const std::size_t size = most + k_most_lanes;
-  if (touch.size() >= size) return;
-  for (std::vector<std::int32_t>* list : {&light, &slice, &row, &column}) list->resize(size);
-  touch.resize(size);
+  grow_to(most + k_most_lanes, light, slice, row, column, touch);
 }
 
 void look_at_balls(const view::LightArrays& lights, const RowPlanes& planes, BallCells& cells) {
   if (cells.count == 0) return;
-  // What a whole vector reads beyond the end must be places that exist.
+  // What a whole vector reads beyond the end must be indices that exist.
   for (std::vector<std::int32_t>* list : {&cells.light, &cells.slice, &cells.row, &cells.column})
     std::fill_n(list->begin() + cells.count, k_most_lanes, 0);
   HWY_DYNAMIC_DISPATCH(look)(lights, planes, cells);

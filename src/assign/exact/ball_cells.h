@@ -1,12 +1,14 @@
 #pragma once
 // Do point lights touch single cells of a frustum grid? Many pairs at once, in doubles with a bound of their error, as
-// geom::BallDecider does before it turns to exact numbers (its answers are the same; which pairs are left open is not).
+// geom::BallDecider does before it turns to exact numbers (its answers are the same; which pairs are left uncertain is
+// not).
 
 #include <cstdint>
 #include <vector>
 
 #include "assign/cone/spot_cells.h"
-#include "assign/rows/row_planes.h"
+#include "assign/cull/row_planes.h"
+#include "core/arrays.h"
 #include "view/frame.h"
 
 namespace clusterbench::assign {
@@ -25,7 +27,7 @@ struct BallCells {
     row[count] = in_row;
     column[count++] = in_column;
   }
-  std::size_t capacity_bytes() const { return touch.capacity() * (4 * sizeof(std::int32_t) + sizeof(Touch)); }
+  std::size_t capacity_bytes() const { return bytes_of(light, slice, row, column, touch); }
 };
 
 // `planes`: those of the grid in whose space the lights are.

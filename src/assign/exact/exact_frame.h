@@ -14,12 +14,12 @@ struct ExactFrame {
   const grid::Grid& grid;
   const RowPlanes& planes;
   const view::LightArrays& lights;
-  const VisibleBalls& visible;     // first those of points; a spot's ball bounds it
-  std::uint32_t first_spot_place;  // in `seen`
-  const SphereSetup& shapes;       // of the points
+  const VisibleBalls& visible;  // first those of points; a spot's ball bounds it
+  std::uint32_t first_spot;     // in `visible`
+  const SphereSetup& shapes;    // of the points
   const SliceBins& balls;
 
-  // Places in `seen` of a slice's points and spots, ascending.
+  // Places in `visible` of a slice's points and spots, ascending.
   std::span<const std::uint32_t> points_of(int slice) const {
     return balls.of(slice).first(points_before_spots(slice));
   }
@@ -30,21 +30,23 @@ struct ExactFrame {
  private:
   std::size_t points_before_spots(int slice) const {
     const std::span<const std::uint32_t> all = balls.of(slice);
-    if (first_spot_place == visible.count) return all.size();
-    return static_cast<std::size_t>(std::ranges::lower_bound(all, first_spot_place) - all.begin());
+    if (first_spot == visible.count) return all.size();
+    return static_cast<std::size_t>(std::ranges::lower_bound(all, first_spot) - all.begin());
   }
 };
 
 // The rows of some slices' balls, slice by slice and batch by batch. As many batches as can be are found at once, of
-// several slices where one has fewer.
+// several slices where one has fewer. pipeline/slice_lists.h takes one batch at a time: its kernels walk rows that each
+// ball's box has told them, while here a batch's rows follow from square roots and divisions, whose latency four
+// batches side by side hide.
 class BatchReader {
  public:
-  using PlacesOf = std::span<const std::uint32_t> (ExactFrame::*)(int slice) const;
+  using IndicesOf = std::span<const std::uint32_t> (ExactFrame::*)(int slice) const;
 
   // Of slices first .. last - 1.
-  void start(const ExactFrame& frame, PlacesOf places_of, int first, int last) {
+  void start(const ExactFrame& frame, IndicesOf indices_of, int first, int last) {
     frame_ = &frame;
-    places_of_ = places_of;
+    indices_of_ = indices_of;
     slice_ = first;
     last_ = last;
     begin_ = count_ = next_ = 0;
@@ -72,13 +74,13 @@ class BatchReader {
     const std::uint32_t most = balls_per_batch();
     count_ = next_ = 0;
     while (count_ < k_batches_at_once && slice_ < last_) {
-      const std::span<const std::uint32_t> places = (frame_->*places_of_)(slice_).subspan(begin_);
-      if (places.size() <= most) {
-        if (!places.empty()) balls_[count_++] = {slice_, places.data(), static_cast<std::uint32_t>(places.size())};
+      const std::span<const std::uint32_t> indices = (frame_->*indices_of_)(slice_).subspan(begin_);
+      if (indices.size() <= most) {
+        if (!indices.empty()) balls_[count_++] = {slice_, indices.data(), static_cast<std::uint32_t>(indices.size())};
         ++slice_;
         begin_ = 0;
       } else {
-        balls_[count_++] = {slice_, places.data(), most};
+        balls_[count_++] = {slice_, indices.data(), most};
         begin_ += most;
       }
     }
@@ -86,7 +88,7 @@ class BatchReader {
   }
 
   const ExactFrame* frame_ = nullptr;
-  PlacesOf places_of_ = nullptr;
+  IndicesOf indices_of_ = nullptr;
   int slice_ = 0, last_ = 0;  // the next one of which batches are to be found; where to stop
   std::size_t begin_ = 0;     // among its balls
   std::array<BallsOfSlice, k_batches_at_once> balls_{};

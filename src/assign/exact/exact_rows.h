@@ -25,9 +25,9 @@ struct Row {
 
 inline Row row_of(const grid::ScreenGrid& grid, int slice, int row) {
   const auto z = static_cast<std::size_t>(slice);
-  const auto first_cell = static_cast<std::uint32_t>((slice * grid.tiles.count.y + row) * grid.tiles.count.x);
-  return {first_cell, grid.tiles.y_min(row), grid.tiles.y_max(row), grid.slices.boundaries[z],
-          grid.slices.boundaries[z + 1]};
+  const Vec2i tiles = grid.tiles.count;
+  return {grid::cell_index({0, row, slice}, {tiles.x, tiles.y, grid.slices.count()}), grid.tiles.y_min(row),
+          grid.tiles.y_max(row), grid.slices.boundaries[z], grid.slices.boundaries[z + 1]};
 }
 
 inline geom::FrustumPiece piece_of(const grid::Tiles& tiles, const Row& row, int column) {
@@ -37,13 +37,13 @@ inline geom::FrustumPiece piece_of(const grid::Tiles& tiles, const Row& row, int
 
 // In single precision, in which centres and radii are: more than a centre's rounding (1) and the steps of row_slopes.h
 // (12) can add up to. Twice as many would double the decisions, which are rare; too few would lose lights.
-inline constexpr float k_exact_roundings = 32.0f;
+inline constexpr float k_exact_roundoffs = 32.0f;
 
 // Lights of more reach, which the domain does not have (geom/domain.h), are decided cell by cell.
 inline constexpr float k_most_exact_reach = 1e17f;
 
 // Columns of a row that a ball touches. The answer is right for some ball whose centre and surface are off by less than
-// k_exact_roundings.
+// k_exact_roundoffs.
 class RowColumns {
  public:
   explicit RowColumns(const grid::Tiles& tiles) : tiles_(tiles) {}
@@ -131,8 +131,8 @@ grid::IndexRange narrowed(grid::IndexRange range, Misses&& misses) {
   return range;
 }
 
-// The columns of a row that a point light touches, all of them within `outer`. What single precision leaves open is
-// asked of the judge, which adds to `questions`.
+// The columns of a row that a point light touches, all of them within `outer`. What single precision leaves uncertain
+// is asked of the judge, which adds to `questions`.
 inline grid::IndexRange settled(const grid::IndexRange& outer, const RowColumns& columns, const geom::Ball& smaller,
                                 const Row& row, BallJudge& judge, std::uint64_t& questions) {
   const grid::IndexRange inner = columns.touched(smaller, row, geom::Errs::inward);

@@ -22,8 +22,8 @@ void ExactSlices::find(const ExactFrame& frame, int first, int last, Lists& out)
   tests_ = fallbacks_ = 0;
   const auto rows = static_cast<std::uint32_t>(frame.planes.rows);
   is_left_.resize(rows);
-  open_.reserve(k_most_open);
-  questions_.reserve(2 * k_most_open);
+  uncertain_.reserve(k_most_uncertain);
+  questions_.reserve(2 * k_most_uncertain);
   spots_.find(frame, first, last);
   batches_.start(frame, &ExactFrame::points_of, first, last);
   spans_.start(static_cast<std::uint32_t>(last - first), rows, static_cast<std::uint32_t>(frame.planes.columns), out);
@@ -37,31 +37,31 @@ void ExactSlices::find(const ExactFrame& frame, int first, int last, Lists& out)
 
 std::size_t ExactSlices::scratch_bytes() const {
   return spots_.capacity_bytes() + spans_.capacity_bytes() + batches_.capacity_bytes() + questions_.capacity_bytes() +
-         open_.capacity() * sizeof(OpenSpan);
+         uncertain_.capacity() * sizeof(UncertainSpan);
 }
 
 void ExactSlices::add_points(int slice) {
-  const auto open = [&](int of_slice, BatchRows& batch) { open_spans(of_slice, batch); };
-  while (const BatchRows* batch = batches_.next(slice, open, [&] { settle_spans(); })) {
+  const auto take = [&](int of_slice, BatchRows& batch) { ask_about_spans(of_slice, batch); };
+  while (const BatchRows* batch = batches_.next(slice, take, [&] { settle_spans(); })) {
     tests_ += batch->tests;
     if (batch->tests != 0)
       spans_.add_batch(batch->first_row, batch->last_row, batch->columns.data(), batch->lights, is_left_.data());
   }
 }
 
-void ExactSlices::open_spans(int slice, BatchRows& batch) {
+void ExactSlices::ask_about_spans(int slice, BatchRows& batch) {
   const int lane_bits = std::countr_zero(batch.lanes);
-  for (std::uint32_t i = 0; i < batch.open_count; ++i) {
-    std::uint32_t& entry = batch.columns[batch.open[i]];
-    const std::uint32_t light = batch.lights[batch.open[i] & (batch.lanes - 1)];
-    OpenSpan span{&entry,
-                  light,
-                  slice,
-                  static_cast<int>(batch.open[i] >> lane_bits),
-                  {BatchRows::first_of(entry), BatchRows::last_of(entry)},
-                  (entry & BatchRows::k_first_is_certain) == 0,
-                  (entry & BatchRows::k_last_is_certain) == 0,
-                  0};
+  for (std::uint32_t i = 0; i < batch.uncertain_count; ++i) {
+    std::uint32_t& entry = batch.columns[batch.uncertain[i]];
+    const std::uint32_t light = batch.lights[batch.uncertain[i] & (batch.lanes - 1)];
+    UncertainSpan span{&entry,
+                       light,
+                       slice,
+                       static_cast<int>(batch.uncertain[i] >> lane_bits),
+                       {BatchRows::first_of(entry), BatchRows::last_of(entry)},
+                       (entry & BatchRows::k_first_is_certain) == 0,
+                       (entry & BatchRows::k_last_is_certain) == 0,
+                       0};
     if (std::isinf(frame_->lights.radius[light])) {
       entry = span_of(span.columns);
       continue;
@@ -73,39 +73,39 @@ void ExactSlices::open_spans(int slice, BatchRows& batch) {
       entry = span_of(touched_anywhere(span));
       continue;
     }
-    if (open_.size() == k_most_open) settle_spans();
-    open_.push_back(span);
+    if (uncertain_.size() == k_most_uncertain) settle_spans();
+    uncertain_.push_back(span);
   }
 }
 
 void ExactSlices::settle_spans() {
-  while (!open_.empty()) {
+  while (!uncertain_.empty()) {
     questions_.count = 0;
-    for (OpenSpan& span : open_) ask(span);
+    for (UncertainSpan& span : uncertain_) ask(span);
     look_at_balls(frame_->lights, frame_->planes, questions_);
     std::size_t kept = 0;
-    for (OpenSpan& span : open_) {
+    for (UncertainSpan& span : uncertain_) {
       if (is_settled(span))
         *span.entry = span_of(span.columns);
       else
-        open_[kept++] = span;
+        uncertain_[kept++] = span;
     }
-    open_.resize(kept);
+    uncertain_.resize(kept);
   }
 }
 
-void ExactSlices::ask(OpenSpan& span) {
+void ExactSlices::ask(UncertainSpan& span) {
   span.first_question = questions_.count;
   if (span.asks_first) questions_.add(span.light, span.slice, span.row, span.columns.first);
   if (span.asks_last && !(span.asks_first && span.columns.count() == 1))
     questions_.add(span.light, span.slice, span.row, span.columns.last);
 }
 
-bool ExactSlices::is_settled(OpenSpan& span) const {
+bool ExactSlices::is_settled(UncertainSpan& span) const {
   std::uint32_t next = span.first_question;
   const auto touches = [&](int column) {
     const Touch touch = questions_.touch[next++];
-    if (touch != Touch::open) return touch == Touch::yes;
+    if (touch != Touch::uncertain) return touch == Touch::yes;
     BallJudge judge(frame_->grid, frame_->lights, span.light);
     return judge.touches(row_of(frame_->grid.screen(), span.slice, span.row), column);
   };
@@ -128,17 +128,17 @@ bool ExactSlices::is_settled(OpenSpan& span) const {
   return columns.empty() || !(span.asks_first || span.asks_last);
 }
 
-IndexRange ExactSlices::touched_anywhere(const OpenSpan& span) const {
+IndexRange ExactSlices::touched_anywhere(const UncertainSpan& span) const {
   const Row row = row_of(frame_->grid.screen(), span.slice, span.row);
   BallJudge judge(frame_->grid, frame_->lights, span.light);
   if (frame_->lights.reach[span.light] > k_most_exact_reach)
     return narrowed(span.columns, [&](int column) { return !judge.touches(row, column); });
   const RowColumns row_columns(frame_->grid.screen().tiles);
   const IndexRange outer =
-      row_columns.touched(frame_->lights.ball(span.light, k_exact_roundings), row, geom::Errs::outward);
+      row_columns.touched(frame_->lights.ball(span.light, k_exact_roundoffs), row, geom::Errs::outward);
   if (outer.empty()) return {};
   std::uint64_t questions = 0;
-  return settled(outer, row_columns, frame_->lights.ball(span.light, -k_exact_roundings), row, judge, questions);
+  return settled(outer, row_columns, frame_->lights.ball(span.light, -k_exact_roundoffs), row, judge, questions);
 }
 
 }  // namespace clusterbench::assign

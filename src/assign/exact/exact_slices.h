@@ -3,9 +3,9 @@
 // slices at once, so that their questions fill vectors; then slice by slice the points' rows and the lists. Keeps its
 // memory between frames.
 
-#include "assign/cone/spot_spans.h"
 #include "assign/exact/ball_cells.h"
 #include "assign/exact/exact_rows.h"
+#include "assign/exact/spot_spans.h"
 
 namespace clusterbench::assign {
 
@@ -20,7 +20,7 @@ class ExactSlices {
 
  private:
   // A span of a batch whose ends may be beyond the cells that are touched.
-  struct OpenSpan {
+  struct UncertainSpan {
     std::uint32_t* entry;  // of the batch
     std::uint32_t light;
     int slice, row;
@@ -29,22 +29,22 @@ class ExactSlices {
     std::uint32_t first_question;  // of one or two
   };
   // Vectors of questions are full, and memory does not depend on the lights.
-  static constexpr std::size_t k_most_open = 64;
+  static constexpr std::size_t k_most_uncertain = 64;
 
   void add_points(int slice);
-  void open_spans(int slice, BatchRows& batch);
+  void ask_about_spans(int slice, BatchRows& batch);
   void settle_spans();
-  void ask(OpenSpan& span);
+  void ask(UncertainSpan& span);
   // Takes the answers. False if more is to be asked.
-  bool is_settled(OpenSpan& span) const;
+  bool is_settled(UncertainSpan& span) const;
   // Without a question before.
-  grid::IndexRange touched_anywhere(const OpenSpan& span) const;
+  grid::IndexRange touched_anywhere(const UncertainSpan& span) const;
 
   const ExactFrame* frame_ = nullptr;
   SpotSpans spots_;
   BatchReader batches_;
   std::vector<std::uint8_t> is_left_;
-  std::vector<OpenSpan> open_;
+  std::vector<UncertainSpan> uncertain_;
   BallCells questions_;
   ListBuilder spans_;
   std::uint64_t tests_ = 0, fallbacks_ = 0;

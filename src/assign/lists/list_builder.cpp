@@ -52,8 +52,8 @@ Added add_rows(SpanRows rows, int first_row, int last_row, const std::uint32_t* 
     const auto r = static_cast<std::size_t>(row);
     const auto span = LoadU(du, columns + r * lanes);
     const auto wanted = Ne(span, none);
-    const auto open = TestBit(span, Set(du, ListBuilder::k_open_span));
-    is_left[r] = AllFalse(du, And(wanted, open)) ? 0 : 1;
+    const auto uncertain = TestBit(span, Set(du, ListBuilder::k_uncertain_span));
+    is_left[r] = AllFalse(du, And(wanted, uncertain)) ? 0 : 1;
     if (is_left[r] != 0) {
       added.some_are_left = true;
       continue;

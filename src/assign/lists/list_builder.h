@@ -33,17 +33,17 @@ class ListBuilder {
   void add(std::uint32_t row, std::uint32_t first, std::uint32_t last, std::uint32_t light) {
     std::uint32_t& size = sizes_[row];
     if (size == pitch_) grow();
-    const std::size_t place = row * pitch_ + size++;
+    const std::size_t index = row * pitch_ + size++;
     most_ = std::max(most_, size);
-    lights_[place] = light;
-    columns_of_[place] = ColumnSpan::of(first, last);
+    lights_[index] = light;
+    columns_of_[index] = ColumnSpan::of(first, last);
     band_pairs_ += last - first + 1;
   }
   // Adds a batch of lights' spans to rows first_row .. last_row. columns[row * lanes + i]: the span of lights[i] as
-  // a ColumnSpan, k_no_span, or with k_open_span set one that is not to be added as it is. Rows
+  // a ColumnSpan, k_no_span, or with k_uncertain_span set one that is not to be added as it is. Rows
   // with such spans are left alone: is_left[row] says so, and the answer whether there are any. `lanes`: as many as fit
   // into a vector.
-  static constexpr std::uint32_t k_no_span = 0xffffffff, k_open_span = 0x80000000;
+  static constexpr std::uint32_t k_no_span = 0xffffffff, k_uncertain_span = 0x80000000;
   bool add_batch(int first_row, int last_row, const std::uint32_t* columns, const std::uint32_t* lights,
                  std::uint8_t* is_left);
   // Writes the band's lists; the next band begins. Throws Error beyond 2^32 - 1 pairs or the limit on memory.

@@ -282,7 +282,7 @@ void bits_of(const RowSpans<std::uint32_t>& row, std::uint32_t words_per_cell, s
   std::int32_t gathered[k_most_lanes];
   std::fill(words + std::size_t{row.column} * words_per_cell, words + std::size_t{row.end_column} * words_per_cell, 0);
   for (std::size_t column = row.column; column < row.end_column; column += lanes) {
-    const auto place = Iota(d, static_cast<std::int32_t>(column));
+    const auto lane_column = Iota(d, static_cast<std::int32_t>(column));
     const std::size_t cells = std::min<std::size_t>(lanes, row.end_column - column);
     for (std::uint32_t i = 0; i < row.count;) {
       const std::uint32_t word = row.lights[i] / 32;
@@ -291,7 +291,7 @@ void bits_of(const RowSpans<std::uint32_t>& row, std::uint32_t words_per_cell, s
         const auto before = Set(d, static_cast<std::int32_t>(ColumnSpan::first(row.columns[i])) - 1);
         const auto after = Set(d, static_cast<std::int32_t>(ColumnSpan::last(row.columns[i])) + 1);
         const auto bit = Set(d, static_cast<std::int32_t>(1u << row.lights[i] % 32));
-        sum = Or(sum, IfThenElseZero(And(place > before, after > place), bit));
+        sum = Or(sum, IfThenElseZero(And(lane_column > before, after > lane_column), bit));
       }
       StoreU(sum, d, gathered);
       for (std::size_t cell = 0; cell < cells; ++cell)

@@ -22,7 +22,7 @@ HWY_INLINE void start_batch(int grid_rows, VI first_row, VI row_count, VU lights
   const std::size_t n = Lanes(di);
   out.lanes = static_cast<std::uint32_t>(n);
   out.make_room(grid_rows);
-  out.open_count = 0;
+  out.uncertain_count = 0;
   StoreU(lights, DU(), out.lights);
   out.tests = static_cast<std::uint32_t>(GetLane(SumOfLanes(di, row_count)));
   const MI touches = row_count > Zero(di);
@@ -33,13 +33,14 @@ HWY_INLINE void start_batch(int grid_rows, VI first_row, VI row_count, VU lights
     StoreU(columns, DU(), out.columns.data() + static_cast<std::size_t>(row) * n);
 }
 
-// Lists what is uncertain of some columns. `places`: where these stand in the batch.
-HWY_INLINE void list_open(VU columns, VI places, BatchRows& out) {
+// Lists what is uncertain of some columns. `indices`: where these stand in the batch.
+HWY_INLINE void list_uncertain(VU columns, VI indices, BatchRows& out) {
   const DU du;
-  const auto is_open = And(TestBit(columns, Set(du, BatchRows::k_uncertain)), Ne(columns, Set(du, BatchRows::k_none)));
-  if (AllFalse(du, is_open)) return;
-  StoreU(compressed(du, BitCast(du, places), is_open), du, out.open.data() + out.open_count);
-  out.open_count += static_cast<std::uint32_t>(CountTrue(du, is_open));
+  const auto is_uncertain =
+      And(TestBit(columns, Set(du, BatchRows::k_uncertain)), Ne(columns, Set(du, BatchRows::k_none)));
+  if (AllFalse(du, is_uncertain)) return;
+  StoreU(compressed(du, BitCast(du, indices), is_uncertain), du, out.uncertain.data() + out.uncertain_count);
+  out.uncertain_count += static_cast<std::uint32_t>(CountTrue(du, is_uncertain));
 }
 
 // See Certainty in slice_rows.cpp; for rows straight ahead. `rate`: the most columns that a metre to the side can be.
@@ -54,7 +55,7 @@ HWY_INLINE V least_area_of(V radius, V slack, V rate, V farthest) {
   return IfThenElse(holds_view, Zero(D()), area);
 }
 
-// The same by a chord: with a place in the row's part of the picture from which the ball's surface is at least half a
+// The same by a chord: with a point in the row's part of the picture from which the ball's surface is at least half a
 // chord away, also rows are certain where the way from an end to the next boundary inwards, in columns, times that is
 // at least 4 slack R rate (and some for rounding), and half the chord squared at least 4 slack R. `steepness` is
 // least_area's.
@@ -65,14 +66,14 @@ HWY_INLINE M is_certain_by_chord(V half_square, V inwards, V radius, V slack, V 
              inwards * inwards * half_square >= way * way * steepness);
 }
 
-// How far a place is outside an interval.
-HWY_INLINE V gap(V low, V place, V high) {
-  return Max(Zero(D()), Max(low - place, place - high));
+// How far a coordinate is outside an interval.
+HWY_INLINE V gap(V low, V coordinate, V high) {
+  return Max(Zero(D()), Max(low - coordinate, coordinate - high));
 }
 
-// How far a place is from the farther end of an interval.
-HWY_INLINE V farther_end(V place, float low, float high) {
-  return Max(Abs(place - all(low)), Abs(place - all(high)));
+// How far a coordinate is from the farther end of an interval.
+HWY_INLINE V farther_end(V coordinate, float low, float high) {
+  return Max(Abs(coordinate - all(low)), Abs(coordinate - all(high)));
 }
 
 // Slopes from low to high as columns, as BatchRows has them. An end is certain where the way from there to the next
@@ -82,17 +83,17 @@ template <class Steepness, class ByChord>
 HWY_INLINE VU columns_between(const RowPlanes& planes, V all_low, V all_high, M wanted, V least_area,
                               Steepness&& steepness_of, ByChord&& by_chord) {
   const V left = all(planes.left), right = all(planes.right), scale = all(planes.columns_per_slope);
-  const V margin = all(planes.column_margin), one = all(1.0f);
+  const V tolerance = all(planes.column_tolerance), one = all(1.0f);
   const M touches = And(wanted, And(all_low <= Min(all_high, right), all_high >= left));
   const V low = Max(all_low, left), high = Min(all_high, right);
   const V from = (low - left) * scale, to = (high - left) * scale;
   const V last_column = all(static_cast<float>(planes.columns - 1));
-  const V first = Min(Floor(Max(from - margin, Zero(D()))), last_column);
-  const V last = Min(Floor(to + margin), last_column);
-  // No wider than it is for certain: a small ball in a wide picture is narrower than places in it are rounded.
-  const V width = Max(to - from - (margin + margin), Zero(D())), steepness = steepness_of(low, high),
+  const V first = Min(Floor(Max(from - tolerance, Zero(D()))), last_column);
+  const V last = Min(Floor(to + tolerance), last_column);
+  // No wider than it is for certain: a small ball in a wide picture is narrower than coordinates in it are rounded.
+  const V width = Max(to - from - (tolerance + tolerance), Zero(D())), steepness = steepness_of(low, high),
           area = least_area * steepness;
-  const V from_first = first + one - from - margin, to_last = to - last - margin;
+  const V from_first = first + one - from - tolerance, to_last = to - last - tolerance;
   const V inwards = Min(from_first, to_last);
   const M is_wide = width * width >= area + area;
   const M is_certain = And(inwards * width >= area, is_wide);

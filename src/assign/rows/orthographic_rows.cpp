@@ -15,11 +15,11 @@ namespace {
 // One ball per lane, through the rows of one slice.
 class FlatBatch {
  public:
-  // `places`: a vector of them; `wanted`: the lanes that hold a ball.
-  HWY_INLINE FlatBatch(const RowPlanes& planes, const VisibleBalls& visible, int slice, const std::uint32_t* places,
+  // `indices`: a vector of them; `wanted`: the lanes that hold a ball.
+  HWY_INLINE FlatBatch(const RowPlanes& planes, const VisibleBalls& visible, int slice, const std::uint32_t* indices,
                        M wanted)
       : planes_(planes), wanted_(wanted) {
-    const VI at = BitCast(DI(), LoadU(DU(), places));
+    const VI at = BitCast(DI(), LoadU(DU(), indices));
     x_ = gathered(visible.x, at);
     y_ = gathered(visible.y, at);
     radius_ = gathered(visible.radius, at);
@@ -38,10 +38,10 @@ class FlatBatch {
     start(out);
     const std::size_t n = Lanes(D());
     for (int row = out.first_row; row <= out.last_row; ++row) {
-      const std::size_t place = static_cast<std::size_t>(row) * n;
+      const std::size_t index = static_cast<std::size_t>(row) * n;
       const VU columns = columns_of(static_cast<std::size_t>(row));
-      StoreU(columns, DU(), out.columns.data() + place);
-      list_open(columns, from_on(static_cast<std::int32_t>(place)), out);
+      StoreU(columns, DU(), out.columns.data() + index);
+      list_uncertain(columns, from_on(static_cast<std::int32_t>(index)), out);
     }
   }
 
@@ -51,11 +51,12 @@ class FlatBatch {
   // The rows between the disk's top and bottom.
   HWY_INLINE void start(BatchRows& out) const {
     const V zero = Zero(D()), half = Sqrt(Max(square_, zero));
-    const V scale = all(planes_.rows_per_slope), margin = all(planes_.row_margin), top = all(planes_.slope.front());
+    const V scale = all(planes_.rows_per_slope), tolerance = all(planes_.row_tolerance),
+            top = all(planes_.slope.front());
     const V high = Min(y_ + half, top), low = Max(y_ - half, all(bottom()));
     const M touches = And(And(wanted_, square_ >= zero), low <= high);
-    const V from = Max((top - high) * scale - margin, zero);
-    const V to = (top - low) * scale + margin;
+    const V from = Max((top - high) * scale - tolerance, zero);
+    const V to = (top - low) * scale + tolerance;
     const VI last_row = all_int(planes_.rows - 1);
     const VI first = Min(ConvertTo(DI(), from), last_row), last = Min(ConvertTo(DI(), to), last_row);
     const VI count = IfThenElseZero(RebindMask(DI(), touches), last - first + all_int(1));
@@ -90,7 +91,7 @@ class FlatBatch {
 void orthographic_rows(const RowPlanes& planes, const VisibleBalls& visible, std::span<const BallsOfSlice> balls,
                        RowBatches& out) {
   for (std::size_t i = 0; i < balls.size(); ++i)
-    FlatBatch(planes, visible, balls[i].slice, balls[i].places, FirstN(D(), balls[i].count)).find(out.batches[i]);
+    FlatBatch(planes, visible, balls[i].slice, balls[i].indices, FirstN(D(), balls[i].count)).find(out.batches[i]);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #define CLUSTERBENCH_PLANE_TABLES_INL_H
 #endif
 
-#include "assign/rows/row_planes.h"
+#include "assign/cull/row_planes.h"
 #include "assign/simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -23,7 +23,7 @@ class PlaneTable {
         is_small_(static_cast<std::size_t>(planes) <= RegisterTable::size()),
         table_(LoadU(D(), values_), LoadU(D(), values_ + Lanes(D()))) {}
 
-  HWY_INLINE V at(VI place) const { return is_small_ ? table_.at(place) : gathered(values_, place); }
+  HWY_INLINE V at(VI index) const { return is_small_ ? table_.at(index) : gathered(values_, index); }
 
  private:
   const float* values_;

@@ -40,19 +40,19 @@ struct Spheres {
   HWY_INLINE Spheres of(Which which) const {
     return {taken(x, which), taken(y, which), taken(depth, which), taken(radius, which)};
   }
-  // At an inverse depth a ball is a disk around (x, y) times that; half of what it has of a line that is `aside` from
+  // At an inverse depth a ball is a disk around (x, y) times that; half of what it has of a line that is `offset` from
   // its centre.
-  HWY_INLINE V half_chord(V inverse, V aside) const {
+  HWY_INLINE V half_chord(V inverse, V offset) const {
     const V before = (radius + depth) * inverse - all(1.0f);
     const V behind = all(1.0f) - (depth - radius) * inverse;
-    return root(before * behind - aside * aside);
+    return root(before * behind - offset * offset);
   }
 };
 
 // The rows that balls may touch.
 struct BallRows {
   VI first, count;
-  VI held;  // all bits of those that hold all of the slice's part of the view: all columns of all rows are theirs
+  VI full;  // all bits of those that hold all of the slice's part of the view: all columns of all rows are theirs
 };
 
 // Rows of one batch.
@@ -62,16 +62,16 @@ class Batch {
     planes_ = &planes;
     near_ = {planes, static_cast<std::size_t>(balls.slice)};
     far_ = {planes, static_cast<std::size_t>(balls.slice) + 1};
-    const Quads sphere = gathered_quads(shapes.sphere.data(), balls.places);
+    const Quads sphere = gathered_quads(shapes.sphere.data(), balls.indices);
     balls_ = {sphere.first, sphere.second, sphere.third, sphere.fourth};
-    const Quads touch = gathered_quads(shapes.touch.data(), balls.places);
+    const Quads touch = gathered_quads(shapes.touch.data(), balls.indices);
     slack_ = touch.first;
     lights_ = BitCast(DU(), touch.second);
     lean_ = touch.third;
     inverse_upright_ = touch.fourth;
     const M is_ball = FirstN(D(), balls.count);
     is_precise_ = AllFalse(D(), And(is_ball, inverse_upright_ == Zero(D())));
-    const Quads extremes = gathered_quads(shapes.extremes.data(), balls.places);
+    const Quads extremes = gathered_quads(shapes.extremes.data(), balls.indices);
     find_extremes({within(extremes.first), within(extremes.second)}, {within(extremes.third), within(extremes.fourth)});
     const V nearest = Max(all(near_.depth), balls_.depth - (balls_.radius + slack_));
     rate_ = all(planes.columns_per_slope) / nearest;
@@ -87,26 +87,26 @@ class Batch {
     const M is_level = And(upwards_.low <= top, upwards_.high >= bottom);
     const M is_between_sides = And(sideways_.low <= all(planes_->right), sideways_.high >= all(planes_->left));
     const M touches = And(wanted, And(is_level, is_between_sides));
-    const V scale = all(planes_->rows_per_slope), margin = all(planes_->row_margin), zero = Zero(D());
-    const V from = (top - Min(upwards_.high, top)) * scale - margin;
-    const V to = (top - Max(upwards_.low, bottom)) * scale + margin;
+    const V scale = all(planes_->rows_per_slope), tolerance = all(planes_->row_tolerance), zero = Zero(D());
+    const V from = (top - Min(upwards_.high, top)) * scale - tolerance;
+    const V to = (top - Max(upwards_.low, bottom)) * scale + tolerance;
     const VI last_row = all_int(planes_->rows - 1);
-    const VI held = VecFromMask(DI(), RebindMask(DI(), And(wanted, holds_view())));
+    const VI full = VecFromMask(DI(), RebindMask(DI(), And(wanted, holds_view())));
     const VI first = Min(whole(Floor(Max(from, zero))), last_row);
     const VI last = Min(whole(Floor(Max(to, zero))), last_row);
     const VI count = IfThenElseZero(RebindMask(DI(), touches), last - first + all_int(1));
-    return {AndNot(held, first), Or(AndNot(held, count), And(held, all_int(planes_->rows))), held};
+    return {AndNot(full, first), Or(AndNot(full, count), And(full, all_int(planes_->rows))), full};
   }
 
-  // All columns of the held ones, none of others.
-  HWY_INLINE VU columns_of_held(VI held) const {
+  // All columns of the full ones, none of others.
+  HWY_INLINE VU columns_of_full(VI full) const {
     const VU all_columns = Set(DU(), ColumnSpan::of(0, static_cast<std::uint32_t>(planes_->columns) - 1));
-    return Or(And(BitCast(DU(), held), all_columns), Not(BitCast(DU(), held)));
+    return Or(And(BitCast(DU(), full), all_columns), Not(BitCast(DU(), full)));
   }
 
   // What the balls in which[i] have between two tile planes. At each depth a ball is a disk, so it reaches farthest
-  // aside at its centre's height, or in the tile plane that is nearer to that; within a tile plane it does so where the
-  // tangent touches, or in the slice's plane that is nearer to that.
+  // to the side at its centre's height, or in the tile plane that is nearer to that; within a tile plane it does so
+  // where the tangent touches, or in the slice's plane that is nearer to that.
   HWY_INLINE Hull hull_of(Which which, V top, V bottom) const {
     const RowBalls balls = {balls_.of(which), taken(lean_, which), taken(inverse_upright_, which)};
     const auto in_row = [&](V slope) { return Min(Max(taken(slope, which), bottom), top); };
@@ -135,7 +135,7 @@ class Batch {
   // columns are certainly right if the hull's ends are farther than that from the next boundary inwards: that is, if
   // the distance times h is at least 4 D R q² = 8 slack R q², in columns the `least_area`. And the given ball reaches
   // the row at all if R - g >= D, which follows from h² >= 8 D R q². Large balls near the eye are far wider than the
-  // picture, and h says little of w. For them any place in the row does instead of m: it is no nearer, so its w is no
+  // picture, and h says little of w. For them any point in the row does instead of m: it is no nearer, so its w is no
   // larger. The columns are certain if the way inwards is at least 2 D R q / w, and the ball reaches the row if w² >= 2
   // D R.
   HWY_INLINE VU columns_of(Which which, const PlaneTable& slopes, VI row, const Hull& hull, M wanted) const {
@@ -184,8 +184,8 @@ class Batch {
     // Where none touches ahead of the eye the ball grows towards it.
     const M is_ahead = touch > Zero(D());
     const V inverse = IfThenElse(is_ahead, within(touch), all(near_.inverse));
-    const V aside = slope - ball.y * inverse;
-    return go(ball.x * inverse, ball.half_chord(inverse, aside));
+    const V offset = slope - ball.y * inverse;
+    return go(ball.x * inverse, ball.half_chord(inverse, offset));
   }
 
   // Where the tangent touches, for balls of which inverse_upright does not say so precisely enough.
@@ -207,7 +207,7 @@ class Batch {
 
   HWY_INLINE M holds_view() const { return least_area_ == Zero(D()); }
 
-  // Of a place in the row that is about as near to the centre as any, how far it is from the surface, squared.
+  // Of a point in the row that is about as near to the centre as any, how far it is from the surface, squared.
   HWY_INLINE V half_chord_square(Which which, V top, V bottom) const {
     const V centre = taken(balls_.depth, which), radius = taken(balls_.radius, which);
     const V depth = Min(Max(centre, all(near_.depth)), all(far_.depth)), along = centre - depth;
@@ -261,7 +261,7 @@ class RowsOfBatch {
     count_ = 0;
     const DI di;
     const auto n = static_cast<std::int32_t>(Lanes(di));
-    const VI listed = AndNot(rows.held, rows.count), end = sums(listed);
+    const VI listed = AndNot(rows.full, rows.count), end = sums(listed);
     shift_ = rows.first - (end - listed);
     std::int32_t ends[k_most_lanes];
     StoreU(end, di, ends);
@@ -315,7 +315,7 @@ HWY_INLINE void find_columns(const PlaneTable& slopes, const Batch& batch, const
     const VI to = row * all_int(n) + lane;
     ScatterIndex(BitCast(di, columns), di, reinterpret_cast<std::int32_t*>(out.columns.data()),
                  IfThenElse(wanted, to, nowhere));
-    list_open(columns, to, out);
+    list_uncertain(columns, to, out);
   }
 }
 
@@ -333,7 +333,7 @@ void rows_of_batches(const RowPlanes& planes, const SphereSetup& shapes, std::sp
   }
   for (std::size_t i = 0; i < count; ++i) {
     start_batch(planes.rows, ball_rows[i].first, ball_rows[i].count, batches[i].lights(),
-                batches[i].columns_of_held(ball_rows[i].held), out.batches[i]);
+                batches[i].columns_of_full(ball_rows[i].full), out.batches[i]);
     rows[i].start(ball_rows[i], out.lanes[i].data());
   }
   for (std::size_t i = 0; i < count; ++i) find_hulls(slopes, batches[i], rows[i], out.hulls[i]);
@@ -356,7 +356,7 @@ void BatchRows::make_room(int of_rows) {
   const std::size_t size = (static_cast<std::size_t>(of_rows) + 1) * k_row_lanes;
   if (columns.size() >= size) return;
   columns.resize(size);
-  open.resize(size);
+  uncertain.resize(size);
 }
 
 void RowBatches::make_room(int of_rows) {

@@ -3,9 +3,9 @@
 // lane, each through its own rows. Of orthographic grids orthographic_rows.h.
 //
 // With x / depth, y / depth and 1 / depth as coordinates, columns, rows and slices are slabs, and of a convex body what
-// lies in a row of a slice reaches farthest aside in one place, which follows from the ball (sphere_setup.h) and is
-// moved into the row, then into the slice. A row's columns reach from the least slope x / depth in it to the greatest
-// (the interval property, as in geom/row_slopes.h).
+// lies in a row of a slice reaches farthest to the side in one point, which follows from the ball (sphere_setup.h) and
+// is moved into the row, then into the slice. A row's columns reach from the least slope x / depth in it to the
+// greatest (the interval property, as in geom/row_slopes.h).
 //
 // Every ball is taken larger by its slack, which is more than rounding can lose, so no column is forgotten. How much
 // too large an answer can be is bounded, too: see Certainty in slice_rows.cpp. Rows for which that may matter are
@@ -16,8 +16,8 @@
 #include <span>
 
 #include "assign/cull/frustum_cull.h"
+#include "assign/cull/row_planes.h"
 #include "assign/lists/list_builder.h"
-#include "assign/rows/row_planes.h"
 #include "assign/rows/sphere_setup.h"
 #include "core/aligned_vector.h"
 
@@ -26,8 +26,8 @@ namespace clusterbench::assign {
 // Rows of a batch of balls within one slice. Of ball i, row r (first_row <= r <= last_row, the rows that any ball may
 // touch) has the columns at columns[r * lanes + i].
 struct BatchRows {
-  static constexpr std::uint32_t k_none = ListBuilder::k_no_span;         // no column
-  static constexpr std::uint32_t k_uncertain = ListBuilder::k_open_span;  // perhaps not all of the columns
+  static constexpr std::uint32_t k_none = ListBuilder::k_no_span;              // no column
+  static constexpr std::uint32_t k_uncertain = ListBuilder::k_uncertain_span;  // perhaps not all of the columns
   // With k_uncertain: which of the ends is certain all the same.
   static constexpr std::uint32_t k_first_is_certain = 0x4000, k_last_is_certain = 0x8000;
   static int first_of(std::uint32_t columns) { return static_cast<int>(columns & 0x3fff); }
@@ -40,12 +40,12 @@ struct BatchRows {
   // One row more than the grid has, for what is not wanted.
   AlignedVector<std::uint32_t> columns;
   // Where in `columns` what is uncertain stands.
-  std::uint32_t open_count = 0;
-  AlignedVector<std::uint32_t> open;
+  std::uint32_t uncertain_count = 0;
+  AlignedVector<std::uint32_t> uncertain;
 
   const std::uint32_t* columns_of(int row) const { return columns.data() + static_cast<std::size_t>(row) * lanes; }
   void make_room(int of_rows);
-  std::size_t capacity_bytes() const { return (columns.capacity() + open.capacity()) * sizeof(std::uint32_t); }
+  std::size_t capacity_bytes() const { return (columns.capacity() + uncertain.capacity()) * sizeof(std::uint32_t); }
 };
 inline constexpr int k_most_columns = 0x3fff;
 
@@ -75,10 +75,10 @@ struct RowBatches {
   std::size_t capacity_bytes() const;
 };
 
-// Balls of one slice: places in VisibleBalls, from which a whole vector can be read beyond `count`.
+// Balls of one slice: indices in VisibleBalls, from which a whole vector can be read beyond `count`.
 struct BallsOfSlice {
   int slice;
-  const std::uint32_t* places;
+  const std::uint32_t* indices;
   std::uint32_t count;  // at most balls_per_batch()
 };
 // A batch for each of `balls`, which are at most k_batches_at_once. `shapes` of orthographic grids can be empty.

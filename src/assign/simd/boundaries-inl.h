@@ -22,18 +22,18 @@ HWY_INLINE VI last_passed(const std::vector<float>& boundaries, VI guess, int le
   const DI di;
   const auto count = static_cast<std::int32_t>(boundaries.size()) - 1;
   const VI zero = Zero(di), one = Set(di, 1), from = Set(di, least), to = Set(di, count + least);
-  const auto at = [&](VI place) { return RebindMask(di, passes(gathered(boundaries, place))); };
-  VI place = Min(Max(guess, from), to);
+  const auto at = [&](VI index) { return RebindMask(di, passes(gathered(boundaries, index))); };
+  VI index = Min(Max(guess, from), to);
   for (;;) {
-    const VI next = place + one;
-    const auto goes_on = And(place < to, at(Min(next, to)));
+    const VI next = index + one;
+    const auto goes_on = And(index < to, at(Min(next, to)));
     if (AllFalse(di, goes_on)) break;
-    place = IfThenElse(goes_on, next, place);
+    index = IfThenElse(goes_on, next, index);
   }
   for (;;) {
-    const auto goes_back = AndNot(at(Max(place, zero)), place > from);
-    if (AllFalse(di, goes_back)) return place;
-    place = IfThenElse(goes_back, place - one, place);
+    const auto goes_back = AndNot(at(Max(index, zero)), index > from);
+    if (AllFalse(di, goes_back)) return index;
+    index = IfThenElse(goes_back, index - one, index);
   }
 }
 

@@ -11,14 +11,14 @@
 
 namespace clusterbench::assign {
 
-// For every 8 bits: the places of those that are set, then of the others, both ascending.
-inline constexpr auto k_places_of_bits = [] {
+// For every 8 bits: the lanes of those that are set, then of the others, both ascending.
+inline constexpr auto k_lanes_of_bits = [] {
   std::array<std::array<std::uint8_t, 8>, 256> table{};
   for (unsigned bits = 0; bits < 256; ++bits) {
     unsigned next = 0;
     for (const unsigned wanted : {1u, 0u})
-      for (unsigned place = 0; place < 8; ++place)
-        if ((bits >> place & 1) == wanted) table[bits][next++] = static_cast<std::uint8_t>(place);
+      for (unsigned lane = 0; lane < 8; ++lane)
+        if ((bits >> lane & 1) == wanted) table[bits][next++] = static_cast<std::uint8_t>(lane);
   }
   return table;
 }();
@@ -41,13 +41,13 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Of at most 8 lanes: the places of those that are wanted, then of the others.
+// Of at most 8 lanes: the lanes of those that are wanted, then of the others.
 template <class D, class M>
-HWY_INLINE auto places_of(D d, M wanted) {
+HWY_INLINE auto lanes_of(D d, M wanted) {
   std::uint8_t bits[8];
   StoreMaskBits(d, wanted, bits);
-  const auto places = LoadU(hn::Rebind<std::uint8_t, D>(), k_places_of_bits[bits[0]].data());
-  return IndicesFromVec(d, PromoteTo(hn::RebindToSigned<D>(), places));
+  const auto lanes = LoadU(hn::Rebind<std::uint8_t, D>(), k_lanes_of_bits[bits[0]].data());
+  return IndicesFromVec(d, PromoteTo(hn::RebindToSigned<D>(), lanes));
 }
 
 // Lanes of 32 bits, the wanted ones first.
@@ -61,7 +61,7 @@ HWY_INLINE V compressed([[maybe_unused]] D d, V lanes, M wanted) {
 #elif HWY_TARGET == HWY_SCALAR
   return Compress(lanes, wanted);
 #else
-  return TableLookupLanes(lanes, places_of(d, wanted));
+  return TableLookupLanes(lanes, lanes_of(d, wanted));
 #endif
 }
 

@@ -15,8 +15,9 @@
 #include <limits>
 #include <vector>
 
-#include "assign/lists/row_lists.h"
 #include "assign/simd/compress-inl.h"
+#include "assign/simd/lanes.h"
+#include "core/aligned_vector.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign {
@@ -44,15 +45,15 @@ HWY_INLINE M is_between(V low, V value, V high) {
 HWY_INLINE VI all_int(std::int32_t value) {
   return Set(DI(), value);
 }
-HWY_INLINE V gathered(const float* from, VI places) {
-  return GatherIndex(D(), from, places);
+HWY_INLINE V gathered(const float* from, VI indices) {
+  return GatherIndex(D(), from, indices);
 }
-HWY_INLINE VI gathered(const std::int32_t* from, VI places) {
-  return GatherIndex(DI(), from, places);
+HWY_INLINE VI gathered(const std::int32_t* from, VI indices) {
+  return GatherIndex(DI(), from, indices);
 }
 template <class Allocated>
-HWY_INLINE auto gathered(const Allocated& from, VI places) {
-  return gathered(from.data(), places);
+HWY_INLINE auto gathered(const Allocated& from, VI indices) {
+  return gathered(from.data(), indices);
 }
 
 // Four numbers of each lane.
@@ -60,10 +61,10 @@ struct Quads {
   V first, second, third, fourth;
 };
 
-// Lane i of the answer is what lies side by side at from[4 * places[i]]: several times as fast as gathering each.
-HWY_INLINE Quads gathered_quads(const float* from, const std::uint32_t* places) {
+// Lane i of the answer is what lies side by side at from[4 * indices[i]]: several times as fast as gathering each.
+HWY_INLINE Quads gathered_quads(const float* from, const std::uint32_t* indices) {
   const D d;
-  const auto at = [&](std::size_t lane) { return from + 4 * std::size_t{places[lane]}; };
+  const auto at = [&](std::size_t lane) { return from + 4 * std::size_t{indices[lane]}; };
 #if HWY_TARGET == HWY_SCALAR
   const float* four = at(0);
   return {LoadU(d, four), LoadU(d, four + 1), LoadU(d, four + 2), LoadU(d, four + 3)};
@@ -103,13 +104,13 @@ class RegisterTable {
   static std::size_t size() { return 2 * Lanes(D()); }
   HWY_INLINE RegisterTable(V first, V second) : first_(first), second_(second) {}
 
-  HWY_INLINE V at(VI place) const {
+  HWY_INLINE V at(VI index) const {
 #if HWY_TARGET <= HWY_AVX3
-    return V{_mm512_permutex2var_ps(first_.raw, place.raw, second_.raw)};
+    return V{_mm512_permutex2var_ps(first_.raw, index.raw, second_.raw)};
 #else
     const VI last = Set(DI(), static_cast<std::int32_t>(Lanes(D())) - 1);
-    const Which within = IndicesFromVec(DI(), And(place, last));
-    return IfThenElse(RebindMask(D(), place > last), taken(second_, within), taken(first_, within));
+    const Which within = IndicesFromVec(DI(), And(index, last));
+    return IfThenElse(RebindMask(D(), index > last), taken(second_, within), taken(first_, within));
 #endif
   }
 
@@ -130,11 +131,11 @@ HWY_INLINE VI whole(V number) {
 
 // The sums of the lanes up to each one.
 HWY_INLINE VI sums(VI values) {
-  const VI place = Iota(DI(), 0);
+  const VI lane = Iota(DI(), 0);
   const auto n = static_cast<std::int32_t>(Lanes(DI()));
   for (std::int32_t step = 1; step < n; step *= 2) {
-    const Which before = IndicesFromVec(DI(), And(place - all_int(step), all_int(n - 1)));
-    values = values + IfThenElseZero(place > all_int(step - 1), taken(values, before));
+    const Which before = IndicesFromVec(DI(), And(lane - all_int(step), all_int(n - 1)));
+    values = values + IfThenElseZero(lane > all_int(step - 1), taken(values, before));
   }
   return values;
 }
@@ -164,6 +165,26 @@ class Carried {
   Which one_back_;
 };
 
+// Appends the wanted lanes of vectors to arrays, which have room for a whole vector from index `at` on.
+class Appender {
+ public:
+  HWY_INLINE Appender(M wanted, std::uint32_t at) : wanted_(wanted), at_(at) {}
+
+  HWY_INLINE void operator()(V value, AlignedVector<float>& to) const {
+    StoreU(compressed(D(), value, wanted_), D(), to.data() + at_);
+  }
+  HWY_INLINE void operator()(VI value, AlignedVector<std::int32_t>& to) const {
+    StoreU(compressed(DI(), value, RebindMask(DI(), wanted_)), DI(), to.data() + at_);
+  }
+  HWY_INLINE void operator()(VU value, AlignedVector<std::uint32_t>& to) const {
+    StoreU(compressed(DU(), value, RebindMask(DU(), wanted_)), DU(), to.data() + at_);
+  }
+
+ private:
+  M wanted_;
+  std::uint32_t at_;
+};
+
 // from[0] .. from[count - 1], and 0 beyond if that is less than a vector.
 HWY_INLINE V loaded(const float* from, std::uint32_t count) {
   const D d;
@@ -174,9 +195,9 @@ HWY_INLINE V loaded(const float* from, std::uint32_t count) {
 }
 
 // LightArrays::padded_radius
-HWY_INLINE V padded(V radius, V reach, float roundings) {
-  if (roundings == 0.0f) return radius;
-  return radius + all(roundings) * (all(0x1p-24f) * reach);
+HWY_INLINE V padded(V radius, V reach, float roundoffs) {
+  if (roundoffs == 0.0f) return radius;
+  return radius + all(roundoffs) * (all(0x1p-24f) * reach);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -13,9 +13,9 @@ class Bitfield final : public Storage {
  public:
   explicit Bitfield(const Params&) {}
 
-  void start(std::uint32_t cell_count, std::uint32_t points, std::uint32_t spots) override {
+  void start(std::uint32_t cell_count, const view::LightRanges& lights) override {
     cell_count_ = cell_count;
-    words_per_cell_ = (points + spots + k_bits - 1) / k_bits;
+    words_per_cell_ = (lights.size() + k_bits - 1) / k_bits;
     check_memory("words of bits", std::uint64_t{cell_count} * words_per_cell_, sizeof(std::uint32_t));
     words_.assign(std::size_t{cell_count} * words_per_cell_, 0);
   }
@@ -48,10 +48,6 @@ class Bitfield final : public Storage {
   std::vector<std::uint32_t> words_;
 };
 
-std::unique_ptr<Storage> make(const Params& params) {
-  return std::make_unique<Bitfield>(params);
-}
-
 }  // namespace
 
 extern const StorageDescriptor bitfield_descriptor;
@@ -60,7 +56,7 @@ const StorageDescriptor bitfield_descriptor{
     .summary = "one bit per light and cell, in words of 32 bits; entries are words",
     .source = "Humus, Clustered Shading 2015; per tile: Drobot 2017, flat bit array",
     .params = {},
-    .make = make,
+    .make = make_storage<Bitfield>,
 };
 
 }  // namespace clusterbench::assign

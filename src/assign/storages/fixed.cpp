@@ -14,8 +14,8 @@ class Fixed final : public Storage {
  public:
   explicit Fixed(const Params& params) : cap_(static_cast<std::uint32_t>(params.number("cap"))) {}
 
-  void start(std::uint32_t cell_count, std::uint32_t points, std::uint32_t spots) override {
-    lights_ = points + spots;
+  void start(std::uint32_t cell_count, const view::LightRanges& lights) override {
+    lights_ = lights.size();
     check_memory("places of fixed lists", std::uint64_t{cell_count} * cap_, narrowest_bits(lights_) / 8);
     check_memory("counts of fixed lists", cell_count, sizeof(std::uint32_t));
     counts_.assign(cell_count, 0);
@@ -74,10 +74,6 @@ class Fixed final : public Storage {
   IndexArray indices_;
 };
 
-std::unique_ptr<Storage> make(const Params& params) {
-  return std::make_unique<Fixed>(params);
-}
-
 }  // namespace
 
 extern const StorageDescriptor fixed_descriptor;
@@ -95,7 +91,7 @@ const StorageDescriptor fixed_descriptor{
                 .max = 65535.0,
                 .choices = {},
                 .whole = true}},
-    .make = make,
+    .make = make_storage<Fixed>,
 };
 
 }  // namespace clusterbench::assign

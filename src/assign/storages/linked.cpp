@@ -12,12 +12,12 @@ class Linked final : public Storage {
  public:
   explicit Linked(const Params& params) : nodes_per_cell_(params.number("nodes_per_cell")) {}
 
-  void start(std::uint32_t cell_count, std::uint32_t points, std::uint32_t spots) override {
+  void start(std::uint32_t cell_count, const view::LightRanges& lights) override {
     check_memory("heads of linked lists", cell_count, sizeof(std::uint32_t));
     heads_.assign(cell_count, k_end);
     capacity_ = static_cast<std::uint64_t>(nodes_per_cell_ * cell_count);
-    room_.assign(points + spots, 0);
-    is_dropped_.assign(points + spots, false);
+    room_.assign(lights.size(), 0);
+    is_dropped_.assign(lights.size(), false);
   }
 
   void store(const Lists& lists) override {
@@ -109,10 +109,6 @@ class Linked final : public Storage {
   std::vector<bool> is_dropped_;
 };
 
-std::unique_ptr<Storage> make(const Params& params) {
-  return std::make_unique<Linked>(params);
-}
-
 }  // namespace
 
 extern const StorageDescriptor linked_descriptor;
@@ -129,7 +125,7 @@ const StorageDescriptor linked_descriptor{
                 .min = 0.01,
                 .max = 65535.0,
                 .choices = {}}},
-    .make = make,
+    .make = make_storage<Linked>,
 };
 
 }  // namespace clusterbench::assign

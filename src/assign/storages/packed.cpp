@@ -19,9 +19,9 @@ class Packed final : public Storage {
   explicit Packed(const Params& params)
       : wanted_bits_(params.text("index_bits")), is_sparse_(params.text("headers") == "sparse") {}
 
-  void start(std::uint32_t cell_count, std::uint32_t points, std::uint32_t spots) override {
-    lights_ = points + spots;
-    points_ = points;
+  void start(std::uint32_t cell_count, const view::LightRanges& lights) override {
+    lights_ = lights.size();
+    points_ = lights.points.count;
     const std::uint32_t needed = narrowest_bits(lights_);
     bits_ = wanted_bits_ == "auto" ? needed : static_cast<std::uint32_t>(std::stoul(wanted_bits_));
     if (bits_ < needed)
@@ -151,10 +151,6 @@ class Packed final : public Storage {
   IndexArray indices_;
 };
 
-std::unique_ptr<Storage> make(const Params& params) {
-  return std::make_unique<Packed>(params);
-}
-
 }  // namespace
 
 extern const StorageDescriptor packed_descriptor;
@@ -173,7 +169,7 @@ const StorageDescriptor packed_descriptor{
                 .standard = std::string("dense"),
                 .unit = "",
                 .choices = {"dense", "sparse"}}},
-    .make = make,
+    .make = make_storage<Packed>,
 };
 
 }  // namespace clusterbench::assign

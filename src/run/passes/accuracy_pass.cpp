@@ -26,8 +26,6 @@ struct FrameAtHand {
   std::vector<bool> is_outside;  // of each sample: of the grid
   assign::Lists reaching;
   std::optional<measure::LookupFrame> lookup;
-
-  std::uint32_t spots() const { return static_cast<std::uint32_t>(frame.lights.size()) - frame.points; }
 };
 
 class MethodMeter {
@@ -79,7 +77,7 @@ class CaseMeter {
 
   void add(const FrameAtHand& now, const grid::Grid& grid, const MethodMeter& method) {
     if (storage_) {
-      if (now.is_new_grid) storage_->start(grid, now.frame.points, now.spots());
+      if (now.is_new_grid) storage_->start(grid, now.frame.ranges());
       storage_->store(*method.run().filled_lists());
     }
     const assign::LightStructure& structure = storage_ ? *storage_ : *method.run().structure();

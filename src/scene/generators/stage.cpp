@@ -119,8 +119,8 @@ int Stage::mover(const std::string& name, const std::vector<PathKey>& keys) {
 
 void Stage::camera(const std::string& name, const std::vector<PathKey>& keys, double far_m) {
   const int node = mover(name, keys);
-  const Json lens{{"yfov", 1.047198}, {"aspectRatio", 1.777778}, {"znear", 0.1}, {"zfar", far_m}};
-  document_["cameras"] = Json::array({Json{{"type", "perspective"}, {"perspective", lens}}});
+  const Json projection{{"yfov", 1.047198}, {"aspectRatio", 1.777778}, {"znear", 0.1}, {"zfar", far_m}};
+  document_["cameras"] = Json::array({Json{{"type", "perspective"}, {"perspective", projection}}});
   document_["nodes"][static_cast<std::size_t>(node)]["camera"] = 0;
 }
 

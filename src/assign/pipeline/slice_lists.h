@@ -7,19 +7,29 @@
 #include <string>
 #include <vector>
 
-#include "assign/bounds/bounds_rows.h"
 #include "assign/cone/cone_spheres.h"
 #include "assign/contract/light_test.h"
 #include "assign/cull/slice_bins.h"
 #include "assign/lists/list_builder.h"
+#include "assign/pipeline/bounded_balls.h"
+#include "assign/rows/slice_rows.h"
+#include "core/arrays.h"
 #include "core/error.h"
 
 namespace clusterbench::assign {
 
+// Slices that are taken together: all of a grid, or a cascade's level.
+struct Level {
+  int slices = 0;
+  // Cells that take no lights, in the first `hole_slices` slices.
+  BandHole hole{};
+  int hole_slices = 0;
+};
+
 // Keeps its memory between frames.
-class BoxedLists {
+class SliceLists {
  public:
-  explicit BoxedLists(const LightTest& test) : test_(test) {}
+  explicit SliceLists(const LightTest& test) : test_(test) {}
 
   // After the test's start_grid(). Throws Error if there are too many columns. `key`: what they were given by.
   void start_grid(const Vec3i& cells, const char* key) {
@@ -41,14 +51,13 @@ class BoxedLists {
                  static_cast<std::uint32_t>(grid_cells_.x), out);
   }
 
-  // The next `slices` slices of the grid, which the balls' boxes count from 0. find(batch, rows) finds a batch's rows.
-  // Cells of the hole take no lights in the first hole_slices slices.
+  // The grid's next slices, which the balls' boxes count from 0. find(batch, rows) finds a batch's rows.
   template <class Find>
-  void add_slices(const BoxedBalls& boxed, int slices, Find&& find, const BandHole& hole = {}, int hole_slices = 0) {
-    slice_bins_.sort(boxed, slices);
-    for (int slice = 0; slice < slices; ++slice) {
-      add_slice(boxed, slice, find);
-      spans_.finish_band(slice < hole_slices ? hole : BandHole{});
+  void add_slices(const BoundedBalls& bounded, const Level& level, Find&& find) {
+    slice_bins_.sort(bounded, level.slices);
+    for (int slice = 0; slice < level.slices; ++slice) {
+      add_slice(bounded, slice, find);
+      spans_.finish_band(slice < level.hole_slices ? level.hole : BandHole{});
       ++next_slice_;
     }
   }
@@ -58,33 +67,33 @@ class BoxedLists {
   std::uint64_t tests_done() const { return tests_; }
   std::size_t capacity_bytes() const {
     return spans_.capacity_bytes() + slice_bins_.capacity_bytes() + cells_.capacity_bytes() +
-           batch_.columns.capacity() * sizeof(std::uint32_t) + runs_.capacity() * sizeof(CellRun) +
-           lit_.capacity() * sizeof(std::uint64_t);
+           bytes_of(batch_.columns, runs_, touched_);
   }
 
  private:
   template <class Find>
-  void add_slice(const BoxedBalls& boxed, int slice, Find&& find) {
+  void add_slice(const BoundedBalls& bounded, int slice, Find&& find) {
     const std::span<const std::uint32_t> balls = slice_bins_.of(slice);
-    const std::uint32_t most = balls_per_batch(), first_open = test_.tests_cones() ? lights_->points : lights_->size();
+    const std::uint32_t most = balls_per_batch(),
+                        first_uncertain = test_.tests_cones() ? lights_->spots.first : lights_->size();
     for (std::uint32_t begin = 0; begin < balls.size(); begin += most) {
       const auto count = std::min(most, static_cast<std::uint32_t>(balls.size()) - begin);
-      find(BallBatch{boxed, slice, balls.data() + begin, count, first_open}, batch_);
+      find(BallBatch{bounded, slice, balls.data() + begin, count, first_uncertain}, batch_);
       tests_ += batch_.tests;
       if (spans_.add_batch(batch_.first_row, batch_.last_row, batch_.columns.data(), batch_.lights, is_left_.data()))
-        add_left_rows(boxed, balls.data() + begin, count);
+        add_left_rows(bounded, balls.data() + begin, count);
     }
   }
 
   // Ball by ball, which for each row is the order of the lights.
-  void add_left_rows(const BoxedBalls& boxed, const std::uint32_t* balls, std::uint32_t count) {
+  void add_left_rows(const BoundedBalls& bounded, const std::uint32_t* balls, std::uint32_t count) {
     for (std::uint32_t lane = 0; lane < count; ++lane) {
       runs_.clear();
       const std::uint32_t light = batch_.lights[lane];
-      for (int row = boxed.first_row[balls[lane]]; row <= boxed.last_row[balls[lane]]; ++row) {
-        const auto place = static_cast<std::size_t>(row);
-        if (row < batch_.first_row || row > batch_.last_row || is_left_[place] == 0) continue;
-        const std::uint32_t entry = batch_.columns[place * batch_.lanes + lane];
+      for (int row = bounded.first_row[balls[lane]]; row <= bounded.last_row[balls[lane]]; ++row) {
+        const auto index = static_cast<std::size_t>(row);
+        if (row < batch_.first_row || row > batch_.last_row || is_left_[index] == 0) continue;
+        const std::uint32_t entry = batch_.columns[index * batch_.lanes + lane];
         if (entry == BatchRows::k_none) continue;
         const auto first = static_cast<std::uint32_t>(BatchRows::first_of(entry));
         const auto last = static_cast<std::uint32_t>(BatchRows::last_of(entry));
@@ -93,30 +102,29 @@ class BoxedLists {
         else
           spans_.add(static_cast<std::uint32_t>(row), first, last, light);
       }
-      if (!runs_.empty()) add_lit(light);
+      if (!runs_.empty()) add_touched(light);
     }
   }
 
   void add_runs(std::uint32_t row, std::uint32_t first, std::uint32_t last) {
-    const auto row_start = static_cast<std::uint32_t>(next_slice_ * grid_cells_.y + static_cast<int>(row)) *
-                           static_cast<std::uint32_t>(grid_cells_.x);
+    const std::uint32_t row_start = grid::cell_index({0, static_cast<int>(row), next_slice_}, grid_cells_);
     tests_ += last - first + 1;
     for (std::uint32_t column = first; column <= last; column += 64)
       runs_.push_back({row, column, row_start + column, std::min(64u, last - column + 1)});
   }
 
   // Those of the runs' cells that a spot's cone may touch.
-  void add_lit(std::uint32_t light) {
-    find_lit_cells(test_.cone(*lights_, light), cells_, runs_, lit_);
+  void add_touched(std::uint32_t light) {
+    find_touched_cells(test_.cone(*lights_, light), cells_, runs_, touched_);
     for (std::size_t i = 0; i < runs_.size(); ++i) {
-      std::uint64_t lit = lit_[i];
+      std::uint64_t touched = touched_[i];
       std::uint32_t column = runs_[i].column;
-      while (lit != 0) {
-        const int dark = std::countr_zero(lit), bright = std::countr_one(lit >> dark);
-        column += static_cast<std::uint32_t>(dark);
-        spans_.add(runs_[i].row, column, column + static_cast<std::uint32_t>(bright) - 1, light);
-        column += static_cast<std::uint32_t>(bright);
-        lit = dark + bright < 64 ? lit >> (dark + bright) : 0;
+      while (touched != 0) {
+        const int skipped = std::countr_zero(touched), taken = std::countr_one(touched >> skipped);
+        column += static_cast<std::uint32_t>(skipped);
+        spans_.add(runs_[i].row, column, column + static_cast<std::uint32_t>(taken) - 1, light);
+        column += static_cast<std::uint32_t>(taken);
+        touched = skipped + taken < 64 ? touched >> (skipped + taken) : 0;
       }
     }
   }
@@ -128,8 +136,8 @@ class BoxedLists {
   CellBalls cells_;
   SliceBins slice_bins_;
   BatchRows batch_;
-  std::vector<CellRun> runs_;       // of a spot in a slice
-  std::vector<std::uint64_t> lit_;  // of the runs
+  std::vector<CellRun> runs_;           // of a spot in a slice
+  std::vector<std::uint64_t> touched_;  // of the runs
   std::vector<std::uint8_t> is_left_;
   ListBuilder spans_;
   std::uint64_t tests_ = 0;

@@ -1,4 +1,4 @@
-#include "assign/cone/spot_spans.h"
+#include "assign/exact/spot_spans.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ void SpotSpans::find(const ExactFrame& frame, int first, int last) {
   tests_ = fallbacks_ = 0;
   rows_.count = next_row_ = 0;
   judge_.reset();
-  if (frame.first_spot_place == frame.visible.count) return;
+  if (frame.first_spot == frame.visible.count) return;
   const RowPlanes& planes = frame.planes;
   const SpotsAndPlanes from{&frame.lights,       planes.side.data(),     planes.slope.data(),
                             planes.depth.data(), least_reach_of(planes), planes.orthographic};
@@ -38,17 +38,17 @@ void SpotSpans::find(const ExactFrame& frame, int first, int last) {
   } else {
     slices_.count = 0;
     for (int slice = first; slice < last; ++slice)
-      for (const std::uint32_t place : frame.spots_of(slice))
-        slices_.add(frame.visible.light[place] - frame.lights.points, static_cast<std::uint32_t>(slice));
+      for (const std::uint32_t ball : frame.spots_of(slice))
+        slices_.add(frame.visible.light[ball] - frame.lights.spots.first, static_cast<std::uint32_t>(slice));
     find_spot_rows(from, planes, slices_, rows_);
   }
   tests_ += rows_.count;
-  settle_open_rows(from);
+  settle_uncertain_rows(from);
 }
 
-void SpotSpans::settle_open_rows(const SpotsAndPlanes& from) {
-  take_open_rows();
-  if (lit_.empty()) return;
+void SpotSpans::settle_uncertain_rows(const SpotsAndPlanes& from) {
+  take_uncertain_rows();
+  if (spans_.empty()) return;
   if (!frame_->planes.orthographic) settle_touches(from);
   drop_missed_rows(from);
   shorten(from);
@@ -58,13 +58,13 @@ void SpotSpans::settle_open_rows(const SpotsAndPlanes& from) {
     for (const Look how : {Look::approach, Look::closer, Look::thorough}) {
       ask_more_closely();
       look_at_cells(from, how, closer_);
-      for (std::uint32_t i = 0; i < closer_.count; ++i) cells_.touch[closer_places_[i]] = closer_.touch[i];
+      for (std::uint32_t i = 0; i < closer_.count; ++i) cells_.touch[closer_cells_[i]] = closer_.touch[i];
     }
     for (const Ends& ends : ends_) settle(ends);
   }
-  for (const Lit& lit : lit_) {
-    rows_.first[lit.place] = lit.columns.first;
-    rows_.last[lit.place] = lit.columns.last;
+  for (const Span& span : spans_) {
+    rows_.first[span.row] = span.columns.first;
+    rows_.last[span.row] = span.columns.last;
   }
 }
 
@@ -73,16 +73,14 @@ void SpotSpans::add_to(int slice, ListBuilder& spans) {
     const std::int32_t first = rows_.first[next_row_], last = rows_.last[next_row_];
     if (first <= last)
       spans.add(rows_.row[next_row_], static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last),
-                rows_.spot[next_row_] + frame_->lights.points);
+                rows_.spot[next_row_] + frame_->lights.spots.first);
   }
 }
 
 std::size_t SpotSpans::capacity_bytes() const {
   return batches_.capacity_bytes() + slices_.capacity_bytes() + rows_.capacity_bytes() + cells_.capacity_bytes() +
-         closer_.capacity_bytes() + open_.capacity() * sizeof(std::uint32_t) +
-         closer_places_.capacity() * sizeof(std::uint32_t) + lit_.capacity() * sizeof(Lit) +
-         ends_.capacity() * sizeof(Ends) + waiting_.capacity() * sizeof(std::uint32_t) +
-         long_.capacity() * sizeof(Long) + pieces_.capacity() * sizeof(Piece) + touches_.capacity_bytes();
+         closer_.capacity_bytes() + touches_.capacity_bytes() +
+         bytes_of(uncertain_, closer_cells_, spans_, ends_, waiting_, long_, runs_);
 }
 
 // Those of the spots' bounding balls.
@@ -90,20 +88,21 @@ void SpotSpans::add_orthographic_rows(int slice) {
   while (const BatchRows* batch = batches_.next(slice))
     for (int row = batch->first_row; row <= batch->last_row; ++row)
       each_span(*batch, row, [&](std::uint32_t light, const IndexRange& columns, bool) {
-        rows_.add({light - frame_->lights.points, static_cast<std::uint32_t>(slice), static_cast<std::uint32_t>(row),
-                   static_cast<std::uint32_t>(columns.first), static_cast<std::uint32_t>(columns.last) + 1},
-                  SpotRows::k_none_before | SpotRows::k_none_behind);
+        rows_.add(
+            {light - frame_->lights.spots.first, static_cast<std::uint32_t>(slice), static_cast<std::uint32_t>(row),
+             static_cast<std::uint32_t>(columns.first), static_cast<std::uint32_t>(columns.last) + 1},
+            SpotRows::k_none_before | SpotRows::k_none_behind);
       });
 }
 
-void SpotSpans::take_open_rows() {
-  lit_.clear();
+void SpotSpans::take_uncertain_rows() {
+  spans_.clear();
   const int last_column = frame_->planes.columns - 1;
   for (std::uint32_t i = 0; i < rows_.count; ++i) {
     const std::uint8_t known = rows_.known[i];
     if (known == SpotRows::k_all) continue;
     const auto is = [&](std::uint8_t bit) { return (known & bit) != 0; };
-    lit_.push_back(
+    spans_.push_back(
         {i,
          {is(SpotRows::k_none_before) ? rows_.first[i] : 0, is(SpotRows::k_none_behind) ? rows_.last[i] : last_column},
          !is(SpotRows::k_none_before) || !is(SpotRows::k_first_is_touched),
@@ -112,72 +111,72 @@ void SpotSpans::take_open_rows() {
 }
 
 void SpotSpans::settle_touches(const SpotsAndPlanes& from) {
-  pieces_.clear();
+  runs_.clear();
   touches_.clear();
-  for (std::uint32_t i = 0; i < lit_.size(); ++i) ask_for_touches(i);
+  for (std::uint32_t i = 0; i < spans_.size(); ++i) ask_for_touches(i);
   touches_.look(from, frame_->planes);
-  tests_ += pieces_.size();
-  for (std::uint32_t place = 0; place < pieces_.size(); ++place) take_touch(pieces_[place], place);
+  tests_ += runs_.size();
+  for (std::uint32_t i = 0; i < runs_.size(); ++i) take_touch(runs_[i], i);
 }
 
 void SpotSpans::ask_for_touches(std::uint32_t i) {
-  const Lit& lit = lit_[i];
-  const std::uint8_t known = rows_.known[lit.place];
+  const Span& span = spans_[i];
+  const std::uint8_t known = rows_.known[span.row];
   const auto ask = [&](Part part, const IndexRange& columns) {
     if (columns.empty()) return;
-    pieces_.push_back({i, part});
-    touches_.add(cells_of(lit, columns));
+    runs_.push_back({i, part});
+    touches_.add(cells_of(span, columns));
   };
   const auto is = [&](std::uint8_t bit) { return (known & bit) != 0; };
-  const int first = rows_.first[lit.place], last = rows_.last[lit.place];
-  if (lit.left_is_open && lit.right_is_open) return ask(Part::whole, lit.columns);
-  if (lit.left_is_open && lit.columns.holds(first)) {
-    if (!is(SpotRows::k_none_before)) ask(Part::before, {lit.columns.first, first - 1});
+  const int first = rows_.first[span.row], last = rows_.last[span.row];
+  if (span.left_is_uncertain && span.right_is_uncertain) return ask(Part::whole, span.columns);
+  if (span.left_is_uncertain && span.columns.holds(first)) {
+    if (!is(SpotRows::k_none_before)) ask(Part::before, {span.columns.first, first - 1});
     if (!is(SpotRows::k_first_is_touched)) ask(Part::first, {first, first});
   }
-  if (lit.right_is_open && lit.columns.holds(last)) {
-    if (!is(SpotRows::k_none_behind)) ask(Part::behind, {last + 1, lit.columns.last});
+  if (span.right_is_uncertain && span.columns.holds(last)) {
+    if (!is(SpotRows::k_none_behind)) ask(Part::behind, {last + 1, span.columns.last});
     if (!is(SpotRows::k_last_is_touched)) ask(Part::last, {last, last});
   }
 }
 
 // What is before (behind) the first (last) column was asked before that column, which is an end only where nothing
 // there is touched.
-void SpotSpans::take_touch(const Piece& piece, std::uint32_t place) {
-  const Touch touch = touches_.touch(place);
-  if (touch == Touch::open) return;
-  Lit& lit = lit_[piece.lit];
-  IndexRange& columns = lit.columns;
-  const std::uint8_t known = rows_.known[lit.place];
-  const int first = rows_.first[lit.place], last = rows_.last[lit.place];
+void SpotSpans::take_touch(const Run& run, std::uint32_t index) {
+  const Touch touch = touches_.touch(index);
+  if (touch == Touch::uncertain) return;
+  Span& span = spans_[run.span];
+  IndexRange& columns = span.columns;
+  const std::uint8_t known = rows_.known[span.row];
+  const int first = rows_.first[span.row], last = rows_.last[span.row];
   const bool is_missed = touch == Touch::no;
-  const IndexRange only = is_missed ? IndexRange{} : touches_.only_columns(place, frame_->planes);
+  const IndexRange only = is_missed ? IndexRange{} : touches_.only_columns(index, frame_->planes);
   const bool is_known = is_missed || !only.empty();
-  switch (piece.part) {
+  switch (run.part) {
     case Part::whole:
       if (!is_known) break;
       columns = only;
-      lit.left_is_open = lit.right_is_open = false;
+      span.left_is_uncertain = span.right_is_uncertain = false;
       break;
     case Part::before:
       if (!is_known) break;
       columns.first = is_missed ? first : only.first;
-      lit.left_is_open = is_missed && (known & SpotRows::k_first_is_touched) == 0;
+      span.left_is_uncertain = is_missed && (known & SpotRows::k_first_is_touched) == 0;
       break;
     case Part::first:
       if (columns.first != first) break;
       columns.first += is_missed ? 1 : 0;
-      lit.left_is_open = is_missed;
+      span.left_is_uncertain = is_missed;
       break;
     case Part::behind:
       if (!is_known) break;
       columns.last = is_missed ? last : only.last;
-      lit.right_is_open = is_missed && (known & SpotRows::k_last_is_touched) == 0;
+      span.right_is_uncertain = is_missed && (known & SpotRows::k_last_is_touched) == 0;
       break;
     case Part::last:
       if (columns.last != last) break;
       columns.last -= is_missed ? 1 : 0;
-      lit.right_is_open = is_missed;
+      span.right_is_uncertain = is_missed;
       break;
   }
 }
@@ -189,78 +188,78 @@ void SpotSpans::drop_missed_rows(const SpotsAndPlanes& from) {
   const std::span<const Look> looks =
       from.orthographic ? std::span<const Look>(k_quick) : std::span<const Look>(k_thorough);
   waiting_.clear();
-  for (std::uint32_t i = 0; i < lit_.size(); ++i)
-    if (lit_[i].left_is_open && lit_[i].right_is_open && !lit_[i].columns.empty()) waiting_.push_back(i);
+  for (std::uint32_t i = 0; i < spans_.size(); ++i)
+    if (spans_[i].left_is_uncertain && spans_[i].right_is_uncertain && !spans_[i].columns.empty())
+      waiting_.push_back(i);
   for (const Look how : looks) {
     closer_.count = 0;
-    for (const std::uint32_t i : waiting_) closer_.add(cells_of(lit_[i], lit_[i].columns));
+    for (const std::uint32_t i : waiting_) closer_.add(cells_of(spans_[i], spans_[i].columns));
     look_at_cells(from, how, closer_);
     std::size_t kept = 0;
     for (std::uint32_t at = 0; at < closer_.count; ++at) {
-      if (closer_.touch[at] == Touch::no) lit_[waiting_[at]].columns = {};
-      if (closer_.touch[at] == Touch::open) waiting_[kept++] = waiting_[at];
+      if (closer_.touch[at] == Touch::no) spans_[waiting_[at]].columns = {};
+      if (closer_.touch[at] == Touch::uncertain) waiting_[kept++] = waiting_[at];
     }
     waiting_.resize(kept);
   }
-  open_.clear();
-  for (std::uint32_t i = 0; i < lit_.size(); ++i)
-    if (lit_[i].is_open()) open_.push_back(i);
+  uncertain_.clear();
+  for (std::uint32_t i = 0; i < spans_.size(); ++i)
+    if (spans_[i].is_uncertain()) uncertain_.push_back(i);
 }
 
-// Takes away what a quick look at several columns at once can tell is not touched: half of each span at its open ends,
-// where they are touched or in doubt a quarter, and so on.
+// Takes away what a quick look at several columns at once can tell is not touched: half of each span at its uncertain
+// ends, where they are touched or in doubt a quarter, and so on.
 void SpotSpans::shorten(const SpotsAndPlanes& from) {
   long_.clear();
-  for (const std::uint32_t i : open_) {
-    const int half = lit_[i].columns.count() / 2;
-    if (half < k_least_piece) continue;
-    if (lit_[i].left_is_open) long_.push_back({i, half, true});
-    if (lit_[i].right_is_open) long_.push_back({i, half, false});
+  for (const std::uint32_t i : uncertain_) {
+    const int half = spans_[i].columns.count() / 2;
+    if (half < k_least_columns) continue;
+    if (spans_[i].left_is_uncertain) long_.push_back({i, half, true});
+    if (spans_[i].right_is_uncertain) long_.push_back({i, half, false});
   }
   while (!long_.empty()) {
     cells_.count = 0;
-    for (const Long& piece : long_) {
-      const IndexRange& columns = lit_[piece.lit].columns;
-      cells_.add(cells_of(lit_[piece.lit], piece.from_left
-                                               ? IndexRange{columns.first, columns.first + piece.columns - 1}
-                                               : IndexRange{columns.last - piece.columns + 1, columns.last}));
+    for (const Long& run : long_) {
+      const IndexRange& columns = spans_[run.span].columns;
+      cells_.add(cells_of(spans_[run.span], run.from_left ? IndexRange{columns.first, columns.first + run.columns - 1}
+                                                          : IndexRange{columns.last - run.columns + 1, columns.last}));
     }
     tests_ += cells_.count;
     look_at_cells(from, Look::quick, cells_);
     std::size_t kept = 0;
     for (std::size_t at = 0; at < long_.size(); ++at) {
-      Long piece = long_[at];
-      IndexRange& columns = lit_[piece.lit].columns;
+      Long run = long_[at];
+      IndexRange& columns = spans_[run.span].columns;
       if (cells_.touch[at] != Touch::no)
-        piece.columns /= 2;
-      else if (piece.from_left)
-        columns.first += piece.columns;
+        run.columns /= 2;
+      else if (run.from_left)
+        columns.first += run.columns;
       else
-        columns.last -= piece.columns;
-      piece.columns = std::min(piece.columns, columns.count() / 2);
-      if (piece.columns >= k_least_piece) long_[kept++] = piece;
+        columns.last -= run.columns;
+      run.columns = std::min(run.columns, columns.count() / 2);
+      if (run.columns >= k_least_columns) long_[kept++] = run;
     }
     long_.resize(kept);
   }
 }
 
-// Puts the cells at the open ends of all spans into cells_. False if there are none.
+// Puts the cells at the uncertain ends of all spans into cells_. False if there are none.
 bool SpotSpans::ask_for_ends() {
   constexpr int k_at_once = 4;
   cells_.count = 0;
   ends_.clear();
   waiting_.clear();
-  std::erase_if(open_, [&](std::uint32_t i) { return !lit_[i].is_open(); });
-  for (const std::uint32_t i : open_) {
-    const Lit& lit = lit_[i];
-    const int count = lit.columns.count();
-    if (lit.left_is_open && lit.right_is_open && count <= 2 * k_at_once) {
-      ask(i, lit.columns, true, true);
+  std::erase_if(uncertain_, [&](std::uint32_t i) { return !spans_[i].is_uncertain(); });
+  for (const std::uint32_t i : uncertain_) {
+    const Span& span = spans_[i];
+    const int count = span.columns.count();
+    if (span.left_is_uncertain && span.right_is_uncertain && count <= 2 * k_at_once) {
+      ask(i, span.columns, true, true);
       continue;
     }
     const int some = std::min(count, k_at_once);
-    if (lit.left_is_open) ask(i, {lit.columns.first, lit.columns.first + some - 1}, true, false);
-    if (lit.right_is_open) ask(i, {lit.columns.last - some + 1, lit.columns.last}, false, true);
+    if (span.left_is_uncertain) ask(i, {span.columns.first, span.columns.first + some - 1}, true, false);
+    if (span.right_is_uncertain) ask(i, {span.columns.last - some + 1, span.columns.last}, false, true);
   }
   return !ends_.empty();
 }
@@ -268,66 +267,65 @@ bool SpotSpans::ask_for_ends() {
 void SpotSpans::ask(std::uint32_t i, const IndexRange& columns, bool from_left, bool from_right) {
   waiting_.push_back(static_cast<std::uint32_t>(ends_.size()));
   ends_.push_back({i, cells_.count, columns, from_left, from_right});
-  for (int column = columns.first; column <= columns.last; ++column) cells_.add(cells_of(lit_[i], {column, column}));
+  for (int column = columns.first; column <= columns.last; ++column) cells_.add(cells_of(spans_[i], {column, column}));
 }
 
-SpotCell SpotSpans::cells_of(const Lit& lit, const IndexRange& columns) const {
-  return {rows_.spot[lit.place], rows_.slice[lit.place], rows_.row[lit.place],
-          static_cast<std::uint32_t>(columns.first), static_cast<std::uint32_t>(columns.last) + 1};
+SpotCell SpotSpans::cells_of(const Span& span, const IndexRange& columns) const {
+  return {rows_.spot[span.row], rows_.slice[span.row], rows_.row[span.row], static_cast<std::uint32_t>(columns.first),
+          static_cast<std::uint32_t>(columns.last) + 1};
 }
 
 // Cells without an answer that lie before the first one that is touched.
 void SpotSpans::ask_more_closely() {
   closer_.count = 0;
-  const auto is = [&](std::uint32_t place, Touch touch) { return cells_.touch[place] == touch; };
+  const auto is = [&](std::uint32_t cell, Touch touch) { return cells_.touch[cell] == touch; };
   std::size_t kept = 0;
   for (const std::uint32_t number : waiting_) {
     const Ends& ends = ends_[number];
-    const std::uint32_t begin = ends.place, end = begin + static_cast<std::uint32_t>(ends.columns.count());
+    const std::uint32_t begin = ends.first_cell, end = begin + static_cast<std::uint32_t>(ends.columns.count());
     const std::uint32_t before = closer_.count;
     std::uint32_t left = begin, right = end;
     for (; ends.from_left && left < end && !is(left, Touch::yes); ++left)
-      if (is(left, Touch::open)) add_closer(left);
+      if (is(left, Touch::uncertain)) add_closer(left);
     for (; ends.from_right && right > left && !is(right - 1, Touch::yes); --right)
-      if (is(right - 1, Touch::open)) add_closer(right - 1);
+      if (is(right - 1, Touch::uncertain)) add_closer(right - 1);
     if (closer_.count != before) waiting_[kept++] = number;
   }
   waiting_.resize(kept);
 }
 
-void SpotSpans::add_closer(std::uint32_t place) {
-  if (closer_places_.size() <= closer_.count) closer_places_.resize(2 * closer_places_.size() + 64);
-  closer_places_[closer_.count] = place;
-  closer_.add(cells_.at(place));
+void SpotSpans::add_closer(std::uint32_t cell) {
+  if (closer_cells_.size() <= closer_.count) closer_cells_.resize(2 * closer_cells_.size() + 64);
+  closer_cells_[closer_.count] = cell;
+  closer_.add(cells_.at(cell));
 }
 
 // Shortens the span by its cells that are not touched. An end is settled where one is.
 void SpotSpans::settle(const Ends& ends) {
-  Lit& lit = lit_[ends.lit];
+  Span& span = spans_[ends.span];
   const auto touches = [&](int column) {
-    Touch& touch = cells_.touch[ends.place + static_cast<std::uint32_t>(column - ends.columns.first)];
-    if (touch == Touch::open) touch = decide(lit.place, column) ? Touch::yes : Touch::no;
+    Touch& touch = cells_.touch[ends.first_cell + static_cast<std::uint32_t>(column - ends.columns.first)];
+    if (touch == Touch::uncertain) touch = decide(span.row, column) ? Touch::yes : Touch::no;
     return touch == Touch::yes;
   };
-  IndexRange& span = lit.columns;
+  IndexRange& columns = span.columns;
   if (ends.from_left) {
-    while (span.first <= ends.columns.last && !touches(span.first)) ++span.first;
-    lit.left_is_open = span.first > ends.columns.last;
+    while (columns.first <= ends.columns.last && !touches(columns.first)) ++columns.first;
+    span.left_is_uncertain = columns.first > ends.columns.last;
   }
   if (ends.from_right) {
-    const int end = std::max(ends.columns.first, span.first);
-    while (span.last >= end && !touches(span.last)) --span.last;
-    lit.right_is_open = span.last < end;
+    const int end = std::max(ends.columns.first, columns.first);
+    while (columns.last >= end && !touches(columns.last)) --columns.last;
+    span.right_is_uncertain = columns.last < end;
   }
 }
 
-bool SpotSpans::decide(std::uint32_t place, int column) {
+bool SpotSpans::decide(std::uint32_t row, int column) {
   ++fallbacks_;
-  const std::uint32_t light = rows_.spot[place] + frame_->lights.points;
+  const std::uint32_t light = rows_.spot[row] + frame_->lights.spots.first;
   if (!judge_ || judge_->light() != light) judge_.emplace(frame_->grid, frame_->lights, light);
-  const Row row =
-      row_of(frame_->grid.screen(), static_cast<int>(rows_.slice[place]), static_cast<int>(rows_.row[place]));
-  return judge_->touches(row.first_cell + static_cast<std::uint32_t>(column), true);
+  const Row cells = row_of(frame_->grid.screen(), static_cast<int>(rows_.slice[row]), static_cast<int>(rows_.row[row]));
+  return judge_->touches(cells.first_cell + static_cast<std::uint32_t>(column), true);
 }
 
 }  // namespace clusterbench::assign

@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "assign/cone/spot_rows.h"
-#include "assign/cone/spot_touches.h"
 #include "assign/exact/exact_frame.h"
 #include "assign/exact/exact_rows.h"
+#include "assign/exact/spot_touches.h"
 
 namespace clusterbench::assign {
 
@@ -27,64 +27,64 @@ class SpotSpans {
 
  private:
   // A row that is not settled: its columns as far as they are known; those that are not touched go from both ends.
-  struct Lit {
-    std::uint32_t place;  // in rows_
+  struct Span {
+    std::uint32_t row;  // in rows_
     grid::IndexRange columns;
-    bool left_is_open, right_is_open;  // the end may yet not be touched
+    bool left_is_uncertain, right_is_uncertain;  // the end may yet not be touched
 
-    bool is_open() const { return !columns.empty() && (left_is_open || right_is_open); }
+    bool is_uncertain() const { return !columns.empty() && (left_is_uncertain || right_is_uncertain); }
   };
-  // An end of a Lit that is to be shortened, and how many columns there are looked at as one.
+  // An end of a span that is to be shortened, and how many columns there are looked at as one.
   struct Long {
-    std::uint32_t lit;
+    std::uint32_t span;
     int columns;
     bool from_left;
   };
-  static constexpr int k_least_piece = 3;
-  // A piece of a Lit that may just be touched: its row, what is before or behind the columns guessed, the first or the
-  // last of these.
+  static constexpr int k_least_columns = 3;
+  // A run of cells of a span that may just be touched: its row, what is before or behind the columns guessed, the first
+  // or the last of these.
   enum class Part : std::uint8_t { whole, before, first, behind, last };
-  struct Piece {
-    std::uint32_t lit;
+  struct Run {
+    std::uint32_t span;
     Part part;
   };
-  // Cells at one or both ends of a Lit that are asked for, from cells_[place] on.
+  // Cells at one or both ends of a span that are asked for, from cells_[first_cell] on.
   struct Ends {
-    std::uint32_t lit, place;
+    std::uint32_t span, first_cell;
     grid::IndexRange columns;
     bool from_left, from_right;
   };
 
   void add_orthographic_rows(int slice);
-  void settle_open_rows(const SpotsAndPlanes& from);
-  void take_open_rows();
+  void settle_uncertain_rows(const SpotsAndPlanes& from);
+  void take_uncertain_rows();
   void settle_touches(const SpotsAndPlanes& from);
   void ask_for_touches(std::uint32_t i);
-  void take_touch(const Piece& piece, std::uint32_t place);
+  void take_touch(const Run& run, std::uint32_t index);
   void drop_missed_rows(const SpotsAndPlanes& from);
   void shorten(const SpotsAndPlanes& from);
   bool ask_for_ends();
-  SpotCell cells_of(const Lit& lit, const grid::IndexRange& columns) const;
+  SpotCell cells_of(const Span& span, const grid::IndexRange& columns) const;
   void ask(std::uint32_t i, const grid::IndexRange& columns, bool from_left, bool from_right);
   void ask_more_closely();
-  void add_closer(std::uint32_t place);
+  void add_closer(std::uint32_t cell);
   void settle(const Ends& ends);
-  bool decide(std::uint32_t place, int column);
+  bool decide(std::uint32_t row, int column);
 
   const ExactFrame* frame_ = nullptr;
   BatchReader batches_;
   SpotSlices slices_;
   SpotRows rows_;               // slice by slice
   std::uint32_t next_row_ = 0;  // to be added
-  std::vector<Lit> lit_;
-  std::vector<Piece> pieces_;
-  SpotTouches touches_;              // of these
-  std::vector<std::uint32_t> open_;  // among them
+  std::vector<Span> spans_;
+  std::vector<Run> runs_;
+  SpotTouches touches_;                   // of these
+  std::vector<std::uint32_t> uncertain_;  // among them
   std::vector<Long> long_;
   std::vector<Ends> ends_;
-  std::vector<std::uint32_t> waiting_;  // Lits or Ends without an answer
+  std::vector<std::uint32_t> waiting_;  // spans or Ends without an answer
   SpotCells cells_, closer_;            // of all ends; those of them to look at closely
-  std::vector<std::uint32_t> closer_places_;
+  std::vector<std::uint32_t> closer_cells_;
   std::optional<SpotJudge> judge_;  // of the spot that was asked for last
   std::uint64_t tests_ = 0, fallbacks_ = 0;
 };

@@ -1,16 +1,16 @@
-// A vector of balls, each with its own piece of a row of cells, in doubles with a bound of their error. For files that
+// A vector of balls, each with its own run of a row of cells, in doubles with a bound of their error. For files that
 // are compiled once per target; included after hwy/highway.h; defines its names anew for each target.
 
-#if defined(CLUSTERBENCH_BALL_PIECES_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef CLUSTERBENCH_BALL_PIECES_INL_H
-#undef CLUSTERBENCH_BALL_PIECES_INL_H
+#if defined(CLUSTERBENCH_BALL_RUNS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef CLUSTERBENCH_BALL_RUNS_INL_H
+#undef CLUSTERBENCH_BALL_RUNS_INL_H
 #else
-#define CLUSTERBENCH_BALL_PIECES_INL_H
+#define CLUSTERBENCH_BALL_RUNS_INL_H
 #endif
 
 #include <vector>
 
-#include "assign/rows/row_planes.h"
+#include "assign/cull/row_planes.h"
 #include "view/frame.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -110,31 +110,31 @@ HWY_INLINE Bound half_slope(const Gap& gap, VD slope_low, VD slope_high) {
 }
 
 // Neighbouring cells of a row as one: those between two planes of columns.
-struct RowPieces {
+struct RowRuns {
   VH light, slice, row, column, end_column;
 };
 
-// A vector of balls, each with its own piece.
-class BallPieces {
+// A vector of balls, each with its own run.
+class BallRuns {
  public:
-  HWY_INLINE BallPieces(const view::LightArrays& lights, const RowPlanes& planes, const RowPieces& pieces)
+  HWY_INLINE BallRuns(const view::LightArrays& lights, const RowPlanes& planes, const RowRuns& runs)
       : orthographic_(planes.orthographic) {
-    const auto plane_at = [&](const std::vector<float>& from, VH place) {
-      return PromoteTo(DD(), GatherIndex(DF(), from.data(), place));
+    const auto plane_at = [&](const std::vector<float>& from, VH index) {
+      return PromoteTo(DD(), GatherIndex(DF(), from.data(), index));
     };
     const VH one = Set(DH(), 1);
-    x0_ = plane_at(planes.side, pieces.column);
-    x1_ = plane_at(planes.side, pieces.end_column);
-    y0_ = plane_at(planes.slope, pieces.row + one);
-    y1_ = plane_at(planes.slope, pieces.row);
-    depth0_ = plane_at(planes.depth, pieces.slice);
-    depth1_ = plane_at(planes.depth, pieces.slice + one);
+    x0_ = plane_at(planes.side, runs.column);
+    x1_ = plane_at(planes.side, runs.end_column);
+    y0_ = plane_at(planes.slope, runs.row + one);
+    y1_ = plane_at(planes.slope, runs.row);
+    depth0_ = plane_at(planes.depth, runs.slice);
+    depth1_ = plane_at(planes.depth, runs.slice + one);
 
     constexpr std::size_t k_stride = sizeof(scene::WorldLight) / sizeof(double);
     static_assert(sizeof(scene::WorldLight) % sizeof(double) == 0);
-    const auto place = PromoteTo(hn::Rebind<std::int64_t, DD>(), pieces.light) *
+    const auto index = PromoteTo(hn::Rebind<std::int64_t, DD>(), runs.light) *
                        Set(hn::Rebind<std::int64_t, DD>(), std::int64_t{k_stride});
-    const auto of_light = [&](const double& first) { return exactly(GatherIndex(DD(), &first, place)); };
+    const auto of_light = [&](const double& first) { return exactly(GatherIndex(DD(), &first, index)); };
     const scene::WorldLight& first = lights.source.front();
     const Bound range = of_light(first.range_m);
     squared_range_ = range * range;
@@ -148,7 +148,7 @@ class BallPieces {
     depth_ = {Neg(z.value), z.error};
   }
 
-  // The piece's nearest point, about: where was looked for it, and what was measured there. As in geom/ball.cpp.
+  // The run's nearest point, about: where was looked for it, and what was measured there. As in geom/ball.cpp.
   struct Nearest {
     Gap x, y;
     Bound depth, along;  // along: from the centre's depth
@@ -169,7 +169,7 @@ class BallPieces {
         found.x.size * found.x.size + found.y.size * found.y.size + found.along * found.along - squared_range_;
     return found;
   }
-  // Half the slope, along depth, of the squared distance is at most this, in directions that lead to the piece's
+  // Half the slope, along depth, of the squared distance is at most this, in directions that lead to the run's
   // nearest point: this is how much less deep or deeper that can be, and its square how much nearer.
   HWY_INLINE VD steepness(const Nearest& found) const {
     const VD zero = Zero(DD());
@@ -218,8 +218,8 @@ class BallPieces {
     const MD is_upright = And(slope_at(at, x_.value, x0_, x1_) == zero, slope_at(at, y_.value, y0_, y1_) == zero);
     return And(And(is_within, at == depth_.value), is_upright);
   }
-  HWY_INLINE VD slope_at(VD at, VD place, VD low, VD high) const {
-    return IfThenElse(place < low * at, low, IfThenElseZero(place > high * at, high));
+  HWY_INLINE VD slope_at(VD at, VD coordinate, VD low, VD high) const {
+    return IfThenElse(coordinate < low * at, low, IfThenElseZero(coordinate > high * at, high));
   }
   HWY_INLINE VD clamped(VD depth) const { return Min(Max(depth, depth0_), depth1_); }
 

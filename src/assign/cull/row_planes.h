@@ -20,8 +20,8 @@ struct RowPlanes {
   std::vector<float> searched;                   // the slices' near depths, then +inf up to 2^n of them
   std::vector<float> side;                       // slopes of the columns, padded by whole vectors
   int rows = 0, columns = 0, slices = 0;
-  float left = 0.0f, right = 0.0f, columns_per_slope = 0.0f, column_margin = 0.0f;
-  float rows_per_slope = 0.0f, row_margin = 0.0f;
+  float left = 0.0f, right = 0.0f, columns_per_slope = 0.0f, column_tolerance = 0.0f;
+  float rows_per_slope = 0.0f, row_tolerance = 0.0f;
   // Lights of less reach are left to be decided. From here to k_most_row_reach fourth powers of reaches, and these
   // times a slope, are normal numbers, and a ball at the eye is wide in all that is seen. Infinite for perspective
   // grids whose own numbers are not from k_least_slice_m to k_most_row_reach, or slopes above k_most_slope.

@@ -1,4 +1,4 @@
-// H10 to H18: lenses, pictures, projections, far-away worlds.
+// H10 to H18: projections, pictures, far-away worlds.
 
 #include <cmath>
 #include <limits>
@@ -19,14 +19,14 @@ Rig& scatter(Rig& rig, double slope_x, double slope_y, int count, std::uint64_t 
   for (int i = 0; i < count; ++i) {
     const double depth = std::exp(std::log(0.05) + random.unit() * std::log(600.0 / 0.05));
     const double across = 1.4 * (2.0 * random.unit() - 1.0), up = 1.4 * (2.0 * random.unit() - 1.0);
-    const Vec3d place{across * slope_x * depth, up * slope_y * depth, -depth};
+    const Vec3d position{across * slope_x * depth, up * slope_y * depth, -depth};
     const double range = depth * std::exp(std::log(1e-3) + random.unit() * std::log(1e3));
     const double yaw = 360.0 * k_degree * random.unit(), pitch = random.unit() - 0.5,
                  angle = 1e-3 + 1.5 * random.unit();
     if (i % 3 == 2)
-      rig.spot(place, {std::cos(yaw), pitch, std::sin(yaw)}, range, angle);
+      rig.spot(position, {std::cos(yaw), pitch, std::sin(yaw)}, range, angle);
     else
-      rig.point(place, range);
+      rig.point(position, range);
   }
   return rig;
 }
@@ -39,7 +39,7 @@ std::vector<Trial> fields_of_view(std::uint64_t seed) {
   std::vector<Trial> trials;
   for (const double degrees : {0.1, 1.0, 170.0, 179.0}) {
     Rig rig;
-    rig.lens().yfov_rad = degrees * k_degree;
+    rig.projection().yfov_rad = degrees * k_degree;
     scatter(rig, slope_of(degrees) * 16 / 9, slope_of(degrees), 120, seed)
         .on_each(grids_of_every_kind(), std::to_string(degrees) + " degrees", trials);
   }
@@ -59,12 +59,12 @@ std::vector<Trial> aspects(std::uint64_t seed) {
 
 Rig orthographic_rig(double near_m, std::uint64_t seed) {
   Rig rig;
-  rig.lens() = {};
-  rig.lens().orthographic = true;
-  rig.lens().xmag_m = 40.0;
-  rig.lens().ymag_m = 22.5;
-  rig.lens().near_m = near_m;
-  rig.lens().far_m = 200.0;
+  rig.projection() = {};
+  rig.projection().orthographic = true;
+  rig.projection().xmag_m = 40.0;
+  rig.projection().ymag_m = 22.5;
+  rig.projection().near_m = near_m;
+  rig.projection().far_m = 200.0;
   SplitMix64 random(seed);
   for (int i = 0; i < 150; ++i) {
     const double x = random.between(-50, 50), y = random.between(-30, 30), z = random.between(-220, 30);
@@ -95,10 +95,10 @@ std::vector<Trial> off_centre(std::uint64_t seed) {
   std::vector<Trial> trials;
   const double outer = std::tan(54 * k_degree), inner = std::tan(40 * k_degree);
   const double top = std::tan(44 * k_degree), bottom = -std::tan(55 * k_degree);
-  for (const scene::LensSides& sides :
-       {scene::LensSides{-outer, inner, bottom, top}, scene::LensSides{-inner, outer, bottom, top}}) {
+  for (const scene::ProjectionSides& sides :
+       {scene::ProjectionSides{-outer, inner, bottom, top}, scene::ProjectionSides{-inner, outer, bottom, top}}) {
     Rig rig;
-    rig.lens().sides = sides;
+    rig.projection().sides = sides;
     scatter(rig, outer, -bottom, 150, seed).show({2064, 2208});
     rig.on_each(grids_of_every_kind(), sides.left < -sides.right ? "left eye" : "right eye", trials);
   }
@@ -113,7 +113,7 @@ std::vector<Trial> jittered(std::uint64_t seed) {
        {Vec3d{0.5, 0.5, 0}, Vec3d{-0.5, 0.5, 0}, Vec3d{0.25, -0.5, 0}, Vec3d{-0.375, -0.125, 0}}) {
     const double x = pixels.x * 2.0 * right / 1920.0, y = pixels.y * 2.0 * top / 1080.0;
     Rig rig;
-    rig.lens().sides = scene::LensSides{-right + x, right + x, -top + y, top + y};
+    rig.projection().sides = scene::ProjectionSides{-right + x, right + x, -top + y, top + y};
     scatter(rig, right, top, 120, seed).on_each(grids_of_every_kind(), "jitter", trials);
   }
   return trials;
@@ -122,14 +122,14 @@ std::vector<Trial> jittered(std::uint64_t seed) {
 std::vector<Trial> infinite_far(std::uint64_t seed) {
   std::vector<Trial> trials;
   Rig rig;
-  rig.lens().far_m = std::numeric_limits<double>::infinity();
+  rig.projection().far_m = std::numeric_limits<double>::infinity();
   scatter(rig, slope_of(60.0) * 16 / 9, slope_of(60.0), 150, seed)
       .on_each(grids_of_every_kind(), "far from the configuration", trials);
-  grid::GridSpec open = pixel_grid({128, 128});
-  open.slices.far_m = 0.0;
-  trials.push_back(rig.on(open, "far from the lights"));
-  open.slices.scheme = Scheme::fit;
-  trials.push_back(rig.on(open, "slices that fit the lights"));
+  grid::GridSpec far_unnamed = pixel_grid({128, 128});
+  far_unnamed.slices.far_m = 0.0;
+  trials.push_back(rig.on(far_unnamed, "far from the lights"));
+  far_unnamed.slices.scheme = Scheme::fit;
+  trials.push_back(rig.on(far_unnamed, "slices that fit the lights"));
   return trials;
 }
 
@@ -189,12 +189,12 @@ std::vector<Trial> far_from_the_origin(std::uint64_t seed) {
     Rig rig;
     for (int i = 0; i < 150; ++i) {
       const double x = random.between(-40, 40), y = random.between(-10, 10), z = random.between(-80, 10);
-      const Vec3d place = glm::round(Vec3d(x, y, z) * 64.0) / 64.0;
+      const Vec3d position = glm::round(Vec3d(x, y, z) * 64.0) / 64.0;
       const double range = random.between(0.2, 12.0), angle = random.between(0.05, 1.5);
       if (i % 3 == 2)
-        rig.spot(place + away, {x, y, 30}, range, angle);
+        rig.spot(position + away, {x, y, 30}, range, angle);
       else
-        rig.point(place + away, range);
+        rig.point(position + away, range);
     }
     rig.look(away, 0.0).on_each(grids_of_every_kind(), "offset " + std::to_string(static_cast<long>(offset)), trials);
   }
@@ -221,7 +221,7 @@ std::vector<ToolCheck> same_lists_everywhere(std::uint64_t seed) {
 
 }  // namespace
 
-std::vector<HardCase> lens_cases() {
+std::vector<HardCase> projection_cases() {
   return {{"H10", "fields of view of 0.1, 1, 170 and 179 degrees", fields_of_view, nullptr},
           {"H11", "pictures of 100:1 and 1:100", aspects, nullptr},
           {"H12", "orthographic with near 0 and below", orthographic, nullptr},

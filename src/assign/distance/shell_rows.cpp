@@ -1,11 +1,11 @@
-#include "assign/rows/shell_rows.h"
+#include "assign/distance/shell_rows.h"
 
 #include <cmath>
 
-#include "assign/rows/shells.h"
+#include "assign/distance/shells.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "assign/rows/shell_rows.cpp"
+#define HWY_TARGET_INCLUDE "assign/distance/shell_rows.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
 #include <hwy/highway.h>
 
@@ -21,13 +21,13 @@ namespace {
 
 // --- Which shells ---
 
-// More than what the reference's caps, cuts and slopes lose: positions by some 20 roundings.
-constexpr float k_slack_roundings = 64.0f;
+// More than what the reference's caps, cuts and slopes lose: positions by some 20 roundoffs.
+constexpr float k_slack_roundoffs = 64.0f;
 // Within these squares of a reach are normal numbers; elsewhere nothing is left out.
 constexpr float k_least_reach = 1e-15f, k_most_reach = 1e18f;
 
-HWY_INLINE V outside(const TilePlane& plane, V place, V depth) {
-  return all(plane.across) * place + all(plane.along) * depth;
+HWY_INLINE V outside(const TilePlane& plane, V coordinate, V depth) {
+  return all(plane.across) * coordinate + all(plane.along) * depth;
 }
 
 // How far outside of one of the view's sides.
@@ -50,7 +50,7 @@ HWY_INLINE M reach_shells(const ShellPlanes& planes, const Balls& balls, Indices
   const V squares = balls.x * balls.x + balls.y * balls.y + balls.depth * balls.depth;
   const V length = Sqrt(squares);
   const V reach = Abs(balls.x) + Abs(balls.y) + Abs(balls.depth) + balls.radius;
-  const V radius = balls.radius + all(k_slack_roundings * 0x1p-24f) * reach;
+  const V radius = balls.radius + all(k_slack_roundoffs * 0x1p-24f) * reach;
   const M is_plain = And(reach >= all(k_least_reach), reach <= all(k_most_reach));
   const V inf = all(std::numeric_limits<float>::infinity());
   const V low = IfThenElse(is_plain, length - radius, Neg(inf));
@@ -66,31 +66,28 @@ HWY_INLINE M reach_shells(const ShellPlanes& planes, const Balls& balls, Indices
   return AndNot(And(is_plain, is_beside), has_shells);
 }
 
-void shells(const ShellPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, float roundings,
-            BoxedBalls& boxed) {
+void shells(const ShellPlanes& planes, const GivenBalls& balls, float roundoffs, BoundedBalls& bounded) {
   const D d;
   const DI di;
   const auto n = static_cast<std::uint32_t>(Lanes(d));
   const VI none = Zero(di), last_row = Set(di, planes.rows() - 1);
-  for (std::uint32_t i = 0; i < balls.count; i += n) {
-    const std::uint32_t left = std::min(n, balls.count - i);
+  for (std::uint32_t i = 0; i < balls.lights.count; i += n) {
+    const std::uint32_t left = std::min(n, balls.lights.count - i);
     const auto load = [&](const float* from) { return loaded(from + i, left); };
     const V given = load(balls.radius);
-    const Balls found{load(balls.x), load(balls.y), Neg(load(balls.z)), padded(given, load(balls.reach), roundings)};
+    const Balls found{load(balls.x), load(balls.y), Neg(load(balls.z)), padded(given, load(balls.reach), roundoffs)};
     Indices shells_reached{none, none};
     const M may_reach = reach_shells(planes, found, shells_reached);
     const M wanted = And(may_reach, And(given > Zero(d), FirstN(d, left)));
     if (AllFalse(d, wanted)) continue;
-    const auto keep_index = [&](VI index, AlignedVector<std::int32_t>& to) {
-      StoreU(compressed(di, index, RebindMask(di, wanted)), di, to.data() + boxed.count);
-    };
-    keep_index(shells_reached.first, boxed.first_slice);
-    keep_index(shells_reached.last, boxed.last_slice);
-    keep_index(none, boxed.first_column);
-    keep_index(none, boxed.last_column);
-    keep_index(none, boxed.first_row);
-    keep_index(last_row, boxed.last_row);
-    keep_balls(wanted, found, first_light + i, boxed);
+    const Appender append(wanted, bounded.count);
+    append(shells_reached.first, bounded.first_slice);
+    append(shells_reached.last, bounded.last_slice);
+    append(none, bounded.first_column);
+    append(none, bounded.last_column);
+    append(none, bounded.first_row);
+    append(last_row, bounded.last_row);
+    keep_balls(wanted, found, balls.lights.first + i, bounded);
   }
 }
 
@@ -118,8 +115,8 @@ class Caps {
     const auto tangent = [&](VF slope) {
       const VD s = PromoteTo(DD(), slope);
       const VD touch = Sqrt(Max(none, squared) / (one + s * s));
-      const VD margin = all(k_touch_margin) * (touch + Abs(y_));
-      return Tangent{s, touch, margin, Abs(s) < infinite()};
+      const VD tolerance = all(k_touch_tolerance) * (touch + Abs(y_));
+      return Tangent{s, touch, tolerance, Abs(s) < infinite()};
     };
     low_ = tangent(low);
     high_ = tangent(high);
@@ -149,8 +146,8 @@ class Caps {
   HWY_INLINE Cut slopes_in_rows(const Cut& top, const Cut& bottom, VD top_slope, VD bottom_slope) const {
     VD low = infinite(), high = Neg(infinite());
     for (const Tangent* tangent : {&low_, &high_}) {
-      const MD from = y_ >= bottom_slope * tangent->touch - tangent->margin;
-      const MD to = y_ <= top_slope * tangent->touch + tangent->margin;
+      const MD from = y_ >= bottom_slope * tangent->touch - tangent->tolerance;
+      const MD to = y_ <= top_slope * tangent->touch + tangent->tolerance;
       const MD touches = And(tangent->exists, And(from, to));
       low = Min(low, IfThenElse(touches, tangent->slope, infinite()));
       high = Max(high, IfThenElse(touches, tangent->slope, Neg(infinite())));
@@ -160,7 +157,7 @@ class Caps {
 
  private:
   struct Tangent {
-    VD slope, touch, margin;  // touch: depth
+    VD slope, touch, tolerance;  // touch: depth
     MD exists;
   };
 
@@ -177,7 +174,7 @@ class Caps {
     const VD cap = (r - apart) * (r + apart) / twice;
     const VD squared_sine = cap * (all(1.0) + cosine);
     const VD sine = Sqrt(IfThenElseZero(squared_sine > none, squared_sine));
-    const VD lost = all(0x1p-24 * static_cast<double>(k_shell_roundings)) * length;
+    const VD lost = all(0x1p-24 * static_cast<double>(k_shell_roundoffs)) * length;
     return IfThenElse(cosine > none, in_single(length * sine + lost), infinite());
   }
 
@@ -190,11 +187,11 @@ class Caps {
 // A batch in one shell.
 class Shell {
  public:
-  HWY_INLINE Shell(const ShellPlanes& planes, const BallBatch& batch, VI places) : planes_(planes) {
+  HWY_INLINE Shell(const ShellPlanes& planes, const BallBatch& batch, VI indices) : planes_(planes) {
     const auto shell = static_cast<std::size_t>(batch.slice);
     const double distance0 = planes.boundaries.depths[shell], distance1 = planes.boundaries.depths[shell + 1];
-    const Lanes x(gathered(batch.boxed.x, places)), y(gathered(batch.boxed.y, places));
-    const Lanes depth(gathered(batch.boxed.depth, places)), radius(gathered(batch.boxed.radius, places));
+    const Lanes x(gathered(batch.bounded.x, indices)), y(gathered(batch.bounded.y, indices));
+    const Lanes depth(gathered(batch.bounded.depth, indices)), radius(gathered(batch.bounded.radius, indices));
     Lanes low, high;
     for (std::size_t half = 0; half < k_halves; ++half) {
       const VD wide_x = x.wide(half), wide_y = y.wide(half), wide_depth = depth.wide(half), r = radius.wide(half);
@@ -263,12 +260,12 @@ class Shell {
   HWY_INLINE void cut(VI plane, Plane (&planes)[k_halves]) const {
     const hn::RebindToSigned<DF> dh;
     const hn::RebindToSigned<DD> dl;
-    HWY_ALIGN std::int32_t places[MaxLanes(D())];
-    Store(Min(plane, all_int(planes_.rows())), DI(), places);
+    HWY_ALIGN std::int32_t indices[MaxLanes(D())];
+    Store(Min(plane, all_int(planes_.rows())), DI(), indices);
     for (std::size_t half = 0; half < k_halves; ++half) {
-      const auto place = LoadU(dh, places + half * k_half);
-      planes[half].slope = PromoteTo(DD(), GatherIndex(DF(), planes_.slope.data(), place));
-      const VD stretch = GatherIndex(DD(), planes_.stretch.data(), PromoteTo(dl, place));
+      const auto index = LoadU(dh, indices + half * k_half);
+      planes[half].slope = PromoteTo(DD(), GatherIndex(DF(), planes_.slope.data(), index));
+      const VD stretch = GatherIndex(DD(), planes_.stretch.data(), PromoteTo(dl, index));
       planes[half].cut = halves_[half].cut_by_planes(planes[half].slope, stretch);
     }
   }
@@ -282,7 +279,7 @@ class Shell {
 
 void shell_rows(const ShellPlanes& planes, const BallBatch& batch, BatchRows& out) {
   Boxes boxes(batch);
-  Shell shell(planes, batch, boxes.places);
+  Shell shell(planes, batch, boxes.indices);
   shell.find_rows(boxes);
   if (!boxes.start(planes.rows(), batch.count, out)) return;
   shell.start_rows(boxes.first_row);
@@ -310,14 +307,11 @@ ShellPlanes::ShellPlanes(const grid::ScreenGrid& grid) : boundaries(grid), slope
 }
 
 std::size_t ShellPlanes::capacity_bytes() const {
-  const std::size_t floats = boundaries.columns.boundaries.capacity() + boundaries.rows.boundaries.capacity() +
-                             boundaries.depths.capacity() + slope.capacity();
-  return floats * sizeof(float) + stretch.capacity() * sizeof(double);
+  return bytes_of(boundaries.columns.boundaries, boundaries.rows.boundaries, boundaries.depths, slope, stretch);
 }
 
-void find_shells(const ShellPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, float roundings,
-                 BoxedBalls& boxed) {
-  HWY_DYNAMIC_DISPATCH(shells)(planes, balls, first_light, roundings, boxed);
+void find_shells(const ShellPlanes& planes, const GivenBalls& balls, float roundoffs, BoundedBalls& bounded) {
+  HWY_DYNAMIC_DISPATCH(shells)(planes, balls, roundoffs, bounded);
 }
 
 void find_shell_rows(const ShellPlanes& planes, const BallBatch& batch, BatchRows& out) {

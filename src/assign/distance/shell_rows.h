@@ -24,11 +24,10 @@ struct ShellPlanes {
   std::size_t capacity_bytes() const;
 };
 
-// Appends those of the balls, larger by these roundings, that may reach a shell within the view, with all shells that
-// they may reach and all rows. The first ball belongs to light `first_light`. Those left out touch no cell, not even by
+// Appends those of the balls, larger by these roundoffs, that may reach a shell within the view, with all shells that
+// they may reach and all rows. Those left out touch no cell, not even by
 // what rounding adds.
-void find_shells(const ShellPlanes& planes, const GivenBalls& balls, std::uint32_t first_light, float roundings,
-                 BoxedBalls& boxed);
+void find_shells(const ShellPlanes& planes, const GivenBalls& balls, float roundoffs, BoundedBalls& bounded);
 
 // The batch's slice is the shell.
 void find_shell_rows(const ShellPlanes& planes, const BallBatch& batch, BatchRows& out);

@@ -1,4 +1,4 @@
-#include "assign/rows/row_planes.h"
+#include "assign/cull/row_planes.h"
 
 #include <algorithm>
 #include <bit>
@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "assign/cull/frustum_cull.h"
-#include "assign/lists/list_builder.h"
+#include "assign/simd/lanes.h"
 
 namespace clusterbench::assign {
 namespace {
@@ -19,7 +19,7 @@ std::vector<float> padded(std::vector<float> list, std::size_t size, float with)
 // Tiles per slope along one axis, and by how many tiles (slope - first plane) * scale can be off: planes are rounded,
 // so they are not quite evenly spaced, and the last tile may be clipped; then difference and product are rounded.
 struct Scale {
-  float tiles_per_slope, margin;
+  float tiles_per_slope, tolerance;
 };
 
 Scale scale_of(const std::vector<float>& planes) {
@@ -46,7 +46,7 @@ float least_reach_of(const RowPlanes& planes) {
     return std::numeric_limits<float>::infinity();
   if (planes.inverse_depth.front() <= RowPlanes::k_most_inverse_depth) return k_least_normal;
   const float longest_way = std::sqrt(1.0f + across * across + up * up) / RowPlanes::k_most_inverse_depth;
-  return std::max(k_least_normal, k_ways * longest_way / (k_slice_rows_roundings * 0x1p-24f));
+  return std::max(k_least_normal, k_ways * longest_way / (k_slice_rows_roundoffs * 0x1p-24f));
 }
 
 }  // namespace
@@ -60,9 +60,9 @@ RowPlanes::RowPlanes(const grid::ScreenGrid& grid)
       right(grid.tiles.x.back()) {
   const Scale across = scale_of(grid.tiles.x), down = scale_of(grid.tiles.y);
   columns_per_slope = across.tiles_per_slope;
-  column_margin = across.margin;
+  column_tolerance = across.tolerance;
   rows_per_slope = down.tiles_per_slope;
-  row_margin = down.margin;
+  row_tolerance = down.tolerance;
   for (const float s : grid.tiles.y) {
     const double t = std::sqrt(1.0 + static_cast<double>(s) * static_cast<double>(s));
     slope.push_back(s);

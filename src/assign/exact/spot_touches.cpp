@@ -1,4 +1,4 @@
-#include "assign/cone/spot_touches.h"
+#include "assign/exact/spot_touches.h"
 
 #include <algorithm>
 
@@ -6,11 +6,11 @@
 #include "geom/bounded.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "assign/cone/spot_touches.cpp"
+#define HWY_TARGET_INCLUDE "assign/exact/spot_touches.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
 #include <hwy/highway.h>
 
-#include "assign/exact/ball_pieces-inl.h"
+#include "assign/exact/ball_runs-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign {
@@ -50,20 +50,20 @@ HWY_INLINE VD across(const Gap& gap) {
 
 void look_at(const SpotsAndPlanes& from, const RowPlanes& planes, SpotTouches& out) {
   const view::LightArrays& lights = *from.lights;
-  const SpotCells& pieces = out.pieces_;
+  const SpotCells& runs = out.runs_;
   const std::size_t lanes = Lanes(DD());
   const VD zero = Zero(DD());
-  for (std::size_t first = 0; first < pieces.count; first += lanes) {
+  for (std::size_t first = 0; first < runs.count; first += lanes) {
     const auto load = [&](const std::vector<std::uint32_t>& list) {
       return BitCast(DH(), LoadU(hn::RebindToUnsigned<DH>(), list.data() + first));
     };
-    const VH spot = load(pieces.spot), light = spot + Set(DH(), static_cast<std::int32_t>(lights.points));
-    const BallPieces balls(lights, planes,
-                           {light, load(pieces.slice), load(pieces.row), load(pieces.column), load(pieces.end_column)});
-    const BallPieces::Nearest nearest = balls.nearest();
+    const VH spot = load(runs.spot), light = spot + Set(DH(), static_cast<std::int32_t>(lights.spots.first));
+    const BallRuns balls(lights, planes,
+                         {light, load(runs.slice), load(runs.row), load(runs.column), load(runs.end_column)});
+    const BallRuns::Nearest nearest = balls.nearest();
     const VD error = enlarged(nearest.excess.error), excess = nearest.excess.value;
-    const VD steep = balls.steepness(nearest), undershoot = BallPieces::undershoot(steep);
-    // The nearest point is no farther from the place that was looked at than `shift`; common points are no farther
+    const VD steep = balls.steepness(nearest), undershoot = BallRuns::undershoot(steep);
+    // The nearest point is no farther from the point that was looked at than `shift`; common points are no farther
     // from it than `play`.
     const VD shift = enlarged(steep * (every(1.0) + (balls.widest() + balls.highest())));
     const VD play_square = enlarged(Max(zero, Neg(excess)) + (error + undershoot));
@@ -75,9 +75,9 @@ void look_at(const SpotsAndPlanes& from, const RowPlanes& planes, SpotTouches& o
     const VD length = Sqrt(x * x + y * y + depth * depth);
     const Cones cones(lights, spot);
     const VD margin = cones.margin(x, y, depth);
-    const VD slack = every(k_cone_error) * length + every(2.0) * off;
-    const MD is_in_cone = margin > slack;
-    const MD is_beside = margin + every(2.0) * (shift + play) < Neg(slack);
+    const VD tolerance = every(k_cone_error) * length + every(2.0) * off;
+    const MD is_in_cone = margin > tolerance;
+    const MD is_beside = margin + every(2.0) * (shift + play) < Neg(tolerance);
 
     const auto value_of = [&](const std::vector<float>& list) {
       return PromoteTo(DD(), GatherIndex(DF(), list.data(), light));
@@ -102,7 +102,7 @@ void look_at(const SpotsAndPlanes& from, const RowPlanes& planes, SpotTouches& o
     const unsigned alone = bits(is_alone), outside = bits(nearest.x.is_outside), below = bits(nearest.x.is_below);
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       const auto is = [&](unsigned mask) { return (mask >> lane & 1) != 0; };
-      out.pieces_.touch[first + lane] = is(yes) ? Touch::yes : is(no) ? Touch::no : Touch::open;
+      out.runs_.touch[first + lane] = is(yes) ? Touch::yes : is(no) ? Touch::no : Touch::uncertain;
       out.is_alone[first + lane] = is(alone);
       out.side[first + lane] = static_cast<std::int8_t>(!is(outside) ? 0 : is(below) ? -1 : 1);
     }
@@ -120,23 +120,23 @@ namespace clusterbench::assign {
 HWY_EXPORT(look_at);
 
 void SpotTouches::look(const SpotsAndPlanes& from, const RowPlanes& planes) {
-  if (pieces_.count == 0) return;
-  pieces_.pad();
-  for (std::vector<double>* list : {&x, &x_error, &depth, &depth_error}) list->resize(pieces_.spot.size());
-  is_alone.resize(pieces_.spot.size());
-  side.resize(pieces_.spot.size());
+  if (runs_.count == 0) return;
+  runs_.pad();
+  for (std::vector<double>* list : {&x, &x_error, &depth, &depth_error}) list->resize(runs_.spot.size());
+  is_alone.resize(runs_.spot.size());
+  side.resize(runs_.spot.size());
   HWY_DYNAMIC_DISPATCH(look_at)(from, planes, *this);
 }
 
-grid::IndexRange SpotTouches::only_columns(std::uint32_t place, const RowPlanes& planes) const {
+grid::IndexRange SpotTouches::only_columns(std::uint32_t index, const RowPlanes& planes) const {
   using geom::Bounded;
   const grid::IndexRange none{},
-      columns{static_cast<int>(pieces_.column[place]), static_cast<int>(pieces_.end_column[place]) - 1};
-  const Bounded at_x(x[place], x_error[place]), at_depth(depth[place], depth_error[place]);
+      columns{static_cast<int>(runs_.column[index]), static_cast<int>(runs_.end_column[index]) - 1};
+  const Bounded at_x(x[index], x_error[index]), at_depth(depth[index], depth_error[index]);
   // At the eye all columns meet.
-  if (is_alone[place] == 0 || (!planes.orthographic && !at_depth.is_surely_above(0.0))) return none;
-  if (side[place] < 0) return {columns.first, columns.first};
-  if (side[place] > 0) return {columns.last, columns.last};
+  if (is_alone[index] == 0 || (!planes.orthographic && !at_depth.is_surely_above(0.0))) return none;
+  if (side[index] < 0) return {columns.first, columns.first};
+  if (side[index] > 0) return {columns.last, columns.last};
   const auto plane = [&](int column) {
     const Bounded given(double{planes.side[static_cast<std::size_t>(column)]});
     return planes.orthographic ? given : given * at_depth;

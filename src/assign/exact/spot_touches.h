@@ -1,0 +1,40 @@
+#pragma once
+// Spots that may just touch runs of rows, many at once: in doubles with a bound of their error, the point of a run
+// that is nearest to a spot's apex. If it lies at the range, or beyond, it tells whether there is a common point; on
+// lattices, where nothing or little is rounded, it does even where it is the only one, and then says in which columns.
+
+#include <cstdint>
+#include <vector>
+
+#include "assign/cone/spot_cells.h"
+#include "assign/cull/row_planes.h"
+#include "grid/index_range.h"
+
+namespace clusterbench::assign {
+
+// Pairs of a spot and neighbouring cells of a row, and the answers. Whole vectors can be read and written beyond the
+// last.
+class SpotTouches {
+ public:
+  void clear() { runs_.count = 0; }
+  void add(const SpotCell& run) { runs_.add(run); }
+  std::uint32_t count() const { return runs_.count; }
+  // Spots of less reach than from.least_reach, or of more than k_most_row_reach, are left uncertain.
+  void look(const SpotsAndPlanes& from, const RowPlanes& planes);
+
+  Touch touch(std::uint32_t index) const { return runs_.touch[index]; }
+  // Columns of a run that are touched, and no others of it are: where a point is all that is shared. Empty where that
+  // is not known.
+  grid::IndexRange only_columns(std::uint32_t index, const RowPlanes& planes) const;
+  std::size_t capacity_bytes() const {
+    return runs_.capacity_bytes() + 4 * x.capacity() * sizeof(double) + is_alone.capacity() + side.capacity();
+  }
+
+  // For look(): of the nearest point, from the eye.
+  SpotCells runs_;
+  std::vector<double> x, x_error, depth, depth_error;
+  std::vector<std::uint8_t> is_alone;  // the only one that is shared
+  std::vector<std::int8_t> side;       // -1: on the run's left side, 1: on its right one
+};
+
+}  // namespace clusterbench::assign

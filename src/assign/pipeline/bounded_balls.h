@@ -1,0 +1,60 @@
+#pragma once
+// Balls with the box of cells that each may touch, side by side: what culling leaves and the slices' rows begin from.
+
+#include <cstdint>
+
+#include "assign/simd/lanes.h"
+#include "core/aligned_vector.h"
+#include "core/arrays.h"
+#include "geom/vec.h"
+
+namespace clusterbench::assign {
+
+// Cells that are neighbours along all three axes.
+struct CellBox {
+  Vec3i first{0}, last{-1};  // inclusive
+
+  bool empty() const { return first.x > last.x || first.y > last.y || first.z > last.z; }
+};
+
+// Ascending by light. All arrays have room for whole vectors beyond `count`.
+struct BoundedBalls {
+  std::uint32_t count = 0;
+  AlignedVector<float> x, y, depth, radius;
+  AlignedVector<std::uint32_t> light;
+  AlignedVector<std::int32_t> first_column, last_column, first_row, last_row, first_slice, last_slice;
+  AlignedVector<float> low_x, high_x, low_y, high_y, box_radius, ball_radius;  // of the visible balls, on the way
+
+  CellBox box(std::uint32_t ball) const {
+    return {{first_column[ball], first_row[ball], first_slice[ball]},
+            {last_column[ball], last_row[ball], last_slice[ball]}};
+  }
+  // An empty box reaches no slice.
+  void set_box(std::uint32_t ball, const CellBox& box) {
+    first_column[ball] = box.first.x;
+    last_column[ball] = box.last.x;
+    first_row[ball] = box.first.y;
+    last_row[ball] = box.last.y;
+    first_slice[ball] = box.first.z;
+    last_slice[ball] = box.empty() ? box.first.z - 1 : box.last.z;
+  }
+  void reserve(std::uint32_t most) {
+    grow_to(most + k_most_lanes, x, y, depth, radius, light, first_column, last_column, first_row, last_row,
+            first_slice, last_slice, low_x, high_x, low_y, high_y, box_radius, ball_radius);
+  }
+  std::size_t capacity_bytes() const {
+    return bytes_of(x, y, depth, radius, light, first_column, last_column, first_row, last_row, first_slice, last_slice,
+                    low_x, high_x, low_y, high_y, box_radius, ball_radius);
+  }
+};
+
+// One batch: indices in `bounded`, from which a whole vector can be read; `count` of them, at most balls_per_batch(),
+// are wanted. The rows of lights from `first_uncertain` on are all marked as uncertain: there is more to test.
+struct BallBatch {
+  const BoundedBalls& bounded;
+  int slice;
+  const std::uint32_t* balls;
+  std::uint32_t count, first_uncertain;
+};
+
+}  // namespace clusterbench::assign

@@ -1,0 +1,129 @@
+#include "config/grid_json.h"
+
+#include <algorithm>
+#include <string>
+
+namespace clusterbench::config {
+namespace {
+
+using Json = nlohmann::json;
+using OrderedJson = nlohmann::ordered_json;
+
+constexpr std::pair<const char*, grid::Scheme> k_schemes[] = {{"linear", grid::Scheme::linear},
+                                                              {"exponential", grid::Scheme::exponential},
+                                                              {"exponential-first", grid::Scheme::exponential_first},
+                                                              {"power", grid::Scheme::power},
+                                                              {"list", grid::Scheme::list},
+                                                              {"fit", grid::Scheme::fit}};
+
+grid::Slicing slicing_of(const Json& slices) {
+  grid::Slicing out;
+  const std::string name = slices["scheme"].get<std::string>();
+  out.scheme = std::find_if(std::begin(k_schemes), std::end(k_schemes), [&](const auto& row) {
+                 return name == row.first;
+               })->second;
+  out.near_m = slices_metres(slices, "near");
+  out.far_m = slices_metres(slices, "far");
+  if (slices.contains("first")) out.first_m = slices_metres(slices, "first");
+  if (slices.contains("lambda")) out.lambda = slices["lambda"].get<double>();
+  if (slices.contains("boundaries")) out.boundaries_m = slices["boundaries"].get<std::vector<double>>();
+  out.count = slices.contains("count") ? slices["count"].get<int>() : static_cast<int>(out.boundaries_m.size()) - 1;
+  return out;
+}
+
+grid::Tiling tiling_of(const Json& tiles) {
+  const auto pair = [&](const char* key) {
+    return tiles.contains(key) ? Vec2i{tiles[key][0].get<int>(), tiles[key][1].get<int>()} : Vec2i{0, 0};
+  };
+  return {pair("pixels"), pair("count")};
+}
+
+Vec3d point_of(const Json& list) {
+  return {list[0].get<double>(), list[1].get<double>(), list[2].get<double>()};
+}
+
+Json bounds_json(const Vec3d& v) {
+  return {v.x, v.y, v.z};
+}
+
+OrderedJson slices_json(const grid::Slicing& slices) {
+  OrderedJson out{{"scheme", scheme_name(slices.scheme)}};
+  if (slices.scheme == grid::Scheme::list) {
+    out["boundaries"] = slices.boundaries_m;
+    return out;
+  }
+  out["count"] = slices.count;
+  if (slices.near_m != 0.0) out["near"] = slices.near_m;
+  if (slices.scheme == grid::Scheme::exponential_first) out["first"] = slices.first_m;
+  if (slices.scheme == grid::Scheme::power) out["lambda"] = slices.lambda;
+  if (slices.far_m != 0.0) out["far"] = slices.far_m;
+  return out;
+}
+
+}  // namespace
+
+const char* scheme_name(grid::Scheme scheme) {
+  return std::find_if(std::begin(k_schemes), std::end(k_schemes), [&](const auto& row) { return scheme == row.second; })
+      ->first;
+}
+
+double slices_metres(const Json& slices, const char* key) {
+  return slices.contains(key) && slices[key].is_number() ? slices[key].get<double>() : 0.0;
+}
+
+grid::GridSpec grid_spec(const Json& grid) {
+  grid::GridSpec spec;
+  for (int kind = 0; kind < grid::k_kind_count; ++kind)
+    if (grid["kind"] == grid::kind_name(static_cast<grid::Kind>(kind))) spec.kind = static_cast<grid::Kind>(kind);
+  if (grid.contains("tiles")) spec.tiles = tiling_of(grid["tiles"]);
+  if (grid.contains("slices")) spec.slices = slicing_of(grid["slices"]);
+  if (grid.contains("cells"))
+    spec.cells = {grid["cells"][0].get<int>(), grid["cells"][1].get<int>(), grid["cells"][2].get<int>()};
+  if (grid.contains("levels")) spec.levels = grid["levels"].get<int>();
+  if (grid.contains("finest")) spec.finest_m = grid["finest"].get<double>();
+  if (grid.contains("bounds") && grid["bounds"].is_object()) {
+    spec.has_bounds = true;
+    spec.bounds_lo_m = point_of(grid["bounds"]["min"]);
+    spec.bounds_hi_m = point_of(grid["bounds"]["max"]);
+  }
+  return spec;
+}
+
+OrderedJson grid_request(const grid::GridSpec& spec) {
+  OrderedJson out{{"kind", grid::kind_name(spec.kind)}};
+  if (spec.has_tiles()) {
+    const bool by_pixels = spec.tiles.count.x == 0;
+    const Vec2i tiles = by_pixels ? spec.tiles.pixels : spec.tiles.count;
+    out["tiles"][by_pixels ? "pixels" : "count"] = {tiles.x, tiles.y};
+    out["slices"] = slices_json(spec.slices);
+    return out;
+  }
+  out["cells"] = {spec.cells.x, spec.cells.y, spec.cells.z};
+  if (spec.kind == grid::Kind::cascades) {
+    out["levels"] = spec.levels;
+    out["finest"] = spec.finest_m;
+  }
+  if (spec.has_bounds)
+    out["bounds"] = {{"min", {spec.bounds_lo_m.x, spec.bounds_lo_m.y, spec.bounds_lo_m.z}},
+                     {"max", {spec.bounds_hi_m.x, spec.bounds_hi_m.y, spec.bounds_hi_m.z}}};
+  return out;
+}
+
+Json grid_identity(const grid::GridSpec& spec) {
+  Json out{{"kind", grid::kind_name(spec.kind)}};
+  if (spec.has_tiles()) {
+    const grid::Slicing& slices = spec.slices;
+    out["tiles"] = {spec.tiles.pixels.x, spec.tiles.pixels.y, spec.tiles.count.x, spec.tiles.count.y};
+    out["slices"] = {scheme_name(slices.scheme), slices.count, slices.near_m, slices.far_m, slices.boundaries_m};
+    if (slices.scheme == grid::Scheme::exponential_first) out["first"] = slices.first_m;
+    if (slices.scheme == grid::Scheme::power) out["lambda"] = slices.lambda;
+    return out;
+  }
+  out["cells"] = {spec.cells.x, spec.cells.y, spec.cells.z};
+  if (spec.kind == grid::Kind::cascades) out["levels"] = {spec.levels, spec.finest_m};
+  if (spec.kind == grid::Kind::world && spec.has_bounds)
+    out["bounds"] = {bounds_json(spec.bounds_lo_m), bounds_json(spec.bounds_hi_m)};
+  return out;
+}
+
+}  // namespace clusterbench::config

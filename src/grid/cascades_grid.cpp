@@ -1,0 +1,62 @@
+#include "grid/cascades_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "geom/domain.h"
+
+namespace clusterbench::grid {
+namespace {
+
+bool lies_within(const Vec3f& point, const Vec3i& cells) {
+  const Vec3f end(cells);
+  return point.x >= 0.0f && point.y >= 0.0f && point.z >= 0.0f && point.x < end.x && point.y < end.y && point.z < end.z;
+}
+
+}  // namespace
+
+bool CascadesGrid::is_hole(int level, Vec3i cell) const {
+  return level > 0 && cell.x >= cells.x / 4 && cell.x < 3 * cells.x / 4 && cell.y >= cells.y / 4 &&
+         cell.y < 3 * cells.y / 4 && cell.z < cells.z / 2;
+}
+
+std::int64_t CascadesGrid::lookup(const Sample& sample, Log2) const {
+  for (int level = 0; level < levels; ++level) {
+    const float edge = edge_m(level);
+    const float half_x = 0.5f * static_cast<float>(cells.x), half_y = 0.5f * static_cast<float>(cells.y);
+    const Vec3f in_cells{sample.view.x / edge + half_x, half_y - sample.view.y / edge, -sample.view.z / edge};
+    if (!lies_within(in_cells, cells)) continue;
+    const Vec3i at(in_cells);
+    // A point that rounds out of a level rounds out of the hole that this level fills: both divide by powers of two
+    // apart.
+    if (!is_hole(level, at)) return cell_index({at.x, at.y, level * cells.z + at.z}, counts());
+  }
+  return -1;
+}
+
+CascadesGrid make_cascades_grid(const GridSpec& spec, const GridInputs&) {
+  const Vec3i& n = spec.cells;
+  if (n.x < 4 || n.y < 4 || n.z < 2 || n.x % 4 != 0 || n.y % 4 != 0 || n.z % 2 != 0)
+    throw Error("", "cells",
+                "of cascades must be multiples of 4, 4 and 2, so that a level's cells are wholly inside or outside of "
+                "the finer level");
+  if (spec.levels < 1 || spec.levels > 24) throw Error("", "levels", "must be 1 to 24");
+  const auto finest_m = static_cast<float>(spec.finest_m);
+  const double coarsest_m = std::ldexp(static_cast<double>(finest_m), spec.levels - 1);
+  if (!(static_cast<double>(finest_m) >= geom::k_nearest_m) ||
+      !geom::is_in_domain(coarsest_m * std::max({n.x, n.y, n.z})))
+    throw Error("", "finest", "must be at least 1e-15 m, and small enough for the coarsest level to end within 1e15 m");
+  return {spec.levels, n, finest_m};
+}
+
+GridInputs cascades_inputs(const GridSpec&, const FrameReach&) {
+  return {};
+}
+
+std::string cascades_grid_name(const GridSpec& spec) {
+  return "cascades " + std::to_string(spec.levels) + " x " + cells_name(spec.cells) + " of " +
+         number_name(spec.finest_m);
+}
+
+}  // namespace clusterbench::grid

@@ -1,0 +1,56 @@
+#pragma once
+// What a configuration asks for, and what a grid is made from besides.
+
+#include <cstdint>
+#include <string>
+
+#include "grid/slicing.h"
+#include "grid/tiling.h"
+#include "view/frame.h"
+
+namespace clusterbench::grid {
+
+enum class Kind : std::uint8_t { frustum, distance, cascades, world };
+inline constexpr int k_kind_count = 4;
+const char* kind_name(Kind kind);
+
+// One kind of these is filled.
+struct GridSpec {
+  Kind kind = Kind::frustum;
+  Tiling tiles;             // frustum, distance
+  Slicing slices;           // frustum, distance
+  Vec3i cells{64, 16, 64};  // world, cascades
+  int levels = 5;           // cascades
+  double finest_m = 0.5;    // cascades
+  bool has_bounds = false;  // world; without: the box around all lights' balls over the path
+  Vec3d bounds_lo_m{0.0}, bounds_hi_m{0.0};
+
+  // Whether its cells are tiles of the picture, cut by depth or distance; else they are boxes.
+  bool has_tiles() const { return kind == Kind::frustum || kind == Kind::distance; }
+  // "frustum 64px x 16 exponential-first 0.1..5..500": unique among specs that differ, used in case names.
+  std::string name() const;
+};
+
+// A grid is rebuilt only when these change; `fit` slices and an unnamed far depend on the lights in view.
+struct GridInputs {
+  view::Projection projection;
+  Vec2i viewport{0, 0};
+  double light_near_m = 0.0, light_far_m = 0.0;  // reach of the lights in view of this frame, as depth (or distance)
+  Vec3d rig_lo_m{0.0}, rig_hi_m{0.0};            // box around the bounded lights over the whole path
+
+  friend bool operator==(const GridInputs&, const GridInputs&) = default;
+};
+
+// What a frame's inputs are taken from.
+struct FrameReach {
+  const view::Frame& frame;
+  double path_far_m;         // the farthest light reach over the whole path (used for a far that nobody gives)
+  Vec3d rig_lo_m, rig_hi_m;  // box around the bounded lights over the whole path
+};
+
+// A number in names, as short as tells it from every other one.
+std::string number_name(double value);
+// "64x16x64"
+std::string cells_name(Vec3i cells);
+
+}  // namespace clusterbench::grid

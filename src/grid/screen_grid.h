@@ -1,0 +1,35 @@
+#pragma once
+// Frustum and distance grids: tiles of the picture x slices of depth, or x shells of distance around the eye.
+
+#include <cmath>
+
+#include "geom/shapes.h"
+#include "grid/cells.h"
+#include "grid/grid_spec.h"
+
+namespace clusterbench::grid {
+
+// Cells are numbered from the top left near corner.
+struct ScreenGrid {
+  bool by_distance = false;  // slices are shells of distance; else of depth
+  Tiles tiles;
+  Slices slices;
+
+  Kind kind() const { return by_distance ? Kind::distance : Kind::frustum; }
+  // What slices are cut along: the depth of a point in view space, or its distance.
+  template <class Point>
+  auto along(const Point& p) const {
+    return by_distance ? std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z) : -p.z;
+  }
+
+  Vec3i counts() const { return {tiles.count.x, tiles.count.y, slices.count()}; }
+  geom::Cell cell(Vec3i at) const;
+  std::int64_t lookup(const Sample& sample, Log2 way) const;
+};
+
+// Throws Error (where = configuration key) for what cannot be in this projection.
+ScreenGrid make_screen_grid(const GridSpec& spec, const GridInputs& inputs);
+GridInputs screen_inputs(const GridSpec& spec, const FrameReach& from);
+std::string screen_grid_name(const GridSpec& spec);
+
+}  // namespace clusterbench::grid

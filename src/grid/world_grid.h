@@ -1,0 +1,40 @@
+#pragma once
+// World grids: boxes that stay where they are.
+
+#include <vector>
+
+#include "geom/shapes.h"
+#include "grid/cells.h"
+#include "grid/grid_spec.h"
+
+namespace clusterbench::grid {
+
+// A fixed box grid in world space. Boundaries are relative to `origin`, single precision, ascending. Index (x, y, z)
+// runs along the world axes.
+struct WorldGrid {
+  Vec3d origin{0.0};
+  std::vector<float> x, y, z;
+
+  Kind kind() const { return Kind::world; }
+  Vec3i counts() const;
+  geom::Cell cell(Vec3i at) const;
+  std::int64_t lookup(const Sample& sample, Log2 way) const;
+};
+
+// Inline, since methods and truth ask for every cell.
+inline Vec3i WorldGrid::counts() const {
+  const auto count = [](const std::vector<float>& planes) { return static_cast<int>(planes.size()) - 1; };
+  return {count(x), count(y), count(z)};
+}
+
+inline geom::Cell WorldGrid::cell(Vec3i at) const {
+  const auto i = static_cast<std::size_t>(at.x), j = static_cast<std::size_t>(at.y), k = static_cast<std::size_t>(at.z);
+  return geom::Box{{x[i], y[j], z[k]}, {x[i + 1], y[j + 1], z[k + 1]}};
+}
+
+// Throws Error (where = configuration key) for what cannot be.
+WorldGrid make_world_grid(const GridSpec& spec, const GridInputs& inputs);
+GridInputs world_inputs(const GridSpec& spec, const FrameReach& from);
+std::string world_grid_name(const GridSpec& spec);
+
+}  // namespace clusterbench::grid
