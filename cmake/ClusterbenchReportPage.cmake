@@ -1,6 +1,6 @@
-# clusterbench_report_page(TARGET): bundles page/ into the page that `clusterbench report` fills in, and adds it to the
-# target as page_template(). Needs Node.js and npm, and brings page/node_modules up to its lock file. Where that cannot be,
-# the build leaves the page out, says so here, and `clusterbench report` says what was missing.
+# clusterbench_report_page(TARGET): bundles page/ into the pages that `clusterbench report` and `history show` fill in,
+# and adds them to the target. Needs Node.js and npm, and brings page/node_modules up to its lock file. Where that cannot be,
+# the build leaves the pages out, says so here, and the commands say what was missing.
 function(clusterbench_report_page TARGET)
   set(PAGE ${CMAKE_CURRENT_SOURCE_DIR}/page)
   set(FOLDER ${CMAKE_CURRENT_BINARY_DIR}/page)
@@ -9,22 +9,23 @@ function(clusterbench_report_page TARGET)
   clusterbench_report_modules(${PAGE} OBSTACLE)
   set(CLUSTERBENCH_NO_PAGE "${OBSTACLE}" PARENT_SCOPE)
   if(OBSTACLE)
-    message(STATUS "Leaving out the page of `clusterbench report`: ${OBSTACLE}")
+    message(STATUS "Leaving out the pages of `clusterbench report` and `history show`: ${OBSTACLE}")
     file(CONFIGURE OUTPUT ${EMBEDDED} CONTENT "#include \"report/page_template.h\"
 
 namespace clusterbench::report {
 
 std::string_view page_template() { return {}; }
+std::string_view history_template() { return {}; }
 std::string_view page_obstacle() { return R\"__(@OBSTACLE@)__\"; }
 
 }  // namespace clusterbench::report
 " @ONLY)
   else()
     file(GLOB_RECURSE SOURCES CONFIGURE_DEPENDS ${PAGE}/src/*.ts ${PAGE}/src/*.css ${PAGE}/src/*.html)
-    add_custom_command(OUTPUT ${EMBEDDED} BYPRODUCTS ${FOLDER}/template.html
+    add_custom_command(OUTPUT ${EMBEDDED} BYPRODUCTS ${FOLDER}/template.html ${FOLDER}/history.html
       COMMAND ${NODE} ${PAGE}/build.mjs ${FOLDER}
       DEPENDS ${SOURCES} ${PAGE}/build.mjs ${PAGE}/package-lock.json
-      COMMENT "Bundling the report page")
+      COMMENT "Bundling the pages")
     set_source_files_properties(${EMBEDDED} PROPERTIES COMPILE_OPTIONS -Wno-overlength-strings)
   endif()
   target_sources(${TARGET} PRIVATE ${EMBEDDED})

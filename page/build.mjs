@@ -1,5 +1,5 @@
-// Bundles src/ into FOLDER/template.html, one file that may load nothing, and FOLDER/page_template.cpp, which holds it:
-// node build.mjs FOLDER.
+// Bundles src/ into FOLDER/template.html (of reports) and FOLDER/history.html, each one file that may load nothing, and
+// FOLDER/page_template.cpp, which holds both: node build.mjs FOLDER.
 
 import { createHash } from "node:crypto";
 import { existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
@@ -77,32 +77,40 @@ function policy(script, style) {
   return Object.entries(only).map((rule) => rule.join(" ")).join("; ");
 }
 
-const cpp = (template) => `#include "report/page_template.h"
-
-namespace clusterbench::report {
-
-std::string_view page_template() {
+const text = (name, template) => `std::string_view ${name}() {
   static constexpr char k_template[] = R"__page__(${template})__page__";
   return {k_template, sizeof k_template - 1};
 }
-std::string_view page_obstacle() { return {}; }
+`;
+const cpp = (report, history) => `#include "report/page_template.h"
+
+namespace clusterbench::report {
+
+${text("page_template", report)}${text("history_template", history)}std::string_view page_obstacle() { return {}; }
 
 }  // namespace clusterbench::report
 `;
 
 const folder = process.argv[2];
 if (!folder) throw new Error("usage: node build.mjs FOLDER");
-const script = await bundled("src/main.ts");
 const style = await bundled("src/style.css");
-if (script.text.includes("</script") || script.text.includes(resultsMark))
-  throw new Error("the script holds what would end it early");
-const template = filled(readFileSync(join(root, "src/page.html"), "utf8"), {
-  "{{policy}}": policy(script.text, style.text),
-  "{{style}}": style.text,
-  "{{script}}": script.text,
-  "{{notices}}": notices(script.inputs),
-});
-if (template.split(resultsMark).length !== 2) throw new Error(`the template must hold ${resultsMark} once`);
+
+async function templateOf(entry) {
+  const script = await bundled(entry);
+  if (script.text.includes("</script") || script.text.includes(resultsMark))
+    throw new Error("the script holds what would end it early");
+  const template = filled(readFileSync(join(root, "src/page.html"), "utf8"), {
+    "{{policy}}": policy(script.text, style.text),
+    "{{style}}": style.text,
+    "{{script}}": script.text,
+    "{{notices}}": notices(script.inputs),
+  });
+  if (template.split(resultsMark).length !== 2) throw new Error(`the template must hold ${resultsMark} once`);
+  return template;
+}
+
+const [report, history] = [await templateOf("src/main.ts"), await templateOf("src/history.ts")];
 if (!existsSync(folder)) mkdirSync(folder, { recursive: true });
-writeFileSync(join(folder, "template.html"), template);
-writeFileSync(join(folder, "page_template.cpp"), cpp(template));
+writeFileSync(join(folder, "template.html"), report);
+writeFileSync(join(folder, "history.html"), history);
+writeFileSync(join(folder, "page_template.cpp"), cpp(report, history));

@@ -51,7 +51,7 @@ def rows(result, name):
             continue
         us = {label: case["timing"]["assign_ns"]["median"] / 1e3 for label, case in methods.items()}
         # Of the reference's times to the method's, as runs have it.
-        versus = methods[METHOD]["timing"]["vs"]
+        versus = methods[METHOD]["timing"]["against_first"]
         low, high = sorted(1 / end for end in versus["ci95"]) if versus["assigner"] == METHOD else versus["ci95"]
         ratio = 1 / versus["ratio"] if versus["assigner"] == METHOD else versus["ratio"]
         label = name if len(cases) == 1 else f"{name} ({camera})"

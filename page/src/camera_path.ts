@@ -19,7 +19,7 @@ interface Along {
 const alongs: Along[] = [
   { title: "pairs", values: (one) => one.raw.occupancy?.along_path?.pairs, show: format.short },
   { title: "longest list", values: (one) => one.raw.occupancy?.along_path?.longest_list, show: format.count },
-  { title: "bytes", values: (one) => one.raw.buffers.along_path?.bytes, show: format.bytes, allocation: (one) => one.recommended },
+  { title: "bytes", values: (one) => one.raw.buffers.along_path?.bytes, show: format.short, allocation: (one) => one.recommended },
 ];
 
 interface Step {
@@ -58,7 +58,7 @@ export function cameraPath(view: View, cases: Case[]): HTMLElement {
   if (shown.length === 0)
     return h("p", { class: "note" }, "These cases have no lists frame by frame: an earlier version measured them (run it again), or their methods leave structures without cells.");
   const framesPerEntry = shown[0]!.raw.occupancy!.along_path!.frames_per_entry;
-  const drawn = alongs.map((along) => ({ along, all: seriesOf(shown, along.values) }));
+  const drawn = alongs.map((along) => ({ along, all: seriesOf(view, shown, along.values) }));
   return figureView({
     id: "camera-path",
     title: "Along the camera path",
@@ -67,7 +67,7 @@ export function cameraPath(view: View, cases: Case[]): HTMLElement {
     table: () => ({
       caption: "Pairs, longest list and bytes frame by frame",
       columns: [
-        { label: "method", value: (row) => row.one.assigner },
+        { label: "method", value: (row) => view.named(row.one) },
         { label: "frame", value: (row) => row.frame },
         { label: "pairs", value: (row) => row.pairs, show: (row) => format.count(row.pairs) },
         { label: "longest list", value: (row) => row.longest },

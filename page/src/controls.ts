@@ -22,6 +22,7 @@ export function choice(view: View, redraw: () => void, id: string, label: string
   const control = select(id, label, options, chosen, (value) => {
     view.choices.set(id, value);
     redraw();
+    view.tellChoice();
   });
   return [chosen, control];
 }

@@ -4,6 +4,7 @@ import { figureView } from "./figure.ts";
 import * as format from "./format.ts";
 import type { Case } from "./model.ts";
 import { Plot, chart, chartWidth } from "./plots.ts";
+import type { View } from "./view.ts";
 
 interface Part {
   method: string;
@@ -14,20 +15,21 @@ interface Part {
 
 const parts = ["write floor", "rest of the assignment", "conversion"];
 
-function partsOf(one: Case): Part[] {
+function partsOf(one: Case, name: string): Part[] {
   const { assign_ns, convert_ns, write_floor_ns } = one.raw.timing!;
   const [assign, convert, floor] = [assign_ns.median ?? 0, convert_ns?.median ?? 0, write_floor_ns ?? 0];
   const values = [floor, Math.max(0, assign - floor), convert];
-  return values.map((ns, at) => ({ method: one.assigner, part: parts[at]!, ns, share: ns / (Math.max(floor, assign) + convert || 1) }));
+  return values.map((ns, at) => ({ method: name, part: parts[at]!, ns, share: ns / (Math.max(floor, assign) + convert || 1) }));
 }
 
-export function costs(cases: Case[]): HTMLElement | null {
+export function costs(view: View, cases: Case[]): HTMLElement | null {
   const timed = cases.filter((one) => one.raw.timing && one.frameNs !== null).sort((a, b) => a.frameNs! - b.frameNs!);
   if (timed.length === 0) return null;
   const methods = timed.map((one) => one.assigner);
+  const whose = view.hasRuns ? ` · ${timed[0]!.run.label}` : ""; // a setting is of one result
   return figureView({
     id: "costs",
-    title: "Where a frame's time goes",
+    title: `Where a frame's time goes${whose}`,
     lead: "Write floor: copying the finished lists (or the method's own structure) and headers once, which no method can do without. Conversion: from lists to the storage's layout. Fastest first.",
     chart: chart(`Shares of write floor, assignment and conversion of ${methods.join(", ")}`, {
       width: chartWidth(),
@@ -38,7 +40,7 @@ export function costs(cases: Case[]): HTMLElement | null {
       y: { domain: [...new Set(methods)], label: null, tickSize: 0 },
       color: { domain: parts, range: ["var(--part-0)", "var(--part-1)", "var(--part-2)"], legend: false },
       marks: [
-        Plot.barX(timed.flatMap(partsOf), { x: "share", y: "method", fill: "part", inset: 1.5, insetLeft: 0.5, insetRight: 0.5, title: ({ part, ns, share }: Part) => `${part}: ${format.microseconds(ns)} µs, ${format.percent(share)}` }),
+        Plot.barX(timed.flatMap((one) => partsOf(one, one.assigner)), { x: "share", y: "method", fill: "part", inset: 1.5, insetLeft: 0.5, insetRight: 0.5, title: ({ method, part, ns, share }: Part) => `${method}\n${part}: ${format.microseconds(ns)} µs, ${format.percent(share)}` }),
         Plot.text(timed, { x: 1, y: "assigner", text: (one: Case) => `${format.microseconds(one.frameNs)} µs`, textAnchor: "start", dx: 6, fill: "var(--ink)" }),
       ],
     }),
@@ -46,15 +48,15 @@ export function costs(cases: Case[]): HTMLElement | null {
     table: () => ({
       caption: "Costs",
       columns: [
-        { label: "method", value: (one) => one.assigner },
+        { label: "method", value: (one) => view.named(one) },
         { label: "frame µs", about: "Assignment and conversion", value: (one) => one.frameNs, show: (one) => format.microseconds(one.frameNs) },
         { label: "build µs", about: "Once per projection; within the assignment where the grid changes from frame to frame", value: (one) => one.raw.timing!.build_ns.median, show: (one) => format.microseconds(one.raw.timing!.build_ns.median) },
         { label: "assign µs", value: (one) => one.assignNs, show: (one) => format.microseconds(one.assignNs) },
         { label: "convert µs", about: "None where a method leaves its own structure", value: (one) => one.raw.timing!.convert_ns?.median ?? null, show: (one) => format.microseconds(one.raw.timing!.convert_ns?.median ?? null) },
         { label: "write floor µs", value: (one) => one.raw.timing!.write_floor_ns, show: (one) => format.microseconds(one.raw.timing!.write_floor_ns) },
         { label: "tests per frame", about: "Cells, rows, lights or planes that the method looks at one by one", value: (one) => one.raw.tests_done / one.raw.frames, show: (one) => format.count(one.raw.tests_done / one.raw.frames) },
-        { label: "fallbacks per frame", about: "Pairs decided at greater cost than single precision", value: (one) => one.raw.fallbacks === undefined ? null : one.raw.fallbacks / one.raw.frames, show: (one) => format.decimal((one.raw.fallbacks ?? 0) / one.raw.frames) },
-        { label: "scratch", about: "The method's own memory", value: (one) => one.raw.buffers.scratch_bytes, show: (one) => format.bytes(one.raw.buffers.scratch_bytes) },
+        { label: "fallbacks per frame", about: "Pairs decided at greater cost than single precision", value: (one) => one.raw.fallbacks / one.raw.frames, show: (one) => format.decimal(one.raw.fallbacks / one.raw.frames) },
+        { label: "scratch", about: "The method's own memory", value: (one) => one.raw.buffers.scratch_bytes, show: (one) => format.short(one.raw.buffers.scratch_bytes) },
       ],
       rows: timed,
     }),

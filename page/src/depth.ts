@@ -39,6 +39,6 @@ export const depthSection: Section = (view, redraw) => {
     h("div", { class: "controls" }, control),
     cameraPath(view, cases),
     listLengths(view, cases),
-    costs(cases),
+    costs(view, cases),
   );
 };

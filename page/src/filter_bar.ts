@@ -23,7 +23,7 @@ function sceneButtons(view: View): HTMLElement {
 
 function listOf(view: View, id: keyof Filters, label: string, all: string, values: string[]): HTMLElement {
   const options: Option[] = [["", all], ...values.map((value): Option => [value, value])];
-  return select(`filter-${id}`, label, options, "", (value) => view.change({ [id]: value || null }));
+  return select(`filter-${id}`, label, options, String(view.filters[id] ?? ""), (value) => view.change({ [id]: value || null }));
 }
 
 function scenes(view: View): HTMLElement | null {
@@ -33,12 +33,12 @@ function scenes(view: View): HTMLElement | null {
 }
 
 function words(view: View): HTMLElement {
-  const input = h("input", { type: "search", id: "filter-words", placeholder: "words of a case's name", spellcheck: "false", oninput: () => view.change({ words: input.value }) });
+  const input = h("input", { type: "search", id: "filter-words", placeholder: "words of a case's name", spellcheck: "false", value: view.filters.words, oninput: () => view.change({ words: input.value }) });
   return h("label", { class: "control" }, h("span", {}, "Find"), input);
 }
 
 function onlyFront(view: View): HTMLElement {
-  const input = h("input", { type: "checkbox", id: "filter-front", onchange: () => view.change({ frontOnly: input.checked }) });
+  const input = h("input", { type: "checkbox", id: "filter-front", checked: view.filters.frontOnly, onchange: () => view.change({ frontOnly: input.checked }) });
   return h("label", { class: "control check" }, input, h("span", {}, "Pareto front only"));
 }
 
@@ -46,10 +46,10 @@ function onlyFront(view: View): HTMLElement {
 function methods(view: View): HTMLElement {
   const looks = new Map(view.model.cases.map((one) => [one.assigner, view.palette(one)]));
   const buttons = view.model.assigners.map((name) => {
-    const button = h("button", { class: "chip", "aria-pressed": "true", onclick: () => toggle(name) }, icon(looks.get(name)!), name);
+    const button = h("button", { class: "chip", "aria-pressed": String(!view.filters.hidden.has(name)), onclick: () => toggle(name) }, icon(looks.get(name)!), name);
     return { name, button };
   });
-  const all = h("button", { class: "quiet", hidden: true, onclick: () => apply(new Set()) }, "Show all methods");
+  const all = h("button", { class: "quiet", hidden: view.filters.hidden.size === 0, onclick: () => apply(new Set()) }, "Show all methods");
   function apply(hidden: Set<string>): void {
     for (const { name, button } of buttons) button.setAttribute("aria-pressed", String(!hidden.has(name)));
     all.hidden = hidden.size === 0;
@@ -71,10 +71,19 @@ function countOf(view: View): HTMLElement {
   return status;
 }
 
-const results = (view: View, model: Model) => (model.runs.length > 1 ? listOf(view, "run", "Result", "all", model.runs.map((run) => run.label)) : null);
+const results = (view: View, model: Model) => (view.hasRuns ? listOf(view, "run", "Result", "all", model.runs.map((run) => run.label)) : null);
 const grids = (view: View, model: Model) => (model.grids.length > 1 ? listOf(view, "grid", "Grid", "all", model.grids) : null);
 
+// The bar, made anew where filters change by other means than its controls.
 export function filterBar(view: View): HTMLElement {
+  const place = h("div");
+  const draw = () => place.replaceChildren(bar(view));
+  view.onReset(draw);
+  draw();
+  return place;
+}
+
+function bar(view: View): HTMLElement {
   return h(
     "form",
     { class: "filters", "aria-label": "Filters", onsubmit: (event) => event.preventDefault() },

@@ -30,7 +30,13 @@ export function header(model: Model): HTMLElement {
   );
 }
 
+// The address keeps the filters.
+function goTo(event: Event, id: string): void {
+  event.preventDefault();
+  document.getElementById(id)?.scrollIntoView();
+}
+
 export function contents(main: HTMLElement): HTMLElement {
   const sections = [...main.querySelectorAll("section[id]")];
-  return h("nav", { "aria-label": "Sections" }, ...sections.map((one) => h("a", { href: `#${one.id}` }, one.querySelector("h2")!.textContent)));
+  return h("nav", { "aria-label": "Sections" }, ...sections.map((one) => h("a", { href: `#${one.id}`, onclick: (event) => goTo(event, one.id) }, one.querySelector("h2")!.textContent)));
 }

@@ -5,6 +5,7 @@ import { h } from "./dom.ts";
 import { figureView } from "./figure.ts";
 import * as format from "./format.ts";
 import type { Case } from "./model.ts";
+import { meanOf } from "./overall.ts";
 import { Plot, chart, multiples } from "./plots.ts";
 import type { Grid, Maybe } from "./result.ts";
 import type { Section } from "./view.ts";
@@ -13,23 +14,24 @@ interface Measure {
   label: string;
   of: (one: Case) => Maybe;
   show: (value: Maybe) => string;
+  isShare?: boolean; // can be 0
 }
 
 const measures: Record<string, Measure> = {
   time: { label: "frame µs", of: (one) => one.frameNs, show: format.microseconds },
   instructions: { label: "instructions", of: (one) => one.instructions, show: format.short },
   overshade: { label: "overshade", of: (one) => one.overshade, show: format.factor },
-  excess: { label: "excess", of: (one) => one.excess, show: format.percent },
-  bytes: { label: "bytes", of: (one) => one.bytes, show: format.bytes },
+  excess: { label: "excess", of: (one) => one.excess, show: format.percent, isShare: true },
+  bytes: { label: "bytes", of: (one) => one.bytes, show: format.short },
   longest: { label: "longest list", of: (one) => one.longest, show: format.count },
   pairs: { label: "pairs", of: (one) => one.pairs, show: format.short },
 };
 
 interface Cell {
-  method: string; // with the grid's kind and the storage, where there are several
+  method: string; // with its result, the grid's kind and the storage, where there are several
   tiling: string;
   slicing: string;
-  value: number; // mean over the scenes
+  value: number; // geometric mean over the scenes
   scenes: number;
 }
 
@@ -41,7 +43,8 @@ const unique = (values: string[]) => [...new Set(values)];
 function cellsOf(cases: Case[], measure: Measure): Cell[] {
   const hasKinds = unique(cases.filter((one) => cut(one.raw.grid)).map((one) => one.raw.grid.kind)).length > 1;
   const hasStorages = unique(cases.map((one) => one.storage)).length > 1;
-  const methodOf = (one: Case) => [one.assigner, ...(hasKinds ? [one.raw.grid.kind] : []), ...(hasStorages ? [one.storage] : [])].join(" / ");
+  const hasRuns = unique(cases.map((one) => one.run.label)).length > 1;
+  const methodOf = (one: Case) => [one.assigner, ...(hasRuns ? [one.run.label] : []), ...(hasKinds ? [one.raw.grid.kind] : []), ...(hasStorages ? [one.storage] : [])].join(" / ");
   const placed = cases.flatMap((one) => {
     const [, tiling, slicing] = cut(one.raw.grid) ?? [];
     const value = measure.of(one);
@@ -52,9 +55,18 @@ function cellsOf(cases: Case[], measure: Measure): Cell[] {
     method: methodOf(group[0]!.one),
     tiling: group[0]!.tiling,
     slicing: group[0]!.slicing,
-    value: group.reduce((total, { value }) => total + value, 0) / group.length,
-    scenes: new Set(group.map(({ one }) => one.scene)).size,
+    ...mean(group.map(({ one }) => one), measure),
   }));
+}
+
+// As over all: geometric, each scene counted once. A share that can be 0 is averaged as what is reported by what is true.
+function mean(cases: Case[], measure: Measure): { value: number; scenes: number } {
+  const plus = measure.isShare ? 1 : 0;
+  const { value, scenes } = meanOf(cases, (one) => {
+    const figure = measure.of(one);
+    return figure === null || figure + plus <= 0 ? null : figure + plus;
+  });
+  return { value: value === null ? 0 : value - plus, scenes };
 }
 
 // Of "rgb(0, 32, 81)", up to 255.
@@ -103,7 +115,7 @@ export const heatMapSection: Section = (view, redraw) => {
       ? figureView({
           id: "heat-map",
           title: `${measure.label} by tiling and slicing`,
-          lead: `One map per method${view.filters.scene === null ? ", the mean of all scenes" : ""}. Dark is less. The same colours in all maps.`,
+          lead: `One map per method${view.filters.scene === null ? ", the geometric mean of all scenes" : ""}. Dark is less. The same colours in all maps.`,
           controls: [control],
           chart: multiples(maps.map(([title, some]) => ({ title, chart: map(some, measure, range) }))),
           table: () => ({

@@ -15,20 +15,27 @@ interface Bin {
   cells: number;
 }
 
+const histogramOf = (one: Case) => one.raw.occupancy?.lights_per_cell.histogram;
+const perEntry = (series: Series) => histogramOf(series.cases[0]!)!.lights_per_entry;
+const lengthOf = (series: Series) => series.values.length * perEntry(series);
+
+// Entries of histograms are powers of two wide, and bins a multiple of the widest.
 function binned(all: Series[], width: number): Bin[] {
-  return all.flatMap((series) =>
-    Array.from({ length: Math.ceil(series.values.length / width) }, (_, at) => ({
+  return all.flatMap((series) => {
+    const entries = width / perEntry(series);
+    return Array.from({ length: Math.ceil(series.values.length / entries) }, (_, at) => ({
       series,
       lights: at * width,
-      cells: series.values.slice(at * width, (at + 1) * width).reduce((total, value) => total + value, 0),
-    })),
-  );
+      cells: series.values.slice(at * entries, (at + 1) * entries).reduce((total, value) => total + value, 0),
+    }));
+  });
 }
 
 export function listLengths(view: View, cases: Case[]): HTMLElement {
-  const all = seriesOf(cases, (one) => one.raw.occupancy?.lights_per_cluster.histogram);
-  const longest = all.reduce((most, series) => Math.max(most, series.values.length), 1);
-  const width = Math.ceil(longest / mostBins);
+  const all = seriesOf(view, cases, (one) => histogramOf(one)?.cells);
+  const longest = all.reduce((most, series) => Math.max(most, lengthOf(series)), 1);
+  const widest = all.reduce((most, series) => Math.max(most, perEntry(series)), 1);
+  const width = widest * Math.ceil(longest / mostBins / widest);
   const bins = binned(all, width);
   const colour = (series: Series) => view.palette(series.cases[0]!).colour;
   const range = (bin: Bin) => (width === 1 ? `${bin.lights}` : `${bin.lights} to ${bin.lights + width - 1}`);
@@ -44,7 +51,7 @@ export function listLengths(view: View, cases: Case[]): HTMLElement {
       y: { type: "log", label: "cells", grid: true, ticks: 5, tickFormat: format.short, domain: [0.8, 2 * bins.reduce((most, bin) => Math.max(most, bin.cells), 1)] },
       marks: [
         Plot.line(bins, { x: "lights", y: ({ cells }: Bin) => cells || NaN, z: ({ series }: Bin) => series.label, curve: "step-after", stroke: ({ series }: Bin) => colour(series), strokeWidth: 1.6 }),
-        Plot.dot(all.map((series) => ({ series, lights: series.values.length - 1, cells: bins.filter((bin) => bin.series === series).at(-1)!.cells || 1 })), { x: "lights", y: "cells", symbol: ({ series }: Pick<Bin, "series">) => view.palette(series.cases[0]!).shape, fill: ({ series }: Pick<Bin, "series">) => colour(series), r: 4 }),
+        Plot.dot(all.map((series) => ({ series, lights: lengthOf(series) - perEntry(series), cells: bins.filter((bin) => bin.series === series).at(-1)!.cells || 1 })), { x: "lights", y: "cells", symbol: ({ series }: Pick<Bin, "series">) => view.palette(series.cases[0]!).shape, fill: ({ series }: Pick<Bin, "series">) => colour(series), r: 4 }),
         Plot.tip(bins, Plot.pointer({ x: "lights", y: ({ cells }: Bin) => cells || NaN, title: (bin: Bin) => `${bin.series.label}\n${range(bin)} lights: ${format.count(bin.cells)} cells` })),
       ],
     }),

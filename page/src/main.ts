@@ -1,5 +1,7 @@
 // The page: reads the results that stand in it and puts the sections in order.
 
+import { followAddress } from "./address.ts";
+import { againstSection } from "./against.ts";
 import { cellsSection } from "./cells_section.ts";
 import { depthSection } from "./depth.ts";
 import { h } from "./dom.ts";
@@ -19,6 +21,7 @@ import { warningsSection } from "./warnings.ts";
 
 const sections = [
   rankingSection,
+  againstSection,
   speedErrorSection,
   heatMapSection,
   depthSection,
@@ -45,6 +48,7 @@ function redrawOnResize(view: View): void {
 function show(data: PageData): void {
   const model = modelOf(data);
   const view = new View(model, paletteOf(model));
+  followAddress(view);
   document.title = `${model.runs.map((run) => run.result.name).join(", ")} – clusterbench report`;
   const main = h("main", { id: "main" });
   document.body.prepend(h("a", { class: "skip", href: "#ranking" }, "Skip to the ranking"), header(model), filterBar(view), main);

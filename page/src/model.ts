@@ -20,7 +20,9 @@ export interface Case {
   storage: string; // and lights, where they are packed
   setting: string; // what cases must share to be compared pair by pair
   isOnFront: boolean;
-  isOut: boolean; // fails, drops pairs or leaves too many lights unlit: beats nothing
+  isEligible: boolean; // for the front, and to be what others are compared with
+  isUnlit: boolean; // leaves more lights unlit than rounding does
+  rank: Maybe; // by frame time among all cases that see the same, whatever is filtered out
   frameNs: Maybe; // assignment and conversion
   interval: [Maybe, Maybe]; // of frameNs
   worstNs: Maybe; // of the slowest timed frame
@@ -52,8 +54,6 @@ export interface Model {
   families: string[];
 }
 
-export const mostUnlit = 1e-3; // rounding at cell boundaries leaves far fewer unlit
-
 const unique = (values: string[]) => [...new Set(values)];
 
 // The shortest ends of paths that tell them apart.
@@ -65,13 +65,6 @@ function labels(files: string[]): string[] {
       if (files.every((other, place) => other === file || tail(place, length) !== tail(at, length))) return tail(at, length);
     return file;
   });
-}
-
-// Of a result that has only its parts, their sum.
-function frameTime({ timing }: CaseResult): Maybe {
-  if (!timing) return null;
-  const assign = timing.assign_ns.median;
-  return timing.frame_ns?.median ?? (assign === null ? null : assign + (timing.convert_ns?.median ?? 0));
 }
 
 function toCase(raw: CaseResult, run: Run, front: Set<string>): Case {
@@ -87,9 +80,11 @@ function toCase(raw: CaseResult, run: Run, front: Set<string>): Case {
     storage,
     setting: [run.label, raw.scene, raw.camera, raw.viewport.join("×"), raw.grid.name, storage].join(" · "),
     isOnFront: front.has(raw.id),
-    isOut: (raw.failures ?? []).length > 0 || raw.buffers.overflow.dropped_pairs > 0 || (raw.shading?.unlit ?? 0) > mostUnlit,
-    frameNs: frameTime(raw),
-    interval: raw.timing?.frame_ns?.ci95 ?? [null, null],
+    isEligible: raw.eligible,
+    isUnlit: raw.warnings.some(({ kind }) => kind === "unlit"),
+    rank: null,
+    frameNs: raw.timing?.frame_ns.median ?? null,
+    interval: raw.timing?.frame_ns.ci95 ?? [null, null],
     worstNs: raw.timing?.worst_frame?.ns ?? null,
     assignNs: raw.timing?.assign_ns.median ?? null,
     convertNs: raw.timing?.convert_ns?.median ?? null,
@@ -103,20 +98,29 @@ function toCase(raw: CaseResult, run: Run, front: Set<string>): Case {
     dropped: raw.buffers.overflow.dropped_pairs,
     unlit: raw.shading?.unlit ?? null,
     overshade: raw.shading?.overshade ?? null,
-    p99: raw.occupancy?.lights_per_cluster.p99 ?? null,
-    longest: raw.occupancy?.lights_per_cluster.max ?? null,
+    p99: raw.occupancy?.lights_per_cell.p99 ?? null,
+    longest: raw.occupancy?.lights_per_cell.max ?? null,
     bytes: raw.buffers.bytes.high_water,
     recommended: raw.buffers.bytes.recommended,
   };
+}
+
+// Cases that see the same, whatever cells they use. Of several results each is by itself: they can be of other machines.
+export const seenBy = (one: Case) => [one.run.label, one.scene, one.raw.camera, one.raw.viewport.join("x")].join("\n");
+
+function rankAll(cases: Case[]): void {
+  for (const seen of Map.groupBy(cases.filter((one) => one.frameNs !== null), seenBy).values())
+    seen.sort((a, b) => a.frameNs! - b.frameNs!).forEach((one, at) => (one.rank = at + 1));
 }
 
 export function modelOf(data: PageData): Model {
   const names = labels(data.results.map((one) => one.file));
   const runs = data.results.map(({ file, result }, at) => ({ file, label: names[at]!, result }));
   const cases = runs.flatMap((run) => {
-    const front = new Set(run.result.front.flatMap((one) => one.ids));
+    const front = new Set(run.result.pareto_front.flatMap((one) => one.ids));
     return run.result.cases.map((raw) => toCase(raw, run, front));
   });
+  rankAll(cases);
   return {
     command: data.command,
     runs,

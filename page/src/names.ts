@@ -36,9 +36,19 @@ function boxOf({ x, y }: Spot, text: string, { dx, dy, textAnchor }: Placement):
 const around = ({ x, y }: Spot): Box => ({ left: x - 5, right: x + 5, top: y - 5, bottom: y + 5 });
 const overlap = (a: Box, b: Box) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
 
-// A placement for each name that has one at which it hides no mark, no other name and stays left of `right`.
-export function placed<T extends Spot & { text: string }>(names: T[], marks: Spot[], right: number): { name: T; placement: Placement }[] {
-  const taken = marks.map(around);
+// A bar from left to right, as of an interval.
+export interface Bar {
+  from: number;
+  to: number;
+  y: number;
+}
+
+const along = ({ from, to, y }: Bar): Box => ({ left: from, right: to, top: y - 2, bottom: y + 2 });
+
+// A placement for each name that has one at which it hides no mark, no other name, no bar strikes it and it stays left of
+// `right`.
+export function placed<T extends Spot & { text: string }>(names: T[], marks: Spot[], bars: Bar[], right: number): { name: T; placement: Placement }[] {
+  const taken = [...marks.map(around), ...bars.map(along)];
   return names.flatMap((name) => {
     const placement = placements.find((one) => {
       const box = boxOf(name, name.text, one);

@@ -9,7 +9,7 @@ const fewestPixels = 280;
 
 // Room for one of `columns` charts side by side, as style.css lays them out.
 export function chartWidth(columns = 1): number {
-  const page = Math.min(document.documentElement.clientWidth - 48, 1312) - 34; // less a figure's own frame
+  const page = Math.min(document.documentElement.clientWidth - 48, 1432) - 34; // less a figure's own frame
   const most = Math.max(1, Math.min(columns, Math.floor(page / 360)));
   return Math.max(fewestPixels, Math.floor((page - 24 * (most - 1)) / most));
 }

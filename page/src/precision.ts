@@ -5,6 +5,7 @@ import { figureView } from "./figure.ts";
 import * as format from "./format.ts";
 import type { Case } from "./model.ts";
 import type { Lookup, Precision } from "./result.ts";
+import { ofRuns } from "./runs.ts";
 import type { Column } from "./table.ts";
 import type { Section, View } from "./view.ts";
 
@@ -19,8 +20,8 @@ const packedColumns: Column<Packed>[] = [
   { label: "lights", value: ({ precision }) => precision.label },
   { label: "missed", value: ({ one }) => one.missed, show: ({ one }) => format.count(one.missed) },
   { label: "deepest", about: "Largest share of its range by which a missed light reaches in", value: ({ one }) => one.raw.error?.deepest_miss ?? null, show: ({ one }) => format.percent(one.raw.error?.deepest_miss ?? null) },
-  { label: "extra pairs", about: "Against float32", value: ({ precision }) => precision.extra_pairs.ratio, show: ({ precision }) => format.percent(precision.extra_pairs.ratio) },
-  { label: "place off by", about: "At most", value: ({ precision }) => precision.position_error_m.max, show: ({ precision }) => `${format.decimal(precision.position_error_m.max)} m` },
+  { label: "extra pairs", about: "Against float32", value: ({ precision }) => (precision.extra_pairs?.ratio ?? null), show: ({ precision }) => format.percent((precision.extra_pairs?.ratio ?? null)) },
+  { label: "place off by", about: "At most", value: ({ precision }) => precision.position_error_m.max, show: ({ precision }) => format.metres(precision.position_error_m.max) },
 ];
 
 const lookedColumns: Column<Looked>[] = [
@@ -43,7 +44,7 @@ function packedFigure(view: View): HTMLElement | null {
     id: "packed-lights",
     title: "Packed lights",
     lead: "The same methods on lights that were packed before the assigner saw them, against the same truth.",
-    table: () => ({ caption: "Packed lights", columns: packedColumns, rows }),
+    table: () => ({ caption: "Packed lights", columns: ofRuns(view, packedColumns), rows }),
     cases: rows.map(({ one }) => one),
   });
 }
@@ -55,7 +56,7 @@ function lookupFigure(view: View): HTMLElement | null {
     id: "lookup",
     title: "A shader's lookup",
     lead: "Samples whose single-precision lookup picks a cell whose list lacks a light that reaches them.",
-    table: () => ({ caption: "A shader's lookup", columns: lookedColumns, rows }),
+    table: () => ({ caption: "A shader's lookup", columns: ofRuns(view, lookedColumns), rows }),
     cases: rows.map(({ one }) => one),
   });
 }

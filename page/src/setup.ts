@@ -25,7 +25,7 @@ function configView(run: Run): HTMLElement {
 }
 
 function runView(run: Run, isAlone: boolean): HTMLElement {
-  const { tool, machine, scenes, cases, name } = run.result;
+  const { tool, machine, scenes, cases, name, date, command } = run.result;
   const libraries = Object.entries(tool.libraries).map((one) => one.join(" ")).join(", ");
   return h(
     "article",
@@ -33,10 +33,13 @@ function runView(run: Run, isAlone: boolean): HTMLElement {
     isAlone ? null : h("h3", {}, run.label),
     facts([
       ["processor", [machine.cpu, ...(["family", "model", "stepping"] as const).flatMap((key) => (machine[key] ? `${key} ${machine[key]}` : []))].join(", ")],
-      ["caches", Object.entries(machine.caches ?? {}).map(([level, size]) => `${level.toUpperCase()} ${format.bytes(size)}`).join(", ") || "unknown"],
+      ["caches", Object.entries(machine.caches ?? {}).map(([level, size]) => `${level.toUpperCase()} ${format.memory(size)}`).join(", ") || "unknown"],
       ["cores", String(machine.cores)],
-      ["memory", format.bytes(machine.ram_bytes)],
+      ["memory", format.memory(machine.ram_bytes)],
       ["system", machine.os],
+      ["clock", machine.clock_mhz ? `${machine.clock_mhz.now} MHz${machine.clock_mhz.max ? ` of ${machine.clock_mhz.max}` : ""}` : "unknown"],
+      ["load", machine.load ? `${machine.load.begin} before the run, ${machine.load.end} after` : "unknown"],
+      ["measured", [date, command].filter(Boolean).join(", ") || "without times, so it does not say when"],
       ["clusterbench", `${tool.version}, commit ${tool.git_sha}`],
       ["compiler", `${tool.compiler} ${tool.flags}`],
       ["instruction set", tool.simd_target],

@@ -17,10 +17,10 @@ interface Measure {
   about: string;
 }
 
-const measures: Record<string, Measure> = {
+export const measures: Record<string, Measure> = {
   overshade: { label: "overshade", of: (one) => one.overshade, show: format.factor, about: "lights evaluated by lights needed at the samples; compares across grids" },
   excess: { label: "excess", of: (one) => one.excess, show: format.percent, about: "false positives by true pairs; compares within one grid" },
-  bytes: { label: "bytes", of: (one) => one.bytes, show: format.bytes, about: "high-water mark of headers and indices" },
+  bytes: { label: "bytes", of: (one) => one.bytes, show: format.short, about: "high-water mark of headers and indices" },
   unlit: { label: "unlit", of: (one) => one.unlit, show: format.share, about: "share of needed lights that samples are not given" },
   missed: { label: "missed", of: (one) => one.missed, show: format.count, about: "lights lost" },
 };
@@ -33,7 +33,7 @@ interface Point {
 
 const mostPanels = 12;
 
-function points(cases: Case[], measure: Measure): Point[] {
+export function points(cases: Case[], measure: Measure): Point[] {
   return cases.flatMap((one) => {
     const error = measure.of(one);
     return one.frameNs === null || error === null ? [] : [{ one, us: one.frameNs / 1e3, error }];
@@ -48,11 +48,14 @@ function front<T extends { us: number; error: number }>(all: T[]): T[] {
     .filter(({ error }) => error < least && ((least = error), true));
 }
 
-function tip({ one, us, error }: Point, measure: Measure): string {
+function tip(view: View, { one, us, error }: Point, measure: Measure): string {
   const [low, high] = one.interval;
   const range = low === null || high === null ? "" : ` (${format.microseconds(low)} to ${format.microseconds(high)})`;
-  return `${one.assigner}\n${one.grid}\n${format.decimal(us)} µs${range}\n${measure.label} ${measure.show(error)}`;
+  return `${view.named(one)}\n${one.grid}\n${format.microseconds(1e3 * us)} µs${range}\n${measure.label} ${measure.show(error)}`;
 }
+
+// Of the interval, in µs.
+const ends = ({ one, us }: Point): [number, number] => [(one.interval[0] ?? us * 1e3) / 1e3, (one.interval[1] ?? us * 1e3) / 1e3];
 
 interface Scales {
   x: [number, number];
@@ -64,13 +67,15 @@ const margin = { marginTop: 26, marginRight: 16, marginBottom: 40, marginLeft: 6
 // A text mark for each placement of the front's names.
 function names(best: Point[], all: Point[], { x, y }: Scales, width: number, height: number): Plot.Markish[] {
   const room = { x: width - margin.marginLeft - margin.marginRight, y: height - margin.marginTop - margin.marginBottom };
+  const across = (us: number) => (room.x * Math.log(us / x[0])) / Math.log(x[1] / x[0]);
   const at = (point: Point) => ({
     point,
     text: point.one.assigner,
-    x: (room.x * Math.log(point.us / x[0])) / Math.log(x[1] / x[0]),
+    x: across(point.us),
     y: room.y * (1 - (point.error - y[0]) / (y[1] - y[0])),
   });
-  const found = placed(best.map(at), all.map(at), room.x + margin.marginRight);
+  const bar = (point: Point) => ({ from: across(ends(point)[0]), to: across(ends(point)[1]), y: at(point).y });
+  const found = placed(best.map(at), all.map(at), all.map(bar), room.x + margin.marginRight);
   return placements.map((one) =>
     Plot.text(
       found.filter(({ placement }) => placement === one).map(({ name }) => name.point),
@@ -79,8 +84,8 @@ function names(best: Point[], all: Point[], { x, y }: Scales, width: number, hei
   );
 }
 
-function panel(view: View, all: Point[], measure: Measure, scales: Scales, width: number): Element {
-  const best = front(all.filter(({ one }) => !one.isOut));
+export function panel(view: View, all: Point[], measure: Measure, scales: Scales, width: number): Element {
+  const best = front(all.filter(({ one }) => one.isEligible));
   const look = (point: Point) => view.palette(point.one);
   const height = Math.round(Math.min(420, Math.max(230, width * 0.5)));
   return chart(`Frame time against ${measure.label} of ${all.length} cases; on the front: ${best.map(({ one }) => one.assigner).join(", ")}`, {
@@ -92,9 +97,9 @@ function panel(view: View, all: Point[], measure: Measure, scales: Scales, width
     marks: [
       Plot.line(best, { x: "us", y: "error", curve: "step-after", stroke: "var(--front)", strokeWidth: 1.5 }),
       ...names(best, all, scales, width, height),
-      Plot.ruleY(all, { x1: ({ one, us }: Point) => (one.interval[0] ?? us * 1e3) / 1e3, x2: ({ one, us }: Point) => (one.interval[1] ?? us * 1e3) / 1e3, y: "error", stroke: (point: Point) => look(point).colour, strokeOpacity: 0.6, strokeWidth: 3 }),
+      Plot.ruleY(all, { x1: (point: Point) => ends(point)[0], x2: (point: Point) => ends(point)[1], y: "error", stroke: (point: Point) => look(point).colour, strokeOpacity: 0.6, strokeWidth: 3 }),
       Plot.dot(all, { x: "us", y: "error", r: 4.5, symbol: (point: Point) => look(point).shape, fill: (point: Point) => (look(point).isFilled ? look(point).colour : "var(--panel)"), stroke: (point: Point) => look(point).colour, strokeWidth: 1.5 }),
-      Plot.tip(all, Plot.pointer({ x: "us", y: "error", title: (point: Point) => tip(point, measure) })),
+      Plot.tip(all, Plot.pointer({ x: "us", y: "error", title: (point: Point) => tip(view, point, measure) })),
     ],
   });
 }
@@ -103,13 +108,13 @@ function limits(values: number[]): [number, number] {
   return [values.reduce((a, b) => Math.min(a, b), Infinity), values.reduce((a, b) => Math.max(a, b), -Infinity)];
 }
 
-function logExtent(values: number[]): [number, number] {
+export function logExtent(values: number[]): [number, number] {
   const [low, high] = limits(values);
   return [low / 1.3, high * 1.8];
 }
 
 // With room below for names.
-function extent(values: number[]): [number, number] {
+export function extent(values: number[]): [number, number] {
   const [low, high] = limits(values);
   const room = (high - low || Math.abs(high) || 1) * 0.12;
   return [low - room, high + room];
@@ -123,10 +128,11 @@ export const speedErrorSection: Section = (view, redraw) => {
   const measure = measures[key]!;
   const all = points(cases, measure);
   const x = logExtent(all.map(({ us }) => us)); // the same in all panels
-  const scenes = [...Map.groupBy(all, ({ one }) => one.scene)];
+  // No front runs across results, which can be of different machines.
+  const scenes = [...Map.groupBy(all, ({ one }) => (view.hasRuns ? `${one.scene} · ${one.run.label}` : one.scene))];
   const width = chartWidth(Math.min(2, scenes.length));
   const panels = scenes.slice(0, mostPanels).map(([title, some]) => ({ title, chart: panel(view, some, measure, { x, y: extent(some.map(({ error }) => error)) }, width) }));
-  const more = scenes.length > mostPanels ? ` The first ${mostPanels} of ${scenes.length} scenes; choose one above for the others.` : "";
+  const more = scenes.length > mostPanels ? ` The first ${mostPanels} of ${scenes.length}; choose a scene above for the others.` : "";
   return h(
     "section",
     { id: "speed" },
@@ -134,22 +140,23 @@ export const speedErrorSection: Section = (view, redraw) => {
     figureView({
       id: "speed-error",
       title: `Frame time against ${measure.label}`,
-      lead: `Down and left is better. ${measure.label[0]!.toUpperCase()}${measure.label.slice(1)}: ${measure.about}. The line joins what nothing beats in both; bars are 95 % intervals of the median time. Each scene has its own scale upwards.${more}`,
+      lead: `Down and left is better. ${measure.label[0]!.toUpperCase()}${measure.label.slice(1)}: ${measure.about}. The line joins what nothing beats in both; bars are 95 % intervals of the median time. Each panel has its own scale upwards.${more}`,
       controls: [control],
       chart: multiples(panels),
       table: () => ({
         caption: "Speed and error",
         columns: [
           { label: "method", value: ({ one }) => one.assigner },
+          ...(view.hasRuns ? [{ label: "result", value: ({ one }: Point) => one.run.label }] : []),
           { label: "scene", value: ({ one }) => one.scene },
           { label: "grid", value: ({ one }) => one.grid },
-          { label: "frame µs", value: ({ us }) => us, show: ({ us }) => format.decimal(us) },
+          { label: "frame µs", value: ({ us }) => us, show: ({ us }) => format.microseconds(1e3 * us) },
           { label: "low", about: "Of the 95 % interval", value: ({ one }) => one.interval[0] && one.interval[0] / 1e3, show: ({ one }) => format.microseconds(one.interval[0]) },
           { label: "high", about: "Of the 95 % interval", value: ({ one }) => one.interval[1] && one.interval[1] / 1e3, show: ({ one }) => format.microseconds(one.interval[1]) },
           { label: measure.label, value: ({ error }) => error, show: ({ error }) => measure.show(error) },
         ],
         rows: all,
-        sort: { column: 3, descending: false },
+        sort: { column: view.hasRuns ? 4 : 3, descending: false },
       }),
       cases: all.map(({ one }) => one),
     }),

@@ -5,6 +5,7 @@ import { figureView } from "./figure.ts";
 import * as format from "./format.ts";
 import type { Case } from "./model.ts";
 import type { Stability } from "./result.ts";
+import { ofRuns } from "./runs.ts";
 import type { Column } from "./table.ts";
 import type { Section } from "./view.ts";
 
@@ -35,7 +36,7 @@ export const stabilitySection: Section = (view) => {
       id: "stability-table",
       title: "Changes and flickers along small steps of the camera",
       lead: `${paths.slice(0, 6).join(". ")}.`,
-      table: () => ({ caption: "Stability", columns, rows, sort: { column: 6, descending: false } }),
+      table: () => ({ caption: "Stability", columns: ofRuns(view, columns), rows, sort: { column: view.hasRuns ? 7 : 6, descending: false } }),
       cases: rows.map(({ one }) => one),
     }),
   );

@@ -9,6 +9,7 @@ export interface Column<Row> {
   about?: string; // what it is, for those who hover or listen
   value: (row: Row) => Value; // sorted by, copied and downloaded
   show?: (row: Row) => Child; // displayed in place of the value
+  isDetail?: boolean; // shown on request
 }
 
 export interface Table<Row> {

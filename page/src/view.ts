@@ -13,24 +13,56 @@ export interface Filters {
 }
 
 export class View {
-  filters: Filters = { scene: null, grid: null, run: null, words: "", frontOnly: false, hidden: new Set() };
+  filters: Filters;
   readonly choices = new Map<string, string>(); // of controls within sections, by their id
   private readonly watchers: (() => void)[] = [];
+  private readonly choiceWatchers: (() => void)[] = [];
+  private readonly resetters: (() => void)[] = [];
 
   constructor(
     readonly model: Model,
     readonly palette: Palette,
   ) {
-    if (model.scenes.length === 1) this.filters.scene = model.scenes[0]!;
+    this.filters = this.noFilters();
+  }
+
+  noFilters(): Filters {
+    const { scenes } = this.model;
+    return { scene: scenes.length === 1 ? scenes[0]! : null, grid: null, run: null, words: "", frontOnly: false, hidden: new Set() };
+  }
+
+  // Of several results each case has to say whose it is.
+  get hasRuns(): boolean {
+    return this.model.runs.length > 1;
+  }
+  named(one: Case): string {
+    return this.hasRuns ? `${one.assigner} · ${one.run.label}` : one.assigner;
   }
 
   watch(watcher: () => void): void {
     this.watchers.push(watcher);
   }
+  watchChoices(watcher: () => void): void {
+    this.choiceWatchers.push(watcher);
+  }
+  // Called where filters change by other means than their controls.
+  onReset(resetter: () => void): void {
+    this.resetters.push(resetter);
+  }
 
   change(part: Partial<Filters>): void {
     this.filters = { ...this.filters, ...part };
     this.redraw();
+  }
+  reset(filters = this.noFilters()): void {
+    this.filters = filters;
+    for (const resetter of this.resetters) resetter();
+    this.redraw();
+  }
+
+  // Sections draw their own choices; who keeps them is told.
+  tellChoice(): void {
+    for (const watcher of this.choiceWatchers) watcher();
   }
 
   redraw(): void {
@@ -38,14 +70,27 @@ export class View {
   }
 
   cases(): Case[] {
-    const { scene, grid, run, words, frontOnly, hidden } = this.filters;
+    return this.casesOfAnyFront().filter((one) => !this.filters.frontOnly || one.isOnFront);
+  }
+
+  // To hold one result against another, whichever of them is looked at.
+  casesOfEachRun(): Case[] {
+    const { run } = this.filters;
+    this.filters.run = null;
+    const cases = this.cases();
+    this.filters.run = run;
+    return cases;
+  }
+
+  // A mean over scenes is of the same scenes for all, whichever of them a method is on the front of.
+  casesOfAnyFront(): Case[] {
+    const { scene, grid, run, words, hidden } = this.filters;
     const wanted = words.toLowerCase().split(/\s+/).filter(Boolean);
     return this.model.cases.filter(
       (one) =>
         (scene === null || one.scene === scene) &&
         (grid === null || one.grid === grid) &&
         (run === null || one.run.label === run) &&
-        (!frontOnly || one.isOnFront) &&
         !hidden.has(one.assigner) &&
         wanted.every((word) => one.raw.name.toLowerCase().includes(word)),
     );

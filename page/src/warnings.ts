@@ -2,8 +2,8 @@
 
 import { h } from "./dom.ts";
 import * as format from "./format.ts";
-import { mostUnlit, type Case, type Model, type Run } from "./model.ts";
-import type { FailureKind, SceneResult } from "./result.ts";
+import type { Case, Model, Run } from "./model.ts";
+import type { FailureKind, SceneResult, WarningKind } from "./result.ts";
 import type { Section } from "./view.ts";
 
 export interface Warning {
@@ -27,21 +27,23 @@ function counted(cases: Case[], what: string): string {
 
 function failuresOf(cases: Case[]): Warning[] {
   return Object.entries(failures).flatMap(([kind, what]) => {
-    const some = cases.filter(({ raw }) => raw.failures?.some((failure) => failure.kind === kind));
+    const some = cases.filter(({ raw }) => raw.failures.some((failure) => failure.kind === kind));
     return some.length ? [{ isFailure: true, text: counted(some, what) }] : [];
   });
 }
 
+const doubts: Record<WarningKind, string> = {
+  dropped_pairs: "dropped lights because their storage was full",
+  unlit: "leave more of the lights that samples need unlit than rounding does, in cells or outside of the grid",
+  undecided: "have pairs that stayed undecided, counted as true",
+  unchecked: "were not checked against the truth",
+  lost_pairs: "lose lights, as methods that are not conservative may",
+};
+
 function doubtsOf(cases: Case[]): Warning[] {
   const width = ({ interval: [low, high], frameNs }: Case) => (low === null || high === null || !frameNs ? 0 : (high - low) / 2 / frameNs);
-  const kinds: [(one: Case) => boolean, string][] = [
-    [(one) => one.dropped > 0, "dropped lights because their storage was full"],
-    [(one) => (one.unlit ?? 0) > mostUnlit, `leave more than ${format.percent(mostUnlit)} of the lights that samples need unlit, in cells or outside of the grid`],
-    [({ raw }) => (raw.error?.undecided ?? 0) > 0, "have pairs that stayed undecided, counted as true"],
-    [({ raw }) => !raw.error, "were not checked against the truth"],
-    [(one) => width(one) > noisy, `have times that are known to no better than ${format.percent(noisy)}`],
-    [({ raw }) => !raw.assigner.conservative && (raw.error?.false_negatives ?? 0) > 0, "lose lights, as methods that are not conservative may"],
-  ];
+  const kinds = Object.entries(doubts).map(([kind, what]): [(one: Case) => boolean, string] => [({ raw }) => raw.warnings.some((one) => one.kind === kind), what]);
+  kinds.push([(one) => width(one) > noisy, `have times that are known to no better than ${format.percent(noisy)}`]);
   return kinds.flatMap(([holds, what]) => {
     const some = cases.filter(holds);
     return some.length ? [{ isFailure: false, text: counted(some, what) }] : [];

@@ -29,7 +29,7 @@ export async function open(browser, url, { levels = ["error", "warning"], ...opt
   page.faults = [];
   page.on("console", (message) => levels.includes(message.type()) && page.faults.push(message.text()));
   page.on("pageerror", (error) => page.faults.push(error.message));
-  page.on("request", (request) => request.url() !== url && !request.url().startsWith("blob:") && page.faults.push(`asks for ${request.url()}`));
+  page.on("request", (request) => request.url() !== url.replace(/#.*/, "") && !request.url().startsWith("blob:") && page.faults.push(`asks for ${request.url()}`));
   await page.goto(url);
   await page.waitForFunction(() => document.documentElement.dataset.ready);
   return page;

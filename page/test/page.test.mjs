@@ -6,7 +6,7 @@ import { createRequire } from "node:module";
 import { join } from "node:path";
 import { after, afterEach, before, describe, it } from "node:test";
 import { chromiumPath, folder, launch, makePage, open as openPage } from "./browser.mjs";
-import { committedResult, lossy, measureSweep } from "./results.mjs";
+import { committedResult, historyPage, lossy, measureSweep, onAnotherMachine, widened } from "./results.mjs";
 
 if (!chromiumPath) {
   console.log("skipped: there is no Chromium (scripts/setup test installs it)");
@@ -17,12 +17,16 @@ const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.mi
 const place = folder();
 const pages = {};
 
-let browser, sweepFile;
+let browser, sweepFile, lossyTable;
 before(async () => {
   pages.quick = makePage(tool, [committedResult], join(place, "quick.html"));
   sweepFile = measureSweep(tool, place);
   pages.sweep = makePage(tool, [sweepFile], join(place, "sweep.html"));
-  pages.lossy = makePage(tool, [measureSweep(tool, place, lossy)], join(place, "lossy.html"));
+  const lossyFile = measureSweep(tool, place, lossy, (table) => (lossyTable = table));
+  pages.lossy = makePage(tool, [lossyFile], join(place, "lossy.html"));
+  pages.wide = makePage(tool, [widened(lossyFile, place)], join(place, "wide.html"));
+  pages.against = makePage(tool, [sweepFile, onAnotherMachine(sweepFile, place)], join(place, "against.html"));
+  pages.history = historyPage(tool, place);
   pages.two = makePage(tool, [committedResult, sweepFile], join(place, "two.html"));
   browser = await launch();
 });
@@ -42,6 +46,11 @@ const column = async (page, label) => {
   return textsOf(page, `#ranking tbody td:nth-child(${labels.indexOf(label) + 1})`);
 };
 const numbers = (texts) => texts.map((text) => Number(text.replace(/[^\d.]/g, "")));
+const inTable = async (page, selector = "#ranking") => {
+  const labels = (await textsOf(page, `${selector} thead th`)).map((text) => text.replace(/ [↑↓]$/, ""));
+  const rows = await page.locator(`${selector} tbody tr`).evaluateAll((all) => all.map((row) => [...row.children].map((cell) => cell.innerText)));
+  return rows.map((row) => Object.fromEntries(row.map((text, at) => [labels[at], text])));
+};
 const isAscending = (values) => values.every((value, at) => at === 0 || values[at - 1] <= value);
 
 async function violations(page) {
@@ -56,7 +65,7 @@ async function openAll(page) {
 }
 
 describe("the page", () => {
-  for (const [name, colorScheme] of [["quick", "dark"], ["sweep", "light"], ["two", "light"]])
+  for (const [name, colorScheme] of [["quick", "dark"], ["sweep", "light"], ["two", "light"], ["against", "dark"], ["history", "light"]])
     it(`of ${name} in ${colorScheme} asks for nothing, errs nowhere and is accessible`, async () => {
       const page = await open(pages[name], { colorScheme });
       await openAll(page);
@@ -121,7 +130,7 @@ describe("the ranking", () => {
     assert.deepEqual(await shown(), ["exact-fast"]);
     await page.fill("#filter-words", "");
     await page.check("#filter-front");
-    const front = result.front.find((one) => one.scene === "street").ids;
+    const front = result.pareto_front.find((one) => one.scene === "street").ids;
     assert.deepEqual(await shown(), expected((one) => front.includes(one.id) && one.grid.name === grid));
     assert.equal(await page.locator(".count").innerText(), `${(await shown()).length} of ${result.cases.length} cases`);
   });
@@ -151,8 +160,115 @@ describe("the ranking", () => {
   });
 });
 
+describe("over all scenes", () => {
+  const geometric = (values) => Math.exp(values.reduce((sum, value) => sum + Math.log(value), 0) / values.length);
+
+  it("every mean is geometric, with each scene counted once", async () => {
+    const page = await open(pages.quick);
+    const result = JSON.parse(readFileSync(committedResult));
+    const rows = await inTable(page);
+    let compared = 0;
+    for (const row of rows) {
+      const cases = result.cases.filter((one) => one.assigner.label === row.method && one.grid.name === row.grid && one.storage === row.storage && one.error && one.shading.overshade !== null);
+      if (cases.length !== result.scenes.length) continue;
+      const mean = (figure) => geometric(cases.map(figure));
+      assert.equal(row.excess, `${(100 * (mean((one) => one.error.reported_pairs / one.error.true_pairs) - 1)).toFixed(1)} %`, row.method);
+      assert.equal(row.overshade, mean((one) => one.shading.overshade).toFixed(2), row.method);
+      assert.equal(row.longest, mean((one) => one.occupancy.lights_per_cell.max).toFixed(0), row.method);
+      ++compared;
+    }
+    assert.ok(compared > 5, String(compared));
+  });
+
+  it("a mean that some scenes have no part in says of how many it is", async () => {
+    const page = await open(pages.quick);
+    const result = JSON.parse(readFileSync(committedResult));
+    const key = (method, grid, storage) => [method, grid, storage].join();
+    const holes = new Set(result.cases.filter((one) => one.shading.overshade === null).map((one) => key(one.assigner.label, one.grid.name, one.storage)));
+    const rows = (await inTable(page)).filter((row) => holes.has(key(row.method, row.grid, row.storage)));
+    assert.ok(rows.length > 0);
+    for (const row of rows) assert.match(row.overshade, / of 5\)$|^–$/, JSON.stringify(row));
+  });
+
+  it("the front alone is of methods, whose means stay those of all scenes", async () => {
+    const page = await open(pages.quick);
+    const before = new Map((await inTable(page)).map((row) => [row.method + row.grid + row.storage, row]));
+    await page.check("#filter-front");
+    const rows = await inTable(page);
+    assert.ok(rows.length > 0 && rows.length < before.size);
+    for (const row of rows) assert.deepEqual(row, before.get(row.method + row.grid + row.storage));
+  });
+});
+
+describe("filters", () => {
+  it("leave ranks as they are among all", async () => {
+    const page = await open(pages.quick);
+    await page.getByRole("radio", { name: "street" }).check();
+    const all = await inTable(page);
+    assert.deepEqual(all.map((row) => row.rank), all.map((_, at) => String(at + 1)));
+    await page.fill("#filter-words", "world-grid");
+    const some = await inTable(page);
+    assert.ok(some.length > 0 && Number(some[0].rank) > 1);
+    for (const row of some) assert.equal(row.rank, all.find((one) => one.method === row.method && one.grid === row.grid).rank);
+  });
+
+  it("that leave nothing say so, and can be cleared", async () => {
+    const page = await open(pages.quick);
+    await page.fill("#filter-words", "no such thing");
+    assert.match(await page.locator("#ranking").innerText(), /No cases: none matches all of the filters/);
+    await page.locator("#clear-filters").click();
+    assert.ok((await methods(page)).length > 5);
+    assert.equal(await page.inputValue("#filter-words"), "");
+  });
+
+  it("are in the address, and come back with it", async () => {
+    const page = await open(pages.quick);
+    await page.getByRole("radio", { name: "street" }).check();
+    await page.selectOption("#filter-grid", { index: 1 });
+    await page.fill("#filter-words", "fast");
+    await page.getByRole("button", { name: "aabb-fast", exact: true }).click();
+    await page.selectOption("#speed-error-measure", "bytes");
+    await page.getByRole("navigation").getByText("Warnings").click();
+    const [shown, address] = [await methods(page), page.url()];
+    assert.match(address, /#scene=street&grid=.*&words=fast&hidden=aabb-fast&choice\.speed-error-measure=bytes/);
+    const again = await open(address);
+    assert.deepEqual(await methods(again), shown);
+    assert.equal(await again.inputValue("#filter-words"), "fast");
+    assert.equal(await again.inputValue("#speed-error-measure"), "bytes");
+    assert.ok(await again.getByRole("radio", { name: "street" }).isChecked());
+    await again.evaluate(() => (location.hash = "scene=jam&grid=none+of+these"));
+    await again.getByRole("radio", { name: "jam", checked: true }).waitFor();
+    assert.equal(await again.inputValue("#filter-grid"), "");
+    assert.deepEqual(again.faults, []);
+  });
+});
+
+describe("figures", () => {
+  it("have the units and digits of the terminal's table", async () => {
+    const page = await open(pages.lossy);
+    const names = { "frame us": "frame µs", "+-": "±", assign: "assign µs", convert: "convert µs", shade: "overshade" };
+    const told = [];
+    let grid, heads;
+    for (const line of lossyTable.split("\n")) {
+      const cells = line.replace(/^ *\*? +/, "").split(/ {2,}/);
+      if (/, camera /.test(line)) grid = line.trim().replace(/, camera .*/, "");
+      else if (cells[0] === "assigner") heads = cells;
+      else if (heads && cells.length === heads.length) told.push({ grid, ...Object.fromEntries(cells.map((text, at) => [names[heads[at]] ?? heads[at], text])) });
+    }
+    await page.check("#ranking-all");
+    const shown = await inTable(page);
+    assert.equal(told.length, shown.length, lossyTable);
+    for (const row of told) {
+      const other = shown.find((one) => one.grid === row.grid && `${one.method} / ${one.storage}` === row.assigner);
+      for (const column of ["frame µs", "±", "assign µs", "convert µs", "pairs", "ns/pair", "excess", "missed", "dropped", "unlit", "overshade", "bytes"])
+        assert.equal(other[column], row[column].replace(/^-$/, "–"), `${column} of ${row.assigner}`);
+    }
+  });
+});
+
 describe("what a case loses", () => {
   const rows = async (page) => {
+    await page.check("#ranking-all");
     const labels = (await textsOf(page, "#ranking thead th")).map((text) => text.replace(/ [↑↓]$/, ""));
     const cells = await page.locator("#ranking tbody tr").evaluateAll((all) => all.map((row) => [...row.children].map((cell) => cell.innerText)));
     const dots = await page.locator("#ranking tbody tr").evaluateAll((all) => all.map((row) => row.querySelector(".front") !== null));
@@ -165,7 +281,7 @@ describe("what a case loses", () => {
     assert.equal(all.length, 8);
     const whole = all.filter((one) => one.dropped === "0" && parseFloat(one.unlit) === 0);
     assert.equal(whole.length, 2, JSON.stringify(all));
-    assert.ok(whole.some((one) => one.isOnFront) && whole.every((one) => one.overshade.endsWith("×")), JSON.stringify(whole));
+    assert.ok(whole.some((one) => one.isOnFront) && whole.every((one) => /\d/.test(one.overshade)), JSON.stringify(whole));
     for (const one of all.filter((other) => !whole.includes(other))) {
       assert.ok(parseFloat(one.unlit) > 0.1 && one.overshade === "–" && !one.isOnFront, JSON.stringify(one));
     }
@@ -194,7 +310,7 @@ describe("what a case loses", () => {
     const page = await open(pages.lossy);
     const text = (await textsOf(page, "#warnings li")).join("\n");
     assert.match(text, /Note\. 4 cases dropped lights because their storage was full/);
-    assert.match(text, /Note\. 6 cases leave more than 0\.1 % of the lights that samples need unlit/);
+    assert.match(text, /Note\. 6 cases leave more of the lights that samples need unlit than rounding does/);
     assert.doesNotMatch(text, /Failed/);
   });
 });
@@ -234,10 +350,48 @@ describe("charts", () => {
     assert.ok(bytes.length > 3 && bytes.every((value, at) => value <= allocated[at]));
   });
 
+  it("have names that no interval strikes", async () => {
+    const page = await open(pages.wide);
+    await page.selectOption("#speed-error-measure", "bytes");
+    const struck = await page.locator("#speed-error svg[role=img]").evaluateAll((charts) =>
+      charts.flatMap((svg) => {
+        const names = [...svg.querySelectorAll("g[font-size], g")].flatMap((group) => (group.getAttribute("stroke-width") === "4" ? [...group.querySelectorAll("text")] : []));
+        const bars = [...svg.querySelectorAll("g[stroke-width='3'] line")].map((line) => line.getBoundingClientRect());
+        return names.map((text) => {
+          const box = text.getBoundingClientRect(), inside = { left: box.left + 2, right: box.right - 2, top: box.top + 3, bottom: box.bottom - 3 };
+          return { name: text.textContent, bars: bars.length, isStruck: bars.some((bar) => bar.left < inside.right && inside.left < bar.right && bar.top < inside.bottom && inside.top < bar.bottom) };
+        });
+      }),
+    );
+    assert.ok(struck.length > 0 && struck[0].bars > 2, JSON.stringify(struck));
+    assert.deepEqual(struck.filter((one) => one.isStruck), []);
+  });
+
   it("fit a narrow screen without scrolling the page sideways", async () => {
     const page = await open(pages.sweep, { viewport: { width: 390, height: 800 } });
     assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth));
   });
+});
+
+describe("the layout", () => {
+  for (const [name, scene] of [["quick", null], ["quick", "jam"], ["lossy", null], ["two", null], ["two", "street"], ["sweep", "street"], ["against", null]])
+    it(`cuts no column of the ranking of ${name}${scene ? `, ${scene}` : ""}, at 1400 pixels`, async () => {
+      const page = await open(pages[name], { viewport: { width: 1400, height: 900 } });
+      if (scene) await page.getByRole("radio", { name: scene }).check();
+      const isCut = () => page.locator("#ranking .table").evaluate((table) => table.scrollWidth > table.clientWidth && `${table.scrollWidth} of ${table.clientWidth}`);
+      assert.equal(await isCut(), false);
+      if ((await page.locator("#ranking-all").count()) === 0) return;
+      await page.check("#ranking-all");
+      assert.equal(await isCut(), false);
+    });
+
+  for (const [name, scene, wanted] of [["quick", null, ["method", "time / best", "excess"]], ["quick", "jam", ["method", "frame µs", "excess"]], ["two", "street", ["method", "frame µs", "excess"]]])
+    it(`shows method, time and error of ${name}${scene ? `, ${scene}` : ""} first, at 390 pixels`, async () => {
+      const page = await open(pages[name], { viewport: { width: 390, height: 800 } });
+      if (scene) await page.getByRole("radio", { name: scene }).check();
+      const inView = await page.locator("#ranking thead th").evaluateAll((heads) => heads.filter((head) => head.getBoundingClientRect().right <= innerWidth - 14).map((head) => head.innerText.replace(/ [↑↓]$/, "")));
+      assert.deepEqual(inView.slice(0, 3), wanted);
+    });
 });
 
 describe("several results", () => {
@@ -246,5 +400,49 @@ describe("several results", () => {
     assert.deepEqual(await textsOf(page, "#setup article > h3"), ["quick", "sweep"]);
     await page.selectOption("#filter-run", "sweep");
     assert.ok((await page.locator(".count").innerText()).startsWith(`${JSON.parse(readFileSync(sweepFile)).cases.length} of `));
+  });
+
+  it("say in every table and chart whose a figure is, and share no front", async () => {
+    const page = await open(pages.against);
+    const runs = ["sweep", "elsewhere"];
+    assert.deepEqual(new Set((await inTable(page)).map((row) => row.result)), new Set(runs));
+    assert.deepEqual((await textsOf(page, "#speed-error h4")).sort(), ["hall-512", "street"].flatMap((scene) => runs.map((run) => `${scene} · ${run}`)).sort());
+    for (const text of await textsOf(page, "#heat-map h4")) assert.ok(runs.some((run) => text.includes(run)), text);
+    for (const text of await textsOf(page, "#setting option")) assert.ok(runs.some((run) => text.endsWith(run)), text);
+    await openAll(page);
+    for (const id of ["speed-error", "costs", "camera-path", "list-lengths", "heat-map", "stability-table", "packed-lights", "lookup"])
+      for (const row of (await inTable(page, `#${id}`)).slice(0, 5)) assert.match(Object.values(row).join(" "), /sweep|elsewhere/, id);
+    const dot = page.locator("#speed-error svg[role=img] path[fill]").first();
+    await dot.hover({ force: true });
+    await page.locator("#speed-error svg g[aria-label=tip] text, #speed-error svg text:has-text('µs') tspan").first().waitFor({ state: "attached" });
+    assert.match((await page.locator("#speed-error svg").first().textContent()), /· (sweep|elsewhere)/);
+  });
+
+  it("can be held one against the first, case by case", async () => {
+    const page = await open(pages.against);
+    await page.locator("#against-first summary").click();
+    const rows = await inTable(page, "#against-first");
+    assert.equal(rows.length, JSON.parse(readFileSync(sweepFile)).cases.length);
+    for (const row of rows) assert.equal(row.time, "+100.0 %", JSON.stringify(row));
+    assert.match(await page.locator("#against svg[role=img]").getAttribute("aria-label"), /Frame time of elsewhere by that of sweep, \d+ cases/);
+    await page.selectOption("#filter-run", "elsewhere");
+    assert.equal((await inTable(page, "#against-first")).length, rows.length);
+  });
+
+  it("without a case in common say so", async () => {
+    const page = await open(pages.two);
+    assert.match(await page.locator("#against").innerText(), /No cases: sweep and quick have none in common/);
+  });
+});
+
+describe("the history's page", () => {
+  it("draws what varies, with an axis and the commits that changed it", async () => {
+    const page = await open(pages.history);
+    const figure = page.locator("figure", { hasText: "assign_time" }).first();
+    assert.match(await figure.locator("svg[role=img]").getAttribute("aria-label"), /^assign_time in ns of .*, 14 values from /);
+    assert.match(await figure.locator(".changes .worse").innerText(), /^c7: .* worse$/);
+    assert.match(await figure.locator("svg").textContent(), /↑ ns/);
+    assert.ok((await figure.locator("svg [stroke-dasharray] line, svg line[stroke-dasharray]").count()) >= 1);
+    assert.match(await page.locator(".summary").innerText(), /14 results, \d+ series, \d+ changes? \(dashed lines\)/);
   });
 });

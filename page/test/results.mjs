@@ -1,9 +1,9 @@
 // Results to show: the committed one, a sweep measured on the spot, and as large a one as asked for.
 
-import { execFileSync } from "node:child_process";
+import { execFileSync, spawnSync } from "node:child_process";
 import { readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { fileURLToPath } from "node:url";
+import { fileURLToPath, pathToFileURL } from "node:url";
 
 const root = fileURLToPath(new URL("../../", import.meta.url));
 const machine = readdirSync(join(root, "results"), { withFileTypes: true }).find((entry) => entry.isDirectory());
@@ -43,11 +43,51 @@ export const lossy = {
   timing: { rounds: 3, min_time_ms: 0, frames: 2 },
 };
 
-export function measureSweep(tool, folder, config = sweep) {
+// `tell` gets the table that the terminal shows.
+export function measureSweep(tool, folder, config = sweep, tell = null) {
   const file = join(folder, `${config.name}.json`), from = join(folder, `${config.name}-config.json`);
   writeFileSync(from, JSON.stringify(config));
-  execFileSync(tool, ["run", from, "-q", "-o", file], { stdio: ["ignore", "ignore", "inherit"] });
+  const { stderr } = spawnSync(tool, ["run", from, ...(tell ? [] : ["-q"]), "-o", file], { encoding: "utf8" });
+  if (tell) tell(stderr);
   return file;
+}
+
+function changed(file, folder, name, change) {
+  const result = JSON.parse(readFileSync(file)), into = join(folder, `${name}.json`);
+  change(result);
+  writeFileSync(into, JSON.stringify(result));
+  return into;
+}
+
+// Times that are known to a half and twice.
+export const widened = (file, folder) =>
+  changed(file, folder, "wide", ({ cases }) => {
+    for (const { timing } of cases) timing.frame_ns.ci95 = [timing.frame_ns.median / 2, 2 * timing.frame_ns.median];
+  });
+
+// The same, where everything takes twice as long.
+export const onAnotherMachine = (file, folder) =>
+  changed(file, folder, "elsewhere", (result) => {
+    result.machine.cpu = "another processor";
+    for (const { timing } of result.cases)
+      for (const time of Object.values(timing)) {
+        if (time?.median) time.median *= 2;
+        if (time?.ci95) time.ci95 = time.ci95.map((end) => 2 * end);
+      }
+  });
+
+// Of 14 commits; with the seventh all times became longer.
+export function historyPage(tool, folder) {
+  const history = join(folder, "history.jsonl"), page = join(folder, "history.html");
+  for (let commit = 0; commit < 14; ++commit) {
+    const file = changed(committedResult, folder, "commit", (result) => {
+      result.cases = result.cases.slice(0, 3);
+      for (const { timing } of result.cases) timing.assign_ns.median *= (commit < 7 ? 1 : 1.5) * (1 + 0.001 * ((commit * 3) % 7));
+    });
+    execFileSync(tool, ["history", "add", file, history, "--commit", `c${commit}`]);
+  }
+  execFileSync(tool, ["history", "show", history, "-o", page], { stdio: ["ignore", "ignore", "pipe"] });
+  return pathToFileURL(page).href;
 }
 
 // The cases of a result again and again, each time as of another camera, until its text has so many bytes.

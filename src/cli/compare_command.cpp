@@ -31,9 +31,8 @@ void check_gate(const CompareFlags& flags, const nlohmann::ordered_json& compari
 
 ExitCode compare(const CompareFlags& flags) {
   refuse_overwriting({flags.markdown, flags.json}, {flags.base, flags.next});
-  const report::Schema schema = flags.is_forced ? report::Schema::any : report::Schema::this_version;
-  const nlohmann::ordered_json base = report::read_result(flags.base, schema);
-  const nlohmann::ordered_json next = report::read_result(flags.next, schema);
+  const nlohmann::ordered_json base = report::read_result(flags.base);
+  const nlohmann::ordered_json next = report::read_result(flags.next);
   const nlohmann::ordered_json comparison =
       report::compare_results(base, next, flags.threshold_percent / 100.0, {flags.gates_separate, flags.is_forced});
   check_gate(flags, comparison);
@@ -64,8 +63,7 @@ void add_compare(Command& program, Action& action) {
       "Verdicts on times of separate runs, too: for a machine that does nothing else, false alarms elsewhere");
   command.add_flag("--strict", flags->is_strict,
                    "Exit with 4 where a verdict is inconclusive, a case is missing or instructions cannot be compared");
-  command.add_flag("--force", flags->is_forced,
-                   "Compare times and instructions of different machines or flags, and other schema versions, too");
+  command.add_flag("--force", flags->is_forced, "Compare times and instructions of different machines or flags, too");
   command.when_named([flags, &action] { action = [flags] { return compare(*flags); }; });
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "report/compact_json.h"
 
 namespace clusterbench::cli {
 
@@ -66,7 +67,7 @@ void write_text(const std::string& output, const std::string& text) {
 }
 
 void write_output(const std::string& output, const nlohmann::ordered_json& result) {
-  write_text(output, result.dump(1) + '\n');
+  write_text(output, report::compact_json(result));
 }
 
 }  // namespace clusterbench::cli

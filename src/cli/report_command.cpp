@@ -1,12 +1,10 @@
 // `clusterbench report RESULT...`: results as one page for a browser.
 
-#include <algorithm>
-#include <cctype>
-#include <cstring>
 #include <iostream>
 
 #include "cli/commands.h"
 #include "cli/output.h"
+#include "core/text.h"
 #include "report/page.h"
 #include "report/result_file.h"
 
@@ -18,20 +16,11 @@ struct ReportOptions {
   std::string output;
 };
 
-std::string shell_quoted(const std::string& word) {
-  const auto is_plain = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) || std::strchr("_-./=:@%+,", c);
-  };
-  if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain)) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
 std::string command_of(const ReportOptions& options) {
-  std::string command = "clusterbench report";
-  for (const std::string& file : options.files) command += " " + shell_quoted(file);
-  return options.output.empty() ? command : command + " -o " + shell_quoted(options.output);
+  std::vector<std::string> words{"clusterbench", "report"};
+  words.insert(words.end(), options.files.begin(), options.files.end());
+  if (!options.output.empty()) words.insert(words.end(), {"-o", options.output});
+  return shell_command(words);
 }
 
 ExitCode write_report(const ReportOptions& options) {

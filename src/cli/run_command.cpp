@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <memory>
 
@@ -252,6 +253,14 @@ void show_table(const RunFlags& flags, const Json& result) {
   if (for_reading) tell_of_keeping();
 }
 
+std::string own_command_line() {
+  std::ifstream in("/proc/self/cmdline", std::ios::binary);
+  std::vector<std::string> words;
+  for (std::string word; std::getline(in, word, '\0');) words.push_back(word);
+  if (!words.empty()) words.front() = "clusterbench";  // wherever it lies
+  return shell_command(words);
+}
+
 // Before minutes go into measuring.
 void refuse_losses(const RunFlags& flags, const config::Config& config) {
   std::vector<std::string> outputs{flags.output}, inputs = flags.inputs;
@@ -279,11 +288,12 @@ ExitCode measure(const RunFlags& flags, const config::Config& config, const run:
     if (stop) return interrupted(journal.get());
   }
   ProgressLine progress(screen, flags.quiet);
-  const run::Result fresh =
+  run::Result fresh =
       run::run_plan(config, plan, earlier_ids, make_listener(progress, journal.get(), earlier.size(), case_count(plan)),
                     stop, counts);
   progress.clear();
   if (stop) return interrupted(journal.get());
+  if (!fresh.date.empty()) fresh.command = own_command_line();
 
   Json result = report::result_to_json(fresh, earlier);
   if (!flags.baseline.binary.empty() && !add_baseline(flags, config, plan, progress, stop, result))

@@ -16,6 +16,7 @@ namespace clusterbench::cli {
 namespace {
 
 ExitCode validate_written(const std::string& path, const nlohmann::json& document, const config::DocumentRow& row) {
+  config::check_version(path, document, row);
   const std::vector<std::string> violations = config::schema_violations(row.schema(), document);
   for (const std::string& violation : violations) tell(path + ": " + violation);
   if (!violations.empty()) return ExitCode::usage;

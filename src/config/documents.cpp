@@ -8,6 +8,7 @@
 #include "assign/contract/assigner.h"
 #include "assign/contract/storage.h"
 #include "config/schema_text.h"
+#include "core/error.h"
 
 namespace clusterbench::config {
 namespace {
@@ -122,6 +123,22 @@ std::span<const DocumentRow> document_rows() {
        [] { return Json::parse(stress_schema_text()); }},
   }};
   return rows;
+}
+
+void check_version(const std::string& path, const Json& document, const DocumentRow& row) {
+  const Json schema = row.schema();
+  for (const char* key : {"schema_version", "comparison_version"}) {
+    if (!document.contains(key) || !schema["properties"].contains(key)) continue;
+    const Json &found = document[key], &wanted = schema["properties"][key]["const"];
+    if (found == wanted) continue;
+    const Json tool = document.value("tool", Json::object());
+    std::string maker = "the clusterbench that wrote it";
+    if (tool.is_object() && tool.contains("version") && tool["version"].is_string())
+      maker += ", " + tool["version"].get<std::string>();
+    throw Error(
+        path, std::string("/") + key,
+        "is " + found.dump() + "; this version reads " + wanted.dump() + ": measure again, or read it with " + maker);
+  }
 }
 
 const DocumentRow& row_of(Document document) {

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <span>
+#include <string>
 
 namespace clusterbench::config {
 
@@ -25,6 +26,9 @@ Document document_of(const Json& value) {
   if (!value.contains("schema_version") || !value.contains("cases")) return Document::config;
   return value.contains("kind") && value["kind"] == "stress" ? Document::stress : Document::result;
 }
+
+// Throws Error for a written document of another version than its schema's: names and meanings differ.
+void check_version(const std::string& path, const nlohmann::json& document, const DocumentRow& row);
 
 // Assembled from the embedded text and the rows of assigners and storages.
 nlohmann::json config_schema();

@@ -66,6 +66,19 @@ std::string without_controls(std::string_view text, bool keep_lines) {
 
 }  // namespace
 
+std::string shell_command(std::span<const std::string> words) {
+  constexpr std::string_view k_plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:@%+,";
+  std::vector<std::string> quoted;
+  for (const std::string& word : words) {
+    const bool is_plain = !word.empty() && word.find_first_not_of(k_plain) == std::string::npos;
+    std::string& out = quoted.emplace_back(is_plain ? word : "'");
+    if (is_plain) continue;
+    for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    out += "'";
+  }
+  return joined(quoted, " ");
+}
+
 std::string number_of(std::uint64_t count, std::string_view word) {
   return std::to_string(count) + " " + std::string(word) + (count == 1 ? "" : "s");
 }

@@ -21,6 +21,9 @@ std::string joined(std::span<const std::string> words, std::string_view separato
 // "1 light", "2 lights", "0 lights": a word whose plural has an s.
 std::string number_of(std::uint64_t count, std::string_view word);
 
+// The words as a shell takes them: "run 'a b.json'".
+std::string shell_command(std::span<const std::string> words);
+
 // Text that a file or a name brought along, safe to print on a terminal: every control character (C0, DEL, C1), every
 // character that turns or breaks a line (U+061C, U+200E, U+200F, U+2028 to U+202E, U+2066 to U+2069) and every byte
 // that is no UTF-8 becomes '?'. All that a person is shown goes through this or, where lines are wanted, through

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace clusterbench::measure {
 namespace {
@@ -64,7 +65,7 @@ void OccupancyMeter::add_frame(int frame, const assign::Lists& lists) {
 Occupancy OccupancyMeter::result() const {
   Occupancy out;
   out.pairs = spread_of(pairs_);
-  out.lights_per_cluster = spread_of_histogram(histogram_);
+  out.lights_per_cell = spread_of_histogram(histogram_);
   out.histogram = histogram_;
   out.occupied_fraction = spread_of(occupied_);
   out.worst_frame = worst_frame_;
@@ -72,6 +73,21 @@ Occupancy OccupancyMeter::result() const {
   out.worst_count = worst_count_;
   out.pairs_along_path = pairs_along_path_;
   out.longest_along_path = longest_along_path_;
+  return out;
+}
+
+Histogram short_histogram(std::vector<std::uint64_t> cells_by_lights) {
+  constexpr std::size_t k_most_entries = 256;
+  Histogram out{1, std::move(cells_by_lights)};
+  while (out.cells.size() > k_most_entries) {
+    for (std::size_t i = 0; i < out.cells.size(); ++i)
+      if (i % 2 == 0)
+        out.cells[i / 2] = out.cells[i];
+      else
+        out.cells[i / 2] += out.cells[i];
+    out.cells.resize((out.cells.size() + 1) / 2);
+    out.lights_per_entry *= 2;
+  }
   return out;
 }
 

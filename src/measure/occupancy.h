@@ -17,7 +17,7 @@ Spread spread_of(std::vector<double> values);
 
 struct Occupancy {
   Spread pairs;                          // per frame
-  Spread lights_per_cluster;             // over all cells of all frames, empty ones included, holes not
+  Spread lights_per_cell;                // over all cells of all frames, empty ones included, holes not
   std::vector<std::uint64_t> histogram;  // [n] = cells with n lights
   Spread occupied_fraction;              // per frame: cells with at least one light / cells
   int worst_frame = 0;                   // with the longest list
@@ -25,6 +25,13 @@ struct Occupancy {
   std::uint32_t worst_count = 0;
   PathSeries pairs_along_path, longest_along_path;  // longest: the frame's longest list
 };
+
+// A histogram of at most 256 entries, each of so many successive lengths, a power of two.
+struct Histogram {
+  std::uint64_t lights_per_entry = 1;
+  std::vector<std::uint64_t> cells;
+};
+Histogram short_histogram(std::vector<std::uint64_t> cells_by_lights);
 
 class OccupancyMeter {
  public:

@@ -385,9 +385,6 @@ constexpr const char* k_separate_verdicts =
 Json warnings_of(const Json& base, const Json& next, const Json& comparison, const std::vector<std::string>& forced,
                  bool gates_separate) {
   Json warnings = Json::array();
-  if (base["schema_version"] != next["schema_version"])
-    warnings.push_back("compared all the same: /schema_version is " + base["schema_version"].dump() + " and " +
-                       next["schema_version"].dump());
   for (const std::string& obstacle : forced) warnings.push_back("compared all the same: " + obstacle);
   for (const auto& [what, in_the_way] : comparison["left_out"].items())
     warnings.push_back(what + " are not compared: " + joined(in_the_way.get<std::vector<std::string>>(), "; "));

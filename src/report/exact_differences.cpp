@@ -26,14 +26,16 @@ struct Rule {
 // The first that fits; what none fits is fixed.
 constexpr std::array k_rules{
     Rule{"/failures", Kind::aside},  // they fail by themselves
+    Rule{"/warnings", Kind::follows},
     Rule{"/loses_lights", Kind::follows},
+    Rule{"/eligible", Kind::follows},
     Rule{"/tests_done", Kind::cost},
     Rule{"/fallbacks", Kind::cost},
     Rule{"/occupancy/pairs", Kind::cost},
-    Rule{"/occupancy/lights_per_cluster/histogram", Kind::follows},
-    Rule{"/occupancy/lights_per_cluster", Kind::cost},
+    Rule{"/occupancy/lights_per_cell/histogram", Kind::follows},
+    Rule{"/occupancy/lights_per_cell", Kind::cost},
     Rule{"/occupancy", Kind::follows},
-    Rule{"/buffers/in_use", Kind::follows},
+    Rule{"/buffers/used_share", Kind::follows},
     Rule{"/buffers/worst_", Kind::follows},
     Rule{"/buffers/overflow/lights", Kind::follows},
     Rule{"/buffers", Kind::cost},

@@ -9,6 +9,7 @@
 #include "config/documents.h"
 #include "config/schema_check.h"
 #include "core/error.h"
+#include "report/compact_json.h"
 
 namespace clusterbench::report {
 namespace {
@@ -113,7 +114,7 @@ void Journal::finish(const Json& result) {
   const fs::path fresh = file_.string() + ".new";
   {
     std::ofstream whole(fresh, std::ios::binary | std::ios::trunc);
-    whole << result.dump(1) << '\n' << std::flush;
+    whole << compact_json(result) << std::flush;
     if (!whole)
       throw Error(fresh.string(), "",
                   std::string("cannot be written: ") + std::strerror(errno) + "; the cases are kept in " +

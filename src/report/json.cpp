@@ -1,6 +1,8 @@
 #include "report/json.h"
 
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <map>
 #include <set>
 
@@ -13,24 +15,34 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+double to_digits(double value, int digits) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  return std::strtod(text, nullptr);
+}
+
 Json to_json(const measure::Spread& spread) {
   return {{"mean", number_or_null(spread.mean)},
-          {"p50", spread.p50},
-          {"p95", spread.p95},
-          {"p99", spread.p99},
-          {"max", spread.max}};
+          {"p50", number_or_null(spread.p50)},
+          {"p95", number_or_null(spread.p95)},
+          {"p99", number_or_null(spread.p99)},
+          {"max", number_or_null(spread.max)}};
+}
+
+// Six digits of what is measured: far more than any clock gives.
+Json six_digits(double value) {
+  return number_or_null(to_digits(value, 6));
 }
 
 Json to_json(const measure::Interval& interval) {
-  return {number_or_null(interval.low), number_or_null(interval.high)};
+  return {six_digits(interval.low), six_digits(interval.high)};
 }
 
 Json to_json(const measure::TimeStats& stats) {
   Json samples = Json::array();
-  for (const double sample : stats.samples) samples.push_back(std::round(sample * 10.0) / 10.0);
-  return {
-      {"median", number_or_null(stats.median)}, {"mad", number_or_null(stats.mad)}, {"min", number_or_null(stats.min)},
-      {"p95", number_or_null(stats.p95)},       {"ci95", to_json(stats.ci95)},      {"samples", samples}};
+  for (const double sample : stats.samples) samples.push_back(six_digits(sample));
+  return {{"median", six_digits(stats.median)}, {"mad", six_digits(stats.mad)}, {"min", six_digits(stats.min)},
+          {"p95", six_digits(stats.p95)},       {"ci95", to_json(stats.ci95)},  {"samples", samples}};
 }
 
 Json to_json(const measure::HighWater& mark) {
@@ -46,10 +58,11 @@ Json cell_place(std::uint32_t cell, const nlohmann::json& cells) {
 
 Json occupancy(const run::CaseResult& one) {
   const measure::Occupancy& o = *one.occupancy;
-  Json lights = to_json(o.lights_per_cluster);
-  lights["histogram"] = o.histogram;
+  Json lights = to_json(o.lights_per_cell);
+  const measure::Histogram histogram = measure::short_histogram(o.histogram);
+  lights["histogram"] = {{"lights_per_entry", histogram.lights_per_entry}, {"cells", histogram.cells}};
   return {{"pairs", to_json(o.pairs)},
-          {"lights_per_cluster", lights},
+          {"lights_per_cell", lights},
           {"occupied_fraction", to_json(o.occupied_fraction)},
           {"worst_frame", o.worst_frame},
           {"worst_cell", cell_place(o.worst_cell, one.grid["cells"])},
@@ -66,7 +79,7 @@ Json buffers(const run::CaseResult& one) {
            {"index_bits", b.index_bits},
            {"header_bytes", b.header_bytes},
            {"upload_bytes", {{"mean", number_or_null(b.upload_bytes_mean)}, {"max", b.upload_bytes_max}}},
-           {"in_use", {{"mean", number_or_null(b.in_use_mean)}, {"max", number_or_null(b.in_use_max)}}},
+           {"used_share", {{"mean", number_or_null(b.in_use_mean)}, {"max", number_or_null(b.in_use_max)}}},
            {"overflow",
             {{"dropped_pairs", b.dropped_pairs},
              {"cells", b.overflowing_cells},
@@ -179,20 +192,20 @@ Json timing(const run::TimingResult& t) {
   Json out{
       {"frames_timed", t.frames_timed},
       {"frame_ns", to_json(t.frame_ns)},
-      {"worst_frame", {{"frame", t.worst.frame}, {"ns", number_or_null(t.worst.ns)}, {"ci95", to_json(t.worst.ci95)}}}};
+      {"worst_frame", {{"frame", t.worst.frame}, {"ns", six_digits(t.worst.ns)}, {"ci95", to_json(t.worst.ci95)}}}};
   if (t.worst.pairs) out["worst_frame"]["pairs"] = *t.worst.pairs;
   if (t.pairs_mean) out["pairs"] = {{"mean", number_or_null(*t.pairs_mean)}, {"max", t.pairs_max}};
   out["builds_per_frame"] = t.builds_per_frame;
   out["build_ns"] = to_json(t.build_ns);
   out["assign_ns"] = to_json(t.assign_ns);
   if (t.convert_ns) out["convert_ns"] = to_json(*t.convert_ns);
-  out["ns_per_pair"] = number_or_null(t.ns_per_pair);
-  out["write_floor_ns"] = number_or_null(t.write_floor_ns);
-  out["floor_ratio"] = number_or_null(t.floor_ratio);
-  if (t.vs)
-    out["vs"] = {{"assigner", t.vs->assigner},
-                 {"ratio", number_or_null(t.vs->ratio.ratio)},
-                 {"ci95", to_json(t.vs->ratio.ci95)}};
+  out["ns_per_pair"] = six_digits(t.ns_per_pair);
+  out["write_floor_ns"] = six_digits(t.write_floor_ns);
+  out["floor_ratio"] = six_digits(t.floor_ratio);
+  if (t.against_first)
+    out["against_first"] = {{"assigner", t.against_first->assigner},
+                            {"ratio", six_digits(t.against_first->ratio.ratio)},
+                            {"ci95", to_json(t.against_first->ratio.ci95)}};
   return out;
 }
 
@@ -233,24 +246,18 @@ std::string view_of(const Json& one) {
   return Json{one["camera"], one["viewport"], lights}.dump();
 }
 
-// A time of before frame_ns was known is that of the assignment.
-measure::Interval time_of(const Json& one) {
-  for (const std::string time : {"/timing/frame_ns", "/timing/assign_ns"}) {
-    const measure::Interval ci95{number_at(one, (time + "/ci95/0").c_str()),
-                                 number_at(one, (time + "/ci95/1").c_str())};
-    if (!std::isnan(ci95.low) && !std::isnan(ci95.high)) return ci95;
-  }
-  return measure::Costs{}.time_ns;
-}
-
 run::Contender contender(const Json& one) {
-  const double unlit = number_at(one, "/shading/missed") / number_at(one, "/shading/needed");
+  const auto end = [&](const char* which) {
+    return number_at(one, ("/timing/frame_ns/ci95/" + std::string(which)).c_str());
+  };
+  const measure::Interval time_ns{end("0"), end("1")};
+  const bool is_timed = !std::isnan(time_ns.low) && !std::isnan(time_ns.high);
   return {one["id"],
           one["scene"],
           view_of(one),
-          {time_of(one), number_at(one, "/buffers/bytes/high_water"), number_at(one, "/shading/overshade")},
-          !one.value("failures", Json::array()).empty() || number_at(one, "/buffers/overflow/dropped_pairs") > 0.0 ||
-              unlit > measure::k_most_unlit};
+          {is_timed ? time_ns : measure::Costs{}.time_ns, number_at(one, "/buffers/bytes/high_water"),
+           number_at(one, "/shading/overshade")},
+          one["eligible"]};
 }
 
 // Pairs per frame against the same case in float32; null where there is none.
@@ -319,11 +326,15 @@ Json case_to_json(const run::CaseResult& one) {
              {"exact", one.exact}}},
            {"storage", one.storage_label},
            {"failures", Json::array()},
+           {"warnings", Json::array()},
            {"loses_lights", run::loses_lights(one)},
+           {"eligible", run::is_eligible(one)},
            {"tests_done", one.tests_done},
            {"fallbacks", one.fallbacks}};
   for (const run::Failure& failure : one.failures)
     out["failures"].push_back({{"kind", run::name_of(failure.kind)}, {"text", failure.text}});
+  for (const run::Warning& warning : run::warnings_of(one))
+    out["warnings"].push_back({{"kind", run::name_of(warning.kind)}, {"text", warning.text}});
   if (one.occupancy) out["occupancy"] = occupancy(one);
   out["buffers"] = buffers(one);
   if (one.error) out["error"] = error(one);
@@ -338,14 +349,17 @@ Json case_to_json(const run::CaseResult& one) {
 }
 
 Json result_to_json(const run::Result& result, const std::vector<Json>& earlier_cases) {
-  Json out{{"schema_version", k_schema_version}, {"name", result.config_name}, {"tool", tool_to_json(result.tool)}};
+  Json out{{"schema_version", k_schema_version}, {"name", result.config_name}};
+  if (!result.date.empty()) out["date"] = result.date;
+  if (!result.command.empty()) out["command"] = result.command;
+  out["tool"] = tool_to_json(result.tool);
   out["machine"] = machine_to_json(result.machine);
   out["config"] = result.config;
   out["scenes"] = Json::array();
   for (const run::SceneResult& scene : result.scenes) out["scenes"].push_back(to_json(scene));
   out["cases"] = in_plan_order(result, earlier_cases);
   add_extra_pairs(out["cases"]);
-  out["front"] = fronts(out["scenes"], out["cases"]);
+  out["pareto_front"] = fronts(out["scenes"], out["cases"]);
   out["skipped"] = Json::array();
   for (const run::Skipped& skipped : result.skipped)
     out["skipped"].push_back({{"name", skipped.name}, {"reason", skipped.reason}});
@@ -355,13 +369,17 @@ Json result_to_json(const run::Result& result, const std::vector<Json>& earlier_
 std::vector<std::string> gate_failures(const Json& result) {
   std::vector<std::string> lines;
   for (const Json& one : result["cases"])
-    for (const Json& failure : one.value("failures", Json::array()))
+    for (const Json& failure : one["failures"])
       lines.push_back(one["name"].get<std::string>() + ": " + failure["text"].get<std::string>());
   return lines;
 }
 
+// Nine digits: what is counted stands beside it exactly.
 Json number_or_null(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
+  constexpr double k_exact_integers = 9007199254740992.0;
+  if (!std::isfinite(value)) return nullptr;
+  if (std::floor(value) == value && std::abs(value) < k_exact_integers) return static_cast<std::int64_t>(value);
+  return to_digits(value, 9);
 }
 
 }  // namespace clusterbench::report

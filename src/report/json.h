@@ -1,5 +1,5 @@
 #pragma once
-// The result as JSON: the contract with everything that reads results. Names are stable under schema_version 1; what is
+// The result as JSON: the contract with everything that reads results. Names are stable under a schema_version; what is
 // not a number is null.
 
 #include <nlohmann/json.hpp>
@@ -10,7 +10,7 @@
 
 namespace clusterbench::report {
 
-inline constexpr int k_schema_version = 1;
+inline constexpr int k_schema_version = 2;
 
 // JSON has no infinity and no NaN.
 nlohmann::ordered_json number_or_null(double value);

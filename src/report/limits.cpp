@@ -35,7 +35,7 @@ constexpr FigureRow k_figure_rows[] = {
     {"bytes", "/buffers/bytes/high_water", 1.0, "/buffers/worst_frame", "/buffers/worst_cell"},
     {"upload_bytes", "/buffers/upload_bytes/max"},
     {"scratch_bytes", "/buffers/scratch_bytes"},
-    {"longest", "/occupancy/lights_per_cluster/max", 1.0, "/occupancy/worst_frame", "/occupancy/worst_cell"},
+    {"longest", "/occupancy/lights_per_cell/max", 1.0, "/occupancy/worst_frame", "/occupancy/worst_cell"},
     {"pairs", "/occupancy/pairs/max"},
     {"dropped", "/buffers/overflow/dropped_pairs"},
     {"missed", "/error/false_negatives", 1.0, "/error/deepest/frame", "/error/deepest/cell"},

@@ -1,6 +1,7 @@
 #include "report/machine.h"
 
 #include <array>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -28,8 +29,18 @@ Json machine_to_json(const run::MachineFacts& machine) {
   for (const auto& [level, bytes] : machine.caches) out["caches"][level] = bytes;
   out["cores"] = machine.cores;
   out["ram_bytes"] = machine.ram_bytes;
+  if (machine.clock) {
+    out["clock_mhz"] = {{"now", std::round(machine.clock->now_mhz)}};
+    if (machine.clock->most_mhz) out["clock_mhz"]["max"] = std::round(*machine.clock->most_mhz);
+  }
+  if (machine.load) out["load"] = {{"begin", machine.load->begin}, {"end", machine.load->end}};
   out["os"] = machine.os;
   return out;
+}
+
+Json without_state(Json machine) {
+  for (const char* key : {"clock_mhz", "load"}) machine.erase(key);
+  return machine;
 }
 
 std::string machine_name(const Json& machine) {

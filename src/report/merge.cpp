@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "report/json.h"
+#include "report/machine.h"
 
 namespace clusterbench::report {
 namespace {
@@ -22,7 +23,7 @@ void check_origin(const NamedPart& first, const NamedPart& next) {
     throw Error(next.file, "/config/allocation", "is not that of " + first.file);
   if (!is_measured(first.result) && !is_measured(next.result)) return;
   for (const char* key : {"tool", "machine"})
-    if (first.result.at(key) != next.result.at(key))
+    if (without_state(first.result.at(key)) != without_state(next.result.at(key)))
       throw Error(next.file, std::string("/") + key,
                   "is not that of " + first.file + ": times and instructions of both have no place in one result");
 }
@@ -98,11 +99,11 @@ Json merged(const std::vector<NamedPart>& parts) {
   return {{"schema_version", first.at("schema_version")},
           {"name", merged_name(parts)},
           {"tool", first.at("tool")},
-          {"machine", first.at("machine")},
+          {"machine", without_state(first.at("machine"))},
           {"config", merged_config(parts)},
           {"scenes", scenes},
           {"cases", cases},
-          {"front", fronts(scenes, cases)},
+          {"pareto_front", fronts(scenes, cases)},
           {"skipped", skipped}};
 }
 

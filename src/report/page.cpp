@@ -24,12 +24,16 @@ std::string script_json(const nlohmann::ordered_json& value) {
   return text;
 }
 
+std::string filled_page(std::string_view page_template, const nlohmann::ordered_json& data, const char* command) {
+  if (!page_obstacle().empty()) throw Error("", command, std::string(page_obstacle()));
+  std::string html(page_template);
+  return html.replace(html.find(k_results_mark), k_results_mark.size(), script_json(data));
+}
+
 std::string page(const std::vector<NamedResult>& results, const std::string& command) {
-  if (!page_obstacle().empty()) throw Error("", "report", std::string(page_obstacle()));
   nlohmann::ordered_json data{{"command", command}, {"results", nlohmann::ordered_json::array()}};
   for (const NamedResult& one : results) data["results"].push_back({{"file", one.file}, {"result", one.result}});
-  std::string html(page_template());
-  return html.replace(html.find(k_results_mark), k_results_mark.size(), script_json(data));
+  return filled_page(page_template(), data, "report");
 }
 
 }  // namespace clusterbench::report

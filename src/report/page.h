@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace clusterbench::report {
@@ -14,6 +15,9 @@ struct NamedResult {
 
 // Throws Error if this build has no page. `command`: the one that makes the page again, shown on it.
 std::string page(const std::vector<NamedResult>& results, const std::string& command);
+
+// A template with its data. Throws Error for that command if this build has no pages.
+std::string filled_page(std::string_view page_template, const nlohmann::ordered_json& data, const char* command);
 
 // JSON as it can stand in a <script> element: whatever is in its strings, it ends neither the element nor a line.
 std::string script_json(const nlohmann::ordered_json& value);

@@ -23,28 +23,17 @@ bool is_journal(std::istream& in) {
   return first.is_object() && first.contains("header");
 }
 
-// Takes away what a result of another schema version may do otherwise: have another number, and further properties.
-void relax(nlohmann::json& schema) {
-  if (schema.is_object()) schema.erase("additionalProperties");
-  if (schema.is_structured())
-    for (nlohmann::json& member : schema) relax(member);
-}
-
 // Whoever reads results relies on what the schema promises.
-void check(const std::string& path, const Json& result, Schema version) {
-  nlohmann::json schema = config::result_schema();
-  if (version == Schema::any) {
-    relax(schema);
-    schema["properties"].erase("schema_version");
-  }
-  const std::vector<std::string> violations = config::schema_violations(schema, nlohmann::json(result));
+void check(const std::string& path, const Json& result) {
+  const std::vector<std::string> violations =
+      config::schema_violations(config::result_schema(), nlohmann::json(result));
   if (!violations.empty())
     throw Error(path, "", "is not a valid result: " + violations.front() + "; `clusterbench validate` lists all");
 }
 
 }  // namespace
 
-Json read_result(const std::string& path, Schema schema) {
+Json read_result(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in || in.peek() == std::ifstream::traits_type::eof())
     throw Error(path, "", in.eof() ? "is empty" : "cannot be read");
@@ -63,10 +52,8 @@ Json read_result(const std::string& path, Schema schema) {
                 document == config::Document::config
                     ? "is not a result file of `clusterbench run`"
                     : "is "s + config::row_of(document).title + "; wanted is one of `clusterbench run`");
-  if (schema == Schema::this_version && result["schema_version"] != k_schema_version)
-    throw Error(path, "/schema_version",
-                "is " + result["schema_version"].dump() + "; this version reads " + std::to_string(k_schema_version));
-  check(path, result, schema);
+  config::check_version(path, result, config::row_of(config::Document::result));
+  check(path, result);
   return result;
 }
 

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/text.h"
-#include "measure/shading.h"
 #include "report/columns.h"
 #include "report/lookup_table.h"
 #include "report/precision_table.h"
@@ -82,7 +81,7 @@ double sort_key(const Json& one) {
 }
 
 bool has_failed(const Json& one) {
-  return one.contains("failures") && !one["failures"].empty();
+  return !one["failures"].empty();
 }
 
 struct Column {
@@ -134,7 +133,7 @@ Line line_of(const Json& one, bool is_on_front, const Extras& extras) {
 
 std::set<std::string> ids_on_front(const Json& result) {
   std::set<std::string> ids;
-  for (const Json& front : result["front"])
+  for (const Json& front : result["pareto_front"])
     for (const Json& id : front["ids"]) ids.insert(id.get<std::string>());
   return ids;
 }

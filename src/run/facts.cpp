@@ -3,6 +3,7 @@
 #include <sys/utsname.h>
 #include <unistd.h>
 
+#include <ctime>
 #include <fstream>
 #include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
@@ -59,6 +60,24 @@ MachineFacts machine_facts() {
   utsname names{};
   if (uname(&names) == 0) facts.os = std::string(names.sysname) + " " + names.release + " " + names.machine;
   return facts;
+}
+
+std::optional<ClockFacts> clock_now() {
+  std::ifstream cpuinfo("/proc/cpuinfo");
+  return clock_of(cpuinfo, "/sys/devices/system/cpu/cpu0/cpufreq");
+}
+
+std::optional<double> load_now() {
+  std::ifstream loadavg("/proc/loadavg");
+  return load_of(loadavg);
+}
+
+std::string date_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[sizeof "2000-01-01T00:00:00Z"];
+  return {text, std::strftime(text, sizeof text, "%FT%TZ", &utc)};
 }
 
 }  // namespace clusterbench::run

@@ -63,14 +63,36 @@ std::string missed_without_cells_text(const CaseResult& one) {
          " that the samples of its lookup need";
 }
 
-double unlit_share(const CaseResult& one) {
-  return one.shading && one.shading->needed > 0 ? one.shading->unlit() : 0.0;
+bool is_unlit(const CaseResult& one) {
+  return one.shading && one.shading->needed > 0 && one.shading->unlit() > measure::k_most_unlit;
+}
+
+std::string dropped_text(const CaseResult& one) {
+  const measure::Buffers& buffers = one.buffers;
+  return number_of(buffers.dropped_pairs, "pair") + " dropped in " + number_of(buffers.overflowing_cells, "cell") +
+         " of " + number_of(static_cast<std::uint64_t>(buffers.overflowing_frames), "frame");
+}
+
+std::string unlit_text(const CaseResult& one) {
+  const measure::ShadingCounts& shading = *one.shading;
+  return percent(shading.unlit()) + " of the lights that samples need are unlit, " + percent(shading.lost_irradiance) +
+         " of the irradiance: " + std::to_string(shading.missed - shading.missed_outside) + " in cells, " +
+         std::to_string(shading.missed_outside) + " outside of the grid" + worst_text(one);
+}
+
+std::string undecided_text(const char* where, std::uint64_t pairs) {
+  return std::string(where) + ": " + number_of(pairs, "undecided pair") + " counted as true";
 }
 
 }  // namespace
 
 const char* name_of(Failure::Kind kind) {
   constexpr const char* k_names[] = {"lost_pairs", "extra_pairs", "lost_at_samples", "dropped_pairs"};
+  return k_names[static_cast<std::size_t>(kind)];
+}
+
+const char* name_of(Warning::Kind kind) {
+  constexpr const char* k_names[] = {"dropped_pairs", "unlit", "undecided", "lost_pairs", "unchecked"};
   return k_names[static_cast<std::size_t>(kind)];
 }
 
@@ -87,23 +109,39 @@ std::vector<Failure> failures_of(const CaseResult& one, const config::LimitsRequ
     failures.push_back({Kind::lost_at_samples, missed_without_cells_text(one)});
   const measure::Buffers& buffers = one.buffers;
   if (limits.dropped_pairs && buffers.dropped_pairs > *limits.dropped_pairs)
-    failures.push_back({Kind::dropped_pairs,
-                        "dropped " + number_of(buffers.dropped_pairs, "pair") + " in " +
-                            number_of(buffers.overflowing_cells, "cell") + " of " +
-                            number_of(static_cast<std::uint64_t>(buffers.overflowing_frames), "frame") +
-                            ", more than limits.dropped_pairs allows (" + std::to_string(*limits.dropped_pairs) + ")"});
+    failures.push_back({Kind::dropped_pairs, dropped_text(one) + ", more than limits.dropped_pairs allows (" +
+                                                 std::to_string(*limits.dropped_pairs) + ")"});
   return failures;
+}
+
+std::vector<Warning> warnings_of(const CaseResult& one) {
+  using Kind = Warning::Kind;
+  std::vector<Warning> warnings;
+  if (one.buffers.dropped_pairs > 0) warnings.push_back({Kind::dropped_pairs, dropped_text(one)});
+  if (is_unlit(one)) warnings.push_back({Kind::unlit, unlit_text(one)});
+  if (one.error && one.error->undecided > 0)
+    warnings.push_back({Kind::undecided, undecided_text("error", one.error->undecided)});
+  if (one.stability && one.stability->undecided > 0)
+    warnings.push_back({Kind::undecided, undecided_text("stability", one.stability->undecided)});
+  if (one.error && one.error->false_negatives > 0 && !one.conservative && !one.exact)
+    warnings.push_back({Kind::lost_pairs, lost_text(one)});
+  if (has_cells(one) && !one.error) warnings.push_back({Kind::unchecked, "its lists were not held against the truth"});
+  return warnings;
 }
 
 bool loses_lights(const CaseResult& one) {
   return (one.error && one.error->false_negatives > 0) || one.buffers.dropped_pairs > 0 || misses_without_cells(one) ||
-         unlit_share(one) > measure::k_most_unlit;
+         is_unlit(one);
+}
+
+bool is_eligible(const CaseResult& one) {
+  return one.failures.empty() && one.buffers.dropped_pairs == 0 && !is_unlit(one);
 }
 
 std::vector<std::string> on_front(std::span<const Contender> cases) {
   std::map<std::pair<std::string, std::string>, std::vector<const Contender*>> views;
   for (const Contender& one : cases)
-    if (!one.is_out) views[{one.scene, one.view}].push_back(&one);
+    if (one.is_eligible) views[{one.scene, one.view}].push_back(&one);
   std::vector<std::string> ids;
   for (const auto& [view, seen] : views) {
     std::vector<measure::Costs> costs;

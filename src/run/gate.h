@@ -12,15 +12,23 @@
 namespace clusterbench::run {
 
 const char* name_of(Failure::Kind kind);  // "lost_pairs", ...
+const char* name_of(Warning::Kind kind);  // "unlit", ...
 
 // A conservative method that lost a light, in lists or, without cells, at samples; an exact one with any difference;
 // more dropped pairs than the limits allow.
 std::vector<Failure> failures_of(const CaseResult& one, const config::LimitsRequest& limits);
 
+// What is to be known of a case before its figures are believed, and fails nothing.
+std::vector<Warning> warnings_of(const CaseResult& one);
+
 // Whether a shader that loops over what the case gives lacks lights: pairs that are not listed or were dropped, lights
 // that are missed at samples though the structure has no cells to look up, or more than measure::k_most_unlit of them
 // wherever they are.
 bool loses_lights(const CaseResult& one);
+
+// Whether a case may stand on a front, and be the best that others are measured by: it fails nothing, drops nothing and
+// leaves no more than measure::k_most_unlit of the needed lights unlit. Short lists are no merit else.
+bool is_eligible(const CaseResult& one);
 
 // A case beside others. Results are continued and merged from files, so this is apart from CaseResult.
 struct Contender {
@@ -29,9 +37,7 @@ struct Contender {
   // packed lights that lose a pair less than those that do not.
   std::string scene, view;
   measure::Costs costs;
-  // Fails its run, drops pairs, or has more than measure::k_most_unlit of the needed lights unlit: short lists are no
-  // merit then.
-  bool is_out = false;
+  bool is_eligible = true;
 };
 
 // Ids of the cases that no other case of their scene and view beats in time, bytes and overshade together.

@@ -18,6 +18,7 @@
 #include "measure/stability.h"
 #include "measure/timing.h"
 #include "run/counters/instruction_counter.h"
+#include "run/counters/processor.h"
 #include "run/details.h"
 
 namespace clusterbench::run {
@@ -32,14 +33,24 @@ struct ToolFacts {
 };
 ToolFacts tool_facts();
 
+struct LoadFacts {
+  double begin = 0.0, end = 0.0;  // programs that run or wait to, mean of a minute: before and after the run
+};
+
 struct MachineFacts {
   std::string cpu, os;
   int cores = 0;
   std::uint64_t ram_bytes = 0;
   std::string family, model, stepping;                        // run/counters/processor.h
   std::vector<std::pair<std::string, std::uint64_t>> caches;  // "l1d", bytes
+  // How it was when something was timed.
+  std::optional<ClockFacts> clock;
+  std::optional<LoadFacts> load;
 };
 MachineFacts machine_facts();
+std::optional<ClockFacts> clock_now();
+std::optional<double> load_now();
+std::string date_now();  // UTC, ISO 8601
 
 struct SceneResult {
   std::string name, sha256;
@@ -74,7 +85,7 @@ struct TimingResult {
   double ns_per_pair = std::numeric_limits<double>::quiet_NaN();  // frame time / pairs in lists; without: not a number
   double write_floor_ns = 0.0;                                    // per frame
   double floor_ratio = 0.0;
-  std::optional<Versus> vs;  // against the group's first assigner, in the same storage if it has it
+  std::optional<Versus> against_first;  // against the group's first assigner, in the same storage if it has it
   int frames_timed = 0;
 };
 
@@ -120,6 +131,13 @@ struct Failure {
   std::string text;  // without the case's name
 };
 
+// What a run does not fail for, and a reader has to know.
+struct Warning {
+  enum class Kind : std::uint8_t { dropped_pairs, unlit, undecided, lost_pairs, unchecked };
+  Kind kind = Kind::dropped_pairs;
+  std::string text;  // without the case's name
+};
+
 struct CaseResult {
   std::string id, settings, name, scene, camera;  // the first two: of CasePlan
   Vec2i viewport{0, 0};
@@ -148,6 +166,7 @@ struct CaseResult {
 
 struct Result {
   std::string config_name;
+  std::string date, command;  // "" where nothing is timed, and the result is the same whenever it is made
   ToolFacts tool;
   MachineFacts machine;
   nlohmann::json config;

@@ -65,6 +65,7 @@ class Run {
     out.config_name = config_.name;
     out.tool = tool_facts();
     out.machine = machine_facts();
+    if (config_.timing.measure) note_beginning(out);
     out.config = config_.resolved;
     out.skipped = plan_.skipped;
     for (std::size_t i = 0; i < plan_.scenes.size(); ++i) {
@@ -75,10 +76,18 @@ class Run {
       for (const CasePlan& one : group.cases) out.planned_ids.push_back(one.id);
     for (const GroupPlan& group : plan_.groups)
       if (!stop_) run_group(what_is_left(group), out);
+    if (out.machine.load) out.machine.load->end = load_now().value_or(out.machine.load->begin);
     return out;
   }
 
  private:
+  // What times can depend on. Without times a result does not say when it was made, so that it is the same every time.
+  static void note_beginning(Result& out) {
+    out.date = date_now();
+    out.machine.clock = clock_now();
+    if (const std::optional<double> load = load_now()) out.machine.load = LoadFacts{*load, *load};
+  }
+
   GroupPlan what_is_left(GroupPlan group) const {
     std::erase_if(group.cases, [&](const CasePlan& one) { return done_.contains(one.id); });
     return group;

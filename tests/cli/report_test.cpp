@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "cli/tool.h"
@@ -44,10 +45,32 @@ TEST(Report, what_is_no_result_is_refused_with_the_reason) {
 
 TEST(Report, another_schema_version_is_refused) {
   Json result = Json::parse(result_text());
-  result["schema_version"] = 2;
+  result["schema_version"] = 3;
   const Outcome done = report_of(result.dump());
   EXPECT_EQ(done.code, 2);
-  EXPECT_NE(done.err.find("/schema_version: is 2; this version reads 1"), std::string::npos) << done.err;
+  EXPECT_NE(done.err.find("/schema_version: is 3; this version reads 2"), std::string::npos) << done.err;
+}
+
+// Names and meanings of version 1 are others; a reader that took it would miss figures and not say so.
+TEST(Report, a_result_of_version_1_is_refused_by_all_that_read_results) {
+  Json result = Json::parse(result_text());
+  result["schema_version"] = 1;
+  result["front"] = result["pareto_front"];
+  result.erase("pareto_front");
+  for (Json& one : result["cases"]) one.erase("eligible");
+  const Folder folder;
+  const std::string old = folder.write("old.json", result.dump()).string(),
+                    fresh = folder.write("new.json", result_text()).string();
+  for (const std::string& command :
+       {"report " + old, "compare " + old + " " + fresh, "compare --force " + fresh + " " + old, "size " + old,
+        "export --format csv " + old, "history add " + old + " " + (folder / "h.jsonl").string(), "validate " + old,
+        "merge " + old}) {
+    const Outcome done = tool(command);
+    EXPECT_EQ(done.code, 2) << command;
+    EXPECT_NE(done.err.find("old.json: /schema_version: is 1; this version reads 2: measure again"), std::string::npos)
+        << command << ": " << done.err;
+    EXPECT_EQ(std::count(done.err.begin(), done.err.end(), '\n'), 1) << command << ": " << done.err;
+  }
 }
 
 TEST(Report, a_result_broken_by_hand_is_refused_with_the_place) {

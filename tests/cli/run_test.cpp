@@ -21,7 +21,7 @@ std::string small_config(const std::string& more = "") {
 }
 
 Json without_timing(Json result) {
-  for (const char* key : {"machine", "front"}) result.erase(key);
+  for (const char* key : {"machine", "pareto_front", "date", "command"}) result.erase(key);
   for (Json& entry : result["cases"])
     for (const char* key : {"timing", "count"}) entry.erase(key);
   return result;
@@ -43,6 +43,21 @@ TEST(Run, a_configuration_gives_a_result_that_its_own_schema_accepts) {
   }
   EXPECT_EQ(result["skipped"].size(), 3u);
   EXPECT_FALSE(std::filesystem::exists(out + ".partial"));
+}
+
+TEST(Run, what_is_timed_says_when_and_how_it_was_made_and_what_is_counted_only_does_not) {
+  const Folder folder;
+  const std::string config = folder.write("small config.json", small_config()).string();
+  const std::string out = (folder / "r.json").string(), command = "run -q '" + config + "' -o " + out;
+  ASSERT_EQ(tool(command).code, 0);
+  const Json timed = Json::parse(file_text(out));
+  EXPECT_EQ(timed["command"], "clusterbench " + command);
+  EXPECT_EQ(timed["date"].get<std::string>().size(), sizeof "2026-01-02T03:04:05Z" - 1);
+  EXPECT_GE(timed["machine"]["load"]["end"], 0.0);
+  ASSERT_EQ(tool(command + " --no-timing").code, 0);
+  const Json counted = Json::parse(file_text(out));
+  for (const char* key : {"date", "command"}) EXPECT_FALSE(counted.contains(key)) << key;
+  for (const char* key : {"load", "clock_mhz"}) EXPECT_FALSE(counted["machine"].contains(key)) << key;
 }
 
 TEST(Run, counts_are_byte_identical_on_any_number_of_threads) {
@@ -93,7 +108,7 @@ TEST(Run, the_result_goes_to_standard_output_without_a_file) {
   const Folder folder;
   const Outcome done = tool("run --quiet --no-timing " + folder.write("small.json", small_config()).string());
   ASSERT_EQ(done.code, 0) << done.err;
-  EXPECT_EQ(Json::parse(done.out)["schema_version"], 1);
+  EXPECT_EQ(Json::parse(done.out)["schema_version"], 2);
   EXPECT_EQ(done.err, "");
 }
 
@@ -235,7 +250,7 @@ TEST(Run, a_budget_that_is_exceeded_fails_the_run_and_one_nearly_reached_is_warn
   const std::string run = "run -q --no-timing --filter /aabb/ " + config + " -o " + out;
   ASSERT_EQ(tool(run).code, 0);
   const Json one = Json::parse(file_text(out))["cases"][0];
-  const int longest = one["occupancy"]["lights_per_cluster"]["max"];
+  const int longest = one["occupancy"]["lights_per_cell"]["max"];
   const auto with = [&](const std::string& rule) { return tool(run + " --fail-if '" + rule + "'"); };
   const Outcome broken = with("longest > " + std::to_string(longest - 1));
   EXPECT_EQ(broken.code, 1);

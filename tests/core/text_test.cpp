@@ -22,6 +22,11 @@ TEST(NearestName, a_word_like_none_of_them_has_no_nearest_name) {
   EXPECT_EQ(did_you_mean("voxels", k_names), "");
 }
 
+TEST(ShellCommand, quotes_what_a_shell_would_take_apart) {
+  EXPECT_EQ(shell_command(std::vector<std::string>{"run", "a b.json", "", "--set=k=1,2", "it's"}),
+            "run 'a b.json' '' --set=k=1,2 'it'\\''s'");
+}
+
 TEST(Printable, leaves_nothing_that_a_terminal_would_obey) {
   EXPECT_EQ(printable("lamp 3"), "lamp 3");
   EXPECT_EQ(printable("a\x1b[31mb\r\n\t\x7f"), "a?[31mb????");

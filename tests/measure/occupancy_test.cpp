@@ -27,7 +27,7 @@ TEST(Spread, of_few_values_the_high_percentiles_are_the_largest) {
 
 TEST(Spread, of_nothing_is_zero) {
   EXPECT_EQ(spread_of({}).max, 0.0);
-  EXPECT_EQ(OccupancyMeter(4).result().lights_per_cluster.max, 0.0);
+  EXPECT_EQ(OccupancyMeter(4).result().lights_per_cell.max, 0.0);
 }
 
 // Four cells with 0, 2, 1 and 0 lights, then with 3, 0, 0 and 1.
@@ -41,10 +41,25 @@ Occupancy two_frames(std::uint32_t real_cells) {
 TEST(Occupancy, cells_are_counted_by_their_lights_over_all_frames) {
   const Occupancy o = two_frames(4);
   EXPECT_EQ(o.histogram, (std::vector<std::uint64_t>{4, 2, 1, 1}));
-  EXPECT_EQ(o.lights_per_cluster.mean, 7.0 / 8.0);
-  EXPECT_EQ(o.lights_per_cluster.p50, 0.0);
-  EXPECT_EQ(o.lights_per_cluster.p95, 3.0);
-  EXPECT_EQ(o.lights_per_cluster.max, 3.0);
+  EXPECT_EQ(o.lights_per_cell.mean, 7.0 / 8.0);
+  EXPECT_EQ(o.lights_per_cell.p50, 0.0);
+  EXPECT_EQ(o.lights_per_cell.p95, 3.0);
+  EXPECT_EQ(o.lights_per_cell.max, 3.0);
+}
+
+TEST(Histogram, of_long_lists_joins_lengths_and_keeps_all_cells) {
+  const Histogram exact = short_histogram({4, 2, 1, 1});
+  EXPECT_EQ(exact.lights_per_entry, 1u);
+  EXPECT_EQ(exact.cells, (std::vector<std::uint64_t>{4, 2, 1, 1}));
+  EXPECT_EQ(short_histogram(std::vector<std::uint64_t>(256, 1)).lights_per_entry, 1u);
+  std::vector<std::uint64_t> counts(1025);
+  std::iota(counts.begin(), counts.end(), 0u);
+  const Histogram joined = short_histogram(counts);
+  EXPECT_EQ(joined.lights_per_entry, 8u);
+  ASSERT_EQ(joined.cells.size(), 129u);
+  EXPECT_EQ(joined.cells[1], 8u + 9 + 10 + 11 + 12 + 13 + 14 + 15);
+  EXPECT_EQ(joined.cells.back(), 1024u);
+  EXPECT_EQ(std::accumulate(joined.cells.begin(), joined.cells.end(), 0u), 1024u * 1025u / 2u);
 }
 
 TEST(Occupancy, pairs_and_occupied_share_are_per_frame) {
@@ -72,7 +87,7 @@ TEST(Occupancy, holes_are_no_cells) {
   const Occupancy o = two_frames(3);
   EXPECT_EQ(o.histogram, (std::vector<std::uint64_t>{2, 2, 1, 1}));
   EXPECT_EQ(o.occupied_fraction.mean, 2.0 / 3.0);
-  EXPECT_EQ(o.lights_per_cluster.p50, 1.0);
+  EXPECT_EQ(o.lights_per_cell.p50, 1.0);
 }
 
 }  // namespace

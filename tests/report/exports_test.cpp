@@ -28,7 +28,7 @@ Json result() {
   run::Result by_hand = testing::result_by_hand();
   testing::add_count(by_hand.cases[1]);
   by_hand.cases[1].timing->frame_ns = {3000.0, 10.0, 2990.0, 3020.0, {2990.0, 3020.0}, {2990.0, 3000.0, 3020.0}};
-  by_hand.cases[1].timing->vs = run::Versus{"brute-force", {0.25, {0.2, 0.5}}};
+  by_hand.cases[1].timing->against_first = run::Versus{"brute-force", {0.25, {0.2, 0.5}}};
   return result_to_json(by_hand, {});
 }
 

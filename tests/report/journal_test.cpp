@@ -140,7 +140,7 @@ TEST_F(JournalTest, a_second_run_to_the_same_file_is_refused_while_the_first_goe
     }
   }
   first.finish(Json{{"cases", 1}});
-  EXPECT_EQ(text_of(file_), "{\n \"cases\": 1\n}\n");
+  EXPECT_EQ(text_of(file_), "{\"cases\": 1}\n");
   const Journal later(file_, k_header, false, 100);
   EXPECT_EQ(later.set_aside(), "");
 }

@@ -30,7 +30,7 @@ TEST(ResultJson, is_what_the_schema_says) {
   add_stability(result.cases[0]);
   add_precision(result.cases[0]);
   add_count(result.cases[0]);
-  result.cases[0].timing->vs = run::Versus{"aabb", {3.0, {2.9, 3.1}}};
+  result.cases[0].timing->against_first = run::Versus{"aabb", {3.0, {2.9, 3.1}}};
   EXPECT_EQ(violations(result_to_json(result, {})), std::vector<std::string>{});
 }
 
@@ -146,7 +146,7 @@ TEST(ResultJson, what_is_no_number_is_null) {
 TEST(ResultJson, holds_the_figures_under_their_names) {
   const Json one = case_to_json(case_by_hand("id", "aabb", 3000.0));
   EXPECT_EQ(one["occupancy"]["pairs"]["max"], 40.0);
-  EXPECT_EQ(one["occupancy"]["lights_per_cluster"]["histogram"], (Json{10, 20, 18}));
+  EXPECT_EQ(one["occupancy"]["lights_per_cell"]["histogram"], (Json{{"lights_per_entry", 1}, {"cells", {10, 20, 18}}}));
   EXPECT_EQ(one["occupancy"]["along_path"],
             (Json{{"frames_per_entry", 1}, {"pairs", {20, 40}}, {"longest_list", {5, 7}}}));
   EXPECT_EQ(one["buffers"]["along_path"], (Json{{"frames_per_entry", 1}, {"bytes", {212, 232}}}));
@@ -176,44 +176,45 @@ TEST(Front, a_case_that_leaves_out_lights_is_on_no_front) {
   run::Result result = result_by_hand();
   for (run::CaseResult& one : result.cases)
     if (one.id == "fast") one.buffers.dropped_pairs = 1;
-  EXPECT_EQ(result_to_json(result, {})["front"][0]["ids"], (Json{"slow"}));
+  EXPECT_EQ(result_to_json(result, {})["pareto_front"][0]["ids"], (Json{"slow"}));
 }
 
 TEST(Front, of_equal_lists_only_the_fastest_case_is_on_it) {
-  EXPECT_EQ(result_to_json(result_by_hand(), {})["front"], (Json::array({{{"scene", "hall"}, {"ids", {"fast"}}}})));
+  EXPECT_EQ(result_to_json(result_by_hand(), {})["pareto_front"],
+            (Json::array({{{"scene", "hall"}, {"ids", {"fast"}}}})));
 }
 
 TEST(Front, cases_of_different_views_do_not_beat_each_other) {
   run::Result result = result_by_hand();
   result.cases[1].camera = "empty corner";
-  EXPECT_EQ(result_to_json(result, {})["front"][0]["ids"], (Json{"slow", "fast"}));
+  EXPECT_EQ(result_to_json(result, {})["pareto_front"][0]["ids"], (Json{"slow", "fast"}));
   result = result_by_hand();
   result.cases[1].viewport = {640, 360};
-  EXPECT_EQ(result_to_json(result, {})["front"][0]["ids"], (Json{"slow", "fast"}));
+  EXPECT_EQ(result_to_json(result, {})["pareto_front"][0]["ids"], (Json{"slow", "fast"}));
 }
 
 TEST(Front, packed_lights_do_not_beat_what_loses_nothing) {
   run::Result result = with_half();
   result.cases[2].timing->frame_ns.ci95 = {1.0, 1.0};
-  EXPECT_EQ(result_to_json(result, {})["front"][0]["ids"], (Json{"fast", "fast half+inflate"}));
+  EXPECT_EQ(result_to_json(result, {})["pareto_front"][0]["ids"], (Json{"fast", "fast half+inflate"}));
 }
 
 TEST(Front, overlapping_intervals_of_time_say_nothing) {
   run::Result result = result_by_hand();
   result.cases[0].timing->frame_ns.ci95 = {3000.0, 12000.0};
-  EXPECT_EQ(result_to_json(result, {})["front"][0]["ids"], (Json{"slow", "fast"}));
+  EXPECT_EQ(result_to_json(result, {})["pareto_front"][0]["ids"], (Json{"slow", "fast"}));
 }
 
 TEST(Front, a_case_that_fails_or_leaves_more_than_a_thousandth_unlit_is_on_no_front) {
   run::Result result = result_by_hand();
   lose_a_light(result.cases[1]);
-  EXPECT_EQ(result_to_json(judged(result), {})["front"][0]["ids"], (Json{"slow"}));
+  EXPECT_EQ(result_to_json(judged(result), {})["pareto_front"][0]["ids"], (Json{"slow"}));
   result = result_by_hand();
   result.cases[1].shading->needed = 2000;
   result.cases[1].shading->missed = 2;
-  EXPECT_EQ(result_to_json(result, {})["front"][0]["ids"], (Json{"fast"}));
+  EXPECT_EQ(result_to_json(result, {})["pareto_front"][0]["ids"], (Json{"fast"}));
   result.cases[1].shading->missed = 3;
-  EXPECT_EQ(result_to_json(result, {})["front"][0]["ids"], (Json{"slow"}));
+  EXPECT_EQ(result_to_json(result, {})["pareto_front"][0]["ids"], (Json{"slow"}));
 }
 
 TEST(ResultJson, what_samples_lack_is_told_by_place_and_worst_frame) {
@@ -232,6 +233,48 @@ TEST(ResultJson, what_samples_lack_is_told_by_place_and_worst_frame) {
   EXPECT_FALSE(json["cases"][1]["shading"].contains("worst_frame"));
   EXPECT_EQ(json["cases"][1]["loses_lights"], false);
   EXPECT_EQ(violations(json), std::vector<std::string>{});
+}
+
+TEST(ResultJson, what_to_know_of_a_case_is_written_with_it_and_decides_the_front) {
+  run::Result result = result_by_hand();
+  result.cases[1].buffers.dropped_pairs = 7;
+  result.cases[1].buffers.overflowing_cells = result.cases[1].buffers.overflowing_frames = 1;
+  const Json json = result_to_json(result, {});
+  EXPECT_EQ(json["cases"][0]["warnings"], Json::array());
+  EXPECT_EQ(json["cases"][0]["eligible"], true);
+  EXPECT_EQ(json["cases"][1]["warnings"],
+            (Json::array({{{"kind", "dropped_pairs"}, {"text", "7 pairs dropped in 1 cell of 1 frame"}}})));
+  EXPECT_EQ(json["cases"][1]["eligible"], false);
+  EXPECT_EQ(json["pareto_front"][0]["ids"], (Json{"slow"}));
+  EXPECT_EQ(violations(json), std::vector<std::string>{});
+}
+
+TEST(ResultJson, date_command_clock_and_load_are_there_where_something_is_timed) {
+  run::Result result = result_by_hand();
+  const Json without = result_to_json(result, {});
+  for (const char* key : {"date", "command"}) EXPECT_FALSE(without.contains(key));
+  for (const char* key : {"clock_mhz", "load"}) EXPECT_FALSE(without["machine"].contains(key));
+  result.date = "2026-01-02T03:04:05Z";
+  result.command = "clusterbench run a.glb";
+  result.machine.clock = run::ClockFacts{2400.4, 3000.0};
+  result.machine.load = run::LoadFacts{0.5, 1.5};
+  const Json with = result_to_json(result, {});
+  EXPECT_EQ(with["date"], "2026-01-02T03:04:05Z");
+  EXPECT_EQ(with["command"], "clusterbench run a.glb");
+  EXPECT_EQ(with["machine"]["clock_mhz"], (Json{{"now", 2400}, {"max", 3000}}));
+  EXPECT_EQ(with["machine"]["load"], (Json{{"begin", 0.5}, {"end", 1.5}}));
+  EXPECT_EQ(violations(with), std::vector<std::string>{});
+}
+
+TEST(ResultJson, times_have_six_digits_and_shares_nine) {
+  run::CaseResult one = case_by_hand("id", "aabb", 3000.0);
+  one.timing->assign_ns.median = 1234567.891;
+  one.timing->ns_per_pair = 1.0 / 3.0;
+  one.error->true_pairs = 7;
+  const Json json = case_to_json(one);
+  EXPECT_EQ(json["timing"]["assign_ns"]["median"].dump(), "1234570");
+  EXPECT_EQ(json["timing"]["ns_per_pair"].dump(), "0.333333");
+  EXPECT_EQ(json["error"]["excess_ratio"].dump(), "1.71428571");
 }
 
 TEST(ResultJson, of_few_needed_lights_there_is_no_overshade) {

@@ -16,7 +16,7 @@ Json case_with_budget_figures() {
                "build_ns": {"median": 1000}, "worst_frame": {"frame": 12, "ns": 250000}},
     "buffers": {"index_entries": {"high_water": 4097}, "bytes": {"high_water": 950000}, "upload_bytes": {"max": 7},
                 "scratch_bytes": 8, "overflow": {"dropped_pairs": 3}, "worst_frame": 9, "worst_cell": [1, 2, 3]},
-    "occupancy": {"lights_per_cluster": {"max": 64}, "pairs": {"max": 4000}, "worst_frame": 8, "worst_cell": [4, 5, 6]},
+    "occupancy": {"lights_per_cell": {"max": 64}, "pairs": {"max": 4000}, "worst_frame": 8, "worst_cell": [4, 5, 6]},
     "error": {"false_negatives": 2, "excess_ratio": 0.5, "undecided": 0, "deepest": {"frame": 7, "cell": [0, 0, 1]}},
     "shading": {"missed": 1, "needed": 1000, "lost_irradiance": 0.25, "overshade": 1.5, "worst_frame": {"frame": 3}}})");
 }

@@ -61,6 +61,14 @@ TEST(Merge, two_scenes_of_one_name_are_a_conflict) {
       << said;
 }
 
+TEST(Merge, shards_of_one_machine_are_merged_however_busy_it_was) {
+  NamedPart one = shard("a.json", "slow"), other = shard("b.json", "fast");
+  one.result["machine"]["load"] = {{"begin", 0.1}, {"end", 0.2}};
+  other.result["machine"]["clock_mhz"] = {{"now", 2000}};
+  one.result["date"] = "2026-01-02T03:04:05Z";
+  EXPECT_EQ(merged({one, other}), result_to_json(testing::result_by_hand(), {}));
+}
+
 TEST(Merge, times_of_two_machines_are_refused_and_counts_are_not) {
   NamedPart one = shard("a.json", "slow"), other = shard("b.json", "fast");
   other.result["machine"]["cpu"] = "another";

@@ -24,7 +24,7 @@ inline run::CaseResult case_by_hand(const std::string& id, const std::string& as
   one.storage_label = "packed";
   one.occupancy.emplace();
   one.occupancy->pairs = {30.0, 20.0, 40.0, 40.0, 40.0};
-  one.occupancy->lights_per_cluster = {1.25, 1.0, 3.0, 7.0, 7.0};
+  one.occupancy->lights_per_cell = {1.25, 1.0, 3.0, 7.0, 7.0};
   one.occupancy->histogram = {10, 20, 18};
   one.occupancy->worst_frame = 1;
   one.occupancy->worst_cell = 17;  // x 1, y 1, z 1 of 4 x 3 x 2
@@ -117,7 +117,7 @@ inline run::Result result_by_hand() {
   run::Result result;
   result.config_name = "by hand";
   result.tool = {"1.2.3", "abc", "g++ 12", "-O3", "Release", "scalar", {{"glm", "0.9.9"}}};
-  result.machine = {"a processor", "Linux", 2, 1u << 30, "6", "85", "7", {{"l1d", 32768}, {"l2", 1 << 20}}};
+  result.machine = {"a processor", "Linux", 2, 1u << 30, "6", "85", "7", {{"l1d", 32768}, {"l2", 1 << 20}}, {}, {}};
   result.config = {{"allocation", {{"margin", 2.0}, {"warn_at", 0.9}}}};
   run::SceneResult scene;
   scene.name = "hall";

@@ -121,8 +121,46 @@ TEST(Gate, what_lies_outside_of_the_grid_loses_lights_and_is_told_with_its_frame
   EXPECT_EQ(text, "lost 100 of 1000 lights that its samples need; most in frame 7, 100 of 140");
 }
 
+std::vector<Warning::Kind> warned(const CaseResult& one) {
+  std::vector<Warning::Kind> out;
+  for (const Warning& warning : warnings_of(one)) out.push_back(warning.kind);
+  return out;
+}
+
+TEST(Gate, warns_of_what_fails_nothing_and_takes_a_case_from_the_front_where_its_lists_are_no_merit) {
+  using Of = Warning::Kind;
+  CaseResult one = with_cells();
+  EXPECT_TRUE(warned(one).empty());
+  EXPECT_TRUE(is_eligible(one));
+  miss(one, 1, 0);
+  EXPECT_TRUE(warned(one).empty()) << "a thousandth is rounding";
+  EXPECT_TRUE(is_eligible(one));
+  miss(one, 2, 0);
+  EXPECT_EQ(warned(one), (std::vector{Of::unlit}));
+  EXPECT_FALSE(is_eligible(one));
+  one = with_cells();
+  one.buffers.dropped_pairs = 1;
+  EXPECT_EQ(warned(one), (std::vector{Of::dropped_pairs}));
+  EXPECT_FALSE(is_eligible(one)) << "whatever the limits allow";
+  one = with_cells();
+  one.error->undecided = 1;
+  EXPECT_EQ(warned(one), (std::vector{Of::undecided}));
+  EXPECT_TRUE(is_eligible(one));
+  one = with_cells();
+  one.error->false_negatives = 1;
+  one.conservative = false;
+  EXPECT_EQ(warned(one), (std::vector{Of::lost_pairs}));
+  one = with_cells();
+  one.error.reset();
+  EXPECT_EQ(warned(one), (std::vector{Of::unchecked}));
+  EXPECT_TRUE(warned(without_cells()).empty()) << "nothing to check";
+  one = with_cells();
+  one.failures = {{Kind::extra_pairs, ""}};
+  EXPECT_FALSE(is_eligible(one));
+}
+
 Contender contender(const std::string& id, double time_ns, const std::string& view = "view") {
-  return {id, "hall", view, {{time_ns, time_ns}, 100.0, 1.5}, false};
+  return {id, "hall", view, {{time_ns, time_ns}, 100.0, 1.5}};
 }
 
 TEST(OnFront, cases_beat_each_other_within_one_scene_and_view) {
@@ -130,9 +168,9 @@ TEST(OnFront, cases_beat_each_other_within_one_scene_and_view) {
             (std::vector<std::string>{"else", "fast"}));
 }
 
-TEST(OnFront, what_is_out_beats_nothing) {
+TEST(OnFront, what_is_not_eligible_beats_nothing) {
   std::vector<Contender> all{contender("slow", 2), contender("fast", 1)};
-  all[1].is_out = true;
+  all[1].is_eligible = false;
   EXPECT_EQ(on_front(all), (std::vector<std::string>{"slow"}));
 }
 

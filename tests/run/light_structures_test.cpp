@@ -214,7 +214,7 @@ TEST(LightStructures, a_method_of_both_forms_has_a_case_for_each) {
   EXPECT_EQ(own.shading->missed, 0u);
   EXPECT_EQ(own.shading->needed, lists.shading->needed);
   EXPECT_NE(own.id, lists.id);
-  EXPECT_TRUE(own.timing->vs);
+  EXPECT_TRUE(own.timing->against_first);
   EXPECT_EQ(method_label(config::parse_config(R"({"scenes": ["a.glb"], "assigners": ["bvh"]})", "c.json"),
                          all.plan.groups[0].cases[2].method()),
             "bvh own");

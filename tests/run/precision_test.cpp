@@ -106,15 +106,15 @@ TEST(Precision, is_seen_by_what_is_timed_and_stored) {
     EXPECT_NEAR(pairs, one.occupancy->pairs.mean * one.frames, 0.01) << one.id;
     EXPECT_EQ(static_cast<double>(one.buffers.index_entries.high_water), one.occupancy->pairs.max) << one.id;
   }
-  EXPECT_FALSE(result.cases[0].timing->vs);
-  EXPECT_EQ(result.cases[1].timing->vs->assigner, "aabb");
+  EXPECT_FALSE(result.cases[0].timing->against_first);
+  EXPECT_EQ(result.cases[1].timing->against_first->assigner, "aabb");
   EXPECT_NE(case_of(result, "-half").occupancy->pairs.mean, case_of(result, "-float32").occupancy->pairs.mean);
 }
 
 TEST(Precision, is_named_by_what_others_are_compared_with) {
   Walk walk = packed_crowd(R"(, "precision": [{"packing": "half", "inflate": true}, "unorm16"])");
   walk.config.timing = {.measure = true, .rounds = 1, .min_time_ms = 0.0, .frames = 1};
-  EXPECT_EQ(case_of(walk.run(), "-unorm16").timing->vs->assigner, "aabb half+inflate");
+  EXPECT_EQ(case_of(walk.run(), "-unorm16").timing->against_first->assigner, "aabb half+inflate");
 }
 
 TEST(Precision, lights_are_seen_as_their_request_says) {

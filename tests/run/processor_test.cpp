@@ -38,6 +38,29 @@ TEST(Processor, that_says_nothing_is_unknown) {
   EXPECT_EQ(processor_in("hart : 1\n").family, "");
 }
 
+TEST(Processor, tells_its_clock_where_the_system_does) {
+  namespace fs = std::filesystem;
+  std::istringstream two("processor : 0\ncpu MHz\t\t: 2000.5\n\nprocessor : 1\ncpu MHz\t\t: 3000.5\n"),
+      none("hart : 1\n"), again("hart : 1\n");
+  const fs::path folder = fs::temp_directory_path() / ("clusterbench_clock_" + std::to_string(getpid()));
+  EXPECT_DOUBLE_EQ(clock_of(two, folder)->now_mhz, 2500.5);
+  EXPECT_FALSE(clock_of(none, folder));
+  fs::create_directories(folder);
+  std::ofstream(folder / "scaling_cur_freq") << "1800000\n";
+  std::ofstream(folder / "cpuinfo_max_freq") << "3400000\n";
+  const std::optional<ClockFacts> clock = clock_of(again, folder);
+  fs::remove_all(folder);
+  ASSERT_TRUE(clock);
+  EXPECT_DOUBLE_EQ(clock->now_mhz, 1800.0);
+  EXPECT_DOUBLE_EQ(*clock->most_mhz, 3400.0);
+}
+
+TEST(Processor, load_is_the_mean_of_the_last_minute) {
+  std::istringstream some("0.52 0.58 0.59 1/467 12345\n"), none("");
+  EXPECT_DOUBLE_EQ(*load_of(some), 0.52);
+  EXPECT_FALSE(load_of(none));
+}
+
 TEST(Processor, has_the_caches_that_its_folder_lists) {
   namespace fs = std::filesystem;
   const fs::path folder = fs::temp_directory_path() / ("clusterbench_caches_" + std::to_string(getpid()));

@@ -174,11 +174,11 @@ TEST(Runner, lights_beyond_the_grid_are_unlit_and_named_so) {
 
 TEST(Runner, assigners_are_compared_with_the_first_pair_by_pair) {
   const Result result = timed(R"("assigners": ["brute-force", "aabb"])").run();
-  EXPECT_FALSE(result.cases[0].timing->vs);
-  ASSERT_TRUE(result.cases[1].timing->vs);
-  EXPECT_EQ(result.cases[1].timing->vs->assigner, "brute-force");
+  EXPECT_FALSE(result.cases[0].timing->against_first);
+  ASSERT_TRUE(result.cases[1].timing->against_first);
+  EXPECT_EQ(result.cases[1].timing->against_first->assigner, "brute-force");
   const auto &own = result.cases[1].timing->frame_ns.samples, &first = result.cases[0].timing->frame_ns.samples;
-  EXPECT_EQ(result.cases[1].timing->vs->ratio.ratio, measure::paired_ratio(own, first, 1).ratio);
+  EXPECT_EQ(result.cases[1].timing->against_first->ratio.ratio, measure::paired_ratio(own, first, 1).ratio);
 }
 
 TEST(Runner, without_a_pair_the_time_per_pair_is_not_a_number) {

@@ -1,34 +1,13 @@
 // The details of a case (see `clusterbench schema result`) and one of its frames, unpacked.
 
-import type { CaseResult } from "../result.ts";
+import type { CaseResult, Details } from "../result.ts";
 import { ascending, numbers } from "./numbers.ts";
 
 export type Vec3 = [number, number, number];
 
-export interface Camera {
-  eye: Vec3;
-  view_from_world: [Vec3, Vec3, Vec3];
-  orthographic: boolean;
-  sides: [left: number, right: number, bottom: number, top: number];
-  near_m: number;
-  far_m: number | null;
-}
-
-export interface DetailsFrame {
-  frame: number;
-  time_s: number;
-  camera: Camera;
-  boundaries?: string;
-  cells: { count: number; indices: string; reported: string; true: string; false_positives: string; false_negatives: string };
-  lights: { indices: string; names: string[]; positions: string; ranges: string; spots: number; spot_axes: string; spot_half_angles: string };
-  pairs?: { lights: string; marks: string };
-}
-
-export interface Details {
-  max_bytes: number;
-  frames: DetailsFrame[];
-  left_out: { frames: number[]; pairs: number[]; not_on_path: number[] };
-}
+export type { Details };
+export type DetailsFrame = Details["frames"][number];
+export type Camera = DetailsFrame["camera"];
 
 export interface Light {
   name: string;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <string_view>
@@ -107,6 +108,25 @@ std::vector<std::pair<std::string, std::uint64_t>> caches_of(const std::filesyst
   }
   std::sort(caches.begin(), caches.end());
   return caches;
+}
+
+std::optional<ClockFacts> clock_of(std::istream& cpuinfo, const std::filesystem::path& folder) {
+  double sum_mhz = 0.0, count = 0.0;
+  for (std::string line; std::getline(cpuinfo, line);)
+    if (const std::size_t colon = line.find(':'); line.starts_with("cpu MHz") && colon != std::string::npos) {
+      sum_mhz += std::atof(line.c_str() + colon + 1);
+      ++count;
+    }
+  const double first_khz = std::atof(first_line(folder / "scaling_cur_freq").c_str()),
+               most_khz = std::atof(first_line(folder / "cpuinfo_max_freq").c_str());
+  ClockFacts clock{sum_mhz > 0.0 ? sum_mhz / count : first_khz / 1e3, {}};
+  if (most_khz > 0.0) clock.most_mhz = most_khz / 1e3;
+  return clock.now_mhz > 0.0 ? std::optional(clock) : std::nullopt;
+}
+
+std::optional<double> load_of(std::istream& loadavg) {
+  double minute = 0.0;
+  return loadavg >> minute ? std::optional(minute) : std::nullopt;
 }
 
 }  // namespace clusterbench::run

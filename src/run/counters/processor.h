@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <istream>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,5 +23,17 @@ Processor processor_of(std::istream& cpuinfo);
 // ("l1d", bytes), ("l1i", bytes), ("l2", bytes), ("l3", bytes), as far as known: of one core, of a folder like
 // /sys/devices/system/cpu/cpu0/cache.
 std::vector<std::pair<std::string, std::uint64_t>> caches_of(const std::filesystem::path& folder);
+
+// The clock when something was timed.
+struct ClockFacts {
+  double now_mhz = 0.0;            // mean of all cores
+  std::optional<double> most_mhz;  // that the system allows the first core
+};
+
+// Of a /proc/cpuinfo, and of a folder like /sys/devices/system/cpu/cpu0/cpufreq. None where the first does not say.
+std::optional<ClockFacts> clock_of(std::istream& cpuinfo, const std::filesystem::path& folder);
+
+// The mean of the last minute in a /proc/loadavg.
+std::optional<double> load_of(std::istream& loadavg);
 
 }  // namespace clusterbench::run

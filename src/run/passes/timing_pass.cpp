@@ -187,7 +187,7 @@ std::vector<TimingResult> timing_pass(const config::Config& config, const GroupP
   for (std::size_t place = 0; place < timings.size(); ++place) {
     const std::size_t first = reference_of(group, place);
     if (group.cases[first].method() == group.cases[place].method()) continue;
-    timings[place].vs =
+    timings[place].against_first =
         Versus{method_label(config, group.cases[first].method()),
                measure::paired_ratio(timings[place].frame_ns.samples, timings[first].frame_ns.samples, config.seed)};
   }

@@ -1,0 +1,10 @@
+// Tables of several results say of each row whose it is.
+
+import type { Case } from "./model.ts";
+import type { Column } from "./table.ts";
+import type { View } from "./view.ts";
+
+export function ofRuns<Row extends { one: Case }>(view: View, columns: Column<Row>[]): Column<Row>[] {
+  const [first, ...others] = columns;
+  return view.hasRuns ? [first!, { label: "result", value: ({ one }) => one.run.label }, ...others] : columns;
+}

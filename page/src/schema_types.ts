@@ -1,0 +1,418 @@
+// Made by types.mjs of src/config/schemas/result.schema.json: change that, and run `node types.mjs`.
+
+export type Tool = {
+  version: string; // Of clusterbench
+  git_sha: string; // Commit that was built; with + where files differed from it
+  compiler: string; // Name and version
+  flags: string; // The compiler's
+  build_type: string; // CMake's; only Release gives times worth comparing
+  simd_target: string; // Instruction set that Highway chose
+  libraries: Record<string, string>; // Version of each
+};
+
+// Percentiles are nearest-rank: values that occur
+export type Spread = {
+  mean: number | null; // Arithmetic mean
+  p50: number | null; // Median
+  p95: number | null; // 95th percentile
+  p99: number | null; // 99th percentile
+  max: number | null; // Largest
+};
+
+export type MeanMax = {
+  mean: number | null; // Arithmetic mean
+  max: number | null; // Largest
+};
+
+export type HighWater = {
+  high_water: number; // Largest of all frames
+  theoretical_max: number; // Where every light reached every cell
+  recommended: number; // What to allocate: high water x allocation.margin of the configuration, at most theoretical_max
+};
+
+// Cell as [x, y, z]
+export type Cell = [number, number, number];
+
+// 95 % bootstrap interval, [low, high]
+export type Interval = [number | null, number | null];
+
+// [x, y, z]
+export type Vector = [number, number, number];
+
+// More than 1 on paths of more than 512 frames: an entry is the largest of so many
+export type FramesPerEntry = number;
+
+export type Churn = {
+  total: number; // Of all steps
+  mean: number | null; // Per step
+  max: number; // In the step with most
+};
+
+export type Time = {
+  median: number | null; // Median
+  mad: number | null; // Median absolute deviation
+  min: number | null; // Of the fastest round
+  p95: number | null; // 95th percentile
+  ci95: Interval; // 95 % bootstrap interval of the median
+  samples: Array<number | null>; // One per round, in the order measured
+};
+
+export type PerFrame = {
+  assign: number; // Of the assignment, with the builds that the frames need
+  convert?: number; // Of the conversion to the storage; absent where a method leaves its own structure
+};
+
+// What `clusterbench run` writes. x-unit and x-over of a number, or of what holds it: its unit, and what it is taken over. null: not a number.
+export type Result = {
+  schema_version: 2; // Grows whenever a name or a meaning changes [version, over the file]
+  name: string; // Of the configuration
+  date?: string; // When the run began: UTC, ISO 8601. Absent where nothing is timed, so that such results are the same whenever they are made
+  command?: string; // The command line. Absent where nothing is timed
+  tool: Tool; // The program that measured
+  baseline?: {
+    tool: Tool; // As of this result's own program
+  }; // The other program of run --baseline-binary
+  machine: {
+    cpu: string; // The processor's name
+    family?: string; // The vendor's number, on ARM the implementer's; absent if unknown
+    model?: string; // On ARM the part; absent if unknown
+    stepping?: string; // On ARM variant and revision, r3p1; absent if unknown
+    caches?: Record<string, number>; // Those that the first core uses; absent if unknown
+    cores: number; // Logical ones [cores, over the machine]
+    ram_bytes: number; // Main memory [bytes, over the machine]
+    clock_mhz?: {
+      now: number; // Mean when the run began [over all cores]
+      max?: number; // The highest that the system allows; absent if it does not say [over the first core]
+    }; // The processor's clock; absent if unknown, and where nothing is timed [MHz]
+    load?: {
+      begin: number; // Just before the run
+      end: number; // Just after; a run adds its own threads
+    }; // How busy the machine was: programs that run or wait to. Absent where nothing is timed [programs, over one minute, the machine]
+    os: string; // System, kernel and architecture
+  }; // Where it was measured
+  config: Record<string, unknown>; // The configuration with every default (`clusterbench schema config`)
+  scenes: Array<{
+    name: string; // As in the names of cases: the file's, without its extension
+    sha256: string; // Of the file, with all that it refers to; of a made scene, of what it was made from
+    lights: {
+      point: number; // Point lights
+      spot: number; // Spot lights
+      directional: number; // Directional lights: they reach everything and are never assigned
+      box: number; // Oriented boxes, from extras
+    }; // By type [lights, over the scene]
+    frames: number; // Over all camera paths [frames, over the scene]
+    range_rule: {
+      cutoff_lux: number | null; // A light without a range ends where its illuminance falls to this [lux, over each light]
+      max_range: number | null; // And no later than this [m, over each light]
+      given: number; // With a range in the file [lights, over the scene]
+      from_intensity: number; // Without one: it is made from the intensity [lights, over the scene]
+      clamped: number; // With a range that was cut to max_range [lights, over the scene]
+    }; // Where lights' ranges come from
+    warnings: string[]; // For people: what is odd about the scene
+    rig?: {
+      lights: number; // How many [lights, over the scene]
+      spots: number; // Share of spots [share of 1, over the lights]
+      range: number; // Of each light [m, over each light]
+      size: [number, number, number]; // Of the room, [x, y, z] [m, over the scene]
+      seed: number; // Of the random numbers [seed, over the scene]
+    }; // What it was made from, where it is no file
+  }>;
+  cases: Array<{
+    id: string; // Stable over runs and machines: hash of everything that identifies the case
+    settings?: string; // The same but for the contents of the scene's file: stable while a level changes
+    name: string; // scene/camera/grid/assigner/storage, and the precision where it is not float32
+    scene: string; // Name of one of scenes
+    camera: string; // Name in the scene, or of the path that was made
+    viewport: [number, number]; // [width, height] [pixels, over the case]
+    frames: number; // Of the camera's path [frames, over the case]
+    grid: {
+      kind: "frustum" | "distance" | "cascades" | "world"; // How space is cut: docs/grids-and-lookups.md
+      name: string; // Kind, tiles and slices in words, as in names of cases
+      cells: [number, number, number]; // How many, [x, y, z]; of cascades, of all levels behind each other in z [cells, over the grid]
+      tiles?: {
+        count?: [number, number]; // [columns, rows] of the screen [tiles, over the screen]
+        pixels?: [number, number]; // [width, height] of a tile [pixels, over one tile]
+      }; // One of the two, as asked for. frustum, distance
+      slices?: {
+        scheme: string; // As the configuration has it
+        boundaries: number[]; // Near to far, one more than slices: of depth, of distance grids of the distance from the eye [m, over the grid]
+        lookup: {
+          form: "linear" | "log2" | "search"; // slice = int(depth * scale + bias), int(log2(depth) * scale + bias), or a search in boundaries
+          scale?: number; // Factor of the lookup [slices per m, or per doubling, over the grid]
+          bias?: number; // Added after it [slices, over the grid]
+          first?: number; // Depth below which a sample is in slice 0, where that is cut apart [m, over the grid]
+        }; // A shader's way from depth to slice
+      }; // frustum, distance
+      note?: string; // What else to know of the slices
+      levels?: number; // Nested boxes. cascades [levels, over the grid]
+      finest?: number; // Edge of a cell of the first level; each further level doubles it. cascades [m, over the grid]
+      origin?: Vector; // World place of the grid's zero. world [m, over the grid]
+      bounds?: {
+        min: Vector; // Lowest corner
+        max: Vector; // Highest corner
+      }; // From the origin. world [m, over the grid]
+      cell_size?: Vector; // Mean edge of a cell. world [m, over the grid]
+    }; // The grid, with the constants of a shader's lookup
+    assigner: {
+      name: string; // As `clusterbench list` has it
+      label: string; // Name with the parameters that differ from their defaults
+      params: Record<string, unknown>; // All parameters, with their defaults
+      conservative: boolean; // Never misses a true pair; a miss fails the run. False on packed lights that are not inflated
+      exact: boolean; // And reports nothing that is not true
+    }; // The method that fills the lists
+    storage: string; // What the lists are kept in; own: the assigner leaves a light structure of its own, without lists
+    failures: Array<{
+      kind: "lost_pairs" | "extra_pairs" | "lost_at_samples" | "dropped_pairs"; // Of a conservative or exact method: lost_pairs in lists, lost_at_samples without cells. extra_pairs: of an exact one. dropped_pairs: beyond limits.dropped_pairs of the configuration
+      text: string; // For people, without the case's name
+    }>; // What the case fails its run for; none: it passes
+    warnings: Array<{
+      kind: "dropped_pairs" | "unlit" | "undecided" | "lost_pairs" | "unchecked"; // dropped_pairs: the storage was full. unlit: more than 0.001 of the lights that samples need are not given. undecided: pairs that exact arithmetic left open. lost_pairs: of a method that is not conservative. unchecked: no truth to hold the lists against
+      text: string; // For people, without the case's name
+    }>; // What to know of the case before its figures are believed, beside its failures
+    loses_lights: boolean; // Whether a shader lacks lights: pairs that are not listed or were dropped, lights that samples of a structure without cells miss, or more than 0.001 of those that samples need
+    eligible: boolean; // Whether it may stand on the Pareto front, and be the best that others are measured by: it fails nothing, drops nothing, and leaves at most 0.001 of the lights that samples need unlit
+    tests_done: number; // Over all frames: cells, rows of cells, lights or planes, whichever a method looks at one by one; a method that looks at many at a time counts otherwise than its scalar reference [tests, over all frames]
+    fallbacks: number; // That the method could not decide in single precision and decided at greater cost [pairs, over all frames]
+    occupancy?: {
+      pairs: Spread; // (cell, light) pairs of a frame [pairs, over all frames]
+      lights_per_cell: {
+        mean: number | null; // Arithmetic mean
+        p50: number | null; // Median
+        p95: number | null; // 95th percentile
+        p99: number | null; // 99th percentile
+        max: number | null; // Largest
+        histogram: {
+          lights_per_entry: number; // More than 1 where lists are longer than 255: an entry counts cells with this many lengths [lights, over the case]
+          cells: number[]; // [n]: cells with n * lights_per_entry lights, up to those of the next entry [cells]
+        }; // Cells by the length of their lists
+      }; // Lights in a cell's list; percentiles are nearest-rank [lights, over all cells of all frames]
+      occupied_fraction: Spread; // Share of the cells with a light [share of 1, over all frames]
+      worst_frame: number; // That has the longest list [frame, over the path]
+      worst_cell: Cell; // That has it
+      along_path: {
+        frames_per_entry: FramesPerEntry;
+        pairs: number[]; // Of the frame [pairs]
+        longest_list: number[]; // In the fullest cell of the frame [lights]
+      }; // Frame by frame [over each frame]
+    }; // How full the grid's cells are; absent without cells
+    buffers: {
+      index_entries: HighWater; // Entries of all lists [entries, over all frames]
+      bytes: HighWater; // Headers and indices [bytes, over all frames]
+      index_bits: number; // Of an entry: a light index, a word of a bitfield or of tile masks, a node of linked lists or of a hierarchy [bits, over one entry]
+      header_bytes: number; // Of bytes, those whose number does not depend on the lights: offsets and counts of the cells [bytes, over one frame]
+      upload_bytes: {
+        mean: number | null; // Per frame
+        max: number; // Of the frame with most
+      }; // What a frame would send to a GPU [bytes, over all frames]
+      used_share: MeanMax; // Entries that a frame uses, of index_entries.recommended [share of 1, over all frames]
+      overflow: {
+        dropped_pairs: number; // That the storage had no room for [pairs, over all frames]
+        cells: number; // In which pairs were dropped, counted in each frame [cells, over all frames]
+        frames: number; // In which pairs were dropped [frames, over all frames]
+        lights: number[]; // Indices of those that were dropped anywhere [light index, over all frames]
+      }; // What a full storage loses
+      scratch_bytes: number; // The assigner's own memory, the most it held [bytes, over all frames]
+      worst_frame: number; // That made the high-water mark [frame, over the path]
+      worst_cell?: Cell; // That has this frame's longest list; absent without cells
+      along_path: {
+        frames_per_entry: FramesPerEntry;
+        bytes: number[]; // Headers and indices of the frame [bytes]
+      }; // Frame by frame [over each frame]
+    }; // What to allocate
+    error?: {
+      true_pairs: number; // (cell, light) pairs that touch, decided exactly [pairs]
+      reported_pairs: number; // In the method's lists [pairs]
+      false_positives: number; // Reported and not true [pairs]
+      false_negatives: number; // True and not reported [pairs]
+      excess_ratio: number | null; // false_positives / true_pairs [share of 1]
+      miss_ratio: number | null; // false_negatives / true_pairs [share of 1]
+      deepest_miss: number | null; // Largest 1 - d/r: the cell's distance from the light d, its range r. 0 without misses [share of the light's range, over the misses]
+      undecided: number; // Pairs for which neither a common point nor a separation could be proven; counted as true [pairs]
+      frames_checked: number; // Whose lists were held against the truth [frames]
+      decided: {
+        filter: number; // By double precision
+        exact: number; // Decided or proven in exact arithmetic
+      }; // How the truth was found [pairs]
+      deepest?: {
+        frame: number; // Of the path [frame, over one miss]
+        cell: Cell;
+        light: number; // Index in the lists [light index, over one miss]
+        rig_light: number; // Its place among all lights of the scene [light index, over one miss]
+        light_name: string; // In the scene
+      }; // The deepest miss; absent without misses
+    }; // Lists against the truth; absent without cells, and where it is not asked for [over all frames]
+    shading?: {
+      samples: number; // Points in the view, at random pixels and depths [samples]
+      evaluated: number; // Lights that the light structure gives at the samples [lights]
+      needed: number; // Lights that reach the samples [lights]
+      missed: number; // Of those, not given by the light structure, whatever the reason: no pair, dropped, or outside of the grid [lights]
+      lost_irradiance: number | null; // Share of the irradiance (lux, on a surface that faces the light) that missed lights carry: intensity times the colour's luminance (Rec. 709), attenuated as KHR_lights_punctual has it, with the range's window and a spot's falloff. Without directional lights [share of 1]
+      missed_in_cells?: number; // Of missed, at samples inside of the grid: the cell lacks the light, or its storage dropped it [lights]
+      missed_outside?: number; // Of missed, at samples outside of the grid, mostly beyond its far end [lights]
+      unlit: number | null; // missed / needed, 0 to 1; null where nothing is needed [share of 1]
+      worst_frame?: {
+        frame: number; // Of the path [frame, over one frame]
+        missed: number; // At this frame's samples [lights, over one frame]
+        needed: number; // At this frame's samples [lights, over one frame]
+      }; // The frame that misses most; absent where none is missed
+      overshade: number | null; // evaluated / needed over all samples; null where it cannot be compared: fewer than 100 lights are needed, or more than 0.001 of them are missed [ratio]
+    }; // What a shader at the samples would loop over [over the samples of all frames]
+    lookup?: Array<{
+      logarithm: "rounded" | "glsl" | "fast"; // How the lookup took its logarithm; glsl: at either end of what is allowed
+      depth: "given" | "d32f" | "d24"; // Where its depth came from
+      samples: number; // Over all frames [samples]
+      needed: number; // Lights that reach the samples [lights]
+      missed: number; // Of those, not in what the lookup found [lights]
+      wrong_samples: number; // Samples that miss a light [samples]
+      safe_padding_ulps: number; // By so many ulps slices must reach over their boundaries to hold every depth that is looked up in them [ulps]
+    }>; // A shader's lookup on samples, once per logarithm and depth [over the samples of all frames]
+    stability?: {
+      steps: number; // Steps taken: fewer than asked for where the path ends or the camera stands still [steps, over the piece of the path]
+      step_m: number | null; // Largest move of the camera in one step [m, over the steps]
+      step_deg: number | null; // Largest turn of the camera in one step, in degrees [degrees, over the steps]
+      window: number; // Steps within which a change back is a flicker [steps, over the case]
+      from_frame: number; // Frame of the path where the steps begin [frame, over the path]
+      drift: boolean; // The camera stands still and was moved artificially, as path says
+      path: string; // Where the steps come from
+      grids: number; // Grids made along the steps; with more than one, cells themselves move [grids, over the steps]
+      changed: {
+        method: Churn; // Of the assigner's lists
+        truth: Churn; // Of the true lists
+      }; // Pairs (cell, light) added or removed from one step to the next
+      flickers: {
+        method: number; // Of the assigner's lists
+        truth: number; // Of the true lists
+      }; // Changes that undo the same pair's change at most `window` steps before, over all steps [changes, over the steps]
+      excess_churn: {
+        pairs: number; // Below 0 where the truth has more [pairs]
+        ratio: number | null; // By the truth's; null where the truth has none [ratio]
+      }; // Changes of the method less those of the truth [over the steps]
+      excess_flickers: {
+        count: number; // Below 0 where the truth has more [changes]
+        ratio: number | null; // By the truth's; null where the truth has none [ratio]
+      }; // Flickers of the method less those of the truth [over the steps]
+      undecided: number; // Pairs of the truth that 256 bits left open, over all steps; counted as true [pairs, over the steps]
+    }; // Lists along a piece of the path in fine steps, beside the true lists; where the configuration asks for it
+    precision?: {
+      packing: "float32" | "half" | "unorm16"; // How lights are packed before the assigner sees them
+      inflate: boolean; // Each light is grown by what packing can have lost. Without it a packed case's assigner is not conservative, and misses do not fail the run
+      label: string; // The packing, and +inflate
+      position_error_m: MeanMax; // Of the place after unpacking, against the scene's own numbers, over all lights of all frames [m, over the lights of all frames]
+      range_error_m: MeanMax; // By how much ranges are too long: they are rounded up [m, over the lights of all frames]
+      axis_error_rad: MeanMax; // Of spots; null where there is none [rad, over the spots of all frames]
+      angle_error_rad: MeanMax; // Of the spots' half-angle; null where there is none [rad, over the spots of all frames]
+      safe_inflation_m: MeanMax; // How far a packed volume can be from the exact one, from the unpacked numbers alone: bound of the place, and for spots the bounds of axis and angle times the range. Growing by it is enough [m, over the lights of all frames]
+      unrepresentable: {
+        lights: number; // Most in one frame [lights, over all frames]
+        frames: number; // With at least one [frames, over all frames]
+      }; // Lights that the format cannot hold: without end; in half a coordinate or range beyond 65504 m. They stay in float32 here; an engine's conversion makes them infinite or cuts them off
+      extra_pairs?: {
+        mean: number | null; // Per frame [pairs, over all frames]
+        ratio: number | null; // By those in float32 [ratio, over all frames]
+      }; // Pairs against the same case in float32; null where there is none
+    }; // How precisely the assigner gets its lights; where the configuration asks for more than float32
+    timing?: {
+      frames_timed: number; // Evenly spaced over the path; all times are means over them [frames, over the path]
+      frame_ns: Time; // Per frame: what a frame takes, assign_ns and convert_ns of the same round together
+      worst_frame?: {
+        frame: number; // Of the path [frame, over the path]
+        ns: number | null; // As frame_ns, of this frame: its share of a pass over the timed frames, median over the rounds [ns, over the rounds]
+        ci95: Interval; // Of ns [ns, over the rounds]
+        pairs?: number; // (cell, light) of this frame; absent without cells [pairs, over one frame]
+      }; // The slowest of the timed frames
+      pairs?: {
+        mean: number | null; // Per frame
+        max: number; // Of a frame
+      }; // (cell, light) pairs of the timed frames, which frame_ns goes with; absent without cells [pairs, over the timed frames]
+      builds_per_frame?: number; // 0: the grid stays from frame to frame; 1: each frame has its own, as with fit slices or a projection that moves [builds, over the timed frames]
+      build_ns: Time; // Per build: preparing for a grid, once for each projection
+      assign_ns: Time; // Per frame: assignment, mean over the timed frames, with the builds of builds_per_frame
+      convert_ns?: Time; // Per frame: from lists to the layout of the storage; absent where a method leaves its own structure
+      ns_per_pair: number | null; // frame_ns.median / pairs.mean; null without pairs in lists [ns, over the timed frames]
+      write_floor_ns: number | null; // Per frame: time to copy its finished lists once as the standard `packed` holds them, headers and indices, from buffers of the frame into others of the frame [ns, over the rounds]
+      floor_ratio: number | null; // assign_ns by write_floor_ns: how far the assignment is from only writing its result [ratio, over the rounds]
+      baseline?: {
+        launches: Array<{
+          base_ns: number[]; // Of the other program [ns, over the rounds of a launch]
+          new_ns: number[]; // Of this program [ns, over the rounds of a launch]
+        }>; // One for each start of both programs; times in the order of their rounds
+        base_ns: number | null; // Median [ns, over the rounds of all launches]
+        new_ns: number | null; // Median [ns, over the rounds of all launches]
+        ratio: number | null; // New / base: geometric mean of the launches' medians of paired ratios [ratio, over the launches]
+        ci95: Interval; // Of the ratio [ratio, over the launches]
+        lists_differ?: {
+          frames: number; // How many differ [frames, over all frames]
+          frame: number; // The first of them [frame, over the path]
+          cell: Cell; // The first that differs
+          light: number; // That one of both lists has [light index, over one cell]
+          in: "base" | "new"; // Whose list has the light
+          base_pairs: number; // Of the other program [pairs, over all frames]
+          new_pairs: number; // Of this program [pairs, over all frames]
+        }; // Where both programs' lists first differ
+      }; // Rounds beside another program (run --baseline-binary)
+      against_first?: {
+        assigner: string; // Label of the first assigner
+        ratio: number | null; // This case's frame time by that of the group's first assigner in the same storage: median of the rounds' ratios [ratio, over the rounds]
+        ci95: Interval; // Of the ratio [ratio, over the rounds]
+      }; // How much longer than the group's first assigner; absent of that one. A group: scene, camera, viewport and grid
+    }; // Wall times
+    details?: {
+      max_bytes: number; // What the configuration allows [bytes, over the case]
+      frames: Array<{
+        frame: number; // Of the path [frame, over the path]
+        time_s: number; // Of the animation [s, over the frame]
+        camera: {
+          eye: [number, number, number]; // World space [m, over the frame]
+          view_from_world: [[number, number, number], [number, number, number], [number, number, number]]; // Rows of the rotation: view = rotation (world - eye), looking down -z [1, over the frame]
+          orthographic: boolean; // Or perspective
+          sides: [number, number, number, number]; // Left, right, bottom, top of the image: slopes, or metres of an orthographic camera [slope, or m, over the frame]
+          near_m: number; // Near plane [m, over the frame]
+          far_m: number | null; // Far plane; null: infinite [m, over the frame]
+        }; // Pose and projection
+        boundaries?: string; // Of the slices, where they are not those of the case's grid
+        cells: {
+          count: number; // Cells with a reported or a true light; all others are empty [cells, over the frame]
+          indices: string; // Gaps of their indices, x fastest, then y, then z
+          reported: string; // Lights in each cell's list
+          true: string; // Lights that reach it
+          false_positives: string; // Reported and not true
+          false_negatives: string; // True and not reported
+        }; // Rows of count numbers each. A row of numbers is a text: numbers stand apart by a blank, N*K is N repeated K times. Gaps: the first number, then what each is above the one before
+        lights: {
+          indices: string; // Gaps of their indices in the lists
+          names: string[]; // In the scene, in the order of indices
+          positions: string; // x y z in view space
+          ranges: string; // In metres; Infinity: without end
+          spots: number; // So many of them, the last ones, are spots [lights, over the frame]
+          spot_axes: string; // x y z in view space
+          spot_half_angles: string; // In radians
+        }; // Lights in any list of the frame, reported or true, ascending by index; as rows of numbers
+        pairs?: {
+          lights: string; // Cell after cell (reported + false_negatives each) the gaps of its lights' indices, which start again in each cell
+          marks: string; // 0: reported and true, 1: false positive, 2: false negative
+        }; // Each cell's lights; missing where lists are not asked for or left out
+      }>;
+      left_out: {
+        frames: number[]; // Frames for which max_bytes has no room [frame, over the path]
+        pairs: number[]; // Frames that are here without their pairs, for which max_bytes has no room [frame, over the path]
+        not_on_path: number[]; // Frames that the configuration names and the path does not have [frame, over the path]
+      }; // What is asked for and not here
+    }; // Chosen frames cell by cell
+    count?: {
+      source: "perf" | "callgrind"; // Hardware counters or valgrind's callgrind; compare counts of one source only
+      simd_target: string; // Of the counted code; callgrind shows a program fewer instruction sets than the machine has
+      frames: number; // The same that are timed [frames, over the path]
+      instructions_per_build: number; // Preparation for a grid; as it may take memory, some tens of instructions depend on the heap [instructions, over one build]
+      instructions_per_frame: PerFrame; // Instructions of one frame [instructions]
+      cycles_per_frame?: PerFrame; // Cycles of one frame; absent where only instructions are counted [cycles]
+    }; // Instructions of what is timed, with --count
+  }>; // One method on one grid in one storage, along one camera's path
+  pareto_front: Array<{
+    scene: string; // Name of one of scenes
+    ids: string[]; // Of its cases, in their order
+  }>; // Per scene the cases on the Pareto front: no other one of the same camera, viewport and precision is as good in frame time (beyond the intervals), bytes and overshade together, and better in one. Only cases that are eligible
+  skipped: Array<{
+    name: string; // As of a case; its parts that all combinations share
+    reason: string; // For people
+  }>; // Combinations that cannot be
+};

@@ -1,0 +1,54 @@
+// Writes the types of a result into src/schema_types.ts from its JSON Schema: node types.mjs [--check]. With --check it
+// only says whether they are up to date.
+
+import { readFileSync, writeFileSync } from "node:fs";
+import { fileURLToPath } from "node:url";
+
+const here = (path) => fileURLToPath(new URL(path, import.meta.url));
+const schema = JSON.parse(readFileSync(here("../src/config/schemas/result.schema.json"), "utf8"));
+const into = here("src/schema_types.ts");
+
+const nameOf = (definition) => definition.replace(/(^|_)(\w)/g, (_, before, letter) => letter.toUpperCase());
+const simple = { integer: "number", number: "number", string: "string", boolean: "boolean", null: "null" };
+
+function commentOf({ description, "x-unit": unit, "x-over": over }) {
+  const measure = [unit, over && `over ${over}`].filter(Boolean).join(", ");
+  const text = [description, measure && `[${measure}]`].filter(Boolean).join(" ");
+  return text ? ` // ${text}` : "";
+}
+
+function arrayType(part, indent) {
+  const items = typeOf(part.items, indent);
+  if (part.minItems !== undefined && part.minItems === part.maxItems) return `[${Array(part.minItems).fill(items).join(", ")}]`;
+  return /[ |{]/.test(items) ? `Array<${items}>` : `${items}[]`;
+}
+
+function objectType(part, indent) {
+  if (!part.properties) return `Record<string, ${part.additionalProperties ? typeOf(part.additionalProperties, indent) : "unknown"}>`;
+  const required = new Set(part.required);
+  const members = Object.entries(part.properties).map(
+    ([name, member]) => `${indent}  ${name}${required.has(name) ? "" : "?"}: ${typeOf(member, `${indent}  `)};${commentOf(member)}\n`,
+  );
+  return `{\n${members.join("")}${indent}}`;
+}
+
+function typeOf(part, indent = "") {
+  if (part.$ref) return nameOf(part.$ref.replace("#/definitions/", ""));
+  if ("const" in part) return JSON.stringify(part.const);
+  if (part.enum) return part.enum.map((value) => JSON.stringify(value)).join(" | ");
+  if (Array.isArray(part.type)) return part.type.map((type) => simple[type]).join(" | ");
+  if (part.type === "array") return arrayType(part, indent);
+  return part.type === "object" ? objectType(part, indent) : simple[part.type];
+}
+
+const types = Object.entries({ ...schema.definitions, result: schema }).map(
+  ([name, part]) => `${part.description ? `// ${part.description}\n` : ""}export type ${nameOf(name)} = ${typeOf(part)};\n`,
+);
+const text = `// Made by types.mjs of src/config/schemas/result.schema.json: change that, and run \`node types.mjs\`.\n\n${types.join("\n")}`;
+
+if (!process.argv.includes("--check")) {
+  writeFileSync(into, text);
+} else if (readFileSync(into, "utf8") !== text) {
+  console.error("page/src/schema_types.ts is not what the schema says: run `node types.mjs` in page/");
+  process.exit(1);
+}

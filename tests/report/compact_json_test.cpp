@@ -1,0 +1,60 @@
+#include "report/compact_json.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "report/json.h"
+#include "report/result_by_hand.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::vector<std::string> lines_of(const Json& value) {
+  std::istringstream in(compact_json(value));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(CompactJson, is_the_same_value) {
+  const Json result = result_to_json(testing::judged(testing::result_by_hand()), {});
+  EXPECT_EQ(Json::parse(compact_json(result)), result);
+  EXPECT_EQ(compact_json(Json::object()), "{}\n");
+  const Json odd{{"a \"b\"", nullptr}, {"none", Json::array()}, {"text", "line\nfeed, {brace}"}};
+  EXPECT_EQ(Json::parse(compact_json(odd)), odd);
+}
+
+TEST(CompactJson, has_a_line_for_each_list_of_values_however_long) {
+  Json one{{"name", std::string(100, 'x')}, {"samples", std::vector<double>(1000, 0.5)}, {"after", 1}};
+  const std::vector<std::string> lines = lines_of(one);
+  ASSERT_EQ(lines.size(), 5u);
+  EXPECT_EQ(std::count(lines[2].begin(), lines[2].end(), ','), 1000);
+  EXPECT_EQ(lines[3], " \"after\": 1");
+}
+
+TEST(CompactJson, fills_lines_of_120_columns_with_short_members) {
+  Json one;
+  for (int i = 0; i < 40; ++i) one["member" + std::to_string(i)] = {{"mean", i}, {"max", nullptr}};
+  const std::vector<std::string> lines = lines_of(one);
+  EXPECT_LT(lines.size(), 20u);
+  for (const std::string& line : lines) EXPECT_LE(line.size(), 120u) << line;
+}
+
+TEST(CompactJson, begins_each_of_several_objects_in_a_line_of_its_own) {
+  const Json case_like{{"id", "one"}, {"text", std::string(130, 'x')}};
+  const std::vector<std::string> lines = lines_of(Json{{"cases", {case_like, case_like}}});
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), "  {"), 2);
+}
+
+TEST(CompactJson, of_a_result_is_a_fraction_of_one_number_a_line) {
+  const Json result = result_to_json(testing::result_by_hand(), {});
+  const std::string indented = result.dump(1), text = compact_json(result);
+  EXPECT_LT(4 * std::count(text.begin(), text.end(), '\n'), std::count(indented.begin(), indented.end(), '\n'));
+}
+
+}  // namespace
+}  // namespace clusterbench::report
