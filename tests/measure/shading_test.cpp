@@ -269,6 +269,24 @@ TEST(Shading, a_missed_light_of_a_centimetre_weighs_what_it_gives) {
   }
 }
 
+// Places in the view, in front of the eye: within a light's range by a tenth of it, and beyond it by three centimetres.
+std::vector<grid::Sample> samples_at_ends_of_lights(const view::Frame& frame, SplitMix64& random) {
+  std::vector<grid::Sample> samples;
+  const view::Projection& lens = frame.projection;
+  for (const scene::WorldLight& light : frame.lights)
+    for (int i = 0; i < 80; ++i) {
+      const Vec3d towards{random.between(-1.0, 1.0), random.between(-1.0, 1.0), random.between(-1.0, 1.0)};
+      const double distance = i % 2 == 0 ? 0.9 * light.range_m : light.range_m + 0.03;
+      const Vec3d from_eye = light.position - frame.view_space.origin + distance * glm::normalize(towards);
+      const Vec3d place = frame.view_space.rotation * from_eye;
+      const double x = (-place.x / place.z - lens.left) / (lens.right - lens.left) * frame.viewport.x;
+      const double y = (lens.top + place.y / place.z) / (lens.top - lens.bottom) * frame.viewport.y;
+      const bool is_in_view = place.z < -1.0 && x > 0.0 && x < frame.viewport.x && y > 0.0 && y < frame.viewport.y;
+      if (is_in_view) samples.push_back(sample_at(frame, x, y, -place.z));
+    }
+  return samples;
+}
+
 // Where a double holds decimetres, true lists miss nothing.
 TEST(Shading, true_lists_miss_nothing_far_from_the_origin) {
   for (const grid::Kind kind : {grid::Kind::frustum, grid::Kind::distance, grid::Kind::cascades, grid::Kind::world}) {
@@ -281,21 +299,21 @@ TEST(Shading, true_lists_miss_nothing_far_from_the_origin) {
     }
     grid::GridSpec spec;
     spec.kind = kind;
-    spec.tiles.count = {16, 8};
+    spec.tiles.count = {64, 32};  // cells of some decimetres
     spec.slices.scheme = grid::Scheme::linear;
-    spec.slices.count = 32;
+    spec.slices.count = 128;
     spec.slices.far_m = 64.0;
-    spec.cells = {32, 16, 32};
+    spec.cells = {64, 64, 64};
     spec.finest_m = 0.5;
     spec.has_bounds = true;
-    spec.bounds_lo_m = frame.view_space.origin - Vec3d(40.0, 20.0, 40.0);
+    spec.bounds_lo_m = frame.view_space.origin - Vec3d(48.0, 20.0, 40.0);
     spec.bounds_hi_m = frame.view_space.origin + Vec3d(2.0, 20.0, 40.0);
     const grid::Grid grid = grid::make_grid(spec, grid::grid_inputs(spec, frame, 0.0, {}, {}));
-    const std::vector<grid::Sample> samples = volume_samples(frame, 30.0, 4000, 1);
+    const std::vector<grid::Sample> samples = samples_at_ends_of_lights(frame, random);
     ShadingCounts counts;
     add_frame(counts, frame, samples, lights_reaching(frame, samples),
               *packed_lists(find_truth(frame, grid, 1).lists, grid, frame));
-    EXPECT_GT(counts.needed, 100u);
+    EXPECT_GT(counts.needed, 1000u);
     EXPECT_EQ(counts.missed, 0u) << grid::kind_name(kind);
   }
 }
