@@ -4,13 +4,14 @@
 
 #include "cli/commands.h"
 #include "cli/output.h"
+#include "core/text.h"
 
 int main(int argc, char** argv) {
   using clusterbench::ExitCode;
   try {
     return clusterbench::cli::run_command_line(argc, argv);
   } catch (const clusterbench::Error& error) {
-    clusterbench::cli::tell(error.what());
+    clusterbench::cli::tell(clusterbench::printable(error.what()));  // one line, whatever names it holds
     return static_cast<int>(error.code());
   } catch (const std::exception& error) {
     clusterbench::cli::tell(std::string("internal error: ") + error.what());

@@ -61,7 +61,7 @@ ExitCode info(const std::string& path, const scene::RangeRule& rule, bool as_jso
   scene::resolve_ranges(scene, rule);
   const scene::Summary summary = scene::summarise(scene);
   if (as_json)
-    std::cout << to_json(scene, summary).dump(2) << "\n";
+    std::cout << printable_json(to_json(scene, summary).dump(2)) << "\n";
   else
     print(scene, summary);
   return ExitCode::ok;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <vector>
 
 namespace clusterbench {
@@ -65,6 +66,24 @@ std::string without_controls(std::string_view text, bool keep_lines) {
 }
 
 }  // namespace
+
+std::string printable_json(std::string_view json) {
+  std::string out;
+  out.reserve(json.size());
+  while (!json.empty()) {
+    std::uint32_t code = 0;
+    const std::size_t size = std::max<std::size_t>(character_bytes(json, code), 1);
+    if (code >= 0x7F && is_obeyed(code)) {
+      char escaped[16];
+      std::snprintf(escaped, sizeof escaped, "\\u%04x", code);
+      out += escaped;
+    } else {
+      out += json.substr(0, size);
+    }
+    json.remove_prefix(size);
+  }
+  return out;
+}
 
 std::string shell_command(std::span<const std::string> words) {
   constexpr std::string_view k_plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:@%+,";

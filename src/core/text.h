@@ -31,6 +31,9 @@ std::string shell_command(std::span<const std::string> words);
 std::string printable(std::string_view text);
 // The same, but line feeds stay.
 std::string printable_lines(std::string_view text);
+// JSON with such characters in its strings as \\uXXXX: the same document, safe to print. Control characters below
+// U+0020 are escaped in any JSON.
+std::string printable_json(std::string_view json);
 
 // Lower-case hexadecimal SHA-256 of the bytes.
 std::string sha256_hex(std::string_view bytes);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/text.h"
+
 namespace clusterbench::report {
 namespace {
 
@@ -88,7 +90,7 @@ class Writer {
 std::string compact_json(const Json& value) {
   Writer writer;
   writer.append(value, 0);
-  return writer.text + "\n";
+  return printable_json(writer.text) + "\n";
 }
 
 }  // namespace clusterbench::report

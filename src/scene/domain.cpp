@@ -1,5 +1,6 @@
 #include "scene/domain.h"
 
+#include <cmath>
 #include <cstdio>
 #include <set>
 
@@ -10,6 +11,7 @@ namespace clusterbench::scene {
 namespace {
 
 std::string number_text(double value) {
+  if (std::isnan(value)) return "nan";  // whatever its sign
   char text[32];
   std::snprintf(text, sizeof text, "%.9g", value);
   return text;
@@ -23,10 +25,17 @@ bool is_in_domain(const Vec3d& p) {
   return geom::is_in_domain(p.x) && geom::is_in_domain(p.y) && geom::is_in_domain(p.z);
 }
 
-std::string node_place(const Scene& scene, const Light& light) {
-  const bool is_known = light.node >= 0 && static_cast<std::size_t>(light.node) < scene.nodes.size();
-  const int node = is_known ? scene.nodes[static_cast<std::size_t>(light.node)].gltf_index : -1;
-  return node < 0 ? "light '" + light.name + "'" : "/nodes/" + std::to_string(node);
+// Where the file has it; "" if it does not.
+std::string node_place(const Scene& scene, int index) {
+  const bool is_known = index >= 0 && static_cast<std::size_t>(index) < scene.nodes.size();
+  const int node = is_known ? scene.nodes[static_cast<std::size_t>(index)].gltf_index : -1;
+  return node < 0 ? "" : "/nodes/" + std::to_string(node);
+}
+
+std::string camera_place(const Scene& scene, const std::string& name) {
+  for (const Camera& camera : scene.cameras)
+    if (camera.name == name) return node_place(scene, camera.node);
+  return "";
 }
 
 [[noreturn]] void refuse(const Scene& scene, const std::string& where, const std::string& what, double time_s) {
@@ -42,17 +51,20 @@ void check_domain(const Scene& scene, std::span<const WorldLight> lights, double
     const Light& source = scene.lights.at(static_cast<std::size_t>(light.rig_index));
     const std::string subject = "the light '" + source.name + "' ";
     if (!has_place)
-      refuse(scene, node_place(scene, source),
+      refuse(scene, node_place(scene, source.node),
              subject + "stands at " + place_text(light.position) + ", farther from the origin than " +
                  number_text(geom::k_farthest_m) + " m along an axis",
              time_s);
-    refuse(scene, node_place(scene, source),
+    refuse(scene, node_place(scene, source.node),
            subject + "has a range of " + number_text(light.range_m) + " m, and 0 or more is allowed", time_s);
   }
 }
 
-void check_domain(const Scene& scene, const Shot& shot) {
-  const auto fail = [&](const std::string& what) { refuse(scene, "camera", what, shot.time_s); };
+void check_domain(const Scene& scene, const std::string& camera, const Shot& shot) {
+  const auto fail = [&](const std::string& what) {
+    refuse(scene, camera_place(scene, camera), "the camera " + (camera.empty() ? "" : "'" + camera + "' ") + what,
+           shot.time_s);
+  };
   if (!is_in_domain(shot.pose.eye))
     fail("stands at " + place_text(shot.pose.eye) + ", farther from the origin than " +
          number_text(geom::k_farthest_m) + " m along an axis");
@@ -64,7 +76,7 @@ void check_domain(const Scene& scene, const Shot& shot) {
 void check_domain(const Scene& scene, const CameraPath& path) {
   std::set<double> times;
   for (const Shot& shot : path.shots) {
-    check_domain(scene, shot);
+    check_domain(scene, path.camera, shot);
     const bool is_first = times.empty();
     if (times.insert(shot.time_s).second && (is_first || !scene.channels.empty() || !scene.light_channels.empty()))
       check_domain(scene, world_lights(scene, shot.time_s), shot.time_s);

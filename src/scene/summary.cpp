@@ -203,7 +203,7 @@ void look_through(const Scene& scene, double time_s, const std::vector<std::size
     const Camera& camera = scene.cameras[index];
     const CameraProjection projection = projection_at(scene, camera, time_s);
     const View view{camera_pose(world[static_cast<std::size_t>(camera.node)]), projection, largest_view(projection)};
-    check_domain(scene, Shot{time_s, view.pose, projection});
+    check_domain(scene, camera.name, Shot{time_s, view.pose, projection});
     std::erase_if(unseen, [&](const WorldLight& light) {
       const auto place = static_cast<std::size_t>(light.rig_index);
       if (!(light.range_m > 0.0)) return true;  // invisible, for now at least

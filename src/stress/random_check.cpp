@@ -42,7 +42,8 @@ struct PointOf {
 bool holds_clearly(const geom::LightVolume& volume, const Vec3d& p) {
   const geom::LocalPoint apex = geom::local_point(volume.apex);
   const Vec3d v = p - apex.at;
-  const double margin = 1e-12 * (glm::length(p) + glm::length(apex.at) + volume.range) + 4.0 * apex.rounding_error;
+  const double range = std::isinf(volume.range) ? 0.0 : volume.range;  // no end is nowhere near
+  const double margin = 1e-12 * (glm::length(p) + glm::length(apex.at) + range) + 4.0 * apex.rounding_error;
   if (!(glm::length(v) < volume.range - margin)) return false;
   if (!volume.is_cone) return true;
   const Vec3d axis = glm::normalize(volume.apex.rotation * volume.direction);
@@ -54,7 +55,7 @@ bool holds_clearly(const geom::LightVolume& volume, const Vec3d& p) {
 bool clearly_reaches(const scene::WorldLight& light, const grid::Sample& sample, double margin) {
   const Vec3d apex = light.position - sample.eye, v = sample.from_eye - apex;
   const double distance = glm::length(v);
-  margin += 1e-12 * (glm::length(apex) + light.range_m);
+  margin += 1e-12 * (glm::length(apex) + (std::isinf(light.range_m) ? 0.0 : light.range_m));
   if (!(distance < light.range_m - margin)) return false;
   if (light.type != scene::LightType::spot) return true;
   const Vec3d axis = glm::normalize(light.direction);
@@ -174,7 +175,7 @@ class SettingCheck {
 
   void check_light(std::uint32_t light, const PairSet& truth, const PairSet& listed, std::size_t most) {
     const geom::LightVolume volume = lights_.volume(light);
-    if (!(volume.range > 0.0) || std::isinf(volume.range)) return;
+    if (!(volume.range > 0.0)) return;
     const geom::LightFilter filter(volume);
     std::vector<std::uint32_t> contradicted, near;
     for (std::uint32_t cell = 0; cell < grid_.cell_count(); ++cell) {

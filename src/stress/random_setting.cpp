@@ -13,6 +13,8 @@ namespace {
 
 // No coordinate and no range is larger: what a scene of this tool may hold.
 constexpr double k_largest_m = 1e15;
+// Ranges beyond the domain have no end. The largest float's is more than files may hold.
+constexpr double k_longest_range_m = 1e30;
 constexpr double k_right_angle = 90.0 * k_degree;
 
 double at_most_largest(double value) {
@@ -307,8 +309,10 @@ class Lights {
                          scale * (projection.bottom + y * (projection.top - projection.bottom)),
                          draw_.percent(90) ? -depth : depth};
     const double size = std::max(glm::length(position), extent_.near_m);
-    const double range =
-        at_most_largest(draw_.percent(50) ? size * draw_.log_between(1e-2, 2.0) : size * draw_.log_between(1e-8, 1e4));
+    // Out of all proportion now and then, up to no end (beyond the domain).
+    const double range = draw_.percent(10)   ? std::max(size, 1e-6) * draw_.log_between(1e4, 1e20)
+                         : draw_.percent(50) ? at_most_largest(size * draw_.log_between(1e-2, 2.0))
+                                             : at_most_largest(size * draw_.log_between(1e-8, 1e4));
     const Vec3d at = frame_.view_space.origin + glm::transpose(frame_.view_space.rotation) * position;
     if (draw_.percent(50)) return light(at, range);
     const Vec3d direction = random_direction(draw_);
@@ -342,7 +346,7 @@ class Lights {
 
   void put(const Vec3d& position, double range) {
     const double size = std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z)});
-    if (!(size <= k_largest_m) || !(range > 1e-30) || !(range <= k_largest_m)) return;
+    if (!(size <= k_largest_m) || !(range > 1e-30) || !(range <= k_longest_range_m)) return;
     scene::Light added;
     added.node = static_cast<int>(trial_.scene.nodes.size());
     added.name = "light " + std::to_string(trial_.scene.lights.size());

@@ -140,7 +140,7 @@ geom::LightVolume volume_of(const scene::WorldLight& light, const Space& space) 
 }
 
 Frame make_frame(const scene::Scene& scene, const scene::Shot& shot, int index, Vec2i viewport) {
-  scene::check_domain(scene, shot);
+  scene::check_domain(scene, "", shot);
   Frame frame;
   frame.index = index;
   frame.time_s = shot.time_s;

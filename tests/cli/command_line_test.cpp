@@ -188,6 +188,12 @@ TEST(SceneCommand, control_characters_of_a_file_never_reach_the_terminal) {
   EXPECT_EQ(info.code, 0) << info.err;
   EXPECT_NE(info.out.find("camera   ?]0;gone??31m?: perspective"), std::string::npos) << info.out;
   EXPECT_TRUE(is_clean(info.out)) << info.out;
+  const Outcome json = tool("scene info --json " + file.string());
+  EXPECT_EQ(Json::parse(json.out)["cameras"].size(), 1u);
+  EXPECT_TRUE(is_clean(json.out)) << json.out;
+  const Outcome run = tool("run --no-timing -q --grid world --assigner world-grid -o - " + file.string());
+  EXPECT_EQ(Json::parse(run.out)["cases"].size(), 1u) << run.err;
+  EXPECT_TRUE(is_clean(run.out)) << run.out;
   const Outcome list = tool("run --dry-run " + file.string());
   EXPECT_EQ(list.code, 0) << list.err;
   EXPECT_TRUE(is_clean(list.out + list.err)) << list.out << list.err;
@@ -195,6 +201,11 @@ TEST(SceneCommand, control_characters_of_a_file_never_reach_the_terminal) {
       tool("run --dry-run " + folder.write("x.json", R"({"scenes": [")" + evil + R"("]})").string());
   EXPECT_EQ(refused.code, 2);
   EXPECT_TRUE(is_clean(refused.out + refused.err)) << refused.err;
+  // A name with a line feed makes no second line.
+  const Outcome forged =
+      tool("run --dry-run " + folder.write("y.json", R"({"scenes": ["a\nclusterbench: fine"]})").string());
+  EXPECT_EQ(forged.code, 2);
+  EXPECT_EQ(std::count(forged.err.begin(), forged.err.end(), '\n'), 1) << forged.err;
 }
 
 TEST(SceneCommand, a_generated_scene_is_the_committed_one_and_can_be_looked_at) {
