@@ -96,7 +96,7 @@ CameraPath path_of(const Scene& scene, const Camera& camera, const PathRequest& 
   return path;
 }
 
-// The box around the places of all point and spot lights at the start.
+// The box around the positions of all point and spot lights at the start.
 struct Extent {
   Vec3d lo{std::numeric_limits<double>::infinity()}, hi{-std::numeric_limits<double>::infinity()};
 };

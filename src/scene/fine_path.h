@@ -21,9 +21,10 @@ struct FinePath {
 };
 
 // Begins at the shot after which the camera moves most, in terms of the two limits, and follows the path from there:
-// between two shots place and time change evenly, the view turns evenly along the shortest arc. Ends after steps.count
-// steps, or earlier where the path ends or the camera stands still. A camera that never moves drifts forward and turns
-// to its right by both limits in every step, at the time of its first shot. The path has at least one shot.
+// between two shots position and time change evenly, the view turns evenly along the shortest arc. Ends after
+// steps.count steps, or earlier where the path ends or the camera stands still. A camera that never moves drifts
+// forward and turns to its right by both limits in every step, at the time of its first shot. The path has at least one
+// shot.
 FinePath fine_path(const CameraPath& path, const FineSteps& steps);
 
 }  // namespace clusterbench::scene

@@ -76,10 +76,10 @@ std::vector<int> roots_of(const tinygltf::Model& model) {
   return roots;
 }
 
-// Depth first, children in their order, parents before children. Returns scene node -> place in `nodes`.
+// Depth first, children in their order, parents before children. Returns scene node -> index in `nodes`.
 std::map<int, int> add_nodes(const tinygltf::Model& model, const nlohmann::json& definitions, Scene& scene) {
   std::map<int, int> placed;
-  std::vector<std::pair<int, int>> waiting;  // glTF index, parent's place
+  std::vector<std::pair<int, int>> waiting;  // glTF index, parent's index
   const auto push = [&](const std::vector<int>& nodes, int parent) {
     for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) waiting.emplace_back(*node, parent);
   };
@@ -87,11 +87,11 @@ std::map<int, int> add_nodes(const tinygltf::Model& model, const nlohmann::json&
   while (!waiting.empty()) {
     const auto [index, parent] = waiting.back();
     waiting.pop_back();
-    const int place = static_cast<int>(scene.nodes.size());
+    const int location = static_cast<int>(scene.nodes.size());
     const tinygltf::Node& from = model.nodes[static_cast<std::size_t>(index)];
     scene.nodes.push_back(node_of(from, definitions[static_cast<std::size_t>(index)], index, parent));
-    placed.emplace(index, place);
-    push(from.children, place);
+    placed.emplace(index, location);
+    push(from.children, location);
   }
   return placed;
 }
@@ -205,8 +205,8 @@ class ChannelsOfFile {
   ChannelsOfFile(const std::map<int, int>& placed, AccessorReader& reader, Scene& scene)
       : placed_(placed), reader_(reader), scene_(scene) {}
 
-  void add(const nlohmann::json& animation, const Place& place) {
-    for (const nlohmann::json& channel : animation["channels"]) add_channel(animation["samplers"], channel, place);
+  void add(const nlohmann::json& animation, const JsonLocation& location) {
+    for (const nlohmann::json& channel : animation["channels"]) add_channel(animation["samplers"], channel, location);
   }
   // When all are added.
   void finish() {
@@ -216,16 +216,16 @@ class ChannelsOfFile {
   }
 
  private:
-  void add_channel(const nlohmann::json& samplers, const nlohmann::json& from, const Place& place) {
+  void add_channel(const nlohmann::json& samplers, const nlohmann::json& from, const JsonLocation& location) {
     const std::size_t number = from["sampler"].get<std::size_t>();
     const nlohmann::json& sampler = samplers[number];
-    const Place sampler_place = place.at("samplers").at(number);
+    const JsonLocation sampler_location = location.at("samplers").at(number);
     std::optional<Channel> keys =
-        read_keys(reader_, sampler_place, sampler["input"].get<std::size_t>(), sampler["output"].get<std::size_t>(),
+        read_keys(reader_, sampler_location, sampler["input"].get<std::size_t>(), sampler["output"].get<std::size_t>(),
                   static_cast<ChannelPath>(from["path"].get<int>()), from["is_pointer"].get<bool>(),
                   interpolation_of(sampler["interpolation"].get<std::string>()));
     if (!keys) {
-      sampler_place.warn("its accessors hold no data; the channel is ignored");
+      sampler_location.warn("its accessors hold no data; the channel is ignored");
       return;
     }
     const auto kind = static_cast<TargetKind>(from["kind"].get<int>());
@@ -241,7 +241,7 @@ class ChannelsOfFile {
       channels.push_back(std::move(*keys));
       return;
     }
-    place.at("channels")
+    location.at("channels")
         .at(from["channel"].get<std::size_t>())
         .warn((is_node                     ? "moves node "
                : kind == TargetKind::light ? "moves light "
@@ -302,7 +302,7 @@ void mark_animated_cameras(Scene& scene) {
 }
 
 // Numbers that are each fine can multiply to infinity down the tree.
-void check_world(const Scene& scene, const Place& root) {
+void check_world(const Scene& scene, const JsonLocation& root) {
   const std::vector<Mat4d> world = world_transforms(scene, 0.0);
   for (std::size_t i = 0; i < world.size(); ++i) {
     for (int column = 0; column < 4; ++column) {
@@ -323,7 +323,7 @@ Scene load_gltf(const std::filesystem::path& path) {
   read_gltf_file(path, file);
   Warnings warnings;
   AccessorReader reader(file, warnings);
-  const Place& root = reader.root();
+  const JsonLocation& root = reader.root();
   Scene scene;
   scene.name = printable(path.stem().string());
   scene.path = path;

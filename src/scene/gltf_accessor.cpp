@@ -26,12 +26,12 @@ std::size_t size_of(Component component) {
   return 4;
 }
 
-Component component_of(const Place& place) {
+Component component_of(const JsonLocation& location) {
   for (const Component known :
        {Component::i8, Component::u8, Component::i16, Component::u16, Component::u32, Component::f32}) {
-    if (place.whole() == static_cast<std::size_t>(known)) return known;
+    if (location.whole() == static_cast<std::size_t>(known)) return known;
   }
-  place.refuse("found " + kind_of(place.value()) + ", one of 5120, 5121, 5122, 5123, 5125, 5126 is needed");
+  location.refuse("found " + kind_of(location.value()) + ", one of 5120, 5121, 5122, 5123, 5125, 5126 is needed");
 }
 
 std::uint32_t little_endian(std::string_view bytes) {
@@ -74,15 +74,15 @@ std::optional<unsigned> base64_digit(char c) {
   return std::nullopt;
 }
 
-std::string base64_decoded(std::string_view text, const Place& place) {
+std::string base64_decoded(std::string_view text, const JsonLocation& location) {
   while (!text.empty() && text.back() == '=') text.remove_suffix(1);
-  if (text.size() % 4 == 1) place.refuse("the base64 data is cut off");
+  if (text.size() % 4 == 1) location.refuse("the base64 data is cut off");
   std::string out;
   out.reserve(text.size() / 4 * 3 + 2);
   unsigned bits = 0, pending = 0;
   for (const char c : text) {
     const std::optional<unsigned> digit = base64_digit(c);
-    if (!digit) place.refuse("the data is not base64");
+    if (!digit) location.refuse("the data is not base64");
     pending = pending << 6 | *digit;
     bits += 6;
     if (bits >= 8) {
@@ -126,25 +126,25 @@ bool stays_in_folder(const std::filesystem::path& path) {
   return !escapes && printable(path.native()) == path.native();
 }
 
-std::size_t array_size(const Place& root, const std::string& key) {
+std::size_t array_size(const JsonLocation& root, const std::string& key) {
   if (!root.has(key)) return 0;
   root.at(key).expect_array();
   return root.at(key).size();
 }
 
-std::size_t whole_or(const Place& object, const std::string& key, std::size_t otherwise) {
+std::size_t whole_or(const JsonLocation& object, const std::string& key, std::size_t otherwise) {
   return object.has(key) ? object.at(key).whole() : otherwise;
 }
 
-std::size_t at_least_one(const Place& place) {
-  const std::size_t number = place.whole();
-  if (number == 0) place.refuse("found 0, 1 or more is needed");
+std::size_t at_least_one(const JsonLocation& location) {
+  const std::size_t number = location.whole();
+  if (number == 0) location.refuse("found 0, 1 or more is needed");
   return number;
 }
 
 // `count` elements of `element` bytes from byteOffset of `object` on; refuses what does not lie inside `view`.
-std::string_view tight_elements(std::string_view view, const Place& object, std::size_t count, std::size_t element,
-                                std::size_t alignment) {
+std::string_view tight_elements(std::string_view view, const JsonLocation& object, std::size_t count,
+                                std::size_t element, std::size_t alignment) {
   const std::size_t offset = whole_or(object, "byteOffset", 0);
   if (offset % alignment != 0) {
     object.at("byteOffset").refuse("must be a multiple of the component's " + std::to_string(alignment) + " bytes");
@@ -163,7 +163,7 @@ AccessorReader::AccessorReader(const GltfFile& file, Warnings& warnings)
     : file_(file), root_(file.name, file.json, warnings) {}
 
 AccessorHead AccessorReader::head(std::size_t accessor) const {
-  const Place from = place(accessor);
+  const JsonLocation from = location(accessor);
   AccessorHead head;
   head.component = component_of(from.at("componentType"));
   head.type = from.at("type").text();
@@ -179,11 +179,11 @@ AccessorHead AccessorReader::head(std::size_t accessor) const {
 }
 
 bool AccessorReader::has_data(std::size_t accessor) const {
-  return place(accessor).has("bufferView") || place(accessor).has("sparse");
+  return location(accessor).has("bufferView") || location(accessor).has("sparse");
 }
 
 std::vector<double> AccessorReader::numbers(std::size_t accessor, std::size_t components) {
-  const Place from = place(accessor);
+  const JsonLocation from = location(accessor);
   const AccessorHead about = head(accessor);
   if (about.count > numbers_left_ / components) {
     from.at("count").refuse("more than " + std::to_string(k_most_numbers) + " numbers of animation in one file");
@@ -206,7 +206,7 @@ std::string AccessorReader::external_bytes() const {
   return all;
 }
 
-void AccessorReader::read_dense(const Place& accessor, const AccessorHead& head, std::size_t components,
+void AccessorReader::read_dense(const JsonLocation& accessor, const AccessorHead& head, std::size_t components,
                                 std::vector<double>& out) {
   if (!accessor.has("bufferView")) {
     if (accessor.has("byteOffset")) accessor.at("byteOffset").refuse("means nothing without bufferView");
@@ -220,10 +220,10 @@ void AccessorReader::read_dense(const Place& accessor, const AccessorHead& head,
   for (std::size_t at = 0; at < elements.size(); at += size) out.push_back(decoded(elements.substr(at, size), head));
 }
 
-void AccessorReader::read_sparse(const Place& accessor, const AccessorHead& head, std::size_t components,
+void AccessorReader::read_sparse(const JsonLocation& accessor, const AccessorHead& head, std::size_t components,
                                  std::vector<double>& out) {
   if (!accessor.has("sparse")) return;
-  const Place sparse = accessor.at("sparse"), indices = sparse.at("indices"), values = sparse.at("values");
+  const JsonLocation sparse = accessor.at("sparse"), indices = sparse.at("indices"), values = sparse.at("values");
   const std::size_t count = at_least_one(sparse.at("count"));
   if (count > head.count) sparse.at("count").refuse("more than the accessor's " + std::to_string(head.count));
   const Component index_component = component_of(indices.at("componentType"));
@@ -231,13 +231,13 @@ void AccessorReader::read_sparse(const Place& accessor, const AccessorHead& head
     indices.at("componentType").refuse("indices must be 5121, 5123 or 5125");
   }
   const std::size_t index_size = size_of(index_component), size = size_of(head.component);
-  const std::string_view places =
+  const std::string_view locations =
       tight_elements(view(indices.at("bufferView")), indices, count, index_size, index_size);
   const std::string_view replaced =
       tight_elements(view(values.at("bufferView")), values, count, size * components, size);
   std::optional<std::size_t> last;
   for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t index = little_endian(places.substr(i * index_size, index_size));
+    const std::size_t index = little_endian(locations.substr(i * index_size, index_size));
     if (index >= head.count || (last && index <= *last)) {
       indices.refuse("index " + std::to_string(index) + " at place " + std::to_string(i) +
                      ": indices must ascend and be less than " + std::to_string(head.count));
@@ -249,10 +249,10 @@ void AccessorReader::read_sparse(const Place& accessor, const AccessorHead& head
   }
 }
 
-std::string_view AccessorReader::view(const Place& reference) {
+std::string_view AccessorReader::view(const JsonLocation& reference) {
   const std::size_t views = array_size(root_, "bufferViews");
   const std::size_t chosen = reference.index(views, "bufferView");
-  const Place view = root_.at("bufferViews").at(chosen);
+  const JsonLocation view = root_.at("bufferViews").at(chosen);
   if (view.has("byteStride")) {
     view.at("byteStride").refuse("only vertex data may have a stride; animations use this bufferView");
   }
@@ -267,34 +267,34 @@ std::string_view AccessorReader::view(const Place& reference) {
 }
 
 std::string_view AccessorReader::buffer(std::size_t index) {
-  const Place place = root_.at("buffers").at(index);
-  const std::size_t length = at_least_one(place.at("byteLength"));
+  const JsonLocation location = root_.at("buffers").at(index);
+  const std::size_t length = at_least_one(location.at("byteLength"));
   const auto enough = [&](std::string_view bytes) {
     if (bytes.size() < length) {
-      place.refuse("byteLength is " + std::to_string(length) + ", but there are " + std::to_string(bytes.size()) +
-                   " bytes");
+      location.refuse("byteLength is " + std::to_string(length) + ", but there are " + std::to_string(bytes.size()) +
+                      " bytes");
     }
     return bytes.substr(0, length);
   };
   if (const auto known = buffers_.find(index); known != buffers_.end()) return enough(known->second.owned);
-  if (!place.has("uri")) {
-    if (index != 0 || !file_.binary) place.refuse("has no uri, and there is no BIN chunk for it");
+  if (!location.has("uri")) {
+    if (index != 0 || !file_.binary) location.refuse("has no uri, and there is no BIN chunk for it");
     return enough(*file_.binary);
   }
-  const std::string& uri = place.at("uri").text();
+  const std::string& uri = location.at("uri").text();
   Bytes bytes;
   if (uri.starts_with("data:")) {
     const std::size_t comma = uri.find(";base64,");
-    if (comma == std::string::npos) place.at("uri").refuse("a data URI must be base64");
-    bytes.owned = base64_decoded(std::string_view(uri).substr(comma + 8), place.at("uri"));
+    if (comma == std::string::npos) location.at("uri").refuse("a data URI must be base64");
+    bytes.owned = base64_decoded(std::string_view(uri).substr(comma + 8), location.at("uri"));
   } else {
     const std::filesystem::path relative = percent_decoded(uri);
     if (has_scheme(uri) || !stays_in_folder(relative))
-      place.at("uri").refuse("found '" + uri + "'; only files beside this one or below, and data URIs, are read");
-    if (length > external_bytes_left_) place.refuse("more than 2 GiB of external buffers for animations");
+      location.at("uri").refuse("found '" + uri + "'; only files beside this one or below, and data URIs, are read");
+    if (length > external_bytes_left_) location.refuse("more than 2 GiB of external buffers for animations");
     bytes.external = true;
     const std::filesystem::path beside = std::filesystem::path(file_.name).parent_path() / relative.lexically_normal();
-    bytes.owned = read_bytes(beside, file_.name, place.at("uri").pointer(), length);
+    bytes.owned = read_bytes(beside, file_.name, location.at("uri").pointer(), length);
     external_bytes_left_ -= bytes.owned.size();
   }
   return enough(buffers_.emplace(index, std::move(bytes)).first->second.owned);

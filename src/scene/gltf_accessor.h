@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "scene/gltf_container.h"
-#include "scene/gltf_place.h"
+#include "scene/gltf_location.h"
 
 namespace clusterbench::scene {
 
@@ -27,8 +27,8 @@ class AccessorReader {
   // Both must outlive the reader.
   AccessorReader(const GltfFile& file, Warnings& warnings);
 
-  const Place& root() const { return root_; }
-  Place place(std::size_t accessor) const { return root_.at("accessors").at(accessor); }
+  const JsonLocation& root() const { return root_; }
+  JsonLocation location(std::size_t accessor) const { return root_.at("accessors").at(accessor); }
   AccessorHead head(std::size_t accessor) const;
   // False: it names neither bufferView nor sparse values, so that all its numbers are 0.
   bool has_data(std::size_t accessor) const;
@@ -45,16 +45,18 @@ class AccessorReader {
 
  private:
   std::string_view buffer(std::size_t index);
-  std::string_view view(const Place& reference);
-  void read_dense(const Place& accessor, const AccessorHead& head, std::size_t components, std::vector<double>& out);
-  void read_sparse(const Place& accessor, const AccessorHead& head, std::size_t components, std::vector<double>& out);
+  std::string_view view(const JsonLocation& reference);
+  void read_dense(const JsonLocation& accessor, const AccessorHead& head, std::size_t components,
+                  std::vector<double>& out);
+  void read_sparse(const JsonLocation& accessor, const AccessorHead& head, std::size_t components,
+                   std::vector<double>& out);
 
   struct Bytes {
     std::string owned;
     bool external = false;
   };
   const GltfFile& file_;
-  Place root_;
+  JsonLocation root_;
   std::map<std::size_t, Bytes> buffers_;
   std::size_t numbers_left_ = k_most_numbers;
   std::size_t external_bytes_left_ = k_most_external_bytes;

@@ -15,8 +15,8 @@ namespace {
 using nlohmann::json;
 
 // "major.minor" as two numbers.
-std::pair<long, long> version_of(const Place& place) {
-  const std::string& text = place.text();
+std::pair<long, long> version_of(const JsonLocation& location) {
+  const std::string& text = location.text();
   const std::size_t dot = text.find('.');
   const auto digits = [](std::string_view part) {
     return !part.empty() && part.size() <= 9 &&
@@ -24,20 +24,20 @@ std::pair<long, long> version_of(const Place& place) {
   };
   if (dot == std::string::npos || !digits(std::string_view(text).substr(0, dot)) ||
       !digits(std::string_view(text).substr(dot + 1))) {
-    place.refuse("found '" + text.substr(0, 40) + "', a version such as 2.0 is needed");
+    location.refuse("found '" + text.substr(0, 40) + "', a version such as 2.0 is needed");
   }
   return {std::stol(text.substr(0, dot)), std::stol(text.substr(dot + 1))};
 }
 
-void check_asset(const Place& root) {
-  const Place asset = root.at("asset");
+void check_asset(const JsonLocation& root) {
+  const JsonLocation asset = root.at("asset");
   const auto version = version_of(asset.at("version"));
   if (version.first != 2) {
     asset.at("version").refuse("glTF " + asset.at("version").text() + " found, glTF 2.x is needed");
   }
   if (version.second != 0) asset.at("version").warn("read as glTF 2.0");
   if (!asset.has("minVersion")) return;
-  const Place min_version = asset.at("minVersion");
+  const JsonLocation min_version = asset.at("minVersion");
   const auto least = version_of(min_version);
   if (least > version) min_version.refuse("greater than the asset's version");
 }
@@ -62,9 +62,9 @@ bool changes_no_light(const std::string& name) {
                      [&](const char* prefix) { return name.starts_with(prefix); });
 }
 
-void check_extensions(const Place& root) {
+void check_extensions(const JsonLocation& root) {
   if (!root.has("extensionsRequired")) return;
-  const Place required = root.at("extensionsRequired");
+  const JsonLocation required = root.at("extensionsRequired");
   const std::size_t count = required.elements();
   for (std::size_t i = 0; i < count; ++i) {
     const std::string name = required.at(i).text();
@@ -76,11 +76,11 @@ void check_extensions(const Place& root) {
   }
 }
 
-json checked_roots(const Place& scene, const std::vector<bool>& is_child) {
+json checked_roots(const JsonLocation& scene, const std::vector<bool>& is_child) {
   scene.expect_object();
   json roots = json::array();
   if (!scene.has("nodes")) return roots;
-  const Place list = scene.at("nodes");
+  const JsonLocation list = scene.at("nodes");
   const std::size_t count = list.elements();
   std::set<std::size_t> seen;
   for (std::size_t k = 0; k < count; ++k) {
@@ -92,14 +92,14 @@ json checked_roots(const Place& scene, const std::vector<bool>& is_child) {
   return roots;
 }
 
-json checked_scenes(const Place& root, const LoadedScene& loaded, const json& nodes) {
+json checked_scenes(const JsonLocation& root, const LoadedScene& loaded, const json& nodes) {
   json out = json::array();
   if (!root.has("scenes")) return out;
   std::vector<bool> is_child(nodes.size(), false);
   for (const json& node : nodes) {
     for (const json& child : node.value("children", json::array())) is_child[child.get<std::size_t>()] = true;
   }
-  const Place scenes = root.at("scenes");
+  const JsonLocation scenes = root.at("scenes");
   const std::size_t count = scenes.elements();
   for (std::size_t i = 0; i < count; ++i) {
     json roots = json::array();
@@ -115,7 +115,7 @@ json checked_scenes(const Place& root, const LoadedScene& loaded, const json& no
 }
 
 // What is null in `definitions` is of a kind that this tool does not know: nobody refers to it any more, and `stand_in`
-// keeps its place.
+// keeps its index.
 template <typename Forget>
 void drop_unknown(json& definitions, json& nodes, const json& stand_in, Forget forget) {
   for (json& node : nodes) forget(node, definitions);
@@ -143,17 +143,17 @@ void drop_unknown_lights(json& document) {
 
 }  // namespace
 
-std::size_t count_of(const Place& root, const std::string& key) {
+std::size_t count_of(const JsonLocation& root, const std::string& key) {
   if (!root.has(key)) return 0;
   root.at(key).expect_array();
   return root.at(key).size();
 }
 
-void warn_of_unloaded(const Place& place, const Error& fault) {
-  place.warn(fault.where() + ": " + fault.message() + "; not in the scene that is loaded, so left out");
+void warn_of_unloaded(const JsonLocation& location, const Error& fault) {
+  location.warn(fault.where() + ": " + fault.message() + "; not in the scene that is loaded, so left out");
 }
 
-bool is_required(const Place& root, const std::string& extension) {
+bool is_required(const JsonLocation& root, const std::string& extension) {
   const std::size_t count = count_of(root, "extensionsRequired");
   for (std::size_t i = 0; i < count; ++i) {
     if (root.at("extensionsRequired").at(i).text() == extension) return true;
@@ -161,7 +161,7 @@ bool is_required(const Place& root, const std::string& extension) {
   return false;
 }
 
-void warn_of_unknown_extras(const Place& object, const std::vector<std::string>& own) {
+void warn_of_unknown_extras(const JsonLocation& object, const std::vector<std::string>& own) {
   constexpr std::string_view k_tool = "clusterbench";
   if (!object.has("extras") || !object.at("extras").value().is_object()) return;
   for (const auto& [key, value] : object.at("extras").value().items()) {
@@ -178,9 +178,9 @@ void warn_of_unknown_extras(const Place& object, const std::vector<std::string>&
   }
 }
 
-void copy_name(const Place& object, json& out) {
+void copy_name(const JsonLocation& object, json& out) {
   if (!object.has("name")) return;
-  const Place name = object.at("name");
+  const JsonLocation name = object.at("name");
   if (name.value().is_null()) {
     name.warn("null, where glTF asks for a string; read as no name");
   } else {
@@ -188,7 +188,7 @@ void copy_name(const Place& object, json& out) {
   }
 }
 
-json checked_document(const Place& root) {
+json checked_document(const JsonLocation& root) {
   root.expect_object();
   check_asset(root);
   check_extensions(root);

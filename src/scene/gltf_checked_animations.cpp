@@ -13,13 +13,13 @@ using nlohmann::json;
 
 // What channels are checked against.
 struct Document {
-  const Place& root;
+  const JsonLocation& root;
   const LoadedScene& loaded;
   const json &lights, &cameras;  // checked
   bool requires_pointers;
 };
 
-json checked_sampler(const Place& root, const Place& sampler) {
+json checked_sampler(const JsonLocation& root, const JsonLocation& sampler) {
   sampler.expect_object();
   const std::size_t accessors = count_of(root, "accessors");
   json out = {{"input", sampler.at("input").index(accessors, "accessor")},
@@ -34,7 +34,7 @@ json checked_sampler(const Place& root, const Place& sampler) {
 }
 
 // What a channel with a core path moves: a node.
-std::optional<Target> core_target(const Place& target, const std::string& path) {
+std::optional<Target> core_target(const JsonLocation& target, const std::string& path) {
   const auto known = target_of("/nodes/0/" + path);
   if (!known) {
     target.at("path").warn("'" + path + "' moves no node and is ignored");
@@ -47,29 +47,29 @@ std::optional<Target> core_target(const Place& target, const std::string& path) 
 }
 
 // A file that requires pointers is not shown without them.
-void ignore_pointer(const Document& document, const Place& place, const std::string& message) {
-  if (document.requires_pointers) place.refuse(message + "; the file requires " + k_pointers);
-  place.warn(message + " and is ignored");
+void ignore_pointer(const Document& document, const JsonLocation& location, const std::string& message) {
+  if (document.requires_pointers) location.refuse(message + "; the file requires " + k_pointers);
+  location.warn(message + " and is ignored");
 }
 
-std::optional<Target> pointer_target(const Document& document, const Place& target) {
+std::optional<Target> pointer_target(const Document& document, const JsonLocation& target) {
   if (!target.has("extensions") || !target.at("extensions").has(k_pointers)) {
     ignore_pointer(document, target, "'pointer' without a pointer in extensions/KHR_animation_pointer moves nothing");
     return std::nullopt;
   }
-  const Place place = target.at("extensions").at(k_pointers).at("pointer");
-  const std::string& pointer = place.text();
+  const JsonLocation location = target.at("extensions").at(k_pointers).at("pointer");
+  const std::string& pointer = location.text();
   if (const auto known = target_of(pointer)) {
     const std::size_t there = known->kind == TargetKind::light    ? document.lights.size()
                               : known->kind == TargetKind::camera ? document.cameras.size()
                                                                   : document.loaded.nodes.size();
-    if (known->index >= there) place.refuse("'" + pointer + "' leads nowhere: there are " + std::to_string(there));
+    if (known->index >= there) location.refuse("'" + pointer + "' leads nowhere: there are " + std::to_string(there));
     return known;
   }
   if (moves_only_looks(pointer)) {
-    place.warn("a pointer to materials, textures, meshes or weights moves neither light nor camera and is ignored");
+    location.warn("a pointer to materials, textures, meshes or weights moves neither light nor camera and is ignored");
   } else {
-    ignore_pointer(document, place, "the pointer '" + pointer + "' is not known");
+    ignore_pointer(document, location, "the pointer '" + pointer + "' is not known");
   }
   return std::nullopt;
 }
@@ -81,7 +81,7 @@ const char* name_of(ChannelPath path) {
   return k_names[static_cast<int>(path)];
 }
 
-void check_target(const Place& root, const Place& target, const Target& moved) {
+void check_target(const JsonLocation& root, const JsonLocation& target, const Target& moved) {
   if (moved.kind != TargetKind::node || moved.path == ChannelPath::visible ||
       !root.at("nodes").at(moved.index).has("matrix"))
     return;
@@ -102,9 +102,9 @@ bool has_property(const Document& document, const Target& moved) {
 }
 
 // null for a channel that moves nothing that is loaded.
-json checked_channel(const Document& document, const Place& channel, std::size_t samplers) {
+json checked_channel(const Document& document, const JsonLocation& channel, std::size_t samplers) {
   const std::size_t sampler = channel.at("sampler").index(samplers, "sampler");
-  const Place target = channel.at("target");
+  const JsonLocation target = channel.at("target");
   const std::string& path = target.at("path").text();
   if (target.has("node")) target.at("node").index(document.loaded.nodes.size(), "node");
   const std::optional<Target> moved = path == "pointer" ? pointer_target(document, target) : core_target(target, path);
@@ -120,8 +120,8 @@ json checked_channel(const Document& document, const Place& channel, std::size_t
           {"index", moved->index}, {"path", static_cast<int>(moved->path)}, {"name", name_of(moved->path)}};
 }
 
-json checked_animation(const Document& document, const Place& animation) {
-  const Place samplers = animation.at("samplers"), channels = animation.at("channels");
+json checked_animation(const Document& document, const JsonLocation& animation) {
+  const JsonLocation samplers = animation.at("samplers"), channels = animation.at("channels");
   const std::size_t sampler_count = samplers.elements(), channel_count = channels.elements();
   json out = {{"samplers", json::array()}, {"channels", json::array()}};
   for (std::size_t i = 0; i < sampler_count; ++i)
@@ -143,7 +143,7 @@ json checked_animation(const Document& document, const Place& animation) {
 
 }  // namespace
 
-json checked_animations(const Place& root, const LoadedScene& loaded, const json& lights, const json& cameras) {
+json checked_animations(const JsonLocation& root, const LoadedScene& loaded, const json& lights, const json& cameras) {
   json out = json::array();
   const Document document{root, loaded, lights, cameras, is_required(root, k_pointers)};
   const std::size_t count = root.has("animations") ? root.at("animations").elements() : 0;

@@ -8,16 +8,16 @@ namespace {
 
 using nlohmann::json;
 
-double positive(const Place& place) {
-  const double number = place.number();
-  if (number <= 0.0) place.refuse("found " + kind_of(place.value()) + ", more than 0 is needed");
+double positive(const JsonLocation& location) {
+  const double number = location.number();
+  if (number <= 0.0) location.refuse("found " + kind_of(location.value()) + ", more than 0 is needed");
   return number;
 }
 
 // The far plane if there is one.
-void copy_far(const Place& projection, json& out) {
+void copy_far(const JsonLocation& projection, json& out) {
   if (!projection.has("zfar")) return;
-  const Place zfar = projection.at("zfar");
+  const JsonLocation zfar = projection.at("zfar");
   const double far = positive(zfar);
   if (far <= out["znear"].get<double>()) projection.refuse("zfar must be greater than znear");
   if (is_float_max(far)) zfar.warn("the largest number of single precision; read as infinitely far");
@@ -25,7 +25,7 @@ void copy_far(const Place& projection, json& out) {
 }
 
 // null for a projection that glTF allows and that shows nothing.
-json checked_perspective(const Place& projection) {
+json checked_perspective(const JsonLocation& projection) {
   projection.expect_object();
   json out = {{"yfov", positive(projection.at("yfov"))}, {"znear", positive(projection.at("znear"))}};
   copy_far(projection, out);
@@ -38,27 +38,27 @@ json checked_perspective(const Place& projection) {
 }
 
 // An off-centre picture, an invention of this tool: see ProjectionSides.
-void copy_sides(const Place& camera, json& out) {
+void copy_sides(const JsonLocation& camera, json& out) {
   if (!camera.has("extras")) return;
   warn_of_unknown_extras(camera, {k_sides});
   if (!camera.at("extras").has(k_sides)) return;
-  const Place place = camera.at("extras").at(k_sides);
-  const std::vector<double> sides = place.numbers(4);
+  const JsonLocation location = camera.at("extras").at(k_sides);
+  const std::vector<double> sides = location.numbers(4);
   if (!(sides[0] < sides[1]) || !(sides[2] < sides[3]))
-    place.refuse("left must be less than right and bottom less than top: [left, right, bottom, top]");
-  if (out.contains("orthographic")) place.refuse("only a perspective camera can have it");
+    location.refuse("left must be less than right and bottom less than top: [left, right, bottom, top]");
+  if (out.contains("orthographic")) location.refuse("only a perspective camera can have it");
   out["extras"][k_sides] = sides;
 }
 
 // A negative magnification mirrors the picture; which lights it holds is the same.
-double magnification(const Place& place) {
-  const double number = place.number();
-  if (number == 0.0) place.refuse("found 0, another number is needed");
-  if (number < 0.0) place.warn("negative, its sign is ignored");
+double magnification(const JsonLocation& location) {
+  const double number = location.number();
+  if (number == 0.0) location.refuse("found 0, another number is needed");
+  if (number < 0.0) location.warn("negative, its sign is ignored");
   return std::abs(number);
 }
 
-json checked_orthographic(const Place& projection) {
+json checked_orthographic(const JsonLocation& projection) {
   projection.expect_object();
   json out = {{"xmag", magnification(projection.at("xmag"))},
               {"ymag", magnification(projection.at("ymag"))},
@@ -70,7 +70,7 @@ json checked_orthographic(const Place& projection) {
   return out;
 }
 
-json checked_camera(const Place& camera) {
+json checked_camera(const JsonLocation& camera) {
   json out = json::object();
   const std::string& type = camera.at("type").text();
   copy_name(camera, out);
@@ -93,7 +93,7 @@ json checked_camera(const Place& camera) {
 
 }  // namespace
 
-json checked_cameras(const Place& root) {
+json checked_cameras(const JsonLocation& root) {
   json out = json::array();
   const std::size_t count = root.has("cameras") ? root.at("cameras").elements() : 0;
   for (std::size_t i = 0; i < count; ++i) out.push_back(checked_camera(root.at("cameras").at(i)));

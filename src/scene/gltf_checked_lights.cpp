@@ -8,7 +8,7 @@ namespace {
 
 using nlohmann::json;
 
-json checked_spot(const Place& spot) {
+json checked_spot(const JsonLocation& spot) {
   spot.expect_object();
   const double inner = spot.has("innerConeAngle") ? spot.at("innerConeAngle").number() : 0.0;
   const double outer = spot.has("outerConeAngle") ? spot.at("outerConeAngle").number() : std::numbers::pi / 4.0;
@@ -16,9 +16,9 @@ json checked_spot(const Place& spot) {
   if (outer > std::numbers::pi / 2.0 + k_angle_slack_rad || outer <= 0.0) {
     spot.at("outerConeAngle").refuse("found " + std::to_string(outer) + ", more than 0 and at most pi/2 is needed");
   }
-  const Place blamed = spot.has("outerConeAngle")   ? spot.at("outerConeAngle")
-                       : spot.has("innerConeAngle") ? spot.at("innerConeAngle")
-                                                    : spot;
+  const JsonLocation blamed = spot.has("outerConeAngle")   ? spot.at("outerConeAngle")
+                              : spot.has("innerConeAngle") ? spot.at("innerConeAngle")
+                                                           : spot;
   if (inner > outer + k_angle_slack_rad) {
     blamed.refuse("innerConeAngle " + std::to_string(inner) + " must not be more than outerConeAngle " +
                   std::to_string(outer));
@@ -30,9 +30,9 @@ json checked_spot(const Place& spot) {
   return {{"innerConeAngle", std::min(inner, widest)}, {"outerConeAngle", widest}};
 }
 
-void copy_range(const Place& light, json& out) {
+void copy_range(const JsonLocation& light, json& out) {
   if (!light.has("range")) return;
-  const Place range = light.at("range");
+  const JsonLocation range = light.at("range");
   const double range_m = range.number();
   if (range_m < 0.0) range.refuse("found " + kind_of(range.value()) + ", a range of 0 or more is needed");
   if (is_float_max(range_m)) {
@@ -43,9 +43,9 @@ void copy_range(const Place& light, json& out) {
   out["range"] = range_m;
 }
 
-void copy_colour(const Place& light, json& out) {
+void copy_colour(const JsonLocation& light, json& out) {
   if (!light.has("color")) return;
-  const Place color = light.at("color");
+  const JsonLocation color = light.at("color");
   const bool has_alpha = color.value().is_array() && color.size() == 4;
   if (has_alpha) color.warn("found 4 numbers, 3 are needed; the fourth is ignored");
   std::vector<double> rgb = color.numbers(has_alpha ? 4 : 3);
@@ -57,7 +57,7 @@ void copy_colour(const Place& light, json& out) {
   out["color"] = rgb;
 }
 
-json checked_light(const Place& light) {
+json checked_light(const JsonLocation& light) {
   json out = json::object();
   const std::string& type = light.at("type").text();
   if (type != "point" && type != "spot" && type != "directional") {
@@ -85,13 +85,13 @@ json checked_light(const Place& light) {
 
 }  // namespace
 
-json checked_lights(const Place& root) {
+json checked_lights(const JsonLocation& root) {
   json out = json::array();
   if (!root.has("extensions")) return out;
-  const Place extensions = root.at("extensions");
+  const JsonLocation extensions = root.at("extensions");
   extensions.expect_object();
   if (!extensions.has("KHR_lights_punctual")) return out;
-  const Place lights = extensions.at("KHR_lights_punctual").at("lights");
+  const JsonLocation lights = extensions.at("KHR_lights_punctual").at("lights");
   const std::size_t count = lights.elements();
   for (std::size_t i = 0; i < count; ++i) out.push_back(checked_light(lights.at(i)));
   return out;

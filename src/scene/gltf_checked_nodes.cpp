@@ -11,21 +11,21 @@ using nlohmann::json;
 
 constexpr const char* k_lights = "KHR_lights_punctual";
 
-void check_rotation(const Place& place) {
-  const std::vector<double> q = place.numbers(4);
+void check_rotation(const JsonLocation& location) {
+  const std::vector<double> q = location.numbers(4);
   const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
   if (std::abs(length - 1.0) > k_unit_tolerance) {
-    place.refuse("a rotation must have length 1, found " + std::to_string(length));
+    location.refuse("a rotation must have length 1, found " + std::to_string(length));
   }
 }
 
 // glTF allows only matrices that are translation * rotation * scale: orthogonal columns and a last row of 0 0 0 1.
-void check_matrix(const Place& place) {
-  const std::vector<double> m = place.numbers(16);
+void check_matrix(const JsonLocation& location) {
+  const std::vector<double> m = location.numbers(16);
   constexpr double k_tolerance = 1e-3;
   const bool affine = std::abs(m[3]) < k_tolerance && std::abs(m[7]) < k_tolerance && std::abs(m[11]) < k_tolerance &&
                       std::abs(m[15] - 1.0) < k_tolerance;
-  if (!affine) place.refuse("the matrix's last row must be 0 0 0 1");
+  if (!affine) location.refuse("the matrix's last row must be 0 0 0 1");
   for (const auto& [a, b] : {std::pair(0, 4), std::pair(0, 8), std::pair(4, 8)}) {
     double dot = 0.0, aa = 0.0, bb = 0.0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -35,12 +35,12 @@ void check_matrix(const Place& place) {
       bb += y * y;
     }
     if (std::abs(dot) > k_tolerance * std::sqrt(aa) * std::sqrt(bb)) {
-      place.refuse("the matrix is no translation, rotation and scale: its axes are not orthogonal");
+      location.refuse("the matrix is no translation, rotation and scale: its axes are not orthogonal");
     }
   }
 }
 
-void copy_transform(const Place& node, json& out) {
+void copy_transform(const JsonLocation& node, json& out) {
   if (node.has("matrix")) {
     for (const char* other : {"translation", "rotation", "scale"}) {
       if (node.has(other)) node.at("matrix").refuse(std::string("a node has either matrix or ") + other + ", not both");
@@ -57,12 +57,12 @@ void copy_transform(const Place& node, json& out) {
   }
 }
 
-void copy_light(const Place& root, const Place& node, json& out) {
+void copy_light(const JsonLocation& root, const JsonLocation& node, json& out) {
   if (!node.has("extensions")) return;
-  const Place extensions = node.at("extensions");
+  const JsonLocation extensions = node.at("extensions");
   extensions.expect_object();
   if (!extensions.has(k_lights)) return;
-  const Place reference = extensions.at(k_lights);
+  const JsonLocation reference = extensions.at(k_lights);
   reference.expect_object();
   if (!root.has("extensions") || !root.at("extensions").has(k_lights)) {
     reference.refuse("the document defines no lights under /extensions/KHR_lights_punctual");
@@ -72,37 +72,37 @@ void copy_light(const Place& root, const Place& node, json& out) {
 }
 
 // Half extents of an oriented box (decal, probe), an invention of this tool: see OrientedBox.
-void copy_box(const Place& node, json& out) {
+void copy_box(const JsonLocation& node, json& out) {
   if (!node.has("extras")) return;
   warn_of_unknown_extras(node, {k_box});
   if (!node.at("extras").has(k_box)) return;
-  const Place place = node.at("extras").at(k_box).at("half_extents");
-  const std::vector<double> half_extents = place.numbers(3);
+  const JsonLocation location = node.at("extras").at(k_box).at("half_extents");
+  const std::vector<double> half_extents = location.numbers(3);
   if (std::any_of(half_extents.begin(), half_extents.end(), [](double h) { return h < 0.0; })) {
-    place.refuse("half extents must not be negative");
+    location.refuse("half extents must not be negative");
   }
   out["extras"][k_box]["half_extents"] = half_extents;
 }
 
 // Inherited down the tree: whether a node is drawn, and with it its light.
-void copy_visibility(const Place& node, json& out) {
+void copy_visibility(const JsonLocation& node, json& out) {
   if (!node.has("extensions") || !node.at("extensions").has("KHR_node_visibility")) return;
-  const Place extension = node.at("extensions").at("KHR_node_visibility");
+  const JsonLocation extension = node.at("extensions").at("KHR_node_visibility");
   extension.expect_object();
   if (!extension.has("visible")) return;
-  const Place visible = extension.at("visible");
+  const JsonLocation visible = extension.at("visible");
   if (!visible.value().is_boolean()) visible.refuse("found " + kind_of(visible.value()) + ", true or false is needed");
   out["visible"] = visible.value();
 }
 
-json checked_node(const Place& root, const Place& node, std::size_t nodes) {
+json checked_node(const JsonLocation& root, const JsonLocation& node, std::size_t nodes) {
   node.expect_object();
   json out = json::object();
   copy_name(node, out);
   copy_transform(node, out);
   if (node.has("camera")) out["camera"] = node.at("camera").index(count_of(root, "cameras"), "camera");
   if (node.has("children")) {
-    const Place children = node.at("children");
+    const JsonLocation children = node.at("children");
     const std::size_t count = children.elements();
     for (std::size_t i = 0; i < count; ++i) {
       out["children"].push_back(children.at(i).index(nodes, "node"));
@@ -116,19 +116,20 @@ json checked_node(const Place& root, const Place& node, std::size_t nodes) {
 
 constexpr std::size_t k_none = static_cast<std::size_t>(-1);
 
-// The parent of each node. A node with two would stand in two places.
-std::vector<std::size_t> parents_of(const Place& nodes, const json& checked, const std::vector<bool>& is_loaded) {
+// The parent of each node. A node with two would stand under two parents.
+std::vector<std::size_t> parents_of(const JsonLocation& nodes, const json& checked,
+                                    const std::vector<bool>& is_loaded) {
   std::vector<std::size_t> parent(checked.size(), k_none);
   for (std::size_t i = 0; i < checked.size(); ++i) {
     if (!checked[i].contains("children")) continue;
     const json& children = checked[i]["children"];
     for (std::size_t k = 0; k < children.size(); ++k) {
       const std::size_t child = children[k].get<std::size_t>();
-      const Place place = nodes.at(i).at("children").at(k);
+      const JsonLocation location = nodes.at(i).at("children").at(k);
       const std::string fault =
           "node " + std::to_string(child) + " already has the parent " + std::to_string(parent[child]);
-      if (parent[child] != k_none && is_loaded[child]) place.refuse(fault);
-      if (parent[child] != k_none) place.warn(fault + "; not in the scene that is loaded");
+      if (parent[child] != k_none && is_loaded[child]) location.refuse(fault);
+      if (parent[child] != k_none) location.warn(fault + "; not in the scene that is loaded");
       parent[child] = i;
     }
   }
@@ -136,7 +137,7 @@ std::vector<std::size_t> parents_of(const Place& nodes, const json& checked, con
 }
 
 // A node above itself stands nowhere.
-void check_forest(const Place& nodes, const json& checked, const std::vector<bool>& is_loaded) {
+void check_forest(const JsonLocation& nodes, const json& checked, const std::vector<bool>& is_loaded) {
   const std::vector<std::size_t> parent = parents_of(nodes, checked, is_loaded);
   // With at most one parent each, walking up from every node finds every loop. 1: on the way up, 2: known to end.
   std::vector<char> state(checked.size(), 0);
@@ -158,10 +159,10 @@ void check_forest(const Place& nodes, const json& checked, const std::vector<boo
 
 }  // namespace
 
-json checked_nodes(const Place& root, const LoadedScene& loaded) {
+json checked_nodes(const JsonLocation& root, const LoadedScene& loaded) {
   json out = json::array();
   if (!root.has("nodes")) return out;
-  const Place nodes = root.at("nodes");
+  const JsonLocation nodes = root.at("nodes");
   const std::size_t count = nodes.elements();
   for (std::size_t i = 0; i < count; ++i) {
     json node = json::object();

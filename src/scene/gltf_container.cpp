@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/error.h"
-#include "scene/gltf_place.h"
+#include "scene/gltf_location.h"
 
 namespace clusterbench::scene {
 namespace {
@@ -49,8 +49,8 @@ std::string_view glb_json(GltfFile& file) {
   // What comes after the length that the header gives is not part of the GLB.
   const std::string_view all = std::string_view(file.bytes).substr(0, little_endian(file.bytes, 8));
   std::string_view text;
-  std::size_t place = 0;
-  for (std::size_t at = k_header_bytes; at < all.size(); ++place) {
+  std::size_t index = 0;
+  for (std::size_t at = k_header_bytes; at < all.size(); ++index) {
     if (all.size() - at < k_chunk_header_bytes) refuse_at(file, at, "the file ends inside a chunk's header");
     const std::size_t length = little_endian(all, at);
     const std::uint32_t type = little_endian(all, at + 4);
@@ -59,16 +59,16 @@ std::string_view glb_json(GltfFile& file) {
     }
     if (length % 4 != 0)
       refuse_at(file, at, "a chunk's length must be a multiple of 4, found " + std::to_string(length));
-    if (place == 0 && type != k_json_chunk) refuse_at(file, at + 4, "the first chunk must be JSON");
-    if (place > 0 && type == k_json_chunk) refuse_at(file, at + 4, "a second JSON chunk");
+    if (index == 0 && type != k_json_chunk) refuse_at(file, at + 4, "the first chunk must be JSON");
+    if (index > 0 && type == k_json_chunk) refuse_at(file, at + 4, "a second JSON chunk");
     if (type == k_bin_chunk && file.binary) refuse_at(file, at + 4, "a second BIN chunk");
-    if (type == k_bin_chunk && place != 1) refuse_at(file, at + 4, "the BIN chunk must follow the JSON chunk");
+    if (type == k_bin_chunk && index != 1) refuse_at(file, at + 4, "the BIN chunk must follow the JSON chunk");
     const std::string_view content = all.substr(at + k_chunk_header_bytes, length);
     if (type == k_json_chunk) text = content;
     if (type == k_bin_chunk) file.binary = content;
     at += k_chunk_header_bytes + length;
   }
-  if (place == 0) refuse_at(file, k_header_bytes, "the GLB has no JSON chunk");
+  if (index == 0) refuse_at(file, k_header_bytes, "the GLB has no JSON chunk");
   return text;
 }
 

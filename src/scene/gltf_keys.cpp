@@ -9,23 +9,23 @@
 namespace clusterbench::scene {
 namespace {
 
-void check_times_format(const AccessorReader& reader, const Place& sampler, std::size_t accessor) {
-  const Place input = sampler.at("input"), place = reader.place(accessor);
+void check_times_format(const AccessorReader& reader, const JsonLocation& sampler, std::size_t accessor) {
+  const JsonLocation input = sampler.at("input"), location = reader.location(accessor);
   const AccessorHead head = reader.head(accessor);
   if (head.type != "SCALAR" || head.component != Component::f32) {
     input.refuse("key times must be SCALAR floats, accessor " + std::to_string(accessor) + " is not");
   }
   for (const char* bound : {"min", "max"}) {
-    if (place.has(bound)) {
-      place.at(bound).numbers(1);
+    if (location.has(bound)) {
+      location.at(bound).numbers(1);
     } else {
-      place.warn(std::string("'") + bound + "' is missing, where glTF asks for it at key times; the times are read");
+      location.warn(std::string("'") + bound + "' is missing, where glTF asks for it at key times; the times are read");
     }
   }
 }
 
-std::vector<double> read_times(AccessorReader& reader, const Place& sampler, std::size_t accessor) {
-  const Place input = sampler.at("input");
+std::vector<double> read_times(AccessorReader& reader, const JsonLocation& sampler, std::size_t accessor) {
+  const JsonLocation input = sampler.at("input");
   std::vector<double> times_s = reader.numbers(accessor, 1);
   if (times_s.front() < 0.0)
     input.refuse("the first key time is " + std::to_string(times_s.front()) + ", 0 or more is needed");
@@ -51,7 +51,7 @@ std::size_t components_of(ChannelPath path) {
   }
 }
 
-void check_format(const Place& output, const AccessorHead& head, ChannelPath path, bool is_pointer) {
+void check_format(const JsonLocation& output, const AccessorHead& head, ChannelPath path, bool is_pointer) {
   const bool number = head.component == Component::f32 || (head.normalized && head.component != Component::u32);
   const std::size_t components = components_of(path);
   if (path == ChannelPath::visible) {
@@ -70,7 +70,7 @@ void check_format(const Place& output, const AccessorHead& head, ChannelPath pat
 
 // What a property of a light or a projection may be; a node's may be anything. A projection is looked at as a whole
 // later on.
-void check_allowed(const Place& output, const Channel& channel) {
+void check_allowed(const JsonLocation& output, const Channel& channel) {
   const bool cubic = channel.interpolation == Interpolation::cubic_spline;
   const bool angle = channel.path == ChannelPath::inner_cone || channel.path == ChannelPath::outer_cone;
   constexpr double k_widest = 1.57079632679489661923 + k_angle_slack_rad;
@@ -83,7 +83,7 @@ void check_allowed(const Place& output, const Channel& channel) {
   }
 }
 
-void check_unit(const Place& output, const Channel& channel) {
+void check_unit(const JsonLocation& output, const Channel& channel) {
   const bool cubic = channel.interpolation == Interpolation::cubic_spline;
   for (std::size_t i = cubic ? 1 : 0; i < channel.values.size(); i += cubic ? 3 : 1) {
     const double length = glm::length(channel.values[i]);
@@ -96,8 +96,8 @@ void check_unit(const Place& output, const Channel& channel) {
 
 }  // namespace
 
-std::optional<Channel> read_keys(AccessorReader& reader, const Place& sampler, std::size_t input, std::size_t output,
-                                 ChannelPath path, bool is_pointer, Interpolation interpolation) {
+std::optional<Channel> read_keys(AccessorReader& reader, const JsonLocation& sampler, std::size_t input,
+                                 std::size_t output, ChannelPath path, bool is_pointer, Interpolation interpolation) {
   check_times_format(reader, sampler, input);
   const AccessorHead head = reader.head(output);
   check_format(sampler.at("output"), head, path, is_pointer);

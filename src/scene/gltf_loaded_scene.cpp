@@ -24,7 +24,7 @@ const json& array_of(const json& object, const char* key) {
 
 }  // namespace
 
-LoadedScene loaded_scene(const Place& root) {
+LoadedScene loaded_scene(const JsonLocation& root) {
   const json &document = root.value(), &nodes = array_of(document, "nodes"), &scenes = array_of(document, "scenes");
   LoadedScene loaded;
   loaded.nodes.assign(nodes.size(), true);

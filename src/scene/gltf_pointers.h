@@ -12,7 +12,7 @@ namespace clusterbench::scene {
 
 enum class TargetKind : std::uint8_t { node, light, camera };
 
-// What an animation channel moves, by its place in the file.
+// What an animation channel moves, by its location in the file.
 struct Target {
   TargetKind kind = TargetKind::node;  // light: a definition of KHR_lights_punctual
   std::size_t index = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// What a loader doubts, gathered so that one doubt in many places is one line.
+// What a loader doubts, gathered so that one doubt in many locations is one line.
 
 #include <cstddef>
 #include <map>
@@ -13,7 +13,7 @@ class Warnings {
   // Warnings whose pointers and messages differ in numbers alone count as one; the first is the one that is shown.
   void add(const std::string& pointer, const std::string& message);
 
-  // A line each, in the order of their first places: "pointer: message (and 69 more like it)".
+  // A line each, in the order of their first locations: "pointer: message (and 69 more like it)".
   std::vector<std::string> lines() const;
 
   // Different warnings that are kept; the others are only counted.
@@ -25,7 +25,7 @@ class Warnings {
     std::size_t count = 1;
   };
   std::vector<Kind> kinds_;
-  std::map<std::string, std::size_t> known_;  // shape -> place in kinds_
+  std::map<std::string, std::size_t> known_;  // shape -> index in kinds_
   std::size_t left_out_ = 0;
 };
 

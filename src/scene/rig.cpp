@@ -29,7 +29,7 @@ bool is_spot(double share, int i) {
   return std::floor((i + 1.0) * share) > std::floor(i * share);
 }
 
-// Draws as many numbers for a point as for a spot, so that places do not depend on the share of spots.
+// Draws as many numbers for a point as for a spot, so that positions do not depend on the share of spots.
 void add_light(const RigSpec& spec, int index, SplitMix64& random, Scene& scene) {
   const Vec3d half{spec.size_m.x / 2.0, 0.0, spec.size_m.z / 2.0};
   Node node;

@@ -27,7 +27,7 @@ struct Light {
   std::optional<double> range_given_m;  // as the file gives it
   double range_m = 0.0;                 // after resolve_ranges(); >= 0, may be +inf
   RangeSource range_source = RangeSource::given;
-  int definition = -1;  // place among the file's light definitions, which light channels move
+  int definition = -1;  // index among the file's light definitions, which light channels move
   double inner_cone_rad = 0.0, outer_cone_rad = 0.78539816339744831;  // half-angles, spots only
 };
 
@@ -71,12 +71,12 @@ struct Camera {
   int node = -1;
   CameraProjection projection;
   bool animated = false;  // its projection, its node or one above it has an animation channel
-  int definition = -1;    // place among the file's cameras, which projection channels move
+  int definition = -1;    // index among the file's cameras, which projection channels move
 };
 
 struct Node {
   std::string name;
-  int parent = -1;  // always smaller than the node's own place: parents come first
+  int parent = -1;  // always smaller than the node's own index: parents come first
   int gltf_index = -1;
   bool has_matrix = false;
   Mat4d matrix{1.0};
@@ -152,7 +152,7 @@ Vec4d rotation_towards(const Vec3d& direction);
 
 // A point or spot light in world space at one time: what truth is computed from.
 struct WorldLight {
-  int rig_index = -1;  // place in Scene::lights
+  int rig_index = -1;  // index in Scene::lights
   LightType type = LightType::point;
   Vec3d position{0.0};
   double range_m = 0.0;

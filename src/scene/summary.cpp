@@ -71,18 +71,18 @@ struct Extent {
   bool empty() const { return !(lo.x <= hi.x); }
 };
 
-// Diagonal of the box that holds the places of all lights but the outermost twentieth on each side: one forgotten light
-// far away shall not make every range look small.
+// Diagonal of the box that holds the positions of all lights but the outermost twentieth on each side: one forgotten
+// light far away shall not make every range look small.
 double usual_distance(const Scene& scene) {
   const std::vector<WorldLight> lights = world_lights(scene, 0.0);
   if (lights.empty()) return 0.0;
   Vec3d size{0.0};
   for (int axis = 0; axis < 3; ++axis) {
-    std::vector<double> places;
-    for (const WorldLight& light : lights) places.push_back(light.position[axis]);
-    std::sort(places.begin(), places.end());
-    const std::size_t outermost = places.size() / 20;
-    size[axis] = places[places.size() - 1 - outermost] - places[outermost];
+    std::vector<double> coordinates;
+    for (const WorldLight& light : lights) coordinates.push_back(light.position[axis]);
+    std::sort(coordinates.begin(), coordinates.end());
+    const std::size_t outermost = coordinates.size() / 20;
+    size[axis] = coordinates[coordinates.size() - 1 - outermost] - coordinates[outermost];
   }
   return glm::length(size);
 }
@@ -160,15 +160,15 @@ bool may_see(const View& view, const WorldLight& light) {
          beyond(p.y, view.sides.top) <= r && beyond(-p.y, -view.sides.bottom) <= r;
 }
 
-// Which lights (places in Scene::lights) some camera can see at some moment.
+// Which lights (indices in Scene::lights) some camera can see at some moment.
 struct Sight {
   std::vector<bool> is_seen;
   bool is_known = true;  // false: too many cameras and lights to look
   bool is_whole = true;  // every frame of every path was looked at
 };
 
-// What is looked at: pairs of a light and a moment of a camera, and nodes that are put in their places. More would take
-// longer than a second.
+// What is looked at: pairs of a light and a moment of a camera, and nodes that are put in their coordinates. More would
+// take longer than a second.
 constexpr double k_most_looks = 2e7, k_most_placings = 4e6;
 
 // The moments of all cameras, so thinned that looking stays quick: time -> cameras.
@@ -194,7 +194,7 @@ std::map<double, std::vector<std::size_t>> moments_to_look_at(const Scene& scene
   return out;
 }
 
-// All cameras that look at one time share the lights' places.
+// All cameras that look at one time share the lights' positions.
 void look_through(const Scene& scene, double time_s, const std::vector<std::size_t>& cameras, Sight& sight) {
   const std::vector<Mat4d> world = world_transforms(scene, time_s);
   std::vector<WorldLight> unseen = world_lights(scene, time_s);
@@ -205,10 +205,10 @@ void look_through(const Scene& scene, double time_s, const std::vector<std::size
     const View view{camera_pose(world[static_cast<std::size_t>(camera.node)]), projection, largest_view(projection)};
     check_domain(scene, camera.name, Shot{time_s, view.pose, projection});
     std::erase_if(unseen, [&](const WorldLight& light) {
-      const auto place = static_cast<std::size_t>(light.rig_index);
+      const auto rig_index = static_cast<std::size_t>(light.rig_index);
       if (!(light.range_m > 0.0)) return true;  // invisible, for now at least
-      if (!sight.is_seen[place]) sight.is_seen[place] = may_see(view, light);
-      return bool{sight.is_seen[place]};
+      if (!sight.is_seen[rig_index]) sight.is_seen[rig_index] = may_see(view, light);
+      return bool{sight.is_seen[rig_index]};
     });
   }
 }

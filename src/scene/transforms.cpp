@@ -187,9 +187,9 @@ Mat4d world_transform(const Scene& scene, int index, double time_s) {
   std::vector<Node> posed;
   for (const int node : chain) posed.push_back(scene.nodes[static_cast<std::size_t>(node)]);
   for (const Channel& channel : scene.channels) {
-    const auto place = std::lower_bound(chain.begin(), chain.end(), channel.node);
-    if (place != chain.end() && *place == channel.node)
-      apply(channel, time_s, posed[static_cast<std::size_t>(place - chain.begin())]);
+    const auto link = std::lower_bound(chain.begin(), chain.end(), channel.node);
+    if (link != chain.end() && *link == channel.node)
+      apply(channel, time_s, posed[static_cast<std::size_t>(link - chain.begin())]);
   }
   Mat4d world = local_matrix(posed.front());
   for (std::size_t i = 1; i < posed.size(); ++i) world = world * local_matrix(posed[i]);

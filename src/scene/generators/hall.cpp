@@ -6,7 +6,7 @@ namespace clusterbench::scene {
 
 void build_hall(Stage& stage, int lights, double range_m) {
   for (int i = 0; i < lights; ++i)
-    stage.point("light " + std::to_string(i), stage.place_in({-100.0, 0.0, -100.0}, {100.0, 55.0, 100.0}), range_m);
+    stage.point("light " + std::to_string(i), stage.position_in({-100.0, 0.0, -100.0}, {100.0, 55.0, 100.0}), range_m);
   constexpr double k_eye = 4.0;
   stage.camera("walk",
                walk({{70, k_eye, 90},

@@ -8,13 +8,13 @@ namespace clusterbench::scene {
 void build_jam(Stage& stage, int lights) {
   SplitMix64& random = stage.random();
   for (int i = 0; stage.light_count() < lights; ++i) {
-    const Vec3d place = stage.place_in({-30.0, 0.5, -70.0}, {30.0, 20.0, -6.0});
-    const Vec3d direction = stage.place_in({-1.0, -1.0, -1.0}, {1.0, 0.2, 1.0});
+    const Vec3d position = stage.position_in({-30.0, 0.5, -70.0}, {30.0, 20.0, -6.0});
+    const Vec3d direction = stage.position_in({-1.0, -1.0, -1.0}, {1.0, 0.2, 1.0});
     const double share = random.unit(), range_m = 15.0 + 45.0 * share * share;
     if (i % 6 == 5)
-      stage.spot("beam " + std::to_string(i), place, direction, range_m, random.between(15.0, 70.0));
+      stage.spot("beam " + std::to_string(i), position, direction, range_m, random.between(15.0, 70.0));
     else
-      stage.point("blast " + std::to_string(i), place, range_m);
+      stage.point("blast " + std::to_string(i), position, range_m);
   }
   stage.camera(
       "strafe",

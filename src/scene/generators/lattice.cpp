@@ -16,18 +16,18 @@ int whole(SplitMix64& random, int least, int most) {
 
 // Beside the plane x = 0 or y = 0, or beside both, with the range that ends there.
 struct Lamp {
-  Vec3d place, towards;
+  Vec3d position, towards;
   double range_m;
 };
 
 Lamp beside_plane(SplitMix64& random) {
   const int axis = whole(random, 0, 1);
   Lamp lamp{};
-  lamp.place[axis] = whole(random, 1, 6);
-  lamp.place[1 - axis] = whole(random, -12, 12);
-  lamp.place.z = -whole(random, 2, 60);
+  lamp.position[axis] = whole(random, 1, 6);
+  lamp.position[1 - axis] = whole(random, -12, 12);
+  lamp.position.z = -whole(random, 2, 60);
   lamp.towards[axis] = -1.0;
-  lamp.range_m = lamp.place[axis];
+  lamp.range_m = lamp.position[axis];
   return lamp;
 }
 
@@ -37,8 +37,8 @@ Lamp beside_edge(SplitMix64& random) {
   const auto& triple = k_triples[random.below(k_triples.size())];
   const bool swapped = random.below(2) == 0;
   Lamp lamp{};
-  lamp.place = {triple[swapped ? 1 : 0], triple[swapped ? 0 : 1], -whole(random, 2, 60)};
-  lamp.towards = {-lamp.place.x, -lamp.place.y, 0.0};
+  lamp.position = {triple[swapped ? 1 : 0], triple[swapped ? 0 : 1], -whole(random, 2, 60)};
+  lamp.towards = {-lamp.position.x, -lamp.position.y, 0.0};
   lamp.range_m = triple[2];
   return lamp;
 }
@@ -60,11 +60,11 @@ void build_lattice(Stage& stage, int lights, const Vec3d& off) {
     const double angle_deg = k_angles_deg[random.below(k_angles_deg.size())];
     for (int side = 0; side < 4 && stage.light_count() < lights; ++side) {
       const std::string name = std::to_string(i) + " of side " + std::to_string(side);
-      const Vec3d place = mirrored(lamp.place, side) + off;
+      const Vec3d position = mirrored(lamp.position, side) + off;
       if (is_spot)
-        stage.spot("spot " + name, place, mirrored(lamp.towards, side), lamp.range_m, angle_deg);
+        stage.spot("spot " + name, position, mirrored(lamp.towards, side), lamp.range_m, angle_deg);
       else
-        stage.point("lamp " + name, place, lamp.range_m);
+        stage.point("lamp " + name, position, lamp.range_m);
     }
   }
   constexpr double k_eighth_turn = 0.78539816339744831;

@@ -40,7 +40,7 @@ void fill_petrol_station(Stage& stage, const Vec3d& at) {
 
 void fill_village(Stage& stage, const std::string& name, const Vec3d& at, int houses) {
   for (int house = 0; house < houses; ++house) {
-    const Vec3d home = at + stage.place_in({-35.0, 0.0, -35.0}, {35.0, 0.0, 35.0});
+    const Vec3d home = at + stage.position_in({-35.0, 0.0, -35.0}, {35.0, 0.0, 35.0});
     const std::string part = name + " house " + std::to_string(house);
     const double door_m = stage.random().between(4.0, 7.0), window_m = stage.random().between(2.0, 5.0);
     stage.point(part + " door", home + Vec3d(0.0, 2.4, 3.2), door_m);
@@ -93,8 +93,8 @@ void build_open_world(Stage& stage, int lights) {
   place_floodlights(stage);
   drive_cars(stage, 24);
   for (int i = 0; stage.light_count() < lights; ++i) {
-    const Vec3d place = stage.place_in({-240.0, 1.0, -240.0}, {240.0, 3.0, 240.0});
-    stage.point("lantern " + std::to_string(i), place, stage.random().between(3.0, 12.0));
+    const Vec3d position = stage.position_in({-240.0, 1.0, -240.0}, {240.0, 3.0, 240.0});
+    stage.point("lantern " + std::to_string(i), position, stage.random().between(3.0, 12.0));
   }
 
   constexpr double k_eye = 1.7;

@@ -19,7 +19,7 @@ double rounded(double value, double steps) {
 }
 
 // A tenth of a millimetre.
-Json place_json(const Vec3d& p) {
+Json position_json(const Vec3d& p) {
   return {rounded(p.x, 1e4), rounded(p.y, 1e4), rounded(p.z, 1e4)};
 }
 
@@ -53,7 +53,7 @@ Stage::Stage(std::uint64_t seed) : random_(seed) {
   document_["nodes"] = Json::array();
 }
 
-Vec3d Stage::place_in(const Vec3d& lo, const Vec3d& hi) {
+Vec3d Stage::position_in(const Vec3d& lo, const Vec3d& hi) {
   const double x = random_.between(lo.x, hi.x), y = random_.between(lo.y, hi.y), z = random_.between(lo.z, hi.z);
   return {x, y, z};
 }
@@ -85,16 +85,16 @@ Json Stage::definition(const char* type, double range_m) {
   return light;
 }
 
-void Stage::point(const std::string& name, const Vec3d& place, double range_m, int parent) {
+void Stage::point(const std::string& name, const Vec3d& position, double range_m, int parent) {
   const int light = light_definition(definition("point", range_m));
   ++light_count_;
   add_node({{"name", name},
-            {"translation", place_json(place)},
+            {"translation", position_json(position)},
             {"extensions", {{"KHR_lights_punctual", {{"light", light}}}}}},
            parent);
 }
 
-void Stage::spot(const std::string& name, const Vec3d& place, const Vec3d& direction, double range_m,
+void Stage::spot(const std::string& name, const Vec3d& position, const Vec3d& direction, double range_m,
                  double half_angle_deg, int parent) {
   Json light = definition("spot", range_m);
   const double outer = std::min(rounded(half_angle_deg * k_pi / 180.0, 1e6), 1.570796);
@@ -102,7 +102,7 @@ void Stage::spot(const std::string& name, const Vec3d& place, const Vec3d& direc
   const int index = light_definition(light);
   ++light_count_;
   add_node({{"name", name},
-            {"translation", place_json(place)},
+            {"translation", position_json(position)},
             {"rotation", rotation_json(rotation_towards(direction))},
             {"extensions", {{"KHR_lights_punctual", {{"light", index}}}}}},
            parent);
@@ -110,7 +110,7 @@ void Stage::spot(const std::string& name, const Vec3d& place, const Vec3d& direc
 
 int Stage::mover(const std::string& name, const std::vector<PathKey>& keys) {
   const int node = add_node({{"name", name},
-                             {"translation", place_json(keys.front().place)},
+                             {"translation", position_json(keys.front().position)},
                              {"rotation", rotation_json(yaw_rotation(keys.front().yaw_rad))}},
                             -1);
   animate(node, keys);
@@ -140,18 +140,18 @@ int Stage::float_accessor(const std::vector<float>& values, const char* type, st
 }
 
 void Stage::animate(int node, const std::vector<PathKey>& keys) {
-  std::vector<float> times, places, rotations;
+  std::vector<float> times, positions, rotations;
   Vec4d before{0.0, 0.0, 0.0, 1.0};
   for (const PathKey& key : keys) {
     times.push_back(static_cast<float>(rounded(key.time_s, 1e3)));
-    for (int axis = 0; axis < 3; ++axis) places.push_back(static_cast<float>(rounded(key.place[axis], 1e4)));
+    for (int axis = 0; axis < 3; ++axis) positions.push_back(static_cast<float>(rounded(key.position[axis], 1e4)));
     Vec4d q = yaw_rotation(key.yaw_rad);
     if (glm::dot(q, before) < 0.0) q = -q;
     before = q;
     for (int i = 0; i < 4; ++i) rotations.push_back(static_cast<float>(rounded(q[i], 1e7)));
   }
   const int input = float_accessor(times, "SCALAR", 1, true);
-  const int translation = float_accessor(places, "VEC3", 3, false),
+  const int translation = float_accessor(positions, "VEC3", 3, false),
             rotation = float_accessor(rotations, "VEC4", 4, false);
   if (!document_.contains("animations"))
     document_["animations"] =

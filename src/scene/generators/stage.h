@@ -14,7 +14,7 @@ namespace clusterbench::scene {
 
 struct PathKey {
   double time_s;
-  Vec3d place;
+  Vec3d position;
   double yaw_rad;  // 0 looks along -z, positive turns left
 };
 
@@ -25,13 +25,13 @@ class Stage {
   // Compilers choose the order in which a call's arguments are evaluated: draw one number a call, the others into
   // names.
   SplitMix64& random() { return random_; }
-  Vec3d place_in(const Vec3d& lo, const Vec3d& hi);
+  Vec3d position_in(const Vec3d& lo, const Vec3d& hi);
   int light_count() const { return light_count_; }
 
   // Lights are children of `parent` (-1: the scene). range_m = 0: the file gives none.
-  void point(const std::string& name, const Vec3d& place, double range_m, int parent = -1);
-  void spot(const std::string& name, const Vec3d& place, const Vec3d& direction, double range_m, double half_angle_deg,
-            int parent = -1);
+  void point(const std::string& name, const Vec3d& position, double range_m, int parent = -1);
+  void spot(const std::string& name, const Vec3d& position, const Vec3d& direction, double range_m,
+            double half_angle_deg, int parent = -1);
   // A node that moves along the keys; the number to give as a parent.
   int mover(const std::string& name, const std::vector<PathKey>& keys);
   // The scene's camera: vertical field of view 60°, near 0.1 m.

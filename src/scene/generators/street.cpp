@@ -18,7 +18,7 @@ void build_street(Stage& stage, int lights) {
       stage.point(name, lamp, 9.5);
   }
   for (int i = 0; i < 12; ++i)
-    stage.point("sign " + std::to_string(i), stage.place_in({-6.5, 3.0, -k_length}, {6.5, 9.0, 0.0}), 0.0);
+    stage.point("sign " + std::to_string(i), stage.position_in({-6.5, 3.0, -k_length}, {6.5, 9.0, 0.0}), 0.0);
   for (int i = 0; i < 16; ++i)
     stage.spot("traffic " + std::to_string(i), {i % 2 == 0 ? 1.8 : -1.8, 0.7, -20.0 * i - 5.0},
                {0.0, -0.05, i % 2 == 0 ? 1.0 : -1.0}, 32.0, 12.0);
@@ -27,8 +27,8 @@ void build_street(Stage& stage, int lights) {
                i % 4 == 0 ? 90.0 : 20.0);
   for (int i = 0; stage.light_count() < lights; ++i) {
     const double x = (random.below(2) == 0 ? 1.0 : -1.0) * (k_half_width - 0.3);
-    const Vec3d place = stage.place_in({x, 1.0, -k_length}, {x, 14.0, 0.0});
-    stage.point("window " + std::to_string(i), place, random.between(2.0, 5.0));
+    const Vec3d position = stage.position_in({x, 1.0, -k_length}, {x, 14.0, 0.0});
+    stage.point("window " + std::to_string(i), position, random.between(2.0, 5.0));
   }
   stage.camera(
       "walk",

@@ -1,4 +1,4 @@
-#include "scene/gltf_place.h"
+#include "scene/gltf_location.h"
 
 #include <cmath>
 #include <limits>
@@ -51,45 +51,45 @@ bool is_float_max(double number) {
   return number > k_float_max - k_half_step && number < k_float_max + k_half_step;
 }
 
-void Place::refuse(const std::string& message) const {
+void JsonLocation::refuse(const std::string& message) const {
   throw Error(*file_, pointer_.empty() ? "/" : pointer_, one_line(message));
 }
 
-void Place::warn(const std::string& message) const {
+void JsonLocation::warn(const std::string& message) const {
   warnings_->add(pointer_.empty() ? "/" : pointer_, one_line(message));
 }
 
-Place Place::at(const std::string& key) const {
+JsonLocation JsonLocation::at(const std::string& key) const {
   expect_object();
   const auto found = value_->find(key);
   if (found == value_->end()) refuse("'" + key + "' is missing");
-  return Place(*file_, *found, *warnings_, pointer_ + "/" + escaped(key));
+  return JsonLocation(*file_, *found, *warnings_, pointer_ + "/" + escaped(key));
 }
 
-Place Place::at(std::size_t index) const {
-  return Place(*file_, (*value_)[index], *warnings_, pointer_ + "/" + std::to_string(index));
+JsonLocation JsonLocation::at(std::size_t index) const {
+  return JsonLocation(*file_, (*value_)[index], *warnings_, pointer_ + "/" + std::to_string(index));
 }
 
-void Place::expect_object() const {
+void JsonLocation::expect_object() const {
   if (!value_->is_object()) refuse("found " + kind_of(*value_) + ", an object is needed");
 }
 
-void Place::expect_array() const {
+void JsonLocation::expect_array() const {
   if (!value_->is_array()) refuse("found " + kind_of(*value_) + ", an array is needed");
 }
 
-std::size_t Place::elements() const {
+std::size_t JsonLocation::elements() const {
   expect_array();
   if (value_->empty()) warn("an empty array, where glTF asks for one element or more; read as absent");
   return value_->size();
 }
 
-const std::string& Place::text() const {
+const std::string& JsonLocation::text() const {
   if (!value_->is_string()) refuse("found " + kind_of(*value_) + ", a string is needed");
   return value_->get_ref<const std::string&>();
 }
 
-double Place::number() const {
+double JsonLocation::number() const {
   if (!value_->is_number()) refuse("found " + kind_of(*value_) + ", a number is needed");
   const double number = value_->get<double>();
   if (!(std::abs(number) < k_float_max + k_half_step)) {
@@ -98,7 +98,7 @@ double Place::number() const {
   return number;
 }
 
-std::size_t Place::whole() const {
+std::size_t JsonLocation::whole() const {
   constexpr double k_largest = 9007199254740992.0;  // 2^53: every whole number up to it is a double
   const double found = value_->is_number() ? value_->get<double>() : -1.0;
   if (!(found >= 0.0 && found <= k_largest) || found != std::floor(found)) {
@@ -107,7 +107,7 @@ std::size_t Place::whole() const {
   return static_cast<std::size_t>(found);
 }
 
-std::size_t Place::index(std::size_t count, const std::string& what) const {
+std::size_t JsonLocation::index(std::size_t count, const std::string& what) const {
   const std::size_t found = whole();
   if (found >= count) {
     refuse("refers to " + what + " " + std::to_string(found) + ", but there " +
@@ -116,7 +116,7 @@ std::size_t Place::index(std::size_t count, const std::string& what) const {
   return found;
 }
 
-std::vector<double> Place::numbers(std::size_t count) const {
+std::vector<double> JsonLocation::numbers(std::size_t count) const {
   if (!value_->is_array() || value_->size() != count) {
     refuse("found " + kind_of(*value_) + (value_->is_array() ? " of " + std::to_string(value_->size()) : "") + ", " +
            std::to_string(count) + " numbers are needed");

@@ -10,10 +10,10 @@
 
 namespace clusterbench::scene {
 
-class Place {
+class JsonLocation {
  public:
-  // `file`, `value` and `warnings` must outlive the Place.
-  Place(const std::string& file, const nlohmann::json& value, Warnings& warnings, std::string pointer = "")
+  // `file`, `value` and `warnings` must outlive the JsonLocation.
+  JsonLocation(const std::string& file, const nlohmann::json& value, Warnings& warnings, std::string pointer = "")
       : file_(&file), value_(&value), warnings_(&warnings), pointer_(std::move(pointer)) {}
 
   const nlohmann::json& value() const { return *value_; }
@@ -22,8 +22,8 @@ class Place {
   std::size_t size() const { return value_->size(); }
 
   // A member that must be there, or an element of an array.
-  Place at(const std::string& key) const;
-  Place at(std::size_t index) const;
+  JsonLocation at(const std::string& key) const;
+  JsonLocation at(std::size_t index) const;
 
   // Each throws Error(file, pointer, ...) when the value is not of that kind.
   void expect_object() const;
