@@ -6,7 +6,7 @@ import { createRequire } from "node:module";
 import { join } from "node:path";
 import { after, afterEach, before, describe, it } from "node:test";
 import { chromiumPath, folder, launch, makePage, open as openPage } from "./browser.mjs";
-import { committedResult, historyPage, lossy, measureSweep, onAnotherMachine, widened } from "./results.mjs";
+import { committedResult, historyPage, lossy, measureSweep, onAnotherMachine, widened, withTwoCameras } from "./results.mjs";
 
 if (!chromiumPath) {
   console.log("skipped: there is no Chromium (scripts/setup test installs it)");
@@ -24,7 +24,8 @@ before(async () => {
   pages.sweep = makePage(tool, [sweepFile], join(place, "sweep.html"));
   const lossyFile = measureSweep(tool, place, lossy, (table) => (lossyTable = table));
   pages.lossy = makePage(tool, [lossyFile], join(place, "lossy.html"));
-  pages.wide = makePage(tool, [widened(lossyFile, place)], join(place, "wide.html"));
+  pages.wide = makePage(tool, [widened(committedResult, place)], join(place, "wide.html"));
+  pages.cameras = makePage(tool, [withTwoCameras(committedResult, place)], join(place, "cameras.html"));
   pages.against = makePage(tool, [sweepFile, onAnotherMachine(sweepFile, place)], join(place, "against.html"));
   pages.history = historyPage(tool, place);
   pages.two = makePage(tool, [committedResult, sweepFile], join(place, "two.html"));
@@ -178,6 +179,11 @@ describe("over all scenes", () => {
       ++compared;
     }
     assert.ok(compared > 5, String(compared));
+  });
+
+  it("a scene of two cameras counts as much as one of one", async () => {
+    const figures = async (url) => (await inTable(await open(url))).map((row) => [row.method, row.grid, row.storage, row["time / best"], row.excess, row.overshade, row.bytes, row.longest].join()).sort();
+    assert.deepEqual(await figures(pages.cameras), await figures(pages.quick));
   });
 
   it("a mean that some scenes have no part in says of how many it is", async () => {
@@ -352,7 +358,6 @@ describe("charts", () => {
 
   it("have names that no interval strikes", async () => {
     const page = await open(pages.wide);
-    await page.selectOption("#speed-error-measure", "bytes");
     const struck = await page.locator("#speed-error svg[role=img]").evaluateAll((charts) =>
       charts.flatMap((svg) => {
         const names = [...svg.querySelectorAll("g[font-size], g")].flatMap((group) => (group.getAttribute("stroke-width") === "4" ? [...group.querySelectorAll("text")] : []));

@@ -65,6 +65,13 @@ export const widened = (file, folder) =>
     for (const { timing } of cases) timing.frame_ns.ci95 = [timing.frame_ns.median / 2, 2 * timing.frame_ns.median];
   });
 
+// The first scene's cases once more, as of another camera.
+export const withTwoCameras = (file, folder) =>
+  changed(file, folder, "cameras", (result) => {
+    const again = result.cases.filter((one) => one.scene === result.scenes[0].name);
+    result.cases.push(...again.map((one) => ({ ...one, id: `${one.id}-again`, camera: "another" })));
+  });
+
 // The same, where everything takes twice as long.
 export const onAnotherMachine = (file, folder) =>
   changed(file, folder, "elsewhere", (result) => {
