@@ -178,6 +178,8 @@ Json precision(const run::PrecisionResult& p) {
 Json timing(const run::TimingResult& t) {
   Json out{
       {"frames_timed", t.frames_timed},
+      {"caches", t.is_cold ? "cold" : "warm"},
+      {"launches", t.launches},
       {"frame_ns", to_json(t.frame_ns)},
       {"worst_frame", {{"frame", t.worst.frame}, {"ns", number_or_null(t.worst.ns)}, {"ci95", to_json(t.worst.ci95)}}}};
   if (t.worst.pairs) out["worst_frame"]["pairs"] = *t.worst.pairs;
@@ -186,6 +188,10 @@ Json timing(const run::TimingResult& t) {
   out["build_ns"] = to_json(t.build_ns);
   out["assign_ns"] = to_json(t.assign_ns);
   if (t.convert_ns) out["convert_ns"] = to_json(*t.convert_ns);
+  if (t.warm) {
+    out["warm"] = {{"frame_ns", to_json(t.warm->frame_ns)}, {"assign_ns", to_json(t.warm->assign_ns)}};
+    if (t.warm->convert_ns) out["warm"]["convert_ns"] = to_json(*t.warm->convert_ns);
+  }
   out["ns_per_pair"] = number_or_null(t.ns_per_pair);
   out["write_floor_ns"] = number_or_null(t.write_floor_ns);
   out["floor_ratio"] = number_or_null(t.floor_ratio);
@@ -193,6 +199,10 @@ Json timing(const run::TimingResult& t) {
     out["vs"] = {{"assigner", t.vs->assigner},
                  {"ratio", number_or_null(t.vs->ratio.ratio)},
                  {"ci95", to_json(t.vs->ratio.ci95)}};
+  const run::Disturbance& d = t.disturbance;
+  const auto cores = [&](double busy_s) { return number_or_null(d.seconds > 0.0 ? busy_s / d.seconds : 0.0); };
+  out["disturbed"] = {
+      {"others_cores", cores(d.others_s)}, {"stolen_cores", cores(d.stolen_s)}, {"throttled", d.throttled}};
   return out;
 }
 
