@@ -274,7 +274,7 @@ std::string legend(const Extras& extras, bool has_front, bool is_complete) {
     out += std::string("frame: time of a frame") + (extras.cold ? " with cold caches" : "") + ", assign" +
            (extras.conversions ? " + convert" : "") + "; +-: half of its 95 % interval" +
            (extras.launches ? " between launches" : "") +
-           "; worst: the slowest of the timed frames and the one with most pairs, @ its number.\n";
+           ".\nworst: the slowest of the timed frames and the one with most pairs, @ its number.\n";
   if (extras.builds) out += "build: the grid changes between frames, and assign holds its builds.\n";
   if (!is_complete) out += "-: not measured, or not comparable.\n";
   out += std::string("pairs: (cell, light) per frame") + (extras.times ? ", of the timed frames" : "") +

@@ -4,8 +4,10 @@
 
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "core/random.h"
+#include "measure/recorded_launches.h"
 
 namespace clusterbench::measure {
 namespace {
@@ -105,12 +107,13 @@ double normal(SplitMix64& random) {
   return sum;
 }
 
-// How many of 1000 intervals hold the true median of 100, where launches differ by 5 % and rounds by 1 %; in some
+// The share of intervals that hold the true median of 100, where launches differ by 5 % and rounds by 1 %; in some
 // launches another program takes half as much again.
-int held_of_1000(int launches, int rounds, bool knows_launches, double busy_share) {
+double share_held(int launches, int rounds, bool knows_launches, double busy_share) {
+  const int experiments = knows_launches ? 1000 : 100;  // a bootstrap takes long
   SplitMix64 random(17);
   int held = 0;
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < experiments; ++i) {
     std::vector<double> samples;
     for (int launch = 0; launch < launches; ++launch) {
       const double own = 100.0 * std::exp(0.05 * normal(random)) * (random.unit() < busy_share ? 1.5 : 1.0);
@@ -119,16 +122,56 @@ int held_of_1000(int launches, int rounds, bool knows_launches, double busy_shar
     const Interval ci95 = time_stats(samples, static_cast<std::uint64_t>(i), knows_launches ? launches : 1).ci95;
     held += ci95.low <= 100.0 && 100.0 <= ci95.high ? 1 : 0;
   }
-  return held;
+  return static_cast<double>(held) / experiments;
 }
 
 TEST(Launches, intervals_between_them_hold_the_true_median_and_those_of_rounds_do_not) {
   for (const int launches : {3, 5, 10}) {
-    EXPECT_GE(held_of_1000(launches, 3, true, 0.0), 930) << launches;
-    EXPECT_GE(held_of_1000(launches, 3, true, 0.05), 900) << launches;
+    EXPECT_GE(share_held(launches, 3, true, 0.0), 0.93) << launches;
+    EXPECT_GE(share_held(launches, 3, true, 0.05), 0.90) << launches;
   }
-  EXPECT_LT(held_of_1000(5, 30, false, 0.0), 800);
-  EXPECT_LT(held_of_1000(1, 30, false, 0.0), 200);
+  EXPECT_LT(share_held(5, 30, false, 0.0), 0.8);
+  EXPECT_LT(share_held(1, 30, false, 0.0), 0.2);
+}
+
+constexpr std::size_t k_recorded_rounds = 3;
+
+// Of recorded launches some that were drawn at random, without repetition.
+std::vector<std::size_t> drawn_launches(SplitMix64& random, std::size_t wanted, std::size_t all) {
+  std::vector<std::size_t> order(all);
+  std::iota(order.begin(), order.end(), 0);
+  for (std::size_t i = 0; i < wanted; ++i) std::swap(order[i], order[i + random.below(all - i)]);
+  order.resize(wanted);
+  return order;
+}
+
+std::vector<double> rounds_of(std::span<const double> recorded, const std::vector<std::size_t>& launches) {
+  std::vector<double> out;
+  for (const std::size_t launch : launches)
+    for (std::size_t round = 0; round < k_recorded_rounds; ++round)
+      out.push_back(recorded[launch * k_recorded_rounds + round]);
+  return out;
+}
+
+TEST(Launches, of_recorded_ones_any_few_have_intervals_that_hold_the_median_of_all) {
+  const std::span<const double> exact = k_recorded_exact_fast, aabb = k_recorded_aabb_fast;
+  const std::size_t all = exact.size() / k_recorded_rounds;
+  const double true_time = time_stats(exact, 1).median, true_ratio = paired_ratio(exact, aabb, 1).ratio;
+  constexpr int k_draws = 1000;
+  for (const std::size_t launches : {3u, 5u, 10u}) {
+    SplitMix64 random(launches);
+    int times = 0, ratios = 0;
+    for (int i = 0; i < k_draws; ++i) {
+      const std::vector<std::size_t> some = drawn_launches(random, launches, all);
+      const std::vector<double> own = rounds_of(exact, some), other = rounds_of(aabb, some);
+      const Interval time = time_stats(own, 1, static_cast<int>(launches)).ci95,
+                     ratio = paired_ratio(own, other, 1, static_cast<int>(launches)).ci95;
+      times += time.low <= true_time && true_time <= time.high ? 1 : 0;
+      ratios += ratio.low <= true_ratio && true_ratio <= ratio.high ? 1 : 0;
+    }
+    EXPECT_GE(times, k_draws * 93 / 100) << launches;
+    EXPECT_GE(ratios, k_draws * 93 / 100) << launches;
+  }
 }
 
 TEST(Launches, a_ratio_knows_as_many_values_as_there_were_launches) {

@@ -109,7 +109,7 @@ TEST(TimingWarnings, say_what_speaks_against_times_and_what_to_try) {
   std::vector<double> alternating;
   for (int i = 0; i < 18; ++i) alternating.push_back(i % 2 == 0 ? 1000.0 + i : 1200.0 + i);
   const std::string two = timing_warnings(timed_result({alternating})["cases"]);
-  EXPECT_NE(two.find("1 of 1 time fall into two groups, as at 1.008 and 1.209 us"), std::string::npos) << two;
+  EXPECT_NE(two.find("1 of 1 time in two groups, as at 1.008 and 1.209 us"), std::string::npos) << two;
 }
 
 }  // namespace
