@@ -12,6 +12,7 @@
 #include "cli/commands.h"
 #include "cli/count.h"
 #include "cli/exports.h"
+#include "cli/launches.h"
 #include "cli/output.h"
 #include "cli/rounds_protocol.h"
 #include "cli/stop.h"
@@ -45,6 +46,9 @@ struct RunFlags {
 
   // Only where this program is measured beside another one.
   int rounds_server = 0;
+
+  // Only where this program is one launch of a run.
+  int launch_scene = -1;  // of the configuration: it loads no other
 
   // Only where this program runs itself under callgrind.
   std::string count_dumps;
@@ -85,6 +89,8 @@ config::Config overridden(config::Config config, const RunFlags& flags) {
     config.timing.measure = false;
     config.resolved["timing"]["measure"] = false;
   }
+  if (flags.launch_scene >= 0 && static_cast<std::size_t>(flags.launch_scene) < config.scenes.size())
+    config.scenes = {config.scenes[static_cast<std::size_t>(flags.launch_scene)]};
   return config;
 }
 
@@ -166,12 +172,12 @@ ExitCode report_limits(const config::Config& config, const Json& result) {
   return findings.broken.empty() ? ExitCode::ok : ExitCode::gate_failed;
 }
 
-// What makes the same plan in another program, which can be older and know no budgets.
+// What makes the same plan in another program, which can be older and know neither budgets nor launches.
 std::vector<std::string> plan_arguments(const RunFlags& flags) {
   std::vector<std::string> arguments;
   if (!flags.filter.empty()) arguments.push_back("--filter=" + flags.filter);
   for (const config::FlagValue& setting : settings(flags))
-    if (setting.name != "--fail-if") arguments.push_back(setting.text());
+    if (setting.name != "--fail-if" && setting.name != "--launches") arguments.push_back(setting.text());
   arguments.emplace_back("--");
   arguments.insert(arguments.end(), flags.inputs.begin(), flags.inputs.end());
   return arguments;
@@ -288,9 +294,13 @@ ExitCode measure(const RunFlags& flags, const config::Config& config, const run:
     if (stop) return interrupted(journal.get());
   }
   ProgressLine progress(screen, flags.quiet);
+  RunFlags of_launches = flags;
+  of_launches.filter.clear();  // cases are asked for by their ids, and names depend on the other scenes
+  const run::Launcher launcher =
+      config.timing.launches > 1 ? make_launcher(plan_arguments(of_launches), stop) : run::Launcher{};
   run::Result fresh =
       run::run_plan(config, plan, earlier_ids, make_listener(progress, journal.get(), earlier.size(), case_count(plan)),
-                    stop, counts);
+                    stop, counts, launcher);
   progress.clear();
   if (stop) return interrupted(journal.get());
   if (!fresh.date.empty()) fresh.command = own_command_line();
@@ -329,6 +339,10 @@ ExitCode run(const RunFlags& flags) {
   const CountWay way = count_way(flags.count);
   const run::Plan plan = run::make_plan(config, flags.filter);
   if (flags.rounds_server != 0) return serve(flags, config, plan);
+  if (flags.launch_scene >= 0) {
+    serve_launch(config, plan);
+    return ExitCode::ok;
+  }
   if (!flags.count_dumps.empty()) {
     print_callgrind_counts({config, plan, {}, flags.count_ids}, flags.count_dumps);
     return ExitCode::ok;
@@ -377,6 +391,7 @@ void add_run(Command& program, Action& action) {
       .range(0.01, 1000.0)
       .shows_standard();
   command.add_option("--rounds-server", flags->rounds_server, "").hidden();
+  command.add_option("--launch-server", flags->launch_scene, "").hidden();
   command.add_flag("--resume", flags->resume, "Continue the interrupted run of the same -o FILE");
   command.add_flag("--dry-run", flags->dry_run, "List the cases and what is skipped, measure nothing");
   command.add_flag("--no-timing", flags->no_timing, "Count only; the output is then the same on every machine");

@@ -296,8 +296,8 @@ void read_settings(const Json& document, Config& config) {
   const Json& dropped = document["limits"]["dropped_pairs"];
   config.limits.dropped_pairs = dropped.is_null() ? std::nullopt : std::optional(dropped.get<std::uint64_t>());
   const Json& timing = document["timing"];
-  config.timing = {timing["measure"].get<bool>(), timing["rounds"].get<int>(), timing["min_time_ms"].get<double>(),
-                   timing["frames"].get<int>()};
+  config.timing = {timing["measure"].get<bool>(), timing["rounds"].get<int>(),   timing["min_time_ms"].get<double>(),
+                   timing["frames"].get<int>(),   timing["launches"].get<int>(), timing["cold"].get<bool>()};
   config.allocation = {document["allocation"]["margin"].get<double>(), document["allocation"]["warn_at"].get<double>()};
 }
 

@@ -54,6 +54,8 @@ struct TimingRequest {
   int rounds = 31;
   double min_time_ms = 20.0;  // of one round of one case
   int frames = 8;             // evenly spaced frames that are timed; 0 = all
+  int launches = 5;           // processes that share the rounds, where the caller can start some
+  bool cold = true;           // caches are swept before each frame of the times that are told first
 };
 
 // How lists change along a finely sampled piece of the path.

@@ -201,6 +201,10 @@ void set_rounds(FlaggedConfig& document, const FlagValue& flag) {
   set_key(document, {"timing", "rounds"}, flag, value_of(flag.value));
 }
 
+void set_launches(FlaggedConfig& document, const FlagValue& flag) {
+  set_key(document, {"timing", "launches"}, flag, value_of(flag.value));
+}
+
 void set_threads(FlaggedConfig& document, const FlagValue& flag) {
   set_key(document, {"threads"}, flag, value_of(flag.value));
 }
@@ -273,6 +277,7 @@ constexpr FlagRow k_rows[] = {
     {{"--assigner", "NAME[,NAME]: only these assigners; * and ? stand for any letters, as in '*-fast'"},
      choose_assigners},
     {{"--rounds", "N: timed rounds over all cases of a group"}, set_rounds},
+    {{"--launches", "N: processes that measure one after the other; intervals hold between them"}, set_launches},
     {{"--threads", "N: threads for the truth; results do not depend on it"}, set_threads},
     {{"--fail-if", "BUDGET, repeatable: fail where a case exceeds it, as in 'frame_us.max > 200' or 'unlit > 0'", true},
      add_budget},

@@ -22,9 +22,15 @@ double mean_of(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-// The standard error of a median's logarithm, from an interval that is 1.96 of them wide on both sides.
-double log_error(const Interval& ci95) {
-  return std::log(ci95.high / ci95.low) / (2.0 * 1.959963984540054);
+double freedom_of(const MedianTime& time) {
+  return static_cast<double>(time.launches > 1 ? static_cast<std::size_t>(time.launches) : time.samples) - 1.0;
+}
+
+// The standard error of a median's logarithm, from an interval that is some of them wide on both sides: 1.96, or what
+// Student's t has for few launches.
+double log_error(const MedianTime& time) {
+  const double errors = time.launches > 1 ? student_quantile(k_level, freedom_of(time)) : 1.959963984540054;
+  return std::log(time.ci95.high / time.ci95.low) / (2.0 * errors);
 }
 
 // Between the two values at the quarter of the way.
@@ -69,8 +75,8 @@ Change change_over_launches(std::span<const double> log_ratios) {
 }
 
 Change change_of_medians(const MedianTime& base, const MedianTime& next) {
-  const double freedom = static_cast<double>(std::min(base.samples, next.samples)) - 1.0;
-  return {std::log(next.ns / base.ns), std::hypot(log_error(base.ci95), log_error(next.ci95)), freedom};
+  const double freedom = std::min(freedom_of(base), freedom_of(next));
+  return {std::log(next.ns / base.ns), std::hypot(log_error(base), log_error(next)), freedom};
 }
 
 double half_width(const Change& change) {

@@ -29,6 +29,7 @@ struct MedianTime {
   double ns = 0.0;
   Interval ci95;
   std::size_t samples = 0;
+  int launches = 1;  // that the interval is between, as time_stats() has it
 };
 // From two separate runs. Knows nothing of what differs between the runs themselves.
 Change change_of_medians(const MedianTime& base, const MedianTime& next);

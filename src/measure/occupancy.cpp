@@ -56,6 +56,10 @@ void OccupancyMeter::add_frame(int frame, const assign::Lists& lists) {
   }
   if (histogram_.empty()) histogram_.resize(1);
   histogram_[0] += real_cells_ - occupied;
+  if (pairs_.empty() || lists.pair_count() > most_pairs_) {
+    most_pairs_ = lists.pair_count();
+    fullest_frame_ = frame;
+  }
   pairs_.push_back(lists.pair_count());
   pairs_along_path_.add_frame(lists.pair_count());
   longest_along_path_.add_frame(longest);
@@ -71,6 +75,7 @@ Occupancy OccupancyMeter::result() const {
   out.worst_frame = worst_frame_;
   out.worst_cell = worst_cell_;
   out.worst_count = worst_count_;
+  out.fullest_frame = fullest_frame_;
   out.pairs_along_path = pairs_along_path_;
   out.longest_along_path = longest_along_path_;
   return out;

@@ -23,6 +23,7 @@ struct Occupancy {
   int worst_frame = 0;                   // with the longest list
   std::uint32_t worst_cell = 0;
   std::uint32_t worst_count = 0;
+  int fullest_frame = 0;                            // with the most pairs; the first of several
   PathSeries pairs_along_path, longest_along_path;  // longest: the frame's longest list
 };
 
@@ -43,8 +44,9 @@ class OccupancyMeter {
   std::uint32_t real_cells_;
   std::vector<double> pairs_, occupied_;
   std::vector<std::uint64_t> histogram_;
-  int worst_frame_ = 0;
+  int worst_frame_ = 0, fullest_frame_ = 0;
   std::uint32_t worst_cell_ = 0, worst_count_ = 0;
+  std::uint64_t most_pairs_ = 0;
   PathSeries pairs_along_path_, longest_along_path_;
 };
 

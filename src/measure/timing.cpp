@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/random.h"
+#include "measure/change.h"
 
 namespace clusterbench::measure {
 namespace {
@@ -36,9 +37,35 @@ Interval bootstrap_median(std::span<const double> values, std::uint64_t seed) {
   return {percentile(medians, 0.025), percentile(medians, 0.975)};
 }
 
+// The logarithms of the launches' medians; empty where there are not several launches with equally many samples.
+std::vector<double> launch_logs(std::span<const double> values, int launches) {
+  const auto count = static_cast<std::size_t>(std::max(launches, 1));
+  if (count < 2 || values.size() % count != 0) return {};
+  const std::size_t rounds = values.size() / count;
+  std::vector<double> logs;
+  for (std::size_t launch = 0; launch < count; ++launch) {
+    std::vector<double> some(values.begin() + static_cast<std::ptrdiff_t>(launch * rounds),
+                             values.begin() + static_cast<std::ptrdiff_t>((launch + 1) * rounds));
+    logs.push_back(std::log(median_of(some)));
+  }
+  return logs;
+}
+
+// Of values that are not empty.
+Interval interval_of(std::span<const double> values, double median, std::uint64_t seed, int launches) {
+  const std::vector<double> logs = launch_logs(values, launches);
+  if (logs.empty()) return bootstrap_median(values, seed);
+  const auto count = static_cast<double>(logs.size());
+  const double mean = std::accumulate(logs.begin(), logs.end(), 0.0) / count;
+  double squares = 0.0;
+  for (const double value : logs) squares += (value - mean) * (value - mean);
+  const double width = student_quantile(0.05, count - 1.0) * std::sqrt(squares / ((count - 1.0) * count));
+  return {std::min(median, std::exp(mean - width)), std::max(median, std::exp(mean + width))};
+}
+
 }  // namespace
 
-TimeStats time_stats(std::span<const double> samples_ns, std::uint64_t seed) {
+TimeStats time_stats(std::span<const double> samples_ns, std::uint64_t seed, int launches) {
   TimeStats stats;
   if (samples_ns.empty()) return stats;
   stats.samples.assign(samples_ns.begin(), samples_ns.end());
@@ -48,33 +75,56 @@ TimeStats time_stats(std::span<const double> samples_ns, std::uint64_t seed) {
   stats.mad = median_of(work);
   stats.min = *std::min_element(samples_ns.begin(), samples_ns.end());
   stats.p95 = percentile(stats.samples, 0.95);
-  stats.ci95 = bootstrap_median(samples_ns, seed);
+  stats.ci95 = interval_of(samples_ns, stats.median, seed, launches);
   return stats;
 }
 
-Ratio paired_ratio(std::span<const double> numerator, std::span<const double> denominator, std::uint64_t seed) {
+Ratio paired_ratio(std::span<const double> numerator, std::span<const double> denominator, std::uint64_t seed,
+                   int launches) {
   std::vector<double> ratios;
   for (std::size_t i = 0; i < numerator.size(); ++i) ratios.push_back(numerator[i] / denominator[i]);
   if (ratios.empty()) return {};
-  const Interval interval = bootstrap_median(ratios, seed);
-  return {median_of(ratios), interval};
+  std::vector<double> work = ratios;
+  const double median = median_of(work);
+  return {median, interval_of(ratios, median, seed, launches)};
 }
 
-WorstFrame worst_frame(std::span<const std::vector<double>> frames_ns, std::span<const double> pass_ns,
-                       std::uint64_t seed) {
-  const std::size_t count = frames_ns.front().size();
+std::optional<TwoModes> two_modes(std::span<const double> samples_ns) {
+  constexpr std::size_t k_least = 15;
+  constexpr double k_apart = 1.05, k_gap = 1.5;
+  if (samples_ns.size() < k_least) return std::nullopt;
+  std::vector<double> sorted(samples_ns.begin(), samples_ns.end());
+  std::sort(sorted.begin(), sorted.end());
+  if (!(sorted.front() > 0.0)) return std::nullopt;
+  const std::size_t count = sorted.size(), group = (count + 4) / 5;
+  for (std::size_t split = group; split + group <= count; ++split) {
+    const double widest =
+        std::max(std::log(sorted[split - 1] / sorted.front()), std::log(sorted.back() / sorted[split]));
+    if (std::log(sorted[split] / sorted[split - 1]) <= k_gap * widest) continue;
+    std::vector<double> low(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(split));
+    std::vector<double> high(sorted.begin() + static_cast<std::ptrdiff_t>(split), sorted.end());
+    const TwoModes modes{median_of(low), median_of(high)};
+    if (modes.high > k_apart * modes.low) return modes;
+  }
+  return std::nullopt;
+}
+
+WorstFrame worst_frame(std::span<const std::vector<double>> frames_ns, std::uint64_t seed, int launches) {
   WorstFrame worst;
-  for (std::size_t frame = 0; frame < count; ++frame) {
+  for (std::size_t frame = 0; frame < frames_ns.front().size(); ++frame) {
     std::vector<double> times;
-    for (std::size_t round = 0; round < frames_ns.size(); ++round) {
-      const std::vector<double>& all = frames_ns[round];
-      const double mean = std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(count);
-      times.push_back(mean > 0.0 ? pass_ns[round] * all[frame] / mean : pass_ns[round]);
-    }
-    const TimeStats stats = time_stats(times, seed);
+    for (const std::vector<double>& round : frames_ns) times.push_back(round[frame]);
+    const TimeStats stats = time_stats(times, seed, launches);
     if (frame == 0 || stats.median > worst.ns) worst = {frame, stats.median, stats.ci95};
   }
   return worst;
+}
+
+std::vector<double> scaled_to_mean(std::vector<double> frames_ns, std::size_t mean_frames, double mean_ns) {
+  const auto end = frames_ns.begin() + static_cast<std::ptrdiff_t>(mean_frames);
+  const double mean = std::accumulate(frames_ns.begin(), end, 0.0) / static_cast<double>(mean_frames);
+  for (double& ns : frames_ns) ns = mean > 0.0 ? mean_ns * ns / mean : mean_ns;
+  return frames_ns;
 }
 
 }  // namespace clusterbench::measure

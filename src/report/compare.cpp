@@ -149,10 +149,10 @@ TimeChange paired_change(const Json& paired) {
 }
 
 // Without an interval nothing can be concluded: as of no samples.
-measure::MedianTime median_time(const Json& time) {
-  const Json &low = time["ci95"][0], &high = time["ci95"][1];
-  if (!low.is_number() || !high.is_number()) return {time["median"], {}, 0};
-  return {time["median"], {low, high}, time["samples"].size()};
+measure::MedianTime median_time(const Json& timing, const char* key) {
+  const Json &time = timing[key], &low = time["ci95"][0], &high = time["ci95"][1];
+  if (!low.is_number() || !high.is_number()) return {time["median"], {}, 0, 1};
+  return {time["median"], {low, high}, time["samples"].size(), timing.value("launches", 1)};
 }
 
 std::optional<TimeChange> time_change(const Match& match, bool is_paired) {
@@ -163,7 +163,8 @@ std::optional<TimeChange> time_change(const Match& match, bool is_paired) {
   if (is_paired || !both_have(match, (std::string("/timing/") + time_of(match) + "/median").c_str()))
     return std::nullopt;
   const Json &base_time = match.base["timing"][time_of(match)], &next_time = match.next["timing"][time_of(match)];
-  const measure::MedianTime base = median_time(base_time), next = median_time(next_time);
+  const measure::MedianTime base = median_time(match.base["timing"], time_of(match)),
+                            next = median_time(match.next["timing"], time_of(match));
   if (!(base.ns > 0.0) || !(next.ns > 0.0)) return std::nullopt;
   if (base_time == next_time) return TimeChange{{0.0, 0.0, 1.0}, {}, base.ns, next.ns};  // one measurement, twice
   return TimeChange{measure::change_of_medians(base, next), {}, base.ns, next.ns};
@@ -414,6 +415,13 @@ Json warnings_of(const Json& base, const Json& next, const Json& comparison, con
 }
 
 // Something that would have failed the comparison had it become worse.
+// "cold" or "warm"; null without times.
+Json caches_of_times(const Json& result) {
+  for (const Json& one : result["cases"])
+    if (has(one, "/timing")) return one["timing"].value("caches", "warm");
+  return {};
+}
+
 bool is_gated_part_missing(const Json& comparison) {
   return std::any_of(comparison["not_compared"].begin(), comparison["not_compared"].end(),
                      [](const Json& one) { return one["only_in"] == "base" && one["part"] != "timing"; });
@@ -439,6 +447,9 @@ Obstacles obstacles(const Json& base, const Json& next) {
       differing({"/machine/cpu", "/machine/family", "/machine/model", "/machine/stepping", "/machine/caches",
                  "/tool/compiler", "/tool/flags", "/tool/build_type", "/tool/simd_target", "/config/timing/frames"});
   out.to_times = differing({"/machine/cores", "/machine/ram_bytes", "/machine/os"});
+  const Json base_caches = caches_of_times(base), next_caches = caches_of_times(next);
+  if (!base_caches.is_null() && !next_caches.is_null() && base_caches != next_caches)
+    out.to_times.push_back("/cases/*/timing/caches is " + base_caches.dump() + " and " + next_caches.dump());
   out.to_times.insert(out.to_times.begin(), out.to_instructions.begin(), out.to_instructions.end());
   return out;
 }

@@ -33,6 +33,13 @@ std::string counter_of(const Json& result) {
   return "";
 }
 
+bool has_cold_times(const Json& result) {
+  const auto is_cold = [](const Json& one) {
+    return one.contains("timing") && one["timing"].value("caches", "") == "cold";
+  };
+  return std::any_of(result["cases"].begin(), result["cases"].end(), is_cold);
+}
+
 Json history_line(const Json& result, const std::string& commit) {
   Json line{{"history_version", k_history_version},
             {"commit", commit},
@@ -40,6 +47,7 @@ Json history_line(const Json& result, const std::string& commit) {
             {"cpu", machine_name(result.at("machine"))},
             {"simd_target", result.at("tool").at("simd_target")}};
   if (const std::string counter = counter_of(result); !counter.empty()) line["counter"] = counter;
+  if (has_cold_times(result)) line["caches"] = "cold";
   line["cases"] = Json::array();
   for (const Json& one : result["cases"]) {
     Json figures = Json::object();
@@ -66,6 +74,7 @@ HistoryEntry parsed(const std::string& line) {
   HistoryEntry entry{json.at("commit").get<std::string>(),
                      json.at("cpu").get<std::string>() + ", " + json.at("simd_target").get<std::string>(),
                      json.value("counter", std::string()),
+                     json.value("caches", std::string()),
                      {}};
   for (const Json& one : json.at("cases")) entry.cases.push_back(parsed_case(one));
   return entry;
@@ -127,7 +136,7 @@ const Metric* metric_named(const std::string& name) {
 std::string origin(const HistoryEntry& entry, const Metric& metric) {
   switch (basis_of(metric)) {
     case Basis::time:
-      return entry.machine;
+      return entry.machine + (entry.caches.empty() ? "" : ", " + entry.caches + " caches");
     case Basis::instructions:
       return entry.machine + (entry.counter.empty() ? "" : ", " + entry.counter);
     case Basis::count:

@@ -14,6 +14,7 @@ struct HistoryEntry {
   std::string commit;   // as it was given
   std::string machine;  // processor and instruction set
   std::string counter;  // of instructions: "callgrind", "perf"; "" if none, or of an older version
+  std::string caches;   // of times: "cold"; "" if warm, or of an older version
   struct Case {
     std::string settings, name;                           // the first is "" in lines of older versions
     std::vector<std::pair<std::string, double>> figures;  // by the metric's name

@@ -191,6 +191,8 @@ Json precision(const run::PrecisionResult& p) {
 Json timing(const run::TimingResult& t) {
   Json out{
       {"frames_timed", t.frames_timed},
+      {"caches", t.is_cold ? "cold" : "warm"},
+      {"launches", t.launches},
       {"frame_ns", to_json(t.frame_ns)},
       {"worst_frame", {{"frame", t.worst.frame}, {"ns", six_digits(t.worst.ns)}, {"ci95", to_json(t.worst.ci95)}}}};
   if (t.worst.pairs) out["worst_frame"]["pairs"] = *t.worst.pairs;
@@ -199,6 +201,10 @@ Json timing(const run::TimingResult& t) {
   out["build_ns"] = to_json(t.build_ns);
   out["assign_ns"] = to_json(t.assign_ns);
   if (t.convert_ns) out["convert_ns"] = to_json(*t.convert_ns);
+  if (t.warm) {
+    out["warm"] = {{"frame_ns", to_json(t.warm->frame_ns)}, {"assign_ns", to_json(t.warm->assign_ns)}};
+    if (t.warm->convert_ns) out["warm"]["convert_ns"] = to_json(*t.warm->convert_ns);
+  }
   out["ns_per_pair"] = six_digits(t.ns_per_pair);
   out["write_floor_ns"] = six_digits(t.write_floor_ns);
   out["floor_ratio"] = six_digits(t.floor_ratio);
@@ -206,6 +212,10 @@ Json timing(const run::TimingResult& t) {
     out["against_first"] = {{"assigner", t.against_first->assigner},
                             {"ratio", six_digits(t.against_first->ratio.ratio)},
                             {"ci95", to_json(t.against_first->ratio.ci95)}};
+  const run::Disturbance& d = t.disturbance;
+  const auto cores = [&](double busy_s) { return six_digits(d.seconds > 0.0 ? busy_s / d.seconds : 0.0); };
+  out["disturbed"] = {
+      {"others_cores", cores(d.others_s)}, {"stolen_cores", cores(d.stolen_s)}, {"throttled", d.throttled}};
   return out;
 }
 

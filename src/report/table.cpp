@@ -8,7 +8,9 @@
 #include "report/columns.h"
 #include "report/lookup_table.h"
 #include "report/precision_table.h"
+#include "report/ratios.h"
 #include "report/stability_table.h"
+#include "report/timing_warnings.h"
 #include "report/warnings.h"
 
 namespace clusterbench::report {
@@ -23,6 +25,7 @@ constexpr const char* k_plain = "\033[0m";
 constexpr const char* k_instructions = "/count/instructions_per_frame/assign";
 
 struct Line {
+  const Json* one = nullptr;
   Cells cells;
   bool has_failed = false;
   double sort_key = 0.0;
@@ -31,7 +34,7 @@ struct Line {
 // What some cases have and others have not.
 struct Extras {
   bool storages = false, times = false, conversions = false, builds = false, instructions = false, samples = false,
-       dropped = false;
+       dropped = false, cold = false, launches = false;
 };
 
 const Json* at(const Json& one, const char* pointer) {
@@ -84,6 +87,8 @@ bool has_failed(const Json& one) {
   return !one["failures"].empty();
 }
 
+constexpr const char* k_frame_heading = "frame us";
+
 struct Column {
   const char* heading;
   std::string (*text)(const Json& one);
@@ -91,7 +96,7 @@ struct Column {
 };
 
 constexpr Column k_columns[] = {
-    {"frame us", [](const Json& one) { return time_text(one, "/timing/frame_ns/median"); }, &Extras::times},
+    {k_frame_heading, [](const Json& one) { return time_text(one, "/timing/frame_ns/median"); }, &Extras::times},
     {"+-", interval_text, &Extras::times},
     {"worst us", worst_text, &Extras::times},
     {"assign", [](const Json& one) { return time_text(one, "/timing/assign_ns/median"); }, &Extras::times},
@@ -121,6 +126,7 @@ Cells headings(const Extras& extras) {
 
 Line line_of(const Json& one, bool is_on_front, const Extras& extras) {
   Line line;
+  line.one = &one;
   std::string label = method_name(one);
   if (extras.storages) label += " / " + shown(one["storage"]);
   line.cells = {is_on_front ? "*" : "", label};
@@ -147,6 +153,8 @@ Extras extras_of(const Json& cases) {
     extras.conversions |= at(one, "/timing/convert_ns/median") != nullptr;
     extras.builds |= at(one, "/timing/builds_per_frame") != nullptr && one["timing"]["builds_per_frame"] != 0.0;
     extras.instructions |= one.contains("count");
+    extras.cold |= one.contains("timing") && one["timing"].value("caches", "") == "cold";
+    extras.launches |= one.contains("timing") && one["timing"].value("launches", 1) > 1;
     extras.samples |= one.contains("shading");
     extras.dropped |= one["buffers"]["overflow"]["dropped_pairs"] != 0;
   }
@@ -171,6 +179,21 @@ std::string scene_heading(const Json& scene) {
          number_of(scene["frames"].get<std::uint64_t>(), "frame") + ")";
 }
 
+// Rows that are not known to take longer than those above them. True if there are any.
+bool mark_alike(const Json& result, const Cells& heads, std::vector<Line>& lines) {
+  const auto column = std::find(heads.begin(), heads.end(), k_frame_heading) - heads.begin();
+  if (column == static_cast<std::ptrdiff_t>(heads.size())) return false;
+  bool has_some = false;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    if (!ratio_of_cases(result, *lines[i].one, *lines[i - 1].one) ||
+        takes_longer(result, *lines[i].one, *lines[i - 1].one))
+      continue;
+    lines[i].cells[static_cast<std::size_t>(column)].insert(0, "~");
+    has_some = true;
+  }
+  return has_some;
+}
+
 // Of the marks and columns that the table has.
 std::string legend(const Extras& extras, bool has_front, bool is_complete) {
   std::string out;
@@ -178,8 +201,10 @@ std::string legend(const Extras& extras, bool has_front, bool is_complete) {
     out += "* no other case of its scene, camera and viewport is better in " +
            std::string(extras.times ? "time (beyond the intervals), " : "") + "bytes and overshade.\n";
   if (extras.times)
-    out += std::string("frame: time of a frame, assign") + (extras.conversions ? " + convert" : "") +
-           "; +-: half of its 95 % interval; worst: the slowest of the timed frames, @ its number.\n";
+    out += std::string("frame: time of a frame") + (extras.cold ? " with cold caches" : "") + ", assign" +
+           (extras.conversions ? " + convert" : "") + "; +-: half of its 95 % interval" +
+           (extras.launches ? " between launches" : "") +
+           ".\nworst: the slowest of the timed frames and the one with most pairs, @ its number.\n";
   if (extras.builds) out += "build: the grid changes between frames, and assign holds its builds.\n";
   if (!is_complete) out += "-: not measured, or not comparable.\n";
   out += std::string("pairs: (cell, light) per frame") + (extras.times ? ", of the timed frames" : "") +
@@ -199,7 +224,7 @@ std::string render_table(const Json& result, bool colour) {
   const std::set<std::string> on_front = ids_on_front(result);
   const std::string counted_by = counters(cases);
   const Extras extras = extras_of(cases);
-  bool is_complete = true;
+  bool is_complete = true, has_alike = false;
   const Cells heads = headings(extras);
   std::string out;
   for (const Json& scene : result["scenes"]) {
@@ -213,6 +238,7 @@ std::string render_table(const Json& result, bool colour) {
           lines.push_back(line_of(one, on_front.contains(one["id"].get<std::string>()), extras));
       std::stable_sort(lines.begin(), lines.end(),
                        [](const Line& a, const Line& b) { return a.sort_key < b.sort_key; });
+      has_alike |= mark_alike(result, heads, lines);
       std::vector<Cells> rows{heads};
       for (const Line& line : lines) {
         rows.push_back(line.cells);
@@ -226,11 +252,13 @@ std::string render_table(const Json& result, bool colour) {
     out += "\n";
   }
   out += legend(extras, !on_front.empty(), is_complete);
+  if (has_alike)
+    out += "~: of the same rounds, no longer than the row above with 95 % certainty (`clusterbench ratio`).\n";
   if (!counted_by.empty()) out += "instr: instructions of one frame's assignment, counted by " + counted_by + ".\n";
   if (!result["skipped"].empty())
     out += number_of(result["skipped"].size(), "combination") + " skipped; the result says why.\n";
   return out + lookup_table(result) + stability_table(result) + precision_table(result) + notes_text(result) +
-         warnings_text(result);
+         warnings_text(result) + timing_warnings(cases);
 }
 
 }  // namespace clusterbench::report

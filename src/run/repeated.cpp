@@ -31,11 +31,19 @@ double Repeated::sample() {
   return (now_ns_() - start) / repeats_;
 }
 
+void Repeated::warm_up() {
+  if (repeats_ == 0) calibrate();
+  for (int i = 0; i < repeats_; ++i) once_();
+}
+
 void Repeated::calibrate() {
-  once_();
-  const double start = now_ns_();
-  once_();
-  const double one_ns = std::max(1.0, now_ns_() - start);
+  const auto time_once = [this] {
+    const double start = now_ns_();
+    once_();
+    return std::max(1.0, now_ns_() - start);
+  };
+  double one_ns = time_once();
+  if (one_ns < 4.0 * min_ns_) one_ns = time_once();  // the first run may have to wait for memory
   repeats_ = static_cast<int>(std::clamp(std::ceil(min_ns_ / one_ns), 1.0, 1e6));
 }
 

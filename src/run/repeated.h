@@ -18,6 +18,8 @@ class Repeated {
 
   // ns per run.
   double sample();
+  // As many runs as a sample has, untimed: caches and branch predictors then know this work, and not the one before.
+  void warm_up();
 
  private:
   void calibrate();

@@ -20,6 +20,7 @@
 #include "run/counters/instruction_counter.h"
 #include "run/counters/processor.h"
 #include "run/details.h"
+#include "run/timing_samples.h"
 
 namespace clusterbench::run {
 
@@ -66,7 +67,7 @@ struct Versus {
   measure::Ratio ratio;  // this case's frame time / that assigner's
 };
 
-// The slowest of the frames that are timed.
+// The slowest of the frames that are timed, the one with most pairs among them.
 struct WorstTimedFrame {
   int frame = 0;  // of the path
   double ns = 0.0;
@@ -74,19 +75,29 @@ struct WorstTimedFrame {
   std::optional<std::uint64_t> pairs;
 };
 
+// The same frames again and again, so that caches hold what of them fits.
+struct WarmTimes {
+  measure::TimeStats frame_ns, assign_ns;
+  std::optional<measure::TimeStats> convert_ns;
+};
+
 struct TimingResult {
+  bool is_cold = false;                          // the times that follow: caches were swept before each frame
+  int launches = 1;                              // processes, each of which measured an equal share of the samples
   measure::TimeStats frame_ns;                   // per frame: assign and convert, of the same rounds
   measure::TimeStats build_ns, assign_ns;        // assign: per frame, with the builds that the frames need
   std::optional<measure::TimeStats> convert_ns;  // per frame; only where lists are converted
+  std::optional<WarmTimes> warm;                 // beside cold times
   double builds_per_frame = 0.0;                 // 0 where the grid stays, 1 where each frame has its own
   WorstTimedFrame worst;
   std::optional<double> pairs_mean;  // of the frames that are timed; none without cells
   std::uint64_t pairs_max = 0;
   double ns_per_pair = std::numeric_limits<double>::quiet_NaN();  // frame time / pairs in lists; without: not a number
   double write_floor_ns = 0.0;                                    // per frame
-  double floor_ratio = 0.0;
+  double floor_ratio = 0.0;                                       // of warm times
   std::optional<Versus> against_first;  // against the group's first assigner, in the same storage if it has it
-  int frames_timed = 0;
+  int frames_timed = 0;                 // in the means
+  Disturbance disturbance;              // of the group, over all launches
 };
 
 // Instructions of what TimingResult times.

@@ -37,19 +37,46 @@ double list_cost(const config::Config& config, const GroupPlan& group, std::size
 
 double timing_cost(const config::Config& config, const GroupPlan& group) {
   if (!config.timing.measure) return 0.0;
-  return 1.5e6 * config.timing.min_time_ms * config.timing.rounds * static_cast<double>(methods_of(group).size());
+  constexpr double k_ns_per_cold_frame = 2e6;
+  const double warm = 1.5e6 * config.timing.min_time_ms, cold = config.timing.cold ? 4.0 * k_ns_per_cold_frame : 0.0;
+  return (warm + cold) * config.timing.rounds * static_cast<double>(methods_of(group).size());
 }
+
+// Per method of the group: the frame in which it has most pairs. One without cells takes that of the first one with.
+std::vector<int> fullest_frames(const GroupPlan& group, const AccuracyResult& counted) {
+  const auto measures_of = [&](const Method& method) -> const MethodMeasures& {
+    return *std::find_if(counted.methods.begin(), counted.methods.end(),
+                         [&](const MethodMeasures& one) { return one.method == method; });
+  };
+  int known = -1;
+  for (const Method& method : methods_of(group))
+    if (known < 0 && measures_of(method).has_cells) known = measures_of(method).occupancy.fullest_frame;
+  std::vector<int> frames;
+  for (const Method& method : methods_of(group))
+    frames.push_back(measures_of(method).has_cells ? measures_of(method).occupancy.fullest_frame : known);
+  return frames;
+}
+
+// A group that has all but its times.
+struct CountedGroup {
+  GroupPlan group;
+  int frames = 0;
+  AccuracyResult counted;
+  std::vector<std::optional<StabilityResult>> stabilities;
+  std::vector<std::optional<Details>> details;
+};
 
 class Run {
  public:
   Run(const config::Config& config, const Plan& plan, const std::vector<std::string>& done, const Listener& listener,
-      const std::atomic<bool>& stop, const Counts& counts)
+      const std::atomic<bool>& stop, const Counts& counts, const Launcher& launcher)
       : config_(config),
         plan_(plan),
         done_(done.begin(), done.end()),
         listener_(listener),
         stop_(stop),
-        counts_(counts) {
+        counts_(counts),
+        launcher_(launcher) {
     for (const GroupPlan& group : plan.groups) {
       const GroupPlan left = what_is_left(group);
       progress_.cases_total += group.cases.size();
@@ -76,6 +103,7 @@ class Run {
       for (const CasePlan& one : group.cases) out.planned_ids.push_back(one.id);
     for (const GroupPlan& group : plan_.groups)
       if (!stop_) run_group(what_is_left(group), out);
+    if (!stop_) time_waiting(out);
     if (out.machine.load) out.machine.load->end = load_now().value_or(out.machine.load->begin);
     return out;
   }
@@ -121,47 +149,86 @@ class Run {
     if (listener_.on_progress) listener_.on_progress(progress_);
   }
 
-  void run_group(const GroupPlan& group, Result& out) {
+  // With a launcher several groups of a scene wait until they are timed together: each launch then lies some time
+  // after the one before, and costs one start.
+  void run_group(GroupPlan group, Result& out) {
     if (group.cases.empty()) return;
+    if (!waiting_.empty() && (waiting_.front().group.scene != group.scene || waiting_cost() > k_most_waiting_ns))
+      time_waiting(out);
+    if (stop_) return;
     try {
-      measure_group(group, out);
+      count_group(std::move(group), out);
     } catch (const Error& error) {
-      throw Error(error.file(), group.cases.front().name + (error.where().empty() ? "" : ": " + error.where()),
-                  error.message(), error.code());
+      throw Error(error.file(), name_of_group_ + (error.where().empty() ? "" : ": " + error.where()), error.message(),
+                  error.code());
     }
   }
 
-  void measure_group(const GroupPlan& group, Result& out) {
+  double waiting_cost() const {
+    double cost = 0.0;
+    for (const CountedGroup& one : waiting_) cost += timing_cost(config_, one.group);
+    return cost;
+  }
+
+  void count_group(GroupPlan group, Result& out) {
+    name_of_group_ = group.cases.front().name;
     const SceneData& data = plan_.scenes[group.scene];
     const PathFrames path(data.scene, path_of(group), config_.viewports[group.viewport]);
     const double per_frame = accuracy_cost_of(group) / path.count();
-    const AccuracyResult counted = accuracy_pass(
+    CountedGroup one;
+    one.frames = path.count();
+    one.counted = accuracy_pass(
         config_, group, path, [&](int) { tell(group, "truth and counts", per_frame); }, stop_);
-    if (!counted.is_complete) return;
-    std::vector<std::optional<StabilityResult>> stabilities;
+    if (!one.counted.is_complete) return;
     if (config_.stability) {
       const double cost = stability_cost_of(group);
-      stabilities = stability_pass(
+      one.stabilities = stability_pass(
           config_, group, path, [&](double share) { tell(group, "stability", cost * share); }, stop_);
-      if (stabilities.empty()) return;
+      if (one.stabilities.empty()) return;
     }
-    std::vector<std::optional<Details>> details;
     if (config_.details) {
       tell(group, "details", details_cost_of(group));
-      details = details_pass(config_, group, path, data.scene, counted, stop_);
-      if (details.empty()) return;
+      one.details = details_pass(config_, group, path, data.scene, one.counted, stop_);
+      if (one.details.empty()) return;
     }
-    std::vector<TimingResult> timings;
-    if (config_.timing.measure) {
-      const double per_round = timing_cost(config_, group) / config_.timing.rounds;
-      timings = timing_pass(
-          config_, group, path, [&](int) { tell(group, "time", per_round); }, stop_);
-      if (timings.empty()) return;
+    one.group = std::move(group);
+    if (!config_.timing.measure) return add_cases(one, {}, out);
+    if (launcher_) return waiting_.push_back(std::move(one));
+    time_here(one, path, out);
+  }
+
+  void time_here(CountedGroup& one, const PathFrames& path, Result& out) {
+    const LaunchRequest request{0, config_.timing.rounds, fullest_frames(one.group, one.counted)};
+    const double per_round = timing_cost(config_, one.group) / request.rounds;
+    const GroupSamples samples = measure_launch(
+        config_, one.group, path, request, [&](int) { tell(one.group, "time", per_round); }, stop_);
+    if (!samples.methods.empty()) add_cases(one, timing_results(config_, one.group, std::span(&samples, 1)), out);
+  }
+
+  void time_waiting(Result& out) {
+    if (waiting_.empty()) return;
+    std::vector<GroupToTime> groups;
+    for (const CountedGroup& one : waiting_) groups.push_back({&one.group, fullest_frames(one.group, one.counted)});
+    const int launches = config_.timing.launches, rounds = rounds_per_launch(config_.timing, launches);
+    std::vector<std::vector<GroupSamples>> samples(groups.size());
+    for (int launch = 0; launch < launches; ++launch) {
+      const std::string stage = "time, launch " + std::to_string(launch + 1) + " of " + std::to_string(launches);
+      std::vector<GroupSamples> measured = launcher_(groups, launch, rounds, [&](std::size_t group) {
+        tell(*groups[group].group, stage.c_str(), timing_cost(config_, *groups[group].group) / launches);
+      });
+      if (stop_ || measured.size() != groups.size()) return;
+      for (std::size_t i = 0; i < groups.size(); ++i) samples[i].push_back(std::move(measured[i]));
     }
-    for (std::size_t i = 0; i < group.cases.size(); ++i) {
-      CaseResult one = case_result(group.cases[i], path.count(), counted, i);
-      if (!stabilities.empty()) one.stability = stabilities[i];
-      if (!details.empty()) one.details = std::move(details[i]);
+    for (std::size_t i = 0; i < waiting_.size(); ++i)
+      add_cases(waiting_[i], timing_results(config_, waiting_[i].group, samples[i]), out);
+    waiting_.clear();
+  }
+
+  void add_cases(CountedGroup& counted, const std::vector<TimingResult>& timings, Result& out) {
+    for (std::size_t i = 0; i < counted.group.cases.size(); ++i) {
+      CaseResult one = case_result(counted.group.cases[i], counted.frames, counted.counted, i);
+      if (!counted.stabilities.empty()) one.stability = counted.stabilities[i];
+      if (!counted.details.empty()) one.details = std::move(counted.details[i]);
       if (!timings.empty()) one.timing = timings[i];
       if (const auto count = counts_.find(one.id); count != counts_.end()) one.count = count->second;
       ++progress_.cases_done;
@@ -217,14 +284,19 @@ class Run {
   const Listener& listener_;
   const std::atomic<bool>& stop_;
   const Counts& counts_;
+  const Launcher& launcher_;
+  static constexpr double k_most_waiting_ns = 2e10;
+  std::vector<CountedGroup> waiting_;
+  std::string name_of_group_;
   Progress progress_;
 };
 
 }  // namespace
 
 Result run_plan(const config::Config& config, const Plan& plan, const std::vector<std::string>& done,
-                const Listener& listener, const std::atomic<bool>& stop, const Counts& counts) {
-  return Run(config, plan, done, listener, stop, counts).result();
+                const Listener& listener, const std::atomic<bool>& stop, const Counts& counts,
+                const Launcher& launcher) {
+  return Run(config, plan, done, listener, stop, counts, launcher).result();
 }
 
 }  // namespace clusterbench::run

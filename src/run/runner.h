@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <functional>
+#include <span>
 
 #include "run/passes/count_pass.h"
 #include "run/result.h"
@@ -23,10 +24,22 @@ struct Listener {
   std::function<void(const CaseResult&)> on_case;  // after every case, its group's timing included
 };
 
+// A group whose lists have been counted, to be timed.
+struct GroupToTime {
+  const GroupPlan* group = nullptr;
+  std::vector<int> fullest_frames;  // of LaunchRequest
+};
+
+// One launch: another process of this program times groups of one scene, `rounds` rounds each. Its samples in the order
+// of the groups; fewer once `stop` is true. `on_group` is told of each before it begins.
+using Launcher = std::function<std::vector<GroupSamples>(std::span<const GroupToTime> groups, int launch, int rounds,
+                                                         const std::function<void(std::size_t group)>& on_group)>;
+
 // `done`: ids of cases that an earlier, interrupted run has finished; they are passed over. `counts`: what was
-// counted of cases before, for their results. `stop` is looked at between
-// steps; when it becomes true the runner returns what is complete.
+// counted of cases before, for their results. `launcher`: without one this process times all rounds itself, in one
+// launch. `stop` is looked at between steps; when it becomes true the runner returns what is complete.
 Result run_plan(const config::Config& config, const Plan& plan, const std::vector<std::string>& done,
-                const Listener& listener, const std::atomic<bool>& stop, const Counts& counts = {});
+                const Listener& listener, const std::atomic<bool>& stop, const Counts& counts = {},
+                const Launcher& launcher = {});
 
 }  // namespace clusterbench::run

@@ -77,7 +77,7 @@ PathFrames path_of(const config::Config& config, const Plan& plan, const GroupPl
 class ServedCases::OpenGroup {
  public:
   OpenGroup(const config::Config& config, const Plan& plan, const GroupPlan& group)
-      : config_(config), group_(group), frames_(timed_frames(config, group, path_of(config, plan, group))) {}
+      : config_(config), group_(group), frames_(frames_of(config, plan, group)) {}
 
   const GroupPlan& group() const { return group_; }
 
@@ -99,6 +99,11 @@ class ServedCases::OpenGroup {
     TimedWork work;
     Repeated assign;
   };
+
+  static std::vector<TimedFrame> frames_of(const config::Config& config, const Plan& plan, const GroupPlan& group) {
+    const PathFrames path = path_of(config, plan, group);
+    return timed_frames(config, group, path, mean_frames(config, path));
+  }
 
   Track& track_of(const Method& method) {
     for (const auto& track : tracks_)

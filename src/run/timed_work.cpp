@@ -13,14 +13,17 @@ bool is_grid_new(const grid::GridSpec& spec, const PathFrames& path, const view:
 
 }  // namespace
 
-std::vector<TimedFrame> timed_frames(const config::Config& config, const GroupPlan& group, const PathFrames& path) {
-  const std::vector<int> chosen =
-      evenly_spaced(config.timing.frames == 0 ? path.count() : config.timing.frames, path.count());
+std::vector<int> mean_frames(const config::Config& config, const PathFrames& path) {
+  return evenly_spaced(config.timing.frames == 0 ? path.count() : config.timing.frames, path.count());
+}
+
+std::vector<TimedFrame> timed_frames(const config::Config& config, const GroupPlan& group, const PathFrames& path,
+                                     const std::vector<int>& indices) {
   std::vector<TimedFrame> frames;
   GridOfFrames grids(config.grids[group.grid]);
   std::shared_ptr<const grid::Grid> grid;
-  frames.reserve(chosen.size());
-  for (const int index : chosen) {
+  frames.reserve(indices.size());
+  for (const int index : indices) {
     view::Frame frame = path.frame(index);
     if (grids.update(path, frame)) grid = std::make_shared<grid::Grid>(grids.grid());
     FrameLights lights(config.precisions, view::lights_in(frame, grid::space_of(*grid, frame)));
@@ -35,16 +38,17 @@ bool is_threaded(const config::MethodRequest& assigner) {
 }
 
 TimedWork::TimedWork(const config::Config& config, const GroupPlan& group, const Method& method,
-                     const std::vector<TimedFrame>& frames)
-    : frames_(frames), precision_(method.precision) {
+                     std::span<const TimedFrame> frames, const TimedFrame* extra)
+    : frames_(frames), extra_(extra), precision_(method.precision) {
+  const std::size_t all_frames = frames.size() + (extra == nullptr ? 0 : 1);
   const config::MethodRequest& request = config.assigners[method.assigner];
   const assign::AssignerDescriptor& descriptor = *assign::find_assigner(request.name);
   if (method.answer == assign::Answer::lists) {
     lists_assigner_ = descriptor.make(request.params);
-    lists_.resize(frames.size());
+    lists_.resize(all_frames);
   } else {
     structure_assigner_ = descriptor.make_own(request.params);
-    for (std::size_t i = 0; i < frames.size(); ++i) structures_.push_back(structure_assigner_->make_structure());
+    for (std::size_t i = 0; i < all_frames; ++i) structures_.push_back(structure_assigner_->make_structure());
   }
   for (std::size_t place = 0; place < group.cases.size(); ++place) {
     const CasePlan& one = group.cases[place];
@@ -54,6 +58,7 @@ TimedWork::TimedWork(const config::Config& config, const GroupPlan& group, const
     const config::MethodRequest& store = config.storages[*one.storage];
     stores_.push_back(storage(*assign::find_storage(store.name), store.params));
   }
+  if (extra_ != nullptr) assign_frame(frames.size());
   assign();
 }
 
@@ -72,8 +77,13 @@ void TimedWork::assign() {
   for (std::size_t i = 0; i < frames_.size(); ++i) assign_frame(i);
 }
 
+void TimedWork::prepare_frame(std::size_t frame) {
+  const TimedFrame& now = at(frame);
+  if (!now.is_grid_new && now.grid.get() != built_for_) build_for(now);
+}
+
 void TimedWork::assign_frame(std::size_t frame) {
-  const TimedFrame& now = frames_[frame];
+  const TimedFrame& now = at(frame);
   if (now.is_grid_new || now.grid.get() != built_for_) build_for(now);
   const assign::FrameInput input{now.frame, now.lights.seen(precision_)};
   if (lists_assigner_)
@@ -92,7 +102,7 @@ std::size_t TimedWork::builds() const {
 }
 
 void TimedWork::convert(std::size_t store) const {
-  for (std::size_t i = 0; i < lists_.size(); ++i) convert_frame(store, i);
+  for (std::size_t i = 0; i < frames_.size(); ++i) convert_frame(store, i);
 }
 
 void TimedWork::convert_frame(std::size_t store, std::size_t frame) const {

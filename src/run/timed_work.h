@@ -2,6 +2,7 @@
 // What is timed and what is counted: a group's methods over the frames that the configuration chooses for timing.
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "assign/contract/storage.h"
@@ -19,8 +20,13 @@ struct TimedFrame {
   bool is_grid_new = false;  // another one than that of the path's frame before: an assigner is built for it
 };
 
-// `timing.frames` frames, evenly spaced over the path; all where it is 0.
-std::vector<TimedFrame> timed_frames(const config::Config& config, const GroupPlan& group, const PathFrames& path);
+// The frames of the path that times are means over: `timing.frames` of them, evenly spaced, so that they stand for the
+// path; all where it is 0.
+std::vector<int> mean_frames(const config::Config& config, const PathFrames& path);
+
+// These frames of the path, ready for a group's methods.
+std::vector<TimedFrame> timed_frames(const config::Config& config, const GroupPlan& group, const PathFrames& path,
+                                     const std::vector<int>& indices);
 
 // Does this method share its work among threads?
 bool is_threaded(const config::MethodRequest& assigner);
@@ -29,13 +35,16 @@ bool is_threaded(const config::MethodRequest& assigner);
 // structures, are made once at the start, so that memory has grown; each frame has its own.
 class TimedWork {
  public:
+  // `extra`: a further frame, which assign_frame() and convert_frame() know as frame_count(), and no pass holds.
   TimedWork(const config::Config& config, const GroupPlan& group, const Method& method,
-            const std::vector<TimedFrame>& frames);
+            std::span<const TimedFrame> frames, const TimedFrame* extra = nullptr);
 
   // Prepares for the first frame's grid.
   void build();
   // All frames. A grid that changes between frames (fit) is built within: that is what such a method costs.
   void assign();
+  // Builds for a frame's grid if that is another one than the last and not made for this frame alone.
+  void prepare_frame(std::size_t frame);
   // One of them, as assign() does it.
   void assign_frame(std::size_t frame);
   // In one assign() after another.
@@ -49,7 +58,9 @@ class TimedWork {
   // The method's cases by their place in the group; a storage each, where it converts.
   const std::vector<std::size_t>& places() const { return places_; }
   std::size_t frame_count() const { return frames_.size(); }
-  int path_frame(std::size_t frame) const { return frames_[frame].frame.index; }
+  bool has_extra() const { return extra_ != nullptr; }
+  int path_frame(std::size_t frame) const { return at(frame).frame.index; }
+  // Of the frames, and then of the extra one.
   const std::vector<assign::Lists>& lists() const { return lists_; }
   const std::vector<std::unique_ptr<assign::LightStructure>>& structures() const { return structures_; }
   // A storage that is ready for these frames.
@@ -58,8 +69,10 @@ class TimedWork {
 
  private:
   void build_for(const TimedFrame& frame);
+  const TimedFrame& at(std::size_t frame) const { return frame < frames_.size() ? frames_[frame] : *extra_; }
 
-  const std::vector<TimedFrame>& frames_;
+  std::span<const TimedFrame> frames_;
+  const TimedFrame* extra_;
   std::size_t precision_;
   std::unique_ptr<assign::ListAssigner> lists_assigner_;
   std::unique_ptr<assign::StructureAssigner> structure_assigner_;  // one of the two

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "cli/tool.h"
@@ -58,6 +59,51 @@ TEST(Run, what_is_timed_says_when_and_how_it_was_made_and_what_is_counted_only_d
   const Json counted = Json::parse(file_text(out));
   for (const char* key : {"date", "command"}) EXPECT_FALSE(counted.contains(key)) << key;
   for (const char* key : {"load", "clock_mhz"}) EXPECT_FALSE(counted["machine"].contains(key)) << key;
+}
+
+TEST(Run, several_processes_measure_cold_and_warm_times_by_default) {
+  const Folder folder;
+  const std::string config = folder.write("small.json", small_config()).string();
+  const std::string out = (folder / "result.json").string();
+  const Outcome done = tool("run " + config + " --filter /frustum --rounds 6 --launches 3 -o " + out);
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_NE(done.err.find("with cold caches"), std::string::npos) << done.err;
+  const Json result = Json::parse(file_text(out));
+  ASSERT_EQ(result["cases"].size(), 2u);
+  for (const Json& one : result["cases"]) {
+    const Json& timing = one["timing"];
+    EXPECT_EQ(timing["caches"], "cold");
+    EXPECT_EQ(timing["launches"], 3);
+    EXPECT_EQ(timing["frame_ns"]["samples"].size(), 6u);
+    EXPECT_EQ(timing["warm"]["assign_ns"]["samples"].size(), 6u);
+    EXPECT_GT(timing["warm"]["convert_ns"]["min"], 0.0);
+  }
+  const Outcome ratios = tool("ratio " + out + " --all-pairs --csv " + (folder / "r.csv").string());
+  EXPECT_EQ(ratios.code, 0) << ratios.err;
+  EXPECT_NE(ratios.out.find("aabb / packed"), std::string::npos) << ratios.out;
+  const std::string csv = file_text(folder / "r.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3) << csv;
+
+  ASSERT_EQ(tool("run -q " + config + " --filter /frustum --launches 1 --set timing.cold=false -o " + out).code, 0);
+  const Json here = Json::parse(file_text(out))["cases"][0]["timing"];
+  EXPECT_EQ(here["launches"], 1);
+  EXPECT_EQ(here["caches"], "warm");
+  EXPECT_FALSE(here.contains("warm"));
+  EXPECT_EQ(here["frame_ns"]["samples"].size(), 3u);
+}
+
+TEST(Run, of_two_scenes_with_one_name_each_launch_measures_the_right_one) {
+  const Folder folder;
+  std::filesystem::create_directory(folder / "other");
+  std::filesystem::copy_file(source_file("scenes/mirror.glb"), folder / "other" / "street.glb");
+  const std::string out = (folder / "result.json").string(),
+                    scenes = source_file("scenes/street.glb") + " " + (folder / "other" / "street.glb").string();
+  const Outcome done = tool("run -q " + scenes + " --grid world --assigner world-grid-fast --filter '-2/' --rounds 2" +
+                            " --launches 2 --set timing.min_time_ms=0.1 --set 'scenes.*.frames=2' -o " + out);
+  ASSERT_EQ(done.code, 0) << done.err;
+  const Json cases = Json::parse(file_text(out))["cases"];
+  ASSERT_EQ(cases.size(), 1u);
+  EXPECT_EQ(cases[0]["timing"]["launches"], 2);
 }
 
 TEST(Run, counts_are_byte_identical_on_any_number_of_threads) {

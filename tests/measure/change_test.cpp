@@ -92,6 +92,14 @@ TEST(Change, a_median_s_error_comes_from_its_interval) {
   EXPECT_EQ(change.freedom, 30.0);
 }
 
+TEST(Change, of_an_interval_between_launches_the_launches_count) {
+  const double width = student_quantile(0.05, 4.0) * 0.01;
+  const MedianTime base{100.0, {100.0 * std::exp(-width), 100.0 * std::exp(width)}, 30, 5};
+  const Change change = change_of_medians(base, base);
+  EXPECT_NEAR(change.error, std::sqrt(2.0) * 0.01, 1e-9);
+  EXPECT_EQ(change.freedom, 4.0);
+}
+
 TEST(Change, one_launch_concludes_nothing) {
   const Change change = change_over_launches(std::array{0.5});
   EXPECT_EQ(p_value(change), 1.0);

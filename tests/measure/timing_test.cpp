@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
+#include <numeric>
 
 #include "core/random.h"
+#include "measure/recorded_launches.h"
 
 namespace clusterbench::measure {
 namespace {
@@ -78,9 +81,9 @@ TEST(Timing, of_no_samples_everything_is_zero) {
 
 TEST(WorstFrame, is_the_frame_with_the_largest_share_of_a_pass) {
   // Three rounds of two frames; the second takes three quarters of a pass, whatever the clock adds.
-  const std::vector<std::vector<double>> frames{{100, 300}, {110, 330}, {500, 1500}};
-  const std::vector<double> pass{180, 200, 190};
-  const WorstFrame worst = worst_frame(frames, pass, 1);
+  const std::vector<std::vector<double>> frames{scaled_to_mean({100, 300}, 2, 180), scaled_to_mean({110, 330}, 2, 200),
+                                                scaled_to_mean({500, 1500}, 2, 190)};
+  const WorstFrame worst = worst_frame(frames, 1);
   EXPECT_EQ(worst.place, 1u);
   EXPECT_DOUBLE_EQ(worst.ns, 1.5 * 190);
   EXPECT_DOUBLE_EQ(worst.ci95.low, 1.5 * 180);
@@ -88,9 +91,147 @@ TEST(WorstFrame, is_the_frame_with_the_largest_share_of_a_pass) {
 }
 
 TEST(WorstFrame, of_one_frame_is_the_mean) {
-  const std::vector<std::vector<double>> frames{{100}, {130}, {90}};
-  const std::vector<double> pass{70, 80, 90};
-  EXPECT_EQ(worst_frame(frames, pass, 1).ns, 80.0);
+  const std::vector<std::vector<double>> frames{scaled_to_mean({100}, 1, 70), scaled_to_mean({130}, 1, 80),
+                                                scaled_to_mean({90}, 1, 90)};
+  EXPECT_EQ(worst_frame(frames, 1).ns, 80.0);
+}
+
+TEST(WorstFrame, a_frame_beyond_the_mean_is_scaled_and_not_in_it) {
+  EXPECT_EQ(scaled_to_mean({100, 300, 600}, 2, 400), (std::vector<double>{200, 600, 1200}));
+}
+
+// Normal, by the sum of twelve uniform numbers.
+double normal(SplitMix64& random) {
+  double sum = -6.0;
+  for (int i = 0; i < 12; ++i) sum += random.unit();
+  return sum;
+}
+
+// The share of intervals that hold the true median of 100, where launches differ by 5 % and rounds by 1 %; in some
+// launches another program takes half as much again.
+double share_held(int launches, int rounds, bool knows_launches, double busy_share) {
+  const int experiments = knows_launches ? 1000 : 100;  // a bootstrap takes long
+  SplitMix64 random(17);
+  int held = 0;
+  for (int i = 0; i < experiments; ++i) {
+    std::vector<double> samples;
+    for (int launch = 0; launch < launches; ++launch) {
+      const double own = 100.0 * std::exp(0.05 * normal(random)) * (random.unit() < busy_share ? 1.5 : 1.0);
+      for (int round = 0; round < rounds; ++round) samples.push_back(own * std::exp(0.01 * normal(random)));
+    }
+    const Interval ci95 = time_stats(samples, static_cast<std::uint64_t>(i), knows_launches ? launches : 1).ci95;
+    held += ci95.low <= 100.0 && 100.0 <= ci95.high ? 1 : 0;
+  }
+  return static_cast<double>(held) / experiments;
+}
+
+TEST(Launches, intervals_between_them_hold_the_true_median_and_those_of_rounds_do_not) {
+  for (const int launches : {3, 5, 10}) {
+    EXPECT_GE(share_held(launches, 3, true, 0.0), 0.93) << launches;
+    EXPECT_GE(share_held(launches, 3, true, 0.05), 0.90) << launches;
+  }
+  EXPECT_LT(share_held(5, 30, false, 0.0), 0.8);
+  EXPECT_LT(share_held(1, 30, false, 0.0), 0.2);
+}
+
+constexpr std::size_t k_recorded_rounds = 3;
+
+// Of recorded launches some that were drawn at random, without repetition.
+std::vector<std::size_t> drawn_launches(SplitMix64& random, std::size_t wanted, std::size_t all) {
+  std::vector<std::size_t> order(all);
+  std::iota(order.begin(), order.end(), 0);
+  for (std::size_t i = 0; i < wanted; ++i) std::swap(order[i], order[i + random.below(all - i)]);
+  order.resize(wanted);
+  return order;
+}
+
+std::vector<double> rounds_of(std::span<const double> recorded, const std::vector<std::size_t>& launches) {
+  std::vector<double> out;
+  for (const std::size_t launch : launches)
+    for (std::size_t round = 0; round < k_recorded_rounds; ++round)
+      out.push_back(recorded[launch * k_recorded_rounds + round]);
+  return out;
+}
+
+TEST(Launches, of_recorded_ones_any_few_have_intervals_that_hold_the_median_of_all) {
+  const std::span<const double> exact = k_recorded_exact_fast, aabb = k_recorded_aabb_fast;
+  const std::size_t all = exact.size() / k_recorded_rounds;
+  const double true_time = time_stats(exact, 1).median, true_ratio = paired_ratio(exact, aabb, 1).ratio;
+  constexpr int k_draws = 1000;
+  for (const std::size_t launches : {3u, 5u, 10u}) {
+    SplitMix64 random(launches);
+    int times = 0, ratios = 0;
+    for (int i = 0; i < k_draws; ++i) {
+      const std::vector<std::size_t> some = drawn_launches(random, launches, all);
+      const std::vector<double> own = rounds_of(exact, some), other = rounds_of(aabb, some);
+      const Interval time = time_stats(own, 1, static_cast<int>(launches)).ci95,
+                     ratio = paired_ratio(own, other, 1, static_cast<int>(launches)).ci95;
+      times += time.low <= true_time && true_time <= time.high ? 1 : 0;
+      ratios += ratio.low <= true_ratio && true_ratio <= ratio.high ? 1 : 0;
+    }
+    EXPECT_GE(times, k_draws * 93 / 100) << launches;
+    EXPECT_GE(ratios, k_draws * 93 / 100) << launches;
+  }
+}
+
+TEST(Launches, a_ratio_knows_as_many_values_as_there_were_launches) {
+  // 2, 2.2 and 1.8 in the launches, and no noise within.
+  const std::array own{200.0, 400.0, 220.0, 440.0, 180.0, 360.0}, other{100.0, 200.0, 100.0, 200.0, 100.0, 200.0};
+  const Ratio of_launches = paired_ratio(own, other, 1, 3);
+  EXPECT_EQ(of_launches.ratio, 2.0);
+  // Student's t of two degrees of freedom: 4.303 errors of the mean logarithm.
+  const std::array logs{std::log(2.0), std::log(2.2), std::log(1.8)};
+  const double mean = (logs[0] + logs[1] + logs[2]) / 3.0;
+  double squares = 0.0;
+  for (const double one : logs) squares += (one - mean) * (one - mean);
+  EXPECT_NEAR(std::log(of_launches.ci95.high), mean + 4.3027 * std::sqrt(squares / 6.0), 1e-4);
+  EXPECT_NEAR(std::log(of_launches.ci95.low), mean - 4.3027 * std::sqrt(squares / 6.0), 1e-4);
+}
+
+TEST(Launches, the_interval_of_swapped_methods_is_the_inverse) {
+  const std::array own{200.0, 390.0, 220.0, 440.0, 180.0, 350.0}, other{100.0, 200.0, 100.0, 210.0, 100.0, 200.0};
+  const Ratio there = paired_ratio(own, other, 1, 3), back = paired_ratio(other, own, 1, 3);
+  EXPECT_NEAR(there.ci95.low * back.ci95.high, 1.0, 1e-3);
+  EXPECT_NEAR(there.ci95.high * back.ci95.low, 1.0, 1e-3);
+}
+
+template <class Sample>
+double share_with_two_modes(std::size_t count, const Sample& sample) {
+  SplitMix64 random(23);
+  int found = 0;
+  for (int i = 0; i < 2000; ++i) {
+    std::vector<double> samples;
+    for (std::size_t j = 0; j < count; ++j) samples.push_back(sample(random));
+    found += two_modes(samples) ? 1 : 0;
+  }
+  return found / 2000.0;
+}
+
+TEST(TwoModes, are_seldom_seen_in_one_and_mostly_found_in_two) {
+  const auto bell = [](SplitMix64& random) { return 100.0 * std::exp(0.1 * normal(random)); };
+  const auto tail = [](SplitMix64& random) { return 100.0 - 20.0 * std::log(1.0 - random.unit()); };
+  const auto heavy = [](SplitMix64& random) {
+    return 100.0 * (1.0 + 0.05 * std::abs(std::tan(M_PI * (random.unit() - 0.5))));
+  };
+  const auto two = [](SplitMix64& random) {
+    return (random.unit() < 0.5 ? 100.0 : 120.0) * std::exp(0.02 * normal(random));
+  };
+  for (const std::size_t count : {15u, 20u, 40u}) {
+    EXPECT_LE(share_with_two_modes(count, bell), 0.012) << count;
+    EXPECT_LE(share_with_two_modes(count, tail), 0.012) << count;
+    EXPECT_LE(share_with_two_modes(count, heavy), 0.012) << count;
+  }
+  EXPECT_GE(share_with_two_modes(15, two), 0.7);
+  EXPECT_EQ(share_with_two_modes(14, two), 0.0);
+}
+
+TEST(TwoModes, of_rounds_that_alternate_are_told) {
+  std::vector<double> samples;
+  for (int i = 0; i < 20; ++i) samples.push_back((i % 2 == 0 ? 16.3 : 20.3) + 0.01 * i);
+  const std::optional<TwoModes> modes = two_modes(samples);
+  ASSERT_TRUE(modes);
+  EXPECT_NEAR(modes->low, 16.4, 0.1);
+  EXPECT_NEAR(modes->high, 20.4, 0.1);
 }
 
 }  // namespace

@@ -352,6 +352,16 @@ TEST(Compare, another_kernel_or_memory_parts_times_and_nothing_else) {
   EXPECT_EQ(outcome(comparison, true), ExitCode::ok);
 }
 
+TEST(Compare, cold_times_are_not_compared_with_warm_ones) {
+  const run::Result base = result_by_hand();
+  run::Result next = base;
+  for (run::CaseResult& one : next.cases) one.timing->is_cold = true;
+  const Json comparison = compared(json_of(base), json_of(next), 0.02);
+  ASSERT_TRUE(comparison["left_out"].contains("times"));
+  EXPECT_TRUE(holds(comparison["left_out"]["times"], "/cases/*/timing/caches"));
+  EXPECT_FALSE(compared(json_of(next), json_of(next), 0.02)["left_out"].contains("times"));
+}
+
 Json measured_beside(const Json& base, double percent) {
   Json next = json_of(with_times(9000, 3000));
   next["tool"]["git_sha"] = "def";

@@ -146,6 +146,20 @@ TEST_F(History, times_of_two_machines_are_two_series_and_counts_are_one) {
   for (const Series& one : all) EXPECT_TRUE(one.changes.empty()) << one.machine;
 }
 
+TEST_F(History, times_with_cold_caches_do_not_go_on_a_series_of_warm_ones) {
+  add_many("a", 7, 3000.0);
+  for (int i = 1; i <= 7; ++i) {
+    run::Result result = testing::result_by_hand();
+    result.machine.cpu = "a processor";
+    result.cases[1] = testing::case_by_hand("fast", "aabb", 6000.0 + i);
+    result.cases[1].timing->is_cold = true;
+    add_to_history(file_, result_to_json(result, {}), "b" + std::to_string(i));
+  }
+  const std::vector<Series> all = series_of(read_history(file_), {});
+  EXPECT_EQ(times_of_fast(all).values.size(), 7u);
+  EXPECT_EQ(bytes_of_fast(all).values.size(), 14u);
+}
+
 TEST_F(History, counts_change_at_their_first_other_value) {
   run::Result result = testing::result_by_hand();
   add_to_history(file_, result_to_json(result, {}), "c1");

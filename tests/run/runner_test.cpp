@@ -133,14 +133,14 @@ TEST(Runner, pairs_of_a_timing_are_those_of_its_frames) {
   EXPECT_EQ(one.timing->pairs_mean, mean);
   EXPECT_EQ(one.timing->pairs_max, std::max(pairs[0], pairs[2]));
   EXPECT_EQ(one.timing->ns_per_pair, one.timing->frame_ns.median / mean);
-  EXPECT_TRUE(one.timing->worst.frame == 0 || one.timing->worst.frame == 2);
   EXPECT_EQ(one.timing->worst.pairs, pairs[static_cast<std::size_t>(one.timing->worst.frame)]);
   EXPECT_EQ(one.timing->builds_per_frame, 0.0);
 }
 
 TEST(Runner, of_one_timed_frame_the_worst_is_the_mean) {
-  Walk walk = timed(R"("assigners": ["aabb"])");
-  walk.config.timing.frames = 1;
+  Walk walk(std::string(k_shafts) + R"(, "assigners": ["aabb"])", 1);
+  walk.config.timing = {.measure = true, .rounds = 3, .min_time_ms = 0.01, .frames = 4};
+  walk.add_light({0, 0, -6}, 3);
   const TimingResult timing = *walk.run().cases.at(0).timing;
   EXPECT_EQ(timing.worst.ns, timing.frame_ns.median);
 }

@@ -49,7 +49,7 @@ void count_pass(const config::Config& config, const Plan& plan, const std::funct
     if (group.cases.empty()) continue;
     const SceneData& data = plan.scenes[group.scene];
     const PathFrames path(data.scene, data.paths[group.camera], config.viewports[group.viewport]);
-    const std::vector<TimedFrame> frames = timed_frames(config, group, path);
+    const std::vector<TimedFrame> frames = timed_frames(config, group, path, mean_frames(config, path));
     for (const Method& method : methods_of(group)) {
       if (stop) return;
       check_threads(config.assigners[method.assigner], counter);

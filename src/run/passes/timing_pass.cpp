@@ -6,7 +6,11 @@
 #include <functional>
 #include <memory>
 #include <numeric>
+#include <optional>
 
+#include "core/random.h"
+#include "run/cache_sweep.h"
+#include "run/counters/machine_load.h"
 #include "run/repeated.h"
 #include "run/timed_work.h"
 
@@ -36,78 +40,75 @@ class WriteFloor {
   std::vector<Copy> copies_;
 };
 
-// The times of one case over the rounds; of a method's own structure, nothing is converted.
-struct CaseTimes {
-  std::vector<double> convert_ns;               // per frame
-  std::vector<double> frame_ns;                 // per frame: assign and convert
-  std::vector<std::vector<double>> each_frame;  // of each round, each frame by itself
-};
-
-std::vector<double> sums(std::vector<double> left, const std::vector<double>& right) {
+EachFrame sums(EachFrame left, const EachFrame& right) {
   std::transform(left.begin(), left.end(), right.begin(), left.begin(), std::plus<>());
   return left;
 }
 
-// One method with the times of its rounds.
+// One method and what it takes.
 class TimingTrack {
  public:
   TimingTrack(const config::Config& config, const GroupPlan& group, const Method& method,
-              const std::vector<TimedFrame>& frames)
-      : min_ns_(config.timing.min_time_ms * 1e6), work_(config, group, method, frames) {
-    cases_.resize(work_.places().size());
-    if (work_.converts())
-      for (std::size_t store = 0; store < cases_.size(); ++store)
-        converts_.emplace_back([this, store] { work_.convert(store); }, min_ns_ / 10.0);
+              std::span<const TimedFrame> frames, const TimedFrame* fullest)
+      : min_ns_(config.timing.min_time_ms * 1e6), work_(config, group, method, frames, fullest) {
+    samples_.mean_frames = work_.frame_count();
+    for (std::size_t i = 0; i < work_.frame_count() + (work_.has_extra() ? 1 : 0); ++i)
+      samples_.frames.push_back(work_.path_frame(i));
+    samples_.pairs = pairs_of_frames();
+    samples_.builds_per_frame = static_cast<double>(work_.builds()) / static_cast<double>(work_.frame_count());
+    if (work_.converts()) samples_.stores.resize(work_.places().size());
+    for (std::size_t store = 0; store < samples_.stores.size(); ++store)
+      converts_.emplace_back([this, store] { work_.convert(store); }, min_ns_ / 10.0);
     prepare_floor();
   }
 
-  void round() {
+  void warm_round() {
     const double start = wall_ns();
     work_.build();
-    build_ns_.push_back(wall_ns() - start);
+    samples_.build_ns.push_back(wall_ns() - start);
     work_.assign();  // warms caches
     const auto frames = static_cast<double>(work_.frame_count());
-    assign_ns_.push_back(assign_.sample() / frames);
-    floor_ns_.push_back(floor_.sample() / frames);
-    const std::vector<double> assign_each = frame_by_frame([this](std::size_t frame) { work_.assign_frame(frame); });
-    for (std::size_t store = 0; store < cases_.size(); ++store) {
-      CaseTimes& one = cases_[store];
-      one.frame_ns.push_back(assign_ns_.back());
-      one.each_frame.push_back(assign_each);
-      if (!work_.converts()) continue;
-      one.convert_ns.push_back(converts_[store].sample() / frames);
-      one.frame_ns.back() += one.convert_ns.back();
-      one.each_frame.back() =
-          sums(assign_each, frame_by_frame([this, store](std::size_t frame) { work_.convert_frame(store, frame); }));
+    samples_.warm_ns.push_back(assign_.sample() / frames);
+    samples_.floor_ns.push_back(floor_.sample() / frames);
+    // Conversion's branches depend on the lists: without runs of its own before, a few of them cost up to a quarter
+    // more after a method with other lists than after one with the same.
+    for (std::size_t store = 0; store < samples_.stores.size(); ++store) {
+      converts_[store].warm_up();
+      samples_.stores[store].warm_ns.push_back(converts_[store].sample() / frames);
     }
   }
 
-  // Fills the timing of each of this method's cases.
-  void report(std::uint64_t seed, std::vector<TimingResult>& out) const {
-    const auto frames = static_cast<double>(work_.frame_count());
-    TimingResult timing;
-    timing.build_ns = measure::time_stats(build_ns_, seed);
-    timing.assign_ns = measure::time_stats(assign_ns_, seed);
-    timing.builds_per_frame = static_cast<double>(work_.builds()) / frames;
-    const std::vector<std::uint64_t> pairs = pairs_of_frames();
-    if (!pairs.empty()) {
-      timing.pairs_mean = static_cast<double>(std::accumulate(pairs.begin(), pairs.end(), std::uint64_t{0})) / frames;
-      timing.pairs_max = *std::max_element(pairs.begin(), pairs.end());
-    }
-    timing.write_floor_ns = measure::time_stats(floor_ns_, seed).median;
-    timing.floor_ratio = measure::paired_ratio(assign_ns_, floor_ns_, seed).ratio;
-    timing.frames_timed = static_cast<int>(work_.frame_count());
-    for (std::size_t i = 0; i < cases_.size(); ++i) {
-      TimingResult& one = out[work_.places()[i]];
-      one = timing;
-      if (work_.converts()) one.convert_ns = measure::time_stats(cases_[i].convert_ns, seed);
-      one.frame_ns = measure::time_stats(cases_[i].frame_ns, seed);
-      if (work_.converts() && *timing.pairs_mean > 0.0) one.ns_per_pair = one.frame_ns.median / *timing.pairs_mean;
-      const measure::WorstFrame worst = measure::worst_frame(cases_[i].each_frame, cases_[i].frame_ns, seed);
-      one.worst = {work_.path_frame(worst.place), worst.ns, worst.ci95, {}};
-      if (!pairs.empty()) one.worst.pairs = pairs[worst.place];
+  // Frame by frame as the caches are after the round.
+  void warm_frames() {
+    samples_.warm_each.push_back(frame_by_frame([this](std::size_t frame) { work_.assign_frame(frame); }));
+    for (std::size_t store = 0; store < samples_.stores.size(); ++store)
+      samples_.stores[store].warm_each.push_back(
+          frame_by_frame([this, store](std::size_t frame) { work_.convert_frame(store, frame); }));
+  }
+
+  // Each frame once after `sweep`. Of several storages each finds its own buffers cold and the lists as the assignment
+  // leaves them, as the first one does.
+  void cold_frames(const std::function<void()>& sweep) {
+    EachFrame& assigned = samples_.cold_each.emplace_back();
+    for (StoreSamples& store : samples_.stores) store.cold_each.emplace_back();
+    for (std::size_t frame = 0; frame < samples_.frames.size(); ++frame) {
+      if (frame >= samples_.mean_frames) work_.prepare_frame(frame);
+      sweep();
+      wall_ns();  // the clock's own memory is warm
+      double before = wall_ns();
+      work_.assign_frame(frame);
+      double now = wall_ns();
+      assigned.push_back(now - before);
+      for (std::size_t store = 0; store < samples_.stores.size(); ++store) {
+        before = wall_ns();
+        work_.convert_frame(store, frame);
+        now = wall_ns();
+        samples_.stores[store].cold_each.back().push_back(now - before);
+      }
     }
   }
+
+  const MethodSamples& samples() const { return samples_; }
 
  private:
   // In lists, or in the cells of a structure; none without cells.
@@ -121,8 +122,8 @@ class TimingTrack {
 
   // Passes that last as long as a tenth of a round, a look at the clock after each frame.
   template <class Once>
-  std::vector<double> frame_by_frame(const Once& once) const {
-    std::vector<double> each(work_.frame_count(), 0.0);
+  EachFrame frame_by_frame(const Once& once) const {
+    EachFrame each(samples_.frames.size(), 0.0);
     const double begin = wall_ns();
     for (double before = begin; before - begin < min_ns_ / 10.0 || before == begin;)
       for (std::size_t frame = 0; frame < each.size(); ++frame) {
@@ -136,24 +137,157 @@ class TimingTrack {
 
   // What the tight storage writes for these lists; or the method's own structure, as it is.
   void prepare_floor() {
-    for (const auto& structure : work_.structures()) write_floor_.add_frame(structure->use());
+    const std::size_t frames = work_.frame_count();
+    for (std::size_t i = 0; i < std::min(frames, work_.structures().size()); ++i)
+      write_floor_.add_frame(work_.structures()[i]->use());
     if (!work_.converts()) return;
     const assign::StorageDescriptor& packed = *assign::find_storage("packed");
     const auto storage = work_.storage(packed, assign::Params(packed.params));
-    for (const assign::Lists& lists : work_.lists()) {
-      storage->store(lists);
+    for (std::size_t i = 0; i < frames; ++i) {
+      storage->store(work_.lists()[i]);
       write_floor_.add_frame(storage->use());
     }
   }
 
   double min_ns_;
   TimedWork work_;
-  std::vector<CaseTimes> cases_;   // in the order of the work's cases
-  std::deque<Repeated> converts_;  // of each
+  MethodSamples samples_;
+  std::deque<Repeated> converts_;  // of each storage
   WriteFloor write_floor_;
-  std::vector<double> build_ns_, assign_ns_, floor_ns_;
   Repeated assign_{[this] { work_.assign(); }, min_ns_};
   Repeated floor_{[this] { write_floor_.copy_once(); }, min_ns_ / 10.0};
+};
+
+// The frames of the means, and then the fullest ones of the methods that are not among them.
+std::vector<int> all_frames(const std::vector<int>& of_means, const std::vector<int>& fullest) {
+  std::vector<int> all = of_means;
+  for (const int frame : fullest)
+    if (frame >= 0 && std::find(all.begin(), all.end(), frame) == all.end()) all.push_back(frame);
+  return all;
+}
+
+// The rounds of all launches, one launch after the other.
+template <class Value, class Of>
+std::vector<Value> joined_rounds(std::span<const GroupSamples> launches, const Of& of) {
+  std::vector<Value> all;
+  for (const GroupSamples& launch : launches) {
+    const std::vector<Value>& some = of(launch);
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  return all;
+}
+
+std::vector<double> means(const std::vector<EachFrame>& rounds, std::size_t frames) {
+  std::vector<double> out;
+  for (const EachFrame& each : rounds)
+    out.push_back(std::accumulate(each.begin(), each.begin() + static_cast<std::ptrdiff_t>(frames), 0.0) /
+                  static_cast<double>(frames));
+  return out;
+}
+
+// All launches' samples of one method, and what follows from them for its cases.
+class MethodTimes {
+ public:
+  MethodTimes(std::span<const GroupSamples> launches, std::size_t method, std::uint64_t seed)
+      : launches_(launches), method_(method), first_(launches.front().methods[method]), seed_(seed) {}
+
+  TimingResult of_case(std::size_t store) const {
+    const bool converts = !first_.stores.empty();
+    const std::vector<double> warm = rounds(&MethodSamples::warm_ns);
+    const std::vector<double> warm_convert = converts ? rounds(store, &StoreSamples::warm_ns) : std::vector<double>{};
+    TimingResult out = of_method(warm);
+    WarmTimes times{stats(converts ? sums(warm, warm_convert) : warm), stats(warm), std::nullopt};
+    if (converts) times.convert_ns = stats(warm_convert);
+    std::vector<EachFrame> each = frames(&MethodSamples::cold_each);
+    out.is_cold = !each.empty();
+    if (!out.is_cold) {
+      out.frame_ns = times.frame_ns;
+      out.assign_ns = times.assign_ns;
+      out.convert_ns = times.convert_ns;
+      each = warm_each_frame(store, times.frame_ns.samples);
+    } else {
+      const std::vector<double> assign = means(each, first_.mean_frames);
+      out.assign_ns = stats(assign);
+      out.frame_ns = out.assign_ns;
+      if (converts) {
+        const std::vector<EachFrame> converted = frames(store, &StoreSamples::cold_each);
+        const std::vector<double> convert = means(converted, first_.mean_frames);
+        out.convert_ns = stats(convert);
+        out.frame_ns = stats(sums(assign, convert));
+        for (std::size_t round = 0; round < each.size(); ++round) each[round] = sums(each[round], converted[round]);
+      }
+      out.warm = std::move(times);
+    }
+    if (converts && *out.pairs_mean > 0.0) out.ns_per_pair = out.frame_ns.median / *out.pairs_mean;
+    const measure::WorstFrame worst = measure::worst_frame(each, seed_, launch_count());
+    out.worst = {first_.frames[worst.place], worst.ns, worst.ci95, {}};
+    if (!first_.pairs.empty()) out.worst.pairs = first_.pairs[worst.place];
+    return out;
+  }
+
+ private:
+  int launch_count() const { return static_cast<int>(launches_.size()); }
+  measure::TimeStats stats(const std::vector<double>& samples) const {
+    return measure::time_stats(samples, seed_, launch_count());
+  }
+
+  template <class Value>
+  std::vector<Value> rounds(std::vector<Value> MethodSamples::*part) const {
+    return joined_rounds<Value>(launches_, [&](const GroupSamples& launch) -> const std::vector<Value>& {
+      return launch.methods[method_].*part;
+    });
+  }
+  template <class Value>
+  std::vector<Value> rounds(std::size_t store, std::vector<Value> StoreSamples::*part) const {
+    return joined_rounds<Value>(launches_, [&](const GroupSamples& launch) -> const std::vector<Value>& {
+      return launch.methods[method_].stores[store].*part;
+    });
+  }
+  std::vector<EachFrame> frames(std::vector<EachFrame> MethodSamples::*part) const { return rounds(part); }
+  std::vector<EachFrame> frames(std::size_t store, std::vector<EachFrame> StoreSamples::*part) const {
+    return rounds(store, part);
+  }
+
+  // What all cases of the method have in common.
+  TimingResult of_method(const std::vector<double>& warm) const {
+    TimingResult out;
+    out.launches = launch_count();
+    out.build_ns = stats(rounds(&MethodSamples::build_ns));
+    out.builds_per_frame = first_.builds_per_frame;
+    out.frames_timed = static_cast<int>(first_.mean_frames);
+    if (!first_.pairs.empty()) {
+      const auto end = first_.pairs.begin() + static_cast<std::ptrdiff_t>(first_.mean_frames);
+      out.pairs_mean = static_cast<double>(std::accumulate(first_.pairs.begin(), end, std::uint64_t{0})) /
+                       static_cast<double>(first_.mean_frames);
+      out.pairs_max = *std::max_element(first_.pairs.begin(), end);
+    }
+    const std::vector<double> floor = rounds(&MethodSamples::floor_ns);
+    out.write_floor_ns = stats(floor).median;
+    out.floor_ratio = measure::paired_ratio(warm, floor, seed_, launch_count()).ratio;
+    for (const GroupSamples& launch : launches_) {
+      out.disturbance.seconds += launch.disturbance.seconds;
+      out.disturbance.others_s += launch.disturbance.others_s;
+      out.disturbance.stolen_s += launch.disturbance.stolen_s;
+      out.disturbance.throttled += launch.disturbance.throttled;
+    }
+    return out;
+  }
+
+  std::vector<EachFrame> warm_each_frame(std::size_t store, const std::vector<double>& frame_ns) const {
+    std::vector<EachFrame> each = frames(&MethodSamples::warm_each);
+    if (!first_.stores.empty()) {
+      const std::vector<EachFrame> converted = frames(store, &StoreSamples::warm_each);
+      for (std::size_t round = 0; round < each.size(); ++round) each[round] = sums(each[round], converted[round]);
+    }
+    for (std::size_t round = 0; round < each.size(); ++round)
+      each[round] = measure::scaled_to_mean(each[round], first_.mean_frames, frame_ns[round]);
+    return each;
+  }
+
+  std::span<const GroupSamples> launches_;
+  std::size_t method_;
+  const MethodSamples& first_;
+  std::uint64_t seed_;
 };
 
 // What a case is compared with: the group's first one in the same storage; a structure of a method's own with the first
@@ -166,30 +300,78 @@ std::size_t reference_of(const GroupPlan& group, std::size_t place) {
 
 }  // namespace
 
-std::vector<TimingResult> timing_pass(const config::Config& config, const GroupPlan& group, const PathFrames& path,
-                                      const std::function<void(int round)>& on_round, const std::atomic<bool>& stop) {
-  const std::vector<TimedFrame> frames = timed_frames(config, group, path);
+int rounds_per_launch(const config::TimingRequest& timing, int launches) {
+  return (timing.rounds + launches - 1) / launches;
+}
+
+std::vector<std::size_t> method_order(std::size_t methods, std::uint64_t seed, int launch, int round) {
+  SplitMix64 random(seed + 1000003 * static_cast<std::uint64_t>(launch) + static_cast<std::uint64_t>(round / 2));
+  std::vector<std::size_t> order(methods);
+  std::iota(order.begin(), order.end(), 0);
+  for (std::size_t i = methods; i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
+  if (round % 2 == 1) std::reverse(order.begin(), order.end());
+  return order;
+}
+
+GroupSamples measure_launch(const config::Config& config, const GroupPlan& group, const PathFrames& path,
+                            const LaunchRequest& request, const std::function<void(int round)>& on_round,
+                            const std::atomic<bool>& stop) {
+  const std::vector<int> of_means = mean_frames(config, path), all = all_frames(of_means, request.fullest_frames);
+  const std::vector<TimedFrame> frames = timed_frames(config, group, path, all);
+  const std::span<const TimedFrame> in_means = std::span(frames).first(of_means.size());
   const std::vector<Method> methods = methods_of(group);
   std::vector<std::unique_ptr<TimingTrack>> tracks;
-  for (const Method& method : methods) tracks.push_back(std::make_unique<TimingTrack>(config, group, method, frames));
-
-  for (int round = 0; round < config.timing.rounds; ++round) {
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    const auto fullest = i < request.fullest_frames.size()
+                             ? std::find(all.begin() + static_cast<std::ptrdiff_t>(of_means.size()), all.end(),
+                                         request.fullest_frames[i])
+                             : all.end();
+    const TimedFrame* extra = fullest == all.end() ? nullptr : &frames[static_cast<std::size_t>(fullest - all.begin())];
+    tracks.push_back(std::make_unique<TimingTrack>(config, group, methods[i], in_means, extra));
+  }
+  const std::uint64_t bytes = config.timing.cold ? sweep_bytes() : 0;
+  std::optional<CacheSweep> own_sweep;
+  std::function<void()> sweep = request.sweep;
+  if (config.timing.cold && !sweep) {
+    own_sweep.emplace(bytes);
+    sweep = [&] { (*own_sweep)(); };
+  }
+  const int cold = config.timing.cold ? cold_rounds(request.rounds, of_means.size() + 1, bytes) : 0;
+  const LoadWatch watch;
+  for (int round = 0; round < request.rounds; ++round) {
     on_round(round);
-    const bool is_backward = round % 2 == 1;
-    for (std::size_t i = 0; i < tracks.size(); ++i) {
+    for (const std::size_t place : method_order(tracks.size(), config.seed, request.launch, round)) {
       if (stop) return {};
-      tracks[is_backward ? tracks.size() - 1 - i : i]->round();
+      TimingTrack& track = *tracks[place];
+      track.warm_round();
+      if (!config.timing.cold) track.warm_frames();
+      if (round < cold) track.cold_frames(sweep);
     }
   }
+  GroupSamples out;
+  for (const auto& track : tracks) out.methods.push_back(track->samples());
+  out.disturbance = watch.so_far();
+  return out;
+}
 
+std::vector<TimingResult> timing_results(const config::Config& config, const GroupPlan& group,
+                                         std::span<const GroupSamples> launches) {
+  const std::vector<Method> methods = methods_of(group);
+  const auto launch_count = static_cast<int>(launches.size());
   std::vector<TimingResult> timings(group.cases.size());
-  for (const auto& track : tracks) track->report(config.seed, timings);
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    const MethodTimes times(launches, i, config.seed);
+    std::size_t store = 0;
+    for (std::size_t place = 0; place < timings.size(); ++place)
+      if (group.cases[place].method() == methods[i]) timings[place] = times.of_case(store++);
+  }
   for (std::size_t place = 0; place < timings.size(); ++place) {
     const std::size_t first = reference_of(group, place);
     if (group.cases[first].method() == group.cases[place].method()) continue;
     timings[place].against_first =
         Versus{method_label(config, group.cases[first].method()),
-               measure::paired_ratio(timings[place].frame_ns.samples, timings[first].frame_ns.samples, config.seed)};
+               measure::paired_ratio(timings[place].frame_ns.samples, timings[first].frame_ns.samples, config.seed,
+                                     launch_count)};
   }
   return timings;
 }

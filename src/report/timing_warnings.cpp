@@ -1,0 +1,114 @@
+#include "report/timing_warnings.h"
+
+#include <optional>
+
+#include "core/text.h"
+#include "measure/timing.h"
+#include "report/columns.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double k_wide = 0.1;           // half of an interval, of its time
+constexpr double k_others_cores = 0.1;   // busy with other programs
+constexpr double k_stolen_cores = 0.02;  // a guest sees little of its host's load
+
+double timing_number(const Json& one, const char* pointer) {
+  const Json found = one.value(Json::json_pointer(pointer), Json());
+  return found.is_number() ? found.get<double>() : 0.0;
+}
+
+// The cases that a doubt is about: how many, and the worst.
+class Doubt {
+ public:
+  void add(const Json& one, double badness) {
+    ++count_;
+    if (worst_ != nullptr && badness <= badness_) return;
+    worst_ = &one;
+    badness_ = badness;
+  }
+  bool is_any() const { return count_ > 0; }
+  double badness() const { return badness_; }
+  const Json& worst() const { return *worst_; }
+  std::string name() const { return shown((*worst_)["name"]); }
+  std::string cases(std::size_t timed) const { return std::to_string(count_) + " of " + number_of(timed, "time"); }
+
+ private:
+  std::size_t count_ = 0;
+  const Json* worst_ = nullptr;
+  double badness_ = 0.0;
+};
+
+double half_of_interval(const Json& one) {
+  const double median = timing_number(one, "/timing/frame_ns/median");
+  return median > 0.0
+             ? 0.5 * (timing_number(one, "/timing/frame_ns/ci95/1") - timing_number(one, "/timing/frame_ns/ci95/0")) /
+                   median
+             : 0.0;
+}
+
+std::optional<measure::TwoModes> modes_of(const Json& one) {
+  const Json samples = one.value(Json::json_pointer("/timing/frame_ns/samples"), Json());
+  if (!samples.is_array()) return std::nullopt;
+  return measure::two_modes(samples.get<std::vector<double>>());
+}
+
+std::string more_launches(const Json& one) {
+  return "--launches " + std::to_string(4 * one["timing"].value("launches", 1));
+}
+
+std::string wide_warning(const Doubt& wide, std::size_t timed) {
+  return "warning: " + wide.cases(timed) + " have intervals wider than +- 10 %, the widest +- " +
+         text("%.0f %%", 100.0 * wide.badness()) + ": " + wide.name() + "; stop other programs, or try " +
+         more_launches(wide.worst()) + "\n";
+}
+
+std::string modes_warning(const Doubt& two, std::size_t timed) {
+  const measure::TwoModes modes = *modes_of(two.worst());
+  return "warning: " + two.cases(timed) + " in two groups, as at " + text("%.4g", modes.low / 1e3) +
+         text(" and %.4g us: ", modes.high / 1e3) + two.name() +
+         "; something switches while it is measured (clock speed, another program, where memory lies): try a fixed "
+         "clock, or " +
+         more_launches(two.worst()) + "\n";
+}
+
+std::string machine_warnings(const Doubt& others, const Doubt& stolen, const Doubt& hot) {
+  std::string out;
+  if (others.is_any())
+    out += "warning: other programs kept up to " + text("%.1f", others.badness()) +
+           " processors busy while times were measured; stop them, or count instructions instead (--count)\n";
+  if (stolen.is_any())
+    out += "warning: other guests of this machine's host took up to " + text("%.2f", stolen.badness()) +
+           " processors while times were measured; measure at another time, or count instructions instead (--count)\n";
+  if (hot.is_any())
+    out += "warning: processors slowed down because of heat " + text("%.0f", hot.badness()) +
+           " times while times were measured; let the machine cool, or fix a lower clock\n";
+  return out;
+}
+
+}  // namespace
+
+std::string timing_warnings(const Json& cases) {
+  Doubt wide, two, others, stolen, hot;
+  std::size_t timed = 0;
+  for (const Json& one : cases) {
+    if (timing_number(one, "/timing/frame_ns/median") <= 0.0) continue;
+    ++timed;
+    const auto check = [&](Doubt& doubt, double badness, double most) {
+      if (badness > most) doubt.add(one, badness);
+    };
+    check(wide, half_of_interval(one), k_wide);
+    if (const auto modes = modes_of(one)) two.add(one, modes->high / modes->low);
+    check(others, timing_number(one, "/timing/disturbed/others_cores"), k_others_cores);
+    check(stolen, timing_number(one, "/timing/disturbed/stolen_cores"), k_stolen_cores);
+    check(hot, timing_number(one, "/timing/disturbed/throttled"), 0.0);
+  }
+  std::string out;
+  if (wide.is_any()) out += wide_warning(wide, timed);
+  if (two.is_any()) out += modes_warning(two, timed);
+  return out + machine_warnings(others, stolen, hot);
+}
+
+}  // namespace clusterbench::report
