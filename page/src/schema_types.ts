@@ -312,14 +312,26 @@ export type Result = {
       }; // Pairs against the same case in float32; null where there is none
     }; // How precisely the assigner gets its lights; where the configuration asks for more than float32
     timing?: {
-      frames_timed: number; // Evenly spaced over the path; all times are means over them [frames, over the path]
+      frames_timed: number; // Evenly spaced over the path; all times but that of worst_frame are means over them [frames, over the path]
+      caches?: "cold" | "warm"; // Of frame_ns, assign_ns, convert_ns, worst_frame and against_first. cold: swept before each frame, as all else of an engine's frame does; warm: the same frames again and again. Absent in older results: warm
+      launches?: number; // Processes that measured, each an equal share of every array of samples, one after the other. From two on all 95 % intervals are between launches (Student's t on the logarithms of the launches' medians), else they are bootstrap intervals over the rounds of one process [processes, over the case]
+      warm?: {
+        frame_ns: Time; // Per frame: assign_ns and convert_ns
+        assign_ns: Time; // Per frame: as the one beside cold times
+        convert_ns?: Time; // Per frame: as the one beside cold times
+      }; // The same frames with warm caches, beside cold times; samples need not be as many
+      disturbed?: {
+        others_cores: number | null; // Processors that other programs of the machine kept busy meanwhile, in the mean [processors]
+        stolen_cores: number | null; // Processors that other guests of the host took meanwhile, in the mean [processors]
+        throttled: number; // Times that processors slowed down because of heat; 0 where Linux does not count them [times]
+      }; // What else went on while the cases of this grid, camera and viewport were measured, over all launches [over the measuring of the group]
       frame_ns: Time; // Per frame: what a frame takes, assign_ns and convert_ns of the same round together
       worst_frame?: {
         frame: number; // Of the path [frame, over the path]
-        ns: number | null; // As frame_ns, of this frame: its share of a pass over the timed frames, median over the rounds [ns, over the rounds]
+        ns: number | null; // As frame_ns, of this frame alone, median over the rounds; of warm times its share of a pass over the timed frames [ns, over the rounds]
         ci95: Interval; // Of ns [ns, over the rounds]
         pairs?: number; // (cell, light) of this frame; absent without cells [pairs, over one frame]
-      }; // The slowest of the timed frames
+      }; // The slowest of the timed frames and of the path's frame with the most pairs, which is timed beside them
       pairs?: {
         mean: number | null; // Per frame
         max: number; // Of a frame
@@ -330,7 +342,7 @@ export type Result = {
       convert_ns?: Time; // Per frame: from lists to the layout of the storage; absent where a method leaves its own structure
       ns_per_pair: number | null; // frame_ns.median / pairs.mean; null without pairs in lists [ns, over the timed frames]
       write_floor_ns: number | null; // Per frame: time to copy its finished lists once as the standard `packed` holds them, headers and indices, from buffers of the frame into others of the frame [ns, over the rounds]
-      floor_ratio: number | null; // assign_ns by write_floor_ns: how far the assignment is from only writing its result [ratio, over the rounds]
+      floor_ratio: number | null; // assign_ns by write_floor_ns, both with warm caches: how far the assignment is from only writing its result [ratio, over the rounds]
       baseline?: {
         launches: Array<{
           base_ns: number[]; // Of the other program [ns, over the rounds of a launch]
