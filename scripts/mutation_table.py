@@ -655,7 +655,7 @@ MUTATIONS = [
              "piece.far == k_infinity || ", "",
              "geom.BallDecider.decides_touches_of_upright_planes_in_doubles_however_depths_are_rounded",
              "touches on distance grids take exact numbers where the camera is turned"),
-    Mutation("level-in-orthographic-by-slopes", "assign/exact/ball_pieces-inl.h",
+    Mutation("level-in-orthographic-by-slopes", "assign/exact/ball_runs-inl.h",
              "    if (orthographic_) return is_within;\n", "",
              "assign.BallCellsAtOnce.of_orthographic_views_touch_sides_exactly_however_depths_are_rounded",
              "touches in orthographic views take exact numbers where the camera is turned"),
