@@ -61,7 +61,8 @@ TEST(Domain, takes_no_place_that_is_not_a_number) {
 TEST(Domain, holds_cameras_too) {
   Scene scene = lamp_below(test::animation("translation", "LINEAR", {0, 4}, {0, 0, 0, 1, 0, 0}));
   scene.nodes[static_cast<std::size_t>(scene.cameras[0].node)].translation = {0, -2e15, 0};
-  EXPECT_NE(refused(scene, 2).find("/nodes/2: the camera 'eye' stands at (0, -2e+15, 0) m"), std::string::npos) << refused(scene, 2);
+  EXPECT_NE(refused(scene, 2).find("/nodes/2: the camera 'eye' stands at (0, -2e+15, 0) m"), std::string::npos)
+      << refused(scene, 2);
 }
 
 TEST(Domain, makes_ranges_beyond_it_endless_and_ranges_below_it_none) {
