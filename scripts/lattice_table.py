@@ -7,7 +7,7 @@ import sys
 
 def times(result, scene):
     return {
-        (case["grid"]["kind"], case["assigner"]["label"]): case["timing"]["assign_ns"]["median"] / 1e3
+        (case["grid"]["name"], case["assigner"]["label"]): case["timing"]["assign_ns"]["median"] / 1e3
         for case in result["cases"]
         if case["scene"] == scene and case.get("timing")
     }

@@ -1,6 +1,7 @@
 // Levels are built on lattices: lamps at whole metres, whole ranges, halves that mirror each other, and a camera that
-// goes along an axis or a diagonal. Each light here just touches one of the two planes through the camera's middle, or
-// the line in which these meet, so that whether it reaches the cells there is a tie.
+// goes along an axis or a diagonal. Each light here just touches one of the two planes through the camera's middle, the
+// line in which these meet, or a point on it at a whole depth, where slices may meet, so that whether it reaches the
+// cells there is a tie.
 
 #include <array>
 #include <cmath>
@@ -14,7 +15,7 @@ int whole(SplitMix64& random, int least, int most) {
   return least + static_cast<int>(random.below(static_cast<std::uint64_t>(most - least) + 1));
 }
 
-// Beside the plane x = 0 or y = 0, or beside both, with the range that ends there.
+// Beside the plane x = 0 or y = 0, beside both, or beyond a corner, with the range that ends there.
 struct Lamp {
   Vec3d position, towards;
   double range_m;
@@ -43,6 +44,18 @@ Lamp beside_edge(SplitMix64& random) {
   return lamp;
 }
 
+// Of four whole numbers with a² + b² + c² = d²: just reaches the corner at (0, 0, -depth), from behind it.
+Lamp beside_corner(SplitMix64& random) {
+  constexpr std::array<std::array<int, 4>, 4> k_quadruples{{{1, 2, 2, 3}, {2, 3, 6, 7}, {4, 4, 7, 9}, {2, 6, 9, 11}}};
+  const auto& quadruple = k_quadruples[random.below(k_quadruples.size())];
+  const int depth = 4 * whole(random, 1, 12);
+  Lamp lamp{};
+  lamp.position = {quadruple[0], quadruple[1], -(depth + quadruple[2])};
+  lamp.towards = {-quadruple[0], -quadruple[1], quadruple[2]};
+  lamp.range_m = quadruple[3];
+  return lamp;
+}
+
 Vec3d mirrored(Vec3d v, int side) {
   if (side & 1) v.x = -v.x;
   if (side & 2) v.y = -v.y;
@@ -55,7 +68,8 @@ void build_lattice(Stage& stage, int lights, const Vec3d& off) {
   SplitMix64& random = stage.random();
   constexpr std::array<double, 3> k_angles_deg{30.0, 45.0, 60.0};
   for (int i = 0; stage.light_count() < lights; ++i) {
-    const Lamp lamp = random.below(8) == 0 ? beside_edge(random) : beside_plane(random);
+    const std::uint64_t way = random.below(16);
+    const Lamp lamp = way == 0 ? beside_corner(random) : way < 3 ? beside_edge(random) : beside_plane(random);
     const bool is_spot = i % 5 == 4;
     const double angle_deg = k_angles_deg[random.below(k_angles_deg.size())];
     for (int side = 0; side < 4 && stage.light_count() < lights; ++side) {
