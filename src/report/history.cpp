@@ -198,11 +198,9 @@ std::vector<Series> series_of(const std::vector<HistoryEntry>& history, const me
     for (const HistoryEntry::Case& one : entry.cases) {
       // Lines that do not tell the settings are taken to have those of their neighbours.
       std::vector<std::string>& known = settings_of[one.name];
-      if (known.empty())
-        known.push_back(one.settings);
-      else if (known.back().empty())
+      if (!known.empty() && known.back().empty())
         known.back() = one.settings;
-      else if (!one.settings.empty() && std::ranges::find(known, one.settings) == known.end())
+      else if (known.empty() || (!one.settings.empty() && std::ranges::find(known, one.settings) == known.end()))
         known.push_back(one.settings);
       const auto at = one.settings.empty() ? known.end() - 1 : std::ranges::find(known, one.settings);
       const auto version = at - known.begin();

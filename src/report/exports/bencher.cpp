@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "report/exports/exports.h"
+#include "report/exports/formats.h"
 
 namespace clusterbench::report {
 namespace {

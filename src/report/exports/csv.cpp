@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "report/exports/exports.h"
+#include "report/exports/formats.h"
 
 namespace clusterbench::report {
 namespace {

@@ -2,17 +2,10 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "report/exports/formats.h"
 #include "report/machine.h"
 
 namespace clusterbench::report {
-
-std::string google_benchmark(const ExportResult& result);
-std::string github_smaller_is_better(const ExportResult& result);
-std::string github_bigger_is_better(const ExportResult& result);
-std::string bencher(const ExportResult& result);
-std::string lnt(const ExportResult& result);
-std::string csv(const ExportResult& result);
-std::string markdown(const ExportResult& result);
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "report/columns.h"
-#include "report/exports/exports.h"
+#include "report/exports/formats.h"
 
 namespace clusterbench::report {
 namespace {
