@@ -170,7 +170,7 @@ export type Result = {
       text: string; // For people, without the case's name
     }>; // What to know of the case before its figures are believed, beside its failures
     loses_lights: boolean; // Whether a shader lacks lights: pairs that are not listed or were dropped, lights that samples of a structure without cells miss, or more than 0.001 of those that samples need
-    eligible: boolean; // Whether it may stand on the Pareto front, and be the best that others are measured by: it fails nothing, drops nothing, and leaves at most 0.001 of the lights that samples need unlit
+    eligible: boolean; // Whether it may stand on the Pareto front, and be the best that others are measured by: it fails nothing and loses no lights (loses_lights)
     tests_done: number; // Over all frames: cells, rows of cells, lights or planes, whichever a method looks at one by one; a method that looks at many at a time counts otherwise than its scalar reference [tests, over all frames]
     fallbacks: number; // That the method could not decide in single precision and decided at greater cost [pairs, over all frames]
     occupancy?: {
@@ -422,7 +422,7 @@ export type Result = {
   pareto_front: Array<{
     scene: string; // Name of one of scenes
     ids: string[]; // Of its cases, in their order
-  }>; // Per scene the cases on the Pareto front: no other one of the same camera, viewport and precision is as good in frame time (beyond the intervals), bytes and overshade together, and better in one. Only cases that are eligible
+  }>; // Per scene the cases on the Pareto front: no other one of the same camera and viewport is as good in frame time (beyond the intervals), bytes and overshade together, and better in one. Only cases that are eligible
   skipped: Array<{
     name: string; // As of a case; its parts that all combinations share
     reason: string; // For people

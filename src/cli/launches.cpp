@@ -66,9 +66,13 @@ GroupSamples group_samples(const Json& json) {
   return group;
 }
 
-// The group of these cases and no others.
+// The group of these cases and no others. A case that several scenes have is told apart by a number behind its hash; a
+// launch has one scene and no such numbers.
 run::GroupPlan group_of(const run::Plan& plan, const std::vector<std::string>& ids) {
-  const auto is_asked_for = [&](const run::CasePlan& one) { return std::ranges::find(ids, one.id) != ids.end(); };
+  const auto hash = [](const std::string& id) { return id.substr(0, id.find('-')); };
+  const auto is_asked_for = [&](const run::CasePlan& one) {
+    return std::ranges::find(ids, hash(one.id), hash) != ids.end();
+  };
   for (run::GroupPlan group : plan.groups) {
     std::erase_if(group.cases, [&](const run::CasePlan& one) { return !is_asked_for(one); });
     if (!group.cases.empty() && group.cases.size() == ids.size()) return group;

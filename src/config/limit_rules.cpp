@@ -17,7 +17,7 @@ constexpr LimitFigure k_figures[] = {
     {"assign_us", "median time to assign a frame's lights, in microseconds"},
     {"convert_us", "median time to convert a frame's lists, in microseconds"},
     {"build_us", "median time to prepare for a grid, in microseconds"},
-    {"index_entries", "light indices in the fullest frame"},
+    {"index_entries", "entries in the fullest frame: light indices, or words, nodes, boxes (docs/sizing.md)"},
     {"bytes", "bytes of indices and headers in the fullest frame"},
     {"upload_bytes", "bytes to copy in the largest frame"},
     {"scratch_bytes", "bytes of the method's own memory"},

@@ -56,6 +56,15 @@ Json scene_of(const Json& result, const Json& one) {
   return {};
 }
 
+// The ways in which the scenes' cameras are fitted to the picture.
+Json fits_of(const Json& result) {
+  Json fits = Json::array();
+  for (const Json& scene : result["config"]["scenes"])
+    if (scene.contains("camera_fit") && std::ranges::find(fits, scene["camera_fit"]) == fits.end())
+      fits.push_back(scene["camera_fit"]);
+  return fits;
+}
+
 // Why a case that both results name alike is another one: the settings in which it differs.
 std::vector<std::string> other_settings(const Json& base, const Json& base_case, const Json& next,
                                         const Json& next_case) {
@@ -71,8 +80,9 @@ std::vector<std::string> other_settings(const Json& base, const Json& base_case,
     tell(base_case, next_case, key, (std::string("/") + key).c_str());
   tell(base_case, next_case, "the assigner's parameters", "/assigner/params");
   tell(base_case, next_case, "precision", "/precision/label");
-  for (const char* key : {"seed", "shading", "lookup", "stability"})
+  for (const char* key : {"seed", "shading", "lookup", "stability", "jitter"})
     tell(base["config"], next["config"], key, (std::string("/") + key).c_str());
+  if (fits_of(base) != fits_of(next)) out.emplace_back("camera_fit");
   if (out.empty()) out.emplace_back("something that results do not tell");
   return out;
 }

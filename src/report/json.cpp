@@ -252,8 +252,7 @@ double number_at(const Json& one, const char* pointer) {
 }
 
 std::string view_of(const Json& one) {
-  const Json lights = one.contains("precision") ? one["precision"]["label"] : Json("float32");
-  return Json{one["camera"], one["viewport"], lights}.dump();
+  return Json{one["camera"], one["viewport"]}.dump();
 }
 
 run::Contender contender(const Json& one) {

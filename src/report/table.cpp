@@ -252,8 +252,7 @@ std::string render_table(const Json& result, bool colour) {
     out += "\n";
   }
   out += legend(extras, !on_front.empty(), is_complete);
-  if (has_alike)
-    out += "~: of the same rounds, no longer than the row above with 95 % certainty (`clusterbench ratio`).\n";
+  if (has_alike) out += "~: may be as fast as the row above, as far as their ratio is known (`clusterbench ratio`).\n";
   if (!counted_by.empty()) out += "instr: instructions of one frame's assignment, counted by " + counted_by + ".\n";
   if (!result["skipped"].empty())
     out += number_of(result["skipped"].size(), "combination") + " skipped; the result says why.\n";

@@ -135,7 +135,7 @@ bool loses_lights(const CaseResult& one) {
 }
 
 bool is_eligible(const CaseResult& one) {
-  return one.failures.empty() && one.buffers.dropped_pairs == 0 && !is_unlit(one);
+  return one.failures.empty() && !loses_lights(one);
 }
 
 std::vector<std::string> on_front(std::span<const Contender> cases) {

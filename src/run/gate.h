@@ -26,15 +26,14 @@ std::vector<Warning> warnings_of(const CaseResult& one);
 // wherever they are.
 bool loses_lights(const CaseResult& one);
 
-// Whether a case may stand on a front, and be the best that others are measured by: it fails nothing, drops nothing and
-// leaves no more than measure::k_most_unlit of the needed lights unlit. Short lists are no merit else.
+// Whether a case may stand on a front, and be the best that others are measured by: it fails nothing and loses no
+// lights. Short lists are no merit else.
 bool is_eligible(const CaseResult& one);
 
 // A case beside others. Results are continued and merged from files, so this is apart from CaseResult.
 struct Contender {
   std::string id;
-  // Only cases that see the same can beat each other: an empty view costs less than a full one in every respect, and
-  // packed lights that lose a pair less than those that do not.
+  // Only cases that see the same can beat each other: an empty view costs less than a full one in every respect.
   std::string scene, view;
   measure::Costs costs;
   bool is_eligible = true;

@@ -150,6 +150,7 @@ TEST(Gate, warns_of_what_fails_nothing_and_takes_a_case_from_the_front_where_its
   one.error->false_negatives = 1;
   one.conservative = false;
   EXPECT_EQ(warned(one), (std::vector{Of::lost_pairs}));
+  EXPECT_FALSE(is_eligible(one)) << "a naive method's";
   one = with_cells();
   one.error.reset();
   EXPECT_EQ(warned(one), (std::vector{Of::unchecked}));
