@@ -59,7 +59,7 @@ Json scene_of(const Json& result, const Json& one) {
 // The ways in which the scenes' cameras are fitted to the picture.
 Json fits_of(const Json& result) {
   Json fits = Json::array();
-  for (const Json& scene : result["config"]["scenes"])
+  for (const Json& scene : result["config"].value("scenes", Json::array()))
     if (scene.contains("camera_fit") && std::ranges::find(fits, scene["camera_fit"]) == fits.end())
       fits.push_back(scene["camera_fit"]);
   return fits;
