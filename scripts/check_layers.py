@@ -9,7 +9,7 @@ import re
 import sys
 
 # A file includes only its own layer and those before it.
-LAYERS = ["core", "geom", "scene", "view", "grid", "assign", "measure", "config", "run", "stress", "report", "cli"]
+LAYERS = ["core", "geom", "scene", "view", "depth", "grid", "assign", "measure", "config", "run", "stress", "report", "cli"]
 
 # The same for the folders of a layer; files beside them are bound by nothing. Those that stand side by side do not include
 # each other.
@@ -28,7 +28,7 @@ HOMES = {
     "boost/multiprecision": ["geom"],
     "boost/math": ["measure"],
     "tiny_gltf.h": ["scene"],
-    "embree": ["view"],
+    "embree": ["depth"],
     "hwy/": ["assign"],
     "valijson/": ["config"],
     "valgrind/": ["run"],

@@ -4,8 +4,10 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
+#include "core/memory.h"
 #include "core/text.h"
 
 namespace clusterbench::scene {
@@ -142,25 +144,40 @@ std::size_t at_least_one(const JsonLocation& location) {
   return number;
 }
 
+// Elements of the same size, so many bytes from one to the next.
+struct Elements {
+  std::string_view bytes;
+  std::size_t size, stride;
+
+  std::string_view at(std::size_t index) const { return bytes.substr(index * stride, size); }
+};
+
 // `count` elements of `element` bytes from byteOffset of `object` on; refuses what does not lie inside `view`.
-std::string_view tight_elements(std::string_view view, const JsonLocation& object, std::size_t count,
-                                std::size_t element, std::size_t alignment) {
-  const std::size_t offset = whole_or(object, "byteOffset", 0);
+Elements elements_of(std::string_view view, std::size_t stride, const JsonLocation& object, std::size_t count,
+                     std::size_t element, std::size_t alignment) {
+  const std::size_t offset = whole_or(object, "byteOffset", 0), step = stride == 0 ? element : stride;
   if (offset % alignment != 0) {
     object.at("byteOffset").refuse("must be a multiple of the component's " + std::to_string(alignment) + " bytes");
   }
-  if (offset > view.size() || count > (view.size() - offset) / element) {
+  if (step < element)
+    object.refuse("elements of " + std::to_string(element) + " bytes do not fit into a byteStride of " +
+                  std::to_string(step));
+  // The last one need not be followed by a whole stride.
+  const bool fits =
+      offset <= view.size() &&
+      (count == 0 || (element <= view.size() - offset && count - 1 <= (view.size() - offset - element) / step));
+  if (!fits) {
     object.refuse(std::to_string(count) + " elements of " + std::to_string(element) + " bytes from byte " +
                   std::to_string(offset) + " on do not fit into a bufferView of " + std::to_string(view.size()) +
                   " bytes");
   }
-  return view.substr(offset, count * element);
+  return {view.substr(offset), element, step};
 }
 
 }  // namespace
 
-AccessorReader::AccessorReader(const GltfFile& file, Warnings& warnings)
-    : file_(file), root_(file.name, file.json, warnings) {}
+AccessorReader::AccessorReader(const GltfFile& file, Warnings& warnings, AccessorUse use)
+    : file_(file), root_(file.name, file.json, warnings), use_(use) {}
 
 AccessorHead AccessorReader::head(std::size_t accessor) const {
   const JsonLocation from = location(accessor);
@@ -185,10 +202,7 @@ bool AccessorReader::has_data(std::size_t accessor) const {
 std::vector<double> AccessorReader::numbers(std::size_t accessor, std::size_t components) {
   const JsonLocation from = location(accessor);
   const AccessorHead about = head(accessor);
-  if (about.count > numbers_left_ / components) {
-    from.at("count").refuse("more than " + std::to_string(k_most_numbers) + " numbers of animation in one file");
-  }
-  numbers_left_ -= about.count * components;
+  count_numbers(from, about.count, components);
   std::vector<double> out;
   read_dense(from, about, components, out);
   read_sparse(from, about, components, out);
@@ -196,6 +210,18 @@ std::vector<double> AccessorReader::numbers(std::size_t accessor, std::size_t co
     if (!std::isfinite(number)) from.refuse("holds a number that is infinite or none at all");
   }
   return out;
+}
+
+void AccessorReader::count_numbers(const JsonLocation& accessor, std::size_t count, std::size_t components) {
+  if (use_ == AccessorUse::vertices) {
+    if (count > std::numeric_limits<std::uint32_t>::max()) accessor.at("count").refuse("more than 2^32 vertices");
+    numbers_ += count * components;
+    return check_memory("numbers of vertices", numbers_, sizeof(double));
+  }
+  if (count > (k_most_numbers - numbers_) / components) {
+    accessor.at("count").refuse("more than " + std::to_string(k_most_numbers) + " numbers of animation in one file");
+  }
+  numbers_ += count * components;
 }
 
 std::string AccessorReader::external_bytes() const {
@@ -213,11 +239,14 @@ void AccessorReader::read_dense(const JsonLocation& accessor, const AccessorHead
     out.assign(head.count * components, 0.0);
     return;
   }
-  const std::string_view bytes = view(accessor.at("bufferView"));
+  const View from = view(accessor.at("bufferView"));
   const std::size_t size = size_of(head.component);
-  const std::string_view elements = tight_elements(bytes, accessor, head.count, size * components, size);
+  const Elements elements = elements_of(from.bytes, from.stride, accessor, head.count, size * components, size);
   out.reserve(head.count * components);
-  for (std::size_t at = 0; at < elements.size(); at += size) out.push_back(decoded(elements.substr(at, size), head));
+  for (std::size_t i = 0; i < head.count; ++i) {
+    const std::string_view element = elements.at(i);
+    for (std::size_t at = 0; at < element.size(); at += size) out.push_back(decoded(element.substr(at, size), head));
+  }
 }
 
 void AccessorReader::read_sparse(const JsonLocation& accessor, const AccessorHead& head, std::size_t components,
@@ -231,30 +260,34 @@ void AccessorReader::read_sparse(const JsonLocation& accessor, const AccessorHea
     indices.at("componentType").refuse("indices must be 5121, 5123 or 5125");
   }
   const std::size_t index_size = size_of(index_component), size = size_of(head.component);
-  const std::string_view locations =
-      tight_elements(view(indices.at("bufferView")), indices, count, index_size, index_size);
-  const std::string_view replaced =
-      tight_elements(view(values.at("bufferView")), values, count, size * components, size);
+  const Elements locations =
+      elements_of(view(indices.at("bufferView")).bytes, 0, indices, count, index_size, index_size);
+  const Elements replaced = elements_of(view(values.at("bufferView")).bytes, 0, values, count, size * components, size);
   std::optional<std::size_t> last;
   for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t index = little_endian(locations.substr(i * index_size, index_size));
+    const std::size_t index = little_endian(locations.at(i));
     if (index >= head.count || (last && index <= *last)) {
       indices.refuse("index " + std::to_string(index) + " at place " + std::to_string(i) +
                      ": indices must ascend and be less than " + std::to_string(head.count));
     }
     last = index;
     for (std::size_t k = 0; k < components; ++k) {
-      out[index * components + k] = decoded(replaced.substr((i * components + k) * size, size), head);
+      out[index * components + k] = decoded(replaced.at(i).substr(k * size, size), head);
     }
   }
 }
 
-std::string_view AccessorReader::view(const JsonLocation& reference) {
+AccessorReader::View AccessorReader::view(const JsonLocation& reference) {
   const std::size_t views = array_size(root_, "bufferViews");
   const std::size_t chosen = reference.index(views, "bufferView");
   const JsonLocation view = root_.at("bufferViews").at(chosen);
+  std::size_t stride = 0;
   if (view.has("byteStride")) {
-    view.at("byteStride").refuse("only vertex data may have a stride; animations use this bufferView");
+    if (use_ == AccessorUse::animations)
+      view.at("byteStride").refuse("only vertex data may have a stride; animations use this bufferView");
+    stride = view.at("byteStride").whole();
+    if (stride < 4 || stride > 252)
+      view.at("byteStride").refuse("found " + std::to_string(stride) + ", 4 to 252 is needed");
   }
   const std::size_t index = view.at("buffer").index(array_size(root_, "buffers"), "buffer");
   const std::size_t length = at_least_one(view.at("byteLength")), offset = whole_or(view, "byteOffset", 0);
@@ -263,7 +296,7 @@ std::string_view AccessorReader::view(const JsonLocation& reference) {
     view.refuse("bytes " + std::to_string(offset) + " to " + std::to_string(offset + length) +
                 " do not fit into buffer " + std::to_string(index) + " of " + std::to_string(bytes.size()) + " bytes");
   }
-  return bytes.substr(offset, length);
+  return {bytes.substr(offset, length), stride};
 }
 
 std::string_view AccessorReader::buffer(std::size_t index) {
@@ -291,7 +324,7 @@ std::string_view AccessorReader::buffer(std::size_t index) {
     const std::filesystem::path relative = percent_decoded(uri);
     if (has_scheme(uri) || !stays_in_folder(relative))
       location.at("uri").refuse("found '" + uri + "'; only files beside this one or below, and data URIs, are read");
-    if (length > external_bytes_left_) location.refuse("more than 2 GiB of external buffers for animations");
+    if (length > external_bytes_left_) location.refuse("more than 2 GiB of external buffers");
     bytes.external = true;
     const std::filesystem::path beside = std::filesystem::path(file_.name).parent_path() / relative.lexically_normal();
     bytes.owned = read_bytes(beside, file_.name, location.at("uri").pointer(), length);

@@ -22,10 +22,14 @@ struct AccessorHead {
   std::size_t count = 0;
 };
 
+// Of animations there are few numbers, and they lie close together. Of vertices there are many, and they may be
+// interleaved (byteStride).
+enum class AccessorUse { animations, vertices };
+
 class AccessorReader {
  public:
   // Both must outlive the reader.
-  AccessorReader(const GltfFile& file, Warnings& warnings);
+  AccessorReader(const GltfFile& file, Warnings& warnings, AccessorUse use = AccessorUse::animations);
 
   const JsonLocation& root() const { return root_; }
   JsonLocation location(std::size_t accessor) const { return root_.at("accessors").at(accessor); }
@@ -34,7 +38,8 @@ class AccessorReader {
   bool has_data(std::size_t accessor) const;
 
   // All elements, `components` doubles each; normalized integers become -1..1 or 0..1, sparse substitution is done.
-  // All floats are finite. Together one reader hands out at most k_most_numbers.
+  // All floats are finite. Together one reader hands out at most k_most_numbers of animations; what vertices take is up
+  // to the limit on memory (core/memory.h).
   std::vector<double> numbers(std::size_t accessor, std::size_t components);
   static constexpr std::size_t k_most_numbers = std::size_t{1} << 24;
   // So that a small document that names one large file many times does not fill the memory.
@@ -45,7 +50,11 @@ class AccessorReader {
 
  private:
   std::string_view buffer(std::size_t index);
-  std::string_view view(const JsonLocation& reference);
+  struct View {
+    std::string_view bytes;
+    std::size_t stride = 0;  // 0: elements lie close together
+  };
+  View view(const JsonLocation& reference);
   void read_dense(const JsonLocation& accessor, const AccessorHead& head, std::size_t components,
                   std::vector<double>& out);
   void read_sparse(const JsonLocation& accessor, const AccessorHead& head, std::size_t components,
@@ -55,10 +64,13 @@ class AccessorReader {
     std::string owned;
     bool external = false;
   };
+  void count_numbers(const JsonLocation& accessor, std::size_t count, std::size_t components);
+
   const GltfFile& file_;
   JsonLocation root_;
+  AccessorUse use_;
   std::map<std::size_t, Bytes> buffers_;
-  std::size_t numbers_left_ = k_most_numbers;
+  std::size_t numbers_ = 0;  // handed out
   std::size_t external_bytes_left_ = k_most_external_bytes;
 };
 

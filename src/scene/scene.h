@@ -1,6 +1,6 @@
 #pragma once
 // A glTF scene as this tool sees it: lights, cameras, the node tree that moves them, animations. Images and materials
-// are never looked at; triangles are read only by load_triangles(). Transforms stay in double precision.
+// are never looked at, triangles only by load_geometry() (geometry.h). Transforms stay in double precision.
 
 #include <array>
 #include <cstdint>
@@ -146,6 +146,10 @@ void resolve_range(Light& light, const RangeRule& rule);
 
 // World transforms of all nodes at a time (animations clamp to their first and last key).
 std::vector<Mat4d> world_transforms(const Scene& scene, double time_s);
+// Without animations, as the nodes themselves have them.
+std::vector<Mat4d> rest_transforms(const Scene& scene);
+// Which nodes are drawn at a time (KHR_node_visibility, inherited down the tree).
+std::vector<bool> visible_nodes(const Scene& scene, double time_s);
 
 // The shortest turn (a quaternion) of -z, along which spots and cameras look, to a direction.
 Vec4d rotation_towards(const Vec3d& direction);

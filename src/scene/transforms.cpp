@@ -214,7 +214,7 @@ std::vector<Mat4d> transforms_of(const std::vector<Node>& posed) {
   return world;
 }
 
-std::vector<bool> visible_nodes(const std::vector<Node>& posed) {
+std::vector<bool> visible_of(const std::vector<Node>& posed) {
   std::vector<bool> visible;
   visible.reserve(posed.size());
   for (const Node& node : posed)
@@ -228,10 +228,18 @@ std::vector<Mat4d> world_transforms(const Scene& scene, double time_s) {
   return transforms_of(posed_nodes(scene, time_s));
 }
 
+std::vector<Mat4d> rest_transforms(const Scene& scene) {
+  return transforms_of(scene.nodes);
+}
+
+std::vector<bool> visible_nodes(const Scene& scene, double time_s) {
+  return visible_of(posed_nodes(scene, time_s));
+}
+
 std::vector<WorldLight> world_lights(const Scene& scene, double time_s) {
   const std::vector<Node> posed = posed_nodes(scene, time_s);
   const std::vector<Mat4d> world = transforms_of(posed);
-  const std::vector<bool> visible = visible_nodes(posed);
+  const std::vector<bool> visible = visible_of(posed);
   std::vector<WorldLight> out;
   for (const LightType type : {LightType::point, LightType::spot}) {
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {

@@ -1,0 +1,301 @@
+#include "depth/ray_caster.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <string>
+
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/parallel.h"
+#include "core/text.h"
+#include "geom/domain.h"
+
+namespace clusterbench::depth {
+namespace {
+
+constexpr float k_nothing = std::numeric_limits<float>::infinity();
+
+// One instruction set on all x86 machines: others fuse products and sums, and depths must not depend on the machine.
+#if defined(__x86_64__) || defined(_M_X64)
+constexpr const char* k_device = "isa=sse4.2,set_affinity=0";
+#else
+constexpr const char* k_device = "set_affinity=0";
+#endif
+
+struct ReleaseDevice {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct ReleaseScene {
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+using Device = std::unique_ptr<std::remove_pointer_t<RTCDevice>, ReleaseDevice>;
+using Surroundings = std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene>;
+
+void check(RTCDevice device) {
+  const RTCError fault = rtcGetDeviceError(device);
+  if (fault == RTC_ERROR_NONE) return;
+  throw Error("", "depth",
+              fault == RTC_ERROR_OUT_OF_MEMORY ? "not enough memory for the scene's triangles"
+                                               : "Embree fails with error " + std::to_string(fault),
+              ExitCode::internal);
+}
+
+Vec3f direction_of(const RTCRay& ray) {
+  return {ray.dir_x, ray.dir_y, ray.dir_z};
+}
+
+// Triangles turn their front to the side from which they are seen counter-clockwise; Embree's normals point there.
+bool shows_its_back(const RTCRay& ray, const RTCHit& hit) {
+  return glm::dot(direction_of(ray), Vec3f(hit.Ng_x, hit.Ng_y, hit.Ng_z)) > 0.0f;
+}
+
+// Filters are given one ray, since rays are cast one by one.
+void leave_out_backs(const RTCFilterFunctionNArguments* arguments) {
+  const auto* ray = reinterpret_cast<const RTCRay*>(arguments->ray);
+  const auto* hit = reinterpret_cast<const RTCHit*>(arguments->hit);
+  if (arguments->valid[0] == -1 && shows_its_back(*ray, *hit)) arguments->valid[0] = 0;
+}
+
+// What a ray through surfaces that blend gathers. The context comes first: Embree hands its address to filters.
+struct Gathering {
+  struct Found {
+    float depth;
+    std::uint32_t surface, triangle;
+
+    friend auto operator<=>(const Found&, const Found&) = default;
+  };
+  RTCIntersectContext context;
+  std::vector<Found> found;
+
+  Gathering() { rtcInitIntersectContext(&context); }
+
+  // The nearest ones, front to back. Embree may hand the same triangle to a filter more than once.
+  void finish(std::size_t most) {
+    std::ranges::sort(found);
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    if (found.size() > most) found.resize(most);
+  }
+};
+
+void gather(const RTCFilterFunctionNArguments* arguments, bool with_backs) {
+  const auto* ray = reinterpret_cast<const RTCRay*>(arguments->ray);
+  const auto* hit = reinterpret_cast<const RTCHit*>(arguments->hit);
+  if (arguments->valid[0] != -1) return;
+  arguments->valid[0] = 0;  // the ray goes on
+  if (with_backs || !shows_its_back(*ray, *hit))
+    reinterpret_cast<Gathering*>(arguments->context)->found.push_back({ray->tfar, hit->geomID, hit->primID});
+}
+void gather_both_sides(const RTCFilterFunctionNArguments* arguments) {
+  gather(arguments, true);
+}
+void gather_fronts(const RTCFilterFunctionNArguments* arguments) {
+  gather(arguments, false);
+}
+
+// The picture's rays in the space of the surfaces. A ray's parameter is the depth.
+class Camera {
+ public:
+  Camera(const view::Frame& frame, const Vec3d& origin, const PixelGrid& pixels)
+      : pixels_(pixels),
+        projection_(frame.projection),
+        world_from_view_(glm::transpose(frame.view_space.rotation)),
+        eye_(frame.view_space.origin - origin) {}
+
+  RTCRayHit ray(std::size_t index) const {
+    const Vec2d pixel = pixels_.pixel(index);
+    const double across = projection_.left + (projection_.right - projection_.left) * pixel.x / pixels_.viewport.x;
+    const double up = projection_.top - (projection_.top - projection_.bottom) * pixel.y / pixels_.viewport.y;
+    const Vec3d to_side(across, up, 0.0), ahead(0.0, 0.0, -1.0);
+    const bool is_parallel = projection_.orthographic;
+    const Vec3f from(is_parallel ? eye_ + world_from_view_ * to_side : eye_);
+    const Vec3f along(world_from_view_ * (is_parallel ? ahead : to_side + ahead));
+    RTCRayHit out{};
+    out.ray.org_x = from.x;
+    out.ray.org_y = from.y;
+    out.ray.org_z = from.z;
+    out.ray.dir_x = along.x;
+    out.ray.dir_y = along.y;
+    out.ray.dir_z = along.z;
+    out.ray.tnear = static_cast<float>(projection_.near_m);
+    out.ray.tfar = static_cast<float>(projection_.far_m);
+    out.ray.mask = ~0U;
+    out.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    out.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    return out;
+  }
+
+ private:
+  const PixelGrid& pixels_;
+  const view::Projection& projection_;
+  Mat3d world_from_view_;
+  Vec3d eye_;
+};
+
+}  // namespace
+
+PixelGrid::PixelGrid(Vec2i of_viewport, int divisor)
+    : viewport(of_viewport), size((of_viewport.x + divisor - 1) / divisor, (of_viewport.y + divisor - 1) / divisor) {}
+
+Vec2d PixelGrid::pixel(std::size_t index) const {
+  const auto width = static_cast<std::size_t>(size.x);
+  return {(static_cast<double>(index % width) + 0.5) * viewport.x / size.x,
+          (static_cast<double>(index / width) + 0.5) * viewport.y / size.y};
+}
+
+// The built surfaces, around an origin: single precision does not hold the world's own coordinates.
+struct RayCaster::Surfaces {
+  Device device;
+  Surroundings opaque, blending;
+  Vec3d origin{0.0};
+  std::vector<Mat4d> transforms;  // as they were built
+  std::vector<bool> shown;
+
+  Surfaces() : device(rtcNewDevice(k_device)) { check(device.get()); }
+};
+
+RayCaster::RayCaster(const scene::Scene& scene, const scene::Geometry& geometry) : scene_(scene), geometry_(geometry) {}
+RayCaster::~RayCaster() = default;
+
+namespace {
+
+bool is_shown(const scene::SurfaceInstance& instance, const std::vector<bool>& shown) {
+  return shown[static_cast<std::size_t>(instance.shown_by)];
+}
+
+// Vertices in world space.
+template <class Take>
+void each_vertex(const scene::Geometry& geometry, const scene::SurfaceInstance& instance,
+                 const std::vector<Mat4d>& transforms, Take&& take) {
+  const std::vector<Vec3f>& vertices = geometry.surfaces[instance.surface].vertices;
+  for (const Vec3f& vertex : vertices) {
+    if (instance.node < 0)
+      take(Vec3d(vertex));
+    else
+      take(Vec3d(transforms[static_cast<std::size_t>(instance.node)] * Vec4d(Vec3d(vertex), 1.0)));
+  }
+}
+
+// The middle of the box around all that is shown.
+Vec3d middle_of(const scene::Scene& scene, const scene::Geometry& geometry, const std::vector<Mat4d>& transforms,
+                const std::vector<bool>& shown) {
+  constexpr double k_far = std::numeric_limits<double>::max();
+  Vec3d lo(k_far), hi(-k_far);
+  for (const scene::SurfaceInstance& instance : geometry.instances) {
+    if (!is_shown(instance, shown)) continue;
+    each_vertex(geometry, instance, transforms, [&](const Vec3d& vertex) {
+      if (!geom::is_in_domain(vertex.x) || !geom::is_in_domain(vertex.y) || !geom::is_in_domain(vertex.z))
+        throw Error(scene.path.string(),
+                    "node '" + printable(scene.nodes[static_cast<std::size_t>(instance.shown_by)].name) + "'",
+                    "its mesh reaches farther than 1e15 m from the world's origin");
+      lo = glm::min(lo, vertex);
+      hi = glm::max(hi, vertex);
+    });
+  }
+  return lo.x > hi.x ? Vec3d(0.0) : 0.5 * (lo + hi);
+}
+
+bool is_mirrored(const Mat4d& transform) {
+  return glm::determinant(Mat3d(transform)) < 0.0;
+}
+
+// Adds a surface where it stands. In a mirrored node fronts stay fronts (glTF 2.0, 3.7.4), so its triangles turn round.
+void add_surface(RTCDevice device, RTCScene to, const scene::Geometry& geometry, const scene::SurfaceInstance& instance,
+                 const std::vector<Mat4d>& transforms, const Vec3d& origin, RTCFilterFunctionN filter) {
+  const scene::Surface& surface = geometry.surfaces[instance.surface];
+  const bool turns = instance.node >= 0 && is_mirrored(transforms[static_cast<std::size_t>(instance.node)]);
+  RTCGeometry mesh = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* vertices = static_cast<Vec3f*>(rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                               sizeof(Vec3f), surface.vertices.size()));
+  each_vertex(geometry, instance, transforms, [&](const Vec3d& vertex) { *vertices++ = Vec3f(vertex - origin); });
+  auto* triangles = static_cast<scene::Triangle*>(rtcSetNewGeometryBuffer(
+      mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(scene::Triangle), surface.triangles.size()));
+  for (const scene::Triangle& triangle : surface.triangles)
+    *triangles++ = turns ? scene::Triangle{triangle[0], triangle[2], triangle[1]} : triangle;
+  if (filter != nullptr) rtcSetGeometryIntersectFilterFunction(mesh, filter);
+  rtcCommitGeometry(mesh);
+  rtcAttachGeometry(to, mesh);
+  rtcReleaseGeometry(mesh);
+}
+
+}  // namespace
+
+void RayCaster::pose(double time_s) {
+  std::vector<Mat4d> transforms = world_transforms(scene_, time_s);
+  std::vector<bool> shown = visible_nodes(scene_, time_s);
+  if (surfaces_ && surfaces_->transforms == transforms && surfaces_->shown == shown) return;
+  // A triangle with its three vertices, and what Embree builds over it.
+  constexpr std::uint64_t k_bytes_of_triangle = 256;
+  check_memory("triangles", geometry_.triangle_count(), k_bytes_of_triangle);
+  if (!surfaces_) surfaces_ = std::make_unique<Surfaces>();
+  Surfaces& now = *surfaces_;
+  now.origin = middle_of(scene_, geometry_, transforms, shown);
+  for (Surroundings* surroundings : {&now.opaque, &now.blending}) {
+    surroundings->reset(rtcNewScene(now.device.get()));
+    rtcSetSceneFlags(surroundings->get(), RTC_SCENE_FLAG_ROBUST);
+  }
+  for (const scene::SurfaceInstance& instance : geometry_.instances) {
+    if (!is_shown(instance, shown)) continue;
+    const scene::Surface& surface = geometry_.surfaces[instance.surface];
+    const RTCFilterFunctionN filter = surface.blends ? (surface.double_sided ? gather_both_sides : gather_fronts)
+                                                     : (surface.double_sided ? nullptr : leave_out_backs);
+    add_surface(now.device.get(), (surface.blends ? now.blending : now.opaque).get(), geometry_, instance, transforms,
+                now.origin, filter);
+  }
+  rtcCommitScene(now.opaque.get());
+  rtcCommitScene(now.blending.get());
+  check(now.device.get());
+  now.transforms = std::move(transforms);
+  now.shown = std::move(shown);
+}
+
+DepthImage RayCaster::depths(const view::Frame& frame, const PixelGrid& pixels, int threads) const {
+  const Camera camera(frame, surfaces_->origin, pixels);
+  DepthImage out{pixels, {}};
+  check_memory("depths of pixels", pixels.count(), sizeof(float));
+  out.nearest.assign(pixels.count(), k_nothing);
+  parallel_ranges(pixels.count(), threads, [&](std::size_t begin, std::size_t end) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    for (std::size_t i = begin; i < end; ++i) {
+      RTCRayHit ray = camera.ray(i);
+      rtcIntersect1(surfaces_->opaque.get(), &context, &ray);
+      if (ray.hit.geomID != RTC_INVALID_GEOMETRY_ID) out.nearest[i] = ray.ray.tfar;
+    }
+  });
+  return out;
+}
+
+LayerImage RayCaster::layers(const view::Frame& frame, const DepthImage& opaque, int most_layers, int threads) const {
+  const Camera camera(frame, surfaces_->origin, opaque.pixels);
+  const std::size_t count = opaque.pixels.count();
+  const auto most = static_cast<std::size_t>(most_layers);
+  check_memory("depths of layers", count * most, sizeof(float));
+  std::vector<std::vector<float>> found(static_cast<std::size_t>(opaque.pixels.size.y));
+  LayerImage out{opaque.pixels, std::vector<std::uint32_t>(count + 1, 0), {}};
+  const auto width = static_cast<std::size_t>(opaque.pixels.size.x);
+  parallel_ranges(found.size(), threads, [&](std::size_t begin, std::size_t end) {
+    Gathering gathering;
+    for (std::size_t row = begin; row < end; ++row) {
+      for (std::size_t i = row * width; i < (row + 1) * width; ++i) {
+        RTCRayHit ray = camera.ray(i);
+        ray.ray.tfar = std::min(ray.ray.tfar, opaque.nearest[i]);
+        gathering.found.clear();
+        rtcIntersect1(surfaces_->blending.get(), &gathering.context, &ray);
+        gathering.finish(most);
+        out.begin[i + 1] = static_cast<std::uint32_t>(gathering.found.size());
+        for (const Gathering::Found& layer : gathering.found) found[row].push_back(layer.depth);
+      }
+    }
+  });
+  for (std::size_t i = 0; i < count; ++i) out.begin[i + 1] += out.begin[i];
+  for (const std::vector<float>& row : found) out.depths.insert(out.depths.end(), row.begin(), row.end());
+  return out;
+}
+
+}  // namespace clusterbench::depth

@@ -1,0 +1,45 @@
+#pragma once
+// The triangles of a scene's meshes. Nothing reads them but what asks for depth.
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "geom/vec.h"
+#include "scene/scene.h"
+
+namespace clusterbench::scene {
+
+using Triangle = std::array<std::uint32_t, 3>;  // indices of vertices, counter-clockwise seen from its front
+
+// A primitive of a mesh, as its own space has it.
+struct Surface {
+  std::vector<Vec3f> vertices;
+  std::vector<Triangle> triangles;
+  bool blends = false;        // alphaMode BLEND: what is behind it is seen, too. Textures are never read
+  bool double_sided = false;  // else it is seen from its front alone
+};
+
+// A surface in the scene. Skinned ones stand in the world as their skin's rest pose has them.
+struct SurfaceInstance {
+  std::size_t surface = 0;
+  int node = -1;      // index in Scene::nodes; -1: its vertices are in world space
+  int shown_by = -1;  // the node whose visibility is its own
+};
+
+struct Geometry {
+  std::vector<Surface> surfaces;
+  std::vector<SurfaceInstance> instances;
+  std::string sha256;  // of all of the above
+  std::vector<std::string> warnings;
+
+  std::uint64_t triangle_count() const;  // of all instances
+  bool empty() const { return instances.empty(); }
+};
+
+// Reads the scene's file once more, for the meshes of its nodes: triangle lists, strips and fans; points and lines are
+// left out. Throws Error (file, JSON pointer) for what is broken in them, and for compressed ones (Draco, meshopt).
+Geometry load_geometry(const Scene& scene);
+
+}  // namespace clusterbench::scene

@@ -1,0 +1,264 @@
+// load_geometry: meshes of the nodes that stand in the scene.
+
+#include <algorithm>
+#include <bit>
+#include <map>
+#include <optional>
+
+#include "core/memory.h"
+#include "core/text.h"
+#include "scene/geometry.h"
+#include "scene/gltf_accessor.h"
+#include "scene/gltf_checked.h"
+#include "scene/gltf_container.h"
+
+namespace clusterbench::scene {
+namespace {
+
+constexpr const char* k_draco = "KHR_draco_mesh_compression";
+constexpr const char* k_meshopt = "EXT_meshopt_compression";
+constexpr const char* k_instancing = "EXT_mesh_gpu_instancing";
+
+bool has_extension(const JsonLocation& object, const char* name) {
+  return object.has("extensions") && object.at("extensions").has(name);
+}
+
+enum class Mode : std::size_t { triangles = 4, strip = 5, fan = 6 };
+
+// As glTF 2.0 lists them (3.7.2.1).
+std::vector<Triangle> triangles_of(Mode mode, const std::vector<std::uint32_t>& corners) {
+  std::vector<Triangle> out;
+  const std::size_t count = corners.size();
+  if (mode == Mode::triangles) {
+    for (std::size_t i = 0; i + 2 < count; i += 3) out.push_back({corners[i], corners[i + 1], corners[i + 2]});
+  } else {
+    for (std::size_t i = 0; i + 2 < count; ++i) {
+      if (mode == Mode::strip)
+        out.push_back({corners[i], corners[i + 1 + i % 2], corners[i + 2 - i % 2]});
+      else
+        out.push_back({corners[i + 1], corners[i + 2], corners[0]});
+    }
+  }
+  return out;
+}
+
+class MeshReader {
+ public:
+  MeshReader(const Scene& scene, AccessorReader& reader) : reader_(reader), scene_(scene) {
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i)
+      node_of_gltf_[static_cast<std::size_t>(scene.nodes[i].gltf_index)] = static_cast<int>(i);
+  }
+
+  void add_node(int index) {
+    const JsonLocation nodes = reader_.root().at("nodes");
+    const JsonLocation node =
+        nodes.at(static_cast<std::size_t>(scene_.nodes[static_cast<std::size_t>(index)].gltf_index));
+    if (!node.has("mesh")) return;
+    const std::size_t mesh = node.at("mesh").index(count_of(reader_.root(), "meshes"), "mesh");
+    if (has_extension(node, k_instancing))
+      node.warn(std::string(k_instancing) + " is not read: the mesh stands where its node does, once");
+    const std::optional<std::size_t> skin = skin_of(node);
+    const auto [known, is_new] = surfaces_of_.try_emplace({mesh, skin});
+    if (is_new) known->second = read_mesh(reader_.root().at("meshes").at(mesh), skin);
+    for (const std::size_t surface : known->second) out_.instances.push_back({surface, skin ? -1 : index, index});
+  }
+
+  Geometry take() { return std::move(out_); }
+
+ private:
+  std::vector<std::size_t> read_mesh(const JsonLocation& mesh, std::optional<std::size_t> skin) {
+    mesh.expect_object();
+    const JsonLocation primitives = mesh.at("primitives");
+    std::vector<std::size_t> surfaces;
+    const std::size_t count = primitives.elements();
+    for (std::size_t i = 0; i < count; ++i) {
+      std::optional<Surface> surface = read_primitive(primitives.at(i), skin);
+      if (!surface || surface->triangles.empty()) continue;
+      surfaces.push_back(out_.surfaces.size());
+      out_.surfaces.push_back(std::move(*surface));
+    }
+    return surfaces;
+  }
+
+  std::optional<Surface> read_primitive(const JsonLocation& primitive, std::optional<std::size_t> skin) {
+    primitive.expect_object();
+    const std::size_t mode = primitive.has("mode") ? primitive.at("mode").index(7, "mode") : 4;
+    const JsonLocation attributes = primitive.at("attributes");
+    if (mode < 4 || !attributes.has("POSITION")) return std::nullopt;  // points, lines, or nothing to draw
+    if (primitive.has("targets")) primitive.at("targets").warn("morph targets are not read: the mesh stands unmorphed");
+    const std::size_t positions = accessor_of(attributes.at("POSITION"), "VEC3");
+    if (has_extension(primitive, k_draco) && !reader_.has_data(positions))
+      primitive.at("extensions").at(k_draco).refuse("Draco compression is not read; export the scene without it");
+    Surface surface;
+    read_material(primitive, surface);
+    surface.vertices = skin ? skinned(attributes, positions, *skin) : vertices_of(positions);
+    surface.triangles = triangles_of(static_cast<Mode>(mode), corners_of(primitive, surface.vertices.size()));
+    return surface;
+  }
+
+  void read_material(const JsonLocation& primitive, Surface& surface) const {
+    if (!primitive.has("material")) return;
+    const std::size_t index = primitive.at("material").index(count_of(reader_.root(), "materials"), "material");
+    const JsonLocation material = reader_.root().at("materials").at(index);
+    material.expect_object();
+    surface.blends = material.has("alphaMode") && material.at("alphaMode").text() == "BLEND";
+    surface.double_sided = material.has("doubleSided") && material.at("doubleSided").value() == true;
+  }
+
+  std::vector<Vec3f> vertices_of(std::size_t accessor) {
+    const std::vector<double> numbers = checked_numbers(accessor, 3);
+    std::vector<Vec3f> out;
+    out.reserve(numbers.size() / 3);
+    for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
+      out.emplace_back(static_cast<float>(numbers[i]), static_cast<float>(numbers[i + 1]),
+                       static_cast<float>(numbers[i + 2]));
+    return out;
+  }
+
+  std::vector<std::uint32_t> corners_of(const JsonLocation& primitive, std::size_t vertices) {
+    std::vector<std::uint32_t> out;
+    if (!primitive.has("indices")) {
+      for (std::size_t i = 0; i < vertices; ++i) out.push_back(static_cast<std::uint32_t>(i));
+      return out;
+    }
+    const JsonLocation location = primitive.at("indices");
+    const std::size_t accessor = accessor_of(location, "SCALAR");
+    const Component component = reader_.head(accessor).component;
+    if (component != Component::u8 && component != Component::u16 && component != Component::u32)
+      reader_.location(accessor).at("componentType").refuse("indices must be 5121, 5123 or 5125");
+    for (const double index : checked_numbers(accessor, 1)) {
+      if (!(index < static_cast<double>(vertices)))
+        location.refuse("index " + std::to_string(static_cast<std::uint64_t>(index)) + " of " +
+                        std::to_string(vertices) + " vertices");
+      out.push_back(static_cast<std::uint32_t>(index));
+    }
+    return out;
+  }
+
+  std::optional<std::size_t> skin_of(const JsonLocation& node) const {
+    if (!node.has("skin")) return std::nullopt;
+    return node.at("skin").index(count_of(reader_.root(), "skins"), "skin");
+  }
+
+  // World from mesh space, per joint, at rest. Of joints that do not stand in the scene nothing is known.
+  const std::vector<Mat4d>& joints_of(std::size_t skin) {
+    const auto [known, is_new] = joints_.try_emplace(skin);
+    if (!is_new) return known->second;
+    const JsonLocation location = reader_.root().at("skins").at(skin), joints = location.at("joints");
+    const std::size_t count = joints.elements();
+    std::vector<double> inverse;
+    if (location.has("inverseBindMatrices"))
+      inverse = checked_numbers(accessor_of(location.at("inverseBindMatrices"), "MAT4"), 16);
+    if (!inverse.empty() && inverse.size() / 16 < count)
+      location.at("inverseBindMatrices").refuse("fewer matrices than the skin's " + std::to_string(count) + " joints");
+    if (rest_.empty()) rest_ = rest_transforms(scene_);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto node = node_of_gltf_.find(joints.at(i).index(count_of(reader_.root(), "nodes"), "node"));
+      if (node == node_of_gltf_.end()) joints.at(i).refuse("a joint that does not stand in the scene");
+      Mat4d bind(1.0);
+      if (!inverse.empty())
+        for (int k = 0; k < 16; ++k) bind[k / 4][k % 4] = inverse[i * 16 + static_cast<std::size_t>(k)];
+      known->second.push_back(rest_[static_cast<std::size_t>(node->second)] * bind);
+    }
+    return known->second;
+  }
+
+  // Where the skin's joints put vertices at rest, in world space.
+  std::vector<Vec3f> skinned(const JsonLocation& attributes, std::size_t positions, std::size_t skin) {
+    const std::vector<Mat4d>& joints = joints_of(skin);
+    const std::vector<double> at = checked_numbers(positions, 3);
+    const std::vector<double> chosen = checked_numbers(accessor_of(attributes.at("JOINTS_0"), "VEC4"), 4);
+    const std::vector<double> weights = checked_numbers(accessor_of(attributes.at("WEIGHTS_0"), "VEC4"), 4);
+    const std::size_t count = at.size() / 3;
+    if (chosen.size() / 4 != count || weights.size() / 4 != count)
+      attributes.refuse("JOINTS_0 and WEIGHTS_0 must have as many elements as POSITION");
+    std::vector<Vec3f> out;
+    out.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec4d point(at[3 * i], at[3 * i + 1], at[3 * i + 2], 1.0);
+      Vec4d sum(0.0);
+      double whole = 0.0;
+      for (std::size_t k = 4 * i; k < 4 * i + 4; ++k) {
+        if (weights[k] == 0.0) continue;
+        if (!(chosen[k] < static_cast<double>(joints.size())))
+          attributes.at("JOINTS_0")
+              .refuse("joint " + std::to_string(static_cast<std::uint64_t>(chosen[k])) + " of " +
+                      std::to_string(joints.size()));
+        sum += weights[k] * (joints[static_cast<std::size_t>(chosen[k])] * point);
+        whole += weights[k];
+      }
+      out.emplace_back(whole > 0.0 ? Vec3d(sum) / whole : Vec3d(joints.front() * point));
+    }
+    return out;
+  }
+
+  // An accessor's index, of the type that is wanted.
+  std::size_t accessor_of(const JsonLocation& reference, const char* type) const {
+    const std::size_t index = reference.index(count_of(reader_.root(), "accessors"), "accessor");
+    if (reader_.head(index).type != type)
+      reader_.location(index).at("type").refuse("found " + reader_.head(index).type + ", " + type + " is needed");
+    return index;
+  }
+
+  std::vector<double> checked_numbers(std::size_t accessor, std::size_t components) {
+    refuse_meshopt(accessor);
+    return reader_.numbers(accessor, components);
+  }
+  void refuse_meshopt(std::size_t accessor) const {
+    const JsonLocation from = reader_.location(accessor);
+    if (!from.has("bufferView")) return;
+    const std::size_t index = from.at("bufferView").index(count_of(reader_.root(), "bufferViews"), "bufferView");
+    const JsonLocation view = reader_.root().at("bufferViews").at(index);
+    if (has_extension(view, k_meshopt))
+      view.at("extensions").at(k_meshopt).refuse("meshopt compression is not read; export the scene without it");
+  }
+
+  AccessorReader& reader_;
+  const Scene& scene_;
+  std::map<std::size_t, int> node_of_gltf_;
+  std::map<std::pair<std::size_t, std::optional<std::size_t>>, std::vector<std::size_t>> surfaces_of_;
+  std::map<std::size_t, std::vector<Mat4d>> joints_;
+  std::vector<Mat4d> rest_;
+  Geometry out_;
+};
+
+template <class T>
+void append_bytes(const std::vector<T>& values, std::string& out) {
+  out.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+}
+
+std::string sha256_of(const Geometry& geometry) {
+  std::string bytes;
+  for (const Surface& surface : geometry.surfaces) {
+    append_bytes(surface.vertices, bytes);
+    append_bytes(surface.triangles, bytes);
+    bytes += surface.blends ? 'b' : 'o';
+    bytes += surface.double_sided ? '2' : '1';
+  }
+  append_bytes(geometry.instances, bytes);
+  return sha256_hex(bytes);
+}
+
+}  // namespace
+
+std::uint64_t Geometry::triangle_count() const {
+  std::uint64_t count = 0;
+  for (const SurfaceInstance& instance : instances) count += surfaces[instance.surface].triangles.size();
+  return count;
+}
+
+Geometry load_geometry(const Scene& scene) {
+  GltfFile file;
+  read_gltf_file(scene.path, file);
+  Warnings warnings;
+  AccessorReader reader(file, warnings, AccessorUse::vertices);
+  MeshReader meshes(scene, reader);
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i) meshes.add_node(static_cast<int>(i));
+  Geometry geometry = meshes.take();
+  check_memory("triangles", geometry.triangle_count(), sizeof(Triangle) + 3 * sizeof(Vec3f));
+  geometry.sha256 = sha256_of(geometry);
+  geometry.warnings = warnings.lines();
+  return geometry;
+}
+
+}  // namespace clusterbench::scene

@@ -1,0 +1,200 @@
+// Meshes as exporters write them: what of a glTF file becomes triangles.
+
+#include "scene/geometry.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/memory.h"
+#include "scene/mesh_fixture.h"
+
+namespace clusterbench::scene {
+namespace {
+
+using Json = nlohmann::json;
+using test::MeshFile;
+
+const std::vector<Vec3f> k_quad = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+
+Json primitive(std::size_t positions) {
+  return {{"attributes", {{"POSITION", positions}}}};
+}
+
+// The corners of all triangles of the first surface, as points.
+std::vector<Vec3f> corners(const Geometry& geometry) {
+  std::vector<Vec3f> out;
+  for (const Triangle& triangle : geometry.surfaces.at(0).triangles)
+    for (const std::uint32_t corner : triangle) out.push_back(geometry.surfaces[0].vertices.at(corner));
+  return out;
+}
+
+std::vector<Vec3f> corners_of(MeshFile& file, const Json& of) {
+  file.node({{"mesh", file.mesh(of)}});
+  return corners(test::loaded_geometry(file.text()).geometry);
+}
+
+const std::vector<Vec3f> k_two_triangles = {k_quad[0], k_quad[1], k_quad[2], k_quad[1], k_quad[3], k_quad[2]};
+
+TEST(Geometry, lists_with_indices_of_8_16_and_32_bits_and_without_are_the_same) {
+  const auto with = [](auto number) {
+    MeshFile file;
+    using T = decltype(number);
+    Json of = primitive(file.positions(k_quad));
+    of["indices"] = file.indices(std::vector<T>{0, 1, 2, 1, 3, 2});
+    return corners_of(file, of);
+  };
+  EXPECT_EQ(with(std::uint8_t{}), k_two_triangles);
+  EXPECT_EQ(with(std::uint16_t{}), k_two_triangles);
+  EXPECT_EQ(with(std::uint32_t{}), k_two_triangles);
+  MeshFile file;
+  EXPECT_EQ(corners_of(file, primitive(file.positions(k_two_triangles))), k_two_triangles);
+}
+
+TEST(Geometry, strips_and_fans_turn_their_triangles_as_the_specification_does) {
+  MeshFile strip;
+  Json of = primitive(strip.positions(k_quad));
+  of["mode"] = 5;
+  EXPECT_EQ(corners_of(strip, of),
+            (std::vector<Vec3f>{k_quad[0], k_quad[1], k_quad[2], k_quad[1], k_quad[3], k_quad[2]}));
+  MeshFile fan;
+  of = primitive(fan.positions({k_quad[0], k_quad[1], k_quad[3], k_quad[2]}));
+  of["mode"] = 6;
+  EXPECT_EQ(corners_of(fan, of),
+            (std::vector<Vec3f>{k_quad[1], k_quad[3], k_quad[0], k_quad[3], k_quad[2], k_quad[0]}));
+}
+
+TEST(Geometry, points_and_lines_and_what_has_no_positions_are_left_out) {
+  MeshFile file;
+  Json of = primitive(file.positions(k_quad));
+  of["mode"] = 1;
+  file.node({{"mesh", file.mesh(of)}});
+  file.node({{"mesh", file.mesh({{"attributes", Json::object()}})}});
+  EXPECT_TRUE(test::loaded_geometry(file.text()).geometry.empty());
+}
+
+TEST(Geometry, interleaved_positions_are_read_by_their_stride) {
+  MeshFile file;
+  std::vector<Vec3f> interleaved;
+  for (const Vec3f& vertex : k_two_triangles) {
+    interleaved.push_back(vertex);
+    interleaved.emplace_back(9.0f, 9.0f, 9.0f);  // a normal, say
+  }
+  std::string bytes = test::bytes_of(interleaved);
+  bytes.resize(bytes.size() - sizeof(Vec3f));  // nothing follows the last one
+  EXPECT_EQ(corners_of(file, primitive(file.accessor(bytes, 5126, "VEC3", 6, 24))), k_two_triangles);
+}
+
+TEST(Geometry, sparse_positions_replace_what_they_name) {
+  MeshFile file;
+  std::vector<Vec3f> moved = k_two_triangles;
+  moved[4] = {7, 7, 7};
+  const std::size_t positions = file.positions(moved);
+  file.json["accessors"][positions]["sparse"] = {
+      {"count", 1},
+      {"indices", {{"bufferView", file.view(test::bytes_of(std::vector<std::uint16_t>{4}))}, {"componentType", 5123}}},
+      {"values", {{"bufferView", file.view(test::bytes_of(std::vector<Vec3f>{k_quad[3]}))}}}};
+  EXPECT_EQ(corners_of(file, primitive(positions)), k_two_triangles);
+}
+
+TEST(Geometry, quantized_positions_are_numbers_or_shares) {
+  MeshFile file;
+  const std::vector<std::int16_t> shorts = {0, 0, 0, 0, 32767, 0, 0, 0, 0, -32767, 0, 0};  // VEC3 on a stride of 8
+  const std::size_t positions = file.accessor(test::bytes_of(shorts), 5122, "VEC3", 3, 8);
+  file.json["accessors"][positions]["normalized"] = true;
+  EXPECT_EQ(corners_of(file, primitive(positions)), (std::vector<Vec3f>{{0, 0, 0}, {1, 0, 0}, {0, -1, 0}}));
+}
+
+TEST(Geometry, materials_say_what_is_seen_through_and_from_both_sides) {
+  MeshFile file;
+  const std::size_t positions = file.positions(k_two_triangles);
+  for (const Json& material : {Json{{"alphaMode", "BLEND"}}, Json{{"alphaMode", "MASK"}, {"doubleSided", true}}}) {
+    Json of = primitive(positions);
+    of["material"] = file.material(material);
+    file.node({{"mesh", file.mesh(of)}});
+  }
+  const Geometry geometry = test::loaded_geometry(file.text()).geometry;
+  ASSERT_EQ(geometry.surfaces.size(), 2U);
+  EXPECT_TRUE(geometry.surfaces[0].blends && !geometry.surfaces[0].double_sided);
+  EXPECT_TRUE(!geometry.surfaces[1].blends && geometry.surfaces[1].double_sided);
+}
+
+TEST(Geometry, a_mesh_of_two_nodes_is_read_once_and_nodes_of_other_scenes_are_not_there) {
+  MeshFile file;
+  const std::size_t mesh = file.mesh(primitive(file.positions(k_two_triangles)));
+  for (int i = 0; i < 3; ++i) file.node({{"mesh", mesh}});
+  file.json["scenes"] = {{{"nodes", {2}}}, {{"nodes", {0, 1}}}};
+  file.json["scene"] = 1;
+  const Geometry geometry = test::loaded_geometry(file.text()).geometry;
+  EXPECT_EQ(geometry.surfaces.size(), 1U);
+  EXPECT_EQ(geometry.instances.size(), 2U);
+  EXPECT_EQ(geometry.triangle_count(), 4U);
+}
+
+// Two joints, the second half a metre above the first; the bind pose has them at the origin.
+TEST(Geometry, skins_stand_as_their_joints_rest_whatever_moves_them) {
+  MeshFile file;
+  Json of = primitive(file.positions({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+  of["attributes"]["JOINTS_0"] =
+      file.accessor(test::bytes_of(std::vector<std::uint8_t>{0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0}), 5121, "VEC4", 3);
+  of["attributes"]["WEIGHTS_0"] =
+      file.accessor(test::bytes_of(std::vector<float>{1, 0, 0, 0, 0.5f, 0.5f, 0, 0, 1, 0, 0, 0}), 5126, "VEC4", 3);
+  file.node({{"mesh", file.mesh(of)}, {"skin", 0}, {"translation", {100, 0, 0}}});  // of no meaning for skinned meshes
+  file.node({{"translation", {0, 0, -2}}, {"children", {2}}});
+  file.node({{"translation", {0, 0.5, 0}}});
+  file.json["skins"] = {{{"joints", {1, 2}}}};
+  file.json["scenes"] = {{{"nodes", {0, 1}}}};
+  const Geometry geometry = test::loaded_geometry(file.text()).geometry;
+  EXPECT_EQ(geometry.instances.at(0).node, -1);
+  EXPECT_EQ(corners(geometry), (std::vector<Vec3f>{{0, 0, -2}, {1, 0.25, -2}, {0, 1.5, -2}}));
+}
+
+TEST(Geometry, compressed_meshes_are_refused_by_name) {
+  MeshFile draco;
+  Json of = primitive(draco.positions(k_quad));
+  draco.json["accessors"][0].erase("bufferView");
+  of["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0}, {"attributes", {{"POSITION", 0}}}};
+  draco.node({{"mesh", draco.mesh(of)}});
+  EXPECT_EQ(test::geometry_refusal(draco.text()),
+            "/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression: Draco compression is not read; export the "
+            "scene without it");
+  MeshFile meshopt;
+  of = primitive(meshopt.positions(k_quad));
+  meshopt.json["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = Json::object();
+  meshopt.node({{"mesh", meshopt.mesh(of)}});
+  EXPECT_EQ(test::geometry_refusal(meshopt.text()),
+            "/bufferViews/0/extensions/EXT_meshopt_compression: meshopt compression is not read; export the scene "
+            "without it");
+}
+
+TEST(Geometry, what_is_broken_is_refused_where_it_stands_and_only_if_it_is_read) {
+  const auto refusal = [](auto&& spoil) {
+    MeshFile file;
+    Json of = primitive(file.positions(k_quad));
+    of["indices"] = file.indices(std::vector<std::uint16_t>{0, 1, 2});
+    spoil(file, of);
+    file.node({{"mesh", file.mesh(of)}});
+    return test::geometry_refusal(file.text());
+  };
+  EXPECT_EQ(refusal([](MeshFile&, Json&) {}), "loads");
+  EXPECT_EQ(refusal([](MeshFile& file, Json& of) {
+              of["indices"] = file.indices(std::vector<std::uint16_t>{0, 1, 4});
+            }),
+            "/meshes/0/primitives/0/indices: index 4 of 4 vertices");
+  EXPECT_EQ(refusal([](MeshFile& file, Json&) { file.json["accessors"][1]["componentType"] = 5122; }),
+            "/accessors/1/componentType: indices must be 5121, 5123 or 5125");
+  EXPECT_EQ(refusal([](MeshFile& file, Json&) { file.json["accessors"][0]["type"] = "VEC2"; }),
+            "/accessors/0/type: found VEC2, VEC3 is needed");
+  EXPECT_EQ(refusal([](MeshFile& file, Json&) { file.json["bufferViews"][0]["byteStride"] = 8; }),
+            "/accessors/0: elements of 12 bytes do not fit into a byteStride of 8");
+  EXPECT_NE(refusal([](MeshFile& file, Json&) { file.json["accessors"][0]["count"] = 5; }).find("do not fit"),
+            std::string::npos);
+  EXPECT_NE(refusal([](MeshFile& file, Json&) {
+              file.json["accessors"][0]["count"] = std::uint64_t{1} << 31;
+            }).find("limits.memory_mib"),
+            std::string::npos);
+  EXPECT_EQ(refusal([](MeshFile&, Json& of) { of["mode"] = 7; }), "/meshes/0/primitives/0/mode: refers to mode 7, but there are 7");
+}
+
+}  // namespace
+}  // namespace clusterbench::scene
