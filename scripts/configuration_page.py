@@ -21,6 +21,9 @@ TABLES = {
     "world": [("", "/definitions/world"), ("bounds.", "/definitions/world/properties/bounds/anyOf/1")],
     "precision": [("", "/definitions/precision")],
     "measuring": [(key + ".", f"/properties/{key}") for key in ("accuracy", "shading")]
+                 + [("samples.", "/properties/samples")]
+                 + [(f"samples.{name}.", f"/properties/samples/properties/{name}")
+                    for name in ("opaque", "transparent", "fog", "mirror", "anywhere")]
                  + [(key + ".", f"/properties/{key}/anyOf/1") for key in ("lookup", "stability", "details")]
                  + [("jitter.", "/properties/jitter/anyOf/2")]
                  + [(key + ".", f"/properties/{key}") for key in ("timing", "limits", "allocation")],

@@ -1,5 +1,30 @@
 // Made by types.mjs of src/config/schemas/result.schema.json: change that, and run `node types.mjs`.
 
+// What a shader would loop over at the points of a set
+export type SampleSet = {
+  samples: number; // Points of the set [samples]
+  evaluated: number; // Lights that the light structure gives at the samples [lights]
+  needed: number; // Lights that reach the samples [lights]
+  missed: number; // Of those, not given by the light structure, whatever the reason: no pair, dropped, or outside of the grid [lights]
+  lost_irradiance: number | null; // Share of the irradiance (lux, on a surface that faces the light) that missed lights carry: intensity times the colour's luminance (Rec. 709), attenuated as KHR_lights_punctual has it, with the range's window and a spot's falloff. Without directional lights [share of 1]
+  missed_in_cells?: number; // Of missed, at samples inside of the grid: the cell lacks the light, or its storage dropped it [lights]
+  missed_outside?: number; // Of missed, at samples outside of the grid, mostly beyond its far end [lights]
+  unlit: number | null; // missed / needed, 0 to 1; null where nothing is needed [share of 1]
+  worst_frame?: {
+    frame: number; // Of the path [frame, over one frame]
+    missed: number; // At this frame's samples [lights, over one frame]
+    needed: number; // At this frame's samples [lights, over one frame]
+  }; // The frame that misses most; absent where none is missed
+  overshade: number | null; // evaluated / needed over all samples; null where it cannot be compared: fewer than 100 lights are needed, or more than 0.001 of them are missed [ratio]
+  unanswered?: number; // Samples at which the light structure has no answer: outside of its cells, beside the picture, behind the eye [samples]
+  lost_lux?: number | null; // Irradiance that missed lights carry, mean over the samples [lx]
+  darkest?: {
+    frame: number; // Of the path [frame, over one sample]
+    pixel?: [number, number]; // Where the picture shows it, from the top left; absent behind the eye [px, over one sample]
+    lost_lux: number | null; // That it loses [lx, over one sample]
+  }; // The sample that loses most light; absent where none is lost
+};
+
 export type Tool = {
   version: string; // Of clusterbench
   git_sha: string; // Commit that was built; with + where files differed from it
@@ -241,22 +266,14 @@ export type Result = {
         light_name: string; // In the scene
       }; // The deepest miss; absent without misses
     }; // Lists against the truth; absent without cells, and where it is not asked for [over all frames]
-    shading?: {
-      samples: number; // Points in the view, at random pixels and depths [samples]
-      evaluated: number; // Lights that the light structure gives at the samples [lights]
-      needed: number; // Lights that reach the samples [lights]
-      missed: number; // Of those, not given by the light structure, whatever the reason: no pair, dropped, or outside of the grid [lights]
-      lost_irradiance: number | null; // Share of the irradiance (lux, on a surface that faces the light) that missed lights carry: intensity times the colour's luminance (Rec. 709), attenuated as KHR_lights_punctual has it, with the range's window and a spot's falloff. Without directional lights [share of 1]
-      missed_in_cells?: number; // Of missed, at samples inside of the grid: the cell lacks the light, or its storage dropped it [lights]
-      missed_outside?: number; // Of missed, at samples outside of the grid, mostly beyond its far end [lights]
-      unlit: number | null; // missed / needed, 0 to 1; null where nothing is needed [share of 1]
-      worst_frame?: {
-        frame: number; // Of the path [frame, over one frame]
-        missed: number; // At this frame's samples [lights, over one frame]
-        needed: number; // At this frame's samples [lights, over one frame]
-      }; // The frame that misses most; absent where none is missed
-      overshade: number | null; // evaluated / needed over all samples; null where it cannot be compared: fewer than 100 lights are needed, or more than 0.001 of them are missed [ratio]
-    }; // What a shader at the samples would loop over [over the samples of all frames]
+    shading?: SampleSet; // What a shader would loop over at points in the whole view, at random pixels and depths [over the samples of all frames]
+    samples?: {
+      opaque?: SampleSet;
+      transparent?: SampleSet;
+      fog?: SampleSet;
+      mirror?: SampleSet;
+      anywhere?: SampleSet;
+    }; // What a shader would loop over at sets of points that the configuration asks for, by the set's name; without sets that the scene has not [over the set's samples of all frames]
     lookup?: Array<{
       logarithm: "rounded" | "glsl" | "fast"; // How the lookup took its logarithm; glsl: at either end of what is allowed
       depth: "given" | "d32f" | "d24"; // Where its depth came from

@@ -282,11 +282,32 @@ std::vector<LimitRule> limit_rules(const Json& list, const JsonText& text) {
   return rules;
 }
 
+// In the order of measure::SampleSet.
+std::vector<SampleSetRequest> sample_sets(const Json& document) {
+  std::vector<SampleSetRequest> sets;
+  if (const int count = document["shading"]["samples"].get<int>(); count > 0)
+    sets.push_back({.set = measure::SampleSet::volume, .count = count});
+  for (std::size_t i = 0; i < measure::k_sample_set_count; ++i) {
+    const auto set = static_cast<measure::SampleSet>(i);
+    const auto found = document["samples"].find(measure::name_of(set));
+    if (found == document["samples"].end()) continue;
+    SampleSetRequest request{.set = set};
+    request.count = found->value("count", request.count);
+    request.divisor = found->value("divisor", request.divisor);
+    request.layers = found->value("layers", request.layers);
+    if (found->contains("froxels"))
+      for (int axis = 0; axis < 3; ++axis)
+        request.froxels[axis] = (*found)["froxels"][static_cast<std::size_t>(axis)].get<int>();
+    sets.push_back(request);
+  }
+  return sets;
+}
+
 void read_settings(const Json& document, Config& config) {
   config.threads = document["threads"].get<int>();
   config.seed = document["seed"].get<std::uint64_t>();
   config.check_accuracy = document["accuracy"]["check"].get<bool>();
-  config.shading_samples = document["shading"]["samples"].get<int>();
+  config.sample_sets = sample_sets(document);
   config.stability = stability_request(document["stability"]);
   config.lookup = lookup_request(document["lookup"]);
   config.details = details_request(document["details"]);

@@ -16,6 +16,7 @@
 #include "grid/grid.h"
 #include "measure/buffers.h"
 #include "measure/lookup.h"
+#include "measure/samples.h"
 #include "scene/camera_path.h"
 #include "scene/rig.h"
 #include "scene/scene.h"
@@ -72,6 +73,17 @@ struct LookupRequest {
   std::vector<measure::LookupWay> ways;
 };
 
+// Points where frames are shaded. What the set has no use for keeps its default.
+struct SampleSetRequest {
+  measure::SampleSet set = measure::SampleSet::volume;
+  int count = 1024;            // volume, mirror, anywhere: per frame
+  int divisor = 8;             // opaque, transparent: one ray per block of so many pixels squared
+  int layers = 4;              // transparent: most per ray
+  Vec3i froxels{160, 90, 64};  // fog
+
+  bool needs_triangles() const { return set == measure::SampleSet::opaque || set == measure::SampleSet::transparent; }
+};
+
 // Which frames a result carries cell by cell.
 struct DetailsRequest {
   enum class Choice : std::uint8_t { worst, evenly, listed };  // the one with the case's longest list; count; frames
@@ -104,7 +116,7 @@ struct Config {
   int threads = 1;
   std::uint64_t seed = 1;
   bool check_accuracy = true;
-  int shading_samples = 1024;                 // per frame; 0 = off
+  std::vector<SampleSetRequest> sample_sets;  // each set once; the whole view's first
   std::optional<StabilityRequest> stability;  // without: not measured
   std::optional<LookupRequest> lookup;        // without: not measured
   std::optional<DetailsRequest> details;      // without: none

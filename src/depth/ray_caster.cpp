@@ -65,7 +65,7 @@ void leave_out_backs(const RTCFilterFunctionNArguments* arguments) {
 struct Gathering {
   struct Found {
     float depth;
-    std::uint32_t surface, triangle;
+    std::uint32_t surface;
 
     friend auto operator<=>(const Found&, const Found&) = default;
   };
@@ -74,10 +74,14 @@ struct Gathering {
 
   Gathering() { rtcInitIntersectContext(&context); }
 
-  // The nearest ones, front to back. Embree may hand the same triangle to a filter more than once.
+  // The nearest ones, front to back. Embree may hand the same triangle to a filter more than once, and a ray through an
+  // edge that two triangles of a surface share finds both: one layer.
   void finish(std::size_t most) {
     std::ranges::sort(found);
-    found.erase(std::unique(found.begin(), found.end()), found.end());
+    const auto is_same = [](const Found& a, const Found& b) {
+      return a.surface == b.surface && b.depth - a.depth <= 1e-6f * b.depth;
+    };
+    found.erase(std::unique(found.begin(), found.end(), is_same), found.end());
     if (found.size() > most) found.resize(most);
   }
 };
@@ -88,7 +92,7 @@ void gather(const RTCFilterFunctionNArguments* arguments, bool with_backs) {
   if (arguments->valid[0] != -1) return;
   arguments->valid[0] = 0;  // the ray goes on
   if (with_backs || !shows_its_back(*ray, *hit))
-    reinterpret_cast<Gathering*>(arguments->context)->found.push_back({ray->tfar, hit->geomID, hit->primID});
+    reinterpret_cast<Gathering*>(arguments->context)->found.push_back({ray->tfar, hit->geomID});
 }
 void gather_both_sides(const RTCFilterFunctionNArguments* arguments) {
   gather(arguments, true);

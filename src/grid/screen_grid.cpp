@@ -108,6 +108,7 @@ std::string slices_name(const Slicing& slices) {
 }  // namespace
 
 std::int64_t ScreenGrid::lookup(const Sample& sample, Log2 way) const {
+  if (!tiles.shows(sample.pixel_x, sample.pixel_y)) return -1;
   const int slice = slices.slice_of(along(sample.view), way);
   if (slice < 0) return -1;
   const Vec2i tile = tiles.tile_of(sample.pixel_x, sample.pixel_y);

@@ -28,6 +28,11 @@ struct Tiles {
   float y_max(int row) const { return y[static_cast<std::size_t>(row)]; }
   // Tile of a pixel position (origin top left, pixel centres at .5), clamped to the grid.
   Vec2i tile_of(float pixel_x, float pixel_y) const;
+  // Whether a place lies in the picture, its edges included. Not for NaN, which stands behind the eye.
+  bool shows(float pixel_x, float pixel_y) const {
+    return pixel_x >= 0.0f && pixel_x <= static_cast<float>(viewport.x) && pixel_y >= 0.0f &&
+           pixel_y <= static_cast<float>(viewport.y);
+  }
 };
 
 // Throws Error (where = "tiles.pixels" or "tiles.count") for sizes below 1 or more tiles than pixels.

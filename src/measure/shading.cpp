@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/random.h"
 #include "measure/sample_tree.h"
 
 namespace clusterbench::measure {
@@ -47,16 +46,6 @@ double irradiance_lux(const scene::WorldLight& light, const Vec3d& to_place) {
 
 }  // namespace
 
-grid::Sample sample_at(const view::Frame& frame, double pixel_x, double pixel_y, double depth) {
-  const view::Projection& projection = frame.projection;
-  const double across = projection.left + (projection.right - projection.left) * pixel_x / frame.viewport.x;
-  const double up = projection.top - (projection.top - projection.bottom) * pixel_y / frame.viewport.y;
-  const double scale = projection.orthographic ? 1.0 : depth;
-  const Vec3d local{across * scale, up * scale, -depth};
-  return {static_cast<float>(pixel_x), static_cast<float>(pixel_y), Vec3f(local),
-          glm::transpose(frame.view_space.rotation) * local, frame.view_space.origin};
-}
-
 double ShadingCounts::overshade() const {
   if (needed == 0) return std::numeric_limits<double>::quiet_NaN();
   return static_cast<double>(evaluated) / static_cast<double>(needed);
@@ -70,23 +59,6 @@ double ShadingCounts::comparable_overshade() const {
 double ShadingCounts::unlit() const {
   if (needed == 0) return std::numeric_limits<double>::quiet_NaN();
   return static_cast<double>(missed) / static_cast<double>(needed);
-}
-
-std::vector<grid::Sample> volume_samples(const view::Frame& frame, double far_m, int count, std::uint64_t seed) {
-  // Mixed once more: neighbouring states of this generator give the same numbers one step apart.
-  SplitMix64 random(SplitMix64(seed + static_cast<std::uint64_t>(frame.index)).next());
-  // Perspective: uniform in log depth, as slices are; orthographic: uniform.
-  const double near_m = frame.projection.near_m;
-  const bool logarithmic = near_m > 0.0 && !frame.projection.orthographic;
-  std::vector<grid::Sample> samples;
-  samples.reserve(static_cast<std::size_t>(count));
-  for (int i = 0; i < count; ++i) {
-    const double x = random.between(0.0, frame.viewport.x), y = random.between(0.0, frame.viewport.y);
-    const double share = random.unit();
-    const double depth = logarithmic ? near_m * std::pow(far_m / near_m, share) : near_m + (far_m - near_m) * share;
-    samples.push_back(sample_at(frame, x, y, depth));
-  }
-  return samples;
 }
 
 assign::Lists lights_reaching(const view::Frame& frame, std::span<const grid::Sample> samples) {
@@ -104,26 +76,44 @@ assign::Lists lights_reaching(const view::Frame& frame, std::span<const grid::Sa
   return lists;
 }
 
-void add_frame(ShadingCounts& counts, const view::Frame& frame, std::span<const grid::Sample> samples,
-               const assign::Lists& reaching, const assign::LightStructure& structure,
-               const std::vector<bool>& is_outside) {
+NeededLights needed_lights(const view::Frame& frame, std::span<const grid::Sample> samples) {
+  NeededLights needed{lights_reaching(frame, samples), {}};
+  needed.lux.reserve(needed.lists.lights.size());
+  for (std::uint32_t i = 0; i < samples.size(); ++i)
+    for (const std::uint32_t light : needed.lists.of(i))
+      needed.lux.push_back(irradiance_lux(frame.lights[light], way_to(samples[i], frame.lights[light])));
+  return needed;
+}
+
+void add_frame(ShadingCounts& counts, int frame, std::span<const grid::Sample> samples, const NeededLights& needed,
+               const assign::LightStructure& structure) {
   std::vector<std::uint32_t> given;
+  const ShadingCounts before = counts;
   for (std::uint32_t i = 0; i < samples.size(); ++i) {
-    structure.lights_at(samples[i], grid::Log2::rounded, given);
-    std::sort(given.begin(), given.end());
+    const bool is_answered = structure.lights_at(samples[i], grid::Log2::rounded, given);
+    if (!std::is_sorted(given.begin(), given.end())) std::sort(given.begin(), given.end());
     counts.evaluated += given.size();
-    for (const std::uint32_t light : reaching.of(i)) {
-      const double carried_lux = irradiance_lux(frame.lights[light], way_to(samples[i], frame.lights[light]));
+    counts.unanswered += is_answered ? 0 : 1;
+    double lost_lux = 0.0;
+    for (std::uint32_t k = needed.lists.begin[i]; k < needed.lists.begin[i + 1]; ++k) {
       ++counts.needed;
-      counts.total_lux += carried_lux;
-      if (std::binary_search(given.begin(), given.end(), light)) continue;
+      counts.total_lux += needed.lux[k];
+      if (std::binary_search(given.begin(), given.end(), needed.lists.lights[k])) continue;
       ++counts.missed;
-      if (!is_outside.empty() && is_outside[i]) ++counts.missed_outside;
-      counts.lost_lux += carried_lux;
+      if (!is_answered) ++counts.missed_outside;
+      lost_lux += needed.lux[k];
     }
+    counts.lost_lux += lost_lux;
+    if (lost_lux > (counts.darkest ? counts.darkest->lost_lux : 0.0))
+      counts.darkest = {frame, samples[i].pixel_x, samples[i].pixel_y, lost_lux};
   }
   counts.samples += samples.size();
-  counts.lost_irradiance = counts.total_lux > 0.0 ? counts.lost_lux / counts.total_lux : 0.0;
+  const ShadingCounts::WorstFrame now{frame, counts.missed - before.missed, counts.needed - before.needed};
+  if (now.missed > (counts.worst ? counts.worst->missed : 0)) counts.worst = now;
+}
+
+double ShadingCounts::lost_irradiance() const {
+  return total_lux > 0.0 ? lost_lux / total_lux : 0.0;
 }
 
 }  // namespace clusterbench::measure

@@ -3,11 +3,13 @@
 // grids and methods.
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "assign/contract/light_structure.h"
 #include "grid/grid.h"
+#include "measure/samples.h"
 #include "measure/truth.h"
 
 namespace clusterbench::measure {
@@ -23,12 +25,28 @@ struct ShadingCounts {
   std::uint64_t evaluated = 0;       // lights that the structure gives at the samples
   std::uint64_t needed = 0;          // lights that reach the samples
   std::uint64_t missed = 0;          // of those, not given, whatever the reason
-  std::uint64_t missed_outside = 0;  // of the missed, at samples that lie outside of the grid
-  // Share of the irradiance that missed lights carry, 0 where there is none. Irradiance is photometric, in lux on a
+  std::uint64_t unanswered = 0;      // samples at which the structure has no answer: they lie outside of its cells
+  std::uint64_t missed_outside = 0;  // of the missed, at those
+  // Irradiance, of all needed lights and of those that are missed, as sums over the samples. Photometric, in lux on a
   // surface that faces the light: intensity times the colour's luminance, by KHR_lights_punctual's attenuation with the
   // range's window and a spot's falloff.
-  double lost_irradiance = 0.0;
-  double lost_lux = 0.0, total_lux = 0.0;  // sums over the samples
+  double lost_lux = 0.0, total_lux = 0.0;
+
+  // The frame that misses most; none where nothing is missed.
+  struct WorstFrame {
+    int frame = 0;
+    std::uint64_t missed = 0, needed = 0;
+  };
+  std::optional<WorstFrame> worst{};
+  // The sample that loses most light.
+  struct DarkestSample {
+    int frame = 0;
+    float pixel_x = 0.0f, pixel_y = 0.0f;
+    double lost_lux = 0.0;
+  };
+  std::optional<DarkestSample> darkest{};
+
+  double lost_irradiance() const;  // share of the irradiance that is lost, 0 where there is none
 
   double overshade() const;  // evaluated / needed; NaN when nothing is needed
   // NaN also where it compares with nothing: few lights are needed, or some are not given, which makes it small.
@@ -36,19 +54,18 @@ struct ShadingCounts {
   double unlit() const;  // missed / needed; NaN when nothing is needed
 };
 
-// The point on a pixel's ray at a depth. Pixels from the top left.
-grid::Sample sample_at(const view::Frame& frame, double pixel_x, double pixel_y, double depth);
-
-// Seeded points in the frame's view: pixels uniform, depth uniform in log from near to far_m.
-std::vector<grid::Sample> volume_samples(const view::Frame& frame, double far_m, int count, std::uint64_t seed);
-
 // Which lights reach each of the frame's samples, in exact terms (double-precision distance with the tie counted as
 // reached), CSR like lists.
 assign::Lists lights_reaching(const view::Frame& frame, std::span<const grid::Sample> samples);
 
-// `is_outside`: of each sample, whether it lies outside of the grid; empty: none does.
-void add_frame(ShadingCounts& counts, const view::Frame& frame, std::span<const grid::Sample> samples,
-               const assign::Lists& reaching, const assign::LightStructure& structure,
-               const std::vector<bool>& is_outside = {});
+// The same, and what each of these lights brings: of the lists' entries, in their order.
+struct NeededLights {
+  assign::Lists lists;
+  std::vector<double> lux;
+};
+NeededLights needed_lights(const view::Frame& frame, std::span<const grid::Sample> samples);
+
+void add_frame(ShadingCounts& counts, int frame, std::span<const grid::Sample> samples, const NeededLights& needed,
+               const assign::LightStructure& structure);
 
 }  // namespace clusterbench::measure

@@ -48,6 +48,7 @@ constexpr std::array k_rules{
     Rule{"/shading/samples", Kind::fixed},
     Rule{"/shading/needed", Kind::fixed},
     Rule{"/shading/worst_frame", Kind::follows},
+    Rule{"/shading/darkest", Kind::follows},
     Rule{"/shading", Kind::cost},
     Rule{"/lookup", Kind::cost},
     Rule{"/stability/changed/method", Kind::cost},
@@ -56,7 +57,16 @@ constexpr std::array k_rules{
     Rule{"/precision/extra_pairs", Kind::cost},
 };
 
-Kind kind_of(const std::string& pointer) {
+// Sets of samples are shaded like those of the whole view: "/samples/fog/missed" counts as "/shading/missed".
+std::string as_shading(const std::string& pointer) {
+  constexpr std::string_view k_sets = "/samples/";
+  if (!pointer.starts_with(k_sets)) return pointer;
+  const std::size_t end = pointer.find('/', k_sets.size());
+  return end == std::string::npos ? pointer : "/shading" + pointer.substr(end);
+}
+
+Kind kind_of(const std::string& of) {
+  const std::string pointer = as_shading(of);
   for (const Rule& rule : k_rules)
     if (pointer.compare(0, rule.prefix.size(), rule.prefix) == 0) return rule.kind;
   return Kind::fixed;

@@ -114,20 +114,32 @@ Json error(const run::CaseResult& one) {
   return out;
 }
 
-Json shading(const run::CaseResult& one) {
-  const measure::ShadingCounts& s = *one.shading;
+Json shading(const measure::ShadingCounts& s) {
   Json out{{"samples", s.samples},
+           {"unanswered", s.unanswered},
            {"evaluated", s.evaluated},
            {"needed", s.needed},
            {"missed", s.missed},
            {"missed_in_cells", s.missed - s.missed_outside},
            {"missed_outside", s.missed_outside},
            {"unlit", number_or_null(s.unlit())},
-           {"lost_irradiance", number_or_null(s.lost_irradiance)},
+           {"lost_irradiance", number_or_null(s.lost_irradiance())},
+           {"lost_lux", number_or_null(s.lost_lux / static_cast<double>(s.samples))},
            {"overshade", number_or_null(s.comparable_overshade())}};
-  if (one.worst_unlit)
-    out["worst_frame"] = {
-        {"frame", one.worst_unlit->frame}, {"missed", one.worst_unlit->missed}, {"needed", one.worst_unlit->needed}};
+  if (s.worst)
+    out["worst_frame"] = {{"frame", s.worst->frame}, {"missed", s.worst->missed}, {"needed", s.worst->needed}};
+  if (!s.darkest) return out;
+  out["darkest"] = {{"frame", s.darkest->frame}, {"lost_lux", number_or_null(s.darkest->lost_lux)}};
+  if (std::isfinite(s.darkest->pixel_x) && std::isfinite(s.darkest->pixel_y))
+    out["darkest"]["pixel"] = {number_or_null(static_cast<double>(s.darkest->pixel_x)),
+                               number_or_null(static_cast<double>(s.darkest->pixel_y))};
+  return out;
+}
+
+// By the set's name.
+Json samples(const std::vector<run::SampleSetResult>& sets) {
+  Json out = Json::object();
+  for (const run::SampleSetResult& set : sets) out[measure::name_of(set.set)] = shading(set.counts);
   return out;
 }
 
@@ -347,7 +359,8 @@ Json case_to_json(const run::CaseResult& one) {
   if (one.occupancy) out["occupancy"] = occupancy(one);
   out["buffers"] = buffers(one);
   if (one.error) out["error"] = error(one);
-  if (one.shading) out["shading"] = shading(one);
+  if (one.shading) out["shading"] = shading(*one.shading);
+  if (!one.samples.empty()) out["samples"] = samples(one.samples);
   if (!one.lookup.empty()) out["lookup"] = lookup(one.lookup);
   if (one.stability) out["stability"] = stability(*one.stability);
   if (one.precision) out["precision"] = precision(*one.precision);

@@ -9,6 +9,7 @@
 #include "report/lookup_table.h"
 #include "report/precision_table.h"
 #include "report/ratios.h"
+#include "report/samples_table.h"
 #include "report/stability_table.h"
 #include "report/timing_warnings.h"
 #include "report/warnings.h"
@@ -256,8 +257,8 @@ std::string render_table(const Json& result, bool colour) {
   if (!counted_by.empty()) out += "instr: instructions of one frame's assignment, counted by " + counted_by + ".\n";
   if (!result["skipped"].empty())
     out += number_of(result["skipped"].size(), "combination") + " skipped; the result says why.\n";
-  return out + lookup_table(result) + stability_table(result) + precision_table(result) + notes_text(result) +
-         warnings_text(result) + timing_warnings(cases);
+  return out + samples_table(result) + lookup_table(result) + stability_table(result) + precision_table(result) +
+         notes_text(result) + warnings_text(result) + timing_warnings(cases);
 }
 
 }  // namespace clusterbench::report

@@ -35,9 +35,10 @@ std::string lost_text(const CaseResult& one) {
 }
 
 std::string worst_text(const CaseResult& one) {
-  if (!one.worst_unlit) return "";
-  return "; most in frame " + std::to_string(one.worst_unlit->frame) + ", " + std::to_string(one.worst_unlit->missed) +
-         " of " + std::to_string(one.worst_unlit->needed);
+  if (!one.shading->worst) return "";
+  const measure::ShadingCounts::WorstFrame& worst = *one.shading->worst;
+  return "; most in frame " + std::to_string(worst.frame) + ", " + std::to_string(worst.missed) + " of " +
+         std::to_string(worst.needed);
 }
 
 // What a lookup finds whose arithmetic is that of the samples; other ways err by themselves.
@@ -75,7 +76,8 @@ std::string dropped_text(const CaseResult& one) {
 
 std::string unlit_text(const CaseResult& one) {
   const measure::ShadingCounts& shading = *one.shading;
-  return percent(shading.unlit()) + " of the lights that samples need are unlit, " + percent(shading.lost_irradiance) +
+  return percent(shading.unlit()) + " of the lights that samples need are unlit, " +
+         percent(shading.lost_irradiance()) +
          " of the irradiance: " + std::to_string(shading.missed - shading.missed_outside) + " in cells, " +
          std::to_string(shading.missed_outside) + " outside of the grid" + worst_text(one);
 }

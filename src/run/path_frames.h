@@ -3,6 +3,7 @@
 // memory whole.
 
 #include "grid/grid.h"
+#include "measure/samples.h"
 #include "scene/camera_path.h"
 #include "view/frame.h"
 
@@ -22,6 +23,8 @@ class PathFrames {
   grid::GridInputs inputs(const grid::GridSpec& spec, const view::Frame& frame) const;
   // The farthest that a bounded light reaches from any eye of the path.
   double far_m() const { return far_m_; }
+  // A box around the bounded lights' balls over the path.
+  measure::Bounds light_bounds() const { return {rig_lo_, rig_hi_}; }
 
  private:
   PathFrames(const PathFrames& whole, const scene::CameraPath& path)

@@ -122,10 +122,10 @@ struct StabilityResult {
   std::uint64_t undecided = 0;          // pairs of the truth over all steps; counted as true
 };
 
-// The frame whose samples lack most of the lights that they need.
-struct UnlitFrame {
-  int frame = 0;
-  std::uint64_t missed = 0, needed = 0;
+// What a set of samples finds.
+struct SampleSetResult {
+  measure::SampleSet set = measure::SampleSet::opaque;
+  measure::ShadingCounts counts;
 };
 
 // How the lights were handed over, and what that loses.
@@ -160,15 +160,15 @@ struct CaseResult {
   std::string storage_label;
   std::optional<measure::Occupancy> occupancy;  // with cells
   measure::Buffers buffers;
-  std::uint64_t tests_done = 0;               // over all frames
-  std::uint64_t fallbacks = 0;                // over all frames
-  std::optional<measure::ErrorCounts> error;  // with cells, where asked for
-  std::string deepest_miss_light;             // name in the rig
-  std::optional<measure::ShadingCounts> shading;
-  std::optional<UnlitFrame> worst_unlit;      // where a sample lacks a light
-  std::vector<measure::LookupCounts> lookup;  // one per way; empty where not asked for
-  std::optional<PrecisionResult> precision;   // where the configuration asks for more than float32
-  std::optional<StabilityResult> stability;   // with cells, where asked for
+  std::uint64_t tests_done = 0;                   // over all frames
+  std::uint64_t fallbacks = 0;                    // over all frames
+  std::optional<measure::ErrorCounts> error;      // with cells, where asked for
+  std::string deepest_miss_light;                 // name in the rig
+  std::optional<measure::ShadingCounts> shading;  // in the whole view
+  std::vector<SampleSetResult> samples;           // of the other sets, where asked for and the scene has them
+  std::vector<measure::LookupCounts> lookup;      // one per way; empty where not asked for
+  std::optional<PrecisionResult> precision;       // where the configuration asks for more than float32
+  std::optional<StabilityResult> stability;       // with cells, where asked for
   std::optional<TimingResult> timing;
   std::optional<CountResult> count;  // where asked for
   std::optional<Details> details;    // with cells, where asked for

@@ -25,7 +25,7 @@ nlohmann::json params_json(const assign::Params& params) {
 }
 
 // An estimate of work in nanoseconds, only for the time that is left: truth, samples and lists of some frames.
-double list_cost(const config::Config& config, const GroupPlan& group, std::size_t lights, int frames, int samples) {
+double list_cost(const config::Config& config, const GroupPlan& group, std::size_t lights, int frames, double samples) {
   constexpr double k_ns_per_light = 2000.0, k_ns_per_brute_pair = 3.0, k_cells = 8000.0, k_ns_per_sample = 1000.0;
   double per_frame = static_cast<double>(lights) * k_ns_per_light + k_ns_per_sample * samples;
   for (const Method& method : methods_of(group))
@@ -125,9 +125,24 @@ class Run {
     return plan_.scenes[group.scene].paths[group.camera];
   }
 
+  // About.
+  double samples_per_frame(const GroupPlan& group) const {
+    const Vec2i viewport = config_.viewports[group.viewport];
+    double samples = 0.0;
+    for (const config::SampleSetRequest& request : config_.sample_sets) {
+      if (request.needs_triangles())
+        samples += static_cast<double>(viewport.x) * viewport.y / request.divisor / request.divisor;
+      else if (request.set == measure::SampleSet::fog)
+        samples += static_cast<double>(request.froxels.x) * request.froxels.y * request.froxels.z;
+      else
+        samples += request.count;
+    }
+    return samples;
+  }
+
   double accuracy_cost_of(const GroupPlan& group) const {
     return list_cost(config_, group, plan_.scenes[group.scene].scene.lights.size(),
-                     static_cast<int>(path_of(group).shots.size()), config_.shading_samples);
+                     static_cast<int>(path_of(group).shots.size()), samples_per_frame(group));
   }
 
   double stability_cost_of(const GroupPlan& group) const {
@@ -178,7 +193,7 @@ class Run {
     CountedGroup one;
     one.frames = path.count();
     one.counted = accuracy_pass(
-        config_, group, path, [&](int) { tell(group, "truth and counts", per_frame); }, stop_);
+        config_, data, group, path, [&](int) { tell(group, "truth and counts", per_frame); }, stop_);
     if (!one.counted.is_complete) return;
     if (config_.stability) {
       const double cost = stability_cost_of(group);
@@ -271,11 +286,21 @@ class Run {
     if (method.has_cells && config_.check_accuracy) out.error = method.error;
     if (out.error && out.error->deepest)
       out.deepest_miss_light = scene.lights[static_cast<std::size_t>(out.error->deepest->rig_index)].name;
-    if (config_.shading_samples > 0) out.shading = structure.shading;
-    out.worst_unlit = structure.worst_unlit;
+    add_samples(structure, out);
     out.lookup = structure.lookup;
     out.failures = failures_of(out, config_.limits);
     return out;
+  }
+
+  // Of the whole view's samples, and of the sets that the scene has.
+  void add_samples(const StructureMeasures& structure, CaseResult& out) const {
+    for (std::size_t i = 0; i < config_.sample_sets.size(); ++i) {
+      const measure::SampleSet set = config_.sample_sets[i].set;
+      if (set == measure::SampleSet::volume)
+        out.shading = structure.samples[i];
+      else if (structure.samples[i].samples > 0)
+        out.samples.push_back({set, structure.samples[i]});
+    }
   }
 
   const config::Config& config_;

@@ -33,6 +33,23 @@ std::string name_part(std::string text) {
   return printable(text);
 }
 
+bool needs_triangles(const config::Config& config) {
+  return std::ranges::any_of(config.sample_sets, &config::SampleSetRequest::needs_triangles);
+}
+
+// What a set's samples depend on.
+Json identity(const config::SampleSetRequest& request, const SceneData& data) {
+  Json out{measure::name_of(request.set),
+           request.count,
+           request.divisor,
+           request.layers,
+           request.froxels.x,
+           request.froxels.y,
+           request.froxels.z};
+  if (request.needs_triangles() && data.geometry) out.push_back(data.geometry->sha256);
+  return out;
+}
+
 std::vector<SceneData> load_scenes(const config::Config& config) {
   std::vector<SceneData> scenes;
   std::set<std::string> names;
@@ -46,6 +63,11 @@ std::vector<SceneData> load_scenes(const config::Config& config) {
     for (scene::CameraPath& path : data.paths) {
       scene::check_domain(data.scene, path);
       path.camera = unique_name(name_part(path.camera), cameras);
+    }
+    if (needs_triangles(config) && !request.rig) {
+      data.geometry = scene::load_geometry(data.scene);
+      const std::vector<std::string>& doubts = data.geometry->warnings;
+      data.scene.warnings.insert(data.scene.warnings.end(), doubts.begin(), doubts.end());
     }
     scenes.push_back(std::move(data));
   }
@@ -83,7 +105,13 @@ Json identity(const config::Config& config, const SceneData& data, const CasePla
            {"assigner", identity(config.assigners[plan.assigner])},
            {"storage", plan.storage ? identity(config.storages[*plan.storage]) : Json(k_own_structure)},
            {"seed", config.seed},
-           {"shading_samples", config.shading_samples}};
+           {"shading_samples", 0}};
+  for (const config::SampleSetRequest& request : config.sample_sets) {
+    if (request.set == measure::SampleSet::volume)
+      all["shading_samples"] = request.count;
+    else
+      all["samples"].push_back(identity(request, data));
+  }
   if (config.lookup) {
     all["lookup"] = {config.lookup->samples};
     for (const measure::LookupWay& way : config.lookup->ways)
@@ -306,6 +334,14 @@ class Expansion {
 
 }  // namespace
 
+// Sets of samples that a scene cannot have.
+static void skip_sets(const config::Config& config, const SceneData& data, std::vector<Skipped>& skipped) {
+  if (data.geometry && !data.geometry->empty()) return;
+  for (const config::SampleSetRequest& request : config.sample_sets)
+    if (request.needs_triangles())
+      skipped.push_back({data.scene.name + "/samples " + measure::name_of(request.set), "the scene has no triangles"});
+}
+
 std::vector<Method> methods_of(const GroupPlan& group) {
   std::vector<Method> list;
   for (const CasePlan& one : group.cases)
@@ -336,6 +372,7 @@ Plan make_plan(const config::Config& config, const std::string& filter) {
   Expansion expansion(config, filter);
   Plan plan;
   plan.scenes = load_scenes(config);
+  for (const SceneData& data : plan.scenes) skip_sets(config, data, plan.skipped);
   expansion.expand(plan);
   if (!plan.groups.empty()) return plan;
   if (expansion.all_cases() > 0)

@@ -8,6 +8,7 @@
 #include "assign/contract/assigner_run.h"
 #include "config/config.h"
 #include "run/result.h"
+#include "scene/geometry.h"
 
 namespace clusterbench::run {
 
@@ -55,6 +56,7 @@ assign::AssignerRun start_method(const config::Config& config, const Method& met
 struct SceneData {
   scene::Scene scene;
   std::vector<scene::CameraPath> paths;
+  std::optional<scene::Geometry> geometry = {};  // read only where something needs triangles
 };
 
 struct Plan {

@@ -188,7 +188,7 @@ struct TwoSlices {
   }
   ShadingCounts counts(const assign::Lists& reported) const {
     ShadingCounts out;
-    add_frame(out, frame, samples, lights_reaching(frame, samples), *packed_lists(reported, grid, frame));
+    add_frame(out, frame.index, samples, needed_lights(frame, samples), *packed_lists(reported, grid, frame));
     return out;
   }
 };
@@ -200,7 +200,7 @@ TEST(Shading, what_a_list_holds_beyond_need_is_overshade) {
   EXPECT_EQ(counts.needed, 2u);
   EXPECT_EQ(counts.missed, 0u);
   EXPECT_EQ(counts.overshade(), 2.0);
-  EXPECT_EQ(counts.lost_irradiance, 0.0);
+  EXPECT_EQ(counts.lost_irradiance(), 0.0);
 }
 
 TEST(Shading, a_missed_light_weighs_what_it_would_have_given) {
@@ -208,7 +208,28 @@ TEST(Shading, a_missed_light_weighs_what_it_would_have_given) {
   EXPECT_EQ(counts.evaluated, 1u);
   EXPECT_EQ(counts.missed, 1u);
   // (1 - (d/r)^4) / d^2: 0.9999 at 1 m, 0.9984 / 4 at 2 m.
-  EXPECT_NEAR(counts.lost_irradiance, 0.9999 / (0.9999 + 0.9984 / 4.0), 1e-12);
+  EXPECT_NEAR(counts.lost_irradiance(), 0.9999 / (0.9999 + 0.9984 / 4.0), 1e-12);
+  ASSERT_TRUE(counts.worst && counts.darkest);
+  EXPECT_EQ(counts.worst->missed, 1u);
+  EXPECT_EQ(counts.worst->needed, 2u);
+  EXPECT_EQ(counts.darkest->pixel_x, 100.0f);
+  EXPECT_NEAR(counts.darkest->lost_lux, 0.9999, 1e-12);
+}
+
+TEST(Shading, samples_outside_of_the_cells_are_unanswered_and_what_they_need_is_missed_outside) {
+  TwoSlices two;
+  two.samples.resize(1);
+  grid::Sample beside = two.samples[0], behind = two.samples[0];
+  beside.pixel_x = -1.0f;
+  behind.pixel_x = behind.pixel_y = std::numeric_limits<float>::quiet_NaN();
+  two.samples.push_back(beside);
+  two.samples.push_back(behind);
+  const ShadingCounts counts = two.counts({{0, 2, 2}, {0, 1}});
+  EXPECT_EQ(counts.samples, 3u);
+  EXPECT_EQ(counts.unanswered, 2u);
+  EXPECT_EQ(counts.evaluated, 2u);
+  EXPECT_EQ(counts.missed, 4u);
+  EXPECT_EQ(counts.missed_outside, 4u);
 }
 
 TEST(Shading, a_missed_light_weighs_by_its_intensity) {
@@ -216,8 +237,8 @@ TEST(Shading, a_missed_light_weighs_by_its_intensity) {
   two.frame.lights[0].luminous_intensity_cd = 1e6;
   // Light 1 is missed, then light 0.
   const double faint = 0.9999, strong = 1e6 * 0.9984 / 4.0;
-  EXPECT_NEAR(two.counts({{0, 1, 1}, {0}}).lost_irradiance, faint / (faint + strong), 1e-17);
-  EXPECT_NEAR(two.counts({{0, 1, 1}, {1}}).lost_irradiance, strong / (faint + strong), 1e-12);
+  EXPECT_NEAR(two.counts({{0, 1, 1}, {0}}).lost_irradiance(), faint / (faint + strong), 1e-17);
+  EXPECT_NEAR(two.counts({{0, 1, 1}, {1}}).lost_irradiance(), strong / (faint + strong), 1e-12);
 }
 
 // A spot at the origin that shines down -z, and a point light of 1 cd that every sample is 1 m away from; both reach
@@ -237,9 +258,9 @@ double lost_of_spot(double inner_rad, double outer_rad, double off_axis_rad) {
   const grid::Grid grid = grid::make_grid(spec, grid::grid_inputs(spec, frame, 0.0, {}, {}));
   const std::vector<grid::Sample> samples{{100.0f, 50.0f, {0.0f, 0.0f, -4.0f}, place - k_eye, k_eye}};
   ShadingCounts counts;
-  add_frame(counts, frame, samples, lights_reaching(frame, samples), *packed_lists({{0, 1}, {0}}, grid, frame));
+  add_frame(counts, frame.index, samples, needed_lights(frame, samples), *packed_lists({{0, 1}, {0}}, grid, frame));
   EXPECT_EQ(counts.needed, 2u);
-  return counts.lost_irradiance;
+  return counts.lost_irradiance();
 }
 
 TEST(Shading, a_missed_spot_weighs_by_its_falloff_between_the_cones) {
@@ -265,7 +286,7 @@ TEST(Shading, a_missed_light_of_a_centimetre_weighs_what_it_gives) {
     EXPECT_EQ(counts.missed, 1u);
     // The window is that of the true distance; 1 / d² is held at 1 cm.
     EXPECT_NEAR(counts.lost_lux, (1.0 - 1.0 / 16.0) / 1e-4, 1e-3);
-    EXPECT_EQ(counts.lost_irradiance, 1.0);
+    EXPECT_EQ(counts.lost_irradiance(), 1.0);
   }
 }
 
@@ -311,7 +332,7 @@ TEST(Shading, true_lists_miss_nothing_far_from_the_origin) {
     const grid::Grid grid = grid::make_grid(spec, grid::grid_inputs(spec, frame, 0.0, {}, {}));
     const std::vector<grid::Sample> samples = samples_at_ends_of_lights(frame, random);
     ShadingCounts counts;
-    add_frame(counts, frame, samples, lights_reaching(frame, samples),
+    add_frame(counts, frame.index, samples, needed_lights(frame, samples),
               *packed_lists(find_truth(frame, grid, 1).lists, grid, frame));
     EXPECT_GT(counts.needed, 1000u);
     EXPECT_EQ(counts.missed, 0u) << grid::kind_name(kind);

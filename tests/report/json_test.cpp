@@ -217,12 +217,27 @@ TEST(Front, a_case_that_fails_or_leaves_more_than_a_thousandth_unlit_is_on_no_fr
   EXPECT_EQ(result_to_json(result, {})["pareto_front"][0]["ids"], (Json{"slow"}));
 }
 
+TEST(ResultJson, sets_of_samples_stand_under_their_names) {
+  run::Result result = result_by_hand();
+  measure::ShadingCounts counts{.samples = 100, .evaluated = 250, .needed = 200, .missed = 5, .unanswered = 2};
+  counts.lost_lux = 50.0;
+  counts.total_lux = 100.0;
+  counts.darkest = {3, 10.5f, 20.25f, 7.0};
+  result.cases[0].samples = {{measure::SampleSet::fog, counts}};
+  const Json json = result_to_json(result, {}), &fog = json["cases"][0]["samples"]["fog"];
+  EXPECT_EQ(fog["unanswered"], 2);
+  EXPECT_EQ(fog["lost_lux"], 0.5);
+  EXPECT_EQ(fog["darkest"], (Json{{"frame", 3}, {"lost_lux", 7}, {"pixel", {10.5, 20.25}}}));
+  EXPECT_FALSE(json["cases"][1].contains("samples"));
+  EXPECT_EQ(violations(json), std::vector<std::string>{});
+}
+
 TEST(ResultJson, what_samples_lack_is_told_by_place_and_worst_frame) {
   run::Result result = result_by_hand();
   run::CaseResult& one = result.cases[0];
   one.shading->missed = 50;
   one.shading->missed_outside = 40;
-  one.worst_unlit = run::UnlitFrame{1, 30, 90};
+  one.shading->worst = {1, 30, 90};
   const Json json = result_to_json(result, {}), &shading = json["cases"][0]["shading"];
   EXPECT_EQ(shading["unlit"], 0.25);
   EXPECT_EQ(shading["missed_in_cells"], 10);

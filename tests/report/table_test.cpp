@@ -108,8 +108,9 @@ TEST(Table, unlit_lights_have_a_column_and_a_warning_with_the_worst_frame) {
   for (run::CaseResult& one : result.cases) {
     one.shading->missed = 50;
     one.shading->missed_outside = 40;
-    one.shading->lost_irradiance = 0.44;
-    one.worst_unlit = run::UnlitFrame{1, 30, 90};
+    one.shading->lost_lux = 44.0;
+    one.shading->total_lux = 100.0;
+    one.shading->worst = {1, 30, 90};
   }
   const std::string table = table_of(result);
   EXPECT_NE(line_with(table, "aabb ").find("25.0 %      -"), std::string::npos) << "no overshade\n" << table;
@@ -342,6 +343,21 @@ TEST(Table, storages_are_named_where_there_are_several) {
   EXPECT_EQ(table_of(result).find("/ packed"), std::string::npos);
   result.cases[0].storage_label = "fixed(cap=8)";
   EXPECT_NE(table_of(result).find("brute-force / fixed(cap=8)"), std::string::npos);
+}
+
+TEST(Table, sets_of_samples_have_a_table_with_what_they_need_and_where_nothing_answers) {
+  run::Result result = result_by_hand();
+  EXPECT_EQ(table_of(result).find("lights per sample"), std::string::npos);
+  for (run::CaseResult& one : result.cases) {
+    measure::ShadingCounts opaque{.samples = 100, .evaluated = 250, .needed = 200};
+    opaque.missed = one.assigner == "aabb" ? 5 : 0;
+    measure::ShadingCounts mirror{.samples = 100, .needed = 40, .missed = 40};
+    mirror.unanswered = 100;
+    one.samples = {{measure::SampleSet::opaque, opaque}, {measure::SampleSet::mirror, mirror}};
+  }
+  const std::string table = table_of(result), samples = table.substr(table.find("lights per sample of hall"));
+  EXPECT_NE(line_with(samples, "(needed)").find("2.00"), std::string::npos) << samples;
+  EXPECT_NE(line_with(samples, "aabb").find("2.50, 2.5 % unlit  no answer"), std::string::npos) << samples;
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ CaseResult without_cells() {
 void miss(CaseResult& one, std::uint64_t lights, std::uint64_t outside) {
   one.shading->missed = lights;
   one.shading->missed_outside = outside;
-  one.worst_unlit = UnlitFrame{7, lights, 140};
+  one.shading->worst = {7, lights, 140};
 }
 
 std::vector<Kind> kinds(const CaseResult& one, const config::LimitsRequest& limits = {}) {

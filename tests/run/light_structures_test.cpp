@@ -17,10 +17,11 @@ class AllLights final : public assign::LightStructure {
     grid_ = &grid;
     lights_ = lights;
   }
-  void lights_at(const grid::Sample& sample, grid::Log2 way, std::vector<std::uint32_t>& out) const override {
+  bool lights_at(const grid::Sample& sample, grid::Log2 way, std::vector<std::uint32_t>& out) const override {
     out.clear();
-    if (has_cells_of_grid && grid::lookup(*grid_, sample, way) < 0) return;
+    if (has_cells_of_grid && grid::lookup(*grid_, sample, way) < 0) return false;
     for (std::uint32_t light = 0; light < lights_; ++light) out.push_back(light);
+    return true;
   }
   assign::StructureUse use() const override {
     assign::StructureUse use;

@@ -166,8 +166,8 @@ TEST(Runner, lights_beyond_the_grid_are_unlit_and_named_so) {
   EXPECT_EQ(one.shading->missed_outside, one.shading->missed);
   EXPECT_GT(one.shading->unlit(), measure::k_most_unlit);
   EXPECT_TRUE(std::isnan(one.shading->comparable_overshade()));
-  ASSERT_TRUE(one.worst_unlit);
-  EXPECT_GE(3 * one.worst_unlit->missed, one.shading->missed);
+  ASSERT_TRUE(one.shading->worst);
+  EXPECT_GE(3 * one.shading->worst->missed, one.shading->missed);
   EXPECT_TRUE(one.failures.empty()) << "a warning";
   EXPECT_TRUE(loses_lights(one));
 }

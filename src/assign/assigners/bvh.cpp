@@ -320,10 +320,11 @@ class LightHierarchy final : public LightStructure {
   view::LightRanges ranges;
   std::optional<Vec3d> world_origin;  // of the space in which the lights are, if it is not view space
 
-  void lights_at(const grid::Sample& sample, grid::Log2, std::vector<std::uint32_t>& out) const override {
+  bool lights_at(const grid::Sample& sample, grid::Log2, std::vector<std::uint32_t>& out) const override {
     out.clear();
     const Vec3f at = world_origin ? Vec3f(sample.from(*world_origin)) : sample.view;
     trees.each_touched({at, at}, [&](std::uint32_t light) { out.push_back(light); });
+    return true;
   }
 
   StructureUse use() const override {

@@ -64,10 +64,12 @@ class BinsAndMasks final : public LightStructure {
     }
   }
 
-  void lights_at(const grid::Sample& sample, grid::Log2 way, std::vector<std::uint32_t>& out) const override {
+  bool lights_at(const grid::Sample& sample, grid::Log2 way, std::vector<std::uint32_t>& out) const override {
     out.clear();
     const std::int64_t cell = grid::lookup(*grid_, sample, way);
-    if (cell >= 0) read(static_cast<std::uint32_t>(cell), out);
+    if (cell < 0) return false;
+    read(static_cast<std::uint32_t>(cell), out);
+    return true;
   }
 
   StructureUse use() const override {

@@ -32,8 +32,9 @@ class LightStructure {
   virtual ~LightStructure() = default;
 
   // Puts what a shader would loop over at a sample into `out`, whose memory is kept: points before spots, each once, in
-  // any order. `way`: how the shader takes a logarithm, if its lookup takes one.
-  virtual void lights_at(const grid::Sample& sample, grid::Log2 way, std::vector<std::uint32_t>& out) const = 0;
+  // any order. `way`: how the shader takes a logarithm, if its lookup takes one. False, and none, where the structure
+  // has no answer: outside of its cells, beside the picture, behind the eye.
+  virtual bool lights_at(const grid::Sample& sample, grid::Log2 way, std::vector<std::uint32_t>& out) const = 0;
 
   virtual StructureUse use() const = 0;
   virtual StructureLimit limit() const = 0;

@@ -10,10 +10,12 @@ void Storage::start(const grid::Grid& grid, const view::LightRanges& lights) {
   start(grid.cell_count(), lights);
 }
 
-void Storage::lights_at(const grid::Sample& sample, grid::Log2 way, std::vector<std::uint32_t>& out) const {
+bool Storage::lights_at(const grid::Sample& sample, grid::Log2 way, std::vector<std::uint32_t>& out) const {
   out.clear();
   const std::int64_t cell = grid::lookup(*grid_, sample, way);
-  if (cell >= 0) read_cell(static_cast<std::uint32_t>(cell), out);
+  if (cell < 0) return false;
+  read_cell(static_cast<std::uint32_t>(cell), out);
+  return true;
 }
 
 void Storage::expand(Lists& out) const {

@@ -24,7 +24,7 @@ class Storage : public LightStructure {
   virtual void read_cell(std::uint32_t cell, std::vector<std::uint32_t>& out) const = 0;
   virtual std::uint32_t cell_count() const = 0;
 
-  void lights_at(const grid::Sample& sample, grid::Log2 way, std::vector<std::uint32_t>& out) const final;
+  bool lights_at(const grid::Sample& sample, grid::Log2 way, std::vector<std::uint32_t>& out) const final;
   bool has_cells() const final { return true; }
   void expand(Lists& out) const final;
 

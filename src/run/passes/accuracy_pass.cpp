@@ -6,6 +6,7 @@
 
 #include "assign/contract/storage.h"
 #include "run/frame_lights.h"
+#include "run/frame_samples.h"
 
 namespace clusterbench::run {
 namespace {
@@ -22,9 +23,7 @@ struct FrameAtHand {
   bool is_new_grid = false;
   FrameLights lights;
   measure::Truth truth;
-  std::vector<grid::Sample> samples;
-  std::vector<bool> is_outside;  // of each sample: of the grid
-  assign::Lists reaching;
+  std::vector<SamplesAtHand> samples;  // one per set of the configuration
   std::optional<measure::LookupFrame> lookup;
 };
 
@@ -70,6 +69,7 @@ class MethodMeter {
 class CaseMeter {
  public:
   CaseMeter(const config::Config& config, const CasePlan& plan) : method_(plan.method()), buffers_(config.allocation) {
+    measures_.samples.resize(config.sample_sets.size());
     if (!plan.storage) return;
     const config::MethodRequest& request = config.storages[*plan.storage];
     storage_ = assign::find_storage(request.name)->make(request.params);
@@ -83,7 +83,9 @@ class CaseMeter {
     const assign::LightStructure& structure = storage_ ? *storage_ : *method.run().structure();
     buffers_.add_frame(now.frame.index, structure, method.cell_lists(), method.run().scratch_bytes());
     if (now.lookup) now.lookup->add(structure, measures_.lookup);
-    if (!now.samples.empty()) ask_at_samples(now, structure);
+    for (std::size_t i = 0; i < now.samples.size(); ++i)
+      measure::add_frame(measures_.samples[i], now.frame.index, now.samples[i].samples, now.samples[i].needed,
+                         structure);
   }
 
   const Method& method() const { return method_; }
@@ -94,21 +96,14 @@ class CaseMeter {
   }
 
  private:
-  void ask_at_samples(const FrameAtHand& now, const assign::LightStructure& structure) {
-    const measure::ShadingCounts before = measures_.shading;
-    measure::add_frame(measures_.shading, now.frame, now.samples, now.reaching, structure, now.is_outside);
-    const UnlitFrame unlit{now.frame.index, measures_.shading.missed - before.missed,
-                           measures_.shading.needed - before.needed};
-    if (unlit.missed > (measures_.worst_unlit ? measures_.worst_unlit->missed : 0)) measures_.worst_unlit = unlit;
-  }
-
   Method method_;
   std::unique_ptr<assign::Storage> storage_;  // none: the method's own structure
   measure::BufferMeter buffers_;
   StructureMeasures measures_;
 };
 
-FrameAtHand look_at(const config::Config& config, const PathFrames& path, GridOfFrames& grids, int index) {
+FrameAtHand look_at(const config::Config& config, const PathFrames& path, FrameSamples& samples, GridOfFrames& grids,
+                    int index) {
   FrameAtHand now;
   now.frame = path.frame(index);
   now.is_new_grid = grids.update(path, now.frame);
@@ -117,18 +112,15 @@ FrameAtHand look_at(const config::Config& config, const PathFrames& path, GridOf
   if (config.check_accuracy) now.truth = measure::find_truth(now.frame, grid, config.threads);
   const double far = sample_far(now.frame, path.far_m());
   if (config.lookup) now.lookup.emplace(now.frame, grid, config.lookup->ways, far, config.lookup->samples, config.seed);
-  if (config.shading_samples > 0) {
-    now.samples = measure::volume_samples(now.frame, far, config.shading_samples, config.seed);
-    now.reaching = measure::lights_reaching(now.frame, now.samples);
-    for (const grid::Sample& sample : now.samples) now.is_outside.push_back(grid::lookup(grid, sample) < 0);
-  }
+  now.samples = samples.of(now.frame);
   return now;
 }
 
 }  // namespace
 
-AccuracyResult accuracy_pass(const config::Config& config, const GroupPlan& group, const PathFrames& path,
-                             const std::function<void(int frame)>& on_frame, const std::atomic<bool>& stop) {
+AccuracyResult accuracy_pass(const config::Config& config, const SceneData& data, const GroupPlan& group,
+                             const PathFrames& path, const std::function<void(int frame)>& on_frame,
+                             const std::atomic<bool>& stop) {
   std::vector<MethodMeter> methods;
   for (const Method& method : methods_of(group)) methods.emplace_back(config, method);
   std::vector<CaseMeter> cases;
@@ -137,11 +129,12 @@ AccuracyResult accuracy_pass(const config::Config& config, const GroupPlan& grou
   std::vector<measure::PackingLossMeter> losses(config.compares_precisions() ? config.precisions.size() : 0);
 
   AccuracyResult result;
+  FrameSamples samples(config, data, path);
   GridOfFrames grids(config.grids[group.grid]);
   for (int index = 0; index < path.count(); ++index) {
     if (stop) return result;
     on_frame(index);
-    const FrameAtHand now = look_at(config, path, grids, index);
+    const FrameAtHand now = look_at(config, path, samples, grids, index);
     for (std::size_t i = 0; i < losses.size(); ++i) losses[i].add_frame(now.lights.packed(i));
     for (MethodMeter& method : methods) {
       method.add(now, grids.grid());

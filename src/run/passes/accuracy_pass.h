@@ -23,8 +23,7 @@ struct MethodMeasures {
 // What samples find in one case's light structure, and what it takes.
 struct StructureMeasures {
   measure::Buffers buffers;
-  measure::ShadingCounts shading;
-  std::optional<UnlitFrame> worst_unlit;
+  std::vector<measure::ShadingCounts> samples;  // one per set of the configuration
   std::vector<measure::LookupCounts> lookup;
 };
 
@@ -36,7 +35,8 @@ struct AccuracyResult {
   bool is_complete = false;  // false: stopped before the end
 };
 
-AccuracyResult accuracy_pass(const config::Config& config, const GroupPlan& group, const PathFrames& path,
-                             const std::function<void(int frame)>& on_frame, const std::atomic<bool>& stop);
+AccuracyResult accuracy_pass(const config::Config& config, const SceneData& data, const GroupPlan& group,
+                             const PathFrames& path, const std::function<void(int frame)>& on_frame,
+                             const std::atomic<bool>& stop);
 
 }  // namespace clusterbench::run

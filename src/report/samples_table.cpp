@@ -1,0 +1,58 @@
+#include "report/samples_table.h"
+
+#include "report/columns.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double per_sample(const Json& set, const char* what) {
+  return set[what].get<double>() / set["samples"].get<double>();
+}
+
+// Lights given per sample, and what is unlit or has no answer.
+std::string given_text(const Json& set) {
+  if (set["unanswered"] == set["samples"]) return "no answer";
+  const double unlit = set["unlit"].is_number() ? set["unlit"].get<double>() : 0.0;
+  return text("%.2f", per_sample(set, "evaluated")) + (unlit > 0.0 ? text(", %.3g %% unlit", 100.0 * unlit) : "");
+}
+
+// Methods as lines, sets as columns. All cases of a block have the same sets.
+std::string samples_block(const std::string& block, const std::vector<NamedCase>& cases) {
+  Cells headings{"", "assigner"}, needed{"", "(needed)"};
+  for (const auto& [name, set] : (*cases.front().one)["samples"].items()) {
+    headings.push_back(name);
+    needed.push_back(text("%.2f", per_sample(set, "needed")));
+  }
+  std::vector<Cells> rows{headings, needed};
+  for (const NamedCase& one : cases) {
+    Cells row{"", one.name};
+    for (const Json& set : (*one.one)["samples"]) row.push_back(given_text(set));
+    rows.push_back(row);
+  }
+  const std::vector<std::size_t> widths = widths_of(rows);
+  std::string out = " " + block + "\n";
+  for (const Cells& row : rows) out += aligned(row, widths);
+  return out;
+}
+
+}  // namespace
+
+std::string samples_table(const Json& result) {
+  std::string out;
+  for (const Json& scene : result["scenes"]) {
+    std::string blocks;
+    for (const std::string& block : blocks_of(result["cases"], scene)) {
+      const std::vector<NamedCase> cases = distinct_cases(result["cases"], scene, block, {"samples"});
+      if (!cases.empty()) blocks += samples_block(block, cases);
+    }
+    if (!blocks.empty()) out += "lights per sample of " + shown(scene["name"]) + "\n" + blocks + "\n";
+  }
+  if (out.empty()) return "";
+  return "\n" + out +
+         "lights that a shader loops over at a sample, by set, and those that reach it (needed).\n"
+         "unlit: share of the needed ones that are not given. no answer: all samples lie outside of the cells.\n";
+}
+
+}  // namespace clusterbench::report

@@ -1,0 +1,13 @@
+#pragma once
+// What lists cost and lose at sets of samples, as a table for people.
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace clusterbench::report {
+
+// Per scene and grid, one line per method, and storage or structure of its own where they answer otherwise; "" where no
+// case has sets of samples.
+std::string samples_table(const nlohmann::ordered_json& result);
+
+}  // namespace clusterbench::report

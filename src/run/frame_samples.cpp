@@ -1,0 +1,45 @@
+#include "run/frame_samples.h"
+
+namespace clusterbench::run {
+
+FrameSamples::FrameSamples(const config::Config& config, const SceneData& data, const PathFrames& path)
+    : config_(config), path_(path) {
+  if (data.geometry && !data.geometry->empty()) caster_.emplace(data.scene, *data.geometry);
+}
+
+std::vector<SamplesAtHand> FrameSamples::of(const view::Frame& frame) {
+  if (caster_) caster_->pose(frame.time_s);
+  std::vector<SamplesAtHand> out;
+  for (const config::SampleSetRequest& request : config_.sample_sets) {
+    SamplesAtHand& set = out.emplace_back();
+    set.samples = samples_of(request, frame);
+    set.needed = measure::needed_lights(frame, set.samples);
+  }
+  return out;
+}
+
+std::vector<grid::Sample> FrameSamples::samples_of(const config::SampleSetRequest& request, const view::Frame& frame) {
+  using measure::SampleSet;
+  const double far = sample_far(frame, path_.far_m());
+  const std::uint64_t seed = config_.seed;
+  switch (request.set) {
+    case SampleSet::volume:
+      return measure::volume_samples(frame, far, request.count, seed);
+    case SampleSet::fog:
+      return measure::fog_samples(frame, far, request.froxels);
+    case SampleSet::mirror:
+      return measure::mirror_samples(frame, path_.light_bounds(), request.count, seed);
+    case SampleSet::anywhere:
+      return measure::anywhere_samples(frame, path_.light_bounds(), request.count, seed);
+    case SampleSet::opaque:
+    case SampleSet::transparent:
+      break;
+  }
+  if (!caster_) return {};
+  const depth::DepthImage image =
+      caster_->depths(frame, depth::PixelGrid(frame.viewport, request.divisor), config_.threads);
+  if (request.set == SampleSet::opaque) return measure::opaque_samples(frame, image);
+  return measure::transparent_samples(frame, caster_->layers(frame, image, request.layers, config_.threads));
+}
+
+}  // namespace clusterbench::run

@@ -1,0 +1,38 @@
+#pragma once
+// The sets of samples that a configuration asks for, frame by frame.
+
+#include <optional>
+#include <vector>
+
+#include "config/config.h"
+#include "depth/ray_caster.h"
+#include "measure/shading.h"
+#include "run/path_frames.h"
+#include "run/sweep.h"
+
+namespace clusterbench::run {
+
+// A frame's samples of one set, and the lights that they need.
+struct SamplesAtHand {
+  std::vector<grid::Sample> samples;
+  measure::NeededLights needed;
+};
+
+// Of one camera's path. Casts rays only for sets of visible surfaces.
+class FrameSamples {
+ public:
+  // All must outlive it.
+  FrameSamples(const config::Config& config, const SceneData& data, const PathFrames& path);
+
+  // One per set of Config::sample_sets, in their order; those of surfaces are empty where the scene has none.
+  std::vector<SamplesAtHand> of(const view::Frame& frame);
+
+ private:
+  std::vector<grid::Sample> samples_of(const config::SampleSetRequest& request, const view::Frame& frame);
+
+  const config::Config& config_;
+  const PathFrames& path_;
+  std::optional<depth::RayCaster> caster_;
+};
+
+}  // namespace clusterbench::run

@@ -1,0 +1,137 @@
+// Sets of samples from a scene's file to a case's result.
+
+#include "run/frame_samples.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+#include "core/error.h"
+#include "run/runner.h"
+#include "scene/mesh_fixture.h"
+
+namespace clusterbench::run {
+namespace {
+
+using Json = nlohmann::json;
+using scene::test::MeshFile;
+
+std::size_t wall(MeshFile& file, const Json& material) {
+  Json primitive = {{"attributes", {{"POSITION", file.positions({{-9, -9, 0}, {9, -9, 0}, {-9, 9, 0}, {9, 9, 0}})}}},
+                    {"mode", 5}};
+  primitive["material"] = file.material(material);
+  return file.mesh(primitive);
+}
+
+// A wall 8 m before the eye and a pane of glass at 4 m, which both fill the picture; a light beside the wall, and one
+// behind the eye.
+std::string room(bool with_meshes = true) {
+  MeshFile file;
+  file.json["extensionsUsed"] = {"KHR_lights_punctual"};
+  file.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"range", 5}}};
+  file.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}, {"zfar", 100}}}}};
+  file.node({{"camera", 0}});
+  for (const Json& at : {Json{0, 0, -7}, Json{0, 0, 6}})
+    file.node({{"translation", at}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  if (with_meshes) {
+    file.node({{"translation", {0, 0, -8}}, {"mesh", wall(file, {{"name", "stone"}})}});
+    file.node({{"translation", {0, 0, -4}}, {"mesh", wall(file, {{"alphaMode", "BLEND"}})}});
+  }
+  return file.text();
+}
+
+struct RoomRun {
+  Plan plan;
+  Result result;
+};
+
+RoomRun run_of(const std::string& scene, const std::string& rest) {
+  const scene::test::Folder folder;
+  folder.write("room.gltf", scene);
+  const config::Config config = config::parse_config(
+      R"({"scenes": ["room.gltf"], "viewport": [64, 48], "timing": {"measure": false}, "grids": [{"tiles": {"count": [4, 4]},
+          "slices": {"count": 8, "near": 0.1, "far": 40}}], "assigners": ["exact-fast", "bvh"], "shading": {"samples": 0})" +
+          rest + "}",
+      folder.path() / "c.json");
+  RoomRun out;
+  out.plan = make_plan(config, "");
+  const std::atomic<bool> stop = false;
+  out.result = run_plan(config, out.plan, {}, {}, stop);
+  return out;
+}
+
+const CaseResult& case_named(const RoomRun& run, const std::string& part) {
+  for (const CaseResult& one : run.result.cases)
+    if (one.name.find(part) != std::string::npos) return one;
+  throw Error("", part, "no such case");
+}
+
+const measure::ShadingCounts& counts_of(const CaseResult& one, measure::SampleSet set) {
+  for (const SampleSetResult& result : one.samples)
+    if (result.set == set) return result.counts;
+  throw Error("", measure::name_of(set), "no such set");
+}
+
+constexpr const char* k_all_sets =
+    R"(, "samples": {"opaque": {"divisor": 1}, "transparent": {"divisor": 2}, "fog": {"froxels": [8, 6, 4]},
+    "mirror": {"count": 500}, "anywhere": {"count": 300}})";
+
+TEST(FrameSamples, every_set_is_asked_for_in_every_case_and_exact_lists_lose_nothing_in_view) {
+  using measure::SampleSet;
+  const RoomRun run = run_of(room(), k_all_sets);
+  const CaseResult& exact = case_named(run, "exact-fast/packed");
+  EXPECT_EQ(counts_of(exact, SampleSet::opaque).samples, 64u * 48u);
+  EXPECT_EQ(counts_of(exact, SampleSet::transparent).samples, 32u * 24u);
+  EXPECT_EQ(counts_of(exact, SampleSet::fog).samples, 8u * 6u * 4u);
+  EXPECT_EQ(counts_of(exact, SampleSet::anywhere).samples, 300u);
+  for (const SampleSet set : {SampleSet::opaque, SampleSet::transparent, SampleSet::fog}) {
+    const measure::ShadingCounts& counts = counts_of(exact, set);
+    EXPECT_GT(counts.needed, 0u) << measure::name_of(set);
+    EXPECT_EQ(counts.missed, 0u) << measure::name_of(set);
+    EXPECT_EQ(counts.unanswered, 0u) << measure::name_of(set);
+  }
+  // A circle of sqrt(24) m around the middle of a wall of which the picture shows 11.65 m by 8.74 m.
+  const double share = static_cast<double>(counts_of(exact, SampleSet::opaque).needed) / (64 * 48);
+  EXPECT_NEAR(share, 0.715, 0.02);
+}
+
+TEST(FrameSamples, only_what_is_not_bound_to_the_picture_answers_outside_of_it) {
+  const RoomRun run = run_of(room(), k_all_sets);
+  const measure::ShadingCounts& lists = counts_of(case_named(run, "exact-fast/packed"), measure::SampleSet::mirror);
+  EXPECT_EQ(lists.unanswered, lists.samples);
+  EXPECT_EQ(lists.missed, lists.needed);
+  EXPECT_EQ(lists.missed_outside, lists.missed);
+  EXPECT_GT(lists.lost_lux, 0.0);
+  const measure::ShadingCounts& tree = counts_of(case_named(run, "bvh/own"), measure::SampleSet::mirror);
+  EXPECT_EQ(tree.unanswered, 0u);
+  EXPECT_EQ(tree.missed, 0u);
+  EXPECT_GT(tree.needed, 0u);
+}
+
+TEST(FrameSamples, triangles_are_read_only_where_a_set_asks_for_them) {
+  EXPECT_FALSE(run_of(room(), "").plan.scenes[0].geometry);
+  EXPECT_FALSE(run_of(room(), R"(, "samples": {"fog": {"froxels": [2, 2, 2]}})").plan.scenes[0].geometry);
+  const RoomRun run = run_of(room(), R"(, "samples": {"opaque": {}})");
+  ASSERT_TRUE(run.plan.scenes[0].geometry);
+  EXPECT_EQ(run.plan.scenes[0].geometry->triangle_count(), 4u);
+}
+
+TEST(FrameSamples, a_scene_without_triangles_skips_the_sets_of_surfaces_with_the_reason) {
+  const RoomRun run = run_of(room(false), R"(, "samples": {"opaque": {}, "fog": {"froxels": [2, 2, 2]}})");
+  ASSERT_FALSE(run.plan.skipped.empty());
+  EXPECT_EQ(run.plan.skipped[0].name, "room/samples opaque");
+  EXPECT_EQ(run.plan.skipped[0].reason, "the scene has no triangles");
+  EXPECT_EQ(run.result.cases.at(0).samples.size(), 1u);
+}
+
+TEST(FrameSamples, cases_with_other_samples_are_other_cases_and_threads_change_nothing) {
+  const RoomRun one = run_of(room(), R"(, "samples": {"opaque": {}})");
+  const RoomRun finer = run_of(room(), R"(, "samples": {"opaque": {"divisor": 4}})");
+  EXPECT_NE(one.plan.groups[0].cases[0].id, finer.plan.groups[0].cases[0].id);
+  const RoomRun threads = run_of(room(), R"(, "threads": 3, "samples": {"opaque": {}})");
+  EXPECT_EQ(one.plan.groups[0].cases[0].id, threads.plan.groups[0].cases[0].id);
+  EXPECT_EQ(one.result.cases[0].samples[0].counts.evaluated, threads.result.cases[0].samples[0].counts.evaluated);
+}
+
+}  // namespace
+}  // namespace clusterbench::run
