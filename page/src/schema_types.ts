@@ -23,6 +23,19 @@ export type SampleSet = {
     pixel?: [number, number]; // Where the picture shows it, from the top left; absent behind the eye [px, over one sample]
     lost_lux: number | null; // That it loses [lx, over one sample]
   }; // The sample that loses most light; absent where none is lost
+  waves?: Array<{
+    lanes: number; // Pixels of a wave: 32 (8 x 4) or 64 (8 x 8) [pixels, over one wave]
+    waves: number; // With a surface in one of their pixels at least; only such pixels count [waves]
+    distinct_lists: {
+      mean: number | null; // Of a wave [lists]
+      max: number; // Of a wave [lists]
+    }; // Different lists within a wave
+    mean_list: number | null; // Length of a wave's lists, mean over its lanes and then over waves: steps if no lane waited for another [lights]
+    longest_list: number | null; // Longest list of a wave, mean over waves: steps until its last lane is done [lights]
+    united_lists: number | null; // Lights that any lane of a wave has, mean over waves: steps of a loop that all lanes share (scalarised) [lights]
+    divergence: number | null; // Sum over waves of the longest list by the sum of the mean ones; 1: no lane waits [ratio]
+    scalarised: number | null; // Sum over waves of the united lists by the sum of the mean ones [ratio]
+  }>; // Lists among pixels that a GPU shades together; of visible surfaces at full resolution (divisor 1) [over the waves of all frames]
 };
 
 export type Tool = {

@@ -136,10 +136,27 @@ Json shading(const measure::ShadingCounts& s) {
   return out;
 }
 
+Json to_json(const measure::WaveCounts& waves) {
+  const auto per_wave = [&](double sum) { return number_or_null(sum / static_cast<double>(waves.waves)); };
+  return {{"lanes", waves.lanes()},
+          {"waves", waves.waves},
+          {"distinct_lists", {{"mean", number_or_null(waves.mean_distinct())}, {"max", waves.most_distinct}}},
+          {"mean_list", per_wave(waves.mean)},
+          {"longest_list", per_wave(static_cast<double>(waves.longest))},
+          {"united_lists", per_wave(static_cast<double>(waves.united))},
+          {"divergence", number_or_null(waves.divergence())},
+          {"scalarised", number_or_null(waves.scalarised())}};
+}
+
 // By the set's name.
 Json samples(const std::vector<run::SampleSetResult>& sets) {
   Json out = Json::object();
-  for (const run::SampleSetResult& set : sets) out[measure::name_of(set.set)] = shading(set.counts);
+  for (const run::SampleSetResult& set : sets) {
+    Json& one = out[measure::name_of(set.set)] = shading(set.counts);
+    if (!set.coherence) continue;
+    one["waves"] = Json::array();
+    for (const measure::WaveCounts& waves : set.coherence->sizes) one["waves"].push_back(to_json(waves));
+  }
   return out;
 }
 

@@ -12,13 +12,17 @@ std::vector<SamplesAtHand> FrameSamples::of(const view::Frame& frame) {
   std::vector<SamplesAtHand> out;
   for (const config::SampleSetRequest& request : config_.sample_sets) {
     SamplesAtHand& set = out.emplace_back();
-    set.samples = samples_of(request, frame);
+    if (!request.needs_triangles())
+      set.samples = points_of(request, frame);
+    else if (caster_)
+      look_at_surfaces(request, frame, set);
     set.needed = measure::needed_lights(frame, set.samples);
   }
   return out;
 }
 
-std::vector<grid::Sample> FrameSamples::samples_of(const config::SampleSetRequest& request, const view::Frame& frame) {
+std::vector<grid::Sample> FrameSamples::points_of(const config::SampleSetRequest& request,
+                                                  const view::Frame& frame) const {
   using measure::SampleSet;
   const double far = sample_far(frame, path_.far_m());
   const std::uint64_t seed = config_.seed;
@@ -33,13 +37,20 @@ std::vector<grid::Sample> FrameSamples::samples_of(const config::SampleSetReques
       return measure::anywhere_samples(frame, path_.light_bounds(), request.count, seed);
     case SampleSet::opaque:
     case SampleSet::transparent:
-      break;
+      break;  // look_at_surfaces()
   }
-  if (!caster_) return {};
-  const depth::DepthImage image =
-      caster_->depths(frame, depth::PixelGrid(frame.viewport, request.divisor), config_.threads);
-  if (request.set == SampleSet::opaque) return measure::opaque_samples(frame, image);
-  return measure::transparent_samples(frame, caster_->layers(frame, image, request.layers, config_.threads));
+  return {};
+}
+
+void FrameSamples::look_at_surfaces(const config::SampleSetRequest& request, const view::Frame& frame,
+                                    SamplesAtHand& out) const {
+  depth::DepthImage image = caster_->depths(frame, depth::PixelGrid(frame.viewport, request.divisor), config_.threads);
+  if (request.set == measure::SampleSet::opaque) {
+    out.samples = measure::opaque_samples(frame, image);
+    if (request.divisor == 1) out.picture = std::move(image);
+  } else {
+    out.samples = measure::transparent_samples(frame, caster_->layers(frame, image, request.layers, config_.threads));
+  }
 }
 
 }  // namespace clusterbench::run

@@ -16,6 +16,7 @@ namespace clusterbench::run {
 struct SamplesAtHand {
   std::vector<grid::Sample> samples;
   measure::NeededLights needed;
+  std::optional<depth::DepthImage> picture;  // of visible surfaces at full resolution: what waves are made of
 };
 
 // Of one camera's path. Casts rays only for sets of visible surfaces.
@@ -28,7 +29,8 @@ class FrameSamples {
   std::vector<SamplesAtHand> of(const view::Frame& frame);
 
  private:
-  std::vector<grid::Sample> samples_of(const config::SampleSetRequest& request, const view::Frame& frame);
+  std::vector<grid::Sample> points_of(const config::SampleSetRequest& request, const view::Frame& frame) const;
+  void look_at_surfaces(const config::SampleSetRequest& request, const view::Frame& frame, SamplesAtHand& out) const;
 
   const config::Config& config_;
   const PathFrames& path_;

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "measure/buffers.h"
+#include "measure/coherence.h"
 #include "measure/error.h"
 #include "measure/lookup.h"
 #include "measure/occupancy.h"
@@ -126,6 +127,7 @@ struct StabilityResult {
 struct SampleSetResult {
   measure::SampleSet set = measure::SampleSet::opaque;
   measure::ShadingCounts counts;
+  std::optional<measure::Coherence> coherence;  // of visible surfaces at full resolution
 };
 
 // How the lights were handed over, and what that loses.

@@ -293,13 +293,12 @@ class Run {
   }
 
   // Of the whole view's samples, and of the sets that the scene has.
-  void add_samples(const StructureMeasures& structure, CaseResult& out) const {
-    for (std::size_t i = 0; i < config_.sample_sets.size(); ++i) {
-      const measure::SampleSet set = config_.sample_sets[i].set;
-      if (set == measure::SampleSet::volume)
-        out.shading = structure.samples[i];
-      else if (structure.samples[i].samples > 0)
-        out.samples.push_back({set, structure.samples[i]});
+  static void add_samples(const StructureMeasures& structure, CaseResult& out) {
+    for (const SampleSetResult& set : structure.samples) {
+      if (set.set == measure::SampleSet::volume)
+        out.shading = set.counts;
+      else if (set.counts.samples > 0)
+        out.samples.push_back(set);
     }
   }
 

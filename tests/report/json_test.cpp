@@ -223,11 +223,13 @@ TEST(ResultJson, sets_of_samples_stand_under_their_names) {
   counts.lost_lux = 50.0;
   counts.total_lux = 100.0;
   counts.darkest = {3, 10.5f, 20.25f, 7.0};
-  result.cases[0].samples = {{measure::SampleSet::fog, counts}};
+  result.cases[0].samples = {{measure::SampleSet::fog, counts, measure::Coherence{}}};
   const Json json = result_to_json(result, {}), &fog = json["cases"][0]["samples"]["fog"];
   EXPECT_EQ(fog["unanswered"], 2);
   EXPECT_EQ(fog["lost_lux"], 0.5);
   EXPECT_EQ(fog["darkest"], (Json{{"frame", 3}, {"lost_lux", 7}, {"pixel", {10.5, 20.25}}}));
+  EXPECT_EQ(fog["waves"].size(), 2u);
+  EXPECT_TRUE(fog["waves"][0]["divergence"].is_null());
   EXPECT_FALSE(json["cases"][1].contains("samples"));
   EXPECT_EQ(violations(json), std::vector<std::string>{});
 }

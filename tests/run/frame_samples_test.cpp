@@ -90,6 +90,8 @@ TEST(FrameSamples, every_set_is_asked_for_in_every_case_and_exact_lists_lose_not
     EXPECT_EQ(counts.missed, 0u) << measure::name_of(set);
     EXPECT_EQ(counts.unanswered, 0u) << measure::name_of(set);
   }
+  for (const SampleSetResult& set : exact.samples) EXPECT_EQ(set.coherence.has_value(), set.set == SampleSet::opaque);
+  EXPECT_EQ(exact.samples[0].coherence->sizes[1].waves, 8u * 6u);
   // A circle of sqrt(24) m around the middle of a wall of which the picture shows 11.65 m by 8.74 m.
   const double share = static_cast<double>(counts_of(exact, SampleSet::opaque).needed) / (64 * 48);
   EXPECT_NEAR(share, 0.715, 0.02);

@@ -69,7 +69,8 @@ class MethodMeter {
 class CaseMeter {
  public:
   CaseMeter(const config::Config& config, const CasePlan& plan) : method_(plan.method()), buffers_(config.allocation) {
-    measures_.samples.resize(config.sample_sets.size());
+    for (const config::SampleSetRequest& request : config.sample_sets)
+      measures_.samples.push_back({request.set, {}, {}});
     if (!plan.storage) return;
     const config::MethodRequest& request = config.storages[*plan.storage];
     storage_ = assign::find_storage(request.name)->make(request.params);
@@ -84,8 +85,7 @@ class CaseMeter {
     buffers_.add_frame(now.frame.index, structure, method.cell_lists(), method.run().scratch_bytes());
     if (now.lookup) now.lookup->add(structure, measures_.lookup);
     for (std::size_t i = 0; i < now.samples.size(); ++i)
-      measure::add_frame(measures_.samples[i], now.frame.index, now.samples[i].samples, now.samples[i].needed,
-                         structure);
+      ask_at(now.samples[i], now.frame.index, structure, measures_.samples[i]);
   }
 
   const Method& method() const { return method_; }
@@ -96,6 +96,14 @@ class CaseMeter {
   }
 
  private:
+  static void ask_at(const SamplesAtHand& set, int frame, const assign::LightStructure& structure,
+                     SampleSetResult& result) {
+    measure::add_frame(result.counts, frame, set.samples, set.needed, structure);
+    if (!set.picture) return;
+    if (!result.coherence) result.coherence.emplace();
+    measure::add_frame(*result.coherence, *set.picture, set.samples, structure);
+  }
+
   Method method_;
   std::unique_ptr<assign::Storage> storage_;  // none: the method's own structure
   measure::BufferMeter buffers_;

@@ -23,7 +23,7 @@ struct MethodMeasures {
 // What samples find in one case's light structure, and what it takes.
 struct StructureMeasures {
   measure::Buffers buffers;
-  std::vector<measure::ShadingCounts> samples;  // one per set of the configuration
+  std::vector<SampleSetResult> samples;  // one per set of the configuration
   std::vector<measure::LookupCounts> lookup;
 };
 
