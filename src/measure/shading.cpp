@@ -85,8 +85,8 @@ NeededLights needed_lights(const view::Frame& frame, std::span<const grid::Sampl
   return needed;
 }
 
-void add_frame(ShadingCounts& counts, int frame, std::span<const grid::Sample> samples, const NeededLights& needed,
-               const assign::LightStructure& structure) {
+void add_samples(ShadingCounts& counts, int frame, std::span<const grid::Sample> samples, const NeededLights& needed,
+                 const assign::LightStructure& structure) {
   std::vector<std::uint32_t> given;
   const ShadingCounts before = counts;
   for (std::uint32_t i = 0; i < samples.size(); ++i) {
@@ -108,8 +108,12 @@ void add_frame(ShadingCounts& counts, int frame, std::span<const grid::Sample> s
       counts.darkest = {frame, samples[i].pixel_x, samples[i].pixel_y, lost_lux};
   }
   counts.samples += samples.size();
-  const ShadingCounts::WorstFrame now{frame, counts.missed - before.missed, counts.needed - before.needed};
-  if (now.missed > (counts.worst ? counts.worst->missed : 0)) counts.worst = now;
+  ShadingCounts::WorstFrame& now = counts.now;
+  if (now.frame != frame) now = {frame};
+  now.missed += counts.missed - before.missed;
+  now.needed += counts.needed - before.needed;
+  if (now.missed > (counts.worst ? counts.worst->missed : 0) || (counts.worst && counts.worst->frame == frame))
+    counts.worst = now;
 }
 
 double ShadingCounts::lost_irradiance() const {

@@ -36,8 +36,11 @@ struct ShadingCounts {
   struct WorstFrame {
     int frame = 0;
     std::uint64_t missed = 0, needed = 0;
+
+    friend bool operator==(const WorstFrame&, const WorstFrame&) = default;
   };
   std::optional<WorstFrame> worst{};
+  WorstFrame now{-1};  // the frame that is being added
   // The sample that loses most light.
   struct DarkestSample {
     int frame = 0;
@@ -65,7 +68,8 @@ struct NeededLights {
 };
 NeededLights needed_lights(const view::Frame& frame, std::span<const grid::Sample> samples);
 
-void add_frame(ShadingCounts& counts, int frame, std::span<const grid::Sample> samples, const NeededLights& needed,
-               const assign::LightStructure& structure);
+// Of a frame, all at once or part by part.
+void add_samples(ShadingCounts& counts, int frame, std::span<const grid::Sample> samples, const NeededLights& needed,
+                 const assign::LightStructure& structure);
 
 }  // namespace clusterbench::measure

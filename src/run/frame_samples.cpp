@@ -16,7 +16,6 @@ std::vector<SamplesAtHand> FrameSamples::of(const view::Frame& frame) {
       set.samples = points_of(request, frame);
     else if (caster_)
       look_at_surfaces(request, frame, set);
-    set.needed = measure::needed_lights(frame, set.samples);
   }
   return out;
 }

@@ -12,10 +12,9 @@
 
 namespace clusterbench::run {
 
-// A frame's samples of one set, and the lights that they need.
+// A frame's samples of one set.
 struct SamplesAtHand {
   std::vector<grid::Sample> samples;
-  measure::NeededLights needed;
   std::optional<depth::DepthImage> picture;  // of visible surfaces at full resolution: what waves are made of
 };
 

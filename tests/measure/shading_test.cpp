@@ -188,7 +188,7 @@ struct TwoSlices {
   }
   ShadingCounts counts(const assign::Lists& reported) const {
     ShadingCounts out;
-    add_frame(out, frame.index, samples, needed_lights(frame, samples), *packed_lists(reported, grid, frame));
+    add_samples(out, frame.index, samples, needed_lights(frame, samples), *packed_lists(reported, grid, frame));
     return out;
   }
 };
@@ -214,6 +214,23 @@ TEST(Shading, a_missed_light_weighs_what_it_would_have_given) {
   EXPECT_EQ(counts.worst->needed, 2u);
   EXPECT_EQ(counts.darkest->pixel_x, 100.0f);
   EXPECT_NEAR(counts.darkest->lost_lux, 0.9999, 1e-12);
+}
+
+TEST(Shading, a_frame_added_part_by_part_counts_as_one) {
+  const TwoSlices two;
+  const auto structure = packed_lists({{0, 1, 1}, {0}}, two.grid, two.frame);
+  ShadingCounts whole, parts;
+  for (const int frame : {3, 4}) {
+    add_samples(whole, frame, two.samples, needed_lights(two.frame, two.samples), *structure);
+    for (std::size_t i = 0; i < two.samples.size(); ++i) {
+      const std::span<const grid::Sample> one(&two.samples[i], 1);
+      add_samples(parts, frame, one, needed_lights(two.frame, one), *structure);
+    }
+  }
+  EXPECT_EQ(whole.worst, parts.worst);
+  EXPECT_EQ(whole.worst, (ShadingCounts::WorstFrame{3, 1, 2}));
+  EXPECT_EQ(whole.needed, parts.needed);
+  EXPECT_EQ(whole.lost_lux, parts.lost_lux);
 }
 
 TEST(Shading, samples_outside_of_the_cells_are_unanswered_and_what_they_need_is_missed_outside) {
@@ -258,7 +275,7 @@ double lost_of_spot(double inner_rad, double outer_rad, double off_axis_rad) {
   const grid::Grid grid = grid::make_grid(spec, grid::grid_inputs(spec, frame, 0.0, {}, {}));
   const std::vector<grid::Sample> samples{{100.0f, 50.0f, {0.0f, 0.0f, -4.0f}, place - k_eye, k_eye}};
   ShadingCounts counts;
-  add_frame(counts, frame.index, samples, needed_lights(frame, samples), *packed_lists({{0, 1}, {0}}, grid, frame));
+  add_samples(counts, frame.index, samples, needed_lights(frame, samples), *packed_lists({{0, 1}, {0}}, grid, frame));
   EXPECT_EQ(counts.needed, 2u);
   return counts.lost_irradiance();
 }
@@ -332,8 +349,8 @@ TEST(Shading, true_lists_miss_nothing_far_from_the_origin) {
     const grid::Grid grid = grid::make_grid(spec, grid::grid_inputs(spec, frame, 0.0, {}, {}));
     const std::vector<grid::Sample> samples = samples_at_ends_of_lights(frame, random);
     ShadingCounts counts;
-    add_frame(counts, frame.index, samples, needed_lights(frame, samples),
-              *packed_lists(find_truth(frame, grid, 1).lists, grid, frame));
+    add_samples(counts, frame.index, samples, needed_lights(frame, samples),
+                *packed_lists(find_truth(frame, grid, 1).lists, grid, frame));
     EXPECT_GT(counts.needed, 1000u);
     EXPECT_EQ(counts.missed, 0u) << grid::kind_name(kind);
   }

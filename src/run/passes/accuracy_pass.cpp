@@ -84,8 +84,17 @@ class CaseMeter {
     const assign::LightStructure& structure = storage_ ? *storage_ : *method.run().structure();
     buffers_.add_frame(now.frame.index, structure, method.cell_lists(), method.run().scratch_bytes());
     if (now.lookup) now.lookup->add(structure, measures_.lookup);
-    for (std::size_t i = 0; i < now.samples.size(); ++i)
-      ask_at(now.samples[i], now.frame.index, structure, measures_.samples[i]);
+    structure_ = &structure;
+  }
+
+  // Some samples of a set, and the lights that they need.
+  void ask_at(std::size_t set, int frame, std::span<const grid::Sample> samples, const measure::NeededLights& needed) {
+    measure::add_samples(measures_.samples[set].counts, frame, samples, needed, *structure_);
+  }
+  void ask_waves(std::size_t set, const SamplesAtHand& samples) {
+    std::optional<measure::Coherence>& coherence = measures_.samples[set].coherence;
+    if (!coherence) coherence.emplace();
+    measure::add_frame(*coherence, *samples.picture, samples.samples, *structure_);
   }
 
   const Method& method() const { return method_; }
@@ -96,19 +105,28 @@ class CaseMeter {
   }
 
  private:
-  static void ask_at(const SamplesAtHand& set, int frame, const assign::LightStructure& structure,
-                     SampleSetResult& result) {
-    measure::add_frame(result.counts, frame, set.samples, set.needed, structure);
-    if (!set.picture) return;
-    if (!result.coherence) result.coherence.emplace();
-    measure::add_frame(*result.coherence, *set.picture, set.samples, structure);
-  }
-
   Method method_;
-  std::unique_ptr<assign::Storage> storage_;  // none: the method's own structure
+  std::unique_ptr<assign::Storage> storage_;           // none: the method's own structure
+  const assign::LightStructure* structure_ = nullptr;  // of the frame at hand
   measure::BufferMeter buffers_;
   StructureMeasures measures_;
 };
+
+// What samples need is kept for so many at once: at full resolution it would not fit in memory whole.
+constexpr std::size_t k_samples_at_once = 16384;
+
+void ask_at_samples(const FrameAtHand& now, std::vector<CaseMeter>& cases) {
+  for (std::size_t set = 0; set < now.samples.size(); ++set) {
+    const std::span<const grid::Sample> all = now.samples[set].samples;
+    for (std::size_t begin = 0; begin < all.size(); begin += k_samples_at_once) {
+      const std::span<const grid::Sample> some = all.subspan(begin, std::min(k_samples_at_once, all.size() - begin));
+      const measure::NeededLights needed = measure::needed_lights(now.frame, some);
+      for (CaseMeter& one : cases) one.ask_at(set, now.frame.index, some, needed);
+    }
+    if (!now.samples[set].picture) continue;
+    for (CaseMeter& one : cases) one.ask_waves(set, now.samples[set]);
+  }
+}
 
 FrameAtHand look_at(const config::Config& config, const PathFrames& path, FrameSamples& samples, GridOfFrames& grids,
                     int index) {
@@ -149,6 +167,7 @@ AccuracyResult accuracy_pass(const config::Config& config, const SceneData& data
       for (CaseMeter& one : cases)
         if (one.method() == method.method()) one.add(now, grids.grid(), method);
     }
+    ask_at_samples(now, cases);
   }
   for (const MethodMeter& method : methods) result.methods.push_back(method.result());
   for (const CaseMeter& one : cases) result.structures.push_back(one.result());
