@@ -15,7 +15,7 @@ function method(view: View, one: Pick<Case, "assigner" | "family" | "isFast">): 
 
 function interval(one: Case): string {
   const [low, high] = one.interval;
-  return low === null || high === null ? "" : `95 %: ${format.microseconds(low)} to ${format.microseconds(high)} µs`;
+  return low === null || high === null ? "95 %: unknown" : `95 %: ${format.microseconds(low)} to ${format.microseconds(high)} µs`;
 }
 
 function worst({ raw }: Case): string {
@@ -55,7 +55,7 @@ function caseColumns(view: View, rows: Case[]): Column<Case>[] {
     differ(rows, (one) => String(one.raw.viewport)) && { label: "viewport", value: (one) => one.raw.viewport.join("×") },
     { label: "grid", value: (one) => one.grid },
     differ(rows, (one) => one.storage) && { label: "storage", value: (one) => one.storage },
-    measured((one) => one.frameNs) && { label: "±", about: "Half of the 95 % interval, by the median", value: halfInterval, show: (one) => format.percent(halfInterval(one)) },
+    measured((one) => one.frameNs) && { label: "±", about: "Half of the 95 % interval, by the median", value: halfInterval, show: (one) => (one.frameNs && halfInterval(one) === null ? "unknown" : format.percent(halfInterval(one))) },
     measured((one) => one.worstNs) && { label: "worst µs", about: "The slowest of the timed frames; its number at the pointer", value: (one) => one.worstNs, show: (one) => h("span", { title: worst(one) }, format.microseconds(one.worstNs)) },
     measured((one) => one.assignNs) && { label: "assign µs", isDetail: true, about: "Of the frame's time: assignment, lists included", value: (one) => one.assignNs, show: (one) => format.microseconds(one.assignNs) },
     measured((one) => one.convertNs) && { label: "convert µs", isDetail: true, about: "Of the frame's time: from lists to the storage's layout", value: (one) => one.convertNs, show: (one) => format.microseconds(one.convertNs) },

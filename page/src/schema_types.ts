@@ -71,7 +71,7 @@ export type HighWater = {
 // Cell as [x, y, z]
 export type Cell = [number, number, number];
 
-// 95 % bootstrap interval, [low, high]
+// 95 % interval, [low, high]: of times Student's t between three launches or more, or the bootstrap of six rounds or more of one; null where it is unknown
 export type Interval = [number | null, number | null];
 
 // [x, y, z]
@@ -91,7 +91,7 @@ export type Time = {
   mad: number | null; // Median absolute deviation
   min: number | null; // Of the fastest round
   p95: number | null; // 95th percentile
-  ci95: Interval; // 95 % bootstrap interval of the median
+  ci95: Interval; // 95 % interval of the median
   samples: Array<number | null>; // One per round, in the order measured
 };
 

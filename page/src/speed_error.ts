@@ -50,7 +50,7 @@ function front<T extends { us: number; error: number }>(all: T[]): T[] {
 
 function tip(view: View, { one, us, error }: Point, measure: Measure): string {
   const [low, high] = one.interval;
-  const range = low === null || high === null ? "" : ` (${format.microseconds(low)} to ${format.microseconds(high)})`;
+  const range = low === null || high === null ? " (interval unknown)" : ` (${format.microseconds(low)} to ${format.microseconds(high)})`;
   return `${view.named(one)}\n${one.grid}\n${format.microseconds(1e3 * us)} µs${range}\n${measure.label} ${measure.show(error)}`;
 }
 

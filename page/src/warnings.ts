@@ -43,6 +43,7 @@ const doubts: Record<WarningKind, string> = {
 function doubtsOf(cases: Case[]): Warning[] {
   const width = ({ interval: [low, high], frameNs }: Case) => (low === null || high === null || !frameNs ? 0 : (high - low) / 2 / frameNs);
   const kinds = Object.entries(doubts).map(([kind, what]): [(one: Case) => boolean, string] => [({ raw }) => raw.warnings.some((one) => one.kind === kind), what]);
+  kinds.push([({ interval: [low, high], frameNs }) => !!frameNs && (low === null || high === null), "have times without an interval, of too few launches or rounds"]);
   kinds.push([(one) => width(one) > noisy, `have times that are known to no better than ${format.percent(noisy)}`]);
   return kinds.flatMap(([holds, what]) => {
     const some = cases.filter(holds);

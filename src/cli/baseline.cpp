@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "cli/rounds_protocol.h"
-#include "cli/temporary_folder.h"
 #include "core/error.h"
 #include "report/baseline.h"
 
@@ -36,28 +35,23 @@ std::vector<std::string> server_command(const std::string& binary, const std::ve
 
 void probe_baseline(const BaselineRequest& request, const std::vector<std::string>& arguments,
                     const std::atomic<bool>& stop) {
-  const TemporaryFolder folder;
-  const RemoteProgram probe(server_command(fs::absolute(request.binary).string(), arguments), folder / "base",
-                            request.patience_s, stop);
+  const RemoteProgram probe(server_command(fs::absolute(request.binary).string(), arguments), request.patience_s, stop);
 }
 
 void measure_beside(const BaselineRequest& request, const std::vector<std::string>& arguments,
                     const config::Config& config, const run::Plan& plan, const run::OnPairedRound& on_round,
                     const std::atomic<bool>& stop, nlohmann::ordered_json& result) {
-  const TemporaryFolder folder;
   nlohmann::ordered_json tool;
-  const auto start = [&](const std::string& binary, const char* errors) {
-    return std::make_unique<RemoteProgram>(server_command(binary, arguments), folder / errors, request.patience_s,
-                                           stop);
+  const auto start = [&](const std::string& binary) {
+    return std::make_unique<RemoteProgram>(server_command(binary, arguments), request.patience_s, stop);
   };
-  const std::string self = fs::read_symlink("/proc/self/exe").string();
   const std::string other = fs::absolute(request.binary).string();
   const run::PairedStart both{[&] {
-                                auto program = start(other, "base");
+                                auto program = start(other);
                                 tool = program->tool();
                                 return program;
                               },
-                              [&] { return start(self, "new"); }};
+                              [&] { return start(k_this_program); }};
   try {
     report::add_baseline(result, tool, run::measure_paired(plan, paired_request(request, config), both, on_round));
   } catch (const nlohmann::json::exception& error) {

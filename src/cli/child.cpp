@@ -2,12 +2,16 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstring>
@@ -17,16 +21,53 @@
 namespace clusterbench::cli {
 namespace {
 
-// Starts `command` with these file descriptors; 0 or what went wrong.
-int spawn(const std::vector<std::string>& command, posix_spawn_file_actions_t& actions,
-          const std::filesystem::path& errors, pid_t& pid) {
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+[[noreturn]] void refuse_start(const std::string& program, const std::string& what, int error) {
+  throw Error(program, "", what + ": " + std::strerror(error), ExitCode::internal);
+}
+
+// What it is to have as its standard streams; all above 2.
+struct Streams {
+  int in, out, errors;
+};
+
+// In the new process: becomes the other program. Returns only where that fails.
+void become(const char* program, char* const* arguments, const Streams& streams, pid_t parent) {
+  // From now on it ends with the process that started it; that one may have ended just before.
+  if (::prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || ::getppid() != parent) return;
+  if (::dup2(streams.in, STDIN_FILENO) >= 0 && ::dup2(streams.out, STDOUT_FILENO) >= 0 &&
+      ::dup2(streams.errors, STDERR_FILENO) >= 0)
+    ::execvp(program, arguments);
+}
+
+struct Started {
+  pid_t pid = -1;
+  int error = 0;  // why there is none
+};
+
+Started start(const std::vector<std::string>& command, const Streams& streams) {
   std::vector<char*> arguments;
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
-  const int error = posix_spawnp(&pid, arguments.front(), &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  return error;
+  std::string own_name = "clusterbench";  // in lists of processes
+  if (command.front() == k_this_program) arguments.front() = own_name.data();
+  std::array<int, 2> failure{};  // carries the reason of a failed start, and closes at a good one
+  if (::pipe2(failure.data(), O_CLOEXEC) != 0) return {-1, errno};
+  const pid_t self = ::getpid();
+  Started started{::fork(), errno};
+  if (started.pid == 0) {
+    become(command.front().c_str(), arguments.data(), streams, self);
+    const int error = errno;
+    const ssize_t written = ::write(failure[1], &error, sizeof error);
+    ::_exit(written == sizeof error ? 127 : 126);
+  }
+  ::close(failure[1]);
+  if (started.pid > 0) started.error = 0;
+  ssize_t bytes = 0;
+  while (started.pid > 0 && (bytes = ::read(failure[0], &started.error, sizeof started.error)) < 0 && errno == EINTR) {
+  }
+  ::close(failure[0]);
+  if (bytes > 0) ::waitpid(started.pid, nullptr, 0);
+  return started;
 }
 
 std::string start_error_text(int error) {
@@ -34,12 +75,17 @@ std::string start_error_text(int error) {
 }
 
 // Waits for its end, and says how that was.
-std::string wait_for(pid_t pid) {
+Ending wait_for(pid_t pid, const MemoryFile& errors) {
   int status = 0;
   while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
   }
-  if (WIFSIGNALED(status)) return "signal " + std::to_string(WTERMSIG(status));
-  return WEXITSTATUS(status) == 0 ? "" : "exit code " + std::to_string(WEXITSTATUS(status));
+  if (WIFSIGNALED(status)) {
+    const int number = WTERMSIG(status);
+    const std::string name = number == SIGKILL ? "killed, as where memory runs out" : ::strsignal(number);
+    return {"signal " + std::to_string(number) + " (" + name + ")", -1, errors.last_words()};
+  }
+  const int code = WEXITSTATUS(status);
+  return {code == 0 ? "" : "exit code " + std::to_string(code), code, errors.last_words()};
 }
 
 // Without waiting for it; it can still be waited for.
@@ -50,22 +96,16 @@ bool has_exited(pid_t pid) {
 
 class Child {
  public:
-  Child(const std::vector<std::string>& command, const std::filesystem::path& errors) {
+  Child(const std::vector<std::string>& command, const std::string& input) : input_(input) {
     std::array<int, 2> pipe{};
-    if (::pipe2(pipe.data(), O_CLOEXEC) != 0)
-      throw Error("", command.front(), std::string("no pipe for its output: ") + std::strerror(errno),
-                  ExitCode::internal);
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions, pipe[1], STDOUT_FILENO);
-    start_error_ = spawn(command, actions, errors, pid_);
+    if (::pipe2(pipe.data(), O_CLOEXEC) != 0) refuse_start(command.front(), "no pipe for its output", errno);
+    started_ = start(command, {input_.descriptor(), pipe[1], errors_.descriptor()});
     ::close(pipe[1]);
     out_ = pipe[0];
   }
   ~Child() {
     terminate();
-    if (is_running()) ::waitpid(pid_, nullptr, 0);
+    if (is_running()) ::waitpid(started_.pid, nullptr, 0);
     ::close(out_);
   }
   Child(const Child&) = delete;
@@ -83,28 +123,61 @@ class Child {
   }
 
   void terminate() const {
-    if (is_running()) ::kill(pid_, SIGTERM);
+    if (is_running()) ::kill(started_.pid, SIGTERM);
   }
 
-  std::string end() {
-    if (start_error_ != 0) return start_error_text(start_error_);
+  Ending end() {
+    if (started_.error != 0) return {start_error_text(started_.error), -1, ""};
     has_ended_ = true;
-    return wait_for(pid_);
+    return wait_for(started_.pid, errors_);
   }
 
  private:
-  bool is_running() const { return start_error_ == 0 && !has_ended_; }
+  bool is_running() const { return started_.error == 0 && !has_ended_; }
 
-  pid_t pid_ = -1;
-  int out_ = -1, start_error_ = 0;
+  MemoryFile input_, errors_;
+  Started started_;
+  int out_ = -1;
   bool has_ended_ = false;
 };
 
 }  // namespace
 
-std::string run_child(const std::vector<std::string>& command, const std::filesystem::path& errors,
-                      const std::function<void(const std::string& line)>& on_line, const std::atomic<bool>& stop) {
-  Child child(command, errors);
+std::string this_program_for_others() {
+  return "/proc/" + std::to_string(::getpid()) + "/exe";
+}
+
+MemoryFile::MemoryFile(const std::string& text) : descriptor_(::memfd_create("clusterbench", MFD_CLOEXEC)) {
+  if (descriptor_ < 0) refuse_start("memory", "no file could be made in it", errno);
+  for (std::size_t done = 0; done < text.size();) {
+    const ssize_t bytes = ::pwrite(descriptor_, text.data() + done, text.size() - done, static_cast<off_t>(done));
+    if (bytes < 0 && errno != EINTR) {
+      ::close(descriptor_);
+      refuse_start("memory", "a file in it could not be written", errno);
+    }
+    done += static_cast<std::size_t>(std::max<ssize_t>(bytes, 0));
+  }
+}
+
+MemoryFile::~MemoryFile() {
+  ::close(descriptor_);
+}
+
+std::string MemoryFile::last_words() const {
+  constexpr off_t k_most = 2000;
+  struct stat facts {};
+  if (::fstat(descriptor_, &facts) != 0) return "";
+  const off_t begin = std::max<off_t>(0, facts.st_size - k_most);
+  std::string text(static_cast<std::size_t>(facts.st_size - begin), '\0');
+  const ssize_t bytes = ::pread(descriptor_, text.data(), text.size(), begin);
+  text.resize(static_cast<std::size_t>(std::max<ssize_t>(bytes, 0)));
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return (begin > 0 ? "..." : "") + text;
+}
+
+Ending run_child(const std::vector<std::string>& command, const std::string& input,
+                 const std::function<void(const std::string& line)>& on_line, const std::atomic<bool>& stop) {
+  Child child(command, input);
   std::string text;
   while (!stop && child.read(text))
     for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n')) {
@@ -115,21 +188,17 @@ std::string run_child(const std::vector<std::string>& command, const std::filesy
   return child.end();
 }
 
-Conversation::Conversation(const std::vector<std::string>& command, const std::filesystem::path& errors) {
+Conversation::Conversation(const std::vector<std::string>& command) {
   std::array<int, 2> ends{};  // one socket is both its standard input and its standard output
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
-    throw Error(command.front(), "", std::string("no socket to talk to it: ") + std::strerror(errno),
-                ExitCode::internal);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-  const int error = spawn(command, actions, errors, pid_);
+    refuse_start(command.front(), "no socket to talk to it", errno);
+  const Started started = start(command, {ends[1], ends[1], errors_.descriptor()});
   ::close(ends[1]);
   socket_ = ends[0];
-  if (error == 0) return;
+  pid_ = started.pid;
+  if (started.error == 0) return;
   ::close(socket_);
-  throw Error(command.front(), "", start_error_text(error));
+  throw Error(command.front(), "", start_error_text(started.error));
 }
 
 Conversation::~Conversation() {
@@ -138,8 +207,13 @@ Conversation::~Conversation() {
 }
 
 bool Conversation::say(const std::string& line) {
-  const std::string text = line + "\n";  // shorter than what a socket takes at once
-  return ::send(socket_, text.data(), text.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(text.size());
+  const std::string text = line + "\n";
+  for (std::size_t said = 0; said < text.size();) {
+    const ssize_t bytes = ::send(socket_, text.data() + said, text.size() - said, MSG_NOSIGNAL);
+    if (bytes < 0 && errno != EINTR) return false;
+    said += static_cast<std::size_t>(std::max<ssize_t>(bytes, 0));
+  }
+  return true;
 }
 
 Conversation::Heard Conversation::hear(std::string& line, double seconds, const std::atomic<bool>& stop) {
@@ -165,13 +239,13 @@ Conversation::Heard Conversation::hear(std::string& line, double seconds, const 
   }
 }
 
-std::string Conversation::end() {
+Ending Conversation::end() {
   if (pid_ < 0) return ending_;
   ::shutdown(socket_, SHUT_RDWR);  // a program that listens ends by itself
   constexpr int k_tries = 20, k_wait_ms = 10;
   for (int i = 0; i < k_tries && !has_exited(pid_); ++i) ::poll(nullptr, 0, k_wait_ms);
   ::kill(pid_, SIGKILL);  // nothing of it is worth keeping; without effect on one that has ended
-  ending_ = wait_for(pid_);
+  ending_ = wait_for(pid_, errors_);
   pid_ = -1;
   return ending_;
 }

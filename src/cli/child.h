@@ -1,28 +1,52 @@
 #pragma once
-// Another program, run from here and listened to.
+// Another program, run from here and listened to. It does not outlive this one.
 
 #include <sys/types.h>
 
 #include <atomic>
-#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
 namespace clusterbench::cli {
 
-// Runs `command` (looked for in PATH, without standard input) to its end and hands on each line of its standard output;
-// its standard error goes to the file `errors`. When `stop` becomes true it is terminated, as it is when `on_line`
-// throws.
-// "" if it ended well; else how it ended: "exit code 3", "signal 9", "cannot be started: ...".
-std::string run_child(const std::vector<std::string>& command, const std::filesystem::path& errors,
-                      const std::function<void(const std::string& line)>& on_line, const std::atomic<bool>& stop);
+// As a command's first word: this program, even where its file has been replaced or removed since it started.
+inline constexpr const char* k_this_program = "/proc/self/exe";
+// The same for another program, which is to open it.
+std::string this_program_for_others();
+
+// A file without a name, in memory: nothing of it can stay behind.
+class MemoryFile {
+ public:
+  explicit MemoryFile(const std::string& text = "");  // to be read from its beginning
+  ~MemoryFile();
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  int descriptor() const { return descriptor_; }
+  // The last lines: what a program says when it gives up.
+  std::string last_words() const;
+
+ private:
+  int descriptor_;
+};
+
+struct Ending {
+  std::string how;         // "" if it ended well; else "exit code 3", "signal 11 (...)", "cannot be started: ..."
+  int exit_code = -1;      // where it has one
+  std::string last_words;  // of its standard error
+};
+
+// Runs `command` (looked for in PATH) to its end, with `input` as its standard input, and hands on each line of its
+// standard output. When `stop` becomes true it is terminated, as it is when `on_line` throws.
+Ending run_child(const std::vector<std::string>& command, const std::string& input,
+                 const std::function<void(const std::string& line)>& on_line, const std::atomic<bool>& stop);
 
 // Another program that answers line by line. It is ended, and waited for, with this object.
 class Conversation {
  public:
-  // Starts `command`; its standard error goes to the file `errors`. Throws Error if it cannot be started.
-  Conversation(const std::vector<std::string>& command, const std::filesystem::path& errors);
+  // Starts `command`. Throws Error if it cannot be started.
+  explicit Conversation(const std::vector<std::string>& command);
   ~Conversation();
   Conversation(const Conversation&) = delete;
   Conversation& operator=(const Conversation&) = delete;
@@ -34,13 +58,17 @@ class Conversation {
   // Waits at most `seconds` for the next line.
   Heard hear(std::string& line, double seconds, const std::atomic<bool>& stop);
 
-  // Ends it if it still runs. How it ended, as run_child() says it.
-  std::string end();
+  // Ends it if it still runs.
+  Ending end();
+  // By now.
+  std::string last_words() const { return errors_.last_words(); }
 
  private:
+  MemoryFile errors_;
   pid_t pid_ = -1;
   int socket_ = -1;
-  std::string heard_, ending_;
+  std::string heard_;
+  Ending ending_;
 };
 
 }  // namespace clusterbench::cli

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "cli/child.h"
+#include "cli/handover.h"
 #include "cli/temporary_folder.h"
 #include "core/error.h"
 #include "core/text.h"
@@ -46,21 +47,19 @@ std::string callgrind_obstacle() {
   return "valgrind is not in PATH; install it (Debian: apt-get install valgrind)";
 }
 
-std::vector<std::string> callgrind_command(const CountTask& task, const std::string& dumps) {
-  std::vector<std::string> command{"valgrind",
-                                   "--quiet",
-                                   "--tool=callgrind",
-                                   "--vgdb=no",
-                                   "--instr-atstart=no",
-                                   "--dump-line=no",
-                                   "--callgrind-out-file=" + dumps,
-                                   fs::read_symlink("/proc/self/exe").string(),
-                                   "run",
-                                   "--count-dumps=" + dumps,
-                                   "--count-ids"};
-  command.insert(command.end(), task.ids.begin(), task.ids.end());
-  command.insert(command.end(), task.arguments.begin(), task.arguments.end());
-  return command;
+std::vector<std::string> callgrind_command(const std::string& dumps, const std::string& file) {
+  return {"valgrind",
+          "--quiet",
+          "--tool=callgrind",
+          "--vgdb=no",
+          "--instr-atstart=no",
+          "--dump-line=no",
+          "--callgrind-out-file=" + dumps,
+          this_program_for_others(),
+          "run",
+          "--count-dumps=" + dumps,
+          "--",
+          file};
 }
 
 std::string line_of(const std::string& id, const run::CountResult& count) {
@@ -89,16 +88,16 @@ using OnCase = std::function<void(const std::string&)>;
 run::Counts count_under_callgrind(const CountTask& task, const OnCase& on_case, const std::atomic<bool>& stop) {
   run::Counts counts;
   const TemporaryFolder folder;
-  const fs::path errors = folder / "errors";
-  const std::string failure = run_child(
-      callgrind_command(task, (folder / "dump").string()), errors,
+  const Ending ending = run_child(
+      callgrind_command((folder / "dump").string(), file_argument(task.config)),
+      handed_over(task.config, task.plan) + "\n" + nlohmann::json(task.ids).dump() + "\n",
       [&](const std::string& line) {
         const auto& [id, count] = *counts.insert(count_in(line)).first;
         on_case(id);
       },
       stop);
-  if (!stop && !failure.empty())
-    throw Error("", k_callgrind, "the run under valgrind failed (" + failure + "): " + last_words(errors));
+  if (!stop && !ending.how.empty())
+    throw Error("", k_callgrind, "the run under valgrind failed (" + ending.how + "): " + ending.last_words);
   return counts;
 }
 
@@ -150,11 +149,13 @@ run::Counts count_cases(CountWay way, const CountTask& task, const OnCase& on_ca
   return counts;
 }
 
-void print_callgrind_counts(const CountTask& task, const std::string& dumps) {
+void print_callgrind_counts(const config::Config& config, const run::Plan& plan, const std::string& dumps) {
   const std::atomic<bool> never{false};
+  std::string ids;
+  std::getline(std::cin, ids);
   run::CallgrindCounter counter(dumps);
   count_here(
-      task, counter,
+      {config, plan, nlohmann::json::parse(ids)}, counter,
       [](const std::string& id, const run::CountResult& count) { std::cout << line_of(id, count) << std::endl; },
       never);
 }

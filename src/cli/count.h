@@ -22,8 +22,7 @@ const char* name_of(CountWay way);
 struct CountTask {
   const config::Config& config;
   const run::Plan& plan;
-  std::vector<std::string> arguments;  // of the command line that made config and plan
-  std::vector<std::string> ids;        // of the cases
+  std::vector<std::string> ids;  // of the cases
 };
 
 // Counts every case of the task, or those before `stop` became true. Throws Error if one could not be counted.
@@ -31,8 +30,8 @@ run::Counts count_cases(CountWay way, const CountTask& task,
                         const std::function<void(const std::string& case_name)>& on_case,
                         const std::atomic<bool>& stop);
 
-// The other side, under callgrind: counts the task's cases with `dumps` for callgrind's own files, and prints a line
-// for each.
-void print_callgrind_counts(const CountTask& task, const std::string& dumps);
+// The other side, under callgrind: counts the cases that the next line of standard input lists, with `dumps` for
+// callgrind's own files, and prints a line for each.
+void print_callgrind_counts(const config::Config& config, const run::Plan& plan, const std::string& dumps);
 
 }  // namespace clusterbench::cli

@@ -2,20 +2,18 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "cli/child.h"
-#include "cli/temporary_folder.h"
+#include "cli/handover.h"
 #include "core/error.h"
 #include "run/passes/timing_pass.h"
 
 namespace clusterbench::cli {
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using run::GroupSamples;
 using run::MethodSamples;
@@ -77,7 +75,7 @@ run::GroupPlan group_of(const run::Plan& plan, const std::vector<std::string>& i
     std::erase_if(group.cases, [&](const run::CasePlan& one) { return !is_asked_for(one); });
     if (!group.cases.empty() && group.cases.size() == ids.size()) return group;
   }
-  throw Error("", "--launch-server", "has no group with the cases that are asked for: has the input changed?");
+  throw Error("", k_serve_launch, "has no group with the cases that are asked for", ExitCode::internal);
 }
 
 GroupSamples measured(const config::Config& config, const run::Plan& plan, const Json& request) {
@@ -90,38 +88,32 @@ GroupSamples measured(const config::Config& config, const run::Plan& plan, const
       stop);
 }
 
+Json request_for(const run::GroupToTime& group, int launch, int rounds) {
+  Json ids = Json::array();
+  for (const run::CasePlan& one : group.group->cases) ids.push_back(one.id);
+  return {{"ids", ids}, {"launch", launch}, {"rounds", rounds}, {"fullest_frames", group.fullest_frames}};
+}
+
 // One further process.
 class Launch {
  public:
-  Launch(const std::vector<std::string>& arguments, std::size_t scene, const std::atomic<bool>& stop)
-      : stop_(stop), child_(command(arguments, scene), errors()) {
+  Launch(const config::Config& config, const run::Plan& plan, std::size_t scene, const std::atomic<bool>& stop)
+      : stop_(stop), child_({k_this_program, "run", k_serve_launch, "--", file_argument(config)}) {
+    child_.say(handed_over(config, plan, scene));
     if (const std::optional<std::string> line = heard(); line && *line != k_ready) fail("greets with '" + *line + "'");
   }
 
   // nullopt once it is to stop.
-  std::optional<GroupSamples> measure(const run::GroupToTime& group, int launch, int rounds) {
-    std::vector<std::string> ids;
-    for (const run::CasePlan& one : group.group->cases) ids.push_back(one.id);
-    const Json request{{"ids", ids}, {"launch", launch}, {"rounds", rounds}, {"fullest_frames", group.fullest_frames}};
+  std::optional<Json> answer(const Json& request) {
     child_.say(request.dump());  // one that has ended is heard to have done so
     const std::optional<std::string> line = heard();
     if (!line) return std::nullopt;
-    try {
-      return group_samples(Json::parse(*line));
-    } catch (const Json::exception&) {
-      fail("answered '" + line->substr(0, 100) + "'");
-    }
+    Json read = Json::parse(*line, nullptr, false);
+    if (!read.is_object()) fail("answered '" + line->substr(0, 100) + "'");
+    return read;
   }
 
  private:
-  static std::vector<std::string> command(const std::vector<std::string>& arguments, std::size_t scene) {
-    std::vector<std::string> out{fs::read_symlink("/proc/self/exe").string(), "run",
-                                 "--launch-server=" + std::to_string(scene)};
-    out.insert(out.end(), arguments.begin(), arguments.end());
-    return out;
-  }
-  fs::path errors() const { return folder_ / "errors"; }
-
   std::optional<std::string> heard() {
     constexpr double k_no_end_s = 1e9;  // what takes long in a process of its own takes as long here
     std::string line;
@@ -130,16 +122,16 @@ class Launch {
     // A signal from the keyboard reaches both; the other one may be the first to know.
     for (int i = 0; i < 20 && !stop_; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     if (stop_) return std::nullopt;
-    const std::string ending = child_.end();
-    fail("ended" + (ending.empty() ? "" : " (" + ending + ")"));
+    const Ending ending = child_.end();
+    const bool refuses = ending.exit_code == static_cast<int>(ExitCode::usage);
+    fail("ended" + (ending.how.empty() ? "" : " (" + ending.how + ")"), refuses ? ExitCode::usage : ExitCode::internal);
   }
 
-  [[noreturn]] void fail(const std::string& what) const {
-    const std::string words = last_words(errors());
-    throw Error("", "--launches", "a process that was to measure " + what + (words.empty() ? "" : ": " + words));
+  [[noreturn]] void fail(const std::string& what, ExitCode code = ExitCode::internal) const {
+    const std::string words = child_.last_words();
+    throw Error("", "--launches", "a process that was to measure " + what + (words.empty() ? "" : ": " + words), code);
   }
 
-  TemporaryFolder folder_;
   const std::atomic<bool>& stop_;
   Conversation child_;
 };
@@ -152,16 +144,23 @@ void serve_launch(const config::Config& config, const run::Plan& plan) {
     std::cout << to_json(measured(config, plan, Json::parse(line))).dump() << std::endl;
 }
 
-run::Launcher make_launcher(std::vector<std::string> arguments, const std::atomic<bool>& stop) {
-  return [arguments = std::move(arguments), &stop](std::span<const run::GroupToTime> groups, int launch, int rounds,
-                                                   const std::function<void(std::size_t)>& on_group) {
+run::Launcher make_launcher(const config::Config& config, const run::Plan& plan, report::Journal* journal,
+                            const std::atomic<bool>& stop) {
+  return [&config, &plan, journal, &stop](std::span<const run::GroupToTime> groups, int launch, int rounds,
+                                          const std::function<void(std::size_t)>& on_group) {
     std::vector<GroupSamples> all;
-    Launch process(arguments, groups.front().group->scene, stop);
+    std::optional<Launch> process;
     for (std::size_t i = 0; i < groups.size() && !stop; ++i) {
       on_group(i);
-      std::optional<GroupSamples> one = process.measure(groups[i], launch, rounds);
-      if (!one) break;
-      all.push_back(std::move(*one));
+      const Json request = request_for(groups[i], launch, rounds);
+      std::optional<Json> answer = journal == nullptr ? std::nullopt : journal->earlier_answer(request);
+      if (!answer) {
+        if (!process) process.emplace(config, plan, groups.front().group->scene, stop);
+        answer = process->answer(request);
+        if (!answer) break;
+        if (journal != nullptr) journal->add_answer(request, *answer);
+      }
+      all.push_back(group_samples(*answer));
     }
     return all;
   };

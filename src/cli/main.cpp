@@ -8,8 +8,11 @@
 
 int main(int argc, char** argv) {
   using clusterbench::ExitCode;
+  clusterbench::cli::keep_standard_streams();
   try {
-    return clusterbench::cli::run_command_line(argc, argv);
+    const int code = clusterbench::cli::run_command_line(argc, argv);
+    clusterbench::cli::check_standard_output();
+    return code;
   } catch (const clusterbench::Error& error) {
     clusterbench::cli::tell(clusterbench::printable(error.what()));  // one line, whatever names it holds
     return static_cast<int>(error.code());

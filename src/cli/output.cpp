@@ -1,5 +1,6 @@
 #include "cli/output.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -23,6 +24,17 @@ bool is_stream(const std::string& output) {
   const fs::file_status status = fs::status(output, none);
   return output.empty() || output == "-" ||
          (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status));
+}
+
+void keep_standard_streams() {
+  for (const auto& [stream, way] :
+       {std::pair{STDIN_FILENO, O_WRONLY}, {STDOUT_FILENO, O_RDONLY}, {STDERR_FILENO, O_WRONLY}})
+    if (::fcntl(stream, F_GETFD) < 0) ::open("/dev/null", way);  // takes the smallest number that is free
+}
+
+void check_standard_output() {
+  std::cout << std::flush;
+  if (!std::cout) throw Error("standard output", "", "could not be written whole", ExitCode::internal);
 }
 
 bool is_for_reading(const std::string& output) {

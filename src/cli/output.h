@@ -13,6 +13,12 @@ void tell(const std::string& message);
 // "", "-", and what exists and is neither a file nor a folder.
 bool is_stream(const std::string& output);
 
+// A standard stream that is closed would give its number to the next file that is opened, and what is printed would go
+// there: in its place stands what can be neither read nor written, and of standard error what takes all.
+void keep_standard_streams();
+// Throws Error if standard output has not taken all that was printed.
+void check_standard_output();
+
 // Without a file on a terminal a person reads: a table, and not the JSON.
 bool is_for_reading(const std::string& output);
 // Then it is said how the result is kept.

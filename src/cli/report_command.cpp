@@ -20,7 +20,7 @@ std::string command_of(const ReportOptions& options) {
   std::vector<std::string> words{"clusterbench", "report"};
   words.insert(words.end(), options.files.begin(), options.files.end());
   if (!options.output.empty()) words.insert(words.end(), {"-o", options.output});
-  return shell_command(words);
+  return printable(shell_command(words));
 }
 
 ExitCode write_report(const ReportOptions& options) {

@@ -5,7 +5,6 @@
 #include <sstream>
 
 #include "cli/stop.h"
-#include "cli/temporary_folder.h"
 #include "core/error.h"
 #include "report/json.h"
 #include "run/served_cases.h"
@@ -54,15 +53,17 @@ void serve_rounds(const config::Config& config, const run::Plan& plan) {
   for (std::string line; std::getline(std::cin, line);) put(answer_to(cases, line));
 }
 
-RemoteProgram::RemoteProgram(const std::vector<std::string>& command, const std::filesystem::path& errors,
-                             double patience_s, const std::atomic<bool>& stop)
-    : name_(command.front()), errors_(errors), patience_s_(patience_s), stop_(stop), child_(command, errors) {
+RemoteProgram::RemoteProgram(const std::vector<std::string>& command, double patience_s, const std::atomic<bool>& stop)
+    : name_(command.front() == k_this_program ? "this program" : command.front()),
+      patience_s_(patience_s),
+      stop_(stop),
+      child_(command) {
   greet();
 }
 
 void RemoteProgram::fail(const std::string& what) {
   if (stop_) throw Error(name_, "", "interrupted", stopped_exit_code());
-  const std::string words = last_words(errors_);
+  const std::string words = child_.last_words();
   throw Error(name_, "--baseline-binary", what + (words.empty() ? "" : ": " + words));
 }
 
@@ -91,7 +92,7 @@ Json RemoteProgram::answer(const std::string& request) {
     case Conversation::Heard::nothing:
       fail("gave no answer to '" + request + "' in " + std::to_string(std::lround(patience_s_)) + " s");
     case Conversation::Heard::end: {
-      const std::string ending = child_.end();
+      const std::string ending = child_.end().how;
       const std::string how = ending.empty() ? "" : " (" + ending + ")";
       fail(tool_.is_null() ? "is no clusterbench that can be measured beside this one; it ended at once" + how
                            : "ended" + how + " at '" + request + "'");

@@ -4,7 +4,6 @@
 // for its next request takes no time from the other one.
 
 #include <atomic>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -25,8 +24,7 @@ void serve_rounds(const config::Config& config, const run::Plan& plan);
 // answer for `patience_s`, or answers nonsense; with stopped_exit_code() once `stop` is true.
 class RemoteProgram : public run::Program {
  public:
-  RemoteProgram(const std::vector<std::string>& command, const std::filesystem::path& errors, double patience_s,
-                const std::atomic<bool>& stop);
+  RemoteProgram(const std::vector<std::string>& command, double patience_s, const std::atomic<bool>& stop);
 
   // What it says of itself: `tool` of a result.
   const nlohmann::ordered_json& tool() const { return tool_; }
@@ -43,7 +41,6 @@ class RemoteProgram : public run::Program {
   [[noreturn]] void fail(const std::string& what);
 
   std::string name_;
-  std::filesystem::path errors_;
   double patience_s_;
   const std::atomic<bool>& stop_;
   Conversation child_;

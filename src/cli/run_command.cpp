@@ -12,12 +12,14 @@
 #include "cli/commands.h"
 #include "cli/count.h"
 #include "cli/exports.h"
+#include "cli/handover.h"
 #include "cli/launches.h"
 #include "cli/output.h"
 #include "cli/rounds_protocol.h"
 #include "cli/stop.h"
 #include "cli/terminal.h"
 #include "config/config.h"
+#include "core/file_text.h"
 #include "core/text.h"
 #include "report/compare.h"
 #include "report/journal.h"
@@ -47,12 +49,10 @@ struct RunFlags {
   // Only where this program is measured beside another one.
   int rounds_server = 0;
 
-  // Only where this program is one launch of a run.
-  int launch_scene = -1;  // of the configuration: it loads no other
-
-  // Only where this program runs itself under callgrind.
+  // Only where a run has started this program again: as a launch, or under callgrind. What is to be run comes on
+  // standard input.
+  bool serves_launch = false;
   std::string count_dumps;
-  std::vector<std::string> count_ids;
 };
 
 bool is_scene(const std::string& path) {
@@ -89,8 +89,6 @@ config::Config overridden(config::Config config, const RunFlags& flags) {
     config.timing.measure = false;
     config.resolved["timing"]["measure"] = false;
   }
-  if (flags.launch_scene >= 0 && static_cast<std::size_t>(flags.launch_scene) < config.scenes.size())
-    config.scenes = {config.scenes[static_cast<std::size_t>(flags.launch_scene)]};
   return config;
 }
 
@@ -143,18 +141,23 @@ std::unique_ptr<report::Journal> open_journal(const RunFlags& flags, const confi
   const std::uint64_t per_case = k_bytes_per_case + (config.details ? config.details->max_bytes : 0);
   auto journal = std::make_unique<report::Journal>(flags.output, journal_header(config, plan, flags), flags.resume,
                                                    per_case * case_count(plan));
-  if (flags.resume && journal->earlier_cases().empty())
-    tell("--resume begins anew: no finished case of an interrupted run is in " + journal->partial_path().string());
+  if (flags.resume && journal->is_empty())
+    tell("--resume begins anew: nothing that an interrupted run has measured is in " +
+         journal->partial_path().string());
   if (!journal->set_aside().empty())
     tell(journal->partial_path().string() + ", left by a run that did not end, is now " +
          journal->set_aside().string() + " (--resume goes on with such a file)");
   return journal;
 }
 
+// Whoever is told of an end before the end is told what is left, too.
+std::string what_is_kept(const report::Journal* journal) {
+  if (journal == nullptr || journal->is_empty()) return "";
+  return "; what was measured is in " + journal->partial_path().string() + ", --resume goes on";
+}
+
 ExitCode interrupted(const report::Journal* journal) {
-  tell("interrupted" +
-       (journal == nullptr ? ""
-                           : "; the finished cases are in " + journal->partial_path().string() + ", --resume goes on"));
+  tell("interrupted" + what_is_kept(journal));
   return stopped_exit_code();
 }
 
@@ -219,6 +222,18 @@ run::Listener make_listener(ProgressLine& progress, report::Journal* journal, st
   return listener;
 }
 
+run::Result keeping_told(const report::Journal* journal, ProgressLine& progress,
+                         const std::function<run::Result()>& measured) {
+  try {
+    run::Result result = measured();
+    progress.clear();
+    return result;
+  } catch (const Error& error) {
+    progress.clear();
+    throw Error(error.file(), error.where(), error.message() + what_is_kept(journal), error.code());
+  }
+}
+
 // The ids of the plan's cases without those that an interrupted run has finished.
 std::vector<std::string> ids_left(const run::Plan& plan, const std::vector<std::string>& done) {
   std::vector<std::string> ids;
@@ -264,7 +279,7 @@ std::string own_command_line() {
   std::vector<std::string> words;
   for (std::string word; std::getline(in, word, '\0');) words.push_back(word);
   if (!words.empty()) words.front() = "clusterbench";  // wherever it lies
-  return shell_command(words);
+  return printable(shell_command(words));
 }
 
 // Before minutes go into measuring.
@@ -289,19 +304,16 @@ ExitCode measure(const RunFlags& flags, const config::Config& config, const run:
   run::Counts counts;
   if (way != CountWay::none) {
     ProgressLine progress(screen, flags.quiet);
-    counts =
-        count_instructions(way, {config, plan, plan_arguments(flags), ids_left(plan, earlier_ids)}, progress, stop);
+    counts = count_instructions(way, {config, plan, ids_left(plan, earlier_ids)}, progress, stop);
     if (stop) return interrupted(journal.get());
   }
   ProgressLine progress(screen, flags.quiet);
-  RunFlags of_launches = flags;
-  of_launches.filter.clear();  // cases are asked for by their ids, and names depend on the other scenes
   const run::Launcher launcher =
-      config.timing.launches > 1 ? make_launcher(plan_arguments(of_launches), stop) : run::Launcher{};
-  run::Result fresh =
-      run::run_plan(config, plan, earlier_ids, make_listener(progress, journal.get(), earlier.size(), case_count(plan)),
-                    stop, counts, launcher);
-  progress.clear();
+      config.timing.launches > 1 ? make_launcher(config, plan, journal.get(), stop) : run::Launcher{};
+  const run::Listener listener = make_listener(progress, journal.get(), earlier.size(), case_count(plan));
+  run::Result fresh = keeping_told(journal.get(), progress, [&] {
+    return run::run_plan(config, plan, earlier_ids, listener, stop, counts, launcher);
+  });
   if (stop) return interrupted(journal.get());
   if (!fresh.date.empty()) fresh.command = own_command_line();
 
@@ -320,6 +332,9 @@ ExitCode measure(const RunFlags& flags, const config::Config& config, const run:
 }
 
 void check_baseline(const RunFlags& flags) {
+  for (const std::string& input : flags.inputs)
+    if (is_stream_name(input) || !fs::is_regular_file(input))
+      throw Error(input, "--baseline-binary", "is no file that the other program could read, too; save it to one");
   if (flags.no_timing)
     throw Error("", "--baseline-binary", "measures times, which --no-timing leaves out; take one of the two");
   probe_baseline(flags.baseline, plan_arguments(flags), stop_on_signals());
@@ -334,19 +349,24 @@ ExitCode serve(const RunFlags& flags, const config::Config& config, const run::P
   return ExitCode::ok;
 }
 
+// Of a run that has started this program again.
+ExitCode serve_run(const RunFlags& flags) {
+  std::string line;
+  if (!std::getline(std::cin, line)) return ExitCode::ok;  // it is gone
+  const ReceivedRun received = received_run(line, flags.inputs.front());
+  if (flags.serves_launch)
+    serve_launch(received.config, received.plan);
+  else
+    print_callgrind_counts(received.config, received.plan, flags.count_dumps);
+  return ExitCode::ok;
+}
+
 ExitCode run(const RunFlags& flags) {
+  if (flags.serves_launch || !flags.count_dumps.empty()) return serve_run(flags);
   const config::Config config = overridden(read_inputs(flags), flags);
   const CountWay way = count_way(flags.count);
   const run::Plan plan = run::make_plan(config, flags.filter);
   if (flags.rounds_server != 0) return serve(flags, config, plan);
-  if (flags.launch_scene >= 0) {
-    serve_launch(config, plan);
-    return ExitCode::ok;
-  }
-  if (!flags.count_dumps.empty()) {
-    print_callgrind_counts({config, plan, {}, flags.count_ids}, flags.count_dumps);
-    return ExitCode::ok;
-  }
   const std::vector<ExportTarget> exports = export_targets(flags.exports);
   if (flags.dry_run) return print_plan(config, plan);
   if (!flags.baseline.binary.empty()) check_baseline(flags);
@@ -371,7 +391,6 @@ void add_run(Command& program, Action& action) {
   command.add_flag("--count{auto}", flags->count,
                    "Count instructions, too: --count=perf (hardware), =callgrind (valgrind), or what works");
   command.add_option("--count-dumps", flags->count_dumps, "").hidden();
-  command.add_option("--count-ids", flags->count_ids, "").hidden();
   command.add_option("--baseline-binary", flags->baseline.binary,
                      "Another clusterbench: both are measured side by side, and compared");
   command.add_option("--baseline-launches", flags->baseline.launches, "How often both are started, at least")
@@ -391,7 +410,7 @@ void add_run(Command& program, Action& action) {
       .range(0.01, 1000.0)
       .shows_standard();
   command.add_option("--rounds-server", flags->rounds_server, "").hidden();
-  command.add_option("--launch-server", flags->launch_scene, "").hidden();
+  command.add_flag(k_serve_launch, flags->serves_launch, "").hidden();
   command.add_flag("--resume", flags->resume, "Continue the interrupted run of the same -o FILE");
   command.add_flag("--dry-run", flags->dry_run, "List the cases and what is skipped, measure nothing");
   command.add_flag("--no-timing", flags->no_timing, "Count only; the output is then the same on every machine");

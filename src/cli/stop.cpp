@@ -10,9 +10,13 @@ namespace {
 std::atomic<bool> g_stop{false};
 std::atomic<int> g_signal{0};
 
+ExitCode code_of(int number) {
+  return number == SIGINT ? ExitCode::sigint : ExitCode::interrupted;
+}
+
 void on_signal(int number) {
   g_signal = number;
-  if (g_stop.exchange(true)) std::_Exit(static_cast<int>(ExitCode::sigint));  // the second time: at once
+  if (g_stop.exchange(true)) std::_Exit(static_cast<int>(code_of(number)));  // the second time: at once
 }
 
 }  // namespace
@@ -20,11 +24,12 @@ void on_signal(int number) {
 const std::atomic<bool>& stop_on_signals() {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
+  if (std::signal(SIGHUP, on_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // as `nohup` has it
   return g_stop;
 }
 
 ExitCode stopped_exit_code() {
-  return g_signal == SIGINT ? ExitCode::sigint : ExitCode::interrupted;
+  return code_of(g_signal);
 }
 
 }  // namespace clusterbench::cli

@@ -1,5 +1,5 @@
 #pragma once
-// Stopping on SIGINT and SIGTERM.
+// Stopping on SIGINT, SIGTERM and SIGHUP.
 
 #include <atomic>
 
@@ -7,7 +7,8 @@
 
 namespace clusterbench::cli {
 
-// Becomes true at the first signal; the second ends the program at once.
+// Becomes true at the first signal; the second ends the program at once. A SIGHUP that is ignored, as `nohup` has it,
+// stays so.
 const std::atomic<bool>& stop_on_signals();
 
 // sigint for SIGINT, interrupted for others.

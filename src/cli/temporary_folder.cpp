@@ -2,8 +2,8 @@
 
 #include <stdlib.h>
 
-#include <fstream>
-#include <iterator>
+#include <cerrno>
+#include <cstring>
 
 #include "core/error.h"
 
@@ -11,23 +11,30 @@ namespace clusterbench::cli {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+constexpr const char* k_advice = "; TMPDIR names a folder for temporary files";
+
+std::string temporary_place() {
+  std::error_code failed;
+  const fs::path place = fs::temp_directory_path(failed);
+  if (!failed) return place.string();
+  const char* named = std::getenv("TMPDIR");
+  throw Error(named == nullptr ? "/tmp" : named, "TMPDIR", "is not a folder" + std::string(k_advice));
+}
+
+}  // namespace
+
 TemporaryFolder::TemporaryFolder() {
-  std::string name = (fs::temp_directory_path() / "clusterbench.XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw Error(name, "", "no temporary folder could be made here");
+  std::string name = (fs::path(temporary_place()) / "clusterbench.XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr)
+    throw Error(name, "", std::string("no folder can be made: ") + std::strerror(errno) + k_advice);
   path_ = name;
 }
 
 TemporaryFolder::~TemporaryFolder() {
   std::error_code ignored;
   fs::remove_all(path_, ignored);
-}
-
-std::string last_words(const fs::path& file) {
-  constexpr std::size_t k_most = 2000;
-  std::ifstream in(file);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  return text.size() > k_most ? "..." + text.substr(text.size() - k_most) : text;
 }
 
 }  // namespace clusterbench::cli

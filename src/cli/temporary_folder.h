@@ -19,7 +19,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-// The last lines of a text file: what a program says when it gives up.
-std::string last_words(const std::filesystem::path& file);
-
 }  // namespace clusterbench::cli

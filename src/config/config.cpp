@@ -14,6 +14,7 @@
 #include "config/schema_reader.h"
 #include "core/error.h"
 #include "core/file_text.h"
+#include "core/text.h"
 
 namespace clusterbench::config {
 namespace {
@@ -62,6 +63,11 @@ std::vector<Vec2d> jitter_of(const Json& jitter) {
   return offsets;
 }
 
+// Where relative paths start: beside the configuration, and of one that comes through a pipe, here.
+fs::path folder_of(const std::string& file) {
+  return is_stream_name(file) ? fs::path() : fs::path(file).parent_path();
+}
+
 void add_scenes(const Json& scene, const std::string& pointer, const JsonText& text, std::vector<SceneRequest>& out) {
   const bool single = scene.contains("path"), has_rig = scene.contains("rig");
   if (single + scene.contains("paths") + has_rig != 1)
@@ -84,7 +90,7 @@ void add_scenes(const Json& scene, const std::string& pointer, const JsonText& t
     if (given.find("://") != std::string::npos)
       throw Error(text.file, text.where(place), "'" + given + "' is a web address; a scene is a file here");
     const fs::path path = expanded(given, text.file, text.where(place));
-    request.path = (fs::path(text.file).parent_path() / path).lexically_normal();
+    request.path = (folder_of(text.file) / path).lexically_normal();
     out.push_back(request);
   }
 }
@@ -217,7 +223,8 @@ Json filled(const JsonText& text) {
     document.erase("viewport");
   }
   document.erase("$schema");
-  if (document["name"].get_ref<const std::string&>().empty()) document["name"] = fs::path(text.file).stem().string();
+  if (document["name"].get_ref<const std::string&>().empty())
+    document["name"] = printable(fs::path(text.file).stem().string());
   document["assigners"] = without_globs(document["assigners"], text);
   return read_by_schema(schema, long_form(document, text), text);
 }
@@ -322,7 +329,17 @@ void read_settings(const Json& document, Config& config) {
   config.allocation = {document["allocation"]["margin"].get<double>(), document["allocation"]["warn_at"].get<double>()};
 }
 
+// A result, which is JSON, carries all of it. Of a file that is so already; names and flags can be anything.
+void check_utf8(const JsonText& text) {
+  const Json flat = text.value.flatten();
+  for (const auto& [pointer, value] : flat.items())
+    if (value.is_string() && !is_utf8(value.get_ref<const std::string&>()))
+      throw Error(text.file, text.file.empty() && !text.flags.contains(pointer) ? "" : text.where(pointer),
+                  "'" + value.get<std::string>() + "' is not UTF-8, and no result could name it");
+}
+
 Config read_config(const JsonText& text) {
+  check_utf8(text);
   Config config;
   config.file = text.file;
   config.resolved = filled(text);
@@ -387,7 +404,7 @@ Config load_config(const fs::path& path, std::span<const FlagValue> flags) {
 Config default_config(const std::vector<fs::path>& scenes, std::span<const FlagValue> flags) {
   Json list = Json::array();
   for (const fs::path& path : scenes) list.push_back({{"path", path.string()}, {"frames", 30}});
-  const Json document{{"name", scenes.size() == 1 ? scenes.front().stem().string() : "scenes"},
+  const Json document{{"name", scenes.size() == 1 ? printable(scenes.front().stem().string()) : "scenes"},
                       {"scenes", list},
                       {"timing", {{"rounds", 15}, {"min_time_ms", 2}, {"frames", 4}}}};
   JsonText text;

@@ -16,4 +16,9 @@ std::string file_text(const std::filesystem::path& path) {
   return text;
 }
 
+bool is_stream_name(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  return name.starts_with("/dev/") || name.starts_with("/proc/");
+}
+
 }  // namespace clusterbench

@@ -35,6 +35,9 @@ std::string printable_lines(std::string_view text);
 // U+0020 are escaped in any JSON.
 std::string printable_json(std::string_view json);
 
+// Every byte belongs to a UTF-8 character.
+bool is_utf8(std::string_view text);
+
 // Lower-case hexadecimal SHA-256 of the bytes.
 std::string sha256_hex(std::string_view bytes);
 

@@ -80,16 +80,17 @@ Change change_of_medians(const MedianTime& base, const MedianTime& next) {
 }
 
 double half_width(const Change& change) {
-  return change.freedom < 1.0 ? k_infinity : student_quantile(k_level, change.freedom) * change.error;
+  return change.is_known() ? student_quantile(k_level, change.freedom) * change.error : k_infinity;
 }
 
 Ratio ratio_of(const Change& change) {
   const double width = half_width(change);
+  if (!change.is_known()) return {std::exp(change.log_ratio), {}};
   return {std::exp(change.log_ratio), {std::exp(change.log_ratio - width), std::exp(change.log_ratio + width)}};
 }
 
 double p_value(const Change& change) {
-  if (change.freedom < 1.0 || change.log_ratio == 0.0) return 1.0;
+  if (!change.is_known() || change.log_ratio == 0.0) return 1.0;
   return change.error == 0.0 ? 0.0 : student_two_sided(change.log_ratio / change.error, change.freedom);
 }
 

@@ -9,11 +9,17 @@
 
 namespace clusterbench::measure {
 
+// With fewer degrees of freedom nothing is concluded, and no interval is told: that of two values is Student's 12.7
+// errors wide on either side, which says nothing.
+inline constexpr double k_least_freedom = 2.0;
+
 // ln(new / base) with its standard error and the degrees of freedom behind that.
 struct Change {
   double log_ratio = 0.0;
   double error = 0.0;
-  double freedom = 0.0;  // below 1: the error is not known, and nothing can be concluded
+  double freedom = 0.0;
+
+  bool is_known() const { return freedom >= k_least_freedom; }
 };
 
 // ln of the ratio of both lower quartiles, of the rounds of one pair of processes: whatever disturbs a round makes it
@@ -34,7 +40,7 @@ struct MedianTime {
 // From two separate runs. Knows nothing of what differs between the runs themselves.
 Change change_of_medians(const MedianTime& base, const MedianTime& next);
 
-// new / base with its 95 % interval. Without freedom the interval is everything: 0 to infinity.
+// new / base with its 95 % interval, which is unknown without freedom.
 Ratio ratio_of(const Change& change);
 
 // Half of the 95 % interval of ln(new / base): 0.01 for about one percent on either side. Infinite without freedom.

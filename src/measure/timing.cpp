@@ -37,10 +37,9 @@ Interval bootstrap_median(std::span<const double> values, std::uint64_t seed) {
   return {percentile(medians, 0.025), percentile(medians, 0.975)};
 }
 
-// The logarithms of the launches' medians; empty where there are not several launches with equally many samples.
-std::vector<double> launch_logs(std::span<const double> values, int launches) {
-  const auto count = static_cast<std::size_t>(std::max(launches, 1));
-  if (count < 2 || values.size() % count != 0) return {};
+// The logarithms of the launches' medians; empty where they do not have equally many samples.
+std::vector<double> launch_logs(std::span<const double> values, std::size_t count) {
+  if (values.size() % count != 0) return {};
   const std::size_t rounds = values.size() / count;
   std::vector<double> logs;
   for (std::size_t launch = 0; launch < count; ++launch) {
@@ -53,9 +52,10 @@ std::vector<double> launch_logs(std::span<const double> values, int launches) {
 
 // Of values that are not empty.
 Interval interval_of(std::span<const double> values, double median, std::uint64_t seed, int launches) {
-  const std::vector<double> logs = launch_logs(values, launches);
-  if (logs.empty()) return bootstrap_median(values, seed);
+  if (launches <= 1) return values.size() < k_least_rounds ? Interval{} : bootstrap_median(values, seed);
+  const std::vector<double> logs = launch_logs(values, static_cast<std::size_t>(launches));
   const auto count = static_cast<double>(logs.size());
+  if (count - 1.0 < k_least_freedom) return {};
   const double mean = std::accumulate(logs.begin(), logs.end(), 0.0) / count;
   double squares = 0.0;
   for (const double value : logs) squares += (value - mean) * (value - mean);

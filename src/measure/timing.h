@@ -2,14 +2,20 @@
 // Statistics of times: robust, paired, with bootstrap intervals. Pure functions; the clock is in the runner.
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace clusterbench::measure {
 
+// Unknown without a value.
 struct Interval {
-  double low = 0.0, high = 0.0;
+  static constexpr double k_unknown = std::numeric_limits<double>::quiet_NaN();
+
+  double low = k_unknown, high = k_unknown;
+
+  bool is_known() const { return low <= high; }
 };
 
 struct TimeStats {
@@ -18,11 +24,15 @@ struct TimeStats {
   std::vector<double> samples;  // raw, in the order measured
 };
 
-// `launches`: how many processes measured, each an equal share of the samples, one after the other. From two on, the
-// interval is Student's t of the launches' medians (their logarithms): it knows as many values as there were launches,
-// however many rounds each had, since rounds of one launch share what makes launches differ. From one it is the
-// bootstrap of the rounds, which holds within that process alone. It always holds the median.
-// Seeded: the same samples give the same interval. An empty span gives zeros.
+// One launch with fewer rounds has no interval: even from the shortest to the longest of five is one of 94 %.
+inline constexpr std::size_t k_least_rounds = 6;
+
+// `launches`: how many processes measured, each an equal share of the samples, one after the other. From three on
+// (k_least_freedom in measure/change.h), the interval is Student's t of the launches' medians (their logarithms): it
+// knows as many values as there were launches, however many rounds each had, since rounds of one launch share what
+// makes launches differ. From one with k_least_rounds it is the bootstrap of the rounds, which holds within that
+// process alone. All else has an unknown one. A known one always holds the median. Seeded: the same samples give the
+// same interval. An empty span gives zeros.
 TimeStats time_stats(std::span<const double> samples_ns, std::uint64_t seed, int launches = 1);
 
 struct Ratio {

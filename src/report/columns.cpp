@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/text.h"
+#include "measure/change.h"
 
 namespace clusterbench::report {
 namespace {
@@ -38,6 +39,11 @@ std::string aligned(const Cells& cells, const std::vector<std::size_t>& widths) 
   }
   while (!row.empty() && row.back() == ' ') row.pop_back();
   return row + "\n";
+}
+
+std::string what_intervals_take() {
+  return "an interval takes " + std::to_string(static_cast<int>(measure::k_least_freedom) + 1) + " launches, or " +
+         std::to_string(measure::k_least_rounds) + " rounds of a single one";
 }
 
 std::string text(const char* format, double value) {

@@ -22,6 +22,10 @@ inline std::string shown(const std::string& text) {
 }
 // A cell of a Markdown table: nothing in it is taken for markup.
 std::string markdown_cell(const std::string& text);
+// In the place of a 95 % interval of times, where too few launches or rounds were measured to tell one.
+inline constexpr const char* k_unknown_interval = "unknown";
+// "an interval takes ..."
+std::string what_intervals_take();
 // One number by a printf format.
 std::string text(const char* format, double value);
 // The number at a pointer in a chosen format; "-" where there is none.

@@ -176,7 +176,8 @@ std::optional<TimeChange> time_change(const Match& match, bool is_paired) {
   const measure::MedianTime base = median_time(match.base["timing"], time_of(match)),
                             next = median_time(match.next["timing"], time_of(match));
   if (!(base.ns > 0.0) || !(next.ns > 0.0)) return std::nullopt;
-  if (base_time == next_time) return TimeChange{{0.0, 0.0, 1.0}, {}, base.ns, next.ns};  // one measurement, twice
+  if (base_time == next_time)
+    return TimeChange{{0.0, 0.0, measure::k_least_freedom}, {}, base.ns, next.ns};  // one measurement, twice
   return TimeChange{measure::change_of_medians(base, next), {}, base.ns, next.ns};
 }
 
@@ -353,7 +354,7 @@ Json summary_of(const Json& cases, const Times& times) {
   for (const char* hint : {"shorter", "longer"}) out[std::string("hints_") + hint] = count_of(cases, "hint", hint);
   for (const char* counts : {"better", "worse"})
     out[std::string("counts_") + counts] = count_of(cases, "counts", counts);
-  if (const measure::Change mean = times.mean(); mean.freedom >= 1.0) add_ratio(out, mean);
+  if (const measure::Change mean = times.mean(); mean.is_known()) add_ratio(out, mean);
   return out;
 }
 

@@ -16,7 +16,8 @@ std::string percent(const Json& ratio) {
 }
 
 std::string interval(const Json& one) {
-  if (!one.contains("ci95") || one["ci95"][1].is_null()) return "-";
+  if (!one.contains("ci95")) return "-";
+  if (one["ci95"][1].is_null()) return k_unknown_interval;
   return percent(one["ci95"][0]) + " .. " + percent(one["ci95"][1]);
 }
 

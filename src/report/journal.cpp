@@ -9,6 +9,7 @@
 #include "config/documents.h"
 #include "config/schema_check.h"
 #include "core/error.h"
+#include "core/text.h"
 #include "report/compact_json.h"
 
 namespace clusterbench::report {
@@ -79,12 +80,13 @@ void Journal::read_earlier(const Json& header) {
       throw Error(partial_path().string(), "line " + std::to_string(number),
                   what + "; without --resume the run begins anew and the file is kept under another name");
     };
-    if (!entry.is_object() || !entry.contains(number == 1 ? "header" : "case"))
-      refuse(number == 1 ? "does not say what was run" : "is not what a run writes");
-    if (number > 1)
-      earlier_cases_.push_back(std::move(entry["case"]));
-    else if (entry["header"] != header)
+    if (number == 1 && (!entry.is_object() || !entry.contains("header"))) refuse("does not say what was run");
+    if (number == 1 && entry["header"] != header)
       refuse("is an interrupted run of another configuration, --count, scene or build");
+    if (number > 1 && entry.is_object() && entry.contains("case"))
+      earlier_cases_.push_back(std::move(entry["case"]));
+    else if (number > 1 && !take_answer(entry))
+      refuse("is not what a run writes");
     begin = end + 1;
   }
   check_earlier();
@@ -106,8 +108,31 @@ std::vector<std::string> Journal::earlier_ids() const {
   return ids;
 }
 
+// The digest: what launches answer has no schema that could be checked.
+bool Journal::take_answer(Json& entry) {
+  if (!entry.is_object() || !entry.contains("request") || !entry.contains("answer")) return false;
+  if (entry.value("sha256", Json()) != sha256_hex(entry["request"].dump() + entry["answer"].dump())) return false;
+  earlier_answers_[entry["request"].dump()] = std::move(entry["answer"]);
+  return true;
+}
+
+std::optional<Json> Journal::earlier_answer(const Json& request) const {
+  const auto found = earlier_answers_.find(request.dump());
+  return found == earlier_answers_.end() ? std::nullopt : std::optional(found->second);
+}
+
+void Journal::add_answer(const Json& request, const Json& answer) {
+  const std::string digest = sha256_hex(request.dump() + answer.dump());
+  add({{"request", request}, {"answer", answer}, {"sha256", digest}});
+}
+
+void Journal::add(const Json& entry) {
+  has_added_ = true;
+  partial_.append(entry.dump() + '\n');
+}
+
 void Journal::add_case(const Json& finished) {
-  partial_.append(Json{{"case", finished}}.dump() + '\n');
+  add({{"case", finished}});
 }
 
 void Journal::finish(const Json& result) {

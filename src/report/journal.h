@@ -1,9 +1,12 @@
 #pragma once
-// Results on disk while they come in: FILE.partial has a header line and a line per finished case, each
-// written at once, so that a crash loses at most the case at hand. finish() replaces FILE in one step. Where FILE is a
-// link, all this is at its target, and the link stays.
+// Results on disk while they come in: FILE.partial has a header line, a line per finished case and, of cases that are
+// timed in several launches, a line for what a launch has answered. Each is written at once, so that a crash loses at
+// most what is measured at that moment. finish() replaces FILE in one step. Where FILE is a link, all this is at its
+// target, and the link stays.
 
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +35,13 @@ class Journal {
 
   void add_case(const nlohmann::ordered_json& finished);
 
+  // What a launch has answered to a request, in an interrupted run.
+  std::optional<nlohmann::ordered_json> earlier_answer(const nlohmann::ordered_json& request) const;
+  void add_answer(const nlohmann::ordered_json& request, const nlohmann::ordered_json& answer);
+
+  // Nothing that was measured is in it, now or in an interrupted run.
+  bool is_empty() const { return earlier_cases_.empty() && earlier_answers_.empty() && !has_added_; }
+
   // Writes the whole result and removes FILE.partial.
   void finish(const nlohmann::ordered_json& result);
 
@@ -41,10 +51,14 @@ class Journal {
   void set_earlier_aside();
   void read_earlier(const nlohmann::ordered_json& header);
   void check_earlier() const;
+  void add(const nlohmann::ordered_json& entry);
+  bool take_answer(nlohmann::ordered_json& entry);
 
   std::filesystem::path file_, set_aside_;
   LockedFile partial_;
+  bool has_added_ = false;
   std::vector<nlohmann::ordered_json> earlier_cases_;
+  std::map<std::string, nlohmann::ordered_json> earlier_answers_;  // by their requests
 };
 
 }  // namespace clusterbench::report

@@ -52,6 +52,7 @@ std::vector<Block> timed_blocks(const Json& result, const std::string& methods) 
 
 std::string ratio_text(const std::optional<measure::Ratio>& ratio) {
   if (!ratio) return "-";
+  if (!ratio->ci95.is_known()) return text("%.2f", ratio->ratio) + " (" + k_unknown_interval + ")";
   return text("%.2f", ratio->ratio) + text(" (%.2f", ratio->ci95.low) + text(" to %.2f)", ratio->ci95.high);
 }
 
@@ -86,6 +87,7 @@ std::string csv_field(const std::string& words) {
 std::string csv_row(const std::vector<std::string>& names, const measure::Ratio& ratio) {
   std::string row;
   for (const std::string& name : names) row += csv_field(name) + ",";
+  if (!ratio.ci95.is_known()) return row + text("%.4f,,\n", ratio.ratio);
   return row + text("%.4f,", ratio.ratio) + text("%.4f,", ratio.ci95.low) + text("%.4f\n", ratio.ci95.high);
 }
 
@@ -119,6 +121,8 @@ std::string ratio_table(const Json& result, const std::string& methods, bool all
     for (const Cells& row : rows) out += aligned(row, widths);
   }
   if (out.empty()) return out;
+  const bool has_unknown = out.find(std::string("(") + k_unknown_interval + ")") != std::string::npos;
+  if (has_unknown) out += "\n" + std::string(k_unknown_interval) + ": " + what_intervals_take() + ".";
   return out +
          "\nRatios of frame times of the same rounds, median and 95 % interval. ~: the interval does not say that " +
          (all_pairs ? "the first takes longer.\n" : "it takes longer than the row above.\n");

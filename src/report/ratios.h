@@ -23,7 +23,8 @@ bool takes_longer(const nlohmann::ordered_json& result, const nlohmann::ordered_
 // before it; with `all_pairs` each beside each that is faster. "" where nothing is timed.
 std::string ratio_table(const nlohmann::ordered_json& result, const std::string& methods, bool all_pairs);
 
-// All pairs of a grid, both ways around: scene, block, both methods, ratio and interval.
+// All pairs of a grid, both ways around: scene, block, both methods, ratio and interval, which is empty where it is
+// unknown.
 std::string ratio_csv(const nlohmann::ordered_json& result, const std::string& methods);
 
 }  // namespace clusterbench::report

@@ -54,7 +54,8 @@ std::string time_text(const Json& one, const char* pointer) {
 std::string interval_text(const Json& one) {
   const Json *low = at(one, "/timing/frame_ns/ci95/0"), *high = at(one, "/timing/frame_ns/ci95/1"),
              *median = at(one, "/timing/frame_ns/median");
-  if (low == nullptr || high == nullptr || median == nullptr || median->get<double>() <= 0.0) return "-";
+  if (median == nullptr || median->get<double>() <= 0.0) return "-";
+  if (low == nullptr || high == nullptr) return k_unknown_interval;
   return text("%.1f %%", 50.0 * (high->get<double>() - low->get<double>()) / median->get<double>());
 }
 

@@ -41,12 +41,14 @@ class Doubt {
   double badness_ = 0.0;
 };
 
+bool has_interval(const Json& one) {
+  return one["timing"]["frame_ns"]["ci95"][0].is_number() && one["timing"]["frame_ns"]["ci95"][1].is_number();
+}
+
+// Of a time above 0.
 double half_of_interval(const Json& one) {
-  const double median = timing_number(one, "/timing/frame_ns/median");
-  return median > 0.0
-             ? 0.5 * (timing_number(one, "/timing/frame_ns/ci95/1") - timing_number(one, "/timing/frame_ns/ci95/0")) /
-                   median
-             : 0.0;
+  return 0.5 * (timing_number(one, "/timing/frame_ns/ci95/1") - timing_number(one, "/timing/frame_ns/ci95/0")) /
+         timing_number(one, "/timing/frame_ns/median");
 }
 
 std::optional<measure::TwoModes> modes_of(const Json& one) {
@@ -57,6 +59,10 @@ std::optional<measure::TwoModes> modes_of(const Json& one) {
 
 std::string more_launches(const Json& one) {
   return "--launches " + std::to_string(4 * one["timing"].value("launches", 1));
+}
+
+std::string unknown_warning(const Doubt& unknown, std::size_t timed) {
+  return "warning: " + unknown.cases(timed) + " without an interval: " + what_intervals_take() + "; try --launches 5\n";
 }
 
 std::string wide_warning(const Doubt& wide, std::size_t timed) {
@@ -91,7 +97,7 @@ std::string machine_warnings(const Doubt& others, const Doubt& stolen, const Dou
 }  // namespace
 
 std::string timing_warnings(const Json& cases) {
-  Doubt wide, two, others, stolen, hot;
+  Doubt unknown, wide, two, others, stolen, hot;
   std::size_t timed = 0;
   for (const Json& one : cases) {
     if (timing_number(one, "/timing/frame_ns/median") <= 0.0) continue;
@@ -99,13 +105,17 @@ std::string timing_warnings(const Json& cases) {
     const auto check = [&](Doubt& doubt, double badness, double most) {
       if (badness > most) doubt.add(one, badness);
     };
-    check(wide, half_of_interval(one), k_wide);
+    if (has_interval(one))
+      check(wide, half_of_interval(one), k_wide);
+    else
+      unknown.add(one, 0.0);
     if (const auto modes = modes_of(one)) two.add(one, modes->high / modes->low);
     check(others, timing_number(one, "/timing/disturbed/others_cores"), k_others_cores);
     check(stolen, timing_number(one, "/timing/disturbed/stolen_cores"), k_stolen_cores);
     check(hot, timing_number(one, "/timing/disturbed/throttled"), 0.0);
   }
   std::string out;
+  if (unknown.is_any()) out += unknown_warning(unknown, timed);
   if (wide.is_any()) out += wide_warning(wide, timed);
   if (two.is_any()) out += modes_warning(two, timed);
   return out + machine_warnings(others, stolen, hot);

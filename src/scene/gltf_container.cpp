@@ -122,7 +122,8 @@ std::string read_bytes(const std::filesystem::path& path, const std::string& fil
   std::error_code failed;
   const auto status = std::filesystem::status(path, failed);
   if (!std::filesystem::exists(status)) throw Error(file, where, "'" + path.string() + "' does not exist");
-  if (!std::filesystem::is_regular_file(status)) throw Error(file, where, "'" + path.string() + "' is not a file");
+  if (!std::filesystem::is_regular_file(status))
+    throw Error(file, where, "'" + path.string() + "' is not a regular file; it is read more than once");
   const auto size = std::filesystem::file_size(path, failed);
   std::ifstream in(path, std::ios::binary);
   if (failed || !in) throw Error(file, where, "'" + path.string() + "' cannot be opened for reading");

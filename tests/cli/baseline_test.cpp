@@ -151,7 +151,7 @@ TEST(Baseline, a_program_that_dies_is_told_with_its_last_words) {
   const Place place;
   const Outcome done = place.run(place.script(killed_after_greeting() + "echo 'out of luck' >&2; kill -SEGV $$"));
   EXPECT_EQ(done.code, 2);
-  EXPECT_NE(done.err.find("ended (signal 11) at 'lists "), std::string::npos) << done.err;
+  EXPECT_NE(done.err.find("ended (signal 11 (Segmentation fault)) at 'lists "), std::string::npos) << done.err;
   EXPECT_NE(done.err.find("out of luck"), std::string::npos) << done.err;
 }
 

@@ -286,8 +286,8 @@ TEST(Run, resuming_without_an_interrupted_run_says_that_it_begins_anew) {
   const std::string config = folder.write("small.json", small_config()).string(), out = (folder / "r.json").string();
   const Outcome done = tool("run -q --no-timing --resume " + config + " -o " + out);
   EXPECT_EQ(done.code, 0);
-  EXPECT_EQ(done.err,
-            "clusterbench: --resume begins anew: no finished case of an interrupted run is in " + out + ".partial\n");
+  EXPECT_EQ(done.err, "clusterbench: --resume begins anew: nothing that an interrupted run has measured is in " + out +
+                          ".partial\n");
 }
 
 TEST(Run, a_budget_that_is_exceeded_fails_the_run_and_one_nearly_reached_is_warned_about) {

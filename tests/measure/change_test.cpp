@@ -103,9 +103,18 @@ TEST(Change, of_an_interval_between_launches_the_launches_count) {
 TEST(Change, one_launch_concludes_nothing) {
   const Change change = change_over_launches(std::array{0.5});
   EXPECT_EQ(p_value(change), 1.0);
-  EXPECT_EQ(ratio_of(change).ci95.low, 0.0);
+  EXPECT_FALSE(ratio_of(change).ci95.is_known());
   EXPECT_EQ(verdict_on(change, p_value(change), 0.02), Verdict::inconclusive);
   EXPECT_EQ(p_value(change_over_launches({})), 1.0);
+}
+
+TEST(Change, two_launches_conclude_nothing_however_alike_they_are) {
+  const Change two = change_over_launches(std::array{0.5, 0.5}),
+               three = change_over_launches(std::array{0.5, 0.5, 0.5});
+  EXPECT_EQ(p_value(two), 1.0);
+  EXPECT_FALSE(ratio_of(two).ci95.is_known());
+  EXPECT_EQ(verdict_on(two, p_value(two), 0.02), Verdict::inconclusive);
+  EXPECT_EQ(verdict_on(three, p_value(three), 0.02), Verdict::slower);
 }
 
 Verdict verdict_of(double percent, double error_percent) {

@@ -67,11 +67,27 @@ TEST(Timing, nearly_all_intervals_hold_the_true_median) {
 
 TEST(Timing, ratios_are_taken_pair_by_pair) {
   // The machine slows down threefold; the ratio does not care.
-  const std::array own{20.0, 40.0, 60.0}, other{10.0, 20.0, 30.0};
+  const std::array own{20.0, 40.0, 60.0, 20.0, 40.0, 60.0}, other{10.0, 20.0, 30.0, 10.0, 20.0, 30.0};
   const Ratio ratio = paired_ratio(own, other, 1);
   EXPECT_EQ(ratio.ratio, 2.0);
   EXPECT_EQ(ratio.ci95.low, 2.0);
   EXPECT_EQ(ratio.ci95.high, 2.0);
+}
+
+// Between five values of any distribution the median lies with 1 - 2 / 2^5, between six with 1 - 2 / 2^6.
+TEST(Timing, an_interval_takes_six_rounds_of_one_launch_or_three_launches) {
+  const std::array<double, 12> some{5, 1, 9, 2, 4, 7, 3, 8, 6, 5, 2, 4};
+  const auto is_known = [&](std::size_t count, int launches) {
+    const std::span<const double> samples = std::span(some).first(count);
+    EXPECT_EQ(paired_ratio(samples, samples, 1, launches).ci95.is_known(),
+              time_stats(samples, 1, launches).ci95.is_known());
+    return time_stats(samples, 1, launches).ci95.is_known();
+  };
+  EXPECT_FALSE(is_known(0, 1) || is_known(1, 1) || is_known(5, 1));
+  EXPECT_TRUE(is_known(6, 1));
+  EXPECT_FALSE(is_known(2, 2) || is_known(12, 2)) << "one degree of freedom: 12.7 errors on either side";
+  EXPECT_TRUE(is_known(3, 3) && is_known(12, 4));
+  EXPECT_FALSE(is_known(11, 3)) << "launches of different lengths";
 }
 
 TEST(Timing, of_no_samples_everything_is_zero) {
@@ -80,9 +96,11 @@ TEST(Timing, of_no_samples_everything_is_zero) {
 }
 
 TEST(WorstFrame, is_the_frame_with_the_largest_share_of_a_pass) {
-  // Three rounds of two frames; the second takes three quarters of a pass, whatever the clock adds.
-  const std::vector<std::vector<double>> frames{scaled_to_mean({100, 300}, 2, 180), scaled_to_mean({110, 330}, 2, 200),
-                                                scaled_to_mean({500, 1500}, 2, 190)};
+  // Rounds of two frames; the second takes three quarters of a pass, whatever the clock adds.
+  std::vector<std::vector<double>> frames{scaled_to_mean({100, 300}, 2, 180), scaled_to_mean({110, 330}, 2, 200),
+                                          scaled_to_mean({500, 1500}, 2, 190)};
+  EXPECT_FALSE(worst_frame(frames, 1).ci95.is_known());
+  frames.insert(frames.end(), {frames[0], frames[1], frames[2]});
   const WorstFrame worst = worst_frame(frames, 1);
   EXPECT_EQ(worst.place, 1u);
   EXPECT_DOUBLE_EQ(worst.ns, 1.5 * 190);

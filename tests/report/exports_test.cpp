@@ -84,8 +84,8 @@ TEST(Exports, a_quotient_takes_its_interval_along) {
                                     [](const Measured& figure) { return figure.metric->name == "speedup"; });
   ASSERT_NE(speedup, figures.end());
   EXPECT_EQ(speedup->value, 4.0);
-  EXPECT_EQ(speedup->low, 2.0);
-  EXPECT_EQ(speedup->high, 5.0);
+  EXPECT_EQ(speedup->ci95.low, 2.0);
+  EXPECT_EQ(speedup->ci95.high, 5.0);
 }
 
 TEST(Exports, the_headline_is_part_of_everything) {

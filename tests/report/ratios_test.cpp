@@ -12,8 +12,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Cases whose frames take these times in three launches of two rounds.
-Json timed_result(const std::vector<std::vector<double>>& samples) {
+// Cases whose frames take these times in so many launches of equally many rounds.
+Json timed_result(const std::vector<std::vector<double>>& samples, int launches = 3) {
   run::Result result;
   result.config = {{"seed", 1}};
   run::SceneResult scene;
@@ -24,8 +24,8 @@ Json timed_result(const std::vector<std::vector<double>>& samples) {
     const std::string name = std::string("method-") + static_cast<char>('a' + i);
     run::CaseResult one = case_by_hand(name, name, 1000.0);
     one.timing->is_cold = true;
-    one.timing->launches = 3;
-    one.timing->frame_ns = measure::time_stats(samples[i], 1, 3);
+    one.timing->launches = launches;
+    one.timing->frame_ns = measure::time_stats(samples[i], 1, launches);
     result.cases.push_back(one);
     result.planned_ids.push_back(one.id);
   }
@@ -79,6 +79,26 @@ TEST(Ratios, stand_in_a_ranking_and_between_all_pairs) {
   EXPECT_EQ(ratio_table(result, "no such", false), "");
   const std::string csv = ratio_csv(result, "");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 3 * 2) << csv;
+}
+
+TEST(Ratios, of_too_few_launches_or_rounds_have_no_interval_anywhere) {
+  for (const auto& [samples, launches] :
+       {std::pair{std::vector<std::vector<double>>{{1000, 1010, 1020, 1030}, {2100, 2110, 2120, 2130}}, 2},
+        {{{1000}, {2100}}, 1}}) {
+    const Json result = timed_result(samples, launches);
+    EXPECT_EQ(result["cases"][1]["timing"]["frame_ns"]["ci95"], (Json{nullptr, nullptr}));
+    EXPECT_FALSE(takes_longer(result, result["cases"][1], result["cases"][0]));
+    const std::string ranking = ratio_table(result, "", false), table = render_table(result, false);
+    EXPECT_NE(ranking.find("  ~ method-b / packed"), std::string::npos) << ranking;
+    EXPECT_NE(ranking.find(" (unknown)"), std::string::npos) << ranking;
+    EXPECT_NE(ranking.find("\nunknown: an interval takes 3 launches, or 6 rounds of a single one.\n"),
+              std::string::npos)
+        << ranking;
+    EXPECT_NE(ratio_csv(result, "").find(",,\n"), std::string::npos) << ratio_csv(result, "");
+    EXPECT_NE(table.find("unknown"), std::string::npos) << table;
+    EXPECT_NE(table.find("warning: 2 of 2 times without an interval: an interval takes 3 launches"), std::string::npos)
+        << table;
+  }
 }
 
 TEST(Ratios, the_table_of_a_run_marks_rows_that_are_not_told_from_the_one_above) {

@@ -27,9 +27,9 @@ std::string bencher(const ExportResult& result) {
     for (const Measured& figure : one.figures) {
       Json& measure = measures[measure_name(figure.metric->name)];
       measure = {{"value", figure.value}};
-      if (figure.low == figure.high) continue;
-      measure["lower_value"] = figure.low;
-      measure["upper_value"] = figure.high;
+      if (!figure.ci95.is_known()) continue;
+      measure["lower_value"] = figure.ci95.low;
+      measure["upper_value"] = figure.ci95.high;
     }
   }
   return out.dump(1) + "\n";

@@ -63,7 +63,8 @@ std::string row(const ExportResult& result, const ExportCase& one) {
     const Measured* figure = find_figure(one, metric.name);
     line += "," + (figure == nullptr ? "" : exact_number(figure->value));
     if (metric.interval.empty()) continue;
-    line += figure == nullptr ? ",," : "," + exact_number(figure->low) + "," + exact_number(figure->high);
+    const bool is_known = figure != nullptr && figure->ci95.is_known();
+    line += is_known ? "," + exact_number(figure->ci95.low) + "," + exact_number(figure->ci95.high) : ",,";
   }
   return line + "\n";
 }

@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 
 std::string plus_minus(const Measured& figure) {
   char text[48];
-  std::snprintf(text, sizeof text, "\xC2\xB1 %.4g", (figure.high - figure.low) / 2.0);
+  std::snprintf(text, sizeof text, "\xC2\xB1 %.4g", (figure.ci95.high - figure.ci95.low) / 2.0);
   return text;
 }
 
@@ -26,7 +26,7 @@ std::string list_of(const ExportResult& result, Better better, const char* forma
       Json entry{{"name", one.name + " " + std::string(figure.metric->name)},
                  {"unit", figure.metric->unit},
                  {"value", figure.value}};
-      if (figure.low < figure.high) entry["range"] = plus_minus(figure);
+      if (figure.ci95.is_known()) entry["range"] = plus_minus(figure);
       entry["extra"] = "case " + one.id;
       list.push_back(entry);
     }

@@ -84,13 +84,12 @@ std::optional<Measured> measured_by(const Json& one, const Metric& metric) {
   if (found == nullptr || !found->is_number()) return {};
   const std::optional<double> value = figure(metric, found->get<double>());
   if (!value) return {};
-  Measured out{&metric, *value, *value, *value};
+  Measured out{&metric, *value, {}};
   const Json* interval = metric.interval.empty() ? nullptr : at(one, std::string(metric.interval));
   if (interval == nullptr || !is_interval(*interval)) return out;
   const double a = figure(metric, (*interval)[0].get<double>()).value_or(*value);
   const double b = figure(metric, (*interval)[1].get<double>()).value_or(*value);
-  out.low = std::min(a, b);
-  out.high = std::max(a, b);
+  out.ci95 = {std::min(a, b), std::max(a, b)};
   return out;
 }
 

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "measure/timing.h"
+
 namespace clusterbench::report {
 
 enum class Better { smaller, bigger, neither };
@@ -36,7 +38,7 @@ std::span<const Metric> export_metrics();
 struct Measured {
   const Metric* metric;
   double value;
-  double low, high;  // both `value` where there is no interval
+  measure::Interval ci95;  // unknown where there is none
 };
 
 // What the case has of the table: absent and null figures are left out.
