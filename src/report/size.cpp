@@ -117,7 +117,7 @@ std::vector<Json> matching_cases(const Json& cases, const std::string& filter) {
     if (pattern.is_in(one["name"].get_ref<const std::string&>())) out.push_back(one);
   if (out.empty() && !cases.empty())
     throw Error("", "--filter",
-                "'" + filter + "' matches none of " + std::to_string(cases.size()) + " cases; one of them is '" +
+                "'" + filter + "' matches none of " + number_of(cases.size(), "case") + "; one of them is '" +
                     cases[0]["name"].get<std::string>() + "'");
   return out;
 }
