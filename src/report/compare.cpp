@@ -326,15 +326,23 @@ void add_time(Json& out, const TimeChange& time, double corrected_p, double thre
   out["launches"] = time.launches.size();
 }
 
-Json compared(const Match& match, const Times& times, const Scope& scope, double threshold,
-              const CompareOptions& options) {
+struct Settings {
+  double threshold = 0.0;
+  bool gates_separate = false, is_margin_same = true;
+};
+
+Json margin_of(const Json& result) {
+  return result["config"].value(Pointer("/allocation/margin"), Json());
+}
+
+Json compared(const Match& match, const Times& times, const Scope& scope, const Settings& settings) {
   Json out{{"id", match.next["id"]}, {"name", match.next["name"]}};
   if (const auto place = times.place_of(match))
-    add_time(out, times.at(*place), times.corrected_p(*place), threshold, options.gates_separate);
-  out.update(exact_differences(match.base, match.next));
+    add_time(out, times.at(*place), times.corrected_p(*place), settings.threshold, settings.gates_separate);
+  out.update(exact_differences(match.base, match.next, settings.is_margin_same));
   add_list_difference(match, out);
   if (!scope.leaves_out("instructions") && are_counts_comparable(match))
-    out["instructions"] = instructions(match, threshold);
+    out["instructions"] = instructions(match, settings.threshold);
   return out;
 }
 
@@ -398,6 +406,9 @@ Json warnings_of(const Json& base, const Json& next, const Json& comparison, con
     warnings.push_back(what + " are not compared: " + joined(in_the_way.get<std::vector<std::string>>(), "; "));
   if (comparison["data"] == "separate" && comparison["summary"]["methods_timed"] != 0)
     warnings.push_back(gates_separate ? k_separate_verdicts : k_separate_hints);
+  if (margin_of(base) != margin_of(next) && !comparison["cases"].empty())
+    warnings.push_back("allocation.margin is " + margin_of(base).dump() + " and " + margin_of(next).dump() +
+                       ", another setting: what is recommended follows it and is not compared");
   const bool is_beside = comparison["data"] == "paired" && base == next;
   if (!comparison["only_in_base"].empty())
     warnings.push_back("only in the base, not compared: " + listed(comparison["only_in_base"]));
@@ -485,7 +496,8 @@ Json compare_results(const Json& base, const Json& next, double threshold, const
            {"new", {{"tool", next["tool"]}}},
            {"left_out", scope.left_out},
            {"cases", Json::array()}};
-  for (const Match& match : matches) out["cases"].push_back(compared(match, times, scope, threshold, options));
+  const Settings settings{threshold, options.gates_separate, margin_of(base) == margin_of(next)};
+  for (const Match& match : matches) out["cases"].push_back(compared(match, times, scope, settings));
   out["summary"] = summary_of(out["cases"], times);
   out["only_in_base"] = names_of(only_in_base);
   out["only_in_new"] = names_of(only_in_new);

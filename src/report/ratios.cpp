@@ -60,6 +60,14 @@ std::vector<Block> timed_blocks(const Json& result, const RatioRequest& request)
   return blocks;
 }
 
+// Of a case beside another one, for the page; null without a ratio.
+Json beside(const Timed& one, const Timed& other, const std::optional<measure::Ratio>& ratio) {
+  if (!ratio || one.one == other.one) return {};
+  return {{"id", (*other.one)["id"]},
+          {"ratio", six_digits(ratio->ratio)},
+          {"ci95", {six_digits(ratio->ci95.low), six_digits(ratio->ci95.high)}}};
+}
+
 Json pairs_of(const Block& block, std::uint64_t seed) {
   Json pairs = Json::array();
   for (std::size_t i = 1; i < block.cases.size(); ++i)
@@ -172,6 +180,23 @@ Json ratios_of(const Json& result, const RatioRequest& request) {
            {"blocks", Json::array()}};
   for (const Block& block : timed_blocks(result, request))
     out["blocks"].push_back(block_json(block, seed_of(result), request.across_grids));
+  return out;
+}
+
+Json ratio_rankings(const Json& result) {
+  RatioRequest request;
+  request.across_grids = true;
+  Json out = Json::array();
+  for (const Block& block : timed_blocks(result, request))
+    for (std::size_t i = 0; i < block.cases.size(); ++i) {
+      const Timed &one = block.cases[i], &fastest = block.cases.front(), &above = block.cases[i == 0 ? 0 : i - 1];
+      const auto to_fastest = run::ratio_between(one.contender, fastest.contender, seed_of(result)),
+                 to_above = run::ratio_between(one.contender, above.contender, seed_of(result));
+      out.push_back({{"id", (*one.one)["id"]},
+                     {"fastest", beside(one, fastest, to_fastest)},
+                     {"above", beside(one, above, to_above)},
+                     {"is_like_above", i > 0 && to_above && !measure::takes_longer(to_above)}});
+    }
   return out;
 }
 

@@ -32,6 +32,10 @@ struct RatioRequest {
 // docs/results.md, `clusterbench schema ratios`. "blocks" is empty where nothing is timed.
 nlohmann::ordered_json ratios_of(const nlohmann::ordered_json& result, const RatioRequest& request);
 
+// Of each timed case the pairs of a ranking over all grids of its scene, camera and viewport, for the page: {"id",
+// "fastest": {"id", "ratio", "ci95"} or null, "above": the same of the next faster one, "is_like_above"}.
+nlohmann::ordered_json ratio_rankings(const nlohmann::ordered_json& result);
+
 // Of what ratios_of() gives. A ranking has each case beside the fastest one and beside the one before it.
 std::string ratio_table(const nlohmann::ordered_json& ratios, bool all_pairs);
 std::string ratio_markdown(const nlohmann::ordered_json& ratios, bool all_pairs);

@@ -178,6 +178,26 @@ TEST(Compare, separate_runs_are_compared_by_what_a_frame_takes_or_not_at_all) {
   EXPECT_EQ(comparison["summary"]["methods_timed"], 0);
 }
 
+TEST(Compare, another_allocation_margin_is_another_setting_and_nothing_worse) {
+  const Json base = json_of(result_by_hand());
+  Json next = base;
+  next["config"]["allocation"]["margin"] = 3.0;
+  for (Json& one : next["cases"]) {
+    one["buffers"]["index_entries"]["recommended"] = 120;
+    one["buffers"]["used_share"]["mean"] = 0.1;
+  }
+  const Json comparison = compared(base, next, 0.02);
+  EXPECT_EQ(comparison["cases"][0]["counts"], "same");
+  EXPECT_TRUE(comparison["failures"].empty());
+  EXPECT_NE(comparison["warnings"].dump().find("allocation.margin is 2"), std::string::npos)
+      << comparison["warnings"];
+  next["cases"][0]["buffers"]["index_entries"]["high_water"] = 41;
+  EXPECT_EQ(compared(base, next, 0.02)["cases"][0]["counts"], "worse") << "the mark behind it";
+  next = base;
+  next["cases"][0]["buffers"]["index_entries"]["recommended"] = 120;
+  EXPECT_EQ(compared(base, next, 0.02)["cases"][0]["counts"], "worse") << "of one setting";
+}
+
 TEST(Compare, cases_of_one_name_that_are_not_the_same_are_told_with_what_differs) {
   const Json base = json_of(result_by_hand());
   Json next = base;

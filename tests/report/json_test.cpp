@@ -34,6 +34,29 @@ TEST(ResultJson, is_what_the_schema_says) {
   EXPECT_EQ(violations(result_to_json(result, {})), std::vector<std::string>{});
 }
 
+// Adds what an object lacks of its schema's "x-written", which older results of the same schema_version may lack.
+void add_unwritten(const nlohmann::json& schema, const nlohmann::json& value, std::vector<std::string>& lacking) {
+  for (const auto& key : schema.value("x-written", nlohmann::json::array()))
+    if (!value.contains(key.get<std::string>())) lacking.push_back(key.get<std::string>());
+  const nlohmann::json properties = schema.value("properties", nlohmann::json::object());
+  for (const auto& [key, inner] : properties.items())
+    if (value.contains(key)) add_unwritten(inner, value[key], lacking);
+  if (schema.contains("items") && schema["items"].is_object() && value.is_array())
+    for (const nlohmann::json& item : value) add_unwritten(schema["items"], item, lacking);
+}
+
+TEST(ResultJson, holds_all_that_results_of_before_may_lack) {
+  const nlohmann::json schema = config::result_schema();
+  nlohmann::json result = result_to_json(result_by_hand(), {});
+  std::vector<std::string> lacking;
+  add_unwritten(schema, result, lacking);
+  EXPECT_EQ(lacking, std::vector<std::string>{});
+  result["cases"][0].erase("settings");
+  result["cases"][0]["timing"].erase("worst_frame");
+  add_unwritten(schema, result, lacking);
+  EXPECT_EQ(lacking, (std::vector<std::string>{"settings", "worst_frame"})) << "seen where it lacks";
+}
+
 TEST(ResultJson, without_truth_samples_and_times_is_what_the_schema_says) {
   run::Result result = result_by_hand();
   for (run::CaseResult& one : result.cases) {

@@ -125,6 +125,17 @@ TEST(Ratios, of_two_grids_are_those_of_the_same_launches) {
   EXPECT_NE(ratio_table(all, false).find("of other grids of the same launches"), std::string::npos);
 }
 
+TEST(Ratios, the_page_gets_each_case_beside_the_fastest_and_the_one_above_it) {
+  const Json rankings = ratio_rankings(three_methods());
+  ASSERT_EQ(rankings.size(), 3u);
+  EXPECT_TRUE(rankings[0]["fastest"].is_null());
+  EXPECT_EQ(rankings[0]["is_like_above"], false);
+  EXPECT_EQ(rankings[1]["fastest"]["id"], "method-a");
+  EXPECT_NEAR(rankings[1]["fastest"]["ratio"].get<double>(), 1.1, 0.005);
+  EXPECT_EQ(rankings[2]["above"]["id"], "method-b");
+  EXPECT_EQ(rankings[2]["is_like_above"], true);
+}
+
 TEST(Ratios, the_table_of_a_run_marks_rows_that_are_not_told_from_the_one_above) {
   const std::string table = render_table(three_methods(), false);
   EXPECT_NE(table.find("~1.66"), std::string::npos) << table;
