@@ -189,8 +189,7 @@ TEST(Compare, another_allocation_margin_is_another_setting_and_nothing_worse) {
   const Json comparison = compared(base, next, 0.02);
   EXPECT_EQ(comparison["cases"][0]["counts"], "same");
   EXPECT_TRUE(comparison["failures"].empty());
-  EXPECT_NE(comparison["warnings"].dump().find("allocation.margin is 2"), std::string::npos)
-      << comparison["warnings"];
+  EXPECT_NE(comparison["warnings"].dump().find("allocation.margin is 2"), std::string::npos) << comparison["warnings"];
   next["cases"][0]["buffers"]["index_entries"]["high_water"] = 41;
   EXPECT_EQ(compared(base, next, 0.02)["cases"][0]["counts"], "worse") << "the mark behind it";
   next = base;
