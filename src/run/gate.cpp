@@ -150,7 +150,8 @@ std::vector<std::string> on_front(std::span<const Contender> cases, std::uint64_
   for (const Contender& one : cases)
     if (one.is_eligible) views[{one.scene, one.view}].push_back(&one);
   std::vector<std::string> ids;
-  for (const auto& [view, seen] : views) {
+  for (const auto& one_view : views) {
+    const std::vector<const Contender*>& seen = one_view.second;
     std::vector<measure::Costs> costs;
     for (const Contender* one : seen) costs.push_back(one->costs);
     const measure::TakesLonger by_interval = measure::intervals_apart(costs);
