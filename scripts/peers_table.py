@@ -16,8 +16,15 @@ UNIT = "brute-force"
 SIMD_VARIANTS = {"bounds-fast", "sphere-refinement-fast"}
 
 
+def timing_of(case):
+    """What was measured of a case's time; a result of `run --no-timing` has none."""
+    if "timing" not in case:
+        sys.exit(f"{case['name']}: has no times; measure again without --no-timing")
+    return case["timing"]
+
+
 def rounds(case):
-    return case["timing"]["assign_ns"]["samples"]
+    return timing_of(case)["assign_ns"]["samples"]
 
 
 def interval_of_median(values):
@@ -59,12 +66,12 @@ def table(workloads, cell):
 
 def speed(case, cases):
     ratio, (low, high) = times_faster(case, cases[UNIT])
-    microseconds = short(case["timing"]["assign_ns"]["median"] / 1e3)
+    microseconds = short(timing_of(case)["assign_ns"]["median"] / 1e3)
     return microseconds if case is cases[UNIT] else f"{microseconds} ({short(ratio)}×, {short(low)}–{short(high)})"
 
 
 def cost(case, _):
-    timing = case["timing"]
+    timing = timing_of(case)
     return f"{short(timing['ns_per_pair'])} / {short(timing['floor_ratio'])}"
 
 

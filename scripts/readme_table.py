@@ -8,7 +8,7 @@ import pathlib
 import re
 import sys
 
-from peers_table import put
+from peers_table import put, timing_of
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROGRESS = re.compile(r"^(\[\d+/\d+\]|Building|Installing)")
@@ -26,7 +26,7 @@ def table_of(path):
 
 def frame_us(case):
     """What a frame takes: the assignment, and making the structure from its lists."""
-    timing = case["timing"]
+    timing = timing_of(case)
     if "frame_ns" in timing:
         return timing["frame_ns"]["median"] / 1e3
     return (timing["assign_ns"]["median"] + timing.get("convert_ns", {}).get("median", 0)) / 1e3

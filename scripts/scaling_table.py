@@ -10,7 +10,7 @@ import subprocess
 import sys
 import tempfile
 
-from peers_table import put, short
+from peers_table import put, short, timing_of
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
@@ -66,11 +66,11 @@ def table(methods, heading, cell):
 
 
 def microseconds(case):
-    return case["timing"]["assign_ns"]["median"] / 1e3
+    return timing_of(case)["assign_ns"]["median"] / 1e3
 
 
 def cost(case):
-    timing = case["timing"]
+    timing = timing_of(case)
     if timing["ns_per_pair"] is None:
         return f"- / {short(timing['floor_ratio'])}"
     return f"{short(timing['ns_per_pair'])} / {short(timing['floor_ratio'])}"

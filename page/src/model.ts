@@ -1,12 +1,13 @@
 // The page's own view of its results: every case of every result in one list, with the figures that tables and charts
 // share.
 
-import type { CaseResult, Maybe, PageData, Result } from "./result.ts";
+import type { CaseResult, Maybe, PageData, Ranked, Result } from "./result.ts";
 
 export interface Run {
   file: string;
   label: string; // the file's name, with as much of its path as tells it from the others
   result: Result;
+  doubts: string[]; // what speaks against its times
 }
 
 export interface Case {
@@ -25,6 +26,7 @@ export interface Case {
   rank: Maybe; // by frame time among all cases that see the same, whatever is filtered out
   frameNs: Maybe; // assignment and conversion
   interval: [Maybe, Maybe]; // of frameNs
+  ranked: Ranked | null; // beside the fastest and the next faster one
   worstNs: Maybe; // of the slowest timed frame
   assignNs: Maybe;
   convertNs: Maybe;
@@ -67,7 +69,7 @@ function labels(files: string[]): string[] {
   });
 }
 
-function toCase(raw: CaseResult, run: Run, front: Set<string>): Case {
+function toCase(raw: CaseResult, run: Run, front: Set<string>, ranked: Ranked | null): Case {
   const storage = raw.precision && raw.precision.packing !== "float32" ? `${raw.storage}, ${raw.precision.label}` : raw.storage;
   return {
     raw,
@@ -85,6 +87,7 @@ function toCase(raw: CaseResult, run: Run, front: Set<string>): Case {
     rank: null,
     frameNs: raw.timing?.frame_ns.median ?? null,
     interval: raw.timing?.frame_ns.ci95 ?? [null, null],
+    ranked,
     worstNs: raw.timing?.worst_frame?.ns ?? null,
     assignNs: raw.timing?.assign_ns.median ?? null,
     convertNs: raw.timing?.convert_ns?.median ?? null,
@@ -115,10 +118,11 @@ function rankAll(cases: Case[]): void {
 
 export function modelOf(data: PageData): Model {
   const names = labels(data.results.map((one) => one.file));
-  const runs = data.results.map(({ file, result }, at) => ({ file, label: names[at]!, result }));
-  const cases = runs.flatMap((run) => {
+  const runs = data.results.map(({ file, result, doubts }, at) => ({ file, label: names[at]!, result, doubts }));
+  const cases = runs.flatMap((run, at) => {
+    const ranked = new Map(data.results[at]!.ratios.map((one) => [one.id, one]));
     const front = new Set(run.result.pareto_front.flatMap((one) => one.ids));
-    return run.result.cases.map((raw) => toCase(raw, run, front));
+    return run.result.cases.map((raw) => toCase(raw, run, front, ranked.get(raw.id) ?? null));
   });
   rankAll(cases);
   return {

@@ -40,22 +40,23 @@ function caseColumns(view: View, rows: Case[]): Column<Case>[] {
   const measured = (value: (one: Case) => unknown) => rows.some((one) => value(one) !== null);
   return kept<Case>([
     { label: "method", value: (one) => one.assigner, show: (one) => method(view, one) },
-    measured((one) => one.frameNs) && { label: "frame µs", about: "Median time of what a frame takes: assignment and conversion to the storage, with builds where the grid changes from frame to frame", value: (one) => one.frameNs, show: (one) => h("span", { title: interval(one) }, format.microseconds(one.frameNs)) },
+    measured((one) => one.frameNs) && { label: "frame µs", about: "Median time of what a frame takes: assignment and conversion to the storage, with builds where the grid changes from frame to frame. ~: may be as fast as the next faster one of its scene, as far as their ratio is known", value: (one) => one.frameNs, show: (one) => h("span", { title: interval(one) }, `${one.ranked?.is_like_above ? "~" : ""}${format.microseconds(one.frameNs)}`) },
     { label: "excess", about: "False positives by true pairs", value: (one) => one.excess, show: (one) => format.percent(one.excess) },
     { label: "missed", about: "False negatives: lights that reach a cell and are not in its list", value: (one) => one.missed, show: (one) => lost(format.whole(one.missed), !!one.missed) },
     rows.some((one) => one.dropped > 0) && { label: "dropped", about: "Pairs that the storage had no room for, over all frames", value: (one) => one.dropped, show: (one) => lost(format.short(one.dropped), one.dropped > 0) },
     measured((one) => one.unlit) && { label: "unlit", about: "Share of the lights that samples need and are not given: their cell lacks them, the storage dropped them, or they are outside of the grid", value: (one) => one.unlit, show: (one) => unlit(one) },
     measured((one) => one.overshade) && { label: "overshade", about: "Lights evaluated by lights needed, at the samples; none where lights are unlit or few are needed", value: (one) => one.overshade, show: (one) => format.factor(one.overshade) },
     { label: "bytes", about: "High-water mark of headers and indices", value: (one) => one.bytes, show: (one) => format.short(one.bytes) },
-    { label: "front", about: "On its scene's Pareto front in frame time, bytes and overshade: nothing that loses no light is better, beyond the intervals of time", value: (one) => (one.isOnFront ? "yes" : null), show: (one) => front(one.isOnFront) },
+    { label: "front", about: "On its scene's Pareto front in frame time, bytes and overshade: nothing that loses no light is better, beyond the interval of the ratio of their times", value: (one) => (one.isOnFront ? "yes" : null), show: (one) => front(one.isOnFront) },
     measured((one) => one.rank) && { label: "rank", about: "By frame time among all cases of its scene, camera and viewport, those that are filtered out as well", value: (one) => one.rank },
+    measured((one) => one.ranked?.fastest?.ratio ?? null) && { label: "/ fastest", about: "Frame time by that of the fastest case of its scene, camera and viewport, measured beside it, as clusterbench ratio --across-grids has it; its interval at the pointer", value: (one) => one.ranked?.fastest?.ratio ?? null, show: (one) => h("span", { title: ratio(one) }, format.factor(one.ranked?.fastest?.ratio ?? null)) },
     view.hasRuns && { label: "result", value: (one) => one.run.label },
     differ(rows, (one) => one.scene) && { label: "scene", value: (one) => one.scene },
     differ(rows, (one) => one.raw.camera) && { label: "camera", value: (one) => one.raw.camera },
     differ(rows, (one) => String(one.raw.viewport)) && { label: "viewport", value: (one) => one.raw.viewport.join("×") },
     { label: "grid", value: (one) => one.grid },
     differ(rows, (one) => one.storage) && { label: "storage", value: (one) => one.storage },
-    measured((one) => one.frameNs) && { label: "±", about: "Half of the 95 % interval, by the median", value: halfInterval, show: (one) => (one.frameNs && halfInterval(one) === null ? "unknown" : format.percent(halfInterval(one))) },
+    measured((one) => one.frameNs) && { label: "±", about: "Half of the 95 % interval, by the median; both sides where one is above 20 %", value: halfInterval, show: (one) => (one.frameNs && halfInterval(one) === null ? "unknown" : halfOrBoth(one)) },
     measured((one) => one.worstNs) && { label: "worst µs", about: "The slowest of the timed frames; its number at the pointer", value: (one) => one.worstNs, show: (one) => h("span", { title: worst(one) }, format.microseconds(one.worstNs)) },
     measured((one) => one.assignNs) && { label: "assign µs", isDetail: true, about: "Of the frame's time: assignment, lists included", value: (one) => one.assignNs, show: (one) => format.microseconds(one.assignNs) },
     measured((one) => one.convertNs) && { label: "convert µs", isDetail: true, about: "Of the frame's time: from lists to the storage's layout", value: (one) => one.convertNs, show: (one) => format.microseconds(one.convertNs) },
@@ -73,6 +74,19 @@ function caseColumns(view: View, rows: Case[]): Column<Case>[] {
 function halfInterval(one: Case): number | null {
   const [low, high] = one.interval;
   return low === null || high === null || !one.frameNs ? null : (high - low) / 2 / one.frameNs;
+}
+
+// As the terminal's table has it.
+function halfOrBoth(one: Case): string {
+  const [low, high] = one.interval;
+  if (low === null || high === null || !one.frameNs) return format.percent(null);
+  const below = 1 - low / one.frameNs, above = high / one.frameNs - 1;
+  return Math.max(below, above) < 0.2 ? format.percent((below + above) / 2) : `-${(100 * below).toFixed(0)}/+${(100 * above).toFixed(0)} %`;
+}
+
+function ratio({ ranked }: Case): string {
+  const beside = ranked?.fastest;
+  return beside ? `${format.factor(beside.ci95[0])} to ${format.factor(beside.ci95[1])}` : "";
 }
 
 // A mean that some scenes have no part in says so.

@@ -19,5 +19,20 @@ export type WarningKind = CaseResult["warnings"][number]["kind"];
 // What src/report/page.cpp puts into the page.
 export interface PageData {
   command: string;
-  results: { file: string; result: Result }[];
+  results: { file: string; result: Result; doubts: string[]; ratios: Ranked[] }[];
+}
+
+// Frame time by that of another case that was measured beside it.
+export interface Beside {
+  id: string;
+  ratio: Maybe;
+  ci95: [Maybe, Maybe];
+}
+
+// A timed case beside the fastest of its scene, camera and viewport, and beside the next faster one.
+export interface Ranked {
+  id: string;
+  fastest: Beside | null;
+  above: Beside | null;
+  is_like_above: boolean; // may be as fast, as far as their ratio is known
 }

@@ -100,7 +100,7 @@ export type PerFrame = {
   convert?: number; // Of the conversion to the storage; absent where a method leaves its own structure
 };
 
-// What `clusterbench run` writes. x-unit and x-over of a number, or of what holds it: its unit, and what it is taken over. null: not a number.
+// What `clusterbench run` writes. x-unit and x-over of a number, or of what holds it: its unit, and what it is taken over. x-written: keys that this version always writes, and that older results of the same schema_version may lack. null: not a number.
 export type Result = {
   schema_version: 2; // Grows whenever a name or a meaning changes [version, over the file]
   name: string; // Of the configuration
@@ -128,7 +128,12 @@ export type Result = {
     }; // How busy the machine was: programs that run or wait to. Absent where nothing is timed [programs, over one minute, the machine]
     os: string; // System, kernel and architecture
   }; // Where it was measured
-  config: Record<string, unknown>; // The configuration with every default (`clusterbench schema config`)
+  config: {
+    allocation: {
+      margin: number; // What is allocated, by the high-water mark [ratio, over all cases]
+      warn_at: number; // The share of it from which on to warn [share of 1, over all cases]
+    }; // What `recommended` is made with; `clusterbench size` goes by it
+  }; // The configuration with every default (`clusterbench schema config`)
   scenes: Array<{
     name: string; // As in the names of cases: the file's, without its extension
     sha256: string; // Of the file, with all that it refers to; of a made scene, of what it was made from
@@ -145,6 +150,11 @@ export type Result = {
       given: number; // With a range in the file [lights, over the scene]
       from_intensity: number; // Without one: it is made from the intensity [lights, over the scene]
       clamped: number; // With a range that was cut to max_range [lights, over the scene]
+      ranges?: {
+        least: number; // Shortest
+        median: number; // Middle
+        greatest: number; // Longest
+      }; // The ranges that were measured with, given or made; of lights that have an end. Absent where none has [m, over the scene]
     }; // Where lights' ranges come from
     warnings: string[]; // For people: what is odd about the scene
     rig?: {
@@ -452,7 +462,7 @@ export type Result = {
   pareto_front: Array<{
     scene: string; // Name of one of scenes
     ids: string[]; // Of its cases, in their order
-  }>; // Per scene the cases on the Pareto front: no other one of the same camera and viewport is as good in frame time (beyond the intervals), bytes and overshade together, and better in one. Only cases that are eligible
+  }>; // Per scene the cases on the Pareto front: no other one of the same camera and viewport is as good in frame time (beyond the interval of their ratio), bytes and overshade together, and better in one. Only cases that are eligible
   skipped: Array<{
     name: string; // As of a case; its parts that all combinations share
     reason: string; // For people

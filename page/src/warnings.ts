@@ -1,7 +1,6 @@
 // What the reader should know before believing a figure.
 
 import { h } from "./dom.ts";
-import * as format from "./format.ts";
 import type { Case, Model, Run } from "./model.ts";
 import type { FailureKind, SceneResult, WarningKind } from "./result.ts";
 import type { Section } from "./view.ts";
@@ -11,8 +10,6 @@ export interface Warning {
   text: string;
 }
 
-const noisy = 0.1; // half interval by median
-
 const failures: Record<FailureKind, string> = {
   lost_pairs: "lost lights and call themselves conservative",
   extra_pairs: "reported pairs that are not true and call themselves exact",
@@ -20,9 +17,11 @@ const failures: Record<FailureKind, string> = {
   dropped_pairs: "dropped more pairs than the configuration allows",
 };
 
+const counts = (count: number, word: string) => `${count} ${word}${count === 1 ? "" : "s"}`;
+
 function counted(cases: Case[], what: string): string {
   const names = cases.slice(0, 3).map((one) => one.raw.name).join("; ");
-  return `${cases.length} ${cases.length === 1 ? "case" : "cases"} ${what}: ${names}${cases.length > 3 ? "; …" : ""}`;
+  return `${counts(cases.length, "case")} ${what}: ${names}${cases.length > 3 ? "; …" : ""}`;
 }
 
 function failuresOf(cases: Case[]): Warning[] {
@@ -41,12 +40,8 @@ const doubts: Record<WarningKind, string> = {
 };
 
 function doubtsOf(cases: Case[]): Warning[] {
-  const width = ({ interval: [low, high], frameNs }: Case) => (low === null || high === null || !frameNs ? 0 : (high - low) / 2 / frameNs);
-  const kinds = Object.entries(doubts).map(([kind, what]): [(one: Case) => boolean, string] => [({ raw }) => raw.warnings.some((one) => one.kind === kind), what]);
-  kinds.push([({ interval: [low, high], frameNs }) => !!frameNs && (low === null || high === null), "have times without an interval, of too few launches or rounds"]);
-  kinds.push([(one) => width(one) > noisy, `have times that are known to no better than ${format.percent(noisy)}`]);
-  return kinds.flatMap(([holds, what]) => {
-    const some = cases.filter(holds);
+  return Object.entries(doubts).flatMap(([kind, what]) => {
+    const some = cases.filter(({ raw }) => raw.warnings.some((one) => one.kind === kind));
     return some.length ? [{ isFailure: false, text: counted(some, what) }] : [];
   });
 }
@@ -54,16 +49,16 @@ function doubtsOf(cases: Case[]): Warning[] {
 function rangeWarnings({ range_rule }: SceneResult): string[] {
   const { from_intensity, cutoff_lux, max_range, clamped } = range_rule;
   return [
-    from_intensity > 0 && `${from_intensity} lights have no range; they end where they fall to ${cutoff_lux} lux, at most ${max_range} m`,
-    clamped > 0 && `${clamped} ranges were cut to ${max_range} m`,
+    from_intensity > 0 && `${counts(from_intensity, "light")} ${from_intensity === 1 ? "has no range; it ends where it falls" : "have no range; they end where they fall"} to ${cutoff_lux} lux, at most ${max_range} m`,
+    clamped > 0 && `${counts(clamped, "range")} ${clamped === 1 ? "was" : "were"} cut to ${max_range} m`,
   ].filter((text) => text !== false);
 }
 
-function runWarnings({ label, result }: Run, isAlone: boolean): Warning[] {
+function runWarnings({ label, result, doubts: ofTimes }: Run, isAlone: boolean): Warning[] {
   const name = isAlone ? "" : `${label}: `;
   const build = result.tool.build_type === "Release" ? [] : [`${name}measured with a build of type '${result.tool.build_type}', not Release`];
   const scenes = result.scenes.flatMap((scene) => [...scene.warnings, ...rangeWarnings(scene)].map((warning) => `${name}${scene.name}: ${warning}`));
-  return [...build, ...scenes].map((text) => ({ isFailure: false, text }));
+  return [...ofTimes.map((text) => `${name}Times: ${text}`), ...build, ...scenes].map((text) => ({ isFailure: false, text }));
 }
 
 export function warningsOf(model: Model): Warning[] {
@@ -77,7 +72,7 @@ function skippedView(model: Model): HTMLElement | null {
   return h(
     "details",
     { id: "skipped" },
-    h("summary", {}, `${all.length} combinations were skipped`),
+    h("summary", {}, `${counts(all.length, "combination")} ${all.length === 1 ? "was" : "were"} skipped`),
     h("ul", {}, ...reasons.map(([reason, some]) => h("li", {}, `${some.length} × ${reason}`))),
   );
 }

@@ -267,8 +267,36 @@ describe("figures", () => {
     for (const row of told) {
       const other = shown.find((one) => one.grid === row.grid && `${one.method} / ${one.storage}` === row.assigner);
       for (const column of ["frame µs", "±", "assign µs", "convert µs", "pairs", "ns/pair", "excess", "missed", "dropped", "unlit", "overshade", "bytes"])
-        assert.equal(other[column], row[column].replace(/^-$/, "–").replace(/^~/, ""), `${column} of ${row.assigner}`);
+        assert.equal(other[column].replace(/^~/, ""), row[column].replace(/^-$/, "–").replace(/^~/, ""), `${column} of ${row.assigner}`);
     }
+  });
+});
+
+describe("times", () => {
+  it("stand beside the fastest of their scene with a ratio and its interval, and a mark where nothing tells them from the next faster one", async () => {
+    const page = await open(pages.quick);
+    await page.getByRole("radio", { name: "hall-512" }).check();
+    const ratios = await column(page, "/ fastest");
+    assert.equal(ratios[0], "–");
+    assert.ok(ratios.slice(1).every((text) => /^\d+\.\d\d$/.test(text)), String(ratios));
+    const marked = (await column(page, "frame µs")).filter((text) => text.startsWith("~"));
+    assert.ok(marked.length > 0 && marked.length < ratios.length, String(marked));
+    const interval = await page.locator("#ranking tbody tr").nth(1).locator("td span[title*=' to ']").last().getAttribute("title");
+    assert.match(interval, /^\d+\.\d\d to \d+\.\d\d$/);
+  });
+
+  it("have the terminal's warnings, of each result by its name", async () => {
+    const texts = async (name) => (await textsOf(await open(pages[name]), "#warnings li")).join("\n");
+    assert.match(await texts("wide"), /Note\. Times: \d+ of \d+ times have intervals wider than \+- 10 %/);
+    assert.match(await texts("wide"), /--launches \d+/);
+    const two = await texts("two");
+    assert.match(two, /Note\. (quick|.*\/quick): Times: /);
+  });
+
+  it("that are known to a half and twice show both sides", async () => {
+    const page = await open(pages.wide);
+    await page.getByRole("radio", { name: "hall-512" }).check();
+    assert.ok((await column(page, "±")).every((text) => text === "-50/+100 %"));
   });
 });
 
@@ -295,7 +323,7 @@ describe("what a case loses", () => {
 
   it("is ranked by what a frame takes, with its parts and its worst frame beside it", async () => {
     const page = await open(pages.lossy);
-    const all = (await rows(page)).map((one) => Object.fromEntries(Object.entries(one).map(([label, text]) => [label, parseFloat(String(text).replaceAll(",", ""))])));
+    const all = (await rows(page)).map((one) => Object.fromEntries(Object.entries(one).map(([label, text]) => [label, parseFloat(String(text).replaceAll(/[,~]/g, ""))])));
     assert.ok(isAscending(all.map((one) => one["frame µs"])), JSON.stringify(all));
     for (const one of all) {
       assert.ok(one["worst µs"] >= 0.99 * one["frame µs"], JSON.stringify(one));

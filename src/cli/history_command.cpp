@@ -4,6 +4,7 @@
 
 #include "cli/commands.h"
 #include "cli/output.h"
+#include "core/text.h"
 #include "report/history.h"
 #include "report/history_page.h"
 #include "report/result_file.h"
@@ -23,18 +24,23 @@ struct ShowFlags {
 
 ExitCode add(const AddFlags& flags) {
   const nlohmann::ordered_json result = report::read_result(flags.result);
-  report::add_to_history(flags.file, result,
-                         flags.commit.empty() ? result["tool"]["git_sha"].get<std::string>() : flags.commit);
+  const std::string commit = flags.commit.empty() ? result["tool"]["git_sha"].get<std::string>() : flags.commit;
+  const report::Addition addition = report::add_to_history(flags.file, result, commit);
+  const std::string before = number_of(addition.earlier, "result") + " of " + commit;
+  if (!addition.is_added)
+    tell(flags.file + " has this result of " + commit + " already; nothing was added");
+  else if (addition.earlier > 0)
+    tell(flags.file + " had " + before + " already; added behind it as one more");
   return ExitCode::ok;
 }
 
 ExitCode show(const ShowFlags& flags) {
   refuse_overwriting({flags.page}, {flags.file});
   const std::vector<report::HistoryEntry> history = report::read_history(flags.file);
-  const std::vector<report::Series> series =
-      report::series_of(history, {flags.max_p, flags.min_change_percent / 100.0});
+  const measure::ChangeRule rule{flags.max_p, flags.min_change_percent / 100.0};
+  const std::vector<report::Series> series = report::series_of(history, rule);
   if (!flags.page.empty()) write_text(flags.page, report::history_page(series, history.size()));
-  if (flags.page != "-") write_text("-", report::history_text(series, history.size(), flags.all));
+  if (flags.page != "-") write_text("-", report::history_text(series, history.size(), flags.all, rule));
   return ExitCode::ok;
 }
 

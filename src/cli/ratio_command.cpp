@@ -1,5 +1,7 @@
 // `clusterbench ratio RESULT`: how much longer does one method take than another?
 
+#include <algorithm>
+#include <array>
 #include <iostream>
 #include <memory>
 
@@ -13,18 +15,23 @@ namespace clusterbench::cli {
 namespace {
 
 struct RatioFlags {
-  std::string result, methods, csv;
-  bool all_pairs = false;
+  std::string result, csv, json, markdown;
+  report::RatioRequest request;
 };
 
 ExitCode show_ratios(const RatioFlags& flags) {
-  refuse_overwriting({flags.csv}, {flags.result});
-  const nlohmann::ordered_json result = report::read_result(flags.result);
-  const std::string table = report::ratio_table(result, flags.methods, flags.all_pairs);
-  if (table.empty())
-    throw Error(flags.result, "", "has no times" + (flags.methods.empty() ? "" : " of methods like " + flags.methods));
-  if (!flags.csv.empty()) write_text(flags.csv, report::ratio_csv(result, flags.methods));
-  if (flags.csv != "-") std::cout << printable_lines(table);
+  refuse_overwriting({flags.csv, flags.json, flags.markdown}, {flags.result});
+  const report::RatioRequest& request = flags.request;
+  const nlohmann::ordered_json ratios = report::ratios_of(report::read_result(flags.result), request);
+  if (ratios["blocks"].empty())
+    throw Error(flags.result, "",
+                "has no times" + (request.methods.empty() ? "" : " of methods like " + request.methods));
+  if (!flags.csv.empty()) write_text(flags.csv, report::ratio_csv(ratios));
+  if (!flags.json.empty()) write_output(flags.json, ratios);
+  if (!flags.markdown.empty()) write_text(flags.markdown, report::ratio_markdown(ratios, request.all_pairs));
+  const auto takes_standard_output = [](const std::string& output) { return output == "-"; };
+  if (std::ranges::none_of(std::array{flags.csv, flags.json, flags.markdown}, takes_standard_output))
+    std::cout << printable_lines(report::ratio_table(ratios, request.all_pairs));
   return ExitCode::ok;
 }
 
@@ -35,9 +42,13 @@ void add_ratio(Command& program, Action& action) {
   Command command =
       program.add_command("ratio", "How much longer one method takes than another, with intervals, from one result");
   command.add_option("RESULT", flags->result, "A result file of `clusterbench run`").required();
-  command.add_option("--methods", flags->methods, "Only methods whose name matches this regular expression");
-  command.add_flag("--all-pairs", flags->all_pairs, "Each method beside each one that is faster");
-  command.add_option("--csv", flags->csv, "Also write all pairs as CSV to this file");
+  command.add_option("--methods", flags->request.methods, "Only methods whose name matches this regular expression");
+  command.add_flag("--all-pairs", flags->request.all_pairs, "Each method beside each one that is faster");
+  command.add_flag("--across-grids", flags->request.across_grids,
+                   "All grids of a scene, camera and viewport in one ranking");
+  command.add_option("--csv", flags->csv, "Write all pairs as CSV to this file (-: in place of the table)");
+  command.add_option("--json", flags->json, "Write all pairs as JSON to this file");
+  command.add_option("--markdown", flags->markdown, "Write the table as Markdown to this file");
   command.when_named([flags, &action] { action = [flags] { return show_ratios(*flags); }; });
 }
 

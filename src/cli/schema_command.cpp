@@ -1,4 +1,4 @@
-// `clusterbench schema config|result|comparison|stress` and `clusterbench validate FILE...`.
+// `clusterbench schema config|result|comparison|ratios|stress` and `clusterbench validate FILE...`.
 
 #include <algorithm>
 #include <fstream>
@@ -10,6 +10,7 @@
 #include "config/documents.h"
 #include "config/schema_check.h"
 #include "core/file_text.h"
+#include "core/text.h"
 #include "run/sweep.h"
 
 namespace clusterbench::cli {
@@ -20,7 +21,10 @@ ExitCode validate_written(const std::string& path, const nlohmann::json& documen
   const std::vector<std::string> violations = config::schema_violations(row.schema(), document);
   for (const std::string& violation : violations) tell(path + ": " + violation);
   if (!violations.empty()) return ExitCode::usage;
-  std::cout << path << ": valid, " << row.title << " with " << document["cases"].size() << " cases\n";
+  const bool has_cases = document.contains("cases");
+  std::cout << path << ": valid, " << row.title << " with "
+            << (has_cases ? number_of(document["cases"].size(), "case") : number_of(document["blocks"].size(), "block"))
+            << "\n";
   return ExitCode::ok;
 }
 
@@ -29,8 +33,8 @@ ExitCode validate_config(const std::string& path) {
   const run::Plan plan = run::make_plan(config, "");
   std::size_t cases = 0;
   for (const run::GroupPlan& group : plan.groups) cases += group.cases.size();
-  std::cout << path << ": a valid configuration with " << plan.scenes.size() << " scenes, " << cases << " cases, "
-            << plan.skipped.size() << " skipped\n";
+  std::cout << path << ": a valid configuration with " << number_of(plan.scenes.size(), "scene") << ", "
+            << number_of(cases, "case") << ", " << plan.skipped.size() << " skipped\n";
   return ExitCode::ok;
 }
 
@@ -47,7 +51,8 @@ void add_schema(Command& program, Action& action) {
   std::vector<std::string> names;
   for (const config::DocumentRow& row : config::document_rows()) names.emplace_back(row.name);
   auto which = std::make_shared<std::string>();
-  command.add_option("WHICH", *which, "Of a configuration, or of what run, compare --json or stress write")
+  command
+      .add_option("WHICH", *which, "Of a configuration, or of what run, compare --json, ratio --json or stress write")
       .required()
       .one_of(names);
   command.when_named([which, &action] {
@@ -63,7 +68,7 @@ void add_validate(Command& program, Action& action) {
   Command command =
       program.add_command("validate", "Check configurations and what clusterbench wrote, without running anything");
   auto paths = std::make_shared<std::vector<std::string>>();
-  command.add_option("FILE", *paths, "Configurations, results, comparisons, results of stress").required();
+  command.add_option("FILE", *paths, "Configurations, results, comparisons, ratios, results of stress").required();
   command.when_named([paths, &action] {
     action = [paths] {
       ExitCode worst = ExitCode::ok;

@@ -48,6 +48,16 @@ Json value_of(const std::string& text) {
   return list.size() == 1 ? list.front() : list;
 }
 
+// Whether the schema has a list there, and nothing else: --set precision=half is the list of one.
+bool wants_list(const std::string& pointer) {
+  static const Json schema = config_schema();
+  const std::string key = pointer.substr(0, pointer.find('/', 1));
+  const Json::json_pointer place("/properties" + key), deeper("/properties" + pointer.substr(key.size()));
+  const Json* at = schema.contains(place) ? &schema[place] : nullptr;
+  if (at != nullptr && pointer != key) at = at->contains(deeper) ? &(*at)[deeper] : nullptr;
+  return at != nullptr && at->value("type", Json()) == "array";
+}
+
 // A configuration, and which flag has set what.
 class FlaggedConfig {
  public:
@@ -62,7 +72,7 @@ class FlaggedConfig {
   int set(Json& at, const std::string& pointer, std::span<const std::string> steps, const FlagValue& flag,
           const Json& value) {
     if (steps.empty()) {
-      at = value;
+      at = wants_list(pointer) && !value.is_array() ? Json::array({value}) : value;
       mark(pointer, flag);
       return 1;
     }

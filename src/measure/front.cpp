@@ -11,24 +11,31 @@ double known(double cost) {
   return std::isnan(cost) ? std::numeric_limits<double>::infinity() : cost;
 }
 
-bool dominates(const Costs& a, const Costs& b) {
-  if (known(a.time_ns.low) > known(b.time_ns.high) || known(a.bytes) > known(b.bytes) ||
-      known(a.overshade) > known(b.overshade))
-    return false;
-  return known(a.time_ns.high) < known(b.time_ns.low) || known(a.bytes) < known(b.bytes) ||
-         known(a.overshade) < known(b.overshade);
+// Bytes and overshade first: they are at hand, and times may have to be compared.
+bool dominates(std::span<const Costs> cases, std::size_t a, std::size_t b, const TakesLonger& takes_longer) {
+  const Costs &one = cases[a], &other = cases[b];
+  if (known(one.bytes) > known(other.bytes) || known(one.overshade) > known(other.overshade)) return false;
+  const bool is_better = known(one.bytes) < known(other.bytes) || known(one.overshade) < known(other.overshade);
+  return is_better ? !takes_longer(a, b) : takes_longer(b, a);
 }
 
 }  // namespace
 
-std::vector<std::size_t> pareto_front(std::span<const Costs> cases) {
+std::vector<std::size_t> pareto_front(std::span<const Costs> cases, const TakesLonger& takes_longer) {
   std::vector<std::size_t> front;
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    const bool is_beaten =
-        std::any_of(cases.begin(), cases.end(), [&](const Costs& other) { return dominates(other, cases[i]); });
+    bool is_beaten = false;
+    for (std::size_t j = 0; j < cases.size() && !is_beaten; ++j)
+      is_beaten = j != i && dominates(cases, j, i, takes_longer);
     if (!is_beaten) front.push_back(i);
   }
   return front;
+}
+
+TakesLonger intervals_apart(std::span<const Costs> cases) {
+  return [cases](std::size_t one, std::size_t other) {
+    return known(cases[one].time_ns.low) > known(cases[other].time_ns.high);
+  };
 }
 
 }  // namespace clusterbench::measure

@@ -2,6 +2,7 @@
 // Which cases nothing else beats.
 
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
@@ -14,12 +15,19 @@ namespace clusterbench::measure {
 struct Costs {
   static constexpr double k_unknown = std::numeric_limits<double>::quiet_NaN();
 
-  Interval time_ns{k_unknown, k_unknown};  // in which the time lies; two that overlap are the same time
+  Interval time_ns{k_unknown, k_unknown};  // in which the time lies
   double bytes = k_unknown, overshade = k_unknown;
 };
 
+// Whether the case at the first place is known to take longer than that at the second.
+using TakesLonger = std::function<bool(std::size_t, std::size_t)>;
+
 // Places of the cases that no other case equals or beats in every respect while beating it in one. Of equal ones all
-// stay.
-std::vector<std::size_t> pareto_front(std::span<const Costs> cases);
+// stay. Two times are the same unless one is known to be longer; of those that were not measured side by side that is
+// intervals_apart().
+std::vector<std::size_t> pareto_front(std::span<const Costs> cases, const TakesLonger& takes_longer);
+
+// Intervals that do not overlap.
+TakesLonger intervals_apart(std::span<const Costs> cases);
 
 }  // namespace clusterbench::measure

@@ -120,10 +120,8 @@ bool both_have(const Match& match, const char* pointer) {
   return has(match.base, pointer) && has(match.next, pointer);
 }
 
-// What is compared of two separate runs: what a frame takes, or of results that do not say it, its assignment.
-const char* time_of(const Match& match) {
-  return both_have(match, "/timing/frame_ns/median") ? "frame_ns" : "assign_ns";
-}
+// What is compared of two separate runs: what a frame takes.
+constexpr const char* k_frame_time = "/timing/frame_ns/median";
 
 // Did the new result measure this base beside itself? The same result twice is a question about just that.
 bool is_paired(const Json& base, const Json& next) {
@@ -134,7 +132,7 @@ bool is_paired(const Json& base, const Json& next) {
 // light structure of the method's own. What a frame takes is each case's own.
 std::string time_key(const Match& match, bool is_paired) {
   const Json& one = match.next;
-  if (!is_paired && time_of(match) == std::string_view("frame_ns")) return one["id"].get<std::string>();
+  if (!is_paired) return one["id"].get<std::string>();
   Json key{one["scene"], one["camera"], one["viewport"], one["grid"], one["assigner"]["label"]};
   if (one.contains("precision")) key.push_back(one["precision"]["label"]);
   key.push_back(one["storage"] == "own");
@@ -159,8 +157,8 @@ TimeChange paired_change(const Json& paired) {
 }
 
 // Without an interval nothing can be concluded: as of no samples.
-measure::MedianTime median_time(const Json& timing, const char* key) {
-  const Json &time = timing[key], &low = time["ci95"][0], &high = time["ci95"][1];
+measure::MedianTime median_frame_time(const Json& timing) {
+  const Json &time = timing["frame_ns"], &low = time["ci95"][0], &high = time["ci95"][1];
   if (!low.is_number() || !high.is_number()) return {time["median"], {}, 0, 1};
   return {time["median"], {low, high}, time["samples"].size(), timing.value("launches", 1)};
 }
@@ -170,13 +168,11 @@ std::optional<TimeChange> time_change(const Match& match, bool is_paired) {
   if (is_paired && is_known("/timing/baseline/ratio") && is_known("/timing/baseline/base_ns") &&
       is_known("/timing/baseline/new_ns"))
     return paired_change(match.next["timing"]["baseline"]);
-  if (is_paired || !both_have(match, (std::string("/timing/") + time_of(match) + "/median").c_str()))
-    return std::nullopt;
-  const Json &base_time = match.base["timing"][time_of(match)], &next_time = match.next["timing"][time_of(match)];
-  const measure::MedianTime base = median_time(match.base["timing"], time_of(match)),
-                            next = median_time(match.next["timing"], time_of(match));
+  if (is_paired || !both_have(match, k_frame_time)) return std::nullopt;
+  const Json &base_timing = match.base["timing"], &next_timing = match.next["timing"];
+  const measure::MedianTime base = median_frame_time(base_timing), next = median_frame_time(next_timing);
   if (!(base.ns > 0.0) || !(next.ns > 0.0)) return std::nullopt;
-  if (base_time == next_time)
+  if (base_timing["frame_ns"] == next_timing["frame_ns"])
     return TimeChange{{0.0, 0.0, measure::k_least_freedom}, {}, base.ns, next.ns};  // one measurement, twice
   return TimeChange{measure::change_of_medians(base, next), {}, base.ns, next.ns};
 }
@@ -308,7 +304,7 @@ Scope scope_of(const Json& base, const Json& next, const std::vector<Match>& mat
   if (std::any_of(matches.begin(), matches.end(),
                   [](const Match& one) { return both_have(one, "/count/source") && !are_counts_comparable(one); }))
     scope.left_out["instructions"].push_back("/cases are counted by other means, or of other frames");
-  if (!is_paired(base, next)) add("times", "/timing/assign_ns/median", found.to_times);
+  if (!is_paired(base, next)) add("times", k_frame_time, found.to_times);
   return scope;
 }
 
@@ -330,15 +326,23 @@ void add_time(Json& out, const TimeChange& time, double corrected_p, double thre
   out["launches"] = time.launches.size();
 }
 
-Json compared(const Match& match, const Times& times, const Scope& scope, double threshold,
-              const CompareOptions& options) {
+struct Settings {
+  double threshold = 0.0;
+  bool gates_separate = false, is_margin_same = true;
+};
+
+Json margin_of(const Json& result) {
+  return result["config"].value(Pointer("/allocation/margin"), Json());
+}
+
+Json compared(const Match& match, const Times& times, const Scope& scope, const Settings& settings) {
   Json out{{"id", match.next["id"]}, {"name", match.next["name"]}};
   if (const auto place = times.place_of(match))
-    add_time(out, times.at(*place), times.corrected_p(*place), threshold, options.gates_separate);
-  out.update(exact_differences(match.base, match.next));
+    add_time(out, times.at(*place), times.corrected_p(*place), settings.threshold, settings.gates_separate);
+  out.update(exact_differences(match.base, match.next, settings.is_margin_same));
   add_list_difference(match, out);
   if (!scope.leaves_out("instructions") && are_counts_comparable(match))
-    out["instructions"] = instructions(match, threshold);
+    out["instructions"] = instructions(match, settings.threshold);
   return out;
 }
 
@@ -402,6 +406,9 @@ Json warnings_of(const Json& base, const Json& next, const Json& comparison, con
     warnings.push_back(what + " are not compared: " + joined(in_the_way.get<std::vector<std::string>>(), "; "));
   if (comparison["data"] == "separate" && comparison["summary"]["methods_timed"] != 0)
     warnings.push_back(gates_separate ? k_separate_verdicts : k_separate_hints);
+  if (margin_of(base) != margin_of(next) && !comparison["cases"].empty())
+    warnings.push_back("allocation.margin is " + margin_of(base).dump() + " and " + margin_of(next).dump() +
+                       ", another setting: what is recommended follows it and is not compared");
   const bool is_beside = comparison["data"] == "paired" && base == next;
   if (!comparison["only_in_base"].empty())
     warnings.push_back("only in the base, not compared: " + listed(comparison["only_in_base"]));
@@ -481,19 +488,16 @@ Json compare_results(const Json& base, const Json& next, double threshold, const
   }
   const Scope scope = scope_of(base, next, matches, options.is_forced);
   const Times times = scope.leaves_out("times") ? Times() : Times(matches, by_pairs);
-  Json out{
-      {"comparison_version", 1},
-      {"threshold", threshold},
-      {"data", by_pairs ? "paired" : "separate"},
-      {"time", by_pairs || std::any_of(matches.begin(), matches.end(),
-                                       [](const Match& one) { return time_of(one) != std::string_view("frame_ns"); })
-                   ? "assign"
-                   : "frame"},
-      {"base", {{"tool", by_pairs ? next["baseline"]["tool"] : base["tool"]}}},
-      {"new", {{"tool", next["tool"]}}},
-      {"left_out", scope.left_out},
-      {"cases", Json::array()}};
-  for (const Match& match : matches) out["cases"].push_back(compared(match, times, scope, threshold, options));
+  Json out{{"comparison_version", 1},
+           {"threshold", threshold},
+           {"data", by_pairs ? "paired" : "separate"},
+           {"time", by_pairs ? "assign" : "frame"},
+           {"base", {{"tool", by_pairs ? next["baseline"]["tool"] : base["tool"]}}},
+           {"new", {{"tool", next["tool"]}}},
+           {"left_out", scope.left_out},
+           {"cases", Json::array()}};
+  const Settings settings{threshold, options.gates_separate, margin_of(base) == margin_of(next)};
+  for (const Match& match : matches) out["cases"].push_back(compared(match, times, scope, settings));
   out["summary"] = summary_of(out["cases"], times);
   out["only_in_base"] = names_of(only_in_base);
   out["only_in_new"] = names_of(only_in_new);

@@ -35,7 +35,7 @@ std::string version(const Json& side) {
 const char* kind_of_times(const Json& comparison) {
   if (comparison["data"] == "paired") return ", times of assignment side by side";
   if (comparison["summary"]["methods_timed"] == 0) return ", no times";
-  return comparison["time"] == "frame" ? ", frame times of separate runs" : ", times of assignment of separate runs";
+  return ", frame times of separate runs";
 }
 
 std::string heading(const Json& comparison) {

@@ -102,6 +102,12 @@ bool is_counted(const std::string& key) {
   return std::find(k_others.begin(), k_others.end(), key) == k_others.end();
 }
 
+// The high-water marks behind it are compared in any case.
+bool follows_margin(const std::string& pointer) {
+  return pointer.starts_with("/buffers/") &&
+         (pointer.ends_with("/recommended") || pointer.starts_with("/buffers/used_share"));
+}
+
 bool any(const Json& differences, const char* what) {
   return std::any_of(differences.begin(), differences.end(), [&](const Json& one) { return one["is"] == what; });
 }
@@ -121,10 +127,12 @@ std::string place_of_loss(const Json& one) {
          deepest["light"].dump() + " ('" + shown(deepest["light_name"]) + "')";
 }
 
-Json exact_differences(const Json& base, const Json& next) {
-  Json differences = Json::array();
+Json exact_differences(const Json& base, const Json& next, bool is_margin_same) {
+  Json found = Json::array(), differences = Json::array();
   for (const auto& [key, value] : base.items())
-    if (is_counted(key) && next.contains(key)) walk("/" + key, value, next[key], differences);
+    if (is_counted(key) && next.contains(key)) walk("/" + key, value, next[key], found);
+  for (const Json& one : found)
+    if (is_margin_same || !follows_margin(one["what"].get<std::string>())) differences.push_back(one);
   const bool is_better = any(differences, "better");
   const bool is_worse = any(differences, "worse") || (!is_better && follows_from_nothing(differences));
   Json out{{"counts", is_worse ? "worse" : is_better ? "better" : "same"}, {"differences", differences}};

@@ -11,7 +11,10 @@ namespace clusterbench::report {
 // better: something costs less, and nothing costs more; what only follows from that (a histogram, the worst frame) may
 // change with it. Any other difference is worse. What one result has and the other's version does not know is passed
 // over.
-nlohmann::ordered_json exact_differences(const nlohmann::ordered_json& base, const nlohmann::ordered_json& next);
+// `is_margin_same`: allocation.margin of both; else what is recommended, and its used share, differ by that setting and
+// are passed over.
+nlohmann::ordered_json exact_differences(const nlohmann::ordered_json& base, const nlohmann::ordered_json& next,
+                                         bool is_margin_same = true);
 
 // "frame 5, cell [1,0,2], light 8 ('torch')" of error.deepest; "" where there is none.
 std::string place_of_loss(const nlohmann::ordered_json& one);

@@ -177,17 +177,37 @@ std::string series_text(const Series& series) {
   return text;
 }
 
+// " of 0.5 % or more"
+std::string least_text(const measure::ChangeRule& rule) {
+  char text[48];
+  std::snprintf(text, sizeof text, " of %.3g %% or more", 100.0 * rule.min_change);
+  return rule.min_change > 0.0 ? text : "";
+}
+
 }  // namespace
 
 std::vector<HistoryEntry> read_history(const std::string& path) {
   return parsed_file(path, file_text(path));
 }
 
-void add_to_history(const std::string& path, const Json& result, const std::string& commit) {
+Addition add_to_history(const std::string& path, const Json& result, const std::string& commit) {
   std::string text = fs::exists(path) ? file_text(path) : "";
-  parsed_file(path, text);
-  text += history_line(result, commit).dump() + "\n";
-  replace_file(path, text);
+  const std::vector<HistoryEntry> history = parsed_file(path, text);
+  const std::string line = history_line(result, commit).dump() + "\n";
+  Addition addition;
+  std::size_t begin = 0, place = text.size();
+  for (const HistoryEntry& entry : history) {  // a line each
+    const std::size_t end = text.find('\n', begin) + 1;
+    if (entry.commit == commit) {
+      ++addition.earlier;
+      if (text.compare(begin, end - begin, line) == 0) addition.is_added = false;
+      place = end;
+    }
+    begin = end;
+  }
+  if (!addition.is_added) return addition;
+  replace_file(path, text.insert(place, line));
+  return addition;
 }
 
 std::vector<Series> series_of(const std::vector<HistoryEntry>& history, const measure::ChangeRule& rule) {
@@ -235,7 +255,8 @@ std::string change_text(const measure::ChangePoint& change) {
   return text;
 }
 
-std::string history_text(const std::vector<Series>& series, std::size_t entries, bool all) {
+std::string history_text(const std::vector<Series>& series, std::size_t entries, bool all,
+                         const measure::ChangeRule& rule) {
   std::string text;
   std::size_t changes = 0, too_short = 0;
   for (const Series& one : series) {
@@ -250,7 +271,7 @@ std::string history_text(const std::vector<Series>& series, std::size_t entries,
   for (const auto& [settings, what] : renewed)
     text += "warning: other settings (" + settings + "), not joined with what was before: " + what + "\n";
   text += number_of(entries, "result") + ", " + std::to_string(series.size()) + " series, " +
-          number_of(changes, "change") + "\n";
+          number_of(changes, "change") + least_text(rule) + "\n";
   return too_short == 0
              ? text
              : text + std::to_string(too_short) + " series of times are too short to tell changes from noise\n";

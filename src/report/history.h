@@ -38,17 +38,22 @@ struct Series {
 // Throws Error with the line for what is not a line of a history, an unfinished last line included.
 std::vector<HistoryEntry> read_history(const std::string& path);
 
-// Adds the result as the file's last line; makes the file if there is none. The file is replaced at once by one that
-// has all lines, so that no crash can leave half of one. Throws Error for a file that is no history, and on a failed
-// write.
-void add_to_history(const std::string& path, const nlohmann::ordered_json& result, const std::string& commit);
+struct Addition {
+  bool is_added = true;     // false: the same line is there already, and nothing was written
+  std::size_t earlier = 0;  // lines of this commit that were there
+};
+// Adds the result as the file's last line, or behind those of its commit where a job runs again; makes the file if
+// there is none. The file is replaced at once by one that has all lines, so that no crash can leave half of one. Throws
+// Error for a file that is no history, and on a failed write.
+Addition add_to_history(const std::string& path, const nlohmann::ordered_json& result, const std::string& commit);
 
 // By case in order of first appearance, then by metric, without those that say another in another way; the changes
 // found by `rule`.
 std::vector<Series> series_of(const std::vector<HistoryEntry>& history, const measure::ChangeRule& rule);
 
 // Series with changes, or all of them, and a line of totals.
-std::string history_text(const std::vector<Series>& series, std::size_t entries, bool all);
+std::string history_text(const std::vector<Series>& series, std::size_t entries, bool all,
+                         const measure::ChangeRule& rule = {});
 
 // "better", "worse", or "" where the metric has no direction.
 std::string direction(const Metric& metric, const measure::ChangePoint& change);

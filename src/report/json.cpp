@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "report/contender.h"
 #include "report/details_json.h"
 #include "report/machine.h"
 #include "run/gate.h"
@@ -27,11 +28,6 @@ Json to_json(const measure::Spread& spread) {
           {"p95", number_or_null(spread.p95)},
           {"p99", number_or_null(spread.p99)},
           {"max", number_or_null(spread.max)}};
-}
-
-// Six digits of what is measured: far more than any clock gives.
-Json six_digits(double value) {
-  return number_or_null(to_digits(value, 6));
 }
 
 Json to_json(const measure::Interval& interval) {
@@ -275,29 +271,6 @@ Json to_json(const run::SceneResult& scene) {
   return out;
 }
 
-double number_at(const Json& one, const char* pointer) {
-  const Json::json_pointer place(pointer);
-  return one.contains(place) && one[place].is_number() ? one[place].get<double>() : std::nan("");
-}
-
-std::string view_of(const Json& one) {
-  return Json{one["camera"], one["viewport"]}.dump();
-}
-
-run::Contender contender(const Json& one) {
-  const auto end = [&](const char* which) {
-    return number_at(one, ("/timing/frame_ns/ci95/" + std::string(which)).c_str());
-  };
-  const measure::Interval time_ns{end("0"), end("1")};
-  const bool is_timed = !std::isnan(time_ns.low) && !std::isnan(time_ns.high);
-  return {one["id"],
-          one["scene"],
-          view_of(one),
-          {is_timed ? time_ns : measure::Costs{}.time_ns, number_at(one, "/buffers/bytes/high_water"),
-           number_at(one, "/shading/overshade")},
-          one["eligible"]};
-}
-
 // Pairs per frame against the same case in float32; null where there is none.
 void add_extra_pairs(Json& cases) {
   std::map<std::string, double> pairs;
@@ -324,10 +297,14 @@ Json in_plan_order(const run::Result& result, const std::vector<Json>& earlier_c
 
 }  // namespace
 
-Json fronts(const Json& scenes, const Json& cases) {
+Json six_digits(double value) {
+  return number_or_null(to_digits(value, 6));
+}
+
+Json fronts(const Json& scenes, const Json& cases, std::uint64_t seed) {
   std::vector<run::Contender> all;
-  for (const Json& one : cases) all.push_back(contender(one));
-  const std::vector<std::string> ids = run::on_front(all);
+  for (const Json& one : cases) all.push_back(contender_of(one));
+  const std::vector<std::string> ids = run::on_front(all, seed);
   const std::set<std::string> best(ids.begin(), ids.end());
   Json list = Json::array();
   for (const Json& scene : scenes) {
@@ -398,7 +375,7 @@ Json result_to_json(const run::Result& result, const std::vector<Json>& earlier_
   for (const run::SceneResult& scene : result.scenes) out["scenes"].push_back(to_json(scene));
   out["cases"] = in_plan_order(result, earlier_cases);
   add_extra_pairs(out["cases"]);
-  out["pareto_front"] = fronts(out["scenes"], out["cases"]);
+  out["pareto_front"] = fronts(out["scenes"], out["cases"], seed_of(out));
   out["skipped"] = Json::array();
   for (const run::Skipped& skipped : result.skipped)
     out["skipped"].push_back({{"name", skipped.name}, {"reason", skipped.reason}});

@@ -12,21 +12,19 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Where a case has a figure, as JSON pointers; "" where there is none. The sum of `place` and `more`, by `divisor`,
-// times `scale`.
+// Where a case has a figure, as JSON pointers; "" where there is none. What stands at `place`, by `divisor`, times
+// `scale`.
 struct FigureRow {
   const char* name;
   const char* place;
   double scale = 1.0;
   const char* frame = "";
   const char* cell = "";
-  const char* more = "";
   const char* divisor = "";
 };
 constexpr double k_ns_to_us = 1e-3;
 constexpr FigureRow k_figure_rows[] = {
     {"frame_us", "/timing/frame_ns/median", k_ns_to_us},
-    {"frame_us", "/timing/assign_ns/median", k_ns_to_us, "", "", "/timing/convert_ns/median"},
     {"frame_us.max", "/timing/worst_frame/ns", k_ns_to_us, "/timing/worst_frame/frame"},
     {"assign_us", "/timing/assign_ns/median", k_ns_to_us},
     {"convert_us", "/timing/convert_ns/median", k_ns_to_us},
@@ -41,7 +39,7 @@ constexpr FigureRow k_figure_rows[] = {
     {"missed", "/error/false_negatives", 1.0, "/error/deepest/frame", "/error/deepest/cell"},
     {"excess", "/error/excess_ratio"},
     {"undecided", "/error/undecided"},
-    {"unlit", "/shading/missed", 1.0, "/shading/worst_frame/frame", "", "", "/shading/needed"},
+    {"unlit", "/shading/missed", 1.0, "/shading/worst_frame/frame", "", "/shading/needed"},
     {"lost_irradiance", "/shading/lost_irradiance"},
     {"overshade", "/shading/overshade"},
 };
@@ -52,7 +50,7 @@ std::optional<double> figure_at(const Json& one, const char* place) {
   return one[pointer].get<double>();
 }
 
-// With the row that has it. Of several rows of a name the first that has one.
+// With the row that has it.
 struct Found {
   const FigureRow* row = nullptr;
   double value = 0.0;
@@ -62,7 +60,6 @@ std::optional<Found> found_in(const Json& one, const std::string& name) {
     if (row.name != name) continue;
     std::optional<double> value = figure_at(one, row.place);
     if (!value) continue;
-    if (*row.more != '\0') *value += figure_at(one, row.more).value_or(0.0);
     if (*row.divisor != '\0') {
       const double whole = figure_at(one, row.divisor).value_or(0.0);
       if (!(whole > 0.0)) continue;  // a share of nothing

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "core/error.h"
+#include "report/contender.h"
 #include "report/json.h"
 #include "report/machine.h"
 
@@ -103,7 +104,7 @@ Json merged(const std::vector<NamedPart>& parts) {
           {"config", merged_config(parts)},
           {"scenes", scenes},
           {"cases", cases},
-          {"pareto_front", fronts(scenes, cases)},
+          {"pareto_front", fronts(scenes, cases, seed_of(first))},
           {"skipped", skipped}};
 }
 

@@ -4,6 +4,8 @@
 
 #include "core/error.h"
 #include "report/page_template.h"
+#include "report/ratios.h"
+#include "report/timing_warnings.h"
 
 namespace clusterbench::report {
 namespace {
@@ -32,7 +34,11 @@ std::string filled_page(std::string_view page_template, const nlohmann::ordered_
 
 std::string page(const std::vector<NamedResult>& results, const std::string& command) {
   nlohmann::ordered_json data{{"command", command}, {"results", nlohmann::ordered_json::array()}};
-  for (const NamedResult& one : results) data["results"].push_back({{"file", one.file}, {"result", one.result}});
+  for (const NamedResult& one : results)
+    data["results"].push_back({{"file", one.file},
+                               {"result", one.result},
+                               {"doubts", timing_doubts(one.result["cases"])},
+                               {"ratios", ratio_rankings(one.result)}});
   return filled_page(page_template(), data, "report");
 }
 

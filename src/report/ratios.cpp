@@ -1,81 +1,162 @@
 #include "report/ratios.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "core/pattern.h"
 #include "core/text.h"
 #include "report/columns.h"
+#include "report/contender.h"
+#include "report/json.h"
 
 namespace clusterbench::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::vector<double> frame_samples(const Json& one) {
-  const Json samples = one.value(Json::json_pointer("/timing/frame_ns/samples"), Json());
-  return samples.is_array() ? samples.get<std::vector<double>>() : std::vector<double>{};
-}
-
 bool is_beside(const Json& one, const Json& other) {
   return one["scene"] == other["scene"] && block_of(one) == block_of(other);
 }
 
-std::string name_of_case(const Json& one) {
-  return method_name(one) + " / " + one["storage"].get<std::string>();
-}
-
-double time_of_case(const Json& one) {
-  return one["timing"]["frame_ns"]["median"].get<double>();
-}
-
-struct Block {
-  std::string scene, name;
-  std::vector<const Json*> cases;  // the fastest first
+struct Timed {
+  const Json* one = nullptr;
+  run::Contender contender;
+  double frame_ns = 0.0;
 };
 
-std::vector<Block> timed_blocks(const Json& result, const std::string& methods) {
-  const Pattern pattern(methods, "--methods");
+// Cases whose times are held against each other, the fastest first.
+struct Block {
+  std::string scene, name;
+  std::vector<Timed> cases;
+};
+
+std::string name_of_case(const Json& one, bool across_grids) {
+  return (across_grids ? one["grid"]["name"].get<std::string>() + " / " : "") + method_name(one) + " / " +
+         one["storage"].get<std::string>();
+}
+
+std::string name_of_block(const Json& one, bool across_grids) {
+  return across_grids ? "camera " + one["camera"].get<std::string>() + ", " + one["viewport"][0].dump() + "x" +
+                            one["viewport"][1].dump()
+                      : block_of(one);
+}
+
+// In the order of the cases.
+std::vector<Block> timed_blocks(const Json& result, const RatioRequest& request) {
+  const Pattern pattern(request.methods, "--methods");
   std::vector<Block> blocks;
-  for (const Json& scene : result["scenes"])
-    for (const std::string& name : blocks_of(result["cases"], scene)) {
-      Block block{scene["name"], name, {}};
-      for (const Json& one : result["cases"])
-        if (one["scene"] == scene["name"] && block_of(one) == name && !frame_samples(one).empty() &&
-            one["timing"]["frame_ns"]["median"].is_number() && pattern.is_in(name_of_case(one)))
-          block.cases.push_back(&one);
-      std::ranges::stable_sort(block.cases,
-                               [](const Json* a, const Json* b) { return time_of_case(*a) < time_of_case(*b); });
-      if (!block.cases.empty()) blocks.push_back(block);
-    }
+  for (const Json& one : result["cases"]) {
+    const double frame_ns = number_at(one, "/timing/frame_ns/median");
+    if (std::isnan(frame_ns) || frame_rounds(one).empty() || !pattern.is_in(name_of_case(one, request.across_grids)))
+      continue;
+    const std::string name = name_of_block(one, request.across_grids);
+    auto block =
+        std::ranges::find_if(blocks, [&](const Block& had) { return one["scene"] == had.scene && name == had.name; });
+    if (block == blocks.end()) block = blocks.insert(block, Block{one["scene"], name, {}});
+    block->cases.push_back({&one, contender_of(one), frame_ns});
+  }
+  for (Block& block : blocks) std::ranges::stable_sort(block.cases, {}, &Timed::frame_ns);
   return blocks;
 }
 
-std::string ratio_text(const std::optional<measure::Ratio>& ratio) {
-  if (!ratio) return "-";
-  if (!ratio->ci95.is_known()) return text("%.2f", ratio->ratio) + " (" + k_unknown_interval + ")";
-  return text("%.2f", ratio->ratio) + text(" (%.2f", ratio->ci95.low) + text(" to %.2f)", ratio->ci95.high);
+// Of a case beside another one, for the page; null without a ratio.
+Json beside(const Timed& one, const Timed& other, const std::optional<measure::Ratio>& ratio) {
+  if (!ratio || one.one == other.one) return {};
+  return {{"id", (*other.one)["id"]},
+          {"ratio", six_digits(ratio->ratio)},
+          {"ci95", {six_digits(ratio->ci95.low), six_digits(ratio->ci95.high)}}};
 }
 
-std::vector<Cells> ranking(const Json& result, const Block& block) {
+Json pairs_of(const Block& block, std::uint64_t seed) {
+  Json pairs = Json::array();
+  for (std::size_t i = 1; i < block.cases.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const run::Contender &one = block.cases[i].contender, &other = block.cases[j].contender;
+      const std::optional<measure::Ratio> ratio = run::ratio_between(one, other, seed);
+      if (!ratio) continue;
+      pairs.push_back({{"case", i},
+                       {"other", j},
+                       {"ratio", six_digits(ratio->ratio)},
+                       {"ci95", {six_digits(ratio->ci95.low), six_digits(ratio->ci95.high)}},
+                       {"over", one.grid == other.grid ? "rounds" : "launches"},
+                       {"takes_longer", measure::takes_longer(ratio)}});
+    }
+  return pairs;
+}
+
+Json block_json(const Block& block, std::uint64_t seed, bool across_grids) {
+  Json out{{"scene", block.scene}, {"name", block.name}, {"cases", Json::array()}};
+  for (const Timed& timed : block.cases)
+    out["cases"].push_back({{"id", (*timed.one)["id"]},
+                            {"name", (*timed.one)["name"]},
+                            {"label", name_of_case(*timed.one, across_grids)},
+                            {"frame_ns", six_digits(timed.frame_ns)}});
+  out["pairs"] = pairs_of(block, seed);
+  return out;
+}
+
+// The pair of two places; null where there is none.
+Json pair_at(const Json& block, std::size_t one, std::size_t other) {
+  for (const Json& pair : block["pairs"])
+    if (pair["case"] == one && pair["other"] == other) return pair;
+  return {};
+}
+
+measure::Interval interval_of(const Json& pair) {
+  const Json &low = pair["ci95"][0], &high = pair["ci95"][1];
+  return low.is_number() && high.is_number() ? measure::Interval{low, high} : measure::Interval{};
+}
+
+std::string ratio_text(const Json& pair) {
+  if (pair.is_null()) return "-";
+  const measure::Interval ci95 = interval_of(pair);
+  if (!ci95.is_known()) return text("%.2f", pair["ratio"].get<double>()) + " (" + k_unknown_interval + ")";
+  return text("%.2f", pair["ratio"].get<double>()) + text(" (%.2f", ci95.low) + text(" to %.2f)", ci95.high);
+}
+
+bool is_longer(const Json& pair) {
+  return !pair.is_null() && pair["takes_longer"].get<bool>();
+}
+
+std::string label_at(const Json& block, std::size_t place) {
+  return shown(block["cases"][place]["label"]);
+}
+
+std::vector<Cells> ranking(const Json& block) {
   std::vector<Cells> rows{{"", "assigner", "frame us", "/ fastest", "/ row above"}};
-  for (std::size_t i = 0; i < block.cases.size(); ++i) {
-    const Json& one = *block.cases[i];
-    const bool is_like_above = i > 0 && !takes_longer(result, one, *block.cases[i - 1]);
-    rows.push_back({is_like_above ? "~" : "", shown(name_of_case(one)), text("%.2f", time_of_case(one) / 1e3),
-                    i == 0 ? "" : ratio_text(ratio_of_cases(result, one, *block.cases.front())),
-                    i == 0 ? "" : ratio_text(ratio_of_cases(result, one, *block.cases[i - 1]))});
+  for (std::size_t i = 0; i < block["cases"].size(); ++i) {
+    const Json above = i > 0 ? pair_at(block, i, i - 1) : Json();
+    rows.push_back({i > 0 && !is_longer(above) ? "~" : "", label_at(block, i),
+                    text("%.2f", block["cases"][i]["frame_ns"].get<double>() / 1e3),
+                    i == 0 ? "" : ratio_text(pair_at(block, i, 0)), i == 0 ? "" : ratio_text(above)});
   }
   return rows;
 }
 
-std::vector<Cells> pairs(const Json& result, const Block& block) {
+std::vector<Cells> pair_rows(const Json& block) {
   std::vector<Cells> rows{{"", "assigner", "/ assigner", "ratio"}};
-  for (std::size_t i = 1; i < block.cases.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      rows.push_back({takes_longer(result, *block.cases[i], *block.cases[j]) ? "" : "~",
-                      shown(name_of_case(*block.cases[i])), shown(name_of_case(*block.cases[j])),
-                      ratio_text(ratio_of_cases(result, *block.cases[i], *block.cases[j]))});
+  for (std::size_t i = 1; i < block["cases"].size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const Json pair = pair_at(block, i, j);
+      rows.push_back({is_longer(pair) ? "" : "~", label_at(block, i), label_at(block, j), ratio_text(pair)});
+    }
   return rows;
+}
+
+std::vector<Cells> rows_of(const Json& block, bool all_pairs) {
+  return all_pairs ? pair_rows(block) : ranking(block);
+}
+
+std::string legend_of(const Json& ratios, bool all_pairs) {
+  bool has_unknown = false;
+  for (const Json& block : ratios["blocks"])
+    for (const Json& pair : block["pairs"]) has_unknown |= !interval_of(pair).is_known();
+  const std::string unknown = has_unknown ? k_unknown_interval + (": " + what_intervals_take()) + ".\n" : "";
+  return unknown + std::string("Ratios of frame times of the same ") +
+         (ratios["across_grids"].get<bool>() ? "rounds, or of other grids of the same launches" : "rounds") +
+         ", median and 95 % interval. ~: the interval does not say that " +
+         (all_pairs ? "the first takes longer.\n" : "it takes longer than the row above.\n");
 }
 
 std::string csv_field(const std::string& words) {
@@ -84,57 +165,95 @@ std::string csv_field(const std::string& words) {
   return out + "\"";
 }
 
-std::string csv_row(const std::vector<std::string>& names, const measure::Ratio& ratio) {
+std::string csv_row(const std::vector<std::string>& names, double ratio, const measure::Interval& interval) {
   std::string row;
   for (const std::string& name : names) row += csv_field(name) + ",";
-  if (!ratio.ci95.is_known()) return row + text("%.4f,,\n", ratio.ratio);
-  return row + text("%.4f,", ratio.ratio) + text("%.4f,", ratio.ci95.low) + text("%.4f\n", ratio.ci95.high);
+  row += text("%.4f,", ratio);
+  return row + (interval.is_known() ? text("%.4f,", interval.low) + text("%.4f\n", interval.high) : ",\n");
 }
 
 }  // namespace
 
 std::optional<measure::Ratio> ratio_of_cases(const Json& result, const Json& one, const Json& other) {
-  const std::vector<double> own = frame_samples(one), others = frame_samples(other);
-  if (!is_beside(one, other) || own.empty() || own.size() != others.size()) return std::nullopt;
-  if (std::ranges::any_of(others, [](double ns) { return !(ns > 0.0); })) return std::nullopt;
-  const Json &timing = one["timing"], &beside = other["timing"];
-  if (timing.value("launches", 1) != beside.value("launches", 1) ||
-      timing.value("caches", "warm") != beside.value("caches", "warm"))
-    return std::nullopt;
-  return measure::paired_ratio(own, others, result["config"].value("seed", std::uint64_t{1}),
-                               timing.value("launches", 1));
+  if (!is_beside(one, other)) return std::nullopt;
+  return run::ratio_between(contender_of(one), contender_of(other), seed_of(result));
 }
 
 bool takes_longer(const Json& result, const Json& one, const Json& other) {
-  const std::optional<measure::Ratio> ratio = ratio_of_cases(result, one, other);
-  return ratio && ratio->ci95.low > 1.0;
+  return measure::takes_longer(ratio_of_cases(result, one, other));
 }
 
-std::string ratio_table(const Json& result, const std::string& methods, bool all_pairs) {
+Json ratios_of(const Json& result, const RatioRequest& request) {
+  Json out{{"ratios_version", k_ratios_version},
+           {"name", result["name"]},
+           {"tool", result["tool"]},
+           {"across_grids", request.across_grids},
+           {"blocks", Json::array()}};
+  for (const Block& block : timed_blocks(result, request))
+    out["blocks"].push_back(block_json(block, seed_of(result), request.across_grids));
+  return out;
+}
+
+Json ratio_rankings(const Json& result) {
+  RatioRequest request;
+  request.across_grids = true;
+  Json out = Json::array();
+  for (const Block& block : timed_blocks(result, request))
+    for (std::size_t i = 0; i < block.cases.size(); ++i) {
+      const Timed &one = block.cases[i], &fastest = block.cases.front(), &above = block.cases[i == 0 ? 0 : i - 1];
+      const auto to_fastest = run::ratio_between(one.contender, fastest.contender, seed_of(result)),
+                 to_above = run::ratio_between(one.contender, above.contender, seed_of(result));
+      out.push_back({{"id", (*one.one)["id"]},
+                     {"fastest", beside(one, fastest, to_fastest)},
+                     {"above", beside(one, above, to_above)},
+                     {"is_like_above", i > 0 && to_above && !measure::takes_longer(to_above)}});
+    }
+  return out;
+}
+
+std::string ratio_table(const Json& ratios, bool all_pairs) {
   std::string out, scene;
-  for (const Block& block : timed_blocks(result, methods)) {
-    if (block.scene != scene) out += shown(block.scene) + "\n";
-    scene = block.scene;
-    const std::vector<Cells> rows = all_pairs ? pairs(result, block) : ranking(result, block);
+  for (const Json& block : ratios["blocks"]) {
+    if (block["scene"] != scene) out += shown(block["scene"]) + "\n";
+    scene = block["scene"].get<std::string>();
+    const std::vector<Cells> rows = rows_of(block, all_pairs);
     const std::vector<std::size_t> widths = widths_of(rows);
-    out += " " + block.name + "\n";
+    out += " " + shown(block["name"]) + "\n";
     for (const Cells& row : rows) out += aligned(row, widths);
   }
   if (out.empty()) return out;
-  const bool has_unknown = out.find(std::string("(") + k_unknown_interval + ")") != std::string::npos;
-  if (has_unknown) out += "\n" + std::string(k_unknown_interval) + ": " + what_intervals_take() + ".";
-  return out +
-         "\nRatios of frame times of the same rounds, median and 95 % interval. ~: the interval does not say that " +
-         (all_pairs ? "the first takes longer.\n" : "it takes longer than the row above.\n");
+  return out + "\n" + legend_of(ratios, all_pairs);
 }
 
-std::string ratio_csv(const Json& result, const std::string& methods) {
+std::string ratio_markdown(const Json& ratios, bool all_pairs) {
+  std::string out;
+  for (const Json& block : ratios["blocks"]) {
+    out += "### " + markdown_cell(block["scene"]) + ", " + markdown_cell(block["name"]) + "\n\n";
+    const std::vector<Cells> rows = rows_of(block, all_pairs);
+    for (const Cells& row : rows) {
+      out += "|";
+      for (const std::string& cell : row) out += " " + markdown_cell(cell) + " |";
+      out += "\n";
+      if (&row == &rows.front()) out += all_pairs ? "|---|---|---|---:|\n" : "|---|---|---:|---:|---:|\n";
+    }
+    out += "\n";
+  }
+  return out + legend_of(ratios, all_pairs);
+}
+
+std::string ratio_csv(const Json& ratios) {
   std::string out = "scene,grid,method,other,ratio,low,high\n";
-  for (const Block& block : timed_blocks(result, methods))
-    for (const Json* one : block.cases)
-      for (const Json* other : block.cases)
-        if (const auto ratio = one == other ? std::nullopt : ratio_of_cases(result, *one, *other))
-          out += csv_row({block.scene, block.name, name_of_case(*one), name_of_case(*other)}, *ratio);
+  for (const Json& block : ratios["blocks"])
+    for (std::size_t i = 0; i < block["cases"].size(); ++i)
+      for (std::size_t j = 0; j < block["cases"].size(); ++j) {
+        const Json pair = pair_at(block, std::max(i, j), std::min(i, j));
+        if (i == j || pair.is_null()) continue;
+        const double ratio = pair["ratio"];
+        const measure::Interval ci95 = interval_of(pair);
+        const Json &one = block["cases"][i], &other = block["cases"][j];
+        const std::vector<std::string> names{block["scene"], block["name"], one["label"], other["label"]};
+        out += i > j ? csv_row(names, ratio, ci95) : csv_row(names, 1.0 / ratio, {1.0 / ci95.high, 1.0 / ci95.low});
+      }
   return out;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // How much longer one method takes than another. Cases of one scene, camera, viewport and grid are measured in the same
-// rounds, and so any two of them have a ratio, round by round, that is far steadier than their times.
+// rounds, and so any two of them have a ratio, round by round, that is far steadier than their times. Those of other
+// grids have one launch by launch (measure/side_by_side.h).
 
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -11,7 +12,9 @@
 
 namespace clusterbench::report {
 
-// Frame time of `one` / that of `other`; nullopt where they have no rounds in common.
+inline constexpr int k_ratios_version = 1;
+
+// Frame time of `one` / that of `other`, two cases of a grid; nullopt where they have no rounds in common.
 std::optional<measure::Ratio> ratio_of_cases(const nlohmann::ordered_json& result, const nlohmann::ordered_json& one,
                                              const nlohmann::ordered_json& other);
 
@@ -19,12 +22,24 @@ std::optional<measure::Ratio> ratio_of_cases(const nlohmann::ordered_json& resul
 bool takes_longer(const nlohmann::ordered_json& result, const nlohmann::ordered_json& one,
                   const nlohmann::ordered_json& other);
 
-// Of cases whose method's name matches (all: empty) a ranking per grid: each beside the fastest and beside the one
-// before it; with `all_pairs` each beside each that is faster. "" where nothing is timed.
-std::string ratio_table(const nlohmann::ordered_json& result, const std::string& methods, bool all_pairs);
+struct RatioRequest {
+  std::string methods;        // a regular expression; all: empty
+  bool across_grids = false;  // all grids of a scene, camera and viewport together
+  bool all_pairs = false;     // of the tables: each beside each that is faster, not a ranking
+};
 
-// All pairs of a grid, both ways around: scene, block, both methods, ratio and interval, which is empty where it is
-// unknown.
-std::string ratio_csv(const nlohmann::ordered_json& result, const std::string& methods);
+// Of each grid (or view) the timed cases, the fastest first, and the ratio of any two, the slower by the faster one:
+// docs/results.md, `clusterbench schema ratios`. "blocks" is empty where nothing is timed.
+nlohmann::ordered_json ratios_of(const nlohmann::ordered_json& result, const RatioRequest& request);
+
+// Of each timed case the pairs of a ranking over all grids of its scene, camera and viewport, for the page: {"id",
+// "fastest": {"id", "ratio", "ci95"} or null, "above": the same of the next faster one, "is_like_above"}.
+nlohmann::ordered_json ratio_rankings(const nlohmann::ordered_json& result);
+
+// Of what ratios_of() gives. A ranking has each case beside the fastest one and beside the one before it.
+std::string ratio_table(const nlohmann::ordered_json& ratios, bool all_pairs);
+std::string ratio_markdown(const nlohmann::ordered_json& ratios, bool all_pairs);
+// All pairs, both ways around; an interval that is unknown is empty.
+std::string ratio_csv(const nlohmann::ordered_json& ratios);
 
 }  // namespace clusterbench::report

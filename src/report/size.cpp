@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/pattern.h"
 #include "report/columns.h"
+#include "report/lookup_constants.h"
 
 namespace clusterbench::report {
 namespace {
@@ -54,8 +55,9 @@ std::string comment(const Json& result, const Json& one) {
   out += "//   warn above  " + std::to_string(warning_level(result, capacity)) + " entries (" +
          text("%g", warn_at(result)) + " of the capacity)\n";
   if (buffers["overflow"]["dropped_pairs"] != 0)
-    out += "//   OVERFLOW    " + buffers["overflow"]["dropped_pairs"].dump() + " pairs dropped in " +
-           buffers["overflow"]["cells"].dump() + " cells of " + buffers["overflow"]["frames"].dump() + " frames\n";
+    out += "//   OVERFLOW    " + number_of(buffers["overflow"]["dropped_pairs"].get<std::uint64_t>(), "pair") +
+           " dropped in " + number_of(buffers["overflow"]["cells"].get<std::uint64_t>(), "cell") + " of " +
+           number_of(buffers["overflow"]["frames"].get<std::uint64_t>(), "frame") + "\n";
   return out;
 }
 
@@ -117,7 +119,7 @@ std::vector<Json> matching_cases(const Json& cases, const std::string& filter) {
     if (pattern.is_in(one["name"].get_ref<const std::string&>())) out.push_back(one);
   if (out.empty() && !cases.empty())
     throw Error("", "--filter",
-                "'" + filter + "' matches none of " + std::to_string(cases.size()) + " cases; one of them is '" +
+                "'" + filter + "' matches none of " + number_of(cases.size(), "case") + "; one of them is '" +
                     cases[0]["name"].get<std::string>() + "'");
   return out;
 }
@@ -129,20 +131,31 @@ struct Budget {
   std::uint64_t capacity_entries = 0, warn_entries = 0, bytes = 0;
 };
 
+// With how a sample finds its list. A structure of a method's own has lookups of its own.
+std::string lookup_text(const Budget& budget,
+                        std::string (*declare)(const std::string&, const std::vector<LookupConstant>&)) {
+  if (is_own(*budget.one)) return "";
+  const std::string note = lookup_note(*budget.one);
+  return (note.empty() ? "" : "//   lookup      " + note + "\n") +
+         declare(budget.name + "_lookup", lookup_constants(*budget.one));
+}
+
 std::string cpp_constants(const Json& result, const Budget& budget) {
   return comment(result, *budget.one) + "inline constexpr LightListBudget " + budget.name + "{" +
          std::to_string(budget.capacity_entries) + "u, " + std::to_string(budget.warn_entries) + "u, " +
-         std::to_string(budget.bytes) + "u};\n\n";
+         std::to_string(budget.bytes) + "u};\n" + lookup_text(budget, lookup_cpp) + "\n";
 }
 
-// `type`: what a constant is declared with. Bytes that 32 bits do not hold are in the comment alone.
-std::string shader_constants(const Json& result, const Budget& budget, const std::string& type) {
+// Bytes that 32 bits do not hold are in the comment alone.
+std::string shader_constants(const Json& result, const Budget& budget, bool is_hlsl) {
+  const std::string type = is_hlsl ? "static const uint" : "const uint";
   const auto line = [&](const char* what, std::uint64_t value) {
     if (value > std::numeric_limits<std::uint32_t>::max()) return std::string();
     return type + " " + budget.name + "_" + what + " = " + std::to_string(value) + "u;\n";
   };
   return comment(result, *budget.one) + line("capacity_entries", budget.capacity_entries) +
-         line("warn_entries", budget.warn_entries) + line("bytes", budget.bytes) + "\n";
+         line("warn_entries", budget.warn_entries) + line("bytes", budget.bytes) +
+         lookup_text(budget, is_hlsl ? lookup_hlsl : lookup_glsl) + "\n";
 }
 
 Json budget_json(const Budget& budget) {
@@ -160,6 +173,7 @@ Json budget_json(const Budget& budget) {
            {"worst_frame", buffers["worst_frame"]}};
   if (buffers.contains("worst_cell")) out["worst_cell"] = buffers["worst_cell"];
   out["dropped_pairs"] = buffers["overflow"]["dropped_pairs"];
+  if (!is_own(one)) out["lookup"] = lookup_json(lookup_constants(one));
   return out;
 }
 
@@ -209,12 +223,12 @@ std::string cpp_report(const Json& result, const std::vector<Budget>& budgets, s
   return text + k_header_end;
 }
 
-std::string shader_report(const Json& result, const std::vector<Budget>& budgets, std::size_t all, const char* type) {
+std::string shader_report(const Json& result, const std::vector<Budget>& budgets, std::size_t all, bool is_hlsl) {
   std::string text =
       "// Light-list allocation, measured by clusterbench. Measure again when levels, lights or the clustering "
       "change.\n\n" +
       left_out_text(budgets.size(), all);
-  for (const Budget& budget : budgets) text += shader_constants(result, budget, type);
+  for (const Budget& budget : budgets) text += shader_constants(result, budget, is_hlsl);
   text.pop_back();
   return text;
 }
@@ -241,8 +255,8 @@ std::string size_report(const Json& result, const SizeRequest& request) {
     budgets.push_back({&one, identifier(request.all ? one["name"].get<std::string>() : group_of(one), taken), capacity,
                        warning_level(result, capacity), one["buffers"]["bytes"]["recommended"].get<std::uint64_t>()});
   }
-  if (request.format == "hlsl") return shader_report(result, budgets, cases.size(), "static const uint");
-  if (request.format == "glsl") return shader_report(result, budgets, cases.size(), "const uint");
+  if (request.format == "hlsl") return shader_report(result, budgets, cases.size(), true);
+  if (request.format == "glsl") return shader_report(result, budgets, cases.size(), false);
   if (request.format == "json") return json_report(result, budgets, cases.size());
   return cpp_report(result, budgets, cases.size());
 }

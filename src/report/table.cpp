@@ -50,13 +50,17 @@ std::string time_text(const Json& one, const char* pointer) {
   return text(us < 10.0 ? "%.2f" : us < 1000.0 ? "%.1f" : "%.0f", us);
 }
 
-// Half of the interval, of the time.
+// Half of the interval, of the time. A wide one has its ends at different distances, and shows both.
 std::string interval_text(const Json& one) {
+  constexpr double k_wide_percent = 20.0;
   const Json *low = at(one, "/timing/frame_ns/ci95/0"), *high = at(one, "/timing/frame_ns/ci95/1"),
              *median = at(one, "/timing/frame_ns/median");
   if (median == nullptr || median->get<double>() <= 0.0) return "-";
   if (low == nullptr || high == nullptr) return k_unknown_interval;
-  return text("%.1f %%", 50.0 * (high->get<double>() - low->get<double>()) / median->get<double>());
+  const double below = 100.0 * (1.0 - low->get<double>() / median->get<double>()),
+               above = 100.0 * (high->get<double>() / median->get<double>() - 1.0);
+  if (std::max(below, above) < k_wide_percent) return text("%.1f %%", 0.5 * (below + above));
+  return text("-%.0f", below) + text("/+%.0f %%", above);
 }
 
 std::string worst_text(const Json& one) {
@@ -201,11 +205,11 @@ std::string legend(const Extras& extras, bool has_front, bool is_complete) {
   std::string out;
   if (has_front)
     out += "* no other case of its scene, camera and viewport is better in " +
-           std::string(extras.times ? "time (beyond the intervals), " : "") + "bytes and overshade.\n";
+           std::string(extras.times ? "time (beyond the interval of their ratio), " : "") + "bytes and overshade.\n";
   if (extras.times)
     out += std::string("frame: time of a frame") + (extras.cold ? " with cold caches" : "") + ", assign" +
            (extras.conversions ? " + convert" : "") + "; +-: half of its 95 % interval" +
-           (extras.launches ? " between launches" : "") +
+           (extras.launches ? " between launches" : "") + ", both sides where one is above 20 %" +
            ".\nworst: the slowest of the timed frames and the one with most pairs, @ its number.\n";
   if (extras.builds) out += "build: the grid changes between frames, and assign holds its builds.\n";
   if (!is_complete) out += "-: not measured, or not comparable.\n";

@@ -5,6 +5,7 @@
 #include "core/text.h"
 #include "measure/timing.h"
 #include "report/columns.h"
+#include "report/contender.h"
 
 namespace clusterbench::report {
 namespace {
@@ -52,9 +53,7 @@ double half_of_interval(const Json& one) {
 }
 
 std::optional<measure::TwoModes> modes_of(const Json& one) {
-  const Json samples = one.value(Json::json_pointer("/timing/frame_ns/samples"), Json());
-  if (!samples.is_array()) return std::nullopt;
-  return measure::two_modes(samples.get<std::vector<double>>());
+  return measure::two_modes(frame_rounds(one));
 }
 
 std::string more_launches(const Json& one) {
@@ -62,41 +61,40 @@ std::string more_launches(const Json& one) {
 }
 
 std::string unknown_warning(const Doubt& unknown, std::size_t timed) {
-  return "warning: " + unknown.cases(timed) + " without an interval: " + what_intervals_take() + "; try --launches 5\n";
+  return unknown.cases(timed) + " without an interval: " + what_intervals_take() + "; try --launches 5";
 }
 
 std::string wide_warning(const Doubt& wide, std::size_t timed) {
-  return "warning: " + wide.cases(timed) + " have intervals wider than +- 10 %, the widest +- " +
+  return wide.cases(timed) + " have intervals wider than +- 10 %, the widest +- " +
          text("%.0f %%", 100.0 * wide.badness()) + ": " + wide.name() + "; stop other programs, or try " +
-         more_launches(wide.worst()) + "\n";
+         more_launches(wide.worst());
 }
 
 std::string modes_warning(const Doubt& two, std::size_t timed) {
   const measure::TwoModes modes = *modes_of(two.worst());
-  return "warning: " + two.cases(timed) + " in two groups, as at " + text("%.4g", modes.low / 1e3) +
+  return two.cases(timed) + " in two groups, as at " + text("%.4g", modes.low / 1e3) +
          text(" and %.4g us: ", modes.high / 1e3) + two.name() +
          "; something switches while it is measured (clock speed, another program, where memory lies): try a fixed "
          "clock, or " +
-         more_launches(two.worst()) + "\n";
+         more_launches(two.worst());
 }
 
-std::string machine_warnings(const Doubt& others, const Doubt& stolen, const Doubt& hot) {
-  std::string out;
+void add_machine_warnings(std::vector<std::string>& out, const Doubt& others, const Doubt& stolen, const Doubt& hot) {
   if (others.is_any())
-    out += "warning: other programs kept up to " + text("%.1f", others.badness()) +
-           " processors busy while times were measured; stop them, or count instructions instead (--count)\n";
+    out.push_back("other programs kept up to " + text("%.1f", others.badness()) +
+                  " processors busy while times were measured; stop them, or count instructions instead (--count)");
   if (stolen.is_any())
-    out += "warning: other guests of this machine's host took up to " + text("%.2f", stolen.badness()) +
-           " processors while times were measured; measure at another time, or count instructions instead (--count)\n";
+    out.push_back(
+        "other guests of this machine's host took up to " + text("%.2f", stolen.badness()) +
+        " processors while times were measured; measure at another time, or count instructions instead (--count)");
   if (hot.is_any())
-    out += "warning: processors slowed down because of heat " + text("%.0f", hot.badness()) +
-           " times while times were measured; let the machine cool, or fix a lower clock\n";
-  return out;
+    out.push_back("processors slowed down because of heat " + text("%.0f", hot.badness()) +
+                  " times while times were measured; let the machine cool, or fix a lower clock");
 }
 
 }  // namespace
 
-std::string timing_warnings(const Json& cases) {
+std::vector<std::string> timing_doubts(const Json& cases) {
   Doubt unknown, wide, two, others, stolen, hot;
   std::size_t timed = 0;
   for (const Json& one : cases) {
@@ -114,11 +112,18 @@ std::string timing_warnings(const Json& cases) {
     check(stolen, timing_number(one, "/timing/disturbed/stolen_cores"), k_stolen_cores);
     check(hot, timing_number(one, "/timing/disturbed/throttled"), 0.0);
   }
+  std::vector<std::string> out;
+  if (unknown.is_any()) out.push_back(unknown_warning(unknown, timed));
+  if (wide.is_any()) out.push_back(wide_warning(wide, timed));
+  if (two.is_any()) out.push_back(modes_warning(two, timed));
+  add_machine_warnings(out, others, stolen, hot);
+  return out;
+}
+
+std::string timing_warnings(const Json& cases) {
   std::string out;
-  if (unknown.is_any()) out += unknown_warning(unknown, timed);
-  if (wide.is_any()) out += wide_warning(wide, timed);
-  if (two.is_any()) out += modes_warning(two, timed);
-  return out + machine_warnings(others, stolen, hot);
+  for (const std::string& doubt : timing_doubts(cases)) out += "warning: " + doubt + "\n";
+  return out;
 }
 
 }  // namespace clusterbench::report

@@ -3,11 +3,14 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace clusterbench::report {
 
-// A line for each kind of doubt, with the worst of the cases: intervals wider than 10 % on either side, times in two
-// groups, other programs or guests at work, processors that were too hot. "" without a doubt.
+// One for each kind of doubt, with the worst of the cases: intervals wider than 10 % on either side, times in two
+// groups, other programs or guests at work, processors that were too hot.
+std::vector<std::string> timing_doubts(const nlohmann::ordered_json& cases);
+// The same as lines that begin with "warning: "; "" without a doubt.
 std::string timing_warnings(const nlohmann::ordered_json& cases);
 
 }  // namespace clusterbench::report

@@ -39,6 +39,26 @@ std::string case_warnings(const Json& cases) {
   return out;
 }
 
+// Of all lights that have an end, given or made.
+std::string ranges_text(const Json& rule) {
+  if (!rule.contains("ranges")) return "";
+  const auto metres = [&](const char* which) { return text("%.3g m", rule["ranges"][which].get<double>()); };
+  return "; the scene's ranges: least " + metres("least") + ", median " + metres("median") + ", greatest " +
+         metres("greatest");
+}
+
+// What is to be known of a grid, once for all of its cases.
+std::string grid_notes(const Json& cases) {
+  std::vector<std::string> lines;
+  for (const Json& one : cases) {
+    if (!one["grid"].contains("note")) continue;
+    const std::string line =
+        "note: " + shown(one["scene"]) + ", " + shown(one["grid"]["name"]) + ": " + shown(one["grid"]["note"]) + "\n";
+    if (std::ranges::find(lines, line) == lines.end()) lines.push_back(line);
+  }
+  return joined(lines, "");
+}
+
 }  // namespace
 
 std::string notes_text(const Json& result) {
@@ -50,9 +70,9 @@ std::string notes_text(const Json& result) {
     out += "note: " + shown(scene["name"]) + ": " + number_of(made, "light") +
            (made == 1 ? " has no range; it ends where it falls to " : " have no range; they end where they fall to ") +
            text("%g", rule["cutoff_lux"].get<double>()) + " lux, at most " +
-           text("%g", rule["max_range"].get<double>()) + " m (range_rule)\n";
+           text("%g", rule["max_range"].get<double>()) + " m (range_rule)" + ranges_text(rule) + "\n";
   }
-  return out;
+  return out + grid_notes(result["cases"]);
 }
 
 std::string warnings_text(const Json& result) {

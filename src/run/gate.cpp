@@ -140,15 +140,28 @@ bool is_eligible(const CaseResult& one) {
   return one.failures.empty() && !loses_lights(one);
 }
 
-std::vector<std::string> on_front(std::span<const Contender> cases) {
+std::optional<measure::Ratio> ratio_between(const Contender& one, const Contender& other, std::uint64_t seed) {
+  const measure::FrameTimes own{one.rounds_ns, one.launches, one.is_cold},
+      others{other.rounds_ns, other.launches, other.is_cold};
+  return one.grid == other.grid ? measure::ratio_of_rounds(own, others, seed)
+                                : measure::ratio_of_launches(own, others, seed);
+}
+
+std::vector<std::string> on_front(std::span<const Contender> cases, std::uint64_t seed) {
   std::map<std::pair<std::string, std::string>, std::vector<const Contender*>> views;
   for (const Contender& one : cases)
     if (one.is_eligible) views[{one.scene, one.view}].push_back(&one);
   std::vector<std::string> ids;
-  for (const auto& [view, seen] : views) {
+  for (const auto& one_view : views) {
+    const std::vector<const Contender*>& seen = one_view.second;
     std::vector<measure::Costs> costs;
     for (const Contender* one : seen) costs.push_back(one->costs);
-    for (const std::size_t place : measure::pareto_front(costs)) ids.push_back(seen[place]->id);
+    const measure::TakesLonger by_interval = measure::intervals_apart(costs);
+    const measure::TakesLonger takes_longer = [&](std::size_t one, std::size_t other) {
+      const std::optional<measure::Ratio> ratio = ratio_between(*seen[one], *seen[other], seed);
+      return ratio ? measure::takes_longer(ratio) : by_interval(one, other);
+    };
+    for (const std::size_t place : measure::pareto_front(costs, takes_longer)) ids.push_back(seen[place]->id);
   }
   return ids;
 }

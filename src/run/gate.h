@@ -1,12 +1,15 @@
 #pragma once
 // What a case is judged by: whether it fails its run, loses lights, and stands on its scene's front.
 
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "config/config.h"
 #include "measure/front.h"
+#include "measure/side_by_side.h"
 #include "run/result.h"
 
 namespace clusterbench::run {
@@ -37,9 +40,19 @@ struct Contender {
   std::string scene, view;
   measure::Costs costs;
   bool is_eligible = true;
+  // Cases of one scene, view and grid are measured in the same rounds; those of one scene by the same launches.
+  std::string grid;
+  std::vector<double> rounds_ns;  // frame times, launch after launch; empty where nothing is timed
+  int launches = 1;
+  bool is_cold = false;
 };
 
-// Ids of the cases that no other case of their scene and view beats in time, bytes and overshade together.
-std::vector<std::string> on_front(std::span<const Contender> cases);
+// Frame time of `one` / that of `other`, of cases of one scene and view: of their rounds where those are the same, else
+// of their launches. nullopt where neither can be.
+std::optional<measure::Ratio> ratio_between(const Contender& one, const Contender& other, std::uint64_t seed);
+
+// Ids of the cases that no other case of their scene and view beats in time, bytes and overshade together. Times are
+// told apart by their ratio, as `clusterbench ratio` has it, and where there is none by their intervals.
+std::vector<std::string> on_front(std::span<const Contender> cases, std::uint64_t seed);
 
 }  // namespace clusterbench::run

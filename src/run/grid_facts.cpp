@@ -1,5 +1,9 @@
 #include "run/grid_facts.h"
 
+#include <cmath>
+#include <cstdio>
+#include <string>
+
 #include "config/grid_json.h"
 
 namespace clusterbench::run {
@@ -17,7 +21,17 @@ Json lookup_facts(const grid::SliceLookup& lookup) {
   return facts;
 }
 
-void add_screen(Json& facts, const grid::GridSpec& spec, const grid::ScreenGrid& grid) {
+std::string end_text(double far_m) {
+  char text[160];
+  std::snprintf(
+      text, sizeof text,
+      "the camera has no far plane and slices.far is not set: the grid ends at %.4g m, beyond which no light of "
+      "the path reaches",
+      far_m);
+  return text;
+}
+
+void add_screen(Json& facts, const grid::GridSpec& spec, const grid::ScreenGrid& grid, double camera_far_m) {
   const bool by_count = spec.tiles.count.x != 0;
   facts["tiles"] = {{by_count ? "count" : "pixels", by_count ? Json{spec.tiles.count.x, spec.tiles.count.y}
                                                              : Json{spec.tiles.pixels.x, spec.tiles.pixels.y}}};
@@ -26,6 +40,8 @@ void add_screen(Json& facts, const grid::GridSpec& spec, const grid::ScreenGrid&
                      {"lookup", lookup_facts(grid.slices.lookup)}};
   if (spec.slices.scheme == grid::Scheme::fit)
     facts["note"] = "slices follow the lights in view: these are the last frame's";
+  else if (std::isinf(camera_far_m) && spec.slices.scheme != grid::Scheme::list && spec.slices.far_m == 0.0)
+    facts["note"] = end_text(grid.slices.boundaries.back());
 }
 
 void add_world(Json& facts, const grid::WorldGrid& grid) {
@@ -40,13 +56,13 @@ void add_world(Json& facts, const grid::WorldGrid& grid) {
 
 }  // namespace
 
-Json grid_facts(const grid::GridSpec& spec, const grid::Grid& grid) {
+Json grid_facts(const grid::GridSpec& spec, const grid::Grid& grid, double camera_far_m) {
   const Vec3i cells = grid.cells();
   Json facts{{"kind", grid::kind_name(grid.kind())}, {"name", spec.name()}, {"cells", {cells.x, cells.y, cells.z}}};
   switch (grid.kind()) {
     case grid::Kind::frustum:
     case grid::Kind::distance:
-      add_screen(facts, spec, grid.screen());
+      add_screen(facts, spec, grid.screen(), camera_far_m);
       break;
     case grid::Kind::cascades:
       facts["levels"] = grid.cascades().levels;

@@ -7,6 +7,7 @@
 
 namespace clusterbench::run {
 
-nlohmann::json grid_facts(const grid::GridSpec& spec, const grid::Grid& grid);
+// `camera_far_m`: infinite where the camera has no far plane.
+nlohmann::json grid_facts(const grid::GridSpec& spec, const grid::Grid& grid, double camera_far_m);
 
 }  // namespace clusterbench::run

@@ -267,7 +267,8 @@ class Run {
     out.camera = plan_.scenes[plan.scene].paths[plan.camera].camera;
     out.viewport = config_.viewports[plan.viewport];
     out.frames = frames;
-    out.grid = grid_facts(config_.grids[plan.grid], counted.last_grid);
+    out.grid = grid_facts(config_.grids[plan.grid], counted.last_grid,
+                          plan_.scenes[plan.scene].paths[plan.camera].shots.front().projection.far_m);
     out.assigner = assigner.name;
     out.assigner_label = assigner.label();
     out.assigner_params = params_json(assigner.params);

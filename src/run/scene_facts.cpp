@@ -1,5 +1,8 @@
 #include "run/scene_facts.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/text.h"
 #include "scene/camera_path.h"
 #include "view/frame.h"
@@ -49,6 +52,7 @@ SceneResult scene_result(const SceneData& data, const config::SceneRequest& requ
   out.warnings = scene.warnings;
   out.boxes = static_cast<int>(scene.boxes.size());
   int given = 0, from_intensity = 0, clamped = 0;
+  std::vector<double> ranges;
   for (const scene::Light& light : scene.lights) {
     ++(light.type == scene::LightType::point  ? out.points
        : light.type == scene::LightType::spot ? out.spots
@@ -57,6 +61,7 @@ SceneResult scene_result(const SceneData& data, const config::SceneRequest& requ
     ++(light.range_source == scene::RangeSource::given            ? given
        : light.range_source == scene::RangeSource::clamped_to_max ? clamped
                                                                   : from_intensity);
+    if (std::isfinite(light.range_m)) ranges.push_back(light.range_m);
   }
   for (const scene::CameraPath& path : data.paths) {
     out.frames += static_cast<int>(path.shots.size());
@@ -72,6 +77,11 @@ SceneResult scene_result(const SceneData& data, const config::SceneRequest& requ
                     {"given", given},
                     {"from_intensity", from_intensity},
                     {"clamped", clamped}};
+  if (!ranges.empty()) {
+    std::ranges::sort(ranges);
+    out.range_rule["ranges"] = {
+        {"least", ranges.front()}, {"median", ranges[ranges.size() / 2]}, {"greatest", ranges.back()}};
+  }
   return out;
 }
 

@@ -377,10 +377,10 @@ Plan make_plan(const config::Config& config, const std::string& filter) {
   if (!plan.groups.empty()) return plan;
   if (expansion.all_cases() > 0)
     throw Error("", "--filter",
-                "'" + filter + "' matches none of " + std::to_string(expansion.all_cases()) +
-                    " cases; one of them is '" + expansion.example() + "'");
+                "'" + filter + "' matches none of " + number_of(expansion.all_cases(), "case") + "; one of them is '" +
+                    expansion.example() + "'");
   throw Error(config.file.string(), "",
-              "no case is left: " + std::to_string(plan.skipped.size()) + " combinations cannot be" +
+              "no case is left: " + number_of(plan.skipped.size(), "combination") + " cannot be measured" +
                   (plan.skipped.empty() ? "" : "; the first, " + plan.skipped[0].name + ": " + plan.skipped[0].reason));
 }
 

@@ -206,5 +206,15 @@ TEST(ConfigFlags, scenes_without_a_configuration_take_them_too) {
   EXPECT_EQ(config.name, "level");
 }
 
+TEST(ConfigFlags, a_single_value_is_a_list_of_one_where_only_a_list_can_be) {
+  const Config config =
+      flagged({{"--set", "precision=half"}, {"--set", "storages=bitfield"}, {"--set", "limits.fail_if=unlit > 0"}});
+  ASSERT_EQ(config.precisions.size(), 1u);
+  EXPECT_EQ(config.precisions[0].label(), "half");
+  EXPECT_EQ(config.storages.size(), 1u);
+  EXPECT_EQ(config.limits.fail_if.size(), 1u);
+  EXPECT_EQ(flagged({{"--set", "seed=9"}}).seed, 9u) << "nothing else is made a list";
+}
+
 }  // namespace
 }  // namespace clusterbench::config

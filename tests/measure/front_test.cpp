@@ -14,7 +14,7 @@ using Places = std::vector<std::size_t>;
 Places front_of(const std::vector<std::array<double, 3>>& cases) {
   std::vector<Costs> costs;
   for (const auto& [time, bytes, overshade] : cases) costs.push_back({{time, time}, bytes, overshade});
-  return pareto_front(costs);
+  return pareto_front(costs, intervals_apart(costs));
 }
 
 TEST(Front, what_is_worse_in_every_respect_is_not_on_it) {
@@ -41,12 +41,20 @@ TEST(Front, what_is_not_known_counts_as_the_worst) {
 
 TEST(Front, times_whose_intervals_overlap_are_the_same_time) {
   const auto front = [](Interval a, Interval b, double overshade_b) {
-    return pareto_front(std::vector<Costs>{{a, 1, 2}, {b, 1, overshade_b}});
+    const std::vector<Costs> costs{{a, 1, 2}, {b, 1, overshade_b}};
+    return pareto_front(costs, intervals_apart(costs));
   };
   EXPECT_EQ(front({90, 110}, {100, 120}, 2), (Places{0, 1})) << "nothing says that the first is faster";
   EXPECT_EQ(front({90, 110}, {100, 120}, 1), (Places{1})) << "nor that it is for its longer lists";
   EXPECT_EQ(front({90, 110}, {111, 120}, 2), (Places{0}));
   EXPECT_EQ(front({90, 110}, {111, 120}, 1), (Places{0, 1}));
+}
+
+TEST(Front, times_are_told_apart_by_whoever_knows_more_than_intervals) {
+  const std::vector<Costs> costs{{{90, 200}, 1, 2}, {{95, 210}, 1, 2}};
+  const auto second_takes_longer = [](std::size_t one, std::size_t other) { return one == 1 && other == 0; };
+  EXPECT_EQ(pareto_front(costs, intervals_apart(costs)), (Places{0, 1}));
+  EXPECT_EQ(pareto_front(costs, second_takes_longer), (Places{0}));
 }
 
 TEST(Front, of_nothing_is_empty) {

@@ -168,14 +168,33 @@ TEST(Compare, a_time_without_an_interval_concludes_nothing) {
   EXPECT_EQ(verdict_of(compared(next, base, 0.02, k_gate_separate), 0), "inconclusive");
 }
 
-TEST(Compare, results_that_do_not_tell_a_frames_time_are_compared_by_assignment) {
+TEST(Compare, separate_runs_are_compared_by_what_a_frame_takes_or_not_at_all) {
   Json base = json_of(result_by_hand());
   const Json next = base;
-  for (Json& one : base["cases"]) one["timing"].erase("frame_ns");
+  for (Json& one : base["cases"]) one["timing"]["frame_ns"]["median"] = nullptr;
   const Json comparison = compared(base, next, 0.02);
-  EXPECT_EQ(comparison["time"], "assign");
-  EXPECT_EQ(comparison["cases"][0]["base_ns"], 9000.0);
-  EXPECT_NE(comparison_text(comparison).find("times of assignment of separate runs"), std::string::npos);
+  EXPECT_EQ(comparison["time"], "frame");
+  EXPECT_FALSE(comparison["cases"][0].contains("base_ns")) << "never its assignment in its place";
+  EXPECT_EQ(comparison["summary"]["methods_timed"], 0);
+}
+
+TEST(Compare, another_allocation_margin_is_another_setting_and_nothing_worse) {
+  const Json base = json_of(result_by_hand());
+  Json next = base;
+  next["config"]["allocation"]["margin"] = 3.0;
+  for (Json& one : next["cases"]) {
+    one["buffers"]["index_entries"]["recommended"] = 120;
+    one["buffers"]["used_share"]["mean"] = 0.1;
+  }
+  const Json comparison = compared(base, next, 0.02);
+  EXPECT_EQ(comparison["cases"][0]["counts"], "same");
+  EXPECT_TRUE(comparison["failures"].empty());
+  EXPECT_NE(comparison["warnings"].dump().find("allocation.margin is 2"), std::string::npos) << comparison["warnings"];
+  next["cases"][0]["buffers"]["index_entries"]["high_water"] = 41;
+  EXPECT_EQ(compared(base, next, 0.02)["cases"][0]["counts"], "worse") << "the mark behind it";
+  next = base;
+  next["cases"][0]["buffers"]["index_entries"]["recommended"] = 120;
+  EXPECT_EQ(compared(base, next, 0.02)["cases"][0]["counts"], "worse") << "of one setting";
 }
 
 TEST(Compare, cases_of_one_name_that_are_not_the_same_are_told_with_what_differs) {

@@ -75,7 +75,9 @@ TEST_F(History, a_slower_commit_is_named_with_its_change_and_direction) {
   EXPECT_EQ(said.find("brute-force"), std::string::npos) << said;
   EXPECT_NE(history_text(all, 14, true).find("brute-force"), std::string::npos);
   EXPECT_NE(said.find("14 results, "), std::string::npos) << said;
-  EXPECT_NE(said.find(" series, 1 change\n"), std::string::npos) << "the same time per pair is no second one\n" << said;
+  EXPECT_NE(said.find(" series, 1 change of 0.5 % or more\n"), std::string::npos)
+      << "the same time per pair is no second one\n"
+      << said;
 }
 
 TEST_F(History, other_settings_begin_a_series_of_their_own_and_are_told) {
@@ -132,7 +134,7 @@ TEST_F(History, series_of_times_that_are_too_short_to_tell_are_counted) {
   add_many("a", 3, 3000.0);
   add_many("b", 3, 3300.0);
   const std::string said = history_text(series_of(read_history(file_), {}), 6, false);
-  EXPECT_NE(said.find("0 changes\n4 series of times are too short"), std::string::npos) << said;
+  EXPECT_NE(said.find("0 changes of 0.5 % or more\n4 series of times are too short"), std::string::npos) << said;
 }
 
 TEST_F(History, times_of_two_machines_are_two_series_and_counts_are_one) {
@@ -206,6 +208,24 @@ TEST_F(History, adding_leaves_the_earlier_lines_as_they_are_and_no_other_file) {
   add("c2", 3100.0);
   EXPECT_EQ(text().substr(0, before.size()), before);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+}
+
+TEST_F(History, the_same_commit_again_stands_beside_itself_and_the_same_result_only_once) {
+  for (const char* commit : {"c1", "c2", "c3"}) add(commit, 3000.0);
+  const auto again = [&](double assign_ns) {
+    run::Result result = testing::result_by_hand();
+    result.cases[1] = testing::case_by_hand("fast", "aabb", assign_ns);
+    return add_to_history(file_, result_to_json(result, {}), "c2");
+  };
+  const std::string before = text();
+  EXPECT_FALSE(again(3000.0).is_added);
+  EXPECT_EQ(text(), before);
+  const Addition addition = again(3100.0);
+  EXPECT_TRUE(addition.is_added);
+  EXPECT_EQ(addition.earlier, 1u);
+  const std::vector<HistoryEntry> history = read_history(file_);
+  ASSERT_EQ(history.size(), 4u);
+  EXPECT_EQ(history[1].commit + history[2].commit + history[3].commit, "c2c2c3") << "not as the newest";
 }
 
 TEST_F(History, a_failed_addition_leaves_the_file_as_it_was) {

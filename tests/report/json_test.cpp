@@ -34,6 +34,29 @@ TEST(ResultJson, is_what_the_schema_says) {
   EXPECT_EQ(violations(result_to_json(result, {})), std::vector<std::string>{});
 }
 
+// Adds what an object lacks of its schema's "x-written", which older results of the same schema_version may lack.
+void add_unwritten(const nlohmann::json& schema, const nlohmann::json& value, std::vector<std::string>& lacking) {
+  for (const auto& key : schema.value("x-written", nlohmann::json::array()))
+    if (!value.contains(key.get<std::string>())) lacking.push_back(key.get<std::string>());
+  const nlohmann::json properties = schema.value("properties", nlohmann::json::object());
+  for (const auto& [key, inner] : properties.items())
+    if (value.contains(key)) add_unwritten(inner, value[key], lacking);
+  if (schema.contains("items") && schema["items"].is_object() && value.is_array())
+    for (const nlohmann::json& item : value) add_unwritten(schema["items"], item, lacking);
+}
+
+TEST(ResultJson, holds_all_that_results_of_before_may_lack) {
+  const nlohmann::json schema = config::result_schema();
+  nlohmann::json result = result_to_json(result_by_hand(), {});
+  std::vector<std::string> lacking;
+  add_unwritten(schema, result, lacking);
+  EXPECT_EQ(lacking, std::vector<std::string>{});
+  result["cases"][0].erase("settings");
+  result["cases"][0]["timing"].erase("worst_frame");
+  add_unwritten(schema, result, lacking);
+  EXPECT_EQ(lacking, (std::vector<std::string>{"settings", "worst_frame"})) << "seen where it lacks";
+}
+
 TEST(ResultJson, without_truth_samples_and_times_is_what_the_schema_says) {
   run::Result result = result_by_hand();
   for (run::CaseResult& one : result.cases) {
@@ -195,14 +218,17 @@ TEST(Front, cases_of_different_views_do_not_beat_each_other) {
 
 TEST(Front, packed_lights_beat_others_only_where_they_lose_nothing) {
   run::Result result = with_half();
-  result.cases[2].timing->frame_ns.ci95 = {1.0, 1.0};
+  result.cases[2].timing->frame_ns = measure::time_stats(std::vector{1.0, 1.0}, 1);
   EXPECT_EQ(result_to_json(result, {})["pareto_front"][0]["ids"], (Json{"fast half+inflate"}));
 }
 
-TEST(Front, overlapping_intervals_of_time_say_nothing) {
+TEST(Front, times_whose_ratio_may_be_one_say_nothing) {
   run::Result result = result_by_hand();
-  result.cases[0].timing->frame_ns.ci95 = {3000.0, 12000.0};
+  result.cases[0].timing->frame_ns = measure::time_stats(std::vector{3000.0, 12000.0}, 1);
   EXPECT_EQ(result_to_json(result, {})["pareto_front"][0]["ids"], (Json{"slow", "fast"}));
+  result.cases[1].timing->frame_ns = measure::time_stats(std::vector{2900.0, 11900.0}, 1);
+  EXPECT_EQ(result_to_json(result, {})["pareto_front"][0]["ids"], (Json{"fast"}))
+      << "their intervals overlap, and in each round it is the slower one";
 }
 
 TEST(Front, a_case_that_fails_or_leaves_more_than_a_thousandth_unlit_is_on_no_front) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "config/documents.h"
+#include "config/schema_check.h"
 #include "report/json.h"
 #include "report/result_by_hand.h"
 #include "report/table.h"
@@ -39,6 +41,18 @@ Json three_methods() {
                        {1110, 1100, 2230, 2215, 1640, 1670}});
 }
 
+RatioRequest only(const std::string& methods) {
+  RatioRequest request;
+  request.methods = methods;
+  return request;
+}
+
+RatioRequest over_all_grids() {
+  RatioRequest request;
+  request.across_grids = true;
+  return request;
+}
+
 TEST(Ratios, any_two_methods_of_a_grid_have_one) {
   const Json result = three_methods();
   const Json& cases = result["cases"];
@@ -70,15 +84,56 @@ TEST(Ratios, are_not_formed_over_grids_caches_or_unequal_rounds) {
 }
 
 TEST(Ratios, stand_in_a_ranking_and_between_all_pairs) {
-  const Json result = three_methods();
-  const std::string ranking = ratio_table(result, "", false), pairs = ratio_table(result, "", true);
+  const Json ratios = ratios_of(three_methods(), {});
+  const std::string ranking = ratio_table(ratios, false), pairs = ratio_table(ratios, true);
   EXPECT_NE(ranking.find("  ~ method-c / packed"), std::string::npos) << ranking;
   EXPECT_NE(ranking.find("1.10 (1.0"), std::string::npos) << ranking;
   EXPECT_NE(pairs.find("method-c / packed  method-a / packed"), std::string::npos) << pairs;
-  EXPECT_EQ(ratio_table(result, "method-[ab]", true).find("method-c"), std::string::npos);
-  EXPECT_EQ(ratio_table(result, "no such", false), "");
-  const std::string csv = ratio_csv(result, "");
+  EXPECT_EQ(ratio_table(ratios_of(three_methods(), only("method-[ab]")), true).find("method-c"), std::string::npos);
+  EXPECT_TRUE(ratios_of(three_methods(), only("no such"))["blocks"].empty());
+  const std::string csv = ratio_csv(ratios);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 3 * 2) << csv;
+  const std::string markdown = ratio_markdown(ratios, false);
+  EXPECT_NE(markdown.find("| ~ | method-c / packed | 1.66 | 1.10 (1.0"), std::string::npos) << markdown;
+}
+
+TEST(Ratios, as_json_are_what_their_schema_says_and_what_the_table_says) {
+  const Json ratios = ratios_of(three_methods(), {});
+  EXPECT_EQ(config::schema_violations(config::row_of(config::Document::ratios).schema(), nlohmann::json(ratios)),
+            std::vector<std::string>{});
+  EXPECT_EQ(config::document_of(ratios), config::Document::ratios);
+  const Json& block = ratios["blocks"][0];
+  ASSERT_EQ(block["cases"].size(), 3u);
+  ASSERT_EQ(block["pairs"].size(), 3u);
+  EXPECT_EQ(block["cases"][0]["label"], "method-a / packed");
+  EXPECT_EQ(block["pairs"][0]["over"], "rounds");
+  EXPECT_EQ(block["pairs"][0]["takes_longer"], true) << "b than a";
+  EXPECT_EQ(block["pairs"][2]["takes_longer"], false) << "c than b";
+}
+
+TEST(Ratios, of_two_grids_are_those_of_the_same_launches) {
+  Json result = three_methods();
+  result["cases"][1]["grid"]["name"] = "frustum 32px";
+  EXPECT_EQ(ratios_of(result, {})["blocks"].size(), 2u);
+  const Json all = ratios_of(result, over_all_grids());
+  ASSERT_EQ(all["blocks"].size(), 1u);
+  const Json& block = all["blocks"][0];
+  EXPECT_EQ(block["cases"][1]["label"], "frustum 32px / method-b / packed");
+  EXPECT_EQ(block["pairs"][0]["over"], "launches");
+  EXPECT_NEAR(block["pairs"][0]["ratio"].get<double>(), 1.1, 0.01);
+  EXPECT_EQ(block["pairs"][0]["takes_longer"], true);
+  EXPECT_NE(ratio_table(all, false).find("of other grids of the same launches"), std::string::npos);
+}
+
+TEST(Ratios, the_page_gets_each_case_beside_the_fastest_and_the_one_above_it) {
+  const Json rankings = ratio_rankings(three_methods());
+  ASSERT_EQ(rankings.size(), 3u);
+  EXPECT_TRUE(rankings[0]["fastest"].is_null());
+  EXPECT_EQ(rankings[0]["is_like_above"], false);
+  EXPECT_EQ(rankings[1]["fastest"]["id"], "method-a");
+  EXPECT_NEAR(rankings[1]["fastest"]["ratio"].get<double>(), 1.1, 0.005);
+  EXPECT_EQ(rankings[2]["above"]["id"], "method-b");
+  EXPECT_EQ(rankings[2]["is_like_above"], true);
 }
 
 TEST(Ratios, of_too_few_launches_or_rounds_have_no_interval_anywhere) {

@@ -87,7 +87,8 @@ TEST(Size, json_has_every_number_of_a_budget) {
   ASSERT_EQ(report["budgets"].size(), 1u);
   const nlohmann::json expected = nlohmann::json::parse(R"({"name": "hall_walk_frustum_64px", "id": "fast",
     "case": "hall/walk/frustum 64px/aabb/packed", "capacity_entries": 80, "warn_entries": 72, "bytes": 272, "index_bits": 8,
-    "high_water_entries": 40, "theoretical_max_entries": 480, "worst_frame": 1, "worst_cell": [3, 2, 1], "dropped_pairs": 0})");
+    "high_water_entries": 40, "theoretical_max_entries": 480, "worst_frame": 1, "worst_cell": [3, 2, 1], "dropped_pairs": 0,
+    "lookup": {"cells": [4, 3, 2]}})");
   EXPECT_EQ(report["budgets"][0], expected);
   EXPECT_EQ(report["warn_at"], 0.9);
 }
@@ -97,7 +98,7 @@ TEST(Size, says_where_lists_overflowed) {
   result.cases[0].buffers.dropped_pairs = 7;
   result.cases[0].buffers.overflowing_cells = 3;
   result.cases[0].buffers.overflowing_frames = 1;
-  EXPECT_NE(size_of(result).find("7 pairs dropped in 3 cells of 1 frames"), std::string::npos);
+  EXPECT_NE(size_of(result).find("7 pairs dropped in 3 cells of 1 frame"), std::string::npos);
 }
 
 // Compiles the report as the header that it is, and runs a program that uses it.
@@ -123,6 +124,61 @@ class SizeHeader : public ::testing::Test {
 
   const fs::path folder_ = fs::temp_directory_path() / ("clusterbench_size_" + std::to_string(getpid()));
 };
+
+// What shaders' languages have and C++ has not.
+const std::string k_shader_types =
+    "using uint = unsigned;\ntemplate <class T> struct V { T at[3]; constexpr V(T x, T y, T z = 0) : at{x, y, z} {} "
+    "};\n"
+    "using int3 = V<int>; using ivec3 = int3; using float2 = V<double>; using vec2 = float2;\n"
+    "using float3 = float2; using vec3 = float2;\n";
+
+// Of each kind of grid one case, as the runner tells it.
+run::Result with_each_kind_of_grid() {
+  run::Result result = result_by_hand();
+  result.cases.clear();
+  result.planned_ids.clear();
+  const auto add = [&](const std::string& name, const char* grid) {
+    run::CaseResult one = testing::case_by_hand(name, "aabb", 1.0);
+    one.name = "hall/walk/" + name + "/aabb/packed";
+    one.grid = nlohmann::json::parse(grid);
+    result.cases.push_back(one);
+    result.planned_ids.push_back(one.id);
+  };
+  add("tiles", R"({"kind": "frustum", "name": "tiles", "cells": [30, 17, 16], "tiles": {"pixels": [64, 64]},
+    "slices": {"scheme": "exponential-first", "boundaries": [0.1, 5, 400],
+    "lookup": {"form": "log2", "scale": 2.3726937770843506, "bias": -4.5092244148254395, "first": 5.0}}})");
+  add("counted", R"({"kind": "distance", "name": "counted", "cells": [16, 9, 2], "tiles": {"count": [16, 9]},
+    "slices": {"scheme": "list", "boundaries": [1, 2, 3], "lookup": {"form": "search"}}})");
+  add("cubes", R"({"kind": "cascades", "name": "cubes", "cells": [16, 16, 80], "levels": 5, "finest": 0.5})");
+  add("boxes", R"({"kind": "world", "name": "boxes", "cells": [64, 16, 64], "origin": [0.1, 3.0, -155.0],
+    "bounds": {"min": [-34.5, -34, -182], "max": [34.5, 33.5, 182]}, "cell_size": [1, 4, 5]})");
+  return result;
+}
+
+TEST_F(SizeHeader, has_the_constants_of_the_lookup_of_each_kind_of_grid) {
+  const run::Result result = with_each_kind_of_grid();
+  const std::string cpp = size_of(result, {});
+  for (const char* line :
+       {"namespace hall_walk_tiles_lookup {\ninline constexpr int cells[] = {30, 17, 16};\n",
+        "inline constexpr float tile_scale[] = {0.015625f, 0.015625f};\ninline constexpr float slice_scale = "
+        "2.37269378f;\n"
+        "inline constexpr float slice_bias = -4.50922441f;\ninline constexpr float slice_first = 5.0f;\n"
+        "inline constexpr float slice_far = 400.0f;\n}\n",
+        "tile_scale[] = {0.00833333333f, 0.00833333333f};\ninline constexpr float slice_far = 3.0f;\n",
+        "slices have no formula", "slice = log2(depth) * slice_scale + slice_bias", "int levels = 5;",
+        "float finest = 0.5f;", "double origin[] = {0.1, 3.0, -155.0};",
+        "float box_min[] = {-34.5f, -34.0f, -182.0f};"})
+    EXPECT_NE(cpp.find(line), std::string::npos) << line << " in\n" << cpp;
+  EXPECT_TRUE(compiles(cpp, "static_assert(light_lists::hall_walk_tiles_lookup::slice_far > 399);\nint main() {}\n"));
+  const std::string hlsl = size_of(result, {"", false, "hlsl"}), glsl = size_of(result, {"", false, "glsl"});
+  EXPECT_NE(hlsl.find("static const float2 hall_walk_tiles_lookup_tile_scale = float2(0.015625, 0.015625);"),
+            std::string::npos)
+      << hlsl;
+  EXPECT_NE(glsl.find("\nconst ivec3 hall_walk_cubes_lookup_cells = ivec3(16, 16, 80);"), std::string::npos) << glsl;
+  for (const std::string& shader : {hlsl, glsl}) EXPECT_TRUE(compiles(k_shader_types + shader, "int main() {}\n"));
+  const auto json = nlohmann::json::parse(size_of(result, {"tiles", false, "json"}));
+  EXPECT_EQ(json["budgets"][0]["lookup"]["slice_far"], 400);
+}
 
 constexpr const char* k_budget = "light_lists::hall_walk_frustum_64px_aabb_packed";
 
@@ -156,7 +212,7 @@ TEST_F(SizeHeader, compiles_whatever_cases_are_called) {
   // A C++ compiler reads the declarations of shaders, too; what GLSL reserves are names with two underscores.
   for (const char* format : {"hlsl", "glsl"}) {
     const std::string report = size_of(result, {"", true, format});
-    EXPECT_TRUE(compiles("using uint = unsigned;\n" + report, "int main() {}\n")) << report;
+    EXPECT_TRUE(compiles(k_shader_types + report, "int main() {}\n")) << report;
     for (std::size_t at = report.find("const uint "); at != std::string::npos; at = report.find("const uint ", at + 1))
       EXPECT_EQ(report.substr(at, report.find(" =", at) - at).find("__"), std::string::npos) << report;
   }

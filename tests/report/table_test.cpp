@@ -46,6 +46,17 @@ TEST(Table, a_line_holds_the_figures_of_its_case) {
                                       "25.0", "%", "0", "0", "%", "1.50", "232"}));
 }
 
+TEST(Table, a_wide_interval_shows_both_sides_and_a_narrow_one_half_of_it) {
+  const auto with_interval = [](double low, double high) {
+    run::Result result = result_by_hand();
+    result.cases[1].timing->frame_ns.ci95 = {low, high};  // of 3500 ns
+    return words(line_with(table_of(result), "aabb ")).at(3);
+  };
+  EXPECT_EQ(with_interval(3430, 3535), "1.5");
+  EXPECT_EQ(with_interval(3080, 4165), "15.5") << "12 % below, 19 % above";
+  EXPECT_EQ(with_interval(3150, 4900), "-10/+40");
+}
+
 TEST(Table, the_fastest_case_comes_first) {
   const std::string table = table_of(result_by_hand());
   EXPECT_LT(table.find("aabb "), table.find("brute-force "));
@@ -79,7 +90,8 @@ TEST(Table, what_was_not_measured_has_no_column_or_a_dash) {
 
 TEST(Table, marks_have_a_legend_that_says_what_was_measured) {
   run::Result result = result_by_hand();
-  EXPECT_NE(table_of(result).find("camera and viewport is better in time (beyond the intervals), bytes and overshade"),
+  EXPECT_NE(table_of(result).find("camera and viewport is better in time (beyond the interval of their "
+                                  "ratio), bytes and overshade"),
             std::string::npos);
   EXPECT_EQ(table_of(result).find("-: not measured"), std::string::npos);
   for (run::CaseResult& one : result.cases) one.timing.reset();

@@ -161,18 +161,45 @@ TEST(Gate, warns_of_what_fails_nothing_and_takes_a_case_from_the_front_where_its
 }
 
 Contender contender(const std::string& id, double time_ns, const std::string& view = "view") {
-  return {id, "hall", view, {{time_ns, time_ns}, 100.0, 1.5}};
+  return {id, "hall", view, {{time_ns, time_ns}, 100.0, 1.5}, true, "grid", {}, 1, false};
 }
 
 TEST(OnFront, cases_beat_each_other_within_one_scene_and_view) {
-  EXPECT_EQ(on_front(std::vector{contender("slow", 2), contender("fast", 1), contender("else", 3, "other view")}),
+  EXPECT_EQ(on_front(std::vector{contender("slow", 2), contender("fast", 1), contender("else", 3, "other view")}, 1),
             (std::vector<std::string>{"else", "fast"}));
 }
 
 TEST(OnFront, what_is_not_eligible_beats_nothing) {
   std::vector<Contender> all{contender("slow", 2), contender("fast", 1)};
   all[1].is_eligible = false;
-  EXPECT_EQ(on_front(all), (std::vector<std::string>{"slow"}));
+  EXPECT_EQ(on_front(all, 1), (std::vector<std::string>{"slow"}));
+}
+
+// Three launches of two rounds: times double from launch to launch, so that their intervals hold each other.
+Contender in_launches(const std::string& id, double factor, const std::string& grid) {
+  Contender one = contender(id, 0.0);
+  one.grid = grid;
+  one.launches = 3;
+  for (const double ns : {1000.0, 1010.0, 2000.0, 2010.0, 1500.0, 1510.0}) one.rounds_ns.push_back(factor * ns);
+  const measure::TimeStats stats = measure::time_stats(one.rounds_ns, 1, 3);
+  one.costs.time_ns = stats.ci95;
+  return one;
+}
+
+TEST(OnFront, times_of_the_same_rounds_or_launches_are_told_apart_by_their_ratio) {
+  const Contender fast = in_launches("fast", 1.0, "grid"), slow = in_launches("slow", 1.1, "grid"),
+                  elsewhere = in_launches("elsewhere", 1.1, "another grid");
+  ASSERT_GT(fast.costs.time_ns.high, slow.costs.time_ns.low) << "intervals overlap";
+  EXPECT_EQ(on_front(std::vector{slow, fast}, 1), (std::vector<std::string>{"fast"}));
+  EXPECT_EQ(on_front(std::vector{elsewhere, fast}, 1), (std::vector<std::string>{"fast"})) << "by the same launches";
+}
+
+TEST(OnFront, times_without_a_ratio_are_told_apart_by_their_intervals) {
+  const Contender fast = in_launches("fast", 1.0, "grid");
+  Contender slow = in_launches("slow", 1.1, "grid");
+  slow.is_cold = true;
+  EXPECT_FALSE(ratio_between(fast, slow, 1));
+  EXPECT_EQ(on_front(std::vector{slow, fast}, 1), (std::vector<std::string>{"slow", "fast"}));
 }
 
 }  // namespace

@@ -1,0 +1,139 @@
+#include "report/lookup_constants.h"
+
+#include "report/columns.h"
+#include "report/json.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Type = LookupConstant::Type;
+
+std::vector<double> numbers_of(const Json& list) {
+  std::vector<double> out;
+  for (const Json& value : list) out.push_back(value.get<double>());
+  return out;
+}
+
+// As float literals of C++, HLSL and GLSL alike.
+std::string float_text(double value) {
+  std::string digits = text("%.9g", value);
+  if (digits.find_first_of(".e") == std::string::npos) digits += ".0";
+  return digits;
+}
+
+bool is_integer(const LookupConstant& constant) {
+  return constant.type == LookupConstant::Type::integer;
+}
+
+// `suffix`: of single precision.
+std::string values_text(const LookupConstant& constant, const std::string& suffix = "") {
+  std::string out;
+  for (const double value : constant.values)
+    out += (out.empty() ? "" : ", ") + (is_integer(constant) ? text("%.0f", value) : float_text(value)) +
+           (constant.type == LookupConstant::Type::real ? suffix : "");
+  return out;
+}
+
+void add_tiles(std::vector<LookupConstant>& out, const Json& one) {
+  const Json &tiles = one["grid"]["tiles"], &viewport = one["viewport"];
+  if (viewport[0] == 0 || viewport[1] == 0) return;
+  std::vector<double> scale;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const bool by_pixels = tiles.contains("pixels");
+    if (!by_pixels && !tiles.contains("count")) return;
+    scale.push_back(by_pixels ? 1.0 / tiles["pixels"][axis].get<double>()
+                              : tiles["count"][axis].get<double>() / viewport[axis].get<double>());
+  }
+  out.push_back({"tile_scale", Type::real, scale});
+}
+
+void add_slices(std::vector<LookupConstant>& out, const Json& slices) {
+  const Json& lookup = slices["lookup"];
+  for (const auto& [key, name] :
+       {std::pair("scale", "slice_scale"), std::pair("bias", "slice_bias"), std::pair("first", "slice_first")})
+    if (lookup.contains(key))
+      out.push_back({name, Type::real, {lookup[key].get<double>()}});
+    else if (name == std::string("slice_first") && lookup.contains("scale"))
+      out.push_back({name, Type::real, {0.0}});
+  if (!slices["boundaries"].empty())
+    out.push_back({"slice_far", Type::real, {slices["boundaries"].back().get<double>()}});
+}
+
+struct Language {
+  const char *constant, *integer, *real;
+  const char* integers[2];  // of two, of three
+  const char* reals[2];
+};
+constexpr Language k_hlsl{"static const ", "int", "float", {"int2", "int3"}, {"float2", "float3"}};
+constexpr Language k_glsl{"const ", "int", "float", {"ivec2", "ivec3"}, {"vec2", "vec3"}};
+
+std::string declared(const std::string& prefix, const std::vector<LookupConstant>& constants,
+                     const Language& language) {
+  std::string out;
+  for (const LookupConstant& one : constants) {
+    const std::size_t count = one.values.size();
+    const std::string type = count == 1 ? (is_integer(one) ? language.integer : language.real)
+                                        : (is_integer(one) ? language.integers : language.reals)[count - 2];
+    out += language.constant + type + " " + prefix + "_" + one.name + " = " +
+           (count == 1 ? values_text(one) : type + "(" + values_text(one) + ")") + ";\n";
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<LookupConstant> lookup_constants(const Json& one) {
+  const Json& grid = one["grid"];
+  std::vector<LookupConstant> out{{"cells", Type::integer, numbers_of(grid["cells"])}};
+  if (grid.contains("tiles")) add_tiles(out, one);
+  if (grid.contains("slices")) add_slices(out, grid["slices"]);
+  if (grid.contains("levels")) out.push_back({"levels", Type::integer, {grid["levels"].get<double>()}});
+  if (grid.contains("finest")) out.push_back({"finest", Type::real, {grid["finest"].get<double>()}});
+  if (grid.contains("origin")) out.push_back({"origin", Type::precise, numbers_of(grid["origin"])});
+  if (grid.contains("bounds")) {
+    out.push_back({"box_min", Type::real, numbers_of(grid["bounds"]["min"])});
+    out.push_back({"box_max", Type::real, numbers_of(grid["bounds"]["max"])});
+  }
+  return out;
+}
+
+std::string lookup_note(const Json& one) {
+  const Json& grid = one["grid"];
+  if (!grid.contains("slices")) return "";
+  if (grid["slices"]["scheme"] == "fit") return "slices follow the lights: scale, bias and far are the last frame's";
+  const Json& form = grid["slices"]["lookup"]["form"];
+  if (form == "search") return "slices have no formula: search grid.slices.boundaries of the result";
+  return form == "log2" ? "slice = log2(depth) * slice_scale + slice_bias" : "slice = depth * slice_scale + slice_bias";
+}
+
+std::string lookup_hlsl(const std::string& name, const std::vector<LookupConstant>& constants) {
+  return declared(name, constants, k_hlsl);
+}
+
+std::string lookup_glsl(const std::string& name, const std::vector<LookupConstant>& constants) {
+  return declared(name, constants, k_glsl);
+}
+
+std::string lookup_cpp(const std::string& name, const std::vector<LookupConstant>& constants) {
+  std::string out = "namespace " + name + " {\n";
+  for (const LookupConstant& one : constants) {
+    const bool is_single = one.values.size() == 1;
+    const char* type = is_integer(one) ? "int " : one.type == Type::precise ? "double " : "float ";
+    out += std::string("inline constexpr ") + type + one.name +
+           (is_single ? " = " + values_text(one, "f") : "[] = {" + values_text(one, "f") + "}") + ";\n";
+  }
+  return out + "}\n";
+}
+
+Json lookup_json(const std::vector<LookupConstant>& constants) {
+  Json out = Json::object();
+  for (const LookupConstant& one : constants) {
+    Json values = Json::array();
+    for (const double value : one.values) values.push_back(number_or_null(value));
+    out[one.name] = values.size() == 1 ? values[0] : values;
+  }
+  return out;
+}
+
+}  // namespace clusterbench::report

@@ -1,0 +1,31 @@
+#pragma once
+// The constants with which a shader finds the cell of a sample, as docs/grids-and-lookups.md names them, for a program
+// or a shader.
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace clusterbench::report {
+
+struct LookupConstant {
+  std::string name;                            // "tile_scale"
+  enum class Type { integer, real, precise };  // precise: double where a language has it
+  Type type = Type::real;
+  std::vector<double> values;  // one, or a vector's two or three
+};
+
+// Of a case with lists. Slices that have no formula (form "search") have no scale and bias.
+std::vector<LookupConstant> lookup_constants(const nlohmann::ordered_json& one);
+
+// What cannot be a constant, for a comment; "" where all can.
+std::string lookup_note(const nlohmann::ordered_json& one);
+
+// `name`: what all begin with. Declarations end with a line break.
+std::string lookup_hlsl(const std::string& name, const std::vector<LookupConstant>& constants);
+std::string lookup_glsl(const std::string& name, const std::vector<LookupConstant>& constants);
+// Constants in a namespace of that name.
+std::string lookup_cpp(const std::string& name, const std::vector<LookupConstant>& constants);
+nlohmann::ordered_json lookup_json(const std::vector<LookupConstant>& constants);
+
+}  // namespace clusterbench::report
