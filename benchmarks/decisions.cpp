@@ -13,7 +13,7 @@
 
 #include "benchmarks.h"
 #include "core/random.h"
-#include "geom/ball.h"
+#include "geom/ball/ball_decider.h"
 
 namespace clusterbench {
 namespace {

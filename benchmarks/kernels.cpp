@@ -9,8 +9,10 @@
 #include "assign/contract/lists.h"
 #include "assign/contract/storage.h"
 #include "core/random.h"
-#include "geom/predicates.h"
-#include "geom/tangents.h"
+#include "geom/projection/disk_tangents.h"
+#include "geom/single_precision/bounding_volumes.h"
+#include "geom/single_precision/plane.h"
+#include "geom/single_precision/touch_tests.h"
 
 namespace clusterbench {
 namespace {

@@ -11,7 +11,7 @@
 #include "assign/contract/assigner.h"
 #include "assign/contract/assigner_run.h"
 #include "benchmarks.h"
-#include "geom/predicates.h"
+#include "geom/single_precision/bounding_volumes.h"
 #include "setting.h"
 
 namespace clusterbench {

@@ -30,7 +30,7 @@
 #include "assign/rows/slice_rows.h"
 #include "assign/storages/list_forms.h"
 #include "benchmarks.h"
-#include "geom/predicates.h"
+#include "geom/single_precision/bounding_volumes.h"
 #include "setting.h"
 
 namespace clusterbench {

@@ -9,7 +9,9 @@
 
 #include "benchmarks.h"
 #include "core/random.h"
-#include "geom/meets.h"
+#include "geom/filter/light_filter.h"
+#include "geom/light_meets_cell.h"
+#include "geom/shapes/verdict.h"
 #include "measure/truth.h"
 #include "setting.h"
 

@@ -8,9 +8,10 @@
 
 #include "core/memory.h"
 #include "core/parallel.h"
-#include "geom/ball.h"
-#include "geom/meets.h"
-#include "geom/spot_decider.h"
+#include "geom/ball/ball_decider.h"
+#include "geom/filter/light_filter.h"
+#include "geom/shapes/verdict.h"
+#include "geom/spot/spot_decider.h"
 #include "measure/truth_rows.h"
 
 namespace clusterbench::measure {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "geom/vec.h"
+#include "geom/shapes/vec.h"
 
 namespace clusterbench::scene {
 

@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "geom/domain.h"
+#include "geom/shapes/domain.h"
 #include "scene/camera_path.h"
 #include "scene/domain.h"
 

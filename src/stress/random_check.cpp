@@ -5,6 +5,11 @@
 #include <exception>
 
 #include "core/error.h"
+#include "geom/filter/light_filter.h"
+#include "geom/light_meets_cell.h"
+#include "geom/shapes/light_volume.h"
+#include "geom/shapes/placement.h"
+#include "geom/shapes/verdict.h"
 #include "measure/shading.h"
 #include "measure/truth.h"
 #include "stress/random_search.h"

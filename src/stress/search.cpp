@@ -11,6 +11,9 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "geom/light_meets_cell.h"
+#include "geom/shapes/light_volume.h"
+#include "geom/shapes/verdict.h"
 #include "measure/truth.h"
 #include "stress/contact.h"
 #include "stress/stress.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "geom/rounding.h"
+#include "geom/numbers/round_to_float.h"
 #include "view/formats.h"
 
 namespace clusterbench::view {

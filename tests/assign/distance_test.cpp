@@ -1,6 +1,7 @@
 #include <limits>
 
 #include "assign/dense_check.h"
+#include "geom/shapes/cell.h"
 
 namespace clusterbench::assign::testing {
 namespace {

@@ -8,6 +8,7 @@
 #include "assign/bounds/bounds_method.h"
 #include "assign/box_grid/box_rows.h"
 #include "assign/settings.h"
+#include "geom/single_precision/bounding_volumes.h"
 
 namespace clusterbench::assign::testing {
 namespace {

@@ -6,6 +6,8 @@
 #include <array>
 
 #include "geom/random_pairs.h"
+#include "geom/shapes/cell.h"
+#include "geom/shapes/light_volume.h"
 
 namespace clusterbench::geom {
 

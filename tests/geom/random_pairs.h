@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/random.h"
-#include "geom/light_volume.h"
-#include "geom/shapes.h"
+#include "geom/shapes/cell.h"
+#include "geom/shapes/light_volume.h"
 
 namespace clusterbench::geom {
 

@@ -1,4 +1,4 @@
-#include "geom/row_slopes.h"
+#include "geom/projection/row_slopes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The quick proofs about spots against the slow ones, which prove in numbers of 106 bits, 1024 bits and rational ones.
 
-#include "geom/spot_decider.h"
+#include "geom/spot/spot_decider.h"
 
 #include <gtest/gtest.h>
 
@@ -10,11 +10,13 @@
 #include <limits>
 #include <numbers>
 
-#include "geom/exact_axis.h"
-#include "geom/gjk.h"
-#include "geom/meets.h"
+#include "geom/certificate/exact_axis.h"
+#include "geom/filter/light_filter.h"
+#include "geom/light_meets_cell.h"
 #include "geom/random_pairs.h"
-#include "geom/spot.h"
+#include "geom/search/gjk.h"
+#include "geom/shapes/verdict.h"
+#include "geom/spot/proof_by_search.h"
 
 namespace clusterbench::geom {
 namespace {
@@ -26,7 +28,7 @@ struct SpotPair {
   Cell cell;
 };
 
-// What the deciders of balls and geom/spot.h say.
+// What the deciders of balls and geom/spot/proof_by_search.h say.
 Verdict slowly(const SpotPair& pair) {
   if (!BallDecider(pair.light.apex, pair.light.range).meets(pair.cell)) return Verdict::no;
   if (BallDecider(pair.light.apex, 0.0).meets(pair.cell)) return Verdict::yes;

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "geom/shapes.h"
+#include "geom/shapes/cell.h"
 
 namespace clusterbench::test {
 

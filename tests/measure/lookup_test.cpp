@@ -1,4 +1,6 @@
 #include "measure/lookup.h"
+#include "geom/filter/light_filter.h"
+#include "geom/shapes/verdict.h"
 
 #include <gtest/gtest.h>
 

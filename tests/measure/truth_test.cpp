@@ -10,7 +10,9 @@
 
 #include "assign/contract/assigner.h"
 #include "core/random.h"
-#include "geom/meets.h"
+#include "geom/filter/light_filter.h"
+#include "geom/light_meets_cell.h"
+#include "geom/shapes/verdict.h"
 #include "scene/camera_path.h"
 
 namespace clusterbench::measure {

@@ -20,6 +20,7 @@
 #include "core/aligned_vector.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "geom/single_precision/bounding_volumes.h"
 
 namespace clusterbench::assign {
 namespace {

@@ -12,7 +12,6 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel.h"
-#include "geom/predicates.h"
 
 namespace clusterbench::assign {
 namespace {

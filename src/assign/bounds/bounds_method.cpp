@@ -1,6 +1,7 @@
 #include "assign/bounds/bounds_method.h"
 
 #include "core/memory.h"
+#include "geom/single_precision/bounding_volumes.h"
 
 namespace clusterbench::assign {
 

@@ -3,7 +3,7 @@
 #include <limits>
 #include <variant>
 
-#include "geom/predicates.h"
+#include "geom/single_precision/bounding_volumes.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/bounds/bounds_rows.cpp"

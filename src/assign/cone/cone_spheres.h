@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "geom/shapes.h"
+#include "geom/shapes/ball_and_cone.h"
 
 namespace clusterbench::assign {
 

@@ -132,8 +132,9 @@ class CellsOf {
     apart = Or(is_past(in_cell - in_volume), is_apart());
   }
 
-  // The mean of all points where cell ∩ volume can be extreme (geom/candidates.h), which lies inside of it; and planes
-  // along the cone's side that are equally far from both ends of an edge. The nearest such point tells more of them.
+  // The mean of all points where cell ∩ volume can be extreme (geom/search/extreme_candidates.h), which lies inside of
+  // it; and planes along the cone's side that are equally far from both ends of an edge. The nearest such point tells
+  // more of them.
   HWY_INLINE void settle(M& common, M& apart) const {
     const V zero = Zero(D());
     Extremes extremes{{zero, zero, zero}, zero, {zero, zero, zero}, all(k_none)};

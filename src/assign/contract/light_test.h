@@ -9,7 +9,7 @@
 
 #include "assign/contract/assigner.h"
 #include "core/arrays.h"
-#include "geom/predicates.h"
+#include "geom/single_precision/touch_tests.h"
 
 namespace clusterbench::assign {
 
