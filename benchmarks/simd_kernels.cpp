@@ -315,7 +315,7 @@ void find_touched_cells(State& state) {
   const Vec3i size = setting.grid.cells();
   std::vector<geom::Ball> balls;
   for (std::uint32_t cell = 0; cell < setting.grid.cell_count(); ++cell)
-    balls.push_back(geom::ball_around(std::get<geom::FrustumPiece>(setting.grid.cell(cell))));
+    balls.push_back(geom::ball_around(std::get<geom::FrustumCell>(setting.grid.cell(cell))));
   const assign::CellBalls cells{balls};
   const auto columns = static_cast<std::uint32_t>(std::min(size.x, 64)), row = static_cast<std::uint32_t>(size.y / 2);
   std::vector<assign::CellRun> runs;

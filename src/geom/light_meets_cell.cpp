@@ -15,7 +15,7 @@ Verdict prove_meets(const LightVolume& light, const Cell& cell) {
   if (light.is_cone) {
     const SpotDecider spot(light);
     const Verdict verdict = spot.meets_quickly(cell);
-    return verdict == Verdict::open ? spot.meets_after_all(cell) : verdict;
+    return verdict == Verdict::uncertain ? spot.meets_after_all(cell) : verdict;
   }
   return std::isinf(light.range) || BallDecider(light.apex, light.range).meets(cell) ? Verdict::yes : Verdict::no;
 }

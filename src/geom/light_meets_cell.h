@@ -7,7 +7,7 @@
 
 namespace clusterbench::geom {
 
-// Balls: exact, never open. Spots: proven, or open, in the order of geom/spot/spot_decider.h.
+// Balls: exact, never uncertain. Spots: proven, or uncertain (undecided), in the order of geom/spot/spot_decider.h.
 Verdict decide_meets(const LightVolume& light, const Cell& cell);
 // The same without the filter, to hold it against: slower.
 Verdict prove_meets(const LightVolume& light, const Cell& cell);

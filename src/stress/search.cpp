@@ -311,7 +311,7 @@ class Climb {
     const geom::LightVolume volume = view::volume_of(frame.lights[0], space_);
     const geom::Verdict verdict = geom::decide_meets(volume, grid_.cell(touch.cell));
     if (verdict == geom::Verdict::no || is_listed(frame, touch.cell)) return;
-    if (verdict == geom::Verdict::open) {
+    if (verdict == geom::Verdict::uncertain) {
       ++result.undecided;
       return;
     }

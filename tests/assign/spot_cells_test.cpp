@@ -116,16 +116,16 @@ grid::IndexRange touched_columns(SpotJudge& judge, const RowPlanes& planes, cons
                   [&](int column) { return !judge.touches(first_cell + static_cast<std::uint32_t>(column)); });
 }
 
-// Pieces of rows and what is known to be true of them, against what is found: wrong answers and settled ones.
-struct Pieces {
+// RowParts of rows and what is known to be true of them, against what is found: wrong answers and settled ones.
+struct RowParts {
   SpotTouches touches;
   std::vector<SpotCell> asked;
   std::vector<grid::IndexRange> touched;  // of the row
   std::size_t wrong = 0, settled = 0, alone = 0;
 
-  void add(const SpotCell& piece, const grid::IndexRange& in_row) {
-    touches.add(piece);
-    asked.push_back(piece);
+  void add(const SpotCell& part, const grid::IndexRange& in_row) {
+    touches.add(part);
+    asked.push_back(part);
     touched.push_back(in_row);
   }
   void look(const SpotsAndPlanes& from, const RowPlanes& planes) {
@@ -148,20 +148,20 @@ TEST(SpotTouches, are_true_on_every_target) {
   for_close_spots(all_plans(), 9,
                   [](const testing::settings::Plan& plan, const CloseSpots& close, const RowPlanes& planes,
                      const SpotsAndPlanes& from) {
-                    Pieces pieces;
+                    RowParts parts;
                     const auto columns = static_cast<std::uint32_t>(planes.columns);
                     for (std::uint32_t spot = 0; spot < close.cells.size(); spot += 3) {
                       SpotCell cell = place_of(close.grid, spot, close.cells[spot]);
                       SpotJudge judge(close.grid, close.lights, spot);
                       const grid::IndexRange touched = touched_columns(judge, planes, cell);
-                      pieces.add(cell, touched);
-                      pieces.add({cell.spot, cell.slice, cell.row, 0, columns}, touched);
-                      pieces.add({cell.spot, cell.slice, cell.row, 0, cell.column + 1}, touched);
+                      parts.add(cell, touched);
+                      parts.add({cell.spot, cell.slice, cell.row, 0, columns}, touched);
+                      parts.add({cell.spot, cell.slice, cell.row, 0, cell.column + 1}, touched);
                     }
                     on_each_target([&](const std::string& target) {
-                      pieces.look(from, planes);
-                      EXPECT_EQ(pieces.wrong, 0u) << target << ", " << plan.name;
-                      EXPECT_GT(pieces.settled, pieces.asked.size() / 4) << target << ", " << plan.name;
+                      parts.look(from, planes);
+                      EXPECT_EQ(parts.wrong, 0u) << target << ", " << plan.name;
+                      EXPECT_GT(parts.settled, parts.asked.size() / 4) << target << ", " << plan.name;
                     });
                   });
 }
@@ -184,21 +184,21 @@ TEST(SpotTouches, say_which_columns_share_a_single_point) {
     const view::LightArrays lights = view::lights_in(frame, grid::space_of(grid, frame));
     const RowPlanes planes(grid.screen());
     const auto rows = static_cast<std::uint32_t>(planes.rows), columns = static_cast<std::uint32_t>(planes.columns);
-    Pieces pieces;
+    RowParts parts;
     for (std::uint32_t spot = 0; spot < lights.spots.count; ++spot)
       for (std::uint32_t slice = 0; slice < static_cast<std::uint32_t>(planes.slices); ++slice) {
         SpotJudge judge(grid, lights, spot);
         const SpotCell below{spot, slice, rows / 2, 0, columns};
-        pieces.add(below, touched_columns(judge, planes, below));
+        parts.add(below, touched_columns(judge, planes, below));
         for (std::uint32_t row = 0; row < rows; ++row) {
           const SpotCell left{spot, slice, row, 0, columns / 2};
-          pieces.add(left, touched_columns(judge, planes, left));
+          parts.add(left, touched_columns(judge, planes, left));
         }
       }
     on_each_target([&](const std::string& target) {
-      pieces.look(from_these(lights, planes), planes);
-      EXPECT_EQ(pieces.wrong, 0u) << target << ", turned by " << turn;
-      EXPECT_GT(pieces.alone, lights.spots.count / 3) << target << ", turned by " << turn;
+      parts.look(from_these(lights, planes), planes);
+      EXPECT_EQ(parts.wrong, 0u) << target << ", turned by " << turn;
+      EXPECT_GT(parts.alone, lights.spots.count / 3) << target << ", turned by " << turn;
     });
   }
 }

@@ -22,15 +22,15 @@ class RandomBalls {
     double radius = 0.0;
   };
 
-  FrustumPiece piece() {
+  FrustumCell frustum() {
     start_cell();
     const auto [x0, x1] = slopes();
     const auto [y0, y1] = slopes();
     const auto [near, far] = depths();
     return {x0, x1, y0, y1, near, far, false};
   }
-  ShellPiece shell() {
-    const FrustumPiece p = piece();
+  ShellCell shell() {
+    const FrustumCell p = frustum();
     return {p.x0, p.x1, p.y0, p.y1, p.depth0, p.depth1};
   }
   Box box() {
@@ -116,7 +116,7 @@ double gap(double lo, double at, double hi) {
 
 // By search: good to half of the digits at least, which a nudge of a few ulp from here makes up for only where the
 // distance is right to the last ones; both kinds are wanted.
-double about_least(const FrustumPiece& c, const Vec3d& p, double from, double to) {
+double about_least(const FrustumCell& c, const Vec3d& p, double from, double to) {
   const auto at = [&](double depth) {
     return std::hypot(gap(c.x0 * depth, p.x, c.x1 * depth), gap(c.y0 * depth, p.y, c.y1 * depth), depth + p.z);
   };
@@ -154,7 +154,7 @@ TEST(BallDecider, agrees_with_rational_numbers_on_frustum_pieces) {
   RandomBalls balls(1);
   Counts counts;
   for (int i = 0; i < 6000 && !testing::Test::HasFatalFailure(); ++i) {
-    const FrustumPiece cell = balls.piece();
+    const FrustumCell cell = balls.frustum();
     compare(cell, balls.ball([&](const Vec3d& p) { return about_least(cell, p, cell.depth0, cell.depth1); }), counts);
   }
   expect_both(counts);
@@ -177,13 +177,13 @@ TEST(BallDecider, agrees_with_rational_numbers_on_shell_pieces) {
   RandomBalls balls(3);
   Counts counts;
   for (int i = 0; i < 6000 && !testing::Test::HasFatalFailure(); ++i) {
-    const ShellPiece cell = balls.shell();
-    const FrustumPiece pyramid{cell.x0, cell.x1, cell.y0, cell.y1, 0.0f, 1.0f, false};
+    const ShellCell cell = balls.shell();
+    const FrustumCell pyramid{cell.x0, cell.x1, cell.y0, cell.y1, 0.0f, 1.0f, false};
     const auto least = [&](const Vec3d& p) {
       const double size = glm::length(p);
-      const double aside = std::min(about_least(pyramid, p, 0.0, 2.0 * size), size);
-      const double along = std::sqrt((size - aside) * (size + aside));
-      return std::hypot(aside, gap(cell.distance0, along, cell.distance1));
+      const double height = std::min(about_least(pyramid, p, 0.0, 2.0 * size), size);
+      const double along = std::sqrt((size - height) * (size + height));
+      return std::hypot(height, gap(cell.distance0, along, cell.distance1));
     };
     compare(cell, balls.ball(least), counts);
   }
@@ -191,7 +191,7 @@ TEST(BallDecider, agrees_with_rational_numbers_on_shell_pieces) {
 }
 
 TEST(BallDecider, decides_exact_touches_on_a_lattice_without_exact_numbers) {
-  const FrustumPiece cell{0.0f, 0.25f, -0.25f, 0.0f, 4.0f, 8.0f, false};
+  const FrustumCell cell{0.0f, 0.25f, -0.25f, 0.0f, 4.0f, 8.0f, false};
   const Placement left{{-3.0, -0.5, -5.0}, Vec3d(0.0), Mat3d(1.0)}, above{{0.5, 2.0, -6.0}, Vec3d(0.0), Mat3d(1.0)},
       before{{0.0, 0.0, -1.0}, Vec3d(0.0), Mat3d(1.0)}, beside_edge{{-3.0, 4.0, -5.0}, Vec3d(0.0), Mat3d(1.0)};
   const std::pair<Placement, double> touches[] = {{left, 3.0}, {above, 2.0}, {before, 3.0}, {beside_edge, 5.0}};
@@ -211,8 +211,8 @@ TEST(BallDecider, decides_touches_of_upright_planes_in_doubles_however_depths_ar
   center.rotation = glm::transpose(Mat3d{{1, 0, 0}, {0, cosine, -sine}, {0, sine, cosine}});
   for (const double depth : {4.3, 5.1, 6.7}) {
     center.position = glm::transpose(center.rotation) * Vec3d(0.75, 0.3, -depth);
-    for (const Cell& cell : {Cell(FrustumPiece{-0.5f, 0.0f, -0.5f, 0.5f, 3.0f, 9.0f, false}),
-                             Cell(ShellPiece{-0.5f, 0.0f, -0.5f, 0.5f, 3.0f, 9.0f})}) {
+    for (const Cell& cell : {Cell(FrustumCell{-0.5f, 0.0f, -0.5f, 0.5f, 3.0f, 9.0f, false}),
+                             Cell(ShellCell{-0.5f, 0.0f, -0.5f, 0.5f, 3.0f, 9.0f})}) {
       const BallDecider touching(center, 0.75);
       EXPECT_TRUE(touching.meets(cell));
       EXPECT_EQ(touching.exact_decisions(), 0u) << depth;
@@ -224,7 +224,7 @@ TEST(BallDecider, decides_touches_of_upright_planes_in_doubles_however_depths_ar
 // Of a centre on the edge of what lies behind all of a pyramid: whether the eye is the nearest point, or one of the ray
 // through (1, 0.5, -1), rounding hides.
 TEST(BallDecider, tells_no_nearest_corner_where_rounding_hides_whether_the_centre_is_behind_the_pyramid) {
-  const ShellPiece cell{0.5f, 1.0f, 0.25f, 0.5f, 1.0f, 3.0f};
+  const ShellCell cell{0.5f, 1.0f, 0.25f, 0.5f, 1.0f, 3.0f};
   const double cosine = std::cos(0.7), sine = std::sin(0.7);
   Placement center;
   center.rotation = glm::transpose(Mat3d{{1, 0, 0}, {0, cosine, -sine}, {0, sine, cosine}});
@@ -253,10 +253,10 @@ TEST(BallDecider, tells_no_nearest_corner_where_rounding_hides_whether_the_centr
 TEST(BallDecider, is_not_fooled_by_what_is_too_small_for_a_double) {
   const Placement beside{{1.0, 0.0, 0.0}, {-0x1p-540, 0.0, 0.0}, Mat3d(1.0)};
   for (const bool orthographic : {false, true})
-    EXPECT_FALSE(BallDecider(beside, 1.0).meets(FrustumPiece{0.0f, 1.0f, -1.0f, 1.0f, 1.0f, 2.0f, orthographic}));
+    EXPECT_FALSE(BallDecider(beside, 1.0).meets(FrustumCell{0.0f, 1.0f, -1.0f, 1.0f, 1.0f, 2.0f, orthographic}));
   Placement turned{{0.0, 0x1p-500, 0.0}, Vec3d(0.0), Mat3d(1.0)};
   turned.rotation[1][0] = 0x1p-600;
-  EXPECT_FALSE(BallDecider(turned, 1.0).meets(FrustumPiece{-1.0f, 0.0f, -1.0f, 1.0f, 1.0f, 2.0f, false}));
+  EXPECT_FALSE(BallDecider(turned, 1.0).meets(FrustumCell{-1.0f, 0.0f, -1.0f, 1.0f, 1.0f, 2.0f, false}));
   EXPECT_FALSE(BallDecider(turned, 1.0).meets(Box{{-1.0f, -1.0f, -2.0f}, {0.0f, 1.0f, -1.0f}}));
 }
 
@@ -264,7 +264,7 @@ TEST(BallDecider, numbers_too_wide_for_the_stack_are_decided_all_the_same) {
   const Placement center{{0x1p60, 0x1p-1000, -0x1p-1040},
                          {0.0, 0x1.8p-1060, 0x1p59},
                          {0.6, 0.8, 0x1p-1000, -0.8, 0.6, 0x1p-1020, 0x1p-900, 0, 1}};
-  const FrustumPiece cell{-0.5f, 0.5f, -0.5f, 0.5f, 1.0f, 0x1p58f, false};
+  const FrustumCell cell{-0.5f, 0.5f, -0.5f, 0.5f, 1.0f, 0x1p58f, false};
   for (const double radius : {0x1p58, 0x1p59, 0x1p60})
     EXPECT_EQ(BallDecider(center, radius).meets(cell), ball_meets_exactly(center, radius, cell));
 }

@@ -31,7 +31,7 @@ class FilterOn : public testing::TestWithParam<Kind> {};
 void expect_agreement(const LightVolume& light, const Cell& cell, int (&said)[3]) {
   const Verdict filtered = filter_meets(light, cell);
   ++said[static_cast<int>(filtered)];
-  if (filtered == Verdict::open) return;
+  if (filtered == Verdict::uncertain) return;
   EXPECT_EQ(prove_meets(light, cell), filtered) << "range " << light.range;
 }
 
@@ -45,12 +45,12 @@ TEST_P(FilterOn, random_pairs_is_never_contradicted) {
   }
   EXPECT_GT(1000 * said[static_cast<int>(Verdict::yes)], 12 * pairs);
   EXPECT_GT(1000 * said[static_cast<int>(Verdict::no)], 12 * pairs);
-  EXPECT_LT(said[static_cast<int>(Verdict::open)], 3);
+  EXPECT_LT(said[static_cast<int>(Verdict::uncertain)], 3);
 }
 
-// Neighbouring ranges between which the filter's answer begins to be at least `wanted` (no < open < yes).
+// Neighbouring ranges between which the filter's answer begins to be at least `wanted` (no < uncertain < yes).
 double range_of_change(LightVolume light, const Cell& cell, Verdict wanted) {
-  const auto rank = [](Verdict verdict) { return verdict == Verdict::no ? 0 : verdict == Verdict::open ? 1 : 2; };
+  const auto rank = [](Verdict verdict) { return verdict == Verdict::no ? 0 : verdict == Verdict::uncertain ? 1 : 2; };
   double before = 0.0, after = 200.0;
   for (;;) {
     light.range = 0.5 * (before + after);
@@ -65,7 +65,7 @@ TEST_P(FilterOn, pairs_at_which_it_changes_its_mind_is_never_contradicted) {
   while (pairs < test::tries(17000)) {
     const LightVolume light = random_light(random, GetParam().is_cone);
     const Cell cell = GetParam().make_cell(random);
-    for (const Verdict wanted : {Verdict::open, Verdict::yes}) {
+    for (const Verdict wanted : {Verdict::uncertain, Verdict::yes}) {
       const double change = range_of_change(light, cell, wanted);
       if (change >= 200.0) continue;  // the cone does not meet the cell
       for (const int ulps : {-64, -8, -1, 0, 1, 8, 64}) {
@@ -78,7 +78,7 @@ TEST_P(FilterOn, pairs_at_which_it_changes_its_mind_is_never_contradicted) {
   }
   EXPECT_GT(said[static_cast<int>(Verdict::yes)], pairs / 4);
   EXPECT_GT(said[static_cast<int>(Verdict::no)], pairs / 5);
-  EXPECT_GT(said[static_cast<int>(Verdict::open)], pairs / 4);
+  EXPECT_GT(said[static_cast<int>(Verdict::uncertain)], pairs / 4);
 }
 
 struct MapKind {
@@ -88,7 +88,7 @@ struct MapKind {
 
 class FilterOnMaps : public testing::TestWithParam<MapKind> {};
 
-// Once 0.6 % of the answers for spots and shell pieces were wrong here.
+// Once 0.6 % of the answers for spots and shell cells were wrong here.
 TEST_P(FilterOnMaps, lights_that_a_cell_touches_or_misses_are_never_contradicted) {
   SplitMix64 random(107);
   int said[3] = {};
@@ -99,7 +99,7 @@ TEST_P(FilterOnMaps, lights_that_a_cell_touches_or_misses_are_never_contradicted
   }
   EXPECT_GT(5 * said[static_cast<int>(Verdict::yes)], pairs);
   EXPECT_GT(5 * said[static_cast<int>(Verdict::no)], pairs);
-  EXPECT_LT(5 * said[static_cast<int>(Verdict::open)], 3 * pairs);
+  EXPECT_LT(5 * said[static_cast<int>(Verdict::uncertain)], 3 * pairs);
 }
 
 INSTANTIATE_TEST_SUITE_P(Lights, FilterOnMaps,
@@ -110,11 +110,11 @@ INSTANTIATE_TEST_SUITE_P(Lights, FilterOnMaps,
                          [](const testing::TestParamInfo<MapKind>& each) { return each.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(All, FilterOn,
-                         testing::Values(Kind{"balls_and_frustum_pieces", false, cell_of<FrustumPiece, random_piece>},
-                                         Kind{"balls_and_shell_pieces", false, cell_of<ShellPiece, random_shell>},
+                         testing::Values(Kind{"balls_and_frustum_pieces", false, cell_of<FrustumCell, random_piece>},
+                                         Kind{"balls_and_shell_pieces", false, cell_of<ShellCell, random_shell>},
                                          Kind{"balls_and_boxes", false, cell_of<Box, random_box>},
-                                         Kind{"spots_and_frustum_pieces", true, cell_of<FrustumPiece, random_piece>},
-                                         Kind{"spots_and_shell_pieces", true, cell_of<ShellPiece, random_shell>},
+                                         Kind{"spots_and_frustum_pieces", true, cell_of<FrustumCell, random_piece>},
+                                         Kind{"spots_and_shell_pieces", true, cell_of<ShellCell, random_shell>},
                                          Kind{"spots_and_boxes", true, cell_of<Box, random_box>}),
                          [](const testing::TestParamInfo<Kind>& each) { return each.param.name; });
 

@@ -52,10 +52,10 @@ TEST(Meets, a_light_that_reaches_a_face_edge_or_corner_by_a_hair_meets_the_cell)
       for (const bool is_shell : {false, true}) {
         const Reach reach{random.between(0.5, 20.0), random.between(0.05, 1.5), 1e-6};
         const LightVolume light = light_against(random_contact(s, is_shell, random), by, reach, random);
-        const Cell cell = is_shell ? Cell(ShellPiece{s.x0, s.x1, s.y0, s.y1, s.near, s.far})
-                                   : Cell(FrustumPiece{s.x0, s.x1, s.y0, s.y1, s.near, s.far, false});
+        const Cell cell = is_shell ? Cell(ShellCell{s.x0, s.x1, s.y0, s.y1, s.near, s.far})
+                                   : Cell(FrustumCell{s.x0, s.x1, s.y0, s.y1, s.near, s.far, false});
         Verdict verdict = filter_meets(light, cell);
-        if (verdict == Verdict::open) verdict = prove_meets(light, cell);
+        if (verdict == Verdict::uncertain) verdict = prove_meets(light, cell);
         EXPECT_EQ(verdict, Verdict::yes) << i << ", part " << static_cast<int>(by) << ", shell " << is_shell;
       }
   }
@@ -63,7 +63,7 @@ TEST(Meets, a_light_that_reaches_a_face_edge_or_corner_by_a_hair_meets_the_cell)
 
 // A sheet 20 m wide and 12 cm thick: no edge or corner is near, nor does the light end in it.
 TEST(Meets, a_light_that_passes_through_the_middle_of_a_thin_cell_meets_it) {
-  const FrustumPiece sheet{-1.0f, 1.0f, -1.0f, 1.0f, 10.0f, 10.125f, false};
+  const FrustumCell sheet{-1.0f, 1.0f, -1.0f, 1.0f, 10.0f, 10.125f, false};
   LightVolume light;
   light.apex.position = {1.0, -2.0, -9.0};
   light.range = 3.0;
@@ -82,7 +82,7 @@ TEST(Meets, spots_agree_with_alternating_projections) {
   int met = 0, decided = 0;
   for (int i = 0; i < 3000; ++i) {
     const LightVolume light = random_light(random, true);
-    const FrustumPiece cell = random_piece(random);
+    const FrustumCell cell = random_piece(random);
     const test::DykstraCone cone{light.apex.position, light.direction, light.half_angle_rad};
     const test::DykstraResult nearest = test::distance_to_common_point(cone, cell, 300);
     const bool has_converged = nearest.violation < 1e-7;
@@ -98,7 +98,7 @@ TEST(Meets, spots_agree_with_alternating_projections) {
 }
 
 // Pulls the range to within a few ulps of touching, by what exact arithmetic says.
-double touching_range(LightVolume light, const FrustumPiece& cell) {
+double touching_range(LightVolume light, const FrustumCell& cell) {
   double apart = 0.0, touching = 200.0;
   for (;;) {
     const double middle = 0.5 * (apart + touching);
@@ -111,7 +111,7 @@ TEST(Meets, the_filter_never_contradicts_exact_arithmetic_within_a_few_ulps_of_t
   SplitMix64 random(9);
   for (int i = 0; i < 12; ++i) {
     LightVolume light = random_light(random, false);
-    const FrustumPiece cell = random_piece(random);
+    const FrustumCell cell = random_piece(random);
     const double touching = touching_range(light, cell);
     for (const int ulps : {-4, -1, 0, 1, 4}) {
       light.range = touching;
@@ -119,7 +119,7 @@ TEST(Meets, the_filter_never_contradicts_exact_arithmetic_within_a_few_ulps_of_t
       const Verdict exact = prove_meets(light, cell);
       EXPECT_EQ(exact, ulps < 0 ? Verdict::no : Verdict::yes);
       const Verdict filtered = filter_meets(light, cell);
-      EXPECT_TRUE(filtered == Verdict::open || filtered == exact) << "ulps " << ulps;
+      EXPECT_TRUE(filtered == Verdict::uncertain || filtered == exact) << "ulps " << ulps;
     }
   }
 }
@@ -130,7 +130,7 @@ TEST(Meets, filter_and_proof_agree_wherever_the_filter_speaks) {
     const LightVolume light = random_light(random, true);
     for (const Cell& cell : {Cell(random_piece(random)), Cell(random_shell(random))}) {
       const Verdict filtered = filter_meets(light, cell);
-      if (filtered != Verdict::open) {
+      if (filtered != Verdict::uncertain) {
         EXPECT_EQ(prove_meets(light, cell), filtered);
       }
     }
@@ -138,7 +138,7 @@ TEST(Meets, filter_and_proof_agree_wherever_the_filter_speaks) {
 }
 
 TEST(Meets, an_apex_on_a_corner_of_the_cell_is_a_common_point_wherever_the_cone_points) {
-  const FrustumPiece cell{-0.75f, 0.75f, -0.5f, 0.5f, 8.0f, 32.0f, false};
+  const FrustumCell cell{-0.75f, 0.75f, -0.5f, 0.5f, 8.0f, 32.0f, false};
   LightVolume light;
   light.apex.position = {6.0, 4.0, -8.0};
   light.range = 1.0;
@@ -151,11 +151,11 @@ TEST(Meets, an_apex_on_a_corner_of_the_cell_is_a_common_point_wherever_the_cone_
 }
 
 TEST(Meets, a_ball_tangent_to_the_side_of_a_shell_piece_is_decided) {
-  const ShellPiece cell{-0.75f, 0.75f, -0.5f, 0.5f, 8.0f, 32.0f};
+  const ShellCell cell{-0.75f, 0.75f, -0.5f, 0.5f, 8.0f, 32.0f};
   LightVolume light;
   light.apex.position = {16.0, 0.0, -13.0};
   light.range = 5.0;
-  EXPECT_EQ(filter_meets(light, cell), Verdict::open);
+  EXPECT_EQ(filter_meets(light, cell), Verdict::uncertain);
   EXPECT_EQ(prove_meets(light, cell), Verdict::yes);
   light.range = std::nextafter(5.0, 0.0);
   EXPECT_EQ(prove_meets(light, cell), Verdict::no);
@@ -166,7 +166,7 @@ TEST(Meets, a_very_narrow_cone_meets_the_cells_that_its_axis_passes_within_its_a
   light.range = 100.0;
   light.is_cone = true;
   light.half_angle_rad = 1.7453e-4;  // 0.01 degrees: sqrt(1 - cos²) is lost in single precision
-  const FrustumPiece cell{0.0625f, 0.125f, -0.05f, 0.05f, 10.0f, 20.0f, false};
+  const FrustumCell cell{0.0625f, 0.125f, -0.05f, 0.05f, 10.0f, 20.0f, false};
   light.direction = glm::normalize(Vec3d(0.0625 - 1.6e-4, 0.0, -1.0));
   EXPECT_EQ(filter_meets(light, cell), Verdict::yes);
   light.direction = glm::normalize(Vec3d(0.0625 - 1.9e-4, 0.0, -1.0));
@@ -178,7 +178,7 @@ TEST(Distances, the_inner_interval_is_reached_and_the_outer_one_is_not_left) {
   int checked = 0;
   for (int i = 0; i < 400; ++i) {
     const LightVolume light = random_light(random, i % 2 == 0);
-    ShellPiece tile = random_shell(random);
+    ShellCell tile = random_shell(random);
     tile.distance1 = 100.0f;
     const DistanceInterval reach = LightFilter(light).distances(tile);
     for (int sample = 0; sample < 300; ++sample) {

@@ -17,9 +17,9 @@ double an_ulp_less(double value) {
   return std::nextafter(value, 0.0);
 }
 
-// The distance from the centre to the piece is exactly this: an ulp less does not reach, and neither does a centre that
-// is moved by an ulp along x, y or z in the direction given by the signs (away from the piece).
-void expect_touches_first_at(const ShellPiece& cell, const Vec3d& center, double distance, const Vec3d& away) {
+// The distance from the centre to the cell is exactly this: an ulp less does not reach, and neither does a centre that
+// is moved by an ulp along x, y or z in the direction given by the signs (away from the cell).
+void expect_touches_first_at(const ShellCell& cell, const Vec3d& center, double distance, const Vec3d& away) {
   const Placement placed{center * Vec3d(1.0, 1.0, -1.0), Vec3d(0.0), Mat3d(1.0)};
   EXPECT_TRUE(ball_meets_exactly(placed, distance, cell));
   EXPECT_TRUE(ball_meets_exactly(placed, std::nextafter(distance, 1e9), cell));
@@ -36,10 +36,10 @@ void expect_touches_first_at(const ShellPiece& cell, const Vec3d& center, double
 }
 
 // Slopes are chosen so that distances are whole numbers: 3-4-5 along x, 1-2-2-3 along the edge x = y / 2 = depth / 2.
-ShellPiece between(float near, float far) {
+ShellCell between(float near, float far) {
   return {-0.75f, 0.75f, -0.5f, 0.5f, near, far};
 }
-ShellPiece corner_between(float near, float far) {
+ShellCell corner_between(float near, float far) {
   return {-0.25f, 0.5f, -0.125f, 1.0f, near, far};
 }
 
@@ -60,7 +60,7 @@ TEST(ExactShell, a_ball_around_the_eye_touches_the_near_shell_with_its_radius) {
 
 TEST(ExactShell, a_ball_tangent_to_a_tile_plane_touches_between_the_shells) {
   // Foot (12, 0, 16) on x = 0.75 depth, 20 from the eye; five units out along the normal (4, 0, -3) / 5.
-  for (const ShellPiece& cell : {between(8, 32), between(8, 20), between(20, 32)})
+  for (const ShellCell& cell : {between(8, 32), between(8, 20), between(20, 32)})
     expect_touches_first_at(cell, {16, 0, 13}, 5.0, {1, 0, -1});
   EXPECT_FALSE(ball_meets_exactly(placed_at(16, 0, 13), 5.0, between(8, 19.99f)));
   EXPECT_FALSE(ball_meets_exactly(placed_at(16, 0, 13), 5.0, between(20.01f, 32)));
@@ -75,7 +75,7 @@ TEST(ExactShell, a_ball_that_reaches_just_the_edge_of_a_tile_plane_and_a_shell_t
 
 TEST(ExactShell, a_ball_tangent_to_the_edge_of_two_tile_planes_touches) {
   // Foot (4, 8, 8), 12 from the eye; (2, 1, -2) points away from both planes.
-  for (const ShellPiece& cell : {corner_between(8, 20), corner_between(8, 12), corner_between(12, 20)})
+  for (const ShellCell& cell : {corner_between(8, 20), corner_between(8, 12), corner_between(12, 20)})
     expect_touches_first_at(cell, {8, 10, 4}, 6.0, {1, 1, -1});
 }
 
@@ -95,8 +95,8 @@ TEST(ExactShell, a_pyramid_without_width_is_a_sheet_that_can_be_touched) {
   expect_touches_first_at({0.75f, 0.75f, -0.5f, 0.5f, 8, 32}, {16, 0, 13}, 5.0, {1, 0, -1});
 }
 
-// The distance to the nearest of a net of points on the piece, made finer and finer around the nearest one.
-double sampled_distance(const ShellPiece& cell, const Vec3d& center) {
+// The distance to the nearest of a net of points on the cell, made finer and finer around the nearest one.
+double sampled_distance(const ShellCell& cell, const Vec3d& center) {
   constexpr int k_steps = 12, k_rounds = 16;
   const auto clamped = [](double value, double lo, double hi) { return std::min(std::max(value, lo), hi); };
   double nearest = 1e300, x = 0.5 * (cell.x0 + cell.x1), y = 0.5 * (cell.y0 + cell.y1);
@@ -126,7 +126,7 @@ TEST(ExactShell, the_radius_that_first_touches_is_the_distance_of_the_nearest_sa
   SplitMix64 random(41);
   for (int i = 0; i < 400; ++i) {
     const auto f = [&](double lo, double hi) { return static_cast<float>(random.between(lo, hi)); };
-    ShellPiece cell{f(-2, 1), 0, f(-2, 1), 0, f(0, 10), 0};
+    ShellCell cell{f(-2, 1), 0, f(-2, 1), 0, f(0, 10), 0};
     cell.x1 = cell.x0 + f(0.01, 2);
     cell.y1 = cell.y0 + f(0.01, 2);
     cell.distance1 = cell.distance0 + f(0.1, 10);

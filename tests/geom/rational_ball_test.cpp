@@ -10,7 +10,7 @@ namespace clusterbench::geom {
 namespace {
 
 // Slopes and offsets are chosen so that the distances are whole numbers: 3-4-5 and 2-3-6-7.
-constexpr FrustumPiece k_piece{-0.75f, 0.75f, -0.5f, 0.5f, 8.0f, 32.0f, false};
+constexpr FrustumCell k_piece{-0.75f, 0.75f, -0.5f, 0.5f, 8.0f, 32.0f, false};
 
 Placement at(double x, double y, double depth) {
   return {{x, y, -depth}, Vec3d(0.0), Mat3d(1.0)};
@@ -69,13 +69,13 @@ TEST(ExactBall, the_difference_to_the_origin_is_taken_exactly) {
 TEST(ExactBall, a_box_is_the_orthographic_piece_of_the_same_extents) {
   SplitMix64 random(7);
   const Box box{{-2.0f, -1.0f, -9.0f}, {3.0f, 4.0f, -5.0f}};
-  const FrustumPiece piece{-2.0f, 3.0f, -1.0f, 4.0f, 5.0f, 9.0f, true};
+  const FrustumCell frustum{-2.0f, 3.0f, -1.0f, 4.0f, 5.0f, 9.0f, true};
   int touching = 0;
   for (int i = 0; i < 300; ++i) {
     const Placement center = at(random.between(-6, 8), random.between(-6, 8), random.between(0, 14));
     const double radius = random.between(0.0, 3.0);
     const bool touches = ball_meets_exactly(center, radius, box);
-    EXPECT_EQ(touches, ball_meets_exactly(center, radius, piece));
+    EXPECT_EQ(touches, ball_meets_exactly(center, radius, frustum));
     touching += touches;
   }
   EXPECT_GT(touching, 30);
@@ -83,7 +83,7 @@ TEST(ExactBall, a_box_is_the_orthographic_piece_of_the_same_extents) {
 }
 
 TEST(HoldsExactly, shells_take_the_distance_and_not_the_depth) {
-  const ShellPiece shell{-1.0f, 1.0f, -1.0f, 1.0f, 5.0f, 7.0f};
+  const ShellCell shell{-1.0f, 1.0f, -1.0f, 1.0f, 5.0f, 7.0f};
   EXPECT_TRUE(holds_exactly(shell, at(3.0, 0.0, 4.0)));
   EXPECT_TRUE(holds_exactly(shell, at(2.0, 3.0, 6.0)));
   EXPECT_FALSE(holds_exactly(shell, at(2.0, 3.0, std::nextafter(6.0, 7.0))));

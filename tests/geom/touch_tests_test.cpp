@@ -76,9 +76,9 @@ TEST(BallTouchesBox, agrees_with_whole_number_arithmetic_where_single_precision_
 
 // --- Ball against planes ---
 
-FrustumPiece any_piece(SplitMix64& random, bool orthographic) {
+FrustumCell any_piece(SplitMix64& random, bool orthographic) {
   const double size = orthographic ? 30.0 : 1.5;
-  FrustumPiece cell{};
+  FrustumCell cell{};
   cell.orthographic = orthographic;
   cell.x0 = static_cast<float>(random.between(-size, size));
   cell.x1 = cell.x0 + static_cast<float>(random.between(0.01, 0.5) * size);
@@ -89,8 +89,8 @@ FrustumPiece any_piece(SplitMix64& random, bool orthographic) {
   return cell;
 }
 
-// The point of a piece at shares of its widths and depths.
-Vec3d place_in(const FrustumPiece& cell, double x, double y, double depth) {
+// The point of a cell at shares of its widths and depths.
+Vec3d place_in(const FrustumCell& cell, double x, double y, double depth) {
   const double at_depth = cell.depth0 + depth * (static_cast<double>(cell.depth1) - cell.depth0);
   const double scale = cell.orthographic ? 1.0 : at_depth;
   return {(cell.x0 + x * (static_cast<double>(cell.x1) - cell.x0)) * scale,
@@ -101,7 +101,7 @@ TEST(OutwardPlanes, each_holds_its_face_and_has_the_rest_of_the_cell_behind_it) 
   SplitMix64 random(3);
   constexpr double k_faces[6][3] = {{0, .5, .5}, {1, .5, .5}, {.5, 0, .5}, {.5, 1, .5}, {.5, .5, 0}, {.5, .5, 1}};
   for (int i = 0; i < 200; ++i) {
-    const FrustumPiece cell = any_piece(random, i % 2 == 0);
+    const FrustumCell cell = any_piece(random, i % 2 == 0);
     Plane planes[6];
     outward_planes(cell, planes);
     for (int face = 0; face < 6; ++face) {
@@ -117,7 +117,7 @@ TEST(OutwardPlanes, each_holds_its_face_and_has_the_rest_of_the_cell_behind_it) 
 }
 
 TEST(BallTouchesPlanes, excludes_a_ball_beyond_one_face_and_keeps_one_that_touches_it) {
-  const FrustumPiece cell{-0.5f, 0.5f, -0.5f, 0.5f, 4, 8, false};
+  const FrustumCell cell{-0.5f, 0.5f, -0.5f, 0.5f, 4, 8, false};
   Plane planes[6];
   outward_planes(cell, planes);
   EXPECT_TRUE(ball_touches_planes({{0, 0, -2}, 2}, planes, 6));
@@ -132,7 +132,7 @@ TEST(BallTouchesPlanes, excludes_a_ball_beyond_one_face_and_keeps_one_that_touch
 }
 
 TEST(BallTouchesPlanes, cannot_exclude_a_ball_beyond_an_edge_which_is_why_it_is_boxy) {
-  const FrustumPiece cell{-1, 1, -1, 1, 1, 2, true};
+  const FrustumCell cell{-1, 1, -1, 1, 1, 2, true};
   Plane planes[6];
   outward_planes(cell, planes);
   const Ball ball{{1.9f, 1.9f, -1.5f}, 1};
@@ -145,7 +145,7 @@ TEST(BallTouchesPlanes, cannot_exclude_a_ball_beyond_an_edge_which_is_why_it_is_
 TEST(BoxAround, holds_every_corner_and_each_face_touches_one) {
   SplitMix64 random(4);
   for (int i = 0; i < 500; ++i) {
-    const FrustumPiece cell = any_piece(random, i % 2 == 0);
+    const FrustumCell cell = any_piece(random, i % 2 == 0);
     const Box box = box_around(cell);
     Vec3d lo(1e30), hi(-1e30);
     for (int corner = 0; corner < 8; ++corner) {
@@ -165,7 +165,7 @@ TEST(BoxAround, holds_every_corner_and_each_face_touches_one) {
 TEST(BallAround, a_piece_is_held_by_a_ball_no_wider_than_the_one_around_its_box) {
   SplitMix64 random(5);
   for (int i = 0; i < 500; ++i) {
-    const FrustumPiece cell = any_piece(random, i % 2 == 0);
+    const FrustumCell cell = any_piece(random, i % 2 == 0);
     const Ball ball = ball_around(cell);
     for (int corner = 0; corner < 8; ++corner)
       ASSERT_LE(glm::length(place_in(cell, corner & 1, corner >> 1 & 1, corner >> 2) - Vec3d(ball.center)),
@@ -185,8 +185,8 @@ TEST(BallAround, a_box_is_held_by_the_ball_through_its_corners) {
 TEST(BallAround, a_shell_piece_is_held_with_its_curved_ends) {
   SplitMix64 random(6);
   for (int i = 0; i < 200; ++i) {
-    const FrustumPiece like = any_piece(random, false);
-    const ShellPiece cell{like.x0, like.x1, like.y0, like.y1, like.depth0, like.depth1};
+    const FrustumCell like = any_piece(random, false);
+    const ShellCell cell{like.x0, like.x1, like.y0, like.y1, like.depth0, like.depth1};
     const Ball ball = ball_around(cell);
     for (int j = 0; j < 100; ++j) {
       const auto end = [&] { return random.unit() < 0.3 ? std::round(random.unit()) : random.unit(); };

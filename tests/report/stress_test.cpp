@@ -150,7 +150,7 @@ TEST(Contacts, lie_on_their_cell_and_a_ball_against_them_touches_it_and_no_more)
       const double slack = 1e-9 * (glm::length(light.apex.position) + range);
       const auto meets = [&] {
         const geom::Verdict verdict = geom::filter_meets(light, cell);
-        return verdict == geom::Verdict::open ? geom::prove_meets(light, cell) : verdict;
+        return verdict == geom::Verdict::uncertain ? geom::prove_meets(light, cell) : verdict;
       };
       light.range = range + slack;
       EXPECT_EQ(meets(), geom::Verdict::yes) << spec.name() << " contact " << i;

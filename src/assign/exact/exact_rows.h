@@ -30,7 +30,7 @@ inline Row row_of(const grid::ScreenGrid& grid, int slice, int row) {
           grid.tiles.y_max(row), grid.slices.boundaries[z], grid.slices.boundaries[z + 1]};
 }
 
-inline geom::FrustumPiece piece_of(const grid::Tiles& tiles, const Row& row, int column) {
+inline geom::FrustumCell piece_of(const grid::Tiles& tiles, const Row& row, int column) {
   const auto x = static_cast<std::size_t>(column);
   return {tiles.x[x], tiles.x[x + 1], row.y0, row.y1, row.depth0, row.depth1, tiles.orthographic};
 }

@@ -13,30 +13,30 @@ namespace clusterbench::geom {
 inline double about(const Bounded& number) {
   return number.value;
 }
-inline double about(const Tight& number) {
+inline double about(const Enclosure106& number) {
   return number.middle().hi;
 }
 
 inline double error_of(const Bounded& number) {
   return number.error;
 }
-inline double error_of(const Tight& number) {
+inline double error_of(const Enclosure106& number) {
   return number.radius();
 }
 
 inline Bounded widened(const Bounded& number, double by) {
   return {number.value, bounded::rounded_up(number.error + by)};
 }
-inline Tight widened(const Tight& number, double by) {
+inline Enclosure106 widened(const Enclosure106& number, double by) {
   return {number.middle(), (number.radius() + by) * (1.0 + 0x1p-40)};
 }
 
 // The largest of a, b and 0.
-inline Tight largest_or_zero(const Tight& a, const Tight& b) {
-  const Twofold middle = a.middle() < b.middle() ? b.middle() : a.middle();
+inline Enclosure106 largest_or_zero(const Enclosure106& a, const Enclosure106& b) {
+  const DoubleDouble middle = a.middle() < b.middle() ? b.middle() : a.middle();
   const double radius = std::max(a.radius(), b.radius());
   if (middle.hi > 0.0) return {middle, radius};
-  return {Twofold(), -0.5 * middle.hi > radius ? 0.0 : radius};
+  return {DoubleDouble(), -0.5 * middle.hi > radius ? 0.0 : radius};
 }
 
 // How far a centre is outside of low <= x <= high, and on which side.

@@ -16,18 +16,18 @@
 namespace clusterbench::geom {
 namespace {
 
-// Numbers whose products Tight can bound.
+// Numbers whose products Enclosure106 can bound.
 bool are_usual(std::initializer_list<double> numbers) {
   return std::ranges::all_of(numbers, [](double number) { return std::abs(number) < 0x1p60; });
 }
-bool is_usual(const Placement& place, double radius) {
-  const Vec3d &p = place.position, &o = place.origin;
+bool is_usual(const Placement& center, double radius) {
+  const Vec3d &p = center.position, &o = center.origin;
   return are_usual({p.x, p.y, p.z, o.x, o.y, o.z, radius});
 }
-bool is_usual(const FrustumPiece& cell) {
+bool is_usual(const FrustumCell& cell) {
   return are_usual({cell.x0, cell.x1, cell.y0, cell.y1, cell.depth0, cell.depth1});
 }
-bool is_usual(const ShellPiece& cell) {
+bool is_usual(const ShellCell& cell) {
   return are_usual({cell.x0, cell.x1, cell.y0, cell.y1, cell.distance0, cell.distance1});
 }
 bool is_usual(const Box& cell) {
@@ -35,10 +35,10 @@ bool is_usual(const Box& cell) {
 }
 
 // Half of the middle's leading part is less than all of it, and by more than is rounded here.
-Verdict verdict_of(const Tight& excess, double undershoot) {
+Verdict verdict_of(const Enclosure106& excess, double undershoot) {
   const double half = 0.5 * excess.middle().hi;
   if (-half >= excess.radius()) return Verdict::yes;
-  return half > undershoot + excess.radius() ? Verdict::no : Verdict::open;
+  return half > undershoot + excess.radius() ? Verdict::no : Verdict::uncertain;
 }
 
 }  // namespace
@@ -57,29 +57,31 @@ BallDecider::BallDecider(const Placement& center, double radius)
   center_ = {local[0], local[1], local[2]};
 }
 
-const BallDecider::Closely& BallDecider::closely() const {
-  if (closely_) return *closely_;
-  Tight from_origin[3];
-  for (int i = 0; i < 3; ++i) from_origin[i] = Tight(placement_.position[i]) - Tight(placement_.origin[i]);
+const BallDecider::In106Bits& BallDecider::closely() const {
+  if (in_106_bits_) return *in_106_bits_;
+  Enclosure106 from_origin[3];
+  for (int i = 0; i < 3; ++i)
+    from_origin[i] = Enclosure106(placement_.position[i]) - Enclosure106(placement_.origin[i]);
   const auto coordinate = [&](int row) {
-    return Tight(placement_.rotation[0][row]) * from_origin[0] + Tight(placement_.rotation[1][row]) * from_origin[1] +
-           Tight(placement_.rotation[2][row]) * from_origin[2];
+    return Enclosure106(placement_.rotation[0][row]) * from_origin[0] +
+           Enclosure106(placement_.rotation[1][row]) * from_origin[1] +
+           Enclosure106(placement_.rotation[2][row]) * from_origin[2];
   };
-  const Tight radius(radius_);
-  closely_.emplace(Closely{coordinate(0), coordinate(1), -coordinate(2), radius * radius});
-  return *closely_;
+  const Enclosure106 radius(radius_);
+  in_106_bits_.emplace(In106Bits{coordinate(0), coordinate(1), -coordinate(2), radius * radius});
+  return *in_106_bits_;
 }
 
-const BallDecider::Exactly& BallDecider::exactly() const {
-  if (exactly_) return *exactly_;
+const BallDecider::InDyadics& BallDecider::in_dyadics() const {
+  if (in_dyadics_) return *in_dyadics_;
   Dyadic from_origin[3];
   for (int i = 0; i < 3; ++i) from_origin[i] = Dyadic(placement_.position[i]) - Dyadic(placement_.origin[i]);
   const auto coordinate = [&](int row) {
     return Dyadic(placement_.rotation[0][row]) * from_origin[0] + Dyadic(placement_.rotation[1][row]) * from_origin[1] +
            Dyadic(placement_.rotation[2][row]) * from_origin[2];
   };
-  exactly_.emplace(Exactly{coordinate(0), coordinate(1), -coordinate(2), squared(Dyadic(radius_))});
-  return *exactly_;
+  in_dyadics_.emplace(InDyadics{coordinate(0), coordinate(1), -coordinate(2), squared(Dyadic(radius_))});
+  return *in_dyadics_;
 }
 
 template <class AnyCell, class Close, class Exact>
@@ -87,10 +89,10 @@ bool BallDecider::decided(const AnyCell& cell, Close&& close, Exact&& exact) con
   ++exact_decisions_;
   if (is_usual(placement_, radius_) && is_usual(cell)) {
     const Verdict verdict = close(closely());
-    if (verdict != Verdict::open) return verdict == Verdict::yes;
+    if (verdict != Verdict::uncertain) return verdict == Verdict::yes;
   }
   try {
-    return exact(exactly());
+    return exact(in_dyadics());
   } catch (const TooWide&) {
     return ball_meets_exactly(placement_, radius_, cell);
   }
@@ -105,16 +107,16 @@ bool BallDecider::meets(const Box& cell) const {
                          square(-cell.hi.z, depth_, -cell.lo.z) - squared_radius_;
   if (excess.is_surely_not_above(0.0)) return true;
   if (excess.is_surely_above(0.0)) return false;
-  const auto close = [&](const Closely& ball) {
-    const auto close_square = [](double lo, const Tight& at, double hi) {
-      const Tight gap = gap_between(Tight(lo), at, Tight(hi)).size;
+  const auto close = [&](const In106Bits& ball) {
+    const auto close_square = [](double lo, const Enclosure106& at, double hi) {
+      const Enclosure106 gap = gap_between(Enclosure106(lo), at, Enclosure106(hi)).size;
       return gap * gap;
     };
     return verdict_of(close_square(cell.lo.x, ball.x, cell.hi.x) + close_square(cell.lo.y, ball.y, cell.hi.y) +
                           close_square(-cell.hi.z, ball.depth, -cell.lo.z) - ball.squared_radius,
                       0.0);
   };
-  return decided(cell, close, [&](const Exactly& ball) {
+  return decided(cell, close, [&](const InDyadics& ball) {
     const auto exact_square = [](double lo, const Dyadic& at, double hi) {
       if (at < Dyadic(lo)) return squared(Dyadic(lo) - at);
       return at > Dyadic(hi) ? squared(at - Dyadic(hi)) : Dyadic();
@@ -125,29 +127,29 @@ bool BallDecider::meets(const Box& cell) const {
   });
 }
 
-bool BallDecider::meets(const FrustumPiece& cell) const {
+bool BallDecider::meets(const FrustumCell& cell) const {
   if (cell.orthographic) return meets(Box{{cell.x0, cell.y0, -cell.depth1}, {cell.x1, cell.y1, -cell.depth0}});
   const PyramidSlab slab{cell.x0, cell.x1, cell.y0, cell.y1, cell.depth0, cell.depth1};
   const NearestDepth nearest = nearest_between(x_, y_, depth_, slab);
   const Bounded excess = nearest.square - squared_radius_;
   if (excess.is_surely_not_above(0.0)) return true;
   if (excess.is_surely_above(nearest.undershoot())) return false;
-  const auto close = [&](const Closely& ball) {
-    const Tight at = closer_depth(ball.x, ball.y, ball.depth, slab, nearest);
-    const AtDepth<Tight> there(ball.x, ball.y, slab, at, at - ball.depth, nearest.depth);
+  const auto close = [&](const In106Bits& ball) {
+    const Enclosure106 at = closer_depth(ball.x, ball.y, ball.depth, slab, nearest);
+    const AtDepth<Enclosure106> there(ball.x, ball.y, slab, at, at - ball.depth, nearest.depth);
     return verdict_of(there.square - ball.squared_radius, undershoot_of(there.steepness));
   };
-  return decided(cell, close, [&](const Exactly& ball) {
+  return decided(cell, close, [&](const InDyadics& ball) {
     const ExactSlab exact(ball.x, ball.y, ball.depth, slab);
     return exact.is_within(exact.nearest(nearest), ball.squared_radius);
   });
 }
 
-PyramidView BallDecider::view_of(const ShellPiece& cell) const {
+PyramidView BallDecider::view_of(const ShellCell& cell) const {
   return view_from(x_, y_, depth_, pyramid_of(cell));
 }
 
-bool BallDecider::meets(const ShellPiece& cell, const PyramidView& view) const {
+bool BallDecider::meets(const ShellCell& cell, const PyramidView& view) const {
   const Bounded near(cell.distance0), far(cell.distance1);
   Bounded further;
   if (view.is_behind) {
@@ -159,27 +161,29 @@ bool BallDecider::meets(const ShellPiece& cell, const PyramidView& view) const {
   const Bounded excess = view.nearest.square + further - squared_radius_;
   if (excess.is_surely_not_above(0.0)) return true;
   if (excess.is_surely_above(view.nearest.undershoot())) return false;
-  const auto close = [&](const Closely& ball) {
+  const auto close = [&](const In106Bits& ball) {
     const PyramidSlab pyramid = pyramid_of(cell);
     if (view.is_behind) {
-      const AtDepth<Tight> at_eye(ball.x, ball.y, pyramid, Tight(0.0), -ball.depth, Side::low);
-      const Tight t(double{cell.distance0});
-      const Tight along = widened(along_rays(ball.x, ball.y, ball.depth, pyramid), at_eye.steepness);
-      return verdict_of(at_eye.square + t * t - Tight(2.0) * t * along - ball.squared_radius,
+      const AtDepth<Enclosure106> at_eye(ball.x, ball.y, pyramid, Enclosure106(0.0), -ball.depth, Side::low);
+      const Enclosure106 t(double{cell.distance0});
+      const Enclosure106 along = widened(along_rays(ball.x, ball.y, ball.depth, pyramid), at_eye.steepness);
+      return verdict_of(at_eye.square + t * t - Enclosure106(2.0) * t * along - ball.squared_radius,
                         undershoot_of(at_eye.steepness));
     }
-    const Tight at = closer_depth(ball.x, ball.y, ball.depth, pyramid, view.nearest);
-    const AtDepth<Tight> there(ball.x, ball.y, pyramid, at, at - ball.depth, view.nearest.depth);
-    const auto place = [&](Side side, const Tight& of_center, float low, float high, double error) {
-      return widened(side == Side::between ? of_center : Tight(double{side == Side::low ? low : high}) * at, error);
+    const Enclosure106 at = closer_depth(ball.x, ball.y, ball.depth, pyramid, view.nearest);
+    const AtDepth<Enclosure106> there(ball.x, ball.y, pyramid, at, at - ball.depth, view.nearest.depth);
+    const auto coordinate = [&](Side side, const Enclosure106& of_center, float low, float high, double error) {
+      return widened(side == Side::between ? of_center : Enclosure106(double{side == Side::low ? low : high}) * at,
+                     error);
     };
-    const Tight x = place(there.x, ball.x, cell.x0, cell.x1, there.x_error);
-    const Tight y = place(there.y, ball.y, cell.y0, cell.y1, there.y_error);
-    const Tight along = widened(sqrt(x * x + y * y + at * at), there.steepness);
-    const Tight gap = gap_between(Tight(double{cell.distance0}), along, Tight(double{cell.distance1})).size;
+    const Enclosure106 x = coordinate(there.x, ball.x, cell.x0, cell.x1, there.x_error);
+    const Enclosure106 y = coordinate(there.y, ball.y, cell.y0, cell.y1, there.y_error);
+    const Enclosure106 along = widened(sqrt(x * x + y * y + at * at), there.steepness);
+    const Enclosure106 gap =
+        gap_between(Enclosure106(double{cell.distance0}), along, Enclosure106(double{cell.distance1})).size;
     return verdict_of(there.square + gap * gap - ball.squared_radius, undershoot_of(there.steepness));
   };
-  return decided(cell, close, [&](const Exactly& ball) {
+  return decided(cell, close, [&](const InDyadics& ball) {
     return ExactPyramid(ball.x, ball.y, ball.depth, pyramid_of(cell))
         .is_within(view.nearest, Dyadic(cell.distance0), Dyadic(cell.distance1), ball.squared_radius);
   });
@@ -187,7 +191,7 @@ bool BallDecider::meets(const ShellPiece& cell, const PyramidView& view) const {
 
 bool BallDecider::has_corners_in_front(const Point3<double>& normal, const Corners& corners) const {
   try {
-    const Exactly& ball = exactly();
+    const InDyadics& ball = in_dyadics();
     const Dyadic x(normal.x), y(normal.y), z(normal.z), least = x * ball.x + y * ball.y - z * ball.depth;
     return std::all_of(corners.begin(), corners.end(), [&](const Point3<double>& p) {
       return x * Dyadic(p.x) + y * Dyadic(p.y) + z * Dyadic(p.z) >= least;
@@ -197,7 +201,7 @@ bool BallDecider::has_corners_in_front(const Point3<double>& normal, const Corne
   }
 }
 
-bool BallDecider::has_in_front(const Point3<double>& normal, const FrustumPiece& cell) const {
+bool BallDecider::has_in_front(const Point3<double>& normal, const FrustumCell& cell) const {
   return has_corners_in_front(normal, exact_corners(cell));
 }
 
@@ -207,9 +211,9 @@ bool BallDecider::has_in_front(const Point3<double>& normal, const Box& cell) co
 
 // Over t u for t between the shells and u a direction of the pyramid, normal·(t u) is least where u leans most towards
 // the opposite of the normal: far |q| below 0 for a point q of the pyramid (see view_from), or in a ray.
-bool BallDecider::has_in_front(const Point3<double>& normal, const ShellPiece& cell) const {
+bool BallDecider::has_in_front(const Point3<double>& normal, const ShellCell& cell) const {
   try {
-    const Exactly& ball = exactly();
+    const InDyadics& ball = in_dyadics();
     const Dyadic x(-normal.x), y(-normal.y), depth(normal.z);
     const NearestDepth guess = view_from(-normal.x, -normal.y, normal.z, pyramid_of(cell)).nearest;
     return ExactPyramid(x, y, depth, pyramid_of(cell))

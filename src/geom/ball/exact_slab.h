@@ -72,8 +72,8 @@ class ExactSlab {
   }
 
  private:
-  static void add(Foot& foot, const Dyadic& slope, const Dyadic& place) {
-    foot.depth = foot.depth + slope * place;
+  static void add(Foot& foot, const Dyadic& slope, const Dyadic& coordinate) {
+    foot.depth = foot.depth + slope * coordinate;
     foot.scale = foot.scale + squared(slope);
   }
   Dyadic end_of(Side depth) const { return Dyadic(depth == Side::low ? slab_.near : slab_.far); }
@@ -143,11 +143,11 @@ class ExactPyramid {
  private:
   // The foot's from the eye, times the square of its scale.
   Dyadic squared_distance(const ExactSlab::Foot& foot, const NearestDepth& nearest) const {
-    const auto place = [&](Side side, const Dyadic& of_center, float low, float high) {
+    const auto coordinate = [&](Side side, const Dyadic& of_center, float low, float high) {
       return side == Side::between ? of_center * foot.scale : slope_of(side, low, high) * foot.depth;
     };
-    return squared(place(nearest.x, x_, pyramid_.x0, pyramid_.x1)) +
-           squared(place(nearest.y, y_, pyramid_.y0, pyramid_.y1)) + squared(foot.depth);
+    return squared(coordinate(nearest.x, x_, pyramid_.x0, pyramid_.x1)) +
+           squared(coordinate(nearest.y, y_, pyramid_.y0, pyramid_.y1)) + squared(foot.depth);
   }
 
   // t² - 2 t (u·p) + |p|² <= r² for a ray u.

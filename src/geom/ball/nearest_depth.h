@@ -10,7 +10,7 @@
 
 namespace clusterbench::geom {
 
-// About where the squared distance is least, by Newton's steps, which end after two or three: between the places where
+// About where the squared distance is least, by Newton's steps, which end after two or three: between the depths where
 // a tile plane begins or ceases to be the nearest thing, it is a parabola.
 inline double nearest_depth(double x, double y, double depth, const PyramidSlab& slab) {
   double at = std::clamp(depth, slab.near, slab.far);
@@ -40,7 +40,7 @@ Number half_slope(const Gap<Number>& gap, float low, float high) {
 inline double most(const Bounded& number) {
   return std::max(0.0, number.error + number.value);
 }
-inline double most(const Tight& number) {
+inline double most(const Enclosure106& number) {
   return number.radius() + std::max(0.0, number.middle().hi);
 }
 
@@ -51,11 +51,11 @@ struct AtDepth {
   Number square;
   double steepness;
   double x_error,
-      y_error;  // how far the place on such a side can be from the nearest one, where the side is not certain
+      y_error;  // how far the point on such a side can be from the nearest one, where the side is not certain
 
   // along: from the centre's depth.
   AtDepth(const Number& center_x, const Number& center_y, const PyramidSlab& slab, const Number& at,
-          const Number& along, Side place) {
+          const Number& along, Side end) {
     const auto plane = [&](float slope) { return Number(double{slope}) * at; };
     const Gap<Number> gap_x = gap_between(plane(slab.x0), center_x, plane(slab.x1));
     const Gap<Number> gap_y = gap_between(plane(slab.y0), center_y, plane(slab.y1));
@@ -66,8 +66,8 @@ struct AtDepth {
     square = gap_x.size * gap_x.size + gap_y.size * gap_y.size + along * along;
     // At an end only a derivative that leads away from it leads lower.
     const Number slope = half_slope(gap_x, slab.x0, slab.x1) + half_slope(gap_y, slab.y0, slab.y1) + along;
-    const double falls = place != Side::high ? most(-slope) : 0.0;
-    const double rises = place != Side::low ? most(slope) : 0.0;
+    const double falls = end != Side::high ? most(-slope) : 0.0;
+    const double rises = end != Side::low ? most(slope) : 0.0;
     const double steep = std::max(falls, rises);
     steepness = steep == 0.0 ? 0.0 : bounded::rounded_up(steep);
   }
@@ -89,9 +89,9 @@ inline NearestDepth nearest_between(const Bounded& x, const Bounded& y, const Bo
   nearest.at = nearest_depth(x.value, y.value, depth.value, slab);
   nearest.depth = nearest.at == slab.near ? Side::low : nearest.at == slab.far ? Side::high : Side::between;
   nearest.is_level = depth.error > 0.0 && nearest.at == depth.value && is_level(x, y, depth, slab);
-  nearest.place = nearest.is_level ? depth : Bounded(nearest.at);
-  const Bounded along = nearest.is_level ? Bounded(0.0) : nearest.place - depth;
-  const AtDepth<Bounded> there(x, y, slab, nearest.place, along, nearest.depth);
+  nearest.looked_at = nearest.is_level ? depth : Bounded(nearest.at);
+  const Bounded along = nearest.is_level ? Bounded(0.0) : nearest.looked_at - depth;
+  const AtDepth<Bounded> there(x, y, slab, nearest.looked_at, along, nearest.depth);
   nearest.x = there.x;
   nearest.y = there.y;
   nearest.square = there.square;
@@ -100,13 +100,13 @@ inline NearestDepth nearest_between(const Bounded& x, const Bounded& y, const Bo
 }
 
 // Closer to where the squared distance is least: a depth of the slab, as any is that lies between its ends.
-inline Tight closer_depth(const Tight& x, const Tight& y, const Tight& depth, const PyramidSlab& slab,
-                          const NearestDepth& guess) {
-  if (guess.depth != Side::between) return Tight(guess.at);
-  const Twofold slope_x(slope_on(guess.x, slab.x0, slab.x1)), slope_y(slope_on(guess.y, slab.y0, slab.y1));
-  const Twofold at = (depth.middle() + slope_x * x.middle() + slope_y * y.middle()) /
-                     (Twofold(1.0) + slope_x * slope_x + slope_y * slope_y);
-  return Tight(Twofold(slab.near) < at && at.hi < slab.far ? at : Twofold(guess.at));
+inline Enclosure106 closer_depth(const Enclosure106& x, const Enclosure106& y, const Enclosure106& depth,
+                                 const PyramidSlab& slab, const NearestDepth& guess) {
+  if (guess.depth != Side::between) return Enclosure106(guess.at);
+  const DoubleDouble slope_x(slope_on(guess.x, slab.x0, slab.x1)), slope_y(slope_on(guess.y, slab.y0, slab.y1));
+  const DoubleDouble at = (depth.middle() + slope_x * x.middle() + slope_y * y.middle()) /
+                          (DoubleDouble(1.0) + slope_x * slope_x + slope_y * slope_y);
+  return Enclosure106(DoubleDouble(slab.near) < at && at.hi < slab.far ? at : DoubleDouble(guess.at));
 }
 
 inline double undershoot_of(double steepness) {
@@ -117,9 +117,9 @@ inline double undershoot_of(double steepness) {
 // the derivative there.
 inline Point3<Bounded> way_to(const NearestDepth& nearest, const Bounded& x, const Bounded& y, const Bounded& depth,
                               const PyramidSlab& slab) {
-  Bounded way_x = across(gap_between(Bounded(slab.x0) * nearest.place, x, Bounded(slab.x1) * nearest.place));
-  Bounded way_y = across(gap_between(Bounded(slab.y0) * nearest.place, y, Bounded(slab.y1) * nearest.place));
-  Bounded way_z = nearest.is_level ? Bounded(0.0) : depth - nearest.place;
+  Bounded way_x = across(gap_between(Bounded(slab.x0) * nearest.looked_at, x, Bounded(slab.x1) * nearest.looked_at));
+  Bounded way_y = across(gap_between(Bounded(slab.y0) * nearest.looked_at, y, Bounded(slab.y1) * nearest.looked_at));
+  Bounded way_z = nearest.is_level ? Bounded(0.0) : depth - nearest.looked_at;
   if (nearest.steepness > 0.0) {
     const auto move = [&](Bounded& part, double slope0, double slope1) {
       part.error = bounded::rounded_up(part.error + nearest.steepness * std::max(std::abs(slope0), std::abs(slope1)));

@@ -26,7 +26,7 @@ std::optional<NearestPoint> BallDecider::nearest_point(const Box& cell) const {
   return NearestPoint{{across(x), across(y), across(z)}, play_of(excess, 0.0)};
 }
 
-std::optional<NearestPoint> BallDecider::nearest_point(const FrustumPiece& cell) const {
+std::optional<NearestPoint> BallDecider::nearest_point(const FrustumCell& cell) const {
   if (cell.orthographic) return nearest_point(Box{{cell.x0, cell.y0, -cell.depth1}, {cell.x1, cell.y1, -cell.depth0}});
   const PyramidSlab slab{cell.x0, cell.x1, cell.y0, cell.y1, cell.depth0, cell.depth1};
   const NearestDepth nearest = nearest_between(x_, y_, depth_, slab);
@@ -35,7 +35,7 @@ std::optional<NearestPoint> BallDecider::nearest_point(const FrustumPiece& cell)
 }
 
 // Seen from behind, the corner on the near shell whose ray leans to the centre most, if that is certain.
-std::optional<NearestPoint> BallDecider::nearest_ray(const PyramidView& view, const ShellPiece& cell) const {
+std::optional<NearestPoint> BallDecider::nearest_ray(const PyramidView& view, const ShellCell& cell) const {
   if (view.nearest.steepness > 0.0 && !(-view.along).is_surely_above(0.0)) return std::nullopt;
   std::optional<NearestPoint> nearest;
   Bounded most_ahead;
@@ -58,9 +58,9 @@ std::optional<NearestPoint> BallDecider::nearest_ray(const PyramidView& view, co
 
 // Not behind, see view_of(). If t, the distance of the nearest point from the eye, is not cut off by the near shell,
 // the pyramid up to the far shell is the convex set. Else points p = s u, s >= near = t, are at least as far from the
-// centre c as from its foot a u* on the nearest ray, aside of which it is: |p - c|² >= |p - a u*|² + |c|² - a². With e
+// centre c as from its foot a u* on the nearest ray, beside which it lies: |p - c|² >= |p - a u*|² + |c|² - a². With e
 // = radius² - |c|² + a² - (near - a)² that leaves |p - near u*|² <= e near / a.
-std::optional<NearestPoint> BallDecider::nearest_point(const ShellPiece& cell) const {
+std::optional<NearestPoint> BallDecider::nearest_point(const ShellCell& cell) const {
   const PyramidView view = view_of(cell);
   const Bounded near(cell.distance0), far(cell.distance1);
   if (view.is_behind) return nearest_ray(view, cell);

@@ -30,7 +30,7 @@ bool any_ray(const PyramidSlab& pyramid, Take&& take) {
   return false;
 }
 
-inline PyramidSlab pyramid_of(const ShellPiece& cell) {
+inline PyramidSlab pyramid_of(const ShellCell& cell) {
   return {cell.x0, cell.x1, cell.y0, cell.y1, 0.0, k_infinity};
 }
 

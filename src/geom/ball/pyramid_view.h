@@ -16,12 +16,12 @@ enum class Side : std::int8_t { low, between, high };
 // has at a depth is a convex function of depth whose second derivative is at least 2, so wherever it is looked at, the
 // least is not more than a quarter of the derivative's square below.
 struct NearestDepth {
-  Side x, y, depth;  // which planes the nearest point lies on: a guess
-  double at;         // a depth of the slab
-  Bounded place;     // that depth, or, if it is_level, the centre's, which is one, too: where was looked
-  bool is_level;     // nothing nearer is less deep or deeper
-  Bounded square;    // of the distance there
-  double steepness;  // half of the derivative there is at most this
+  Side x, y, depth;   // which planes the nearest point lies on: a guess
+  double at;          // a depth of the slab
+  Bounded looked_at;  // that depth, or, if it is_level, the centre's: a depth of the slab, too
+  bool is_level;      // nothing nearer is less deep or deeper
+  Bounded square;     // of the distance there
+  double steepness;   // half of the derivative there is at most this
 
   double undershoot() const { return steepness == 0.0 ? 0.0 : bounded::rounded_up(steepness * steepness); }
 };
@@ -37,9 +37,9 @@ struct PyramidView {
 
 // How far a point (or its direction times its length) is ahead in the direction of a tile's pyramid that leans to it
 // most; negative if all lean away from it.
-Bounded farthest_ahead(const Point3<Bounded>& point, const ShellPiece& tile);
+Bounded farthest_ahead(const Point3<Bounded>& point, const ShellCell& tile);
 
 // The point of a tile's pyramid that is nearest to a point, about.
-Point3<Bounded> foot_on_pyramid(const Point3<Bounded>& point, const ShellPiece& tile);
+Point3<Bounded> foot_on_pyramid(const Point3<Bounded>& point, const ShellCell& tile);
 
 }  // namespace clusterbench::geom

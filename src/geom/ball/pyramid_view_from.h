@@ -34,13 +34,13 @@ inline PyramidView view_from(const Bounded& of_x, const Bounded& of_y, const Bou
       return false;
     });
   } else {
-    const auto place = [&](Side side, const Bounded& of_center, float low, float high) {
+    const auto coordinate = [&](Side side, const Bounded& of_center, float low, float high) {
       if (side == Side::between) return of_center;
-      return Bounded(side == Side::low ? low : high) * nearest.place;
+      return Bounded(side == Side::low ? low : high) * nearest.looked_at;
     };
-    const Bounded x = place(nearest.x, of_x, pyramid.x0, pyramid.x1),
-                  y = place(nearest.y, of_y, pyramid.y0, pyramid.y1);
-    view.along = sqrt(x * x + y * y + nearest.place * nearest.place);
+    const Bounded x = coordinate(nearest.x, of_x, pyramid.x0, pyramid.x1),
+                  y = coordinate(nearest.y, of_y, pyramid.y0, pyramid.y1);
+    view.along = sqrt(x * x + y * y + nearest.looked_at * nearest.looked_at);
   }
   if (nearest.steepness > 0.0) view.along.error = bounded::rounded_up(view.along.error + nearest.steepness);
   return view;
@@ -48,7 +48,8 @@ inline PyramidView view_from(const Bounded& of_x, const Bounded& of_y, const Bou
 
 // How far ahead a point is in the ray that leans to it most. Rays that doubles, which lose less than 2^-48 of the
 // point's size here, see farther behind than that are left out.
-inline Tight along_rays(const Tight& x, const Tight& y, const Tight& depth, const PyramidSlab& pyramid) {
+inline Enclosure106 along_rays(const Enclosure106& x, const Enclosure106& y, const Enclosure106& depth,
+                               const PyramidSlab& pyramid) {
   const auto about_ahead = [&](double slope_x, double slope_y) {
     return (slope_x * about(x) + slope_y * about(y) + about(depth)) /
            std::sqrt(1.0 + slope_x * slope_x + slope_y * slope_y);
@@ -59,17 +60,18 @@ inline Tight along_rays(const Tight& x, const Tight& y, const Tight& depth, cons
     return false;
   });
   const double least = most_about - 0x1p-40 * (std::abs(about(x)) + std::abs(about(y)) + std::abs(about(depth)));
-  std::optional<Tight> most_ahead;
+  std::optional<Enclosure106> most_ahead;
   any_ray(pyramid, [&](float slope_x, float slope_y) {
     if (about_ahead(slope_x, slope_y) < least) return false;
-    const Tight x_part(double{slope_x}), y_part(double{slope_y});
-    const Tight ahead = (x_part * x + y_part * y + depth) / sqrt(Tight(1.0) + x_part * x_part + y_part * y_part);
+    const Enclosure106 x_part(double{slope_x}), y_part(double{slope_y});
+    const Enclosure106 ahead =
+        (x_part * x + y_part * y + depth) / sqrt(Enclosure106(1.0) + x_part * x_part + y_part * y_part);
     if (!most_ahead) {
       most_ahead = ahead;
     } else {
       const bool is_more = most_ahead->middle() < ahead.middle();
       most_ahead =
-          Tight(is_more ? ahead.middle() : most_ahead->middle(), std::max(ahead.radius(), most_ahead->radius()));
+          Enclosure106(is_more ? ahead.middle() : most_ahead->middle(), std::max(ahead.radius(), most_ahead->radius()));
     }
     return false;
   });

@@ -7,13 +7,13 @@ namespace {
 
 template <class PlaneCell>
 bool is_within(const Placement& center, double radius, const PlaneCell& cell) {
-  const RationalPoint c = placed<Rational>(center);
+  const RationalPoint c = local_point_in<Rational>(center);
   return squared_distance(c, nearest_point(cell, c)) <= squared(exact(radius));
 }
 
 }  // namespace
 
-bool ball_meets_exactly(const Placement& center, double radius, const FrustumPiece& cell) {
+bool ball_meets_exactly(const Placement& center, double radius, const FrustumCell& cell) {
   return is_within(center, radius, cell);
 }
 
@@ -21,13 +21,13 @@ bool ball_meets_exactly(const Placement& center, double radius, const Box& cell)
   return is_within(center, radius, cell);
 }
 
-bool ball_meets_exactly(const Placement& center, double radius, const ShellPiece& cell) {
-  const RationalPoint c = placed<Rational>(center);
+bool ball_meets_exactly(const Placement& center, double radius, const ShellCell& cell) {
+  const RationalPoint c = local_point_in<Rational>(center);
   return reaches(c, exact(radius), nearest_point(cell, c));
 }
 
 bool holds_exactly(const Cell& cell, const Placement& point) {
-  return holds(cell, placed<Rational>(point));
+  return holds(cell, local_point_in<Rational>(point));
 }
 
 }  // namespace clusterbench::geom

@@ -9,12 +9,12 @@ namespace {
 
 using Point = Point3<Dyadic>;
 
-// The point a + t d for t = top / bottom, bottom > 0.
-struct Place {
+// The parameter t = top / bottom of a point a + t d, bottom > 0.
+struct Parameter {
   Dyadic top, bottom;
 };
 
-bool is_before(const Place& a, const Place& b) {
+bool is_before(const Parameter& a, const Parameter& b) {
   return a.top * b.bottom < b.top * a.bottom;
 }
 
@@ -25,13 +25,13 @@ struct Axis {
 };
 
 Axis axis_of(const LightVolume& light) {
-  const Placement& place = light.apex;
+  const Placement& apex = light.apex;
   Dyadic from_origin[3];
-  for (int i = 0; i < 3; ++i) from_origin[i] = Dyadic(place.position[i]) - Dyadic(place.origin[i]);
+  for (int i = 0; i < 3; ++i) from_origin[i] = Dyadic(apex.position[i]) - Dyadic(apex.origin[i]);
   Dyadic a[3], d[3];
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 3; ++column) {
-      const Dyadic factor(place.rotation[column][row]);
+      const Dyadic factor(apex.rotation[column][row]);
       a[row] = a[row] + factor * from_origin[column];
       d[row] = d[row] + factor * Dyadic(light.direction[column]);
     }
@@ -51,10 +51,10 @@ class Span {
     if (slope.sign() == 0) {
       is_empty_ = is_empty_ || margin.sign() < 0;
     } else if (slope.sign() < 0) {
-      const Place place{-margin, -slope};
-      if (is_before(from_, place)) from_ = place;
-    } else if (const Place place{margin, slope}; !to_ || is_before(place, *to_)) {
-      to_ = place;
+      const Parameter t{-margin, -slope};
+      if (is_before(from_, t)) from_ = t;
+    } else if (const Parameter t{margin, slope}; !to_ || is_before(t, *to_)) {
+      to_ = t;
     }
   }
   // x between x0 and x1 times the depth, likewise y; not behind the eye.
@@ -78,19 +78,19 @@ class Span {
   }
 
   bool is_empty() const { return is_empty_ || (to_ && is_before(*to_, from_)) || !is_in_range(from_); }
-  const Place& from() const { return from_; }
-  const std::optional<Place>& to() const { return to_; }
-  bool holds(const Place& place) const { return !is_before(place, from_) && !(to_ && is_before(*to_, place)); }
-  bool is_in_range(const Place& place) const {
-    return place.top.sign() <= 0 || squared(place.top) * axis_.square <= axis_.squared_range * squared(place.bottom);
+  const Parameter& from() const { return from_; }
+  const std::optional<Parameter>& to() const { return to_; }
+  bool holds(const Parameter& t) const { return !is_before(t, from_) && !(to_ && is_before(*to_, t)); }
+  bool is_in_range(const Parameter& t) const {
+    return t.top.sign() <= 0 || squared(t.top) * axis_.square <= axis_.squared_range * squared(t.bottom);
   }
   // Does it end before the range does?
   bool ends_in_range() const { return to_ && is_in_range(*to_); }
 
  private:
   const Axis& axis_;
-  Place from_{Dyadic(), Dyadic(1.0)};
-  std::optional<Place> to_;
+  Parameter from_{Dyadic(), Dyadic(1.0)};
+  std::optional<Parameter> to_;
   bool is_empty_ = false;
 };
 
@@ -103,7 +103,7 @@ struct Meets {
     for (int i = 0; i < 3; ++i) span.cut_by_slab(i, cell.lo[i], cell.hi[i]);
     return !span.is_empty();
   }
-  bool operator()(const FrustumPiece& cell) const {
+  bool operator()(const FrustumCell& cell) const {
     if (cell.orthographic) return (*this)(Box{{cell.x0, cell.y0, -cell.depth1}, {cell.x1, cell.y1, -cell.depth0}});
     Span span(axis);
     span.cut_by_tile(cell.x0, cell.x1, cell.y0, cell.y1);
@@ -112,15 +112,15 @@ struct Meets {
   }
   // Distances from the eye along the axis fall and rise again: if one point in the pyramid is not too far and one not
   // too near, there is one that is neither.
-  bool operator()(const ShellPiece& cell) const {
+  bool operator()(const ShellCell& cell) const {
     Span span(axis);
     span.cut_by_tile(cell.x0, cell.x1, cell.y0, cell.y1);
     if (span.is_empty()) return false;
     const Dyadic squared_near = squared(Dyadic(cell.distance0)), squared_far = squared(Dyadic(cell.distance1));
     bool has_near = false, has_far = false;
-    const auto take = [&](const Place& place) {
-      const Point p = place.bottom * axis.a + place.top * axis.d;
-      const Dyadic square = dot(p, p), scale = squared(place.bottom);
+    const auto take = [&](const Parameter& t) {
+      const Point p = t.bottom * axis.a + t.top * axis.d;
+      const Dyadic square = dot(p, p), scale = squared(t.bottom);
       has_near = has_near || square <= squared_far * scale;
       has_far = has_far || square >= squared_near * scale;
     };
@@ -129,7 +129,7 @@ struct Meets {
       take(*span.to());
     else
       take_end(squared_near, squared_far, has_near, has_far);
-    const Place foot{-dot(axis.a, axis.d), axis.square};
+    const Parameter foot{-dot(axis.a, axis.d), axis.square};
     if (span.holds(foot) && span.is_in_range(foot)) take(foot);
     return has_near && has_far;
   }

@@ -16,8 +16,8 @@ const Rational& largest_for(const Rational& factor, const RationalInterval& valu
 
 ExactSpot exact_spot(const LightVolume& light, unsigned angle_bits) {
   ExactSpot spot;
-  spot.apex = placed<Rational>(light.apex);
-  spot.direction = placed<Rational>({light.direction, Vec3d(0.0), light.apex.rotation});
+  spot.apex = local_point_in<Rational>(light.apex);
+  spot.direction = local_point_in<Rational>({light.direction, Vec3d(0.0), light.apex.rotation});
   spot.range = exact(std::min(light.range, std::numeric_limits<double>::max()));
   // The double nearest to pi / 2 is below it.
   spot.half_angle_rad = exact(std::min(light.half_angle_rad, std::numbers::pi / 2.0));

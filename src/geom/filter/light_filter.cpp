@@ -33,10 +33,10 @@ namespace {
 //           axis, 35 u S across it, 12 u S for the rest
 //  115 u S  a plane along the cone's side whose extent is taken to be 0: 60 u of the direction across the axis
 //           (unit_across loses at most a factor of 10), 11 u of the axis and 29 u for the rest, and 15 u S as above
-//   50 u S  distance of a ball's centre from a shell piece: a face's normal 5 u S, one between two faces' 10 u S, the
+//   50 u S  distance of a ball's centre from a shell cell: a face's normal 5 u S, one between two faces' 10 u S, the
 //   part
 //           along it 13 u S, the part across it 22 u S; or 2^11 u S where a direction of the pyramid proves itself
-//   95 u S  gap of a plane beside a polytope around a shell piece, whose corners are off by 12 u S: 80 u S as above and
+//   95 u S  gap of a plane beside a polytope around a shell cell, whose corners are off by 12 u S: 80 u S as above and
 //           these
 // Under 2^7 u S = 2^-46 S, and 2^-41 S for balls and shells: 8 times less than the tolerance and more.
 //
@@ -58,7 +58,7 @@ Verdict corners_settle(const Volume<double>& volume, const Polytope<double>& cel
   const Point3<double> outward =
       volume.cos_angle * unit_across(volume.axis, sum) - volume.sin_angle * volume.axis;  // of the cone's side
   for (const Point3<double>& corner : cell.corners)
-    if (dot(outward, corner - volume.apex) <= tolerance) return Verdict::open;
+    if (dot(outward, corner - volume.apex) <= tolerance) return Verdict::uncertain;
   return Verdict::no;
 }
 
@@ -77,7 +77,7 @@ Stretch stretch_within(const Polytope<double>& cell, const Point3<double>& start
   return stretch;
 }
 
-// Of two segments (length 1 each: start + t step, 0 <= t <= 1), about the places that are nearest to each other.
+// Of two segments (length 1 each: start + t step, 0 <= t <= 1), about the points that are nearest to each other.
 struct Nearest {
   double first, second;
 };
@@ -109,7 +109,7 @@ Verdict axis_settles(const Volume<double>& volume, const Polytope<double>& cell,
   const Point3<double> step = front.at() + nearest.second * line - start;
   const double entry = stretch_within(cell, start, step, {0.0, 1.0}).from;
   constexpr double k_further = 0.05;
-  return is_common(start + (entry + k_further * (1.0 - entry)) * step) ? Verdict::yes : Verdict::open;
+  return is_common(start + (entry + k_further * (1.0 - entry)) * step) ? Verdict::yes : Verdict::uncertain;
 }
 
 Verdict meets_polytope(const Volume<double>& unlimited, const Polytope<double>& cell) {
@@ -119,26 +119,26 @@ Verdict meets_polytope(const Volume<double>& unlimited, const Polytope<double>& 
   if (reached.is_beyond) return Verdict::no;
   if (volume.is_cone) {
     Verdict verdict = corners_settle(volume, cell, setting.tolerance);
-    if (verdict == Verdict::open) verdict = axis_settles(volume, cell, setting.tolerance);
-    if (verdict != Verdict::open) return verdict;
+    if (verdict == Verdict::uncertain) verdict = axis_settles(volume, cell, setting.tolerance);
+    if (verdict != Verdict::uncertain) return verdict;
   }
   const Witness<double> witness = setting.common_point(reached.faces);
   if (witness.margin > setting.tolerance) return Verdict::yes;
   const bool may_be_apart = witness.margin < 0.0;
-  return may_be_apart && find_separation(setting).gap > setting.tolerance ? Verdict::no : Verdict::open;
+  return may_be_apart && find_separation(setting).gap > setting.tolerance ? Verdict::no : Verdict::uncertain;
 }
 
-// A point as a pyramid sees it: t >= 0 from the eye, the pyramid's points are sqrt((t - along)² + aside²) away from it,
-// or more (`all`, proven by a half-space that holds the pyramid), and one of them is just that far away (`one`, in a
-// direction that was tried). Exactly both are the same (exact_cells.cpp).
+// A point as a pyramid sees it: t >= 0 from the eye, the pyramid's points are sqrt((t - along)² + height²) away from
+// it, or more (`all`, proven by a half-space that holds the pyramid), and one of them is just that far away (`one`, in
+// a direction that was tried). InDyadics both are the same (exact_cells.cpp).
 struct Part {
-  double along, aside;
+  double along, height;
 };
 struct Sight {
   Part all, one;
 };
 
-std::array<Point3<double>, 4> tile_rays(const ShellPiece& tile) {
+std::array<Point3<double>, 4> tile_rays(const ShellCell& tile) {
   return {Point3<double>{tile.x0, tile.y0, -1.0},
           {tile.x1, tile.y0, -1.0},
           {tile.x1, tile.y1, -1.0},
@@ -151,7 +151,7 @@ struct Tried {
   Point3<double> across;
 };
 
-// The nearest of the directions tried: the four rays, and on each face the place along the line from ray to ray, start
+// The nearest of the directions tried: the four rays, and on each face the point along the line from ray to ray, start
 // + s (end - start), that leans towards p most. Cut to the ends, it is one of the pyramid's however rounded s is.
 Tried nearest_direction(const Point3<double>& p, const std::array<Point3<double>, 4>& rays) {
   Tried best{{-2.0 * length(p), 0.0}, {0.0, 0.0, 0.0}};
@@ -159,10 +159,10 @@ Tried nearest_direction(const Point3<double>& p, const std::array<Point3<double>
     const Point3<double> u = (1.0 / length(direction)) * direction;
     const double along = dot(u, p);
     const Point3<double> across = p - along * u;
-    const double aside = length(across);
-    // In front the way aside tells more: rounding hides in `along` what is little beside it.
-    if (along > 0.0 && best.part.along > 0.0 ? aside < best.part.aside : along > best.part.along)
-      best = {{along, aside}, across};
+    const double height = length(across);
+    // In front the height tells more: rounding hides in `along` what is little beside it.
+    if (along > 0.0 && best.part.along > 0.0 ? height < best.part.height : along > best.part.along)
+      best = {{along, height}, across};
   };
   for (std::size_t i = 0; i < 4; ++i) {
     const Point3<double>&start = rays[i], step = rays[(i + 1) % 4] - start;
@@ -177,12 +177,12 @@ Tried nearest_direction(const Point3<double>& p, const std::array<Point3<double>
 // The most that half-spaces through the eye tell: those of the four faces, and those between two neighbours that look
 // from their common ray towards p. A normal that both faces' add up to with weights that are not negative has the
 // pyramid behind it, however rounded the weights are.
-Part farthest_behind(const Point3<double>& p, const ShellPiece& tile) {
+Part farthest_behind(const Point3<double>& p, const ShellCell& tile) {
   const std::array<HalfSpace<double>, 4> faces = slope_planes<double>(tile.x0, tile.x1, tile.y0, tile.y1);
   Part best{length(p), 0.0};
   const auto take = [&](const Point3<double>& normal) {
-    const double aside = dot(normal, p);
-    if (aside > best.aside) best = {length(p - aside * normal), aside};
+    const double height = dot(normal, p);
+    if (height > best.height) best = {length(p - height * normal), height};
   };
   for (const std::size_t x : {0u, 1u})
     for (const std::size_t y : {2u, 3u}) {
@@ -199,18 +199,18 @@ Part farthest_behind(const Point3<double>& p, const ShellPiece& tile) {
   return best;
 }
 
-// Does the direction that was tried prove itself? In front if the half-space across the way aside from it holds all
-// four rays: what they may stick out, 2^-42, makes points that are t away from the eye nearer by 2^-42 t at most. Else
-// if all rays lean away from p: any direction is a sum of the four (of unit length) with weights that add to 1 at
+// Does the direction that was tried prove itself? In front if the half-space across the way from it to the point holds
+// all four rays: what they may stick out, 2^-42, makes points that are t away from the eye nearer by 2^-42 t at most.
+// Else if all rays lean away from p: any direction is a sum of the four (of unit length) with weights that add to 1 at
 // least, so it leans away no less than the one that does least.
 bool is_behind(const std::array<Point3<double>, 4>& rays, const Part& one, const Point3<double>& across) {
   if (one.along < 0.0) return true;
   return std::all_of(rays.begin(), rays.end(), [&](const Point3<double>& ray) {
-    return dot(across, ray) <= 0x1p-43 * one.aside * (std::abs(ray.x) + std::abs(ray.y) + 1.0);
+    return dot(across, ray) <= 0x1p-43 * one.height * (std::abs(ray.x) + std::abs(ray.y) + 1.0);
   });
 }
 
-Sight sight_of(const Point3<double>& p, const ShellPiece& tile) {
+Sight sight_of(const Point3<double>& p, const ShellCell& tile) {
   const double depth = -p.z, size = length(p);
   if (depth >= 0.0 && tile.x0 * depth <= p.x && p.x <= tile.x1 * depth && tile.y0 * depth <= p.y &&
       p.y <= tile.y1 * depth)
@@ -224,25 +224,25 @@ double tolerance_of(const Volume<double>& volume) {
   return Precision<double>::tolerance() * (length(volume.apex) + volume.range);
 }
 
-DistanceInterval ball_distances(const Volume<double>& volume, const ShellPiece& tile) {
+DistanceInterval ball_distances(const Volume<double>& volume, const ShellCell& tile) {
   const auto [all, one] = sight_of(volume.apex, tile);
   const double larger = volume.range + tolerance_of(volume), smaller = volume.range - tolerance_of(volume);
-  if (all.aside > larger) return {};
-  const double outer = std::sqrt((larger - all.aside) * (larger + all.aside));
+  if (all.height > larger) return {};
+  const double outer = std::sqrt((larger - all.height) * (larger + all.height));
   DistanceInterval interval;
   interval.outer_lo = interval.likely_lo = std::max(0.0, all.along - outer);
   interval.outer_hi = interval.likely_hi = all.along + outer;
-  if (one.aside >= smaller) return interval;
-  const double inner = std::sqrt((smaller - one.aside) * (smaller + one.aside));
+  if (one.height >= smaller) return interval;
+  const double inner = std::sqrt((smaller - one.height) * (smaller + one.height));
   interval.inner_lo = std::max(0.0, one.along - inner);
   interval.inner_hi = one.along + inner;
   return interval;
 }
 
-// The pyramid's part between two planes that holds the shell piece: across a direction u in its middle, as far as its
+// The pyramid's part between two planes that holds the shell cell: across a direction u in its middle, as far as its
 // shells are there at most and at the rays at least. (Of all directions of the pyramid the rays lean from u most.)
-Polytope<double> polytope_around(const ShellPiece& piece) {
-  const Pyramid<double> pyramid = pyramid_of<double>(piece.x0, piece.x1, piece.y0, piece.y1);
+Polytope<double> polytope_around(const ShellCell& shell) {
+  const Pyramid<double> pyramid = pyramid_of<double>(shell.x0, shell.x1, shell.y0, shell.y1);
   Mean<double> mean;
   for (const Point3<double>& ray : pyramid.rays) mean.add(ray);
   const Point3<double> u = (1.0 / length(mean.at())) * mean.at();
@@ -250,7 +250,7 @@ Polytope<double> polytope_around(const ShellPiece& piece) {
   for (const Point3<double>& ray : pyramid.rays) cosine = std::min(cosine, dot(ray, u));
   Polytope<double> cell;
   for (std::size_t i = 0; i < 4; ++i) cell.faces[i] = pyramid.faces[i];
-  const double near = piece.distance0 * cosine, far = piece.distance1;
+  const double near = shell.distance0 * cosine, far = shell.distance1;
   cell.faces[4] = {-1.0 * u, -near};
   cell.faces[5] = {u, far};
   for (std::size_t i = 0; i < 4; ++i) {
@@ -261,23 +261,23 @@ Polytope<double> polytope_around(const ShellPiece& piece) {
   return cell;
 }
 
-// Is there a plane between the volume and the shell piece, or planes between it and each of its parts? The planes that
-// hold the piece cut away its curvature, which is a quarter for a part of half the width and height.
-bool is_apart(const Volume<double>& volume, const ShellPiece& piece, int splits) {
-  const Polytope<double> polytope = polytope_around(piece);
+// Is there a plane between the volume and the shell cell, or planes between it and each of its parts? The planes that
+// hold the cell cut away its curvature, which is a quarter for a part of half the width and height.
+bool is_apart(const Volume<double>& volume, const ShellCell& shell, int splits) {
+  const Polytope<double> polytope = polytope_around(shell);
   const Setting<double> setting(volume, polytope);
   if (reached_faces(setting.volume, polytope.faces, setting.tolerance).is_beyond) return true;
   if (find_separation(setting).gap > setting.tolerance) return true;
   if (splits == 0) return false;
-  const float x = 0.5f * (piece.x0 + piece.x1), y = 0.5f * (piece.y0 + piece.y1);
-  for (const auto& [x0, x1] : {std::pair(piece.x0, x), std::pair(x, piece.x1)})
-    for (const auto& [y0, y1] : {std::pair(piece.y0, y), std::pair(y, piece.y1)})
-      if (!is_apart(volume, {x0, x1, y0, y1, piece.distance0, piece.distance1}, splits - 1)) return false;
+  const float x = 0.5f * (shell.x0 + shell.x1), y = 0.5f * (shell.y0 + shell.y1);
+  for (const auto& [x0, x1] : {std::pair(shell.x0, x), std::pair(x, shell.x1)})
+    for (const auto& [y0, y1] : {std::pair(shell.y0, y), std::pair(y, shell.y1)})
+      if (!is_apart(volume, {x0, x1, y0, y1, shell.distance0, shell.distance1}, splits - 1)) return false;
   return true;
 }
 constexpr int k_splits = 3;
 
-DistanceInterval distances(const Volume<double>& volume, const ShellPiece& tile) {
+DistanceInterval distances(const Volume<double>& volume, const ShellCell& tile) {
   DistanceInterval interval = ball_distances(volume, tile);
   if (!volume.is_cone || interval.outer_lo > interval.outer_hi) return interval;
   interval.inner_lo = 1.0;
@@ -302,15 +302,15 @@ DistanceInterval distances(const Volume<double>& volume, const ShellPiece& tile)
 struct Filter {
   const Volume<double>& volume;
 
-  Verdict operator()(const FrustumPiece& cell) const { return meets_polytope(volume, polytope_of<double>(cell)); }
+  Verdict operator()(const FrustumCell& cell) const { return meets_polytope(volume, polytope_of<double>(cell)); }
   Verdict operator()(const Box& cell) const { return meets_polytope(volume, polytope_of<double>(cell)); }
-  Verdict operator()(const ShellPiece& cell) const {
+  Verdict operator()(const ShellCell& cell) const {
     const double near = cell.distance0, far = cell.distance1;
     const Volume<double> limited = within(volume, far);
     const DistanceInterval reach = distances(limited, cell);
     if (!reach.may_reach(near, far)) return Verdict::no;
     if (reach.surely_reaches(near, far)) return Verdict::yes;
-    return !reach.likely_reaches(near, far) && is_apart(limited, cell, k_splits) ? Verdict::no : Verdict::open;
+    return !reach.likely_reaches(near, far) && is_apart(limited, cell, k_splits) ? Verdict::no : Verdict::uncertain;
   }
 };
 
@@ -322,12 +322,12 @@ Verdict LightFilter::meets(const Cell& cell) const {
   return std::visit(Filter{volume_}, cell);
 }
 
-DistanceInterval LightFilter::distances(const ShellPiece& tile) const {
+DistanceInterval LightFilter::distances(const ShellCell& tile) const {
   return geom::distances(within(volume_, double{tile.distance1}), tile);
 }
 
-bool LightFilter::is_surely_apart(const ShellPiece& piece) const {
-  return is_apart(within(volume_, double{piece.distance1}), piece, k_splits);
+bool LightFilter::is_surely_apart(const ShellCell& shell) const {
+  return is_apart(within(volume_, double{shell.distance1}), shell, k_splits);
 }
 
 Verdict filter_meets(const LightVolume& light, const Cell& cell) {

@@ -29,9 +29,9 @@ class LightFilter {
 
   Verdict meets(const Cell& cell) const;
   // Of the tile's pyramid, without its near shell; right as far as its far shell.
-  DistanceInterval distances(const ShellPiece& tile) const;
-  // Is there a plane between the volume and the shell piece, or planes between it and parts of the piece?
-  bool is_surely_apart(const ShellPiece& piece) const;
+  DistanceInterval distances(const ShellCell& tile) const;
+  // Is there a plane between the volume and the shell cell, or planes between it and parts of the cell?
+  bool is_surely_apart(const ShellCell& cell) const;
 
  private:
   Volume<double> volume_;

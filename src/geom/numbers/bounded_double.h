@@ -69,9 +69,9 @@ inline Bounded operator*(const Bounded& a, const Bounded& b) {
   if ((a.value == 0.0 && a.error == 0.0) || (b.value == 0.0 && b.error == 0.0)) return product;
   const bool is_exact = bounded::is_exact_product(a.value, b.value, product);
   if (is_exact && a.error == 0.0 && b.error == 0.0) return product;
-  const double rounding = is_exact ? 0.0 : std::abs(product) * 0x1p-53;
+  const double roundoff = is_exact ? 0.0 : std::abs(product) * 0x1p-53;
   return {product, bounded::rounded_up(std::abs(a.value) * b.error + std::abs(b.value) * a.error + a.error * b.error +
-                                       rounding)};
+                                       roundoff)};
 }
 
 // |a/b - a'/b'| <= (error of a + |a'/b'| * error of b) / |b|. Exact where the product of quotient and divisor is.

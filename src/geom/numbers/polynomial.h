@@ -25,13 +25,13 @@ struct Polynomial {
   }
 };
 
-// A few places in [-1, 1].
+// A few numbers in [-1, 1].
 template <class Real>
-struct Places {
+struct Roots {
   std::array<Real, 16> at;
   std::size_t count = 0;
 
-  void add(const Real& place) { at[count++] = place; }
+  void add(const Real& root) { at[count++] = root; }
   const Real* begin() const { return at.data(); }
   const Real* end() const { return at.data() + count; }
 };
@@ -59,15 +59,15 @@ Real root_between(const Polynomial<Real>& polynomial, const Polynomial<Real>& de
   return t;
 }
 
-// Places of roots on [-1, 1], and of its derivatives' roots there (a double root shows as one of these). Roots of the
+// The roots in [-1, 1], and its derivatives' roots there (a double root shows as one of these). Roots of the
 // derivative separate the roots, so each lies in an interval at whose ends the signs differ.
 template <class Real>
-Places<Real> root_places(const Polynomial<Real>& polynomial, int bits) {
-  Places<Real> places;
-  if (polynomial.degree < 1) return places;
+Roots<Real> roots_of(const Polynomial<Real>& polynomial, int bits) {
+  Roots<Real> roots;
+  if (polynomial.degree < 1) return roots;
   const Polynomial<Real> derivative = polynomial.derivative();
-  places = root_places(derivative, bits);
-  Places<Real> ends = places;
+  roots = roots_of(derivative, bits);
+  Roots<Real> ends = roots;
   ends.add(Real(-1));
   ends.add(Real(1));
   std::sort(ends.at.data(), ends.at.data() + ends.count);
@@ -75,9 +75,9 @@ Places<Real> root_places(const Polynomial<Real>& polynomial, int bits) {
     const Real &lo = ends.begin()[i], &hi = ends.begin()[i + 1];
     const bool rises = polynomial.value_at(lo) < Real(0);
     if (rises != (polynomial.value_at(hi) < Real(0)))
-      places.add(root_between(polynomial, derivative, lo, hi, rises, bits));
+      roots.add(root_between(polynomial, derivative, lo, hi, rises, bits));
   }
-  return places;
+  return roots;
 }
 
 }  // namespace clusterbench::geom

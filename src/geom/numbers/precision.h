@@ -18,7 +18,7 @@ template <class Real>
 struct Precision;
 template <>
 struct Precision<double> {
-  static constexpr int k_tolerance_bits = 38, k_place_bits = 53;
+  static constexpr int k_tolerance_bits = 38, k_root_bits = 53;
   static double tolerance() { return 0x1p-38; }
 };
 

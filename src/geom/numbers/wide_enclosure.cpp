@@ -140,11 +140,11 @@ bool EnclosureOf<bits, Radius>::is_surely_below(const EnclosureOf& b) const {
 template class EnclosureOf<1024, double>;
 template class EnclosureOf<3072, FloatOf<64>>;
 
-Places<Enclosure> root_places(const Polynomial<Enclosure>& polynomial, int bits) {
-  return RootSearch<Enclosure>(polynomial, bits).run();
+Roots<Enclosure1024> roots_of(const Polynomial<Enclosure1024>& polynomial, int bits) {
+  return RootSearch<Enclosure1024>(polynomial, bits).run();
 }
-Places<HugeEnclosure> root_places(const Polynomial<HugeEnclosure>& polynomial, int bits) {
-  return RootSearch<HugeEnclosure>(polynomial, bits).run();
+Roots<Enclosure3072> roots_of(const Polynomial<Enclosure3072>& polynomial, int bits) {
+  return RootSearch<Enclosure3072>(polynomial, bits).run();
 }
 
 }  // namespace clusterbench::geom

@@ -54,16 +54,16 @@ class EnclosureOf {
   Radius radius_ = 0;
 };
 
-using Enclosure = EnclosureOf<1024, double>;
-using HugeEnclosure = EnclosureOf<3072, FloatOf<64>>;
+using Enclosure1024 = EnclosureOf<1024, double>;
+using Enclosure3072 = EnclosureOf<3072, FloatOf<64>>;
 
 template <>
-struct Precision<Enclosure> {
-  static constexpr int k_place_bits = 400;
+struct Precision<Enclosure1024> {
+  static constexpr int k_root_bits = 400;
 };
 template <>
-struct Precision<HugeEnclosure> {
-  static constexpr int k_place_bits = 2000;
+struct Precision<Enclosure3072> {
+  static constexpr int k_root_bits = 2000;
 };
 
 template <class Interval>
@@ -71,9 +71,9 @@ Point3<Interval> enclosed(const RationalPoint& p) {
   return {Interval::of(p.x), Interval::of(p.y), Interval::of(p.z)};
 }
 
-// Places that together hold all roots in [-1, 1], each about 2^-bits wide or less; or [-1, 1] itself if they cannot be
-// told apart. What geom/search/extreme_candidates.h takes for enclosures in place of polynomial.h.
-Places<Enclosure> root_places(const Polynomial<Enclosure>& polynomial, int bits);
-Places<HugeEnclosure> root_places(const Polynomial<HugeEnclosure>& polynomial, int bits);
+// Intervals that together hold all roots in [-1, 1], each about 2^-bits wide or less; or [-1, 1] itself if they cannot
+// be told apart. What geom/search/extreme_candidates.h takes for enclosures in place of polynomial.h.
+Roots<Enclosure1024> roots_of(const Polynomial<Enclosure1024>& polynomial, int bits);
+Roots<Enclosure3072> roots_of(const Polynomial<Enclosure3072>& polynomial, int bits);
 
 }  // namespace clusterbench::geom

@@ -15,26 +15,26 @@ using FloatOf =
     boost::multiprecision::number<boost::multiprecision::cpp_bin_float<bits, boost::multiprecision::digit_base_2>,
                                   boost::multiprecision::et_off>;
 
-using Big = FloatOf<256>;
-using Large = FloatOf<1024>;
-using Huge = FloatOf<3072>;
+using Float256 = FloatOf<256>;
+using Float1024 = FloatOf<1024>;
+using Float3072 = FloatOf<3072>;
 
 template <>
-struct Precision<Big> {
-  static constexpr int k_tolerance_bits = 160, k_place_bits = 240;
-  static Big tolerance() { return ldexp(Big(1), -k_tolerance_bits); }
+struct Precision<Float256> {
+  static constexpr int k_tolerance_bits = 160, k_root_bits = 240;
+  static Float256 tolerance() { return ldexp(Float256(1), -k_tolerance_bits); }
 };
 
 template <>
-struct Precision<Large> {
-  static constexpr int k_tolerance_bits = 860, k_place_bits = 980;
-  static Large tolerance() { return ldexp(Large(1), -k_tolerance_bits); }
+struct Precision<Float1024> {
+  static constexpr int k_tolerance_bits = 860, k_root_bits = 980;
+  static Float1024 tolerance() { return ldexp(Float1024(1), -k_tolerance_bits); }
 };
 
 template <>
-struct Precision<Huge> {
-  static constexpr int k_tolerance_bits = 2600, k_place_bits = 3000;
-  static Huge tolerance() { return ldexp(Huge(1), -k_tolerance_bits); }
+struct Precision<Float3072> {
+  static constexpr int k_tolerance_bits = 2600, k_root_bits = 3000;
+  static Float3072 tolerance() { return ldexp(Float3072(1), -k_tolerance_bits); }
 };
 
 // Of a finite number, right to two units in the last place; 0 of a negative one. Newton's steps for 1 / sqrt from a

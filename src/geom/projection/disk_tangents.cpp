@@ -45,7 +45,7 @@ struct Hull {
   SlopeRange rounded() const { return {round_down(lo), round_up(hi)}; }
 };
 
-// r - |line - depth|, correct to a rounding or two: one of the two differences is exact (Sterbenz) wherever terms
+// r - |line - depth|, correct to a unit roundoff or two: one of the two differences is exact (Sterbenz) wherever terms
 // cancel.
 double reach_past(double line, double depth, double r) {
   const double small = std::min(line, depth), large = std::max(line, depth);
@@ -54,7 +54,7 @@ double reach_past(double line, double depth, double r) {
 }
 
 // u² + depth² - r². The products of floats are exact in double; the sum's rounding error is carried along, so that the
-// result is correct to a few roundings however much cancels.
+// result is correct to a few unit roundoffs however much cancels.
 double squared_tangent(double u, double depth, double r) {
   const double large = std::max(u * u, depth * depth), small = std::min(u * u, depth * depth);
   const double sum = large + small;

@@ -3,9 +3,9 @@
 // ∩ ball is convex, and slope x / depth is continuous on it, so the columns that it touches are one interval, between
 // the least and the greatest slope. Here are these two in closed form, over float or double.
 //
-// Rounding moves a result no further than moving the centre or the surface of the ball by a few roundings of the
+// Rounding moves a result no further than moving the centre or the surface of the ball by a few unit roundoffs of the
 // coordinates would: who needs certainty asks for a ball that is larger or smaller by more than that, and says which
-// (Errs), since where the surface goes through the eye but for roundings it would be by chance whether there are
+// (Errs), since where the surface goes through the eye but for roundoffs it would be by chance whether there are
 // tangents, which touch up to 2^-11 (float) or 2^-25 (double) of the ball's distance away from the eye.
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace clusterbench::geom {
 
-// An interval of slopes or places, grown by what it is given.
+// An interval of slopes or coordinates, grown by what it is given.
 template <class Real>
 struct SlopeHull {
   Real lo = std::numeric_limits<Real>::infinity(), hi = -std::numeric_limits<Real>::infinity();
@@ -29,11 +29,11 @@ struct SlopeHull {
 // To which side a result may be wrong: with more than is true, or with less.
 enum class Errs { outward, inward };
 
-// The disk's, or one that is larger or smaller by less than 24 roundings of its distance, so that the eye lies within
-// or without for certain.
+// The disk's, or one that is larger or smaller by less than 24 unit roundoffs of its distance, so that the eye lies
+// within or without for certain.
 template <class Real>
 Real squared_radius_off_eye(Real squared_radius, Real squared_distance, Errs errs) {
-  constexpr Real k_rounding = std::numeric_limits<Real>::epsilon() / 2, k_close = 24 * k_rounding;
+  constexpr Real k_roundoff = std::numeric_limits<Real>::epsilon() / 2, k_close = 24 * k_roundoff;
   if (std::abs(squared_distance - squared_radius) > k_close * squared_distance) return squared_radius;
   return squared_distance * (errs == Errs::outward ? 1 + k_close : 1 - k_close);
 }

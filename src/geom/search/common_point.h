@@ -98,8 +98,8 @@ struct Glance {
 };
 
 template <>
-struct Glance<Twofold> {
-  static bool is_before(const HalfSpace<Twofold>& face, const Point3<Twofold>& p) {
+struct Glance<DoubleDouble> {
+  static bool is_before(const HalfSpace<DoubleDouble>& face, const Point3<DoubleDouble>& p) {
     const double x = face.normal.x.hi * p.x.hi, y = face.normal.y.hi * p.y.hi, z = face.normal.z.hi * p.z.hi;
     const double size = std::abs(face.offset.hi) + std::abs(x) + std::abs(y) + std::abs(z);
     return face.offset.hi - (x + y + z) < -0x1p-30 * size;

@@ -1,7 +1,7 @@
 #pragma once
 // Where a light's volume and a cell can be nearest or farthest, in closed form, over any number type: double for the
-// filter, 256 bits and more for what it leaves open. The volume is a ball, or a ball ∩ solid cone (a spot); cells are
-// bounded by planes, or a pyramid through the eye cut by two shells.
+// filter, 256 bits and more for what it leaves uncertain. The volume is a ball, or a ball ∩ solid cone (a spot); cells
+// are bounded by planes, or a pyramid through the eye cut by two shells.
 //
 // Every list of candidates is complete for its question, and whatever else is on it does no harm: a candidate counts
 // only if it lies in volume and cell up to a tolerance.
@@ -16,7 +16,7 @@ namespace clusterbench::geom {
 
 // Real roots of a t² + 2 b t + c, and where it is least: near a double root rounding may hide the roots themselves.
 template <class Real, class Take>
-void quadratic_places(const Real& a, const Real& b, const Real& c, Take&& take) {
+void quadratic_roots(const Real& a, const Real& b, const Real& c, Take&& take) {
   const Real zero(0);
   const Real discriminant = b * b - a * c;
   if (a != zero) take(-b / a);
@@ -35,8 +35,8 @@ void generators_towards(const Volume<Real>& volume, const Point3<Real>& n, Take&
   take(volume.cos_angle * volume.axis - volume.sin_angle * m);
 }
 
-// The place of the line start + t * step that is nearest to the apex. Quadratics around it keep the digits that the
-// square of a start far away takes from the range and the cone.
+// The parameter of the point of the line start + t * step that is nearest to the apex. Quadratics around it keep the
+// digits that the square of a start far away takes from the range and the cone.
 template <class Real>
 Real foot_of(const Point3<Real>& apex, const Point3<Real>& start, const Point3<Real>& step) {
   const Real square = dot(step, step);
@@ -52,17 +52,17 @@ void line_on_cone(const Volume<Real>& volume, const Point3<Real>& start, const P
   const Point3<Real> v_across = v - v_along * volume.axis, step_across = step - step_along * volume.axis;
   const Real s2 = volume.sin_angle * volume.sin_angle, c2 = volume.cos_angle * volume.cos_angle;
   // sin² along² = cos² across²: keeps its digits for narrow cones, where along² = cos² |v|² loses them.
-  quadratic_places<Real>(s2 * step_along * step_along - c2 * dot(step_across, step_across),
-                         s2 * v_along * step_along - c2 * dot(v_across, step_across),
-                         s2 * v_along * v_along - c2 * dot(v_across, v_across), [&](const Real& t) { take(foot + t); });
+  quadratic_roots<Real>(s2 * step_along * step_along - c2 * dot(step_across, step_across),
+                        s2 * v_along * step_along - c2 * dot(v_across, step_across),
+                        s2 * v_along * v_along - c2 * dot(v_across, v_across), [&](const Real& t) { take(foot + t); });
 }
 
 template <class Real, class Take>
 void line_on_sphere(const Volume<Real>& volume, const Point3<Real>& start, const Point3<Real>& step, Take&& take) {
   const Real foot = foot_of(volume.apex, start, step);
   const Point3<Real> v = start + foot * step - volume.apex;
-  quadratic_places<Real>(dot(step, step), dot(v, step), dot(v, v) - volume.range * volume.range,
-                         [&](const Real& t) { take(foot + t); });
+  quadratic_roots<Real>(dot(step, step), dot(v, step), dot(v, v) - volume.range * volume.range,
+                        [&](const Real& t) { take(foot + t); });
 }
 
 // Where a plane meets the rim: sphere, cone and plane at once.
@@ -81,9 +81,9 @@ void plane_on_rim(const Volume<Real>& volume, const HalfSpace<Real>& plane, Take
   take(middle - (across * sine) * m2);
 }
 
-// Calls take(point) for all places where cell ∩ infinite cone can be nearest to the apex (for a ball: where the cell
+// Calls take(point) for all points where cell ∩ infinite cone can be nearest to the apex (for a ball: where the cell
 // can be nearest to the centre), and for extreme points of cell ∩ volume, whose mean lies inside it. Faces that the
-// volume does not reach (`reached`) have no such place on them.
+// volume does not reach (`reached`) have no such point on them.
 template <class Real, class Take>
 void polytope_candidates(const Volume<Real>& volume, const Polytope<Real>& cell, const std::array<bool, 6>& reached,
                          Take&& take) {
@@ -153,19 +153,19 @@ void conic_extremes(const Volume<Real>& volume, const HalfSpace<Real>& plane, in
       take(volume.apex + (h / lean) * g);
     }
   };
-  for (const Real& tau : root_places(quartic, bits)) {
+  for (const Real& tau : roots_of(quartic, bits)) {
     const Real square = tau * tau;
     take_generator((Real(1) - square) / (Real(1) + square), two * tau / (Real(1) + square));
   }
-  for (const Real& inverse : root_places(reversed, bits)) {
+  for (const Real& inverse : roots_of(reversed, bits)) {
     const Real square = inverse * inverse;
     take_generator((square - Real(1)) / (square + Real(1)), two * inverse / (square + Real(1)));
   }
   take_generator(Real(-1), Real(0));
 }
 
-// Calls take(point) for all places where pyramid ∩ volume can be nearest to or farthest from the eye. Faces that the
-// volume does not reach have no such place on them.
+// Calls take(point) for all points where pyramid ∩ volume can be nearest to or farthest from the eye. Faces that the
+// volume does not reach have no such point on them.
 template <class Real, class Take>
 void pyramid_candidates(const Volume<Real>& volume, const Pyramid<Real>& pyramid, const std::array<bool, 4>& reached,
                         int bits, Take&& take) {

@@ -28,7 +28,7 @@ PyramidReach<Real> pyramid_reach(const Volume<Real>& volume, const Pyramid<Real>
   reach.is_beyond = reached.is_beyond;
   if (reach.is_beyond) return reach;
   Mean<Real> mean;
-  pyramid_candidates(volume, pyramid, reached.faces, Precision<Real>::k_place_bits, [&](const Point3<Real>& p) {
+  pyramid_candidates(volume, pyramid, reached.faces, Precision<Real>::k_root_bits, [&](const Point3<Real>& p) {
     if (!is_within(volume, pyramid.faces, p, reach.tolerance)) return;
     const Real distance = length(p);
     if (reach.is_empty || distance < reach.lo) {

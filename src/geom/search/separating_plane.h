@@ -66,7 +66,7 @@ class Separator {
     });
   }
 
-  // `nearest`: the place of cell ∩ infinite cone nearest to the apex, on the cone's side and beyond the range. A plane
+  // `nearest`: the point of cell ∩ infinite cone nearest to the apex, on the cone's side and beyond the range. A plane
   // through it holds the volume back if its normal leans from the generator there outwards: how far, an edge says.
   void try_leaning(const Point3<Real>& nearest) {
     const Point3<Real> along = nearest - volume_.apex;
@@ -126,7 +126,7 @@ Point3<Real> nearest_in(const Polytope<Real>& cell, const Point3<Real>& p, const
   return best;
 }
 
-// The place of cell ∩ infinite cone that is nearest to the apex, if the cone meets the cell; or the nearest of those
+// The point of cell ∩ infinite cone that is nearest to the apex, if the cone meets the cell; or the nearest of those
 // inside and on these faces.
 template <class Real>
 std::optional<Point3<Real>> nearest_in_cone(const Setting<Real>& setting, const std::array<bool, 6>& on_faces = {

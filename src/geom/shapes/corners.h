@@ -19,7 +19,7 @@ inline Corners exact_corners(const Box& cell) {
   return corners;
 }
 
-inline Corners exact_corners(const FrustumPiece& cell) {
+inline Corners exact_corners(const FrustumCell& cell) {
   if (cell.orthographic) return exact_corners(Box{{cell.x0, cell.y0, -cell.depth1}, {cell.x1, cell.y1, -cell.depth0}});
   Corners corners;
   for (unsigned i = 0; i < 8; ++i) {

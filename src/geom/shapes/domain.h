@@ -1,6 +1,7 @@
 #pragma once
 // The domain: numbers for which every claim of this tool holds. Inside of it squares and sums of squares of all lengths
-// that methods handle in single precision are finite and not 0; outside of it input is refused with its place.
+// that methods handle in single precision are finite and not 0; outside of it input is refused, and its JSON location
+// named.
 
 #include <cmath>
 #include <limits>

@@ -50,10 +50,10 @@ Volume<Real> volume_of(const LightVolume& light) {
   using std::cos;
   using std::sin;
   Volume<Real> volume;
-  volume.apex = placed<Real>(light.apex);
+  volume.apex = local_point_in<Real>(light.apex);
   volume.range = Real(light.range);
   volume.is_cone = light.is_cone;
-  const Point3<Real> axis = placed<Real>({light.direction, Vec3d(0.0), light.apex.rotation});
+  const Point3<Real> axis = local_point_in<Real>({light.direction, Vec3d(0.0), light.apex.rotation});
   volume.axis = (Real(1) / length(axis)) * axis;
   volume.cos_angle = cos(Real(light.half_angle_rad));
   volume.sin_angle = sin(Real(light.half_angle_rad));

@@ -20,27 +20,27 @@ struct LocalPoint {
   double rounding_error = 0.0;
 };
 
-inline LocalPoint local_point(const Placement& place) {
-  const Vec3d t = place.position - place.origin;
+inline LocalPoint local_point(const Placement& placement) {
+  const Vec3d t = placement.position - placement.origin;
   // Three products, two sums and the subtraction before them: under 5 unit roundoffs of the sum of magnitudes; 8 taken.
-  constexpr double k_roundings = 0x1p-50;
+  constexpr double k_roundoffs = 0x1p-50;
   double error = 0.0;
   for (int row = 0; row < 3; ++row) {
     double magnitude = 0.0;
-    for (int column = 0; column < 3; ++column) magnitude += std::abs(place.rotation[column][row] * t[column]);
-    error = std::max(error, magnitude * k_roundings);
+    for (int column = 0; column < 3; ++column) magnitude += std::abs(placement.rotation[column][row] * t[column]);
+    error = std::max(error, magnitude * k_roundoffs);
   }
-  return {place.rotation * t, error};
+  return {placement.rotation * t, error};
 }
 
 // In any number type.
 template <class Real>
-Point3<Real> placed(const Placement& place) {
+Point3<Real> local_point_in(const Placement& placement) {
   Real t[3], local[3];
-  for (int i = 0; i < 3; ++i) t[i] = Real(place.position[i]) - Real(place.origin[i]);
+  for (int i = 0; i < 3; ++i) t[i] = Real(placement.position[i]) - Real(placement.origin[i]);
   for (int row = 0; row < 3; ++row) {
     local[row] = Real(0);
-    for (int column = 0; column < 3; ++column) local[row] += Real(place.rotation[column][row]) * t[column];
+    for (int column = 0; column < 3; ++column) local[row] += Real(placement.rotation[column][row]) * t[column];
   }
   return {local[0], local[1], local[2]};
 }

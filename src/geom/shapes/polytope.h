@@ -61,22 +61,22 @@ std::array<HalfSpace<Real>, 4> slope_planes(float x0, float x1, float y0, float 
 }
 
 template <class Real>
-Polytope<Real> polytope_of(const FrustumPiece& piece) {
-  if (piece.orthographic)
-    return polytope_of<Real>(Box{{piece.x0, piece.y0, -piece.depth1}, {piece.x1, piece.y1, -piece.depth0}});
+Polytope<Real> polytope_of(const FrustumCell& frustum) {
+  if (frustum.orthographic)
+    return polytope_of<Real>(Box{{frustum.x0, frustum.y0, -frustum.depth1}, {frustum.x1, frustum.y1, -frustum.depth0}});
   Polytope<Real> cell;
-  const auto sides = slope_planes<Real>(piece.x0, piece.x1, piece.y0, piece.y1);
+  const auto sides = slope_planes<Real>(frustum.x0, frustum.x1, frustum.y0, frustum.y1);
   const Real zero(0), one(1);
   cell.faces = {sides[0],
                 sides[1],
                 sides[2],
                 sides[3],
-                HalfSpace<Real>{{zero, zero, one}, -Real(piece.depth0)},
-                {{zero, zero, -one}, Real(piece.depth1)}};
+                HalfSpace<Real>{{zero, zero, one}, -Real(frustum.depth0)},
+                {{zero, zero, -one}, Real(frustum.depth1)}};
   for (unsigned i = 0; i < 8; ++i) {
-    const Real depth((i & 4) != 0 ? piece.depth1 : piece.depth0);
-    cell.corners[i] = {Real((i & 1) != 0 ? piece.x1 : piece.x0) * depth,
-                       Real((i & 2) != 0 ? piece.y1 : piece.y0) * depth, -depth};
+    const Real depth((i & 4) != 0 ? frustum.depth1 : frustum.depth0);
+    cell.corners[i] = {Real((i & 1) != 0 ? frustum.x1 : frustum.x0) * depth,
+                       Real((i & 2) != 0 ? frustum.y1 : frustum.y0) * depth, -depth};
   }
   return cell;
 }

@@ -10,8 +10,9 @@ Rational clamped(const Rational& value, const Rational& lo, const Rational& hi) 
   return value > hi ? hi : value;
 }
 
-// Bounds of a piece: x between x[0]*depth and x[1]*depth, likewise y; depth between depth[0] and depth[1].
-struct Piece {
+// Between tile planes and two depths: x between x[0]*depth and x[1]*depth, likewise y; depth between depth[0] and
+// depth[1].
+struct Slab {
   std::array<Rational, 2> x, y, depth;
 };
 
@@ -44,30 +45,30 @@ Tied tied(const std::array<Rational, 2>& slopes, int choice) {
   return choice < 2 ? Tied{false, slopes[static_cast<std::size_t>(choice)]} : Tied{true, 0};
 }
 
-// The nearest, after `nearest`, of the centre's projections onto the spans of faces, edges and corners, the piece's
-// inside included (three choices per pair of planes: low, high, free), as far as they lie in the piece.
+// The nearest, after `nearest`, of the centre's projections onto the spans of faces, edges and corners, the
+// inside included (three choices per pair of planes: low, high, free), as far as they lie in the slab.
 // first_choice 0: all of them; 18: only those with free depth.
-RationalPoint nearest_projection(const RationalPoint& c, const Piece& piece, int first_choice, RationalPoint nearest) {
+RationalPoint nearest_projection(const RationalPoint& c, const Slab& slab, int first_choice, RationalPoint nearest) {
   for (int choice = first_choice; choice < 27; ++choice) {
-    const Tied x = tied(piece.x, choice % 3), y = tied(piece.y, choice / 3 % 3);
+    const Tied x = tied(slab.x, choice % 3), y = tied(slab.y, choice / 3 % 3);
     const std::size_t end = static_cast<std::size_t>(choice / 9);
-    const Rational depth = end < 2 ? piece.depth[end] : nearest_depth(c, x, y);
-    if (depth < piece.depth[0] || depth > piece.depth[1]) continue;
+    const Rational depth = end < 2 ? slab.depth[end] : nearest_depth(c, x, y);
+    if (depth < slab.depth[0] || depth > slab.depth[1]) continue;
     const RationalPoint p{x.free ? c.x : x.slope * depth, y.free ? c.y : y.slope * depth, -depth};
-    if (!within(p.x, piece.x, depth) || !within(p.y, piece.y, depth)) continue;
+    if (!within(p.x, slab.x, depth) || !within(p.y, slab.y, depth)) continue;
     if (squared_distance(c, p) < squared_distance(c, nearest)) nearest = p;
   }
   return nearest;
 }
 
-RationalPoint nearest_in_pyramid(const ShellPiece& cell, const RationalPoint& c) {
+RationalPoint nearest_in_pyramid(const ShellCell& cell, const RationalPoint& c) {
   // The nearest point of a convex cone is no farther from its apex than the centre is.
   const Rational deepest = norm_1(c) + 1;
-  const Piece pyramid{{exact(cell.x0), exact(cell.x1)}, {exact(cell.y0), exact(cell.y1)}, {0, deepest}};
+  const Slab pyramid{{exact(cell.x0), exact(cell.x1)}, {exact(cell.y0), exact(cell.y1)}, {0, deepest}};
   return nearest_projection(c, pyramid, 18, {0, 0, 0});
 }
 
-Box box_of(const FrustumPiece& orthographic) {
+Box box_of(const FrustumCell& orthographic) {
   return {{orthographic.x0, orthographic.y0, -orthographic.depth1},
           {orthographic.x1, orthographic.y1, -orthographic.depth0}};
 }
@@ -82,14 +83,14 @@ struct PlanesOf {
     return {{{-1, 0, 0}, -exact(cell.lo.x)}, {{1, 0, 0}, exact(cell.hi.x)},   {{0, -1, 0}, -exact(cell.lo.y)},
             {{0, 1, 0}, exact(cell.hi.y)},   {{0, 0, -1}, -exact(cell.lo.z)}, {{0, 0, 1}, exact(cell.hi.z)}};
   }
-  Planes operator()(const FrustumPiece& cell) const {
+  Planes operator()(const FrustumCell& cell) const {
     if (cell.orthographic) return (*this)(box_of(cell));
     Planes planes = of_pyramid(cell.x0, cell.x1, cell.y0, cell.y1);
     planes.push_back({{0, 0, 1}, -exact(cell.depth0)});
     planes.push_back({{0, 0, -1}, exact(cell.depth1)});
     return planes;
   }
-  Planes operator()(const ShellPiece& cell) const {
+  Planes operator()(const ShellCell& cell) const {
     Planes planes = of_pyramid(cell.x0, cell.x1, cell.y0, cell.y1);
     planes.push_back({{0, 0, 1}, 0});
     return planes;
@@ -114,7 +115,7 @@ bool all_hold(const Planes& planes, const RationalPoint& p) {
 
 bool holds(const Cell& cell, const RationalPoint& p) {
   if (!all_hold(planes_of(cell), p)) return false;
-  const ShellPiece* shell = std::get_if<ShellPiece>(&cell);
+  const ShellCell* shell = std::get_if<ShellCell>(&cell);
   if (shell == nullptr) return true;
   const Rational square = dot(p, p);
   return squared(exact(shell->distance0)) <= square && square <= squared(exact(shell->distance1));
@@ -146,7 +147,7 @@ std::array<RationalPoint, 8> corners_of(const Box& cell) {
   return corners;
 }
 
-std::array<RationalPoint, 8> corners_of(const FrustumPiece& cell) {
+std::array<RationalPoint, 8> corners_of(const FrustumCell& cell) {
   if (cell.orthographic) return corners_of(box_of(cell));
   std::array<RationalPoint, 8> corners;
   for (unsigned i = 0; i < 8; ++i) {
@@ -157,7 +158,7 @@ std::array<RationalPoint, 8> corners_of(const FrustumPiece& cell) {
   return corners;
 }
 
-std::array<RationalPoint, 4> rays_of(const ShellPiece& cell) {
+std::array<RationalPoint, 4> rays_of(const ShellCell& cell) {
   std::array<RationalPoint, 4> rays;
   for (unsigned i = 0; i < 4; ++i)
     rays[i] = {exact((i & 1) != 0 ? cell.x1 : cell.x0), exact((i & 2) != 0 ? cell.y1 : cell.y0), -1};
@@ -169,11 +170,11 @@ RationalPoint nearest_point(const Box& cell, const RationalPoint& p) {
           clamped(p.z, exact(cell.lo.z), exact(cell.hi.z))};
 }
 
-RationalPoint nearest_point(const FrustumPiece& cell, const RationalPoint& p) {
+RationalPoint nearest_point(const FrustumCell& cell, const RationalPoint& p) {
   if (cell.orthographic) return nearest_point(box_of(cell), p);
-  const Piece piece{
+  const Slab slab{
       {exact(cell.x0), exact(cell.x1)}, {exact(cell.y0), exact(cell.y1)}, {exact(cell.depth0), exact(cell.depth1)}};
-  return nearest_projection(p, piece, 0, corners_of(cell)[0]);
+  return nearest_projection(p, slab, 0, corners_of(cell)[0]);
 }
 
 // The squared distance from p to t * u (u of unit length) is t² - 2 t (u·p) + |p|²: whatever t is, the best u is the
@@ -181,7 +182,7 @@ RationalPoint nearest_point(const FrustumPiece& cell, const RationalPoint& p) {
 // q, is not the eye, u = q/|q|, as u·p <= |q| for every u of the pyramid (the pyramid is convex, and p - q is
 // perpendicular to q and points away from it). If it is the eye, u·p <= 0 everywhere. Then u, a sum of the four rays
 // (each taken of unit length) with weights that add to 1 at least, leans no less towards p in one of these rays.
-NearestOnShells nearest_point(const ShellPiece& cell, const RationalPoint& p) {
+NearestOnShells nearest_point(const ShellCell& cell, const RationalPoint& p) {
   RationalPoint towards = nearest_in_pyramid(cell, p);
   if (dot(towards, towards) == 0) {
     const std::array<RationalPoint, 4> rays = rays_of(cell);

@@ -19,7 +19,7 @@ Plane unit_plane(double nx, double ny, double nz, double offset) {
 }
 
 // The four corners at one depth, then the four at another.
-std::array<Vec3d, 8> corners_of(const FrustumPiece& cell) {
+std::array<Vec3d, 8> corners_of(const FrustumCell& cell) {
   std::array<Vec3d, 8> corners{};
   std::size_t count = 0;
   for (const float depth : {cell.depth0, cell.depth1})
@@ -44,7 +44,7 @@ Ball ball_through_farthest(const std::array<Vec3d, 8>& corners, const Vec3d& nea
 
 // Centred on the line between the end faces' middles, where near and far corners are equally far, or in the wider end;
 // or, where that is smaller, in the middle of the corners' box.
-Ball ball_around_piece(const FrustumPiece& cell) {
+Ball ball_around_frustum(const FrustumCell& cell) {
   const std::array<Vec3d, 8> corners = corners_of(cell);
   const Vec3d near_middle = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
   const Vec3d far_middle = 0.25 * (corners[4] + corners[5] + corners[6] + corners[7]);
@@ -59,7 +59,7 @@ Ball ball_around_piece(const FrustumPiece& cell) {
 }
 
 // A direction in the pyramid has 1 <= distance / depth <= sqrt(1 + x² + y²).
-FrustumPiece piece_around(const ShellPiece& cell) {
+FrustumCell frustum_around(const ShellCell& cell) {
   const double x = std::max(std::fabs(cell.x0), std::fabs(cell.x1));
   const double y = std::max(std::fabs(cell.y0), std::fabs(cell.y1));
   return {cell.x0,        cell.x1, cell.y0, cell.y1, rounded_down(cell.distance0 / std::sqrt(1.0 + x * x + y * y)),
@@ -73,20 +73,20 @@ Ball ball_around_box(const Box& box) {
 }
 
 struct BallAround {
-  Ball operator()(const FrustumPiece& cell) const { return ball_around_piece(cell); }
-  Ball operator()(const ShellPiece& cell) const { return ball_around_piece(piece_around(cell)); }
+  Ball operator()(const FrustumCell& cell) const { return ball_around_frustum(cell); }
+  Ball operator()(const ShellCell& cell) const { return ball_around_frustum(frustum_around(cell)); }
   Ball operator()(const Box& cell) const { return ball_around_box(cell); }
 };
 
 struct BoxAround {
-  Box operator()(const FrustumPiece& cell) const { return box_around(cell); }
-  Box operator()(const ShellPiece& cell) const { return box_around(piece_around(cell)); }
+  Box operator()(const FrustumCell& cell) const { return box_around(cell); }
+  Box operator()(const ShellCell& cell) const { return box_around(frustum_around(cell)); }
   Box operator()(const Box& cell) const { return cell; }
 };
 
 }  // namespace
 
-void outward_planes(const FrustumPiece& cell, Plane (&planes)[6]) {
+void outward_planes(const FrustumCell& cell, Plane (&planes)[6]) {
   const double tilt = cell.orthographic ? 0.0 : 1.0;  // x = slope * depth, or x = metres
   const double shift = cell.orthographic ? 1.0 : 0.0;
   planes[0] = unit_plane(-1.0, 0.0, -cell.x0 * tilt, -cell.x0 * shift);
@@ -102,13 +102,13 @@ Ball bounding_ball(const SphericalCone& cone) {
   const bool narrow = cone.cos_angle > cone.sin_angle;
   const float along = narrow ? cone.range / (2.0f * cone.cos_angle) : cone.range * cone.cos_angle;
   const float radius = narrow ? along : cone.range * cone.sin_angle;
-  // `along` is off by 3 roundings of the range (a rounded cosine, a product, a quotient), the centre by 3 more and a
-  // rounded axis by 1, the radius by 3: 11 of 16.
+  // `along` is off by 3 unit roundoffs of the range (a rounded cosine, a product, a quotient), the centre by 3 more and
+  // a rounded axis by 1, the radius by 3: 11 of 16.
   constexpr float k_slack = 0x1p-20f;
   return {cone.apex + along * cone.axis, radius + k_slack * (size_of(cone.apex) + cone.range)};
 }
 
-Box box_around(const FrustumPiece& cell) {
+Box box_around(const FrustumCell& cell) {
   Vec3d lo(std::numeric_limits<double>::infinity()), hi = -lo;
   for (const Vec3d& corner : corners_of(cell)) {
     lo = glm::min(lo, corner);

@@ -6,21 +6,22 @@
 
 namespace clusterbench::geom {
 
-// The planes of a frustum piece, pointing outward: left, right, bottom, top, near, far.
-void outward_planes(const FrustumPiece& cell, Plane (&planes)[6]);
+// The planes of a frustum cell, pointing outward: left, right, bottom, top, near, far.
+void outward_planes(const FrustumCell& cell, Plane (&planes)[6]);
 
 // The smallest ball that holds a sphere-capped cone, rounded up; conservative.
 // Half-angle below 45°: through the apex and the rim, radius range / (2 cos a); above: around the rim's circle.
 Ball bounding_ball(const SphericalCone& cone);
 
-// The smallest axis-aligned box around a frustum piece, rounded outward.
-Box box_around(const FrustumPiece& cell);
+// The smallest axis-aligned box around a frustum cell, rounded outward.
+Box box_around(const FrustumCell& cell);
 
-// An axis-aligned box around a cell, rounded outward; of a shell piece one around the pyramid piece between the depths
-// that it can have.
+// An axis-aligned box around a cell, rounded outward; of a shell cell one around the part of its pyramid between the
+// depths that it can have.
 Box box_around(const Cell& cell);
 
-// A small ball around a cell, rounded up. A shell piece's holds the pyramid piece between the depths that it can have.
+// A small ball around a cell, rounded up. A shell cell's holds the part of its pyramid between the depths that it can
+// have.
 Ball ball_around(const Cell& cell);
 
 }  // namespace clusterbench::geom

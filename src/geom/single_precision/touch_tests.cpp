@@ -21,8 +21,8 @@ bool cone_touches_ball(const SphericalCone& cone, const Ball& ball) {
   const float along = glm::dot(to_center, cone.axis);
   // The part across the axis, as a vector: |V|² - along² would lose half of the digits.
   const float across = glm::length(to_center - along * cone.axis);
-  // In roundings of |V|: the difference V is off by 1, a rounded axis by 1, the sum of products by 3, so `along` by 5;
-  // `across` by these, two more steps and a root: 10. cos a * across - sin a * along is then off by at most
+  // In unit roundoffs of |V|: the difference V is off by 1, a rounded axis by 1, the sum of products by 3, so `along`
+  // by 5; `across` by these, two more steps and a root: 10. cos a * across - sin a * along is then off by at most
   // sqrt(10² + 5²) + 4 = 16.
   constexpr float k_slack = 0x1p-20f;
   const float reach = ball.radius + k_slack * (size_of(cone.apex) + size_of(ball.center));

@@ -28,20 +28,20 @@ struct PlaneCase {
 // What a search in Real finds, checked between bounds of 106 bits. Faces that the volume clearly does not reach, in
 // double precision, have no candidates.
 template <class Real, class PlaneCell>
-Verdict tightly_proven(const LightVolume& light, const PlaneCell& cell, const std::array<bool, 6>& reached,
-                       const TightSpot& spot) {
+Verdict proven_in_106_bits(const LightVolume& light, const PlaneCell& cell, const std::array<bool, 6>& reached,
+                           const Spot106& spot) {
   const Polytope<Real> polytope = polytope_of<Real>(cell);
   const Setting<Real> setting(volume_of<Real>(light), polytope);
   const Witness<Real> witness = setting.common_point(reached);
   if (witness.margin > Real(0)) {
-    const TightPoint p = tight(witness.at);
+    const Point106 p = point_106(witness.at);
     if (surely_in(cell, p) && spot.surely_holds(p)) return Verdict::yes;
   }
   const Separation<Real> separation = find_separation(setting);
-  if (!(separation.gap > Real(0))) return Verdict::open;
-  std::array<TightPoint, 8> corners;
+  if (!(separation.gap > Real(0))) return Verdict::uncertain;
+  std::array<Point106, 8> corners;
   for (std::size_t i = 0; i < 8; ++i) corners[i] = corner_of(cell, i);
-  return spot.surely_separated(tight(separation.normal), corners) ? Verdict::no : Verdict::open;
+  return spot.surely_separated(point_106(separation.normal), corners) ? Verdict::no : Verdict::uncertain;
 }
 
 double farthest_corner(const Polytope<double>& polytope) {
@@ -64,7 +64,7 @@ Verdict proven_by_search(const LightVolume& light, const PlaneCell& cell, const 
   const Separation<Real> separation = find_separation(setting);
   const bool is_apart =
       separation.gap > Real(0) && surely_separates(exact(separation.normal), exactly.spot, exactly.corners);
-  return is_apart ? Verdict::no : Verdict::open;
+  return is_apart ? Verdict::no : Verdict::uncertain;
 }
 
 template <class PlaneCell>
@@ -73,26 +73,26 @@ Verdict decide(const LightVolume& given, const PlaneCell& cell) {
   const LightVolume light = limited(given, farthest_corner(polytope));
   const Setting<double> setting(volume_of<double>(light), polytope);
   const std::array<bool, 6> reached = reached_faces(setting.volume, polytope.faces, setting.tolerance).faces;
-  const TightSpot tightly(light, light.range);
-  Verdict verdict = tightly_proven<double>(light, cell, reached, tightly);
-  if (verdict == Verdict::open && is_apart_where_nearest(light, cell, tightly)) return Verdict::no;
-  if (verdict == Verdict::open) verdict = tightly_proven<Twofold>(light, cell, reached, tightly);
-  if (verdict != Verdict::open) return verdict;
-  const PlaneCase exactly(light, cell, angle_bits_for<Big>());
+  const Spot106 spot_106(light, light.range);
+  Verdict verdict = proven_in_106_bits<double>(light, cell, reached, spot_106);
+  if (verdict == Verdict::uncertain && is_apart_where_nearest(light, cell, spot_106)) return Verdict::no;
+  if (verdict == Verdict::uncertain) verdict = proven_in_106_bits<DoubleDouble>(light, cell, reached, spot_106);
+  if (verdict != Verdict::uncertain) return verdict;
+  const PlaneCase exactly(light, cell, angle_bits_for<Float256>());
   if (surely_holds(exactly.spot, nearest_point(cell, exactly.spot.apex))) return Verdict::yes;
   if (axis_surely_meets(exactly.spot, exactly.planes)) return Verdict::yes;
-  verdict = proven_by_search<Big>(light, cell, exactly);
+  verdict = proven_by_search<Float256>(light, cell, exactly);
   // Needles of 1e-60 rad, and doubles next to 0 beside others: both differ from touching by less than 256 bits tell.
-  if (verdict == Verdict::open)
-    verdict = proven_by_search<Large>(light, cell, PlaneCase(light, cell, angle_bits_for<Large>()));
-  if (verdict == Verdict::open)
-    verdict = proven_by_search<Huge>(light, cell, PlaneCase(light, cell, angle_bits_for<Huge>()));
+  if (verdict == Verdict::uncertain)
+    verdict = proven_by_search<Float1024>(light, cell, PlaneCase(light, cell, angle_bits_for<Float1024>()));
+  if (verdict == Verdict::uncertain)
+    verdict = proven_by_search<Float3072>(light, cell, PlaneCase(light, cell, angle_bits_for<Float3072>()));
   return verdict;
 }
 
 }  // namespace
 
-Verdict decide_spot(const LightVolume& light, const FrustumPiece& cell) {
+Verdict decide_spot(const LightVolume& light, const FrustumCell& cell) {
   return decide(light, cell);
 }
 

@@ -39,7 +39,7 @@ constexpr unsigned angle_bits_for() {
 // On lattices rims of spots touch edges but for rounding. What doubles find nearest to the apex says which faces the
 // edge is between; there alone the plane is found in sums of two doubles, at a fifth of the time.
 template <class PlaneCell>
-bool is_apart_where_nearest(const LightVolume& light, const PlaneCell& cell, const TightSpot& spot) {
+bool is_apart_where_nearest(const LightVolume& light, const PlaneCell& cell, const Spot106& spot) {
   const Polytope<double> roughly = polytope_of<double>(cell);
   const Setting<double> rough_setting(volume_of<double>(light), roughly);
   const std::optional<Point3<double>> near = nearest_in_cone(rough_setting);
@@ -47,16 +47,16 @@ bool is_apart_where_nearest(const LightVolume& light, const PlaneCell& cell, con
   std::array<bool, 6> on_faces;
   for (std::size_t i = 0; i < 6; ++i)
     on_faces[i] = std::abs(roughly.faces[i].margin(*near)) <= 16.0 * rough_setting.tolerance;
-  const Polytope<Twofold> polytope = polytope_of<Twofold>(cell);
-  const Setting<Twofold> setting(volume_of<Twofold>(light), polytope);
-  const std::optional<Point3<Twofold>> nearest = nearest_in_cone(setting, on_faces);
+  const Polytope<DoubleDouble> polytope = polytope_of<DoubleDouble>(cell);
+  const Setting<DoubleDouble> setting(volume_of<DoubleDouble>(light), polytope);
+  const std::optional<Point3<DoubleDouble>> nearest = nearest_in_cone(setting, on_faces);
   if (!nearest) return false;
-  Separator<Twofold> separator(setting.volume, setting.cell);
+  Separator<DoubleDouble> separator(setting.volume, setting.cell);
   separator.try_leaning(*nearest);
-  if (!(separator.best().gap > Twofold(0.0))) return false;
-  std::array<TightPoint, 8> corners;
+  if (!(separator.best().gap > DoubleDouble(0.0))) return false;
+  std::array<Point106, 8> corners;
   for (std::size_t i = 0; i < 8; ++i) corners[i] = corner_of(cell, i);
-  return spot.surely_separated(tight(separator.best().normal), corners);
+  return spot.surely_separated(point_106(separator.best().normal), corners);
 }
 
 // The light without the range that no point of a cell needs, `farthest` from the eye at most. Searches and proofs have

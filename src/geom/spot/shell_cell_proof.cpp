@@ -13,11 +13,11 @@
 namespace clusterbench::geom {
 namespace {
 
-// Points of pyramid ∩ spot on both sides of a shell piece, or in it: the set is convex, so its distances from the eye
+// Points of pyramid ∩ spot on both sides of a shell cell, or in it: the set is convex, so its distances from the eye
 // are an interval, and if one point is not too far and one not too near, there is a point that is neither.
 class ShellWitness {
  public:
-  ShellWitness(const ExactSpot& spot, const ShellPiece& cell)
+  ShellWitness(const ExactSpot& spot, const ShellCell& cell)
       : spot_(spot),
         planes_(planes_of(cell)),
         squared_near_(squared(exact(cell.distance0))),
@@ -42,21 +42,23 @@ class ShellWitness {
   bool has_near_ = false, has_far_ = false;
 };
 
-// A point of the shell piece at a distance from the eye, in the direction of a vector of the pyramid, is not rational
+// A point of the shell cell at a distance from the eye, in the direction of a vector of the pyramid, is not rational
 // if the vector's length is not. Does it certainly lie in the spot's volume?
 bool surely_holds(const ExactSpot& spot, const NearestOnShells& on_shell) {
   if (!reaches(spot.apex, spot.range, on_shell)) return false;
   if (!on_shell.distance) return surely_leans(spot, on_shell.towards - spot.apex);
-  const Enclosure length = sqrt(Enclosure::of(dot(on_shell.towards, on_shell.towards)));
-  const Point3<Enclosure> p = (Enclosure::of(*on_shell.distance) / length) * enclosed<Enclosure>(on_shell.towards);
-  const Point3<Enclosure> v = p - enclosed<Enclosure>(spot.apex), axis = enclosed<Enclosure>(spot.direction);
-  const Enclosure along = dot(v, axis), cosine = Enclosure::of(spot.half_angle.cosine);
-  return along > Enclosure(0.0) && along * along > cosine * cosine * dot(v, v) * dot(axis, axis);
+  const Enclosure1024 length = sqrt(Enclosure1024::of(dot(on_shell.towards, on_shell.towards)));
+  const Point3<Enclosure1024> p =
+      (Enclosure1024::of(*on_shell.distance) / length) * enclosed<Enclosure1024>(on_shell.towards);
+  const Point3<Enclosure1024> v = p - enclosed<Enclosure1024>(spot.apex),
+                              axis = enclosed<Enclosure1024>(spot.direction);
+  const Enclosure1024 along = dot(v, axis), cosine = Enclosure1024::of(spot.half_angle.cosine);
+  return along > Enclosure1024(0.0) && along * along > cosine * cosine * dot(v, v) * dot(axis, axis);
 }
 
-// Does the volume certainly hold the shell piece's point nearest to the apex, or a corner on the near shell (of which
+// Does the volume certainly hold the shell cell's point nearest to the apex, or a corner on the near shell (of which
 // several can be equally near)?
-bool nearest_surely_meets(const ExactSpot& spot, const ShellPiece& cell, const NearestOnShells& nearest) {
+bool nearest_surely_meets(const ExactSpot& spot, const ShellCell& cell, const NearestOnShells& nearest) {
   if (nearest.distance && nearest.distance->sign() == 0) return surely_holds(spot, RationalPoint{0, 0, 0});
   if (surely_holds(spot, nearest)) return true;
   const std::array<RationalPoint, 4> rays = rays_of(cell);
@@ -80,7 +82,7 @@ void offer_axis(const ExactSpot& spot, ShellWitness& witness) {
 
 // What a search in Real finds.
 template <class Real, class Offer>
-void offer_found(const LightVolume& light, const ShellPiece& cell, Offer&& offer) {
+void offer_found(const LightVolume& light, const ShellCell& cell, Offer&& offer) {
   const Volume<Real> volume = volume_of<Real>(light);
   const PyramidReach<Real> reach = pyramid_reach(volume, pyramid_of<Real>(cell.x0, cell.x1, cell.y0, cell.y1));
   if (reach.is_empty || !(reach.inside.margin > reach.tolerance)) return;
@@ -94,12 +96,12 @@ void offer_found(const LightVolume& light, const ShellPiece& cell, Offer&& offer
 
 // The same between bounds of 106 bits.
 template <class Real>
-bool tightly_meets(const LightVolume& light, const ShellPiece& cell, const TightSpot& spot) {
-  const Tight near(cell.distance0), far(cell.distance1);
+bool meets_in_106_bits(const LightVolume& light, const ShellCell& cell, const Spot106& spot) {
+  const Enclosure106 near(cell.distance0), far(cell.distance1);
   bool has_near = false, has_far = false;
   offer_found<Real>(light, cell, [&](const Point3<Real>& found) {
-    const TightPoint p = tight(found);
-    const Tight square = dot(p, p);
+    const Point106 p = point_106(found);
+    const Enclosure106 square = dot(p, p);
     const bool is_near = square < far * far, is_far = near * near < square;
     if ((has_near || !is_near) && (has_far || !is_far)) return;
     if (!surely_in_tile(cell.x0, cell.x1, cell.y0, cell.y1, p) || !spot.surely_holds(p)) return;
@@ -112,39 +114,40 @@ bool tightly_meets(const LightVolume& light, const ShellPiece& cell, const Tight
 // Does the spot certainly end before it comes as near to the eye as the far shell? On lattices the generator on the
 // eye's side often touches that but for rounding: then a plane along it, ever so little away from it, lies between; or
 // one across the way to the generator's end.
-bool is_surely_beyond(const ShellPiece& cell, const TightSpot& spot) {
-  const TightPoint axis = (Tight(1.0) / sqrt(dot(spot.direction, spot.direction))) * spot.direction;
-  const TightPoint part = dot(spot.apex, axis) * axis - spot.apex;
-  const Tight size = sqrt(dot(part, part));
-  if (!(Tight(0.0) < size)) return false;
-  const TightPoint across = (Tight(1.0) / size) * part;
-  const TightPoint generator = spot.cosine * axis + spot.sine * across;
-  const Tight far(cell.distance1), to_nearest = -dot(spot.apex, generator);
-  if (!(Tight(0.0) < to_nearest)) return false;
-  if (spot.range < to_nearest) return spot.surely_separated(Tight(-1.0) * (spot.apex + spot.range * generator), far);
-  return spot.surely_separated(spot.cosine * across - (spot.sine + Tight(0x1p-75)) * axis, far);
+bool is_surely_beyond(const ShellCell& cell, const Spot106& spot) {
+  const Point106 axis = (Enclosure106(1.0) / sqrt(dot(spot.direction, spot.direction))) * spot.direction;
+  const Point106 part = dot(spot.apex, axis) * axis - spot.apex;
+  const Enclosure106 size = sqrt(dot(part, part));
+  if (!(Enclosure106(0.0) < size)) return false;
+  const Point106 across = (Enclosure106(1.0) / size) * part;
+  const Point106 generator = spot.cosine * axis + spot.sine * across;
+  const Enclosure106 far(cell.distance1), to_nearest = -dot(spot.apex, generator);
+  if (!(Enclosure106(0.0) < to_nearest)) return false;
+  if (spot.range < to_nearest)
+    return spot.surely_separated(Enclosure106(-1.0) * (spot.apex + spot.range * generator), far);
+  return spot.surely_separated(spot.cosine * across - (spot.sine + Enclosure106(0x1p-75)) * axis, far);
 }
 
 // The whole pyramid, cut where the shell ends.
-FrustumPiece pyramid_to_far(const ShellPiece& cell) {
+FrustumCell pyramid_to_far(const ShellCell& cell) {
   return {cell.x0, cell.x1, cell.y0, cell.y1, 0.0f, cell.distance1, false};
 }
 
 // Is there a plane between the spot and that?
 template <class Real>
-bool is_surely_beside(const LightVolume& light, const ShellPiece& cell, const TightSpot& spot) {
-  const FrustumPiece whole = pyramid_to_far(cell);
+bool is_surely_beside(const LightVolume& light, const ShellCell& cell, const Spot106& spot) {
+  const FrustumCell whole = pyramid_to_far(cell);
   const Polytope<Real> polytope = polytope_of<Real>(whole);
   const Setting<Real> setting(volume_of<Real>(light), polytope);
   const Separation<Real> separation = find_separation(setting);
   if (!(separation.gap > Real(0))) return false;
-  std::array<TightPoint, 8> corners;
+  std::array<Point106, 8> corners;
   for (std::size_t i = 0; i < 8; ++i) corners[i] = corner_of(whole, i);
-  return spot.surely_separated(tight(separation.normal), corners);
+  return spot.surely_separated(point_106(separation.normal), corners);
 }
 template <class Real>
-bool is_exactly_beside(const LightVolume& light, const ShellPiece& cell, const ExactSpot& spot) {
-  const FrustumPiece whole = pyramid_to_far(cell);
+bool is_exactly_beside(const LightVolume& light, const ShellCell& cell, const ExactSpot& spot) {
+  const FrustumCell whole = pyramid_to_far(cell);
   const Polytope<Real> polytope = polytope_of<Real>(whole);
   const Setting<Real> setting(volume_of<Real>(light), polytope);
   const Separation<Real> separation = find_separation(setting);
@@ -157,11 +160,12 @@ bool is_exactly_beside(const LightVolume& light, const ShellPiece& cell, const E
 template <class Interval>
 Volume<Interval> slightly_larger(const ExactSpot& spot, unsigned bits, unsigned angle_bits) {
   const Rational delta = Rational(1) / Rational(Integer(1) << bits);
-  const RationalPoint aside{exact(0.618), exact(-0.382), exact(0.732)}, back{exact(-0.271), exact(0.828), exact(0.577)};
-  // Made longer than 1: then adding delta * aside turns it by less than 3 delta.
+  const RationalPoint sideways{exact(0.618), exact(-0.382), exact(0.732)},
+      back{exact(-0.271), exact(0.828), exact(0.577)};
+  // Made longer than 1: then adding delta * sideways turns it by less than 3 delta.
   const Rational largest =
       std::max({Rational(abs(spot.direction.x)), Rational(abs(spot.direction.y)), Rational(abs(spot.direction.z))});
-  const RationalPoint direction = (1 / largest) * spot.direction + delta * aside;
+  const RationalPoint direction = (1 / largest) * spot.direction + delta * sideways;
   // Moved back by a vector that leans from the axis by less than the half-angle: the cone that starts there holds the
   // old one.
   const Rational lean = spot.half_angle_rad > exact(0x1p-18) ? exact(0x1p-20) : delta;
@@ -181,26 +185,26 @@ Volume<Interval> slightly_larger(const ExactSpot& spot, unsigned bits, unsigned 
 }
 
 // The same in 106 bits, larger by about 2^-90.
-Volume<Tight> slightly_larger(const LightVolume& light, const TightSpot& spot) {
-  const Tight delta(0x1p-90);
-  const TightPoint aside = tight(Point3<double>{0.618, -0.382, 0.732});
-  const TightPoint back = tight(Point3<double>{-0.271, 0.828, 0.577});
-  const TightPoint& given = spot.direction;
+Volume<Enclosure106> slightly_larger(const LightVolume& light, const Spot106& spot) {
+  const Enclosure106 delta(0x1p-90);
+  const Point106 sideways = point_106(Point3<double>{0.618, -0.382, 0.732});
+  const Point106 back = point_106(Point3<double>{-0.271, 0.828, 0.577});
+  const Point106& given = spot.direction;
   const double largest =
       std::max({std::abs(given.x.middle().hi), std::abs(given.y.middle().hi), std::abs(given.z.middle().hi)});
-  const TightPoint direction = (Tight(1.0) / Tight(largest * (1.0 - 0x1p-40))) * given + delta * aside;
-  const Tight lean = light.half_angle_rad > 0x1p-18 ? Tight(0x1p-20) : delta;
-  const TightPoint& a = spot.apex;
+  const Point106 direction = (Enclosure106(1.0) / Enclosure106(largest * (1.0 - 0x1p-40))) * given + delta * sideways;
+  const Enclosure106 lean = light.half_angle_rad > 0x1p-18 ? Enclosure106(0x1p-20) : delta;
+  const Point106& a = spot.apex;
   const double size = std::abs(a.x.middle().hi) + std::abs(a.y.middle().hi) + std::abs(a.z.middle().hi);
-  const Tight step = delta * Tight(1.01 * (size + spot.range.middle().hi));
+  const Enclosure106 step = delta * Enclosure106(1.01 * (size + spot.range.middle().hi));
 
-  Volume<Tight> volume;
+  Volume<Enclosure106> volume;
   volume.is_cone = true;
   volume.apex = spot.apex - step * (direction + lean * back);
-  volume.axis = (Tight(1.0) / length(direction)) * direction;
-  volume.range = spot.range + Tight(4.0) * step;
-  const TightAngle angle =
-      tight_angle(Tight(std::min(light.half_angle_rad, std::numbers::pi / 2.0)) + Tight(4.0) * delta);
+  volume.axis = (Enclosure106(1.0) / length(direction)) * direction;
+  volume.range = spot.range + Enclosure106(4.0) * step;
+  const Angle106 angle =
+      angle_106(Enclosure106(std::min(light.half_angle_rad, std::numbers::pi / 2.0)) + Enclosure106(4.0) * delta);
   volume.cos_angle = angle.cosine;
   volume.sin_angle = angle.sine;
   return volume;
@@ -230,13 +234,13 @@ bool surely_ends_before(const Volume<Real>& volume, const HalfSpace<Real>& face)
 // The largest and the smallest distance from the eye over pyramid ∩ volume are among the candidates'. If all of these
 // that may lie in the set are too near, or all too far, so is the set; and if there are none, it is empty.
 template <class Real>
-bool surely_misses(const Volume<Real>& volume, const ShellPiece& cell) {
+bool surely_misses(const Volume<Real>& volume, const ShellCell& cell) {
   const Pyramid<Real> pyramid = pyramid_of<Real>(cell.x0, cell.x1, cell.y0, cell.y1);
   const Real near(cell.distance0), far(cell.distance1);
   std::array<bool, 4> reached;
   for (std::size_t i = 0; i < 4; ++i) reached[i] = !surely_ends_before(volume, pyramid.faces[i]);
   bool all_near = true, all_far = true;
-  pyramid_candidates(volume, pyramid, reached, Precision<Real>::k_place_bits, [&](const Point3<Real>& p) {
+  pyramid_candidates(volume, pyramid, reached, Precision<Real>::k_root_bits, [&](const Point3<Real>& p) {
     if ((!all_near && !all_far) || is_surely_outside(volume, pyramid, p)) return;
     const Real square = dot(p, p);
     all_near = all_near && square < near * near;
@@ -245,9 +249,9 @@ bool surely_misses(const Volume<Real>& volume, const ShellPiece& cell) {
   return all_near || all_far;
 }
 
-// Does a search in Real find points that prove the spot to meet the shell piece?
+// Does a search in Real find points that prove the spot to meet the shell cell?
 template <class Real>
-bool meets_by_search(const LightVolume& light, const ShellPiece& cell, const ExactSpot& spot) {
+bool meets_by_search(const LightVolume& light, const ShellCell& cell, const ExactSpot& spot) {
   ShellWitness witness(spot, cell);
   witness.offer(spot.apex);
   offer_axis(spot, witness);
@@ -257,53 +261,53 @@ bool meets_by_search(const LightVolume& light, const ShellPiece& cell, const Exa
 
 // The apex is not in the cell.
 template <class Real>
-Verdict proven_by_search(const LightVolume& light, const ShellPiece& cell, const ExactSpot& spot) {
+Verdict proven_by_search(const LightVolume& light, const ShellCell& cell, const ExactSpot& spot) {
   if (surely_leans_away(spot, planes_of(cell))) return Verdict::no;
   if (meets_by_search<Real>(light, cell, spot)) return Verdict::yes;
-  return is_exactly_beside<Real>(light, cell, spot) ? Verdict::no : Verdict::open;
+  return is_exactly_beside<Real>(light, cell, spot) ? Verdict::no : Verdict::uncertain;
 }
 
 // What differs from touching by less than 1024 bits tell.
-Verdict proven_at_last(const LightVolume& light, const ShellPiece& cell) {
-  const ExactSpot spot = exact_spot(light, angle_bits_for<Huge>());
-  const Verdict verdict = proven_by_search<Huge>(light, cell, spot);
-  if (verdict != Verdict::open) return verdict;
-  return surely_misses(slightly_larger<HugeEnclosure>(spot, 900, 3090), cell) ? Verdict::no : Verdict::open;
+Verdict proven_at_last(const LightVolume& light, const ShellCell& cell) {
+  const ExactSpot spot = exact_spot(light, angle_bits_for<Float3072>());
+  const Verdict verdict = proven_by_search<Float3072>(light, cell, spot);
+  if (verdict != Verdict::uncertain) return verdict;
+  return surely_misses(slightly_larger<Enclosure3072>(spot, 900, 3090), cell) ? Verdict::no : Verdict::uncertain;
 }
 
-// A spot at the eye reaches equally far in all its directions. Whether one of them is the pyramid's, any flat piece of
+// A spot at the eye reaches equally far in all its directions. Whether one of them is the pyramid's, any flat part of
 // the pyramid tells.
-Verdict decide_at_eye(const LightVolume& light, const ExactSpot& spot, const ShellPiece& cell) {
+Verdict decide_at_eye(const LightVolume& light, const ExactSpot& spot, const ShellCell& cell) {
   if (spot.range < exact(cell.distance0)) return Verdict::no;
   if (cell.distance0 == 0.0f) return Verdict::yes;
   LightVolume endless = light;
   endless.range = std::numeric_limits<double>::infinity();
-  return decide_spot(endless, FrustumPiece{cell.x0, cell.x1, cell.y0, cell.y1, 1.0f, 2.0f, false});
+  return decide_spot(endless, FrustumCell{cell.x0, cell.x1, cell.y0, cell.y1, 1.0f, 2.0f, false});
 }
 
 }  // namespace
 
-Verdict decide_spot(const LightVolume& given, const ShellPiece& cell) {
+Verdict decide_spot(const LightVolume& given, const ShellCell& cell) {
   const LightVolume light = limited(given, cell.distance1);
-  const TightSpot tightly(light, light.range);
-  if (is_surely_beyond(cell, tightly)) return Verdict::no;
-  if (tightly_meets<double>(light, cell, tightly)) return Verdict::yes;
-  if (is_surely_beside<double>(light, cell, tightly)) return Verdict::no;
-  if (is_apart_where_nearest(light, pyramid_to_far(cell), tightly)) return Verdict::no;
-  if (tightly_meets<Twofold>(light, cell, tightly)) return Verdict::yes;
-  if (is_surely_beside<Twofold>(light, cell, tightly)) return Verdict::no;
-  if (surely_misses(slightly_larger(light, tightly), cell)) return Verdict::no;
+  const Spot106 spot_106(light, light.range);
+  if (is_surely_beyond(cell, spot_106)) return Verdict::no;
+  if (meets_in_106_bits<double>(light, cell, spot_106)) return Verdict::yes;
+  if (is_surely_beside<double>(light, cell, spot_106)) return Verdict::no;
+  if (is_apart_where_nearest(light, pyramid_to_far(cell), spot_106)) return Verdict::no;
+  if (meets_in_106_bits<DoubleDouble>(light, cell, spot_106)) return Verdict::yes;
+  if (is_surely_beside<DoubleDouble>(light, cell, spot_106)) return Verdict::no;
+  if (surely_misses(slightly_larger(light, spot_106), cell)) return Verdict::no;
 
-  const ExactSpot spot = exact_spot(light, angle_bits_for<Big>());
+  const ExactSpot spot = exact_spot(light, angle_bits_for<Float256>());
   if (spot.apex == RationalPoint{0, 0, 0}) return decide_at_eye(light, spot, cell);
   const NearestOnShells nearest = nearest_point(cell, spot.apex);
   if (!reaches(spot.apex, spot.range, nearest)) return Verdict::no;
   if (nearest_surely_meets(spot, cell, nearest)) return Verdict::yes;
   if (surely_leans_away(spot, planes_of(cell))) return Verdict::no;
-  if (meets_by_search<Big>(light, cell, spot)) return Verdict::yes;
-  if (surely_misses(slightly_larger<Enclosure>(spot, 160, 1040), cell)) return Verdict::no;
-  const Verdict verdict = proven_by_search<Large>(light, cell, exact_spot(light, angle_bits_for<Large>()));
-  return verdict == Verdict::open ? proven_at_last(light, cell) : verdict;
+  if (meets_by_search<Float256>(light, cell, spot)) return Verdict::yes;
+  if (surely_misses(slightly_larger<Enclosure1024>(spot, 160, 1040), cell)) return Verdict::no;
+  const Verdict verdict = proven_by_search<Float1024>(light, cell, exact_spot(light, angle_bits_for<Float1024>()));
+  return verdict == Verdict::uncertain ? proven_at_last(light, cell) : verdict;
 }
 
 }  // namespace clusterbench::geom

@@ -42,7 +42,7 @@ BoundedPoint turned(const Mat3d& rotation, const Vec3d& v) {
   return {row(0), row(1), row(2)};
 }
 
-// The library's sines and cosines are right to 2 roundings, see geom/meets.cpp.
+// The library's sines and cosines are right to 2 unit roundoffs, see geom/filter/light_filter.cpp.
 Bounded nearly(double value) {
   return value == 0.0 ? Bounded(0.0) : Bounded(value, bounded::rounded_up(std::abs(value) * 0x1p-51));
 }
@@ -54,7 +54,7 @@ std::array<BoundedPoint, 8> corners_of(const PlaneCell& cell) {
   for (std::size_t i = 0; i < 8; ++i) corners[i] = exactly(exact[i]);
   return corners;
 }
-std::array<BoundedPoint, 8> corners_of(const ShellPiece& cell) {
+std::array<BoundedPoint, 8> corners_of(const ShellCell& cell) {
   std::array<BoundedPoint, 8> corners;
   for (unsigned i = 0; i < 4; ++i) {
     const BoundedPoint ray{(i & 1) != 0 ? cell.x1 : cell.x0, (i & 2) != 0 ? cell.y1 : cell.y0, -1.0};
@@ -76,14 +76,14 @@ bool any_face_normal(const Box&, Is&& is) {
          is(Point{0.0, -1.0, 0.0}) || is(Point{0.0, 0.0, 1.0}) || is(Point{0.0, 0.0, -1.0});
 }
 template <class Is>
-bool any_face_normal(const FrustumPiece& cell, Is&& is) {
+bool any_face_normal(const FrustumCell& cell, Is&& is) {
   if (cell.orthographic) return any_face_normal(Box{}, is);
   return is(Point{0.0, 0.0, 1.0}) || is(Point{0.0, 0.0, -1.0}) ||
          any_slope_normal(cell.x0, cell.x1, cell.y0, cell.y1, is);
 }
 // A near shell lies beyond a plane across the view direction through the least deep of its corners.
 template <class Is>
-bool any_face_normal(const ShellPiece& cell, Is&& is) {
+bool any_face_normal(const ShellCell& cell, Is&& is) {
   return is(Point{0.0, 0.0, -1.0}) || any_slope_normal(cell.x0, cell.x1, cell.y0, cell.y1, is);
 }
 
@@ -99,7 +99,7 @@ Bounded least_over(const PlaneCell&, const std::array<BoundedPoint, 8>& corners,
 }
 // Over t u for t between the shells and u a direction of the pyramid, it is -t times how far the opposite of the normal
 // is ahead of the eye.
-Bounded least_over(const ShellPiece& cell, const std::array<BoundedPoint, 8>&, const BoundedPoint& normal) {
+Bounded least_over(const ShellCell& cell, const std::array<BoundedPoint, 8>&, const BoundedPoint& normal) {
   const Bounded ahead = farthest_ahead(Bounded(-1.0) * normal, cell);
   if (ahead.is_surely_above(0.0)) return -(Bounded(cell.distance1) * ahead);
   if (ahead.is_surely_not_above(0.0)) return -(Bounded(cell.distance0) * ahead);
@@ -117,7 +117,7 @@ bool any_edge_normal(const PlaneCell&, const Point&, const std::array<Point, 8>&
 // Edges from shell to shell lie on rays. A plane across the way to the eye has all that the far shell bounds behind it
 // where the apex is beyond that.
 template <class Is>
-bool any_edge_normal(const ShellPiece& cell, const Point& apex, const std::array<Point, 8>&, Is&& is) {
+bool any_edge_normal(const ShellCell& cell, const Point& apex, const std::array<Point, 8>&, Is&& is) {
   if (is(-1.0 * apex)) return true;
   for (const float x : {cell.x0, cell.x1})
     for (const float y : {cell.y0, cell.y1})
@@ -134,7 +134,7 @@ template <class PlaneCell>
 Point least_point(const PlaneCell&, const Point&, const std::array<Point, 8>& corners, const Point& n) {
   return least_corner(corners, n);
 }
-Point least_point(const ShellPiece& cell, const Point& apex, const std::array<Point, 8>& corners, const Point& n) {
+Point least_point(const ShellCell& cell, const Point& apex, const std::array<Point, 8>& corners, const Point& n) {
   const Point ahead = about(foot_on_pyramid(Bounded(-1.0) * exactly(n), cell));
   const double size = length(ahead);
   return size > 0.0 ? (cell.distance1 / size) * ahead - apex : least_corner(corners, n);
@@ -147,9 +147,9 @@ Point farthest_of_volume(const Point& n, const Point& axis, double range, double
   const double along = dot(n, axis);
   if (along >= cosine * size) return (range / size) * n;
   const Point across = n - along * axis;
-  const double aside = length(across);
-  if (!(aside > 0.0) || cosine * along + sine * aside <= 0.0) return {0.0, 0.0, 0.0};
-  return (range * cosine) * axis + (range * sine / aside) * across;
+  const double size_across = length(across);
+  if (!(size_across > 0.0) || cosine * along + sine * size_across <= 0.0) return {0.0, 0.0, 0.0};
+  return (range * cosine) * axis + (range * sine / size_across) * across;
 }
 
 }  // namespace
@@ -172,14 +172,14 @@ Verdict SpotDecider::leans(const BoundedPoint& way) const {
   if (along.is_surely_above(0.0) && (inside - outside).is_surely_above(0.0)) return Verdict::yes;
   // No half-angle is quite 90°: in doubles it is less.
   const bool is_away = along.is_surely_not_above(0.0) || (outside - inside).is_surely_above(0.0);
-  if (is_away) return dot(way, way).is_surely_above(0.0) ? Verdict::no : Verdict::open;
+  if (is_away) return dot(way, way).is_surely_above(0.0) ? Verdict::no : Verdict::uncertain;
   const bool is_exact = way.x.error == 0.0 && way.y.error == 0.0 && way.z.error == 0.0;
-  return is_exact && along.is_surely_above(0.0) ? tightly().leans(tight(about(way))) : Verdict::open;
+  return is_exact && along.is_surely_above(0.0) ? spot_106().leans(point_106(about(way))) : Verdict::uncertain;
 }
 
-const TightSpot& SpotDecider::tightly() const {
-  if (!tightly_) tightly_.emplace(light_, 0.0);
-  return *tightly_;
+const Spot106& SpotDecider::spot_106() const {
+  if (!spot_106_) spot_106_.emplace(light_, 0.0);
+  return *spot_106_;
 }
 
 // The volume extends from its apex along a unit vector w by range if w is in the cone, else by range times
@@ -205,7 +205,7 @@ bool SpotDecider::leans_away(const Point& normal, const Bounded& along, const Bo
   if (!(-along).is_surely_above(0.0)) return false;
   const Bounded less = squared(sine_) * square_across - squared(cosine_ * along);
   if ((-less).is_surely_above(0.0)) return true;
-  return !less.is_surely_above(0.0) && tightly().surely_leans_away(tight(normal));
+  return !less.is_surely_above(0.0) && spot_106().surely_leans_away(point_106(normal));
 }
 
 bool SpotDecider::holds_one_of(const std::array<BoundedPoint, 8>& ways) const {
@@ -270,14 +270,14 @@ Verdict SpotDecider::by_evidence(const AnyCell& cell) const {
     ways_about[i] = about(ways[i]);
   }
   if (holds_one_of(ways)) return Verdict::yes;
-  return is_separated(cell, corners, ways_about) ? Verdict::no : Verdict::open;
+  return is_separated(cell, corners, ways_about) ? Verdict::no : Verdict::uncertain;
 }
 
 // Shells have no faces that end them.
-bool SpotDecider::ends_at_face(const ShellPiece&) const {
+bool SpotDecider::ends_at_face(const ShellCell&) const {
   return false;
 }
-// Rims of lattices' spots end at a plane but for roundings: then 106 bits tell whether it is between, without a search.
+// Rims of lattices' spots end at a plane but for roundoffs: then 106 bits tell whether it is between, without a search.
 template <class PlaneCell>
 bool SpotDecider::ends_at_face(const PlaneCell& cell) const {
   if (std::isinf(light_.range)) return false;
@@ -289,11 +289,11 @@ bool SpotDecider::ends_at_face(const PlaneCell& cell) const {
     const double lean = cosine_.value * dot(normal, axis) + sine_.value * length(cross(normal, axis));
     const double end = light_.range * lean;
     if (!(end > 0.0) || !(std::abs(least - end) <= k_hardly * (std::abs(least) + end))) return false;
-    TightSpot spot = tightly();
-    spot.range = Tight(light_.range);
-    std::array<TightPoint, 8> exactly_there;
+    Spot106 spot = spot_106();
+    spot.range = Enclosure106(light_.range);
+    std::array<Point106, 8> exactly_there;
     for (std::size_t i = 0; i < 8; ++i) exactly_there[i] = corner_of(cell, i);
-    return spot.surely_separated(tight(normal), exactly_there);
+    return spot.surely_separated(point_106(normal), exactly_there);
   });
 }
 
@@ -306,19 +306,19 @@ Verdict SpotDecider::meets_quickly(const Cell& cell) const {
     if (leans(nearest->way) == Verdict::yes) return Verdict::yes;
     if (!is_endless && leans(widened(nearest->way, nearest->play)) == Verdict::no) return Verdict::no;
   }
-  return apex_.meets(cell) ? Verdict::yes : Verdict::open;
+  return apex_.meets(cell) ? Verdict::yes : Verdict::uncertain;
 }
 
 Verdict SpotDecider::meets_nearly(const Cell& cell) const {
   const Verdict verdict = meets_quickly(cell);
-  if (verdict != Verdict::open) return verdict;
-  return std::visit([&](const auto& shape) { return ends_at_face(shape); }, cell) ? Verdict::no : Verdict::open;
+  if (verdict != Verdict::uncertain) return verdict;
+  return std::visit([&](const auto& shape) { return ends_at_face(shape); }, cell) ? Verdict::no : Verdict::uncertain;
 }
 
 Verdict SpotDecider::meets_after_all(const Cell& cell) const {
   ++exact_decisions_;
   const Verdict verdict = std::visit([&](const auto& shape) { return by_evidence(shape); }, cell);
-  if (verdict != Verdict::open) return verdict;
+  if (verdict != Verdict::uncertain) return verdict;
   if (!std::isinf(light_.range)) {
     const std::optional<bool> is_on_axis = axis_meets(light_, cell);
     if (is_on_axis && *is_on_axis) return Verdict::yes;
@@ -328,10 +328,10 @@ Verdict SpotDecider::meets_after_all(const Cell& cell) const {
 }
 
 Verdict SpotDecider::meets(const Cell& cell, bool is_close) const {
-  Verdict verdict = is_close ? meets_nearly(cell) : Verdict::open;
-  if (verdict == Verdict::open) verdict = filter().meets(cell);
-  if (verdict == Verdict::open && !is_close) verdict = meets_quickly(cell);
-  return verdict == Verdict::open ? meets_after_all(cell) : verdict;
+  Verdict verdict = is_close ? meets_nearly(cell) : Verdict::uncertain;
+  if (verdict == Verdict::uncertain) verdict = filter().meets(cell);
+  if (verdict == Verdict::uncertain && !is_close) verdict = meets_quickly(cell);
+  return verdict == Verdict::uncertain ? meets_after_all(cell) : verdict;
 }
 
 const LightFilter& SpotDecider::filter() const {

@@ -19,14 +19,14 @@ class SpotDecider {
  public:
   explicit SpotDecider(const LightVolume& light);
 
-  // Proven, or open: by the filter, then by meets_quickly, then by meets_after_all. is_close: known to be touched or
-  // missed by a hair, which the filter seldom tells; then by meets_nearly first and the filter second.
+  // Proven, or uncertain: by the filter, then by meets_quickly, then by meets_after_all. is_close: known to be touched
+  // or missed by a hair, which the filter seldom tells; then by meets_nearly first and the filter second.
   Verdict meets(const Cell& cell, bool is_close = false) const;
   // What half a microsecond tells, mostly.
   Verdict meets_quickly(const Cell& cell) const;
   // The same for cells that are known to be touched or missed by a hair: tells of some more.
   Verdict meets_nearly(const Cell& cell) const;
-  // Of a cell that these leave open, without the filter.
+  // Of a cell that these leave uncertain, without the filter.
   Verdict meets_after_all(const Cell& cell) const;
 
   const LightFilter& filter() const;
@@ -45,7 +45,7 @@ class SpotDecider {
   // Does a direction lean more than 90° from all of the cone's? Its parts along the axis and, squared, across it.
   bool leans_away(const Point3<double>& normal, const Bounded& along, const Bounded& square_across) const;
 
-  const TightSpot& tightly() const;  // without its range
+  const Spot106& spot_106() const;  // without its range
   // Is one of the points, given from the apex, certainly in the volume?
   bool holds_one_of(const std::array<Point3<Bounded>, 8>& ways) const;
   // Is there a plane between? Its corners, and where these are, about, from the apex.
@@ -54,8 +54,8 @@ class SpotDecider {
                     const std::array<Point3<double>, 8>& ways) const;
   template <class AnyCell>
   Verdict by_evidence(const AnyCell& cell) const;
-  // Is the plane of a face, at which the volume ends but for roundings, certainly between?
-  bool ends_at_face(const ShellPiece& cell) const;
+  // Is the plane of a face, at which the volume ends but for roundoffs, certainly between?
+  bool ends_at_face(const ShellCell& cell) const;
   template <class PlaneCell>
   bool ends_at_face(const PlaneCell& cell) const;
 
@@ -64,7 +64,7 @@ class SpotDecider {
   Point3<Bounded> axis_;     // any length
   Bounded axis_square_, cosine_, sine_;
   mutable std::optional<LightFilter> filter_;
-  mutable std::optional<TightSpot> tightly_;
+  mutable std::optional<Spot106> spot_106_;
   mutable std::uint64_t exact_decisions_ = 0;
 };
 
