@@ -107,8 +107,8 @@ void count_here(const CountTask& task, run::InstructionCounter& counter,
                 const std::atomic<bool>& stop) {
   const std::set<std::string> ids(task.ids.begin(), task.ids.end());
   run::count_pass(
-      task.config, task.plan, [&](const run::CasePlan& one) { return ids.contains(one.id); }, counter,
-      [&](const run::CasePlan& one, const run::CountResult& count) { on_count(one.id, count); }, stop);
+      task.config, task.plan, [&](const run::CasePlan& case_plan) { return ids.contains(case_plan.id); }, counter,
+      [&](const run::CasePlan& case_plan, const run::CountResult& count) { on_count(case_plan.id, count); }, stop);
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ std::optional<TwoModes> two_modes(std::span<const double> samples_ns);
 
 // The frame that takes longest of several.
 struct WorstFrame {
-  std::size_t place = 0;
+  std::size_t index = 0;
   double ns = 0.0;  // median over the rounds
   Interval ci95;
 };

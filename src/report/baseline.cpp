@@ -44,9 +44,9 @@ Json to_json(const run::PairedCase& measured) {
 
 void add_baseline(Json& result, const Json& tool, const std::map<std::string, run::PairedCase>& measured) {
   result["baseline"]["tool"] = tool;
-  for (Json& one : result["cases"])
-    if (const auto found = measured.find(one["id"].get<std::string>()); found != measured.end())
-      one["timing"]["baseline"] = to_json(found->second);
+  for (Json& result_case : result["cases"])
+    if (const auto found = measured.find(result_case["id"].get<std::string>()); found != measured.end())
+      result_case["timing"]["baseline"] = to_json(found->second);
 }
 
 }  // namespace clusterbench::report

@@ -56,8 +56,8 @@ Json cell_place(std::uint32_t cell, const nlohmann::json& cells) {
   return {cell % nx, cell / nx % ny, cell / nx / ny};
 }
 
-Json occupancy(const run::CaseResult& one) {
-  const measure::Occupancy& o = *one.occupancy;
+Json occupancy(const run::CaseResult& case_result) {
+  const measure::Occupancy& o = *case_result.occupancy;
   Json lights = to_json(o.lights_per_cell);
   const measure::Histogram histogram = measure::short_histogram(o.histogram);
   lights["histogram"] = {{"lights_per_entry", histogram.lights_per_entry}, {"cells", histogram.cells}};
@@ -65,15 +65,15 @@ Json occupancy(const run::CaseResult& one) {
           {"lights_per_cell", lights},
           {"occupied_fraction", to_json(o.occupied_fraction)},
           {"worst_frame", o.worst_frame},
-          {"worst_cell", cell_place(o.worst_cell, one.grid["cells"])},
+          {"worst_cell", cell_place(o.worst_cell, case_result.grid["cells"])},
           {"along_path",
            {{"frames_per_entry", o.pairs_along_path.frames_per_entry()},
             {"pairs", o.pairs_along_path.entries()},
             {"longest_list", o.longest_along_path.entries()}}}};
 }
 
-Json buffers(const run::CaseResult& one) {
-  const measure::Buffers& b = one.buffers;
+Json buffers(const run::CaseResult& case_result) {
+  const measure::Buffers& b = case_result.buffers;
   Json out{{"index_entries", to_json(b.index_entries)},
            {"bytes", to_json(b.bytes)},
            {"index_bits", b.index_bits},
@@ -87,14 +87,14 @@ Json buffers(const run::CaseResult& one) {
              {"lights", b.dropped_lights}}},
            {"scratch_bytes", b.scratch_bytes},
            {"worst_frame", b.worst_frame}};
-  if (b.worst_cell) out["worst_cell"] = cell_place(*b.worst_cell, one.grid["cells"]);
+  if (b.worst_cell) out["worst_cell"] = cell_place(*b.worst_cell, case_result.grid["cells"]);
   out["along_path"] = {{"frames_per_entry", b.bytes_along_path.frames_per_entry()},
                        {"bytes", b.bytes_along_path.entries()}};
   return out;
 }
 
-Json error(const run::CaseResult& one) {
-  const measure::ErrorCounts& e = *one.error;
+Json error(const run::CaseResult& case_result) {
+  const measure::ErrorCounts& e = *case_result.error;
   Json out{{"true_pairs", e.true_pairs},
            {"reported_pairs", e.reported_pairs},
            {"false_positives", e.false_positives},
@@ -107,15 +107,15 @@ Json error(const run::CaseResult& one) {
            {"decided", {{"filter", e.filter_decided}, {"exact", e.exact_decided}}}};
   if (e.deepest)
     out["deepest"] = {{"frame", e.deepest->frame},
-                      {"cell", cell_place(e.deepest->cell, one.grid["cells"])},
+                      {"cell", cell_place(e.deepest->cell, case_result.grid["cells"])},
                       {"light", e.deepest->light},
                       {"rig_light", e.deepest->rig_index},
-                      {"light_name", one.deepest_miss_light}};
+                      {"light_name", case_result.deepest_miss_light}};
   return out;
 }
 
-Json shading(const run::CaseResult& one) {
-  const measure::ShadingCounts& s = *one.shading;
+Json shading(const run::CaseResult& case_result) {
+  const measure::ShadingCounts& s = *case_result.shading;
   Json out{{"samples", s.samples},
            {"evaluated", s.evaluated},
            {"needed", s.needed},
@@ -125,9 +125,10 @@ Json shading(const run::CaseResult& one) {
            {"unlit", number_or_null(s.unlit())},
            {"lost_irradiance", number_or_null(s.lost_irradiance)},
            {"overshade", number_or_null(s.comparable_overshade())}};
-  if (one.worst_unlit)
-    out["worst_frame"] = {
-        {"frame", one.worst_unlit->frame}, {"missed", one.worst_unlit->missed}, {"needed", one.worst_unlit->needed}};
+  if (case_result.worst_unlit)
+    out["worst_frame"] = {{"frame", case_result.worst_unlit->frame},
+                          {"missed", case_result.worst_unlit->missed},
+                          {"needed", case_result.worst_unlit->needed}};
   return out;
 }
 
@@ -246,47 +247,50 @@ Json to_json(const run::SceneResult& scene) {
   return out;
 }
 
-double number_at(const Json& one, const char* pointer) {
+double number_at(const Json& result_case, const char* pointer) {
   const Json::json_pointer place(pointer);
-  return one.contains(place) && one[place].is_number() ? one[place].get<double>() : std::nan("");
+  return result_case.contains(place) && result_case[place].is_number() ? result_case[place].get<double>()
+                                                                       : std::nan("");
 }
 
-std::string view_of(const Json& one) {
-  return Json{one["camera"], one["viewport"]}.dump();
+std::string view_of(const Json& result_case) {
+  return Json{result_case["camera"], result_case["viewport"]}.dump();
 }
 
-run::Contender contender(const Json& one) {
+run::Contender contender(const Json& result_case) {
   const auto end = [&](const char* which) {
-    return number_at(one, ("/timing/frame_ns/ci95/" + std::string(which)).c_str());
+    return number_at(result_case, ("/timing/frame_ns/ci95/" + std::string(which)).c_str());
   };
   const measure::Interval time_ns{end("0"), end("1")};
   const bool is_timed = !std::isnan(time_ns.low) && !std::isnan(time_ns.high);
-  return {one["id"],
-          one["scene"],
-          view_of(one),
-          {is_timed ? time_ns : measure::Costs{}.time_ns, number_at(one, "/buffers/bytes/high_water"),
-           number_at(one, "/shading/overshade")},
-          one["eligible"]};
+  return {result_case["id"],
+          result_case["scene"],
+          view_of(result_case),
+          {is_timed ? time_ns : measure::Costs{}.time_ns, number_at(result_case, "/buffers/bytes/high_water"),
+           number_at(result_case, "/shading/overshade")},
+          result_case["eligible"]};
 }
 
 // Pairs per frame against the same case in float32; null where there is none.
 void add_extra_pairs(Json& cases) {
   std::map<std::string, double> pairs;
-  for (const Json& one : cases) pairs[one["name"].get<std::string>()] = number_at(one, "/occupancy/pairs/mean");
-  for (Json& one : cases) {
-    if (!one.contains("precision")) continue;
-    const std::string name = one["name"], label = "/" + one["precision"]["label"].get<std::string>();
-    const bool is_packed = one["precision"]["packing"] != "float32";
+  for (const Json& result_case : cases)
+    pairs[result_case["name"].get<std::string>()] = number_at(result_case, "/occupancy/pairs/mean");
+  for (Json& result_case : cases) {
+    if (!result_case.contains("precision")) continue;
+    const std::string name = result_case["name"], label = "/" + result_case["precision"]["label"].get<std::string>();
+    const bool is_packed = result_case["precision"]["packing"] != "float32";
     const auto plain = pairs.find(is_packed ? name.substr(0, name.size() - label.size()) : name);
     const double mean = plain == pairs.end() ? std::nan("") : plain->second, extra = pairs[name] - mean;
-    one["precision"]["extra_pairs"] = {{"mean", number_or_null(extra)}, {"ratio", number_or_null(extra / mean)}};
+    result_case["precision"]["extra_pairs"] = {{"mean", number_or_null(extra)},
+                                               {"ratio", number_or_null(extra / mean)}};
   }
 }
 
 Json in_plan_order(const run::Result& result, const std::vector<Json>& earlier_cases) {
   std::map<std::string, Json> by_id;
-  for (const Json& one : earlier_cases) by_id[one.at("id").get<std::string>()] = one;
-  for (const run::CaseResult& one : result.cases) by_id[one.id] = case_to_json(one);
+  for (const Json& result_case : earlier_cases) by_id[result_case.at("id").get<std::string>()] = result_case;
+  for (const run::CaseResult& case_result : result.cases) by_id[case_result.id] = case_to_json(case_result);
   Json cases = Json::array();
   for (const std::string& id : result.planned_ids)
     if (const auto found = by_id.find(id); found != by_id.end()) cases.push_back(found->second);
@@ -297,14 +301,15 @@ Json in_plan_order(const run::Result& result, const std::vector<Json>& earlier_c
 
 Json fronts(const Json& scenes, const Json& cases) {
   std::vector<run::Contender> all;
-  for (const Json& one : cases) all.push_back(contender(one));
+  for (const Json& result_case : cases) all.push_back(contender(result_case));
   const std::vector<std::string> ids = run::on_front(all);
   const std::set<std::string> best(ids.begin(), ids.end());
   Json list = Json::array();
   for (const Json& scene : scenes) {
     Json front = Json::array();
-    for (const Json& one : cases)
-      if (one["scene"] == scene["name"] && best.contains(one["id"].get<std::string>())) front.push_back(one["id"]);
+    for (const Json& result_case : cases)
+      if (result_case["scene"] == scene["name"] && best.contains(result_case["id"].get<std::string>()))
+        front.push_back(result_case["id"]);
     list.push_back({{"scene", scene["name"]}, {"ids", front}});
   }
   return list;
@@ -318,42 +323,42 @@ Json tool_to_json(const run::ToolFacts& tool) {
           {"libraries", libraries}};
 }
 
-Json case_to_json(const run::CaseResult& one) {
-  Json out{{"id", one.id},
-           {"settings", one.settings},
-           {"name", one.name},
-           {"scene", one.scene},
-           {"camera", one.camera},
-           {"viewport", {one.viewport.x, one.viewport.y}},
-           {"frames", one.frames},
-           {"grid", one.grid},
+Json case_to_json(const run::CaseResult& case_result) {
+  Json out{{"id", case_result.id},
+           {"settings", case_result.settings},
+           {"name", case_result.name},
+           {"scene", case_result.scene},
+           {"camera", case_result.camera},
+           {"viewport", {case_result.viewport.x, case_result.viewport.y}},
+           {"frames", case_result.frames},
+           {"grid", case_result.grid},
            {"assigner",
-            {{"name", one.assigner},
-             {"label", one.assigner_label},
-             {"params", one.assigner_params},
-             {"conservative", one.conservative},
-             {"exact", one.exact}}},
-           {"storage", one.storage_label},
+            {{"name", case_result.assigner},
+             {"label", case_result.assigner_label},
+             {"params", case_result.assigner_params},
+             {"conservative", case_result.conservative},
+             {"exact", case_result.exact}}},
+           {"storage", case_result.storage_label},
            {"failures", Json::array()},
            {"warnings", Json::array()},
-           {"loses_lights", run::loses_lights(one)},
-           {"eligible", run::is_eligible(one)},
-           {"tests_done", one.tests_done},
-           {"fallbacks", one.fallbacks}};
-  for (const run::Failure& failure : one.failures)
+           {"loses_lights", run::loses_lights(case_result)},
+           {"eligible", run::is_eligible(case_result)},
+           {"tests_done", case_result.tests_done},
+           {"fallbacks", case_result.fallbacks}};
+  for (const run::Failure& failure : case_result.failures)
     out["failures"].push_back({{"kind", run::name_of(failure.kind)}, {"text", failure.text}});
-  for (const run::Warning& warning : run::warnings_of(one))
+  for (const run::Warning& warning : run::warnings_of(case_result))
     out["warnings"].push_back({{"kind", run::name_of(warning.kind)}, {"text", warning.text}});
-  if (one.occupancy) out["occupancy"] = occupancy(one);
-  out["buffers"] = buffers(one);
-  if (one.error) out["error"] = error(one);
-  if (one.shading) out["shading"] = shading(one);
-  if (!one.lookup.empty()) out["lookup"] = lookup(one.lookup);
-  if (one.stability) out["stability"] = stability(*one.stability);
-  if (one.precision) out["precision"] = precision(*one.precision);
-  if (one.timing) out["timing"] = timing(*one.timing);
-  if (one.count) out["count"] = count(*one.count);
-  if (one.details) out["details"] = details_to_json(*one.details);
+  if (case_result.occupancy) out["occupancy"] = occupancy(case_result);
+  out["buffers"] = buffers(case_result);
+  if (case_result.error) out["error"] = error(case_result);
+  if (case_result.shading) out["shading"] = shading(case_result);
+  if (!case_result.lookup.empty()) out["lookup"] = lookup(case_result.lookup);
+  if (case_result.stability) out["stability"] = stability(*case_result.stability);
+  if (case_result.precision) out["precision"] = precision(*case_result.precision);
+  if (case_result.timing) out["timing"] = timing(*case_result.timing);
+  if (case_result.count) out["count"] = count(*case_result.count);
+  if (case_result.details) out["details"] = details_to_json(*case_result.details);
   return out;
 }
 
@@ -377,9 +382,9 @@ Json result_to_json(const run::Result& result, const std::vector<Json>& earlier_
 
 std::vector<std::string> gate_failures(const Json& result) {
   std::vector<std::string> lines;
-  for (const Json& one : result["cases"])
-    for (const Json& failure : one["failures"])
-      lines.push_back(one["name"].get<std::string>() + ": " + failure["text"].get<std::string>());
+  for (const Json& result_case : result["cases"])
+    for (const Json& failure : result_case["failures"])
+      lines.push_back(result_case["name"].get<std::string>() + ": " + failure["text"].get<std::string>());
   return lines;
 }
 

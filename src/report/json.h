@@ -16,7 +16,7 @@ inline constexpr int k_schema_version = 2;
 nlohmann::ordered_json number_or_null(double value);
 
 nlohmann::ordered_json tool_to_json(const run::ToolFacts& tool);
-nlohmann::ordered_json case_to_json(const run::CaseResult& one);
+nlohmann::ordered_json case_to_json(const run::CaseResult& case_result);
 
 // `earlier_cases`: what an interrupted run had finished, as case_to_json gave it. All cases come in the plan's order.
 nlohmann::ordered_json result_to_json(const run::Result& result,

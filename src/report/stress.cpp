@@ -211,10 +211,10 @@ Json stress_to_json(const stress::StressResult& result, const stress::StressRequ
         {{"label", method.label}, {"conservative", method.conservative}, {"exact", method.assigner->exact}});
   out["cases"] = Json::array();
   for (std::size_t i = 0; i < result.cases.size(); ++i) {
-    Json one{{"id", result.cases[i].id}, {"title", result.cases[i].title}, {"checks", Json::array()}};
+    Json hard_case{{"id", result.cases[i].id}, {"title", result.cases[i].title}, {"checks", Json::array()}};
     for (const stress::ToolCheck& check : result.checks[i])
-      one["checks"].push_back({{"what", check.what}, {"passed", check.passed}, {"detail", check.detail}});
-    out["cases"].push_back(one);
+      hard_case["checks"].push_back({{"what", check.what}, {"passed", check.passed}, {"detail", check.detail}});
+    out["cases"].push_back(hard_case);
   }
   out["results"] = Json::array();
   for (const stress::StressCell& cell : result.cells) out["results"].push_back(to_json(cell));

@@ -15,18 +15,18 @@ constexpr double k_wide = 0.1;           // half of an interval, of its time
 constexpr double k_others_cores = 0.1;   // busy with other programs
 constexpr double k_stolen_cores = 0.02;  // a guest sees little of its host's load
 
-double timing_number(const Json& one, const char* pointer) {
-  const Json found = one.value(Json::json_pointer(pointer), Json());
+double timing_number(const Json& result_case, const char* pointer) {
+  const Json found = result_case.value(Json::json_pointer(pointer), Json());
   return found.is_number() ? found.get<double>() : 0.0;
 }
 
 // The cases that a doubt is about: how many, and the worst.
 class Doubt {
  public:
-  void add(const Json& one, double badness) {
+  void add(const Json& result_case, double badness) {
     ++count_;
     if (worst_ != nullptr && badness <= badness_) return;
-    worst_ = &one;
+    worst_ = &result_case;
     badness_ = badness;
   }
   bool is_any() const { return count_ > 0; }
@@ -41,22 +41,23 @@ class Doubt {
   double badness_ = 0.0;
 };
 
-double half_of_interval(const Json& one) {
-  const double median = timing_number(one, "/timing/frame_ns/median");
-  return median > 0.0
-             ? 0.5 * (timing_number(one, "/timing/frame_ns/ci95/1") - timing_number(one, "/timing/frame_ns/ci95/0")) /
-                   median
-             : 0.0;
+double half_of_interval(const Json& result_case) {
+  const double median = timing_number(result_case, "/timing/frame_ns/median");
+  return median > 0.0 ? 0.5 *
+                            (timing_number(result_case, "/timing/frame_ns/ci95/1") -
+                             timing_number(result_case, "/timing/frame_ns/ci95/0")) /
+                            median
+                      : 0.0;
 }
 
-std::optional<measure::TwoModes> modes_of(const Json& one) {
-  const Json samples = one.value(Json::json_pointer("/timing/frame_ns/samples"), Json());
+std::optional<measure::TwoModes> modes_of(const Json& result_case) {
+  const Json samples = result_case.value(Json::json_pointer("/timing/frame_ns/samples"), Json());
   if (!samples.is_array()) return std::nullopt;
   return measure::two_modes(samples.get<std::vector<double>>());
 }
 
-std::string more_launches(const Json& one) {
-  return "--launches " + std::to_string(4 * one["timing"].value("launches", 1));
+std::string more_launches(const Json& result_case) {
+  return "--launches " + std::to_string(4 * result_case["timing"].value("launches", 1));
 }
 
 std::string wide_warning(const Doubt& wide, std::size_t timed) {
@@ -93,17 +94,17 @@ std::string machine_warnings(const Doubt& others, const Doubt& stolen, const Dou
 std::string timing_warnings(const Json& cases) {
   Doubt wide, two, others, stolen, hot;
   std::size_t timed = 0;
-  for (const Json& one : cases) {
-    if (timing_number(one, "/timing/frame_ns/median") <= 0.0) continue;
+  for (const Json& result_case : cases) {
+    if (timing_number(result_case, "/timing/frame_ns/median") <= 0.0) continue;
     ++timed;
     const auto check = [&](Doubt& doubt, double badness, double most) {
-      if (badness > most) doubt.add(one, badness);
+      if (badness > most) doubt.add(result_case, badness);
     };
-    check(wide, half_of_interval(one), k_wide);
-    if (const auto modes = modes_of(one)) two.add(one, modes->high / modes->low);
-    check(others, timing_number(one, "/timing/disturbed/others_cores"), k_others_cores);
-    check(stolen, timing_number(one, "/timing/disturbed/stolen_cores"), k_stolen_cores);
-    check(hot, timing_number(one, "/timing/disturbed/throttled"), 0.0);
+    check(wide, half_of_interval(result_case), k_wide);
+    if (const auto modes = modes_of(result_case)) two.add(result_case, modes->high / modes->low);
+    check(others, timing_number(result_case, "/timing/disturbed/others_cores"), k_others_cores);
+    check(stolen, timing_number(result_case, "/timing/disturbed/stolen_cores"), k_stolen_cores);
+    check(hot, timing_number(result_case, "/timing/disturbed/throttled"), 0.0);
   }
   std::string out;
   if (wide.is_any()) out += wide_warning(wide, timed);

@@ -13,7 +13,7 @@ class FrameLights {
   FrameLights() = default;
   FrameLights(const std::vector<config::PrecisionRequest>& precisions, const view::LightArrays& lights);
 
-  // `precision`: place in the list. What its assigners get.
+  // `precision`: index in the list. What its assigners get.
   const view::LightArrays& seen(std::size_t precision) const;
   // What they would get without inflation.
   const view::PackedLights& packed(std::size_t precision) const { return lights_[precision].packed; }

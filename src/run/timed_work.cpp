@@ -50,12 +50,12 @@ TimedWork::TimedWork(const config::Config& config, const GroupPlan& group, const
     structure_assigner_ = descriptor.make_own(request.params);
     for (std::size_t i = 0; i < all_frames; ++i) structures_.push_back(structure_assigner_->make_structure());
   }
-  for (std::size_t place = 0; place < group.cases.size(); ++place) {
-    const CasePlan& one = group.cases[place];
-    if (one.method() != method) continue;
-    places_.push_back(place);
-    if (!one.storage) continue;
-    const config::MethodRequest& store = config.storages[*one.storage];
+  for (std::size_t index = 0; index < group.cases.size(); ++index) {
+    const CasePlan& case_plan = group.cases[index];
+    if (case_plan.method() != method) continue;
+    case_indices_.push_back(index);
+    if (!case_plan.storage) continue;
+    const config::MethodRequest& store = config.storages[*case_plan.storage];
     stores_.push_back(storage(*assign::find_storage(store.name), store.params));
   }
   if (extra_ != nullptr) assign_frame(frames.size());

@@ -1,5 +1,5 @@
 #pragma once
-// Places on the surface of a cell and the directions in which a light can lie there and just touch it.
+// Points on the surface of a cell and the directions in which a light can lie there and just touch it.
 
 #include "core/random.h"
 #include "grid/grid.h"

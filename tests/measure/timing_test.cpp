@@ -84,7 +84,7 @@ TEST(WorstFrame, is_the_frame_with_the_largest_share_of_a_pass) {
   const std::vector<std::vector<double>> frames{scaled_to_mean({100, 300}, 2, 180), scaled_to_mean({110, 330}, 2, 200),
                                                 scaled_to_mean({500, 1500}, 2, 190)};
   const WorstFrame worst = worst_frame(frames, 1);
-  EXPECT_EQ(worst.place, 1u);
+  EXPECT_EQ(worst.index, 1u);
   EXPECT_DOUBLE_EQ(worst.ns, 1.5 * 190);
   EXPECT_DOUBLE_EQ(worst.ci95.low, 1.5 * 180);
   EXPECT_DOUBLE_EQ(worst.ci95.high, 1.5 * 200);

@@ -45,7 +45,7 @@ class BallDecider {
   std::optional<NearestPoint> nearest_point(const Box& cell) const;
   std::optional<NearestPoint> nearest_point(const ShellCell& cell) const;
 
-  // Is normal·(p - center) >= 0 for all points p of the cell? InDyadics; false also for numbers that are too wide for
+  // Is normal·(p - center) >= 0 for all points p of the cell? Exactly; false also for numbers that are too wide for
   // it.
   bool has_in_front(const Point3<double>& normal, const FrustumCell& cell) const;
   bool has_in_front(const Point3<double>& normal, const Box& cell) const;

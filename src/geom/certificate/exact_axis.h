@@ -1,5 +1,5 @@
 #pragma once
-// Does a spot's axis, as long as its range, share a point with a cell? InDyadics. A spot holds its axis, and one with a
+// Does a spot's axis, as long as its range, share a point with a cell? Exactly. A spot holds its axis, and one with a
 // half-angle of 0 nothing else.
 
 #include <optional>

@@ -17,7 +17,7 @@ namespace clusterbench::geom {
 
 using Point106 = Point3<Enclosure106>;
 
-// InDyadics the point: sums of two doubles have no radius.
+// Exactly the point: sums of two doubles have no radius.
 inline Point106 point_106(const Point3<DoubleDouble>& p) {
   return {Enclosure106(p.x), Enclosure106(p.y), Enclosure106(p.z)};
 }

@@ -129,13 +129,13 @@ Verdict meets_polytope(const Volume<double>& unlimited, const Polytope<double>& 
 }
 
 // A point as a pyramid sees it: t >= 0 from the eye, the pyramid's points are sqrt((t - along)² + height²) away from
-// it, or more (`all`, proven by a half-space that holds the pyramid), and one of them is just that far away (`one`, in
-// a direction that was tried). InDyadics both are the same (exact_cells.cpp).
+// it, or more (`bound`, proven by a half-space that holds the pyramid), and one of them is just that far away
+// (`attained`, in a direction that was tried). In exact numbers both are the same (rational_cell.cpp).
 struct Part {
   double along, height;
 };
 struct Sight {
-  Part all, one;
+  Part bound, attained;
 };
 
 std::array<Point3<double>, 4> tile_rays(const ShellCell& tile) {
@@ -203,10 +203,10 @@ Part farthest_behind(const Point3<double>& p, const ShellCell& tile) {
 // all four rays: what they may stick out, 2^-42, makes points that are t away from the eye nearer by 2^-42 t at most.
 // Else if all rays lean away from p: any direction is a sum of the four (of unit length) with weights that add to 1 at
 // least, so it leans away no less than the one that does least.
-bool is_behind(const std::array<Point3<double>, 4>& rays, const Part& one, const Point3<double>& across) {
-  if (one.along < 0.0) return true;
+bool is_behind(const std::array<Point3<double>, 4>& rays, const Part& nearest, const Point3<double>& across) {
+  if (nearest.along < 0.0) return true;
   return std::all_of(rays.begin(), rays.end(), [&](const Point3<double>& ray) {
-    return dot(across, ray) <= 0x1p-43 * one.height * (std::abs(ray.x) + std::abs(ray.y) + 1.0);
+    return dot(across, ray) <= 0x1p-43 * nearest.height * (std::abs(ray.x) + std::abs(ray.y) + 1.0);
   });
 }
 
@@ -216,8 +216,8 @@ Sight sight_of(const Point3<double>& p, const ShellCell& tile) {
       p.y <= tile.y1 * depth)
     return {{size, 0.0}, {size, 0.0}};
   const std::array<Point3<double>, 4> rays = tile_rays(tile);
-  const auto [one, across] = nearest_direction(p, rays);
-  return {is_behind(rays, one, across) ? one : farthest_behind(p, tile), one};
+  const auto [attained, across] = nearest_direction(p, rays);
+  return {is_behind(rays, attained, across) ? attained : farthest_behind(p, tile), attained};
 }
 
 double tolerance_of(const Volume<double>& volume) {
@@ -225,17 +225,17 @@ double tolerance_of(const Volume<double>& volume) {
 }
 
 DistanceInterval ball_distances(const Volume<double>& volume, const ShellCell& tile) {
-  const auto [all, one] = sight_of(volume.apex, tile);
+  const auto [bound, attained] = sight_of(volume.apex, tile);
   const double larger = volume.range + tolerance_of(volume), smaller = volume.range - tolerance_of(volume);
-  if (all.height > larger) return {};
-  const double outer = std::sqrt((larger - all.height) * (larger + all.height));
+  if (bound.height > larger) return {};
+  const double outer = std::sqrt((larger - bound.height) * (larger + bound.height));
   DistanceInterval interval;
-  interval.outer_lo = interval.likely_lo = std::max(0.0, all.along - outer);
-  interval.outer_hi = interval.likely_hi = all.along + outer;
-  if (one.height >= smaller) return interval;
-  const double inner = std::sqrt((smaller - one.height) * (smaller + one.height));
-  interval.inner_lo = std::max(0.0, one.along - inner);
-  interval.inner_hi = one.along + inner;
+  interval.outer_lo = interval.likely_lo = std::max(0.0, bound.along - outer);
+  interval.outer_hi = interval.likely_hi = bound.along + outer;
+  if (attained.height >= smaller) return interval;
+  const double inner = std::sqrt((smaller - attained.height) * (smaller + attained.height));
+  interval.inner_lo = std::max(0.0, attained.along - inner);
+  interval.inner_hi = attained.along + inner;
   return interval;
 }
 

@@ -3,7 +3,7 @@
 // extending the available precision". For finding what is then proven, between double and 256 bits.
 //
 // Sums, products, quotients and roots are right to 15 u² of the result at worst, u = 2^-53 (Joldes, Muller and Popescu
-// 2017, "Enclosure106 and rigorous error bounds for basic building blocks of double-word arithmetic"), as long as
+// 2017, "Tight and rigorous error bounds for basic building blocks of double-word arithmetic"), as long as
 // nothing overflows or underflows.
 
 #include <cmath>

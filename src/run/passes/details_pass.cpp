@@ -77,9 +77,9 @@ std::vector<std::optional<Details>> details_pass(const config::Config& config, c
   }
 
   std::vector<std::optional<Details>> results;
-  for (const CasePlan& one : group.cases)
+  for (const CasePlan& case_plan : group.cases)
     results.push_back(std::find_if(tracks.begin(), tracks.end(), [&](const Track& track) {
-                        return track.method() == one.method();
+                        return track.method() == case_plan.method();
                       })->details());
   return results;
 }

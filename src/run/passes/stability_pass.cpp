@@ -54,9 +54,9 @@ StabilityResult segment_facts(const scene::FinePath& segment, int window) {
 std::vector<std::optional<StabilityResult>> per_case(const GroupPlan& group, const std::vector<StabilityTrack>& tracks,
                                                      const StabilityResult& common) {
   std::vector<std::optional<StabilityResult>> results;
-  for (const CasePlan& one : group.cases) {
+  for (const CasePlan& case_plan : group.cases) {
     const StabilityTrack& track = *std::find_if(
-        tracks.begin(), tracks.end(), [&](const StabilityTrack& any) { return any.method() == one.method(); });
+        tracks.begin(), tracks.end(), [&](const StabilityTrack& any) { return any.method() == case_plan.method(); });
     results.emplace_back();
     if (!track.has_cells()) continue;
     results.back() = common;

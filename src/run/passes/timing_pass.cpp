@@ -56,7 +56,7 @@ class TimingTrack {
       samples_.frames.push_back(work_.path_frame(i));
     samples_.pairs = pairs_of_frames();
     samples_.builds_per_frame = static_cast<double>(work_.builds()) / static_cast<double>(work_.frame_count());
-    if (work_.converts()) samples_.stores.resize(work_.places().size());
+    if (work_.converts()) samples_.stores.resize(work_.case_indices().size());
     for (std::size_t store = 0; store < samples_.stores.size(); ++store)
       converts_.emplace_back([this, store] { work_.convert(store); }, min_ns_ / 10.0);
     prepare_floor();
@@ -220,8 +220,8 @@ class MethodTimes {
     }
     if (converts && *out.pairs_mean > 0.0) out.ns_per_pair = out.frame_ns.median / *out.pairs_mean;
     const measure::WorstFrame worst = measure::worst_frame(each, seed_, launch_count());
-    out.worst = {first_.frames[worst.place], worst.ns, worst.ci95, {}};
-    if (!first_.pairs.empty()) out.worst.pairs = first_.pairs[worst.place];
+    out.worst = {first_.frames[worst.index], worst.ns, worst.ci95, {}};
+    if (!first_.pairs.empty()) out.worst.pairs = first_.pairs[worst.index];
     return out;
   }
 
@@ -292,9 +292,9 @@ class MethodTimes {
 
 // What a case is compared with: the group's first one in the same storage; a structure of a method's own with the first
 // of all.
-std::size_t reference_of(const GroupPlan& group, std::size_t place) {
-  const auto is_alike = [&](const CasePlan& one) { return one.storage == group.cases[place].storage; };
-  if (!group.cases[place].storage) return 0;
+std::size_t reference_of(const GroupPlan& group, std::size_t index) {
+  const auto is_alike = [&](const CasePlan& case_plan) { return case_plan.storage == group.cases[index].storage; };
+  if (!group.cases[index].storage) return 0;
   return static_cast<std::size_t>(std::find_if(group.cases.begin(), group.cases.end(), is_alike) - group.cases.begin());
 }
 
@@ -340,9 +340,9 @@ GroupSamples measure_launch(const config::Config& config, const GroupPlan& group
   const LoadWatch watch;
   for (int round = 0; round < request.rounds; ++round) {
     on_round(round);
-    for (const std::size_t place : method_order(tracks.size(), config.seed, request.launch, round)) {
+    for (const std::size_t method : method_order(tracks.size(), config.seed, request.launch, round)) {
       if (stop) return {};
-      TimingTrack& track = *tracks[place];
+      TimingTrack& track = *tracks[method];
       track.warm_round();
       if (!config.timing.cold) track.warm_frames();
       if (round < cold) track.cold_frames(sweep);
@@ -362,15 +362,15 @@ std::vector<TimingResult> timing_results(const config::Config& config, const Gro
   for (std::size_t i = 0; i < methods.size(); ++i) {
     const MethodTimes times(launches, i, config.seed);
     std::size_t store = 0;
-    for (std::size_t place = 0; place < timings.size(); ++place)
-      if (group.cases[place].method() == methods[i]) timings[place] = times.of_case(store++);
+    for (std::size_t index = 0; index < timings.size(); ++index)
+      if (group.cases[index].method() == methods[i]) timings[index] = times.of_case(store++);
   }
-  for (std::size_t place = 0; place < timings.size(); ++place) {
-    const std::size_t first = reference_of(group, place);
-    if (group.cases[first].method() == group.cases[place].method()) continue;
-    timings[place].against_first =
+  for (std::size_t index = 0; index < timings.size(); ++index) {
+    const std::size_t first = reference_of(group, index);
+    if (group.cases[first].method() == group.cases[index].method()) continue;
+    timings[index].against_first =
         Versus{method_label(config, group.cases[first].method()),
-               measure::paired_ratio(timings[place].frame_ns.samples, timings[first].frame_ns.samples, config.seed,
+               measure::paired_ratio(timings[index].frame_ns.samples, timings[first].frame_ns.samples, config.seed,
                                      launch_count)};
   }
   return timings;
