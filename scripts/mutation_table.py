@@ -659,7 +659,7 @@ MUTATIONS = [
              "    if (orthographic_) return is_within;\n", "",
              "assign.BallCellsAtOnce.of_orthographic_views_touch_sides_exactly_however_depths_are_rounded",
              "touches in orthographic views take exact numbers where the camera is turned"),
-    Mutation("details-pair-told-twice", "measure/details.cpp",
+    Mutation("details-pair-told-twice", "measure/cell_details.cpp",
              "truth[t] <= reported[r]);", "truth[t] < reported[r]);",
              "measure.Details.each_pair_is_marked_as_both_false_positive_or_false_negative",
              "the view of cells shows right lights as wrong ones and as lost ones"),

@@ -7,7 +7,7 @@
 #include "cli/stop.h"
 #include "cli/temporary_folder.h"
 #include "core/error.h"
-#include "report/json.h"
+#include "report/result_json.h"
 #include "run/served_cases.h"
 
 namespace clusterbench::cli {

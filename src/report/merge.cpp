@@ -4,8 +4,8 @@
 #include <map>
 
 #include "core/error.h"
-#include "report/json.h"
 #include "report/machine.h"
+#include "report/result_json.h"
 
 namespace clusterbench::report {
 namespace {

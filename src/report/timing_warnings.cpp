@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "core/text.h"
-#include "measure/timing.h"
+#include "measure/time_statistics.h"
 #include "report/columns.h"
 
 namespace clusterbench::report {

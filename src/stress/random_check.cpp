@@ -14,7 +14,7 @@
 #include "measure/truth.h"
 #include "stress/random_search.h"
 #include "stress/random_setting.h"
-#include "stress/stress.h"
+#include "stress/stress_run.h"
 
 namespace clusterbench::stress {
 namespace {

@@ -4,7 +4,7 @@
 #include "config/grid_json.h"
 #include "core/error.h"
 #include "scene/write_gltf.h"
-#include "stress/stress.h"
+#include "stress/stress_run.h"
 
 namespace clusterbench::stress {
 namespace {

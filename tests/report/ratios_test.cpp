@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "report/json.h"
 #include "report/result_by_hand.h"
+#include "report/result_json.h"
 #include "report/table.h"
 #include "report/timing_warnings.h"
 

@@ -9,7 +9,7 @@
 #include "run/runner.h"
 #include "scene/write_gltf.h"
 #include "stress/random_setting.h"
-#include "stress/stress.h"
+#include "stress/stress_run.h"
 
 namespace clusterbench::stress {
 namespace {

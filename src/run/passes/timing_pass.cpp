@@ -1,7 +1,6 @@
 #include "run/passes/timing_pass.h"
 
 #include <algorithm>
-#include <cstring>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -11,34 +10,12 @@
 #include "core/random.h"
 #include "run/cache_sweep.h"
 #include "run/counters/machine_load.h"
+#include "run/passes/copy_floor.h"
 #include "run/repeated.h"
 #include "run/timed_work.h"
 
 namespace clusterbench::run {
 namespace {
-
-// Memory traffic that no way of assigning can avoid: what each frame leaves, headers and indices, copied once. Each
-// frame has buffers of its own, one for headers and one for indices, as each frame's lists have: one pair of buffers
-// for all would stay in the cache where the lists of a long path do not.
-class WriteFloor {
- public:
-  void add_frame(const assign::StructureUse& use) {
-    for (const std::uint64_t bytes : {use.header_bytes, use.index_bytes})
-      if (bytes > 0) copies_.push_back({std::vector<unsigned char>(bytes, 1), std::vector<unsigned char>(bytes, 2)});
-  }
-  void copy_once() {
-    for (Copy& copy : copies_) {
-      std::memcpy(copy.to.data(), copy.from.data(), copy.from.size());
-      asm volatile("" : : "r"(copy.to.data()) : "memory");  // the copies are wanted for themselves
-    }
-  }
-
- private:
-  struct Copy {
-    std::vector<unsigned char> from, to;
-  };
-  std::vector<Copy> copies_;
-};
 
 EachFrame sums(EachFrame left, const EachFrame& right) {
   std::transform(left.begin(), left.end(), right.begin(), left.begin(), std::plus<>());
@@ -59,7 +36,7 @@ class TimingTrack {
     if (work_.converts()) samples_.stores.resize(work_.case_indices().size());
     for (std::size_t store = 0; store < samples_.stores.size(); ++store)
       converts_.emplace_back([this, store] { work_.convert(store); }, min_ns_ / 10.0);
-    prepare_floor();
+    copy_floor_.emplace(work_);
   }
 
   void warm_round() {
@@ -135,27 +112,13 @@ class TimingTrack {
     return each;
   }
 
-  // What the tight storage writes for these lists; or the method's own structure, as it is.
-  void prepare_floor() {
-    const std::size_t frames = work_.frame_count();
-    for (std::size_t i = 0; i < std::min(frames, work_.structures().size()); ++i)
-      write_floor_.add_frame(work_.structures()[i]->use());
-    if (!work_.converts()) return;
-    const assign::StorageDescriptor& packed = *assign::find_storage("packed");
-    const auto storage = work_.storage(packed, assign::Params(packed.params));
-    for (std::size_t i = 0; i < frames; ++i) {
-      storage->store(work_.lists()[i]);
-      write_floor_.add_frame(storage->use());
-    }
-  }
-
   double min_ns_;
   TimedWork work_;
   MethodSamples samples_;
   std::deque<Repeated> converts_;  // of each storage
-  WriteFloor write_floor_;
+  std::optional<CopyFloor> copy_floor_;
   Repeated assign_{[this] { work_.assign(); }, min_ns_};
-  Repeated floor_{[this] { write_floor_.copy_once(); }, min_ns_ / 10.0};
+  Repeated floor_{[this] { copy_floor_->copy_once(); }, min_ns_ / 10.0};
 };
 
 // The frames of the means, and then the fullest ones of the methods that are not among them.

@@ -1,4 +1,4 @@
-#include "measure/details.h"
+#include "measure/cell_details.h"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
-#include "report/baseline.h"
+#include "report/baseline_rounds.h"
 
 #include <algorithm>
 
-#include "measure/change.h"
-#include "report/json.h"
+#include "measure/time_change.h"
+#include "report/result_json.h"
 
 namespace clusterbench::report {
 namespace {

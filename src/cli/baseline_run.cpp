@@ -1,4 +1,4 @@
-#include "cli/baseline.h"
+#include "cli/baseline_run.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "cli/rounds_protocol.h"
 #include "cli/temporary_folder.h"
 #include "core/error.h"
-#include "report/baseline.h"
+#include "report/baseline_rounds.h"
 
 namespace clusterbench::cli {
 namespace {

@@ -1,4 +1,4 @@
-#include "cli/exports.h"
+#include "cli/export_files.h"
 
 #include <fstream>
 

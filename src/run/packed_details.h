@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "grid/grid.h"
-#include "measure/details.h"
+#include "measure/cell_details.h"
 #include "view/frame.h"
 
 namespace clusterbench::run {

@@ -1,4 +1,4 @@
-#include "stress/stress.h"
+#include "stress/stress_run.h"
 
 #include <algorithm>
 #include <mutex>
@@ -6,7 +6,7 @@
 #include "config/config.h"
 #include "core/error.h"
 #include "core/parallel.h"
-#include "measure/error.h"
+#include "measure/list_errors.h"
 
 namespace clusterbench::stress {
 namespace {

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
-#include "stress/stress.h"
+#include "stress/stress_run.h"
 
 namespace clusterbench::report {
 

@@ -1,11 +1,11 @@
-#include "measure/timing.h"
+#include "measure/time_statistics.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "core/random.h"
-#include "measure/change.h"
+#include "measure/time_change.h"
 
 namespace clusterbench::measure {
 namespace {

@@ -1,4 +1,4 @@
-#include "measure/timing.h"
+#include "measure/time_statistics.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "measure/error.h"
+#include "measure/list_errors.h"
 
 #include <gtest/gtest.h>
 

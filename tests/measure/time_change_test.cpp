@@ -1,4 +1,4 @@
-#include "measure/change.h"
+#include "measure/time_change.h"
 
 #include <gtest/gtest.h>
 

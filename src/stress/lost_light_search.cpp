@@ -16,7 +16,7 @@
 #include "geom/shapes/verdict.h"
 #include "measure/truth.h"
 #include "stress/contact.h"
-#include "stress/stress.h"
+#include "stress/stress_run.h"
 
 namespace clusterbench::stress {
 namespace {

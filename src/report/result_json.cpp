@@ -1,4 +1,4 @@
-#include "report/json.h"
+#include "report/result_json.h"
 
 #include <cmath>
 #include <cstdio>

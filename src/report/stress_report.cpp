@@ -1,4 +1,4 @@
-#include "report/stress.h"
+#include "report/stress_report.h"
 
 #include <algorithm>
 #include <cstdio>

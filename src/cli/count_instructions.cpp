@@ -1,4 +1,4 @@
-#include "cli/count.h"
+#include "cli/count_instructions.h"
 
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-#include "run/details.h"
+#include "run/packed_details.h"
 
 #include <algorithm>
 #include <iterator>
