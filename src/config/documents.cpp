@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::json;
 
 Json to_json(const assign::ParamValue& value) {
-  return std::visit([](const auto& held) { return Json(held); }, value);
+  return std::visit([](const auto& number) { return Json(number); }, value);
 }
 
 Json param_schema(const assign::ParamSpec& param) {

@@ -246,7 +246,7 @@ class TruthFinder {
     ++(search.decider.exact_decisions() == before ? search.found.filter_decided : search.found.exact_decided);
   }
 
-  // A spot's distances are dear: found only where a shell needs them.
+  // A spot's distances are costly: found only where a shell needs them.
   void settle_spot_tile(std::uint32_t tile, Search& search) const {
     std::optional<SpotTile> found;
     each_shell(tile, search, [&](std::uint32_t cell, double near, double far) {

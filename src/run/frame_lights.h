@@ -14,7 +14,7 @@ class FrameLights {
   FrameLights(const std::vector<config::PrecisionRequest>& precisions, const view::LightArrays& lights);
 
   // `precision`: index in the list. What its assigners get.
-  const view::LightArrays& seen(std::size_t precision) const;
+  const view::LightArrays& in_precision(std::size_t precision) const;
   // What they would get without inflation.
   const view::PackedLights& packed(std::size_t precision) const { return lights_[precision].packed; }
 

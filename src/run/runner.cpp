@@ -20,7 +20,7 @@ namespace {
 nlohmann::json params_json(const assign::Params& params) {
   nlohmann::json out = nlohmann::json::object();
   for (const auto& [name, value] : params.values())
-    out[name] = std::visit([](const auto& held) { return nlohmann::json(held); }, value);
+    out[name] = std::visit([](const auto& number) { return nlohmann::json(number); }, value);
   return out;
 }
 

@@ -33,9 +33,9 @@ class ListsOfFrames {
     const view::Frame frame = path_.frame(index);
     const bool is_new_grid = grids_.update(path_, frame);
     const FrameLights lights(config_.precisions, view::lights_in(frame, grid::space_of(grids_.grid(), frame)));
-    const view::LightArrays& seen = lights.seen(precision_);
-    if (is_new_grid) run_.build(grids_.grid(), assign::kinds_of(seen));
-    run_.assign({frame, seen});
+    const view::LightArrays& packed = lights.in_precision(precision_);
+    if (is_new_grid) run_.build(grids_.grid(), assign::kinds_of(packed));
+    run_.assign({frame, packed});
     if (run_.has_cells()) return run_.cell_lists();
     ask_at_samples(frame);
     return lists_at_samples_;

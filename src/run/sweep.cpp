@@ -55,7 +55,7 @@ std::vector<SceneData> load_scenes(const config::Config& config) {
 Json identity(const config::MethodRequest& method) {
   Json params = Json::object();
   for (const auto& [name, value] : method.params.values())
-    params[name] = std::visit([](const auto& held) { return Json(held); }, value);
+    params[name] = std::visit([](const auto& number) { return Json(number); }, value);
   return {{"name", method.name}, {"params", params}};
 }
 

@@ -69,7 +69,7 @@ void TimedWork::build() {
 void TimedWork::build_for(const TimedFrame& frame) {
   assign::Assigner& assigner = lists_assigner_ ? static_cast<assign::Assigner&>(*lists_assigner_)
                                                : static_cast<assign::Assigner&>(*structure_assigner_);
-  assigner.build(*frame.grid, assign::kinds_of(frame.lights.seen(precision_)));
+  assigner.build(*frame.grid, assign::kinds_of(frame.lights.in_precision(precision_)));
   built_for_ = frame.grid.get();
 }
 
@@ -85,7 +85,7 @@ void TimedWork::prepare_frame(std::size_t frame) {
 void TimedWork::assign_frame(std::size_t frame) {
   const TimedFrame& now = at(frame);
   if (now.is_grid_new || now.grid.get() != built_for_) build_for(now);
-  const assign::FrameInput input{now.frame, now.lights.seen(precision_)};
+  const assign::FrameInput input{now.frame, now.lights.in_precision(precision_)};
   if (lists_assigner_)
     lists_assigner_->assign(input, lists_[frame]);
   else
@@ -113,7 +113,7 @@ std::unique_ptr<assign::Storage> TimedWork::storage(const assign::StorageDescrip
                                                     const assign::Params& params) const {
   const TimedFrame& frame = frames_.front();
   auto made = storage.make(params);
-  made->start(*frame.grid, frame.lights.seen(precision_));
+  made->start(*frame.grid, frame.lights.in_precision(precision_));
   return made;
 }
 

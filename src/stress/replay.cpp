@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 OrderedJson assigner_json(const StressMethod& method) {
   OrderedJson assigner{{"name", method.assigner->name}};
   for (const auto& [key, value] : method.params.values())
-    std::visit([&, &name_of = key](const auto& held) { assigner[name_of] = held; }, value);
+    std::visit([&, &name_of = key](const auto& number) { assigner[name_of] = number; }, value);
   return assigner;
 }
 

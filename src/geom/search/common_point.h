@@ -90,16 +90,15 @@ Witness<Real> find_witness(const Volume<Real>& volume, const std::array<HalfSpac
   return best;
 }
 
-// Does less than all of a number's digits show that p is before a face, by far more than the tolerance? That spares the
-// rest.
+// A cheaper test with fewer digits: yes only where p lies beyond a face by far more than the tolerance.
 template <class Real>
-struct Glance {
-  static bool is_before(const HalfSpace<Real>&, const Point3<Real>&) { return false; }
+struct QuickReject {
+  static bool is_beyond_face(const HalfSpace<Real>&, const Point3<Real>&) { return false; }
 };
 
 template <>
-struct Glance<DoubleDouble> {
-  static bool is_before(const HalfSpace<DoubleDouble>& face, const Point3<DoubleDouble>& p) {
+struct QuickReject<DoubleDouble> {
+  static bool is_beyond_face(const HalfSpace<DoubleDouble>& face, const Point3<DoubleDouble>& p) {
     const double x = face.normal.x.hi * p.x.hi, y = face.normal.y.hi * p.y.hi, z = face.normal.z.hi * p.z.hi;
     const double size = std::abs(face.offset.hi) + std::abs(x) + std::abs(y) + std::abs(z);
     return face.offset.hi - (x + y + z) < -0x1p-30 * size;
@@ -111,7 +110,7 @@ template <class Real, std::size_t N>
 bool is_within(const Volume<Real>& volume, const std::array<HalfSpace<Real>, N>& faces, const Point3<Real>& p,
                const Real& tolerance) {
   for (const HalfSpace<Real>& face : faces)
-    if (Glance<Real>::is_before(face, p)) return false;
+    if (QuickReject<Real>::is_beyond_face(face, p)) return false;
   const Point3<Real> v = p - volume.apex;
   const Real reach = volume.range + tolerance;
   if (dot(v, v) > reach * reach) return false;

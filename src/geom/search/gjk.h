@@ -1,6 +1,7 @@
 #pragma once
 // The shortest way between two convex sets, in doubles, after Gilbert, Johnson and Keerthi 1988, "A fast procedure for
-// computing the distance between complex objects in three-dimensional space". A find, not a proof.
+// computing the distance between complex objects in three-dimensional space". What it returns is a proposal, not a
+// proof.
 
 #include <array>
 #include <limits>

@@ -37,7 +37,7 @@ class MethodMeter {
   }
 
   void add(const FrameAtHand& now, const grid::Grid& grid) {
-    const view::LightArrays& lights = now.lights.seen(measures_.method.precision);
+    const view::LightArrays& lights = now.lights.in_precision(measures_.method.precision);
     if (now.is_new_grid) run_.build(grid, assign::kinds_of(lights));
     run_.assign({now.frame, lights});
     measures_.tests_done += run_.tests_done();

@@ -23,9 +23,9 @@ class StabilityTrack {
 
   void add(const view::Frame& frame, const grid::Grid& grid, bool is_new_grid, const FrameLights& lights) {
     if (!run_.has_cells()) return;
-    const view::LightArrays& seen = lights.seen(method_.precision);
-    if (is_new_grid) run_.build(grid, assign::kinds_of(seen));
-    run_.assign({frame, seen});
+    const view::LightArrays& packed = lights.in_precision(method_.precision);
+    if (is_new_grid) run_.build(grid, assign::kinds_of(packed));
+    run_.assign({frame, packed});
     meter_.add(run_.cell_lists());
   }
 

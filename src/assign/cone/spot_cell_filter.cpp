@@ -1,4 +1,4 @@
-#include "assign/cone/spot_cells.h"
+#include "assign/cone/spot_cell_filter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,11 +7,11 @@
 #include "core/memory.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "assign/cone/spot_cells.cpp"
+#define HWY_TARGET_INCLUDE "assign/cone/spot_cell_filter.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
 #include <hwy/highway.h>
 
-#include "assign/cone/spot_cells-inl.h"
+#include "assign/cone/spot_cell_filter-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign {

@@ -1,4 +1,4 @@
-#include "assign/cone/spot_spheres.h"
+#include "assign/cone/spot_bounding_spheres.h"
 
 #include <algorithm>
 #include <limits>
@@ -6,7 +6,7 @@
 #include "assign/simd/lanes.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "assign/cone/spot_spheres.cpp"
+#define HWY_TARGET_INCLUDE "assign/cone/spot_bounding_spheres.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
 #include <hwy/highway.h>
 

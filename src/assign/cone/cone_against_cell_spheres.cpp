@@ -1,4 +1,4 @@
-#include "assign/cone/cone_spheres.h"
+#include "assign/cone/cone_against_cell_spheres.h"
 
 #include <cmath>
 #include <limits>
@@ -8,7 +8,7 @@
 #include "core/memory.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "assign/cone/cone_spheres.cpp"
+#define HWY_TARGET_INCLUDE "assign/cone/cone_against_cell_spheres.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
 #include <hwy/highway.h>
 
