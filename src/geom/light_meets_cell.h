@@ -1,6 +1,7 @@
 #pragma once
 // Do a light's volume and a cell share a point? Touching counts. The one question that geom answers; its README.md says
 // in which steps.
+
 #include "geom/shapes/cell.h"
 #include "geom/shapes/light_volume.h"
 #include "geom/shapes/verdict.h"

@@ -1,6 +1,7 @@
 #pragma once
 // The filter: does a light's volume share a point with a cell, in double precision with a tolerance? Yes and no only
 // where that is certain.
+
 #include "geom/shapes/cell.h"
 #include "geom/shapes/light_volume.h"
 #include "geom/shapes/verdict.h"

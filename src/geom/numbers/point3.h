@@ -1,5 +1,6 @@
 #pragma once
 // Points and vectors over any number type.
+
 #include <cmath>
 
 #include "geom/numbers/precision.h"

@@ -1,5 +1,6 @@
 #pragma once
 // Polynomials over any number type, and their roots in [-1, 1].
+
 #include <algorithm>
 #include <array>
 #include <cmath>

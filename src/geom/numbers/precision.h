@@ -1,5 +1,6 @@
 #pragma once
 // What the algorithms ask of a number type: how it takes square roots, and what it can tell apart.
+
 #include <cmath>
 
 namespace clusterbench::geom {

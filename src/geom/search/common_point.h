@@ -1,6 +1,7 @@
 #pragma once
 // Search for a point that a light's volume and a cell share, in any number type. It may miss one that exists: a point
 // found counts once its margin, or a certificate (geom/certificate), says so.
+
 #include <algorithm>
 #include <array>
 #include <limits>

@@ -1,6 +1,7 @@
 #pragma once
 // Search for the least and the greatest distance from the eye over a light's volume in a tile's pyramid, in any number
 // type. What it finds proves nothing by itself.
+
 #include "geom/numbers/point3.h"
 #include "geom/numbers/precision.h"
 #include "geom/search/common_point.h"

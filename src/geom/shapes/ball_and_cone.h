@@ -1,5 +1,6 @@
 #pragma once
 // What lights are in the space of a grid, in single precision. Lengths in metres, angles in radians.
+
 #include "geom/shapes/vec.h"
 
 namespace clusterbench::geom {

@@ -1,6 +1,7 @@
 #pragma once
 // The shapes that cells are. Lengths in metres. Cells are closed sets bounded by the given single-precision numbers,
 // taken exactly.
+
 #include <variant>
 
 #include "geom/shapes/vec.h"

@@ -1,5 +1,6 @@
 #pragma once
 // Cells bounded by planes, and pyramids through the eye, over any number type.
+
 #include <array>
 
 #include "geom/numbers/point3.h"

@@ -1,5 +1,6 @@
 #pragma once
 // Boxes, balls and planes around cells and spots, in single precision, rounded outward.
+
 #include "geom/shapes/ball_and_cone.h"
 #include "geom/shapes/cell.h"
 #include "geom/single_precision/plane.h"

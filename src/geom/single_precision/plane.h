@@ -1,5 +1,6 @@
 #pragma once
 // A plane in single precision.
+
 #include <cmath>
 
 #include "geom/shapes/vec.h"
