@@ -1,6 +1,6 @@
 // One decision whether a ball meets a cell, by geom::BallDecider: anywhere (doubles tell), within an ulp of touching,
 // the camera turned (whole numbers must tell), and exact touches on a lattice. `exact`: the share that doubles leave
-// open; `worst_ns`: the longest of all decisions, each the shortest of several tries.
+// uncertain; `worst_ns`: the longest of all decisions, each the shortest of several tries.
 
 #include <benchmark/benchmark.h>
 
@@ -13,7 +13,7 @@
 
 #include "benchmarks.h"
 #include "core/random.h"
-#include "geom/ball.h"
+#include "geom/ball/ball_decider.h"
 
 namespace clusterbench {
 namespace {
@@ -26,12 +26,13 @@ struct Question {
 
 constexpr int k_questions = 2000;
 
-geom::Cell cell_of(const std::string& kind, const geom::FrustumPiece& piece) {
-  if (kind == "shell") return geom::ShellPiece{piece.x0, piece.x1, piece.y0, piece.y1, piece.depth0, piece.depth1};
+geom::Cell cell_of(const std::string& kind, const geom::FrustumCell& frustum) {
+  if (kind == "shell")
+    return geom::ShellCell{frustum.x0, frustum.x1, frustum.y0, frustum.y1, frustum.depth0, frustum.depth1};
   if (kind == "box")
-    return geom::Box{{8.0f * piece.x0, 8.0f * piece.y0, -piece.depth1},
-                     {8.0f * piece.x1, 8.0f * piece.y1, -piece.depth0}};
-  return piece;
+    return geom::Box{{8.0f * frustum.x0, 8.0f * frustum.y0, -frustum.depth1},
+                     {8.0f * frustum.x1, 8.0f * frustum.y1, -frustum.depth0}};
+  return frustum;
 }
 
 bool meets(const Question& question) {
@@ -53,11 +54,11 @@ std::vector<Question> random_questions(const std::string& kind, bool nudged) {
   std::vector<Question> questions;
   const auto f = [&](double lo, double hi) { return static_cast<float>(random.between(lo, hi)); };
   for (int i = 0; i < k_questions; ++i) {
-    geom::FrustumPiece piece{f(-1, 0.8), 0.0f, f(-1, 0.8), 0.0f, f(0.1, 50), 0.0f, false};
-    piece.x1 = piece.x0 + f(0.01, 0.3);
-    piece.y1 = piece.y0 + f(0.01, 0.3);
-    piece.depth1 = piece.depth0 + f(0.1, 10);
-    Question question{{}, random.between(0.5, 20), cell_of(kind, piece)};
+    geom::FrustumCell frustum{f(-1, 0.8), 0.0f, f(-1, 0.8), 0.0f, f(0.1, 50), 0.0f, false};
+    frustum.x1 = frustum.x0 + f(0.01, 0.3);
+    frustum.y1 = frustum.y0 + f(0.01, 0.3);
+    frustum.depth1 = frustum.depth0 + f(0.1, 10);
+    Question question{{}, random.between(0.5, 20), cell_of(kind, frustum)};
     question.center.position = {random.between(-20, 20), random.between(-20, 20), random.between(-60, 5)};
     const double turn = random.between(0, 6);
     question.center.rotation[0][0] = question.center.rotation[2][2] = std::cos(turn);
@@ -74,9 +75,9 @@ std::vector<Question> lattice_questions(const std::string& kind) {
   std::vector<Question> questions;
   for (int i = 0; i < k_questions; ++i) {
     const auto near = static_cast<float>(1 + i % 7);
-    const geom::FrustumPiece piece{0.0f, 0.25f, -0.25f, 0.0f, near, near + 4.0f, false};
+    const geom::FrustumCell frustum{0.0f, 0.25f, -0.25f, 0.0f, near, near + 4.0f, false};
     const double radius = 1 + i % 5;
-    Question question{{}, radius, cell_of(kind, piece)};
+    Question question{{}, radius, cell_of(kind, frustum)};
     question.center.position =
         i % 2 == 0 ? Vec3d(-radius, -0.125 * (near + 2.0), -(near + 2.0)) : Vec3d(0.0, 0.0, radius - near);
     questions.push_back(question);
@@ -118,7 +119,7 @@ void decide(benchmark::State& state, const std::vector<Question>& questions) {
 }  // namespace
 
 void register_decisions() {
-  for (const std::string kind : {"piece", "box", "shell"}) {
+  for (const std::string kind : {"frustum", "box", "shell"}) {
     const auto add = [&](const std::string& what, std::vector<Question> questions) {
       benchmark::RegisterBenchmark(
           ("decide/ball/" + kind + "/" + what).c_str(),

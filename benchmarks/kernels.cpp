@@ -9,8 +9,10 @@
 #include "assign/contract/lists.h"
 #include "assign/contract/storage.h"
 #include "core/random.h"
-#include "geom/predicates.h"
-#include "geom/tangents.h"
+#include "geom/projection/disk_tangents.h"
+#include "geom/single_precision/bounding_volumes.h"
+#include "geom/single_precision/plane.h"
+#include "geom/single_precision/touch_tests.h"
 
 namespace clusterbench {
 namespace {
@@ -25,7 +27,7 @@ float between(SplitMix64& random, double lo, double hi) {
 struct Inputs {
   std::vector<geom::Ball> balls;
   std::vector<geom::SphericalCone> cones;
-  std::vector<geom::FrustumPiece> cells;
+  std::vector<geom::FrustumCell> cells;
   std::vector<geom::Box> boxes;
   std::vector<geom::Ball> cell_balls;
   std::vector<geom::Plane> planes;  // six per cell
@@ -38,7 +40,7 @@ geom::SphericalCone random_cone(SplitMix64& random, const geom::Ball& ball) {
           std::sin(angle)};
 }
 
-geom::FrustumPiece random_cell(SplitMix64& random) {
+geom::FrustumCell random_cell(SplitMix64& random) {
   const float x = between(random, -1, 0.9), y = between(random, -0.6, 0.5), depth = between(random, 1, 60);
   return {x, x + 0.06f, y, y + 0.07f, depth, depth * 1.5f, false};
 }
@@ -48,7 +50,7 @@ Inputs random_inputs() {
   SplitMix64 random(1);
   Inputs inputs;
   for (std::size_t i = 0; i < k_inputs; ++i) {
-    const geom::FrustumPiece cell = random_cell(random);
+    const geom::FrustumCell cell = random_cell(random);
     const geom::Ball around = geom::ball_around(cell);
     const float reach = around.radius + between(random, 0.5, 15);
     const Vec3f offset{between(random, -1, 1), between(random, -1, 1), between(random, -1, 1)};

@@ -11,7 +11,7 @@
 #include "assign/contract/assigner.h"
 #include "assign/contract/assigner_run.h"
 #include "benchmarks.h"
-#include "geom/predicates.h"
+#include "geom/single_precision/bounding_volumes.h"
 #include "setting.h"
 
 namespace clusterbench {
@@ -62,7 +62,7 @@ void assign_frame(benchmark::State& state, const Setting& setting, const assign:
 void brute_frame(benchmark::State& state, const Setting& setting) {
   std::vector<geom::Box> boxes;
   for (std::uint32_t cell = 0; cell < setting.grid.cell_count(); ++cell)
-    boxes.push_back(geom::box_around(std::get<geom::FrustumPiece>(setting.grid.cell(cell))));
+    boxes.push_back(geom::box_around(std::get<geom::FrustumCell>(setting.grid.cell(cell))));
   const view::LightArrays& lights = setting.lights;
   std::vector<std::uint32_t> begin(boxes.size() + 1), list(1u << 20);
   std::uint32_t pairs = 0;

@@ -18,9 +18,9 @@
 #include "assign/bounds/bounds_rows.h"
 #include "assign/box_grid/box_levels.h"
 #include "assign/box_grid/box_ranges.h"
-#include "assign/cone/cone_spheres.h"
+#include "assign/cone/cone_against_cell_spheres.h"
+#include "assign/cone/spot_bounding_spheres.h"
 #include "assign/cone/spot_rows.h"
-#include "assign/cone/spot_spheres.h"
 #include "assign/contract/assigner.h"
 #include "assign/cull/slice_bins.h"
 #include "assign/distance/shell_rows.h"
@@ -30,7 +30,7 @@
 #include "assign/rows/slice_rows.h"
 #include "assign/storages/list_forms.h"
 #include "benchmarks.h"
-#include "geom/predicates.h"
+#include "geom/single_precision/bounding_volumes.h"
 #include "setting.h"
 
 namespace clusterbench {
@@ -315,7 +315,7 @@ void find_touched_cells(State& state) {
   const Vec3i size = setting.grid.cells();
   std::vector<geom::Ball> balls;
   for (std::uint32_t cell = 0; cell < setting.grid.cell_count(); ++cell)
-    balls.push_back(geom::ball_around(std::get<geom::FrustumPiece>(setting.grid.cell(cell))));
+    balls.push_back(geom::ball_around(std::get<geom::FrustumCell>(setting.grid.cell(cell))));
   const assign::CellBalls cells{balls};
   const auto columns = static_cast<std::uint32_t>(std::min(size.x, 64)), row = static_cast<std::uint32_t>(size.y / 2);
   std::vector<assign::CellRun> runs;

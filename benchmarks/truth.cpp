@@ -9,7 +9,9 @@
 
 #include "benchmarks.h"
 #include "core/random.h"
-#include "geom/meets.h"
+#include "geom/filter/light_filter.h"
+#include "geom/light_meets_cell.h"
+#include "geom/shapes/verdict.h"
 #include "measure/truth.h"
 #include "setting.h"
 
@@ -33,7 +35,7 @@ void find(benchmark::State& state, const std::string& name, grid::Kind kind) {
   state.counters["pairs"] = pairs;
 }
 
-// Spots that the filter leaves open against cells, on a lattice or moved off it by roundoffs.
+// Spots that the filter leaves uncertain against cells, on a lattice or moved off it by roundoffs.
 std::vector<std::pair<geom::LightVolume, geom::Cell>> open_spots(const std::string& kind, bool on_lattice) {
   SplitMix64 random(5);
   const auto whole = [&](int lo, int hi) { return lo + static_cast<double>(random.below(std::uint64_t(hi - lo + 1))); };
@@ -49,10 +51,10 @@ std::vector<std::pair<geom::LightVolume, geom::Cell>> open_spots(const std::stri
     if (!on_lattice) light.apex.position += 0x1p-45 * Vec3d(random.unit(), random.unit(), random.unit());
     const auto x = static_cast<float>(0.25 * whole(-4, 3)), y = static_cast<float>(0.25 * whole(-4, 3));
     const auto near = static_cast<float>(whole(0, 6)), far = near + static_cast<float>(whole(1, 6));
-    geom::Cell cell = geom::FrustumPiece{x, x + 0.5f, y, y + 0.5f, near, far, false};
-    if (kind == "shells") cell = geom::ShellPiece{x, x + 0.5f, y, y + 0.5f, near, far};
+    geom::Cell cell = geom::FrustumCell{x, x + 0.5f, y, y + 0.5f, near, far, false};
+    if (kind == "shells") cell = geom::ShellCell{x, x + 0.5f, y, y + 0.5f, near, far};
     if (kind == "boxes") cell = geom::Box{{8 * x, 8 * y, -far}, {8 * x + 4, 8 * y + 4, -near}};
-    if (geom::filter_meets(light, cell) == geom::Verdict::open) found.emplace_back(light, cell);
+    if (geom::filter_meets(light, cell) == geom::Verdict::uncertain) found.emplace_back(light, cell);
   }
   return found;
 }

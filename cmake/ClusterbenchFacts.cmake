@@ -1,9 +1,9 @@
-# clusterbench_facts(TARGET): what src/run/facts.cpp says of the build. The commit is read anew at every build, so that it is
+# clusterbench_facts(TARGET): what src/run/tool_facts.cpp says of the build. The commit is read anew at every build, so that it is
 # never that of an earlier configure.
 function(clusterbench_facts TARGET)
   string(TOUPPER "${CMAKE_BUILD_TYPE}" TYPE)
   string(STRIP "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${TYPE}} -ffp-contract=off" FLAGS)
-  set(LIBRARIES "")  # those whose headers facts.cpp cannot ask
+  set(LIBRARIES "")  # those whose headers tool_facts.cpp cannot ask
   foreach(NAME Boost TBB TinyGLTF)
     set(VERSION ${${NAME}_VERSION})
     if(VERSION)
@@ -11,8 +11,8 @@ function(clusterbench_facts TARGET)
       string(APPEND LIBRARIES "{\"${LOWER}\", \"${VERSION}\"},")
     endif()
   endforeach()
-  set_property(SOURCE src/run/facts.cpp PROPERTY COMPILE_DEFINITIONS "CLUSTERBENCH_LIBRARIES=${LIBRARIES}")
-  set_property(SOURCE src/run/facts.cpp APPEND PROPERTY COMPILE_DEFINITIONS
+  set_property(SOURCE src/run/tool_facts.cpp PROPERTY COMPILE_DEFINITIONS "CLUSTERBENCH_LIBRARIES=${LIBRARIES}")
+  set_property(SOURCE src/run/tool_facts.cpp APPEND PROPERTY COMPILE_DEFINITIONS
     "CLUSTERBENCH_VERSION=\"${PROJECT_VERSION}\";CLUSTERBENCH_FLAGS=\"${FLAGS}\";CLUSTERBENCH_BUILD_TYPE=\"${CMAKE_BUILD_TYPE}\"")
   set(FOLDER ${CMAKE_CURRENT_BINARY_DIR}/facts)
   add_custom_target(clusterbench_git_sha

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Checks the structure that CONTRIBUTING.md describes: scripts/check_layers.py [ROOT].
 
-Fails on an #include against the order of layers, or of the folders of src/assign, on a library included outside of its one home, on a file of
-src/assign/assigners without its line in registry.inc (or a line without its file), and on a circle of includes.
+Fails on an #include against the order of layers, or of the folders of src/geom and src/assign, on a library included
+outside of its one home, on a file of src/assign/assigners without its line in registry.inc (or a line without its file),
+and on a circle of includes.
 """
 import pathlib
 import re
@@ -11,9 +12,11 @@ import sys
 # A file includes only its own layer and those before it.
 LAYERS = ["core", "geom", "scene", "view", "depth", "grid", "assign", "measure", "config", "run", "stress", "report", "cli"]
 
-# The same for the folders of a layer; files beside them are bound by nothing. Those that stand side by side do not include
-# each other.
+# The same for the folders of a layer. Those that stand side by side do not include each other; files beside the folders
+# stand above all of them.
 FOLDERS = {
+    "geom": [["numbers"], ["shapes"], ["ball", "search", "certificate", "single_precision", "projection"], ["filter"],
+             ["spot"]],
     "assign": [["contract", "simd"], ["lists"], ["cull"], ["rows"], ["cone"], ["pipeline"], ["bounds"],
                ["box_grid", "distance", "exact", "storages"], ["assigners"]],
 }
@@ -60,7 +63,10 @@ def floor_of(layer, folder):
 def folder_faults(name, layer, folder, file_includes):
     for kind, included in file_includes:
         parts = included.split("/")
-        if kind != '"' or parts[0] != layer or len(parts) < 3 or parts[1] == folder:
+        if kind != '"' or parts[0] != layer or (len(parts) > 2 and parts[1] == folder):
+            continue
+        if len(parts) == 2:
+            yield f"{name}: includes {included}, but the files beside the folders of {layer} are above them"
             continue
         here, there = floor_of(layer, folder), floor_of(layer, parts[1])
         if here is None or there is None:

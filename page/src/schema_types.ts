@@ -331,7 +331,7 @@ export type Result = {
         count: number; // Below 0 where the truth has more [changes]
         ratio: number | null; // By the truth's; null where the truth has none [ratio]
       }; // Flickers of the method less those of the truth [over the steps]
-      undecided: number; // Pairs of the truth that 256 bits left open, over all steps; counted as true [pairs, over the steps]
+      undecided: number; // Pairs of the truth that exact arithmetic left undecided, over all steps; counted as true [pairs, over the steps]
     }; // Lists along a piece of the path in fine steps, beside the true lists; where the configuration asks for it
     precision?: {
       packing: "float32" | "half" | "unorm16"; // How lights are packed before the assigner sees them

@@ -32,7 +32,7 @@ Values count_ways() {
 }
 Values hard_cases() {
   Values values{Kind::words, {}};
-  for (const stress::HardCase& one : stress::hard_cases()) values.words.emplace_back(one.id);
+  for (const stress::HardCase& hard_case : stress::hard_cases()) values.words.emplace_back(hard_case.id);
   return values;
 }
 Values assigners() {

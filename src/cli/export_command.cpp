@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "cli/commands.h"
-#include "cli/exports.h"
+#include "cli/export_files.h"
 #include "cli/output.h"
 #include "report/result_file.h"
 

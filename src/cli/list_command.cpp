@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json to_json(const assign::ParamValue& value) {
-  return std::visit([](const auto& held) { return Json(held); }, value);
+  return std::visit([](const auto& number) { return Json(number); }, value);
 }
 
 Json to_json(const std::vector<assign::ParamSpec>& params) {

@@ -1,4 +1,4 @@
-// clusterbench: measures clustered light assignment. The only place that catches errors and decides the exit code.
+// clusterbench: measures clustered light assignment. The only file that catches errors and decides the exit code.
 
 #include <exception>
 

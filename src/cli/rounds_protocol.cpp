@@ -6,7 +6,7 @@
 
 #include "cli/stop.h"
 #include "core/error.h"
-#include "report/json.h"
+#include "report/result_json.h"
 #include "run/served_cases.h"
 
 namespace clusterbench::cli {
@@ -22,8 +22,8 @@ void put(const Json& answer) {
 
 Json digests(run::Program& cases, const std::string& id) {
   Json frames = Json::array();
-  for (const run::ListDigest& one : cases.list_digests(id))
-    frames.push_back({{"pairs", one.pairs}, {"sha256", one.sha256}});
+  for (const run::ListDigest& digest : cases.list_digests(id))
+    frames.push_back({{"pairs", digest.pairs}, {"sha256", digest.sha256}});
   return {{"frames", frames}};
 }
 

@@ -8,10 +8,10 @@
 #include <iostream>
 #include <memory>
 
-#include "cli/baseline.h"
+#include "cli/baseline_run.h"
 #include "cli/commands.h"
-#include "cli/count.h"
-#include "cli/exports.h"
+#include "cli/count_instructions.h"
+#include "cli/export_files.h"
 #include "cli/handover.h"
 #include "cli/launches.h"
 #include "cli/output.h"
@@ -23,8 +23,8 @@
 #include "core/text.h"
 #include "report/compare.h"
 #include "report/journal.h"
-#include "report/json.h"
 #include "report/limits.h"
+#include "report/result_json.h"
 #include "report/table.h"
 #include "report/warnings.h"
 #include "run/runner.h"

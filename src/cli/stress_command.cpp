@@ -12,7 +12,7 @@
 #include "cli/stop.h"
 #include "cli/terminal.h"
 #include "core/text.h"
-#include "report/stress.h"
+#include "report/stress_report.h"
 
 namespace clusterbench::cli {
 namespace {

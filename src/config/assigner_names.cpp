@@ -15,8 +15,9 @@ bool is_glob(const std::string& name) {
 std::vector<std::string> matching_assigners(const std::string& pattern, const std::string& file,
                                             const std::string& where) {
   std::vector<std::string> standard, naive;
-  for (const assign::AssignerDescriptor* one : assign::assigner_descriptors())
-    if (fnmatch(pattern.c_str(), one->name.c_str(), 0) == 0) (one->naive ? naive : standard).push_back(one->name);
+  for (const assign::AssignerDescriptor* descriptor : assign::assigner_descriptors())
+    if (fnmatch(pattern.c_str(), descriptor->name.c_str(), 0) == 0)
+      (descriptor->naive ? naive : standard).push_back(descriptor->name);
   if (standard.empty() && naive.empty())
     throw Error(file, where, "'" + pattern + "' matches none of " + joined(assign::assigner_names()));
   return standard.empty() ? naive : standard;

@@ -85,11 +85,11 @@ void add_scenes(const Json& scene, const std::string& pointer, const JsonText& t
   }
   const Json paths = single ? Json::array({scene["path"]}) : scene["paths"];
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    const std::string place = single ? pointer + "/path" : child_pointer(pointer + "/paths", i);
+    const std::string location = single ? pointer + "/path" : child_pointer(pointer + "/paths", i);
     const auto given = paths[i].get<std::string>();
     if (given.find("://") != std::string::npos)
-      throw Error(text.file, text.where(place), "'" + given + "' is a web address; a scene is a file here");
-    const fs::path path = expanded(given, text.file, text.where(place));
+      throw Error(text.file, text.where(location), "'" + given + "' is a web address; a scene is a file here");
+    const fs::path path = expanded(given, text.file, text.where(location));
     request.path = (folder_of(text.file) / path).lexically_normal();
     out.push_back(request);
   }
@@ -246,7 +246,7 @@ std::optional<StabilityRequest> stability_request(const Json& stability) {
                           stability["step_deg"].get<double>(), stability["window"].get<int>()};
 }
 
-// The place of a name among the first `count` values of an enumeration.
+// The index of a name among the first `count` values of an enumeration.
 template <class Named>
 Named named(const std::string& name, int count) {
   int i = 0;

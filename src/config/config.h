@@ -131,7 +131,7 @@ struct Config {
 };
 
 // Reads and checks a configuration file, and then what the command line's flags make of it. Throws Error with
-// "line:column /json/pointer" as its place, or with the flag.
+// "line:column /json/pointer" as its location, or with the flag.
 Config load_config(const std::filesystem::path& path, std::span<const FlagValue> flags = {});
 // The same from text; `file` is for messages and for relative paths.
 Config parse_config(const std::string& text, const std::filesystem::path& file, std::span<const FlagValue> flags = {});

@@ -305,7 +305,7 @@ void drop_unused_slice_keys(JsonText& text) {
     const Json& scheme = slices["scheme"];
     for (const auto& [key, property] : properties.items()) {
       const Json users = property.value("x-used-by", Json::array());
-      const auto is_user = [&](const Json& one) { return std::find(users.begin(), users.end(), one) != users.end(); };
+      const auto is_user = [&](const Json& name) { return std::find(users.begin(), users.end(), name) != users.end(); };
       const bool is_used = scheme.is_array() ? std::any_of(scheme.begin(), scheme.end(), is_user) : is_user(scheme);
       const std::string pointer = child_pointer("/grids", i) + "/slices/" + key;
       if (!users.empty() && !is_used && !text.flags.contains(pointer)) slices.erase(key);
@@ -318,7 +318,8 @@ void drop_unused_slice_keys(JsonText& text) {
 void keep_one_of_each_kind(Json& grids) {
   Json kept = Json::array();
   for (const Json& grid : grids)
-    if (std::none_of(kept.begin(), kept.end(), [&](const Json& one) { return one["kind"] == grid["kind"]; }))
+    if (std::none_of(kept.begin(), kept.end(),
+                     [&](const Json& kept_grid) { return kept_grid["kind"] == grid["kind"]; }))
       kept.push_back(grid);
   grids = kept;
 }

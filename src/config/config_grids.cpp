@@ -110,7 +110,7 @@ std::vector<Json> expand_all_axes(const Json& object, const std::set<std::string
 
 std::vector<grid::GridSpec> grid_specs(const Json& grids, const JsonText& text) {
   std::vector<grid::GridSpec> out;
-  std::vector<Json> seen;
+  std::vector<Json> earlier;
   for (std::size_t i = 0; i < grids.size(); ++i) {
     const std::string pointer = child_pointer("/grids", i);
     const std::vector<Json> singles = expanded(grids[i]);
@@ -119,9 +119,9 @@ std::vector<grid::GridSpec> grid_specs(const Json& grids, const JsonText& text) 
       if (singles[0].contains("cells")) check_boxes(singles[0], pointer, text);
     }
     for (const Json& single : singles) {
-      if (std::find(seen.begin(), seen.end(), single) != seen.end())
+      if (std::find(earlier.begin(), earlier.end(), single) != earlier.end())
         throw Error(text.file, text.where(pointer), "this grid stands here twice: " + single.dump());
-      seen.push_back(single);
+      earlier.push_back(single);
       out.push_back(grid_spec(single));
     }
   }

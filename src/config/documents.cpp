@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::json;
 
 Json to_json(const assign::ParamValue& value) {
-  return std::visit([](const auto& held) { return Json(held); }, value);
+  return std::visit([](const auto& number) { return Json(number); }, value);
 }
 
 Json param_schema(const assign::ParamSpec& param) {
@@ -85,8 +85,8 @@ void require_users(Json& object) {
   const Json standard = object["properties"][selector]["default"];
   for (const auto& [key, property] : object["properties"].items()) {
     if (!property.contains("x-used-by")) continue;
-    const Json one{{"enum", property["x-used-by"]}};
-    Json needed{{"properties", {{selector, {{"anyOf", {one, {{"type", "array"}, {"contains", one}}}}}}}}};
+    const Json a_user{{"enum", property["x-used-by"]}};
+    Json needed{{"properties", {{selector, {{"anyOf", {a_user, {{"type", "array"}, {"contains", a_user}}}}}}}}};
     const Json& users = property["x-used-by"];
     if (std::find(users.begin(), users.end(), standard) == users.end()) needed["required"] = Json::array({selector});
     object["dependencies"][key] = needed;

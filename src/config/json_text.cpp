@@ -12,22 +12,23 @@ namespace {
 
 constexpr int k_max_depth = 64;
 
-TextPlace place_of(std::string_view text, std::size_t offset) {
-  TextPlace place;
+TextPosition place_of(std::string_view text, std::size_t offset) {
+  TextPosition position;
   for (const char c : text.substr(0, std::min(offset, text.size()))) {
     const bool continues_character = (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
     if (c == '\n') {
-      ++place.line;
-      place.column = 1;
+      ++position.line;
+      position.column = 1;
     } else if (!continues_character) {
-      ++place.column;
+      ++position.column;
     }
   }
-  return place;
+  return position;
 }
 
-std::string to_text(TextPlace place, const std::string& pointer) {
-  return std::to_string(place.line) + ":" + std::to_string(place.column) + " " + (pointer.empty() ? "/" : pointer);
+std::string to_text(TextPosition position, const std::string& pointer) {
+  return std::to_string(position.line) + ":" + std::to_string(position.column) + " " +
+         (pointer.empty() ? "/" : pointer);
 }
 
 // Walks over text that the parser has accepted and notes where things stand.
@@ -54,12 +55,12 @@ class Scanner {
 
  private:
   // Places are asked for in ascending order, so each character is counted once.
-  TextPlace here() {
-    const TextPlace step = place_of(text_.substr(counted_), at_ - counted_);
-    place_.column = step.line == 1 ? place_.column + step.column - 1 : step.column;
-    place_.line += step.line - 1;
+  TextPosition here() {
+    const TextPosition step = place_of(text_.substr(counted_), at_ - counted_);
+    position_.column = step.line == 1 ? position_.column + step.column - 1 : step.column;
+    position_.line += step.line - 1;
     counted_ = at_;
-    return place_;
+    return position_;
   }
 
   void skip_blank() {
@@ -86,7 +87,7 @@ class Scanner {
   void object(const std::string& pointer, int depth) {
     ++at_;
     for (skip_blank(); text_[at_] != '}'; skip_blank()) {
-      const TextPlace key_place = here();
+      const TextPosition key_place = here();
       const std::string key = string();
       const std::string member = child_pointer(pointer, key);
       const auto [earlier, is_new] = out_.keys.emplace(member, key_place);
@@ -121,7 +122,7 @@ class Scanner {
   std::string_view text_;
   JsonText& out_;
   std::size_t at_ = 0, counted_ = 0;
-  TextPlace place_;
+  TextPosition position_;
 };
 
 // The library's message without its own prefix and position.
@@ -162,14 +163,14 @@ std::string JsonText::where(std::string pointer) const {
   if (!flags.empty()) return flag_of(pointer) + " " + pointer;
   while (!values.contains(pointer) && !pointer.empty()) pointer.resize(pointer.rfind('/'));
   const auto found = values.find(pointer);
-  return to_text(found == values.end() ? TextPlace{} : found->second, pointer);
+  return to_text(found == values.end() ? TextPosition{} : found->second, pointer);
 }
 
 std::string JsonText::flag_of(std::string pointer) const {
   for (; !pointer.empty(); pointer.resize(pointer.rfind('/')))
     if (const auto found = flags.find(pointer); found != flags.end()) return found->second;
   std::set<std::string> all;
-  for (const auto& [place, flag] : flags) all.insert(flag);
+  for (const auto& [key, flag] : flags) all.insert(flag);
   return joined(std::vector<std::string>(all.begin(), all.end()), " ");
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// JSON as a person writes it: with // and /* */ comments, and with the place of every key and value in the text, so
+// JSON as a person writes it: with // and /* */ comments, and with the location of every key and value in the text, so
 // that a message can say where. Trailing commas and duplicate keys are refused.
 
 #include <filesystem>
@@ -10,17 +10,18 @@
 namespace clusterbench::config {
 
 // Both count from 1; columns are characters, not bytes.
-struct TextPlace {
+struct TextPosition {
   int line = 1, column = 1;
-  friend bool operator==(const TextPlace&, const TextPlace&) = default;
+  friend bool operator==(const TextPosition&, const TextPosition&) = default;
 };
 
 struct JsonText {
   std::string file;  // for messages
   nlohmann::json value;
-  std::map<std::string, TextPlace> keys;     // JSON pointer of a member -> where its key stands
-  std::map<std::string, TextPlace> values;   // JSON pointer -> where its value begins; "" is the whole document
-  std::map<std::string, std::string> flags;  // JSON pointer -> the command line's flag that has set it; has no places
+  std::map<std::string, TextPosition> keys;    // JSON pointer of a member -> where its key stands
+  std::map<std::string, TextPosition> values;  // JSON pointer -> where its value begins; "" is the whole document
+  std::map<std::string, std::string>
+      flags;  // JSON pointer -> the command line's flag that has set it; has no locations
 
   bool has(const std::string& pointer) const { return values.contains(pointer); }
   // "line:column /pointer" of the value, or of the nearest value around it that the text has. Where flags have changed

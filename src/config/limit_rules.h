@@ -24,7 +24,7 @@ struct LimitRule {
   bool is_near(double value) const { return !is_broken_by(value) && limit > 0.0 && value > 0.9 * limit; }
 };
 
-// Throws Error with file and place; an unknown figure is answered with the list of all.
+// Throws Error with file and location; an unknown figure is answered with the list of all.
 LimitRule limit_rule(const std::string& text, const std::string& file, const std::string& where);
 
 }  // namespace clusterbench::config

@@ -31,11 +31,11 @@ std::vector<std::string> schema_violations(const nlohmann::json& schema, const n
   std::vector<std::string> violations;
   valijson::ValidationResults::Error error;
   while (results.popError(error)) {
-    std::string place;
+    std::string pointer;
     for (const std::string& step : error.context)
-      if (step != "<root>") place += "/" + plain_step(step);
-    if (place.empty()) place = "/";
-    violations.push_back(place + ": " + error.description);
+      if (step != "<root>") pointer += "/" + plain_step(step);
+    if (pointer.empty()) pointer = "/";
+    violations.push_back(pointer + ": " + error.description);
   }
   return violations;
 }

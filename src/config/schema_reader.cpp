@@ -171,8 +171,8 @@ class Reader {
   const Json& nearest_choice(const Json& schema, const Json& choices, const Json& value,
                              const std::string& pointer) const {
     for (const Json& choice : choices) {
-      const Json& one = resolved(root_, choice);
-      if (value.is_array() && one.value("type", Json()) == "array") return one;
+      const Json& variant = resolved(root_, choice);
+      if (value.is_array() && variant.value("type", Json()) == "array") return variant;
     }
     fail(schema, value, pointer);
   }

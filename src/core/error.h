@@ -18,8 +18,8 @@ enum class ExitCode : int {
   sigint = 130,
 };
 
-// An error in something that a person gave us. `file` is the path or flag, `where` the place in it (line:column, JSON
-// pointer, byte; may be empty), `message` what was found and what is allowed. what() is "file: where: message".
+// An error in something that a person gave us. `file` is the path or flag, `where` the location in it (line:column,
+// JSON pointer, byte; may be empty), `message` what was found and what is allowed. what() is "file: where: message".
 class Error : public std::runtime_error {
  public:
   Error(std::string file, std::string where, std::string message, ExitCode code = ExitCode::usage);

@@ -25,7 +25,7 @@ class SharedWork {
 
   // On any thread.
   template <class Work>
-  void piece(Work&& work) {
+  void guarded(Work&& work) {
     acquire(&begun_);
     work();
     release(&done_);
@@ -72,7 +72,7 @@ void ThreadPool::each(std::size_t count, const std::function<void(std::size_t i)
   }
   SharedWork shared;
   arena_->workers.execute([&] {
-    oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { shared.piece([&] { work(i); }); });
+    oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { shared.guarded([&] { work(i); }); });
   });
 }
 
@@ -86,7 +86,7 @@ void parallel_ranges(std::size_t count, int threads,
   SharedWork shared;
   arena.execute([&] {
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, count),
-                              [&](const auto& range) { shared.piece([&] { work(range.begin(), range.end()); }); });
+                              [&](const auto& range) { shared.guarded([&] { work(range.begin(), range.end()); }); });
   });
 }
 

@@ -7,7 +7,7 @@
 namespace clusterbench {
 namespace {
 
-re2::StringPiece piece(std::string_view text) {
+re2::StringPiece re2_text(std::string_view text) {
   return {text.data(), text.size()};
 }
 
@@ -30,11 +30,11 @@ std::shared_ptr<const RE2> compiled(const std::string& text, const std::string& 
 Pattern::Pattern(const std::string& text, const std::string& option) : expression_(compiled(text, option)) {}
 
 bool Pattern::is_in(std::string_view text) const {
-  return !expression_ || RE2::PartialMatch(piece(text), *expression_);
+  return !expression_ || RE2::PartialMatch(re2_text(text), *expression_);
 }
 
 bool Pattern::is_all_of(std::string_view text) const {
-  return !expression_ || RE2::FullMatch(piece(text), *expression_);
+  return !expression_ || RE2::FullMatch(re2_text(text), *expression_);
 }
 
 }  // namespace clusterbench

@@ -15,7 +15,7 @@ namespace clusterbench {
 class Pattern {
  public:
   Pattern() = default;  // is everywhere
-  // Throws Error with `option` as its place.
+  // Throws Error with `option` as its location.
   Pattern(const std::string& text, const std::string& option);
 
   bool is_in(std::string_view text) const;

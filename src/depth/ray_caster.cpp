@@ -13,7 +13,7 @@
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "core/text.h"
-#include "geom/domain.h"
+#include "geom/shapes/domain.h"
 
 namespace clusterbench::depth {
 namespace {

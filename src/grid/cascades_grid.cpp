@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "geom/domain.h"
+#include "geom/shapes/domain.h"
 
 namespace clusterbench::grid {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "geom/shapes.h"
+#include "geom/shapes/cell.h"
 #include "grid/cells.h"
 #include "grid/grid_spec.h"
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "geom/vec.h"
+#include "geom/shapes/vec.h"
 
 namespace clusterbench::grid {
 

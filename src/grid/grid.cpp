@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
-#include "geom/predicates.h"
+#include "geom/single_precision/bounding_volumes.h"
 
 namespace clusterbench::grid {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "geom/domain.h"
+#include "geom/shapes/domain.h"
 
 namespace clusterbench::grid {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "geom/shapes.h"
+#include "geom/shapes/cell.h"
 #include "grid/cells.h"
 #include "grid/grid_spec.h"
 
@@ -32,8 +32,8 @@ inline geom::Cell ScreenGrid::cell(Vec3i at) const {
   const auto x = static_cast<std::size_t>(at.x), z = static_cast<std::size_t>(at.z);
   const float x0 = tiles.x[x], x1 = tiles.x[x + 1], y0 = tiles.y_min(at.y), y1 = tiles.y_max(at.y);
   const float near = slices.boundaries[z], far = slices.boundaries[z + 1];
-  if (by_distance) return geom::ShellPiece{x0, x1, y0, y1, near, far};
-  return geom::FrustumPiece{x0, x1, y0, y1, near, far, tiles.orthographic};
+  if (by_distance) return geom::ShellCell{x0, x1, y0, y1, near, far};
+  return geom::FrustumCell{x0, x1, y0, y1, near, far, tiles.orthographic};
 }
 
 // Throws Error (where = configuration key) for what cannot be in this projection.

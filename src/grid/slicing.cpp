@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "geom/domain.h"
-#include "geom/rounding.h"
+#include "geom/numbers/round_to_float.h"
+#include "geom/shapes/domain.h"
 
 namespace clusterbench::grid {
 namespace {

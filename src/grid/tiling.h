@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "geom/vec.h"
+#include "geom/shapes/vec.h"
 #include "view/frame.h"
 
 namespace clusterbench::grid {

@@ -118,7 +118,7 @@ Found tested(std::span<const double> values, Shape shape, double level) {
   const std::vector<double> sums = scaled_sums(values);
   if (sums.empty()) return {};
   Found found{best_of(shape, sums, 0.0)};
-  // The same stretches in another order may differ by a rounding.
+  // The same stretches in another order may differ by a unit roundoff.
   const double observed = statistic(values, found.stretch) * (1.0 - 1e-9);
   const double least = observed / (1.0 + observed);
   const double orders = std::ceil(k_reached_at_level / level);

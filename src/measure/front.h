@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "measure/timing.h"
+#include "measure/time_statistics.h"
 
 namespace clusterbench::measure {
 

@@ -8,7 +8,7 @@
 namespace clusterbench::measure {
 namespace {
 
-// Place of the nearest-rank percentile among `count` ascending values.
+// Index of the nearest-rank percentile among `count` ascending values.
 std::uint64_t rank_of(double share, std::uint64_t count) {
   const auto rank = static_cast<std::uint64_t>(std::ceil(share * static_cast<double>(count)));
   return std::clamp<std::uint64_t>(rank, 1, count) - 1;

@@ -28,9 +28,9 @@ MeanMax PackingLossMeter::Sum::result() const {
 void PackingLossMeter::add_frame(const view::PackedLights& packed) {
   auto unrepresentable = packed.unrepresentable.begin();
   for (std::uint32_t light = 0; light < packed.lights.size(); ++light) {
-    const bool is_held = unrepresentable == packed.unrepresentable.end() || *unrepresentable != light;
-    if (!is_held) ++unrepresentable;
-    if (is_held && std::isfinite(packed.lights.radius[light])) add_light(packed, light);
+    const bool is_representable = unrepresentable == packed.unrepresentable.end() || *unrepresentable != light;
+    if (!is_representable) ++unrepresentable;
+    if (is_representable && std::isfinite(packed.lights.radius[light])) add_light(packed, light);
   }
   unrepresentable_lights_ = std::max<std::uint64_t>(unrepresentable_lights_, packed.unrepresentable.size());
   unrepresentable_frames_ += packed.unrepresentable.empty() ? 0 : 1;

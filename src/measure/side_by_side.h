@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "measure/timing.h"
+#include "measure/time_statistics.h"
 
 namespace clusterbench::measure {
 

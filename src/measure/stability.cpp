@@ -4,7 +4,7 @@
 #include <cassert>
 #include <iterator>
 
-#include "measure/error.h"
+#include "measure/list_errors.h"
 
 namespace clusterbench::measure {
 

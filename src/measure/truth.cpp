@@ -8,9 +8,10 @@
 
 #include "core/memory.h"
 #include "core/parallel.h"
-#include "geom/ball.h"
-#include "geom/meets.h"
-#include "geom/spot_decider.h"
+#include "geom/ball/ball_decider.h"
+#include "geom/filter/light_filter.h"
+#include "geom/shapes/verdict.h"
+#include "geom/spot/spot_decider.h"
 #include "measure/truth_rows.h"
 
 namespace clusterbench::measure {
@@ -61,12 +62,12 @@ struct WellInside {
     const double rounding = 0x1p-40 * (std::abs(lo) + std::abs(hi));
     return value > lo + rounding && value < hi - rounding;
   }
-  bool operator()(const geom::FrustumPiece& c) const {
+  bool operator()(const geom::FrustumCell& c) const {
     const double depth = -p.z, scale = c.orthographic ? 1.0 : depth;
     return between(c.depth0, depth, c.depth1) && between(c.x0 * scale, p.x, c.x1 * scale) &&
            between(c.y0 * scale, p.y, c.y1 * scale);
   }
-  bool operator()(const geom::ShellPiece& c) const {
+  bool operator()(const geom::ShellCell& c) const {
     const double depth = -p.z;
     return depth > 0.0 && between(c.distance0, glm::length(p), c.distance1) &&
            between(c.x0 * depth, p.x, c.x1 * depth) && between(c.y0 * depth, p.y, c.y1 * depth);
@@ -96,7 +97,7 @@ struct LightCells {
 // shells beyond it, or before it.
 class SpotTile {
  public:
-  SpotTile(const geom::LightFilter& filter, const geom::ShellPiece& tile)
+  SpotTile(const geom::LightFilter& filter, const geom::ShellCell& tile)
       : filter_(filter), tile_(tile), reach_(filter.distances(tile)) {}
 
   // Boundaries of the grid: near, far are numbers of single precision.
@@ -111,7 +112,7 @@ class SpotTile {
       begins_after_ = far;
       return Verdict::no;
     }
-    return Verdict::open;
+    return Verdict::uncertain;
   }
 
  private:
@@ -121,7 +122,7 @@ class SpotTile {
   }
 
   const geom::LightFilter& filter_;
-  geom::ShellPiece tile_;
+  geom::ShellCell tile_;
   geom::DistanceInterval reach_;
   double ends_before_ = std::numeric_limits<double>::infinity(), begins_after_ = -1.0;
 };
@@ -228,10 +229,9 @@ class TruthFinder {
   }
 
   void settle_tile(std::uint32_t tile, Search& search) const {
-    const geom::PyramidView view = search.decider.view_of(std::get<geom::ShellPiece>(grid_.cell(tile)));
+    const geom::PyramidView view = search.decider.view_of(std::get<geom::ShellCell>(grid_.cell(tile)));
     each_shell(tile, search, [&](std::uint32_t cell, double, double) {
-      count_ball(cell, search,
-                 [&] { return search.decider.meets(std::get<geom::ShellPiece>(grid_.cell(cell)), view); });
+      count_ball(cell, search, [&] { return search.decider.meets(std::get<geom::ShellCell>(grid_.cell(cell)), view); });
     });
   }
 
@@ -246,7 +246,7 @@ class TruthFinder {
     ++(search.decider.exact_decisions() == before ? search.found.filter_decided : search.found.exact_decided);
   }
 
-  // A spot's distances are dear: found only where a shell needs them.
+  // A spot's distances are costly: found only where a shell needs them.
   void settle_spot_tile(std::uint32_t tile, Search& search) const {
     std::optional<SpotTile> found;
     each_shell(tile, search, [&](std::uint32_t cell, double near, double far) {
@@ -259,16 +259,16 @@ class TruthFinder {
         case Verdict::yes:
           take(cell, search);
           break;
-        case Verdict::open:
+        case Verdict::uncertain:
           decide(cell, search);
       }
     });
   }
 
-  geom::ShellPiece tile_up_to_last_shell(std::uint32_t tile, const Search& search) const {
-    geom::ShellPiece piece = std::get<geom::ShellPiece>(grid_.cell(tile));
-    piece.distance1 = grid_.screen().slices.boundaries[static_cast<std::size_t>(search.shells.last) + 1];
-    return piece;
+  geom::ShellCell tile_up_to_last_shell(std::uint32_t tile, const Search& search) const {
+    geom::ShellCell cut = std::get<geom::ShellCell>(grid_.cell(tile));
+    cut.distance1 = grid_.screen().slices.boundaries[static_cast<std::size_t>(search.shells.last) + 1];
+    return cut;
   }
 
   void settle_endless(std::uint32_t cell, Search& search) const {
@@ -296,9 +296,9 @@ class TruthFinder {
 
   static void count_spot(std::uint32_t cell, Verdict verdict, std::uint64_t exact_before, Search& search) {
     const bool is_exact = search.spot->exact_decisions() != exact_before;
-    ++(verdict == Verdict::open ? search.found.undecided
-       : is_exact               ? search.found.exact_decided
-                                : search.found.filter_decided);
+    ++(verdict == Verdict::uncertain ? search.found.undecided
+       : is_exact                    ? search.found.exact_decided
+                                     : search.found.filter_decided);
     if (verdict != Verdict::no) search.found.add(cell);
   }
 

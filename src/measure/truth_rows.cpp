@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geom/row_slopes.h"
+#include "geom/projection/row_slopes.h"
 
 namespace clusterbench::measure {
 namespace {

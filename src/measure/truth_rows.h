@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "geom/vec.h"
+#include "geom/shapes/vec.h"
 #include "grid/grid.h"
 #include "grid/index_range.h"
 

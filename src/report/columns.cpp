@@ -6,7 +6,7 @@
 #include <map>
 
 #include "core/text.h"
-#include "measure/change.h"
+#include "measure/time_change.h"
 
 namespace clusterbench::report {
 namespace {
@@ -52,55 +52,60 @@ std::string text(const char* format, double value) {
   return buffer;
 }
 
-std::string number_text(const Json& one, const char* pointer, const char* format, double scale) {
-  const Json::json_pointer place(pointer);
-  if (!one.contains(place) || !one[place].is_number()) return "-";
-  return text(format, scale * one[place].get<double>());
+std::string number_text(const Json& result_case, const char* pointer, const char* format, double scale) {
+  const Json::json_pointer location(pointer);
+  if (!result_case.contains(location) || !result_case[location].is_number()) return "-";
+  return text(format, scale * result_case[location].get<double>());
 }
 
-std::string short_count(const Json& one, const char* pointer) {
-  const Json::json_pointer place(pointer);
-  return one.contains(place) && one[place].is_number() ? count_text(one[place].get<double>()) : "-";
+std::string short_count(const Json& result_case, const char* pointer) {
+  const Json::json_pointer location(pointer);
+  return result_case.contains(location) && result_case[location].is_number()
+             ? count_text(result_case[location].get<double>())
+             : "-";
 }
 
-std::string method_name(const Json& one) {
-  std::string label = printable(one["assigner"]["label"].get_ref<const std::string&>());
-  if (!one.contains("precision") || one["precision"]["packing"] == "float32") return label;
-  return label + " " + printable(one["precision"]["label"].get_ref<const std::string&>());
+std::string method_name(const Json& result_case) {
+  std::string label = printable(result_case["assigner"]["label"].get_ref<const std::string&>());
+  if (!result_case.contains("precision") || result_case["precision"]["packing"] == "float32") return label;
+  return label + " " + printable(result_case["precision"]["label"].get_ref<const std::string&>());
 }
 
 std::vector<NamedCase> distinct_cases(const Json& cases, const Json& scene, const std::string& block,
                                       const std::vector<std::string>& parts) {
   std::vector<NamedCase> out;
-  for (const Json& one : cases) {
-    const auto has = [&](const std::string& part) { return one.contains(part); };
+  for (const Json& result_case : cases) {
+    const auto has = [&](const std::string& part) { return result_case.contains(part); };
     const auto is_same = [&](const NamedCase& other) {
-      return other.name == method_name(one) && std::all_of(parts.begin(), parts.end(), [&](const std::string& part) {
-               return one.value(part, Json()) == other.one->value(part, Json());
+      return other.name == method_name(result_case) &&
+             std::all_of(parts.begin(), parts.end(), [&](const std::string& part) {
+               return result_case.value(part, Json()) == other.result_case->value(part, Json());
              });
     };
-    if (std::any_of(parts.begin(), parts.end(), has) && one["scene"] == scene["name"] && block_of(one) == block &&
-        std::none_of(out.begin(), out.end(), is_same))
-      out.push_back({method_name(one), &one});
+    if (std::any_of(parts.begin(), parts.end(), has) && result_case["scene"] == scene["name"] &&
+        block_of(result_case) == block && std::none_of(out.begin(), out.end(), is_same))
+      out.push_back({method_name(result_case), &result_case});
   }
   std::map<std::string, int> uses;
-  for (const NamedCase& one : out) ++uses[one.name];
-  for (NamedCase& one : out)
-    if (uses[one.name] > 1) one.name += " / " + printable((*one.one)["storage"].get_ref<const std::string&>());
+  for (const NamedCase& named : out) ++uses[named.name];
+  for (NamedCase& named : out)
+    if (uses[named.name] > 1)
+      named.name += " / " + printable((*named.result_case)["storage"].get_ref<const std::string&>());
   return out;
 }
 
-std::string block_of(const Json& one) {
-  const std::string viewport = one["viewport"][0].dump() + "x" + one["viewport"][1].dump();
-  return printable(one["grid"]["name"].get_ref<const std::string&>()) + ", camera " +
-         printable(one["camera"].get_ref<const std::string&>()) + ", " + viewport;
+std::string block_of(const Json& result_case) {
+  const std::string viewport = result_case["viewport"][0].dump() + "x" + result_case["viewport"][1].dump();
+  return printable(result_case["grid"]["name"].get_ref<const std::string&>()) + ", camera " +
+         printable(result_case["camera"].get_ref<const std::string&>()) + ", " + viewport;
 }
 
 std::vector<std::string> blocks_of(const Json& cases, const Json& scene) {
   std::vector<std::string> blocks;
-  for (const Json& one : cases)
-    if (one["scene"] == scene["name"] && std::find(blocks.begin(), blocks.end(), block_of(one)) == blocks.end())
-      blocks.push_back(block_of(one));
+  for (const Json& result_case : cases)
+    if (result_case["scene"] == scene["name"] &&
+        std::find(blocks.begin(), blocks.end(), block_of(result_case)) == blocks.end())
+      blocks.push_back(block_of(result_case));
   return blocks;
 }
 

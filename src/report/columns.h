@@ -29,23 +29,24 @@ std::string what_intervals_take();
 // One number by a printf format.
 std::string text(const char* format, double value);
 // The number at a pointer in a chosen format; "-" where there is none.
-std::string number_text(const nlohmann::ordered_json& one, const char* pointer, const char* format, double scale = 1.0);
+std::string number_text(const nlohmann::ordered_json& result_case, const char* pointer, const char* format,
+                        double scale = 1.0);
 // Bytes and counts as people say them: 831, 12.3k, 4.56M; "-" where there is none.
-std::string short_count(const nlohmann::ordered_json& one, const char* pointer);
+std::string short_count(const nlohmann::ordered_json& result_case, const char* pointer);
 
 // The assigner's label, and how its lights are packed where that is not float32.
-std::string method_name(const nlohmann::ordered_json& one);
+std::string method_name(const nlohmann::ordered_json& result_case);
 
 struct NamedCase {
   std::string name;  // the method's, with the storage where the same method has others
-  const nlohmann::ordered_json* one;
+  const nlohmann::ordered_json* result_case;
 };
 // The cases of a scene's block that have one of the parts, once where method and all parts are the same.
 std::vector<NamedCase> distinct_cases(const nlohmann::ordered_json& cases, const nlohmann::ordered_json& scene,
                                       const std::string& block, const std::vector<std::string>& parts);
 
 // What cases of one block have in common: camera, viewport and grid.
-std::string block_of(const nlohmann::ordered_json& one);
+std::string block_of(const nlohmann::ordered_json& result_case);
 // The blocks of a scene in the order of its cases.
 std::vector<std::string> blocks_of(const nlohmann::ordered_json& cases, const nlohmann::ordered_json& scene);
 

@@ -7,10 +7,10 @@
 #include <string_view>
 
 #include "core/text.h"
-#include "measure/change.h"
+#include "measure/time_change.h"
 #include "report/columns.h"
 #include "report/exact_differences.h"
-#include "report/json.h"
+#include "report/result_json.h"
 
 namespace clusterbench::report {
 namespace {

@@ -7,15 +7,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json place(const Vec3d& v) {
+Json coordinates(const Vec3d& v) {
   return {v.x, v.y, v.z};
 }
 
 Json camera(const run::DetailsFrame& frame) {
   const Mat3d rows = glm::transpose(frame.camera.rotation);
   const view::Projection& p = frame.projection;
-  return {{"eye", place(frame.camera.origin)},
-          {"view_from_world", {place(rows[0]), place(rows[1]), place(rows[2])}},
+  return {{"eye", coordinates(frame.camera.origin)},
+          {"view_from_world", {coordinates(rows[0]), coordinates(rows[1]), coordinates(rows[2])}},
           {"orthographic", p.orthographic},
           {"sides", {p.left, p.right, p.bottom, p.top}},
           {"near_m", p.near_m},

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "run/details.h"
+#include "run/packed_details.h"
 
 namespace clusterbench::report {
 

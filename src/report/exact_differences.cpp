@@ -12,10 +12,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 enum class Kind {
-  cost,     // less is better
-  follows,  // says the same as some cost in another way
-  aside,    // says nothing of the case by itself: how the truth was found, what limits make of the counts
-  fixed     // what both must have in common
+  cost,      // less is better
+  follows,   // says the same as some cost in another way
+  unjudged,  // says nothing of the case by itself: how the truth was found, what limits make of the counts
+  fixed      // what both must have in common
 };
 
 struct Rule {
@@ -25,7 +25,7 @@ struct Rule {
 
 // The first that fits; what none fits is fixed.
 constexpr std::array k_rules{
-    Rule{"/failures", Kind::aside},  // they fail by themselves
+    Rule{"/failures", Kind::unjudged},  // they fail by themselves
     Rule{"/warnings", Kind::follows},
     Rule{"/loses_lights", Kind::follows},
     Rule{"/eligible", Kind::follows},
@@ -41,7 +41,7 @@ constexpr std::array k_rules{
     Rule{"/buffers", Kind::cost},
     Rule{"/error/true_pairs", Kind::fixed},
     Rule{"/error/frames_checked", Kind::fixed},
-    Rule{"/error/decided", Kind::aside},
+    Rule{"/error/decided", Kind::unjudged},
     Rule{"/error/deepest_miss", Kind::cost},
     Rule{"/error/deepest", Kind::follows},
     Rule{"/error", Kind::cost},
@@ -73,7 +73,7 @@ Kind kind_of(const std::string& of) {
 }
 
 const char* judged(Kind kind, const Json& base, const Json& next) {
-  if (kind == Kind::aside || kind == Kind::follows) return "changed";
+  if (kind == Kind::unjudged || kind == Kind::follows) return "changed";
   // A quotient that says nothing on one side; what it is made of is compared.
   if (kind == Kind::cost && (base.is_null() || next.is_null())) return "changed";
   if (kind == Kind::fixed || !base.is_number() || !next.is_number()) return "worse";

@@ -28,14 +28,14 @@ constexpr int k_history_version = 1;
 
 // A run has one.
 std::string counter_of(const Json& result) {
-  for (const Json& one : result["cases"])
-    if (one.contains("count")) return one["count"]["source"].get<std::string>();
+  for (const Json& result_case : result["cases"])
+    if (result_case.contains("count")) return result_case["count"]["source"].get<std::string>();
   return "";
 }
 
 bool has_cold_times(const Json& result) {
-  const auto is_cold = [](const Json& one) {
-    return one.contains("timing") && one["timing"].value("caches", "") == "cold";
+  const auto is_cold = [](const Json& result_case) {
+    return result_case.contains("timing") && result_case["timing"].value("caches", "") == "cold";
   };
   return std::any_of(result["cases"].begin(), result["cases"].end(), is_cold);
 }
@@ -49,21 +49,21 @@ Json history_line(const Json& result, const std::string& commit) {
   if (const std::string counter = counter_of(result); !counter.empty()) line["counter"] = counter;
   if (has_cold_times(result)) line["caches"] = "cold";
   line["cases"] = Json::array();
-  for (const Json& one : result["cases"]) {
+  for (const Json& result_case : result["cases"]) {
     Json figures = Json::object();
-    for (const Measured& figure : measured(one, false))
+    for (const Measured& figure : measured(result_case, false))
       if (basis_of(*figure.metric) != Basis::derived) figures[std::string(figure.metric->name)] = figure.value;
-    line["cases"].push_back({{"id", one.at("id")},
-                             {"settings", one.value("settings", "")},
-                             {"name", one.at("name")},
+    line["cases"].push_back({{"id", result_case.at("id")},
+                             {"settings", result_case.value("settings", "")},
+                             {"name", result_case.at("name")},
                              {"figures", figures}});
   }
   return line;
 }
 
-HistoryEntry::Case parsed_case(const Json& one) {
-  HistoryEntry::Case out{one.value("settings", ""), one.at("name").get<std::string>(), {}};
-  for (const auto& [name, value] : one.at("figures").items()) out.figures.emplace_back(name, value.get<double>());
+HistoryEntry::Case parsed_case(const Json& stored) {
+  HistoryEntry::Case out{stored.value("settings", ""), stored.at("name").get<std::string>(), {}};
+  for (const auto& [name, value] : stored.at("figures").items()) out.figures.emplace_back(name, value.get<double>());
   return out;
 }
 
@@ -76,7 +76,7 @@ HistoryEntry parsed(const std::string& line) {
                      json.value("counter", std::string()),
                      json.value("caches", std::string()),
                      {}};
-  for (const Json& one : json.at("cases")) entry.cases.push_back(parsed_case(one));
+  for (const Json& stored : json.at("cases")) entry.cases.push_back(parsed_case(stored));
   return entry;
 }
 
@@ -212,27 +212,29 @@ Addition add_to_history(const std::string& path, const Json& result, const std::
 
 std::vector<Series> series_of(const std::vector<HistoryEntry>& history, const measure::ChangeRule& rule) {
   std::vector<Series> all;
-  std::map<std::tuple<std::string, std::ptrdiff_t, const Metric*, std::string>, std::size_t> places;
+  std::map<std::tuple<std::string, std::ptrdiff_t, const Metric*, std::string>, std::size_t> index_of;
   std::map<std::string, std::vector<std::string>> settings_of;  // by name, in the order in which they came
   for (const HistoryEntry& entry : history)
-    for (const HistoryEntry::Case& one : entry.cases) {
+    for (const HistoryEntry::Case& history_case : entry.cases) {
       // Lines that do not tell the settings are taken to have those of their neighbours.
-      std::vector<std::string>& known = settings_of[one.name];
+      std::vector<std::string>& known = settings_of[history_case.name];
       if (!known.empty() && known.back().empty())
-        known.back() = one.settings;
-      else if (known.empty() || (!one.settings.empty() && std::ranges::find(known, one.settings) == known.end()))
-        known.push_back(one.settings);
-      const auto at = one.settings.empty() ? known.end() - 1 : std::ranges::find(known, one.settings);
+        known.back() = history_case.settings;
+      else if (known.empty() ||
+               (!history_case.settings.empty() && std::ranges::find(known, history_case.settings) == known.end()))
+        known.push_back(history_case.settings);
+      const auto at = history_case.settings.empty() ? known.end() - 1 : std::ranges::find(known, history_case.settings);
       const auto version = at - known.begin();
-      for (const auto& [name, value] : one.figures) {
+      for (const auto& [name, value] : history_case.figures) {
         const Metric* metric = metric_named(name);
         if (metric == nullptr || basis_of(*metric) == Basis::derived) continue;  // of an older version
         const std::string from = origin(entry, *metric);
-        const auto [place, is_new] = places.try_emplace({one.name, version, metric, from}, all.size());
+        const auto [found, is_new] = index_of.try_emplace({history_case.name, version, metric, from}, all.size());
         if (is_new)
-          all.push_back({one.name, *at, version > 0 ? entry.commit : std::string(), from, metric, {}, {}, false, {}});
-        all[place->second].commits.push_back(entry.commit);
-        all[place->second].values.push_back(value);
+          all.push_back(
+              {history_case.name, *at, version > 0 ? entry.commit : std::string(), from, metric, {}, {}, false, {}});
+        all[found->second].commits.push_back(entry.commit);
+        all[found->second].values.push_back(value);
       }
     }
   for (Series& series : all) {
@@ -259,15 +261,15 @@ std::string history_text(const std::vector<Series>& series, std::size_t entries,
                          const measure::ChangeRule& rule) {
   std::string text;
   std::size_t changes = 0, too_short = 0;
-  for (const Series& one : series) {
-    changes += one.changes.size();
-    too_short += one.is_too_short ? 1 : 0;
-    if (all || !one.changes.empty()) text += series_text(one);
+  for (const Series& case_series : series) {
+    changes += case_series.changes.size();
+    too_short += case_series.is_too_short ? 1 : 0;
+    if (all || !case_series.changes.empty()) text += series_text(case_series);
   }
   std::set<std::pair<std::string, std::string>> renewed;
-  for (const Series& one : series)
-    if (!one.settings_since.empty())
-      renewed.insert({one.settings, one.case_name + " from " + one.settings_since + " on"});
+  for (const Series& case_series : series)
+    if (!case_series.settings_since.empty())
+      renewed.insert({case_series.settings, case_series.case_name + " from " + case_series.settings_since + " on"});
   for (const auto& [settings, what] : renewed)
     text += "warning: other settings (" + settings + "), not joined with what was before: " + what + "\n";
   text += number_of(entries, "result") + ", " + std::to_string(series.size()) + " series, " +

@@ -36,8 +36,8 @@ Json to_json(const Series& series) {
 
 std::string history_page(const std::vector<Series>& series, std::size_t entries) {
   Json data{{"entries", entries}, {"count", series.size()}, {"series", Json::array()}};
-  for (const Series& one : series)
-    if (varies(one)) data["series"].push_back(to_json(one));
+  for (const Series& case_series : series)
+    if (varies(case_series)) data["series"].push_back(to_json(case_series));
   return filled_page(history_template(), data, "history show");
 }
 

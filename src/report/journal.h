@@ -21,7 +21,7 @@ class Journal {
   // Starts FILE.partial, or with `resume` goes on with it. `header` says what is being run: an interrupted run
   // continues only under an equal header. Without `resume` what an earlier run left is set aside. `expected_bytes`:
   // about how large the result will be; a disk without that much room is an Error now, not later. Throws Error, too, if
-  // the place cannot be written, if another run is writing there, and with `resume` if what lies there is not what a
+  // it cannot be written there, if another run is writing there, and with `resume` if what lies there is not what a
   // run writes but for its last line.
   Journal(const std::filesystem::path& file, const nlohmann::ordered_json& header, bool resume,
           std::uint64_t expected_bytes);

@@ -1,7 +1,7 @@
 #include "report/lookup_constants.h"
 
 #include "report/columns.h"
-#include "report/json.h"
+#include "report/result_json.h"
 
 namespace clusterbench::report {
 namespace {

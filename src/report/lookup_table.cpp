@@ -15,14 +15,14 @@ std::string missed_text(const Json& way) {
 // Assigners as lines, ways as columns.
 std::string lookup_block(const std::string& block, const std::vector<NamedCase>& cases) {
   Cells headings{"", "assigner"}, padding{"", "(safe padding, ulps)"};
-  for (const Json& way : (*cases.front().one)["lookup"]) {
+  for (const Json& way : (*cases.front().result_case)["lookup"]) {
     headings.push_back(way["logarithm"].get<std::string>() + "/" + way["depth"].get<std::string>());
     padding.push_back(way["safe_padding_ulps"].dump());
   }
   std::vector<Cells> rows{headings};
-  for (const NamedCase& one : cases) {
-    Cells row{"", one.name};
-    for (const Json& way : (*one.one)["lookup"]) row.push_back(missed_text(way));
+  for (const NamedCase& named : cases) {
+    Cells row{"", named.name};
+    for (const Json& way : (*named.result_case)["lookup"]) row.push_back(missed_text(way));
     rows.push_back(row);
   }
   rows.push_back(padding);

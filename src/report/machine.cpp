@@ -50,8 +50,8 @@ std::string machine_name(const Json& machine) {
   if (machine.contains("caches"))
     for (const auto& [level, bytes] : machine["caches"].items())
       caches.push_back("L" + level.substr(1) + " " + size_text(bytes.get<std::uint64_t>()));
-  for (const std::vector<std::string>* one : {&numbers, &caches})
-    if (!one->empty()) parts.push_back(joined(*one));
+  for (const std::vector<std::string>* sizes : {&numbers, &caches})
+    if (!sizes->empty()) parts.push_back(joined(*sizes));
   const std::string name = machine.at("cpu").get<std::string>();
   return parts.empty() ? name : name + " (" + joined(parts, "; ") + ")";
 }

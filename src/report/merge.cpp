@@ -5,8 +5,8 @@
 
 #include "core/error.h"
 #include "report/contender.h"
-#include "report/json.h"
 #include "report/machine.h"
+#include "report/result_json.h"
 
 namespace clusterbench::report {
 namespace {
@@ -14,8 +14,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 bool is_measured(const Json& result) {
-  for (const Json& one : result.at("cases"))
-    if (one.contains("timing") || one.contains("count")) return true;
+  for (const Json& result_case : result.at("cases"))
+    if (result_case.contains("timing") || result_case.contains("count")) return true;
   return false;
 }
 
@@ -35,12 +35,12 @@ class Union {
   Union(Json& all, const char* where, const char* key) : all_(all), where_(where), key_(key) {}
 
   // `may_repeat`: the same thing again is passed over.
-  void add(const Json& one, const std::string& file, bool may_repeat) {
-    const std::string name = one.at(key_).get<std::string>();
+  void add(const Json& item, const std::string& file, bool may_repeat) {
+    const std::string name = item.at(key_).get<std::string>();
     const auto [earlier, is_new] = seen_.try_emplace(name, Place{all_.size(), file});
     if (is_new) {
-      all_.push_back(one);
-    } else if (!may_repeat || all_[earlier->second.index] != one) {
+      all_.push_back(item);
+    } else if (!may_repeat || all_[earlier->second.index] != item) {
       throw Error(file, std::string("/") + where_,
                   std::string("has ") + key_ + " '" + name + "', and " + earlier->second.file + " has it, too" +
                       (may_repeat ? ", but it is another" : ""));
@@ -59,8 +59,8 @@ class Union {
 
 // Shards skip the same combinations, for the same reasons.
 void add_skipped(Json& all, const Json& skipped) {
-  for (const Json& one : skipped)
-    if (std::find(all.begin(), all.end(), one) == all.end()) all.push_back(one);
+  for (const Json& skip : skipped)
+    if (std::find(all.begin(), all.end(), skip) == all.end()) all.push_back(skip);
 }
 
 Json merged_config(const std::vector<NamedPart>& parts) {
@@ -94,7 +94,7 @@ Json merged(const std::vector<NamedPart>& parts) {
   for (const NamedPart& part : parts) {
     check_origin(parts.front(), part);
     for (const Json& scene : part.result.at("scenes")) scene_union.add(scene, part.file, true);
-    for (const Json& one : part.result.at("cases")) case_union.add(one, part.file, false);
+    for (const Json& result_case : part.result.at("cases")) case_union.add(result_case, part.file, false);
     add_skipped(skipped, part.result.at("skipped"));
   }
   return {{"schema_version", first.at("schema_version")},

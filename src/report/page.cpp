@@ -34,11 +34,11 @@ std::string filled_page(std::string_view page_template, const nlohmann::ordered_
 
 std::string page(const std::vector<NamedResult>& results, const std::string& command) {
   nlohmann::ordered_json data{{"command", command}, {"results", nlohmann::ordered_json::array()}};
-  for (const NamedResult& one : results)
-    data["results"].push_back({{"file", one.file},
-                               {"result", one.result},
-                               {"doubts", timing_doubts(one.result["cases"])},
-                               {"ratios", ratio_rankings(one.result)}});
+  for (const NamedResult& named : results)
+    data["results"].push_back({{"file", named.file},
+                               {"result", named.result},
+                               {"doubts", timing_doubts(named.result["cases"])},
+                               {"ratios", ratio_rankings(named.result)}});
   return filled_page(page_template(), data, "report");
 }
 

@@ -12,37 +12,37 @@ using Json = nlohmann::ordered_json;
 const Cells k_precision_headings{"", "assigner", "lights", "missed", "deepest", "pairs", "extra"};
 
 Cells precision_row(const NamedCase& named) {
-  const Json& one = *named.one;
-  const bool has_lost = one.contains("error") && one["error"]["false_negatives"] != 0;
+  const Json& result_case = *named.result_case;
+  const bool has_lost = result_case.contains("error") && result_case["error"]["false_negatives"] != 0;
   return {"",
           named.name,
-          one["precision"]["label"].get<std::string>(),
-          number_text(one, "/error/false_negatives", "%.0f"),
-          has_lost ? number_text(one, "/error/deepest_miss", "%.3g %%", 100.0) : "-",
-          short_count(one, "/occupancy/pairs/mean"),
-          number_text(one, "/precision/extra_pairs/ratio", "%+.2f %%", 100.0)};
+          result_case["precision"]["label"].get<std::string>(),
+          number_text(result_case, "/error/false_negatives", "%.0f"),
+          has_lost ? number_text(result_case, "/error/deepest_miss", "%.3g %%", 100.0) : "-",
+          short_count(result_case, "/occupancy/pairs/mean"),
+          number_text(result_case, "/precision/extra_pairs/ratio", "%+.2f %%", 100.0)};
 }
 
 // Cases of a block, once per method, precision and what that loses. The precision has a column of its own.
 std::vector<NamedCase> precision_lines(const Json& cases, const Json& scene, const std::string& block) {
   std::vector<NamedCase> lines = distinct_cases(cases, scene, block, {"precision", "error", "occupancy"});
-  std::erase_if(lines, [](const NamedCase& line) { return !line.one->contains("precision"); });
+  std::erase_if(lines, [](const NamedCase& line) { return !line.result_case->contains("precision"); });
   for (NamedCase& line : lines) {
-    const Json& one = *line.one;
-    const std::string storage = line.name.substr(method_name(one).size());
-    line.name = shown(one["assigner"]["label"]) + storage;
+    const Json& result_case = *line.result_case;
+    const std::string storage = line.name.substr(method_name(result_case).size());
+    line.name = shown(result_case["assigner"]["label"]) + storage;
   }
   return lines;
 }
 
 std::string loss_text(const Json& precision) {
   const auto metres = [&](const char* key) {
-    const std::string place = std::string("/") + key;
-    return number_text(precision, (place + "/mean").c_str(), "%.3g") + " m, at most " +
-           number_text(precision, (place + "/max").c_str(), "%.3g") + " m";
+    const std::string pointer = std::string("/") + key;
+    return number_text(precision, (pointer + "/mean").c_str(), "%.3g") + " m, at most " +
+           number_text(precision, (pointer + "/max").c_str(), "%.3g") + " m";
   };
   const std::string name = precision["packing"];
-  std::string text = "  " + name + ": places are off by " + metres("position_error_m") + "; safe inflation " +
+  std::string text = "  " + name + ": positions are off by " + metres("position_error_m") + "; safe inflation " +
                      metres("safe_inflation_m") + "\n";
   const Json& beyond = precision["unrepresentable"];
   if (beyond["lights"] != 0)
@@ -57,11 +57,11 @@ std::string precision_block(const std::string& block, const std::vector<NamedCas
   std::string out = " " + block + "\n";
   std::set<std::string> told;
   std::vector<Cells> rows{k_precision_headings};
-  for (const NamedCase& one : lines) {
-    const Json& precision = (*one.one)["precision"];
+  for (const NamedCase& named : lines) {
+    const Json& precision = (*named.result_case)["precision"];
     const std::string packing = precision["packing"];
     if (packing != "float32" && told.insert(packing).second) out += loss_text(precision);
-    rows.push_back(precision_row(one));
+    rows.push_back(precision_row(named));
   }
   const std::vector<std::size_t> widths = widths_of(rows);
   for (const Cells& row : rows) out += aligned(row, widths);

@@ -8,7 +8,7 @@
 #include "core/text.h"
 #include "report/columns.h"
 #include "report/contender.h"
-#include "report/json.h"
+#include "report/result_json.h"
 
 namespace clusterbench::report {
 namespace {

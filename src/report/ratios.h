@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "measure/timing.h"
+#include "measure/time_statistics.h"
 
 namespace clusterbench::report {
 

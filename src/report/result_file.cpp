@@ -5,7 +5,7 @@
 #include "config/documents.h"
 #include "config/schema_check.h"
 #include "core/error.h"
-#include "report/json.h"
+#include "report/result_json.h"
 
 namespace clusterbench::report {
 namespace {

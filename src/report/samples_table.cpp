@@ -21,14 +21,14 @@ std::string given_text(const Json& set) {
 // Methods as lines, sets as columns. All cases of a block have the same sets.
 std::string samples_block(const std::string& block, const std::vector<NamedCase>& cases) {
   Cells headings{"", "assigner"}, needed{"", "(needed)"};
-  for (const auto& [name, set] : (*cases.front().one)["samples"].items()) {
+  for (const auto& [name, set] : (*cases.front().result_case)["samples"].items()) {
     headings.push_back(name);
     needed.push_back(text("%.2f", per_sample(set, "needed")));
   }
   std::vector<Cells> rows{headings, needed};
-  for (const NamedCase& one : cases) {
-    Cells row{"", one.name};
-    for (const Json& set : (*one.one)["samples"]) row.push_back(given_text(set));
+  for (const NamedCase& named : cases) {
+    Cells row{"", named.name};
+    for (const Json& set : (*named.result_case)["samples"]) row.push_back(given_text(set));
     rows.push_back(row);
   }
   const std::vector<std::size_t> widths = widths_of(rows);

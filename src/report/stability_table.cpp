@@ -11,37 +11,38 @@ using Json = nlohmann::ordered_json;
 
 const Cells k_stability_headings{"", "assigner", "changed", "max", "excess", "flickers", "excess"};
 
-Cells method_row(const Json& one) {
+Cells method_row(const Json& result_case) {
   return {"",
-          method_name(one),
-          number_text(one, "/stability/changed/method/mean", "%.2f"),
-          number_text(one, "/stability/changed/method/max", "%.0f"),
-          number_text(one, "/stability/excess_churn/ratio", "%.1f %%", 100.0),
-          number_text(one, "/stability/flickers/method", "%.0f"),
-          number_text(one, "/stability/excess_flickers/count", "%+.0f")};
+          method_name(result_case),
+          number_text(result_case, "/stability/changed/method/mean", "%.2f"),
+          number_text(result_case, "/stability/changed/method/max", "%.0f"),
+          number_text(result_case, "/stability/excess_churn/ratio", "%.1f %%", 100.0),
+          number_text(result_case, "/stability/flickers/method", "%.0f"),
+          number_text(result_case, "/stability/excess_flickers/count", "%+.0f")};
 }
 
-Cells truth_row(const Json& one) {
+Cells truth_row(const Json& result_case) {
   return {"",
           "(truth)",
-          number_text(one, "/stability/changed/truth/mean", "%.2f"),
-          number_text(one, "/stability/changed/truth/max", "%.0f"),
+          number_text(result_case, "/stability/changed/truth/mean", "%.2f"),
+          number_text(result_case, "/stability/changed/truth/max", "%.0f"),
           "",
-          number_text(one, "/stability/flickers/truth", "%.0f"),
+          number_text(result_case, "/stability/flickers/truth", "%.0f"),
           ""};
 }
 
 // Cases of a block with steps, once per method: lists do not depend on their storage. The fewest changes first.
 std::vector<const Json*> stability_lines(const Json& cases, const Json& scene, const std::string& block) {
   std::vector<const Json*> lines;
-  for (const Json& one : cases) {
-    if (!one.contains("stability") || one["scene"] != scene["name"] || block_of(one) != block) continue;
+  for (const Json& result_case : cases) {
+    if (!result_case.contains("stability") || result_case["scene"] != scene["name"] || block_of(result_case) != block)
+      continue;
     const bool is_known = std::any_of(lines.begin(), lines.end(),
-                                      [&](const Json* line) { return method_name(*line) == method_name(one); });
-    if (!is_known) lines.push_back(&one);
+                                      [&](const Json* line) { return method_name(*line) == method_name(result_case); });
+    if (!is_known) lines.push_back(&result_case);
   }
-  const auto changes = [](const Json* one) {
-    return (*one)["stability"]["changed"]["method"]["total"].get<std::uint64_t>();
+  const auto changes = [](const Json* result_case) {
+    return (*result_case)["stability"]["changed"]["method"]["total"].get<std::uint64_t>();
   };
   std::stable_sort(lines.begin(), lines.end(), [&](const Json* a, const Json* b) { return changes(a) < changes(b); });
   return lines;
@@ -50,7 +51,7 @@ std::vector<const Json*> stability_lines(const Json& cases, const Json& scene, c
 std::string stability_block(const std::string& block, const std::vector<const Json*>& lines) {
   const Json& steps = (*lines.front())["stability"];
   std::vector<Cells> rows{k_stability_headings, truth_row(*lines.front())};
-  for (const Json* one : lines) rows.push_back(method_row(*one));
+  for (const Json* result_case : lines) rows.push_back(method_row(*result_case));
   const std::vector<std::size_t> widths = widths_of(rows);
   std::string out = " " + block + "\n  " + shown(steps["path"]);
   if (steps["drift"] == false)

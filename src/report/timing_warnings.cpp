@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "core/text.h"
-#include "measure/timing.h"
+#include "measure/time_statistics.h"
 #include "report/columns.h"
 #include "report/contender.h"
 
@@ -16,18 +16,18 @@ constexpr double k_wide = 0.1;           // half of an interval, of its time
 constexpr double k_others_cores = 0.1;   // busy with other programs
 constexpr double k_stolen_cores = 0.02;  // a guest sees little of its host's load
 
-double timing_number(const Json& one, const char* pointer) {
-  const Json found = one.value(Json::json_pointer(pointer), Json());
+double timing_number(const Json& result_case, const char* pointer) {
+  const Json found = result_case.value(Json::json_pointer(pointer), Json());
   return found.is_number() ? found.get<double>() : 0.0;
 }
 
 // The cases that a doubt is about: how many, and the worst.
 class Doubt {
  public:
-  void add(const Json& one, double badness) {
+  void add(const Json& result_case, double badness) {
     ++count_;
     if (worst_ != nullptr && badness <= badness_) return;
-    worst_ = &one;
+    worst_ = &result_case;
     badness_ = badness;
   }
   bool is_any() const { return count_ > 0; }
@@ -42,22 +42,25 @@ class Doubt {
   double badness_ = 0.0;
 };
 
-bool has_interval(const Json& one) {
-  return one["timing"]["frame_ns"]["ci95"][0].is_number() && one["timing"]["frame_ns"]["ci95"][1].is_number();
+bool has_interval(const Json& result_case) {
+  return result_case["timing"]["frame_ns"]["ci95"][0].is_number() &&
+         result_case["timing"]["frame_ns"]["ci95"][1].is_number();
 }
 
 // Of a time above 0.
-double half_of_interval(const Json& one) {
-  return 0.5 * (timing_number(one, "/timing/frame_ns/ci95/1") - timing_number(one, "/timing/frame_ns/ci95/0")) /
-         timing_number(one, "/timing/frame_ns/median");
+double half_of_interval(const Json& result_case) {
+  return 0.5 *
+         (timing_number(result_case, "/timing/frame_ns/ci95/1") -
+          timing_number(result_case, "/timing/frame_ns/ci95/0")) /
+         timing_number(result_case, "/timing/frame_ns/median");
 }
 
-std::optional<measure::TwoModes> modes_of(const Json& one) {
-  return measure::two_modes(frame_rounds(one));
+std::optional<measure::TwoModes> modes_of(const Json& result_case) {
+  return measure::two_modes(frame_rounds(result_case));
 }
 
-std::string more_launches(const Json& one) {
-  return "--launches " + std::to_string(4 * one["timing"].value("launches", 1));
+std::string more_launches(const Json& result_case) {
+  return "--launches " + std::to_string(4 * result_case["timing"].value("launches", 1));
 }
 
 std::string unknown_warning(const Doubt& unknown, std::size_t timed) {
@@ -97,20 +100,20 @@ void add_machine_warnings(std::vector<std::string>& out, const Doubt& others, co
 std::vector<std::string> timing_doubts(const Json& cases) {
   Doubt unknown, wide, two, others, stolen, hot;
   std::size_t timed = 0;
-  for (const Json& one : cases) {
-    if (timing_number(one, "/timing/frame_ns/median") <= 0.0) continue;
+  for (const Json& result_case : cases) {
+    if (timing_number(result_case, "/timing/frame_ns/median") <= 0.0) continue;
     ++timed;
     const auto check = [&](Doubt& doubt, double badness, double most) {
-      if (badness > most) doubt.add(one, badness);
+      if (badness > most) doubt.add(result_case, badness);
     };
-    if (has_interval(one))
-      check(wide, half_of_interval(one), k_wide);
+    if (has_interval(result_case))
+      check(wide, half_of_interval(result_case), k_wide);
     else
-      unknown.add(one, 0.0);
-    if (const auto modes = modes_of(one)) two.add(one, modes->high / modes->low);
-    check(others, timing_number(one, "/timing/disturbed/others_cores"), k_others_cores);
-    check(stolen, timing_number(one, "/timing/disturbed/stolen_cores"), k_stolen_cores);
-    check(hot, timing_number(one, "/timing/disturbed/throttled"), 0.0);
+      unknown.add(result_case, 0.0);
+    if (const auto modes = modes_of(result_case)) two.add(result_case, modes->high / modes->low);
+    check(others, timing_number(result_case, "/timing/disturbed/others_cores"), k_others_cores);
+    check(stolen, timing_number(result_case, "/timing/disturbed/stolen_cores"), k_stolen_cores);
+    check(hot, timing_number(result_case, "/timing/disturbed/throttled"), 0.0);
   }
   std::vector<std::string> out;
   if (unknown.is_any()) out.push_back(unknown_warning(unknown, timed));

@@ -24,13 +24,13 @@ std::string scene_warnings(const Json& scenes) {
 // made them. Lost pairs have a column, and that nothing was checked is what the run was told.
 std::string case_warnings(const Json& cases) {
   std::vector<std::pair<std::string, std::vector<std::string>>> told;  // what, and of which cases
-  for (const Json& one : cases)
-    for (const Json& warning : one["warnings"]) {
+  for (const Json& result_case : cases)
+    for (const Json& warning : result_case["warnings"]) {
       if (warning["kind"] == "unchecked" || warning["kind"] == "lost_pairs") continue;
       const std::string what = shown(warning["text"]);
       const auto same = std::find_if(told.begin(), told.end(), [&](const auto& had) { return had.first == what; });
       (same == told.end() ? told.emplace_back(what, std::vector<std::string>{}) : *same)
-          .second.push_back(shown(one["name"]));
+          .second.push_back(shown(result_case["name"]));
     }
   std::string out;
   for (const auto& [what, names] : told)

@@ -9,7 +9,7 @@ FrameLights::FrameLights(const std::vector<config::PrecisionRequest>& precisions
   }
 }
 
-const view::LightArrays& FrameLights::seen(std::size_t precision) const {
+const view::LightArrays& FrameLights::in_precision(std::size_t precision) const {
   const Lights& now = lights_[precision];
   return now.is_inflated ? now.inflated : now.packed.lights;
 }

@@ -13,8 +13,8 @@ class FrameLights {
   FrameLights() = default;
   FrameLights(const std::vector<config::PrecisionRequest>& precisions, const view::LightArrays& lights);
 
-  // `precision`: place in the list. What its assigners get.
-  const view::LightArrays& seen(std::size_t precision) const;
+  // `precision`: index in the list. What its assigners get.
+  const view::LightArrays& in_precision(std::size_t precision) const;
   // What they would get without inflation.
   const view::PackedLights& packed(std::size_t precision) const { return lights_[precision].packed; }
 

@@ -19,19 +19,19 @@ const char* name_of(Warning::Kind kind);  // "unlit", ...
 
 // A conservative method that lost a light, in lists or, without cells, at samples; an exact one with any difference;
 // more dropped pairs than the limits allow.
-std::vector<Failure> failures_of(const CaseResult& one, const config::LimitsRequest& limits);
+std::vector<Failure> failures_of(const CaseResult& result, const config::LimitsRequest& limits);
 
 // What is to be known of a case before its figures are believed, and fails nothing.
-std::vector<Warning> warnings_of(const CaseResult& one);
+std::vector<Warning> warnings_of(const CaseResult& result);
 
 // Whether a shader that loops over what the case gives lacks lights: pairs that are not listed or were dropped, lights
 // that are missed at samples though the structure has no cells to look up, or more than measure::k_most_unlit of them
 // wherever they are.
-bool loses_lights(const CaseResult& one);
+bool loses_lights(const CaseResult& result);
 
 // Whether a case may stand on a front, and be the best that others are measured by: it fails nothing and loses no
 // lights. Short lists are no merit else.
-bool is_eligible(const CaseResult& one);
+bool is_eligible(const CaseResult& result);
 
 // A case beside others. Results are continued and merged from files, so this is apart from CaseResult.
 struct Contender {

@@ -19,8 +19,8 @@ std::vector<GroupMethods> methods_in_common(const Plan& plan, const std::set<std
     GroupMethods methods;
     for (const Method& method : methods_of(group)) {
       MethodCases cases;
-      for (const CasePlan& one : group.cases)
-        if (one.method() == method && ids.contains(one.id)) cases.push_back(one.id);
+      for (const CasePlan& case_plan : group.cases)
+        if (case_plan.method() == method && ids.contains(case_plan.id)) cases.push_back(case_plan.id);
       if (!cases.empty()) methods.push_back(cases);
     }
     if (!methods.empty()) groups.push_back(methods);

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "measure/change.h"
+#include "measure/time_change.h"
 #include "run/sweep.h"
 
 namespace clusterbench::run {

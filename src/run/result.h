@@ -11,16 +11,16 @@
 
 #include "measure/buffers.h"
 #include "measure/coherence.h"
-#include "measure/error.h"
+#include "measure/list_errors.h"
 #include "measure/lookup.h"
 #include "measure/occupancy.h"
 #include "measure/packing_loss.h"
 #include "measure/shading.h"
 #include "measure/stability.h"
-#include "measure/timing.h"
+#include "measure/time_statistics.h"
 #include "run/counters/instruction_counter.h"
 #include "run/counters/processor.h"
-#include "run/details.h"
+#include "run/packed_details.h"
 #include "run/timing_samples.h"
 
 namespace clusterbench::run {

@@ -20,7 +20,7 @@ namespace {
 nlohmann::json params_json(const assign::Params& params) {
   nlohmann::json out = nlohmann::json::object();
   for (const auto& [name, value] : params.values())
-    out[name] = std::visit([](const auto& held) { return nlohmann::json(held); }, value);
+    out[name] = std::visit([](const auto& number) { return nlohmann::json(number); }, value);
   return out;
 }
 
@@ -46,7 +46,7 @@ double timing_cost(const config::Config& config, const GroupPlan& group) {
 std::vector<int> fullest_frames(const GroupPlan& group, const AccuracyResult& counted) {
   const auto measures_of = [&](const Method& method) -> const MethodMeasures& {
     return *std::find_if(counted.methods.begin(), counted.methods.end(),
-                         [&](const MethodMeasures& one) { return one.method == method; });
+                         [&](const MethodMeasures& measures) { return measures.method == method; });
   };
   int known = -1;
   for (const Method& method : methods_of(group))
@@ -100,7 +100,7 @@ class Run {
       if (listener_.on_scene) listener_.on_scene(out.scenes.back());
     }
     for (const GroupPlan& group : plan_.groups)
-      for (const CasePlan& one : group.cases) out.planned_ids.push_back(one.id);
+      for (const CasePlan& case_plan : group.cases) out.planned_ids.push_back(case_plan.id);
     for (const GroupPlan& group : plan_.groups)
       if (!stop_) run_group(what_is_left(group), out);
     if (!stop_) time_waiting(out);
@@ -117,7 +117,7 @@ class Run {
   }
 
   GroupPlan what_is_left(GroupPlan group) const {
-    std::erase_if(group.cases, [&](const CasePlan& one) { return done_.contains(one.id); });
+    std::erase_if(group.cases, [&](const CasePlan& case_plan) { return done_.contains(case_plan.id); });
     return group;
   }
 
@@ -181,7 +181,7 @@ class Run {
 
   double waiting_cost() const {
     double cost = 0.0;
-    for (const CountedGroup& one : waiting_) cost += timing_cost(config_, one.group);
+    for (const CountedGroup& counted_group : waiting_) cost += timing_cost(config_, counted_group.group);
     return cost;
   }
 
@@ -190,40 +190,42 @@ class Run {
     const SceneData& data = plan_.scenes[group.scene];
     const PathFrames path(data.scene, path_of(group), config_.viewports[group.viewport]);
     const double per_frame = accuracy_cost_of(group) / path.count();
-    CountedGroup one;
-    one.frames = path.count();
-    one.counted = accuracy_pass(
+    CountedGroup counted_group;
+    counted_group.frames = path.count();
+    counted_group.counted = accuracy_pass(
         config_, data, group, path, [&](int) { tell(group, "truth and counts", per_frame); }, stop_);
-    if (!one.counted.is_complete) return;
+    if (!counted_group.counted.is_complete) return;
     if (config_.stability) {
       const double cost = stability_cost_of(group);
-      one.stabilities = stability_pass(
+      counted_group.stabilities = stability_pass(
           config_, group, path, [&](double share) { tell(group, "stability", cost * share); }, stop_);
-      if (one.stabilities.empty()) return;
+      if (counted_group.stabilities.empty()) return;
     }
     if (config_.details) {
       tell(group, "details", details_cost_of(group));
-      one.details = details_pass(config_, group, path, data.scene, one.counted, stop_);
-      if (one.details.empty()) return;
+      counted_group.details = details_pass(config_, group, path, data.scene, counted_group.counted, stop_);
+      if (counted_group.details.empty()) return;
     }
-    one.group = std::move(group);
-    if (!config_.timing.measure) return add_cases(one, {}, out);
-    if (launcher_) return waiting_.push_back(std::move(one));
-    time_here(one, path, out);
+    counted_group.group = std::move(group);
+    if (!config_.timing.measure) return add_cases(counted_group, {}, out);
+    if (launcher_) return waiting_.push_back(std::move(counted_group));
+    time_here(counted_group, path, out);
   }
 
-  void time_here(CountedGroup& one, const PathFrames& path, Result& out) {
-    const LaunchRequest request{0, config_.timing.rounds, fullest_frames(one.group, one.counted)};
-    const double per_round = timing_cost(config_, one.group) / request.rounds;
+  void time_here(CountedGroup& counted_group, const PathFrames& path, Result& out) {
+    const LaunchRequest request{0, config_.timing.rounds, fullest_frames(counted_group.group, counted_group.counted)};
+    const double per_round = timing_cost(config_, counted_group.group) / request.rounds;
     const GroupSamples samples = measure_launch(
-        config_, one.group, path, request, [&](int) { tell(one.group, "time", per_round); }, stop_);
-    if (!samples.methods.empty()) add_cases(one, timing_results(config_, one.group, std::span(&samples, 1)), out);
+        config_, counted_group.group, path, request, [&](int) { tell(counted_group.group, "time", per_round); }, stop_);
+    if (!samples.methods.empty())
+      add_cases(counted_group, timing_results(config_, counted_group.group, std::span(&samples, 1)), out);
   }
 
   void time_waiting(Result& out) {
     if (waiting_.empty()) return;
     std::vector<GroupToTime> groups;
-    for (const CountedGroup& one : waiting_) groups.push_back({&one.group, fullest_frames(one.group, one.counted)});
+    for (const CountedGroup& counted_group : waiting_)
+      groups.push_back({&counted_group.group, fullest_frames(counted_group.group, counted_group.counted)});
     const int launches = config_.timing.launches, rounds = rounds_per_launch(config_.timing, launches);
     std::vector<std::vector<GroupSamples>> samples(groups.size());
     for (int launch = 0; launch < launches; ++launch) {
@@ -241,24 +243,25 @@ class Run {
 
   void add_cases(CountedGroup& counted, const std::vector<TimingResult>& timings, Result& out) {
     for (std::size_t i = 0; i < counted.group.cases.size(); ++i) {
-      CaseResult one = case_result(counted.group.cases[i], counted.frames, counted.counted, i);
-      if (!counted.stabilities.empty()) one.stability = counted.stabilities[i];
-      if (!counted.details.empty()) one.details = std::move(counted.details[i]);
-      if (!timings.empty()) one.timing = timings[i];
-      if (const auto count = counts_.find(one.id); count != counts_.end()) one.count = count->second;
+      CaseResult finished = case_result(counted.group.cases[i], counted.frames, counted.counted, i);
+      if (!counted.stabilities.empty()) finished.stability = counted.stabilities[i];
+      if (!counted.details.empty()) finished.details = std::move(counted.details[i]);
+      if (!timings.empty()) finished.timing = timings[i];
+      if (const auto count = counts_.find(finished.id); count != counts_.end()) finished.count = count->second;
       ++progress_.cases_done;
-      if (listener_.on_case) listener_.on_case(one);
-      out.cases.push_back(std::move(one));
+      if (listener_.on_case) listener_.on_case(finished);
+      out.cases.push_back(std::move(finished));
     }
   }
 
-  CaseResult case_result(const CasePlan& plan, int frames, const AccuracyResult& counted, std::size_t place) const {
+  CaseResult case_result(const CasePlan& plan, int frames, const AccuracyResult& counted, std::size_t index) const {
     const scene::Scene& scene = plan_.scenes[plan.scene].scene;
     const config::MethodRequest& assigner = config_.assigners[plan.assigner];
     const assign::AssignerDescriptor& descriptor = *assign::find_assigner(assigner.name);
-    const MethodMeasures& method = *std::find_if(counted.methods.begin(), counted.methods.end(),
-                                                 [&](const auto& one) { return one.method == plan.method(); });
-    const StructureMeasures& structure = counted.structures[place];
+    const MethodMeasures& method =
+        *std::find_if(counted.methods.begin(), counted.methods.end(),
+                      [&](const auto& measures) { return measures.method == plan.method(); });
+    const StructureMeasures& structure = counted.structures[index];
     CaseResult out;
     out.id = plan.id;
     out.settings = plan.settings;

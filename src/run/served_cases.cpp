@@ -22,20 +22,20 @@ ListDigest digest_of(const assign::Lists& lists) {
 // One method's lists of the path's frames, in their order: of its cells or, without cells, at samples.
 class ListsOfFrames {
  public:
-  ListsOfFrames(const config::Config& config, const GroupPlan& group, const CasePlan& one, const PathFrames& path)
+  ListsOfFrames(const config::Config& config, const GroupPlan& group, const CasePlan& case_plan, const PathFrames& path)
       : config_(config),
         path_(path),
         grids_(config.grids[group.grid]),
-        precision_(one.precision),
-        run_(start_method(config, one.method())) {}
+        precision_(case_plan.precision),
+        run_(start_method(config, case_plan.method())) {}
 
   const assign::Lists& at(int index) {
     const view::Frame frame = path_.frame(index);
     const bool is_new_grid = grids_.update(path_, frame);
     const FrameLights lights(config_.precisions, view::lights_in(frame, grid::space_of(grids_.grid(), frame)));
-    const view::LightArrays& seen = lights.seen(precision_);
-    if (is_new_grid) run_.build(grids_.grid(), assign::kinds_of(seen));
-    run_.assign({frame, seen});
+    const view::LightArrays& packed = lights.in_precision(precision_);
+    if (is_new_grid) run_.build(grids_.grid(), assign::kinds_of(packed));
+    run_.assign({frame, packed});
     if (run_.has_cells()) return run_.cell_lists();
     ask_at_samples(frame);
     return lists_at_samples_;
@@ -124,31 +124,31 @@ ServedCases::~ServedCases() = default;
 std::vector<std::string> ServedCases::case_ids() {
   std::vector<std::string> ids;
   for (const GroupPlan& group : plan_.groups)
-    for (const CasePlan& one : group.cases) ids.push_back(one.id);
+    for (const CasePlan& case_plan : group.cases) ids.push_back(case_plan.id);
   return ids;
 }
 
-ServedCases::Place ServedCases::find(const std::string& id) const {
+ServedCases::PlannedCase ServedCases::find(const std::string& id) const {
   for (const GroupPlan& group : plan_.groups)
-    for (const CasePlan& one : group.cases)
-      if (one.id == id) return {group, one};
+    for (const CasePlan& case_plan : group.cases)
+      if (case_plan.id == id) return {group, case_plan};
   throw Error("", id, "is no case of this plan");
 }
 
 std::vector<ListDigest> ServedCases::list_digests(const std::string& id) {
-  const Place place = find(id);
-  const PathFrames path = path_of(config_, plan_, place.group);
-  ListsOfFrames lists(config_, place.group, place.one, path);
+  const PlannedCase planned = find(id);
+  const PathFrames path = path_of(config_, plan_, planned.group);
+  ListsOfFrames lists(config_, planned.group, planned.case_plan, path);
   std::vector<ListDigest> digests;
   for (int frame = 0; frame < path.count(); ++frame) digests.push_back(digest_of(lists.at(frame)));
   return digests;
 }
 
 FrameLists ServedCases::frame_lists(const std::string& id, int frame) {
-  const Place place = find(id);
-  const PathFrames path = path_of(config_, plan_, place.group);
+  const PlannedCase planned = find(id);
+  const PathFrames path = path_of(config_, plan_, planned.group);
   if (frame < 0 || frame >= path.count()) throw Error("", id, "has no frame " + std::to_string(frame));
-  ListsOfFrames lists(config_, place.group, place.one, path);
+  ListsOfFrames lists(config_, planned.group, planned.case_plan, path);
   const assign::Lists& found = lists.at(frame);
   FrameLists out{lists.cells(), {}};
   for (std::uint32_t cell = 0; cell < found.cell_count(); ++cell)
@@ -157,12 +157,12 @@ FrameLists ServedCases::frame_lists(const std::string& id, int frame) {
 }
 
 double ServedCases::assign_ns(const std::string& id) {
-  const Place place = find(id);
-  if (!open_ || &open_->group() != &place.group) {
+  const PlannedCase planned = find(id);
+  if (!open_ || &open_->group() != &planned.group) {
     open_.reset();
-    open_ = std::make_unique<OpenGroup>(config_, plan_, place.group);
+    open_ = std::make_unique<OpenGroup>(config_, plan_, planned.group);
   }
-  return open_->assign_ns(place.one.method());
+  return open_->assign_ns(planned.case_plan.method());
 }
 
 }  // namespace clusterbench::run

@@ -23,14 +23,14 @@ class ServedCases : public Program {
   double assign_ns(const std::string& id) override;
 
  private:
-  struct Place {
+  struct PlannedCase {
     const GroupPlan& group;
-    const CasePlan& one;
+    const CasePlan& case_plan;
   };
   class OpenGroup;  // a group whose methods are ready to be measured; one at a time
 
   // Throws Error for an id that is not in the plan.
-  Place find(const std::string& id) const;
+  PlannedCase find(const std::string& id) const;
 
   const config::Config& config_;
   const Plan& plan_;

@@ -77,7 +77,7 @@ std::vector<SceneData> load_scenes(const config::Config& config) {
 Json identity(const config::MethodRequest& method) {
   Json params = Json::object();
   for (const auto& [name, value] : method.params.values())
-    params[name] = std::visit([](const auto& held) { return Json(held); }, value);
+    params[name] = std::visit([](const auto& number) { return Json(number); }, value);
   return {{"name", method.name}, {"params", params}};
 }
 
@@ -292,32 +292,32 @@ class Expansion {
       skip(plan, name + part, impossible);
       return;
     }
-    CasePlan one{"", "", group.scene, group.camera, group.viewport, group.grid, assigner, {}, precision};
+    CasePlan case_plan{"", "", group.scene, group.camera, group.viewport, group.grid, assigner, {}, precision};
     for (std::size_t storage = 0; descriptor.answers(assign::Answer::lists) && storage < config_.storages.size();
          ++storage) {
-      one.storage = storage;
-      one.name = name + "/" + name_part(config_.storages[storage].label()) + part;
+      case_plan.storage = storage;
+      case_plan.name = name + "/" + name_part(config_.storages[storage].label()) + part;
       const std::string too_much = storage_obstacle(config_.storages[storage], first);
       if (too_much.empty())
-        add_case(plan, group, one);
+        add_case(plan, group, case_plan);
       else
-        skip(plan, one.name, too_much);
+        skip(plan, case_plan.name, too_much);
     }
     if (!descriptor.answers(assign::Answer::structure)) return;
-    one.storage.reset();
-    one.name = name + "/" + k_own_structure + part;
-    add_case(plan, group, one);
+    case_plan.storage.reset();
+    case_plan.name = name + "/" + k_own_structure + part;
+    add_case(plan, group, case_plan);
   }
 
-  void add_case(const Plan& plan, GroupPlan& group, CasePlan one) {
-    one.name = unique_name(one.name, names_);
-    Json all = identity(config_, plan.scenes[group.scene], one);
-    one.id = unique_name(short_hash(all), ids_);
+  void add_case(const Plan& plan, GroupPlan& group, CasePlan case_plan) {
+    case_plan.name = unique_name(case_plan.name, names_);
+    Json all = identity(config_, plan.scenes[group.scene], case_plan);
+    case_plan.id = unique_name(short_hash(all), ids_);
     all["scene"].erase("sha256");
-    one.settings = short_hash(all);
+    case_plan.settings = short_hash(all);
     ++all_cases_;
-    if (example_.empty()) example_ = one.name;
-    if (filter_.is_in(one.name)) group.cases.push_back(std::move(one));
+    if (example_.empty()) example_ = case_plan.name;
+    if (filter_.is_in(case_plan.name)) group.cases.push_back(std::move(case_plan));
   }
 
   // What the filter leaves out is not listed as skipped either.
@@ -344,8 +344,8 @@ static void skip_sets(const config::Config& config, const SceneData& data, std::
 
 std::vector<Method> methods_of(const GroupPlan& group) {
   std::vector<Method> list;
-  for (const CasePlan& one : group.cases)
-    if (std::find(list.begin(), list.end(), one.method()) == list.end()) list.push_back(one.method());
+  for (const CasePlan& case_plan : group.cases)
+    if (std::find(list.begin(), list.end(), case_plan.method()) == list.end()) list.push_back(case_plan.method());
   return list;
 }
 
@@ -358,8 +358,8 @@ std::string method_label(const config::Config& config, const Method& method) {
          (precision.is_lossy() ? " " + precision.label() : "");
 }
 
-std::string storage_label(const config::Config& config, const CasePlan& one) {
-  return one.storage ? config.storages[*one.storage].label() : k_own_structure;
+std::string storage_label(const config::Config& config, const CasePlan& case_plan) {
+  return case_plan.storage ? config.storages[*case_plan.storage].label() : k_own_structure;
 }
 
 assign::AssignerRun start_method(const config::Config& config, const Method& method) {

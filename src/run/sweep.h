@@ -12,7 +12,7 @@
 
 namespace clusterbench::run {
 
-// What answers depend on within a group: places in the configuration's lists, and the form of the answer.
+// What answers depend on within a group: indices in the configuration's lists, and the form of the answer.
 struct Method {
   std::size_t assigner = 0, precision = 0;
   assign::Answer answer = assign::Answer::lists;
@@ -20,7 +20,7 @@ struct Method {
   friend bool operator==(const Method&, const Method&) = default;
 };
 
-// One case by its places in the configuration's lists. The camera path is a place in the scene's paths.
+// One case by its indices in the configuration's lists. The camera path is an index in the scene's paths.
 struct CasePlan {
   // "scene/camera/grid/assigner/storage" (viewport in the grid's part when there are several), and the precision where
   // it is not float32.
@@ -35,7 +35,7 @@ struct CasePlan {
   Method method() const { return {assigner, precision, storage ? assign::Answer::lists : assign::Answer::structure}; }
 };
 
-// What stands in the place of a storage's name where an assigner leaves its own structure.
+// What stands for a storage's name where an assigner leaves its own structure.
 inline constexpr const char* k_own_structure = "own";
 
 // Cases of one scene, camera, viewport and grid: measured together, in interleaved rounds.
@@ -49,7 +49,7 @@ std::vector<Method> methods_of(const GroupPlan& group);
 // The assigner's label, and the precision's where it is not float32.
 std::string method_label(const config::Config& config, const Method& method);
 // A case's storage as it is shown.
-std::string storage_label(const config::Config& config, const CasePlan& one);
+std::string storage_label(const config::Config& config, const CasePlan& case_plan);
 // A case's method, ready to be built.
 assign::AssignerRun start_method(const config::Config& config, const Method& method);
 

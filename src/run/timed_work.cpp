@@ -50,12 +50,12 @@ TimedWork::TimedWork(const config::Config& config, const GroupPlan& group, const
     structure_assigner_ = descriptor.make_own(request.params);
     for (std::size_t i = 0; i < all_frames; ++i) structures_.push_back(structure_assigner_->make_structure());
   }
-  for (std::size_t place = 0; place < group.cases.size(); ++place) {
-    const CasePlan& one = group.cases[place];
-    if (one.method() != method) continue;
-    places_.push_back(place);
-    if (!one.storage) continue;
-    const config::MethodRequest& store = config.storages[*one.storage];
+  for (std::size_t index = 0; index < group.cases.size(); ++index) {
+    const CasePlan& case_plan = group.cases[index];
+    if (case_plan.method() != method) continue;
+    case_indices_.push_back(index);
+    if (!case_plan.storage) continue;
+    const config::MethodRequest& store = config.storages[*case_plan.storage];
     stores_.push_back(storage(*assign::find_storage(store.name), store.params));
   }
   if (extra_ != nullptr) assign_frame(frames.size());
@@ -69,7 +69,7 @@ void TimedWork::build() {
 void TimedWork::build_for(const TimedFrame& frame) {
   assign::Assigner& assigner = lists_assigner_ ? static_cast<assign::Assigner&>(*lists_assigner_)
                                                : static_cast<assign::Assigner&>(*structure_assigner_);
-  assigner.build(*frame.grid, assign::kinds_of(frame.lights.seen(precision_)));
+  assigner.build(*frame.grid, assign::kinds_of(frame.lights.in_precision(precision_)));
   built_for_ = frame.grid.get();
 }
 
@@ -85,7 +85,7 @@ void TimedWork::prepare_frame(std::size_t frame) {
 void TimedWork::assign_frame(std::size_t frame) {
   const TimedFrame& now = at(frame);
   if (now.is_grid_new || now.grid.get() != built_for_) build_for(now);
-  const assign::FrameInput input{now.frame, now.lights.seen(precision_)};
+  const assign::FrameInput input{now.frame, now.lights.in_precision(precision_)};
   if (lists_assigner_)
     lists_assigner_->assign(input, lists_[frame]);
   else
@@ -113,7 +113,7 @@ std::unique_ptr<assign::Storage> TimedWork::storage(const assign::StorageDescrip
                                                     const assign::Params& params) const {
   const TimedFrame& frame = frames_.front();
   auto made = storage.make(params);
-  made->start(*frame.grid, frame.lights.seen(precision_));
+  made->start(*frame.grid, frame.lights.in_precision(precision_));
   return made;
 }
 

@@ -55,8 +55,8 @@ class TimedWork {
   void convert(std::size_t store) const;
   void convert_frame(std::size_t store, std::size_t frame) const;
 
-  // The method's cases by their place in the group; a storage each, where it converts.
-  const std::vector<std::size_t>& places() const { return places_; }
+  // The method's cases by their index in the group; a storage each, where it converts.
+  const std::vector<std::size_t>& case_indices() const { return case_indices_; }
   std::size_t frame_count() const { return frames_.size(); }
   bool has_extra() const { return extra_ != nullptr; }
   int path_frame(std::size_t frame) const { return at(frame).frame.index; }
@@ -79,7 +79,7 @@ class TimedWork {
   const grid::Grid* built_for_ = nullptr;
   std::vector<assign::Lists> lists_;
   std::vector<std::unique_ptr<assign::LightStructure>> structures_;
-  std::vector<std::size_t> places_;
+  std::vector<std::size_t> case_indices_;
   std::vector<std::unique_ptr<assign::Storage>> stores_;
 };
 

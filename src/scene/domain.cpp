@@ -5,7 +5,7 @@
 #include <set>
 
 #include "core/error.h"
-#include "geom/domain.h"
+#include "geom/shapes/domain.h"
 
 namespace clusterbench::scene {
 namespace {

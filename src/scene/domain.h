@@ -1,6 +1,6 @@
 #pragma once
-// Whether what is sampled from a scene lies in the domain (geom/domain.h). Numbers in a file can each be fine and make
-// places, by nested and animated transforms, that are not.
+// Whether what is sampled from a scene lies in the domain (geom/shapes/domain.h). Numbers in a file can each be fine
+// and make positions, by nested and animated transforms, that are not.
 
 #include <span>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-// A piece of a camera path in steps so small that hardly anything changes from one to the next.
+// A segment of a camera path in steps so small that hardly anything changes from one to the next.
 
 #include "scene/camera_path.h"
 

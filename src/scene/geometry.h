@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "geom/vec.h"
+#include "geom/shapes/vec.h"
 #include "scene/scene.h"
 
 namespace clusterbench::scene {

@@ -310,7 +310,7 @@ void check_world(const Scene& scene, const JsonLocation& root) {
         if (std::isfinite(world[i][column][row])) continue;
         root.at("nodes")
             .at(static_cast<std::size_t>(scene.nodes[i].gltf_index))
-            .refuse("its place in the world is not a number: the transforms above it are too large");
+            .refuse("its position in the world is not a number: the transforms above it are too large");
       }
     }
   }

@@ -267,7 +267,7 @@ void AccessorReader::read_sparse(const JsonLocation& accessor, const AccessorHea
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t index = little_endian(locations.at(i));
     if (index >= head.count || (last && index <= *last)) {
-      indices.refuse("index " + std::to_string(index) + " at place " + std::to_string(i) +
+      indices.refuse("index " + std::to_string(index) + " at position " + std::to_string(i) +
                      ": indices must ascend and be less than " + std::to_string(head.count));
     }
     last = index;

@@ -82,11 +82,11 @@ json checked_roots(const JsonLocation& scene, const std::vector<bool>& is_child)
   if (!scene.has("nodes")) return roots;
   const JsonLocation list = scene.at("nodes");
   const std::size_t count = list.elements();
-  std::set<std::size_t> seen;
+  std::set<std::size_t> listed;
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t node = list.at(k).index(is_child.size(), "node");
     if (is_child[node]) list.at(k).refuse("node " + std::to_string(node) + " has a parent; a scene lists roots");
-    if (!seen.insert(node).second) list.at(k).refuse("node " + std::to_string(node) + " is listed twice");
+    if (!listed.insert(node).second) list.at(k).refuse("node " + std::to_string(node) + " is listed twice");
     roots.push_back(node);
   }
   return roots;

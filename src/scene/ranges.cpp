@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geom/domain.h"
+#include "geom/shapes/domain.h"
 #include "scene/scene.h"
 
 namespace clusterbench::scene {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "geom/vec.h"
+#include "geom/shapes/vec.h"
 
 namespace clusterbench::scene {
 
@@ -168,7 +168,7 @@ struct WorldLight {
 
 // All point lights, then all spot lights, each in Scene::lights order. Directional lights touch everything and are left
 // out. A light that is invisible at that time has a range of 0, so that it lights nothing and the others keep their
-// places.
+// indices.
 std::vector<WorldLight> world_lights(const Scene& scene, double time_s);
 
 // Where a camera stands: view = view_from_world * (world - eye). Rows are unit and orthogonal up to rounding: the

@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "geom/domain.h"
+#include "geom/shapes/domain.h"
 #include "scene/camera_path.h"
 #include "scene/domain.h"
 
@@ -176,9 +176,9 @@ std::map<double, std::vector<std::size_t>> moments_to_look_at(const Scene& scene
                                                               const std::vector<CameraMoments>& moments, Sight& sight) {
   double all = 0.0;
   std::set<double> times;
-  for (const CameraMoments& one : moments) {
-    all += static_cast<double>(one.times_s.size());
-    times.insert(one.times_s.begin(), one.times_s.end());
+  for (const CameraMoments& camera : moments) {
+    all += static_cast<double>(camera.times_s.size());
+    times.insert(camera.times_s.begin(), camera.times_s.end());
   }
   const double lights = static_cast<double>(scene.lights.size());
   const double placed = static_cast<double>(scene.nodes.size() + scene.channels.size());

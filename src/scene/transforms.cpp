@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "geom/domain.h"
+#include "geom/shapes/domain.h"
 #include "scene/animation.h"
 #include "scene/scene.h"
 

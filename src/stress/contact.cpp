@@ -45,27 +45,27 @@ struct ContactOn {
     return contact;
   }
 
-  Contact operator()(const geom::FrustumPiece& piece) const {
-    if (piece.orthographic)
-      return (*this)(geom::Box{{piece.x0, piece.y0, -piece.depth1}, {piece.x1, piece.y1, -piece.depth0}});
+  Contact operator()(const geom::FrustumCell& cell) const {
+    if (cell.orthographic)
+      return (*this)(geom::Box{{cell.x0, cell.y0, -cell.depth1}, {cell.x1, cell.y1, -cell.depth0}});
     Side x = random_side(random), y = random_side(random);
     const Side depth = random_side(random);
     if (x == Side::between && y == Side::between && depth == Side::between) x = Side::high;
-    Contact contact = on_sides(piece.x0, piece.x1, piece.y0, piece.y1, x, y,
-                               coordinate_on(depth, piece.depth0, piece.depth1, random));
+    Contact contact =
+        on_sides(cell.x0, cell.x1, cell.y0, cell.y1, x, y, coordinate_on(depth, cell.depth0, cell.depth1, random));
     lean(contact.outward, depth, {0, 0, 1}, {0, 0, -1}, random);
     contact.outward = glm::normalize(contact.outward);
     return contact;
   }
 
-  Contact operator()(const geom::ShellPiece& piece) const {
+  Contact operator()(const geom::ShellCell& cell) const {
     Side x = random_side(random), y = random_side(random);
     const bool on_shell = random.below(2) == 0;
     if (x == Side::between && y == Side::between && !on_shell) x = Side::high;
-    Contact contact = on_sides(piece.x0, piece.x1, piece.y0, piece.y1, x, y, 1.0);
+    Contact contact = on_sides(cell.x0, cell.x1, cell.y0, cell.y1, x, y, 1.0);
     const Vec3d ray = glm::normalize(contact.point);
     const double t = random.unit();
-    const double distance = on_shell ? piece.distance1 : piece.distance0 + t * (piece.distance1 - piece.distance0);
+    const double distance = on_shell ? cell.distance1 : cell.distance0 + t * (cell.distance1 - cell.distance0);
     contact.point = distance * ray;
     if (on_shell) contact.outward += (random.unit() + 1e-3) * ray;
     contact.outward = glm::normalize(contact.outward);

@@ -1,5 +1,5 @@
 #pragma once
-// Places on the surface of a cell and the directions in which a light can lie there and just touch it.
+// Points on the surface of a cell and the directions in which a light can lie there and just touch it.
 
 #include "core/random.h"
 #include "grid/grid.h"
@@ -15,7 +15,7 @@ struct Contact {
 // A cell that is no hole.
 std::uint32_t random_cell(const grid::Grid& grid, SplitMix64& random);
 
-// On a face, an edge or a corner. Of a shell piece: on its outer shell or its planes; its inner shell, which bulges
+// On a face, an edge or a corner. Of a shell cell: on its outer shell or its planes; its inner shell, which bulges
 // into the cell, takes balls only.
 Contact random_contact(const geom::Cell& cell, SplitMix64& random);
 

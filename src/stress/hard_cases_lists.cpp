@@ -87,19 +87,19 @@ Trial mixed_lights(std::uint64_t seed, bool reversed) {
   };
   std::vector<Made> made;
   for (int i = 0; i < 200; ++i) {
-    Made one;
-    for (int axis = 0; axis < 3; ++axis) one.position[axis] = random.between(-20, 20);
-    one.position.z = i % 4 == 0 ? -12.0 : one.position.z - 20.0;
-    for (int axis = 0; axis < 3; ++axis) one.direction[axis] = random.between(-1, 1);
-    one.range = random.between(0.2, 9.0);
-    one.angle = random.between(0.02, 1.5);
-    made.push_back(one);
+    Made light;
+    for (int axis = 0; axis < 3; ++axis) light.position[axis] = random.between(-20, 20);
+    light.position.z = i % 4 == 0 ? -12.0 : light.position.z - 20.0;
+    for (int axis = 0; axis < 3; ++axis) light.direction[axis] = random.between(-1, 1);
+    light.range = random.between(0.2, 9.0);
+    light.angle = random.between(0.02, 1.5);
+    made.push_back(light);
   }
   if (reversed) std::reverse(made.begin(), made.end());
   Rig rig;
-  for (const Made& one : made) {
-    rig.point(one.position, one.range);
-    rig.spot(one.position, one.direction, one.range, one.angle);
+  for (const Made& light : made) {
+    rig.point(light.position, light.range);
+    rig.spot(light.position, light.direction, light.range, light.angle);
   }
   return rig.on(pixel_grid({64, 64}));
 }

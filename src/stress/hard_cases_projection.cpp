@@ -162,8 +162,8 @@ std::vector<ToolCheck> resized(std::uint64_t seed) {
     Rig rig;
     scatter(rig, 1.0, 0.6, 150, seed);
     grid::GridSpec spec = grids_of_every_kind()[0];
-    for (const grid::GridSpec& one : grids_of_every_kind())
-      if (row->takes(one.kind)) spec = one;
+    for (const grid::GridSpec& of_a_kind : grids_of_every_kind())
+      if (row->takes(of_a_kind.kind)) spec = of_a_kind;
     const Trial full = rig.on(spec), half = rig.show({960, 540}).on(spec);
     const view::Frame full_frame = frame_of(full), half_frame = frame_of(half);
     const grid::Grid full_grid = grid_of(full, full_frame), half_grid = grid_of(half, half_frame);

@@ -5,11 +5,16 @@
 #include <exception>
 
 #include "core/error.h"
+#include "geom/filter/light_filter.h"
+#include "geom/light_meets_cell.h"
+#include "geom/shapes/light_volume.h"
+#include "geom/shapes/placement.h"
+#include "geom/shapes/verdict.h"
 #include "measure/shading.h"
 #include "measure/truth.h"
 #include "stress/random_search.h"
 #include "stress/random_setting.h"
-#include "stress/stress.h"
+#include "stress/stress_run.h"
 
 namespace clusterbench::stress {
 namespace {
@@ -25,11 +30,11 @@ struct PointOf {
   double x, y, z;
 
   static double mix(double lo, double hi, double t) { return t == 0.0 ? lo : t == 1.0 ? hi : lo + t * (hi - lo); }
-  Vec3d operator()(const geom::FrustumPiece& c) const {
+  Vec3d operator()(const geom::FrustumCell& c) const {
     const double depth = mix(c.depth0, c.depth1, z), scale = c.orthographic ? 1.0 : depth;
     return {mix(c.x0, c.x1, x) * scale, mix(c.y0, c.y1, y) * scale, -depth};
   }
-  Vec3d operator()(const geom::ShellPiece& c) const {
+  Vec3d operator()(const geom::ShellCell& c) const {
     const Vec3d ray{mix(c.x0, c.x1, x), mix(c.y0, c.y1, y), -1.0};
     return (mix(c.distance0, c.distance1, z) / glm::length(ray)) * ray;
   }
@@ -183,10 +188,10 @@ class SettingCheck {
       const bool is_true = truth.has(cell, light);
       const bool is_border = listed.has(cell, light) != is_true || has_other_neighbour(cell, light, truth);
       const Verdict verdict = filter.meets(grid_.cell(cell));
-      const bool is_contradicted = verdict != Verdict::open && (verdict == Verdict::yes) != is_true;
+      const bool is_contradicted = verdict != Verdict::uncertain && (verdict == Verdict::yes) != is_true;
       if (is_contradicted || (is_border && !is_true && shares_a_point(volume, cell)))
         contradicted.push_back(cell);
-      else if (is_border || verdict == Verdict::open)
+      else if (is_border || verdict == Verdict::uncertain)
         near.push_back(cell);
     }
     contradicted.resize(std::min<std::size_t>(contradicted.size(), 20));
@@ -223,7 +228,7 @@ class SettingCheck {
     const geom::LightVolume volume = lights_.volume(light);
     const Verdict verdict = counted(geom::prove_meets(volume, grid_.cell(cell)), cell, light);
     const bool is_true = truth.has(cell, light);
-    if (verdict != Verdict::open && (verdict == Verdict::yes) != is_true)
+    if (verdict != Verdict::uncertain && (verdict == Verdict::yes) != is_true)
       add(FaultKind::truth, "",
           pair_text(cell, light) + ": the true lists say " + (is_true ? "yes" : "no") + ", its own decision says " +
               (is_true ? "no" : "yes"),
@@ -234,7 +239,7 @@ class SettingCheck {
 
   Verdict counted(Verdict verdict, std::uint32_t cell, std::uint32_t light) {
     ++report_.counts.decisions;
-    if (verdict != Verdict::open) return verdict;
+    if (verdict != Verdict::uncertain) return verdict;
     ++report_.counts.undecided;
     add(FaultKind::undecided, "", pair_text(cell, light) + " is neither proven nor refuted", cell, light);
     return verdict;

@@ -6,7 +6,7 @@
 
 #include "core/parallel.h"
 #include "stress/random_setting.h"
-#include "stress/stress.h"
+#include "stress/stress_run.h"
 
 namespace clusterbench::stress {
 namespace {

@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "stress/hard_cases.h"
 #include "stress/random_search.h"
-#include "stress/stress.h"
+#include "stress/stress_run.h"
 
 namespace clusterbench::stress {
 namespace {

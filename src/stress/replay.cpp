@@ -4,7 +4,7 @@
 #include "config/grid_json.h"
 #include "core/error.h"
 #include "scene/write_gltf.h"
-#include "stress/stress.h"
+#include "stress/stress_run.h"
 
 namespace clusterbench::stress {
 namespace {
@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 OrderedJson assigner_json(const StressMethod& method) {
   OrderedJson assigner{{"name", method.assigner->name}};
   for (const auto& [key, value] : method.params.values())
-    std::visit([&, &name_of = key](const auto& held) { assigner[name_of] = held; }, value);
+    std::visit([&, &name_of = key](const auto& number) { assigner[name_of] = number; }, value);
   return assigner;
 }
 

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "geom/vec.h"
+#include "geom/shapes/vec.h"
 
 namespace clusterbench::view {
 

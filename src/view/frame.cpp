@@ -7,9 +7,10 @@
 #include <string>
 
 #include "core/error.h"
-#include "geom/domain.h"
-#include "geom/predicates.h"
-#include "geom/rounding.h"
+#include "geom/numbers/round_to_float.h"
+#include "geom/shapes/domain.h"
+#include "geom/shapes/light_volume.h"
+#include "geom/single_precision/bounding_volumes.h"
 #include "scene/domain.h"
 
 namespace clusterbench::view {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "geom/meets.h"
-#include "geom/shapes.h"
-#include "geom/vec.h"
+#include "geom/shapes/ball_and_cone.h"
+#include "geom/shapes/light_volume.h"
+#include "geom/shapes/vec.h"
 #include "scene/camera_path.h"
 
 namespace clusterbench::view {
@@ -96,7 +96,7 @@ struct Frame {
   LightRanges ranges() const { return {points, static_cast<std::uint32_t>(lights.size()) - points}; }
 };
 
-// Throws Error for a frame outside of the domain (geom/domain.h).
+// Throws Error for a frame outside of the domain (geom/shapes/domain.h).
 Frame make_frame(const scene::Scene& scene, const scene::Shot& shot, int index, Vec2i viewport);
 
 // What a method that uses these numbers has lost before it starts, in roundoffs: one for the centre (each coordinate is

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "geom/rounding.h"
+#include "geom/numbers/round_to_float.h"
 #include "view/formats.h"
 
 namespace clusterbench::view {
@@ -82,7 +82,7 @@ class Unorm16Format {
     if (!(value > 0.0f)) return value;
     const float unpacked =
         geom::rounded_up(largest_range_ / k_unorm16_steps * unorm16_not_below(value / largest_range_));
-    return std::max(unpacked, value);  // the product may end a rounding below
+    return std::max(unpacked, value);  // the product may end a unit roundoff below
   }
   static Number angle(double value) {
     constexpr double k_step = k_right_angle / k_unorm16_steps;

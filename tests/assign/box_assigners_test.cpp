@@ -71,7 +71,7 @@ TEST(BoxAssigners, the_cone_test_only_takes_cells_away) {
 // --- Beside double precision ---
 
 // Distance from a place to the view-space box of a cell, all in double.
-double distance_to_box(const geom::FrustumPiece& cell, const Vec3d& p) {
+double distance_to_box(const geom::FrustumCell& cell, const Vec3d& p) {
   Vec3d lo(std::numeric_limits<double>::infinity()), hi = -lo;
   for (const double depth : {cell.depth0, cell.depth1})
     for (const double x : {cell.x0, cell.x1})
@@ -85,7 +85,7 @@ double distance_to_box(const geom::FrustumPiece& cell, const Vec3d& p) {
 }
 
 // How far p lies beyond the farthest side of the cell; negative inside.
-double height_above_sides(const geom::FrustumPiece& cell, const Vec3d& p) {
+double height_above_sides(const geom::FrustumCell& cell, const Vec3d& p) {
   const double depth = -p.z, scale = cell.orthographic ? 1.0 : depth;
   const auto beside = [&](double place, double slope) {
     return (place - slope * scale) / (cell.orthographic ? 1.0 : std::hypot(1.0, slope));
@@ -104,7 +104,7 @@ void expect_lists_of(const Setting& setting, const Lists& lists, const Lists& ca
     if (world.range_m == 0.0 || std::isinf(world.range_m)) continue;
     const Vec3d p = space.rotation * (world.position - space.origin);
     for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) {
-      const double gap = distance(std::get<geom::FrustumPiece>(setting.grid.cell(cell)), p);
+      const double gap = distance(std::get<geom::FrustumCell>(setting.grid.cell(cell)), p);
       const double slack = 2e-6 * (std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z) + world.range_m);
       const bool is_listed = lists_light(lists, cell, light);
       if (gap <= world.range_m && lists_light(candidates, cell, light)) {
@@ -161,11 +161,13 @@ TEST(Bounds, list_no_column_row_or_slice_that_a_dense_sampling_of_the_ball_stays
     for (int i = 0; i < 20000; ++i) take(point_in(frame.lights[light], random));
     for (std::uint32_t cell = 0; cell < grid.cell_count(); ++cell) {
       if (!lists_light(lists, cell, light)) continue;
-      const auto piece = std::get<geom::FrustumPiece>(grid.cell(cell));
+      const auto frustum = std::get<geom::FrustumCell>(grid.cell(cell));
       const Vec3d slack = 0.03 * (hi - lo) + 1e-6;
-      ASSERT_TRUE(piece.x0 <= hi.x + slack.x && piece.x1 >= lo.x - slack.x) << "light " << light << ", cell " << cell;
-      ASSERT_TRUE(piece.y0 <= hi.y + slack.y && piece.y1 >= lo.y - slack.y) << "light " << light << ", cell " << cell;
-      ASSERT_TRUE(piece.depth0 <= hi.z + slack.z && piece.depth1 >= lo.z - slack.z) << light << ", cell " << cell;
+      ASSERT_TRUE(frustum.x0 <= hi.x + slack.x && frustum.x1 >= lo.x - slack.x)
+          << "light " << light << ", cell " << cell;
+      ASSERT_TRUE(frustum.y0 <= hi.y + slack.y && frustum.y1 >= lo.y - slack.y)
+          << "light " << light << ", cell " << cell;
+      ASSERT_TRUE(frustum.depth0 <= hi.z + slack.z && frustum.depth1 >= lo.z - slack.z) << light << ", cell " << cell;
     }
   }
 }

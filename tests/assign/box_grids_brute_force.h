@@ -3,7 +3,7 @@
 
 #include "assign/box_grid/box_rows.h"
 #include "assign/dense_check.h"
-#include "geom/predicates.h"
+#include "geom/single_precision/touch_tests.h"
 
 namespace clusterbench::assign::testing {
 

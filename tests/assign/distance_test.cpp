@@ -1,6 +1,7 @@
 #include <limits>
 
 #include "assign/dense_check.h"
+#include "geom/shapes/cell.h"
 
 namespace clusterbench::assign::testing {
 namespace {
@@ -49,7 +50,7 @@ TEST(Distance, an_eye_in_the_ball_has_the_light_in_every_tile_of_the_shells_that
 }
 
 // Along each tile's pixels and shell's distances, the nearest one to the centre: an upper bound of the cell's distance.
-double sampled_distance(const geom::ShellPiece& cell, Vec3d center) {
+double sampled_distance(const geom::ShellCell& cell, Vec3d center) {
   double nearest = std::numeric_limits<double>::infinity();
   const int steps = 24;
   for (int i = 0; i <= steps; ++i)
@@ -70,9 +71,9 @@ TEST(Distance, lists_no_cell_that_the_ball_clearly_misses) {
     for (const std::uint32_t light : lists.of(cell)) {
       // With the eye in the ball the cap can be wider than a half-space; then whole shells are taken.
       if (glm::length(frame.lights[light].position) < frame.lights[light].range_m) continue;
-      const auto piece = std::get<geom::ShellPiece>(grid.cell(cell));
-      const double distance = sampled_distance(piece, frame.lights[light].position);
-      const double step = 0.01 * piece.distance1;
+      const auto shell = std::get<geom::ShellCell>(grid.cell(cell));
+      const double distance = sampled_distance(shell, frame.lights[light].position);
+      const double step = 0.01 * shell.distance1;
       ASSERT_LE(distance, frame.lights[light].range_m + step) << "cell " << cell << " light " << light;
     }
 }

@@ -7,7 +7,7 @@
 #include "assign/each_target.h"
 #include "assign/lists/radix_sort.h"
 #include "assign/settings.h"
-#include "geom/predicates.h"
+#include "geom/single_precision/touch_tests.h"
 
 namespace clusterbench::assign {
 namespace {

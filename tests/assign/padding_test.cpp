@@ -8,6 +8,7 @@
 #include "assign/bounds/bounds_method.h"
 #include "assign/box_grid/box_rows.h"
 #include "assign/settings.h"
+#include "geom/single_precision/bounding_volumes.h"
 
 namespace clusterbench::assign::testing {
 namespace {
@@ -55,7 +56,7 @@ double distance_to(const geom::Box& box, const Vec3d& p) {
 }
 
 // How far p lies beyond the farthest plane of a cell; negative inside.
-double height_above(const geom::FrustumPiece& cell, const Vec3d& p) {
+double height_above(const geom::FrustumCell& cell, const Vec3d& p) {
   const double depth = -p.z, scale = cell.orthographic ? 1.0 : depth;
   const auto beside = [&](double place, double slope) {
     return (place - slope * scale) / (cell.orthographic ? 1.0 : std::hypot(1.0, slope));
@@ -73,9 +74,9 @@ TEST(Padding, of_boxes_and_planes_around_frustum_cells_covers_what_their_compari
     planes.build(setting.grid);
     std::vector<geom::Box> cells;
     for (std::uint32_t cell = 0; cell < setting.grid.cell_count(); ++cell)
-      cells.push_back(geom::box_around(std::get<geom::FrustumPiece>(setting.grid.cell(cell))));
+      cells.push_back(geom::box_around(std::get<geom::FrustumCell>(setting.grid.cell(cell))));
     const auto height = [&](std::uint32_t cell, const Vec3d& place) {
-      return height_above(std::get<geom::FrustumPiece>(setting.grid.cell(cell)), place);
+      return height_above(std::get<geom::FrustumCell>(setting.grid.cell(cell)), place);
     };
     lost_by_boxes += lost_without_padding(
         {CellAabbs::k_roundoffs, [&](std::uint32_t cell, const Vec3d& p) { return distance_to(cells[cell], p); },

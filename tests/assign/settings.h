@@ -8,7 +8,7 @@
 #include "assign/contract/assigner.h"
 #include "assign/dense_check.h"
 #include "assign/touching_lights.h"
-#include "geom/domain.h"
+#include "geom/shapes/domain.h"
 #include "grid/grid.h"
 #include "view/frame.h"
 
@@ -116,7 +116,7 @@ inline void add_lights(Setting& setting, const AssignerDescriptor& row, std::uin
   }
 }
 
-// --- Nasty scales: cells and lights from the domain's least lengths (geom/domain.h) to its greatest ---
+// --- Nasty scales: cells and lights from the domain's least lengths (geom/shapes/domain.h) to its greatest ---
 
 // A grid whose cells are about so large, and its view.
 inline Plan plan_of_size(const AssignerDescriptor& row, grid::Kind kind, double size_m, Random& random) {

@@ -8,6 +8,8 @@
 #include "assign/settings.h"
 #include "core/random.h"
 #include "effort.h"
+#include "geom/light_meets_cell.h"
+#include "geom/shapes/verdict.h"
 
 namespace clusterbench::assign {
 namespace {

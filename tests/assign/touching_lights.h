@@ -51,7 +51,7 @@ inline Vec3d blend(const Vec3i& sides, const Vec3d (&lower)[3], const Vec3d (&up
   return glm::normalize(sum);
 }
 
-inline Contact contact_of(const geom::FrustumPiece& cell, Random& random) {
+inline Contact contact_of(const geom::FrustumCell& cell, Random& random) {
   const Vec3i sides = random_sides(random);
   const Vec3d lo{cell.x0, cell.y0, cell.depth0}, hi{cell.x1, cell.y1, cell.depth1};
   const auto point = [&](const Vec3d& q) {
@@ -65,7 +65,7 @@ inline Contact contact_of(const geom::FrustumPiece& cell, Random& random) {
   return {point(q), point(beside(q, lo, hi)), blend(sides, lower, upper, random)};
 }
 
-inline Contact contact_of(const geom::ShellPiece& cell, Random& random) {
+inline Contact contact_of(const geom::ShellCell& cell, Random& random) {
   const Vec3i sides = random_sides(random);
   const Vec3d lo{cell.x0, cell.y0, cell.distance0}, hi{cell.x1, cell.y1, cell.distance1};
   const auto ray = [](const Vec3d& q) { return glm::normalize(Vec3d{q.x, q.y, -1}); };

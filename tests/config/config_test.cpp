@@ -195,13 +195,32 @@ TEST(Config, a_scene_alone_is_enough) {
   EXPECT_EQ(config.grids.size(), 5U);
 }
 
+TEST(Config, sets_of_samples_are_measured_where_they_are_named) {
+  const Config config =
+      parsed(R"(, "samples": {"fog": {"froxels": [3, 4, 5]}, "opaque": {}, "transparent": {"layers": 7}})");
+  ASSERT_EQ(config.sample_sets.size(), 4U);
+  const SampleSetRequest plain;
+  EXPECT_EQ(config.sample_sets[1].set, measure::SampleSet::opaque);
+  EXPECT_EQ(config.sample_sets[1].divisor, plain.divisor);
+  EXPECT_EQ(config.sample_sets[2].layers, 7);
+  EXPECT_EQ(config.sample_sets[3].froxels, Vec3i(3, 4, 5));
+  const Config all =
+      parsed(R"(, "shading": {"samples": 0}, "samples": {"transparent": {}, "mirror": {}, "anywhere": {}, "fog": {}})");
+  ASSERT_EQ(all.sample_sets.size(), 4U);
+  EXPECT_EQ(all.sample_sets[0].layers, plain.layers);
+  EXPECT_EQ(all.sample_sets[1].froxels, plain.froxels);
+  EXPECT_EQ(all.sample_sets[2].count, plain.count);
+}
+
 TEST(Config, defaults_of_the_schema_agree_with_the_defaults_of_the_code) {
   const Config config = parsed(R"(, "grids": [{}, {"kind": "cascades"}, {"kind": "world"}])");
   const Config plain;
   EXPECT_EQ(config.threads, plain.threads);
   EXPECT_EQ(config.seed, plain.seed);
   EXPECT_EQ(config.check_accuracy, plain.check_accuracy);
-  EXPECT_EQ(config.shading_samples, plain.shading_samples);
+  ASSERT_EQ(config.sample_sets.size(), 1U);
+  EXPECT_EQ(config.sample_sets[0].set, measure::SampleSet::volume);
+  EXPECT_EQ(config.sample_sets[0].count, SampleSetRequest{}.count);
   EXPECT_EQ(config.timing.measure, plain.timing.measure);
   EXPECT_EQ(config.timing.rounds, plain.timing.rounds);
   EXPECT_EQ(config.timing.min_time_ms, plain.timing.min_time_ms);

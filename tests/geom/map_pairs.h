@@ -6,6 +6,8 @@
 #include <array>
 
 #include "geom/random_pairs.h"
+#include "geom/shapes/cell.h"
+#include "geom/shapes/light_volume.h"
 
 namespace clusterbench::geom {
 
@@ -14,7 +16,7 @@ inline double log_between(double lo, double hi, SplitMix64& random) {
   return lo * std::pow(hi / lo, random.unit());
 }
 
-// Slopes of a tile; one in four is far aside.
+// Slopes of a tile; one in four is far to the side.
 inline Slopes map_tile(SplitMix64& random) {
   const auto interval = [&](float& lo, float& hi) {
     const double size = random.below(4) == 0 ? log_between(1.0, 1e4, random) : random.unit();
@@ -52,8 +54,8 @@ inline MapPair map_pair(bool is_shell, bool is_cone, SplitMix64& random) {
   const Slopes s = map_slopes(distance, range, random);
   const Reach reach{range, half_angle, margin * (by == By::side ? half_angle : range)};
   LightVolume light = light_against(random_contact(s, is_shell, random), by, reach, random);
-  if (is_shell) return {light, ShellPiece{s.x0, s.x1, s.y0, s.y1, s.near, s.far}};
-  return {light, FrustumPiece{s.x0, s.x1, s.y0, s.y1, s.near, s.far, false}};
+  if (is_shell) return {light, ShellCell{s.x0, s.x1, s.y0, s.y1, s.near, s.far}};
+  return {light, FrustumCell{s.x0, s.x1, s.y0, s.y1, s.near, s.far, false}};
 }
 
 }  // namespace clusterbench::geom

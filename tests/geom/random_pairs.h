@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/random.h"
-#include "geom/light_volume.h"
-#include "geom/shapes.h"
+#include "geom/shapes/cell.h"
+#include "geom/shapes/light_volume.h"
 
 namespace clusterbench::geom {
 
@@ -40,12 +40,12 @@ inline Slopes random_slopes(SplitMix64& random) {
   return s;
 }
 
-inline FrustumPiece random_piece(SplitMix64& random) {
+inline FrustumCell random_piece(SplitMix64& random) {
   const Slopes s = random_slopes(random);
   return {s.x0, s.x1, s.y0, s.y1, s.near, s.far, false};
 }
 
-inline ShellPiece random_shell(SplitMix64& random) {
+inline ShellCell random_shell(SplitMix64& random) {
   const Slopes s = random_slopes(random);
   return {s.x0, s.x1, s.y0, s.y1, s.near, s.far};
 }
@@ -58,16 +58,16 @@ inline bool volume_holds(const LightVolume& light, const Vec3d& p) {
 }
 
 inline Box random_box(SplitMix64& random) {
-  const FrustumPiece p = random_piece(random);
+  const FrustumCell p = random_piece(random);
   return {{8.0f * p.x0, 8.0f * p.y0, -p.depth1}, {8.0f * p.x1, 8.0f * p.y1, -p.depth0}};
 }
 
 // A random point of the cell; spread is uniform in slope and depth or distance.
-inline Vec3d point_of(const FrustumPiece& c, SplitMix64& random) {
+inline Vec3d point_of(const FrustumCell& c, SplitMix64& random) {
   const double depth = random.between(c.depth0, c.depth1);
   return {random.between(c.x0, c.x1) * depth, random.between(c.y0, c.y1) * depth, -depth};
 }
-inline Vec3d point_of(const ShellPiece& c, SplitMix64& random) {
+inline Vec3d point_of(const ShellCell& c, SplitMix64& random) {
   const Vec3d ray{random.between(c.x0, c.x1), random.between(c.y0, c.y1), -1.0};
   return random.between(c.distance0, c.distance1) / glm::length(ray) * ray;
 }

@@ -1,4 +1,4 @@
-#include "geom/row_slopes.h"
+#include "geom/projection/row_slopes.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 namespace clusterbench::geom {
 namespace {
 
-// A disk whose rim goes through the eye but for a few roundings of its radius.
+// A disk whose rim goes through the eye but for a few unit roundoffs of its radius.
 struct Disk {
   double u, w, squared_radius;
   double near, far;
@@ -21,8 +21,8 @@ Disk disk_at_the_eye(SplitMix64& random, double epsilon) {
   Disk disk;
   disk.u = static_cast<float>(distance * std::sin(angle));
   disk.w = static_cast<float>(distance * std::cos(angle));
-  const double roundings = std::round(random.between(-20, 20));
-  disk.squared_radius = (disk.u * disk.u + disk.w * disk.w) * (1.0 + roundings * epsilon);
+  const double roundoffs = std::round(random.between(-20, 20));
+  disk.squared_radius = (disk.u * disk.u + disk.w * disk.w) * (1.0 + roundoffs * epsilon);
   disk.near = random.below(2) == 0 ? 0.0 : distance * std::exp2(random.between(-36, -2));
   disk.far = disk.near + distance * std::exp2(random.between(-36, 2));
   return disk;
@@ -36,7 +36,7 @@ SlopeHull<Real> slopes(const Disk& disk, Real squared_radius, Errs errs) {
   return hull;
 }
 
-// A few hundred roundings lie between the disk that is asked for and the one that must lie within the answer (or hold
+// A few hundred roundoffs lie between the disk that is asked for and the one that must lie within the answer (or hold
 // it); these are found with far more digits.
 template <class Real>
 void expect_to_err_as_asked(std::uint64_t seed, int tries) {

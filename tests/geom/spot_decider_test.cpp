@@ -1,6 +1,6 @@
 // The quick proofs about spots against the slow ones, which prove in numbers of 106 bits, 1024 bits and rational ones.
 
-#include "geom/spot_decider.h"
+#include "geom/spot/spot_decider.h"
 
 #include <gtest/gtest.h>
 
@@ -10,11 +10,13 @@
 #include <limits>
 #include <numbers>
 
-#include "geom/exact_axis.h"
-#include "geom/gjk.h"
-#include "geom/meets.h"
+#include "geom/certificate/exact_axis.h"
+#include "geom/filter/light_filter.h"
+#include "geom/light_meets_cell.h"
 #include "geom/random_pairs.h"
-#include "geom/spot.h"
+#include "geom/search/gjk.h"
+#include "geom/shapes/verdict.h"
+#include "geom/spot/proof_by_search.h"
 
 namespace clusterbench::geom {
 namespace {
@@ -26,31 +28,31 @@ struct SpotPair {
   Cell cell;
 };
 
-// What the deciders of balls and geom/spot.h say.
+// What the deciders of balls and geom/spot/proof_by_search.h say.
 Verdict slowly(const SpotPair& pair) {
   if (!BallDecider(pair.light.apex, pair.light.range).meets(pair.cell)) return Verdict::no;
   if (BallDecider(pair.light.apex, 0.0).meets(pair.cell)) return Verdict::yes;
   return std::visit([&](const auto& cell) { return decide_spot(pair.light, cell); }, pair.cell);
 }
 
-// How many the filter left open.
+// How many the filter left uncertain.
 template <class Make>
 int expect_agreement(int pairs, Make&& make) {
-  int open = 0;
+  int uncertain = 0;
   for (int i = 0; i < pairs; ++i) {
     const SpotPair pair = make(static_cast<std::size_t>(i % 3));
     const SpotDecider decider(pair.light);
     const Verdict quick = decider.meets_quickly(pair.cell), decided = prove_meets(pair.light, pair.cell);
     EXPECT_EQ(decider.meets(pair.cell), decided) << "pair " << i;
     Verdict expected = filter_meets(pair.light, pair.cell);
-    if (expected == Verdict::open) {
-      ++open;
+    if (expected == Verdict::uncertain) {
+      ++uncertain;
       expected = slowly(pair);
     }
     EXPECT_EQ(decided, expected) << "pair " << i;
-    EXPECT_TRUE(quick == Verdict::open || quick == expected) << "pair " << i;
+    EXPECT_TRUE(quick == Verdict::uncertain || quick == expected) << "pair " << i;
   }
-  return open;
+  return uncertain;
 }
 
 double by_ulps(double value, int ulps) {
@@ -80,8 +82,8 @@ SpotPair lattice_pair(SplitMix64& random, std::size_t kind) {
   const float x = quarters(-4, 3), y = quarters(-4, 3), near = 4.0f * quarters(0, 6),
               far = near + 4.0f * quarters(1, 6);
   const float x1 = x + quarters(1, 4), y1 = y + quarters(1, 4);
-  if (kind == 0) pair.cell = FrustumPiece{x, x1, y, y1, near, far, false};
-  if (kind == 1) pair.cell = ShellPiece{x, x1, y, y1, near, far};
+  if (kind == 0) pair.cell = FrustumCell{x, x1, y, y1, near, far, false};
+  if (kind == 1) pair.cell = ShellCell{x, x1, y, y1, near, far};
   if (kind == 2) pair.cell = Box{{4 * x, 4 * y, -far}, {4 * x1, 4 * y1, -near}};
   return pair;
 }
@@ -169,9 +171,9 @@ TEST(SpotDecider, says_what_slow_proofs_say_far_from_the_eye) {
     pair.light.direction = random.below(2) == 0 ? -contact.outward : random_direction(random) - contact.outward;
     pair.light.half_angle_rad = random.between(0.001, 1.57);
     if (is_shell)
-      pair.cell = ShellPiece{s.x0, s.x1, s.y0, s.y1, s.near, s.far};
+      pair.cell = ShellCell{s.x0, s.x1, s.y0, s.y1, s.near, s.far};
     else if (kind == 0)
-      pair.cell = FrustumPiece{s.x0, s.x1, s.y0, s.y1, s.near, s.far, false};
+      pair.cell = FrustumCell{s.x0, s.x1, s.y0, s.y1, s.near, s.far, false};
     else
       pair.cell = Box{Vec3f(contact.place) - 1.0f, Vec3f(contact.place)};
     return pair;
@@ -207,12 +209,12 @@ TEST(BallDecider, tells_whether_a_cell_is_in_front_of_a_plane_through_the_centre
   };
   const std::array<Touch, 6> touches{
       Touch{Box{{1, 2, -5}, {3, 4, -3}}, {7, -1, -8}, {1, 1, 1}, 0, 1},
-      Touch{FrustumPiece{0.25f, 0.5f, -1.0f, 2.0f, 4.0f, 8.0f, false}, {1, 9, -7}, {1, 0, 0}, 0, 1},
+      Touch{FrustumCell{0.25f, 0.5f, -1.0f, 2.0f, 4.0f, 8.0f, false}, {1, 9, -7}, {1, 0, 0}, 0, 1},
       // With the far shell: a corner, an edge and the middle. With the near shell: a corner.
-      Touch{ShellPiece{0.5f, 1.0f, -0.5f, 0.0f, 1.0f, 3.0f}, {1, -2, -1}, {-1, 1, 0}, 0, -1},
-      Touch{ShellPiece{0.0f, 0.75f, -1.0f, 1.0f, 1.0f, 5.0f}, {3, 7, -4}, {-3, 0, 4}, 0, -1},
-      Touch{ShellPiece{0.25f, 0.75f, 0.5f, 1.0f, 1.0f, 7.0f}, {-2.5, 6, -6}, {-2, -3, 6}, 1, -1},
-      Touch{ShellPiece{0.0f, 0.5f, -1.0f, -0.5f, 3.0f, 7.0f}, {4, 1, -5}, {-1, 0, -1}, 0, -1}};
+      Touch{ShellCell{0.5f, 1.0f, -0.5f, 0.0f, 1.0f, 3.0f}, {1, -2, -1}, {-1, 1, 0}, 0, -1},
+      Touch{ShellCell{0.0f, 0.75f, -1.0f, 1.0f, 1.0f, 5.0f}, {3, 7, -4}, {-3, 0, 4}, 0, -1},
+      Touch{ShellCell{0.25f, 0.75f, 0.5f, 1.0f, 1.0f, 7.0f}, {-2.5, 6, -6}, {-2, -3, 6}, 1, -1},
+      Touch{ShellCell{0.0f, 0.5f, -1.0f, -0.5f, 3.0f, 7.0f}, {4, 1, -5}, {-1, 0, -1}, 0, -1}};
   for (std::size_t i = 0; i < touches.size(); ++i) {
     const Touch& touch = touches[i];
     const auto is_in_front = [&](int ulps) {
@@ -240,8 +242,8 @@ TEST(SpotDecider, decides_spots_that_shine_straight_at_a_plane_they_just_reach_i
     pair.light.range = range;
     pair.light.direction = {1, 0, 0};
     pair.light.half_angle_rad = k_quarter_turn / whole(random, 1, 3);
-    const std::array<Cell, 3> cells{FrustumPiece{0.0f, 0.25f, 0.0f, 0.25f, near, near + 4.0f, false},
-                                    ShellPiece{0.0f, 0.25f, 0.0f, 0.25f, near, near + 8.0f},
+    const std::array<Cell, 3> cells{FrustumCell{0.0f, 0.25f, 0.0f, 0.25f, near, near + 4.0f, false},
+                                    ShellCell{0.0f, 0.25f, 0.0f, 0.25f, near, near + 8.0f},
                                     Box{{0.0f, 0.0f, -near - 4.0f}, {2.0f, near, -near}}};
     for (const Cell& cell : cells) {
       const SpotDecider decider(pair.light);
@@ -261,7 +263,7 @@ TEST(SpotDecider, of_endless_range_is_decided) {
   light.apex.position = {-4, 0.5, -6};
   light.direction = {1, 0, 0};
   light.half_angle_rad = 0.5;
-  const FrustumPiece cell{0.0f, 0.25f, 0.0f, 0.25f, 4.0f, 8.0f, false};
+  const FrustumCell cell{0.0f, 0.25f, 0.0f, 0.25f, 4.0f, 8.0f, false};
   EXPECT_EQ(SpotDecider(light).meets(cell), Verdict::yes);
   light.direction = {-1, 0, 0};
   EXPECT_EQ(SpotDecider(light).meets(cell), Verdict::no);
@@ -285,11 +287,11 @@ TEST(ExactAxis, meets_what_its_ends_just_touch) {
   light.range = 5.0;
   light.apex.position.x = by_ulps(1.0, -1);
   EXPECT_FALSE(axis_meets(light, box).value());
-  const FrustumPiece piece{0.125f, 1.0f, -1.0f, 1.0f, 4.0f, 8.0f, false};
+  const FrustumCell cell{0.125f, 1.0f, -1.0f, 1.0f, 4.0f, 8.0f, false};
   light.apex.position = {1, 0.25, 0};
   light.range = 8.0;  // x = depth / 8 only at depth 8, where the axis leaves the tile
-  EXPECT_TRUE(axis_meets(light, piece).value());
-  const ShellPiece shell{0.0f, 1.0f, 0.0f, 1.0f, 9.0f, 12.0f};
+  EXPECT_TRUE(axis_meets(light, cell).value());
+  const ShellCell shell{0.0f, 1.0f, 0.0f, 1.0f, 9.0f, 12.0f};
   light.apex.position = {4, 4, 0};
   light.range = 7.0;  // to (4, 4, -7), which is 9 from the eye
   EXPECT_TRUE(axis_meets(light, shell).value());

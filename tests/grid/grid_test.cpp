@@ -43,12 +43,12 @@ struct Outside {
   Vec3d p;
 
   static double beyond(double lo, double value, double hi) { return std::max(lo - value, value - hi); }
-  double operator()(const geom::FrustumPiece& c) const {
+  double operator()(const geom::FrustumCell& c) const {
     const double depth = -p.z, scale = c.orthographic ? 1.0 : depth;
     return std::max({beyond(c.depth0, depth, c.depth1), beyond(c.x0 * scale, p.x, c.x1 * scale),
                      beyond(c.y0 * scale, p.y, c.y1 * scale)});
   }
-  double operator()(const geom::ShellPiece& c) const {
+  double operator()(const geom::ShellCell& c) const {
     const double depth = -p.z;
     return std::max({beyond(c.distance0, glm::length(p), c.distance1), beyond(c.x0 * depth, p.x, c.x1 * depth),
                      beyond(c.y0 * depth, p.y, c.y1 * depth)});
@@ -282,7 +282,7 @@ TEST(Grids, are_held_to_the_domain) {
   screen.slices.far_m = 1.1e15;
   EXPECT_EQ(refused_key(screen), "slices.far");
   screen.slices.far_m = 7e14;
-  frame.projection.right = 100.0;  // the picture's corners are a hundred times as far aside
+  frame.projection.right = 100.0;  // the picture's corners are a hundred times as far to the side
   EXPECT_EQ(refused_key(screen), "slices.far");
   frame.projection.right = 1.0;
   screen.slices.scheme = Scheme::list;

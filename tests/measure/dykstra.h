@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "geom/shapes.h"
+#include "geom/shapes/cell.h"
 
 namespace clusterbench::test {
 
@@ -36,7 +36,7 @@ inline Vec3d onto_plane(const DykstraPlane& plane, const Vec3d& p) {
   return p - std::max(0.0, glm::dot(plane.normal, p) - plane.offset) * plane.normal;
 }
 
-inline std::array<DykstraPlane, 6> planes_of(const geom::FrustumPiece& c) {
+inline std::array<DykstraPlane, 6> planes_of(const geom::FrustumCell& c) {
   const auto side = [](double x, double y, double z) { return DykstraPlane{glm::normalize(Vec3d(x, y, z)), 0.0}; };
   return {side(-1, 0, -c.x0),
           side(1, 0, c.x1),
@@ -51,7 +51,7 @@ struct DykstraResult {
   double violation;  // how far that point is outside of some set: small if there is a common point
 };
 
-inline DykstraResult distance_to_common_point(const DykstraCone& cone, const geom::FrustumPiece& cell, int rounds) {
+inline DykstraResult distance_to_common_point(const DykstraCone& cone, const geom::FrustumCell& cell, int rounds) {
   const std::array<DykstraPlane, 6> planes = planes_of(cell);
   std::array<Vec3d, 7> correction{};
   correction.fill(Vec3d(0.0));

@@ -1,4 +1,6 @@
 #include "measure/lookup.h"
+#include "geom/filter/light_filter.h"
+#include "geom/shapes/verdict.h"
 
 #include <gtest/gtest.h>
 
@@ -136,11 +138,11 @@ TEST(Lookup, is_safe_with_slices_that_are_padded_by_what_it_says) {
   assign::Lists padded;
   padded.begin.push_back(0);
   for (std::uint32_t cell = 0; cell < grid.cell_count(); ++cell) {
-    auto piece = std::get<geom::FrustumPiece>(grid.cell(cell));
-    piece.depth0 = static_cast<float>(piece.depth0 * (1.0 - padding));
-    piece.depth1 = static_cast<float>(piece.depth1 * (1.0 + padding));
+    auto widened = std::get<geom::FrustumCell>(grid.cell(cell));
+    widened.depth0 = static_cast<float>(widened.depth0 * (1.0 - padding));
+    widened.depth1 = static_cast<float>(widened.depth1 * (1.0 + padding));
     for (std::uint32_t light = 0; light < frame.lights.size(); ++light)
-      if (geom::filter_meets(view::volume_of(frame.lights[light], frame.view_space), piece) != geom::Verdict::no)
+      if (geom::filter_meets(view::volume_of(frame.lights[light], frame.view_space), widened) != geom::Verdict::no)
         padded.lights.push_back(light);
     padded.begin.push_back(padded.pair_count());
   }

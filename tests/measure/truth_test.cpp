@@ -10,7 +10,9 @@
 
 #include "assign/contract/assigner.h"
 #include "core/random.h"
-#include "geom/meets.h"
+#include "geom/filter/light_filter.h"
+#include "geom/light_meets_cell.h"
+#include "geom/shapes/verdict.h"
 #include "scene/camera_path.h"
 
 namespace clusterbench::measure {
@@ -73,7 +75,7 @@ assign::Lists decided_one_by_one(const view::Frame& frame, const grid::Grid& gri
     for (std::uint32_t cell = 0; cell < grid.cell_count(); ++cell) {
       if (grid.is_hole(cell)) continue;
       Verdict verdict = geom::filter_meets(volume, grid.cell(cell));
-      if (verdict == Verdict::open) verdict = geom::prove_meets(volume, grid.cell(cell));
+      if (verdict == Verdict::uncertain) verdict = geom::prove_meets(volume, grid.cell(cell));
       if (verdict != Verdict::no) pairs.add(cell, i);
     }
   }
@@ -183,7 +185,7 @@ double touching_range(geom::LightVolume light, const geom::Cell& cell) {
     light.range = 0.5 * (apart + touching);
     if (light.range <= apart || light.range >= touching) return touching;
     Verdict verdict = geom::filter_meets(light, cell);
-    if (verdict == Verdict::open) verdict = geom::prove_meets(light, cell);
+    if (verdict == Verdict::uncertain) verdict = geom::prove_meets(light, cell);
     (verdict == Verdict::no ? apart : touching) = light.range;
   }
 }

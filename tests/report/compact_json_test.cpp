@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <sstream>
 
-#include "report/json.h"
 #include "report/result_by_hand.h"
+#include "report/result_json.h"
 
 namespace clusterbench::report {
 namespace {

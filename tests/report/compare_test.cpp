@@ -6,8 +6,8 @@
 
 #include "config/documents.h"
 #include "config/schema_check.h"
-#include "report/json.h"
 #include "report/result_by_hand.h"
+#include "report/result_json.h"
 
 namespace clusterbench::report {
 namespace {

@@ -8,7 +8,7 @@
 #include "config/config.h"
 #include "config/documents.h"
 #include "config/schema_check.h"
-#include "report/json.h"
+#include "report/result_json.h"
 #include "run/walk.h"
 
 namespace clusterbench::report {

@@ -14,8 +14,8 @@
 #include "config/schema_check.h"
 #include "config/schema_text.h"
 #include "core/error.h"
-#include "report/json.h"
 #include "report/result_by_hand.h"
+#include "report/result_json.h"
 
 namespace clusterbench::report {
 namespace {
@@ -59,7 +59,7 @@ bool is_in_schema(const std::string& pointer) {
 
 TEST(Exports, every_figure_has_its_place_in_the_result_schema) {
   for (const Metric& metric : export_metrics()) {
-    EXPECT_TRUE(is_in_schema(std::string(metric.place))) << metric.place;
+    EXPECT_TRUE(is_in_schema(std::string(metric.pointer))) << metric.pointer;
     if (!metric.interval.empty()) {
       EXPECT_TRUE(is_in_schema(std::string(metric.interval))) << metric.interval;
     }

@@ -9,9 +9,9 @@
 
 #include "core/error.h"
 #include "report/history_page.h"
-#include "report/json.h"
 #include "report/page_template.h"
 #include "report/result_by_hand.h"
+#include "report/result_json.h"
 
 namespace clusterbench::report {
 namespace {

@@ -7,8 +7,8 @@
 #include <fstream>
 
 #include "core/error.h"
-#include "report/json.h"
 #include "report/result_by_hand.h"
+#include "report/result_json.h"
 
 namespace clusterbench::report {
 namespace {

@@ -125,7 +125,7 @@ TEST(Limits, the_table_of_names_in_the_documents_is_that_of_budgets_results_and_
     EXPECT_EQ(broken[0].find("could not be checked"), std::string::npos) << row[2] << " is not at " << pointer;
     const auto metrics = export_metrics();
     EXPECT_NE(std::find_if(metrics.begin(), metrics.end(),
-                           [&](const Metric& metric) { return metric.name == row[4] && metric.place == pointer; }),
+                           [&](const Metric& metric) { return metric.name == row[4] && metric.pointer == pointer; }),
               metrics.end())
         << row[4] << " is not " << pointer;
   }

@@ -5,8 +5,8 @@
 #include "config/schema_check.h"
 #include "config/schema_text.h"
 #include "core/error.h"
-#include "report/json.h"
 #include "report/result_by_hand.h"
+#include "report/result_json.h"
 
 namespace clusterbench::report {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "config/documents.h"
 #include "config/schema_check.h"
-#include "report/json.h"
 #include "report/result_by_hand.h"
+#include "report/result_json.h"
 #include "report/table.h"
 #include "report/timing_warnings.h"
 
@@ -143,13 +143,13 @@ TEST(Ratios, of_too_few_launches_or_rounds_have_no_interval_anywhere) {
     const Json result = timed_result(samples, launches);
     EXPECT_EQ(result["cases"][1]["timing"]["frame_ns"]["ci95"], (Json{nullptr, nullptr}));
     EXPECT_FALSE(takes_longer(result, result["cases"][1], result["cases"][0]));
-    const std::string ranking = ratio_table(result, "", false), table = render_table(result, false);
+    const std::string ranking = ratio_table(ratios_of(result, {}), false), table = render_table(result, false);
     EXPECT_NE(ranking.find("  ~ method-b / packed"), std::string::npos) << ranking;
     EXPECT_NE(ranking.find(" (unknown)"), std::string::npos) << ranking;
     EXPECT_NE(ranking.find("\nunknown: an interval takes 3 launches, or 6 rounds of a single one.\n"),
               std::string::npos)
         << ranking;
-    EXPECT_NE(ratio_csv(result, "").find(",,\n"), std::string::npos) << ratio_csv(result, "");
+    EXPECT_NE(ratio_csv(ratios_of(result, {})).find(",,\n"), std::string::npos) << ratio_csv(ratios_of(result, {}));
     EXPECT_NE(table.find("unknown"), std::string::npos) << table;
     EXPECT_NE(table.find("warning: 2 of 2 times without an interval: an interval takes 3 launches"), std::string::npos)
         << table;

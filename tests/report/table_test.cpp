@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <sstream>
 
-#include "report/json.h"
 #include "report/result_by_hand.h"
+#include "report/result_json.h"
 
 namespace clusterbench::report {
 namespace {
@@ -272,7 +272,7 @@ TEST(Table, precision_follows_the_main_table_with_what_is_lost_and_what_inflatio
   result.planned_ids.emplace_back("other storage");
   const std::string table = table_of(result), part = table.substr(table.find("precision of hall"));
   EXPECT_EQ(words(line_with(table, "aabb half+inflate ")).at(2), "half+inflate") << "named in the main table";
-  EXPECT_NE(part.find("half: places are off by 0.001 m, at most 0.02 m; safe inflation 0.004 m, at most 0.08 m"),
+  EXPECT_NE(part.find("half: positions are off by 0.001 m, at most 0.02 m; safe inflation 0.004 m, at most 0.08 m"),
             std::string::npos);
   EXPECT_EQ(words(line_with(part, "aabb   ")),
             (std::vector<std::string>{"aabb", "float32", "0", "-", "30", "+0.00", "%"}));

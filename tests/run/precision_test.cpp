@@ -121,11 +121,11 @@ TEST(Precision, lights_are_seen_as_their_request_says) {
   Walk walk = touching("");
   const view::Frame frame = PathFrames(walk.plan.scenes[0].scene, walk.plan.scenes[0].paths[0], {8, 8}).frame(0);
   const view::LightArrays lights = view::lights_in(frame, frame.view_space);
-  const FrameLights seen({{}, {view::Packing::half, false}, {view::Packing::half, true}}, lights);
-  EXPECT_EQ(seen.seen(0).z[0], lights.z[0]);
-  EXPECT_EQ(seen.seen(1).z[0], -42.03125f);
-  EXPECT_EQ(seen.seen(1).radius, seen.packed(2).lights.radius);
-  EXPECT_GT(seen.seen(2).radius[0], seen.seen(1).radius[0]);
+  const FrameLights frame_lights({{}, {view::Packing::half, false}, {view::Packing::half, true}}, lights);
+  EXPECT_EQ(frame_lights.in_precision(0).z[0], lights.z[0]);
+  EXPECT_EQ(frame_lights.in_precision(1).z[0], -42.03125f);
+  EXPECT_EQ(frame_lights.in_precision(1).radius, frame_lights.packed(2).lights.radius);
+  EXPECT_GT(frame_lights.in_precision(2).radius[0], frame_lights.in_precision(1).radius[0]);
 }
 
 }  // namespace

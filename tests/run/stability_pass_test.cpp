@@ -158,12 +158,12 @@ TEST(StabilityPass, a_piece_of_a_path_keeps_the_paths_grids) {
   Walk walk(std::string(k_shafts) + R"(, "assigners": ["aabb"])", 30);
   walk.add_light({0, 0, -6}, 3);
   const SceneData& data = walk.plan.scenes[0];
-  scene::CameraPath piece = data.paths[0];
-  piece.shots.resize(2);
+  scene::CameraPath segment = data.paths[0];
+  segment.shots.resize(2);
   const PathFrames whole(data.scene, data.paths[0], {100, 100});
-  EXPECT_NE(PathFrames(data.scene, piece, {100, 100}).far_m(), whole.far_m());
-  EXPECT_EQ(whole.along(piece).far_m(), whole.far_m());
-  EXPECT_EQ(whole.along(piece).count(), 2);
+  EXPECT_NE(PathFrames(data.scene, segment, {100, 100}).far_m(), whole.far_m());
+  EXPECT_EQ(whole.along(segment).far_m(), whole.far_m());
+  EXPECT_EQ(whole.along(segment).count(), 2);
 }
 
 }  // namespace

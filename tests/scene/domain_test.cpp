@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "geom/domain.h"
+#include "geom/shapes/domain.h"
 #include "scene/gltf_fixture.h"
 
 namespace clusterbench::scene {

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geom/vec.h"
+#include "geom/shapes/vec.h"
 #include "scene/geometry.h"
 #include "scene/gltf_fixture.h"
 

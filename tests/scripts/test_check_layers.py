@@ -40,6 +40,18 @@ class CheckLayers(unittest.TestCase):
                               "assign/distance\nsrc/assign/rows/a.h: includes assign/pipeline/b.h, but assign/rows is "
                               "not above assign/pipeline\n")
 
+    def test_an_include_of_a_file_beside_the_folders_is_found(self):
+        code, out = self.check({"geom/spot/a.h": '#include "geom/answer.h"\n', "geom/answer.h": ""})
+        self.assertEqual(code, 1)
+        self.assertEqual(out, "src/geom/spot/a.h: includes geom/answer.h, but the files beside the folders of geom are "
+                              "above them\n")
+
+    def test_a_folder_of_geom_includes_only_those_below(self):
+        code, out = self.check({"geom/numbers/a.h": '#include "geom/shapes/b.h"\n', "geom/shapes/b.h": "",
+                                "geom/spot/c.h": '#include "geom/filter/d.h"\n#include "geom/numbers/a.h"\n'})
+        self.assertEqual(code, 1)
+        self.assertEqual(out, "src/geom/numbers/a.h: includes geom/shapes/b.h, but geom/numbers is not above geom/shapes\n")
+
     def test_a_library_outside_its_home_is_found(self):
         for layer, library, home in (("grid", "multiprecision", "geom"), ("geom", "math", "measure")):
             code, out = self.check({f"{layer}/a.cpp": f"#include <boost/{library}/x.hpp>\n"})

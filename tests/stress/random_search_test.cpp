@@ -9,7 +9,7 @@
 #include "run/runner.h"
 #include "scene/write_gltf.h"
 #include "stress/random_setting.h"
-#include "stress/stress.h"
+#include "stress/stress_run.h"
 
 namespace clusterbench::stress {
 namespace {
@@ -144,7 +144,8 @@ TEST(RandomSearch, finds_what_throws_what_gives_no_lists_and_what_gives_other_on
   EXPECT_TRUE(kinds_of(searched_at_random({flawed<Flaw::moody>()}, 8)).contains(FaultKind::lists));
 }
 
-// A needle of 1e-280 rad whose side runs along the plane between two columns, but for a³/3: geom/spot.h leaves it open.
+// A needle of 1e-280 rad whose side runs along the plane between two columns, but for a³/3: geom/spot/proof_by_search.h
+// leaves it open.
 TEST(RandomSearch, reports_pairs_that_stay_undecided_as_a_fault) {
   Rig rig;
   rig.spot({0.0, 0.0, -1.0}, {0.0, 0.0, -1.0}, 4e4, 1e-280).point({0.0, 0.0, -1.0}, 10.0).show({64, 64});

@@ -1,7 +1,7 @@
 // A hierarchy over the lights, built anew in every frame: sorted along a Morton curve, eight neighbours to a group,
 // eight groups to a group of the next level. Asked per cell it fills lists; left as it is, samples ask it.
 //
-// Roundoffs: a ball's box is off by one rounding in each of its sides, a sample's position by one. The test of a ball
+// Roundoffs: a ball's box is off by one roundoff in each of its sides, a sample's position by one. The test of a ball
 // against a cell's box loses as much as that of `aabb`, and is the larger.
 
 #include <algorithm>
@@ -20,6 +20,7 @@
 #include "core/aligned_vector.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "geom/single_precision/bounding_volumes.h"
 
 namespace clusterbench::assign {
 namespace {

@@ -12,7 +12,7 @@
 #include "assign/cull/view_cull.h"
 #include "assign/distance/shells.h"
 #include "assign/pipeline/light_by_light.h"
-#include "geom/tangents.h"
+#include "geom/projection/disk_tangents.h"
 #include "grid/index_range.h"
 
 namespace clusterbench::assign {

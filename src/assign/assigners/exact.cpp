@@ -15,7 +15,8 @@
 #include "assign/exact/exact_rows.h"
 #include "assign/pipeline/light_by_light.h"
 #include "core/arrays.h"
-#include "geom/predicates.h"
+#include "geom/single_precision/bounding_volumes.h"
+#include "geom/single_precision/touch_tests.h"
 #include "grid/index_range.h"
 
 namespace clusterbench::assign {

@@ -6,13 +6,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "assign/cone/spot_spheres.h"
+#include "assign/cone/spot_bounding_spheres.h"
 #include "assign/contract/assigner.h"
 #include "assign/exact/exact_slices.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel.h"
-#include "geom/predicates.h"
 
 namespace clusterbench::assign {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "assign/bounds/cell_bounds.h"
 #include "assign/pipeline/light_by_light.h"
-#include "geom/tangents.h"
+#include "geom/projection/disk_tangents.h"
 #include "grid/index_range.h"
 
 namespace clusterbench::assign {

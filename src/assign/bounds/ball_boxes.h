@@ -7,7 +7,8 @@
 #include "assign/simd/lanes.h"
 #include "core/aligned_vector.h"
 #include "core/arrays.h"
-#include "geom/shapes.h"
+#include "geom/shapes/ball_and_cone.h"
+#include "geom/shapes/cell.h"
 
 namespace clusterbench::assign {
 

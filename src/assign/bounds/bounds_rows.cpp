@@ -3,7 +3,7 @@
 #include <limits>
 #include <variant>
 
-#include "geom/predicates.h"
+#include "geom/single_precision/bounding_volumes.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/bounds/bounds_rows.cpp"
@@ -223,7 +223,7 @@ CellExtents::CellExtents(const grid::Grid& grid) : columns(grid.cells().x), rows
   const auto cells = static_cast<std::uint32_t>(columns * rows);
   for (std::uint32_t cell = 0; cell < grid.cell_count(); ++cell) {
     const std::uint32_t in_slice = cell % cells;
-    const geom::Box box = geom::box_around(std::get<geom::FrustumPiece>(grid.cell(cell)));
+    const geom::Box box = geom::box_around(std::get<geom::FrustumCell>(grid.cell(cell)));
     const auto add = [&](Axis& axis, int i) {
       axis.lo.push_back(box.lo[i]);
       axis.hi.push_back(box.hi[i]);

@@ -1,6 +1,6 @@
 #include "assign/bounds/cell_bounds.h"
 
-#include "geom/tangents.h"
+#include "geom/projection/disk_tangents.h"
 #include "grid/index_range.h"
 
 namespace clusterbench::assign {

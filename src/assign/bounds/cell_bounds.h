@@ -2,7 +2,7 @@
 // The box of cells that a ball's extents on the screen and in depth cover: Persson's "cube" of clusters around a light.
 
 #include "assign/pipeline/bounded_balls.h"
-#include "geom/shapes.h"
+#include "geom/shapes/ball_and_cone.h"
 #include "grid/grid.h"
 
 namespace clusterbench::assign {

@@ -6,7 +6,7 @@
 #include "assign/bounds/cell_bounds.h"
 #include "assign/bounds/tile_planes.h"
 #include "assign/contract/assigner.h"
-#include "geom/shapes.h"
+#include "geom/shapes/ball_and_cone.h"
 
 namespace clusterbench::assign {
 

@@ -10,7 +10,7 @@
 #include "assign/contract/light_test.h"
 #include "assign/contract/lists.h"
 #include "core/arrays.h"
-#include "geom/shapes.h"
+#include "geom/shapes/ball_and_cone.h"
 #include "grid/index_range.h"
 
 namespace clusterbench::assign {

@@ -9,7 +9,7 @@
 #define CLUSTERBENCH_SPOT_EXTREMES_INL_H
 #endif
 
-#include "assign/cone/spot_cells-inl.h"
+#include "assign/cone/spot_cell_filter-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign {

@@ -5,13 +5,13 @@
 // What a spot has in a slice is convex, and so is what it has in a row (between two tile planes and two slice planes).
 // So its extreme slopes y / depth and x / depth are at points that can be listed: the apex, where the sphere, the rim
 // and the cone's side lean most, and where these meet the planes. That is a guess in single precision, and may be
-// wrong. It counts where there is evidence larger than its own error (spot_cells-inl.h): a common point for the cell
-// at an end, and a plane between the spot and all that is beyond it.
+// wrong. It counts where there is evidence larger than its own error (spot_cell_filter-inl.h): a common point for the
+// cell at an end, and a plane between the spot and all that is beyond it.
 
 #include <cstdint>
 #include <vector>
 
-#include "assign/cone/spot_cells.h"
+#include "assign/cone/spot_cell_filter.h"
 #include "core/arrays.h"
 
 namespace clusterbench::assign {

@@ -8,7 +8,7 @@
 #define CLUSTERBENCH_SPOT_VECTORS_INL_H
 #endif
 
-#include "assign/cone/spot_cells.h"
+#include "assign/cone/spot_cell_filter.h"
 #include "assign/simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -2,14 +2,14 @@
 // How the conservative methods see a light: a ball, and for a spot its cone against the cells' bounding balls. Both are
 // padded by what the method's own single-precision steps can lose, and by no more.
 //
-// A rounding is 2^-24 of the light's reach, |x| + |y| + |z| + r in its space. A method derives how many of them its
-// steps can add up to, in the comment above its row; view::k_given_roundoffs come on top.
+// A unit roundoff is 2^-24 of the light's reach, |x| + |y| + |z| + r in its space. A method derives how many of them
+// its steps can add up to, in the comment above its row; view::k_given_roundoffs come on top.
 
 #include <vector>
 
 #include "assign/contract/assigner.h"
 #include "core/arrays.h"
-#include "geom/predicates.h"
+#include "geom/single_precision/touch_tests.h"
 
 namespace clusterbench::assign {
 

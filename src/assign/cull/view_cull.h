@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "geom/shapes.h"
+#include "geom/shapes/ball_and_cone.h"
 #include "grid/grid.h"
 
 namespace clusterbench::assign {

@@ -7,10 +7,10 @@
 #include <optional>
 
 #include "assign/cull/frustum_cull.h"
-#include "geom/ball.h"
-#include "geom/meets.h"
-#include "geom/row_slopes.h"
-#include "geom/spot_decider.h"
+#include "geom/ball/ball_decider.h"
+#include "geom/projection/row_slopes.h"
+#include "geom/shapes/verdict.h"
+#include "geom/spot/spot_decider.h"
 #include "grid/grid.h"
 #include "grid/index_range.h"
 #include "view/frame.h"
@@ -30,7 +30,7 @@ inline Row row_of(const grid::ScreenGrid& grid, int slice, int row) {
           grid.tiles.y_max(row), grid.slices.boundaries[z], grid.slices.boundaries[z + 1]};
 }
 
-inline geom::FrustumPiece piece_of(const grid::Tiles& tiles, const Row& row, int column) {
+inline geom::FrustumCell piece_of(const grid::Tiles& tiles, const Row& row, int column) {
   const auto x = static_cast<std::size_t>(column);
   return {tiles.x[x], tiles.x[x + 1], row.y0, row.y1, row.depth0, row.depth1, tiles.orthographic};
 }
@@ -39,7 +39,7 @@ inline geom::FrustumPiece piece_of(const grid::Tiles& tiles, const Row& row, int
 // (12) can add up to. Twice as many would double the decisions, which are rare; too few would lose lights.
 inline constexpr float k_exact_roundoffs = 32.0f;
 
-// Lights of more reach, which the domain does not have (geom/domain.h), are decided cell by cell.
+// Lights of more reach, which the domain does not have (geom/shapes/domain.h), are decided cell by cell.
 inline constexpr float k_most_exact_reach = 1e17f;
 
 // Columns of a row that a ball touches. The answer is right for some ball whose centre and surface are off by less than

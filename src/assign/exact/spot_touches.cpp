@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "assign/cull/frustum_cull.h"
-#include "geom/bounded.h"
+#include "geom/numbers/bounded_double.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/exact/spot_touches.cpp"

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "assign/cone/spot_cells.h"
+#include "assign/cone/spot_cell_filter.h"
 #include "assign/cull/row_planes.h"
 #include "grid/index_range.h"
 

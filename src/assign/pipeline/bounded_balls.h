@@ -6,7 +6,7 @@
 #include "assign/simd/lanes.h"
 #include "core/aligned_vector.h"
 #include "core/arrays.h"
-#include "geom/vec.h"
+#include "geom/shapes/vec.h"
 
 namespace clusterbench::assign {
 

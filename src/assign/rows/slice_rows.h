@@ -5,7 +5,7 @@
 // With x / depth, y / depth and 1 / depth as coordinates, columns, rows and slices are slabs, and of a convex body what
 // lies in a row of a slice reaches farthest to the side in one point, which follows from the ball (sphere_setup.h) and
 // is moved into the row, then into the slice. A row's columns reach from the least slope x / depth in it to the
-// greatest (the interval property, as in geom/row_slopes.h).
+// greatest (the interval property, as in geom/projection/row_slopes.h).
 //
 // Every ball is taken larger by its slack, which is more than rounding can lose, so no column is forgotten. How much
 // too large an answer can be is bounded, too: see Certainty in slice_rows.cpp. Rows for which that may matter are

@@ -16,7 +16,7 @@ class Fixed final : public Storage {
 
   void start(std::uint32_t cell_count, const view::LightRanges& lights) override {
     lights_ = lights.size();
-    check_memory("places of fixed lists", std::uint64_t{cell_count} * cap_, narrowest_bits(lights_) / 8);
+    check_memory("entries of fixed lists", std::uint64_t{cell_count} * cap_, narrowest_bits(lights_) / 8);
     check_memory("counts of fixed lists", cell_count, sizeof(std::uint32_t));
     counts_.assign(cell_count, 0);
     indices_.make_room(static_cast<std::size_t>(cell_count) * cap_, narrowest_bits(lights_));

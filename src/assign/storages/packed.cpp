@@ -134,9 +134,9 @@ class Packed final : public Storage {
     return header_at(block.rank + static_cast<std::uint32_t>(std::popcount(block.mask & (bit - 1))));
   }
 
-  WideHeader header_at(std::uint32_t place) const {
-    if (is_wide_) return wide_headers_[place];
-    const Header& header = headers_[place];
+  WideHeader header_at(std::uint32_t cell) const {
+    if (is_wide_) return wide_headers_[cell];
+    const Header& header = headers_[cell];
     return {header.offset, header.points, header.spots};
   }
 

@@ -50,8 +50,8 @@ std::string option_lines(const OptionNode& option) {
   return lines;
 }
 
-std::string argument_line(const ArgumentNode& argument, std::size_t place) {
-  const std::string where = argument.is_repeatable ? "*" : std::to_string(place);
+std::string argument_line(const ArgumentNode& argument, std::size_t position) {
+  const std::string where = argument.is_repeatable ? "*" : std::to_string(position);
   return " \\\n    " + shell_word(where + ":" + zsh_escaped(argument.name) + ":" + value_action(argument.values));
 }
 

@@ -22,9 +22,9 @@ std::string measure_name(std::string_view metric) {
 
 std::string bencher(const ExportResult& result) {
   Json out = Json::object();
-  for (const ExportCase& one : result.cases) {
-    Json& measures = out[one.name] = Json::object();
-    for (const Measured& figure : one.figures) {
+  for (const ExportCase& export_case : result.cases) {
+    Json& measures = out[export_case.name] = Json::object();
+    for (const Measured& figure : export_case.figures) {
       Json& measure = measures[measure_name(figure.metric->name)];
       measure = {{"value", figure.value}};
       if (!figure.ci95.is_known()) continue;

@@ -55,12 +55,12 @@ std::string heading(const ExportResult& result) {
   return line + "\n";
 }
 
-std::string row(const ExportResult& result, const ExportCase& one) {
-  std::string line = field(one.id) + "," + field(one.name);
-  for (const auto& [part, text] : one.parts) line += "," + field(text);
+std::string row(const ExportResult& result, const ExportCase& export_case) {
+  std::string line = field(export_case.id) + "," + field(export_case.name);
+  for (const auto& [part, text] : export_case.parts) line += "," + field(text);
   for (const Metric& metric : export_metrics()) {
     if (!has_column(metric, result)) continue;
-    const Measured* figure = find_figure(one, metric.name);
+    const Measured* figure = find_figure(export_case, metric.name);
     line += "," + (figure == nullptr ? "" : exact_number(figure->value));
     if (metric.interval.empty()) continue;
     const bool is_known = figure != nullptr && figure->ci95.is_known();
@@ -73,7 +73,7 @@ std::string row(const ExportResult& result, const ExportCase& one) {
 
 std::string csv(const ExportResult& result) {
   std::string out = heading(result);
-  for (const ExportCase& one : result.cases) out += row(result, one);
+  for (const ExportCase& export_case : result.cases) out += row(result, export_case);
   return out;
 }
 

@@ -23,46 +23,48 @@ constexpr ExportFormat k_formats[] = {
 };
 
 std::string text_at(const Json& from, const char* pointer) {
-  const Json::json_pointer place(pointer);
-  return from.contains(place) && from[place].is_string() ? from[place].get<std::string>() : "";
+  const Json::json_pointer location(pointer);
+  return from.contains(location) && from[location].is_string() ? from[location].get<std::string>() : "";
 }
 
-std::string needed_text(const Json& one, std::size_t index, const char* key) {
-  std::string text = text_at(one, (std::string("/") + key).c_str());
+std::string needed_text(const Json& result_case, std::size_t index, const char* key) {
+  std::string text = text_at(result_case, (std::string("/") + key).c_str());
   if (text.empty()) throw Error("", "/cases/" + std::to_string(index) + "/" + key, "is missing");
   return text;
 }
 
 // "" where a case lacks it.
-std::vector<std::pair<std::string, std::string>> parts_of(const Json& one) {
+std::vector<std::pair<std::string, std::string>> parts_of(const Json& result_case) {
   const Json::json_pointer width("/viewport/0"), height("/viewport/1");
-  const std::string viewport =
-      one.contains(width) && one.contains(height) ? one[width].dump() + "x" + one[height].dump() : "";
-  const std::string precision = text_at(one, "/precision/label");
-  return {{"scene", text_at(one, "/scene")},
-          {"camera", text_at(one, "/camera")},
+  const std::string viewport = result_case.contains(width) && result_case.contains(height)
+                                   ? result_case[width].dump() + "x" + result_case[height].dump()
+                                   : "";
+  const std::string precision = text_at(result_case, "/precision/label");
+  return {{"scene", text_at(result_case, "/scene")},
+          {"camera", text_at(result_case, "/camera")},
           {"viewport", viewport},
-          {"grid", text_at(one, "/grid/name")},
-          {"assigner", text_at(one, "/assigner/label")},
+          {"grid", text_at(result_case, "/grid/name")},
+          {"assigner", text_at(result_case, "/assigner/label")},
           {"precision", precision.empty() ? "float32" : precision},
-          {"storage", text_at(one, "/storage")}};
+          {"storage", text_at(result_case, "/storage")}};
 }
 
-ExportCase read_case(const Json& one, std::size_t index, bool all) {
-  const bool has_frame_time = one.contains(Json::json_pointer("/timing/frame_ns"));
-  ExportCase out{needed_text(one, index, "id"),
-                 needed_text(one, index, "name"),
-                 measured(one, all),
+ExportCase read_case(const Json& result_case, std::size_t index, bool all) {
+  const bool has_frame_time = result_case.contains(Json::json_pointer("/timing/frame_ns"));
+  ExportCase out{needed_text(result_case, index, "id"),
+                 needed_text(result_case, index, "name"),
+                 measured(result_case, all),
                  has_frame_time ? "frame_time" : "assign_time",
                  {},
                  0};
   const Json::json_pointer samples(has_frame_time ? "/timing/frame_ns/samples" : "/timing/assign_ns/samples"),
       frames("/timing/frames_timed");
-  if (one.contains(samples))
-    for (const Json& sample : one[samples])
+  if (result_case.contains(samples))
+    for (const Json& sample : result_case[samples])
       if (sample.is_number()) out.samples_ns.push_back(sample.get<double>());
-  if (one.contains(frames) && one[frames].is_number_integer()) out.frames_timed = one[frames].get<int>();
-  out.parts = parts_of(one);
+  if (result_case.contains(frames) && result_case[frames].is_number_integer())
+    out.frames_timed = result_case[frames].get<int>();
+  out.parts = parts_of(result_case);
   return out;
 }
 
@@ -104,8 +106,8 @@ std::string exported(const Json& result, const ExportFormat& format, bool all) {
   return format.write(read(result, all));
 }
 
-const Measured* find_figure(const ExportCase& one, std::string_view name) {
-  for (const Measured& figure : one.figures)
+const Measured* find_figure(const ExportCase& export_case, std::string_view name) {
+  for (const Measured& figure : export_case.figures)
     if (figure.metric->name == name) return &figure;
   return nullptr;
 }

@@ -46,6 +46,6 @@ const ExportFormat& export_format(const std::string& name);
 std::string exported(const nlohmann::ordered_json& result, const ExportFormat& format, bool all);
 
 // The figure of that name, or null.
-const Measured* find_figure(const ExportCase& one, std::string_view name);
+const Measured* find_figure(const ExportCase& export_case, std::string_view name);
 
 }  // namespace clusterbench::report

@@ -20,14 +20,14 @@ std::string plus_minus(const Measured& figure) {
 
 std::string list_of(const ExportResult& result, Better better, const char* format) {
   Json list = Json::array();
-  for (const ExportCase& one : result.cases)
-    for (const Measured& figure : one.figures) {
+  for (const ExportCase& export_case : result.cases)
+    for (const Measured& figure : export_case.figures) {
       if (figure.metric->better != better) continue;
-      Json entry{{"name", one.name + " " + std::string(figure.metric->name)},
+      Json entry{{"name", export_case.name + " " + std::string(figure.metric->name)},
                  {"unit", figure.metric->unit},
                  {"value", figure.value}};
       if (figure.ci95.is_known()) entry["range"] = plus_minus(figure);
-      entry["extra"] = "case " + one.id;
+      entry["extra"] = "case " + export_case.id;
       list.push_back(entry);
     }
   if (list.empty()) throw Error("", format, "has no figure to write: nothing of its kind was measured");

@@ -24,9 +24,13 @@ double standard_deviation(const std::vector<double>& samples) {
   return std::sqrt(squares / static_cast<double>(samples.size() - 1));
 }
 
-Json entry(const ExportCase& one, std::size_t family, const std::string& name, const char* run_type) {
-  return {{"name", name},         {"family_index", family}, {"per_family_instance_index", 0},
-          {"run_name", one.name}, {"run_type", run_type},   {"repetitions", one.samples_ns.size()}};
+Json entry(const ExportCase& export_case, std::size_t family, const std::string& name, const char* run_type) {
+  return {{"name", name},
+          {"family_index", family},
+          {"per_family_instance_index", 0},
+          {"run_name", export_case.name},
+          {"run_type", run_type},
+          {"repetitions", export_case.samples_ns.size()}};
 }
 
 void add_time(Json& entry, double time_ns, int iterations) {
@@ -37,20 +41,20 @@ void add_time(Json& entry, double time_ns, int iterations) {
   entry["time_unit"] = "ns";
 }
 
-Json repetition(const ExportCase& one, std::size_t family, std::size_t index) {
-  Json out = entry(one, family, one.name, "iteration");
+Json repetition(const ExportCase& export_case, std::size_t family, std::size_t index) {
+  Json out = entry(export_case, family, export_case.name, "iteration");
   out["repetition_index"] = index;
-  add_time(out, one.samples_ns[index], one.frames_timed);
-  for (const Measured& figure : one.figures)
-    if (figure.metric->name != one.time) out[std::string(figure.metric->name)] = figure.value;
+  add_time(out, export_case.samples_ns[index], export_case.frames_timed);
+  for (const Measured& figure : export_case.figures)
+    if (figure.metric->name != export_case.time) out[std::string(figure.metric->name)] = figure.value;
   return out;
 }
 
-Json aggregate(const ExportCase& one, std::size_t family, const std::string& name, double time_ns) {
-  Json out = entry(one, family, one.name + "_" + name, "aggregate");
+Json aggregate(const ExportCase& export_case, std::size_t family, const std::string& name, double time_ns) {
+  Json out = entry(export_case, family, export_case.name + "_" + name, "aggregate");
   out["aggregate_name"] = name;
   out["aggregate_unit"] = "time";
-  add_time(out, time_ns, static_cast<int>(one.samples_ns.size()));
+  add_time(out, time_ns, static_cast<int>(export_case.samples_ns.size()));
   return out;
 }
 
@@ -65,13 +69,14 @@ std::string google_benchmark(const ExportResult& result) {
            {"benchmarks", Json::array()}};
   Json& all = out["benchmarks"];
   for (std::size_t family = 0; family < result.cases.size(); ++family) {
-    const ExportCase& one = result.cases[family];
-    const Measured* median = find_figure(one, one.time);
-    if (one.samples_ns.empty() || median == nullptr) continue;
-    for (std::size_t index = 0; index < one.samples_ns.size(); ++index) all.push_back(repetition(one, family, index));
-    all.push_back(aggregate(one, family, "mean", mean(one.samples_ns)));
-    all.push_back(aggregate(one, family, "median", median->value));
-    all.push_back(aggregate(one, family, "stddev", standard_deviation(one.samples_ns)));
+    const ExportCase& export_case = result.cases[family];
+    const Measured* median = find_figure(export_case, export_case.time);
+    if (export_case.samples_ns.empty() || median == nullptr) continue;
+    for (std::size_t index = 0; index < export_case.samples_ns.size(); ++index)
+      all.push_back(repetition(export_case, family, index));
+    all.push_back(aggregate(export_case, family, "mean", mean(export_case.samples_ns)));
+    all.push_back(aggregate(export_case, family, "median", median->value));
+    all.push_back(aggregate(export_case, family, "stddev", standard_deviation(export_case.samples_ns)));
   }
   if (all.empty()) throw Error("", "google-benchmark", "takes times, and no case has one: run it without --no-timing");
   return out.dump(1) + "\n";

@@ -16,10 +16,10 @@ Json seconds(const std::vector<double>& samples_ns) {
   return list;
 }
 
-Json test(const ExportCase& one) {
-  Json out{{"name", one.name}};
-  if (!one.samples_ns.empty()) out["execution_time"] = seconds(one.samples_ns);
-  for (const Measured& figure : one.figures) {
+Json test(const ExportCase& export_case) {
+  Json out{{"name", export_case.name}};
+  if (!export_case.samples_ns.empty()) out["execution_time"] = seconds(export_case.samples_ns);
+  for (const Measured& figure : export_case.figures) {
     if (figure.metric->name == "list_bytes") out["mem_bytes"] = figure.value;
     if (!figure.metric->is_headline) out[std::string(figure.metric->name)] = figure.value;
   }
@@ -38,7 +38,7 @@ std::string lnt(const ExportResult& result) {
              {"flags", result.flags},
              {"simd_target", result.simd_target}}},
            {"tests", Json::array()}};
-  for (const ExportCase& one : result.cases) out["tests"].push_back(test(one));
+  for (const ExportCase& export_case : result.cases) out["tests"].push_back(test(export_case));
   return out.dump(1) + "\n";
 }
 

@@ -23,8 +23,8 @@ std::string short_number(double value) {
 }
 
 bool is_used(const Metric& metric, const ExportResult& result) {
-  for (const ExportCase& one : result.cases)
-    if (find_figure(one, metric.name) != nullptr) return true;
+  for (const ExportCase& export_case : result.cases)
+    if (find_figure(export_case, metric.name) != nullptr) return true;
   return false;
 }
 
@@ -45,7 +45,7 @@ std::vector<std::size_t> shown_parts(const ExportResult& result) {
   for (std::size_t i = 0; i < first.size(); ++i) {
     const bool may_hide = first[i].first == "viewport" || first[i].first == "precision";
     const bool differs = std::any_of(result.cases.begin(), result.cases.end(),
-                                     [&](const ExportCase& one) { return one.parts[i] != first[i]; });
+                                     [&](const ExportCase& export_case) { return export_case.parts[i] != first[i]; });
     if (!may_hide || differs) shown.push_back(i);
   }
   return shown;
@@ -69,11 +69,11 @@ std::string markdown(const ExportResult& result) {
     rule += "---:|";
   }
   out += "\n" + rule + "\n";
-  for (const ExportCase& one : result.cases) {
+  for (const ExportCase& export_case : result.cases) {
     out += "|";
-    for (const std::size_t part : parts) out += " " + markdown_cell(one.parts[part].second) + " |";
+    for (const std::size_t part : parts) out += " " + markdown_cell(export_case.parts[part].second) + " |";
     for (const Metric* metric : columns) {
-      const Measured* figure = find_figure(one, metric->name);
+      const Measured* figure = find_figure(export_case, metric->name);
       out += " " + (figure == nullptr ? "" : short_number(figure->value)) + " |";
     }
     out += "\n";

@@ -64,9 +64,9 @@ constexpr Metric k_metrics[] = {
     {"convert_cycles", "cycles", "/count/cycles_per_frame/convert", "", smaller, k_detail},
 };
 
-const Json* at(const Json& one, const std::string& pointer) {
-  const Json::json_pointer place(pointer);
-  return one.contains(place) ? &one[place] : nullptr;
+const Json* at(const Json& result_case, const std::string& pointer) {
+  const Json::json_pointer location(pointer);
+  return result_case.contains(location) ? &result_case[location] : nullptr;
 }
 
 bool is_interval(const Json& value) {
@@ -79,13 +79,13 @@ std::optional<double> figure(const Metric& metric, double value) {
   return value > 0.0 ? std::optional(metric.dividend / value) : std::nullopt;
 }
 
-std::optional<Measured> measured_by(const Json& one, const Metric& metric) {
-  const Json* found = at(one, std::string(metric.place));
+std::optional<Measured> measured_by(const Json& result_case, const Metric& metric) {
+  const Json* found = at(result_case, std::string(metric.pointer));
   if (found == nullptr || !found->is_number()) return {};
   const std::optional<double> value = figure(metric, found->get<double>());
   if (!value) return {};
   Measured out{&metric, *value, {}};
-  const Json* interval = metric.interval.empty() ? nullptr : at(one, std::string(metric.interval));
+  const Json* interval = metric.interval.empty() ? nullptr : at(result_case, std::string(metric.interval));
   if (interval == nullptr || !is_interval(*interval)) return out;
   const double a = figure(metric, (*interval)[0].get<double>()).value_or(*value);
   const double b = figure(metric, (*interval)[1].get<double>()).value_or(*value);
@@ -98,21 +98,22 @@ std::optional<Measured> measured_by(const Json& one, const Metric& metric) {
 Basis basis_of(const Metric& metric) {
   constexpr std::string_view k_derived[] = {"/timing/frame_ns/median", "/timing/worst_frame/ns", "/timing/ns_per_pair",
                                             "/timing/floor_ratio"};
-  if (std::find(std::begin(k_derived), std::end(k_derived), metric.place) != std::end(k_derived)) return Basis::derived;
-  if (metric.place == "/timing/pairs/mean" || metric.place == "/timing/builds_per_frame") return Basis::count;
-  if (metric.place.starts_with("/timing/")) return Basis::time;
-  return metric.place.starts_with("/count/") ? Basis::instructions : Basis::count;
+  if (std::find(std::begin(k_derived), std::end(k_derived), metric.pointer) != std::end(k_derived))
+    return Basis::derived;
+  if (metric.pointer == "/timing/pairs/mean" || metric.pointer == "/timing/builds_per_frame") return Basis::count;
+  if (metric.pointer.starts_with("/timing/")) return Basis::time;
+  return metric.pointer.starts_with("/count/") ? Basis::instructions : Basis::count;
 }
 
 std::span<const Metric> export_metrics() {
   return k_metrics;
 }
 
-std::vector<Measured> measured(const Json& one, bool all) {
+std::vector<Measured> measured(const Json& result_case, bool all) {
   std::vector<Measured> out;
   for (const Metric& metric : k_metrics)
     if (metric.is_headline || all)
-      if (const std::optional<Measured> found = measured_by(one, metric)) out.push_back(*found);
+      if (const std::optional<Measured> found = measured_by(result_case, metric)) out.push_back(*found);
   return out;
 }
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "measure/timing.h"
+#include "measure/time_statistics.h"
 
 namespace clusterbench::report {
 
@@ -23,7 +23,7 @@ enum class Basis {
 struct Metric {
   std::string_view name;      // lower-case words with underscores
   std::string_view unit;      // "ns", "bytes", "pairs", "ratio", ...
-  std::string_view place;     // of the value in a result's case, as a JSON pointer
+  std::string_view pointer;   // of the value in a result's case, as a JSON pointer
   std::string_view interval;  // of its 95 % interval [low, high]; "" if it has none
   Better better;
   bool is_headline;       // exported unless everything is asked for
@@ -42,6 +42,6 @@ struct Measured {
 };
 
 // What the case has of the table: absent and null figures are left out.
-std::vector<Measured> measured(const nlohmann::ordered_json& one, bool all);
+std::vector<Measured> measured(const nlohmann::ordered_json& result_case, bool all);
 
 }  // namespace clusterbench::report

@@ -51,8 +51,8 @@ constexpr std::array k_arm_parts{
 };
 
 std::string arm_name(const std::string& implementer, const std::string& part) {
-  const auto* found = std::find_if(k_arm_parts.begin(), k_arm_parts.end(), [&](const ArmPart& one) {
-    return one.implementer == implementer && one.part == part;
+  const auto* found = std::find_if(k_arm_parts.begin(), k_arm_parts.end(), [&](const ArmPart& arm_part) {
+    return arm_part.implementer == implementer && arm_part.part == part;
   });
   return found != k_arm_parts.end() ? std::string(found->name) : "ARM implementer " + implementer + " part " + part;
 }

@@ -36,7 +36,7 @@ class MethodMeter {
   }
 
   void add(const FrameAtHand& now, const grid::Grid& grid) {
-    const view::LightArrays& lights = now.lights.seen(measures_.method.precision);
+    const view::LightArrays& lights = now.lights.in_precision(measures_.method.precision);
     if (now.is_new_grid) run_.build(grid, assign::kinds_of(lights));
     run_.assign({now.frame, lights});
     measures_.tests_done += run_.tests_done();
@@ -150,7 +150,7 @@ AccuracyResult accuracy_pass(const config::Config& config, const SceneData& data
   std::vector<MethodMeter> methods;
   for (const Method& method : methods_of(group)) methods.emplace_back(config, method);
   std::vector<CaseMeter> cases;
-  for (const CasePlan& one : group.cases) cases.emplace_back(config, one);
+  for (const CasePlan& case_plan : group.cases) cases.emplace_back(config, case_plan);
 
   std::vector<measure::PackingLossMeter> losses(config.compares_precisions() ? config.precisions.size() : 0);
 
@@ -164,13 +164,13 @@ AccuracyResult accuracy_pass(const config::Config& config, const SceneData& data
     for (std::size_t i = 0; i < losses.size(); ++i) losses[i].add_frame(now.lights.packed(i));
     for (MethodMeter& method : methods) {
       method.add(now, grids.grid());
-      for (CaseMeter& one : cases)
-        if (one.method() == method.method()) one.add(now, grids.grid(), method);
+      for (CaseMeter& meter : cases)
+        if (meter.method() == method.method()) meter.add(now, grids.grid(), method);
     }
     ask_at_samples(now, cases);
   }
   for (const MethodMeter& method : methods) result.methods.push_back(method.result());
-  for (const CaseMeter& one : cases) result.structures.push_back(one.result());
+  for (const CaseMeter& meter : cases) result.structures.push_back(meter.result());
   for (const measure::PackingLossMeter& loss : losses) result.losses.push_back(loss.result());
   result.last_grid = grids.grid();
   result.is_complete = true;

@@ -31,7 +31,7 @@ std::vector<CountResult> count_method(TimedWork& work, InstructionCounter& count
   result.assign = counted(counter, [&] { work.assign(); });
   if (!work.converts()) return {result};
   std::vector<CountResult> results;
-  for (std::size_t store = 0; store < work.places().size(); ++store) {
+  for (std::size_t store = 0; store < work.case_indices().size(); ++store) {
     work.convert(store);
     result.convert = counted(counter, [&] { work.convert(store); });
     results.push_back(result);
@@ -45,7 +45,7 @@ void count_pass(const config::Config& config, const Plan& plan, const std::funct
                 InstructionCounter& counter, const std::function<void(const CasePlan&, const CountResult&)>& on_case,
                 const std::atomic<bool>& stop) {
   for (GroupPlan group : plan.groups) {
-    std::erase_if(group.cases, [&](const CasePlan& one) { return !is_wanted(one); });
+    std::erase_if(group.cases, [&](const CasePlan& case_plan) { return !is_wanted(case_plan); });
     if (group.cases.empty()) continue;
     const SceneData& data = plan.scenes[group.scene];
     const PathFrames path(data.scene, data.paths[group.camera], config.viewports[group.viewport]);
@@ -55,7 +55,7 @@ void count_pass(const config::Config& config, const Plan& plan, const std::funct
       check_threads(config.assigners[method.assigner], counter);
       TimedWork work(config, group, method, frames);
       const std::vector<CountResult> results = count_method(work, counter);
-      for (std::size_t i = 0; i < results.size(); ++i) on_case(group.cases[work.places()[i]], results[i]);
+      for (std::size_t i = 0; i < results.size(); ++i) on_case(group.cases[work.case_indices()[i]], results[i]);
     }
   }
 }

@@ -27,9 +27,9 @@ class Track {
   void add(const view::Frame& frame, const scene::Scene& scene, const grid::Grid& grid, const grid::Grid& case_grid,
            const FrameLights& lights, const measure::Truth& truth) {
     if (!std::binary_search(frames_.begin(), frames_.end(), frame.index)) return;
-    const view::LightArrays& seen = lights.seen(method_.precision);
-    run_.build(grid, assign::kinds_of(seen));
-    run_.assign({frame, seen});
+    const view::LightArrays& packed = lights.in_precision(method_.precision);
+    run_.build(grid, assign::kinds_of(packed));
+    run_.assign({frame, packed});
     const measure::FrameDetails found = measure::find_details(truth.lists, run_.cell_lists());
     add_frame(*details_, packed_frame(frame, scene, grid, case_grid, found, with_pairs_));
   }
@@ -77,9 +77,9 @@ std::vector<std::optional<Details>> details_pass(const config::Config& config, c
   }
 
   std::vector<std::optional<Details>> results;
-  for (const CasePlan& one : group.cases)
+  for (const CasePlan& case_plan : group.cases)
     results.push_back(std::find_if(tracks.begin(), tracks.end(), [&](const Track& track) {
-                        return track.method() == one.method();
+                        return track.method() == case_plan.method();
                       })->details());
   return results;
 }

@@ -15,7 +15,7 @@ scene::FineSteps fine_steps(const config::StabilityRequest& request) {
   return {request.steps, request.step_mm / 1e3, glm::radians(request.step_deg)};
 }
 
-// One method along the piece.
+// One method along the segment.
 class StabilityTrack {
  public:
   StabilityTrack(const config::Config& config, const Method& method)
@@ -23,9 +23,9 @@ class StabilityTrack {
 
   void add(const view::Frame& frame, const grid::Grid& grid, bool is_new_grid, const FrameLights& lights) {
     if (!run_.has_cells()) return;
-    const view::LightArrays& seen = lights.seen(method_.precision);
-    if (is_new_grid) run_.build(grid, assign::kinds_of(seen));
-    run_.assign({frame, seen});
+    const view::LightArrays& packed = lights.in_precision(method_.precision);
+    if (is_new_grid) run_.build(grid, assign::kinds_of(packed));
+    run_.assign({frame, packed});
     meter_.add(run_.cell_lists());
   }
 
@@ -40,23 +40,23 @@ class StabilityTrack {
 };
 
 // What all methods of the group have in common.
-StabilityResult piece_facts(const scene::FinePath& piece, int window) {
+StabilityResult segment_facts(const scene::FinePath& segment, int window) {
   StabilityResult facts;
   facts.window = window;
-  facts.step_m = piece.move_m;
-  facts.step_deg = glm::degrees(piece.turn_rad);
-  facts.from_frame = piece.from_shot;
-  facts.is_drift = piece.is_drift;
-  facts.path = piece.path.how;
+  facts.step_m = segment.move_m;
+  facts.step_deg = glm::degrees(segment.turn_rad);
+  facts.from_frame = segment.from_shot;
+  facts.is_drift = segment.is_drift;
+  facts.path = segment.path.how;
   return facts;
 }
 
 std::vector<std::optional<StabilityResult>> per_case(const GroupPlan& group, const std::vector<StabilityTrack>& tracks,
                                                      const StabilityResult& common) {
   std::vector<std::optional<StabilityResult>> results;
-  for (const CasePlan& one : group.cases) {
+  for (const CasePlan& case_plan : group.cases) {
     const StabilityTrack& track = *std::find_if(
-        tracks.begin(), tracks.end(), [&](const StabilityTrack& any) { return any.method() == one.method(); });
+        tracks.begin(), tracks.end(), [&](const StabilityTrack& any) { return any.method() == case_plan.method(); });
     results.emplace_back();
     if (!track.has_cells()) continue;
     results.back() = common;
@@ -71,9 +71,9 @@ std::vector<std::optional<StabilityResult>> stability_pass(const config::Config&
                                                            const PathFrames& path,
                                                            const std::function<void(double share)>& on_step,
                                                            const std::atomic<bool>& stop) {
-  const scene::FinePath piece = scene::fine_path(path.camera_path(), fine_steps(*config.stability));
-  const PathFrames steps = path.along(piece.path);
-  StabilityResult common = piece_facts(piece, config.stability->window);
+  const scene::FinePath segment = scene::fine_path(path.camera_path(), fine_steps(*config.stability));
+  const PathFrames steps = path.along(segment.path);
+  StabilityResult common = segment_facts(segment, config.stability->window);
   std::vector<StabilityTrack> tracks;
   for (const Method& method : methods_of(group)) tracks.emplace_back(config, method);
 

@@ -1,7 +1,6 @@
 #include "run/passes/timing_pass.h"
 
 #include <algorithm>
-#include <cstring>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -11,34 +10,12 @@
 #include "core/random.h"
 #include "run/cache_sweep.h"
 #include "run/counters/machine_load.h"
+#include "run/passes/copy_floor.h"
 #include "run/repeated.h"
 #include "run/timed_work.h"
 
 namespace clusterbench::run {
 namespace {
-
-// Memory traffic that no way of assigning can avoid: what each frame leaves, headers and indices, copied once. Each
-// frame has buffers of its own, one for headers and one for indices, as each frame's lists have: one pair of buffers
-// for all would stay in the cache where the lists of a long path do not.
-class WriteFloor {
- public:
-  void add_frame(const assign::StructureUse& use) {
-    for (const std::uint64_t bytes : {use.header_bytes, use.index_bytes})
-      if (bytes > 0) copies_.push_back({std::vector<unsigned char>(bytes, 1), std::vector<unsigned char>(bytes, 2)});
-  }
-  void copy_once() {
-    for (Copy& copy : copies_) {
-      std::memcpy(copy.to.data(), copy.from.data(), copy.from.size());
-      asm volatile("" : : "r"(copy.to.data()) : "memory");  // the copies are wanted for themselves
-    }
-  }
-
- private:
-  struct Copy {
-    std::vector<unsigned char> from, to;
-  };
-  std::vector<Copy> copies_;
-};
 
 EachFrame sums(EachFrame left, const EachFrame& right) {
   std::transform(left.begin(), left.end(), right.begin(), left.begin(), std::plus<>());
@@ -56,10 +33,10 @@ class TimingTrack {
       samples_.frames.push_back(work_.path_frame(i));
     samples_.pairs = pairs_of_frames();
     samples_.builds_per_frame = static_cast<double>(work_.builds()) / static_cast<double>(work_.frame_count());
-    if (work_.converts()) samples_.stores.resize(work_.places().size());
+    if (work_.converts()) samples_.stores.resize(work_.case_indices().size());
     for (std::size_t store = 0; store < samples_.stores.size(); ++store)
       converts_.emplace_back([this, store] { work_.convert(store); }, min_ns_ / 10.0);
-    prepare_floor();
+    copy_floor_.emplace(work_);
   }
 
   void warm_round() {
@@ -135,27 +112,13 @@ class TimingTrack {
     return each;
   }
 
-  // What the tight storage writes for these lists; or the method's own structure, as it is.
-  void prepare_floor() {
-    const std::size_t frames = work_.frame_count();
-    for (std::size_t i = 0; i < std::min(frames, work_.structures().size()); ++i)
-      write_floor_.add_frame(work_.structures()[i]->use());
-    if (!work_.converts()) return;
-    const assign::StorageDescriptor& packed = *assign::find_storage("packed");
-    const auto storage = work_.storage(packed, assign::Params(packed.params));
-    for (std::size_t i = 0; i < frames; ++i) {
-      storage->store(work_.lists()[i]);
-      write_floor_.add_frame(storage->use());
-    }
-  }
-
   double min_ns_;
   TimedWork work_;
   MethodSamples samples_;
   std::deque<Repeated> converts_;  // of each storage
-  WriteFloor write_floor_;
+  std::optional<CopyFloor> copy_floor_;
   Repeated assign_{[this] { work_.assign(); }, min_ns_};
-  Repeated floor_{[this] { write_floor_.copy_once(); }, min_ns_ / 10.0};
+  Repeated floor_{[this] { copy_floor_->copy_once(); }, min_ns_ / 10.0};
 };
 
 // The frames of the means, and then the fullest ones of the methods that are not among them.
@@ -220,8 +183,8 @@ class MethodTimes {
     }
     if (converts && *out.pairs_mean > 0.0) out.ns_per_pair = out.frame_ns.median / *out.pairs_mean;
     const measure::WorstFrame worst = measure::worst_frame(each, seed_, launch_count());
-    out.worst = {first_.frames[worst.place], worst.ns, worst.ci95, {}};
-    if (!first_.pairs.empty()) out.worst.pairs = first_.pairs[worst.place];
+    out.worst = {first_.frames[worst.index], worst.ns, worst.ci95, {}};
+    if (!first_.pairs.empty()) out.worst.pairs = first_.pairs[worst.index];
     return out;
   }
 
@@ -292,9 +255,9 @@ class MethodTimes {
 
 // What a case is compared with: the group's first one in the same storage; a structure of a method's own with the first
 // of all.
-std::size_t reference_of(const GroupPlan& group, std::size_t place) {
-  const auto is_alike = [&](const CasePlan& one) { return one.storage == group.cases[place].storage; };
-  if (!group.cases[place].storage) return 0;
+std::size_t reference_of(const GroupPlan& group, std::size_t index) {
+  const auto is_alike = [&](const CasePlan& case_plan) { return case_plan.storage == group.cases[index].storage; };
+  if (!group.cases[index].storage) return 0;
   return static_cast<std::size_t>(std::find_if(group.cases.begin(), group.cases.end(), is_alike) - group.cases.begin());
 }
 
@@ -340,9 +303,9 @@ GroupSamples measure_launch(const config::Config& config, const GroupPlan& group
   const LoadWatch watch;
   for (int round = 0; round < request.rounds; ++round) {
     on_round(round);
-    for (const std::size_t place : method_order(tracks.size(), config.seed, request.launch, round)) {
+    for (const std::size_t method : method_order(tracks.size(), config.seed, request.launch, round)) {
       if (stop) return {};
-      TimingTrack& track = *tracks[place];
+      TimingTrack& track = *tracks[method];
       track.warm_round();
       if (!config.timing.cold) track.warm_frames();
       if (round < cold) track.cold_frames(sweep);
@@ -362,15 +325,15 @@ std::vector<TimingResult> timing_results(const config::Config& config, const Gro
   for (std::size_t i = 0; i < methods.size(); ++i) {
     const MethodTimes times(launches, i, config.seed);
     std::size_t store = 0;
-    for (std::size_t place = 0; place < timings.size(); ++place)
-      if (group.cases[place].method() == methods[i]) timings[place] = times.of_case(store++);
+    for (std::size_t index = 0; index < timings.size(); ++index)
+      if (group.cases[index].method() == methods[i]) timings[index] = times.of_case(store++);
   }
-  for (std::size_t place = 0; place < timings.size(); ++place) {
-    const std::size_t first = reference_of(group, place);
-    if (group.cases[first].method() == group.cases[place].method()) continue;
-    timings[place].against_first =
+  for (std::size_t index = 0; index < timings.size(); ++index) {
+    const std::size_t first = reference_of(group, index);
+    if (group.cases[first].method() == group.cases[index].method()) continue;
+    timings[index].against_first =
         Versus{method_label(config, group.cases[first].method()),
-               measure::paired_ratio(timings[place].frame_ns.samples, timings[first].frame_ns.samples, config.seed,
+               measure::paired_ratio(timings[index].frame_ns.samples, timings[first].frame_ns.samples, config.seed,
                                      launch_count)};
   }
   return timings;

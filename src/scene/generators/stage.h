@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/random.h"
-#include "geom/vec.h"
+#include "geom/shapes/vec.h"
 
 namespace clusterbench::scene {
 

@@ -1,0 +1,470 @@
+// A vector of cells, each with its own spot, and what may settle whether they share a point. For files that are
+// compiled once per target; included after hwy/highway.h; defines its names anew for each target.
+
+#if defined(CLUSTERBENCH_SPOT_CELLS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef CLUSTERBENCH_SPOT_CELLS_INL_H
+#undef CLUSTERBENCH_SPOT_CELLS_INL_H
+#else
+#define CLUSTERBENCH_SPOT_CELLS_INL_H
+#endif
+
+#include "assign/cone/spot_vectors-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace clusterbench::assign {
+namespace HWY_NAMESPACE {
+
+// A vector of cells, each with its own cone. In perspective sides and rows are slopes, else coordinates.
+template <bool k_perspective>
+class CellsOf {
+ public:
+  // Those between two sides of columns.
+  HWY_INLINE CellsOf(const SpotsInRows& rows, V left, V right)
+      : cone_(rows.cone),
+        left_(left),
+        right_(right),
+        y0_(rows.y0),
+        y1_(rows.y1),
+        depth0_(rows.depth0),
+        depth1_(rows.depth1),
+        tolerance_(k_perspective ? rows.tolerance(left, right) : rows.parallel_tolerance(left, right)),
+        safe_range_(cone_.range - tolerance_) {
+    for (unsigned i = 0; i < 8; ++i) from_apex_[i] = corner(i) - cone_.apex;
+  }
+
+  // A corner well inside.
+  HWY_INLINE M holds_corner() const {
+    M any = FirstN(D(), 0);
+    for (const Point& v : from_apex_) any = Or(any, is_inside(v));
+    return any;
+  }
+
+  // Places on the edges: nearest to the axis as an angle, nearest to the apex, and between these.
+  HWY_INLINE M holds_edge_point() const {
+    M any = FirstN(D(), 0);
+    for (unsigned corner = 0; corner < 8; ++corner)
+      for (const unsigned bit : {1u, 2u, 4u}) {
+        if ((corner & bit) != 0) continue;
+        const Point &start = from_apex_[corner], step = from_apex_[corner | bit] - start;
+        const V start_axis = dot(start, cone_.axis), step_axis = dot(step, cone_.axis), mixed = dot(start, step);
+        const V start_square = dot(start, start), step_square = dot(step, step);
+        const V above = step_axis * start_square - start_axis * mixed;
+        const V below = start_axis * step_square - step_axis * mixed;
+        const auto within = [](V t) { return Min(Max(t, Zero(D())), all(1.0f)); };
+        const V to_axis = within(above / below), to_apex = within(Neg(mixed) / step_square);
+        for (const V t : {to_axis, to_apex, all(0.5f) * (to_axis + to_apex)})
+          any = Or(any, is_inside(start + t * step));
+      }
+    return any;
+  }
+
+  // The middle of the axis within the cell; and where the way from the axis to the cell's own middle line, between the
+  // points where these are nearest to each other, has just entered the cell.
+  HWY_INLINE M holds_axis_point() const {
+    const V zero = Zero(D()), half = all(0.5f);
+    V from = zero, to = cone_.range;
+    clip({zero, zero, zero}, cone_.axis, from, to);
+    const M middle = And(from < to, is_common((half * (from + to)) * cone_.axis));
+
+    const auto middle_of = [&](unsigned i) {
+      return all(0.25f) * (from_apex_[i] + from_apex_[i + 1] + from_apex_[i + 2] + from_apex_[i + 3]);
+    };
+    const Point front = middle_of(0), line = middle_of(4) - front;
+    const auto within = [](V low, V t, V high) { return Min(Max(t, low), high); };
+    // Of apex + t axis and front + s line.
+    const V b = dot(cone_.axis, line), c = dot(line, line), d = dot(cone_.axis, front), e = dot(line, front);
+    const V free = within(zero, (c * d - b * e) / (c - b * b), cone_.range);
+    const V s = within(zero, (b * free - e) / c, all(1.0f));
+    const V t = within(zero, b * s + d, cone_.range);
+    const Point start = t * cone_.axis, step = front + s * line - start;
+    V entry = zero, end = all(1.0f);
+    clip(start, step, entry, end);
+    const V further = entry + all(0.05f) * (all(1.0f) - entry);
+    return Or(middle, is_common(start + further * step));
+  }
+
+  // A face between, or a plane along the cone's side towards the cell's middle.
+  HWY_INLINE M is_apart() const {
+    M apart = is_beside(sum_of_corners());
+    each_face([&](const Point& normal, V offset) {
+      const V scale = all(1.0f) / face_length(normal);
+      const V beyond = scale * (dot(normal, cone_.apex) - offset);
+      apart = Or(apart, beyond - extent(Neg(scale) * normal) > tolerance_);
+    });
+    return apart;
+  }
+
+  // More planes: along the cone's side towards each corner, and across the way to the nearest corner and to the nearest
+  // point of the edges.
+  HWY_INLINE M is_apart_from_corners() const {
+    M apart = FirstN(D(), 0);
+    Point nearest = from_apex_[0];
+    V least = dot(nearest, nearest);
+    const auto take = [&](const Point& v) {
+      const V square = dot(v, v);
+      const M is_nearer = square < least;
+      least = Min(least, square);
+      nearest = {IfThenElse(is_nearer, v.x, nearest.x), IfThenElse(is_nearer, v.y, nearest.y),
+                 IfThenElse(is_nearer, v.depth, nearest.depth)};
+    };
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      apart = Or(apart, is_beside(from_apex_[corner]));
+      take(from_apex_[corner]);
+      for (const unsigned bit : {1u, 2u, 4u}) {
+        if ((corner & bit) != 0) continue;
+        const Point &start = from_apex_[corner], step = from_apex_[corner | bit] - start;
+        const V t = Neg(dot(start, step) / dot(step, step));
+        take(start + Min(Max(t, Zero(D())), all(1.0f)) * step);
+      }
+    }
+    return Or(apart, is_past(nearest));
+  }
+
+  // From the cell to the volume and back a few times, both smaller by a little more than the tolerance. Where they
+  // share room, both soon hold the same point; where they do not, the way from one to the other crosses a plane
+  // between.
+  HWY_INLINE void approach(M& common, M& apart) const {
+    constexpr int k_ways = 3;
+    Point in_cell = all(0.125f) * sum_of_corners(), in_volume;
+    for (int way = 0; way < k_ways; ++way) in_cell = closer_to_volume(in_cell);
+    in_volume = nearest_in_volume(in_cell);
+    common = Or(is_common(in_cell), is_common(in_volume));
+    apart = Or(is_past(in_cell - in_volume), is_apart());
+  }
+
+  // The mean of all points where cell ∩ volume can be extreme (geom/search/extreme_candidates.h), which lies inside of
+  // it; and planes along the cone's side that are equally far from both ends of an edge. The nearest such point tells
+  // more of them.
+  HWY_INLINE void settle(M& common, M& apart) const {
+    const V zero = Zero(D());
+    Extremes extremes{{zero, zero, zero}, zero, {zero, zero, zero}, all(k_none)};
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      take_corner(from_apex_[corner], extremes);
+      for (const unsigned bit : {1u, 2u, 4u})
+        if ((corner & bit) == 0) take_edge(from_apex_[corner], from_apex_[corner | bit], extremes);
+    }
+    each_face([&](const Point& outward, V offset) {
+      const V scale = all(1.0f) / face_length(outward);
+      take_face(scale * outward, scale * (offset - dot(outward, cone_.apex)), extremes);
+    });
+    take_in_cell(cone_.range * cone_.axis, yes(), extremes);
+    common = is_common((all(1.0f) / Max(extremes.count, all(1.0f))) * extremes.sum);
+    apart = Or(is_beside_edges(), is_beyond(extremes));
+  }
+
+  // From a point of the cell to the volume and back, a little too far.
+  HWY_INLINE Point closer_to_volume(const Point& v) const {
+    return near_in_cell(v + all(1.5f) * (nearest_in_volume(v) - v));
+  }
+
+  // A point of the cell made smaller by a little more than the tolerance: not the nearest one where its sides lean, but
+  // one nearby.
+  HWY_INLINE Point near_in_cell(const Point& v) const {
+    const V within = all(k_within) * tolerance_;
+    const Point point = v + cone_.apex;
+    const auto between = [](V low, V x, V high) { return Min(Max(x, low), high); };
+    const V depth = between(depth0_ + within, point.depth, depth1_ - within);
+    if constexpr (!k_perspective) {
+      const V x = between(left_ + within, point.x, right_ - within);
+      const V y = between(y0_ + within, point.y, y1_ - within);
+      return Point{x, y, depth} - cone_.apex;
+    }
+    const auto inset = [&](V slope) { return within * (all(1.0f) + Abs(slope)); };
+    const V x = between(left_ * depth + inset(left_), point.x, right_ * depth - inset(right_));
+    const V y = between(y0_ * depth + inset(y0_), point.y, y1_ * depth - inset(y1_));
+    return Point{x, y, depth} - cone_.apex;
+  }
+
+  // Evidence.
+
+  // Is the point v from the apex in volume and cell, by more than the tolerance?
+  HWY_INLINE M is_common(const Point& v) const {
+    M is_in = is_inside(v);
+    each_face([&](const Point& outward, V offset) {
+      const V margin = offset - dot(outward, cone_.apex + v);
+      is_in = And(is_in, margin > tolerance_ * face_length(outward));
+    });
+    return is_in;
+  }
+
+  // Outwards, of the plane along the cone's side in a direction across the axis.
+  HWY_INLINE Point side_normal(const Point& across) const {
+    return (cone_.cosine / length(across)) * across - cone_.sine * cone_.axis;
+  }
+
+  // Do all corners lie beyond the plane along the cone's side in the direction of v?
+  HWY_INLINE M is_beside(const Point& v) const {
+    const Point part = v - dot(v, cone_.axis) * cone_.axis;
+    // Where v is nearly along the axis, what is across it has few digits. Elsewhere up to 65 u of it are still along
+    // the axis; once more leaves 6 u.
+    const M is_good = dot(part, part) > all(0.01f) * dot(v, v);
+    const Point across = part - dot(part, cone_.axis) * cone_.axis;
+    return And(is_good, least_along(side_normal(across)) > tolerance_);
+  }
+
+  // Do all corners lie farther in a direction than the volume extends?
+  HWY_INLINE M is_past(const Point& direction) const {
+    const Point normal = (all(1.0f) / length(direction)) * direction;
+    return least_along(normal) - extent(normal) > tolerance_;
+  }
+
+ private:
+  static constexpr float k_none = 1e30f;
+  static constexpr float k_within = 1.25f;         // of the tolerance
+  static constexpr float k_least_square = 1e-30f;  // below it quotients lose digits
+  // Places that lie in cell and volume, by and large: their sum, and the one nearest to the apex of those that lie in
+  // cell and endless cone.
+  struct Extremes {
+    Point sum;
+    V count;
+    Point nearest;
+    V least;  // its square distance; k_none without one
+
+    // `where` it lies in cell and endless cone, and where in the range, too.
+    HWY_INLINE void take(M where, M in_range, const Point& v) {
+      const M counts = And(where, in_range);
+      const auto kept = [&](V value) { return IfThenElseZero(counts, value); };
+      sum = sum + Point{kept(v.x), kept(v.y), kept(v.depth)};
+      count = count + kept(all(1.0f));
+      const V square = dot(v, v);
+      const M is_nearer = And(where, square < least);
+      least = IfThenElse(is_nearer, square, least);
+      nearest = chosen(is_nearer, v, nearest);
+    }
+  };
+
+  HWY_INLINE static M yes() { return Zero(D()) == Zero(D()); }
+
+  HWY_INLINE Point sum_of_corners() const {
+    Point sum = from_apex_[0];
+    for (unsigned i = 1; i < 8; ++i) sum = sum + from_apex_[i];
+    return sum;
+  }
+
+  // Of the smaller volume: its apex moved along the axis, its range shorter.
+  HWY_INLINE Point nearest_in_volume(const Point& v) const {
+    const V zero = Zero(D()), tiny = all(1e-30f);
+    const V within = all(k_within) * tolerance_;
+    const V ahead = Min(within / Max(cone_.sine, tiny), all(0.5f) * cone_.range);
+    const V along = dot(v, cone_.axis) - ahead;
+    const Point offset = v - (along + ahead) * cone_.axis;
+    const V across = length(offset);
+    const M is_in = cone_.sine * along >= cone_.cosine * across;
+    const V t = Max(zero, along * cone_.cosine + across * cone_.sine);
+    const V to_along = IfThenElse(is_in, along, t * cone_.cosine);
+    const V narrowed = t * cone_.sine / Max(across, tiny);
+    const Point to = (to_along + ahead) * cone_.axis + IfThenElse(is_in, all(1.0f), narrowed) * offset;
+    const V range = cone_.range - within;
+    return Min(all(1.0f), range / Max(length(to), tiny)) * to;
+  }
+
+  // By and large: the tolerance is on their side.
+  HWY_INLINE M is_in_cone(const Point& v) const {
+    const V along = dot(v, cone_.axis), across = length(v - along * cone_.axis);
+    return cone_.sine * along - cone_.cosine * across >= Neg(tolerance_);
+  }
+  HWY_INLINE M is_in_range(const Point& v) const {
+    const V range = cone_.range + tolerance_;
+    return dot(v, v) <= range * range;
+  }
+  HWY_INLINE M is_in_cell(const Point& v) const {
+    M is_in = yes();
+    each_face([&](const Point& outward, V offset) {
+      const V margin = offset - dot(outward, cone_.apex + v);
+      is_in = And(is_in, margin >= Neg(tolerance_ + tolerance_));
+    });
+    return is_in;
+  }
+
+  HWY_INLINE void take_corner(const Point& v, Extremes& extremes) const {
+    extremes.take(is_in_cone(v), is_in_range(v), v);
+  }
+  // A point of the volume's surface, if it is in the cell.
+  HWY_INLINE void take_in_cell(const Point& v, M where, Extremes& extremes) const {
+    extremes.take(And(where, is_in_cell(v)), is_in_range(v), v);
+  }
+
+  // Where it is nearest to the apex, and where it meets the cone's side and the sphere.
+  HWY_INLINE void take_edge(const Point& start, const Point& end, Extremes& extremes) const {
+    const Point step = end - start;
+    const auto take_at = [&](M exists, V t) {
+      const M is_on = And(exists, And(t >= Zero(D()), t <= all(1.0f)));
+      const Point v = start + t * step;
+      extremes.take(And(is_on, is_in_cone(v)), is_in_range(v), v);
+    };
+    const auto take_roots = [&](V a, V b, V c) {  // of a t² + 2 b t + c
+      const V square = b * b - a * c;
+      const M exist = square >= Zero(D());
+      const V q = Neg(b + CopySign(Sqrt(Max(square, Zero(D()))), b));
+      take_at(exist, q / a);
+      take_at(exist, c / q);
+    };
+    const V start_square = dot(start, start), mixed = dot(start, step), step_square = dot(step, step);
+    take_at(yes(), Neg(mixed / step_square));
+    take_roots(step_square, mixed, start_square - cone_.range * cone_.range);
+    // sin² along² = cos² across².
+    const V start_along = dot(start, cone_.axis), step_along = dot(step, cone_.axis);
+    const Point start_across = start - start_along * cone_.axis, step_across = step - step_along * cone_.axis;
+    const auto form = [&](V along1, V along2, const Point& across1, const Point& across2) {
+      const V s2 = cone_.sine * cone_.sine, c2 = cone_.cosine * cone_.cosine;
+      return s2 * (along1 * along2) - c2 * dot(across1, across2);
+    };
+    take_roots(form(step_along, step_along, step_across, step_across),
+               form(start_along, step_along, start_across, step_across),
+               form(start_along, start_along, start_across, start_across));
+  }
+
+  // Unit normal; margin: how far the apex is on the inner side. The foot of the apex, the sphere's deepest point,
+  // the generators in the plane of axis and normal: where they meet the face, and their ends; and two points on the
+  // rim.
+  HWY_INLINE void take_face(const Point& outward, V margin, Extremes& extremes) const {
+    const Point foot = margin * outward, deepest = Neg(cone_.range) * outward;
+    take_in_cell(foot, is_in_cone(foot), extremes);
+    take_in_cell(deepest, is_in_cone(deepest), extremes);
+    const Point across = unit_across(outward);
+    for (const V side : {cone_.sine, Neg(cone_.sine)}) {
+      const Point generator = cone_.cosine * cone_.axis + side * across;
+      const V t = margin / dot(outward, generator);
+      take_in_cell(t * generator, t > Zero(D()), extremes);
+      take_in_cell(cone_.range * generator, yes(), extremes);
+    }
+    // The face on the rim, where side and sphere meet.
+    const V rim_along = cone_.range * cone_.cosine, rim_across = cone_.range * cone_.sine;
+    const V reach = rim_across * dot(outward, across);
+    const V cosine = (margin - rim_along * dot(outward, cone_.axis)) / reach;
+    const V square = all(1.0f) - cosine * cosine;
+    const M meets = square >= Zero(D());
+    const V sine = Sqrt(Max(square, Zero(D())));
+    const Point middle = rim_along * cone_.axis + (rim_across * cosine) * across;
+    const Point offset = (rim_across * sine) * cross(cone_.axis, across);
+    take_in_cell(middle + offset, meets, extremes);
+    take_in_cell(middle - offset, meets, extremes);
+  }
+
+  // A unit vector across the axis, towards v where v is not nearly along the axis.
+  HWY_INLINE Point unit_across(const Point& v) const {
+    const V zero = Zero(D()), one = all(1.0f);
+    const M is_good = length(cross(v, cone_.axis)) > all(0.1f) * length(v);
+    const M x_is_small = Abs(cone_.axis.x) < all(0.7f);
+    const Point other = chosen(x_is_small, {one, zero, zero}, {zero, one, zero});
+    const Point from = chosen(is_good, v, other);
+    const Point part = from - dot(from, cone_.axis) * cone_.axis;
+    return (one / length(part)) * part;
+  }
+
+  // Is there a plane along the cone's side, equally far from both ends of an edge, beyond which all corners lie?
+  HWY_INLINE M is_beside_edges() const {
+    const V zero = Zero(D()), one = all(1.0f);
+    const M x_is_small = Abs(cone_.axis.x) < all(0.7f);
+    const Point m = unit_across(chosen(x_is_small, {one, zero, zero}, {zero, one, zero})), m2 = cross(cone_.axis, m);
+    M apart = Not(yes());
+    for (unsigned corner = 0; corner < 8; ++corner)
+      for (const unsigned bit : {1u, 2u, 4u}) {
+        if ((corner & bit) != 0) continue;
+        const Point edge = from_apex_[corner | bit] - from_apex_[corner];
+        // x cos phi + y sin phi = z, phi around the axis from m. Not times the cosine, whose square would not be a
+        // number that single precision has where the angle is nearly 90 degrees.
+        const V x = dot(edge, m), y = dot(edge, m2);
+        const V z = cone_.sine * dot(edge, cone_.axis) / cone_.cosine;
+        const V square = x * x + y * y, rest = square - z * z;
+        const M exists = And(square > all(k_least_square), rest >= zero);
+        const V root = Sqrt(Max(rest, zero)), scale = one / square;
+        for (const V w : {root, Neg(root)}) {
+          const V along_m = scale * (z * x - w * y);
+          const V along_m2 = scale * (z * y + w * x);
+          const Point across = along_m * m + along_m2 * m2;
+          apart = Or(apart, And(exists, least_along(side_normal(across)) > tolerance_));
+        }
+      }
+    return apart;
+  }
+
+  // Where cell and endless cone meet beyond the range only: is there a plane through the nearest point, between the
+  // sphere's tangent there and the cone's side, that an edge says how to lean?
+  HWY_INLINE M is_beyond(const Extremes& extremes) const {
+    const Point generator = (all(1.0f) / Sqrt(extremes.least)) * extremes.nearest;
+    const Point outward = cone_.cosine * unit_across(generator) - cone_.sine * cone_.axis;
+    M apart = is_past(generator);
+    for (unsigned corner = 0; corner < 8; ++corner)
+      for (const unsigned bit : {1u, 2u, 4u}) {
+        if ((corner & bit) != 0) continue;
+        const Point edge = from_apex_[corner | bit] - from_apex_[corner];
+        const V share = Neg(dot(generator, edge) / dot(outward, edge));
+        apart = Or(apart, And(share > Zero(D()), is_past(generator + share * outward)));
+      }
+    return And(apart, extremes.least < all(k_none));
+  }
+
+  HWY_INLINE Point corner(unsigned i) const {
+    const V depth = (i & 4) != 0 ? depth1_ : depth0_;
+    const V side = (i & 1) != 0 ? right_ : left_, up = (i & 2) != 0 ? y1_ : y0_;
+    if constexpr (!k_perspective) return {side, up, depth};
+    return {side * depth, up * depth, depth};
+  }
+
+  // Outward normals (any length) and the faces along them.
+  template <class Take>
+  HWY_INLINE void each_face(Take&& take) const {
+    const V zero = Zero(D()), one = all(1.0f);
+    if constexpr (k_perspective) {
+      take(Point{Neg(one), zero, left_}, zero);
+      take(Point{one, zero, Neg(right_)}, zero);
+      take(Point{zero, Neg(one), y0_}, zero);
+      take(Point{zero, one, Neg(y1_)}, zero);
+    } else {
+      take(Point{Neg(one), zero, zero}, Neg(left_));
+      take(Point{one, zero, zero}, right_);
+      take(Point{zero, Neg(one), zero}, Neg(y0_));
+      take(Point{zero, one, zero}, y1_);
+    }
+    take(Point{zero, zero, Neg(one)}, Neg(depth0_));
+    take(Point{zero, zero, one}, depth1_);
+  }
+
+  // Of a face's normal.
+  static HWY_INLINE V face_length(const Point& outward) {
+    if constexpr (!k_perspective) return all(1.0f);
+    return length(outward);
+  }
+
+  // Cuts a line from the apex + start, along step, to the cell.
+  HWY_INLINE void clip(const Point& start, const Point& step, V& from, V& to) const {
+    each_face([&](const Point& outward, V offset) {
+      const V margin = offset - dot(outward, cone_.apex + start), lean = dot(outward, step);
+      const V t = margin / lean;
+      to = IfThenElse(lean > Zero(D()), Min(to, t), to);
+      from = IfThenElse(lean < Zero(D()), Max(from, t), from);
+    });
+  }
+
+  // The least of the corners along a direction.
+  HWY_INLINE V least_along(const Point& direction) const {
+    V least = dot(direction, from_apex_[0]);
+    for (unsigned i = 1; i < 8; ++i) least = Min(least, dot(direction, from_apex_[i]));
+    return least;
+  }
+
+  // Is the point v from the apex in the volume, by more than the tolerance?
+  HWY_INLINE M is_inside(const Point& v) const {
+    const V zero = Zero(D()), along = dot(v, cone_.axis);
+    const Point offset = v - along * cone_.axis;
+    // Squares, because roots are slow. They add a few u to what the tolerance is for.
+    const V side = cone_.sine * along - tolerance_;
+    const M is_in_cone = And(side > zero, side * side > cone_.cosine * cone_.cosine * dot(offset, offset));
+    return And(is_in_cone, And(safe_range_ > zero, dot(v, v) < safe_range_ * safe_range_));
+  }
+
+  // How far the volume extends from its apex along a unit vector.
+  HWY_INLINE V extent(const Point& normal) const { return extent_of(cone_, normal, all(1.0f)); }
+
+  Cone cone_;
+  V left_, right_, y0_, y1_, depth0_, depth1_, tolerance_, safe_range_;
+  Point from_apex_[8];
+};
+using Cells = CellsOf<true>;
+
+}  // namespace HWY_NAMESPACE
+}  // namespace clusterbench::assign
+HWY_AFTER_NAMESPACE();
+
+#endif

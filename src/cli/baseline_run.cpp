@@ -1,0 +1,62 @@
+#include "cli/baseline_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "cli/rounds_protocol.h"
+#include "core/error.h"
+#include "report/baseline_rounds.h"
+
+namespace clusterbench::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Rounds of one launch: together about as many as the configuration asks for, and enough for a median.
+int rounds_per_launch(const config::Config& config, int launches) {
+  constexpr int k_least = 4;
+  return std::max(k_least, (config.timing.rounds + launches - 1) / launches);
+}
+
+// An interval that reaches half of the threshold to either side tells a change of the threshold and a half from it.
+run::PairedRequest paired_request(const BaselineRequest& request, const config::Config& config) {
+  return {request.launches, request.most_launches, std::log1p(0.5 * request.threshold_percent / 100.0),
+          rounds_per_launch(config, request.launches)};
+}
+
+std::vector<std::string> server_command(const std::string& binary, const std::vector<std::string>& arguments) {
+  std::vector<std::string> command{binary, "run", "--rounds-server=" + std::to_string(k_rounds_protocol)};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  return command;
+}
+
+}  // namespace
+
+void probe_baseline(const BaselineRequest& request, const std::vector<std::string>& arguments,
+                    const std::atomic<bool>& stop) {
+  const RemoteProgram probe(server_command(fs::absolute(request.binary).string(), arguments), request.patience_s, stop);
+}
+
+void measure_beside(const BaselineRequest& request, const std::vector<std::string>& arguments,
+                    const config::Config& config, const run::Plan& plan, const run::OnPairedRound& on_round,
+                    const std::atomic<bool>& stop, nlohmann::ordered_json& result) {
+  nlohmann::ordered_json tool;
+  const auto start = [&](const std::string& binary) {
+    return std::make_unique<RemoteProgram>(server_command(binary, arguments), request.patience_s, stop);
+  };
+  const std::string other = fs::absolute(request.binary).string();
+  const run::PairedStart both{[&] {
+                                auto program = start(other);
+                                tool = program->tool();
+                                return program;
+                              },
+                              [&] { return start(k_this_program); }};
+  try {
+    report::add_baseline(result, tool, run::measure_paired(plan, paired_request(request, config), both, on_round));
+  } catch (const nlohmann::json::exception& error) {
+    throw Error(request.binary, "--baseline-binary", std::string("answered what cannot be read: ") + error.what());
+  }
+}
+
+}  // namespace clusterbench::cli

@@ -1,0 +1,45 @@
+#include "cli/export_files.h"
+
+#include <fstream>
+
+#include "cli/output.h"
+#include "core/error.h"
+
+namespace clusterbench::cli {
+namespace {
+
+ExportTarget target_of(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals + 1 == text.size())
+    throw Error("", "--export", "takes FORMAT=FILE, not '" + text + "'");
+  return {&report::export_format(text.substr(0, equals)), text.substr(equals + 1)};
+}
+
+}  // namespace
+
+std::vector<ExportTarget> export_targets(const std::vector<std::string>& texts) {
+  std::vector<ExportTarget> targets;
+  targets.reserve(texts.size());
+  for (const std::string& text : texts) targets.push_back(target_of(text));
+  return targets;
+}
+
+void probe_exports(const std::vector<ExportTarget>& targets) {
+  for (const ExportTarget& target : targets)
+    if (target.file != "-" && !std::ofstream(target.file, std::ios::app))
+      throw Error(target.file, "", "cannot be written");
+}
+
+void write_exports(const std::vector<ExportTarget>& targets, const nlohmann::ordered_json& result) {
+  for (const ExportTarget& target : targets) write_text(target.file, report::exported(result, *target.format, false));
+}
+
+std::string export_formats_text() {
+  std::string text;
+  for (const report::ExportFormat& format : report::export_formats())
+    text += "  " + std::string(format.name) + std::string(18 - format.name.size(), ' ') + std::string(format.summary) +
+            "\n";
+  return text;
+}
+
+}  // namespace clusterbench::cli

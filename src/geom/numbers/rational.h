@@ -1,0 +1,33 @@
+#pragma once
+// Exact numbers: what floats and doubles are, and what follows from them by + - * /.
+
+#include <boost/multiprecision/cpp_int.hpp>
+
+#include "geom/numbers/point3.h"
+#include "geom/numbers/square_roots.h"
+
+namespace clusterbench::geom {
+
+using Integer = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>, boost::multiprecision::et_off>;
+using Rational =
+    boost::multiprecision::number<boost::multiprecision::cpp_rational::backend_type, boost::multiprecision::et_off>;
+using RationalPoint = Point3<Rational>;
+
+// value: finite.
+inline Rational exact(double value) {
+  return Rational(value);
+}
+
+inline RationalPoint exact(const Point3<double>& p) {
+  return {exact(p.x), exact(p.y), exact(p.z)};
+}
+
+inline Rational norm_1(const RationalPoint& p) {
+  return abs(p.x) + abs(p.y) + abs(p.z);
+}
+
+inline Rational squared_distance(const RationalPoint& a, const RationalPoint& b) {
+  return dot(a - b, a - b);
+}
+
+}  // namespace clusterbench::geom

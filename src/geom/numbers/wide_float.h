@@ -1,0 +1,75 @@
+#pragma once
+// Floating point with 256, 1024 and 3072 bits, for finding what is then proven in exact numbers.
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <cmath>
+
+#include "geom/numbers/point3.h"
+#include "geom/numbers/precision.h"
+#include "geom/numbers/rational.h"
+
+namespace clusterbench::geom {
+
+template <unsigned bits>
+using FloatOf =
+    boost::multiprecision::number<boost::multiprecision::cpp_bin_float<bits, boost::multiprecision::digit_base_2>,
+                                  boost::multiprecision::et_off>;
+
+using Float256 = FloatOf<256>;
+using Float1024 = FloatOf<1024>;
+using Float3072 = FloatOf<3072>;
+
+template <>
+struct Precision<Float256> {
+  static constexpr int k_tolerance_bits = 160, k_root_bits = 240;
+  static Float256 tolerance() { return ldexp(Float256(1), -k_tolerance_bits); }
+};
+
+template <>
+struct Precision<Float1024> {
+  static constexpr int k_tolerance_bits = 860, k_root_bits = 980;
+  static Float1024 tolerance() { return ldexp(Float1024(1), -k_tolerance_bits); }
+};
+
+template <>
+struct Precision<Float3072> {
+  static constexpr int k_tolerance_bits = 2600, k_root_bits = 3000;
+  static Float3072 tolerance() { return ldexp(Float3072(1), -k_tolerance_bits); }
+};
+
+// Of a finite number, right to two units in the last place; 0 of a negative one. Newton's steps for 1 / sqrt from a
+// double's, each of which doubles the bits; the library goes bit by bit.
+template <unsigned bits>
+struct SquareRoot<FloatOf<bits>> {
+  static FloatOf<bits> of(const FloatOf<bits>& square) {
+    if (!(square > 0)) return 0;
+    int exponent = 0;
+    FloatOf<bits> part = frexp(square, &exponent);  // 0.5 <= part < 1
+    if (exponent % 2 != 0) {
+      part = ldexp(part, 1);
+      --exponent;
+    }
+    FloatOf<bits> inverse(1.0 / std::sqrt(static_cast<double>(part)));
+    for (unsigned right = 48; right < bits / 2 + 8; right *= 2)
+      inverse += ldexp(FloatOf<bits>(inverse * (1 - part * inverse * inverse)), -1);
+    FloatOf<bits> root = part * inverse;
+    root += ldexp(FloatOf<bits>(inverse * (part - root * root)), -1);
+    return ldexp(root, exponent / 2);
+  }
+};
+
+// Finite.
+template <unsigned bits>
+Rational exact(const FloatOf<bits>& value) {
+  int exponent = 0;
+  const Integer digits(ldexp(frexp(value, &exponent), static_cast<int>(bits)));
+  exponent -= static_cast<int>(bits);
+  return exponent >= 0 ? Rational(digits << exponent) : Rational(digits, Integer(1) << -exponent);
+}
+
+template <unsigned bits>
+RationalPoint exact(const Point3<FloatOf<bits>>& p) {
+  return {exact<bits>(p.x), exact<bits>(p.y), exact<bits>(p.z)};
+}
+
+}  // namespace clusterbench::geom

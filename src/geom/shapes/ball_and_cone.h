@@ -1,0 +1,22 @@
+#pragma once
+// What lights are in the space of a grid, in single precision. Lengths in metres, angles in radians.
+
+#include "geom/shapes/vec.h"
+
+namespace clusterbench::geom {
+
+// A light's volume in the space of a grid, single precision.
+struct Ball {
+  Vec3f center;
+  float radius;
+};
+
+// ball(apex, range) ∩ solid cone around `axis` (unit length), half-angle in [0, 90°].
+struct SphericalCone {
+  Vec3f apex;
+  float range;
+  Vec3f axis;
+  float cos_angle, sin_angle;  // both kept: sqrt(1-cos²) is wrong by 100 % at 0.01°
+};
+
+}  // namespace clusterbench::geom

@@ -1,0 +1,404 @@
+#include "report/result_json.h"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <set>
+
+#include "report/contender.h"
+#include "report/details_json.h"
+#include "report/machine.h"
+#include "run/gate.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double to_digits(double value, int digits) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  return std::strtod(text, nullptr);
+}
+
+Json to_json(const measure::Spread& spread) {
+  return {{"mean", number_or_null(spread.mean)},
+          {"p50", number_or_null(spread.p50)},
+          {"p95", number_or_null(spread.p95)},
+          {"p99", number_or_null(spread.p99)},
+          {"max", number_or_null(spread.max)}};
+}
+
+Json to_json(const measure::Interval& interval) {
+  return {six_digits(interval.low), six_digits(interval.high)};
+}
+
+Json to_json(const measure::TimeStats& stats) {
+  Json samples = Json::array();
+  for (const double sample : stats.samples) samples.push_back(six_digits(sample));
+  return {{"median", six_digits(stats.median)}, {"mad", six_digits(stats.mad)}, {"min", six_digits(stats.min)},
+          {"p95", six_digits(stats.p95)},       {"ci95", to_json(stats.ci95)},  {"samples", samples}};
+}
+
+Json to_json(const measure::HighWater& mark) {
+  return {
+      {"high_water", mark.high_water}, {"theoretical_max", mark.theoretical_max}, {"recommended", mark.recommended}};
+}
+
+// Cell index as [x, y, z].
+Json cell_place(std::uint32_t cell, const nlohmann::json& cells) {
+  const auto nx = cells[0].get<std::uint32_t>(), ny = cells[1].get<std::uint32_t>();
+  return {cell % nx, cell / nx % ny, cell / nx / ny};
+}
+
+Json occupancy(const run::CaseResult& case_result) {
+  const measure::Occupancy& o = *case_result.occupancy;
+  Json lights = to_json(o.lights_per_cell);
+  const measure::Histogram histogram = measure::short_histogram(o.histogram);
+  lights["histogram"] = {{"lights_per_entry", histogram.lights_per_entry}, {"cells", histogram.cells}};
+  return {{"pairs", to_json(o.pairs)},
+          {"lights_per_cell", lights},
+          {"occupied_fraction", to_json(o.occupied_fraction)},
+          {"worst_frame", o.worst_frame},
+          {"worst_cell", cell_place(o.worst_cell, case_result.grid["cells"])},
+          {"along_path",
+           {{"frames_per_entry", o.pairs_along_path.frames_per_entry()},
+            {"pairs", o.pairs_along_path.entries()},
+            {"longest_list", o.longest_along_path.entries()}}}};
+}
+
+Json buffers(const run::CaseResult& case_result) {
+  const measure::Buffers& b = case_result.buffers;
+  Json out{{"index_entries", to_json(b.index_entries)},
+           {"bytes", to_json(b.bytes)},
+           {"index_bits", b.index_bits},
+           {"header_bytes", b.header_bytes},
+           {"upload_bytes", {{"mean", number_or_null(b.upload_bytes_mean)}, {"max", b.upload_bytes_max}}},
+           {"used_share", {{"mean", number_or_null(b.in_use_mean)}, {"max", number_or_null(b.in_use_max)}}},
+           {"overflow",
+            {{"dropped_pairs", b.dropped_pairs},
+             {"cells", b.overflowing_cells},
+             {"frames", b.overflowing_frames},
+             {"lights", b.dropped_lights}}},
+           {"scratch_bytes", b.scratch_bytes},
+           {"worst_frame", b.worst_frame}};
+  if (b.worst_cell) out["worst_cell"] = cell_place(*b.worst_cell, case_result.grid["cells"]);
+  out["along_path"] = {{"frames_per_entry", b.bytes_along_path.frames_per_entry()},
+                       {"bytes", b.bytes_along_path.entries()}};
+  return out;
+}
+
+Json error(const run::CaseResult& case_result) {
+  const measure::ErrorCounts& e = *case_result.error;
+  Json out{{"true_pairs", e.true_pairs},
+           {"reported_pairs", e.reported_pairs},
+           {"false_positives", e.false_positives},
+           {"false_negatives", e.false_negatives},
+           {"excess_ratio", number_or_null(e.excess_ratio())},
+           {"miss_ratio", number_or_null(e.miss_ratio())},
+           {"deepest_miss", number_or_null(e.deepest_miss)},
+           {"undecided", e.undecided},
+           {"frames_checked", e.frames_checked},
+           {"decided", {{"filter", e.filter_decided}, {"exact", e.exact_decided}}}};
+  if (e.deepest)
+    out["deepest"] = {{"frame", e.deepest->frame},
+                      {"cell", cell_place(e.deepest->cell, case_result.grid["cells"])},
+                      {"light", e.deepest->light},
+                      {"rig_light", e.deepest->rig_index},
+                      {"light_name", case_result.deepest_miss_light}};
+  return out;
+}
+
+Json shading(const measure::ShadingCounts& s) {
+  Json out{{"samples", s.samples},
+           {"unanswered", s.unanswered},
+           {"evaluated", s.evaluated},
+           {"needed", s.needed},
+           {"missed", s.missed},
+           {"missed_in_cells", s.missed - s.missed_outside},
+           {"missed_outside", s.missed_outside},
+           {"unlit", number_or_null(s.unlit())},
+           {"lost_irradiance", number_or_null(s.lost_irradiance())},
+           {"lost_lux", number_or_null(s.lost_lux / static_cast<double>(s.samples))},
+           {"overshade", number_or_null(s.comparable_overshade())}};
+  if (s.worst)
+    out["worst_frame"] = {{"frame", s.worst->frame}, {"missed", s.worst->missed}, {"needed", s.worst->needed}};
+  if (!s.darkest) return out;
+  out["darkest"] = {{"frame", s.darkest->frame}, {"lost_lux", number_or_null(s.darkest->lost_lux)}};
+  if (std::isfinite(s.darkest->pixel_x) && std::isfinite(s.darkest->pixel_y))
+    out["darkest"]["pixel"] = {number_or_null(static_cast<double>(s.darkest->pixel_x)),
+                               number_or_null(static_cast<double>(s.darkest->pixel_y))};
+  return out;
+}
+
+Json to_json(const measure::WaveCounts& waves) {
+  const auto per_wave = [&](double sum) { return number_or_null(sum / static_cast<double>(waves.waves)); };
+  return {{"lanes", waves.lanes()},
+          {"waves", waves.waves},
+          {"distinct_lists", {{"mean", number_or_null(waves.mean_distinct())}, {"max", waves.most_distinct}}},
+          {"mean_list", per_wave(waves.mean)},
+          {"longest_list", per_wave(static_cast<double>(waves.longest))},
+          {"united_lists", per_wave(static_cast<double>(waves.united))},
+          {"divergence", number_or_null(waves.divergence())},
+          {"scalarised", number_or_null(waves.scalarised())}};
+}
+
+// By the set's name.
+Json samples(const std::vector<run::SampleSetResult>& sets) {
+  Json out = Json::object();
+  for (const run::SampleSetResult& set : sets) {
+    Json& one = out[measure::name_of(set.set)] = shading(set.counts);
+    if (!set.coherence) continue;
+    one["waves"] = Json::array();
+    for (const measure::WaveCounts& waves : set.coherence->sizes) one["waves"].push_back(to_json(waves));
+  }
+  return out;
+}
+
+Json to_json(const measure::Churn& churn) {
+  return {{"total", churn.changes}, {"mean", number_or_null(churn.mean_changes())}, {"max", churn.most_changes}};
+}
+
+Json lookup(const std::vector<measure::LookupCounts>& all) {
+  Json out = Json::array();
+  for (const measure::LookupCounts& counts : all)
+    out.push_back({{"logarithm", measure::name_of(counts.way.logarithm)},
+                   {"depth", measure::name_of(counts.way.depth)},
+                   {"samples", counts.samples},
+                   {"needed", counts.needed},
+                   {"missed", counts.missed},
+                   {"wrong_samples", counts.wrong_samples},
+                   {"safe_padding_ulps", counts.safe_padding_ulps}});
+  return out;
+}
+
+Json stability(const run::StabilityResult& s) {
+  const auto difference = [](std::uint64_t a, std::uint64_t b) {
+    return static_cast<std::int64_t>(a) - static_cast<std::int64_t>(b);
+  };
+  return {{"steps", s.method.steps},
+          {"step_m", number_or_null(s.step_m)},
+          {"step_deg", number_or_null(s.step_deg)},
+          {"window", s.window},
+          {"from_frame", s.from_frame},
+          {"drift", s.is_drift},
+          {"path", s.path},
+          {"grids", s.grids},
+          {"changed", {{"method", to_json(s.method)}, {"truth", to_json(s.truth)}}},
+          {"flickers", {{"method", s.method.flickers}, {"truth", s.truth.flickers}}},
+          {"excess_churn",
+           {{"pairs", difference(s.method.changes, s.truth.changes)},
+            {"ratio", number_or_null(measure::excess_ratio(s.method.changes, s.truth.changes))}}},
+          {"excess_flickers",
+           {{"count", difference(s.method.flickers, s.truth.flickers)},
+            {"ratio", number_or_null(measure::excess_ratio(s.method.flickers, s.truth.flickers))}}},
+          {"undecided", s.undecided}};
+}
+
+Json to_json(const measure::MeanMax& error) {
+  return {{"mean", number_or_null(error.mean)}, {"max", number_or_null(error.max)}};
+}
+
+Json precision(const run::PrecisionResult& p) {
+  const measure::PackingLoss& loss = p.loss;
+  return {{"packing", p.packing},
+          {"inflate", p.inflate},
+          {"label", p.label},
+          {"position_error_m", to_json(loss.position_error_m)},
+          {"range_error_m", to_json(loss.range_error_m)},
+          {"axis_error_rad", to_json(loss.axis_error_rad)},
+          {"angle_error_rad", to_json(loss.angle_error_rad)},
+          {"safe_inflation_m", to_json(loss.safe_inflation_m)},
+          {"unrepresentable", {{"lights", loss.unrepresentable_lights}, {"frames", loss.unrepresentable_frames}}}};
+}
+
+Json timing(const run::TimingResult& t) {
+  Json out{
+      {"frames_timed", t.frames_timed},
+      {"caches", t.is_cold ? "cold" : "warm"},
+      {"launches", t.launches},
+      {"frame_ns", to_json(t.frame_ns)},
+      {"worst_frame", {{"frame", t.worst.frame}, {"ns", six_digits(t.worst.ns)}, {"ci95", to_json(t.worst.ci95)}}}};
+  if (t.worst.pairs) out["worst_frame"]["pairs"] = *t.worst.pairs;
+  if (t.pairs_mean) out["pairs"] = {{"mean", number_or_null(*t.pairs_mean)}, {"max", t.pairs_max}};
+  out["builds_per_frame"] = t.builds_per_frame;
+  out["build_ns"] = to_json(t.build_ns);
+  out["assign_ns"] = to_json(t.assign_ns);
+  if (t.convert_ns) out["convert_ns"] = to_json(*t.convert_ns);
+  if (t.warm) {
+    out["warm"] = {{"frame_ns", to_json(t.warm->frame_ns)}, {"assign_ns", to_json(t.warm->assign_ns)}};
+    if (t.warm->convert_ns) out["warm"]["convert_ns"] = to_json(*t.warm->convert_ns);
+  }
+  out["ns_per_pair"] = six_digits(t.ns_per_pair);
+  out["write_floor_ns"] = six_digits(t.write_floor_ns);
+  out["floor_ratio"] = six_digits(t.floor_ratio);
+  if (t.against_first)
+    out["against_first"] = {{"assigner", t.against_first->assigner},
+                            {"ratio", six_digits(t.against_first->ratio.ratio)},
+                            {"ci95", to_json(t.against_first->ratio.ci95)}};
+  const run::Disturbance& d = t.disturbance;
+  const auto cores = [&](double busy_s) { return six_digits(d.seconds > 0.0 ? busy_s / d.seconds : 0.0); };
+  out["disturbed"] = {
+      {"others_cores", cores(d.others_s)}, {"stolen_cores", cores(d.stolen_s)}, {"throttled", d.throttled}};
+  return out;
+}
+
+Json count(const run::CountResult& c) {
+  const auto per_frame = [&](std::uint64_t all) { return static_cast<double>(all) / c.frames; };
+  Json out{{"source", c.source},
+           {"simd_target", c.simd_target},
+           {"frames", c.frames},
+           {"instructions_per_build", c.build.instructions},
+           {"instructions_per_frame", {{"assign", per_frame(c.assign.instructions)}}}};
+  if (c.convert) out["instructions_per_frame"]["convert"] = per_frame(c.convert->instructions);
+  if (!c.assign.cycles || (c.convert && !c.convert->cycles)) return out;
+  out["cycles_per_frame"] = {{"assign", per_frame(*c.assign.cycles)}};
+  if (c.convert) out["cycles_per_frame"]["convert"] = per_frame(*c.convert->cycles);
+  return out;
+}
+
+Json to_json(const run::SceneResult& scene) {
+  Json out{
+      {"name", scene.name},
+      {"sha256", scene.sha256},
+      {"lights",
+       {{"point", scene.points}, {"spot", scene.spots}, {"directional", scene.directionals}, {"box", scene.boxes}}},
+      {"frames", scene.frames},
+      {"range_rule", scene.range_rule},
+      {"warnings", scene.warnings}};
+  if (!scene.rig.is_null()) out["rig"] = scene.rig;
+  return out;
+}
+
+// Pairs per frame against the same case in float32; null where there is none.
+void add_extra_pairs(Json& cases) {
+  std::map<std::string, double> pairs;
+  for (const Json& result_case : cases)
+    pairs[result_case["name"].get<std::string>()] = number_at(result_case, "/occupancy/pairs/mean");
+  for (Json& result_case : cases) {
+    if (!result_case.contains("precision")) continue;
+    const std::string name = result_case["name"], label = "/" + result_case["precision"]["label"].get<std::string>();
+    const bool is_packed = result_case["precision"]["packing"] != "float32";
+    const auto plain = pairs.find(is_packed ? name.substr(0, name.size() - label.size()) : name);
+    const double mean = plain == pairs.end() ? std::nan("") : plain->second, extra = pairs[name] - mean;
+    result_case["precision"]["extra_pairs"] = {{"mean", number_or_null(extra)},
+                                               {"ratio", number_or_null(extra / mean)}};
+  }
+}
+
+Json in_plan_order(const run::Result& result, const std::vector<Json>& earlier_cases) {
+  std::map<std::string, Json> by_id;
+  for (const Json& result_case : earlier_cases) by_id[result_case.at("id").get<std::string>()] = result_case;
+  for (const run::CaseResult& case_result : result.cases) by_id[case_result.id] = case_to_json(case_result);
+  Json cases = Json::array();
+  for (const std::string& id : result.planned_ids)
+    if (const auto found = by_id.find(id); found != by_id.end()) cases.push_back(found->second);
+  return cases;
+}
+
+}  // namespace
+
+Json six_digits(double value) {
+  return number_or_null(to_digits(value, 6));
+}
+
+Json fronts(const Json& scenes, const Json& cases, std::uint64_t seed) {
+  std::vector<run::Contender> all;
+  for (const Json& result_case : cases) all.push_back(contender_of(result_case));
+  const std::vector<std::string> ids = run::on_front(all, seed);
+  const std::set<std::string> best(ids.begin(), ids.end());
+  Json list = Json::array();
+  for (const Json& scene : scenes) {
+    Json front = Json::array();
+    for (const Json& result_case : cases)
+      if (result_case["scene"] == scene["name"] && best.contains(result_case["id"].get<std::string>()))
+        front.push_back(result_case["id"]);
+    list.push_back({{"scene", scene["name"]}, {"ids", front}});
+  }
+  return list;
+}
+
+Json tool_to_json(const run::ToolFacts& tool) {
+  Json libraries = Json::object();
+  for (const auto& [name, version] : tool.libraries) libraries[name] = version;
+  return {{"version", tool.version}, {"git_sha", tool.git_sha},       {"compiler", tool.compiler},
+          {"flags", tool.flags},     {"build_type", tool.build_type}, {"simd_target", tool.simd_target},
+          {"libraries", libraries}};
+}
+
+Json case_to_json(const run::CaseResult& case_result) {
+  Json out{{"id", case_result.id},
+           {"settings", case_result.settings},
+           {"name", case_result.name},
+           {"scene", case_result.scene},
+           {"camera", case_result.camera},
+           {"viewport", {case_result.viewport.x, case_result.viewport.y}},
+           {"frames", case_result.frames},
+           {"grid", case_result.grid},
+           {"assigner",
+            {{"name", case_result.assigner},
+             {"label", case_result.assigner_label},
+             {"params", case_result.assigner_params},
+             {"conservative", case_result.conservative},
+             {"exact", case_result.exact}}},
+           {"storage", case_result.storage_label},
+           {"failures", Json::array()},
+           {"warnings", Json::array()},
+           {"loses_lights", run::loses_lights(case_result)},
+           {"eligible", run::is_eligible(case_result)},
+           {"tests_done", case_result.tests_done},
+           {"fallbacks", case_result.fallbacks}};
+  for (const run::Failure& failure : case_result.failures)
+    out["failures"].push_back({{"kind", run::name_of(failure.kind)}, {"text", failure.text}});
+  for (const run::Warning& warning : run::warnings_of(case_result))
+    out["warnings"].push_back({{"kind", run::name_of(warning.kind)}, {"text", warning.text}});
+  if (case_result.occupancy) out["occupancy"] = occupancy(case_result);
+  out["buffers"] = buffers(case_result);
+  if (case_result.error) out["error"] = error(case_result);
+  if (case_result.shading) out["shading"] = shading(*case_result.shading);
+  if (!case_result.samples.empty()) out["samples"] = samples(case_result.samples);
+  if (!case_result.lookup.empty()) out["lookup"] = lookup(case_result.lookup);
+  if (case_result.stability) out["stability"] = stability(*case_result.stability);
+  if (case_result.precision) out["precision"] = precision(*case_result.precision);
+  if (case_result.timing) out["timing"] = timing(*case_result.timing);
+  if (case_result.count) out["count"] = count(*case_result.count);
+  if (case_result.details) out["details"] = details_to_json(*case_result.details);
+  return out;
+}
+
+Json result_to_json(const run::Result& result, const std::vector<Json>& earlier_cases) {
+  Json out{{"schema_version", k_schema_version}, {"name", result.config_name}};
+  if (!result.date.empty()) out["date"] = result.date;
+  if (!result.command.empty()) out["command"] = result.command;
+  out["tool"] = tool_to_json(result.tool);
+  out["machine"] = machine_to_json(result.machine);
+  out["config"] = result.config;
+  out["scenes"] = Json::array();
+  for (const run::SceneResult& scene : result.scenes) out["scenes"].push_back(to_json(scene));
+  out["cases"] = in_plan_order(result, earlier_cases);
+  add_extra_pairs(out["cases"]);
+  out["pareto_front"] = fronts(out["scenes"], out["cases"], seed_of(out));
+  out["skipped"] = Json::array();
+  for (const run::Skipped& skipped : result.skipped)
+    out["skipped"].push_back({{"name", skipped.name}, {"reason", skipped.reason}});
+  return out;
+}
+
+std::vector<std::string> gate_failures(const Json& result) {
+  std::vector<std::string> lines;
+  for (const Json& result_case : result["cases"])
+    for (const Json& failure : result_case["failures"])
+      lines.push_back(result_case["name"].get<std::string>() + ": " + failure["text"].get<std::string>());
+  return lines;
+}
+
+// Nine digits: what is counted stands beside it exactly.
+Json number_or_null(double value) {
+  constexpr double k_exact_integers = 9007199254740992.0;
+  if (!std::isfinite(value)) return nullptr;
+  if (std::floor(value) == value && std::abs(value) < k_exact_integers) return static_cast<std::int64_t>(value);
+  return to_digits(value, 9);
+}
+
+}  // namespace clusterbench::report

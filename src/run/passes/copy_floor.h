@@ -1,0 +1,50 @@
+#pragma once
+// The copy floor of a method: how long copying what it leaves takes (`write_floor_ns`, and `floor_ratio` against it).
+
+#include <algorithm>
+#include <cstring>
+#include <vector>
+
+#include "run/timed_work.h"
+
+namespace clusterbench::run {
+
+// Memory traffic that no way of assigning can avoid: what each frame leaves, headers and indices, copied once. Each
+// frame has buffers of its own, one for headers and one for indices, as each frame's lists have: one pair of buffers
+// for all would stay in the cache where the lists of a long path do not.
+class CopyFloor {
+ public:
+  // Of what the tight storage (`packed`) writes for the lists; or of the method's own structures, as they are.
+  explicit CopyFloor(const TimedWork& work) {
+    const std::size_t frames = work.frame_count();
+    for (std::size_t i = 0; i < std::min(frames, work.structures().size()); ++i) add_frame(work.structures()[i]->use());
+    if (!work.converts()) return;
+    const assign::StorageDescriptor& packed = *assign::find_storage("packed");
+    const auto storage = work.storage(packed, assign::Params(packed.params));
+    for (std::size_t i = 0; i < frames; ++i) {
+      storage->store(work.lists()[i]);
+      add_frame(storage->use());
+    }
+  }
+
+  void copy_once() {
+    for (Copy& copy : copies_) {
+      std::memcpy(copy.to.data(), copy.from.data(), copy.from.size());
+      asm volatile("" : : "r"(copy.to.data()) : "memory");  // the copies are wanted for themselves
+    }
+  }
+
+ private:
+  struct Copy {
+    std::vector<unsigned char> from, to;
+  };
+
+  void add_frame(const assign::StructureUse& use) {
+    for (const std::uint64_t bytes : {use.header_bytes, use.index_bytes})
+      if (bytes > 0) copies_.push_back({std::vector<unsigned char>(bytes, 1), std::vector<unsigned char>(bytes, 2)});
+  }
+
+  std::vector<Copy> copies_;
+};
+
+}  // namespace clusterbench::run

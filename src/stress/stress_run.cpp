@@ -1,0 +1,174 @@
+#include "stress/stress_run.h"
+
+#include <algorithm>
+#include <mutex>
+
+#include "config/config.h"
+#include "core/error.h"
+#include "core/parallel.h"
+#include "measure/list_errors.h"
+
+namespace clusterbench::stress {
+namespace {
+
+// A trial as all methods see it.
+struct Prepared {
+  view::Frame frame;
+  grid::Grid grid;
+  measure::Truth truth;
+  std::string refusal;  // why there is no grid
+};
+
+Prepared prepared(const Trial& trial, int threads) {
+  Prepared out;
+  try {
+    out.frame = frame_of(trial);
+    out.grid = grid_of(trial, out.frame);
+  } catch (const Error& error) {
+    out.refusal = error.what();
+    return out;
+  }
+  out.truth = measure::find_truth(out.frame, out.grid, threads);
+  return out;
+}
+
+void add_lists(StressCell& cell, const StressMethod& method, const Trial& trial, const Prepared& at) {
+  assign::AssignerRun run = method.start();
+  run.build(at.grid);
+  const view::LightArrays lights = view::lights_in(at.frame, grid::space_of(at.grid, at.frame));
+  run.assign({at.frame, lights});
+  const assign::Lists lists = run.cell_lists();
+  run.assign({at.frame, lights});
+  const assign::Lists* filled = run.filled_lists();
+  if (!assign::lists_fault(filled ? *filled : lists, at.grid.cell_count(), lights).empty())
+    return cell.faults.push_back(trial.label + ": what it gave are no lists");
+  if (lists != run.cell_lists()) cell.faults.push_back(trial.label + ": the same frame gave other lists");
+  measure::ErrorCounts counts;
+  measure::add_frame(counts, at.frame, at.grid, at.truth, lists);
+  cell.true_pairs += counts.true_pairs;
+  cell.misses += counts.false_negatives;
+  cell.extra_pairs += counts.false_positives;
+  cell.undecided += counts.undecided;
+  if (!counts.deepest || (cell.deepest && cell.deepest->depth >= counts.deepest->depth)) return;
+  cell.deepest = Loss{trial.label, counts.deepest->cell, counts.deepest->light, counts.deepest->depth, trial};
+}
+
+void add_trial(StressCell& cell, const StressMethod& method, const Trial& trial, const Prepared& at) {
+  ++cell.trials;
+  if (!at.refusal.empty()) {
+    ++cell.refused;
+    if (!trial.is_refused) cell.faults.push_back(trial.label + ": refused: " + at.refusal);
+    return;
+  }
+  if (trial.is_refused) return cell.faults.push_back(trial.label + ": should have been refused");
+  add_lists(cell, method, trial, at);
+}
+
+std::vector<StressCell> run_case(const HardCase& hard, const std::vector<StressMethod>& methods,
+                                 const StressRequest& request, const std::atomic<bool>& stop) {
+  std::vector<StressCell> cells;
+  for (const StressMethod& method : methods) {
+    cells.emplace_back();
+    cells.back().hard_case = hard.id;
+    cells.back().method = method.label;
+  }
+  const std::vector<Trial> trials = hard.trials == nullptr ? std::vector<Trial>{} : hard.trials(request.seed);
+  for (const Trial& trial : trials) {
+    if (stop) break;
+    const bool is_wanted =
+        std::any_of(methods.begin(), methods.end(), [&](const auto& m) { return takes_trial(m, trial); });
+    if (!is_wanted) continue;
+    const Prepared at = prepared(trial, request.threads);
+    for (std::size_t i = 0; i < methods.size(); ++i)
+      if (takes_trial(methods[i], trial)) add_trial(cells[i], methods[i], trial, at);
+  }
+  std::erase_if(cells, [](const StressCell& cell) { return cell.trials == 0; });
+  return cells;
+}
+
+// One search per method, several at once on several threads.
+std::vector<SearchResult> run_searches(const std::vector<StressMethod>& methods, const StressRequest& request,
+                                       const std::function<void(const std::string& method, double done)>& on_tries,
+                                       const std::atomic<bool>& stop) {
+  std::vector<SearchResult> results(methods.size());
+  std::mutex telling;
+  double tries = 0.0;
+  parallel_ranges(methods.size(), request.threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end && !stop; ++i) {
+      std::uint64_t before = 0;
+      const auto on_progress = [&](std::uint64_t now) {
+        const std::lock_guard lock(telling);
+        tries += static_cast<double>(now - before);
+        before = now;
+        on_tries(methods[i].label, tries / static_cast<double>(request.tries));
+      };
+      results[i] = search_for_losses(methods[i], request, on_progress, stop);
+    }
+  });
+  return results;
+}
+
+std::string label_of(const assign::AssignerDescriptor& assigner, const assign::Params& params) {
+  return config::MethodRequest{assigner.name, params}.label();
+}
+
+}  // namespace
+
+std::vector<StressMethod> stress_methods() {
+  std::vector<StressMethod> methods;
+  const auto add = [&](const assign::AssignerDescriptor& assigner, const assign::Params& params) {
+    const bool conservative = assign::is_conservative(assigner, params);
+    for (const assign::Answer answer : assign::answers_with_cells(assigner, params))
+      methods.push_back({label_of(assigner, params), &assigner, params, conservative, answer});
+  };
+  for (const assign::AssignerDescriptor* assigner : assign::assigner_descriptors()) {
+    add(*assigner, assign::Params(assigner->params));
+    for (const assign::ParamSpec& spec : assigner->params)
+      for (const std::string& choice : spec.choices)
+        if (assign::ParamValue(choice) != spec.standard)
+          add(*assigner, assign::Params(assigner->params, {{spec.name, choice}}));
+  }
+  return methods;
+}
+
+StressResult run_stress(const StressRequest& request, const StressListener& listener, const std::atomic<bool>& stop) {
+  StressResult result;
+  for (const StressMethod& method : stress_methods())
+    if (request.methods.is_in(method.label)) result.methods.push_back(method);
+  for (const HardCase& hard : hard_cases())
+    if (request.cases.is_all_of(hard.id)) result.cases.push_back(hard);
+  const bool searches = request.tries > 0 && request.cases.is_all_of("H31");
+  const double parts = static_cast<double>(result.cases.size() + (searches ? result.methods.size() : 0));
+  const double whole = parts + static_cast<double>(request.random);
+  const auto tell = [&](const std::string& doing, double done) {
+    if (listener.on_progress) listener.on_progress(doing, done, whole);
+  };
+  double done = 0.0;
+  for (const HardCase& hard : result.cases) {
+    if (stop) break;
+    tell(std::string(hard.id) + " " + hard.title, done++);
+    std::vector<ToolCheck> checks = hard.checks == nullptr ? std::vector<ToolCheck>{} : hard.checks(request.seed);
+    const std::vector<StressCell> cells = run_case(hard, result.methods, request, stop);
+    if (stop) break;  // the case is not whole
+    result.checks.push_back(std::move(checks));
+    result.cells.insert(result.cells.end(), cells.begin(), cells.end());
+  }
+  result.cases.resize(result.checks.size());
+  if (searches && !stop) {
+    const auto on_tries = [&](const std::string& method, double methods_done) {
+      tell("H31 " + method, done + methods_done);
+    };
+    result.searches = run_searches(result.methods, request, on_tries, stop);
+    std::erase_if(result.searches, [](const SearchResult& search) { return search.tries == 0; });
+  }
+  if (request.random > 0 && !stop) {
+    const auto on_settings = [&](std::uint64_t settings, const std::string& doing) {
+      tell(doing, parts + static_cast<double>(settings));
+    };
+    result.random = search_at_random(result.methods, request, on_settings, stop);
+  }
+  result.interrupted = stop;
+  return result;
+}
+
+}  // namespace clusterbench::stress

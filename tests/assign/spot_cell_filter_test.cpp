@@ -1,0 +1,329 @@
+// What is said of spots and cells in single precision is true, however close they are.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "assign/cone/spot_rows.h"
+#include "assign/each_target.h"
+#include "assign/exact/exact_rows.h"
+#include "assign/exact/spot_touches.h"
+#include "assign/settings.h"
+
+namespace clusterbench::assign {
+namespace {
+
+using testing::on_each_target;
+
+// Spots that touch cells by a hair, and the same ones a little longer, shorter, wider and narrower: some of these still
+// touch, and what they leave between them is of the size of roundoffs.
+struct CloseSpots {
+  grid::Grid grid;
+  view::Frame frame;
+  std::vector<std::uint32_t> cells;  // of each spot
+  view::LightArrays lights;
+};
+
+CloseSpots close_spots(const testing::settings::Plan& plan, std::uint64_t seed) {
+  CloseSpots close;
+  close.frame = testing::frame_of(plan.projection, {1280, 717}, {});
+  close.frame.view_space = plan.view_space;
+  close.grid = testing::grid_of(plan.spec, close.frame);
+  const view::Space space = grid::space_of(close.grid, close.frame);
+  const auto add = [&](const scene::WorldLight& light, std::uint32_t cell) {
+    close.frame.lights.push_back(light);
+    close.cells.push_back(cell);
+  };
+  for (const testing::TouchingLight& touching : testing::touching_spots(close.grid, space, 200, seed))
+    for (const int power : {-24, -22, -20, -18, -16, -13, -6, -2})
+      for (const double sign : {1.0, -1.0}) {
+        const double off = sign * std::ldexp(1.0, power);
+        scene::WorldLight other = touching.light;
+        other.range_m *= 1.0 + off;
+        add(other, touching.cell);
+        other = touching.light;
+        other.outer_cone_rad = std::min(M_PI / 2, other.outer_cone_rad * (1.0 + off));
+        add(other, touching.cell);
+      }
+  close.lights = view::lights_in(close.frame, space);
+  return close;
+}
+
+SpotCell place_of(const grid::Grid& grid, std::uint32_t spot, std::uint32_t cell) {
+  const auto columns = static_cast<std::uint32_t>(grid.cells().x), rows = static_cast<std::uint32_t>(grid.cells().y);
+  const std::uint32_t column = cell % columns;
+  return {spot, cell / columns / rows, cell / columns % rows, column, column + 1};
+}
+
+std::vector<testing::settings::Plan> all_plans() {
+  return testing::settings::plans_for(*find_assigner("exact"), grid::Kind::frustum);
+}
+std::vector<testing::settings::Plan> plans_in_perspective() {
+  std::vector<testing::settings::Plan> plans = all_plans();
+  std::erase_if(plans, [](const testing::settings::Plan& plan) { return plan.projection.orthographic; });
+  return plans;
+}
+
+SpotsAndPlanes from_these(const view::LightArrays& lights, const RowPlanes& planes) {
+  return {&lights, planes.side.data(), planes.slope.data(), planes.depth.data(), 0.0f, planes.orthographic};
+}
+
+// Calls check(plan, close, planes, from) for each view.
+template <class Check>
+void for_close_spots(const std::vector<testing::settings::Plan>& plans, std::uint64_t seed, Check&& check) {
+  for (const testing::settings::Plan& plan : plans) {
+    const CloseSpots close = close_spots(plan, seed);
+    const RowPlanes planes(close.grid.screen());
+    check(plan, close, planes, from_these(close.lights, planes));
+  }
+}
+
+TEST(SpotLooks, say_yes_and_no_only_where_it_is_true_on_every_target) {
+  for_close_spots(
+      all_plans(), 5,
+      [](const testing::settings::Plan& plan, const CloseSpots& close, const RowPlanes&, const SpotsAndPlanes& from) {
+        SpotCells pairs;
+        std::vector<bool> touched;
+        for (std::uint32_t spot = 0; spot < close.cells.size(); ++spot) {
+          pairs.add(place_of(close.grid, spot, close.cells[spot]));
+          touched.push_back(SpotJudge(close.grid, close.lights, spot).touches(close.cells[spot]));
+        }
+        on_each_target([&](const std::string& target) {
+          for (const Look look : {Look::quick, Look::approach, Look::closer, Look::thorough}) {
+            look_at_cells(from, look, pairs);
+            std::size_t wrong = 0, settled = 0;
+            for (std::uint32_t i = 0; i < pairs.count; ++i) {
+              if (pairs.touch[i] == Touch::uncertain) continue;
+              ++settled;
+              if ((pairs.touch[i] == Touch::yes) != touched[i]) ++wrong;
+            }
+            EXPECT_EQ(wrong, 0u) << target << ", " << plan.name << ", look " << static_cast<int>(look);
+            EXPECT_GT(settled, pairs.count / 100) << target << ", " << plan.name << ", look " << static_cast<int>(look);
+          }
+        });
+      });
+}
+
+// The columns of a row that a spot touches.
+grid::IndexRange touched_columns(SpotJudge& judge, const RowPlanes& planes, const SpotCell& in_row) {
+  const auto columns = static_cast<std::uint32_t>(planes.columns);
+  const std::uint32_t first_cell = (in_row.slice * static_cast<std::uint32_t>(planes.rows) + in_row.row) * columns;
+  return narrowed({0, planes.columns - 1},
+                  [&](int column) { return !judge.touches(first_cell + static_cast<std::uint32_t>(column)); });
+}
+
+// RowParts of rows and what is known to be true of them, against what is found: wrong answers and settled ones.
+struct RowParts {
+  SpotTouches touches;
+  std::vector<SpotCell> asked;
+  std::vector<grid::IndexRange> touched;  // of the row
+  std::size_t wrong = 0, settled = 0, alone = 0;
+
+  void add(const SpotCell& part, const grid::IndexRange& in_row) {
+    touches.add(part);
+    asked.push_back(part);
+    touched.push_back(in_row);
+  }
+  void look(const SpotsAndPlanes& from, const RowPlanes& planes) {
+    touches.look(from, planes);
+    wrong = settled = alone = 0;
+    for (std::uint32_t i = 0; i < touches.count(); ++i) {
+      const Touch touch = touches.touch(i);
+      const int first = std::max(touched[i].first, static_cast<int>(asked[i].column));
+      const int last = std::min(touched[i].last, static_cast<int>(asked[i].end_column) - 1);
+      settled += touch != Touch::uncertain ? 1 : 0;
+      if (touch != Touch::uncertain && (touch == Touch::yes) != (first <= last)) ++wrong;
+      const grid::IndexRange only = touches.only_columns(i, planes);
+      alone += only.empty() ? 0 : 1;
+      if (!only.empty() && (touch != Touch::yes || only.first != first || only.last != last)) ++wrong;
+    }
+  }
+};
+
+TEST(SpotTouches, are_true_on_every_target) {
+  for_close_spots(all_plans(), 9,
+                  [](const testing::settings::Plan& plan, const CloseSpots& close, const RowPlanes& planes,
+                     const SpotsAndPlanes& from) {
+                    RowParts parts;
+                    const auto columns = static_cast<std::uint32_t>(planes.columns);
+                    for (std::uint32_t spot = 0; spot < close.cells.size(); spot += 3) {
+                      SpotCell cell = place_of(close.grid, spot, close.cells[spot]);
+                      SpotJudge judge(close.grid, close.lights, spot);
+                      const grid::IndexRange touched = touched_columns(judge, planes, cell);
+                      parts.add(cell, touched);
+                      parts.add({cell.spot, cell.slice, cell.row, 0, columns}, touched);
+                      parts.add({cell.spot, cell.slice, cell.row, 0, cell.column + 1}, touched);
+                    }
+                    on_each_target([&](const std::string& target) {
+                      parts.look(from, planes);
+                      EXPECT_EQ(parts.wrong, 0u) << target << ", " << plan.name;
+                      EXPECT_GT(parts.settled, parts.asked.size() / 4) << target << ", " << plan.name;
+                    });
+                  });
+}
+
+// Spots at whole places that shine at the middle planes of the picture and end there, before a camera that has come to
+// where depths are rounded.
+TEST(SpotTouches, say_which_columns_share_a_single_point) {
+  for (const double turn : {0.0, 0.7}) {
+    testing::settings::Plan plan = all_plans().front();
+    plan.spec = testing::settings::screen_spec(grid::Kind::frustum, {16, 8}, grid::Scheme::exponential, 24, 0.1);
+    view::Frame frame = testing::frame_of(plan.projection, {1280, 720}, {});
+    frame.view_space.origin = {0.0, 0.0, 1.0 / 3.0};
+    frame.view_space.rotation = Mat3d(std::cos(turn), 0, -std::sin(turn), 0, 1, 0, std::sin(turn), 0, std::cos(turn));
+    for (int i = 0; i < 60; ++i) {
+      const double size = 1 + i % 5, along = i % 9 - 4, depth = -3 - i % 31;
+      frame.lights.push_back(testing::spot_light({along, size, depth}, size, {0, -1, 0}, 0.2 + 0.01 * i));
+      if (turn == 0.0) frame.lights.push_back(testing::spot_light({size, along, depth}, size, {-1, 0, 0}, 0.5));
+    }
+    const grid::Grid grid = testing::grid_of(plan.spec, frame);
+    const view::LightArrays lights = view::lights_in(frame, grid::space_of(grid, frame));
+    const RowPlanes planes(grid.screen());
+    const auto rows = static_cast<std::uint32_t>(planes.rows), columns = static_cast<std::uint32_t>(planes.columns);
+    RowParts parts;
+    for (std::uint32_t spot = 0; spot < lights.spots.count; ++spot)
+      for (std::uint32_t slice = 0; slice < static_cast<std::uint32_t>(planes.slices); ++slice) {
+        SpotJudge judge(grid, lights, spot);
+        const SpotCell below{spot, slice, rows / 2, 0, columns};
+        parts.add(below, touched_columns(judge, planes, below));
+        for (std::uint32_t row = 0; row < rows; ++row) {
+          const SpotCell left{spot, slice, row, 0, columns / 2};
+          parts.add(left, touched_columns(judge, planes, left));
+        }
+      }
+    on_each_target([&](const std::string& target) {
+      parts.look(from_these(lights, planes), planes);
+      EXPECT_EQ(parts.wrong, 0u) << target << ", turned by " << turn;
+      EXPECT_GT(parts.alone, lights.spots.count / 3) << target << ", turned by " << turn;
+    });
+  }
+}
+
+// A row of cells, the columns of it that a spot touches, and its spot's place among the spots.
+struct TrueRow {
+  std::uint32_t spot, slice, row;
+  grid::IndexRange columns;
+};
+
+TEST(SpotRows, know_only_what_is_true_on_every_target) {
+  for_close_spots(
+      plans_in_perspective(), 6,
+      [](const testing::settings::Plan& plan, const CloseSpots& close, const RowPlanes& planes,
+         const SpotsAndPlanes& from) {
+        const auto columns = static_cast<std::uint32_t>(planes.columns), rows = static_cast<std::uint32_t>(planes.rows);
+        SpotSlices slices;
+        std::vector<TrueRow> truth;  // the row that is touched by a hair, and its neighbours
+        for (std::uint32_t spot = 0; spot < close.cells.size(); spot += 3) {
+          const SpotCell cell = place_of(close.grid, spot, close.cells[spot]);
+          slices.add(spot, cell.slice);
+          SpotJudge judge(close.grid, close.lights, spot);
+          for (std::uint32_t row = cell.row - std::min(cell.row, 1u); row <= std::min(cell.row + 1, rows - 1); ++row) {
+            const std::uint32_t first_cell = (cell.slice * rows + row) * columns;
+            truth.push_back({spot, cell.slice, row, narrowed({0, planes.columns - 1}, [&](int column) {
+                               return !judge.touches(first_cell + static_cast<std::uint32_t>(column));
+                             })});
+          }
+        }
+        on_each_target([&](const std::string& target) {
+          SpotRows found;
+          find_spot_rows(from, planes, slices, found);
+          std::size_t wrong = 0, settled = 0, listed = 0, at = 0;
+          for (const TrueRow& row : truth) {
+            while (at < found.count && (found.spot[at] < row.spot ||
+                                        (found.spot[at] == row.spot && static_cast<std::int32_t>(found.row[at]) <
+                                                                           static_cast<std::int32_t>(row.row))))
+              ++at;
+            if (at == found.count || found.spot[at] != row.spot || found.row[at] != row.row) {
+              if (!row.columns.empty()) ++wrong;
+              continue;
+            }
+            ++listed;
+            EXPECT_EQ(found.slice[at], row.slice);
+            const std::uint8_t known = found.known[at];
+            const auto is = [&](std::uint8_t bit) { return (known & bit) != 0; };
+            const auto touches = [&](int column) { return row.columns.first <= column && column <= row.columns.last; };
+            if (is(SpotRows::k_none_before) && !row.columns.empty() && row.columns.first < found.first[at]) ++wrong;
+            if (is(SpotRows::k_none_behind) && !row.columns.empty() && row.columns.last > found.last[at]) ++wrong;
+            if (known == SpotRows::k_all && found.first[at] > found.last[at]) {
+              if (!row.columns.empty()) ++wrong;
+            } else {
+              if (is(SpotRows::k_first_is_touched) && !touches(found.first[at])) ++wrong;
+              if (is(SpotRows::k_last_is_touched) && !touches(found.last[at])) ++wrong;
+            }
+            settled += known == SpotRows::k_all ? 1 : 0;
+          }
+          EXPECT_EQ(wrong, 0u) << target << ", " << plan.name;
+          EXPECT_GT(listed, truth.size() / 4) << target << ", " << plan.name;
+          EXPECT_GT(settled, listed / 3) << target << ", " << plan.name;
+        });
+      });
+}
+
+// Spots in all slices of a grid.
+struct SpotsInGrid {
+  view::LightArrays lights;
+  RowPlanes planes;
+  SpotSlices slices;
+
+  SpotsInGrid(const testing::settings::Plan& plan, const std::vector<scene::WorldLight>& spots) {
+    const view::Frame frame = testing::frame_of(plan.projection, {1280, 717}, spots);
+    const grid::Grid grid = testing::grid_of(plan.spec, frame);
+    lights = view::lights_in(frame, grid::space_of(grid, frame));
+    planes = RowPlanes(grid.screen());
+    for (std::uint32_t slice = 0; slice < static_cast<std::uint32_t>(planes.slices); ++slice)
+      for (std::uint32_t spot = 0; spot < lights.spots.count; ++spot) slices.add(spot, slice);
+  }
+  SpotRows rows() {
+    SpotRows found;
+    find_spot_rows(from_these(lights, planes), planes, slices, found);
+    for (std::vector<std::uint32_t>* list : {&found.spot, &found.slice, &found.row}) list->resize(found.count);
+    for (std::vector<std::int32_t>* list : {&found.first, &found.last}) list->resize(found.count);
+    found.known.resize(found.count);
+    return found;
+  }
+};
+
+// Else exact-fast is right, but slow.
+TEST(SpotRows, settle_nearly_all_rows_of_ordinary_spots_on_every_target) {
+  for (const testing::settings::Plan& plan : plans_in_perspective()) {
+    std::vector<scene::WorldLight> spots = testing::random_lights(0, 300, 7);
+    std::erase_if(spots, [](const scene::WorldLight& spot) { return spot.outer_cone_rad < 0.1; });
+    SpotsInGrid in_grid(plan, spots);
+    on_each_target([&](const std::string& target) {
+      const SpotRows found = in_grid.rows();
+      const auto settled = static_cast<std::uint32_t>(std::ranges::count(found.known, SpotRows::k_all));
+      EXPECT_GT(found.count, 1000u) << target << ", " << plan.name;
+      EXPECT_LE(100 * (found.count - settled), found.count) << target << ", " << plan.name << ": " << settled;
+    });
+  }
+}
+
+// Counters would differ else, from machine to machine.
+TEST(SpotRows, are_the_same_on_every_target) {
+  for (const testing::settings::Plan& plan : plans_in_perspective()) {
+    std::vector<scene::WorldLight> spots = testing::random_lights(0, 300, 8);
+    for (const double range : {1e-12, 1e12, std::numeric_limits<double>::infinity()})
+      for (const double angle : {0.0, 0.3, M_PI / 2})
+        for (const double depth : {0.0, 1e-9, 5.0, 1e9})
+          spots.push_back(testing::spot_light({0.0, 0.1 * depth, -depth}, range, {0.6, 0.0, -0.8}, angle));
+    SpotsInGrid in_grid(plan, spots);
+    std::optional<SpotRows> first;
+    on_each_target([&](const std::string& target) {
+      const SpotRows found = in_grid.rows();
+      if (!first) first = found;
+      EXPECT_EQ(found.spot, first->spot) << target << ", " << plan.name;
+      EXPECT_EQ(found.slice, first->slice) << target << ", " << plan.name;
+      EXPECT_EQ(found.row, first->row) << target << ", " << plan.name;
+      EXPECT_EQ(found.first, first->first) << target << ", " << plan.name;
+      EXPECT_EQ(found.last, first->last) << target << ", " << plan.name;
+      EXPECT_EQ(found.known, first->known) << target << ", " << plan.name;
+    });
+  }
+}
+
+}  // namespace
+}  // namespace clusterbench::assign

@@ -1,0 +1,208 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "config/config.h"
+#include "config/documents.h"
+#include "config/schema_check.h"
+#include "geom/filter/light_filter.h"
+#include "geom/light_meets_cell.h"
+#include "geom/shapes/verdict.h"
+#include "report/stress_report.h"
+#include "run/runner.h"
+#include "stress/contact.h"
+#include "stress/stress_run.h"
+
+namespace clusterbench::stress {
+namespace {
+
+const std::atomic<bool> k_never{false};
+
+StressResult stressed(const std::string& cases, const std::string& methods, int threads = 1) {
+  StressRequest request;
+  request.tries = 0;
+  request.cases = Pattern(cases, "--cases");
+  request.methods = Pattern(methods, "--methods");
+  request.threads = threads;
+  return run_stress(request, {}, k_never);
+}
+
+StressMethod method_named(const std::string& name, const std::map<std::string, assign::ParamValue>& params = {}) {
+  const assign::AssignerDescriptor& row = *assign::find_assigner(name);
+  const assign::Params resolved(row.params, params);
+  return {name, &row, resolved, assign::is_conservative(row, resolved)};
+}
+
+SearchResult searched(const StressMethod& method, std::uint64_t tries) {
+  StressRequest request;
+  request.tries = tries;
+  return search_for_losses(
+      method, request, [](std::uint64_t) {}, k_never);
+}
+
+TEST(HardCases, are_all_of_h1_to_h35_but_the_search) {
+  int number = 1;
+  for (const HardCase& hard : hard_cases()) {
+    if (number == 31) ++number;
+    EXPECT_EQ(hard.id, "H" + std::to_string(number++));
+    EXPECT_TRUE(hard.trials != nullptr || hard.checks != nullptr) << hard.id;
+  }
+  EXPECT_EQ(number, 36);
+}
+
+TEST(HardCases, lose_nothing_in_conservative_methods_and_name_what_naive_ones_lose) {
+  const StressResult result = stressed("H(3|4|5|22|30|32|35)", ".*");
+  EXPECT_EQ(report::stress_failures(result), std::vector<std::string>{});
+  std::set<std::string> losers;
+  for (const StressCell& cell : result.cells)
+    if (cell.hard_case == "H32" && cell.lost()) losers.insert(cell.method);
+  EXPECT_EQ(losers, (std::set<std::string>{"naive-bounds(flaw=fast-log-slice)", "naive-bounds(flaw=padded-tiles)",
+                                           "naive-refinement"}));
+}
+
+TEST(HardCases, refuse_exponential_slices_from_a_near_of_zero) {
+  for (const StressCell& cell : stressed("H12", "bounds").cells) {
+    EXPECT_EQ(cell.refused, 2) << cell.method;
+    EXPECT_TRUE(cell.faults.empty()) << cell.method;
+  }
+}
+
+TEST(HardCases, give_the_same_json_on_any_number_of_threads) {
+  StressRequest request;
+  request.tries = 500;
+  request.cases = Pattern("H(2|8|31)", "--cases");
+  request.methods = Pattern("^(aabb|exact|naive-refinement)$", "--methods");
+  const auto json = [&](int threads) {
+    request.threads = threads;
+    return report::stress_to_json(run_stress(request, {}, k_never), request).dump();
+  };
+  EXPECT_EQ(json(1), json(2));
+}
+
+TEST(HardCases, on_lattices_and_at_the_scales_of_maps_are_decided_and_right) {
+  const StressResult result = stressed("H3[34]", "^(exact|exact-fast|distance|cascades-fast|world-grid)$");
+  EXPECT_EQ(report::stress_failures(result), std::vector<std::string>{});
+  for (const StressCell& cell : result.cells) EXPECT_EQ(cell.undecided, 0U) << cell.hard_case << " " << cell.method;
+}
+
+TEST(Stress, that_is_stopped_tells_of_the_cases_that_are_whole) {
+  std::atomic<bool> stop{false};
+  StressRequest request;
+  request.tries = 100;
+  request.random = 100;
+  request.cases = Pattern("^H(1|2|3)$", "--cases");
+  request.methods = Pattern("^bounds$", "--methods");
+  StressListener listener;
+  listener.on_progress = [&](const std::string& doing, double, double) { stop = doing.starts_with("H2 "); };
+  const StressResult result = run_stress(request, listener, stop);
+  EXPECT_TRUE(result.interrupted);
+  ASSERT_EQ(result.cases.size(), 1U);
+  EXPECT_STREQ(result.cases[0].id, "H1");
+  EXPECT_EQ(result.checks.size(), 1U);
+  for (const StressCell& cell : result.cells) EXPECT_EQ(cell.hard_case, "H1");
+  EXPECT_TRUE(result.searches.empty());
+  EXPECT_FALSE(result.random);
+  EXPECT_EQ(report::stress_to_json(result, request)["interrupted"], true);
+}
+
+TEST(Stress, is_written_as_its_schema_says) {
+  StressRequest request;
+  request.tries = 6000;
+  request.cases = Pattern("H(12|22|31|32)", "--cases");
+  request.methods = Pattern("^(bounds|exact|naive-refinement)$", "--methods");
+  request.random = 3;
+  StressResult result = run_stress(request, {}, k_never);
+  ASSERT_TRUE(result.random);
+  EXPECT_EQ(result.random->counts.settings, 3U);
+  result.random->faults.push_back(
+      {{FaultKind::truth, "", "a sentence", 1, 2, true}, grid::Kind::world, false, 1, {7}, {}});
+  const auto json = nlohmann::json::parse(report::stress_to_json(result, request).dump());
+  EXPECT_EQ(config::schema_violations(row_of(config::Document::stress).schema(), json), std::vector<std::string>{});
+  EXPECT_EQ(config::document_of(json), config::Document::stress);
+  const auto is_lost = [](const auto& one) { return !one["deepest_miss"].is_null(); };
+  EXPECT_TRUE(std::ranges::any_of(json["results"], is_lost));
+  EXPECT_TRUE(std::ranges::any_of(json["searches"], is_lost));
+}
+
+TEST(Failures, name_a_conservative_method_that_loses_and_an_exact_one_that_adds) {
+  StressResult result = stressed("H32", "^(bounds|exact)$");
+  ASSERT_EQ(result.cells.size(), 2U);
+  EXPECT_TRUE(report::stress_failures(result).empty());
+  result.cells[0].misses = 3;
+  result.cells[1].extra_pairs = 1;
+  EXPECT_EQ(report::stress_failures(result).size(), 2U);
+}
+
+TEST(Contacts, lie_on_their_cell_and_a_ball_against_them_touches_it_and_no_more) {
+  for (const grid::GridSpec& spec : grids_of_every_kind()) {
+    const Trial trial = Rig().point({0, 0, -60}, 60).on(spec);
+    const view::Frame frame = frame_of(trial);
+    const grid::Grid grid = grid_of(trial, frame);
+    SplitMix64 random(4);
+    for (int i = 0; i < 300; ++i) {
+      const geom::Cell cell = grid.cell(random_cell(grid, random));
+      const Contact contact = random_contact(cell, random);
+      const double range = random.between(0.5, 5.0);
+      geom::LightVolume light;
+      light.apex.position = contact.point + range * contact.outward;
+      const double slack = 1e-9 * (glm::length(light.apex.position) + range);
+      const auto meets = [&] {
+        const geom::Verdict verdict = geom::filter_meets(light, cell);
+        return verdict == geom::Verdict::uncertain ? geom::prove_meets(light, cell) : verdict;
+      };
+      light.range = range + slack;
+      EXPECT_EQ(meets(), geom::Verdict::yes) << spec.name() << " contact " << i;
+      light.range = range - slack;
+      EXPECT_EQ(meets(), geom::Verdict::no) << spec.name() << " contact " << i;
+    }
+  }
+}
+
+TEST(Search, finds_the_losses_of_a_method_without_its_padding) {
+  for (const char* name : {"bounds", "aabb", "sphere-refinement", "distance", "world-grid"}) {
+    const SearchResult bare = searched(method_named(name, {{"inflation", 0.0}}), 12000);
+    EXPECT_GT(bare.misses, 0U) << name;
+    ASSERT_TRUE(bare.deepest) << name;
+    EXPECT_LT(bare.deepest->depth, 1e-3) << name;
+    EXPECT_FALSE(searched(method_named(name), 12000).deepest) << name;
+  }
+}
+
+TEST(Search, finds_how_deep_an_uncentred_refinement_loses_lights) {
+  const SearchResult found = searched(method_named("naive-refinement"), 6000);
+  ASSERT_TRUE(found.deepest);
+  EXPECT_GT(found.deepest->depth, 0.01);
+}
+
+TEST(Search, ends_after_its_tries) {
+  const SearchResult found = searched(method_named("bounds"), 1000);
+  EXPECT_GE(found.tries, 1000U);
+  EXPECT_LT(found.tries, 1100U);
+}
+
+// A loss that stress writes is a loss when `run` reads it.
+TEST(Replay, reproduces_the_loss) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "clusterbench_replay_test";
+  std::filesystem::remove_all(folder);
+  const StressMethod naive = method_named("naive-refinement");
+  std::vector<Loss> losses{*searched(naive, 6000).deepest};
+  for (const StressCell& cell : stressed("H(2|13|22|32)", "naive-refinement").cells)
+    if (cell.deepest) losses.push_back(*cell.deepest);
+  ASSERT_GE(losses.size(), 4U);
+  for (std::size_t i = 0; i < losses.size(); ++i) {
+    const std::string name = "loss" + std::to_string(i);
+    write_replay(folder, name, losses[i], naive);
+    const config::Config config = config::load_config(folder / (name + ".json"));
+    const run::Result result = run::run_plan(config, run::make_plan(config, ""), {}, {}, k_never);
+    ASSERT_EQ(result.cases.size(), 1U);
+    ASSERT_TRUE(result.cases[0].error && result.cases[0].error->deepest) << losses[i].trial;
+    EXPECT_EQ(result.cases[0].error->deepest->cell, losses[i].cell) << losses[i].trial;
+    EXPECT_NEAR(result.cases[0].error->deepest_miss, losses[i].depth, 1e-9) << losses[i].trial;
+  }
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace clusterbench::stress
