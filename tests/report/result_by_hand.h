@@ -50,7 +50,7 @@ inline run::CaseResult case_by_hand(const std::string& id, const std::string& as
   shading.needed = 200;
   one.shading = shading;
   run::TimingResult timing;
-  const auto time = [](double ns) { return measure::TimeStats{ns, 1.0, ns, ns, {ns, ns}, {ns, ns}}; };
+  const auto time = [](double ns) { return measure::TimeStats{ns, 1.0, ns, ns, {ns, ns}, std::vector<double>(6, ns)}; };
   timing.assign_ns = time(assign_ns);
   timing.convert_ns = time(500.0);
   timing.frame_ns = time(assign_ns + 500.0);
