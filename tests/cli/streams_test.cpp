@@ -40,8 +40,8 @@ TEST(Streams, output_that_cannot_be_written_is_an_error_of_every_command) {
         std::string("completion bash"), std::string("schema result"), "run --dry-run " + place.config,
         "run -q --no-timing " + place.config, "validate " + place.result, "size " + place.result,
         "ratio " + place.result, "ratio --csv - " + place.result, "compare " + place.result + " " + place.result,
-        "export --format csv " + place.result, "merge " + place.result, "report " + place.result, "history show --all " + place.history,
-        "scene info " + source_file("scenes/street.glb"),
+        "export --format csv " + place.result, "merge " + place.result, "report " + place.result,
+        "history show --all " + place.history, "scene info " + source_file("scenes/street.glb"),
         std::string("stress -q --cases H1 --methods aabb --tries 0")}) {
     EXPECT_EQ(place.code(arguments, ">/dev/null"), 0) << arguments << file_text(place.folder / "err");
     const int full = place.code(arguments, ">/dev/full");

@@ -63,7 +63,8 @@ const Broken k_broken[] = {
      "max_range"},
     {"{\"scenes\": [\"a.glb\"],\n  // comment\n  \"thread\": 1}",
      "3:3 /thread: unknown key 'thread' (did you mean 'threads'?), allowed: $schema, accuracy, allocation, assigners, "
-     "details, grids, jitter, limits, lookup, name, precision, samples, scenes, seed, shading, stability, storages, threads, "
+     "details, grids, jitter, limits, lookup, name, precision, samples, scenes, seed, shading, stability, storages, "
+     "threads, "
      "timing, "
      "viewport, viewports"},
     {R"({"scenes": ["a.glb"], "threads": 0})", "1:34 /threads: found 0, allowed: an integer from 1 to 1024"},

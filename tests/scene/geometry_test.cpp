@@ -193,7 +193,8 @@ TEST(Geometry, what_is_broken_is_refused_where_it_stands_and_only_if_it_is_read)
               file.json["accessors"][0]["count"] = std::uint64_t{1} << 31;
             }).find("limits.memory_mib"),
             std::string::npos);
-  EXPECT_EQ(refusal([](MeshFile&, Json& of) { of["mode"] = 7; }), "/meshes/0/primitives/0/mode: refers to mode 7, but there are 7");
+  EXPECT_EQ(refusal([](MeshFile&, Json& of) { of["mode"] = 7; }),
+            "/meshes/0/primitives/0/mode: refers to mode 7, but there are 7");
 }
 
 }  // namespace
