@@ -66,8 +66,6 @@ struct Gathering {
   struct Found {
     float depth;
     std::uint32_t surface;
-
-    friend auto operator<=>(const Found&, const Found&) = default;
   };
   RTCIntersectContext context;
   std::vector<Found> found;
@@ -77,7 +75,9 @@ struct Gathering {
   // The nearest ones, front to back. Embree may hand the same triangle to a filter more than once, and a ray through an
   // edge that two triangles of a surface share finds both: one layer.
   void finish(std::size_t most) {
-    std::ranges::sort(found);
+    std::ranges::sort(found, [](const Found& a, const Found& b) {
+      return a.depth != b.depth ? a.depth < b.depth : a.surface < b.surface;
+    });
     const auto is_same = [](const Found& a, const Found& b) {
       return a.surface == b.surface && b.depth - a.depth <= 1e-6f * b.depth;
     };
@@ -147,8 +147,9 @@ PixelGrid::PixelGrid(Vec2i of_viewport, int divisor)
 
 Vec2d PixelGrid::pixel(std::size_t index) const {
   const auto width = static_cast<std::size_t>(size.x);
-  return {(static_cast<double>(index % width) + 0.5) * viewport.x / size.x,
-          (static_cast<double>(index / width) + 0.5) * viewport.y / size.y};
+  const std::size_t column = index % width, row = index / width;
+  return {(static_cast<double>(column) + 0.5) * viewport.x / size.x,
+          (static_cast<double>(row) + 0.5) * viewport.y / size.y};
 }
 
 // The built surfaces, around an origin: single precision does not hold the world's own coordinates.

@@ -197,8 +197,10 @@ std::vector<ChangePoint> change_points(std::span<const double> series, const Cha
 // Of the ways to choose half of the values, two set the same halves apart.
 std::size_t least_values(double max_p) {
   std::size_t count = 2;
-  for (double ways = 2.0; 2.0 / ways > k_share_of_steps * max_p; ++count)
-    ways *= static_cast<double>(count + 1) / static_cast<double>((count + 2) / 2);
+  for (double ways = 2.0; 2.0 / ways > k_share_of_steps * max_p; ++count) {
+    const std::size_t half = (count + 2) / 2;
+    ways *= static_cast<double>(count + 1) / static_cast<double>(half);
+  }
   return std::max(count, 2 * k_min_stretch);
 }
 

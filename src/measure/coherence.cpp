@@ -100,10 +100,10 @@ void add_frame(Coherence& coherence, const depth::DepthImage& image, std::span<c
         if (shows[at]) structure.lights_at(samples[sample], grid::Log2::rounded, lists[at]);
       }
       for (WaveCounts& counts : coherence.sizes) {
-        for (int first = 0; first < k_block; first += counts.height) {
+        const auto lanes_of_wave = static_cast<std::size_t>(counts.lanes());
+        for (std::size_t first = 0; first < lists.size(); first += lanes_of_wave) {
           lanes.clear();
-          for (auto at = static_cast<std::size_t>(first * k_block);
-               at < static_cast<std::size_t>((first + counts.height) * k_block); ++at)
+          for (std::size_t at = first; at < first + lanes_of_wave; ++at)
             if (shows[at]) lanes.push_back(&lists[at]);
           add_wave(counts, lanes, lights);
         }
