@@ -354,6 +354,7 @@ export type Result = {
     timing?: {
       frames_timed: number; // Evenly spaced over the path; all times but that of worst_frame are means over them [frames, over the path]
       caches?: "cold" | "warm"; // Of frame_ns, assign_ns, convert_ns, worst_frame and against_first. cold: swept before each frame, as all else of an engine's frame does; warm: the same frames again and again. Absent in older results: warm
+      session?: string; // The same in cases that the same launches have measured, one after the other; times of two sessions are never taken side by side
       launches?: number; // Processes that measured, each an equal share of every array of samples, one after the other. From two on all 95 % intervals are between launches (Student's t on the logarithms of the launches' medians), else they are bootstrap intervals over the rounds of one process [processes, over the case]
       warm?: {
         frame_ns: Time; // Per frame: assign_ns and convert_ns

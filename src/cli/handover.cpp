@@ -31,7 +31,7 @@ std::string handed_over(const config::Config& config, const run::Plan& plan, std
   Json scenes = Json::array();
   for (std::size_t i = scene.value_or(0); i < (scene ? *scene + 1 : config.scenes.size()); ++i)
     scenes.push_back(
-        {{"place", i}, {"path", path_for_others(config.scenes[i].path)}, {"sha256", plan.scenes[i].scene.sha256}});
+        {{"place", i}, {"path", path_for_others(config.scenes[i].path)}, {"sha256", plan.scenes[i].contents_sha256()}});
   return Json{{"config", config.resolved}, {"scenes", scenes}}.dump();
 }
 
@@ -46,7 +46,7 @@ ReceivedRun received_run(const std::string& line, const std::string& file) {
   run.config.scenes = std::move(scenes);
   run.plan = run::make_plan(run.config, "");
   for (std::size_t i = 0; i < run.plan.scenes.size(); ++i)
-    if (run.plan.scenes[i].scene.sha256 != given["scenes"][i]["sha256"])
+    if (run.plan.scenes[i].contents_sha256() != given["scenes"][i]["sha256"])
       throw Error(run.config.scenes[i].path.string(), "", "has changed since the run began; run again");
   return run;
 }

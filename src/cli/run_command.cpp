@@ -123,7 +123,7 @@ Json what_is_measured(const config::Config& config) {
 Json journal_header(const config::Config& config, const run::Plan& plan, const RunFlags& flags) {
   const run::ToolFacts tool = run::tool_facts();
   Json scenes = Json::array();
-  for (const run::SceneData& data : plan.scenes) scenes.push_back(data.scene.sha256);
+  for (const run::SceneData& data : plan.scenes) scenes.push_back(data.contents_sha256());
   Json header{{"version", tool.version}, {"git_sha", tool.git_sha}, {"flags", tool.flags},
               {"scenes", scenes},        {"filter", flags.filter},  {"config", what_is_measured(config)}};
   if (!flags.count.empty()) header["count"] = flags.count;

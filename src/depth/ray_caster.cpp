@@ -20,7 +20,8 @@ namespace {
 
 constexpr float k_nothing = std::numeric_limits<float>::infinity();
 
-// One instruction set on all x86 machines: others fuse products and sums, and depths must not depend on the machine.
+// One instruction set on all x86 machines, so that which triangle a ray meets does not depend on the machine: others
+// fuse products and sums.
 #if defined(__x86_64__) || defined(_M_X64)
 constexpr const char* k_device = "isa=sse4.2,set_affinity=0";
 #else
@@ -54,6 +55,23 @@ bool shows_its_back(const RTCRay& ray, const RTCHit& hit) {
   return glm::dot(direction_of(ray), Vec3f(hit.Ng_x, hit.Ng_y, hit.Ng_z)) > 0.0f;
 }
 
+// Where a ray meets a triangle's plane, in double precision: Embree's own figure hangs on how a processor estimates
+// reciprocals, and depths must not depend on the machine.
+float depth_at(RTCScene surfaces, const RTCRay& ray, unsigned surface, unsigned triangle) {
+  RTCGeometry mesh = rtcGetGeometry(surfaces, surface);
+  const auto* vertices = static_cast<const Vec3f*>(rtcGetGeometryBufferData(mesh, RTC_BUFFER_TYPE_VERTEX, 0));
+  const auto& corners =
+      static_cast<const scene::Triangle*>(rtcGetGeometryBufferData(mesh, RTC_BUFFER_TYPE_INDEX, 0))[triangle];
+  const Vec3d a(vertices[corners[0]]), b(vertices[corners[1]]), c(vertices[corners[2]]);
+  const Vec3d normal = glm::cross(b - a, c - a);
+  const double depth =
+      glm::dot(normal, a - Vec3d(ray.org_x, ray.org_y, ray.org_z)) / glm::dot(normal, Vec3d(direction_of(ray)));
+  // A triangle that is seen edge on has no such place to speak of.
+  constexpr double k_most_apart = 1e-3;
+  const auto found = static_cast<double>(ray.tfar);
+  return std::abs(depth - found) <= k_most_apart * found ? static_cast<float>(depth) : ray.tfar;
+}
+
 // Filters are given one ray, since rays are cast one by one.
 void leave_out_backs(const RTCFilterFunctionNArguments* arguments) {
   const auto* ray = reinterpret_cast<const RTCRay*>(arguments->ray);
@@ -68,20 +86,26 @@ struct Gathering {
     std::uint32_t surface;
   };
   RTCIntersectContext context;
+  RTCScene surfaces;
   std::vector<Found> found;
 
-  Gathering() { rtcInitIntersectContext(&context); }
+  explicit Gathering(RTCScene of) : surfaces(of) { rtcInitIntersectContext(&context); }
 
   // The nearest ones, front to back. Embree may hand the same triangle to a filter more than once, and a ray through an
   // edge that two triangles of a surface share finds both: one layer.
   void finish(std::size_t most) {
-    std::ranges::sort(found, [](const Found& a, const Found& b) {
+    const auto by_surface = [](const Found& a, const Found& b) {
+      return a.surface != b.surface ? a.surface < b.surface : a.depth < b.depth;
+    };
+    const auto by_depth = [](const Found& a, const Found& b) {
       return a.depth != b.depth ? a.depth < b.depth : a.surface < b.surface;
-    });
+    };
+    std::ranges::sort(found, by_surface);
     const auto is_same = [](const Found& a, const Found& b) {
       return a.surface == b.surface && b.depth - a.depth <= 1e-6f * b.depth;
     };
     found.erase(std::unique(found.begin(), found.end(), is_same), found.end());
+    std::ranges::sort(found, by_depth);
     if (found.size() > most) found.resize(most);
   }
 };
@@ -91,8 +115,9 @@ void gather(const RTCFilterFunctionNArguments* arguments, bool with_backs) {
   const auto* hit = reinterpret_cast<const RTCHit*>(arguments->hit);
   if (arguments->valid[0] != -1) return;
   arguments->valid[0] = 0;  // the ray goes on
-  if (with_backs || !shows_its_back(*ray, *hit))
-    reinterpret_cast<Gathering*>(arguments->context)->found.push_back({ray->tfar, hit->geomID});
+  if (!with_backs && shows_its_back(*ray, *hit)) return;
+  auto* gathering = reinterpret_cast<Gathering*>(arguments->context);
+  gathering->found.push_back({depth_at(gathering->surfaces, *ray, hit->geomID, hit->primID), hit->geomID});
 }
 void gather_both_sides(const RTCFilterFunctionNArguments* arguments) {
   gather(arguments, true);
@@ -216,9 +241,10 @@ void add_surface(RTCDevice device, RTCScene to, const scene::Geometry& geometry,
   RTCGeometry mesh = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* vertices = static_cast<Vec3f*>(rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                                sizeof(Vec3f), surface.vertices.size()));
-  each_vertex(geometry, instance, transforms, [&](const Vec3d& vertex) { *vertices++ = Vec3f(vertex - origin); });
   auto* triangles = static_cast<scene::Triangle*>(rtcSetNewGeometryBuffer(
       mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(scene::Triangle), surface.triangles.size()));
+  if (vertices == nullptr || triangles == nullptr) return rtcReleaseGeometry(mesh);  // check() tells
+  each_vertex(geometry, instance, transforms, [&](const Vec3d& vertex) { *vertices++ = Vec3f(vertex - origin); });
   for (const scene::Triangle& triangle : surface.triangles)
     *triangles++ = turns ? scene::Triangle{triangle[0], triangle[2], triangle[1]} : triangle;
   if (filter != nullptr) rtcSetGeometryIntersectFilterFunction(mesh, filter);
@@ -238,6 +264,7 @@ void RayCaster::pose(double time_s) {
   check_memory("triangles", geometry_.triangle_count(), k_bytes_of_triangle);
   if (!surfaces_) surfaces_ = std::make_unique<Surfaces>();
   Surfaces& now = *surfaces_;
+  now.transforms.clear();  // until all stands
   now.origin = middle_of(scene_, geometry_, transforms, shown);
   for (Surroundings* surroundings : {&now.opaque, &now.blending}) {
     surroundings->reset(rtcNewScene(now.device.get()));
@@ -270,7 +297,8 @@ DepthImage RayCaster::depths(const view::Frame& frame, const PixelGrid& pixels, 
     for (std::size_t i = begin; i < end; ++i) {
       RTCRayHit ray = camera.ray(i);
       rtcIntersect1(surfaces_->opaque.get(), &context, &ray);
-      if (ray.hit.geomID != RTC_INVALID_GEOMETRY_ID) out.nearest[i] = ray.ray.tfar;
+      if (ray.hit.geomID != RTC_INVALID_GEOMETRY_ID)
+        out.nearest[i] = depth_at(surfaces_->opaque.get(), ray.ray, ray.hit.geomID, ray.hit.primID);
     }
   });
   return out;
@@ -285,7 +313,7 @@ LayerImage RayCaster::layers(const view::Frame& frame, const DepthImage& opaque,
   LayerImage out{opaque.pixels, std::vector<std::uint32_t>(count + 1, 0), {}};
   const auto width = static_cast<std::size_t>(opaque.pixels.size.x);
   parallel_ranges(found.size(), threads, [&](std::size_t begin, std::size_t end) {
-    Gathering gathering;
+    Gathering gathering(surfaces_->blending.get());
     for (std::size_t row = begin; row < end; ++row) {
       for (std::size_t i = row * width; i < (row + 1) * width; ++i) {
         RTCRayHit ray = camera.ray(i);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/memory.h"
 #include "core/random.h"
 
 namespace clusterbench::measure {
@@ -12,6 +13,14 @@ namespace {
 
 constexpr std::array k_names = {"volume", "opaque", "transparent", "fog", "mirror", "anywhere"};
 static_assert(k_names.size() == k_sample_set_count);
+
+// Room for so many; throws Error where that would be more than the limit on memory.
+std::vector<grid::Sample> room_for(std::uint64_t count) {
+  check_memory("samples", count, sizeof(grid::Sample));
+  std::vector<grid::Sample> samples;
+  samples.reserve(count);
+  return samples;
+}
 
 // Mixed once more: neighbouring states of this generator give the same numbers one step apart.
 SplitMix64 random_of(std::uint64_t seed, const view::Frame& frame) {
@@ -85,8 +94,7 @@ grid::Sample sample_of(const view::Frame& frame, const Vec3d& from_eye) {
 std::vector<grid::Sample> volume_samples(const view::Frame& frame, double far_m, int count, std::uint64_t seed) {
   SplitMix64 random = random_of(seed, frame);
   const Depths depths(frame.projection, far_m);
-  std::vector<grid::Sample> samples;
-  samples.reserve(static_cast<std::size_t>(count));
+  std::vector<grid::Sample> samples = room_for(static_cast<std::uint64_t>(count));
   for (int i = 0; i < count; ++i) {
     const double x = random.between(0.0, frame.viewport.x), y = random.between(0.0, frame.viewport.y);
     samples.push_back(sample_at(frame, x, y, depths.at(random.unit())));
@@ -95,7 +103,8 @@ std::vector<grid::Sample> volume_samples(const view::Frame& frame, double far_m,
 }
 
 std::vector<grid::Sample> opaque_samples(const view::Frame& frame, const depth::DepthImage& image) {
-  std::vector<grid::Sample> samples;
+  std::vector<grid::Sample> samples = room_for(static_cast<std::uint64_t>(
+      std::ranges::count_if(image.nearest, [](float depth) { return std::isfinite(depth); })));
   for (std::size_t i = 0; i < image.nearest.size(); ++i) {
     if (!std::isfinite(image.nearest[i])) continue;
     const Vec2d pixel = image.pixels.pixel(i);
@@ -105,8 +114,7 @@ std::vector<grid::Sample> opaque_samples(const view::Frame& frame, const depth::
 }
 
 std::vector<grid::Sample> transparent_samples(const view::Frame& frame, const depth::LayerImage& image) {
-  std::vector<grid::Sample> samples;
-  samples.reserve(image.depths.size());
+  std::vector<grid::Sample> samples = room_for(image.depths.size());
   for (std::size_t i = 0; i + 1 < image.begin.size(); ++i) {
     const Vec2d pixel = image.pixels.pixel(i);
     for (std::uint32_t k = image.begin[i]; k < image.begin[i + 1]; ++k)
@@ -117,9 +125,9 @@ std::vector<grid::Sample> transparent_samples(const view::Frame& frame, const de
 
 std::vector<grid::Sample> fog_samples(const view::Frame& frame, double far_m, Vec3i froxels) {
   const Depths depths(frame.projection, far_m);
-  std::vector<grid::Sample> samples;
-  samples.reserve(static_cast<std::size_t>(froxels.x) * static_cast<std::size_t>(froxels.y) *
-                  static_cast<std::size_t>(froxels.z));
+  std::vector<grid::Sample> samples =
+      room_for(static_cast<std::uint64_t>(froxels.x) * static_cast<std::uint64_t>(froxels.y) *
+               static_cast<std::uint64_t>(froxels.z));
   for (int z = 0; z < froxels.z; ++z)
     for (int y = 0; y < froxels.y; ++y)
       for (int x = 0; x < froxels.x; ++x)
@@ -131,7 +139,7 @@ std::vector<grid::Sample> fog_samples(const view::Frame& frame, double far_m, Ve
 std::vector<grid::Sample> anywhere_samples(const view::Frame& frame, const Bounds& bounds, int count,
                                            std::uint64_t seed) {
   SplitMix64 random = random_of(seed, frame);
-  std::vector<grid::Sample> samples;
+  std::vector<grid::Sample> samples = room_for(static_cast<std::uint64_t>(count));
   for (int i = 0; i < count; ++i) samples.push_back(random_point(frame, bounds, random));
   return samples;
 }
@@ -140,8 +148,8 @@ std::vector<grid::Sample> mirror_samples(const view::Frame& frame, const Bounds&
                                          std::uint64_t seed) {
   constexpr int k_tries = 16;
   SplitMix64 random = random_of(seed, frame);
-  std::vector<grid::Sample> samples;
-  for (int i = 0; i < k_tries * count && samples.size() < static_cast<std::size_t>(count); ++i) {
+  std::vector<grid::Sample> samples = room_for(static_cast<std::uint64_t>(count));
+  for (std::int64_t i = 0; i < std::int64_t{k_tries} * count && samples.size() < static_cast<std::size_t>(count); ++i) {
     const grid::Sample sample = random_point(frame, bounds, random);
     if (!is_in_view(frame, sample)) samples.push_back(sample);
   }

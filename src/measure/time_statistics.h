@@ -28,8 +28,8 @@ struct TimeStats {
 inline constexpr std::size_t k_least_rounds = 6;
 
 // `launches`: how many processes measured, each an equal share of the samples, one after the other. From three on
-// (k_least_freedom in measure/change.h), the interval is Student's t of the launches' medians (their logarithms): it
-// knows as many values as there were launches, however many rounds each had, since rounds of one launch share what
+// (k_least_freedom in measure/time_change.h), the interval is Student's t of the launches' medians (their logarithms):
+// it knows as many values as there were launches, however many rounds each had, since rounds of one launch share what
 // makes launches differ. From one with k_least_rounds it is the bootstrap of the rounds, which holds within that
 // process alone. All else has an unknown one. A known one always holds the median. Seeded: the same samples give the
 // same interval. An empty span gives zeros.

@@ -433,7 +433,6 @@ Json warnings_of(const Json& base, const Json& next, const Json& comparison, con
   return warnings;
 }
 
-// Something that would have failed the comparison had it become worse.
 // "cold" or "warm"; null without times.
 Json caches_of_times(const Json& result) {
   for (const Json& one : result["cases"])
@@ -441,6 +440,7 @@ Json caches_of_times(const Json& result) {
   return {};
 }
 
+// Something that would have failed the comparison had it become worse.
 bool is_gated_part_missing(const Json& comparison) {
   return std::any_of(comparison["not_compared"].begin(), comparison["not_compared"].end(),
                      [](const Json& one) { return one["only_in"] == "base" && one["part"] != "timing"; });

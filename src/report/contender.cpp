@@ -42,10 +42,11 @@ std::uint64_t seed_of(const Json& result) {
 }
 
 run::Contender contender_of(const Json& one) {
-  run::Contender out{one["id"], one["scene"], view_of(one), costs_of(one), one["eligible"], block_of(one), {},
+  run::Contender out{one["id"], one["scene"], view_of(one), costs_of(one), one["eligible"], block_of(one), {}, {},
                      1,         false};
   if (!one.contains("timing")) return out;
   out.rounds_ns = frame_rounds(one);
+  out.session = one["timing"].value("session", "");
   out.launches = one["timing"].value("launches", 1);
   out.is_cold = one["timing"].value("caches", "warm") == "cold";
   return out;

@@ -47,6 +47,10 @@ constexpr std::array k_rules{
     Rule{"/error", Kind::cost},
     Rule{"/shading/samples", Kind::fixed},
     Rule{"/shading/needed", Kind::fixed},
+    Rule{"/shading/waves/longest_list", Kind::cost},
+    Rule{"/shading/waves/united_lists", Kind::cost},
+    Rule{"/shading/waves/mean_list", Kind::cost},
+    Rule{"/shading/waves", Kind::follows},
     Rule{"/shading/worst_frame", Kind::follows},
     Rule{"/shading/darkest", Kind::follows},
     Rule{"/shading", Kind::cost},
@@ -62,7 +66,12 @@ std::string as_shading(const std::string& pointer) {
   constexpr std::string_view k_sets = "/samples/";
   if (!pointer.starts_with(k_sets)) return pointer;
   const std::size_t end = pointer.find('/', k_sets.size());
-  return end == std::string::npos ? pointer : "/shading" + pointer.substr(end);
+  if (end == std::string::npos) return pointer;
+  constexpr std::string_view k_waves = "/waves/";  // of each size: "/waves/0/longest_list"
+  const std::string rest = pointer.substr(end);
+  if (!rest.starts_with(k_waves)) return "/shading" + rest;
+  const std::size_t size_end = rest.find('/', k_waves.size());
+  return "/shading/waves" + (size_end == std::string::npos ? "" : rest.substr(size_end));
 }
 
 Kind kind_of(const std::string& of) {

@@ -14,7 +14,8 @@ namespace clusterbench::report {
 
 inline constexpr int k_ratios_version = 1;
 
-// Frame time of `one` / that of `other`, two cases of a grid; nullopt where they have no rounds in common.
+// Frame time of `one` / that of `other`, two cases of a grid; nullopt where other launches have measured
+// them.
 std::optional<measure::Ratio> ratio_of_cases(const nlohmann::ordered_json& result, const nlohmann::ordered_json& one,
                                              const nlohmann::ordered_json& other);
 

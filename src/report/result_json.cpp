@@ -217,6 +217,7 @@ Json timing(const run::TimingResult& t) {
   Json out{
       {"frames_timed", t.frames_timed},
       {"caches", t.is_cold ? "cold" : "warm"},
+      {"session", t.session},
       {"launches", t.launches},
       {"frame_ns", to_json(t.frame_ns)},
       {"worst_frame", {{"frame", t.worst.frame}, {"ns", six_digits(t.worst.ns)}, {"ci95", to_json(t.worst.ci95)}}}};

@@ -49,16 +49,27 @@ const measure::LookupCounts* plain_lookup(const CaseResult& result) {
   return nullptr;
 }
 
+// The first set of samples that lacks a light where the structure has an answer; null if none does.
+const SampleSetResult* missing_set(const CaseResult& result) {
+  const auto found = std::ranges::find_if(
+      result.samples, [](const SampleSetResult& set) { return set.counts.missed > set.counts.missed_outside; });
+  return found == result.samples.end() ? nullptr : &*found;
+}
+
 bool misses_without_cells(const CaseResult& result) {
   if (has_cells(result)) return false;
   const measure::LookupCounts* lookup = plain_lookup(result);
-  return (result.shading && result.shading->missed > 0) || (lookup != nullptr && lookup->missed > 0);
+  return (result.shading && result.shading->missed > 0) || missing_set(result) != nullptr ||
+         (lookup != nullptr && lookup->missed > 0);
 }
 
 std::string missed_without_cells_text(const CaseResult& result) {
   if (result.shading && result.shading->missed > 0)
     return "lost " + std::to_string(result.shading->missed) + " of " + number_of(result.shading->needed, "light") +
            " that its samples need" + worst_text(result);
+  if (const SampleSetResult* set = missing_set(result))
+    return "lost " + std::to_string(set->counts.missed - set->counts.missed_outside) + " of " +
+           number_of(set->counts.needed, "light") + " that its " + measure::name_of(set->set) + " samples need";
   const measure::LookupCounts& lookup = *plain_lookup(result);
   return "lost " + std::to_string(lookup.missed) + " of " + number_of(lookup.needed, "light") +
          " that the samples of its lookup need";
@@ -142,6 +153,7 @@ bool is_eligible(const CaseResult& result) {
 }
 
 std::optional<measure::Ratio> ratio_between(const Contender& one, const Contender& other, std::uint64_t seed) {
+  if (one.session != other.session) return std::nullopt;
   const measure::FrameTimes own{one.rounds_ns, one.launches, one.is_cold},
       others{other.rounds_ns, other.launches, other.is_cold};
   return one.grid == other.grid ? measure::ratio_of_rounds(own, others, seed)

@@ -40,15 +40,15 @@ struct Contender {
   std::string scene, view;
   measure::Costs costs;
   bool is_eligible = true;
-  // Cases of one scene, view and grid are measured in the same rounds; those of one scene by the same launches.
-  std::string grid;
+  // Cases of one session are measured by the same launches, and those of one grid among them in the same rounds.
+  std::string grid, session;
   std::vector<double> rounds_ns;  // frame times, launch after launch; empty where nothing is timed
   int launches = 1;
   bool is_cold = false;
 };
 
 // Frame time of `one` / that of `other`, of cases of one scene and view: of their rounds where those are the same, else
-// of their launches. nullopt where neither can be.
+// of their launches. nullopt where neither can be: of two sessions nothing is known side by side.
 std::optional<measure::Ratio> ratio_between(const Contender& one, const Contender& other, std::uint64_t seed);
 
 // Ids of the cases that no other case of their scene and view beats in time, bytes and overshade together. Times are

@@ -84,6 +84,7 @@ struct WarmTimes {
 
 struct TimingResult {
   bool is_cold = false;                          // the times that follow: caches were swept before each frame
+  std::string session;                           // the same where the same launches have measured
   int launches = 1;                              // processes, each of which measured an equal share of the samples
   measure::TimeStats frame_ns;                   // per frame: assign and convert, of the same rounds
   measure::TimeStats build_ns, assign_ns;        // assign: per frame, with the builds that the frames need

@@ -1,6 +1,7 @@
 #include "run/runner.h"
 
 #include <algorithm>
+#include <random>
 #include <set>
 
 #include "core/error.h"
@@ -217,6 +218,7 @@ class Run {
     const double per_round = timing_cost(config_, counted_group.group) / request.rounds;
     const GroupSamples samples = measure_launch(
         config_, counted_group.group, path, request, [&](int) { tell(counted_group.group, "time", per_round); }, stop_);
+    begin_session();
     if (!samples.methods.empty())
       add_cases(counted_group, timing_results(config_, counted_group.group, std::span(&samples, 1)), out);
   }
@@ -236,9 +238,17 @@ class Run {
       if (stop_ || measured.size() != groups.size()) return;
       for (std::size_t i = 0; i < groups.size(); ++i) samples[i].push_back(std::move(measured[i]));
     }
+    begin_session();
     for (std::size_t i = 0; i < waiting_.size(); ++i)
       add_cases(waiting_[i], timing_results(config_, waiting_[i].group, samples[i]), out);
     waiting_.clear();
+  }
+
+  // A name that no other session has, of any run on any machine.
+  void begin_session() {
+    std::random_device random;
+    constexpr std::size_t k_digits = 12;
+    session_ = sha256_hex(date_now() + std::to_string(random()) + std::to_string(random())).substr(0, k_digits);
   }
 
   void add_cases(CountedGroup& counted, const std::vector<TimingResult>& timings, Result& out) {
@@ -246,7 +256,10 @@ class Run {
       CaseResult finished = case_result(counted.group.cases[i], counted.frames, counted.counted, i);
       if (!counted.stabilities.empty()) finished.stability = counted.stabilities[i];
       if (!counted.details.empty()) finished.details = std::move(counted.details[i]);
-      if (!timings.empty()) finished.timing = timings[i];
+      if (!timings.empty()) {
+        finished.timing = timings[i];
+        finished.timing->session = session_;
+      }
       if (const auto count = counts_.find(finished.id); count != counts_.end()) finished.count = count->second;
       ++progress_.cases_done;
       if (listener_.on_case) listener_.on_case(finished);
@@ -316,6 +329,7 @@ class Run {
   static constexpr double k_most_waiting_ns = 2e10;
   std::vector<CountedGroup> waiting_;
   std::string name_of_group_;
+  std::string session_;  // of the cases that are being added
   Progress progress_;
 };
 

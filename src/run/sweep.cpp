@@ -37,8 +37,8 @@ bool needs_triangles(const config::Config& config) {
   return std::ranges::any_of(config.sample_sets, &config::SampleSetRequest::needs_triangles);
 }
 
-// What a set's samples depend on.
-Json identity(const config::SampleSetRequest& request, const SceneData& data) {
+// What a set's samples depend on, besides the scene.
+Json identity(const config::SampleSetRequest& request) {
   Json out{measure::name_of(request.set),
            request.count,
            request.divisor,
@@ -46,7 +46,6 @@ Json identity(const config::SampleSetRequest& request, const SceneData& data) {
            request.froxels.x,
            request.froxels.y,
            request.froxels.z};
-  if (request.needs_triangles() && data.geometry) out.push_back(data.geometry->sha256);
   return out;
 }
 
@@ -81,8 +80,8 @@ Json identity(const config::MethodRequest& method) {
   return {{"name", method.name}, {"params", params}};
 }
 
-Json identity(const config::SceneRequest& request, const scene::Scene& scene) {
-  Json out{{"sha256", scene.sha256},
+Json identity(const config::SceneRequest& request, const SceneData& data) {
+  Json out{{"sha256", data.contents_sha256()},
            {"frames", {static_cast<int>(request.camera.choice), request.camera.count, request.camera.rate_hz}},
            {"range_rule", {request.range_rule.cutoff_lux, request.range_rule.max_range_m}}};
   if (request.camera.fit != scene::CameraFit::contain) out["camera_fit"] = "vertical";
@@ -98,7 +97,7 @@ std::string short_hash(const Json& all) {
 // Settings that change what a case counts; timing and threads do not.
 Json identity(const config::Config& config, const SceneData& data, const CasePlan& plan) {
   const Vec2i viewport = config.viewports[plan.viewport];
-  Json all{{"scene", identity(config.scenes[plan.scene], data.scene)},
+  Json all{{"scene", identity(config.scenes[plan.scene], data)},
            {"camera", {data.paths[plan.camera].camera, plan.camera}},
            {"viewport", {viewport.x, viewport.y}},
            {"grid", config::grid_identity(config.grids[plan.grid])},
@@ -110,7 +109,7 @@ Json identity(const config::Config& config, const SceneData& data, const CasePla
     if (request.set == measure::SampleSet::volume)
       all["shading_samples"] = request.count;
     else
-      all["samples"].push_back(identity(request, data));
+      all["samples"].push_back(identity(request));
   }
   if (config.lookup) {
     all["lookup"] = {config.lookup->samples};
@@ -231,6 +230,7 @@ class Expansion {
 
   void expand(Plan& plan) {
     for (std::size_t scene = 0; scene < plan.scenes.size(); ++scene) expand_scene(plan, scene);
+    skip_sets(plan);
   }
 
   std::size_t all_cases() const { return all_cases_; }
@@ -320,6 +320,19 @@ class Expansion {
     if (filter_.is_in(case_plan.name)) group.cases.push_back(std::move(case_plan));
   }
 
+  // Sets of samples that a scene with cases cannot have.
+  void skip_sets(Plan& plan) const {
+    for (std::size_t i = 0; i < plan.scenes.size(); ++i) {
+      const SceneData& data = plan.scenes[i];
+      const bool has_cases = std::ranges::any_of(plan.groups, [&](const GroupPlan& group) { return group.scene == i; });
+      if (!has_cases || (data.geometry && !data.geometry->empty())) continue;
+      for (const config::SampleSetRequest& request : config_.sample_sets)
+        if (request.needs_triangles())
+          plan.skipped.push_back(
+              {data.scene.name + "/samples " + measure::name_of(request.set), "the scene has no triangles"});
+    }
+  }
+
   // What the filter leaves out is not listed as skipped either.
   void skip(Plan& plan, const std::string& name, const std::string& reason) const {
     if (filter_.is_in(name)) plan.skipped.push_back({name, reason});
@@ -334,12 +347,8 @@ class Expansion {
 
 }  // namespace
 
-// Sets of samples that a scene cannot have.
-static void skip_sets(const config::Config& config, const SceneData& data, std::vector<Skipped>& skipped) {
-  if (data.geometry && !data.geometry->empty()) return;
-  for (const config::SampleSetRequest& request : config.sample_sets)
-    if (request.needs_triangles())
-      skipped.push_back({data.scene.name + "/samples " + measure::name_of(request.set), "the scene has no triangles"});
+std::string SceneData::contents_sha256() const {
+  return geometry ? sha256_hex(scene.sha256 + geometry->sha256) : scene.sha256;
 }
 
 std::vector<Method> methods_of(const GroupPlan& group) {
@@ -372,7 +381,6 @@ Plan make_plan(const config::Config& config, const std::string& filter) {
   Expansion expansion(config, filter);
   Plan plan;
   plan.scenes = load_scenes(config);
-  for (const SceneData& data : plan.scenes) skip_sets(config, data, plan.skipped);
   expansion.expand(plan);
   if (!plan.groups.empty()) return plan;
   if (expansion.all_cases() > 0)

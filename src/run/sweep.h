@@ -57,6 +57,9 @@ struct SceneData {
   scene::Scene scene;
   std::vector<scene::CameraPath> paths;
   std::optional<scene::Geometry> geometry = {};  // read only where something needs triangles
+
+  // Of all that was read of its file.
+  std::string contents_sha256() const;
 };
 
 struct Plan {

@@ -123,9 +123,7 @@ class MeshReader {
     }
     const JsonLocation location = primitive.at("indices");
     const std::size_t accessor = accessor_of(location, "SCALAR");
-    const Component component = reader_.head(accessor).component;
-    if (component != Component::u8 && component != Component::u16 && component != Component::u32)
-      reader_.location(accessor).at("componentType").refuse("indices must be 5121, 5123 or 5125");
+    expect_indices(accessor, {Component::u8, Component::u16, Component::u32});
     for (const double index : checked_numbers(accessor, 1)) {
       if (!(index < static_cast<double>(vertices)))
         location.refuse("index " + std::to_string(static_cast<std::uint64_t>(index)) + " of " +
@@ -146,6 +144,7 @@ class MeshReader {
     if (!is_new) return known->second;
     const JsonLocation location = reader_.root().at("skins").at(skin), joints = location.at("joints");
     const std::size_t count = joints.elements();
+    if (count == 0) joints.refuse("a skin needs a joint");
     std::vector<double> inverse;
     if (location.has("inverseBindMatrices"))
       inverse = checked_numbers(accessor_of(location.at("inverseBindMatrices"), "MAT4"), 16);
@@ -167,7 +166,9 @@ class MeshReader {
   std::vector<Vec3f> skinned(const JsonLocation& attributes, std::size_t positions, std::size_t skin) {
     const std::vector<Mat4d>& joints = joints_of(skin);
     const std::vector<double> at = checked_numbers(positions, 3);
-    const std::vector<double> chosen = checked_numbers(accessor_of(attributes.at("JOINTS_0"), "VEC4"), 4);
+    const std::size_t joints_of_vertices = accessor_of(attributes.at("JOINTS_0"), "VEC4");
+    expect_indices(joints_of_vertices, {Component::u8, Component::u16});
+    const std::vector<double> chosen = checked_numbers(joints_of_vertices, 4);
     const std::vector<double> weights = checked_numbers(accessor_of(attributes.at("WEIGHTS_0"), "VEC4"), 4);
     const std::size_t count = at.size() / 3;
     if (chosen.size() / 4 != count || weights.size() / 4 != count)
@@ -190,6 +191,17 @@ class MeshReader {
       out.emplace_back(whole > 0.0 ? Vec3d(sum) / whole : Vec3d(joints.front() * point));
     }
     return out;
+  }
+
+  // Whole numbers of these components, as they are.
+  void expect_indices(std::size_t accessor, std::initializer_list<Component> allowed) const {
+    const AccessorHead head = reader_.head(accessor);
+    std::string names;
+    for (const Component component : allowed)
+      names += (names.empty() ? "" : ", ") + std::to_string(static_cast<int>(component));
+    if (std::find(allowed.begin(), allowed.end(), head.component) == allowed.end())
+      reader_.location(accessor).at("componentType").refuse("indices must be one of " + names);
+    if (head.normalized) reader_.location(accessor).at("normalized").refuse("indices are no shares");
   }
 
   // An accessor's index, of the type that is wanted.

@@ -8,6 +8,9 @@
 #include <cmath>
 #include <limits>
 
+#include "core/error.h"
+#include "core/memory.h"
+
 namespace clusterbench::measure {
 namespace {
 
@@ -105,6 +108,13 @@ TEST(Samples, mirrored_ones_are_in_the_bounds_and_outside_of_the_view) {
   ASSERT_EQ(mirrored.size(), 2000u);
   EXPECT_TRUE(std::ranges::none_of(mirrored, in_view));
   EXPECT_TRUE(std::ranges::all_of(mirrored, in_bounds));
+}
+
+TEST(Samples, more_than_memory_holds_are_refused_before_any_is_made) {
+  EXPECT_THROW(fog_samples(frame_of(), 50.0, {1024, 1024, 1024}), Error);
+  const MemoryLimitScope limit(1 << 20);
+  EXPECT_THROW(volume_samples(frame_of(), 50.0, 1 << 20, 1), Error);
+  EXPECT_THROW(mirror_samples(frame_of(), {{-1, -1, -1}, {1, 1, 1}}, 1 << 20, 1), Error);
 }
 
 TEST(Samples, bounds_that_are_all_in_view_have_no_mirrored_ones) {

@@ -231,6 +231,21 @@ TEST(Compare, a_measure_that_only_one_result_has_is_told) {
   EXPECT_EQ(outcome(compared(next, base, 0.02), true), ExitCode::ok) << "nothing to have become worse than";
 }
 
+TEST(Compare, of_waves_the_lengths_of_lists_are_judged_and_not_what_is_divided_by_them) {
+  run::Result result = result_by_hand();
+  measure::Coherence coherence;
+  coherence.sizes[0].waves = coherence.sizes[1].waves = 10;
+  coherence.sizes[0].longest = coherence.sizes[1].longest = 30;
+  coherence.sizes[0].mean = coherence.sizes[1].mean = 20.0;
+  const measure::ShadingCounts counts{.samples = 100, .evaluated = 250, .needed = 200};
+  for (run::CaseResult& one : result.cases) one.samples = {{measure::SampleSet::opaque, counts, coherence}};
+  const Json base = json_of(result);
+  result.cases[1].samples[0].coherence->sizes[0].mean = 15.0;
+  EXPECT_EQ(compared(base, json_of(result), 0.02)["cases"][1]["counts"], "better");
+  result.cases[1].samples[0].coherence->sizes[0].longest = 31;
+  EXPECT_EQ(compared(base, json_of(result), 0.02)["cases"][1]["counts"], "worse");
+}
+
 TEST(Compare, a_lost_light_is_named_with_frame_cell_and_light) {
   run::Result next = result_by_hand();
   testing::lose_a_light(next.cases[1]);

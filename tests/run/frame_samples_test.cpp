@@ -7,6 +7,7 @@
 #include <atomic>
 
 #include "core/error.h"
+#include "run/gate.h"
 #include "run/runner.h"
 #include "scene/mesh_fixture.h"
 
@@ -133,6 +134,37 @@ TEST(FrameSamples, cases_with_other_samples_are_other_cases_and_threads_change_n
   const RoomRun threads = run_of(room(), R"(, "threads": 3, "samples": {"opaque": {}})");
   EXPECT_EQ(one.plan.groups[0].cases[0].id, threads.plan.groups[0].cases[0].id);
   EXPECT_EQ(one.result.cases[0].samples[0].counts.evaluated, threads.result.cases[0].samples[0].counts.evaluated);
+}
+
+TEST(FrameSamples, a_moved_mesh_is_another_case_with_the_same_settings) {
+  const auto with_wall_at = [](double z) {
+    Json scene = Json::parse(room());
+    scene["nodes"][3]["translation"][2] = z;
+    return run_of(scene.dump(), R"(, "samples": {"opaque": {}})").plan.groups[0].cases[0];
+  };
+  const auto with_width = [](float width) {
+    MeshFile file;
+    const Json primitive = {{"attributes", {{"POSITION", file.positions({{0, 0, 0}, {width, 0, 0}, {0, 1, 0}})}}}};
+    file.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}, {"zfar", 100}}}}};
+    file.node({{"camera", 0}});
+    file.node({{"mesh", file.mesh(primitive)}, {"translation", {0, 0, -3}}});
+    return run_of(file.text(), R"(, "samples": {"opaque": {}})").plan.groups[0].cases[0];
+  };
+  EXPECT_NE(with_wall_at(-8).id, with_wall_at(-9).id);
+  EXPECT_EQ(with_wall_at(-8).settings, with_wall_at(-9).settings);
+  EXPECT_NE(with_width(1).id, with_width(2).id);
+  EXPECT_EQ(with_width(1).settings, with_width(2).settings);
+}
+
+TEST(FrameSamples, a_structure_without_cells_that_loses_a_light_on_a_surface_fails) {
+  RoomRun run = run_of(room(), R"(, "samples": {"opaque": {}})");
+  CaseResult tree = case_named(run, "bvh/own");
+  EXPECT_TRUE(failures_of(tree, {}).empty());
+  tree.samples.at(0).counts.missed = 3;
+  ASSERT_EQ(failures_of(tree, {}).size(), 1u);
+  EXPECT_NE(failures_of(tree, {})[0].text.find("that its opaque samples need"), std::string::npos);
+  tree.samples[0].counts.missed_outside = 3;
+  EXPECT_TRUE(failures_of(tree, {}).empty());
 }
 
 }  // namespace

@@ -161,7 +161,7 @@ TEST(Gate, warns_of_what_fails_nothing_and_takes_a_case_from_the_front_where_its
 }
 
 Contender contender(const std::string& id, double time_ns, const std::string& view = "view") {
-  return {id, "hall", view, {{time_ns, time_ns}, 100.0, 1.5}, true, "grid", {}, 1, false};
+  return {id, "hall", view, {{time_ns, time_ns}, 100.0, 1.5}, true, "grid", "", {}, 1, false};
 }
 
 TEST(OnFront, cases_beat_each_other_within_one_scene_and_view) {
@@ -192,6 +192,15 @@ TEST(OnFront, times_of_the_same_rounds_or_launches_are_told_apart_by_their_ratio
   ASSERT_GT(fast.costs.time_ns.high, slow.costs.time_ns.low) << "intervals overlap";
   EXPECT_EQ(on_front(std::vector{slow, fast}, 1), (std::vector<std::string>{"fast"}));
   EXPECT_EQ(on_front(std::vector{elsewhere, fast}, 1), (std::vector<std::string>{"fast"})) << "by the same launches";
+}
+
+TEST(OnFront, times_of_two_sessions_have_no_ratio) {
+  const Contender fast = in_launches("fast", 1.0, "grid");
+  Contender slow = in_launches("slow", 1.1, "grid");
+  EXPECT_TRUE(ratio_between(slow, fast, 1));
+  slow.session = "another";
+  EXPECT_FALSE(ratio_between(slow, fast, 1));
+  EXPECT_EQ(on_front(std::vector{slow, fast}, 1), (std::vector<std::string>{"slow", "fast"}));
 }
 
 TEST(OnFront, times_without_a_ratio_are_told_apart_by_their_intervals) {

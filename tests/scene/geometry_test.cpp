@@ -149,6 +149,25 @@ TEST(Geometry, skins_stand_as_their_joints_rest_whatever_moves_them) {
   EXPECT_EQ(corners(geometry), (std::vector<Vec3f>{{0, 0, -2}, {1, 0.25, -2}, {0, 1.5, -2}}));
 }
 
+TEST(Geometry, a_skin_without_joints_and_joints_that_are_no_indices_are_refused) {
+  const auto refusal = [](const Json& joints, int component, bool normalized) {
+    MeshFile file;
+    Json of = primitive(file.positions({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+    const std::size_t chosen = file.accessor(std::string(48, '\0'), component, "VEC4", 3, 16);
+    if (normalized) file.json["accessors"][chosen]["normalized"] = true;
+    of["attributes"]["JOINTS_0"] = chosen;
+    of["attributes"]["WEIGHTS_0"] = file.accessor(std::string(48, '\0'), 5126, "VEC4", 3);
+    file.node({{"mesh", file.mesh(of)}, {"skin", 0}});
+    file.json["skins"] = {{{"joints", joints}}};
+    return test::geometry_refusal(file.text());
+  };
+  EXPECT_EQ(refusal({0}, 5121, false), "loads");
+  EXPECT_EQ(refusal(Json::array(), 5121, false), "/skins/0/joints: a skin needs a joint");
+  EXPECT_EQ(refusal({0}, 5126, false), "/accessors/1/componentType: indices must be one of 5121, 5123");
+  EXPECT_EQ(refusal({0}, 5120, false), "/accessors/1/componentType: indices must be one of 5121, 5123");
+  EXPECT_EQ(refusal({0}, 5121, true), "/accessors/1/normalized: indices are no shares");
+}
+
 TEST(Geometry, compressed_meshes_are_refused_by_name) {
   MeshFile draco;
   Json of = primitive(draco.positions(k_quad));
@@ -182,7 +201,7 @@ TEST(Geometry, what_is_broken_is_refused_where_it_stands_and_only_if_it_is_read)
             }),
             "/meshes/0/primitives/0/indices: index 4 of 4 vertices");
   EXPECT_EQ(refusal([](MeshFile& file, Json&) { file.json["accessors"][1]["componentType"] = 5122; }),
-            "/accessors/1/componentType: indices must be 5121, 5123 or 5125");
+            "/accessors/1/componentType: indices must be one of 5121, 5123, 5125");
   EXPECT_EQ(refusal([](MeshFile& file, Json&) { file.json["accessors"][0]["type"] = "VEC2"; }),
             "/accessors/0/type: found VEC2, VEC3 is needed");
   EXPECT_EQ(refusal([](MeshFile& file, Json&) { file.json["bufferViews"][0]["byteStride"] = 8; }),

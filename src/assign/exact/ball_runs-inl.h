@@ -148,7 +148,7 @@ class BallRuns {
     depth_ = {Neg(z.value), z.error};
   }
 
-  // The run's nearest point, about: where was looked for it, and what was measured there. As in geom/ball.cpp.
+  // The run's nearest point, about: where was looked for it, and what was measured there. As in geom/ball.
   struct Nearest {
     Gap x, y;
     Bound depth, along;  // along: from the centre's depth

@@ -1,5 +1,5 @@
 // The slopes of disks in double precision, for files that are compiled once per target: the vector form of
-// geom/tangents.cpp. Included after hwy/highway.h; defines its names anew for each target.
+// geom/projection/disk_tangents.cpp. Included after hwy/highway.h; defines its names anew for each target.
 
 #if defined(CLUSTERBENCH_DISKS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef CLUSTERBENCH_DISKS_INL_H
