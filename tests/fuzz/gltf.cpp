@@ -1,7 +1,10 @@
-// A scene file: .gltf text or .glb. What loads must be usable: ranges, poses, lights at its beginning and end.
+// A scene file: .gltf text or .glb. What loads must be usable: ranges, poses, lights at its beginning and end,
+// triangles.
 
+#include "core/memory.h"
 #include "fuzz/input.h"
 #include "scene/camera_path.h"
+#include "scene/geometry.h"
 #include "scene/scene.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -17,5 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     scene::PathRequest request;
     request.count = 3;
     static_cast<void>(scene::camera_paths(scene, request));
+    const MemoryLimitScope limit(std::uint64_t{64} << 20);
+    static_cast<void>(scene::load_geometry(scene));
   });
 }
