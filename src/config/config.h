@@ -81,6 +81,7 @@ struct SampleSetRequest {
   int layers = 4;              // transparent: most per ray
   Vec3i froxels{160, 90, 64};  // fog
 
+  bool needs_bounds() const { return set == measure::SampleSet::mirror || set == measure::SampleSet::anywhere; }
   bool needs_triangles() const { return set == measure::SampleSet::opaque || set == measure::SampleSet::transparent; }
 };
 

@@ -31,11 +31,14 @@ constexpr const char* k_device = "set_affinity=0";
 struct ReleaseDevice {
   void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
 };
+struct ReleaseGeometry {
+  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+};
 struct ReleaseScene {
   void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
 };
 using Device = std::unique_ptr<std::remove_pointer_t<RTCDevice>, ReleaseDevice>;
-using Surroundings = std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene>;
+using SurfaceTree = std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene>;
 
 void check(RTCDevice device) {
   const RTCError fault = rtcGetDeviceError(device);
@@ -177,13 +180,25 @@ Vec2d PixelGrid::pixel(std::size_t index) const {
           (static_cast<double>(row) + 0.5) * viewport.y / size.y};
 }
 
-// The built surfaces, around an origin: single precision does not hold the world's own coordinates.
+namespace {
+
+struct PlacedSurface {
+  std::size_t surface = 0, node = 0;
+  bool is_mirrored = false;
+  Mat4d world{1.0};
+
+  friend bool operator==(const PlacedSurface&, const PlacedSurface&) = default;
+};
+
+}  // namespace
+
+// The built surfaces, around an eye: single precision does not hold the world's own coordinates, and what is near the
+// eye shall be precise however far others reach.
 struct RayCaster::Surfaces {
   Device device;
-  Surroundings opaque, blending;
+  SurfaceTree opaque, blending;
   Vec3d origin{0.0};
-  std::vector<Mat4d> transforms;  // as they were built
-  std::vector<bool> shown;
+  std::vector<PlacedSurface> placed;  // as they were built
 
   Surfaces() : device(rtcNewDevice(k_device)) { check(device.get()); }
 };
@@ -193,96 +208,86 @@ RayCaster::~RayCaster() = default;
 
 namespace {
 
-bool is_shown(const scene::SurfaceInstance& instance, const std::vector<bool>& shown) {
-  return shown[static_cast<std::size_t>(instance.shown_by)];
+// Where the shown surfaces stand.
+std::vector<PlacedSurface> placed_surfaces(const scene::Scene& scene, const scene::Geometry& geometry, double time_s) {
+  const std::vector<Mat4d> world = world_transforms(scene, time_s);
+  const std::vector<bool> shown = visible_nodes(scene, time_s);
+  std::vector<PlacedSurface> out;
+  for (const scene::SurfaceInstance& instance : geometry.instances) {
+    const auto node = static_cast<std::size_t>(instance.shown_by);
+    if (!shown[node]) continue;
+    // In a mirrored node fronts stay fronts, of skinned meshes, too (glTF 2.0, 3.7.4).
+    const bool is_mirrored = glm::determinant(Mat3d(world[node])) < 0.0;
+    out.push_back({instance.surface, node, is_mirrored, instance.node < 0 ? Mat4d(1.0) : world[node]});
+  }
+  return out;
 }
 
 // Vertices in world space.
 template <class Take>
-void each_vertex(const scene::Geometry& geometry, const scene::SurfaceInstance& instance,
-                 const std::vector<Mat4d>& transforms, Take&& take) {
-  const std::vector<Vec3f>& vertices = geometry.surfaces[instance.surface].vertices;
-  for (const Vec3f& vertex : vertices) {
-    if (instance.node < 0)
-      take(Vec3d(vertex));
-    else
-      take(Vec3d(transforms[static_cast<std::size_t>(instance.node)] * Vec4d(Vec3d(vertex), 1.0)));
-  }
+void each_vertex(const scene::Surface& surface, const PlacedSurface& placed, Take&& take) {
+  for (const Vec3f& vertex : surface.vertices) take(Vec3d(placed.world * Vec4d(surface.origin + Vec3d(vertex), 1.0)));
 }
 
-// The middle of the box around all that is shown.
-Vec3d middle_of(const scene::Scene& scene, const scene::Geometry& geometry, const std::vector<Mat4d>& transforms,
-                const std::vector<bool>& shown) {
-  constexpr double k_far = std::numeric_limits<double>::max();
-  Vec3d lo(k_far), hi(-k_far);
-  for (const scene::SurfaceInstance& instance : geometry.instances) {
-    if (!is_shown(instance, shown)) continue;
-    each_vertex(geometry, instance, transforms, [&](const Vec3d& vertex) {
-      if (!geom::is_in_domain(vertex.x) || !geom::is_in_domain(vertex.y) || !geom::is_in_domain(vertex.z))
-        throw Error(scene.path.string(),
-                    "node '" + printable(scene.nodes[static_cast<std::size_t>(instance.shown_by)].name) + "'",
-                    "its mesh reaches farther than 1e15 m from the world's origin");
-      lo = glm::min(lo, vertex);
-      hi = glm::max(hi, vertex);
-    });
-  }
-  return lo.x > hi.x ? Vec3d(0.0) : 0.5 * (lo + hi);
+void check_domain(const scene::Scene& scene, const PlacedSurface& placed, const Vec3d& vertex) {
+  if (geom::is_in_domain(vertex.x) && geom::is_in_domain(vertex.y) && geom::is_in_domain(vertex.z)) return;
+  const scene::Node& node = scene.nodes[placed.node];
+  throw Error(scene.path.string(), "/nodes/" + std::to_string(node.gltf_index),
+              "the mesh of node '" + printable(node.name) + "' reaches farther than 1e15 m from the world's origin");
 }
 
-bool is_mirrored(const Mat4d& transform) {
-  return glm::determinant(Mat3d(transform)) < 0.0;
-}
-
-// Adds a surface where it stands. In a mirrored node fronts stay fronts (glTF 2.0, 3.7.4), so its triangles turn round.
-void add_surface(RTCDevice device, RTCScene to, const scene::Geometry& geometry, const scene::SurfaceInstance& instance,
-                 const std::vector<Mat4d>& transforms, const Vec3d& origin, RTCFilterFunctionN filter) {
-  const scene::Surface& surface = geometry.surfaces[instance.surface];
-  const bool turns = instance.node >= 0 && is_mirrored(transforms[static_cast<std::size_t>(instance.node)]);
+// Adds a surface where it stands around an origin.
+void add_surface(RTCDevice device, RTCScene to, const scene::Scene& scene, const scene::Surface& surface,
+                 const PlacedSurface& placed, const Vec3d& origin, RTCFilterFunctionN filter) {
   RTCGeometry mesh = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  const std::unique_ptr<std::remove_pointer_t<RTCGeometry>, ReleaseGeometry> owned(mesh);
   auto* vertices = static_cast<Vec3f*>(rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                                sizeof(Vec3f), surface.vertices.size()));
   auto* triangles = static_cast<scene::Triangle*>(rtcSetNewGeometryBuffer(
       mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(scene::Triangle), surface.triangles.size()));
-  if (vertices == nullptr || triangles == nullptr) return rtcReleaseGeometry(mesh);  // check() tells
-  each_vertex(geometry, instance, transforms, [&](const Vec3d& vertex) { *vertices++ = Vec3f(vertex - origin); });
+  if (vertices == nullptr || triangles == nullptr) return check(device);
+  each_vertex(surface, placed, [&](const Vec3d& vertex) {
+    check_domain(scene, placed, vertex);
+    *vertices++ = Vec3f(vertex - origin);
+  });
   for (const scene::Triangle& triangle : surface.triangles)
-    *triangles++ = turns ? scene::Triangle{triangle[0], triangle[2], triangle[1]} : triangle;
+    *triangles++ = placed.is_mirrored ? scene::Triangle{triangle[0], triangle[2], triangle[1]} : triangle;
   if (filter != nullptr) rtcSetGeometryIntersectFilterFunction(mesh, filter);
   rtcCommitGeometry(mesh);
   rtcAttachGeometry(to, mesh);
-  rtcReleaseGeometry(mesh);
 }
 
 }  // namespace
 
-void RayCaster::pose(double time_s) {
-  std::vector<Mat4d> transforms = world_transforms(scene_, time_s);
-  std::vector<bool> shown = visible_nodes(scene_, time_s);
-  if (surfaces_ && surfaces_->transforms == transforms && surfaces_->shown == shown) return;
-  // A triangle with its three vertices, and what Embree builds over it.
+void RayCaster::pose(const view::Frame& frame) {
+  std::vector<PlacedSurface> placed = placed_surfaces(scene_, geometry_, frame.time_s);
+  const Vec3d& eye = frame.view_space.origin;
+  // So far from the origin single precision still holds a tenth of a millimetre.
+  constexpr double k_far_m = 1000.0;
+  if (surfaces_ && surfaces_->placed == placed && glm::length(eye - surfaces_->origin) <= k_far_m) return;
+  // A triangle and what Embree builds over it.
   constexpr std::uint64_t k_bytes_of_triangle = 256;
   check_memory("triangles", geometry_.triangle_count(), k_bytes_of_triangle);
+  check_memory("vertices", geometry_.vertex_count(), sizeof(Vec3f));
   if (!surfaces_) surfaces_ = std::make_unique<Surfaces>();
   Surfaces& now = *surfaces_;
-  now.transforms.clear();  // until all stands
-  now.origin = middle_of(scene_, geometry_, transforms, shown);
-  for (Surroundings* surroundings : {&now.opaque, &now.blending}) {
-    surroundings->reset(rtcNewScene(now.device.get()));
-    rtcSetSceneFlags(surroundings->get(), RTC_SCENE_FLAG_ROBUST);
+  now.placed.clear();  // until all stands
+  now.origin = eye;
+  for (SurfaceTree* tree : {&now.opaque, &now.blending}) {
+    tree->reset(rtcNewScene(now.device.get()));
+    rtcSetSceneFlags(tree->get(), RTC_SCENE_FLAG_ROBUST);
   }
-  for (const scene::SurfaceInstance& instance : geometry_.instances) {
-    if (!is_shown(instance, shown)) continue;
-    const scene::Surface& surface = geometry_.surfaces[instance.surface];
+  for (const PlacedSurface& one : placed) {
+    const scene::Surface& surface = geometry_.surfaces[one.surface];
     const RTCFilterFunctionN filter = surface.blends ? (surface.double_sided ? gather_both_sides : gather_fronts)
                                                      : (surface.double_sided ? nullptr : leave_out_backs);
-    add_surface(now.device.get(), (surface.blends ? now.blending : now.opaque).get(), geometry_, instance, transforms,
-                now.origin, filter);
+    add_surface(now.device.get(), (surface.blends ? now.blending : now.opaque).get(), scene_, surface, one, now.origin,
+                filter);
   }
   rtcCommitScene(now.opaque.get());
   rtcCommitScene(now.blending.get());
   check(now.device.get());
-  now.transforms = std::move(transforms);
-  now.shown = std::move(shown);
+  now.placed = std::move(placed);
 }
 
 DepthImage RayCaster::depths(const view::Frame& frame, const PixelGrid& pixels, int threads) const {

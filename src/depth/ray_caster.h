@@ -48,11 +48,11 @@ class RayCaster {
   RayCaster(const RayCaster&) = delete;
   RayCaster& operator=(const RayCaster&) = delete;
 
-  // Puts the surfaces where they stand at a time; builds anew only where that differs from the time before. Throws
-  // Error for surfaces outside of the domain and beyond the limit on memory.
-  void pose(double time_s);
+  // Puts the surfaces where they stand at a frame's time, around its eye; builds anew only where surfaces have moved, or
+  // the eye far from where it was. Throws Error for surfaces outside of the domain and beyond the limit on memory.
+  void pose(const view::Frame& frame);
 
-  // Of a frame at that time. The same for any number of threads.
+  // Of the frame that it was posed for. The same for any number of threads.
   DepthImage depths(const view::Frame& frame, const PixelGrid& pixels, int threads) const;
   // At most `most_layers` for each pixel: the nearest ones.
   LayerImage layers(const view::Frame& frame, const DepthImage& opaque, int most_layers, int threads) const;

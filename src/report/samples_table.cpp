@@ -13,6 +13,7 @@ double per_sample(const Json& set, const char* what) {
 
 // Lights given per sample, and what is unlit or has no answer.
 std::string given_text(const Json& set) {
+  if (set["samples"] == 0) return "none";
   if (set["unanswered"] == set["samples"]) return "no answer";
   const double unlit = set["unlit"].is_number() ? set["unlit"].get<double>() : 0.0;
   return text("%.2f", per_sample(set, "evaluated")) + (unlit > 0.0 ? text(", %.3g %% unlit", 100.0 * unlit) : "");
@@ -23,7 +24,7 @@ std::string samples_block(const std::string& block, const std::vector<NamedCase>
   Cells headings{"", "assigner"}, needed{"", "(needed)"};
   for (const auto& [name, set] : (*cases.front().result_case)["samples"].items()) {
     headings.push_back(name);
-    needed.push_back(text("%.2f", per_sample(set, "needed")));
+    needed.push_back(set["samples"] == 0 ? "-" : text("%.2f", per_sample(set, "needed")));
   }
   std::vector<Cells> rows{headings, needed};
   for (const NamedCase& named : cases) {

@@ -3,18 +3,19 @@
 namespace clusterbench::run {
 
 FrameSamples::FrameSamples(const config::Config& config, const SceneData& data, const PathFrames& path)
-    : config_(config), path_(path) {
+    : config_(config), data_(data), path_(path) {
   if (data.geometry && !data.geometry->empty()) caster_.emplace(data.scene, *data.geometry);
 }
 
 std::vector<SamplesAtHand> FrameSamples::of(const view::Frame& frame) {
-  if (caster_) caster_->pose(frame.time_s);
+  if (caster_) caster_->pose(frame);
   std::vector<SamplesAtHand> out;
   for (const config::SampleSetRequest& request : config_.sample_sets) {
     SamplesAtHand& set = out.emplace_back();
+    if (!set_obstacle(request, data_).empty()) continue;
     if (!request.needs_triangles())
       set.samples = points_of(request, frame);
-    else if (caster_)
+    else
       look_at_surfaces(request, frame, set);
   }
   return out;

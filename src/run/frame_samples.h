@@ -32,6 +32,7 @@ class FrameSamples {
   void look_at_surfaces(const config::SampleSetRequest& request, const view::Frame& frame, SamplesAtHand& out) const;
 
   const config::Config& config_;
+  const SceneData& data_;
   const PathFrames& path_;
   std::optional<depth::RayCaster> caster_;
 };

@@ -303,18 +303,19 @@ class Run {
     if (method.has_cells && config_.check_accuracy) out.error = method.error;
     if (out.error && out.error->deepest)
       out.deepest_miss_light = scene.lights[static_cast<std::size_t>(out.error->deepest->rig_index)].name;
-    add_samples(structure, out);
+    add_samples(plan_.scenes[plan.scene], structure, out);
     out.lookup = structure.lookup;
     out.failures = failures_of(out, config_.limits);
     return out;
   }
 
   // Of the whole view's samples, and of the sets that the scene has.
-  static void add_samples(const StructureMeasures& structure, CaseResult& out) {
-    for (const SampleSetResult& set : structure.samples) {
+  void add_samples(const SceneData& data, const StructureMeasures& structure, CaseResult& out) const {
+    for (std::size_t i = 0; i < config_.sample_sets.size(); ++i) {
+      const SampleSetResult& set = structure.samples[i];
       if (set.set == measure::SampleSet::volume)
         out.shading = set.counts;
-      else if (set.counts.samples > 0)
+      else if (set_obstacle(config_.sample_sets[i], data).empty())
         out.samples.push_back(set);
     }
   }

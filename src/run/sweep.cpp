@@ -11,6 +11,7 @@
 #include "core/memory.h"
 #include "core/pattern.h"
 #include "core/text.h"
+#include "geom/shapes/domain.h"
 #include "scene/domain.h"
 #include "view/frame.h"
 
@@ -323,13 +324,10 @@ class Expansion {
   // Sets of samples that a scene with cases cannot have.
   void skip_sets(Plan& plan) const {
     for (std::size_t i = 0; i < plan.scenes.size(); ++i) {
-      const SceneData& data = plan.scenes[i];
-      const bool has_cases = std::ranges::any_of(plan.groups, [&](const GroupPlan& group) { return group.scene == i; });
-      if (!has_cases || (data.geometry && !data.geometry->empty())) continue;
+      if (std::ranges::none_of(plan.groups, [&](const GroupPlan& group) { return group.scene == i; })) continue;
       for (const config::SampleSetRequest& request : config_.sample_sets)
-        if (request.needs_triangles())
-          plan.skipped.push_back(
-              {data.scene.name + "/samples " + measure::name_of(request.set), "the scene has no triangles"});
+        if (const std::string reason = set_obstacle(request, plan.scenes[i]); !reason.empty())
+          plan.skipped.push_back({plan.scenes[i].scene.name + "/samples " + measure::name_of(request.set), reason});
     }
   }
 
@@ -349,6 +347,14 @@ class Expansion {
 
 std::string SceneData::contents_sha256() const {
   return geometry ? sha256_hex(scene.sha256 + geometry->sha256) : scene.sha256;
+}
+
+std::string set_obstacle(const config::SampleSetRequest& request, const SceneData& data) {
+  if (request.needs_triangles() && (!data.geometry || data.geometry->empty())) return "the scene has no triangles";
+  const bool has_bounds = std::ranges::any_of(data.scene.lights, [](const scene::Light& light) {
+    return light.type != scene::LightType::directional && std::isfinite(geom::range_in_domain(light.range_m));
+  });
+  return request.needs_bounds() && !has_bounds ? "no light of the scene has an end" : "";
 }
 
 std::vector<Method> methods_of(const GroupPlan& group) {

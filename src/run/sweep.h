@@ -62,6 +62,9 @@ struct SceneData {
   std::string contents_sha256() const;
 };
 
+// Why a scene cannot have a set of samples; "" if it can.
+std::string set_obstacle(const config::SampleSetRequest& request, const SceneData& data);
+
 struct Plan {
   std::vector<SceneData> scenes;  // loaded, ranges resolved
   std::vector<GroupPlan> groups;

@@ -15,6 +15,7 @@ using Triangle = std::array<std::uint32_t, 3>;  // indices of vertices, counter-
 
 // A primitive of a mesh, as its own space has it.
 struct Surface {
+  Vec3d origin{0.0};  // of the vertices: where a skin puts them is far from the world's zero at times
   std::vector<Vec3f> vertices;
   std::vector<Triangle> triangles;
   bool blends = false;        // alphaMode BLEND: what is behind it is seen, too. Textures are never read
@@ -35,6 +36,7 @@ struct Geometry {
   std::vector<std::string> warnings;
 
   std::uint64_t triangle_count() const;  // of all instances
+  std::uint64_t vertex_count() const;    // likewise
   bool empty() const { return instances.empty(); }
 };
 

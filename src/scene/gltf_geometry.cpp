@@ -87,11 +87,16 @@ class MeshReader {
     if (mode < 4 || !attributes.has("POSITION")) return std::nullopt;  // points, lines, or nothing to draw
     if (primitive.has("targets")) primitive.at("targets").warn("morph targets are not read: the mesh stands unmorphed");
     const std::size_t positions = accessor_of(attributes.at("POSITION"), "VEC3");
-    if (has_extension(primitive, k_draco) && !reader_.has_data(positions))
+    const bool has_indices =
+        !primitive.has("indices") || reader_.has_data(accessor_of(primitive.at("indices"), "SCALAR"));
+    if (has_extension(primitive, k_draco) && !(reader_.has_data(positions) && has_indices))
       primitive.at("extensions").at(k_draco).refuse("Draco compression is not read; export the scene without it");
     Surface surface;
     read_material(primitive, surface);
-    surface.vertices = skin ? skinned(attributes, positions, *skin) : vertices_of(positions);
+    if (skin)
+      read_skinned(attributes, positions, *skin, surface);
+    else
+      surface.vertices = vertices_of(positions);
     surface.triangles = triangles_of(static_cast<Mode>(mode), corners_of(primitive, surface.vertices.size()));
     return surface;
   }
@@ -163,7 +168,7 @@ class MeshReader {
   }
 
   // Where the skin's joints put vertices at rest, in world space.
-  std::vector<Vec3f> skinned(const JsonLocation& attributes, std::size_t positions, std::size_t skin) {
+  void read_skinned(const JsonLocation& attributes, std::size_t positions, std::size_t skin, Surface& surface) {
     const std::vector<Mat4d>& joints = joints_of(skin);
     const std::vector<double> at = checked_numbers(positions, 3);
     const std::size_t joints_of_vertices = accessor_of(attributes.at("JOINTS_0"), "VEC4");
@@ -173,8 +178,9 @@ class MeshReader {
     const std::size_t count = at.size() / 3;
     if (chosen.size() / 4 != count || weights.size() / 4 != count)
       attributes.refuse("JOINTS_0 and WEIGHTS_0 must have as many elements as POSITION");
-    std::vector<Vec3f> out;
-    out.reserve(count);
+    if (attributes.has("JOINTS_1")) attributes.at("JOINTS_1").warn("only the first four joints of a vertex are read");
+    surface.origin = Vec3d(joints.front()[3]);
+    surface.vertices.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
       const Vec4d point(at[3 * i], at[3 * i + 1], at[3 * i + 2], 1.0);
       Vec4d sum(0.0);
@@ -188,9 +194,9 @@ class MeshReader {
         sum += weights[k] * (joints[static_cast<std::size_t>(chosen[k])] * point);
         whole += weights[k];
       }
-      out.emplace_back(whole > 0.0 ? Vec3d(sum) / whole : Vec3d(joints.front() * point));
+      surface.vertices.emplace_back((whole > 0.0 ? Vec3d(sum) / whole : Vec3d(joints.front() * point)) -
+                                    surface.origin);
     }
-    return out;
   }
 
   // Whole numbers of these components, as they are.
@@ -242,6 +248,7 @@ void append_bytes(const std::vector<T>& values, std::string& out) {
 std::string sha256_of(const Geometry& geometry) {
   std::string bytes;
   for (const Surface& surface : geometry.surfaces) {
+    append_bytes(std::vector{surface.origin}, bytes);
     append_bytes(surface.vertices, bytes);
     append_bytes(surface.triangles, bytes);
     bytes += surface.blends ? 'b' : 'o';
@@ -256,6 +263,12 @@ std::string sha256_of(const Geometry& geometry) {
 std::uint64_t Geometry::triangle_count() const {
   std::uint64_t count = 0;
   for (const SurfaceInstance& instance : instances) count += surfaces[instance.surface].triangles.size();
+  return count;
+}
+
+std::uint64_t Geometry::vertex_count() const {
+  std::uint64_t count = 0;
+  for (const SurfaceInstance& instance : instances) count += surfaces[instance.surface].vertices.size();
   return count;
 }
 

@@ -135,7 +135,7 @@ TEST_P(Pictures, have_the_depths_and_layers_that_a_loop_over_all_triangles_finds
   const LoadedGeometry from = soup();
   const view::Frame frame = view::make_frame(from.scene, shot_of(GetParam()), 0, {96, 60});
   RayCaster caster(from.scene, from.geometry);
-  caster.pose(0.0);
+  caster.pose(frame);
   const PixelGrid pixels(frame.viewport, 1);
   const DepthImage image = caster.depths(frame, pixels, 1);
   const LayerImage layers = caster.layers(frame, image, 3, 1);
@@ -174,7 +174,7 @@ TEST(RayCaster, pictures_are_the_same_on_any_number_of_threads) {
   const LoadedGeometry from = soup();
   const view::Frame frame = view::make_frame(from.scene, shot_of(false), 0, {97, 61});
   RayCaster caster(from.scene, from.geometry);
-  caster.pose(0.0);
+  caster.pose(frame);
   const DepthImage one = caster.depths(frame, PixelGrid(frame.viewport, 1), 1);
   const DepthImage four = caster.depths(frame, PixelGrid(frame.viewport, 1), 4);
   EXPECT_EQ(one.nearest, four.nearest);
@@ -195,8 +195,8 @@ float depth_at_middle(const LoadedGeometry& from, RayCaster& caster, double time
   shot.projection.near_m = 0.1;
   shot.projection.far_m = k_nothing;
   shot.time_s = time_s;
-  caster.pose(time_s);
   const view::Frame frame = view::make_frame(from.scene, shot, 0, {8, 8});
+  caster.pose(frame);
   return caster.depths(frame, PixelGrid(frame.viewport, 8), 1).nearest.at(0);
 }
 
@@ -228,7 +228,40 @@ TEST(RayCaster, depths_far_from_the_worlds_origin_are_as_good_as_near_it) {
   shot.pose = scene::camera_pose(glm::translate(Mat4d(1.0), Vec3d(1e7 + 0.5, 0, 0)));
   const view::Frame frame = view::make_frame(from.scene, shot, 0, {8, 8});
   RayCaster caster(from.scene, from.geometry);
-  caster.pose(0.0);
+  caster.pose(frame);
+  EXPECT_FLOAT_EQ(caster.depths(frame, PixelGrid(frame.viewport, 8), 1).nearest.at(0), 5.125f);
+}
+
+// The box around both is 1e9 m wide; single precision around its middle holds 64 m.
+TEST(RayCaster, a_far_object_leaves_near_ones_as_precise_as_they_are) {
+  MeshFile file;
+  const std::size_t mesh = wall(file);
+  file.node({{"mesh", mesh}, {"translation", {0, 0, -5.125}}});
+  file.node({{"mesh", mesh}, {"translation", {1e9, 0, 0}}});
+  const LoadedGeometry from = scene::test::loaded_geometry(file.text());
+  RayCaster caster(from.scene, from.geometry);
+  EXPECT_FLOAT_EQ(depth_at_middle(from, caster, 0.0), 5.125f);
+}
+
+// The skin's joint stands in a mirrored node; a wall of one side is seen all the same.
+TEST(RayCaster, skinned_meshes_in_mirrored_nodes_show_their_fronts_however_far_from_the_origin) {
+  MeshFile file;
+  Json primitive = {{"attributes", {{"POSITION", file.positions({{-2, -2, 0}, {2, -2, 0}, {-2, 2, 0}, {2, 2, 0}})}}},
+                    {"mode", 5}};
+  primitive["attributes"]["JOINTS_0"] = file.accessor(std::string(16, '\0'), 5121, "VEC4", 4);
+  primitive["attributes"]["WEIGHTS_0"] = file.accessor(
+      scene::test::bytes_of(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}), 5126, "VEC4", 4);
+  file.node({{"translation", {1e9, 0, -5.125}}, {"scale", {-1, 1, 1}}, {"children", {1, 2}}});
+  file.node({{"mesh", file.mesh(primitive)}, {"skin", 0}});
+  file.node({{"name", "joint"}});
+  file.json["skins"] = {{{"joints", {2}}}};
+  file.json["scenes"] = {{{"nodes", {0}}}};
+  const LoadedGeometry from = scene::test::loaded_geometry(file.text());
+  RayCaster caster(from.scene, from.geometry);
+  scene::Shot shot = shot_of(false);
+  shot.pose = scene::camera_pose(glm::translate(Mat4d(1.0), Vec3d(1e9, 0, 0)));
+  const view::Frame frame = view::make_frame(from.scene, shot, 0, {8, 8});
+  caster.pose(frame);
   EXPECT_FLOAT_EQ(caster.depths(frame, PixelGrid(frame.viewport, 8), 1).nearest.at(0), 5.125f);
 }
 
@@ -238,10 +271,11 @@ TEST(RayCaster, a_mesh_beyond_the_domain_is_named) {
   const LoadedGeometry from = scene::test::loaded_geometry(file.text());
   RayCaster caster(from.scene, from.geometry);
   try {
-    caster.pose(0.0);
+    caster.pose(view::make_frame(from.scene, shot_of(false), 0, {8, 8}));
     FAIL();
   } catch (const Error& error) {
-    EXPECT_EQ(error.where(), "node 'moon'");
+    EXPECT_EQ(error.where(), "/nodes/0");
+    EXPECT_NE(error.message().find("'moon'"), std::string::npos);
   }
 }
 

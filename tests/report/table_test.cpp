@@ -365,11 +365,13 @@ TEST(Table, sets_of_samples_have_a_table_with_what_they_need_and_where_nothing_a
     opaque.missed = one.assigner == "aabb" ? 5 : 0;
     measure::ShadingCounts mirror{.samples = 100, .needed = 40, .missed = 40};
     mirror.unanswered = 100;
-    one.samples = {{measure::SampleSet::opaque, opaque, {}}, {measure::SampleSet::mirror, mirror, {}}};
+    one.samples = {{measure::SampleSet::opaque, opaque, {}},
+                   {measure::SampleSet::mirror, mirror, {}},
+                   {measure::SampleSet::transparent, {}, {}}};
   }
   const std::string table = table_of(result), samples = table.substr(table.find("lights per sample of hall"));
   EXPECT_NE(line_with(samples, "(needed)").find("2.00"), std::string::npos) << samples;
-  EXPECT_NE(line_with(samples, "aabb").find("2.50, 2.5 % unlit  no answer"), std::string::npos) << samples;
+  EXPECT_NE(line_with(samples, "aabb").find("2.50, 2.5 % unlit  no answer         none"), std::string::npos) << samples;
 }
 
 }  // namespace

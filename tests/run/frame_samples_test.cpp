@@ -127,6 +127,19 @@ TEST(FrameSamples, a_scene_without_triangles_skips_the_sets_of_surfaces_with_the
   EXPECT_EQ(run.result.cases.at(0).samples.size(), 1u);
 }
 
+TEST(FrameSamples, a_set_without_a_sample_says_so_and_lights_without_end_bound_none) {
+  Json endless = Json::parse(room());
+  endless["extensions"]["KHR_lights_punctual"]["lights"][0]["range"] = 1e18;
+  for (Json& material : endless["materials"]) material["alphaMode"] = "OPAQUE";
+  const RoomRun run = run_of(endless.dump(), R"(, "samples": {"transparent": {}, "anywhere": {}})");
+  ASSERT_EQ(run.plan.skipped.size(), 1u);
+  EXPECT_EQ(run.plan.skipped[0].name, "room/samples anywhere");
+  EXPECT_EQ(run.plan.skipped[0].reason, "no light of the scene has an end");
+  const CaseResult& one = case_named(run, "exact-fast/packed");
+  ASSERT_EQ(one.samples.size(), 1u);
+  EXPECT_EQ(one.samples[0].counts.samples, 0u);
+}
+
 TEST(FrameSamples, cases_with_other_samples_are_other_cases_and_threads_change_nothing) {
   const RoomRun one = run_of(room(), R"(, "samples": {"opaque": {}})");
   const RoomRun finer = run_of(room(), R"(, "samples": {"opaque": {"divisor": 4}})");

@@ -25,7 +25,8 @@ Json primitive(std::size_t positions) {
 std::vector<Vec3f> corners(const Geometry& geometry) {
   std::vector<Vec3f> out;
   for (const Triangle& triangle : geometry.surfaces.at(0).triangles)
-    for (const std::uint32_t corner : triangle) out.push_back(geometry.surfaces[0].vertices.at(corner));
+    for (const std::uint32_t corner : triangle)
+      out.emplace_back(geometry.surfaces[0].origin + Vec3d(geometry.surfaces[0].vertices.at(corner)));
   return out;
 }
 
