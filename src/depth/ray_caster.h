@@ -48,8 +48,8 @@ class RayCaster {
   RayCaster(const RayCaster&) = delete;
   RayCaster& operator=(const RayCaster&) = delete;
 
-  // Puts the surfaces where they stand at a frame's time, around its eye; builds anew only where surfaces have moved, or
-  // the eye far from where it was. Throws Error for surfaces outside of the domain and beyond the limit on memory.
+  // Puts the surfaces where they stand at a frame's time, around its eye; builds anew only where surfaces have moved,
+  // or the eye far from where it was. Throws Error for surfaces outside of the domain and beyond the limit on memory.
   void pose(const view::Frame& frame);
 
   // Of the frame that it was posed for. The same for any number of threads.
