@@ -322,14 +322,19 @@ describe("what a case loses", () => {
   });
 
   it("is ranked by what a frame takes, with its parts and its worst frame beside it", async () => {
-    const page = await open(pages.lossy);
+    const page = await open(pages.quick); // medians of a few rounds need not add up
+    await page.getByRole("radio", { name: "street" }).check();
     const all = (await rows(page)).map((one) => Object.fromEntries(Object.entries(one).map(([label, text]) => [label, parseFloat(String(text).replaceAll(/[,~]/g, ""))])));
     assert.ok(isAscending(all.map((one) => one["frame µs"])), JSON.stringify(all));
+    let converted = 0;
     for (const one of all) {
       assert.ok(one["worst µs"] >= 0.99 * one["frame µs"], JSON.stringify(one));
+      if (Number.isNaN(one["convert µs"])) continue; // a structure of its own, which converts nothing
       assert.ok(one["assign µs"] < one["frame µs"] && one["convert µs"] < one["frame µs"], JSON.stringify(one));
       assert.ok(one["most pairs"] >= one.pairs, JSON.stringify(one));
+      ++converted;
     }
+    assert.ok(converted > 5, String(converted));
   });
 
   it("takes no part in the chart's front", async () => {
