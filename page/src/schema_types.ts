@@ -361,6 +361,10 @@ export type Result = {
         assign_ns: Time; // Per frame: as the one beside cold times
         convert_ns?: Time; // Per frame: as the one beside cold times
       }; // The same frames with warm caches, beside cold times; samples need not be as many
+      passes_per_sample?: {
+        assign: number; // Of assign_ns
+        convert?: number; // Of convert_ns; absent where a method leaves its own structure
+      }; // How many passes over the timed frames one sample of warm times is the mean of, in the launch with fewest; each launch runs as many as take timing.min_time_ms. A sample of cold times is one pass [passes, over one sample]
       disturbed?: {
         others_cores: number | null; // Processors that other programs of the machine kept busy meanwhile, in the mean [processors]
         stolen_cores: number | null; // Processors that other guests of the host took meanwhile, in the mean [processors]

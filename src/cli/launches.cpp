@@ -22,29 +22,44 @@ using run::StoreSamples;
 constexpr const char* k_ready = "ready";
 
 Json to_json(const StoreSamples& store) {
-  return {{"warm_ns", store.warm_ns}, {"warm_each", store.warm_each}, {"cold_each", store.cold_each}};
+  return {{"warm_ns", store.warm_ns},
+          {"warm_each", store.warm_each},
+          {"cold_each", store.cold_each},
+          {"warm_passes", store.warm_passes}};
 }
 
 StoreSamples store_samples(const Json& json) {
-  return {json.at("warm_ns"), json.at("warm_each"), json.at("cold_each")};
+  return {json.at("warm_ns"), json.at("warm_each"), json.at("cold_each"), json.at("warm_passes")};
 }
 
 Json to_json(const MethodSamples& method) {
   Json stores = Json::array();
   for (const StoreSamples& store : method.stores) stores.push_back(to_json(store));
-  return {{"frames", method.frames},       {"mean_frames", method.mean_frames},
-          {"pairs", method.pairs},         {"builds_per_frame", method.builds_per_frame},
-          {"build_ns", method.build_ns},   {"warm_ns", method.warm_ns},
-          {"floor_ns", method.floor_ns},   {"warm_each", method.warm_each},
-          {"cold_each", method.cold_each}, {"stores", stores}};
+  return {{"frames", method.frames},
+          {"mean_frames", method.mean_frames},
+          {"pairs", method.pairs},
+          {"builds_per_frame", method.builds_per_frame},
+          {"build_ns", method.build_ns},
+          {"warm_ns", method.warm_ns},
+          {"floor_ns", method.floor_ns},
+          {"warm_each", method.warm_each},
+          {"cold_each", method.cold_each},
+          {"warm_passes", method.warm_passes},
+          {"stores", stores}};
 }
 
 MethodSamples method_samples(const Json& json) {
-  MethodSamples method{json.at("frames"),    json.at("mean_frames"),
-                       json.at("pairs"),     json.at("builds_per_frame"),
-                       json.at("build_ns"),  json.at("warm_ns"),
-                       json.at("floor_ns"),  json.at("warm_each"),
-                       json.at("cold_each"), {}};
+  MethodSamples method{json.at("frames"),
+                       json.at("mean_frames"),
+                       json.at("pairs"),
+                       json.at("builds_per_frame"),
+                       json.at("build_ns"),
+                       json.at("warm_ns"),
+                       json.at("floor_ns"),
+                       json.at("warm_each"),
+                       json.at("cold_each"),
+                       json.at("warm_passes"),
+                       {}};
   for (const Json& store : json.at("stores")) method.stores.push_back(store_samples(store));
   return method;
 }

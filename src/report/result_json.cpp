@@ -231,6 +231,8 @@ Json timing(const run::TimingResult& t) {
     out["warm"] = {{"frame_ns", to_json(t.warm->frame_ns)}, {"assign_ns", to_json(t.warm->assign_ns)}};
     if (t.warm->convert_ns) out["warm"]["convert_ns"] = to_json(*t.warm->convert_ns);
   }
+  out["passes_per_sample"] = {{"assign", t.warm_assign_passes}};
+  if (t.warm_convert_passes) out["passes_per_sample"]["convert"] = *t.warm_convert_passes;
   out["ns_per_pair"] = six_digits(t.ns_per_pair);
   out["write_floor_ns"] = six_digits(t.write_floor_ns);
   out["floor_ratio"] = six_digits(t.floor_ratio);

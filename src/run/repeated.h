@@ -20,6 +20,8 @@ class Repeated {
   double sample();
   // As many runs as a sample has, untimed: caches and branch predictors then know this work, and not the one before.
   void warm_up();
+  // In one sample; 0 before the first.
+  int runs_per_sample() const { return repeats_; }
 
  private:
   void calibrate();

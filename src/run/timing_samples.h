@@ -21,6 +21,7 @@ using EachFrame = std::vector<double>;  // one time per frame
 struct StoreSamples {
   std::vector<double> warm_ns;                  // of each round: per frame
   std::vector<EachFrame> warm_each, cold_each;  // of each round
+  int warm_passes = 0;                          // over the frames, in one of warm_ns
 };
 
 struct MethodSamples {
@@ -30,6 +31,7 @@ struct MethodSamples {
   double builds_per_frame = 0.0;
   std::vector<double> build_ns, warm_ns, floor_ns;  // of each round: per build, per frame, per frame
   std::vector<EachFrame> warm_each, cold_each;      // of each round; the first only without the second
+  int warm_passes = 0;                              // over the frames, in one of warm_ns
   std::vector<StoreSamples> stores;  // in the order of the method's cases; empty where nothing is converted
 };
 

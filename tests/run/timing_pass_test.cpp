@@ -38,6 +38,8 @@ TEST(TimingPass, caches_are_swept_before_each_frame_that_is_measured_cold) {
   for (const MethodSamples& method : samples.methods) {
     EXPECT_EQ(method.cold_each.size(), 4u);
     EXPECT_EQ(method.warm_ns.size(), 4u);
+    EXPECT_GE(method.warm_passes, 1);
+    EXPECT_GE(method.stores[1].warm_passes, 1);
     EXPECT_TRUE(method.warm_each.empty());
     ASSERT_EQ(method.stores.size(), 2u);
     EXPECT_EQ(method.stores[1].cold_each.size(), 4u);
@@ -71,8 +73,9 @@ TEST(TimingPass, the_frame_with_most_pairs_is_timed_beside_those_of_the_means) {
 }
 
 // One method of three frames, the last of which is not in the means.
-GroupSamples by_hand(double assign_ns, double convert_ns) {
+GroupSamples by_hand(double assign_ns, double convert_ns, int assign_passes = 7, int convert_passes = 80) {
   MethodSamples method;
+  method.warm_passes = assign_passes;
   method.frames = {0, 4, 2};
   method.mean_frames = 2;
   method.pairs = {10, 30, 70};
@@ -83,7 +86,7 @@ GroupSamples by_hand(double assign_ns, double convert_ns) {
     method.cold_each.push_back({0.9 * assign_ns, 1.1 * assign_ns, 3.0 * assign_ns});
   }
   method.stores.push_back(
-      {{convert_ns, convert_ns}, {}, {{convert_ns, convert_ns, convert_ns}, {0, 2 * convert_ns, 0}}});
+      {{convert_ns, convert_ns}, {}, {{convert_ns, convert_ns, convert_ns}, {0, 2 * convert_ns, 0}}, convert_passes});
   return {{method}, {10.0, 5.0, 1.0, 2}};
 }
 
@@ -102,6 +105,14 @@ TEST(TimingPass, means_are_of_their_frames_and_the_worst_is_of_all) {
   EXPECT_NEAR(timing.worst.ns, 3050.0, 1e-9);  // of two rounds, 3100 and 3000
   EXPECT_EQ(timing.worst.pairs, 70u);
   EXPECT_EQ(timing.frames_timed, 2);
+}
+
+TEST(TimingPass, passes_of_a_sample_are_those_of_the_launch_with_fewest) {
+  const Walk walk = timed_walk(R"("assigners": ["aabb"])");
+  const std::vector<GroupSamples> launches{by_hand(1000.0, 10.0, 7, 80), by_hand(1000.0, 10.0, 5, 90)};
+  const TimingResult timing = timing_results(walk.config, walk.plan.groups[0], launches).at(0);
+  EXPECT_EQ(timing.warm_assign_passes, 5);
+  EXPECT_EQ(timing.warm_convert_passes, 80);
 }
 
 TEST(TimingPass, of_several_launches_intervals_are_between_them) {

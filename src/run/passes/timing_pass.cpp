@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <deque>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -46,12 +47,14 @@ class TimingTrack {
     work_.assign();  // warms caches
     const auto frames = static_cast<double>(work_.frame_count());
     samples_.warm_ns.push_back(assign_.sample() / frames);
+    samples_.warm_passes = assign_.runs_per_sample();
     samples_.floor_ns.push_back(floor_.sample() / frames);
     // Conversion's branches depend on the lists: without runs of its own before, a few of them cost up to a quarter
     // more after a method with other lists than after one with the same.
     for (std::size_t store = 0; store < samples_.stores.size(); ++store) {
       converts_[store].warm_up();
       samples_.stores[store].warm_ns.push_back(converts_[store].sample() / frames);
+      samples_.stores[store].warm_passes = converts_[store].runs_per_sample();
     }
   }
 
@@ -161,6 +164,9 @@ class MethodTimes {
     TimingResult out = of_method(warm);
     WarmTimes times{stats(converts ? sums(warm, warm_convert) : warm), stats(warm), std::nullopt};
     if (converts) times.convert_ns = stats(warm_convert);
+    out.warm_assign_passes = fewest([&](const MethodSamples& method) { return method.warm_passes; });
+    if (converts)
+      out.warm_convert_passes = fewest([&](const MethodSamples& method) { return method.stores[store].warm_passes; });
     std::vector<EachFrame> each = frames(&MethodSamples::cold_each);
     out.is_cold = !each.empty();
     if (!out.is_cold) {
@@ -209,6 +215,14 @@ class MethodTimes {
   std::vector<EachFrame> frames(std::vector<EachFrame> MethodSamples::*part) const { return rounds(part); }
   std::vector<EachFrame> frames(std::size_t store, std::vector<EachFrame> StoreSamples::*part) const {
     return rounds(store, part);
+  }
+
+  // Each launch finds out by itself how many passes take long enough for a sample.
+  template <class Of>
+  int fewest(const Of& of) const {
+    int least = std::numeric_limits<int>::max();
+    for (const GroupSamples& launch : launches_) least = std::min(least, of(launch.methods[method_]));
+    return least;
   }
 
   // What all cases of the method have in common.
