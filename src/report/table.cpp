@@ -151,7 +151,7 @@ Extras extras_of(const Json& cases) {
   for (const Json& one : cases) {
     storages.insert(one["storage"].get<std::string>());
     extras.times |= number_at(one, "/timing/frame_ns/median").has_value();
-    extras.conversions |= at(one, "/timing/convert_ns/median") != nullptr;
+    extras.conversions |= number_at(one, "/timing/convert_ns/median").has_value();
     extras.builds |= number_at(one, "/timing/builds_per_frame").value_or(0.0) != 0.0;
     extras.instructions |= one.contains("count");
     extras.cold |= one.contains("timing") && one["timing"].value("caches", "") == "cold";
