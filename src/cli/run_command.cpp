@@ -100,7 +100,8 @@ std::size_t case_count(const run::Plan& plan) {
 
 ExitCode print_plan(const config::Config& config, const run::Plan& plan) {
   for (const run::GroupPlan& group : plan.groups)
-    for (const run::CasePlan& planned : group.cases) std::cout << planned.id << "  " << printable(planned.name) << "\n";
+    for (const run::CasePlan& case_plan : group.cases)
+      std::cout << case_plan.id << "  " << printable(case_plan.name) << "\n";
   for (const run::Skipped& skipped : plan.skipped)
     std::cout << "skipped  " << printable(skipped.name) << ": " << printable(skipped.reason) << "\n";
   std::cerr << number_of(case_count(plan), "case") << ", " << plan.skipped.size() << " skipped\n";
@@ -150,10 +151,14 @@ std::unique_ptr<report::Journal> open_journal(const RunFlags& flags, const confi
   return journal;
 }
 
-// Whoever is told of an end before the end is told what is left, too.
+// For messages about a run that ends early: where its finished cases are.
 std::string what_is_kept(const report::Journal* journal) {
   if (journal == nullptr || journal->is_empty()) return "";
   return "; what was measured is in " + journal->partial_path().string() + ", --resume goes on";
+}
+
+Error with_what_is_kept(const Error& error, const report::Journal* journal) {
+  return Error(error.file(), error.where(), error.message() + what_is_kept(journal), error.code());
 }
 
 ExitCode interrupted(const report::Journal* journal) {
@@ -188,7 +193,7 @@ std::vector<std::string> plan_arguments(const RunFlags& flags) {
 
 // False once it is to stop.
 bool add_baseline(const RunFlags& flags, const config::Config& config, const run::Plan& plan, ProgressLine& progress,
-                  const std::atomic<bool>& stop, Json& result) {
+                  const report::Journal* journal, const std::atomic<bool>& stop, Json& result) {
   run::Progress now;
   now.cost_total = 1.0;
   const auto on_round = [&](const run::PairedRound& round) {
@@ -198,8 +203,9 @@ bool add_baseline(const RunFlags& flags, const config::Config& config, const run
   };
   try {
     measure_beside(flags.baseline, plan_arguments(flags), config, plan, on_round, stop, result);
-  } catch (const Error&) {
-    if (!stop) throw;
+  } catch (const Error& error) {
+    progress.clear();
+    if (!stop) throw with_what_is_kept(error, journal);
   }
   progress.clear();
   return !stop;
@@ -222,24 +228,12 @@ run::Listener make_listener(ProgressLine& progress, report::Journal* journal, st
   return listener;
 }
 
-run::Result keeping_told(const report::Journal* journal, ProgressLine& progress,
-                         const std::function<run::Result()>& measured) {
-  try {
-    run::Result result = measured();
-    progress.clear();
-    return result;
-  } catch (const Error& error) {
-    progress.clear();
-    throw Error(error.file(), error.where(), error.message() + what_is_kept(journal), error.code());
-  }
-}
-
 // The ids of the plan's cases without those that an interrupted run has finished.
 std::vector<std::string> ids_left(const run::Plan& plan, const std::vector<std::string>& done) {
   std::vector<std::string> ids;
   for (const run::GroupPlan& group : plan.groups)
-    for (const run::CasePlan& one : group.cases)
-      if (std::find(done.begin(), done.end(), one.id) == done.end()) ids.push_back(one.id);
+    for (const run::CasePlan& case_plan : group.cases)
+      if (std::find(done.begin(), done.end(), case_plan.id) == done.end()) ids.push_back(case_plan.id);
   return ids;
 }
 
@@ -311,14 +305,19 @@ ExitCode measure(const RunFlags& flags, const config::Config& config, const run:
   const run::Launcher launcher =
       config.timing.launches > 1 ? make_launcher(config, plan, journal.get(), stop) : run::Launcher{};
   const run::Listener listener = make_listener(progress, journal.get(), earlier.size(), case_count(plan));
-  run::Result fresh = keeping_told(journal.get(), progress, [&] {
-    return run::run_plan(config, plan, earlier_ids, listener, stop, counts, launcher);
-  });
+  run::Result fresh;
+  try {
+    fresh = run::run_plan(config, plan, earlier_ids, listener, stop, counts, launcher);
+  } catch (const Error& error) {
+    progress.clear();
+    throw with_what_is_kept(error, journal.get());
+  }
+  progress.clear();
   if (stop) return interrupted(journal.get());
   if (!fresh.date.empty()) fresh.command = own_command_line();
 
   Json result = report::result_to_json(fresh, earlier);
-  if (!flags.baseline.binary.empty() && !add_baseline(flags, config, plan, progress, stop, result))
+  if (!flags.baseline.binary.empty() && !add_baseline(flags, config, plan, progress, journal.get(), stop, result))
     return interrupted(journal.get());
   if (journal)
     journal->finish(result);
@@ -352,7 +351,7 @@ ExitCode serve(const RunFlags& flags, const config::Config& config, const run::P
 // Of a run that has started this program again.
 ExitCode serve_run(const RunFlags& flags) {
   std::string line;
-  if (!std::getline(std::cin, line)) return ExitCode::ok;  // it is gone
+  if (!std::getline(std::cin, line)) return ExitCode::ok;  // the run has ended
   const ReceivedRun received = received_run(line, flags.inputs.front());
   if (flags.serves_launch)
     serve_launch(received.config, received.plan);

@@ -133,19 +133,14 @@ void gather_fronts(const RTCFilterFunctionNArguments* arguments) {
 class Camera {
  public:
   Camera(const view::Frame& frame, const Vec3d& origin, const PixelGrid& pixels)
-      : pixels_(pixels),
-        projection_(frame.projection),
+      : frame_(frame),
+        pixels_(pixels),
         world_from_view_(glm::transpose(frame.view_space.rotation)),
         eye_(frame.view_space.origin - origin) {}
 
   RTCRayHit ray(std::size_t index) const {
-    const Vec2d pixel = pixels_.pixel(index);
-    const double across = projection_.left + (projection_.right - projection_.left) * pixel.x / pixels_.viewport.x;
-    const double up = projection_.top - (projection_.top - projection_.bottom) * pixel.y / pixels_.viewport.y;
-    const Vec3d to_side(across, up, 0.0), ahead(0.0, 0.0, -1.0);
-    const bool is_parallel = projection_.orthographic;
-    const Vec3f from(is_parallel ? eye_ + world_from_view_ * to_side : eye_);
-    const Vec3f along(world_from_view_ * (is_parallel ? ahead : to_side + ahead));
+    const view::PictureRay sight = view::picture_ray(frame_, pixels_.pixel(index));
+    const Vec3f from(eye_ + world_from_view_ * sight.from), along(world_from_view_ * sight.along);
     RTCRayHit out{};
     out.ray.org_x = from.x;
     out.ray.org_y = from.y;
@@ -153,8 +148,8 @@ class Camera {
     out.ray.dir_x = along.x;
     out.ray.dir_y = along.y;
     out.ray.dir_z = along.z;
-    out.ray.tnear = static_cast<float>(projection_.near_m);
-    out.ray.tfar = static_cast<float>(projection_.far_m);
+    out.ray.tnear = static_cast<float>(frame_.projection.near_m);
+    out.ray.tfar = static_cast<float>(frame_.projection.far_m);
     out.ray.mask = ~0U;
     out.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     out.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
@@ -162,25 +157,11 @@ class Camera {
   }
 
  private:
+  const view::Frame& frame_;
   const PixelGrid& pixels_;
-  const view::Projection& projection_;
   Mat3d world_from_view_;
   Vec3d eye_;
 };
-
-}  // namespace
-
-PixelGrid::PixelGrid(Vec2i of_viewport, int divisor)
-    : viewport(of_viewport), size((of_viewport.x + divisor - 1) / divisor, (of_viewport.y + divisor - 1) / divisor) {}
-
-Vec2d PixelGrid::pixel(std::size_t index) const {
-  const auto width = static_cast<std::size_t>(size.x);
-  const std::size_t column = index % width, row = index / width;
-  return {(static_cast<double>(column) + 0.5) * viewport.x / size.x,
-          (static_cast<double>(row) + 0.5) * viewport.y / size.y};
-}
-
-namespace {
 
 struct PlacedSurface {
   std::size_t surface = 0, node = 0;
@@ -267,8 +248,8 @@ void RayCaster::pose(const view::Frame& frame) {
   if (surfaces_ && surfaces_->placed == placed && glm::length(eye - surfaces_->origin) <= k_far_m) return;
   // A triangle and what Embree builds over it.
   constexpr std::uint64_t k_bytes_of_triangle = 256;
-  check_memory("triangles", geometry_.triangle_count(), k_bytes_of_triangle);
-  check_memory("vertices", geometry_.vertex_count(), sizeof(Vec3f));
+  check_memory("triangles", geometry_.triangle_count(), k_bytes_of_triangle, scene::k_fewer_triangles);
+  check_memory("vertices", geometry_.vertex_count(), sizeof(Vec3f), scene::k_fewer_triangles);
   if (!surfaces_) surfaces_ = std::make_unique<Surfaces>();
   Surfaces& now = *surfaces_;
   now.placed.clear();  // until all stands
@@ -277,12 +258,12 @@ void RayCaster::pose(const view::Frame& frame) {
     tree->reset(rtcNewScene(now.device.get()));
     rtcSetSceneFlags(tree->get(), RTC_SCENE_FLAG_ROBUST);
   }
-  for (const PlacedSurface& one : placed) {
-    const scene::Surface& surface = geometry_.surfaces[one.surface];
+  for (const PlacedSurface& instance : placed) {
+    const scene::Surface& surface = geometry_.surfaces[instance.surface];
     const RTCFilterFunctionN filter = surface.blends ? (surface.double_sided ? gather_both_sides : gather_fronts)
                                                      : (surface.double_sided ? nullptr : leave_out_backs);
-    add_surface(now.device.get(), (surface.blends ? now.blending : now.opaque).get(), scene_, surface, one, now.origin,
-                filter);
+    add_surface(now.device.get(), (surface.blends ? now.blending : now.opaque).get(), scene_, surface, instance,
+                now.origin, filter);
   }
   rtcCommitScene(now.opaque.get());
   rtcCommitScene(now.blending.get());
@@ -293,7 +274,7 @@ void RayCaster::pose(const view::Frame& frame) {
 DepthImage RayCaster::depths(const view::Frame& frame, const PixelGrid& pixels, int threads) const {
   const Camera camera(frame, surfaces_->origin, pixels);
   DepthImage out{pixels, {}};
-  check_memory("depths of pixels", pixels.count(), sizeof(float));
+  check_memory("depths of pixels", pixels.count(), sizeof(float), "ask for a larger divisor");
   out.nearest.assign(pixels.count(), k_nothing);
   parallel_ranges(pixels.count(), threads, [&](std::size_t begin, std::size_t end) {
     RTCIntersectContext context;
@@ -313,7 +294,7 @@ LayerImage RayCaster::layers(const view::Frame& frame, const DepthImage& opaque,
   const Camera camera(frame, surfaces_->origin, opaque.pixels);
   const std::size_t count = opaque.pixels.count();
   const auto most = static_cast<std::size_t>(most_layers);
-  check_memory("depths of layers", count * most, sizeof(float));
+  check_memory("depths of layers", count * most, sizeof(float), "ask for fewer layers or a larger divisor");
   std::vector<std::vector<float>> found(static_cast<std::size_t>(opaque.pixels.size.y));
   LayerImage out{opaque.pixels, std::vector<std::uint32_t>(count + 1, 0), {}};
   const auto width = static_cast<std::size_t>(opaque.pixels.size.x);

@@ -1,13 +1,13 @@
 #include "report/ratios.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/pattern.h"
 #include "core/text.h"
 #include "report/columns.h"
 #include "report/contender.h"
+#include "report/json_values.h"
 #include "report/result_json.h"
 
 namespace clusterbench::report {
@@ -15,12 +15,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-bool is_beside(const Json& one, const Json& other) {
-  return one["scene"] == other["scene"] && block_of(one) == block_of(other);
+bool is_beside(const Json& a, const Json& b) {
+  return a["scene"] == b["scene"] && block_of(a) == block_of(b);
 }
 
 struct Timed {
-  const Json* one = nullptr;
+  const Json* result_case = nullptr;
   run::Contender contender;
   double frame_ns = 0.0;
 };
@@ -31,39 +31,40 @@ struct Block {
   std::vector<Timed> cases;
 };
 
-std::string name_of_case(const Json& one, bool across_grids) {
-  return (across_grids ? one["grid"]["name"].get<std::string>() + " / " : "") + method_name(one) + " / " +
-         one["storage"].get<std::string>();
+std::string name_of_case(const Json& result_case, bool across_grids) {
+  return (across_grids ? result_case["grid"]["name"].get<std::string>() + " / " : "") + method_name(result_case) +
+         " / " + result_case["storage"].get<std::string>();
 }
 
-std::string name_of_block(const Json& one, bool across_grids) {
-  return across_grids ? "camera " + one["camera"].get<std::string>() + ", " + one["viewport"][0].dump() + "x" +
-                            one["viewport"][1].dump()
-                      : block_of(one);
+std::string name_of_block(const Json& result_case, bool across_grids) {
+  return across_grids ? "camera " + result_case["camera"].get<std::string>() + ", " +
+                            result_case["viewport"][0].dump() + "x" + result_case["viewport"][1].dump()
+                      : block_of(result_case);
 }
 
 // In the order of the cases.
 std::vector<Block> timed_blocks(const Json& result, const RatioRequest& request) {
   const Pattern pattern(request.methods, "--methods");
   std::vector<Block> blocks;
-  for (const Json& one : result["cases"]) {
-    const double frame_ns = number_at(one, "/timing/frame_ns/median");
-    if (std::isnan(frame_ns) || frame_rounds(one).empty() || !pattern.is_in(name_of_case(one, request.across_grids)))
+  for (const Json& result_case : result["cases"]) {
+    const std::optional<double> frame_ns = number_at(result_case, "/timing/frame_ns/median");
+    if (!frame_ns || frame_rounds(result_case).empty() ||
+        !pattern.is_in(name_of_case(result_case, request.across_grids)))
       continue;
-    const std::string name = name_of_block(one, request.across_grids);
-    auto block =
-        std::ranges::find_if(blocks, [&](const Block& had) { return one["scene"] == had.scene && name == had.name; });
-    if (block == blocks.end()) block = blocks.insert(block, Block{one["scene"], name, {}});
-    block->cases.push_back({&one, contender_of(one), frame_ns});
+    const std::string name = name_of_block(result_case, request.across_grids);
+    auto block = std::ranges::find_if(
+        blocks, [&](const Block& had) { return result_case["scene"] == had.scene && name == had.name; });
+    if (block == blocks.end()) block = blocks.insert(block, Block{result_case["scene"], name, {}});
+    block->cases.push_back({&result_case, contender_of(result_case), *frame_ns});
   }
   for (Block& block : blocks) std::ranges::stable_sort(block.cases, {}, &Timed::frame_ns);
   return blocks;
 }
 
 // Of a case beside another one, for the page; null without a ratio.
-Json beside(const Timed& one, const Timed& other, const std::optional<measure::Ratio>& ratio) {
-  if (!ratio || one.one == other.one) return {};
-  return {{"id", (*other.one)["id"]},
+Json beside(const Timed& timed, const Timed& other, const std::optional<measure::Ratio>& ratio) {
+  if (!ratio || timed.result_case == other.result_case) return {};
+  return {{"id", (*other.result_case)["id"]},
           {"ratio", six_digits(ratio->ratio)},
           {"ci95", {six_digits(ratio->ci95.low), six_digits(ratio->ci95.high)}}};
 }
@@ -72,14 +73,14 @@ Json pairs_of(const Block& block, std::uint64_t seed) {
   Json pairs = Json::array();
   for (std::size_t i = 1; i < block.cases.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
-      const run::Contender &one = block.cases[i].contender, &other = block.cases[j].contender;
-      const std::optional<measure::Ratio> ratio = run::ratio_between(one, other, seed);
+      const run::Contender &slower = block.cases[i].contender, &faster = block.cases[j].contender;
+      const std::optional<measure::Ratio> ratio = run::ratio_between(slower, faster, seed);
       if (!ratio) continue;
       pairs.push_back({{"case", i},
                        {"other", j},
                        {"ratio", six_digits(ratio->ratio)},
                        {"ci95", {six_digits(ratio->ci95.low), six_digits(ratio->ci95.high)}},
-                       {"over", one.grid == other.grid ? "rounds" : "launches"},
+                       {"over", slower.grid == faster.grid ? "rounds" : "launches"},
                        {"takes_longer", measure::takes_longer(ratio)}});
     }
   return pairs;
@@ -88,57 +89,69 @@ Json pairs_of(const Block& block, std::uint64_t seed) {
 Json block_json(const Block& block, std::uint64_t seed, bool across_grids) {
   Json out{{"scene", block.scene}, {"name", block.name}, {"cases", Json::array()}};
   for (const Timed& timed : block.cases)
-    out["cases"].push_back({{"id", (*timed.one)["id"]},
-                            {"name", (*timed.one)["name"]},
-                            {"label", name_of_case(*timed.one, across_grids)},
+    out["cases"].push_back({{"id", (*timed.result_case)["id"]},
+                            {"name", (*timed.result_case)["name"]},
+                            {"label", name_of_case(*timed.result_case, across_grids)},
                             {"frame_ns", six_digits(timed.frame_ns)}});
   out["pairs"] = pairs_of(block, seed);
   return out;
 }
 
-// The pair of two places; null where there is none.
-Json pair_at(const Json& block, std::size_t one, std::size_t other) {
-  for (const Json& pair : block["pairs"])
-    if (pair["case"] == one && pair["other"] == other) return pair;
-  return {};
-}
+// A block's pairs by the indices of their cases.
+class PairIndex {
+ public:
+  explicit PairIndex(const Json& block) : cases_(block["cases"].size()), pairs_(cases_ * cases_, nullptr) {
+    for (const Json& pair : block["pairs"])
+      pairs_[pair["case"].get<std::size_t>() * cases_ + pair["other"].get<std::size_t>()] = &pair;
+  }
+
+  // Of a slower case and a faster one; nullptr where they have no ratio.
+  const Json* find(std::size_t slower, std::size_t faster) const { return pairs_[slower * cases_ + faster]; }
+
+ private:
+  std::size_t cases_;
+  std::vector<const Json*> pairs_;
+};
 
 measure::Interval interval_of(const Json& pair) {
   const Json &low = pair["ci95"][0], &high = pair["ci95"][1];
   return low.is_number() && high.is_number() ? measure::Interval{low, high} : measure::Interval{};
 }
 
-std::string ratio_text(const Json& pair) {
-  if (pair.is_null()) return "-";
-  const measure::Interval ci95 = interval_of(pair);
-  if (!ci95.is_known()) return text("%.2f", pair["ratio"].get<double>()) + " (" + k_unknown_interval + ")";
-  return text("%.2f", pair["ratio"].get<double>()) + text(" (%.2f", ci95.low) + text(" to %.2f)", ci95.high);
+std::string ratio_text(const Json* pair) {
+  if (pair == nullptr) return "-";
+  const measure::Interval ci95 = interval_of(*pair);
+  const std::string ratio = text("%.2f", (*pair)["ratio"].get<double>());
+  if (!ci95.is_known()) return ratio + " (" + k_unknown_interval + ")";
+  return ratio + text(" (%.2f", ci95.low) + text(" to %.2f)", ci95.high);
 }
 
-bool is_longer(const Json& pair) {
-  return !pair.is_null() && pair["takes_longer"].get<bool>();
+bool is_longer(const Json* pair) {
+  return pair != nullptr && (*pair)["takes_longer"].get<bool>();
 }
 
-std::string label_at(const Json& block, std::size_t place) {
-  return shown(block["cases"][place]["label"]);
+std::string label_at(const Json& block, std::size_t index) {
+  return shown(block["cases"][index]["label"]);
 }
 
 std::vector<Cells> ranking(const Json& block) {
   std::vector<Cells> rows{{"", "assigner", "frame us", "/ fastest", "/ row above"}};
+  const PairIndex pairs(block);
   for (std::size_t i = 0; i < block["cases"].size(); ++i) {
-    const Json above = i > 0 ? pair_at(block, i, i - 1) : Json();
+    const Json* above = i > 0 ? pairs.find(i, i - 1) : nullptr;
     rows.push_back({i > 0 && !is_longer(above) ? "~" : "", label_at(block, i),
                     text("%.2f", block["cases"][i]["frame_ns"].get<double>() / 1e3),
-                    i == 0 ? "" : ratio_text(pair_at(block, i, 0)), i == 0 ? "" : ratio_text(above)});
+                    i == 0 ? "" : ratio_text(pairs.find(i, 0)), i == 0 ? "" : ratio_text(above)});
   }
   return rows;
 }
 
 std::vector<Cells> pair_rows(const Json& block) {
   std::vector<Cells> rows{{"", "assigner", "/ assigner", "ratio"}};
+  const PairIndex pairs(block);
   for (std::size_t i = 1; i < block["cases"].size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
-      const Json pair = pair_at(block, i, j);
+      const Json* pair = pairs.find(i, j);
       rows.push_back({is_longer(pair) ? "" : "~", label_at(block, i), label_at(block, j), ratio_text(pair)});
     }
   return rows;
@@ -174,13 +187,13 @@ std::string csv_row(const std::vector<std::string>& names, double ratio, const m
 
 }  // namespace
 
-std::optional<measure::Ratio> ratio_of_cases(const Json& result, const Json& one, const Json& other) {
-  if (!is_beside(one, other)) return std::nullopt;
-  return run::ratio_between(contender_of(one), contender_of(other), seed_of(result));
+std::optional<measure::Ratio> ratio_of_cases(const Json& result, const Json& numerator, const Json& denominator) {
+  if (!is_beside(numerator, denominator)) return std::nullopt;
+  return run::ratio_between(contender_of(numerator), contender_of(denominator), seed_of(result));
 }
 
-bool takes_longer(const Json& result, const Json& one, const Json& other) {
-  return measure::takes_longer(ratio_of_cases(result, one, other));
+bool takes_longer(const Json& result, const Json& numerator, const Json& denominator) {
+  return measure::takes_longer(ratio_of_cases(result, numerator, denominator));
 }
 
 Json ratios_of(const Json& result, const RatioRequest& request) {
@@ -200,12 +213,12 @@ Json ratio_rankings(const Json& result) {
   Json out = Json::array();
   for (const Block& block : timed_blocks(result, request))
     for (std::size_t i = 0; i < block.cases.size(); ++i) {
-      const Timed &one = block.cases[i], &fastest = block.cases.front(), &above = block.cases[i == 0 ? 0 : i - 1];
-      const auto to_fastest = run::ratio_between(one.contender, fastest.contender, seed_of(result)),
-                 to_above = run::ratio_between(one.contender, above.contender, seed_of(result));
-      out.push_back({{"id", (*one.one)["id"]},
-                     {"fastest", beside(one, fastest, to_fastest)},
-                     {"above", beside(one, above, to_above)},
+      const Timed &timed = block.cases[i], &fastest = block.cases.front(), &above = block.cases[i == 0 ? 0 : i - 1];
+      const auto to_fastest = run::ratio_between(timed.contender, fastest.contender, seed_of(result)),
+                 to_above = run::ratio_between(timed.contender, above.contender, seed_of(result));
+      out.push_back({{"id", (*timed.result_case)["id"]},
+                     {"fastest", beside(timed, fastest, to_fastest)},
+                     {"above", beside(timed, above, to_above)},
                      {"is_like_above", i > 0 && to_above && !measure::takes_longer(to_above)}});
     }
   return out;
@@ -243,17 +256,19 @@ std::string ratio_markdown(const Json& ratios, bool all_pairs) {
 
 std::string ratio_csv(const Json& ratios) {
   std::string out = "scene,grid,method,other,ratio,low,high\n";
-  for (const Json& block : ratios["blocks"])
-    for (std::size_t i = 0; i < block["cases"].size(); ++i)
-      for (std::size_t j = 0; j < block["cases"].size(); ++j) {
-        const Json pair = pair_at(block, std::max(i, j), std::min(i, j));
-        if (i == j || pair.is_null()) continue;
-        const double ratio = pair["ratio"];
-        const measure::Interval ci95 = interval_of(pair);
-        const Json &one = block["cases"][i], &other = block["cases"][j];
-        const std::vector<std::string> names{block["scene"], block["name"], one["label"], other["label"]};
+  for (const Json& block : ratios["blocks"]) {
+    const PairIndex pairs(block);
+    const Json& cases = block["cases"];
+    for (std::size_t i = 0; i < cases.size(); ++i)
+      for (std::size_t j = 0; j < cases.size(); ++j) {
+        const Json* pair = pairs.find(std::max(i, j), std::min(i, j));
+        if (pair == nullptr) continue;
+        const double ratio = (*pair)["ratio"];
+        const measure::Interval ci95 = interval_of(*pair);
+        const std::vector<std::string> names{block["scene"], block["name"], cases[i]["label"], cases[j]["label"]};
         out += i > j ? csv_row(names, ratio, ci95) : csv_row(names, 1.0 / ratio, {1.0 / ci95.high, 1.0 / ci95.low});
       }
+  }
   return out;
 }
 

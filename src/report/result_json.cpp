@@ -8,6 +8,7 @@
 
 #include "report/contender.h"
 #include "report/details_json.h"
+#include "report/json_values.h"
 #include "report/machine.h"
 #include "run/gate.h"
 
@@ -148,10 +149,10 @@ Json to_json(const measure::WaveCounts& waves) {
 Json samples(const std::vector<run::SampleSetResult>& sets) {
   Json out = Json::object();
   for (const run::SampleSetResult& set : sets) {
-    Json& one = out[measure::name_of(set.set)] = shading(set.counts);
+    Json& set_json = out[measure::name_of(set.set)] = shading(set.counts);
     if (!set.coherence) continue;
-    one["waves"] = Json::array();
-    for (const measure::WaveCounts& waves : set.coherence->sizes) one["waves"].push_back(to_json(waves));
+    set_json["waves"] = Json::array();
+    for (const measure::WaveCounts& waves : set.coherence->sizes) set_json["waves"].push_back(to_json(waves));
   }
   return out;
 }
@@ -278,7 +279,8 @@ Json to_json(const run::SceneResult& scene) {
 void add_extra_pairs(Json& cases) {
   std::map<std::string, double> pairs;
   for (const Json& result_case : cases)
-    pairs[result_case["name"].get<std::string>()] = number_at(result_case, "/occupancy/pairs/mean");
+    pairs[result_case["name"].get<std::string>()] =
+        number_at(result_case, "/occupancy/pairs/mean").value_or(std::nan(""));
   for (Json& result_case : cases) {
     if (!result_case.contains("precision")) continue;
     const std::string name = result_case["name"], label = "/" + result_case["precision"]["label"].get<std::string>();
