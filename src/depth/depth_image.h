@@ -18,6 +18,7 @@ struct PixelGrid {
   PixelGrid() = default;
   PixelGrid(Vec2i of_viewport, int divisor);
 
+  bool is_full_resolution() const { return size == viewport; }
   std::size_t count() const { return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y); }
   // In the viewport's pixels, from the top left.
   Vec2d pixel(std::size_t index) const;

@@ -55,6 +55,7 @@ constexpr std::array k_rules{
     Rule{"/shading/worst_frame", Kind::follows},
     Rule{"/shading/darkest", Kind::follows},
     Rule{"/shading", Kind::cost},
+    Rule{"/depth_ranges", Kind::fixed},
     Rule{"/lookup", Kind::cost},
     Rule{"/stability/changed/method", Kind::cost},
     Rule{"/stability/flickers/method", Kind::cost},

@@ -157,6 +157,27 @@ Json samples(const std::vector<run::SampleSetResult>& sets) {
   return out;
 }
 
+Json to_json(const measure::LengthDistribution& lengths) {
+  return {{"mean", six_digits(lengths.mean_m())},
+          {"p50", six_digits(lengths.quantile_m(0.5))},
+          {"p90", six_digits(lengths.quantile_m(0.9))},
+          {"p99", six_digits(lengths.quantile_m(0.99))},
+          {"max", six_digits(lengths.max_m())}};
+}
+
+Json to_json(const measure::DepthRanges::Tiles& tiles) {
+  Json out{{"tiles", tiles.tiles}, {"pixels", tiles.pixels}};
+  for (std::size_t i = 0; i < measure::k_list_kind_count; ++i)
+    out[measure::name_of(static_cast<measure::ListKind>(i))] = to_json(tiles.lengths[i]);
+  return out;
+}
+
+Json depth_ranges(const measure::DepthRanges& ranges) {
+  return {{"slopes", to_json(ranges.slopes)},
+          {"discontinuities", to_json(ranges.discontinuities)},
+          {"outside", ranges.outside}};
+}
+
 Json to_json(const measure::Churn& churn) {
   return {{"total", churn.changes}, {"mean", number_or_null(churn.mean_changes())}, {"max", churn.most_changes}};
 }
@@ -363,6 +384,7 @@ Json case_to_json(const run::CaseResult& case_result) {
   if (case_result.error) out["error"] = error(case_result);
   if (case_result.shading) out["shading"] = shading(*case_result.shading);
   if (!case_result.samples.empty()) out["samples"] = samples(case_result.samples);
+  if (case_result.depth_ranges) out["depth_ranges"] = depth_ranges(*case_result.depth_ranges);
   if (!case_result.lookup.empty()) out["lookup"] = lookup(case_result.lookup);
   if (case_result.stability) out["stability"] = stability(*case_result.stability);
   if (case_result.precision) out["precision"] = precision(*case_result.precision);

@@ -47,7 +47,7 @@ void FrameSamples::look_at_surfaces(const config::SampleSetRequest& request, con
   depth::DepthImage image = caster_->depths(frame, depth::PixelGrid(frame.viewport, request.divisor), config_.threads);
   if (request.set == measure::SampleSet::opaque) {
     out.samples = measure::opaque_samples(frame, image);
-    if (request.divisor == 1) out.picture = std::move(image);
+    out.picture = std::move(image);
   } else {
     out.samples = measure::transparent_samples(frame, caster_->layers(frame, image, request.layers, config_.threads));
   }

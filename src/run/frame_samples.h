@@ -15,7 +15,7 @@ namespace clusterbench::run {
 // A frame's samples of one set.
 struct FrameSampleSet {
   std::vector<grid::Sample> samples;
-  std::optional<depth::DepthImage> picture;  // of visible surfaces at full resolution: what waves are made of
+  std::optional<depth::DepthImage> picture;  // of visible surfaces
 };
 
 // Of one camera's path. Casts rays only for sets of visible surfaces.

@@ -11,6 +11,7 @@
 
 #include "measure/buffers.h"
 #include "measure/coherence.h"
+#include "measure/depth_ranges.h"
 #include "measure/list_errors.h"
 #include "measure/lookup.h"
 #include "measure/occupancy.h"
@@ -165,15 +166,16 @@ struct CaseResult {
   std::string storage_label;
   std::optional<measure::Occupancy> occupancy;  // with cells
   measure::Buffers buffers;
-  std::uint64_t tests_done = 0;                   // over all frames
-  std::uint64_t fallbacks = 0;                    // over all frames
-  std::optional<measure::ErrorCounts> error;      // with cells, where asked for
-  std::string deepest_miss_light;                 // name in the rig
-  std::optional<measure::ShadingCounts> shading;  // in the whole view
-  std::vector<SampleSetResult> samples;           // of the other sets, where asked for and the scene has them
-  std::vector<measure::LookupCounts> lookup;      // one per way; empty where not asked for
-  std::optional<PrecisionResult> precision;       // where the configuration asks for more than float32
-  std::optional<StabilityResult> stability;       // with cells, where asked for
+  std::uint64_t tests_done = 0;                      // over all frames
+  std::uint64_t fallbacks = 0;                       // over all frames
+  std::optional<measure::ErrorCounts> error;         // with cells, where asked for
+  std::string deepest_miss_light;                    // name in the rig
+  std::optional<measure::ShadingCounts> shading;     // in the whole view
+  std::vector<SampleSetResult> samples;              // of the other sets, where asked for and the scene has them
+  std::optional<measure::DepthRanges> depth_ranges;  // of visible surfaces in a frustum grid, where asked for
+  std::vector<measure::LookupCounts> lookup;         // one per way; empty where not asked for
+  std::optional<PrecisionResult> precision;          // where the configuration asks for more than float32
+  std::optional<StabilityResult> stability;          // with cells, where asked for
   std::optional<TimingResult> timing;
   std::optional<CountResult> count;  // where asked for
   std::optional<Details> details;    // with cells, where asked for

@@ -304,6 +304,7 @@ class Run {
     if (out.error && out.error->deepest)
       out.deepest_miss_light = scene.lights[static_cast<std::size_t>(out.error->deepest->rig_index)].name;
     add_samples(plan_.scenes[plan.scene], structure, out);
+    if (!out.samples.empty()) out.depth_ranges = counted.depth_ranges;
     out.lookup = structure.lookup;
     out.failures = failures_of(out, config_.limits);
     return out;

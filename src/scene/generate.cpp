@@ -10,7 +10,7 @@
 namespace clusterbench::scene {
 
 std::span<const GeneratorRow> generators() {
-  static const std::array<GeneratorRow, 11> k_rows{{
+  static const std::array<GeneratorRow, 14> k_rows{{
       {"hall-512", "512 point lights of 13 m in a hall of 200 x 55 x 200 m", "DaveH355", 512,
        [](Stage& s, int n) { build_hall(s, n, 13.0); }},
       {"hall-1024", "1024 point lights of 7 m in the same hall", "DaveH355", 1024,
@@ -33,6 +33,11 @@ std::span<const GeneratorRow> generators() {
        [](Stage& s, int n) {
          build_lattice(s, n, {0.013, 0.017, 0.011});
        }},
+      {"steps", "poles and leaves before a wall: depths that jump from pixel to pixel, with surfaces", "Persson 2015",
+       300, build_steps},
+      {"slope", "a hallway and open ground, both seen along their surfaces, with surfaces", "Persson 2015", 300,
+       build_slope},
+      {"mix", "a street with poles and leaves, both kinds of depths, with surfaces", "Persson 2015", 300, build_mix},
   }};
   return k_rows;
 }

@@ -123,8 +123,17 @@ void ask_at_samples(const PreparedFrame& now, std::vector<CaseMeter>& cases) {
       const measure::NeededLights needed = measure::needed_lights(now.frame, some);
       for (CaseMeter& meter : cases) meter.ask_at(set, now.frame.index, some, needed);
     }
-    if (!now.samples[set].picture) continue;
+    const std::optional<depth::DepthImage>& picture = now.samples[set].picture;
+    if (!picture || !picture->pixels.is_full_resolution()) continue;  // waves are of neighbouring pixels
     for (CaseMeter& meter : cases) meter.ask_waves(set, now.samples[set]);
+  }
+}
+
+void add_depth_ranges(const PreparedFrame& now, const grid::ScreenGrid& grid, AccuracyResult& result) {
+  for (const FrameSampleSet& set : now.samples) {
+    if (!set.picture) continue;
+    if (!result.depth_ranges) result.depth_ranges.emplace();
+    measure::add_frame(*result.depth_ranges, *set.picture, set.samples, grid);
   }
 }
 
@@ -168,6 +177,7 @@ AccuracyResult accuracy_pass(const config::Config& config, const SceneData& data
         if (meter.method() == method.method()) meter.add(now, grids.grid(), method);
     }
     ask_at_samples(now, cases);
+    if (grids.grid().kind() == grid::Kind::frustum) add_depth_ranges(now, grids.grid().screen(), result);
   }
   for (const MethodMeter& method : methods) result.methods.push_back(method.result());
   for (const CaseMeter& meter : cases) result.structures.push_back(meter.result());

@@ -31,6 +31,7 @@ struct AccuracyResult {
   std::vector<MethodMeasures> methods;        // of the group, in order of first use
   std::vector<StructureMeasures> structures;  // one per case of the group
   std::vector<measure::PackingLoss> losses;   // one per precision of the configuration; none if it has float32 alone
+  std::optional<measure::DepthRanges> depth_ranges;  // of visible surfaces in a frustum grid, where asked for
   grid::Grid last_grid;
   bool is_complete = false;  // false: stopped before the end
 };

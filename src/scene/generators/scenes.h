@@ -11,6 +11,9 @@ void build_street(Stage& stage, int lights);
 void build_jam(Stage& stage, int lights);
 void build_mirror(Stage& stage, int lights);
 void build_outlier(Stage& stage, int lights);
+void build_steps(Stage& stage, int lights);
+void build_slope(Stage& stage, int lights);
+void build_mix(Stage& stage, int lights);
 void build_lattice(Stage& stage, int lights, const Vec3d& off);  // off: how far all lights are moved
 
 }  // namespace clusterbench::scene

@@ -132,11 +132,27 @@ int Stage::float_accessor(const std::vector<float>& values, const char* type, st
   buffer_.append(reinterpret_cast<const char*>(values.data()), size);
   Json accessor{{"bufferView", view}, {"componentType", 5126}, {"count", values.size() / components}, {"type", type}};
   if (with_bounds) {
-    accessor["min"] = Json::array({values.front()});
-    accessor["max"] = Json::array({values.back()});
+    std::vector<float> least(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(components)), most = least;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      least[i % components] = std::min(least[i % components], values[i]);
+      most[i % components] = std::max(most[i % components], values[i]);
+    }
+    accessor["min"] = least;
+    accessor["max"] = most;
   }
   document_["accessors"].push_back(accessor);
   return view;  // one accessor per view
+}
+
+void Stage::mesh(const std::string& name, const std::vector<Vec3d>& corners) {
+  std::vector<float> positions;
+  for (const Vec3d& corner : corners)
+    for (int axis = 0; axis < 3; ++axis) positions.push_back(static_cast<float>(rounded(corner[axis], 1e4)));
+  const int accessor = float_accessor(positions, "VEC3", 3, true);
+  const std::size_t mesh = document_.contains("meshes") ? document_["meshes"].size() : 0;
+  document_["meshes"].push_back(
+      {{"name", name}, {"primitives", Json::array({Json{{"attributes", {{"POSITION", accessor}}}}})}});
+  add_node({{"name", name}, {"mesh", mesh}}, -1);
 }
 
 void Stage::animate(int node, const std::vector<PathKey>& keys) {
@@ -175,6 +191,20 @@ std::string Stage::glb(const std::string& generator) const {
   append_u32(bytes, 2);
   append_u32(bytes, 12 + chunks.size());
   return bytes + chunks;
+}
+
+void add_quad(std::vector<Vec3d>& corners, const Vec3d& from, const Vec3d& along, const Vec3d& up) {
+  corners.insert(corners.end(), {from, from + along, from + along + up, from, from + along + up, from + up});
+}
+
+void add_box(std::vector<Vec3d>& corners, const Vec3d& lo, const Vec3d& hi) {
+  const Vec3d size = hi - lo, x{size.x, 0.0, 0.0}, y{0.0, size.y, 0.0}, z{0.0, 0.0, size.z};
+  add_quad(corners, lo, z, y);      // to -x
+  add_quad(corners, lo + x, y, z);  // to +x
+  add_quad(corners, lo, x, z);      // to -y
+  add_quad(corners, lo + y, z, x);  // to +y
+  add_quad(corners, lo, y, x);      // to -z
+  add_quad(corners, lo + z, x, y);  // to +z
 }
 
 std::vector<PathKey> walk(const std::vector<Vec3d>& corners, double seconds) {

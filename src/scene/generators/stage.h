@@ -34,6 +34,8 @@ class Stage {
             double half_angle_deg, int parent = -1);
   // A node that moves along the keys; the number to give as a parent.
   int mover(const std::string& name, const std::vector<PathKey>& keys);
+  // Surfaces that stand still, three corners each, counterclockwise from outside.
+  void mesh(const std::string& name, const std::vector<Vec3d>& corners);
   // The scene's camera: vertical field of view 60°, near 0.1 m.
   void camera(const std::string& name, const std::vector<PathKey>& keys, double far_m);
 
@@ -52,6 +54,12 @@ class Stage {
   std::string buffer_;
   int light_count_ = 0;
 };
+
+// Corners of two triangles: the parallelogram from one corner along two sides, seen from where `along` x `up` points
+// to.
+void add_quad(std::vector<Vec3d>& corners, const Vec3d& from, const Vec3d& along, const Vec3d& up);
+// The six sides of a box, from outside.
+void add_box(std::vector<Vec3d>& corners, const Vec3d& lo, const Vec3d& hi);
 
 // Keys along a closed or open polyline, looking along the way, at constant speed.
 std::vector<PathKey> walk(const std::vector<Vec3d>& corners, double seconds);
