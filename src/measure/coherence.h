@@ -6,7 +6,7 @@
 #include <span>
 
 #include "assign/contract/light_structure.h"
-#include "depth/ray_caster.h"
+#include "depth/depth_image.h"
 #include "grid/grid.h"
 
 namespace clusterbench::measure {

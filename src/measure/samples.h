@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "depth/ray_caster.h"
+#include "depth/depth_image.h"
 #include "grid/grid.h"
 #include "view/frame.h"
 
