@@ -133,19 +133,14 @@ void gather_fronts(const RTCFilterFunctionNArguments* arguments) {
 class Camera {
  public:
   Camera(const view::Frame& frame, const Vec3d& origin, const PixelGrid& pixels)
-      : pixels_(pixels),
-        projection_(frame.projection),
+      : frame_(frame),
+        pixels_(pixels),
         world_from_view_(glm::transpose(frame.view_space.rotation)),
         eye_(frame.view_space.origin - origin) {}
 
   RTCRayHit ray(std::size_t index) const {
-    const Vec2d pixel = pixels_.pixel(index);
-    const double across = projection_.left + (projection_.right - projection_.left) * pixel.x / pixels_.viewport.x;
-    const double up = projection_.top - (projection_.top - projection_.bottom) * pixel.y / pixels_.viewport.y;
-    const Vec3d to_side(across, up, 0.0), ahead(0.0, 0.0, -1.0);
-    const bool is_parallel = projection_.orthographic;
-    const Vec3f from(is_parallel ? eye_ + world_from_view_ * to_side : eye_);
-    const Vec3f along(world_from_view_ * (is_parallel ? ahead : to_side + ahead));
+    const view::PictureRay view_ray = view::picture_ray(frame_, pixels_.pixel(index));
+    const Vec3f from(eye_ + world_from_view_ * view_ray.from), along(world_from_view_ * view_ray.along);
     RTCRayHit out{};
     out.ray.org_x = from.x;
     out.ray.org_y = from.y;
@@ -153,8 +148,8 @@ class Camera {
     out.ray.dir_x = along.x;
     out.ray.dir_y = along.y;
     out.ray.dir_z = along.z;
-    out.ray.tnear = static_cast<float>(projection_.near_m);
-    out.ray.tfar = static_cast<float>(projection_.far_m);
+    out.ray.tnear = static_cast<float>(frame_.projection.near_m);
+    out.ray.tfar = static_cast<float>(frame_.projection.far_m);
     out.ray.mask = ~0U;
     out.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     out.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
@@ -162,8 +157,8 @@ class Camera {
   }
 
  private:
+  const view::Frame& frame_;
   const PixelGrid& pixels_;
-  const view::Projection& projection_;
   Mat3d world_from_view_;
   Vec3d eye_;
 };

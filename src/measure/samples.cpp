@@ -68,11 +68,7 @@ std::optional<SampleSet> sample_set_named(const std::string& name) {
 }
 
 grid::Sample sample_at(const view::Frame& frame, double pixel_x, double pixel_y, double depth) {
-  const view::Projection& projection = frame.projection;
-  const double across = projection.left + (projection.right - projection.left) * pixel_x / frame.viewport.x;
-  const double up = projection.top - (projection.top - projection.bottom) * pixel_y / frame.viewport.y;
-  const double scale = projection.orthographic ? 1.0 : depth;
-  const Vec3d local{across * scale, up * scale, -depth};
+  const Vec3d local = view::picture_ray(frame, {pixel_x, pixel_y}).at(depth);
   return {static_cast<float>(pixel_x), static_cast<float>(pixel_y), Vec3f(local),
           glm::transpose(frame.view_space.rotation) * local, frame.view_space.origin};
 }

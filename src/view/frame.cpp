@@ -140,6 +140,14 @@ geom::LightVolume volume_of(const scene::WorldLight& light, const Space& space) 
           light.outer_cone_rad};
 }
 
+PictureRay picture_ray(const Frame& frame, const Vec2d& pixel) {
+  const Projection& projection = frame.projection;
+  const double across = projection.left + (projection.right - projection.left) * pixel.x / frame.viewport.x;
+  const double up = projection.top - (projection.top - projection.bottom) * pixel.y / frame.viewport.y;
+  if (projection.orthographic) return {{across, up, 0.0}, {0.0, 0.0, -1.0}};
+  return {{0.0, 0.0, 0.0}, {across, up, -1.0}};
+}
+
 Frame make_frame(const scene::Scene& scene, const scene::Shot& shot, int index, Vec2i viewport) {
   scene::check_domain(scene, "", shot);
   Frame frame;

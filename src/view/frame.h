@@ -96,6 +96,15 @@ struct Frame {
   LightRanges ranges() const { return {points, static_cast<std::uint32_t>(lights.size()) - points}; }
 };
 
+// The ray through a point of the picture, in view space; its parameter is the depth.
+struct PictureRay {
+  Vec3d from{0.0}, along{0.0, 0.0, -1.0};
+
+  Vec3d at(double depth) const { return from + depth * along; }
+};
+// `pixel`: in pixels from the top left.
+PictureRay picture_ray(const Frame& frame, const Vec2d& pixel);
+
 // Throws Error for a frame outside of the domain (geom/shapes/domain.h).
 Frame make_frame(const scene::Scene& scene, const scene::Shot& shot, int index, Vec2i viewport);
 

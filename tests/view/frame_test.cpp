@@ -100,6 +100,18 @@ TEST(Projection, of_a_jittered_frame_moves_the_picture_by_its_pixels) {
   EXPECT_NEAR(moved.right - moved.left, still.right - still.left, 1e-15);
 }
 
+TEST(PictureRay, shows_at_each_depth_what_its_pixel_shows) {
+  Frame frame;
+  frame.viewport = {200, 100};
+  frame.projection = {false, -2.0, 2.0, -1.0, 1.0, 0.1, 100.0};
+  EXPECT_EQ(picture_ray(frame, {100.0, 50.0}).at(7.0), Vec3d(0.0, 0.0, -7.0));
+  EXPECT_EQ(picture_ray(frame, {0.0, 0.0}).at(3.0), Vec3d(-6.0, 3.0, -3.0));
+  EXPECT_EQ(picture_ray(frame, {200.0, 75.0}).at(3.0), Vec3d(6.0, -1.5, -3.0));
+  frame.projection.orthographic = true;
+  EXPECT_EQ(picture_ray(frame, {200.0, 75.0}).at(3.0), Vec3d(2.0, -0.5, -3.0));
+  EXPECT_EQ(picture_ray(frame, {200.0, 75.0}).at(0.0), Vec3d(2.0, -0.5, 0.0));
+}
+
 TEST(Lights, far_from_the_origin_are_as_precise_as_near_it) {
   SplitMix64 random(1);
   const Vec3d offset{1e7, -3e6, 2e7};
