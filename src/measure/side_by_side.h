@@ -17,13 +17,13 @@ struct FrameTimes {
   bool is_cold = false;
 };
 
-// `one` / `other`, round by round, of cases that were measured in the same rounds. nullopt where they were not: their
-// rounds, launches or caches differ.
-std::optional<Ratio> ratio_of_rounds(const FrameTimes& one, const FrameTimes& other, std::uint64_t seed);
+// `numerator` / `denominator`, round by round, of cases that were measured in the same rounds. nullopt where they were
+// not: their rounds, launches or caches differ.
+std::optional<Ratio> ratio_of_rounds(const FrameTimes& numerator, const FrameTimes& denominator, std::uint64_t seed);
 
-// `one` / `other`, launch by launch, of cases that the same launches measured, each in rounds of its own. nullopt of
-// fewer than two launches: nothing says how one launch would differ from the next.
-std::optional<Ratio> ratio_of_launches(const FrameTimes& one, const FrameTimes& other, std::uint64_t seed);
+// `numerator` / `denominator`, launch by launch, of cases that the same launches measured, each in rounds of its own.
+// nullopt of fewer than two launches: nothing says how one launch would differ from the next.
+std::optional<Ratio> ratio_of_launches(const FrameTimes& numerator, const FrameTimes& denominator, std::uint64_t seed);
 
 // False unless the ratio's 95 % interval says that the first takes longer.
 bool takes_longer(const std::optional<Ratio>& ratio);

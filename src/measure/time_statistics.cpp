@@ -37,23 +37,11 @@ Interval bootstrap_median(std::span<const double> values, std::uint64_t seed) {
   return {percentile(medians, 0.025), percentile(medians, 0.975)};
 }
 
-// The logarithms of the launches' medians; empty where they do not have equally many samples.
-std::vector<double> launch_logs(std::span<const double> values, std::size_t count) {
-  if (values.size() % count != 0) return {};
-  const std::size_t rounds = values.size() / count;
-  std::vector<double> logs;
-  for (std::size_t launch = 0; launch < count; ++launch) {
-    std::vector<double> some(values.begin() + static_cast<std::ptrdiff_t>(launch * rounds),
-                             values.begin() + static_cast<std::ptrdiff_t>((launch + 1) * rounds));
-    logs.push_back(std::log(median_of(some)));
-  }
-  return logs;
-}
-
 // Of values that are not empty.
 Interval interval_of(std::span<const double> values, double median, std::uint64_t seed, int launches) {
   if (launches <= 1) return values.size() < k_least_rounds ? Interval{} : bootstrap_median(values, seed);
-  const std::vector<double> logs = launch_logs(values, static_cast<std::size_t>(launches));
+  std::vector<double> logs = launch_medians(values, launches);
+  for (double& value : logs) value = std::log(value);
   const auto count = static_cast<double>(logs.size());
   if (count - 1.0 < k_least_freedom) return {};
   const double mean = std::accumulate(logs.begin(), logs.end(), 0.0) / count;
@@ -77,6 +65,19 @@ TimeStats time_stats(std::span<const double> samples_ns, std::uint64_t seed, int
   stats.p95 = percentile(stats.samples, 0.95);
   stats.ci95 = interval_of(samples_ns, stats.median, seed, launches);
   return stats;
+}
+
+std::vector<double> launch_medians(std::span<const double> samples_ns, int launches) {
+  const auto count = static_cast<std::size_t>(std::max(launches, 1));
+  if (samples_ns.size() % count != 0) return {};
+  const std::size_t rounds = samples_ns.size() / count;
+  std::vector<double> medians;
+  for (std::size_t launch = 0; launch < count; ++launch) {
+    const std::span<const double> own = samples_ns.subspan(launch * rounds, rounds);
+    std::vector<double> work(own.begin(), own.end());
+    medians.push_back(median_of(work));
+  }
+  return medians;
 }
 
 Ratio paired_ratio(std::span<const double> numerator, std::span<const double> denominator, std::uint64_t seed,

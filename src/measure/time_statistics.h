@@ -35,6 +35,10 @@ inline constexpr std::size_t k_least_rounds = 6;
 // same interval. An empty span gives zeros.
 TimeStats time_stats(std::span<const double> samples_ns, std::uint64_t seed, int launches = 1);
 
+// Of samples as time_stats() has them, the median of each launch; empty where launches have not equally many. At least
+// one sample.
+std::vector<double> launch_medians(std::span<const double> samples_ns, int launches);
+
 struct Ratio {
   double ratio = 0.0;
   Interval ci95;

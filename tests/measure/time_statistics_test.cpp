@@ -186,6 +186,12 @@ TEST(Launches, of_recorded_ones_any_few_have_intervals_that_hold_the_median_of_a
   }
 }
 
+TEST(Launches, have_medians_where_each_has_as_many_rounds) {
+  EXPECT_EQ(launch_medians(std::vector{3.0, 1.0, 2.0, 9.0, 7.0, 8.0}, 2), (std::vector{2.0, 8.0}));
+  EXPECT_EQ(launch_medians(std::vector{3.0, 1.0, 9.0, 7.0}, 2), (std::vector{2.0, 8.0}));
+  EXPECT_TRUE(launch_medians(std::vector{3.0, 1.0, 9.0}, 2).empty());
+}
+
 TEST(Launches, a_ratio_knows_as_many_values_as_there_were_launches) {
   // 2, 2.2 and 1.8 in the launches, and no noise within.
   const std::array own{200.0, 400.0, 220.0, 440.0, 180.0, 360.0}, other{100.0, 200.0, 100.0, 200.0, 100.0, 200.0};
