@@ -7,6 +7,7 @@
 
 #include "core/text.h"
 #include "measure/time_change.h"
+#include "report/json_values.h"
 
 namespace clusterbench::report {
 namespace {
@@ -53,16 +54,13 @@ std::string text(const char* format, double value) {
 }
 
 std::string number_text(const Json& result_case, const char* pointer, const char* format, double scale) {
-  const Json::json_pointer location(pointer);
-  if (!result_case.contains(location) || !result_case[location].is_number()) return "-";
-  return text(format, scale * result_case[location].get<double>());
+  const std::optional<double> number = number_at(result_case, pointer);
+  return number ? text(format, scale * *number) : "-";
 }
 
 std::string short_count(const Json& result_case, const char* pointer) {
-  const Json::json_pointer location(pointer);
-  return result_case.contains(location) && result_case[location].is_number()
-             ? count_text(result_case[location].get<double>())
-             : "-";
+  const std::optional<double> count = number_at(result_case, pointer);
+  return count ? count_text(*count) : "-";
 }
 
 std::string method_name(const Json& result_case) {

@@ -10,6 +10,7 @@
 #include "measure/time_change.h"
 #include "report/columns.h"
 #include "report/exact_differences.h"
+#include "report/json_values.h"
 #include "report/result_json.h"
 
 namespace clusterbench::report {
@@ -114,8 +115,8 @@ Json parts_of_one(const std::vector<Match>& matches) {
   return out;
 }
 
-bool has(const Json& one, const char* pointer) {
-  return one.contains(Pointer(pointer)) && !one[Pointer(pointer)].is_null();
+bool has(const Json& json, const char* pointer) {
+  return value_at(json, pointer) != nullptr;
 }
 bool both_have(const Match& match, const char* pointer) {
   return has(match.base, pointer) && has(match.next, pointer);

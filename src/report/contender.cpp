@@ -1,9 +1,9 @@
 #include "report/contender.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "report/columns.h"
+#include "report/json_values.h"
 
 namespace clusterbench::report {
 namespace {
@@ -16,19 +16,14 @@ std::string view_of(const Json& one) {
 
 measure::Costs costs_of(const Json& one) {
   measure::Costs costs;
-  const measure::Interval time_ns{number_at(one, "/timing/frame_ns/ci95/0"), number_at(one, "/timing/frame_ns/ci95/1")};
-  if (!std::isnan(time_ns.low) && !std::isnan(time_ns.high)) costs.time_ns = time_ns;
-  costs.bytes = number_at(one, "/buffers/bytes/high_water");
-  costs.overshade = number_at(one, "/shading/overshade");
+  const auto low = number_at(one, "/timing/frame_ns/ci95/0"), high = number_at(one, "/timing/frame_ns/ci95/1");
+  if (low && high) costs.time_ns = {*low, *high};
+  costs.bytes = number_at(one, "/buffers/bytes/high_water").value_or(costs.k_unknown);
+  costs.overshade = number_at(one, "/shading/overshade").value_or(costs.k_unknown);
   return costs;
 }
 
 }  // namespace
-
-double number_at(const Json& one, const char* pointer) {
-  const Json::json_pointer place(pointer);
-  return one.contains(place) && one[place].is_number() ? one[place].get<double>() : std::nan("");
-}
 
 std::vector<double> frame_rounds(const Json& one) {
   const Json samples = one.value(Json::json_pointer("/timing/frame_ns/samples"), Json::array());

@@ -17,7 +17,4 @@ std::vector<double> frame_rounds(const nlohmann::ordered_json& one);
 // What resampling begins with.
 std::uint64_t seed_of(const nlohmann::ordered_json& result);
 
-// The number at a pointer; not a number where there is none.
-double number_at(const nlohmann::ordered_json& one, const char* pointer);
-
 }  // namespace clusterbench::report

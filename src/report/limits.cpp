@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/text.h"
+#include "report/json_values.h"
 
 namespace clusterbench::report {
 namespace {
@@ -44,12 +45,6 @@ constexpr FigureRow k_figure_rows[] = {
     {"overshade", "/shading/overshade"},
 };
 
-std::optional<double> figure_at(const Json& one, const char* place) {
-  const Json::json_pointer pointer(place);
-  if (!one.contains(pointer) || !one[pointer].is_number()) return {};
-  return one[pointer].get<double>();
-}
-
 // With the row that has it.
 struct Found {
   const FigureRow* row = nullptr;
@@ -58,10 +53,10 @@ struct Found {
 std::optional<Found> found_in(const Json& one, const std::string& name) {
   for (const FigureRow& row : k_figure_rows) {
     if (row.name != name) continue;
-    std::optional<double> value = figure_at(one, row.place);
+    std::optional<double> value = number_at(one, row.place);
     if (!value) continue;
     if (*row.divisor != '\0') {
-      const double whole = figure_at(one, row.divisor).value_or(0.0);
+      const double whole = number_at(one, row.divisor).value_or(0.0);
       if (!(whole > 0.0)) continue;  // a share of nothing
       *value /= whole;
     }

@@ -1,13 +1,13 @@
 #include "report/ratios.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/pattern.h"
 #include "core/text.h"
 #include "report/columns.h"
 #include "report/contender.h"
+#include "report/json_values.h"
 #include "report/result_json.h"
 
 namespace clusterbench::report {
@@ -47,14 +47,13 @@ std::vector<Block> timed_blocks(const Json& result, const RatioRequest& request)
   const Pattern pattern(request.methods, "--methods");
   std::vector<Block> blocks;
   for (const Json& one : result["cases"]) {
-    const double frame_ns = number_at(one, "/timing/frame_ns/median");
-    if (std::isnan(frame_ns) || frame_rounds(one).empty() || !pattern.is_in(name_of_case(one, request.across_grids)))
-      continue;
+    const std::optional<double> frame_ns = number_at(one, "/timing/frame_ns/median");
+    if (!frame_ns || frame_rounds(one).empty() || !pattern.is_in(name_of_case(one, request.across_grids))) continue;
     const std::string name = name_of_block(one, request.across_grids);
     auto block =
         std::ranges::find_if(blocks, [&](const Block& had) { return one["scene"] == had.scene && name == had.name; });
     if (block == blocks.end()) block = blocks.insert(block, Block{one["scene"], name, {}});
-    block->cases.push_back({&one, contender_of(one), frame_ns});
+    block->cases.push_back({&one, contender_of(one), *frame_ns});
   }
   for (Block& block : blocks) std::ranges::stable_sort(block.cases, {}, &Timed::frame_ns);
   return blocks;

@@ -8,6 +8,7 @@
 
 #include "report/contender.h"
 #include "report/details_json.h"
+#include "report/json_values.h"
 #include "report/machine.h"
 #include "run/gate.h"
 
@@ -276,7 +277,8 @@ Json to_json(const run::SceneResult& scene) {
 void add_extra_pairs(Json& cases) {
   std::map<std::string, double> pairs;
   for (const Json& result_case : cases)
-    pairs[result_case["name"].get<std::string>()] = number_at(result_case, "/occupancy/pairs/mean");
+    pairs[result_case["name"].get<std::string>()] =
+        number_at(result_case, "/occupancy/pairs/mean").value_or(std::nan(""));
   for (Json& result_case : cases) {
     if (!result_case.contains("precision")) continue;
     const std::string name = result_case["name"], label = "/" + result_case["precision"]["label"].get<std::string>();

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/pattern.h"
 #include "report/columns.h"
+#include "report/json_values.h"
 #include "report/lookup_constants.h"
 
 namespace clusterbench::report {
@@ -95,8 +96,7 @@ bool is_own(const Json& one) {
 // Smaller is better. Structures of their own come after all lists: what samples pay for them differs.
 auto rank(const Json& one) {
   const bool loses = one["loses_lights"] || !one["failures"].empty();
-  const Json time = one.value(Json::json_pointer("/timing/frame_ns/median"), Json());  // null where it was not measured
-  const double time_ns = time.is_number() ? time.get<double>() : std::numeric_limits<double>::infinity();
+  const double time_ns = number_at(one, "/timing/frame_ns/median").value_or(std::numeric_limits<double>::infinity());
   return std::tuple(loses, is_own(one), time_ns, one["buffers"]["bytes"]["recommended"].get<std::uint64_t>());
 }
 

@@ -1,11 +1,13 @@
 #include "report/table.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <vector>
 
 #include "core/text.h"
 #include "report/columns.h"
+#include "report/json_values.h"
 #include "report/lookup_table.h"
 #include "report/precision_table.h"
 #include "report/ratios.h"
@@ -38,54 +40,47 @@ struct Extras {
        dropped = false, cold = false, launches = false;
 };
 
-const Json* at(const Json& one, const char* pointer) {
-  const Json::json_pointer place(pointer);
-  return one.contains(place) && one[place].is_number() ? &one[place] : nullptr;
-}
-
 std::string time_text(const Json& one, const char* pointer) {
-  const Json* found = at(one, pointer);
-  if (found == nullptr) return "-";
-  const double us = found->get<double>() / 1e3;
+  const std::optional<double> ns = number_at(one, pointer);
+  if (!ns) return "-";
+  const double us = *ns / 1e3;
   return text(us < 10.0 ? "%.2f" : us < 1000.0 ? "%.1f" : "%.0f", us);
 }
 
 // Half of the interval, of the time. A wide one has its ends at different distances, and shows both.
 std::string interval_text(const Json& one) {
   constexpr double k_wide_percent = 20.0;
-  const Json *low = at(one, "/timing/frame_ns/ci95/0"), *high = at(one, "/timing/frame_ns/ci95/1"),
-             *median = at(one, "/timing/frame_ns/median");
-  if (median == nullptr || median->get<double>() <= 0.0) return "-";
-  if (low == nullptr || high == nullptr) return k_unknown_interval;
-  const double below = 100.0 * (1.0 - low->get<double>() / median->get<double>()),
-               above = 100.0 * (high->get<double>() / median->get<double>() - 1.0);
+  const auto low = number_at(one, "/timing/frame_ns/ci95/0"), high = number_at(one, "/timing/frame_ns/ci95/1"),
+             median = number_at(one, "/timing/frame_ns/median");
+  if (!median || *median <= 0.0) return "-";
+  if (!low || !high) return k_unknown_interval;
+  const double below = 100.0 * (1.0 - *low / *median), above = 100.0 * (*high / *median - 1.0);
   if (std::max(below, above) < k_wide_percent) return text("%.1f %%", 0.5 * (below + above));
   return text("-%.0f", below) + text("/+%.0f %%", above);
 }
 
 std::string worst_text(const Json& one) {
-  const Json* frame = at(one, "/timing/worst_frame/frame");
+  const Json* frame = value_at(one, "/timing/worst_frame/frame");
   return frame == nullptr ? "-" : time_text(one, "/timing/worst_frame/ns") + " @" + frame->dump();
 }
 
 // The pairs of the frames that the time is of; without times those of all frames.
 std::string pairs_text(const Json& one) {
-  return short_count(one,
-                     at(one, "/timing/frame_ns/median") != nullptr ? "/timing/pairs/mean" : "/occupancy/pairs/mean");
+  return short_count(one, number_at(one, "/timing/frame_ns/median") ? "/timing/pairs/mean" : "/occupancy/pairs/mean");
 }
 
 // A share that is small and not nothing never looks like nothing.
 std::string unlit_text(const Json& one) {
-  const Json* share = at(one, "/shading/unlit");
-  if (share == nullptr) return "-";
-  const double percent = 100.0 * share->get<double>();
+  const std::optional<double> share = number_at(one, "/shading/unlit");
+  if (!share) return "-";
+  const double percent = 100.0 * *share;
   if (percent == 0.0) return "0 %";
   return percent < 0.01 ? "<0.01 %" : text(percent < 1.0 ? "%.2f %%" : "%.1f %%", percent);
 }
 
 double sort_key(const Json& one) {
   for (const char* pointer : {"/timing/frame_ns/median", k_instructions, "/error/excess_ratio"})
-    if (const Json* found = at(one, pointer)) return found->get<double>();
+    if (const auto found = number_at(one, pointer)) return *found;
   return 0.0;
 }
 
@@ -155,9 +150,9 @@ Extras extras_of(const Json& cases) {
   std::set<std::string> storages;
   for (const Json& one : cases) {
     storages.insert(one["storage"].get<std::string>());
-    extras.times |= at(one, "/timing/frame_ns/median") != nullptr;
-    extras.conversions |= at(one, "/timing/convert_ns/median") != nullptr;
-    extras.builds |= at(one, "/timing/builds_per_frame") != nullptr && one["timing"]["builds_per_frame"] != 0.0;
+    extras.times |= number_at(one, "/timing/frame_ns/median").has_value();
+    extras.conversions |= number_at(one, "/timing/convert_ns/median").has_value();
+    extras.builds |= number_at(one, "/timing/builds_per_frame").value_or(0.0) != 0.0;
     extras.instructions |= one.contains("count");
     extras.cold |= one.contains("timing") && one["timing"].value("caches", "") == "cold";
     extras.launches |= one.contains("timing") && one["timing"].value("launches", 1) > 1;

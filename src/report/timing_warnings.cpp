@@ -6,6 +6,7 @@
 #include "measure/time_statistics.h"
 #include "report/columns.h"
 #include "report/contender.h"
+#include "report/json_values.h"
 
 namespace clusterbench::report {
 namespace {
@@ -16,9 +17,9 @@ constexpr double k_wide = 0.1;           // half of an interval, of its time
 constexpr double k_others_cores = 0.1;   // busy with other programs
 constexpr double k_stolen_cores = 0.02;  // a guest sees little of its host's load
 
-double timing_number(const Json& result_case, const char* pointer) {
-  const Json found = result_case.value(Json::json_pointer(pointer), Json());
-  return found.is_number() ? found.get<double>() : 0.0;
+// 0 where it was not measured.
+double timing_number(const Json& result_case, const std::string& name) {
+  return number_at(result_case, "/timing/" + name).value_or(0.0);
 }
 
 // The cases that a doubt is about: how many, and the worst.
@@ -49,10 +50,8 @@ bool has_interval(const Json& result_case) {
 
 // Of a time above 0.
 double half_of_interval(const Json& result_case) {
-  return 0.5 *
-         (timing_number(result_case, "/timing/frame_ns/ci95/1") -
-          timing_number(result_case, "/timing/frame_ns/ci95/0")) /
-         timing_number(result_case, "/timing/frame_ns/median");
+  return 0.5 * (timing_number(result_case, "frame_ns/ci95/1") - timing_number(result_case, "frame_ns/ci95/0")) /
+         timing_number(result_case, "frame_ns/median");
 }
 
 std::optional<measure::TwoModes> modes_of(const Json& result_case) {
@@ -101,7 +100,7 @@ std::vector<std::string> timing_doubts(const Json& cases) {
   Doubt unknown, wide, two, others, stolen, hot;
   std::size_t timed = 0;
   for (const Json& result_case : cases) {
-    if (timing_number(result_case, "/timing/frame_ns/median") <= 0.0) continue;
+    if (timing_number(result_case, "frame_ns/median") <= 0.0) continue;
     ++timed;
     const auto check = [&](Doubt& doubt, double badness, double most) {
       if (badness > most) doubt.add(result_case, badness);
@@ -111,9 +110,9 @@ std::vector<std::string> timing_doubts(const Json& cases) {
     else
       unknown.add(result_case, 0.0);
     if (const auto modes = modes_of(result_case)) two.add(result_case, modes->high / modes->low);
-    check(others, timing_number(result_case, "/timing/disturbed/others_cores"), k_others_cores);
-    check(stolen, timing_number(result_case, "/timing/disturbed/stolen_cores"), k_stolen_cores);
-    check(hot, timing_number(result_case, "/timing/disturbed/throttled"), 0.0);
+    check(others, timing_number(result_case, "disturbed/others_cores"), k_others_cores);
+    check(stolen, timing_number(result_case, "disturbed/stolen_cores"), k_stolen_cores);
+    check(hot, timing_number(result_case, "disturbed/throttled"), 0.0);
   }
   std::vector<std::string> out;
   if (unknown.is_any()) out.push_back(unknown_warning(unknown, timed));

@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "report/exports/formats.h"
+#include "report/json_values.h"
 #include "report/machine.h"
 
 namespace clusterbench::report {
@@ -23,8 +24,8 @@ constexpr ExportFormat k_formats[] = {
 };
 
 std::string text_at(const Json& from, const char* pointer) {
-  const Json::json_pointer location(pointer);
-  return from.contains(location) && from[location].is_string() ? from[location].get<std::string>() : "";
+  const Json* found = value_at(from, pointer);
+  return found != nullptr && found->is_string() ? found->get<std::string>() : "";
 }
 
 std::string needed_text(const Json& result_case, std::size_t index, const char* key) {
@@ -35,10 +36,8 @@ std::string needed_text(const Json& result_case, std::size_t index, const char* 
 
 // "" where a case lacks it.
 std::vector<std::pair<std::string, std::string>> parts_of(const Json& result_case) {
-  const Json::json_pointer width("/viewport/0"), height("/viewport/1");
-  const std::string viewport = result_case.contains(width) && result_case.contains(height)
-                                   ? result_case[width].dump() + "x" + result_case[height].dump()
-                                   : "";
+  const Json *width = value_at(result_case, "/viewport/0"), *height = value_at(result_case, "/viewport/1");
+  const std::string viewport = width != nullptr && height != nullptr ? width->dump() + "x" + height->dump() : "";
   const std::string precision = text_at(result_case, "/precision/label");
   return {{"scene", text_at(result_case, "/scene")},
           {"camera", text_at(result_case, "/camera")},
@@ -50,20 +49,20 @@ std::vector<std::pair<std::string, std::string>> parts_of(const Json& result_cas
 }
 
 ExportCase read_case(const Json& result_case, std::size_t index, bool all) {
-  const bool has_frame_time = result_case.contains(Json::json_pointer("/timing/frame_ns"));
+  const bool has_frame_time = value_at(result_case, "/timing/frame_ns") != nullptr;
   ExportCase out{needed_text(result_case, index, "id"),
                  needed_text(result_case, index, "name"),
                  measured(result_case, all),
                  has_frame_time ? "frame_time" : "assign_time",
                  {},
                  0};
-  const Json::json_pointer samples(has_frame_time ? "/timing/frame_ns/samples" : "/timing/assign_ns/samples"),
-      frames("/timing/frames_timed");
-  if (result_case.contains(samples))
-    for (const Json& sample : result_case[samples])
+  const Json *samples =
+                 value_at(result_case, has_frame_time ? "/timing/frame_ns/samples" : "/timing/assign_ns/samples"),
+             *frames = value_at(result_case, "/timing/frames_timed");
+  if (samples != nullptr)
+    for (const Json& sample : *samples)
       if (sample.is_number()) out.samples_ns.push_back(sample.get<double>());
-  if (result_case.contains(frames) && result_case[frames].is_number_integer())
-    out.frames_timed = result_case[frames].get<int>();
+  if (frames != nullptr && frames->is_number_integer()) out.frames_timed = frames->get<int>();
   out.parts = parts_of(result_case);
   return out;
 }
@@ -80,8 +79,8 @@ ExportResult read(const Json& result, bool all) {
   out.simd_target = text_at(result, "/tool/simd_target");
   out.machine = machine_name(result["machine"]);
   out.os = text_at(result, "/machine/os");
-  if (const Json::json_pointer cores("/machine/cores"); result.contains(cores) && result[cores].is_number_integer())
-    out.cores = result[cores].get<int>();
+  if (const Json* cores = value_at(result, "/machine/cores"); cores != nullptr && cores->is_number_integer())
+    out.cores = cores->get<int>();
   for (std::size_t index = 0; index < result["cases"].size(); ++index)
     out.cases.push_back(read_case(result["cases"][index], index, all));
   return out;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "report/json_values.h"
+
 namespace clusterbench::report {
 namespace {
 
@@ -64,11 +66,6 @@ constexpr Metric k_metrics[] = {
     {"convert_cycles", "cycles", "/count/cycles_per_frame/convert", "", smaller, k_detail},
 };
 
-const Json* at(const Json& result_case, const std::string& pointer) {
-  const Json::json_pointer location(pointer);
-  return result_case.contains(location) ? &result_case[location] : nullptr;
-}
-
 bool is_interval(const Json& value) {
   return value.is_array() && value.size() == 2 && value[0].is_number() && value[1].is_number();
 }
@@ -80,12 +77,12 @@ std::optional<double> figure(const Metric& metric, double value) {
 }
 
 std::optional<Measured> measured_by(const Json& result_case, const Metric& metric) {
-  const Json* found = at(result_case, std::string(metric.pointer));
-  if (found == nullptr || !found->is_number()) return {};
-  const std::optional<double> value = figure(metric, found->get<double>());
+  const std::optional<double> found = number_at(result_case, std::string(metric.pointer));
+  if (!found) return {};
+  const std::optional<double> value = figure(metric, *found);
   if (!value) return {};
   Measured out{&metric, *value, {}};
-  const Json* interval = metric.interval.empty() ? nullptr : at(result_case, std::string(metric.interval));
+  const Json* interval = metric.interval.empty() ? nullptr : value_at(result_case, std::string(metric.interval));
   if (interval == nullptr || !is_interval(*interval)) return out;
   const double a = figure(metric, (*interval)[0].get<double>()).value_or(*value);
   const double b = figure(metric, (*interval)[1].get<double>()).value_or(*value);

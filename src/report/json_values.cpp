@@ -1,0 +1,17 @@
+#include "report/json_values.h"
+
+namespace clusterbench::report {
+
+using Json = nlohmann::ordered_json;
+
+const Json* value_at(const Json& from, const std::string& pointer) {
+  const Json::json_pointer location(pointer);
+  return from.contains(location) && !from[location].is_null() ? &from[location] : nullptr;
+}
+
+std::optional<double> number_at(const Json& from, const std::string& pointer) {
+  const Json* found = value_at(from, pointer);
+  return found != nullptr && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;
+}
+
+}  // namespace clusterbench::report
