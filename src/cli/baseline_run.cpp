@@ -7,22 +7,23 @@
 #include "cli/rounds_protocol.h"
 #include "core/error.h"
 #include "report/baseline_rounds.h"
+#include "run/passes/timing_pass.h"
 
 namespace clusterbench::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-// Rounds of one launch: together about as many as the configuration asks for, and enough for a median.
-int rounds_per_launch(const config::Config& config, int launches) {
+// As many as a run of its own has, and enough for a quartile of each launch (measure::launch_log_ratio).
+int paired_rounds_per_launch(const config::Config& config, int launches) {
   constexpr int k_least = 4;
-  return std::max(k_least, (config.timing.rounds + launches - 1) / launches);
+  return std::max(k_least, run::rounds_per_launch(config.timing, launches));
 }
 
 // An interval that reaches half of the threshold to either side tells a change of the threshold and a half from it.
 run::PairedRequest paired_request(const BaselineRequest& request, const config::Config& config) {
   return {request.launches, request.most_launches, std::log1p(0.5 * request.threshold_percent / 100.0),
-          rounds_per_launch(config, request.launches)};
+          paired_rounds_per_launch(config, request.launches)};
 }
 
 std::vector<std::string> server_command(const std::string& binary, const std::vector<std::string>& arguments) {
