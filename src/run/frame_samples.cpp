@@ -7,11 +7,11 @@ FrameSamples::FrameSamples(const config::Config& config, const SceneData& data, 
   if (data.geometry && !data.geometry->empty()) caster_.emplace(data.scene, *data.geometry);
 }
 
-std::vector<SamplesAtHand> FrameSamples::of(const view::Frame& frame) {
+std::vector<FrameSampleSet> FrameSamples::of(const view::Frame& frame) {
   if (caster_) caster_->pose(frame);
-  std::vector<SamplesAtHand> out;
+  std::vector<FrameSampleSet> out;
   for (const config::SampleSetRequest& request : config_.sample_sets) {
-    SamplesAtHand& set = out.emplace_back();
+    FrameSampleSet& set = out.emplace_back();
     if (!set_obstacle(request, data_).empty()) continue;
     if (!request.needs_triangles())
       set.samples = points_of(request, frame);
@@ -43,7 +43,7 @@ std::vector<grid::Sample> FrameSamples::points_of(const config::SampleSetRequest
 }
 
 void FrameSamples::look_at_surfaces(const config::SampleSetRequest& request, const view::Frame& frame,
-                                    SamplesAtHand& out) const {
+                                    FrameSampleSet& out) const {
   depth::DepthImage image = caster_->depths(frame, depth::PixelGrid(frame.viewport, request.divisor), config_.threads);
   if (request.set == measure::SampleSet::opaque) {
     out.samples = measure::opaque_samples(frame, image);

@@ -13,7 +13,7 @@
 namespace clusterbench::run {
 
 // A frame's samples of one set.
-struct SamplesAtHand {
+struct FrameSampleSet {
   std::vector<grid::Sample> samples;
   std::optional<depth::DepthImage> picture;  // of visible surfaces at full resolution: what waves are made of
 };
@@ -25,11 +25,11 @@ class FrameSamples {
   FrameSamples(const config::Config& config, const SceneData& data, const PathFrames& path);
 
   // One per set of Config::sample_sets, in their order; those of surfaces are empty where the scene has none.
-  std::vector<SamplesAtHand> of(const view::Frame& frame);
+  std::vector<FrameSampleSet> of(const view::Frame& frame);
 
  private:
   std::vector<grid::Sample> points_of(const config::SampleSetRequest& request, const view::Frame& frame) const;
-  void look_at_surfaces(const config::SampleSetRequest& request, const view::Frame& frame, SamplesAtHand& out) const;
+  void look_at_surfaces(const config::SampleSetRequest& request, const view::Frame& frame, FrameSampleSet& out) const;
 
   const config::Config& config_;
   const SceneData& data_;

@@ -18,12 +18,12 @@ std::uint32_t real_cells(const grid::Grid& grid) {
 }
 
 // One frame as all methods of the group see it.
-struct FrameAtHand {
+struct PreparedFrame {
   view::Frame frame;
   bool is_new_grid = false;
   FrameLights lights;
   measure::Truth truth;
-  std::vector<SamplesAtHand> samples;  // one per set of the configuration
+  std::vector<FrameSampleSet> samples;  // one per set of the configuration
   std::optional<measure::LookupFrame> lookup;
 };
 
@@ -35,7 +35,7 @@ class MethodMeter {
     measures_.has_cells = run_.has_cells();
   }
 
-  void add(const FrameAtHand& now, const grid::Grid& grid) {
+  void add(const PreparedFrame& now, const grid::Grid& grid) {
     const view::LightArrays& lights = now.lights.in_precision(measures_.method.precision);
     if (now.is_new_grid) run_.build(grid, assign::kinds_of(lights));
     run_.assign({now.frame, lights});
@@ -61,7 +61,7 @@ class MethodMeter {
  private:
   const config::Config& config_;
   assign::AssignerRun run_;
-  const assign::Lists* lists_ = nullptr;  // of the cells, in the frame at hand
+  const assign::Lists* lists_ = nullptr;  // of the cells, in the current frame
   std::optional<measure::OccupancyMeter> occupancy_;
   MethodMeasures measures_;
 };
@@ -76,7 +76,7 @@ class CaseMeter {
     storage_ = assign::find_storage(request.name)->make(request.params);
   }
 
-  void add(const FrameAtHand& now, const grid::Grid& grid, const MethodMeter& method) {
+  void add(const PreparedFrame& now, const grid::Grid& grid, const MethodMeter& method) {
     if (storage_) {
       if (now.is_new_grid) storage_->start(grid, now.frame.ranges());
       storage_->store(*method.run().filled_lists());
@@ -91,7 +91,7 @@ class CaseMeter {
   void ask_at(std::size_t set, int frame, std::span<const grid::Sample> samples, const measure::NeededLights& needed) {
     measure::add_samples(measures_.samples[set].counts, frame, samples, needed, *structure_);
   }
-  void ask_waves(std::size_t set, const SamplesAtHand& samples) {
+  void ask_waves(std::size_t set, const FrameSampleSet& samples) {
     std::optional<measure::Coherence>& coherence = measures_.samples[set].coherence;
     if (!coherence) coherence.emplace();
     measure::add_frame(*coherence, *samples.picture, samples.samples, *structure_);
@@ -107,7 +107,7 @@ class CaseMeter {
  private:
   Method method_;
   std::unique_ptr<assign::Storage> storage_;           // none: the method's own structure
-  const assign::LightStructure* structure_ = nullptr;  // of the frame at hand
+  const assign::LightStructure* structure_ = nullptr;  // of the current frame
   measure::BufferMeter buffers_;
   StructureMeasures measures_;
 };
@@ -115,7 +115,7 @@ class CaseMeter {
 // What samples need is kept for so many at once: at full resolution it would not fit in memory whole.
 constexpr std::size_t k_samples_at_once = 16384;
 
-void ask_at_samples(const FrameAtHand& now, std::vector<CaseMeter>& cases) {
+void ask_at_samples(const PreparedFrame& now, std::vector<CaseMeter>& cases) {
   for (std::size_t set = 0; set < now.samples.size(); ++set) {
     const std::span<const grid::Sample> all = now.samples[set].samples;
     for (std::size_t begin = 0; begin < all.size(); begin += k_samples_at_once) {
@@ -128,9 +128,9 @@ void ask_at_samples(const FrameAtHand& now, std::vector<CaseMeter>& cases) {
   }
 }
 
-FrameAtHand look_at(const config::Config& config, const PathFrames& path, FrameSamples& samples, GridOfFrames& grids,
-                    int index) {
-  FrameAtHand now;
+PreparedFrame prepare(const config::Config& config, const PathFrames& path, FrameSamples& samples, GridOfFrames& grids,
+                      int index) {
+  PreparedFrame now;
   now.frame = path.frame(index);
   now.is_new_grid = grids.update(path, now.frame);
   const grid::Grid& grid = grids.grid();
@@ -160,7 +160,7 @@ AccuracyResult accuracy_pass(const config::Config& config, const SceneData& data
   for (int index = 0; index < path.count(); ++index) {
     if (stop) return result;
     on_frame(index);
-    const FrameAtHand now = look_at(config, path, samples, grids, index);
+    const PreparedFrame now = prepare(config, path, samples, grids, index);
     for (std::size_t i = 0; i < losses.size(); ++i) losses[i].add_frame(now.lights.packed(i));
     for (MethodMeter& method : methods) {
       method.add(now, grids.grid());
