@@ -82,10 +82,10 @@ Ending wait_for(pid_t pid, const MemoryFile& errors) {
   if (WIFSIGNALED(status)) {
     const int number = WTERMSIG(status);
     const std::string name = number == SIGKILL ? "killed, as where memory runs out" : ::strsignal(number);
-    return {"signal " + std::to_string(number) + " (" + name + ")", -1, errors.last_words()};
+    return {"signal " + std::to_string(number) + " (" + name + ")", -1, errors.tail()};
   }
   const int code = WEXITSTATUS(status);
-  return {code == 0 ? "" : "exit code " + std::to_string(code), code, errors.last_words()};
+  return {code == 0 ? "" : "exit code " + std::to_string(code), code, errors.tail()};
 }
 
 // Without waiting for it; it can still be waited for.
@@ -163,7 +163,7 @@ MemoryFile::~MemoryFile() {
   ::close(descriptor_);
 }
 
-std::string MemoryFile::last_words() const {
+std::string MemoryFile::tail() const {
   constexpr off_t k_most = 2000;
   struct stat facts {};
   if (::fstat(descriptor_, &facts) != 0) return "";
@@ -206,36 +206,35 @@ Conversation::~Conversation() {
   ::close(socket_);
 }
 
-bool Conversation::say(const std::string& line) {
+void Conversation::send_line(const std::string& line) {
   const std::string text = line + "\n";
-  for (std::size_t said = 0; said < text.size();) {
-    const ssize_t bytes = ::send(socket_, text.data() + said, text.size() - said, MSG_NOSIGNAL);
-    if (bytes < 0 && errno != EINTR) return false;
-    said += static_cast<std::size_t>(std::max<ssize_t>(bytes, 0));
+  for (std::size_t sent = 0; sent < text.size();) {
+    const ssize_t bytes = ::send(socket_, text.data() + sent, text.size() - sent, MSG_NOSIGNAL);
+    if (bytes < 0 && errno != EINTR) return;
+    sent += static_cast<std::size_t>(std::max<ssize_t>(bytes, 0));
   }
-  return true;
 }
 
-Conversation::Heard Conversation::hear(std::string& line, double seconds, const std::atomic<bool>& stop) {
+Conversation::Received Conversation::receive_line(std::string& line, double seconds, const std::atomic<bool>& stop) {
   constexpr int k_wait_ms = 100;
   const auto start = std::chrono::steady_clock::now();
   std::array<char, 1 << 16> some{};
   for (std::size_t searched = 0;;) {
-    if (const std::size_t end = heard_.find('\n', searched); end != std::string::npos) {
-      line = heard_.substr(0, end);
-      heard_.erase(0, end + 1);
-      return Heard::line;
+    if (const std::size_t end = received_.find('\n', searched); end != std::string::npos) {
+      line = received_.substr(0, end);
+      received_.erase(0, end + 1);
+      return Received::line;
     }
     pollfd waiting{socket_, POLLIN, 0};
     const bool is_ready = ::poll(&waiting, 1, k_wait_ms) > 0;
-    if (stop) return Heard::stop;
+    if (stop) return Received::stop;
     if (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > seconds)
-      return Heard::nothing;
+      return Received::timeout;
     if (!is_ready) continue;
     const ssize_t bytes = ::recv(socket_, some.data(), some.size(), 0);
-    if (bytes == 0 || (bytes < 0 && errno != EINTR)) return Heard::end;
-    searched = heard_.size();
-    if (bytes > 0) heard_.append(some.data(), static_cast<std::size_t>(bytes));
+    if (bytes == 0 || (bytes < 0 && errno != EINTR)) return Received::end;
+    searched = received_.size();
+    if (bytes > 0) received_.append(some.data(), static_cast<std::size_t>(bytes));
   }
 }
 

@@ -24,8 +24,8 @@ class MemoryFile {
   MemoryFile& operator=(const MemoryFile&) = delete;
 
   int descriptor() const { return descriptor_; }
-  // The last lines: what a program says when it gives up.
-  std::string last_words() const;
+  // Its last 2,000 bytes.
+  std::string tail() const;
 
  private:
   int descriptor_;
@@ -34,7 +34,7 @@ class MemoryFile {
 struct Ending {
   std::string how;         // "" if it ended well; else "exit code 3", "signal 11 (...)", "cannot be started: ..."
   int exit_code = -1;      // where it has one
-  std::string last_words;  // of its standard error
+  std::string error_tail;  // the end of its standard error
 };
 
 // Runs `command` (looked for in PATH) to its end, with `input` as its standard input, and hands on each line of its
@@ -51,23 +51,23 @@ class Conversation {
   Conversation(const Conversation&) = delete;
   Conversation& operator=(const Conversation&) = delete;
 
-  // False if the program has closed its ears.
-  bool say(const std::string& line);
+  // To a program that has ended nothing is sent, without an error: receive_line() reports its end.
+  void send_line(const std::string& line);
 
-  enum class Heard { line, end, nothing, stop };
+  enum class Received { line, end, timeout, stop };
   // Waits at most `seconds` for the next line.
-  Heard hear(std::string& line, double seconds, const std::atomic<bool>& stop);
+  Received receive_line(std::string& line, double seconds, const std::atomic<bool>& stop);
 
   // Ends it if it still runs.
   Ending end();
-  // By now.
-  std::string last_words() const { return errors_.last_words(); }
+  // The end of its standard error so far.
+  std::string error_tail() const { return errors_.tail(); }
 
  private:
   MemoryFile errors_;
   pid_t pid_ = -1;
   int socket_ = -1;
-  std::string heard_;
+  std::string received_;
   Ending ending_;
 };
 

@@ -97,7 +97,7 @@ run::Counts count_under_callgrind(const CountTask& task, const OnCase& on_case, 
       },
       stop);
   if (!stop && !ending.how.empty())
-    throw Error("", k_callgrind, "the run under valgrind failed (" + ending.how + "): " + ending.last_words);
+    throw Error("", k_callgrind, "the run under valgrind failed (" + ending.how + "): " + ending.error_tail);
   return counts;
 }
 

@@ -30,8 +30,9 @@ std::string file_argument(const config::Config& config) {
 std::string handed_over(const config::Config& config, const run::Plan& plan, std::optional<std::size_t> scene) {
   Json scenes = Json::array();
   for (std::size_t i = scene.value_or(0); i < (scene ? *scene + 1 : config.scenes.size()); ++i)
-    scenes.push_back(
-        {{"place", i}, {"path", path_for_others(config.scenes[i].path)}, {"sha256", plan.scenes[i].contents_sha256()}});
+    scenes.push_back({{"scene_index", i},
+                      {"path", path_for_others(config.scenes[i].path)},
+                      {"sha256", plan.scenes[i].contents_sha256()}});
   return Json{{"config", config.resolved}, {"scenes", scenes}}.dump();
 }
 
@@ -40,7 +41,7 @@ ReceivedRun received_run(const std::string& line, const std::string& file) {
   ReceivedRun run{config::parse_config(given["config"].dump(), file == k_no_file ? "" : file), {}};
   std::vector<config::SceneRequest> scenes;
   for (const Json& scene : given["scenes"]) {
-    scenes.push_back(run.config.scenes.at(scene["place"].get<std::size_t>()));
+    scenes.push_back(run.config.scenes.at(scene["scene_index"].get<std::size_t>()));
     if (scene["path"].is_string()) scenes.back().path = scene["path"].get<std::string>();
   }
   run.config.scenes = std::move(scenes);

@@ -9,7 +9,7 @@
 
 namespace clusterbench::cli {
 
-// A line of JSON. With `scene`, a place in the configuration's list, it is of that one alone. The name of the
+// A line of JSON. With `scene`, an index in the configuration's list, it is of that one alone. The name of the
 // configuration's file goes as an argument beside it, since a name need not be UTF-8.
 std::string file_argument(const config::Config& config);
 std::string handed_over(const config::Config& config, const run::Plan& plan, std::optional<std::size_t> scene = {});

@@ -99,14 +99,15 @@ class Launch {
  public:
   Launch(const config::Config& config, const run::Plan& plan, std::size_t scene, const std::atomic<bool>& stop)
       : stop_(stop), child_({k_this_program, "run", k_serve_launch, "--", file_argument(config)}) {
-    child_.say(handed_over(config, plan, scene));
-    if (const std::optional<std::string> line = heard(); line && *line != k_ready) fail("greets with '" + *line + "'");
+    child_.send_line(handed_over(config, plan, scene));
+    if (const std::optional<std::string> line = next_line(); line && *line != k_ready)
+      fail("greets with '" + *line + "'");
   }
 
   // nullopt once it is to stop.
   std::optional<Json> answer(const Json& request) {
-    child_.say(request.dump());  // one that has ended is heard to have done so
-    const std::optional<std::string> line = heard();
+    child_.send_line(request.dump());
+    const std::optional<std::string> line = next_line();
     if (!line) return std::nullopt;
     Json read = Json::parse(*line, nullptr, false);
     if (!read.is_object()) fail("answered '" + line->substr(0, 100) + "'");
@@ -114,12 +115,13 @@ class Launch {
   }
 
  private:
-  std::optional<std::string> heard() {
+  std::optional<std::string> next_line() {
     constexpr double k_no_end_s = 1e9;  // what takes long in a process of its own takes as long here
     std::string line;
-    const Conversation::Heard what = stop_ ? Conversation::Heard::stop : child_.hear(line, k_no_end_s, stop_);
-    if (what == Conversation::Heard::line) return line;
-    // A signal from the keyboard reaches both; the other one may be the first to know.
+    const Conversation::Received received =
+        stop_ ? Conversation::Received::stop : child_.receive_line(line, k_no_end_s, stop_);
+    if (received == Conversation::Received::line) return line;
+    // Ctrl-C signals both processes, and the launch may end before `stop_` is set here.
     for (int i = 0; i < 20 && !stop_; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     if (stop_) return std::nullopt;
     const Ending ending = child_.end();
@@ -128,8 +130,9 @@ class Launch {
   }
 
   [[noreturn]] void fail(const std::string& what, ExitCode code = ExitCode::internal) const {
-    const std::string words = child_.last_words();
-    throw Error("", "--launches", "a process that was to measure " + what + (words.empty() ? "" : ": " + words), code);
+    const std::string errors = child_.error_tail();
+    throw Error("", "--launches", "a process that was to measure " + what + (errors.empty() ? "" : ": " + errors),
+                code);
   }
 
   const std::atomic<bool>& stop_;

@@ -63,8 +63,8 @@ RemoteProgram::RemoteProgram(const std::vector<std::string>& command, double pat
 
 void RemoteProgram::fail(const std::string& what) {
   if (stop_) throw Error(name_, "", "interrupted", stopped_exit_code());
-  const std::string words = child_.last_words();
-  throw Error(name_, "--baseline-binary", what + (words.empty() ? "" : ": " + words));
+  const std::string errors = child_.error_tail();
+  throw Error(name_, "--baseline-binary", what + (errors.empty() ? "" : ": " + errors));
 }
 
 void RemoteProgram::greet() {
@@ -84,14 +84,14 @@ void RemoteProgram::greet() {
 
 Json RemoteProgram::answer(const std::string& request) {
   std::string line;
-  switch (child_.hear(line, patience_s_, stop_)) {
-    case Conversation::Heard::line:
+  switch (child_.receive_line(line, patience_s_, stop_)) {
+    case Conversation::Received::line:
       break;
-    case Conversation::Heard::stop:
+    case Conversation::Received::stop:
       fail("interrupted");
-    case Conversation::Heard::nothing:
+    case Conversation::Received::timeout:
       fail("gave no answer to '" + request + "' in " + std::to_string(std::lround(patience_s_)) + " s");
-    case Conversation::Heard::end: {
+    case Conversation::Received::end: {
       const std::string ending = child_.end().how;
       const std::string how = ending.empty() ? "" : " (" + ending + ")";
       fail(tool_.is_null() ? "is no clusterbench that can be measured beside this one; it ended at once" + how
@@ -104,7 +104,7 @@ Json RemoteProgram::answer(const std::string& request) {
 }
 
 Json RemoteProgram::ask(const std::string& request) {
-  child_.say(request);  // one that has ended is heard to have done so
+  child_.send_line(request);
   return answer(request);
 }
 

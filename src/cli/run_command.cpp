@@ -150,7 +150,7 @@ std::unique_ptr<report::Journal> open_journal(const RunFlags& flags, const confi
   return journal;
 }
 
-// Whoever is told of an end before the end is told what is left, too.
+// For messages about a run that ends early: where its finished cases are.
 std::string what_is_kept(const report::Journal* journal) {
   if (journal == nullptr || journal->is_empty()) return "";
   return "; what was measured is in " + journal->partial_path().string() + ", --resume goes on";
@@ -352,7 +352,7 @@ ExitCode serve(const RunFlags& flags, const config::Config& config, const run::P
 // Of a run that has started this program again.
 ExitCode serve_run(const RunFlags& flags) {
   std::string line;
-  if (!std::getline(std::cin, line)) return ExitCode::ok;  // it is gone
+  if (!std::getline(std::cin, line)) return ExitCode::ok;  // the run has ended
   const ReceivedRun received = received_run(line, flags.inputs.front());
   if (flags.serves_launch)
     serve_launch(received.config, received.plan);

@@ -23,7 +23,7 @@ bool is_journal(std::istream& in) {
   return first.is_object() && first.contains("header");
 }
 
-// Whoever reads results relies on what the schema promises.
+// Readers of results rely on the schema.
 void check(const std::string& path, const Json& result) {
   const std::vector<std::string> violations =
       config::schema_violations(config::result_schema(), nlohmann::json(result));
