@@ -156,6 +156,10 @@ std::string what_is_kept(const report::Journal* journal) {
   return "; what was measured is in " + journal->partial_path().string() + ", --resume goes on";
 }
 
+Error with_what_is_kept(const Error& error, const report::Journal* journal) {
+  return Error(error.file(), error.where(), error.message() + what_is_kept(journal), error.code());
+}
+
 ExitCode interrupted(const report::Journal* journal) {
   tell("interrupted" + what_is_kept(journal));
   return stopped_exit_code();
@@ -188,7 +192,7 @@ std::vector<std::string> plan_arguments(const RunFlags& flags) {
 
 // False once it is to stop.
 bool add_baseline(const RunFlags& flags, const config::Config& config, const run::Plan& plan, ProgressLine& progress,
-                  const std::atomic<bool>& stop, Json& result) {
+                  const report::Journal* journal, const std::atomic<bool>& stop, Json& result) {
   run::Progress now;
   now.cost_total = 1.0;
   const auto on_round = [&](const run::PairedRound& round) {
@@ -198,8 +202,9 @@ bool add_baseline(const RunFlags& flags, const config::Config& config, const run
   };
   try {
     measure_beside(flags.baseline, plan_arguments(flags), config, plan, on_round, stop, result);
-  } catch (const Error&) {
-    if (!stop) throw;
+  } catch (const Error& error) {
+    progress.clear();
+    if (!stop) throw with_what_is_kept(error, journal);
   }
   progress.clear();
   return !stop;
@@ -220,18 +225,6 @@ run::Listener make_listener(ProgressLine& progress, report::Journal* journal, st
     progress.case_done(done, ++number, total);
   };
   return listener;
-}
-
-run::Result keeping_told(const report::Journal* journal, ProgressLine& progress,
-                         const std::function<run::Result()>& measured) {
-  try {
-    run::Result result = measured();
-    progress.clear();
-    return result;
-  } catch (const Error& error) {
-    progress.clear();
-    throw Error(error.file(), error.where(), error.message() + what_is_kept(journal), error.code());
-  }
 }
 
 // The ids of the plan's cases without those that an interrupted run has finished.
@@ -311,14 +304,19 @@ ExitCode measure(const RunFlags& flags, const config::Config& config, const run:
   const run::Launcher launcher =
       config.timing.launches > 1 ? make_launcher(config, plan, journal.get(), stop) : run::Launcher{};
   const run::Listener listener = make_listener(progress, journal.get(), earlier.size(), case_count(plan));
-  run::Result fresh = keeping_told(journal.get(), progress, [&] {
-    return run::run_plan(config, plan, earlier_ids, listener, stop, counts, launcher);
-  });
+  run::Result fresh;
+  try {
+    fresh = run::run_plan(config, plan, earlier_ids, listener, stop, counts, launcher);
+  } catch (const Error& error) {
+    progress.clear();
+    throw with_what_is_kept(error, journal.get());
+  }
+  progress.clear();
   if (stop) return interrupted(journal.get());
   if (!fresh.date.empty()) fresh.command = own_command_line();
 
   Json result = report::result_to_json(fresh, earlier);
-  if (!flags.baseline.binary.empty() && !add_baseline(flags, config, plan, progress, stop, result))
+  if (!flags.baseline.binary.empty() && !add_baseline(flags, config, plan, progress, journal.get(), stop, result))
     return interrupted(journal.get());
   if (journal)
     journal->finish(result);

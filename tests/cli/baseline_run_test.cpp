@@ -153,6 +153,8 @@ TEST(Baseline, a_program_that_dies_is_told_with_its_last_words) {
   EXPECT_EQ(done.code, 2);
   EXPECT_NE(done.err.find("ended (signal 11 (Segmentation fault)) at 'lists "), std::string::npos) << done.err;
   EXPECT_NE(done.err.find("out of luck"), std::string::npos) << done.err;
+  EXPECT_NE(done.err.find("; what was measured is in " + place.out + ".partial, --resume goes on"), std::string::npos)
+      << done.err;
 }
 
 TEST(Baseline, a_program_that_hangs_is_ended) {
