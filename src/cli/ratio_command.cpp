@@ -17,6 +17,7 @@ namespace {
 struct RatioFlags {
   std::string result, csv, json, markdown;
   report::RatioRequest request;
+  bool all_pairs = false;  // of the tables: not a ranking
 };
 
 ExitCode show_ratios(const RatioFlags& flags) {
@@ -28,10 +29,10 @@ ExitCode show_ratios(const RatioFlags& flags) {
                 "has no times" + (request.methods.empty() ? "" : " of methods like " + request.methods));
   if (!flags.csv.empty()) write_text(flags.csv, report::ratio_csv(ratios));
   if (!flags.json.empty()) write_output(flags.json, ratios);
-  if (!flags.markdown.empty()) write_text(flags.markdown, report::ratio_markdown(ratios, request.all_pairs));
+  if (!flags.markdown.empty()) write_text(flags.markdown, report::ratio_markdown(ratios, flags.all_pairs));
   const auto takes_standard_output = [](const std::string& output) { return output == "-"; };
   if (std::ranges::none_of(std::array{flags.csv, flags.json, flags.markdown}, takes_standard_output))
-    std::cout << printable_lines(report::ratio_table(ratios, request.all_pairs));
+    std::cout << printable_lines(report::ratio_table(ratios, flags.all_pairs));
   return ExitCode::ok;
 }
 
@@ -43,7 +44,7 @@ void add_ratio(Command& program, Action& action) {
       program.add_command("ratio", "How much longer one method takes than another, with intervals, from one result");
   command.add_option("RESULT", flags->result, "A result file of `clusterbench run`").required();
   command.add_option("--methods", flags->request.methods, "Only methods whose name matches this regular expression");
-  command.add_flag("--all-pairs", flags->request.all_pairs, "Each method beside each one that is faster");
+  command.add_flag("--all-pairs", flags->all_pairs, "Each method beside each one that is faster");
   command.add_flag("--across-grids", flags->request.across_grids,
                    "All grids of a scene, camera and viewport in one ranking");
   command.add_option("--csv", flags->csv, "Write all pairs as CSV to this file (-: in place of the table)");

@@ -95,49 +95,61 @@ Json block_json(const Block& block, std::uint64_t seed, bool across_grids) {
   return out;
 }
 
-// The pair of two places; null where there is none.
-Json pair_at(const Json& block, std::size_t one, std::size_t other) {
-  for (const Json& pair : block["pairs"])
-    if (pair["case"] == one && pair["other"] == other) return pair;
-  return {};
-}
+// A block's pairs by the indices of their cases.
+class PairIndex {
+ public:
+  explicit PairIndex(const Json& block) : cases_(block["cases"].size()), pairs_(cases_ * cases_, nullptr) {
+    for (const Json& pair : block["pairs"])
+      pairs_[pair["case"].get<std::size_t>() * cases_ + pair["other"].get<std::size_t>()] = &pair;
+  }
+
+  // Of a slower case and a faster one; nullptr where they have no ratio.
+  const Json* find(std::size_t slower, std::size_t faster) const { return pairs_[slower * cases_ + faster]; }
+
+ private:
+  std::size_t cases_;
+  std::vector<const Json*> pairs_;
+};
 
 measure::Interval interval_of(const Json& pair) {
   const Json &low = pair["ci95"][0], &high = pair["ci95"][1];
   return low.is_number() && high.is_number() ? measure::Interval{low, high} : measure::Interval{};
 }
 
-std::string ratio_text(const Json& pair) {
-  if (pair.is_null()) return "-";
-  const measure::Interval ci95 = interval_of(pair);
-  if (!ci95.is_known()) return text("%.2f", pair["ratio"].get<double>()) + " (" + k_unknown_interval + ")";
-  return text("%.2f", pair["ratio"].get<double>()) + text(" (%.2f", ci95.low) + text(" to %.2f)", ci95.high);
+std::string ratio_text(const Json* pair) {
+  if (pair == nullptr) return "-";
+  const measure::Interval ci95 = interval_of(*pair);
+  const std::string ratio = text("%.2f", (*pair)["ratio"].get<double>());
+  if (!ci95.is_known()) return ratio + " (" + k_unknown_interval + ")";
+  return ratio + text(" (%.2f", ci95.low) + text(" to %.2f)", ci95.high);
 }
 
-bool is_longer(const Json& pair) {
-  return !pair.is_null() && pair["takes_longer"].get<bool>();
+bool is_longer(const Json* pair) {
+  return pair != nullptr && (*pair)["takes_longer"].get<bool>();
 }
 
-std::string label_at(const Json& block, std::size_t place) {
-  return shown(block["cases"][place]["label"]);
+std::string label_at(const Json& block, std::size_t index) {
+  return shown(block["cases"][index]["label"]);
 }
 
 std::vector<Cells> ranking(const Json& block) {
   std::vector<Cells> rows{{"", "assigner", "frame us", "/ fastest", "/ row above"}};
+  const PairIndex pairs(block);
   for (std::size_t i = 0; i < block["cases"].size(); ++i) {
-    const Json above = i > 0 ? pair_at(block, i, i - 1) : Json();
+    const Json* above = i > 0 ? pairs.find(i, i - 1) : nullptr;
     rows.push_back({i > 0 && !is_longer(above) ? "~" : "", label_at(block, i),
                     text("%.2f", block["cases"][i]["frame_ns"].get<double>() / 1e3),
-                    i == 0 ? "" : ratio_text(pair_at(block, i, 0)), i == 0 ? "" : ratio_text(above)});
+                    i == 0 ? "" : ratio_text(pairs.find(i, 0)), i == 0 ? "" : ratio_text(above)});
   }
   return rows;
 }
 
 std::vector<Cells> pair_rows(const Json& block) {
   std::vector<Cells> rows{{"", "assigner", "/ assigner", "ratio"}};
+  const PairIndex pairs(block);
   for (std::size_t i = 1; i < block["cases"].size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
-      const Json pair = pair_at(block, i, j);
+      const Json* pair = pairs.find(i, j);
       rows.push_back({is_longer(pair) ? "" : "~", label_at(block, i), label_at(block, j), ratio_text(pair)});
     }
   return rows;
@@ -242,17 +254,19 @@ std::string ratio_markdown(const Json& ratios, bool all_pairs) {
 
 std::string ratio_csv(const Json& ratios) {
   std::string out = "scene,grid,method,other,ratio,low,high\n";
-  for (const Json& block : ratios["blocks"])
-    for (std::size_t i = 0; i < block["cases"].size(); ++i)
-      for (std::size_t j = 0; j < block["cases"].size(); ++j) {
-        const Json pair = pair_at(block, std::max(i, j), std::min(i, j));
-        if (i == j || pair.is_null()) continue;
-        const double ratio = pair["ratio"];
-        const measure::Interval ci95 = interval_of(pair);
-        const Json &one = block["cases"][i], &other = block["cases"][j];
-        const std::vector<std::string> names{block["scene"], block["name"], one["label"], other["label"]};
+  for (const Json& block : ratios["blocks"]) {
+    const PairIndex pairs(block);
+    const Json& cases = block["cases"];
+    for (std::size_t i = 0; i < cases.size(); ++i)
+      for (std::size_t j = 0; j < cases.size(); ++j) {
+        const Json* pair = pairs.find(std::max(i, j), std::min(i, j));
+        if (pair == nullptr) continue;
+        const double ratio = (*pair)["ratio"];
+        const measure::Interval ci95 = interval_of(*pair);
+        const std::vector<std::string> names{block["scene"], block["name"], cases[i]["label"], cases[j]["label"]};
         out += i > j ? csv_row(names, ratio, ci95) : csv_row(names, 1.0 / ratio, {1.0 / ci95.high, 1.0 / ci95.low});
       }
+  }
   return out;
 }
 

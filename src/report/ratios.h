@@ -26,7 +26,6 @@ bool takes_longer(const nlohmann::ordered_json& result, const nlohmann::ordered_
 struct RatioRequest {
   std::string methods;        // a regular expression; all: empty
   bool across_grids = false;  // all grids of a scene, camera and viewport together
-  bool all_pairs = false;     // of the tables: each beside each that is faster, not a ranking
 };
 
 // Of each grid (or view) the timed cases, the fastest first, and the ratio of any two, the slower by the faster one:
@@ -37,7 +36,8 @@ nlohmann::ordered_json ratios_of(const nlohmann::ordered_json& result, const Rat
 // "fastest": {"id", "ratio", "ci95"} or null, "above": the same of the next faster one, "is_like_above"}.
 nlohmann::ordered_json ratio_rankings(const nlohmann::ordered_json& result);
 
-// Of what ratios_of() gives. A ranking has each case beside the fastest one and beside the one before it.
+// Of what ratios_of() gives: a ranking, with each case beside the fastest one and beside the one before it, or with
+// `all_pairs` each case beside each faster one.
 std::string ratio_table(const nlohmann::ordered_json& ratios, bool all_pairs);
 std::string ratio_markdown(const nlohmann::ordered_json& ratios, bool all_pairs);
 // All pairs, both ways around; an interval that is unknown is empty.
