@@ -13,8 +13,9 @@ std::uint64_t memory_limit();
 void set_memory_limit(std::uint64_t bytes);
 
 // Throws Error (where: limits.memory_mib) if so many entries of so many bytes each are more than the limit. `what` they
-// are, in the plural: "pairs of light lists".
-void check_memory(const char* what, std::uint64_t entries, std::uint64_t entry_bytes);
+// are, in the plural: "pairs of light lists". `remedy`: what makes them fewer.
+void check_memory(const char* what, std::uint64_t entries, std::uint64_t entry_bytes,
+                  const char* remedy = "use fewer lights or cells");
 
 // Sets the limit until its end: for tests.
 class MemoryLimitScope {

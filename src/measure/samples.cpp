@@ -14,9 +14,13 @@ namespace {
 constexpr std::array k_names = {"volume", "opaque", "transparent", "fog", "mirror", "anywhere"};
 static_assert(k_names.size() == k_sample_set_count);
 
-// Room for so many; throws Error where that would be more than the limit on memory.
-std::vector<grid::Sample> room_for(std::uint64_t count) {
-  check_memory("samples", count, sizeof(grid::Sample));
+constexpr const char* k_fewer_samples = "ask for fewer samples";
+constexpr const char* k_larger_blocks = "ask for a larger divisor";
+constexpr const char* k_fewer_froxels = "ask for fewer froxels";
+
+// Room for so many; throws Error, which names the remedy, where that would be more than the limit on memory.
+std::vector<grid::Sample> room_for(std::uint64_t count, const char* remedy) {
+  check_memory("samples", count, sizeof(grid::Sample), remedy);
   std::vector<grid::Sample> samples;
   samples.reserve(count);
   return samples;
@@ -90,7 +94,7 @@ grid::Sample sample_of(const view::Frame& frame, const Vec3d& from_eye) {
 std::vector<grid::Sample> volume_samples(const view::Frame& frame, double far_m, int count, std::uint64_t seed) {
   SplitMix64 random = random_of(seed, frame);
   const Depths depths(frame.projection, far_m);
-  std::vector<grid::Sample> samples = room_for(static_cast<std::uint64_t>(count));
+  std::vector<grid::Sample> samples = room_for(static_cast<std::uint64_t>(count), k_fewer_samples);
   for (int i = 0; i < count; ++i) {
     const double x = random.between(0.0, frame.viewport.x), y = random.between(0.0, frame.viewport.y);
     samples.push_back(sample_at(frame, x, y, depths.at(random.unit())));
@@ -99,8 +103,9 @@ std::vector<grid::Sample> volume_samples(const view::Frame& frame, double far_m,
 }
 
 std::vector<grid::Sample> opaque_samples(const view::Frame& frame, const depth::DepthImage& image) {
-  std::vector<grid::Sample> samples = room_for(static_cast<std::uint64_t>(
-      std::ranges::count_if(image.nearest, [](float depth) { return std::isfinite(depth); })));
+  std::vector<grid::Sample> samples = room_for(static_cast<std::uint64_t>(std::ranges::count_if(
+                                                   image.nearest, [](float depth) { return std::isfinite(depth); })),
+                                               k_larger_blocks);
   for (std::size_t i = 0; i < image.nearest.size(); ++i) {
     if (!std::isfinite(image.nearest[i])) continue;
     const Vec2d pixel = image.pixels.pixel(i);
@@ -110,7 +115,7 @@ std::vector<grid::Sample> opaque_samples(const view::Frame& frame, const depth::
 }
 
 std::vector<grid::Sample> transparent_samples(const view::Frame& frame, const depth::LayerImage& image) {
-  std::vector<grid::Sample> samples = room_for(image.depths.size());
+  std::vector<grid::Sample> samples = room_for(image.depths.size(), k_larger_blocks);
   for (std::size_t i = 0; i + 1 < image.begin.size(); ++i) {
     const Vec2d pixel = image.pixels.pixel(i);
     for (std::uint32_t k = image.begin[i]; k < image.begin[i + 1]; ++k)
@@ -123,7 +128,8 @@ std::vector<grid::Sample> fog_samples(const view::Frame& frame, double far_m, Ve
   const Depths depths(frame.projection, far_m);
   std::vector<grid::Sample> samples =
       room_for(static_cast<std::uint64_t>(froxels.x) * static_cast<std::uint64_t>(froxels.y) *
-               static_cast<std::uint64_t>(froxels.z));
+                   static_cast<std::uint64_t>(froxels.z),
+               k_fewer_froxels);
   for (int z = 0; z < froxels.z; ++z)
     for (int y = 0; y < froxels.y; ++y)
       for (int x = 0; x < froxels.x; ++x)
@@ -135,7 +141,7 @@ std::vector<grid::Sample> fog_samples(const view::Frame& frame, double far_m, Ve
 std::vector<grid::Sample> anywhere_samples(const view::Frame& frame, const Bounds& bounds, int count,
                                            std::uint64_t seed) {
   SplitMix64 random = random_of(seed, frame);
-  std::vector<grid::Sample> samples = room_for(static_cast<std::uint64_t>(count));
+  std::vector<grid::Sample> samples = room_for(static_cast<std::uint64_t>(count), k_fewer_samples);
   for (int i = 0; i < count; ++i) samples.push_back(random_point(frame, bounds, random));
   return samples;
 }
@@ -144,7 +150,7 @@ std::vector<grid::Sample> mirror_samples(const view::Frame& frame, const Bounds&
                                          std::uint64_t seed) {
   constexpr int k_tries = 16;
   SplitMix64 random = random_of(seed, frame);
-  std::vector<grid::Sample> samples = room_for(static_cast<std::uint64_t>(count));
+  std::vector<grid::Sample> samples = room_for(static_cast<std::uint64_t>(count), k_fewer_samples);
   for (std::int64_t i = 0; i < std::int64_t{k_tries} * count && samples.size() < static_cast<std::size_t>(count); ++i) {
     const grid::Sample sample = random_point(frame, bounds, random);
     if (!is_in_view(frame, sample)) samples.push_back(sample);
