@@ -248,8 +248,8 @@ void RayCaster::pose(const view::Frame& frame) {
   if (surfaces_ && surfaces_->placed == placed && glm::length(eye - surfaces_->origin) <= k_far_m) return;
   // A triangle and what Embree builds over it.
   constexpr std::uint64_t k_bytes_of_triangle = 256;
-  check_memory("triangles", geometry_.triangle_count(), k_bytes_of_triangle);
-  check_memory("vertices", geometry_.vertex_count(), sizeof(Vec3f));
+  check_memory("triangles", geometry_.triangle_count(), k_bytes_of_triangle, scene::k_fewer_triangles);
+  check_memory("vertices", geometry_.vertex_count(), sizeof(Vec3f), scene::k_fewer_triangles);
   if (!surfaces_) surfaces_ = std::make_unique<Surfaces>();
   Surfaces& now = *surfaces_;
   now.placed.clear();  // until all stands
@@ -274,7 +274,7 @@ void RayCaster::pose(const view::Frame& frame) {
 DepthImage RayCaster::depths(const view::Frame& frame, const PixelGrid& pixels, int threads) const {
   const Camera camera(frame, surfaces_->origin, pixels);
   DepthImage out{pixels, {}};
-  check_memory("depths of pixels", pixels.count(), sizeof(float));
+  check_memory("depths of pixels", pixels.count(), sizeof(float), "ask for a larger divisor");
   out.nearest.assign(pixels.count(), k_nothing);
   parallel_ranges(pixels.count(), threads, [&](std::size_t begin, std::size_t end) {
     RTCIntersectContext context;
@@ -294,7 +294,7 @@ LayerImage RayCaster::layers(const view::Frame& frame, const DepthImage& opaque,
   const Camera camera(frame, surfaces_->origin, opaque.pixels);
   const std::size_t count = opaque.pixels.count();
   const auto most = static_cast<std::size_t>(most_layers);
-  check_memory("depths of layers", count * most, sizeof(float));
+  check_memory("depths of layers", count * most, sizeof(float), "ask for fewer layers or a larger divisor");
   std::vector<std::vector<float>> found(static_cast<std::size_t>(opaque.pixels.size.y));
   LayerImage out{opaque.pixels, std::vector<std::uint32_t>(count + 1, 0), {}};
   const auto width = static_cast<std::size_t>(opaque.pixels.size.x);

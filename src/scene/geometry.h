@@ -29,6 +29,9 @@ struct SurfaceInstance {
   int shown_by = -1;  // the node whose visibility is its own
 };
 
+// What makes a scene's geometry take less memory, for messages (check_memory()).
+inline constexpr const char* k_fewer_triangles = "use simpler meshes";
+
 struct Geometry {
   std::vector<Surface> surfaces;
   std::vector<SurfaceInstance> instances;

@@ -9,6 +9,7 @@
 
 #include "core/memory.h"
 #include "core/text.h"
+#include "scene/geometry.h"
 
 namespace clusterbench::scene {
 namespace {
@@ -185,10 +186,7 @@ AccessorHead AccessorReader::head(std::size_t accessor) const {
   head.component = component_of(from.at("componentType"));
   head.type = from.at("type").text();
   head.count = from.at("count").whole();  // 0 for an animation without keys
-  if (from.has("normalized")) {
-    if (!from.at("normalized").value().is_boolean()) from.at("normalized").refuse("true or false is needed");
-    head.normalized = from.at("normalized").value().get<bool>();
-  }
+  if (from.has("normalized")) head.normalized = from.at("normalized").boolean();
   if (head.normalized && (head.component == Component::f32 || head.component == Component::u32)) {
     from.at("normalized").refuse("only 8-bit and 16-bit integers can be normalized");
   }
@@ -216,7 +214,7 @@ void AccessorReader::count_numbers(const JsonLocation& accessor, std::size_t cou
   if (use_ == AccessorUse::vertices) {
     if (count > std::numeric_limits<std::uint32_t>::max()) accessor.at("count").refuse("more than 2^32 vertices");
     numbers_ += count * components;
-    return check_memory("numbers of vertices", numbers_, sizeof(double));
+    return check_memory("numbers of vertices", numbers_, sizeof(double), k_fewer_triangles);
   }
   if (count > (k_most_numbers - numbers_) / components) {
     accessor.at("count").refuse("more than " + std::to_string(k_most_numbers) + " numbers of animation in one file");

@@ -90,9 +90,7 @@ void copy_visibility(const JsonLocation& node, json& out) {
   const JsonLocation extension = node.at("extensions").at("KHR_node_visibility");
   extension.expect_object();
   if (!extension.has("visible")) return;
-  const JsonLocation visible = extension.at("visible");
-  if (!visible.value().is_boolean()) visible.refuse("found " + kind_of(visible.value()) + ", true or false is needed");
-  out["visible"] = visible.value();
+  out["visible"] = extension.at("visible").boolean();
 }
 
 json checked_node(const JsonLocation& root, const JsonLocation& node, std::size_t nodes) {

@@ -25,10 +25,15 @@ bool has_extension(const JsonLocation& object, const char* name) {
 
 enum class Mode : std::size_t { triangles = 4, strip = 5, fan = 6 };
 
+std::size_t triangle_count(Mode mode, std::size_t corners) {
+  return mode == Mode::triangles ? corners / 3 : corners - std::min<std::size_t>(corners, 2);
+}
+
 // As glTF 2.0 lists them (3.7.2.1).
 std::vector<Triangle> triangles_of(Mode mode, const std::vector<std::uint32_t>& corners) {
   std::vector<Triangle> out;
   const std::size_t count = corners.size();
+  out.reserve(triangle_count(mode, count));
   if (mode == Mode::triangles) {
     for (std::size_t i = 0; i + 2 < count; i += 3) out.push_back({corners[i], corners[i + 1], corners[i + 2]});
   } else {
@@ -82,7 +87,7 @@ class MeshReader {
 
   std::optional<Surface> read_primitive(const JsonLocation& primitive, std::optional<std::size_t> skin) {
     primitive.expect_object();
-    const std::size_t mode = primitive.has("mode") ? primitive.at("mode").index(7, "mode") : 4;
+    const std::size_t mode = mode_of(primitive);
     const JsonLocation attributes = primitive.at("attributes");
     if (mode < 4 || !attributes.has("POSITION")) return std::nullopt;  // points, lines, or nothing to draw
     if (primitive.has("targets")) primitive.at("targets").warn("morph targets are not read: the mesh stands unmorphed");
@@ -91,6 +96,10 @@ class MeshReader {
         !primitive.has("indices") || reader_.has_data(accessor_of(primitive.at("indices"), "SCALAR"));
     if (has_extension(primitive, k_draco) && !(reader_.has_data(positions) && has_indices))
       primitive.at("extensions").at(k_draco).refuse("Draco compression is not read; export the scene without it");
+    const std::size_t vertices = reader_.head(positions).count;
+    const std::size_t corners =
+        primitive.has("indices") ? reader_.head(accessor_of(primitive.at("indices"), "SCALAR")).count : vertices;
+    count_memory(vertices, triangle_count(static_cast<Mode>(mode), corners));
     Surface surface;
     read_material(primitive, surface);
     if (skin)
@@ -101,13 +110,37 @@ class MeshReader {
     return surface;
   }
 
+  static std::size_t mode_of(const JsonLocation& primitive) {
+    if (!primitive.has("mode")) return static_cast<std::size_t>(Mode::triangles);
+    const JsonLocation mode = primitive.at("mode");
+    if (mode.whole() > static_cast<std::size_t>(Mode::fan))
+      mode.refuse("found " + kind_of(mode.value()) +
+                  "; allowed are 4, 5 and 6 (triangles, their strips and fans), and 0 to 3 (points and lines, which "
+                  "are left out)");
+    return mode.whole();
+  }
+
+  // What all meshes keep, before those of a further one are read.
+  void count_memory(std::uint64_t vertices, std::uint64_t triangles) {
+    vertices_ += vertices;
+    triangles_ += triangles;
+    check_memory("vertices", vertices_, sizeof(Vec3f), k_fewer_triangles);
+    check_memory("triangles", triangles_, sizeof(Triangle), k_fewer_triangles);
+  }
+
   void read_material(const JsonLocation& primitive, Surface& surface) const {
     if (!primitive.has("material")) return;
     const std::size_t index = primitive.at("material").index(count_of(reader_.root(), "materials"), "material");
     const JsonLocation material = reader_.root().at("materials").at(index);
     material.expect_object();
-    surface.blends = material.has("alphaMode") && material.at("alphaMode").text() == "BLEND";
-    surface.double_sided = material.has("doubleSided") && material.at("doubleSided").value() == true;
+    surface.blends = material.has("alphaMode") && alpha_mode(material.at("alphaMode")) == "BLEND";
+    surface.double_sided = material.has("doubleSided") && material.at("doubleSided").boolean();
+  }
+
+  static const std::string& alpha_mode(const JsonLocation& mode) {
+    if (mode.text() != "OPAQUE" && mode.text() != "MASK" && mode.text() != "BLEND")
+      mode.warn("the mode '" + mode.text() + "' is not known (OPAQUE, MASK and BLEND are); read as OPAQUE");
+    return mode.text();
   }
 
   std::vector<Vec3f> vertices_of(std::size_t accessor) {
@@ -237,6 +270,7 @@ class MeshReader {
   std::map<std::pair<std::size_t, std::optional<std::size_t>>, std::vector<std::size_t>> surfaces_of_;
   std::map<std::size_t, std::vector<Mat4d>> joints_;
   std::vector<Mat4d> rest_;
+  std::uint64_t vertices_ = 0, triangles_ = 0;
   Geometry out_;
 };
 
@@ -280,7 +314,6 @@ Geometry load_geometry(const Scene& scene) {
   MeshReader meshes(scene, reader);
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) meshes.add_node(static_cast<int>(i));
   Geometry geometry = meshes.take();
-  check_memory("triangles", geometry.triangle_count(), sizeof(Triangle) + 3 * sizeof(Vec3f));
   geometry.sha256 = sha256_of(geometry);
   geometry.warnings = warnings.lines();
   return geometry;

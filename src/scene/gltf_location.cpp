@@ -89,6 +89,11 @@ const std::string& JsonLocation::text() const {
   return value_->get_ref<const std::string&>();
 }
 
+bool JsonLocation::boolean() const {
+  if (!value_->is_boolean()) refuse("found " + kind_of(*value_) + ", true or false is needed");
+  return value_->get<bool>();
+}
+
 double JsonLocation::number() const {
   if (!value_->is_number()) refuse("found " + kind_of(*value_) + ", a number is needed");
   const double number = value_->get<double>();

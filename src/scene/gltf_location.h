@@ -31,6 +31,7 @@ class JsonLocation {
   // Elements of an array. None at all is said once, since glTF asks for one or more: call it once per array.
   std::size_t elements() const;
   const std::string& text() const;
+  bool boolean() const;
   double number() const;      // rounds to a finite number in single precision
   std::size_t whole() const;  // 0 .. 2^53
   std::size_t index(std::size_t count, const std::string& what) const;

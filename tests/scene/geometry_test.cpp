@@ -213,8 +213,38 @@ TEST(Geometry, what_is_broken_is_refused_where_it_stands_and_only_if_it_is_read)
               file.json["accessors"][0]["count"] = std::uint64_t{1} << 31;
             }).find("limits.memory_mib"),
             std::string::npos);
-  EXPECT_EQ(refusal([](MeshFile&, Json& of) { of["mode"] = 7; }),
-            "/meshes/0/primitives/0/mode: refers to mode 7, but there are 7");
+  EXPECT_EQ(
+      refusal([](MeshFile&, Json& of) { of["mode"] = 7; }),
+      "/meshes/0/primitives/0/mode: found the number 7; allowed are 4, 5 and 6 (triangles, their strips and fans), "
+      "and 0 to 3 (points and lines, which are left out)");
+  EXPECT_EQ(refusal([](MeshFile& file, Json& of) {
+              of["material"] = file.material({{"doubleSided", "yes"}});
+            }),
+            "/materials/0/doubleSided: found a string, true or false is needed");
+}
+
+TEST(Geometry, a_mode_of_blending_that_is_not_known_is_opaque_with_a_warning) {
+  MeshFile file;
+  Json of = primitive(file.positions(k_two_triangles));
+  of["material"] = file.material({{"alphaMode", "Blend"}});
+  file.node({{"mesh", file.mesh(of)}});
+  const Geometry geometry = test::loaded_geometry(file.text()).geometry;
+  EXPECT_FALSE(geometry.surfaces.at(0).blends);
+  EXPECT_EQ(geometry.warnings,
+            (std::vector<std::string>{"/materials/0/alphaMode: the mode 'Blend' is not known (OPAQUE, MASK and BLEND "
+                                      "are); read as OPAQUE"}));
+}
+
+TEST(Geometry, that_takes_too_much_memory_is_refused_before_it_is_read) {
+  const MemoryLimitScope little(4 << 20);
+  MeshFile file;
+  Json of = primitive(file.positions(k_quad));
+  of["mode"] = 5;
+  of["indices"] = file.indices(std::vector<std::uint8_t>(500'000, 9));  // of no vertex
+  file.node({{"mesh", file.mesh(of)}});
+  EXPECT_EQ(test::geometry_refusal(file.text()),
+            "limits.memory_mib: 499998 triangles would take 5 MiB, and 4 MiB are allowed; raise the limit, or use "
+            "simpler meshes");
 }
 
 }  // namespace
