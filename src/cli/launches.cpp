@@ -68,11 +68,11 @@ GroupSamples group_samples(const Json& json) {
 // launch has one scene and no such numbers.
 run::GroupPlan group_of(const run::Plan& plan, const std::vector<std::string>& ids) {
   const auto hash = [](const std::string& id) { return id.substr(0, id.find('-')); };
-  const auto is_asked_for = [&](const run::CasePlan& one) {
-    return std::ranges::find(ids, hash(one.id), hash) != ids.end();
+  const auto is_asked_for = [&](const run::CasePlan& case_plan) {
+    return std::ranges::find(ids, hash(case_plan.id), hash) != ids.end();
   };
   for (run::GroupPlan group : plan.groups) {
-    std::erase_if(group.cases, [&](const run::CasePlan& one) { return !is_asked_for(one); });
+    std::erase_if(group.cases, [&](const run::CasePlan& case_plan) { return !is_asked_for(case_plan); });
     if (!group.cases.empty() && group.cases.size() == ids.size()) return group;
   }
   throw Error("", k_serve_launch, "has no group with the cases that are asked for", ExitCode::internal);
@@ -90,7 +90,7 @@ GroupSamples measured(const config::Config& config, const run::Plan& plan, const
 
 Json request_for(const run::GroupToTime& group, int launch, int rounds) {
   Json ids = Json::array();
-  for (const run::CasePlan& one : group.group->cases) ids.push_back(one.id);
+  for (const run::CasePlan& case_plan : group.group->cases) ids.push_back(case_plan.id);
   return {{"ids", ids}, {"launch", launch}, {"rounds", rounds}, {"fullest_frames", group.fullest_frames}};
 }
 

@@ -100,7 +100,8 @@ std::size_t case_count(const run::Plan& plan) {
 
 ExitCode print_plan(const config::Config& config, const run::Plan& plan) {
   for (const run::GroupPlan& group : plan.groups)
-    for (const run::CasePlan& planned : group.cases) std::cout << planned.id << "  " << printable(planned.name) << "\n";
+    for (const run::CasePlan& case_plan : group.cases)
+      std::cout << case_plan.id << "  " << printable(case_plan.name) << "\n";
   for (const run::Skipped& skipped : plan.skipped)
     std::cout << "skipped  " << printable(skipped.name) << ": " << printable(skipped.reason) << "\n";
   std::cerr << number_of(case_count(plan), "case") << ", " << plan.skipped.size() << " skipped\n";
@@ -231,8 +232,8 @@ run::Listener make_listener(ProgressLine& progress, report::Journal* journal, st
 std::vector<std::string> ids_left(const run::Plan& plan, const std::vector<std::string>& done) {
   std::vector<std::string> ids;
   for (const run::GroupPlan& group : plan.groups)
-    for (const run::CasePlan& one : group.cases)
-      if (std::find(done.begin(), done.end(), one.id) == done.end()) ids.push_back(one.id);
+    for (const run::CasePlan& case_plan : group.cases)
+      if (std::find(done.begin(), done.end(), case_plan.id) == done.end()) ids.push_back(case_plan.id);
   return ids;
 }
 

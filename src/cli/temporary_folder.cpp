@@ -15,10 +15,10 @@ namespace {
 
 constexpr const char* k_advice = "; TMPDIR names a folder for temporary files";
 
-std::string temporary_place() {
+std::string parent_folder() {
   std::error_code failed;
-  const fs::path place = fs::temp_directory_path(failed);
-  if (!failed) return place.string();
+  const fs::path folder = fs::temp_directory_path(failed);
+  if (!failed) return folder.string();
   const char* named = std::getenv("TMPDIR");
   throw Error(named == nullptr ? "/tmp" : named, "TMPDIR", "is not a folder" + std::string(k_advice));
 }
@@ -26,7 +26,7 @@ std::string temporary_place() {
 }  // namespace
 
 TemporaryFolder::TemporaryFolder() {
-  std::string name = (fs::path(temporary_place()) / "clusterbench.XXXXXX").string();
+  std::string name = (fs::path(parent_folder()) / "clusterbench.XXXXXX").string();
   if (mkdtemp(name.data()) == nullptr)
     throw Error(name, "", std::string("no folder can be made: ") + std::strerror(errno) + k_advice);
   path_ = name;

@@ -52,10 +52,10 @@ Json value_of(const std::string& text) {
 bool wants_list(const std::string& pointer) {
   static const Json schema = config_schema();
   const std::string key = pointer.substr(0, pointer.find('/', 1));
-  const Json::json_pointer place("/properties" + key), deeper("/properties" + pointer.substr(key.size()));
-  const Json* at = schema.contains(place) ? &schema[place] : nullptr;
-  if (at != nullptr && pointer != key) at = at->contains(deeper) ? &(*at)[deeper] : nullptr;
-  return at != nullptr && at->value("type", Json()) == "array";
+  const Json::json_pointer top("/properties" + key), below_top("/properties" + pointer.substr(key.size()));
+  const Json* part = schema.contains(top) ? &schema[top] : nullptr;
+  if (part != nullptr && pointer != key) part = part->contains(below_top) ? &(*part)[below_top] : nullptr;
+  return part != nullptr && part->value("type", Json()) == "array";
 }
 
 // A configuration, and which flag has set what.

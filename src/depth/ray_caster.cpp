@@ -258,12 +258,12 @@ void RayCaster::pose(const view::Frame& frame) {
     tree->reset(rtcNewScene(now.device.get()));
     rtcSetSceneFlags(tree->get(), RTC_SCENE_FLAG_ROBUST);
   }
-  for (const PlacedSurface& one : placed) {
-    const scene::Surface& surface = geometry_.surfaces[one.surface];
+  for (const PlacedSurface& instance : placed) {
+    const scene::Surface& surface = geometry_.surfaces[instance.surface];
     const RTCFilterFunctionN filter = surface.blends ? (surface.double_sided ? gather_both_sides : gather_fronts)
                                                      : (surface.double_sided ? nullptr : leave_out_backs);
-    add_surface(now.device.get(), (surface.blends ? now.blending : now.opaque).get(), scene_, surface, one, now.origin,
-                filter);
+    add_surface(now.device.get(), (surface.blends ? now.blending : now.opaque).get(), scene_, surface, instance,
+                now.origin, filter);
   }
   rtcCommitScene(now.opaque.get());
   rtcCommitScene(now.blending.get());

@@ -13,9 +13,10 @@ double known(double cost) {
 
 // Bytes and overshade first: they are at hand, and times may have to be compared.
 bool dominates(std::span<const Costs> cases, std::size_t a, std::size_t b, const TakesLonger& takes_longer) {
-  const Costs &one = cases[a], &other = cases[b];
-  if (known(one.bytes) > known(other.bytes) || known(one.overshade) > known(other.overshade)) return false;
-  const bool is_better = known(one.bytes) < known(other.bytes) || known(one.overshade) < known(other.overshade);
+  const double a_bytes = known(cases[a].bytes), b_bytes = known(cases[b].bytes),
+               a_overshade = known(cases[a].overshade), b_overshade = known(cases[b].overshade);
+  if (a_bytes > b_bytes || a_overshade > b_overshade) return false;
+  const bool is_better = a_bytes < b_bytes || a_overshade < b_overshade;
   return is_better ? !takes_longer(a, b) : takes_longer(b, a);
 }
 
@@ -33,9 +34,7 @@ std::vector<std::size_t> pareto_front(std::span<const Costs> cases, const TakesL
 }
 
 TakesLonger intervals_apart(std::span<const Costs> cases) {
-  return [cases](std::size_t one, std::size_t other) {
-    return known(cases[one].time_ns.low) > known(cases[other].time_ns.high);
-  };
+  return [cases](std::size_t a, std::size_t b) { return known(cases[a].time_ns.low) > known(cases[b].time_ns.high); };
 }
 
 }  // namespace clusterbench::measure

@@ -19,10 +19,10 @@ struct Costs {
   double bytes = k_unknown, overshade = k_unknown;
 };
 
-// Whether the case at the first place is known to take longer than that at the second.
+// Whether the case of the first index is known to take longer than that of the second.
 using TakesLonger = std::function<bool(std::size_t, std::size_t)>;
 
-// Places of the cases that no other case equals or beats in every respect while beating it in one. Of equal ones all
+// Indices of the cases that no other case equals or beats in every respect while beating it in one. Of equal ones all
 // stay. Two times are the same unless one is known to be longer; of those that were not measured side by side that is
 // intervals_apart().
 std::vector<std::size_t> pareto_front(std::span<const Costs> cases, const TakesLonger& takes_longer);

@@ -27,33 +27,33 @@ struct Match {
 
 std::vector<Match> matches_of(const Json& base, const Json& next) {
   std::map<std::string, const Json*> by_id;
-  for (const Json& one : base["cases"]) by_id[one["id"].get<std::string>()] = &one;
+  for (const Json& result_case : base["cases"]) by_id[result_case["id"].get<std::string>()] = &result_case;
   std::vector<Match> matches;
-  for (const Json& one : next["cases"])
-    if (const auto found = by_id.find(one["id"].get<std::string>()); found != by_id.end())
-      matches.push_back({*found->second, one});
+  for (const Json& result_case : next["cases"])
+    if (const auto found = by_id.find(result_case["id"].get<std::string>()); found != by_id.end())
+      matches.push_back({*found->second, result_case});
   return matches;
 }
 
-// The cases of `one` that `other` has not.
-std::vector<const Json*> missing_from(const Json& other, const Json& one) {
+// The cases of `result` that `other` has not.
+std::vector<const Json*> missing_from(const Json& other, const Json& result) {
   std::vector<const Json*> missing;
-  for (const Json& wanted : one["cases"])
+  for (const Json& result_case : result["cases"])
     if (std::none_of(other["cases"].begin(), other["cases"].end(),
-                     [&](const Json& had) { return had["id"] == wanted["id"]; }))
-      missing.push_back(&wanted);
+                     [&](const Json& other_case) { return other_case["id"] == result_case["id"]; }))
+      missing.push_back(&result_case);
   return missing;
 }
 
 Json names_of(const std::vector<const Json*>& cases) {
   Json names = Json::array();
-  for (const Json* one : cases) names.push_back((*one)["name"]);
+  for (const Json* result_case : cases) names.push_back((*result_case)["name"]);
   return names;
 }
 
-Json scene_of(const Json& result, const Json& one) {
+Json scene_of(const Json& result, const Json& result_case) {
   for (const Json& scene : result["scenes"])
-    if (scene["name"] == one["scene"]) return scene;
+    if (scene["name"] == result_case["scene"]) return scene;
   return {};
 }
 
@@ -92,10 +92,11 @@ std::vector<std::string> other_settings(const Json& base, const Json& base_case,
 Json renamed(const Json& base, const std::vector<const Json*>& only_in_base, const Json& next,
              const std::vector<const Json*>& only_in_new) {
   Json out = Json::array();
-  for (const Json* one : only_in_base)
-    for (const Json* other : only_in_new)
-      if ((*one)["name"] == (*other)["name"])
-        out.push_back({{"name", (*one)["name"]}, {"differs_in", other_settings(base, *one, next, *other)}});
+  for (const Json* base_case : only_in_base)
+    for (const Json* next_case : only_in_new)
+      if ((*base_case)["name"] == (*next_case)["name"])
+        out.push_back(
+            {{"name", (*base_case)["name"]}, {"differs_in", other_settings(base, *base_case, next, *next_case)}});
   return out;
 }
 
@@ -133,11 +134,12 @@ bool is_paired(const Json& base, const Json& next) {
 // What differs between methods, and not between a method's storages: those share the times of assignment, but for a
 // light structure of the method's own. What a frame takes is each case's own.
 std::string time_key(const Match& match, bool is_paired) {
-  const Json& one = match.next;
-  if (!is_paired) return one["id"].get<std::string>();
-  Json key{one["scene"], one["camera"], one["viewport"], one["grid"], one["assigner"]["label"]};
-  if (one.contains("precision")) key.push_back(one["precision"]["label"]);
-  key.push_back(one["storage"] == "own");
+  const Json& result_case = match.next;
+  if (!is_paired) return result_case["id"].get<std::string>();
+  Json key{result_case["scene"], result_case["camera"], result_case["viewport"], result_case["grid"],
+           result_case["assigner"]["label"]};
+  if (result_case.contains("precision")) key.push_back(result_case["precision"]["label"]);
+  key.push_back(result_case["storage"] == "own");
   return key.dump();
 }
 
@@ -186,24 +188,24 @@ class Times {
   Times(const std::vector<Match>& matches, bool is_paired) : is_paired_(is_paired) {
     for (const Match& match : matches) {
       const std::string key = time_key(match, is_paired);
-      if (places_.contains(key)) continue;
+      if (indices_.contains(key)) continue;
       if (const std::optional<TimeChange> change = time_change(match, is_paired)) {
-        places_[key] = changes_.size();
+        indices_[key] = changes_.size();
         changes_.push_back(*change);
       }
     }
     std::vector<double> p;
-    for (const TimeChange& one : changes_) p.push_back(measure::p_value(one.change));
+    for (const TimeChange& change : changes_) p.push_back(measure::p_value(change.change));
     corrected_ = measure::holm(p);
   }
 
   // nullopt where the case has no times to compare.
-  std::optional<std::size_t> place_of(const Match& match) const {
-    const auto found = places_.find(time_key(match, is_paired_));
-    return found == places_.end() ? std::nullopt : std::optional(found->second);
+  std::optional<std::size_t> index_of(const Match& match) const {
+    const auto found = indices_.find(time_key(match, is_paired_));
+    return found == indices_.end() ? std::nullopt : std::optional(found->second);
   }
-  const TimeChange& at(std::size_t place) const { return changes_[place]; }
-  double corrected_p(std::size_t place) const { return corrected_[place]; }
+  const TimeChange& at(std::size_t index) const { return changes_[index]; }
+  double corrected_p(std::size_t index) const { return corrected_[index]; }
   std::size_t count() const { return changes_.size(); }
 
   // Over all methods. What disturbs a launch as a whole is in each launch's mean; of separate runs nothing is known.
@@ -213,20 +215,20 @@ class Times {
   // Further launches are of some methods only.
   std::size_t launches_of_all() const {
     std::size_t least = changes_.front().launches.size();
-    for (const TimeChange& one : changes_) least = std::min(least, one.launches.size());
+    for (const TimeChange& change : changes_) least = std::min(least, change.launches.size());
     return least;
   }
 
   std::vector<double> launch_means() const {
     if (changes_.empty()) return {};
     std::vector<double> means(launches_of_all(), 0.0);
-    for (const TimeChange& one : changes_)
-      for (std::size_t i = 0; i < means.size(); ++i) means[i] += one.launches[i] / static_cast<double>(count());
+    for (const TimeChange& change : changes_)
+      for (std::size_t i = 0; i < means.size(); ++i) means[i] += change.launches[i] / static_cast<double>(count());
     return means;
   }
 
   bool is_paired_ = false;
-  std::map<std::string, std::size_t> places_;
+  std::map<std::string, std::size_t> indices_;
   std::vector<TimeChange> changes_;
   std::vector<double> corrected_;
 };
@@ -295,7 +297,7 @@ Scope scope_of(const Json& base, const Json& next, const std::vector<Match>& mat
   Scope scope;
   const auto add = [&](const char* what, const char* pointer, const std::vector<std::string>& in_the_way) {
     if (in_the_way.empty() ||
-        std::none_of(matches.begin(), matches.end(), [&](const Match& one) { return both_have(one, pointer); }))
+        std::none_of(matches.begin(), matches.end(), [&](const Match& match) { return both_have(match, pointer); }))
       return;
     if (is_forced)
       scope.forced = in_the_way;
@@ -303,8 +305,9 @@ Scope scope_of(const Json& base, const Json& next, const std::vector<Match>& mat
       scope.left_out[what] = in_the_way;
   };
   add("instructions", "/count/source", found.to_instructions);
-  if (std::any_of(matches.begin(), matches.end(),
-                  [](const Match& one) { return both_have(one, "/count/source") && !are_counts_comparable(one); }))
+  if (std::any_of(matches.begin(), matches.end(), [](const Match& match) {
+        return both_have(match, "/count/source") && !are_counts_comparable(match);
+      }))
     scope.left_out["instructions"].push_back("/cases are counted by other means, or of other frames");
   if (!is_paired(base, next)) add("times", k_frame_time, found.to_times);
   return scope;
@@ -339,8 +342,8 @@ Json margin_of(const Json& result) {
 
 Json compared(const Match& match, const Times& times, const Scope& scope, const Settings& settings) {
   Json out{{"id", match.next["id"]}, {"name", match.next["name"]}};
-  if (const auto place = times.place_of(match))
-    add_time(out, times.at(*place), times.corrected_p(*place), settings.threshold, settings.gates_separate);
+  if (const auto index = times.index_of(match))
+    add_time(out, times.at(*index), times.corrected_p(*index), settings.threshold, settings.gates_separate);
   out.update(exact_differences(match.base, match.next, settings.is_margin_same));
   add_list_difference(match, out);
   if (!scope.leaves_out("instructions") && are_counts_comparable(match))
@@ -349,8 +352,9 @@ Json compared(const Match& match, const Times& times, const Scope& scope, const 
 }
 
 std::size_t count_of(const Json& cases, const char* key, const char* value) {
-  return static_cast<std::size_t>(std::count_if(
-      cases.begin(), cases.end(), [&](const Json& one) { return one.contains(key) && one[key] == value; }));
+  return static_cast<std::size_t>(std::count_if(cases.begin(), cases.end(), [&](const Json& compared_case) {
+    return compared_case.contains(key) && compared_case[key] == value;
+  }));
 }
 
 Json summary_of(const Json& cases, const Times& times) {
@@ -371,16 +375,17 @@ std::string percent_text(const Json& ratio) {
 Json failures_of(const Json& next, const Json& cases) {
   Json failures = Json::array();
   for (const std::string& failure : gate_failures(next)) failures.push_back(failure);
-  for (const Json& one : cases) {
-    const std::string name = shown(one["name"]);
-    const bool has_verdict = one.contains("verdict");
-    if (has_verdict && one["verdict"] == "slower")
-      failures.push_back(name + ": slower by " + percent_text(one["ratio"]));
-    if (one["counts"] == "worse") failures.push_back(name + ": what is counted has changed");
-    const bool is_time_sure = has_verdict && one["launches"] != 0 && one["verdict"] != "inconclusive";
-    if (one.contains("instructions") && one["instructions"]["verdict"] == "more" && !is_time_sure)
-      failures.push_back(name + ": more instructions, " + percent_text(one["instructions"]["assign_ratio"]) +
-                         " to assign, " + percent_text(one["instructions"]["convert_ratio"]) + " to convert");
+  for (const Json& compared_case : cases) {
+    const std::string name = shown(compared_case["name"]);
+    const bool has_verdict = compared_case.contains("verdict");
+    if (has_verdict && compared_case["verdict"] == "slower")
+      failures.push_back(name + ": slower by " + percent_text(compared_case["ratio"]));
+    if (compared_case["counts"] == "worse") failures.push_back(name + ": what is counted has changed");
+    const bool is_time_sure =
+        has_verdict && compared_case["launches"] != 0 && compared_case["verdict"] != "inconclusive";
+    if (compared_case.contains("instructions") && compared_case["instructions"]["verdict"] == "more" && !is_time_sure)
+      failures.push_back(name + ": more instructions, " + percent_text(compared_case["instructions"]["assign_ratio"]) +
+                         " to assign, " + percent_text(compared_case["instructions"]["convert_ratio"]) + " to convert");
   }
   return failures;
 }
@@ -419,8 +424,8 @@ Json warnings_of(const Json& base, const Json& next, const Json& comparison, con
                                              : "only in the new result, not compared: ") +
                        listed(comparison["only_in_new"]));
   std::map<std::string, Json> by_reason;
-  for (const Json& one : comparison["renamed"])
-    by_reason[joined(one["differs_in"].get<std::vector<std::string>>())].push_back(one["name"]);
+  for (const Json& renamed_case : comparison["renamed"])
+    by_reason[joined(renamed_case["differs_in"].get<std::vector<std::string>>())].push_back(renamed_case["name"]);
   for (const auto& [reason, names] : by_reason)
     warnings.push_back("of one name, but not the same, for they differ in " + reason + ": " + listed(names));
   for (const Json& part : comparison["not_compared"])
@@ -436,15 +441,15 @@ Json warnings_of(const Json& base, const Json& next, const Json& comparison, con
 
 // "cold" or "warm"; null without times.
 Json caches_of_times(const Json& result) {
-  for (const Json& one : result["cases"])
-    if (has(one, "/timing")) return one["timing"].value("caches", "warm");
+  for (const Json& result_case : result["cases"])
+    if (has(result_case, "/timing")) return result_case["timing"].value("caches", "warm");
   return {};
 }
 
 // Something that would have failed the comparison had it become worse.
 bool is_gated_part_missing(const Json& comparison) {
   return std::any_of(comparison["not_compared"].begin(), comparison["not_compared"].end(),
-                     [](const Json& one) { return one["only_in"] == "base" && one["part"] != "timing"; });
+                     [](const Json& part) { return part["only_in"] == "base" && part["part"] != "timing"; });
 }
 
 }  // namespace

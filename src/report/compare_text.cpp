@@ -15,15 +15,15 @@ std::string percent(const Json& ratio) {
   return ratio.is_null() ? "-" : text("%+.2f %%", 100.0 * (ratio.get<double>() - 1.0));
 }
 
-std::string interval(const Json& one) {
-  if (!one.contains("ci95")) return "-";
-  if (one["ci95"][1].is_null()) return k_unknown_interval;
-  return percent(one["ci95"][0]) + " .. " + percent(one["ci95"][1]);
+std::string interval(const Json& change) {
+  if (!change.contains("ci95")) return "-";
+  if (change["ci95"][1].is_null()) return k_unknown_interval;
+  return percent(change["ci95"][0]) + " .. " + percent(change["ci95"][1]);
 }
 
-std::string micros(const Json& one, const char* key) {
-  if (!one.contains(key)) return "-";
-  const double us = one[key].get<double>() / 1000.0;
+std::string micros(const Json& compared_case, const char* key) {
+  if (!compared_case.contains(key)) return "-";
+  const double us = compared_case[key].get<double>() / 1000.0;
   return text(us < 1000.0 ? "%.4g" : "%.0f", us);
 }
 
@@ -43,54 +43,57 @@ std::string heading(const Json& comparison) {
          ", threshold " + text("%g", 100.0 * comparison["threshold"].get<double>()) + " %";
 }
 
-bool is_hint(const Json& one) {
-  return one.contains("hint") && one["hint"] != "none";
+bool is_hint(const Json& compared_case) {
+  return compared_case.contains("hint") && compared_case["hint"] != "none";
 }
 
-std::string word_of(const Json& one) {
-  if (one.contains("verdict")) return one["verdict"].get<std::string>();
-  return is_hint(one) ? one["hint"].get<std::string>() + "?" : "-";
+std::string word_of(const Json& compared_case) {
+  if (compared_case.contains("verdict")) return compared_case["verdict"].get<std::string>();
+  return is_hint(compared_case) ? compared_case["hint"].get<std::string>() + "?" : "-";
 }
 
-std::string instructions(const Json& one) {
-  return one.contains("instructions") ? percent(one["instructions"]["assign_ratio"]) : "-";
+std::string instructions(const Json& compared_case) {
+  return compared_case.contains("instructions") ? percent(compared_case["instructions"]["assign_ratio"]) : "-";
 }
 
 // name, verdict, base, new, change, interval, instructions, counts
 constexpr std::array k_columns{"case", "time", "base us", "new us", "change", "95 % interval", "instr", "counts"};
-Cells row_of(const Json& one) {
-  return {shown(one["name"]),
-          word_of(one),
-          micros(one, "base_ns"),
-          micros(one, "new_ns"),
-          one.contains("ratio") ? percent(one["ratio"]) : "-",
-          interval(one),
-          instructions(one),
-          one["counts"].get<std::string>()};
+Cells row_of(const Json& compared_case) {
+  return {shown(compared_case["name"]),
+          word_of(compared_case),
+          micros(compared_case, "base_ns"),
+          micros(compared_case, "new_ns"),
+          compared_case.contains("ratio") ? percent(compared_case["ratio"]) : "-",
+          interval(compared_case),
+          instructions(compared_case),
+          compared_case["counts"].get<std::string>()};
 }
 
-bool is_remarkable(const Json& one) {
-  return (one.contains("verdict") && one["verdict"] != "same") || one["counts"] != "same" ||
-         (one.contains("instructions") && one["instructions"]["verdict"] != "same");
+bool is_remarkable(const Json& compared_case) {
+  return (compared_case.contains("verdict") && compared_case["verdict"] != "same") ||
+         compared_case["counts"] != "same" ||
+         (compared_case.contains("instructions") && compared_case["instructions"]["verdict"] != "same");
 }
 
-bool is_worse(const Json& one) {
-  return (one.contains("verdict") && one["verdict"] == "slower") || one["counts"] == "worse" ||
-         (one.contains("instructions") && one["instructions"]["verdict"] == "more");
+bool is_worse(const Json& compared_case) {
+  return (compared_case.contains("verdict") && compared_case["verdict"] == "slower") ||
+         compared_case["counts"] == "worse" ||
+         (compared_case.contains("instructions") && compared_case["instructions"]["verdict"] == "more");
 }
 
-bool is_open(const Json& one) {
-  return is_hint(one) || (one.contains("verdict") && one["verdict"] == "inconclusive");
+bool is_open(const Json& compared_case) {
+  return is_hint(compared_case) || (compared_case.contains("verdict") && compared_case["verdict"] == "inconclusive");
 }
 
-const char* mark_of(const Json& one) {
-  return is_worse(one) ? "!" : is_open(one) ? "?" : is_remarkable(one) ? "+" : " ";
+const char* mark_of(const Json& compared_case) {
+  return is_worse(compared_case) ? "!" : is_open(compared_case) ? "?" : is_remarkable(compared_case) ? "+" : " ";
 }
 
 // Of the marks that the table has.
 std::string legend(const Json& cases) {
   const auto has = [&](const std::string& mark) {
-    return std::any_of(cases.begin(), cases.end(), [&](const Json& one) { return mark_of(one) == mark; });
+    return std::any_of(cases.begin(), cases.end(),
+                       [&](const Json& compared_case) { return mark_of(compared_case) == mark; });
   };
   const bool has_hint = std::any_of(cases.begin(), cases.end(), is_hint);
   std::string out = has("!") ? "! slower, more instructions, or what is counted is worse.\n" : "";
@@ -101,7 +104,7 @@ std::string legend(const Json& cases) {
   return out;
 }
 
-// The first place where two lists part, both values elsewhere.
+// The first element in which two lists differ; of values that are no lists both.
 std::string times_text(const Json& base, const Json& next) {
   if (!base.is_array() || !next.is_array() || base.size() != next.size() || base.size() <= 3)
     return shown(base.dump() + " -> " + next.dump());
@@ -118,13 +121,14 @@ std::string list_text(const Json& lists) {
 }
 
 // One line per difference of a case.
-std::vector<std::string> details(const Json& one) {
+std::vector<std::string> details(const Json& compared_case) {
   std::vector<std::string> lines;
-  if (one.contains("lists")) lines.push_back(list_text(one["lists"]));
-  for (const Json& difference : one["differences"])
+  if (compared_case.contains("lists")) lines.push_back(list_text(compared_case["lists"]));
+  for (const Json& difference : compared_case["differences"])
     lines.push_back(difference["what"].get<std::string>().substr(1) + " " + difference["is"].get<std::string>() + ": " +
                     times_text(difference["base"], difference["new"]));
-  if (one.contains("place")) lines.push_back("deepest lost light: " + one["place"].get<std::string>());
+  if (compared_case.contains("place"))
+    lines.push_back("deepest lost light: " + compared_case["place"].get<std::string>());
   return lines;
 }
 
@@ -164,7 +168,7 @@ std::string table(const Json& cases) {
     rows.back().insert(rows.back().end(), cells.begin(), cells.end());
   };
   add({k_columns.begin(), k_columns.end()}, " ");
-  for (const Json& one : cases) add(row_of(one), mark_of(one));
+  for (const Json& compared_case : cases) add(row_of(compared_case), mark_of(compared_case));
   std::string text;
   const std::vector<std::size_t> widths = widths_of(rows);
   for (const Cells& row : rows) text += aligned(row, widths);
@@ -173,13 +177,13 @@ std::string table(const Json& cases) {
 
 std::string markdown_row(const Cells& cells) {
   std::string row = "|";
-  for (const std::string& one : cells) row += " " + markdown_cell(one) + " |";
+  for (const std::string& cell : cells) row += " " + markdown_cell(cell) + " |";
   return row + "\n";
 }
 
 std::string markdown_table(const std::vector<const Json*>& cases) {
   std::string out = markdown_row({k_columns.begin(), k_columns.end()}) + "|---|---|---:|---:|---:|---:|---:|---|\n";
-  for (const Json* one : cases) out += markdown_row(row_of(*one));
+  for (const Json* compared_case : cases) out += markdown_row(row_of(*compared_case));
   return out;
 }
 
@@ -192,8 +196,8 @@ std::string markdown_list(const char* title, const Json& lines) {
 
 Json details_of_all(const Json& cases) {
   Json lines = Json::array();
-  for (const Json& one : cases)
-    for (const std::string& line : details(one)) lines.push_back(shown(one["name"]) + ": " + line);
+  for (const Json& compared_case : cases)
+    for (const std::string& line : details(compared_case)) lines.push_back(shown(compared_case["name"]) + ": " + line);
   return lines;
 }
 
@@ -209,7 +213,8 @@ std::string comparison_text(const Json& comparison) {
 
 std::string comparison_markdown(const Json& comparison) {
   std::vector<const Json*> remarkable, rest;
-  for (const Json& one : comparison["cases"]) (is_remarkable(one) ? remarkable : rest).push_back(&one);
+  for (const Json& compared_case : comparison["cases"])
+    (is_remarkable(compared_case) ? remarkable : rest).push_back(&compared_case);
   std::string out = "### clusterbench: " + std::string(comparison["failures"].empty() ? "passed" : "failed") + "\n\n" +
                     markdown_cell(summary_text(comparison)) + "\n\n" + markdown_cell(heading(comparison)) + "\n";
   if (!remarkable.empty()) out += "\n" + markdown_table(remarkable);

@@ -10,23 +10,24 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string view_of(const Json& one) {
-  return Json{one["camera"], one["viewport"]}.dump();
+std::string view_of(const Json& result_case) {
+  return Json{result_case["camera"], result_case["viewport"]}.dump();
 }
 
-measure::Costs costs_of(const Json& one) {
+measure::Costs costs_of(const Json& result_case) {
   measure::Costs costs;
-  const auto low = number_at(one, "/timing/frame_ns/ci95/0"), high = number_at(one, "/timing/frame_ns/ci95/1");
+  const auto low = number_at(result_case, "/timing/frame_ns/ci95/0"),
+             high = number_at(result_case, "/timing/frame_ns/ci95/1");
   if (low && high) costs.time_ns = {*low, *high};
-  costs.bytes = number_at(one, "/buffers/bytes/high_water").value_or(costs.k_unknown);
-  costs.overshade = number_at(one, "/shading/overshade").value_or(costs.k_unknown);
+  costs.bytes = number_at(result_case, "/buffers/bytes/high_water").value_or(costs.k_unknown);
+  costs.overshade = number_at(result_case, "/shading/overshade").value_or(costs.k_unknown);
   return costs;
 }
 
 }  // namespace
 
-std::vector<double> frame_rounds(const Json& one) {
-  const Json samples = one.value(Json::json_pointer("/timing/frame_ns/samples"), Json::array());
+std::vector<double> frame_rounds(const Json& result_case) {
+  const Json samples = result_case.value(Json::json_pointer("/timing/frame_ns/samples"), Json::array());
   if (!std::ranges::all_of(samples, [](const Json& ns) { return ns.is_number(); })) return {};
   return samples.get<std::vector<double>>();
 }
@@ -36,14 +37,22 @@ std::uint64_t seed_of(const Json& result) {
   return seed.is_number_unsigned() ? seed.get<std::uint64_t>() : 1;
 }
 
-run::Contender contender_of(const Json& one) {
-  run::Contender out{one["id"], one["scene"], view_of(one), costs_of(one), one["eligible"], block_of(one), {}, {},
-                     1,         false};
-  if (!one.contains("timing")) return out;
-  out.rounds_ns = frame_rounds(one);
-  out.session = one["timing"].value("session", "");
-  out.launches = one["timing"].value("launches", 1);
-  out.is_cold = one["timing"].value("caches", "warm") == "cold";
+run::Contender contender_of(const Json& result_case) {
+  run::Contender out{result_case["id"],
+                     result_case["scene"],
+                     view_of(result_case),
+                     costs_of(result_case),
+                     result_case["eligible"],
+                     block_of(result_case),
+                     {},
+                     {},
+                     1,
+                     false};
+  if (!result_case.contains("timing")) return out;
+  out.rounds_ns = frame_rounds(result_case);
+  out.session = result_case["timing"].value("session", "");
+  out.launches = result_case["timing"].value("launches", 1);
+  out.is_cold = result_case["timing"].value("caches", "warm") == "cold";
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "report/columns.h"
+#include "report/json_values.h"
 
 namespace clusterbench::report {
 namespace {
@@ -118,35 +119,36 @@ bool follows_margin(const std::string& pointer) {
 }
 
 bool any(const Json& differences, const char* what) {
-  return std::any_of(differences.begin(), differences.end(), [&](const Json& one) { return one["is"] == what; });
+  return std::any_of(differences.begin(), differences.end(),
+                     [&](const Json& difference) { return difference["is"] == what; });
 }
 
 bool follows_from_nothing(const Json& differences) {
   return std::any_of(differences.begin(), differences.end(),
-                     [](const Json& one) { return kind_of(one["what"]) == Kind::follows; });
+                     [](const Json& difference) { return kind_of(difference["what"]) == Kind::follows; });
 }
 
 }  // namespace
 
-std::string place_of_loss(const Json& one) {
-  const Json::json_pointer place("/error/deepest");
-  if (!one.contains(place)) return "";
-  const Json& deepest = one[place];
-  return "frame " + deepest["frame"].dump() + ", cell " + deepest["cell"].dump() + ", light " +
-         deepest["light"].dump() + " ('" + shown(deepest["light_name"]) + "')";
+std::string deepest_loss_text(const Json& result_case) {
+  const Json* deepest = value_at(result_case, "/error/deepest");
+  if (deepest == nullptr) return "";
+  return "frame " + (*deepest)["frame"].dump() + ", cell " + (*deepest)["cell"].dump() + ", light " +
+         (*deepest)["light"].dump() + " ('" + shown((*deepest)["light_name"]) + "')";
 }
 
 Json exact_differences(const Json& base, const Json& next, bool is_margin_same) {
   Json found = Json::array(), differences = Json::array();
   for (const auto& [key, value] : base.items())
     if (is_counted(key) && next.contains(key)) walk("/" + key, value, next[key], found);
-  for (const Json& one : found)
-    if (is_margin_same || !follows_margin(one["what"].get<std::string>())) differences.push_back(one);
+  for (const Json& difference : found)
+    if (is_margin_same || !follows_margin(difference["what"].get<std::string>())) differences.push_back(difference);
   const bool is_better = any(differences, "better");
   const bool is_worse = any(differences, "worse") || (!is_better && follows_from_nothing(differences));
   Json out{{"counts", is_worse ? "worse" : is_better ? "better" : "same"}, {"differences", differences}};
-  for (const Json& one : differences)
-    if (one["what"] == "/error/false_negatives" && one["is"] == "worse") out["place"] = place_of_loss(next);
+  for (const Json& difference : differences)
+    if (difference["what"] == "/error/false_negatives" && difference["is"] == "worse")
+      out["place"] = deepest_loss_text(next);
   return out;
 }
 

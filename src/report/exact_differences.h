@@ -17,6 +17,6 @@ nlohmann::ordered_json exact_differences(const nlohmann::ordered_json& base, con
                                          bool is_margin_same = true);
 
 // "frame 5, cell [1,0,2], light 8 ('torch')" of error.deepest; "" where there is none.
-std::string place_of_loss(const nlohmann::ordered_json& one);
+std::string deepest_loss_text(const nlohmann::ordered_json& result_case);
 
 }  // namespace clusterbench::report

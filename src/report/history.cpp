@@ -195,18 +195,18 @@ Addition add_to_history(const std::string& path, const Json& result, const std::
   const std::vector<HistoryEntry> history = parsed_file(path, text);
   const std::string line = history_line(result, commit).dump() + "\n";
   Addition addition;
-  std::size_t begin = 0, place = text.size();
+  std::size_t begin = 0, insert_at = text.size();
   for (const HistoryEntry& entry : history) {  // a line each
     const std::size_t end = text.find('\n', begin) + 1;
     if (entry.commit == commit) {
       ++addition.earlier;
       if (text.compare(begin, end - begin, line) == 0) addition.is_added = false;
-      place = end;
+      insert_at = end;
     }
     begin = end;
   }
   if (!addition.is_added) return addition;
-  replace_file(path, text.insert(place, line));
+  replace_file(path, text.insert(insert_at, line));
   return addition;
 }
 

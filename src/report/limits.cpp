@@ -13,11 +13,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Where a case has a figure, as JSON pointers; "" where there is none. What stands at `place`, by `divisor`, times
-// `scale`.
+// A figure of a case: the number at `value`, by that at `divisor`, times `scale`. All are JSON pointers; "": none.
 struct FigureRow {
   const char* name;
-  const char* place;
+  const char* value;
   double scale = 1.0;
   const char* frame = "";
   const char* cell = "";
@@ -50,13 +49,13 @@ struct Found {
   const FigureRow* row = nullptr;
   double value = 0.0;
 };
-std::optional<Found> found_in(const Json& one, const std::string& name) {
+std::optional<Found> found_in(const Json& result_case, const std::string& name) {
   for (const FigureRow& row : k_figure_rows) {
     if (row.name != name) continue;
-    std::optional<double> value = number_at(one, row.place);
+    std::optional<double> value = number_at(result_case, row.value);
     if (!value) continue;
     if (*row.divisor != '\0') {
-      const double whole = number_at(one, row.divisor).value_or(0.0);
+      const double whole = number_at(result_case, row.divisor).value_or(0.0);
       if (!(whole > 0.0)) continue;  // a share of nothing
       *value /= whole;
     }
@@ -72,11 +71,11 @@ std::string budget_number(double value) {
   return text;
 }
 
-std::string place_of_worst(const Json& one, const FigureRow& row) {
+std::string worst_location(const Json& result_case, const FigureRow& row) {
   std::string text;
-  for (const auto& [word, place] : {std::pair("frame ", row.frame), std::pair("cell ", row.cell)})
-    if (const Json::json_pointer pointer(place); *place != '\0' && one.contains(pointer))
-      text += (text.empty() ? "" : ", ") + std::string(word) + one[pointer].dump();
+  for (const auto& [word, pointer] : {std::pair("frame ", row.frame), std::pair("cell ", row.cell)})
+    if (const Json* found = *pointer != '\0' ? value_at(result_case, pointer) : nullptr; found != nullptr)
+      text += (text.empty() ? "" : ", ") + std::string(word) + found->dump();
   return text.empty() ? "" : " (" + text + ")";
 }
 
@@ -87,13 +86,13 @@ std::string rule_text(const config::LimitRule& rule) {
 // Why a case may lack a figure.
 std::string reason_for_none(const std::string& figure) {
   const auto row = std::find_if(std::begin(k_figure_rows), std::end(k_figure_rows),
-                                [&](const FigureRow& one) { return one.name == figure; });
-  const std::string_view place = row == std::end(k_figure_rows) ? "" : row->place;
-  if (place.starts_with("/timing/")) return " (--no-timing or timing.measure: false leaves times out)";
-  if (place.starts_with("/shading/")) return " (shading.samples: 0 leaves samples out)";
-  if (place.starts_with("/error/"))
+                                [&](const FigureRow& candidate) { return candidate.name == figure; });
+  const std::string_view pointer = row == std::end(k_figure_rows) ? "" : row->value;
+  if (pointer.starts_with("/timing/")) return " (--no-timing or timing.measure: false leaves times out)";
+  if (pointer.starts_with("/shading/")) return " (shading.samples: 0 leaves samples out)";
+  if (pointer.starts_with("/error/"))
     return " (accuracy.check: false leaves errors out; structures without cells have none)";
-  if (place.starts_with("/occupancy/")) return " (structures without cells have none)";
+  if (pointer.starts_with("/occupancy/")) return " (structures without cells have none)";
   return "";
 }
 
@@ -103,14 +102,14 @@ LimitFindings limit_findings(const Json& result, std::span<const config::LimitRu
   LimitFindings findings;
   for (const config::LimitRule& rule : rules) {
     std::vector<std::string> without;
-    for (const Json& one : result["cases"]) {
-      const std::optional<Found> found = found_in(one, rule.figure);
+    for (const Json& result_case : result["cases"]) {
+      const std::optional<Found> found = found_in(result_case, rule.figure);
       if (!found) {
-        without.push_back(one["name"].get<std::string>());
+        without.push_back(result_case["name"].get<std::string>());
         continue;
       }
-      const std::string text = one["name"].get<std::string>() + ": " + rule.figure + " is " +
-                               budget_number(found->value) + place_of_worst(one, *found->row);
+      const std::string text = result_case["name"].get<std::string>() + ": " + rule.figure + " is " +
+                               budget_number(found->value) + worst_location(result_case, *found->row);
       if (rule.is_broken_by(found->value)) findings.broken.push_back(text + ", and fails with " + rule_text(rule));
       if (rule.is_near(found->value)) findings.near.push_back(text + ", less than 10 % below " + rule_text(rule));
     }

@@ -35,8 +35,8 @@ std::string values_text(const LookupConstant& constant, const std::string& suffi
   return out;
 }
 
-void add_tiles(std::vector<LookupConstant>& out, const Json& one) {
-  const Json &tiles = one["grid"]["tiles"], &viewport = one["viewport"];
+void add_tiles(std::vector<LookupConstant>& out, const Json& result_case) {
+  const Json &tiles = result_case["grid"]["tiles"], &viewport = result_case["viewport"];
   if (viewport[0] == 0 || viewport[1] == 0) return;
   std::vector<double> scale;
   for (std::size_t axis = 0; axis < 2; ++axis) {
@@ -71,22 +71,22 @@ constexpr Language k_glsl{"const ", "int", "float", {"ivec2", "ivec3"}, {"vec2",
 std::string declared(const std::string& prefix, const std::vector<LookupConstant>& constants,
                      const Language& language) {
   std::string out;
-  for (const LookupConstant& one : constants) {
-    const std::size_t count = one.values.size();
-    const std::string type = count == 1 ? (is_integer(one) ? language.integer : language.real)
-                                        : (is_integer(one) ? language.integers : language.reals)[count - 2];
-    out += language.constant + type + " " + prefix + "_" + one.name + " = " +
-           (count == 1 ? values_text(one) : type + "(" + values_text(one) + ")") + ";\n";
+  for (const LookupConstant& constant : constants) {
+    const std::size_t count = constant.values.size();
+    const std::string type = count == 1 ? (is_integer(constant) ? language.integer : language.real)
+                                        : (is_integer(constant) ? language.integers : language.reals)[count - 2];
+    out += language.constant + type + " " + prefix + "_" + constant.name + " = " +
+           (count == 1 ? values_text(constant) : type + "(" + values_text(constant) + ")") + ";\n";
   }
   return out;
 }
 
 }  // namespace
 
-std::vector<LookupConstant> lookup_constants(const Json& one) {
-  const Json& grid = one["grid"];
+std::vector<LookupConstant> lookup_constants(const Json& result_case) {
+  const Json& grid = result_case["grid"];
   std::vector<LookupConstant> out{{"cells", Type::integer, numbers_of(grid["cells"])}};
-  if (grid.contains("tiles")) add_tiles(out, one);
+  if (grid.contains("tiles")) add_tiles(out, result_case);
   if (grid.contains("slices")) add_slices(out, grid["slices"]);
   if (grid.contains("levels")) out.push_back({"levels", Type::integer, {grid["levels"].get<double>()}});
   if (grid.contains("finest")) out.push_back({"finest", Type::real, {grid["finest"].get<double>()}});
@@ -98,8 +98,8 @@ std::vector<LookupConstant> lookup_constants(const Json& one) {
   return out;
 }
 
-std::string lookup_note(const Json& one) {
-  const Json& grid = one["grid"];
+std::string lookup_note(const Json& result_case) {
+  const Json& grid = result_case["grid"];
   if (!grid.contains("slices")) return "";
   if (grid["slices"]["scheme"] == "fit") return "slices follow the lights: scale, bias and far are the last frame's";
   const Json& form = grid["slices"]["lookup"]["form"];
@@ -117,21 +117,21 @@ std::string lookup_glsl(const std::string& name, const std::vector<LookupConstan
 
 std::string lookup_cpp(const std::string& name, const std::vector<LookupConstant>& constants) {
   std::string out = "namespace " + name + " {\n";
-  for (const LookupConstant& one : constants) {
-    const bool is_single = one.values.size() == 1;
-    const char* type = is_integer(one) ? "int " : one.type == Type::precise ? "double " : "float ";
-    out += std::string("inline constexpr ") + type + one.name +
-           (is_single ? " = " + values_text(one, "f") : "[] = {" + values_text(one, "f") + "}") + ";\n";
+  for (const LookupConstant& constant : constants) {
+    const bool is_single = constant.values.size() == 1;
+    const char* type = is_integer(constant) ? "int " : constant.type == Type::precise ? "double " : "float ";
+    out += std::string("inline constexpr ") + type + constant.name +
+           (is_single ? " = " + values_text(constant, "f") : "[] = {" + values_text(constant, "f") + "}") + ";\n";
   }
   return out + "}\n";
 }
 
 Json lookup_json(const std::vector<LookupConstant>& constants) {
   Json out = Json::object();
-  for (const LookupConstant& one : constants) {
+  for (const LookupConstant& constant : constants) {
     Json values = Json::array();
-    for (const double value : one.values) values.push_back(number_or_null(value));
-    out[one.name] = values.size() == 1 ? values[0] : values;
+    for (const double value : constant.values) values.push_back(number_or_null(value));
+    out[constant.name] = values.size() == 1 ? values[0] : values;
   }
   return out;
 }

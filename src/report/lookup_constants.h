@@ -16,10 +16,10 @@ struct LookupConstant {
 };
 
 // Of a case with lists. Slices that have no formula (form "search") have no scale and bias.
-std::vector<LookupConstant> lookup_constants(const nlohmann::ordered_json& one);
+std::vector<LookupConstant> lookup_constants(const nlohmann::ordered_json& result_case);
 
 // What cannot be a constant, for a comment; "" where all can.
-std::string lookup_note(const nlohmann::ordered_json& one);
+std::string lookup_note(const nlohmann::ordered_json& result_case);
 
 // `name`: what all begin with. Declarations end with a line break.
 std::string lookup_hlsl(const std::string& name, const std::vector<LookupConstant>& constants);

@@ -15,12 +15,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-bool is_beside(const Json& one, const Json& other) {
-  return one["scene"] == other["scene"] && block_of(one) == block_of(other);
+bool is_beside(const Json& a, const Json& b) {
+  return a["scene"] == b["scene"] && block_of(a) == block_of(b);
 }
 
 struct Timed {
-  const Json* one = nullptr;
+  const Json* result_case = nullptr;
   run::Contender contender;
   double frame_ns = 0.0;
 };
@@ -31,38 +31,40 @@ struct Block {
   std::vector<Timed> cases;
 };
 
-std::string name_of_case(const Json& one, bool across_grids) {
-  return (across_grids ? one["grid"]["name"].get<std::string>() + " / " : "") + method_name(one) + " / " +
-         one["storage"].get<std::string>();
+std::string name_of_case(const Json& result_case, bool across_grids) {
+  return (across_grids ? result_case["grid"]["name"].get<std::string>() + " / " : "") + method_name(result_case) +
+         " / " + result_case["storage"].get<std::string>();
 }
 
-std::string name_of_block(const Json& one, bool across_grids) {
-  return across_grids ? "camera " + one["camera"].get<std::string>() + ", " + one["viewport"][0].dump() + "x" +
-                            one["viewport"][1].dump()
-                      : block_of(one);
+std::string name_of_block(const Json& result_case, bool across_grids) {
+  return across_grids ? "camera " + result_case["camera"].get<std::string>() + ", " +
+                            result_case["viewport"][0].dump() + "x" + result_case["viewport"][1].dump()
+                      : block_of(result_case);
 }
 
 // In the order of the cases.
 std::vector<Block> timed_blocks(const Json& result, const RatioRequest& request) {
   const Pattern pattern(request.methods, "--methods");
   std::vector<Block> blocks;
-  for (const Json& one : result["cases"]) {
-    const std::optional<double> frame_ns = number_at(one, "/timing/frame_ns/median");
-    if (!frame_ns || frame_rounds(one).empty() || !pattern.is_in(name_of_case(one, request.across_grids))) continue;
-    const std::string name = name_of_block(one, request.across_grids);
-    auto block =
-        std::ranges::find_if(blocks, [&](const Block& had) { return one["scene"] == had.scene && name == had.name; });
-    if (block == blocks.end()) block = blocks.insert(block, Block{one["scene"], name, {}});
-    block->cases.push_back({&one, contender_of(one), *frame_ns});
+  for (const Json& result_case : result["cases"]) {
+    const std::optional<double> frame_ns = number_at(result_case, "/timing/frame_ns/median");
+    if (!frame_ns || frame_rounds(result_case).empty() ||
+        !pattern.is_in(name_of_case(result_case, request.across_grids)))
+      continue;
+    const std::string name = name_of_block(result_case, request.across_grids);
+    auto block = std::ranges::find_if(
+        blocks, [&](const Block& had) { return result_case["scene"] == had.scene && name == had.name; });
+    if (block == blocks.end()) block = blocks.insert(block, Block{result_case["scene"], name, {}});
+    block->cases.push_back({&result_case, contender_of(result_case), *frame_ns});
   }
   for (Block& block : blocks) std::ranges::stable_sort(block.cases, {}, &Timed::frame_ns);
   return blocks;
 }
 
 // Of a case beside another one, for the page; null without a ratio.
-Json beside(const Timed& one, const Timed& other, const std::optional<measure::Ratio>& ratio) {
-  if (!ratio || one.one == other.one) return {};
-  return {{"id", (*other.one)["id"]},
+Json beside(const Timed& timed, const Timed& other, const std::optional<measure::Ratio>& ratio) {
+  if (!ratio || timed.result_case == other.result_case) return {};
+  return {{"id", (*other.result_case)["id"]},
           {"ratio", six_digits(ratio->ratio)},
           {"ci95", {six_digits(ratio->ci95.low), six_digits(ratio->ci95.high)}}};
 }
@@ -71,14 +73,14 @@ Json pairs_of(const Block& block, std::uint64_t seed) {
   Json pairs = Json::array();
   for (std::size_t i = 1; i < block.cases.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
-      const run::Contender &one = block.cases[i].contender, &other = block.cases[j].contender;
-      const std::optional<measure::Ratio> ratio = run::ratio_between(one, other, seed);
+      const run::Contender &slower = block.cases[i].contender, &faster = block.cases[j].contender;
+      const std::optional<measure::Ratio> ratio = run::ratio_between(slower, faster, seed);
       if (!ratio) continue;
       pairs.push_back({{"case", i},
                        {"other", j},
                        {"ratio", six_digits(ratio->ratio)},
                        {"ci95", {six_digits(ratio->ci95.low), six_digits(ratio->ci95.high)}},
-                       {"over", one.grid == other.grid ? "rounds" : "launches"},
+                       {"over", slower.grid == faster.grid ? "rounds" : "launches"},
                        {"takes_longer", measure::takes_longer(ratio)}});
     }
   return pairs;
@@ -87,9 +89,9 @@ Json pairs_of(const Block& block, std::uint64_t seed) {
 Json block_json(const Block& block, std::uint64_t seed, bool across_grids) {
   Json out{{"scene", block.scene}, {"name", block.name}, {"cases", Json::array()}};
   for (const Timed& timed : block.cases)
-    out["cases"].push_back({{"id", (*timed.one)["id"]},
-                            {"name", (*timed.one)["name"]},
-                            {"label", name_of_case(*timed.one, across_grids)},
+    out["cases"].push_back({{"id", (*timed.result_case)["id"]},
+                            {"name", (*timed.result_case)["name"]},
+                            {"label", name_of_case(*timed.result_case, across_grids)},
                             {"frame_ns", six_digits(timed.frame_ns)}});
   out["pairs"] = pairs_of(block, seed);
   return out;
@@ -185,13 +187,13 @@ std::string csv_row(const std::vector<std::string>& names, double ratio, const m
 
 }  // namespace
 
-std::optional<measure::Ratio> ratio_of_cases(const Json& result, const Json& one, const Json& other) {
-  if (!is_beside(one, other)) return std::nullopt;
-  return run::ratio_between(contender_of(one), contender_of(other), seed_of(result));
+std::optional<measure::Ratio> ratio_of_cases(const Json& result, const Json& numerator, const Json& denominator) {
+  if (!is_beside(numerator, denominator)) return std::nullopt;
+  return run::ratio_between(contender_of(numerator), contender_of(denominator), seed_of(result));
 }
 
-bool takes_longer(const Json& result, const Json& one, const Json& other) {
-  return measure::takes_longer(ratio_of_cases(result, one, other));
+bool takes_longer(const Json& result, const Json& numerator, const Json& denominator) {
+  return measure::takes_longer(ratio_of_cases(result, numerator, denominator));
 }
 
 Json ratios_of(const Json& result, const RatioRequest& request) {
@@ -211,12 +213,12 @@ Json ratio_rankings(const Json& result) {
   Json out = Json::array();
   for (const Block& block : timed_blocks(result, request))
     for (std::size_t i = 0; i < block.cases.size(); ++i) {
-      const Timed &one = block.cases[i], &fastest = block.cases.front(), &above = block.cases[i == 0 ? 0 : i - 1];
-      const auto to_fastest = run::ratio_between(one.contender, fastest.contender, seed_of(result)),
-                 to_above = run::ratio_between(one.contender, above.contender, seed_of(result));
-      out.push_back({{"id", (*one.one)["id"]},
-                     {"fastest", beside(one, fastest, to_fastest)},
-                     {"above", beside(one, above, to_above)},
+      const Timed &timed = block.cases[i], &fastest = block.cases.front(), &above = block.cases[i == 0 ? 0 : i - 1];
+      const auto to_fastest = run::ratio_between(timed.contender, fastest.contender, seed_of(result)),
+                 to_above = run::ratio_between(timed.contender, above.contender, seed_of(result));
+      out.push_back({{"id", (*timed.result_case)["id"]},
+                     {"fastest", beside(timed, fastest, to_fastest)},
+                     {"above", beside(timed, above, to_above)},
                      {"is_like_above", i > 0 && to_above && !measure::takes_longer(to_above)}});
     }
   return out;

@@ -14,14 +14,15 @@ namespace clusterbench::report {
 
 inline constexpr int k_ratios_version = 1;
 
-// Frame time of `one` / that of `other`, two cases of a grid; nullopt where other launches have measured
+// Frame time of `numerator` / that of `denominator`, two cases of a grid; nullopt where other launches have measured
 // them.
-std::optional<measure::Ratio> ratio_of_cases(const nlohmann::ordered_json& result, const nlohmann::ordered_json& one,
-                                             const nlohmann::ordered_json& other);
+std::optional<measure::Ratio> ratio_of_cases(const nlohmann::ordered_json& result,
+                                             const nlohmann::ordered_json& numerator,
+                                             const nlohmann::ordered_json& denominator);
 
-// False unless the ratio says that `one` takes longer than `other`, with 95 % certainty.
-bool takes_longer(const nlohmann::ordered_json& result, const nlohmann::ordered_json& one,
-                  const nlohmann::ordered_json& other);
+// False unless that ratio says that `numerator` takes longer, with 95 % certainty.
+bool takes_longer(const nlohmann::ordered_json& result, const nlohmann::ordered_json& numerator,
+                  const nlohmann::ordered_json& denominator);
 
 struct RatioRequest {
   std::string methods;        // a regular expression; all: empty

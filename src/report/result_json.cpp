@@ -149,10 +149,10 @@ Json to_json(const measure::WaveCounts& waves) {
 Json samples(const std::vector<run::SampleSetResult>& sets) {
   Json out = Json::object();
   for (const run::SampleSetResult& set : sets) {
-    Json& one = out[measure::name_of(set.set)] = shading(set.counts);
+    Json& set_json = out[measure::name_of(set.set)] = shading(set.counts);
     if (!set.coherence) continue;
-    one["waves"] = Json::array();
-    for (const measure::WaveCounts& waves : set.coherence->sizes) one["waves"].push_back(to_json(waves));
+    set_json["waves"] = Json::array();
+    for (const measure::WaveCounts& waves : set.coherence->sizes) set_json["waves"].push_back(to_json(waves));
   }
   return out;
 }

@@ -41,12 +41,12 @@ std::string comment_text(std::string name) {
 }
 
 // What was seen, as comment lines above the case's constants.
-std::string comment(const Json& result, const Json& one) {
-  const Json& buffers = one["buffers"];
+std::string comment(const Json& result, const Json& result_case) {
+  const Json& buffers = result_case["buffers"];
   const Json& entries = buffers["index_entries"];
   const auto high = entries["high_water"].get<std::uint64_t>(), most = entries["theoretical_max"].get<std::uint64_t>();
   const auto capacity = entries["recommended"].get<std::uint64_t>();
-  std::string out = "// " + comment_text(one["name"]) + "\n";
+  std::string out = "// " + comment_text(result_case["name"]) + "\n";
   out += "//   high water  " + std::to_string(high) + " entries in frame " + buffers["worst_frame"].dump() +
          (buffers.contains("worst_cell") ? ", longest list in cell " + buffers["worst_cell"].dump() : "") + "; " +
          share(high, most) + " of the theoretical " + std::to_string(most) + "\n";
@@ -81,33 +81,35 @@ std::string identifier(const std::string& name, std::set<std::string>& taken) {
 }
 
 // "scene/camera/grid" of a case's name; its other parts are the method's.
-std::string group_of(const Json& one) {
-  const auto name = one["name"].get<std::string>();
+std::string group_of(const Json& result_case) {
+  const auto name = result_case["name"].get<std::string>();
   std::size_t end = 0;
   for (int part = 0; part < 3 && end != std::string::npos; ++part) end = name.find('/', end + (part > 0 ? 1 : 0));
   return name.substr(0, end);
 }
 
 // A light structure of the method's own, not lists.
-bool is_own(const Json& one) {
-  return one["storage"] == "own";
+bool is_own(const Json& result_case) {
+  return result_case["storage"] == "own";
 }
 
 // Smaller is better. Structures of their own come after all lists: what samples pay for them differs.
-auto rank(const Json& one) {
-  const bool loses = one["loses_lights"] || !one["failures"].empty();
-  const double time_ns = number_at(one, "/timing/frame_ns/median").value_or(std::numeric_limits<double>::infinity());
-  return std::tuple(loses, is_own(one), time_ns, one["buffers"]["bytes"]["recommended"].get<std::uint64_t>());
+auto rank(const Json& result_case) {
+  const bool loses = result_case["loses_lights"] || !result_case["failures"].empty();
+  const double time_ns =
+      number_at(result_case, "/timing/frame_ns/median").value_or(std::numeric_limits<double>::infinity());
+  return std::tuple(loses, is_own(result_case), time_ns,
+                    result_case["buffers"]["bytes"]["recommended"].get<std::uint64_t>());
 }
 
 std::vector<Json> best_of_groups(const std::vector<Json>& cases) {
   std::vector<Json> best;
-  for (const Json& one : cases) {
-    const auto earlier = std::ranges::find(best, group_of(one), group_of);
+  for (const Json& result_case : cases) {
+    const auto earlier = std::ranges::find(best, group_of(result_case), group_of);
     if (earlier == best.end())
-      best.push_back(one);
-    else if (rank(one) < rank(*earlier))
-      *earlier = one;
+      best.push_back(result_case);
+    else if (rank(result_case) < rank(*earlier))
+      *earlier = result_case;
   }
   return best;
 }
@@ -115,8 +117,8 @@ std::vector<Json> best_of_groups(const std::vector<Json>& cases) {
 std::vector<Json> matching_cases(const Json& cases, const std::string& filter) {
   std::vector<Json> out;
   const Pattern pattern(filter, "--filter");
-  for (const Json& one : cases)
-    if (pattern.is_in(one["name"].get_ref<const std::string&>())) out.push_back(one);
+  for (const Json& result_case : cases)
+    if (pattern.is_in(result_case["name"].get_ref<const std::string&>())) out.push_back(result_case);
   if (out.empty() && !cases.empty())
     throw Error("", "--filter",
                 "'" + filter + "' matches none of " + number_of(cases.size(), "case") + "; one of them is '" +
@@ -126,7 +128,7 @@ std::vector<Json> matching_cases(const Json& cases, const std::string& filter) {
 
 // What a case is to be given, under a name that programs can have.
 struct Budget {
-  const Json* one = nullptr;
+  const Json* result_case = nullptr;
   std::string name;
   std::uint64_t capacity_entries = 0, warn_entries = 0, bytes = 0;
 };
@@ -134,14 +136,14 @@ struct Budget {
 // With how a sample finds its list. A structure of a method's own has lookups of its own.
 std::string lookup_text(const Budget& budget,
                         std::string (*declare)(const std::string&, const std::vector<LookupConstant>&)) {
-  if (is_own(*budget.one)) return "";
-  const std::string note = lookup_note(*budget.one);
+  if (is_own(*budget.result_case)) return "";
+  const std::string note = lookup_note(*budget.result_case);
   return (note.empty() ? "" : "//   lookup      " + note + "\n") +
-         declare(budget.name + "_lookup", lookup_constants(*budget.one));
+         declare(budget.name + "_lookup", lookup_constants(*budget.result_case));
 }
 
 std::string cpp_constants(const Json& result, const Budget& budget) {
-  return comment(result, *budget.one) + "inline constexpr LightListBudget " + budget.name + "{" +
+  return comment(result, *budget.result_case) + "inline constexpr LightListBudget " + budget.name + "{" +
          std::to_string(budget.capacity_entries) + "u, " + std::to_string(budget.warn_entries) + "u, " +
          std::to_string(budget.bytes) + "u};\n" + lookup_text(budget, lookup_cpp) + "\n";
 }
@@ -153,17 +155,17 @@ std::string shader_constants(const Json& result, const Budget& budget, bool is_h
     if (value > std::numeric_limits<std::uint32_t>::max()) return std::string();
     return type + " " + budget.name + "_" + what + " = " + std::to_string(value) + "u;\n";
   };
-  return comment(result, *budget.one) + line("capacity_entries", budget.capacity_entries) +
+  return comment(result, *budget.result_case) + line("capacity_entries", budget.capacity_entries) +
          line("warn_entries", budget.warn_entries) + line("bytes", budget.bytes) +
          lookup_text(budget, is_hlsl ? lookup_hlsl : lookup_glsl) + "\n";
 }
 
 Json budget_json(const Budget& budget) {
-  const Json& one = *budget.one;
-  const Json &buffers = one["buffers"], &entries = buffers["index_entries"];
+  const Json& result_case = *budget.result_case;
+  const Json &buffers = result_case["buffers"], &entries = buffers["index_entries"];
   Json out{{"name", budget.name},
-           {"id", one["id"]},
-           {"case", one["name"]},
+           {"id", result_case["id"]},
+           {"case", result_case["name"]},
            {"capacity_entries", budget.capacity_entries},
            {"warn_entries", budget.warn_entries},
            {"bytes", budget.bytes},
@@ -173,7 +175,7 @@ Json budget_json(const Budget& budget) {
            {"worst_frame", buffers["worst_frame"]}};
   if (buffers.contains("worst_cell")) out["worst_cell"] = buffers["worst_cell"];
   out["dropped_pairs"] = buffers["overflow"]["dropped_pairs"];
-  if (!is_own(one)) out["lookup"] = lookup_json(lookup_constants(one));
+  if (!is_own(result_case)) out["lookup"] = lookup_json(lookup_constants(result_case));
   return out;
 }
 
@@ -250,10 +252,12 @@ std::string size_report(const Json& result, const SizeRequest& request) {
   const std::vector<Json> shown = request.all ? cases : best_of_groups(cases);
   std::set<std::string> taken;
   std::vector<Budget> budgets;
-  for (const Json& one : shown) {
-    const auto capacity = one["buffers"]["index_entries"]["recommended"].get<std::uint64_t>();
-    budgets.push_back({&one, identifier(request.all ? one["name"].get<std::string>() : group_of(one), taken), capacity,
-                       warning_level(result, capacity), one["buffers"]["bytes"]["recommended"].get<std::uint64_t>()});
+  for (const Json& result_case : shown) {
+    const auto capacity = result_case["buffers"]["index_entries"]["recommended"].get<std::uint64_t>();
+    budgets.push_back({&result_case,
+                       identifier(request.all ? result_case["name"].get<std::string>() : group_of(result_case), taken),
+                       capacity, warning_level(result, capacity),
+                       result_case["buffers"]["bytes"]["recommended"].get<std::uint64_t>()});
   }
   if (request.format == "hlsl") return shader_report(result, budgets, cases.size(), true);
   if (request.format == "glsl") return shader_report(result, budgets, cases.size(), false);

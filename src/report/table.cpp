@@ -28,7 +28,7 @@ constexpr const char* k_plain = "\033[0m";
 constexpr const char* k_instructions = "/count/instructions_per_frame/assign";
 
 struct Line {
-  const Json* one = nullptr;
+  const Json* result_case = nullptr;
   Cells cells;
   bool has_failed = false;
   double sort_key = 0.0;
@@ -40,18 +40,19 @@ struct Extras {
        dropped = false, cold = false, launches = false;
 };
 
-std::string time_text(const Json& one, const char* pointer) {
-  const std::optional<double> ns = number_at(one, pointer);
+std::string time_text(const Json& result_case, const char* pointer) {
+  const std::optional<double> ns = number_at(result_case, pointer);
   if (!ns) return "-";
   const double us = *ns / 1e3;
   return text(us < 10.0 ? "%.2f" : us < 1000.0 ? "%.1f" : "%.0f", us);
 }
 
 // Half of the interval, of the time. A wide one has its ends at different distances, and shows both.
-std::string interval_text(const Json& one) {
+std::string interval_text(const Json& result_case) {
   constexpr double k_wide_percent = 20.0;
-  const auto low = number_at(one, "/timing/frame_ns/ci95/0"), high = number_at(one, "/timing/frame_ns/ci95/1"),
-             median = number_at(one, "/timing/frame_ns/median");
+  const auto low = number_at(result_case, "/timing/frame_ns/ci95/0"),
+             high = number_at(result_case, "/timing/frame_ns/ci95/1"),
+             median = number_at(result_case, "/timing/frame_ns/median");
   if (!median || *median <= 0.0) return "-";
   if (!low || !high) return k_unknown_interval;
   const double below = 100.0 * (1.0 - *low / *median), above = 100.0 * (*high / *median - 1.0);
@@ -59,59 +60,68 @@ std::string interval_text(const Json& one) {
   return text("-%.0f", below) + text("/+%.0f %%", above);
 }
 
-std::string worst_text(const Json& one) {
-  const Json* frame = value_at(one, "/timing/worst_frame/frame");
-  return frame == nullptr ? "-" : time_text(one, "/timing/worst_frame/ns") + " @" + frame->dump();
+std::string worst_text(const Json& result_case) {
+  const Json* frame = value_at(result_case, "/timing/worst_frame/frame");
+  return frame == nullptr ? "-" : time_text(result_case, "/timing/worst_frame/ns") + " @" + frame->dump();
 }
 
 // The pairs of the frames that the time is of; without times those of all frames.
-std::string pairs_text(const Json& one) {
-  return short_count(one, number_at(one, "/timing/frame_ns/median") ? "/timing/pairs/mean" : "/occupancy/pairs/mean");
+std::string pairs_text(const Json& result_case) {
+  return short_count(
+      result_case, number_at(result_case, "/timing/frame_ns/median") ? "/timing/pairs/mean" : "/occupancy/pairs/mean");
 }
 
 // A share that is small and not nothing never looks like nothing.
-std::string unlit_text(const Json& one) {
-  const std::optional<double> share = number_at(one, "/shading/unlit");
+std::string unlit_text(const Json& result_case) {
+  const std::optional<double> share = number_at(result_case, "/shading/unlit");
   if (!share) return "-";
   const double percent = 100.0 * *share;
   if (percent == 0.0) return "0 %";
   return percent < 0.01 ? "<0.01 %" : text(percent < 1.0 ? "%.2f %%" : "%.1f %%", percent);
 }
 
-double sort_key(const Json& one) {
+double sort_key(const Json& result_case) {
   for (const char* pointer : {"/timing/frame_ns/median", k_instructions, "/error/excess_ratio"})
-    if (const auto found = number_at(one, pointer)) return *found;
+    if (const auto found = number_at(result_case, pointer)) return *found;
   return 0.0;
 }
 
-bool has_failed(const Json& one) {
-  return !one["failures"].empty();
+bool has_failed(const Json& result_case) {
+  return !result_case["failures"].empty();
 }
 
 constexpr const char* k_frame_heading = "frame us";
 
 struct Column {
   const char* heading;
-  std::string (*text)(const Json& one);
+  std::string (*text)(const Json& result_case);
   bool Extras::*needed = nullptr;  // left out where the table has none of it
 };
 
 constexpr Column k_columns[] = {
-    {k_frame_heading, [](const Json& one) { return time_text(one, "/timing/frame_ns/median"); }, &Extras::times},
+    {k_frame_heading, [](const Json& result_case) { return time_text(result_case, "/timing/frame_ns/median"); },
+     &Extras::times},
     {"+-", interval_text, &Extras::times},
     {"worst us", worst_text, &Extras::times},
-    {"assign", [](const Json& one) { return time_text(one, "/timing/assign_ns/median"); }, &Extras::times},
-    {"convert", [](const Json& one) { return time_text(one, "/timing/convert_ns/median"); }, &Extras::conversions},
-    {"build", [](const Json& one) { return time_text(one, "/timing/build_ns/median"); }, &Extras::builds},
-    {"instr", [](const Json& one) { return short_count(one, k_instructions); }, &Extras::instructions},
+    {"assign", [](const Json& result_case) { return time_text(result_case, "/timing/assign_ns/median"); },
+     &Extras::times},
+    {"convert", [](const Json& result_case) { return time_text(result_case, "/timing/convert_ns/median"); },
+     &Extras::conversions},
+    {"build", [](const Json& result_case) { return time_text(result_case, "/timing/build_ns/median"); },
+     &Extras::builds},
+    {"instr", [](const Json& result_case) { return short_count(result_case, k_instructions); }, &Extras::instructions},
     {"pairs", pairs_text},
-    {"ns/pair", [](const Json& one) { return number_text(one, "/timing/ns_per_pair", "%.2f"); }, &Extras::times},
-    {"excess", [](const Json& one) { return number_text(one, "/error/excess_ratio", "%.1f %%", 100.0); }},
-    {"missed", [](const Json& one) { return number_text(one, "/error/false_negatives", "%.0f"); }},
-    {"dropped", [](const Json& one) { return short_count(one, "/buffers/overflow/dropped_pairs"); }, &Extras::dropped},
+    {"ns/pair", [](const Json& result_case) { return number_text(result_case, "/timing/ns_per_pair", "%.2f"); },
+     &Extras::times},
+    {"excess",
+     [](const Json& result_case) { return number_text(result_case, "/error/excess_ratio", "%.1f %%", 100.0); }},
+    {"missed", [](const Json& result_case) { return number_text(result_case, "/error/false_negatives", "%.0f"); }},
+    {"dropped", [](const Json& result_case) { return short_count(result_case, "/buffers/overflow/dropped_pairs"); },
+     &Extras::dropped},
     {"unlit", unlit_text, &Extras::samples},
-    {"shade", [](const Json& one) { return number_text(one, "/shading/overshade", "%.2f"); }, &Extras::samples},
-    {"bytes", [](const Json& one) { return short_count(one, "/buffers/bytes/high_water"); }},
+    {"shade", [](const Json& result_case) { return number_text(result_case, "/shading/overshade", "%.2f"); },
+     &Extras::samples},
+    {"bytes", [](const Json& result_case) { return short_count(result_case, "/buffers/bytes/high_water"); }},
 };
 
 bool is_shown(const Column& column, const Extras& extras) {
@@ -125,16 +135,16 @@ Cells headings(const Extras& extras) {
   return cells;
 }
 
-Line line_of(const Json& one, bool is_on_front, const Extras& extras) {
+Line line_of(const Json& result_case, bool is_on_front, const Extras& extras) {
   Line line;
-  line.one = &one;
-  std::string label = method_name(one);
-  if (extras.storages) label += " / " + shown(one["storage"]);
+  line.result_case = &result_case;
+  std::string label = method_name(result_case);
+  if (extras.storages) label += " / " + shown(result_case["storage"]);
   line.cells = {is_on_front ? "*" : "", label};
   for (const Column& column : k_columns)
-    if (is_shown(column, extras)) line.cells.push_back(column.text(one));
-  line.has_failed = has_failed(one);
-  line.sort_key = sort_key(one);
+    if (is_shown(column, extras)) line.cells.push_back(column.text(result_case));
+  line.has_failed = has_failed(result_case);
+  line.sort_key = sort_key(result_case);
   return line;
 }
 
@@ -148,16 +158,16 @@ std::set<std::string> ids_on_front(const Json& result) {
 Extras extras_of(const Json& cases) {
   Extras extras;
   std::set<std::string> storages;
-  for (const Json& one : cases) {
-    storages.insert(one["storage"].get<std::string>());
-    extras.times |= number_at(one, "/timing/frame_ns/median").has_value();
-    extras.conversions |= number_at(one, "/timing/convert_ns/median").has_value();
-    extras.builds |= number_at(one, "/timing/builds_per_frame").value_or(0.0) != 0.0;
-    extras.instructions |= one.contains("count");
-    extras.cold |= one.contains("timing") && one["timing"].value("caches", "") == "cold";
-    extras.launches |= one.contains("timing") && one["timing"].value("launches", 1) > 1;
-    extras.samples |= one.contains("shading");
-    extras.dropped |= one["buffers"]["overflow"]["dropped_pairs"] != 0;
+  for (const Json& result_case : cases) {
+    storages.insert(result_case["storage"].get<std::string>());
+    extras.times |= number_at(result_case, "/timing/frame_ns/median").has_value();
+    extras.conversions |= number_at(result_case, "/timing/convert_ns/median").has_value();
+    extras.builds |= number_at(result_case, "/timing/builds_per_frame").value_or(0.0) != 0.0;
+    extras.instructions |= result_case.contains("count");
+    extras.cold |= result_case.contains("timing") && result_case["timing"].value("caches", "") == "cold";
+    extras.launches |= result_case.contains("timing") && result_case["timing"].value("launches", 1) > 1;
+    extras.samples |= result_case.contains("shading");
+    extras.dropped |= result_case["buffers"]["overflow"]["dropped_pairs"] != 0;
   }
   extras.storages = storages.size() > 1;
   return extras;
@@ -166,10 +176,10 @@ Extras extras_of(const Json& cases) {
 // Who counted, on which instruction sets: "callgrind (AVX2)". "" where nobody did.
 std::string counters(const Json& cases) {
   std::set<std::string> names;
-  for (const Json& one : cases)
-    if (one.contains("count"))
-      names.insert(one["count"]["source"].get<std::string>() + " (" + one["count"]["simd_target"].get<std::string>() +
-                   ")");
+  for (const Json& result_case : cases)
+    if (result_case.contains("count"))
+      names.insert(result_case["count"]["source"].get<std::string>() + " (" +
+                   result_case["count"]["simd_target"].get<std::string>() + ")");
   return joined(std::vector<std::string>(names.begin(), names.end()));
 }
 
@@ -186,8 +196,8 @@ bool mark_alike(const Json& result, const Cells& heads, std::vector<Line>& lines
   if (column == static_cast<std::ptrdiff_t>(heads.size())) return false;
   bool has_some = false;
   for (std::size_t i = 1; i < lines.size(); ++i) {
-    if (!ratio_of_cases(result, *lines[i].one, *lines[i - 1].one) ||
-        takes_longer(result, *lines[i].one, *lines[i - 1].one))
+    if (!ratio_of_cases(result, *lines[i].result_case, *lines[i - 1].result_case) ||
+        takes_longer(result, *lines[i].result_case, *lines[i - 1].result_case))
       continue;
     lines[i].cells[static_cast<std::size_t>(column)].insert(0, "~");
     has_some = true;
@@ -234,9 +244,9 @@ std::string render_table(const Json& result, bool colour) {
     out += (colour ? k_bold : "") + scene_heading(scene) + (colour ? k_plain : "") + "\n";
     for (const std::string& block : blocks) {
       std::vector<Line> lines;
-      for (const Json& one : cases)
-        if (one["scene"] == scene["name"] && block_of(one) == block)
-          lines.push_back(line_of(one, on_front.contains(one["id"].get<std::string>()), extras));
+      for (const Json& result_case : cases)
+        if (result_case["scene"] == scene["name"] && block_of(result_case) == block)
+          lines.push_back(line_of(result_case, on_front.contains(result_case["id"].get<std::string>()), extras));
       std::stable_sort(lines.begin(), lines.end(),
                        [](const Line& a, const Line& b) { return a.sort_key < b.sort_key; });
       has_alike |= mark_alike(result, heads, lines);

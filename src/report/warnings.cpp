@@ -50,10 +50,10 @@ std::string ranges_text(const Json& rule) {
 // What is to be known of a grid, once for all of its cases.
 std::string grid_notes(const Json& cases) {
   std::vector<std::string> lines;
-  for (const Json& one : cases) {
-    if (!one["grid"].contains("note")) continue;
-    const std::string line =
-        "note: " + shown(one["scene"]) + ", " + shown(one["grid"]["name"]) + ": " + shown(one["grid"]["note"]) + "\n";
+  for (const Json& result_case : cases) {
+    if (!result_case["grid"].contains("note")) continue;
+    const std::string line = "note: " + shown(result_case["scene"]) + ", " + shown(result_case["grid"]["name"]) + ": " +
+                             shown(result_case["grid"]["note"]) + "\n";
     if (std::ranges::find(lines, line) == lines.end()) lines.push_back(line);
   }
   return joined(lines, "");

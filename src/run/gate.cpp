@@ -152,12 +152,13 @@ bool is_eligible(const CaseResult& result) {
   return result.failures.empty() && !loses_lights(result);
 }
 
-std::optional<measure::Ratio> ratio_between(const Contender& one, const Contender& other, std::uint64_t seed) {
-  if (one.session != other.session) return std::nullopt;
-  const measure::FrameTimes own{one.rounds_ns, one.launches, one.is_cold},
-      others{other.rounds_ns, other.launches, other.is_cold};
-  return one.grid == other.grid ? measure::ratio_of_rounds(own, others, seed)
-                                : measure::ratio_of_launches(own, others, seed);
+std::optional<measure::Ratio> ratio_between(const Contender& numerator, const Contender& denominator,
+                                            std::uint64_t seed) {
+  if (numerator.session != denominator.session) return std::nullopt;
+  const measure::FrameTimes above{numerator.rounds_ns, numerator.launches, numerator.is_cold},
+      below{denominator.rounds_ns, denominator.launches, denominator.is_cold};
+  return numerator.grid == denominator.grid ? measure::ratio_of_rounds(above, below, seed)
+                                            : measure::ratio_of_launches(above, below, seed);
 }
 
 std::vector<std::string> on_front(std::span<const Contender> cases, std::uint64_t seed) {
@@ -165,16 +166,16 @@ std::vector<std::string> on_front(std::span<const Contender> cases, std::uint64_
   for (const Contender& contender : cases)
     if (contender.is_eligible) views[{contender.scene, contender.view}].push_back(&contender);
   std::vector<std::string> ids;
-  for (const auto& one_view : views) {
-    const std::vector<const Contender*>& seen = one_view.second;
+  for (const auto& view : views) {
+    const std::vector<const Contender*>& contenders = view.second;
     std::vector<measure::Costs> costs;
-    for (const Contender* contender : seen) costs.push_back(contender->costs);
+    for (const Contender* contender : contenders) costs.push_back(contender->costs);
     const measure::TakesLonger by_interval = measure::intervals_apart(costs);
-    const measure::TakesLonger takes_longer = [&](std::size_t one, std::size_t other) {
-      const std::optional<measure::Ratio> ratio = ratio_between(*seen[one], *seen[other], seed);
-      return ratio ? measure::takes_longer(ratio) : by_interval(one, other);
+    const measure::TakesLonger takes_longer = [&](std::size_t a, std::size_t b) {
+      const std::optional<measure::Ratio> ratio = ratio_between(*contenders[a], *contenders[b], seed);
+      return ratio ? measure::takes_longer(ratio) : by_interval(a, b);
     };
-    for (const std::size_t index : measure::pareto_front(costs, takes_longer)) ids.push_back(seen[index]->id);
+    for (const std::size_t index : measure::pareto_front(costs, takes_longer)) ids.push_back(contenders[index]->id);
   }
   return ids;
 }

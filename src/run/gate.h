@@ -47,9 +47,10 @@ struct Contender {
   bool is_cold = false;
 };
 
-// Frame time of `one` / that of `other`, of cases of one scene and view: of their rounds where those are the same, else
-// of their launches. nullopt where neither can be: of two sessions nothing is known side by side.
-std::optional<measure::Ratio> ratio_between(const Contender& one, const Contender& other, std::uint64_t seed);
+// Frame time of `numerator` / that of `denominator`, of cases of one scene and view: of their rounds where those are
+// the same, else of their launches. nullopt where neither can be: of two sessions nothing is known side by side.
+std::optional<measure::Ratio> ratio_between(const Contender& numerator, const Contender& denominator,
+                                            std::uint64_t seed);
 
 // Ids of the cases that no other case of their scene and view beats in time, bytes and overshade together. Times are
 // told apart by their ratio, as `clusterbench ratio` has it, and where there is none by their intervals.

@@ -121,10 +121,10 @@ void ask_at_samples(const PreparedFrame& now, std::vector<CaseMeter>& cases) {
     for (std::size_t begin = 0; begin < all.size(); begin += k_samples_at_once) {
       const std::span<const grid::Sample> some = all.subspan(begin, std::min(k_samples_at_once, all.size() - begin));
       const measure::NeededLights needed = measure::needed_lights(now.frame, some);
-      for (CaseMeter& one : cases) one.ask_at(set, now.frame.index, some, needed);
+      for (CaseMeter& meter : cases) meter.ask_at(set, now.frame.index, some, needed);
     }
     if (!now.samples[set].picture) continue;
-    for (CaseMeter& one : cases) one.ask_waves(set, now.samples[set]);
+    for (CaseMeter& meter : cases) meter.ask_waves(set, now.samples[set]);
   }
 }
 
