@@ -19,12 +19,12 @@ interface Both {
 const by = (second: Maybe, first: Maybe): Maybe => (second === null || !first ? null : second / first);
 
 function bothOf(cases: Case[], first: Run, second: Run): Both[] {
-  const others = new Map(cases.filter((one) => one.run === first).map((one) => [one.raw.id, one]));
+  const others = new Map(cases.filter((aCase) => aCase.run === first).map((aCase) => [aCase.raw.id, aCase]));
   return cases
-    .filter((one) => one.run === second && others.has(one.raw.id))
-    .map((one) => {
-      const other = others.get(one.raw.id)!;
-      return { first: other, second: one, time: by(one.frameNs, other.frameNs), bytes: by(one.bytes, other.bytes) };
+    .filter((aCase) => aCase.run === second && others.has(aCase.raw.id))
+    .map((aCase) => {
+      const other = others.get(aCase.raw.id)!;
+      return { first: other, second: aCase, time: by(aCase.frameNs, other.frameNs), bytes: by(aCase.bytes, other.bytes) };
     });
 }
 

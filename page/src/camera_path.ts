@@ -11,15 +11,15 @@ import type { View } from "./view.ts";
 
 interface Along {
   title: string;
-  values: (one: Case) => number[] | undefined;
+  values: (aCase: Case) => number[] | undefined;
   show: (value: Maybe) => string;
-  allocation?: (one: Case) => number;
+  allocation?: (aCase: Case) => number;
 }
 
 const alongs: Along[] = [
-  { title: "pairs", values: (one) => one.raw.occupancy?.along_path?.pairs, show: format.short },
-  { title: "longest list", values: (one) => one.raw.occupancy?.along_path?.longest_list, show: format.count },
-  { title: "bytes", values: (one) => one.raw.buffers.along_path?.bytes, show: format.short, allocation: (one) => one.recommended },
+  { title: "pairs", values: (aCase) => aCase.raw.occupancy?.along_path?.pairs, show: format.short },
+  { title: "longest list", values: (aCase) => aCase.raw.occupancy?.along_path?.longest_list, show: format.count },
+  { title: "bytes", values: (aCase) => aCase.raw.buffers.along_path?.bytes, show: format.short, allocation: (aCase) => aCase.recommended },
 ];
 
 interface Step {
@@ -54,7 +54,7 @@ function lines(view: View, along: Along, all: Series[], framesPerEntry: number):
 }
 
 export function cameraPath(view: View, cases: Case[]): HTMLElement {
-  const shown = cases.filter((one) => one.raw.occupancy?.along_path && one.raw.buffers.along_path);
+  const shown = cases.filter((aCase) => aCase.raw.occupancy?.along_path && aCase.raw.buffers.along_path);
   if (shown.length === 0)
     return h("p", { class: "note" }, "These cases have no lists frame by frame: an earlier version measured them (run it again), or their methods leave structures without cells.");
   const framesPerEntry = shown[0]!.raw.occupancy!.along_path!.frames_per_entry;
@@ -67,17 +67,17 @@ export function cameraPath(view: View, cases: Case[]): HTMLElement {
     table: () => ({
       caption: "Pairs, longest list and bytes frame by frame",
       columns: [
-        { label: "method", value: (row) => view.named(row.one) },
+        { label: "method", value: (row) => view.named(row.aCase) },
         { label: "frame", value: (row) => row.frame },
         { label: "pairs", value: (row) => row.pairs, show: (row) => format.count(row.pairs) },
         { label: "longest list", value: (row) => row.longest },
         { label: "bytes", value: (row) => row.bytes, show: (row) => format.count(row.bytes) },
-        { label: "allocate", value: (row) => row.one.recommended, show: (row) => format.count(row.one.recommended) },
+        { label: "allocate", value: (row) => row.aCase.recommended, show: (row) => format.count(row.aCase.recommended) },
       ],
-      rows: shown.flatMap((one) => {
-        const { pairs, longest_list } = one.raw.occupancy!.along_path!;
-        const { bytes } = one.raw.buffers.along_path!;
-        return pairs.map((value, at) => ({ one, frame: at * framesPerEntry, pairs: value, longest: longest_list[at]!, bytes: bytes[at]! }));
+      rows: shown.flatMap((aCase) => {
+        const { pairs, longest_list } = aCase.raw.occupancy!.along_path!;
+        const { bytes } = aCase.raw.buffers.along_path!;
+        return pairs.map((value, at) => ({ aCase, frame: at * framesPerEntry, pairs: value, longest: longest_list[at]!, bytes: bytes[at]! }));
       }),
     }),
     cases: shown,

@@ -3,7 +3,7 @@
 import { colourOf, valueOf, type What } from "./cells/colours.ts";
 import { leftOut, unpacked, type Details, type Frame, type Vec3 } from "./cells/details.ts";
 import { canBeEven } from "./cells/even_depth.ts";
-import { geometryOf, placeOf, type Geometry } from "./cells/geometry.ts";
+import { cellOf, geometryOf, type Geometry } from "./cells/geometry.ts";
 import { pickedCell } from "./cells/picked_cell.ts";
 import { pictureOf } from "./cells/picture.ts";
 import { CellRows, countsAt, freshSelection, most, worstCell, type LightsShown, type Selection, type Show } from "./cells/selection.ts";
@@ -38,7 +38,7 @@ class CellsView {
   private readonly even: HTMLElement;
 
   constructor(
-    private readonly one: CaseResult,
+    private readonly aCase: CaseResult,
     private readonly details: Details,
     private readonly stage: Space | null,
     private readonly selection: Selection,
@@ -66,12 +66,12 @@ class CellsView {
 
   private get rows(): CellRows {
     const at = this.selection.frame;
-    const rows = this.frames.get(at) ?? new CellRows(unpacked(this.details.frames[at]!, this.one.grid));
+    const rows = this.frames.get(at) ?? new CellRows(unpacked(this.details.frames[at]!, this.aCase.grid));
     this.frames.set(at, rows);
     return rows;
   }
   private get geometry(): Geometry {
-    return geometryOf(this.one, this.rows.frame);
+    return geometryOf(this.aCase, this.rows.frame);
   }
 
   private cellSlider(id: string, label: string, axis: number) {
@@ -129,7 +129,7 @@ class CellsView {
 
   private draw(): void {
     const { selection, rows, geometry } = this, { frame } = rows;
-    const size = this.one.grid.cells;
+    const size = this.aCase.grid.cells;
     if (selection.cell.some((value, axis) => value < 0 || value >= size[axis]!)) selection.cell = worstCell(frame, geometry, "reported");
     const highest = most(frame, selection.what);
     selection.least = Math.min(selection.least, Math.max(highest, 1));
@@ -139,11 +139,11 @@ class CellsView {
     this.legend.replaceChildren(legendView(selection.what, highest));
     this.frameSlider.set(this.details.frames.length - 1, selection.frame, String(number));
     this.leastSlider.set(Math.max(highest, 1) - 1, selection.least - 1, count(selection.least));
-    this.cellSliders.forEach((one, axis) => one.set(size[axis]! - 1, selection.cell[axis]!, String(selection.cell[axis])));
+    this.cellSliders.forEach((bar, axis) => bar.set(size[axis]! - 1, selection.cell[axis]!, String(selection.cell[axis])));
     this.even.hidden = !canBeEven(geometry, frame.boundaries);
 
-    const at = rows.placeOf(geometry, ...selection.cell);
-    this.picked.replaceChildren(pickedCell(frame, geometry, { place: selection.cell, at, counts: countsAt(frame, at) }));
+    const row = rows.rowOf(geometry, ...selection.cell);
+    this.picked.replaceChildren(pickedCell(frame, geometry, { cell: selection.cell, row, counts: countsAt(frame, row) }));
     this.drawMap();
     this.drawStage();
   }
@@ -152,7 +152,7 @@ class CellsView {
     const highest = most(rows.frame, what);
     this.mapName.textContent = `Slice ${slice}: ${geometry.sliceName(slice)}`;
     const colourAt = (x: number, y: number) => {
-      const counts = countsAt(rows.frame, rows.placeOf(geometry, x, y, slice));
+      const counts = countsAt(rows.frame, rows.rowOf(geometry, x, y, slice));
       return valueOf(what, counts) > 0 ? colourOf(what, counts, highest) : null;
     };
     this.map.draw(geometry, slice, [column, row], colourAt, `Map of slice ${slice}, tile ${column}, ${row} is picked`);
@@ -161,15 +161,15 @@ class CellsView {
     if (!this.stage) return;
     const { rows, geometry } = this;
     const picture = pictureOf(rows, geometry, this.selection, this.stage.ink());
-    const onPick = (instance: number) => instance >= 0 && this.pick(placeOf(geometry.size, rows.frame.cells[picture.shown[instance]!]!));
+    const onPick = (instance: number) => instance >= 0 && this.pick(cellOf(geometry.size, rows.frame.cells[picture.shown[instance]!]!));
     this.stage.show({ ...picture, onPick });
   }
 }
 
 // null for a case without details. The stage (null: no WebGL) and the selection may be used again for the next case.
-export function cellsView(one: CaseResult, stage: Space | null = space(), selection: Selection = freshSelection()): HTMLElement | null {
-  const { details } = one;
+export function cellsView(aCase: CaseResult, stage: Space | null = space(), selection: Selection = freshSelection()): HTMLElement | null {
+  const { details } = aCase;
   if (!details) return null;
   if (details.frames.length === 0) return h("p", { class: "note" }, leftOut(details));
-  return new CellsView(one, details, stage, selection).element;
+  return new CellsView(aCase, details, stage, selection).element;
 }

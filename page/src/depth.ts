@@ -11,16 +11,16 @@ import type { Section, View } from "./view.ts";
 // What all settings have in common says nothing in their names.
 function settingNames(view: View, settings: Map<string, Case[]>): [string, string][] {
   const all = [...settings.values()].map((group) => group[0]!);
-  const varies = (value: (one: Case) => unknown) => new Set(all.map(value)).size > 1;
-  const [viewportsVary, storagesVary] = [varies((one) => String(one.raw.viewport)), varies((one) => one.storage)];
-  return [...settings].map(([key, [one]]) => {
-    const { raw, run } = one!;
+  const varies = (value: (aCase: Case) => unknown) => new Set(all.map(value)).size > 1;
+  const [viewportsVary, storagesVary] = [varies((aCase) => String(aCase.raw.viewport)), varies((aCase) => aCase.storage)];
+  return [...settings].map(([key, [aCase]]) => {
+    const { raw, run } = aCase!;
     const name = [
       raw.scene,
       raw.camera,
-      one!.grid,
+      aCase!.grid,
       viewportsVary && raw.viewport.join("×"),
-      storagesVary && one!.storage,
+      storagesVary && aCase!.storage,
       view.model.runs.length > 1 && run.label,
     ];
     return [key, name.filter(Boolean).join(" · ")];
@@ -28,7 +28,7 @@ function settingNames(view: View, settings: Map<string, Case[]>): [string, strin
 }
 
 export const depthSection: Section = (view, redraw) => {
-  const settings = Map.groupBy(view.cases(), (one) => one.setting);
+  const settings = Map.groupBy(view.cases(), (aCase) => aCase.setting);
   if (settings.size === 0) return null;
   const [key, control] = choice(view, redraw, "setting", "Setting", settingNames(view, settings));
   const cases = settings.get(key)!;

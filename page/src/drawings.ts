@@ -49,9 +49,9 @@ function picture(title: string, panels: Panel[], columns: number, methods: Map<s
   const whole = columns * width + (columns - 1) * gap;
   const rows = Math.ceil(panels.length / columns), top = 34, legendTop = top + rows * (height + titleHeight + 12) + 14;
   const perLine = Math.floor(whole / 210);
-  const parts = panels.flatMap((one, at) => {
+  const parts = panels.flatMap((drawn, at) => {
     const x = (at % columns) * (width + gap), y = top + Math.floor(at / columns) * (height + titleHeight + 12);
-    return [textAt(x + 8, y + 14, one.title, 'font-weight="bold"'), placedAt(x, y + titleHeight, one.chart)];
+    return [textAt(x + 8, y + 14, drawn.title, 'font-weight="bold"'), placedAt(x, y + titleHeight, drawn.chart)];
   });
   const names = [...methods].map(([name, mark], at) => {
     const x = 8 + (at % perLine) * 210, y = legendTop + 20 * Math.floor(at / perLine);
@@ -66,15 +66,15 @@ function picture(title: string, panels: Panel[], columns: number, methods: Map<s
   );
 }
 
-const legendOf = (view: View, model: Model) => new Map(model.cases.map((one) => [one.assigner, icon(view.palette(one)) as Element]));
+const legendOf = (view: View, model: Model) => new Map(model.cases.map((aCase) => [aCase.assigner, icon(view.palette(aCase)) as Element]));
 
 // Of the cases that have cells, a panel per scene.
 function speedError(result: Result): string {
   const view = viewOf(result), measure = measures["excess"]!;
   const all = points(view.model.cases, measure);
   const x = logExtent(all.map(({ us }) => us));
-  const panels = [...Map.groupBy(all, ({ one }) => one.scene)].map(([title, some]) => ({ title, chart: panel(view, some, measure, { x, y: extent(some.map(({ error }) => error)) }, 470) }));
-  return picture("frame time in µs (left is faster) against false positives in % of the true pairs (lower is tighter); bars: 95 %", panels, 2, legendOf(view, { ...view.model, cases: all.map(({ one }) => one) }));
+  const panels = [...Map.groupBy(all, ({ aCase }) => aCase.scene)].map(([title, some]) => ({ title, chart: panel(view, some, measure, { x, y: extent(some.map(({ error }) => error)) }, 470) }));
+  return picture("frame time in µs (left is faster) against false positives in % of the true pairs (lower is tighter); bars: 95 %", panels, 2, legendOf(view, { ...view.model, cases: all.map(({ aCase }) => aCase) }));
 }
 
 interface Curve {
@@ -85,12 +85,12 @@ interface Curve {
 
 function scaling(curves: Curve[]): string {
   const views = curves.map(({ result }) => viewOf(result));
-  const times = views.flatMap((view) => view.model.cases.flatMap((one) => (one.assignNs === null ? [] : [one.assignNs / 1e3])));
+  const times = views.flatMap((view) => view.model.cases.flatMap((aCase) => (aCase.assignNs === null ? [] : [aCase.assignNs / 1e3])));
   const y = logExtent(times);
   const panels = curves.map(({ label, sizes }, at) => {
     const view = views[at]!;
-    const rows = view.model.cases.filter((one) => one.assignNs !== null && one.raw.id in sizes).map((one) => ({ one, size: sizes[one.raw.id]!, us: one.assignNs! / 1e3 }));
-    const look = ({ one }: { one: Case }) => view.palette(one);
+    const rows = view.model.cases.filter((aCase) => aCase.assignNs !== null && aCase.raw.id in sizes).map((aCase) => ({ aCase, size: sizes[aCase.raw.id]!, us: aCase.assignNs! / 1e3 }));
+    const look = ({ aCase }: { aCase: Case }) => view.palette(aCase);
     return {
       title: label,
       chart: chart(label, {
@@ -100,7 +100,7 @@ function scaling(curves: Curve[]): string {
         x: { type: "log", label, ticks: 4, tickFormat: format.short, grid: true },
         y: { type: "log", domain: y, label: "assign µs", ticks: 6, tickFormat: format.short, grid: true },
         marks: [
-          Plot.line(rows, { x: "size", y: "us", z: (row: (typeof rows)[number]) => row.one.assigner, sort: "size", stroke: (row: (typeof rows)[number]) => look(row).colour, strokeWidth: 1.5, strokeDasharray: "none" }),
+          Plot.line(rows, { x: "size", y: "us", z: (row: (typeof rows)[number]) => row.aCase.assigner, sort: "size", stroke: (row: (typeof rows)[number]) => look(row).colour, strokeWidth: 1.5, strokeDasharray: "none" }),
           Plot.dot(rows, { x: "size", y: "us", r: 4, symbol: (row: (typeof rows)[number]) => look(row).shape, stroke: (row: (typeof rows)[number]) => look(row).colour, fill: (row: (typeof rows)[number]) => (look(row).isFilled ? look(row).colour : "var(--panel)") }),
         ],
       }),

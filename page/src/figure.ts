@@ -28,10 +28,10 @@ function commonStart(texts: string[]): string {
 
 // One command per result: its configuration, narrowed to the cases by what their names begin with.
 function commandsOf(cases: Case[]): string {
-  const runs = [...new Set(cases.map((one) => one.run))];
+  const runs = [...new Set(cases.map((aCase) => aCase.run))];
   return runs
     .map((run) => {
-      const names = cases.filter((one) => one.run === run).map((one) => one.raw.name);
+      const names = cases.filter((aCase) => aCase.run === run).map((aCase) => aCase.raw.name);
       const start = commonStart(names).replace(/[^/]*$/, "");
       const filter = start ? ` --filter ${quoted(`^${escaped(start)}`)}` : "";
       return `clusterbench run ${quoted(`${run.result.name}.json`)}${filter} -o result.json`;

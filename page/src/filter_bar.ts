@@ -44,7 +44,7 @@ function onlyFront(view: View): HTMLElement {
 
 // A method and how it looks, in the order of the palette's families.
 function methods(view: View): HTMLElement {
-  const looks = new Map(view.model.cases.map((one) => [one.assigner, view.palette(one)]));
+  const looks = new Map(view.model.cases.map((aCase) => [aCase.assigner, view.palette(aCase)]));
   const buttons = view.model.assigners.map((name) => {
     const button = h("button", { class: "chip", "aria-pressed": String(!view.filters.hidden.has(name)), onclick: () => toggle(name) }, icon(looks.get(name)!), name);
     return { name, button };
@@ -76,11 +76,11 @@ const grids = (view: View, model: Model) => (model.grids.length > 1 ? listOf(vie
 
 // The bar, made anew where filters change by other means than its controls.
 export function filterBar(view: View): HTMLElement {
-  const place = h("div");
-  const draw = () => place.replaceChildren(bar(view));
+  const box = h("div");
+  const draw = () => box.replaceChildren(bar(view));
   view.onReset(draw);
   draw();
-  return place;
+  return box;
 }
 
 function bar(view: View): HTMLElement {

@@ -9,7 +9,7 @@ const plural = (count: number, word: string) => `${count} ${word}${count === 1 ?
 
 function verdict(model: Model): HTMLElement {
   const all = warningsOf(model);
-  const failures = all.filter((one) => one.isFailure).length;
+  const failures = all.filter((warning) => warning.isFailure).length;
   const text = failures ? plural(failures, "failure") : all.length ? plural(all.length, "warning") : "No warnings";
   return h("a", { href: "#warnings", class: failures ? "bad" : "" }, text);
 }
@@ -38,5 +38,5 @@ function goTo(event: Event, id: string): void {
 
 export function contents(main: HTMLElement): HTMLElement {
   const sections = [...main.querySelectorAll("section[id]")];
-  return h("nav", { "aria-label": "Sections" }, ...sections.map((one) => h("a", { href: `#${one.id}`, onclick: (event) => goTo(event, one.id) }, one.querySelector("h2")!.textContent)));
+  return h("nav", { "aria-label": "Sections" }, ...sections.map((section) => h("a", { href: `#${section.id}`, onclick: (event) => goTo(event, section.id) }, section.querySelector("h2")!.textContent)));
 }

@@ -12,19 +12,19 @@ import type { Section } from "./view.ts";
 
 interface Measure {
   label: string;
-  of: (one: Case) => Maybe;
+  of: (aCase: Case) => Maybe;
   show: (value: Maybe) => string;
   isShare?: boolean; // can be 0
 }
 
 const measures: Record<string, Measure> = {
-  time: { label: "frame µs", of: (one) => one.frameNs, show: format.microseconds },
-  instructions: { label: "instructions", of: (one) => one.instructions, show: format.short },
-  overshade: { label: "overshade", of: (one) => one.overshade, show: format.factor },
-  excess: { label: "excess", of: (one) => one.excess, show: format.percent, isShare: true },
-  bytes: { label: "bytes", of: (one) => one.bytes, show: format.short },
-  longest: { label: "longest list", of: (one) => one.longest, show: format.count },
-  pairs: { label: "pairs", of: (one) => one.pairs, show: format.short },
+  time: { label: "frame µs", of: (aCase) => aCase.frameNs, show: format.microseconds },
+  instructions: { label: "instructions", of: (aCase) => aCase.instructions, show: format.short },
+  overshade: { label: "overshade", of: (aCase) => aCase.overshade, show: format.factor },
+  excess: { label: "excess", of: (aCase) => aCase.excess, show: format.percent, isShare: true },
+  bytes: { label: "bytes", of: (aCase) => aCase.bytes, show: format.short },
+  longest: { label: "longest list", of: (aCase) => aCase.longest, show: format.count },
+  pairs: { label: "pairs", of: (aCase) => aCase.pairs, show: format.short },
 };
 
 interface Cell {
@@ -41,29 +41,29 @@ const cut = (grid: Grid) => /^(?:frustum|distance) (\S+) x (.+)$/.exec(grid.name
 const unique = (values: string[]) => [...new Set(values)];
 
 function cellsOf(cases: Case[], measure: Measure): Cell[] {
-  const hasKinds = unique(cases.filter((one) => cut(one.raw.grid)).map((one) => one.raw.grid.kind)).length > 1;
-  const hasStorages = unique(cases.map((one) => one.storage)).length > 1;
-  const hasRuns = unique(cases.map((one) => one.run.label)).length > 1;
-  const methodOf = (one: Case) => [one.assigner, ...(hasRuns ? [one.run.label] : []), ...(hasKinds ? [one.raw.grid.kind] : []), ...(hasStorages ? [one.storage] : [])].join(" / ");
-  const placed = cases.flatMap((one) => {
-    const [, tiling, slicing] = cut(one.raw.grid) ?? [];
-    const value = measure.of(one);
-    return tiling === undefined || slicing === undefined || value === null ? [] : [{ one, tiling, slicing, value }];
+  const hasKinds = unique(cases.filter((aCase) => cut(aCase.raw.grid)).map((aCase) => aCase.raw.grid.kind)).length > 1;
+  const hasStorages = unique(cases.map((aCase) => aCase.storage)).length > 1;
+  const hasRuns = unique(cases.map((aCase) => aCase.run.label)).length > 1;
+  const methodOf = (aCase: Case) => [aCase.assigner, ...(hasRuns ? [aCase.run.label] : []), ...(hasKinds ? [aCase.raw.grid.kind] : []), ...(hasStorages ? [aCase.storage] : [])].join(" / ");
+  const placed = cases.flatMap((aCase) => {
+    const [, tiling, slicing] = cut(aCase.raw.grid) ?? [];
+    const value = measure.of(aCase);
+    return tiling === undefined || slicing === undefined || value === null ? [] : [{ aCase, tiling, slicing, value }];
   });
-  const groups = Map.groupBy(placed, ({ one, tiling, slicing }) => [methodOf(one), tiling, slicing].join("\n"));
+  const groups = Map.groupBy(placed, ({ aCase, tiling, slicing }) => [methodOf(aCase), tiling, slicing].join("\n"));
   return [...groups.values()].map((group) => ({
-    method: methodOf(group[0]!.one),
+    method: methodOf(group[0]!.aCase),
     tiling: group[0]!.tiling,
     slicing: group[0]!.slicing,
-    ...mean(group.map(({ one }) => one), measure),
+    ...mean(group.map(({ aCase }) => aCase), measure),
   }));
 }
 
 // As over all: geometric, each scene counted once. A share that can be 0 is averaged as what is reported by what is true.
 function mean(cases: Case[], measure: Measure): { value: number; scenes: number } {
   const plus = measure.isShare ? 1 : 0;
-  const { value, scenes } = meanOf(cases, (one) => {
-    const figure = measure.of(one);
+  const { value, scenes } = meanOf(cases, (aCase) => {
+    const figure = measure.of(aCase);
     return figure === null || figure + plus <= 0 ? null : figure + plus;
   });
   return { value: value === null ? 0 : value - plus, scenes };
@@ -98,9 +98,9 @@ function map(cells: Cell[], measure: Measure, range: [number, number]): Element 
 
 export const heatMapSection: Section = (view, redraw) => {
   const cases = view.cases();
-  const offered = Object.entries(measures).filter(([, one]) => cellsOf(cases, one).length > 0);
+  const offered = Object.entries(measures).filter(([, measure]) => cellsOf(cases, measure).length > 0);
   if (offered.length === 0) return null;
-  const [key, control] = choice(view, redraw, "heat-map-measure", "Colour", offered.map(([name, one]) => [name, one.label]));
+  const [key, control] = choice(view, redraw, "heat-map-measure", "Colour", offered.map(([name, { label }]) => [name, label]));
   const measure = measures[key]!;
   const cells = cellsOf(cases, measure);
   const positive = cells.map((cell) => cell.value).filter((value) => value > 0);

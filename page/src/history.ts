@@ -34,7 +34,7 @@ const five = (value: number) => String(Number(value.toPrecision(5)));
 
 function drawn(series: Series): Element {
   const points = series.values.map((value, at) => ({ at, value, commit: series.commits[at]! }));
-  const changes = series.changes.map((one) => ({ ...one, x: one.index - 0.5 }));
+  const changes = series.changes.map((change) => ({ ...change, x: change.index - 0.5 }));
   const name = `${series.metric} in ${series.unit} of ${series.case}, ${plural(points.length, "value")} from ${five(Math.min(...series.values))} to ${five(Math.max(...series.values))}`;
   return chart(name, {
     width: 380,
@@ -44,7 +44,7 @@ function drawn(series: Series): Element {
     x: { label: "commit", ticks: Math.min(5, points.length), tickFormat: (at: number) => series.commits[at]?.slice(0, 8) ?? "", domain: [0, Math.max(1, points.length - 1)] },
     y: { label: series.unit, ticks: 4, grid: true, tickFormat: "~s" },
     marks: [
-      Plot.ruleX(changes, { x: "x", stroke: (one: Change) => (one.direction === "worse" ? "var(--bad)" : one.direction === "better" ? "var(--method-1)" : "var(--ink-2)"), strokeDasharray: "4 3", strokeWidth: 1.5 }),
+      Plot.ruleX(changes, { x: "x", stroke: (change: Change) => (change.direction === "worse" ? "var(--bad)" : change.direction === "better" ? "var(--method-1)" : "var(--ink-2)"), strokeDasharray: "4 3", strokeWidth: 1.5 }),
       Plot.line(points, { x: "at", y: "value", stroke: "var(--method-2)", strokeWidth: 1.8 }),
       Plot.dot(points, { x: "at", y: "value", fill: "var(--method-2)", r: 3 }),
       Plot.tip(points, Plot.pointer({ x: "at", y: "value", title: ({ commit, value }: (typeof points)[number]) => `${commit}\n${five(value)} ${series.unit}` })),
@@ -60,12 +60,12 @@ function figure(series: Series): HTMLElement {
     {},
     h("figcaption", {}, h("h2", {}, series.metric), h("p", {}, series.case), h("p", {}, facts.join("; "))),
     h("div", { class: "chart" }, drawn(series) as HTMLElement),
-    series.changes.length > 0 && h("ul", { class: "changes" }, ...series.changes.map((one) => h("li", { class: one.direction }, one.text))),
+    series.changes.length > 0 && h("ul", { class: "changes" }, ...series.changes.map((change) => h("li", { class: change.direction }, change.text))),
   );
 }
 
 function show({ entries, count, series }: HistoryData): void {
-  const changes = series.reduce((sum, one) => sum + one.changes.length, 0);
+  const changes = series.reduce((sum, { changes }) => sum + changes.length, 0);
   const figures = h("div", { class: "series" });
   const more = h("button", { class: "more", onclick: () => add() });
   let shown = 0;

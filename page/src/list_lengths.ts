@@ -15,7 +15,7 @@ interface Bin {
   cells: number;
 }
 
-const histogramOf = (one: Case) => one.raw.occupancy?.lights_per_cell.histogram;
+const histogramOf = (aCase: Case) => aCase.raw.occupancy?.lights_per_cell.histogram;
 const perEntry = (series: Series) => histogramOf(series.cases[0]!)!.lights_per_entry;
 const lengthOf = (series: Series) => series.values.length * perEntry(series);
 
@@ -32,7 +32,7 @@ function binned(all: Series[], width: number): Bin[] {
 }
 
 export function listLengths(view: View, cases: Case[]): HTMLElement {
-  const all = seriesOf(view, cases, (one) => histogramOf(one)?.cells);
+  const all = seriesOf(view, cases, (aCase) => histogramOf(aCase)?.cells);
   const longest = all.reduce((most, series) => Math.max(most, lengthOf(series)), 1);
   const widest = all.reduce((most, series) => Math.max(most, perEntry(series)), 1);
   const width = widest * Math.ceil(longest / mostBins / widest);

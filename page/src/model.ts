@@ -16,7 +16,7 @@ export interface Case {
   scene: string;
   grid: string;
   assigner: string; // with the parameters that differ from their defaults
-  family: string; // a method and its fast twin are one family
+  family: string; // a method and its fast variant are one family
   isFast: boolean;
   storage: string; // and lights, where they are packed
   setting: string; // what cases must share to be compared pair by pair
@@ -64,7 +64,7 @@ function labels(files: string[]): string[] {
   const tail = (at: number, length: number) => parts[at]!.slice(-length).join("/");
   return files.map((file, at) => {
     for (let length = 1; length <= parts[at]!.length; ++length)
-      if (files.every((other, place) => other === file || tail(place, length) !== tail(at, length))) return tail(at, length);
+      if (files.every((other, index) => other === file || tail(index, length) !== tail(at, length))) return tail(at, length);
     return file;
   });
 }
@@ -109,19 +109,19 @@ function toCase(raw: CaseResult, run: Run, front: Set<string>, ranked: Ranked | 
 }
 
 // Cases that see the same, whatever cells they use. Of several results each is by itself: they can be of other machines.
-export const seenBy = (one: Case) => [one.run.label, one.scene, one.raw.camera, one.raw.viewport.join("x")].join("\n");
+export const seenBy = (aCase: Case) => [aCase.run.label, aCase.scene, aCase.raw.camera, aCase.raw.viewport.join("x")].join("\n");
 
 function rankAll(cases: Case[]): void {
-  for (const seen of Map.groupBy(cases.filter((one) => one.frameNs !== null), seenBy).values())
-    seen.sort((a, b) => a.frameNs! - b.frameNs!).forEach((one, at) => (one.rank = at + 1));
+  for (const seen of Map.groupBy(cases.filter((aCase) => aCase.frameNs !== null), seenBy).values())
+    seen.sort((a, b) => a.frameNs! - b.frameNs!).forEach((aCase, at) => (aCase.rank = at + 1));
 }
 
 export function modelOf(data: PageData): Model {
-  const names = labels(data.results.map((one) => one.file));
+  const names = labels(data.results.map(({ file }) => file));
   const runs = data.results.map(({ file, result, doubts }, at) => ({ file, label: names[at]!, result, doubts }));
   const cases = runs.flatMap((run, at) => {
-    const ranked = new Map(data.results[at]!.ratios.map((one) => [one.id, one]));
-    const front = new Set(run.result.pareto_front.flatMap((one) => one.ids));
+    const ranked = new Map(data.results[at]!.ratios.map((ratio) => [ratio.id, ratio]));
+    const front = new Set(run.result.pareto_front.flatMap(({ ids }) => ids));
     return run.result.cases.map((raw) => toCase(raw, run, front, ranked.get(raw.id) ?? null));
   });
   rankAll(cases);
@@ -129,9 +129,9 @@ export function modelOf(data: PageData): Model {
     command: data.command,
     runs,
     cases,
-    scenes: unique(cases.map((one) => one.scene)),
-    grids: unique(cases.map((one) => one.grid)),
-    assigners: unique(cases.map((one) => one.assigner)),
-    families: unique(cases.map((one) => one.family)),
+    scenes: unique(cases.map((aCase) => aCase.scene)),
+    grids: unique(cases.map((aCase) => aCase.grid)),
+    assigners: unique(cases.map((aCase) => aCase.assigner)),
+    families: unique(cases.map((aCase) => aCase.family)),
   };
 }

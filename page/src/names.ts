@@ -50,8 +50,8 @@ const along = ({ from, to, y }: Bar): Box => ({ left: from, right: to, top: y - 
 export function placed<T extends Spot & { text: string }>(names: T[], marks: Spot[], bars: Bar[], right: number): { name: T; placement: Placement }[] {
   const taken = [...marks.map(around), ...bars.map(along)];
   return names.flatMap((name) => {
-    const placement = placements.find((one) => {
-      const box = boxOf(name, name.text, one);
+    const placement = placements.find((candidate) => {
+      const box = boxOf(name, name.text, candidate);
       return box.left > 0 && box.right < right && !taken.some((other) => overlap(box, other));
     });
     if (!placement) return [];

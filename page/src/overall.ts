@@ -36,9 +36,9 @@ export interface Standing {
 // The fastest that is eligible; of all where none is.
 export function bestTimes(cases: Case[]): Map<string, number> {
   const best = new Map<string, number>();
-  const whole = new Set(cases.filter((one) => one.isEligible).map(seenBy));
-  for (const one of cases)
-    if (one.frameNs !== null && (one.isEligible || !whole.has(seenBy(one)))) best.set(seenBy(one), Math.min(best.get(seenBy(one)) ?? Infinity, one.frameNs));
+  const whole = new Set(cases.filter((aCase) => aCase.isEligible).map(seenBy));
+  for (const aCase of cases)
+    if (aCase.frameNs !== null && (aCase.isEligible || !whole.has(seenBy(aCase)))) best.set(seenBy(aCase), Math.min(best.get(seenBy(aCase)) ?? Infinity, aCase.frameNs));
   return best;
 }
 
@@ -48,19 +48,19 @@ const sum = (values: number[]) => values.reduce((total, value) => total + value,
 const geometric = (values: number[]) => Math.exp(sum(values.map(Math.log)) / values.length);
 
 // Over the cases of each scene, then over the scenes.
-export function meanOf(cases: Case[], figure: (one: Case) => Maybe): Mean {
-  const scenes = [...Map.groupBy(cases, (one) => one.scene).values()].map((some) => known(some.map(figure))).filter((some) => some.length > 0);
+export function meanOf(cases: Case[], figure: (aCase: Case) => Maybe): Mean {
+  const scenes = [...Map.groupBy(cases, (aCase) => aCase.scene).values()].map((some) => known(some.map(figure))).filter((some) => some.length > 0);
   return { value: scenes.length ? geometric(scenes.map(geometric)) : null, scenes: scenes.length };
 }
 
 function excessOf(cases: Case[]): Mean {
-  const { value, scenes } = meanOf(cases, (one) => (one.excess === null ? null : 1 + one.excess));
+  const { value, scenes } = meanOf(cases, (aCase) => (aCase.excess === null ? null : 1 + aCase.excess));
   return { value: value === null ? null : value - 1, scenes };
 }
 
 function standing(cases: Case[], best: Map<string, number>): Standing {
-  const timeByBest = (one: Case) => one.frameNs && one.frameNs / best.get(seenBy(one))!;
-  const missed = known(cases.map((one) => one.missed));
+  const timeByBest = (aCase: Case) => aCase.frameNs && aCase.frameNs / best.get(seenBy(aCase))!;
+  const missed = known(cases.map((aCase) => aCase.missed));
   const first = cases[0]!;
   return {
     assigner: first.assigner,
@@ -70,24 +70,24 @@ function standing(cases: Case[], best: Map<string, number>): Standing {
     storage: first.storage,
     run: first.run.label,
     cases,
-    scenes: new Set(cases.map((one) => one.scene)).size,
+    scenes: new Set(cases.map((aCase) => aCase.scene)).size,
     rank: null,
     timeByBest: meanOf(cases, timeByBest),
     worstTimeByBest: most(cases.map(timeByBest)),
     excess: excessOf(cases),
     missed: missed.length ? sum(missed) : null,
-    dropped: sum(cases.map((one) => one.dropped)),
-    unlit: most(cases.map((one) => one.unlit)),
-    isUnlit: cases.some((one) => one.isUnlit),
-    overshade: meanOf(cases, (one) => one.overshade),
-    longest: meanOf(cases, (one) => one.longest || null),
-    bytes: meanOf(cases, (one) => one.bytes || null),
-    mostBytes: Math.max(...cases.map((one) => one.bytes)),
-    fronts: cases.filter((one) => one.isOnFront).length,
+    dropped: sum(cases.map((aCase) => aCase.dropped)),
+    unlit: most(cases.map((aCase) => aCase.unlit)),
+    isUnlit: cases.some((aCase) => aCase.isUnlit),
+    overshade: meanOf(cases, (aCase) => aCase.overshade),
+    longest: meanOf(cases, (aCase) => aCase.longest || null),
+    bytes: meanOf(cases, (aCase) => aCase.bytes || null),
+    mostBytes: Math.max(...cases.map((aCase) => aCase.bytes)),
+    fronts: cases.filter((aCase) => aCase.isOnFront).length,
   };
 }
 
-const keyOf = (one: Case) => [one.run.label, one.assigner, one.grid, one.storage].join("\n");
+const keyOf = (aCase: Case) => [aCase.run.label, aCase.assigner, aCase.grid, aCase.storage].join("\n");
 
 function allStandings(cases: Case[], best: Map<string, number>): Map<string, Standing> {
   return new Map([...Map.groupBy(cases, keyOf)].map(([key, group]) => [key, standing(group, best)]));
@@ -97,10 +97,10 @@ function allStandings(cases: Case[], best: Map<string, number>): Map<string, Sta
 export function standings(cases: Case[], all: Case[]): Standing[] {
   const best = bestTimes(all);
   const ranked = allStandings(all, best);
-  for (const some of Map.groupBy(ranked.values(), (one) => one.run).values())
+  for (const some of Map.groupBy(ranked.values(), (row) => row.run).values())
     some
-      .filter((one) => one.timeByBest.value !== null)
+      .filter((row) => row.timeByBest.value !== null)
       .sort((a, b) => a.timeByBest.value! - b.timeByBest.value!)
-      .forEach((one, at) => (one.rank = at + 1));
-  return [...allStandings(cases, best)].map(([key, one]) => ({ ...one, rank: ranked.get(key)!.rank }));
+      .forEach((row, at) => (row.rank = at + 1));
+  return [...allStandings(cases, best)].map(([key, row]) => ({ ...row, rank: ranked.get(key)!.rank }));
 }

@@ -1,4 +1,4 @@
-// How methods look: a family has one colour and one form, its fast twin is filled, the readable reference hollow.
+// How methods look: a family has one colour and one form, its fast variant is filled, the readable reference hollow.
 
 import type { Case, Model } from "./model.ts";
 import { shapes, type Shape } from "./shapes.ts";
@@ -13,14 +13,14 @@ export interface Look {
   isFilled: boolean;
 }
 
-export type Palette = (one: Pick<Case, "family" | "isFast">) => Look;
+export type Palette = (method: Pick<Case, "family" | "isFast">) => Look;
 
 export function paletteOf(model: Model): Palette {
   const order = [...known, ...model.families.filter((family) => !known.includes(family))];
-  const places = new Map(order.map((family, at) => [family, at]));
+  const indices = new Map(order.map((family, at) => [family, at]));
   return ({ family, isFast }) => {
-    const place = places.get(family)!;
-    return { colour: `var(--method-${place % colours})`, shape: shapes[place % shapes.length]!, isFilled: isFast };
+    const index = indices.get(family)!;
+    return { colour: `var(--method-${index % colours})`, shape: shapes[index % shapes.length]!, isFilled: isFast };
   };
 }
 

@@ -9,26 +9,26 @@ import { ofRuns } from "./runs.ts";
 import type { Column } from "./table.ts";
 import type { Section, View } from "./view.ts";
 
-type Packed = { one: Case; precision: Precision };
-type Looked = { one: Case; lookup: Lookup };
+type Packed = { aCase: Case; precision: Precision };
+type Looked = { aCase: Case; lookup: Lookup };
 
 const packedColumns: Column<Packed>[] = [
-  { label: "method", value: ({ one }) => one.assigner },
-  { label: "storage", value: ({ one }) => one.raw.storage },
-  { label: "scene", value: ({ one }) => one.scene },
-  { label: "grid", value: ({ one }) => one.grid },
+  { label: "method", value: ({ aCase }) => aCase.assigner },
+  { label: "storage", value: ({ aCase }) => aCase.raw.storage },
+  { label: "scene", value: ({ aCase }) => aCase.scene },
+  { label: "grid", value: ({ aCase }) => aCase.grid },
   { label: "lights", value: ({ precision }) => precision.label },
-  { label: "missed", value: ({ one }) => one.missed, show: ({ one }) => format.count(one.missed) },
-  { label: "deepest", about: "Largest share of its range by which a missed light reaches in", value: ({ one }) => one.raw.error?.deepest_miss ?? null, show: ({ one }) => format.percent(one.raw.error?.deepest_miss ?? null) },
+  { label: "missed", value: ({ aCase }) => aCase.missed, show: ({ aCase }) => format.count(aCase.missed) },
+  { label: "deepest", about: "Largest share of its range by which a missed light reaches in", value: ({ aCase }) => aCase.raw.error?.deepest_miss ?? null, show: ({ aCase }) => format.percent(aCase.raw.error?.deepest_miss ?? null) },
   { label: "extra pairs", about: "Against float32", value: ({ precision }) => (precision.extra_pairs?.ratio ?? null), show: ({ precision }) => format.percent((precision.extra_pairs?.ratio ?? null)) },
   { label: "place off by", about: "At most", value: ({ precision }) => precision.position_error_m.max, show: ({ precision }) => format.metres(precision.position_error_m.max) },
 ];
 
 const lookedColumns: Column<Looked>[] = [
-  { label: "method", value: ({ one }) => one.assigner },
-  { label: "storage", about: "What the lookup asks, with how its lights are packed; own: a light structure of the method's own", value: ({ one }) => one.storage },
-  { label: "scene", value: ({ one }) => one.scene },
-  { label: "grid", value: ({ one }) => one.grid },
+  { label: "method", value: ({ aCase }) => aCase.assigner },
+  { label: "storage", about: "What the lookup asks, with how its lights are packed; own: a light structure of the method's own", value: ({ aCase }) => aCase.storage },
+  { label: "scene", value: ({ aCase }) => aCase.scene },
+  { label: "grid", value: ({ aCase }) => aCase.grid },
   { label: "logarithm", value: ({ lookup }) => lookup.logarithm },
   { label: "depth", value: ({ lookup }) => lookup.depth },
   { label: "needed", value: ({ lookup }) => lookup.needed, show: ({ lookup }) => format.count(lookup.needed) },
@@ -38,26 +38,26 @@ const lookedColumns: Column<Looked>[] = [
 ];
 
 function packedFigure(view: View): HTMLElement | null {
-  const rows = view.cases().flatMap((one) => (one.raw.precision ? [{ one, precision: one.raw.precision }] : []));
+  const rows = view.cases().flatMap((aCase) => (aCase.raw.precision ? [{ aCase, precision: aCase.raw.precision }] : []));
   if (rows.length === 0) return null;
   return figureView({
     id: "packed-lights",
     title: "Packed lights",
     lead: "The same methods on lights that were packed before the assigner saw them, against the same truth.",
     table: () => ({ caption: "Packed lights", columns: ofRuns(view, packedColumns), rows }),
-    cases: rows.map(({ one }) => one),
+    cases: rows.map(({ aCase }) => aCase),
   });
 }
 
 function lookupFigure(view: View): HTMLElement | null {
-  const rows = view.cases().flatMap((one) => (one.raw.lookup ?? []).map((lookup) => ({ one, lookup })));
+  const rows = view.cases().flatMap((aCase) => (aCase.raw.lookup ?? []).map((lookup) => ({ aCase, lookup })));
   if (rows.length === 0) return null;
   return figureView({
     id: "lookup",
     title: "A shader's lookup",
     lead: "Samples whose single-precision lookup picks a cell whose list lacks a light that reaches them.",
     table: () => ({ caption: "A shader's lookup", columns: ofRuns(view, lookedColumns), rows }),
-    cases: rows.map(({ one }) => one),
+    cases: rows.map(({ aCase }) => aCase),
   });
 }
 

@@ -9,12 +9,12 @@ import { icon } from "./palette.ts";
 import { tableView, type Column, type Table } from "./table.ts";
 import type { Section, View } from "./view.ts";
 
-function method(view: View, one: Pick<Case, "assigner" | "family" | "isFast">): HTMLElement {
-  return h("span", { class: "method" }, icon(view.palette(one)), one.assigner);
+function method(view: View, row: Pick<Case, "assigner" | "family" | "isFast">): HTMLElement {
+  return h("span", { class: "method" }, icon(view.palette(row)), row.assigner);
 }
 
-function interval(one: Case): string {
-  const [low, high] = one.interval;
+function interval(row: Case): string {
+  const [low, high] = row.interval;
   return low === null || high === null ? "95 %: unknown" : `95 %: ${format.microseconds(low)} to ${format.microseconds(high)} µs`;
 }
 
@@ -37,50 +37,50 @@ const kept = <Row>(columns: (Column<Row> | false)[]) => columns.filter((column):
 
 // Method, time and error first: a narrow screen shows no more.
 function caseColumns(view: View, rows: Case[]): Column<Case>[] {
-  const measured = (value: (one: Case) => unknown) => rows.some((one) => value(one) !== null);
+  const measured = (value: (row: Case) => unknown) => rows.some((row) => value(row) !== null);
   return kept<Case>([
-    { label: "method", value: (one) => one.assigner, show: (one) => method(view, one) },
-    measured((one) => one.frameNs) && { label: "frame µs", about: "Median time of what a frame takes: assignment and conversion to the storage, with builds where the grid changes from frame to frame. ~: may be as fast as the next faster one of its scene, as far as their ratio is known", value: (one) => one.frameNs, show: (one) => h("span", { title: interval(one) }, `${one.ranked?.is_like_above ? "~" : ""}${format.microseconds(one.frameNs)}`) },
-    { label: "excess", about: "False positives by true pairs", value: (one) => one.excess, show: (one) => format.percent(one.excess) },
-    { label: "missed", about: "False negatives: lights that reach a cell and are not in its list", value: (one) => one.missed, show: (one) => lost(format.whole(one.missed), !!one.missed) },
-    rows.some((one) => one.dropped > 0) && { label: "dropped", about: "Pairs that the storage had no room for, over all frames", value: (one) => one.dropped, show: (one) => lost(format.short(one.dropped), one.dropped > 0) },
-    measured((one) => one.unlit) && { label: "unlit", about: "Share of the lights that samples need and are not given: their cell lacks them, the storage dropped them, or they are outside of the grid", value: (one) => one.unlit, show: (one) => unlit(one) },
-    measured((one) => one.overshade) && { label: "overshade", about: "Lights evaluated by lights needed, at the samples; none where lights are unlit or few are needed", value: (one) => one.overshade, show: (one) => format.factor(one.overshade) },
-    { label: "bytes", about: "High-water mark of headers and indices", value: (one) => one.bytes, show: (one) => format.short(one.bytes) },
-    { label: "front", about: "On its scene's Pareto front in frame time, bytes and overshade: nothing that loses no light is better, beyond the interval of the ratio of their times", value: (one) => (one.isOnFront ? "yes" : null), show: (one) => front(one.isOnFront) },
-    measured((one) => one.rank) && { label: "rank", about: "By frame time among all cases of its scene, camera and viewport, those that are filtered out as well", value: (one) => one.rank },
-    measured((one) => one.ranked?.fastest?.ratio ?? null) && { label: "/ fastest", about: "Frame time by that of the fastest case of its scene, camera and viewport, measured beside it, as clusterbench ratio --across-grids has it; its interval at the pointer", value: (one) => one.ranked?.fastest?.ratio ?? null, show: (one) => h("span", { title: ratio(one) }, format.factor(one.ranked?.fastest?.ratio ?? null)) },
-    view.hasRuns && { label: "result", value: (one) => one.run.label },
-    differ(rows, (one) => one.scene) && { label: "scene", value: (one) => one.scene },
-    differ(rows, (one) => one.raw.camera) && { label: "camera", value: (one) => one.raw.camera },
-    differ(rows, (one) => String(one.raw.viewport)) && { label: "viewport", value: (one) => one.raw.viewport.join("×") },
-    { label: "grid", value: (one) => one.grid },
-    differ(rows, (one) => one.storage) && { label: "storage", value: (one) => one.storage },
-    measured((one) => one.frameNs) && { label: "±", about: "Half of the 95 % interval, by the median; both sides where one is above 20 %", value: halfInterval, show: (one) => (one.frameNs && halfInterval(one) === null ? "unknown" : halfOrBoth(one)) },
-    measured((one) => one.worstNs) && { label: "worst µs", about: "The slowest of the timed frames; its number at the pointer", value: (one) => one.worstNs, show: (one) => h("span", { title: worst(one) }, format.microseconds(one.worstNs)) },
-    measured((one) => one.assignNs) && { label: "assign µs", isDetail: true, about: "Of the frame's time: assignment, lists included", value: (one) => one.assignNs, show: (one) => format.microseconds(one.assignNs) },
-    measured((one) => one.convertNs) && { label: "convert µs", isDetail: true, about: "Of the frame's time: from lists to the storage's layout", value: (one) => one.convertNs, show: (one) => format.microseconds(one.convertNs) },
-    measured((one) => one.instructions) && { label: "instr", about: "Instructions of one frame's assignment", value: (one) => one.instructions, show: (one) => format.short(one.instructions) },
-    measured((one) => one.nsPerPair) && { label: "ns/pair", isDetail: true, about: "Frame time by pairs", value: (one) => one.nsPerPair, show: (one) => format.decimal(one.nsPerPair) },
-    measured((one) => one.floorRatio) && { label: "× copy", isDetail: true, about: "Assignment time by the time to copy the finished lists once", value: (one) => one.floorRatio, show: (one) => format.decimal(one.floorRatio) },
-    { label: "pairs", isDetail: true, about: "(cell, light) pairs per frame, mean of the frames that are timed; comparable on one grid only", value: (one) => one.pairs, show: (one) => format.short(one.pairs) },
-    { label: "most pairs", isDetail: true, about: "Of one of these frames", value: (one) => one.mostPairs, show: (one) => format.short(one.mostPairs) },
-    { label: "p99", isDetail: true, about: "Lights per cell that 99 % of the cells do not exceed", value: (one) => one.p99, show: (one) => format.whole(one.p99) },
-    { label: "longest", about: "Longest list of the path", value: (one) => one.longest, show: (one) => format.whole(one.longest) },
-    { label: "allocate", about: "What to allocate: high-water mark with margin", value: (one) => one.recommended, show: (one) => format.short(one.recommended) },
+    { label: "method", value: (row) => row.assigner, show: (row) => method(view, row) },
+    measured((row) => row.frameNs) && { label: "frame µs", about: "Median time of what a frame takes: assignment and conversion to the storage, with builds where the grid changes from frame to frame. ~: may be as fast as the next faster one of its scene, as far as their ratio is known", value: (row) => row.frameNs, show: (row) => h("span", { title: interval(row) }, `${row.ranked?.is_like_above ? "~" : ""}${format.microseconds(row.frameNs)}`) },
+    { label: "excess", about: "False positives by true pairs", value: (row) => row.excess, show: (row) => format.percent(row.excess) },
+    { label: "missed", about: "False negatives: lights that reach a cell and are not in its list", value: (row) => row.missed, show: (row) => lost(format.whole(row.missed), !!row.missed) },
+    rows.some((row) => row.dropped > 0) && { label: "dropped", about: "Pairs that the storage had no room for, over all frames", value: (row) => row.dropped, show: (row) => lost(format.short(row.dropped), row.dropped > 0) },
+    measured((row) => row.unlit) && { label: "unlit", about: "Share of the lights that samples need and are not given: their cell lacks them, the storage dropped them, or they are outside of the grid", value: (row) => row.unlit, show: (row) => unlit(row) },
+    measured((row) => row.overshade) && { label: "overshade", about: "Lights evaluated by lights needed, at the samples; none where lights are unlit or few are needed", value: (row) => row.overshade, show: (row) => format.factor(row.overshade) },
+    { label: "bytes", about: "High-water mark of headers and indices", value: (row) => row.bytes, show: (row) => format.short(row.bytes) },
+    { label: "front", about: "On its scene's Pareto front in frame time, bytes and overshade: nothing that loses no light is better, beyond the interval of the ratio of their times", value: (row) => (row.isOnFront ? "yes" : null), show: (row) => front(row.isOnFront) },
+    measured((row) => row.rank) && { label: "rank", about: "By frame time among all cases of its scene, camera and viewport, those that are filtered out as well", value: (row) => row.rank },
+    measured((row) => row.ranked?.fastest?.ratio ?? null) && { label: "/ fastest", about: "Frame time by that of the fastest case of its scene, camera and viewport, measured beside it, as clusterbench ratio --across-grids has it; its interval at the pointer", value: (row) => row.ranked?.fastest?.ratio ?? null, show: (row) => h("span", { title: ratio(row) }, format.factor(row.ranked?.fastest?.ratio ?? null)) },
+    view.hasRuns && { label: "result", value: (row) => row.run.label },
+    differ(rows, (row) => row.scene) && { label: "scene", value: (row) => row.scene },
+    differ(rows, (row) => row.raw.camera) && { label: "camera", value: (row) => row.raw.camera },
+    differ(rows, (row) => String(row.raw.viewport)) && { label: "viewport", value: (row) => row.raw.viewport.join("×") },
+    { label: "grid", value: (row) => row.grid },
+    differ(rows, (row) => row.storage) && { label: "storage", value: (row) => row.storage },
+    measured((row) => row.frameNs) && { label: "±", about: "Half of the 95 % interval, by the median; both sides where one is above 20 %", value: halfInterval, show: (row) => (row.frameNs && halfInterval(row) === null ? "unknown" : halfOrBoth(row)) },
+    measured((row) => row.worstNs) && { label: "worst µs", about: "The slowest of the timed frames; its number at the pointer", value: (row) => row.worstNs, show: (row) => h("span", { title: worst(row) }, format.microseconds(row.worstNs)) },
+    measured((row) => row.assignNs) && { label: "assign µs", isDetail: true, about: "Of the frame's time: assignment, lists included", value: (row) => row.assignNs, show: (row) => format.microseconds(row.assignNs) },
+    measured((row) => row.convertNs) && { label: "convert µs", isDetail: true, about: "Of the frame's time: from lists to the storage's layout", value: (row) => row.convertNs, show: (row) => format.microseconds(row.convertNs) },
+    measured((row) => row.instructions) && { label: "instr", about: "Instructions of one frame's assignment", value: (row) => row.instructions, show: (row) => format.short(row.instructions) },
+    measured((row) => row.nsPerPair) && { label: "ns/pair", isDetail: true, about: "Frame time by pairs", value: (row) => row.nsPerPair, show: (row) => format.decimal(row.nsPerPair) },
+    measured((row) => row.floorRatio) && { label: "× copy", isDetail: true, about: "Assignment time by the time to copy the finished lists once", value: (row) => row.floorRatio, show: (row) => format.decimal(row.floorRatio) },
+    { label: "pairs", isDetail: true, about: "(cell, light) pairs per frame, mean of the frames that are timed; comparable on one grid only", value: (row) => row.pairs, show: (row) => format.short(row.pairs) },
+    { label: "most pairs", isDetail: true, about: "Of one of these frames", value: (row) => row.mostPairs, show: (row) => format.short(row.mostPairs) },
+    { label: "p99", isDetail: true, about: "Lights per cell that 99 % of the cells do not exceed", value: (row) => row.p99, show: (row) => format.whole(row.p99) },
+    { label: "longest", about: "Longest list of the path", value: (row) => row.longest, show: (row) => format.whole(row.longest) },
+    { label: "allocate", about: "What to allocate: high-water mark with margin", value: (row) => row.recommended, show: (row) => format.short(row.recommended) },
   ]);
 }
 
-function halfInterval(one: Case): number | null {
-  const [low, high] = one.interval;
-  return low === null || high === null || !one.frameNs ? null : (high - low) / 2 / one.frameNs;
+function halfInterval(row: Case): number | null {
+  const [low, high] = row.interval;
+  return low === null || high === null || !row.frameNs ? null : (high - low) / 2 / row.frameNs;
 }
 
 // As the terminal's table has it.
-function halfOrBoth(one: Case): string {
-  const [low, high] = one.interval;
-  if (low === null || high === null || !one.frameNs) return format.percent(null);
-  const below = 1 - low / one.frameNs, above = high / one.frameNs - 1;
+function halfOrBoth(row: Case): string {
+  const [low, high] = row.interval;
+  if (low === null || high === null || !row.frameNs) return format.percent(null);
+  const below = 1 - low / row.frameNs, above = high / row.frameNs - 1;
   return Math.max(below, above) < 0.2 ? format.percent((below + above) / 2) : `-${(100 * below).toFixed(0)}/+${(100 * above).toFixed(0)} %`;
 }
 
@@ -90,37 +90,37 @@ function ratio({ ranked }: Case): string {
 }
 
 // A mean that some scenes have no part in says so.
-function mean({ value, scenes }: Mean, one: Standing, show: (value: number | null) => string): string {
-  return value === null || scenes === one.scenes ? show(value) : `${show(value)} (${scenes} of ${one.scenes})`;
+function mean({ value, scenes }: Mean, row: Standing, show: (value: number | null) => string): string {
+  return value === null || scenes === row.scenes ? show(value) : `${show(value)} (${scenes} of ${row.scenes})`;
 }
 
 function overallColumns(view: View, rows: Standing[]): Column<Standing>[] {
-  const timed = rows.some((one) => one.timeByBest.value !== null);
+  const timed = rows.some((row) => row.timeByBest.value !== null);
   return kept<Standing>([
-    { label: "method", value: (one) => one.assigner, show: (one) => method(view, one) },
-    timed && { label: "time / best", about: "Frame time by that of the scene's fastest case that loses no light: geometric mean over the scenes", value: (one) => one.timeByBest.value, show: (one) => mean(one.timeByBest, one, format.factor) },
-    { label: "excess", about: "False positives by true pairs: geometric mean over the scenes (of reported by true pairs)", value: (one) => one.excess.value, show: (one) => mean(one.excess, one, format.percent) },
-    { label: "missed", about: "False negatives, sum over all scenes", value: (one) => one.missed, show: (one) => lost(format.whole(one.missed), !!one.missed) },
-    rows.some((one) => one.dropped > 0) && { label: "dropped", about: "Pairs that storages had no room for, sum over all scenes", value: (one) => one.dropped, show: (one) => lost(format.short(one.dropped), one.dropped > 0) },
-    rows.some((one) => one.unlit !== null) && { label: "unlit", about: "Largest share of needed lights that the samples of a scene lack", value: (one) => one.unlit, show: (one) => lost(format.share(one.unlit), one.isUnlit) },
-    { label: "overshade", about: "Lights evaluated by lights needed: geometric mean over the scenes, with their number where it does not compare in all", value: (one) => one.overshade.value, show: (one) => mean(one.overshade, one, format.factor) },
-    { label: "bytes", about: "High-water mark: geometric mean over the scenes", value: (one) => one.bytes.value, show: (one) => mean(one.bytes, one, format.short) },
-    { label: "on front", about: "In how many of its cases it is on the Pareto front in time, bytes and overshade", value: (one) => one.fronts, show: (one) => `${one.fronts} of ${one.cases.length}` },
-    timed && { label: "rank", about: "By time / best among all methods and grids, those that are filtered out as well", value: (one) => one.rank },
-    view.hasRuns && { label: "result", value: (one) => one.run },
-    { label: "grid", value: (one) => one.grid },
-    differ(rows, (one) => one.storage) && { label: "storage", value: (one) => one.storage },
-    differ(rows, (one) => one.scenes) && { label: "scenes", about: "That the figures are of", value: (one) => one.scenes },
-    timed && { label: "worst", about: "Time / best in the scene where it is largest", value: (one) => one.worstTimeByBest, show: (one) => format.factor(one.worstTimeByBest) },
-    { label: "longest", about: "Longest list: geometric mean over the scenes", value: (one) => one.longest.value, show: (one) => mean(one.longest, one, format.whole) },
-    { label: "most bytes", about: "Largest high-water mark of any scene", value: (one) => one.mostBytes, show: (one) => format.short(one.mostBytes) },
+    { label: "method", value: (row) => row.assigner, show: (row) => method(view, row) },
+    timed && { label: "time / best", about: "Frame time by that of the scene's fastest case that loses no light: geometric mean over the scenes", value: (row) => row.timeByBest.value, show: (row) => mean(row.timeByBest, row, format.factor) },
+    { label: "excess", about: "False positives by true pairs: geometric mean over the scenes (of reported by true pairs)", value: (row) => row.excess.value, show: (row) => mean(row.excess, row, format.percent) },
+    { label: "missed", about: "False negatives, sum over all scenes", value: (row) => row.missed, show: (row) => lost(format.whole(row.missed), !!row.missed) },
+    rows.some((row) => row.dropped > 0) && { label: "dropped", about: "Pairs that storages had no room for, sum over all scenes", value: (row) => row.dropped, show: (row) => lost(format.short(row.dropped), row.dropped > 0) },
+    rows.some((row) => row.unlit !== null) && { label: "unlit", about: "Largest share of needed lights that the samples of a scene lack", value: (row) => row.unlit, show: (row) => lost(format.share(row.unlit), row.isUnlit) },
+    { label: "overshade", about: "Lights evaluated by lights needed: geometric mean over the scenes, with their number where it does not compare in all", value: (row) => row.overshade.value, show: (row) => mean(row.overshade, row, format.factor) },
+    { label: "bytes", about: "High-water mark: geometric mean over the scenes", value: (row) => row.bytes.value, show: (row) => mean(row.bytes, row, format.short) },
+    { label: "on front", about: "In how many of its cases it is on the Pareto front in time, bytes and overshade", value: (row) => row.fronts, show: (row) => `${row.fronts} of ${row.cases.length}` },
+    timed && { label: "rank", about: "By time / best among all methods and grids, those that are filtered out as well", value: (row) => row.rank },
+    view.hasRuns && { label: "result", value: (row) => row.run },
+    { label: "grid", value: (row) => row.grid },
+    differ(rows, (row) => row.storage) && { label: "storage", value: (row) => row.storage },
+    differ(rows, (row) => row.scenes) && { label: "scenes", about: "That the figures are of", value: (row) => row.scenes },
+    timed && { label: "worst", about: "Time / best in the scene where it is largest", value: (row) => row.worstTimeByBest, show: (row) => format.factor(row.worstTimeByBest) },
+    { label: "longest", about: "Longest list: geometric mean over the scenes", value: (row) => row.longest.value, show: (row) => mean(row.longest, row, format.whole) },
+    { label: "most bytes", about: "Largest high-water mark of any scene", value: (row) => row.mostBytes, show: (row) => format.short(row.mostBytes) },
   ]);
 }
 
 // By the first of these columns that the table has.
 function sortedBy<Row>(columns: Column<Row>[]): Table<Row>["sort"] {
-  const places = ["frame µs", "time / best", "instr", "excess"].map((label) => columns.findIndex((column) => column.label === label));
-  return { column: places.find((place) => place >= 0) ?? 0, descending: false };
+  const indices = ["frame µs", "time / best", "instr", "excess"].map((label) => columns.findIndex((column) => column.label === label));
+  return { column: indices.find((index) => index >= 0) ?? 0, descending: false };
 }
 
 const allColumns = "ranking-all";
@@ -155,7 +155,7 @@ export const rankingSection: Section = (view, redraw) => {
   if (cases.length === 0) return nothing(view);
   const { scene } = view.filters;
   if (scene !== null) return ranking(view, redraw, `Cases of ${scene}`, caseColumns(view, cases), cases);
-  const rows = standings(view.casesOfAnyFront(), view.model.cases).filter((one) => !view.filters.frontOnly || one.fronts > 0);
+  const rows = standings(view.casesOfAnyFront(), view.model.cases).filter((row) => !view.filters.frontOnly || row.fronts > 0);
   return ranking(view, redraw, "Methods over all scenes", overallColumns(view, rows), rows);
 };
 

@@ -4,7 +4,7 @@ import type { Case } from "./model.ts";
 import type { Column } from "./table.ts";
 import type { View } from "./view.ts";
 
-export function ofRuns<Row extends { one: Case }>(view: View, columns: Column<Row>[]): Column<Row>[] {
+export function ofRuns<Row extends { aCase: Case }>(view: View, columns: Column<Row>[]): Column<Row>[] {
   const [first, ...others] = columns;
-  return view.hasRuns ? [first!, { label: "result", value: ({ one }) => one.run.label }, ...others] : columns;
+  return view.hasRuns ? [first!, { label: "result", value: ({ aCase }) => aCase.run.label }, ...others] : columns;
 }

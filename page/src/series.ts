@@ -9,15 +9,15 @@ export interface Series {
   values: number[];
 }
 
-export function seriesOf(view: View, cases: Case[], values: (one: Case) => number[] | undefined): Series[] {
-  const given = cases.flatMap((one) => {
-    const found = values(one);
-    return found && found.length > 0 ? [{ one, found }] : [];
+export function seriesOf(view: View, cases: Case[], values: (aCase: Case) => number[] | undefined): Series[] {
+  const given = cases.flatMap((aCase) => {
+    const found = values(aCase);
+    return found && found.length > 0 ? [{ aCase, found }] : [];
   });
   const groups = Map.groupBy(given, ({ found }) => found.join(","));
   return [...groups.values()].map((group) => ({
-    cases: group.map(({ one }) => one),
-    label: group.map(({ one }) => view.named(one)).join(", "),
+    cases: group.map(({ aCase }) => aCase),
+    label: group.map(({ aCase }) => view.named(aCase)).join(", "),
     values: group[0]!.found,
   }));
 }

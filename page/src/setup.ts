@@ -26,7 +26,7 @@ function configView(run: Run): HTMLElement {
 
 function runView(run: Run, isAlone: boolean): HTMLElement {
   const { tool, machine, scenes, cases, name, date, command } = run.result;
-  const libraries = Object.entries(tool.libraries).map((one) => one.join(" ")).join(", ");
+  const libraries = Object.entries(tool.libraries).map((library) => library.join(" ")).join(", ");
   return h(
     "article",
     {},

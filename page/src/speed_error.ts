@@ -12,21 +12,21 @@ import type { Section, View } from "./view.ts";
 
 interface Measure {
   label: string;
-  of: (one: Case) => Maybe;
+  of: (aCase: Case) => Maybe;
   show: (value: Maybe) => string;
   about: string;
 }
 
 export const measures: Record<string, Measure> = {
-  overshade: { label: "overshade", of: (one) => one.overshade, show: format.factor, about: "lights evaluated by lights needed at the samples; compares across grids" },
-  excess: { label: "excess", of: (one) => one.excess, show: format.percent, about: "false positives by true pairs; compares within one grid" },
-  bytes: { label: "bytes", of: (one) => one.bytes, show: format.short, about: "high-water mark of headers and indices" },
-  unlit: { label: "unlit", of: (one) => one.unlit, show: format.share, about: "share of needed lights that samples are not given" },
-  missed: { label: "missed", of: (one) => one.missed, show: format.count, about: "lights lost" },
+  overshade: { label: "overshade", of: (aCase) => aCase.overshade, show: format.factor, about: "lights evaluated by lights needed at the samples; compares across grids" },
+  excess: { label: "excess", of: (aCase) => aCase.excess, show: format.percent, about: "false positives by true pairs; compares within one grid" },
+  bytes: { label: "bytes", of: (aCase) => aCase.bytes, show: format.short, about: "high-water mark of headers and indices" },
+  unlit: { label: "unlit", of: (aCase) => aCase.unlit, show: format.share, about: "share of needed lights that samples are not given" },
+  missed: { label: "missed", of: (aCase) => aCase.missed, show: format.count, about: "lights lost" },
 };
 
 interface Point {
-  one: Case;
+  aCase: Case;
   us: number;
   error: number;
 }
@@ -34,9 +34,9 @@ interface Point {
 const mostPanels = 12;
 
 export function points(cases: Case[], measure: Measure): Point[] {
-  return cases.flatMap((one) => {
-    const error = measure.of(one);
-    return one.frameNs === null || error === null ? [] : [{ one, us: one.frameNs / 1e3, error }];
+  return cases.flatMap((aCase) => {
+    const error = measure.of(aCase);
+    return aCase.frameNs === null || error === null ? [] : [{ aCase, us: aCase.frameNs / 1e3, error }];
   });
 }
 
@@ -48,14 +48,14 @@ function front<T extends { us: number; error: number }>(all: T[]): T[] {
     .filter(({ error }) => error < least && ((least = error), true));
 }
 
-function tip(view: View, { one, us, error }: Point, measure: Measure): string {
-  const [low, high] = one.interval;
+function tip(view: View, { aCase, us, error }: Point, measure: Measure): string {
+  const [low, high] = aCase.interval;
   const range = low === null || high === null ? " (interval unknown)" : ` (${format.microseconds(low)} to ${format.microseconds(high)})`;
-  return `${view.named(one)}\n${one.grid}\n${format.microseconds(1e3 * us)} µs${range}\n${measure.label} ${measure.show(error)}`;
+  return `${view.named(aCase)}\n${aCase.grid}\n${format.microseconds(1e3 * us)} µs${range}\n${measure.label} ${measure.show(error)}`;
 }
 
 // Of the interval, in µs.
-const ends = ({ one, us }: Point): [number, number] => [(one.interval[0] ?? us * 1e3) / 1e3, (one.interval[1] ?? us * 1e3) / 1e3];
+const ends = ({ aCase, us }: Point): [number, number] => [(aCase.interval[0] ?? us * 1e3) / 1e3, (aCase.interval[1] ?? us * 1e3) / 1e3];
 
 interface Scales {
   x: [number, number];
@@ -70,25 +70,25 @@ function names(best: Point[], all: Point[], { x, y }: Scales, width: number, hei
   const across = (us: number) => (room.x * Math.log(us / x[0])) / Math.log(x[1] / x[0]);
   const at = (point: Point) => ({
     point,
-    text: point.one.assigner,
+    text: point.aCase.assigner,
     x: across(point.us),
     y: room.y * (1 - (point.error - y[0]) / (y[1] - y[0])),
   });
   const bar = (point: Point) => ({ from: across(ends(point)[0]), to: across(ends(point)[1]), y: at(point).y });
   const found = placed(best.map(at), all.map(at), all.map(bar), room.x + margin.marginRight);
-  return placements.map((one) =>
+  return placements.map((wanted) =>
     Plot.text(
-      found.filter(({ placement }) => placement === one).map(({ name }) => name.point),
-      { x: "us", y: "error", text: (point: Point) => point.one.assigner, ...one, fill: "var(--ink)", stroke: "var(--panel)", strokeWidth: 4 },
+      found.filter(({ placement }) => placement === wanted).map(({ name }) => name.point),
+      { x: "us", y: "error", text: (point: Point) => point.aCase.assigner, ...wanted, fill: "var(--ink)", stroke: "var(--panel)", strokeWidth: 4 },
     ),
   );
 }
 
 export function panel(view: View, all: Point[], measure: Measure, scales: Scales, width: number): Element {
-  const best = front(all.filter(({ one }) => one.isEligible));
-  const look = (point: Point) => view.palette(point.one);
+  const best = front(all.filter(({ aCase }) => aCase.isEligible));
+  const look = (point: Point) => view.palette(point.aCase);
   const height = Math.round(Math.min(420, Math.max(230, width * 0.5)));
-  return chart(`Frame time against ${measure.label} of ${all.length} cases; on the front: ${best.map(({ one }) => one.assigner).join(", ")}`, {
+  return chart(`Frame time against ${measure.label} of ${all.length} cases; on the front: ${best.map(({ aCase }) => aCase.assigner).join(", ")}`, {
     width,
     height,
     x: { type: "log", domain: scales.x, label: "frame µs", ticks: width < 500 ? 4 : 8, tickFormat: format.short, grid: true },
@@ -122,14 +122,14 @@ export function extent(values: number[]): [number, number] {
 
 export const speedErrorSection: Section = (view, redraw) => {
   const cases = view.cases();
-  const options = Object.entries(measures).filter(([, one]) => points(cases, one).length > 0).map(([key, one]): Option => [key, one.label]);
+  const options = Object.entries(measures).filter(([, measure]) => points(cases, measure).length > 0).map(([key, { label }]): Option => [key, label]);
   if (options.length === 0) return null;
   const [key, control] = choice(view, redraw, "speed-error-measure", "Error", options);
   const measure = measures[key]!;
   const all = points(cases, measure);
   const x = logExtent(all.map(({ us }) => us)); // the same in all panels
   // No front runs across results, which can be of different machines.
-  const scenes = [...Map.groupBy(all, ({ one }) => (view.hasRuns ? `${one.scene} · ${one.run.label}` : one.scene))];
+  const scenes = [...Map.groupBy(all, ({ aCase }) => (view.hasRuns ? `${aCase.scene} · ${aCase.run.label}` : aCase.scene))];
   const width = chartWidth(Math.min(2, scenes.length));
   const panels = scenes.slice(0, mostPanels).map(([title, some]) => ({ title, chart: panel(view, some, measure, { x, y: extent(some.map(({ error }) => error)) }, width) }));
   const more = scenes.length > mostPanels ? ` The first ${mostPanels} of ${scenes.length}; choose a scene above for the others.` : "";
@@ -146,19 +146,19 @@ export const speedErrorSection: Section = (view, redraw) => {
       table: () => ({
         caption: "Speed and error",
         columns: [
-          { label: "method", value: ({ one }) => one.assigner },
-          ...(view.hasRuns ? [{ label: "result", value: ({ one }: Point) => one.run.label }] : []),
-          { label: "scene", value: ({ one }) => one.scene },
-          { label: "grid", value: ({ one }) => one.grid },
+          { label: "method", value: ({ aCase }) => aCase.assigner },
+          ...(view.hasRuns ? [{ label: "result", value: ({ aCase }: Point) => aCase.run.label }] : []),
+          { label: "scene", value: ({ aCase }) => aCase.scene },
+          { label: "grid", value: ({ aCase }) => aCase.grid },
           { label: "frame µs", value: ({ us }) => us, show: ({ us }) => format.microseconds(1e3 * us) },
-          { label: "low", about: "Of the 95 % interval", value: ({ one }) => one.interval[0] && one.interval[0] / 1e3, show: ({ one }) => format.microseconds(one.interval[0]) },
-          { label: "high", about: "Of the 95 % interval", value: ({ one }) => one.interval[1] && one.interval[1] / 1e3, show: ({ one }) => format.microseconds(one.interval[1]) },
+          { label: "low", about: "Of the 95 % interval", value: ({ aCase }) => aCase.interval[0] && aCase.interval[0] / 1e3, show: ({ aCase }) => format.microseconds(aCase.interval[0]) },
+          { label: "high", about: "Of the 95 % interval", value: ({ aCase }) => aCase.interval[1] && aCase.interval[1] / 1e3, show: ({ aCase }) => format.microseconds(aCase.interval[1]) },
           { label: measure.label, value: ({ error }) => error, show: ({ error }) => measure.show(error) },
         ],
         rows: all,
         sort: { column: view.hasRuns ? 4 : 3, descending: false },
       }),
-      cases: all.map(({ one }) => one),
+      cases: all.map(({ aCase }) => aCase),
     }),
   );
 };

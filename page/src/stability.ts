@@ -9,12 +9,12 @@ import { ofRuns } from "./runs.ts";
 import type { Column } from "./table.ts";
 import type { Section } from "./view.ts";
 
-type Row = { one: Case; stability: Stability };
+type Row = { aCase: Case; stability: Stability };
 
 const columns: Column<Row>[] = [
-  { label: "method", value: ({ one }) => one.assigner },
-  { label: "scene", value: ({ one }) => one.scene },
-  { label: "grid", value: ({ one }) => one.grid },
+  { label: "method", value: ({ aCase }) => aCase.assigner },
+  { label: "scene", value: ({ aCase }) => aCase.scene },
+  { label: "grid", value: ({ aCase }) => aCase.grid },
   { label: "steps", value: ({ stability }) => stability.steps },
   { label: "changes per step", about: "Pairs added or removed from one step to the next, mean", value: ({ stability }) => stability.changed.method.mean, show: ({ stability }) => format.decimal(stability.changed.method.mean) },
   { label: "truth's", about: "Changes of the true lists per step", value: ({ stability }) => stability.changed.truth.mean, show: ({ stability }) => format.decimal(stability.changed.truth.mean) },
@@ -25,9 +25,9 @@ const columns: Column<Row>[] = [
 ];
 
 export const stabilitySection: Section = (view) => {
-  const rows = view.cases().flatMap((one) => (one.raw.stability ? [{ one, stability: one.raw.stability }] : []));
+  const rows = view.cases().flatMap((aCase) => (aCase.raw.stability ? [{ aCase, stability: aCase.raw.stability }] : []));
   if (rows.length === 0) return null;
-  const paths = [...new Set(rows.map(({ one, stability }) => `${one.scene}: ${stability.path}`))];
+  const paths = [...new Set(rows.map(({ aCase, stability }) => `${aCase.scene}: ${stability.path}`))];
   return h(
     "section",
     { id: "stability" },
@@ -37,7 +37,7 @@ export const stabilitySection: Section = (view) => {
       title: "Changes and flickers along small steps of the camera",
       lead: `${paths.slice(0, 6).join(". ")}.`,
       table: () => ({ caption: "Stability", columns: ofRuns(view, columns), rows, sort: { column: view.hasRuns ? 7 : 6, descending: false } }),
-      cases: rows.map(({ one }) => one),
+      cases: rows.map(({ aCase }) => aCase),
     }),
   );
 };

@@ -35,8 +35,8 @@ export class View {
   get hasRuns(): boolean {
     return this.model.runs.length > 1;
   }
-  named(one: Case): string {
-    return this.hasRuns ? `${one.assigner} · ${one.run.label}` : one.assigner;
+  named(aCase: Case): string {
+    return this.hasRuns ? `${aCase.assigner} · ${aCase.run.label}` : aCase.assigner;
   }
 
   watch(watcher: () => void): void {
@@ -70,7 +70,7 @@ export class View {
   }
 
   cases(): Case[] {
-    return this.casesOfAnyFront().filter((one) => !this.filters.frontOnly || one.isOnFront);
+    return this.casesOfAnyFront().filter((aCase) => !this.filters.frontOnly || aCase.isOnFront);
   }
 
   // To hold one result against another, whichever of them is looked at.
@@ -87,12 +87,12 @@ export class View {
     const { scene, grid, run, words, hidden } = this.filters;
     const wanted = words.toLowerCase().split(/\s+/).filter(Boolean);
     return this.model.cases.filter(
-      (one) =>
-        (scene === null || one.scene === scene) &&
-        (grid === null || one.grid === grid) &&
-        (run === null || one.run.label === run) &&
-        !hidden.has(one.assigner) &&
-        wanted.every((word) => one.raw.name.toLowerCase().includes(word)),
+      (aCase) =>
+        (scene === null || aCase.scene === scene) &&
+        (grid === null || aCase.grid === grid) &&
+        (run === null || aCase.run.label === run) &&
+        !hidden.has(aCase.assigner) &&
+        wanted.every((word) => aCase.raw.name.toLowerCase().includes(word)),
     );
   }
 }
@@ -105,7 +105,7 @@ export function mount(section: Section, view: View): HTMLElement {
   const host = document.createElement("div");
   const draw = () => {
     const focused = host.contains(document.activeElement) ? document.activeElement!.id : "";
-    const open = [...host.querySelectorAll("details[open][id]")].map((one) => one.id);
+    const open = [...host.querySelectorAll("details[open][id]")].map((details) => details.id);
     const drawn = section(view, draw);
     host.replaceChildren(...(drawn ? [drawn] : []));
     for (const id of open) document.getElementById(id)?.setAttribute("open", "");

@@ -20,7 +20,7 @@ const failures: Record<FailureKind, string> = {
 const counts = (count: number, word: string) => `${count} ${word}${count === 1 ? "" : "s"}`;
 
 function counted(cases: Case[], what: string): string {
-  const names = cases.slice(0, 3).map((one) => one.raw.name).join("; ");
+  const names = cases.slice(0, 3).map((aCase) => aCase.raw.name).join("; ");
   return `${counts(cases.length, "case")} ${what}: ${names}${cases.length > 3 ? "; …" : ""}`;
 }
 
@@ -41,7 +41,7 @@ const doubts: Record<WarningKind, string> = {
 
 function doubtsOf(cases: Case[]): Warning[] {
   return Object.entries(doubts).flatMap(([kind, what]) => {
-    const some = cases.filter(({ raw }) => raw.warnings.some((one) => one.kind === kind));
+    const some = cases.filter(({ raw }) => raw.warnings.some((warning) => warning.kind === kind));
     return some.length ? [{ isFailure: false, text: counted(some, what) }] : [];
   });
 }
@@ -68,7 +68,7 @@ export function warningsOf(model: Model): Warning[] {
 function skippedView(model: Model): HTMLElement | null {
   const all = model.runs.flatMap((run) => run.result.skipped);
   if (all.length === 0) return null;
-  const reasons = [...Map.groupBy(all, (one) => one.reason)].sort((a, b) => b[1].length - a[1].length);
+  const reasons = [...Map.groupBy(all, ({ reason }) => reason)].sort((a, b) => b[1].length - a[1].length);
   return h(
     "details",
     { id: "skipped" },

@@ -9,8 +9,8 @@ const excess: Rgb[] = [[122, 70, 0], [196, 118, 0], [240, 160, 20], [255, 205, 1
 const missing: Rgb[] = [[150, 20, 110], [205, 50, 150], [245, 110, 195]];
 
 function along(scale: Rgb[], share: number): Rgb {
-  const place = Math.min(Math.max(share, 0), 1) * (scale.length - 1), low = Math.min(Math.floor(place), scale.length - 2);
-  return scale[low]!.map((value, channel) => Math.round(value + (scale[low + 1]![channel]! - value) * (place - low))) as Rgb;
+  const position = Math.min(Math.max(share, 0), 1) * (scale.length - 1), low = Math.min(Math.floor(position), scale.length - 2);
+  return scale[low]!.map((value, channel) => Math.round(value + (scale[low + 1]![channel]! - value) * (position - low))) as Rgb;
 }
 
 export interface Counts {

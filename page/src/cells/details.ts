@@ -27,7 +27,7 @@ export interface Frame {
   falsePositives: Float64Array;
   falseNegatives: Float64Array;
   lights: Light[];
-  listOf: ((place: number) => { light: Light; mark: Mark }[]) | null; // of the cell at a place of `cells`
+  listOf: ((row: number) => { light: Light; mark: Mark }[]) | null; // of a cell by its index in `cells`
 }
 
 function lightsOf(packed: DetailsFrame["lights"]): Light[] {
@@ -48,8 +48,8 @@ function listsOf(packed: DetailsFrame, frame: Omit<Frame, "listOf">): Frame["lis
   const gaps = numbers(packed.pairs.lights), marks = numbers(packed.pairs.marks);
   const begins = ascending(frame.reported.map((count, at) => count + frame.falseNegatives[at]!));
   const byIndex = new Map([...ascending(numbers(packed.lights.indices))].map((index, at) => [index, frame.lights[at]!]));
-  return (place) => {
-    const begin = place === 0 ? 0 : begins[place - 1]!, end = begins[place]!;
+  return (row) => {
+    const begin = row === 0 ? 0 : begins[row - 1]!, end = begins[row]!;
     return [...ascending(gaps.slice(begin, end))].map((index, at) => ({ light: byIndex.get(index)!, mark: marks[begin + at] as Mark }));
   };
 }

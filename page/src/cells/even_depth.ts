@@ -4,7 +4,7 @@ import type { Vec3 } from "./details.ts";
 import type { Geometry } from "./geometry.ts";
 
 // Depths (or distances) become what they are on an axis with equal slices that ends where the real one does.
-export function evenDepth(geometry: Geometry, boundaries: number[]): { geometry: Geometry; warp: (place: Vec3) => Vec3 } {
+export function evenDepth(geometry: Geometry, boundaries: number[]): { geometry: Geometry; warp: (point: Vec3) => Vec3 } {
   const slices = boundaries.length - 1, end = boundaries[slices]!;
   const even = (k: number) => (end * (k + 1)) / (slices + 1);
   const warped = (depth: number): number => {

@@ -1,4 +1,4 @@
-// Where cells lie: each is a block lo..hi of three parameters, which its grid's kind turns into places in view space.
+// Where cells lie: each is a block lo..hi of three parameters, which its grid's kind turns into points in view space.
 
 import type { CaseResult } from "../result.ts";
 import type { Frame, Vec3 } from "./details.ts";
@@ -30,15 +30,15 @@ const identity: [Vec3, Vec3, Vec3] = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
 export const metres = (value: number) => `${Number(value.toPrecision(3))}`;
 const mix = (a: number, b: number, t: number) => a + (b - a) * t;
 
-function screen(one: CaseResult, frame: Frame, grid: FullGrid): Geometry {
-  const size = one.grid.cells;
+function screen(aCase: CaseResult, frame: Frame, grid: FullGrid): Geometry {
+  const size = aCase.grid.cells;
   const [left, right, bottom, top] = frame.camera.sides;
-  const across = grid.tiles.pixels ? grid.tiles.pixels[0] / one.viewport[0] : 1 / size[0];
-  const down = grid.tiles.pixels ? grid.tiles.pixels[1] / one.viewport[1] : 1 / size[1];
+  const across = grid.tiles.pixels ? grid.tiles.pixels[0] / aCase.viewport[0] : 1 / size[0];
+  const down = grid.tiles.pixels ? grid.tiles.pixels[1] / aCase.viewport[1] : 1 / size[1];
   const x = (tile: number) => mix(left, right, Math.min(1, tile * across));
   const y = (tile: number) => mix(top, bottom, Math.min(1, tile * down));
   const z = frame.boundaries;
-  const isShells = one.grid.kind === "distance";
+  const isShells = aCase.grid.kind === "distance";
   return {
     shape: isShells ? "shells" : frame.camera.orthographic ? "box" : "slopes",
     size,
@@ -51,8 +51,8 @@ function screen(one: CaseResult, frame: Frame, grid: FullGrid): Geometry {
   };
 }
 
-function cascades(one: CaseResult, grid: FullGrid): Geometry {
-  const size = one.grid.cells;
+function cascades(aCase: CaseResult, grid: FullGrid): Geometry {
+  const size = aCase.grid.cells;
   const depth = size[2] / grid.levels;
   return {
     shape: "box",
@@ -73,8 +73,8 @@ function cascades(one: CaseResult, grid: FullGrid): Geometry {
   };
 }
 
-function world(one: CaseResult, frame: Frame, grid: FullGrid): Geometry {
-  const size = one.grid.cells;
+function world(aCase: CaseResult, frame: Frame, grid: FullGrid): Geometry {
+  const size = aCase.grid.cells;
   const at = (axis: 0 | 1 | 2, i: number) => mix(grid.bounds.min[axis], grid.bounds.max[axis], i / size[axis]);
   return {
     shape: "box",
@@ -88,17 +88,17 @@ function world(one: CaseResult, frame: Frame, grid: FullGrid): Geometry {
   };
 }
 
-export function geometryOf(one: CaseResult, frame: Frame): Geometry {
-  const grid = one.grid as unknown as FullGrid;
-  if (one.grid.kind === "cascades") return cascades(one, grid);
-  if (one.grid.kind === "world") return world(one, frame, grid);
-  return screen(one, frame, grid);
+export function geometryOf(aCase: CaseResult, frame: Frame): Geometry {
+  const grid = aCase.grid as unknown as FullGrid;
+  if (aCase.grid.kind === "cascades") return cascades(aCase, grid);
+  if (aCase.grid.kind === "world") return world(aCase, frame, grid);
+  return screen(aCase, frame, grid);
 }
 
 export const indexOf = ([nx, ny]: Vec3, x: number, y: number, z: number) => (z * ny + y) * nx + x;
-export const placeOf = ([nx, ny]: Vec3, index: number): Vec3 => [index % nx, Math.floor(index / nx) % ny, Math.floor(index / (nx * ny))];
+export const cellOf = ([nx, ny]: Vec3, index: number): Vec3 => [index % nx, Math.floor(index / nx) % ny, Math.floor(index / (nx * ny))];
 
-// A place of view space from parameters, as the vertex shader makes it.
+// A point of view space from parameters, as the vertex shader makes it.
 export function inView(geometry: Geometry, [x, y, z]: Vec3): Vec3 {
   if (geometry.shape === "slopes") return [x * z, y * z, -z];
   if (geometry.shape === "shells") {
@@ -110,6 +110,6 @@ export function inView(geometry: Geometry, [x, y, z]: Vec3): Vec3 {
 }
 
 export function centreOf(geometry: Geometry, index: number): Vec3 {
-  const [x0, x1, y0, y1, z0, z1] = geometry.block(...placeOf(geometry.size, index));
+  const [x0, x1, y0, y1, z0, z1] = geometry.block(...cellOf(geometry.size, index));
   return inView(geometry, [(x0 + x1) / 2, (y0 + y1) / 2, (z0 + z1) / 2]);
 }

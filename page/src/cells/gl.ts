@@ -14,7 +14,7 @@ uniform vec3 origin;
 uniform int shape;
 uniform float shrink;
 flat out vec3 tint;
-flat out int place;
+flat out int instance;
 out vec3 at;
 const int corners[36] = int[](0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1, 2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3);
 void main() {
@@ -25,15 +25,15 @@ void main() {
   else if (shape == 1) at = normalize(vec3(p.xy, -1.0)) * p.z;
   else at = rotation * (p - origin);
   tint = colour;
-  place = gl_InstanceID + 1;
+  instance = gl_InstanceID + 1;
   gl_Position = camera * vec4(at, 1.0);
 }`;
 
-// The place of the instance for picking, or its colour, darker where it is seen from the side.
+// The number of the instance for picking, or its colour, darker where it is seen from the side.
 const cellPainter = `#version 300 es
 precision highp float;
 flat in vec3 tint;
-flat in highp int place;
+flat in highp int instance;
 in vec3 at;
 uniform bool picks;
 uniform vec3 backward;
@@ -41,7 +41,7 @@ out vec4 painted;
 void main() {
   float facing = abs(dot(normalize(cross(dFdx(at), dFdy(at))), backward));
   painted = vec4(tint * (0.6 + 0.4 * facing), 1.0);
-  if (picks) painted = vec4(vec3(ivec3(place, place >> 8, place >> 16) & 255) / 255.0, 1.0);
+  if (picks) painted = vec4(vec3(ivec3(instance, instance >> 8, instance >> 16) & 255) / 255.0, 1.0);
 }`;
 
 const lineShader = `#version 300 es
@@ -64,7 +64,7 @@ void main() {
 }`;
 
 export interface Strokes {
-  places: number[]; // x y z, two by two for lines
+  positions: number[]; // x y z, two by two for lines
   kind: "lines" | "points";
   colour: Rgb;
   opacity: number;
@@ -101,7 +101,7 @@ export class Painter {
   private readonly lineArray: WebGLVertexArrayObject;
   private readonly blocks: WebGLBuffer;
   private readonly colours: WebGLBuffer;
-  private readonly places: WebGLBuffer;
+  private readonly positions: WebGLBuffer;
   private cells: Cells | null = null;
 
   constructor(private readonly gl: WebGL2RenderingContext) {
@@ -109,14 +109,14 @@ export class Painter {
     this.lineProgram = program(gl, lineShader, linePainter);
     this.cellArray = gl.createVertexArray();
     this.lineArray = gl.createVertexArray();
-    [this.blocks, this.colours, this.places] = [gl.createBuffer(), gl.createBuffer(), gl.createBuffer()];
+    [this.blocks, this.colours, this.positions] = [gl.createBuffer(), gl.createBuffer(), gl.createBuffer()];
     gl.bindVertexArray(this.cellArray);
     gl.bindBuffer(gl.ARRAY_BUFFER, this.blocks);
     for (const at of [0, 1, 2]) this.attribute(at, 2, gl.FLOAT, 24, 8 * at, 1);
     gl.bindBuffer(gl.ARRAY_BUFFER, this.colours);
     this.attribute(3, 3, gl.UNSIGNED_BYTE, 3, 0, 1);
     gl.bindVertexArray(this.lineArray);
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.places);
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.positions);
     this.attribute(0, 3, gl.FLOAT, 12, 0, 0);
   }
 
@@ -140,31 +140,31 @@ export class Painter {
     if (!this.cells) return;
     const { gl, cellProgram: used, cells } = this;
     const { geometry } = cells;
-    const place = (name: string) => gl.getUniformLocation(used, name);
+    const uniform = (name: string) => gl.getUniformLocation(used, name);
     gl.useProgram(used);
-    gl.uniformMatrix4fv(place("camera"), false, camera);
-    gl.uniformMatrix3fv(place("rotation"), true, geometry.rotation.flat());
-    gl.uniform3fv(place("origin"), geometry.origin);
-    gl.uniform3fv(place("backward"), backward);
-    gl.uniform1i(place("shape"), shapes[geometry.shape]);
-    gl.uniform1f(place("shrink"), cells.shrink);
-    gl.uniform1i(place("picks"), Number(picks));
+    gl.uniformMatrix4fv(uniform("camera"), false, camera);
+    gl.uniformMatrix3fv(uniform("rotation"), true, geometry.rotation.flat());
+    gl.uniform3fv(uniform("origin"), geometry.origin);
+    gl.uniform3fv(uniform("backward"), backward);
+    gl.uniform1i(uniform("shape"), shapes[geometry.shape]);
+    gl.uniform1f(uniform("shrink"), cells.shrink);
+    gl.uniform1i(uniform("picks"), Number(picks));
     gl.bindVertexArray(this.cellArray);
     gl.drawArraysInstanced(gl.TRIANGLES, 0, 36, cells.blocks.length / 6);
   }
 
   private paintStrokes(camera: Float32Array, strokes: Strokes, pixels: number): void {
     const { gl, lineProgram: used } = this;
-    const place = (name: string) => gl.getUniformLocation(used, name);
+    const uniform = (name: string) => gl.getUniformLocation(used, name);
     gl.useProgram(used);
-    gl.uniformMatrix4fv(place("camera"), false, camera);
-    gl.uniform4fv(place("colour"), [...strokes.colour.map((channel) => channel / 255), strokes.opacity]);
-    gl.uniform1f(place("size"), 5 * pixels);
-    gl.uniform1i(place("round"), Number(strokes.kind === "points"));
+    gl.uniformMatrix4fv(uniform("camera"), false, camera);
+    gl.uniform4fv(uniform("colour"), [...strokes.colour.map((channel) => channel / 255), strokes.opacity]);
+    gl.uniform1f(uniform("size"), 5 * pixels);
+    gl.uniform1i(uniform("round"), Number(strokes.kind === "points"));
     gl.bindVertexArray(this.lineArray);
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.places);
-    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(strokes.places), gl.STREAM_DRAW);
-    gl.drawArrays(strokes.kind === "points" ? gl.POINTS : gl.LINES, 0, strokes.places.length / 3);
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.positions);
+    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(strokes.positions), gl.STREAM_DRAW);
+    gl.drawArrays(strokes.kind === "points" ? gl.POINTS : gl.LINES, 0, strokes.positions.length / 3);
   }
 
   private begin(): void {
@@ -183,9 +183,9 @@ export class Painter {
     this.paintCells(camera, backward, false);
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
-    for (const one of strokes) {
-      if (one.inFront) gl.disable(gl.DEPTH_TEST);
-      this.paintStrokes(camera, one, pixels);
+    for (const stroke of strokes) {
+      if (stroke.inFront) gl.disable(gl.DEPTH_TEST);
+      this.paintStrokes(camera, stroke, pixels);
       gl.enable(gl.DEPTH_TEST);
     }
   }

@@ -43,14 +43,14 @@ function listView(entries: Entry[]): HTMLElement {
 }
 
 export interface Picked {
-  place: Vec3;
-  at: number; // its place in the frame's rows; -1: empty
+  cell: Vec3;
+  row: number; // its index in the frame's rows; -1: empty
   counts: Counts;
 }
 
-export function pickedCell(frame: Frame, geometry: Geometry, { place, at, counts }: Picked): HTMLElement {
-  const [x, y, z] = place;
-  const pairs = at < 0 ? [] : (frame.listOf?.(at) ?? null);
+export function pickedCell(frame: Frame, geometry: Geometry, { cell, row, counts }: Picked): HTMLElement {
+  const [x, y, z] = cell;
+  const pairs = row < 0 ? [] : (frame.listOf?.(row) ?? null);
   const entries = pairs?.map((pair): Entry => ({ ...pair, distance: Math.hypot(...pair.light.position) })).sort((a, b) => b.mark - a.mark);
   return h(
     "div",

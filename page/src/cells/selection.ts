@@ -1,6 +1,6 @@
 // What of a frame is shown and how: kept while frames and cases change.
 
-import { centreOf, indexOf, placeOf, type Geometry } from "./geometry.ts";
+import { cellOf, centreOf, indexOf, type Geometry } from "./geometry.ts";
 import { valueOf, type Counts, type What } from "./colours.ts";
 import type { Frame, Vec3 } from "./details.ts";
 
@@ -8,7 +8,7 @@ export type Show = "all" | "slice" | "tile";
 export type LightsShown = "cell" | "all" | "none";
 
 export interface Selection {
-  frame: number; // place among the frames
+  frame: number; // index among the frames
   what: What;
   show: Show;
   least: number; // cells with fewer are not drawn
@@ -26,21 +26,21 @@ export function countsAt(frame: Frame, at: number): Counts {
 }
 
 export class CellRows {
-  private readonly places: Map<number, number>;
+  private readonly rows: Map<number, number>;
   constructor(readonly frame: Frame) {
-    this.places = new Map([...frame.cells].map((cell, at) => [cell, at]));
+    this.rows = new Map([...frame.cells].map((cell, row) => [cell, row]));
   }
-  placeOf(geometry: Geometry, x: number, y: number, z: number): number {
-    return this.places.get(indexOf(geometry.size, x, y, z)) ?? -1;
+  rowOf(geometry: Geometry, x: number, y: number, z: number): number {
+    return this.rows.get(indexOf(geometry.size, x, y, z)) ?? -1;
   }
 }
 
-// Places of the frame's rows that are drawn.
+// Indices of the frame's rows that are drawn.
 export function shownCells(frame: Frame, geometry: Geometry, { what, show, least, cell }: Selection): number[] {
   const all = [...frame.cells.keys()].filter((at) => valueOf(what, countsAt(frame, at)) >= least);
   if (show === "all") return all;
   return all.filter((at) => {
-    const [x, y, z] = placeOf(geometry.size, frame.cells[at]!);
+    const [x, y, z] = cellOf(geometry.size, frame.cells[at]!);
     return show === "slice" ? z === cell[2] : x === cell[0] && y === cell[1];
   });
 }
@@ -56,7 +56,7 @@ export function worstCell(frame: Frame, geometry: Geometry, what: What): Vec3 {
     const now = valueOf(what, countsAt(frame, at));
     if (now > value) [best, value] = [at, now];
   }
-  return best < 0 ? [0, 0, 0] : placeOf(geometry.size, frame.cells[best]!);
+  return best < 0 ? [0, 0, 0] : cellOf(geometry.size, frame.cells[best]!);
 }
 
 // A ball around what is drawn.

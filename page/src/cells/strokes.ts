@@ -1,7 +1,7 @@
 // Outlines of lights, cells and the camera, as lines in view space.
 
 import type { Frame, Light, Vec3 } from "./details.ts";
-import { inView, placeOf, type Geometry } from "./geometry.ts";
+import { cellOf, inView, type Geometry } from "./geometry.ts";
 
 const segments = 64;
 const plus = (a: Vec3, b: Vec3, scale: number): Vec3 => [a[0] + b[0] * scale, a[1] + b[1] * scale, a[2] + b[2] * scale];
@@ -43,7 +43,7 @@ export function outlineOf(light: Light, endless: number): number[] {
 const edges = [[0, 1], [2, 3], [4, 5], [6, 7], [0, 2], [1, 3], [4, 6], [5, 7], [0, 4], [1, 5], [2, 6], [3, 7]] as const;
 
 export function outlineOfCell(geometry: Geometry, index: number): number[] {
-  const block = geometry.block(...placeOf(geometry.size, index));
+  const block = geometry.block(...cellOf(geometry.size, index));
   const corner = (at: number) => inView(geometry, [block[at & 1]!, block[2 + ((at >> 1) & 1)]!, block[4 + (at >> 2)]!]);
   return edges.flatMap(([a, b]) => [...corner(a), ...corner(b)]);
 }
