@@ -249,7 +249,7 @@ class SettingCheck {
     const PairSet truth(truth_.lists, frame_.lights.size());
     for (const Answer& answer : answers_) {
       check_pairs(answer, truth);
-      check_twin(answer);
+      check_simd_variant(answer);
     }
   }
 
@@ -273,7 +273,7 @@ class SettingCheck {
       }
   }
 
-  void check_twin(const Answer& answer) {
+  void check_simd_variant(const Answer& answer) {
     const std::string reference = reference_of(answer.method->label);
     for (const Answer& other : answers_) {
       if (reference.empty() || other.method->label != reference || other.lists == answer.lists) continue;
