@@ -22,7 +22,7 @@ Rig coincident(std::uint32_t count) {
   return rig;
 }
 
-std::vector<Trial> many_at_one_place(std::uint64_t) {
+std::vector<Trial> many_at_one_point(std::uint64_t) {
   std::vector<Trial> trials;
   for (const std::uint32_t count : {99u, 100u, 101u, 255u, 256u, 257u})
     coincident(count).on_each(grids_of_every_kind(), std::to_string(count) + " lights", trials);
@@ -188,7 +188,7 @@ std::vector<ToolCheck> threads_and_broken_cameras(std::uint64_t seed) {
 }  // namespace
 
 std::vector<HardCase> list_cases() {
-  return {{"H23", "as many lights at one place as a cell holds, and one more", many_at_one_place, caps_are_counted},
+  return {{"H23", "as many lights at one place as a cell holds, and one more", many_at_one_point, caps_are_counted},
           {"H24", "index pools exactly full", nullptr, pools_hold_what_they_say},
           {"H25", "the same lights in another order; equal depths", in_another_order, order_does_not_matter},
           {"H26", "tiles without geometry", nullptr, depth_masks},

@@ -288,9 +288,9 @@ class SettingCheck {
     }
   }
 
-  // Places in the view and in its lights, looked up as a shader does.
+  // Samples in the view and in its lights, looked up as a shader does.
   void check_shading() {
-    const std::vector<grid::Sample> samples = places_to_shade();
+    const std::vector<grid::Sample> samples = samples_to_shade();
     for (const grid::Sample& sample : samples) {
       const std::int64_t cell = grid::lookup(grid_, sample);
       if (cell < 0) continue;
@@ -298,12 +298,12 @@ class SettingCheck {
       for (std::uint32_t light = 0; light < frame_.lights.size(); ++light) {
         if (lights_.is_empty(light) || !clearly_reaches(frame_.lights[light], sample, margin)) continue;
         ++report_.counts.shaded;
-        check_place(static_cast<std::uint32_t>(cell), light);
+        check_shaded_cell(static_cast<std::uint32_t>(cell), light);
       }
     }
   }
 
-  void check_place(std::uint32_t cell, std::uint32_t light) {
+  void check_shaded_cell(std::uint32_t cell, std::uint32_t light) {
     for (const Answer& answer : answers_) {
       const auto list = answer.lists.of(cell);
       if (!std::binary_search(list.begin(), list.end(), light))
@@ -313,7 +313,7 @@ class SettingCheck {
     }
   }
 
-  std::vector<grid::Sample> places_to_shade() const {
+  std::vector<grid::Sample> samples_to_shade() const {
     constexpr int k_in_view = 32, k_per_light = 3;
     const view::Projection& projection = frame_.projection;
     const double far = std::isfinite(projection.far_m) ? projection.far_m : 1e4 * std::max(projection.near_m, 1e-15);
