@@ -168,20 +168,6 @@ class Camera {
   Vec3d eye_;
 };
 
-}  // namespace
-
-PixelGrid::PixelGrid(Vec2i of_viewport, int divisor)
-    : viewport(of_viewport), size((of_viewport.x + divisor - 1) / divisor, (of_viewport.y + divisor - 1) / divisor) {}
-
-Vec2d PixelGrid::pixel(std::size_t index) const {
-  const auto width = static_cast<std::size_t>(size.x);
-  const std::size_t column = index % width, row = index / width;
-  return {(static_cast<double>(column) + 0.5) * viewport.x / size.x,
-          (static_cast<double>(row) + 0.5) * viewport.y / size.y};
-}
-
-namespace {
-
 struct PlacedSurface {
   std::size_t surface = 0, node = 0;
   bool is_mirrored = false;
