@@ -189,7 +189,7 @@ class Run {
   void count_group(GroupPlan group, Result& out) {
     name_of_group_ = group.cases.front().name;
     const SceneData& data = plan_.scenes[group.scene];
-    const PathFrames path(data.scene, path_of(group), config_.viewports[group.viewport]);
+    const PathFrames path = run::path_of(config_, plan_, group);
     const double per_frame = accuracy_cost_of(group) / path.count();
     CountedGroup counted_group;
     counted_group.frames = path.count();

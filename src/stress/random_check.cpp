@@ -144,6 +144,10 @@ class SettingCheck {
   void run_methods() {
     for (const StressMethod& method : methods_) {
       if (!is_checked(method)) continue;
+      if (method.assigner->needs.depth) {
+        check_occupied(method);
+        continue;
+      }
       Answer answer{&method, {}};
       try {
         assign::AssignerRun run = method.start();
@@ -165,6 +169,35 @@ class SettingCheck {
       report_.counts.compared_pairs += answer.lists.pair_count();
       answers_.push_back(std::move(answer));
     }
+  }
+
+  // A method whose cells are what depths leave of the grid's.
+  void check_occupied(const StressMethod& method) {
+    const depth::DepthImage depths = depths_for(*method.assigner, frame_);
+    try {
+      assign::AssignerRun run = method.start();
+      run.build(grid_);
+      run.assign(input_of(frame_, lights_, depths));
+      const assign::Lists& lists = run.cell_lists();
+      if (!assign::lists_fault(run.structure()->expanded(), lists.cell_count(), lights_).empty())
+        return add(FaultKind::lists, method.label, "what it gave are no lists", 0, 0);
+      const grid::OccupiedCells cells = run.structure()->occupied_cells();
+      const measure::Truth truth = measure::find_truth(frame_, grid_, cells, 1);
+      report_.counts.compared_pairs += lists.pair_count();
+      report_.counts.undecided += truth.undecided;
+      for (std::uint32_t cell = 0; cell < truth.lists.cell_count(); ++cell)
+        for (const std::uint32_t light : truth.lists.of(cell))
+          if (!std::ranges::binary_search(lists.of(cell), light) && is_met(light, cells.of(cell)))
+            return add(FaultKind::loss, method.label, pair_text(cell, light) + " is true and not listed", cell, light);
+    } catch (const std::exception& error) {
+      add(FaultKind::error, method.label, error.what(), 0, 0);
+    }
+  }
+
+  bool is_met(std::uint32_t light, std::span<const geom::FrustumCell> parts) const {
+    return std::ranges::any_of(parts, [&](const geom::FrustumCell& part) {
+      return geom::decide_meets(lights_.volume(light), part) == Verdict::yes;
+    });
   }
 
   // Pair by pair: what the filter or a point in both contradicts, what the filter leaves undecided, what lies at the
