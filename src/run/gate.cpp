@@ -75,15 +75,8 @@ std::string missed_without_cells_text(const CaseResult& result) {
          " that the samples of its lookup need";
 }
 
-// Lists that are cut to the depths of visible surfaces promise nothing in the air before them.
-bool answers_at_surfaces_alone(const CaseResult& result) {
-  const assign::AssignerDescriptor* assigner = assign::find_assigner(result.assigner);
-  return assigner != nullptr && assigner->needs.depth;
-}
-
 bool is_unlit(const CaseResult& result) {
-  if (!result.shading || answers_at_surfaces_alone(result)) return false;
-  return result.shading->needed > 0 && result.shading->unlit() > measure::k_most_unlit;
+  return result.shading && result.shading->needed > 0 && result.shading->unlit() > measure::k_most_unlit;
 }
 
 std::string dropped_text(const CaseResult& result) {

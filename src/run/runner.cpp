@@ -309,14 +309,17 @@ class Run {
     return out;
   }
 
-  // Of the whole view's samples, and of the sets that the scene has.
+  // Of the whole view's samples, and of the sets that the scene has. What is cut to the depths of visible surfaces
+  // promises nothing anywhere in the view, and is not asked there.
   void add_samples(const SceneData& data, const StructureMeasures& structure, CaseResult& out) const {
+    const bool is_cut_to_surfaces = assign::find_assigner(out.assigner)->needs.depth;
     for (std::size_t i = 0; i < config_.sample_sets.size(); ++i) {
       const SampleSetResult& set = structure.samples[i];
-      if (set.set == measure::SampleSet::volume)
-        out.shading = set.counts;
-      else if (set_obstacle(config_.sample_sets[i], data).empty())
-        out.samples.push_back(set);
+      if (set.set == measure::SampleSet::volume) {
+        if (!is_cut_to_surfaces) out.shading = set.counts;
+        continue;
+      }
+      if (set_obstacle(config_.sample_sets[i], data).empty()) out.samples.push_back(set);
     }
   }
 

@@ -226,7 +226,7 @@ using assign::testing::spot_light;
 TEST(Tiled, a_tile_lists_what_lies_between_its_depths) {
   TwoTiles two({point_light({2, 0, -5}, 1), point_light({5, 0, -10}, 1), point_light({8, 0, -20}, 1),
                 point_light({-5, 0, -10}, 1), spot_light({5, 0, -8}, 6, {0, 0, -1}, 0.3)});
-  two.show({30}, {9, 12});
+  two.show({30, k_no_surface}, {9, 12});
   const AssignerRun run = two.run("tiled");
   EXPECT_EQ(at(run, two, {5, 0, -10}), (Lights{1, 4}));
   EXPECT_EQ(at(run, two, {2, 0, -5}), (Lights{1, 4})) << "a tile's list is the same at all depths";
@@ -234,6 +234,7 @@ TEST(Tiled, a_tile_lists_what_lies_between_its_depths) {
   const grid::OccupiedCells cells = run.structure()->occupied_cells();
   EXPECT_EQ(cells.counts, Vec3i(2, 1, 1));
   ASSERT_EQ(cells.parts.size(), 2u);
+  EXPECT_EQ(cells.parts[0].depth1, std::nextafter(30.0f, 31.0f)) << "without the sky beside";
   EXPECT_EQ(cells.parts[1].depth0, 9.0f);
   EXPECT_EQ(cells.parts[1].depth1, std::nextafter(12.0f, 13.0f));
 }

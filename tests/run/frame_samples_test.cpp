@@ -199,7 +199,7 @@ config::Config config_of(const scene::test::Folder& folder, const std::string& s
   folder.write("room.gltf", scene);
   return config::parse_config(
       R"({"scenes": ["room.gltf"], "viewport": [65, 49], "grids": [{"tiles": {"pixels": [9, 7]},
-          "slices": {"count": 8, "near": 0.1, "far": 40}}], "shading": {"samples": 0})" +
+          "slices": {"count": 8, "near": 0.1, "far": 40}}])" +
           rest + "}",
       folder.path() / "c.json");
 }
@@ -263,11 +263,12 @@ TEST(DepthMethods, and_sets_share_one_image_of_each_frame_and_nothing_is_cast_fo
 
 TEST(DepthMethods, are_timed_counted_in_their_steps_and_served_as_all_others_are) {
   const scene::test::Folder folder;
-  const config::Config config =
-      config_of(folder, deep_room(),
-                std::string(R"(, "timing": {"rounds": 2, "launches": 1, "min_time_ms": 0.1}, "stability": {"steps": 5},
+  const config::Config config = config_of(
+      folder, deep_room(),
+      std::string(
+          R"(, "timing": {"rounds": 2, "launches": 1, "min_time_ms": 0.1}, "stability": {"steps": 5}, "shading": {"samples": 20},
           "details": {"frames": [0]}, "lookup": {"samples": 50}, "samples": {"opaque": {"divisor": 2}}, "assigners": ["aabb", )") +
-                    k_depth_methods + "]");
+          k_depth_methods + "]");
   const Plan plan = make_plan(config, "");
   const std::atomic<bool> stop = false;
   const Result result = run_plan(config, plan, {}, {}, stop);
@@ -284,9 +285,11 @@ TEST(DepthMethods, are_timed_counted_in_their_steps_and_served_as_all_others_are
     ASSERT_TRUE(one.stability) << one.name;
     EXPECT_EQ(one.stability->undecided, 0u) << one.name;
     EXPECT_FALSE(one.details) << one.name << ": its cells are not the grid's";
+    EXPECT_FALSE(one.shading) << one.name << ": promises nothing in the air";
     EXPECT_TRUE(one.lookup.empty()) << one.name << ": it is not the lookup that lacks lights in the air";
   }
   EXPECT_TRUE(result.cases[0].details);
+  EXPECT_EQ(result.cases[0].shading->samples, 20u);
   EXPECT_FALSE(result.cases[0].lookup.empty());
 }
 
