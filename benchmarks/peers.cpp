@@ -97,7 +97,7 @@ void register_peers() {
     };
     add("brute", [](benchmark::State& state, const Setting& setting) { brute_frame(state, setting); });
     for (const assign::AssignerDescriptor* row : assign::assigner_descriptors())
-      if (!row->naive && row->takes(grid::Kind::frustum))
+      if (!row->naive && !row->needs.depth && row->takes(grid::Kind::frustum))
         add(row->name, [row](benchmark::State& state, const Setting& setting) { assign_frame(state, setting, *row); });
   }
 }

@@ -1,4 +1,4 @@
-// A chart with all that belongs to it: title, what it shows, its table twin, its data and the command that measured it.
+// A chart with all that belongs to it: title, what it shows, its table, its data and the command that measured it.
 
 import { h, type Child } from "./dom.ts";
 import { copyButton, csv, downloadButton } from "./handover.ts";
@@ -39,13 +39,13 @@ function commandsOf(cases: Case[]): string {
     .join("\n");
 }
 
-function twin<Row>(figure: Figure<Row>): HTMLElement {
+function figureData<Row>(figure: Figure<Row>): HTMLElement {
   const table = figure.table();
   const text = () => csv(table.columns, table.rows);
   const commands = commandsOf(figure.cases);
   return h(
     "div",
-    { class: "twin" },
+    { class: "figure-data" },
     figure.chart ? tableView({ most: 200, ...table }) : null,
     h("p", { class: "tools" }, copyButton("Copy data", text), downloadButton("Download CSV", `${figure.id}.csv`, "text/csv", text)),
     h("p", { class: "note" }, "Measured by this, with the configuration that stands at the end of the page:"),
@@ -65,7 +65,7 @@ function legendView(entries: { label: string; colour: string }[]): HTMLElement {
 export function figureView<Row>(figure: Figure<Row>): HTMLElement {
   const details = h("details", { id: `${figure.id}-data` }, h("summary", {}, figure.chart ? "Table, data, command" : "Data, command"));
   details.addEventListener("toggle", () => {
-    if (details.open && !details.querySelector(".twin")) details.append(twin(figure));
+    if (details.open && !details.querySelector(".figure-data")) details.append(figureData(figure));
   });
   return h(
     "figure",

@@ -97,14 +97,14 @@ async function modules() {
 
 describe("the view of cells", () => {
   it("puts cells where their lights reach them, on every kind of grid", async () => {
-    const { unpacked, geometryOf, placeOf, inView, indexOf } = await modules();
+    const { unpacked, geometryOf, cellOf, inView, indexOf } = await modules();
     const distance = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
     for (const one of result.cases) {
       let pairs = 0;
       for (const packed of one.details.frames) {
         const frame = unpacked(packed, one.grid), geometry = geometryOf(one, frame);
         frame.cells.forEach((cell, at) => {
-          const place = placeOf(geometry.size, cell);
+          const place = cellOf(geometry.size, cell);
           assert.equal(indexOf(geometry.size, ...place), cell);
           assert.ok(!geometry.isHole(...place));
           const block = geometry.block(...place);

@@ -62,7 +62,7 @@ async function violations(page) {
 
 async function openAll(page) {
   for (const summary of await page.locator("summary").all()) await summary.click();
-  await page.waitForFunction(() => !document.querySelector("figure > details[open]:not(:has(.twin))"));
+  await page.waitForFunction(() => !document.querySelector("figure > details[open]:not(:has(.figure-data))"));
 }
 
 describe("the page", () => {
@@ -361,7 +361,7 @@ describe("charts", () => {
       const figure = page.locator(`#${id}`);
       assert.ok((await figure.locator("svg[role=img]").first().getAttribute("aria-label")).length > 20, id);
       await figure.locator("summary").click();
-      await figure.locator(".twin").waitFor();
+      await figure.locator(".figure-data").waitFor();
       assert.ok((await figure.locator("tbody tr").count()) > 1, id);
       assert.match(await figure.locator("pre").innerText(), /^clusterbench run \S+\.json/, id);
       const waiting = page.waitForEvent("download");

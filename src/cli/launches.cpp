@@ -95,8 +95,7 @@ run::GroupPlan group_of(const run::Plan& plan, const std::vector<std::string>& i
 
 GroupSamples measured(const config::Config& config, const run::Plan& plan, const Json& request) {
   const run::GroupPlan group = group_of(plan, request.at("ids"));
-  const run::SceneData& data = plan.scenes[group.scene];
-  const run::PathFrames path(data.scene, data.paths[group.camera], config.viewports[group.viewport]);
+  const run::PathFrames path = run::path_of(config, plan, group);
   const std::atomic<bool> stop{false};
   return run::measure_launch(
       config, group, path, {request.at("launch"), request.at("rounds"), request.at("fullest_frames")}, [](int) {},

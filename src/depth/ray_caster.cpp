@@ -139,8 +139,8 @@ class Camera {
         eye_(frame.view_space.origin - origin) {}
 
   RTCRayHit ray(std::size_t index) const {
-    const view::PictureRay sight = view::picture_ray(frame_, pixels_.pixel(index));
-    const Vec3f from(eye_ + world_from_view_ * sight.from), along(world_from_view_ * sight.along);
+    const view::PictureRay view_ray = view::picture_ray(frame_, pixels_.pixel(index));
+    const Vec3f from(eye_ + world_from_view_ * view_ray.from), along(world_from_view_ * view_ray.along);
     RTCRayHit out{};
     out.ray.org_x = from.x;
     out.ray.org_y = from.y;

@@ -1,17 +1,41 @@
 #include "measure/list_errors.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace clusterbench::measure {
 namespace {
 
-void add_miss(ErrorCounts& counts, const view::Frame& frame, const grid::Grid& grid, std::uint32_t cell,
-              std::uint32_t light) {
+void add_miss(ErrorCounts& counts, const view::Frame& frame, double distance, std::uint32_t cell, std::uint32_t light) {
   ++counts.false_negatives;
-  const double depth = 1.0 - relative_distance(frame, grid, cell, light);
+  const double depth = 1.0 - distance;
   if (counts.deepest && depth <= counts.deepest->depth) return;
   counts.deepest = Miss{frame.index, cell, light, frame.lights[light].rig_index, depth};
   counts.deepest_miss = depth;
+}
+
+// distance(cell, light): how far from a light a cell is, in its ranges.
+template <class Distance>
+void add_pairs(ErrorCounts& counts, const view::Frame& frame, const Truth& truth, const assign::Lists& reported,
+               Distance&& distance) {
+  for (std::uint32_t cell = 0; cell < truth.lists.cell_count(); ++cell) {
+    const auto wanted = truth.lists.of(cell), listed = reported.of(cell);
+    std::size_t next = 0, found = 0;
+    for (const std::uint32_t light : wanted) {
+      while (next < listed.size() && listed[next] < light) ++next;
+      if (next < listed.size() && listed[next] == light)
+        ++found;
+      else
+        add_miss(counts, frame, distance(cell, light), cell, light);
+    }
+    counts.false_positives += listed.size() - found;
+  }
+  counts.true_pairs += truth.lists.pair_count();
+  counts.reported_pairs += reported.pair_count();
+  counts.filter_decided += truth.filter_decided;
+  counts.exact_decided += truth.exact_decided;
+  counts.undecided += truth.undecided;
+  ++counts.frames_checked;
 }
 
 }  // namespace
@@ -31,24 +55,18 @@ double ErrorCounts::miss_ratio() const {
 
 void add_frame(ErrorCounts& counts, const view::Frame& frame, const grid::Grid& grid, const Truth& truth,
                const assign::Lists& reported) {
-  for (std::uint32_t cell = 0; cell < truth.lists.cell_count(); ++cell) {
-    const auto wanted = truth.lists.of(cell), listed = reported.of(cell);
-    std::size_t next = 0, found = 0;
-    for (const std::uint32_t light : wanted) {
-      while (next < listed.size() && listed[next] < light) ++next;
-      if (next < listed.size() && listed[next] == light)
-        ++found;
-      else
-        add_miss(counts, frame, grid, cell, light);
-    }
-    counts.false_positives += listed.size() - found;
-  }
-  counts.true_pairs += truth.lists.pair_count();
-  counts.reported_pairs += reported.pair_count();
-  counts.filter_decided += truth.filter_decided;
-  counts.exact_decided += truth.exact_decided;
-  counts.undecided += truth.undecided;
-  ++counts.frames_checked;
+  add_pairs(counts, frame, truth, reported,
+            [&](std::uint32_t cell, std::uint32_t light) { return relative_distance(frame, grid, cell, light); });
+}
+
+void add_frame(ErrorCounts& counts, const view::Frame& frame, const grid::OccupiedCells& cells, const Truth& truth,
+               const assign::Lists& reported) {
+  add_pairs(counts, frame, truth, reported, [&](std::uint32_t cell, std::uint32_t light) {
+    double least = 1.0;
+    for (const geom::FrustumCell& part : cells.of(cell))
+      least = std::min(least, relative_distance(view::volume_of(frame.lights[light], frame.view_space), part));
+    return least;
+  });
 }
 
 }  // namespace clusterbench::measure

@@ -34,5 +34,8 @@ struct ErrorCounts {
 // Adds one frame's comparison.
 void add_frame(ErrorCounts& counts, const view::Frame& frame, const grid::Grid& grid, const Truth& truth,
                const assign::Lists& reported);
+// The same for cells that depths leave of the grid's.
+void add_frame(ErrorCounts& counts, const view::Frame& frame, const grid::OccupiedCells& cells, const Truth& truth,
+               const assign::Lists& reported);
 
 }  // namespace clusterbench::measure

@@ -1,58 +1,21 @@
 #include "measure/truth.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <optional>
 
-#include "core/memory.h"
-#include "core/parallel.h"
 #include "geom/ball/ball_decider.h"
 #include "geom/filter/light_filter.h"
 #include "geom/shapes/verdict.h"
 #include "geom/spot/spot_decider.h"
+#include "measure/truth_cells.h"
 #include "measure/truth_rows.h"
 
 namespace clusterbench::measure {
 namespace {
 
 using geom::Verdict;
-
-BallInSpace ball_in_space(const geom::LightVolume& volume) {
-  constexpr double k_slack = 0x1p-44;
-  const geom::LocalPoint center = geom::local_point(volume.apex);
-  const double size = std::abs(center.at.x) + std::abs(center.at.y) + std::abs(center.at.z) + volume.range;
-  return {center.at, volume.range, k_slack * size + 4.0 * center.rounding_error};
-}
-
-// A spot in double precision, for tests that settle most cells at once.
-struct QuickCone {
-  Vec3d apex, axis;
-  double range, cos_angle, sin_angle, slack;
-
-  QuickCone(const geom::LightVolume& volume, const BallInSpace& ball)
-      : apex(ball.center),
-        axis(glm::normalize(volume.apex.rotation * volume.direction)),
-        range(volume.range),
-        cos_angle(std::cos(volume.half_angle_rad)),
-        sin_angle(std::sin(volume.half_angle_rad)),
-        slack(0x1p-30 * (std::abs(apex.x) + std::abs(apex.y) + std::abs(apex.z))) {}
-
-  // Is a ball outside of the cone's side, behind its apex or beyond its range?
-  bool surely_misses(const geom::Ball& around) const {
-    const Vec3d v = Vec3d(around.center) - apex;
-    const double along = glm::dot(v, axis);
-    const double reach = around.radius * (1.0 + 0x1p-30) + 0x1p-30 * glm::length(v) + slack;
-    if (along < -reach || glm::length(v) > range + reach) return true;
-    return cos_angle * glm::length(v - along * axis) - sin_angle * along > reach;
-  }
-  bool surely_holds(const Vec3d& p) const {
-    const Vec3d v = p - apex;
-    const double along = glm::dot(v, axis), size = glm::length(v), rounding = 0x1p-30 * size + slack;
-    return size < range - rounding && sin_angle * along - cos_angle * glm::length(v - along * axis) > rounding;
-  }
-};
 
 // Is a point well inside a cell?
 struct WellInside {
@@ -74,22 +37,6 @@ struct WellInside {
   }
   bool operator()(const geom::Box& c) const {
     return between(c.lo.x, p.x, c.hi.x) && between(c.lo.y, p.y, c.hi.y) && between(c.lo.z, p.z, c.hi.z);
-  }
-};
-
-// The true cells of one light, in runs of neighbours.
-struct LightCells {
-  struct Run {
-    std::uint32_t first_cell, count;
-  };
-  std::vector<Run> runs;
-  std::uint64_t filter_decided = 0, exact_decided = 0, undecided = 0;
-
-  void add(std::uint32_t first_cell, std::uint32_t count = 1) {
-    if (!runs.empty() && runs.back().first_cell + runs.back().count == first_cell)
-      runs.back().count += count;
-    else
-      runs.push_back({first_cell, count});
   }
 };
 
@@ -318,33 +265,16 @@ class TruthFinder {
 
 Truth find_truth(const view::Frame& frame, const grid::Grid& grid, int threads) {
   const TruthFinder finder(frame, grid);
-  std::vector<LightCells> found(frame.lights.size());
-  std::atomic<std::uint64_t> runs = 0, true_pairs = 0;
-  parallel_ranges(found.size(), threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t light = begin; light < end; ++light) {
-      found[light] = finder.find(static_cast<std::uint32_t>(light));
-      check_memory("runs of true cells", runs += found[light].runs.size(), sizeof(LightCells::Run));
-      std::uint64_t cells = 0;
-      for (const LightCells::Run& run : found[light].runs) cells += run.count;
-      check_memory("true pairs", true_pairs += cells, sizeof(std::uint32_t));
-    }
-  });
-
-  Truth truth;
-  assign::PairBuffer pairs;
-  pairs.start(grid.cell_count());
-  for (std::uint32_t light = 0; light < found.size(); ++light) {
-    for (const LightCells::Run& run : found[light].runs) pairs.add_row(run.first_cell, run.count, light);
-    truth.filter_decided += found[light].filter_decided;
-    truth.exact_decided += found[light].exact_decided;
-    truth.undecided += found[light].undecided;
-  }
-  pairs.finish(truth.lists);
-  return truth;
+  return gathered_truth(frame.lights.size(), grid.cell_count(), threads,
+                        [&](std::uint32_t light) { return finder.find(light); });
 }
 
 double relative_distance(const view::Frame& frame, const grid::Grid& grid, std::uint32_t cell, std::uint32_t light) {
-  geom::LightVolume volume = view::volume_of(frame.lights[light], grid::space_of(grid, frame));
+  return relative_distance(view::volume_of(frame.lights[light], grid::space_of(grid, frame)), grid.cell(cell));
+}
+
+double relative_distance(const geom::LightVolume& light, const geom::Cell& cell) {
+  geom::LightVolume volume = light;
   if (std::isinf(volume.range)) return 0.0;
   const double range = volume.range;
   double misses = 0.0, meets = 1.0;
@@ -352,7 +282,7 @@ double relative_distance(const view::Frame& frame, const grid::Grid& grid, std::
   for (int i = 0; i < k_halvings; ++i) {
     const double middle = 0.5 * (misses + meets);
     volume.range = range * middle;
-    (geom::filter_meets(volume, grid.cell(cell)) == Verdict::no ? misses : meets) = middle;
+    (geom::filter_meets(volume, cell) == Verdict::no ? misses : meets) = middle;
   }
   return meets;
 }

@@ -6,7 +6,10 @@
 #include <cstdint>
 
 #include "assign/contract/lists.h"
+#include "geom/shapes/cell.h"
+#include "geom/shapes/light_volume.h"
 #include "grid/grid.h"
+#include "grid/occupied_cells.h"
 #include "view/frame.h"
 
 namespace clusterbench::measure {
@@ -20,9 +23,12 @@ struct Truth {
 
 // Independent of the number of threads.
 Truth find_truth(const view::Frame& frame, const grid::Grid& grid, int threads);
+// The same for cells that depths leave of a frustum grid's: a light is in a cell if it meets one of its parts.
+Truth find_truth(const view::Frame& frame, const grid::Grid& grid, const grid::OccupiedCells& cells, int threads);
 
 // Distance from the light's centre (apex) to the nearest point of cell ∩ volume's cone, divided by the range: how deep
 // a missed pair lies is 1 - this. `light` is an index into frame.lights.
 double relative_distance(const view::Frame& frame, const grid::Grid& grid, std::uint32_t cell, std::uint32_t light);
+double relative_distance(const geom::LightVolume& light, const geom::Cell& cell);
 
 }  // namespace clusterbench::measure

@@ -173,7 +173,7 @@ Extras extras_of(const Json& cases) {
   return extras;
 }
 
-// Who counted, on which instruction sets: "callgrind (AVX2)". "" where nobody did.
+// What counted, on which instruction sets: "callgrind (AVX2)". "" where nothing did.
 std::string counters(const Json& cases) {
   std::set<std::string> names;
   for (const Json& result_case : cases)

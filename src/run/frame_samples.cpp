@@ -3,12 +3,9 @@
 namespace clusterbench::run {
 
 FrameSamples::FrameSamples(const config::Config& config, const SceneData& data, const PathFrames& path)
-    : config_(config), data_(data), path_(path) {
-  if (data.geometry && !data.geometry->empty()) caster_.emplace(data.scene, *data.geometry);
-}
+    : config_(config), data_(data), path_(path) {}
 
 std::vector<FrameSampleSet> FrameSamples::of(const view::Frame& frame) {
-  if (caster_) caster_->pose(frame);
   std::vector<FrameSampleSet> out;
   for (const config::SampleSetRequest& request : config_.sample_sets) {
     FrameSampleSet& set = out.emplace_back();
@@ -44,12 +41,14 @@ std::vector<grid::Sample> FrameSamples::points_of(const config::SampleSetRequest
 
 void FrameSamples::look_at_surfaces(const config::SampleSetRequest& request, const view::Frame& frame,
                                     FrameSampleSet& out) const {
-  depth::DepthImage image = caster_->depths(frame, depth::PixelGrid(frame.viewport, request.divisor), config_.threads);
+  FrameDepths& depths = *path_.depths();
+  const depth::PixelGrid pixels(frame.viewport, request.divisor);
+  depth::DepthImage image = depth::thinned(*depths.of(frame, config_.threads), pixels);
   if (request.set == measure::SampleSet::opaque) {
     out.samples = measure::opaque_samples(frame, image);
     out.picture = std::move(image);
   } else {
-    out.samples = measure::transparent_samples(frame, caster_->layers(frame, image, request.layers, config_.threads));
+    out.samples = measure::transparent_samples(frame, depths.layers(frame, image, request.layers, config_.threads));
   }
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "config/config.h"
-#include "depth/ray_caster.h"
+#include "depth/depth_image.h"
 #include "measure/shading.h"
 #include "run/path_frames.h"
 #include "run/sweep.h"
@@ -34,7 +34,6 @@ class FrameSamples {
   const config::Config& config_;
   const SceneData& data_;
   const PathFrames& path_;
-  std::optional<depth::RayCaster> caster_;
 };
 
 }  // namespace clusterbench::run

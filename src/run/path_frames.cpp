@@ -5,8 +5,10 @@
 
 namespace clusterbench::run {
 
-PathFrames::PathFrames(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport)
+PathFrames::PathFrames(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport,
+                       const scene::Geometry* geometry)
     : scene_(scene), path_(path), viewport_(viewport) {
+  if (geometry != nullptr && !geometry->empty()) depths_ = std::make_shared<FrameDepths>(scene, *geometry);
   bool is_first = true;
   for (int i = 0; i < count(); ++i) {
     const view::Frame now = frame(i);
@@ -27,6 +29,24 @@ view::Frame PathFrames::frame(int index) const {
 
 grid::GridInputs PathFrames::inputs(const grid::GridSpec& spec, const view::Frame& frame) const {
   return grid::grid_inputs(spec, frame, far_m_, rig_lo_, rig_hi_);
+}
+
+PathFrames path_of(const config::Config& config, const Plan& plan, const GroupPlan& group) {
+  const SceneData& data = plan.scenes[group.scene];
+  return {data.scene, data.paths[group.camera], config.viewports[group.viewport],
+          data.geometry ? &*data.geometry : nullptr};
+}
+
+bool needs_depth(const config::Config& config, const GroupPlan& group) {
+  return std::ranges::any_of(group.cases, [&](const CasePlan& one) {
+    return assign::find_assigner(config.assigners[one.assigner].name)->needs.depth;
+  });
+}
+
+std::shared_ptr<const depth::DepthImage> depths_for(const config::Config& config, const GroupPlan& group,
+                                                    const PathFrames& path, const view::Frame& frame) {
+  if (path.depths() == nullptr || !needs_depth(config, group)) return nullptr;
+  return path.depths()->of(frame, config.threads);
 }
 
 double sample_far(const view::Frame& frame, double path_far_m) {

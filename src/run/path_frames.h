@@ -2,8 +2,12 @@
 // The frames of one camera path in one viewport, made when they are asked for: a path over a large rig would not fit in
 // memory whole.
 
+#include <memory>
+
 #include "grid/grid.h"
 #include "measure/samples.h"
+#include "run/frame_depths.h"
+#include "run/sweep.h"
 #include "scene/camera_path.h"
 #include "view/frame.h"
 
@@ -11,7 +15,9 @@ namespace clusterbench::run {
 
 class PathFrames {
  public:
-  PathFrames(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport);
+  // All must outlive it. Without `geometry`, or where that is empty, its frames have no depth.
+  PathFrames(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport,
+             const scene::Geometry* geometry = nullptr);
 
   // The frames of another path in this path's grids, which follow from the lights over this path. `other` outlives
   // them.
@@ -23,6 +29,8 @@ class PathFrames {
   grid::GridInputs inputs(const grid::GridSpec& spec, const view::Frame& frame) const;
   // The farthest that a bounded light reaches from any eye of the path.
   double far_m() const { return far_m_; }
+  // Of its frames, and of those of paths along it; null without triangles.
+  FrameDepths* depths() const { return depths_.get(); }
   // A box around the bounded lights' balls over the path.
   measure::Bounds light_bounds() const { return {rig_lo_, rig_hi_}; }
 
@@ -33,14 +41,25 @@ class PathFrames {
         viewport_(whole.viewport_),
         rig_lo_(whole.rig_lo_),
         rig_hi_(whole.rig_hi_),
-        far_m_(whole.far_m_) {}
+        far_m_(whole.far_m_),
+        depths_(whole.depths_) {}
 
   const scene::Scene& scene_;
   const scene::CameraPath& path_;
   Vec2i viewport_;
   Vec3d rig_lo_{0.0}, rig_hi_{0.0};  // box around the bounded lights' balls over the path
   double far_m_ = 0.0;
+  std::shared_ptr<FrameDepths> depths_;
 };
+
+// Those that a group of cases is measured in.
+PathFrames path_of(const config::Config& config, const Plan& plan, const GroupPlan& group);
+
+// Whether one of a group's methods needs depth.
+bool needs_depth(const config::Config& config, const GroupPlan& group);
+// A frame's depths where one of a group's methods needs them; else null.
+std::shared_ptr<const depth::DepthImage> depths_for(const config::Config& config, const GroupPlan& group,
+                                                    const PathFrames& path, const view::Frame& frame);
 
 // How far samples are spread: as far as the camera sees and lights reach, the same for all grids, so that their
 // overshade compares. A grid that ends before that misses lights, and the samples say so.

@@ -189,7 +189,7 @@ class Run {
   void count_group(GroupPlan group, Result& out) {
     name_of_group_ = group.cases.front().name;
     const SceneData& data = plan_.scenes[group.scene];
-    const PathFrames path(data.scene, path_of(group), config_.viewports[group.viewport]);
+    const PathFrames path = run::path_of(config_, plan_, group);
     const double per_frame = accuracy_cost_of(group) / path.count();
     CountedGroup counted_group;
     counted_group.frames = path.count();
@@ -310,14 +310,17 @@ class Run {
     return out;
   }
 
-  // Of the whole view's samples, and of the sets that the scene has.
+  // Of the whole view's samples, and of the sets that the scene has. What is cut to the depths of visible surfaces
+  // promises nothing anywhere in the view, and is not asked there.
   void add_samples(const SceneData& data, const StructureMeasures& structure, CaseResult& out) const {
+    const bool is_cut_to_surfaces = assign::find_assigner(out.assigner)->needs.depth;
     for (std::size_t i = 0; i < config_.sample_sets.size(); ++i) {
       const SampleSetResult& set = structure.samples[i];
-      if (set.set == measure::SampleSet::volume)
-        out.shading = set.counts;
-      else if (set_obstacle(config_.sample_sets[i], data).empty())
-        out.samples.push_back(set);
+      if (set.set == measure::SampleSet::volume) {
+        if (!is_cut_to_surfaces) out.shading = set.counts;
+        continue;
+      }
+      if (set_obstacle(config_.sample_sets[i], data).empty()) out.samples.push_back(set);
     }
   }
 

@@ -24,6 +24,7 @@ class ListsOfFrames {
  public:
   ListsOfFrames(const config::Config& config, const GroupPlan& group, const CasePlan& case_plan, const PathFrames& path)
       : config_(config),
+        group_(group),
         path_(path),
         grids_(config.grids[group.grid]),
         precision_(case_plan.precision),
@@ -35,12 +36,16 @@ class ListsOfFrames {
     const FrameLights lights(config_.precisions, view::lights_in(frame, grid::space_of(grids_.grid(), frame)));
     const view::LightArrays& packed = lights.in_precision(precision_);
     if (is_new_grid) run_.build(grids_.grid(), assign::kinds_of(packed));
-    run_.assign({frame, packed});
+    depth_ = depths_for(config_, group_, path_, frame);
+    run_.assign({frame, packed, depth_.get()});
     if (run_.has_cells()) return run_.cell_lists();
     ask_at_samples(frame);
     return lists_at_samples_;
   }
-  Vec3i cells() const { return run_.has_cells() ? grids_.grid().cells() : Vec3i{k_samples, 1, 1}; }
+  Vec3i cells() const {
+    if (run_.has_occupied_cells()) return run_.structure()->occupied_cells().counts;
+    return run_.has_cells() ? grids_.grid().cells() : Vec3i{k_samples, 1, 1};
+  }
 
  private:
   static constexpr int k_samples = 4096;
@@ -59,18 +64,15 @@ class ListsOfFrames {
   }
 
   const config::Config& config_;
+  const GroupPlan& group_;
   const PathFrames& path_;
+  std::shared_ptr<const depth::DepthImage> depth_;  // of the frame at hand
   GridOfFrames grids_;
   std::size_t precision_;
   assign::AssignerRun run_;
   assign::Lists lists_at_samples_;
   std::vector<std::uint32_t> given_;
 };
-
-PathFrames path_of(const config::Config& config, const Plan& plan, const GroupPlan& group) {
-  const SceneData& data = plan.scenes[group.scene];
-  return {data.scene, data.paths[group.camera], config.viewports[group.viewport]};
-}
 
 }  // namespace
 

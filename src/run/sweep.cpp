@@ -35,7 +35,10 @@ std::string name_part(std::string text) {
 }
 
 bool needs_triangles(const config::Config& config) {
-  return std::ranges::any_of(config.sample_sets, &config::SampleSetRequest::needs_triangles);
+  return std::ranges::any_of(config.sample_sets, &config::SampleSetRequest::needs_triangles) ||
+         std::ranges::any_of(config.assigners, [](const config::MethodRequest& method) {
+           return assign::find_assigner(method.name)->needs.depth;
+         });
 }
 
 // What a set's samples depend on, besides the scene.
@@ -137,12 +140,13 @@ bool has_lights(const scene::Scene& scene, scene::LightType type) {
 }
 
 // Why this assigner cannot take this grid in this scene; "" if it can.
-std::string obstacle(const config::MethodRequest& request, grid::Kind kind, const scene::Scene& scene,
-                     bool orthographic) {
+std::string obstacle(const config::MethodRequest& request, grid::Kind kind, const SceneData& data, bool orthographic) {
+  const scene::Scene& scene = data.scene;
   const assign::AssignerDescriptor& assigner = *assign::find_assigner(request.name);
   const std::string& name = assigner.name;
   if (!assigner.takes(kind)) return name + " takes " + listed(assigner.kinds) + " grids, not " + grid::kind_name(kind);
-  if (assigner.needs.depth) return name + " needs a depth buffer, and this run has none";
+  if (assigner.needs.depth && (!data.geometry || data.geometry->empty()))
+    return name + " needs a depth buffer, and the scene has no triangles";
   if (orthographic && !assigner.orthographic) return name + " does not take orthographic cameras";
   if (!assigner.points && has_lights(scene, scene::LightType::point)) return name + " takes no point lights";
   if (!assigner.spots && has_lights(scene, scene::LightType::spot)) return name + " takes no spot lights";
@@ -272,7 +276,7 @@ class Expansion {
     const config::MethodRequest& method = config_.assigners[assigner];
     const std::string name = group_name + "/" + name_part(method.label());
     const SceneData& data = plan.scenes[group.scene];
-    std::string impossible = obstacle(method, config_.grids[group.grid].kind, data.scene,
+    std::string impossible = obstacle(method, config_.grids[group.grid].kind, data,
                                       data.paths[group.camera].shots.front().projection.orthographic);
     if (impossible.empty()) impossible = limit_obstacle(*assign::find_assigner(method.name), config_.limits, first);
     if (!impossible.empty()) {

@@ -1,5 +1,7 @@
 #include "run/timed_work.h"
 
+#include "core/memory.h"
+
 namespace clusterbench::run {
 
 namespace {
@@ -28,7 +30,9 @@ std::vector<TimedFrame> timed_frames(const config::Config& config, const GroupPl
     if (grids.update(path, frame)) grid = std::make_shared<grid::Grid>(grids.grid());
     FrameLights lights(config.precisions, view::lights_in(frame, grid::space_of(*grid, frame)));
     const bool is_new = is_grid_new(config.grids[group.grid], path, frame);
-    frames.push_back({grid, std::move(frame), std::move(lights), is_new});
+    std::shared_ptr<const depth::DepthImage> depth = depths_for(config, group, path, frame);
+    if (depth) check_memory("depths of timed pixels", indices.size() * depth->pixels.count(), sizeof(float));
+    frames.push_back({grid, std::move(frame), std::move(lights), std::move(depth), is_new});
   }
   return frames;
 }
@@ -85,7 +89,7 @@ void TimedWork::prepare_frame(std::size_t frame) {
 void TimedWork::assign_frame(std::size_t frame) {
   const TimedFrame& now = at(frame);
   if (now.is_grid_new || now.grid.get() != built_for_) build_for(now);
-  const assign::FrameInput input{now.frame, now.lights.in_precision(precision_)};
+  const assign::FrameInput input{now.frame, now.lights.in_precision(precision_), now.depth.get()};
   if (lists_assigner_)
     lists_assigner_->assign(input, lists_[frame]);
   else

@@ -17,6 +17,7 @@ struct TimedFrame {
   std::shared_ptr<const grid::Grid> grid;
   view::Frame frame;
   FrameLights lights;
+  std::shared_ptr<const depth::DepthImage> depth;  // where a method of the group needs it
   bool is_grid_new = false;  // another one than that of the path's frame before: an assigner is built for it
 };
 

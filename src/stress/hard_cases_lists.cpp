@@ -22,7 +22,7 @@ Rig coincident(std::uint32_t count) {
   return rig;
 }
 
-std::vector<Trial> many_at_one_place(std::uint64_t) {
+std::vector<Trial> many_at_one_point(std::uint64_t) {
   std::vector<Trial> trials;
   for (const std::uint32_t count : {99u, 100u, 101u, 255u, 256u, 257u})
     coincident(count).on_each(grids_of_every_kind(), std::to_string(count) + " lights", trials);
@@ -126,7 +126,9 @@ bool has_same_sets(const assign::AssignerDescriptor& assigner, const assign::Par
     const grid::Grid grid = grid_of(trials[i], frame);
     assign::AssignerRun run(assigner, params, answer);
     run.build(grid);
-    run.assign({frame, view::lights_in(frame, frame.view_space)});
+    const view::LightArrays lights = view::lights_in(frame, frame.view_space);
+    const depth::DepthImage depths = depths_for(assigner, frame);
+    run.assign(input_of(frame, lights, depths));
     lists[i] = run.cell_lists();
   }
   bool same = lists[0].begin == lists[1].begin;
@@ -153,11 +155,35 @@ std::vector<ToolCheck> order_does_not_matter(std::uint64_t seed) {
   return checks;
 }
 
-std::vector<ToolCheck> depth_masks(std::uint64_t) {
-  const auto& rows = assign::assigner_descriptors();
-  const auto needing = std::count_if(rows.begin(), rows.end(), [](const auto* row) { return row->needs.depth; });
-  return {{"no method here needs depth, so no mask of a tile without geometry has to be defined", needing == 0,
-           std::to_string(needing) + " methods need depth"}};
+// A picture of nothing, one wall all at one depth, and a single pixel: what a tile then is.
+std::vector<ToolCheck> depth_masks(std::uint64_t seed) {
+  std::vector<ToolCheck> checks;
+  const Trial trial = mixed_lights(seed, false);
+  const view::Frame frame = frame_of(trial);
+  const grid::Grid grid = grid_of(trial, frame);
+  const view::LightArrays lights = view::lights_in(frame, frame.view_space);
+  for (const assign::AssignerDescriptor* row : assign::assigner_descriptors()) {
+    if (!row->needs.depth) continue;
+    assign::AssignerRun run(*row, assign::Params(row->params), assign::Answer::structure);
+    run.build(grid);
+    depth::DepthImage depths = depths_for(*row, frame);
+    std::ranges::fill(depths.nearest, std::numeric_limits<float>::infinity());
+    run.assign(input_of(frame, lights, depths));
+    checks.push_back({row->name + ": tiles of only sky have no list", run.cell_lists().pair_count() == 0, ""});
+    depths.nearest[depths.nearest.size() / 2] = 4.0f;
+    run.assign(input_of(frame, lights, depths));
+    checks.push_back(
+        {row->name + ": one pixel is one part of one cell", run.structure()->occupied_cells().parts.size() == 1, ""});
+    std::ranges::fill(depths.nearest, 4.0f);
+    run.assign(input_of(frame, lights, depths));
+    const grid::OccupiedCells cells = run.structure()->occupied_cells();
+    const measure::Truth truth = measure::find_truth(frame, grid, cells, 1);
+    bool holds_all = truth.undecided == 0 && truth.lists.pair_count() > 0;
+    for (std::uint32_t cell = 0; cell < cells.cell_count(); ++cell)
+      holds_all = holds_all && std::ranges::includes(run.cell_lists().of(cell), truth.lists.of(cell));
+    checks.push_back({row->name + ": where all pixels of a tile are equally deep no light is lost", holds_all, ""});
+  }
+  return checks;
 }
 
 std::vector<ToolCheck> threads_and_broken_cameras(std::uint64_t seed) {
@@ -188,10 +214,10 @@ std::vector<ToolCheck> threads_and_broken_cameras(std::uint64_t seed) {
 }  // namespace
 
 std::vector<HardCase> list_cases() {
-  return {{"H23", "as many lights at one place as a cell holds, and one more", many_at_one_place, caps_are_counted},
+  return {{"H23", "as many lights at one place as a cell holds, and one more", many_at_one_point, caps_are_counted},
           {"H24", "index pools exactly full", nullptr, pools_hold_what_they_say},
           {"H25", "the same lights in another order; equal depths", in_another_order, order_does_not_matter},
-          {"H26", "tiles without geometry", nullptr, depth_masks},
+          {"H26", "tiles of only sky, and of one depth", nullptr, depth_masks},
           {"H29", "threads; a camera that is none", nullptr, threads_and_broken_cameras}};
 }
 

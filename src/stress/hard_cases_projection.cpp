@@ -149,9 +149,12 @@ std::vector<Trial> odd_pictures(std::uint64_t seed) {
   return trials;
 }
 
-assign::Lists lists_after(assign::AssignerRun& run, const grid::Grid& grid, const view::Frame& frame) {
+assign::Lists lists_after(const assign::AssignerDescriptor& row, assign::AssignerRun& run, const grid::Grid& grid,
+                          const view::Frame& frame) {
   run.build(grid);
-  run.assign({frame, view::lights_in(frame, grid::space_of(grid, frame))});
+  const view::LightArrays lights = view::lights_in(frame, grid::space_of(grid, frame));
+  const depth::DepthImage depths = depths_for(row, frame);
+  run.assign(input_of(frame, lights, depths));
   return run.cell_lists();
 }
 
@@ -170,10 +173,10 @@ std::vector<ToolCheck> resized(std::uint64_t seed) {
     const assign::Params params(row->params);
     for (const assign::Answer answer : assign::answers_with_cells(*row, params)) {
       assign::AssignerRun used(*row, params, answer), fresh(*row, params, answer);
-      const assign::Lists before = lists_after(used, full_grid, full_frame);
-      const assign::Lists small = lists_after(used, half_grid, half_frame);
-      const bool same =
-          small == lists_after(fresh, half_grid, half_frame) && before == lists_after(used, full_grid, full_frame);
+      const assign::Lists before = lists_after(*row, used, full_grid, full_frame);
+      const assign::Lists small = lists_after(*row, used, half_grid, half_frame);
+      const bool same = small == lists_after(*row, fresh, half_grid, half_frame) &&
+                        before == lists_after(*row, used, full_grid, full_frame);
       checks.push_back({row->name + ": nothing stale after the resolution changes and changes back", same, ""});
     }
   }

@@ -144,6 +144,10 @@ class SettingCheck {
   void run_methods() {
     for (const StressMethod& method : methods_) {
       if (!is_checked(method)) continue;
+      if (method.assigner->needs.depth) {
+        check_occupied(method);
+        continue;
+      }
       Answer answer{&method, {}};
       try {
         assign::AssignerRun run = method.start();
@@ -165,6 +169,35 @@ class SettingCheck {
       report_.counts.compared_pairs += answer.lists.pair_count();
       answers_.push_back(std::move(answer));
     }
+  }
+
+  // A method whose cells are what depths leave of the grid's.
+  void check_occupied(const StressMethod& method) {
+    const depth::DepthImage depths = depths_for(*method.assigner, frame_);
+    try {
+      assign::AssignerRun run = method.start();
+      run.build(grid_);
+      run.assign(input_of(frame_, lights_, depths));
+      const assign::Lists& lists = run.cell_lists();
+      if (!assign::lists_fault(run.structure()->expanded(), lists.cell_count(), lights_).empty())
+        return add(FaultKind::lists, method.label, "what it gave are no lists", 0, 0);
+      const grid::OccupiedCells cells = run.structure()->occupied_cells();
+      const measure::Truth truth = measure::find_truth(frame_, grid_, cells, 1);
+      report_.counts.compared_pairs += lists.pair_count();
+      report_.counts.undecided += truth.undecided;
+      for (std::uint32_t cell = 0; cell < truth.lists.cell_count(); ++cell)
+        for (const std::uint32_t light : truth.lists.of(cell))
+          if (!std::ranges::binary_search(lists.of(cell), light) && is_met(light, cells.of(cell)))
+            return add(FaultKind::loss, method.label, pair_text(cell, light) + " is true and not listed", cell, light);
+    } catch (const std::exception& error) {
+      add(FaultKind::error, method.label, error.what(), 0, 0);
+    }
+  }
+
+  bool is_met(std::uint32_t light, std::span<const geom::FrustumCell> parts) const {
+    return std::ranges::any_of(parts, [&](const geom::FrustumCell& part) {
+      return geom::decide_meets(lights_.volume(light), part) == Verdict::yes;
+    });
   }
 
   // Pair by pair: what the filter or a point in both contradicts, what the filter leaves undecided, what lies at the
@@ -249,7 +282,7 @@ class SettingCheck {
     const PairSet truth(truth_.lists, frame_.lights.size());
     for (const Answer& answer : answers_) {
       check_pairs(answer, truth);
-      check_twin(answer);
+      check_simd_variant(answer);
     }
   }
 
@@ -273,7 +306,7 @@ class SettingCheck {
       }
   }
 
-  void check_twin(const Answer& answer) {
+  void check_simd_variant(const Answer& answer) {
     const std::string reference = reference_of(answer.method->label);
     for (const Answer& other : answers_) {
       if (reference.empty() || other.method->label != reference || other.lists == answer.lists) continue;
@@ -288,9 +321,9 @@ class SettingCheck {
     }
   }
 
-  // Places in the view and in its lights, looked up as a shader does.
+  // Samples in the view and in its lights, looked up as a shader does.
   void check_shading() {
-    const std::vector<grid::Sample> samples = places_to_shade();
+    const std::vector<grid::Sample> samples = samples_to_shade();
     for (const grid::Sample& sample : samples) {
       const std::int64_t cell = grid::lookup(grid_, sample);
       if (cell < 0) continue;
@@ -298,12 +331,12 @@ class SettingCheck {
       for (std::uint32_t light = 0; light < frame_.lights.size(); ++light) {
         if (lights_.is_empty(light) || !clearly_reaches(frame_.lights[light], sample, margin)) continue;
         ++report_.counts.shaded;
-        check_place(static_cast<std::uint32_t>(cell), light);
+        check_shaded_cell(static_cast<std::uint32_t>(cell), light);
       }
     }
   }
 
-  void check_place(std::uint32_t cell, std::uint32_t light) {
+  void check_shaded_cell(std::uint32_t cell, std::uint32_t light) {
     for (const Answer& answer : answers_) {
       const auto list = answer.lists.of(cell);
       if (!std::binary_search(list.begin(), list.end(), light))
@@ -313,7 +346,7 @@ class SettingCheck {
     }
   }
 
-  std::vector<grid::Sample> places_to_shade() const {
+  std::vector<grid::Sample> samples_to_shade() const {
     constexpr int k_in_view = 32, k_per_light = 3;
     const view::Projection& projection = frame_.projection;
     const double far = std::isfinite(projection.far_m) ? projection.far_m : 1e4 * std::max(projection.near_m, 1e-15);

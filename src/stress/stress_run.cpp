@@ -36,15 +36,22 @@ void add_lists(StressCell& cell, const StressMethod& method, const Trial& trial,
   assign::AssignerRun run = method.start();
   run.build(at.grid);
   const view::LightArrays lights = view::lights_in(at.frame, grid::space_of(at.grid, at.frame));
-  run.assign({at.frame, lights});
+  const depth::DepthImage depths = depths_for(*method.assigner, at.frame);
+  const assign::FrameInput input = input_of(at.frame, lights, depths);
+  run.assign(input);
   const assign::Lists lists = run.cell_lists();
-  run.assign({at.frame, lights});
+  run.assign(input);
   const assign::Lists* filled = run.filled_lists();
-  if (!assign::lists_fault(filled ? *filled : lists, at.grid.cell_count(), lights).empty())
+  if (!assign::lists_fault(filled ? *filled : lists, lists.cell_count(), lights).empty())
     return cell.faults.push_back(trial.label + ": what it gave are no lists");
   if (lists != run.cell_lists()) cell.faults.push_back(trial.label + ": the same frame gave other lists");
   measure::ErrorCounts counts;
-  measure::add_frame(counts, at.frame, at.grid, at.truth, lists);
+  if (run.has_occupied_cells()) {
+    const grid::OccupiedCells cells = run.structure()->occupied_cells();
+    measure::add_frame(counts, at.frame, cells, measure::find_truth(at.frame, at.grid, cells, 1), lists);
+  } else {
+    measure::add_frame(counts, at.frame, at.grid, at.truth, lists);
+  }
   cell.true_pairs += counts.true_pairs;
   cell.misses += counts.false_negatives;
   cell.extra_pairs += counts.false_positives;
@@ -95,6 +102,7 @@ std::vector<SearchResult> run_searches(const std::vector<StressMethod>& methods,
   double tries = 0.0;
   parallel_ranges(methods.size(), request.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end && !stop; ++i) {
+      if (methods[i].assigner->needs.depth) continue;  // the search moves lights against the grid's cells
       std::uint64_t before = 0;
       const auto on_progress = [&](std::uint64_t now) {
         const std::lock_guard lock(telling);

@@ -100,4 +100,13 @@ grid::Grid grid_of(const Trial& trial, const view::Frame& frame) {
   return grid::make_grid(trial.grid, path.inputs(trial.grid, frame));
 }
 
+depth::DepthImage depths_for(const assign::AssignerDescriptor& assigner, const view::Frame& frame) {
+  return assigner.needs.depth ? depth::seeded_depths(frame, 1) : depth::DepthImage{};
+}
+
+assign::FrameInput input_of(const view::Frame& frame, const view::LightArrays& lights,
+                            const depth::DepthImage& depths) {
+  return {frame, lights, depths.nearest.empty() ? nullptr : &depths};
+}
+
 }  // namespace clusterbench::stress

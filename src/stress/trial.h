@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "assign/contract/assigner.h"
 #include "grid/grid.h"
 #include "scene/scene.h"
 
@@ -50,5 +51,9 @@ std::vector<grid::GridSpec> grids_of_every_kind();
 // The frame of a trial's camera, and its grid. Throws Error for what cannot be.
 view::Frame frame_of(const Trial& trial);
 grid::Grid grid_of(const Trial& trial, const view::Frame& frame);
+// A trial has no triangles: depths at random, the same every time, for methods that need them; without a pixel for
+// others.
+depth::DepthImage depths_for(const assign::AssignerDescriptor& assigner, const view::Frame& frame);
+assign::FrameInput input_of(const view::Frame& frame, const view::LightArrays& lights, const depth::DepthImage& depths);
 
 }  // namespace clusterbench::stress

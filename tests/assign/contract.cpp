@@ -39,13 +39,16 @@ std::string form_fault(const AssignerRun& run, const grid::Grid& grid, const vie
     if (!fault.empty()) return fault;
   }
   if (run.structure() != nullptr && run.has_cells()) {
-    const std::string fault = lists_fault(run.structure()->expanded(), grid.cell_count(), lights);
+    const std::uint32_t cells =
+        run.has_occupied_cells() ? run.structure()->occupied_cells().cell_count() : grid.cell_count();
+    const std::string fault = lists_fault(run.structure()->expanded(), cells, lights);
     if (!fault.empty()) return "expanded: " + fault;
   }
   if (!run.has_cells()) return "";
   const Lists& lists = run.cell_lists();
   for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) {
-    if (grid.is_hole(cell) && !lists.of(cell).empty()) return "a hole has lights" + at_cell(cell);
+    if (!run.has_occupied_cells() && grid.is_hole(cell) && !lists.of(cell).empty())
+      return "a hole has lights" + at_cell(cell);
     for (const std::uint32_t light : lists.of(cell))
       if (lights.radius[light] == 0.0f) return "a light without volume is listed" + at_cell(cell);
   }
@@ -83,12 +86,14 @@ struct NoLights {
   view::Frame frame;
   view::LightArrays lights;
 
-  explicit NoLights(const Setting& setting) : frame(setting.frame) {
+  const depth::DepthImage* depth;
+
+  explicit NoLights(const Setting& setting) : frame(setting.frame), depth(setting.input({}).depth) {
     frame.lights.clear();
     frame.points = 0;
     lights = view::lights_in(frame, grid::space_of(setting.grid, frame));
   }
-  FrameInput input() const { return {frame, lights}; }
+  FrameInput input() const { return {frame, lights, depth}; }
 };
 
 // What the run answers now, whatever it answers with: at cells or, without them, at samples.
@@ -157,7 +162,7 @@ std::string sample_fault(const LightStructure& structure, const Setting& setting
     alone.begin = {0, alone.pair_count()};
     const std::string fault = lists_fault(alone, 1, ranges);
     if (!fault.empty()) return "at a sample: " + fault;
-    if (!structure.has_cells()) continue;
+    if (!structure.has_cells() || structure.has_occupied_cells()) continue;
     const std::int64_t cell = grid::lookup(setting.grid, sample);
     const auto list = cell < 0 ? std::span<const std::uint32_t>{} : cells.of(static_cast<std::uint32_t>(cell));
     if (!std::equal(list.begin(), list.end(), given.begin(), given.end()))
@@ -191,7 +196,7 @@ std::string lost_sample_fault(const LightStructure& structure, const Setting& se
 std::vector<std::string> contract_faults(const AssignerDescriptor& assigner, const Params& params, Answer answer,
                                          const Setting& setting) {
   const view::LightArrays lights = view::lights_in(setting.frame, grid::space_of(setting.grid, setting.frame));
-  const FrameInput input{setting.frame, lights};
+  const FrameInput input = setting.input(lights);
   AssignerRun run(assigner, params, answer);
   run.build(setting.grid);
   run.assign(input);
@@ -201,7 +206,7 @@ std::vector<std::string> contract_faults(const AssignerDescriptor& assigner, con
   const auto add = [&](std::string fault) {
     if (!fault.empty()) faults.push_back(std::move(fault));
   };
-  if (assigner.conservative && run.has_cells()) {
+  if (assigner.conservative && run.has_cells() && !run.has_occupied_cells()) {
     add(lost_light_fault(run.cell_lists(), setting));
     add(unbounded_fault(run.cell_lists(), setting, lights));
   }

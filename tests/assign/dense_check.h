@@ -159,7 +159,9 @@ inline Lists lists_by(const std::string& assigner, const view::Frame& frame, con
   const Params chosen(row->params, params);
   AssignerRun run(*row, chosen, answers_with_cells(*row, chosen).front());
   run.build(grid);
-  run.assign({frame, view::lights_in(frame, grid::space_of(grid, frame))});
+  const view::LightArrays lights = view::lights_in(frame, grid::space_of(grid, frame));
+  const depth::DepthImage depths = row->needs.depth ? depth::seeded_depths(frame, 1) : depth::DepthImage{};
+  run.assign({frame, lights, row->needs.depth ? &depths : nullptr});
   return run.cell_lists();
 }
 

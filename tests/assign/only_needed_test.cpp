@@ -23,7 +23,7 @@ Work work_of(const AssignerDescriptor& row, const Params& params, const Setting&
   Work work{};
   const view::LightArrays lights = view::lights_in(setting.frame, grid::space_of(setting.grid, setting.frame));
   run.build(setting.grid, kinds_of(lights));
-  run.assign({setting.frame, lights});
+  run.assign(setting.input(lights));
   work.lists = run.cell_lists();
   work.tests = run.tests_done();
   work.scratch_bytes = run.scratch_bytes();

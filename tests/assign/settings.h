@@ -24,6 +24,11 @@ struct Setting {
   view::Frame frame;
   grid::Grid grid;
   std::vector<Touch> touches;  // true pairs by a hair
+  depth::DepthImage depth{};   // where a method is asked for that needs it
+
+  FrameInput input(const view::LightArrays& lights) const {
+    return {frame, lights, depth.nearest.empty() ? nullptr : &depth};
+  }
 };
 
 namespace settings {
@@ -195,6 +200,7 @@ inline std::vector<Setting> settings_of_any_size(const AssignerDescriptor& row, 
       setting.frame.view_space = random.unit() < 0.5 ? view::Space{} : settings::far_and_turned();
       setting.grid = grid_of(plan.spec, setting.frame);
       settings::add_lights_of_any_size(setting, row, size_m, count, random);
+      if (row.needs.depth) setting.depth = depth::seeded_depths(setting.frame, seed);
       all.push_back(std::move(setting));
     }
   return all;
@@ -213,6 +219,7 @@ inline std::vector<Setting> settings_for(const AssignerDescriptor& row, std::uin
       setting.frame.view_space = plan.view_space;
       setting.grid = grid_of(plan.spec, setting.frame);
       settings::add_lights(setting, row, seed);
+      if (row.needs.depth) setting.depth = depth::seeded_depths(setting.frame, seed);
       settings.push_back(std::move(setting));
     }
   return settings;

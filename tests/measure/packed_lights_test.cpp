@@ -51,7 +51,7 @@ void check(const assign::AssignerDescriptor& row, const Setting& setting, const 
 std::vector<const assign::AssignerDescriptor*> conservative_rows() {
   std::vector<const assign::AssignerDescriptor*> rows;
   for (const assign::AssignerDescriptor* row : assign::assigner_descriptors())
-    if (row->conservative && !row->exact) rows.push_back(row);
+    if (row->conservative && !row->exact && !row->needs.depth) rows.push_back(row);
   return rows;
 }
 

@@ -60,7 +60,7 @@ TEST(Samples, visible_ones_lie_on_their_pixels_rays_and_none_is_in_the_sky) {
   const std::vector<grid::Sample> samples = opaque_samples(frame, image);
   ASSERT_EQ(samples.size(), 3u);
   EXPECT_EQ(samples[0].view.z, -4.0f);
-  EXPECT_EQ(samples[0].pixel_x, 40.0f);
+  EXPECT_EQ(samples[0].pixel_x, 40.5f);
   EXPECT_EQ(samples[1].view.z, -9.0f);
   EXPECT_EQ(samples[1].pixel_y, 67.5f);
 }
@@ -72,7 +72,7 @@ TEST(Samples, transparent_ones_are_all_layers_of_all_pixels) {
   ASSERT_EQ(samples.size(), 3u);
   EXPECT_EQ(samples[1].view.z, -2.0f);
   EXPECT_EQ(samples[1].pixel_x, samples[0].pixel_x);
-  EXPECT_EQ(samples[2].pixel_x, 120.0f);
+  EXPECT_EQ(samples[2].pixel_x, 120.5f);
 }
 
 TEST(Samples, froxels_are_as_many_as_asked_for_and_their_depths_grow_by_a_factor) {

@@ -118,6 +118,7 @@ TEST_P(TruthOn, no_conservative_assigner_misses_a_true_pair) {
     for (const assign::AssignerDescriptor* row : assign::assigner_descriptors()) {
       if (!row->conservative || !row->takes(GetParam().kind) || (GetParam().orthographic && !row->orthographic))
         continue;
+      if (row->needs.depth) continue;  // their cells are not the grid's: occupied_cells_test.cpp
       const assign::Params params(row->params);
       for (const assign::Answer answer : assign::answers_with_cells(*row, params)) {
         assign::AssignerRun run(*row, params, answer);

@@ -8,7 +8,10 @@
 
 #include "core/error.h"
 #include "run/gate.h"
+#include "run/passes/accuracy_pass.h"
 #include "run/runner.h"
+#include "run/served_cases.h"
+#include "run/timed_work.h"
 #include "scene/mesh_fixture.h"
 
 namespace clusterbench::run {
@@ -46,13 +49,14 @@ struct RoomRun {
   Result result;
 };
 
-RoomRun run_of(const std::string& scene, const std::string& rest) {
+RoomRun run_of(const std::string& scene, const std::string& rest,
+               const std::string& assigners = R"("exact-fast", "bvh")") {
   const scene::test::Folder folder;
   folder.write("room.gltf", scene);
   const config::Config config = config::parse_config(
       R"({"scenes": ["room.gltf"], "viewport": [64, 48], "timing": {"measure": false}, "grids": [{"tiles": {"count": [4, 4]},
-          "slices": {"count": 8, "near": 0.1, "far": 40}}], "assigners": ["exact-fast", "bvh"], "shading": {"samples": 0})" +
-          rest + "}",
+          "slices": {"count": 8, "near": 0.1, "far": 40}}], "shading": {"samples": 0}, "assigners": [)" +
+          assigners + "]" + rest + "}",
       folder.path() / "c.json");
   RoomRun out;
   out.plan = make_plan(config, "");
@@ -178,6 +182,115 @@ TEST(FrameSamples, a_structure_without_cells_that_loses_a_light_on_a_surface_fai
   EXPECT_NE(failures_of(tree, {})[0].text.find("that its opaque samples need"), std::string::npos);
   tree.samples[0].counts.missed_outside = 3;
   EXPECT_TRUE(failures_of(tree, {}).empty());
+}
+
+// --- Methods that need depth ---
+
+// The room with a pane that is no glass in its left half, so that tiles have two depths.
+std::string deep_room() {
+  Json file = Json::parse(room());
+  for (Json& material : file["materials"]) material["alphaMode"] = "OPAQUE";
+  file["nodes"][4]["translation"] = {-10, 0, -4};
+  file["nodes"][4]["rotation"] = {0, 0.1, 0, 0.99498743710662};
+  return file.dump();
+}
+
+config::Config config_of(const scene::test::Folder& folder, const std::string& scene, const std::string& rest) {
+  folder.write("room.gltf", scene);
+  return config::parse_config(
+      R"({"scenes": ["room.gltf"], "viewport": [65, 49], "grids": [{"tiles": {"pixels": [9, 7]},
+          "slices": {"count": 8, "near": 0.1, "far": 40}}])" +
+          rest + "}",
+      folder.path() / "c.json");
+}
+
+constexpr const char* k_depth_methods =
+    R"("tiled", "tiled-2.5d", "flagged", "explicit", {"name": "tiled", "test": "planes"})";
+
+TEST(DepthMethods, lose_nothing_at_the_surfaces_that_their_depths_are_taken_from_at_any_divisor) {
+  using measure::SampleSet;
+  for (const int divisor : {1, 2, 3, 4}) {
+    const RoomRun run = run_of(
+        deep_room(),
+        R"(, "samples": {"opaque": {"divisor": )" + std::to_string(divisor) + R"(}, "fog": {"froxels": [8, 6, 4]}})",
+        k_depth_methods);
+    EXPECT_EQ(run.result.cases.size(), 5u);
+    for (const CaseResult& one : run.result.cases) {
+      const measure::ShadingCounts& opaque = counts_of(one, SampleSet::opaque);
+      EXPECT_GT(opaque.needed, 100u / static_cast<unsigned>(divisor)) << one.name;
+      EXPECT_EQ(opaque.missed, 0u) << one.name << ", " << divisor;
+      EXPECT_EQ(opaque.unanswered, 0u) << one.name;
+      EXPECT_TRUE(one.failures.empty()) << one.name;
+      EXPECT_TRUE(warnings_of(one).empty()) << one.name;
+      ASSERT_TRUE(one.error) << one.name;
+      EXPECT_EQ(one.error->false_negatives, 0u) << one.name;
+      EXPECT_EQ(one.error->undecided, 0u) << one.name;
+      EXPECT_GT(one.error->true_pairs, 0u) << one.name;
+    }
+  }
+}
+
+TEST(DepthMethods, of_a_scene_without_triangles_are_skipped_with_the_reason) {
+  const RoomRun run = run_of(room(false), "", R"("tiled", "exact-fast")");
+  ASSERT_EQ(run.plan.skipped.size(), 1u);
+  EXPECT_EQ(run.plan.skipped[0].reason, "tiled needs a depth buffer, and the scene has no triangles");
+  EXPECT_EQ(run.result.cases.size(), 1u);
+}
+
+TEST(DepthMethods, have_triangles_read_where_they_are_named_and_are_not_in_what_runs_by_default) {
+  EXPECT_TRUE(run_of(room(), "", R"("explicit")").plan.scenes[0].geometry);
+  EXPECT_FALSE(run_of(room(), "", R"("aabb")").plan.scenes[0].geometry);
+  for (const std::string& name : assign::standard_assigner_names())
+    EXPECT_FALSE(assign::find_assigner(name)->needs.depth) << name;
+}
+
+TEST(DepthMethods, and_sets_share_one_image_of_each_frame_and_nothing_is_cast_for_others) {
+  const auto images_cast = [](const std::string& rest) {
+    const scene::test::Folder folder;
+    const config::Config config = config_of(folder, deep_room(), rest);
+    const Plan plan = make_plan(config, "");
+    const PathFrames path = path_of(config, plan, plan.groups.at(0));
+    const std::atomic<bool> stop = false;
+    const AccuracyResult counted = accuracy_pass(
+        config, plan.scenes[0], plan.groups[0], path, [](int) {}, stop);
+    const std::vector<TimedFrame> frames = timed_frames(config, plan.groups[0], path, mean_frames(config, path));
+    return path.depths() == nullptr ? -1 : path.depths()->images_cast();
+  };
+  EXPECT_EQ(images_cast(R"(, "assigners": ["tiled", "explicit"], "samples": {"opaque": {}, "transparent": {}})"), 1);
+  EXPECT_EQ(images_cast(R"(, "assigners": ["exact-fast"], "samples": {"opaque": {}})"), 1);
+  EXPECT_EQ(images_cast(R"(, "assigners": ["exact-fast"])"), -1);
+}
+
+TEST(DepthMethods, are_timed_counted_in_their_steps_and_served_as_all_others_are) {
+  const scene::test::Folder folder;
+  const config::Config config = config_of(
+      folder, deep_room(),
+      std::string(
+          R"(, "timing": {"rounds": 2, "launches": 1, "min_time_ms": 0.1}, "stability": {"steps": 5}, "shading": {"samples": 20},
+          "details": {"frames": [0]}, "lookup": {"samples": 50}, "samples": {"opaque": {"divisor": 2}}, "assigners": ["aabb", )") +
+          k_depth_methods + "]");
+  const Plan plan = make_plan(config, "");
+  const std::atomic<bool> stop = false;
+  const Result result = run_plan(config, plan, {}, {}, stop);
+  ASSERT_EQ(result.cases.size(), 6u);
+  ServedCases served(config, plan);
+  for (std::size_t i = 1; i < result.cases.size(); ++i) {
+    const CaseResult& one = result.cases[i];
+    EXPECT_EQ(one.storage_label, k_own_structure);
+    ASSERT_TRUE(one.timing) << one.name;
+    EXPECT_GT(one.timing->frame_ns.median, 0.0) << one.name;
+    EXPECT_EQ(one.timing->pairs_max, one.error->reported_pairs) << one.name;
+    EXPECT_EQ(served.list_digests(one.id).at(0).pairs, one.error->reported_pairs) << one.name;
+    EXPECT_GT(served.assign_ns(one.id), 0.0) << one.name;
+    ASSERT_TRUE(one.stability) << one.name;
+    EXPECT_EQ(one.stability->undecided, 0u) << one.name;
+    EXPECT_FALSE(one.details) << one.name << ": its cells are not the grid's";
+    EXPECT_FALSE(one.shading) << one.name << ": promises nothing in the air";
+    EXPECT_TRUE(one.lookup.empty()) << one.name << ": it is not the lookup that lacks lights in the air";
+  }
+  EXPECT_TRUE(result.cases[0].details);
+  EXPECT_EQ(result.cases[0].shading->samples, 20u);
+  EXPECT_FALSE(result.cases[0].lookup.empty());
 }
 
 }  // namespace

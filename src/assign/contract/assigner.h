@@ -13,6 +13,7 @@
 
 #include "assign/contract/light_structure.h"
 #include "assign/contract/lists.h"
+#include "depth/depth_image.h"
 #include "grid/grid.h"
 #include "view/frame.h"
 
@@ -63,6 +64,9 @@ inline LightKinds kinds_of(const view::LightArrays& lights) {
 struct FrameInput {
   const view::Frame& frame;         // camera and viewport
   const view::LightArrays& lights;  // in the grid's space (grid::space_of)
+  // Of each pixel of the viewport; null where the method's descriptor does not ask for it. Nobody's time: a GPU has it
+  // from its depth prepass.
+  const depth::DepthImage* depth = nullptr;
 };
 
 class Assigner {
@@ -117,7 +121,7 @@ enum class Answer : std::uint8_t { lists, structure };
 
 // What a method asks for besides camera and lights.
 struct Needs {
-  bool depth = false;  // a depth buffer, which no run has yet
+  bool depth = false;  // the depths of the picture's pixels
 };
 
 // A method as data: all that everything else knows of it.
@@ -182,7 +186,7 @@ class AssignerRegistration {
 // nullptr if there is none.
 const AssignerDescriptor* find_assigner(const std::string& name);
 std::vector<std::string> assigner_names();
-// Those that run where nothing is named: all but the naive ones.
+// Those that run where nothing is named: all but the naive ones and those that need depth, whose rays take long.
 std::vector<std::string> standard_assigner_names();
 
 }  // namespace clusterbench::assign

@@ -21,6 +21,7 @@ class AssignerRun {
   // Its own structure; null if it fills lists.
   const LightStructure* structure() const { return structure_.get(); }
   bool has_cells() const { return !structure_ || structure_->has_cells(); }
+  bool has_occupied_cells() const { return structure_ && structure_->has_occupied_cells(); }
   // What each cell's samples loop over, ascending. Only with cells. Not timed.
   const Lists& cell_lists() const;
 

@@ -6,6 +6,7 @@
 
 #include "assign/contract/lists.h"
 #include "grid/grid.h"
+#include "grid/occupied_cells.h"
 
 namespace clusterbench::assign {
 
@@ -40,8 +41,12 @@ class LightStructure {
   virtual StructureLimit limit() const = 0;
   virtual std::uint32_t index_bits() const = 0;  // of an entry
 
-  // Whether a sample's lights depend on its cell of the grid alone.
+  // Whether a sample's lights depend on its cell alone: of the grid, or of occupied_cells().
   virtual bool has_cells() const = 0;
+  // Whether its cells are what the depths of a frame leave of the grid's, or of its tiles; and these cells, of the
+  // frame at hand. Not timed.
+  virtual bool has_occupied_cells() const { return false; }
+  virtual grid::OccupiedCells occupied_cells() const { return {}; }
   // Each cell's lights, as lights_at() gives them at a sample that is looked up in it. For truth, details and pictures:
   // not timed. Only with cells.
   virtual void expand(Lists& out) const = 0;

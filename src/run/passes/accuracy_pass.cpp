@@ -22,8 +22,9 @@ struct PreparedFrame {
   view::Frame frame;
   bool is_new_grid = false;
   FrameLights lights;
-  measure::Truth truth;
-  std::vector<FrameSampleSet> samples;  // one per set of the configuration
+  std::shared_ptr<const depth::DepthImage> depth;  // where a method needs it
+  measure::Truth truth;                            // of the grid's cells
+  std::vector<FrameSampleSet> samples;             // one per set of the configuration
   std::optional<measure::LookupFrame> lookup;
 };
 
@@ -38,14 +39,14 @@ class MethodMeter {
   void add(const PreparedFrame& now, const grid::Grid& grid) {
     const view::LightArrays& lights = now.lights.in_precision(measures_.method.precision);
     if (now.is_new_grid) run_.build(grid, assign::kinds_of(lights));
-    run_.assign({now.frame, lights});
+    run_.assign({now.frame, lights, now.depth.get()});
     measures_.tests_done += run_.tests_done();
     measures_.fallbacks += run_.fallbacks();
     if (!measures_.has_cells) return;
-    if (!occupancy_) occupancy_.emplace(real_cells(grid));
     lists_ = &run_.cell_lists();
+    if (!occupancy_) occupancy_.emplace(run_.has_occupied_cells() ? lists_->cell_count() : real_cells(grid));
     occupancy_->add_frame(now.frame.index, *lists_);
-    if (config_.check_accuracy) measure::add_frame(measures_.error, now.frame, grid, now.truth, *lists_);
+    if (config_.check_accuracy) compare(now, grid);
   }
 
   const assign::AssignerRun& run() const { return run_; }
@@ -59,6 +60,13 @@ class MethodMeter {
   }
 
  private:
+  void compare(const PreparedFrame& now, const grid::Grid& grid) {
+    if (!run_.has_occupied_cells()) return measure::add_frame(measures_.error, now.frame, grid, now.truth, *lists_);
+    const grid::OccupiedCells cells = run_.structure()->occupied_cells();
+    const measure::Truth truth = measure::find_truth(now.frame, grid, cells, config_.threads);
+    measure::add_frame(measures_.error, now.frame, cells, truth, *lists_);
+  }
+
   const config::Config& config_;
   assign::AssignerRun run_;
   const assign::Lists* lists_ = nullptr;  // of the cells, in the current frame
@@ -83,7 +91,7 @@ class CaseMeter {
     }
     const assign::LightStructure& structure = storage_ ? *storage_ : *method.run().structure();
     buffers_.add_frame(now.frame.index, structure, method.cell_lists(), method.run().scratch_bytes());
-    if (now.lookup) now.lookup->add(structure, measures_.lookup);
+    if (now.lookup && !structure.has_occupied_cells()) now.lookup->add(structure, measures_.lookup);
     structure_ = &structure;
   }
 
@@ -137,13 +145,14 @@ void add_depth_ranges(const PreparedFrame& now, const grid::ScreenGrid& grid, Ac
   }
 }
 
-PreparedFrame prepare(const config::Config& config, const PathFrames& path, FrameSamples& samples, GridOfFrames& grids,
-                      int index) {
+PreparedFrame prepare(const config::Config& config, const GroupPlan& group, const PathFrames& path,
+                      FrameSamples& samples, GridOfFrames& grids, int index) {
   PreparedFrame now;
   now.frame = path.frame(index);
   now.is_new_grid = grids.update(path, now.frame);
   const grid::Grid& grid = grids.grid();
   now.lights = FrameLights(config.precisions, view::lights_in(now.frame, grid::space_of(grid, now.frame)));
+  now.depth = depths_for(config, group, path, now.frame);
   if (config.check_accuracy) now.truth = measure::find_truth(now.frame, grid, config.threads);
   const double far = sample_far(now.frame, path.far_m());
   if (config.lookup) now.lookup.emplace(now.frame, grid, config.lookup->ways, far, config.lookup->samples, config.seed);
@@ -169,7 +178,7 @@ AccuracyResult accuracy_pass(const config::Config& config, const SceneData& data
   for (int index = 0; index < path.count(); ++index) {
     if (stop) return result;
     on_frame(index);
-    const PreparedFrame now = prepare(config, path, samples, grids, index);
+    const PreparedFrame now = prepare(config, group, path, samples, grids, index);
     for (std::size_t i = 0; i < losses.size(); ++i) losses[i].add_frame(now.lights.packed(i));
     for (MethodMeter& method : methods) {
       method.add(now, grids.grid());

@@ -47,8 +47,7 @@ void count_pass(const config::Config& config, const Plan& plan, const std::funct
   for (GroupPlan group : plan.groups) {
     std::erase_if(group.cases, [&](const CasePlan& case_plan) { return !is_wanted(case_plan); });
     if (group.cases.empty()) continue;
-    const SceneData& data = plan.scenes[group.scene];
-    const PathFrames path(data.scene, data.paths[group.camera], config.viewports[group.viewport]);
+    const PathFrames path = path_of(config, plan, group);
     const std::vector<TimedFrame> frames = timed_frames(config, group, path, mean_frames(config, path));
     for (const Method& method : methods_of(group)) {
       if (stop) return;

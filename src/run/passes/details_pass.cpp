@@ -13,7 +13,7 @@ class Track {
  public:
   Track(const config::Config& config, const MethodMeasures& counted, int path_frames)
       : method_(counted.method), with_pairs_(config.details->lists), run_(start_method(config, counted.method)) {
-    if (!counted.has_cells) return;
+    if (!counted.has_cells || run_.has_occupied_cells()) return;
     details_.emplace();
     details_->max_bytes = config.details->max_bytes;
     for (const int frame : wanted(*config.details, counted, path_frames))
@@ -46,7 +46,7 @@ class Track {
   bool with_pairs_;
   assign::AssignerRun run_;
   std::vector<int> frames_;
-  std::optional<Details> details_;  // none without cells
+  std::optional<Details> details_;  // none without cells, or where they are not the grid's
 };
 
 std::vector<int> frames_of(const std::vector<Track>& tracks) {

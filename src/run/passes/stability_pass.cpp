@@ -19,24 +19,42 @@ scene::FineSteps fine_steps(const config::StabilityRequest& request) {
 class StabilityTrack {
  public:
   StabilityTrack(const config::Config& config, const Method& method)
-      : method_(method), run_(start_method(config, method)), meter_(config.stability->window) {}
+      : method_(method),
+        run_(start_method(config, method)),
+        meter_(config.stability->window),
+        own_truth_(config.stability->window) {}
 
-  void add(const view::Frame& frame, const grid::Grid& grid, bool is_new_grid, const FrameLights& lights) {
+  void add(const view::Frame& frame, const grid::Grid& grid, bool is_new_grid, const FrameLights& lights,
+           const depth::DepthImage* depth, int threads) {
     if (!run_.has_cells()) return;
     const view::LightArrays& packed = lights.in_precision(method_.precision);
     if (is_new_grid) run_.build(grid, assign::kinds_of(packed));
-    run_.assign({frame, packed});
+    run_.assign({frame, packed, depth});
     meter_.add(run_.cell_lists());
+    if (!run_.has_occupied_cells()) return;
+    const measure::Truth truth = measure::find_truth(frame, grid, run_.structure()->occupied_cells(), threads);
+    own_truth_.add(truth.lists);
+    undecided_ += truth.undecided;
   }
 
   const Method& method() const { return method_; }
   bool has_cells() const { return run_.has_cells(); }
-  const measure::Churn& churn() const { return meter_.result(); }
+  // `common`: what is the same for all methods, with the truth of the grid's cells.
+  StabilityResult result(const StabilityResult& common) const {
+    StabilityResult out = common;
+    out.method = meter_.result();
+    if (!run_.has_occupied_cells()) return out;
+    out.truth = own_truth_.result();
+    out.undecided = undecided_;
+    return out;
+  }
 
  private:
   Method method_;
   assign::AssignerRun run_;
   measure::ChurnMeter meter_;
+  measure::ChurnMeter own_truth_;  // of cells that are not the grid's
+  std::uint64_t undecided_ = 0;    // in that
 };
 
 // What all methods of the group have in common.
@@ -58,9 +76,7 @@ std::vector<std::optional<StabilityResult>> per_case(const GroupPlan& group, con
     const StabilityTrack& track = *std::find_if(
         tracks.begin(), tracks.end(), [&](const StabilityTrack& any) { return any.method() == case_plan.method(); });
     results.emplace_back();
-    if (!track.has_cells()) continue;
-    results.back() = common;
-    results.back()->method = track.churn();
+    if (track.has_cells()) results.back() = track.result(common);
   }
   return results;
 }
@@ -88,7 +104,8 @@ std::vector<std::optional<StabilityResult>> stability_pass(const config::Config&
     const FrameLights lights(config.precisions, view::lights_in(frame, grid::space_of(grid, frame)));
     const measure::Truth truth = measure::find_truth(frame, grid, config.threads);
     truth_meter.add(truth.lists);
-    for (StabilityTrack& track : tracks) track.add(frame, grid, is_new_grid, lights);
+    const std::shared_ptr<const depth::DepthImage> depth = depths_for(config, group, steps, frame);
+    for (StabilityTrack& track : tracks) track.add(frame, grid, is_new_grid, lights, depth.get(), config.threads);
     common.grids += is_new_grid ? 1 : 0;
     common.undecided += truth.undecided;
   }

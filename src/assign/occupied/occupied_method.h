@@ -1,0 +1,64 @@
+#pragma once
+// Lists of the cells that a frame's depths leave: light by light, the cells of its extents that hold a visible surface
+// and whose part between the depths passes the tests.
+
+#include <vector>
+
+#include "assign/bounds/bounds_method.h"
+#include "assign/contract/assigner.h"
+#include "assign/contract/light_test.h"
+#include "assign/cull/view_cull.h"
+#include "assign/occupied/depth_parts.h"
+#include "assign/occupied/occupied_lists.h"
+
+namespace clusterbench::assign {
+
+// `test`, of methods with a list per tile: "planes", "aabb" or "both" (the default).
+ParamSpec tile_test_param();
+std::vector<ParamSpec> tiled_params();
+
+class OccupiedMethod : public AssignerOf<OccupiedLists> {
+ public:
+  // `params`: tiled_params() or, of cells with slices, light_params().
+  OccupiedMethod(const Params& params, CellBounds bounds);
+
+  void build(const grid::Grid& grid, const LightKinds& kinds) override;
+  std::uint64_t tests_done() const override { return tests_; }
+  std::size_t scratch_bytes() const override;
+
+ protected:
+  void fill(const FrameInput& input, OccupiedLists& out) override;
+
+ private:
+  void find_cells(const depth::DepthImage& image);
+  void find_masks(const depth::DepthImage& image);
+  // Of the cells in which something is visible: what depends on the frame.
+  void bound_cells(bool with_balls);
+  // Which cells to look at.
+  CellBox looked_at(const view::LightArrays& lights, std::uint32_t light) const;
+  void add_light(const view::LightArrays& lights, std::uint32_t light);
+  bool touches(const TestedLight& light, std::uint32_t cell) const;
+
+  LightTest test_;
+  CellBounds bounds_;
+  bool by_planes_ = true, by_boxes_ = true;
+  const grid::Grid* grid_ = nullptr;
+  grid::Grid extents_;  // the grid in which extents are found: that one or, of tiles, the same with a single slice
+  Vec3i cells_{0};      // of it
+  ViewCull view_;
+  PixelDepths pixels_;
+  FrameCells frame_cells_;
+  std::vector<DepthParts> parts_;  // of masked tiles
+  std::vector<geom::Box> boxes_;   // around cells; only those of cells that are not empty mean something
+  std::vector<geom::Ball> balls_;  // the same
+  PairBuffer pairs_;
+  Lists lists_;
+  std::uint64_t tests_ = 0;
+};
+
+template <CellBounds bounds>
+std::unique_ptr<StructureAssigner> make_occupied(const Params& params) {
+  return std::make_unique<OccupiedMethod>(params, bounds);
+}
+
+}  // namespace clusterbench::assign

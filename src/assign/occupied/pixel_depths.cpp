@@ -1,0 +1,116 @@
+#include "assign/occupied/pixel_depths.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "core/error.h"
+
+namespace clusterbench::assign {
+namespace {
+
+constexpr float k_inf = std::numeric_limits<float>::infinity();
+
+// Where each of `count` tiles begins among the pixels, and where the last one ends. tile_of ascends.
+template <class TileOf>
+std::vector<std::uint32_t> begins(int count, int pixels, const TileOf& tile_of) {
+  std::vector<std::uint32_t> out(static_cast<std::size_t>(count) + 1, static_cast<std::uint32_t>(pixels));
+  for (int pixel = pixels - 1; pixel >= 0; --pixel)
+    out[static_cast<std::size_t>(tile_of(static_cast<float>(pixel) + 0.5f))] = static_cast<std::uint32_t>(pixel);
+  for (std::size_t tile = out.size() - 1; tile-- > 0;) out[tile] = std::min(out[tile], out[tile + 1]);
+  return out;
+}
+
+// Floats as whole numbers in their order, and back.
+std::int64_t order_of(float value) {
+  const auto bits = std::bit_cast<std::int32_t>(value);
+  return bits >= 0 ? bits : std::int64_t{std::numeric_limits<std::int32_t>::min()} - bits;
+}
+float in_order(std::int64_t order) {
+  const std::int64_t bits = order >= 0 ? order : std::int64_t{std::numeric_limits<std::int32_t>::min()} - order;
+  return std::bit_cast<float>(static_cast<std::int32_t>(bits));
+}
+
+// The least depth that is looked up in this slice or one behind it; in order, since the lookup ascends.
+float first_depth_in(const grid::Slices& slices, int slice) {
+  const auto is_before = [&](float depth) {
+    const int found = slices.slice_of(depth);
+    return found >= 0 && found < slice;
+  };
+  std::int64_t before = order_of(slices.boundaries.front()), behind = order_of(k_inf);
+  if (!is_before(in_order(before))) return in_order(before);
+  while (behind - before > 1) {
+    const std::int64_t middle = before + (behind - before) / 2;
+    (is_before(in_order(middle)) ? before : behind) = middle;
+  }
+  return in_order(behind);
+}
+
+}  // namespace
+
+void DepthRanges::close() {
+  for (float& depth : hi) depth = depth > -k_inf ? std::nextafter(depth, k_inf) : depth;
+}
+
+const depth::DepthImage& checked(const depth::DepthImage* image, const grid::Tiles& tiles) {
+  if (image == nullptr) throw Error("", "depth", "is not there, and the method needs it", ExitCode::internal);
+  if (image->pixels.size != tiles.viewport || image->nearest.size() != image->pixels.count())
+    throw Error("", "depth", "is not that of the picture's pixels", ExitCode::internal);
+  return *image;
+}
+
+void PixelDepths::build(const grid::ScreenGrid& grid) {
+  const grid::Tiles& tiles = grid.tiles;
+  column_begins_ = begins(tiles.count.x, tiles.viewport.x, [&](float x) { return tiles.tile_of(x, 0.5f).x; });
+  row_begins_ = begins(tiles.count.y, tiles.viewport.y, [&](float y) { return tiles.tile_of(0.5f, y).y; });
+  slice_begins_.clear();
+  for (int slice = 0; slice <= grid.slices.count(); ++slice)
+    slice_begins_.push_back(slice == 0 ? -k_inf : first_depth_in(grid.slices, slice));
+  nearest_.resize(width());
+  farthest_.resize(width());
+}
+
+// A minimum and a maximum in each column of pixels, which compilers make vectors of, then in each tile.
+void PixelDepths::find_in_tiles(const depth::DepthImage& image, DepthRanges& out) {
+  out.clear(columns() * rows());
+  float* nearest = nearest_.data();
+  float* farthest = farthest_.data();
+  const std::size_t across = width();
+  for (std::size_t row = 0; row < rows(); ++row) {
+    std::fill(nearest_.begin(), nearest_.end(), k_inf);
+    std::fill(farthest_.begin(), farthest_.end(), -k_inf);
+    for (std::size_t y = row_begins_[row]; y < row_begins_[row + 1]; ++y) {
+      const float* depths = image.nearest.data() + y * across;
+      for (std::size_t x = 0; x < across; ++x) {
+        const float depth = depths[x], shown = depth < k_inf ? depth : -k_inf;
+        nearest[x] = depth < nearest[x] ? depth : nearest[x];
+        farthest[x] = shown > farthest[x] ? shown : farthest[x];
+      }
+    }
+    for (std::size_t column = 0; column < columns(); ++column)
+      for (std::size_t x = column_begins_[column]; x < column_begins_[column + 1]; ++x)
+        if (farthest[x] > -k_inf) {
+          out.take(row * columns() + column, nearest[x]);
+          out.take(row * columns() + column, farthest[x]);
+        }
+  }
+  out.close();
+}
+
+void PixelDepths::find_in_cells(const depth::DepthImage& image, DepthRanges& out) const {
+  const std::size_t tiles = columns() * rows(), slices = slice_begins_.size() - 1;
+  out.clear(tiles * slices);
+  const float* const begin = slice_begins_.data();
+  std::size_t slice = 0;  // neighbours lie in the same one, mostly
+  each_pixel(image, [&](std::size_t tile, float depth) {
+    if (!(depth >= begin[slice] && depth < begin[slice + 1])) {
+      const auto next = std::upper_bound(slice_begins_.begin(), slice_begins_.end(), depth);
+      if (next == slice_begins_.end()) return;  // beyond the grid
+      slice = static_cast<std::size_t>(next - slice_begins_.begin()) - 1;
+    }
+    out.take(slice * tiles + tile, depth);
+  });
+  out.close();
+}
+
+}  // namespace clusterbench::assign
