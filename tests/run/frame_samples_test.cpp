@@ -230,6 +230,17 @@ TEST(DepthMethods, lose_nothing_at_the_surfaces_that_their_depths_are_taken_from
   }
 }
 
+TEST(DepthMethods, that_lose_a_light_on_a_surface_fail_and_in_the_air_do_not) {
+  RoomRun run = run_of(deep_room(), R"(, "samples": {"opaque": {}, "fog": {"froxels": [8, 6, 4]}})", R"("explicit")");
+  CaseResult one = case_named(run, "explicit");
+  ASSERT_EQ(one.samples.size(), 2u);
+  EXPECT_GT(one.samples[1].counts.missed, 0u) << "fog";
+  EXPECT_TRUE(failures_of(one, {}).empty());
+  one.samples[0].counts.missed = one.samples[0].counts.needed / 2;
+  ASSERT_EQ(failures_of(one, {}).size(), 1u);
+  EXPECT_NE(failures_of(one, {})[0].text.find("that its opaque samples need"), std::string::npos);
+}
+
 TEST(DepthMethods, of_a_scene_without_triangles_are_skipped_with_the_reason) {
   const RoomRun run = run_of(room(false), "", R"("tiled", "exact-fast")");
   ASSERT_EQ(run.plan.skipped.size(), 1u);
