@@ -49,11 +49,22 @@ const measure::LookupCounts* plain_lookup(const CaseResult& result) {
   return nullptr;
 }
 
-// The first set of samples that lacks a light where the structure has an answer; null if none does.
-const SampleSetResult* missing_set(const CaseResult& result) {
-  const auto found = std::ranges::find_if(
-      result.samples, [](const SampleSetResult& set) { return set.counts.missed > set.counts.missed_outside; });
+// The first set of samples, or that of visible surfaces, that lacks a light where the structure has an answer; null if
+// none does.
+const SampleSetResult* missing_set(const CaseResult& result, bool at_surfaces = false) {
+  const auto found = std::ranges::find_if(result.samples, [&](const SampleSetResult& set) {
+    return set.counts.missed > set.counts.missed_outside && (!at_surfaces || set.set == measure::SampleSet::opaque);
+  });
   return found == result.samples.end() ? nullptr : &*found;
+}
+
+// A method that knows the depths of the visible surfaces answers for them, but for what lookups round.
+bool misses_at_surfaces(const CaseResult& result) {
+  const assign::AssignerDescriptor* assigner = assign::find_assigner(result.assigner);
+  if (assigner == nullptr || !assigner->needs.depth) return false;
+  return std::ranges::any_of(result.samples, [](const SampleSetResult& set) {
+    return set.set == measure::SampleSet::opaque && set.counts.unlit() > measure::k_most_unlit;
+  });
 }
 
 bool misses_without_cells(const CaseResult& result) {
@@ -67,7 +78,7 @@ std::string missed_without_cells_text(const CaseResult& result) {
   if (result.shading && result.shading->missed > 0)
     return "lost " + std::to_string(result.shading->missed) + " of " + number_of(result.shading->needed, "light") +
            " that its samples need" + worst_text(result);
-  if (const SampleSetResult* set = missing_set(result))
+  if (const SampleSetResult* set = missing_set(result, has_cells(result)))
     return "lost " + std::to_string(set->counts.missed - set->counts.missed_outside) + " of " +
            number_of(set->counts.needed, "light") + " that its " + measure::name_of(set->set) + " samples need";
   const measure::LookupCounts& lookup = *plain_lookup(result);
@@ -118,7 +129,7 @@ std::vector<Failure> failures_of(const CaseResult& result, const config::LimitsR
   if (result.exact && result.error && result.error->false_positives > 0)
     failures.push_back({Kind::extra_pairs, "reported " + number_of(result.error->false_positives, "pair") +
                                                " beside the truth, and calls itself exact"});
-  if (may_not_lose && misses_without_cells(result))
+  if (may_not_lose && (misses_without_cells(result) || misses_at_surfaces(result)))
     failures.push_back({Kind::lost_at_samples, missed_without_cells_text(result)});
   const measure::Buffers& buffers = result.buffers;
   if (limits.dropped_pairs && buffers.dropped_pairs > *limits.dropped_pairs)

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cstdlib>
+#include <filesystem>
 
 #include "core/error.h"
 #include "run/gate.h"
@@ -228,6 +230,66 @@ TEST(DepthMethods, lose_nothing_at_the_surfaces_that_their_depths_are_taken_from
       EXPECT_GT(one.error->true_pairs, 0u) << one.name;
     }
   }
+}
+
+// In plain double precision, over all lights.
+std::uint64_t missed_at(const std::vector<grid::Sample>& samples, const view::Frame& frame,
+                        const assign::LightStructure& structure, std::uint64_t& needed) {
+  std::uint64_t missed = 0;
+  std::vector<std::uint32_t> given;
+  for (const grid::Sample& sample : samples) {
+    structure.lights_at(sample, grid::Log2::rounded, given);
+    for (std::uint32_t light = 0; light < frame.lights.size(); ++light) {
+      const scene::WorldLight& at = frame.lights[light];
+      const Vec3d way = sample.from_eye - (at.position - sample.eye);
+      if (at.type != scene::LightType::point || !(glm::length(way) <= at.range_m)) continue;
+      ++needed;
+      missed += std::ranges::find(given, light) == given.end() ? 1 : 0;
+    }
+  }
+  return missed;
+}
+
+TEST(DepthMethods, lose_nothing_on_a_real_map_as_a_loop_over_all_lights_finds) {
+  const char* library = std::getenv("CLUSTERBENCH_SCENE_LIBRARY");
+  const std::string map = (library == nullptr ? "" : library) + std::string("/oacmp-maps/oacmpdm9.glb");
+  if (!std::filesystem::exists(map)) GTEST_SKIP() << "the library of scenes is not here";
+  const scene::test::Folder folder;
+  const config::Config config =
+      config::parse_config(R"({"scenes": [{"path": ")" + map + R"(", "frames": 3}], "viewport": [320, 180],
+          "grids": [{"tiles": {"pixels": [16, 16]}, "slices": {"count": 16, "near": 0.1, "far": 300}}], "assigners": [)" +
+                               k_depth_methods + "]}",
+                           folder.path() / "c.json");
+  const Plan plan = make_plan(config, "");
+  const GroupPlan& group = plan.groups.at(0);
+  const PathFrames path = path_of(config, plan, group);
+  std::uint64_t needed = 0;
+  for (int index = 0; index < path.count(); ++index) {
+    const view::Frame frame = path.frame(index);
+    const std::shared_ptr<const depth::DepthImage> depths = depths_for(config, group, path, frame);
+    GridOfFrames grids(config.grids[0]);
+    grids.update(path, frame);
+    const view::LightArrays lights = view::lights_in(frame, frame.view_space);
+    for (const Method& method : methods_of(group)) {
+      assign::AssignerRun run = start_method(config, method);
+      run.build(grids.grid());
+      run.assign({frame, lights, depths.get()});
+      EXPECT_EQ(missed_at(measure::opaque_samples(frame, *depths), frame, *run.structure(), needed), 0u)
+          << method_label(config, method) << ", frame " << index;
+    }
+  }
+  EXPECT_GT(needed, 1'000'000u);
+}
+
+TEST(DepthMethods, that_lose_a_light_on_a_surface_fail_and_in_the_air_do_not) {
+  RoomRun run = run_of(deep_room(), R"(, "samples": {"opaque": {}, "fog": {"froxels": [8, 6, 4]}})", R"("explicit")");
+  CaseResult one = case_named(run, "explicit");
+  ASSERT_EQ(one.samples.size(), 2u);
+  EXPECT_GT(one.samples[1].counts.missed, 0u) << "fog";
+  EXPECT_TRUE(failures_of(one, {}).empty());
+  one.samples[0].counts.missed = one.samples[0].counts.needed / 2;
+  ASSERT_EQ(failures_of(one, {}).size(), 1u);
+  EXPECT_NE(failures_of(one, {})[0].text.find("that its opaque samples need"), std::string::npos);
 }
 
 TEST(DepthMethods, of_a_scene_without_triangles_are_skipped_with_the_reason) {

@@ -89,7 +89,12 @@ void OccupiedMethod::find_masks(const depth::DepthImage& image) {
   masks.assign(depths.size(), 0);
   parts_.clear();
   for (std::size_t tile = 0; tile < depths.size(); ++tile) parts_.emplace_back(depths.lo[tile], depths.hi[tile]);
-  pixels_.each_pixel(image, [&](std::size_t tile, float depth) { masks[tile] |= parts_[tile].bit_of(depth); });
+  pixels_.each_row(image, [&](std::size_t tile, const float* depth, const float* end) {
+    const DepthParts parts = parts_[tile];
+    std::uint32_t mask = 0;
+    for (; depth < end; ++depth) mask |= *depth < std::numeric_limits<float>::infinity() ? parts.bit_of(*depth) : 0;
+    masks[tile] |= mask;
+  });
 }
 
 void OccupiedMethod::bound_cells(bool with_balls) {

@@ -100,15 +100,26 @@ void PixelDepths::find_in_tiles(const depth::DepthImage& image, DepthRanges& out
 void PixelDepths::find_in_cells(const depth::DepthImage& image, DepthRanges& out) const {
   const std::size_t tiles = columns() * rows(), slices = slice_begins_.size() - 1;
   out.clear(tiles * slices);
-  const float* const begin = slice_begins_.data();
-  std::size_t slice = 0;  // neighbours lie in the same one, mostly
-  each_pixel(image, [&](std::size_t tile, float depth) {
-    if (!(depth >= begin[slice] && depth < begin[slice + 1])) {
-      const auto next = std::upper_bound(slice_begins_.begin(), slice_begins_.end(), depth);
-      if (next == slice_begins_.end()) return;  // beyond the grid
-      slice = static_cast<std::size_t>(next - slice_begins_.begin()) - 1;
+  const float* const begins = slice_begins_.data();
+  std::size_t slice = 0;  // neighbours lie in the same one, mostly: one range for all of them
+  each_row(image, [&](std::size_t tile, const float* depth, const float* end) {
+    while (depth < end) {
+      if (!(*depth >= begins[slice] && *depth < begins[slice + 1])) {
+        const auto next = std::upper_bound(slice_begins_.begin(), slice_begins_.end(), *depth);
+        if (next == slice_begins_.end()) {  // beyond the grid, or nothing is there
+          ++depth;
+          continue;
+        }
+        slice = static_cast<std::size_t>(next - slice_begins_.begin()) - 1;
+      }
+      float lo = *depth, hi = *depth;
+      for (++depth; depth < end && *depth >= begins[slice] && *depth < begins[slice + 1]; ++depth) {
+        lo = *depth < lo ? *depth : lo;
+        hi = *depth > hi ? *depth : hi;
+      }
+      out.take(slice * tiles + tile, lo);
+      out.take(slice * tiles + tile, hi);
     }
-    out.take(slice * tiles + tile, depth);
   });
   out.close();
 }

@@ -49,9 +49,9 @@ class PixelDepths {
   // The depths at which the lookup goes on to another slice: the first of each, and where the last one ends.
   const std::vector<float>& slice_begins() const { return slice_begins_; }
 
-  // Calls take(tile, depth) for each pixel that shows a surface.
+  // Calls take(tile, begin, end) for each row of pixels of each tile, with their depths.
   template <class Take>
-  void each_pixel(const depth::DepthImage& image, Take&& take) const;
+  void each_row(const depth::DepthImage& image, Take&& take) const;
 
   std::size_t capacity_bytes() const {
     return bytes_of(column_begins_, row_begins_, slice_begins_, nearest_, farthest_);
@@ -68,13 +68,12 @@ class PixelDepths {
 };
 
 template <class Take>
-void PixelDepths::each_pixel(const depth::DepthImage& image, Take&& take) const {
+void PixelDepths::each_row(const depth::DepthImage& image, Take&& take) const {
   for (std::size_t row = 0; row < rows(); ++row)
     for (std::size_t y = row_begins_[row]; y < row_begins_[row + 1]; ++y) {
       const float* depths = image.nearest.data() + y * width();
       for (std::size_t column = 0; column < columns(); ++column)
-        for (std::size_t x = column_begins_[column]; x < column_begins_[column + 1]; ++x)
-          if (depths[x] < std::numeric_limits<float>::infinity()) take(row * columns() + column, depths[x]);
+        take(row * columns() + column, depths + column_begins_[column], depths + column_begins_[column + 1]);
     }
 }
 
