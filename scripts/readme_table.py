@@ -1,12 +1,16 @@
 #!/usr/bin/env python3
-"""Puts measured tables into README.md and docs/results.md: scripts/readme_table.py FOLDER.
+"""Puts measured tables and figures into README.md, docs/results.md and docs/sizing.md: scripts/readme_table.py FOLDER.
 
-FOLDER holds quick.txt, the table of configs/quick.json; street.json and street.txt, result and table of
-`clusterbench run scenes/street.glb`; and street-size.txt, what `clusterbench size` says of one of its cases."""
+FOLDER holds quick.json and quick.txt, result and table of configs/quick.json; street.json and street.txt, those of
+`clusterbench run scenes/street.glb`; and street-size.txt, what `clusterbench size` says of one of its cases. An example in
+docs/results.md whose output is shown below it is run on street.json."""
 import json
 import pathlib
 import re
+import subprocess
 import sys
+import tempfile
+import textwrap
 
 from peers_table import put, timing_of
 
@@ -81,8 +85,53 @@ def methods(lines):
     return block("".join(row[slice(*spans[name])] for name in wanted) for row in rows)
 
 
+def fast_and_exact(result):
+    """Of each frustum grid and scene the cases of `bounds-fast` and `exact-fast`."""
+    groups = {}
+    for case in result["cases"]:
+        if case["assigner"]["label"] in ("bounds-fast", "exact-fast"):
+            groups.setdefault((case["scene"], case["grid"]["name"]), {})[case["assigner"]["label"]] = case
+    return [(group["bounds-fast"], group["exact-fast"]) for group in groups.values()]
+
+
+def span(values, form):
+    low, high = (format(value, form) for value in (min(values), max(values)))
+    return low if low == high else f"{low} to {high}"
+
+
+def headline(quick, street):
+    """What the picture shows, in words, and where it holds. Fails where the figures no longer say so."""
+    pairs, elsewhere = fast_and_exact(quick), [pair for pair in fast_and_exact(street) if pair[0]["grid"]["name"] == GRID]
+    times = [frame_us(exact) / frame_us(fast) for fast, exact in pairs]
+    there = [frame_us(exact) / frame_us(fast) for fast, exact in elsewhere]
+    excess = [100 * fast["error"]["excess_ratio"] for fast, _ in pairs]
+    if max(times) > 1.6 or any(exact["error"]["false_positives"] for _, exact in pairs + elsewhere):
+        sys.exit("exact lists no longer cost little more than loose ones: write another conclusion below README.md's picture")
+    text = (f"**Exact lists cost little more than loose ones.** On these {len(pairs)} levels, with tiles of 64 pixels and 16 "
+            f"slices, `exact-fast` has no false positives and takes {span(times, '.2f')} times as long as `bounds-fast`, which has "
+            f"{span(excess, '.0f')} %. With the fewer cells of the second table below it takes {span(there, '.1f')} times as long. "
+            "Filled marks use SIMD, hollow ones plain code.")
+    return textwrap.fill(text, 130, break_on_hyphens=False)
+
+
 def size(lines):
     return "```cpp\n" + "\n".join(line for line in lines if line.startswith(("//   ", "inline constexpr"))) + "\n```"
+
+
+def whole_case(lines):
+    """From the case's name to the end of its constants."""
+    start = next(at for at, line in enumerate(lines) if line.startswith("//   ")) - 1
+    return "```cpp\n" + "\n".join(lines[start:lines.index("}", start) + 1]) + "\n```"
+
+
+def choice(result_path):
+    """What the example in docs/results.md that chooses a case prints."""
+    page = (ROOT / "docs" / "results.md").read_text()
+    shell = re.search(r"```sh\n([^`]*)```\n\n<!-- choice -->", page)[1]
+    with tempfile.TemporaryDirectory() as folder:
+        (pathlib.Path(folder) / "result.json").write_text(result_path.read_text())
+        out = subprocess.run(["bash", "-euc", shell], cwd=folder, check=True, capture_output=True, text=True).stdout
+    return block(out.splitlines())
 
 
 def main():
@@ -90,10 +139,16 @@ def main():
         sys.exit(__doc__)
     folder = pathlib.Path(sys.argv[1])
     readme = ROOT / "README.md"
-    put(readme, "grids", grids(json.loads((folder / "street.json").read_text())))
+    quick, street = (json.loads((folder / f"{name}.json").read_text()) for name in ("quick", "street"))
+    put(readme, "headline", headline(quick, street))
+    put(readme, "grids", grids(street))
     put(readme, "methods", methods(table_of(folder / "street.txt")))
-    put(readme, "size", size((folder / "street-size.txt").read_text().splitlines()))
-    put(ROOT / "docs" / "results.md", "quick", block(table_of(folder / "quick.txt")))
+    constants = (folder / "street-size.txt").read_text().splitlines()
+    put(readme, "size", size(constants))
+    put(ROOT / "docs" / "sizing.md", "size", whole_case(constants))
+    results = ROOT / "docs" / "results.md"
+    put(results, "choice", choice(folder / "street.json"))
+    put(results, "quick", block(table_of(folder / "quick.txt")))
 
 
 if __name__ == "__main__":
