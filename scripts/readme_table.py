@@ -2,9 +2,10 @@
 """Puts measured tables and figures into README.md, docs/results.md and docs/sizing.md: scripts/readme_table.py FOLDER.
 
 FOLDER holds quick.json and quick.txt, result and table of configs/quick.json; street.json and street.txt, those of
-`clusterbench run scenes/street.glb`; and street-size.txt, what `clusterbench size` says of one of its cases. An example in
-docs/results.md whose output is shown below it is run on street.json."""
+`clusterbench run scenes/street.glb`; and street-size.txt, what `clusterbench size` says of one of its cases. Examples in
+docs/results.md whose output is marked are run on street.json, with the program of build/release."""
 import json
+import os
 import pathlib
 import re
 import subprocess
@@ -124,14 +125,18 @@ def whole_case(lines):
     return "```cpp\n" + "\n".join(lines[start:lines.index("}", start) + 1]) + "\n```"
 
 
-def choice(result_path):
-    """What the example in docs/results.md that chooses a case prints."""
+def example(name, result_path):
+    """What the commands above a mark in docs/results.md print, with the result as result.json."""
     page = (ROOT / "docs" / "results.md").read_text()
-    shell = re.search(r"```sh\n([^`]*)```\n\n<!-- choice -->", page)[1]
+    shell = re.search(r"```sh\n([^`]*)```\n\n<!-- " + name + " -->", page)[1]
+    program = ROOT / "build" / "release"
     with tempfile.TemporaryDirectory() as folder:
         (pathlib.Path(folder) / "result.json").write_text(result_path.read_text())
-        out = subprocess.run(["bash", "-euc", shell], cwd=folder, check=True, capture_output=True, text=True).stdout
-    return block(out.splitlines())
+        done = subprocess.run(["bash", "-euc", shell], cwd=folder, env={**os.environ, "PATH": f"{program}:{os.environ['PATH']}"},
+                              check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    if done.returncode:
+        sys.exit(f"docs/results.md, the commands above <!-- {name} -->: {done.stdout}")
+    return block(done.stdout.splitlines())
 
 
 def main():
@@ -147,7 +152,8 @@ def main():
     put(readme, "size", size(constants))
     put(ROOT / "docs" / "sizing.md", "size", whole_case(constants))
     results = ROOT / "docs" / "results.md"
-    put(results, "choice", choice(folder / "street.json"))
+    for name in ("choice", "ratio"):
+        put(results, name, example(name, folder / "street.json"))
     put(results, "quick", block(table_of(folder / "quick.txt")))
 
 
