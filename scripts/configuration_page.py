@@ -6,9 +6,12 @@ import pathlib
 import re
 import subprocess
 import sys
+import textwrap
 
 PAGE = pathlib.Path(__file__).resolve().parent.parent / "docs" / "configuration.md"
 HEAD = "| key | value | unit | default | example | meaning |\n|---|---|---|---|---|---|\n"
+HEAD_OF_METHODS = HEAD.replace("unit", "of")
+LONG = 125  # a longer meaning continues below the table
 
 # Table -> objects of the schema, each with what stands before its keys.
 TABLES = {
@@ -79,12 +82,24 @@ def described(root, schema):
 
 
 def code(value):
+    if isinstance(value, float) and value.is_integer():
+        value = int(value)
     return f"`{json.dumps(value, ensure_ascii=False)}`"
 
 
-def row(name, value, schema, default, example):
-    cells = [f"`{name}`", value, schema.get("x-unit", ""), default, example, schema.get("description", "")]
-    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |\n"
+def row(name, value, unit, default, example, meaning, of=""):
+    """A row of a table, and what has no room in it."""
+    first, rest = re.fullmatch(r"(.*?\.)(?: (.*))?", meaning).groups() if len(meaning) > LONG else (meaning, "")
+    cells = [f"`{name}`", value, unit or of, default, example, first]
+    owner = f" of {of}" if of and not of.startswith("all but") else ""
+    note = f"- `{name}`{owner}: {rest}\n" if rest else ""
+    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |\n", note
+
+
+def with_notes(rows):
+    notes = "".join(dict.fromkeys(textwrap.fill(note, 130, subsequent_indent="  ", break_on_hyphens=False, break_long_words=False) + "\n"
+                                  for _, note in rows if note))
+    return "".join(line for line, _ in rows) + ("\n" + notes if notes else "")
 
 
 def default_text(name, schema, required):
@@ -96,7 +111,7 @@ def default_text(name, schema, required):
 
 
 def key_rows(root, prefix, owner):
-    rows = ""
+    rows = []
     for key, schema in owner["properties"].items():
         full = described(root, schema)
         example = f"`{json.dumps(key)}: {json.dumps(schema['examples'][0])}`"
@@ -105,7 +120,8 @@ def key_rows(root, prefix, owner):
         users = ", ".join(f"`{user}`" for user in schema.get("x-used-by", []))
         if users:
             full = dict(full, description=f"{full['description']} Used by {users}.")
-        rows += row(prefix + key, value, full, default_text(key, full, key in owner.get("required", [])), example)
+        rows.append(row(prefix + key, value, full.get("x-unit", ""), default_text(key, full, key in owner.get("required", [])), example,
+                        full.get("description", "")))
     return rows
 
 
@@ -120,21 +136,30 @@ def other_value(schema):
     return int(twice) if twice == int(twice) else twice
 
 
+def those(methods, all_of_part):
+    """The methods that have a parameter, in as few names as possible."""
+    others = [name for name in all_of_part if name not in methods]
+    return "all but " + ", ".join(others) if len(others) < len(methods) and len(methods) > 3 else ", ".join(methods)
+
+
 def method_rows(root):
     """A parameter that several methods have alike stands once."""
-    rows = {}
+    rows, all_of = {}, {}
     for part in ("assigners", "storages"):
-        for method in root["properties"][part]["items"]["anyOf"][-1]["oneOf"]:
+        every = root["properties"][part]["items"]["anyOf"][-1]["oneOf"]
+        all_of[part] = [method["properties"]["name"]["const"] for method in every]
+        for method in every:
             for key, schema in method["properties"].items():
                 if key == "name":
                     continue
-                methods = rows.setdefault((key, json.dumps(schema, sort_keys=True)), (schema, []))[1]
+                methods = rows.setdefault((key, json.dumps(schema, sort_keys=True)), (schema, [], part))[1]
                 methods.append(method["properties"]["name"]["const"])
-    text = ""
-    for (key, _), (schema, methods) in rows.items():
-        full = dict(schema, description=f"{schema['description']}. Of {', '.join(methods)}.")
+    text = []
+    for (key, _), (schema, methods, part) in rows.items():
+        meaning = schema["description"][0].upper() + schema["description"][1:] + "."
         example = f"`{json.dumps({'name': methods[0], key: other_value(schema)})}`"
-        text += row(key, value_text(root, schema), full, code(schema["default"]), example)
+        text.append(row(key, value_text(root, schema), "", code(schema["default"]), example, meaning,
+                        those(methods, all_of[part])))
     return text
 
 
@@ -156,13 +181,13 @@ def page_text(root, page):
                if pointer not in known and not re.match("/properties/(assigners|storages)/", pointer)]
     if missing:
         sys.exit(f"{PAGE.name} has no table for {', '.join(missing)}: add it to TABLES")
-    tables = {name: "".join(key_rows(root, prefix, at(root, pointer)) for prefix, pointer in parts)
+    tables = {name: HEAD + with_notes([line for prefix, pointer in parts for line in key_rows(root, prefix, at(root, pointer))])
               for name, parts in TABLES.items()}
-    tables["methods"] = method_rows(root)
-    for name, rows in tables.items():
+    tables["methods"] = HEAD_OF_METHODS + with_notes(method_rows(root))
+    for name, table in tables.items():
         mark = f"<!-- keys: {name} -->\n"
         head, rest = page.split(mark)
-        page = head + mark + "\n" + HEAD + rows + "\n<!-- end of keys -->" + rest.split("<!-- end of keys -->", 1)[1]
+        page = head + mark + "\n" + table + "\n<!-- end of keys -->" + rest.split("<!-- end of keys -->", 1)[1]
     return page
 
 

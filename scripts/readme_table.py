@@ -1,12 +1,17 @@
 #!/usr/bin/env python3
-"""Puts measured tables into README.md and docs/results.md: scripts/readme_table.py FOLDER.
+"""Puts measured tables and figures into README.md, docs/results.md and docs/sizing.md: scripts/readme_table.py FOLDER.
 
-FOLDER holds quick.txt, the table of configs/quick.json; street.json and street.txt, result and table of
-`clusterbench run scenes/street.glb`; and street-size.txt, what `clusterbench size` says of one of its cases."""
+FOLDER holds quick.json and quick.txt, result and table of configs/quick.json; street.json and street.txt, those of
+`clusterbench run scenes/street.glb`; and street-size.txt, what `clusterbench size` says of one of its cases. Examples in
+docs/results.md whose output is marked are run on street.json, with the program of build/release."""
 import json
+import os
 import pathlib
 import re
+import subprocess
 import sys
+import tempfile
+import textwrap
 
 from peers_table import put, timing_of
 
@@ -81,8 +86,64 @@ def methods(lines):
     return block("".join(row[slice(*spans[name])] for name in wanted) for row in rows)
 
 
+def with_exact(name, result):
+    """Of each scene and frustum grid the case of a method and that of `exact-fast`."""
+    groups = {}
+    for case in result["cases"]:
+        if case["assigner"]["label"] in (name, "exact-fast") and case["grid"]["kind"] == "frustum":
+            groups.setdefault((case["scene"], case["grid"]["name"]), {})[case["assigner"]["label"]] = case
+    return [(group[name], group["exact-fast"]) for group in groups.values()]
+
+
+def times_as_long(pairs):
+    return [frame_us(exact) / frame_us(other) for other, exact in pairs]
+
+
+def excess_percent(pairs):
+    return [100 * other["error"]["excess_ratio"] for other, _ in pairs]
+
+
+def span(values, form):
+    low, high = (format(value, form) for value in (min(values), max(values)))
+    return low if low == high else f"{low} to {high}"
+
+
+def headline(quick, street):
+    """What the picture shows, in words, and where it holds. Fails where the figures no longer say so."""
+    loose, boxes = with_exact("bounds-fast", quick), with_exact("aabb-fast", quick)
+    elsewhere = [pair for pair in with_exact("bounds-fast", street) if pair[0]["grid"]["name"] == GRID]
+    if max(times_as_long(loose)) > 1.6 or any(exact["error"]["false_positives"] for _, exact in loose + elsewhere):
+        sys.exit("exact lists no longer cost little more than loose ones: write another conclusion below README.md's picture")
+    text = (f"**Exact lists cost little more than loose ones.** On these {len(loose)} levels, with tiles of 64 pixels and 16 "
+            f"slices, `exact-fast` has no false positives. It takes {span(times_as_long(boxes), '.2f')} times as long as `aabb-fast`, "
+            f"which has {span(excess_percent(boxes), '.0f')} % false positives, and {span(times_as_long(loose), '.2f')} times as long as "
+            f"`bounds-fast`, which has {span(excess_percent(loose), '.0f')} %; {span(times_as_long(elsewhere), '.1f')} times on the fewer "
+            "cells of the second table below. Filled marks use SIMD, hollow ones plain code.")
+    return textwrap.fill(text, 130, break_on_hyphens=False)
+
+
 def size(lines):
     return "```cpp\n" + "\n".join(line for line in lines if line.startswith(("//   ", "inline constexpr"))) + "\n```"
+
+
+def whole_case(lines):
+    """From the case's name to the end of its constants."""
+    start = next(at for at, line in enumerate(lines) if line.startswith("//   ")) - 1
+    return "```cpp\n" + "\n".join(lines[start:lines.index("}", start) + 1]) + "\n```"
+
+
+def example(name, result_path):
+    """What the commands above a mark in docs/results.md print, with the result as result.json."""
+    page = (ROOT / "docs" / "results.md").read_text()
+    shell = re.search(r"```sh\n([^`]*)```\n\n<!-- " + name + " -->", page)[1]
+    program = ROOT / "build" / "release"
+    with tempfile.TemporaryDirectory() as folder:
+        (pathlib.Path(folder) / "result.json").write_text(result_path.read_text())
+        done = subprocess.run(["bash", "-euc", shell], cwd=folder, env={**os.environ, "PATH": f"{program}:{os.environ['PATH']}"},
+                              check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    if done.returncode:
+        sys.exit(f"docs/results.md, the commands above <!-- {name} -->: {done.stdout}")
+    return block(done.stdout.splitlines())
 
 
 def main():
@@ -90,10 +151,17 @@ def main():
         sys.exit(__doc__)
     folder = pathlib.Path(sys.argv[1])
     readme = ROOT / "README.md"
-    put(readme, "grids", grids(json.loads((folder / "street.json").read_text())))
+    quick, street = (json.loads((folder / f"{name}.json").read_text()) for name in ("quick", "street"))
+    put(readme, "headline", headline(quick, street))
+    put(readme, "grids", grids(street))
     put(readme, "methods", methods(table_of(folder / "street.txt")))
-    put(readme, "size", size((folder / "street-size.txt").read_text().splitlines()))
-    put(ROOT / "docs" / "results.md", "quick", block(table_of(folder / "quick.txt")))
+    constants = (folder / "street-size.txt").read_text().splitlines()
+    put(readme, "size", size(constants))
+    put(ROOT / "docs" / "sizing.md", "size", whole_case(constants))
+    results = ROOT / "docs" / "results.md"
+    for name in ("choice", "ratio"):
+        put(results, name, example(name, folder / "street.json"))
+    put(results, "quick", block(table_of(folder / "quick.txt")))
 
 
 if __name__ == "__main__":

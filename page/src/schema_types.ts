@@ -5,23 +5,23 @@ export type SampleSet = {
   samples: number; // Points of the set [samples]
   evaluated: number; // Lights that the light structure gives at the samples [lights]
   needed: number; // Lights that reach the samples [lights]
-  missed: number; // Of those, not given by the light structure, whatever the reason: no pair, dropped, or outside of the grid [lights]
+  missed: number; // Of needed, those that the light structure does not give, for any reason: no pair, dropped, or outside of the grid [lights]
   lost_irradiance: number | null; // Share of the irradiance (lux, on a surface that faces the light) that missed lights carry: intensity times the colour's luminance (Rec. 709), attenuated as KHR_lights_punctual has it, with the range's window and a spot's falloff. Without directional lights [share of 1]
   missed_in_cells?: number; // Of missed, at samples inside of the grid: the cell lacks the light, or its storage dropped it [lights]
   missed_outside?: number; // Of missed, at samples outside of the grid, mostly beyond its far end [lights]
   unlit: number | null; // missed / needed, 0 to 1; null where nothing is needed [share of 1]
   worst_frame?: {
-    frame: number; // Of the path [frame, over one frame]
-    missed: number; // At this frame's samples [lights, over one frame]
-    needed: number; // At this frame's samples [lights, over one frame]
+    frame: number; // Number of the frame on the camera's path, from 0 [frame, over one frame]
+    missed: number; // Missed lights at this frame's samples [lights, over one frame]
+    needed: number; // Needed lights at this frame's samples [lights, over one frame]
   }; // The frame that misses most; absent where none is missed
   overshade: number | null; // evaluated / needed over all samples; null where it cannot be compared: fewer than 100 lights are needed, or more than 0.001 of them are missed [ratio]
   unanswered?: number; // Samples at which the light structure has no answer: outside of its cells, beside the picture, behind the eye [samples]
   lost_lux?: number | null; // Irradiance that missed lights carry, mean over the samples [lx]
   darkest?: {
-    frame: number; // Of the path [frame, over one sample]
-    pixel?: [number, number]; // Where the picture shows it, from the top left; absent behind the eye [px, over one sample]
-    lost_lux: number | null; // That it loses [lx, over one sample]
+    frame: number; // Number of the frame on the camera's path, from 0 [frame, over one sample]
+    pixel?: [number, number]; // Its position in the picture, from the top left; absent behind the eye [px, over one sample]
+    lost_lux: number | null; // Irradiance that the sample loses [lx, over one sample]
   }; // The sample that loses most light; absent where none is lost
   waves?: Array<{
     lanes: number; // Pixels of a wave: 32 (8 x 4) or 64 (8 x 8) [pixels, over one wave]
@@ -39,13 +39,13 @@ export type SampleSet = {
 };
 
 export type Tool = {
-  version: string; // Of clusterbench
+  version: string; // Version of clusterbench
   git_sha: string; // Commit that was built; with + where files differed from it
   compiler: string; // Name and version
-  flags: string; // The compiler's
-  build_type: string; // CMake's; only Release gives times worth comparing
+  flags: string; // The compiler's flags
+  build_type: string; // CMake's build type; only Release gives times worth comparing
   simd_target: string; // Instruction set that Highway chose
-  libraries: Record<string, string>; // Version of each
+  libraries: Record<string, string>; // Version of each library
 };
 
 // Percentiles are nearest-rank: values that occur
@@ -64,7 +64,7 @@ export type MeanMax = {
 
 export type HighWater = {
   high_water: number; // Largest of all frames
-  theoretical_max: number; // Where every light reached every cell
+  theoretical_max: number; // If every light were in every cell
   recommended: number; // What to allocate: high water x allocation.margin of the configuration, at most theoretical_max
 };
 
@@ -81,34 +81,34 @@ export type Vector = [number, number, number];
 export type FramesPerEntry = number;
 
 export type Churn = {
-  total: number; // Of all steps
-  mean: number | null; // Per step
-  max: number; // In the step with most
+  total: number; // Sum over all steps
+  mean: number | null; // Mean per step
+  max: number; // In the step with the most
 };
 
 export type Time = {
   median: number | null; // Median
   mad: number | null; // Median absolute deviation
-  min: number | null; // Of the fastest round
+  min: number | null; // Time of the fastest round
   p95: number | null; // 95th percentile
   ci95: Interval; // 95 % interval of the median
   samples: Array<number | null>; // One per round, in the order measured
 };
 
 export type PerFrame = {
-  assign: number; // Of the assignment, with the builds that the frames need
-  convert?: number; // Of the conversion to the storage; absent where a method leaves its own structure
+  assign: number; // Instructions of assignment, with the builds that the frames need
+  convert?: number; // Instructions of conversion to the storage; absent where a method leaves its own structure
 };
 
 // What `clusterbench run` writes. x-unit and x-over of a number, or of what holds it: its unit, and what it is taken over. x-written: keys that this version always writes, and that older results of the same schema_version may lack. null: not a number.
 export type Result = {
   schema_version: 2; // Grows whenever a name or a meaning changes [version, over the file]
-  name: string; // Of the configuration
+  name: string; // The configuration's name
   date?: string; // When the run began: UTC, ISO 8601. Absent where nothing is timed, so that such results are the same whenever they are made
   command?: string; // The command line. Absent where nothing is timed
   tool: Tool; // The program that measured
   baseline?: {
-    tool: Tool; // As of this result's own program
+    tool: Tool; // As `tool` of this result's own program
   }; // The other program of run --baseline-binary
   machine: {
     cpu: string; // The processor's name
@@ -125,102 +125,102 @@ export type Result = {
     load?: {
       begin: number; // Just before the run
       end: number; // Just after; a run adds its own threads
-    }; // How busy the machine was: programs that run or wait to. Absent where nothing is timed [programs, over one minute, the machine]
+    }; // Programs that run or wait to run. Absent where nothing is timed [programs, over one minute, the machine]
     os: string; // System, kernel and architecture
   }; // Where it was measured
   config: {
     allocation: {
-      margin: number; // What is allocated, by the high-water mark [ratio, over all cases]
-      warn_at: number; // The share of it from which on to warn [share of 1, over all cases]
+      margin: number; // What is allocated / the high-water mark [ratio, over all cases]
+      warn_at: number; // Share of the allocation above which to warn [share of 1, over all cases]
     }; // What `recommended` is made with; `clusterbench size` goes by it
   }; // The configuration with every default (`clusterbench schema config`)
   scenes: Array<{
-    name: string; // As in the names of cases: the file's, without its extension
-    sha256: string; // Of the file, with all that it refers to; of a made scene, of what it was made from
+    name: string; // Name in the names of cases: the file's, without its extension
+    sha256: string; // Hash of the file and of all files that it refers to; of a scene made in memory, of its lights
     lights: {
       point: number; // Point lights
       spot: number; // Spot lights
       directional: number; // Directional lights: they reach everything and are never assigned
       box: number; // Oriented boxes, from extras
     }; // By type [lights, over the scene]
-    frames: number; // Over all camera paths [frames, over the scene]
+    frames: number; // Frames of all camera paths together [frames, over the scene]
     range_rule: {
       cutoff_lux: number | null; // A light without a range ends where its illuminance falls to this [lux, over each light]
-      max_range: number | null; // And no later than this [m, over each light]
-      given: number; // With a range in the file [lights, over the scene]
-      from_intensity: number; // Without one: it is made from the intensity [lights, over the scene]
-      clamped: number; // With a range that was cut to max_range [lights, over the scene]
+      max_range: number | null; // Largest range that such a light gets [m, over each light]
+      given: number; // Lights with a range in the file [lights, over the scene]
+      from_intensity: number; // Lights without a range, which got one from their intensity [lights, over the scene]
+      clamped: number; // Lights whose range was cut to max_range [lights, over the scene]
       ranges?: {
         least: number; // Shortest
         median: number; // Middle
         greatest: number; // Longest
-      }; // The ranges that were measured with, given or made; of lights that have an end. Absent where none has [m, over the scene]
+      }; // Ranges that were used, of all lights with an end. Absent where no light has one [m, over the scene]
     }; // Where lights' ranges come from
-    warnings: string[]; // For people: what is odd about the scene
+    warnings: string[]; // What is unusual about the scene, as text
     rig?: {
-      lights: number; // How many [lights, over the scene]
+      lights: number; // Number of lights [lights, over the scene]
       spots: number; // Share of spots [share of 1, over the lights]
-      range: number; // Of each light [m, over each light]
-      size: [number, number, number]; // Of the room, [x, y, z] [m, over the scene]
-      seed: number; // Of the random numbers [seed, over the scene]
-    }; // What it was made from, where it is no file
+      range: number; // Range of each light [m, over each light]
+      size: [number, number, number]; // Size of the box, [x, y, z] [m, over the scene]
+      seed: number; // Seed of the random numbers [seed, over the scene]
+    }; // Settings of a scene that was made in memory; absent for files
   }>;
   cases: Array<{
     id: string; // Stable over runs and machines: hash of everything that identifies the case
     settings?: string; // The same but for the contents of the scene's file: stable while a level changes
     name: string; // scene/camera/grid/assigner/storage, and the precision where it is not float32
     scene: string; // Name of one of scenes
-    camera: string; // Name in the scene, or of the path that was made
+    camera: string; // Name in the scene, or of the path that was made because the scene has no camera
     viewport: [number, number]; // [width, height] [pixels, over the case]
-    frames: number; // Of the camera's path [frames, over the case]
+    frames: number; // Frames of the camera's path [frames, over the case]
     grid: {
       kind: "frustum" | "distance" | "cascades" | "world"; // How space is cut: docs/grids-and-lookups.md
       name: string; // Kind, tiles and slices in words, as in names of cases
-      cells: [number, number, number]; // How many, [x, y, z]; of cascades, of all levels behind each other in z [cells, over the grid]
+      cells: [number, number, number]; // Number of cells, [x, y, z]; z of cascades counts the cells of all levels [cells, over the grid]
       tiles?: {
         count?: [number, number]; // [columns, rows] of the screen [tiles, over the screen]
         pixels?: [number, number]; // [width, height] of a tile [pixels, over one tile]
-      }; // One of the two, as asked for. frustum, distance
+      }; // Of frustum and distance grids: count or pixels, as the configuration has it
       slices?: {
         scheme: string; // As the configuration has it
         boundaries: number[]; // Near to far, one more than slices: of depth, of distance grids of the distance from the eye [m, over the grid]
         lookup: {
           form: "linear" | "log2" | "search"; // slice = int(depth * scale + bias), int(log2(depth) * scale + bias), or a search in boundaries
           scale?: number; // Factor of the lookup [slices per m, or per doubling, over the grid]
-          bias?: number; // Added after it [slices, over the grid]
-          first?: number; // Depth below which a sample is in slice 0, where that is cut apart [m, over the grid]
+          bias?: number; // Added after scale [slices, over the grid]
+          first?: number; // Depth below which a sample is in slice 0; absent where the formula holds for slice 0, too [m, over the grid]
         }; // A shader's way from depth to slice
-      }; // frustum, distance
-      note?: string; // What else to know of the slices
-      levels?: number; // Nested boxes. cascades [levels, over the grid]
-      finest?: number; // Edge of a cell of the first level; each further level doubles it. cascades [m, over the grid]
-      origin?: Vector; // World place of the grid's zero. world [m, over the grid]
+      }; // Of frustum and distance grids
+      note?: string; // What to know about the slices, as text: where they end if nothing names a far plane, or that fit slices are those of the last frame
+      levels?: number; // Of cascades: number of nested boxes [levels, over the grid]
+      finest?: number; // Of cascades: edge of a cell of the first level; each further level doubles it [m, over the grid]
+      origin?: Vector; // Of world grids: position in the world that bounds are relative to [m, over the grid]
       bounds?: {
         min: Vector; // Lowest corner
         max: Vector; // Highest corner
-      }; // From the origin. world [m, over the grid]
-      cell_size?: Vector; // Mean edge of a cell. world [m, over the grid]
+      }; // Of world grids: the box, relative to the origin [m, over the grid]
+      cell_size?: Vector; // Of world grids: edges of a cell [m, over the grid]
     }; // The grid, with the constants of a shader's lookup
     assigner: {
       name: string; // As `clusterbench list` has it
       label: string; // Name with the parameters that differ from their defaults
       params: Record<string, unknown>; // All parameters, with their defaults
       conservative: boolean; // Never misses a true pair; a miss fails the run. False on packed lights that are not inflated
-      exact: boolean; // And reports nothing that is not true
+      exact: boolean; // Conservative, and lists nothing that is not true
     }; // The method that fills the lists
     storage: string; // What the lists are kept in; own: the assigner leaves a light structure of its own, without lists
     failures: Array<{
       kind: "lost_pairs" | "extra_pairs" | "lost_at_samples" | "dropped_pairs"; // Of a conservative or exact method: lost_pairs in lists, lost_at_samples without cells. extra_pairs: of an exact one. dropped_pairs: beyond limits.dropped_pairs of the configuration
-      text: string; // For people, without the case's name
-    }>; // What the case fails its run for; none: it passes
+      text: string; // The same for people, without the case's name
+    }>; // Why the case fails the run; empty: it passes
     warnings: Array<{
       kind: "dropped_pairs" | "unlit" | "undecided" | "lost_pairs" | "unchecked"; // dropped_pairs: the storage was full. unlit: more than 0.001 of the lights that samples need are not given. undecided: pairs that exact arithmetic left open. lost_pairs: of a method that is not conservative. unchecked: no truth to hold the lists against
-      text: string; // For people, without the case's name
-    }>; // What to know of the case before its figures are believed, beside its failures
+      text: string; // The same for people, without the case's name
+    }>; // What to know about the case before believing its figures, beside its failures
     loses_lights: boolean; // Whether a shader lacks lights: pairs that are not listed or were dropped, lights that samples of a structure without cells miss, or more than 0.001 of those that samples need
     eligible: boolean; // Whether it may stand on the Pareto front, and be the best that others are measured by: it fails nothing and loses no lights (loses_lights)
     tests_done: number; // Over all frames: cells, rows of cells, lights or planes, whichever a method looks at one by one; a method that looks at many at a time counts otherwise than its scalar reference [tests, over all frames]
-    fallbacks: number; // That the method could not decide in single precision and decided at greater cost [pairs, over all frames]
+    fallbacks: number; // Pairs that the method could not decide in single precision and decided at greater cost [pairs, over all frames]
     occupancy?: {
       pairs: Spread; // (cell, light) pairs of a frame [pairs, over all frames]
       lights_per_cell: {
@@ -235,11 +235,11 @@ export type Result = {
         }; // Cells by the length of their lists
       }; // Lights in a cell's list; percentiles are nearest-rank [lights, over all cells of all frames]
       occupied_fraction: Spread; // Share of the cells with a light [share of 1, over all frames]
-      worst_frame: number; // That has the longest list [frame, over the path]
-      worst_cell: Cell; // That has it
+      worst_frame: number; // Frame with the longest list [frame, over the path]
+      worst_cell: Cell; // Cell with the longest list
       along_path: {
         frames_per_entry: FramesPerEntry;
-        pairs: number[]; // Of the frame [pairs]
+        pairs: number[]; // Pairs (cell, light) of each frame [pairs]
         longest_list: number[]; // In the fullest cell of the frame [lights]
       }; // Frame by frame [over each frame]
     }; // How full the grid's cells are; absent without cells
@@ -249,7 +249,7 @@ export type Result = {
       index_bits: number; // Of an entry: a light index, a word of a bitfield or of tile masks, a node of linked lists or of a hierarchy [bits, over one entry]
       header_bytes: number; // Of bytes, those whose number does not depend on the lights: offsets and counts of the cells [bytes, over one frame]
       upload_bytes: {
-        mean: number | null; // Per frame
+        mean: number | null; // Mean per frame
         max: number; // Of the frame with most
       }; // What a frame would send to a GPU [bytes, over all frames]
       used_share: MeanMax; // Entries that a frame uses, of index_entries.recommended [share of 1, over all frames]
@@ -270,8 +270,8 @@ export type Result = {
     error?: {
       true_pairs: number; // (cell, light) pairs that touch, decided exactly [pairs]
       reported_pairs: number; // In the method's lists [pairs]
-      false_positives: number; // Reported and not true [pairs]
-      false_negatives: number; // True and not reported [pairs]
+      false_positives: number; // Pairs that are listed and not true [pairs]
+      false_negatives: number; // True pairs that are not listed [pairs]
       excess_ratio: number | null; // false_positives / true_pairs [share of 1]
       miss_ratio: number | null; // false_negatives / true_pairs [share of 1]
       deepest_miss: number | null; // Largest 1 - d/r: the cell's distance from the light d, its range r. 0 without misses [share of the light's range, over the misses]
@@ -282,7 +282,7 @@ export type Result = {
         exact: number; // Decided or proven in exact arithmetic
       }; // How the truth was found [pairs]
       deepest?: {
-        frame: number; // Of the path [frame, over one miss]
+        frame: number; // Number of the frame on the camera's path, from 0 [frame, over one miss]
         cell: Cell;
         light: number; // Index in the lists [light index, over one miss]
         rig_light: number; // Its place among all lights of the scene [light index, over one miss]
@@ -316,45 +316,45 @@ export type Result = {
       path: string; // Where the steps come from
       grids: number; // Grids made along the steps; with more than one, cells themselves move [grids, over the steps]
       changed: {
-        method: Churn; // Of the assigner's lists
-        truth: Churn; // Of the true lists
+        method: Churn; // In the method's lists
+        truth: Churn; // In the true lists
       }; // Pairs (cell, light) added or removed from one step to the next
       flickers: {
-        method: number; // Of the assigner's lists
-        truth: number; // Of the true lists
+        method: number; // In the method's lists
+        truth: number; // In the true lists
       }; // Changes that undo the same pair's change at most `window` steps before, over all steps [changes, over the steps]
       excess_churn: {
         pairs: number; // Below 0 where the truth has more [pairs]
-        ratio: number | null; // By the truth's; null where the truth has none [ratio]
+        ratio: number | null; // Divided by those of the truth; null where the truth has none [ratio]
       }; // Changes of the method less those of the truth [over the steps]
       excess_flickers: {
         count: number; // Below 0 where the truth has more [changes]
-        ratio: number | null; // By the truth's; null where the truth has none [ratio]
+        ratio: number | null; // Divided by those of the truth; null where the truth has none [ratio]
       }; // Flickers of the method less those of the truth [over the steps]
       undecided: number; // Pairs of the truth that exact arithmetic left undecided, over all steps; counted as true [pairs, over the steps]
     }; // Lists along a piece of the path in fine steps, beside the true lists; where the configuration asks for it
     precision?: {
       packing: "float32" | "half" | "unorm16"; // How lights are packed before the assigner sees them
       inflate: boolean; // Each light is grown by what packing can have lost. Without it a packed case's assigner is not conservative, and misses do not fail the run
-      label: string; // The packing, and +inflate
-      position_error_m: MeanMax; // Of the place after unpacking, against the scene's own numbers, over all lights of all frames [m, over the lights of all frames]
+      label: string; // The packing's name, with +inflate if lights are inflated
+      position_error_m: MeanMax; // Distance of the unpacked position from the scene's own [m, over the lights of all frames]
       range_error_m: MeanMax; // By how much ranges are too long: they are rounded up [m, over the lights of all frames]
-      axis_error_rad: MeanMax; // Of spots; null where there is none [rad, over the spots of all frames]
-      angle_error_rad: MeanMax; // Of the spots' half-angle; null where there is none [rad, over the spots of all frames]
+      axis_error_rad: MeanMax; // Error of spots' axes; null where there is no spot [rad, over the spots of all frames]
+      angle_error_rad: MeanMax; // Error of spots' half-angles; null where there is no spot [rad, over the spots of all frames]
       safe_inflation_m: MeanMax; // How far a packed volume can be from the exact one, from the unpacked numbers alone: bound of the place, and for spots the bounds of axis and angle times the range. Growing by it is enough [m, over the lights of all frames]
       unrepresentable: {
-        lights: number; // Most in one frame [lights, over all frames]
-        frames: number; // With at least one [frames, over all frames]
+        lights: number; // Most such lights in one frame [lights, over all frames]
+        frames: number; // Frames with at least one such light [frames, over all frames]
       }; // Lights that the format cannot hold: without end; in half a coordinate or range beyond 65504 m. They stay in float32 here; an engine's conversion makes them infinite or cuts them off
       extra_pairs?: {
-        mean: number | null; // Per frame [pairs, over all frames]
-        ratio: number | null; // By those in float32 [ratio, over all frames]
-      }; // Pairs against the same case in float32; null where there is none
+        mean: number | null; // Mean per frame [pairs, over all frames]
+        ratio: number | null; // Extra pairs / pairs in float32 [ratio, over all frames]
+      }; // Pairs more than the same case in float32; null where there is no such case
     }; // How precisely the assigner gets its lights; where the configuration asks for more than float32
     timing?: {
       frames_timed: number; // Evenly spaced over the path; all times but that of worst_frame are means over them [frames, over the path]
       caches?: "cold" | "warm"; // Of frame_ns, assign_ns, convert_ns, worst_frame and against_first. cold: swept before each frame, as all else of an engine's frame does; warm: the same frames again and again. Absent in older results: warm
-      session?: string; // The same in cases that the same launches have measured, one after the other; times of two sessions are never taken side by side
+      session?: string; // Equal in cases that the same launches have measured; only their times have ratios
       launches?: number; // Processes that measured, each an equal share of every array of samples, one after the other. From two on all 95 % intervals are between launches (Student's t on the logarithms of the launches' medians), else they are bootstrap intervals over the rounds of one process [processes, over the case]
       warm?: {
         frame_ns: Time; // Per frame: assign_ns and convert_ns
@@ -372,14 +372,14 @@ export type Result = {
       }; // What else went on while the cases of this grid, camera and viewport were measured, over all launches [over the measuring of the group]
       frame_ns: Time; // Per frame: what a frame takes, assign_ns and convert_ns of the same round together
       worst_frame?: {
-        frame: number; // Of the path [frame, over the path]
-        ns: number | null; // As frame_ns, of this frame alone, median over the rounds; of warm times its share of a pass over the timed frames [ns, over the rounds]
-        ci95: Interval; // Of ns [ns, over the rounds]
-        pairs?: number; // (cell, light) of this frame; absent without cells [pairs, over one frame]
+        frame: number; // Number of the frame on the camera's path, from 0 [frame, over the path]
+        ns: number | null; // Time of this frame alone, median over the rounds; of warm times its share of a pass over the timed frames [ns, over the rounds]
+        ci95: Interval; // 95 % interval of ns [ns, over the rounds]
+        pairs?: number; // Pairs (cell, light) of this frame; absent without cells [pairs, over one frame]
       }; // The slowest of the timed frames and of the path's frame with the most pairs, which is timed beside them
       pairs?: {
-        mean: number | null; // Per frame
-        max: number; // Of a frame
+        mean: number | null; // Mean per frame
+        max: number; // Largest of a frame
       }; // (cell, light) pairs of the timed frames, which frame_ns goes with; absent without cells [pairs, over the timed frames]
       builds_per_frame?: number; // 0: the grid stays from frame to frame; 1: each frame has its own, as with fit slices or a projection that moves [builds, over the timed frames]
       build_ns: Time; // Per build: preparing for a grid, once for each projection
@@ -390,59 +390,59 @@ export type Result = {
       floor_ratio: number | null; // assign_ns by write_floor_ns, both with warm caches: how far the assignment is from only writing its result [ratio, over the rounds]
       baseline?: {
         launches: Array<{
-          base_ns: number[]; // Of the other program [ns, over the rounds of a launch]
-          new_ns: number[]; // Of this program [ns, over the rounds of a launch]
+          base_ns: number[]; // Times of the other program [ns, over the rounds of a launch]
+          new_ns: number[]; // Times of this program [ns, over the rounds of a launch]
         }>; // One for each start of both programs; times in the order of their rounds
-        base_ns: number | null; // Median [ns, over the rounds of all launches]
-        new_ns: number | null; // Median [ns, over the rounds of all launches]
-        ratio: number | null; // New / base: geometric mean of the launches' medians of paired ratios [ratio, over the launches]
-        ci95: Interval; // Of the ratio [ratio, over the launches]
+        base_ns: number | null; // Median of the other program's times [ns, over the rounds of all launches]
+        new_ns: number | null; // Median of this program's times [ns, over the rounds of all launches]
+        ratio: number | null; // New / base: exp of the trimmed mean over launches of ln(lower quartile of new_ns / lower quartile of base_ns) [ratio, over the launches]
+        ci95: Interval; // 95 % interval of the ratio [ratio, over the launches]
         lists_differ?: {
-          frames: number; // How many differ [frames, over all frames]
-          frame: number; // The first of them [frame, over the path]
-          cell: Cell; // The first that differs
-          light: number; // That one of both lists has [light index, over one cell]
+          frames: number; // Number of frames whose lists differ [frames, over all frames]
+          frame: number; // First frame whose lists differ [frame, over the path]
+          cell: Cell; // First cell whose list differs
+          light: number; // First light that only one of the two lists has [light index, over one cell]
           in: "base" | "new"; // Whose list has the light
-          base_pairs: number; // Of the other program [pairs, over all frames]
-          new_pairs: number; // Of this program [pairs, over all frames]
+          base_pairs: number; // Pairs of the other program [pairs, over all frames]
+          new_pairs: number; // Pairs of this program [pairs, over all frames]
         }; // Where both programs' lists first differ
       }; // Rounds beside another program (run --baseline-binary)
       against_first?: {
         assigner: string; // Label of the first assigner
         ratio: number | null; // This case's frame time by that of the group's first assigner in the same storage: median of the rounds' ratios [ratio, over the rounds]
-        ci95: Interval; // Of the ratio [ratio, over the rounds]
+        ci95: Interval; // 95 % interval of the ratio [ratio, over the rounds]
       }; // How much longer than the group's first assigner; absent of that one. A group: scene, camera, viewport and grid
     }; // Wall times
     details?: {
-      max_bytes: number; // What the configuration allows [bytes, over the case]
+      max_bytes: number; // Most bytes that the configuration allows [bytes, over the case]
       frames: Array<{
-        frame: number; // Of the path [frame, over the path]
-        time_s: number; // Of the animation [s, over the frame]
+        frame: number; // Number of the frame on the camera's path, from 0 [frame, over the path]
+        time_s: number; // Time of the animation [s, over the frame]
         camera: {
-          eye: [number, number, number]; // World space [m, over the frame]
+          eye: [number, number, number]; // Position in world space [m, over the frame]
           view_from_world: [[number, number, number], [number, number, number], [number, number, number]]; // Rows of the rotation: view = rotation (world - eye), looking down -z [1, over the frame]
-          orthographic: boolean; // Or perspective
+          orthographic: boolean; // true: orthographic; false: perspective
           sides: [number, number, number, number]; // Left, right, bottom, top of the image: slopes, or metres of an orthographic camera [slope, or m, over the frame]
           near_m: number; // Near plane [m, over the frame]
           far_m: number | null; // Far plane; null: infinite [m, over the frame]
         }; // Pose and projection
-        boundaries?: string; // Of the slices, where they are not those of the case's grid
+        boundaries?: string; // Boundaries of the slices, as a row of numbers; absent where they are those of the case's grid
         cells: {
           count: number; // Cells with a reported or a true light; all others are empty [cells, over the frame]
           indices: string; // Gaps of their indices, x fastest, then y, then z
           reported: string; // Lights in each cell's list
-          true: string; // Lights that reach it
-          false_positives: string; // Reported and not true
-          false_negatives: string; // True and not reported
-        }; // Rows of count numbers each. A row of numbers is a text: numbers stand apart by a blank, N*K is N repeated K times. Gaps: the first number, then what each is above the one before
+          true: string; // Lights that reach each cell
+          false_positives: string; // Lights in each cell's list that do not reach it
+          false_negatives: string; // Lights that reach each cell and are not in its list
+        }; // Rows of count numbers each. A row of numbers is a text: numbers are separated by one space, N*K is N repeated K times. Gaps: the first number, then the difference of each to the one before. docs/details.md has a reader
         lights: {
           indices: string; // Gaps of their indices in the lists
-          names: string[]; // In the scene, in the order of indices
-          positions: string; // x y z in view space
-          ranges: string; // In metres; Infinity: without end
-          spots: number; // So many of them, the last ones, are spots [lights, over the frame]
-          spot_axes: string; // x y z in view space
-          spot_half_angles: string; // In radians
+          names: string[]; // Names in the scene, in the order of indices
+          positions: string; // 3 numbers per light: x y z in view space, metres
+          ranges: string; // Ranges in metres; Infinity: without end
+          spots: number; // Number of spots: they are the last ones [lights, over the frame]
+          spot_axes: string; // 3 numbers per spot: unit vector in view space
+          spot_half_angles: string; // Half-angle of each spot's cone, radians
         }; // Lights in any list of the frame, reported or true, ascending by index; as rows of numbers
         pairs?: {
           lights: string; // Cell after cell (reported + false_negatives each) the gaps of its lights' indices, which start again in each cell
@@ -453,12 +453,12 @@ export type Result = {
         frames: number[]; // Frames for which max_bytes has no room [frame, over the path]
         pairs: number[]; // Frames that are here without their pairs, for which max_bytes has no room [frame, over the path]
         not_on_path: number[]; // Frames that the configuration names and the path does not have [frame, over the path]
-      }; // What is asked for and not here
+      }; // What was asked for and is not in the result
     }; // Chosen frames cell by cell
     count?: {
       source: "perf" | "callgrind"; // Hardware counters or valgrind's callgrind; compare counts of one source only
-      simd_target: string; // Of the counted code; callgrind shows a program fewer instruction sets than the machine has
-      frames: number; // The same that are timed [frames, over the path]
+      simd_target: string; // Instruction set of the counted code; callgrind offers fewer than the machine has
+      frames: number; // Frames that are counted: those that are timed [frames, over the path]
       instructions_per_build: number; // Preparation for a grid; as it may take memory, some tens of instructions depend on the heap [instructions, over one build]
       instructions_per_frame: PerFrame; // Instructions of one frame [instructions]
       cycles_per_frame?: PerFrame; // Cycles of one frame; absent where only instructions are counted [cycles]
@@ -466,10 +466,10 @@ export type Result = {
   }>; // One method on one grid in one storage, along one camera's path
   pareto_front: Array<{
     scene: string; // Name of one of scenes
-    ids: string[]; // Of its cases, in their order
+    ids: string[]; // Ids of the cases with a star, in the order of cases
   }>; // Per scene the cases on the Pareto front: no other one of the same camera and viewport is as good in frame time (beyond the interval of their ratio), bytes and overshade together, and better in one. Only cases that are eligible
   skipped: Array<{
-    name: string; // As of a case; its parts that all combinations share
-    reason: string; // For people
+    name: string; // As of a case, as far as all of the skipped combinations share it
+    reason: string; // Why, as text
   }>; // Combinations that cannot be
 };

@@ -161,7 +161,7 @@ const AssignerDescriptor exact_fast_descriptor{
     .kinds = {grid::Kind::frustum},
     .exact = true,
     .params = {{.name = "threads",
-                .summary = "threads for a frame; the lists do not depend on it",
+                .summary = "threads that share a frame; the lists do not depend on it",
                 .standard = 1.0,
                 .unit = "",
                 .min = 1.0,

@@ -173,8 +173,9 @@ const AssignerDescriptor naive_bounds_descriptor{
     .conservative = false,
     .naive = true,
     .params = {{.name = "flaw",
-                .summary = "slices by a natural logarithm where the lookup has log2; by a fast logarithm; cancelling "
-                           "tangents in single precision; whole tiles only; tile sizes rounded up",
+                .summary = "the mistake. log-slice: slices by a natural logarithm where the lookup has log2; "
+                           "fast-log-slice: by a fast logarithm; textbook-tangents: cancellation in single precision; "
+                           "tile-division: whole tiles only; padded-tiles: tile sizes rounded up",
                 .standard = std::string("log-slice"),
                 .unit = "",
                 .choices = {"log-slice", "fast-log-slice", "textbook-tangents", "tile-division", "padded-tiles"}}},

@@ -91,8 +91,8 @@ const AssignerDescriptor naive_cone_descriptor{
     .conservative = false,
     .naive = true,
     .params = {{.name = "flaw",
-                .summary = "sine of the angle from its cosine; no test against the range; the ball of a cone with a "
-                           "flat cap",
+                .summary = "the mistake. sine-from-cosine: the sine of the angle is computed from its cosine; "
+                           "no-range: no test against the range; flat-cap-ball: the ball of a cone with a flat cap",
                 .standard = std::string("sine-from-cosine"),
                 .unit = "",
                 .choices = {"sine-from-cosine", "no-range", "flat-cap-ball"}}},

@@ -53,8 +53,8 @@ void narrow(int& first, int& last, const geom::SphericalCone& cone, SideAt&& sid
 std::vector<ParamSpec> refinement_params() {
   return {
       {.name = "spot",
-       .summary = "spots: bounding ball of the cone; the range's ball and the cone against cells' bounding spheres; "
-                  "both; or both after narrowing the cell box by planes from six sides",
+       .summary = "how spots are tested. ball, cone-sphere, both: as for other methods; narrowing: both, after the box "
+                  "of cells is narrowed by planes from six sides",
        .standard = std::string("narrowing"),
        .unit = "",
        .choices = {"ball", "cone-sphere", "both", "narrowing"}},

@@ -8,21 +8,23 @@ ParamSpec spot_param() {
   return {
       .name = "spot",
       .summary =
-          "spots: the cone's bounding ball; the range's ball with the cone against cells' bounding spheres; or both",
+          "how spots are tested. ball: the ball around their cone; cone-sphere: the ball of their range, and the cone "
+          "against each cell's bounding sphere; both: a cell has to pass both",
       .standard = std::string("both"),
       .unit = "",
       .choices = {"ball", "cone-sphere", "both"}};
 }
 
 ParamSpec inflation_param() {
-  return {.name = "inflation",
-          .summary = "padding of the radius in units of the derived rounding error; below 1 lights can be lost",
-          .standard = 1.0,
-          .unit = "",
-          .min = 0.0,
-          .max = 1e6,
-          .choices = {},
-          .conservative_from = 1.0};
+  return {
+      .name = "inflation",
+      .summary = "padding of the light's radius, in units of the derived rounding error; below 1 lights can be lost",
+      .standard = 1.0,
+      .unit = "",
+      .min = 0.0,
+      .max = 1e6,
+      .choices = {},
+      .conservative_from = 1.0};
 }
 
 std::vector<ParamSpec> light_params() {

@@ -84,7 +84,7 @@ const StorageDescriptor fixed_descriptor{
         "first",
     .source = "DaveH355, three.js, PlayCanvas",
     .params = {{.name = "cap",
-                .summary = "lights per cell",
+                .summary = "room for lights in each cell",
                 .standard = 100.0,
                 .unit = "lights",
                 .min = 1.0,

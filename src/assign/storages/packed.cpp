@@ -159,13 +159,13 @@ const StorageDescriptor packed_descriptor{
     .summary = "offset and counts per cell (8 bytes), one tight index list for all cells",
     .source = "Persson 2015, Practical Clustered Shading",
     .params = {{.name = "index_bits",
-                .summary = "width of a light index; auto takes the narrowest that holds the rig",
+                .summary = "bits of a light index. auto: the fewest that can number all lights",
                 .standard = std::string("auto"),
                 .unit = "",
                 .choices = {"auto", "8", "16", "32"}},
                {.name = "headers",
-                .summary = "sparse: only for cells with lights, found through 8 bytes per 32 cells (mask and rank, "
-                           "Jacobson 1989)",
+                .summary = "cells that have a header. dense: all; sparse: those with lights, found through 8 bytes per "
+                           "32 cells (mask and rank, Jacobson 1989)",
                 .standard = std::string("dense"),
                 .unit = "",
                 .choices = {"dense", "sparse"}}},
