@@ -1,5 +1,23 @@
 // Made by types.mjs of src/config/schemas/result.schema.json: change that, and run `node types.mjs`.
 
+export type DepthLengths = {
+  tiles: number; // With a visible pixel, summed over the frames [tiles]
+  pixels: number; // In these tiles [pixels]
+  tiled: Lengths; // One list per tile, from its nearest to its farthest surface
+  tiled_2_5d: Lengths; // Of the 32 equal parts of that range, those that hold a surface (Harada 2012)
+  clusters: Lengths; // The slice of the pixel's cell
+  explicit_clusters: Lengths; // In the pixel's cell, from its nearest to its farthest surface
+};
+
+// Of depth, along the view's -z
+export type Lengths = {
+  mean: number | null; // Of the pixels; null without pixels, as all of these
+  p50: number | null; // Half of the pixels have at most this; p50, p90 and p99 are rounded up, by a sixteenth at most
+  p90: number | null; // 90 % have at most this
+  p99: number | null; // 99 % have at most this
+  max: number | null; // The longest
+};
+
 // What a shader would loop over at the points of a set
 export type SampleSet = {
   samples: number; // Points of the set [samples]
@@ -289,6 +307,11 @@ export type Result = {
         light_name: string; // In the scene
       }; // The deepest miss; absent without misses
     }; // Lists against the truth; absent without cells, and where it is not asked for [over all frames]
+    depth_ranges?: {
+      slopes: DepthLengths; // In tiles where 1 / depth (orthographic: depth) changes from each pixel to the next by at most a quarter of what it changes by in the tile
+      discontinuities: DepthLengths; // In the other tiles
+      outside: number; // Visible pixels beside the grid, in none of the tiles [pixels]
+    }; // How much depth the list of a visible pixel covers, by the kind of list, whatever the case's method is; with samples.opaque on a frustum grid [over the visible pixels of all frames]
     shading?: SampleSet; // What a shader would loop over at points in the whole view, at random pixels and depths [over the samples of all frames]
     samples?: {
       opaque?: SampleSet;

@@ -355,5 +355,57 @@ TEST(DepthMethods, are_timed_counted_in_their_steps_and_served_as_all_others_are
   EXPECT_FALSE(result.cases[0].lookup.empty());
 }
 
+// Mean depths in metres that lists of a scene's visible pixels cover, of one kind of tiles.
+struct CoveredDepths {
+  double tiled, masked, clusters, tight, share;  // share of the pixels
+};
+struct CoveredByTiles {
+  CoveredDepths slopes, discontinuities;
+};
+
+CoveredByTiles covered_in(const std::string& scene) {
+  const config::Config config = config::parse_config(
+      R"({"scenes": [{"path": ")" CLUSTERBENCH_SOURCE_DIR R"(/scenes/)" + scene + R"(.glb", "frames": 3}],
+          "viewport": [960, 540], "timing": {"measure": false}, "shading": {"samples": 0}, "assigners": ["exact-fast"],
+          "grids": [{"tiles": {"pixels": [64, 64]}, "slices": {"scheme": "exponential", "count": 24, "near": 0.5, "far": 300}}],
+          "samples": {"opaque": {"divisor": 1}}})",
+      "c.json");
+  const std::atomic<bool> stop = false;
+  const Result result = run_plan(config, make_plan(config, ""), {}, {}, stop);
+  const measure::DepthRanges& ranges = result.cases.at(0).depth_ranges.value();
+  const auto covered = [&](const measure::DepthRanges::Tiles& tiles) {
+    const auto pixels = static_cast<double>(ranges.slopes.pixels + ranges.discontinuities.pixels);
+    return CoveredDepths{tiles.lengths[0].mean_m(), tiles.lengths[1].mean_m(), tiles.lengths[2].mean_m(),
+                         tiles.lengths[3].mean_m(), static_cast<double>(tiles.pixels) / pixels};
+  };
+  return {covered(ranges.slopes), covered(ranges.discontinuities)};
+}
+
+// Persson 2015: at discontinuities a mask of parts helps tiles, on slopes it does not; clusters are about as deep as
+// the larger part, and explicit bounds are always the tightest.
+TEST(FrameSamples, depths_that_lists_cover_are_in_the_order_of_perssons_table) {
+  const CoveredDepths steps = covered_in("steps").discontinuities;
+  EXPECT_GT(steps.share, 0.8);
+  EXPECT_GT(steps.tiled, 4.0 * steps.masked);
+  EXPECT_GT(steps.tiled, 2.0 * steps.clusters);
+  const CoveredDepths slope = covered_in("slope").slopes;
+  EXPECT_GT(slope.share, 0.9);
+  EXPECT_LT(slope.tiled, 2.0 * slope.masked);
+  EXPECT_GT(slope.masked, slope.clusters);
+  const CoveredByTiles mix = covered_in("mix");
+  EXPECT_GT(mix.discontinuities.share, 0.05);
+  EXPECT_GT(mix.discontinuities.tiled / mix.discontinuities.masked, mix.slopes.tiled / mix.slopes.masked);
+  for (const CoveredDepths& covered : {steps, slope, mix.slopes, mix.discontinuities}) {
+    EXPECT_LT(covered.tight, covered.clusters);
+    EXPECT_LT(covered.tight, covered.masked);
+  }
+}
+
+TEST(FrameSamples, depths_that_lists_cover_are_told_with_visible_surfaces_alone) {
+  EXPECT_TRUE(case_named(run_of(room(), k_all_sets), "exact-fast/packed").depth_ranges);
+  EXPECT_FALSE(case_named(run_of(room(), ""), "exact-fast/packed").depth_ranges);
+  EXPECT_FALSE(case_named(run_of(room(false), k_all_sets), "exact-fast/packed").depth_ranges) << "no surfaces";
+}
+
 }  // namespace
 }  // namespace clusterbench::run
