@@ -366,9 +366,9 @@ struct CoveredByTiles {
 CoveredByTiles covered_in(const std::string& scene) {
   const config::Config config = config::parse_config(
       R"({"scenes": [{"path": ")" CLUSTERBENCH_SOURCE_DIR R"(/scenes/)" + scene + R"(.glb", "frames": 3}],
-          "viewport": [960, 540], "timing": {"measure": false}, "shading": {"samples": 0}, "assigners": ["exact-fast"],
+          "viewport": [1920, 1080], "timing": {"measure": false}, "shading": {"samples": 0}, "assigners": ["exact-fast"],
           "grids": [{"tiles": {"pixels": [64, 64]}, "slices": {"scheme": "exponential", "count": 24, "near": 0.5, "far": 300}}],
-          "samples": {"opaque": {"divisor": 1}}})",
+          "samples": {"opaque": {"divisor": 2}}})",
       "c.json");
   const std::atomic<bool> stop = false;
   const Result result = run_plan(config, make_plan(config, ""), {}, {}, stop);
