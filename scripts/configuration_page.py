@@ -89,7 +89,7 @@ def row(name, value, schema, default, example):
 
 def default_text(name, schema, required):
     if name == "assigners":
-        return "all but `naive-`"
+        return "all but `naive-` and those that need depth"
     if name == "grids":
         return "five, two `frustum`"
     return code(schema["default"]) if "default" in schema else "needed" if required else ""
