@@ -104,7 +104,7 @@ def with_notes(rows):
 
 def default_text(name, schema, required):
     if name == "assigners":
-        return "all but `naive-`"
+        return "all but `naive-` and those that need depth"
     if name == "grids":
         return "five, two `frustum`"
     return code(schema["default"]) if "default" in schema else "needed" if required else ""

@@ -373,6 +373,8 @@ TEST(Config, a_pattern_stands_for_the_assigners_that_the_list_does_not_name) {
             (Labels{"exact", "exact-fast(threads=2)"}));
   EXPECT_EQ(labels(R"(["naive-*"])").size(), 4u);
   EXPECT_EQ(labels(R"(["*planes"])"), Labels{"planes"}) << "naive methods run only where they are named";
+  EXPECT_EQ(labels(R"(["tiled*"])"), (Labels{"tiled", "tiled-2.5d"}));
+  EXPECT_EQ(labels(R"(["ex*t*"])"), (Labels{"exact", "exact-fast"})) << "so do those that need depth";
   const nlohmann::json resolved = parsed(R"(, "assigners": ["exact*"])").resolved["assigners"];
   EXPECT_EQ(resolved[1]["name"], "exact-fast");
 }

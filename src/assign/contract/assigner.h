@@ -147,6 +147,8 @@ struct AssignerDescriptor {
 
   bool takes(grid::Kind kind) const;
   bool answers(Answer answer) const;
+  // Whether it runs where nothing is named: all do but the naive ones and those that need depth, whose rays take long.
+  bool is_standard() const { return !naive && !needs.depth; }
 };
 
 // For descriptors: what makes a method of its parameters.
@@ -186,7 +188,7 @@ class AssignerRegistration {
 // nullptr if there is none.
 const AssignerDescriptor* find_assigner(const std::string& name);
 std::vector<std::string> assigner_names();
-// Those that run where nothing is named: all but the naive ones and those that need depth, whose rays take long.
+// Those that run where nothing is named.
 std::vector<std::string> standard_assigner_names();
 
 }  // namespace clusterbench::assign

@@ -76,7 +76,7 @@ std::vector<std::string> assigner_names() {
 std::vector<std::string> standard_assigner_names() {
   std::vector<std::string> names;
   for (const AssignerDescriptor* descriptor : assigner_descriptors())
-    if (!descriptor->naive && !descriptor->needs.depth) names.push_back(descriptor->name);
+    if (descriptor->is_standard()) names.push_back(descriptor->name);
   return names;
 }
 
