@@ -105,7 +105,7 @@ def put(path, name, text):
     pattern = re.compile(re.escape(begin) + ".*?" + re.escape(end), re.S)
     if not pattern.search(page):
         sys.exit(f"{path.name}: no place marked {begin}")
-    path.write_text(pattern.sub(lambda _: f"{begin}\n\n{text}\n\n{end}", page))
+    path.write_text(pattern.sub(lambda _: f"{begin}\n{text}\n{end}", page))
 
 
 def main():
