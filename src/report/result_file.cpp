@@ -46,6 +46,8 @@ Json read_result(const std::string& path) {
     result = Json::parse(in);
   } catch (const nlohmann::json::parse_error& error) {
     throw Error(path, "byte " + std::to_string(error.byte), "is not JSON");
+  } catch (const nlohmann::json::out_of_range&) {
+    throw Error(path, "", "has a number that is larger than double precision can hold");
   }
   if (const config::Document document = config::document_of(result); document != config::Document::result)
     throw Error(path, "",
