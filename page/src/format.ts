@@ -8,14 +8,24 @@ const grouped = new Intl.NumberFormat("en", { maximumFractionDigits: 0 });
 type Format = (value: Maybe) => string;
 const ifKnown = (format: (value: number) => string): Format => (value) => (value === null ? none : format(value));
 
+// With so many digits as printf writes them: of a number half-way between two, the one whose last digit is even.
+// toFixed takes the larger. Half-way are odd multiples of half the last digit, which doubles hold at multiples of 2^-(digits+1) only.
+export function fixed(value: number, digits: number): string {
+  const halves = Math.abs(value) * 2 ** (digits + 1); // times 5^digits: in halves of the last digit
+  const halfWay = halves < 2 ** 40 && halves % 2 === 1;
+  const text = value.toFixed(digits);
+  if (!halfWay || Number(text.at(-1)) % 2 === 0) return text;
+  return (value - Math.sign(value) * 0.5 * 10 ** -digits).toFixed(digits);
+}
+
 export const count: Format = ifKnown((value) => grouped.format(value));
-export const whole: Format = ifKnown((value) => value.toFixed(0));
-export const decimal: Format = ifKnown((value) => value.toFixed(2));
-export const microseconds: Format = ifKnown((ns) => (ns / 1e3).toFixed(ns < 1e4 ? 2 : ns < 1e6 ? 1 : 0)); // of nanoseconds
-export const percent: Format = ifKnown((ratio) => `${(100 * ratio).toFixed(1)} %`);
-export const share: Format = ifKnown((ratio) => (ratio === 0 ? "0 %" : ratio < 1e-4 ? "<0.01 %" : `${(100 * ratio).toFixed(ratio < 0.01 ? 2 : 1)} %`)); // what is not nothing never looks like it
+export const whole: Format = ifKnown((value) => fixed(value, 0));
+export const decimal: Format = ifKnown((value) => fixed(value, 2));
+export const microseconds: Format = ifKnown((ns) => fixed(ns / 1e3, ns < 1e4 ? 2 : ns < 1e6 ? 1 : 0)); // of nanoseconds
+export const percent: Format = ifKnown((ratio) => `${fixed(100 * ratio, 1)} %`);
+export const share: Format = ifKnown((ratio) => (ratio === 0 ? "0 %" : ratio < 1e-4 ? "<0.01 %" : `${fixed(100 * ratio, ratio < 0.01 ? 2 : 1)} %`)); // what is not nothing never looks like it
 export const factor: Format = decimal;
-export const short: Format = ifKnown((value) => (value < 1e4 ? value.toFixed(0) : value < 1e6 ? `${(value / 1e3).toFixed(1)}k` : `${(value / 1e6).toFixed(2)}M`));
+export const short: Format = ifKnown((value) => (value < 1e4 ? fixed(value, 0) : value < 1e6 ? `${fixed(value / 1e3, 1)}k` : `${fixed(value / 1e6, 2)}M`));
 export const metres: Format = ifKnown((value) => `${Number(value.toPrecision(3))} m`);
 
 // Of a machine, as its makers count.

@@ -91,7 +91,7 @@ struct TimingResult {
   measure::TimeStats build_ns, assign_ns;        // assign: per frame, with the builds that the frames need
   std::optional<measure::TimeStats> convert_ns;  // per frame; only where lists are converted
   std::optional<WarmTimes> warm;                 // beside cold times
-  int warm_assign_passes = 0;                    // over the timed frames in a warm sample, in the launch with fewest
+  int warm_assign_passes = 1;                    // over the timed frames in a warm sample, in the launch with fewest
   std::optional<int> warm_convert_passes;
   double builds_per_frame = 0.0;  // 0 where the grid stays, 1 where each frame has its own
   WorstTimedFrame worst;
