@@ -70,7 +70,8 @@ void build_mix(Stage& stage, int lights) {
   std::vector<Vec3d> ground, houses, poles, leaves;
   add_quad(ground, {-200.0, 0.0, 20.0}, {400.0, 0.0, 0.0}, {0.0, 0.0, -320.0});
   for (int i = 0; i < 12; ++i) {
-    const double side = i % 2 == 0 ? 1.0 : -1.0, z = -20.0 * static_cast<double>(i / 2) - 5.0;
+    const int house = i / 2;
+    const double side = i % 2 == 0 ? 1.0 : -1.0, z = -20.0 * house - 5.0;
     add_box(houses, {side * 15.0 - 6.0, 0.0, z - 16.0}, {side * 15.0 + 6.0, stage.random().between(6.0, 14.0), z});
     add_pole(poles, {side * 7.0, 0.0, z - 18.0}, 0.2, 7.0);
     add_leaves(stage, leaves, {side * 7.0 - 1.5, 3.0, z - 11.0}, {side * 7.0 + 1.5, 6.0, z - 8.0}, 120);
