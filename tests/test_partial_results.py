@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Gives every command that reads results some that the schema allows and this program would not write: each optional key left out in
-turn, each value that may be null set to null, lists emptied; with --zero also each number that may be 0 set to 0. A command may refuse one with a clear message (exit codes 1 to 4);
-it must not crash, nor end with an error of its own (70).
+"""Gives every command that reads results some that the schema allows and this program would not write: each optional key left out
+in turn, each value that may be null set to null, lists emptied; with --zero also each number that may be 0 set to 0. A command may refuse
+one with a clear message (exit codes 1 to 4); it must not crash, nor end with an error of its own (70). With --together N so many changes
+are made to one result; where a command refuses it, which hides the rest, each is tried alone.
 
-usage: test_partial_results.py PROGRAM SCENE [--zero]"""
+usage: test_partial_results.py PROGRAM SCENE [--zero] [--together N]"""
 
 import concurrent.futures
 import copy
@@ -137,15 +138,40 @@ def fault_of(line, done):
     return ""
 
 
-def faults_of(program, part, path, what, whole):
+def faults_of(program, changes, whole):
+    """How many commands fail on the result with these changes, a list of (path, what)."""
+    part = whole
+    for path, what in changes:
+        part = changed(part, path, what)
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         (folder / "part.json").write_text(json.dumps(part), encoding="utf-8")
         (folder / "whole.json").write_text(json.dumps(whole), encoding="utf-8")
-        told = [fault_of(line, done) for line, done in commands(program, folder, folder / "whole.json")]
+        done = list(commands(program, folder, folder / "whole.json"))
+    if len(changes) > 1 and any(command.returncode > 1 for _, command in done):
+        return sum(faults_of(program, [change], whole) for change in changes)
+    told = [fault_of(line, command) for line, command in done]
     for fault in filter(None, told):
-        print(f"{what} /{'/'.join(path)}: {fault}", flush=True)
+        print(f"{', '.join(f'{what} /' + '/'.join(path) for path, what in changes)}: {fault}", flush=True)
     return sum(map(bool, told))
+
+
+def hides(path, other):
+    """Whether a change at one of the places may leave nothing of the other."""
+    return path[:len(other)] == other or other[:len(path)] == path
+
+
+def groups(changes, size):
+    """The changes, so many of different parts of the result at a time. Neighbours are kept apart: they are read together."""
+    out = [[] for _ in range(-(-len(changes) // size))]
+    for at, change in enumerate(changes):
+        order = out[at % len(out):] + out[:at % len(out)]
+        group = next((group for group in order if len(group) < size and not any(hides(change[0], other) for other, _ in group)), None)
+        if group is None:
+            out.append([change])
+        else:
+            group.append(change)
+    return [group for group in out if group]
 
 
 def main():
@@ -153,18 +179,13 @@ def main():
     schema = json.loads(subprocess.run([program, "schema", "result"], capture_output=True, text=True, check=True).stdout)
     with tempfile.TemporaryDirectory() as name:
         whole = reduced(measured(program, pathlib.Path(name), scene))
+    together = int(sys.argv[sys.argv.index("--together") + 1]) if "--together" in sys.argv else 1
+    changes = [(path, what) for path, what in places(schema, schema)
+               if path and (what != "zero" or "--zero" in sys.argv) and changed(whole, path, what) is not None]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        tries = []
-        for path, what in [((), "whole"), *places(schema, schema)]:
-            if what == "zero" and "--zero" not in sys.argv:
-                continue
-            part = whole if what == "whole" else changed(whole, path, what) if path else None
-            if part is None:
-                continue
-            tries.append(pool.submit(faults_of, program, part, path, what, whole))
-        faults = sum(one.result() for one in tries)
-    print(f"{len(tries)} results, {faults} faults")
-    return 1 if faults or len(tries) < 100 else 0
+        faults = sum(pool.map(lambda group: faults_of(program, group, whole), [[], *groups(changes, together)]))
+    print(f"{len(changes)} changes, {faults} faults")
+    return 1 if faults or len(changes) < 100 else 0
 
 
 if __name__ == "__main__":

@@ -1,8 +1,11 @@
 #include "report/json_values.h"
 
 namespace clusterbench::report {
+namespace {
 
 using Json = nlohmann::ordered_json;
+
+}  // namespace
 
 const Json* value_at(const Json& from, const std::string& pointer) {
   const Json::json_pointer location(pointer);
