@@ -6,6 +6,7 @@
 
 #include "assign/contract/assigner_run.h"
 #include "assign/settings.h"
+#include "effort.h"
 #include "measure/truth.h"
 #include "view/packing.h"
 
@@ -84,7 +85,7 @@ TEST(PackedLights, of_the_projects_scenes_lose_pairs_unless_they_are_inflated) {
     scene::Scene scene =
         scene::load_gltf(std::filesystem::path(CLUSTERBENCH_SOURCE_DIR) / "scenes" / (name + std::string(".glb")));
     scene::resolve_ranges(scene, {});
-    const scene::CameraPath path = scene::camera_paths(scene, {.camera = "", .count = 3}).front();
+    const scene::CameraPath path = scene::camera_paths(scene, {.camera = "", .count = test::tries(3)}).front();
     for (const grid::Kind kind : {grid::Kind::frustum, grid::Kind::distance, grid::Kind::cascades, grid::Kind::world})
       for (const scene::Shot& shot : path.shots) {
         const Setting setting = setting_of(scene, shot, kind);
