@@ -88,7 +88,6 @@ void brute_frame(benchmark::State& state, const Setting& setting) {
 void register_peers() {
   for (const Workload& workload : k_workloads) {
     const std::string file = peer_workload(workload.file);
-    if (file.empty()) return;
     const std::string prefix = std::string("peers/") + workload.name + "/";
     const auto add = [&](const std::string& name, auto&& frame) {
       benchmark::RegisterBenchmark((prefix + name).c_str(), [=](benchmark::State& state) {

@@ -1,7 +1,5 @@
 #include "setting.h"
 
-#include <cstdlib>
-
 #include "scene/camera_path.h"
 
 namespace clusterbench {
@@ -25,8 +23,7 @@ std::string own_scene(const std::string& name) {
 }
 
 std::string peer_workload(const std::string& name) {
-  const char* library = std::getenv("CLUSTERBENCH_SCENE_LIBRARY");
-  return library == nullptr ? "" : std::string(library) + "/peer-workloads/" + name + ".gltf";
+  return CLUSTERBENCH_SOURCE_DIR "/scenes/peers/" + name + ".gltf";
 }
 
 }  // namespace clusterbench

@@ -19,7 +19,7 @@ Setting make_setting(const std::string& file, const grid::GridSpec& spec, double
 
 // A file of this project's own scenes.
 std::string own_scene(const std::string& name);
-// A file of the peers' workloads, empty without CLUSTERBENCH_SCENE_LIBRARY.
+// A file of the peers' workloads.
 std::string peer_workload(const std::string& name);
 
 }  // namespace clusterbench

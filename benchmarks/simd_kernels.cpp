@@ -559,7 +559,7 @@ void register_for(std::int64_t target, const std::string& prefix) {
   for (const Kernel& kernel : k_kernels) add(kernel.name, kernel.run);
   std::vector<ListScene> scenes{{"hall-512", own_scene("hall-512"), spec(), 0.0f},
                                 {"jam", own_scene("jam"), spec(), 0.0f}};
-  if (const std::string w1 = peer_workload("W1"); !w1.empty()) scenes.push_back({"W1-60m", w1, w1_spec(), 60.0f});
+  scenes.push_back({"W1-60m", peer_workload("W1"), w1_spec(), 60.0f});
   for (const ListKernel& kernel : k_list_kernels)
     for (const ListScene& scene : scenes)
       add(std::string(kernel.name) + "/" + scene.name, [=](State& state) {

@@ -36,7 +36,7 @@ function ratios(view: View, rows: Both[], first: Run, second: Run): Element {
   const look = (row: Both) => view.palette(row.second);
   const values = timed.map((row) => row.time!);
   const most = 1.1 * values.reduce((far, value) => Math.max(far, value, 1 / value), 1.05);
-  return chart(`Frame time of ${second.label} by that of ${first.label}, ${timed.length} cases`, {
+  return chart(`Frame time of ${second.label} by that of ${first.label}, ${format.plural(timed.length, "case")}`, {
     width: chartWidth(),
     height: 66 + 22 * methods.length,
     marginLeft: 170,

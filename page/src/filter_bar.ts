@@ -2,6 +2,7 @@
 
 import { select, type Option } from "./controls.ts";
 import { h } from "./dom.ts";
+import { plural } from "./format.ts";
 import type { Model } from "./model.ts";
 import { icon } from "./palette.ts";
 import type { Filters, View } from "./view.ts";
@@ -65,7 +66,7 @@ function methods(view: View): HTMLElement {
 
 function countOf(view: View): HTMLElement {
   const status = h("p", { class: "count", role: "status" });
-  const update = () => (status.textContent = `${view.cases().length} of ${view.model.cases.length} cases`);
+  const update = () => (status.textContent = `${view.cases().length} of ${plural(view.model.cases.length, "case")}`);
   view.watch(update);
   update();
   return status;

@@ -34,3 +34,6 @@ export const memory: Format = ifKnown((value) => {
   const power = Math.min(units.length - 1, value < 1024 ? 0 : Math.floor(Math.log2(value) / 10));
   return `${Number((value / 1024 ** power).toPrecision(3))} ${units[power]}`;
 });
+
+// "1 case", "2 cases".
+export const plural = (number: number, word: string, words = `${word}s`) => `${number} ${number === 1 ? word : words}`;

@@ -1,11 +1,11 @@
 // Title, what was measured where, whether to worry, and the way to the sections.
 
 import { h } from "./dom.ts";
+import { plural } from "./format.ts";
 import type { Model } from "./model.ts";
 import { themeControl } from "./theme.ts";
 import { warningsOf } from "./warnings.ts";
 
-const plural = (count: number, word: string) => `${count} ${word}${count === 1 ? "" : "s"}`;
 
 function verdict(model: Model): HTMLElement {
   const all = warningsOf(model);

@@ -1,6 +1,7 @@
 // The page of `clusterbench history show`: a chart for each series that varies, with the commits at which it changed.
 
 import { h } from "./dom.ts";
+import { plural } from "./format.ts";
 import { Plot, chart } from "./plots.ts";
 import { themeControl } from "./theme.ts";
 
@@ -29,7 +30,6 @@ interface HistoryData {
 }
 
 const mostAtOnce = 60; // charts, until more are asked for
-const plural = (count: number, word: string, words = `${word}s`) => `${count} ${count === 1 ? word : words}`;
 const five = (value: number) => String(Number(value.toPrecision(5)));
 
 function drawn(series: Series): Element {

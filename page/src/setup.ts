@@ -45,7 +45,7 @@ function runView(run: Run, isAlone: boolean): HTMLElement {
       ["instruction set", tool.simd_target],
       ["build", tool.build_type],
       ["libraries", libraries],
-      ["configuration", `${name}, ${cases.length} cases`],
+      ["configuration", `${name}, ${format.plural(cases.length, "case")}`],
       ["file", run.file],
     ]),
     tableView({

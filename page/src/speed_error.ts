@@ -88,7 +88,7 @@ export function panel(view: View, all: Point[], measure: Measure, scales: Scales
   const best = front(all.filter(({ aCase }) => aCase.isEligible));
   const look = (point: Point) => view.palette(point.aCase);
   const height = Math.round(Math.min(420, Math.max(230, width * 0.5)));
-  return chart(`Frame time against ${measure.label} of ${all.length} cases; on the front: ${best.map(({ aCase }) => aCase.assigner).join(", ")}`, {
+  return chart(`Frame time against ${measure.label} of ${format.plural(all.length, "case")}; on the front: ${best.map(({ aCase }) => aCase.assigner).join(", ")}`, {
     width,
     height,
     x: { type: "log", domain: scales.x, label: "frame µs", ticks: width < 500 ? 4 : 8, tickFormat: format.short, grid: true },

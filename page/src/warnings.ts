@@ -1,6 +1,8 @@
-// What the reader should know before believing a figure.
+// What the reader should know before believing a figure. Sentences about cases are in the past tense, which one case
+// and several share.
 
 import { h } from "./dom.ts";
+import { plural } from "./format.ts";
 import type { Case, Model, Run } from "./model.ts";
 import type { FailureKind, SceneResult, WarningKind } from "./result.ts";
 import type { Section } from "./view.ts";
@@ -11,17 +13,15 @@ export interface Warning {
 }
 
 const failures: Record<FailureKind, string> = {
-  lost_pairs: "lost lights and call themselves conservative",
-  extra_pairs: "reported pairs that are not true and call themselves exact",
-  lost_at_samples: "lost lights at samples and call themselves conservative",
+  lost_pairs: "lost lights in spite of being conservative",
+  extra_pairs: "reported pairs that are not true in spite of being exact",
+  lost_at_samples: "lost lights at samples in spite of being conservative",
   dropped_pairs: "dropped more pairs than the configuration allows",
 };
 
-const counts = (count: number, word: string) => `${count} ${word}${count === 1 ? "" : "s"}`;
-
 function counted(cases: Case[], what: string): string {
   const names = cases.slice(0, 3).map((aCase) => aCase.raw.name).join("; ");
-  return `${counts(cases.length, "case")} ${what}: ${names}${cases.length > 3 ? "; …" : ""}`;
+  return `${plural(cases.length, "case")} ${what}: ${names}${cases.length > 3 ? "; …" : ""}`;
 }
 
 function failuresOf(cases: Case[]): Warning[] {
@@ -32,11 +32,11 @@ function failuresOf(cases: Case[]): Warning[] {
 }
 
 const doubts: Record<WarningKind, string> = {
-  dropped_pairs: "dropped lights because their storage was full",
-  unlit: "leave more of the lights that samples need unlit than rounding does, in cells or outside of the grid",
-  undecided: "have pairs that stayed undecided, counted as true",
-  unchecked: "were not checked against the truth",
-  lost_pairs: "lose lights, as methods that are not conservative may",
+  dropped_pairs: "dropped lights because the storage was full",
+  unlit: "left more of the lights that samples need unlit than rounding does, in cells or outside of the grid",
+  undecided: "had pairs that stayed undecided, counted as true",
+  unchecked: "went without a check against the truth",
+  lost_pairs: "lost lights, as methods that are not conservative may",
 };
 
 function doubtsOf(cases: Case[]): Warning[] {
@@ -49,8 +49,8 @@ function doubtsOf(cases: Case[]): Warning[] {
 function rangeWarnings({ range_rule }: SceneResult): string[] {
   const { from_intensity, cutoff_lux, max_range, clamped } = range_rule;
   return [
-    from_intensity > 0 && `${counts(from_intensity, "light")} ${from_intensity === 1 ? "has no range; it ends where it falls" : "have no range; they end where they fall"} to ${cutoff_lux} lux, at most ${max_range} m`,
-    clamped > 0 && `${counts(clamped, "range")} ${clamped === 1 ? "was" : "were"} cut to ${max_range} m`,
+    from_intensity > 0 && `${plural(from_intensity, "light")} ${from_intensity === 1 ? "has no range; it ends where it falls" : "have no range; they end where they fall"} to ${cutoff_lux} lux, at most ${max_range} m`,
+    clamped > 0 && `${plural(clamped, "range")} ${clamped === 1 ? "was" : "were"} cut to ${max_range} m`,
   ].filter((text) => text !== false);
 }
 
@@ -72,7 +72,7 @@ function skippedView(model: Model): HTMLElement | null {
   return h(
     "details",
     { id: "skipped" },
-    h("summary", {}, `${counts(all.length, "combination")} ${all.length === 1 ? "was" : "were"} skipped`),
+    h("summary", {}, `${plural(all.length, "combination")} ${all.length === 1 ? "was" : "were"} skipped`),
     h("ul", {}, ...reasons.map(([reason, some]) => h("li", {}, `${some.length} × ${reason}`))),
   );
 }

@@ -6,7 +6,7 @@ import { buildSync } from "esbuild";
 
 const source = new URL("../src/format.ts", import.meta.url).pathname;
 const code = buildSync({ entryPoints: [source], bundle: true, format: "esm", write: false }).outputFiles[0].text;
-const { fixed, microseconds } = await import(`data:text/javascript,${encodeURIComponent(code)}`);
+const { fixed, microseconds, plural } = await import(`data:text/javascript,${encodeURIComponent(code)}`);
 
 it("numbers half-way between two have the digits that printf gives them", () => {
   const expected = [[0.5, 0, "0"], [1.5, 0, "2"], [2.5, 0, "2"], [-2.5, 0, "-2"], [127.25, 1, "127.2"], [127.75, 1, "127.8"], [0.125, 2, "0.12"], [0.375, 2, "0.38"],
@@ -23,4 +23,8 @@ it("times have the digits of the terminal's table", () => {
   assert.equal(microseconds(127250), "127.2");
   assert.equal(microseconds(9995), "9.99");
   assert.equal(microseconds(null), "–");
+});
+
+it("one is not many", () => {
+  assert.deepEqual([plural(0, "case"), plural(1, "case"), plural(2, "case"), plural(2, "series", "series")], ["0 cases", "1 case", "2 cases", "2 series"]);
 });

@@ -1,6 +1,7 @@
 #include "cli/command.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -105,7 +106,12 @@ Option& Option::non_negative() {
 }
 
 Option& Option::one_of(std::vector<std::string> words) {
-  option_->check(CLI::IsMember(std::move(words)));
+  CLI::Validator known = CLI::IsMember(words);  // completions read its description
+  known.operation([words = std::move(words)](std::string& word) {
+    if (std::ranges::find(words, word) != words.end()) return std::string();
+    return "no '" + word + "'" + did_you_mean(word, words) + "; there are: " + joined(words);
+  });
+  option_->check(known);
   return *this;
 }
 

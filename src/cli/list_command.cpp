@@ -1,7 +1,9 @@
 // `clusterbench list`: everything that a configuration can name, with its parameters.
 
 #include <cmath>
+#include <cstdio>
 #include <iostream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "assign/contract/assigner.h"
@@ -71,25 +73,43 @@ Json everything() {
   return all;
 }
 
-std::string words(const Json& array) {
-  std::string text;
-  for (const Json& word : array)
-    text += (text.empty() ? "" : ", ") + (word.is_string() ? word.get<std::string>() : word.dump());
+std::string word_of(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", value.get<double>());
   return text;
 }
 
-void print_params(const Json& params) {
-  for (const Json& param : params) {
-    std::cout << "      " << param["name"].get<std::string>() << " = " << words(Json::array({param["default"]}));
+std::string words(const Json& array) {
+  std::string text;
+  for (const Json& word : array) text += (text.empty() ? "" : ", ") + word_of(word);
+  return text;
+}
+
+// Parameters that many methods share are explained at the first one. `explained`: what was explained at which.
+void print_params(const Json& row, std::map<std::string, std::string>& explained) {
+  std::map<std::string, std::string> as_for;  // method -> its parameters that this one has, too
+  for (const Json& param : row["params"]) {
+    const std::string assignment = param["name"].get<std::string>() + " = " + word_of(param["default"]);
+    const auto [earlier, is_new] = explained.emplace(param.dump(), row["name"]);
+    if (!is_new) {
+      std::string& shared = as_for[earlier->second];
+      shared += (shared.empty() ? "" : ", ") + assignment;
+      continue;
+    }
+    std::cout << "      " << assignment;
     if (param.contains("choices")) std::cout << "  (" << words(param["choices"]) << ")";
-    if (param.contains("range")) std::cout << "  (" << param["range"][0] << " to " << param["range"][1] << ")";
+    if (param.contains("range"))
+      std::cout << "  (" << word_of(param["range"][0]) << " to " << word_of(param["range"][1]) << ")";
     if (param.contains("unit")) std::cout << " " << param["unit"].get<std::string>();
     std::cout << ": " << param["summary"].get<std::string>() << "\n";
   }
+  for (const auto& [method, shared] : as_for) std::cout << "      " << shared << ": as for " << method << "\n";
 }
 
 void print_section(const Json& all, const char* section) {
   std::cout << section << "\n";
+  std::map<std::string, std::string> explained;
   for (const Json& row : all[section]) {
     if (row.is_string()) {
       std::cout << "  " << row.get<std::string>() << "\n";
@@ -105,7 +125,7 @@ void print_section(const Json& all, const char* section) {
                     : row["conservative"] ? "; conservative"
                                           : "; NOT conservative")
                 << "\n";
-    if (row.contains("params")) print_params(row["params"]);
+    if (row.contains("params")) print_params(row, explained);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -26,7 +27,9 @@
 #include "report/limits.h"
 #include "report/result_json.h"
 #include "report/table.h"
+#include "report/timing_warnings.h"
 #include "report/warnings.h"
+#include "run/estimate.h"
 #include "run/runner.h"
 #include "run/scene_facts.h"
 #include "run/sweep.h"
@@ -98,13 +101,53 @@ std::size_t case_count(const run::Plan& plan) {
   return count;
 }
 
+// Methods on kinds of grids that they do not take are many and expected: one line. Of others a line for each reason.
+void print_skipped(const std::vector<run::Skipped>& skipped) {
+  struct Line {
+    std::string reason, first;
+    std::uint64_t others = 0;
+  };
+  std::vector<Line> lines;
+  std::uint64_t other_kinds = 0;
+  for (const run::Skipped& one : skipped) {
+    if (one.is_other_kind) {
+      ++other_kinds;
+      continue;
+    }
+    const auto line = std::ranges::find(lines, one.reason, &Line::reason);
+    if (line != lines.end())
+      ++line->others;
+    else
+      lines.push_back({one.reason, one.name});
+  }
+  for (const Line& line : lines)
+    std::cout << "skipped  " << printable(line.first)
+              << (line.others > 0 ? " and " + std::to_string(line.others) + " more" : "") << ": "
+              << printable(line.reason) << "\n";
+  if (other_kinds > 0)
+    std::cout << "skipped  " << number_of(other_kinds, "combination")
+              << " of a method with a kind of grid that it does not take (`clusterbench list` tells which it takes)\n";
+}
+
+// One digit, or two of them: more would not be true.
+std::string duration_text(double seconds) {
+  const auto rounded = [](double value, const char* unit) {
+    const double step = value < 10.0 ? 1.0 : value < 100.0 ? 5.0 : 50.0;
+    return number_of(static_cast<std::uint64_t>(step * std::max(1.0, std::round(value / step))), unit);
+  };
+  if (seconds < 1.0) return "less than a second";
+  return "about " + (seconds < 100.0    ? rounded(seconds, "second")
+                     : seconds < 6000.0 ? rounded(seconds / 60.0, "minute")
+                                        : rounded(seconds / 3600.0, "hour"));
+}
+
 ExitCode print_plan(const config::Config& config, const run::Plan& plan) {
   for (const run::GroupPlan& group : plan.groups)
     for (const run::CasePlan& case_plan : group.cases)
       std::cout << case_plan.id << "  " << printable(case_plan.name) << "\n";
-  for (const run::Skipped& skipped : plan.skipped)
-    std::cout << "skipped  " << printable(skipped.name) << ": " << printable(skipped.reason) << "\n";
-  std::cerr << number_of(case_count(plan), "case") << ", " << plan.skipped.size() << " skipped\n";
+  print_skipped(plan.skipped);
+  std::cerr << number_of(case_count(plan), "case") << ", " << plan.skipped.size() << " skipped; takes "
+            << duration_text(run::estimated_s(config, plan)) << "\n";
   for (std::size_t i = 0; i < plan.scenes.size(); ++i) {
     const run::SceneResult scene = run::scene_result(plan.scenes[i], config.scenes[i], config.viewports);
     for (const std::string& warning : scene.warnings) tell("warning: " + scene.name + ": " + warning);
@@ -259,7 +302,7 @@ run::Counts count_instructions(CountWay way, const CountTask& task, ProgressLine
 // Warnings also where no table is wanted.
 void show_table(const RunFlags& flags, const Json& result) {
   if (flags.quiet) {
-    std::cerr << report::warnings_text(result);
+    std::cerr << report::warnings_text(result) << report::timing_warnings(result["cases"]);
     return;
   }
   const bool for_reading = is_for_reading(flags.output);
@@ -411,9 +454,10 @@ void add_run(Command& program, Action& action) {
   command.add_option("--rounds-server", flags->rounds_server, "").hidden();
   command.add_flag(k_serve_launch, flags->serves_launch, "").hidden();
   command.add_flag("--resume", flags->resume, "Continue the interrupted run of the same -o FILE");
-  command.add_flag("--dry-run", flags->dry_run, "List the cases and what is skipped, measure nothing");
+  command.add_flag("--dry-run", flags->dry_run,
+                   "List the cases and what is skipped, and tell about how long the run takes; write nothing");
   command.add_flag("--no-timing", flags->no_timing, "Count only; the output is then the same on every machine");
-  command.add_flag("-q,--quiet", flags->quiet, "No progress and no table");
+  command.add_flag("-q,--quiet", flags->quiet, "No progress and no table; warnings stay");
   command.when_named([flags, &action] { action = [flags] { return run(*flags); }; });
 }
 

@@ -20,6 +20,14 @@ Json to_json(const Vec3d& v) {
 }
 
 Json to_json(const scene::Scene& scene, const scene::Summary& summary) {
+  Json ranges{{"given", summary.ranges_given},      {"from_intensity", summary.ranges_from_intensity},
+              {"clamped", summary.ranges_clamped},  {"min_m", summary.range_min_m},
+              {"median_m", summary.range_median_m}, {"max_m", summary.range_max_m}};
+  if (summary.ranges_from_intensity + summary.ranges_clamped > 0)
+    ranges["by_rule"] = {{"cutoff_lux", scene.range_rule.cutoff_lux},
+                         {"max_range_m", scene.range_rule.max_range_m},
+                         {"min_m", summary.made_range_min_m},
+                         {"max_m", summary.made_range_max_m}};
   return Json{{"name", scene.name},
               {"sha256", scene.sha256},
               {"nodes", scene.nodes.size()},
@@ -28,17 +36,31 @@ Json to_json(const scene::Scene& scene, const scene::Summary& summary) {
                 {"spot", summary.spots},
                 {"directional", summary.directionals},
                 {"box", summary.boxes}}},
-              {"ranges",
-               {{"given", summary.ranges_given},
-                {"from_intensity", summary.ranges_from_intensity},
-                {"clamped", summary.ranges_clamped},
-                {"min_m", summary.range_min_m},
-                {"median_m", summary.range_median_m},
-                {"max_m", summary.range_max_m}}},
+              {"ranges", ranges},
               {"bounds_m", {to_json(summary.bounds_lo), to_json(summary.bounds_hi)}},
               {"duration_s", scene.duration_s},
               {"cameras", summary.cameras},
               {"warnings", summary.warnings}};
+}
+
+std::string metres(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+// What the lights without a range get.
+void print_made_ranges(const scene::RangeRule& rule, const scene::Summary& summary) {
+  const int made = summary.ranges_from_intensity + summary.ranges_clamped;
+  if (made == 0) return;
+  const std::string least = metres(summary.made_range_min_m), greatest = metres(summary.made_range_max_m);
+  std::printf("  by rule  %s without range: %s m, where %s to %g lux (--cutoff-lux)",
+              number_of(static_cast<std::uint64_t>(made), "light").c_str(),
+              (least == greatest ? least : least + " to " + greatest).c_str(), made == 1 ? "it falls" : "they fall",
+              rule.cutoff_lux);
+  if (summary.ranges_clamped > 0)
+    std::printf("; %d of them cut off at %g m (--max-range)", summary.ranges_clamped, rule.max_range_m);
+  std::printf("\n");
 }
 
 void print(const scene::Scene& scene, const scene::Summary& summary) {
@@ -50,6 +72,7 @@ void print(const scene::Scene& scene, const scene::Summary& summary) {
     std::printf("  ranges   %.3g to %.3g m, median %.3g m; %d given, %d from intensity, %d clamped\n",
                 summary.range_min_m, summary.range_max_m, summary.range_median_m, summary.ranges_given,
                 summary.ranges_from_intensity, summary.ranges_clamped);
+    print_made_ranges(scene.range_rule, summary);
     std::printf("  bounds   (%.4g, %.4g, %.4g) to (%.4g, %.4g, %.4g) m\n", lo.x, lo.y, lo.z, hi.x, hi.y, hi.z);
   }
   for (const std::string& camera : summary.cameras) std::printf("  camera   %s\n", printable(camera).c_str());

@@ -405,6 +405,14 @@ constexpr const char* k_separate_verdicts =
     "--gate-separate: times are of separate runs, and intervals know nothing of what differs between runs; on a busy "
     "machine every second comparison of a program with itself failed";
 
+// The names that stand on one side alone. What the other has under the same name is told apart, with the difference.
+Json without_renamed(const Json& names, const Json& renamed_cases) {
+  Json out = Json::array();
+  for (const Json& name : names)
+    if (std::ranges::none_of(renamed_cases, [&](const Json& one) { return one["name"] == name; })) out.push_back(name);
+  return out;
+}
+
 Json warnings_of(const Json& base, const Json& next, const Json& comparison, const std::vector<std::string>& forced,
                  bool gates_separate) {
   Json warnings = Json::array();
@@ -417,17 +425,19 @@ Json warnings_of(const Json& base, const Json& next, const Json& comparison, con
     warnings.push_back("allocation.margin is " + margin_of(base).dump() + " and " + margin_of(next).dump() +
                        ", another setting: what is recommended follows it and is not compared");
   const bool is_beside = comparison["data"] == "paired" && base == next;
-  if (!comparison["only_in_base"].empty())
-    warnings.push_back("only in the base, not compared: " + listed(comparison["only_in_base"]));
-  if (!comparison["only_in_new"].empty())
+  const Json only_in_base = without_renamed(comparison["only_in_base"], comparison["renamed"]),
+             only_in_new = without_renamed(comparison["only_in_new"], comparison["renamed"]);
+  if (!only_in_base.empty()) warnings.push_back("only in the base, not compared: " + listed(only_in_base));
+  if (!only_in_new.empty())
     warnings.push_back(std::string(is_beside ? "the other program does not have them, not compared: "
                                              : "only in the new result, not compared: ") +
-                       listed(comparison["only_in_new"]));
+                       listed(only_in_new));
   std::map<std::string, Json> by_reason;
   for (const Json& renamed_case : comparison["renamed"])
     by_reason[joined(renamed_case["differs_in"].get<std::vector<std::string>>())].push_back(renamed_case["name"]);
   for (const auto& [reason, names] : by_reason)
-    warnings.push_back("of one name, but not the same, for they differ in " + reason + ": " + listed(names));
+    warnings.push_back("of one name, but not the same, so not compared: they differ in " + reason + ": " +
+                       listed(names));
   for (const Json& part : comparison["not_compared"])
     warnings.push_back(part["part"].get<std::string>() + " is not compared in " +
                        number_of(part["cases"].get<std::uint64_t>(), "case") + ": only the " +

@@ -204,7 +204,8 @@ Json details_of_all(const Json& cases) {
 }  // namespace
 
 std::string comparison_text(const Json& comparison) {
-  std::string out = heading(comparison) + "\n" + table(comparison["cases"]);
+  std::string out = heading(comparison) + "\n";
+  if (!comparison["cases"].empty()) out += table(comparison["cases"]);
   for (const Json& line : details_of_all(comparison["cases"])) out += "counted: " + line.get<std::string>() + "\n";
   for (const Json& warning : comparison["warnings"]) out += "warning: " + warning.get<std::string>() + "\n";
   for (const Json& failure : comparison["failures"]) out += "FAILED " + failure.get<std::string>() + "\n";

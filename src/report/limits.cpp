@@ -89,7 +89,10 @@ std::string reason_for_none(const std::string& figure) {
                                 [&](const FigureRow& candidate) { return candidate.name == figure; });
   const std::string_view pointer = row == std::end(k_figure_rows) ? "" : row->value;
   if (pointer.starts_with("/timing/")) return " (--no-timing or timing.measure: false leaves times out)";
-  if (pointer.starts_with("/shading/")) return " (shading.samples: 0 leaves samples out)";
+  if (figure == "overshade")
+    return " (there is none where more than 0.1 % of the lights are unlit or fewer than 100 reach the samples, as with "
+           "shading.samples: 0)";
+  if (pointer.starts_with("/shading/")) return " (no light reaches the samples, or shading.samples: 0 leaves them out)";
   if (pointer.starts_with("/error/"))
     return " (accuracy.check: false leaves errors out; structures without cells have none)";
   if (pointer.starts_with("/occupancy/")) return " (structures without cells have none)";

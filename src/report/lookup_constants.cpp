@@ -50,6 +50,8 @@ void add_tiles(std::vector<LookupConstant>& out, const Json& result_case) {
 
 void add_slices(std::vector<LookupConstant>& out, const Json& slices) {
   const Json& lookup = slices["lookup"];
+  if (lookup["form"] == "search")
+    out.push_back({"slice_boundaries", Type::real, numbers_of(slices["boundaries"]), true});
   for (const auto& [key, name] :
        {std::pair("scale", "slice_scale"), std::pair("bias", "slice_bias"), std::pair("first", "slice_first")})
     if (lookup.contains(key))
@@ -64,14 +66,25 @@ struct Language {
   const char *constant, *integer, *real;
   const char* integers[2];  // of two, of three
   const char* reals[2];
+  bool has_array_constructors;  // of arrays: float[2](1.0, 2.0), else {1.0, 2.0}
 };
-constexpr Language k_hlsl{"static const ", "int", "float", {"int2", "int3"}, {"float2", "float3"}};
-constexpr Language k_glsl{"const ", "int", "float", {"ivec2", "ivec3"}, {"vec2", "vec3"}};
+constexpr Language k_hlsl{"static const ", "int", "float", {"int2", "int3"}, {"float2", "float3"}, false};
+constexpr Language k_glsl{"const ", "int", "float", {"ivec2", "ivec3"}, {"vec2", "vec3"}, true};
+
+std::string declared_array(const std::string& name, const LookupConstant& constant, const Language& language) {
+  const std::string size = "[" + std::to_string(constant.values.size()) + "]", values = values_text(constant);
+  return language.constant + std::string(language.real) + " " + name + size + " = " +
+         (language.has_array_constructors ? language.real + size + "(" + values + ")" : "{" + values + "}") + ";\n";
+}
 
 std::string declared(const std::string& prefix, const std::vector<LookupConstant>& constants,
                      const Language& language) {
   std::string out;
   for (const LookupConstant& constant : constants) {
+    if (constant.is_array) {
+      out += declared_array(prefix + "_" + constant.name, constant, language);
+      continue;
+    }
     const std::size_t count = constant.values.size();
     const std::string type = count == 1 ? (is_integer(constant) ? language.integer : language.real)
                                         : (is_integer(constant) ? language.integers : language.reals)[count - 2];
@@ -103,7 +116,7 @@ std::string lookup_note(const Json& result_case) {
   if (!grid.contains("slices")) return "";
   if (grid["slices"]["scheme"] == "fit") return "slices follow the lights: scale, bias and far are the last frame's";
   const Json& form = grid["slices"]["lookup"]["form"];
-  if (form == "search") return "slices have no formula: search grid.slices.boundaries of the result";
+  if (form == "search") return "slice = the last one whose boundary, slice_boundaries[slice], is not beyond the depth";
   return form == "log2" ? "slice = log2(depth) * slice_scale + slice_bias" : "slice = depth * slice_scale + slice_bias";
 }
 

@@ -12,10 +12,11 @@ struct LookupConstant {
   std::string name;                            // "tile_scale"
   enum class Type { integer, real, precise };  // precise: double where a language has it
   Type type = Type::real;
-  std::vector<double> values;  // one, or a vector's two or three
+  std::vector<double> values;  // one, or a vector's two or three; of an array any number
+  bool is_array = false;
 };
 
-// Of a case with lists. Slices that have no formula (form "search") have no scale and bias.
+// Of a case with lists. Slices that have no formula (form "search") have their boundaries, and no scale and bias.
 std::vector<LookupConstant> lookup_constants(const nlohmann::ordered_json& result_case);
 
 // What cannot be a constant, for a comment; "" where all can.

@@ -9,9 +9,11 @@
 
 #include "core/error.h"
 #include "core/pattern.h"
+#include "measure/side_by_side.h"
 #include "report/columns.h"
 #include "report/json_values.h"
 #include "report/lookup_constants.h"
+#include "report/ratios.h"
 
 namespace clusterbench::report {
 namespace {
@@ -96,29 +98,49 @@ bool is_own(const Json& result_case) {
 // Smaller is better. Structures of their own come after all lists: what samples pay for them differs.
 auto rank(const Json& result_case) {
   const bool loses = result_case["loses_lights"] || !result_case["failures"].empty();
-  const double time_ns =
-      number_at(result_case, "/timing/frame_ns/median").value_or(std::numeric_limits<double>::infinity());
-  return std::tuple(loses, is_own(result_case), time_ns,
-                    result_case["buffers"]["bytes"]["recommended"].get<std::uint64_t>());
+  return std::pair(loses, is_own(result_case));
 }
 
-std::vector<Json> best_of_groups(const std::vector<Json>& cases) {
-  std::vector<Json> best;
-  for (const Json& result_case : cases) {
-    const auto earlier = std::ranges::find(best, group_of(result_case), group_of);
-    if (earlier == best.end())
-      best.push_back(result_case);
-    else if (rank(result_case) < rank(*earlier))
-      *earlier = result_case;
+double time_of(const Json& result_case) {
+  return number_at(result_case, "/timing/frame_ns/median").value_or(std::numeric_limits<double>::infinity());
+}
+
+// Whether its frames take longer than those of the fastest case: as far as is known, lest noise decides.
+bool is_slower(const Json& result, const Json& result_case, const Json& fastest) {
+  const std::optional<measure::Ratio> ratio = ratio_of_cases(result, result_case, fastest);
+  return ratio ? measure::takes_longer(ratio) : time_of(result_case) > time_of(fastest);
+}
+
+// Of cases of one grid that lose no light the fastest; of those that may be as fast, the one with the least memory.
+const Json* best_of(const Json& result, std::vector<const Json*> cases) {
+  const auto least_rank = rank(**std::ranges::min_element(cases, {}, [](const Json* one) { return rank(*one); }));
+  std::erase_if(cases, [&](const Json* one) { return rank(*one) != least_rank; });
+  const Json& fastest = **std::ranges::min_element(cases, {}, [](const Json* one) { return time_of(*one); });
+  std::erase_if(cases, [&](const Json* one) { return one != &fastest && is_slower(result, *one, fastest); });
+  return *std::ranges::min_element(cases, {}, [](const Json* one) {
+    return std::tuple((*one)["buffers"]["bytes"]["recommended"].get<std::uint64_t>(), time_of(*one),
+                      (*one)["name"].get_ref<const std::string&>());
+  });
+}
+
+std::vector<const Json*> best_of_groups(const Json& result, const std::vector<const Json*>& cases) {
+  std::vector<std::pair<std::string, std::vector<const Json*>>> groups;
+  for (const Json* result_case : cases) {
+    const std::string name = group_of(*result_case);
+    auto group = std::ranges::find(groups, name, [](const auto& one) { return one.first; });
+    if (group == groups.end()) group = groups.insert(groups.end(), {name, {}});
+    group->second.push_back(result_case);
   }
+  std::vector<const Json*> best;
+  for (const auto& group : groups) best.push_back(best_of(result, group.second));
   return best;
 }
 
-std::vector<Json> matching_cases(const Json& cases, const std::string& filter) {
-  std::vector<Json> out;
+std::vector<const Json*> matching_cases(const Json& cases, const std::string& filter) {
+  std::vector<const Json*> out;
   const Pattern pattern(filter, "--filter");
   for (const Json& result_case : cases)
-    if (pattern.is_in(result_case["name"].get_ref<const std::string&>())) out.push_back(result_case);
+    if (pattern.is_in(result_case["name"].get_ref<const std::string&>())) out.push_back(&result_case);
   if (out.empty() && !cases.empty())
     throw Error("", "--filter",
                 "'" + filter + "' matches none of " + number_of(cases.size(), "case") + "; one of them is '" +
@@ -189,9 +211,9 @@ constexpr const char* k_header_start = R"(#pragma once
 namespace light_lists {
 
 struct LightListBudget {
-  std::uint64_t capacity_entries;  // light indices to allocate
-  std::uint64_t warn_entries;      // say something above this
-  std::uint64_t bytes;             // headers included
+  std::uint64_t capacity_entries;  // entries to allocate: light indices of packed lists
+  std::uint64_t warn_entries;      // check() warns of a frame that needs more entries than this
+  std::uint64_t bytes;             // of these entries and the headers
 };
 
 )";
@@ -215,8 +237,9 @@ inline void check(const LightListBudget& budget, std::uint64_t needed_entries, s
 // What is left out, as a comment line.
 std::string left_out_text(std::size_t shown, std::size_t all) {
   if (shown == all) return "";
-  return "// The best case of each grid: no light lost, fastest, smallest. --all has all " + std::to_string(all) +
-         ".\n\n";
+  return "// Of each grid the fastest case that loses no light; of those that may be as fast, the smallest. --all has "
+         "all " +
+         std::to_string(all) + ".\n\n";
 }
 
 std::string cpp_report(const Json& result, const std::vector<Budget>& budgets, std::size_t all) {
@@ -248,11 +271,12 @@ std::vector<std::string> size_formats() {
 }
 
 std::string size_report(const Json& result, const SizeRequest& request) {
-  const std::vector<Json> cases = matching_cases(result["cases"], request.filter);
-  const std::vector<Json> shown = request.all ? cases : best_of_groups(cases);
+  const std::vector<const Json*> cases = matching_cases(result["cases"], request.filter);
+  const std::vector<const Json*> shown = request.all ? cases : best_of_groups(result, cases);
   std::set<std::string> taken;
   std::vector<Budget> budgets;
-  for (const Json& result_case : shown) {
+  for (const Json* shown_case : shown) {
+    const Json& result_case = *shown_case;
     const auto capacity = result_case["buffers"]["index_entries"]["recommended"].get<std::uint64_t>();
     budgets.push_back({&result_case,
                        identifier(request.all ? result_case["name"].get<std::string>() : group_of(result_case), taken),

@@ -10,9 +10,9 @@ namespace clusterbench::report {
 
 struct SizeRequest {
   std::string filter;  // a regular expression as RE2 has them, "" = all: only cases whose name matches
-  // Every case, and constants named by it. Without: of each scene, camera and grid the case that loses no light and is
-  // fastest, or smallest where times are equal or were not measured, and constants that keep their names if that
-  // becomes another method.
+  // Every case, and constants named by it. Without: of each scene, camera and grid one case that loses no light, and
+  // constants that keep their names if that becomes another method. It is the fastest, or of those that the interval of
+  // their ratio does not call slower the smallest, so that noise seldom decides; the smallest where nothing was timed.
   bool all = false;
   std::string format = "cpp";  // one of size_formats()
 };

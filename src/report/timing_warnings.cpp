@@ -67,7 +67,7 @@ std::string unknown_warning(const Doubt& unknown, std::size_t timed) {
 }
 
 std::string wide_warning(const Doubt& wide, std::size_t timed) {
-  return wide.cases(timed) + " have intervals wider than +- 10 %, the widest +- " +
+  return wide.cases(timed) + " with intervals wider than +- 10 %, the widest +- " +
          text("%.0f %%", 100.0 * wide.badness()) + ": " + wide.name() + "; stop other programs, or try " +
          more_launches(wide.worst());
 }

@@ -28,6 +28,7 @@ namespace clusterbench::run {
 
 struct Skipped {
   std::string name, reason;
+  bool is_other_kind = false;  // a method on a kind of grid that it does not take
 };
 
 struct ToolFacts {

@@ -207,8 +207,8 @@ std::string limit_obstacle(const assign::AssignerDescriptor& assigner, const con
   if (!assigner.all_pairs || !limits.all_pairs) return "";
   const std::uint64_t tests = first.lights() * first.cells;
   if (tests <= *limits.all_pairs) return "";
-  return assigner.name + " would test " + std::to_string(first.lights()) + " lights against " +
-         std::to_string(first.cells) + " cells, " + std::to_string(tests) + " pairs; limits.all_pairs allows " +
+  return assigner.name + " would test " + number_of(first.lights(), "light") + " against " +
+         number_of(first.cells, "cell") + ", " + number_of(tests, "pair") + "; limits.all_pairs allows " +
          std::to_string(*limits.all_pairs);
 }
 
@@ -280,7 +280,8 @@ class Expansion {
                                       data.paths[group.camera].shots.front().projection.orthographic);
     if (impossible.empty()) impossible = limit_obstacle(*assign::find_assigner(method.name), config_.limits, first);
     if (!impossible.empty()) {
-      skip(plan, name, impossible);
+      const bool takes_kind = assign::find_assigner(method.name)->takes(config_.grids[group.grid].kind);
+      skip(plan, name, impossible, !takes_kind);
       return;
     }
     for (std::size_t precision = 0; precision < config_.precisions.size(); ++precision)
@@ -331,13 +332,14 @@ class Expansion {
       if (std::ranges::none_of(plan.groups, [&](const GroupPlan& group) { return group.scene == i; })) continue;
       for (const config::SampleSetRequest& request : config_.sample_sets)
         if (const std::string reason = set_obstacle(request, plan.scenes[i]); !reason.empty())
-          plan.skipped.push_back({plan.scenes[i].scene.name + "/samples " + measure::name_of(request.set), reason});
+          plan.skipped.push_back(
+              {plan.scenes[i].scene.name + "/samples " + measure::name_of(request.set), reason, false});
     }
   }
 
   // What the filter leaves out is not listed as skipped either.
-  void skip(Plan& plan, const std::string& name, const std::string& reason) const {
-    if (filter_.is_in(name)) plan.skipped.push_back({name, reason});
+  void skip(Plan& plan, const std::string& name, const std::string& reason, bool is_other_kind = false) const {
+    if (filter_.is_in(name)) plan.skipped.push_back({name, reason, is_other_kind});
   }
 
   const config::Config& config_;

@@ -173,8 +173,9 @@ void warn_of_unknown_extras(const JsonLocation& object, const std::vector<std::s
     // "clusterbnch_box" is near enough to be meant, too.
     const std::vector<std::string> all{k_box, k_sides};
     if (is_own || (!letters.starts_with(k_tool) && nearest_name(key, all).empty())) continue;
-    object.at("extras").at(key).warn("is not read" + did_you_mean(key, own) + "; nodes can have " + k_box +
-                                     ", cameras " + k_sides);
+    const bool is_elsewhere = std::find(all.begin(), all.end(), key) != all.end();
+    object.at("extras").at(key).warn("is not read" + (is_elsewhere ? "" : did_you_mean(key, all)) +
+                                     "; nodes can have " + k_box + ", cameras " + k_sides);
   }
 }
 

@@ -35,13 +35,14 @@ void warn_of(Summary& summary, const std::vector<std::string>& names, const std:
 }
 
 void count_lights(const Scene& scene, Summary& summary) {
-  std::vector<double> ranges;
+  std::vector<double> ranges, made_ranges;
   for (const Light& light : scene.lights) {
     ++(light.type == LightType::point  ? summary.points
        : light.type == LightType::spot ? summary.spots
                                        : summary.directionals);
     if (!is_assigned(light)) continue;
     ranges.push_back(light.range_m);
+    if (light.range_source != RangeSource::given) made_ranges.push_back(light.range_m);
     ++(light.range_source == RangeSource::given            ? summary.ranges_given
        : light.range_source == RangeSource::clamped_to_max ? summary.ranges_clamped
                                                            : summary.ranges_from_intensity);
@@ -52,6 +53,10 @@ void count_lights(const Scene& scene, Summary& summary) {
   summary.range_min_m = ranges.front();
   summary.range_median_m = ranges[ranges.size() / 2];
   summary.range_max_m = ranges.back();
+  if (made_ranges.empty()) return;
+  const auto [least, greatest] = std::minmax_element(made_ranges.begin(), made_ranges.end());
+  summary.made_range_min_m = *least;
+  summary.made_range_max_m = *greatest;
 }
 
 std::vector<double> moments(const Scene& scene) {

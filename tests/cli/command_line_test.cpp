@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -29,6 +30,9 @@ TEST(CommandLine, what_is_unknown_or_missing_is_told_in_one_line_with_the_neares
       {"list all", "list: 'all' is one argument too many; see `clusterbench list --help`"},
       {"compare a.json", "compare: NEW is required; see `clusterbench compare --help`"},
       {"run", "run: INPUT is required; see `clusterbench run --help`"},
+      {"schema confg",
+       "schema: WHICH: no 'confg' (did you mean 'config'?); there are: config, result, comparison, "
+       "ratios, stress; see `clusterbench schema --help`"},
   };
   for (const auto& [line, message] : rows) {
     const Outcome done = tool(line);
@@ -135,6 +139,10 @@ TEST(CommandLine, list_names_every_assigner_with_its_parameters) {
                                              "naive-cone"}));
   const std::string text = tool("list").out;
   for (const std::string& name : names) EXPECT_NE(text.find(name), std::string::npos) << name;
+  const std::string inflation = ": padding of the light's radius";
+  EXPECT_NE(text.find("inflation = 1  (0 to 1000000)" + inflation), std::string::npos) << text;
+  EXPECT_EQ(text.find(inflation), text.rfind(inflation)) << "what methods share is explained once";
+  EXPECT_NE(text.find("      spot = both, inflation = 1: as for brute-force\n"), std::string::npos) << text;
 }
 
 TEST(CommandLine, all_schemas_are_draft_07) {
@@ -237,6 +245,23 @@ TEST(SceneCommand, a_generated_scene_is_the_committed_one_and_can_be_looked_at) 
   const Json info = Json::parse(tool("scene info --json " + file).out);
   EXPECT_GT(info["lights"]["spot"], 0);
   EXPECT_FALSE(info["cameras"].empty());
+}
+
+TEST(SceneCommand, a_cutoff_shows_the_ranges_that_it_makes) {
+  const std::string file = source_file("scenes/street.glb");
+  const auto by_rule = [&](const std::string& flags) {
+    return Json::parse(tool("scene info --json " + flags + " " + file).out)["ranges"]["by_rule"];
+  };
+  const Json usual = by_rule(""), short_ones = by_rule("--cutoff-lux 0.5"), cut_off = by_rule("--max-range 3");
+  EXPECT_EQ(usual["cutoff_lux"], 0.05);
+  EXPECT_NEAR(short_ones["max_m"].get<double>() * std::sqrt(10.0), usual["max_m"].get<double>(), 1e-9);
+  EXPECT_EQ(cut_off["max_m"], 3.0);
+  const std::string text = tool("scene info --cutoff-lux 0.5 " + file).out;
+  EXPECT_NE(text.find("  by rule  12 lights without range: "), std::string::npos) << text;
+  EXPECT_NE(text.find(" m, where they fall to 0.5 lux (--cutoff-lux)\n"), std::string::npos) << text;
+  const std::string clamped = tool("scene info --max-range 3 " + file).out;
+  EXPECT_NE(clamped.find("12 of them cut off at 3 m (--max-range)\n"), std::string::npos) << clamped;
+  EXPECT_EQ(tool("scene info " + source_file("scenes/hall-512.glb")).out.find("by rule"), std::string::npos);
 }
 
 TEST(SceneCommand, an_unknown_scene_name_is_answered_with_the_nearest_one) {

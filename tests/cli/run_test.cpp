@@ -197,6 +197,22 @@ TEST(Run, a_dry_run_lists_cases_and_measures_nothing) {
   EXPECT_NE(done.out.find("skipped"), std::string::npos) << done.out;
 }
 
+TEST(Run, a_dry_run_tells_each_reason_once) {
+  const Folder folder;
+  const auto config = folder.write("two.json", R"({"scenes": [{"path": ")" + source_file("scenes/outlier.glb") + R"(",
+    "frames": 1}], "grids": [{"kind": "frustum", "slices": {"count": [4, 8]}}, {"kind": "world"}],
+    "assigners": ["aabb", "world-grid", "tiled"]})");
+  const Outcome done = tool("run --dry-run " + config.string());
+  ASSERT_EQ(done.code, 0) << done.err;
+  const std::string skipped = done.out.substr(std::min(done.out.find("skipped"), done.out.size()));
+  EXPECT_EQ(skipped,
+            "skipped  outlier/walk/frustum 64px x 4 exponential-first first 5/tiled and 1 more: tiled needs a depth "
+            "buffer, and the scene has no triangles\n"
+            "skipped  4 combinations of a method with a kind of grid that it does not take (`clusterbench list` tells "
+            "which it takes)\n");
+  EXPECT_NE(done.err.find("3 cases, 6 skipped; takes "), std::string::npos) << done.err;
+}
+
 TEST(Run, a_filter_selects_cases_by_name) {
   const Folder folder;
   const std::string config = folder.write("small.json", small_config()).string();
@@ -206,6 +222,16 @@ TEST(Run, a_filter_selects_cases_by_name) {
   EXPECT_EQ(tool("run --filter '(' " + config).code, 2);
   EXPECT_EQ(tool("run --filter '([a-z/ 0-9.-]+)+!' " + config).code, 2) << "ends, though by backtracking it would not";
   EXPECT_EQ(tool("run --filter nothing-like-this " + config).code, 2);
+}
+
+TEST(Run, quiet_hides_progress_and_table_and_no_warning) {
+  const Folder folder;
+  const std::string config = folder.write("small.json", small_config()).string();
+  const Outcome done =
+      tool("run -q --rounds 1 --launches 1 --filter '/aabb/' -o " + (folder / "r.json").string() + " " + config);
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_NE(done.err.find("warning: 1 of 1 time without an interval: "), std::string::npos) << done.err;
+  EXPECT_EQ(done.err.find("frame us"), std::string::npos) << done.err;
 }
 
 TEST(Run, a_scene_alone_is_enough) {
@@ -274,7 +300,7 @@ TEST(Run, an_interrupted_run_resumes_to_the_same_counts) {
 
   const Outcome resumed = tool("run -q --resume --threads 2 " + config + " -o " + cut);
   ASSERT_EQ(resumed.code, 0) << resumed.err;
-  EXPECT_EQ(resumed.err, "");
+  EXPECT_EQ(resumed.err.find("clusterbench: "), std::string::npos) << resumed.err;  // warnings of times may be
   Json same = without_timing(Json::parse(file_text(cut)));
   EXPECT_EQ(same["config"]["threads"], 2);
   same["config"]["threads"] = 1;
@@ -311,6 +337,60 @@ TEST(Run, a_budget_that_is_exceeded_fails_the_run_and_one_nearly_reached_is_warn
   EXPECT_EQ(Json::parse(file_text(out))["config"]["limits"]["fail_if"][0], "longest > " + std::to_string(2 * longest));
   EXPECT_EQ(with("frame_us > 1e6").code, 1) << "times are not measured";
   EXPECT_EQ(with("lngest > 1").code, 2);
+}
+
+// Two results that look good in time, bytes and false positives, and lack lights.
+struct Misleading {
+  const Folder folder;
+
+  Json cases_of(const std::string& config, const std::string& flags = "") const {
+    const std::string file = folder.write("misleading.json", config).string();
+    return Json::parse(tool("run -q --no-timing -o - " + file + flags).out);
+  }
+  Outcome table_of(const std::string& flags) const {
+    return tool("run --no-timing -o " + (folder / "r.json").string() + " " + (folder / "misleading.json").string() +
+                flags);
+  }
+};
+
+TEST(Run, a_grid_that_ends_before_the_lights_looks_no_better_than_it_is) {
+  const Misleading run;
+  const Json result = run.cases_of(R"({"scenes": [{"rig": {"lights": 1000, "range": 4, "size": [64, 16, 64]}}],
+    "grids": [{"slices": {"far": 20}}, {}], "assigners": ["exact-fast"]})");
+  const Json &ends = result["cases"][0], &holds = result["cases"][1];
+  EXPECT_EQ(ends["error"]["false_negatives"], 0) << "what the cells alone say";
+  EXPECT_LT(ends["buffers"]["bytes"]["high_water"], holds["buffers"]["bytes"]["high_water"]);
+  EXPECT_GT(ends["shading"]["unlit"], 0.05);
+  EXPECT_EQ(ends["shading"]["missed_in_cells"], 0);
+  EXPECT_TRUE(ends["shading"]["overshade"].is_null());
+  EXPECT_EQ(result["pareto_front"][0]["ids"], Json({holds["id"]})) << result["pareto_front"];
+  const Outcome shown = run.table_of("");
+  EXPECT_EQ(shown.code, 0);
+  EXPECT_NE(shown.err.find(" outside of the grid; most in frame 0, "), std::string::npos) << shown.err;
+  const Outcome gated = run.table_of(" --fail-if 'unlit > 0.001'");
+  EXPECT_EQ(gated.code, 1);
+  EXPECT_NE(gated.err.find("FAILED " + ends["name"].get<std::string>() + ": unlit is "), std::string::npos)
+      << gated.err;
+}
+
+TEST(Run, a_storage_that_drops_lights_fails_the_run_unless_it_may) {
+  const Misleading run;
+  const Json result = run.cases_of(R"({"scenes": [{"rig": {"lights": 1000, "range": 8, "size": [64, 16, 64]}}],
+    "grids": [{"tiles": {"count": [16, 9]}}], "assigners": ["exact-fast"],
+    "storages": ["packed", {"name": "fixed", "cap": 5}]})");
+  const Json &packed = result["cases"][0], &fixed = result["cases"][1];
+  EXPECT_EQ(fixed["error"]["false_negatives"], 0) << "what the method alone says";
+  EXPECT_LT(fixed["buffers"]["bytes"]["high_water"], packed["buffers"]["bytes"]["high_water"]);
+  EXPECT_GT(fixed["buffers"]["overflow"]["dropped_pairs"], 1000);
+  EXPECT_GT(fixed["shading"]["unlit"], 0.05);
+  EXPECT_EQ(result["pareto_front"][0]["ids"], Json({packed["id"]})) << result["pareto_front"];
+  const Outcome fails = run.table_of("");
+  EXPECT_EQ(fails.code, 1);
+  EXPECT_NE(fails.err.find("  dropped  "), std::string::npos) << fails.err;
+  EXPECT_NE(fails.err.find("FAILED " + fixed["name"].get<std::string>()), std::string::npos) << fails.err;
+  const Outcome allowed = run.table_of(" --set limits.dropped_pairs=null");
+  EXPECT_EQ(allowed.code, 0);
+  EXPECT_NE(allowed.err.find("warning: " + fixed["name"].get<std::string>()), std::string::npos) << allowed.err;
 }
 
 TEST(Run, a_result_goes_where_a_link_leads) {

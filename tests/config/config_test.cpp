@@ -434,17 +434,27 @@ TEST(Config, the_resolved_configuration_is_a_configuration_that_means_the_same) 
   }
 }
 
-TEST(Config, the_committed_configurations_are_valid_for_reader_and_schema) {
+TEST(Config, the_committed_configurations_are_valid_for_reader_and_schema_and_name_what_exists) {
   setenv("CLUSTERBENCH_SCENE_LIBRARY", "library", 0);
-  for (const char* name : {"quick", "sweep", "library", "trends", "stability", "precision"}) {
-    const std::string path = std::string(CLUSTERBENCH_SOURCE_DIR) + "/configs/" + name + ".json";
+  namespace fs = std::filesystem;
+  std::size_t configurations = 0;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(CLUSTERBENCH_SOURCE_DIR "/configs")) {
+    if (entry.path().extension() != ".json") continue;
+    ++configurations;
+    const fs::path& path = entry.path();
     const Config config = load_config(path);
-    EXPECT_EQ(config.name, name);
+    EXPECT_TRUE(config.name.ends_with(path.stem().string())) << path << " is called " << config.name;
     EXPECT_EQ(schema_violations(config_schema(), config.resolved), std::vector<std::string>{}) << path;
     std::ifstream in(path);
     const nlohmann::json document = nlohmann::json::parse(in, nullptr, true, true);
     EXPECT_EQ(schema_violations(config_schema(), document), std::vector<std::string>{}) << path;
+    const std::string schema = document.value("$schema", "");
+    EXPECT_TRUE(schema.empty() || fs::exists(path.parent_path() / schema)) << path;
+    if (path.stem() == "library") continue;  // its scenes are others'
+    for (const SceneRequest& scene : config.scenes)
+      EXPECT_TRUE(scene.rig || fs::exists(scene.path)) << path << ": " << scene.path;
   }
+  EXPECT_GE(configurations, 14U);
 }
 
 TEST(Config, scenes_of_the_command_line_get_the_default_sweep) {
@@ -453,7 +463,14 @@ TEST(Config, scenes_of_the_command_line_get_the_default_sweep) {
   EXPECT_EQ(config.scenes[0].path, std::filesystem::path("maps/level.glb"));
   EXPECT_EQ(config.scenes[0].camera.count, 30);
   EXPECT_EQ(config.timing.rounds, 15);
+  EXPECT_EQ(config.timing.frames, 4);
+  EXPECT_EQ(config.timing.min_time_ms, 2.0);
   EXPECT_EQ(config.grids.size(), 5U);
+  std::ifstream in(CLUSTERBENCH_SOURCE_DIR "/docs/configuration.md");
+  const std::string page(std::istreambuf_iterator<char>(in), {});
+  EXPECT_NE(page.find("`frames` 30, `timing.frames` 4,\n  `timing.rounds` 15, `timing.min_time_ms` 2"),
+            std::string::npos)
+      << "where the page says what differs from its tables";
 }
 
 TEST(Config, a_label_names_only_parameters_that_differ_from_the_default) {

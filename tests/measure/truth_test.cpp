@@ -287,10 +287,8 @@ class PeerWorkload : public testing::TestWithParam<Workload> {};
 
 // Figures of an oracle that was written independently of this project. W5 there has 30 x 17 equal tiles.
 TEST_P(PeerWorkload, has_the_true_pairs_that_an_independent_oracle_found) {
-  const char* library = std::getenv("CLUSTERBENCH_SCENE_LIBRARY");
-  if (library == nullptr) GTEST_SKIP() << "CLUSTERBENCH_SCENE_LIBRARY names no scene library";
   const Workload& work = GetParam();
-  scene::Scene scene = scene::load_gltf(std::string(library) + "/peer-workloads/" + work.name + ".gltf");
+  scene::Scene scene = scene::load_gltf(CLUSTERBENCH_SOURCE_DIR "/scenes/peers/" + std::string(work.name) + ".gltf");
   scene::resolve_ranges(scene, {});
   const auto paths = scene::camera_paths(scene, {});
   const view::Frame frame = view::make_frame(scene, paths.at(0).shots.at(0), 0, {1920, 1080});

@@ -214,6 +214,25 @@ TEST(Compare, cases_of_one_name_that_are_not_the_same_are_told_with_what_differs
             std::string::npos)
       << text;
   EXPECT_EQ(text.find("nothing has changed"), std::string::npos) << text;
+  EXPECT_EQ(text.find("only in the"), std::string::npos) << "told once: " << text;
+  EXPECT_EQ(text.find("base us"), std::string::npos) << "a table without rows: " << text;
+}
+
+TEST(Compare, each_setting_that_makes_another_case_is_named) {
+  const Json base = json_of(result_by_hand());
+  const auto difference = [&](const char* pointer, const Json& value) {
+    Json next = base;
+    for (Json& one : next["cases"]) one["id"] = one["id"].get<std::string>() + "'";
+    if (*pointer != '\0') next[Json::json_pointer(pointer)] = value;
+    return compared(base, next, 0.02)["renamed"][0]["differs_in"];
+  };
+  EXPECT_EQ(difference("/config/jitter", Json{{"halton", 8}}), Json{"jitter"});
+  EXPECT_EQ(difference("/config/scenes", Json::parse(R"([{"camera_fit": "vertical"}])")), Json{"camera_fit"});
+  EXPECT_EQ(difference("/config/samples", Json{{"fog", Json::object()}}), Json{"samples"});
+  EXPECT_EQ(difference("/config/lookup", Json{{"samples", 9}}), Json{"lookup"});
+  EXPECT_EQ(difference("/config/stability", Json{{"steps", 9}}), Json{"stability"});
+  EXPECT_EQ(difference("/scenes/0/range_rule/max_range", 60), Json{"range_rule"});
+  EXPECT_EQ(difference("", {}), Json{"something that results do not tell"});
 }
 
 TEST(Compare, a_measure_that_only_one_result_has_is_told) {

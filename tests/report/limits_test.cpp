@@ -72,6 +72,11 @@ TEST(Limits, what_no_case_has_fails) {
                    "timing.measure: false leaves times out)"}));
   bare["shading"] = {{"missed", 0}, {"needed", 0}};
   EXPECT_EQ(findings_of("unlit > 0", bare).broken.size(), 1u) << "a share of nothing";
+  bare["shading"] = {{"missed", 9}, {"needed", 200}, {"overshade", nullptr}};
+  EXPECT_EQ(
+      findings_of("overshade > 2", bare).broken,
+      (Lines{"'overshade > 2' could not be checked: no case has overshade (there is none where more than 0.1 % of "
+             "the lights are unlit or fewer than 100 reach the samples, as with shading.samples: 0)"}));
 }
 
 TEST(Limits, what_some_cases_have_is_held_there_and_the_others_are_named) {

@@ -208,7 +208,9 @@ TEST(GltfScenes, misspelt_extras_of_this_tool_are_told_with_what_was_meant) {
   EXPECT_NE(warning("Clusterbench-Box").find("is not read"), std::string::npos);
   EXPECT_EQ(warning("clusterbench_volume"),
             "/nodes/0/extras/clusterbench_volume: is not read (did you mean 'clusterbench_box'?)" + rest);
-  EXPECT_EQ(warning("clusterbench_sides").find("/nodes/0/extras/clusterbench_sides: is not read"), 0u);
+  EXPECT_EQ(warning("clusterbench_side"),
+            "/nodes/0/extras/clusterbench_side: is not read (did you mean 'clusterbench_sides'?)" + rest);
+  EXPECT_EQ(warning("clusterbench_sides"), "/nodes/0/extras/clusterbench_sides: is not read" + rest) << "on a node";
   EXPECT_EQ(warning("cluster"), "none") << "another program's";
   const Scene light = loaded(document(
       R"("extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "extras": {"clusterbench_range": 3}}]}})"));

@@ -56,6 +56,8 @@ TEST(Summary, counts_lights_and_ranges) {
   EXPECT_EQ(summary.ranges_from_intensity, 1);
   EXPECT_EQ(summary.range_median_m, 3.0);
   EXPECT_EQ(summary.range_max_m, 5.0);
+  EXPECT_EQ(summary.made_range_min_m, 3.0);
+  EXPECT_EQ(summary.made_range_max_m, 3.0);
 }
 
 TEST(Summary, bounds_hold_the_balls_over_the_animation) {

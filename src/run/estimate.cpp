@@ -1,0 +1,90 @@
+#include "run/estimate.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "run/cache_sweep.h"
+#include "run/passes/accuracy_pass.h"
+#include "run/passes/timing_pass.h"
+#include "run/repeated.h"
+#include "run/timed_work.h"
+
+namespace clusterbench::run {
+namespace {
+
+constexpr double k_looks_ns = 2e9;  // no further group is looked at after this time
+
+template <class Once>
+double duration_ns(const Once& once) {
+  const double start = wall_ns();
+  once();
+  return wall_ns() - start;
+}
+
+// Truth, lists, samples and buffers of one frame: the second, as the first one's memory grows.
+double counting_ns(const config::Config& config, const SceneData& data, const GroupPlan& group,
+                   const PathFrames& path) {
+  std::atomic<bool> stop{false};
+  double start = 0.0;
+  const auto on_frame = [&](int index) {
+    start = wall_ns();
+    stop = index > 0;
+  };
+  accuracy_pass(config, data, group, path, on_frame, stop);
+  return wall_ns() - start;
+}
+
+// What measure_launch() does with each method in all launches, from what one frame takes.
+double timing_ns(const config::Config& config, const GroupPlan& group, const PathFrames& path, double sweep_ns) {
+  const auto frames = static_cast<double>(mean_frames(config, path).size());
+  const std::vector<TimedFrame> one = timed_frames(config, group, path, {path.count() / 2});
+  const double min_ns = 1e6 * config.timing.min_time_ms, launches = config.timing.launches;
+  const int rounds = rounds_per_launch(config.timing, config.timing.launches);
+  const int cold = config.timing.cold ? cold_rounds(rounds, static_cast<std::size_t>(frames) + 1, sweep_bytes()) : 0;
+  double all = 0.0;
+  for (const Method& method : methods_of(group)) {
+    TimedWork work(config, group, method, one);
+    const double build = duration_ns([&] { work.build(); }), assign = duration_ns([&] { work.assign(); });
+    double start = build + (frames + 1.0) * assign, warm = build + frames * assign + std::max(min_ns, frames * assign);
+    double converts = 0.0;
+    for (std::size_t store = 0; work.converts() && store < work.case_indices().size(); ++store) {
+      const double convert = duration_ns([&] { work.convert(store); });
+      warm += 2.0 * std::max(min_ns / 10.0, frames * convert);
+      converts += convert;
+    }
+    warm += min_ns / 10.0;  // the copy of the lists
+    if (!config.timing.cold) warm += std::max(min_ns / 10.0, frames * (assign + converts));
+    constexpr double k_cold_by_warm = 2.0;
+    const double swept = (frames + 1.0) * (sweep_ns + k_cold_by_warm * (assign + converts));
+    all += launches * (start + rounds * warm + cold * swept);
+  }
+  return all;
+}
+
+double sweep_duration_ns() {
+  CacheSweep sweep(sweep_bytes());
+  sweep();  // its memory comes
+  return duration_ns([&] { sweep(); });
+}
+
+}  // namespace
+
+double estimated_s(const config::Config& config, const Plan& plan) {
+  const double sweep_ns = config.timing.measure && config.timing.cold ? sweep_duration_ns() : 0.0;
+  // Some groups of all scenes and grids: each step goes on by about the golden section of the list.
+  const std::size_t groups = plan.groups.size();
+  std::size_t stride = std::max<std::size_t>(1, groups * 618 / 1000), looked = 0;
+  while (std::gcd(stride, groups) != 1) ++stride;
+  double sum_ns = 0.0;
+  for (const double start = wall_ns(); looked < groups && (looked == 0 || wall_ns() - start < k_looks_ns); ++looked) {
+    const GroupPlan& group = plan.groups[looked * stride % groups];
+    const PathFrames path = path_of(config, plan, group);
+    const double counting = counting_ns(config, plan.scenes[group.scene], group, path);
+    const int steps = config.stability ? config.stability->steps : 0;
+    sum_ns += counting * (path.count() + steps);
+    if (config.timing.measure) sum_ns += timing_ns(config, group, path, sweep_ns);
+  }
+  return 1e-9 * sum_ns * static_cast<double>(groups) / static_cast<double>(looked);
+}
+
+}  // namespace clusterbench::run
