@@ -29,7 +29,8 @@ TABLES = {
                     for name in ("opaque", "transparent", "fog", "mirror", "anywhere")]
                  + [(key + ".", f"/properties/{key}/anyOf/1") for key in ("lookup", "stability", "details")]
                  + [("jitter.", "/properties/jitter/anyOf/2")]
-                 + [(key + ".", f"/properties/{key}") for key in ("timing", "limits", "allocation")],
+                 + [(key + ".", f"/properties/{key}") for key in ("timing", "limits", "allocation", "cost")]
+                 + [("cost.weights.", "/properties/cost/properties/weights")],
 }
 SAME_AS_FRUSTUM = "/definitions/distance"
 

@@ -23,8 +23,9 @@ export interface Case {
   isOnFront: boolean;
   isEligible: boolean; // for the front, and to be what others are compared with
   isUnlit: boolean; // leaves more lights unlit than rounding does
-  rank: Maybe; // by frame time among all cases that see the same, whatever is filtered out
+  rank: Maybe; // by frame time, or cost, among all cases that see the same, whatever is filtered out
   frameNs: Maybe; // assignment and conversion
+  costNs: Maybe; // of a frame with its shading; without times what the GPU does
   interval: [Maybe, Maybe]; // of frameNs
   ranked: Ranked | null; // beside the fastest and the next faster one
   worstNs: Maybe; // of the slowest timed frame
@@ -38,6 +39,8 @@ export interface Case {
   excess: Maybe;
   missed: Maybe;
   dropped: number;
+  lostLux: Maybe; // on visible surfaces if they are asked for, else in the whole view; mean
+  worstLux: Maybe; // of the sample that loses most
   unlit: Maybe;
   overshade: Maybe;
   p99: Maybe;
@@ -71,6 +74,7 @@ function labels(files: string[]): string[] {
 
 function toCase(raw: CaseResult, run: Run, front: Set<string>, ranked: Ranked | null): Case {
   const storage = raw.precision && raw.precision.packing !== "float32" ? `${raw.storage}, ${raw.precision.label}` : raw.storage;
+  const seen = raw.samples?.opaque ?? raw.shading;
   return {
     raw,
     run,
@@ -86,6 +90,7 @@ function toCase(raw: CaseResult, run: Run, front: Set<string>, ranked: Ranked | 
     isUnlit: raw.warnings.some(({ kind }) => kind === "unlit"),
     rank: null,
     frameNs: raw.timing?.frame_ns.median ?? null,
+    costNs: raw.cost?.frame_ns ?? raw.cost?.gpu_ns ?? null,
     interval: raw.timing?.frame_ns.ci95 ?? [null, null],
     ranked,
     worstNs: raw.timing?.worst_frame?.ns ?? null,
@@ -99,6 +104,8 @@ function toCase(raw: CaseResult, run: Run, front: Set<string>, ranked: Ranked | 
     excess: raw.error?.excess_ratio ?? null,
     missed: raw.error?.false_negatives ?? null,
     dropped: raw.buffers.overflow.dropped_pairs,
+    lostLux: seen?.lost_lux ?? null,
+    worstLux: seen?.darkest?.lost_lux ?? (seen ? 0 : null),
     unlit: raw.shading?.unlit ?? null,
     overshade: raw.shading?.overshade ?? null,
     p99: raw.occupancy?.lights_per_cell.p99 ?? null,
@@ -111,9 +118,12 @@ function toCase(raw: CaseResult, run: Run, front: Set<string>, ranked: Ranked | 
 // Cases that see the same, whatever cells they use. Of several results each is by itself: they can be of other machines.
 export const seenBy = (aCase: Case) => [aCase.run.label, aCase.scene, aCase.raw.camera, aCase.raw.viewport.join("x")].join("\n");
 
+export const isRankedByCost = (aCase: Case) => aCase.run.result.config.rank_by === "frame_cost";
+
 function rankAll(cases: Case[]): void {
-  for (const seen of Map.groupBy(cases.filter((aCase) => aCase.frameNs !== null), seenBy).values())
-    seen.sort((a, b) => a.frameNs! - b.frameNs!).forEach((aCase, at) => (aCase.rank = at + 1));
+  const ranked = (aCase: Case) => (isRankedByCost(aCase) ? aCase.costNs : aCase.frameNs);
+  for (const seen of Map.groupBy(cases.filter((aCase) => ranked(aCase) !== null), seenBy).values())
+    seen.sort((a, b) => ranked(a)! - ranked(b)!).forEach((aCase, at) => (aCase.rank = at + 1));
 }
 
 export function modelOf(data: PageData): Model {

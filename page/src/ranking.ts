@@ -3,7 +3,7 @@
 import { h } from "./dom.ts";
 import * as format from "./format.ts";
 import { copyButton, csv, downloadButton } from "./handover.ts";
-import type { Case } from "./model.ts";
+import { isRankedByCost, type Case } from "./model.ts";
 import { standings, type Mean, type Standing } from "./overall.ts";
 import { icon } from "./palette.ts";
 import { tableView, type Column, type Table } from "./table.ts";
@@ -41,14 +41,16 @@ function caseColumns(view: View, rows: Case[]): Column<Case>[] {
   return kept<Case>([
     { label: "method", value: (row) => row.assigner, show: (row) => method(view, row) },
     measured((row) => row.frameNs) && { label: "frame µs", about: "Median time of what a frame takes: assignment and conversion to the storage, with builds where the grid changes from frame to frame. ~: may be as fast as the next faster one of its scene, as far as their ratio is known", value: (row) => row.frameNs, show: (row) => h("span", { title: interval(row) }, `${row.ranked?.is_like_above ? "~" : ""}${format.microseconds(row.frameNs)}`) },
+    measured((row) => row.costNs) && { label: "cost µs", about: "What a frame costs with its shading, by the model and the constants of the configuration's key cost: frame time where it is measured, bytes to upload, what drawn lights read and write, lights that samples loop over", value: (row) => row.costNs, show: (row) => format.microseconds(row.costNs) },
     { label: "excess", about: "False positives by true pairs", value: (row) => row.excess, show: (row) => format.percent(row.excess) },
     { label: "missed", about: "False negatives: lights that reach a cell and are not in its list", value: (row) => row.missed, show: (row) => lost(format.whole(row.missed), !!row.missed) },
     rows.some((row) => row.dropped > 0) && { label: "dropped", about: "Pairs that the storage had no room for, over all frames", value: (row) => row.dropped, show: (row) => lost(format.short(row.dropped), row.dropped > 0) },
+    rows.some((row) => row.dropped > 0) && { label: "lost lx", about: "Irradiance that samples lack, mean; of the one that lacks most at the pointer", value: (row) => row.lostLux, show: (row) => lost(format.decimal(row.lostLux), !!row.lostLux, `at most ${format.decimal(row.worstLux)} lx`) },
     measured((row) => row.unlit) && { label: "unlit", about: "Share of the lights that samples need and are not given: their cell lacks them, the storage dropped them, or they are outside of the grid", value: (row) => row.unlit, show: (row) => unlit(row) },
     measured((row) => row.overshade) && { label: "overshade", about: "Lights evaluated by lights needed, at the samples; none where lights are unlit or few are needed", value: (row) => row.overshade, show: (row) => format.factor(row.overshade) },
     { label: "bytes", about: "High-water mark of headers and indices", value: (row) => row.bytes, show: (row) => format.short(row.bytes) },
-    { label: "front", about: "On its scene's Pareto front in frame time, bytes and overshade: nothing that loses no light is better, beyond the interval of the ratio of their times", value: (row) => (row.isOnFront ? "yes" : null), show: (row) => front(row.isOnFront) },
-    measured((row) => row.rank) && { label: "rank", about: "By frame time among all cases of its scene, camera and viewport, those that are filtered out as well", value: (row) => row.rank },
+    { label: "front", about: "On its scene's Pareto front in frame time, bytes and overshade, or in cost and bytes where the result is ranked by cost: nothing that loses no light is better, beyond the interval of the ratio of their times", value: (row) => (row.isOnFront ? "yes" : null), show: (row) => front(row.isOnFront) },
+    measured((row) => row.rank) && { label: "rank", about: "By frame time, or cost where the result is ranked by it, among all cases of its scene, camera and viewport, those that are filtered out as well", value: (row) => row.rank },
     measured((row) => row.ranked?.fastest?.ratio ?? null) && { label: "/ fastest", about: "Frame time by that of the fastest case of its scene, camera and viewport, measured beside it, as clusterbench ratio --across-grids has it; its interval at the pointer", value: (row) => row.ranked?.fastest?.ratio ?? null, show: (row) => h("span", { title: ratio(row) }, format.factor(row.ranked?.fastest?.ratio ?? null)) },
     view.hasRuns && { label: "result", value: (row) => row.run.label },
     differ(rows, (row) => row.scene) && { label: "scene", value: (row) => row.scene },
@@ -118,8 +120,8 @@ function overallColumns(view: View, rows: Standing[]): Column<Standing>[] {
 }
 
 // By the first of these columns that the table has.
-function sortedBy<Row>(columns: Column<Row>[]): Table<Row>["sort"] {
-  const indices = ["frame µs", "time / best", "instr", "excess"].map((label) => columns.findIndex((column) => column.label === label));
+function sortedBy<Row>(columns: Column<Row>[], isByCost: boolean): Table<Row>["sort"] {
+  const indices = [...(isByCost ? ["cost µs"] : []), "frame µs", "time / best", "instr", "excess"].map((label) => columns.findIndex((column) => column.label === label));
   return { column: indices.find((index) => index >= 0) ?? 0, descending: false };
 }
 
@@ -136,7 +138,7 @@ function wholeControl(view: View, redraw: () => void, isWhole: boolean): HTMLEle
   return h("label", { class: "control check" }, input, h("span", {}, "All columns"));
 }
 
-function ranking<Row>(view: View, redraw: () => void, caption: string, all: Column<Row>[], rows: Row[]): HTMLElement {
+function ranking<Row>(view: View, redraw: () => void, caption: string, all: Column<Row>[], rows: Row[], isByCost = false): HTMLElement {
   const isWhole = view.choices.get(allColumns) === "1";
   const columns = all.filter((column) => isWhole || !column.isDetail);
   const text = () => csv(all, rows);
@@ -145,7 +147,7 @@ function ranking<Row>(view: View, redraw: () => void, caption: string, all: Colu
     { id: "ranking" },
     h("h2", {}, "Ranking"),
     all.some((column) => column.isDetail) && h("div", { class: "controls" }, wholeControl(view, redraw, isWhole)),
-    tableView({ caption, columns, rows, sort: sortedBy(columns), most: 200 }),
+    tableView({ caption, columns, rows, sort: sortedBy(columns, isByCost), most: 200 }),
     h("p", { class: "tools" }, copyButton("Copy data", text), downloadButton("Download CSV", "ranking.csv", "text/csv", text)),
   );
 }
@@ -154,7 +156,7 @@ export const rankingSection: Section = (view, redraw) => {
   const cases = view.cases();
   if (cases.length === 0) return nothing(view);
   const { scene } = view.filters;
-  if (scene !== null) return ranking(view, redraw, `Cases of ${scene}`, caseColumns(view, cases), cases);
+  if (scene !== null) return ranking(view, redraw, `Cases of ${scene}`, caseColumns(view, cases), cases, cases.every(isRankedByCost));
   const rows = standings(view.casesOfAnyFront(), view.model.cases).filter((row) => !view.filters.frontOnly || row.fronts > 0);
   return ranking(view, redraw, "Methods over all scenes", overallColumns(view, rows), rows);
 };

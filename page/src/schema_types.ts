@@ -151,6 +151,7 @@ export type Result = {
       margin: number; // What is allocated / the high-water mark [ratio, over all cases]
       warn_at: number; // Share of the allocation above which to warn [share of 1, over all cases]
     }; // What `recommended` is made with; `clusterbench size` goes by it
+    rank_by?: "frame_time" | "frame_cost"; // What rows, ranks and pareto_front go by; absent in older results: frame_time
   }; // The configuration with every default (`clusterbench schema config`)
   scenes: Array<{
     name: string; // Name in the names of cases: the file's, without its extension
@@ -270,6 +271,10 @@ export type Result = {
         mean: number | null; // Mean per frame
         max: number; // Of the frame with most
       }; // What a frame would send to a GPU [bytes, over all frames]
+      traffic_bytes?: {
+        mean: number | null; // Mean per frame
+        max: number; // Of the frame with most
+      }; // What a GPU reads and writes for lights that are drawn over pixels; absent where none are [bytes, over all frames]
       used_share: MeanMax; // Entries that a frame uses, of index_entries.recommended [share of 1, over all frames]
       overflow: {
         dropped_pairs: number; // That the storage had no room for [pairs, over all frames]
@@ -356,6 +361,21 @@ export type Result = {
       }; // Flickers of the method less those of the truth [over the steps]
       undecided: number; // Pairs of the truth that exact arithmetic left undecided, over all steps; counted as true [pairs, over the steps]
     }; // Lists along a piece of the path in fine steps, beside the true lists; where the configuration asks for it
+    cost?: {
+      frame_ns: number | null; // assign_ns + gpu_ns; null where nothing is timed [ns]
+      assign_ns: number | null; // timing.frame_ns.median: assignment and conversion [ns]
+      gpu_ns: number | null; // upload_ns + traffic_ns + shade_ns: all but the assignment, and the same on every machine [ns]
+      upload_ns: number | null; // buffers.upload_bytes.mean / upload_gb_per_s [ns]
+      traffic_ns: number | null; // buffers.traffic_bytes.mean / memory_gb_per_s [ns]
+      shade_ns: number | null; // Sum over the sets [ns]
+      sets: Record<string, {
+        samples: number | null; // That a frame shades: weight x samples, each of which stands for its block of pixels [samples]
+        lights: number | null; // Looped over at one of them, mean [lights]
+        divergence: number | null; // Of waves of config.cost.wave pixels; 1 where it is not known, and where lights are drawn [ratio]
+        ns: number | null; // samples x lights x divergence x ns_per_light [ns]
+      }>; // By name, those that are asked for, have a weight and are there
+      lit: boolean; // None of these sets lacks more than 0.001 of the lights that it needs. A case that does is on no front over cost
+    }; // What a frame costs with its shading, by the model and the constants of config.cost; where samples of a set with a weight are asked for [over one frame, mean over all frames]
     precision?: {
       packing: "float32" | "half" | "unorm16"; // How lights are packed before the assigner sees them
       inflate: boolean; // Each light is grown by what packing can have lost. Without it a packed case's assigner is not conservative, and misses do not fail the run
@@ -490,7 +510,7 @@ export type Result = {
   pareto_front: Array<{
     scene: string; // Name of one of scenes
     ids: string[]; // Ids of the cases with a star, in the order of cases
-  }>; // Per scene the cases on the Pareto front: no other one of the same camera and viewport is as good in frame time (beyond the interval of their ratio), bytes and overshade together, and better in one. Only cases that are eligible
+  }>; // Per scene the cases on the Pareto front: no other one of the same camera and viewport is as good in frame time (beyond the interval of their ratio), bytes and overshade together, and better in one; where config.rank_by is frame_cost, in cost and bytes. Only cases that are eligible
   skipped: Array<{
     name: string; // As of a case, as far as all of the skipped combinations share it
     reason: string; // Why, as text

@@ -20,6 +20,7 @@ interface Measure {
 export const measures: Record<string, Measure> = {
   overshade: { label: "overshade", of: (aCase) => aCase.overshade, show: format.factor, about: "lights evaluated by lights needed at the samples; compares across grids" },
   excess: { label: "excess", of: (aCase) => aCase.excess, show: format.percent, about: "false positives by true pairs; compares within one grid" },
+  cost: { label: "frame cost µs", of: (aCase) => aCase.costNs && aCase.costNs / 1e3, show: (value) => format.microseconds(value && 1e3 * value), about: "frame time, upload and shading, by the configuration's cost model; compares across grids" },
   bytes: { label: "bytes", of: (aCase) => aCase.bytes, show: format.short, about: "high-water mark of headers and indices" },
   unlit: { label: "unlit", of: (aCase) => aCase.unlit, show: format.share, about: "share of needed lights that samples are not given" },
   missed: { label: "missed", of: (aCase) => aCase.missed, show: format.count, about: "lights lost" },

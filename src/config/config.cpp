@@ -338,6 +338,17 @@ void check_utf8(const JsonText& text) {
                   "'" + value.get<std::string>() + "' is not UTF-8, and no result could name it");
 }
 
+// A cost is that of samples with a weight.
+void check_ranking(const Json& document, const std::vector<SampleSetRequest>& sets, const JsonText& text) {
+  if (document["rank_by"] != "frame_cost") return;
+  const Json& weights = document["cost"]["weights"];
+  const bool has_cost = std::ranges::any_of(
+      sets, [&](const SampleSetRequest& set) { return weights[measure::name_of(set.set)].get<double>() > 0.0; });
+  if (!has_cost)
+    throw Error(text.file, text.where("/rank_by"),
+                "is frame_cost, and no set of samples with a weight is asked for; add \"samples\": {\"opaque\": {}}");
+}
+
 Config read_config(const JsonText& text) {
   check_utf8(text);
   Config config;
@@ -355,6 +366,7 @@ Config read_config(const JsonText& text) {
   config.storages = methods(document["storages"], "storages", text, storage_params);
   config.precisions = precisions(document["precision"], text);
   read_settings(document, config);
+  check_ranking(document, config.sample_sets, text);
   config.limits.fail_if = limit_rules(document["limits"]["fail_if"], text);
   return config;
 }

@@ -14,6 +14,7 @@ namespace {
 constexpr LimitFigure k_figures[] = {
     {"frame_us", "median time of a frame in microseconds: assign and convert"},
     {"frame_us.max", "time of the slowest frame that is timed, in microseconds"},
+    {"frame_cost_us", "modelled time of a frame with its shading, in microseconds"},
     {"assign_us", "median time to assign a frame's lights, in microseconds"},
     {"convert_us", "median time to convert a frame's lists, in microseconds"},
     {"build_us", "median time to prepare for a grid, in microseconds"},

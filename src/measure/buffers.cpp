@@ -25,6 +25,7 @@ void BufferMeter::add_frame(int frame, const assign::LightStructure& structure, 
   raise(sum_.bytes.high_water, use.index_bytes + use.header_bytes);
   raise(sum_.header_bytes, use.header_bytes);
   raise(sum_.upload_bytes_max, use.upload_bytes);
+  raise(sum_.traffic_bytes_max, use.traffic_bytes);
   raise(sum_.scratch_bytes, scratch_bytes);
   raise(sum_.index_entries.theoretical_max, limit.index_entries);
   raise(sum_.bytes.theoretical_max, limit.bytes);
@@ -37,6 +38,7 @@ void BufferMeter::add_frame(int frame, const assign::LightStructure& structure, 
   sum_.dropped_lights.insert(use.dropped_lights.begin(), use.dropped_lights.end());
   entries_total_ += use.index_entries;
   upload_total_ += use.upload_bytes;
+  traffic_total_ += use.traffic_bytes;
   ++frames_;
 }
 
@@ -49,6 +51,7 @@ Buffers BufferMeter::result() const {
   out.bytes.recommended =
       std::min(out.bytes.theoretical_max, std::max(out.bytes.high_water, out.header_bytes + index_bytes));
   out.upload_bytes_mean = static_cast<double>(upload_total_) / frames_;
+  out.traffic_bytes_mean = static_cast<double>(traffic_total_) / frames_;
   if (out.index_entries.recommended > 0) {
     const auto room = static_cast<double>(out.index_entries.recommended);
     out.in_use_mean = static_cast<double>(entries_total_) / frames_ / room;

@@ -27,6 +27,8 @@ struct Buffers {
   std::uint64_t header_bytes = 0;  // high water
   double upload_bytes_mean = 0.0;
   std::uint64_t upload_bytes_max = 0;
+  double traffic_bytes_mean = 0.0;
+  std::uint64_t traffic_bytes_max = 0;
   std::uint64_t dropped_pairs = 0, overflowing_cells = 0;
   int overflowing_frames = 0;
   std::set<std::uint32_t> dropped_lights;
@@ -48,7 +50,7 @@ class BufferMeter {
  private:
   AllocationRule rule_;
   Buffers sum_;
-  std::uint64_t entries_total_ = 0, upload_total_ = 0;
+  std::uint64_t entries_total_ = 0, upload_total_ = 0, traffic_total_ = 0;
   std::uint64_t laid_out_entries_ = 0;  // high water; above the entries in use where room is reserved per cell
   int frames_ = 0;
 };

@@ -14,13 +14,21 @@ std::string view_of(const Json& result_case) {
   return Json{result_case["camera"], result_case["viewport"]}.dump();
 }
 
-measure::Costs costs_of(const Json& result_case) {
+measure::Costs costs_of(const Json& result_case, RankBy by) {
   measure::Costs costs;
   const auto low = number_at(result_case, "/timing/frame_ns/ci95/0"),
              high = number_at(result_case, "/timing/frame_ns/ci95/1");
   if (low && high) costs.time_ns = {*low, *high};
   costs.bytes = number_at(result_case, "/buffers/bytes/high_water").value_or(costs.k_unknown);
-  costs.overshade = number_at(result_case, "/shading/overshade").value_or(costs.k_unknown);
+  if (by == RankBy::frame_time) {
+    costs.overshade = number_at(result_case, "/shading/overshade").value_or(costs.k_unknown);
+    return costs;
+  }
+  const double gpu_ns = number_at(result_case, "/cost/gpu_ns").value_or(costs.k_unknown);
+  if (!result_case.contains("timing")) costs.time_ns = {0.0, 0.0};
+  costs.time_ns.low += gpu_ns;
+  costs.time_ns.high += gpu_ns;
+  costs.overshade = 0.0;  // the same for all
   return costs;
 }
 
@@ -37,19 +45,29 @@ std::uint64_t seed_of(const Json& result) {
   return seed.is_number_unsigned() ? seed.get<std::uint64_t>() : 1;
 }
 
-run::Contender contender_of(const Json& result_case) {
+RankBy rank_by(const Json& result) {
+  return result["config"].value("rank_by", "") == "frame_cost" ? RankBy::frame_cost : RankBy::frame_time;
+}
+
+run::Contender contender_of(const Json& result_case, RankBy by) {
   run::Contender out{result_case["id"],
                      result_case["scene"],
                      view_of(result_case),
-                     costs_of(result_case),
+                     costs_of(result_case, by),
                      result_case["eligible"],
                      block_of(result_case),
                      {},
                      {},
                      1,
                      false};
+  const double gpu_ns = by == RankBy::frame_cost ? number_at(result_case, "/cost/gpu_ns").value_or(0.0) : 0.0;
+  if (by == RankBy::frame_cost) {
+    const Json* lit = value_at(result_case, "/cost/lit");
+    out.is_eligible = out.is_eligible && lit != nullptr && *lit == true;
+  }
   if (!result_case.contains("timing")) return out;
   out.rounds_ns = frame_rounds(result_case);
+  for (double& ns : out.rounds_ns) ns += gpu_ns;
   out.session = result_case["timing"].value("session", "");
   out.launches = result_case["timing"].value("launches", 1);
   out.is_cold = result_case["timing"].value("caches", "warm") == "cold";

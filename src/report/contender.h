@@ -9,7 +9,13 @@
 
 namespace clusterbench::report {
 
-run::Contender contender_of(const nlohmann::ordered_json& result_case);
+// What cases are ranked by.
+enum class RankBy : std::uint8_t { frame_time, frame_cost };
+RankBy rank_by(const nlohmann::ordered_json& result);  // as its configuration says
+
+// By its cost a case takes its time and, with certainty, what the model adds; overshade is in it. Where nothing is
+// timed that is all. A case that lacks lights at samples that cost something is not eligible then.
+run::Contender contender_of(const nlohmann::ordered_json& result_case, RankBy by = RankBy::frame_time);
 
 // The frame times of a case's rounds; empty where it has none.
 std::vector<double> frame_rounds(const nlohmann::ordered_json& result_case);

@@ -26,6 +26,7 @@ constexpr double k_ns_to_us = 1e-3;
 constexpr FigureRow k_figure_rows[] = {
     {"frame_us", "/timing/frame_ns/median", k_ns_to_us},
     {"frame_us.max", "/timing/worst_frame/ns", k_ns_to_us, "/timing/worst_frame/frame"},
+    {"frame_cost_us", "/cost/frame_ns", k_ns_to_us},
     {"assign_us", "/timing/assign_ns/median", k_ns_to_us},
     {"convert_us", "/timing/convert_ns/median", k_ns_to_us},
     {"build_us", "/timing/build_ns/median", k_ns_to_us},

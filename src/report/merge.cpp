@@ -104,7 +104,7 @@ Json merged(const std::vector<NamedPart>& parts) {
           {"config", merged_config(parts)},
           {"scenes", scenes},
           {"cases", cases},
-          {"pareto_front", fronts(scenes, cases, seed_of(first))},
+          {"pareto_front", fronts(scenes, cases, first)},
           {"skipped", skipped}};
 }
 

@@ -187,13 +187,14 @@ std::string csv_row(const std::vector<std::string>& names, double ratio, const m
 
 }  // namespace
 
-std::optional<measure::Ratio> ratio_of_cases(const Json& result, const Json& numerator, const Json& denominator) {
+std::optional<measure::Ratio> ratio_of_cases(const Json& result, const Json& numerator, const Json& denominator,
+                                             RankBy by) {
   if (!is_beside(numerator, denominator)) return std::nullopt;
-  return run::ratio_between(contender_of(numerator), contender_of(denominator), seed_of(result));
+  return run::ratio_between(contender_of(numerator, by), contender_of(denominator, by), seed_of(result));
 }
 
-bool takes_longer(const Json& result, const Json& numerator, const Json& denominator) {
-  return measure::takes_longer(ratio_of_cases(result, numerator, denominator));
+bool takes_longer(const Json& result, const Json& numerator, const Json& denominator, RankBy by) {
+  return measure::takes_longer(ratio_of_cases(result, numerator, denominator, by));
 }
 
 Json ratios_of(const Json& result, const RatioRequest& request) {

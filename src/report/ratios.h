@@ -9,20 +9,21 @@
 #include <vector>
 
 #include "measure/time_statistics.h"
+#include "report/contender.h"
 
 namespace clusterbench::report {
 
 inline constexpr int k_ratios_version = 1;
 
-// Frame time of `numerator` / that of `denominator`, two cases of a grid; nullopt where other launches have measured
-// them.
+// Frame time (or cost) of `numerator` / that of `denominator`, two cases of a grid; nullopt where other launches have
+// measured them.
 std::optional<measure::Ratio> ratio_of_cases(const nlohmann::ordered_json& result,
                                              const nlohmann::ordered_json& numerator,
-                                             const nlohmann::ordered_json& denominator);
+                                             const nlohmann::ordered_json& denominator, RankBy by = RankBy::frame_time);
 
 // False unless that ratio says that `numerator` takes longer, with 95 % certainty.
 bool takes_longer(const nlohmann::ordered_json& result, const nlohmann::ordered_json& numerator,
-                  const nlohmann::ordered_json& denominator);
+                  const nlohmann::ordered_json& denominator, RankBy by = RankBy::frame_time);
 
 struct RatioRequest {
   std::string methods;        // a regular expression; all: empty

@@ -8,6 +8,7 @@
 
 #include "report/contender.h"
 #include "report/details_json.h"
+#include "report/frame_cost.h"
 #include "report/json_values.h"
 #include "report/machine.h"
 #include "run/gate.h"
@@ -84,6 +85,8 @@ Json buffers(const run::CaseResult& case_result) {
              {"lights", b.dropped_lights}}},
            {"scratch_bytes", b.scratch_bytes},
            {"worst_frame", b.worst_frame}};
+  if (b.traffic_bytes_max > 0)
+    out["traffic_bytes"] = {{"mean", number_or_null(b.traffic_bytes_mean)}, {"max", b.traffic_bytes_max}};
   if (b.worst_cell) out["worst_cell"] = cell_place(*b.worst_cell, case_result.grid["cells"]);
   out["along_path"] = {{"frames_per_entry", b.bytes_along_path.frames_per_entry()},
                        {"bytes", b.bytes_along_path.entries()}};
@@ -329,10 +332,10 @@ Json six_digits(double value) {
   return number_or_null(to_digits(value, 6));
 }
 
-Json fronts(const Json& scenes, const Json& cases, std::uint64_t seed) {
+Json fronts(const Json& scenes, const Json& cases, const Json& origin) {
   std::vector<run::Contender> all;
-  for (const Json& result_case : cases) all.push_back(contender_of(result_case));
-  const std::vector<std::string> ids = run::on_front(all, seed);
+  for (const Json& result_case : cases) all.push_back(contender_of(result_case, rank_by(origin)));
+  const std::vector<std::string> ids = run::on_front(all, seed_of(origin));
   const std::set<std::string> best(ids.begin(), ids.end());
   Json list = Json::array();
   for (const Json& scene : scenes) {
@@ -405,7 +408,8 @@ Json result_to_json(const run::Result& result, const std::vector<Json>& earlier_
   for (const run::SceneResult& scene : result.scenes) out["scenes"].push_back(to_json(scene));
   out["cases"] = in_plan_order(result, earlier_cases);
   add_extra_pairs(out["cases"]);
-  out["pareto_front"] = fronts(out["scenes"], out["cases"], seed_of(out));
+  add_costs(out["cases"], out["config"]);
+  out["pareto_front"] = fronts(out["scenes"], out["cases"], out);
   out["skipped"] = Json::array();
   for (const run::Skipped& skipped : result.skipped)
     out["skipped"].push_back({{"name", skipped.name}, {"reason", skipped.reason}});

@@ -25,10 +25,10 @@ nlohmann::ordered_json case_to_json(const run::CaseResult& case_result);
 nlohmann::ordered_json result_to_json(const run::Result& result,
                                       const std::vector<nlohmann::ordered_json>& earlier_cases);
 
-// Per scene the cases that none beats in frame time, list bytes and overshade together (run/gate.h), in the order of
-// the cases. `seed`: of the bootstrap intervals of ratios.
+// Per scene the cases that none beats in frame time, list bytes and overshade together, or in what `origin` ranks by
+// (run/gate.h), in the order of the cases. `origin`: the result whose configuration they have.
 nlohmann::ordered_json fronts(const nlohmann::ordered_json& scenes, const nlohmann::ordered_json& cases,
-                              std::uint64_t seed);
+                              const nlohmann::ordered_json& origin);
 
 // What a run fails for, a line each, as its cases' `failures` say.
 std::vector<std::string> gate_failures(const nlohmann::ordered_json& result);

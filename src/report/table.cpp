@@ -37,7 +37,7 @@ struct Line {
 // What some cases have and others have not.
 struct Extras {
   bool storages = false, times = false, conversions = false, builds = false, instructions = false, samples = false,
-       dropped = false, cold = false, launches = false;
+       dropped = false, cold = false, launches = false, costs = false;
 };
 
 std::string time_text(const Json& result_case, const char* pointer) {
@@ -80,7 +80,23 @@ std::string unlit_text(const Json& result_case) {
   return percent < 0.01 ? "<0.01 %" : text(percent < 1.0 ? "%.2f %%" : "%.1f %%", percent);
 }
 
-double sort_key(const Json& result_case) {
+// On visible surfaces if they are asked for, else at points of the whole view.
+std::string lost_lux_text(const Json& result_case, const char* what) {
+  const std::string set = value_at(result_case, "/samples/opaque") != nullptr ? "/samples/opaque" : "/shading";
+  const std::optional<double> loses = number_at(result_case, set + "/lost_lux");
+  if (loses && *loses == 0.0) return "0";
+  return number_text(result_case, (set + what).c_str(), "%.3g");
+}
+
+// Where nothing is timed what the GPU does.
+std::string cost_text(const Json& result_case) {
+  return time_text(result_case, number_at(result_case, "/cost/frame_ns") ? "/cost/frame_ns" : "/cost/gpu_ns");
+}
+
+double sort_key(const Json& result_case, RankBy by) {
+  if (by == RankBy::frame_cost)
+    for (const char* pointer : {"/cost/frame_ns", "/cost/gpu_ns"})
+      if (const auto found = number_at(result_case, pointer)) return *found;
   for (const char* pointer : {"/timing/frame_ns/median", k_instructions, "/error/excess_ratio"})
     if (const auto found = number_at(result_case, pointer)) return *found;
   return 0.0;
@@ -91,6 +107,7 @@ bool has_failed(const Json& result_case) {
 }
 
 constexpr const char* k_frame_heading = "frame us";
+constexpr const char* k_cost_heading = "cost us";
 
 struct Column {
   const char* heading;
@@ -109,6 +126,7 @@ constexpr Column k_columns[] = {
      &Extras::conversions},
     {"build", [](const Json& result_case) { return time_text(result_case, "/timing/build_ns/median"); },
      &Extras::builds},
+    {k_cost_heading, cost_text, &Extras::costs},
     {"instr", [](const Json& result_case) { return short_count(result_case, k_instructions); }, &Extras::instructions},
     {"pairs", pairs_text},
     {"ns/pair", [](const Json& result_case) { return number_text(result_case, "/timing/ns_per_pair", "%.2f"); },
@@ -117,6 +135,9 @@ constexpr Column k_columns[] = {
      [](const Json& result_case) { return number_text(result_case, "/error/excess_ratio", "%.1f %%", 100.0); }},
     {"missed", [](const Json& result_case) { return number_text(result_case, "/error/false_negatives", "%.0f"); }},
     {"dropped", [](const Json& result_case) { return short_count(result_case, "/buffers/overflow/dropped_pairs"); },
+     &Extras::dropped},
+    {"lost lx", [](const Json& result_case) { return lost_lux_text(result_case, "/lost_lux"); }, &Extras::dropped},
+    {"worst lx", [](const Json& result_case) { return lost_lux_text(result_case, "/darkest/lost_lux"); },
      &Extras::dropped},
     {"unlit", unlit_text, &Extras::samples},
     {"shade", [](const Json& result_case) { return number_text(result_case, "/shading/overshade", "%.2f"); },
@@ -135,7 +156,7 @@ Cells headings(const Extras& extras) {
   return cells;
 }
 
-Line line_of(const Json& result_case, bool is_on_front, const Extras& extras) {
+Line line_of(const Json& result_case, bool is_on_front, const Extras& extras, RankBy by) {
   Line line;
   line.result_case = &result_case;
   std::string label = method_name(result_case);
@@ -144,7 +165,7 @@ Line line_of(const Json& result_case, bool is_on_front, const Extras& extras) {
   for (const Column& column : k_columns)
     if (is_shown(column, extras)) line.cells.push_back(column.text(result_case));
   line.has_failed = has_failed(result_case);
-  line.sort_key = sort_key(result_case);
+  line.sort_key = sort_key(result_case, by);
   return line;
 }
 
@@ -167,6 +188,7 @@ Extras extras_of(const Json& cases) {
     extras.cold |= result_case.contains("timing") && result_case["timing"].value("caches", "") == "cold";
     extras.launches |= result_case.contains("timing") && result_case["timing"].value("launches", 1) > 1;
     extras.samples |= result_case.contains("shading");
+    extras.costs |= result_case.contains("cost");
     extras.dropped |= result_case["buffers"]["overflow"]["dropped_pairs"] != 0;
   }
   extras.storages = storages.size() > 1;
@@ -191,13 +213,14 @@ std::string scene_heading(const Json& scene) {
 }
 
 // Rows that are not known to take longer than those above them. True if there are any.
-bool mark_alike(const Json& result, const Cells& heads, std::vector<Line>& lines) {
-  const auto column = std::find(heads.begin(), heads.end(), k_frame_heading) - heads.begin();
+bool mark_alike(const Json& result, const Cells& heads, RankBy by, std::vector<Line>& lines) {
+  const char* const heading = by == RankBy::frame_cost ? k_cost_heading : k_frame_heading;
+  const auto column = std::find(heads.begin(), heads.end(), heading) - heads.begin();
   if (column == static_cast<std::ptrdiff_t>(heads.size())) return false;
   bool has_some = false;
   for (std::size_t i = 1; i < lines.size(); ++i) {
-    if (!ratio_of_cases(result, *lines[i].result_case, *lines[i - 1].result_case) ||
-        takes_longer(result, *lines[i].result_case, *lines[i - 1].result_case))
+    if (!ratio_of_cases(result, *lines[i].result_case, *lines[i - 1].result_case, by) ||
+        takes_longer(result, *lines[i].result_case, *lines[i - 1].result_case, by))
       continue;
     lines[i].cells[static_cast<std::size_t>(column)].insert(0, "~");
     has_some = true;
@@ -206,21 +229,29 @@ bool mark_alike(const Json& result, const Cells& heads, std::vector<Line>& lines
 }
 
 // Of the marks and columns that the table has.
-std::string legend(const Extras& extras, bool has_front, bool is_complete) {
+std::string legend(const Extras& extras, RankBy by, bool has_front, bool is_complete) {
   std::string out;
+  const std::string interval = extras.times ? " (beyond the interval of their ratio)" : "";
   if (has_front)
     out += "* no other case of its scene, camera and viewport is better in " +
-           std::string(extras.times ? "time (beyond the interval of their ratio), " : "") + "bytes and overshade.\n";
+           (by == RankBy::frame_cost ? "cost" + interval + " and bytes.\n"
+                                     : (extras.times ? "time" + interval + ", " : "") + "bytes and overshade.\n");
   if (extras.times)
     out += std::string("frame: time of a frame") + (extras.cold ? " with cold caches" : "") + ", assign" +
            (extras.conversions ? " + convert" : "") + "; +-: half of its 95 % interval" +
            (extras.launches ? " between launches" : "") + ", both sides where one is above 20 %" +
            ".\nworst: the slowest of the timed frames and the one with most pairs, @ its number.\n";
   if (extras.builds) out += "build: the grid changes between frames, and assign holds its builds.\n";
+  if (extras.costs)
+    out += std::string("cost: ") + (extras.times ? "frame, and " : "") +
+           "upload and shading of the frame's samples by the model of the key `cost`.\n";
   if (!is_complete) out += "-: not measured, or not comparable.\n";
   out += std::string("pairs: (cell, light) per frame") + (extras.times ? ", of the timed frames" : "") +
          ".\nexcess: false positives in % of true pairs. missed: true pairs that are not listed.\n";
-  if (extras.dropped) out += "dropped: pairs that the storage has no room for, over all frames.\n";
+  if (extras.dropped)
+    out +=
+        "dropped: pairs that the storage has no room for, over all frames. lost, worst: irradiance that samples lack, "
+        "mean and most.\n";
   if (extras.samples)
     out +=
         "unlit: share of the lights that samples need and are not given. shade: overshade, lights given at the "
@@ -235,6 +266,7 @@ std::string render_table(const Json& result, bool colour) {
   const std::set<std::string> on_front = ids_on_front(result);
   const std::string counted_by = counters(cases);
   const Extras extras = extras_of(cases);
+  const RankBy by = rank_by(result);
   bool is_complete = true, has_alike = false;
   const Cells heads = headings(extras);
   std::string out;
@@ -246,10 +278,10 @@ std::string render_table(const Json& result, bool colour) {
       std::vector<Line> lines;
       for (const Json& result_case : cases)
         if (result_case["scene"] == scene["name"] && block_of(result_case) == block)
-          lines.push_back(line_of(result_case, on_front.contains(result_case["id"].get<std::string>()), extras));
+          lines.push_back(line_of(result_case, on_front.contains(result_case["id"].get<std::string>()), extras, by));
       std::stable_sort(lines.begin(), lines.end(),
                        [](const Line& a, const Line& b) { return a.sort_key < b.sort_key; });
-      has_alike |= mark_alike(result, heads, lines);
+      has_alike |= mark_alike(result, heads, by, lines);
       std::vector<Cells> rows{heads};
       for (const Line& line : lines) {
         rows.push_back(line.cells);
@@ -262,7 +294,7 @@ std::string render_table(const Json& result, bool colour) {
     }
     out += "\n";
   }
-  out += legend(extras, !on_front.empty(), is_complete);
+  out += legend(extras, by, !on_front.empty(), is_complete);
   if (has_alike) out += "~: may be as fast as the row above, as far as their ratio is known (`clusterbench ratio`).\n";
   if (!counted_by.empty()) out += "instr: instructions of one frame's assignment, counted by " + counted_by + ".\n";
   if (!result["skipped"].empty())

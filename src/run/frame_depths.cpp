@@ -1,17 +1,24 @@
 #include "run/frame_depths.h"
 
+#include <algorithm>
+
 namespace clusterbench::run {
 
 std::shared_ptr<const depth::DepthImage> FrameDepths::of(const view::Frame& frame, int threads) {
   const Shot shot{frame.time_s, frame.view_space.origin, frame.view_space.rotation, frame.projection, frame.viewport};
-  if (shot_ == shot) return image_;
-  shot_.reset();  // until the image is there
+  const auto found = std::ranges::find(kept_, shot, &Kept::shot);
+  if (found != kept_.end()) return found->image;
   caster_.pose(frame);
-  image_ =
-      std::make_shared<const depth::DepthImage>(caster_.depths(frame, depth::PixelGrid(frame.viewport, 1), threads));
-  shot_ = shot;
+  Kept now{shot, std::make_shared<const depth::DepthImage>(
+                     caster_.depths(frame, depth::PixelGrid(frame.viewport, 1), threads))};
   ++images_cast_;
-  return image_;
+  // Frames are asked for in the same order grid after grid: the first ones stay, since each would be gone before it is
+  // asked for again if the latest ones did.
+  std::size_t bytes = now.bytes();
+  for (const Kept& kept : kept_) bytes += kept.bytes();
+  if (!kept_.empty() && bytes > k_most_kept_bytes) kept_.pop_back();
+  kept_.push_back(now);
+  return now.image;
 }
 
 depth::LayerImage FrameDepths::layers(const view::Frame& frame, const depth::DepthImage& opaque, int most_layers,

@@ -58,10 +58,14 @@ const SampleSetResult* missing_set(const CaseResult& result, bool at_surfaces = 
   return found == result.samples.end() ? nullptr : &*found;
 }
 
-// A method that knows the depths of the visible surfaces answers for them, but for what lookups round.
-bool misses_at_surfaces(const CaseResult& result) {
+bool is_at_surfaces(const CaseResult& result) {
   const assign::AssignerDescriptor* assigner = assign::find_assigner(result.assigner);
-  if (assigner == nullptr || !assigner->needs.depth) return false;
+  return assigner != nullptr && assigner->at_surfaces;
+}
+
+// A method that promises the lights of visible surfaces answers for them, but for what lookups round.
+bool misses_at_surfaces(const CaseResult& result) {
+  if (!is_at_surfaces(result)) return false;
   return std::ranges::any_of(result.samples, [](const SampleSetResult& set) {
     return set.set == measure::SampleSet::opaque && set.counts.unlit() > measure::k_most_unlit;
   });
@@ -70,7 +74,7 @@ bool misses_at_surfaces(const CaseResult& result) {
 bool misses_without_cells(const CaseResult& result) {
   if (has_cells(result)) return false;
   const measure::LookupCounts* lookup = plain_lookup(result);
-  return (result.shading && result.shading->missed > 0) || missing_set(result) != nullptr ||
+  return (result.shading && result.shading->missed > 0) || missing_set(result, is_at_surfaces(result)) != nullptr ||
          (lookup != nullptr && lookup->missed > 0);
 }
 
@@ -78,12 +82,19 @@ std::string missed_without_cells_text(const CaseResult& result) {
   if (result.shading && result.shading->missed > 0)
     return "lost " + std::to_string(result.shading->missed) + " of " + number_of(result.shading->needed, "light") +
            " that its samples need" + worst_text(result);
-  if (const SampleSetResult* set = missing_set(result, has_cells(result)))
+  if (const SampleSetResult* set = missing_set(result, has_cells(result) || is_at_surfaces(result)))
     return "lost " + std::to_string(set->counts.missed - set->counts.missed_outside) + " of " +
            number_of(set->counts.needed, "light") + " that its " + measure::name_of(set->set) + " samples need";
   const measure::LookupCounts& lookup = *plain_lookup(result);
   return "lost " + std::to_string(lookup.missed) + " of " + number_of(lookup.needed, "light") +
          " that the samples of its lookup need";
+}
+
+// Samples that say what is lost: on visible surfaces if there are some, else anywhere in the view; null without any.
+const measure::ShadingCounts* seen_samples(const CaseResult& result) {
+  for (const SampleSetResult& set : result.samples)
+    if (set.set == measure::SampleSet::opaque) return &set.counts;
+  return result.shading ? &*result.shading : nullptr;
 }
 
 bool is_unlit(const CaseResult& result) {
@@ -94,6 +105,20 @@ std::string dropped_text(const CaseResult& result) {
   const measure::Buffers& buffers = result.buffers;
   return number_of(buffers.dropped_pairs, "pair") + " dropped in " + number_of(buffers.overflowing_cells, "cell") +
          " of " + number_of(static_cast<std::uint64_t>(buffers.overflowing_frames), "frame");
+}
+
+// What dropped lights cost where they are missed.
+std::string lost_light_text(const CaseResult& result) {
+  const measure::ShadingCounts* counts = seen_samples(result);
+  if (counts == nullptr || !counts->darkest) return "";
+  const auto lux = [](double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g lx", value);
+    return std::string(text);
+  };
+  return "; samples lose " + percent(counts->lost_irradiance()) + " of their irradiance, " +
+         lux(counts->lost_lux / static_cast<double>(counts->samples)) + " on average and " +
+         lux(counts->darkest->lost_lux) + " at most (frame " + std::to_string(counts->darkest->frame) + ")";
 }
 
 std::string unlit_text(const CaseResult& result) {
@@ -141,7 +166,8 @@ std::vector<Failure> failures_of(const CaseResult& result, const config::LimitsR
 std::vector<Warning> warnings_of(const CaseResult& result) {
   using Kind = Warning::Kind;
   std::vector<Warning> warnings;
-  if (result.buffers.dropped_pairs > 0) warnings.push_back({Kind::dropped_pairs, dropped_text(result)});
+  if (result.buffers.dropped_pairs > 0)
+    warnings.push_back({Kind::dropped_pairs, dropped_text(result) + lost_light_text(result)});
   if (is_unlit(result)) warnings.push_back({Kind::unlit, unlit_text(result)});
   if (result.error && result.error->undecided > 0)
     warnings.push_back({Kind::undecided, undecided_text("error", result.error->undecided)});

@@ -5,10 +5,8 @@
 
 namespace clusterbench::run {
 
-PathFrames::PathFrames(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport,
-                       const scene::Geometry* geometry)
-    : scene_(scene), path_(path), viewport_(viewport) {
-  if (geometry != nullptr && !geometry->empty()) depths_ = std::make_shared<FrameDepths>(scene, *geometry);
+PathFrames::PathFrames(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport, FrameDepths* depths)
+    : scene_(scene), path_(path), viewport_(viewport), depths_(depths) {
   bool is_first = true;
   for (int i = 0; i < count(); ++i) {
     const view::Frame now = frame(i);
@@ -33,8 +31,7 @@ grid::GridInputs PathFrames::inputs(const grid::GridSpec& spec, const view::Fram
 
 PathFrames path_of(const config::Config& config, const Plan& plan, const GroupPlan& group) {
   const SceneData& data = plan.scenes[group.scene];
-  return {data.scene, data.paths[group.camera], config.viewports[group.viewport],
-          data.geometry ? &*data.geometry : nullptr};
+  return {data.scene, data.paths[group.camera], config.viewports[group.viewport], data.depths.get()};
 }
 
 bool needs_depth(const config::Config& config, const GroupPlan& group) {

@@ -15,9 +15,8 @@ namespace clusterbench::run {
 
 class PathFrames {
  public:
-  // All must outlive it. Without `geometry`, or where that is empty, its frames have no depth.
-  PathFrames(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport,
-             const scene::Geometry* geometry = nullptr);
+  // All must outlive it. Without `depths` its frames have none.
+  PathFrames(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport, FrameDepths* depths = nullptr);
 
   // The frames of another path in this path's grids, which follow from the lights over this path. `other` outlives
   // them.
@@ -30,7 +29,7 @@ class PathFrames {
   // The farthest that a bounded light reaches from any eye of the path.
   double far_m() const { return far_m_; }
   // Of its frames, and of those of paths along it; null without triangles.
-  FrameDepths* depths() const { return depths_.get(); }
+  FrameDepths* depths() const { return depths_; }
   // A box around the bounded lights' balls over the path.
   measure::Bounds light_bounds() const { return {rig_lo_, rig_hi_}; }
 
@@ -49,7 +48,7 @@ class PathFrames {
   Vec2i viewport_;
   Vec3d rig_lo_{0.0}, rig_hi_{0.0};  // box around the bounded lights' balls over the path
   double far_m_ = 0.0;
-  std::shared_ptr<FrameDepths> depths_;
+  FrameDepths* depths_ = nullptr;
 };
 
 // Those that a group of cases is measured in.

@@ -313,7 +313,7 @@ class Run {
   // Of the whole view's samples, and of the sets that the scene has. What is cut to the depths of visible surfaces
   // promises nothing anywhere in the view, and is not asked there.
   void add_samples(const SceneData& data, const StructureMeasures& structure, CaseResult& out) const {
-    const bool is_cut_to_surfaces = assign::find_assigner(out.assigner)->needs.depth;
+    const bool is_cut_to_surfaces = assign::find_assigner(out.assigner)->at_surfaces;
     for (std::size_t i = 0; i < config_.sample_sets.size(); ++i) {
       const SampleSetResult& set = structure.samples[i];
       if (set.set == measure::SampleSet::volume) {

@@ -74,6 +74,9 @@ std::vector<SceneData> load_scenes(const config::Config& config) {
     }
     scenes.push_back(std::move(data));
   }
+  for (SceneData& data : scenes)  // where they stay from now on
+    if (data.geometry && !data.geometry->empty())
+      data.depths = std::make_shared<FrameDepths>(data.scene, *data.geometry);
   return scenes;
 }
 

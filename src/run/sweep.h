@@ -1,12 +1,14 @@
 #pragma once
 // A configuration's product of axes, as cases.
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "assign/contract/assigner_run.h"
 #include "config/config.h"
+#include "run/frame_depths.h"
 #include "run/result.h"
 #include "scene/geometry.h"
 
@@ -57,6 +59,9 @@ struct SceneData {
   scene::Scene scene;
   std::vector<scene::CameraPath> paths;
   std::optional<scene::Geometry> geometry = {};  // read only where something needs triangles
+  // Of these triangles, for all cameras, viewports and grids; null without. Refers to this plan's scene: a plan is
+  // moved, never copied.
+  std::shared_ptr<FrameDepths> depths = {};
 
   // Of all that was read of its file.
   std::string contents_sha256() const;
@@ -69,6 +74,10 @@ struct Plan {
   std::vector<SceneData> scenes;  // loaded, ranges resolved
   std::vector<GroupPlan> groups;
   std::vector<Skipped> skipped;  // combinations that cannot be, each with its reason
+
+  Plan() = default;
+  Plan(Plan&&) = default;
+  Plan& operator=(Plan&&) = default;
 };
 
 // Loads the scenes and expands. `filter` (a regular expression as RE2 has them, "" = all) selects cases by name.

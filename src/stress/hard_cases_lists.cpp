@@ -163,8 +163,9 @@ std::vector<ToolCheck> depth_masks(std::uint64_t seed) {
   const grid::Grid grid = grid_of(trial, frame);
   const view::LightArrays lights = view::lights_in(frame, frame.view_space);
   for (const assign::AssignerDescriptor* row : assign::assigner_descriptors()) {
-    if (!row->needs.depth) continue;
+    if (!row->at_surfaces) continue;
     assign::AssignerRun run(*row, assign::Params(row->params), assign::Answer::structure);
+    if (!run.has_cells()) continue;
     run.build(grid);
     depth::DepthImage depths = depths_for(*row, frame);
     std::ranges::fill(depths.nearest, std::numeric_limits<float>::infinity());

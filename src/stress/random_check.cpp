@@ -144,7 +144,7 @@ class SettingCheck {
   void run_methods() {
     for (const StressMethod& method : methods_) {
       if (!is_checked(method)) continue;
-      if (method.assigner->needs.depth) {
+      if (method.assigner->needs.depth) {  // its cells are not the grid's
         check_occupied(method);
         continue;
       }

@@ -211,7 +211,8 @@ std::vector<std::string> contract_faults(const AssignerDescriptor& assigner, con
     add(unbounded_fault(run.cell_lists(), setting, lights));
   }
   if (run.structure() != nullptr) add(sample_fault(*run.structure(), setting));
-  if (assigner.conservative && !run.has_cells()) add(lost_sample_fault(*run.structure(), setting));
+  if (assigner.conservative && !run.has_cells() && !assigner.at_surfaces)
+    add(lost_sample_fault(*run.structure(), setting));
   add(run.tests_done() == 0 ? "no test is counted" : "");
   add(run.scratch_bytes() == 0 ? "no scratch memory is counted" : "");
   add(memory_fault(run, answers_of(run, setting), setting, input));

@@ -63,7 +63,9 @@ const Broken k_broken[] = {
      "max_range"},
     {"{\"scenes\": [\"a.glb\"],\n  // comment\n  \"thread\": 1}",
      "3:3 /thread: unknown key 'thread' (did you mean 'threads'?), allowed: $schema, accuracy, allocation, assigners, "
-     "details, grids, jitter, limits, lookup, name, precision, samples, scenes, seed, shading, stability, storages, "
+     "cost, "
+     "details, grids, jitter, limits, lookup, name, precision, rank_by, samples, scenes, seed, shading, stability, "
+     "storages, "
      "threads, "
      "timing, "
      "viewport, viewports"},
@@ -157,6 +159,11 @@ const Broken k_broken[] = {
      "1:64 /grids/0/slices/far: found 5, allowed: a number above near, 10", false},
     {R"({"scenes": ["a.glb"], "grids": [{"slices": {"scheme": "list", "boundaries": [1, 3, 2]}}]})",
      "1:84 /grids/0/slices/boundaries/2: found 2 after 3, allowed: ascending numbers", false},
+    {R"({"scenes": ["a.glb"], "samples": {"fog": {}}, "cost": {"weights": {"fog": 0}}, "rank_by": "frame_cost"})",
+     "1:91 /rank_by: is frame_cost, and no set of samples with a weight is asked for; add \"samples\": {\"opaque\": "
+     "{}}",
+     false},
+    {R"({"scenes": ["a.glb"], "cost": {"wave": "16x2"}})", "1:40 /cost/wave: found '16x2', allowed: 8x4, 8x8", true},
     {R"({"scenes": ["${CLUSTERBENCH_NO_SUCH}/a.glb"]})",
      "1:13 /scenes/0: the environment variable 'CLUSTERBENCH_NO_SUCH' is not set; set it to use "
      "'${CLUSTERBENCH_NO_SUCH}/a.glb'",

@@ -23,6 +23,7 @@ Json case_with_budget_figures() {
                 "scratch_bytes": 8, "overflow": {"dropped_pairs": 3}, "worst_frame": 9, "worst_cell": [1, 2, 3]},
     "occupancy": {"lights_per_cell": {"max": 64}, "pairs": {"max": 4000}, "worst_frame": 8, "worst_cell": [4, 5, 6]},
     "error": {"false_negatives": 2, "excess_ratio": 0.5, "undecided": 0, "deepest": {"frame": 7, "cell": [0, 0, 1]}},
+    "cost": {"frame_ns": 900000},
     "shading": {"missed": 1, "needed": 1000, "lost_irradiance": 0.25, "overshade": 1.5, "worst_frame": {"frame": 3}}})");
 }
 

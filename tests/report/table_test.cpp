@@ -148,6 +148,23 @@ TEST(Table, dropped_pairs_have_a_column_and_no_star) {
   EXPECT_EQ(words(line_with(table, "brute-force ")).front(), "*") << table;
 }
 
+TEST(Table, what_dropped_lights_would_have_brought_stands_beside_them) {
+  run::Result result = result_by_hand();
+  EXPECT_EQ(table_of(result).find("lost lx"), std::string::npos);
+  result.cases[1].buffers.dropped_pairs = 7;
+  result.cases[1].shading->lost_lux = 250.0;  // of 100 samples
+  result.cases[1].shading->darkest = {1, 4.0f, 5.0f, 40.0};
+  std::string table = table_of(result);
+  EXPECT_NE(line_with(table, "frame us").find("dropped  lost lx  worst lx"), std::string::npos) << table;
+  EXPECT_NE(line_with(table, "aabb ").find("7      2.5        40"), std::string::npos) << table;
+  // Of visible surfaces, where they are asked for.
+  run::SampleSetResult opaque{measure::SampleSet::opaque, *result.cases[1].shading, {}};
+  opaque.counts.lost_lux = 300.0;
+  result.cases[1].samples = {opaque};
+  table = table_of(result);
+  EXPECT_NE(line_with(table, "aabb ").find("7        3        40"), std::string::npos) << table;
+}
+
 TEST(Table, numbers_and_words_agree) {
   const std::string table = table_of(result_by_hand());
   EXPECT_NE(table.find("(9 points, 1 spot, 2 frames)"), std::string::npos) << table;

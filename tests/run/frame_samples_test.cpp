@@ -186,6 +186,31 @@ TEST(FrameSamples, a_structure_without_cells_that_loses_a_light_on_a_surface_fai
   EXPECT_TRUE(failures_of(tree, {}).empty());
 }
 
+// Two lights of equal brightness at one point, of which a storage with room for one drops the second.
+TEST(FrameSamples, dropped_lights_are_lost_irradiance_at_the_samples_that_they_would_have_lit) {
+  Json file = Json::parse(room());
+  file["nodes"][2]["translation"] = file["nodes"][1]["translation"];
+  const RoomRun run = run_of(
+      file.dump(),
+      R"(, "samples": {"opaque": {"divisor": 2}}, "limits": {"dropped_pairs": null}, "storages": ["packed", {"name": "fixed", "cap": 1}])",
+      R"("exact-fast")");
+  const CaseResult &packed = case_named(run, "packed"), &fixed = case_named(run, "fixed");
+  const measure::ShadingCounts& counts = counts_of(fixed, measure::SampleSet::opaque);
+  EXPECT_GT(fixed.buffers.dropped_pairs, 0u);
+  EXPECT_EQ(2 * counts.missed, counts.needed);
+  EXPECT_DOUBLE_EQ(counts.lost_irradiance(), 0.5);
+  EXPECT_GT(counts.lost_lux, 0.0);
+  // The brightest pixel of one light: 1 cd at 1 m, no more.
+  ASSERT_TRUE(counts.darkest);
+  EXPECT_NEAR(counts.darkest->lost_lux, 1.0, 0.02);
+  EXPECT_LE(counts.darkest->lost_lux, 1.0);
+  ASSERT_FALSE(warnings_of(fixed).empty());
+  const std::string text = warnings_of(fixed)[0].text;
+  EXPECT_NE(text.find("samples lose 50 % of their irradiance"), std::string::npos) << text;
+  EXPECT_NE(text.find("lx on average and"), std::string::npos) << text;
+  EXPECT_EQ(counts_of(packed, measure::SampleSet::opaque).lost_lux, 0.0);
+}
+
 // --- Methods that need depth ---
 
 // The room with a pane that is no glass in its left half, so that tiles have two depths.
@@ -208,6 +233,10 @@ config::Config config_of(const scene::test::Folder& folder, const std::string& s
 
 constexpr const char* k_depth_methods =
     R"("tiled", "tiled-2.5d", "flagged", "explicit", {"name": "tiled", "test": "planes"})";
+// With those that promise more, or have no cells.
+constexpr const char* k_all_depth_methods =
+    R"("tiled", "tiled-2.5d", "flagged", "explicit", {"name": "tiled", "test": "planes"}, "tile-slices", "deferred",
+       {"name": "deferred", "depth_test": "back"})";
 
 TEST(DepthMethods, lose_nothing_at_the_surfaces_that_their_depths_are_taken_from_at_any_divisor) {
   using measure::SampleSet;
@@ -215,8 +244,8 @@ TEST(DepthMethods, lose_nothing_at_the_surfaces_that_their_depths_are_taken_from
     const RoomRun run = run_of(
         deep_room(),
         R"(, "samples": {"opaque": {"divisor": )" + std::to_string(divisor) + R"(}, "fog": {"froxels": [8, 6, 4]}})",
-        k_depth_methods);
-    EXPECT_EQ(run.result.cases.size(), 5u);
+        k_all_depth_methods);
+    EXPECT_EQ(run.result.cases.size(), 8u);
     for (const CaseResult& one : run.result.cases) {
       const measure::ShadingCounts& opaque = counts_of(one, SampleSet::opaque);
       EXPECT_GT(opaque.needed, 100u / static_cast<unsigned>(divisor)) << one.name;
@@ -224,6 +253,9 @@ TEST(DepthMethods, lose_nothing_at_the_surfaces_that_their_depths_are_taken_from
       EXPECT_EQ(opaque.unanswered, 0u) << one.name;
       EXPECT_TRUE(one.failures.empty()) << one.name;
       EXPECT_TRUE(warnings_of(one).empty()) << one.name;
+      if (one.assigner == "tile-slices") EXPECT_EQ(counts_of(one, SampleSet::fog).missed, 0u) << divisor;
+      if (one.assigner == "explicit") EXPECT_GT(counts_of(one, SampleSet::fog).missed, 0u) << divisor;
+      if (one.assigner == "deferred") continue;
       ASSERT_TRUE(one.error) << one.name;
       EXPECT_EQ(one.error->false_negatives, 0u) << one.name;
       EXPECT_EQ(one.error->undecided, 0u) << one.name;
@@ -258,7 +290,7 @@ TEST(DepthMethods, lose_nothing_on_a_real_map_as_a_loop_over_all_lights_finds) {
   const config::Config config =
       config::parse_config(R"({"scenes": [{"path": ")" + map + R"(", "frames": 3}], "viewport": [320, 180],
           "grids": [{"tiles": {"pixels": [16, 16]}, "slices": {"count": 16, "near": 0.1, "far": 300}}], "assigners": [)" +
-                               k_depth_methods + "]}",
+                               k_all_depth_methods + "]}",
                            folder.path() / "c.json");
   const Plan plan = make_plan(config, "");
   const GroupPlan& group = plan.groups.at(0);
@@ -321,6 +353,25 @@ TEST(DepthMethods, and_sets_share_one_image_of_each_frame_and_nothing_is_cast_fo
   EXPECT_EQ(images_cast(R"(, "assigners": ["tiled", "explicit"], "samples": {"opaque": {}, "transparent": {}})"), 1);
   EXPECT_EQ(images_cast(R"(, "assigners": ["exact-fast"], "samples": {"opaque": {}})"), 1);
   EXPECT_EQ(images_cast(R"(, "assigners": ["exact-fast"])"), -1);
+}
+
+TEST(DepthMethods, share_the_images_of_a_camera_over_grids_and_viewports_have_their_own) {
+  const auto images_cast = [](const std::string& viewports) {
+    const config::Config config =
+        config::parse_config(R"({"scenes": [{"path": ")" CLUSTERBENCH_SOURCE_DIR
+                             R"(/scenes/slope.glb", "frames": 2}], "timing": {"measure": false},
+            "grids": [{"tiles": {"pixels": [[8, 8], [16, 16]]}, "slices": {"count": [4, 8], "near": 0.5, "far": 300}}],
+            "assigners": ["tiled", "deferred"], "samples": {"opaque": {}}, "viewports": )" +
+                                 viewports + "}",
+                             "c.json");
+    const Plan plan = make_plan(config, "");
+    EXPECT_GE(plan.groups.size(), 4u);
+    const std::atomic<bool> stop = false;
+    run_plan(config, plan, {}, {}, stop);
+    return plan.scenes[0].depths->images_cast();
+  };
+  EXPECT_EQ(images_cast("[[64, 36]]"), 2);
+  EXPECT_EQ(images_cast("[[64, 36], [32, 18]]"), 4);
 }
 
 TEST(DepthMethods, are_timed_counted_in_their_steps_and_served_as_all_others_are) {

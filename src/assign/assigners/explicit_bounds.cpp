@@ -13,6 +13,7 @@ const AssignerDescriptor explicit_bounds_descriptor{
     .source = "Olsson, Billeter, Assarsson 2012, Clustered Deferred and Forward Shading (explicit bounds)",
     .kinds = {grid::Kind::frustum},
     .needs = {.depth = true},
+    .at_surfaces = true,
     .params = light_params(),
     .make_own = make_occupied<CellBounds::samples>,
 };

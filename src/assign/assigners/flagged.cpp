@@ -13,6 +13,7 @@ const AssignerDescriptor flagged_descriptor{
     .source = "Olsson, Billeter, Assarsson 2012, Clustered Deferred and Forward Shading; Persson 2015",
     .kinds = {grid::Kind::frustum},
     .needs = {.depth = true},
+    .at_surfaces = true,
     .params = light_params(),
     .make_own = make_occupied<CellBounds::cell>,
 };

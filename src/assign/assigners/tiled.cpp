@@ -14,6 +14,7 @@ const AssignerDescriptor tiled_descriptor{
     .source = "Andersson 2009, Parallel Graphics in Frostbite; planes and boxes: Wicked Engine 2018",
     .kinds = {grid::Kind::frustum},
     .needs = {.depth = true},
+    .at_surfaces = true,
     .params = tiled_params(),
     .make_own = make_occupied<CellBounds::tile>,
 };

@@ -14,6 +14,7 @@ const AssignerDescriptor tiled_2_5d_descriptor{
     .source = "Harada 2012, A 2.5D Culling for Forward+; Wicked Engine 2018",
     .kinds = {grid::Kind::frustum},
     .needs = {.depth = true},
+    .at_surfaces = true,
     .params = tiled_params(),
     .make_own = make_occupied<CellBounds::masked_tile>,
 };

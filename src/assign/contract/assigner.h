@@ -136,6 +136,10 @@ struct AssignerDescriptor {
   bool exact = false;        // and reports no pair that is not true
   bool orthographic = true;  // takes orthographic projections
   bool all_pairs = false;    // tests every light against every cell
+  // With depth: promises the lights of visible surfaces, and is not asked elsewhere in the view.
+  bool at_surfaces = false;
+  // Each light is drawn over its pixels, so that no lane of a wave waits for the list of another one.
+  bool draws_lights = false;
   // A known mistake on purpose, to show what it does: left out where nothing names it.
   bool naive = false;
   std::vector<ParamSpec> params;

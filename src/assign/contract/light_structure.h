@@ -17,6 +17,7 @@ struct StructureUse {
   std::uint64_t index_bytes = 0;
   std::uint64_t header_bytes = 0;
   std::uint64_t upload_bytes = 0;   // what is copied to the GPU this frame
+  std::uint64_t traffic_bytes = 0;  // what the GPU itself reads and writes for each light that is drawn over pixels
   std::uint64_t dropped_pairs = 0;  // overflow
   std::uint64_t overflowing_cells = 0;
   std::vector<std::uint32_t> dropped_lights;  // which, ascending, each once

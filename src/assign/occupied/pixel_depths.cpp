@@ -1,9 +1,9 @@
 #include "assign/occupied/pixel_depths.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
+#include "assign/occupied/first_depth.h"
 #include "core/error.h"
 
 namespace clusterbench::assign {
@@ -21,29 +21,14 @@ std::vector<std::uint32_t> begins(int count, int pixels, const TileOf& tile_of) 
   return out;
 }
 
-// Floats as whole numbers in their order, and back.
-std::int64_t order_of(float value) {
-  const auto bits = std::bit_cast<std::int32_t>(value);
-  return bits >= 0 ? bits : std::int64_t{std::numeric_limits<std::int32_t>::min()} - bits;
-}
-float in_order(std::int64_t order) {
-  const std::int64_t bits = order >= 0 ? order : std::int64_t{std::numeric_limits<std::int32_t>::min()} - order;
-  return std::bit_cast<float>(static_cast<std::int32_t>(bits));
-}
-
 // The least depth that is looked up in this slice or one behind it; in order, since the lookup ascends.
 float first_depth_in(const grid::Slices& slices, int slice) {
   const auto is_before = [&](float depth) {
     const int found = slices.slice_of(depth);
     return found >= 0 && found < slice;
   };
-  std::int64_t before = order_of(slices.boundaries.front()), behind = order_of(k_inf);
-  if (!is_before(in_order(before))) return in_order(before);
-  while (behind - before > 1) {
-    const std::int64_t middle = before + (behind - before) / 2;
-    (is_before(in_order(middle)) ? before : behind) = middle;
-  }
-  return in_order(behind);
+  const float first = slices.boundaries.front();
+  return is_before(first) ? first_between(first, k_inf, [&](float depth) { return !is_before(depth); }) : first;
 }
 
 }  // namespace

@@ -48,6 +48,9 @@ class PixelDepths {
 
   // The depths at which the lookup goes on to another slice: the first of each, and where the last one ends.
   const std::vector<float>& slice_begins() const { return slice_begins_; }
+  // The first pixel of each column and each row of tiles, and where the last one ends.
+  const std::vector<std::uint32_t>& column_begins() const { return column_begins_; }
+  const std::vector<std::uint32_t>& row_begins() const { return row_begins_; }
 
   // Calls take(tile, begin, end) for each row of pixels of each tile, with their depths.
   template <class Take>
@@ -62,7 +65,7 @@ class PixelDepths {
   std::size_t rows() const { return row_begins_.size() - 1; }
   std::size_t width() const { return column_begins_.back(); }
 
-  std::vector<std::uint32_t> column_begins_, row_begins_;  // the first pixel of each, and where the last one ends
+  std::vector<std::uint32_t> column_begins_, row_begins_;
   std::vector<float> slice_begins_;
   std::vector<float> nearest_, farthest_;  // of a row of tiles, pixel column by pixel column
 };

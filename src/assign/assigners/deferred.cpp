@@ -1,0 +1,283 @@
+// Classic deferred shading: no lists; each light's ball is drawn over the picture and shades the pixels that pass its
+// depth test, each of which reads the G-buffer and blends into the target. What that costs is counted: pixels drawn
+// (tests), pixels shaded (entries), bytes read and written (traffic). A sample's lights are those that shade its pixel.
+//
+// A pixel whose surface lies in the light is always shaded: that test is padded, the ray against the ball is not.
+// Roundoffs: a surface's point, a slope times a depth, is off by 2 of each coordinate, the difference to the centre by
+// one; the squared distance and the squared radius by 5 of themselves, so their roots by 2.5.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "assign/bounds/cell_bounds.h"
+#include "assign/contract/assigner.h"
+#include "assign/contract/light_test.h"
+#include "assign/cull/view_cull.h"
+#include "assign/occupied/pixel_depths.h"
+#include "core/arrays.h"
+#include "core/error.h"
+#include "geom/single_precision/touch_tests.h"
+
+namespace clusterbench::assign {
+namespace {
+
+constexpr float k_roundoffs = 6.0f;
+
+enum class DepthTest { none, back, both };
+
+// Per pixel that is drawn or shaded.
+struct PixelBytes {
+  std::uint64_t drawn = 0, shaded = 0;
+};
+
+struct DrawnLight {
+  TestedLight of;
+  Vec2i first{0}, last{-1};  // pixels
+  float slack = 0.0f;        // how far off a surface's point in the light can be
+};
+
+// The picture's pixels: through their centres go rays of these slopes, or (orthographic) from these places.
+struct Picture {
+  bool orthographic = false;
+  std::vector<float> x, y;
+  std::vector<float> depths;
+
+  Vec2i size() const { return {static_cast<int>(x.size()), static_cast<int>(y.size())}; }
+  float depth(int column, int row) const {
+    return depths[static_cast<std::size_t>(row) * x.size() + static_cast<std::size_t>(column)];
+  }
+
+  void take(const view::Frame& frame, const depth::DepthImage& image) {
+    orthographic = frame.projection.orthographic;
+    x.clear();
+    y.clear();
+    const auto at = [&](double column, double row) {
+      const view::PictureRay ray = view::picture_ray(frame, {column, row});
+      return orthographic ? ray.from : ray.along;
+    };
+    for (int column = 0; column < frame.viewport.x; ++column) x.push_back(static_cast<float>(at(column + 0.5, 0.5).x));
+    for (int row = 0; row < frame.viewport.y; ++row) y.push_back(static_cast<float>(at(0.5, row + 0.5).y));
+    depths = image.nearest;
+  }
+};
+
+// Whether a light shades a pixel.
+class PixelTest {
+ public:
+  PixelTest(const Picture& picture, const DrawnLight& light, DepthTest test)
+      : picture_(picture),
+        light_(light),
+        test_(test),
+        center_(light.of.ball.center),
+        square_(light.of.ball.radius * light.of.ball.radius) {}
+
+  // The pixel's ray meets the ball before the eye.
+  bool is_drawn(float x, float y) const {
+    if (picture_.orthographic) {
+      const float dx = x - center_.x, dy = y - center_.y;
+      return dx * dx + dy * dy <= square_;
+    }
+    const Vec3f moment{-center_.y - center_.z * y, center_.z * x + center_.x, center_.x * y - center_.y * x};
+    return dot(moment, moment) <= square_ * (x * x + y * y + 1.0f) && (middle(x, y) > 0.0f || holds_eye());
+  }
+
+  bool is_shaded(float x, float y, float depth, bool drawn) const {
+    if (!(depth < std::numeric_limits<float>::infinity())) return false;
+    if (reaches(picture_.orthographic ? Vec3f{x, y, -depth} : Vec3f{x * depth, y * depth, -depth})) return true;
+    if (!drawn || test_ == DepthTest::both) return false;
+    return test_ == DepthTest::none || depth < middle(x, y);  // in front of the far side
+  }
+
+ private:
+  static float dot(const Vec3f& a, const Vec3f& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+  bool holds_eye() const { return dot(center_, center_) <= square_; }
+  // The depth of the ray's nearest point to the centre.
+  float middle(float x, float y) const {
+    return picture_.orthographic ? -center_.z : (center_.x * x + center_.y * y - center_.z) / (x * x + y * y + 1.0f);
+  }
+  bool reaches(const Vec3f& point) const {
+    const Vec3f apart = point - center_;
+    if (!(dot(apart, apart) <= square_)) return false;
+    return !light_.of.has_cone || geom::cone_touches_ball(light_.of.cone, {point, light_.slack});
+  }
+
+  const Picture& picture_;
+  const DrawnLight& light_;
+  DepthTest test_;
+  Vec3f center_;
+  float square_;
+};
+
+class DrawnLights final : public LightStructure {
+ public:
+  // A sample's lights are its pixel's, whatever its own depth.
+  bool lights_at(const grid::Sample& sample, grid::Log2, std::vector<std::uint32_t>& out) const override {
+    out.clear();
+    const Vec2i size = picture.size();
+    const auto is_within = [](float at, int pixels) { return at >= 0.0f && at <= static_cast<float>(pixels); };
+    if (!is_within(sample.pixel_x, size.x) || !is_within(sample.pixel_y, size.y)) return false;
+    if (!picture.orthographic && !(sample.view.z < 0.0f)) return false;
+    const int column = std::min(static_cast<int>(sample.pixel_x), size.x - 1),
+              row = std::min(static_cast<int>(sample.pixel_y), size.y - 1);
+    const float x = picture.x[static_cast<std::size_t>(column)], y = picture.y[static_cast<std::size_t>(row)];
+    for (const std::uint32_t at : rows.of(static_cast<std::uint32_t>(row))) {
+      const DrawnLight& light = lights[at];
+      if (column < light.first.x || column > light.last.x) continue;
+      const PixelTest pixel(picture, light, test);
+      if (pixel.is_shaded(x, y, picture.depth(column, row), pixel.is_drawn(x, y))) out.push_back(light.of.index);
+    }
+    return true;
+  }
+
+  StructureUse use() const override {
+    StructureUse use;
+    use.index_entries = shaded;
+    use.traffic_bytes = drawn * bytes.drawn + shaded * bytes.shaded;
+    return use;
+  }
+  StructureLimit limit() const override {
+    return {std::uint64_t{light_count} * picture.x.size() * picture.y.size(), 0};
+  }
+  std::uint32_t index_bits() const override { return 32; }
+  bool has_cells() const override { return false; }
+  void expand(Lists&) const override { throw Error("", "deferred", "has no cells", ExitCode::internal); }
+
+  DepthTest test = DepthTest::both;
+  PixelBytes bytes;
+  std::uint32_t light_count = 0;
+  std::uint64_t drawn = 0, shaded = 0;  // pixels, of all lights
+  Picture picture;
+  std::vector<DrawnLight> lights;
+  Lists rows;  // of each row of pixels the lights, by their places among `lights`
+};
+
+class Deferred final : public AssignerOf<DrawnLights> {
+ public:
+  explicit Deferred(const Params& params) : light_test_(params, k_roundoffs) {
+    const std::string& name = params.text("depth_test");
+    test_ = name == "none" ? DepthTest::none : name == "back" ? DepthTest::back : DepthTest::both;
+    constexpr std::uint64_t k_depth_bytes = 4;
+    bytes_.drawn = k_depth_bytes;
+    bytes_.shaded = static_cast<std::uint64_t>(params.number("gbuffer_bytes")) +
+                    2 * static_cast<std::uint64_t>(params.number("target_bytes"));
+  }
+
+  void build(const grid::Grid& grid, const LightKinds&) override {
+    grid::ScreenGrid one_slice = grid.screen();
+    one_slice.slices.boundaries = {grid.screen().slices.boundaries.front(), std::numeric_limits<float>::max()};
+    tiles_ = {one_slice};
+    view_ = ViewCull(one_slice);
+    pixels_.build(grid.screen());
+  }
+  std::uint64_t tests_done() const override { return tests_; }
+  std::size_t scratch_bytes() const override { return pixels_.capacity_bytes() + pairs_.capacity_bytes(); }
+
+ protected:
+  void fill(const FrameInput& input, DrawnLights& out) override {
+    const view::LightArrays& lights = input.lights;
+    out.test = test_;
+    out.bytes = bytes_;
+    out.light_count = lights.size();
+    out.drawn = out.shaded = 0;
+    out.picture.take(input.frame, checked(input.depth, tiles_.screen().tiles));
+    out.lights.clear();
+    pairs_.start(static_cast<std::uint32_t>(input.frame.viewport.y));
+    for (std::uint32_t light = 0; light < lights.size(); ++light)
+      if (!lights.is_empty(light)) add_light(lights, light, out);
+    pairs_.finish(out.rows);
+    tests_ = out.drawn;
+  }
+
+ private:
+  void add_light(const view::LightArrays& lights, std::uint32_t light, DrawnLights& out) {
+    const geom::Ball ball = light_test_.ball(lights, light, k_cell_box_roundoffs);
+    if (view_.misses(ball)) return;
+    const CellBox box = cell_box(tiles_, ball);
+    if (box.empty()) return;
+    const auto pixel = [](const std::vector<std::uint32_t>& begins, int tile) {
+      return static_cast<int>(begins[static_cast<std::size_t>(tile)]);
+    };
+    DrawnLight drawn;
+    drawn.of = light_test_.tested(lights, light);
+    drawn.first = {pixel(pixels_.column_begins(), box.first.x), pixel(pixels_.row_begins(), box.first.y)};
+    drawn.last = {pixel(pixels_.column_begins(), box.last.x + 1) - 1, pixel(pixels_.row_begins(), box.last.y + 1) - 1};
+    drawn.slack = light_test_.padding(k_roundoffs) * 0x1p-24f * lights.reach[light];
+    const auto rank = static_cast<std::uint32_t>(out.lights.size());
+    out.lights.push_back(drawn);
+    pairs_.add_row(static_cast<std::uint32_t>(drawn.first.y),
+                   static_cast<std::uint32_t>(drawn.last.y - drawn.first.y + 1), rank);
+    draw(drawn, out);
+  }
+
+  void draw(const DrawnLight& light, DrawnLights& out) const {
+    const PixelTest test(out.picture, light, test_);
+    for (int row = light.first.y; row <= light.last.y; ++row) {
+      const float y = out.picture.y[static_cast<std::size_t>(row)];
+      for (int column = light.first.x; column <= light.last.x; ++column) {
+        const float x = out.picture.x[static_cast<std::size_t>(column)];
+        const bool is_drawn = test.is_drawn(x, y),
+                   is_shaded = test.is_shaded(x, y, out.picture.depth(column, row), is_drawn);
+        out.drawn += is_drawn || is_shaded ? 1 : 0;
+        out.shaded += is_shaded ? 1 : 0;
+      }
+    }
+  }
+
+  LightTest light_test_;
+  DepthTest test_ = DepthTest::both;
+  PixelBytes bytes_;
+  grid::Grid tiles_;  // with a single slice
+  ViewCull view_;
+  PixelDepths pixels_;
+  PairBuffer pairs_;
+  std::uint64_t tests_ = 0;
+};
+
+std::vector<ParamSpec> deferred_params() {
+  std::vector<ParamSpec> params{
+      {.name = "depth_test",
+       .summary = "which drawn pixels are shaded: all (none), those in front of the ball's far side (back), or those "
+                  "in it, as "
+                  "a stencil of both sides finds them, and of a spot those in its cone (both)",
+       .standard = std::string("both"),
+       .unit = "",
+       .choices = {"none", "back", "both"}},
+      {.name = "gbuffer_bytes",
+       .summary = "read for each shaded pixel of each light; four targets of RGBA8",
+       .standard = 16.0,
+       .unit = "B",
+       .min = 0.0,
+       .max = 1024.0,
+       .choices = {},
+       .whole = true},
+      {.name = "target_bytes",
+       .summary = "read and written for each shaded pixel of each light; RGBA16F",
+       .standard = 8.0,
+       .unit = "B",
+       .min = 0.0,
+       .max = 1024.0,
+       .choices = {},
+       .whole = true}};
+  for (ParamSpec& param : light_params()) params.push_back(std::move(param));
+  return params;
+}
+
+}  // namespace
+
+extern const AssignerDescriptor deferred_descriptor;
+const AssignerDescriptor deferred_descriptor{
+    .name = "deferred",
+    .summary =
+        "no lists: each light's ball is drawn over the picture and shades the pixels that pass its depth test; pixels "
+        "and bytes of that are counted, a grid's cells do not matter",
+    .source = "Hargreaves and Harris 2004, Deferred Shading; the baseline of Persson 2015",
+    .kinds = {grid::Kind::frustum},
+    .needs = {.depth = true},
+    .at_surfaces = true,
+    .draws_lights = true,
+    .params = deferred_params(),
+    .make_own = make_structure_assigner<Deferred>,
+};
+
+}  // namespace clusterbench::assign

@@ -1,0 +1,31 @@
+#pragma once
+// The first single-precision depth of which something holds that holds of all depths behind it.
+
+#include <bit>
+#include <cstdint>
+#include <limits>
+
+namespace clusterbench::assign {
+
+// Floats as whole numbers in their order, and back.
+inline std::int64_t order_of(float value) {
+  const auto bits = std::bit_cast<std::int32_t>(value);
+  return bits >= 0 ? bits : std::int64_t{std::numeric_limits<std::int32_t>::min()} - bits;
+}
+inline float in_order(std::int64_t order) {
+  const std::int64_t bits = order >= 0 ? order : std::int64_t{std::numeric_limits<std::int32_t>::min()} - order;
+  return std::bit_cast<float>(static_cast<std::int32_t>(bits));
+}
+
+// It does not hold of `before`; of `behind` it is taken to.
+template <class Holds>
+float first_between(float before, float behind, Holds&& holds) {
+  std::int64_t no = order_of(before), yes = order_of(behind);
+  while (yes - no > 1) {
+    const std::int64_t middle = no + (yes - no) / 2;
+    (holds(in_order(middle)) ? yes : no) = middle;
+  }
+  return in_order(yes);
+}
+
+}  // namespace clusterbench::assign

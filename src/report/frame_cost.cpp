@@ -1,0 +1,105 @@
+#include "report/frame_cost.h"
+
+#include <cmath>
+
+#include "assign/contract/assigner.h"
+#include "depth/depth_image.h"
+#include "measure/frame_cost.h"
+#include "measure/shading.h"
+#include "report/json_values.h"
+#include "report/result_json.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+bool draws_lights(const Json& result_case) {
+  const assign::AssignerDescriptor* assigner =
+      assign::find_assigner(result_case["assigner"]["name"].get<std::string>());
+  return assigner != nullptr && assigner->draws_lights;
+}
+
+// Of the picture's pixels one that is looked through stands for so many.
+double pixels_per_sample(const Json& result_case, const std::string& set, const Json& config) {
+  const Json divisor = config.value(Json::json_pointer("/samples/" + set + "/divisor"), Json());
+  if (!divisor.is_number_integer()) return 1.0;
+  const Vec2i viewport{result_case["viewport"][0].get<int>(), result_case["viewport"][1].get<int>()};
+  return static_cast<double>(viewport.x) * viewport.y /
+         static_cast<double>(depth::PixelGrid(viewport, divisor.get<int>()).count());
+}
+
+// `wave`: "8x4" or "8x8" pixels.
+double divergence_of(const Json& result_case, const Json& counts, const std::string& wave) {
+  const int lanes = wave == "8x4" ? 32 : 64;
+  if (!counts.contains("waves") || draws_lights(result_case)) return 1.0;
+  for (const Json& waves : counts["waves"])
+    if (waves["lanes"] == lanes && waves["divergence"].is_number()) return waves["divergence"].get<double>();
+  return 1.0;
+}
+
+// With the set's name; those that are there and have a weight.
+struct WeightedSet {
+  std::string name;
+  const Json* counts;
+  measure::ShadedSamples shaded;
+};
+
+std::vector<WeightedSet> weighted_sets(const Json& result_case, const Json& config) {
+  std::vector<WeightedSet> sets;
+  for (const auto& [name, weight_json] : config["cost"]["weights"].items()) {
+    const double weight = weight_json.get<double>();
+    const Json* counts = value_at(result_case, name == "volume" ? std::string("/shading") : "/samples/" + name);
+    if (weight == 0.0 || counts == nullptr) continue;
+    const auto samples = (*counts)["samples"].get<double>();
+    measure::ShadedSamples shaded;
+    shaded.samples =
+        weight * samples / result_case["frames"].get<double>() * pixels_per_sample(result_case, name, config);
+    shaded.lights = samples > 0.0 ? (*counts)["evaluated"].get<double>() / samples : 0.0;
+    shaded.divergence = divergence_of(result_case, *counts, config["cost"]["wave"].get<std::string>());
+    sets.push_back({name, counts, shaded});
+  }
+  return sets;
+}
+
+Json cost_of(const Json& result_case, const std::vector<WeightedSet>& sets, const Json& constants) {
+  const measure::CostModel model{constants["ns_per_light"], constants["upload_gb_per_s"], constants["memory_gb_per_s"]};
+  std::vector<measure::ShadedSamples> shaded;
+  Json sets_json = Json::object();
+  bool is_lit = true;
+  for (const WeightedSet& set : sets) {
+    shaded.push_back(set.shaded);
+    sets_json[set.name] = {{"samples", number_or_null(set.shaded.samples)},
+                           {"lights", number_or_null(set.shaded.lights)},
+                           {"divergence", number_or_null(set.shaded.divergence)},
+                           {"ns", number_or_null(set.shaded.ns(model))}};
+    const Json& unlit = (*set.counts)["unlit"];
+    is_lit = is_lit && !(unlit.is_number() && unlit.get<double>() > measure::k_most_unlit);
+  }
+  const measure::FrameCost cost =
+      measure::frame_cost(model, number_at(result_case, "/timing/frame_ns/median"),
+                          number_at(result_case, "/buffers/upload_bytes/mean").value_or(0.0),
+                          number_at(result_case, "/buffers/traffic_bytes/mean").value_or(0.0), shaded);
+  const auto or_null = [](const std::optional<double>& ns) { return ns ? number_or_null(*ns) : Json(); };
+  return {{"frame_ns", or_null(cost.frame_ns())},
+          {"assign_ns", or_null(cost.assign_ns)},
+          {"gpu_ns", number_or_null(cost.gpu_ns())},
+          {"upload_ns", number_or_null(cost.upload_ns)},
+          {"traffic_ns", number_or_null(cost.traffic_ns)},
+          {"shade_ns", number_or_null(cost.shade_ns)},
+          {"sets", sets_json},
+          {"lit", is_lit}};
+}
+
+}  // namespace
+
+void add_costs(Json& cases, const Json& config) {
+  if (!config.contains("cost")) return;
+  for (Json& result_case : cases) {
+    result_case.erase("cost");
+    const std::vector<WeightedSet> sets = weighted_sets(result_case, config);
+    if (!sets.empty()) result_case["cost"] = cost_of(result_case, sets, config["cost"]);
+  }
+}
+
+}  // namespace clusterbench::report

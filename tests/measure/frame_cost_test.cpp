@@ -1,0 +1,27 @@
+// The model of a frame's cost, by hand.
+
+#include "measure/frame_cost.h"
+
+#include <gtest/gtest.h>
+
+namespace clusterbench::measure {
+namespace {
+
+TEST(FrameCost, is_assignment_upload_traffic_and_each_light_that_a_sample_loops_over) {
+  const CostModel model{.ns_per_light = 0.02, .upload_gb_per_s = 10.0, .memory_gb_per_s = 400.0};
+  const FrameCost cost = frame_cost(model, 5000.0, 20000.0, 1e6, {{1000.0, 7.0, 1.5}, {50.0, 2.0, 1.0}});
+  EXPECT_DOUBLE_EQ(cost.upload_ns, 2000.0);
+  EXPECT_DOUBLE_EQ(cost.traffic_ns, 2500.0);
+  EXPECT_DOUBLE_EQ(cost.shade_ns, 1000 * 7 * 1.5 * 0.02 + 50 * 2 * 0.02);
+  EXPECT_DOUBLE_EQ(cost.gpu_ns(), 2000.0 + 2500.0 + 212.0);
+  EXPECT_DOUBLE_EQ(cost.frame_ns().value(), 5000.0 + 4712.0);
+}
+
+TEST(FrameCost, without_times_is_what_the_gpu_does) {
+  const FrameCost cost = frame_cost({1.0, 1.0, 1.0}, {}, 3.0, 0.0, {});
+  EXPECT_FALSE(cost.frame_ns());
+  EXPECT_DOUBLE_EQ(cost.gpu_ns(), 3.0);
+}
+
+}  // namespace
+}  // namespace clusterbench::measure

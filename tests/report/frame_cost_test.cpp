@@ -1,0 +1,126 @@
+// Costs of a result's cases, and what is ranked by them.
+
+#include "report/frame_cost.h"
+
+#include <gtest/gtest.h>
+
+#include "config/documents.h"
+#include "config/schema_check.h"
+#include "report/ratios.h"
+#include "report/result_by_hand.h"
+#include "report/result_json.h"
+#include "report/table.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using testing::result_by_hand;
+
+// Visible surfaces of 1920 x 1080 pixels by a ray for 8 x 8 of them, in two frames.
+void add_surfaces(run::CaseResult& one, std::uint64_t lights_per_sample) {
+  run::SampleSetResult opaque{measure::SampleSet::opaque, {}, {}};
+  opaque.counts.samples = 2 * 240 * 135;
+  opaque.counts.evaluated = lights_per_sample * opaque.counts.samples;
+  opaque.counts.needed = 1000;
+  one.samples = {opaque};
+  one.buffers.upload_bytes_mean = 1575.0;
+}
+
+run::Result costly(const std::string& rank_by = "frame_time") {
+  run::Result result = result_by_hand();
+  result.config["rank_by"] = rank_by;
+  result.config["samples"] = {{"opaque", {{"divisor", 8}}}};
+  result.config["cost"] = {{"ns_per_light", 0.02},
+                           {"upload_gb_per_s", 15.75},
+                           {"memory_gb_per_s", 448},
+                           {"wave", "8x8"},
+                           {"weights", {{"volume", 0}, {"opaque", 1}, {"fog", 1}}}};
+  add_surfaces(result.cases[0], 3);  // slow to assign
+  add_surfaces(result.cases[1], 4);
+  return result;
+}
+
+Json of(const run::Result& result) {
+  return result_to_json(result, {});
+}
+
+TEST(FrameCosts, a_ray_stands_for_its_block_of_pixels_and_sets_without_a_weight_for_nothing) {
+  const Json result = of(costly());
+  const Json& cost = result["cases"][1]["cost"];
+  EXPECT_EQ(cost["sets"].size(), 1u);
+  EXPECT_EQ(cost["sets"]["opaque"]["samples"], 1920 * 1080);
+  EXPECT_EQ(cost["sets"]["opaque"]["lights"], 4);
+  EXPECT_NEAR(cost["sets"]["opaque"]["ns"].get<double>(), 1920.0 * 1080.0 * 4 * 0.02, 1e-3);
+  EXPECT_EQ(cost["upload_ns"], 100);
+  EXPECT_NEAR(cost["frame_ns"].get<double>(), 3500.0 + 100.0 + 1920.0 * 1080.0 * 4 * 0.02, 1e-3);
+  EXPECT_EQ(cost["lit"], true);
+}
+
+TEST(FrameCosts, a_result_with_costs_is_what_the_schema_says) {
+  const Json result = of(costly("frame_cost"));
+  EXPECT_EQ(config::schema_violations(config::result_schema(), nlohmann::json::parse(result.dump())),
+            std::vector<std::string>{});
+}
+
+TEST(FrameCosts, divergence_of_the_waves_that_are_named_is_multiplied_with_and_drawn_lights_have_none) {
+  run::Result result = costly();
+  for (run::CaseResult& one : result.cases) {
+    one.samples[0].coherence.emplace();
+    one.samples[0].coherence->sizes[0] = {8, 4, 1, 1, 1, 5, 5, 4.0};
+    one.samples[0].coherence->sizes[1] = {8, 8, 1, 1, 1, 6, 6, 4.0};
+  }
+  result.cases[0].assigner = "deferred";
+  const auto divergence = [&](int at) {
+    return of(result)["cases"][static_cast<std::size_t>(at)]["cost"]["sets"]["opaque"]["divergence"].get<double>();
+  };
+  EXPECT_EQ(divergence(1), 1.5);
+  EXPECT_EQ(divergence(0), 1.0);
+  result.config["cost"]["wave"] = "8x4";
+  EXPECT_EQ(divergence(1), 1.25);
+}
+
+TEST(FrameCosts, what_drawn_lights_read_and_write_is_paid_at_the_memorys_bandwidth) {
+  run::Result result = costly();
+  const double before = of(result)["cases"][0]["cost"]["gpu_ns"];
+  result.cases[0].buffers.traffic_bytes_mean = 448000.0;
+  result.cases[0].buffers.traffic_bytes_max = 448000;
+  EXPECT_NEAR(of(result)["cases"][0]["cost"]["gpu_ns"].get<double>() - before, 1000.0, 1e-3);
+}
+
+TEST(FrameCosts, rank_rows_and_decide_the_front_where_the_configuration_says_so) {
+  const auto ids = [](const Json& result) { return result["pareto_front"][0]["ids"]; };
+  const Json by_time = of(costly()), by_cost = of(costly("frame_cost"));
+  EXPECT_EQ(ids(by_time), Json({"fast"})) << "by time, bytes and overshade";
+  EXPECT_EQ(ids(by_cost), Json({"slow"})) << "three lights instead of four";
+  const auto is_first = [](const Json& result, const char* method) {
+    const std::string table = render_table(result, false);
+    return table.find(method) < table.find(method == std::string("aabb ") ? "brute-force " : "aabb ");
+  };
+  EXPECT_TRUE(is_first(by_time, "aabb "));
+  EXPECT_TRUE(is_first(by_cost, "brute-force "));
+  EXPECT_NE(render_table(by_cost, false).find("cost us"), std::string::npos);
+  EXPECT_EQ(render_table(of(result_by_hand()), false).find("cost us"), std::string::npos);
+  EXPECT_TRUE(takes_longer(by_cost, by_cost["cases"][1], by_cost["cases"][0], RankBy::frame_cost));
+  EXPECT_TRUE(takes_longer(by_cost, by_cost["cases"][0], by_cost["cases"][1]));
+}
+
+TEST(FrameCosts, without_times_rank_by_what_the_gpu_does) {
+  run::Result result = costly("frame_cost");
+  for (run::CaseResult& one : result.cases) one.timing.reset();
+  const Json json = of(result);
+  EXPECT_TRUE(json["cases"][0]["cost"]["frame_ns"].is_null());
+  EXPECT_EQ(json["pareto_front"][0]["ids"], Json({"slow"}));
+  EXPECT_LT(render_table(json, false).find("brute-force "), render_table(json, false).find("aabb "));
+}
+
+TEST(FrameCosts, a_case_that_lacks_lights_at_samples_with_a_weight_is_on_no_front) {
+  run::Result result = costly("frame_cost");
+  result.cases[0].samples[0].counts.missed = 2;  // of 1000
+  const Json json = of(result);
+  EXPECT_EQ(json["cases"][0]["cost"]["lit"], false);
+  EXPECT_EQ(json["pareto_front"][0]["ids"], Json({"fast"}));
+}
+
+}  // namespace
+}  // namespace clusterbench::report
