@@ -2,14 +2,15 @@
 // Which balls reach each slice.
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
-#include <numeric>
 #include <span>
 #include <vector>
 
 #include "assign/contract/lists.h"
 #include "assign/simd/lanes.h"
 #include "core/aligned_vector.h"
+#include "core/arrays.h"
 #include "core/memory.h"
 
 namespace clusterbench::assign {
@@ -20,21 +21,30 @@ class SliceBins {
   // Balls: VisibleBalls, or others with `count` and their slices; first_slice > last_slice: none.
   template <class Balls>
   void sort(const Balls& balls, int slices) {
-    // How many more balls a slice has than the one before it, then how many it has, then where they end.
-    begin_.assign(static_cast<std::size_t>(slices) + 3, 0);
+    const auto bins = static_cast<std::size_t>(slices) + 1;
+    begin_.assign(bins, 0);
+    for (auto& next : next_) next.assign(bins, 0);
     if (std::uint64_t{balls.count} * static_cast<std::uint64_t>(slices) > k_surely_fit) check_room(balls);
-    for (std::uint32_t i = 0; i < balls.count; ++i) {
-      if (balls.first_slice[i] > balls.last_slice[i]) continue;
-      ++begin_[at(balls.first_slice[i]) + 2];
-      --begin_[at(balls.last_slice[i]) + 3];
+    // How many more balls a slice has than the one before it.
+    each_of_halves(balls.count, [&](std::uint32_t i, std::uint32_t* steps) {
+      if (balls.first_slice[i] > balls.last_slice[i]) return;
+      ++steps[at(balls.first_slice[i])];
+      --steps[at(balls.last_slice[i]) + 1];
+    });
+    std::uint32_t count = 0, in_half[2] = {0, 0};
+    for (std::size_t slice = 0; slice < bins; ++slice) {
+      begin_[slice] = count;
+      for (std::size_t half = 0; half < 2; ++half) {
+        in_half[half] += next_[half][slice];
+        next_[half][slice] = count;
+        count += in_half[half];
+      }
     }
-    begin_.pop_back();
-    for (int sums = 0; sums < 2; ++sums) std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
     if (balls_.size() < begin_.back() + k_most_lanes) balls_.resize(begin_.back() + k_most_lanes);
-    // begin_[slice + 1] walks from the slice's begin to its end, the next one's begin.
-    for (std::uint32_t i = 0; i < balls.count; ++i)
+    each_of_halves(balls.count, [&](std::uint32_t i, std::uint32_t* next) {
       for (std::int32_t slice = balls.first_slice[i]; slice <= balls.last_slice[i]; ++slice)
-        balls_[begin_[at(slice) + 1]++] = i;
+        balls_[next[at(slice)]++] = i;
+    });
     std::fill_n(balls_.begin() + static_cast<std::ptrdiff_t>(begin_.back()), k_most_lanes, 0);
   }
 
@@ -44,13 +54,25 @@ class SliceBins {
   std::span<const std::uint32_t> of(int slice) const {
     return {balls_.data() + begin_[at(slice)], begin_[at(slice) + 1] - begin_[at(slice)]};
   }
-  std::size_t capacity_bytes() const { return (begin_.capacity() + balls_.capacity()) * sizeof(std::uint32_t); }
+  std::size_t capacity_bytes() const { return bytes_of(begin_, next_[0], next_[1], balls_); }
 
  private:
   static std::size_t at(int slice) { return static_cast<std::size_t>(slice); }
 
   // So many are not counted before: they take 1 MiB, the least limit on memory.
   static constexpr std::uint64_t k_surely_fit = (std::uint64_t{1} << 18) - k_most_lanes;
+
+  // Takes the first and the second half in turns: a slice has a counter for each, as one that many balls in a row share
+  // is waited for.
+  template <class Take>
+  void each_of_halves(std::uint32_t count, Take&& take) {
+    const std::uint32_t half = count / 2;
+    for (std::uint32_t i = 0; i < half; ++i) {
+      take(i, next_[0].data());
+      take(half + i, next_[1].data());
+    }
+    if (count % 2 != 0) take(count - 1, next_[1].data());
+  }
 
   template <class Balls>
   static void check_room(const Balls& balls) {
@@ -62,6 +84,7 @@ class SliceBins {
   }
 
   AlignedVector<std::uint32_t> begin_, balls_;
+  std::array<AlignedVector<std::uint32_t>, 2> next_;  // of each half: where a slice's next ball goes
 };
 
 }  // namespace clusterbench::assign

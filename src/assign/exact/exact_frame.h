@@ -54,7 +54,7 @@ class BatchReader {
   // The slice's next batch, null after its last one. Slices must be read to their end, one after the other. Of batches
   // that are found together settle(slice, batch) is called for each before one of them is returned, then finish().
   template <class Settle, class Finish>
-  const BatchRows* next(int slice, Settle&& settle, Finish&& finish) {
+  const BatchSpans* next(int slice, Settle&& settle, Finish&& finish) {
     if (next_ == count_) {
       find_more();
       for (std::size_t i = 0; i < count_; ++i) settle(balls_[i].slice, rows_.batches[i]);
@@ -63,9 +63,9 @@ class BatchReader {
     if (next_ == count_ || balls_[next_].slice != slice) return nullptr;
     return &rows_.batches[next_++];
   }
-  const BatchRows* next(int slice) {
+  const BatchSpans* next(int slice) {
     return next(
-        slice, [](int, BatchRows&) {}, [] {});
+        slice, [](int, BatchSpans&) {}, [] {});
   }
   std::size_t capacity_bytes() const { return rows_.capacity_bytes(); }
 
@@ -96,14 +96,16 @@ class BatchReader {
   RowBatches rows_;
 };
 
-// Calls take(light, columns, is_uncertain) for a batch's spans of a row.
+// Calls take(row, light, columns) for a batch's spans.
 template <class Take>
-void each_span(const BatchRows& batch, int row, Take&& take) {
-  const std::uint32_t* columns = batch.columns.data() + static_cast<std::size_t>(row) * batch.lanes;
-  for (std::uint32_t lane = 0; lane < batch.lanes; ++lane)
-    if (columns[lane] != BatchRows::k_none)
-      take(batch.lights[lane], grid::IndexRange{BatchRows::first_of(columns[lane]), BatchRows::last_of(columns[lane])},
-           (columns[lane] & BatchRows::k_uncertain) != 0);
+void each_span(const BatchSpans& batch, Take&& take) {
+  std::size_t next = 0;
+  for (int row = batch.first_row; row <= batch.last_row; ++row)
+    for (const std::size_t end = next + batch.sizes[static_cast<std::size_t>(row)]; next < end; ++next) {
+      const std::uint32_t columns = batch.columns[next];
+      if (columns != BatchRows::k_none)
+        take(row, batch.lights[next], grid::IndexRange{BatchRows::first_of(columns), BatchRows::last_of(columns)});
+    }
 }
 
 }  // namespace clusterbench::assign

@@ -1,6 +1,5 @@
 #include "assign/exact/exact_slices.h"
 
-#include <bit>
 #include <cmath>
 
 namespace clusterbench::assign {
@@ -21,12 +20,12 @@ void ExactSlices::find(const ExactFrame& frame, int first, int last, Lists& out)
   frame_ = &frame;
   tests_ = fallbacks_ = 0;
   const auto rows = static_cast<std::uint32_t>(frame.planes.rows);
-  is_left_.resize(rows);
   uncertain_.reserve(k_most_uncertain);
   questions_.reserve(2 * k_most_uncertain);
   spots_.find(frame, first, last);
   batches_.start(frame, &ExactFrame::points_of, first, last);
-  spans_.start(static_cast<std::uint32_t>(last - first), rows, static_cast<std::uint32_t>(frame.planes.columns), out);
+  spans_.start(static_cast<std::uint32_t>(last - first), rows, static_cast<std::uint32_t>(frame.planes.columns),
+               frame.lights.size(), out);
   for (int slice = first; slice < last; ++slice) {
     add_points(slice);
     spots_.add_to(slice, spans_);
@@ -41,23 +40,26 @@ std::size_t ExactSlices::scratch_bytes() const {
 }
 
 void ExactSlices::add_points(int slice) {
-  const auto take = [&](int of_slice, BatchRows& batch) { ask_about_spans(of_slice, batch); };
-  while (const BatchRows* batch = batches_.next(slice, take, [&] { settle_spans(); })) {
+  const auto take = [&](int of_slice, BatchSpans& batch) { ask_about_spans(of_slice, batch); };
+  while (const BatchSpans* batch = batches_.next(slice, take, [&] { settle_spans(); })) {
     tests_ += batch->tests;
     if (batch->tests != 0)
-      spans_.add_batch(batch->first_row, batch->last_row, batch->columns.data(), batch->lights, is_left_.data());
+      spans_.add_rows(batch->first_row, batch->last_row, batch->sizes.data(), batch->columns.data(),
+                      batch->lights.data());
   }
 }
 
-void ExactSlices::ask_about_spans(int slice, BatchRows& batch) {
-  const int lane_bits = std::countr_zero(batch.lanes);
+void ExactSlices::ask_about_spans(int slice, BatchSpans& batch) {
+  int row = batch.first_row;
+  std::uint32_t row_end = batch.uncertain_count == 0 ? 0 : batch.sizes[static_cast<std::size_t>(row)];
   for (std::uint32_t i = 0; i < batch.uncertain_count; ++i) {
-    std::uint32_t& entry = batch.columns[batch.uncertain[i]];
-    const std::uint32_t light = batch.lights[batch.uncertain[i] & (batch.lanes - 1)];
+    const std::uint32_t index = batch.uncertain[i], light = batch.lights[index];
+    std::uint32_t& entry = batch.columns[index];
+    while (index >= row_end) row_end += batch.sizes[static_cast<std::size_t>(++row)];
     UncertainSpan span{&entry,
                        light,
                        slice,
-                       static_cast<int>(batch.uncertain[i] >> lane_bits),
+                       row,
                        {BatchRows::first_of(entry), BatchRows::last_of(entry)},
                        (entry & BatchRows::k_first_is_certain) == 0,
                        (entry & BatchRows::k_last_is_certain) == 0,

@@ -32,7 +32,7 @@ class ExactSlices {
   static constexpr std::size_t k_most_uncertain = 64;
 
   void add_points(int slice);
-  void ask_about_spans(int slice, BatchRows& batch);
+  void ask_about_spans(int slice, BatchSpans& batch);
   void settle_spans();
   void ask(UncertainSpan& span);
   // Takes the answers. False if more is to be asked.
@@ -43,7 +43,6 @@ class ExactSlices {
   const ExactFrame* frame_ = nullptr;
   SpotSpans spots_;
   BatchReader batches_;
-  std::vector<std::uint8_t> is_left_;
   std::vector<UncertainSpan> uncertain_;
   BallCells questions_;
   ListBuilder spans_;

@@ -85,14 +85,12 @@ std::size_t SpotSpans::capacity_bytes() const {
 
 // Those of the spots' bounding balls.
 void SpotSpans::add_orthographic_rows(int slice) {
-  while (const BatchRows* batch = batches_.next(slice))
-    for (int row = batch->first_row; row <= batch->last_row; ++row)
-      each_span(*batch, row, [&](std::uint32_t light, const IndexRange& columns, bool) {
-        rows_.add(
-            {light - frame_->lights.spots.first, static_cast<std::uint32_t>(slice), static_cast<std::uint32_t>(row),
-             static_cast<std::uint32_t>(columns.first), static_cast<std::uint32_t>(columns.last) + 1},
-            SpotRows::k_none_before | SpotRows::k_none_behind);
-      });
+  while (const BatchSpans* batch = batches_.next(slice))
+    each_span(*batch, [&](int row, std::uint32_t light, const IndexRange& columns) {
+      rows_.add({light - frame_->lights.spots.first, static_cast<std::uint32_t>(slice), static_cast<std::uint32_t>(row),
+                 static_cast<std::uint32_t>(columns.first), static_cast<std::uint32_t>(columns.last) + 1},
+                SpotRows::k_none_before | SpotRows::k_none_behind);
+    });
 }
 
 void SpotSpans::take_uncertain_rows() {

@@ -22,12 +22,14 @@ struct BandHole {
 // The instruction set that is used: "AVX3", "AVX2", "SSE4", "NEON", "SCALAR" ... as Highway names it.
 const char* simd_target_name();
 
+struct SpanRows;
+
 // Keeps its memory between frames.
 class ListBuilder {
  public:
-  // A frame of `bands` bands; a band is `rows` rows (a slice, say) of `columns` cells, at most
-  // ColumnSpan::k_most_columns. `out` must outlive finish().
-  void start(std::uint32_t bands, std::uint32_t rows, std::uint32_t columns, Lists& out);
+  // A frame of `bands` bands and lights 0 .. lights - 1; a band is `rows` rows (a slice, say) of `columns` cells, at
+  // most ColumnSpan::k_most_columns. `out` must outlive finish().
+  void start(std::uint32_t bands, std::uint32_t rows, std::uint32_t columns, std::uint32_t lights, Lists& out);
   // To the present band. Lights must come in ascending order within a row, in each cell once.
   // first <= last < columns.
   void add(std::uint32_t row, std::uint32_t first, std::uint32_t last, std::uint32_t light) {
@@ -35,8 +37,12 @@ class ListBuilder {
     if (size == pitch_) grow();
     const std::size_t index = row * pitch_ + size++;
     most_ = std::max(most_, size);
-    lights_[index] = light;
-    columns_of_[index] = ColumnSpan::of(first, last);
+    if (is_light_in_span_) {
+      columns_of_[index] = LightSpan::of(first, last, light);
+    } else {
+      lights_[index] = light;
+      columns_of_[index] = ColumnSpan::of(first, last);
+    }
     band_pairs_ += last - first + 1;
   }
   // Adds a batch of lights' spans to rows first_row .. last_row. columns[row * lanes + i]: the span of lights[i] as
@@ -46,6 +52,10 @@ class ListBuilder {
   static constexpr std::uint32_t k_no_span = 0xffffffff, k_uncertain_span = 0x80000000;
   bool add_batch(int first_row, int last_row, const std::uint32_t* columns, const std::uint32_t* lights,
                  std::uint8_t* is_left);
+  // Adds spans row after row: sizes[row] to each of rows first_row .. last_row, at most as many as fit into a vector.
+  // k_no_span is a span without columns. Whole vectors can be read from each span on.
+  void add_rows(int first_row, int last_row, const std::uint32_t* sizes, const std::uint32_t* columns,
+                const std::uint32_t* lights);
   // Writes the band's lists; the next band begins. Throws Error beyond 2^32 - 1 pairs or the limit on memory.
   void finish_band(const BandHole& hole = {});
   // After the last band.
@@ -55,6 +65,9 @@ class ListBuilder {
 
  private:
   void make_room(std::uint32_t spans);
+  SpanRows span_rows();
+  template <class Row>
+  std::uint32_t* write_row(Row spans, const grid::IndexRange& hole, std::uint32_t* begin, std::uint32_t* to);
   std::uint32_t* finish_row(std::uint32_t row, const grid::IndexRange& hole, std::uint32_t* begin, std::uint32_t* to);
   void grow();
 
@@ -68,6 +81,7 @@ class ListBuilder {
   // Row r's spans are at r * pitch_; whole vectors can be read and written beyond the last row.
   std::size_t pitch_ = 0;
   AlignedVector<std::uint32_t> lights_, columns_of_;
+  bool is_light_in_span_ = false;  // as LightSpan has it; no lights_
 };
 
 }  // namespace clusterbench::assign

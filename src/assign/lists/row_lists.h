@@ -31,6 +31,24 @@ struct RowSpans {
   std::uint32_t width = 0;  // about how many columns spans have: says only which way to take
 };
 
+// A span and its light in one number, where there are so few columns and lights: half the bytes to move about.
+struct LightSpan {
+  static constexpr std::uint32_t k_most_columns = 0xff, k_most_lights = 0x10000;
+  static constexpr std::uint32_t k_none = 0xffff;  // a span without columns
+  static constexpr std::uint32_t of(std::uint32_t first, std::uint32_t last, std::uint32_t light) {
+    return first | last << 8 | light << 16;
+  }
+  static constexpr std::uint32_t first(std::uint32_t span) { return span & 0xff; }
+  static constexpr std::uint32_t last(std::uint32_t span) { return span >> 8 & 0xff; }
+};
+
+// RowSpans of these.
+struct RowLightSpans {
+  const std::uint32_t* spans;  // LightSpan
+  std::uint32_t count, column, end_column;
+  std::uint32_t width = 0;
+};
+
 // For each of some strips of a few columns: lights whose spans hold some of it, and a bit for each column. Keeps its
 // memory between rows.
 struct FewColumns {
@@ -62,6 +80,9 @@ std::uint16_t* write_row_lists(const RowSpans<std::uint16_t>& row, FewColumns& f
                                const std::uint16_t* lists, std::uint32_t* begin);
 std::uint32_t* write_row_lists(const RowSpans<std::uint32_t>& row, FewColumns& few, std::uint32_t* to,
                                const std::uint32_t* lists, std::uint32_t* begin);
+
+std::uint32_t* write_row_lists(const RowLightSpans& row, FewColumns& few, std::uint32_t* to, const std::uint32_t* lists,
+                               std::uint32_t* begin);
 
 // Light l of column c is bit l % 32 of words[c * words_per_cell + l / 32]. All words of these columns are written.
 void write_row_bits(const RowSpans<std::uint32_t>& row, std::uint32_t words_per_cell, std::uint32_t* words);

@@ -15,31 +15,32 @@ HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
 
-// What is known of a batch before its columns: the rows that each ball may touch, which light it is of, and the columns
-// that it has in every row unless they are found to be others.
-HWY_INLINE void start_batch(int grid_rows, VI first_row, VI row_count, VU lights, VU columns, BatchRows& out) {
+// What is known of a batch before its columns: the rows that each ball may touch.
+HWY_INLINE void start_batch(int grid_rows, VI first_row, VI row_count, BatchSpans& out) {
   const DI di;
-  const std::size_t n = Lanes(di);
-  out.lanes = static_cast<std::uint32_t>(n);
-  out.make_room(grid_rows);
-  out.uncertain_count = 0;
-  StoreU(lights, DU(), out.lights);
+  out.count = out.uncertain_count = 0;
   out.tests = static_cast<std::uint32_t>(GetLane(SumOfLanes(di, row_count)));
+  // A loop over all rows is foretold by the processor, unlike one whose ends wait for the balls.
+  constexpr int k_few_rows = 32;
+  if (grid_rows <= k_few_rows) {
+    out.first_row = 0;
+    out.last_row = grid_rows - 1;
+    return;
+  }
   const MI touches = row_count > Zero(di);
   const VI end = IfThenElseZero(touches, first_row + row_count);
   out.first_row = GetLane(MinOfLanes(di, IfThenElse(touches, first_row, all_int(grid_rows))));
   out.last_row = GetLane(MaxOfLanes(di, end)) - 1;
-  for (int row = out.first_row; row <= out.last_row; ++row)
-    StoreU(columns, DU(), out.columns.data() + static_cast<std::size_t>(row) * n);
 }
 
-// Lists what is uncertain of some columns. `indices`: where these stand in the batch.
-HWY_INLINE void list_uncertain(VU columns, VI indices, BatchRows& out) {
+// Lists what is uncertain of `count` spans, at most a vector of them, from span `first` on.
+HWY_INLINE void list_uncertain(VU columns, std::uint32_t count, std::uint32_t first, BatchSpans& out) {
   const DU du;
-  const auto is_uncertain =
-      And(TestBit(columns, Set(du, BatchRows::k_uncertain)), Ne(columns, Set(du, BatchRows::k_none)));
+  const auto is_marked = And(TestBit(columns, Set(du, BatchRows::k_uncertain)), FirstN(du, count));
+  const auto is_uncertain = And(is_marked, Ne(columns, Set(du, BatchRows::k_none)));
   if (AllFalse(du, is_uncertain)) return;
-  StoreU(compressed(du, BitCast(du, indices), is_uncertain), du, out.uncertain.data() + out.uncertain_count);
+  const VU indices = BitCast(du, from_on(static_cast<std::int32_t>(first)));
+  StoreU(compressed(du, indices, is_uncertain), du, out.uncertain.data() + out.uncertain_count);
   out.uncertain_count += static_cast<std::uint32_t>(CountTrue(du, is_uncertain));
 }
 

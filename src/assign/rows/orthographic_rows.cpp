@@ -34,14 +34,20 @@ class FlatBatch {
     lights_ = GatherIndex(DU(), visible.light.data(), at);
   }
 
-  HWY_INLINE void find(BatchRows& out) const {
+  HWY_INLINE void find(BatchSpans& out) const {
     start(out);
-    const std::size_t n = Lanes(D());
+    const DU du;
     for (int row = out.first_row; row <= out.last_row; ++row) {
-      const std::size_t index = static_cast<std::size_t>(row) * n;
-      const VU columns = columns_of(static_cast<std::size_t>(row));
-      StoreU(columns, DU(), out.columns.data() + index);
-      list_uncertain(columns, from_on(static_cast<std::int32_t>(index)), out);
+      const auto r = static_cast<std::size_t>(row);
+      const VU columns = columns_of(r);
+      const auto wanted = Ne(columns, Set(du, BatchRows::k_none));
+      const VU listed = compressed(du, columns, wanted);
+      const auto size = static_cast<std::uint32_t>(CountTrue(du, wanted));
+      StoreU(listed, du, out.columns.data() + out.count);
+      StoreU(compressed(du, lights_, wanted), du, out.lights.data() + out.count);
+      list_uncertain(listed, size, out.count, out);
+      out.sizes[r] = size;
+      out.count += size;
     }
   }
 
@@ -49,7 +55,7 @@ class FlatBatch {
   float bottom() const { return planes_.slope[static_cast<std::size_t>(planes_.rows)]; }
 
   // The rows between the disk's top and bottom.
-  HWY_INLINE void start(BatchRows& out) const {
+  HWY_INLINE void start(BatchSpans& out) const {
     const V zero = Zero(D()), half = Sqrt(Max(square_, zero));
     const V scale = all(planes_.rows_per_slope), tolerance = all(planes_.row_tolerance),
             top = all(planes_.slope.front());
@@ -60,7 +66,7 @@ class FlatBatch {
     const VI last_row = all_int(planes_.rows - 1);
     const VI first = Min(ConvertTo(DI(), from), last_row), last = Min(ConvertTo(DI(), to), last_row);
     const VI count = IfThenElseZero(RebindMask(DI(), touches), last - first + all_int(1));
-    start_batch(planes_.rows, first, count, lights_, Set(DU(), BatchRows::k_none), out);
+    start_batch(planes_.rows, first, count, out);
   }
 
   HWY_INLINE VU columns_of(std::size_t row) const {

@@ -53,6 +53,12 @@ struct Spheres {
 struct BallRows {
   VI first, count;
   VI full;  // all bits of those that hold all of the slice's part of the view: all columns of all rows are theirs
+
+  HWY_INLINE MI are_full() const { return Ne(full, Zero(DI())); }
+  // Those of the others that may touch a row.
+  HWY_INLINE MI others_in(int row) const {
+    return And(first<all_int(row + 1), first + AndNot(full, count)> all_int(row));
+  }
 };
 
 // Rows of one batch.
@@ -79,7 +85,6 @@ class Batch {
   }
 
   VU lights() const { return lights_; }
-  std::int32_t last_row() const { return planes_->rows - 1; }
 
   // The rows that each ball may touch. `wanted`: the lanes that hold a ball.
   HWY_INLINE BallRows find_rows(M wanted) const {
@@ -98,11 +103,7 @@ class Batch {
     return {AndNot(full, first), Or(AndNot(full, count), And(full, all_int(planes_->rows))), full};
   }
 
-  // All columns of the full ones, none of others.
-  HWY_INLINE VU columns_of_full(VI full) const {
-    const VU all_columns = Set(DU(), ColumnSpan::of(0, static_cast<std::uint32_t>(planes_->columns) - 1));
-    return Or(And(BitCast(DU(), full), all_columns), Not(BitCast(DU(), full)));
-  }
+  VU all_columns() const { return Set(DU(), ColumnSpan::of(0, static_cast<std::uint32_t>(planes_->columns) - 1)); }
 
   // What the balls in which[i] have between two tile planes. At each depth a ball is a disk, so it reaches farthest
   // to the side at its centre's height, or in the tile plane that is nearer to that; within a tile plane it does so
@@ -144,8 +145,7 @@ class Batch {
         [](V least, V most) { return all(1.0f) + Max(least * least, most * most); },
         [&](V inwards, V steepness) {
           const V radius = taken(balls_.radius, which), slack = taken(slack_, which);
-          const VI above = Min(row, all_int(last_row()));
-          const V top = slopes.at(above), bottom = slopes.at(above + all_int(1));
+          const V top = slopes.at(row), bottom = slopes.at(row + all_int(1));
           return is_certain_by_chord(half_chord_square(which, top, bottom), inwards, radius, slack, taken(rate_, which),
                                      steepness);
         });
@@ -252,70 +252,90 @@ std::uint32_t lanes() {
   return static_cast<std::uint32_t>(Lanes(D()));
 }
 
-// The rows of a batch, ball by ball from the top, one per lane: row t belongs to the ball in lane lane_of(t).
-class RowsOfBatch {
- public:
-  // `list`: where the lanes are listed.
-  HWY_INLINE void start(const BallRows& rows, std::int32_t* list) {
-    list_ = list;
-    count_ = 0;
-    const DI di;
-    const auto n = static_cast<std::int32_t>(Lanes(di));
-    const VI listed = AndNot(rows.full, rows.count), end = sums(listed);
-    shift_ = rows.first - (end - listed);
-    std::int32_t ends[k_most_lanes];
-    StoreU(end, di, ends);
-    // What is written beyond a lane's end, the next one overwrites.
-    const bool are_short = AllTrue(di, listed < all_int(n + 1));
-    for (std::int32_t lane = 0; lane < n; ++lane) {
-      StoreU(all_int(lane), di, list + count_);
-      if (!are_short)
-        for (count_ += n; count_ < ends[lane]; count_ += n) StoreU(all_int(lane), di, list + count_);
-      count_ = ends[lane];
-    }
-    StoreU(Zero(di), di, list + count_);
-  }
+// Which row and ball a span is of, in one number.
+struct Place {
+  static constexpr int k_lane_bits = 6;
+  static_assert(k_most_lanes <= 1 << k_lane_bits);
 
-  std::int32_t count() const { return count_; }
-  HWY_INLINE VI lane_of(std::int32_t t) const { return LoadU(DI(), list_ + t); }
-  HWY_INLINE VI number_of(Which which, VI t) const { return taken(shift_, which) + t; }
+  VI row;
+  Which ball;
 
- private:
-  const std::int32_t* list_;
-  std::int32_t count_;
-  VI shift_;  // of each ball: what is to be added to where its rows are listed for their numbers
+  HWY_INLINE explicit Place(VI place)
+      : row(hn::ShiftRight<k_lane_bits>(place)),
+        ball(IndicesFromVec(DI(), And(place, all_int((1 << k_lane_bits) - 1)))) {}
+  // Of all balls in a row.
+  static HWY_INLINE VI all_of(int row) { return from_on(row << k_lane_bits); }
 };
 
+// The balls that may touch each row, and do not hold all of it, row after row.
+HWY_INLINE void list_places(const BallRows& rows, std::int32_t* HWY_RESTRICT places, BatchSpans& out) {
+  const DI di;
+  std::uint32_t* HWY_RESTRICT sizes = out.sizes.data();
+  std::uint32_t count = 0;
+  const VU others = BitCast(DU(), AndNot(rows.full, rows.count));
+  VU skipped = BitCast(DU(), all_int(out.first_row) - rows.first);  // of each ball's rows; large before its first one
+  VI place = Place::all_of(out.first_row);
+  for (int row = out.first_row, last = out.last_row; row <= last; ++row) {
+    const MI wanted = RebindMask(di, skipped < others);
+    StoreU(compressed(di, place, wanted), di, places + count);
+    const auto size = static_cast<std::uint32_t>(CountTrue(di, wanted));
+    sizes[row] = size;
+    count += size;
+    skipped = skipped + Set(DU(), 1);
+    place = place + all_int(1 << Place::k_lane_bits);
+  }
+  StoreU(Zero(di), di, places + count);
+  out.count = count;
+}
+
 // What the balls have in all rows, as slopes.
-HWY_INLINE void find_hulls(const PlaneTable& slopes, const Batch& batch, const RowsOfBatch& rows, RowHulls& out) {
+HWY_INLINE void find_hulls(const PlaneTable& slopes, const Batch& batch, const std::int32_t* places,
+                           std::uint32_t count, RowHulls& out) {
   const D d;
-  for (std::int32_t begin = 0; begin < rows.count(); begin += static_cast<std::int32_t>(Lanes(d))) {
-    const Which which = IndicesFromVec(DI(), rows.lane_of(begin));
-    const VI above = Min(rows.number_of(which, from_on(begin)), all_int(batch.last_row()));
-    const Hull hull = batch.hull_of(which, slopes.at(above), slopes.at(above + all_int(1)));
+  for (std::uint32_t begin = 0; begin < count; begin += static_cast<std::uint32_t>(Lanes(d))) {
+    const Place place(LoadU(DI(), places + begin));
+    const Hull hull = batch.hull_of(place.ball, slopes.at(place.row), slopes.at(place.row + all_int(1)));
     StoreU(hull.low, d, out.low.data() + begin);
     StoreU(hull.high, d, out.high.data() + begin);
   }
 }
 
 // The columns of all rows.
-HWY_INLINE void find_columns(const PlaneTable& slopes, const Batch& batch, const RowsOfBatch& rows, int grid_rows,
-                             const RowHulls& hulls, BatchRows& out) {
+HWY_INLINE void find_columns(const PlaneTable& slopes, const Batch& batch, const std::int32_t* places,
+                             const RowHulls& hulls, BatchSpans& out) {
   const D d;
-  const DI di;
-  const auto n = static_cast<std::int32_t>(Lanes(di));
-  const VI nowhere = all_int(grid_rows * n);
-  for (std::int32_t begin = 0; begin < rows.count(); begin += n) {
-    const VI t = from_on(begin), lane = rows.lane_of(begin);
-    const Which which = IndicesFromVec(di, lane);
-    const MI wanted = t < all_int(rows.count());
-    const VI row = rows.number_of(which, t);
+  const DU du;
+  for (std::uint32_t begin = 0; begin < out.count; begin += static_cast<std::uint32_t>(Lanes(d))) {
+    const Place place(LoadU(DI(), places + begin));
     const Hull hull = {LoadU(d, hulls.low.data() + begin), LoadU(d, hulls.high.data() + begin)};
-    const VU columns = batch.columns_of(which, slopes, row, hull, RebindMask(d, wanted));
-    const VI to = row * all_int(n) + lane;
-    ScatterIndex(BitCast(di, columns), di, reinterpret_cast<std::int32_t*>(out.columns.data()),
-                 IfThenElse(wanted, to, nowhere));
-    list_uncertain(columns, to, out);
+    const VU columns = batch.columns_of(place.ball, slopes, place.row, hull, FirstN(d, out.count - begin));
+    StoreU(columns, du, out.columns.data() + begin);
+    StoreU(BitCast(du, taken(BitCast(DI(), batch.lights()), place.ball)), du, out.lights.data() + begin);
+    list_uncertain(columns, out.count - begin, begin, out);
+  }
+}
+
+// Adds to each row those that hold all of it.
+HWY_INLINE void add_full(const Batch& batch, const BallRows& rows, AlignedVector<std::uint32_t>& some_columns,
+                         BatchSpans& out) {
+  const DU du;
+  const MI full = rows.are_full();
+  std::swap(some_columns, out.columns);
+  std::uint32_t from = 0;
+  out.count = out.uncertain_count = 0;
+  for (int row = out.first_row; row <= out.last_row; ++row) {
+    std::uint32_t& size = out.sizes[static_cast<std::size_t>(row)];
+    const MI found = rows.others_in(row);
+    const auto wanted = RebindMask(du, Or(found, full));
+    const VU columns = IfThenElse(RebindMask(du, full), batch.all_columns(),
+                                  expanded(du, LoadU(du, some_columns.data() + from), RebindMask(du, found)));
+    const VU listed = compressed(du, columns, wanted);
+    StoreU(listed, du, out.columns.data() + out.count);
+    StoreU(compressed(du, batch.lights(), wanted), du, out.lights.data() + out.count);
+    from += size;
+    size = static_cast<std::uint32_t>(CountTrue(du, wanted));
+    list_uncertain(listed, size, out.count, out);
+    out.count += size;
   }
 }
 
@@ -326,19 +346,20 @@ void rows_of_batches(const RowPlanes& planes, const SphereSetup& shapes, std::sp
   const PlaneTable slopes(planes.slope, planes.rows + 1);
   Batch batches[k_batches_at_once];
   BallRows ball_rows[k_batches_at_once];
-  RowsOfBatch rows[k_batches_at_once];
   for (std::size_t i = 0; i < count; ++i) {
     batches[i].start(planes, shapes, balls[i]);
     ball_rows[i] = batches[i].find_rows(FirstN(D(), balls[i].count));
   }
   for (std::size_t i = 0; i < count; ++i) {
-    start_batch(planes.rows, ball_rows[i].first, ball_rows[i].count, batches[i].lights(),
-                batches[i].columns_of_full(ball_rows[i].full), out.batches[i]);
-    rows[i].start(ball_rows[i], out.lanes[i].data());
+    start_batch(planes.rows, ball_rows[i].first, ball_rows[i].count, out.batches[i]);
+    list_places(ball_rows[i], out.places[i].data(), out.batches[i]);
   }
-  for (std::size_t i = 0; i < count; ++i) find_hulls(slopes, batches[i], rows[i], out.hulls[i]);
   for (std::size_t i = 0; i < count; ++i)
-    find_columns(slopes, batches[i], rows[i], planes.rows, out.hulls[i], out.batches[i]);
+    find_hulls(slopes, batches[i], out.places[i].data(), out.batches[i].count, out.hulls[i]);
+  for (std::size_t i = 0; i < count; ++i) {
+    find_columns(slopes, batches[i], out.places[i].data(), out.hulls[i], out.batches[i]);
+    if (!AllFalse(DI(), ball_rows[i].are_full())) add_full(batches[i], ball_rows[i], out.some_columns, out.batches[i]);
+  }
 }
 
 }  // namespace
@@ -354,23 +375,30 @@ HWY_EXPORT(rows_of_batches);
 
 void BatchRows::make_room(int of_rows) {
   const std::size_t size = (static_cast<std::size_t>(of_rows) + 1) * k_row_lanes;
-  if (columns.size() >= size) return;
-  columns.resize(size);
-  uncertain.resize(size);
+  if (columns.size() < size) columns.resize(size);
+}
+
+// A vector more than a batch can have, as whole vectors are written and read from each span on; and one behind them.
+void BatchSpans::make_room(int of_rows) {
+  sizes.resize(static_cast<std::size_t>(of_rows));
+  const std::size_t size = (static_cast<std::size_t>(of_rows) + 2) * k_row_lanes;
+  for (AlignedVector<std::uint32_t>* list : {&lights, &columns, &uncertain}) list->resize(size);
 }
 
 void RowBatches::make_room(int of_rows) {
   const std::size_t size = (static_cast<std::size_t>(of_rows) + 2) * k_row_lanes;
-  if (lanes.back().size() >= size) return;
-  for (BatchRows& batch : batches) batch.make_room(of_rows);
-  for (AlignedVector<std::int32_t>& list : lanes) list.resize(size);
+  if (some_columns.size() >= size) return;
+  some_columns.resize(size);
+  for (BatchSpans& batch : batches) batch.make_room(of_rows);
+  for (AlignedVector<std::int32_t>& list : places) list.resize(size);
   for (RowHulls& list : hulls) list.make_room(size);
 }
 
 std::size_t RowBatches::capacity_bytes() const {
-  std::size_t bytes = 0;
-  for (const BatchRows& batch : batches) bytes += batch.capacity_bytes();
-  for (const AlignedVector<std::int32_t>& list : lanes) bytes += list.capacity() * sizeof(std::int32_t);
+  std::size_t bytes = bytes_of(some_columns);
+  for (const BatchSpans& batch : batches) bytes += batch.capacity_bytes();
+  for (const AlignedVector<std::int32_t>& list : places) bytes += bytes_of(list);
+  for (const RowHulls& list : hulls) bytes += list.capacity_bytes();
   return bytes;
 }
 

@@ -20,6 +20,7 @@
 #include "assign/lists/list_builder.h"
 #include "assign/rows/sphere_setup.h"
 #include "core/aligned_vector.h"
+#include "core/arrays.h"
 
 namespace clusterbench::assign {
 
@@ -39,13 +40,25 @@ struct BatchRows {
   std::uint32_t tests = 0;  // rows of single balls that were looked at
   // One row more than the grid has, for what is not wanted.
   AlignedVector<std::uint32_t> columns;
-  // Where in `columns` what is uncertain stands.
+
+  void make_room(int of_rows);
+  std::size_t capacity_bytes() const { return columns.capacity() * sizeof(std::uint32_t); }
+};
+
+// The same as a list: row after row the spans of the balls that may touch it, in each in the order of the balls. A span
+// is as in BatchRows; k_none is one, too, where a ball has been found to have no columns. Whole vectors can be read
+// from each span on.
+struct BatchSpans {
+  int first_row = 0, last_row = -1;
+  std::uint32_t tests = 0, count = 0;
+  AlignedVector<std::uint32_t> sizes;  // how many spans a row has: of first_row to last_row
+  AlignedVector<std::uint32_t> lights, columns;
+  // Which spans are uncertain, ascending.
   std::uint32_t uncertain_count = 0;
   AlignedVector<std::uint32_t> uncertain;
 
-  const std::uint32_t* columns_of(int row) const { return columns.data() + static_cast<std::size_t>(row) * lanes; }
   void make_room(int of_rows);
-  std::size_t capacity_bytes() const { return (columns.capacity() + uncertain.capacity()) * sizeof(std::uint32_t); }
+  std::size_t capacity_bytes() const { return bytes_of(sizes, lights, columns, uncertain); }
 };
 inline constexpr int k_most_columns = 0x3fff;
 
@@ -66,10 +79,11 @@ struct RowHulls {
 // Some batches, each of one slice.
 inline constexpr std::uint32_t k_batches_at_once = 4;
 struct RowBatches {
-  std::array<BatchRows, k_batches_at_once> batches;
-  // Of each batch's rows one after the other: in which lane their ball is.
-  std::array<AlignedVector<std::int32_t>, k_batches_at_once> lanes;
+  std::array<BatchSpans, k_batches_at_once> batches;
+  // Of each batch's spans: in which row, and in which lane their ball is.
+  std::array<AlignedVector<std::int32_t>, k_batches_at_once> places;
   std::array<RowHulls, k_batches_at_once> hulls;
+  AlignedVector<std::uint32_t> some_columns;  // of a batch
 
   void make_room(int of_rows);
   std::size_t capacity_bytes() const;

@@ -11,6 +11,19 @@
 
 namespace clusterbench::assign {
 
+// For every 8 bits: how many are set before each of them.
+inline constexpr auto k_ranks_of_bits = [] {
+  std::array<std::array<std::uint8_t, 8>, 256> table{};
+  for (unsigned bits = 0; bits < 256; ++bits) {
+    unsigned before = 0;
+    for (unsigned lane = 0; lane < 8; ++lane) {
+      table[bits][lane] = static_cast<std::uint8_t>(before);
+      before += bits >> lane & 1;
+    }
+  }
+  return table;
+}();
+
 // For every 8 bits: the lanes of those that are set, then of the others, both ascending.
 inline constexpr auto k_lanes_of_bits = [] {
   std::array<std::array<std::uint8_t, 8>, 256> table{};
@@ -41,12 +54,12 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Of at most 8 lanes: the lanes of those that are wanted, then of the others.
-template <class D, class M>
-HWY_INLINE auto lanes_of(D d, M wanted) {
+// What a table says of a mask of at most 8 lanes, a lane for each.
+template <class D, class M, class Table>
+HWY_INLINE auto lanes_of(D d, M wanted, const Table& table) {
   std::uint8_t bits[8];
   StoreMaskBits(d, wanted, bits);
-  const auto lanes = LoadU(hn::Rebind<std::uint8_t, D>(), k_lanes_of_bits[bits[0]].data());
+  const auto lanes = LoadU(hn::Rebind<std::uint8_t, D>(), table[bits[0]].data());
   return IndicesFromVec(d, PromoteTo(hn::RebindToSigned<D>(), lanes));
 }
 
@@ -61,7 +74,21 @@ HWY_INLINE V compressed([[maybe_unused]] D d, V lanes, M wanted) {
 #elif HWY_TARGET == HWY_SCALAR
   return Compress(lanes, wanted);
 #else
-  return TableLookupLanes(lanes, lanes_of(d, wanted));
+  return TableLookupLanes(lanes, lanes_of(d, wanted, k_lanes_of_bits));
+#endif
+}
+
+// The other way: the wanted lanes of the answer are the first ones, in their order. Others are anything.
+template <class D, class V, class M>
+HWY_INLINE V expanded([[maybe_unused]] D d, V lanes, [[maybe_unused]] M wanted) {
+#if HWY_TARGET <= HWY_AVX3
+  const hn::RebindToFloat<D> df;
+  const auto raw = BitCast(df, lanes).raw;
+  return BitCast(d, hn::Vec<decltype(df)>{_mm512_mask_expand_ps(raw, wanted.raw, raw)});
+#elif HWY_TARGET == HWY_SCALAR
+  return lanes;
+#else
+  return TableLookupLanes(lanes, lanes_of(d, wanted, k_ranks_of_bits));
 #endif
 }
 
