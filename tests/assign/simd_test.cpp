@@ -213,13 +213,13 @@ void expect_same_lists(const std::string& variant, const std::string& reference,
 
 // With lights of all sizes, spots, and lights that touch cells by a hair.
 void expect_same_lists_on_every_target(const std::string& variant, const std::string& reference) {
-  for (const std::uint64_t seed : {5u, 6u})
+  for (const std::uint64_t seed : test::some(std::vector<std::uint64_t>{5, 6}))
     for (const Setting& setting : test::some(testing::settings_for(*find_assigner(variant), seed)))
       expect_same_lists(variant, reference, setting);
 }
 
 void expect_same_lists_at_any_size(const std::string& variant, const std::string& reference) {
-  for (const std::uint64_t seed : {8u, 9u, 10u})
+  for (const std::uint64_t seed : test::some(std::vector<std::uint64_t>{8, 9, 10}))
     for (const Setting& setting : testing::settings_of_any_size(*find_assigner(variant), test::tries(120), seed))
       expect_same_lists(variant, reference, setting);
 }
