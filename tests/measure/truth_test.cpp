@@ -7,12 +7,14 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <set>
 
 #include "assign/contract/assigner.h"
 #include "core/random.h"
 #include "geom/filter/light_filter.h"
 #include "geom/light_meets_cell.h"
 #include "geom/shapes/verdict.h"
+#include "measure/truth_cells.h"
 #include "scene/camera_path.h"
 
 namespace clusterbench::measure {
@@ -98,6 +100,39 @@ TEST_P(TruthOn, rows_and_tiles_find_what_deciding_every_cell_alone_finds) {
   EXPECT_EQ(truth.lists, decided_one_by_one(frame, grid));
   EXPECT_GT(truth.lists.pair_count(), 400u);
   EXPECT_GT(truth.filter_decided, truth.lists.pair_count() / 2);
+}
+
+// Cells that no grid has: each is a cell of a grid and the one before it. Without an accelerator.
+class PairsOfCells final : public TruthCells {
+ public:
+  PairsOfCells(const view::Frame& frame, const grid::Grid& grid) : grid_(grid), space_(grid::space_of(grid, frame)) {}
+
+  std::uint32_t cell_count() const override { return grid_.cell_count(); }
+  const view::Space& space() const override { return space_; }
+  void settle(std::uint32_t cell, const grid::IndexRange&, LightSearch& search) const override {
+    search.settle(cell, [&] {
+      return meets_any(parts(cell), [&](std::uint32_t part) { return search.decided(grid_.cell(part)); });
+    });
+  }
+  static std::vector<std::uint32_t> parts(std::uint32_t cell) { return {cell, cell == 0 ? 0 : cell - 1}; }
+
+ private:
+  const grid::Grid& grid_;
+  view::Space space_;
+};
+
+TEST_P(TruthOn, cells_of_any_kind_need_no_more_than_a_decision) {
+  const view::Frame frame = frame_with(30, 30, 19, GetParam().orthographic);
+  const grid::Grid grid = small_grid(GetParam().kind == Kind::cascades ? Kind::world : GetParam().kind, frame);
+  const assign::Lists alone = decided_one_by_one(frame, grid);
+  const Truth truth = find_truth(frame, PairsOfCells(frame, grid), 2);
+  for (std::uint32_t cell = 0; cell < grid.cell_count(); ++cell) {
+    std::set<std::uint32_t> wanted;
+    for (const std::uint32_t part : PairsOfCells::parts(cell))
+      wanted.insert(alone.of(part).begin(), alone.of(part).end());
+    EXPECT_TRUE(std::ranges::equal(truth.lists.of(cell), wanted)) << cell;
+  }
+  EXPECT_GT(truth.lists.pair_count(), alone.pair_count());
 }
 
 TEST_P(TruthOn, the_number_of_threads_does_not_show) {
