@@ -7,9 +7,10 @@ namespace {
 
 grid::BallInSpace ball_in_space(const geom::LightVolume& volume) {
   constexpr double k_slack = 0x1p-44;
-  const geom::LocalPoint center = geom::local_point(volume.apex);
-  const double size = std::abs(center.at.x) + std::abs(center.at.y) + std::abs(center.at.z) + volume.range;
-  return {center.at, volume.range, k_slack * size + 4.0 * center.rounding_error};
+  const geom::LocalPoint center = geom::local_point(geom::source_of(volume));
+  const double range = geom::range_of(volume);
+  const double size = std::abs(center.at.x) + std::abs(center.at.y) + std::abs(center.at.z) + range;
+  return {center.at, range, k_slack * size + 4.0 * center.rounding_error};
 }
 
 // Is a point well inside a cell?
@@ -37,19 +38,22 @@ struct WellInside {
 
 }  // namespace
 
-QuickCone::QuickCone(const geom::LightVolume& volume, const grid::BallInSpace& ball)
-    : apex(ball.center),
-      axis(glm::normalize(volume.apex.rotation * volume.direction)),
-      range(volume.range),
-      cos_angle(std::cos(volume.half_angle_rad)),
-      sin_angle(std::sin(volume.half_angle_rad)),
+QuickCone::QuickCone(const geom::SpotVolume& spot, const Vec3d& apex_at)
+    : apex(apex_at),
+      axis(glm::normalize(spot.apex.rotation * spot.direction)),
+      range(spot.range),
+      cos_angle(std::cos(spot.half_angle_rad)),
+      sin_angle(std::sin(spot.half_angle_rad)),
       slack(0x1p-30 * (std::abs(apex.x) + std::abs(apex.y) + std::abs(apex.z))) {}
 
 LightSearch::LightSearch(const geom::LightVolume& light)
     : ball_(ball_in_space(light)),
-      decider_(light.apex, std::isinf(light.range) ? 0.0 : light.range),  // endless ones ask nothing
-      spot_(light.is_cone ? std::optional<geom::SpotDecider>(light) : std::nullopt),
-      cone_(light, ball_) {}
+      decider_(geom::source_of(light), is_endless() ? 0.0 : geom::range_of(light)) {  // endless ones ask nothing
+  if (const auto* spot = std::get_if<geom::SpotVolume>(&light)) {
+    spot_.emplace(*spot);
+    cone_.emplace(*spot, ball_.center);
+  }
+}
 
 bool LightSearch::is_well_inside(const geom::Cell& cell, const Vec3d& p) {
   return std::visit(WellInside{p}, cell);

@@ -22,7 +22,7 @@ struct QuickCone {
   Vec3d apex, axis;
   double range, cos_angle, sin_angle, slack;
 
-  QuickCone(const geom::LightVolume& volume, const grid::BallInSpace& ball);
+  QuickCone(const geom::SpotVolume& spot, const Vec3d& apex_at);
 
   // Is a ball outside of the cone's side, behind its apex or beyond its range?
   bool surely_misses(const geom::Ball& around) const {
@@ -69,9 +69,9 @@ class LightSearch {
   template <class Shape>
   geom::Verdict filtered(const Shape& shape, const geom::Ball& around) const {
     if (!spot_) return is_endless() ? geom::Verdict::yes : geom::Verdict::uncertain;
-    if (cone_.surely_misses(around)) return geom::Verdict::no;
+    if (cone_->surely_misses(around)) return geom::Verdict::no;
     const Vec3d middle(around.center);
-    return cone_.surely_holds(middle) && is_well_inside(shape, middle) ? geom::Verdict::yes : geom::Verdict::uncertain;
+    return cone_->surely_holds(middle) && is_well_inside(shape, middle) ? geom::Verdict::yes : geom::Verdict::uncertain;
   }
   // The decision, of what the filter left uncertain. Uncertain: undecided.
   template <class Shape>
@@ -104,8 +104,8 @@ class LightSearch {
 
   grid::BallInSpace ball_;
   geom::BallDecider decider_;
-  std::optional<geom::SpotDecider> spot_;
-  QuickCone cone_;
+  std::optional<geom::SpotDecider> spot_;  // and the cone: of spots
+  std::optional<QuickCone> cone_;
   LightCells found_;
 };
 

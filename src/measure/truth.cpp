@@ -24,7 +24,7 @@ void settle_row(const grid::CellRow& row, const TruthCells& cells, LightSearch& 
 }
 
 LightCells cells_of_light(const geom::LightVolume& light, const TruthCells& cells) {
-  if (light.range == 0.0) return {};
+  if (geom::range_of(light) == 0.0) return {};
   LightSearch search(light);
   std::vector<grid::CellRow> rows;
   if (search.is_endless())
@@ -81,15 +81,13 @@ double relative_distance(const view::Frame& frame, const grid::Grid& grid, std::
 }
 
 double relative_distance(const geom::LightVolume& light, const geom::Cell& cell) {
-  geom::LightVolume volume = light;
-  if (std::isinf(volume.range)) return 0.0;
-  const double range = volume.range;
+  const double range = geom::range_of(light);
+  if (std::isinf(range)) return 0.0;
   double misses = 0.0, meets = 1.0;
   constexpr int k_halvings = 40;
   for (int i = 0; i < k_halvings; ++i) {
     const double middle = 0.5 * (misses + meets);
-    volume.range = range * middle;
-    (geom::filter_meets(volume, cell) == geom::Verdict::no ? misses : meets) = middle;
+    (geom::filter_meets(geom::with_range(light, range * middle), cell) == geom::Verdict::no ? misses : meets) = middle;
   }
   return meets;
 }

@@ -69,11 +69,7 @@ assign::Lists decided_one_by_one(const view::Frame& frame, const grid::Grid& gri
   pairs.start(grid.cell_count());
   for (std::uint32_t i = 0; i < frame.lights.size(); ++i) {
     const scene::WorldLight& light = frame.lights[i];
-    const geom::LightVolume volume{{light.position, space.origin, space.rotation},
-                                   light.range_m,
-                                   light.type == scene::LightType::spot,
-                                   light.direction,
-                                   light.outer_cone_rad};
+    const geom::LightVolume volume = view::volume_of(light, space);
     for (std::uint32_t cell = 0; cell < grid.cell_count(); ++cell) {
       if (grid.is_hole(cell)) continue;
       Verdict verdict = geom::filter_meets(volume, grid.cell(cell));
@@ -138,10 +134,10 @@ TEST_P(TruthOn, cells_of_any_kind_need_no_more_than_a_decision) {
 TEST_P(TruthOn, the_number_of_threads_does_not_show) {
   const view::Frame frame = frame_with(200, 50, 23, GetParam().orthographic);
   const grid::Grid grid = small_grid(GetParam().kind, frame);
-  const Truth one = find_truth(frame, grid, 1), two = find_truth(frame, grid, 2);
-  EXPECT_EQ(one.lists, two.lists);
-  EXPECT_EQ(one.filter_decided, two.filter_decided);
-  EXPECT_EQ(one.exact_decided, two.exact_decided);
+  const Truth single = find_truth(frame, grid, 1), two = find_truth(frame, grid, 2);
+  EXPECT_EQ(single.lists, two.lists);
+  EXPECT_EQ(single.filter_decided, two.filter_decided);
+  EXPECT_EQ(single.exact_decided, two.exact_decided);
 }
 
 TEST_P(TruthOn, no_conservative_assigner_misses_a_true_pair) {
@@ -215,14 +211,15 @@ view::Space far_and_turned() {
 }
 
 // The least range with which the light touches the cell, to the last bit.
-double touching_range(geom::LightVolume light, const geom::Cell& cell) {
+double touching_range(const geom::LightVolume& light, const geom::Cell& cell) {
   double apart = 0.0, touching = 256.0;
   for (;;) {
-    light.range = 0.5 * (apart + touching);
-    if (light.range <= apart || light.range >= touching) return touching;
-    Verdict verdict = geom::filter_meets(light, cell);
-    if (verdict == Verdict::uncertain) verdict = geom::prove_meets(light, cell);
-    (verdict == Verdict::no ? apart : touching) = light.range;
+    const double range = 0.5 * (apart + touching);
+    if (range <= apart || range >= touching) return touching;
+    const geom::LightVolume shorter = geom::with_range(light, range);
+    Verdict verdict = geom::filter_meets(shorter, cell);
+    if (verdict == Verdict::uncertain) verdict = geom::prove_meets(shorter, cell);
+    (verdict == Verdict::no ? apart : touching) = range;
   }
 }
 
