@@ -15,11 +15,26 @@ function verdict(model: Model): HTMLElement {
 }
 
 export function header(model: Model): HTMLElement {
-  const machines = [...new Set(model.runs.map((run) => `${run.result.machine.cpu}, ${plural(run.result.machine.cores, "core")}`))];
+  const machines = [
+    ...new Set(model.runs.map((run) => `${run.result.machine.cpu}, ${plural(run.result.machine.cores, "core")}`)),
+  ];
   return h(
     "header",
     {},
-    h("div", { class: "title" }, h("h1", {}, model.runs.map((run) => run.result.name).filter((name, at, all) => all.indexOf(name) === at).join(", ") || "clusterbench"), h("p", {}, "clusterbench report"), themeControl()),
+    h(
+      "div",
+      { class: "title" },
+      h(
+        "h1",
+        {},
+        model.runs
+          .map((run) => run.result.name)
+          .filter((name, at, all) => all.indexOf(name) === at)
+          .join(", ") || "clusterbench",
+      ),
+      h("p", {}, "clusterbench report"),
+      themeControl(),
+    ),
     h(
       "p",
       { class: "summary" },
@@ -38,5 +53,15 @@ function goTo(event: Event, id: string): void {
 
 export function contents(main: HTMLElement): HTMLElement {
   const sections = [...main.querySelectorAll("section[id]")];
-  return h("nav", { "aria-label": "Sections" }, ...sections.map((section) => h("a", { href: `#${section.id}`, onclick: (event) => goTo(event, section.id) }, section.querySelector("h2")!.textContent)));
+  return h(
+    "nav",
+    { "aria-label": "Sections" },
+    ...sections.map((section) =>
+      h(
+        "a",
+        { href: `#${section.id}`, onclick: (event) => goTo(event, section.id) },
+        section.querySelector("h2")!.textContent,
+      ),
+    ),
+  );
 }

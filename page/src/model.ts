@@ -64,13 +64,15 @@ function labels(files: string[]): string[] {
   const tail = (at: number, length: number) => parts[at]!.slice(-length).join("/");
   return files.map((file, at) => {
     for (let length = 1; length <= parts[at]!.length; ++length)
-      if (files.every((other, index) => other === file || tail(index, length) !== tail(at, length))) return tail(at, length);
+      if (files.every((other, index) => other === file || tail(index, length) !== tail(at, length)))
+        return tail(at, length);
     return file;
   });
 }
 
 function toCase(raw: CaseResult, run: Run, front: Set<string>, ranked: Ranked | null): Case {
-  const storage = raw.precision && raw.precision.packing !== "float32" ? `${raw.storage}, ${raw.precision.label}` : raw.storage;
+  const storage =
+    raw.precision && raw.precision.packing !== "float32" ? `${raw.storage}, ${raw.precision.label}` : raw.storage;
   return {
     raw,
     run,
@@ -109,11 +111,19 @@ function toCase(raw: CaseResult, run: Run, front: Set<string>, ranked: Ranked | 
 }
 
 // Cases that see the same, whatever cells they use. Of several results each is by itself: they can be of other machines.
-export const seenBy = (aCase: Case) => [aCase.run.label, aCase.scene, aCase.raw.camera, aCase.raw.viewport.join("x")].join("\n");
+export const seenBy = (aCase: Case) =>
+  [aCase.run.label, aCase.scene, aCase.raw.camera, aCase.raw.viewport.join("x")].join("\n");
 
 function rankAll(cases: Case[]): void {
-  for (const seen of Map.groupBy(cases.filter((aCase) => aCase.frameNs !== null), seenBy).values())
-    seen.sort((a, b) => a.frameNs! - b.frameNs!).forEach((aCase, at) => (aCase.rank = at + 1));
+  for (const seen of Map.groupBy(
+    cases.filter((aCase) => aCase.frameNs !== null),
+    seenBy,
+  ).values())
+    seen
+      .sort((a, b) => a.frameNs! - b.frameNs!)
+      .forEach((aCase, at) => {
+        aCase.rank = at + 1;
+      });
 }
 
 export function modelOf(data: PageData): Model {
