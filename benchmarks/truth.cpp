@@ -41,8 +41,7 @@ std::vector<std::pair<geom::LightVolume, geom::Cell>> open_spots(const std::stri
   const auto whole = [&](int lo, int hi) { return lo + static_cast<double>(random.below(std::uint64_t(hi - lo + 1))); };
   std::vector<std::pair<geom::LightVolume, geom::Cell>> found;
   while (found.size() < 500) {
-    geom::LightVolume light;
-    light.is_cone = true;
+    geom::SpotVolume light;
     light.apex.position = {whole(-8, 8), whole(-8, 8), whole(-12, 8)};
     light.range = whole(1, 12);
     light.direction = {whole(-1, 1), whole(-1, 1), whole(-1, 1)};

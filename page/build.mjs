@@ -2,7 +2,7 @@
 // FOLDER/page_template.cpp, which holds both: node build.mjs FOLDER.
 
 import { createHash } from "node:crypto";
-import { existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { build } from "esbuild";
@@ -37,7 +37,7 @@ function plotStyle() {
 
 function packageOf(input) {
   const found = /node_modules\/((?:@[^/]+\/)?[^/]+)\//.exec(input);
-  return found && found[1];
+  return found?.[1];
 }
 
 // Packages whose code is inside of d3's own files.
@@ -74,7 +74,9 @@ function policy(script, style) {
     "base-uri": "'none'",
     "form-action": "'none'",
   };
-  return Object.entries(only).map((rule) => rule.join(" ")).join("; ");
+  return Object.entries(only)
+    .map((rule) => rule.join(" "))
+    .join("; ");
 }
 
 const text = (name, template) => `std::string_view ${name}() {

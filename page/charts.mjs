@@ -12,7 +12,14 @@ const read = (path) => JSON.parse(readFileSync(path, "utf8"));
 const root = dirname(fileURLToPath(import.meta.url));
 
 async function bundled(entry) {
-  const made = await build({ absWorkingDir: root, entryPoints: [entry], bundle: true, format: "iife", target: "es2022", write: false });
+  const made = await build({
+    absWorkingDir: root,
+    entryPoints: [entry],
+    bundle: true,
+    format: "iife",
+    target: "es2022",
+    write: false,
+  });
   return made.outputFiles[0].text;
 }
 
@@ -20,7 +27,9 @@ const given = read(from);
 const data = what === "scaling" ? given.map(({ file, ...curve }) => ({ ...curve, result: read(file) })) : given;
 const browser = await launch();
 const page = await browser.newPage({ colorScheme: "light" });
-page.on("pageerror", (error) => { throw error; });
+page.on("pageerror", (error) => {
+  throw error;
+});
 await page.setContent("<!doctype html><html><head></head><body></body></html>");
 await page.addStyleTag({ content: await bundled("src/style.css") });
 await page.addScriptTag({ content: await bundled("src/drawings.ts") });

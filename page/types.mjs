@@ -8,7 +8,7 @@ const here = (path) => fileURLToPath(new URL(path, import.meta.url));
 const schema = JSON.parse(readFileSync(here("../src/config/schemas/result.schema.json"), "utf8"));
 const into = here("src/schema_types.ts");
 
-const nameOf = (definition) => definition.replace(/(^|_)(\w)/g, (_, before, letter) => letter.toUpperCase());
+const nameOf = (definition) => definition.replace(/(^|_)(\w)/g, (_match, _before, letter) => letter.toUpperCase());
 const simple = { integer: "number", number: "number", string: "string", boolean: "boolean", null: "null" };
 
 function commentOf({ description, "x-unit": unit, "x-over": over }) {
@@ -19,15 +19,18 @@ function commentOf({ description, "x-unit": unit, "x-over": over }) {
 
 function arrayType(part, indent) {
   const items = typeOf(part.items, indent);
-  if (part.minItems !== undefined && part.minItems === part.maxItems) return `[${Array(part.minItems).fill(items).join(", ")}]`;
+  if (part.minItems !== undefined && part.minItems === part.maxItems)
+    return `[${Array(part.minItems).fill(items).join(", ")}]`;
   return /[ |{]/.test(items) ? `Array<${items}>` : `${items}[]`;
 }
 
 function objectType(part, indent) {
-  if (!part.properties) return `Record<string, ${part.additionalProperties ? typeOf(part.additionalProperties, indent) : "unknown"}>`;
+  if (!part.properties)
+    return `Record<string, ${part.additionalProperties ? typeOf(part.additionalProperties, indent) : "unknown"}>`;
   const required = new Set(part.required);
   const members = Object.entries(part.properties).map(
-    ([name, member]) => `${indent}  ${name}${required.has(name) ? "" : "?"}: ${typeOf(member, `${indent}  `)};${commentOf(member)}\n`,
+    ([name, member]) =>
+      `${indent}  ${name}${required.has(name) ? "" : "?"}: ${typeOf(member, `${indent}  `)};${commentOf(member)}\n`,
   );
   return `{\n${members.join("")}${indent}}`;
 }
@@ -42,7 +45,8 @@ function typeOf(part, indent = "") {
 }
 
 const types = Object.entries({ ...schema.definitions, result: schema }).map(
-  ([name, part]) => `${part.description ? `// ${part.description}\n` : ""}export type ${nameOf(name)} = ${typeOf(part)};\n`,
+  ([name, part]) =>
+    `${part.description ? `// ${part.description}\n` : ""}export type ${nameOf(name)} = ${typeOf(part)};\n`,
 );
 const text = `// Made by types.mjs of src/config/schemas/result.schema.json: change that, and run \`node types.mjs\`.\n\n${types.join("\n")}`;
 

@@ -5,7 +5,8 @@ import type { Filters, View } from "./view.ts";
 const lists = ["scene", "grid", "run"] as const;
 
 function fragmentOf(view: View): string {
-  const { filters, choices } = view, standard = view.noFilters();
+  const { filters, choices } = view,
+    standard = view.noFilters();
   const parts = new URLSearchParams();
   for (const key of lists) if (filters[key] !== null && filters[key] !== standard[key]) parts.set(key, filters[key]);
   if (filters.words) parts.set("words", filters.words);
@@ -35,7 +36,8 @@ export function followAddress(view: View): void {
   const read = (): Filters | null => {
     if (!location.hash.includes("=")) return null; // the place of a section
     const parts = new URLSearchParams(location.hash.slice(1));
-    for (const [key, value] of parts) if (key.startsWith("choice.")) view.choices.set(key.slice("choice.".length), value);
+    for (const [key, value] of parts)
+      if (key.startsWith("choice.")) view.choices.set(key.slice("choice.".length), value);
     return filtersOf(view, parts);
   };
   view.filters = read() ?? view.filters;

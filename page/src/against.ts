@@ -5,7 +5,7 @@ import { h } from "./dom.ts";
 import { figureView } from "./figure.ts";
 import * as format from "./format.ts";
 import type { Case, Run } from "./model.ts";
-import { Plot, chart, chartWidth } from "./plots.ts";
+import { chart, chartWidth, Plot } from "./plots.ts";
 import type { Maybe } from "./result.ts";
 import type { Section, View } from "./view.ts";
 
@@ -24,11 +24,17 @@ function bothOf(cases: Case[], first: Run, second: Run): Both[] {
     .filter((aCase) => aCase.run === second && others.has(aCase.raw.id))
     .map((aCase) => {
       const other = others.get(aCase.raw.id)!;
-      return { first: other, second: aCase, time: by(aCase.frameNs, other.frameNs), bytes: by(aCase.bytes, other.bytes) };
+      return {
+        first: other,
+        second: aCase,
+        time: by(aCase.frameNs, other.frameNs),
+        bytes: by(aCase.bytes, other.bytes),
+      };
     });
 }
 
-const change = (value: Maybe) => (value === null ? "–" : `${value >= 1 ? "+" : "−"}${(100 * Math.abs(value - 1)).toFixed(1)} %`);
+const change = (value: Maybe) =>
+  value === null ? "–" : `${value >= 1 ? "+" : "−"}${(100 * Math.abs(value - 1)).toFixed(1)} %`;
 
 function ratios(view: View, rows: Both[], first: Run, second: Run): Element {
   const timed = rows.filter((row) => row.time !== null);
@@ -40,12 +46,34 @@ function ratios(view: View, rows: Both[], first: Run, second: Run): Element {
     width: chartWidth(),
     height: 66 + 22 * methods.length,
     marginLeft: 170,
-    x: { type: "log", domain: [1 / most, most], label: `frame time, ${second.label} / ${first.label}`, ticks: 7, tickFormat: (value: number) => format.decimal(value), grid: true },
+    x: {
+      type: "log",
+      domain: [1 / most, most],
+      label: `frame time, ${second.label} / ${first.label}`,
+      ticks: 7,
+      tickFormat: (value: number) => format.decimal(value),
+      grid: true,
+    },
     y: { domain: methods, label: null, tickSize: 0 },
     marks: [
       Plot.ruleX([1], { stroke: "var(--ink-2)" }),
-      Plot.dot(timed, { x: "time", y: (row: Both) => row.second.assigner, r: 4.5, symbol: (row: Both) => look(row).shape, stroke: (row: Both) => look(row).colour, fill: (row: Both) => (look(row).isFilled ? look(row).colour : "var(--panel)") }),
-      Plot.tip(timed, Plot.pointer({ x: "time", y: (row: Both) => row.second.assigner, title: (row: Both) => `${row.second.raw.name}\n${first.label}: ${format.microseconds(row.first.frameNs)} µs\n${second.label}: ${format.microseconds(row.second.frameNs)} µs\n${change(row.time)}` })),
+      Plot.dot(timed, {
+        x: "time",
+        y: (row: Both) => row.second.assigner,
+        r: 4.5,
+        symbol: (row: Both) => look(row).shape,
+        stroke: (row: Both) => look(row).colour,
+        fill: (row: Both) => (look(row).isFilled ? look(row).colour : "var(--panel)"),
+      }),
+      Plot.tip(
+        timed,
+        Plot.pointer({
+          x: "time",
+          y: (row: Both) => row.second.assigner,
+          title: (row: Both) =>
+            `${row.second.raw.name}\n${first.label}: ${format.microseconds(row.first.frameNs)} µs\n${second.label}: ${format.microseconds(row.second.frameNs)} µs\n${change(row.time)}`,
+        }),
+      ),
     ],
   });
 }
@@ -55,11 +83,22 @@ export const againstSection: Section = (view, redraw) => {
   const { runs } = view.model;
   const options = runs.slice(1).map((run): Option => [run.label, run.label]);
   const [key, control] = choice(view, redraw, "against-result", `Against ${runs[0]!.label}`, options);
-  const first = runs[0]!, second = runs.find((run) => run.label === key)!;
+  const first = runs[0]!,
+    second = runs.find((run) => run.label === key)!;
   const rows = bothOf(view.casesOfEachRun(), first, second);
   const heading = h("h2", {}, "One result against another");
   if (rows.length === 0)
-    return h("section", { id: "against" }, heading, h("div", { class: "controls" }, control), h("p", { class: "note" }, `No cases: ${second.label} and ${first.label} have none in common, or none that the filters leave.`));
+    return h(
+      "section",
+      { id: "against" },
+      heading,
+      h("div", { class: "controls" }, control),
+      h(
+        "p",
+        { class: "note" },
+        `No cases: ${second.label} and ${first.label} have none in common, or none that the filters leave.`,
+      ),
+    );
   const isTimed = rows.some((row) => row.time !== null);
   return h(
     "section",
@@ -75,12 +114,38 @@ export const againstSection: Section = (view, redraw) => {
         caption: `${second.label} against ${first.label}`,
         columns: [
           { label: "method", value: (row) => row.second.assigner },
-          { label: "time", about: "Change of the frame time", value: (row) => row.time, show: (row) => change(row.time) },
-          { label: `excess, ${first.label}`, value: (row) => row.first.excess, show: (row) => format.percent(row.first.excess) },
-          { label: `excess, ${second.label}`, value: (row) => row.second.excess, show: (row) => format.percent(row.second.excess) },
-          { label: `frame µs, ${first.label}`, value: (row) => row.first.frameNs, show: (row) => format.microseconds(row.first.frameNs) },
-          { label: `frame µs, ${second.label}`, value: (row) => row.second.frameNs, show: (row) => format.microseconds(row.second.frameNs) },
-          { label: "bytes", about: "Change of the high-water mark", value: (row) => row.bytes, show: (row) => change(row.bytes) },
+          {
+            label: "time",
+            about: "Change of the frame time",
+            value: (row) => row.time,
+            show: (row) => change(row.time),
+          },
+          {
+            label: `excess, ${first.label}`,
+            value: (row) => row.first.excess,
+            show: (row) => format.percent(row.first.excess),
+          },
+          {
+            label: `excess, ${second.label}`,
+            value: (row) => row.second.excess,
+            show: (row) => format.percent(row.second.excess),
+          },
+          {
+            label: `frame µs, ${first.label}`,
+            value: (row) => row.first.frameNs,
+            show: (row) => format.microseconds(row.first.frameNs),
+          },
+          {
+            label: `frame µs, ${second.label}`,
+            value: (row) => row.second.frameNs,
+            show: (row) => format.microseconds(row.second.frameNs),
+          },
+          {
+            label: "bytes",
+            about: "Change of the high-water mark",
+            value: (row) => row.bytes,
+            show: (row) => change(row.bytes),
+          },
           { label: "scene", value: (row) => row.second.scene },
           { label: "grid", value: (row) => row.second.grid },
           { label: "storage", value: (row) => row.second.storage },

@@ -4,9 +4,9 @@ import { h } from "./dom.ts";
 import { figureView } from "./figure.ts";
 import * as format from "./format.ts";
 import type { Case } from "./model.ts";
-import { Plot, chart, chartWidth } from "./plots.ts";
+import { chart, chartWidth, Plot } from "./plots.ts";
 import type { Maybe } from "./result.ts";
-import { seriesOf, type Series } from "./series.ts";
+import { type Series, seriesOf } from "./series.ts";
 import type { View } from "./view.ts";
 
 interface Along {
@@ -19,7 +19,12 @@ interface Along {
 const alongs: Along[] = [
   { title: "pairs", values: (aCase) => aCase.raw.occupancy?.along_path?.pairs, show: format.short },
   { title: "longest list", values: (aCase) => aCase.raw.occupancy?.along_path?.longest_list, show: format.count },
-  { title: "bytes", values: (aCase) => aCase.raw.buffers.along_path?.bytes, show: format.short, allocation: (aCase) => aCase.recommended },
+  {
+    title: "bytes",
+    values: (aCase) => aCase.raw.buffers.along_path?.bytes,
+    show: format.short,
+    allocation: (aCase) => aCase.recommended,
+  },
 ];
 
 interface Step {
@@ -35,8 +40,12 @@ function steps(all: Series[], framesPerEntry: number): Step[] {
 function lines(view: View, along: Along, all: Series[], framesPerEntry: number): Element {
   const colour = (series: Series) => view.palette(series.cases[0]!).colour;
   const data = steps(all, framesPerEntry);
-  const allocations = along.allocation ? all.map((series) => ({ series, value: along.allocation!(series.cases[0]!) })) : [];
-  const ends = all.map((series): Step => ({ series, frame: (series.values.length - 1) * framesPerEntry, value: series.values.at(-1)! }));
+  const allocations = along.allocation
+    ? all.map((series) => ({ series, value: along.allocation!(series.cases[0]!) }))
+    : [];
+  const ends = all.map(
+    (series): Step => ({ series, frame: (series.values.length - 1) * framesPerEntry, value: series.values.at(-1)! }),
+  );
   return chart(`${along.title} frame by frame of ${all.map((series) => series.label).join("; ")}`, {
     width: chartWidth(3),
     height: 240,
@@ -45,10 +54,35 @@ function lines(view: View, along: Along, all: Series[], framesPerEntry: number):
     x: { label: "frame", ticks: 6, tickFormat: (frame: number) => (Number.isInteger(frame) ? String(frame) : "") },
     y: { zero: true, grid: true, label: along.title, ticks: 5, tickFormat: along.show },
     marks: [
-      Plot.ruleY(allocations, { y: "value", stroke: ({ series }) => colour(series), strokeDasharray: "6 4", strokeWidth: 1.5, title: ({ series, value }) => `allocate ${along.show(value)} for ${series.label}` }),
-      Plot.line(data, { x: "frame", y: "value", z: ({ series }: Step) => series.label, stroke: ({ series }: Step) => colour(series), strokeWidth: 1.8 }),
-      Plot.dot(ends, { x: "frame", y: "value", symbol: ({ series }: Step) => view.palette(series.cases[0]!).shape, fill: ({ series }: Step) => colour(series), r: 4 }),
-      Plot.tip(data, Plot.pointer({ x: "frame", y: "value", title: ({ series, frame, value }: Step) => `${series.label}\nframe ${frame}: ${along.show(value)}` })),
+      Plot.ruleY(allocations, {
+        y: "value",
+        stroke: ({ series }) => colour(series),
+        strokeDasharray: "6 4",
+        strokeWidth: 1.5,
+        title: ({ series, value }) => `allocate ${along.show(value)} for ${series.label}`,
+      }),
+      Plot.line(data, {
+        x: "frame",
+        y: "value",
+        z: ({ series }: Step) => series.label,
+        stroke: ({ series }: Step) => colour(series),
+        strokeWidth: 1.8,
+      }),
+      Plot.dot(ends, {
+        x: "frame",
+        y: "value",
+        symbol: ({ series }: Step) => view.palette(series.cases[0]!).shape,
+        fill: ({ series }: Step) => colour(series),
+        r: 4,
+      }),
+      Plot.tip(
+        data,
+        Plot.pointer({
+          x: "frame",
+          y: "value",
+          title: ({ series, frame, value }: Step) => `${series.label}\nframe ${frame}: ${along.show(value)}`,
+        }),
+      ),
     ],
   });
 }
@@ -56,14 +90,22 @@ function lines(view: View, along: Along, all: Series[], framesPerEntry: number):
 export function cameraPath(view: View, cases: Case[]): HTMLElement {
   const shown = cases.filter((aCase) => aCase.raw.occupancy?.along_path && aCase.raw.buffers.along_path);
   if (shown.length === 0)
-    return h("p", { class: "note" }, "These cases have no lists frame by frame: an earlier version measured them (run it again), or their methods leave structures without cells.");
+    return h(
+      "p",
+      { class: "note" },
+      "These cases have no lists frame by frame: an earlier version measured them (run it again), or their methods leave structures without cells.",
+    );
   const framesPerEntry = shown[0]!.raw.occupancy!.along_path!.frames_per_entry;
   const drawn = alongs.map((along) => ({ along, all: seriesOf(view, shown, along.values) }));
   return figureView({
     id: "camera-path",
     title: "Along the camera path",
     lead: `Dashed: what to allocate, the high-water mark with its margin. Methods with the same figures share a line.${framesPerEntry > 1 ? ` Each point is the largest of ${framesPerEntry} frames.` : ""}`,
-    chart: h("div", { class: "multiples" }, ...drawn.map(({ along, all }) => h("div", {}, h("h4", {}, along.title), lines(view, along, all, framesPerEntry)))),
+    chart: h(
+      "div",
+      { class: "multiples" },
+      ...drawn.map(({ along, all }) => h("div", {}, h("h4", {}, along.title), lines(view, along, all, framesPerEntry))),
+    ),
     table: () => ({
       caption: "Pairs, longest list and bytes frame by frame",
       columns: [
@@ -72,12 +114,22 @@ export function cameraPath(view: View, cases: Case[]): HTMLElement {
         { label: "pairs", value: (row) => row.pairs, show: (row) => format.count(row.pairs) },
         { label: "longest list", value: (row) => row.longest },
         { label: "bytes", value: (row) => row.bytes, show: (row) => format.count(row.bytes) },
-        { label: "allocate", value: (row) => row.aCase.recommended, show: (row) => format.count(row.aCase.recommended) },
+        {
+          label: "allocate",
+          value: (row) => row.aCase.recommended,
+          show: (row) => format.count(row.aCase.recommended),
+        },
       ],
       rows: shown.flatMap((aCase) => {
         const { pairs, longest_list } = aCase.raw.occupancy!.along_path!;
         const { bytes } = aCase.raw.buffers.along_path!;
-        return pairs.map((value, at) => ({ aCase, frame: at * framesPerEntry, pairs: value, longest: longest_list[at]!, bytes: bytes[at]! }));
+        return pairs.map((value, at) => ({
+          aCase,
+          frame: at * framesPerEntry,
+          pairs: value,
+          longest: longest_list[at]!,
+          bytes: bytes[at]!,
+        }));
       }),
     }),
     cases: shown,

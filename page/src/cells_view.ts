@@ -1,14 +1,23 @@
 // Frames of a case cell by cell: in space, slice by slice, and each cell's list.
 
-import { colourOf, valueOf, type What } from "./cells/colours.ts";
-import { leftOut, unpacked, type Details, type Frame, type Vec3 } from "./cells/details.ts";
+import { colourOf, shownValue, type What } from "./cells/colours.ts";
+import { type Details, type Frame, leftOut, unpacked, type Vec3 } from "./cells/details.ts";
 import { canBeEven } from "./cells/even_depth.ts";
-import { cellOf, geometryOf, type Geometry } from "./cells/geometry.ts";
+import { cellOf, type Geometry, geometryOf } from "./cells/geometry.ts";
 import { pickedCell } from "./cells/picked_cell.ts";
 import { pictureOf } from "./cells/picture.ts";
-import { CellRows, countsAt, freshSelection, most, worstCell, type LightsShown, type Selection, type Show } from "./cells/selection.ts";
+import {
+  CellRows,
+  countsAt,
+  freshSelection,
+  type LightsShown,
+  most,
+  type Selection,
+  type Show,
+  worstCell,
+} from "./cells/selection.ts";
 import { sliceMap } from "./cells/slice_map.ts";
-import { space, type Space } from "./cells/space.ts";
+import { type Space, space } from "./cells/space.ts";
 import { legendView, pills, slider } from "./cells/widgets.ts";
 import { select } from "./controls.ts";
 import { h } from "./dom.ts";
@@ -34,7 +43,11 @@ class CellsView {
   private readonly picked = h("div");
   private readonly frameSlider = slider("cells-frame", "Frame", (frame) => this.change({ frame }));
   private readonly leastSlider = slider("cells-least", "With at least", (below) => this.change({ least: below + 1 }));
-  private readonly cellSliders = [this.cellSlider("column", "Tile column", 0), this.cellSlider("row", "Tile row", 1), this.cellSlider("slice", "Slice", 2)];
+  private readonly cellSliders = [
+    this.cellSlider("column", "Tile column", 0),
+    this.cellSlider("row", "Tile row", 1),
+    this.cellSlider("slice", "Slice", 2),
+  ];
   private readonly even: HTMLElement;
 
   constructor(
@@ -75,17 +88,37 @@ class CellsView {
   }
 
   private cellSlider(id: string, label: string, axis: number) {
-    return slider(`cells-${id}`, label, (value) => this.pick(this.selection.cell.map((old, at) => (at === axis ? value : old)) as Vec3));
+    return slider(`cells-${id}`, label, (value) =>
+      this.pick(this.selection.cell.map((old, at) => (at === axis ? value : old)) as Vec3),
+    );
   }
   private evenBox(): HTMLElement {
-    const box = h("input", { type: "checkbox", id: "cells-even", checked: this.selection.isEven, onchange: () => this.changeDepth(box.checked) });
+    const box = h("input", {
+      type: "checkbox",
+      id: "cells-even",
+      checked: this.selection.isEven,
+      onchange: () => this.changeDepth(box.checked),
+    });
     return h("label", { class: "control" }, box, h("span", {}, "Slices equally deep"));
   }
   private choices(): HTMLElement {
     const { what, show, lights } = this.selection;
-    const lists: [What, string][] = [["reported", "Reported"], ["true", "True"], ["excess", "False positives"], ["missing", "False negatives"]];
-    const cells: [Show, string][] = [["all", "All cells"], ["slice", "One slice"], ["tile", "One tile"]];
-    const lamps: [LightsShown, string][] = [["cell", "of the picked cell"], ["all", "all"], ["none", "none"]];
+    const lists: [What, string][] = [
+      ["reported", "Reported"],
+      ["true", "True"],
+      ["excess", "False positives"],
+      ["missing", "False negatives"],
+    ];
+    const cells: [Show, string][] = [
+      ["all", "All cells"],
+      ["slice", "One slice"],
+      ["tile", "One tile"],
+    ];
+    const lamps: [LightsShown, string][] = [
+      ["cell", "of the picked cell"],
+      ["all", "all"],
+      ["none", "none"],
+    ];
     return h(
       "div",
       { class: "controls" },
@@ -106,12 +139,22 @@ class CellsView {
       { class: "controls" },
       this.details.frames.length > 1 && this.frameSlider.element,
       ...this.cellSliders.map(({ element }) => element),
-      h("button", { type: "button", class: "quiet", id: "cells-worst", onclick: () => this.pick(worstCell(this.rows.frame, this.geometry, this.selection.what)) }, "Pick the cell with most"),
+      h(
+        "button",
+        {
+          type: "button",
+          class: "quiet",
+          id: "cells-worst",
+          onclick: () => this.pick(worstCell(this.rows.frame, this.geometry, this.selection.what)),
+        },
+        "Pick the cell with most",
+      ),
     );
   }
   private stagePane(): HTMLElement {
     if (!this.stage) return h("p", { class: "note" }, "This browser has no WebGL 2: cells are shown slice by slice.");
-    const help = "Drag or arrow keys turn, with Shift they move; + and − zoom, and so does the wheel after a click; Home goes back. A click picks a cell.";
+    const help =
+      "Drag or arrow keys turn, with Shift they move; + and − zoom, and so does the wheel after a click; Home goes back. A click picks a cell.";
     return h("div", {}, this.stage.element, h("p", { class: "note" }, help));
   }
 
@@ -128,9 +171,11 @@ class CellsView {
   }
 
   private draw(): void {
-    const { selection, rows, geometry } = this, { frame } = rows;
+    const { selection, rows, geometry } = this,
+      { frame } = rows;
     const size = this.aCase.grid.cells;
-    if (selection.cell.some((value, axis) => value < 0 || value >= size[axis]!)) selection.cell = worstCell(frame, geometry, "reported");
+    if (selection.cell.some((value, axis) => value < 0 || value >= size[axis]!))
+      selection.cell = worstCell(frame, geometry, "reported");
     const highest = most(frame, selection.what);
     selection.least = Math.min(selection.least, Math.max(highest, 1));
 
@@ -139,21 +184,28 @@ class CellsView {
     this.legend.replaceChildren(legendView(selection.what, highest));
     this.frameSlider.set(this.details.frames.length - 1, selection.frame, String(number));
     this.leastSlider.set(Math.max(highest, 1) - 1, selection.least - 1, count(selection.least));
-    this.cellSliders.forEach((bar, axis) => bar.set(size[axis]! - 1, selection.cell[axis]!, String(selection.cell[axis])));
+    for (const [axis, bar] of this.cellSliders.entries())
+      bar.set(size[axis]! - 1, selection.cell[axis]!, String(selection.cell[axis]));
     this.even.hidden = !canBeEven(geometry, frame.boundaries);
 
     const row = rows.rowOf(geometry, ...selection.cell);
-    this.picked.replaceChildren(pickedCell(frame, geometry, { cell: selection.cell, row, counts: countsAt(frame, row) }));
+    this.picked.replaceChildren(
+      pickedCell(frame, geometry, { cell: selection.cell, row, counts: countsAt(frame, row) }),
+    );
     this.drawMap();
     this.drawStage();
   }
   private drawMap(): void {
-    const { selection, rows, geometry } = this, { what, cell: [column, row, slice] } = selection;
+    const { selection, rows, geometry } = this,
+      {
+        what,
+        cell: [column, row, slice],
+      } = selection;
     const highest = most(rows.frame, what);
     this.mapName.textContent = `Slice ${slice}: ${geometry.sliceName(slice)}`;
     const colourAt = (x: number, y: number) => {
       const counts = countsAt(rows.frame, rows.rowOf(geometry, x, y, slice));
-      return valueOf(what, counts) > 0 ? colourOf(what, counts, highest) : null;
+      return shownValue(what, counts) > 0 ? colourOf(what, counts, highest) : null;
     };
     this.map.draw(geometry, slice, [column, row], colourAt, `Map of slice ${slice}, tile ${column}, ${row} is picked`);
   }
@@ -161,13 +213,18 @@ class CellsView {
     if (!this.stage) return;
     const { rows, geometry } = this;
     const picture = pictureOf(rows, geometry, this.selection, this.stage.ink());
-    const onPick = (instance: number) => instance >= 0 && this.pick(cellOf(geometry.size, rows.frame.cells[picture.shown[instance]!]!));
+    const onPick = (instance: number) =>
+      instance >= 0 && this.pick(cellOf(geometry.size, rows.frame.cells[picture.shown[instance]!]!));
     this.stage.show({ ...picture, onPick });
   }
 }
 
 // null for a case without details. The stage (null: no WebGL) and the selection may be used again for the next case.
-export function cellsView(aCase: CaseResult, stage: Space | null = space(), selection: Selection = freshSelection()): HTMLElement | null {
+export function cellsView(
+  aCase: CaseResult,
+  stage: Space | null = space(),
+  selection: Selection = freshSelection(),
+): HTMLElement | null {
   const { details } = aCase;
   if (!details) return null;
   if (details.frames.length === 0) return h("p", { class: "note" }, leftOut(details));

@@ -5,7 +5,13 @@ import type { View } from "./view.ts";
 
 export type Option = [value: string, label: string];
 
-export function select(id: string, label: string, options: Option[], chosen: string, onChoice: (value: string) => void): HTMLElement {
+export function select(
+  id: string,
+  label: string,
+  options: Option[],
+  chosen: string,
+  onChoice: (value: string) => void,
+): HTMLElement {
   const control = h(
     "select",
     { id, onchange: () => onChoice(control.value) },
@@ -16,7 +22,13 @@ export function select(id: string, label: string, options: Option[], chosen: str
 
 // A select of a section, whose choice the view remembers. Returns the choice, too: the first option where the
 // remembered one is gone.
-export function choice(view: View, redraw: () => void, id: string, label: string, options: Option[]): [string, HTMLElement] {
+export function choice(
+  view: View,
+  redraw: () => void,
+  id: string,
+  label: string,
+  options: Option[],
+): [string, HTMLElement] {
   const remembered = view.choices.get(id);
   const chosen = options.some(([value]) => value === remembered) ? remembered! : (options[0]?.[0] ?? "");
   const control = select(id, label, options, chosen, (value) => {

@@ -12,7 +12,10 @@ import type { Section, View } from "./view.ts";
 function settingNames(view: View, settings: Map<string, Case[]>): [string, string][] {
   const all = [...settings.values()].map((group) => group[0]!);
   const varies = (value: (aCase: Case) => unknown) => new Set(all.map(value)).size > 1;
-  const [viewportsVary, storagesVary] = [varies((aCase) => String(aCase.raw.viewport)), varies((aCase) => aCase.storage)];
+  const [viewportsVary, storagesVary] = [
+    varies((aCase) => String(aCase.raw.viewport)),
+    varies((aCase) => aCase.storage),
+  ];
   return [...settings].map(([key, [aCase]]) => {
     const { raw, run } = aCase!;
     const name = [

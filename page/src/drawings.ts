@@ -2,9 +2,9 @@
 
 import { h } from "./dom.ts";
 import * as format from "./format.ts";
-import { modelOf, type Case, type Model } from "./model.ts";
+import { type Case, type Model, modelOf } from "./model.ts";
 import { icon, paletteOf } from "./palette.ts";
-import { Plot, chart } from "./plots.ts";
+import { chart, Plot } from "./plots.ts";
 import type { Result } from "./result.ts";
 import { extent, logExtent, measures, panel, points } from "./speed_error.ts";
 import { View } from "./view.ts";
@@ -45,16 +45,21 @@ interface Panel {
 
 function picture(title: string, panels: Panel[], columns: number, methods: Map<string, Element>): string {
   const size = (part: Element, side: string) => Number(part.getAttribute(side));
-  const width = size(panels[0]!.chart, "width"), height = size(panels[0]!.chart, "height");
+  const width = size(panels[0]!.chart, "width"),
+    height = size(panels[0]!.chart, "height");
   const whole = columns * width + (columns - 1) * gap;
-  const rows = Math.ceil(panels.length / columns), top = 34, legendTop = top + rows * (height + titleHeight + 12) + 14;
+  const rows = Math.ceil(panels.length / columns),
+    top = 34,
+    legendTop = top + rows * (height + titleHeight + 12) + 14;
   const perLine = Math.floor(whole / 210);
   const parts = panels.flatMap((drawn, at) => {
-    const x = (at % columns) * (width + gap), y = top + Math.floor(at / columns) * (height + titleHeight + 12);
+    const x = (at % columns) * (width + gap),
+      y = top + Math.floor(at / columns) * (height + titleHeight + 12);
     return [textAt(x + 8, y + 14, drawn.title, 'font-weight="bold"'), placedAt(x, y + titleHeight, drawn.chart)];
   });
   const names = [...methods].map(([name, mark], at) => {
-    const x = 8 + (at % perLine) * 210, y = legendTop + 20 * Math.floor(at / perLine);
+    const x = 8 + (at % perLine) * 210,
+      y = legendTop + 20 * Math.floor(at / perLine);
     mark.setAttribute("width", "12");
     mark.setAttribute("height", "12");
     return placedAt(x, y - 10, mark) + textAt(x + 18, y, name);
@@ -66,15 +71,25 @@ function picture(title: string, panels: Panel[], columns: number, methods: Map<s
   );
 }
 
-const legendOf = (view: View, model: Model) => new Map(model.cases.map((aCase) => [aCase.assigner, icon(view.palette(aCase)) as Element]));
+const legendOf = (view: View, model: Model) =>
+  new Map(model.cases.map((aCase) => [aCase.assigner, icon(view.palette(aCase)) as Element]));
 
 // Of the cases that have cells, a panel per scene.
 function speedError(result: Result): string {
-  const view = viewOf(result), measure = measures["excess"]!;
+  const view = viewOf(result),
+    measure = measures["excess"]!;
   const all = points(view.model.cases, measure);
   const x = logExtent(all.map(({ us }) => us));
-  const panels = [...Map.groupBy(all, ({ aCase }) => aCase.scene)].map(([title, some]) => ({ title, chart: panel(view, some, measure, { x, y: extent(some.map(({ error }) => error)) }, 470) }));
-  return picture("frame time in µs (left is faster) against false positives in % of the true pairs (lower is tighter); bars: 95 %", panels, 2, legendOf(view, { ...view.model, cases: all.map(({ aCase }) => aCase) }));
+  const panels = [...Map.groupBy(all, ({ aCase }) => aCase.scene)].map(([title, some]) => ({
+    title,
+    chart: panel(view, some, measure, { x, y: extent(some.map(({ error }) => error)) }, 470),
+  }));
+  return picture(
+    "frame time in µs (left is faster) against false positives in % of the true pairs (lower is tighter); bars: 95 %",
+    panels,
+    2,
+    legendOf(view, { ...view.model, cases: all.map(({ aCase }) => aCase) }),
+  );
 }
 
 interface Curve {
@@ -85,11 +100,15 @@ interface Curve {
 
 function scaling(curves: Curve[]): string {
   const views = curves.map(({ result }) => viewOf(result));
-  const times = views.flatMap((view) => view.model.cases.flatMap((aCase) => (aCase.assignNs === null ? [] : [aCase.assignNs / 1e3])));
+  const times = views.flatMap((view) =>
+    view.model.cases.flatMap((aCase) => (aCase.assignNs === null ? [] : [aCase.assignNs / 1e3])),
+  );
   const y = logExtent(times);
   const panels = curves.map(({ label, sizes }, at) => {
     const view = views[at]!;
-    const rows = view.model.cases.filter((aCase) => aCase.assignNs !== null && aCase.raw.id in sizes).map((aCase) => ({ aCase, size: sizes[aCase.raw.id]!, us: aCase.assignNs! / 1e3 }));
+    const rows = view.model.cases
+      .filter((aCase) => aCase.assignNs !== null && aCase.raw.id in sizes)
+      .map((aCase) => ({ aCase, size: sizes[aCase.raw.id]!, us: aCase.assignNs! / 1e3 }));
     const look = ({ aCase }: { aCase: Case }) => view.palette(aCase);
     return {
       title: label,
@@ -100,14 +119,34 @@ function scaling(curves: Curve[]): string {
         x: { type: "log", label, ticks: 4, tickFormat: format.short, grid: true },
         y: { type: "log", domain: y, label: "assign µs", ticks: 6, tickFormat: format.short, grid: true },
         marks: [
-          Plot.line(rows, { x: "size", y: "us", z: (row: (typeof rows)[number]) => row.aCase.assigner, sort: "size", stroke: (row: (typeof rows)[number]) => look(row).colour, strokeWidth: 1.5, strokeDasharray: "none" }),
-          Plot.dot(rows, { x: "size", y: "us", r: 4, symbol: (row: (typeof rows)[number]) => look(row).shape, stroke: (row: (typeof rows)[number]) => look(row).colour, fill: (row: (typeof rows)[number]) => (look(row).isFilled ? look(row).colour : "var(--panel)") }),
+          Plot.line(rows, {
+            x: "size",
+            y: "us",
+            z: (row: (typeof rows)[number]) => row.aCase.assigner,
+            sort: "size",
+            stroke: (row: (typeof rows)[number]) => look(row).colour,
+            strokeWidth: 1.5,
+            strokeDasharray: "none",
+          }),
+          Plot.dot(rows, {
+            x: "size",
+            y: "us",
+            r: 4,
+            symbol: (row: (typeof rows)[number]) => look(row).shape,
+            stroke: (row: (typeof rows)[number]) => look(row).colour,
+            fill: (row: (typeof rows)[number]) => (look(row).isFilled ? look(row).colour : "var(--panel)"),
+          }),
         ],
       }),
     };
   });
   const legend = new Map(views.flatMap((view) => [...legendOf(view, view.model)]));
-  return picture("time of the assignment per frame, by lights, cells and range (both axes logarithmic)", panels, 3, legend);
+  return picture(
+    "time of the assignment per frame, by lights, cells and range (both axes logarithmic)",
+    panels,
+    3,
+    legend,
+  );
 }
 
 Object.assign(globalThis, { drawings: { "speed-error": speedError, scaling } });

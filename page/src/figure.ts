@@ -1,9 +1,9 @@
 // A chart with all that belongs to it: title, what it shows, its table, its data and the command that measured it.
 
-import { h, type Child } from "./dom.ts";
+import { type Child, h } from "./dom.ts";
 import { copyButton, csv, downloadButton } from "./handover.ts";
 import type { Case } from "./model.ts";
-import { tableView, type Table } from "./table.ts";
+import { type Table, tableView } from "./table.ts";
 
 export interface Figure<Row> {
   id: string;
@@ -47,9 +47,19 @@ function figureData<Row>(figure: Figure<Row>): HTMLElement {
     "div",
     { class: "figure-data" },
     figure.chart ? tableView({ most: 200, ...table }) : null,
-    h("p", { class: "tools" }, copyButton("Copy data", text), downloadButton("Download CSV", `${figure.id}.csv`, "text/csv", text)),
+    h(
+      "p",
+      { class: "tools" },
+      copyButton("Copy data", text),
+      downloadButton("Download CSV", `${figure.id}.csv`, "text/csv", text),
+    ),
     h("p", { class: "note" }, "Measured by this, with the configuration that stands at the end of the page:"),
-    h("div", { class: "command" }, h("pre", { tabindex: 0, "aria-label": "Command that measured this" }, commands), copyButton("Copy command", () => commands)),
+    h(
+      "div",
+      { class: "command" },
+      h("pre", { tabindex: 0, "aria-label": "Command that measured this" }, commands),
+      copyButton("Copy command", () => commands),
+    ),
   );
 }
 
@@ -63,7 +73,11 @@ function legendView(entries: { label: string; colour: string }[]): HTMLElement {
 }
 
 export function figureView<Row>(figure: Figure<Row>): HTMLElement {
-  const details = h("details", { id: `${figure.id}-data` }, h("summary", {}, figure.chart ? "Table, data, command" : "Data, command"));
+  const details = h(
+    "details",
+    { id: `${figure.id}-data` },
+    h("summary", {}, figure.chart ? "Table, data, command" : "Data, command"),
+  );
   details.addEventListener("toggle", () => {
     if (details.open && !details.querySelector(".figure-data")) details.append(figureData(figure));
   });

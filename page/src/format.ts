@@ -6,7 +6,10 @@ const none = "–";
 const grouped = new Intl.NumberFormat("en", { maximumFractionDigits: 0 });
 
 type Format = (value: Maybe) => string;
-const ifKnown = (format: (value: number) => string): Format => (value) => (value === null ? none : format(value));
+const ifKnown =
+  (format: (value: number) => string): Format =>
+  (value) =>
+    value === null ? none : format(value);
 
 // With so many digits as printf writes them: of a number half-way between two, the one whose last digit is even.
 // toFixed takes the larger. Half-way are odd multiples of half the last digit, which doubles hold at multiples of 2^-(digits+1) only.
@@ -23,9 +26,13 @@ export const whole: Format = ifKnown((value) => fixed(value, 0));
 export const decimal: Format = ifKnown((value) => fixed(value, 2));
 export const microseconds: Format = ifKnown((ns) => fixed(ns / 1e3, ns < 1e4 ? 2 : ns < 1e6 ? 1 : 0)); // of nanoseconds
 export const percent: Format = ifKnown((ratio) => `${fixed(100 * ratio, 1)} %`);
-export const share: Format = ifKnown((ratio) => (ratio === 0 ? "0 %" : ratio < 1e-4 ? "<0.01 %" : `${fixed(100 * ratio, ratio < 0.01 ? 2 : 1)} %`)); // what is not nothing never looks like it
+export const share: Format = ifKnown((ratio) =>
+  ratio === 0 ? "0 %" : ratio < 1e-4 ? "<0.01 %" : `${fixed(100 * ratio, ratio < 0.01 ? 2 : 1)} %`,
+); // what is not nothing never looks like it
 export const factor: Format = decimal;
-export const short: Format = ifKnown((value) => (value < 1e4 ? fixed(value, 0) : value < 1e6 ? `${fixed(value / 1e3, 1)}k` : `${fixed(value / 1e6, 2)}M`));
+export const short: Format = ifKnown((value) =>
+  value < 1e4 ? fixed(value, 0) : value < 1e6 ? `${fixed(value / 1e3, 1)}k` : `${fixed(value / 1e6, 2)}M`,
+);
 export const metres: Format = ifKnown((value) => `${Number(value.toPrecision(3))} m`);
 
 // Of a machine, as its makers count.

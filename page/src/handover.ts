@@ -9,7 +9,10 @@ function csvField(value: Value): string {
 }
 
 export function csv<Row>(columns: Column<Row>[], rows: Row[]): string {
-  const lines = [columns.map((column) => column.label), ...rows.map((row) => columns.map((column) => column.value(row)))];
+  const lines = [
+    columns.map((column) => column.label),
+    ...rows.map((row) => columns.map((column) => column.value(row))),
+  ];
   return lines.map((line) => line.map(csvField).join(",")).join("\n") + "\n";
 }
 

@@ -6,7 +6,6 @@ import type { Model } from "./model.ts";
 import { themeControl } from "./theme.ts";
 import { warningsOf } from "./warnings.ts";
 
-
 function verdict(model: Model): HTMLElement {
   const all = warningsOf(model);
   const failures = all.filter((warning) => warning.isFailure).length;
@@ -15,11 +14,26 @@ function verdict(model: Model): HTMLElement {
 }
 
 export function header(model: Model): HTMLElement {
-  const machines = [...new Set(model.runs.map((run) => `${run.result.machine.cpu}, ${plural(run.result.machine.cores, "core")}`))];
+  const machines = [
+    ...new Set(model.runs.map((run) => `${run.result.machine.cpu}, ${plural(run.result.machine.cores, "core")}`)),
+  ];
   return h(
     "header",
     {},
-    h("div", { class: "title" }, h("h1", {}, model.runs.map((run) => run.result.name).filter((name, at, all) => all.indexOf(name) === at).join(", ") || "clusterbench"), h("p", {}, "clusterbench report"), themeControl()),
+    h(
+      "div",
+      { class: "title" },
+      h(
+        "h1",
+        {},
+        model.runs
+          .map((run) => run.result.name)
+          .filter((name, at, all) => all.indexOf(name) === at)
+          .join(", ") || "clusterbench",
+      ),
+      h("p", {}, "clusterbench report"),
+      themeControl(),
+    ),
     h(
       "p",
       { class: "summary" },
@@ -38,5 +52,15 @@ function goTo(event: Event, id: string): void {
 
 export function contents(main: HTMLElement): HTMLElement {
   const sections = [...main.querySelectorAll("section[id]")];
-  return h("nav", { "aria-label": "Sections" }, ...sections.map((section) => h("a", { href: `#${section.id}`, onclick: (event) => goTo(event, section.id) }, section.querySelector("h2")!.textContent)));
+  return h(
+    "nav",
+    { "aria-label": "Sections" },
+    ...sections.map((section) =>
+      h(
+        "a",
+        { href: `#${section.id}`, onclick: (event) => goTo(event, section.id) },
+        section.querySelector("h2")!.textContent,
+      ),
+    ),
+  );
 }

@@ -6,7 +6,7 @@ import { figureView } from "./figure.ts";
 import * as format from "./format.ts";
 import type { Case } from "./model.ts";
 import { meanOf } from "./overall.ts";
-import { Plot, chart, multiples } from "./plots.ts";
+import { chart, multiples, Plot } from "./plots.ts";
 import type { Grid, Maybe } from "./result.ts";
 import type { Section } from "./view.ts";
 
@@ -44,7 +44,13 @@ function cellsOf(cases: Case[], measure: Measure): Cell[] {
   const hasKinds = unique(cases.filter((aCase) => cut(aCase.raw.grid)).map((aCase) => aCase.raw.grid.kind)).length > 1;
   const hasStorages = unique(cases.map((aCase) => aCase.storage)).length > 1;
   const hasRuns = unique(cases.map((aCase) => aCase.run.label)).length > 1;
-  const methodOf = (aCase: Case) => [aCase.assigner, ...(hasRuns ? [aCase.run.label] : []), ...(hasKinds ? [aCase.raw.grid.kind] : []), ...(hasStorages ? [aCase.storage] : [])].join(" / ");
+  const methodOf = (aCase: Case) =>
+    [
+      aCase.assigner,
+      ...(hasRuns ? [aCase.run.label] : []),
+      ...(hasKinds ? [aCase.raw.grid.kind] : []),
+      ...(hasStorages ? [aCase.storage] : []),
+    ].join(" / ");
   const placed = cases.flatMap((aCase) => {
     const [, tiling, slicing] = cut(aCase.raw.grid) ?? [];
     const value = measure.of(aCase);
@@ -55,7 +61,10 @@ function cellsOf(cases: Case[], measure: Measure): Cell[] {
     method: methodOf(group[0]!.aCase),
     tiling: group[0]!.tiling,
     slicing: group[0]!.slicing,
-    ...mean(group.map(({ aCase }) => aCase), measure),
+    ...mean(
+      group.map(({ aCase }) => aCase),
+      measure,
+    ),
   }));
 }
 
@@ -80,31 +89,55 @@ function map(cells: Cell[], measure: Measure, range: [number, number]): Element 
   const paint = (cell: Cell) => color.apply(Math.max(cell.value, range[0])) as string;
   const [tilings, slicings] = [unique(cells.map((cell) => cell.tiling)), unique(cells.map((cell) => cell.slicing))];
   const names = 12 + 6.5 * slicings.reduce((most, name) => Math.max(most, name.length), 0);
-  return chart(`${measure.label} of ${cells.length} combinations of tiling and slicing, the same colours from ${measure.show(range[0])} to ${measure.show(range[1])}`, {
-    width: names + 84 * tilings.length + 8,
-    height: 32 + 28 * slicings.length,
-    marginLeft: names,
-    marginRight: 8,
-    marginTop: 28,
-    marginBottom: 4,
-    x: { domain: tilings, axis: "top", label: null, tickSize: 0 },
-    y: { domain: slicings, label: null, tickSize: 0 },
-    marks: [
-      Plot.cell(cells, { x: "tiling", y: "slicing", fill: paint, inset: 0.5, rx: 2, title: (cell: Cell) => `${cell.tiling}, ${cell.slicing}: ${measure.show(cell.value)}` }),
-      Plot.text(cells, { x: "tiling", y: "slicing", text: (cell: Cell) => measure.show(cell.value), fill: (cell: Cell) => (luminance(paint(cell)) > 120 ? "#000" : "#fff") }),
-    ],
-  });
+  return chart(
+    `${measure.label} of ${cells.length} combinations of tiling and slicing, the same colours from ${measure.show(range[0])} to ${measure.show(range[1])}`,
+    {
+      width: names + 84 * tilings.length + 8,
+      height: 32 + 28 * slicings.length,
+      marginLeft: names,
+      marginRight: 8,
+      marginTop: 28,
+      marginBottom: 4,
+      x: { domain: tilings, axis: "top", label: null, tickSize: 0 },
+      y: { domain: slicings, label: null, tickSize: 0 },
+      marks: [
+        Plot.cell(cells, {
+          x: "tiling",
+          y: "slicing",
+          fill: paint,
+          inset: 0.5,
+          rx: 2,
+          title: (cell: Cell) => `${cell.tiling}, ${cell.slicing}: ${measure.show(cell.value)}`,
+        }),
+        Plot.text(cells, {
+          x: "tiling",
+          y: "slicing",
+          text: (cell: Cell) => measure.show(cell.value),
+          fill: (cell: Cell) => (luminance(paint(cell)) > 120 ? "#000" : "#fff"),
+        }),
+      ],
+    },
+  );
 }
 
 export const heatMapSection: Section = (view, redraw) => {
   const cases = view.cases();
   const offered = Object.entries(measures).filter(([, measure]) => cellsOf(cases, measure).length > 0);
   if (offered.length === 0) return null;
-  const [key, control] = choice(view, redraw, "heat-map-measure", "Colour", offered.map(([name, { label }]) => [name, label]));
+  const [key, control] = choice(
+    view,
+    redraw,
+    "heat-map-measure",
+    "Colour",
+    offered.map(([name, { label }]) => [name, label]),
+  );
   const measure = measures[key]!;
   const cells = cellsOf(cases, measure);
   const positive = cells.map((cell) => cell.value).filter((value) => value > 0);
-  const range: [number, number] = [positive.reduce((a, b) => Math.min(a, b), Infinity), positive.reduce((a, b) => Math.max(a, b), 0)];
+  const range: [number, number] = [
+    positive.reduce((a, b) => Math.min(a, b), Infinity),
+    positive.reduce((a, b) => Math.max(a, b), 0),
+  ];
   const maps = [...Map.groupBy(cells, (cell) => cell.method)];
   const isSweep = positive.length > 0 && maps.some(([, some]) => some.length > 1);
   return h(
@@ -131,6 +164,10 @@ export const heatMapSection: Section = (view, redraw) => {
           }),
           cases,
         })
-      : h("p", { class: "note" }, "These cases have one tiling and one slicing, so there is nothing to map. configs/sweep.json measures many."),
+      : h(
+          "p",
+          { class: "note" },
+          "These cases have one tiling and one slicing, so there is nothing to map. configs/sweep.json measures many.",
+        ),
   );
 };

@@ -2,7 +2,7 @@
 
 import { h } from "./dom.ts";
 import { plural } from "./format.ts";
-import { Plot, chart } from "./plots.ts";
+import { chart, Plot } from "./plots.ts";
 import { themeControl } from "./theme.ts";
 
 interface Change {
@@ -41,26 +41,56 @@ function drawn(series: Series): Element {
     height: 170,
     marginLeft: 62,
     marginBottom: 34,
-    x: { label: "commit", ticks: Math.min(5, points.length), tickFormat: (at: number) => series.commits[at]?.slice(0, 8) ?? "", domain: [0, Math.max(1, points.length - 1)] },
+    x: {
+      label: "commit",
+      ticks: Math.min(5, points.length),
+      tickFormat: (at: number) => series.commits[at]?.slice(0, 8) ?? "",
+      domain: [0, Math.max(1, points.length - 1)],
+    },
     y: { label: series.unit, ticks: 4, grid: true, tickFormat: "~s" },
     marks: [
-      Plot.ruleX(changes, { x: "x", stroke: (change: Change) => (change.direction === "worse" ? "var(--bad)" : change.direction === "better" ? "var(--method-1)" : "var(--ink-2)"), strokeDasharray: "4 3", strokeWidth: 1.5 }),
+      Plot.ruleX(changes, {
+        x: "x",
+        stroke: (change: Change) =>
+          change.direction === "worse"
+            ? "var(--bad)"
+            : change.direction === "better"
+              ? "var(--method-1)"
+              : "var(--ink-2)",
+        strokeDasharray: "4 3",
+        strokeWidth: 1.5,
+      }),
       Plot.line(points, { x: "at", y: "value", stroke: "var(--method-2)", strokeWidth: 1.8 }),
       Plot.dot(points, { x: "at", y: "value", fill: "var(--method-2)", r: 3 }),
-      Plot.tip(points, Plot.pointer({ x: "at", y: "value", title: ({ commit, value }: (typeof points)[number]) => `${commit}\n${five(value)} ${series.unit}` })),
+      Plot.tip(
+        points,
+        Plot.pointer({
+          x: "at",
+          y: "value",
+          title: ({ commit, value }: (typeof points)[number]) => `${commit}\n${five(value)} ${series.unit}`,
+        }),
+      ),
     ],
   });
 }
 
 function figure(series: Series): HTMLElement {
   const { values, unit, machine, since } = series;
-  const facts = [`${five(values[0]!)} to ${five(values.at(-1)!)} ${unit}${machine && ` on ${machine}`}`, since && `other settings than before, from ${since} on`].filter(Boolean);
+  const facts = [
+    `${five(values[0]!)} to ${five(values.at(-1)!)} ${unit}${machine && ` on ${machine}`}`,
+    since && `other settings than before, from ${since} on`,
+  ].filter(Boolean);
   return h(
     "figure",
     {},
     h("figcaption", {}, h("h2", {}, series.metric), h("p", {}, series.case), h("p", {}, facts.join("; "))),
     h("div", { class: "chart" }, drawn(series) as HTMLElement),
-    series.changes.length > 0 && h("ul", { class: "changes" }, ...series.changes.map((change) => h("li", { class: change.direction }, change.text))),
+    series.changes.length > 0 &&
+      h(
+        "ul",
+        { class: "changes" },
+        ...series.changes.map((change) => h("li", { class: change.direction }, change.text)),
+      ),
   );
 }
 
@@ -82,7 +112,11 @@ function show({ entries, count, series }: HistoryData): void {
     h(
       "main",
       {},
-      h("p", { class: "summary" }, `${plural(entries, "result")}, ${plural(count, "series", "series")}, ${plural(changes, "change")} (dashed lines). Axes begin at the lowest value, not at 0. ${count - series.length} series never changed and are not drawn.`),
+      h(
+        "p",
+        { class: "summary" },
+        `${plural(entries, "result")}, ${plural(count, "series", "series")}, ${plural(changes, "change")} (dashed lines). Axes begin at the lowest value, not at 0. ${count - series.length} series never changed and are not drawn.`,
+      ),
       figures,
       more,
     ),

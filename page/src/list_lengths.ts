@@ -3,8 +3,8 @@
 import { figureView } from "./figure.ts";
 import * as format from "./format.ts";
 import type { Case } from "./model.ts";
-import { Plot, chart, chartWidth } from "./plots.ts";
-import { seriesOf, type Series } from "./series.ts";
+import { chart, chartWidth, Plot } from "./plots.ts";
+import { type Series, seriesOf } from "./series.ts";
 import type { View } from "./view.ts";
 
 const mostBins = 80;
@@ -48,11 +48,45 @@ export function listLengths(view: View, cases: Case[]): HTMLElement {
       height: 280,
       marginLeft: 64,
       x: { label: "lights in the list", domain: [0, longest] },
-      y: { type: "log", label: "cells", grid: true, ticks: 5, tickFormat: format.short, domain: [0.8, 2 * bins.reduce((most, bin) => Math.max(most, bin.cells), 1)] },
+      y: {
+        type: "log",
+        label: "cells",
+        grid: true,
+        ticks: 5,
+        tickFormat: format.short,
+        domain: [0.8, 2 * bins.reduce((most, bin) => Math.max(most, bin.cells), 1)],
+      },
       marks: [
-        Plot.line(bins, { x: "lights", y: ({ cells }: Bin) => cells || NaN, z: ({ series }: Bin) => series.label, curve: "step-after", stroke: ({ series }: Bin) => colour(series), strokeWidth: 1.6 }),
-        Plot.dot(all.map((series) => ({ series, lights: lengthOf(series) - perEntry(series), cells: bins.filter((bin) => bin.series === series).at(-1)!.cells || 1 })), { x: "lights", y: "cells", symbol: ({ series }: Pick<Bin, "series">) => view.palette(series.cases[0]!).shape, fill: ({ series }: Pick<Bin, "series">) => colour(series), r: 4 }),
-        Plot.tip(bins, Plot.pointer({ x: "lights", y: ({ cells }: Bin) => cells || NaN, title: (bin: Bin) => `${bin.series.label}\n${range(bin)} lights: ${format.count(bin.cells)} cells` })),
+        Plot.line(bins, {
+          x: "lights",
+          y: ({ cells }: Bin) => cells || NaN,
+          z: ({ series }: Bin) => series.label,
+          curve: "step-after",
+          stroke: ({ series }: Bin) => colour(series),
+          strokeWidth: 1.6,
+        }),
+        Plot.dot(
+          all.map((series) => ({
+            series,
+            lights: lengthOf(series) - perEntry(series),
+            cells: bins.filter((bin) => bin.series === series).at(-1)!.cells || 1,
+          })),
+          {
+            x: "lights",
+            y: "cells",
+            symbol: ({ series }: Pick<Bin, "series">) => view.palette(series.cases[0]!).shape,
+            fill: ({ series }: Pick<Bin, "series">) => colour(series),
+            r: 4,
+          },
+        ),
+        Plot.tip(
+          bins,
+          Plot.pointer({
+            x: "lights",
+            y: ({ cells }: Bin) => cells || NaN,
+            title: (bin: Bin) => `${bin.series.label}\n${range(bin)} lights: ${format.count(bin.cells)} cells`,
+          }),
+        ),
       ],
     }),
     table: () => ({

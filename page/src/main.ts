@@ -16,7 +16,7 @@ import type { PageData } from "./result.ts";
 import { setupSection } from "./setup.ts";
 import { speedErrorSection } from "./speed_error.ts";
 import { stabilitySection } from "./stability.ts";
-import { View, mount } from "./view.ts";
+import { mount, View } from "./view.ts";
 import { warningsSection } from "./warnings.ts";
 
 const sections = [
@@ -51,7 +51,12 @@ function show(data: PageData): void {
   followAddress(view);
   document.title = `${model.runs.map((run) => run.result.name).join(", ")} – clusterbench report`;
   const main = h("main", { id: "main" });
-  document.body.prepend(h("a", { class: "skip", href: "#ranking" }, "Skip to the ranking"), header(model), filterBar(view), main);
+  document.body.prepend(
+    h("a", { class: "skip", href: "#ranking" }, "Skip to the ranking"),
+    header(model),
+    filterBar(view),
+    main,
+  );
   main.append(...sections.map((section) => mount(section, view)));
   main.before(contents(main));
   redrawOnResize(view);

@@ -67,13 +67,15 @@ function labels(files: string[]): string[] {
   const tail = (at: number, length: number) => parts[at]!.slice(-length).join("/");
   return files.map((file, at) => {
     for (let length = 1; length <= parts[at]!.length; ++length)
-      if (files.every((other, index) => other === file || tail(index, length) !== tail(at, length))) return tail(at, length);
+      if (files.every((other, index) => other === file || tail(index, length) !== tail(at, length)))
+        return tail(at, length);
     return file;
   });
 }
 
 function toCase(raw: CaseResult, run: Run, front: Set<string>, ranked: Ranked | null): Case {
-  const storage = raw.precision && raw.precision.packing !== "float32" ? `${raw.storage}, ${raw.precision.label}` : raw.storage;
+  const storage =
+    raw.precision && raw.precision.packing !== "float32" ? `${raw.storage}, ${raw.precision.label}` : raw.storage;
   const seen = raw.samples?.opaque ?? raw.shading;
   return {
     raw,
@@ -116,14 +118,22 @@ function toCase(raw: CaseResult, run: Run, front: Set<string>, ranked: Ranked | 
 }
 
 // Cases that see the same, whatever cells they use. Of several results each is by itself: they can be of other machines.
-export const seenBy = (aCase: Case) => [aCase.run.label, aCase.scene, aCase.raw.camera, aCase.raw.viewport.join("x")].join("\n");
+export const seenBy = (aCase: Case) =>
+  [aCase.run.label, aCase.scene, aCase.raw.camera, aCase.raw.viewport.join("x")].join("\n");
 
 export const isRankedByCost = (aCase: Case) => aCase.run.result.config.rank_by === "frame_cost";
 
 function rankAll(cases: Case[]): void {
   const ranked = (aCase: Case) => (isRankedByCost(aCase) ? aCase.costNs : aCase.frameNs);
-  for (const seen of Map.groupBy(cases.filter((aCase) => ranked(aCase) !== null), seenBy).values())
-    seen.sort((a, b) => ranked(a)! - ranked(b)!).forEach((aCase, at) => (aCase.rank = at + 1));
+  for (const seen of Map.groupBy(
+    cases.filter((aCase) => ranked(aCase) !== null),
+    seenBy,
+  ).values())
+    seen
+      .sort((a, b) => ranked(a)! - ranked(b)!)
+      .forEach((aCase, at) => {
+        aCase.rank = at + 1;
+      });
 }
 
 export function modelOf(data: PageData): Model {

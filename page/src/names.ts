@@ -47,7 +47,12 @@ const along = ({ from, to, y }: Bar): Box => ({ left: from, right: to, top: y - 
 
 // A placement for each name that has one at which it hides no mark, no other name, no bar strikes it and it stays left of
 // `right`.
-export function placed<T extends Spot & { text: string }>(names: T[], marks: Spot[], bars: Bar[], right: number): { name: T; placement: Placement }[] {
+export function placed<T extends Spot & { text: string }>(
+  names: T[],
+  marks: Spot[],
+  bars: Bar[],
+  right: number,
+): { name: T; placement: Placement }[] {
   const taken = [...marks.map(around), ...bars.map(along)];
   return names.flatMap((name) => {
     const placement = placements.find((candidate) => {

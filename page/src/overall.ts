@@ -1,7 +1,7 @@
 // The ranking over all scenes: each method on each grid. All means are geometric over the scenes, each scene counted once:
 // none outweighs the others by its size, and a ratio of two means is the mean of the ratios.
 
-import { seenBy, type Case } from "./model.ts";
+import { type Case, seenBy } from "./model.ts";
 import type { Maybe } from "./result.ts";
 
 export interface Mean {
@@ -38,7 +38,8 @@ export function bestTimes(cases: Case[]): Map<string, number> {
   const best = new Map<string, number>();
   const whole = new Set(cases.filter((aCase) => aCase.isEligible).map(seenBy));
   for (const aCase of cases)
-    if (aCase.frameNs !== null && (aCase.isEligible || !whole.has(seenBy(aCase)))) best.set(seenBy(aCase), Math.min(best.get(seenBy(aCase)) ?? Infinity, aCase.frameNs));
+    if (aCase.frameNs !== null && (aCase.isEligible || !whole.has(seenBy(aCase))))
+      best.set(seenBy(aCase), Math.min(best.get(seenBy(aCase)) ?? Infinity, aCase.frameNs));
   return best;
 }
 
@@ -49,7 +50,9 @@ const geometric = (values: number[]) => Math.exp(sum(values.map(Math.log)) / val
 
 // Over the cases of each scene, then over the scenes.
 export function meanOf(cases: Case[], figure: (aCase: Case) => Maybe): Mean {
-  const scenes = [...Map.groupBy(cases, (aCase) => aCase.scene).values()].map((some) => known(some.map(figure))).filter((some) => some.length > 0);
+  const scenes = [...Map.groupBy(cases, (aCase) => aCase.scene).values()]
+    .map((some) => known(some.map(figure)))
+    .filter((some) => some.length > 0);
   return { value: scenes.length ? geometric(scenes.map(geometric)) : null, scenes: scenes.length };
 }
 
@@ -101,6 +104,8 @@ export function standings(cases: Case[], all: Case[]): Standing[] {
     some
       .filter((row) => row.timeByBest.value !== null)
       .sort((a, b) => a.timeByBest.value! - b.timeByBest.value!)
-      .forEach((row, at) => (row.rank = at + 1));
+      .forEach((row, at) => {
+        row.rank = at + 1;
+      });
   return [...allStandings(cases, best)].map(([key, row]) => ({ ...row, rank: ranked.get(key)!.rank }));
 }

@@ -1,10 +1,20 @@
 // How methods look: a family has one colour and one form, its fast variant is filled, the readable reference hollow.
 
 import type { Case, Model } from "./model.ts";
-import { shapes, type Shape } from "./shapes.ts";
+import { type Shape, shapes } from "./shapes.ts";
 
 // In the order of the colours of style.css. Families that are not here follow in the order of the results.
-const known = ["exact", "sphere-refinement", "aabb", "bounds", "planes", "brute-force", "distance", "cascades", "world-grid"];
+const known = [
+  "exact",
+  "sphere-refinement",
+  "aabb",
+  "bounds",
+  "planes",
+  "brute-force",
+  "distance",
+  "cascades",
+  "world-grid",
+];
 const colours = 9; // --method-0 ...
 
 export interface Look {

@@ -31,5 +31,9 @@ export function chart(says: string, options: Plot.PlotOptions): Element {
 
 // The same chart for several things, each under its name.
 export function multiples(panels: { title: string; chart: Element }[]): HTMLElement {
-  return h("div", { class: "multiples" }, ...panels.map((panel) => h("div", {}, h("h4", {}, panel.title), panel.chart)));
+  return h(
+    "div",
+    { class: "multiples" },
+    ...panels.map((panel) => h("div", {}, h("h4", {}, panel.title), panel.chart)),
+  );
 }

@@ -19,26 +19,55 @@ const packedColumns: Column<Packed>[] = [
   { label: "grid", value: ({ aCase }) => aCase.grid },
   { label: "lights", value: ({ precision }) => precision.label },
   { label: "missed", value: ({ aCase }) => aCase.missed, show: ({ aCase }) => format.count(aCase.missed) },
-  { label: "deepest", about: "Largest share of its range by which a missed light reaches in", value: ({ aCase }) => aCase.raw.error?.deepest_miss ?? null, show: ({ aCase }) => format.percent(aCase.raw.error?.deepest_miss ?? null) },
-  { label: "extra pairs", about: "Against float32", value: ({ precision }) => (precision.extra_pairs?.ratio ?? null), show: ({ precision }) => format.percent((precision.extra_pairs?.ratio ?? null)) },
-  { label: "place off by", about: "At most", value: ({ precision }) => precision.position_error_m.max, show: ({ precision }) => format.metres(precision.position_error_m.max) },
+  {
+    label: "deepest",
+    about: "Largest share of its range by which a missed light reaches in",
+    value: ({ aCase }) => aCase.raw.error?.deepest_miss ?? null,
+    show: ({ aCase }) => format.percent(aCase.raw.error?.deepest_miss ?? null),
+  },
+  {
+    label: "extra pairs",
+    about: "Against float32",
+    value: ({ precision }) => precision.extra_pairs?.ratio ?? null,
+    show: ({ precision }) => format.percent(precision.extra_pairs?.ratio ?? null),
+  },
+  {
+    label: "place off by",
+    about: "At most",
+    value: ({ precision }) => precision.position_error_m.max,
+    show: ({ precision }) => format.metres(precision.position_error_m.max),
+  },
 ];
 
 const lookedColumns: Column<Looked>[] = [
   { label: "method", value: ({ aCase }) => aCase.assigner },
-  { label: "storage", about: "What the lookup asks, with how its lights are packed; own: a light structure of the method's own", value: ({ aCase }) => aCase.storage },
+  {
+    label: "storage",
+    about: "What the lookup asks, with how its lights are packed; own: a light structure of the method's own",
+    value: ({ aCase }) => aCase.storage,
+  },
   { label: "scene", value: ({ aCase }) => aCase.scene },
   { label: "grid", value: ({ aCase }) => aCase.grid },
   { label: "logarithm", value: ({ lookup }) => lookup.logarithm },
   { label: "depth", value: ({ lookup }) => lookup.depth },
   { label: "needed", value: ({ lookup }) => lookup.needed, show: ({ lookup }) => format.count(lookup.needed) },
   { label: "missed", value: ({ lookup }) => lookup.missed, show: ({ lookup }) => format.count(lookup.missed) },
-  { label: "wrong samples", value: ({ lookup }) => lookup.wrong_samples, show: ({ lookup }) => format.count(lookup.wrong_samples) },
-  { label: "safe padding, ulps", value: ({ lookup }) => lookup.safe_padding_ulps, show: ({ lookup }) => format.count(lookup.safe_padding_ulps) },
+  {
+    label: "wrong samples",
+    value: ({ lookup }) => lookup.wrong_samples,
+    show: ({ lookup }) => format.count(lookup.wrong_samples),
+  },
+  {
+    label: "safe padding, ulps",
+    value: ({ lookup }) => lookup.safe_padding_ulps,
+    show: ({ lookup }) => format.count(lookup.safe_padding_ulps),
+  },
 ];
 
 function packedFigure(view: View): HTMLElement | null {
-  const rows = view.cases().flatMap((aCase) => (aCase.raw.precision ? [{ aCase, precision: aCase.raw.precision }] : []));
+  const rows = view
+    .cases()
+    .flatMap((aCase) => (aCase.raw.precision ? [{ aCase, precision: aCase.raw.precision }] : []));
   if (rows.length === 0) return null;
   return figureView({
     id: "packed-lights",

@@ -428,6 +428,11 @@ export type Result = {
       build_ns: Time; // Per build: preparing for a grid, once for each projection
       assign_ns: Time; // Per frame: assignment, mean over the timed frames, with the builds of builds_per_frame
       convert_ns?: Time; // Per frame: from lists to the layout of the storage; absent where a method leaves its own structure
+      device?: {
+        upload_ns: Time; // Per frame: bringing the frame's input to the device
+        run_ns: Time; // Per frame: the device's work
+        readback_ns: Time; // Per frame: bringing the result back; 0 where it stays
+      }; // Of a method that runs on a device (a GPU): its parts by the device's own clock, within warm assign_ns. Absent elsewhere
       ns_per_pair: number | null; // frame_ns.median / pairs.mean; null without pairs in lists [ns, over the timed frames]
       write_floor_ns: number | null; // Per frame: time to copy its finished lists once as the standard `packed` holds them, headers and indices, from buffers of the frame into others of the frame [ns, over the rounds]
       floor_ratio: number | null; // assign_ns by write_floor_ns, both with warm caches: how far the assignment is from only writing its result [ratio, over the rounds]

@@ -18,7 +18,12 @@ function configView(run: Run): HTMLElement {
     if (details.open && !details.querySelector("pre"))
       details.append(
         h("pre", { tabindex: 0, "aria-label": "Configuration" }, text()),
-        h("p", { class: "tools" }, copyButton("Copy configuration", text), downloadButton("Download configuration", `${run.result.name}.json`, "application/json", text)),
+        h(
+          "p",
+          { class: "tools" },
+          copyButton("Copy configuration", text),
+          downloadButton("Download configuration", `${run.result.name}.json`, "application/json", text),
+        ),
       );
   });
   return details;
@@ -26,18 +31,38 @@ function configView(run: Run): HTMLElement {
 
 function runView(run: Run, isAlone: boolean): HTMLElement {
   const { tool, machine, scenes, cases, name, date, command } = run.result;
-  const libraries = Object.entries(tool.libraries).map((library) => library.join(" ")).join(", ");
+  const libraries = Object.entries(tool.libraries)
+    .map((library) => library.join(" "))
+    .join(", ");
   return h(
     "article",
     {},
     isAlone ? null : h("h3", {}, run.label),
     facts([
-      ["processor", [machine.cpu, ...(["family", "model", "stepping"] as const).flatMap((key) => (machine[key] ? `${key} ${machine[key]}` : []))].join(", ")],
-      ["caches", Object.entries(machine.caches ?? {}).map(([level, size]) => `${level.toUpperCase()} ${format.memory(size)}`).join(", ") || "unknown"],
+      [
+        "processor",
+        [
+          machine.cpu,
+          ...(["family", "model", "stepping"] as const).flatMap((key) =>
+            machine[key] ? `${key} ${machine[key]}` : [],
+          ),
+        ].join(", "),
+      ],
+      [
+        "caches",
+        Object.entries(machine.caches ?? {})
+          .map(([level, size]) => `${level.toUpperCase()} ${format.memory(size)}`)
+          .join(", ") || "unknown",
+      ],
       ["cores", String(machine.cores)],
       ["memory", format.memory(machine.ram_bytes)],
       ["system", machine.os],
-      ["clock", machine.clock_mhz ? `${machine.clock_mhz.now} MHz${machine.clock_mhz.max ? ` of ${machine.clock_mhz.max}` : ""}` : "unknown"],
+      [
+        "clock",
+        machine.clock_mhz
+          ? `${machine.clock_mhz.now} MHz${machine.clock_mhz.max ? ` of ${machine.clock_mhz.max}` : ""}`
+          : "unknown",
+      ],
       ["load", machine.load ? `${machine.load.begin} before the run, ${machine.load.end} after` : "unknown"],
       ["measured", [date, command].filter(Boolean).join(", ") || "without times, so it does not say when"],
       ["clusterbench", `${tool.version}, commit ${tool.git_sha}`],
@@ -57,7 +82,11 @@ function runView(run: Run, isAlone: boolean): HTMLElement {
         { label: "directional", value: (scene) => scene.lights.directional },
         { label: "boxes", value: (scene) => scene.lights.box },
         { label: "frames", value: (scene) => scene.frames },
-        { label: "SHA-256", value: (scene) => scene.sha256, show: (scene) => h("code", { title: scene.sha256 }, scene.sha256.slice(0, 12)) },
+        {
+          label: "SHA-256",
+          value: (scene) => scene.sha256,
+          show: (scene) => h("code", { title: scene.sha256 }, scene.sha256.slice(0, 12)),
+        },
       ],
       rows: scenes,
       most: 50,
@@ -73,5 +102,10 @@ export const setupSection: Section = ({ model }) =>
     h("h2", {}, "Machine and configuration"),
     ...model.runs.map((run) => runView(run, model.runs.length === 1)),
     h("h3", {}, "This page"),
-    h("div", { class: "command" }, h("pre", { tabindex: 0, "aria-label": "Command that made this page" }, model.command), copyButton("Copy command", () => model.command)),
+    h(
+      "div",
+      { class: "command" },
+      h("pre", { tabindex: 0, "aria-label": "Command that made this page" }, model.command),
+      copyButton("Copy command", () => model.command),
+    ),
   );

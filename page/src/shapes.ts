@@ -19,11 +19,31 @@ function around(corners: number, turn: number, inner = 1): Point[] {
 }
 
 const cross: Point[] = [
-  [-0.35, -1], [0.35, -1], [0.35, -0.35], [1, -0.35], [1, 0.35], [0.35, 0.35],
-  [0.35, 1], [-0.35, 1], [-0.35, 0.35], [-1, 0.35], [-1, -0.35], [-0.35, -0.35],
+  [-0.35, -1],
+  [0.35, -1],
+  [0.35, -0.35],
+  [1, -0.35],
+  [1, 0.35],
+  [0.35, 0.35],
+  [0.35, 1],
+  [-0.35, 1],
+  [-0.35, 0.35],
+  [-1, 0.35],
+  [-1, -0.35],
+  [-0.35, -0.35],
 ];
-const bar: Point[] = [[-1.1, -0.5], [1.1, -0.5], [1.1, 0.5], [-1.1, 0.5]];
-const upright: Point[] = [[-0.5, -1.1], [0.5, -1.1], [0.5, 1.1], [-0.5, 1.1]];
+const bar: Point[] = [
+  [-1.1, -0.5],
+  [1.1, -0.5],
+  [1.1, 0.5],
+  [-1.1, 0.5],
+];
+const upright: Point[] = [
+  [-0.5, -1.1],
+  [0.5, -1.1],
+  [0.5, 1.1],
+  [-0.5, 1.1],
+];
 const polygons: Point[][] = [
   around(10, 0, 0.42), // star
   around(24, 0), // disc
@@ -40,10 +60,15 @@ const polygons: Point[][] = [
 ];
 
 function area(polygon: Point[]): number {
-  return 0.5 * Math.abs(polygon.reduce((sum, [x, y], at) => {
-    const [nextX, nextY] = polygon[(at + 1) % polygon.length]!;
-    return sum + x * nextY - y * nextX;
-  }, 0));
+  return (
+    0.5 *
+    Math.abs(
+      polygon.reduce((sum, [x, y], at) => {
+        const [nextX, nextY] = polygon[(at + 1) % polygon.length]!;
+        return sum + x * nextY - y * nextX;
+      }, 0),
+    )
+  );
 }
 
 export interface Shape {
@@ -58,10 +83,16 @@ function shapeOf(polygon: Point[]): Shape {
   };
   return {
     draw(pen, size) {
-      scaled(size).forEach(([x, y], at) => (at === 0 ? pen.moveTo(x, y) : pen.lineTo(x, y)));
+      for (const [at, [x, y]] of scaled(size).entries()) {
+        if (at === 0) pen.moveTo(x, y);
+        else pen.lineTo(x, y);
+      }
       pen.closePath();
     },
-    path: (size) => `M${scaled(size).map(([x, y]) => `${x.toFixed(2)},${y.toFixed(2)}`).join("L")}Z`,
+    path: (size) =>
+      `M${scaled(size)
+        .map(([x, y]) => `${x.toFixed(2)},${y.toFixed(2)}`)
+        .join("L")}Z`,
   };
 }
 

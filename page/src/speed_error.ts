@@ -6,7 +6,7 @@ import { figureView } from "./figure.ts";
 import * as format from "./format.ts";
 import type { Case } from "./model.ts";
 import { placed, placements } from "./names.ts";
-import { Plot, chart, chartWidth, multiples } from "./plots.ts";
+import { chart, chartWidth, multiples, Plot } from "./plots.ts";
 import type { Maybe } from "./result.ts";
 import type { Section, View } from "./view.ts";
 
@@ -18,11 +18,36 @@ interface Measure {
 }
 
 export const measures: Record<string, Measure> = {
-  overshade: { label: "overshade", of: (aCase) => aCase.overshade, show: format.factor, about: "lights evaluated by lights needed at the samples; compares across grids" },
-  excess: { label: "excess", of: (aCase) => aCase.excess, show: format.percent, about: "false positives by true pairs; compares within one grid" },
-  cost: { label: "frame cost µs", of: (aCase) => aCase.costNs && aCase.costNs / 1e3, show: (value) => format.microseconds(value && 1e3 * value), about: "frame time, upload and shading, by the configuration's cost model; compares across grids" },
-  bytes: { label: "bytes", of: (aCase) => aCase.bytes, show: format.short, about: "high-water mark of headers and indices" },
-  unlit: { label: "unlit", of: (aCase) => aCase.unlit, show: format.share, about: "share of needed lights that samples are not given" },
+  overshade: {
+    label: "overshade",
+    of: (aCase) => aCase.overshade,
+    show: format.factor,
+    about: "lights evaluated by lights needed at the samples; compares across grids",
+  },
+  excess: {
+    label: "excess",
+    of: (aCase) => aCase.excess,
+    show: format.percent,
+    about: "false positives by true pairs; compares within one grid",
+  },
+  cost: {
+    label: "frame cost µs",
+    of: (aCase) => aCase.costNs && aCase.costNs / 1e3,
+    show: (value) => format.microseconds(value && 1e3 * value),
+    about: "frame time, upload and shading, by the configuration's cost model; compares across grids",
+  },
+  bytes: {
+    label: "bytes",
+    of: (aCase) => aCase.bytes,
+    show: format.short,
+    about: "high-water mark of headers and indices",
+  },
+  unlit: {
+    label: "unlit",
+    of: (aCase) => aCase.unlit,
+    show: format.share,
+    about: "share of needed lights that samples are not given",
+  },
   missed: { label: "missed", of: (aCase) => aCase.missed, show: format.count, about: "lights lost" },
 };
 
@@ -46,17 +71,27 @@ function front<T extends { us: number; error: number }>(all: T[]): T[] {
   let least = Infinity;
   return [...all]
     .sort((a, b) => a.us - b.us || a.error - b.error)
-    .filter(({ error }) => error < least && ((least = error), true));
+    .filter(({ error }) => {
+      const isLess = error < least;
+      if (isLess) least = error;
+      return isLess;
+    });
 }
 
 function tip(view: View, { aCase, us, error }: Point, measure: Measure): string {
   const [low, high] = aCase.interval;
-  const range = low === null || high === null ? " (interval unknown)" : ` (${format.microseconds(low)} to ${format.microseconds(high)})`;
+  const range =
+    low === null || high === null
+      ? " (interval unknown)"
+      : ` (${format.microseconds(low)} to ${format.microseconds(high)})`;
   return `${view.named(aCase)}\n${aCase.grid}\n${format.microseconds(1e3 * us)} µs${range}\n${measure.label} ${measure.show(error)}`;
 }
 
 // Of the interval, in µs.
-const ends = ({ aCase, us }: Point): [number, number] => [(aCase.interval[0] ?? us * 1e3) / 1e3, (aCase.interval[1] ?? us * 1e3) / 1e3];
+const ends = ({ aCase, us }: Point): [number, number] => [
+  (aCase.interval[0] ?? us * 1e3) / 1e3,
+  (aCase.interval[1] ?? us * 1e3) / 1e3,
+];
 
 interface Scales {
   x: [number, number];
@@ -67,7 +102,10 @@ const margin = { marginTop: 26, marginRight: 16, marginBottom: 40, marginLeft: 6
 
 // A text mark for each placement of the front's names.
 function names(best: Point[], all: Point[], { x, y }: Scales, width: number, height: number): Plot.Markish[] {
-  const room = { x: width - margin.marginLeft - margin.marginRight, y: height - margin.marginTop - margin.marginBottom };
+  const room = {
+    x: width - margin.marginLeft - margin.marginRight,
+    y: height - margin.marginTop - margin.marginBottom,
+  };
   const across = (us: number) => (room.x * Math.log(us / x[0])) / Math.log(x[1] / x[0]);
   const at = (point: Point) => ({
     point,
@@ -80,7 +118,15 @@ function names(best: Point[], all: Point[], { x, y }: Scales, width: number, hei
   return placements.map((wanted) =>
     Plot.text(
       found.filter(({ placement }) => placement === wanted).map(({ name }) => name.point),
-      { x: "us", y: "error", text: (point: Point) => point.aCase.assigner, ...wanted, fill: "var(--ink)", stroke: "var(--panel)", strokeWidth: 4 },
+      {
+        x: "us",
+        y: "error",
+        text: (point: Point) => point.aCase.assigner,
+        ...wanted,
+        fill: "var(--ink)",
+        stroke: "var(--panel)",
+        strokeWidth: 4,
+      },
     ),
   );
 }
@@ -89,20 +135,51 @@ export function panel(view: View, all: Point[], measure: Measure, scales: Scales
   const best = front(all.filter(({ aCase }) => aCase.isEligible));
   const look = (point: Point) => view.palette(point.aCase);
   const height = Math.round(Math.min(420, Math.max(230, width * 0.5)));
-  return chart(`Frame time against ${measure.label} of ${format.plural(all.length, "case")}; on the front: ${best.map(({ aCase }) => aCase.assigner).join(", ")}`, {
-    width,
-    height,
-    x: { type: "log", domain: scales.x, label: "frame µs", ticks: width < 500 ? 4 : 8, tickFormat: format.short, grid: true },
-    y: { domain: scales.y, label: measure.label, ticks: 5, tickFormat: (value: number) => measure.show(value), grid: true },
-    ...margin,
-    marks: [
-      Plot.line(best, { x: "us", y: "error", curve: "step-after", stroke: "var(--front)", strokeWidth: 1.5 }),
-      ...names(best, all, scales, width, height),
-      Plot.ruleY(all, { x1: (point: Point) => ends(point)[0], x2: (point: Point) => ends(point)[1], y: "error", stroke: (point: Point) => look(point).colour, strokeOpacity: 0.6, strokeWidth: 3 }),
-      Plot.dot(all, { x: "us", y: "error", r: 4.5, symbol: (point: Point) => look(point).shape, fill: (point: Point) => (look(point).isFilled ? look(point).colour : "var(--panel)"), stroke: (point: Point) => look(point).colour, strokeWidth: 1.5 }),
-      Plot.tip(all, Plot.pointer({ x: "us", y: "error", title: (point: Point) => tip(view, point, measure) })),
-    ],
-  });
+  return chart(
+    `Frame time against ${measure.label} of ${format.plural(all.length, "case")}; on the front: ${best.map(({ aCase }) => aCase.assigner).join(", ")}`,
+    {
+      width,
+      height,
+      x: {
+        type: "log",
+        domain: scales.x,
+        label: "frame µs",
+        ticks: width < 500 ? 4 : 8,
+        tickFormat: format.short,
+        grid: true,
+      },
+      y: {
+        domain: scales.y,
+        label: measure.label,
+        ticks: 5,
+        tickFormat: (value: number) => measure.show(value),
+        grid: true,
+      },
+      ...margin,
+      marks: [
+        Plot.line(best, { x: "us", y: "error", curve: "step-after", stroke: "var(--front)", strokeWidth: 1.5 }),
+        ...names(best, all, scales, width, height),
+        Plot.ruleY(all, {
+          x1: (point: Point) => ends(point)[0],
+          x2: (point: Point) => ends(point)[1],
+          y: "error",
+          stroke: (point: Point) => look(point).colour,
+          strokeOpacity: 0.6,
+          strokeWidth: 3,
+        }),
+        Plot.dot(all, {
+          x: "us",
+          y: "error",
+          r: 4.5,
+          symbol: (point: Point) => look(point).shape,
+          fill: (point: Point) => (look(point).isFilled ? look(point).colour : "var(--panel)"),
+          stroke: (point: Point) => look(point).colour,
+          strokeWidth: 1.5,
+        }),
+        Plot.tip(all, Plot.pointer({ x: "us", y: "error", title: (point: Point) => tip(view, point, measure) })),
+      ],
+    },
+  );
 }
 
 function limits(values: number[]): [number, number] {
@@ -123,17 +200,27 @@ export function extent(values: number[]): [number, number] {
 
 export const speedErrorSection: Section = (view, redraw) => {
   const cases = view.cases();
-  const options = Object.entries(measures).filter(([, measure]) => points(cases, measure).length > 0).map(([key, { label }]): Option => [key, label]);
+  const options = Object.entries(measures)
+    .filter(([, measure]) => points(cases, measure).length > 0)
+    .map(([key, { label }]): Option => [key, label]);
   if (options.length === 0) return null;
   const [key, control] = choice(view, redraw, "speed-error-measure", "Error", options);
   const measure = measures[key]!;
   const all = points(cases, measure);
   const x = logExtent(all.map(({ us }) => us)); // the same in all panels
   // No front runs across results, which can be of different machines.
-  const scenes = [...Map.groupBy(all, ({ aCase }) => (view.hasRuns ? `${aCase.scene} · ${aCase.run.label}` : aCase.scene))];
+  const scenes = [
+    ...Map.groupBy(all, ({ aCase }) => (view.hasRuns ? `${aCase.scene} · ${aCase.run.label}` : aCase.scene)),
+  ];
   const width = chartWidth(Math.min(2, scenes.length));
-  const panels = scenes.slice(0, mostPanels).map(([title, some]) => ({ title, chart: panel(view, some, measure, { x, y: extent(some.map(({ error }) => error)) }, width) }));
-  const more = scenes.length > mostPanels ? ` The first ${mostPanels} of ${scenes.length}; choose a scene above for the others.` : "";
+  const panels = scenes.slice(0, mostPanels).map(([title, some]) => ({
+    title,
+    chart: panel(view, some, measure, { x, y: extent(some.map(({ error }) => error)) }, width),
+  }));
+  const more =
+    scenes.length > mostPanels
+      ? ` The first ${mostPanels} of ${scenes.length}; choose a scene above for the others.`
+      : "";
   return h(
     "section",
     { id: "speed" },
@@ -152,8 +239,18 @@ export const speedErrorSection: Section = (view, redraw) => {
           { label: "scene", value: ({ aCase }) => aCase.scene },
           { label: "grid", value: ({ aCase }) => aCase.grid },
           { label: "frame µs", value: ({ us }) => us, show: ({ us }) => format.microseconds(1e3 * us) },
-          { label: "low", about: "Of the 95 % interval", value: ({ aCase }) => aCase.interval[0] && aCase.interval[0] / 1e3, show: ({ aCase }) => format.microseconds(aCase.interval[0]) },
-          { label: "high", about: "Of the 95 % interval", value: ({ aCase }) => aCase.interval[1] && aCase.interval[1] / 1e3, show: ({ aCase }) => format.microseconds(aCase.interval[1]) },
+          {
+            label: "low",
+            about: "Of the 95 % interval",
+            value: ({ aCase }) => aCase.interval[0] && aCase.interval[0] / 1e3,
+            show: ({ aCase }) => format.microseconds(aCase.interval[0]),
+          },
+          {
+            label: "high",
+            about: "Of the 95 % interval",
+            value: ({ aCase }) => aCase.interval[1] && aCase.interval[1] / 1e3,
+            show: ({ aCase }) => format.microseconds(aCase.interval[1]),
+          },
           { label: measure.label, value: ({ error }) => error, show: ({ error }) => measure.show(error) },
         ],
         rows: all,

@@ -16,16 +16,46 @@ const columns: Column<Row>[] = [
   { label: "scene", value: ({ aCase }) => aCase.scene },
   { label: "grid", value: ({ aCase }) => aCase.grid },
   { label: "steps", value: ({ stability }) => stability.steps },
-  { label: "changes per step", about: "Pairs added or removed from one step to the next, mean", value: ({ stability }) => stability.changed.method.mean, show: ({ stability }) => format.decimal(stability.changed.method.mean) },
-  { label: "truth's", about: "Changes of the true lists per step", value: ({ stability }) => stability.changed.truth.mean, show: ({ stability }) => format.decimal(stability.changed.truth.mean) },
-  { label: "excess churn", about: "Changes beyond the truth's, by the truth's", value: ({ stability }) => stability.excess_churn.ratio, show: ({ stability }) => format.percent(stability.excess_churn.ratio) },
-  { label: "flickers", about: "Changes that undo the same pair's change shortly before", value: ({ stability }) => stability.flickers.method, show: ({ stability }) => format.count(stability.flickers.method) },
-  { label: "truth's flickers", value: ({ stability }) => stability.flickers.truth, show: ({ stability }) => format.count(stability.flickers.truth) },
-  { label: "most in a step", value: ({ stability }) => stability.changed.method.max, show: ({ stability }) => format.count(stability.changed.method.max) },
+  {
+    label: "changes per step",
+    about: "Pairs added or removed from one step to the next, mean",
+    value: ({ stability }) => stability.changed.method.mean,
+    show: ({ stability }) => format.decimal(stability.changed.method.mean),
+  },
+  {
+    label: "truth's",
+    about: "Changes of the true lists per step",
+    value: ({ stability }) => stability.changed.truth.mean,
+    show: ({ stability }) => format.decimal(stability.changed.truth.mean),
+  },
+  {
+    label: "excess churn",
+    about: "Changes beyond the truth's, by the truth's",
+    value: ({ stability }) => stability.excess_churn.ratio,
+    show: ({ stability }) => format.percent(stability.excess_churn.ratio),
+  },
+  {
+    label: "flickers",
+    about: "Changes that undo the same pair's change shortly before",
+    value: ({ stability }) => stability.flickers.method,
+    show: ({ stability }) => format.count(stability.flickers.method),
+  },
+  {
+    label: "truth's flickers",
+    value: ({ stability }) => stability.flickers.truth,
+    show: ({ stability }) => format.count(stability.flickers.truth),
+  },
+  {
+    label: "most in a step",
+    value: ({ stability }) => stability.changed.method.max,
+    show: ({ stability }) => format.count(stability.changed.method.max),
+  },
 ];
 
 export const stabilitySection: Section = (view) => {
-  const rows = view.cases().flatMap((aCase) => (aCase.raw.stability ? [{ aCase, stability: aCase.raw.stability }] : []));
+  const rows = view
+    .cases()
+    .flatMap((aCase) => (aCase.raw.stability ? [{ aCase, stability: aCase.raw.stability }] : []));
   if (rows.length === 0) return null;
   const paths = [...new Set(rows.map(({ aCase, stability }) => `${aCase.scene}: ${stability.path}`))];
   return h(
@@ -36,7 +66,12 @@ export const stabilitySection: Section = (view) => {
       id: "stability-table",
       title: "Changes and flickers along small steps of the camera",
       lead: `${paths.slice(0, 6).join(". ")}.`,
-      table: () => ({ caption: "Stability", columns: ofRuns(view, columns), rows, sort: { column: view.hasRuns ? 7 : 6, descending: false } }),
+      table: () => ({
+        caption: "Stability",
+        columns: ofRuns(view, columns),
+        rows,
+        sort: { column: view.hasRuns ? 7 : 6, descending: false },
+      }),
       cases: rows.map(({ aCase }) => aCase),
     }),
   );

@@ -1,6 +1,6 @@
 // A table that sorts by any of its columns, by mouse and keyboard.
 
-import { h, type Child } from "./dom.ts";
+import { type Child, h } from "./dom.ts";
 
 export type Value = number | string | null;
 
@@ -25,7 +25,9 @@ const isNumeric = <Row>(column: Column<Row>, rows: Row[]) => rows.some((row) => 
 // Nothing known comes last whichever way a column is sorted.
 function compare(a: Value, b: Value): number {
   if (a === null || b === null) return 0;
-  return typeof a === "number" && typeof b === "number" ? a - b : String(a).localeCompare(String(b), "en", { numeric: true });
+  return typeof a === "number" && typeof b === "number"
+    ? a - b
+    : String(a).localeCompare(String(b), "en", { numeric: true });
 }
 
 function sorted<Row>(rows: Row[], column: Column<Row>, descending: boolean): Row[] {
@@ -60,7 +62,9 @@ export function tableView<Row>(table: Table<Row>): HTMLElement {
   function draw(): void {
     const rows = sort ? sorted(table.rows, columns[sort.column]!, sort.descending) : table.rows;
     body.replaceChildren(
-      ...rows.slice(0, most).map((row) => h("tr", {}, ...columns.map((column, at) => cell(column, row, at === 0, numeric[at]!)))),
+      ...rows
+        .slice(0, most)
+        .map((row) => h("tr", {}, ...columns.map((column, at) => cell(column, row, at === 0, numeric[at]!)))),
     );
     heads.forEach((head, at) => {
       if (sort?.column === at) head.setAttribute("aria-sort", sort.descending ? "descending" : "ascending");

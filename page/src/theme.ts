@@ -24,5 +24,15 @@ function apply(theme: string): void {
 export function themeControl(): HTMLElement {
   const theme = remembered();
   apply(theme);
-  return select("theme", "Theme", [["", "system"], ["light", "light"], ["dark", "dark"]], theme, apply);
+  return select(
+    "theme",
+    "Theme",
+    [
+      ["", "system"],
+      ["light", "light"],
+      ["dark", "dark"],
+    ],
+    theme,
+    apply,
+  );
 }

@@ -28,7 +28,14 @@ export class View {
 
   noFilters(): Filters {
     const { scenes } = this.model;
-    return { scene: scenes.length === 1 ? scenes[0]! : null, grid: null, run: null, words: "", frontOnly: false, hidden: new Set() };
+    return {
+      scene: scenes.length === 1 ? scenes[0]! : null,
+      grid: null,
+      run: null,
+      words: "",
+      frontOnly: false,
+      hidden: new Set(),
+    };
   }
 
   // Of several results each case has to say whose it is.

@@ -20,7 +20,10 @@ const failures: Record<FailureKind, string> = {
 };
 
 function counted(cases: Case[], what: string): string {
-  const names = cases.slice(0, 3).map((aCase) => aCase.raw.name).join("; ");
+  const names = cases
+    .slice(0, 3)
+    .map((aCase) => aCase.raw.name)
+    .join("; ");
   return `${plural(cases.length, "case")} ${what}: ${names}${cases.length > 3 ? "; …" : ""}`;
 }
 
@@ -49,20 +52,33 @@ function doubtsOf(cases: Case[]): Warning[] {
 function rangeWarnings({ range_rule }: SceneResult): string[] {
   const { from_intensity, cutoff_lux, max_range, clamped } = range_rule;
   return [
-    from_intensity > 0 && `${plural(from_intensity, "light")} ${from_intensity === 1 ? "has no range; it ends where it falls" : "have no range; they end where they fall"} to ${cutoff_lux} lux, at most ${max_range} m`,
+    from_intensity > 0 &&
+      `${plural(from_intensity, "light")} ${from_intensity === 1 ? "has no range; it ends where it falls" : "have no range; they end where they fall"} to ${cutoff_lux} lux, at most ${max_range} m`,
     clamped > 0 && `${plural(clamped, "range")} ${clamped === 1 ? "was" : "were"} cut to ${max_range} m`,
   ].filter((text) => text !== false);
 }
 
 function runWarnings({ label, result, doubts: ofTimes }: Run, isAlone: boolean): Warning[] {
   const name = isAlone ? "" : `${label}: `;
-  const build = result.tool.build_type === "Release" ? [] : [`${name}measured with a build of type '${result.tool.build_type}', not Release`];
-  const scenes = result.scenes.flatMap((scene) => [...scene.warnings, ...rangeWarnings(scene)].map((warning) => `${name}${scene.name}: ${warning}`));
-  return [...ofTimes.map((text) => `${name}Times: ${text}`), ...build, ...scenes].map((text) => ({ isFailure: false, text }));
+  const build =
+    result.tool.build_type === "Release"
+      ? []
+      : [`${name}measured with a build of type '${result.tool.build_type}', not Release`];
+  const scenes = result.scenes.flatMap((scene) =>
+    [...scene.warnings, ...rangeWarnings(scene)].map((warning) => `${name}${scene.name}: ${warning}`),
+  );
+  return [...ofTimes.map((text) => `${name}Times: ${text}`), ...build, ...scenes].map((text) => ({
+    isFailure: false,
+    text,
+  }));
 }
 
 export function warningsOf(model: Model): Warning[] {
-  return [...failuresOf(model.cases), ...doubtsOf(model.cases), ...model.runs.flatMap((run) => runWarnings(run, model.runs.length === 1))];
+  return [
+    ...failuresOf(model.cases),
+    ...doubtsOf(model.cases),
+    ...model.runs.flatMap((run) => runWarnings(run, model.runs.length === 1)),
+  ];
 }
 
 function skippedView(model: Model): HTMLElement | null {
@@ -84,8 +100,18 @@ export const warningsSection: Section = ({ model }) => {
     { id: "warnings" },
     h("h2", {}, "Warnings"),
     all.length === 0
-      ? h("p", { class: "note" }, "None: no list lost a light that it must hold, none overflowed, every pair was decided.")
-      : h("ul", { class: "warnings" }, ...all.map(({ isFailure, text }) => h("li", { class: isFailure && "failure" }, h("strong", {}, isFailure ? "Failed. " : "Note. "), text))),
+      ? h(
+          "p",
+          { class: "note" },
+          "None: no list lost a light that it must hold, none overflowed, every pair was decided.",
+        )
+      : h(
+          "ul",
+          { class: "warnings" },
+          ...all.map(({ isFailure, text }) =>
+            h("li", { class: isFailure && "failure" }, h("strong", {}, isFailure ? "Failed. " : "Note. "), text),
+          ),
+        ),
     skippedView(model),
   );
 };

@@ -7,20 +7,36 @@ import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
 
-export const chromiumPath = [process.env.CHROMIUM, "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(
-  (path) => path && existsSync(path),
-);
+export const chromiumPath = [
+  process.env.CHROMIUM,
+  "/usr/bin/chromium",
+  "/usr/bin/chromium-browser",
+  "/usr/bin/google-chrome",
+].find((path) => path && existsSync(path));
 
 export const launch = (more = []) =>
   chromium.launch({
     executablePath: chromiumPath,
     headless: true,
-    args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
-      "--disable-component-update", "--disable-sync", ...more],
+    args: [
+      "--no-sandbox",
+      "--disable-gpu",
+      "--disable-quic",
+      "--no-first-run",
+      "--disable-background-networking",
+      "--disable-component-update",
+      "--disable-sync",
+      ...more,
+    ],
   });
 
 // WebGL without a graphics card.
-export const webGlInSoftware = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"];
+export const webGlInSoftware = [
+  "--use-gl=angle",
+  "--use-angle=swiftshader",
+  "--enable-unsafe-swiftshader",
+  "--ignore-gpu-blocklist",
+];
 
 // Opens a page and collects in `faults` whatever it should not do. `levels`: of its console.
 export async function open(browser, url, { levels = ["error", "warning"], ...options } = {}) {
@@ -29,7 +45,13 @@ export async function open(browser, url, { levels = ["error", "warning"], ...opt
   page.faults = [];
   page.on("console", (message) => levels.includes(message.type()) && page.faults.push(message.text()));
   page.on("pageerror", (error) => page.faults.push(error.message));
-  page.on("request", (request) => request.url() !== url.replace(/#.*/, "") && !request.url().startsWith("blob:") && page.faults.push(`asks for ${request.url()}`));
+  page.on(
+    "request",
+    (request) =>
+      request.url() !== url.replace(/#.*/, "") &&
+      !request.url().startsWith("blob:") &&
+      page.faults.push(`asks for ${request.url()}`),
+  );
   await page.goto(url);
   await page.waitForFunction(() => document.documentElement.dataset.ready);
   return page;

@@ -22,22 +22,26 @@ const scene = join(dirname(fileURLToPath(import.meta.url)), "../../scenes/street
 
 // Every kind of grid, and a method that loses lights.
 function measure(name, details) {
-  const config = join(place, `${name}-config.json`), result = join(place, `${name}.json`);
+  const config = join(place, `${name}-config.json`),
+    result = join(place, `${name}.json`);
   const slices = { scheme: "exponential", count: 24, near: 0.1, far: 200 };
-  writeFileSync(config, JSON.stringify({
-    name,
-    scenes: [{ path: scene, frames: 24 }],
-    grids: [
-      { kind: "frustum", tiles: { count: [16, 8] }, slices },
-      { kind: "distance", tiles: { pixels: [128, 128] }, slices },
-      { kind: "cascades", levels: 4 },
-      { kind: "world", cells: [16, 4, 16] },
-    ],
-    assigners: ["naive-refinement", "distance", "cascades", "world-grid"],
-    details,
-    shading: { samples: 0 },
-    timing: { measure: false },
-  }));
+  writeFileSync(
+    config,
+    JSON.stringify({
+      name,
+      scenes: [{ path: scene, frames: 24 }],
+      grids: [
+        { kind: "frustum", tiles: { count: [16, 8] }, slices },
+        { kind: "distance", tiles: { pixels: [128, 128] }, slices },
+        { kind: "cascades", levels: 4 },
+        { kind: "world", cells: [16, 4, 16] },
+      ],
+      assigners: ["naive-refinement", "distance", "cascades", "world-grid"],
+      details,
+      shading: { samples: 0 },
+      timing: { measure: false },
+    }),
+  );
   execFileSync(tool, ["run", config, "-o", result], { stdio: ["ignore", "ignore", "pipe"] });
   return result;
 }
@@ -52,7 +56,9 @@ before(async () => {
   withWebGl = await launch(webGlInSoftware);
   without = await launch(["--disable-3d-apis"]);
 });
-afterEach(() => Promise.all([withWebGl, without].flatMap((browser) => browser.contexts().map((context) => context.close()))));
+afterEach(() =>
+  Promise.all([withWebGl, without].flatMap((browser) => browser.contexts().map((context) => context.close()))),
+);
 after(() => Promise.all([withWebGl?.close(), without?.close()]));
 
 // What this software renderer warns of is no fault of the page.
@@ -66,13 +72,15 @@ async function colours(page, selector) {
     const image = await createImageBitmap(new Blob([bytes]));
     const pen = new OffscreenCanvas(image.width, image.height).getContext("2d");
     pen.drawImage(image, 0, 0);
-    const data = new Uint32Array(pen.getImageData(0, 0, image.width, image.height).data.buffer), counts = new Map();
+    const data = new Uint32Array(pen.getImageData(0, 0, image.width, image.height).data.buffer),
+      counts = new Map();
     for (const pixel of data) counts.set(pixel, (counts.get(pixel) ?? 0) + 1);
     return { total: data.length, distinct: counts.size, most: Math.max(...counts.values()) };
   }, picture.toString("base64"));
 }
 
-const settle = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+const settle = (page) =>
+  page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 async function picture(page, selector = "#cells-3d") {
   await settle(page);
   return (await page.locator(selector).screenshot()).toString("base64");
@@ -91,7 +99,12 @@ async function changes(page, deed, selector) {
 async function modules() {
   const contents = ["details", "geometry"].map((name) => `export * from "./src/cells/${name}.ts";`).join("\n");
   const resolveDir = join(dirname(fileURLToPath(import.meta.url)), "..");
-  const made = await build({ stdin: { contents, resolveDir, loader: "ts" }, bundle: true, format: "esm", write: false });
+  const made = await build({
+    stdin: { contents, resolveDir, loader: "ts" },
+    bundle: true,
+    format: "esm",
+    write: false,
+  });
   return import(`data:text/javascript;base64,${Buffer.from(made.outputFiles[0].text).toString("base64")}`);
 }
 
@@ -102,18 +115,24 @@ describe("the view of cells", () => {
     for (const one of result.cases) {
       let pairs = 0;
       for (const packed of one.details.frames) {
-        const frame = unpacked(packed, one.grid), geometry = geometryOf(one, frame);
+        const frame = unpacked(packed, one.grid),
+          geometry = geometryOf(one, frame);
         frame.cells.forEach((cell, at) => {
           const place = cellOf(geometry.size, cell);
           assert.equal(indexOf(geometry.size, ...place), cell);
           assert.ok(!geometry.isHole(...place));
           const block = geometry.block(...place);
-          const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((bits) => inView(geometry, [block[bits & 1], block[2 + ((bits >> 1) & 1)], block[4 + (bits >> 2)]]));
+          const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((bits) =>
+            inView(geometry, [block[bits & 1], block[2 + ((bits >> 1) & 1)], block[4 + (bits >> 2)]]),
+          );
           const centre = [0, 1, 2].map((axis) => corners.reduce((sum, corner) => sum + corner[axis] / 8, 0));
           const radius = 1.02 * Math.max(...corners.map((corner) => distance(corner, centre)));
           for (const { light, mark } of frame.listOf(at)) {
             if (mark === 1) continue;
-            assert.ok(distance(light.position, centre) <= light.range + radius, `${one.name}: ${light.name} in cell ${place}`);
+            assert.ok(
+              distance(light.position, centre) <= light.range + radius,
+              `${one.name}: ${light.name} in cell ${place}`,
+            );
             ++pairs;
           }
         });
@@ -130,16 +149,32 @@ describe("the view of cells", () => {
       await page.locator("#cells-case").selectOption(await one.getAttribute("value"));
       await settle(page);
       const seen = await colours(page, "#cells-3d");
-      assert.ok(seen.distinct > 100 && seen.most < 0.95 * seen.total, `${await one.innerText()}: ${JSON.stringify(seen)}`);
+      assert.ok(
+        seen.distinct > 100 && seen.most < 0.95 * seen.total,
+        `${await one.innerText()}: ${JSON.stringify(seen)}`,
+      );
     }
     assert.deepEqual(page.faults, []);
   });
 
   it("changes with every control", async () => {
     const page = await open(withWebGl, pages.cells);
-    for (const [selector, value] of [["#cells-frame", 1], ["#cells-column", 3], ["#cells-row", 6], ["#cells-slice", 15], ["#cells-least", 4]])
+    for (const [selector, value] of [
+      ["#cells-frame", 1],
+      ["#cells-column", 3],
+      ["#cells-row", 6],
+      ["#cells-slice", 15],
+      ["#cells-least", 4],
+    ])
       assert.ok(await changes(page, () => set(page, selector, value)), selector);
-    for (const selector of ["#cells-show-slice", "#cells-show-tile", "#cells-show-all", "#cells-what-excess", "#cells-what-missing", "#cells-what-true"])
+    for (const selector of [
+      "#cells-show-slice",
+      "#cells-show-tile",
+      "#cells-show-all",
+      "#cells-what-excess",
+      "#cells-what-missing",
+      "#cells-what-true",
+    ])
       assert.ok(await changes(page, () => page.locator(selector).check({ force: true })), selector);
     assert.ok(await changes(page, () => page.locator("#cells-lights").selectOption("all")), "lights");
     assert.ok(await changes(page, () => page.locator("#cells-even").uncheck()), "even depth");
@@ -162,12 +197,14 @@ describe("the view of cells", () => {
     await canvas.scrollIntoViewIfNeeded();
     const { x, y, width, height } = await canvas.boundingBox();
     const middle = [x + 0.42 * width, y + 0.55 * height];
-    assert.ok(await changes(page, async () => {
-      await page.mouse.move(...middle);
-      await page.mouse.down();
-      await page.mouse.move(middle[0] + 40, middle[1] - 20, { steps: 3 });
-      await page.mouse.up();
-    }));
+    assert.ok(
+      await changes(page, async () => {
+        await page.mouse.move(...middle);
+        await page.mouse.down();
+        await page.mouse.move(middle[0] + 40, middle[1] - 20, { steps: 3 });
+        await page.mouse.up();
+      }),
+    );
     const before = await text(page, ".picked-cell h3");
     await page.mouse.click(...middle);
     assert.notEqual(await text(page, ".picked-cell h3"), before);
@@ -184,7 +221,11 @@ describe("the view of cells", () => {
     const { false_negatives: missed } = result.cases[0].error;
     assert.ok(missed > 0);
     const frame = result.cases[0].details.frames[2];
-    assert.ok((await text(page, "#cells .cells > .note")).startsWith(`Frame ${frame.frame}: ${frame.cells.count.toLocaleString("en")} of 3,072 cells`));
+    assert.ok(
+      (await text(page, "#cells .cells > .note")).startsWith(
+        `Frame ${frame.frame}: ${frame.cells.count.toLocaleString("en")} of 3,072 cells`,
+      ),
+    );
   });
 
   it("picks a tile on the map of a slice", async () => {
@@ -214,11 +255,17 @@ describe("the view of cells", () => {
     assert.deepEqual(page.faults, []);
   });
 
-  for (const [name, colorScheme] of [["with", "light"], ["without", "dark"]])
+  for (const [name, colorScheme] of [
+    ["with", "light"],
+    ["without", "dark"],
+  ])
     it(`is accessible ${name} WebGL in ${colorScheme}`, async () => {
       const page = await open(name === "with" ? withWebGl : without, pages.cells, { colorScheme });
       await page.evaluate(axe);
       const found = await page.evaluate(() => globalThis.axe.run("#cells"));
-      assert.deepEqual(found.violations.map((one) => `${one.id}: ${one.nodes.map((node) => node.target).join("; ")}`), []);
+      assert.deepEqual(
+        found.violations.map((one) => `${one.id}: ${one.nodes.map((node) => node.target).join("; ")}`),
+        [],
+      );
     });
 });

@@ -9,14 +9,32 @@ const code = buildSync({ entryPoints: [source], bundle: true, format: "esm", wri
 const { fixed, microseconds, plural } = await import(`data:text/javascript,${encodeURIComponent(code)}`);
 
 it("numbers half-way between two have the digits that printf gives them", () => {
-  const expected = [[0.5, 0, "0"], [1.5, 0, "2"], [2.5, 0, "2"], [-2.5, 0, "-2"], [127.25, 1, "127.2"], [127.75, 1, "127.8"], [0.125, 2, "0.12"], [0.375, 2, "0.38"],
-    [1e9 + 0.5, 0, "1000000000"]];
-  for (const [value, digits, text] of expected) assert.equal(fixed(value, digits), text, `${value} to ${digits} digits`);
+  const expected = [
+    [0.5, 0, "0"],
+    [1.5, 0, "2"],
+    [2.5, 0, "2"],
+    [-2.5, 0, "-2"],
+    [127.25, 1, "127.2"],
+    [127.75, 1, "127.8"],
+    [0.125, 2, "0.12"],
+    [0.375, 2, "0.38"],
+    [1e9 + 0.5, 0, "1000000000"],
+  ];
+  for (const [value, digits, text] of expected)
+    assert.equal(fixed(value, digits), text, `${value} to ${digits} digits`);
 });
 
 it("other numbers are rounded to the nearest by what the double holds", () => {
-  const expected = [[0.15, 1, "0.1"], [0.35, 1, "0.3"], [2.675, 2, "2.67"], [1.005, 2, "1.00"], [0.30000001, 1, "0.3"], [123456.789, 2, "123456.79"]];
-  for (const [value, digits, text] of expected) assert.equal(fixed(value, digits), text, `${value} to ${digits} digits`);
+  const expected = [
+    [0.15, 1, "0.1"],
+    [0.35, 1, "0.3"],
+    [2.675, 2, "2.67"],
+    [1.005, 2, "1.00"],
+    [0.30000001, 1, "0.3"],
+    [123456.789, 2, "123456.79"],
+  ];
+  for (const [value, digits, text] of expected)
+    assert.equal(fixed(value, digits), text, `${value} to ${digits} digits`);
 });
 
 it("times have the digits of the terminal's table", () => {
@@ -26,5 +44,8 @@ it("times have the digits of the terminal's table", () => {
 });
 
 it("one is not many", () => {
-  assert.deepEqual([plural(0, "case"), plural(1, "case"), plural(2, "case"), plural(2, "series", "series")], ["0 cases", "1 case", "2 cases", "2 series"]);
+  assert.deepEqual(
+    [plural(0, "case"), plural(1, "case"), plural(2, "case"), plural(2, "series", "series")],
+    ["0 cases", "1 case", "2 cases", "2 series"],
+  );
 });

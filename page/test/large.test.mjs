@@ -13,7 +13,8 @@ if (!chromiumPath) {
 }
 
 it("opens a result of 20 MB in under 3 s", async (test) => {
-  const place = folder(), file = join(place, "large.json");
+  const place = folder(),
+    file = join(place, "large.json");
   writeFileSync(file, JSON.stringify(grown(JSON.parse(readFileSync(committedResult)), 20e6)));
   const url = makePage(process.env.CLUSTERBENCH, [file], join(place, "large.html"));
   const browser = await launch();

@@ -6,7 +6,15 @@ import { createRequire } from "node:module";
 import { join } from "node:path";
 import { after, afterEach, before, describe, it } from "node:test";
 import { chromiumPath, folder, launch, makePage, open as openPage } from "./browser.mjs";
-import { committedResult, historyPage, lossy, measureSweep, onAnotherMachine, widened, withTwoCameras } from "./results.mjs";
+import {
+  committedResult,
+  historyPage,
+  lossy,
+  measureSweep,
+  onAnotherMachine,
+  widened,
+  withTwoCameras,
+} from "./results.mjs";
 
 if (!chromiumPath) {
   console.log("skipped: there is no Chromium (scripts/setup test installs it)");
@@ -49,7 +57,9 @@ const column = async (page, label) => {
 const numbers = (texts) => texts.map((text) => Number(text.replace(/[^\d.]/g, "")));
 const inTable = async (page, selector = "#ranking") => {
   const labels = (await textsOf(page, `${selector} thead th`)).map((text) => text.replace(/ [↑↓]$/, ""));
-  const rows = await page.locator(`${selector} tbody tr`).evaluateAll((all) => all.map((row) => [...row.children].map((cell) => cell.innerText)));
+  const rows = await page
+    .locator(`${selector} tbody tr`)
+    .evaluateAll((all) => all.map((row) => [...row.children].map((cell) => cell.innerText)));
   return rows.map((row) => Object.fromEntries(row.map((text, at) => [labels[at], text])));
 };
 const isAscending = (values) => values.every((value, at) => at === 0 || values[at - 1] <= value);
@@ -66,7 +76,13 @@ async function openAll(page) {
 }
 
 describe("the page", () => {
-  for (const [name, colorScheme] of [["quick", "dark"], ["sweep", "light"], ["two", "light"], ["against", "dark"], ["history", "light"]])
+  for (const [name, colorScheme] of [
+    ["quick", "dark"],
+    ["sweep", "light"],
+    ["two", "light"],
+    ["against", "dark"],
+    ["history", "light"],
+  ])
     it(`of ${name} in ${colorScheme} asks for nothing, errs nowhere and is accessible`, async () => {
       const page = await open(pages[name], { colorScheme });
       await openAll(page);
@@ -87,7 +103,8 @@ describe("the page", () => {
 
   it("follows the system into dark mode, and the reader out of it", async () => {
     const page = await open(pages.quick, { colorScheme: "dark" });
-    const brightness = () => page.evaluate(() => Number(getComputedStyle(document.documentElement).backgroundColor.match(/\d+/)[0]));
+    const brightness = () =>
+      page.evaluate(() => Number(getComputedStyle(document.documentElement).backgroundColor.match(/\d+/)[0]));
     assert.ok((await brightness()) < 60);
     await page.selectOption("#theme", "light");
     assert.ok((await brightness()) > 200);
@@ -120,19 +137,32 @@ describe("the ranking", () => {
   it("shows the cases of one scene, of one grid, of some words, of the front", async () => {
     const page = await open(pages.quick);
     const result = JSON.parse(readFileSync(committedResult));
-    const expected = (holds) => result.cases.filter(holds).map((one) => one.assigner.label).sort();
+    const expected = (holds) =>
+      result.cases
+        .filter(holds)
+        .map((one) => one.assigner.label)
+        .sort();
     const shown = async () => (await methods(page)).sort();
     await page.getByRole("radio", { name: "street" }).check();
-    assert.deepEqual(await shown(), expected((one) => one.scene === "street"));
+    assert.deepEqual(
+      await shown(),
+      expected((one) => one.scene === "street"),
+    );
     await page.selectOption("#filter-grid", { index: 1 });
     const grid = result.cases[0].grid.name;
-    assert.deepEqual(await shown(), expected((one) => one.scene === "street" && one.grid.name === grid));
+    assert.deepEqual(
+      await shown(),
+      expected((one) => one.scene === "street" && one.grid.name === grid),
+    );
     await page.fill("#filter-words", "fast exact");
     assert.deepEqual(await shown(), ["exact-fast"]);
     await page.fill("#filter-words", "");
     await page.check("#filter-front");
     const front = result.pareto_front.find((one) => one.scene === "street").ids;
-    assert.deepEqual(await shown(), expected((one) => front.includes(one.id) && one.grid.name === grid));
+    assert.deepEqual(
+      await shown(),
+      expected((one) => front.includes(one.id) && one.grid.name === grid),
+    );
     assert.equal(await page.locator(".count").innerText(), `${(await shown()).length} of ${result.cases.length} cases`);
   });
 
@@ -155,7 +185,10 @@ describe("the ranking", () => {
     await page.locator("#ranking thead button").first().focus();
     await page.keyboard.press("Enter");
     const names = await methods(page);
-    assert.deepEqual(names, [...names].sort((a, b) => a.localeCompare(b, "en")));
+    assert.deepEqual(
+      names,
+      [...names].sort((a, b) => a.localeCompare(b, "en")),
+    );
     const outline = await page.evaluate(() => getComputedStyle(document.activeElement).outlineStyle);
     assert.equal(outline, "solid");
   });
@@ -170,10 +203,21 @@ describe("over all scenes", () => {
     const rows = await inTable(page);
     let compared = 0;
     for (const row of rows) {
-      const cases = result.cases.filter((one) => one.assigner.label === row.method && one.grid.name === row.grid && one.storage === row.storage && one.error && one.shading.overshade !== null);
+      const cases = result.cases.filter(
+        (one) =>
+          one.assigner.label === row.method &&
+          one.grid.name === row.grid &&
+          one.storage === row.storage &&
+          one.error &&
+          one.shading.overshade !== null,
+      );
       if (cases.length !== result.scenes.length) continue;
       const mean = (figure) => geometric(cases.map(figure));
-      assert.equal(row.excess, `${(100 * (mean((one) => one.error.reported_pairs / one.error.true_pairs) - 1)).toFixed(1)} %`, row.method);
+      assert.equal(
+        row.excess,
+        `${(100 * (mean((one) => one.error.reported_pairs / one.error.true_pairs) - 1)).toFixed(1)} %`,
+        row.method,
+      );
       assert.equal(row.overshade, mean((one) => one.shading.overshade).toFixed(2), row.method);
       assert.equal(row.longest, mean((one) => one.occupancy.lights_per_cell.max).toFixed(0), row.method);
       ++compared;
@@ -182,7 +226,21 @@ describe("over all scenes", () => {
   });
 
   it("a scene of two cameras counts as much as one of one", async () => {
-    const figures = async (url) => (await inTable(await open(url))).map((row) => [row.method, row.grid, row.storage, row["time / best"], row.excess, row.overshade, row.bytes, row.longest].join()).sort();
+    const figures = async (url) =>
+      (await inTable(await open(url)))
+        .map((row) =>
+          [
+            row.method,
+            row.grid,
+            row.storage,
+            row["time / best"],
+            row.excess,
+            row.overshade,
+            row.bytes,
+            row.longest,
+          ].join(),
+        )
+        .sort();
     assert.deepEqual(await figures(pages.cameras), await figures(pages.quick));
   });
 
@@ -190,7 +248,11 @@ describe("over all scenes", () => {
     const page = await open(pages.quick);
     const result = JSON.parse(readFileSync(committedResult));
     const key = (method, grid, storage) => [method, grid, storage].join();
-    const holes = new Set(result.cases.filter((one) => one.shading.overshade === null).map((one) => key(one.assigner.label, one.grid.name, one.storage)));
+    const holes = new Set(
+      result.cases
+        .filter((one) => one.shading.overshade === null)
+        .map((one) => key(one.assigner.label, one.grid.name, one.storage)),
+    );
     const rows = (await inTable(page)).filter((row) => holes.has(key(row.method, row.grid, row.storage)));
     assert.ok(rows.length > 0);
     for (const row of rows) assert.match(row.overshade, / of 5\)$|^–$/, JSON.stringify(row));
@@ -211,11 +273,15 @@ describe("filters", () => {
     const page = await open(pages.quick);
     await page.getByRole("radio", { name: "street" }).check();
     const all = await inTable(page);
-    assert.deepEqual(all.map((row) => row.rank), all.map((_, at) => String(at + 1)));
+    assert.deepEqual(
+      all.map((row) => row.rank),
+      all.map((_, at) => String(at + 1)),
+    );
     await page.fill("#filter-words", "world-grid");
     const some = await inTable(page);
     assert.ok(some.length > 0 && Number(some[0].rank) > 1);
-    for (const row of some) assert.equal(row.rank, all.find((one) => one.method === row.method && one.grid === row.grid).rank);
+    for (const row of some)
+      assert.equal(row.rank, all.find((one) => one.method === row.method && one.grid === row.grid).rank);
   });
 
   it("that leave nothing say so, and can be cleared", async () => {
@@ -259,15 +325,33 @@ describe("figures", () => {
       const cells = line.replace(/^ *\*? +/, "").split(/ {2,}/);
       if (/, camera /.test(line)) grid = line.trim().replace(/, camera .*/, "");
       else if (cells[0] === "assigner") heads = cells;
-      else if (heads && cells.length === heads.length) told.push({ grid, ...Object.fromEntries(cells.map((text, at) => [names[heads[at]] ?? heads[at], text])) });
+      else if (heads && cells.length === heads.length)
+        told.push({ grid, ...Object.fromEntries(cells.map((text, at) => [names[heads[at]] ?? heads[at], text])) });
     }
     await page.check("#ranking-all");
     const shown = await inTable(page);
     assert.equal(told.length, shown.length, lossyTable);
     for (const row of told) {
       const other = shown.find((one) => one.grid === row.grid && `${one.method} / ${one.storage}` === row.assigner);
-      for (const column of ["frame µs", "±", "assign µs", "convert µs", "pairs", "ns/pair", "excess", "missed", "dropped", "unlit", "overshade", "bytes"])
-        assert.equal(other[column].replace(/^~/, ""), row[column].replace(/^-$/, "–").replace(/^~/, ""), `${column} of ${row.assigner}`);
+      for (const column of [
+        "frame µs",
+        "±",
+        "assign µs",
+        "convert µs",
+        "pairs",
+        "ns/pair",
+        "excess",
+        "missed",
+        "dropped",
+        "unlit",
+        "overshade",
+        "bytes",
+      ])
+        assert.equal(
+          other[column].replace(/^~/, ""),
+          row[column].replace(/^-$/, "–").replace(/^~/, ""),
+          `${column} of ${row.assigner}`,
+        );
     }
   });
 });
@@ -278,10 +362,18 @@ describe("times", () => {
     await page.getByRole("radio", { name: "hall-512" }).check();
     const ratios = await column(page, "/ fastest");
     assert.equal(ratios[0], "–");
-    assert.ok(ratios.slice(1).every((text) => /^\d+\.\d\d$/.test(text)), String(ratios));
+    assert.ok(
+      ratios.slice(1).every((text) => /^\d+\.\d\d$/.test(text)),
+      String(ratios),
+    );
     const marked = (await column(page, "frame µs")).filter((text) => text.startsWith("~"));
     assert.ok(marked.length > 0 && marked.length < ratios.length, String(marked));
-    const interval = await page.locator("#ranking tbody tr").nth(1).locator("td span[title*=' to ']").last().getAttribute("title");
+    const interval = await page
+      .locator("#ranking tbody tr")
+      .nth(1)
+      .locator("td span[title*=' to ']")
+      .last()
+      .getAttribute("title");
     assert.match(interval, /^\d+\.\d\d to \d+\.\d\d$/);
   });
 
@@ -304,9 +396,16 @@ describe("what a case loses", () => {
   const rows = async (page) => {
     await page.check("#ranking-all");
     const labels = (await textsOf(page, "#ranking thead th")).map((text) => text.replace(/ [↑↓]$/, ""));
-    const cells = await page.locator("#ranking tbody tr").evaluateAll((all) => all.map((row) => [...row.children].map((cell) => cell.innerText)));
-    const dots = await page.locator("#ranking tbody tr").evaluateAll((all) => all.map((row) => row.querySelector(".front") !== null));
-    return cells.map((one, at) => ({ ...Object.fromEntries(one.map((text, column) => [labels[column], text])), isOnFront: dots[at] }));
+    const cells = await page
+      .locator("#ranking tbody tr")
+      .evaluateAll((all) => all.map((row) => [...row.children].map((cell) => cell.innerText)));
+    const dots = await page
+      .locator("#ranking tbody tr")
+      .evaluateAll((all) => all.map((row) => row.querySelector(".front") !== null));
+    return cells.map((one, at) => ({
+      ...Object.fromEntries(one.map((text, column) => [labels[column], text])),
+      isOnFront: dots[at],
+    }));
   };
 
   it("stands beside its time, takes its overshade and its place on the front", async () => {
@@ -315,7 +414,10 @@ describe("what a case loses", () => {
     assert.equal(all.length, 8);
     const whole = all.filter((one) => one.dropped === "0" && parseFloat(one.unlit) === 0);
     assert.equal(whole.length, 2, JSON.stringify(all));
-    assert.ok(whole.some((one) => one.isOnFront) && whole.every((one) => /\d/.test(one.overshade)), JSON.stringify(whole));
+    assert.ok(
+      whole.some((one) => one.isOnFront) && whole.every((one) => /\d/.test(one.overshade)),
+      JSON.stringify(whole),
+    );
     for (const one of all.filter((other) => !whole.includes(other))) {
       assert.ok(parseFloat(one.unlit) > 0.1 && one.overshade === "–" && !one.isOnFront, JSON.stringify(one));
     }
@@ -324,7 +426,11 @@ describe("what a case loses", () => {
   it("is ranked by what a frame takes, with its parts and its worst frame beside it", async () => {
     const page = await open(pages.quick); // medians of a few rounds need not add up
     await page.getByRole("radio", { name: "street" }).check();
-    const all = (await rows(page)).map((one) => Object.fromEntries(Object.entries(one).map(([label, text]) => [label, parseFloat(String(text).replaceAll(/[,~]/g, ""))])));
+    const all = (await rows(page)).map((one) =>
+      Object.fromEntries(
+        Object.entries(one).map(([label, text]) => [label, parseFloat(String(text).replaceAll(/[,~]/g, ""))]),
+      ),
+    );
     assert.ok(isAscending(all.map((one) => one["frame µs"])), JSON.stringify(all));
     let converted = 0;
     for (const one of all) {
@@ -393,16 +499,32 @@ describe("charts", () => {
     const page = await open(pages.wide);
     const struck = await page.locator("#speed-error svg[role=img]").evaluateAll((charts) =>
       charts.flatMap((svg) => {
-        const names = [...svg.querySelectorAll("g[font-size], g")].flatMap((group) => (group.getAttribute("stroke-width") === "4" ? [...group.querySelectorAll("text")] : []));
+        const names = [...svg.querySelectorAll("g[font-size], g")].flatMap((group) =>
+          group.getAttribute("stroke-width") === "4" ? [...group.querySelectorAll("text")] : [],
+        );
         const bars = [...svg.querySelectorAll("g[stroke-width='3'] line")].map((line) => line.getBoundingClientRect());
         return names.map((text) => {
-          const box = text.getBoundingClientRect(), inside = { left: box.left + 2, right: box.right - 2, top: box.top + 3, bottom: box.bottom - 3 };
-          return { name: text.textContent, bars: bars.length, isStruck: bars.some((bar) => bar.left < inside.right && inside.left < bar.right && bar.top < inside.bottom && inside.top < bar.bottom) };
+          const box = text.getBoundingClientRect(),
+            inside = { left: box.left + 2, right: box.right - 2, top: box.top + 3, bottom: box.bottom - 3 };
+          return {
+            name: text.textContent,
+            bars: bars.length,
+            isStruck: bars.some(
+              (bar) =>
+                bar.left < inside.right &&
+                inside.left < bar.right &&
+                bar.top < inside.bottom &&
+                inside.top < bar.bottom,
+            ),
+          };
         });
       }),
     );
     assert.ok(struck.length > 0 && struck[0].bars > 2, JSON.stringify(struck));
-    assert.deepEqual(struck.filter((one) => one.isStruck), []);
+    assert.deepEqual(
+      struck.filter((one) => one.isStruck),
+      [],
+    );
   });
 
   it("fit a narrow screen without scrolling the page sideways", async () => {
@@ -412,22 +534,43 @@ describe("charts", () => {
 });
 
 describe("the layout", () => {
-  for (const [name, scene] of [["quick", null], ["quick", "jam"], ["lossy", null], ["two", null], ["two", "street"], ["sweep", "street"], ["against", null]])
+  for (const [name, scene] of [
+    ["quick", null],
+    ["quick", "jam"],
+    ["lossy", null],
+    ["two", null],
+    ["two", "street"],
+    ["sweep", "street"],
+    ["against", null],
+  ])
     it(`cuts no column of the ranking of ${name}${scene ? `, ${scene}` : ""}, at 1400 pixels`, async () => {
       const page = await open(pages[name], { viewport: { width: 1400, height: 900 } });
       if (scene) await page.getByRole("radio", { name: scene }).check();
-      const isCut = () => page.locator("#ranking .table").evaluate((table) => table.scrollWidth > table.clientWidth && `${table.scrollWidth} of ${table.clientWidth}`);
+      const isCut = () =>
+        page
+          .locator("#ranking .table")
+          .evaluate((table) => table.scrollWidth > table.clientWidth && `${table.scrollWidth} of ${table.clientWidth}`);
       assert.equal(await isCut(), false);
       if ((await page.locator("#ranking-all").count()) === 0) return;
       await page.check("#ranking-all");
       assert.equal(await isCut(), false);
     });
 
-  for (const [name, scene, wanted] of [["quick", null, ["method", "time / best", "excess"]], ["quick", "jam", ["method", "frame µs", "excess"]], ["two", "street", ["method", "frame µs", "excess"]]])
+  for (const [name, scene, wanted] of [
+    ["quick", null, ["method", "time / best", "excess"]],
+    ["quick", "jam", ["method", "frame µs", "excess"]],
+    ["two", "street", ["method", "frame µs", "excess"]],
+  ])
     it(`shows method, time and error of ${name}${scene ? `, ${scene}` : ""} first, at 390 pixels`, async () => {
       const page = await open(pages[name], { viewport: { width: 390, height: 800 } });
       if (scene) await page.getByRole("radio", { name: scene }).check();
-      const inView = await page.locator("#ranking thead th").evaluateAll((heads) => heads.filter((head) => head.getBoundingClientRect().right <= innerWidth - 14).map((head) => head.innerText.replace(/ [↑↓]$/, "")));
+      const inView = await page
+        .locator("#ranking thead th")
+        .evaluateAll((heads) =>
+          heads
+            .filter((head) => head.getBoundingClientRect().right <= innerWidth - 14)
+            .map((head) => head.innerText.replace(/ [↑↓]$/, "")),
+        );
       assert.deepEqual(inView.slice(0, 3), wanted);
     });
 });
@@ -437,23 +580,49 @@ describe("several results", () => {
     const page = await open(pages.two);
     assert.deepEqual(await textsOf(page, "#setup article > h3"), ["quick", "sweep"]);
     await page.selectOption("#filter-run", "sweep");
-    assert.ok((await page.locator(".count").innerText()).startsWith(`${JSON.parse(readFileSync(sweepFile)).cases.length} of `));
+    assert.ok(
+      (await page.locator(".count").innerText()).startsWith(`${JSON.parse(readFileSync(sweepFile)).cases.length} of `),
+    );
   });
 
   it("say in every table and chart whose a figure is, and share no front", async () => {
     const page = await open(pages.against);
     const runs = ["sweep", "elsewhere"];
     assert.deepEqual(new Set((await inTable(page)).map((row) => row.result)), new Set(runs));
-    assert.deepEqual((await textsOf(page, "#speed-error h4")).sort(), ["hall-512", "street"].flatMap((scene) => runs.map((run) => `${scene} · ${run}`)).sort());
-    for (const text of await textsOf(page, "#heat-map h4")) assert.ok(runs.some((run) => text.includes(run)), text);
-    for (const text of await textsOf(page, "#setting option")) assert.ok(runs.some((run) => text.endsWith(run)), text);
+    assert.deepEqual(
+      (await textsOf(page, "#speed-error h4")).sort(),
+      ["hall-512", "street"].flatMap((scene) => runs.map((run) => `${scene} · ${run}`)).sort(),
+    );
+    for (const text of await textsOf(page, "#heat-map h4"))
+      assert.ok(
+        runs.some((run) => text.includes(run)),
+        text,
+      );
+    for (const text of await textsOf(page, "#setting option"))
+      assert.ok(
+        runs.some((run) => text.endsWith(run)),
+        text,
+      );
     await openAll(page);
-    for (const id of ["speed-error", "costs", "camera-path", "list-lengths", "heat-map", "stability-table", "packed-lights", "lookup"])
-      for (const row of (await inTable(page, `#${id}`)).slice(0, 5)) assert.match(Object.values(row).join(" "), /sweep|elsewhere/, id);
+    for (const id of [
+      "speed-error",
+      "costs",
+      "camera-path",
+      "list-lengths",
+      "heat-map",
+      "stability-table",
+      "packed-lights",
+      "lookup",
+    ])
+      for (const row of (await inTable(page, `#${id}`)).slice(0, 5))
+        assert.match(Object.values(row).join(" "), /sweep|elsewhere/, id);
     const dot = page.locator("#speed-error svg[role=img] path[fill]").first();
     await dot.hover({ force: true });
-    await page.locator("#speed-error svg g[aria-label=tip] text, #speed-error svg text:has-text('µs') tspan").first().waitFor({ state: "attached" });
-    assert.match((await page.locator("#speed-error svg").first().textContent()), /· (sweep|elsewhere)/);
+    await page
+      .locator("#speed-error svg g[aria-label=tip] text, #speed-error svg text:has-text('µs') tspan")
+      .first()
+      .waitFor({ state: "attached" });
+    assert.match(await page.locator("#speed-error svg").first().textContent(), /· (sweep|elsewhere)/);
   });
 
   it("can be held one against the first, case by case", async () => {
@@ -462,7 +631,10 @@ describe("several results", () => {
     const rows = await inTable(page, "#against-first");
     assert.equal(rows.length, JSON.parse(readFileSync(sweepFile)).cases.length);
     for (const row of rows) assert.equal(row.time, "+100.0 %", JSON.stringify(row));
-    assert.match(await page.locator("#against svg[role=img]").getAttribute("aria-label"), /Frame time of elsewhere by that of sweep, \d+ cases/);
+    assert.match(
+      await page.locator("#against svg[role=img]").getAttribute("aria-label"),
+      /Frame time of elsewhere by that of sweep, \d+ cases/,
+    );
     await page.selectOption("#filter-run", "elsewhere");
     assert.equal((await inTable(page, "#against-first")).length, rows.length);
   });
@@ -477,7 +649,10 @@ describe("the history's page", () => {
   it("draws what varies, with an axis and the commits that changed it", async () => {
     const page = await open(pages.history);
     const figure = page.locator("figure", { hasText: "assign_time" }).first();
-    assert.match(await figure.locator("svg[role=img]").getAttribute("aria-label"), /^assign_time in ns of .*, 14 values from /);
+    assert.match(
+      await figure.locator("svg[role=img]").getAttribute("aria-label"),
+      /^assign_time in ns of .*, 14 values from /,
+    );
     assert.match(await figure.locator(".changes .worse").innerText(), /^c7: .* worse$/);
     assert.match(await figure.locator("svg").textContent(), /↑ ns/);
     assert.ok((await figure.locator("svg [stroke-dasharray] line, svg line[stroke-dasharray]").count()) >= 1);

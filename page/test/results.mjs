@@ -1,7 +1,7 @@
 // Results to show: the committed one, a sweep measured on the spot, and as large a one as asked for.
 
 import { execFileSync, spawnSync } from "node:child_process";
-import { readFileSync, readdirSync, writeFileSync } from "node:fs";
+import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
 
@@ -17,7 +17,12 @@ const sweep = {
   grids: [
     {
       kind: "frustum",
-      tiles: { pixels: [[64, 64], [128, 128]] },
+      tiles: {
+        pixels: [
+          [64, 64],
+          [128, 128],
+        ],
+      },
       slices: { scheme: ["exponential", "linear"], count: 16, near: 0.1, far: 500 },
     },
   ],
@@ -45,7 +50,8 @@ export const lossy = {
 
 // `tell` gets the table that the terminal shows.
 export function measureSweep(tool, folder, config = sweep, tell = null) {
-  const file = join(folder, `${config.name}.json`), from = join(folder, `${config.name}-config.json`);
+  const file = join(folder, `${config.name}.json`),
+    from = join(folder, `${config.name}-config.json`);
   writeFileSync(from, JSON.stringify(config));
   const { stderr } = spawnSync(tool, ["run", from, ...(tell ? [] : ["-q"]), "-o", file], { encoding: "utf8" });
   if (tell) tell(stderr);
@@ -53,7 +59,8 @@ export function measureSweep(tool, folder, config = sweep, tell = null) {
 }
 
 function changed(file, folder, name, change) {
-  const result = JSON.parse(readFileSync(file)), into = join(folder, `${name}.json`);
+  const result = JSON.parse(readFileSync(file)),
+    into = join(folder, `${name}.json`);
   change(result);
   writeFileSync(into, JSON.stringify(result));
   return into;
@@ -85,11 +92,13 @@ export const onAnotherMachine = (file, folder) =>
 
 // Of 14 commits; with the seventh all times became longer.
 export function historyPage(tool, folder) {
-  const history = join(folder, "history.jsonl"), page = join(folder, "history.html");
+  const history = join(folder, "history.jsonl"),
+    page = join(folder, "history.html");
   for (let commit = 0; commit < 14; ++commit) {
     const file = changed(committedResult, folder, "commit", (result) => {
       result.cases = result.cases.slice(0, 3);
-      for (const { timing } of result.cases) timing.assign_ns.median *= (commit < 7 ? 1 : 1.5) * (1 + 0.001 * ((commit * 3) % 7));
+      for (const { timing } of result.cases)
+        timing.assign_ns.median *= (commit < 7 ? 1 : 1.5) * (1 + 0.001 * ((commit * 3) % 7));
     });
     execFileSync(tool, ["history", "add", file, history, "--commit", `c${commit}`]);
   }

@@ -45,7 +45,10 @@ Json to_json(const MethodSamples& method) {
           {"warm_each", method.warm_each},
           {"cold_each", method.cold_each},
           {"warm_passes", method.warm_passes},
-          {"stores", stores}};
+          {"stores", stores},
+          {"upload_ns", method.upload_ns},
+          {"run_ns", method.run_ns},
+          {"readback_ns", method.readback_ns}};
 }
 
 MethodSamples method_samples(const Json& json) {
@@ -59,7 +62,10 @@ MethodSamples method_samples(const Json& json) {
                        json.at("warm_each"),
                        json.at("cold_each"),
                        json.at("warm_passes"),
-                       {}};
+                       {},
+                       json.at("upload_ns"),
+                       json.at("run_ns"),
+                       json.at("readback_ns")};
   for (const Json& store : json.at("stores")) method.stores.push_back(store_samples(store));
   return method;
 }

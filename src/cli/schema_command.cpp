@@ -50,15 +50,14 @@ void add_schema(Command& program, Action& action) {
   Command command = program.add_command("schema", "Print the JSON Schema (draft-07) of a document");
   std::vector<std::string> names;
   for (const config::DocumentRow& row : config::document_rows()) names.emplace_back(row.name);
-  auto which = std::make_shared<std::string>();
-  command
-      .add_option("WHICH", *which, "Of a configuration, or of what run, compare --json, ratio --json or stress write")
+  auto name = std::make_shared<std::string>();
+  command.add_option("WHICH", *name, "Of a configuration, or of what run, compare --json, ratio --json or stress write")
       .required()
       .one_of(names);
-  command.when_named([which, &action] {
-    action = [which] {
+  command.when_named([name, &action] {
+    action = [name] {
       const auto rows = config::document_rows();
-      std::cout << std::ranges::find(rows, *which, &config::DocumentRow::name)->schema().dump(2) << "\n";
+      std::cout << std::ranges::find(rows, *name, &config::DocumentRow::name)->schema().dump(2) << "\n";
       return ExitCode::ok;
     };
   });

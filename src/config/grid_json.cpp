@@ -60,6 +60,41 @@ OrderedJson slices_json(const grid::Slicing& slices) {
   return out;
 }
 
+OrderedJson tiles_json(const grid::Tiling& tiles) {
+  const bool by_pixels = tiles.count.x == 0;
+  const Vec2i size = by_pixels ? tiles.pixels : tiles.count;
+  OrderedJson out;
+  out[by_pixels ? "pixels" : "count"] = {size.x, size.y};
+  return out;
+}
+
+// One member of a request; null where it is not said.
+OrderedJson requested(const grid::GridSpec& spec, const std::string& key) {
+  if (key == "tiles") return tiles_json(spec.tiles);
+  if (key == "slices") return slices_json(spec.slices);
+  if (key == "cells") return {spec.cells.x, spec.cells.y, spec.cells.z};
+  if (key == "levels") return spec.levels;
+  if (key == "finest") return spec.finest_m;
+  if (key == "bounds" && spec.has_bounds)
+    return {{"min", {spec.bounds_lo_m.x, spec.bounds_lo_m.y, spec.bounds_lo_m.z}},
+            {"max", {spec.bounds_hi_m.x, spec.bounds_hi_m.y, spec.bounds_hi_m.z}}};
+  return nullptr;
+}
+
+// What a member adds to that by which grids are told apart. These are in recorded results: they stay as they are.
+void add_identity(const grid::GridSpec& spec, const std::string& key, Json& out) {
+  const grid::Slicing& slices = spec.slices;
+  if (key == "tiles") out[key] = {spec.tiles.pixels.x, spec.tiles.pixels.y, spec.tiles.count.x, spec.tiles.count.y};
+  if (key == "slices") {
+    out[key] = {scheme_name(slices.scheme), slices.count, slices.near_m, slices.far_m, slices.boundaries_m};
+    if (slices.scheme == grid::Scheme::exponential_first) out["first"] = slices.first_m;
+    if (slices.scheme == grid::Scheme::power) out["lambda"] = slices.lambda;
+  }
+  if (key == "cells") out[key] = {spec.cells.x, spec.cells.y, spec.cells.z};
+  if (key == "levels") out[key] = {spec.levels, spec.finest_m};
+  if (key == "bounds" && spec.has_bounds) out[key] = {bounds_json(spec.bounds_lo_m), bounds_json(spec.bounds_hi_m)};
+}
+
 }  // namespace
 
 const char* scheme_name(grid::Scheme scheme) {
@@ -91,38 +126,14 @@ grid::GridSpec grid_spec(const Json& grid) {
 
 OrderedJson grid_request(const grid::GridSpec& spec) {
   OrderedJson out{{"kind", grid::kind_name(spec.kind)}};
-  if (spec.has_tiles()) {
-    const bool by_pixels = spec.tiles.count.x == 0;
-    const Vec2i tiles = by_pixels ? spec.tiles.pixels : spec.tiles.count;
-    out["tiles"][by_pixels ? "pixels" : "count"] = {tiles.x, tiles.y};
-    out["slices"] = slices_json(spec.slices);
-    return out;
-  }
-  out["cells"] = {spec.cells.x, spec.cells.y, spec.cells.z};
-  if (spec.kind == grid::Kind::cascades) {
-    out["levels"] = spec.levels;
-    out["finest"] = spec.finest_m;
-  }
-  if (spec.has_bounds)
-    out["bounds"] = {{"min", {spec.bounds_lo_m.x, spec.bounds_lo_m.y, spec.bounds_lo_m.z}},
-                     {"max", {spec.bounds_hi_m.x, spec.bounds_hi_m.y, spec.bounds_hi_m.z}}};
+  for (const std::string key : grid::kind_keys(spec.kind))
+    if (OrderedJson value = requested(spec, key); !value.is_null()) out[key] = std::move(value);
   return out;
 }
 
 Json grid_identity(const grid::GridSpec& spec) {
   Json out{{"kind", grid::kind_name(spec.kind)}};
-  if (spec.has_tiles()) {
-    const grid::Slicing& slices = spec.slices;
-    out["tiles"] = {spec.tiles.pixels.x, spec.tiles.pixels.y, spec.tiles.count.x, spec.tiles.count.y};
-    out["slices"] = {scheme_name(slices.scheme), slices.count, slices.near_m, slices.far_m, slices.boundaries_m};
-    if (slices.scheme == grid::Scheme::exponential_first) out["first"] = slices.first_m;
-    if (slices.scheme == grid::Scheme::power) out["lambda"] = slices.lambda;
-    return out;
-  }
-  out["cells"] = {spec.cells.x, spec.cells.y, spec.cells.z};
-  if (spec.kind == grid::Kind::cascades) out["levels"] = {spec.levels, spec.finest_m};
-  if (spec.kind == grid::Kind::world && spec.has_bounds)
-    out["bounds"] = {bounds_json(spec.bounds_lo_m), bounds_json(spec.bounds_hi_m)};
+  for (const std::string key : grid::kind_keys(spec.kind)) add_identity(spec, key, out);
   return out;
 }
 

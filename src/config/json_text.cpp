@@ -12,7 +12,7 @@ namespace {
 
 constexpr int k_max_depth = 64;
 
-TextPosition place_of(std::string_view text, std::size_t offset) {
+TextPosition position_of(std::string_view text, std::size_t offset) {
   TextPosition position;
   for (const char c : text.substr(0, std::min(offset, text.size()))) {
     const bool continues_character = (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
@@ -56,7 +56,7 @@ class Scanner {
  private:
   // Places are asked for in ascending order, so each character is counted once.
   TextPosition here() {
-    const TextPosition step = place_of(text_.substr(counted_), at_ - counted_);
+    const TextPosition step = position_of(text_.substr(counted_), at_ - counted_);
     position_.column = step.line == 1 ? position_.column + step.column - 1 : step.column;
     position_.line += step.line - 1;
     counted_ = at_;
@@ -87,12 +87,12 @@ class Scanner {
   void object(const std::string& pointer, int depth) {
     ++at_;
     for (skip_blank(); text_[at_] != '}'; skip_blank()) {
-      const TextPosition key_place = here();
+      const TextPosition key_position = here();
       const std::string key = string();
       const std::string member = child_pointer(pointer, key);
-      const auto [earlier, is_new] = out_.keys.emplace(member, key_place);
+      const auto [earlier, is_new] = out_.keys.emplace(member, key_position);
       if (!is_new) {
-        throw Error(out_.file, to_text(key_place, member),
+        throw Error(out_.file, to_text(key_position, member),
                     "duplicate key '" + key + "'; the first one is at " + std::to_string(earlier->second.line) + ":" +
                         std::to_string(earlier->second.column));
       }
@@ -138,12 +138,12 @@ nlohmann::json parsed(const std::string& text, const std::string& file) {
   try {
     return nlohmann::json::parse(text, nullptr, true, true);
   } catch (const nlohmann::json::parse_error& error) {
-    throw Error(file, to_text(place_of(text, error.byte > 0 ? error.byte - 1 : 0), ""), plain_message(error.what()));
+    throw Error(file, to_text(position_of(text, error.byte > 0 ? error.byte - 1 : 0), ""), plain_message(error.what()));
   } catch (const nlohmann::json::out_of_range& error) {
     const std::string message = plain_message(error.what());
     const std::size_t open = message.find('\''), close = message.rfind('\'');
     const std::size_t offset = open < close ? text.find(message.substr(open + 1, close - open - 1)) : 0;
-    throw Error(file, to_text(place_of(text, offset), ""), message);
+    throw Error(file, to_text(position_of(text, offset), ""), message);
   }
 }
 

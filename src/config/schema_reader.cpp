@@ -41,10 +41,6 @@ bool has_type(const std::string& type, const Json& value) {
   return value.is_null();
 }
 
-std::string number_text(const Json& number) {
-  return number.dump();
-}
-
 std::string quoted(const Json& value) {
   return value.is_string() ? "'" + value.get<std::string>() + "'" : value.dump();
 }
@@ -59,11 +55,11 @@ std::string found_text(const Json& value) {
 
 std::string range_text(const Json& schema) {
   const bool has_min = schema.contains("minimum"), has_max = schema.contains("maximum");
-  if (has_min && has_max) return " from " + number_text(schema["minimum"]) + " to " + number_text(schema["maximum"]);
+  if (has_min && has_max) return " from " + schema["minimum"].dump() + " to " + schema["maximum"].dump();
   std::string text;
-  if (has_min) text = " of at least " + number_text(schema["minimum"]);
-  if (schema.contains("exclusiveMinimum")) text = " above " + number_text(schema["exclusiveMinimum"]);
-  if (has_max) text += (text.empty() ? "" : ",") + std::string(" at most ") + number_text(schema["maximum"]);
+  if (has_min) text = " of at least " + schema["minimum"].dump();
+  if (schema.contains("exclusiveMinimum")) text = " above " + schema["exclusiveMinimum"].dump();
+  if (has_max) text += (text.empty() ? "" : ",") + std::string(" at most ") + schema["maximum"].dump();
   return text;
 }
 

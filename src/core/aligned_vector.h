@@ -1,5 +1,6 @@
 #pragma once
 // A std::vector that begins at a cache line, so that whole vectors at multiples of their size do not cross one.
+// Not oneTBB's allocator: that one takes memory past operator new, where the tests count what a steady frame allocates.
 
 #include <cstddef>
 #include <new>

@@ -2,6 +2,7 @@
 // Small helpers for messages to people.
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -37,6 +38,9 @@ std::string printable_json(std::string_view json);
 
 // Every byte belongs to a UTF-8 character.
 bool is_utf8(std::string_view text);
+
+// The bytes of base64 text, whose padding may be left out; nothing if it is none, or cut off.
+std::optional<std::string> base64_decoded(std::string_view text);
 
 // Lower-case hexadecimal SHA-256 of the bytes.
 std::string sha256_hex(std::string_view bytes);

@@ -6,18 +6,34 @@
 #include "geom/spot/spot_decider.h"
 
 namespace clusterbench::geom {
+namespace {
+
+Verdict decided(const BallVolume& ball, const Cell& cell) {
+  return std::isinf(ball.range) || BallDecider(ball.center, ball.range).meets(cell) ? Verdict::yes : Verdict::no;
+}
+
+Verdict decided(const SpotVolume& spot, const Cell& cell) {
+  return SpotDecider(spot).meets(cell);
+}
+
+Verdict proven(const BallVolume& ball, const Cell& cell) {
+  return decided(ball, cell);
+}
+
+Verdict proven(const SpotVolume& light, const Cell& cell) {
+  const SpotDecider spot(light);
+  const Verdict verdict = spot.meets_quickly(cell);
+  return verdict == Verdict::uncertain ? spot.meets_after_all(cell) : verdict;
+}
+
+}  // namespace
 
 Verdict decide_meets(const LightVolume& light, const Cell& cell) {
-  return light.is_cone ? SpotDecider(light).meets(cell) : prove_meets(light, cell);
+  return std::visit([&](const auto& volume) { return decided(volume, cell); }, light);
 }
 
 Verdict prove_meets(const LightVolume& light, const Cell& cell) {
-  if (light.is_cone) {
-    const SpotDecider spot(light);
-    const Verdict verdict = spot.meets_quickly(cell);
-    return verdict == Verdict::uncertain ? spot.meets_after_all(cell) : verdict;
-  }
-  return std::isinf(light.range) || BallDecider(light.apex, light.range).meets(cell) ? Verdict::yes : Verdict::no;
+  return std::visit([&](const auto& volume) { return proven(volume, cell); }, light);
 }
 
 }  // namespace clusterbench::geom

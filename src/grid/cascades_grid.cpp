@@ -14,6 +14,29 @@ bool lies_within(const Vec3f& point, const Vec3i& cells) {
   return point.x >= 0.0f && point.y >= 0.0f && point.z >= 0.0f && point.x < end.x && point.y < end.y && point.z < end.z;
 }
 
+// The cells of a level. Holes have no cell, so extents come from the outermost column and row, which are never part of
+// a hole.
+BoxBlock block_of_level(const CascadesGrid& grid, int level) {
+  const Vec3i cells = grid.cells;
+  const auto box_at = [&](int x, int y, int z) { return std::get<geom::Box>(grid.cell({x, y, level * cells.z + z})); };
+  BoxBlock block;
+  for (int x = 0; x < cells.x; ++x) block.x.push_back({box_at(x, 0, 0).lo.x, box_at(x, 0, 0).hi.x});
+  for (int y = 0; y < cells.y; ++y) block.y.push_back({box_at(0, y, 0).lo.y, box_at(0, y, 0).hi.y});
+  for (int z = 0; z < cells.z; ++z) block.z.push_back({box_at(0, 0, z).lo.z, box_at(0, 0, z).hi.z});
+  block.first_cell = cell_index({0, 0, level * cells.z}, cells);
+  const auto hole = [&](int count, const auto& is_hole) {
+    IndexRange range{count, -1};
+    for (int i = 0; i < count; ++i)
+      if (is_hole(i)) range = {std::min(range.first, i), i};
+    return range;
+  };
+  const Vec3i middle{cells.x / 2, cells.y / 2, 0};
+  block.hole_x = hole(cells.x, [&](int x) { return grid.is_hole(level, {x, middle.y, middle.z}); });
+  block.hole_y = hole(cells.y, [&](int y) { return grid.is_hole(level, {middle.x, y, middle.z}); });
+  block.hole_z = hole(cells.z, [&](int z) { return grid.is_hole(level, {middle.x, middle.y, z}); });
+  return block;
+}
+
 }  // namespace
 
 bool CascadesGrid::is_hole(int level, Vec3i cell) const {
@@ -33,6 +56,12 @@ std::int64_t CascadesGrid::lookup(const Sample& sample, Log2) const {
     if (!is_hole(level, at)) return cell_index({at.x, at.y, level * cells.z + at.z}, counts());
   }
   return -1;
+}
+
+std::unique_ptr<BroadPhase> CascadesGrid::broad_phase() const {
+  std::vector<BoxBlock> blocks;
+  for (int level = 0; level < levels; ++level) blocks.push_back(block_of_level(*this, level));
+  return std::make_unique<BoxBroadPhase>(std::move(blocks));
 }
 
 CascadesGrid make_cascades_grid(const GridSpec& spec, const GridInputs&) {

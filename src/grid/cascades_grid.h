@@ -2,8 +2,10 @@
 // Cascades: boxes around the eye, each level twice as coarse and as wide as the one before.
 
 #include <cmath>
+#include <memory>
 
 #include "geom/shapes/cell.h"
+#include "grid/broad_phase.h"
 #include "grid/cells.h"
 #include "grid/grid_spec.h"
 
@@ -26,6 +28,7 @@ struct CascadesGrid {
   bool is_hole(Vec3i at) const { return is_hole(at.z / cells.z, {at.x, at.y, at.z % cells.z}); }
   geom::Cell cell(Vec3i at) const;
   std::int64_t lookup(const Sample& sample, Log2 way) const;
+  std::unique_ptr<BroadPhase> broad_phase() const;
 };
 
 // Inline, since methods and truth ask for every cell.

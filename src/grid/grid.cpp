@@ -1,6 +1,7 @@
 #include "grid/grid.h"
 
 #include <charconv>
+#include <span>
 
 #include "core/error.h"
 #include "core/memory.h"
@@ -12,6 +13,7 @@ namespace {
 // A kind of grid as data.
 struct KindRow {
   const char* name;
+  std::span<const char* const> keys;  // of a request, in the order in which it is written
   Grid (*make)(const GridSpec& spec, const GridInputs& inputs);
   GridInputs (*inputs)(const GridSpec& spec, const FrameReach& from);
   std::string (*name_of)(const GridSpec& spec);
@@ -22,12 +24,16 @@ Grid made(const GridSpec& spec, const GridInputs& inputs) {
   return {make(spec, inputs)};
 }
 
+constexpr const char* k_screen_keys[] = {"tiles", "slices"};
+constexpr const char* k_cascades_keys[] = {"cells", "levels", "finest"};
+constexpr const char* k_world_keys[] = {"cells", "bounds"};
+
 // In the order of Kind.
 constexpr KindRow k_kinds[k_kind_count] = {
-    {"frustum", made<make_screen_grid>, screen_inputs, screen_grid_name},
-    {"distance", made<make_screen_grid>, screen_inputs, screen_grid_name},
-    {"cascades", made<make_cascades_grid>, cascades_inputs, cascades_grid_name},
-    {"world", made<make_world_grid>, world_inputs, world_grid_name},
+    {"frustum", k_screen_keys, made<make_screen_grid>, screen_inputs, screen_grid_name},
+    {"distance", k_screen_keys, made<make_screen_grid>, screen_inputs, screen_grid_name},
+    {"cascades", k_cascades_keys, made<make_cascades_grid>, cascades_inputs, cascades_grid_name},
+    {"world", k_world_keys, made<make_world_grid>, world_inputs, world_grid_name},
 };
 
 const KindRow& row_of(Kind kind) {
@@ -43,6 +49,10 @@ void check_cell_count(const Grid& grid) {
 
 const char* kind_name(Kind kind) {
   return row_of(kind).name;
+}
+
+std::span<const char* const> kind_keys(Kind kind) {
+  return row_of(kind).keys;
 }
 
 std::string GridSpec::name() const {
@@ -95,6 +105,10 @@ bool Grid::is_hole(std::uint32_t index) const {
 geom::Cell Grid::cell(std::uint32_t index) const {
   const Vec3i at = cell_at(index);
   return std::visit([&](const auto& grid) { return grid.cell(at); }, shape);
+}
+
+std::unique_ptr<BroadPhase> Grid::broad_phase() const {
+  return std::visit([](const auto& grid) { return grid.broad_phase(); }, shape);
 }
 
 std::optional<Vec3d> Grid::world_origin() const {

@@ -2,6 +2,7 @@
 // A grid: a partition of space into cells, with two faces: the exact cell and the single-precision lookup of a shader.
 // A kind of grid is one file (screen_grid.h, cascades_grid.h, world_grid.h) and one row of k_kinds in grid.cpp.
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -26,6 +27,8 @@ struct Grid {
   geom::Cell cell(std::uint32_t index) const;
   // Balls around all cells, in the order of their indices; of a hole the empty one.
   std::vector<geom::Ball> balls_around_cells() const;
+  // Which cells a ball may touch.
+  std::unique_ptr<BroadPhase> broad_phase() const;
   // Of a grid that stays in the world; else its cells are given in view space.
   std::optional<Vec3d> world_origin() const;
 

@@ -2,6 +2,7 @@
 // What a configuration asks for, and what a grid is made from besides.
 
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include "grid/slicing.h"
@@ -13,6 +14,8 @@ namespace clusterbench::grid {
 enum class Kind : std::uint8_t { frustum, distance, cascades, world };
 inline constexpr int k_kind_count = 4;
 const char* kind_name(Kind kind);
+// The members of a request that a kind has, by their keys in a configuration.
+std::span<const char* const> kind_keys(Kind kind);
 
 // One kind of these is filled.
 struct GridSpec {

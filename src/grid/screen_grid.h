@@ -2,8 +2,10 @@
 // Frustum and distance grids: tiles of the picture x slices of depth, or x shells of distance around the eye.
 
 #include <cmath>
+#include <memory>
 
 #include "geom/shapes/cell.h"
+#include "grid/broad_phase.h"
 #include "grid/cells.h"
 #include "grid/grid_spec.h"
 
@@ -25,6 +27,7 @@ struct ScreenGrid {
   Vec3i counts() const { return {tiles.count.x, tiles.count.y, slices.count()}; }
   geom::Cell cell(Vec3i at) const;
   std::int64_t lookup(const Sample& sample, Log2 way) const;
+  std::unique_ptr<BroadPhase> broad_phase() const;  // screen_broad_phase.cpp
 };
 
 // Inline, since methods and truth ask for every cell.

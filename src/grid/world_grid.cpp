@@ -43,6 +43,11 @@ std::int64_t WorldGrid::lookup(const Sample& sample, Log2) const {
   return cell_index(at, cells);
 }
 
+std::unique_ptr<BroadPhase> WorldGrid::broad_phase() const {
+  return std::make_unique<BoxBroadPhase>(
+      std::vector{BoxBlock{extents_between(x), extents_between(y), extents_between(z), 0}});
+}
+
 WorldGrid make_world_grid(const GridSpec& spec, const GridInputs& inputs) {
   Vec3d lo = spec.has_bounds ? spec.bounds_lo_m : inputs.rig_lo_m;
   Vec3d hi = spec.has_bounds ? spec.bounds_hi_m : inputs.rig_hi_m;

@@ -1,9 +1,11 @@
 #pragma once
 // World grids: boxes that stay where they are.
 
+#include <memory>
 #include <vector>
 
 #include "geom/shapes/cell.h"
+#include "grid/broad_phase.h"
 #include "grid/cells.h"
 #include "grid/grid_spec.h"
 
@@ -19,6 +21,7 @@ struct WorldGrid {
   Vec3i counts() const;
   geom::Cell cell(Vec3i at) const;
   std::int64_t lookup(const Sample& sample, Log2 way) const;
+  std::unique_ptr<BroadPhase> broad_phase() const;
 };
 
 // Inline, since methods and truth ask for every cell.

@@ -14,34 +14,35 @@ Vec3d way_to(const grid::Sample& sample, const scene::WorldLight& light) {
   return sample.from_eye - (light.position - sample.eye);
 }
 
-bool reaches(const scene::WorldLight& light, const Vec3d& to_place) {
-  const double distance = glm::length(to_place);
+bool reaches(const scene::WorldLight& light, const Vec3d& to_sample) {
+  const double distance = glm::length(to_sample);
   if (light.range_m == 0.0 || distance > light.range_m) return false;
   if (light.type != scene::LightType::spot) return true;
   // By both parts of the way, along and across: the cosine of a cone below 1e-8 rad is that of 0.
-  const double along = glm::dot(to_place, light.direction), across = glm::length(glm::cross(to_place, light.direction));
+  const double along = glm::dot(to_sample, light.direction),
+               across = glm::length(glm::cross(to_sample, light.direction));
   return along >= 0.0 && std::cos(light.outer_cone_rad) * across <= std::sin(light.outer_cone_rad) * along;
 }
 
 // A spot's share of its intensity in a direction, as KHR_lights_punctual recommends it: 1 within the inner cone, 0 from
 // the outer one on. In between it falls with the square of the cosine's share, over no less than a thousandth.
-double spot_falloff(const scene::WorldLight& spot, double cos_to_place) {
+double spot_falloff(const scene::WorldLight& spot, double cos_to_sample) {
   constexpr double k_least_span = 0.001;
   const double cos_outer = std::cos(spot.outer_cone_rad);
   const double span = std::max(k_least_span, std::cos(spot.inner_cone_rad) - cos_outer);
-  const double share = std::clamp((cos_to_place - cos_outer) / span, 0.0, 1.0);
+  const double share = std::clamp((cos_to_sample - cos_outer) / span, 0.0, 1.0);
   return share * share;
 }
 
 // What a surface that faces the light gets of it: inverse square with the extension's window, 1 - (d/r)^4.
-double irradiance_lux(const scene::WorldLight& light, const Vec3d& to_place) {
+double irradiance_lux(const scene::WorldLight& light, const Vec3d& to_sample) {
   constexpr double k_smallest_square = 1e-4;  // 1 cm: a sample within the lamp. The window has no such limit.
-  const double square = glm::dot(to_place, to_place), share = square / (light.range_m * light.range_m);
+  const double square = glm::dot(to_sample, to_sample), share = square / (light.range_m * light.range_m);
   const double window = std::clamp(1.0 - share * share, 0.0, 1.0);
   const double lux = light.luminous_intensity_cd * window / std::max(square, k_smallest_square);
   // At the apex there is no direction: as along the axis.
   if (light.type != scene::LightType::spot || square == 0.0) return lux;
-  return lux * spot_falloff(light, glm::dot(to_place, light.direction) / std::sqrt(square));
+  return lux * spot_falloff(light, glm::dot(to_sample, light.direction) / std::sqrt(square));
 }
 
 }  // namespace

@@ -21,9 +21,12 @@ struct Truth {
   std::uint64_t undecided = 0;       // even then
 };
 
-// Independent of the number of threads.
+class TruthCells;  // measure/truth_cells.h
+
+// Of cells of any kind. Independent of the number of threads. Throws Error beyond the limit on memory.
+Truth find_truth(const view::Frame& frame, const TruthCells& cells, int threads);
 Truth find_truth(const view::Frame& frame, const grid::Grid& grid, int threads);
-// The same for cells that depths leave of a frustum grid's: a light is in a cell if it meets one of its parts.
+// For cells that depths leave of a frustum grid's: a light is in a cell if it meets one of its parts.
 Truth find_truth(const view::Frame& frame, const grid::Grid& grid, const grid::OccupiedCells& cells, int threads);
 
 // Distance from the light's centre (apex) to the nearest point of cell ∩ volume's cone, divided by the range: how deep

@@ -1,60 +1,55 @@
 #pragma once
-// What finding true cells light by light has in common, whatever the cells are.
+// Cells of any kind, as the truth asks them: candidate cells, then for each of them a filter and a decision.
 
-#include <cmath>
 #include <cstdint>
-#include <functional>
+#include <memory>
 #include <vector>
 
 #include "geom/shapes/ball_and_cone.h"
-#include "geom/shapes/light_volume.h"
-#include "measure/truth.h"
-#include "measure/truth_rows.h"
+#include "geom/shapes/cell.h"
+#include "geom/shapes/verdict.h"
+#include "grid/broad_phase.h"
+#include "grid/grid.h"
+#include "grid/occupied_cells.h"
+#include "measure/light_search.h"
+#include "view/frame.h"
 
 namespace clusterbench::measure {
 
-BallInSpace ball_in_space(const geom::LightVolume& volume);
+// Const, so that threads can share them.
+class TruthCells {
+ public:
+  virtual ~TruthCells() = default;
 
-// A spot in double precision, for tests that settle most cells at once.
-struct QuickCone {
-  Vec3d apex, axis;
-  double range, cos_angle, sin_angle, slack;
-
-  QuickCone(const geom::LightVolume& volume, const BallInSpace& ball);
-
-  // Is a ball outside of the cone's side, behind its apex or beyond its range?
-  bool surely_misses(const geom::Ball& around) const {
-    const Vec3d v = Vec3d(around.center) - apex;
-    const double along = glm::dot(v, axis);
-    const double reach = around.radius * (1.0 + 0x1p-30) + 0x1p-30 * glm::length(v) + slack;
-    if (along < -reach || glm::length(v) > range + reach) return true;
-    return cos_angle * glm::length(v - along * axis) - sin_angle * along > reach;
+  virtual std::uint32_t cell_count() const = 0;
+  // In which the cells are.
+  virtual const view::Space& space() const = 0;
+  // All cells, as one row.
+  virtual grid::CellRow all() const { return {0, {0, static_cast<int>(cell_count()) - 1}, {}}; }
+  // The accelerator: those that a light with an end may touch. Without one: all.
+  virtual void append_candidates(const grid::BallInSpace&, std::vector<grid::CellRow>& rows) const {
+    rows.push_back(all());
   }
-  bool surely_holds(const Vec3d& p) const {
-    const Vec3d v = p - apex;
-    const double along = glm::dot(v, axis), size = glm::length(v), rounding = 0x1p-30 * size + slack;
-    return size < range - rounding && sin_angle * along - cos_angle * glm::length(v - along * axis) > rounding;
-  }
+  // Settles the candidates in a row's column; `first_cell` is that of its slice 0.
+  virtual void settle(std::uint32_t first_cell, const grid::IndexRange& slices, LightSearch& search) const = 0;
 };
 
-// The true cells of one light, in runs of neighbours.
-struct LightCells {
-  struct Run {
-    std::uint32_t first_cell, count;
-  };
-  std::vector<Run> runs;
-  std::uint64_t filter_decided = 0, exact_decided = 0, undecided = 0;
-
-  void add(std::uint32_t first_cell, std::uint32_t count = 1) {
-    if (!runs.empty() && runs.back().first_cell + runs.back().count == first_cell)
-      runs.back().count += count;
-    else
-      runs.push_back({first_cell, count});
+// Of a cell of several parts: yes if one of them is met, uncertain if one may be and none is known to be.
+// meets(part) filters and decides.
+template <class Parts, class Meets>
+geom::Verdict meets_any(const Parts& parts, Meets&& meets) {
+  geom::Verdict verdict = geom::Verdict::no;
+  for (const auto& part : parts) {
+    const geom::Verdict now = meets(part);
+    if (now == geom::Verdict::yes) return now;
+    if (now == geom::Verdict::uncertain) verdict = now;
   }
-};
+  return verdict;
+}
 
-// All lights' cells. Independent of the number of threads. Throws Error beyond the limit on memory.
-Truth gathered_truth(std::size_t lights, std::uint32_t cells, int threads,
-                     const std::function<LightCells(std::uint32_t light)>& find);
+// The cells of a grid; and what depths leave of a frustum grid's. All that they are made of must outlive them.
+std::unique_ptr<TruthCells> truth_cells(const view::Frame& frame, const grid::Grid& grid);
+std::unique_ptr<TruthCells> truth_cells(const view::Frame& frame, const grid::Grid& grid,
+                                        const grid::OccupiedCells& occupied);
 
 }  // namespace clusterbench::measure

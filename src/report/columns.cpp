@@ -53,7 +53,7 @@ std::string text(const char* format, double value) {
   return buffer;
 }
 
-std::string number_text(const Json& result_case, const char* pointer, const char* format, double scale) {
+std::string text_at(const Json& result_case, const char* pointer, const char* format, double scale) {
   const std::optional<double> number = number_at(result_case, pointer);
   return number ? text(format, scale * *number) : "-";
 }

@@ -29,8 +29,8 @@ std::string what_intervals_take();
 // One number by a printf format.
 std::string text(const char* format, double value);
 // The number at a pointer in a chosen format; "-" where there is none.
-std::string number_text(const nlohmann::ordered_json& result_case, const char* pointer, const char* format,
-                        double scale = 1.0);
+std::string text_at(const nlohmann::ordered_json& result_case, const char* pointer, const char* format,
+                    double scale = 1.0);
 // Bytes and counts as people say them: 831, 12.3k, 4.56M; "-" where there is none.
 std::string short_count(const nlohmann::ordered_json& result_case, const char* pointer);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The details of a case as JSON. Rows of numbers stay text: see core/number_text.h.
+// The details of a case as JSON. Rows of numbers stay text: see core/run_length_text.h.
 
 #include <nlohmann/json.hpp>
 

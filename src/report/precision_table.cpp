@@ -17,10 +17,10 @@ Cells precision_row(const NamedCase& named) {
   return {"",
           named.name,
           result_case["precision"]["label"].get<std::string>(),
-          number_text(result_case, "/error/false_negatives", "%.0f"),
-          has_lost ? number_text(result_case, "/error/deepest_miss", "%.3g %%", 100.0) : "-",
+          text_at(result_case, "/error/false_negatives", "%.0f"),
+          has_lost ? text_at(result_case, "/error/deepest_miss", "%.3g %%", 100.0) : "-",
           short_count(result_case, "/occupancy/pairs/mean"),
-          number_text(result_case, "/precision/extra_pairs/ratio", "%+.2f %%", 100.0)};
+          text_at(result_case, "/precision/extra_pairs/ratio", "%+.2f %%", 100.0)};
 }
 
 // Cases of a block, once per method, precision and what that loses. The precision has a column of its own.
@@ -38,8 +38,8 @@ std::vector<NamedCase> precision_lines(const Json& cases, const Json& scene, con
 std::string loss_text(const Json& precision) {
   const auto metres = [&](const char* key) {
     const std::string pointer = std::string("/") + key;
-    return number_text(precision, (pointer + "/mean").c_str(), "%.3g") + " m, at most " +
-           number_text(precision, (pointer + "/max").c_str(), "%.3g") + " m";
+    return text_at(precision, (pointer + "/mean").c_str(), "%.3g") + " m, at most " +
+           text_at(precision, (pointer + "/max").c_str(), "%.3g") + " m";
   };
   const std::string name = precision["packing"];
   std::string text = "  " + name + ": positions are off by " + metres("position_error_m") + "; safe inflation " +

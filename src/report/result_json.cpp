@@ -49,7 +49,7 @@ Json to_json(const measure::HighWater& mark) {
 }
 
 // Cell index as [x, y, z].
-Json cell_place(std::uint32_t cell, const nlohmann::json& cells) {
+Json cell_coordinates(std::uint32_t cell, const nlohmann::json& cells) {
   const auto nx = cells[0].get<std::uint32_t>(), ny = cells[1].get<std::uint32_t>();
   return {cell % nx, cell / nx % ny, cell / nx / ny};
 }
@@ -63,7 +63,7 @@ Json occupancy(const run::CaseResult& case_result) {
           {"lights_per_cell", lights},
           {"occupied_fraction", to_json(o.occupied_fraction)},
           {"worst_frame", o.worst_frame},
-          {"worst_cell", cell_place(o.worst_cell, case_result.grid["cells"])},
+          {"worst_cell", cell_coordinates(o.worst_cell, case_result.grid["cells"])},
           {"along_path",
            {{"frames_per_entry", o.pairs_along_path.frames_per_entry()},
             {"pairs", o.pairs_along_path.entries()},
@@ -87,7 +87,7 @@ Json buffers(const run::CaseResult& case_result) {
            {"worst_frame", b.worst_frame}};
   if (b.traffic_bytes_max > 0)
     out["traffic_bytes"] = {{"mean", number_or_null(b.traffic_bytes_mean)}, {"max", b.traffic_bytes_max}};
-  if (b.worst_cell) out["worst_cell"] = cell_place(*b.worst_cell, case_result.grid["cells"]);
+  if (b.worst_cell) out["worst_cell"] = cell_coordinates(*b.worst_cell, case_result.grid["cells"]);
   out["along_path"] = {{"frames_per_entry", b.bytes_along_path.frames_per_entry()},
                        {"bytes", b.bytes_along_path.entries()}};
   return out;
@@ -107,7 +107,7 @@ Json error(const run::CaseResult& case_result) {
            {"decided", {{"filter", e.filter_decided}, {"exact", e.exact_decided}}}};
   if (e.deepest)
     out["deepest"] = {{"frame", e.deepest->frame},
-                      {"cell", cell_place(e.deepest->cell, case_result.grid["cells"])},
+                      {"cell", cell_coordinates(e.deepest->cell, case_result.grid["cells"])},
                       {"light", e.deepest->light},
                       {"rig_light", e.deepest->rig_index},
                       {"light_name", case_result.deepest_miss_light}};
@@ -252,6 +252,10 @@ Json timing(const run::TimingResult& t) {
   out["build_ns"] = to_json(t.build_ns);
   out["assign_ns"] = to_json(t.assign_ns);
   if (t.convert_ns) out["convert_ns"] = to_json(*t.convert_ns);
+  if (t.device)
+    out["device"] = {{"upload_ns", to_json(t.device->upload_ns)},
+                     {"run_ns", to_json(t.device->run_ns)},
+                     {"readback_ns", to_json(t.device->readback_ns)}};
   if (t.warm) {
     out["warm"] = {{"frame_ns", to_json(t.warm->frame_ns)}, {"assign_ns", to_json(t.warm->assign_ns)}};
     if (t.warm->convert_ns) out["warm"]["convert_ns"] = to_json(*t.warm->convert_ns);

@@ -7,11 +7,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double per_sample(const Json& set, const char* what) {
-  return set[what].get<double>() / set["samples"].get<double>();
+double per_sample(const Json& set, const char* key) {
+  return set[key].get<double>() / set["samples"].get<double>();
 }
 
-// Lights given per sample, and what is unlit or has no answer.
+// Lights given per sample, and key is unlit or has no answer.
 std::string given_text(const Json& set) {
   if (set["samples"] == 0) return "none";
   if (set["unanswered"] == set["samples"]) return "no answer";

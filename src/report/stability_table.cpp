@@ -14,20 +14,20 @@ const Cells k_stability_headings{"", "assigner", "changed", "max", "excess", "fl
 Cells method_row(const Json& result_case) {
   return {"",
           method_name(result_case),
-          number_text(result_case, "/stability/changed/method/mean", "%.2f"),
-          number_text(result_case, "/stability/changed/method/max", "%.0f"),
-          number_text(result_case, "/stability/excess_churn/ratio", "%.1f %%", 100.0),
-          number_text(result_case, "/stability/flickers/method", "%.0f"),
-          number_text(result_case, "/stability/excess_flickers/count", "%+.0f")};
+          text_at(result_case, "/stability/changed/method/mean", "%.2f"),
+          text_at(result_case, "/stability/changed/method/max", "%.0f"),
+          text_at(result_case, "/stability/excess_churn/ratio", "%.1f %%", 100.0),
+          text_at(result_case, "/stability/flickers/method", "%.0f"),
+          text_at(result_case, "/stability/excess_flickers/count", "%+.0f")};
 }
 
 Cells truth_row(const Json& result_case) {
   return {"",
           "(truth)",
-          number_text(result_case, "/stability/changed/truth/mean", "%.2f"),
-          number_text(result_case, "/stability/changed/truth/max", "%.0f"),
+          text_at(result_case, "/stability/changed/truth/mean", "%.2f"),
+          text_at(result_case, "/stability/changed/truth/max", "%.0f"),
           "",
-          number_text(result_case, "/stability/flickers/truth", "%.0f"),
+          text_at(result_case, "/stability/flickers/truth", "%.0f"),
           ""};
 }
 
@@ -55,8 +55,8 @@ std::string stability_block(const std::string& block, const std::vector<const Js
   const std::vector<std::size_t> widths = widths_of(rows);
   std::string out = " " + block + "\n  " + shown(steps["path"]);
   if (steps["drift"] == false)
-    out += "; at most " + number_text(steps, "/step_m", "%.3g", 1e3) + " mm and " +
-           number_text(steps, "/step_deg", "%.3g") + " degrees each";
+    out += "; at most " + text_at(steps, "/step_m", "%.3g", 1e3) + " mm and " + text_at(steps, "/step_deg", "%.3g") +
+           " degrees each";
   out += "\n";
   if (steps["grids"] > 1) out += "  the grid follows the lights: cells themselves move\n";
   for (const Cells& row : rows) out += aligned(row, widths);

@@ -27,22 +27,23 @@ std::string case_warnings(const Json& cases) {
   for (const Json& result_case : cases)
     for (const Json& warning : result_case["warnings"]) {
       if (warning["kind"] == "unchecked" || warning["kind"] == "lost_pairs") continue;
-      const std::string what = shown(warning["text"]);
-      const auto same = std::find_if(told.begin(), told.end(), [&](const auto& had) { return had.first == what; });
-      (same == told.end() ? told.emplace_back(what, std::vector<std::string>{}) : *same)
+      const std::string message = shown(warning["text"]);
+      const auto same = std::find_if(told.begin(), told.end(), [&](const auto& had) { return had.first == message; });
+      (same == told.end() ? told.emplace_back(message, std::vector<std::string>{}) : *same)
           .second.push_back(shown(result_case["name"]));
     }
   std::string out;
-  for (const auto& [what, names] : told)
+  for (const auto& [message, names] : told)
     out += "warning: " + names.front() +
-           (names.size() > 1 ? " and " + number_of(names.size() - 1, "more case") : std::string()) + ": " + what + "\n";
+           (names.size() > 1 ? " and " + number_of(names.size() - 1, "more case") : std::string()) + ": " + message +
+           "\n";
   return out;
 }
 
 // Of all lights that have an end, given or made.
 std::string ranges_text(const Json& rule) {
   if (!rule.contains("ranges")) return "";
-  const auto metres = [&](const char* which) { return text("%.3g m", rule["ranges"][which].get<double>()); };
+  const auto metres = [&](const char* key) { return text("%.3g m", rule["ranges"][key].get<double>()); };
   return "; the scene's ranges: least " + metres("least") + ", median " + metres("median") + ", greatest " +
          metres("greatest");
 }

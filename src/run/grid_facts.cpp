@@ -31,7 +31,8 @@ std::string end_text(double far_m) {
   return text;
 }
 
-void add_screen(Json& facts, const grid::GridSpec& spec, const grid::ScreenGrid& grid, double camera_far_m) {
+// A kind of grid is one of these.
+void add_facts(Json& facts, const grid::GridSpec& spec, const grid::ScreenGrid& grid, double camera_far_m) {
   const bool by_count = spec.tiles.count.x != 0;
   facts["tiles"] = {{by_count ? "count" : "pixels", by_count ? Json{spec.tiles.count.x, spec.tiles.count.y}
                                                              : Json{spec.tiles.pixels.x, spec.tiles.pixels.y}}};
@@ -44,7 +45,12 @@ void add_screen(Json& facts, const grid::GridSpec& spec, const grid::ScreenGrid&
     facts["note"] = end_text(grid.slices.boundaries.back());
 }
 
-void add_world(Json& facts, const grid::WorldGrid& grid) {
+void add_facts(Json& facts, const grid::GridSpec&, const grid::CascadesGrid& grid, double) {
+  facts["levels"] = grid.levels;
+  facts["finest"] = grid.finest_m;
+}
+
+void add_facts(Json& facts, const grid::GridSpec&, const grid::WorldGrid& grid, double) {
   const auto size = [](const std::vector<float>& planes) {
     return (planes.back() - planes.front()) / static_cast<float>(planes.size() - 1);
   };
@@ -59,19 +65,7 @@ void add_world(Json& facts, const grid::WorldGrid& grid) {
 Json grid_facts(const grid::GridSpec& spec, const grid::Grid& grid, double camera_far_m) {
   const Vec3i cells = grid.cells();
   Json facts{{"kind", grid::kind_name(grid.kind())}, {"name", spec.name()}, {"cells", {cells.x, cells.y, cells.z}}};
-  switch (grid.kind()) {
-    case grid::Kind::frustum:
-    case grid::Kind::distance:
-      add_screen(facts, spec, grid.screen(), camera_far_m);
-      break;
-    case grid::Kind::cascades:
-      facts["levels"] = grid.cascades().levels;
-      facts["finest"] = grid.cascades().finest_m;
-      break;
-    case grid::Kind::world:
-      add_world(facts, grid.world());
-      break;
-  }
+  std::visit([&](const auto& shape) { add_facts(facts, spec, shape, camera_far_m); }, grid.shape);
   return facts;
 }
 

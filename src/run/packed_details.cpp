@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "core/number_text.h"
+#include "core/run_length_text.h"
 
 namespace clusterbench::run {
 namespace {
@@ -58,12 +58,12 @@ void pack_lights(DetailsFrame& out, const view::Frame& frame, const scene::Scene
     append(axes, frame.view_space.rotation * at.direction);
     angles.push_back(at.outer_cone_rad);
   }
-  out.lights = number_text(gaps_of(lights));
-  out.light_positions = number_text(positions);
-  out.light_ranges = number_text(ranges);
+  out.lights = run_length_text(gaps_of(lights));
+  out.light_positions = run_length_text(positions);
+  out.light_ranges = run_length_text(ranges);
   out.spot_count = angles.size();
-  out.spot_axes = number_text(axes);
-  out.spot_half_angles = number_text(angles);
+  out.spot_axes = run_length_text(axes);
+  out.spot_half_angles = run_length_text(angles);
 }
 
 void pack_pairs(DetailsFrame& out, const measure::FrameDetails& found) {
@@ -77,8 +77,8 @@ void pack_pairs(DetailsFrame& out, const measure::FrameDetails& found) {
     begin += count;
   }
   out.has_pairs = true;
-  out.pair_lights = number_text(gaps);
-  out.pair_marks = number_text(found.pair_marks);
+  out.pair_lights = run_length_text(gaps);
+  out.pair_marks = run_length_text(found.pair_marks);
 }
 
 // "" for a grid without slices, and where they are the case's.
@@ -86,7 +86,7 @@ std::string own_boundaries(const grid::Grid& grid, const grid::Grid& case_grid) 
   if (!grid.has_tiles()) return "";
   const std::vector<float>& own = grid.screen().slices.boundaries;
   if (own == case_grid.screen().slices.boundaries) return "";
-  return number_text(std::vector<double>(own.begin(), own.end()));
+  return run_length_text(std::vector<double>(own.begin(), own.end()));
 }
 
 }  // namespace
@@ -100,11 +100,11 @@ DetailsFrame packed_frame(const view::Frame& frame, const scene::Scene& scene, c
   out.projection = frame.projection;
   out.boundaries = own_boundaries(grid, case_grid);
   out.cell_count = found.cells.size();
-  out.cells = number_text(gaps_of(found.cells));
-  out.reported = number_text(found.reported);
-  out.truth = number_text(found.truth);
-  out.false_positives = number_text(found.false_positives);
-  out.false_negatives = number_text(found.false_negatives);
+  out.cells = run_length_text(gaps_of(found.cells));
+  out.reported = run_length_text(found.reported);
+  out.truth = run_length_text(found.truth);
+  out.false_positives = run_length_text(found.false_positives);
+  out.false_negatives = run_length_text(found.false_negatives);
   pack_lights(out, frame, scene, found.lights);
   if (with_pairs) pack_pairs(out, found);
   return out;

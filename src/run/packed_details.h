@@ -1,5 +1,5 @@
 #pragma once
-// Chosen frames cell by cell, as a case's result carries them: packed into text (core/number_text.h) and bounded.
+// Chosen frames cell by cell, as a case's result carries them: packed into text (core/run_length_text.h) and bounded.
 
 #include <cstddef>
 #include <string>

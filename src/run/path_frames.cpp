@@ -35,8 +35,8 @@ PathFrames path_of(const config::Config& config, const Plan& plan, const GroupPl
 }
 
 bool needs_depth(const config::Config& config, const GroupPlan& group) {
-  return std::ranges::any_of(group.cases, [&](const CasePlan& one) {
-    return assign::find_assigner(config.assigners[one.assigner].name)->needs.depth;
+  return std::ranges::any_of(group.cases, [&](const CasePlan& plan) {
+    return assign::find_assigner(config.assigners[plan.assigner].name)->needs.depth;
   });
 }
 

@@ -84,6 +84,11 @@ struct WarmTimes {
   std::optional<measure::TimeStats> convert_ns;
 };
 
+// Per frame, by the own clock of the device (a GPU) that a method runs on.
+struct DeviceTimes {
+  measure::TimeStats upload_ns, run_ns, readback_ns;
+};
+
 struct TimingResult {
   bool is_cold = false;                          // the times that follow: caches were swept before each frame
   std::string session;                           // the same where the same launches have measured
@@ -94,7 +99,8 @@ struct TimingResult {
   std::optional<WarmTimes> warm;                 // beside cold times
   int warm_assign_passes = 1;                    // over the timed frames in a warm sample, in the launch with fewest
   std::optional<int> warm_convert_passes;
-  double builds_per_frame = 0.0;  // 0 where the grid stays, 1 where each frame has its own
+  std::optional<DeviceTimes> device;  // within warm times
+  double builds_per_frame = 0.0;      // 0 where the grid stays, 1 where each frame has its own
   WorstTimedFrame worst;
   std::optional<double> pairs_mean;  // of the frames that are timed; none without cells
   std::uint64_t pairs_max = 0;

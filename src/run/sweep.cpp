@@ -185,22 +185,21 @@ Reach reach_of(const view::Frame& frame) {
 
 // A path's first frame in a grid, by the numbers; or why the grid cannot be made for it.
 struct FirstFrame {
-  std::uint32_t cells = 0, points = 0, spots = 0;
+  std::uint32_t cells = 0;
+  view::LightRanges lights;
   std::string obstacle;
-
-  std::uint64_t lights() const { return std::uint64_t{points} + spots; }
 };
 
 FirstFrame first_frame(const grid::GridSpec& spec, const SceneData& data, const scene::CameraPath& path,
                        Vec2i viewport) {
-  if (path.shots.empty()) return {0, 0, 0, "the camera path has no frame"};
+  if (path.shots.empty()) return {0, {}, "the camera path has no frame"};
   try {
     const view::Frame frame = view::make_frame(data.scene, path.shots.front(), 0, viewport);
     const Reach reach = reach_of(frame);
     const grid::Grid grid = grid::make_grid(spec, grid::grid_inputs(spec, frame, reach.far_m, reach.lo, reach.hi));
-    return {grid.cell_count(), frame.points, static_cast<std::uint32_t>(frame.lights.size()) - frame.points, ""};
+    return {grid.cell_count(), frame.ranges(), ""};
   } catch (const Error& error) {
-    return {0, 0, 0, error.what()};
+    return {0, {}, error.what()};
   }
 }
 
@@ -208,9 +207,9 @@ FirstFrame first_frame(const grid::GridSpec& spec, const SceneData& data, const 
 std::string limit_obstacle(const assign::AssignerDescriptor& assigner, const config::LimitsRequest& limits,
                            const FirstFrame& first) {
   if (!assigner.all_pairs || !limits.all_pairs) return "";
-  const std::uint64_t tests = first.lights() * first.cells;
+  const std::uint64_t tests = std::uint64_t{first.lights.size()} * first.cells;
   if (tests <= *limits.all_pairs) return "";
-  return assigner.name + " would test " + number_of(first.lights(), "light") + " against " +
+  return assigner.name + " would test " + number_of(first.lights.size(), "light") + " against " +
          number_of(first.cells, "cell") + ", " + number_of(tests, "pair") + "; limits.all_pairs allows " +
          std::to_string(*limits.all_pairs);
 }
@@ -220,12 +219,12 @@ std::string storage_obstacle(const config::MethodRequest& request, const FirstFr
   const std::uint64_t most_bytes = memory_limit();
   try {
     const auto one_cell = assign::find_storage(request.name)->make(request.params);
-    one_cell->start(1, {first.points, first.spots});
+    one_cell->start(1, first.lights);
     // What it takes before anything is in it grows with the cells.
     const std::uint64_t bytes = one_cell->use().upload_bytes * first.cells;
     if (bytes <= most_bytes) return "";
     return request.label() + " would reserve " + std::to_string(bytes >> 20) + " MiB for " +
-           std::to_string(first.cells) + " cells and " + std::to_string(first.lights()) + " lights; at most " +
+           std::to_string(first.cells) + " cells and " + std::to_string(first.lights.size()) + " lights; at most " +
            std::to_string(most_bytes >> 20) + " MiB";
   } catch (const Error& error) {
     return error.what();

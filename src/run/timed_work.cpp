@@ -64,21 +64,33 @@ TimedWork::TimedWork(const config::Config& config, const GroupPlan& group, const
   }
   if (extra_ != nullptr) assign_frame(frames.size());
   assign();
+  if (assigner().device_spans() != nullptr) device_.emplace();
 }
 
 void TimedWork::build() {
   build_for(frames_.front());
 }
 
+assign::Assigner& TimedWork::assigner() const {
+  if (lists_assigner_) return *lists_assigner_;
+  return *structure_assigner_;
+}
+
 void TimedWork::build_for(const TimedFrame& frame) {
-  assign::Assigner& assigner = lists_assigner_ ? static_cast<assign::Assigner&>(*lists_assigner_)
-                                               : static_cast<assign::Assigner&>(*structure_assigner_);
-  assigner.build(*frame.grid, assign::kinds_of(frame.lights.in_precision(precision_)));
+  assigner().build(*frame.grid, assign::kinds_of(frame.lights.in_precision(precision_)));
   built_for_ = frame.grid.get();
 }
 
 void TimedWork::assign() {
-  for (std::size_t i = 0; i < frames_.size(); ++i) assign_frame(i);
+  if (device_) device_.emplace();
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    assign_frame(i);
+    if (!device_) continue;
+    const assign::DeviceSpans& spans = *assigner().device_spans();
+    device_->upload_ns += spans.upload_ns;
+    device_->run_ns += spans.run_ns;
+    device_->readback_ns += spans.readback_ns;
+  }
 }
 
 void TimedWork::prepare_frame(std::size_t frame) {

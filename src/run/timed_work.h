@@ -2,6 +2,7 @@
 // What is timed and what is counted: a group's methods over the frames that the configuration chooses for timing.
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -48,6 +49,8 @@ class TimedWork {
   void prepare_frame(std::size_t frame);
   // One of them, as assign() does it.
   void assign_frame(std::size_t frame);
+  // Of all frames of the last assign(), by a device's own clock; null where nothing runs on one.
+  const assign::DeviceSpans* device_spans() const { return device_ ? &*device_ : nullptr; }
   // In one assign() after another.
   std::size_t builds() const;
   // Whether its lists are converted to what its cases are named after; a structure of its own is not.
@@ -69,6 +72,7 @@ class TimedWork {
                                            const assign::Params& params) const;
 
  private:
+  assign::Assigner& assigner() const;
   void build_for(const TimedFrame& frame);
   const TimedFrame& at(std::size_t frame) const { return frame < frames_.size() ? frames_[frame] : *extra_; }
 
@@ -78,6 +82,7 @@ class TimedWork {
   std::unique_ptr<assign::ListAssigner> lists_assigner_;
   std::unique_ptr<assign::StructureAssigner> structure_assigner_;  // one of the two
   const grid::Grid* built_for_ = nullptr;
+  std::optional<assign::DeviceSpans> device_;
   std::vector<assign::Lists> lists_;
   std::vector<std::unique_ptr<assign::LightStructure>> structures_;
   std::vector<std::size_t> case_indices_;

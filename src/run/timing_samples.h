@@ -33,6 +33,8 @@ struct MethodSamples {
   std::vector<EachFrame> warm_each, cold_each;      // of each round; the first only without the second
   int warm_passes = 0;                              // over the frames, in one of warm_ns
   std::vector<StoreSamples> stores;  // in the order of the method's cases; empty where nothing is converted
+  // By a device's own clock, of each round: per frame. Empty where nothing runs on one.
+  std::vector<double> upload_ns, run_ns, readback_ns;
 };
 
 struct GroupSamples {

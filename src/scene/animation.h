@@ -9,7 +9,8 @@ namespace clusterbench::scene {
 // rotation. Before the first key the first value holds, after the last key the last.
 Vec4d sample(const Channel& channel, double time_s);
 
-// The shortest arc from quaternion a (at 0) to b (at 1), both unit up to rounding; the result is unit.
+// The shortest arc from quaternion a (at 0) to b (at 1), both unit up to rounding; the result is unit. Not GLM's, which
+// takes the angle from its cosine: small turns lose half of their digits there.
 Vec4d slerp(const Vec4d& a, const Vec4d& b, double t);
 
 }  // namespace clusterbench::scene

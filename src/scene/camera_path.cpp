@@ -101,7 +101,7 @@ struct Extent {
   Vec3d lo{std::numeric_limits<double>::infinity()}, hi{-std::numeric_limits<double>::infinity()};
 };
 
-Extent light_places(const Scene& scene) {
+Extent light_positions(const Scene& scene) {
   Extent extent;
   for (const WorldLight& light : world_lights(scene, 0.0)) {
     extent.lo = glm::min(extent.lo, light.position);
@@ -119,7 +119,7 @@ CameraPose level_pose(const Vec3d& eye, const Vec3d& forward) {
 // A closed walk on an ellipse half as large as the lights' box, at eye height above its floor, looking along the way.
 CameraPath path_around_lights(const Scene& scene, const PathRequest& request) {
   constexpr double k_eye_height_m = 1.7, k_half_turn = 3.14159265358979323846, k_smallest_half_axis_m = 1.0;
-  const Extent extent = light_places(scene);
+  const Extent extent = light_positions(scene);
   if (!(extent.lo.x <= extent.hi.x))
     throw Error(scene.path.string(), "", "has neither a camera nor a point or spot light to look at");
   const Vec3d middle = 0.5 * (extent.lo + extent.hi), half = 0.25 * (extent.hi - extent.lo);

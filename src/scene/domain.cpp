@@ -10,15 +10,15 @@
 namespace clusterbench::scene {
 namespace {
 
-std::string number_text(double value) {
+std::string nine_digits(double value) {
   if (std::isnan(value)) return "nan";  // whatever its sign
   char text[32];
   std::snprintf(text, sizeof text, "%.9g", value);
   return text;
 }
 
-std::string place_text(const Vec3d& p) {
-  return "(" + number_text(p.x) + ", " + number_text(p.y) + ", " + number_text(p.z) + ") m";
+std::string position_text(const Vec3d& p) {
+  return "(" + nine_digits(p.x) + ", " + nine_digits(p.y) + ", " + nine_digits(p.z) + ") m";
 }
 
 bool is_in_domain(const Vec3d& p) {
@@ -26,48 +26,48 @@ bool is_in_domain(const Vec3d& p) {
 }
 
 // Where the file has it; "" if it does not.
-std::string node_place(const Scene& scene, int index) {
+std::string node_location(const Scene& scene, int index) {
   const bool is_known = index >= 0 && static_cast<std::size_t>(index) < scene.nodes.size();
   const int node = is_known ? scene.nodes[static_cast<std::size_t>(index)].gltf_index : -1;
   return node < 0 ? "" : "/nodes/" + std::to_string(node);
 }
 
-std::string camera_place(const Scene& scene, const std::string& name) {
+std::string camera_location(const Scene& scene, const std::string& name) {
   for (const Camera& camera : scene.cameras)
-    if (camera.name == name) return node_place(scene, camera.node);
+    if (camera.name == name) return node_location(scene, camera.node);
   return "";
 }
 
 [[noreturn]] void refuse(const Scene& scene, const std::string& where, const std::string& what, double time_s) {
-  throw Error(scene.path.string(), where, what + " at " + number_text(time_s) + " s");
+  throw Error(scene.path.string(), where, what + " at " + nine_digits(time_s) + " s");
 }
 
 }  // namespace
 
 void check_domain(const Scene& scene, std::span<const WorldLight> lights, double time_s) {
   for (const WorldLight& light : lights) {
-    const bool has_place = is_in_domain(light.position), has_range = light.range_m >= 0.0;
-    if (has_place && has_range) continue;
+    const bool has_position = is_in_domain(light.position), has_range = light.range_m >= 0.0;
+    if (has_position && has_range) continue;
     const Light& source = scene.lights.at(static_cast<std::size_t>(light.rig_index));
     const std::string subject = "the light '" + source.name + "' ";
-    if (!has_place)
-      refuse(scene, node_place(scene, source.node),
-             subject + "stands at " + place_text(light.position) + ", farther from the origin than " +
-                 number_text(geom::k_farthest_m) + " m along an axis",
+    if (!has_position)
+      refuse(scene, node_location(scene, source.node),
+             subject + "stands at " + position_text(light.position) + ", farther from the origin than " +
+                 nine_digits(geom::k_farthest_m) + " m along an axis",
              time_s);
-    refuse(scene, node_place(scene, source.node),
-           subject + "has a range of " + number_text(light.range_m) + " m, and 0 or more is allowed", time_s);
+    refuse(scene, node_location(scene, source.node),
+           subject + "has a range of " + nine_digits(light.range_m) + " m, and 0 or more is allowed", time_s);
   }
 }
 
 void check_domain(const Scene& scene, const std::string& camera, const Shot& shot) {
   const auto fail = [&](const std::string& what) {
-    refuse(scene, camera_place(scene, camera), "the camera " + (camera.empty() ? "" : "'" + camera + "' ") + what,
+    refuse(scene, camera_location(scene, camera), "the camera " + (camera.empty() ? "" : "'" + camera + "' ") + what,
            shot.time_s);
   };
   if (!is_in_domain(shot.pose.eye))
-    fail("stands at " + place_text(shot.pose.eye) + ", farther from the origin than " +
-         number_text(geom::k_farthest_m) + " m along an axis");
+    fail("stands at " + position_text(shot.pose.eye) + ", farther from the origin than " +
+         nine_digits(geom::k_farthest_m) + " m along an axis");
   for (int column = 0; column < 3; ++column)
     for (int row = 0; row < 3; ++row)
       if (!(std::abs(shot.pose.view_from_world[column][row]) <= 2.0)) fail("has no rotation");

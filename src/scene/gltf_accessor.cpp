@@ -68,33 +68,10 @@ double decoded(std::string_view bytes, const AccessorHead& head) {
   return std::bit_cast<float>(raw);
 }
 
-std::optional<unsigned> base64_digit(char c) {
-  if (c >= 'A' && c <= 'Z') return static_cast<unsigned>(c - 'A');
-  if (c >= 'a' && c <= 'z') return static_cast<unsigned>(c - 'a' + 26);
-  if (c >= '0' && c <= '9') return static_cast<unsigned>(c - '0' + 52);
-  if (c == '+') return 62U;
-  if (c == '/') return 63U;
-  return std::nullopt;
-}
-
-std::string base64_decoded(std::string_view text, const JsonLocation& location) {
-  while (!text.empty() && text.back() == '=') text.remove_suffix(1);
-  if (text.size() % 4 == 1) location.refuse("the base64 data is cut off");
-  std::string out;
-  out.reserve(text.size() / 4 * 3 + 2);
-  unsigned bits = 0, pending = 0;
-  for (const char c : text) {
-    const std::optional<unsigned> digit = base64_digit(c);
-    if (!digit) location.refuse("the data is not base64");
-    pending = pending << 6 | *digit;
-    bits += 6;
-    if (bits >= 8) {
-      bits -= 8;
-      out += static_cast<char>(pending >> bits & 0xFFU);
-    }
-    pending &= 0xFFFU;
-  }
-  return out;
+std::string decoded(std::string_view base64, const JsonLocation& location) {
+  std::optional<std::string> bytes = base64_decoded(base64);
+  if (!bytes) location.refuse("the data is not base64, or cut off");
+  return std::move(*bytes);
 }
 
 // "%20" and its like become characters again.
@@ -317,7 +294,7 @@ std::string_view AccessorReader::buffer(std::size_t index) {
   if (uri.starts_with("data:")) {
     const std::size_t comma = uri.find(";base64,");
     if (comma == std::string::npos) location.at("uri").refuse("a data URI must be base64");
-    bytes.owned = base64_decoded(std::string_view(uri).substr(comma + 8), location.at("uri"));
+    bytes.owned = decoded(std::string_view(uri).substr(comma + 8), location.at("uri"));
   } else {
     const std::filesystem::path relative = percent_decoded(uri);
     if (has_scheme(uri) || !stays_in_folder(relative))

@@ -19,7 +19,7 @@ std::string number(double value) {
   return text;
 }
 
-Vec3d drawn_place(SplitMix64& random, const Vec3d& lo, const Vec3d& hi) {
+Vec3d drawn_position(SplitMix64& random, const Vec3d& lo, const Vec3d& hi) {
   const double x = random.between(lo.x, hi.x), y = random.between(lo.y, hi.y), z = random.between(lo.z, hi.z);
   return {x, y, z};
 }
@@ -33,8 +33,8 @@ bool is_spot(double share, int i) {
 void add_light(const RigSpec& spec, int index, SplitMix64& random, Scene& scene) {
   const Vec3d half{spec.size_m.x / 2.0, 0.0, spec.size_m.z / 2.0};
   Node node;
-  node.translation = drawn_place(random, -half, half + Vec3d(0.0, spec.size_m.y, 0.0));
-  const Vec3d direction = drawn_place(random, Vec3d(-1.0), Vec3d(1.0));
+  node.translation = drawn_position(random, -half, half + Vec3d(0.0, spec.size_m.y, 0.0));
+  const Vec3d direction = drawn_position(random, Vec3d(-1.0), Vec3d(1.0));
   const double half_angle_deg = random.between(15.0, 60.0);
   Light light;
   light.name = "light " + std::to_string(index);

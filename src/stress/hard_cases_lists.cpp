@@ -115,14 +115,19 @@ std::vector<Trial> in_another_order(std::uint64_t seed) {
   return trials;
 }
 
+// The index of a light where each type's lights stand the other way round.
+std::uint32_t reversed_within_type(std::uint32_t light, const view::LightRanges& ranges) {
+  const view::LightRange& type = ranges.types()[ranges.type_of(light)];
+  return type.first + type.end() - 1 - light;
+}
+
 bool has_same_sets(const assign::AssignerDescriptor& assigner, const assign::Params& params, assign::Answer answer,
                    const Trial (&trials)[2]) {
   assign::Lists lists[2];
-  std::uint32_t points = 0, spots = 0;
+  view::LightRanges ranges;
   for (int i = 0; i < 2; ++i) {
     const view::Frame frame = frame_of(trials[i]);
-    points = frame.points;
-    spots = static_cast<std::uint32_t>(frame.lights.size()) - points;
+    ranges = frame.ranges();
     const grid::Grid grid = grid_of(trials[i], frame);
     assign::AssignerRun run(assigner, params, answer);
     run.build(grid);
@@ -134,8 +139,7 @@ bool has_same_sets(const assign::AssignerDescriptor& assigner, const assign::Par
   bool same = lists[0].begin == lists[1].begin;
   for (std::uint32_t cell = 0; same && cell < lists[0].cell_count(); ++cell) {
     std::vector<std::uint32_t> back;
-    for (const std::uint32_t light : lists[1].of(cell))
-      back.push_back(light < points ? points - 1 - light : 2 * points + spots - 1 - light);
+    for (const std::uint32_t light : lists[1].of(cell)) back.push_back(reversed_within_type(light, ranges));
     std::sort(back.begin(), back.end());
     same = std::equal(back.begin(), back.end(), lists[0].of(cell).begin());
   }

@@ -255,9 +255,7 @@ class Climb {
     for (const bool spots : {false, true})
       for (const Touch& touch : touches)
         if (touch.is_spot == spots) add_lights(touch, frame);
-    frame.points = static_cast<std::uint32_t>(
-        std::count_if(touches.begin(), touches.end(), [](const Touch& t) { return !t.is_spot; }) *
-        static_cast<std::ptrdiff_t>(ladder_.size()));
+    frame.count_types();
     run_.assign({frame, view::lights_in(frame, space_)});
     lists_ = &run_.cell_lists();
 

@@ -45,15 +45,17 @@ struct PointOf {
 
 // Does the volume hold the point, by more than double precision can lose?
 bool holds_clearly(const geom::LightVolume& volume, const Vec3d& p) {
-  const geom::LocalPoint apex = geom::local_point(volume.apex);
+  const double whole_range = geom::range_of(volume);
+  const geom::LocalPoint apex = geom::local_point(geom::source_of(volume));
   const Vec3d v = p - apex.at;
-  const double range = std::isinf(volume.range) ? 0.0 : volume.range;  // no end is nowhere near
+  const double range = std::isinf(whole_range) ? 0.0 : whole_range;  // no end is nowhere near
   const double margin = 1e-12 * (glm::length(p) + glm::length(apex.at) + range) + 4.0 * apex.rounding_error;
-  if (!(glm::length(v) < volume.range - margin)) return false;
-  if (!volume.is_cone) return true;
-  const Vec3d axis = glm::normalize(volume.apex.rotation * volume.direction);
+  if (!(glm::length(v) < whole_range - margin)) return false;
+  const auto* spot = std::get_if<geom::SpotVolume>(&volume);
+  if (spot == nullptr) return true;
+  const Vec3d axis = glm::normalize(spot->apex.rotation * spot->direction);
   const double along = glm::dot(v, axis), across = glm::length(v - along * axis);
-  return std::sin(volume.half_angle_rad) * along - std::cos(volume.half_angle_rad) * across > margin;
+  return std::sin(spot->half_angle_rad) * along - std::cos(spot->half_angle_rad) * across > margin;
 }
 
 // As holds_clearly, of a point that a shader looks up in single precision, which loses up to `margin` of it.
@@ -134,8 +136,8 @@ class SettingCheck {
 
   void count() {
     SettingCounts& counts = report_.counts;
-    counts.points += frame_.points;
-    counts.spots += frame_.lights.size() - frame_.points;
+    counts.points += frame_.ranges().points.count;
+    counts.spots += frame_.ranges().spots.count;
     counts.pairs += std::uint64_t{grid_.cell_count()} * frame_.lights.size();
     counts.true_pairs += truth_.lists.pair_count();
     counts.undecided += truth_.undecided;
@@ -213,7 +215,7 @@ class SettingCheck {
 
   void check_light(std::uint32_t light, const PairSet& truth, const PairSet& listed, std::size_t most) {
     const geom::LightVolume volume = lights_.volume(light);
-    if (!(volume.range > 0.0)) return;
+    if (!(geom::range_of(volume) > 0.0)) return;
     const geom::LightFilter filter(volume);
     std::vector<std::uint32_t> contradicted, near;
     for (std::uint32_t cell = 0; cell < grid_.cell_count(); ++cell) {

@@ -133,11 +133,14 @@ geom::LightVolume LightArrays::volume(std::uint32_t light) const {
 }
 
 geom::LightVolume volume_of(const scene::WorldLight& light, const Space& space) {
-  return {{light.position, space.origin, space.rotation},
-          light.range_m,
-          light.type == scene::LightType::spot,
-          light.direction,
-          light.outer_cone_rad};
+  const geom::Placement source{light.position, space.origin, space.rotation};
+  if (light.type == scene::LightType::spot)
+    return geom::SpotVolume{source, light.range_m, light.direction, light.outer_cone_rad};
+  return geom::BallVolume{source, light.range_m};
+}
+
+void Frame::count_types() {
+  points = static_cast<std::uint32_t>(std::ranges::count(lights, scene::LightType::point, &scene::WorldLight::type));
 }
 
 PictureRay picture_ray(const Frame& frame, const Vec2d& pixel) {
@@ -159,8 +162,7 @@ Frame make_frame(const scene::Scene& scene, const scene::Shot& shot, int index, 
   frame.view_space = {shot.pose.eye, shot.pose.view_from_world};
   frame.lights = scene::world_lights(scene, shot.time_s);
   scene::check_domain(scene, frame.lights, shot.time_s);
-  for (const scene::WorldLight& light : frame.lights)
-    if (light.type == scene::LightType::point) ++frame.points;
+  frame.count_types();
   return frame;
 }
 

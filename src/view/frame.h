@@ -1,6 +1,7 @@
 #pragma once
 // One camera pose with its projection and viewport, and the lights as a grid's space sees them.
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -46,6 +47,9 @@ struct LightRange {
   std::uint32_t end() const { return first + count; }
 };
 
+// How many types of light are assigned.
+inline constexpr std::size_t k_light_types = 2;
+
 // A frame's lights by type. Indices of lights, in all lists, run through the types in this order.
 struct LightRanges {
   LightRange points, spots;
@@ -55,7 +59,10 @@ struct LightRanges {
       : points{0, point_count}, spots{point_count, spot_count} {}
 
   std::uint32_t size() const { return spots.end(); }
+  // Type by type, in the order of indices.
+  std::array<LightRange, k_light_types> types() const { return {points, spots}; }
   bool is_spot(std::uint32_t light) const { return light >= spots.first; }
+  std::size_t type_of(std::uint32_t light) const { return is_spot(light) ? 1 : 0; }  // index of types()
 };
 
 // Lights in a space, single precision, one array per component (what an engine hands to an assigner).
@@ -93,6 +100,8 @@ struct Frame {
   std::vector<scene::WorldLight> lights;  // as ranges() has them
   std::uint32_t points = 0;               // how many of them are points
 
+  // Sets how many there are of each type, which come one after the other.
+  void count_types();
   LightRanges ranges() const { return {points, static_cast<std::uint32_t>(lights.size()) - points}; }
 };
 

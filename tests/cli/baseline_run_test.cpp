@@ -53,8 +53,8 @@ TEST(Baseline, both_programs_are_measured_and_the_result_carries_the_pairs) {
   const Json result = Json::parse(file_text(place.out));
   EXPECT_EQ(result["baseline"]["tool"], result["tool"]);
   ASSERT_EQ(result["cases"].size(), 4u);
-  for (const Json& one : result["cases"]) {
-    const Json& baseline = one["timing"]["baseline"];
+  for (const Json& entry : result["cases"]) {
+    const Json& baseline = entry["timing"]["baseline"];
     ASSERT_EQ(baseline["launches"].size(), 3u);
     for (const Json& launch : baseline["launches"]) EXPECT_EQ(launch["base_ns"].size(), launch["new_ns"].size());
     EXPECT_GT(baseline["launches"][2]["base_ns"][3], 0.0);
@@ -71,7 +71,7 @@ TEST(Baseline, flags_that_change_the_configuration_reach_both_programs) {
   ASSERT_EQ(done.code, 0) << done.err;
   const Json cases = Json::parse(file_text(place.out))["cases"];
   EXPECT_EQ(cases.size(), 4u);
-  for (const Json& one : cases) EXPECT_TRUE(one["timing"].contains("baseline")) << one["name"];
+  for (const Json& entry : cases) EXPECT_TRUE(entry["timing"].contains("baseline")) << entry["name"];
 }
 
 TEST(Baseline, budgets_are_held_here_and_not_asked_of_a_program_that_may_not_know_them) {
@@ -101,7 +101,8 @@ TEST(Baseline, launches_go_on_until_intervals_are_narrow_or_there_were_the_most)
   ASSERT_NE(done.code, 2) << done.err;
   const Json result = Json::parse(file_text(place.out));
   ASSERT_EQ(result["cases"].size(), 4u);
-  for (const Json& one : result["cases"]) EXPECT_EQ(one["timing"]["baseline"]["launches"].size(), 5u) << one["id"];
+  for (const Json& entry : result["cases"])
+    EXPECT_EQ(entry["timing"]["baseline"]["launches"].size(), 5u) << entry["id"];
 }
 
 TEST(Baseline, lists_that_differ_are_named_and_fail) {

@@ -59,22 +59,22 @@ TEST(CompareCommand, one_more_pair_fails_and_is_written_as_markdown_and_json) {
 TEST(CompareCommand, without_a_common_case_the_code_is_3) {
   const Files files;
   Json next = counted_result();
-  for (Json& one : next["cases"]) one["id"] = "other " + one["id"].get<std::string>();
+  for (Json& entry : next["cases"]) entry["id"] = "other " + entry["id"].get<std::string>();
   EXPECT_EQ(files.compare_with(next).code, 3);
 }
 
 TEST(CompareCommand, instructions_of_another_machine_are_left_out_unless_forced) {
   Json result = counted_result();
-  for (Json& one : result["cases"])
-    one["count"] = {{"source", "callgrind"},
-                    {"simd_target", "AVX2"},
-                    {"frames", 2},
-                    {"instructions_per_build", 5},
-                    {"instructions_per_frame", {{"assign", 10.0}, {"convert", 3.0}}}};
+  for (Json& entry : result["cases"])
+    entry["count"] = {{"source", "callgrind"},
+                      {"simd_target", "AVX2"},
+                      {"frames", 2},
+                      {"instructions_per_build", 5},
+                      {"instructions_per_frame", {{"assign", 10.0}, {"convert", 3.0}}}};
   const Folder folder;
   const std::string base = folder.write("base.json", result.dump()).string();
   result["machine"]["cpu"] = "another";
-  for (Json& one : result["cases"]) one["count"]["instructions_per_frame"]["assign"] = 20.0;
+  for (Json& entry : result["cases"]) entry["count"]["instructions_per_frame"]["assign"] = 20.0;
   const std::string next = folder.write("new.json", result.dump()).string();
   const Outcome done = tool("compare " + base + " " + next);
   EXPECT_EQ(done.code, 0);
@@ -87,9 +87,9 @@ TEST(CompareCommand, times_of_separate_runs_fail_only_on_request) {
   Json result = Json::parse(file_text(source_file("results/intel-r-xeon-r-processor/quick.json")));
   const Folder folder;
   const std::string base = folder.write("base.json", result.dump()).string();
-  for (Json& one : result["cases"])
+  for (Json& entry : result["cases"])
     for (const char* key : {"median", "ci95"})
-      for (Json& ns : one["timing"]["frame_ns"][key]) ns = 5.0 * ns.get<double>();
+      for (Json& ns : entry["timing"]["frame_ns"][key]) ns = 5.0 * ns.get<double>();
   const std::string next = folder.write("new.json", result.dump()).string();
   EXPECT_EQ(tool("compare --strict " + base + " " + next).code, 0);
   EXPECT_EQ(tool("compare --gate-separate " + base + " " + next).code, 1);

@@ -75,7 +75,7 @@ TEST(Count, without_the_flag_nothing_is_counted) {
   ASSERT_EQ(done.code, 0) << done.err;
   const Json cases = Json::parse(done.out)["cases"];
   EXPECT_EQ(cases.size(), 6u);
-  for (const Json& one : cases) EXPECT_FALSE(one.contains("count"));
+  for (const Json& entry : cases) EXPECT_FALSE(entry.contains("count"));
 }
 
 TEST(Count, without_valgrind_the_error_says_how_to_get_it) {
@@ -101,9 +101,9 @@ TEST(Count, hardware_counters_count_or_the_error_says_what_refuses) {
   ASSERT_EQ(done.code, 0) << done.err;
   const Json cases = Json::parse(done.out)["cases"];
   EXPECT_EQ(cases.size(), 6u);
-  for (const Json& one : cases) {
-    EXPECT_EQ(one["count"]["source"], "perf");
-    EXPECT_GT(one["count"]["instructions_per_frame"]["assign"], 0);
+  for (const Json& entry : cases) {
+    EXPECT_EQ(entry["count"]["source"], "perf");
+    EXPECT_GT(entry["count"]["instructions_per_frame"]["assign"], 0);
   }
 }
 
@@ -120,8 +120,8 @@ TEST(Count, where_nothing_can_count_both_reasons_are_told) {
 // Instructions per frame of every case: assign, convert, assign ...
 std::vector<double> figures(const Json& result) {
   std::vector<double> out;
-  for (const Json& one : result["cases"]) {
-    const Json& count = one["count"];
+  for (const Json& entry : result["cases"]) {
+    const Json& count = entry["count"];
     out.push_back(count["instructions_per_frame"]["assign"]);
     out.push_back(count["instructions_per_frame"]["convert"]);
   }
@@ -143,12 +143,12 @@ TEST(Count, callgrind_gives_the_same_instructions_each_time) {
     EXPECT_GT(once[i], 0.0) << i;
     EXPECT_NEAR(again[i] / once[i], 1.0, 1e-3) << i;
   }
-  for (const Json& one : result["cases"]) {
-    EXPECT_EQ(one["count"]["source"], "callgrind");
-    EXPECT_EQ(one["count"]["frames"], 2);
-    EXPECT_GT(one["count"]["instructions_per_build"], 0);
-    EXPECT_FALSE(one["count"].contains("cycles_per_frame"));
-    EXPECT_FALSE(one.contains("timing"));
+  for (const Json& entry : result["cases"]) {
+    EXPECT_EQ(entry["count"]["source"], "callgrind");
+    EXPECT_EQ(entry["count"]["frames"], 2);
+    EXPECT_GT(entry["count"]["instructions_per_build"], 0);
+    EXPECT_FALSE(entry["count"].contains("cycles_per_frame"));
+    EXPECT_FALSE(entry.contains("timing"));
   }
 }
 
@@ -263,7 +263,7 @@ TEST(Count, flags_that_change_the_configuration_reach_the_run_under_valgrind) {
   ASSERT_EQ(done.code, 0) << done.err;
   const Json cases = Json::parse(done.out)["cases"];
   EXPECT_EQ(cases.size(), 6u);
-  for (const Json& one : cases) EXPECT_TRUE(one.contains("count")) << one["name"];
+  for (const Json& entry : cases) EXPECT_TRUE(entry.contains("count")) << entry["name"];
 }
 
 TEST(Count, a_resumed_run_counts_what_is_left) {

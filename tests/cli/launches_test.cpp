@@ -201,10 +201,10 @@ TEST(RunInLaunches, resumed_it_measures_what_no_launch_has_measured) {
   const Outcome resumed = shell(place.folder, "$run run -q --resume c.json --rounds 40 -o r.json");
   ASSERT_EQ(resumed.code, 0) << resumed.err;
   EXPECT_EQ(resumed.err.find("clusterbench: "), std::string::npos) << resumed.err;  // warnings of times may be
-  const Json one = Json::parse(file_text(place.out))["cases"][0];
-  EXPECT_EQ(one["id"], first["request"]["ids"][0]);
+  const Json entry = Json::parse(file_text(place.out))["cases"][0];
+  EXPECT_EQ(entry["id"], first["request"]["ids"][0]);
   const Json& before = first["answer"]["methods"][0]["build_ns"];
-  const Json& now = one["timing"]["build_ns"]["samples"];
+  const Json& now = entry["timing"]["build_ns"]["samples"];
   ASSERT_EQ(now.size(), 40u);
   ASSERT_EQ(before.size(), 10u);
   for (std::size_t i = 0; i < before.size(); ++i)

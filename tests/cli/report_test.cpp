@@ -57,7 +57,7 @@ TEST(Report, a_result_of_version_1_is_refused_by_all_that_read_results) {
   result["schema_version"] = 1;
   result["front"] = result["pareto_front"];
   result.erase("pareto_front");
-  for (Json& one : result["cases"]) one.erase("eligible");
+  for (Json& entry : result["cases"]) entry.erase("eligible");
   const Folder folder;
   const std::string old = folder.write("old.json", result.dump()).string(),
                     fresh = folder.write("new.json", result_text()).string();

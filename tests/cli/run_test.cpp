@@ -70,8 +70,8 @@ TEST(Run, several_processes_measure_cold_and_warm_times_by_default) {
   EXPECT_NE(done.err.find("with cold caches"), std::string::npos) << done.err;
   const Json result = Json::parse(file_text(out));
   ASSERT_EQ(result["cases"].size(), 2u);
-  for (const Json& one : result["cases"]) {
-    const Json& timing = one["timing"];
+  for (const Json& entry : result["cases"]) {
+    const Json& timing = entry["timing"];
     EXPECT_EQ(timing["caches"], "cold");
     EXPECT_EQ(timing["launches"], 3);
     EXPECT_EQ(timing["frame_ns"]["samples"].size(), 6u);
@@ -109,10 +109,10 @@ TEST(Run, of_two_scenes_with_one_name_each_launch_measures_the_right_one) {
 TEST(Run, counts_are_byte_identical_on_any_number_of_threads) {
   const Folder folder;
   const std::string config = folder.write("small.json", small_config()).string();
-  const std::string one = (folder / "one.json").string(), two = (folder / "two.json").string();
-  ASSERT_EQ(tool("run --no-timing --threads 1 " + config + " -o " + one).code, 0);
+  const std::string text = (folder / "one.json").string(), two = (folder / "two.json").string();
+  ASSERT_EQ(tool("run --no-timing --threads 1 " + config + " -o " + text).code, 0);
   ASSERT_EQ(tool("run --no-timing --threads 2 " + config + " -o " + two).code, 0);
-  Json first = Json::parse(file_text(one)), second = Json::parse(file_text(two));
+  Json first = Json::parse(file_text(text)), second = Json::parse(file_text(two));
   first["config"].erase("threads");
   second["config"].erase("threads");
   EXPECT_EQ(first.dump(), second.dump());
@@ -134,14 +134,16 @@ TEST(Run, light_structures_of_their_own_give_results_that_everything_reads) {
   EXPECT_EQ(tool("validate " + quoted).code, 0) << tool("validate " + quoted).err;
   const Json result = Json::parse(file_text(out));
   ASSERT_EQ(result["cases"].size(), 5u) << "z-binning on one grid, bvh on two, by cells and by samples";
-  for (const Json& one : result["cases"]) {
-    EXPECT_EQ(one["storage"] == "own", !one["timing"].contains("convert_ns")) << one["name"];
-    EXPECT_EQ(one["storage"] == "own" && one["assigner"]["name"] == "bvh", !one.contains("error")) << one["name"];
-    EXPECT_EQ(one.contains("error"), one.contains("occupancy") && one.contains("details") && one.contains("stability"));
-    if (one.contains("error")) {
-      EXPECT_EQ(one["error"]["false_negatives"], 0) << one["name"];
+  for (const Json& entry : result["cases"]) {
+    EXPECT_EQ(entry["storage"] == "own", !entry["timing"].contains("convert_ns")) << entry["name"];
+    EXPECT_EQ(entry["storage"] == "own" && entry["assigner"]["name"] == "bvh", !entry.contains("error"))
+        << entry["name"];
+    EXPECT_EQ(entry.contains("error"),
+              entry.contains("occupancy") && entry.contains("details") && entry.contains("stability"));
+    if (entry.contains("error")) {
+      EXPECT_EQ(entry["error"]["false_negatives"], 0) << entry["name"];
     }
-    EXPECT_GT(one["shading"]["needed"], 0) << one["name"];
+    EXPECT_GT(entry["shading"]["needed"], 0) << entry["name"];
   }
   const std::string page = (folder / "page.html").string(), history = (folder / "history.jsonl").string();
   for (const std::string& command :
@@ -321,16 +323,16 @@ TEST(Run, a_budget_that_is_exceeded_fails_the_run_and_one_nearly_reached_is_warn
   const std::string config = folder.write("small.json", small_config()).string(), out = (folder / "r.json").string();
   const std::string run = "run -q --no-timing --filter /aabb/ " + config + " -o " + out;
   ASSERT_EQ(tool(run).code, 0);
-  const Json one = Json::parse(file_text(out))["cases"][0];
-  const int longest = one["occupancy"]["lights_per_cell"]["max"];
+  const Json entry = Json::parse(file_text(out))["cases"][0];
+  const int longest = entry["occupancy"]["lights_per_cell"]["max"];
   const auto with = [&](const std::string& rule) { return tool(run + " --fail-if '" + rule + "'"); };
   const Outcome broken = with("longest > " + std::to_string(longest - 1));
   EXPECT_EQ(broken.code, 1);
-  EXPECT_NE(broken.err.find("FAILED " + one["name"].get<std::string>() + ": longest is "), std::string::npos);
+  EXPECT_NE(broken.err.find("FAILED " + entry["name"].get<std::string>() + ": longest is "), std::string::npos);
   EXPECT_NE(broken.err.find(", cell ["), std::string::npos) << broken.err;
   const Outcome near = with("longest > " + std::to_string(longest));
   EXPECT_EQ(near.code, 0);
-  EXPECT_NE(near.err.find("warning: " + one["name"].get<std::string>()), std::string::npos) << near.err;
+  EXPECT_NE(near.err.find("warning: " + entry["name"].get<std::string>()), std::string::npos) << near.err;
   const Outcome far = with("longest > " + std::to_string(2 * longest));
   EXPECT_EQ(far.code, 0);
   EXPECT_EQ(far.err, "");

@@ -68,5 +68,16 @@ TEST(Sha256, agrees_with_the_examples_of_fips_180) {
   EXPECT_EQ(sha256_hex(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
 }
 
+TEST(Base64, is_decoded_with_and_without_padding_and_refused_where_it_is_none) {
+  EXPECT_EQ(base64_decoded(""), "");
+  EXPECT_EQ(base64_decoded("bGlnaHQ="), "light");
+  EXPECT_EQ(base64_decoded("bGlnaHQ"), "light");
+  EXPECT_EQ(base64_decoded("bGlnaHRz"), "lights");
+  EXPECT_EQ(base64_decoded("+/8A"), std::string("\xfb\xff\0", 3));
+  for (const char* text :
+       {"b", "bGlnaHRzb", "bGl=aHRz", "bGl aHRz", " bGlnaHRz", "    bGln", "bGlnaHR\n", "bGlnaHR-", "bGln_HRz"})
+    EXPECT_EQ(base64_decoded(text), std::nullopt) << text;
+}
+
 }  // namespace
 }  // namespace clusterbench

@@ -175,10 +175,10 @@ TEST(RayCaster, pictures_are_the_same_on_any_number_of_threads) {
   const view::Frame frame = view::make_frame(from.scene, shot_of(false), 0, {97, 61});
   RayCaster caster(from.scene, from.geometry);
   caster.pose(frame);
-  const DepthImage one = caster.depths(frame, PixelGrid(frame.viewport, 1), 1);
+  const DepthImage image = caster.depths(frame, PixelGrid(frame.viewport, 1), 1);
   const DepthImage four = caster.depths(frame, PixelGrid(frame.viewport, 1), 4);
-  EXPECT_EQ(one.nearest, four.nearest);
-  EXPECT_EQ(caster.layers(frame, one, 4, 1).depths, caster.layers(frame, one, 4, 4).depths);
+  EXPECT_EQ(image.nearest, four.nearest);
+  EXPECT_EQ(caster.layers(frame, image, 4, 1).depths, caster.layers(frame, image, 4, 4).depths);
 }
 
 // A wall of 4 m at z = -depth, seen from both sides.

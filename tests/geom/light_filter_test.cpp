@@ -32,7 +32,7 @@ void expect_agreement(const LightVolume& light, const Cell& cell, int (&said)[3]
   const Verdict filtered = filter_meets(light, cell);
   ++said[static_cast<int>(filtered)];
   if (filtered == Verdict::uncertain) return;
-  EXPECT_EQ(prove_meets(light, cell), filtered) << "range " << light.range;
+  EXPECT_EQ(prove_meets(light, cell), filtered) << "range " << range_of(light);
 }
 
 TEST_P(FilterOn, random_pairs_is_never_contradicted) {
@@ -49,13 +49,13 @@ TEST_P(FilterOn, random_pairs_is_never_contradicted) {
 }
 
 // Neighbouring ranges between which the filter's answer begins to be at least `wanted` (no < uncertain < yes).
-double range_of_change(LightVolume light, const Cell& cell, Verdict wanted) {
+double range_of_change(const LightVolume& light, const Cell& cell, Verdict wanted) {
   const auto rank = [](Verdict verdict) { return verdict == Verdict::no ? 0 : verdict == Verdict::uncertain ? 1 : 2; };
   double before = 0.0, after = 200.0;
   for (;;) {
-    light.range = 0.5 * (before + after);
-    if (light.range <= before || light.range >= after) return after;
-    (rank(filter_meets(light, cell)) < rank(wanted) ? before : after) = light.range;
+    const double range = 0.5 * (before + after);
+    if (range <= before || range >= after) return after;
+    (rank(filter_meets(with_range(light, range), cell)) < rank(wanted) ? before : after) = range;
   }
 }
 
@@ -69,9 +69,8 @@ TEST_P(FilterOn, pairs_at_which_it_changes_its_mind_is_never_contradicted) {
       const double change = range_of_change(light, cell, wanted);
       if (change >= 200.0) continue;  // the cone does not meet the cell
       for (const int ulps : {-64, -8, -1, 0, 1, 8, 64}) {
-        LightVolume nudged = light;
-        nudged.range = change + ulps * (std::nextafter(change, 1e9) - change);
-        expect_agreement(nudged, cell, said);
+        const double nudged = change + ulps * (std::nextafter(change, 1e9) - change);
+        expect_agreement(with_range(light, nudged), cell, said);
         ++pairs;
       }
     }

@@ -64,11 +64,8 @@ TEST(Meets, a_light_that_reaches_a_face_edge_or_corner_by_a_hair_meets_the_cell)
 // A sheet 20 m wide and 12 cm thick: no edge or corner is near, nor does the light end in it.
 TEST(Meets, a_light_that_passes_through_the_middle_of_a_thin_cell_meets_it) {
   const FrustumCell sheet{-1.0f, 1.0f, -1.0f, 1.0f, 10.0f, 10.125f, false};
-  LightVolume light;
-  light.apex.position = {1.0, -2.0, -9.0};
-  light.range = 3.0;
-  EXPECT_EQ(filter_meets(light, sheet), Verdict::yes);
-  light.is_cone = true;
+  SpotVolume light{{{1.0, -2.0, -9.0}}, 3.0};
+  EXPECT_EQ(filter_meets(BallVolume{light.apex, light.range}, sheet), Verdict::yes);
   light.half_angle_rad = 0.2;
   for (const Vec3d& direction : {Vec3d(0, 0, -1), Vec3d(1, 0, -1), Vec3d(-1, 1, -1)}) {
     light.direction = glm::normalize(direction);
@@ -81,7 +78,7 @@ TEST(Meets, spots_agree_with_alternating_projections) {
   SplitMix64 random(5);
   int met = 0, decided = 0;
   for (int i = 0; i < 3000; ++i) {
-    const LightVolume light = random_light(random, true);
+    const SpotVolume light = random_spot(random);
     const FrustumCell cell = random_piece(random);
     const test::DykstraCone cone{light.apex.position, light.direction, light.half_angle_rad};
     const test::DykstraResult nearest = test::distance_to_common_point(cone, cell, 300);
@@ -98,19 +95,19 @@ TEST(Meets, spots_agree_with_alternating_projections) {
 }
 
 // Pulls the range to within a few ulps of touching, by what exact arithmetic says.
-double touching_range(LightVolume light, const FrustumCell& cell) {
+double touching_range(const BallVolume& light, const FrustumCell& cell) {
   double apart = 0.0, touching = 200.0;
   for (;;) {
     const double middle = 0.5 * (apart + touching);
     if (middle <= apart || middle >= touching) return touching;
-    (ball_meets_exactly(light.apex, middle, cell) ? touching : apart) = middle;
+    (ball_meets_exactly(light.center, middle, cell) ? touching : apart) = middle;
   }
 }
 
 TEST(Meets, the_filter_never_contradicts_exact_arithmetic_within_a_few_ulps_of_touching) {
   SplitMix64 random(9);
   for (int i = 0; i < 12; ++i) {
-    LightVolume light = random_light(random, false);
+    auto light = std::get<BallVolume>(random_light(random, false));
     const FrustumCell cell = random_piece(random);
     const double touching = touching_range(light, cell);
     for (const int ulps : {-4, -1, 0, 1, 4}) {
@@ -139,10 +136,9 @@ TEST(Meets, filter_and_proof_agree_wherever_the_filter_speaks) {
 
 TEST(Meets, an_apex_on_a_corner_of_the_cell_is_a_common_point_wherever_the_cone_points) {
   const FrustumCell cell{-0.75f, 0.75f, -0.5f, 0.5f, 8.0f, 32.0f, false};
-  LightVolume light;
+  SpotVolume light;
   light.apex.position = {6.0, 4.0, -8.0};
   light.range = 1.0;
-  light.is_cone = true;
   light.direction = {0.0, 0.0, 1.0};  // away from the cell
   light.half_angle_rad = 0.2;
   EXPECT_EQ(prove_meets(light, cell), Verdict::yes);
@@ -152,8 +148,8 @@ TEST(Meets, an_apex_on_a_corner_of_the_cell_is_a_common_point_wherever_the_cone_
 
 TEST(Meets, a_ball_tangent_to_the_side_of_a_shell_piece_is_decided) {
   const ShellCell cell{-0.75f, 0.75f, -0.5f, 0.5f, 8.0f, 32.0f};
-  LightVolume light;
-  light.apex.position = {16.0, 0.0, -13.0};
+  BallVolume light;
+  light.center.position = {16.0, 0.0, -13.0};
   light.range = 5.0;
   EXPECT_EQ(filter_meets(light, cell), Verdict::uncertain);
   EXPECT_EQ(prove_meets(light, cell), Verdict::yes);
@@ -162,9 +158,8 @@ TEST(Meets, a_ball_tangent_to_the_side_of_a_shell_piece_is_decided) {
 }
 
 TEST(Meets, a_very_narrow_cone_meets_the_cells_that_its_axis_passes_within_its_angle) {
-  LightVolume light;
+  SpotVolume light;
   light.range = 100.0;
-  light.is_cone = true;
   light.half_angle_rad = 1.7453e-4;  // 0.01 degrees: sqrt(1 - cos²) is lost in single precision
   const FrustumCell cell{0.0625f, 0.125f, -0.05f, 0.05f, 10.0f, 20.0f, false};
   light.direction = glm::normalize(Vec3d(0.0625 - 1.6e-4, 0.0, -1.0));

@@ -20,11 +20,10 @@ namespace {
 
 constexpr double k_pi = std::numbers::pi;
 
-LightVolume spot(const Vec3d& apex, double range, const Vec3d& direction, double half_angle) {
-  LightVolume light;
+SpotVolume spot(const Vec3d& apex, double range, const Vec3d& direction, double half_angle) {
+  SpotVolume light;
   light.apex.position = apex;
   light.range = range;
-  light.is_cone = true;
   light.direction = direction;
   light.half_angle_rad = half_angle;
   return light;
@@ -35,21 +34,21 @@ double moved(double value, int ulps) {
   return value;
 }
 
-Verdict verdict(const LightVolume& light, const Cell& cell) {
+Verdict verdict(const SpotVolume& light, const Cell& cell) {
   const Verdict decided = prove_meets(light, cell), filtered = filter_meets(light, cell);
   EXPECT_TRUE(filtered == Verdict::uncertain || filtered == decided);
   return decided;
 }
 
 // The spot touches the cell just so: an ulp less of what moves(-1) changes and they are apart.
-void expect_touches_just(const std::function<LightVolume(int)>& moves, const Cell& cell) {
+void expect_touches_just(const std::function<SpotVolume(int)>& moves, const Cell& cell) {
   EXPECT_EQ(verdict(moves(0), cell), Verdict::yes);
   EXPECT_EQ(verdict(moves(1), cell), Verdict::yes);
   EXPECT_EQ(verdict(moves(-1), cell), Verdict::no);
 }
 
 // With the rounded number they are within 8 ulps of touching: apart before, together after, decided everywhere.
-void expect_begins_to_touch_near(const std::function<LightVolume(int)>& moves, const Cell& cell) {
+void expect_begins_to_touch_near(const std::function<SpotVolume(int)>& moves, const Cell& cell) {
   bool has_met = false;
   for (int ulps = -8; ulps <= 8; ++ulps) {
     const Verdict now = verdict(moves(ulps), cell);
@@ -160,7 +159,7 @@ TEST(Spot, touches_a_corner_on_a_shell_whose_place_is_not_rational) {
 
 TEST(Spot, whose_apex_lies_in_a_tile_plane_reaches_along_the_plane) {
   const auto shell_to = [](float far) { return ShellCell{-0.5f, 0.5f, 0.0f, 1.0f, 6.0f, far}; };
-  const LightVolume light = spot({8, 8, -8}, 12.0, {-2, 2, 0}, 0.7);
+  const SpotVolume light = spot({8, 8, -8}, 12.0, {-2, 2, 0}, 0.7);
   // The generator in the plane y = depth comes as near to the eye as 12.2375.
   EXPECT_EQ(verdict(light, shell_to(12.23f)), Verdict::no);
   EXPECT_EQ(verdict(light, shell_to(12.24f)), Verdict::yes);
@@ -186,7 +185,7 @@ TEST(Spot, of_nearly_no_angle_is_decided) {
 }
 
 // Without the filter, which settles such pairs before.
-Verdict proven(const LightVolume& light, const Cell& cell) {
+Verdict proven(const SpotVolume& light, const Cell& cell) {
   return std::visit([&](const auto& shape) { return decide_spot(light, shape); }, cell);
 }
 
@@ -231,11 +230,11 @@ TEST(Spot, of_the_narrowest_cone_along_a_tile_plane_is_decided_in_the_cells_behi
 }
 
 // Small whole numbers and their quarters: much is parallel, perpendicular, in one plane or equally far.
-LightVolume whole_number_light(SplitMix64& random) {
+SpotVolume whole_number_light(SplitMix64& random) {
   const auto whole = [&](int lo, int hi) { return lo + static_cast<double>(random.below(std::uint64_t(hi - lo + 1))); };
   const double angles[] = {k_pi / 2.0, k_pi / 3.0, k_pi / 4.0, k_pi / 6.0, std::atan(0.5), std::atan(2.0), 0.01, 1e-60};
-  LightVolume light = spot({whole(-8, 8), whole(-8, 8), whole(-12, 8)}, whole(1, 12), {},
-                           random.below(16) == 0 ? 0.0 : angles[random.below(8)]);
+  SpotVolume light = spot({whole(-8, 8), whole(-8, 8), whole(-12, 8)}, whole(1, 12), {},
+                          random.below(16) == 0 ? 0.0 : angles[random.below(8)]);
   do light.direction = {whole(-2, 2), whole(-2, 2), whole(-2, 2)};
   while (light.direction == Vec3d(0.0));
   return light;
@@ -264,7 +263,7 @@ TEST(Spot, of_whole_numbers_is_always_decided_and_never_against_the_filter) {
   for (std::size_t kind = 0; kind < 3; ++kind) {
     int met = 0, left_by_filter = 0;
     for (int i = 0; i < 4000; ++i) {
-      const LightVolume light = whole_number_light(random);
+      const SpotVolume light = whole_number_light(random);
       const Cell cell = whole_number_cell(random, kind);
       const Verdict decided = prove_meets(light, cell), filtered = filter_meets(light, cell);
       EXPECT_NE(decided, Verdict::uncertain) << "kind " << kind << " pair " << i;
@@ -278,7 +277,7 @@ TEST(Spot, of_whole_numbers_is_always_decided_and_never_against_the_filter) {
 }
 
 // The least range with which the spot is not certainly apart from the cell.
-double touching_range(LightVolume light, const Cell& cell) {
+double touching_range(SpotVolume light, const Cell& cell) {
   double apart = 0.0, touching = 200.0;
   for (;;) {
     light.range = 0.5 * (apart + touching);
@@ -293,12 +292,12 @@ double touching_range(LightVolume light, const Cell& cell) {
 TEST(Spot, begins_to_touch_at_one_range_and_is_decided_around_it) {
   SplitMix64 random(29);
   for (int i = 0; i < 60; ++i) {
-    const LightVolume light = random_light(random, true);
+    const SpotVolume light = random_spot(random);
     for (const Cell& cell : {Cell(random_piece(random)), Cell(random_shell(random)), Cell(random_box(random))}) {
       const double touching = touching_range(light, cell);
       if (touching >= 200.0) continue;  // the cone does not meet it
       for (const int ulps : {-4, -2, -1, 0, 1, 2, 4}) {
-        LightVolume nudged = light;
+        SpotVolume nudged = light;
         nudged.range = moved(touching, ulps);
         EXPECT_EQ(verdict(nudged, cell), ulps < 0 ? Verdict::no : Verdict::yes) << "pair " << i << " ulps " << ulps;
       }
@@ -324,7 +323,7 @@ TEST(Spot, of_any_range_beside_wide_cells_near_the_eye_is_always_decided_and_nev
   const double ranges[] = {4.0, 10.0, 1e3, 1e15, std::numeric_limits<double>::infinity()};
   int met = 0;
   for (int i = 0; i < 6000; ++i) {
-    LightVolume light = random_light(random, true);
+    SpotVolume light = random_spot(random);
     light.apex.position = {random.between(-3, 3), random.between(-3, 3), random.between(-3, 3)};
     light.range = ranges[random.below(5)];
     light.half_angle_rad = random.between(0.1, 0.6);

@@ -17,14 +17,21 @@ inline Vec3d random_direction(SplitMix64& random) {
   }
 }
 
-inline LightVolume random_light(SplitMix64& random, bool is_cone) {
-  LightVolume light;
+inline SpotVolume random_spot(SplitMix64& random) {
+  SpotVolume light;
   light.apex.position = {random.between(-20, 20), random.between(-20, 20), random.between(-60, 5)};
   light.range = random.between(0.5, 20.0);
-  light.is_cone = is_cone;
   light.direction = random_direction(random);
   light.half_angle_rad = random.between(0.01, 1.5707);
   return light;
+}
+
+// The spot, or the ball of its range.
+inline LightVolume spot_or_ball(const SpotVolume& spot, bool is_cone) {
+  return is_cone ? LightVolume(spot) : BallVolume{spot.apex, spot.range};
+}
+inline LightVolume random_light(SplitMix64& random, bool is_cone) {
+  return spot_or_ball(random_spot(random), is_cone);
 }
 
 struct Slopes {
@@ -51,10 +58,11 @@ inline ShellCell random_shell(SplitMix64& random) {
 }
 
 inline bool volume_holds(const LightVolume& light, const Vec3d& p) {
-  const Vec3d v = p - light.apex.position;
+  const Vec3d v = p - source_of(light).position;
   const double distance = glm::length(v);
-  if (distance > light.range) return false;
-  return !light.is_cone || glm::dot(v, light.direction) >= std::cos(light.half_angle_rad) * distance;
+  if (distance > range_of(light)) return false;
+  const auto* spot = std::get_if<SpotVolume>(&light);
+  return spot == nullptr || glm::dot(v, spot->direction) >= std::cos(spot->half_angle_rad) * distance;
 }
 
 inline Box random_box(SplitMix64& random) {
@@ -105,8 +113,7 @@ struct Reach {
 // A light that reaches the place with one part of its surface, and lies outward of it there.
 inline LightVolume light_against(const Contact& contact, By by, const Reach& reach, SplitMix64& random) {
   const auto& [along, half_angle, margin] = reach;
-  LightVolume light;
-  light.is_cone = by != By::ball;
+  SpotVolume light;
   light.half_angle_rad = half_angle;
   // From the apex to the place: against the cap's outward direction, along the side, or between them at the rim.
   const double lean = by == By::side ? M_PI / 2 : by == By::rim ? random.between(0.1, 1.4) : 0.0;
@@ -117,7 +124,7 @@ inline LightVolume light_against(const Contact& contact, By by, const Reach& rea
   light.direction = std::cos(off_axis) * towards + std::sin(off_axis) * inward;
   light.apex.position = contact.place - along * towards;
   light.range = by == By::side ? along * random.between(1.1, 3.0) : along + margin;
-  return light;
+  return spot_or_ball(light, by != By::ball);
 }
 
 }  // namespace clusterbench::geom

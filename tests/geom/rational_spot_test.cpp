@@ -13,9 +13,8 @@ namespace {
 const Rational k_hair = Rational(1) / Rational(Integer(1) << 250);
 
 ExactSpot spot(double half_angle) {
-  LightVolume light;
+  SpotVolume light;
   light.range = 5.0;
-  light.is_cone = true;
   light.direction = {0.0, 0.0, -2.0};
   light.half_angle_rad = half_angle;
   return exact_spot(light);
@@ -88,7 +87,7 @@ TEST(SurelySeparates, never_says_so_where_a_point_of_the_volume_is_on_the_other_
   SplitMix64 random(17);
   int separated = 0;
   for (int i = 0; i < 300; ++i) {
-    const LightVolume light = random_light(random, true);
+    const SpotVolume light = random_spot(random);
     const ExactSpot volume = exact_spot(light);
     const Vec3d normal = random_direction(random);
     // A small cell, as far along the normal as the farthest of random points of the volume, and a little nearer.

@@ -24,7 +24,7 @@ namespace {
 constexpr double k_quarter_turn = std::numbers::pi / 2.0;
 
 struct SpotPair {
-  LightVolume light;
+  SpotVolume light;
   Cell cell;
 };
 
@@ -72,7 +72,6 @@ Vec3d whole_vector(SplitMix64& random, int most) {
 SpotPair lattice_pair(SplitMix64& random, std::size_t kind) {
   constexpr std::array<double, 7> k_parts{1.0 / 3.0, 0.5, 2.0 / 3.0, 1.0, 0.25, 0.0, 1e-60};
   SpotPair pair;
-  pair.light.is_cone = true;
   pair.light.apex.position = whole_vector(random, 8);
   pair.light.range = whole(random, 1, 12);
   do pair.light.direction = whole_vector(random, 1);
@@ -89,14 +88,14 @@ SpotPair lattice_pair(SplitMix64& random, std::size_t kind) {
 }
 
 SpotPair random_pair(SplitMix64& random, std::size_t kind) {
-  SpotPair pair{random_light(random, true), Cell()};
+  SpotPair pair{random_spot(random), Cell()};
   if (kind == 0) pair.cell = random_piece(random);
   if (kind == 1) pair.cell = random_shell(random);
   if (kind == 2) pair.cell = random_box(random);
   return pair;
 }
 
-void turn(LightVolume& light, double angle) {
+void turn(SpotVolume& light, double angle) {
   light.apex.rotation[0][0] = light.apex.rotation[2][2] = std::cos(angle);
   light.apex.rotation[2][0] = std::sin(angle);
   light.apex.rotation[0][2] = -std::sin(angle);
@@ -164,7 +163,6 @@ TEST(SpotDecider, says_what_slow_proofs_say_far_from_the_eye) {
     const bool is_shell = kind == 1;
     const Contact contact = random_contact(s, is_shell, random);
     SpotPair pair;
-    pair.light.is_cone = true;
     pair.light.range = random.between(0.01, 2.0);
     pair.light.apex.origin = {1e4, 100.0, -3e3};
     pair.light.apex.position = contact.place + pair.light.range * contact.outward + pair.light.apex.origin;
@@ -183,8 +181,7 @@ TEST(SpotDecider, says_what_slow_proofs_say_far_from_the_eye) {
 
 // The half-space in front of a spot of 90° begins at its apex; its edges' ends are out of range.
 TEST(SpotDecider, of_90_degrees_reaches_a_face_that_is_an_ulp_in_front_of_its_apex) {
-  LightVolume light;
-  light.is_cone = true;
+  SpotVolume light;
   light.range = 3.0;
   light.direction = {1, 0, 0};
   light.half_angle_rad = k_quarter_turn;
@@ -249,7 +246,7 @@ TEST(SpotDecider, decides_spots_that_shine_straight_at_a_plane_they_just_reach_i
       const SpotDecider decider(pair.light);
       EXPECT_EQ(decider.meets_quickly(cell), Verdict::yes);
       EXPECT_EQ(decider.exact_decisions(), 0u);
-      LightVolume shorter = pair.light;
+      SpotVolume shorter = pair.light;
       shorter.range = by_ulps(shorter.range, -1);
       EXPECT_EQ(SpotDecider(shorter).meets_quickly(cell), Verdict::no);
     }
@@ -257,8 +254,7 @@ TEST(SpotDecider, decides_spots_that_shine_straight_at_a_plane_they_just_reach_i
 }
 
 TEST(SpotDecider, of_endless_range_is_decided) {
-  LightVolume light;
-  light.is_cone = true;
+  SpotVolume light;
   light.range = std::numeric_limits<double>::infinity();
   light.apex.position = {-4, 0.5, -6};
   light.direction = {1, 0, 0};
@@ -275,8 +271,7 @@ TEST(SpotDecider, of_endless_range_is_decided) {
 }
 
 TEST(ExactAxis, meets_what_its_ends_just_touch) {
-  LightVolume light;
-  light.is_cone = true;
+  SpotVolume light;
   light.apex.position = {1, 0.25, 0};
   light.direction = {0, 0, -3};
   const Box box{{1, -1, -9}, {3, 1, -5}};  // its face x = 1 holds the axis

@@ -52,7 +52,7 @@ TEST(Front, times_whose_intervals_overlap_are_the_same_time) {
 
 TEST(Front, times_are_told_apart_by_whoever_knows_more_than_intervals) {
   const std::vector<Costs> costs{{{90, 200}, 1, 2}, {{95, 210}, 1, 2}};
-  const auto second_takes_longer = [](std::size_t one, std::size_t other) { return one == 1 && other == 0; };
+  const auto second_takes_longer = [](std::size_t index, std::size_t other) { return index == 1 && other == 0; };
   EXPECT_EQ(pareto_front(costs, intervals_apart(costs)), (Places{0, 1}));
   EXPECT_EQ(pareto_front(costs, second_takes_longer), (Places{0}));
 }

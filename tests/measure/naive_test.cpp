@@ -33,13 +33,14 @@ Case case_of(const scene::WorldLight& light, Vec2i tiles, int slices, double fir
 }
 
 // True cells that the method leaves out.
-int lost_cells(const Case& one, const std::string& name, const std::map<std::string, assign::ParamValue>& params = {}) {
+int lost_cells(const Case& case_text, const std::string& name,
+               const std::map<std::string, assign::ParamValue>& params = {}) {
   const assign::AssignerDescriptor& row = *assign::find_assigner(name);
   const auto assigner = row.make(assign::Params(row.params, params));
-  assigner->build(one.grid);
+  assigner->build(case_text.grid);
   assign::Lists lists;
-  assigner->assign({one.frame, view::lights_in(one.frame, one.frame.view_space)}, lists);
-  const Truth truth = find_truth(one.frame, one.grid, 1);
+  assigner->assign({case_text.frame, view::lights_in(case_text.frame, case_text.frame.view_space)}, lists);
+  const Truth truth = find_truth(case_text.frame, case_text.grid, 1);
   EXPECT_EQ(truth.undecided, 0u);
   EXPECT_GT(truth.lists.pair_count(), 0u);
   int lost = 0;
@@ -48,32 +49,32 @@ int lost_cells(const Case& one, const std::string& name, const std::map<std::str
   return lost;
 }
 
-int lost_by_flaw(const Case& one, const std::string& name, const std::string& flaw) {
-  return lost_cells(one, name, {{"flaw", flaw}});
+int lost_by_flaw(const Case& case_text, const std::string& name, const std::string& flaw) {
+  return lost_cells(case_text, name, {{"flaw", flaw}});
 }
 
 TEST(NaiveForm, a_centre_row_that_is_not_taken_again_loses_a_light) {
-  const Case one = case_of(point_light({24.3343582, -12.6534967, -24.6891174}, 13), {12, 12}, 24, 0.0, 400);
-  EXPECT_GT(lost_cells(one, "naive-refinement"), 0);
-  EXPECT_EQ(lost_cells(one, "sphere-refinement"), 0);
+  const Case case_text = case_of(point_light({24.3343582, -12.6534967, -24.6891174}, 13), {12, 12}, 24, 0.0, 400);
+  EXPECT_GT(lost_cells(case_text, "naive-refinement"), 0);
+  EXPECT_EQ(lost_cells(case_text, "sphere-refinement"), 0);
 }
 
 TEST(NaiveForm, a_fast_logarithm_in_the_bounds_loses_a_slice) {
-  const Case one = case_of(point_light({-16.7833176, 14.3895569, -103.066628}, 3), {12, 12}, 24, 0.141282, 400);
-  EXPECT_GT(lost_by_flaw(one, "naive-bounds", "fast-log-slice"), 0);
-  EXPECT_EQ(lost_cells(one, "bounds"), 0);
+  const Case case_text = case_of(point_light({-16.7833176, 14.3895569, -103.066628}, 3), {12, 12}, 24, 0.141282, 400);
+  EXPECT_GT(lost_by_flaw(case_text, "naive-bounds", "fast-log-slice"), 0);
+  EXPECT_EQ(lost_cells(case_text, "bounds"), 0);
 }
 
 TEST(NaiveForm, another_base_of_the_logarithm_loses_a_slice_at_its_boundary) {
   // A light that ends one step before a boundary of a grid with many slices over a great range.
   int lost = 0;
   for (int slice = 8; slice < 56; ++slice) {
-    Case one = case_of(point_light({0, 0, -10}, 1), {8, 8}, 64, 0.0, 1e6);
-    const float boundary = one.grid.screen().slices.boundaries[static_cast<std::size_t>(slice)];
+    Case case_text = case_of(point_light({0, 0, -10}, 1), {8, 8}, 64, 0.0, 1e6);
+    const float boundary = case_text.grid.screen().slices.boundaries[static_cast<std::size_t>(slice)];
     const double radius = 0.125 * boundary;
-    one.frame.lights = {point_light({0, 0, -static_cast<double>(boundary) - radius * (1 - 1e-7)}, radius)};
-    lost += lost_by_flaw(one, "naive-bounds", "log-slice");
-    EXPECT_EQ(lost_cells(one, "bounds"), 0);
+    case_text.frame.lights = {point_light({0, 0, -static_cast<double>(boundary) - radius * (1 - 1e-7)}, radius)};
+    lost += lost_by_flaw(case_text, "naive-bounds", "log-slice");
+    EXPECT_EQ(lost_cells(case_text, "bounds"), 0);
   }
   EXPECT_GT(lost, 0);
 }
@@ -83,60 +84,62 @@ TEST(NaiveForm, tangents_that_cancel_lose_tiles_of_a_huge_light) {
   int lost = 0;
   for (int i = 0; i < 40; ++i) {
     const double r = 1e6, gap = 1.0 + 0.25 * i;
-    Case one = case_of(point_light({0, 0, -10}, 1), {60, 34}, 16, 5.0, 1e6);
-    const double tangent = std::atan(one.grid.screen().tiles.x[static_cast<std::size_t>(10 + i)]) - 2e-6;
+    Case case_text = case_of(point_light({0, 0, -10}, 1), {60, 34}, 16, 5.0, 1e6);
+    const double tangent = std::atan(case_text.grid.screen().tiles.x[static_cast<std::size_t>(10 + i)]) - 2e-6;
     const double center = tangent + std::asin(r / (r + gap));
-    one.frame.lights = {point_light({(r + gap) * std::sin(center), 0.0, -(r + gap) * std::cos(center)}, r)};
-    lost += lost_by_flaw(one, "naive-bounds", "textbook-tangents");
-    EXPECT_EQ(lost_cells(one, "bounds"), 0);
+    case_text.frame.lights = {point_light({(r + gap) * std::sin(center), 0.0, -(r + gap) * std::cos(center)}, r)};
+    lost += lost_by_flaw(case_text, "naive-bounds", "textbook-tangents");
+    EXPECT_EQ(lost_cells(case_text, "bounds"), 0);
   }
   EXPECT_GT(lost, 0);
 }
 
 TEST(NaiveForm, whole_tiles_only_lose_the_right_edge_of_the_screen) {
-  Case one = case_of(point_light({9.9, 0.0, -10}, 0.5), {16, 9}, 16, 5.0, 500, {1000, 700});
-  one.grid = [&] {
+  Case case_text = case_of(point_light({9.9, 0.0, -10}, 0.5), {16, 9}, 16, 5.0, 500, {1000, 700});
+  case_text.grid = [&] {
     grid::GridSpec spec;
     spec.tiles = {{64, 64}, {0, 0}};
     spec.slices.near_m = 0.1;
     spec.slices.far_m = 500;
-    return grid::make_grid(spec, grid::grid_inputs(spec, one.frame, 0.0, {}, {}));
+    return grid::make_grid(spec, grid::grid_inputs(spec, case_text.frame, 0.0, {}, {}));
   }();
-  one.frame.lights = {point_light({one.frame.projection.right * 9.8, 0.0, -10}, 0.1)};
-  EXPECT_GT(lost_by_flaw(one, "naive-bounds", "tile-division"), 0);
-  EXPECT_EQ(lost_cells(one, "bounds"), 0);
+  case_text.frame.lights = {point_light({case_text.frame.projection.right * 9.8, 0.0, -10}, 0.1)};
+  EXPECT_GT(lost_by_flaw(case_text, "naive-bounds", "tile-division"), 0);
+  EXPECT_EQ(lost_cells(case_text, "bounds"), 0);
 }
 
 TEST(NaiveForm, a_tile_size_that_is_rounded_up_loses_a_spot) {
-  const Case one =
+  const Case case_text =
       case_of(spot_light({32.4449654, -17.4399338, -90.1848755}, 29.1207905, {.131388, -.724634, .676493}, .0865885),
               {61, 50}, 16, 5.0, 500);
-  EXPECT_GT(lost_by_flaw(one, "naive-bounds", "padded-tiles"), 0);
-  for (const char* careful : {"bounds", "aabb", "sphere-refinement", "exact"}) EXPECT_EQ(lost_cells(one, careful), 0);
+  EXPECT_GT(lost_by_flaw(case_text, "naive-bounds", "padded-tiles"), 0);
+  for (const char* careful : {"bounds", "aabb", "sphere-refinement", "exact"})
+    EXPECT_EQ(lost_cells(case_text, careful), 0);
 }
 
 // A searchlight of 0.01 degrees is 16 m wide after 90 km; with a sine of 0 it is a line.
 TEST(NaiveForm, a_sine_from_the_cosine_loses_a_narrow_spot) {
-  const Case one = case_of(spot_light({-9e4, 0.3, -50}, 1e5, {1, 0, 0}, 0.01 * M_PI / 180), {60, 34}, 40, 5.0, 500);
-  EXPECT_GT(lost_by_flaw(one, "naive-cone", "sine-from-cosine"), 0);
-  for (const char* careful : {"aabb", "sphere-refinement", "exact"}) EXPECT_EQ(lost_cells(one, careful), 0);
+  const Case case_text =
+      case_of(spot_light({-9e4, 0.3, -50}, 1e5, {1, 0, 0}, 0.01 * M_PI / 180), {60, 34}, 40, 5.0, 500);
+  EXPECT_GT(lost_by_flaw(case_text, "naive-cone", "sine-from-cosine"), 0);
+  for (const char* careful : {"aabb", "sphere-refinement", "exact"}) EXPECT_EQ(lost_cells(case_text, careful), 0);
 }
 
 TEST(NaiveForm, a_loose_form_loses_nothing_and_lists_more) {
-  const Case one = case_of(spot_light({3, 1, -20}, 15, {0.5, -0.3, -0.8}, 0.6), {30, 17}, 16, 5.0, 500);
+  const Case case_text = case_of(spot_light({3, 1, -20}, 15, {0.5, -0.3, -0.8}, 0.6), {30, 17}, 16, 5.0, 500);
   const auto pairs = [&](const std::string& name, const std::map<std::string, assign::ParamValue>& params) {
     const assign::AssignerDescriptor& row = *assign::find_assigner(name);
     const auto assigner = row.make(assign::Params(row.params, params));
-    assigner->build(one.grid);
+    assigner->build(case_text.grid);
     assign::Lists lists;
-    assigner->assign({one.frame, view::lights_in(one.frame, one.frame.view_space)}, lists);
+    assigner->assign({case_text.frame, view::lights_in(case_text.frame, case_text.frame.view_space)}, lists);
     return lists.pair_count();
   };
   for (const char* flaw : {"no-range", "flat-cap-ball"}) {
-    EXPECT_EQ(lost_by_flaw(one, "naive-cone", flaw), 0) << flaw;
+    EXPECT_EQ(lost_by_flaw(case_text, "naive-cone", flaw), 0) << flaw;
     EXPECT_GT(pairs("naive-cone", {{"flaw", std::string(flaw)}}), pairs("sphere-refinement", {})) << flaw;
   }
-  EXPECT_EQ(lost_cells(one, "naive-planes"), 0);
+  EXPECT_EQ(lost_cells(case_text, "naive-planes"), 0);
   EXPECT_GE(pairs("naive-planes", {}), pairs("planes", {}));
 }
 

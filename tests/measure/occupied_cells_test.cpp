@@ -167,7 +167,8 @@ TEST(OccupiedCells, truth_is_what_each_part_by_itself_is_decided_to_be) {
         for (std::uint32_t cell = light % 5; cell < cells.cell_count(); cell += 5) {
           bool is_true = false;
           for (const geom::FrustumCell& part : cells.of(cell))
-            is_true = is_true || (volume.range > 0.0 && geom::decide_meets(volume, part) == geom::Verdict::yes);
+            is_true =
+                is_true || (geom::range_of(volume) > 0.0 && geom::decide_meets(volume, part) == geom::Verdict::yes);
           ASSERT_EQ(assign::testing::lists_light(truth.lists, cell, light), is_true)
               << row->name << " on " << setting.name << ", cell " << cell << ", light " << light;
         }

@@ -201,7 +201,7 @@ TEST(Launches, a_ratio_knows_as_many_values_as_there_were_launches) {
   const std::array logs{std::log(2.0), std::log(2.2), std::log(1.8)};
   const double mean = (logs[0] + logs[1] + logs[2]) / 3.0;
   double squares = 0.0;
-  for (const double one : logs) squares += (one - mean) * (one - mean);
+  for (const double value : logs) squares += (value - mean) * (value - mean);
   EXPECT_NEAR(std::log(of_launches.ci95.high), mean + 4.3027 * std::sqrt(squares / 6.0), 1e-4);
   EXPECT_NEAR(std::log(of_launches.ci95.low), mean - 4.3027 * std::sqrt(squares / 6.0), 1e-4);
 }

@@ -7,12 +7,14 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <set>
 
 #include "assign/contract/assigner.h"
 #include "core/random.h"
 #include "geom/filter/light_filter.h"
 #include "geom/light_meets_cell.h"
 #include "geom/shapes/verdict.h"
+#include "measure/truth_cells.h"
 #include "scene/camera_path.h"
 
 namespace clusterbench::measure {
@@ -67,11 +69,7 @@ assign::Lists decided_one_by_one(const view::Frame& frame, const grid::Grid& gri
   pairs.start(grid.cell_count());
   for (std::uint32_t i = 0; i < frame.lights.size(); ++i) {
     const scene::WorldLight& light = frame.lights[i];
-    const geom::LightVolume volume{{light.position, space.origin, space.rotation},
-                                   light.range_m,
-                                   light.type == scene::LightType::spot,
-                                   light.direction,
-                                   light.outer_cone_rad};
+    const geom::LightVolume volume = view::volume_of(light, space);
     for (std::uint32_t cell = 0; cell < grid.cell_count(); ++cell) {
       if (grid.is_hole(cell)) continue;
       Verdict verdict = geom::filter_meets(volume, grid.cell(cell));
@@ -100,13 +98,46 @@ TEST_P(TruthOn, rows_and_tiles_find_what_deciding_every_cell_alone_finds) {
   EXPECT_GT(truth.filter_decided, truth.lists.pair_count() / 2);
 }
 
+// Cells that no grid has: each is a cell of a grid and the one before it. Without an accelerator.
+class PairsOfCells final : public TruthCells {
+ public:
+  PairsOfCells(const view::Frame& frame, const grid::Grid& grid) : grid_(grid), space_(grid::space_of(grid, frame)) {}
+
+  std::uint32_t cell_count() const override { return grid_.cell_count(); }
+  const view::Space& space() const override { return space_; }
+  void settle(std::uint32_t cell, const grid::IndexRange&, LightSearch& search) const override {
+    search.settle(cell, [&] {
+      return meets_any(parts(cell), [&](std::uint32_t part) { return search.decided(grid_.cell(part)); });
+    });
+  }
+  static std::vector<std::uint32_t> parts(std::uint32_t cell) { return {cell, cell == 0 ? 0 : cell - 1}; }
+
+ private:
+  const grid::Grid& grid_;
+  view::Space space_;
+};
+
+TEST_P(TruthOn, cells_of_any_kind_need_no_more_than_a_decision) {
+  const view::Frame frame = frame_with(30, 30, 19, GetParam().orthographic);
+  const grid::Grid grid = small_grid(GetParam().kind == Kind::cascades ? Kind::world : GetParam().kind, frame);
+  const assign::Lists alone = decided_one_by_one(frame, grid);
+  const Truth truth = find_truth(frame, PairsOfCells(frame, grid), 2);
+  for (std::uint32_t cell = 0; cell < grid.cell_count(); ++cell) {
+    std::set<std::uint32_t> wanted;
+    for (const std::uint32_t part : PairsOfCells::parts(cell))
+      wanted.insert(alone.of(part).begin(), alone.of(part).end());
+    EXPECT_TRUE(std::ranges::equal(truth.lists.of(cell), wanted)) << cell;
+  }
+  EXPECT_GT(truth.lists.pair_count(), alone.pair_count());
+}
+
 TEST_P(TruthOn, the_number_of_threads_does_not_show) {
   const view::Frame frame = frame_with(200, 50, 23, GetParam().orthographic);
   const grid::Grid grid = small_grid(GetParam().kind, frame);
-  const Truth one = find_truth(frame, grid, 1), two = find_truth(frame, grid, 2);
-  EXPECT_EQ(one.lists, two.lists);
-  EXPECT_EQ(one.filter_decided, two.filter_decided);
-  EXPECT_EQ(one.exact_decided, two.exact_decided);
+  const Truth single = find_truth(frame, grid, 1), two = find_truth(frame, grid, 2);
+  EXPECT_EQ(single.lists, two.lists);
+  EXPECT_EQ(single.filter_decided, two.filter_decided);
+  EXPECT_EQ(single.exact_decided, two.exact_decided);
 }
 
 TEST_P(TruthOn, no_conservative_assigner_misses_a_true_pair) {
@@ -180,14 +211,15 @@ view::Space far_and_turned() {
 }
 
 // The least range with which the light touches the cell, to the last bit.
-double touching_range(geom::LightVolume light, const geom::Cell& cell) {
+double touching_range(const geom::LightVolume& light, const geom::Cell& cell) {
   double apart = 0.0, touching = 256.0;
   for (;;) {
-    light.range = 0.5 * (apart + touching);
-    if (light.range <= apart || light.range >= touching) return touching;
-    Verdict verdict = geom::filter_meets(light, cell);
-    if (verdict == Verdict::uncertain) verdict = geom::prove_meets(light, cell);
-    (verdict == Verdict::no ? apart : touching) = light.range;
+    const double range = 0.5 * (apart + touching);
+    if (range <= apart || range >= touching) return touching;
+    const geom::LightVolume shorter = geom::with_range(light, range);
+    Verdict verdict = geom::filter_meets(shorter, cell);
+    if (verdict == Verdict::uncertain) verdict = geom::prove_meets(shorter, cell);
+    (verdict == Verdict::no ? apart : touching) = range;
   }
 }
 

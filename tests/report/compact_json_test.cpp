@@ -29,17 +29,17 @@ TEST(CompactJson, is_the_same_value) {
 }
 
 TEST(CompactJson, has_a_line_for_each_list_of_values_however_long) {
-  Json one{{"name", std::string(100, 'x')}, {"samples", std::vector<double>(1000, 0.5)}, {"after", 1}};
-  const std::vector<std::string> lines = lines_of(one);
+  Json entry{{"name", std::string(100, 'x')}, {"samples", std::vector<double>(1000, 0.5)}, {"after", 1}};
+  const std::vector<std::string> lines = lines_of(entry);
   ASSERT_EQ(lines.size(), 5u);
   EXPECT_EQ(std::count(lines[2].begin(), lines[2].end(), ','), 1000);
   EXPECT_EQ(lines[3], " \"after\": 1");
 }
 
 TEST(CompactJson, fills_lines_of_120_columns_with_short_members) {
-  Json one;
-  for (int i = 0; i < 40; ++i) one["member" + std::to_string(i)] = {{"mean", i}, {"max", nullptr}};
-  const std::vector<std::string> lines = lines_of(one);
+  Json entry;
+  for (int i = 0; i < 40; ++i) entry["member" + std::to_string(i)] = {{"mean", i}, {"max", nullptr}};
+  const std::vector<std::string> lines = lines_of(entry);
   EXPECT_LT(lines.size(), 20u);
   for (const std::string& line : lines) EXPECT_LE(line.size(), 120u) << line;
 }

@@ -20,8 +20,8 @@ Json json_of(const run::Result& result) {
 }
 
 // 31 samples with a median's interval of +-0.2 % around `ns`.
-void set_time(run::CaseResult& one, double ns) {
-  one.timing->frame_ns = {ns, 1.0, ns, ns, {0.998 * ns, 1.002 * ns}, std::vector<double>(31, ns)};
+void set_time(run::CaseResult& case_result, double ns) {
+  case_result.timing->frame_ns = {ns, 1.0, ns, ns, {0.998 * ns, 1.002 * ns}, std::vector<double>(31, ns)};
 }
 
 run::Result with_times(double slow_ns, double fast_ns) {
@@ -142,7 +142,7 @@ TEST(Compare, methods_with_two_storages_are_one_method) {
   EXPECT_EQ(comparison["time"], "frame");
   EXPECT_EQ(comparison["summary"]["methods_timed"], 3) << "each case has a frame time of its own";
   Json next_json = json_of(next);
-  for (Json& one : next_json["cases"]) one["timing"]["baseline"] = paired(3.0);
+  for (Json& entry : next_json["cases"]) entry["timing"]["baseline"] = paired(3.0);
   next_json["baseline"]["tool"] = next_json["tool"];
   EXPECT_EQ(compared(next_json, next_json, 0.02)["summary"]["methods_timed"], 2) << "assignment is shared";
 }
@@ -171,7 +171,7 @@ TEST(Compare, a_time_without_an_interval_concludes_nothing) {
 TEST(Compare, separate_runs_are_compared_by_what_a_frame_takes_or_not_at_all) {
   Json base = json_of(result_by_hand());
   const Json next = base;
-  for (Json& one : base["cases"]) one["timing"]["frame_ns"]["median"] = nullptr;
+  for (Json& entry : base["cases"]) entry["timing"]["frame_ns"]["median"] = nullptr;
   const Json comparison = compared(base, next, 0.02);
   EXPECT_EQ(comparison["time"], "frame");
   EXPECT_FALSE(comparison["cases"][0].contains("base_ns")) << "never its assignment in its place";
@@ -182,9 +182,9 @@ TEST(Compare, another_allocation_margin_is_another_setting_and_nothing_worse) {
   const Json base = json_of(result_by_hand());
   Json next = base;
   next["config"]["allocation"]["margin"] = 3.0;
-  for (Json& one : next["cases"]) {
-    one["buffers"]["index_entries"]["recommended"] = 120;
-    one["buffers"]["used_share"]["mean"] = 0.1;
+  for (Json& entry : next["cases"]) {
+    entry["buffers"]["index_entries"]["recommended"] = 120;
+    entry["buffers"]["used_share"]["mean"] = 0.1;
   }
   const Json comparison = compared(base, next, 0.02);
   EXPECT_EQ(comparison["cases"][0]["counts"], "same");
@@ -200,7 +200,7 @@ TEST(Compare, another_allocation_margin_is_another_setting_and_nothing_worse) {
 TEST(Compare, cases_of_one_name_that_are_not_the_same_are_told_with_what_differs) {
   const Json base = json_of(result_by_hand());
   Json next = base;
-  for (Json& one : next["cases"]) one["id"] = one["id"].get<std::string>() + "'";
+  for (Json& entry : next["cases"]) entry["id"] = entry["id"].get<std::string>() + "'";
   next["scenes"][0]["sha256"] = std::string(64, 'b');
   next["config"]["seed"] = 2;
   next["cases"][1]["frames"] = 7;
@@ -238,7 +238,7 @@ TEST(Compare, each_setting_that_makes_another_case_is_named) {
 TEST(Compare, a_measure_that_only_one_result_has_is_told) {
   const Json base = json_of(result_by_hand());
   Json next = base;
-  for (Json& one : next["cases"]) one.erase("shading");
+  for (Json& entry : next["cases"]) entry.erase("shading");
   next["cases"][0].erase("timing");
   const Json comparison = compared(base, next, 0.02);
   EXPECT_EQ(comparison["not_compared"], Json::parse(R"([{"part": "shading", "only_in": "base", "cases": 2},
@@ -257,7 +257,8 @@ TEST(Compare, of_waves_the_lengths_of_lists_are_judged_and_not_what_is_divided_b
   coherence.sizes[0].longest = coherence.sizes[1].longest = 30;
   coherence.sizes[0].mean = coherence.sizes[1].mean = 20.0;
   const measure::ShadingCounts counts{.samples = 100, .evaluated = 250, .needed = 200};
-  for (run::CaseResult& one : result.cases) one.samples = {{measure::SampleSet::opaque, counts, coherence}};
+  for (run::CaseResult& case_result : result.cases)
+    case_result.samples = {{measure::SampleSet::opaque, counts, coherence}};
   const Json base = json_of(result);
   result.cases[1].samples[0].coherence->sizes[0].mean = 15.0;
   EXPECT_EQ(compared(base, json_of(result), 0.02)["cases"][1]["counts"], "better");
@@ -408,7 +409,7 @@ TEST(Compare, another_kernel_or_memory_parts_times_and_nothing_else) {
 TEST(Compare, cold_times_are_not_compared_with_warm_ones) {
   const run::Result base = result_by_hand();
   run::Result next = base;
-  for (run::CaseResult& one : next.cases) one.timing->is_cold = true;
+  for (run::CaseResult& case_result : next.cases) case_result.timing->is_cold = true;
   const Json comparison = compared(json_of(base), json_of(next), 0.02);
   ASSERT_TRUE(comparison["left_out"].contains("times"));
   EXPECT_TRUE(holds(comparison["left_out"]["times"], "/cases/*/timing/caches"));
@@ -419,7 +420,7 @@ Json measured_beside(const Json& base, double percent) {
   Json next = json_of(with_times(9000, 3000));
   next["tool"]["git_sha"] = "def";
   next["baseline"]["tool"] = base["tool"];
-  for (Json& one : next["cases"]) one["timing"]["baseline"] = paired(percent);
+  for (Json& entry : next["cases"]) entry["timing"]["baseline"] = paired(percent);
   return next;
 }
 

@@ -78,8 +78,8 @@ TEST(Exports, an_unknown_format_is_answered_with_the_nearest_one_and_the_list) {
 }
 
 TEST(Exports, a_quotient_takes_its_interval_along) {
-  const Json one = result()["cases"][1];
-  const std::vector<Measured> figures = measured(one, false);
+  const Json entry = result()["cases"][1];
+  const std::vector<Measured> figures = measured(entry, false);
   const auto speedup = std::find_if(figures.begin(), figures.end(),
                                     [](const Measured& figure) { return figure.metric->name == "speedup"; });
   ASSERT_NE(speedup, figures.end());
@@ -90,7 +90,7 @@ TEST(Exports, a_quotient_takes_its_interval_along) {
 
 TEST(Exports, the_headline_is_part_of_everything) {
   const Json all = result();
-  for (const Json& one : all["cases"]) EXPECT_LT(measured(one, false).size(), measured(one, true).size());
+  for (const Json& entry : all["cases"]) EXPECT_LT(measured(entry, false).size(), measured(entry, true).size());
 }
 
 TEST(Exports, a_case_without_its_name_is_named_by_its_place) {
@@ -182,10 +182,10 @@ TEST(Csv, the_parts_of_a_name_are_columns_and_the_heading_has_units) {
 
 TEST(Csv, the_columns_are_the_same_whatever_was_measured) {
   run::Result bare = testing::result_by_hand();
-  for (run::CaseResult& one : bare.cases) {
-    one.timing.reset();
-    one.error.reset();
-    one.shading.reset();
+  for (run::CaseResult& case_result : bare.cases) {
+    case_result.timing.reset();
+    case_result.error.reset();
+    case_result.shading.reset();
   }
   const auto heading = [](const std::string& text) { return text.substr(0, text.find('\n')); };
   const std::string of_bare = exported(result_to_json(bare, {}), export_format("csv"), false);
@@ -247,7 +247,7 @@ TEST(Markdown, every_row_has_the_columns_of_the_heading) {
 
 TEST(GoogleBenchmark, a_result_without_times_says_what_to_do) {
   run::Result counted = testing::result_by_hand();
-  for (run::CaseResult& one : counted.cases) one.timing.reset();
+  for (run::CaseResult& case_result : counted.cases) case_result.timing.reset();
   try {
     exported(result_to_json(counted, {}), export_format("google-benchmark"), false);
     FAIL();

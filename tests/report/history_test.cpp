@@ -54,14 +54,14 @@ class History : public ::testing::Test {
 };
 
 const Series& times_of_fast(const std::vector<Series>& all) {
-  for (const Series& one : all)
-    if (one.metric->name == "assign_time" && one.case_name.find("/aabb/") != std::string::npos) return one;
+  for (const Series& series : all)
+    if (series.metric->name == "assign_time" && series.case_name.find("/aabb/") != std::string::npos) return series;
   throw std::runtime_error("no such series");
 }
 
 const Series& bytes_of_fast(const std::vector<Series>& all) {
-  for (const Series& one : all)
-    if (one.metric->name == "list_bytes" && one.case_name.find("/aabb/") != std::string::npos) return one;
+  for (const Series& series : all)
+    if (series.metric->name == "list_bytes" && series.case_name.find("/aabb/") != std::string::npos) return series;
   throw std::runtime_error("no such series");
 }
 
@@ -92,7 +92,8 @@ TEST_F(History, other_settings_begin_a_series_of_their_own_and_are_told) {
   }
   const std::vector<Series> all = series_of(read_history(file_), {});
   EXPECT_EQ(bytes_of_fast(all).values.size(), 7u);
-  for (const Series& one : all) EXPECT_TRUE(one.changes.empty()) << one.case_name << " " << one.metric->name;
+  for (const Series& series : all)
+    EXPECT_TRUE(series.changes.empty()) << series.case_name << " " << series.metric->name;
   const std::string said = history_text(all, 9, false);
   EXPECT_NE(said.find("warning: other settings (others), not joined with what was before: "
                       "hall/walk/frustum 64px/aabb/packed from b1 on\n"),
@@ -145,7 +146,7 @@ TEST_F(History, times_of_two_machines_are_two_series_and_counts_are_one) {
   EXPECT_EQ(times_of_fast(all).machine, "a processor (family 6, model 85, stepping 7; L1d 32 KiB, L2 1 MiB), scalar");
   EXPECT_EQ(bytes_of_fast(all).values.size(), 14u);
   EXPECT_EQ(bytes_of_fast(all).machine, "");
-  for (const Series& one : all) EXPECT_TRUE(one.changes.empty()) << one.machine;
+  for (const Series& series : all) EXPECT_TRUE(series.changes.empty()) << series.machine;
 }
 
 TEST_F(History, times_with_cold_caches_do_not_go_on_a_series_of_warm_ones) {
@@ -183,7 +184,7 @@ TEST_F(History, instructions_change_beyond_what_counting_leaves_open) {
       add_to_history(file_, result_to_json(result, {}), "c");
     }
     std::size_t found = 0;
-    for (const Series& one : series_of(read_history(file_), {.min_change = 0.0})) found += one.changes.size();
+    for (const Series& series : series_of(read_history(file_), {.min_change = 0.0})) found += series.changes.size();
     return found;
   };
   EXPECT_EQ(changes(40020, "callgrind"), 0u);

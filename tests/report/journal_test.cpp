@@ -19,9 +19,9 @@ using Json = nlohmann::ordered_json;
 const Json k_header{{"config", "a"}};
 
 Json case_named(const std::string& id) {
-  Json one = case_to_json(testing::result_by_hand().cases[0]);
-  one["id"] = id;
-  return one;
+  Json entry = case_to_json(testing::result_by_hand().cases[0]);
+  entry["id"] = id;
+  return entry;
 }
 
 std::string text_of(const fs::path& path) {

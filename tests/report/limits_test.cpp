@@ -27,9 +27,9 @@ Json case_with_budget_figures() {
     "shading": {"missed": 1, "needed": 1000, "lost_irradiance": 0.25, "overshade": 1.5, "worst_frame": {"frame": 3}}})");
 }
 
-LimitFindings findings_of(const std::string& rule, Json one = case_with_budget_figures()) {
+LimitFindings findings_of(const std::string& rule, Json entry = case_with_budget_figures()) {
   const config::LimitRule rules[] = {config::limit_rule(rule, "", "--fail-if")};
-  return limit_findings(Json{{"cases", Json::array({std::move(one)})}}, rules);
+  return limit_findings(Json{{"cases", Json::array({std::move(entry)})}}, rules);
 }
 
 std::string broken_by(const std::string& rule) {
@@ -90,10 +90,10 @@ TEST(Limits, what_some_cases_have_is_held_there_and_the_others_are_named) {
 }
 
 TEST(Limits, a_frames_time_is_never_made_of_its_parts) {
-  Json one = case_with_budget_figures();
-  one["timing"]["frame_ns"]["median"] = nullptr;
-  ASSERT_EQ(findings_of("frame_us > 1", one).broken.size(), 1u);
-  EXPECT_NE(findings_of("frame_us > 1", one).broken[0].find("could not be checked"), std::string::npos)
+  Json entry = case_with_budget_figures();
+  entry["timing"]["frame_ns"]["median"] = nullptr;
+  ASSERT_EQ(findings_of("frame_us > 1", entry).broken.size(), 1u);
+  EXPECT_NE(findings_of("frame_us > 1", entry).broken[0].find("could not be checked"), std::string::npos)
       << "medians of parts do not add up to the median of the frame";
 }
 
@@ -123,10 +123,10 @@ TEST(Limits, the_table_of_names_in_the_documents_is_that_of_budgets_results_and_
   for (const auto& row : rows) {
     std::string pointer = "/" + row.at(3);
     std::replace(pointer.begin(), pointer.end(), '.', '/');
-    Json one{{"name", "a"}};
-    one[Json::json_pointer(pointer)] = 1e6;
-    if (row[2] == "unlit") one["shading"].update({{"missed", 1e6}, {"needed", 1.0}});  // what it is a share of
-    const std::vector<std::string> broken = findings_of(row[2] + " > 500", one).broken;
+    Json entry{{"name", "a"}};
+    entry[Json::json_pointer(pointer)] = 1e6;
+    if (row[2] == "unlit") entry["shading"].update({{"missed", 1e6}, {"needed", 1.0}});  // what it is a share of
+    const std::vector<std::string> broken = findings_of(row[2] + " > 500", entry).broken;
     ASSERT_EQ(broken.size(), 1u) << row[2];
     EXPECT_EQ(broken[0].find("could not be checked"), std::string::npos) << row[2] << " is not at " << pointer;
     const auto metrics = export_metrics();

@@ -17,8 +17,8 @@ using Json = nlohmann::ordered_json;
 NamedPart shard(const std::string& file, const std::string& id) {
   Json result = result_to_json(testing::result_by_hand(), {});
   Json kept = Json::array();
-  for (const Json& one : result["cases"])
-    if (one["id"] == id) kept.push_back(one);
+  for (const Json& entry : result["cases"])
+    if (entry["id"] == id) kept.push_back(entry);
   result["cases"] = kept;
   return {file, result};
 }
@@ -62,21 +62,21 @@ TEST(Merge, two_scenes_of_one_name_are_a_conflict) {
 }
 
 TEST(Merge, shards_of_one_machine_are_merged_however_busy_it_was) {
-  NamedPart one = shard("a.json", "slow"), other = shard("b.json", "fast");
-  one.result["machine"]["load"] = {{"begin", 0.1}, {"end", 0.2}};
+  NamedPart part = shard("a.json", "slow"), other = shard("b.json", "fast");
+  part.result["machine"]["load"] = {{"begin", 0.1}, {"end", 0.2}};
   other.result["machine"]["clock_mhz"] = {{"now", 2000}};
-  one.result["date"] = "2026-01-02T03:04:05Z";
-  EXPECT_EQ(merged({one, other}), result_to_json(testing::result_by_hand(), {}));
+  part.result["date"] = "2026-01-02T03:04:05Z";
+  EXPECT_EQ(merged({part, other}), result_to_json(testing::result_by_hand(), {}));
 }
 
 TEST(Merge, times_of_two_machines_are_refused_and_counts_are_not) {
-  NamedPart one = shard("a.json", "slow"), other = shard("b.json", "fast");
+  NamedPart part = shard("a.json", "slow"), other = shard("b.json", "fast");
   other.result["machine"]["cpu"] = "another";
-  const std::string said = refusal({one, other});
+  const std::string said = refusal({part, other});
   EXPECT_NE(said.find("b.json: /machine: is not that of a.json"), std::string::npos) << said;
-  one.result["cases"][0].erase("timing");
+  part.result["cases"][0].erase("timing");
   other.result["cases"][0].erase("timing");
-  EXPECT_EQ(refusal({one, other}), "accepted");
+  EXPECT_EQ(refusal({part, other}), "accepted");
 }
 
 }  // namespace

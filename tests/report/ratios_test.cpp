@@ -24,12 +24,12 @@ Json timed_result(const std::vector<std::vector<double>>& samples, int launches 
   result.scenes.push_back(scene);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const std::string name = std::string("method-") + static_cast<char>('a' + i);
-    run::CaseResult one = case_by_hand(name, name, 1000.0);
-    one.timing->is_cold = true;
-    one.timing->launches = launches;
-    one.timing->frame_ns = measure::time_stats(samples[i], 1, launches);
-    result.cases.push_back(one);
-    result.planned_ids.push_back(one.id);
+    run::CaseResult case_result = case_by_hand(name, name, 1000.0);
+    case_result.timing->is_cold = true;
+    case_result.timing->launches = launches;
+    case_result.timing->frame_ns = measure::time_stats(samples[i], 1, launches);
+    result.cases.push_back(case_result);
+    result.planned_ids.push_back(case_result.id);
   }
   return result_to_json(result, {});
 }

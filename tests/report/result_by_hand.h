@@ -10,45 +10,45 @@
 namespace clusterbench::report::testing {
 
 inline run::CaseResult case_by_hand(const std::string& id, const std::string& assigner, double assign_ns) {
-  run::CaseResult one;
-  one.id = id;
-  one.settings = "settings of " + assigner;
-  one.name = "hall/walk/frustum 64px/" + assigner + "/packed";
-  one.scene = "hall";
-  one.camera = "walk";
-  one.viewport = {1920, 1080};
-  one.frames = 2;
-  one.grid = {{"kind", "frustum"}, {"name", "frustum 64px"}, {"cells", {4, 3, 2}}};
-  one.assigner = one.assigner_label = assigner;
-  one.assigner_params = nlohmann::json::object();
-  one.storage_label = "packed";
-  one.occupancy.emplace();
-  one.occupancy->pairs = {30.0, 20.0, 40.0, 40.0, 40.0};
-  one.occupancy->lights_per_cell = {1.25, 1.0, 3.0, 7.0, 7.0};
-  one.occupancy->histogram = {10, 20, 18};
-  one.occupancy->worst_frame = 1;
-  one.occupancy->worst_cell = 17;  // x 1, y 1, z 1 of 4 x 3 x 2
-  one.occupancy->worst_count = 7;
-  for (const std::uint64_t pairs : {20u, 40u}) one.occupancy->pairs_along_path.add_frame(pairs);
-  for (const std::uint64_t longest : {5u, 7u}) one.occupancy->longest_along_path.add_frame(longest);
-  for (const std::uint64_t bytes : {212u, 232u}) one.buffers.bytes_along_path.add_frame(bytes);
-  one.buffers.index_entries = {40, 480, 80};
-  one.buffers.bytes = {232, 672, 272};
-  one.buffers.index_bits = 8;
-  one.buffers.header_bytes = 192;
-  one.buffers.worst_frame = 1;
-  one.buffers.worst_cell = 23;  // x 3, y 2, z 1
+  run::CaseResult case_result;
+  case_result.id = id;
+  case_result.settings = "settings of " + assigner;
+  case_result.name = "hall/walk/frustum 64px/" + assigner + "/packed";
+  case_result.scene = "hall";
+  case_result.camera = "walk";
+  case_result.viewport = {1920, 1080};
+  case_result.frames = 2;
+  case_result.grid = {{"kind", "frustum"}, {"name", "frustum 64px"}, {"cells", {4, 3, 2}}};
+  case_result.assigner = case_result.assigner_label = assigner;
+  case_result.assigner_params = nlohmann::json::object();
+  case_result.storage_label = "packed";
+  case_result.occupancy.emplace();
+  case_result.occupancy->pairs = {30.0, 20.0, 40.0, 40.0, 40.0};
+  case_result.occupancy->lights_per_cell = {1.25, 1.0, 3.0, 7.0, 7.0};
+  case_result.occupancy->histogram = {10, 20, 18};
+  case_result.occupancy->worst_frame = 1;
+  case_result.occupancy->worst_cell = 17;  // x 1, y 1, z 1 of 4 x 3 x 2
+  case_result.occupancy->worst_count = 7;
+  for (const std::uint64_t pairs : {20u, 40u}) case_result.occupancy->pairs_along_path.add_frame(pairs);
+  for (const std::uint64_t longest : {5u, 7u}) case_result.occupancy->longest_along_path.add_frame(longest);
+  for (const std::uint64_t bytes : {212u, 232u}) case_result.buffers.bytes_along_path.add_frame(bytes);
+  case_result.buffers.index_entries = {40, 480, 80};
+  case_result.buffers.bytes = {232, 672, 272};
+  case_result.buffers.index_bits = 8;
+  case_result.buffers.header_bytes = 192;
+  case_result.buffers.worst_frame = 1;
+  case_result.buffers.worst_cell = 23;  // x 3, y 2, z 1
   measure::ErrorCounts error;
   error.true_pairs = 48;
   error.reported_pairs = 60;
   error.false_positives = 12;
   error.frames_checked = 2;
-  one.error = error;
+  case_result.error = error;
   measure::ShadingCounts shading;
   shading.samples = 100;
   shading.evaluated = 300;
   shading.needed = 200;
-  one.shading = shading;
+  case_result.shading = shading;
   run::TimingResult timing;
   const auto time = [](double ns) { return measure::TimeStats{ns, 1.0, ns, ns, {ns, ns}, std::vector<double>(6, ns)}; };
   timing.assign_ns = time(assign_ns);
@@ -61,12 +61,12 @@ inline run::CaseResult case_by_hand(const std::string& id, const std::string& as
   timing.write_floor_ns = 100.0;
   timing.floor_ratio = assign_ns / 100.0;
   timing.frames_timed = 2;
-  one.timing = timing;
-  return one;
+  case_result.timing = timing;
+  return case_result;
 }
 
 // 20 changes and 3 flickers of the method beside 16 and 2 of the truth.
-inline void add_stability(run::CaseResult& one) {
+inline void add_stability(run::CaseResult& case_result) {
   run::StabilityResult stability;
   stability.method = {.steps = 10, .changes = 20, .most_changes = 9, .flickers = 3};
   stability.truth = {.steps = 10, .changes = 16, .most_changes = 4, .flickers = 2};
@@ -76,11 +76,11 @@ inline void add_stability(run::CaseResult& one) {
   stability.from_frame = 1;
   stability.path = "10 steps from frame 1, where the camera moves most";
   stability.grids = 1;
-  one.stability = stability;
+  case_result.stability = stability;
 }
 
 // Lights in half, off by 1 mm on average and 20 mm at most; growing by up to 80 mm is enough.
-inline void add_precision(run::CaseResult& one, const std::string& packing = "float32", bool inflate = false) {
+inline void add_precision(run::CaseResult& case_result, const std::string& packing = "float32", bool inflate = false) {
   run::PrecisionResult precision{packing, packing + (inflate ? "+inflate" : ""), inflate, {}};
   constexpr double k_nothing = std::numeric_limits<double>::quiet_NaN();
   if (packing != "float32")
@@ -89,27 +89,27 @@ inline void add_precision(run::CaseResult& one, const std::string& packing = "fl
                       .axis_error_rad = {k_nothing, k_nothing},
                       .angle_error_rad = {k_nothing, k_nothing},
                       .safe_inflation_m = {4e-3, 8e-2}};
-  one.precision = precision;
+  case_result.precision = precision;
   if (packing == "float32") return;
-  one.id += " " + precision.label;
-  one.name += "/" + precision.label;
+  case_result.id += " " + precision.label;
+  case_result.name += "/" + precision.label;
 }
 
 // 20,000 instructions a frame, on 2 frames.
-inline void add_count(run::CaseResult& one) {
-  one.count = run::CountResult{"callgrind", "AVX2", 2, {700, {}}, {40000, {}}, run::Counted{3001, {}}};
+inline void add_count(run::CaseResult& case_result) {
+  case_result.count = run::CountResult{"callgrind", "AVX2", 2, {700, {}}, {40000, {}}, run::Counted{3001, {}}};
 }
 
-inline void lose_a_light(run::CaseResult& one) {
-  one.error->false_negatives = 3;
-  one.error->deepest = measure::Miss{.frame = 5, .cell = 17, .light = 8, .rig_index = 9, .depth = 0.125};
-  one.error->deepest_miss = 0.125;
-  one.deepest_miss_light = "torch";
+inline void lose_a_light(run::CaseResult& case_result) {
+  case_result.error->false_negatives = 3;
+  case_result.error->deepest = measure::Miss{.frame = 5, .cell = 17, .light = 8, .rig_index = 9, .depth = 0.125};
+  case_result.error->deepest_miss = 0.125;
+  case_result.deepest_miss_light = "torch";
 }
 
 // As the runner does it.
 inline run::Result judged(run::Result result, const config::LimitsRequest& limits = {}) {
-  for (run::CaseResult& one : result.cases) one.failures = run::failures_of(one, limits);
+  for (run::CaseResult& case_result : result.cases) case_result.failures = run::failures_of(case_result, limits);
   return result;
 }
 

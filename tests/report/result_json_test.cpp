@@ -59,10 +59,10 @@ TEST(ResultJson, holds_all_that_results_of_before_may_lack) {
 
 TEST(ResultJson, without_truth_samples_and_times_is_what_the_schema_says) {
   run::Result result = result_by_hand();
-  for (run::CaseResult& one : result.cases) {
-    one.error.reset();
-    one.shading.reset();
-    one.timing.reset();
+  for (run::CaseResult& case_result : result.cases) {
+    case_result.error.reset();
+    case_result.shading.reset();
+    case_result.timing.reset();
   }
   const Json json = result_to_json(result, {});
   EXPECT_EQ(violations(json), std::vector<std::string>{});
@@ -153,11 +153,11 @@ TEST(ResultJson, without_its_case_in_float32_there_are_no_extra_pairs) {
 
 TEST(ResultJson, what_is_no_number_is_null) {
   run::Result result = result_by_hand();
-  run::CaseResult& one = result.cases[0];
-  one.error->true_pairs = 0;  // excess of nothing
-  one.shading->needed = 0;    // overshade of nothing
-  one.timing->ns_per_pair = std::numeric_limits<double>::quiet_NaN();
-  one.timing->floor_ratio = std::numeric_limits<double>::infinity();
+  run::CaseResult& case_result = result.cases[0];
+  case_result.error->true_pairs = 0;  // excess of nothing
+  case_result.shading->needed = 0;    // overshade of nothing
+  case_result.timing->ns_per_pair = std::numeric_limits<double>::quiet_NaN();
+  case_result.timing->floor_ratio = std::numeric_limits<double>::infinity();
   const Json json = result_to_json(result, {});
   EXPECT_TRUE(json["cases"][0]["error"]["excess_ratio"].is_null());
   EXPECT_TRUE(json["cases"][0]["shading"]["overshade"].is_null());
@@ -167,22 +167,23 @@ TEST(ResultJson, what_is_no_number_is_null) {
 }
 
 TEST(ResultJson, holds_the_figures_under_their_names) {
-  const Json one = case_to_json(case_by_hand("id", "aabb", 3000.0));
-  EXPECT_EQ(one["occupancy"]["pairs"]["max"], 40.0);
-  EXPECT_EQ(one["occupancy"]["lights_per_cell"]["histogram"], (Json{{"lights_per_entry", 1}, {"cells", {10, 20, 18}}}));
-  EXPECT_EQ(one["occupancy"]["along_path"],
+  const Json entry = case_to_json(case_by_hand("id", "aabb", 3000.0));
+  EXPECT_EQ(entry["occupancy"]["pairs"]["max"], 40.0);
+  EXPECT_EQ(entry["occupancy"]["lights_per_cell"]["histogram"],
+            (Json{{"lights_per_entry", 1}, {"cells", {10, 20, 18}}}));
+  EXPECT_EQ(entry["occupancy"]["along_path"],
             (Json{{"frames_per_entry", 1}, {"pairs", {20, 40}}, {"longest_list", {5, 7}}}));
-  EXPECT_EQ(one["buffers"]["along_path"], (Json{{"frames_per_entry", 1}, {"bytes", {212, 232}}}));
-  EXPECT_EQ(one["buffers"]["index_entries"]["high_water"], 40);
-  EXPECT_EQ(one["error"]["excess_ratio"], 0.25);
-  EXPECT_EQ(one["shading"]["overshade"], 1.5);
-  EXPECT_EQ(one["timing"]["assign_ns"]["samples"], (Json(std::vector<double>(6, 3000.0))));
+  EXPECT_EQ(entry["buffers"]["along_path"], (Json{{"frames_per_entry", 1}, {"bytes", {212, 232}}}));
+  EXPECT_EQ(entry["buffers"]["index_entries"]["high_water"], 40);
+  EXPECT_EQ(entry["error"]["excess_ratio"], 0.25);
+  EXPECT_EQ(entry["shading"]["overshade"], 1.5);
+  EXPECT_EQ(entry["timing"]["assign_ns"]["samples"], (Json(std::vector<double>(6, 3000.0))));
 }
 
 TEST(ResultJson, cells_are_told_as_x_y_z) {
-  const Json one = case_to_json(case_by_hand("id", "aabb", 3000.0));
-  EXPECT_EQ(one["occupancy"]["worst_cell"], (Json{1, 1, 1}));
-  EXPECT_EQ(one["buffers"]["worst_cell"], (Json{3, 2, 1}));
+  const Json entry = case_to_json(case_by_hand("id", "aabb", 3000.0));
+  EXPECT_EQ(entry["occupancy"]["worst_cell"], (Json{1, 1, 1}));
+  EXPECT_EQ(entry["buffers"]["worst_cell"], (Json{3, 2, 1}));
 }
 
 TEST(ResultJson, cases_of_an_interrupted_run_stand_in_the_plans_order) {
@@ -197,8 +198,8 @@ TEST(ResultJson, cases_of_an_interrupted_run_stand_in_the_plans_order) {
 
 TEST(Front, a_case_that_leaves_out_lights_is_on_no_front) {
   run::Result result = result_by_hand();
-  for (run::CaseResult& one : result.cases)
-    if (one.id == "fast") one.buffers.dropped_pairs = 1;
+  for (run::CaseResult& case_result : result.cases)
+    if (case_result.id == "fast") case_result.buffers.dropped_pairs = 1;
   EXPECT_EQ(result_to_json(result, {})["pareto_front"][0]["ids"], (Json{"slow"}));
 }
 
@@ -264,10 +265,10 @@ TEST(ResultJson, sets_of_samples_stand_under_their_names) {
 
 TEST(ResultJson, what_samples_lack_is_told_by_place_and_worst_frame) {
   run::Result result = result_by_hand();
-  run::CaseResult& one = result.cases[0];
-  one.shading->missed = 50;
-  one.shading->missed_outside = 40;
-  one.shading->worst = {1, 30, 90};
+  run::CaseResult& case_result = result.cases[0];
+  case_result.shading->missed = 50;
+  case_result.shading->missed_outside = 40;
+  case_result.shading->worst = {1, 30, 90};
   const Json json = result_to_json(result, {}), &shading = json["cases"][0]["shading"];
   EXPECT_EQ(shading["unlit"], 0.25);
   EXPECT_EQ(shading["missed_in_cells"], 10);
@@ -312,11 +313,11 @@ TEST(ResultJson, date_command_clock_and_load_are_there_where_something_is_timed)
 }
 
 TEST(ResultJson, times_have_six_digits_and_shares_nine) {
-  run::CaseResult one = case_by_hand("id", "aabb", 3000.0);
-  one.timing->assign_ns.median = 1234567.891;
-  one.timing->ns_per_pair = 1.0 / 3.0;
-  one.error->true_pairs = 7;
-  const Json json = case_to_json(one);
+  run::CaseResult case_result = case_by_hand("id", "aabb", 3000.0);
+  case_result.timing->assign_ns.median = 1234567.891;
+  case_result.timing->ns_per_pair = 1.0 / 3.0;
+  case_result.error->true_pairs = 7;
+  const Json json = case_to_json(case_result);
   EXPECT_EQ(json["timing"]["assign_ns"]["median"].dump(), "1234570");
   EXPECT_EQ(json["timing"]["ns_per_pair"].dump(), "0.333333");
   EXPECT_EQ(json["error"]["excess_ratio"].dump(), "1.71428571");

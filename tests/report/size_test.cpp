@@ -33,9 +33,9 @@ TEST(Size, of_each_grid_the_fastest_case_that_loses_nothing_is_shown_under_the_n
   own.storage_label = "own";  // has no lists to allocate for
   run::CaseResult dark = testing::case_by_hand("dark", "short-sighted", 0.5);
   dark.shading->missed = 1;  // of 200 that its samples need
-  for (const run::CaseResult& one : {lossy, dropping, dark, own, other}) {
-    result.cases.push_back(one);
-    result.planned_ids.push_back(one.id);
+  for (const run::CaseResult& case_result : {lossy, dropping, dark, own, other}) {
+    result.cases.push_back(case_result);
+    result.planned_ids.push_back(case_result.id);
   }
   const std::string report = size_of(result, {});
   EXPECT_NE(report.find("// hall/walk/frustum 64px/aabb/packed\n"), std::string::npos) << report;
@@ -156,11 +156,11 @@ run::Result with_each_kind_of_grid() {
   result.cases.clear();
   result.planned_ids.clear();
   const auto add = [&](const std::string& name, const char* grid) {
-    run::CaseResult one = testing::case_by_hand(name, "aabb", 1.0);
-    one.name = "hall/walk/" + name + "/aabb/packed";
-    one.grid = nlohmann::json::parse(grid);
-    result.cases.push_back(one);
-    result.planned_ids.push_back(one.id);
+    run::CaseResult case_result = testing::case_by_hand(name, "aabb", 1.0);
+    case_result.name = "hall/walk/" + name + "/aabb/packed";
+    case_result.grid = nlohmann::json::parse(grid);
+    result.cases.push_back(case_result);
+    result.planned_ids.push_back(case_result.id);
   };
   add("tiles", R"({"kind": "frustum", "name": "tiles", "cells": [30, 17, 16], "tiles": {"pixels": [64, 64]},
     "slices": {"scheme": "exponential-first", "boundaries": [0.1, 5, 400],
@@ -254,7 +254,7 @@ TEST_F(SizeHeader, of_a_shader_has_the_same_constants) {
   const std::string glsl = size_of(result_by_hand(), {"/aabb/", false, "glsl"});
   EXPECT_NE(glsl.find("\nconst uint hall_walk_frustum_64px_bytes = 272u;\n"), std::string::npos) << glsl;
   run::Result huge = result_by_hand();
-  for (run::CaseResult& one : huge.cases) one.buffers.bytes.recommended = std::uint64_t{1} << 32;
+  for (run::CaseResult& case_result : huge.cases) case_result.buffers.bytes.recommended = std::uint64_t{1} << 32;
   EXPECT_EQ(size_of(huge, {"", false, "glsl"}).find("_bytes ="), std::string::npos) << "32 bits do not hold it";
   EXPECT_NE(size_of(huge, {"", false, "cpp"}).find(", 4294967296u}"), std::string::npos);
 }

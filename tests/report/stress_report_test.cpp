@@ -121,7 +121,7 @@ TEST(Stress, is_written_as_its_schema_says) {
   const auto json = nlohmann::json::parse(report::stress_to_json(result, request).dump());
   EXPECT_EQ(config::schema_violations(row_of(config::Document::stress).schema(), json), std::vector<std::string>{});
   EXPECT_EQ(config::document_of(json), config::Document::stress);
-  const auto is_lost = [](const auto& one) { return !one["deepest_miss"].is_null(); };
+  const auto is_lost = [](const auto& element) { return !element["deepest_miss"].is_null(); };
   EXPECT_TRUE(std::ranges::any_of(json["results"], is_lost));
   EXPECT_TRUE(std::ranges::any_of(json["searches"], is_lost));
 }
@@ -145,9 +145,9 @@ TEST(Contacts, lie_on_their_cell_and_a_ball_against_them_touches_it_and_no_more)
       const geom::Cell cell = grid.cell(random_cell(grid, random));
       const Contact contact = random_contact(cell, random);
       const double range = random.between(0.5, 5.0);
-      geom::LightVolume light;
-      light.apex.position = contact.point + range * contact.outward;
-      const double slack = 1e-9 * (glm::length(light.apex.position) + range);
+      geom::BallVolume light;
+      light.center.position = contact.point + range * contact.outward;
+      const double slack = 1e-9 * (glm::length(light.center.position) + range);
       const auto meets = [&] {
         const geom::Verdict verdict = geom::filter_meets(light, cell);
         return verdict == geom::Verdict::uncertain ? geom::prove_meets(light, cell) : verdict;

@@ -94,7 +94,7 @@ TEST(Table, marks_have_a_legend_that_says_what_was_measured) {
                                   "ratio), bytes and overshade"),
             std::string::npos);
   EXPECT_EQ(table_of(result).find("-: not measured"), std::string::npos);
-  for (run::CaseResult& one : result.cases) one.timing.reset();
+  for (run::CaseResult& case_result : result.cases) case_result.timing.reset();
   const std::string untimed = table_of(result);
   EXPECT_NE(untimed.find("\n  * "), std::string::npos) << untimed;
   EXPECT_NE(untimed.find("is better in bytes and overshade.\n"), std::string::npos) << untimed;
@@ -117,12 +117,12 @@ TEST(Table, builds_have_a_column_where_frames_need_them) {
 
 TEST(Table, unlit_lights_have_a_column_and_a_warning_with_the_worst_frame) {
   run::Result result = result_by_hand();
-  for (run::CaseResult& one : result.cases) {
-    one.shading->missed = 50;
-    one.shading->missed_outside = 40;
-    one.shading->lost_lux = 44.0;
-    one.shading->total_lux = 100.0;
-    one.shading->worst = {1, 30, 90};
+  for (run::CaseResult& case_result : result.cases) {
+    case_result.shading->missed = 50;
+    case_result.shading->missed_outside = 40;
+    case_result.shading->lost_lux = 44.0;
+    case_result.shading->total_lux = 100.0;
+    case_result.shading->worst = {1, 30, 90};
   }
   const std::string table = table_of(result);
   EXPECT_NE(line_with(table, "aabb ").find("25.0 %      -"), std::string::npos) << "no overshade\n" << table;
@@ -185,10 +185,10 @@ TEST(Table, instructions_have_a_column_only_where_they_were_counted) {
 
 TEST(Table, without_times_the_fewest_instructions_come_first) {
   run::Result result = result_by_hand();
-  for (run::CaseResult& one : result.cases) {
-    one.timing.reset();
-    add_count(one);
-    one.error->false_positives = one.assigner == "aabb" ? 40 : 1;
+  for (run::CaseResult& case_result : result.cases) {
+    case_result.timing.reset();
+    add_count(case_result);
+    case_result.error->false_positives = case_result.assigner == "aabb" ? 40 : 1;
   }
   result.cases[0].count->assign.instructions = 90000;
   const std::string table = table_of(result);
@@ -234,7 +234,7 @@ TEST(Table, overflow_undecided_pairs_made_ranges_and_skipped_cases_are_said) {
 TEST(Table, stability_follows_the_main_table_with_the_truth_and_each_assigner_once) {
   run::Result result = result_by_hand();
   EXPECT_EQ(table_of(result).find("stability"), std::string::npos);
-  for (run::CaseResult& one : result.cases) add_stability(one);
+  for (run::CaseResult& case_result : result.cases) add_stability(case_result);
   result.cases[1].stability->method.changes = 18;
   result.cases.push_back(result.cases[0]);
   result.cases.back().id = "other storage";
@@ -269,9 +269,9 @@ run::Result in_three_precisions() {
   const std::vector<run::CaseResult> plain = result.cases;
   result.cases.clear();
   result.planned_ids.clear();
-  for (const run::CaseResult& one : plain)
+  for (const run::CaseResult& case_result : plain)
     for (const auto& [packing, inflate] : {std::pair{"float32", false}, {"half", false}, {"half", true}}) {
-      run::CaseResult& added = result.cases.emplace_back(one);
+      run::CaseResult& added = result.cases.emplace_back(case_result);
       add_precision(added, packing, inflate);
       if (added.precision->packing == "half") added.occupancy->pairs.mean = inflate ? 33.0 : 29.0;
       if (added.precision->label == "half") lose_a_light(added);
@@ -312,10 +312,10 @@ TEST(Table, what_the_lookup_misses_is_told_of_each_structure_that_misses_otherwi
   dropping.storage_label = "fixed(cap=1)";
   alike.id = "alike";
   alike.storage_label = "bitfield";
-  const auto add = [&](run::CaseResult one, std::uint64_t missed) {
-    one.lookup = {{{}, 100, 200, missed, missed, 0}};
-    result.cases.push_back(one);
-    result.planned_ids.push_back(one.id);
+  const auto add = [&](run::CaseResult case_result, std::uint64_t missed) {
+    case_result.lookup = {{{}, 100, 200, missed, missed, 0}};
+    result.cases.push_back(case_result);
+    result.planned_ids.push_back(case_result.id);
   };
   run::CaseResult listed = own;
   listed.id = "listed";
@@ -350,8 +350,8 @@ TEST(Table, a_structure_of_its_own_has_a_line_of_its_own_among_precisions) {
 TEST(Table, lights_that_a_format_cannot_hold_are_told) {
   run::Result result = in_three_precisions();
   EXPECT_EQ(table_of(result).find("cannot hold"), std::string::npos);
-  for (run::CaseResult& one : result.cases) one.precision->loss.unrepresentable_lights = 7;
-  for (run::CaseResult& one : result.cases) one.precision->loss.unrepresentable_frames = 2;
+  for (run::CaseResult& case_result : result.cases) case_result.precision->loss.unrepresentable_lights = 7;
+  for (run::CaseResult& case_result : result.cases) case_result.precision->loss.unrepresentable_frames = 2;
   const std::string table = table_of(result);
   const std::size_t told = table.find("half cannot hold up to 7 lights in 2 frames");
   EXPECT_NE(told, std::string::npos);
@@ -361,7 +361,7 @@ TEST(Table, lights_that_a_format_cannot_hold_are_told) {
 
 TEST(Table, stability_names_precisions_apart) {
   run::Result result = in_three_precisions();
-  for (run::CaseResult& one : result.cases) add_stability(one);
+  for (run::CaseResult& case_result : result.cases) add_stability(case_result);
   const std::string table = table_of(result), part = table.substr(table.find("stability of hall"));
   EXPECT_NE(line_with(part, "aabb half+inflate "), "");
   EXPECT_NE(line_with(part, "brute-force half "), "");
@@ -377,14 +377,14 @@ TEST(Table, storages_are_named_where_there_are_several) {
 TEST(Table, sets_of_samples_have_a_table_with_what_they_need_and_where_nothing_answers) {
   run::Result result = result_by_hand();
   EXPECT_EQ(table_of(result).find("lights per sample"), std::string::npos);
-  for (run::CaseResult& one : result.cases) {
+  for (run::CaseResult& case_result : result.cases) {
     measure::ShadingCounts opaque{.samples = 100, .evaluated = 250, .needed = 200};
-    opaque.missed = one.assigner == "aabb" ? 5 : 0;
+    opaque.missed = case_result.assigner == "aabb" ? 5 : 0;
     measure::ShadingCounts mirror{.samples = 100, .needed = 40, .missed = 40};
     mirror.unanswered = 100;
-    one.samples = {{measure::SampleSet::opaque, opaque, {}},
-                   {measure::SampleSet::mirror, mirror, {}},
-                   {measure::SampleSet::transparent, {}, {}}};
+    case_result.samples = {{measure::SampleSet::opaque, opaque, {}},
+                           {measure::SampleSet::mirror, mirror, {}},
+                           {measure::SampleSet::transparent, {}, {}}};
   }
   const std::string table = table_of(result), samples = table.substr(table.find("lights per sample of hall"));
   EXPECT_NE(line_with(samples, "(needed)").find("2.00"), std::string::npos) << samples;

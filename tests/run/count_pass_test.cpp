@@ -54,9 +54,9 @@ Told count(
   const std::atomic<bool> never{false};
   count_pass(
       walk.config, walk.plan, is_wanted, counter,
-      [&](const CasePlan& one, const CountResult& result) {
-        told.ids.push_back(one.id);
-        told.counts[one.id] = result;
+      [&](const CasePlan& case_plan, const CountResult& result) {
+        told.ids.push_back(case_plan.id);
+        told.counts[case_plan.id] = result;
       },
       never);
   return told;
@@ -70,9 +70,9 @@ TEST(CountPass, build_assignment_and_each_conversion_are_counted_apart) {
   EXPECT_EQ(packed.source, "steps");
   EXPECT_FALSE(packed.simd_target.empty());
   EXPECT_EQ(packed.frames, 4) << "those that are timed";
-  for (const CountResult* one : {&packed, &fixed}) {
-    EXPECT_EQ(one->build.instructions, 10u);
-    EXPECT_EQ(one->assign.instructions, 20u);
+  for (const CountResult* count_result : {&packed, &fixed}) {
+    EXPECT_EQ(count_result->build.instructions, 10u);
+    EXPECT_EQ(count_result->assign.instructions, 20u);
   }
   EXPECT_EQ(packed.convert->instructions, 30u);
   EXPECT_EQ(fixed.convert->instructions, 40u);
@@ -92,7 +92,7 @@ TEST(CountPass, memory_has_grown_before_anything_is_counted) {
 TEST(CountPass, only_wanted_cases_are_counted) {
   StepCounter counter;
   const Told told = count(walk_of(R"("assigners": ["aabb", "planes"], "storages": ["packed", "fixed"])"), counter,
-                          [](const CasePlan& one) { return one.id == "0-1-1"; });
+                          [](const CasePlan& case_plan) { return case_plan.id == "0-1-1"; });
   EXPECT_EQ(told.ids, std::vector<std::string>{"0-1-1"});
   EXPECT_EQ(counter.starts, 3);
 }

@@ -15,7 +15,7 @@ namespace {
 using testing::k_shafts;
 using testing::Walk;
 
-// The numbers of core/number_text.h.
+// The numbers of core/run_length_text.h.
 std::vector<double> numbers(const std::string& text) {
   std::vector<double> out;
   std::istringstream words(text);
@@ -77,10 +77,10 @@ const OfKind k_kinds[] = {{R"({"tiles": {"pixels": [10, 10]}})", "bounds"},
 
 TEST(DetailsPass, counts_are_those_of_error_and_occupancy_on_every_kind_of_grid) {
   for (const OfKind& kind : k_kinds) {
-    const CaseResult one = crowd(R"({"frames": 3})", kind.grid, kind.assigner).run().cases.at(0);
-    ASSERT_EQ(frames_of(*one.details), (std::vector<int>{0, 1, 2})) << kind.assigner;
+    const CaseResult case_result = crowd(R"({"frames": 3})", kind.grid, kind.assigner).run().cases.at(0);
+    ASSERT_EQ(frames_of(*case_result.details), (std::vector<int>{0, 1, 2})) << kind.assigner;
     std::uint64_t reported = 0, truth = 0, false_positives = 0, false_negatives = 0, most = 0, occupied = 0;
-    for (const DetailsFrame& frame : one.details->frames) {
+    for (const DetailsFrame& frame : case_result.details->frames) {
       reported += sum(frame.reported);
       truth += sum(frame.truth);
       false_positives += sum(frame.false_positives);
@@ -90,19 +90,19 @@ TEST(DetailsPass, counts_are_those_of_error_and_occupancy_on_every_kind_of_grid)
         occupied += length > 0.0 ? 1 : 0;
       }
     }
-    EXPECT_EQ(reported, one.error->reported_pairs) << kind.assigner;
-    EXPECT_EQ(truth, one.error->true_pairs) << kind.assigner;
-    EXPECT_EQ(false_positives, one.error->false_positives) << kind.assigner;
-    EXPECT_EQ(false_negatives, one.error->false_negatives) << kind.assigner;
-    EXPECT_EQ(most, one.occupancy->worst_count) << kind.assigner;
-    const auto& histogram = one.occupancy->histogram;
+    EXPECT_EQ(reported, case_result.error->reported_pairs) << kind.assigner;
+    EXPECT_EQ(truth, case_result.error->true_pairs) << kind.assigner;
+    EXPECT_EQ(false_positives, case_result.error->false_positives) << kind.assigner;
+    EXPECT_EQ(false_negatives, case_result.error->false_negatives) << kind.assigner;
+    EXPECT_EQ(most, case_result.occupancy->worst_count) << kind.assigner;
+    const auto& histogram = case_result.occupancy->histogram;
     EXPECT_EQ(occupied, std::accumulate(histogram.begin() + 1, histogram.end(), std::uint64_t{0})) << kind.assigner;
   }
 }
 
 TEST(DetailsPass, the_rows_of_a_frame_fit_each_other) {
-  const CaseResult one = crowd("{}").run().cases.at(0);
-  const DetailsFrame& frame = one.details->frames.at(0);
+  const CaseResult case_result = crowd("{}").run().cases.at(0);
+  const DetailsFrame& frame = case_result.details->frames.at(0);
   for (const std::string* row :
        {&frame.cells, &frame.reported, &frame.truth, &frame.false_positives, &frame.false_negatives})
     EXPECT_EQ(numbers(*row).size(), frame.cell_count);
@@ -137,8 +137,8 @@ TEST(DetailsPass, a_light_on_the_axis_stands_in_the_cells_that_its_depths_meet) 
 }
 
 TEST(DetailsPass, worst_is_the_frame_with_each_cases_longest_list) {
-  for (const CaseResult& one : crowd("{}", k_kinds[0].grid, R"(bounds", "aabb)", 6).run().cases)
-    EXPECT_EQ(frames_of(*one.details), std::vector<int>{one.occupancy->worst_frame});
+  for (const CaseResult& case_result : crowd("{}", k_kinds[0].grid, R"(bounds", "aabb)", 6).run().cases)
+    EXPECT_EQ(frames_of(*case_result.details), std::vector<int>{case_result.occupancy->worst_frame});
 }
 
 TEST(DetailsPass, frames_are_evenly_spaced_or_those_of_the_list_and_what_the_path_lacks_is_named) {
@@ -153,12 +153,12 @@ TEST(DetailsPass, frames_are_evenly_spaced_or_those_of_the_list_and_what_the_pat
 }
 
 TEST(DetailsPass, slices_that_follow_the_lights_are_told_where_they_are_not_the_cases) {
-  const CaseResult one =
+  const CaseResult case_result =
       crowd(R"({"frames": 3})", R"({"tiles": {"count": [4, 4]}, "slices": {"scheme": "fit", "count": 8}})", "aabb")
           .run()
           .cases.at(0);
-  EXPECT_EQ(numbers(one.details->frames.at(0).boundaries).size(), 9u);
-  EXPECT_EQ(one.details->frames.at(2).boundaries, "") << "the case's grid is the last frame's";
+  EXPECT_EQ(numbers(case_result.details->frames.at(0).boundaries).size(), 9u);
+  EXPECT_EQ(case_result.details->frames.at(2).boundaries, "") << "the case's grid is the last frame's";
 }
 
 TEST(DetailsPass, without_lists_there_are_counts_and_no_pairs) {
@@ -171,9 +171,9 @@ TEST(DetailsPass, without_lists_there_are_counts_and_no_pairs) {
 TEST(DetailsPass, needs_no_accuracy_check_for_its_truth) {
   Walk walk = crowd("{}");
   walk.config.check_accuracy = false;
-  const CaseResult one = walk.run().cases.at(0);
-  EXPECT_FALSE(one.error);
-  EXPECT_GT(sum(one.details->frames.at(0).truth), 0u);
+  const CaseResult case_result = walk.run().cases.at(0);
+  EXPECT_FALSE(case_result.error);
+  EXPECT_GT(sum(case_result.details->frames.at(0).truth), 0u);
 }
 
 TEST(DetailsPass, what_has_no_room_is_named_first_lists_then_frames) {

@@ -68,13 +68,13 @@ RoomRun run_of(const std::string& scene, const std::string& rest,
 }
 
 const CaseResult& case_named(const RoomRun& run, const std::string& part) {
-  for (const CaseResult& one : run.result.cases)
-    if (one.name.find(part) != std::string::npos) return one;
+  for (const CaseResult& case_result : run.result.cases)
+    if (case_result.name.find(part) != std::string::npos) return case_result;
   throw Error("", part, "no such case");
 }
 
-const measure::ShadingCounts& counts_of(const CaseResult& one, measure::SampleSet set) {
-  for (const SampleSetResult& result : one.samples)
+const measure::ShadingCounts& counts_of(const CaseResult& case_result, measure::SampleSet set) {
+  for (const SampleSetResult& result : case_result.samples)
     if (result.set == set) return result.counts;
   throw Error("", measure::name_of(set), "no such set");
 }
@@ -141,9 +141,9 @@ TEST(FrameSamples, a_set_without_a_sample_says_so_and_lights_without_end_bound_n
   ASSERT_EQ(run.plan.skipped.size(), 1u);
   EXPECT_EQ(run.plan.skipped[0].name, "room/samples anywhere");
   EXPECT_EQ(run.plan.skipped[0].reason, "no light of the scene has an end");
-  const CaseResult& one = case_named(run, "exact-fast/packed");
-  ASSERT_EQ(one.samples.size(), 1u);
-  EXPECT_EQ(one.samples[0].counts.samples, 0u);
+  const CaseResult& case_result = case_named(run, "exact-fast/packed");
+  ASSERT_EQ(case_result.samples.size(), 1u);
+  EXPECT_EQ(case_result.samples[0].counts.samples, 0u);
 }
 
 TEST(FrameSamples, cases_with_other_samples_are_other_cases_and_threads_change_nothing) {
@@ -246,20 +246,21 @@ TEST(DepthMethods, lose_nothing_at_the_surfaces_that_their_depths_are_taken_from
         R"(, "samples": {"opaque": {"divisor": )" + std::to_string(divisor) + R"(}, "fog": {"froxels": [8, 6, 4]}})",
         k_all_depth_methods);
     EXPECT_EQ(run.result.cases.size(), 8u);
-    for (const CaseResult& one : run.result.cases) {
-      const measure::ShadingCounts& opaque = counts_of(one, SampleSet::opaque);
-      EXPECT_GT(opaque.needed, 100u / static_cast<unsigned>(divisor)) << one.name;
-      EXPECT_EQ(opaque.missed, 0u) << one.name << ", " << divisor;
-      EXPECT_EQ(opaque.unanswered, 0u) << one.name;
-      EXPECT_TRUE(one.failures.empty()) << one.name;
-      EXPECT_TRUE(warnings_of(one).empty()) << one.name;
-      if (one.assigner == "tile-slices") EXPECT_EQ(counts_of(one, SampleSet::fog).missed, 0u) << divisor;
-      if (one.assigner == "explicit") EXPECT_GT(counts_of(one, SampleSet::fog).missed, 0u) << divisor;
-      if (one.assigner == "deferred") continue;
-      ASSERT_TRUE(one.error) << one.name;
-      EXPECT_EQ(one.error->false_negatives, 0u) << one.name;
-      EXPECT_EQ(one.error->undecided, 0u) << one.name;
-      EXPECT_GT(one.error->true_pairs, 0u) << one.name;
+    for (const CaseResult& case_result : run.result.cases) {
+      const measure::ShadingCounts& opaque = counts_of(case_result, SampleSet::opaque);
+      EXPECT_GT(opaque.needed, 100u / static_cast<unsigned>(divisor)) << case_result.name;
+      EXPECT_EQ(opaque.missed, 0u) << case_result.name << ", " << divisor;
+      EXPECT_EQ(opaque.unanswered, 0u) << case_result.name;
+      EXPECT_TRUE(case_result.failures.empty()) << case_result.name;
+      EXPECT_TRUE(warnings_of(case_result).empty()) << case_result.name;
+      if (case_result.assigner == "tile-slices")
+        EXPECT_EQ(counts_of(case_result, SampleSet::fog).missed, 0u) << divisor;
+      if (case_result.assigner == "explicit") EXPECT_GT(counts_of(case_result, SampleSet::fog).missed, 0u) << divisor;
+      if (case_result.assigner == "deferred") continue;
+      ASSERT_TRUE(case_result.error) << case_result.name;
+      EXPECT_EQ(case_result.error->false_negatives, 0u) << case_result.name;
+      EXPECT_EQ(case_result.error->undecided, 0u) << case_result.name;
+      EXPECT_GT(case_result.error->true_pairs, 0u) << case_result.name;
     }
   }
 }
@@ -315,13 +316,13 @@ TEST(DepthMethods, lose_nothing_on_a_real_map_as_a_loop_over_all_lights_finds) {
 
 TEST(DepthMethods, that_lose_a_light_on_a_surface_fail_and_in_the_air_do_not) {
   RoomRun run = run_of(deep_room(), R"(, "samples": {"opaque": {}, "fog": {"froxels": [8, 6, 4]}})", R"("explicit")");
-  CaseResult one = case_named(run, "explicit");
-  ASSERT_EQ(one.samples.size(), 2u);
-  EXPECT_GT(one.samples[1].counts.missed, 0u) << "fog";
-  EXPECT_TRUE(failures_of(one, {}).empty());
-  one.samples[0].counts.missed = one.samples[0].counts.needed / 2;
-  ASSERT_EQ(failures_of(one, {}).size(), 1u);
-  EXPECT_NE(failures_of(one, {})[0].text.find("that its opaque samples need"), std::string::npos);
+  CaseResult case_result = case_named(run, "explicit");
+  ASSERT_EQ(case_result.samples.size(), 2u);
+  EXPECT_GT(case_result.samples[1].counts.missed, 0u) << "fog";
+  EXPECT_TRUE(failures_of(case_result, {}).empty());
+  case_result.samples[0].counts.missed = case_result.samples[0].counts.needed / 2;
+  ASSERT_EQ(failures_of(case_result, {}).size(), 1u);
+  EXPECT_NE(failures_of(case_result, {})[0].text.find("that its opaque samples need"), std::string::npos);
 }
 
 TEST(DepthMethods, of_a_scene_without_triangles_are_skipped_with_the_reason) {
@@ -388,18 +389,19 @@ TEST(DepthMethods, are_timed_counted_in_their_steps_and_served_as_all_others_are
   ASSERT_EQ(result.cases.size(), 6u);
   ServedCases served(config, plan);
   for (std::size_t i = 1; i < result.cases.size(); ++i) {
-    const CaseResult& one = result.cases[i];
-    EXPECT_EQ(one.storage_label, k_own_structure);
-    ASSERT_TRUE(one.timing) << one.name;
-    EXPECT_GT(one.timing->frame_ns.median, 0.0) << one.name;
-    EXPECT_EQ(one.timing->pairs_max, one.error->reported_pairs) << one.name;
-    EXPECT_EQ(served.list_digests(one.id).at(0).pairs, one.error->reported_pairs) << one.name;
-    EXPECT_GT(served.assign_ns(one.id), 0.0) << one.name;
-    ASSERT_TRUE(one.stability) << one.name;
-    EXPECT_EQ(one.stability->undecided, 0u) << one.name;
-    EXPECT_FALSE(one.details) << one.name << ": its cells are not the grid's";
-    EXPECT_FALSE(one.shading) << one.name << ": promises nothing in the air";
-    EXPECT_TRUE(one.lookup.empty()) << one.name << ": it is not the lookup that lacks lights in the air";
+    const CaseResult& case_result = result.cases[i];
+    EXPECT_EQ(case_result.storage_label, k_own_structure);
+    ASSERT_TRUE(case_result.timing) << case_result.name;
+    EXPECT_GT(case_result.timing->frame_ns.median, 0.0) << case_result.name;
+    EXPECT_EQ(case_result.timing->pairs_max, case_result.error->reported_pairs) << case_result.name;
+    EXPECT_EQ(served.list_digests(case_result.id).at(0).pairs, case_result.error->reported_pairs) << case_result.name;
+    EXPECT_GT(served.assign_ns(case_result.id), 0.0) << case_result.name;
+    ASSERT_TRUE(case_result.stability) << case_result.name;
+    EXPECT_EQ(case_result.stability->undecided, 0u) << case_result.name;
+    EXPECT_FALSE(case_result.details) << case_result.name << ": its cells are not the grid's";
+    EXPECT_FALSE(case_result.shading) << case_result.name << ": promises nothing in the air";
+    EXPECT_TRUE(case_result.lookup.empty())
+        << case_result.name << ": it is not the lookup that lacks lights in the air";
   }
   EXPECT_TRUE(result.cases[0].details);
   EXPECT_EQ(result.cases[0].shading->samples, 20u);

@@ -9,35 +9,35 @@ using Kind = Failure::Kind;
 
 // 30 pairs in cells, all true; samples need 1000 lights.
 CaseResult with_cells() {
-  CaseResult one;
-  one.id = "one";
-  one.grid = {{"cells", {4, 3, 2}}};
-  one.occupancy.emplace();
-  one.error.emplace();
-  one.error->true_pairs = one.error->reported_pairs = 30;
-  one.shading.emplace();
-  one.shading->needed = 1000;
-  return one;
+  CaseResult case_result;
+  case_result.id = "one";
+  case_result.grid = {{"cells", {4, 3, 2}}};
+  case_result.occupancy.emplace();
+  case_result.error.emplace();
+  case_result.error->true_pairs = case_result.error->reported_pairs = 30;
+  case_result.shading.emplace();
+  case_result.shading->needed = 1000;
+  return case_result;
 }
 
 // A structure of a method's own that has none, as a light hierarchy.
 CaseResult without_cells() {
-  CaseResult one = with_cells();
-  one.occupancy.reset();
-  one.error.reset();
-  one.storage_label = "own";
-  return one;
+  CaseResult case_result = with_cells();
+  case_result.occupancy.reset();
+  case_result.error.reset();
+  case_result.storage_label = "own";
+  return case_result;
 }
 
-void miss(CaseResult& one, std::uint64_t lights, std::uint64_t outside) {
-  one.shading->missed = lights;
-  one.shading->missed_outside = outside;
-  one.shading->worst = {7, lights, 140};
+void miss(CaseResult& case_result, std::uint64_t lights, std::uint64_t outside) {
+  case_result.shading->missed = lights;
+  case_result.shading->missed_outside = outside;
+  case_result.shading->worst = {7, lights, 140};
 }
 
-std::vector<Kind> kinds(const CaseResult& one, const config::LimitsRequest& limits = {}) {
+std::vector<Kind> kinds(const CaseResult& case_result, const config::LimitsRequest& limits = {}) {
   std::vector<Kind> out;
-  for (const Failure& failure : failures_of(one, limits)) out.push_back(failure.kind);
+  for (const Failure& failure : failures_of(case_result, limits)) out.push_back(failure.kind);
   return out;
 }
 
@@ -55,30 +55,30 @@ TEST(Gate, what_loses_and_drops_nothing_passes) {
 }
 
 TEST(Gate, a_lost_pair_of_a_conservative_method_fails_and_of_another_loses_lights) {
-  CaseResult one = with_cells();
-  one.error->false_negatives = 3;
-  EXPECT_EQ(kinds(one), (std::vector{Kind::lost_pairs}));
-  one.conservative = false;
-  EXPECT_TRUE(kinds(one).empty());
-  EXPECT_TRUE(loses_lights(one));
+  CaseResult case_result = with_cells();
+  case_result.error->false_negatives = 3;
+  EXPECT_EQ(kinds(case_result), (std::vector{Kind::lost_pairs}));
+  case_result.conservative = false;
+  EXPECT_TRUE(kinds(case_result).empty());
+  EXPECT_TRUE(loses_lights(case_result));
 }
 
 TEST(Gate, any_difference_of_an_exact_method_fails) {
-  CaseResult one = with_cells();
-  one.error->false_positives = 1;
-  EXPECT_TRUE(kinds(one).empty());
-  one.exact = true;
-  EXPECT_EQ(kinds(one), (std::vector{Kind::extra_pairs}));
+  CaseResult case_result = with_cells();
+  case_result.error->false_positives = 1;
+  EXPECT_TRUE(kinds(case_result).empty());
+  case_result.exact = true;
+  EXPECT_EQ(kinds(case_result), (std::vector{Kind::extra_pairs}));
 }
 
 TEST(Gate, without_cells_a_light_missed_at_a_sample_is_a_lost_one) {
-  CaseResult one = without_cells();
-  miss(one, 1, 1);
-  EXPECT_EQ(kinds(one), (std::vector{Kind::lost_at_samples})) << "no grid whose end could excuse it";
-  EXPECT_TRUE(loses_lights(one));
-  one.conservative = false;
-  EXPECT_TRUE(kinds(one).empty());
-  EXPECT_TRUE(loses_lights(one));
+  CaseResult case_result = without_cells();
+  miss(case_result, 1, 1);
+  EXPECT_EQ(kinds(case_result), (std::vector{Kind::lost_at_samples})) << "no grid whose end could excuse it";
+  EXPECT_TRUE(loses_lights(case_result));
+  case_result.conservative = false;
+  EXPECT_TRUE(kinds(case_result).empty());
+  EXPECT_TRUE(loses_lights(case_result));
   CaseResult listed = with_cells();
   miss(listed, 1, 0);
   EXPECT_TRUE(kinds(listed).empty()) << "a lookup may round at a cell boundary; its pairs are held against the truth";
@@ -86,78 +86,78 @@ TEST(Gate, without_cells_a_light_missed_at_a_sample_is_a_lost_one) {
 }
 
 TEST(Gate, without_cells_a_light_that_the_lookup_misses_is_a_lost_one) {
-  CaseResult one = without_cells();
+  CaseResult case_result = without_cells();
   measure::LookupCounts rough;
   rough.way = {measure::Logarithm::rounded, measure::DepthRead::d24};
   rough.missed = 5;
-  one.lookup = {rough};
-  EXPECT_TRUE(kinds(one).empty()) << "a depth buffer of 24 bits is no fault of the method";
-  one.lookup.push_back({});
-  one.lookup.back().missed = 2;
-  one.lookup.back().needed = 50;
-  EXPECT_EQ(kinds(one), (std::vector{Kind::lost_at_samples}));
-  EXPECT_NE(failures_of(one, {})[0].text.find("2 of 50"), std::string::npos);
-  EXPECT_TRUE(loses_lights(one));
+  case_result.lookup = {rough};
+  EXPECT_TRUE(kinds(case_result).empty()) << "a depth buffer of 24 bits is no fault of the method";
+  case_result.lookup.push_back({});
+  case_result.lookup.back().missed = 2;
+  case_result.lookup.back().needed = 50;
+  EXPECT_EQ(kinds(case_result), (std::vector{Kind::lost_at_samples}));
+  EXPECT_NE(failures_of(case_result, {})[0].text.find("2 of 50"), std::string::npos);
+  EXPECT_TRUE(loses_lights(case_result));
 }
 
 TEST(Gate, dropped_pairs_fail_unless_the_configuration_allows_them) {
-  CaseResult one = with_cells();
-  one.buffers.dropped_pairs = 5;
-  EXPECT_EQ(kinds(one), (std::vector{Kind::dropped_pairs}));
-  EXPECT_EQ(kinds(one, with_dropped(4)), (std::vector{Kind::dropped_pairs}));
-  EXPECT_TRUE(kinds(one, with_dropped(5)).empty());
-  EXPECT_TRUE(kinds(one, with_dropped(std::nullopt)).empty());
-  EXPECT_TRUE(loses_lights(one));
+  CaseResult case_result = with_cells();
+  case_result.buffers.dropped_pairs = 5;
+  EXPECT_EQ(kinds(case_result), (std::vector{Kind::dropped_pairs}));
+  EXPECT_EQ(kinds(case_result, with_dropped(4)), (std::vector{Kind::dropped_pairs}));
+  EXPECT_TRUE(kinds(case_result, with_dropped(5)).empty());
+  EXPECT_TRUE(kinds(case_result, with_dropped(std::nullopt)).empty());
+  EXPECT_TRUE(loses_lights(case_result));
 }
 
 TEST(Gate, what_lies_outside_of_the_grid_loses_lights_and_is_told_with_its_frame) {
-  CaseResult one = with_cells();
-  miss(one, 100, 90);
-  EXPECT_TRUE(kinds(one).empty()) << "a choice of the grid";
-  EXPECT_TRUE(loses_lights(one));
+  CaseResult case_result = with_cells();
+  miss(case_result, 100, 90);
+  EXPECT_TRUE(kinds(case_result).empty()) << "a choice of the grid";
+  EXPECT_TRUE(loses_lights(case_result));
   CaseResult own = without_cells();
   miss(own, 100, 90);
   const std::string text = failures_of(own, {})[0].text;
   EXPECT_EQ(text, "lost 100 of 1000 lights that its samples need; most in frame 7, 100 of 140");
 }
 
-std::vector<Warning::Kind> warned(const CaseResult& one) {
+std::vector<Warning::Kind> warned(const CaseResult& case_result) {
   std::vector<Warning::Kind> out;
-  for (const Warning& warning : warnings_of(one)) out.push_back(warning.kind);
+  for (const Warning& warning : warnings_of(case_result)) out.push_back(warning.kind);
   return out;
 }
 
 TEST(Gate, warns_of_what_fails_nothing_and_takes_a_case_from_the_front_where_its_lists_are_no_merit) {
   using Of = Warning::Kind;
-  CaseResult one = with_cells();
-  EXPECT_TRUE(warned(one).empty());
-  EXPECT_TRUE(is_eligible(one));
-  miss(one, 1, 0);
-  EXPECT_TRUE(warned(one).empty()) << "a thousandth is rounding";
-  EXPECT_TRUE(is_eligible(one));
-  miss(one, 2, 0);
-  EXPECT_EQ(warned(one), (std::vector{Of::unlit}));
-  EXPECT_FALSE(is_eligible(one));
-  one = with_cells();
-  one.buffers.dropped_pairs = 1;
-  EXPECT_EQ(warned(one), (std::vector{Of::dropped_pairs}));
-  EXPECT_FALSE(is_eligible(one)) << "whatever the limits allow";
-  one = with_cells();
-  one.error->undecided = 1;
-  EXPECT_EQ(warned(one), (std::vector{Of::undecided}));
-  EXPECT_TRUE(is_eligible(one));
-  one = with_cells();
-  one.error->false_negatives = 1;
-  one.conservative = false;
-  EXPECT_EQ(warned(one), (std::vector{Of::lost_pairs}));
-  EXPECT_FALSE(is_eligible(one)) << "a naive method's";
-  one = with_cells();
-  one.error.reset();
-  EXPECT_EQ(warned(one), (std::vector{Of::unchecked}));
+  CaseResult case_result = with_cells();
+  EXPECT_TRUE(warned(case_result).empty());
+  EXPECT_TRUE(is_eligible(case_result));
+  miss(case_result, 1, 0);
+  EXPECT_TRUE(warned(case_result).empty()) << "a thousandth is rounding";
+  EXPECT_TRUE(is_eligible(case_result));
+  miss(case_result, 2, 0);
+  EXPECT_EQ(warned(case_result), (std::vector{Of::unlit}));
+  EXPECT_FALSE(is_eligible(case_result));
+  case_result = with_cells();
+  case_result.buffers.dropped_pairs = 1;
+  EXPECT_EQ(warned(case_result), (std::vector{Of::dropped_pairs}));
+  EXPECT_FALSE(is_eligible(case_result)) << "whatever the limits allow";
+  case_result = with_cells();
+  case_result.error->undecided = 1;
+  EXPECT_EQ(warned(case_result), (std::vector{Of::undecided}));
+  EXPECT_TRUE(is_eligible(case_result));
+  case_result = with_cells();
+  case_result.error->false_negatives = 1;
+  case_result.conservative = false;
+  EXPECT_EQ(warned(case_result), (std::vector{Of::lost_pairs}));
+  EXPECT_FALSE(is_eligible(case_result)) << "a naive method's";
+  case_result = with_cells();
+  case_result.error.reset();
+  EXPECT_EQ(warned(case_result), (std::vector{Of::unchecked}));
   EXPECT_TRUE(warned(without_cells()).empty()) << "nothing to check";
-  one = with_cells();
-  one.failures = {{Kind::extra_pairs, ""}};
-  EXPECT_FALSE(is_eligible(one));
+  case_result = with_cells();
+  case_result.failures = {{Kind::extra_pairs, ""}};
+  EXPECT_FALSE(is_eligible(case_result));
 }
 
 Contender contender(const std::string& id, double time_ns, const std::string& view = "view") {

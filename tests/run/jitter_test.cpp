@@ -45,13 +45,13 @@ TEST(Jitter, every_method_keeps_its_promise_on_every_grid) {
 // in the grid of the frame before it would be a hundred times as much.
 TEST(Jitter, samples_find_their_lists_in_the_grid_of_their_own_frame) {
   int tried = 0;
-  for (const CaseResult& one : jittered_street(R"([[-8, 5.5], [15.7, 16]])").cases) {
-    if (!one.conservative || one.grid["kind"] != "frustum") continue;
-    for (const measure::LookupCounts& lookup : one.lookup) {
+  for (const CaseResult& case_result : jittered_street(R"([[-8, 5.5], [15.7, 16]])").cases) {
+    if (!case_result.conservative || case_result.grid["kind"] != "frustum") continue;
+    for (const measure::LookupCounts& lookup : case_result.lookup) {
       if (lookup.way.logarithm != measure::Logarithm::rounded || lookup.way.depth != measure::DepthRead::given)
         continue;
       ASSERT_GT(lookup.needed, 10'000u);
-      EXPECT_LE(lookup.missed * 2000, lookup.needed) << one.name;
+      EXPECT_LE(lookup.missed * 2000, lookup.needed) << case_result.name;
       ++tried;
     }
   }

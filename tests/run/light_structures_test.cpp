@@ -46,7 +46,7 @@ class AllLights final : public assign::LightStructure {
 };
 
 template <bool has_cells>
-class GivesAll final : public assign::AssignerOf<AllLights<has_cells>> {
+class GivesAll : public assign::AssignerOf<AllLights<has_cells>> {
  public:
   void build(const grid::Grid& grid, const assign::LightKinds&) override { grid_ = &grid; }
   void fill(const assign::FrameInput& input, AllLights<has_cells>& out) override {
@@ -70,6 +70,15 @@ assign::AssignerDescriptor all_lights() {
             return std::make_unique<GivesAll<has_cells>>();
           }};
 }
+
+// A method whose device says what it took.
+class OnDevice final : public GivesAll<true> {
+ public:
+  const assign::DeviceSpans* device_spans() const override { return &spans_; }
+
+ private:
+  assign::DeviceSpans spans_{100.0, 2000.0, 30.0};
+};
 
 // aabb's lists, each type's lights from the last to the first.
 class Backwards final : public assign::ListAssigner {
@@ -173,6 +182,21 @@ TEST(LightStructures, a_method_that_cannot_run_here_is_skipped_with_its_reason) 
   EXPECT_TRUE(all.result.skipped[0].name.ends_with("/all-lights")) << all.result.skipped[0].name;
   EXPECT_EQ(all.result.skipped[0].reason, "all-lights cannot run here: there is no device");
   EXPECT_EQ(all.result.cases.size(), 1u);
+}
+
+TEST(LightStructures, a_device_tells_its_spans_by_its_own_clock) {
+  assign::AssignerDescriptor descriptor = all_lights<true>();
+  descriptor.make_own = [](const assign::Params&) -> std::unique_ptr<assign::StructureAssigner> {
+    return std::make_unique<OnDevice>();
+  };
+  const assign::AssignerRegistration registration(descriptor);
+  const Ran all = ran(R"("assigners": ["all-lights", "aabb"])");
+  const std::optional<DeviceTimes>& device = all.of("all-lights", "own").timing->device;
+  ASSERT_TRUE(device);
+  EXPECT_EQ(device->upload_ns.samples, (std::vector<double>{100.0, 100.0})) << "two rounds, per frame";
+  EXPECT_EQ(device->run_ns.median, 2000.0);
+  EXPECT_EQ(device->readback_ns.median, 30.0);
+  EXPECT_FALSE(all.of("aabb", "packed").timing->device);
 }
 
 TEST(LightStructures, lists_in_any_order_measure_as_ascending_ones) {

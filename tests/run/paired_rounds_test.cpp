@@ -37,11 +37,11 @@ class Puppet : public Program {
 };
 
 CasePlan case_of(const std::string& id, std::size_t assigner, std::size_t storage) {
-  CasePlan one{};
-  one.id = one.name = id;
-  one.assigner = assigner;
-  one.storage = storage;
-  return one;
+  CasePlan case_plan{};
+  case_plan.id = case_plan.name = id;
+  case_plan.assigner = assigner;
+  case_plan.storage = storage;
+  return case_plan;
 }
 
 // Two methods, the first with two storages, and a group of one case more.

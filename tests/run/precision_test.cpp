@@ -26,8 +26,8 @@ Walk touching(const std::string& rest) {
 }
 
 const CaseResult& case_of(const Result& result, const std::string& end) {
-  for (const CaseResult& one : result.cases)
-    if (one.id.ends_with(end)) return one;
+  for (const CaseResult& case_result : result.cases)
+    if (case_result.id.ends_with(end)) return case_result;
   throw std::runtime_error("no case ends with " + end);
 }
 
@@ -38,8 +38,8 @@ TEST(Precision, packed_lights_are_lost_and_inflated_ones_are_not) {
   EXPECT_GT(case_of(result, "-half").error->false_negatives, 0u);
   EXPECT_EQ(case_of(result, "-half+inflate").error->false_negatives, 0u);
   EXPECT_EQ(case_of(result, "-unorm16+inflate").error->false_negatives, 0u);
-  for (const CaseResult& one : result.cases)
-    EXPECT_EQ(one.error->true_pairs, result.cases[0].error->true_pairs) << "the truth is the scene's";
+  for (const CaseResult& case_result : result.cases)
+    EXPECT_EQ(case_result.error->true_pairs, result.cases[0].error->true_pairs) << "the truth is the scene's";
 }
 
 TEST(Precision, only_packed_lights_that_are_not_inflated_take_a_conservative_assigners_word_back) {
@@ -75,11 +75,11 @@ TEST(Precision, is_not_told_where_there_is_float32_alone) {
 TEST(Precision, of_one_case_does_not_change_another) {
   const Result alone = touching(R"(, "assigners": ["bounds", "aabb"])").run();
   const Result among = touching(std::string(R"(, "assigners": ["bounds", "aabb"])") + k_all).run();
-  for (const CaseResult& one : alone.cases) {
-    const CaseResult& same = case_of(among, one.id + "-float32");
-    EXPECT_EQ(same.error->reported_pairs, one.error->reported_pairs);
-    EXPECT_EQ(same.tests_done, one.tests_done);
-    EXPECT_EQ(same.assigner_label, one.assigner_label);
+  for (const CaseResult& case_result : alone.cases) {
+    const CaseResult& same = case_of(among, case_result.id + "-float32");
+    EXPECT_EQ(same.error->reported_pairs, case_result.error->reported_pairs);
+    EXPECT_EQ(same.tests_done, case_result.tests_done);
+    EXPECT_EQ(same.assigner_label, case_result.assigner_label);
   }
 }
 

@@ -37,18 +37,18 @@ TEST(Runner, counts_of_balls_on_the_axis_are_those_of_their_depth_intervals) {
 
   const Result result = walk.run();
   ASSERT_EQ(result.cases.size(), 2u);
-  for (const CaseResult& one : result.cases) {
-    ASSERT_TRUE(one.error);
-    EXPECT_EQ(one.frames, 3);
-    EXPECT_EQ(one.error->frames_checked, 3);
-    EXPECT_EQ(one.error->true_pairs, pairs);
-    EXPECT_EQ(one.error->reported_pairs, pairs);
-    EXPECT_EQ(one.error->false_negatives, 0u);
-    EXPECT_EQ(one.occupancy->pairs.mean, static_cast<double>(pairs) / 3.0);
-    EXPECT_EQ(one.buffers.index_entries.high_water, *std::max_element(per_frame.begin(), per_frame.end()));
-    EXPECT_EQ(one.shading->samples, 3u * 1024u);
-    EXPECT_EQ(one.shading->missed, 0u);
-    EXPECT_FALSE(one.timing);
+  for (const CaseResult& case_result : result.cases) {
+    ASSERT_TRUE(case_result.error);
+    EXPECT_EQ(case_result.frames, 3);
+    EXPECT_EQ(case_result.error->frames_checked, 3);
+    EXPECT_EQ(case_result.error->true_pairs, pairs);
+    EXPECT_EQ(case_result.error->reported_pairs, pairs);
+    EXPECT_EQ(case_result.error->false_negatives, 0u);
+    EXPECT_EQ(case_result.occupancy->pairs.mean, static_cast<double>(pairs) / 3.0);
+    EXPECT_EQ(case_result.buffers.index_entries.high_water, *std::max_element(per_frame.begin(), per_frame.end()));
+    EXPECT_EQ(case_result.shading->samples, 3u * 1024u);
+    EXPECT_EQ(case_result.shading->missed, 0u);
+    EXPECT_FALSE(case_result.timing);
   }
   EXPECT_EQ(result.cases[1].tests_done, 3u * 6u * 5u) << "brute force tests every light against every cell";
 }
@@ -70,18 +70,19 @@ TEST(Runner, counts_on_a_world_grid_are_those_of_boxes_and_balls) {
           pairs += glm::length(glm::clamp(centre, lo, lo + 2.0) - centre) <= range_m ? 1 : 0;
         }
   }
-  const CaseResult one = walk.run().cases.at(0);
-  EXPECT_EQ(one.error->true_pairs, 2 * pairs);
-  EXPECT_EQ(one.error->reported_pairs, 2 * pairs);
+  const CaseResult case_result = walk.run().cases.at(0);
+  EXPECT_EQ(case_result.error->true_pairs, 2 * pairs);
+  EXPECT_EQ(case_result.error->reported_pairs, 2 * pairs);
 }
 
 std::vector<std::uint64_t> counts(const Result& result) {
   std::vector<std::uint64_t> out;
-  for (const CaseResult& one : result.cases) {
-    out.insert(out.end(), one.occupancy->histogram.begin(), one.occupancy->histogram.end());
-    out.insert(out.end(), {one.error->true_pairs, one.error->false_positives, one.error->filter_decided,
-                           one.error->exact_decided, one.shading->evaluated, one.shading->needed, one.tests_done,
-                           one.buffers.bytes.high_water, one.buffers.scratch_bytes});
+  for (const CaseResult& case_result : result.cases) {
+    out.insert(out.end(), case_result.occupancy->histogram.begin(), case_result.occupancy->histogram.end());
+    out.insert(out.end(),
+               {case_result.error->true_pairs, case_result.error->false_positives, case_result.error->filter_decided,
+                case_result.error->exact_decided, case_result.shading->evaluated, case_result.shading->needed,
+                case_result.tests_done, case_result.buffers.bytes.high_water, case_result.buffers.scratch_bytes});
   }
   return out;
 }
@@ -126,15 +127,15 @@ TEST(Runner, an_assigner_is_timed_once_for_all_its_storages) {
 
 TEST(Runner, pairs_of_a_timing_are_those_of_its_frames) {
   Walk walk = timed(R"("assigners": ["aabb"])");  // 3 frames, of which 2 are timed: the first and the last
-  const CaseResult one = walk.run().cases.at(0);
-  const std::vector<std::uint64_t>& pairs = one.occupancy->pairs_along_path.entries();
+  const CaseResult case_result = walk.run().cases.at(0);
+  const std::vector<std::uint64_t>& pairs = case_result.occupancy->pairs_along_path.entries();
   ASSERT_EQ(pairs.size(), 3u);
   const double mean = static_cast<double>(pairs[0] + pairs[2]) / 2.0;
-  EXPECT_EQ(one.timing->pairs_mean, mean);
-  EXPECT_EQ(one.timing->pairs_max, std::max(pairs[0], pairs[2]));
-  EXPECT_EQ(one.timing->ns_per_pair, one.timing->frame_ns.median / mean);
-  EXPECT_EQ(one.timing->worst.pairs, pairs[static_cast<std::size_t>(one.timing->worst.frame)]);
-  EXPECT_EQ(one.timing->builds_per_frame, 0.0);
+  EXPECT_EQ(case_result.timing->pairs_mean, mean);
+  EXPECT_EQ(case_result.timing->pairs_max, std::max(pairs[0], pairs[2]));
+  EXPECT_EQ(case_result.timing->ns_per_pair, case_result.timing->frame_ns.median / mean);
+  EXPECT_EQ(case_result.timing->worst.pairs, pairs[static_cast<std::size_t>(case_result.timing->worst.frame)]);
+  EXPECT_EQ(case_result.timing->builds_per_frame, 0.0);
 }
 
 TEST(Runner, of_one_timed_frame_the_worst_is_the_mean) {
@@ -160,16 +161,16 @@ TEST(Runner, lights_beyond_the_grid_are_unlit_and_named_so) {
                "assigners": ["exact-fast"])");
   walk.add_light({0, 0, -6}, 5);
   walk.add_light({0, 0, -30}, 15);
-  const CaseResult one = walk.run().cases.at(0);
-  EXPECT_EQ(one.error->false_negatives, 0u);
-  EXPECT_GT(one.shading->missed, 0u);
-  EXPECT_EQ(one.shading->missed_outside, one.shading->missed);
-  EXPECT_GT(one.shading->unlit(), measure::k_most_unlit);
-  EXPECT_TRUE(std::isnan(one.shading->comparable_overshade()));
-  ASSERT_TRUE(one.shading->worst);
-  EXPECT_GE(3 * one.shading->worst->missed, one.shading->missed);
-  EXPECT_TRUE(one.failures.empty()) << "a warning";
-  EXPECT_TRUE(loses_lights(one));
+  const CaseResult case_result = walk.run().cases.at(0);
+  EXPECT_EQ(case_result.error->false_negatives, 0u);
+  EXPECT_GT(case_result.shading->missed, 0u);
+  EXPECT_EQ(case_result.shading->missed_outside, case_result.shading->missed);
+  EXPECT_GT(case_result.shading->unlit(), measure::k_most_unlit);
+  EXPECT_TRUE(std::isnan(case_result.shading->comparable_overshade()));
+  ASSERT_TRUE(case_result.shading->worst);
+  EXPECT_GE(3 * case_result.shading->worst->missed, case_result.shading->missed);
+  EXPECT_TRUE(case_result.failures.empty()) << "a warning";
+  EXPECT_TRUE(loses_lights(case_result));
 }
 
 TEST(Runner, assigners_are_compared_with_the_first_pair_by_pair) {
@@ -206,7 +207,7 @@ TEST(Runner, progress_ends_at_its_estimate_and_tells_every_case) {
     EXPECT_GE(now.cost_done, last.cost_done);
     last = now;
   };
-  listener.on_case = [&](const CaseResult& one) { told.push_back(one.id); };
+  listener.on_case = [&](const CaseResult& case_result) { told.push_back(case_result.id); };
   const Walk walk = timed(R"("assigners": ["brute-force", "aabb"])");
   const Result result = walk.run(listener);
   EXPECT_NEAR(last.cost_done / last.cost_total, 1.0, 1e-9);
@@ -250,10 +251,10 @@ TEST(Runner, slices_that_follow_the_lights_count_like_fixed_ones_of_the_same_fra
   Walk walk(
       R"("grids": [{"tiles": {"count": [4, 4]}, "slices": {"scheme": "fit", "count": 8}}], "assigners": ["aabb"])");
   for (int i = 0; i < 10; ++i) walk.add_light({std::sin(i * 2.0), std::cos(i * 3.0), -8.0 - i}, 1.5);
-  const CaseResult one = walk.run().cases.at(0);
-  EXPECT_EQ(one.error->false_negatives, 0u);
-  EXPECT_GT(one.error->true_pairs, 0u);
-  EXPECT_TRUE(one.grid.contains("note"));
+  const CaseResult case_result = walk.run().cases.at(0);
+  EXPECT_EQ(case_result.error->false_negatives, 0u);
+  EXPECT_GT(case_result.error->true_pairs, 0u);
+  EXPECT_TRUE(case_result.grid.contains("note"));
 }
 
 TEST(Runner, a_grid_is_told_with_the_constants_of_its_lookup) {

@@ -18,10 +18,10 @@ Result counted(const std::string& text) {
   return run_plan(config, make_plan(config, ""), {}, {}, stop);
 }
 
-double work_of(const CaseResult& one, double lights) {
+double work_of(const CaseResult& case_result, double lights) {
   double cells = 1.0;
-  for (const nlohmann::json& along : one.grid["cells"]) cells *= along.get<double>();
-  return lights + cells + (one.occupancy ? one.occupancy->pairs.mean : 0.0);
+  for (const nlohmann::json& along : case_result.grid["cells"]) cells *= along.get<double>();
+  return lights + cells + (case_result.occupancy ? case_result.occupancy->pairs.mean : 0.0);
 }
 
 // Method and grid kind -> tests per unit of work, small before large.
@@ -31,10 +31,10 @@ Curves curves_of(const Result& result) {
   std::map<std::string, double> lights;
   for (const SceneResult& scene : result.scenes) lights[scene.name] = scene.points + scene.spots;
   Curves curves;
-  for (const CaseResult& one : result.cases)
-    curves[one.assigner_label + (one.storage_label == k_own_structure ? " asked by samples" : "") + " on " +
-           one.grid["kind"].get<std::string>()]
-        .push_back(static_cast<double>(one.tests_done) / work_of(one, lights[one.scene]));
+  for (const CaseResult& case_result : result.cases)
+    curves[case_result.assigner_label + (case_result.storage_label == k_own_structure ? " asked by samples" : "") +
+           " on " + case_result.grid["kind"].get<std::string>()]
+        .push_back(static_cast<double>(case_result.tests_done) / work_of(case_result, lights[case_result.scene]));
   return curves;
 }
 

@@ -39,17 +39,18 @@ TEST(StabilityPass, changes_along_the_axis_are_the_crossings_of_slice_boundaries
   for (const glm::dvec2& light : lights) walk.add_light({0.0, 0.0, -light.x}, light.y);
   const std::uint64_t expected = crossings(lights, 400);
   ASSERT_GE(expected, 4u);
-  for (const CaseResult& one : walk.run().cases) {
-    ASSERT_TRUE(one.stability);
-    EXPECT_EQ(one.stability->truth.steps, 400);
-    EXPECT_EQ(one.stability->truth.changes, expected);
-    EXPECT_EQ(one.stability->truth.flickers, 0u);
-    EXPECT_EQ(one.stability->method, one.stability->truth) << "on the axis " << one.assigner << " is exact";
-    EXPECT_NEAR(one.stability->step_m, 1e-3, 1e-12);
-    EXPECT_EQ(one.stability->step_deg, 0.0);
-    EXPECT_EQ(one.stability->grids, 1);
-    EXPECT_EQ(one.stability->undecided, 0u);
-    EXPECT_FALSE(one.stability->is_drift);
+  for (const CaseResult& case_result : walk.run().cases) {
+    ASSERT_TRUE(case_result.stability);
+    EXPECT_EQ(case_result.stability->truth.steps, 400);
+    EXPECT_EQ(case_result.stability->truth.changes, expected);
+    EXPECT_EQ(case_result.stability->truth.flickers, 0u);
+    EXPECT_EQ(case_result.stability->method, case_result.stability->truth)
+        << "on the axis " << case_result.assigner << " is exact";
+    EXPECT_NEAR(case_result.stability->step_m, 1e-3, 1e-12);
+    EXPECT_EQ(case_result.stability->step_deg, 0.0);
+    EXPECT_EQ(case_result.stability->grids, 1);
+    EXPECT_EQ(case_result.stability->undecided, 0u);
+    EXPECT_FALSE(case_result.stability->is_drift);
   }
 }
 
@@ -62,9 +63,9 @@ TEST(StabilityPass, is_left_out_where_nobody_asks_for_it) {
 TEST(StabilityPass, needs_no_accuracy_check_for_its_truth) {
   Walk walk = stable(std::string(k_shafts) + R"(, "assigners": ["aabb"], "accuracy": {"check": false})");
   walk.add_light({0, 0, -6.1507}, 2);
-  const CaseResult one = walk.run().cases.at(0);
-  EXPECT_FALSE(one.error);
-  EXPECT_GT(one.stability->truth.changes, 0u);
+  const CaseResult case_result = walk.run().cases.at(0);
+  EXPECT_FALSE(case_result.error);
+  EXPECT_GT(case_result.stability->truth.changes, 0u);
 }
 
 TEST(StabilityPass, a_loose_method_changes_more_than_the_truth) {
@@ -123,8 +124,8 @@ TEST(StabilityPass, does_not_depend_on_the_number_of_threads) {
     for (int i = 0; i < 30; ++i)
       walk.add_light({8 * std::sin(i * 1.3), 6 * std::sin(i * 2.9), -15 + 14 * std::sin(i * 0.7)}, 0.5 + 0.05 * i);
     std::vector<measure::Churn> counts;
-    for (const CaseResult& one : walk.run().cases)
-      counts.insert(counts.end(), {one.stability->method, one.stability->truth});
+    for (const CaseResult& case_result : walk.run().cases)
+      counts.insert(counts.end(), {case_result.stability->method, case_result.stability->truth});
     return counts;
   };
   EXPECT_EQ(run_with(1), run_with(2));

@@ -84,37 +84,37 @@ TEST_F(Sweep, names_and_ids_are_unique_and_ids_are_short_hashes) {
   EXPECT_EQ(plan.scenes[1].scene.name, "a-2");
   EXPECT_EQ(plan.scenes[2].scene.name, "a-3");
   std::set<std::string> names, ids;
-  for (const CasePlan& one : cases(plan)) {
-    EXPECT_TRUE(names.insert(one.name).second) << one.name;
-    EXPECT_TRUE(ids.insert(one.id).second) << one.id;
-    EXPECT_EQ(std::count(one.name.begin(), one.name.end(), '/'), 4) << one.name;
+  for (const CasePlan& case_plan : cases(plan)) {
+    EXPECT_TRUE(names.insert(case_plan.name).second) << case_plan.name;
+    EXPECT_TRUE(ids.insert(case_plan.id).second) << case_plan.id;
+    EXPECT_EQ(std::count(case_plan.name.begin(), case_plan.name.end(), '/'), 4) << case_plan.name;
   }
 }
 
 TEST_F(Sweep, an_id_depends_on_what_is_counted_and_not_on_how_it_is_timed_or_ordered) {
   write_scene("a.gltf");
-  const std::string one = R"(, "grids": [{}], "assigners": ["brute-force"])";
-  const std::string id = cases(plan(R"(["a.gltf"])", one)).at(0).id;
+  const std::string text = R"(, "grids": [{}], "assigners": ["brute-force"])";
+  const std::string id = cases(plan(R"(["a.gltf"])", text)).at(0).id;
   EXPECT_EQ(id, "3bf86f11bda4") << "results of earlier versions are compared by it";
-  EXPECT_EQ(cases(plan(R"(["a.gltf"])", one + R"(, "timing": {"rounds": 3}, "threads": 2)")).at(0).id, id);
+  EXPECT_EQ(cases(plan(R"(["a.gltf"])", text + R"(, "timing": {"rounds": 3}, "threads": 2)")).at(0).id, id);
   EXPECT_EQ(
       cases(plan(R"(["a.gltf"])",
                  R"(, "grids": [{"kind": "distance"}, {"slices": {"count": 8}}, {}], "assigners": ["brute-force"])"))
           .back()
           .id,
       id);
-  EXPECT_NE(cases(plan(R"(["a.gltf"])", one + R"(, "viewport": [640, 480])")).at(0).id, id);
-  EXPECT_NE(cases(plan(R"(["a.gltf"])", one + R"(, "storages": ["fixed"])")).at(0).id, id);
-  EXPECT_EQ(cases(plan(R"(["a.gltf"])", one + R"(, "limits": {"fail_if": ["unlit > 0"]})")).at(0).id, id);
-  EXPECT_NE(cases(plan(R"(["a.gltf"])", one + R"(, "jitter": "halton")")).at(0).id, id);
-  EXPECT_EQ(cases(plan(R"(["a.gltf"])", one + R"(, "stability": null)")).at(0).id, id);
-  const std::string stable = cases(plan(R"(["a.gltf"])", one + R"(, "stability": {})")).at(0).id;
+  EXPECT_NE(cases(plan(R"(["a.gltf"])", text + R"(, "viewport": [640, 480])")).at(0).id, id);
+  EXPECT_NE(cases(plan(R"(["a.gltf"])", text + R"(, "storages": ["fixed"])")).at(0).id, id);
+  EXPECT_EQ(cases(plan(R"(["a.gltf"])", text + R"(, "limits": {"fail_if": ["unlit > 0"]})")).at(0).id, id);
+  EXPECT_NE(cases(plan(R"(["a.gltf"])", text + R"(, "jitter": "halton")")).at(0).id, id);
+  EXPECT_EQ(cases(plan(R"(["a.gltf"])", text + R"(, "stability": null)")).at(0).id, id);
+  const std::string stable = cases(plan(R"(["a.gltf"])", text + R"(, "stability": {})")).at(0).id;
   EXPECT_NE(stable, id);
-  EXPECT_NE(cases(plan(R"(["a.gltf"])", one + R"(, "stability": {"window": 3})")).at(0).id, stable);
-  EXPECT_EQ(cases(plan(R"(["a.gltf"])", one + R"(, "precision": ["float32"])")).at(0).id, id);
+  EXPECT_NE(cases(plan(R"(["a.gltf"])", text + R"(, "stability": {"window": 3})")).at(0).id, stable);
+  EXPECT_EQ(cases(plan(R"(["a.gltf"])", text + R"(, "precision": ["float32"])")).at(0).id, id);
   const std::vector<CasePlan> packed =
       cases(plan(R"(["a.gltf"])",
-                 one + R"(, "precision": ["float32", {"packing": ["half", "unorm16"], "inflate": [false, true]}])"));
+                 text + R"(, "precision": ["float32", {"packing": ["half", "unorm16"], "inflate": [false, true]}])"));
   std::set<std::string> ids;
   for (const CasePlan& each : packed) {
     EXPECT_EQ(each.id.size(), 12U) << "a hash, not one that stands here twice";
@@ -122,17 +122,17 @@ TEST_F(Sweep, an_id_depends_on_what_is_counted_and_not_on_how_it_is_timed_or_ord
   }
   EXPECT_EQ(ids.size(), 5U);
   EXPECT_EQ(packed.at(0).id, id);
-  EXPECT_NE(cases(plan(R"([{"path": "a.gltf", "range_rule": {"max_range": 3}}])", one)).at(0).id, id);
-  EXPECT_NE(cases(plan(R"([{"path": "a.gltf", "camera_fit": "vertical"}])", one)).at(0).id, id);
-  EXPECT_EQ(cases(plan(R"([{"path": "a.gltf", "camera_fit": "contain"}])", one)).at(0).id, id);
+  EXPECT_NE(cases(plan(R"([{"path": "a.gltf", "range_rule": {"max_range": 3}}])", text)).at(0).id, id);
+  EXPECT_NE(cases(plan(R"([{"path": "a.gltf", "camera_fit": "vertical"}])", text)).at(0).id, id);
+  EXPECT_EQ(cases(plan(R"([{"path": "a.gltf", "camera_fit": "contain"}])", text)).at(0).id, id);
 }
 
 TEST_F(Sweep, a_name_tells_the_precision_where_it_is_not_float32) {
   write_scene("a.gltf");
-  const std::string one = R"(, "grids": [{}], "assigners": ["aabb"], "storages": ["packed", "fixed"])";
-  const std::vector<CasePlan> plain = cases(plan(R"(["a.gltf"])", one));
+  const std::string text = R"(, "grids": [{}], "assigners": ["aabb"], "storages": ["packed", "fixed"])";
+  const std::vector<CasePlan> plain = cases(plan(R"(["a.gltf"])", text));
   const std::vector<CasePlan> all = cases(
-      plan(R"(["a.gltf"])", one + R"(, "precision": ["float32", "half", {"packing": "unorm16", "inflate": true}])"));
+      plan(R"(["a.gltf"])", text + R"(, "precision": ["float32", "half", {"packing": "unorm16", "inflate": true}])"));
   ASSERT_EQ(all.size(), 6U);
   EXPECT_EQ(all[0].name, plain[0].name);
   EXPECT_EQ(all[1].name, plain[1].name);
@@ -198,8 +198,8 @@ TEST_F(Sweep, the_limit_on_memory_is_the_configurations_and_holds_for_lists) {
 
 TEST_F(Sweep, a_filter_selects_by_name_and_says_when_it_selects_nothing) {
   write_scene("a.gltf");
-  for (const CasePlan& one : cases(plan(R"(["a.gltf"])", k_two_grids, "/aabb/")))
-    EXPECT_NE(one.name.find("/aabb/"), std::string::npos);
+  for (const CasePlan& case_plan : cases(plan(R"(["a.gltf"])", k_two_grids, "/aabb/")))
+    EXPECT_NE(case_plan.name.find("/aabb/"), std::string::npos);
   const auto message = [&](const std::string& filter) -> std::string {
     try {
       plan(R"(["a.gltf"])", k_two_grids, filter);

@@ -134,7 +134,7 @@ TEST(TimingPass, a_launcher_is_asked_for_each_launch_and_its_cases_wait_for_the_
   std::vector<int> fullest;
   std::vector<std::string> told;
   Listener listener;
-  listener.on_case = [&](const CaseResult& one) { told.push_back(one.id); };
+  listener.on_case = [&](const CaseResult& case_result) { told.push_back(case_result.id); };
   const Launcher launcher = [&](std::span<const GroupToTime> groups, int launch, int rounds,
                                 const std::function<void(std::size_t)>& on_group) {
     EXPECT_TRUE(told.empty());

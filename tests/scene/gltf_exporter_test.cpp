@@ -77,10 +77,10 @@ TEST(GltfAsExported, what_only_a_strict_schema_minds_is_loaded_with_a_warning) {
       {R"("extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "color": [1, 1, 1, 1]}]}})",
        "/extensions/KHR_lights_punctual/lights/0/color: found 4 numbers"},
   };
-  for (const auto& one : cases) {
-    const Scene scene = loaded(document(one.members));
-    ASSERT_FALSE(scene.warnings.empty()) << one.says;
-    EXPECT_EQ(scene.warnings[0].find(one.says), 0U) << scene.warnings[0];
+  for (const auto& element : cases) {
+    const Scene scene = loaded(document(element.members));
+    ASSERT_FALSE(scene.warnings.empty()) << element.says;
+    EXPECT_EQ(scene.warnings[0].find(element.says), 0U) << scene.warnings[0];
   }
 }
 
@@ -113,12 +113,12 @@ TEST(GltfAsExported, faults_of_nodes_that_are_not_loaded_are_warnings) {
       {two_scenes("{}", R"({"nodes": [7]})"), "/scenes/1: /scenes/1/nodes/0: refers to node 7"},
       {two_scenes("{}", "7"), "/scenes/1: /scenes/1: found the number 7"},
   };
-  for (const auto& one : cases) {
-    const Scene scene = loaded(one.text);
+  for (const auto& element : cases) {
+    const Scene scene = loaded(element.text);
     ASSERT_EQ(scene.nodes.size(), 1U);
     EXPECT_EQ(scene.nodes[0].translation.z, 3.0);
-    ASSERT_FALSE(scene.warnings.empty()) << one.says;
-    EXPECT_EQ(scene.warnings[0].find(one.says), 0U) << scene.warnings[0];
+    ASSERT_FALSE(scene.warnings.empty()) << element.says;
+    EXPECT_EQ(scene.warnings[0].find(element.says), 0U) << scene.warnings[0];
   }
 }
 

@@ -31,8 +31,10 @@ export interface Frame {
 }
 
 function lightsOf(packed: DetailsFrame["lights"]): Light[] {
-  const positions = numbers(packed.positions), ranges = numbers(packed.ranges);
-  const axes = numbers(packed.spot_axes), angles = numbers(packed.spot_half_angles);
+  const positions = numbers(packed.positions),
+    ranges = numbers(packed.ranges);
+  const axes = numbers(packed.spot_axes),
+    angles = numbers(packed.spot_half_angles);
   const triple = (row: Float64Array, at: number): Vec3 => [row[3 * at]!, row[3 * at + 1]!, row[3 * at + 2]!];
   const firstSpot = packed.names.length - packed.spots;
   return packed.names.map((name, at) => ({
@@ -45,12 +47,19 @@ function lightsOf(packed: DetailsFrame["lights"]): Light[] {
 
 function listsOf(packed: DetailsFrame, frame: Omit<Frame, "listOf">): Frame["listOf"] {
   if (!packed.pairs) return null;
-  const gaps = numbers(packed.pairs.lights), marks = numbers(packed.pairs.marks);
+  const gaps = numbers(packed.pairs.lights),
+    marks = numbers(packed.pairs.marks);
   const begins = ascending(frame.reported.map((count, at) => count + frame.falseNegatives[at]!));
-  const byIndex = new Map([...ascending(numbers(packed.lights.indices))].map((index, at) => [index, frame.lights[at]!]));
+  const byIndex = new Map(
+    [...ascending(numbers(packed.lights.indices))].map((index, at) => [index, frame.lights[at]!]),
+  );
   return (row) => {
-    const begin = row === 0 ? 0 : begins[row - 1]!, end = begins[row]!;
-    return [...ascending(gaps.slice(begin, end))].map((index, at) => ({ light: byIndex.get(index)!, mark: marks[begin + at] as Mark }));
+    const begin = row === 0 ? 0 : begins[row - 1]!,
+      end = begins[row]!;
+    return [...ascending(gaps.slice(begin, end))].map((index, at) => ({
+      light: byIndex.get(index)!,
+      mark: marks[begin + at] as Mark,
+    }));
   };
 }
 
@@ -58,7 +67,9 @@ export function unpacked(packed: DetailsFrame, grid: CaseResult["grid"]): Frame 
   const { cells } = packed;
   const frame = {
     camera: packed.camera,
-    boundaries: packed.boundaries ? [...numbers(packed.boundaries)] : ((grid as { slices?: { boundaries: number[] } }).slices?.boundaries ?? []),
+    boundaries: packed.boundaries
+      ? [...numbers(packed.boundaries)]
+      : ((grid as { slices?: { boundaries: number[] } }).slices?.boundaries ?? []),
     cells: ascending(numbers(cells.indices)),
     reported: numbers(cells.reported),
     truth: numbers(cells.true),
@@ -71,10 +82,13 @@ export function unpacked(packed: DetailsFrame, grid: CaseResult["grid"]): Frame 
 
 // What is asked for and not here, in words; "" if nothing is.
 export function leftOut({ left_out, max_bytes }: Details): string {
-  const list = (label: string, frames: number[], why: string) => (frames.length ? `${label} ${frames.join(", ")} ${why}.` : "");
+  const list = (label: string, frames: number[], why: string) =>
+    frames.length ? `${label} ${frames.join(", ")} ${why}.` : "";
   return [
     list("Frames", left_out.frames, `are left out: max_bytes ${max_bytes} has no room for them`),
     list("Lists of frames", left_out.pairs, `are left out: max_bytes ${max_bytes} has no room for them`),
     list("Frames", left_out.not_on_path, "are not on the path"),
-  ].filter(Boolean).join(" ");
+  ]
+    .filter(Boolean)
+    .join(" ");
 }

@@ -4,8 +4,12 @@ import type { Vec3 } from "./details.ts";
 import type { Geometry } from "./geometry.ts";
 
 // Depths (or distances) become what they are on an axis with equal slices that ends where the real one does.
-export function evenDepth(geometry: Geometry, boundaries: number[]): { geometry: Geometry; warp: (point: Vec3) => Vec3 } {
-  const slices = boundaries.length - 1, end = boundaries[slices]!;
+export function evenDepth(
+  geometry: Geometry,
+  boundaries: number[],
+): { geometry: Geometry; warp: (point: Vec3) => Vec3 } {
+  const slices = boundaries.length - 1,
+    end = boundaries[slices]!;
   const even = (k: number) => (end * (k + 1)) / (slices + 1);
   const warped = (depth: number): number => {
     if (depth <= boundaries[0]!) return (depth * even(0)) / boundaries[0]!;
@@ -29,4 +33,5 @@ export function evenDepth(geometry: Geometry, boundaries: number[]): { geometry:
   };
 }
 
-export const canBeEven = (geometry: Geometry, boundaries: number[]) => geometry.shape !== "box" && boundaries.length > 2 && boundaries[0]! > 0;
+export const canBeEven = (geometry: Geometry, boundaries: number[]) =>
+  geometry.shape !== "box" && boundaries.length > 2 && boundaries[0]! > 0;

@@ -26,7 +26,11 @@ interface FullGrid {
   bounds: { min: Vec3; max: Vec3 };
 }
 
-const identity: [Vec3, Vec3, Vec3] = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
+const identity: [Vec3, Vec3, Vec3] = [
+  [1, 0, 0],
+  [0, 1, 0],
+  [0, 0, 1],
+];
 export const metres = (value: number) => `${Number(value.toPrecision(3))}`;
 const mix = (a: number, b: number, t: number) => a + (b - a) * t;
 
@@ -42,7 +46,10 @@ function screen(aCase: CaseResult, frame: Frame, grid: FullGrid): Geometry {
   return {
     shape: isShells ? "shells" : frame.camera.orthographic ? "box" : "slopes",
     size,
-    block: (i, j, k) => (frame.camera.orthographic ? [x(i), x(i + 1), y(j + 1), y(j), -z[k + 1]!, -z[k]!] : [x(i), x(i + 1), y(j + 1), y(j), z[k]!, z[k + 1]!]),
+    block: (i, j, k) =>
+      frame.camera.orthographic
+        ? [x(i), x(i + 1), y(j + 1), y(j), -z[k + 1]!, -z[k]!]
+        : [x(i), x(i + 1), y(j + 1), y(j), z[k]!, z[k + 1]!],
     isHole: () => false,
     topDown: true,
     sliceName: (k) => `${metres(z[k]!)} to ${metres(z[k + 1]!)} m ${isShells ? "from the eye" : "deep"}`,
@@ -59,13 +66,17 @@ function cascades(aCase: CaseResult, grid: FullGrid): Geometry {
     size,
     block: (x, y, z) => {
       const edge = grid.finest * 2 ** Math.floor(z / depth);
-      const left = x - size[0] / 2, top = size[1] / 2 - y, k = z % depth;
+      const left = x - size[0] / 2,
+        top = size[1] / 2 - y,
+        k = z % depth;
       return [left * edge, (left + 1) * edge, (top - 1) * edge, top * edge, -(k + 1) * edge, -k * edge];
     },
-    isHole: (x, y, z) => z >= depth && z % depth < depth / 2 && [x / size[0], y / size[1]].every((share) => share >= 0.25 && share < 0.75),
+    isHole: (x, y, z) =>
+      z >= depth && z % depth < depth / 2 && [x / size[0], y / size[1]].every((share) => share >= 0.25 && share < 0.75),
     topDown: true,
     sliceName: (z) => {
-      const level = Math.floor(z / depth), edge = grid.finest * 2 ** level;
+      const level = Math.floor(z / depth),
+        edge = grid.finest * 2 ** level;
       return `level ${level}, ${metres((z % depth) * edge)} to ${metres(((z % depth) + 1) * edge)} m deep`;
     },
     rotation: identity,
@@ -96,7 +107,11 @@ export function geometryOf(aCase: CaseResult, frame: Frame): Geometry {
 }
 
 export const indexOf = ([nx, ny]: Vec3, x: number, y: number, z: number) => (z * ny + y) * nx + x;
-export const cellOf = ([nx, ny]: Vec3, index: number): Vec3 => [index % nx, Math.floor(index / nx) % ny, Math.floor(index / (nx * ny))];
+export const cellOf = ([nx, ny]: Vec3, index: number): Vec3 => [
+  index % nx,
+  Math.floor(index / nx) % ny,
+  Math.floor(index / (nx * ny)),
+];
 
 // A point of view space from parameters, as the vertex shader makes it.
 export function inView(geometry: Geometry, [x, y, z]: Vec3): Vec3 {

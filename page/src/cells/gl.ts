@@ -1,7 +1,7 @@
 // WebGL2: cells as shaded blocks, one instance each, and lines and points over them.
 
-import type { Geometry, Shape } from "./geometry.ts";
 import type { Rgb } from "./colours.ts";
+import type { Geometry, Shape } from "./geometry.ts";
 
 const cellShader = `#version 300 es
 layout(location = 0) in vec2 x;
@@ -75,14 +75,18 @@ const shapes: Record<Shape, number> = { slopes: 0, shells: 1, box: 2 };
 
 function program(gl: WebGL2RenderingContext, vertex: string, fragment: string): WebGLProgram {
   const made = gl.createProgram();
-  for (const [type, source] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]] as const) {
+  for (const [type, source] of [
+    [gl.VERTEX_SHADER, vertex],
+    [gl.FRAGMENT_SHADER, fragment],
+  ] as const) {
     const shader = gl.createShader(type)!;
     gl.shaderSource(shader, source);
     gl.compileShader(shader);
     gl.attachShader(made, shader);
   }
   gl.linkProgram(made);
-  if (!gl.getProgramParameter(made, gl.LINK_STATUS) && !gl.isContextLost()) throw new Error(`shader: ${gl.getProgramInfoLog(made)}`);
+  if (!gl.getProgramParameter(made, gl.LINK_STATUS) && !gl.isContextLost())
+    throw new Error(`shader: ${gl.getProgramInfoLog(made)}`);
   return made;
 }
 

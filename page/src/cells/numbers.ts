@@ -1,4 +1,4 @@
-// Rows of numbers as a result carries them (src/core/number_text.h): "5 1*40" is 5 and forty times 1.
+// Rows of numbers as a result carries them (src/core/run_length_text.h): "5 1*40" is 5 and forty times 1.
 
 export function numbers(text: string): Float64Array {
   const words = text ? text.split(" ") : [];
@@ -8,7 +8,10 @@ export function numbers(text: string): Float64Array {
   });
   const all = new Float64Array(runs.reduce((sum, [, count]) => sum + count, 0));
   let at = 0;
-  for (const [value, count] of runs) all.fill(value, at, (at += count));
+  for (const [value, count] of runs) {
+    all.fill(value, at, at + count);
+    at += count;
+  }
   return all;
 }
 

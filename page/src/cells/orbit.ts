@@ -13,31 +13,69 @@ const fieldOfView = 0.7;
 
 function product(a: Float32Array, b: Float32Array): Float32Array {
   return Float32Array.from({ length: 16 }, (_, at) => {
-    const row = at % 4, column = at - row;
-    return a[row]! * b[column]! + a[row + 4]! * b[column + 1]! + a[row + 8]! * b[column + 2]! + a[row + 12]! * b[column + 3]!;
+    const row = at % 4,
+      column = at - row;
+    return (
+      a[row]! * b[column]! + a[row + 4]! * b[column + 1]! + a[row + 8]! * b[column + 2]! + a[row + 12]! * b[column + 3]!
+    );
   });
 }
 
 // The orbit's right, up and backward axes.
 export function axesOf({ yaw, pitch }: Orbit): [Vec3, Vec3, Vec3] {
   const [sy, cy, sp, cp] = [Math.sin(yaw), Math.cos(yaw), Math.sin(pitch), Math.cos(pitch)];
-  return [[cy, 0, -sy], [-sy * sp, cp, -cy * sp], [sy * cp, sp, cy * cp]];
+  return [
+    [cy, 0, -sy],
+    [-sy * sp, cp, -cy * sp],
+    [sy * cp, sp, cy * cp],
+  ];
 }
 
 const dot = (a: Vec3, b: Vec3) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 
 export function matrixOf(orbit: Orbit, aspect: number): Float32Array {
-  const { target, distance } = orbit, [right, up, back] = axesOf(orbit);
+  const { target, distance } = orbit,
+    [right, up, back] = axesOf(orbit);
   const eye = target.map((value, axis) => value + back[axis]! * distance) as Vec3;
   const view = Float32Array.of(
-    right[0], up[0], back[0], 0, right[1], up[1], back[1], 0, right[2], up[2], back[2], 0,
-    -dot(right, eye), -dot(up, eye), -dot(back, eye), 1,
+    right[0],
+    up[0],
+    back[0],
+    0,
+    right[1],
+    up[1],
+    back[1],
+    0,
+    right[2],
+    up[2],
+    back[2],
+    0,
+    -dot(right, eye),
+    -dot(up, eye),
+    -dot(back, eye),
+    1,
   );
-  const near = distance / 200, far = distance * 50, focus = 1 / Math.tan(fieldOfView / 2);
+  const near = distance / 200,
+    far = distance * 50,
+    focus = 1 / Math.tan(fieldOfView / 2);
   const wide = Math.max(1, 1 / aspect); // a high picture shows as much across as a square one
   const projection = Float32Array.of(
-    focus / (aspect * wide), 0, 0, 0, 0, focus / wide, 0, 0, 0, 0, (far + near) / (near - far), -1,
-    0, 0, (2 * far * near) / (near - far), 0,
+    focus / (aspect * wide),
+    0,
+    0,
+    0,
+    0,
+    focus / wide,
+    0,
+    0,
+    0,
+    0,
+    (far + near) / (near - far),
+    -1,
+    0,
+    0,
+    (2 * far * near) / (near - far),
+    0,
   );
   return product(projection, view);
 }
@@ -49,10 +87,14 @@ function turn(orbit: Orbit, yaw: number, pitch: number): void {
 
 function shift(orbit: Orbit, right: number, up: number): void {
   const axes = axesOf(orbit);
-  orbit.target = orbit.target.map((value, at) => value + orbit.distance * (right * axes[0][at]! + up * axes[1][at]!)) as Vec3;
+  orbit.target = orbit.target.map(
+    (value, at) => value + orbit.distance * (right * axes[0][at]! + up * axes[1][at]!),
+  ) as Vec3;
 }
 
-const zoom = (orbit: Orbit, factor: number) => void (orbit.distance *= factor);
+function zoom(orbit: Orbit, factor: number): void {
+  orbit.distance *= factor;
+}
 
 const step = 0.12;
 const keys: Record<string, (orbit: Orbit, isShifted: boolean) => void> = {
@@ -67,13 +109,20 @@ const keys: Record<string, (orbit: Orbit, isShifted: boolean) => void> = {
 
 // Drags turn, with a second button, Shift or two fingers they shift; the wheel zooms while the canvas has the focus, so
 // that a page scrolls past it. Home goes back to the start.
-export function control(canvas: HTMLCanvasElement, orbit: Orbit, start: () => Orbit, redraw: () => void, onClick: (x: number, y: number) => void): void {
+export function control(
+  canvas: HTMLCanvasElement,
+  orbit: Orbit,
+  start: () => Orbit,
+  redraw: () => void,
+  onClick: (x: number, y: number) => void,
+): void {
   const pointers = new Map<number, PointerEvent>();
   let travelled = 0;
   const move = (event: PointerEvent) => {
     const last = pointers.get(event.pointerId);
     if (!last) return;
-    const dx = (event.clientX - last.clientX) / canvas.clientHeight, dy = (event.clientY - last.clientY) / canvas.clientHeight;
+    const dx = (event.clientX - last.clientX) / canvas.clientHeight,
+      dy = (event.clientY - last.clientY) / canvas.clientHeight;
     travelled += Math.hypot(event.clientX - last.clientX, event.clientY - last.clientY);
     pointers.set(event.pointerId, event);
     if (pointers.size > 1 || event.shiftKey || event.buttons > 1) shift(orbit, -dx, dy);
@@ -93,12 +142,16 @@ export function control(canvas: HTMLCanvasElement, orbit: Orbit, start: () => Or
   });
   canvas.addEventListener("pointercancel", (event) => pointers.delete(event.pointerId));
   canvas.addEventListener("contextmenu", (event) => event.preventDefault());
-  canvas.addEventListener("wheel", (event) => {
-    if (document.activeElement !== canvas) return;
-    event.preventDefault();
-    zoom(orbit, Math.exp(0.0015 * event.deltaY));
-    redraw();
-  }, { passive: false });
+  canvas.addEventListener(
+    "wheel",
+    (event) => {
+      if (document.activeElement !== canvas) return;
+      event.preventDefault();
+      zoom(orbit, Math.exp(0.0015 * event.deltaY));
+      redraw();
+    },
+    { passive: false },
+  );
   canvas.addEventListener("keydown", (event) => {
     const key = keys[event.key];
     if (event.ctrlKey || event.metaKey || event.altKey || (!key && event.key !== "Home")) return;

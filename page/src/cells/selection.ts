@@ -1,8 +1,8 @@
 // What of a frame is shown and how: kept while frames and cases change.
 
-import { cellOf, centreOf, indexOf, type Geometry } from "./geometry.ts";
-import { valueOf, type Counts, type What } from "./colours.ts";
+import { type Counts, shownValue, type What } from "./colours.ts";
 import type { Frame, Vec3 } from "./details.ts";
+import { cellOf, centreOf, type Geometry, indexOf } from "./geometry.ts";
 
 export type Show = "all" | "slice" | "tile";
 export type LightsShown = "cell" | "all" | "none";
@@ -17,12 +17,25 @@ export interface Selection {
   cell: Vec3; // picked; where there is none, the one with the longest list is
 }
 
-export const freshSelection = (): Selection => ({ frame: 0, what: "reported", show: "all", least: 1, lights: "cell", isEven: true, cell: [-1, -1, -1] });
+export const freshSelection = (): Selection => ({
+  frame: 0,
+  what: "reported",
+  show: "all",
+  least: 1,
+  lights: "cell",
+  isEven: true,
+  cell: [-1, -1, -1],
+});
 
 export function countsAt(frame: Frame, at: number): Counts {
   return at < 0
     ? { reported: 0, truth: 0, falsePositives: 0, falseNegatives: 0 }
-    : { reported: frame.reported[at]!, truth: frame.truth[at]!, falsePositives: frame.falsePositives[at]!, falseNegatives: frame.falseNegatives[at]! };
+    : {
+        reported: frame.reported[at]!,
+        truth: frame.truth[at]!,
+        falsePositives: frame.falsePositives[at]!,
+        falseNegatives: frame.falseNegatives[at]!,
+      };
 }
 
 export class CellRows {
@@ -37,7 +50,7 @@ export class CellRows {
 
 // Indices of the frame's rows that are drawn.
 export function shownCells(frame: Frame, geometry: Geometry, { what, show, least, cell }: Selection): number[] {
-  const all = [...frame.cells.keys()].filter((at) => valueOf(what, countsAt(frame, at)) >= least);
+  const all = [...frame.cells.keys()].filter((at) => shownValue(what, countsAt(frame, at)) >= least);
   if (show === "all") return all;
   return all.filter((at) => {
     const [x, y, z] = cellOf(geometry.size, frame.cells[at]!);
@@ -46,14 +59,15 @@ export function shownCells(frame: Frame, geometry: Geometry, { what, show, least
 }
 
 export function most(frame: Frame, what: What): number {
-  return frame.cells.reduce((highest, _, at) => Math.max(highest, valueOf(what, countsAt(frame, at))), 0);
+  return frame.cells.reduce((highest, _, at) => Math.max(highest, shownValue(what, countsAt(frame, at))), 0);
 }
 
 // The cell with the most of what is shown.
 export function worstCell(frame: Frame, geometry: Geometry, what: What): Vec3 {
-  let best = -1, value = 0;
+  let best = -1,
+    value = 0;
   for (let at = 0; at < frame.cells.length; ++at) {
-    const now = valueOf(what, countsAt(frame, at));
+    const now = shownValue(what, countsAt(frame, at));
     if (now > value) [best, value] = [at, now];
   }
   return best < 0 ? [0, 0, 0] : cellOf(geometry.size, frame.cells[best]!);
@@ -61,7 +75,8 @@ export function worstCell(frame: Frame, geometry: Geometry, what: What): Vec3 {
 
 // A ball around what is drawn.
 export function extentOf(frame: Frame, geometry: Geometry): { centre: Vec3; radius: number } {
-  const lo: Vec3 = [0, 0, 0], hi: Vec3 = [0, 0, 0];
+  const lo: Vec3 = [0, 0, 0],
+    hi: Vec3 = [0, 0, 0];
   for (const cell of frame.cells)
     centreOf(geometry, cell).forEach((value, axis) => {
       lo[axis] = Math.min(lo[axis]!, value);

@@ -3,7 +3,7 @@
 import { h } from "../dom.ts";
 import type { Rgb } from "./colours.ts";
 import type { Vec3 } from "./details.ts";
-import { Painter, type Cells, type Strokes } from "./gl.ts";
+import { type Cells, Painter, type Strokes } from "./gl.ts";
 import { axesOf, control, matrixOf, type Orbit } from "./orbit.ts";
 
 export interface Picture {
@@ -40,7 +40,8 @@ export function space(): Space | null {
   function paint(): void {
     isWaiting = false;
     const pixels = Math.min(window.devicePixelRatio || 1, 2);
-    const width = Math.round(element.clientWidth * pixels), height = Math.round(element.clientHeight * pixels);
+    const width = Math.round(element.clientWidth * pixels),
+      height = Math.round(element.clientHeight * pixels);
     if (!picture || width === 0 || gl!.isContextLost()) return;
     if (element.width !== width || element.height !== height) [element.width, element.height] = [width, height];
     painter.paint(camera(), axesOf(orbit)[2], picture.strokes, pixels);

@@ -4,9 +4,27 @@ import { h } from "../dom.ts";
 import { count } from "../format.ts";
 import { legendOf, type What } from "./colours.ts";
 
-export function pills<Value extends string>(id: string, legend: string, options: [Value, string][], chosen: Value, onChoice: (value: Value) => void): HTMLElement {
+export function pills<Value extends string>(
+  id: string,
+  legend: string,
+  options: [Value, string][],
+  chosen: Value,
+  onChoice: (value: Value) => void,
+): HTMLElement {
   const radios = options.map(([value, label]) =>
-    h("label", { class: "pill" }, h("input", { type: "radio", name: id, id: `${id}-${value}`, value, checked: value === chosen, onchange: () => onChoice(value) }), h("span", {}, label)),
+    h(
+      "label",
+      { class: "pill" },
+      h("input", {
+        type: "radio",
+        name: id,
+        id: `${id}-${value}`,
+        value,
+        checked: value === chosen,
+        onchange: () => onChoice(value),
+      }),
+      h("span", {}, label),
+    ),
   );
   return h("fieldset", { class: "pills" }, h("legend", {}, legend), ...radios);
 }
@@ -38,5 +56,16 @@ export function legendView(what: What, highest: number): HTMLElement {
   bar.style.background = `linear-gradient(to right, ${colours.join(", ")})`;
   const middle = Math.round(Math.sqrt(highest)); // the scale is logarithmic
   const isBetween = middle > 1 && middle < highest;
-  return h("p", { class: "legend" }, h("span", {}, `${label[0]!.toUpperCase()}${label.slice(1)}: 1`, bar, count(highest), isBetween && ` (in the middle ${count(middle)})`));
+  return h(
+    "p",
+    { class: "legend" },
+    h(
+      "span",
+      {},
+      `${label[0]!.toUpperCase()}${label.slice(1)}: 1`,
+      bar,
+      count(highest),
+      isBetween && ` (in the middle ${count(middle)})`,
+    ),
+  );
 }

@@ -144,13 +144,19 @@ class Tree {
 };
 
 struct Trees {
-  Tree points, spots;
+  std::array<Tree, view::k_light_types> of_type;
 
-  // The points among them first.
+  // Type by type.
   template <class Found>
   std::uint64_t each_touched(const geom::Box& box, Found&& found) const {
-    const std::uint64_t tests = points.each_touched(box, found);
-    return tests + spots.each_touched(box, found);
+    std::uint64_t tests = 0;
+    for (const Tree& tree : of_type) tests += tree.each_touched(box, found);
+    return tests;
+  }
+  std::size_t capacity_bytes() const {
+    std::size_t bytes = 0;
+    for (const Tree& tree : of_type) bytes += tree.capacity_bytes();
+    return bytes;
   }
 };
 
@@ -174,8 +180,8 @@ class TreeBuilder {
     balls.resize(lights.size());
     for (std::uint32_t light = 0; light < lights.size(); ++light)
       balls[light] = lights.is_empty(light) ? geom::Ball{} : test.ball(lights, light, k_roundoffs);
-    build_tree(lights, lights.points, keeps, out.points);
-    build_tree(lights, lights.spots, keeps, out.spots);
+    const auto types = lights.types();
+    for (std::size_t type = 0; type < types.size(); ++type) build_tree(lights, types[type], keeps, out.of_type[type]);
   }
 
   std::size_t capacity_bytes() const {
@@ -251,9 +257,9 @@ class BvhLists final : public ListAssigner {
 
   std::uint64_t tests_done() const override { return tests_; }
   std::size_t scratch_bytes() const override {
-    return builder_.capacity_bytes() + trees_.points.capacity_bytes() + trees_.spots.capacity_bytes() +
-           candidates_.capacity_bytes() + found_.capacity() * sizeof(std::uint32_t) +
-           cells_.capacity() * sizeof(geom::Box) + cones_.capacity() * sizeof(geom::SphericalCone);
+    return builder_.capacity_bytes() + trees_.capacity_bytes() + candidates_.capacity_bytes() +
+           found_.capacity() * sizeof(std::uint32_t) + cells_.capacity() * sizeof(geom::Box) +
+           cones_.capacity() * sizeof(geom::SphericalCone);
   }
 
  private:
@@ -330,14 +336,19 @@ class LightHierarchy final : public LightStructure {
 
   StructureUse use() const override {
     StructureUse use;
-    use.index_entries = trees.points.boxes() + trees.spots.boxes();
+    std::uint64_t lights = 0;
+    for (const Tree& tree : trees.of_type) {
+      use.index_entries += tree.boxes();
+      lights += tree.size();
+    }
     use.index_bytes = use.index_entries * k_box_bytes;
-    use.header_bytes = (trees.points.size() + trees.spots.size()) * sizeof(std::uint32_t);
+    use.header_bytes = lights * sizeof(std::uint32_t);
     use.upload_bytes = use.index_bytes + use.header_bytes;
     return use;
   }
   StructureLimit limit() const override {
-    const std::uint64_t entries = Tree::boxes_for(ranges.points.count) + Tree::boxes_for(ranges.spots.count);
+    std::uint64_t entries = 0;
+    for (const view::LightRange& type : ranges.types()) entries += Tree::boxes_for(type.count);
     return {entries, entries * k_box_bytes + std::uint64_t{ranges.size()} * sizeof(std::uint32_t)};
   }
   std::uint32_t index_bits() const override { return 8 * k_box_bytes; }

@@ -32,9 +32,7 @@ struct Range {
   }
 };
 
-struct Bin {
-  Range points, spots;
-};
+using Bin = std::array<Range, view::k_light_types>;  // of each type
 
 class BinsAndMasks final : public LightStructure {
  public:
@@ -51,10 +49,9 @@ class BinsAndMasks final : public LightStructure {
   }
 
   // The light of a rank among the sorted ones, which come in this order, points before spots.
-  void add(std::uint32_t rank, std::uint32_t light, bool is_spot, const CellBox& box) {
+  void add(std::uint32_t rank, std::uint32_t light, std::size_t type, const CellBox& box) {
     order_[rank] = light;
-    for (int z = box.first.z; z <= box.last.z; ++z)
-      (is_spot ? bins_[static_cast<std::size_t>(z)].spots : bins_[static_cast<std::size_t>(z)].points).take(rank);
+    for (int z = box.first.z; z <= box.last.z; ++z) bins_[static_cast<std::size_t>(z)][type].take(rank);
     const std::uint32_t bit = 1u << rank % k_bits;
     const auto columns = static_cast<std::size_t>(grid_->screen().tiles.count.x);
     for (int y = box.first.y; y <= box.last.y; ++y) {
@@ -109,7 +106,7 @@ class BinsAndMasks final : public LightStructure {
   void read(std::uint32_t cell, std::vector<std::uint32_t>& out) const {
     const std::uint32_t* mask = masks_.data() + std::size_t{cell % tiles_} * words_;
     const Bin& bin = bins_[cell / tiles_];
-    for (const Range& range : {bin.points, bin.spots})
+    for (const Range& range : bin)
       for (std::uint32_t from = range.first; from < range.end; from = (from / k_bits + 1) * k_bits) {
         std::uint32_t left = mask[from / k_bits] & ~0u << from % k_bits;
         if (range.end / k_bits == from / k_bits) left &= (1u << range.end % k_bits) - 1;
@@ -153,8 +150,8 @@ class ZBinning final : public AssignerOf<BinsAndMasks> {
       bounds_.find(given_spots(lights, spots_), {0.0f, 0.0f}, bounded_);
     }
     out.start(*grid_, lights.size(), bounded_.count);
-    add_sorted(0, points, false, out);
-    add_sorted(points, bounded_.count, true, out);
+    add_sorted(0, points, 0, out);
+    add_sorted(points, bounded_.count, 1, out);
   }
 
   std::uint64_t tests_done() const override { return tests_; }
@@ -164,13 +161,12 @@ class ZBinning final : public AssignerOf<BinsAndMasks> {
 
  private:
   // The middles of what balls reach in depth are their centres.
-  void add_sorted(std::uint32_t begin, std::uint32_t end, bool are_spots, BinsAndMasks& out) {
+  void add_sorted(std::uint32_t begin, std::uint32_t end, std::size_t type, BinsAndMasks& out) {
     by_depth_.entries.resize(end - begin);
     for (std::uint32_t i = begin; i < end; ++i) by_depth_.entries[i - begin] = {ordered_bits(bounded_.depth[i]), i};
     by_depth_.sort();
     std::uint32_t rank = begin;
-    for (const auto& [key, ball] : by_depth_.entries)
-      out.add(rank++, bounded_.light[ball], are_spots, bounded_.box(ball));
+    for (const auto& [key, ball] : by_depth_.entries) out.add(rank++, bounded_.light[ball], type, bounded_.box(ball));
   }
 
   LightTest test_;

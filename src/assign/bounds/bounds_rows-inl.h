@@ -22,11 +22,10 @@ class Boxes {
       : indices(BitCast(DI(), LoadU(DU(), batch.balls))),
         first_row(gathered(batch.bounded.first_row, indices)),
         first_column(gathered(batch.bounded.first_column, indices)) {
-    const VI one = all_int(1);
     lights = GatherIndex(DU(), batch.bounded.light.data(), indices);
-    rows = gathered(batch.bounded.last_row, indices) - first_row + one;
+    rows = gathered(batch.bounded.last_row, indices) - first_row + all_int(1);
     rows = IfThenElseZero(FirstN(DI(), batch.count), rows);
-    columns = gathered(batch.bounded.last_column, indices) - first_column + one;
+    columns = gathered(batch.bounded.last_column, indices) - first_column + all_int(1);
     // Below all lights (lights are fewer than 2^31), none is uncertain.
     uncertain = IfThenElseZero(Not(lights < Set(DU(), batch.first_uncertain)), Set(DU(), BatchRows::k_uncertain));
   }

@@ -1,6 +1,6 @@
 #pragma once
-// The boxes of the grids whose cells are boxes. measure/truth_rows.h finds them by itself, in its own way: truth shares
-// no step with what it judges.
+// The boxes of the grids whose cells are boxes. The broad phase of the truth (grid/broad_phase.h) finds them by itself:
+// truth shares no step with what it judges.
 
 #include <vector>
 

@@ -343,20 +343,19 @@ class CellsOf {
 
   // A unit vector across the axis, towards v where v is not nearly along the axis.
   HWY_INLINE Point unit_across(const Point& v) const {
-    const V zero = Zero(D()), one = all(1.0f);
     const M is_good = length(cross(v, cone_.axis)) > all(0.1f) * length(v);
     const M x_is_small = Abs(cone_.axis.x) < all(0.7f);
-    const Point other = chosen(x_is_small, {one, zero, zero}, {zero, one, zero});
+    const Point other = chosen(x_is_small, x_axis(), y_axis());
     const Point from = chosen(is_good, v, other);
     const Point part = from - dot(from, cone_.axis) * cone_.axis;
-    return (one / length(part)) * part;
+    return (all(1.0f) / length(part)) * part;
   }
 
   // Is there a plane along the cone's side, equally far from both ends of an edge, beyond which all corners lie?
   HWY_INLINE M is_beside_edges() const {
-    const V zero = Zero(D()), one = all(1.0f);
+    const V zero = Zero(D());
     const M x_is_small = Abs(cone_.axis.x) < all(0.7f);
-    const Point m = unit_across(chosen(x_is_small, {one, zero, zero}, {zero, one, zero})), m2 = cross(cone_.axis, m);
+    const Point m = unit_across(chosen(x_is_small, x_axis(), y_axis())), m2 = cross(cone_.axis, m);
     M apart = Not(yes());
     for (unsigned corner = 0; corner < 8; ++corner)
       for (const unsigned bit : {1u, 2u, 4u}) {
@@ -368,7 +367,7 @@ class CellsOf {
         const V z = cone_.sine * dot(edge, cone_.axis) / cone_.cosine;
         const V square = x * x + y * y, rest = square - z * z;
         const M exists = And(square > all(k_least_square), rest >= zero);
-        const V root = Sqrt(Max(rest, zero)), scale = one / square;
+        const V root = Sqrt(Max(rest, zero)), scale = all(1.0f) / square;
         for (const V w : {root, Neg(root)}) {
           const V along_m = scale * (z * x - w * y);
           const V along_m2 = scale * (z * y + w * x);
@@ -405,20 +404,20 @@ class CellsOf {
   // Outward normals (any length) and the faces along them.
   template <class Take>
   HWY_INLINE void each_face(Take&& take) const {
-    const V zero = Zero(D()), one = all(1.0f);
     if constexpr (k_perspective) {
-      take(Point{Neg(one), zero, left_}, zero);
-      take(Point{one, zero, Neg(right_)}, zero);
-      take(Point{zero, Neg(one), y0_}, zero);
-      take(Point{zero, one, Neg(y1_)}, zero);
+      const V zero = Zero(D()), plus = all(1.0f), minus = all(-1.0f);
+      take(Point{minus, zero, left_}, zero);
+      take(Point{plus, zero, Neg(right_)}, zero);
+      take(Point{zero, minus, y0_}, zero);
+      take(Point{zero, plus, Neg(y1_)}, zero);
     } else {
-      take(Point{Neg(one), zero, zero}, Neg(left_));
-      take(Point{one, zero, zero}, right_);
-      take(Point{zero, Neg(one), zero}, Neg(y0_));
-      take(Point{zero, one, zero}, y1_);
+      take(x_axis(-1.0f), Neg(left_));
+      take(x_axis(), right_);
+      take(y_axis(-1.0f), Neg(y0_));
+      take(y_axis(), y1_);
     }
-    take(Point{zero, zero, Neg(one)}, Neg(depth0_));
-    take(Point{zero, zero, one}, depth1_);
+    take(depth_axis(-1.0f), Neg(depth0_));
+    take(depth_axis(), depth1_);
   }
 
   // Of a face's normal.

@@ -104,7 +104,7 @@ struct SpotShapes {
 
   // Angles phi with a cos phi + b sin phi = c, as points of the rim.
   template <class Take>
-  HWY_INLINE void each_rim_place(V a, V b, V c, Take&& take) const {
+  HWY_INLINE void each_rim_point(V a, V b, V c, Take&& take) const {
     const V square = square_of(a) + square_of(b), rest = square - square_of(c);
     const M exists = And(rest >= Zero(D()), square > Zero(D()));
     const V w = root(rest), scale = inverse(square);
@@ -135,7 +135,7 @@ struct SpotShapes {
   // The points of the sphere as far to the left and to the right of the apex, `up` and `ahead` from there: where they
   // are and whether they exist.
   template <class TakeLow, class TakeHigh>
-  HWY_INLINE void each_sphere_place(V up, V ahead, TakeLow&& take_low, TakeHigh&& take_high) const {
+  HWY_INLINE void each_sphere_point(V up, V ahead, TakeLow&& take_low, TakeHigh&& take_high) const {
     const V square = square_of(cone.range) - (square_of(up) + square_of(ahead)), half = root(square);
     const V middle = up * cone.axis.y + ahead * cone.axis.depth;
     const V lean = half * cone.axis.x;
@@ -159,7 +159,7 @@ struct SlotCounts {
 };
 inline constexpr SlotCounts k_slots_in_slice = {3, 3, 11};
 template <class Take>
-HWY_INLINE void each_place_in_slice(const SpotShapes& spots, const SlicePlanes& planes, Take& take) {
+HWY_INLINE void each_point_in_slice(const SpotShapes& spots, const SlicePlanes& planes, Take& take) {
   const Point& a = spots.cone.apex;
   const V zero = Zero(D());
   take.both(planes.hold(a.depth, spots.slack), projected(a));
@@ -180,7 +180,7 @@ HWY_INLINE void each_place_in_slice(const SpotShapes& spots, const SlicePlanes& 
 
   // The rim's tangents.
   const auto wedge = [](const Point& p, const Point& q) { return p.x * q.depth - q.x * p.depth; };
-  spots.each_rim_place(
+  spots.each_rim_point(
       wedge(spots.rim2, spots.rim), wedge(spots.rim, spots.rim1), wedge(spots.rim1, spots.rim2),
       [&](M exists, const Point& p) { take.both(And(exists, planes.hold(p.depth, spots.slack)), projected(p)); });
 
@@ -190,7 +190,7 @@ HWY_INLINE void each_place_in_slice(const SpotShapes& spots, const SlicePlanes& 
   const V lean[2] = {inverse(generators[0].depth), inverse(generators[1].depth)};
   const auto take_in = [&](V depth, V inverse_depth) {
     const V ahead = depth - a.depth, up = a.y * inverse_depth;
-    spots.each_sphere_place(
+    spots.each_sphere_point(
         zero, ahead,
         [&](M exists, V x) {
           take.low(exists, ProjectedPoint{x * inverse_depth, up, depth});
@@ -198,7 +198,7 @@ HWY_INLINE void each_place_in_slice(const SpotShapes& spots, const SlicePlanes& 
         [&](M exists, V x) {
           take.high(exists, ProjectedPoint{x * inverse_depth, up, depth});
         });
-    spots.each_rim_place(spots.rim1.depth, spots.rim2.depth, depth - spots.rim.depth, [&](M exists, const Point& p) {
+    spots.each_rim_point(spots.rim1.depth, spots.rim2.depth, depth - spots.rim.depth, [&](M exists, const Point& p) {
       take.both(exists, projected({p.x, p.y, depth}, inverse_depth));
     });
     for (int i = 0; i < 2; ++i) {
@@ -317,7 +317,7 @@ struct SpotsInSlices {
 
   HWY_INLINE void take_rim(V slope, PlaneExtremes& found) const {
     const auto part = [&](const Point& p) { return p.y - slope * p.depth; };
-    shapes.each_rim_place(part(shapes.rim1), part(shapes.rim2), Neg(part(shapes.rim)), [&](M exists, const Point& p) {
+    shapes.each_rim_point(part(shapes.rim1), part(shapes.rim2), Neg(part(shapes.rim)), [&](M exists, const Point& p) {
       found.take(And(exists, between.hold(p.depth, shapes.slack)), p.x / p.depth, p.depth);
     });
   }
@@ -337,7 +337,7 @@ struct SpotsInSlices {
   HWY_INLINE void take_edge(V slope, V depth, V inverse_depth, PlaneExtremes& found) const {
     const Cone& cone = shapes.cone;
     const V up = slope * depth - cone.apex.y, ahead = depth - cone.apex.depth;
-    shapes.each_sphere_place(
+    shapes.each_sphere_point(
         up, ahead, [&](M exists, V x) { found.take_low(exists, x * inverse_depth, depth); },
         [&](M exists, V x) { found.take_high(exists, x * inverse_depth, depth); });
     const V rest = square_of(up) + square_of(ahead);

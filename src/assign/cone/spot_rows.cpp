@@ -28,14 +28,13 @@ struct RowExtremes {
       : outmost(between) {
     add(FirstN(D(), Lanes(D())), below, bottom);
     add(has_above, above, top);
-    const V one = all(1.0f), zero = Zero(D());
     middle = outmost.low.point() + outmost.high.point();
-    V count = one + one;
+    V count = all(2.0f);
     const auto add_plane = [&](M where, const PlaneExtremes& plane, V slope) {
       const M exist = And(where, plane.exist());
       const V low = IfThenElseZero(exist, plane.low_depth), high = IfThenElseZero(exist, plane.high_depth);
-      middle = middle + low * Point{plane.low, slope, one} + high * Point{plane.high, slope, one};
-      count = count + IfThenElse(exist, one + one, zero);
+      middle = middle + low * Point{plane.low, slope, all(1.0f)} + high * Point{plane.high, slope, all(1.0f)};
+      count = count + IfThenElseZero(exist, all(2.0f));
     };
     add_plane(FirstN(D(), Lanes(D())), below, bottom);
     add_plane(has_above, above, top);
@@ -89,10 +88,10 @@ class Ends {
   HWY_INLINE V side(VI column) const { return gathered(from_.side, column); }
 
   HWY_INLINE M is_apart(const ProjectedPoint& extreme, V boundary, V to_side) const {
-    const V zero = Zero(D()), one = all(1.0f);
+    const V zero = Zero(D());
     const Point p = extreme.point();
     const M in_slice_plane = Or(p.depth == rows_.depth0, p.depth == rows_.depth1);
-    const Point edge = chosen(in_slice_plane, {zero, one, zero}, p);
+    const Point edge = chosen(in_slice_plane, y_axis(), p);
     const Point normal = touching_plane(spots_.shapes, p, edge, {to_side, zero, Neg(to_side * extreme.across)});
     return Beyond{boundary, to_side, rows_.y0, rows_.y1, spots_.between}.is_apart(rows_.cone, normal,
                                                                                   rows_.tolerance(boundary, boundary));

@@ -77,17 +77,17 @@ class Reached {
   HWY_INLINE RowsReached rows(M plain) const {
     Extremes found;
     Ups ups{found};
-    each_place_in_slice(spots_, between_, ups);
+    each_point_in_slice(spots_, between_, ups);
     const V top = all(planes_.slope.front()), bottom = all(planes_.slope[static_cast<std::size_t>(planes_.rows)]);
     const V high = found.high.across + spots_.slack / found.high.depth;
     const V low = found.low.across - spots_.slack / found.low.depth;
     const V scale = all(planes_.rows_per_slope), tolerance = all(planes_.row_tolerance), zero = Zero(D());
-    const VI none = Zero(DI()), rows = all_int(planes_.rows), one = all_int(1), last_row = rows - one;
+    const VI none = Zero(DI()), rows = all_int(planes_.rows), last_row = rows - all_int(1);
     const V from = (top - Min(high, top)) * scale - tolerance;
     const V to = (top - Max(low, bottom)) * scale + tolerance;
     const MI is_below = RebindMask(DI(), high < bottom), is_above = RebindMask(DI(), low > top);
     VI first = IfThenElse(is_below, rows, Min(whole(Floor(Max(from, zero))), last_row));
-    VI end = IfThenElse(is_above, none, Min(whole(Floor(Max(to, zero))) + one, rows));
+    VI end = IfThenElse(is_above, none, Min(whole(Floor(Max(to, zero))) + all_int(1), rows));
     const M exist = found.exist();
     const M none_above = And(And(plain, exist), is_apart(found.high, tables_.slope.at(first), all(1.0f)));
     const M none_below = And(And(plain, exist), is_apart(found.low, tables_.slope.at(end), all(-1.0f)));
@@ -106,18 +106,18 @@ class Reached {
   };
 
   HWY_INLINE M is_apart(const ProjectedPoint& extreme, V boundary, V side) const {
-    const V zero = Zero(D()), one = all(1.0f);
-    Point normal = touching_plane(spots_, extreme.point(), {zero, one, zero}, {side, zero, Neg(side * extreme.across)});
+    const V zero = Zero(D());
+    Point normal = touching_plane(spots_, extreme.point(), y_axis(), {side, zero, Neg(side * extreme.across)});
     normal.y = zero;  // rows are endless to both sides
     const V tolerance = tolerance_of(light_, between_.far, Abs(boundary), zero);
     return Beyond{boundary, side, zero, zero, between_}.is_apart(spots_.cone, normal, tolerance);
   }
 
   HWY_INLINE M misses_slice() const {
-    const V zero = Zero(D()), one = all(1.0f), tolerance = tolerance_of(light_, between_.far, zero, zero);
+    const V zero = Zero(D()), tolerance = tolerance_of(light_, between_.far, zero, zero);
     const V ahead = spots_.cone.apex.depth;
-    const V farthest = ahead + extent_of(spots_.cone, {zero, zero, one}, one);
-    const V nearest = ahead - extent_of(spots_.cone, {zero, zero, Neg(one)}, one);
+    const V farthest = ahead + extent_of(spots_.cone, depth_axis(), all(1.0f));
+    const V nearest = ahead - extent_of(spots_.cone, depth_axis(-1.0f), all(1.0f));
     return Or(between_.near - farthest > tolerance, nearest - between_.far > tolerance);
   }
 
@@ -154,7 +154,7 @@ class Slices {
       Writer writer{*this, wanted};
       in_slices.each([&](V& value) { writer.put(value); });
       Slots slots{writer};
-      each_place_in_slice(shapes, between, slots);
+      each_point_in_slice(shapes, between, slots);
       StoreU(compressed(di, spot, wanted), di, spot_ + count_);
       StoreU(compressed(di, slice, wanted), di, slice_ + count_);
       const VI lead = IfThenElseZero(rows.with_top, all_int(1));

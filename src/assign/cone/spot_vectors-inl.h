@@ -38,6 +38,17 @@ HWY_INLINE V length(const Point& a) {
   return Sqrt(dot(a, a));
 }
 
+// Unit vectors along an axis, or (side -1) against it.
+HWY_INLINE Point x_axis(float side = 1.0f) {
+  return {all(side), Zero(D()), Zero(D())};
+}
+HWY_INLINE Point y_axis(float side = 1.0f) {
+  return {Zero(D()), all(side), Zero(D())};
+}
+HWY_INLINE Point depth_axis(float side = 1.0f) {
+  return {Zero(D()), Zero(D()), all(side)};
+}
+
 HWY_INLINE Point chosen(M where, const Point& a, const Point& b) {
   return {IfThenElse(where, a.x, b.x), IfThenElse(where, a.y, b.y), IfThenElse(where, a.depth, b.depth)};
 }

@@ -69,6 +69,11 @@ struct FrameInput {
   const depth::DepthImage* depth = nullptr;
 };
 
+// What a device (a GPU) took for one frame by its own clock, within the time of the assignment.
+struct DeviceSpans {
+  double upload_ns = 0.0, run_ns = 0.0, readback_ns = 0.0;
+};
+
 class Assigner {
  public:
   virtual ~Assigner() = default;
@@ -85,6 +90,8 @@ class Assigner {
   virtual std::uint64_t tests_done() const = 0;
   // Pairs of the last assign that single precision could not decide and that were decided at greater cost.
   virtual std::uint64_t fallbacks() const { return 0; }
+  // Of the last assign; null where nothing runs on a device.
+  virtual const DeviceSpans* device_spans() const { return nullptr; }
   // Scratch memory held now.
   virtual std::size_t scratch_bytes() const = 0;
 };
@@ -119,7 +126,8 @@ class AssignerOf : public StructureAssigner {
 // What a method answers with.
 enum class Answer : std::uint8_t { lists, structure };
 
-// What a method asks for besides camera and lights.
+// What a method asks for besides camera and lights. What no method asks for is not there: triangles, boxes or the
+// structure of the frame before would each be one more member, here and in FrameInput.
 struct Needs {
   bool depth = false;  // the depths of the picture's pixels
 };

@@ -32,13 +32,13 @@ std::string lists_fault(const Lists& lists, std::uint32_t cell_count, const view
   for (std::uint32_t cell = 0; cell < cell_count; ++cell) {
     const std::string where = " (cell " + std::to_string(cell) + ")";
     if (lists.begin[cell] > lists.begin[cell + 1]) return "a list of negative length" + where;
-    bool has_spots = false;
+    std::size_t type = 0;
     for (const std::uint32_t light : lists.of(cell)) {
       if (light >= listed_in.size()) return "a light that does not exist" + where;
       if (listed_in[light] == cell) return "lights not each once" + where;
       listed_in[light] = cell;
-      if (!ranges.is_spot(light) && has_spots) return "a point light behind spots" + where;
-      has_spots = ranges.is_spot(light);
+      if (ranges.type_of(light) < type) return "a point light behind spots" + where;
+      type = ranges.type_of(light);
     }
   }
   return "";

@@ -106,7 +106,7 @@ class Caps {
   Caps() = default;
   HWY_INLINE Caps(VD x, VD y, VD depth, VD length, VD r, double distance0, double distance1)
       : x_(x), y_(y), depth_(depth), radius_(radius_in_shell(length, r, distance0, distance1)) {
-    const VD none = Zero(DD()), one = all(1.0);
+    const VD none = Zero(DD());
     is_endless_ = radius_ == infinite();
     const VD squared = x * x + depth * depth - radius_ * radius_;
     const Disks disks(depth, radius_, 0.0, std::numeric_limits<double>::infinity());
@@ -114,7 +114,7 @@ class Caps {
     disks.slope_range(x, low, high);
     const auto tangent = [&](VF slope) {
       const VD s = PromoteTo(DD(), slope);
-      const VD touch = Sqrt(Max(none, squared) / (one + s * s));
+      const VD touch = Sqrt(Max(none, squared) / (all(1.0) + s * s));
       const VD tolerance = all(k_touch_tolerance) * (touch + Abs(y_));
       return Tangent{s, touch, tolerance, Abs(s) < infinite()};
     };

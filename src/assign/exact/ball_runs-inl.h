@@ -122,13 +122,13 @@ class BallRuns {
     const auto plane_at = [&](const std::vector<float>& from, VH index) {
       return PromoteTo(DD(), GatherIndex(DF(), from.data(), index));
     };
-    const VH one = Set(DH(), 1);
+    const VH next = Set(DH(), 1);
     x0_ = plane_at(planes.side, runs.column);
     x1_ = plane_at(planes.side, runs.end_column);
-    y0_ = plane_at(planes.slope, runs.row + one);
+    y0_ = plane_at(planes.slope, runs.row + next);
     y1_ = plane_at(planes.slope, runs.row);
     depth0_ = plane_at(planes.depth, runs.slice);
-    depth1_ = plane_at(planes.depth, runs.slice + one);
+    depth1_ = plane_at(planes.depth, runs.slice + next);
 
     constexpr std::size_t k_stride = sizeof(scene::WorldLight) / sizeof(double);
     static_assert(sizeof(scene::WorldLight) % sizeof(double) == 0);

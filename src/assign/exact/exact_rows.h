@@ -83,8 +83,8 @@ class BallJudge {
 
   bool touches(const Row& row, int column) {
     if (!decider_) {
-      const geom::LightVolume volume = lights_.volume(light_);
-      decider_.emplace(volume.apex, volume.range);
+      const auto ball = std::get<geom::BallVolume>(lights_.volume(light_));
+      decider_.emplace(ball.center, ball.range);
     }
     return decider_->meets(piece_of(tiles_, row, column));
   }
@@ -106,7 +106,7 @@ class SpotJudge {
 
   // is_close: known to be touched or missed by a hair.
   bool touches(std::uint32_t cell, bool is_close = false) {
-    if (!decider_) decider_.emplace(lights_.volume(light_));
+    if (!decider_) decider_.emplace(std::get<geom::SpotVolume>(lights_.volume(light_)));
     return decider_->meets(grid_.cell(cell), is_close) != geom::Verdict::no;
   }
 

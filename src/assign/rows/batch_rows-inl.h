@@ -84,7 +84,7 @@ template <class Steepness, class ByChord>
 HWY_INLINE VU columns_between(const RowPlanes& planes, V all_low, V all_high, M wanted, V least_area,
                               Steepness&& steepness_of, ByChord&& by_chord) {
   const V left = all(planes.left), right = all(planes.right), scale = all(planes.columns_per_slope);
-  const V tolerance = all(planes.column_tolerance), one = all(1.0f);
+  const V tolerance = all(planes.column_tolerance);
   const M touches = And(wanted, And(all_low <= Min(all_high, right), all_high >= left));
   const V low = Max(all_low, left), high = Min(all_high, right);
   const V from = (low - left) * scale, to = (high - left) * scale;
@@ -94,7 +94,7 @@ HWY_INLINE VU columns_between(const RowPlanes& planes, V all_low, V all_high, M 
   // No wider than it is for certain: a small ball in a wide picture is narrower than coordinates in it are rounded.
   const V width = Max(to - from - (tolerance + tolerance), Zero(D())), steepness = steepness_of(low, high),
           area = least_area * steepness;
-  const V from_first = first + one - from - tolerance, to_last = to - last - tolerance;
+  const V from_first = first + all(1.0f) - from - tolerance, to_last = to - last - tolerance;
   const V inwards = Min(from_first, to_last);
   const M is_wide = width * width >= area + area;
   const M is_certain = And(inwards * width >= area, is_wide);

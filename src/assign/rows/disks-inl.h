@@ -38,8 +38,8 @@ HWY_INLINE VF rounded_down(VD value) {
   const VF nearest = DemoteTo(df, value);
   const auto bits = BitCast(du, nearest);
   const auto is_negative = TestBit(bits, Set(du, 0x80000000));
-  const auto one = Set(du, 1);
-  const VF below = BitCast(df, IfThenElse(is_negative, bits + one, bits - one));
+  const auto ulp = Set(du, 1);
+  const VF below = BitCast(df, IfThenElse(is_negative, bits + ulp, bits - ulp));
   // Where the double is smaller, brought to the float's lanes as a number.
   const VF is_above = DemoteTo(df, IfThenElseZero(PromoteTo(DD(), nearest) > value, all(1.0)));
   return IfThenElse(is_above > Zero(df), below, nearest);

@@ -42,7 +42,7 @@ HWY_INLINE V lifted(V radius, V distance_square) {
 
 void setup_of(const VisibleBalls& visible, std::uint32_t count, SphereSetup& out) {
   const D d;
-  const V zero = Zero(d), one = all(1.0f);
+  const V zero = Zero(d);
   for (std::size_t i = 0; i < count; i += Lanes(d)) {
     const auto load = [&](const auto& from) { return LoadU(d, reinterpret_cast<const float*>(from.data() + i)); };
     // Balls that are everywhere are around the eye, where no product of theirs is infinite minus infinite.
@@ -71,7 +71,7 @@ void setup_of(const VisibleBalls& visible, std::uint32_t count, SphereSetup& out
     const V of_small = from_eye * (all(0x1p-20f) * reach / radius);
     const V least = Max(of_chord, Max(of_upright, of_small));
     const M is_precise = Abs(upright) >= least;
-    const V inverse_upright = IfThenElse(is_outside, IfThenElseZero(is_precise, one / upright), infinity());
+    const V inverse_upright = IfThenElse(is_outside, IfThenElseZero(is_precise, all(1.0f) / upright), infinity());
     const V lean = IfThenElseZero(is_outside, x / tangent);
     StoreInterleaved4(x, y, depth, radius, d, out.sphere.data() + 4 * i);
     StoreInterleaved4(slack, load(visible.light), lean, inverse_upright, d, out.touch.data() + 4 * i);

@@ -21,11 +21,11 @@ template <class Passes>
 HWY_INLINE VI last_passed(const std::vector<float>& boundaries, VI guess, int least, Passes&& passes) {
   const DI di;
   const auto count = static_cast<std::int32_t>(boundaries.size()) - 1;
-  const VI zero = Zero(di), one = Set(di, 1), from = Set(di, least), to = Set(di, count + least);
+  const VI zero = Zero(di), from = Set(di, least), to = Set(di, count + least);
   const auto at = [&](VI index) { return RebindMask(di, passes(gathered(boundaries, index))); };
   VI index = Min(Max(guess, from), to);
   for (;;) {
-    const VI next = index + one;
+    const VI next = index + all_int(1);
     const auto goes_on = And(index < to, at(Min(next, to)));
     if (AllFalse(di, goes_on)) break;
     index = IfThenElse(goes_on, next, index);
@@ -33,7 +33,7 @@ HWY_INLINE VI last_passed(const std::vector<float>& boundaries, VI guess, int le
   for (;;) {
     const auto goes_back = AndNot(at(Max(index, zero)), index > from);
     if (AllFalse(di, goes_back)) return index;
-    index = IfThenElse(goes_back, index - one, index);
+    index = IfThenElse(goes_back, index - all_int(1), index);
   }
 }
 

@@ -41,7 +41,7 @@ HWY_INLINE void set_bits(const std::uint32_t* lights, std::size_t count, std::ui
   const hn::ScalableTag<std::uint32_t> d;
   const std::size_t lanes = Lanes(d);
   constexpr std::size_t k_lanes_per_word = 4;  // below, a sum costs more than it saves
-  const auto one = Set(d, 1), low = Set(d, 31);
+  const auto lowest_bit = Set(d, 1), low = Set(d, 31);
   std::size_t i = 0;
   for (; i + lanes <= count; i += lanes) {
     const std::uint32_t first = lights[i] / 32, last = lights[i + lanes - 1] / 32;
@@ -50,7 +50,7 @@ HWY_INLINE void set_bits(const std::uint32_t* lights, std::size_t count, std::ui
       continue;
     }
     const auto light = LoadU(d, lights + i);
-    const auto bit = Shl(one, And(light, low)), word = ShiftRight<5>(light);
+    const auto bit = Shl(lowest_bit, And(light, low)), word = ShiftRight<5>(light);
     const auto between = Min(Max(word, Set(d, first)), Set(d, last));
     if (!AllTrue(d, between == word)) {  // lights that do not ascend
       for (std::size_t k = i; k < i + lanes; ++k) set_bit(lights[k], words);

@@ -101,7 +101,7 @@ class Packed final : public Storage {
   void write_headers(const Lists& lists, std::vector<H>& headers) {
     header_count_ = 0;
     for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) {
-      if (is_sparse_ && !take_place(cell, !lists.of(cell).empty())) continue;
+      if (is_sparse_ && !claim_slot(cell, !lists.of(cell).empty())) continue;
       headers[header_count_++] = header_of<H>(lists, cell);
     }
   }
@@ -118,7 +118,7 @@ class Packed final : public Storage {
   }
 
   // In the cell's block. False if it gets no header.
-  bool take_place(std::uint32_t cell, bool has_lights) {
+  bool claim_slot(std::uint32_t cell, bool has_lights) {
     Block& block = blocks_[cell / k_block];
     if (cell % k_block == 0) block = {0, header_count_};
     if (has_lights) block.mask |= 1u << cell % k_block;

@@ -24,7 +24,7 @@ struct Axis {
   Dyadic square, squared_range;  // |d|², range²
 };
 
-Axis axis_of(const LightVolume& light) {
+Axis axis_of(const SpotVolume& light) {
   const Placement& apex = light.apex;
   Dyadic from_origin[3];
   for (int i = 0; i < 3; ++i) from_origin[i] = Dyadic(apex.position[i]) - Dyadic(apex.origin[i]);
@@ -95,7 +95,7 @@ class Span {
 };
 
 struct Meets {
-  const LightVolume& light;
+  const SpotVolume& light;
   const Axis& axis;
 
   bool operator()(const Box& cell) const {
@@ -145,7 +145,7 @@ struct Meets {
 
 }  // namespace
 
-std::optional<bool> axis_meets(const LightVolume& light, const Cell& cell) {
+std::optional<bool> axis_meets(const SpotVolume& light, const Cell& cell) {
   try {
     const Axis axis = axis_of(light);
     return std::visit(Meets{light, axis}, cell);

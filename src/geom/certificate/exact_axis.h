@@ -10,6 +10,6 @@
 namespace clusterbench::geom {
 
 // light.range: finite. Nothing for numbers that are too wide (geom/numbers/dyadic.h).
-std::optional<bool> axis_meets(const LightVolume& light, const Cell& cell);
+std::optional<bool> axis_meets(const SpotVolume& light, const Cell& cell);
 
 }  // namespace clusterbench::geom

@@ -14,7 +14,7 @@ const Rational& largest_for(const Rational& factor, const RationalInterval& valu
 
 }  // namespace
 
-ExactSpot exact_spot(const LightVolume& light, unsigned angle_bits) {
+ExactSpot exact_spot(const SpotVolume& light, unsigned angle_bits) {
   ExactSpot spot;
   spot.apex = local_point_in<Rational>(light.apex);
   spot.direction = local_point_in<Rational>({light.direction, Vec3d(0.0), light.apex.rotation});

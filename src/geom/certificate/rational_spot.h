@@ -21,7 +21,7 @@ struct ExactSpot {
 
 // An infinite range becomes the largest double. Angles above 90° are taken as 90°.
 // angle_bits: of the half-angle's cosine and sine.
-ExactSpot exact_spot(const LightVolume& light, unsigned angle_bits = 320);
+ExactSpot exact_spot(const SpotVolume& light, unsigned angle_bits = 320);
 
 // Is the angle between v and the axis certainly at most the half-angle?
 bool surely_leans(const ExactSpot& spot, const RationalPoint& v);

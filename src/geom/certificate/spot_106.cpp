@@ -16,7 +16,7 @@ Enclosure106 squared(const Enclosure106& value) {
 
 }  // namespace
 
-Spot106::Spot106(const LightVolume& light, double range_m)
+Spot106::Spot106(const SpotVolume& light, double range_m)
     : apex(local_point_in<Enclosure106>(light.apex)),
       direction(local_point_in<Enclosure106>({light.direction, Vec3d(0.0), light.apex.rotation})),
       range(range_m) {

@@ -64,7 +64,7 @@ struct Spot106 {
   Enclosure106 range, cosine, sine;
 
   // range_m: finite, and the light's range as far as it matters.
-  Spot106(const LightVolume& light, double range_m);
+  Spot106(const SpotVolume& light, double range_m);
 
   // Is a direction from the apex (at less than 90° from the axis) in the cone?
   Verdict leans(const Point106& way) const;

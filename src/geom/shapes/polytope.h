@@ -40,13 +40,13 @@ HalfSpace<Real> half_space(const Real& x, const Real& y, const Real& z, const Re
 template <class Real>
 Polytope<Real> polytope_of(const Box& box) {
   Polytope<Real> cell;
-  const Real zero(0), one(1);
-  cell.faces = {HalfSpace<Real>{{-one, zero, zero}, -Real(box.lo.x)},
-                {{one, zero, zero}, Real(box.hi.x)},
-                {{zero, -one, zero}, -Real(box.lo.y)},
-                {{zero, one, zero}, Real(box.hi.y)},
-                {{zero, zero, -one}, -Real(box.lo.z)},
-                {{zero, zero, one}, Real(box.hi.z)}};
+  const auto along = [](int x, int y, int z) { return Point3<Real>{Real(x), Real(y), Real(z)}; };
+  cell.faces = {HalfSpace<Real>{along(-1, 0, 0), -Real(box.lo.x)},
+                {along(1, 0, 0), Real(box.hi.x)},
+                {along(0, -1, 0), -Real(box.lo.y)},
+                {along(0, 1, 0), Real(box.hi.y)},
+                {along(0, 0, -1), -Real(box.lo.z)},
+                {along(0, 0, 1), Real(box.hi.z)}};
   for (unsigned i = 0; i < 8; ++i)
     cell.corners[i] = {Real((i & 1) != 0 ? box.hi.x : box.lo.x), Real((i & 2) != 0 ? box.hi.y : box.lo.y),
                        Real((i & 4) != 0 ? box.hi.z : box.lo.z)};
@@ -56,9 +56,9 @@ Polytope<Real> polytope_of(const Box& box) {
 // depth = -z: x <= x1 * depth is x + x1 * z <= 0.
 template <class Real>
 std::array<HalfSpace<Real>, 4> slope_planes(float x0, float x1, float y0, float y1) {
-  const Real zero(0), one(1);
-  return {half_space<Real>(-one, zero, -Real(x0), zero), half_space<Real>(one, zero, Real(x1), zero),
-          half_space<Real>(zero, -one, -Real(y0), zero), half_space<Real>(zero, one, Real(y1), zero)};
+  const Real zero(0), plus(1), minus(-1);
+  return {half_space<Real>(minus, zero, -Real(x0), zero), half_space<Real>(plus, zero, Real(x1), zero),
+          half_space<Real>(zero, minus, -Real(y0), zero), half_space<Real>(zero, plus, Real(y1), zero)};
 }
 
 template <class Real>
@@ -67,13 +67,13 @@ Polytope<Real> polytope_of(const FrustumCell& frustum) {
     return polytope_of<Real>(Box{{frustum.x0, frustum.y0, -frustum.depth1}, {frustum.x1, frustum.y1, -frustum.depth0}});
   Polytope<Real> cell;
   const auto sides = slope_planes<Real>(frustum.x0, frustum.x1, frustum.y0, frustum.y1);
-  const Real zero(0), one(1);
+  const Real zero(0);
   cell.faces = {sides[0],
                 sides[1],
                 sides[2],
                 sides[3],
-                HalfSpace<Real>{{zero, zero, one}, -Real(frustum.depth0)},
-                {{zero, zero, -one}, Real(frustum.depth1)}};
+                HalfSpace<Real>{{zero, zero, Real(1)}, -Real(frustum.depth0)},
+                {{zero, zero, Real(-1)}, Real(frustum.depth1)}};
   for (unsigned i = 0; i < 8; ++i) {
     const Real depth((i & 4) != 0 ? frustum.depth1 : frustum.depth0);
     cell.corners[i] = {Real((i & 1) != 0 ? frustum.x1 : frustum.x0) * depth,

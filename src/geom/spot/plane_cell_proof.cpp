@@ -21,14 +21,14 @@ struct PlaneCase {
   ExactSpot spot;
 
   template <class PlaneCell>
-  PlaneCase(const LightVolume& light, const PlaneCell& cell, unsigned angle_bits)
+  PlaneCase(const SpotVolume& light, const PlaneCell& cell, unsigned angle_bits)
       : corners(corners_of(cell)), planes(planes_of(cell)), spot(exact_spot(light, angle_bits)) {}
 };
 
 // What a search in Real finds, checked between bounds of 106 bits. Faces that the volume clearly does not reach, in
 // double precision, have no candidates.
 template <class Real, class PlaneCell>
-Verdict proven_in_106_bits(const LightVolume& light, const PlaneCell& cell, const std::array<bool, 6>& reached,
+Verdict proven_in_106_bits(const SpotVolume& light, const PlaneCell& cell, const std::array<bool, 6>& reached,
                            const Spot106& spot) {
   const Polytope<Real> polytope = polytope_of<Real>(cell);
   const Setting<Real> setting(volume_of<Real>(light), polytope);
@@ -52,7 +52,7 @@ double farthest_corner(const Polytope<double>& polytope) {
 
 // What a search in Real finds, checked. The apex is not in the cell.
 template <class Real, class PlaneCell>
-Verdict proven_by_search(const LightVolume& light, const PlaneCell& cell, const PlaneCase& exactly) {
+Verdict proven_by_search(const SpotVolume& light, const PlaneCell& cell, const PlaneCase& exactly) {
   if (surely_leans_away(exactly.spot, exactly.planes)) return Verdict::no;
   const Polytope<Real> polytope = polytope_of<Real>(cell);
   const Setting<Real> setting(volume_of<Real>(light), polytope);
@@ -68,9 +68,9 @@ Verdict proven_by_search(const LightVolume& light, const PlaneCell& cell, const 
 }
 
 template <class PlaneCell>
-Verdict decide(const LightVolume& given, const PlaneCell& cell) {
+Verdict decide(const SpotVolume& given, const PlaneCell& cell) {
   const Polytope<double> polytope = polytope_of<double>(cell);
-  const LightVolume light = limited(given, farthest_corner(polytope));
+  const SpotVolume light = limited(given, farthest_corner(polytope));
   const Setting<double> setting(volume_of<double>(light), polytope);
   const std::array<bool, 6> reached = reached_faces(setting.volume, polytope.faces, setting.tolerance).faces;
   const Spot106 spot_106(light, light.range);
@@ -92,11 +92,11 @@ Verdict decide(const LightVolume& given, const PlaneCell& cell) {
 
 }  // namespace
 
-Verdict decide_spot(const LightVolume& light, const FrustumCell& cell) {
+Verdict decide_spot(const SpotVolume& light, const FrustumCell& cell) {
   return decide(light, cell);
 }
 
-Verdict decide_spot(const LightVolume& light, const Box& cell) {
+Verdict decide_spot(const SpotVolume& light, const Box& cell) {
   return decide(light, cell);
 }
 

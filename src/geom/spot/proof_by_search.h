@@ -16,8 +16,8 @@ namespace clusterbench::geom {
 // apex lies in the cone, at the range. With cells bounded by planes no other exact touching exists for half-angles but
 // 0: the cosine of a rational angle is transcendental (Lindemann), and at a touch on the cone's side or rim it would be
 // algebraic.
-Verdict decide_spot(const LightVolume& light, const FrustumCell& cell);
-Verdict decide_spot(const LightVolume& light, const Box& cell);
-Verdict decide_spot(const LightVolume& light, const ShellCell& cell);
+Verdict decide_spot(const SpotVolume& light, const FrustumCell& cell);
+Verdict decide_spot(const SpotVolume& light, const Box& cell);
+Verdict decide_spot(const SpotVolume& light, const ShellCell& cell);
 
 }  // namespace clusterbench::geom

@@ -39,7 +39,7 @@ constexpr unsigned angle_bits_for() {
 // On lattices rims of spots touch edges but for rounding. What doubles find nearest to the apex says which faces the
 // edge is between; there alone the plane is found in sums of two doubles, at a fifth of the time.
 template <class PlaneCell>
-bool is_apart_where_nearest(const LightVolume& light, const PlaneCell& cell, const Spot106& spot) {
+bool is_apart_where_nearest(const SpotVolume& light, const PlaneCell& cell, const Spot106& spot) {
   const Polytope<double> roughly = polytope_of<double>(cell);
   const Setting<double> rough_setting(volume_of<double>(light), roughly);
   const std::optional<Point3<double>> near = nearest_in_cone(rough_setting);
@@ -61,7 +61,7 @@ bool is_apart_where_nearest(const LightVolume& light, const PlaneCell& cell, con
 
 // The light without the range that no point of a cell needs, `farthest` from the eye at most. Searches and proofs have
 // to take the same range: a point that a search finds beyond that of the proof would prove nothing.
-inline LightVolume limited(LightVolume light, double farthest) {
+inline SpotVolume limited(SpotVolume light, double farthest) {
   constexpr double k_least = 1e-150;  // the length of less may come out as 0
   const LocalPoint apex = local_point(light.apex);
   light.range = std::min(light.range, 1.01 * (glm::length(apex.at) + 2.0 * apex.rounding_error + farthest) + k_least);

@@ -82,7 +82,7 @@ void offer_axis(const ExactSpot& spot, ShellWitness& witness) {
 
 // What a search in Real finds.
 template <class Real, class Offer>
-void offer_found(const LightVolume& light, const ShellCell& cell, Offer&& offer) {
+void offer_found(const SpotVolume& light, const ShellCell& cell, Offer&& offer) {
   const Volume<Real> volume = volume_of<Real>(light);
   const PyramidReach<Real> reach = pyramid_reach(volume, pyramid_of<Real>(cell.x0, cell.x1, cell.y0, cell.y1));
   if (reach.is_empty || !(reach.inside.margin > reach.tolerance)) return;
@@ -96,7 +96,7 @@ void offer_found(const LightVolume& light, const ShellCell& cell, Offer&& offer)
 
 // The same between bounds of 106 bits.
 template <class Real>
-bool meets_in_106_bits(const LightVolume& light, const ShellCell& cell, const Spot106& spot) {
+bool meets_in_106_bits(const SpotVolume& light, const ShellCell& cell, const Spot106& spot) {
   const Enclosure106 near(cell.distance0), far(cell.distance1);
   bool has_near = false, has_far = false;
   offer_found<Real>(light, cell, [&](const Point3<Real>& found) {
@@ -135,7 +135,7 @@ FrustumCell pyramid_to_far(const ShellCell& cell) {
 
 // Is there a plane between the spot and that?
 template <class Real>
-bool is_surely_beside(const LightVolume& light, const ShellCell& cell, const Spot106& spot) {
+bool is_surely_beside(const SpotVolume& light, const ShellCell& cell, const Spot106& spot) {
   const FrustumCell whole = pyramid_to_far(cell);
   const Polytope<Real> polytope = polytope_of<Real>(whole);
   const Setting<Real> setting(volume_of<Real>(light), polytope);
@@ -146,7 +146,7 @@ bool is_surely_beside(const LightVolume& light, const ShellCell& cell, const Spo
   return spot.surely_separated(point_106(separation.normal), corners);
 }
 template <class Real>
-bool is_exactly_beside(const LightVolume& light, const ShellCell& cell, const ExactSpot& spot) {
+bool is_exactly_beside(const SpotVolume& light, const ShellCell& cell, const ExactSpot& spot) {
   const FrustumCell whole = pyramid_to_far(cell);
   const Polytope<Real> polytope = polytope_of<Real>(whole);
   const Setting<Real> setting(volume_of<Real>(light), polytope);
@@ -185,7 +185,7 @@ Volume<Interval> slightly_larger(const ExactSpot& spot, unsigned bits, unsigned 
 }
 
 // The same in 106 bits, larger by about 2^-90.
-Volume<Enclosure106> slightly_larger(const LightVolume& light, const Spot106& spot) {
+Volume<Enclosure106> slightly_larger(const SpotVolume& light, const Spot106& spot) {
   const Enclosure106 delta(0x1p-90);
   const Point106 sideways = point_106(Point3<double>{0.618, -0.382, 0.732});
   const Point106 back = point_106(Point3<double>{-0.271, 0.828, 0.577});
@@ -251,7 +251,7 @@ bool surely_misses(const Volume<Real>& volume, const ShellCell& cell) {
 
 // Does a search in Real find points that prove the spot to meet the shell cell?
 template <class Real>
-bool meets_by_search(const LightVolume& light, const ShellCell& cell, const ExactSpot& spot) {
+bool meets_by_search(const SpotVolume& light, const ShellCell& cell, const ExactSpot& spot) {
   ShellWitness witness(spot, cell);
   witness.offer(spot.apex);
   offer_axis(spot, witness);
@@ -261,14 +261,14 @@ bool meets_by_search(const LightVolume& light, const ShellCell& cell, const Exac
 
 // The apex is not in the cell.
 template <class Real>
-Verdict proven_by_search(const LightVolume& light, const ShellCell& cell, const ExactSpot& spot) {
+Verdict proven_by_search(const SpotVolume& light, const ShellCell& cell, const ExactSpot& spot) {
   if (surely_leans_away(spot, planes_of(cell))) return Verdict::no;
   if (meets_by_search<Real>(light, cell, spot)) return Verdict::yes;
   return is_exactly_beside<Real>(light, cell, spot) ? Verdict::no : Verdict::uncertain;
 }
 
 // What differs from touching by less than 1024 bits tell.
-Verdict proven_at_last(const LightVolume& light, const ShellCell& cell) {
+Verdict proven_at_last(const SpotVolume& light, const ShellCell& cell) {
   const ExactSpot spot = exact_spot(light, angle_bits_for<Float3072>());
   const Verdict verdict = proven_by_search<Float3072>(light, cell, spot);
   if (verdict != Verdict::uncertain) return verdict;
@@ -277,18 +277,18 @@ Verdict proven_at_last(const LightVolume& light, const ShellCell& cell) {
 
 // A spot at the eye reaches equally far in all its directions. Whether one of them is the pyramid's, any flat part of
 // the pyramid tells.
-Verdict decide_at_eye(const LightVolume& light, const ExactSpot& spot, const ShellCell& cell) {
+Verdict decide_at_eye(const SpotVolume& light, const ExactSpot& spot, const ShellCell& cell) {
   if (spot.range < exact(cell.distance0)) return Verdict::no;
   if (cell.distance0 == 0.0f) return Verdict::yes;
-  LightVolume endless = light;
+  SpotVolume endless = light;
   endless.range = std::numeric_limits<double>::infinity();
   return decide_spot(endless, FrustumCell{cell.x0, cell.x1, cell.y0, cell.y1, 1.0f, 2.0f, false});
 }
 
 }  // namespace
 
-Verdict decide_spot(const LightVolume& given, const ShellCell& cell) {
-  const LightVolume light = limited(given, cell.distance1);
+Verdict decide_spot(const SpotVolume& given, const ShellCell& cell) {
+  const SpotVolume light = limited(given, cell.distance1);
   const Spot106 spot_106(light, light.range);
   if (is_surely_beyond(cell, spot_106)) return Verdict::no;
   if (meets_in_106_bits<double>(light, cell, spot_106)) return Verdict::yes;

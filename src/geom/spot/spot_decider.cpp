@@ -154,7 +154,7 @@ Point farthest_of_volume(const Point& n, const Point& axis, double range, double
 
 }  // namespace
 
-SpotDecider::SpotDecider(const LightVolume& light)
+SpotDecider::SpotDecider(const SpotVolume& light)
     : light_(light),
       ball_(light.apex, std::isinf(light.range) ? 0.0 : light.range),
       apex_(light.apex, 0.0),

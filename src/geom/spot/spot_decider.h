@@ -17,7 +17,7 @@ namespace clusterbench::geom {
 // One spot for many cells, and one thread.
 class SpotDecider {
  public:
-  explicit SpotDecider(const LightVolume& light);
+  explicit SpotDecider(const SpotVolume& light);
 
   // Proven, or uncertain: by the filter, then by meets_quickly, then by meets_after_all. is_close: known to be touched
   // or missed by a hair, which the filter seldom tells; then by meets_nearly first and the filter second.
@@ -59,7 +59,7 @@ class SpotDecider {
   template <class PlaneCell>
   bool ends_at_face(const PlaneCell& cell) const;
 
-  LightVolume light_;
+  SpotVolume light_;
   BallDecider ball_, apex_;  // of the range (if it is finite), and of radius 0
   Point3<Bounded> axis_;     // any length
   Bounded axis_square_, cosine_, sine_;

@@ -48,6 +48,11 @@ class TimingTrack {
     const auto frames = static_cast<double>(work_.frame_count());
     samples_.warm_ns.push_back(assign_.sample() / frames);
     samples_.warm_passes = assign_.runs_per_sample();
+    if (const assign::DeviceSpans* device = work_.device_spans()) {  // of the last pass
+      samples_.upload_ns.push_back(device->upload_ns / frames);
+      samples_.run_ns.push_back(device->run_ns / frames);
+      samples_.readback_ns.push_back(device->readback_ns / frames);
+    }
     samples_.floor_ns.push_back(floor_.sample() / frames);
     // Conversion's branches depend on the lists: without runs of its own before, a few of them cost up to a quarter
     // more after a method with other lists than after one with the same.
@@ -232,6 +237,9 @@ class MethodTimes {
     out.build_ns = stats(rounds(&MethodSamples::build_ns));
     out.builds_per_frame = first_.builds_per_frame;
     out.frames_timed = static_cast<int>(first_.mean_frames);
+    if (!first_.run_ns.empty())
+      out.device = {stats(rounds(&MethodSamples::upload_ns)), stats(rounds(&MethodSamples::run_ns)),
+                    stats(rounds(&MethodSamples::readback_ns))};
     if (!first_.pairs.empty()) {
       const auto end = first_.pairs.begin() + static_cast<std::ptrdiff_t>(first_.mean_frames);
       out.pairs_mean = static_cast<double>(std::accumulate(first_.pairs.begin(), end, std::uint64_t{0})) /

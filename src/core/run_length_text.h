@@ -10,9 +10,9 @@
 
 namespace clusterbench {
 
-std::string number_text(std::span<const std::uint32_t> numbers);
+std::string run_length_text(std::span<const std::uint32_t> numbers);
 // Six significant digits, the same on every machine. No number may be NaN.
-std::string number_text(std::span<const double> numbers);
+std::string run_length_text(std::span<const double> numbers);
 
 // The first number and then what each is above the one before: short text for what ascends.
 std::vector<std::uint32_t> gaps_of(std::span<const std::uint32_t> ascending);

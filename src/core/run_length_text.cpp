@@ -1,4 +1,4 @@
-#include "core/number_text.h"
+#include "core/run_length_text.h"
 
 #include <array>
 #include <charconv>
@@ -35,11 +35,11 @@ std::string text_of(std::span<const Number> numbers) {
 
 }  // namespace
 
-std::string number_text(std::span<const std::uint32_t> numbers) {
+std::string run_length_text(std::span<const std::uint32_t> numbers) {
   return text_of(numbers);
 }
 
-std::string number_text(std::span<const double> numbers) {
+std::string run_length_text(std::span<const double> numbers) {
   return text_of(numbers);
 }
 
