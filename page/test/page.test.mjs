@@ -6,7 +6,7 @@ import { createRequire } from "node:module";
 import { join } from "node:path";
 import { after, afterEach, before, describe, it } from "node:test";
 import { chromiumPath, folder, launch, makePage, open as openPage } from "./browser.mjs";
-import { committedResult, historyPage, lossy, measureSweep, onAnotherMachine, widened, withTwoCameras } from "./results.mjs";
+import { committedResult, historyPage, lossy, measureSweep, onAnotherMachine, widened, withPictures, withTwoCameras } from "./results.mjs";
 
 if (!chromiumPath) {
   console.log("skipped: there is no Chromium (scripts/setup test installs it)");
@@ -27,6 +27,8 @@ before(async () => {
   pages.wide = makePage(tool, [widened(committedResult, place)], join(place, "wide.html"));
   pages.cameras = makePage(tool, [withTwoCameras(committedResult, place)], join(place, "cameras.html"));
   pages.against = makePage(tool, [sweepFile, onAnotherMachine(sweepFile, place)], join(place, "against.html"));
+  const pictured = withPictures(tool, place);
+  pages.pictures = makePage(tool, [pictured.file], join(place, "pictures.html"), "--images", pictured.images);
   pages.history = historyPage(tool, place);
   pages.two = makePage(tool, [committedResult, sweepFile], join(place, "two.html"));
   browser = await launch();
@@ -66,7 +68,7 @@ async function openAll(page) {
 }
 
 describe("the page", () => {
-  for (const [name, colorScheme] of [["quick", "dark"], ["sweep", "light"], ["two", "light"], ["against", "dark"], ["history", "light"]])
+  for (const [name, colorScheme] of [["quick", "dark"], ["sweep", "light"], ["two", "light"], ["against", "dark"], ["pictures", "light"], ["history", "light"]])
     it(`of ${name} in ${colorScheme} asks for nothing, errs nowhere and is accessible`, async () => {
       const page = await open(pages[name], { colorScheme });
       await openAll(page);
@@ -470,6 +472,27 @@ describe("several results", () => {
   it("without a case in common say so", async () => {
     const page = await open(pages.two);
     assert.match(await page.locator("#against").innerText(), /No cases: sweep and quick have none in common/);
+  });
+});
+
+describe("pictures", () => {
+  it("are shown for the methods that the filters leave, one kind at a time", async () => {
+    const page = await open(pages.pictures);
+    const images = page.locator("#pictures img");
+    const grids = JSON.parse(readFileSync(join(place, "pictured.json"))).cases.length / 2;
+    assert.equal(await images.count(), 2 * 2 * grids);
+    for (const image of await images.all()) await image.scrollIntoViewIfNeeded();
+    await page.waitForFunction(() => [...document.querySelectorAll("#pictures img")].every((image) => image.naturalWidth > 600));
+    assert.match(await images.first().getAttribute("alt"), /^Lights per pixel: aabb-fast, packed\. Mean [\d.]+, at most \d+/);
+    await page.selectOption("#pictures-frame", "2");
+    assert.equal(await images.count(), 2 * grids);
+    await page.selectOption("#pictures-kind", "depth");
+    assert.equal(await images.count(), 1);
+    await page.selectOption("#pictures-kind", "strip");
+    assert.equal(await images.count(), 2 * grids);
+    await page.getByRole("button", { name: "exact-fast" }).first().click();
+    assert.equal(await images.count(), grids);
+    assert.equal(await (await open(pages.sweep)).locator("#pictures").count(), 0);
   });
 });
 

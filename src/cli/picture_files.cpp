@@ -92,8 +92,8 @@ void check_count(const run::Plan& plan, const pictures::Request& request) {
                     ": choose cases (--filter), kinds (--image-kinds) or frames (--image-frames)");
 }
 
-// In one step: a run that is killed leaves no half of a picture.
-void write_picture(const fs::path& file, const std::string& bytes) {
+// A run that is killed leaves no half of a picture.
+void write_in_one_step(const fs::path& file, const std::string& bytes) {
   make_folder(file.parent_path());
   const fs::path fresh = file.string() + ".new";
   {
@@ -156,6 +156,9 @@ PictureFiles::PictureFiles(const ImageFlags& flags, const config::Config& config
   if (::access(folder_.c_str(), W_OK | X_OK) != 0)
     throw Error(folder_, "", std::string("cannot be written to: ") + std::strerror(errno));
   geometries_ = pictures::load_geometries(config, plan);
+  for (std::size_t i = 0; i < geometries_.size(); ++i)
+    for (const std::string& warning : geometries_[i] ? geometries_[i]->warnings : std::vector<std::string>{})
+      tell("warning: " + plan.scenes[i].scene.name + ": " + warning);
 }
 
 bool PictureFiles::write(const nlohmann::ordered_json& result, Terminal screen, bool quiet,
@@ -164,8 +167,14 @@ bool PictureFiles::write(const nlohmann::ordered_json& result, Terminal screen, 
   std::uint64_t written = 0, skipped = 0;
   std::string first_skipped;
   pictures::Listener listener;
+  nlohmann::ordered_json index{{"pictures", nlohmann::ordered_json::array()}};
   listener.on_picture = [&](const pictures::Picture& picture) {
-    write_picture(fs::path(folder_) / picture.file, picture.png);
+    write_in_one_step(fs::path(folder_) / picture.file, picture.png);
+    index["pictures"].push_back({{"file", picture.file.generic_string()},
+                                 {"kind", pictures::name_of(picture.kind)},
+                                 {"frame", picture.frame ? nlohmann::ordered_json(*picture.frame) : nullptr},
+                                 {"cases", picture.case_ids},
+                                 {"text", picture.text}});
     ++written;
   };
   listener.on_progress = [&](const std::string& group, double share) {
@@ -180,6 +189,7 @@ bool PictureFiles::write(const nlohmann::ordered_json& result, Terminal screen, 
   };
   pictures::draw_pictures(config_, plan_, geometries_, request_, longest_lists(result), listener, stop);
   progress.clear();
+  write_in_one_step(fs::path(folder_) / "pictures.json", index.dump(1) + "\n");
   if (skipped > 0) tell("no pictures of " + number_of(skipped, "case") + "; the first is " + first_skipped);
   if (!quiet) tell(number_of(written, "picture") + " in " + folder_);
   return !stop;

@@ -14,7 +14,7 @@ constexpr Rgb k_ambers[] = {{122, 70, 0}, {196, 118, 0}, {240, 160, 20}, {255, 2
 constexpr Rgb k_magentas[] = {{150, 20, 110}, {205, 50, 150}, {245, 110, 195}};
 
 std::uint8_t channel(double value) {
-  return static_cast<std::uint8_t>(std::clamp(value, 0.0, 255.0) + 0.5);
+  return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
 }
 
 Rgb mixed(const Rgb& a, const Rgb& b, double share_of_b) {

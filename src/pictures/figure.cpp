@@ -124,7 +124,8 @@ class Layout {
         const int left = k_square * column / side, right = k_square * (column + 1) / side;
         const int top = k_square * row / side, bottom = k_square * (row + 1) / side;
         box({k_margin + left, y_ + top, right - left, bottom - top},
-            figure_.square[static_cast<std::size_t>(row * side + column)]);
+            figure_.square[static_cast<std::size_t>(row) * static_cast<std::size_t>(side) +
+                           static_cast<std::size_t>(column)]);
       }
     y_ += k_square;
     return k_square + k_gap;

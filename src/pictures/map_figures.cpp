@@ -24,7 +24,7 @@ class Shades {
   }
 
   Colour at(float light) const {
-    return static_cast<Colour>(first_ + static_cast<int>(light * static_cast<float>(shades_ - 1) + 0.5f));
+    return static_cast<Colour>(first_ + std::lround(light * static_cast<float>(shades_ - 1)));
   }
   Colour middle() const { return at(0.6f); }
 
@@ -34,7 +34,7 @@ class Shades {
 };
 
 // Dark, so that what lies on it stands out.
-constexpr double k_stone_light = 0.62;
+constexpr double k_stone_light = 0.72;
 
 Colour without_answer(std::size_t pixel, int width) {
   const auto x = static_cast<int>(pixel % static_cast<std::size_t>(width)),
@@ -269,7 +269,7 @@ Figure depth_figure(const Heading& heading, const Seen& seen) {
   figure.panels = {panel_of(seen.surface.image.pixels.size, state, [&](std::size_t i) {
     const double share =
         has_span ? std::log2(static_cast<double>(depths[i]) / nearest) / std::log2(farthest / nearest) : 0.0;
-    return static_cast<Colour>(first + static_cast<int>(share * (k_greys - 1) + 0.5));
+    return static_cast<Colour>(first + std::lround(share * (k_greys - 1)));
   })};
   if (surfaces > 0) {
     figure.bar_label = "depth along the view, evenly in its logarithm";

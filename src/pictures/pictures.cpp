@@ -177,7 +177,7 @@ class Drawing {
     const PicturedFrame now = prepare(group, index);
     const int divisor = divisor_of(group);
     const Surface surface = surface_of(group, now.frame, divisor);
-    const std::vector<float> light = relief(now.frame, surface.image);
+    const std::vector<float> light = relief(now.frame, surface);
     Heading head = heading(group, frame_text(group, now.frame), divisor, surface);
     draw_depth(group, index, head, {surface, light, 0});
     if (!wants_maps()) return;
@@ -204,7 +204,8 @@ class Drawing {
       const run::CasePlan& one = *group.cases[i];
       name_case(head, one);
       const auto add = [&](Kind kind, const auto& make) {
-        if (request_.wants(kind) && !stop_) save(group, names_.of_case(one.name, kind, index), make());
+        if (request_.wants(kind) && !stop_)
+          save(group, make(), {names_.of_case(one.name, kind, index), "", kind, index, {one.id}, ""});
       };
       add(Kind::lights, [&] { return lights_figure(head, seen, maps, top); });
       add(Kind::levels, [&] { return levels_figure(head, seen, maps); });
@@ -226,7 +227,17 @@ class Drawing {
     const std::string viewport =
         config_.viewports.size() > 1 ? "-" + std::to_string(size.x) + "x" + std::to_string(size.y) : "";
     const std::filesystem::path file = FileNames::of_depth(group.plan.cases.front().name, viewport, index);
-    if (depths_.insert(file).second) save(group, file, depth_figure(head, seen));
+    if (depths_.insert(file).second)
+      save(group, depth_figure(head, seen), {file, "", Kind::depth, index, all_seen_by(group.plan), ""});
+  }
+
+  // The cases of all grids in the same view.
+  std::vector<std::string> all_seen_by(const run::GroupPlan& plan) const {
+    std::vector<std::string> ids;
+    for (const run::GroupPlan& other : plan_.groups)
+      if (other.scene == plan.scene && other.camera == plan.camera && other.viewport == plan.viewport)
+        for (const run::CasePlan& one : other.cases) ids.push_back(one.id);
+    return ids;
   }
 
   void draw_strips(const Group& group) {
@@ -250,8 +261,9 @@ class Drawing {
     }
     for (std::size_t i = 0; i < strips.size() && !stop_; ++i) {
       name_case(head, *group.cases[i]);
-      save(group, names_.of_strip(group.cases[i]->name),
-           strip_figure(head, strips[i], request_.top.value_or(scale_top(most))));
+      const std::uint32_t top = request_.top.value_or(scale_top(most));
+      save(group, strip_figure(head, strips[i], top),
+           {names_.of_strip(group.cases[i]->name), "", Kind::strip, {}, {group.cases[i]->id}, ""});
     }
   }
 
@@ -264,8 +276,11 @@ class Drawing {
     return out;
   }
 
-  void save(const Group& group, const std::filesystem::path& file, const Figure& figure) {
-    listener_.on_picture({file, png_of(drawn(figure))});
+  void save(const Group& group, const Figure& figure, Picture picture) {
+    picture.png = png_of(drawn(figure));
+    picture.text = figure.title + ".";
+    for (const std::string& note : figure.notes) picture.text += " " + note;
+    listener_.on_picture(picture);
     ++done_;
     tell(group);
   }

@@ -47,6 +47,10 @@ std::uint64_t picture_count(const run::Plan& plan, const Request& request);
 struct Picture {
   std::filesystem::path file;  // below the folder of pictures
   std::string png;
+  Kind kind = Kind::lights;
+  std::optional<int> frame;           // none: several
+  std::vector<std::string> case_ids;  // that it is a picture of
+  std::string text;                   // what it says: title and numbers
 };
 
 struct Listener {

@@ -73,7 +73,7 @@ std::vector<Tick> CountScale::ticks(bool goes_beyond) const {
   };
   add(least_);
   for (std::uint64_t count = (least_ / step + 1) * std::uint64_t{step}; count < top_; count += step)
-    if (count > least_) add(static_cast<std::uint32_t>(count));
+    if (2 * (top_ - count) > step) add(static_cast<std::uint32_t>(count));  // not too close to the last one
   if (span > 0) add(top_);
   if (goes_beyond) out.back().label += "+";
   return out;
@@ -83,9 +83,9 @@ std::vector<Tick> depth_ticks(double nearest_m, double farthest_m) {
   std::vector<Tick> out;
   if (!(farthest_m > nearest_m) || !(nearest_m > 0.0)) return {{0.5, short_number(nearest_m) + " m"}};
   const double span = std::log2(farthest_m / nearest_m);
-  for (double power = 1e-15; power <= farthest_m; power *= 10.0)
+  for (int exponent = -15; exponent <= 15; ++exponent)
     for (const double digit : {1.0, 2.0, 5.0}) {
-      const double depth = digit * power;
+      const double depth = digit * std::pow(10.0, exponent);
       if (depth < nearest_m || depth > farthest_m) continue;
       out.push_back({std::log2(depth / nearest_m) / span, short_number(depth) + " m"});
     }

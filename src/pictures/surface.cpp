@@ -71,7 +71,10 @@ int divisor_for(Vec2i viewport, int longest) {
   return (std::max(viewport.x, viewport.y) + longest - 1) / longest;
 }
 
-std::vector<float> relief(const view::Frame& frame, const depth::DepthImage& image) {
+std::vector<float> relief(const view::Frame& frame, const Surface& surface) {
+  constexpr float k_light_of_plane = 0.6f;
+  const depth::DepthImage& image = surface.image;
+  if (surface.plane_m) return std::vector<float>(image.nearest.size(), k_light_of_plane);
   check_memory("points of a picture", image.nearest.size(), sizeof(Vec3d), k_remedy);
   const std::vector<Vec3d> points = points_of(frame, image);
   const auto width = static_cast<std::size_t>(image.pixels.size.x), all = image.nearest.size();

@@ -31,7 +31,7 @@ int divisor_for(Vec2i viewport, int longest);
 
 // How much light of a lamp at the eye and of the sky a surface reflects, 0 to 1, per pixel: lets people see what is
 // where.
-std::vector<float> relief(const view::Frame& frame, const depth::DepthImage& image);
+std::vector<float> relief(const view::Frame& frame, const Surface& surface);
 
 // Which lights reach the samples, by the samples' own measure (measure::lights_reaching), part by part.
 class NeededAt {
