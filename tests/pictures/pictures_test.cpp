@@ -128,8 +128,11 @@ TEST(Pictures, of_all_cases_of_a_grid_have_the_frame_of_the_longest_list) {
 
 TEST(Pictures, take_no_more_memory_than_allowed) {
   const Room one = room_of(room());
-  const MemoryLimitScope limit(1000);
+  const test::Looked looked = test::look_at(one);
+  const NeededAt needed(looked.frame, looked.surface, 1);
+  const MemoryLimitScope limit(10000);
   EXPECT_THROW(pictures_of(one, all_kinds()), Error);
+  EXPECT_THROW(pixel_maps(looked.surface, needed, looked.frame.ranges().spots.first, looked.structure(), 1), Error);
 }
 
 TEST(Pictures, stop_when_they_are_asked_to) {

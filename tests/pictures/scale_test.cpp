@@ -84,7 +84,7 @@ TEST(DistinctColours, are_distinct) {
   for (std::size_t i = 1; i < colours.size(); ++i)
     least = std::min(least, std::abs(colours[i].r - colours[i - 1].r) + std::abs(colours[i].g - colours[i - 1].g) +
                                 std::abs(colours[i].b - colours[i - 1].b));
-  EXPECT_GT(least, 60);  // between those that follow each other
+  EXPECT_GT(least, 200);  // between those that follow each other
 }
 
 }  // namespace
