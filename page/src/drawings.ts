@@ -13,7 +13,11 @@ const gap = 36;
 const titleHeight = 22;
 
 const viewOf = (result: Result): View => {
-  const model = modelOf({ command: "", results: [{ file: "result.json", result, doubts: [], ratios: [] }] });
+  const model = modelOf({
+    command: "",
+    results: [{ file: "result.json", result, doubts: [], ratios: [] }],
+    pictures: [],
+  });
   return new View(model, paletteOf(model));
 };
 

@@ -10,6 +10,7 @@ import { contents, header } from "./header.ts";
 import { heatMapSection } from "./heat_map.ts";
 import { modelOf } from "./model.ts";
 import { paletteOf } from "./palette.ts";
+import { picturesSection } from "./pictures.ts";
 import { precisionSection } from "./precision.ts";
 import { rankingSection } from "./ranking.ts";
 import type { PageData } from "./result.ts";
@@ -25,6 +26,7 @@ const sections = [
   speedErrorSection,
   heatMapSection,
   depthSection,
+  picturesSection,
   cellsSection(),
   stabilitySection,
   precisionSection,

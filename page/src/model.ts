@@ -1,7 +1,7 @@
 // The page's own view of its results: every case of every result in one list, with the figures that tables and charts
 // share.
 
-import type { CaseResult, Maybe, PageData, Ranked, Result } from "./result.ts";
+import type { CaseResult, Maybe, PageData, Picture, Ranked, Result } from "./result.ts";
 
 export interface Run {
   file: string;
@@ -57,6 +57,7 @@ export interface Model {
   grids: string[];
   assigners: string[];
   families: string[];
+  pictures: Picture[];
 }
 
 const unique = (values: string[]) => [...new Set(values)];
@@ -153,5 +154,6 @@ export function modelOf(data: PageData): Model {
     grids: unique(cases.map((aCase) => aCase.grid)),
     assigners: unique(cases.map((aCase) => aCase.assigner)),
     families: unique(cases.map((aCase) => aCase.family)),
+    pictures: data.pictures,
   };
 }

@@ -20,6 +20,16 @@ export type WarningKind = CaseResult["warnings"][number]["kind"];
 export interface PageData {
   command: string;
   results: { file: string; result: Result; doubts: string[]; ratios: Ranked[] }[];
+  pictures: Picture[];
+}
+
+// Of what pixels find in the lists of some cases, in a frame or along the path (null).
+export interface Picture {
+  kind: string;
+  frame: number | null;
+  cases: string[]; // their ids
+  text: string; // for those who do not see it
+  url: string;
 }
 
 // Frame time by that of another case that was measured beside it.

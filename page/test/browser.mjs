@@ -64,7 +64,7 @@ export function folder() {
   return path;
 }
 
-export function makePage(tool, results, into) {
-  execFileSync(tool, ["report", ...results, "-o", into], { stdio: ["ignore", "ignore", "pipe"] });
+export function makePage(tool, results, into, ...more) {
+  execFileSync(tool, ["report", ...results, "-o", into, ...more], { stdio: ["ignore", "ignore", "pipe"] });
   return pathToFileURL(into).href;
 }

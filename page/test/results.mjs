@@ -58,6 +58,39 @@ export function measureSweep(tool, folder, config = sweep, tell = null) {
   return file;
 }
 
+// Two methods with pictures of two frames, in the folder that is returned beside the result.
+export function withPictures(tool, folder) {
+  const file = join(folder, "pictured.json"),
+    images = join(folder, "pictured");
+  execFileSync(
+    tool,
+    [
+      "run",
+      join(root, "scenes/mix.glb"),
+      "--grid",
+      "frustum",
+      "--tiles",
+      "64",
+      "--assigner",
+      "aabb-fast,exact-fast",
+      "--viewport",
+      "320x180",
+      "--no-timing",
+      "-q",
+      "--set",
+      "scenes.0.frames=4",
+      "--image-frames",
+      "0,2",
+      "--images",
+      images,
+      "-o",
+      file,
+    ],
+    { stdio: ["ignore", "ignore", "pipe"] },
+  );
+  return { file, images };
+}
+
 function changed(file, folder, name, change) {
   const result = JSON.parse(readFileSync(file)),
     into = join(folder, `${name}.json`);

@@ -6,6 +6,7 @@
 #include "cli/output.h"
 #include "core/text.h"
 #include "report/page.h"
+#include "report/page_pictures.h"
 #include "report/result_file.h"
 
 namespace clusterbench::cli {
@@ -13,12 +14,13 @@ namespace {
 
 struct ReportOptions {
   std::vector<std::string> files;
-  std::string output;
+  std::string output, images;
 };
 
 std::string command_of(const ReportOptions& options) {
   std::vector<std::string> words{"clusterbench", "report"};
   words.insert(words.end(), options.files.begin(), options.files.end());
+  if (!options.images.empty()) words.insert(words.end(), {"--images", options.images});
   if (!options.output.empty()) words.insert(words.end(), {"-o", options.output});
   return printable(shell_command(words));
 }
@@ -27,7 +29,9 @@ ExitCode write_report(const ReportOptions& options) {
   refuse_overwriting({options.output}, options.files);
   std::vector<report::NamedResult> results;
   for (const std::string& file : options.files) results.push_back({file, report::read_result(file)});
-  const std::string page = report::page(results, command_of(options));
+  const std::vector<report::PagePicture> pictures =
+      options.images.empty() ? std::vector<report::PagePicture>{} : report::page_pictures(options.images, results);
+  const std::string page = report::page(results, command_of(options), pictures);
   write_text(options.output, page);
   if (!is_stream(options.output))
     std::cerr << options.output << ": a page of " << page.size() / 1024 << " KiB; open it in a browser\n";
@@ -42,6 +46,8 @@ void add_report(Command& program, Action& action) {
   auto options = std::make_shared<ReportOptions>();
   command.add_option("RESULT", options->files, "Result files of `clusterbench run`; several are shown side by side")
       .required();
+  command.add_option("--images", options->images,
+                     "DIR: also show the pictures that `clusterbench run --images DIR` has made of these cases");
   command.add_option("-o,--output", options->output, "Where the page goes; standard output by default");
   command.when_named([options, &action] { action = [options] { return write_report(*options); }; });
 }

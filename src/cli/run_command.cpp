@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "cli/baseline_run.h"
 #include "cli/commands.h"
@@ -16,6 +17,7 @@
 #include "cli/handover.h"
 #include "cli/launches.h"
 #include "cli/output.h"
+#include "cli/picture_files.h"
 #include "cli/rounds_protocol.h"
 #include "cli/stop.h"
 #include "cli/terminal.h"
@@ -48,6 +50,7 @@ struct RunFlags {
   bool resume = false, dry_run = false, no_timing = false, quiet = false;
 
   BaselineRequest baseline;
+  ImageFlags images;
 
   // Only where this program is measured beside another one.
   int rounds_server = 0;
@@ -332,6 +335,8 @@ ExitCode measure(const RunFlags& flags, const config::Config& config, const run:
   refuse_losses(flags, config);
   if (is_stream(flags.output)) probe_output(flags.output);
   probe_exports(exports);
+  std::optional<PictureFiles> images;
+  if (!flags.images.folder.empty()) images.emplace(flags.images, config, plan);
   const std::atomic<bool>& stop = stop_on_signals();  // before there is anything to keep
   const std::unique_ptr<report::Journal> journal = open_journal(flags, config, plan);
   const std::vector<Json> earlier = journal ? journal->earlier_cases() : std::vector<Json>{};
@@ -368,6 +373,10 @@ ExitCode measure(const RunFlags& flags, const config::Config& config, const run:
     write_output(flags.output, result);
   write_exports(exports, result);
   show_table(flags, result);
+  if (images && !images->write(result, screen, flags.quiet, stop)) {
+    tell("interrupted; the result is complete, its pictures are not");
+    return stopped_exit_code();
+  }
   const ExitCode gates = flags.baseline.binary.empty() ? report_gates(result) : report_baseline(flags, result);
   const ExitCode limits = report_limits(config, result);
   return gates == ExitCode::ok ? limits : gates;
@@ -426,6 +435,7 @@ void add_run(Command& program, Action& action) {
       "Result file; -: standard output. Without it a terminal shows the table only, a pipe gets the result");
   command.add_option("--export", flags->exports, "FORMAT=FILE, repeatable: also write another tool's format")
       .once_a_name();
+  add_image_options(command, flags->images);
   command.add_option("--filter", flags->filter, "Only cases whose name matches this regular expression");
   for (std::size_t i = 0; i < flags->settings.size(); ++i)
     command.add_option(config::config_flags()[i].name, flags->settings[i], config::config_flags()[i].summary)

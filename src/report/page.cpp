@@ -32,13 +32,21 @@ std::string filled_page(std::string_view page_template, const nlohmann::ordered_
   return html.replace(html.find(k_results_mark), k_results_mark.size(), script_json(data));
 }
 
-std::string page(const std::vector<NamedResult>& results, const std::string& command) {
-  nlohmann::ordered_json data{{"command", command}, {"results", nlohmann::ordered_json::array()}};
+std::string page(const std::vector<NamedResult>& results, const std::string& command,
+                 const std::vector<PagePicture>& pictures) {
+  using Json = nlohmann::ordered_json;
+  Json data{{"command", command}, {"results", Json::array()}, {"pictures", Json::array()}};
   for (const NamedResult& named : results)
     data["results"].push_back({{"file", named.file},
                                {"result", named.result},
                                {"doubts", timing_doubts(named.result["cases"])},
                                {"ratios", ratio_rankings(named.result)}});
+  for (const PagePicture& picture : pictures)
+    data["pictures"].push_back({{"kind", picture.kind},
+                                {"frame", picture.frame ? Json(*picture.frame) : nullptr},
+                                {"cases", picture.case_ids},
+                                {"text", picture.text},
+                                {"url", picture.url}});
   return filled_page(page_template(), data, "report");
 }
 

@@ -1,0 +1,67 @@
+#pragma once
+// The pictures of a plan's cases: what pixels find in the light structures of chosen frames.
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pictures/map_figures.h"
+#include "run/sweep.h"
+
+namespace clusterbench::pictures {
+
+inline constexpr int k_longest_side = 960;  // of a map, where no divisor is asked for
+inline constexpr std::uint64_t k_most_pictures = 2000;
+
+struct Request {
+  enum class Frames : std::uint8_t { worst, first, listed };
+  Frames frames = Frames::worst;     // the one with the longest list of the grid's cases
+  std::vector<int> listed;           // ascending, each once
+  std::vector<Kind> kinds;           // in the order of k_kind_names
+  int divisor = 0;                   // one pixel of each block of so many squared; 0: the least for k_longest_side
+  std::optional<double> plane_m;     // pixels are at this depth, whatever is visible
+  std::optional<std::uint32_t> top;  // of the scale of lights
+
+  bool wants(Kind kind) const;
+};
+
+// Of a case: its longest list, and the frame that has it. Without cells 0, and the frame that takes most memory.
+struct LongestList {
+  std::uint64_t lights = 0;
+  int frame = 0;
+};
+using LongestLists = std::map<std::string, LongestList>;  // by the case's id
+
+// The triangles of the plan's scenes, also of those that are measured without. Throws Error for meshes that cannot be
+// read.
+using Geometries = std::vector<std::optional<scene::Geometry>>;
+Geometries load_geometries(const config::Config& config, const run::Plan& plan);
+
+// At most so many pictures will be made. Throws Error (with the option) for frames that no path has.
+std::uint64_t picture_count(const run::Plan& plan, const Request& request);
+
+struct Picture {
+  std::filesystem::path file;  // below the folder of pictures
+  std::string png;
+  Kind kind = Kind::lights;
+  std::optional<int> frame;           // none: several
+  std::vector<std::string> case_ids;  // that it is a picture of
+  std::string text;                   // what it says: title and numbers
+};
+
+struct Listener {
+  std::function<void(const Picture&)> on_picture;
+  std::function<void(const std::string& group, double share)> on_progress;  // share of all pictures that are done
+  std::function<void(const std::string& name, const std::string& reason)> on_skipped;
+};
+
+// All of them, group by group. The same for any number of threads. `stop` is looked at between pictures.
+void draw_pictures(const config::Config& config, const run::Plan& plan, const Geometries& geometries,
+                   const Request& request, const LongestLists& longest, const Listener& listener,
+                   const std::atomic<bool>& stop);
+
+}  // namespace clusterbench::pictures
