@@ -47,7 +47,8 @@ std::unique_ptr<Stage> terrain() {
       hills.triangles.push_back({at + 1, behind + 1, behind});
     }
   out->geometry.surfaces.push_back(std::move(hills));
-  out->geometry.instances.push_back({});
+  out->scene.nodes.emplace_back();
+  out->geometry.instances.push_back({.surface = 0, .node = 0, .shown_by = 0});
   out->frame.view_space.origin = {0.0, 12.0, 4.0};
   out->frame.projection = {false, -1.0264, 1.0264, -0.8, 0.3547, 0.1, 1000.0};
   return out;

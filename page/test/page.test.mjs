@@ -1,0 +1,691 @@
+// The page in a browser, as `clusterbench report` writes it: node --test test/, with CLUSTERBENCH naming the built tool.
+
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { join } from "node:path";
+import { after, afterEach, before, describe, it } from "node:test";
+import { chromiumPath, folder, launch, makePage, open as openPage } from "./browser.mjs";
+import {
+  committedResult,
+  historyPage,
+  lossy,
+  measureSweep,
+  onAnotherMachine,
+  widened,
+  withPictures,
+  withTwoCameras,
+} from "./results.mjs";
+
+if (!chromiumPath) {
+  console.log("skipped: there is no Chromium (scripts/setup test installs it)");
+  process.exit(0);
+}
+const tool = process.env.CLUSTERBENCH;
+const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+const place = folder();
+const pages = {};
+
+let browser, sweepFile, lossyTable;
+before(async () => {
+  pages.quick = makePage(tool, [committedResult], join(place, "quick.html"));
+  sweepFile = measureSweep(tool, place);
+  pages.sweep = makePage(tool, [sweepFile], join(place, "sweep.html"));
+  const lossyFile = measureSweep(tool, place, lossy, (table) => (lossyTable = table));
+  pages.lossy = makePage(tool, [lossyFile], join(place, "lossy.html"));
+  pages.wide = makePage(tool, [widened(committedResult, place)], join(place, "wide.html"));
+  pages.cameras = makePage(tool, [withTwoCameras(committedResult, place)], join(place, "cameras.html"));
+  pages.against = makePage(tool, [sweepFile, onAnotherMachine(sweepFile, place)], join(place, "against.html"));
+  const pictured = withPictures(tool, place);
+  pages.pictures = makePage(tool, [pictured.file], join(place, "pictures.html"), "--images", pictured.images);
+  pages.history = historyPage(tool, place);
+  pages.two = makePage(tool, [committedResult, sweepFile], join(place, "two.html"));
+  browser = await launch();
+});
+afterEach(() => Promise.all(browser.contexts().map((context) => context.close())));
+after(() => browser?.close());
+
+const open = (url, options) => openPage(browser, url, options);
+
+// Of all that match, as soon as there are any: tables of figures are made a moment after they are opened.
+async function textsOf(page, selector) {
+  await page.locator(selector).first().waitFor({ state: "attached" });
+  return page.locator(selector).allInnerTexts();
+}
+const methods = (page) => textsOf(page, "#ranking tbody th");
+const column = async (page, label) => {
+  const labels = (await textsOf(page, "#ranking thead th")).map((text) => text.replace(/ [↑↓]$/, ""));
+  return textsOf(page, `#ranking tbody td:nth-child(${labels.indexOf(label) + 1})`);
+};
+const numbers = (texts) => texts.map((text) => Number(text.replace(/[^\d.]/g, "")));
+const inTable = async (page, selector = "#ranking") => {
+  const labels = (await textsOf(page, `${selector} thead th`)).map((text) => text.replace(/ [↑↓]$/, ""));
+  const rows = await page
+    .locator(`${selector} tbody tr`)
+    .evaluateAll((all) => all.map((row) => [...row.children].map((cell) => cell.innerText)));
+  return rows.map((row) => Object.fromEntries(row.map((text, at) => [labels[at], text])));
+};
+const isAscending = (values) => values.every((value, at) => at === 0 || values[at - 1] <= value);
+
+async function violations(page) {
+  await page.evaluate(axe);
+  const found = await page.evaluate(() => globalThis.axe.run(document));
+  return found.violations.map((one) => `${one.id}: ${one.nodes.map((node) => node.target).join("; ")}`);
+}
+
+async function openAll(page) {
+  for (const summary of await page.locator("summary").all()) await summary.click();
+  await page.waitForFunction(() => !document.querySelector("figure > details[open]:not(:has(.figure-data))"));
+}
+
+describe("the page", () => {
+  for (const [name, colorScheme] of [
+    ["quick", "dark"],
+    ["sweep", "light"],
+    ["two", "light"],
+    ["against", "dark"],
+    ["pictures", "light"],
+    ["history", "light"],
+  ])
+    it(`of ${name} in ${colorScheme} asks for nothing, errs nowhere and is accessible`, async () => {
+      const page = await open(pages[name], { colorScheme });
+      await openAll(page);
+      assert.deepEqual(await violations(page), []);
+      assert.deepEqual(page.faults, []);
+    });
+
+  it("refuses a script that is not its own", async () => {
+    const page = await open(pages.quick);
+    await page.evaluate(() => {
+      const script = document.createElement("script");
+      script.textContent = "document.title = 'taken over'";
+      document.body.append(script);
+    });
+    assert.notEqual(await page.title(), "taken over");
+    assert.match(page.faults.join("\n"), /Content Security Policy/);
+  });
+
+  it("follows the system into dark mode, and the reader out of it", async () => {
+    const page = await open(pages.quick, { colorScheme: "dark" });
+    const brightness = () =>
+      page.evaluate(() => Number(getComputedStyle(document.documentElement).backgroundColor.match(/\d+/)[0]));
+    assert.ok((await brightness()) < 60);
+    await page.selectOption("#theme", "light");
+    assert.ok((await brightness()) > 200);
+  });
+});
+
+describe("the ranking", () => {
+  it("stands first and is sorted by time", async () => {
+    const page = await open(pages.quick);
+    assert.equal(await page.locator("main h2").first().innerText(), "Ranking");
+    const times = numbers(await column(page, "time / best"));
+    assert.ok(times.length > 5 && isAscending(times), String(times));
+  });
+
+  it("sorts by any column, up and down, and says so to screen readers", async () => {
+    const page = await open(pages.quick);
+    await page.getByRole("radio", { name: "hall-512" }).check();
+    const head = page.locator("#ranking thead th", { hasText: "excess" });
+    await head.getByRole("button").click();
+    assert.equal(await head.getAttribute("aria-sort"), "ascending");
+    const told = (texts) => numbers(texts.filter((text) => /\d/.test(text))); // a structure without cells has none, and stands last
+    const up = told(await column(page, "excess"));
+    assert.ok(isAscending(up), String(up));
+    await head.getByRole("button").click();
+    assert.equal(await head.getAttribute("aria-sort"), "descending");
+    assert.deepEqual(told(await column(page, "excess")), [...up].reverse());
+    assert.equal(await page.locator("#ranking [aria-sort]").count(), 1);
+  });
+
+  it("shows the cases of one scene, of one grid, of some words, of the front", async () => {
+    const page = await open(pages.quick);
+    const result = JSON.parse(readFileSync(committedResult));
+    const expected = (holds) =>
+      result.cases
+        .filter(holds)
+        .map((one) => one.assigner.label)
+        .sort();
+    const shown = async () => (await methods(page)).sort();
+    await page.getByRole("radio", { name: "street" }).check();
+    assert.deepEqual(
+      await shown(),
+      expected((one) => one.scene === "street"),
+    );
+    await page.selectOption("#filter-grid", { index: 1 });
+    const grid = result.cases[0].grid.name;
+    assert.deepEqual(
+      await shown(),
+      expected((one) => one.scene === "street" && one.grid.name === grid),
+    );
+    await page.fill("#filter-words", "fast exact");
+    assert.deepEqual(await shown(), ["exact-fast"]);
+    await page.fill("#filter-words", "");
+    await page.check("#filter-front");
+    const front = result.pareto_front.find((one) => one.scene === "street").ids;
+    assert.deepEqual(
+      await shown(),
+      expected((one) => front.includes(one.id) && one.grid.name === grid),
+    );
+    assert.equal(await page.locator(".count").innerText(), `${(await shown()).length} of ${result.cases.length} cases`);
+  });
+
+  it("hides a method at a click on its button, in charts too", async () => {
+    const page = await open(pages.quick);
+    const chip = page.getByRole("button", { name: "brute-force", exact: true });
+    await chip.click();
+    assert.equal(await chip.getAttribute("aria-pressed"), "false");
+    assert.ok(!(await methods(page)).includes("brute-force"));
+    await page.locator("#speed-error summary").click();
+    assert.ok(!(await textsOf(page, "#speed-error tbody th")).includes("brute-force"));
+    await page.getByRole("button", { name: "Show all methods" }).click();
+    assert.ok((await methods(page)).includes("brute-force"));
+  });
+
+  it("can be sorted and filtered from the keyboard", async () => {
+    const page = await open(pages.quick);
+    await page.keyboard.press("Tab");
+    assert.equal(await page.evaluate(() => document.activeElement.textContent), "Skip to the ranking");
+    await page.locator("#ranking thead button").first().focus();
+    await page.keyboard.press("Enter");
+    const names = await methods(page);
+    assert.deepEqual(
+      names,
+      [...names].sort((a, b) => a.localeCompare(b, "en")),
+    );
+    const outline = await page.evaluate(() => getComputedStyle(document.activeElement).outlineStyle);
+    assert.equal(outline, "solid");
+  });
+});
+
+describe("over all scenes", () => {
+  const geometric = (values) => Math.exp(values.reduce((sum, value) => sum + Math.log(value), 0) / values.length);
+
+  it("every mean is geometric, with each scene counted once", async () => {
+    const page = await open(pages.quick);
+    const result = JSON.parse(readFileSync(committedResult));
+    const rows = await inTable(page);
+    let compared = 0;
+    for (const row of rows) {
+      const cases = result.cases.filter(
+        (one) =>
+          one.assigner.label === row.method &&
+          one.grid.name === row.grid &&
+          one.storage === row.storage &&
+          one.error &&
+          one.shading.overshade !== null,
+      );
+      if (cases.length !== result.scenes.length) continue;
+      const mean = (figure) => geometric(cases.map(figure));
+      assert.equal(
+        row.excess,
+        `${(100 * (mean((one) => one.error.reported_pairs / one.error.true_pairs) - 1)).toFixed(1)} %`,
+        row.method,
+      );
+      assert.equal(row.overshade, mean((one) => one.shading.overshade).toFixed(2), row.method);
+      assert.equal(row.longest, mean((one) => one.occupancy.lights_per_cell.max).toFixed(0), row.method);
+      ++compared;
+    }
+    assert.ok(compared > 5, String(compared));
+  });
+
+  it("a scene of two cameras counts as much as one of one", async () => {
+    const figures = async (url) =>
+      (await inTable(await open(url)))
+        .map((row) =>
+          [
+            row.method,
+            row.grid,
+            row.storage,
+            row["time / best"],
+            row.excess,
+            row.overshade,
+            row.bytes,
+            row.longest,
+          ].join(),
+        )
+        .sort();
+    assert.deepEqual(await figures(pages.cameras), await figures(pages.quick));
+  });
+
+  it("a mean that some scenes have no part in says of how many it is", async () => {
+    const page = await open(pages.quick);
+    const result = JSON.parse(readFileSync(committedResult));
+    const key = (method, grid, storage) => [method, grid, storage].join();
+    const holes = new Set(
+      result.cases
+        .filter((one) => one.shading.overshade === null)
+        .map((one) => key(one.assigner.label, one.grid.name, one.storage)),
+    );
+    const rows = (await inTable(page)).filter((row) => holes.has(key(row.method, row.grid, row.storage)));
+    assert.ok(rows.length > 0);
+    for (const row of rows) assert.match(row.overshade, / of 5\)$|^–$/, JSON.stringify(row));
+  });
+
+  it("the front alone is of methods, whose means stay those of all scenes", async () => {
+    const page = await open(pages.quick);
+    const before = new Map((await inTable(page)).map((row) => [row.method + row.grid + row.storage, row]));
+    await page.check("#filter-front");
+    const rows = await inTable(page);
+    assert.ok(rows.length > 0 && rows.length < before.size);
+    for (const row of rows) assert.deepEqual(row, before.get(row.method + row.grid + row.storage));
+  });
+});
+
+describe("filters", () => {
+  it("leave ranks as they are among all", async () => {
+    const page = await open(pages.quick);
+    await page.getByRole("radio", { name: "street" }).check();
+    const all = await inTable(page);
+    assert.deepEqual(
+      all.map((row) => row.rank),
+      all.map((_, at) => String(at + 1)),
+    );
+    await page.fill("#filter-words", "world-grid");
+    const some = await inTable(page);
+    assert.ok(some.length > 0 && Number(some[0].rank) > 1);
+    for (const row of some)
+      assert.equal(row.rank, all.find((one) => one.method === row.method && one.grid === row.grid).rank);
+  });
+
+  it("that leave nothing say so, and can be cleared", async () => {
+    const page = await open(pages.quick);
+    await page.fill("#filter-words", "no such thing");
+    assert.match(await page.locator("#ranking").innerText(), /No cases: none matches all of the filters/);
+    await page.locator("#clear-filters").click();
+    assert.ok((await methods(page)).length > 5);
+    assert.equal(await page.inputValue("#filter-words"), "");
+  });
+
+  it("are in the address, and come back with it", async () => {
+    const page = await open(pages.quick);
+    await page.getByRole("radio", { name: "street" }).check();
+    await page.selectOption("#filter-grid", { index: 1 });
+    await page.fill("#filter-words", "fast");
+    await page.getByRole("button", { name: "aabb-fast", exact: true }).click();
+    await page.selectOption("#speed-error-measure", "bytes");
+    await page.getByRole("navigation").getByText("Warnings").click();
+    const [shown, address] = [await methods(page), page.url()];
+    assert.match(address, /#scene=street&grid=.*&words=fast&hidden=aabb-fast&choice\.speed-error-measure=bytes/);
+    const again = await open(address);
+    assert.deepEqual(await methods(again), shown);
+    assert.equal(await again.inputValue("#filter-words"), "fast");
+    assert.equal(await again.inputValue("#speed-error-measure"), "bytes");
+    assert.ok(await again.getByRole("radio", { name: "street" }).isChecked());
+    await again.evaluate(() => (location.hash = "scene=jam&grid=none+of+these"));
+    await again.getByRole("radio", { name: "jam", checked: true }).waitFor();
+    assert.equal(await again.inputValue("#filter-grid"), "");
+    assert.deepEqual(again.faults, []);
+  });
+});
+
+describe("figures", () => {
+  it("have the units and digits of the terminal's table", async () => {
+    const page = await open(pages.lossy);
+    const names = { "frame us": "frame µs", "+-": "±", assign: "assign µs", convert: "convert µs", shade: "overshade" };
+    const told = [];
+    let grid, heads;
+    for (const line of lossyTable.split("\n")) {
+      const cells = line.replace(/^ *\*? +/, "").split(/ {2,}/);
+      if (/, camera /.test(line)) grid = line.trim().replace(/, camera .*/, "");
+      else if (cells[0] === "assigner") heads = cells;
+      else if (heads && cells.length === heads.length)
+        told.push({ grid, ...Object.fromEntries(cells.map((text, at) => [names[heads[at]] ?? heads[at], text])) });
+    }
+    await page.check("#ranking-all");
+    const shown = await inTable(page);
+    assert.equal(told.length, shown.length, lossyTable);
+    for (const row of told) {
+      const other = shown.find((one) => one.grid === row.grid && `${one.method} / ${one.storage}` === row.assigner);
+      for (const column of [
+        "frame µs",
+        "±",
+        "assign µs",
+        "convert µs",
+        "pairs",
+        "ns/pair",
+        "excess",
+        "missed",
+        "dropped",
+        "unlit",
+        "overshade",
+        "bytes",
+      ])
+        assert.equal(
+          other[column].replace(/^~/, ""),
+          row[column].replace(/^-$/, "–").replace(/^~/, ""),
+          `${column} of ${row.assigner}`,
+        );
+    }
+  });
+});
+
+describe("times", () => {
+  it("stand beside the fastest of their scene with a ratio and its interval, and a mark where nothing tells them from the next faster one", async () => {
+    const page = await open(pages.quick);
+    await page.getByRole("radio", { name: "hall-512" }).check();
+    const ratios = await column(page, "/ fastest");
+    assert.equal(ratios[0], "–");
+    assert.ok(
+      ratios.slice(1).every((text) => /^\d+\.\d\d$/.test(text)),
+      String(ratios),
+    );
+    const marked = (await column(page, "frame µs")).filter((text) => text.startsWith("~"));
+    assert.ok(marked.length > 0 && marked.length < ratios.length, String(marked));
+    const interval = await page
+      .locator("#ranking tbody tr")
+      .nth(1)
+      .locator("td span[title*=' to ']")
+      .last()
+      .getAttribute("title");
+    assert.match(interval, /^\d+\.\d\d to \d+\.\d\d$/);
+  });
+
+  it("have the terminal's warnings, of each result by its name", async () => {
+    const texts = async (name) => (await textsOf(await open(pages[name]), "#warnings li")).join("\n");
+    assert.match(await texts("wide"), /Note\. Times: \d+ of \d+ times with intervals wider than \+- 10 %/);
+    assert.match(await texts("wide"), /--launches \d+/);
+    const two = await texts("two");
+    assert.match(two, /Note\. (quick|.*\/quick): Times: /);
+  });
+
+  it("that are known to a half and twice show both sides", async () => {
+    const page = await open(pages.wide);
+    await page.getByRole("radio", { name: "hall-512" }).check();
+    assert.ok((await column(page, "±")).every((text) => text === "-50/+100 %"));
+  });
+});
+
+describe("what a case loses", () => {
+  const rows = async (page) => {
+    await page.check("#ranking-all");
+    const labels = (await textsOf(page, "#ranking thead th")).map((text) => text.replace(/ [↑↓]$/, ""));
+    const cells = await page
+      .locator("#ranking tbody tr")
+      .evaluateAll((all) => all.map((row) => [...row.children].map((cell) => cell.innerText)));
+    const dots = await page
+      .locator("#ranking tbody tr")
+      .evaluateAll((all) => all.map((row) => row.querySelector(".front") !== null));
+    return cells.map((one, at) => ({
+      ...Object.fromEntries(one.map((text, column) => [labels[column], text])),
+      isOnFront: dots[at],
+    }));
+  };
+
+  it("stands beside its time, takes its overshade and its place on the front", async () => {
+    const page = await open(pages.lossy);
+    const all = await rows(page);
+    assert.equal(all.length, 8);
+    const whole = all.filter((one) => one.dropped === "0" && parseFloat(one.unlit) === 0);
+    assert.equal(whole.length, 2, JSON.stringify(all));
+    assert.ok(
+      whole.some((one) => one.isOnFront) && whole.every((one) => /\d/.test(one.overshade)),
+      JSON.stringify(whole),
+    );
+    for (const one of all.filter((other) => !whole.includes(other))) {
+      assert.ok(parseFloat(one.unlit) > 0.1 && one.overshade === "–" && !one.isOnFront, JSON.stringify(one));
+    }
+  });
+
+  it("is ranked by what a frame takes, with its parts and its worst frame beside it", async () => {
+    const page = await open(pages.quick); // medians of a few rounds need not add up
+    await page.getByRole("radio", { name: "street" }).check();
+    const all = (await rows(page)).map((one) =>
+      Object.fromEntries(
+        Object.entries(one).map(([label, text]) => [label, parseFloat(String(text).replaceAll(/[,~]/g, ""))]),
+      ),
+    );
+    assert.ok(isAscending(all.map((one) => one["frame µs"])), JSON.stringify(all));
+    let converted = 0;
+    for (const one of all) {
+      assert.ok(one["worst µs"] >= 0.99 * one["frame µs"], JSON.stringify(one));
+      if (Number.isNaN(one["convert µs"])) continue; // a structure of its own, which converts nothing
+      assert.ok(one["assign µs"] < one["frame µs"] && one["convert µs"] < one["frame µs"], JSON.stringify(one));
+      assert.ok(one["most pairs"] >= one.pairs, JSON.stringify(one));
+      ++converted;
+    }
+    assert.ok(converted > 5, String(converted));
+  });
+
+  it("takes no part in the chart's front", async () => {
+    const page = await open(pages.lossy);
+    await page.selectOption("#speed-error-measure", "bytes");
+    const label = await page.locator("#speed-error svg[role=img]").first().getAttribute("aria-label");
+    const names = label.replace(/.*on the front: /, "").split(", ");
+    assert.ok(names.length <= 2, `${label}: fixed storage takes fewest bytes, and drops pairs`);
+  });
+
+  it("is a warning", async () => {
+    const page = await open(pages.lossy);
+    const text = (await textsOf(page, "#warnings li")).join("\n");
+    assert.match(text, /Note\. 4 cases dropped lights because the storage was full/);
+    assert.match(text, /Note\. 6 cases left more of the lights that samples need unlit than rounding does/);
+    assert.doesNotMatch(text, /Failed/);
+  });
+});
+
+describe("charts", () => {
+  it("have a name for those who cannot see them, a table, their data and a command", async () => {
+    const page = await open(pages.sweep);
+    for (const id of ["speed-error", "heat-map", "camera-path", "list-lengths", "costs"]) {
+      const figure = page.locator(`#${id}`);
+      assert.ok((await figure.locator("svg[role=img]").first().getAttribute("aria-label")).length > 20, id);
+      await figure.locator("summary").click();
+      await figure.locator(".figure-data").waitFor();
+      assert.ok((await figure.locator("tbody tr").count()) > 1, id);
+      assert.match(await figure.locator("pre").innerText(), /^clusterbench run \S+\.json/, id);
+      const waiting = page.waitForEvent("download");
+      await figure.getByRole("button", { name: "Download CSV" }).click();
+      const text = readFileSync(await (await waiting).path(), "utf8");
+      const rows = await figure.locator("tbody tr").count();
+      assert.ok(text.startsWith("method,") && text.trim().split("\n").length >= rows + 1, id);
+    }
+  });
+
+  it("keep the focus and opened tables when what they show changes", async () => {
+    const page = await open(pages.sweep);
+    await page.locator("#speed-error summary").click();
+    await page.locator("#speed-error-measure").focus();
+    await page.selectOption("#speed-error-measure", "bytes");
+    assert.equal(await page.evaluate(() => document.activeElement.id), "speed-error-measure");
+    assert.ok((await textsOf(page, "#speed-error thead th")).includes("bytes"));
+  });
+
+  it("show the allocation above every frame of the path", async () => {
+    const page = await open(pages.sweep);
+    await page.locator("#camera-path summary").click();
+    const figures = async (at) => numbers(await textsOf(page, `#camera-path tbody td:nth-child(${at})`));
+    const [bytes, allocated] = [await figures(5), await figures(6)];
+    assert.ok(bytes.length > 3 && bytes.every((value, at) => value <= allocated[at]));
+  });
+
+  it("have names that no interval strikes", async () => {
+    const page = await open(pages.wide);
+    const struck = await page.locator("#speed-error svg[role=img]").evaluateAll((charts) =>
+      charts.flatMap((svg) => {
+        const names = [...svg.querySelectorAll("g[font-size], g")].flatMap((group) =>
+          group.getAttribute("stroke-width") === "4" ? [...group.querySelectorAll("text")] : [],
+        );
+        const bars = [...svg.querySelectorAll("g[stroke-width='3'] line")].map((line) => line.getBoundingClientRect());
+        return names.map((text) => {
+          const box = text.getBoundingClientRect(),
+            inside = { left: box.left + 2, right: box.right - 2, top: box.top + 3, bottom: box.bottom - 3 };
+          return {
+            name: text.textContent,
+            bars: bars.length,
+            isStruck: bars.some(
+              (bar) =>
+                bar.left < inside.right &&
+                inside.left < bar.right &&
+                bar.top < inside.bottom &&
+                inside.top < bar.bottom,
+            ),
+          };
+        });
+      }),
+    );
+    assert.ok(struck.length > 0 && struck[0].bars > 2, JSON.stringify(struck));
+    assert.deepEqual(
+      struck.filter((one) => one.isStruck),
+      [],
+    );
+  });
+
+  it("fit a narrow screen without scrolling the page sideways", async () => {
+    const page = await open(pages.sweep, { viewport: { width: 390, height: 800 } });
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth));
+  });
+});
+
+describe("the layout", () => {
+  for (const [name, scene] of [
+    ["quick", null],
+    ["quick", "jam"],
+    ["lossy", null],
+    ["two", null],
+    ["two", "street"],
+    ["sweep", "street"],
+    ["against", null],
+  ])
+    it(`cuts no column of the ranking of ${name}${scene ? `, ${scene}` : ""}, at 1400 pixels`, async () => {
+      const page = await open(pages[name], { viewport: { width: 1400, height: 900 } });
+      if (scene) await page.getByRole("radio", { name: scene }).check();
+      const isCut = () =>
+        page
+          .locator("#ranking .table")
+          .evaluate((table) => table.scrollWidth > table.clientWidth && `${table.scrollWidth} of ${table.clientWidth}`);
+      assert.equal(await isCut(), false);
+      if ((await page.locator("#ranking-all").count()) === 0) return;
+      await page.check("#ranking-all");
+      assert.equal(await isCut(), false);
+    });
+
+  for (const [name, scene, wanted] of [
+    ["quick", null, ["method", "time / best", "excess"]],
+    ["quick", "jam", ["method", "frame µs", "excess"]],
+    ["two", "street", ["method", "frame µs", "excess"]],
+  ])
+    it(`shows method, time and error of ${name}${scene ? `, ${scene}` : ""} first, at 390 pixels`, async () => {
+      const page = await open(pages[name], { viewport: { width: 390, height: 800 } });
+      if (scene) await page.getByRole("radio", { name: scene }).check();
+      const inView = await page
+        .locator("#ranking thead th")
+        .evaluateAll((heads) =>
+          heads
+            .filter((head) => head.getBoundingClientRect().right <= innerWidth - 14)
+            .map((head) => head.innerText.replace(/ [↑↓]$/, "")),
+        );
+      assert.deepEqual(inView.slice(0, 3), wanted);
+    });
+});
+
+describe("several results", () => {
+  it("stand on one page, told apart by their files", async () => {
+    const page = await open(pages.two);
+    assert.deepEqual(await textsOf(page, "#setup article > h3"), ["quick", "sweep"]);
+    await page.selectOption("#filter-run", "sweep");
+    assert.ok(
+      (await page.locator(".count").innerText()).startsWith(`${JSON.parse(readFileSync(sweepFile)).cases.length} of `),
+    );
+  });
+
+  it("say in every table and chart whose a figure is, and share no front", async () => {
+    const page = await open(pages.against);
+    const runs = ["sweep", "elsewhere"];
+    assert.deepEqual(new Set((await inTable(page)).map((row) => row.result)), new Set(runs));
+    assert.deepEqual(
+      (await textsOf(page, "#speed-error h4")).sort(),
+      ["hall-512", "street"].flatMap((scene) => runs.map((run) => `${scene} · ${run}`)).sort(),
+    );
+    for (const text of await textsOf(page, "#heat-map h4"))
+      assert.ok(
+        runs.some((run) => text.includes(run)),
+        text,
+      );
+    for (const text of await textsOf(page, "#setting option"))
+      assert.ok(
+        runs.some((run) => text.endsWith(run)),
+        text,
+      );
+    await openAll(page);
+    for (const id of [
+      "speed-error",
+      "costs",
+      "camera-path",
+      "list-lengths",
+      "heat-map",
+      "stability-table",
+      "packed-lights",
+      "lookup",
+    ])
+      for (const row of (await inTable(page, `#${id}`)).slice(0, 5))
+        assert.match(Object.values(row).join(" "), /sweep|elsewhere/, id);
+    const dot = page.locator("#speed-error svg[role=img] path[fill]").first();
+    await dot.hover({ force: true });
+    await page
+      .locator("#speed-error svg g[aria-label=tip] text, #speed-error svg text:has-text('µs') tspan")
+      .first()
+      .waitFor({ state: "attached" });
+    assert.match(await page.locator("#speed-error svg").first().textContent(), /· (sweep|elsewhere)/);
+  });
+
+  it("can be held one against the first, case by case", async () => {
+    const page = await open(pages.against);
+    await page.locator("#against-first summary").click();
+    const rows = await inTable(page, "#against-first");
+    assert.equal(rows.length, JSON.parse(readFileSync(sweepFile)).cases.length);
+    for (const row of rows) assert.equal(row.time, "+100.0 %", JSON.stringify(row));
+    assert.match(
+      await page.locator("#against svg[role=img]").getAttribute("aria-label"),
+      /Frame time of elsewhere by that of sweep, \d+ cases/,
+    );
+    await page.selectOption("#filter-run", "elsewhere");
+    assert.equal((await inTable(page, "#against-first")).length, rows.length);
+  });
+
+  it("without a case in common say so", async () => {
+    const page = await open(pages.two);
+    assert.match(await page.locator("#against").innerText(), /No cases: sweep and quick have none in common/);
+  });
+});
+
+describe("pictures", () => {
+  it("are shown for the methods that the filters leave, one kind at a time", async () => {
+    const page = await open(pages.pictures);
+    const images = page.locator("#pictures img");
+    const grids = JSON.parse(readFileSync(join(place, "pictured.json"))).cases.length / 2;
+    assert.equal(await images.count(), 2 * 2 * grids);
+    for (const image of await images.all()) await image.scrollIntoViewIfNeeded();
+    await page.waitForFunction(() =>
+      [...document.querySelectorAll("#pictures img")].every((image) => image.naturalWidth > 600),
+    );
+    assert.match(
+      await images.first().getAttribute("alt"),
+      /^Lights per pixel: aabb-fast, packed\. Mean [\d.]+, at most \d+/,
+    );
+    await page.selectOption("#pictures-frame", "2");
+    assert.equal(await images.count(), 2 * grids);
+    await page.selectOption("#pictures-kind", "depth");
+    assert.equal(await images.count(), 1);
+    await page.selectOption("#pictures-kind", "strip");
+    assert.equal(await images.count(), 2 * grids);
+    await page.getByRole("button", { name: "exact-fast" }).first().click();
+    assert.equal(await images.count(), grids);
+    assert.equal(await (await open(pages.sweep)).locator("#pictures").count(), 0);
+  });
+});
+
+describe("the history's page", () => {
+  it("draws what varies, with an axis and the commits that changed it", async () => {
+    const page = await open(pages.history);
+    const figure = page.locator("figure", { hasText: "assign_time" }).first();
+    assert.match(
+      await figure.locator("svg[role=img]").getAttribute("aria-label"),
+      /^assign_time in ns of .*, 14 values from /,
+    );
+    assert.match(await figure.locator(".changes .worse").innerText(), /^c7: .* worse$/);
+    assert.match(await figure.locator("svg").textContent(), /↑ ns/);
+    assert.ok((await figure.locator("svg [stroke-dasharray] line, svg line[stroke-dasharray]").count()) >= 1);
+    assert.match(await page.locator(".summary").innerText(), /14 results, \d+ series, \d+ changes? \(dashed lines\)/);
+  });
+});

@@ -85,7 +85,7 @@ std::string lost_lux_text(const Json& result_case, const char* what) {
   const std::string set = value_at(result_case, "/samples/opaque") != nullptr ? "/samples/opaque" : "/shading";
   const std::optional<double> loses = number_at(result_case, set + "/lost_lux");
   if (loses && *loses == 0.0) return "0";
-  return number_text(result_case, (set + what).c_str(), "%.3g");
+  return text_at(result_case, (set + what).c_str(), "%.3g");
 }
 
 // Where nothing is timed what the GPU does.

@@ -115,7 +115,16 @@ TEST(Deferred, each_pixel_has_the_lights_that_reach_it_and_hardly_another) {
 
 TEST(Deferred, the_pixels_that_are_counted_as_shaded_are_those_whose_samples_get_the_light) {
   const assign::AssignerDescriptor& row = *assign::find_assigner("deferred");
-  const Setting setting = assign::testing::settings_for(row, 72).front();
+  assign::testing::Random random(72);
+  std::vector<scene::WorldLight> lights;
+  for (int i = 0; i < 40; ++i) {
+    const Vec3d at{random.between(-9.0, 9.0), random.between(-9.0, 9.0), random.between(-15.0, 1.0)};
+    const double range = random.between(0.5, 5.0);
+    lights.push_back(i < 25 ? assign::testing::point_light(at, range)
+                            : assign::testing::spot_light(at, range, random.direction(), random.between(0.1, 1.5)));
+  }
+  Setting setting = wall_at(10.0f, lights);
+  setting.depth = depth::seeded_depths(setting.frame, 72);
   for (const assign::Params& params : assign::testing::params_of(row)) {
     assign::AssignerRun run(row, params, assign::Answer::structure);
     run.build(setting.grid);
@@ -127,6 +136,7 @@ TEST(Deferred, the_pixels_that_are_counted_as_shaded_are_those_whose_samples_get
       given_in_all += given.size();
     }
     EXPECT_EQ(run.structure()->use().index_entries, given_in_all);
+    EXPECT_GT(given_in_all, 1000u);
   }
 }
 

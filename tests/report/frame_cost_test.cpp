@@ -4,8 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "config/documents.h"
 #include "config/schema_check.h"
+#include "report/exports/metrics.h"
 #include "report/ratios.h"
 #include "report/result_by_hand.h"
 #include "report/result_json.h"
@@ -112,6 +115,16 @@ TEST(FrameCosts, without_times_rank_by_what_the_gpu_does) {
   EXPECT_TRUE(json["cases"][0]["cost"]["frame_ns"].is_null());
   EXPECT_EQ(json["pareto_front"][0]["ids"], Json({"slow"}));
   EXPECT_LT(render_table(json, false).find("brute-force "), render_table(json, false).find("aabb "));
+}
+
+// A history of it would show the changes of times as if counts had changed.
+TEST(FrameCosts, follow_from_times_and_counts_and_have_no_history_of_their_own) {
+  const auto basis = [](const std::string& name) {
+    const auto metrics = export_metrics();
+    return basis_of(*std::ranges::find(metrics, name, &Metric::name));
+  };
+  EXPECT_EQ(basis("frame_cost"), Basis::derived);
+  EXPECT_EQ(basis("gpu_cost"), Basis::count);
 }
 
 TEST(FrameCosts, a_case_that_lacks_lights_at_samples_with_a_weight_is_on_no_front) {

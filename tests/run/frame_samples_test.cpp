@@ -253,9 +253,12 @@ TEST(DepthMethods, lose_nothing_at_the_surfaces_that_their_depths_are_taken_from
       EXPECT_EQ(opaque.unanswered, 0u) << case_result.name;
       EXPECT_TRUE(case_result.failures.empty()) << case_result.name;
       EXPECT_TRUE(warnings_of(case_result).empty()) << case_result.name;
-      if (case_result.assigner == "tile-slices")
+      if (case_result.assigner == "tile-slices") {
         EXPECT_EQ(counts_of(case_result, SampleSet::fog).missed, 0u) << divisor;
-      if (case_result.assigner == "explicit") EXPECT_GT(counts_of(case_result, SampleSet::fog).missed, 0u) << divisor;
+      }
+      if (case_result.assigner == "explicit") {
+        EXPECT_GT(counts_of(case_result, SampleSet::fog).missed, 0u) << divisor;
+      }
       if (case_result.assigner == "deferred") continue;
       ASSERT_TRUE(case_result.error) << case_result.name;
       EXPECT_EQ(case_result.error->false_negatives, 0u) << case_result.name;

@@ -97,7 +97,7 @@ std::optional<Measured> measured_by(const Json& result_case, const Metric& metri
 
 Basis basis_of(const Metric& metric) {
   constexpr std::string_view k_derived[] = {"/timing/frame_ns/median", "/timing/worst_frame/ns", "/timing/ns_per_pair",
-                                            "/timing/floor_ratio"};
+                                            "/timing/floor_ratio", "/cost/frame_ns"};
   if (std::find(std::begin(k_derived), std::end(k_derived), metric.pointer) != std::end(k_derived))
     return Basis::derived;
   if (metric.pointer == "/timing/pairs/mean" || metric.pointer == "/timing/builds_per_frame") return Basis::count;
