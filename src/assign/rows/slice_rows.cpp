@@ -57,7 +57,8 @@ struct BallRows {
   HWY_INLINE MI are_full() const { return Ne(full, Zero(DI())); }
   // Those of the others that may touch a row.
   HWY_INLINE MI others_in(int row) const {
-    return And(first<all_int(row + 1), first + AndNot(full, count)> all_int(row));
+    const VI end = first + AndNot(full, count);
+    return AndNot(first > all_int(row), end > all_int(row));
   }
 };
 
