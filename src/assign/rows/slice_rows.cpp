@@ -58,7 +58,8 @@ struct BallRows {
   // Those of the others that may touch a row.
   HWY_INLINE MI others_in(int row) const {
     const VI end = first + AndNot(full, count);
-    return AndNot(first > all_int(row), end > all_int(row));
+    const MI has_begun = first < all_int(row + 1);
+    return And(has_begun, end > all_int(row));
   }
 };
 
