@@ -416,7 +416,7 @@ void span_lists(State& state, const FrameLists& frame) {
   assign::Lists lists;
   const std::size_t bytes = (frame.lists.begin.size() + frame.lists.lights.size()) * sizeof(std::uint32_t);
   against_copy(state, bytes, frame.lists.pair_count(), [&] {
-    builder.start(1, frame.rows, frame.columns, frame.lights, lists);
+    builder.start(1, frame.rows, frame.columns, lists);
     for (const Span& span : frame.spans) builder.add(span.row, span.first, span.last, span.light);
     builder.finish_band();
     builder.finish();

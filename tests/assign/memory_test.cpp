@@ -88,7 +88,7 @@ TEST(ListBuilder, count_the_pairs_of_a_batch_beyond_32_bits) {
   std::vector<std::uint8_t> is_left(high);
   ListBuilder spans;
   Lists lists;
-  spans.start(0, high, k_wide, lanes, lists);  // no band has room: none is to be finished
+  spans.start(0, high, k_wide, lists);  // no band has room: none is to be finished
   spans.add_batch(0, static_cast<int>(high) - 1, columns.data(), lights.data(), is_left.data());
   EXPECT_THROW(spans.finish_band(), Error);
 }

@@ -50,14 +50,16 @@ class View {
   float near_, far_;
 };
 
-// Where depths are among the slice planes: a search by halves, the first ones of them in registers.
+// Where depths are among the slice planes: a search by halves, the first ones of them in registers, as are those
+// halfway between them.
 class SliceSearch {
  public:
   explicit SliceSearch(const RowPlanes& planes)
       : planes_(planes.searched.data()),
         count_(static_cast<std::int32_t>(planes.searched.size())),
         stride_(std::max(1, count_ / static_cast<std::int32_t>(RegisterTable::size()))),
-        some_(every(0), every(static_cast<std::int32_t>(Lanes(D())))),
+        some_(every(0)),
+        between_(every(stride_ / 2)),
         last_(planes.slices - 1) {}
 
   // How many of the planes between two slices are below a depth (or at it, with or_at).
@@ -72,8 +74,11 @@ class SliceSearch {
       const VI probe = below + all_int(step);
       go_on(probe, some_.at(probe));
     }
+    if (stride_ == 1) return Min(below, all_int(last_));
+    const V between = between_.at(below);
     below = below * all_int(stride_);
-    for (std::int32_t step = stride_ / 2; step > 0; step /= 2) {
+    go_on(below + all_int(stride_ / 2), between);
+    for (std::int32_t step = stride_ / 4; step > 0; step /= 2) {
       const VI probe = below + all_int(step);
       go_on(probe, gathered(planes_, probe));
     }
@@ -81,14 +86,18 @@ class SliceSearch {
   }
 
  private:
-  // Of every stride-th plane those from `first` on.
-  V every(std::int32_t first) const {
-    return gathered(planes_, Min(from_on(first) * all_int(stride_), all_int(count_ - 1)));
+  // Every stride-th plane, from the one at `skipped` on.
+  RegisterTable every(std::int32_t skipped) const {
+    const auto from = [&](std::int32_t first) {
+      const VI index = from_on(first) * all_int(stride_) + all_int(skipped);
+      return gathered(planes_, Min(index, all_int(count_ - 1)));
+    };
+    return {from(0), from(static_cast<std::int32_t>(Lanes(D())))};
   }
 
   const float* planes_;
   std::int32_t count_, stride_;
-  RegisterTable some_;
+  RegisterTable some_, between_;
   std::int32_t last_;
 };
 

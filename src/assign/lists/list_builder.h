@@ -10,14 +10,8 @@
 
 #include "assign/contract/lists.h"
 #include "assign/lists/row_lists.h"
-#include "grid/index_range.h"
 
 namespace clusterbench::assign {
-
-// Cells that take no lights: spans may cover them, their lists stay empty.
-struct BandHole {
-  grid::IndexRange rows, columns;
-};
 
 // The instruction set that is used: "AVX3", "AVX2", "SSE4", "NEON", "SCALAR" ... as Highway names it.
 const char* simd_target_name();
@@ -27,9 +21,9 @@ struct SpanRows;
 // Keeps its memory between frames.
 class ListBuilder {
  public:
-  // A frame of `bands` bands and lights 0 .. lights - 1; a band is `rows` rows (a slice, say) of `columns` cells, at
-  // most ColumnSpan::k_most_columns. `out` must outlive finish().
-  void start(std::uint32_t bands, std::uint32_t rows, std::uint32_t columns, std::uint32_t lights, Lists& out);
+  // A frame of `bands` bands; a band is `rows` rows (a slice, say) of `columns` cells, at most
+  // ColumnSpan::k_most_columns. `out` must outlive finish().
+  void start(std::uint32_t bands, std::uint32_t rows, std::uint32_t columns, Lists& out);
   // To the present band. Lights must come in ascending order within a row, in each cell once.
   // first <= last < columns.
   void add(std::uint32_t row, std::uint32_t first, std::uint32_t last, std::uint32_t light) {
@@ -37,13 +31,8 @@ class ListBuilder {
     if (size == pitch_) grow();
     const std::size_t index = row * pitch_ + size++;
     most_ = std::max(most_, size);
-    if (is_light_in_span_) {
-      columns_of_[index] = LightSpan::of(first, last, light);
-    } else {
-      lights_[index] = light;
-      columns_of_[index] = ColumnSpan::of(first, last);
-    }
-    band_pairs_ += last - first + 1;
+    lights_[index] = light;
+    columns_of_[index] = ColumnSpan::of(first, last);
   }
   // Adds a batch of lights' spans to rows first_row .. last_row. columns[row * lanes + i]: the span of lights[i] as
   // a ColumnSpan, k_no_span, or with k_uncertain_span set one that is not to be added as it is. Rows
@@ -66,22 +55,17 @@ class ListBuilder {
  private:
   void make_room(std::uint32_t spans);
   SpanRows span_rows();
-  template <class Row>
-  std::uint32_t* write_row(Row spans, const grid::IndexRange& hole, std::uint32_t* begin, std::uint32_t* to);
-  std::uint32_t* finish_row(std::uint32_t row, const grid::IndexRange& hole, std::uint32_t* begin, std::uint32_t* to);
   void grow();
 
   std::uint32_t rows_ = 0, columns_ = 0, band_ = 0;
-  std::uint64_t pairs_ = 0, band_pairs_ = 0;
+  std::uint64_t pairs_ = 0;
   Lists* out_ = nullptr;
   std::vector<std::uint32_t> sizes_;  // of the rows
   std::uint32_t most_ = 0;            // no row has more spans
-  std::uint32_t width_ = 0;           // about how many columns the band's spans have
   FewColumns few_;
   // Row r's spans are at r * pitch_; whole vectors can be read and written beyond the last row.
   std::size_t pitch_ = 0;
   AlignedVector<std::uint32_t> lights_, columns_of_;
-  bool is_light_in_span_ = false;  // as LightSpan has it; no lights_
 };
 
 }  // namespace clusterbench::assign

@@ -58,15 +58,8 @@ struct Columns {
 struct Spans {
   VI first, last;
 
-  // Of columns as a row has them.
-  template <class Row>
-  static HWY_INLINE Spans of(const Row&, VU columns) {
-    return Spans(And(columns, Set(DU(), 0xffff)), ShiftRight<16>(columns));
-  }
-  static HWY_INLINE Spans of(const RowLightSpans&, VU spans) {
-    const VU byte = Set(DU(), 0xff);
-    return Spans(And(spans, byte), And(ShiftRight<8>(spans), byte));
-  }
+  HWY_INLINE explicit Spans(VU columns)
+      : first(BitCast(DI(), And(columns, Set(DU(), 0xffff)))), last(BitCast(DI(), ShiftRight<16>(columns))) {}
 
   // Which of them hold some of these columns.
   HWY_INLINE MU some(const Columns& of) const {
@@ -85,27 +78,7 @@ struct Spans {
     const MU none = RebindMask(du, from > to);
     return IfThenZeroElse(none, And(Shl(all, before), Shr(all, behind)));
   }
-
- private:
-  HWY_INLINE Spans(VU first_columns, VU last_columns)
-      : first(BitCast(DI(), first_columns)), last(BitCast(DI(), last_columns)) {}
 };
-
-// A vector of a row's spans and their lights.
-template <class Index>
-HWY_INLINE Spans spans_at(const RowSpans<Index>& row, std::size_t i) {
-  return Spans::of(row, LoadU(DU(), row.columns + i));
-}
-template <class Index>
-HWY_INLINE VU lights_at(const RowSpans<Index>& row, std::size_t i) {
-  return loaded(row.lights + i);
-}
-HWY_INLINE Spans spans_at(const RowLightSpans& row, std::size_t i) {
-  return Spans::of(row, LoadU(DU(), row.spans + i));
-}
-HWY_INLINE VU lights_at(const RowLightSpans& row, std::size_t i) {
-  return hn::ShiftRight<16>(LoadU(DU(), row.spans + i));
-}
 
 // The bit of the column behind `skipped` others.
 HWY_INLINE VU bit_of(std::uint32_t skipped) {
@@ -192,68 +165,29 @@ std::uint32_t strip_columns(std::uint32_t columns) {
 }
 
 // Do most spans hold none of most strips? To choose them costs as much as to ask them for a fifth of the columns.
-template <class Row>
-HWY_INLINE bool are_narrow(const Row& row, const Columns& window, std::uint32_t strip) {
+template <class Index>
+HWY_INLINE bool are_narrow(const RowSpans<Index>& row, const Columns& window, std::uint32_t strip) {
   return 5 * (row.width + strip) < 4 * (window.end - window.begin);
 }
 
 // All of a row's spans, with what they have of a window.
-template <class Row, class Index>
-HWY_INLINE Index* lists_at_once(const Row& row, const Columns& window, FewColumns& few, Index* to, const Index* lists,
-                                std::uint32_t* begin) {
+template <class Index>
+HWY_INLINE Index* lists_at_once(const RowSpans<Index>& row, const Columns& window, FewColumns& few, Index* to,
+                                const Index* lists, std::uint32_t* begin) {
   const DU du;
   std::uint32_t* bits = few.strips[0].bits.data();
-  std::uint32_t* lights = few.strips[0].lights.data();
   for (std::size_t i = 0; i < row.count; i += Lanes(du)) {
-    StoreU(IfThenElseZero(FirstN(du, row.count - i), spans_at(row, i).bits(window)), du, bits + i);
-    StoreU(lights_at(row, i), du, lights + i);
+    const VU some = Spans(LoadU(du, row.columns + i)).bits(window);
+    StoreU(IfThenElseZero(FirstN(du, row.count - i), some), du, bits + i);
   }
-  return StoredSpans<std::uint32_t>{lights, bits, row.count}.write(window, 0, to, lists, begin);
-}
-
-// Appends a vector's wanted spans to a strip's.
-template <class Index>
-HWY_INLINE void choose(const RowSpans<Index>& row, std::size_t i, const Spans& spans, MU wanted, const Columns& window,
-                       FewColumns::Strip& strip, std::size_t count) {
-  append(lights_at(row, i), wanted, strip.lights.data() + count);
-  append(spans.bits(window), wanted, strip.bits.data() + count);
-}
-HWY_INLINE void choose(const RowLightSpans& row, std::size_t i, const Spans&, MU wanted, const Columns&,
-                       FewColumns::Strip& strip, std::size_t count) {
-  append(LoadU(DU(), row.spans + i), wanted, strip.lights.data() + count);
-}
-
-template <class Index>
-HWY_INLINE Index* write_chosen(const RowSpans<Index>&, FewColumns::Strip& strip, std::size_t count,
-                               const Columns& window, const Columns& columns, Index* to, const Index* lists,
-                               std::uint32_t* begin) {
-  StoreU(Zero(DU()), DU(), strip.bits.data() + count);
-  return StoredSpans<std::uint32_t>{strip.lights.data(), strip.bits.data(), count}.write(
-      columns, columns.begin - window.begin, to, lists, begin);
-}
-HWY_INLINE std::uint32_t* write_chosen(const RowLightSpans&, FewColumns::Strip& strip, std::size_t count,
-                                       const Columns&, const Columns& columns, std::uint32_t* to,
-                                       const std::uint32_t* lists, std::uint32_t* begin) {
-  const DU du;
-  StoreU(Set(du, LightSpan::k_none), du, strip.lights.data() + count);
-  const RowLightSpans chosen{strip.lights.data(), static_cast<std::uint32_t>(count), columns.begin, columns.end};
-  if (count <= Lanes(du)) {
-    const SpansInRegisters<1> spans(lights_at(chosen, 0), spans_at(chosen, 0).bits(columns));
-    return spans.write(columns, 0, to, lists, begin);
-  }
-  for (std::size_t i = 0; i < count; i += Lanes(du)) {
-    const VU lights = lights_at(chosen, i);
-    StoreU(spans_at(chosen, i).bits(columns), du, strip.bits.data() + i);
-    StoreU(lights, du, strip.lights.data() + i);
-  }
-  return StoredSpans<std::uint32_t>{strip.lights.data(), strip.bits.data(), count}.write(columns, 0, to, lists, begin);
+  return StoredSpans<Index>{row.lights, bits, row.count}.write(window, 0, to, lists, begin);
 }
 
 // Strip by strip, from those spans that hold some of it. All are chosen first, so that none are read while they are
 // still being written.
-template <class Row, class Index>
-HWY_INLINE Index* lists_by_strips(const Row& row, const Columns& window, std::uint32_t strip, FewColumns& few,
-                                  Index* to, const Index* lists, std::uint32_t* begin) {
+template <class Index>
+HWY_INLINE Index* lists_by_strips(const RowSpans<Index>& row, const Columns& window, std::uint32_t strip,
+                                  FewColumns& few, Index* to, const Index* lists, std::uint32_t* begin) {
   const DU du;
   constexpr std::size_t k_strips = FewColumns::k_strips;
   std::size_t counts[k_strips] = {};
@@ -262,17 +196,22 @@ HWY_INLINE Index* lists_by_strips(const Row& row, const Columns& window, std::ui
     return Columns{from, std::min(window.end, from + strip)};
   };
   for (std::size_t i = 0; i < row.count; i += Lanes(du)) {
-    const Spans spans = spans_at(row, i);
+    const Spans spans(LoadU(du, row.columns + i));
+    const VU lights = loaded(row.lights + i), bits = spans.bits(window);
     const MU there = FirstN(du, row.count - i);
     for (std::size_t s = 0; s < k_strips; ++s) {
       const MU some = And(spans.some(columns_of(s)), there);
-      choose(row, i, spans, some, window, few.strips[s], counts[s]);
+      append(lights, some, few.strips[s].lights.data() + counts[s]);
+      append(bits, some, few.strips[s].bits.data() + counts[s]);
       counts[s] += CountTrue(du, some);
     }
   }
   for (std::size_t s = 0; s < k_strips; ++s) {
     const Columns columns = columns_of(s);
-    to = write_chosen(row, few.strips[s], counts[s], window, columns, to, lists, begin);
+    const FewColumns::Strip& chosen = few.strips[s];
+    StoreU(Zero(du), du, few.strips[s].bits.data() + counts[s]);
+    to = StoredSpans<std::uint32_t>{chosen.lights.data(), chosen.bits.data(), counts[s]}.write(
+        columns, columns.begin - window.begin, to, lists, begin);
   }
   return to;
 }
@@ -284,25 +223,8 @@ HWY_INLINE bool all_are_full(const RowSpans<Index>& row) {
     return ColumnSpan::first(span) <= row.column && ColumnSpan::last(span) + 1 >= row.end_column;
   });
 }
-HWY_INLINE bool all_are_full(const RowLightSpans& row) {
-  return std::all_of(row.spans, row.spans + row.count, [&](std::uint32_t span) {
-    return LightSpan::first(span) <= row.column && LightSpan::last(span) + 1 >= row.end_column;
-  });
-}
 
 // All of the row's lights for each column.
-HWY_INLINE std::uint32_t* equal_lists(const RowLightSpans& row, std::uint32_t* to, const std::uint32_t* lists,
-                                      std::uint32_t* begin) {
-  const DU du;
-  const VU first = lights_at(row, 0);
-  for (std::uint32_t column = row.column; column < row.end_column; ++column) {
-    begin[column] = static_cast<std::uint32_t>(to - lists);
-    StoreU(first, du, to);
-    for (std::size_t i = Lanes(du); i < row.count; i += Lanes(du)) StoreU(lights_at(row, i), du, to + i);
-    to += row.count;
-  }
-  return to;
-}
 template <class Index>
 HWY_INLINE Index* equal_lists(const RowSpans<Index>& row, Index* to, const Index* lists, std::uint32_t* begin) {
   const hn::ScalableTag<Index> d;
@@ -316,8 +238,9 @@ HWY_INLINE Index* equal_lists(const RowSpans<Index>& row, Index* to, const Index
   return to;
 }
 
-template <class Row, class Index>
-HWY_INLINE Index* lists_of(const Row& row, FewColumns& few, Index* to, const Index* lists, std::uint32_t* begin) {
+template <class Index>
+HWY_NOINLINE Index* lists_of(const RowSpans<Index>& row, FewColumns& few, Index* to, const Index* lists,
+                             std::uint32_t* begin) {
   const DU du;
   if (all_are_full(row)) return equal_lists(row, to, lists, begin);
   const std::uint32_t strip = strip_columns(row.end_column - row.column);
@@ -325,8 +248,8 @@ HWY_INLINE Index* lists_of(const Row& row, FewColumns& few, Index* to, const Ind
   for (std::uint32_t column = row.column; column < row.end_column; column += most) {
     const Columns window = {column, std::min(row.end_column, column + most)};
     if (row.count <= Lanes(du)) {
-      const VU bits = spans_at(row, 0).bits(window);
-      SpansInRegisters<1> spans(lights_at(row, 0), IfThenElseZero(FirstN(du, row.count), bits));
+      const VU bits = Spans(LoadU(du, row.columns)).bits(window);
+      SpansInRegisters<1> spans(loaded(row.lights), IfThenElseZero(FirstN(du, row.count), bits));
       to = spans.write(window, 0, to, lists, begin);
     } else if (are_narrow(row, window, strip)) {
       to = lists_by_strips(row, window, strip, few, to, lists, begin);
@@ -352,9 +275,32 @@ std::uint32_t* lists_32(const RowSpans<std::uint32_t>& row, FewColumns& few, std
   return lists_of(row, few, to, lists, begin);
 }
 
-std::uint32_t* lists_of_light_spans(const RowLightSpans& row, FewColumns& few, std::uint32_t* to,
-                                    const std::uint32_t* lists, std::uint32_t* begin) {
+// The row's lists, but for the hole's columns.
+HWY_INLINE std::uint32_t* lists_beside(const grid::IndexRange& hole, RowSpans<std::uint32_t> row, FewColumns& few,
+                                       std::uint32_t* to, const std::uint32_t* lists, std::uint32_t* begin) {
+  const std::uint32_t end_column = row.end_column;
+  row.end_column = static_cast<std::uint32_t>(hole.first);
+  to = lists_of(row, few, to, lists, begin);
+  std::fill_n(begin + hole.first, hole.count(), static_cast<std::uint32_t>(to - lists));
+  row.column = static_cast<std::uint32_t>(hole.last) + 1;
+  row.end_column = end_column;
   return lists_of(row, few, to, lists, begin);
+}
+
+std::uint32_t* lists_of_band(const BandSpans& band, const BandHole& hole, FewColumns& few, std::uint32_t* to,
+                             const std::uint32_t* lists, std::uint32_t* begin) {
+  for (std::uint32_t row = 0; row < band.rows; ++row, begin += band.row_columns) {
+    const std::size_t at = row * band.pitch;
+    const RowSpans<std::uint32_t> spans{band.lights + at, band.columns + at, band.sizes[row], 0,
+                                        band.row_columns, band.width};
+    if (spans.count == 0)
+      std::fill_n(begin, band.row_columns, static_cast<std::uint32_t>(to - lists));
+    else if (hole.columns.empty() || !hole.rows.holds(static_cast<int>(row)))
+      to = lists_of(spans, few, to, lists, begin);
+    else
+      to = lists_beside(hole.columns, spans, few, to, lists, begin);
+  }
+  return to;
 }
 
 // A vector of cells at a time gathers the bits of all lights of one word.
@@ -393,7 +339,7 @@ namespace clusterbench::assign {
 HWY_EXPORT(lists_8);
 HWY_EXPORT(lists_16);
 HWY_EXPORT(lists_32);
-HWY_EXPORT(lists_of_light_spans);
+HWY_EXPORT(lists_of_band);
 HWY_EXPORT(bits_of);
 
 std::uint8_t* write_row_lists(const RowSpans<std::uint8_t>& row, FewColumns& few, std::uint8_t* to,
@@ -414,10 +360,10 @@ std::uint32_t* write_row_lists(const RowSpans<std::uint32_t>& row, FewColumns& f
   return HWY_DYNAMIC_DISPATCH(lists_32)(row, few, to, lists, begin);
 }
 
-std::uint32_t* write_row_lists(const RowLightSpans& row, FewColumns& few, std::uint32_t* to, const std::uint32_t* lists,
-                               std::uint32_t* begin) {
-  few.make_room(row.count);
-  return HWY_DYNAMIC_DISPATCH(lists_of_light_spans)(row, few, to, lists, begin);
+std::uint32_t* write_band_lists(const BandSpans& band, const BandHole& hole, FewColumns& few, std::uint32_t* to,
+                                const std::uint32_t* lists, std::uint32_t* begin) {
+  few.make_room(band.rows == 0 ? 0 : *std::max_element(band.sizes, band.sizes + band.rows));
+  return HWY_DYNAMIC_DISPATCH(lists_of_band)(band, hole, few, to, lists, begin);
 }
 
 void write_row_bits(const RowSpans<std::uint32_t>& row, std::uint32_t words_per_cell, std::uint32_t* words) {

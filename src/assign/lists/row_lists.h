@@ -10,6 +10,7 @@
 
 #include "assign/simd/lanes.h"
 #include "core/aligned_vector.h"
+#include "grid/index_range.h"
 
 namespace clusterbench::assign {
 
@@ -31,22 +32,16 @@ struct RowSpans {
   std::uint32_t width = 0;  // about how many columns spans have: says only which way to take
 };
 
-// A span and its light in one number, where there are so few columns and lights: half the bytes to move about.
-struct LightSpan {
-  static constexpr std::uint32_t k_most_columns = 0xff, k_most_lights = 0x10000;
-  static constexpr std::uint32_t k_none = 0xffff;  // a span without columns
-  static constexpr std::uint32_t of(std::uint32_t first, std::uint32_t last, std::uint32_t light) {
-    return first | last << 8 | light << 16;
-  }
-  static constexpr std::uint32_t first(std::uint32_t span) { return span & 0xff; }
-  static constexpr std::uint32_t last(std::uint32_t span) { return span >> 8 & 0xff; }
-};
-
-// RowSpans of these.
-struct RowLightSpans {
-  const std::uint32_t* spans;  // LightSpan
-  std::uint32_t count, column, end_column;
+// A band of rows, each `pitch` spans behind the one before it.
+struct BandSpans {
+  const std::uint32_t *sizes, *columns, *lights;
+  std::size_t pitch;
+  std::uint32_t rows, row_columns;
   std::uint32_t width = 0;
+};
+// Cells that take no lights: spans may cover them, their lists stay empty.
+struct BandHole {
+  grid::IndexRange rows, columns;
 };
 
 // For each of some strips of a few columns: lights whose spans hold some of it, and a bit for each column. Keeps its
@@ -81,8 +76,9 @@ std::uint16_t* write_row_lists(const RowSpans<std::uint16_t>& row, FewColumns& f
 std::uint32_t* write_row_lists(const RowSpans<std::uint32_t>& row, FewColumns& few, std::uint32_t* to,
                                const std::uint32_t* lists, std::uint32_t* begin);
 
-std::uint32_t* write_row_lists(const RowLightSpans& row, FewColumns& few, std::uint32_t* to, const std::uint32_t* lists,
-                               std::uint32_t* begin);
+// Row after row of all columns; begin counts on from row to row.
+std::uint32_t* write_band_lists(const BandSpans& band, const BandHole& hole, FewColumns& few, std::uint32_t* to,
+                                const std::uint32_t* lists, std::uint32_t* begin);
 
 // Light l of column c is bit l % 32 of words[c * words_per_cell + l / 32]. All words of these columns are written.
 void write_row_bits(const RowSpans<std::uint32_t>& row, std::uint32_t words_per_cell, std::uint32_t* words);

@@ -48,7 +48,7 @@ class SliceLists {
     tests_ = lights.size();
     next_slice_ = 0;
     spans_.start(static_cast<std::uint32_t>(grid_cells_.z), static_cast<std::uint32_t>(grid_cells_.y),
-                 static_cast<std::uint32_t>(grid_cells_.x), lights.size(), out);
+                 static_cast<std::uint32_t>(grid_cells_.x), out);
   }
 
   // The grid's next slices, which the balls' boxes count from 0. find(batch, rows) finds a batch's rows.

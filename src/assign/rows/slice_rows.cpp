@@ -57,7 +57,9 @@ struct BallRows {
   HWY_INLINE MI are_full() const { return Ne(full, Zero(DI())); }
   // Those of the others that may touch a row.
   HWY_INLINE MI others_in(int row) const {
-    return And(first<all_int(row + 1), first + AndNot(full, count)> all_int(row));
+    const VI end = first + AndNot(full, count);
+    const MI has_begun = first < all_int(row + 1);
+    return And(has_begun, end > all_int(row));
   }
 };
 
