@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <deque>
+#include <optional>
 #include <set>
 
 #include "assign/contract/storage.h"
@@ -15,11 +17,6 @@ namespace clusterbench::pictures {
 namespace {
 
 constexpr int k_strip_frames = 8, k_strip_longest_side = 240;
-
-const scene::Geometry* geometry_of(const run::SceneData& data, const std::optional<scene::Geometry>& loaded) {
-  if (data.geometry) return &*data.geometry;
-  return loaded ? &*loaded : nullptr;
-}
 
 // A frame as all cases of a group see it.
 struct PicturedFrame {
@@ -57,12 +54,16 @@ class Drawing {
           const LongestLists& longest, const Listener& listener, const std::atomic<bool>& stop)
       : config_(config),
         plan_(plan),
-        geometries_(geometries),
         request_(request),
         longest_(longest),
         listener_(listener),
         stop_(stop),
-        total_(picture_count(plan, request)) {}
+        total_(picture_count(plan, request)) {
+    for (std::size_t i = 0; i < plan.scenes.size(); ++i) {
+      own_depths_.emplace_back();
+      if (geometries[i] && !geometries[i]->empty()) own_depths_[i].emplace(plan.scenes[i].scene, *geometries[i]);
+    }
+  }
 
   void draw() {
     for (const run::GroupPlan& group : plan_.groups)
@@ -79,16 +80,20 @@ class Drawing {
 
   void draw_group(const run::GroupPlan& plan) {
     const run::SceneData& data = plan_.scenes[plan.scene];
-    Group group{plan,
-                {data.scene, data.paths[plan.camera], config_.viewports[plan.viewport],
-                 geometry_of(data, geometries_[plan.scene])},
-                {}};
+    Group group{
+        plan, {data.scene, data.paths[plan.camera], config_.viewports[plan.viewport], depths_of(plan.scene)}, {}};
     for (const run::CasePlan& one : plan.cases)
       if (can_picture(group, one)) group.cases.push_back(&one);
     if (group.cases.empty()) return;
     for (const int frame : frames_of(group))
       if (!stop_) draw_frame(group, frame);
     if (request_.wants(Kind::strip) && !stop_) draw_strips(group);
+  }
+
+  // nullptr: of a scene without triangles.
+  run::FrameDepths* depths_of(std::size_t scene) {
+    if (plan_.scenes[scene].depths) return plan_.scenes[scene].depths.get();
+    return own_depths_[scene] ? &*own_depths_[scene] : nullptr;
   }
 
   // What is cut to the depths of visible surfaces has nothing to say of a plane.
@@ -294,7 +299,6 @@ class Drawing {
 
   const config::Config& config_;
   const run::Plan& plan_;
-  const Geometries& geometries_;
   const Request& request_;
   const LongestLists& longest_;
   const Listener& listener_;
@@ -302,6 +306,7 @@ class Drawing {
   std::uint64_t total_ = 0, done_ = 0;
   FileNames names_;
   std::set<std::filesystem::path> depths_;
+  std::deque<std::optional<run::FrameDepths>> own_depths_;  // of each scene whose depths no method needs
 };
 
 }  // namespace

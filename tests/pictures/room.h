@@ -75,7 +75,8 @@ struct Looked {
 inline Looked look_at(const Room& room, int divisor = 1) {
   const run::GroupPlan& group = room.plan.groups.front();
   const run::SceneData& data = room.plan.scenes.front();
-  const run::PathFrames path(data.scene, data.paths.front(), room.config.viewports.front(), &*room.geometries.front());
+  run::FrameDepths depths(data.scene, *room.geometries.front());
+  const run::PathFrames path(data.scene, data.paths.front(), room.config.viewports.front(), &depths);
   Looked out;
   out.frame = path.frame(0);
   run::GridOfFrames grids(room.config.grids.front());
