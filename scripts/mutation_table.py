@@ -549,9 +549,9 @@ MUTATIONS = [
              "const V least = all(0.0f) * (slack * radius)",
              "assign.ExactFast.gives_the_lists_of_exact_on_every_target",
              "exact-fast lists lights that miss a cell by a hair"),
-    Mutation("fast-lists-right-of-hole-lost", "assign/lists/list_builder.cpp",
-             "spans.column = static_cast<std::uint32_t>(hole.last) + 1;",
-             "spans.column = static_cast<std::uint32_t>(hole.last) + 2;",
+    Mutation("fast-lists-right-of-hole-lost", "assign/lists/row_lists.cpp",
+             "row.column = static_cast<std::uint32_t>(hole.last) + 1;",
+             "row.column = static_cast<std::uint32_t>(hole.last) + 2;",
              "assign.CascadesFast.gives_the_lists_of_cascades_on_every_target",
              "cascades-fast loses a column beside each finer level"),
     # --- measure: the truth ---

@@ -133,6 +133,8 @@ TEST(CommandLine, list_names_every_assigner_with_its_parameters) {
                                              "tiled-2.5d",
                                              "flagged",
                                              "explicit",
+                                             "tile-slices",
+                                             "deferred",
                                              "naive-bounds",
                                              "naive-refinement",
                                              "naive-planes",
