@@ -117,7 +117,7 @@ std::vector<Trial> in_another_order(std::uint64_t seed) {
 
 // The index of a light where each type's lights stand the other way round.
 std::uint32_t reversed_within_type(std::uint32_t light, const view::LightRanges& ranges) {
-  const view::LightRange& type = ranges.types()[ranges.type_of(light)];
+  const view::LightRange type = ranges.types()[ranges.type_of(light)];
   return type.first + type.end() - 1 - light;
 }
 
