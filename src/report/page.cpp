@@ -10,6 +10,8 @@
 namespace clusterbench::report {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 void replace_all(std::string& text, std::string_view found, std::string_view replacement) {
   for (std::size_t at = text.find(found); at != std::string::npos; at = text.find(found, at + replacement.size()))
     text.replace(at, found.size(), replacement);
@@ -18,7 +20,7 @@ void replace_all(std::string& text, std::string_view found, std::string_view rep
 }  // namespace
 
 // "<" stands in no JSON but in strings; U+2028 and U+2029 end lines in scripts.
-std::string script_json(const nlohmann::ordered_json& value) {
+std::string script_json(const Json& value) {
   std::string text = value.dump();
   replace_all(text, "<", "\\u003c");
   replace_all(text, "\u2028", "\\u2028");
@@ -26,7 +28,7 @@ std::string script_json(const nlohmann::ordered_json& value) {
   return text;
 }
 
-std::string filled_page(std::string_view page_template, const nlohmann::ordered_json& data, const char* command) {
+std::string filled_page(std::string_view page_template, const Json& data, const char* command) {
   if (!page_obstacle().empty()) throw Error("", command, std::string(page_obstacle()));
   std::string html(page_template);
   return html.replace(html.find(k_results_mark), k_results_mark.size(), script_json(data));
@@ -34,7 +36,6 @@ std::string filled_page(std::string_view page_template, const nlohmann::ordered_
 
 std::string page(const std::vector<NamedResult>& results, const std::string& command,
                  const std::vector<PagePicture>& pictures) {
-  using Json = nlohmann::ordered_json;
   Json data{{"command", command}, {"results", Json::array()}, {"pictures", Json::array()}};
   for (const NamedResult& named : results)
     data["results"].push_back({{"file", named.file},
