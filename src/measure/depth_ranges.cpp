@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/memory.h"
+
 namespace clusterbench::measure {
 namespace {
 
@@ -60,6 +62,11 @@ class Picture {
  public:
   Picture(const depth::DepthImage& image, std::span<const grid::Sample> samples, const grid::ScreenGrid& grid)
       : size_(image.pixels.size), is_orthographic_(grid.tiles.orthographic), tile_count_(tiles_in(grid)) {
+    const std::size_t cell_count = tile_count_ * static_cast<std::size_t>(grid.slices.count());
+    check_memory("depths of pixels and their cells", image.nearest.size(), sizeof(double) + sizeof(std::int64_t));
+    check_memory("ranges of depth in cells", cell_count, sizeof(Span));
+    cells_.reserve(image.nearest.size());
+    depths_.reserve(image.nearest.size());
     std::size_t next = 0;
     for (const float depth : image.nearest) {
       std::int64_t cell = k_nothing;
@@ -71,7 +78,7 @@ class Picture {
       depths_.push_back(static_cast<double>(depth));
     }
     tiles_.resize(tile_count_);
-    spans_.resize(tile_count_ * static_cast<std::size_t>(grid.slices.count()));
+    spans_.resize(cell_count);
     each_pixel([&](std::size_t pixel, Tile& tile) {
       tile.depth.add(depths_[pixel]);
       tile.evenly.add(evenly(pixel));

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/error.h"
+#include "core/memory.h"
 #include "core/random.h"
 #include "measure/samples.h"
 
@@ -102,6 +104,19 @@ double exact_length(const std::vector<float>& depths, int parts) {
       return std::min(parts - 1, static_cast<int>(parts * ((static_cast<double>(depth) - near) / length))) == part;
     });
   return occupied * (length / parts);
+}
+
+TEST(DepthRanges, take_no_more_memory_than_the_limit) {
+  const view::Frame frame = frame_of({32, 32}, false);
+  const depth::DepthImage image{depth::PixelGrid(frame.viewport, 1), std::vector<float>(1024, 3.0f)};
+  const std::vector<grid::Sample> samples = opaque_samples(frame, image);
+  DepthRanges ranges;
+  {
+    const MemoryLimitScope little(1024 * 16 - 1);  // 16 bytes for each pixel
+    EXPECT_THROW(add_frame(ranges, image, samples, octaves(frame)), Error);
+  }
+  const MemoryLimitScope enough(1024 * 16);
+  EXPECT_NO_THROW(add_frame(ranges, image, samples, octaves(frame)));
 }
 
 TEST(DepthRanges, are_those_of_a_loop_over_all_pixels) {

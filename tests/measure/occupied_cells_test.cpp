@@ -8,6 +8,7 @@
 #include "assign/occupied/depth_parts.h"
 #include "assign/settings.h"
 #include "core/error.h"
+#include "core/memory.h"
 #include "effort.h"
 #include "geom/light_meets_cell.h"
 #include "measure/list_errors.h"
@@ -153,6 +154,16 @@ TEST(OccupiedCells, every_pixel_lies_in_one_part_of_its_cell_and_no_part_is_with
       }
       EXPECT_EQ(std::ranges::count(holds_pixel, false), 0) << row->name << " on " << setting.name;
     }
+}
+
+TEST(OccupiedCells, are_refused_before_they_take_more_memory_than_the_limit) {
+  for (const AssignerDescriptor* row : rows_with_cells()) {
+    const Setting setting = assign::testing::settings_for(*row, 7).front();
+    const AssignerRun run = run_of(*row, assign::Params(row->params), setting);
+    ASSERT_GT(run.structure()->occupied_cells().parts.size(), 100u) << row->name;
+    const MemoryLimitScope little(100 * sizeof(geom::FrustumCell));
+    EXPECT_THROW(run.structure()->occupied_cells(), Error) << row->name;
+  }
 }
 
 TEST(OccupiedCells, truth_is_what_each_part_by_itself_is_decided_to_be) {

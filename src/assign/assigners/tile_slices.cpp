@@ -117,14 +117,13 @@ class TileSliceLists final : public LightStructure {
     const std::vector<std::vector<float>> begins = begins_of_tiles();
     grid::OccupiedCells out;
     out.counts = grid_->cells();
-    out.begin.assign(1, 0);
     for (std::uint32_t cell = 0; cell < grid_->cell_count(); ++cell) {
       const std::size_t tile = cell % slicings_.size(), slice = cell / slicings_.size();
       geom::FrustumCell part = std::get<geom::FrustumCell>(grid_->cell(cell));
       part.depth0 = begins[tile][slice];
       part.depth1 = begins[tile][slice + 1];
       if (part.depth0 < part.depth1) out.parts.push_back(part);
-      out.begin.push_back(static_cast<std::uint32_t>(out.parts.size()));
+      out.end_cell();
     }
     return out;
   }

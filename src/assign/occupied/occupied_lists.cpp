@@ -73,7 +73,6 @@ grid::OccupiedCells OccupiedLists::occupied_cells() const {
   grid::OccupiedCells out;
   out.counts = grid_->cells();
   if (!has_slices(bounds_)) out.counts.z = 1;
-  out.begin.assign(1, 0);
   for (std::uint32_t cell = 0; cell < cells_.depths.size(); ++cell) {
     if (!cells_.depths.empty(cell)) {
       geom::FrustumCell part = std::get<geom::FrustumCell>(grid_->cell(cell));
@@ -86,7 +85,7 @@ grid::OccupiedCells OccupiedLists::occupied_cells() const {
       else
         out.parts.push_back(part);
     }
-    out.begin.push_back(static_cast<std::uint32_t>(out.parts.size()));
+    out.end_cell();
   }
   return out;
 }
