@@ -129,17 +129,6 @@ HWY_INLINE VI whole(V number) {
   return Xor(BitCast(DI(), number + all(0x1p23f)), BitCast(DI(), all(0x1p23f)));
 }
 
-// The sums of the lanes up to each one.
-HWY_INLINE VI sums(VI values) {
-  const VI lane = Iota(DI(), 0);
-  const auto n = static_cast<std::int32_t>(Lanes(DI()));
-  for (std::int32_t step = 1; step < n; step *= 2) {
-    const Which before = IndicesFromVec(DI(), And(lane - all_int(step), all_int(n - 1)));
-    values = values + IfThenElseZero(lane > all_int(step - 1), taken(values, before));
-  }
-  return values;
-}
-
 // Of a square that rounding may have made negative.
 HWY_INLINE V root(V square) {
   return Sqrt(Max(square, Zero(D())));
