@@ -365,7 +365,7 @@ TEST(Run, a_grid_that_ends_before_the_lights_looks_no_better_than_it_is) {
   EXPECT_GT(ends["shading"]["unlit"], 0.05);
   EXPECT_EQ(ends["shading"]["missed_in_cells"], 0);
   EXPECT_TRUE(ends["shading"]["overshade"].is_null());
-  EXPECT_EQ(result["pareto_front"][0]["ids"], Json({holds["id"]})) << result["pareto_front"];
+  EXPECT_EQ(result["pareto_front"][0]["ids"], Json::array({holds["id"]})) << result["pareto_front"];
   const Outcome shown = run.table_of("");
   EXPECT_EQ(shown.code, 0);
   EXPECT_NE(shown.err.find(" outside of the grid; most in frame 0, "), std::string::npos) << shown.err;
@@ -385,7 +385,7 @@ TEST(Run, a_storage_that_drops_lights_fails_the_run_unless_it_may) {
   EXPECT_LT(fixed["buffers"]["bytes"]["high_water"], packed["buffers"]["bytes"]["high_water"]);
   EXPECT_GT(fixed["buffers"]["overflow"]["dropped_pairs"], 1000);
   EXPECT_GT(fixed["shading"]["unlit"], 0.05);
-  EXPECT_EQ(result["pareto_front"][0]["ids"], Json({packed["id"]})) << result["pareto_front"];
+  EXPECT_EQ(result["pareto_front"][0]["ids"], Json::array({packed["id"]})) << result["pareto_front"];
   const Outcome fails = run.table_of("");
   EXPECT_EQ(fails.code, 1);
   EXPECT_NE(fails.err.find("  dropped  "), std::string::npos) << fails.err;
