@@ -2,9 +2,9 @@
 """Gives every command that reads results some that the schema allows and this program would not write: each optional key left out
 in turn, each value that may be null set to null, lists emptied; with --zero also each number that may be 0 set to 0. A command may refuse
 one with a clear message (exit codes 1 to 4); it must not crash, nor end with an error of its own (70). With --together N so many changes
-are made to one result; where a command refuses it, which hides the rest, each is tried alone.
+are made to one result; where a command refuses it, which hides the rest, each is tried alone. With --every N one of N changes is tried.
 
-usage: test_partial_results.py PROGRAM SCENE [--zero] [--together N]"""
+usage: test_partial_results.py PROGRAM SCENE [--zero] [--together N] [--every N]"""
 
 import concurrent.futures
 import copy
@@ -174,16 +174,19 @@ def groups(changes, size):
     return [group for group in out if group]
 
 
+def option(name):
+    return int(sys.argv[sys.argv.index(name) + 1]) if name in sys.argv else 1
+
+
 def main():
     program, scene = str(pathlib.Path(sys.argv[1]).resolve()), pathlib.Path(sys.argv[2]).resolve()
     schema = json.loads(subprocess.run([program, "schema", "result"], capture_output=True, text=True, check=True).stdout)
     with tempfile.TemporaryDirectory() as name:
         whole = reduced(measured(program, pathlib.Path(name), scene))
-    together = int(sys.argv[sys.argv.index("--together") + 1]) if "--together" in sys.argv else 1
     changes = [(path, what) for path, what in places(schema, schema)
-               if path and (what != "zero" or "--zero" in sys.argv) and changed(whole, path, what) is not None]
+               if path and (what != "zero" or "--zero" in sys.argv) and changed(whole, path, what) is not None][::option("--every")]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        faults = sum(pool.map(lambda group: faults_of(program, group, whole), [[], *groups(changes, together)]))
+        faults = sum(pool.map(lambda group: faults_of(program, group, whole), [[], *groups(changes, option("--together"))]))
     print(f"{len(changes)} changes, {faults} faults")
     return 1 if faults or len(changes) < 100 else 0
 

@@ -9,6 +9,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   return fuzz::answered([&] {
     const nlohmann::ordered_json result = report::read_result(fuzz::written(data, size, ".json").string());
     static_cast<void>(report::gate_failures(result));
-    static_cast<void>(report::fronts(result["scenes"], result["cases"], 1));
+    static_cast<void>(report::fronts(result["scenes"], result["cases"], result));
   });
 }
