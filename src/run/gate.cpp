@@ -63,11 +63,12 @@ bool is_at_surfaces(const CaseResult& result) {
   return assigner != nullptr && assigner->at_surfaces;
 }
 
-// A method that promises the lights of visible surfaces answers for them, but for what lookups round.
+// A method that promises the lights of visible surfaces answers for them, but for what lookups round and for surfaces
+// beyond the grid.
 bool misses_at_surfaces(const CaseResult& result) {
   if (!is_at_surfaces(result)) return false;
   return std::ranges::any_of(result.samples, [](const SampleSetResult& set) {
-    return set.set == measure::SampleSet::opaque && set.counts.unlit() > measure::k_most_unlit;
+    return set.set == measure::SampleSet::opaque && set.counts.unlit_inside() > measure::k_most_unlit;
   });
 }
 
@@ -85,7 +86,7 @@ std::string missed_without_cells_text(const CaseResult& result) {
   if (const SampleSetResult* set = missing_set(result, has_cells(result) || is_at_surfaces(result)))
     return "lost " + std::to_string(set->counts.missed - set->counts.missed_outside) + " of " +
            number_of(set->counts.needed, "light") + " that its " + measure::name_of(set->set) + " samples need";
-  const measure::LookupCounts& lookup = *plain_lookup(result);
+  const measure::LookupCounts& lookup = *plain_lookup(result);  // misses_without_cells(), and nothing of the above
   return "lost " + std::to_string(lookup.missed) + " of " + number_of(lookup.needed, "light") +
          " that the samples of its lookup need";
 }

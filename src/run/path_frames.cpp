@@ -47,7 +47,8 @@ std::shared_ptr<const depth::DepthImage> depths_for(const config::Config& config
 }
 
 double sample_far(const view::Frame& frame, double path_far_m) {
-  return std::max(std::min(frame.projection.far_m, path_far_m), 2.0 * std::abs(frame.projection.near_m) + 1.0);
+  const double near = frame.projection.near_m;
+  return std::min(frame.projection.far_m, std::max(path_far_m, near > 0.0 ? 2.0 * near : 2.0 * -near + 1.0));
 }
 
 std::vector<int> evenly_spaced(int wanted, int path_frames) {

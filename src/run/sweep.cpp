@@ -362,7 +362,8 @@ std::string set_obstacle(const config::SampleSetRequest& request, const SceneDat
   const bool has_bounds = std::ranges::any_of(data.scene.lights, [](const scene::Light& light) {
     return light.type != scene::LightType::directional && std::isfinite(geom::range_in_domain(light.range_m));
   });
-  return request.needs_bounds() && !has_bounds ? "no light of the scene has an end" : "";
+  if (!request.needs_bounds() || has_bounds) return "";
+  return data.scene.lights.empty() ? "the scene has no lights" : "no light of the scene has an end";
 }
 
 std::vector<Method> methods_of(const GroupPlan& group) {

@@ -53,13 +53,13 @@ struct RoomRun {
 };
 
 RoomRun run_of(const std::string& scene, const std::string& rest,
-               const std::string& assigners = R"("exact-fast", "bvh")") {
+               const std::string& assigners = R"("exact-fast", "bvh")", const std::string& slices = R"("far": 40)") {
   const scene::test::Folder folder;
   folder.write("room.gltf", scene);
   const config::Config config = config::parse_config(
       R"({"scenes": ["room.gltf"], "viewport": [64, 48], "timing": {"measure": false}, "grids": [{"tiles": {"count": [4, 4]},
-          "slices": {"count": 8, "near": 0.1, "far": 40}}], "shading": {"samples": 0}, "assigners": [)" +
-          assigners + "]" + rest + "}",
+          "slices": {"count": 8, "near": 0.1, )" +
+          slices + R"(}}], "shading": {"samples": 0}, "assigners": [)" + assigners + "]" + rest + "}",
       folder.path() / "c.json");
   RoomRun out;
   out.plan = make_plan(config, "");
@@ -328,6 +328,41 @@ TEST(DepthMethods, that_lose_a_light_on_a_surface_fail_and_in_the_air_do_not) {
   case_result.samples[0].counts.missed = case_result.samples[0].counts.needed / 2;
   ASSERT_EQ(failures_of(case_result, {}).size(), 1u);
   EXPECT_NE(failures_of(case_result, {})[0].text.find("that its opaque samples need"), std::string::npos);
+}
+
+TEST(DepthMethods, do_not_fail_for_surfaces_beyond_the_grid_which_no_list_can_have) {
+  const RoomRun run =
+      run_of(room(), R"(, "samples": {"opaque": {}})", k_all_depth_methods, R"("scheme": "exponential", "far": 5)");
+  for (const char* name : {"flagged", "explicit"}) {
+    const CaseResult& case_result = case_named(run, name);
+    const measure::ShadingCounts& counts = counts_of(case_result, measure::SampleSet::opaque);
+    EXPECT_GT(counts.missed_outside, 0u) << name;
+    EXPECT_EQ(counts.missed, counts.missed_outside) << name;
+    EXPECT_TRUE(case_result.failures.empty()) << name << ": " << case_result.failures[0].text;
+  }
+}
+
+TEST(DepthMethods, are_not_asked_for_lights_in_the_air_through_the_lookup) {
+  const RoomRun run = run_of(room(), R"(, "samples": {"opaque": {}}, "lookup": {"samples": 200})", k_all_depth_methods);
+  for (const CaseResult& case_result : run.result.cases) {
+    EXPECT_TRUE(case_result.failures.empty()) << case_result.name << ": " << case_result.failures[0].text;
+    EXPECT_TRUE(case_result.lookup.empty()) << case_result.name;
+  }
+}
+
+// Lights within 1 m before a camera that sees no farther.
+TEST(FrameSamples, are_within_what_the_camera_sees_in_scenes_of_any_unit) {
+  Json small = Json::parse(room(false));
+  small["cameras"][0]["perspective"]["znear"] = 0.01;
+  small["cameras"][0]["perspective"]["zfar"] = 0.5;
+  small["extensions"]["KHR_lights_punctual"]["lights"][0]["range"] = 0.3;
+  small["nodes"][1]["translation"] = {0, 0, -0.3};
+  small["nodes"][2]["translation"] = {0, 0, -0.8};
+  const RoomRun run = run_of(small.dump(), R"(, "samples": {"fog": {"froxels": [8, 8, 8]}})", R"("exact-fast")",
+                             R"("scheme": "exponential", "far": 0.5)");
+  const measure::ShadingCounts& fog = counts_of(run.result.cases.at(0), measure::SampleSet::fog);
+  EXPECT_GT(fog.needed, 20u);
+  EXPECT_EQ(fog.missed, 0u);
 }
 
 TEST(DepthMethods, of_a_scene_without_triangles_are_skipped_with_the_reason) {

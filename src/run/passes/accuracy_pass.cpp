@@ -76,7 +76,10 @@ class MethodMeter {
 
 class CaseMeter {
  public:
-  CaseMeter(const config::Config& config, const CasePlan& plan) : method_(plan.method()), buffers_(config.allocation) {
+  CaseMeter(const config::Config& config, const CasePlan& plan)
+      : method_(plan.method()),
+        asks_lookup_(!assign::find_assigner(config.assigners[plan.assigner].name)->at_surfaces),
+        buffers_(config.allocation) {
     for (const config::SampleSetRequest& request : config.sample_sets)
       measures_.samples.push_back({request.set, {}, {}});
     if (!plan.storage) return;
@@ -91,7 +94,7 @@ class CaseMeter {
     }
     const assign::LightStructure& structure = storage_ ? *storage_ : *method.run().structure();
     buffers_.add_frame(now.frame.index, structure, method.cell_lists(), method.run().scratch_bytes());
-    if (now.lookup && !structure.has_occupied_cells()) now.lookup->add(structure, measures_.lookup);
+    if (now.lookup && asks_lookup_ && !structure.has_occupied_cells()) now.lookup->add(structure, measures_.lookup);
     structure_ = &structure;
   }
 
@@ -114,6 +117,7 @@ class CaseMeter {
 
  private:
   Method method_;
+  bool asks_lookup_;                                   // its samples are anywhere in the view
   std::unique_ptr<assign::Storage> storage_;           // none: the method's own structure
   const assign::LightStructure* structure_ = nullptr;  // of the current frame
   measure::BufferMeter buffers_;
