@@ -92,6 +92,42 @@ TEST(Deferred, a_spot_shades_the_pixels_in_its_cone_or_with_its_ball_alone_those
   EXPECT_GT(drawn(setting, {{"spot", std::string("ball")}}).structure()->use().index_entries, 1.5 * disk);
 }
 
+TEST(Deferred, a_ball_that_the_near_plane_cuts_is_drawn_beyond_it_alone_whatever_the_grid) {
+  for (const bool orthographic : {false, true}) {
+    std::vector<std::uint64_t> drawn_on;
+    for (const int tiles : {1, 5, 100}) {
+      // Its widest part, of slope 0.89 (orthographic: of 0.4 m), lies before the near plane; a disk of 0.19 m is left
+      // of it.
+      Setting setting = wall_at(5, {assign::testing::point_light({0, 0, -0.6}, 0.4)});
+      setting.frame.projection.orthographic = orthographic;
+      setting.frame.projection.near_m = 0.95;
+      grid::GridSpec spec;
+      spec.tiles = {{0, 0}, {tiles, tiles}};
+      spec.slices = {.scheme = grid::Scheme::list, .boundaries_m = {0.5, 100}};
+      setting.grid = grid::make_grid(spec, grid::grid_inputs(spec, setting.frame, 0.0, {}, {}));
+      drawn_on.push_back(pixels_of(setting, "none").drawn);
+    }
+    const double radius = std::sqrt(0.4 * 0.4 - 0.35 * 0.35) / (orthographic ? 1.0 : 0.95);
+    EXPECT_NEAR(static_cast<double>(drawn_on[0]), std::numbers::pi * radius * radius * 1e4, 30) << orthographic;
+    EXPECT_EQ(drawn_on, std::vector<std::uint64_t>(3, drawn_on[0])) << orthographic;
+  }
+}
+
+TEST(Deferred, one_pass_with_back_sides_shades_what_is_before_the_balls_far_side_spots_alike) {
+  // A wall between the ball's middle and its far side, which is at 13 m; the cone is a disk of 1.9 m there.
+  const Setting setting = wall_at(11, {assign::testing::spot_light({0, 0, -5}, 8, {0, 0, -1}, 0.3)});
+  const std::uint64_t none = pixels_of(setting, "none").shaded, back = pixels_of(setting, "back").shaded;
+  EXPECT_GT(back, 1.5 * static_cast<double>(pixels_of(setting, "both").shaded));
+  EXPECT_LE(back, none);
+}
+
+TEST(Deferred, a_spots_cone_holds_however_far_it_reaches) {
+  const auto shaded = [](double range) {
+    return pixels_of(wall_at(20, {assign::testing::spot_light({0, 0, 0}, range, {0, 0, -1}, 0.1)}), "both").shaded;
+  };
+  for (const double range : {1e6, 1e14, std::numeric_limits<double>::infinity()}) EXPECT_EQ(shaded(range), shaded(100));
+}
+
 TEST(Deferred, each_pixel_has_the_lights_that_reach_it_and_hardly_another) {
   const assign::AssignerDescriptor& row = *assign::find_assigner("deferred");
   for (Setting setting : assign::testing::settings_for(row, 71)) {

@@ -34,12 +34,13 @@ struct PixelBytes {
 struct DrawnLight {
   TestedLight of;
   Vec2i first{0}, last{-1};  // pixels
-  float slack = 0.0f;        // how far off a surface's point in the light can be
+  float apex_reach = 0.0f;   // |x| + |y| + |z|
 };
 
 // The picture's pixels: through their centres go rays of these slopes, or (orthographic) from these places.
 struct Picture {
   bool orthographic = false;
+  float near = 0.0f;
   std::vector<float> x, y;
   std::vector<float> depths;
 
@@ -50,6 +51,7 @@ struct Picture {
 
   void take(const view::Frame& frame, const depth::DepthImage& image) {
     orthographic = frame.projection.orthographic;
+    near = static_cast<float>(frame.projection.near_m);
     x.clear();
     y.clear();
     const auto at = [&](double column, double row) {
@@ -65,46 +67,51 @@ struct Picture {
 // Whether a light shades a pixel.
 class PixelTest {
  public:
-  PixelTest(const Picture& picture, const DrawnLight& light, DepthTest test)
+  // `slack`: how far off a surface's point can be, of all coordinates that it is compared by.
+  PixelTest(const Picture& picture, const DrawnLight& light, DepthTest test, float slack)
       : picture_(picture),
         light_(light),
         test_(test),
+        slack_(slack),
         center_(light.of.ball.center),
         square_(light.of.ball.radius * light.of.ball.radius) {}
 
-  // The pixel's ray meets the ball before the eye.
-  bool is_drawn(float x, float y) const {
+  // The depth at which the pixel's ray leaves the ball; below the near plane's where it does not meet the ball before
+  // that.
+  float far_side(float x, float y) const {
+    const float missed = -std::numeric_limits<float>::infinity();
     if (picture_.orthographic) {
-      const float dx = x - center_.x, dy = y - center_.y;
-      return dx * dx + dy * dy <= square_;
+      const float dx = x - center_.x, dy = y - center_.y, square = square_ - (dx * dx + dy * dy);
+      return square >= 0.0f ? std::sqrt(square) - center_.z : missed;
     }
     const Vec3f moment{-center_.y - center_.z * y, center_.z * x + center_.x, center_.x * y - center_.y * x};
-    return dot(moment, moment) <= square_ * (x * x + y * y + 1.0f) && (middle(x, y) > 0.0f || holds_eye());
+    const float length = x * x + y * y + 1.0f, square = square_ * length - dot(moment, moment);
+    return square >= 0.0f ? (center_.x * x + center_.y * y - center_.z + std::sqrt(square)) / length : missed;
   }
+  // Whether the ball, of which the near plane cuts off what is before it, covers the pixel.
+  bool is_drawn(float far_side) const { return far_side >= picture_.near; }
 
-  bool is_shaded(float x, float y, float depth, bool drawn) const {
+  bool is_shaded(float x, float y, float depth, float far_side) const {
     if (!(depth < std::numeric_limits<float>::infinity())) return false;
     if (reaches(picture_.orthographic ? Vec3f{x, y, -depth} : Vec3f{x * depth, y * depth, -depth})) return true;
-    if (!drawn || test_ == DepthTest::both) return false;
-    return test_ == DepthTest::none || depth < middle(x, y);  // in front of the far side
+    if (!is_drawn(far_side) || test_ == DepthTest::both) return false;
+    return test_ == DepthTest::none || depth <= far_side;
   }
 
  private:
   static float dot(const Vec3f& a, const Vec3f& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-  bool holds_eye() const { return dot(center_, center_) <= square_; }
-  // The depth of the ray's nearest point to the centre.
-  float middle(float x, float y) const {
-    return picture_.orthographic ? -center_.z : (center_.x * x + center_.y * y - center_.z) / (x * x + y * y + 1.0f);
-  }
   bool reaches(const Vec3f& point) const {
     const Vec3f apart = point - center_;
     if (!(dot(apart, apart) <= square_)) return false;
-    return !light_.of.has_cone || geom::cone_touches_ball(light_.of.cone, {point, light_.slack});
+    if (!light_.of.has_cone) return true;
+    const float reach = light_.apex_reach + std::abs(point.x) + std::abs(point.y) + std::abs(point.z);
+    return geom::cone_touches_ball(light_.of.cone, {point, slack_ * reach});
   }
 
   const Picture& picture_;
   const DrawnLight& light_;
   DepthTest test_;
+  float slack_;
   Vec3f center_;
   float square_;
 };
@@ -124,8 +131,8 @@ class DrawnLights final : public LightStructure {
     for (const std::uint32_t at : rows.of(static_cast<std::uint32_t>(row))) {
       const DrawnLight& light = lights[at];
       if (column < light.first.x || column > light.last.x) continue;
-      const PixelTest pixel(picture, light, test);
-      if (pixel.is_shaded(x, y, picture.depth(column, row), pixel.is_drawn(x, y))) out.push_back(light.of.index);
+      const PixelTest pixel(picture, light, test, slack);
+      if (pixel.is_shaded(x, y, picture.depth(column, row), pixel.far_side(x, y))) out.push_back(light.of.index);
     }
     return true;
   }
@@ -144,6 +151,7 @@ class DrawnLights final : public LightStructure {
   void expand(Lists&) const override { throw Error("", "deferred", "has no cells", ExitCode::internal); }
 
   DepthTest test = DepthTest::both;
+  float slack = 0.0f;
   PixelBytes bytes;
   std::uint32_t light_count = 0;
   std::uint64_t drawn = 0, shaded = 0;  // pixels, of all lights
@@ -177,6 +185,7 @@ class Deferred final : public AssignerOf<DrawnLights> {
   void fill(const FrameInput& input, DrawnLights& out) override {
     const view::LightArrays& lights = input.lights;
     out.test = test_;
+    out.slack = light_test_.padding(k_roundoffs) * 0x1p-24f;
     out.bytes = bytes_;
     out.light_count = lights.size();
     out.drawn = out.shaded = 0;
@@ -202,7 +211,7 @@ class Deferred final : public AssignerOf<DrawnLights> {
     drawn.of = light_test_.tested(lights, light);
     drawn.first = {pixel(pixels_.column_begins(), box.first.x), pixel(pixels_.row_begins(), box.first.y)};
     drawn.last = {pixel(pixels_.column_begins(), box.last.x + 1) - 1, pixel(pixels_.row_begins(), box.last.y + 1) - 1};
-    drawn.slack = light_test_.padding(k_roundoffs) * 0x1p-24f * lights.reach[light];
+    drawn.apex_reach = std::abs(lights.x[light]) + std::abs(lights.y[light]) + std::abs(lights.z[light]);
     const auto rank = static_cast<std::uint32_t>(out.lights.size());
     out.lights.push_back(drawn);
     pairs_.add_row(static_cast<std::uint32_t>(drawn.first.y),
@@ -211,14 +220,14 @@ class Deferred final : public AssignerOf<DrawnLights> {
   }
 
   void draw(const DrawnLight& light, DrawnLights& out) const {
-    const PixelTest test(out.picture, light, test_);
+    const PixelTest test(out.picture, light, test_, out.slack);
     for (int row = light.first.y; row <= light.last.y; ++row) {
       const float y = out.picture.y[static_cast<std::size_t>(row)];
       for (int column = light.first.x; column <= light.last.x; ++column) {
         const float x = out.picture.x[static_cast<std::size_t>(column)];
-        const bool is_drawn = test.is_drawn(x, y),
-                   is_shaded = test.is_shaded(x, y, out.picture.depth(column, row), is_drawn);
-        out.drawn += is_drawn || is_shaded ? 1 : 0;
+        const float far_side = test.far_side(x, y);
+        const bool is_shaded = test.is_shaded(x, y, out.picture.depth(column, row), far_side);
+        out.drawn += test.is_drawn(far_side) || is_shaded ? 1 : 0;
         out.shaded += is_shaded ? 1 : 0;
       }
     }
