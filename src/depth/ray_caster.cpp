@@ -238,14 +238,20 @@ void add_surface(RTCDevice device, RTCScene to, const scene::Scene& scene, const
   rtcAttachGeometry(to, mesh);
 }
 
+// Where coordinates in single precision begin: a place near the eye that follows from this frame alone. They are as
+// fine as a thousandth of the near plane's distance, or as a tenth of a millimetre.
+Vec3d origin_near(const view::Frame& frame) {
+  const double near = frame.projection.near_m;
+  const double step = near > 0.0 ? std::min(1000.0, 1e4 * near) : 1000.0;
+  return glm::round(frame.view_space.origin / step) * step;
+}
+
 }  // namespace
 
 void RayCaster::pose(const view::Frame& frame) {
   std::vector<PlacedSurface> placed = placed_surfaces(scene_, geometry_, frame.time_s);
-  const Vec3d& eye = frame.view_space.origin;
-  // So far from the origin single precision still holds a tenth of a millimetre.
-  constexpr double k_far_m = 1000.0;
-  if (surfaces_ && surfaces_->placed == placed && glm::length(eye - surfaces_->origin) <= k_far_m) return;
+  const Vec3d origin = origin_near(frame);
+  if (surfaces_ && surfaces_->placed == placed && surfaces_->origin == origin) return;
   // A triangle and what Embree builds over it.
   constexpr std::uint64_t k_bytes_of_triangle = 256;
   check_memory("triangles", geometry_.triangle_count(), k_bytes_of_triangle, scene::k_fewer_triangles);
@@ -253,7 +259,7 @@ void RayCaster::pose(const view::Frame& frame) {
   if (!surfaces_) surfaces_ = std::make_unique<Surfaces>();
   Surfaces& now = *surfaces_;
   now.placed.clear();  // until all stands
-  now.origin = eye;
+  now.origin = origin;
   for (SurfaceTree* tree : {&now.opaque, &now.blending}) {
     tree->reset(rtcNewScene(now.device.get()));
     rtcSetSceneFlags(tree->get(), RTC_SCENE_FLAG_ROBUST);

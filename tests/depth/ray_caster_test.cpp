@@ -232,6 +232,24 @@ TEST(RayCaster, depths_far_from_the_worlds_origin_are_as_good_as_near_it) {
   EXPECT_FLOAT_EQ(caster.depths(frame, PixelGrid(frame.viewport, 8), 1).nearest.at(0), 5.125f);
 }
 
+// Whatever was cast before it; on a path images are cast again, now these, now those.
+TEST(RayCaster, a_frame_has_the_same_depths_whichever_came_before_it) {
+  const LoadedGeometry from = soup();
+  const auto frame_at = [&](double x) {
+    scene::Shot shot = shot_of(false);
+    shot.pose = scene::camera_pose(glm::translate(Mat4d(1.0), Vec3d(x, 0.1, 0.2)));
+    return view::make_frame(from.scene, shot, 0, {97, 61});
+  };
+  const auto depths = [](RayCaster& caster, const view::Frame& frame) {
+    caster.pose(frame);
+    return caster.depths(frame, PixelGrid(frame.viewport, 1), 1).nearest;
+  };
+  RayCaster one(from.scene, from.geometry), other(from.scene, from.geometry);
+  const std::vector<float> at_once = depths(one, frame_at(0.1));
+  for (const double x : {0.7, -0.3, 900.0}) static_cast<void>(depths(other, frame_at(x)));
+  EXPECT_EQ(depths(other, frame_at(0.1)), at_once);
+}
+
 // The box around both is 1e9 m wide; single precision around its middle holds 64 m.
 TEST(RayCaster, a_far_object_leaves_near_ones_as_precise_as_they_are) {
   MeshFile file;
