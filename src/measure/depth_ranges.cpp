@@ -11,7 +11,8 @@ namespace clusterbench::measure {
 namespace {
 
 constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double k_discontinuity = 0.25;  // of what changes in the whole tile, from one pixel to the next
+// From one pixel to the next, of what changes in the whole tile; beside what a plane through it changes by there.
+constexpr double k_discontinuity = 0.25;
 constexpr int k_parts = 32;
 
 // Step 0 is of no length at all. Lengths below 2^-30 m are in step 1, those from 2^66 m on in the last.
@@ -47,10 +48,14 @@ struct Span {
 
 struct Tile {
   Span depth, evenly;  // evenly: what changes evenly along a plane
+  Span columns, rows;  // of its pixels with a surface
   double widest_step = 0.0;
   std::uint32_t parts = 0;
 
-  bool is_discontinuity() const { return widest_step > k_discontinuity * evenly.length(); }
+  bool is_discontinuity() const {
+    const double steps = std::max(columns.length(), rows.length());
+    return steps >= 2.0 && widest_step > (1.0 / steps + k_discontinuity) * evenly.length();
+  }
   int part_of(double of_depth) const {
     if (depth.length() <= 0.0) return 0;
     return std::min(k_parts - 1, static_cast<int>(k_parts * ((of_depth - depth.low) / depth.length())));
@@ -79,12 +84,14 @@ class Picture {
     }
     tiles_.resize(tile_count_);
     spans_.resize(cell_count);
+    const auto width = static_cast<std::size_t>(size_.x);
     each_pixel([&](std::size_t pixel, Tile& tile) {
       tile.depth.add(depths_[pixel]);
       tile.evenly.add(evenly(pixel));
+      tile.columns.add(static_cast<double>(pixel % width));
+      tile.rows.add(static_cast<double>(pixel / width));
       spans_[static_cast<std::size_t>(cells_[pixel])].add(depths_[pixel]);
     });
-    const auto width = static_cast<std::size_t>(size_.x);
     each_pixel([&](std::size_t pixel, Tile& tile) {
       tile.parts |= std::uint32_t{1} << tile.part_of(depths_[pixel]);
       if ((pixel + 1) % width != 0) add_neighbour(tile, pixel, pixel + 1);

@@ -31,7 +31,7 @@ class LengthDistribution {
   double mean_m() const;  // NaN without pixels, as all of these
   double max_m() const;
   // The shortest length that is at least as long as this share of all: never too short, too long by a sixteenth at
-  // most.
+  // most, or by 2^-30 m.
   double quantile_m(double share) const;
 
  private:
@@ -46,8 +46,9 @@ struct DepthRanges {
     std::uint64_t tiles = 0, pixels = 0;
     std::array<LengthDistribution, k_list_kind_count> lengths;  // by ListKind
   };
-  Tiles slopes;               // from each pixel to the next, depth changes by little of what it changes by in the tile
-  Tiles discontinuities;      // some neighbours are apart by more than a quarter of it
+  Tiles slopes;  // from each pixel to the next, depth changes by little of what it changes by in the tile
+  // Some neighbours are apart by a quarter of it more than on an even slope. Two pixels do not tell.
+  Tiles discontinuities;
   std::uint64_t outside = 0;  // visible pixels beside the grid, in none of the tiles
 };
 

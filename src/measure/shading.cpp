@@ -25,7 +25,8 @@ bool reaches(const scene::WorldLight& light, const Vec3d& to_sample) {
 }
 
 // A spot's share of its intensity in a direction, as KHR_lights_punctual recommends it: 1 within the inner cone, 0 from
-// the outer one on. In between it falls with the square of the cosine's share, over no less than a thousandth.
+// the outer one on. In between it falls with the square of the cosine's share, over no less than a thousandth: cones
+// that differ by less have no direction with all of it.
 double spot_falloff(const scene::WorldLight& spot, double cos_to_sample) {
   constexpr double k_least_span = 0.001;
   const double cos_outer = std::cos(spot.outer_cone_rad);
@@ -60,6 +61,11 @@ double ShadingCounts::comparable_overshade() const {
 double ShadingCounts::unlit() const {
   if (needed == 0) return std::numeric_limits<double>::quiet_NaN();
   return static_cast<double>(missed) / static_cast<double>(needed);
+}
+
+double ShadingCounts::unlit_inside() const {
+  return needed > 0 ? static_cast<double>(missed - missed_outside) / static_cast<double>(needed)
+                    : std::numeric_limits<double>::quiet_NaN();
 }
 
 assign::Lists lights_reaching(const view::Frame& frame, std::span<const grid::Sample> samples) {

@@ -54,7 +54,8 @@ struct ShadingCounts {
   double overshade() const;  // evaluated / needed; NaN when nothing is needed
   // NaN also where it compares with nothing: few lights are needed, or some are not given, which makes it small.
   double comparable_overshade() const;
-  double unlit() const;  // missed / needed; NaN when nothing is needed
+  double unlit() const;         // missed / needed; NaN when nothing is needed
+  double unlit_inside() const;  // the same without missed_outside
 };
 
 // Which lights reach each of the frame's samples, in exact terms (double-precision distance with the tie counted as

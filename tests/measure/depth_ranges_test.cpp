@@ -83,6 +83,23 @@ TEST(DepthRanges, a_plane_is_a_slope_however_it_lies) {
   EXPECT_EQ(ranges_of({32, 32}, false, [](int, int) { return 5.0f; }).slopes.tiles, 1u);
 }
 
+// A ray for each 8 or 16 pixels leaves four or two across a tile; a gap is more than one step of a slope all the same.
+TEST(DepthRanges, a_slope_stays_one_and_a_gap_another_with_few_rays_in_a_tile) {
+  const auto split = [](int divisor, const auto& depth) {
+    const view::Frame frame = frame_of({32, 32}, true);
+    depth::DepthImage image{depth::PixelGrid(frame.viewport, divisor), {}};
+    for (int y = 0; y < 32 / divisor; ++y)
+      for (int x = 0; x < 32 / divisor; ++x) image.nearest.push_back(depth(x * divisor));
+    DepthRanges ranges;
+    add_frame(ranges, image, opaque_samples(frame, image), octaves(frame));
+    return std::pair(ranges.slopes.tiles, ranges.discontinuities.tiles);
+  };
+  const auto slope = [](int x) { return 2.0f + 0.25f * static_cast<float>(x); };
+  const auto gap = [](int x) { return x < 16 ? 3.0f : 12.0f; };
+  for (const int divisor : {1, 2, 4, 8, 16, 32}) EXPECT_EQ(split(divisor, slope), std::pair(1ul, 0ul)) << divisor;
+  for (const int divisor : {1, 2, 4, 8}) EXPECT_EQ(split(divisor, gap), std::pair(0ul, 1ul)) << divisor;
+}
+
 TEST(DepthRanges, sky_and_what_lies_beside_the_grid_cover_nothing) {
   const auto depth = [](int x, int) { return x < 8 ? k_no_surface : x < 16 ? 18.0f : 3.0f; };
   const DepthRanges ranges = ranges_of({32, 32}, false, depth);

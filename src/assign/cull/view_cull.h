@@ -34,7 +34,7 @@ class ViewCull {
   }
 
  private:
-  static constexpr double k_roundoffs = 64.0;  // distance loses most: some 20
+  static constexpr double k_roundoffs = 64.0;  // sphere refinement loses most: 18
   static constexpr double k_smallest = std::numeric_limits<float>::min();
 
   // A plane through the eye or along the view axis; positive to the right or above.

@@ -2,9 +2,10 @@
 // Numbers of about 106 bits: the unevaluated sum of two doubles, after Dekker 1971, "A floating-point technique for
 // extending the available precision". For finding what is then proven, between double and 256 bits.
 //
-// Sums, products, quotients and roots are right to 15 u² of the result at worst, u = 2^-53 (Joldes, Muller and Popescu
-// 2017, "Tight and rigorous error bounds for basic building blocks of double-word arithmetic"), as long as
-// nothing overflows or underflows.
+// All that rests on these numbers takes a sum, product, quotient or root to be right to 64 u² of itself, u = 2^-53, as
+// long as nothing overflows or underflows: several times what is proven for sums and products (Joldes, Muller and
+// Popescu 2017, "Tight and rigorous error bounds for basic building blocks of double-word arithmetic"), and more than a
+// quotient's or root's one step of correction leaves.
 
 #include <cmath>
 
