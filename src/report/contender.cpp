@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "assign/contract/assigner.h"
 #include "report/columns.h"
 #include "report/json_values.h"
 
@@ -19,7 +20,9 @@ measure::Costs costs_of(const Json& result_case, RankBy by) {
   const auto low = number_at(result_case, "/timing/frame_ns/ci95/0"),
              high = number_at(result_case, "/timing/frame_ns/ci95/1");
   if (low && high) costs.time_ns = {*low, *high};
-  costs.bytes = number_at(result_case, "/buffers/bytes/high_water").value_or(costs.k_unknown);
+  // What is drawn has no lists to be small.
+  if (!draws_lights(result_case))
+    costs.bytes = number_at(result_case, "/buffers/bytes/high_water").value_or(costs.k_unknown);
   if (by == RankBy::frame_time) {
     costs.overshade = number_at(result_case, "/shading/overshade").value_or(costs.k_unknown);
     return costs;
@@ -33,6 +36,12 @@ measure::Costs costs_of(const Json& result_case, RankBy by) {
 }
 
 }  // namespace
+
+bool draws_lights(const Json& result_case) {
+  const assign::AssignerDescriptor* assigner =
+      assign::find_assigner(result_case["assigner"]["name"].get<std::string>());
+  return assigner != nullptr && assigner->draws_lights;
+}
 
 std::vector<double> frame_rounds(const Json& result_case) {
   const Json samples = result_case.value(Json::json_pointer("/timing/frame_ns/samples"), Json::array());

@@ -17,6 +17,9 @@ RankBy rank_by(const nlohmann::ordered_json& result);  // as its configuration s
 // timed that is all. A case that lacks lights at samples that cost something is not eligible then.
 run::Contender contender_of(const nlohmann::ordered_json& result_case, RankBy by = RankBy::frame_time);
 
+// Whether its method draws lights, and leaves no lists.
+bool draws_lights(const nlohmann::ordered_json& result_case);
+
 // The frame times of a case's rounds; empty where it has none.
 std::vector<double> frame_rounds(const nlohmann::ordered_json& result_case);
 

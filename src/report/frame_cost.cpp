@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "assign/contract/assigner.h"
 #include "depth/depth_image.h"
 #include "measure/frame_cost.h"
 #include "measure/shading.h"
+#include "report/contender.h"
 #include "report/json_values.h"
 #include "report/result_json.h"
 
@@ -13,12 +13,6 @@ namespace clusterbench::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-bool draws_lights(const Json& result_case) {
-  const assign::AssignerDescriptor* assigner =
-      assign::find_assigner(result_case["assigner"]["name"].get<std::string>());
-  return assigner != nullptr && assigner->draws_lights;
-}
 
 // Of the picture's pixels one that is looked through stands for so many.
 double pixels_per_sample(const Json& result_case, const std::string& set, const Json& config) {

@@ -13,6 +13,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// What cases in one result were judged by.
+constexpr const char* k_in_common[] = {"allocation", "cost", "rank_by"};
+
 bool is_measured(const Json& result) {
   for (const Json& result_case : result.at("cases"))
     if (result_case.contains("timing") || result_case.contains("count")) return true;
@@ -20,8 +23,9 @@ bool is_measured(const Json& result) {
 }
 
 void check_origin(const NamedPart& first, const NamedPart& next) {
-  if (first.result.at("config").value("allocation", Json()) != next.result.at("config").value("allocation", Json()))
-    throw Error(next.file, "/config/allocation", "is not that of " + first.file);
+  for (const char* key : k_in_common)
+    if (first.result.at("config").value(key, Json()) != next.result.at("config").value(key, Json()))
+      throw Error(next.file, std::string("/config/") + key, "is not that of " + first.file);
   if (!is_measured(first.result) && !is_measured(next.result)) return;
   for (const char* key : {"tool", "machine"})
     if (without_state(first.result.at(key)) != without_state(next.result.at(key)))
@@ -71,7 +75,12 @@ Json merged_config(const std::vector<NamedPart>& parts) {
     is_same = is_same && part.result.at("config") == first;
     all.push_back(part.result.at("config"));
   }
-  return is_same ? first : Json{{"allocation", first.value("allocation", Json::object())}, {"merged", all}};
+  if (is_same) return first;
+  Json config{{"allocation", Json::object()}};
+  for (const char* key : k_in_common)
+    if (first.contains(key)) config[key] = first[key];
+  config["merged"] = all;
+  return config;
 }
 
 std::string merged_name(const std::vector<NamedPart>& parts) {

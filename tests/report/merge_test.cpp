@@ -48,6 +48,23 @@ TEST(Merge, different_configurations_are_all_kept_and_fit_the_schema) {
   EXPECT_EQ(all["config"]["allocation"], other.result["config"]["allocation"]);
 }
 
+TEST(Merge, costs_of_other_models_are_refused_and_the_model_stays_with_the_front_that_it_drew) {
+  NamedPart part = shard("a.json", "slow"), other = shard("b.json", "fast");
+  for (NamedPart* one : {&part, &other}) {
+    one->result["config"]["cost"] = {{"ns_per_light", 0.02}};
+    one->result["config"]["rank_by"] = "frame_cost";
+  }
+  other.result["config"]["seed"] = 2;
+  const Json all = merged({part, other});
+  EXPECT_EQ(all["config"]["cost"], part.result["config"]["cost"]);
+  EXPECT_EQ(all["config"]["rank_by"], "frame_cost");
+  other.result["config"]["cost"]["ns_per_light"] = 20;
+  EXPECT_NE(refusal({part, other}).find("b.json: /config/cost: is not that of a.json"), std::string::npos);
+  other.result["config"] = part.result["config"];
+  other.result["config"]["rank_by"] = "frame_time";
+  EXPECT_NE(refusal({part, other}).find("b.json: /config/rank_by: is not that of a.json"), std::string::npos);
+}
+
 TEST(Merge, a_case_of_two_parts_is_a_conflict_that_names_both) {
   const std::string said = refusal({shard("a.json", "slow"), shard("b.json", "fast"), shard("c.json", "fast")});
   EXPECT_NE(said.find("c.json: /cases: has id 'fast', and b.json has it, too"), std::string::npos) << said;
