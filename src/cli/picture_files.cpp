@@ -12,6 +12,7 @@
 #include "cli/output.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "geom/shapes/domain.h"
 
 namespace clusterbench::cli {
 namespace {
@@ -142,7 +143,7 @@ void add_image_options(Command& command, ImageFlags& flags) {
       .needs(images);
   command
       .add_option("--image-depth", flags.plane_m, "METRES: all pixels at this depth, in place of the visible surfaces")
-      .positive()
+      .range(1e-15, geom::k_farthest_m)
       .needs(images);
   command.add_option("--image-scale", flags.scale, "N: the scale of lights ends there, in all pictures")
       .at_least(1)
@@ -155,7 +156,7 @@ PictureFiles::PictureFiles(const ImageFlags& flags, const config::Config& config
   make_folder(folder_);
   if (::access(folder_.c_str(), W_OK | X_OK) != 0)
     throw Error(folder_, "", std::string("cannot be written to: ") + std::strerror(errno));
-  geometries_ = pictures::load_geometries(config, plan);
+  geometries_ = pictures::load_geometries(config, plan, request_);
   for (std::size_t i = 0; i < geometries_.size(); ++i)
     for (const std::string& warning : geometries_[i] ? geometries_[i]->warnings : std::vector<std::string>{})
       tell("warning: " + plan.scenes[i].scene.name + ": " + warning);

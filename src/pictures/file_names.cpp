@@ -53,7 +53,11 @@ fs::path FileNames::unique(const std::string& case_name, const std::string& begi
   std::string name = begin;
   const std::vector<std::string> parts = parts_of(case_name);
   for (std::size_t i = 3; i < parts.size(); ++i) name += "-" + file_part(parts[i]);
-  const std::string path = (folder_of(case_name, 3) / name).string();
+  return unique(folder_of(case_name, 3) / name);
+}
+
+fs::path FileNames::unique(const fs::path& stem) {
+  const std::string path = stem.string();
   std::string candidate = path;
   for (int number = 2; !taken_.insert(candidate).second; ++number) candidate = path + "-" + std::to_string(number);
   return candidate + ".png";
@@ -68,8 +72,8 @@ fs::path FileNames::of_strip(const std::string& case_name) {
 }
 
 fs::path FileNames::of_depth(const std::string& case_name, const std::string& viewport, int frame) {
-  return folder_of(case_name, 2) /
-         (std::string(name_of(Kind::depth)) + "-frame-" + std::to_string(frame) + viewport + ".png");
+  return unique(folder_of(case_name, 2) /
+                (std::string(name_of(Kind::depth)) + "-frame-" + std::to_string(frame) + viewport));
 }
 
 }  // namespace clusterbench::pictures

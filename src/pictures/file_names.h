@@ -19,11 +19,12 @@ class FileNames {
   // A case is "scene/camera/grid/method/storage", and the precision where it is not float32. No two are equal.
   std::filesystem::path of_case(const std::string& case_name, Kind kind, int frame);
   std::filesystem::path of_strip(const std::string& case_name);
-  // Of all cases with this camera; `viewport`: "" or "-1920x1080" where there are several. Equal for equal arguments.
-  static std::filesystem::path of_depth(const std::string& case_name, const std::string& viewport, int frame);
+  // Of all cases with this camera; `viewport`: "" or "-1920x1080" where there are several.
+  std::filesystem::path of_depth(const std::string& case_name, const std::string& viewport, int frame);
 
  private:
   std::filesystem::path unique(const std::string& case_name, const std::string& begin);
+  std::filesystem::path unique(const std::filesystem::path& stem);
 
   std::set<std::string> taken_;
 };

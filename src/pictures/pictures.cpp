@@ -5,6 +5,7 @@
 #include <deque>
 #include <optional>
 #include <set>
+#include <tuple>
 
 #include "assign/contract/storage.h"
 #include "core/error.h"
@@ -159,7 +160,7 @@ class Drawing {
       out.scene_line += ", one of " + std::to_string(divisor) + "x" + std::to_string(divisor) + " pixels";
     if (surface.plane_m)
       out.scene_line += ", all at depth " + short_number(*surface.plane_m) + " m" +
-                        (request_.plane_m ? "" : ": the scene has no triangles");
+                        (request_.plane_m ? "" : ": there are no triangles");
     return out;
   }
 
@@ -231,9 +232,10 @@ class Drawing {
     const Vec2i size = config_.viewports[group.plan.viewport];
     const std::string viewport =
         config_.viewports.size() > 1 ? "-" + std::to_string(size.x) + "x" + std::to_string(size.y) : "";
-    const std::filesystem::path file = FileNames::of_depth(group.plan.cases.front().name, viewport, index);
-    if (depths_.insert(file).second)
-      save(group, depth_figure(head, seen), {file, "", Kind::depth, index, all_seen_by(group.plan), ""});
+    if (depths_.insert({group.plan.scene, group.plan.camera, group.plan.viewport, index}).second)
+      save(group, depth_figure(head, seen),
+           {names_.of_depth(group.plan.cases.front().name, viewport, index), "", Kind::depth, index,
+            all_seen_by(group.plan), ""});
   }
 
   // The cases of all grids in the same view.
@@ -305,7 +307,7 @@ class Drawing {
   const std::atomic<bool>& stop_;
   std::uint64_t total_ = 0, done_ = 0;
   FileNames names_;
-  std::set<std::filesystem::path> depths_;
+  std::set<std::tuple<std::size_t, std::size_t, std::size_t, int>> depths_;  // drawn: scene, camera, viewport, frame
   std::deque<std::optional<run::FrameDepths>> own_depths_;  // of each scene whose depths no method needs
 };
 
@@ -315,10 +317,18 @@ bool Request::wants(Kind kind) const {
   return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
 }
 
-Geometries load_geometries(const config::Config& config, const run::Plan& plan) {
+Geometries load_geometries(const config::Config& config, const run::Plan& plan, const Request& request) {
   Geometries out(plan.scenes.size());
-  for (std::size_t i = 0; i < plan.scenes.size(); ++i)
-    if (!plan.scenes[i].geometry && !config.scenes[i].rig) out[i] = scene::load_geometry(plan.scenes[i].scene);
+  if (request.plane_m) return out;
+  for (std::size_t i = 0; i < plan.scenes.size(); ++i) {
+    if (plan.scenes[i].geometry || config.scenes[i].rig) continue;
+    try {
+      out[i] = scene::load_geometry(plan.scenes[i].scene);
+    } catch (const Error& error) {
+      out[i].emplace().warnings.push_back("pictures are at one depth, as without triangles: " +
+                                          std::string(error.what()));
+    }
+  }
   return out;
 }
 

@@ -36,10 +36,10 @@ struct LongestList {
 };
 using LongestLists = std::map<std::string, LongestList>;  // by the case's id
 
-// The triangles of the plan's scenes, also of those that are measured without. Throws Error for meshes that cannot be
-// read.
+// The triangles of scenes that are measured without, where pictures show surfaces. Of a scene whose meshes cannot be
+// read there is the warning that says so, and no triangle.
 using Geometries = std::vector<std::optional<scene::Geometry>>;
-Geometries load_geometries(const config::Config& config, const run::Plan& plan);
+Geometries load_geometries(const config::Config& config, const run::Plan& plan, const Request& request);
 
 // At most so many pictures will be made. Throws Error (with the option) for frames that no path has.
 std::uint64_t picture_count(const run::Plan& plan, const Request& request);

@@ -79,6 +79,27 @@ TEST(Pictures, of_a_scene_without_triangles_are_those_of_a_plane_amid_the_lights
   EXPECT_NE(pictures_of(bare, plane)[lists], there[lists]);
 }
 
+TEST(Pictures, of_a_scene_whose_meshes_cannot_be_read_are_those_of_a_plane_and_a_warning_says_why) {
+  test::Json compressed = test::Json::parse(room());
+  compressed["extensionsUsed"].push_back("KHR_draco_mesh_compression");
+  test::Json& primitive = compressed["meshes"][0]["primitives"][0];
+  compressed["accessors"][primitive["attributes"]["POSITION"].get<std::size_t>()].erase("bufferView");
+  primitive["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0}};
+  const Room closed = room_of(compressed.dump());
+  ASSERT_TRUE(closed.geometries.at(0));
+  ASSERT_EQ(closed.geometries[0]->warnings.size(), 1u);
+  EXPECT_NE(closed.geometries[0]->warnings[0].find("KHR_draco_mesh_compression"), std::string::npos);
+  EXPECT_EQ(names_of(pictures_of(closed, all_kinds())), names_of(pictures_of(room_of(room(false)), all_kinds())));
+}
+
+TEST(Pictures, read_no_triangles_where_a_plane_is_asked_for) {
+  const Room full = room_of(room());
+  EXPECT_TRUE(full.geometries.at(0));
+  Request plane;
+  plane.plane_m = 7.5;
+  EXPECT_FALSE(load_geometries(full.config, full.plan, plane).at(0));
+}
+
 TEST(Pictures, leave_out_methods_of_visible_surfaces_where_a_plane_is_asked_for) {
   const Room mixed = room_of(room(), R"("aabb", "tiled")");
   std::vector<std::string> skipped;
@@ -100,7 +121,7 @@ Room mix_of(const std::string& assigners) {
                                         assigners + "]}",
                                     "c.json");
   out.plan = run::make_plan(out.config, "");
-  out.geometries = load_geometries(out.config, out.plan);
+  out.geometries = load_geometries(out.config, out.plan, {});
   return out;
 }
 
@@ -165,6 +186,8 @@ TEST(FileNames, are_safe_and_never_twice_the_same) {
   EXPECT_EQ(names.of_case("a/b/c/d(1)/e", Kind::lights, 3), "a/b/c/lights-frame-3-d-1-e.png");
   EXPECT_EQ(names.of_case("a/b/c/d 1/e", Kind::lights, 3), "a/b/c/lights-frame-3-d-1-e-2.png");
   EXPECT_EQ(names.of_strip("../../c/d/e/half"), "_/_/c/strip-d-e-half.png");
+  EXPECT_EQ(names.of_depth("a/walk 1/c/d/e", "-64x48", 3), "a/walk-1/depth-frame-3-64x48.png");
+  EXPECT_EQ(names.of_depth("a/walk-1/c/d/e", "-64x48", 3), "a/walk-1/depth-frame-3-64x48-2.png");
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ inline Room room_of(const std::string& scene, const std::string& assigners = R"(
           assigners + "]" + rest + "}",
       folder.path() / "c.json");
   out.plan = run::make_plan(out.config, "");
-  out.geometries = load_geometries(out.config, out.plan);
+  out.geometries = load_geometries(out.config, out.plan, {});
   return out;
 }
 
