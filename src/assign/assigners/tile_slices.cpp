@@ -259,7 +259,9 @@ class TileSlices final : public AssignerOf<TileSliceLists> {
 
 std::vector<ParamSpec> tile_slices_params() {
   std::vector<ParamSpec> params{{.name = "least_growth",
-                                 .summary = "how many times as thick as the one before it a slice is at least",
+                                 .summary =
+                                     "how many times as thick as the one before it a slice is at least; of n slices "
+                                     "2^(64/n) is enough",
                                  .standard = 1.02,
                                  .unit = "",
                                  .min = 1.0001,
