@@ -64,16 +64,15 @@ bool add_batch_rows(const SpanRows& rows, int first_row, int last_row, const std
 void add_listed_rows(const SpanRows& rows, int first_row, int last_row, const std::uint32_t* sizes,
                      const std::uint32_t* columns, const std::uint32_t* lights) {
   const DU du;
-  std::uint32_t from = 0;
-  for (int row = first_row; row <= last_row; ++row) {
-    const auto r = static_cast<std::size_t>(row);
-    const std::size_t to = r * rows.pitch + rows.sizes[r];
-    const std::uint32_t size = sizes[r];
-    const VU span = LoadU(du, columns + from), light = LoadU(du, lights + from);
-    StoreU(span, du, rows.columns + to);
-    StoreU(light, du, rows.lights + to);
-    rows.sizes[r] += size;
-    from += size;
+  const SpanRows to = rows;  // a copy, which stays in registers: no store can change it
+  std::size_t begin = static_cast<std::size_t>(first_row) * to.pitch;
+  for (int row = first_row; row <= last_row; ++row, begin += to.pitch) {
+    const std::uint32_t size = sizes[row], earlier = to.sizes[row];
+    StoreU(LoadU(du, columns), du, to.columns + begin + earlier);
+    StoreU(LoadU(du, lights), du, to.lights + begin + earlier);
+    to.sizes[row] = earlier + size;
+    columns += size;
+    lights += size;
   }
 }
 
