@@ -515,7 +515,7 @@ export type Result = {
   pareto_front: Array<{
     scene: string; // Name of one of scenes
     ids: string[]; // Ids of the cases with a star, in the order of cases
-  }>; // Per scene the cases on the Pareto front: no other one of the same camera and viewport is as good in frame time (beyond the interval of their ratio), bytes and overshade together, and better in one; where config.rank_by is frame_cost, in cost and bytes. Only cases that are eligible
+  }>; // Per scene the cases on the Pareto front: no other one of the same camera and viewport is as good in frame time (beyond the interval of their ratio), bytes and overshade together, and better in one; where config.rank_by is frame_cost, in cost and bytes. What draws lights has no lists, so its bytes count as unknown. Only cases that are eligible
   skipped: Array<{
     name: string; // As of a case, as far as all of the skipped combinations share it
     reason: string; // Why, as text

@@ -69,7 +69,8 @@ class Enclosure106 {
   static constexpr double k_least = 0x1p-700;
 
   static double size(const Enclosure106& a) { return std::abs(a.middle_.hi) * (1.0 + 0x1p-40); }
-  // A result is taken to be right to 64 u² (geom/numbers/double_double.h). The radius itself is a few rounded operations.
+  // A result is taken to be right to 64 u² (geom/numbers/double_double.h). The radius itself is a few rounded
+  // operations.
   static Enclosure106 made(const DoubleDouble& middle, double radius) {
     if (!std::isfinite(middle.hi)) return {DoubleDouble(0.0), std::numeric_limits<double>::infinity()};
     if (radius == 0.0 && middle.hi == 0.0 && middle.lo == 0.0) return {middle, k_least};
