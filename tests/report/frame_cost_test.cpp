@@ -117,6 +117,19 @@ TEST(FrameCosts, without_times_rank_by_what_the_gpu_does) {
   EXPECT_LT(render_table(json, false).find("brute-force "), render_table(json, false).find("aabb "));
 }
 
+// Lists that are not there are not the smallest ones.
+TEST(FrameCosts, what_is_drawn_has_no_bytes_to_be_best_in) {
+  for (const char* by : {"frame_time", "frame_cost"}) {
+    run::Result result = costly(by);
+    run::CaseResult& drawn = result.cases[0];  // takes longer
+    drawn.assigner = "deferred";
+    drawn.samples[0].counts.evaluated = 5 * drawn.samples[0].counts.samples;
+    drawn.shading.reset();
+    drawn.buffers.bytes.high_water = 0;
+    EXPECT_EQ(of(result)["pareto_front"][0]["ids"], Json({"fast"})) << by;
+  }
+}
+
 // A history of it would show the changes of times as if counts had changed.
 TEST(FrameCosts, follow_from_times_and_counts_and_have_no_history_of_their_own) {
   const auto basis = [](const std::string& name) {
