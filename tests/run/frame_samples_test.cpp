@@ -396,6 +396,20 @@ TEST(DepthMethods, and_sets_share_one_image_of_each_frame_and_nothing_is_cast_fo
   EXPECT_EQ(images_cast(R"(, "assigners": ["exact-fast"])"), -1);
 }
 
+// A frame with a sample in each pixel takes seconds, and whoever ends the program waits for them.
+TEST(FrameSamples, end_within_a_frame_when_the_run_is_stopped) {
+  const scene::test::Folder folder;
+  const config::Config config =
+      config_of(folder, deep_room(), R"(, "assigners": ["exact-fast"], "samples": {"opaque": {}})");
+  const Plan plan = make_plan(config, "");
+  const PathFrames path = path_of(config, plan, plan.groups.at(0));
+  std::atomic<bool> stop = false;
+  const AccuracyResult counted = accuracy_pass(
+      config, plan.scenes[0], plan.groups[0], path, [&](int) { stop = true; }, stop);
+  EXPECT_EQ(path.count(), 1);
+  EXPECT_FALSE(counted.is_complete);
+}
+
 TEST(DepthMethods, share_the_images_of_a_camera_over_grids_and_viewports_have_their_own) {
   const auto images_cast = [](const std::string& viewports) {
     const config::Config config =

@@ -127,17 +127,23 @@ class CaseMeter {
 // What samples need is kept for so many at once: at full resolution it would not fit in memory whole.
 constexpr std::size_t k_samples_at_once = 16384;
 
-void ask_at_samples(const PreparedFrame& now, std::vector<CaseMeter>& cases) {
+void ask_at_samples(const PreparedFrame& now, std::vector<CaseMeter>& cases, const std::atomic<bool>& stop) {
   for (std::size_t set = 0; set < now.samples.size(); ++set) {
     const std::span<const grid::Sample> all = now.samples[set].samples;
     for (std::size_t begin = 0; begin < all.size(); begin += k_samples_at_once) {
       const std::span<const grid::Sample> some = all.subspan(begin, std::min(k_samples_at_once, all.size() - begin));
       const measure::NeededLights needed = measure::needed_lights(now.frame, some);
-      for (CaseMeter& meter : cases) meter.ask_at(set, now.frame.index, some, needed);
+      for (CaseMeter& meter : cases) {
+        if (stop) return;
+        meter.ask_at(set, now.frame.index, some, needed);
+      }
     }
     const std::optional<depth::DepthImage>& picture = now.samples[set].picture;
     if (!picture || !picture->pixels.is_full_resolution()) continue;  // waves are of neighbouring pixels
-    for (CaseMeter& meter : cases) meter.ask_waves(set, now.samples[set]);
+    for (CaseMeter& meter : cases) {
+      if (stop) return;
+      meter.ask_waves(set, now.samples[set]);
+    }
   }
 }
 
@@ -185,11 +191,13 @@ AccuracyResult accuracy_pass(const config::Config& config, const SceneData& data
     const PreparedFrame now = prepare(config, group, path, samples, grids, index);
     for (std::size_t i = 0; i < losses.size(); ++i) losses[i].add_frame(now.lights.packed(i));
     for (MethodMeter& method : methods) {
+      if (stop) return result;
       method.add(now, grids.grid());
       for (CaseMeter& meter : cases)
         if (meter.method() == method.method()) meter.add(now, grids.grid(), method);
     }
-    ask_at_samples(now, cases);
+    ask_at_samples(now, cases, stop);
+    if (stop) return result;
     if (grids.grid().kind() == grid::Kind::frustum) add_depth_ranges(now, grids.grid().screen(), result);
   }
   for (const MethodMeter& method : methods) result.methods.push_back(method.result());
