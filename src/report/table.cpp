@@ -31,7 +31,7 @@ struct Line {
   const Json* result_case = nullptr;
   Cells cells;
   bool has_failed = false;
-  double sort_key = 0.0;
+  std::pair<bool, double> sort_key;
 };
 
 // What some cases have and others have not.
@@ -93,13 +93,14 @@ std::string cost_text(const Json& result_case) {
   return time_text(result_case, number_at(result_case, "/cost/frame_ns") ? "/cost/frame_ns" : "/cost/gpu_ns");
 }
 
-double sort_key(const Json& result_case, RankBy by) {
+// By cost those that leave lights out come last: theirs is not the cost of the same picture.
+std::pair<bool, double> sort_key(const Json& result_case, RankBy by) {
   if (by == RankBy::frame_cost)
     for (const char* pointer : {"/cost/frame_ns", "/cost/gpu_ns"})
-      if (const auto found = number_at(result_case, pointer)) return *found;
+      if (const auto found = number_at(result_case, pointer)) return {!result_case["cost"].value("lit", true), *found};
   for (const char* pointer : {"/timing/frame_ns/median", k_instructions, "/error/excess_ratio"})
-    if (const auto found = number_at(result_case, pointer)) return *found;
-  return 0.0;
+    if (const auto found = number_at(result_case, pointer)) return {false, *found};
+  return {false, 0.0};
 }
 
 bool has_failed(const Json& result_case) {

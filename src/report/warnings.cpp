@@ -6,6 +6,7 @@
 
 #include "core/text.h"
 #include "report/columns.h"
+#include "report/json_values.h"
 
 namespace clusterbench::report {
 namespace {
@@ -38,6 +39,30 @@ std::string case_warnings(const Json& cases) {
            (names.size() > 1 ? " and " + number_of(names.size() - 1, "more case") : std::string()) + ": " + message +
            "\n";
   return out;
+}
+
+// Lists that leave lights out are short, and cost little.
+std::string cost_warning(const Json& cases) {
+  const Json* first = nullptr;
+  std::size_t count = 0;
+  double most = 0.0;
+  std::string where;
+  for (const Json& result_case : cases) {
+    if (!result_case.contains("cost") || result_case["cost"].value("lit", true)) continue;
+    if (count++ == 0) first = &result_case;
+    for (const auto& [set, paid] : result_case["cost"]["sets"].items()) {
+      const auto unlit = number_at(result_case, (set == "volume" ? "/shading" : "/samples/" + set) + "/unlit");
+      if (!unlit || *unlit <= most) continue;
+      most = *unlit;
+      where = set;
+    }
+  }
+  if (first == nullptr) return "";
+  return "warning: " + shown((*first)["name"]) +
+         (count > 1 ? " and " + number_of(count - 1, "more case") + " lack" : std::string(" lacks")) + " up to " +
+         text("%.3g %%", 100.0 * most) + " of the lights at " + where +
+         " samples: what they cost is not the cost of the same picture (--set cost.weights." + where +
+         "=0 leaves that set out)\n";
 }
 
 // Of all lights that have an end, given or made.
@@ -77,7 +102,7 @@ std::string notes_text(const Json& result) {
 }
 
 std::string warnings_text(const Json& result) {
-  return scene_warnings(result["scenes"]) + case_warnings(result["cases"]);
+  return scene_warnings(result["scenes"]) + case_warnings(result["cases"]) + cost_warning(result["cases"]);
 }
 
 }  // namespace clusterbench::report

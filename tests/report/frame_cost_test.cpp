@@ -146,6 +146,9 @@ TEST(FrameCosts, a_case_that_lacks_lights_at_samples_with_a_weight_is_on_no_fron
   const Json json = of(result);
   EXPECT_EQ(json["cases"][0]["cost"]["lit"], false);
   EXPECT_EQ(json["pareto_front"][0]["ids"], Json({"fast"}));
+  const std::string table = render_table(json, false);
+  EXPECT_LT(table.find("aabb "), table.find("brute-force ")) << "which would be cheaper";
+  EXPECT_NE(table.find("lacks up to 0.2 % of the lights at opaque samples"), std::string::npos) << table;
 }
 
 }  // namespace
