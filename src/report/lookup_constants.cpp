@@ -116,8 +116,9 @@ std::string lookup_note(const Json& result_case) {
   if (!grid.contains("slices")) return "";
   if (grid["slices"]["scheme"] == "fit") return "slices follow the lights: scale, bias and far are the last frame's";
   const Json& form = grid["slices"]["lookup"]["form"];
-  if (form == "search") return "slice = the last one whose boundary, slice_boundaries[slice], is not beyond the depth";
-  return form == "log2" ? "slice = log2(depth) * slice_scale + slice_bias" : "slice = depth * slice_scale + slice_bias";
+  const std::string along = grid["kind"] == "distance" ? "length(view)" : "depth";
+  if (form == "search") return "slice = the last one whose boundary, slice_boundaries[slice], is not beyond " + along;
+  return "slice = " + (form == "log2" ? "log2(" + along + ")" : along) + " * slice_scale + slice_bias";
 }
 
 std::string lookup_hlsl(const std::string& name, const std::vector<LookupConstant>& constants) {

@@ -48,8 +48,10 @@ std::vector<Block> timed_blocks(const Json& result, const RatioRequest& request)
   std::vector<Block> blocks;
   for (const Json& result_case : result["cases"]) {
     const std::optional<double> frame_ns = number_at(result_case, "/timing/frame_ns/median");
+    // The method's name alone as well, so that one pattern serves with grids and without.
+    const auto is_wanted = [&](bool with_grid) { return pattern.is_in(name_of_case(result_case, with_grid)); };
     if (!frame_ns || frame_rounds(result_case).empty() ||
-        !pattern.is_in(name_of_case(result_case, request.across_grids)))
+        !(is_wanted(false) || (request.across_grids && is_wanted(true))))
       continue;
     const std::string name = name_of_block(result_case, request.across_grids);
     auto block = std::ranges::find_if(

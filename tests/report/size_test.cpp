@@ -189,6 +189,11 @@ TEST_F(SizeHeader, has_the_constants_of_the_lookup_of_each_kind_of_grid) {
         "float box_min[] = {-34.5f, -34.0f, -182.0f};"})
     EXPECT_NE(cpp.find(line), std::string::npos) << line << " in\n" << cpp;
   EXPECT_TRUE(compiles(cpp, "static_assert(light_lists::hall_walk_tiles_lookup::slice_far > 399);\nint main() {}\n"));
+  run::Result spherical = result;
+  for (run::CaseResult& one : spherical.cases)
+    if (one.grid.contains("slices")) one.grid["kind"] = "distance";
+  EXPECT_NE(size_of(spherical, {}).find("slice = log2(length(view)) * slice_scale + slice_bias"), std::string::npos)
+      << "slices of distance from the eye";
   const std::string hlsl = size_of(result, {"", false, "hlsl"}), glsl = size_of(result, {"", false, "glsl"});
   EXPECT_NE(hlsl.find("static const float2 hall_walk_tiles_lookup_tile_scale = float2(0.015625, 0.015625);"),
             std::string::npos)
