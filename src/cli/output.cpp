@@ -3,6 +3,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -49,7 +51,7 @@ void probe_output(const std::string& output) {
   if (output.empty() || output == "-") return;
   std::ofstream file(output, std::ios::binary);
   file << ' ' << std::flush;
-  if (!file) throw Error(output, "", "cannot be written");
+  if (!file) throw Error(output, "", std::string("cannot be written: ") + std::strerror(errno));
 }
 
 void refuse_overwriting(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
@@ -72,7 +74,7 @@ void write_text(const std::string& output, const std::string& text) {
   std::ofstream file;
   const bool has_file = !output.empty() && output != "-";
   if (has_file) file.open(output, std::ios::binary);
-  if (has_file && !file) throw Error(output, "", "cannot be written");
+  if (has_file && !file) throw Error(output, "", std::string("cannot be written: ") + std::strerror(errno));
   std::ostream& out = has_file ? file : std::cout;
   out << text << std::flush;
   if (!out) throw Error(has_file ? output : "standard output", "", "could not be written whole", ExitCode::internal);

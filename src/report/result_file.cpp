@@ -1,5 +1,7 @@
 #include "report/result_file.h"
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 
 #include "config/documents.h"
@@ -36,7 +38,7 @@ void check(const std::string& path, const Json& result) {
 Json read_result(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in || in.peek() == std::ifstream::traits_type::eof())
-    throw Error(path, "", in.eof() ? "is empty" : "cannot be read");
+    throw Error(path, "", in.eof() ? "is empty" : std::string("cannot be read: ") + std::strerror(errno));
   if (is_journal(in))
     throw Error(path, "", "is what an unfinished run left; `clusterbench run` with --resume makes a result of it");
   in.clear();

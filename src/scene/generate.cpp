@@ -1,6 +1,8 @@
 #include "scene/generate.h"
 
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 
 #include "core/error.h"
@@ -56,7 +58,7 @@ void generate_scene(const std::string& name, std::uint64_t seed, int lights, con
     if (out.extension() != ".glb") throw Error(out.string(), "", "scenes are written as .glb files");
     std::ofstream file(out, std::ios::binary);
     file << make_scene(row, seed, lights) << std::flush;
-    if (!file) throw Error(out.string(), "", "cannot be written");
+    if (!file) throw Error(out.string(), "", std::string("cannot be written: ") + std::strerror(errno));
     return;
   }
   throw Error("", "scene",
