@@ -44,7 +44,7 @@ def at(schema, pointer):
 def figure(number):
     if number == 2**53 - 1:
         return "2^53 - 1"
-    return str(int(number)) if number == int(number) and number < 1e7 else f"{number:g}".replace("e+0", "e")
+    return str(int(number)) if number == int(number) and number <= 1e7 else f"{number:g}".replace("e+0", "e")
 
 
 def number_range(schema):
