@@ -88,8 +88,9 @@ class Picture {
     each_pixel([&](std::size_t pixel, Tile& tile) {
       tile.depth.add(depths_[pixel]);
       tile.evenly.add(evenly(pixel));
-      tile.columns.add(static_cast<double>(pixel % width));
-      tile.rows.add(static_cast<double>(pixel / width));
+      const std::size_t row = pixel / width;
+      tile.columns.add(static_cast<double>(pixel - row * width));
+      tile.rows.add(static_cast<double>(row));
       spans_[static_cast<std::size_t>(cells_[pixel])].add(depths_[pixel]);
     });
     each_pixel([&](std::size_t pixel, Tile& tile) {
