@@ -183,12 +183,13 @@ def main():
     schema = json.loads(subprocess.run([program, "schema", "result"], capture_output=True, text=True, check=True).stdout)
     with tempfile.TemporaryDirectory() as name:
         whole = reduced(measured(program, pathlib.Path(name), scene))
-    changes = [(path, what) for path, what in places(schema, schema)
-               if path and (what != "zero" or "--zero" in sys.argv) and changed(whole, path, what) is not None][::option("--every")]
+    possible = [(path, what) for path, what in places(schema, schema)
+                if path and (what != "zero" or "--zero" in sys.argv) and changed(whole, path, what) is not None]
+    changes = possible[::option("--every")]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         faults = sum(pool.map(lambda group: faults_of(program, group, whole), [[], *groups(changes, option("--together"))]))
-    print(f"{len(changes)} changes, {faults} faults")
-    return 1 if faults or len(changes) < 100 else 0
+    print(f"{len(changes)} of {len(possible)} changes, {faults} faults")
+    return 1 if faults or len(possible) < 100 else 0
 
 
 if __name__ == "__main__":
