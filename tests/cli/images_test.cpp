@@ -81,7 +81,7 @@ TEST(RunImages, what_cannot_be_is_known_before_anything_is_measured) {
   expect(images + " --image-frames 4", "4 is on no path: the longest has frames 0 to 3");
   expect(images + " --image-divisor 0", "from 1 to 64");
   expect(images + " --image-scale 0", "of at least 1");
-  expect(images + " --image-depth -1", "above 0");
+  expect(images + " --image-depth -1", "from 1e-15 to 1e+15");
   expect("--image-kinds missed", "--images");
 }
 
