@@ -147,8 +147,9 @@ struct Setting {
   Real tolerance;
 
   Setting(const Volume<Real>& unlimited, const Polytope<Real>& polytope) : cell(polytope) {
-    Real size(0);
-    for (const Point3<Real>& corner : cell.corners) size = std::max(size, length(corner));
+    Real square(0);
+    for (const Point3<Real>& corner : cell.corners) square = std::max(square, dot(corner, corner));
+    const Real size = SquareRoot<Real>::of(square);
     volume = within(unlimited, size);
     tolerance = Precision<Real>::tolerance() * (size + length(volume.apex) + volume.range);
   }
