@@ -1,7 +1,5 @@
 #include "cli/export_files.h"
 
-#include <cerrno>
-#include <cstring>
 #include <fstream>
 
 #include "cli/output.h"
@@ -29,7 +27,7 @@ std::vector<ExportTarget> export_targets(const std::vector<std::string>& texts) 
 void probe_exports(const std::vector<ExportTarget>& targets) {
   for (const ExportTarget& target : targets)
     if (target.file != "-" && !std::ofstream(target.file, std::ios::app))
-      throw Error(target.file, "", std::string("cannot be written: ") + std::strerror(errno));
+      throw Error(target.file, "", errno_says("cannot be written"));
 }
 
 void write_exports(const std::vector<ExportTarget>& targets, const nlohmann::ordered_json& result) {

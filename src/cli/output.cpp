@@ -3,8 +3,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -51,7 +49,7 @@ void probe_output(const std::string& output) {
   if (output.empty() || output == "-") return;
   std::ofstream file(output, std::ios::binary);
   file << ' ' << std::flush;
-  if (!file) throw Error(output, "", std::string("cannot be written: ") + std::strerror(errno));
+  if (!file) throw Error(output, "", errno_says("cannot be written"));
 }
 
 void refuse_overwriting(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
@@ -74,7 +72,7 @@ void write_text(const std::string& output, const std::string& text) {
   std::ofstream file;
   const bool has_file = !output.empty() && output != "-";
   if (has_file) file.open(output, std::ios::binary);
-  if (has_file && !file) throw Error(output, "", std::string("cannot be written: ") + std::strerror(errno));
+  if (has_file && !file) throw Error(output, "", errno_says("cannot be written"));
   std::ostream& out = has_file ? file : std::cout;
   out << text << std::flush;
   if (!out) throw Error(has_file ? output : "standard output", "", "could not be written whole", ExitCode::internal);

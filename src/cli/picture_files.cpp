@@ -3,9 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -100,9 +98,7 @@ void write_in_one_step(const fs::path& file, const std::string& bytes) {
   {
     std::ofstream out(fresh, std::ios::binary | std::ios::trunc);
     out << bytes << std::flush;
-    if (!out)
-      throw Error(file.string(), "", std::string("could not be written whole: ") + std::strerror(errno),
-                  ExitCode::internal);
+    if (!out) throw Error(file.string(), "", errno_says("could not be written whole"), ExitCode::internal);
   }
   std::error_code failed;
   fs::rename(fresh, file, failed);
@@ -154,8 +150,7 @@ PictureFiles::PictureFiles(const ImageFlags& flags, const config::Config& config
     : config_(config), plan_(plan), folder_(flags.folder), request_(request_of(flags)) {
   check_count(plan, request_);
   make_folder(folder_);
-  if (::access(folder_.c_str(), W_OK | X_OK) != 0)
-    throw Error(folder_, "", std::string("cannot be written to: ") + std::strerror(errno));
+  if (::access(folder_.c_str(), W_OK | X_OK) != 0) throw Error(folder_, "", errno_says("cannot be written to"));
   geometries_ = pictures::load_geometries(config, plan, request_);
   for (std::size_t i = 0; i < geometries_.size(); ++i)
     for (const std::string& warning : geometries_[i] ? geometries_[i]->warnings : std::vector<std::string>{})

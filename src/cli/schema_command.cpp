@@ -71,8 +71,14 @@ void add_validate(Command& program, Action& action) {
   command.when_named([paths, &action] {
     action = [paths] {
       ExitCode worst = ExitCode::ok;
-      for (const std::string& path : *paths)
-        if (validate(path) != ExitCode::ok) worst = ExitCode::usage;
+      for (const std::string& path : *paths) {
+        try {
+          if (validate(path) != ExitCode::ok) worst = ExitCode::usage;
+        } catch (const Error& error) {  // the next ones are looked at, too
+          tell(error.what());
+          worst = error.code();
+        }
+      }
       return worst;
     };
   });

@@ -2,9 +2,6 @@
 
 #include <stdlib.h>
 
-#include <cerrno>
-#include <cstring>
-
 #include "core/error.h"
 
 namespace clusterbench::cli {
@@ -27,8 +24,7 @@ std::string parent_folder() {
 
 TemporaryFolder::TemporaryFolder() {
   std::string name = (fs::path(parent_folder()) / "clusterbench.XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr)
-    throw Error(name, "", std::string("no folder can be made: ") + std::strerror(errno) + k_advice);
+  if (mkdtemp(name.data()) == nullptr) throw Error(name, "", errno_says("no folder can be made") + k_advice);
   path_ = name;
 }
 

@@ -1,5 +1,7 @@
 #include "core/error.h"
 
+#include <cerrno>
+#include <cstring>
 #include <utility>
 
 namespace clusterbench {
@@ -19,5 +21,9 @@ Error::Error(std::string file, std::string where, std::string message, ExitCode 
       where_(std::move(where)),
       message_(std::move(message)),
       code_(code) {}
+
+std::string errno_says(const std::string& what) {
+  return what + ": " + std::strerror(errno);
+}
 
 }  // namespace clusterbench

@@ -34,4 +34,7 @@ class Error : public std::runtime_error {
   ExitCode code_;
 };
 
+// What was tried and why the system refused it, by errno: "cannot be written: No space left on device".
+std::string errno_says(const std::string& what);
+
 }  // namespace clusterbench

@@ -112,7 +112,7 @@ void replace_file(const std::string& path, const std::string& text) {
   if (file < 0)
     throw Error(fresh, "",
                 errno == EEXIST ? "exists: another `history add` is at work, or one was interrupted; then remove it"
-                                : std::string("cannot be written: ") + std::strerror(errno));
+                                : errno_says("cannot be written"));
   std::size_t written = 0;
   while (written < text.size()) {
     const ssize_t now = ::write(file, text.data() + written, text.size() - written);
@@ -121,9 +121,9 @@ void replace_file(const std::string& path, const std::string& text) {
   }
   const bool is_whole = written == text.size() && ::fsync(file) == 0;
   if (::close(file) == 0 && is_whole && std::rename(fresh.c_str(), path.c_str()) == 0) return;
-  const std::string why = std::strerror(errno);
+  const std::string why = errno_says("could not be replaced");
   ::unlink(fresh.c_str());
-  throw Error(path, "", "could not be replaced: " + why, ExitCode::internal);
+  throw Error(path, "", why, ExitCode::internal);
 }
 
 const Metric* metric_named(const std::string& name) {

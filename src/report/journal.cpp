@@ -2,8 +2,6 @@
 
 #include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
 #include <fstream>
 
 #include "config/documents.h"
@@ -51,7 +49,7 @@ Journal::Journal(const fs::path& file, const Json& header, bool resume, std::uin
     set_earlier_aside();
   partial_.check_room(expected_bytes);
   if (fs::exists(file_) && ::access(file_.c_str(), W_OK) != 0)
-    throw Error(file_.string(), "", std::string("cannot be written: ") + std::strerror(errno));
+    throw Error(file_.string(), "", errno_says("cannot be written"));
   if (partial_.text().empty()) partial_.append(Json{{"header", header}}.dump() + '\n');
 }
 
@@ -142,8 +140,7 @@ void Journal::finish(const Json& result) {
     whole << compact_json(result) << std::flush;
     if (!whole)
       throw Error(fresh.string(), "",
-                  std::string("cannot be written: ") + std::strerror(errno) + "; the cases are kept in " +
-                      partial_path().string());
+                  errno_says("cannot be written") + "; the cases are kept in " + partial_path().string());
   }
   std::error_code failed;
   fs::rename(fresh, file_, failed);

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 
 #include "core/error.h"
 
@@ -49,7 +48,7 @@ bool LockedFile::is_still_at_path() const {
 }
 
 void LockedFile::fail(const std::string& what) const {
-  throw Error(path_.string(), "", what + ": " + std::strerror(errno));
+  throw Error(path_.string(), "", errno_says(what));
 }
 
 std::string LockedFile::text() const {
@@ -68,8 +67,7 @@ void LockedFile::append(std::string_view text) {
   while (!text.empty()) {
     const ssize_t put = ::write(file_, text.data(), text.size());
     if (put < 0 && errno == EINTR) continue;
-    if (put < 0)
-      throw Error(path_.string(), "", std::string("cannot be written: ") + std::strerror(errno), ExitCode::interrupted);
+    if (put < 0) throw Error(path_.string(), "", errno_says("cannot be written"), ExitCode::interrupted);
     text.remove_prefix(static_cast<std::size_t>(put));
   }
 }

@@ -1,7 +1,6 @@
 #include "report/result_file.h"
 
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 
 #include "config/documents.h"
@@ -38,7 +37,7 @@ void check(const std::string& path, const Json& result) {
 Json read_result(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in || in.peek() == std::ifstream::traits_type::eof())
-    throw Error(path, "", in.eof() ? "is empty" : std::string("cannot be read: ") + std::strerror(errno));
+    throw Error(path, "", in.eof() ? "is empty" : errno_says("cannot be read"));
   if (is_journal(in))
     throw Error(path, "", "is what an unfinished run left; `clusterbench run` with --resume makes a result of it");
   in.clear();

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 
 #include "core/error.h"
@@ -58,7 +57,7 @@ void generate_scene(const std::string& name, std::uint64_t seed, int lights, con
     if (out.extension() != ".glb") throw Error(out.string(), "", "scenes are written as .glb files");
     std::ofstream file(out, std::ios::binary);
     file << make_scene(row, seed, lights) << std::flush;
-    if (!file) throw Error(out.string(), "", std::string("cannot be written: ") + std::strerror(errno));
+    if (!file) throw Error(out.string(), "", errno_says("cannot be written"));
     return;
   }
   throw Error("", "scene",
