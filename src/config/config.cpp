@@ -91,6 +91,10 @@ void add_scenes(const Json& scene, const std::string& pointer, const JsonText& t
       throw Error(text.file, text.where(location), "'" + given + "' is a web address; a scene is a file here");
     const fs::path path = expanded(given, text.file, text.where(location));
     request.path = (folder_of(text.file) / path).lexically_normal();
+    if (!text.file.empty()) {
+      request.named_by = text.file;
+      request.named_at = text.where(location);
+    }
     out.push_back(request);
   }
 }

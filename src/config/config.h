@@ -26,6 +26,7 @@ namespace clusterbench::config {
 
 struct SceneRequest {
   std::filesystem::path path;         // "" with a rig
+  std::string named_by, named_at;     // the configuration that names it, and where in it; "" for scenes given otherwise
   std::optional<scene::RigSpec> rig;  // made in memory, in place of a file
   scene::PathRequest camera;
   scene::RangeRule range_rule;

@@ -53,12 +53,19 @@ Json identity(const config::SampleSetRequest& request) {
   return out;
 }
 
+scene::Scene loaded(const config::SceneRequest& request) {
+  std::error_code unknown;
+  if (!request.named_by.empty() && !std::filesystem::exists(request.path, unknown) && !unknown)
+    throw Error(request.named_by, request.named_at, "names '" + request.path.string() + "', and there is no such file");
+  return scene::load_gltf(request.path);
+}
+
 std::vector<SceneData> load_scenes(const config::Config& config) {
   std::vector<SceneData> scenes;
   std::set<std::string> names;
   for (const config::SceneRequest& request : config.scenes) {
     SceneData data;
-    data.scene = request.rig ? scene::make_rig(*request.rig) : scene::load_gltf(request.path);
+    data.scene = request.rig ? scene::make_rig(*request.rig) : loaded(request);
     scene::resolve_ranges(data.scene, request.range_rule);
     data.scene.name = unique_name(name_part(data.scene.name), names);
     data.paths = scene::camera_paths(data.scene, request.camera);

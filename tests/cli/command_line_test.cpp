@@ -190,6 +190,17 @@ TEST(CommandLine, validate_tells_a_good_configuration_from_a_broken_one) {
   EXPECT_NE(done.err.find("did you mean 'scenes'?"), std::string::npos) << done.err;
 }
 
+TEST(CommandLine, validate_goes_on_behind_a_broken_configuration) {
+  const Folder folder;
+  const std::string bad = folder.write("bad.json", "{\n  \"scenez\": []\n}").string(),
+                    absent = folder.write("absent.json", "{\n  \"scenes\": [\"no.glb\"]\n}").string();
+  const Outcome done = tool("validate " + bad + " " + absent + " " + source_file("configs/quick.json"));
+  EXPECT_EQ(done.code, 2);
+  EXPECT_NE(done.err.find("bad.json: 2:3 /scenez"), std::string::npos) << done.err;
+  EXPECT_NE(done.err.find("absent.json: 2:14 /scenes/0: names '"), std::string::npos) << done.err;
+  EXPECT_NE(done.out.find("quick.json: a valid configuration"), std::string::npos) << done.out;
+}
+
 TEST(SceneCommand, what_is_refused_exits_2_with_one_line_that_names_file_and_place) {
   const Folder folder;
   const Outcome done = tool(
