@@ -47,8 +47,9 @@ std::shared_ptr<const depth::DepthImage> depths_for(const config::Config& config
 }
 
 double sample_far(const view::Frame& frame, double path_far_m) {
-  const double near = frame.projection.near_m;
-  return std::min(frame.projection.far_m, std::max(path_far_m, near > 0.0 ? 2.0 * near : 2.0 * -near + 1.0));
+  // Behind the near plane, also where no light reaches that far; an orthographic camera can have it behind itself.
+  const double near = frame.projection.near_m, behind_near = near > 0.0 ? 2.0 * near : 1.0 - 2.0 * near;
+  return std::min(frame.projection.far_m, std::max(path_far_m, behind_near));
 }
 
 std::vector<int> evenly_spaced(int wanted, int path_frames) {

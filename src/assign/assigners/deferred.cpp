@@ -67,7 +67,7 @@ struct Picture {
 // Whether a light shades a pixel.
 class PixelTest {
  public:
-  // `slack`: how far off a surface's point can be, of all coordinates that it is compared by.
+  // `slack`: how far off a surface's point can be, as a share of the sizes of all coordinates that it is compared by.
   PixelTest(const Picture& picture, const DrawnLight& light, DepthTest test, float slack)
       : picture_(picture),
         light_(light),
