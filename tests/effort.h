@@ -9,24 +9,24 @@
 
 namespace clusterbench::test {
 
-constexpr int tries(int count) {
 #ifdef CLUSTERBENCH_SANITIZED
-  return std::max(1, count / 8);
+inline constexpr bool k_sanitized = true;
 #else
-  return count;
+inline constexpr bool k_sanitized = false;
 #endif
+
+constexpr int tries(int count) {
+  return k_sanitized ? std::max(1, count / 8) : count;
 }
 
-// All of them; under sanitizers every eighth, which is enough to meet each kind of setting once.
+// All of them; under sanitizers every eighth (or `nth`, from a first one on), which is enough to meet each kind of
+// setting once.
 template <class T>
-std::vector<T> some(std::vector<T> all) {
-#ifdef CLUSTERBENCH_SANITIZED
+std::vector<T> some(std::vector<T> all, std::size_t nth = 8, std::size_t first = 0) {
+  if constexpr (!k_sanitized) return all;
   std::vector<T> kept;
-  for (std::size_t i = 0; i < all.size(); i += 8) kept.push_back(std::move(all[i]));
+  for (std::size_t i = first; i < all.size(); i += nth) kept.push_back(std::move(all[i]));
   return kept;
-#else
-  return all;
-#endif
 }
 
 }  // namespace clusterbench::test

@@ -8,10 +8,12 @@
 namespace clusterbench::assign::testing {
 namespace {
 
+// Under sanitizers each choice in a third of the views.
 TEST(EveryAssigner, keeps_the_contract_in_every_view_with_every_choice) {
+  std::size_t turn = 0;
   for (const AssignerDescriptor* row : assigner_descriptors())
     for (const Setting& setting : settings_for(*row, 7))
-      for (const Params& params : params_of(*row)) {
+      for (const Params& params : test::some(params_of(*row), 3, turn++ % 3)) {
         const std::vector<std::string> faults = contract_faults(*row, params, setting);
         std::string choices;
         for (const auto& [name, value] : params.values())
