@@ -93,7 +93,8 @@ function toCase(raw: CaseResult, run: Run, front: Set<string>, ranked: Ranked | 
     isUnlit: raw.warnings.some(({ kind }) => kind === "unlit"),
     rank: null,
     frameNs: raw.timing?.frame_ns.median ?? null,
-    costNs: raw.cost?.frame_ns ?? raw.cost?.gpu_ns ?? null,
+    // Who leaves out lights that samples need does not pay for the same picture.
+    costNs: raw.cost?.lit ? (raw.cost.frame_ns ?? raw.cost.gpu_ns ?? null) : null,
     interval: raw.timing?.frame_ns.ci95 ?? [null, null],
     ranked,
     worstNs: raw.timing?.worst_frame?.ns ?? null,

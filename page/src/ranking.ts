@@ -63,7 +63,7 @@ function caseColumns(view: View, rows: Case[]): Column<Case>[] {
     measured((row) => row.costNs) && {
       label: "cost µs",
       about:
-        "What a frame costs with its shading, by the model and the constants of the configuration's key cost: frame time where it is measured, bytes to upload, what drawn lights read and write, lights that samples loop over",
+        "What a frame costs with its shading, by the model and the constants of the configuration's key cost: frame time where it is measured, bytes to upload, what drawn lights read and write, lights that samples loop over. None where lights are left out that the samples need",
       value: (row) => row.costNs,
       show: (row) => format.microseconds(row.costNs),
     },
