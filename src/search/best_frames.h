@@ -1,0 +1,37 @@
+#pragma once
+// The best of many frames that are not nearly the same.
+
+#include <vector>
+
+#include "search/path_scene.h"
+
+namespace clusterbench::search {
+
+struct RatedFrame {
+  double value = 0.0;
+  std::vector<double> point;  // of the search's cube
+  Candidate candidate;
+};
+
+class BestFrames {
+ public:
+  // Nearly the same: eyes nearer than `near_m`, directions by less than 30 degrees, and the same moment. Of such frames
+  // the first with the best value is kept.
+  BestFrames(std::size_t most, double near_m) : most_(most), near_m_(near_m) {}
+
+  void add(const RatedFrame& frame);
+  void add_all(const BestFrames& others);
+  // Best first; of equal ones the first that was added.
+  const std::vector<RatedFrame>& frames() const { return frames_; }
+  // Whether a frame of that value could have a place.
+  bool may_take(double value) const { return frames_.size() < most_ || value > frames_.back().value; }
+
+ private:
+  bool are_near(const Candidate& a, const Candidate& b) const;
+
+  std::size_t most_;
+  double near_m_;
+  std::vector<RatedFrame> frames_;
+};
+
+}  // namespace clusterbench::search

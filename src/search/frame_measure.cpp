@@ -1,0 +1,121 @@
+#include "search/frame_measure.h"
+
+#include <algorithm>
+#include <array>
+
+#include "assign/contract/storage.h"
+#include "core/error.h"
+#include "measure/occupancy.h"
+
+namespace clusterbench::search {
+namespace {
+
+const config::SampleSetRequest* volume_set(const config::Config& config) {
+  const auto found = std::ranges::find(config.sample_sets, measure::SampleSet::volume, &config::SampleSetRequest::set);
+  return found == config.sample_sets.end() ? nullptr : &*found;
+}
+
+std::unique_ptr<assign::Storage> storage_of(const config::Config& config, const run::CasePlan& plan) {
+  if (!plan.storage) return nullptr;
+  const config::MethodRequest& request = config.storages[*plan.storage];
+  return assign::find_storage(request.name)->make(request.params);
+}
+
+std::uint32_t longest_of(const assign::Lists& lists) {
+  std::uint32_t longest = 0;
+  for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell)
+    longest = std::max(longest, lists.begin[cell + 1] - lists.begin[cell]);
+  return longest;
+}
+
+}  // namespace
+
+std::span<const MeasureRow> measure_rows() {
+  static constexpr std::array<MeasureRow, 5> k_rows{{
+      {Measure::entries, "entries", "entries", "index entries of the lists", "buffers.index_entries.high_water"},
+      {Measure::longest, "longest", "lights", "the longest list", "occupancy.lights_per_cluster.max"},
+      {Measure::p99, "p99", "lights", "the list that 99 % of the cells do not exceed",
+       "occupancy.lights_per_cluster.p99"},
+      {Measure::evaluated, "evaluated", "lights per sample", "lights that a sample of the view loops over, the mean",
+       "shading.evaluated / shading.samples"},
+      {Measure::tests, "tests", "tests", "tests of a light against a cell or what holds cells", "tests_done"},
+  }};
+  return k_rows;
+}
+
+const MeasureRow& row_of(Measure measure) {
+  return measure_rows()[static_cast<std::size_t>(measure)];
+}
+
+FrameMeter::FrameMeter(const config::Config& config, const run::CasePlan& plan, Measure measure)
+    : config_(config),
+      measure_(measure),
+      precision_{config.precisions[plan.precision]},
+      grids_(config.grids[plan.grid]),
+      run_(run::start_method(config, plan.method())),
+      storage_(storage_of(config, plan)) {
+  if ((measure == Measure::longest || measure == Measure::p99) && !run_.has_cells())
+    throw Error("", "--measure", std::string(row_of(measure).name) + ": " + plan.name + " has no cells");
+  if (measure == Measure::evaluated && volume_set(config) == nullptr)
+    throw Error("", "--measure", "evaluated needs samples in the view, and shading.samples is 0");
+}
+
+double FrameMeter::value(const run::PathFrames& path, int index) {
+  const view::Frame frame = path.frame(index);
+  const bool is_new_grid = grids_.update(path, frame);
+  const grid::Grid& grid = grids_.grid();
+  const run::FrameLights lights(precision_, view::lights_in(frame, grid::space_of(grid, frame)));
+  const view::LightArrays& packed = lights.in_precision(0);
+  if (is_new_grid) run_.build(grid, assign::kinds_of(packed));
+  lights_ = frame.ranges().size();
+  run_.assign({frame, packed, nullptr});
+  if (storage_ && is_new_grid) storage_->start(grid, frame.ranges());
+  if (storage_) storage_->store(*run_.filled_lists());
+  if (is_new_grid && measure_ == Measure::p99) {
+    real_cells_ = 0;
+    for (std::uint32_t cell = 0; cell < grid.cell_count(); ++cell) real_cells_ += grid.is_hole(cell) ? 0 : 1;
+  }
+  switch (measure_) {
+    case Measure::entries:
+      return static_cast<double>(structure().use().index_entries);
+    case Measure::longest:
+      return longest_of(run_.cell_lists());
+    case Measure::p99: {
+      measure::OccupancyMeter occupancy(real_cells_);
+      occupancy.add_frame(0, run_.cell_lists());
+      return occupancy.result().lights_per_cell.p99;
+    }
+    case Measure::evaluated:
+      return evaluated_at_samples(path, frame);
+    case Measure::tests:
+      break;
+  }
+  return static_cast<double>(run_.tests_done());
+}
+
+double FrameMeter::evaluated_at_samples(const run::PathFrames& path, const view::Frame& frame) {
+  const std::vector<grid::Sample> samples = measure::volume_samples(
+      frame, run::sample_far(frame, path.far_m()), volume_set(config_)->count, config_.seed);
+  std::uint64_t evaluated = 0;
+  for (const grid::Sample& sample : samples) {
+    structure().lights_at(sample, grid::Log2::rounded, given_);
+    evaluated += given_.size();
+  }
+  return samples.empty() ? 0.0 : static_cast<double>(evaluated) / static_cast<double>(samples.size());
+}
+
+std::optional<double> FrameMeter::theoretical_max() const {
+  if (measure_ == Measure::tests) return std::nullopt;
+  if (measure_ == Measure::entries) return static_cast<double>(structure().limit().index_entries);
+  return static_cast<double>(lights_);
+}
+
+std::vector<double> values_along(const config::Config& config, const run::CasePlan& plan, Measure measure,
+                                 const run::PathFrames& path) {
+  FrameMeter meter(config, plan, measure);
+  std::vector<double> values;
+  for (int frame = 0; frame < path.count(); ++frame) values.push_back(meter.value(path, frame));
+  return values;
+}
+
+}  // namespace clusterbench::search

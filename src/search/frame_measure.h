@@ -1,0 +1,61 @@
+#pragma once
+// One figure of one frame of a case: the same number that `clusterbench run` gives for a path of that frame alone.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "run/frame_lights.h"
+#include "run/path_frames.h"
+#include "run/sweep.h"
+
+namespace clusterbench::search {
+
+enum class Measure : std::uint8_t {
+  entries,    // index entries of the light structure (`buffers.index_entries.high_water`)
+  longest,    // lights in the longest list (`occupancy.lights_per_cluster.max`)
+  p99,        // the list that 99 % of the cells do not exceed (`occupancy.lights_per_cluster.p99`)
+  evaluated,  // lights per sample of the view: what a pixel loops over (`shading.evaluated` / `shading.samples`)
+  tests       // what the method tests lights against (`tests_done`)
+};
+struct MeasureRow {
+  Measure measure;
+  const char *name, *unit, *summary;
+  const char* figure;  // of a case in a result of `run`
+};
+std::span<const MeasureRow> measure_rows();
+const MeasureRow& row_of(Measure measure);
+
+// Measures frames of one case. Not for several threads at a time.
+class FrameMeter {
+ public:
+  // `config` must outlive it. Throws Error for a case that does not have the measure: longest and p99 need cells,
+  // evaluated needs samples in the view. The method must not need depth.
+  FrameMeter(const config::Config& config, const run::CasePlan& plan, Measure measure);
+
+  double value(const run::PathFrames& path, int frame);
+  // The most that there can be in the grid and with the lights of the last frame; none for tests.
+  std::optional<double> theoretical_max() const;
+
+ private:
+  double value_of(const run::PathFrames& path, const view::Frame& frame, const grid::Grid& grid);
+  double evaluated_at_samples(const run::PathFrames& path, const view::Frame& frame);
+  const assign::LightStructure& structure() const { return storage_ ? *storage_ : *run_.structure(); }
+
+  const config::Config& config_;
+  Measure measure_;
+  std::vector<config::PrecisionRequest> precision_;  // the case's own
+  run::GridOfFrames grids_;
+  assign::AssignerRun run_;
+  std::unique_ptr<assign::Storage> storage_;  // none: the method's own structure
+  std::uint32_t real_cells_ = 0;
+  std::uint32_t lights_ = 0;
+  std::vector<std::uint32_t> given_;
+};
+
+// Of all frames of a path.
+std::vector<double> values_along(const config::Config& config, const run::CasePlan& plan, Measure measure,
+                                 const run::PathFrames& path);
+
+}  // namespace clusterbench::search

@@ -1,0 +1,54 @@
+#pragma once
+// What a search may choose, as a cube with edges of 0 to 1: the camera's position and direction, the moment of the
+// scene's lights, and where extra lights stand.
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/random.h"
+#include "search/path_scene.h"
+#include "search/walkable.h"
+
+namespace clusterbench::search {
+
+struct Box {
+  Vec3d lo{0.0}, hi{0.0};
+
+  bool holds(const Vec3d& point) const;
+  void add(const Vec3d& point);
+};
+
+class SearchSpace {
+ public:
+  // `eyes`: where the camera may stand. `lights`: where extra lights may. `floor`: the camera stands so high above it
+  // instead, in the part of the floor nearest to a point of `eyes`; must outlive it.
+  SearchSpace(const Box& eyes, const Box& lights, std::size_t moments, std::size_t extra_lights,
+              const Walkable* floor = nullptr, double eye_height_m = 0.0);
+
+  std::size_t dimensions() const { return k_pose + (moments_ > 1 ? 1 : 0) + 3 * extra_lights_; }
+  // The frame at a point of the cube. The camera's up stays upright. Positions are rounded to single precision, by
+  // which they can lie outside of a box.
+  Candidate at(std::span<const double> point) const;
+  // The point of a camera that looks along the -z of `rotation` (its roll is lost), moved into the cube. Extra lights
+  // stand at the eye.
+  std::vector<double> point_of(const Vec3d& eye, const Vec4d& rotation, std::size_t moment) const;
+  // Eyes evenly in the box, or over the floor's area; directions evenly over the sphere; extra lights as at() has them.
+  std::vector<double> random(SplitMix64& random) const;
+  const Box& eyes() const { return eyes_; }
+
+ private:
+  static constexpr std::size_t k_pose = 5;
+
+  Box eyes_, lights_;
+  std::size_t moments_, extra_lights_;
+  const Walkable* floor_;
+  double eye_height_m_;
+};
+
+// The rotation of the camera's node, of single precision, for a pose.
+Vec4d rotation_of(const scene::CameraPose& pose);
+// Along which it looks.
+Vec3d direction_of(const Vec4d& rotation);
+
+}  // namespace clusterbench::search

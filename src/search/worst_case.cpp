@@ -1,0 +1,451 @@
+#include "search/worst_case.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+#include <numeric>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/text.h"
+#include "geom/shapes/domain.h"
+#include "search/best_frames.h"
+#include "search/optimizer.h"
+
+namespace clusterbench::search {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Parts of the work that are the same for any number of threads.
+constexpr int k_tasks = 16;
+constexpr int k_global_searches = 4, k_local_searches = 4;
+
+// When the search ends early.
+class Clockwork {
+ public:
+  Clockwork(double seconds, const std::atomic<bool>& stop) : stop_(stop) {
+    if (seconds > 0.0)
+      deadline_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  }
+  // To be asked before each evaluation.
+  bool is_over() {
+    if (!is_over_ && (stop_ || (deadline_ && Clock::now() >= *deadline_))) is_over_ = true;
+    return is_over_;
+  }
+  const std::atomic<bool>& over() const { return is_over_; }
+  Ended ended() const { return stop_ ? Ended::signal : is_over_ ? Ended::seconds : Ended::evaluations; }
+
+ private:
+  const std::atomic<bool>& stop_;
+  std::optional<Clock::time_point> deadline_;
+  std::atomic<bool> is_over_{false};
+};
+
+class Progress {
+ public:
+  Progress(const WorstCaseListener& listener, int whole) : listener_(listener), whole_(whole) {}
+  void begin(const std::string& doing) {
+    const std::lock_guard lock(mutex_);
+    doing_ = doing;
+  }
+  void step() {
+    const std::lock_guard lock(mutex_);
+    ++done_;
+    if (listener_.on_progress) listener_.on_progress(doing_, done_, whole_);
+  }
+
+ private:
+  const WorstCaseListener& listener_;
+  int whole_;
+  std::mutex mutex_;
+  std::string doing_;
+  int done_ = 0;
+};
+
+// What measures single frames; one for each task.
+class FrameRater {
+ public:
+  FrameRater(const config::Config& config, const run::CasePlan& plan, Measure measure, const LightRig& rig,
+             const scene::CameraProjection& projection)
+      : rig_(rig),
+        request_(config.scenes[plan.scene].camera),
+        viewport_(config.viewports[plan.viewport]),
+        scene_(rig.scene(1, projection)),
+        meter_(config, plan, measure) {}
+
+  double rate(const Candidate& candidate) {
+    rig_.set_frame(scene_, 0, candidate);
+    const scene::CameraPath path = path_of(scene_, request_);
+    return meter_.value({scene_, path, viewport_}, 0);
+  }
+  std::optional<double> theoretical_max() const { return meter_.theoretical_max(); }
+
+ private:
+  const LightRig& rig_;
+  const scene::PathRequest& request_;
+  Vec2i viewport_;
+  scene::Scene scene_;
+  FrameMeter meter_;
+};
+
+Box box_of(const LightRig& rig, const scene::CameraPath& path) {
+  Box box{path.shots.front().pose.eye, path.shots.front().pose.eye};
+  for (const scene::Shot& shot : path.shots) box.add(shot.pose.eye);
+  for (std::size_t moment = 0; moment < rig.moments(); ++moment)
+    for (std::size_t light = 0; light < rig.own_lights(); ++light) box.add(rig.position(moment, light));
+  return box;
+}
+
+class Search {
+ public:
+  Search(const config::Config& config, const run::Plan& plan, const run::CasePlan& case_plan,
+         const WorstCaseRequest& request, const WorstCaseListener& listener, const std::atomic<bool>& stop)
+      : config_(config),
+        plan_(plan),
+        case_(case_plan),
+        request_(request),
+        path_(plan.scenes[case_plan.scene].paths[case_plan.camera]),
+        rig_(plan.scenes[case_plan.scene].scene, path_, request.extra_ranges_m, request.move_m > 0.0),
+        scene_box_(box_of(rig_, path_)),
+        floor_(floor_of(plan.scenes[case_plan.scene].scene)),
+        space_(eye_box(), scene_box_, rig_.moments(), request.extra_ranges_m.size(), floor_ ? &*floor_ : nullptr,
+               request.eye_height_m),
+        clock_(request.seconds, stop),
+        stop_(stop),
+        progress_(listener, request.evaluations + request.random),
+        best_(std::max<std::size_t>(static_cast<std::size_t>(request.frames), k_local_searches), near_m()) {}
+
+  WorstCase result() {
+    measure_recorded();
+    const bool moves = request_.move_m > 0.0 && rig_.own_lights() > 0;
+    const int left_for_search = moves ? request_.evaluations - request_.evaluations / 3 : request_.evaluations;
+    rate_recorded(std::max(1, left_for_search / 10));
+    rate_sampled(left_for_search / 4);
+    search_globally((left_for_search - used_) * 3 / 5);
+    search_locally(left_for_search - used_);
+    if (moves) move_lights(request_.evaluations - used_);
+    out_.ended = clock_.ended();
+    out_.evaluations = used_;
+    out_.eyes = space_.eyes();
+    out_.lights = scene_box_;
+    out_.own_lights = rig_.own_lights();
+    out_.moments = rig_.moments();
+    if (floor_) {
+      out_.floor_triangles = floor_->triangles();
+      out_.floor_area_m2 = floor_->area_m2();
+    }
+    if (best_.frames().empty()) return std::move(out_);
+    make_path();
+    compare_with_random();
+    return std::move(out_);
+  }
+
+ private:
+  const scene::CameraProjection& projection() const { return path_.shots.front().projection; }
+  FrameRater rater() const { return {config_, case_, request_.measure, rig_, projection()}; }
+
+  std::optional<Walkable> floor_of(const scene::Scene& scene) const {
+    if (!request_.walkable) return std::nullopt;
+    if (scene.path.empty()) throw Error("", "--walkable", "a rig that was made has no triangles");
+    const run::SceneData& data = plan_.scenes[case_.scene];
+    return Walkable(scene, data.geometry ? *data.geometry : scene::load_geometry(scene));
+  }
+  Box eye_box() const {
+    if (request_.within) return *request_.within;
+    if (!floor_) return scene_box_;
+    const Vec3d height{0.0, request_.eye_height_m, 0.0};
+    return {floor_->lo() + height, floor_->hi() + height};
+  }
+  double near_m() const {
+    const Vec3d size = space_.eyes().hi - space_.eyes().lo;
+    return 0.05 * std::sqrt(glm::dot(size, size));
+  }
+
+  void measure_recorded() {
+    const Vec2i viewport = config_.viewports[case_.viewport];
+    const run::PathFrames recorded(plan_.scenes[case_.scene].scene, path_, viewport);
+    const std::vector<double> values = values_along(config_, case_, request_.measure, recorded);
+    const auto most = std::ranges::max_element(values);
+    out_.recorded = {recorded.count(), *most, static_cast<int>(most - values.begin())};
+    const scene::CameraProjection& first = projection();
+    const auto differs = [&](const scene::Shot& shot) {
+      return view::make_projection(shot.projection, viewport) != view::make_projection(first, viewport);
+    };
+    if (std::ranges::any_of(path_.shots, differs))
+      out_.warnings.emplace_back("the camera's projection changes along its path; the search takes that of its first frame");
+  }
+
+  // Rates count frames; `frame_of(i)` gives each. Returns how many were rated.
+  template <class FrameOf>
+  int rate_each(int count, BestFrames& best, FrameOf frame_of, std::vector<double>* values = nullptr) {
+    std::vector<BestFrames> found(k_tasks, BestFrames(best_.frames().capacity() + k_local_searches, near_m()));
+    for (BestFrames& task : found) task = BestFrames(kept(), near_m());
+    std::atomic<int> rated = 0;
+    ThreadPool(request_.threads).each(k_tasks, [&](std::size_t task) {
+      const int begin = static_cast<int>(task) * count / k_tasks, end = static_cast<int>(task + 1) * count / k_tasks;
+      if (begin == end) return;
+      FrameRater meter = rater();
+      for (int i = begin; i < end && !clock_.is_over(); ++i) {
+        RatedFrame frame = frame_of(i);
+        frame.value = meter.rate(frame.candidate);
+        found[task].add(frame);
+        if (values != nullptr) (*values)[static_cast<std::size_t>(i)] = frame.value;
+        ++rated;
+        progress_.step();
+      }
+    });
+    for (const BestFrames& task : found) best.add_all(task);
+    return rated;
+  }
+  std::size_t kept() const { return std::max<std::size_t>(static_cast<std::size_t>(request_.frames), k_local_searches); }
+
+  void end_stage(const char* name, int evaluations) {
+    used_ += evaluations;
+    if (evaluations > 0) out_.stages.push_back({name, evaluations, best_.frames().front().value});
+  }
+
+  // A recorded frame as it is, as far as the search may choose it; else the nearest that it may.
+  RatedFrame recorded_frame(std::size_t frame) const {
+    const scene::CameraPose& pose = path_.shots[frame].pose;
+    const Vec4d rotation = rotation_of(pose);
+    const std::size_t moment = rig_.moment_of(frame);
+    RatedFrame out{0.0, space_.point_of(pose.eye, rotation, moment), {}};
+    out.candidate = space_.at(out.point);
+    if (floor_ || !space_.eyes().holds(pose.eye)) return out;
+    out.candidate.eye = rounded_to_float(pose.eye);
+    out.candidate.rotation = rotation;
+    return out;
+  }
+
+  void rate_recorded(int most) {
+    progress_.begin("recorded frames");
+    const std::vector<int> frames = run::evenly_spaced(most, static_cast<int>(path_.shots.size()));
+    end_stage("recorded", rate_each(static_cast<int>(frames.size()), best_, [&](int i) {
+                return recorded_frame(static_cast<std::size_t>(frames[static_cast<std::size_t>(i)]));
+              }));
+  }
+
+  // The same frame for the same number and seed.
+  RatedFrame random_frame(int number, std::uint64_t stream) const {
+    SplitMix64 mixed(request_.seed * 2 + stream);
+    SplitMix64 random(mixed.next() + static_cast<std::uint64_t>(number) * 0x9e3779b97f4a7c15u);
+    SplitMix64 own(random.next());
+    RatedFrame out{0.0, space_.random(own), {}};
+    out.candidate = space_.at(out.point);
+    return out;
+  }
+
+  void rate_sampled(int count) {
+    progress_.begin("random frames to start from");
+    end_stage("sampled", rate_each(count, best_, [&](int i) { return random_frame(i, 0); }));
+  }
+
+  // Runs tasks that each rate frames one after the other; their frames are added in the tasks' order.
+  template <class Work>
+  int run_tasks(std::size_t count, Work work) {
+    std::vector<BestFrames> found(count, BestFrames(kept(), near_m()));
+    std::vector<int> used(count, 0);
+    ThreadPool(request_.threads).each(count, [&](std::size_t task) {
+      FrameRater meter = rater();
+      const Objective objective = [&](const std::vector<double>& point) {
+        clock_.is_over();
+        RatedFrame frame{0.0, point, space_.at(point)};
+        frame.value = meter.rate(frame.candidate);
+        found[task].add(frame);
+        progress_.step();
+        return frame.value;
+      };
+      used[task] = work(task, objective);
+    });
+    for (const BestFrames& task : found) best_.add_all(task);
+    return std::accumulate(used.begin(), used.end(), 0);
+  }
+
+  void search_globally(int evaluations) {
+    progress_.begin("global search");
+    // A population is ten times as large as there are dimensions; fewer than two of them are no search.
+    const int least = 20 * (static_cast<int>(space_.dimensions()) + 1);
+    const auto searches = static_cast<std::size_t>(std::min(evaluations / least, k_global_searches));
+    if (searches == 0 || best_.frames().empty()) return;
+    const std::vector<RatedFrame> starts = best_.frames();
+    end_stage("global", run_tasks(searches, [&](std::size_t task, const Objective& objective) {
+                return maximise_globally(starts[task % starts.size()].point, share(evaluations, task, searches),
+                                         request_.seed + task, objective, clock_.over());
+              }));
+  }
+
+  static int share(int evaluations, std::size_t task, std::size_t tasks) {
+    const auto all = static_cast<std::size_t>(evaluations);
+    return static_cast<int>((task + 1) * all / tasks - task * all / tasks);
+  }
+
+  // Again and again with other steps, for as long as there are evaluations: the measures have plateaus.
+  void search_locally(int evaluations) {
+    progress_.begin("local search");
+    const std::vector<RatedFrame> starts = best_.frames();
+    if (starts.empty() || evaluations < 1) return;
+    const std::size_t searches = std::min<std::size_t>(starts.size(), k_local_searches);
+    end_stage("local", run_tasks(searches, [&](std::size_t task, const Objective& objective) {
+                return climb(starts[task], share(evaluations, task, searches), objective);
+              }));
+  }
+
+  int climb(RatedFrame best, int evaluations, const Objective& objective) const {
+    constexpr double k_steps[] = {0.05, 0.01, 0.2, 0.002};
+    const Objective keeping = [&](const std::vector<double>& point) {
+      const double value = objective(point);
+      if (value > best.value) {
+        best.value = value;
+        best.point = point;
+      }
+      return value;
+    };
+    int used = 0;
+    for (std::size_t turn = 0; used < evaluations && !clock_.over(); ++turn) {
+      const int now = maximise_locally(best.point, k_steps[turn % std::size(k_steps)], evaluations - used, keeping,
+                                       clock_.over());
+      if (now == 0) break;
+      used += now;
+    }
+    return used;
+  }
+
+  // Light by light towards the eye, then anywhere in its ball; what makes a frame worse for the tool stays.
+  void move_lights(int evaluations) {
+    progress_.begin("moving lights");
+    std::vector<RatedFrame> frames = best_.frames();
+    frames.resize(std::min(frames.size(), static_cast<std::size_t>(request_.frames)));
+    if (frames.empty()) return;
+    std::vector<int> used(frames.size(), 0);
+    ThreadPool(request_.threads).each(frames.size(), [&](std::size_t i) {
+      FrameRater meter = rater();
+      used[i] = move_lights_of(frames[i], share(evaluations, i, frames.size()), request_.seed + i, meter);
+    });
+    for (const RatedFrame& frame : frames) best_.add(frame);
+    end_stage("moved lights", std::accumulate(used.begin(), used.end(), 0));
+  }
+
+  int move_lights_of(RatedFrame& frame, int evaluations, std::uint64_t seed, FrameRater& meter) {
+    SplitMix64 random(seed);
+    for (std::size_t light = 0; light < rig_.own_lights(); ++light)
+      frame.candidate.moved.emplace_back(light, rig_.position(frame.candidate.moment, light));
+    int used = 0;
+    const auto keep_if_better = [&](const Candidate& tried) {
+      ++used;
+      progress_.step();
+      const double value = meter.rate(tried);
+      if (value <= frame.value) return;
+      frame.value = value;
+      frame.candidate = tried;
+    };
+    for (std::size_t turn = 0; used < evaluations && !clock_.is_over(); ++turn) {
+      const std::size_t light = turn % rig_.own_lights();
+      const Vec3d home = rig_.position(frame.candidate.moment, light);
+      Vec3d place = home + within(frame.candidate.eye - home, request_.move_m);
+      if (turn >= rig_.own_lights()) place = home + in_ball(random, request_.move_m);
+      Candidate tried = frame.candidate;
+      tried.moved[light].second = rounded_to_float(place);
+      keep_if_better(tried);
+    }
+    std::erase_if(frame.candidate.moved, [&](const auto& one) {
+      return one.second == rig_.position(frame.candidate.moment, one.first);
+    });
+    return used;
+  }
+
+  static Vec3d within(const Vec3d& way, double most_m) {
+    const double length = std::sqrt(glm::dot(way, way));
+    return length > most_m ? way * (most_m / length) : way;
+  }
+  static Vec3d in_ball(SplitMix64& random, double radius_m) {
+    Vec3d point;
+    do point = {random.between(-1.0, 1.0), random.between(-1.0, 1.0), random.between(-1.0, 1.0)};
+    while (glm::dot(point, point) > 1.0);
+    return point * radius_m;
+  }
+
+  void make_path() {
+    const std::size_t count = std::min(best_.frames().size(), static_cast<std::size_t>(request_.frames));
+    out_.path_scene = rig_.scene(count, projection());
+    for (std::size_t i = 0; i < count; ++i) rig_.set_frame(out_.path_scene, i, best_.frames()[i].candidate);
+    const scene::CameraPath path = path_of(out_.path_scene, config_.scenes[case_.scene].camera);
+    const std::vector<double> values =
+        values_along(config_, case_, request_.measure, {out_.path_scene, path, config_.viewports[case_.viewport]});
+    for (std::size_t i = 0; i < count; ++i)
+      out_.frames.push_back({best_.frames()[i].candidate, values[i], best_.frames()[i].value});
+    FrameRater meter = rater();
+    meter.rate(out_.frames.front().candidate);
+    out_.theoretical_max = meter.theoretical_max();
+  }
+
+  void compare_with_random() {
+    progress_.begin("random frames to compare with");
+    BestFrames found(1, 0.0);
+    std::vector<double> values(static_cast<std::size_t>(request_.random), 0.0);
+    out_.random.frames = stop_ ? 0 : rate_random(found, values);
+    if (out_.random.frames == 0) return;
+    out_.random.max = found.frames().front().value;
+    out_.random.mean = std::accumulate(values.begin(), values.end(), 0.0) / out_.random.frames;
+  }
+
+  int rate_random(BestFrames& found, std::vector<double>& values) {
+    Clockwork unhurried(0.0, stop_);
+    return rate_each(request_.random, found, [&](int i) { return random_frame(i, 1); }, &values);
+  }
+
+  const config::Config& config_;
+  const run::Plan& plan_;
+  const run::CasePlan& case_;
+  const WorstCaseRequest& request_;
+  const scene::CameraPath& path_;
+  LightRig rig_;
+  Box scene_box_;
+  std::optional<Walkable> floor_;
+  SearchSpace space_;
+  Clockwork clock_;
+  const std::atomic<bool>& stop_;
+  Progress progress_;
+  BestFrames best_;
+  WorstCase out_;
+  int used_ = 0;
+};
+
+void check(const run::SceneData& data, const WorstCaseRequest& request) {
+  const bool has_lights = std::ranges::any_of(
+      data.scene.lights, [](const scene::Light& light) { return light.type != scene::LightType::directional; });
+  if (!has_lights && request.extra_ranges_m.empty())
+    throw Error(data.scene.path.string(), "", "has no point or spot light, and none is added (--add-lights)");
+  if (!request.within) return;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double lo = request.within->lo[axis], hi = request.within->hi[axis];
+    if (!(lo <= hi)) throw Error("", "--within", "must have its minimum not above its maximum on each axis");
+    if (!geom::is_in_domain(lo) || !geom::is_in_domain(hi))
+      throw Error("", "--within", "must be within 1e15 m from the origin");
+  }
+}
+
+}  // namespace
+
+const run::CasePlan& case_to_search(const config::Config& config, const run::Plan& plan) {
+  const run::CasePlan* found = nullptr;
+  for (const run::GroupPlan& group : plan.groups)
+    for (const run::CasePlan& one : group.cases) {
+      const assign::AssignerDescriptor& assigner = *assign::find_assigner(config.assigners[one.assigner].name);
+      if (assigner.needs.depth || assigner.at_surfaces) continue;
+      if (!assigner.all_pairs) return one;
+      if (found == nullptr) found = &one;
+    }
+  if (found != nullptr) return *found;
+  throw Error(config.file.string(), "", "all cases need depth, and a written path holds no triangles to see it from");
+}
+
+WorstCase find_worst_case(const config::Config& config, const run::Plan& plan, const run::CasePlan& case_plan,
+                          const WorstCaseRequest& request, const WorstCaseListener& listener,
+                          const std::atomic<bool>& stop) {
+  check(plan.scenes[case_plan.scene], request);
+  return Search(config, plan, case_plan, request, listener, stop).result();
+}
+
+}  // namespace clusterbench::search

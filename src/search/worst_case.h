@@ -1,0 +1,90 @@
+#pragma once
+// Searches for the frames that are worst for one case: where a camera, and lights that may be added or moved, make a
+// measure largest. Tries the recorded frames, random ones, a global search from the best of them and a local one from the
+// best of all. What it measures is what a written path holds, to the bit.
+
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "config/config.h"
+#include "run/sweep.h"
+#include "search/frame_measure.h"
+#include "search/path_scene.h"
+#include "search/search_space.h"
+
+namespace clusterbench::search {
+
+struct WorstCaseRequest {
+  Measure measure = Measure::entries;
+  int evaluations = 5000;
+  double seconds = 0.0;  // an extra stop, on which results then depend; 0: none
+  std::uint64_t seed = 1;
+  int random = 10000;  // frames to compare with
+  int frames = 1;      // distinct ones to find
+  int threads = 1;     // nothing depends on them
+  std::vector<double> extra_ranges_m;  // of point lights that are added
+  double move_m = 0.0;                 // how far each light of the scene may be moved
+  std::optional<Box> within;           // where the eye may be; without: the box of the lights and the recorded eyes
+  bool walkable = false;               // the eye stays above the floor
+  double eye_height_m = 1.7;
+};
+
+struct WorstCaseListener {
+  std::function<void(const std::string& doing, int done, int whole)> on_progress;  // from any thread, one at a time
+};
+
+struct Stage {
+  std::string name;
+  int evaluations = 0;
+  double best = 0.0;  // so far
+};
+
+struct FoundFrame {
+  Candidate candidate;
+  double value = 0.0;        // in the written path
+  double value_alone = 0.0;  // in a path of this frame alone; differs only where a grid follows from the whole path
+};
+
+enum class Ended : std::uint8_t { evaluations, seconds, signal };
+
+struct RandomFrames {
+  int frames = 0;
+  double max = 0.0, mean = 0.0;
+};
+
+struct RecordedFrames {
+  int frames = 0;
+  double max = 0.0;
+  int frame = 0;  // the first with that value
+};
+
+struct WorstCase {
+  Ended ended = Ended::evaluations;
+  int evaluations = 0;
+  std::vector<Stage> stages;
+  std::vector<FoundFrame> frames;  // best first
+  RecordedFrames recorded;
+  RandomFrames random;
+  std::optional<double> theoretical_max;  // in the grid of the worst frame
+  Box eyes, lights;
+  std::size_t own_lights = 0, moments = 1;
+  std::size_t floor_triangles = 0;
+  double floor_area_m2 = 0.0;
+  std::vector<std::string> warnings;
+  scene::Scene path_scene;  // the frames found, as they are to be written
+};
+
+// The case to search: the first of the plan's, but for methods that test all pairs where there is another. Throws Error
+// where all need depth, whose triangles a written path does not hold.
+const run::CasePlan& case_to_search(const config::Config& config, const run::Plan& plan);
+
+// Throws Error for a scene without lights, or with nothing where a camera could stand. `stop` is looked at before each
+// evaluation; what was found by then is the result.
+WorstCase find_worst_case(const config::Config& config, const run::Plan& plan, const run::CasePlan& case_plan,
+                          const WorstCaseRequest& request, const WorstCaseListener& listener,
+                          const std::atomic<bool>& stop);
+
+}  // namespace clusterbench::search
