@@ -114,7 +114,7 @@ Json result_schema() {
 }
 
 std::span<const DocumentRow> document_rows() {
-  static const std::array<DocumentRow, 5> rows{{
+  static const std::array<DocumentRow, 6> rows{{
       {Document::config, "config", "a configuration", config_schema},
       {Document::result, "result", "a result of `clusterbench run`", result_schema},
       {Document::comparison, "comparison", "a comparison of `clusterbench compare`",
@@ -122,6 +122,8 @@ std::span<const DocumentRow> document_rows() {
       {Document::ratios, "ratios", "ratios of `clusterbench ratio`", [] { return Json::parse(ratios_schema_text()); }},
       {Document::stress, "stress", "a result of `clusterbench stress`",
        [] { return Json::parse(stress_schema_text()); }},
+      {Document::worst_case, "worst-case", "a result of `clusterbench worst-case`",
+       [] { return Json::parse(worst_case_schema_text()); }},
   }};
   return rows;
 }

@@ -69,8 +69,7 @@ std::string base64(const std::string& bytes) {
       return i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u;
     };
     const unsigned all = byte(0) << 16 | byte(1) << 8 | byte(2);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += i + k <= bytes.size() ? k_digits[all >> (18 - 6 * k) & 63u] : '=';
+    for (std::size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? k_digits[all >> (18 - 6 * k) & 63u] : '=';
   }
   return text;
 }
@@ -93,8 +92,8 @@ class AnimationWriter {
   void finish() {
     if (channels_.empty()) return;
     document_["animations"] = Json::array({Json{{"channels", channels_}, {"samplers", samplers_}}});
-    document_["buffers"] = Json::array({Json{
-        {"byteLength", bytes_.size()}, {"uri", "data:application/octet-stream;base64," + base64(bytes_)}}});
+    document_["buffers"] = Json::array(
+        {Json{{"byteLength", bytes_.size()}, {"uri", "data:application/octet-stream;base64," + base64(bytes_)}}});
     if (has_pointers_) document_["extensionsUsed"].push_back("KHR_animation_pointer");
   }
 
@@ -129,8 +128,7 @@ class AnimationWriter {
       const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(value));
       for (unsigned shift = 0; shift < 32; shift += 8) bytes_ += static_cast<char>(bits >> shift & 0xffu);
     }
-    document_["bufferViews"].push_back(
-        {{"buffer", 0}, {"byteOffset", begin}, {"byteLength", bytes_.size() - begin}});
+    document_["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", begin}, {"byteLength", bytes_.size() - begin}});
     document_["accessors"].push_back({{"bufferView", document_["bufferViews"].size() - 1},
                                       {"componentType", 5126},
                                       {"count", values.size() / components},

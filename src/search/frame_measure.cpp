@@ -94,8 +94,8 @@ double FrameMeter::value(const run::PathFrames& path, int index) {
 }
 
 double FrameMeter::evaluated_at_samples(const run::PathFrames& path, const view::Frame& frame) {
-  const std::vector<grid::Sample> samples = measure::volume_samples(
-      frame, run::sample_far(frame, path.far_m()), volume_set(config_)->count, config_.seed);
+  const std::vector<grid::Sample> samples =
+      measure::volume_samples(frame, run::sample_far(frame, path.far_m()), volume_set(config_)->count, config_.seed);
   std::uint64_t evaluated = 0;
   for (const grid::Sample& sample : samples) {
     structure().lights_at(sample, grid::Log2::rounded, given_);

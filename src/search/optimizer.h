@@ -10,8 +10,8 @@ namespace clusterbench::search {
 
 using Objective = std::function<double(const std::vector<double>& point)>;
 
-// Each calls the objective at most `evaluations` times and returns how often it did; what it finds is the objective's to
-// keep. Ends when `stop` becomes true. What the objective throws comes through. The same calls for the same seed.
+// Each calls the objective at most `evaluations` times and returns how often it did; what it finds is the objective's
+// to keep. Ends when `stop` becomes true. What the objective throws comes through. The same calls for the same seed.
 
 // CRS2 with local mutation (Kaelo and Ali 2006) from `start` and a random population.
 int maximise_globally(std::vector<double> start, int evaluations, std::uint64_t seed, const Objective& objective,

@@ -54,8 +54,8 @@ Vec4d rounded_to_float(const Vec4d& value) {
   return {rounded_to_float(value.x), rounded_to_float(value.y), rounded_to_float(value.z), rounded_to_float(value.w)};
 }
 
-LightRig::LightRig(const scene::Scene& scene, const scene::CameraPath& path,
-                   const std::vector<double>& extra_ranges_m, bool may_move) {
+LightRig::LightRig(const scene::Scene& scene, const scene::CameraPath& path, const std::vector<double>& extra_ranges_m,
+                   bool may_move) {
   std::vector<std::size_t> index(scene.lights.size());
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     if (scene.lights[i].type == scene::LightType::directional) continue;

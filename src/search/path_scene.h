@@ -1,6 +1,7 @@
 #pragma once
-// A scene that holds nothing but lights and one camera, which stands elsewhere in each frame: what a search measures, and
-// what it writes. Between frames nothing moves (glTF's interpolation STEP), so that any choice of frames gives the same.
+// A scene that holds nothing but lights and one camera, which stands elsewhere in each frame: what a search measures,
+// and what it writes. Between frames nothing moves (glTF's interpolation STEP), so that any choice of frames gives the
+// same.
 
 #include <optional>
 #include <utility>
@@ -58,11 +59,11 @@ class LightRig {
   void find_changes(bool may_move);
   void round_changing();
 
-  std::vector<scene::Light> lights_;         // without directional ones, and then the extra ones
-  std::size_t own_ = 0;                      // of the scene
-  std::vector<std::size_t> moment_frames_;   // frame of each moment
-  std::vector<std::vector<State>> states_;   // by moment, by light of the scene
-  std::vector<Changes> changes_;             // by light of the scene: over the moments
+  std::vector<scene::Light> lights_;        // without directional ones, and then the extra ones
+  std::size_t own_ = 0;                     // of the scene
+  std::vector<std::size_t> moment_frames_;  // frame of each moment
+  std::vector<std::vector<State>> states_;  // by moment, by light of the scene
+  std::vector<Changes> changes_;            // by light of the scene: over the moments
 };
 
 // The frames of such a scene, each once.

@@ -16,7 +16,7 @@
 namespace clusterbench::search {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using SearchClock = std::chrono::steady_clock;
 
 // Parts of the work that are the same for any number of threads.
 constexpr int k_tasks = 16;
@@ -27,11 +27,12 @@ class Clockwork {
  public:
   Clockwork(double seconds, const std::atomic<bool>& stop) : stop_(stop) {
     if (seconds > 0.0)
-      deadline_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+      deadline_ = SearchClock::now() +
+                  std::chrono::duration_cast<SearchClock::duration>(std::chrono::duration<double>(seconds));
   }
   // To be asked before each evaluation.
   bool is_over() {
-    if (!is_over_ && (stop_ || (deadline_ && Clock::now() >= *deadline_))) is_over_ = true;
+    if (!is_over_ && (stop_ || (deadline_ && SearchClock::now() >= *deadline_))) is_over_ = true;
     return is_over_;
   }
   const std::atomic<bool>& over() const { return is_over_; }
@@ -39,13 +40,13 @@ class Clockwork {
 
  private:
   const std::atomic<bool>& stop_;
-  std::optional<Clock::time_point> deadline_;
+  std::optional<SearchClock::time_point> deadline_;
   std::atomic<bool> is_over_{false};
 };
 
-class Progress {
+class SearchProgress {
  public:
-  Progress(const WorstCaseListener& listener, int whole) : listener_(listener), whole_(whole) {}
+  SearchProgress(const WorstCaseListener& listener, int whole) : listener_(listener), whole_(whole) {}
   void begin(const std::string& doing) {
     const std::lock_guard lock(mutex_);
     doing_ = doing;
@@ -98,10 +99,10 @@ Box box_of(const LightRig& rig, const scene::CameraPath& path) {
   return box;
 }
 
-class Search {
+class WorstCaseSearch {
  public:
-  Search(const config::Config& config, const run::Plan& plan, const run::CasePlan& case_plan,
-         const WorstCaseRequest& request, const WorstCaseListener& listener, const std::atomic<bool>& stop)
+  WorstCaseSearch(const config::Config& config, const run::Plan& plan, const run::CasePlan& case_plan,
+                  const WorstCaseRequest& request, const WorstCaseListener& listener, const std::atomic<bool>& stop)
       : config_(config),
         plan_(plan),
         case_(case_plan),
@@ -115,7 +116,7 @@ class Search {
         clock_(request.seconds, stop),
         stop_(stop),
         progress_(listener, request.evaluations + request.random),
-        best_(std::max<std::size_t>(static_cast<std::size_t>(request.frames), k_local_searches), near_m()) {}
+        best_(kept(), near_m()) {}
 
   WorstCase result() {
     measure_recorded();
@@ -174,20 +175,20 @@ class Search {
       return view::make_projection(shot.projection, viewport) != view::make_projection(first, viewport);
     };
     if (std::ranges::any_of(path_.shots, differs))
-      out_.warnings.emplace_back("the camera's projection changes along its path; the search takes that of its first frame");
+      out_.warnings.emplace_back(
+          "the camera's projection changes along its path; the search takes that of its first frame");
   }
 
-  // Rates count frames; `frame_of(i)` gives each. Returns how many were rated.
-  template <class FrameOf>
-  int rate_each(int count, BestFrames& best, FrameOf frame_of, std::vector<double>* values = nullptr) {
-    std::vector<BestFrames> found(k_tasks, BestFrames(best_.frames().capacity() + k_local_searches, near_m()));
-    for (BestFrames& task : found) task = BestFrames(kept(), near_m());
+  // Rates so many frames; `frame_of(i)` gives each, `is_over()` ends it early. Returns how many were rated.
+  template <class FrameOf, class IsOver>
+  int rate_each(int count, BestFrames& best, FrameOf frame_of, IsOver is_over, std::vector<double>* values = nullptr) {
+    std::vector<BestFrames> found(k_tasks, BestFrames(kept(), near_m()));
     std::atomic<int> rated = 0;
     ThreadPool(request_.threads).each(k_tasks, [&](std::size_t task) {
       const int begin = static_cast<int>(task) * count / k_tasks, end = static_cast<int>(task + 1) * count / k_tasks;
       if (begin == end) return;
       FrameRater meter = rater();
-      for (int i = begin; i < end && !clock_.is_over(); ++i) {
+      for (int i = begin; i < end && !is_over(); ++i) {
         RatedFrame frame = frame_of(i);
         frame.value = meter.rate(frame.candidate);
         found[task].add(frame);
@@ -199,7 +200,9 @@ class Search {
     for (const BestFrames& task : found) best.add_all(task);
     return rated;
   }
-  std::size_t kept() const { return std::max<std::size_t>(static_cast<std::size_t>(request_.frames), k_local_searches); }
+  std::size_t kept() const {
+    return std::max<std::size_t>(static_cast<std::size_t>(request_.frames), k_local_searches);
+  }
 
   void end_stage(const char* name, int evaluations) {
     used_ += evaluations;
@@ -222,9 +225,11 @@ class Search {
   void rate_recorded(int most) {
     progress_.begin("recorded frames");
     const std::vector<int> frames = run::evenly_spaced(most, static_cast<int>(path_.shots.size()));
-    end_stage("recorded", rate_each(static_cast<int>(frames.size()), best_, [&](int i) {
-                return recorded_frame(static_cast<std::size_t>(frames[static_cast<std::size_t>(i)]));
-              }));
+    const auto frame_of = [&](int i) {
+      return recorded_frame(static_cast<std::size_t>(frames[static_cast<std::size_t>(i)]));
+    };
+    end_stage("recorded",
+              rate_each(static_cast<int>(frames.size()), best_, frame_of, [this] { return clock_.is_over(); }));
   }
 
   // The same frame for the same number and seed.
@@ -239,7 +244,9 @@ class Search {
 
   void rate_sampled(int count) {
     progress_.begin("random frames to start from");
-    end_stage("sampled", rate_each(count, best_, [&](int i) { return random_frame(i, 0); }));
+    end_stage("sampled",
+              rate_each(
+                  count, best_, [this](int i) { return random_frame(i, 0); }, [this] { return clock_.is_over(); }));
   }
 
   // Runs tasks that each rate frames one after the other; their frames are added in the tasks' order.
@@ -304,8 +311,8 @@ class Search {
     };
     int used = 0;
     for (std::size_t turn = 0; used < evaluations && !clock_.over(); ++turn) {
-      const int now = maximise_locally(best.point, k_steps[turn % std::size(k_steps)], evaluations - used, keeping,
-                                       clock_.over());
+      const int now =
+          maximise_locally(best.point, k_steps[turn % std::size(k_steps)], evaluations - used, keeping, clock_.over());
       if (now == 0) break;
       used += now;
     }
@@ -349,9 +356,8 @@ class Search {
       tried.moved[light].second = rounded_to_float(place);
       keep_if_better(tried);
     }
-    std::erase_if(frame.candidate.moved, [&](const auto& one) {
-      return one.second == rig_.position(frame.candidate.moment, one.first);
-    });
+    std::erase_if(frame.candidate.moved,
+                  [&](const auto& one) { return one.second == rig_.position(frame.candidate.moment, one.first); });
     return used;
   }
 
@@ -384,15 +390,11 @@ class Search {
     progress_.begin("random frames to compare with");
     BestFrames found(1, 0.0);
     std::vector<double> values(static_cast<std::size_t>(request_.random), 0.0);
-    out_.random.frames = stop_ ? 0 : rate_random(found, values);
+    out_.random.frames = rate_each(
+        request_.random, found, [this](int i) { return random_frame(i, 1); }, [this] { return stop_.load(); }, &values);
     if (out_.random.frames == 0) return;
     out_.random.max = found.frames().front().value;
     out_.random.mean = std::accumulate(values.begin(), values.end(), 0.0) / out_.random.frames;
-  }
-
-  int rate_random(BestFrames& found, std::vector<double>& values) {
-    Clockwork unhurried(0.0, stop_);
-    return rate_each(request_.random, found, [&](int i) { return random_frame(i, 1); }, &values);
   }
 
   const config::Config& config_;
@@ -406,13 +408,13 @@ class Search {
   SearchSpace space_;
   Clockwork clock_;
   const std::atomic<bool>& stop_;
-  Progress progress_;
+  SearchProgress progress_;
   BestFrames best_;
   WorstCase out_;
   int used_ = 0;
 };
 
-void check(const run::SceneData& data, const WorstCaseRequest& request) {
+void check_request(const run::SceneData& data, const WorstCaseRequest& request) {
   const bool has_lights = std::ranges::any_of(
       data.scene.lights, [](const scene::Light& light) { return light.type != scene::LightType::directional; });
   if (!has_lights && request.extra_ranges_m.empty())
@@ -444,8 +446,8 @@ const run::CasePlan& case_to_search(const config::Config& config, const run::Pla
 WorstCase find_worst_case(const config::Config& config, const run::Plan& plan, const run::CasePlan& case_plan,
                           const WorstCaseRequest& request, const WorstCaseListener& listener,
                           const std::atomic<bool>& stop) {
-  check(plan.scenes[case_plan.scene], request);
-  return Search(config, plan, case_plan, request, listener, stop).result();
+  check_request(plan.scenes[case_plan.scene], request);
+  return WorstCaseSearch(config, plan, case_plan, request, listener, stop).result();
 }
 
 }  // namespace clusterbench::search

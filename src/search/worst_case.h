@@ -1,7 +1,7 @@
 #pragma once
 // Searches for the frames that are worst for one case: where a camera, and lights that may be added or moved, make a
-// measure largest. Tries the recorded frames, random ones, a global search from the best of them and a local one from the
-// best of all. What it measures is what a written path holds, to the bit.
+// measure largest. Tries the recorded frames, random ones, a global search from the best of them and a local one from
+// the best of all. What it measures is what a written path holds, to the bit.
 
 #include <atomic>
 #include <functional>
@@ -22,9 +22,9 @@ struct WorstCaseRequest {
   int evaluations = 5000;
   double seconds = 0.0;  // an extra stop, on which results then depend; 0: none
   std::uint64_t seed = 1;
-  int random = 10000;  // frames to compare with
-  int frames = 1;      // distinct ones to find
-  int threads = 1;     // nothing depends on them
+  int random = 10000;                  // frames to compare with
+  int frames = 1;                      // distinct ones to find
+  int threads = 1;                     // nothing depends on them
   std::vector<double> extra_ranges_m;  // of point lights that are added
   double move_m = 0.0;                 // how far each light of the scene may be moved
   std::optional<Box> within;           // where the eye may be; without: the box of the lights and the recorded eyes

@@ -1,0 +1,198 @@
+#include "report/worst_case_report.h"
+
+#include "core/text.h"
+#include "report/columns.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using search::WorstCase;
+
+Json vector_json(const Vec3d& v) {
+  return Json::array({v.x, v.y, v.z});
+}
+
+Json box_json(const search::Box& box) {
+  return {{"min", vector_json(box.lo)}, {"max", vector_json(box.hi)}};
+}
+
+// A count as a whole number.
+Json figure_json(double value, search::Measure measure) {
+  if (measure == search::Measure::evaluated) return value;
+  return static_cast<std::uint64_t>(value);
+}
+
+const char* name_of(search::Ended ended) {
+  constexpr const char* k_names[] = {"evaluations", "seconds", "signal"};
+  return k_names[static_cast<int>(ended)];
+}
+
+// In the order in which the search numbers them.
+std::vector<std::string> light_names(const scene::Scene& scene) {
+  std::vector<std::string> names;
+  for (const scene::Light& light : scene.lights)
+    if (light.type != scene::LightType::directional) names.push_back(light.name);
+  return names;
+}
+
+Json frame_json(const search::FoundFrame& frame, const WorstCaseFacts& facts, const std::vector<std::string>& names) {
+  const search::Candidate& at = frame.candidate;
+  Json out{{"value", figure_json(frame.value, facts.request.measure)},
+           {"value_alone", figure_json(frame.value_alone, facts.request.measure)},
+           {"eye_m", vector_json(at.eye)},
+           {"direction", vector_json(search::direction_of(at.rotation))},
+           {"rotation", {at.rotation.x, at.rotation.y, at.rotation.z, at.rotation.w}},
+           {"moment", at.moment},
+           {"added_lights", Json::array()},
+           {"moved_lights", Json::array()}};
+  for (std::size_t i = 0; i < at.extra_lights.size(); ++i)
+    out["added_lights"].push_back(
+        {{"position_m", vector_json(at.extra_lights[i])}, {"range_m", facts.request.extra_ranges_m[i]}});
+  for (const auto& [light, position] : at.moved)
+    out["moved_lights"].push_back({{"light", names[light]}, {"position_m", vector_json(position)}});
+  return out;
+}
+
+Json case_json(const WorstCaseFacts& facts) {
+  const run::CasePlan& one = facts.case_plan;
+  const run::SceneData& data = facts.plan.scenes[one.scene];
+  const Vec2i viewport = facts.config.viewports[one.viewport];
+  return {{"name", one.name},
+          {"id", one.id},
+          {"scene", data.scene.name},
+          {"sha256", data.contents_sha256()},
+          {"camera", data.paths[one.camera].camera},
+          {"viewport", {viewport.x, viewport.y}},
+          {"grid", facts.config.grids[one.grid].name()},
+          {"assigner", facts.config.assigners[one.assigner].label()},
+          {"storage", run::storage_label(facts.config, one)}};
+}
+
+Json space_json(const WorstCase& found, const WorstCaseFacts& facts) {
+  Json out{{"eyes_m", box_json(found.eyes)},
+           {"floor", nullptr},
+           {"moments", found.moments},
+           {"lights", found.own_lights},
+           {"added_ranges_m", facts.request.extra_ranges_m},
+           {"added_within_m", box_json(found.lights)},
+           {"move_m", facts.request.move_m}};
+  if (facts.request.walkable)
+    out["floor"] = {{"triangles", found.floor_triangles},
+                    {"area_m2", found.floor_area_m2},
+                    {"eye_height_m", facts.request.eye_height_m}};
+  return out;
+}
+
+std::size_t case_count(const run::Plan& plan) {
+  std::size_t count = 0;
+  for (const run::GroupPlan& group : plan.groups) count += group.cases.size();
+  return count;
+}
+
+std::string figure_text(double value) {
+  return text("%.10g", value);
+}
+
+std::string vector_text(const Vec3d& v) {
+  return text("(%.4g", v.x) + text(", %.4g", v.y) + text(", %.4g)", v.z);
+}
+
+std::string line(std::string name, const std::string& rest) {
+  constexpr std::size_t k_width = 13;
+  name.resize(k_width, ' ');
+  return "  " + name + rest + "\n";
+}
+
+std::string ratio_text(double value, double other) {
+  return other > 0.0 ? text("; the worst frame has %.3g times as many", value / other) : std::string();
+}
+
+std::string frames_text(const WorstCase& found, const WorstCaseFacts& facts) {
+  std::string out;
+  for (std::size_t i = 0; i < found.frames.size(); ++i) {
+    const search::FoundFrame& frame = found.frames[i];
+    const search::Candidate& at = frame.candidate;
+    std::string rest = figure_text(frame.value) + " at " + vector_text(at.eye) + " m, looks along " +
+                       vector_text(search::direction_of(at.rotation));
+    if (found.moments > 1) rest += ", lights of moment " + std::to_string(at.moment);
+    if (!at.moved.empty()) rest += ", " + number_of(at.moved.size(), "light") + " moved";
+    out += line("frame " + std::to_string(i), rest);
+    for (std::size_t k = 0; k < at.extra_lights.size(); ++k)
+      out += line("", "added light at " + vector_text(at.extra_lights[k]) +
+                          text(" m, range %g m", facts.request.extra_ranges_m[k]));
+  }
+  return out;
+}
+
+}  // namespace
+
+Json worst_case_to_json(const WorstCase& found, const WorstCaseFacts& facts) {
+  const search::Measure measure = facts.request.measure;
+  const search::MeasureRow& row = search::row_of(measure);
+  const std::vector<std::string> names = light_names(facts.plan.scenes[facts.case_plan.scene].scene);
+  Json out{{"schema_version", 1},
+           {"kind", "worst-case"},
+           {"case", case_json(facts)},
+           {"other_cases", case_count(facts.plan) - 1},
+           {"measure", {{"name", row.name}, {"unit", row.unit}, {"figure", row.figure}}},
+           {"seed", facts.request.seed},
+           {"evaluations", found.evaluations},
+           {"evaluations_allowed", facts.request.evaluations},
+           {"ended", name_of(found.ended)},
+           {"space", space_json(found, facts)},
+           {"stages", Json::array()},
+           {"frames", Json::array()},
+           {"recorded",
+            {{"frames", found.recorded.frames},
+             {"max", figure_json(found.recorded.max, measure)},
+             {"frame", found.recorded.frame}}},
+           {"random", nullptr},
+           {"theoretical_max", nullptr},
+           {"written", nullptr},
+           {"warnings", found.warnings}};
+  for (const search::Stage& stage : found.stages)
+    out["stages"].push_back(
+        {{"name", stage.name}, {"evaluations", stage.evaluations}, {"best", figure_json(stage.best, measure)}});
+  for (const search::FoundFrame& frame : found.frames) out["frames"].push_back(frame_json(frame, facts, names));
+  if (found.random.frames > 0)
+    out["random"] = {
+        {"frames", found.random.frames}, {"max", figure_json(found.random.max, measure)}, {"mean", found.random.mean}};
+  if (found.theoretical_max) out["theoretical_max"] = figure_json(*found.theoretical_max, measure);
+  if (!facts.scene_file.empty()) out["written"] = {{"scene", facts.scene_file}, {"config", facts.config_file}};
+  return out;
+}
+
+std::string worst_case_text(const WorstCase& found, const WorstCaseFacts& facts) {
+  const search::MeasureRow& row = search::row_of(facts.request.measure);
+  std::string out = facts.case_plan.name + "\n";
+  out += line("measure", std::string(row.name) + ": " + row.summary);
+  if (found.frames.empty()) return out + line("worst", "nothing was tried");
+  const double worst = found.frames.front().value;
+  out += line("worst", figure_text(worst) + " " + row.unit + ", found in " +
+                           number_of(static_cast<std::uint64_t>(found.evaluations), "evaluation") + " (seed " +
+                           std::to_string(facts.request.seed) + ")");
+  if (found.random.frames > 0)
+    out += line("random", figure_text(found.random.max) + " at most in " +
+                              number_of(static_cast<std::uint64_t>(found.random.frames), "random frame") +
+                              ratio_text(worst, found.random.max));
+  out += line("recorded", figure_text(found.recorded.max) + " at most in " +
+                              number_of(static_cast<std::uint64_t>(found.recorded.frames), "frame") +
+                              " of the path (frame " + std::to_string(found.recorded.frame) + ")" +
+                              ratio_text(worst, found.recorded.max));
+  if (found.theoretical_max)
+    out += line("theoretical", figure_text(*found.theoretical_max) +
+                                   text("; the worst frame is %.3g %% of it",
+                                        *found.theoretical_max > 0.0 ? 100.0 * worst / *found.theoretical_max : 0.0));
+  out += frames_text(found, facts);
+  for (const std::string& warning : found.warnings) out += line("warning", warning);
+  if (found.random.frames > 0 && found.random.max > worst)
+    out += line("warning", "a random frame is worse than what the search found: allow more --evaluations");
+  if (found.ended == search::Ended::seconds)
+    out += line("warning", "--seconds ended the search: the next one can end elsewhere");
+  if (!facts.config_file.empty())
+    out += line("replay", "clusterbench run " + shell_command(std::vector<std::string>{facts.config_file}));
+  return out;
+}
+
+}  // namespace clusterbench::report
