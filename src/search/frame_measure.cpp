@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "assign/contract/storage.h"
 #include "core/error.h"
 #include "measure/occupancy.h"
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "assign/contract/storage.h"
 #include "run/frame_lights.h"
 #include "run/path_frames.h"
 #include "run/sweep.h"
