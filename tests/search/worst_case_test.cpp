@@ -1,0 +1,274 @@
+// The search against scenes whose worst frame is known, and against `run` on what it writes.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "run/runner.h"
+#include "scene/write_gltf.h"
+#include "search/replay_config.h"
+#include "search/worst_case_fixture.h"
+
+namespace clusterbench::search::test {
+namespace {
+
+// Forty lights at one place, and single ones so far from it that no view reaches from them to it.
+Json crowd() {
+  std::vector<TestLight> lights(40, {{150.0, 0.0, 0.0}, 0.5});
+  for (int i = 0; i < 10; ++i) lights.push_back({{-20.0 * i, 0.0, 0.0}, 0.5});
+  return scene_json(lights, {{0.0, 0.0, 5.0}});
+}
+
+// Some points and spots around a camera.
+Json room(const Json& camera = perspective(20.0)) {
+  std::vector<TestLight> lights;
+  SplitMix64 random(7);
+  for (int i = 0; i < 30; ++i)
+    lights.push_back({{random.between(-8.0, 8.0), random.between(0.0, 3.0), random.between(-8.0, 8.0)},
+                      random.between(0.5, 3.0),
+                      i % 3 == 0});
+  return scene_json(lights, {{0.0, 1.5, 8.0}}, camera);
+}
+
+TEST(WorstCase, finds_the_crowd_that_the_recorded_camera_never_sees) {
+  const SearchFolder folder;
+  const Searched crowded = searched(folder, crowd());
+  WorstCaseRequest request = few(1500);
+  request.measure = Measure::longest;
+  const WorstCase found = crowded.search(request);
+  ASSERT_FALSE(found.frames.empty());
+  EXPECT_EQ(found.frames.front().value, 40.0) << "all lights of the crowd and no other";
+  EXPECT_LE(found.recorded.max, 2.0);
+  EXPECT_EQ(found.theoretical_max, 50.0);
+  EXPECT_EQ(found.evaluations, 1500);
+}
+
+TEST(WorstCase, a_light_without_end_is_in_every_cell_of_every_frame) {
+  const SearchFolder folder;
+  const Searched endless = searched(folder, scene_json({{{0.0, 0.0, 0.0}, 1e16}}, {{0.0, 0.0, 5.0}}));
+  WorstCaseRequest request = few(40);
+  const WorstCase found = endless.search(request);
+  EXPECT_EQ(found.frames.front().value, 4.0 * 3.0 * 6.0);
+  EXPECT_EQ(found.random.max, found.frames.front().value);
+  EXPECT_EQ(found.random.mean, found.frames.front().value);
+  EXPECT_EQ(found.theoretical_max, found.frames.front().value);
+}
+
+TEST(WorstCase, added_lights_that_hold_the_whole_view_fill_every_cell) {
+  const SearchFolder folder;
+  const Searched empty = searched(folder, scene_json({}, {{0.0, 0.0, 0.0}, {40.0, 0.0, 0.0}}));
+  WorstCaseRequest request = few(60);
+  request.extra_ranges_m = {500.0, 500.0, 500.0};
+  const WorstCase found = empty.search(request);
+  EXPECT_EQ(found.frames.front().value, 3.0 * 72.0);
+  EXPECT_EQ(found.recorded.max, 0.0);
+  EXPECT_EQ(found.frames.front().candidate.extra_lights.size(), 3u);
+}
+
+TEST(WorstCase, lights_that_may_move_come_to_the_camera) {
+  const SearchFolder folder;
+  // Too far to be seen from where the camera may stand, but for the last metres that they may be moved.
+  std::vector<TestLight> lights(6, {{0.0, 0.0, -40.0}, 2.0});
+  const Searched away = searched(folder, scene_json(lights, {{0.0, 0.0, 0.0}}));
+  WorstCaseRequest request = few(300);
+  request.measure = Measure::longest;
+  request.within = Box{{-1.0, -1.0, -1.0}, {1.0, 1.0, 1.0}};
+  EXPECT_EQ(away.search(request).frames.front().value, 0.0);
+  request.move_m = 30.0;
+  const WorstCase found = away.search(request);
+  EXPECT_GE(found.frames.front().value, 4.0);
+  for (const auto& [light, position] : found.frames.front().candidate.moved)
+    EXPECT_LE(glm::length(position - Vec3d(0.0, 0.0, -40.0)), 30.0 + 1e-4) << light;
+}
+
+// A result of `run` on what the search writes, as JSON figures by measure.
+double figure_of(const run::CaseResult& result, Measure measure) {
+  switch (measure) {
+    case Measure::entries:
+      return static_cast<double>(result.buffers.index_entries.high_water);
+    case Measure::longest:
+      return result.occupancy->lights_per_cell.max;
+    case Measure::p99:
+      return result.occupancy->lights_per_cell.p99;
+    case Measure::evaluated:
+      return static_cast<double>(result.shading->evaluated) / static_cast<double>(result.shading->samples);
+    case Measure::tests:
+      break;
+  }
+  return static_cast<double>(result.tests_done);
+}
+
+double replayed(const SearchFolder& folder, const Searched& of, const WorstCase& found, Measure measure) {
+  folder.write("worst.gltf", scene::to_gltf(found.path_scene, "test"));
+  const config::Config config = config::load_config(
+      folder.write("worst.json", replay_config(of.config, of.case_plan(), "worst.gltf").dump()));
+  const run::Plan plan = run::make_plan(config, "");
+  const std::atomic<bool> stop{false};
+  const run::Result result = run::run_plan(config, plan, {}, {}, stop);
+  EXPECT_EQ(result.cases.size(), 1u);
+  EXPECT_EQ(result.cases.front().frames, static_cast<int>(found.frames.size()));
+  EXPECT_TRUE(result.cases.front().failures.empty());
+  EXPECT_EQ(result.cases.front().error->undecided, 0u);
+  return figure_of(result.cases.front(), measure);
+}
+
+TEST(WorstCase, run_gives_the_same_value_for_the_written_path_in_every_measure) {
+  for (const MeasureRow& row : measure_rows()) {
+    const SearchFolder folder;
+    const Searched one = searched(folder, room());
+    WorstCaseRequest request = few(120);
+    request.measure = row.measure;
+    request.extra_ranges_m = {1.0};
+    const WorstCase found = one.search(request);
+    EXPECT_EQ(replayed(folder, one, found, row.measure), found.frames.front().value) << row.name;
+    EXPECT_GT(found.frames.front().value, 0.0) << row.name;
+  }
+}
+
+TEST(WorstCase, run_gives_the_same_value_in_grids_that_follow_from_lights_and_cameras) {
+  const Json grids[] = {
+      {{"kind", "frustum"}, {"tiles", {{"count", {4, 3}}}}, {"slices", {{"scheme", "fit"}, {"count", 6}}}},
+      {{"kind", "distance"}, {"tiles", {{"count", {4, 3}}}}, {"slices", {{"scheme", "exponential"}, {"count", 6}}}},
+      {{"kind", "world"}, {"cells", {6, 3, 6}}},
+      {{"kind", "cascades"}, {"levels", 3}, {"cells", {8, 8, 8}}}};
+  const char* assigners[] = {"aabb-fast", "distance", "world-grid", "cascades"};
+  for (std::size_t i = 0; i < std::size(grids); ++i) {
+    const SearchFolder folder;
+    const Searched one = searched(folder, room(perspective(0.0)), grids[i], assigners[i]);  // without a far plane
+    WorstCaseRequest request = few(100);
+    request.frames = 3;
+    request.extra_ranges_m = {1.0};
+    request.move_m = 0.5;
+    const WorstCase found = one.search(request);
+    ASSERT_GE(found.frames.size(), 2u) << assigners[i];
+    double most = 0.0;
+    for (const FoundFrame& frame : found.frames) most = std::max(most, frame.value);
+    EXPECT_EQ(replayed(folder, one, found, Measure::entries), most) << assigners[i];
+  }
+}
+
+TEST(WorstCase, an_orthographic_camera_a_storage_of_ones_own_and_half_precision_replay_too) {
+  const SearchFolder folder;
+  const Searched flat = searched(folder, room(orthographic()));
+  const WorstCase found = flat.search(few(100));
+  EXPECT_EQ(replayed(folder, flat, found, Measure::entries), found.frames.front().value);
+  const Searched bins = searched(folder, room(), frustum(), "z-binning");
+  const WorstCase binned = bins.search(few(100));
+  EXPECT_EQ(replayed(folder, bins, binned, Measure::entries), binned.frames.front().value);
+  const Searched half = searched(folder, room(), frustum(), "aabb",
+                                 {{"precision", Json::array({Json{{"packing", "half"}, {"inflate", true}}})},
+                                  {"storages", {"linked"}},
+                                  {"jitter", Json::array({Json::array({0.3, -0.2})})}});
+  const WorstCase packed = half.search(few(100));
+  // The jitter is the configuration's, and so the replay's.
+  EXPECT_EQ(replayed(folder, half, packed, Measure::entries), packed.frames.front().value);
+}
+
+TEST(WorstCase, the_same_seed_gives_the_same_result_on_any_number_of_threads) {
+  const SearchFolder folder;
+  const Searched one = searched(folder, room());
+  WorstCaseRequest request = few(700);
+  request.frames = 4;
+  request.extra_ranges_m = {1.0};
+  request.move_m = 0.5;
+  const std::string alone = one.json(request).dump();
+  request.threads = 3;
+  EXPECT_EQ(one.json(request).dump(), alone);
+  request.seed = 2;
+  EXPECT_NE(one.json(request).dump(), alone);
+}
+
+TEST(WorstCase, no_more_than_the_allowed_frames_are_measured) {
+  const SearchFolder folder;
+  const Searched one = searched(folder, room());
+  for (const int evaluations : {1, 2, 3, 10, 49, 333}) {
+    const WorstCase found = one.search(few(evaluations));
+    EXPECT_GE(found.evaluations, 1);
+    EXPECT_LE(found.evaluations, evaluations);
+    int sum = 0;
+    for (const Stage& stage : found.stages) sum += stage.evaluations;
+    EXPECT_EQ(sum, found.evaluations);
+    EXPECT_EQ(found.random.frames, 50);
+    EXPECT_GE(found.frames.front().value, found.recorded.max) << "the recorded frame is where it begins";
+  }
+}
+
+TEST(WorstCase, a_stopped_search_has_what_it_found_and_says_why_it_ended) {
+  const SearchFolder folder;
+  const Searched one = searched(folder, room());
+  std::atomic<bool> stop{false};
+  WorstCaseListener listener;
+  listener.on_progress = [&](const std::string&, int done, int) { stop = done >= 30; };
+  const WorstCase halted = find_worst_case(one.config, one.plan, one.case_plan(), few(100000), listener, stop);
+  EXPECT_EQ(halted.ended, Ended::signal);
+  EXPECT_FALSE(halted.frames.empty());
+  EXPECT_LT(halted.evaluations, 100);
+  EXPECT_EQ(halted.random.frames, 0);
+  WorstCaseRequest brief = few(10'000'000);
+  brief.seconds = 0.05;
+  const WorstCase short_one = one.search(brief);
+  EXPECT_EQ(short_one.ended, Ended::seconds);
+  EXPECT_EQ(short_one.random.frames, 50);
+}
+
+TEST(WorstCase, several_frames_are_not_nearly_the_same) {
+  const SearchFolder folder;
+  WorstCaseRequest request = few(400);
+  request.frames = 5;
+  const WorstCase found = searched(folder, room()).search(request);
+  ASSERT_EQ(found.frames.size(), 5u);
+  const Vec3d size = found.eyes.hi - found.eyes.lo;
+  for (std::size_t i = 0; i < 5; ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      const Candidate &a = found.frames[i].candidate, &b = found.frames[k].candidate;
+      EXPECT_TRUE(glm::length(a.eye - b.eye) > 0.05 * glm::length(size) ||
+                  glm::dot(direction_of(a.rotation), direction_of(b.rotation)) < 0.8661);
+      EXPECT_LE(found.frames[i].value_alone, found.frames[k].value_alone);
+    }
+}
+
+std::string refusal_of(const Searched& of, const WorstCaseRequest& request) {
+  try {
+    of.search(request);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "found";
+}
+
+TEST(WorstCase, what_cannot_be_searched_is_refused_with_a_reason) {
+  const SearchFolder folder;
+  const Searched dark = searched(folder, scene_json({}, {{0.0, 0.0, 0.0}}));
+  EXPECT_NE(refusal_of(dark, few(10)).find("has no point or spot light"), std::string::npos);
+  const Searched lit = searched(folder, room());
+  WorstCaseRequest request = few(10);
+  request.within = Box{{1.0, 0.0, 0.0}, {0.0, 1.0, 1.0}};
+  EXPECT_NE(refusal_of(lit, request).find("--within: must have its minimum not above"), std::string::npos);
+  request.within = Box{{0.0, 0.0, 0.0}, {0.0, 1e16, 1.0}};
+  EXPECT_NE(refusal_of(lit, request).find("--within: must be within 1e15 m"), std::string::npos);
+  request.within.reset();
+  request.walkable = true;
+  EXPECT_NE(refusal_of(lit, request).find("--walkable: the scene has no triangles"), std::string::npos);
+  const Searched unsampled = searched(folder, room(), frustum(), "aabb", {{"shading", {{"samples", 0}}}});
+  request.walkable = false;
+  request.measure = Measure::evaluated;
+  EXPECT_NE(refusal_of(unsampled, request).find("evaluated needs samples"), std::string::npos);
+  const Searched bins = searched(folder, room(), frustum(), "z-binning");
+  request.measure = Measure::longest;
+  EXPECT_NE(refusal_of(bins, request).find("has no cells"), std::string::npos);
+}
+
+TEST(WorstCase, a_scene_of_one_light_and_no_camera_or_of_one_point_is_searched) {
+  const SearchFolder folder;
+  const Searched alone = searched(folder, scene_json({{{3.0, 1.0, 2.0}, 5.0}}, {}));
+  EXPECT_GT(alone.search(few(60)).frames.front().value, 0.0);
+  const Searched point = searched(folder, scene_json({{{3.0, 1.0, 2.0}, 5.0}}, {{3.0, 1.0, 2.0}}));
+  const WorstCase found = point.search(few(60));
+  EXPECT_EQ(found.eyes.lo, found.eyes.hi);
+  EXPECT_EQ(found.frames.front().candidate.eye, Vec3d(3.0, 1.0, 2.0));
+  EXPECT_GT(found.frames.front().value, 0.0);
+}
+
+}  // namespace
+}  // namespace clusterbench::search::test
