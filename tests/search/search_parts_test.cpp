@@ -142,7 +142,8 @@ TEST(BestFrames, keeps_the_best_of_those_that_are_near_and_the_first_of_equal_on
 
 // --- Walking ---
 
-void add_triangle(scene::Geometry& geometry, const Vec3f& a, const Vec3f& b, const Vec3f& c, bool double_sided = false) {
+void add_triangle(scene::Geometry& geometry, const Vec3f& a, const Vec3f& b, const Vec3f& c,
+                  bool double_sided = false) {
   scene::Surface surface;
   surface.vertices = {a, b, c};
   surface.triangles = {{0, 1, 2}};
@@ -233,10 +234,8 @@ Json moving_scene() {
                                        {"uri", "data:application/octet-stream;base64," + base64_of(numbers)}}});
   const auto add_accessor = [&](std::size_t begin, std::size_t count, const char* type, std::size_t width) {
     scene["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", begin * 4}, {"byteLength", count * width * 4}});
-    scene["accessors"].push_back({{"bufferView", scene["bufferViews"].size() - 1},
-                                  {"componentType", 5126},
-                                  {"count", count},
-                                  {"type", type}});
+    scene["accessors"].push_back(
+        {{"bufferView", scene["bufferViews"].size() - 1}, {"componentType", 5126}, {"count", count}, {"type", type}});
   };
   add_accessor(0, 2, "SCALAR", 1);
   scene["accessors"][0]["min"] = {0.0};
@@ -250,10 +249,10 @@ Json moving_scene() {
     animation["samplers"].push_back({{"input", 0}, {"output", output}});
   };
   const auto pointer = [](const char* to) {
-    return Json{{"path", "pointer"},
-                {"extensions",
-                 {{"KHR_animation_pointer",
-                   {{"pointer", std::string("/extensions/KHR_lights_punctual/lights/0/") + to}}}}}};
+    return Json{
+        {"path", "pointer"},
+        {"extensions",
+         {{"KHR_animation_pointer", {{"pointer", std::string("/extensions/KHR_lights_punctual/lights/0/") + to}}}}}};
   };
   add_channel(1, {{"node", 0}, {"path", "translation"}});
   add_channel(2, pointer("range"));
@@ -277,8 +276,7 @@ TEST(LightRig, a_written_path_comes_back_to_the_bit_with_lights_that_change) {
     candidate.extra_lights = {{3.0, 2.0, static_cast<double>(frame)}};
     rig.set_frame(path_scene, frame, candidate);
   }
-  const scene::Scene read =
-      scene::load_gltf(folder.write("written.gltf", scene::to_gltf(path_scene, "test")));
+  const scene::Scene read = scene::load_gltf(folder.write("written.gltf", scene::to_gltf(path_scene, "test")));
   EXPECT_TRUE(read.warnings.empty()) << read.warnings.front();
   for (const double time_s : {0.0, 1.0, 1.5, 2.0}) {
     const auto wanted = scene::world_lights(path_scene, time_s), found = scene::world_lights(read, time_s);

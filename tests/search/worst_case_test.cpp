@@ -101,8 +101,8 @@ double figure_of(const run::CaseResult& result, Measure measure) {
 
 double replayed(const SearchFolder& folder, const Searched& of, const WorstCase& found, Measure measure) {
   folder.write("worst.gltf", scene::to_gltf(found.path_scene, "test"));
-  const config::Config config = config::load_config(
-      folder.write("worst.json", replay_config(of.config, of.case_plan(), "worst.gltf").dump()));
+  const config::Config config =
+      config::load_config(folder.write("worst.json", replay_config(of.config, of.case_plan(), "worst.gltf").dump()));
   const run::Plan plan = run::make_plan(config, "");
   const std::atomic<bool> stop{false};
   const run::Result result = run::run_plan(config, plan, {}, {}, stop);

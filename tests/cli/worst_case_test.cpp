@@ -1,0 +1,118 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/tool.h"
+
+namespace clusterbench::test {
+namespace {
+
+// A few frames of the street, in one case.
+const std::string k_search =
+    "worst-case " + source_file("scenes/street.glb") + " --grid frustum --tiles 16x9 --assigner aabb-fast";
+const std::string k_short_search = k_search + " --evaluations 60 --random 20";
+
+TEST(WorstCaseCommand, what_it_writes_is_valid_and_run_and_size_take_it) {
+  const Folder folder;
+  const std::string path = (folder / "worst.gltf").string(), out = (folder / "out.json").string(),
+                    config = (folder / "worst.json").string(), result = (folder / "result.json").string();
+  const Outcome done = tool(k_short_search + " --best 3 --path " + path + " -o " + out);
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_NE(done.err.find("clusterbench run " + config), std::string::npos) << done.err;
+  EXPECT_EQ(tool("validate " + out).out, out + ": valid, a result of `clusterbench worst-case` with 3 frames\n");
+  EXPECT_EQ(tool("validate " + config).code, 0);
+  const auto found = nlohmann::json::parse(file_text(out));
+  EXPECT_EQ(found["written"]["scene"], path);
+  ASSERT_EQ(tool("run -q " + config + " -o " + result).code, 0);
+  const auto run = nlohmann::json::parse(file_text(result));
+  ASSERT_EQ(run["cases"].size(), 1u);
+  EXPECT_EQ(run["cases"][0]["buffers"]["index_entries"]["high_water"], found["frames"][0]["value"]);
+  EXPECT_EQ(run["cases"][0]["error"]["false_negatives"], 0);
+  const Outcome size = tool("size --format json " + result);
+  ASSERT_EQ(size.code, 0) << size.err;
+  EXPECT_EQ(nlohmann::json::parse(size.out)["budgets"][0]["high_water_entries"], found["frames"][0]["value"]);
+  // Without the configuration: the same flags on the scene that was written.
+  const std::string flags = " --grid frustum --tiles 16x9 --assigner aabb-fast --no-timing -q";
+  const auto bare = nlohmann::json::parse(tool("run " + path + flags).out);
+  EXPECT_EQ(bare["cases"][0]["buffers"]["index_entries"]["high_water"], found["frames"][0]["value"]);
+}
+
+TEST(WorstCaseCommand, threads_change_nothing_and_a_person_reads_text) {
+  const std::string alone = tool(k_short_search + " --threads 1").out;
+  EXPECT_EQ(tool(k_short_search + " --threads 3").out, alone);
+  const Outcome shown = tool_on_terminal(k_short_search);
+  EXPECT_EQ(shown.out.find("schema_version"), std::string::npos) << shown.out;
+  EXPECT_NE(shown.out.find("at most in 20 random frames"), std::string::npos) << shown.out;
+  EXPECT_NE(shown.out.find("clusterbench: the result is not kept; -o FILE keeps it"), std::string::npos) << shown.out;
+}
+
+TEST(WorstCaseCommand, what_it_cannot_do_is_told_in_a_line) {
+  const Folder folder;
+  const std::string scene = source_file("scenes/street.glb");
+  const std::string dark = folder
+                               .write("dark.gltf", R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}],
+    "nodes": [{"camera": 0}], "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}]})")
+                               .string();
+  const std::pair<std::string, const char*> rows[] = {
+      {scene + " --add-lights 3 --within 1,0,0,0,0,0", "--within: must have"},  // one light of 3 m range
+      {scene + " --add-lights x4", "--add-lights: 'x4' is not COUNTxRANGE"},
+      {scene + " --add-lights 2.5x4", "--add-lights: '2.5x4' is not COUNTxRANGE"},
+      {scene + " --add-lights 2xnan", "--add-lights: '2xnan' is not COUNTxRANGE"},
+      {scene + " --add-lights 2x-1", "--add-lights: '2x-1' is not COUNTxRANGE"},
+      {scene + " --add-lights 65x1", "--add-lights: '65x1' is not COUNTxRANGE"},
+      {scene + " --add-lights 40x1 --add-lights 40x1", "--add-lights: adds more than 64 lights"},
+      {scene + " --within 0,0,0,1,1", "--within: '0,0,0,1,1' is no box"},
+      {scene + " --within 0,0,0,1,1,nan", "--within: '0,0,0,1,1,nan' is no box"},
+      {scene + " --within 0,0,0,1,1,", "--within: '0,0,0,1,1,' is no box"},
+      {scene + " --within 0,0,0,-1,1,1", "--within: must have its minimum not above its maximum"},
+      {scene + " --evaluations 0", "--evaluations: takes a whole number from 1"},
+      {scene + " --best 0", "--best: takes a whole number from 1"},
+      {scene + " --path worst.glb", "worst.glb: --path: must end in .gltf"},
+      {scene + " --path /nowhere/worst.gltf", "/nowhere/worst.gltf: cannot be written"},
+      {scene + " -o /nowhere/out.json", "/nowhere/out.json: cannot be written"},
+      {scene + " --walkable", "the scene has no triangles"},
+      {scene + " --measure longst", "no 'longst' (did you mean 'longest'?)"},
+      {scene + " --filter nothing", "--filter: 'nothing' matches none"},
+      {scene + " --grid frustum --assigner z-binning --measure p99", "has no cells"},
+      {dark, "has no point or spot light, and none is added"},
+      {dark + " --add-lights 0x5", "has no point or spot light, and none is added"},
+      {source_file("configs/depth.json") + " --filter tiled", "need depth"},
+  };
+  for (const auto& [line, message] : rows) {
+    const Outcome done = tool("worst-case --random 0 -q " + line);
+    EXPECT_EQ(done.code, 2) << line;
+    EXPECT_NE(done.err.find(message), std::string::npos) << line << ": " << done.err;
+    EXPECT_EQ(done.out, "") << line;
+  }
+}
+
+TEST(WorstCaseCommand, a_search_never_writes_over_what_it_reads) {
+  const Folder folder;
+  const std::string scene = (folder / "level.gltf").string(), config = (folder / "level.json").string();
+  folder.write("level.gltf", R"({"asset": {"version": "2.0"}})");
+  folder.write("level.json", R"({"scenes": ["level.gltf"]})");
+  EXPECT_NE(tool("worst-case " + scene + " --path " + scene).code, 0);
+  EXPECT_EQ(file_text(scene), R"({"asset": {"version": "2.0"}})");
+  EXPECT_NE(tool("worst-case " + config + " --path " + (folder / "level.gltf").string()).code, 0);
+  EXPECT_EQ(file_text(config), R"({"scenes": ["level.gltf"]})");
+}
+
+TEST(WorstCaseCommand, an_interrupt_ends_it_with_the_worst_frames_by_then) {
+  const Folder folder;
+  const std::string out = (folder / "out.json").string(), path = (folder / "worst.gltf").string();
+  const std::string search = std::string(CLUSTERBENCH_BINARY) + " " + k_search + " --evaluations 10000000 -q --path " +
+                             path + " -o " + out + " 2>" + (folder / "err").string();
+  // Its files are tried just before it begins.
+  const std::string wait = "until [ -e " + (folder / "worst.json").string() + " ]; do sleep 0.01; done; sleep 0.3";
+  const int status = std::system((search + " & pid=$!; " + wait + "; kill -TERM $pid; wait $pid").c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 75) << file_text(folder / "err");
+  const auto found = nlohmann::json::parse(file_text(out));
+  EXPECT_EQ(found["ended"], "signal");
+  EXPECT_EQ(found["random"], nullptr);
+  EXPECT_EQ(tool("validate " + out).code, 0);
+  EXPECT_EQ(found["frames"].size(), 1u);
+  EXPECT_NE(file_text(path).find("KHR_lights_punctual"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace clusterbench::test
