@@ -167,6 +167,8 @@ std::string worst_case_text(const WorstCase& found, const WorstCaseFacts& facts)
   const search::MeasureRow& row = search::row_of(facts.request.measure);
   std::string out = facts.case_plan.name + "\n";
   out += line("measure", std::string(row.name) + ": " + row.summary);
+  if (const std::size_t others = case_count(facts.plan) - 1; others > 0)
+    out += line("others", number_of(others, "case") + " not searched; --filter chooses");
   if (found.frames.empty()) return out + line("worst", "nothing was tried");
   const double worst = found.frames.front().value;
   out += line("worst", figure_text(worst) + " " + row.unit + ", found in " +
