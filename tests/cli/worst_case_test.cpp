@@ -73,7 +73,7 @@ TEST(WorstCaseCommand, what_it_cannot_do_is_told_in_a_line) {
       {scene + " --walkable", "the scene has no triangles"},
       {scene + " --measure longst", "no 'longst' (did you mean 'longest'?)"},
       {scene + " --filter nothing", "--filter: 'nothing' matches none"},
-      {scene + " --grid frustum --assigner z-binning --measure p99", "has no cells"},
+      {scene + " --grid frustum --assigner bvh --filter /own --measure p99", "has no cells"},
       {dark, "has no point or spot light, and none is added"},
       {dark + " --add-lights 0x5", "has no point or spot light, and none is added"},
       {source_file("configs/depth.json") + " --filter tiled", "need depth"},

@@ -50,7 +50,7 @@ inline Json perspective(double far_m) {
 }
 
 inline Json orthographic() {
-  return {{"type", "orthographic"}, {"orthographic", {{"xmag", 4}, {"ymag", 3}, {"znear", 0}, {"zfar", 30}}}};
+  return {{"type", "orthographic"}, {"orthographic", {{"xmag", 4}, {"ymag", 3}, {"znear", 0.1}, {"zfar", 30}}}};
 }
 
 // Lights, and a camera at each of the eyes that looks along -z.

@@ -254,9 +254,10 @@ TEST(WorstCase, what_cannot_be_searched_is_refused_with_a_reason) {
   request.walkable = false;
   request.measure = Measure::evaluated;
   EXPECT_NE(refusal_of(unsampled, request).find("evaluated needs samples"), std::string::npos);
-  const Searched bins = searched(folder, room(), frustum(), "z-binning");
+  Searched hierarchy = searched(folder, room(), frustum(), "bvh");
+  hierarchy.plan = run::make_plan(hierarchy.config, "/own$");
   request.measure = Measure::longest;
-  EXPECT_NE(refusal_of(bins, request).find("has no cells"), std::string::npos);
+  EXPECT_NE(refusal_of(hierarchy, request).find("has no cells"), std::string::npos);
 }
 
 TEST(WorstCase, a_scene_of_one_light_and_no_camera_or_of_one_point_is_searched) {
