@@ -26,7 +26,7 @@ set(CLUSTERBENCH_ABOVE "")
 
 # Layers that spend no time of their own. Sanitized code takes long to build where it is optimised, and longest where it
 # is written for many vectors; so only the other layers are, a little.
-set(CLUSTERBENCH_COLD_LAYERS config run pictures stress report cli)
+set(CLUSTERBENCH_COLD_LAYERS config run pictures stress search report cli)
 set(CLUSTERBENCH_COLD_OPTIONS "")
 if(CLUSTERBENCH_SANITIZE)
   set(CLUSTERBENCH_COLD_OPTIONS -O0)

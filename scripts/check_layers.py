@@ -11,7 +11,7 @@ import sys
 
 # A file includes only its own layer and those before it.
 LAYERS = ["core", "geom", "scene", "view", "depth", "grid", "assign", "measure", "config", "run", "pictures", "stress",
-          "report", "cli"]
+          "search", "report", "cli"]
 
 # The same for the folders of a layer. Those that stand side by side do not include each other; files beside the folders
 # stand above all of them.

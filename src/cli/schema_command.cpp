@@ -1,4 +1,4 @@
-// `clusterbench schema config|result|comparison|ratios|stress` and `clusterbench validate FILE...`.
+// `clusterbench schema config|result|comparison|ratios|recommendation|stress` and `clusterbench validate FILE...`.
 
 #include <algorithm>
 #include <fstream>
@@ -21,10 +21,11 @@ ExitCode validate_written(const std::string& path, const nlohmann::json& documen
   const std::vector<std::string> violations = config::schema_violations(row.schema(), document);
   for (const std::string& violation : violations) tell(path + ": " + violation);
   if (!violations.empty()) return ExitCode::usage;
-  const bool has_cases = document.contains("cases");
-  std::cout << path << ": valid, " << row.title << " with "
-            << (has_cases ? number_of(document["cases"].size(), "case") : number_of(document["blocks"].size(), "block"))
-            << "\n";
+  std::cout << path << ": valid, " << row.title << " with ";
+  for (const char* part : {"cases", "blocks", "answers"})
+    if (document.contains(part))
+      std::cout << number_of(document[part].size(), std::string(part).substr(0, std::string(part).size() - 1));
+  std::cout << "\n";
   return ExitCode::ok;
 }
 
@@ -51,7 +52,9 @@ void add_schema(Command& program, Action& action) {
   std::vector<std::string> names;
   for (const config::DocumentRow& row : config::document_rows()) names.emplace_back(row.name);
   auto name = std::make_shared<std::string>();
-  command.add_option("WHICH", *name, "Of a configuration, or of what run, compare --json, ratio --json or stress write")
+  command
+      .add_option("WHICH", *name,
+                  "Of a configuration, or of what run, compare --json, ratio --json, recommend or stress write")
       .required()
       .one_of(names);
   command.when_named([name, &action] {
@@ -67,7 +70,8 @@ void add_validate(Command& program, Action& action) {
   Command command =
       program.add_command("validate", "Check configurations and what clusterbench wrote, without running anything");
   auto paths = std::make_shared<std::vector<std::string>>();
-  command.add_option("FILE", *paths, "Configurations, results, comparisons, ratios, results of stress").required();
+  command.add_option("FILE", *paths, "Configurations, results, comparisons, ratios, recommendations, results of stress")
+      .required();
   command.when_named([paths, &action] {
     action = [paths] {
       ExitCode worst = ExitCode::ok;

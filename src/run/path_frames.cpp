@@ -21,7 +21,14 @@ PathFrames::PathFrames(const scene::Scene& scene, const scene::CameraPath& path,
   }
 }
 
+PathFrames PathFrames::only(std::vector<int> frames) const {
+  PathFrames some = *this;
+  some.frames_ = std::move(frames);
+  return some;
+}
+
 view::Frame PathFrames::frame(int index) const {
+  if (!frames_.empty()) index = frames_[static_cast<std::size_t>(index)];
   return view::make_frame(scene_, path_.shots[static_cast<std::size_t>(index)], index, viewport_);
 }
 

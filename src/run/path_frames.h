@@ -3,6 +3,7 @@
 // memory whole.
 
 #include <memory>
+#include <vector>
 
 #include "grid/grid.h"
 #include "measure/samples.h"
@@ -22,8 +23,12 @@ class PathFrames {
   // them.
   PathFrames along(const scene::CameraPath& other) const { return {*this, other}; }
 
+  // These frames of the path alone, ascending, each with its own index, in the grids of the whole path.
+  PathFrames only(std::vector<int> frames) const;
+
   const scene::CameraPath& camera_path() const { return path_; }
-  int count() const { return static_cast<int>(path_.shots.size()); }
+  int count() const { return static_cast<int>(frames_.empty() ? path_.shots.size() : frames_.size()); }
+  // `index`: below count().
   view::Frame frame(int index) const;
   grid::GridInputs inputs(const grid::GridSpec& spec, const view::Frame& frame) const;
   // The farthest that a bounded light reaches from any eye of the path.
@@ -49,6 +54,7 @@ class PathFrames {
   Vec3d rig_lo_{0.0}, rig_hi_{0.0};  // box around the bounded lights' balls over the path
   double far_m_ = 0.0;
   FrameDepths* depths_ = nullptr;
+  std::vector<int> frames_;  // empty: all
 };
 
 // Those that a group of cases is measured in.
