@@ -34,10 +34,12 @@ std::string flag_of(const std::string& figure) {
   return flag;
 }
 
+constexpr double k_no_limit = -1.0;
+
 struct RecommendFlags {
   std::string input, output, written, objective, within = "5%", filter;
-  std::vector<std::vector<std::string>> settings{config::config_flags().size()};            // by flag
-  std::vector<std::string> most{std::vector<std::string>(config::limit_figures().size())};  // by figure
+  std::vector<std::vector<std::string>> settings{config::config_flags().size()};               // by flag
+  std::vector<double> most = std::vector<double>(config::limit_figures().size(), k_no_limit);  // by figure
   int runners_up = 5, written_runners_up = 0;
   bool no_timing = false, quiet = false;
 };
@@ -70,20 +72,8 @@ double share_of(const std::string& text) {
 
 std::vector<config::LimitRule> rules_of(const RecommendFlags& flags, const config::Config& config) {
   std::vector<config::LimitRule> rules = config.limits.fail_if;
-  for (std::size_t i = 0; i < flags.most.size(); ++i) {
-    if (flags.most[i].empty()) continue;
-    const std::string figure = config::limit_figures()[i].name, flag = flag_of(figure);
-    std::size_t end = 0;
-    double limit = 0.0;
-    try {
-      limit = std::stod(flags.most[i], &end);
-    } catch (const std::exception&) {
-      end = 0;
-    }
-    if (end == 0 || end != flags.most[i].size() || !std::isfinite(limit) || limit < 0.0)
-      throw Error("", flag, "'" + flags.most[i] + "' is no number from 0 on");
-    rules.push_back({figure, false, limit});
-  }
+  for (std::size_t i = 0; i < flags.most.size(); ++i)
+    if (flags.most[i] != k_no_limit) rules.push_back({config::limit_figures()[i].name, false, flags.most[i]});
   return rules;
 }
 
@@ -97,6 +87,7 @@ config::Config read_input(const RecommendFlags& flags) {
                               : config::load_config(flags.input, settings, standard);
   config.details.reset();  // nothing here asks for them
   config.stability.reset();
+  for (const char* key : {"details", "stability"}) config.resolved[key] = nullptr;
   return config;
 }
 
@@ -192,7 +183,8 @@ void add_recommend(Command& program, Action& action) {
       .one_of(objectives);
   for (std::size_t i = 0; i < flags->most.size(); ++i) {
     const config::LimitFigure& figure = config::limit_figures()[i];
-    command.add_option(flag_of(figure.name), flags->most[i], std::string("At most: ") + figure.meaning);
+    command.add_option(flag_of(figure.name), flags->most[i], std::string("At most: ") + figure.meaning)
+        .range(0.0, 1e18);
   }
   command.add_option("--within", flags->within, "How much worse than the best a coarser grid may be").shows_standard();
   command.add_option("--runners-up", flags->runners_up, "How many are told behind the choice")
