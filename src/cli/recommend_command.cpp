@@ -183,8 +183,7 @@ void add_recommend(Command& program, Action& action) {
       .one_of(objectives);
   for (std::size_t i = 0; i < flags->most.size(); ++i) {
     const config::LimitFigure& figure = config::limit_figures()[i];
-    command.add_option(flag_of(figure.name), flags->most[i], std::string("At most: ") + figure.meaning)
-        .range(0.0, 1e18);
+    command.add_option(flag_of(figure.name), flags->most[i], std::string("At most: ") + figure.meaning).non_negative();
   }
   command.add_option("--within", flags->within, "How much worse than the best a coarser grid may be").shows_standard();
   command.add_option("--runners-up", flags->runners_up, "How many are told behind the choice")

@@ -316,7 +316,7 @@ Cells candidate_row(const std::string& mark, const Json& one, const std::string&
 std::string table_of(const std::vector<Cells>& rows) {
   const std::vector<std::size_t> widths = widths_of(rows);
   std::string out;
-  for (const Cells& row : rows) out += aligned(row, widths) + "\n";
+  for (const Cells& row : rows) out += aligned(row, widths);
   return out;
 }
 

@@ -24,8 +24,8 @@ struct HalvingRequest {
   std::size_t candidates = 0, frames = 0;
   std::size_t first_frames = 1;  // of the first rung
   std::size_t growth = 4;        // so many times as many frames in the next rung
-  std::size_t keep_one_in = 8;   // of a rung's candidates
-  std::size_t least = 4;         // candidates that are always kept, if so many are not out
+  std::size_t keep_one_in = 24;  // of a rung's candidates
+  std::size_t least = 6;         // candidates that are always kept, if so many are not out
 };
 
 // Candidates that were scored on the same frames.

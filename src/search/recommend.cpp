@@ -18,6 +18,9 @@ namespace {
 constexpr double k_unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double k_infinite = std::numeric_limits<double>::infinity();
 
+// The first number of a standing's rank.
+constexpr double k_first = 0.0, k_equal = 1.0, k_broken = 2.0;
+
 // What candidates of a view are told apart by.
 using Key = std::tuple<std::size_t, std::size_t, std::size_t, std::size_t>;
 Key key_of(const run::CasePlan& plan) {
@@ -198,16 +201,26 @@ class ViewSearch {
     return "search, " + std::to_string(frames) + (frames == 1 ? " frame" : " frames");
   }
 
-  // What breaks a constraint for now comes after all that does not: further frames can mend it.
+  // What breaks a constraint for now comes after all that does not: further frames can mend it. Before it come those
+  // that are as good as a smaller one of their grid: as a rule its lists are the same, and kept in another way.
   std::vector<Standing> standings(std::span<const std::size_t> candidates, std::size_t frames) {
     record(candidates, frames);
+    std::map<std::pair<std::size_t, double>, std::size_t> smallest;  // by grid and objective: index of the standing
     std::vector<Standing> all;
-    for (const std::size_t candidate : candidates) {
-      const Verdict& verdict = found_.records[candidate].verdict;
+    for (const std::size_t index : candidates) {
+      const Candidate& candidate = view_.candidates[index];
+      const Verdict& verdict = found_.records[index].verdict;
       const double objective = std::isnan(verdict.objective) ? k_infinite : verdict.objective;
       all.push_back({watch_.stop || verdict.is_final,
-                     {verdict.broken.empty() ? 0.0 : 1.0, objective, verdict.bytes,
-                      static_cast<double>(view_.candidates[candidate].cells)}});
+                     {verdict.broken.empty() ? k_first : k_broken, objective, verdict.bytes,
+                      static_cast<double>(candidate.cells)}});
+      if (!verdict.broken.empty()) continue;
+      const auto [equal, is_new] = smallest.try_emplace({candidate.grid, objective}, all.size() - 1);
+      if (is_new) continue;
+      Standing &before = all[equal->second], &now = all.back();
+      const bool is_smaller = now.rank < before.rank;
+      (is_smaller ? before : now).rank[0] = k_equal;
+      if (is_smaller) equal->second = all.size() - 1;
     }
     return all;
   }

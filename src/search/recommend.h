@@ -46,10 +46,10 @@ using Judge = std::function<Verdict(std::span<const run::CaseResult> cases)>;
 
 struct Request {
   Judge judge;
-  bool is_timed = false;                               // the judge needs times
-  bool only_grows = false;                             // the objective on some frames is never more than on all of them
-  double within = 0.05;                                // of the best: how much worse a coarser grid may be
-  std::size_t growth = 4, keep_one_in = 8, least = 4;  // of HalvingRequest
+  bool is_timed = false;    // the judge needs times
+  bool only_grows = false;  // the objective on some frames is never more than on all of them
+  double within = 0.05;     // of the best: how much worse a coarser grid may be
+  std::size_t growth = 4, keep_one_in = 24, least = 6;  // of HalvingRequest
 };
 
 // What was found of a candidate where it was last measured.

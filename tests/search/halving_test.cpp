@@ -34,7 +34,7 @@ Score mean_cost(Counted& counted) {
 
 TEST(Halving, finds_the_best_candidate_and_counts_its_evaluations) {
   Counted counted;
-  const Halving found = halve({.candidates = 512, .frames = 64}, mean_cost(counted));
+  const Halving found = halve({.candidates = 512, .frames = 64, .keep_one_in = 8, .least = 4}, mean_cost(counted));
   ASSERT_FALSE(found.finalists.empty());
   EXPECT_EQ(found.finalists.front(), 0u);
   // 512 on 1 frame, 64 on 4, 8 on 16: each rung has an eighth of the candidates and four times the frames.
@@ -75,7 +75,8 @@ TEST(Halving, takes_the_first_of_equals_and_the_second_number_of_ranks_before_it
   const auto all_equal = [](std::span<const std::size_t> candidates, std::size_t) {
     return std::vector<Standing>(candidates.size(), Standing{false, {1.0}});
   };
-  EXPECT_EQ(halve({.candidates = 100, .frames = 8}, all_equal).finalists, (std::vector<std::size_t>{0, 1, 2, 3}));
+  EXPECT_EQ(halve({.candidates = 100, .frames = 8, .least = 5}, all_equal).finalists,
+            (std::vector<std::size_t>{0, 1, 2, 3, 4}));
   const auto last_is_smallest = [](std::span<const std::size_t> candidates, std::size_t) {
     std::vector<Standing> standings;
     for (const std::size_t candidate : candidates) standings.push_back({false, {1.0, -static_cast<double>(candidate)}});
@@ -86,7 +87,7 @@ TEST(Halving, takes_the_first_of_equals_and_the_second_number_of_ranks_before_it
 
 TEST(Halving, keeps_a_share_of_the_candidates_of_a_single_frame) {
   Counted counted;
-  const Halving found = halve({.candidates = 64, .frames = 1}, mean_cost(counted));
+  const Halving found = halve({.candidates = 64, .frames = 1, .keep_one_in = 8}, mean_cost(counted));
   EXPECT_EQ(counted.evaluations, 64u);
   EXPECT_EQ(found.finalists.size(), 8u);
 }
