@@ -28,7 +28,15 @@ PathFrames PathFrames::only(std::vector<int> frames) const {
 }
 
 view::Frame PathFrames::frame(int index) const {
-  if (!frames_.empty()) index = frames_[static_cast<std::size_t>(index)];
+  return frame_of_path(frames_.empty() ? index : frames_[static_cast<std::size_t>(index)]);
+}
+
+std::optional<view::Frame> PathFrames::neighbour(const view::Frame& frame) const {
+  if (path_.shots.size() < 2) return {};
+  return frame_of_path(frame.index > 0 ? frame.index - 1 : 1);
+}
+
+view::Frame PathFrames::frame_of_path(int index) const {
   return view::make_frame(scene_, path_.shots[static_cast<std::size_t>(index)], index, viewport_);
 }
 

@@ -3,6 +3,7 @@
 // memory whole.
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "grid/grid.h"
@@ -30,6 +31,8 @@ class PathFrames {
   int count() const { return static_cast<int>(frames_.empty() ? path_.shots.size() : frames_.size()); }
   // `index`: below count().
   view::Frame frame(int index) const;
+  // The whole path's frame before this one; of its first one the second. None on a path of one frame.
+  std::optional<view::Frame> neighbour(const view::Frame& frame) const;
   grid::GridInputs inputs(const grid::GridSpec& spec, const view::Frame& frame) const;
   // The farthest that a bounded light reaches from any eye of the path.
   double far_m() const { return far_m_; }
@@ -47,6 +50,8 @@ class PathFrames {
         rig_hi_(whole.rig_hi_),
         far_m_(whole.far_m_),
         depths_(whole.depths_) {}
+
+  view::Frame frame_of_path(int index) const;
 
   const scene::Scene& scene_;
   const scene::CameraPath& path_;

@@ -201,28 +201,35 @@ class ViewSearch {
     return "search, " + std::to_string(frames) + (frames == 1 ? " frame" : " frames");
   }
 
-  // What breaks a constraint for now comes after all that does not: further frames can mend it. Before it come those
-  // that are as good as a smaller one of their grid: as a rule its lists are the same, and kept in another way.
+  // What breaks a constraint for now comes after all that does not: further frames can mend it.
   std::vector<Standing> standings(std::span<const std::size_t> candidates, std::size_t frames) {
     record(candidates, frames);
-    std::map<std::pair<std::size_t, double>, std::size_t> smallest;  // by grid and objective: index of the standing
     std::vector<Standing> all;
     for (const std::size_t index : candidates) {
-      const Candidate& candidate = view_.candidates[index];
       const Verdict& verdict = found_.records[index].verdict;
       const double objective = std::isnan(verdict.objective) ? k_infinite : verdict.objective;
       all.push_back({watch_.stop || verdict.is_final,
                      {verdict.broken.empty() ? k_first : k_broken, objective, verdict.bytes,
-                      static_cast<double>(candidate.cells)}});
-      if (!verdict.broken.empty()) continue;
-      const auto [equal, is_new] = smallest.try_emplace({candidate.grid, objective}, all.size() - 1);
-      if (is_new) continue;
-      Standing &before = all[equal->second], &now = all.back();
-      const bool is_smaller = now.rank < before.rank;
-      (is_smaller ? before : now).rank[0] = k_equal;
-      if (is_smaller) equal->second = all.size() - 1;
+                      static_cast<double>(view_.candidates[index].cells)}});
     }
+    put_back_equals(all, [&](std::size_t i) { return static_cast<double>(view_.candidates[candidates[i]].grid); });
+    put_back_equals(all, [&](std::size_t i) { return -1.0 - all[i].rank[2]; });
     return all;
+  }
+
+  // Of standings that have one key and objective all but the first come after those that have no equal: they are lists
+  // of one grid that are kept in other ways, or a structure that has nothing of its grids but their names.
+  template <class KeyOf>
+  static void put_back_equals(std::vector<Standing>& all, const KeyOf& key_of_standing) {
+    std::map<std::pair<double, double>, std::size_t> first;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (all[i].rank[0] != k_first) continue;
+      const auto [equal, is_new] = first.try_emplace({key_of_standing(i), all[i].rank[1]}, i);
+      if (is_new) continue;
+      const bool is_smaller = all[i].rank < all[equal->second].rank;
+      all[is_smaller ? equal->second : i].rank[0] = k_equal;
+      if (is_smaller) equal->second = i;
+    }
   }
 
   // Of the coarsest grids that are about as good as the best one, as far as they were looked at, the best candidate

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "run/walk.h"
 #include "search/recommend_space.h"
@@ -153,6 +154,38 @@ TEST(SearchView, measures_candidates_on_all_cameras_and_leaves_out_what_one_of_t
     EXPECT_EQ(finalist.cases[0].frames, 6);
     EXPECT_EQ(finalist.cases[1].frames, 3);
   }
+}
+
+// Frames of a part of the path have their own neighbours, from which it is told whether grids change.
+TEST(SearchView, times_single_frames_of_a_path) {
+  Walk walk = small_walk(6);
+  walk.config.timing = {true, 2, 0.01, 2, 1, false};
+  const Judge judge = [](std::span<const run::CaseResult> cases) {
+    EXPECT_TRUE(cases[0].timing.has_value());
+    return Verdict{cases[0].timing ? cases[0].timing->frame_ns.median : 0.0, 0.0, {}, false};
+  };
+  const Found found = searched(walk, {.judge = judge, .is_timed = true});
+  EXPECT_FALSE(found.finalists.empty());
+}
+
+TEST(SearchView, lets_one_of_equals_go_on) {
+  Walk walk = small_walk(40);
+  std::size_t assigners = 0;
+  const Judge judge = [&](std::span<const run::CaseResult> cases) {
+    if (cases[0].frames > 1 && cases[0].frames < 40) ++assigners;
+    return Verdict{static_cast<double>(cases[0].grid["cells"][0].get<int>()),
+                   static_cast<double>(cases[0].assigner.size()),
+                   {},
+                   false};
+  };
+  const Found found = searched(walk, {.judge = judge, .keep_one_in = 18, .least = 4});
+  EXPECT_EQ(assigners, 4u + 4u) << "four of twelve grids, on 4 and on 16 frames";
+  std::set<std::size_t> grids;
+  for (const Finalist& finalist : found.finalists) {
+    EXPECT_EQ(finalist.cases[0].assigner, "aabb");
+    grids.insert(finalist.cases[0].grid["cells"][2].get<std::size_t>());
+  }
+  EXPECT_EQ(grids.size(), 4u);
 }
 
 TEST(SearchView, stops_when_it_is_to) {
