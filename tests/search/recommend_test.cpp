@@ -170,22 +170,34 @@ TEST(SearchView, times_single_frames_of_a_path) {
 
 TEST(SearchView, lets_one_of_equals_go_on) {
   Walk walk = small_walk(40);
-  std::size_t assigners = 0;
-  const Judge judge = [&](std::span<const run::CaseResult> cases) {
-    if (cases[0].frames > 1 && cases[0].frames < 40) ++assigners;
-    return Verdict{static_cast<double>(cases[0].grid["cells"][0].get<int>()),
+  const Judge judge = [](std::span<const run::CaseResult> cases) {
+    const nlohmann::json& cells = cases[0].grid["cells"];
+    return Verdict{100.0 * cells[0].get<double>() + cells[2].get<double>(),
                    static_cast<double>(cases[0].assigner.size()),
                    {},
                    false};
   };
   const Found found = searched(walk, {.judge = judge, .keep_one_in = 18, .least = 4});
-  EXPECT_EQ(assigners, 4u + 4u) << "four of twelve grids, on 4 and on 16 frames";
-  std::set<std::size_t> grids;
+  std::set<std::size_t> slices;
   for (const Finalist& finalist : found.finalists) {
-    EXPECT_EQ(finalist.cases[0].assigner, "aabb");
-    grids.insert(finalist.cases[0].grid["cells"][2].get<std::size_t>());
+    EXPECT_EQ(finalist.cases[0].assigner, "aabb") << "it is the smallest here";
+    slices.insert(finalist.cases[0].grid["cells"][2].get<std::size_t>());
   }
-  EXPECT_EQ(grids.size(), 4u);
+  EXPECT_EQ(slices, (std::set<std::size_t>{2, 4, 8, 16})) << "of the best tile size, and not one grid in all its forms";
+}
+
+TEST(SearchView, lets_one_of_equals_in_all_grids_go_on) {
+  Walk walk = small_walk(40);
+  const Judge judge = [](std::span<const run::CaseResult> cases) {
+    const bool is_exact = cases[0].assigner == "exact";  // as a structure that has nothing of its grid
+    return Verdict{is_exact ? 1.0 : 2.0 + static_cast<double>(cases[0].grid["cells"][2].get<int>()), 7.0, {}, false};
+  };
+  const Found found = searched(walk, {.judge = judge, .within = 0.0, .keep_one_in = 18, .least = 4});
+  const auto is_exact = [](const Finalist& finalist) { return finalist.cases[0].assigner == "exact"; };
+  EXPECT_EQ(std::ranges::count_if(found.finalists, is_exact), 1);
+  for (const Finalist& finalist : found.finalists)
+    if (is_exact(finalist))
+      EXPECT_EQ(finalist.cases[0].grid["cells"], (nlohmann::json{1, 1, 2})) << "of the fewest cells";
 }
 
 TEST(SearchView, stops_when_it_is_to) {
