@@ -12,6 +12,7 @@ void add_run(Command& program, Action& action);
 void add_compare(Command& program, Action& action);
 void add_ratio(Command& program, Action& action);
 void add_size(Command& program, Action& action);
+void add_recommend(Command& program, Action& action);
 void add_report(Command& program, Action& action);
 void add_export(Command& program, Action& action);
 void add_scene(Command& program, Action& action);

@@ -1,4 +1,5 @@
-// `clusterbench schema config|result|comparison|ratios|stress|worst-case` and `clusterbench validate FILE...`.
+// `clusterbench schema config|result|comparison|ratios|recommendation|stress|worst-case` and `clusterbench validate
+// FILE...`.
 
 #include <algorithm>
 #include <fstream>
@@ -21,7 +22,7 @@ ExitCode validate_written(const std::string& path, const nlohmann::json& documen
   const std::vector<std::string> violations = config::schema_violations(row.schema(), document);
   for (const std::string& violation : violations) tell(path + ": " + violation);
   if (!violations.empty()) return ExitCode::usage;
-  for (const char* part : {"case", "block", "frame"}) {
+  for (const char* part : {"case", "block", "answer", "frame"}) {
     const std::string parts = std::string(part) + "s";
     if (!document.contains(parts)) continue;
     std::cout << path << ": valid, " << row.title << " with " << number_of(document[parts].size(), part) << "\n";
@@ -53,7 +54,10 @@ void add_schema(Command& program, Action& action) {
   std::vector<std::string> names;
   for (const config::DocumentRow& row : config::document_rows()) names.emplace_back(row.name);
   auto name = std::make_shared<std::string>();
-  command.add_option("WHICH", *name, "Of a configuration, or of what run, compare --json, ratio --json, stress or worst-case write")
+  command
+      .add_option(
+          "WHICH", *name,
+          "Of a configuration, or of what run, compare --json, ratio --json, recommend, stress or worst-case write")
       .required()
       .one_of(names);
   command.when_named([name, &action] {
@@ -69,7 +73,10 @@ void add_validate(Command& program, Action& action) {
   Command command =
       program.add_command("validate", "Check configurations and what clusterbench wrote, without running anything");
   auto paths = std::make_shared<std::vector<std::string>>();
-  command.add_option("FILE", *paths, "Configurations, results, comparisons, ratios, results of stress and worst-case").required();
+  command
+      .add_option("FILE", *paths,
+                  "Configurations, results, comparisons, ratios, recommendations, results of stress and worst-case")
+      .required();
   command.when_named([paths, &action] {
     action = [paths] {
       ExitCode worst = ExitCode::ok;

@@ -375,9 +375,11 @@ Config read_config(const JsonText& text) {
   return config;
 }
 
-Config read_changed(const JsonText& text, std::span<const FlagValue> flags) {
-  Config config = read_config(text);
+Config read_changed(JsonText text, std::span<const FlagValue> flags, const Json& standard) {
   const GridsFrom grids = text.value.contains("grids") ? GridsFrom::file : GridsFrom::defaults;
+  for (const auto& [key, value] : standard.items())
+    if (text.value.is_object() && !text.value.contains(key)) text.value[key] = value;
+  Config config = read_config(text);
   return flags.empty() ? config : read_config(changed_by_flags(config.resolved, grids, text.file, flags));
 }
 
@@ -409,15 +411,16 @@ std::string PrecisionRequest::label() const {
   return std::string(view::packing_name(packing)) + (inflate ? "+inflate" : "");
 }
 
-Config parse_config(const std::string& text, const fs::path& file, std::span<const FlagValue> flags) {
-  return read_changed(parse_json_text(text, file.string()), flags);
+Config parse_config(const std::string& text, const fs::path& file, std::span<const FlagValue> flags,
+                    const Json& standard) {
+  return read_changed(parse_json_text(text, file.string()), flags, standard);
 }
 
-Config load_config(const fs::path& path, std::span<const FlagValue> flags) {
-  return parse_config(file_text(path), path, flags);
+Config load_config(const fs::path& path, std::span<const FlagValue> flags, const Json& standard) {
+  return parse_config(file_text(path), path, flags, standard);
 }
 
-Config default_config(const std::vector<fs::path>& scenes, std::span<const FlagValue> flags) {
+Config default_config(const std::vector<fs::path>& scenes, std::span<const FlagValue> flags, const Json& standard) {
   Json list = Json::array();
   for (const fs::path& path : scenes) list.push_back({{"path", path.string()}, {"frames", 30}});
   const Json document{{"name", scenes.size() == 1 ? printable(scenes.front().stem().string()) : "scenes"},
@@ -425,7 +428,7 @@ Config default_config(const std::vector<fs::path>& scenes, std::span<const FlagV
                       {"timing", {{"rounds", 15}, {"min_time_ms", 2}, {"frames", 4}}}};
   JsonText text;
   text.value = document;
-  return read_changed(text, flags);
+  return read_changed(std::move(text), flags, standard);
 }
 
 }  // namespace clusterbench::config

@@ -114,12 +114,14 @@ Json result_schema() {
 }
 
 std::span<const DocumentRow> document_rows() {
-  static const std::array<DocumentRow, 6> rows{{
+  static const std::array<DocumentRow, 7> rows{{
       {Document::config, "config", "a configuration", config_schema},
       {Document::result, "result", "a result of `clusterbench run`", result_schema},
       {Document::comparison, "comparison", "a comparison of `clusterbench compare`",
        [] { return Json::parse(comparison_schema_text()); }},
       {Document::ratios, "ratios", "ratios of `clusterbench ratio`", [] { return Json::parse(ratios_schema_text()); }},
+      {Document::recommendation, "recommendation", "a recommendation of `clusterbench recommend`",
+       [] { return Json::parse(recommendation_schema_text()); }},
       {Document::stress, "stress", "a result of `clusterbench stress`",
        [] { return Json::parse(stress_schema_text()); }},
       {Document::worst_case, "worst-case", "a result of `clusterbench worst-case`",
@@ -130,7 +132,7 @@ std::span<const DocumentRow> document_rows() {
 
 void check_version(const std::string& path, const Json& document, const DocumentRow& row) {
   const Json schema = row.schema();
-  for (const char* key : {"schema_version", "comparison_version", "ratios_version"}) {
+  for (const char* key : {"schema_version", "comparison_version", "ratios_version", "recommendation_version"}) {
     if (!document.contains(key) || !schema["properties"].contains(key)) continue;
     const Json &found = document[key], &wanted = schema["properties"][key]["const"];
     if (found == wanted) continue;

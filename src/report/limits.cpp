@@ -102,6 +102,11 @@ std::string reason_for_none(const std::string& figure) {
 
 }  // namespace
 
+std::optional<double> limit_figure(const Json& result_case, const std::string& name) {
+  const std::optional<Found> found = found_in(result_case, name);
+  return found ? std::optional(found->value) : std::nullopt;
+}
+
 LimitFindings limit_findings(const Json& result, std::span<const config::LimitRule> rules) {
   LimitFindings findings;
   for (const config::LimitRule& rule : rules) {

@@ -2,6 +2,7 @@
 // A result held against its budgets: `limits.fail_if` of its configuration.
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,6 +10,9 @@
 #include "config/limit_rules.h"
 
 namespace clusterbench::report {
+
+// A figure of a case by its name in budgets (config/limit_rules.h); nothing where the case has none.
+std::optional<double> limit_figure(const nlohmann::ordered_json& result_case, const std::string& name);
 
 // Lines with case, figure and, where they are known, frame and cell.
 struct LimitFindings {

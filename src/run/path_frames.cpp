@@ -21,7 +21,22 @@ PathFrames::PathFrames(const scene::Scene& scene, const scene::CameraPath& path,
   }
 }
 
+PathFrames PathFrames::only(std::vector<int> frames) const {
+  PathFrames some = *this;
+  some.frames_ = std::move(frames);
+  return some;
+}
+
 view::Frame PathFrames::frame(int index) const {
+  return frame_of_path(frames_.empty() ? index : frames_[static_cast<std::size_t>(index)]);
+}
+
+std::optional<view::Frame> PathFrames::neighbour(const view::Frame& frame) const {
+  if (path_.shots.size() < 2) return {};
+  return frame_of_path(frame.index > 0 ? frame.index - 1 : 1);
+}
+
+view::Frame PathFrames::frame_of_path(int index) const {
   return view::make_frame(scene_, path_.shots[static_cast<std::size_t>(index)], index, viewport_);
 }
 

@@ -3,6 +3,8 @@
 // memory whole.
 
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "grid/grid.h"
 #include "measure/samples.h"
@@ -22,9 +24,15 @@ class PathFrames {
   // them.
   PathFrames along(const scene::CameraPath& other) const { return {*this, other}; }
 
+  // These frames of the path alone, ascending, each with its own index, in the grids of the whole path.
+  PathFrames only(std::vector<int> frames) const;
+
   const scene::CameraPath& camera_path() const { return path_; }
-  int count() const { return static_cast<int>(path_.shots.size()); }
+  int count() const { return static_cast<int>(frames_.empty() ? path_.shots.size() : frames_.size()); }
+  // `index`: below count().
   view::Frame frame(int index) const;
+  // The whole path's frame before this one; of its first one the second. None on a path of one frame.
+  std::optional<view::Frame> neighbour(const view::Frame& frame) const;
   grid::GridInputs inputs(const grid::GridSpec& spec, const view::Frame& frame) const;
   // The farthest that a bounded light reaches from any eye of the path.
   double far_m() const { return far_m_; }
@@ -43,12 +51,15 @@ class PathFrames {
         far_m_(whole.far_m_),
         depths_(whole.depths_) {}
 
+  view::Frame frame_of_path(int index) const;
+
   const scene::Scene& scene_;
   const scene::CameraPath& path_;
   Vec2i viewport_;
   Vec3d rig_lo_{0.0}, rig_hi_{0.0};  // box around the bounded lights' balls over the path
   double far_m_ = 0.0;
   FrameDepths* depths_ = nullptr;
+  std::vector<int> frames_;  // empty: all
 };
 
 // Those that a group of cases is measured in.

@@ -6,8 +6,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "run/gate.h"
-#include "run/grid_facts.h"
+#include "run/case_result.h"
 #include "run/passes/accuracy_pass.h"
 #include "run/passes/details_pass.h"
 #include "run/passes/stability_pass.h"
@@ -17,13 +16,6 @@
 
 namespace clusterbench::run {
 namespace {
-
-nlohmann::json params_json(const assign::Params& params) {
-  nlohmann::json out = nlohmann::json::object();
-  for (const auto& [name, value] : params.values())
-    out[name] = std::visit([](const auto& number) { return nlohmann::json(number); }, value);
-  return out;
-}
 
 // An estimate of work in nanoseconds, only for the time that is left: truth, samples and lists of some frames.
 double list_cost(const config::Config& config, const GroupPlan& group, std::size_t lights, int frames, double samples) {
@@ -253,7 +245,7 @@ class Run {
 
   void add_cases(CountedGroup& counted, const std::vector<TimingResult>& timings, Result& out) {
     for (std::size_t i = 0; i < counted.group.cases.size(); ++i) {
-      CaseResult finished = case_result(counted.group.cases[i], counted.frames, counted.counted, i);
+      CaseResult finished = case_result(config_, plan_, counted.group.cases[i], counted.frames, counted.counted, i);
       if (!counted.stabilities.empty()) finished.stability = counted.stabilities[i];
       if (!counted.details.empty()) finished.details = std::move(counted.details[i]);
       if (!timings.empty()) {
@@ -264,63 +256,6 @@ class Run {
       ++progress_.cases_done;
       if (listener_.on_case) listener_.on_case(finished);
       out.cases.push_back(std::move(finished));
-    }
-  }
-
-  CaseResult case_result(const CasePlan& plan, int frames, const AccuracyResult& counted, std::size_t index) const {
-    const scene::Scene& scene = plan_.scenes[plan.scene].scene;
-    const config::MethodRequest& assigner = config_.assigners[plan.assigner];
-    const assign::AssignerDescriptor& descriptor = *assign::find_assigner(assigner.name);
-    const MethodMeasures& method =
-        *std::find_if(counted.methods.begin(), counted.methods.end(),
-                      [&](const auto& measures) { return measures.method == plan.method(); });
-    const StructureMeasures& structure = counted.structures[index];
-    CaseResult out;
-    out.id = plan.id;
-    out.settings = plan.settings;
-    out.name = plan.name;
-    out.scene = scene.name;
-    out.camera = plan_.scenes[plan.scene].paths[plan.camera].camera;
-    out.viewport = config_.viewports[plan.viewport];
-    out.frames = frames;
-    out.grid = grid_facts(config_.grids[plan.grid], counted.last_grid,
-                          plan_.scenes[plan.scene].paths[plan.camera].shots.front().projection.far_m);
-    out.assigner = assigner.name;
-    out.assigner_label = assigner.label();
-    out.assigner_params = params_json(assigner.params);
-    const config::PrecisionRequest& precision = config_.precisions[plan.precision];
-    out.conservative =
-        assign::is_conservative(descriptor, assigner.params) && (precision.inflate || !precision.is_lossy());
-    if (!counted.losses.empty())
-      out.precision = {view::packing_name(precision.packing), precision.label(), precision.inflate,
-                       counted.losses[plan.precision]};
-    out.exact = descriptor.exact;
-    out.storage_label = storage_label(config_, plan);
-    out.buffers = structure.buffers;
-    out.tests_done = method.tests_done;
-    out.fallbacks = method.fallbacks;
-    if (method.has_cells) out.occupancy = method.occupancy;
-    if (method.has_cells && config_.check_accuracy) out.error = method.error;
-    if (out.error && out.error->deepest)
-      out.deepest_miss_light = scene.lights[static_cast<std::size_t>(out.error->deepest->rig_index)].name;
-    add_samples(plan_.scenes[plan.scene], structure, out);
-    if (!out.samples.empty()) out.depth_ranges = counted.depth_ranges;
-    out.lookup = structure.lookup;
-    out.failures = failures_of(out, config_.limits);
-    return out;
-  }
-
-  // Of the whole view's samples, and of the sets that the scene has. What is cut to the depths of visible surfaces
-  // promises nothing anywhere in the view, and is not asked there.
-  void add_samples(const SceneData& data, const StructureMeasures& structure, CaseResult& out) const {
-    const bool is_cut_to_surfaces = assign::find_assigner(out.assigner)->at_surfaces;
-    for (std::size_t i = 0; i < config_.sample_sets.size(); ++i) {
-      const SampleSetResult& set = structure.samples[i];
-      if (set.set == measure::SampleSet::volume) {
-        if (!is_cut_to_surfaces) out.shading = set.counts;
-        continue;
-      }
-      if (set_obstacle(config_.sample_sets[i], data).empty()) out.samples.push_back(set);
     }
   }
 

@@ -8,9 +8,8 @@ namespace {
 
 // The first frame has none before it: what holds of the second is taken to hold of it.
 bool is_grid_new(const grid::GridSpec& spec, const PathFrames& path, const view::Frame& frame) {
-  if (path.count() < 2) return false;
-  const int other = frame.index > 0 ? frame.index - 1 : 1;
-  return !(path.inputs(spec, frame) == path.inputs(spec, path.frame(other)));
+  const std::optional<view::Frame> other = path.neighbour(frame);
+  return other && !(path.inputs(spec, frame) == path.inputs(spec, *other));
 }
 
 }  // namespace

@@ -1,0 +1,208 @@
+// `clusterbench recommend SCENE|CONFIG`: which clustering to take, and why.
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/launches.h"
+#include "cli/output.h"
+#include "cli/stop.h"
+#include "cli/terminal.h"
+#include "config/config.h"
+#include "core/text.h"
+#include "report/recommend_report.h"
+#include "run/sweep.h"
+#include "search/recommend.h"
+#include "search/recommend_space.h"
+
+namespace clusterbench::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// "--frame-us-max" of "frame_us.max".
+std::string flag_of(const std::string& figure) {
+  std::string flag = "--" + figure;
+  std::ranges::replace(flag, '_', '-');
+  std::ranges::replace(flag, '.', '-');
+  return flag;
+}
+
+constexpr double k_no_limit = -1.0;
+
+struct RecommendFlags {
+  std::string input, output, written, objective, within = "5%", filter;
+  std::vector<std::vector<std::string>> settings{config::config_flags().size()};               // by flag
+  std::vector<double> most = std::vector<double>(config::limit_figures().size(), k_no_limit);  // by figure
+  int runners_up = 5, written_runners_up = 0;
+  bool no_timing = false, quiet = false;
+};
+
+std::vector<config::FlagValue> settings_of(const RecommendFlags& flags) {
+  std::vector<config::FlagValue> all;
+  for (std::size_t i = 0; i < flags.settings.size(); ++i) {
+    const config::ConfigFlag& flag = config::config_flags()[i];
+    if (!flag.is_repeatable && !flags.settings[i].empty()) all.push_back({flag.name, joined(flags.settings[i], ",")});
+    for (const std::string& value : flag.is_repeatable ? flags.settings[i] : std::vector<std::string>{})
+      all.push_back({flag.name, value});
+  }
+  return all;
+}
+
+// A share: "5%", or "5" for the same.
+double share_of(const std::string& text) {
+  const std::string number = text.ends_with('%') ? text.substr(0, text.size() - 1) : text;
+  std::size_t end = 0;
+  double percent = -1.0;
+  try {
+    percent = std::stod(number, &end);
+  } catch (const std::exception&) {
+    end = 0;
+  }
+  if (end == 0 || end != number.size() || !(percent >= 0.0 && percent <= 1000.0))
+    throw Error("", "--within", "'" + text + "' is no share; takes percents from 0 to 1000, as in 5%");
+  return percent / 100.0;
+}
+
+std::vector<config::LimitRule> rules_of(const RecommendFlags& flags, const config::Config& config) {
+  std::vector<config::LimitRule> rules = config.limits.fail_if;
+  for (std::size_t i = 0; i < flags.most.size(); ++i)
+    if (flags.most[i] != k_no_limit) rules.push_back({config::limit_figures()[i].name, false, flags.most[i]});
+  return rules;
+}
+
+config::Config read_input(const RecommendFlags& flags) {
+  nlohmann::json standard = search::recommend_space();
+  standard["samples"] = {{"opaque", nlohmann::json::object()}};
+  const std::vector<config::FlagValue> settings = settings_of(flags);
+  const std::string extension = fs::path(flags.input).extension().string();
+  config::Config config = extension == ".glb" || extension == ".gltf"
+                              ? config::default_config({flags.input}, settings, standard)
+                              : config::load_config(flags.input, settings, standard);
+  config.details.reset();  // nothing here asks for them
+  config.stability.reset();
+  for (const char* key : {"details", "stability"}) config.resolved[key] = nullptr;
+  return config;
+}
+
+// What is least where nobody says: the modelled cost of a frame, without times that of the GPU alone.
+report::ObjectiveFigure objective_of(const RecommendFlags& flags) {
+  const std::string standard = flags.no_timing ? "gpu_cost_us" : "frame_cost_us";
+  return report::objective_figure(flags.objective.empty() ? standard : flags.objective);
+}
+
+// A cost is that of samples with a weight. A scene without triangles has no surfaces to shade: then each pixel is
+// shaded once at a random depth of its view.
+void weigh_samples(config::Config& config, const run::Plan& plan) {
+  nlohmann::json& weights = config.resolved["cost"]["weights"];
+  const auto has_cost = [&](const config::SampleSetRequest& set) {
+    return weights[measure::name_of(set.set)].get<double>() > 0.0 &&
+           std::ranges::all_of(plan.scenes, [&](const auto& data) { return run::set_obstacle(set, data).empty(); });
+  };
+  if (std::ranges::any_of(config.sample_sets, has_cost)) return;
+  const auto volume = std::ranges::find(config.sample_sets, measure::SampleSet::volume, &config::SampleSetRequest::set);
+  if (volume == config.sample_sets.end())
+    throw Error("", "--by", "a cost is that of samples, and there are none; take another figure, or shading.samples");
+  const Vec2i viewport = config.viewports.front();
+  weights["volume"] = static_cast<double>(viewport.x) * viewport.y / volume->count;
+}
+
+void check_timing(const RecommendFlags& flags, const report::Question& question) {
+  if (flags.no_timing && report::needs_times(question.objective, question.constraints))
+    throw Error("", "--no-timing", "leaves out the times that the objective or a constraint needs");
+}
+
+ExitCode write_and_show(const RecommendFlags& flags, const Json& recommendation) {
+  if (!flags.output.empty()) write_output(flags.output, recommendation);
+  std::ostream& out = is_stream(flags.output) && !flags.output.empty() ? std::cerr : std::cout;
+  out << printable_lines(report::recommendation_text(recommendation)) << std::flush;
+  return report::all_satisfied(recommendation) ? ExitCode::ok : ExitCode::gate_failed;
+}
+
+ExitCode recommend(const RecommendFlags& flags) {
+  refuse_overwriting({flags.output, flags.written}, {flags.input});
+  report::Question question{objective_of(flags), {}, share_of(flags.within), flags.runners_up};
+  config::Config config = read_input(flags);
+  question.constraints = report::constraints_of(rules_of(flags, config));
+  check_timing(flags, question);
+  const bool is_timed = report::needs_times(question.objective, question.constraints);
+  config.timing.measure = is_timed;
+  config.resolved["timing"]["measure"] = is_timed;
+  run::Plan plan = run::make_plan(config, flags.filter);
+  if (question.objective.is_cost) weigh_samples(config, plan);
+  std::vector<search::View> views = search::views_of(plan);
+  if (!flags.written.empty() && views.size() != 1)
+    throw Error(flags.written, "--write-config",
+                "takes one scene in one viewport; these are " + std::to_string(views.size()));
+
+  const std::atomic<bool>& stop = stop_on_signals();
+  const search::Request request{report::judge_of(question, config.resolved), is_timed, question.objective.only_grows,
+                                question.within};
+  const run::Launcher launcher =
+      is_timed && config.timing.launches > 1 ? make_launcher(config, plan, nullptr, stop) : run::Launcher{};
+  Json answers = Json::array();
+  ProgressLine progress(terminal(STDERR_FILENO), flags.quiet);
+  for (search::View& view : views) {
+    const search::Found found = search::search_view(config, plan, view, request, launcher,
+                                                    {[&](const run::Progress& now) { progress.show(now); }, stop});
+    progress.clear();
+    if (stop) return stopped_exit_code();
+    answers.push_back(report::answer_to_json(config, plan, view, found, question));
+  }
+  const Json recommendation = report::recommendation_to_json(config, question, answers);
+  const ExitCode code = write_and_show(flags, recommendation);
+  if (!flags.written.empty() && code == ExitCode::ok)
+    write_output(flags.written, report::recommended_config(config, views.front(), answers[0], question,
+                                                           flags.written_runners_up, flags.written));
+  return code;
+}
+
+}  // namespace
+
+void add_recommend(Command& program, Action& action) {
+  auto flags = std::make_shared<RecommendFlags>();
+  Command command = program.add_command(
+      "recommend", "Which grid, method and light structure to take for a scene, by an objective and under constraints");
+  command
+      .add_option(
+          "INPUT", flags->input,
+          "A scene (.glb, .gltf) with a space of candidates of its own, or a configuration (.json), whose grids, "
+          "assigners and storages are the candidates")
+      .required();
+  std::vector<std::string> objectives;
+  for (const report::ObjectiveFigure& figure : report::objective_figures()) objectives.push_back(figure.name);
+  command
+      .add_option("--by", flags->objective,
+                  "What is to be least; frame_cost_us if nothing is said, gpu_cost_us without timing")
+      .one_of(objectives);
+  for (std::size_t i = 0; i < flags->most.size(); ++i) {
+    const config::LimitFigure& figure = config::limit_figures()[i];
+    command.add_option(flag_of(figure.name), flags->most[i], std::string("At most: ") + figure.meaning).non_negative();
+  }
+  command.add_option("--within", flags->within, "How much worse than the best a coarser grid may be").shows_standard();
+  command.add_option("--runners-up", flags->runners_up, "How many are told behind the choice")
+      .range(0, 100)
+      .shows_standard();
+  command.add_option("-o,--output", flags->output, "Write the answer as JSON to this file; -: standard output");
+  command.add_option("--write-config", flags->written, "Write a configuration of the choice alone, for `run`");
+  command
+      .add_option("--write-runners-up", flags->written_runners_up,
+                  "How many of those behind it are in that configuration, too")
+      .range(0, 100)
+      .shows_standard();
+  command.add_option("--filter", flags->filter, "Only candidates whose cases' names match this regular expression");
+  for (std::size_t i = 0; i < flags->settings.size(); ++i)
+    command.add_option(config::config_flags()[i].name, flags->settings[i], config::config_flags()[i].summary)
+        .once_a_name();
+  command.add_flag("--no-timing", flags->no_timing, "Nothing is timed; the answer is then the same on every machine");
+  command.add_flag("-q,--quiet", flags->quiet, "No progress");
+  command.when_named([flags, &action] { action = [flags] { return recommend(*flags); }; });
+}
+
+}  // namespace clusterbench::cli

@@ -1,0 +1,543 @@
+#include "report/recommend_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <tuple>
+
+#include "config/grid_json.h"
+#include "core/error.h"
+#include "core/text.h"
+#include "measure/side_by_side.h"
+#include "report/columns.h"
+#include "report/contender.h"
+#include "report/frame_cost.h"
+#include "report/json_values.h"
+#include "report/limits.h"
+#include "report/machine.h"
+#include "report/result_json.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// How a figure of several cameras is made of theirs.
+enum class OverCameras : std::uint8_t { largest, sum, mean };
+
+struct FigureKind {
+  const char* name;
+  OverCameras over = OverCameras::mean;
+  bool is_timed = false, only_grows = false;
+};
+constexpr FigureKind k_kinds[] = {{"frame_us", OverCameras::mean, true},
+                                  {"frame_us.max", OverCameras::largest, true},
+                                  {"frame_cost_us", OverCameras::mean, true},
+                                  {"assign_us", OverCameras::mean, true},
+                                  {"convert_us", OverCameras::mean, true},
+                                  {"build_us", OverCameras::mean, true},
+                                  {"index_entries", OverCameras::largest, false, true},
+                                  {"bytes", OverCameras::largest, false, true},
+                                  {"upload_bytes", OverCameras::largest, false, true},
+                                  {"scratch_bytes", OverCameras::largest},
+                                  {"longest", OverCameras::largest, false, true},
+                                  {"pairs", OverCameras::largest, false, true},
+                                  {"dropped", OverCameras::sum, false, true},
+                                  {"missed", OverCameras::sum, false, true},
+                                  {"undecided", OverCameras::sum, false, true}};
+
+FigureKind figure_kind(const std::string& name) {
+  const auto* const found =
+      std::ranges::find(k_kinds, name, [](const FigureKind& kind) { return std::string(kind.name); });
+  return found == std::end(k_kinds) ? FigureKind{"", OverCameras::mean} : *found;
+}
+
+constexpr const char *k_gpu_cost = "gpu_cost_us", *k_evaluated = "evaluated";
+
+std::optional<double> figure_of(const Json& result_case, const std::string& name) {
+  if (name == k_gpu_cost) {
+    const std::optional<double> ns = number_at(result_case, "/cost/gpu_ns");
+    return ns ? std::optional(1e-3 * *ns) : std::nullopt;
+  }
+  if (name != k_evaluated) return limit_figure(result_case, name);
+  const std::optional<double> samples = number_at(result_case, "/shading/samples"),
+                              evaluated = number_at(result_case, "/shading/evaluated");
+  return samples && evaluated && *samples > 0.0 ? std::optional(*evaluated / *samples) : std::nullopt;
+}
+
+// Nothing where a camera lacks it.
+std::optional<double> figure_over(const Json& cases, const std::string& name) {
+  const OverCameras over = figure_kind(name).over;
+  double all = 0.0, weights = 0.0;
+  for (const Json& result_case : cases) {
+    const std::optional<double> value = figure_of(result_case, name);
+    if (!value) return {};
+    const double weight = over == OverCameras::mean ? result_case["frames"].get<double>() : 1.0;
+    all = over == OverCameras::largest ? std::max(all, *value) : all + weight * *value;
+    weights += weight;
+  }
+  if (weights == 0.0) return {};
+  return over == OverCameras::mean ? all / weights : all;
+}
+
+Json cases_json(std::span<const run::CaseResult> cases, const Json& config) {
+  Json out = Json::array();
+  for (const run::CaseResult& one : cases) out.push_back(case_to_json(one));
+  add_costs(out, config);
+  return out;
+}
+
+// What breaks it stays broken: marks and counts only grow, and a share of something is no longer none.
+bool stays_broken(const config::LimitRule& rule) {
+  return figure_kind(rule.figure).only_grows || (rule.limit == 0.0 && !figure_kind(rule.figure).is_timed);
+}
+
+bool breaks(const Json& cases, const config::LimitRule& rule) {
+  return std::ranges::any_of(cases, [&](const Json& result_case) {
+    const std::optional<double> value = figure_of(result_case, rule.figure);
+    return value && rule.is_broken_by(*value);
+  });
+}
+
+// A run would fail for it, or its cost is that of less light.
+bool fails(const Json& cases, bool is_cost) {
+  return std::ranges::any_of(cases, [&](const Json& result_case) {
+    const Json* lit = value_at(result_case, "/cost/lit");
+    return !result_case["failures"].empty() || (is_cost && lit != nullptr && *lit == false);
+  });
+}
+
+std::string amount_text(double value) {
+  const bool is_count = value == std::floor(value) && std::abs(value) < 1e9;
+  return text(is_count ? "%.0f" : std::abs(value) < 1e5 ? "%.4g" : "%.6g", value);
+}
+
+std::string rule_text_of(const config::LimitRule& rule) {
+  if (rule.limit == 0.0 && !rule.is_inclusive) return rule.figure + " = 0";
+  return rule.figure + (rule.is_inclusive ? " < " : " <= ") + amount_text(rule.limit);
+}
+
+std::vector<std::string> constraint_texts(const Question& question) {
+  std::vector<std::string> texts;
+  for (const Constraint& constraint : question.constraints) texts.push_back(rule_text_of(constraint.rule));
+  texts.emplace_back("a run of it does not fail");
+  return texts;
+}
+
+// A finalist with what it is ranked by.
+struct Ranked {
+  std::size_t candidate = 0;
+  Json cases;
+  double objective = 0.0, bytes = 0.0;
+  std::uint64_t cells = 0;
+  std::vector<std::size_t> broken;
+
+  bool is_feasible() const { return broken.empty() && std::isfinite(objective); }
+  std::tuple<double, std::uint64_t, std::size_t> smaller() const { return {bytes, cells, candidate}; }
+};
+
+// Frame times of all cameras as one: round by round their mean by frames.
+run::Contender pooled(const Json& cases, RankBy by) {
+  run::Contender all = contender_of(cases[0], by);
+  std::vector<double> sum(all.rounds_ns.size(), 0.0);
+  double frames = 0.0;
+  for (const Json& result_case : cases) {
+    const run::Contender one = contender_of(result_case, by);
+    if (one.rounds_ns.size() != sum.size()) return {};
+    const double weight = result_case["frames"].get<double>();
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += weight * one.rounds_ns[i];
+    frames += weight;
+  }
+  for (double& ns : sum) ns /= frames;
+  all.rounds_ns = std::move(sum);
+  all.grid = cases[0]["grid"].dump();
+  return all;
+}
+
+// How much longer one takes than another, where the objective is a time with rounds.
+std::optional<measure::Ratio> ratio_of(const Ranked& a, const Ranked& b, const Question& question, std::uint64_t seed) {
+  const std::string& figure = question.objective.name;
+  if ((figure != "frame_us" && figure != "frame_cost_us") || a.candidate == b.candidate) return {};
+  const RankBy by = figure == "frame_us" ? RankBy::frame_time : RankBy::frame_cost;
+  return run::ratio_between(pooled(a.cases, by), pooled(b.cases, by), seed);
+}
+
+std::vector<Ranked> ranked(const config::Config& config, const search::View& view, const search::Found& found) {
+  const Json resolved = config.resolved;
+  std::vector<Ranked> all;
+  for (const search::Finalist& finalist : found.finalists) {
+    const search::Verdict& verdict = found.records[finalist.candidate].verdict;
+    all.push_back({finalist.candidate, cases_json(finalist.cases, resolved), verdict.objective, verdict.bytes,
+                   view.candidates[finalist.candidate].cells, verdict.broken});
+  }
+  std::ranges::stable_sort(all, [](const Ranked& a, const Ranked& b) {
+    if (a.is_feasible() != b.is_feasible()) return a.is_feasible();
+    if (a.objective != b.objective && a.is_feasible()) return a.objective < b.objective;
+    return a.smaller() < b.smaller();
+  });
+  return all;
+}
+
+// The smallest of those that are not known to be worse than the best one, which is brought to the front: so noise
+// seldom decides.
+void choose(std::vector<Ranked>& all, const Question& question, std::uint64_t seed) {
+  if (all.empty() || !all.front().is_feasible()) return;
+  std::size_t choice = 0;
+  for (std::size_t i = 1; i < all.size() && all[i].is_feasible(); ++i) {
+    const std::optional<measure::Ratio> ratio = ratio_of(all[i], all[0], question, seed);
+    const bool is_no_worse = ratio ? !measure::takes_longer(ratio) : all[i].objective == all[0].objective;
+    if (is_no_worse && all[i].smaller() < all[choice].smaller()) choice = i;
+  }
+  std::rotate(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(choice),
+              all.begin() + static_cast<std::ptrdiff_t>(choice) + 1);
+}
+
+Json method_json(const config::MethodRequest& request) {
+  Json out{{"name", request.name}};
+  for (const auto& [name, value] : request.params.values())
+    out[name] = std::visit([](const auto& number) { return Json(number); }, value);
+  return out;
+}
+
+// What a configuration needs of a candidate.
+Json parts_json(const config::Config& config, const search::View& view, const search::Candidate& candidate) {
+  const run::CasePlan& plan = *candidate.cases.front();
+  const config::PrecisionRequest& precision = config.precisions[plan.precision];
+  Json packing{{"packing", view::packing_name(precision.packing)}};
+  if (precision.is_lossy()) packing["inflate"] = precision.inflate;
+  Json ids = Json::array();
+  for (std::size_t i = 0; i < view.cameras.size(); ++i) ids.push_back(candidate.cases[i]->id);
+  return {{"name", candidate.name},
+          {"ids", ids},
+          {"grid", config::grid_request(config.grids[plan.grid])},
+          {"cells", candidate.cells},
+          {"assigner", method_json(config.assigners[plan.assigner])},
+          {"storage", plan.storage ? method_json(config.storages[*plan.storage]) : Json()},
+          {"precision", packing}};
+}
+
+Json ranked_json(const config::Config& config, const search::View& view, const Ranked& one, const Ranked& choice,
+                 const Question& question) {
+  Json out = parts_json(config, view, view.candidates[one.candidate]);
+  out["objective"] = number_or_null(one.objective);
+  out["by_choice"] = number_or_null(one.objective / choice.objective);
+  if (const std::optional<measure::Ratio> ratio = ratio_of(one, choice, question, config.seed)) {
+    out["by_choice"] = six_digits(ratio->ratio);
+    out["ci95"] = {six_digits(ratio->ci95.low), six_digits(ratio->ci95.high)};
+  }
+  Json figures = Json::object();
+  for (const ObjectiveFigure& figure : objective_figures())
+    if (const std::optional<double> value = figure_over(one.cases, figure.name))
+      figures[figure.name] = figure.is_timed ? six_digits(*value) : number_or_null(*value);
+  out["figures"] = figures;
+  return out;
+}
+
+// What each constraint has excluded, and the best of that by the objective, beside the best on the same frames.
+Json excluded_json(const search::View& view, const search::Found& found, const Question& question) {
+  const std::vector<std::string> texts = constraint_texts(question);
+  Json out = Json::array();
+  for (std::size_t constraint = 0; constraint < texts.size(); ++constraint) {
+    std::size_t excluded = 0, alone = 0;
+    const search::Record* best = nullptr;
+    std::size_t best_index = 0;
+    const auto by_best = [](const search::Record& record) {
+      const double by = std::isnan(record.by_best) ? record.verdict.objective : record.by_best;
+      return std::isnan(by) ? std::numeric_limits<double>::infinity() : by;
+    };
+    for (std::size_t i = 0; i < found.records.size(); ++i) {
+      const search::Record& record = found.records[i];
+      if (std::ranges::find(record.verdict.broken, constraint) == record.verdict.broken.end()) continue;
+      ++excluded;
+      alone += record.verdict.broken.size() == 1 ? 1 : 0;
+      if (best != nullptr && by_best(*best) <= by_best(record)) continue;
+      best = &record;
+      best_index = i;
+    }
+    const bool is_given = constraint < question.constraints.size() && question.constraints[constraint].is_given;
+    Json row{{"constraint", texts[constraint]}, {"given", is_given}, {"excluded", excluded}, {"alone", alone}};
+    row["best"] = best == nullptr ? Json()
+                                  : Json{{"name", view.candidates[best_index].name},
+                                         {"objective", number_or_null(best->verdict.objective)},
+                                         {"by_best", number_or_null(best->by_best)},
+                                         {"frames", best->frames}};
+    out.push_back(row);
+  }
+  return out;
+}
+
+Json work_json(const search::Work& work) {
+  const auto share = [](double some, double all) { return number_or_null(all > 0.0 ? some / all : 0.0); };
+  return {
+      {"evaluations", work.evaluations},
+      {"all_evaluations", work.all_evaluations},
+      {"evaluations_share", share(static_cast<double>(work.evaluations), static_cast<double>(work.all_evaluations))},
+      {"tests", number_or_null(work.tests)},
+      {"all_tests", number_or_null(work.all_tests)},
+      {"tests_share", share(work.tests, work.all_tests)}};
+}
+
+Json rungs_json(const std::vector<search::Rung>& rungs) {
+  Json out = Json::array();
+  for (const search::Rung& rung : rungs)
+    out.push_back(
+        {{"frames", rung.frames}, {"candidates", rung.candidates}, {"excluded", rung.out}, {"kept", rung.kept}});
+  return out;
+}
+
+std::string within_text(double within) {
+  return text("%.4g", 100.0 * within) + " %";
+}
+
+// "frustum/exact-fast/packed": one line of the table of candidates.
+Cells candidate_row(const std::string& mark, const Json& one, const std::string& objective) {
+  std::string distance;
+  if (const Json& by = one["by_choice"]; by.is_number() && mark != "*") {
+    distance = text("%+.1f %%", 100.0 * (by.get<double>() - 1.0));
+    if (one.contains("ci95") && one["ci95"][0].is_number())
+      distance += text(" (%+.1f", 100.0 * (one["ci95"][0].get<double>() - 1.0)) +
+                  text(" to %+.1f)", 100.0 * (one["ci95"][1].get<double>() - 1.0));
+  }
+  const auto figure = [&](const std::string& name) {
+    const std::optional<double> value = number_at(one, "/figures/" + name);
+    return value ? amount_text(*value) : std::string("-");
+  };
+  return {mark,
+          shown(one["name"].get<std::string>()),
+          figure(objective),
+          distance,
+          std::to_string(one["cells"].get<std::uint64_t>()),
+          figure("bytes"),
+          figure("longest"),
+          figure("overshade")};
+}
+
+std::string table_of(const std::vector<Cells>& rows) {
+  const std::vector<std::size_t> widths = widths_of(rows);
+  std::string out;
+  for (const Cells& row : rows) out += aligned(row, widths);
+  return out;
+}
+
+std::string excluded_text(const Json& answer) {
+  std::vector<Cells> rows{{" ", "constraint", "excludes", "alone", "best of those", "by the best", "on frames"}};
+  for (const Json& row : answer["constraints"]) {
+    if (row["excluded"] == 0 && row["given"] == false) continue;
+    const Json& best = row["best"];
+    rows.push_back({" ", row["constraint"], row["excluded"].dump(), row["alone"].dump(),
+                    best.is_null() ? "-" : shown(best["name"].get<std::string>()),
+                    best.is_null() ? "-" : text_at(best, "/by_best", "%.3g x"),
+                    best.is_null() ? "-" : best["frames"].dump()});
+  }
+  return rows.size() > 1 ? table_of(rows) : "";
+}
+
+std::string answer_text(const Json& answer, const Json& objective) {
+  std::string out = shown(answer["scene"].get<std::string>()) + ", " + answer["viewport"][0].dump() + "x" +
+                    answer["viewport"][1].dump() + ", " + number_of(answer["frames"].get<std::uint64_t>(), "frame") +
+                    ": " + number_of(answer["candidates"].get<std::uint64_t>(), "candidate") + "\n";
+  const auto figure = objective["figure"].get<std::string>();
+  if (answer["choice"].is_null()) {
+    out += "no candidate satisfies all constraints\n";
+  } else {
+    std::vector<Cells> rows{{" ", "candidate", figure, "worse by", "cells", "bytes", "longest", "overshade"}};
+    if (figure == "bytes" || figure == "longest" || figure == "overshade") rows[0][2] = "objective";
+    rows.push_back(candidate_row("*", answer["choice"], figure));
+    for (const Json& runner_up : answer["runners_up"]) rows.push_back(candidate_row(" ", runner_up, figure));
+    out += table_of(rows);
+    const Json& coarsest = answer["coarsest"];
+    out += "coarsest grid within " + within_text(answer["within"].get<double>()) + " of the best: " +
+           (coarsest.is_null() ? "none other"
+                               : shown(coarsest["name"].get<std::string>()) + ", " + coarsest["cells"].dump() +
+                                     " cells, " + figure + " " + amount_text(coarsest["objective"].get<double>())) +
+           "\n";
+  }
+  out += excluded_text(answer);
+  const Json& work = answer["work"];
+  out += "measured " + work["evaluations"].dump() + " of " + work["all_evaluations"].dump() +
+         " pairs of a candidate and a frame (" + text("%.3g", 100.0 * work["evaluations_share"].get<double>()) +
+         " %), " + text("%.3g", 100.0 * work["tests_share"].get<double>()) + " % of all lights x cells\n";
+  return out;
+}
+
+// The configuration's entry of a scene, which can stand for several.
+Json scene_json(const config::Config& config, std::size_t scene, const std::string& file) {
+  namespace fs = std::filesystem;
+  const config::SceneRequest& request = config.scenes[scene];
+  const Json resolved = config.resolved["scenes"];
+  std::size_t first = 0;
+  Json entry;
+  for (const Json& candidate : resolved) {
+    std::size_t count = candidate.contains("paths") ? candidate["paths"].size() : 1;
+    if (candidate.contains("rig"))
+      for (const auto& [key, value] : candidate["rig"].items())
+        if (value.is_array() && !(key == "size" && value[0].is_number())) count *= value.size();
+    if (scene < first + count) {
+      entry = candidate;
+      break;
+    }
+    first += count;
+  }
+  entry.erase("paths");
+  if (request.rig) {
+    const scene::RigSpec& rig = *request.rig;
+    entry["rig"] = {{"lights", rig.lights},
+                    {"spots", rig.spots},
+                    {"range", rig.range_m},
+                    {"size", {rig.size_m.x, rig.size_m.y, rig.size_m.z}},
+                    {"seed", rig.seed}};
+    return entry;
+  }
+  const fs::path folder = fs::absolute(file).parent_path();
+  entry["path"] = fs::absolute(request.path).lexically_normal().lexically_proximate(folder.lexically_normal()).string();
+  return entry;
+}
+
+void add_once(Json& list, const Json& entry) {
+  if (!entry.is_null() && std::ranges::find(list, entry) == list.end()) list.push_back(entry);
+}
+
+}  // namespace
+
+std::vector<ObjectiveFigure> objective_figures() {
+  std::vector<ObjectiveFigure> all;
+  for (const config::LimitFigure& figure : config::limit_figures()) {
+    const FigureKind kind = figure_kind(figure.name);
+    all.push_back(
+        {figure.name, figure.meaning, kind.is_timed, std::string(figure.name) == "frame_cost_us", kind.only_grows});
+  }
+  all.push_back({k_gpu_cost, "modelled time of a frame's upload and shading, in microseconds", false, true, false});
+  all.push_back({k_evaluated, "lights that a sample is given, mean", false, false, false});
+  return all;
+}
+
+const ObjectiveFigure& objective_figure(const std::string& name) {
+  static const std::vector<ObjectiveFigure> all = objective_figures();
+  return *std::ranges::find(all, name, &ObjectiveFigure::name);
+}
+
+std::vector<Constraint> constraints_of(const std::vector<config::LimitRule>& given) {
+  std::vector<Constraint> all;
+  for (const config::LimitRule& rule : given) all.push_back({rule, true});
+  for (const char* figure : {"missed", "dropped", "unlit"})
+    if (std::ranges::find(given, figure, &config::LimitRule::figure) == given.end())
+      all.push_back({{figure, false, 0.0}, false});
+  return all;
+}
+
+bool needs_times(const ObjectiveFigure& objective, const std::vector<Constraint>& constraints) {
+  return objective.is_timed || std::ranges::any_of(constraints, [](const Constraint& constraint) {
+           return figure_kind(constraint.rule.figure).is_timed;
+         });
+}
+
+search::Judge judge_of(const Question& question, const nlohmann::json& config) {
+  return [question, resolved = Json(config)](std::span<const run::CaseResult> results) {
+    const Json cases = cases_json(results, resolved);
+    search::Verdict verdict;
+    verdict.objective = figure_over(cases, question.objective.name).value_or(std::numeric_limits<double>::quiet_NaN());
+    verdict.bytes = figure_over(cases, "bytes").value_or(0.0);
+    for (std::size_t i = 0; i < question.constraints.size(); ++i) {
+      const config::LimitRule& rule = question.constraints[i].rule;
+      if (!breaks(cases, rule)) continue;
+      verdict.broken.push_back(i);
+      verdict.is_final = verdict.is_final || stays_broken(rule);
+    }
+    if (verdict.broken.empty() && fails(cases, question.objective.is_cost))
+      verdict.broken.push_back(question.constraints.size());
+    return verdict;
+  };
+}
+
+Json answer_to_json(const config::Config& config, const run::Plan& plan, const search::View& view,
+                    const search::Found& found, const Question& question) {
+  std::vector<Ranked> all = ranked(config, view, found);
+  choose(all, question, config.seed);
+  const bool has_choice = !all.empty() && all.front().is_feasible();
+  const run::SceneData& data = plan.scenes[view.scene];
+  const Vec2i viewport = config.viewports[view.viewport];
+  Json cameras = Json::array();
+  for (const std::size_t camera : view.cameras) cameras.push_back(data.paths[camera].camera);
+  Json out{{"scene", data.scene.name},
+           {"sha256", data.contents_sha256()},
+           {"cameras", cameras},
+           {"viewport", {viewport.x, viewport.y}},
+           {"frames", view.frames},
+           {"lights", data.scene.lights.size()},
+           {"candidates", view.candidates.size()},
+           {"incomplete", view.incomplete},
+           {"choice", nullptr},
+           {"runners_up", Json::array()},
+           {"within", question.within},
+           {"coarsest", nullptr}};
+  if (has_choice) {
+    out["choice"] = ranked_json(config, view, all[0], all[0], question);
+    double best = all[0].objective;
+    const Ranked* coarsest = &all[0];
+    for (const Ranked& one : all)
+      if (one.is_feasible()) best = std::min(best, one.objective);
+    for (const Ranked& one : all)
+      if (one.is_feasible() && one.objective <= best * (1.0 + question.within) && one.cells < coarsest->cells)
+        coarsest = &one;
+    if (coarsest != &all[0]) out["coarsest"] = ranked_json(config, view, *coarsest, all[0], question);
+    for (std::size_t i = 1; i < all.size() && static_cast<int>(i) <= question.runners_up && all[i].is_feasible(); ++i)
+      out["runners_up"].push_back(ranked_json(config, view, all[i], all[0], question));
+  }
+  out["constraints"] = excluded_json(view, found, question);
+  out["rungs"] = rungs_json(found.rungs);
+  out["finalists"] = found.finalists.size();
+  out["challengers"] = found.challengers;
+  out["work"] = work_json(found.work);
+  return out;
+}
+
+Json recommendation_to_json(const config::Config& config, const Question& question, const Json& answers) {
+  const ObjectiveFigure& objective = question.objective;
+  return {{"recommendation_version", k_recommendation_version},
+          {"name", config.name},
+          {"tool", tool_to_json(run::tool_facts())},
+          {"machine", machine_to_json(run::machine_facts())},
+          {"config", config.resolved},
+          {"objective", {{"figure", objective.name}, {"meaning", objective.meaning}, {"timed", objective.is_timed}}},
+          {"answers", answers}};
+}
+
+std::string recommendation_text(const Json& recommendation) {
+  const Json& objective = recommendation["objective"];
+  std::string out =
+      "least " + objective["figure"].get<std::string>() + ": " + objective["meaning"].get<std::string>() + "\n";
+  for (const Json& answer : recommendation["answers"]) out += "\n" + answer_text(answer, objective);
+  return out;
+}
+
+bool all_satisfied(const Json& recommendation) {
+  return std::ranges::none_of(recommendation["answers"], [](const Json& answer) { return answer["choice"].is_null(); });
+}
+
+Json recommended_config(const config::Config& config, const search::View& view, const Json& answer,
+                        const Question& question, int runners_up, const std::string& file) {
+  if (answer["choice"].is_null())
+    throw Error(file, "", "is not written: no candidate satisfies all constraints", ExitCode::gate_failed);
+  Json out = config.resolved;
+  out["scenes"] = Json::array({scene_json(config, view.scene, file)});
+  out["viewports"] = Json::array({answer["viewport"]});
+  for (const char* key : {"grids", "assigners", "storages", "precision"}) out[key] = Json::array();
+  for (int i = 0; i <= runners_up && i <= static_cast<int>(answer["runners_up"].size()); ++i) {
+    const Json& one = i == 0 ? answer["choice"] : answer["runners_up"][static_cast<std::size_t>(i) - 1];
+    add_once(out["grids"], one["grid"]);
+    add_once(out["assigners"], one["assigner"]);
+    add_once(out["storages"], one["storage"]);
+    add_once(out["precision"], one["precision"]);
+  }
+  if (out["storages"].empty()) out["storages"].push_back("packed");  // of lists, which it may have besides
+  Json budgets = Json::array();
+  for (const Constraint& constraint : question.constraints)
+    if (constraint.is_given)
+      budgets.push_back(constraint.rule.figure + (constraint.rule.is_inclusive ? " >= " : " > ") +
+                        Json(constraint.rule.limit).dump());
+  out["limits"]["fail_if"] = budgets;
+  return out;
+}
+
+}  // namespace clusterbench::report

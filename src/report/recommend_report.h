@@ -1,0 +1,65 @@
+#pragma once
+// What `recommend` asks of cases, and its answer as JSON, as text and as a configuration.
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "config/config.h"
+#include "config/limit_rules.h"
+#include "search/recommend.h"
+
+namespace clusterbench::report {
+
+inline constexpr int k_recommendation_version = 1;
+
+// What can be smallest: the figures of budgets (config/limit_rules.h) and some more.
+struct ObjectiveFigure {
+  std::string name, meaning;
+  bool is_timed = false;    // differs from run to run
+  bool is_cost = false;     // of the cost model: there where a set of samples has a weight
+  bool only_grows = false;  // with further frames
+};
+std::vector<ObjectiveFigure> objective_figures();
+const ObjectiveFigure& objective_figure(const std::string& name);  // one of them
+
+struct Constraint {
+  config::LimitRule rule;
+  bool is_given = true;  // else it holds unless another one of its figure is given
+};
+// Those of a configuration's and the command line's budgets; and that no light is missed, dropped or unlit.
+std::vector<Constraint> constraints_of(const std::vector<config::LimitRule>& given);
+bool needs_times(const ObjectiveFigure& objective, const std::vector<Constraint>& constraints);
+
+struct Question {
+  ObjectiveFigure objective;
+  std::vector<Constraint> constraints;
+  double within = 0.05;
+  int runners_up = 5;
+};
+
+// Judges by the cases as a result has them. Of several cameras a figure is the worst one of high-water marks, the sum
+// of counts, else the mean by frames; a constraint holds for each camera. A case that a run would fail for is out,
+// under the constraint after the last of the question's.
+search::Judge judge_of(const Question& question, const nlohmann::json& config);
+
+// One answer: docs/recommend.md, `clusterbench schema recommendation`.
+nlohmann::ordered_json answer_to_json(const config::Config& config, const run::Plan& plan, const search::View& view,
+                                      const search::Found& found, const Question& question);
+// All answers of one configuration.
+nlohmann::ordered_json recommendation_to_json(const config::Config& config, const Question& question,
+                                              const nlohmann::ordered_json& answers);
+std::string recommendation_text(const nlohmann::ordered_json& recommendation);
+
+// Whether each answer has a choice.
+bool all_satisfied(const nlohmann::ordered_json& recommendation);
+
+// What `run` measures the choice with, and the first `runners_up` behind it: they are of one product of grids,
+// assigners and storages, and so more cases may come with them. `file`: where it will lie. Throws Error if there is no
+// choice.
+nlohmann::ordered_json recommended_config(const config::Config& config, const search::View& view,
+                                          const nlohmann::ordered_json& answer, const Question& question,
+                                          int runners_up, const std::string& file);
+
+}  // namespace clusterbench::report

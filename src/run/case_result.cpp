@@ -1,0 +1,78 @@
+#include "run/case_result.h"
+
+#include <algorithm>
+
+#include "run/gate.h"
+#include "run/grid_facts.h"
+
+namespace clusterbench::run {
+namespace {
+
+nlohmann::json params_to_json(const assign::Params& params) {
+  nlohmann::json out = nlohmann::json::object();
+  for (const auto& [name, value] : params.values())
+    out[name] = std::visit([](const auto& number) { return nlohmann::json(number); }, value);
+  return out;
+}
+
+// Of the whole view's samples, and of the sets that the scene has. What is cut to the depths of visible surfaces
+// promises nothing anywhere in the view, and is not asked there.
+void add_samples(const config::Config& config, const SceneData& data, const StructureMeasures& structure,
+                 CaseResult& out) {
+  const bool is_cut_to_surfaces = assign::find_assigner(out.assigner)->at_surfaces;
+  for (std::size_t i = 0; i < config.sample_sets.size(); ++i) {
+    const SampleSetResult& set = structure.samples[i];
+    if (set.set == measure::SampleSet::volume) {
+      if (!is_cut_to_surfaces) out.shading = set.counts;
+      continue;
+    }
+    if (set_obstacle(config.sample_sets[i], data).empty()) out.samples.push_back(set);
+  }
+}
+
+}  // namespace
+
+CaseResult case_result(const config::Config& config, const Plan& whole, const CasePlan& plan, int frames,
+                       const AccuracyResult& counted, std::size_t index) {
+  const scene::Scene& scene = whole.scenes[plan.scene].scene;
+  const config::MethodRequest& assigner = config.assigners[plan.assigner];
+  const assign::AssignerDescriptor& descriptor = *assign::find_assigner(assigner.name);
+  const MethodMeasures& method = *std::find_if(counted.methods.begin(), counted.methods.end(),
+                                               [&](const auto& measures) { return measures.method == plan.method(); });
+  const StructureMeasures& structure = counted.structures[index];
+  CaseResult out;
+  out.id = plan.id;
+  out.settings = plan.settings;
+  out.name = plan.name;
+  out.scene = scene.name;
+  out.camera = whole.scenes[plan.scene].paths[plan.camera].camera;
+  out.viewport = config.viewports[plan.viewport];
+  out.frames = frames;
+  out.grid = grid_facts(config.grids[plan.grid], counted.last_grid,
+                        whole.scenes[plan.scene].paths[plan.camera].shots.front().projection.far_m);
+  out.assigner = assigner.name;
+  out.assigner_label = assigner.label();
+  out.assigner_params = params_to_json(assigner.params);
+  const config::PrecisionRequest& precision = config.precisions[plan.precision];
+  out.conservative =
+      assign::is_conservative(descriptor, assigner.params) && (precision.inflate || !precision.is_lossy());
+  if (!counted.losses.empty())
+    out.precision = {view::packing_name(precision.packing), precision.label(), precision.inflate,
+                     counted.losses[plan.precision]};
+  out.exact = descriptor.exact;
+  out.storage_label = storage_label(config, plan);
+  out.buffers = structure.buffers;
+  out.tests_done = method.tests_done;
+  out.fallbacks = method.fallbacks;
+  if (method.has_cells) out.occupancy = method.occupancy;
+  if (method.has_cells && config.check_accuracy) out.error = method.error;
+  if (out.error && out.error->deepest)
+    out.deepest_miss_light = scene.lights[static_cast<std::size_t>(out.error->deepest->rig_index)].name;
+  add_samples(config, whole.scenes[plan.scene], structure, out);
+  if (!out.samples.empty()) out.depth_ranges = counted.depth_ranges;
+  out.lookup = structure.lookup;
+  out.failures = failures_of(out, config.limits);
+  return out;
+}
+
+}  // namespace clusterbench::run

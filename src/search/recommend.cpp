@@ -1,0 +1,402 @@
+#include "search/recommend.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <tuple>
+
+#include "run/case_result.h"
+#include "run/passes/accuracy_pass.h"
+#include "run/passes/timing_pass.h"
+#include "run/path_frames.h"
+
+namespace clusterbench::search {
+namespace {
+
+constexpr double k_unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double k_infinite = std::numeric_limits<double>::infinity();
+
+// The first number of a standing's rank.
+constexpr double k_first = 0.0, k_equal = 1.0, k_broken = 2.0;
+
+// What candidates of a view are told apart by.
+using Key = std::tuple<std::size_t, std::size_t, std::size_t, std::size_t>;
+Key key_of(const run::CasePlan& plan) {
+  return {plan.grid, plan.assigner, plan.precision, plan.storage ? *plan.storage + 1 : 0};
+}
+
+// "grid/assigner/storage" of "scene/camera/grid/assigner/storage".
+std::string short_name(const std::string& name) {
+  return name.substr(name.find('/', name.find('/') + 1) + 1);
+}
+
+// A frame of a view: which of its cameras, and which of that camera's.
+struct FrameOfView {
+  std::size_t camera = 0;
+  int index = 0;
+};
+
+// Few rounds of this process: enough to tell which share is the better one.
+config::Config quickly_timed(config::Config config) {
+  config.timing.rounds = std::min(config.timing.rounds, 3);
+  config.timing.min_time_ms = std::min(config.timing.min_time_ms, 0.5);
+  config.timing.launches = 1;
+  return config;
+}
+
+class ViewSearch {
+ public:
+  ViewSearch(const config::Config& config, run::Plan& plan, View& view, const Request& request,
+             const run::Launcher& launcher, const Watch& watch)
+      : config_(config),
+        quick_(quickly_timed(config)),
+        plan_(plan),
+        view_(view),
+        request_(request),
+        launcher_(launcher),
+        watch_(watch) {
+    for (const std::size_t camera : view.cameras)
+      paths_.emplace_back(plan.scenes[view.scene].scene, plan.scenes[view.scene].paths[camera],
+                          config.viewports[view.viewport], plan.scenes[view.scene].depths.get());
+    found_.records.resize(view.candidates.size());
+    progress_.cost_total = 1.0;
+  }
+
+  Found search() {
+    order_frames();
+    const HalvingRequest halving{view_.candidates.size(), view_.frames,         1,
+                                 request_.growth,         request_.keep_one_in, request_.least};
+    Halving halved = halve(halving, [&](std::span<const std::size_t> candidates, std::size_t frames) {
+      return standings(candidates, frames);
+    });
+    found_.rungs = std::move(halved.rungs);
+    std::vector<std::size_t> chosen = std::move(halved.finalists);
+    add_coarse(chosen);
+    add_finalists(chosen);
+    if (request_.only_grows) add_challengers();
+    std::ranges::sort(found_.finalists, {}, &Finalist::candidate);
+    count_all_work();
+    found_.is_complete = !watch_.stop;
+    return std::move(found_);
+  }
+
+ private:
+  // The frame with the most pairs first, by the lists of one method; then such that every beginning spreads over the
+  // paths. A first frame without lights would tell nothing.
+  void order_frames() {
+    std::vector<FrameOfView> frames;
+    for (std::size_t camera = 0; camera < paths_.size(); ++camera)
+      for (int index = 0; index < paths_[camera].count(); ++index) frames.push_back({camera, index});
+    const std::vector<double> pairs = pairs_of(frames);
+    const auto fullest = static_cast<std::size_t>(std::ranges::max_element(pairs) - pairs.begin());
+    for (const std::size_t index : spread_order(frames.size(), fullest)) order_.push_back(frames[index]);
+  }
+
+  std::vector<double> pairs_of(std::span<const FrameOfView> frames) {
+    std::vector<double> pairs(frames.size(), 0.0);
+    if (view_.candidates.empty()) return pairs;
+    config::Config counting = config_;
+    counting.check_accuracy = false;
+    counting.sample_sets.clear();
+    counting.lookup.reset();
+    const Candidate& probe = view_.candidates.front();
+    for (std::size_t i = 0; i < frames.size() && !watch_.stop; ++i) {
+      const run::GroupPlan group = group_of({&probe, 1}, frames[i].camera);
+      const run::AccuracyResult counted = accuracy_pass(
+          counting, plan_.scenes[view_.scene], group, paths_[frames[i].camera].only({frames[i].index}), [](int) {},
+          watch_.stop);
+      if (!counted.is_complete) break;
+      pairs[i] = counted.methods[0].has_cells
+                     ? counted.methods[0].occupancy.pairs.max
+                     : static_cast<double>(counted.structures[0].buffers.index_entries.high_water);
+      add_work(probe, counted.last_grid.cell_count(), 1);
+    }
+    return pairs;
+  }
+
+  // The cases of candidates of one grid on one of the view's cameras.
+  run::GroupPlan group_of(std::span<const Candidate> candidates, std::size_t camera) const {
+    run::GroupPlan group{view_.scene, view_.cameras[camera], view_.viewport, candidates.front().grid, {}};
+    for (const Candidate& candidate : candidates) group.cases.push_back(*candidate.cases[camera]);
+    return group;
+  }
+
+  void add_work(const Candidate& candidate, std::uint64_t cells, std::size_t frames) {
+    view_.candidates[static_cast<std::size_t>(&candidate - view_.candidates.data())].cells = cells;
+    found_.work.evaluations += frames;
+    found_.work.tests += static_cast<double>(frames) * static_cast<double>(cells) * lights();
+  }
+
+  double lights() const { return static_cast<double>(plan_.scenes[view_.scene].scene.lights.size()); }
+
+  // Of some candidates of one grid on some frames: the cases of each, one per camera that has some of them.
+  std::vector<std::vector<run::CaseResult>> measured(std::span<const std::size_t> candidates,
+                                                     std::span<const FrameOfView> frames, bool is_timed) {
+    std::vector<Candidate> some;
+    for (const std::size_t candidate : candidates) some.push_back(view_.candidates[candidate]);
+    std::vector<std::vector<run::CaseResult>> cases(candidates.size());
+    for (std::size_t camera = 0; camera < paths_.size(); ++camera) {
+      std::vector<int> indices;
+      for (const FrameOfView& frame : frames)
+        if (frame.camera == camera) indices.push_back(frame.index);
+      if (indices.empty()) continue;
+      std::ranges::sort(indices);
+      const run::PathFrames path = paths_[camera].only(indices);
+      const run::GroupPlan group = group_of(some, camera);
+      const run::AccuracyResult counted = accuracy_pass(
+          config_, plan_.scenes[view_.scene], group, path, [](int) {}, watch_.stop);
+      if (!counted.is_complete) return {};
+      const std::vector<run::TimingResult> times =
+          is_timed ? quick_times(group, path) : std::vector<run::TimingResult>{};
+      if (watch_.stop) return {};
+      for (std::size_t i = 0; i < candidates.size(); ++i) {
+        cases[i].push_back(case_result(config_, plan_, group.cases[i], path.count(), counted, i));
+        if (!times.empty()) cases[i].back().timing = times[i];
+        add_work(view_.candidates[candidates[i]], counted.last_grid.cell_count(), indices.size());
+      }
+    }
+    return cases;
+  }
+
+  std::vector<run::TimingResult> quick_times(const run::GroupPlan& group, const run::PathFrames& path) const {
+    const run::LaunchRequest launch{0, quick_.timing.rounds, {}};
+    const run::GroupSamples samples = measure_launch(
+        quick_, group, path, launch, [](int) {}, watch_.stop);
+    if (samples.methods.empty()) return {};
+    return timing_results(quick_, group, std::span(&samples, 1));
+  }
+
+  // Of candidates by their grids, the grids in their order.
+  std::map<std::size_t, std::vector<std::size_t>> by_grid(std::span<const std::size_t> candidates) const {
+    std::map<std::size_t, std::vector<std::size_t>> grids;
+    for (const std::size_t candidate : candidates) grids[view_.candidates[candidate].grid].push_back(candidate);
+    return grids;
+  }
+
+  // Records what candidates do on the first frames of the order.
+  void record(std::span<const std::size_t> candidates, std::size_t frames) {
+    std::size_t done = 0;
+    for (const auto& [grid, some] : by_grid(candidates)) {
+      tell(number_of_frames(frames), done, candidates.size());
+      const std::vector<std::vector<run::CaseResult>> cases =
+          measured(some, std::span(order_).first(frames), request_.is_timed);
+      if (watch_.stop) return;
+      for (std::size_t i = 0; i < some.size(); ++i)
+        found_.records[some[i]] = {frames, request_.judge(cases[i]), k_unknown};
+      done += some.size();
+    }
+    double best = k_infinite;
+    for (const std::size_t candidate : candidates)
+      if (const Verdict& verdict = found_.records[candidate].verdict; verdict.broken.empty())
+        best = std::fmin(best, verdict.objective);
+    for (const std::size_t candidate : candidates) {
+      Record& one = found_.records[candidate];
+      if (best < k_infinite) one.by_best = one.verdict.objective == best ? 1.0 : one.verdict.objective / best;
+    }
+  }
+
+  static std::string number_of_frames(std::size_t frames) {
+    return "search, " + std::to_string(frames) + (frames == 1 ? " frame" : " frames");
+  }
+
+  // What breaks a constraint for now comes after all that does not: further frames can mend it.
+  std::vector<Standing> standings(std::span<const std::size_t> candidates, std::size_t frames) {
+    record(candidates, frames);
+    std::vector<Standing> all;
+    for (const std::size_t index : candidates) {
+      const Verdict& verdict = found_.records[index].verdict;
+      const double objective = std::isnan(verdict.objective) ? k_infinite : verdict.objective;
+      all.push_back({watch_.stop || verdict.is_final,
+                     {verdict.broken.empty() ? k_first : k_broken, objective, verdict.bytes,
+                      static_cast<double>(view_.candidates[index].cells)}});
+    }
+    put_back_equals(all, [&](std::size_t i) { return static_cast<double>(view_.candidates[candidates[i]].grid); });
+    put_back_equals(all, [&](std::size_t i) { return -1.0 - all[i].rank[2]; });
+    return all;
+  }
+
+  // Of standings that have one key and objective all but the first come after those that have no equal: they are lists
+  // of one grid that are kept in other ways, or a structure that has nothing of its grids but their names.
+  template <class KeyOf>
+  static void put_back_equals(std::vector<Standing>& all, const KeyOf& key_of_standing) {
+    std::map<std::pair<double, double>, std::size_t> first;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (all[i].rank[0] != k_first) continue;
+      const auto [equal, is_new] = first.try_emplace({key_of_standing(i), all[i].rank[1]}, i);
+      if (is_new) continue;
+      const bool is_smaller = all[i].rank < all[equal->second].rank;
+      all[is_smaller ? equal->second : i].rank[0] = k_equal;
+      if (is_smaller) equal->second = i;
+    }
+  }
+
+  // Of the coarsest grids that are about as good as the best one, as far as they were looked at, the best candidate
+  // each: whether they are is to be known on all frames.
+  void add_coarse(std::vector<std::size_t>& chosen) const {
+    constexpr std::size_t k_most = 4;
+    std::map<std::pair<std::uint64_t, std::size_t>, std::size_t> best;  // by cells and grid
+    for (std::size_t i = 0; i < view_.candidates.size(); ++i) {
+      const Record& one = found_.records[i];
+      if (!one.verdict.broken.empty() || !(one.by_best <= 1.0 + request_.within)) continue;
+      const Candidate& candidate = view_.candidates[i];
+      const auto [place, is_new] = best.try_emplace({candidate.cells, candidate.grid}, i);
+      if (!is_new && rank_of(one) < rank_of(found_.records[place->second])) place->second = i;
+    }
+    std::size_t count = 0;
+    for (const auto& [grid, candidate] : best) {
+      if (count++ == k_most) break;
+      if (std::ranges::find(chosen, candidate) == chosen.end()) chosen.push_back(candidate);
+    }
+  }
+
+  static std::tuple<double, double> rank_of(const Record& one) { return {one.by_best, one.verdict.bytes}; }
+
+  void add_finalists(std::vector<std::size_t> candidates) {
+    std::ranges::sort(candidates);
+    tell("all frames", 0, 1);
+    std::vector<Finalist> finalists = request_.is_timed ? timed_finalists(candidates) : counted_finalists(candidates);
+    if (watch_.stop) return;
+    for (Finalist& finalist : finalists) {
+      found_.records[finalist.candidate] = {view_.frames, request_.judge(finalist.cases), k_unknown};
+      found_.finalists.push_back(std::move(finalist));
+    }
+  }
+
+  std::vector<Finalist> counted_finalists(std::span<const std::size_t> candidates) {
+    std::vector<Finalist> finalists;
+    for (const auto& [grid, some] : by_grid(candidates)) {
+      std::vector<std::vector<run::CaseResult>> cases = measured(some, order_, false);
+      if (watch_.stop) return {};
+      for (std::size_t i = 0; i < some.size(); ++i) finalists.push_back({some[i], std::move(cases[i])});
+      tell("all frames", finalists.size(), candidates.size());
+    }
+    return finalists;
+  }
+
+  // As `run` measures them: interleaved, in several launches.
+  std::vector<Finalist> timed_finalists(std::span<const std::size_t> candidates) {
+    std::vector<run::GroupPlan> groups;
+    for (const auto& [grid, some] : by_grid(candidates)) {
+      std::vector<Candidate> of_grid;
+      for (const std::size_t candidate : some) of_grid.push_back(view_.candidates[candidate]);
+      for (std::size_t camera = 0; camera < paths_.size(); ++camera) groups.push_back(group_of(of_grid, camera));
+    }
+    std::swap(plan_.groups, groups);
+    run::Listener listener;
+    listener.on_progress = watch_.on_progress;
+    const run::Result result = run_plan(config_, plan_, {}, listener, watch_.stop, {}, launcher_);
+    std::swap(plan_.groups, groups);
+    if (watch_.stop) return {};
+    std::vector<Finalist> finalists;
+    for (const std::size_t index : candidates) {
+      const Candidate& candidate = view_.candidates[index];
+      Finalist& finalist = finalists.emplace_back(Finalist{index, {}});
+      for (const run::CasePlan* plan : candidate.cases)
+        finalist.cases.push_back(*std::ranges::find(result.cases, plan->id, &run::CaseResult::id));
+      add_work(candidate, candidate.cells, view_.frames);
+    }
+    return finalists;
+  }
+
+  double best_objective() const {
+    double best = k_infinite;
+    for (const Finalist& finalist : found_.finalists)
+      if (const Verdict& verdict = found_.records[finalist.candidate].verdict; verdict.broken.empty())
+        best = std::fmin(best, verdict.objective);
+    return best;
+  }
+
+  // Who was dropped with an objective below the best one's may still have been better: an objective that only grows
+  // proves it once it has grown beyond.
+  void add_challengers() {
+    std::vector<std::size_t> challengers;
+    const double best = best_objective();
+    const auto may_win = [&](std::size_t candidate) {
+      const Verdict& verdict = found_.records[candidate].verdict;
+      return !verdict.is_final && verdict.objective < best;
+    };
+    for (std::size_t i = 0; i < view_.candidates.size(); ++i)
+      if (found_.records[i].frames < view_.frames && may_win(i)) challengers.push_back(i);
+    for (std::size_t frames = request_.growth; frames < view_.frames; frames *= request_.growth) {
+      if (challengers.empty() || watch_.stop) return;
+      std::vector<std::size_t> behind;
+      std::ranges::copy_if(challengers, std::back_inserter(behind),
+                           [&](std::size_t i) { return found_.records[i].frames < frames; });
+      record(behind, frames);
+      std::erase_if(challengers, [&](std::size_t i) { return !may_win(i); });
+    }
+    if (challengers.empty() || watch_.stop) return;
+    found_.challengers = challengers.size();
+    add_finalists(challengers);
+  }
+
+  void count_all_work() {
+    for (const Candidate& candidate : view_.candidates) {
+      found_.work.all_evaluations += view_.frames;
+      found_.work.all_tests += static_cast<double>(view_.frames) * static_cast<double>(candidate.cells) * lights();
+    }
+  }
+
+  void tell(const std::string& doing, std::size_t done, std::size_t total) {
+    if (!watch_.on_progress) return;
+    progress_.doing = plan_.scenes[view_.scene].scene.name + ": " + doing;
+    progress_.cases_done = done;
+    progress_.cases_total = total;
+    progress_.cost_done = static_cast<double>(done);
+    progress_.cost_total = static_cast<double>(std::max<std::size_t>(total, 1));
+    watch_.on_progress(progress_);
+  }
+
+  const config::Config& config_;
+  const config::Config quick_;
+  run::Plan& plan_;
+  View& view_;
+  const Request& request_;
+  const run::Launcher& launcher_;
+  const Watch& watch_;
+  std::vector<run::PathFrames> paths_;  // of the cameras, whole
+  std::vector<FrameOfView> order_;
+  Found found_;
+  run::Progress progress_;
+};
+
+}  // namespace
+
+std::vector<View> views_of(const run::Plan& plan) {
+  std::map<std::pair<std::size_t, std::size_t>, View> views;
+  std::map<std::pair<std::size_t, std::size_t>, std::map<Key, Candidate>> candidates;
+  for (const run::GroupPlan& group : plan.groups) {
+    const std::pair key{group.scene, group.viewport};
+    View& view = views[key];
+    view.scene = group.scene;
+    view.viewport = group.viewport;
+    if (view.cameras.empty() || view.cameras.back() != group.camera) view.cameras.push_back(group.camera);
+    for (const run::CasePlan& plan_of_case : group.cases) {
+      Candidate& candidate = candidates[key][key_of(plan_of_case)];
+      candidate.grid = group.grid;
+      if (candidate.cases.empty()) candidate.name = short_name(plan_of_case.name);
+      candidate.cases.push_back(&plan_of_case);
+    }
+  }
+  std::vector<View> out;
+  for (auto& [key, view] : views) {
+    for (const std::size_t camera : view.cameras) view.frames += plan.scenes[view.scene].paths[camera].shots.size();
+    for (auto& [_, candidate] : candidates[key]) {
+      if (candidate.cases.size() == view.cameras.size())
+        view.candidates.push_back(std::move(candidate));
+      else
+        ++view.incomplete;
+    }
+    out.push_back(std::move(view));
+  }
+  return out;
+}
+
+Found search_view(const config::Config& config, run::Plan& plan, View& view, const Request& request,
+                  const run::Launcher& launcher, const Watch& watch) {
+  return ViewSearch(config, plan, view, request, launcher, watch).search();
+}
+
+}  // namespace clusterbench::search

@@ -1,0 +1,36 @@
+#include "search/recommend_space.h"
+
+#include "assign/contract/assigner.h"
+#include "assign/contract/storage.h"
+
+namespace clusterbench::search {
+namespace {
+
+using Json = nlohmann::json;
+
+Json grids() {
+  const Json depth_slices{{"scheme", {"exponential", "exponential-first", "power", "fit"}}, {"count", {8, 16, 24, 32}}};
+  const Json shells{{"scheme", {"exponential", "exponential-first"}}, {"count", {16, 24}}};
+  return {{{"kind", "frustum"}, {"tiles", {{"pixels", {32, 64, 128, 256}}}}, {"slices", depth_slices}},
+          {{"kind", "frustum"}, {"tiles", {{"count", {{16, 8}}}}}, {"slices", depth_slices}},
+          {{"kind", "distance"}, {"tiles", {{"pixels", {{64, 64}, {128, 128}}}}}, {"slices", shells}},
+          {{"kind", "cascades"}, {"finest", {0.5, 1.0, 2.0}}},
+          {{"kind", "world"}, {"cells", {{32, 8, 32}, {64, 16, 64}}}}};
+}
+
+bool is_wanted(const assign::AssignerDescriptor& method) {
+  return method.is_standard() && !method.all_pairs && assign::is_conservative(method, assign::Params(method.params)) &&
+         assign::find_assigner(method.name + "-fast") == nullptr;
+}
+
+}  // namespace
+
+Json recommend_space() {
+  Json assigners = Json::array(), storages = Json::array();
+  for (const assign::AssignerDescriptor* method : assign::assigner_descriptors())
+    if (is_wanted(*method)) assigners.push_back(method->name);
+  for (const assign::StorageDescriptor* storage : assign::storage_descriptors()) storages.push_back(storage->name);
+  return {{"grids", grids()}, {"assigners", assigners}, {"storages", storages}};
+}
+
+}  // namespace clusterbench::search

@@ -1,0 +1,216 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "cli/tool.h"
+
+namespace clusterbench::test {
+namespace {
+
+using Json = nlohmann::json;
+
+// 32 candidates on 8 frames.
+std::string space(const std::string& more = "") {
+  return R"({"name": "space", "scenes": [{"path": ")" + source_file("scenes/street.glb") + R"(", "frames": 8}],
+    "viewport": [640, 360],
+    "grids": [{"kind": "frustum", "tiles": {"pixels": [32, 64, 128]},
+               "slices": {"scheme": ["exponential", "exponential-first"], "count": [4, 8]}},
+              {"kind": "world", "cells": [[16, 4, 16], [32, 8, 32]]}],
+    "assigners": ["aabb-fast", "exact-fast", "world-grid-fast"], "storages": ["packed", "bitfield"],
+    "shading": {"samples": 256}, "timing": {"rounds": 2, "min_time_ms": 0.2, "frames": 2, "launches": 2})" +
+         more + "}";
+}
+
+struct Recommended {
+  Outcome outcome;
+  Json answer;
+};
+Recommended recommended(const std::string& config, const std::string& flags) {
+  const Folder folder;
+  const std::string input = folder.write("space.json", config).string(), output = (folder / "answer.json").string();
+  Recommended found{tool("recommend " + input + " -q -o " + output + " " + flags), Json()};
+  if (!std::filesystem::exists(output)) return found;
+  const Outcome valid = tool("validate " + output);
+  EXPECT_EQ(valid.code, 0) << valid.err;
+  found.answer = Json::parse(file_text(output))["answers"][0];
+  return found;
+}
+
+// Every case of the space on every frame.
+Json swept(const std::string& config) {
+  const Folder folder;
+  const std::string input = folder.write("space.json", config).string(), output = (folder / "result.json").string();
+  const Outcome done = tool("run " + input + " -q --no-timing -o " + output);
+  EXPECT_EQ(done.code, 0) << done.err;
+  return Json::parse(file_text(output))["cases"];
+}
+
+bool is_lit(const Json& one) {
+  return one["failures"].empty() && one["error"]["false_negatives"] == 0 && one["shading"]["missed"] == 0 &&
+         one["buffers"]["overflow"]["dropped_pairs"] == 0;
+}
+
+double figure(const Json& one, const std::string& name) {
+  if (name == "bytes") return one["buffers"]["bytes"]["high_water"];
+  if (name == "index_entries") return one["buffers"]["index_entries"]["high_water"];
+  if (name == "longest") return one["occupancy"]["lights_per_cell"]["max"];
+  return one["shading"]["evaluated"].get<double>() / one["shading"]["samples"].get<double>();
+}
+
+TEST(Recommend, finds_what_a_sweep_over_all_candidates_and_frames_finds) {
+  const Json cases = swept(space());
+  ASSERT_EQ(cases.size(), 52u);
+  for (const std::string objective : {"bytes", "index_entries", "longest", "evaluated"}) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Json& one : cases)
+      if (is_lit(one)) least = std::min(least, figure(one, objective));
+    const Recommended found = recommended(space(), "--no-timing --by " + objective);
+    ASSERT_EQ(found.outcome.code, 0) << found.outcome.err;
+    EXPECT_NEAR(found.answer["choice"]["objective"].get<double>(), least, 1e-8 * least) << objective;
+    EXPECT_EQ(found.answer["candidates"], 52);
+    EXPECT_LT(found.answer["work"]["evaluations_share"], 0.6) << objective;
+    const auto same =
+        std::ranges::find(cases, found.answer["choice"]["ids"][0], [](const Json& one) { return one["id"]; });
+    ASSERT_NE(same, cases.end());
+    for (const std::string name : {"bytes", "index_entries", "longest", "evaluated"})
+      EXPECT_NEAR(found.answer["choice"]["figures"][name].get<double>(), figure(*same, name), 1e-6) << name;
+  }
+}
+
+TEST(Recommend, excludes_what_breaks_a_constraint_and_says_how_good_the_best_of_that_was) {
+  const Recommended free = recommended(space(), "--no-timing --by evaluated");
+  ASSERT_EQ(free.outcome.code, 0) << free.outcome.err;
+  const auto bytes = free.answer["choice"]["figures"]["bytes"].get<int>();
+  const Recommended bound = recommended(space(), "--no-timing --by evaluated --bytes " + std::to_string(bytes - 1));
+  ASSERT_EQ(bound.outcome.code, 0) << bound.outcome.err;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Json& one : swept(space()))
+    if (is_lit(one) && figure(one, "bytes") < bytes) least = std::min(least, figure(one, "evaluated"));
+  EXPECT_NEAR(bound.answer["choice"]["objective"].get<double>(), least, 1e-8 * least);
+  const Json& row = bound.answer["constraints"][0];
+  EXPECT_EQ(row["constraint"], "bytes <= " + std::to_string(bytes - 1));
+  EXPECT_EQ(row["given"], true);
+  EXPECT_GT(row["excluded"], 0);
+  EXPECT_LT(row["best"]["by_best"], 1.0);
+  EXPECT_NE(bound.outcome.out.find(row["best"]["name"].get<std::string>()), std::string::npos) << bound.outcome.out;
+}
+
+TEST(Recommend, exits_with_1_where_nothing_satisfies_and_shows_what_excluded_how_many) {
+  const Folder folder;
+  const std::string choice = (folder / "choice.json").string();
+  const Recommended found = recommended(space(), "--no-timing --by bytes --bytes 1 --write-config " + choice);
+  EXPECT_EQ(found.outcome.code, 1);
+  EXPECT_TRUE(found.answer["choice"].is_null());
+  EXPECT_EQ(found.answer["constraints"][0]["excluded"], 52);
+  EXPECT_EQ(found.answer["work"]["evaluations"], 52 + 8) << "all are out after one frame; 8 were counted to find it";
+  EXPECT_NE(found.outcome.out.find("no candidate satisfies all constraints"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(choice));
+}
+
+TEST(Recommend, gives_the_same_answer_again_and_on_more_threads) {
+  const std::string flags = "--no-timing --by gpu_cost_us --longest 60";
+  const Json once = recommended(space(), flags).answer;
+  ASSERT_FALSE(once["choice"].is_null());
+  EXPECT_EQ(recommended(space(), flags).answer, once);
+  EXPECT_EQ(recommended(space(), flags + " --threads 3").answer, once);
+}
+
+TEST(Recommend, writes_a_configuration_that_runs_and_gives_the_same_figures) {
+  const Folder folder;
+  const std::string choice = (folder / "choice.json").string(), result = (folder / "result.json").string();
+  const Recommended found =
+      recommended(space(), "--no-timing --by index_entries --longest 200 --write-config " + choice);
+  ASSERT_EQ(found.outcome.code, 0) << found.outcome.err;
+  const Outcome run = tool("run " + choice + " -q --no-timing -o " + result);
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Json cases = Json::parse(file_text(result))["cases"];
+  ASSERT_EQ(cases.size(), 1u);
+  EXPECT_EQ(cases[0]["id"], found.answer["choice"]["ids"][0]);
+  EXPECT_EQ(figure(cases[0], "index_entries"), found.answer["choice"]["objective"]);
+  EXPECT_EQ(Json::parse(file_text(choice))["limits"]["fail_if"], Json::array({"longest > 200.0"}));
+}
+
+TEST(Recommend, writes_runners_up_where_they_are_asked_for) {
+  const Folder folder;
+  const std::string choice = (folder / "choice.json").string();
+  const Recommended found =
+      recommended(space(), "--no-timing --by bytes --write-config " + choice + " --write-runners-up 3");
+  ASSERT_EQ(found.outcome.code, 0) << found.outcome.err;
+  ASSERT_GE(found.answer["runners_up"].size(), 3u);
+  const Json cases = swept(file_text(choice));
+  const auto is_measured = [&](const Json& candidate) {
+    return std::ranges::any_of(cases, [&](const Json& one) { return one["id"] == candidate["ids"][0]; });
+  };
+  EXPECT_TRUE(is_measured(found.answer["choice"]));
+  for (int i = 0; i < 3; ++i) EXPECT_TRUE(is_measured(found.answer["runners_up"][i]));
+}
+
+TEST(Recommend, tells_a_coarser_grid_that_is_about_as_good) {
+  const Recommended found = recommended(space(), "--no-timing --by evaluated --within 400");
+  ASSERT_EQ(found.outcome.code, 0) << found.outcome.err;
+  const Json &coarsest = found.answer["coarsest"], &choice = found.answer["choice"];
+  ASSERT_FALSE(coarsest.is_null());
+  EXPECT_LT(coarsest["cells"], choice["cells"]);
+  EXPECT_LE(coarsest["objective"].get<double>(), 5.0 * choice["objective"].get<double>());
+  EXPECT_TRUE(recommended(space(), "--no-timing --by evaluated --within 0%").answer["coarsest"].is_null());
+}
+
+TEST(Recommend, measures_times_where_the_objective_is_one) {
+  const Recommended found = recommended(space(), "--by frame_us --filter 64px");
+  ASSERT_EQ(found.outcome.code, 0) << found.outcome.err;
+  EXPECT_GT(found.answer["choice"]["objective"], 0.0);
+  ASSERT_FALSE(found.answer["runners_up"].empty());
+  EXPECT_TRUE(found.answer["runners_up"][0].contains("ci95"));
+}
+
+TEST(Recommend, searches_a_space_of_its_own_for_a_scene) {
+  const Folder folder;
+  const std::string output = (folder / "answer.json").string();
+  const Outcome done =
+      tool("recommend " + source_file("scenes/street.glb") +
+           " -q --no-timing --viewport 640x360 --tiles 128 --slices 8 --set scenes.0.frames=2 -o " + output);
+  ASSERT_EQ(done.code, 0) << done.err;
+  const Json found = Json::parse(file_text(output));
+  EXPECT_EQ(found["objective"]["figure"], "gpu_cost_us");
+  EXPECT_GT(found["answers"][0]["candidates"], 50);
+  for (const Json& method : found["config"]["assigners"]) {
+    EXPECT_NE(method["name"], "brute-force");
+    EXPECT_NE(method["name"], "aabb") << "has a fast form";
+    EXPECT_FALSE(method["name"].get<std::string>().starts_with("naive"));
+  }
+}
+
+TEST(Recommend, refuses_what_makes_no_sense_and_says_which_flag_it_is) {
+  const Folder folder;
+  const std::string config = folder.write("space.json", space()).string();
+  const std::pair<std::string, std::string> cases[] = {
+      {"--within abc", "--within: 'abc' is no share"},
+      {"--within=-1%", "--within: '-1%' is no share"},
+      {"--within nan", "--within: 'nan' is no share"},
+      {"--bytes=-3", "--bytes: takes a number of at least 0, not '-3'"},
+      {"--bytes 10k", "--bytes: takes a number of at least 0, not '10k'"},
+      {"--bytes inf", "--bytes: takes a number of at least 0, not 'inf'"},
+      {"--fail-if 'byts > 1'", "names no figure of a case (did you mean 'bytes'?)"},
+      {"--by byte", "--by"},
+      {"--by frame_us --no-timing", "--no-timing: leaves out the times"},
+      {"--by bytes --frame-us 10 --no-timing", "--no-timing: leaves out the times"},
+      {"--by bytes --viewport 640x360,320x180 --write-config x.json",
+       "--write-config: takes one scene in one viewport"},
+      {"--by gpu_cost_us --set shading.samples=0", "a cost is that of samples"},
+      {"--filter nothing-like-it", "--filter"},
+      {"-o " + config, config},
+  };
+  for (const auto& [flags, message] : cases) {
+    const Outcome done =
+        tool("recommend " + config + " -q " + flags + (flags.starts_with("--by") ? "" : " --by bytes") +
+             (flags.find("--no-timing") == std::string::npos ? " --no-timing" : ""));
+    EXPECT_EQ(done.code, 2) << flags << "\n" << done.err;
+    EXPECT_NE(done.err.find(message), std::string::npos) << flags << "\n" << done.err;
+  }
+  EXPECT_EQ(file_text(config), space()) << "the input is not overwritten";
+}
+
+}  // namespace
+}  // namespace clusterbench::test
