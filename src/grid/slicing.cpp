@@ -310,11 +310,12 @@ Slices make_slices(const Slicing& asked, const SliceRange& range, bool orthograp
   Slicing slicing = is_list ? with_list_reach(asked) : asked;
   Reach reach = is_list ? Reach{slicing.boundaries_m.front(), slicing.boundaries_m.back()} : reach_of(slicing, range);
   check(slicing, reach, orthographic);
-  if (slicing.fit) fit_to(range.needed, slicing, reach);
+  if (slicing.fit && !is_list) fit_to(range.needed, slicing, reach);
 
   Slices slices;
   for (int i = 0; i <= slicing.count; ++i) slices.boundaries.push_back(static_cast<float>(boundary(slicing, reach, i)));
-  if (slicing.fit) slices.boundaries.back() = std::max(slices.boundaries.back(), geom::rounded_up(reach.far));
+  if (slicing.fit && !is_list)
+    slices.boundaries.back() = std::max(slices.boundaries.back(), geom::rounded_up(reach.far));
   // What lies between the camera's near plane and the first boundary looks itself up in slice 0, so it belongs to it.
   slices.boundaries.front() = geom::rounded_down(std::min(reach.near, range.camera_near_m));
   if (!orthographic) check_nearest(slices.boundaries);
