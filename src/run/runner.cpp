@@ -262,8 +262,7 @@ class Run {
 
   void add_cases(CountedGroup& counted, const std::vector<TimingResult>& timings, Result& out) {
     for (std::size_t i = 0; i < counted.group.cases.size(); ++i) {
-      CaseResult finished = case_result(counted.group.cases[i], counted.frames, counted.counted, i);
-      if (counted.unfitted) finished.fit = fit_result(counted, i);
+      CaseResult finished = case_result(counted, i);
       if (!counted.stabilities.empty()) finished.stability = counted.stabilities[i];
       if (!counted.details.empty()) finished.details = std::move(counted.details[i]);
       if (!timings.empty()) {
@@ -277,7 +276,9 @@ class Run {
     }
   }
 
-  CaseResult case_result(const CasePlan& plan, int frames, const AccuracyResult& counted, std::size_t index) const {
+  CaseResult case_result(const CountedGroup& group, std::size_t index) const {
+    const CasePlan& plan = group.group.cases[index];
+    const AccuracyResult& counted = group.counted;
     const scene::Scene& scene = plan_.scenes[plan.scene].scene;
     const config::MethodRequest& assigner = config_.assigners[plan.assigner];
     const assign::AssignerDescriptor& descriptor = *assign::find_assigner(assigner.name);
@@ -292,7 +293,7 @@ class Run {
     out.scene = scene.name;
     out.camera = plan_.scenes[plan.scene].paths[plan.camera].camera;
     out.viewport = config_.viewports[plan.viewport];
-    out.frames = frames;
+    out.frames = group.frames;
     out.grid = grid_facts(config_.grids[plan.grid], counted.last_grid,
                           plan_.scenes[plan.scene].paths[plan.camera].shots.front().projection.far_m);
     out.assigner = assigner.name;
@@ -316,6 +317,7 @@ class Run {
     add_samples(plan_.scenes[plan.scene], structure, out);
     if (!out.samples.empty()) out.depth_ranges = counted.depth_ranges;
     out.lookup = structure.lookup;
+    if (group.unfitted) out.fit = fit_result(group, index);
     out.failures = failures_of(out, config_.limits);
     return out;
   }
