@@ -170,6 +170,9 @@ def objects(schema, pointer=""):
     if isinstance(schema, dict):
         if isinstance(schema.get("properties"), dict) and "type" in schema:
             yield pointer
+        if schema.get("x-axis") and "anyOf" in schema:  # a value, or a list of such
+            yield from objects(schema["anyOf"][0], f"{pointer}/anyOf/0")
+            return
         for key, member in schema.items():
             yield from objects(member, f"{pointer}/{key}") if key not in ("examples", "default") else ()
     elif isinstance(schema, list):
