@@ -153,5 +153,41 @@ TEST(FittedSlicesOnAPath, that_follow_surfaces_hold_every_visible_one) {
   }
 }
 
+// configs/fit.json in a small picture, without times.
+TEST(ConfigsFit, shows_that_following_saves_looping_that_damping_calms_and_that_cubical_cells_are_cubical) {
+  const config::FlagValue flags[] = {
+      {"--viewport", "320x180"}, {"--assigner", "aabb-fast,exact-fast"}, {"--set", "timing.measure=false"}};
+  const config::Config config =
+      config::load_config(std::filesystem::path(CLUSTERBENCH_SOURCE_DIR) / "configs/fit.json", flags);
+  const std::atomic<bool> stop{false};
+  const Result result = run_plan(config, make_plan(config, ""), {}, {}, stop);
+  double moved_at_once = 0.0, moved_damped = 0.0;
+  int fitted = 0, cubical = 0;
+  for (const CaseResult& found : result.cases) {
+    EXPECT_TRUE(found.failures.empty()) << found.name;
+    if (found.grid.contains("aspect")) {
+      ++cubical;
+      const bool by_tiles = found.grid["name"].get<std::string>().find("aspect") != std::string::npos;
+      const double most_off = by_tiles ? 0.2 : 1e-4;  // a whole number of tiles
+      EXPECT_NEAR(found.grid["aspect"]["min"].get<double>(), 1.0, most_off) << found.name;
+      EXPECT_NEAR(found.grid["aspect"]["max"].get<double>(), 1.0, most_off) << found.name;
+    }
+    if (!found.fit) continue;
+    ++fitted;
+    const FitResult& fit = *found.fit;
+    if (fit.fit.to == grid::Fit::To::lights) {
+      EXPECT_EQ(in_view(fit.fitted).missed, in_view(fit.unfitted).missed) << found.name;
+    }
+    EXPECT_LT(in_view(fit.fitted).evaluated, in_view(fit.unfitted).evaluated) << found.name;
+    EXPECT_LE(fit.moves.far_m.greatest, fit.asked.far_m);
+    if (found.scene != "steps" && found.scene != "hall-1024") continue;
+    if (fit.fit == grid::Fit{}) moved_at_once += fit.moves.moved.sum;
+    if (fit.fit == grid::Fit{grid::Fit::To::lights, 0.9, 1.0}) moved_damped += fit.moves.moved.sum;
+  }
+  EXPECT_GT(fitted, 20);
+  EXPECT_GT(cubical, 20);
+  EXPECT_LT(moved_damped, moved_at_once);
+}
+
 }  // namespace
 }  // namespace clusterbench::run
