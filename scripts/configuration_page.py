@@ -19,7 +19,8 @@ TABLES = {
     "scene": [("", "/definitions/scene"), ("frames.", "/definitions/scene/properties/frames/anyOf/2"),
               ("range_rule.", "/definitions/scene/properties/range_rule")],
     "rig": [("", "/definitions/rig")],
-    "tiled": [("", "/definitions/frustum"), ("tiles.", "/definitions/tiles"), ("slices.", "/definitions/slices")],
+    "tiled": [("", "/definitions/frustum"), ("tiles.", "/definitions/tiles"), ("slices.", "/definitions/slices"),
+              ("slices.fit.", "/definitions/slices/properties/fit/anyOf/0")],
     "cascades": [("", "/definitions/cascades")],
     "world": [("", "/definitions/world"), ("bounds.", "/definitions/world/properties/bounds/anyOf/1")],
     "precision": [("", "/definitions/precision")],
@@ -169,6 +170,9 @@ def objects(schema, pointer=""):
     if isinstance(schema, dict):
         if isinstance(schema.get("properties"), dict) and "type" in schema:
             yield pointer
+        if schema.get("x-axis") and "anyOf" in schema:  # a value, or a list of such
+            yield from objects(schema["anyOf"][0], f"{pointer}/anyOf/0")
+            return
         for key, member in schema.items():
             yield from objects(member, f"{pointer}/{key}") if key not in ("examples", "default") else ()
     elif isinstance(schema, list):

@@ -6,6 +6,7 @@ import { cellsSection } from "./cells_section.ts";
 import { depthSection } from "./depth.ts";
 import { h } from "./dom.ts";
 import { filterBar } from "./filter_bar.ts";
+import { fitSection } from "./fit.ts";
 import { contents, header } from "./header.ts";
 import { heatMapSection } from "./heat_map.ts";
 import { modelOf } from "./model.ts";
@@ -29,6 +30,7 @@ const sections = [
   picturesSection,
   cellsSection(),
   stabilitySection,
+  fitSection,
   precisionSection,
   warningsSection,
   setupSection,

@@ -10,6 +10,7 @@ export type CaseResult = Result["cases"][number];
 export type SceneResult = Result["scenes"][number];
 export type Grid = CaseResult["grid"];
 export type Stability = NonNullable<CaseResult["stability"]>;
+export type Fit = NonNullable<CaseResult["fit"]>;
 export type Precision = NonNullable<CaseResult["precision"]>;
 export type Lookup = NonNullable<CaseResult["lookup"]>[number];
 export type Details = NonNullable<CaseResult["details"]>;

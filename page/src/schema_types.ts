@@ -1,5 +1,22 @@
 // Made by types.mjs of src/config/schemas/result.schema.json: change that, and run `node types.mjs`.
 
+export type Extremes = {
+  min: number | null; // Smallest
+  mean: number | null; // Mean
+  max: number | null; // Largest
+};
+
+export type FitSide = {
+  pairs?: number; // In lists, mean per frame; absent without cells [pairs]
+  true_pairs?: number; // Over all frames; absent without cells, or where accuracy is not checked [pairs]
+  false_positives?: number; // Over all frames: pairs in lists that are not true [pairs]
+  lists_changed?: number | null; // Share of the lists that differ from those of the same cells in the frame before; absent without cells, null with one frame [share]
+  index_entries: number; // High-water mark [entries]
+  bytes: number; // High-water mark of all that is allocated [bytes]
+  evaluated: Record<string, number>; // Lights that samples loop over, by the set of samples [lights]
+  missed: Record<string, number>; // Lights that samples need and do not get, by the set of samples [lights]
+};
+
 export type DepthLengths = {
   tiles: number; // With a visible pixel, summed over the frames [tiles]
   pixels: number; // In these tiles [pixels]
@@ -211,6 +228,10 @@ export type Result = {
         }; // A shader's way from depth to slice
       }; // Of frustum and distance grids
       note?: string; // What to know about the slices, as text: where they end if nothing names a far plane, or that fit slices are those of the last frame
+      aspect?: {
+        min: number; // Flattest
+        max: number; // Deepest
+      }; // Where the configuration asks for cells of a shape: how many times as deep as high cells are at their near side; without the first slice, which holds what lies before it, too [ratio, over the slices]
       levels?: number; // Of cascades: number of nested boxes [levels, over the grid]
       finest?: number; // Of cascades: edge of a cell of the first level; each further level doubles it [m, over the grid]
       origin?: Vector; // Of world grids: position in the world that bounds are relative to [m, over the grid]
@@ -334,6 +355,33 @@ export type Result = {
       wrong_samples: number; // Samples that miss a light [samples]
       safe_padding_ulps: number; // By so many ulps slices must reach over their boundaries to hold every depth that is looked up in them [ulps]
     }>; // A shader's lookup on samples, once per logarithm and depth [over the samples of all frames]
+    fit?: {
+      to: "lights" | "surfaces" | "both"; // What is followed
+      damping: number; // Share of a shrinking that is left after one frame [ratio, over the case]
+      step: number; // Ends lie at powers of this factor; 1: anywhere [ratio, over the case]
+      asked: {
+        near: number; // First boundary
+        far: number; // Last boundary
+      }; // Ends of the slices that do not follow, in the last frame [m, over the case]
+      near: Extremes; // Where slices begin, of exponential-first ones where the first one ends; null where no frame needs anything [m, over frames that need something]
+      far: Extremes; // Where slices end [m, over frames]
+      moves: {
+        steps: number; // From a frame to the next [steps, over the path]
+        changed: number; // Steps to a grid with other boundaries; a method is then built again [steps, over the path]
+        cells: number | null; // Share of the cells that are other ones than in the frame before, mean; null with one frame [share, over the steps]
+        boundaries: Extremes; // How far a boundary moves, in thicknesses that the slice before it had [slices, over boundaries of all steps]
+      }; // How the grid changes from frame to frame
+      fitted: FitSide; // This case
+      unfitted: FitSide; // The same case in the grid that does not follow
+      saved: {
+        pairs?: number | null; // Pairs in lists, mean per frame
+        false_positives?: number | null; // Pairs that are not true
+        lists_changed?: number | null; // Lists that differ from the frame before's
+        index_entries: number | null; // High-water mark of the entries to allocate
+        bytes: number | null; // High-water mark of all bytes to allocate
+        evaluated: Record<string, number | null>; // Lights that samples loop over, by the set of samples
+      }; // 1 - fitted / unfitted: below 0 where following costs; null where the unfitted case has none [share, over the case]
+    }; // Of slices that follow what frames need (slices.fit): what that saves and risks beside the same case in the same grid without
     stability?: {
       steps: number; // Steps taken: fewer than asked for where the path ends or the camera stands still [steps, over the piece of the path]
       step_m: number | null; // Largest move of the camera in one step [m, over the steps]
@@ -460,6 +508,12 @@ export type Result = {
         ratio: number | null; // This case's frame time by that of the group's first assigner in the same storage: median of the rounds' ratios [ratio, over the rounds]
         ci95: Interval; // 95 % interval of the ratio [ratio, over the rounds]
       }; // How much longer than the group's first assigner; absent of that one. A group: scene, camera, viewport and grid
+      fit?: {
+        follow_ns: Time; // Finding what a frame needs, and making its grid; in no other time. Building a method for the grid is in assign_ns [ns, over the rounds]
+        unfitted_ns: Time; // frame_ns of the same case in the grid that does not follow [ns, over the rounds]
+        ratio: number | null; // frame_ns by unfitted_ns: median of the rounds' ratios [ratio, over the rounds]
+        ci95: Interval; // 95 % interval of the ratio [ratio, over the rounds]
+      }; // Of slices that follow what frames need
     }; // Wall times
     details?: {
       max_bytes: number; // Most bytes that the configuration allows [bytes, over the case]

@@ -74,12 +74,15 @@ Json to_json(const GroupSamples& group) {
   Json methods = Json::array();
   for (const MethodSamples& method : group.methods) methods.push_back(to_json(method));
   const run::Disturbance& d = group.disturbance;
-  return {{"methods", methods}, {"disturbance", {d.seconds, d.others_s, d.stolen_s, d.throttled}}};
+  return {{"methods", methods},
+          {"follow_ns", group.follow_ns},
+          {"disturbance", {d.seconds, d.others_s, d.stolen_s, d.throttled}}};
 }
 
 GroupSamples group_samples(const Json& json) {
   GroupSamples group;
   for (const Json& method : json.at("methods")) group.methods.push_back(method_samples(method));
+  group.follow_ns = json.value("follow_ns", std::vector<double>{});
   const Json& d = json.at("disturbance");
   group.disturbance = {d.at(0), d.at(1), d.at(2), d.at(3)};
   return group;

@@ -15,10 +15,23 @@ struct Axis {
   const char* pointer;
   int depth;
 };
-constexpr Axis k_axes[] = {{"/tiles/pixels", 1}, {"/tiles/count", 1},   {"/slices/scheme", 0},
-                           {"/slices/count", 0}, {"/slices/near", 0},   {"/slices/first", 0},
-                           {"/slices/far", 0},   {"/slices/lambda", 0}, {"/slices/boundaries", 1},
-                           {"/cells", 1},        {"/levels", 0},        {"/finest", 0}};
+constexpr Axis k_axes[] = {{"/tiles/pixels", 1},
+                           {"/tiles/count", 1},
+                           {"/tiles/aspect", 0},
+                           {"/slices/scheme", 0},
+                           {"/slices/count", 0},
+                           {"/slices/near", 0},
+                           {"/slices/first", 0},
+                           {"/slices/far", 0},
+                           {"/slices/lambda", 0},
+                           {"/slices/boundaries", 1},
+                           {"/slices/fit", 0},
+                           {"/slices/fit/to", 0},
+                           {"/slices/fit/damping", 0},
+                           {"/slices/fit/step", 0},
+                           {"/cells", 1},
+                           {"/levels", 0},
+                           {"/finest", 0}};
 
 int nesting(const Json& value) {
   return value.is_array() && !value.empty() ? 1 + nesting(value.front()) : 0;
@@ -45,11 +58,15 @@ void drop_unused(Json& grid) {
   if (!grid.contains("slices")) return;
   Json& slices = grid["slices"];
   const std::string scheme = slices["scheme"].get<std::string>();
-  if (scheme != "exponential-first") slices.erase("first");
+  const bool is_cubical = scheme == "cubical" || scheme == "cubical-first";
+  if (scheme != "exponential-first" && scheme != "cubical-first") slices.erase("first");
   if (scheme != "power") slices.erase("lambda");
   if (scheme != "list") slices.erase("boundaries");
   if (scheme == "list")
     for (const char* key : {"count", "near", "far"}) slices.erase(key);
+  if (is_cubical) slices.erase("count");
+  const bool is_fitted = slices.contains("fit") && !slices["fit"].is_null();
+  if (!is_fitted || is_cubical || scheme == "list" || scheme == "fit") slices.erase("fit");
 }
 
 std::vector<Json> expanded(const Json& grid) {

@@ -14,7 +14,28 @@ constexpr std::pair<const char*, grid::Scheme> k_schemes[] = {{"linear", grid::S
                                                               {"exponential-first", grid::Scheme::exponential_first},
                                                               {"power", grid::Scheme::power},
                                                               {"list", grid::Scheme::list},
-                                                              {"fit", grid::Scheme::fit}};
+                                                              {"fit", grid::Scheme::fit},
+                                                              {"cubical", grid::Scheme::cubical},
+                                                              {"cubical-first", grid::Scheme::cubical_first}};
+
+constexpr grid::Fit::To k_fits[] = {grid::Fit::To::lights, grid::Fit::To::surfaces, grid::Fit::To::both};
+
+bool has_first(grid::Scheme scheme) {
+  return scheme == grid::Scheme::exponential_first || scheme == grid::Scheme::cubical_first;
+}
+
+bool is_cubical(grid::Scheme scheme) {
+  return scheme == grid::Scheme::cubical || scheme == grid::Scheme::cubical_first;
+}
+
+grid::Fit fit_of(const Json& fit) {
+  grid::Fit out;
+  for (const grid::Fit::To to : k_fits)
+    if (fit["to"] == grid::name_of(to)) out.to = to;
+  out.damping = fit["damping"].get<double>();
+  out.step = fit["step"].get<double>();
+  return out;
+}
 
 grid::Slicing slicing_of(const Json& slices) {
   grid::Slicing out;
@@ -28,6 +49,8 @@ grid::Slicing slicing_of(const Json& slices) {
   if (slices.contains("lambda")) out.lambda = slices["lambda"].get<double>();
   if (slices.contains("boundaries")) out.boundaries_m = slices["boundaries"].get<std::vector<double>>();
   out.count = slices.contains("count") ? slices["count"].get<int>() : static_cast<int>(out.boundaries_m.size()) - 1;
+  if (is_cubical(out.scheme)) out.count = 0;
+  if (slices.contains("fit") && slices["fit"].is_object()) out.fit = fit_of(slices["fit"]);
   return out;
 }
 
@@ -35,7 +58,7 @@ grid::Tiling tiling_of(const Json& tiles) {
   const auto pair = [&](const char* key) {
     return tiles.contains(key) ? Vec2i{tiles[key][0].get<int>(), tiles[key][1].get<int>()} : Vec2i{0, 0};
   };
-  return {pair("pixels"), pair("count")};
+  return {pair("pixels"), pair("count"), tiles.contains("aspect") ? tiles["aspect"].get<double>() : 0.0};
 }
 
 Vec3d point_of(const Json& list) {
@@ -52,15 +75,18 @@ OrderedJson slices_json(const grid::Slicing& slices) {
     out["boundaries"] = slices.boundaries_m;
     return out;
   }
-  out["count"] = slices.count;
+  if (!is_cubical(slices.scheme)) out["count"] = slices.count;
   if (slices.near_m != 0.0) out["near"] = slices.near_m;
-  if (slices.scheme == grid::Scheme::exponential_first) out["first"] = slices.first_m;
+  if (has_first(slices.scheme)) out["first"] = slices.first_m;
   if (slices.scheme == grid::Scheme::power) out["lambda"] = slices.lambda;
   if (slices.far_m != 0.0) out["far"] = slices.far_m;
+  if (slices.fit)
+    out["fit"] = {{"to", grid::name_of(slices.fit->to)}, {"damping", slices.fit->damping}, {"step", slices.fit->step}};
   return out;
 }
 
 OrderedJson tiles_json(const grid::Tiling& tiles) {
+  if (tiles.aspect > 0.0) return {{"aspect", tiles.aspect}};
   const bool by_pixels = tiles.count.x == 0;
   const Vec2i size = by_pixels ? tiles.pixels : tiles.count;
   OrderedJson out;
@@ -85,10 +111,12 @@ OrderedJson requested(const grid::GridSpec& spec, const std::string& key) {
 void add_identity(const grid::GridSpec& spec, const std::string& key, Json& out) {
   const grid::Slicing& slices = spec.slices;
   if (key == "tiles") out[key] = {spec.tiles.pixels.x, spec.tiles.pixels.y, spec.tiles.count.x, spec.tiles.count.y};
+  if (key == "tiles" && spec.tiles.aspect > 0.0) out["aspect"] = spec.tiles.aspect;
   if (key == "slices") {
     out[key] = {scheme_name(slices.scheme), slices.count, slices.near_m, slices.far_m, slices.boundaries_m};
-    if (slices.scheme == grid::Scheme::exponential_first) out["first"] = slices.first_m;
+    if (has_first(slices.scheme)) out["first"] = slices.first_m;
     if (slices.scheme == grid::Scheme::power) out["lambda"] = slices.lambda;
+    if (slices.fit) out["fit"] = {grid::name_of(slices.fit->to), slices.fit->damping, slices.fit->step};
   }
   if (key == "cells") out[key] = {spec.cells.x, spec.cells.y, spec.cells.z};
   if (key == "levels") out[key] = {spec.levels, spec.finest_m};

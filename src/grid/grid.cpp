@@ -59,6 +59,12 @@ std::string GridSpec::name() const {
   return row_of(kind).name_of(*this);
 }
 
+GridSpec GridSpec::unfitted() const {
+  GridSpec out = *this;
+  out.slices.fit.reset();
+  return out;
+}
+
 std::string number_name(double value) {
   char text[32];
   const auto end = std::to_chars(text, text + sizeof text, value).ptr;
@@ -132,8 +138,8 @@ Grid make_grid(const GridSpec& spec, const GridInputs& inputs) {
 }
 
 GridInputs grid_inputs(const GridSpec& spec, const view::Frame& frame, double path_far_m, Vec3d rig_lo_m,
-                       Vec3d rig_hi_m) {
-  return row_of(spec.kind).inputs(spec, {frame, path_far_m, rig_lo_m, rig_hi_m});
+                       Vec3d rig_hi_m, const depth::DepthImage* depths) {
+  return row_of(spec.kind).inputs(spec, {frame, path_far_m, rig_lo_m, rig_hi_m, depths});
 }
 
 }  // namespace clusterbench::grid

@@ -47,8 +47,10 @@ std::int64_t lookup(const Grid& grid, const Sample& sample, Log2 way = Log2::rou
 // Throws Error (file "", where = configuration key) for a spec that cannot be in this projection.
 Grid make_grid(const GridSpec& spec, const GridInputs& inputs);
 
-// The inputs of one frame. Fields that the spec does not use are left at zero, so that equal inputs mean an equal grid.
+// The inputs of one frame by itself. Fields that the spec does not use are left at zero, so that equal inputs mean an
+// equal grid. What is needed (of slices with `fit`) is within what is asked for, and does not follow from frames
+// before.
 GridInputs grid_inputs(const GridSpec& spec, const view::Frame& frame, double path_far_m, Vec3d rig_lo_m,
-                       Vec3d rig_hi_m);
+                       Vec3d rig_hi_m, const depth::DepthImage* depths = nullptr);
 
 }  // namespace clusterbench::grid

@@ -2,6 +2,7 @@
 // What a configuration asks for, and what a grid is made from besides.
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -30,6 +31,13 @@ struct GridSpec {
 
   // Whether its cells are tiles of the picture, cut by depth or distance; else they are boxes.
   bool has_tiles() const { return kind == Kind::frustum || kind == Kind::distance; }
+  // Whether how many cells it has follows from the projection: tiles from slices, or slices from tiles.
+  bool has_cell_shape() const {
+    return has_tiles() &&
+           (tiles.aspect > 0.0 || slices.scheme == Scheme::cubical || slices.scheme == Scheme::cubical_first);
+  }
+  // The same grid that does not follow what is needed.
+  GridSpec unfitted() const;
   // "frustum 64px x 16 exponential-first 0.1..5..500": unique among specs that differ, used in case names.
   std::string name() const;
 };
@@ -40,6 +48,9 @@ struct GridInputs {
   Vec2i viewport{0, 0};
   double light_near_m = 0.0, light_far_m = 0.0;  // reach of the lights in view of this frame, as depth (or distance)
   Vec3d rig_lo_m{0.0}, rig_hi_m{0.0};            // box around the bounded lights over the whole path
+  Span needed;                                   // of slices with `fit`
+  // Of the path's first frame, where how many cells there are follows from it: so they are as many in every frame.
+  std::optional<view::Projection> shape = {};
 
   friend bool operator==(const GridInputs&, const GridInputs&) = default;
 };
@@ -49,6 +60,7 @@ struct FrameReach {
   const view::Frame& frame;
   double path_far_m;         // the farthest light reach over the whole path (used for a far that nobody gives)
   Vec3d rig_lo_m, rig_hi_m;  // box around the bounded lights over the whole path
+  const depth::DepthImage* depths = nullptr;  // for a fit to surfaces
 };
 
 // A number in names, as short as tells it from every other one.

@@ -1,7 +1,7 @@
 #include "grid/screen_grid.h"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -21,38 +21,40 @@ void check_extent(const ScreenGrid& grid) {
 }
 
 SliceRange slice_range(const GridInputs& inputs) {
-  return {inputs.projection.near_m, inputs.projection.far_m, inputs.light_near_m, inputs.light_far_m};
+  return {inputs.projection.near_m, inputs.projection.far_m, inputs.light_near_m, inputs.light_far_m, inputs.needed};
 }
 
-// What the lights in view reach, as depth for frustum grids or as distance.
-struct LightReach {
-  double near = std::numeric_limits<double>::infinity(), far = 0.0;
-};
-
-// Does a ball reach into the half-spaces of the camera's near and far planes and of the picture's sides? A ball outside
-// of an edge or a corner of the view may seem to.
-bool may_be_in_view(const view::Projection& projection, const Vec3d& center, double radius) {
-  const double depth = -center.z;
-  if (depth + radius < projection.near_m || depth - radius > projection.far_m) return false;
-  const auto beyond = [&](double coordinate, double side) {
-    if (projection.orthographic) return coordinate - side;
-    return (coordinate - side * depth) / std::sqrt(1.0 + side * side);
-  };
-  return -beyond(center.x, projection.left) <= radius && beyond(center.x, projection.right) <= radius &&
-         -beyond(center.y, projection.bottom) <= radius && beyond(center.y, projection.top) <= radius;
+double ratio_of(const Slicing& slicing, const SliceRange& range) {
+  const bool has_first = slicing.scheme == Scheme::exponential_first;
+  if (!has_first && slicing.scheme != Scheme::exponential)
+    throw Error("", "tiles.aspect", "takes exponential or exponential-first slices, which grow by a factor");
+  const Span asked = asked_span(slicing, range);
+  const double from = has_first ? slicing.first_m : asked.near_m;
+  const int count = slicing.count - (has_first ? 1 : 0);
+  if (!(from > 0.0) || !(from < asked.far_m) || !std::isfinite(asked.far_m) || count < 1)
+    throw Error("", "tiles.aspect", "takes slices from a near above 0 to a finite far");
+  return std::pow(asked.far_m / from, 1.0 / count);
 }
 
-LightReach reach_in_view(const view::Frame& frame, bool by_distance) {
-  LightReach reach;
-  for (const scene::WorldLight& light : frame.lights) {
-    if (light.range_m == 0.0 || !std::isfinite(light.range_m)) continue;
-    const Vec3d c = frame.view_space.rotation * (light.position - frame.view_space.origin);
-    const double along = by_distance ? std::sqrt(c.x * c.x + c.y * c.y + c.z * c.z) : -c.z;
-    if (!may_be_in_view(frame.projection, c, light.range_m)) continue;
-    reach.near = std::min(reach.near, along - light.range_m);
-    reach.far = std::max(reach.far, along + light.range_m);
+// Without anything that follows from the projection: that of the path's first frame decides.
+GridSpec resolved(const GridSpec& spec, const GridInputs& inputs) {
+  if (!spec.has_cell_shape()) return spec;
+  GridInputs of_shape = inputs;
+  of_shape.projection = inputs.shape.value_or(inputs.projection);
+  const view::Projection& projection = of_shape.projection;
+  GridSpec out = spec;
+  if (spec.tiles.aspect > 0.0) {
+    if (projection.orthographic)
+      throw Error("", "tiles.aspect", "takes a perspective camera; of an orthographic one take scheme cubical");
+    out.tiles = resolved_aspect(spec.tiles, ratio_of(spec.slices, slice_range(of_shape)), projection, inputs.viewport);
+    return out;
   }
-  return reach;
+  if (spec.slices.fit)
+    throw Error("", "slices.fit", "has no meaning for cubical slices: as many as they are follows from near and far");
+  make_tiles(spec.tiles, projection, inputs.viewport);  // are checked
+  out.slices = resolved_cubical(spec.slices, slice_range(of_shape),
+                                tile_height(spec.tiles, projection, inputs.viewport), projection.orthographic);
+  return out;
 }
 
 // --- Names ---
@@ -62,6 +64,7 @@ std::string pair(int a, int b, const char* unit) {
 }
 
 std::string tiles_name(const Tiling& tiles) {
+  if (tiles.aspect > 0.0) return "aspect " + number_name(tiles.aspect);
   const bool by_count = tiles.count.x != 0 || tiles.count.y != 0;
   return by_count ? pair(tiles.count.x, tiles.count.y, "") : pair(tiles.pixels.x, tiles.pixels.y, "px");
 }
@@ -70,7 +73,7 @@ std::string tiles_name(const Tiling& tiles) {
 std::string reach_name(const Slicing& slices) {
   const std::string near = slices.near_m == 0.0 ? "" : number_name(slices.near_m);
   const std::string far = slices.far_m == 0.0 ? "" : number_name(slices.far_m);
-  const bool has_first = slices.scheme == Scheme::exponential_first;
+  const bool has_first = slices.scheme == Scheme::exponential_first || slices.scheme == Scheme::cubical_first;
   if (near.empty() && far.empty()) return has_first ? " first " + number_name(slices.first_m) : "";
   return " " + near + ".." + (has_first ? number_name(slices.first_m) + ".." : "") + far;
 }
@@ -85,7 +88,16 @@ std::string boundaries_name(const std::vector<double>& boundaries) {
          sha256_hex(all).substr(0, 8);
 }
 
-std::string slices_name(const Slicing& slices) {
+// " fit lights damped 0.9 step 1.25"
+std::string fit_name(const std::optional<Fit>& fit) {
+  if (!fit) return "";
+  std::string name = std::string(" fit ") + name_of(fit->to);
+  if (fit->damping > 0.0) name += " damped " + number_name(fit->damping);
+  if (fit->step > 1.0) name += " step " + number_name(fit->step);
+  return name;
+}
+
+std::string plain_slices_name(const Slicing& slices) {
   const std::string count = std::to_string(slices.scheme == Scheme::list ? slices.boundaries_m.size() - 1
                                                                          : static_cast<std::size_t>(slices.count));
   switch (slices.scheme) {
@@ -99,10 +111,18 @@ std::string slices_name(const Slicing& slices) {
       return count + " power " + number_name(slices.lambda) + reach_name(slices);
     case Scheme::fit:
       return count + " fit" + reach_name(slices);
+    case Scheme::cubical:
+      return "cubical" + reach_name(slices);
+    case Scheme::cubical_first:
+      return "cubical-first" + reach_name(slices);
     case Scheme::list:
       break;
   }
   return count + " list" + boundaries_name(slices.boundaries_m);
+}
+
+std::string slices_name(const Slicing& slices) {
+  return plain_slices_name(slices) + fit_name(slices.fit);
 }
 
 }  // namespace
@@ -115,7 +135,11 @@ std::int64_t ScreenGrid::lookup(const Sample& sample, Log2 way) const {
   return cell_index({tile.x, tile.y, slice}, counts());
 }
 
-ScreenGrid make_screen_grid(const GridSpec& spec, const GridInputs& inputs) {
+ScreenGrid make_screen_grid(const GridSpec& asked, const GridInputs& inputs) {
+  if (inputs.viewport.x < 1 || inputs.viewport.y < 1) throw Error("", "viewport", "must be at least 1 x 1 pixels");
+  if (asked.slices.fit && asked.slices.fit->step > 1.0 && asked.slices.fit->step < k_least_step)
+    throw Error("", "slices.fit.step", "is " + number_name(asked.slices.fit->step) + "; allowed: 1, or at least 1.01");
+  const GridSpec spec = resolved(asked, inputs);
   if (spec.kind == Kind::distance && inputs.projection.orthographic)
     throw Error("", "kind", "distance grids have their shells around the eye; an orthographic camera has none");
   ScreenGrid grid;
@@ -131,10 +155,15 @@ GridInputs screen_inputs(const GridSpec& spec, const FrameReach& from) {
   inputs.projection = from.frame.projection;
   inputs.viewport = from.frame.viewport;
   inputs.light_far_m = from.path_far_m;
+  const bool by_distance = spec.kind == Kind::distance;
+  if (spec.has_cell_shape()) inputs.shape = inputs.projection;
   if (spec.slices.scheme == Scheme::fit) {
-    const LightReach reach = reach_in_view(from.frame, spec.kind == Kind::distance);
-    inputs.light_near_m = reach.near;
-    inputs.light_far_m = reach.far;
+    const Span reach = span_of_balls(from.frame, by_distance);
+    inputs.light_near_m = reach.near_m;
+    inputs.light_far_m = reach.far_m;
+  } else if (spec.slices.fit) {
+    inputs.needed = needed_span(*spec.slices.fit, from.frame, from.depths, by_distance)
+                        .within(asked_span(spec.slices, slice_range(inputs)));
   }
   return inputs;
 }

@@ -90,6 +90,8 @@ double boundary(const Slicing& slicing, const Reach& reach, int i) {
       return slicing.boundaries_m[static_cast<std::size_t>(i)];
     case Scheme::exponential:
     case Scheme::fit:
+    case Scheme::cubical:
+    case Scheme::cubical_first:
       break;
   }
   return exponential_at(reach.near, reach.far, share);
@@ -125,9 +127,43 @@ SliceLookup make_lookup(const Slicing& slicing, const Reach& reach) {
       return lookup;
     case Scheme::power:
     case Scheme::list:
+    case Scheme::cubical:  // is resolved
+    case Scheme::cubical_first:
       break;
   }
   return lookup;
+}
+
+// Slices thinner than single precision tells apart do not exist: a span of no depth, as of a wall, is widened.
+Span not_too_thin(const Span& span, const Reach& asked) {
+  constexpr double k_least_share = 0.01, k_least_m = 1e-11;
+  const double least = std::max(k_least_share * std::max(std::abs(span.near_m), std::abs(span.far_m)), k_least_m);
+  if (span.far_m - span.near_m >= least) return span;
+  const double far = std::min(span.near_m + least, asked.far);
+  return {std::max(asked.near, std::min(span.near_m, far - least)), std::max(far, span.far_m)};
+}
+
+// Moves slices to what is needed. What lies before the first boundary is in the first slice, so that only the far end
+// could leave something out: it is moved up by more than roundoffs of a sample's depth or distance.
+void fit_to(const Span& needed, Slicing& slicing, Reach& reach) {
+  const Span inside = needed.within({reach.near, reach.far});
+  if (inside.is_empty()) return;
+  const double far = std::min(inside.far_m + 0x1p-20 * std::abs(inside.far_m), reach.far);
+  if (slicing.scheme != Scheme::exponential_first) {
+    const Span span = not_too_thin({inside.near_m, far}, reach);
+    reach = {span.near_m, span.far_m};
+    return;
+  }
+  if (far <= slicing.first_m) {  // all of it before the end of the first slice
+    const Span span = not_too_thin({reach.near, far}, reach);
+    slicing.first_m = exponential_at(reach.near, span.far_m, 1.0 / slicing.count);
+    reach.far = span.far_m;
+    return;
+  }
+  const Span span = not_too_thin({std::max(slicing.first_m, inside.near_m), far}, reach);
+  if (span.near_m <= reach.near) return;
+  slicing.first_m = span.near_m;
+  reach.far = span.far_m;
 }
 
 Slicing with_list_reach(Slicing slicing) {
@@ -168,7 +204,61 @@ float fast_log2(float value) {
   return exponent + (-0.34484843f * mantissa + 2.02466578f) * mantissa - 1.67487759f;
 }
 
+// How many slices that grow by `ratio` lead from near to far. A far that the last one meets up to roundoffs is reached.
+int slices_between(double near, double far, double ratio) {
+  constexpr double k_most = 4096.0, k_roundoffs = 1e-9;
+  const double count = std::ceil(std::log(far / near) / std::log(ratio) - k_roundoffs);
+  require(count <= k_most, "slices.scheme",
+          "is cubical and would take " + std::to_string(count) +
+              " slices, of at most 4096; take larger tiles, a nearer far, or cubical-first");
+  return std::max(1, static_cast<int>(count));
+}
+
 }  // namespace
+
+Span telling_span(const Slicing& slicing, const Span& needed) {
+  if (slicing.scheme != Scheme::exponential_first || needed.is_empty()) return needed;
+  return {std::max(needed.near_m, std::min(slicing.first_m, needed.far_m)), needed.far_m};
+}
+
+Span asked_span(const Slicing& slicing, const SliceRange& range) {
+  if (slicing.scheme == Scheme::list && !slicing.boundaries_m.empty())
+    return {slicing.boundaries_m.front(), slicing.boundaries_m.back()};
+  const Reach reach = reach_of(slicing, range);
+  return {reach.near, reach.far};
+}
+
+Slicing resolved_cubical(const Slicing& slicing, const SliceRange& range, double tile_height, bool orthographic) {
+  if (slicing.scheme != Scheme::cubical && slicing.scheme != Scheme::cubical_first) return slicing;
+  const bool has_first = slicing.scheme == Scheme::cubical_first;
+  const Reach reach = reach_of(slicing, range);
+  Slicing out = slicing;
+  out.count = 1;
+  require(geom::is_in_domain(reach.far) && reach.near < reach.far, "slices.far",
+          "must be finite and beyond near, " + metres(reach.near));
+  const double from = has_first ? slicing.first_m : reach.near;
+  if (orthographic) {
+    require(!has_first, "slices.scheme",
+            "is cubical-first; tiles of an orthographic camera are of one size, so take cubical");
+    out.scheme = Scheme::linear;
+    const double count = std::ceil((reach.far - reach.near) / tile_height - 1e-9);
+    require(count <= 4096.0, "slices.scheme",
+            "is cubical and would take " + std::to_string(count) + " slices, of at most 4096; take larger tiles");
+    out.count = std::max(1, static_cast<int>(count));
+    out.far_m = reach.near + out.count * tile_height;
+    return out;
+  }
+  require(from > 0.0, "slices.near", "is 0; cubical slices need a near above 0");
+  require(
+      !has_first || (reach.near < from && from < reach.far), "slices.first",
+      "is " + metres(from) + "; it must lie between near, " + metres(reach.near) + ", and far, " + metres(reach.far));
+  const double ratio = 1.0 + tile_height;
+  const int count = slices_between(from, reach.far, ratio);
+  out.scheme = has_first ? Scheme::exponential_first : Scheme::exponential;
+  out.count = count + (has_first ? 1 : 0);
+  out.far_m = from * std::pow(ratio, count);
+  return out;
+}
 
 float log2_by(Log2 way, float value) {
   if (way == Log2::fast) return fast_log2(value);
@@ -217,13 +307,15 @@ int Slices::ideal_slice_of(double depth) const {
 
 Slices make_slices(const Slicing& asked, const SliceRange& range, bool orthographic) {
   const bool is_list = asked.scheme == Scheme::list;
-  const Slicing slicing = is_list ? with_list_reach(asked) : asked;
-  const Reach reach =
-      is_list ? Reach{slicing.boundaries_m.front(), slicing.boundaries_m.back()} : reach_of(slicing, range);
+  Slicing slicing = is_list ? with_list_reach(asked) : asked;
+  Reach reach = is_list ? Reach{slicing.boundaries_m.front(), slicing.boundaries_m.back()} : reach_of(slicing, range);
   check(slicing, reach, orthographic);
+  if (slicing.fit && !is_list) fit_to(range.needed, slicing, reach);
 
   Slices slices;
   for (int i = 0; i <= slicing.count; ++i) slices.boundaries.push_back(static_cast<float>(boundary(slicing, reach, i)));
+  if (slicing.fit && !is_list)
+    slices.boundaries.back() = std::max(slices.boundaries.back(), geom::rounded_up(reach.far));
   // What lies between the camera's near plane and the first boundary looks itself up in slice 0, so it belongs to it.
   slices.boundaries.front() = geom::rounded_down(std::min(reach.near, range.camera_near_m));
   if (!orthographic) check_nearest(slices.boundaries);

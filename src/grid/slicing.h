@@ -2,12 +2,15 @@
 // How depth (frustum grid) or distance (distance grid) is cut into slices.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "grid/needed_span.h"
+
 namespace clusterbench::grid {
 
-enum class Scheme { linear, exponential, exponential_first, power, list, fit };
+enum class Scheme { linear, exponential, exponential_first, power, list, fit, cubical, cubical_first };
 
 // What a configuration asks for. 0 means: not given.
 struct Slicing {
@@ -18,6 +21,10 @@ struct Slicing {
   double far_m = 0.0;                // not given: the camera's far, or (infinite) the farthest reach of a light in view
   double lambda = 0.5;               // power: blend, 0 linear .. 1 exponential
   std::vector<double> boundaries_m;  // list: count + 1 ascending numbers
+  // Slices follow what a frame needs, within near and far: near and far of linear, exponential and power slices; far
+  // and the end of the first slice of exponential-first ones, which is never nearer than first_m unless all that is
+  // needed is nearer than that.
+  std::optional<Fit> fit;
 };
 
 // Where slices can lie in this frame. light_near/far: the reach of the lights in view (fit; far when nothing else
@@ -25,6 +32,7 @@ struct Slicing {
 struct SliceRange {
   double camera_near_m, camera_far_m;
   double light_near_m, light_far_m;
+  Span needed = {};  // of a Slicing with `fit`; empty: slices lie as without
 };
 
 // The constants of the shader's lookup: slice = int(f(depth) * scale + bias), f = identity or log2. Printed by the
@@ -59,6 +67,18 @@ struct Slices {
 // How far beyond its boundary, in ulps of the boundary, a depth can lie and still be looked up in the slice: cells that
 // reach so much farther on both sides hold every depth that is looked up in them.
 std::int64_t safe_padding_ulps(const Slices& slices, Log2 way);
+
+// What is asked for, whatever a frame needs; of a list its ends.
+Span asked_span(const Slicing& slicing, const SliceRange& range);
+// What of a needed span decides where slices lie: equal ones give equal slices.
+Span telling_span(const Slicing& slicing, const Span& needed);
+
+// Cubical slices as the exponential ones that they are: slice k begins at near * (1 + tile_height)^k, where tile_height
+// is that of a tile at depth 1 (Olsson, Billeter and Assarsson 2012: 2 tan(theta) / S_y), so that a cell is as deep as
+// it is high at its near side; with as many slices as reach far. Of an orthographic camera: linear ones as thick as a
+// tile is high. cubical-first: from first_m on, with one slice before it. Others stay as they are. Throws Error (where
+// = "slices.scheme") for more than 4096 slices.
+Slicing resolved_cubical(const Slicing& slicing, const SliceRange& range, double tile_height, bool orthographic);
 
 // Throws Error (file "", where = key such as "slices.near") for what cannot be: near >= far, exponential with near <=
 // 0, an infinite far, a list that does not ascend, boundaries that coincide in single precision.

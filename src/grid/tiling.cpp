@@ -54,6 +54,21 @@ Vec2i Tiles::tile_of(float pixel_x, float pixel_y) const {
           std::clamp(static_cast<int>(pixel_y * scale_y), 0, count.y - 1)};
 }
 
+double tile_height(const Tiling& tiling, const view::Projection& projection, Vec2i viewport) {
+  const double picture = projection.top - projection.bottom;
+  if (tiling.count.y > 0) return picture / tiling.count.y;
+  return picture * tiling.pixels.y / viewport.y;
+}
+
+Tiling resolved_aspect(const Tiling& tiling, double ratio, const view::Projection& projection, Vec2i viewport) {
+  const double picture = projection.top - projection.bottom;
+  const double rows =
+      std::round(std::clamp(picture * tiling.aspect / (ratio - 1.0), 1.0, static_cast<double>(viewport.y)));
+  const double columns = std::round(rows * viewport.x / viewport.y);
+  const auto whole = [](double tiles, int pixels) { return std::clamp(static_cast<int>(tiles), 1, pixels); };
+  return {{0, 0}, {whole(columns, viewport.x), whole(rows, viewport.y)}, 0.0};
+}
+
 Tiles make_tiles(const Tiling& tiling, const view::Projection& projection, Vec2i viewport) {
   const bool by_count = tiling.count.x != 0 || tiling.count.y != 0;
   const char* key = by_count ? "tiles.count" : "tiles.pixels";

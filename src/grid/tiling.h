@@ -9,11 +9,20 @@
 
 namespace clusterbench::grid {
 
-// Either pixels per tile or tiles per screen; the other is {0, 0}.
+// Pixels per tile, tiles per screen, or an aspect that tiles follow from; what is not given is 0.
 struct Tiling {
   Vec2i pixels{64, 64};
   Vec2i count{0, 0};
+  // How many times as deep as high cells shall be, of slices that grow by a factor: square tiles, a whole number of
+  // them down the picture. 1: cubical cells.
+  double aspect = 0.0;
 };
+
+// Height of a tile that is not clipped, at depth 1 (perspective) or anywhere (orthographic, in metres). Not for tilings
+// with an aspect.
+double tile_height(const Tiling& tiling, const view::Projection& projection, Vec2i viewport);
+// Tiles per screen of a tiling with an aspect, for slices that are as deep as `ratio` - 1 times their near boundary.
+Tiling resolved_aspect(const Tiling& tiling, double ratio, const view::Projection& projection, Vec2i viewport);
 
 struct Tiles {
   bool orthographic = false;

@@ -104,7 +104,7 @@ Json renamed(const Json& base, const std::vector<const Json*>& only_in_base, con
 Json parts_of_one(const std::vector<Match>& matches) {
   Json out = Json::array();
   for (const char* part :
-       {"occupancy", "error", "shading", "samples", "lookup", "stability", "precision", "timing", "count"}) {
+       {"occupancy", "error", "shading", "samples", "lookup", "stability", "precision", "fit", "timing", "count"}) {
     std::size_t base = 0, next = 0;
     for (const Match& match : matches) {
       base += match.base.contains(part) && !match.next.contains(part) ? 1 : 0;

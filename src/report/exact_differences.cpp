@@ -61,6 +61,11 @@ constexpr std::array k_rules{
     Rule{"/stability/flickers/method", Kind::cost},
     Rule{"/stability/excess", Kind::cost},
     Rule{"/precision/extra_pairs", Kind::cost},
+    Rule{"/fit/fitted/true_pairs", Kind::fixed},
+    Rule{"/fit/fitted", Kind::cost},
+    Rule{"/fit/unfitted/true_pairs", Kind::fixed},
+    Rule{"/fit/unfitted", Kind::cost},
+    Rule{"/fit/saved", Kind::follows},
 };
 
 // Sets of samples are shaded like those of the whole view: "/samples/fog/missed" counts as "/shading/missed".

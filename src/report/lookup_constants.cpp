@@ -115,6 +115,8 @@ std::string lookup_note(const Json& result_case) {
   const Json& grid = result_case["grid"];
   if (!grid.contains("slices")) return "";
   if (grid["slices"]["scheme"] == "fit") return "slices follow the lights: scale, bias and far are the last frame's";
+  if (result_case.contains("fit"))
+    return "slices follow what frames need: scale, bias, first and far are the last frame's, and uniforms in a shader";
   const Json& form = grid["slices"]["lookup"]["form"];
   const std::string along = grid["kind"] == "distance" ? "length(view)" : "depth";
   if (form == "search") return "slice = the last one whose boundary, slice_boundaries[slice], is not beyond " + along;

@@ -8,6 +8,7 @@
 
 #include "report/contender.h"
 #include "report/details_json.h"
+#include "report/fit_json.h"
 #include "report/frame_cost.h"
 #include "report/json_values.h"
 #include "report/machine.h"
@@ -269,6 +270,11 @@ Json timing(const run::TimingResult& t) {
     out["against_first"] = {{"assigner", t.against_first->assigner},
                             {"ratio", six_digits(t.against_first->ratio.ratio)},
                             {"ci95", to_json(t.against_first->ratio.ci95)}};
+  if (t.fit)
+    out["fit"] = {{"follow_ns", to_json(t.fit->follow_ns)},
+                  {"unfitted_ns", to_json(t.fit->unfitted_ns)},
+                  {"ratio", six_digits(t.fit->ratio.ratio)},
+                  {"ci95", to_json(t.fit->ratio.ci95)}};
   const run::Disturbance& d = t.disturbance;
   const auto cores = [&](double busy_s) { return six_digits(d.seconds > 0.0 ? busy_s / d.seconds : 0.0); };
   out["disturbed"] = {
@@ -395,6 +401,7 @@ Json case_to_json(const run::CaseResult& case_result) {
   if (!case_result.lookup.empty()) out["lookup"] = lookup(case_result.lookup);
   if (case_result.stability) out["stability"] = stability(*case_result.stability);
   if (case_result.precision) out["precision"] = precision(*case_result.precision);
+  if (case_result.fit) out["fit"] = fit_to_json(*case_result.fit);
   if (case_result.timing) out["timing"] = timing(*case_result.timing);
   if (case_result.count) out["count"] = count(*case_result.count);
   if (case_result.details) out["details"] = details_to_json(*case_result.details);

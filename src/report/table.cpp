@@ -7,6 +7,7 @@
 
 #include "core/text.h"
 #include "report/columns.h"
+#include "report/fit_json.h"
 #include "report/json_values.h"
 #include "report/lookup_table.h"
 #include "report/precision_table.h"
@@ -299,8 +300,8 @@ std::string render_table(const Json& result, bool colour) {
   if (!counted_by.empty()) out += "instr: instructions of one frame's assignment, counted by " + counted_by + ".\n";
   if (!result["skipped"].empty())
     out += number_of(result["skipped"].size(), "combination") + " skipped; the result says why.\n";
-  return out + samples_table(result) + lookup_table(result) + stability_table(result) + precision_table(result) +
-         notes_text(result) + warnings_text(result) + timing_warnings(cases);
+  return out + samples_table(result) + lookup_table(result) + stability_table(result) + fit_table(result) +
+         precision_table(result) + notes_text(result) + warnings_text(result) + timing_warnings(cases);
 }
 
 }  // namespace clusterbench::report

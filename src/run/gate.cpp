@@ -72,16 +72,23 @@ bool misses_at_surfaces(const CaseResult& result) {
   });
 }
 
+// In the whole view; slices that follow surfaces promise nothing behind them.
+std::uint64_t missed_in_view(const CaseResult& result) {
+  if (!result.shading) return 0;
+  const bool ends_at_surfaces = result.fit && result.fit->fit.needs_surfaces();
+  return result.shading->missed - (ends_at_surfaces ? result.shading->missed_outside : 0);
+}
+
 bool misses_without_cells(const CaseResult& result) {
   if (has_cells(result)) return false;
   const measure::LookupCounts* lookup = plain_lookup(result);
-  return (result.shading && result.shading->missed > 0) || missing_set(result, is_at_surfaces(result)) != nullptr ||
+  return missed_in_view(result) > 0 || missing_set(result, is_at_surfaces(result)) != nullptr ||
          (lookup != nullptr && lookup->missed > 0);
 }
 
 std::string missed_without_cells_text(const CaseResult& result) {
-  if (result.shading && result.shading->missed > 0)
-    return "lost " + std::to_string(result.shading->missed) + " of " + number_of(result.shading->needed, "light") +
+  if (missed_in_view(result) > 0)
+    return "lost " + std::to_string(missed_in_view(result)) + " of " + number_of(result.shading->needed, "light") +
            " that its samples need" + worst_text(result);
   if (const SampleSetResult* set = missing_set(result, has_cells(result) || is_at_surfaces(result)))
     return "lost " + std::to_string(set->counts.missed - set->counts.missed_outside) + " of " +

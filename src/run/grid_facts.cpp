@@ -1,7 +1,9 @@
 #include "run/grid_facts.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <string>
 
 #include "config/grid_json.h"
@@ -31,16 +33,40 @@ std::string end_text(double far_m) {
   return text;
 }
 
+std::string note_of_fit(const grid::Fit& fit) {
+  constexpr const char* k_followed[] = {"lights in view", "visible surfaces",
+                                        "lights in view and the visible surfaces"};
+  return std::string("slices follow the ") + k_followed[static_cast<int>(fit.to)] + ": these are the last frame's";
+}
+
+// How many times as deep as high cells are at their near side, from the second slice on: the first one holds what lies
+// before it, too.
+Json aspect_facts(const grid::ScreenGrid& grid) {
+  const std::vector<float>& at = grid.slices.boundaries;
+  const double height = static_cast<double>(grid.tiles.y_max(0)) - static_cast<double>(grid.tiles.y_min(0));
+  double least = std::numeric_limits<double>::infinity(), greatest = 0.0;
+  for (std::size_t i = at.size() > 2 ? 1 : 0; i + 1 < at.size(); ++i) {
+    const double scale = grid.tiles.orthographic ? 1.0 : static_cast<double>(at[i]);
+    const double aspect = (static_cast<double>(at[i + 1]) - static_cast<double>(at[i])) / (height * scale);
+    least = std::min(least, aspect);
+    greatest = std::max(greatest, aspect);
+  }
+  return {{"min", least}, {"max", greatest}};
+}
+
 // A kind of grid is one of these.
 void add_facts(Json& facts, const grid::GridSpec& spec, const grid::ScreenGrid& grid, double camera_far_m) {
-  const bool by_count = spec.tiles.count.x != 0;
-  facts["tiles"] = {{by_count ? "count" : "pixels", by_count ? Json{spec.tiles.count.x, spec.tiles.count.y}
+  const bool by_count = spec.tiles.count.x != 0 || spec.tiles.aspect > 0.0;
+  facts["tiles"] = {{by_count ? "count" : "pixels", by_count ? Json{grid.tiles.count.x, grid.tiles.count.y}
                                                              : Json{spec.tiles.pixels.x, spec.tiles.pixels.y}}};
   facts["slices"] = {{"scheme", config::scheme_name(spec.slices.scheme)},
                      {"boundaries", grid.slices.boundaries},
                      {"lookup", lookup_facts(grid.slices.lookup)}};
+  if (spec.has_cell_shape()) facts["aspect"] = aspect_facts(grid);
   if (spec.slices.scheme == grid::Scheme::fit)
     facts["note"] = "slices follow the lights in view: these are the last frame's";
+  else if (spec.slices.fit)
+    facts["note"] = note_of_fit(*spec.slices.fit);
   else if (std::isinf(camera_far_m) && spec.slices.scheme != grid::Scheme::list && spec.slices.far_m == 0.0)
     facts["note"] = end_text(grid.slices.boundaries.back());
 }

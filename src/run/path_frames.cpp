@@ -5,11 +5,13 @@
 
 namespace clusterbench::run {
 
-PathFrames::PathFrames(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport, FrameDepths* depths)
-    : scene_(scene), path_(path), viewport_(viewport), depths_(depths) {
+PathFrames::PathFrames(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport, FrameDepths* depths,
+                       int threads)
+    : scene_(scene), path_(path), viewport_(viewport), depths_(depths), threads_(threads) {
   bool is_first = true;
   for (int i = 0; i < count(); ++i) {
     const view::Frame now = frame(i);
+    if (i == 0) shape_ = now.projection;
     for (const scene::WorldLight& light : now.lights) {
       if (!std::isfinite(light.range_m)) continue;
       const Vec3d lo = light.position - light.range_m, hi = light.position + light.range_m;
@@ -41,12 +43,30 @@ view::Frame PathFrames::frame_of_path(int index) const {
 }
 
 grid::GridInputs PathFrames::inputs(const grid::GridSpec& spec, const view::Frame& frame) const {
-  return grid::grid_inputs(spec, frame, far_m_, rig_lo_, rig_hi_);
+  grid::GridInputs inputs = grid::grid_inputs(spec.unfitted(), frame, far_m_, rig_lo_, rig_hi_);
+  if (inputs.shape) inputs.shape = shape_;
+  if (spec.slices.fit) inputs.needed = spans(spec)[static_cast<std::size_t>(frame.index)];
+  return inputs;
+}
+
+grid::Span PathFrames::needed(const grid::GridSpec& spec, const view::Frame& frame) const {
+  const bool needs_depths = depths_ != nullptr && spec.slices.fit->needs_surfaces();
+  const std::shared_ptr<const depth::DepthImage> depths = needs_depths ? depths_->of(frame, threads_) : nullptr;
+  return grid::grid_inputs(spec, frame, far_m_, rig_lo_, rig_hi_, depths.get()).needed;
+}
+
+const std::vector<grid::Span>& PathFrames::spans(const grid::GridSpec& spec) const {
+  std::vector<grid::Span>& spans = spans_[spec.name()];
+  if (!spans.empty()) return spans;
+  grid::SpanFollower follower(*spec.slices.fit);
+  for (int i = 0; i < static_cast<int>(path_.shots.size()); ++i)
+    spans.push_back(grid::telling_span(spec.slices, follower.next(needed(spec, frame_of_path(i)))));
+  return spans;
 }
 
 PathFrames path_of(const config::Config& config, const Plan& plan, const GroupPlan& group) {
   const SceneData& data = plan.scenes[group.scene];
-  return {data.scene, data.paths[group.camera], config.viewports[group.viewport], data.depths.get()};
+  return {data.scene, data.paths[group.camera], config.viewports[group.viewport], data.depths.get(), config.threads};
 }
 
 bool needs_depth(const config::Config& config, const GroupPlan& group) {

@@ -2,8 +2,10 @@
 // The frames of one camera path in one viewport, made when they are asked for: a path over a large rig would not fit in
 // memory whole.
 
+#include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "grid/grid.h"
@@ -18,7 +20,9 @@ namespace clusterbench::run {
 class PathFrames {
  public:
   // All must outlive it. Without `depths` its frames have none.
-  PathFrames(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport, FrameDepths* depths = nullptr);
+  // `threads`: for depths that grids follow; what is found does not depend on it.
+  PathFrames(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport, FrameDepths* depths = nullptr,
+             int threads = 1);
 
   // The frames of another path in this path's grids, which follow from the lights over this path. `other` outlives
   // them.
@@ -33,7 +37,12 @@ class PathFrames {
   view::Frame frame(int index) const;
   // The whole path's frame before this one; of its first one the second. None on a path of one frame.
   std::optional<view::Frame> neighbour(const view::Frame& frame) const;
+  // Of slices that follow what is needed: what they have come to in this frame, from the path's first frame on.
   grid::GridInputs inputs(const grid::GridSpec& spec, const view::Frame& frame) const;
+  // What slices with `fit` follow, frame by frame; found once and in the path's order, whatever frames are asked for.
+  const std::vector<grid::Span>& spans(const grid::GridSpec& spec) const;
+  // Of one frame by itself.
+  grid::Span needed(const grid::GridSpec& spec, const view::Frame& frame) const;
   // The farthest that a bounded light reaches from any eye of the path.
   double far_m() const { return far_m_; }
   // Of its frames, and of those of paths along it; null without triangles.
@@ -49,7 +58,9 @@ class PathFrames {
         rig_lo_(whole.rig_lo_),
         rig_hi_(whole.rig_hi_),
         far_m_(whole.far_m_),
-        depths_(whole.depths_) {}
+        shape_(whole.shape_),
+        depths_(whole.depths_),
+        threads_(whole.threads_) {}
 
   view::Frame frame_of_path(int index) const;
 
@@ -58,8 +69,11 @@ class PathFrames {
   Vec2i viewport_;
   Vec3d rig_lo_{0.0}, rig_hi_{0.0};  // box around the bounded lights' balls over the path
   double far_m_ = 0.0;
+  view::Projection shape_;  // of the first frame: cells of a shape are as many in all
   FrameDepths* depths_ = nullptr;
   std::vector<int> frames_;  // empty: all
+  int threads_ = 1;
+  mutable std::map<std::string, std::vector<grid::Span>> spans_;  // by the grid's name
 };
 
 // Those that a group of cases is measured in.

@@ -21,6 +21,7 @@
 #include "measure/time_statistics.h"
 #include "run/counters/instruction_counter.h"
 #include "run/counters/processor.h"
+#include "run/fit_meter.h"
 #include "run/packed_details.h"
 #include "run/timing_samples.h"
 
@@ -89,6 +90,13 @@ struct DeviceTimes {
   measure::TimeStats upload_ns, run_ns, readback_ns;
 };
 
+// Of slices that follow what frames need.
+struct FitTimes {
+  measure::TimeStats follow_ns;    // per frame: finding what is needed, and making the grid; in no other time
+  measure::TimeStats unfitted_ns;  // frame_ns of the same case in the grid that does not follow, of the same rounds
+  measure::Ratio ratio;            // frame_ns / unfitted_ns
+};
+
 struct TimingResult {
   bool is_cold = false;                          // the times that follow: caches were swept before each frame
   std::string session;                           // the same where the same launches have measured
@@ -108,6 +116,7 @@ struct TimingResult {
   double write_floor_ns = 0.0;                                    // per frame
   double floor_ratio = 0.0;                                       // of warm times
   std::optional<Versus> against_first;  // against the group's first assigner, in the same storage if it has it
+  std::optional<FitTimes> fit;          // of slices with `fit`
   int frames_timed = 0;                 // in the means
   Disturbance disturbance;              // of the group, over all launches
 };
@@ -183,6 +192,7 @@ struct CaseResult {
   std::vector<measure::LookupCounts> lookup;         // one per way; empty where not asked for
   std::optional<PrecisionResult> precision;          // where the configuration asks for more than float32
   std::optional<StabilityResult> stability;          // with cells, where asked for
+  std::optional<FitResult> fit;                      // of slices with `fit`
   std::optional<TimingResult> timing;
   std::optional<CountResult> count;  // where asked for
   std::optional<Details> details;    // with cells, where asked for

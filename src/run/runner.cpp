@@ -55,6 +55,7 @@ struct CountedGroup {
   GroupPlan group;
   int frames = 0;
   AccuracyResult counted;
+  std::optional<AccuracyResult> unfitted;  // of a grid that follows what frames need: the same in one that does not
   std::vector<std::optional<StabilityResult>> stabilities;
   std::vector<std::optional<Details>> details;
 };
@@ -182,12 +183,20 @@ class Run {
     name_of_group_ = group.cases.front().name;
     const SceneData& data = plan_.scenes[group.scene];
     const PathFrames path = run::path_of(config_, plan_, group);
-    const double per_frame = accuracy_cost_of(group) / path.count();
+    const bool follows = follows_needs(group);
+    const double per_frame = accuracy_cost_of(group) / path.count() / (follows ? 2.0 : 1.0);
+    const ListsOverFrames over_frames = follows ? ListsOverFrames::compared : ListsOverFrames::ignored;
+    const auto on_frame = [&](int) { tell(group, "truth and counts", per_frame); };
     CountedGroup counted_group;
     counted_group.frames = path.count();
-    counted_group.counted = accuracy_pass(
-        config_, data, group, path, [&](int) { tell(group, "truth and counts", per_frame); }, stop_);
+    counted_group.counted = accuracy_pass(config_, data, group, path, on_frame, stop_, over_frames);
     if (!counted_group.counted.is_complete) return;
+    if (follows) {
+      config::Config plain = without_fit(config_, group.grid);
+      plain.lookup.reset();
+      counted_group.unfitted = accuracy_pass(plain, data, group, path, on_frame, stop_, over_frames);
+      if (!counted_group.unfitted->is_complete) return;
+    }
     if (config_.stability) {
       const double cost = stability_cost_of(group);
       counted_group.stabilities = stability_pass(
@@ -246,6 +255,7 @@ class Run {
   void add_cases(CountedGroup& counted, const std::vector<TimingResult>& timings, Result& out) {
     for (std::size_t i = 0; i < counted.group.cases.size(); ++i) {
       CaseResult finished = case_result(config_, plan_, counted.group.cases[i], counted.frames, counted.counted, i);
+      if (counted.unfitted) finished.fit = fit_result(counted, i);
       if (!counted.stabilities.empty()) finished.stability = counted.stabilities[i];
       if (!counted.details.empty()) finished.details = std::move(counted.details[i]);
       if (!timings.empty()) {
@@ -257,6 +267,41 @@ class Run {
       if (listener_.on_case) listener_.on_case(finished);
       out.cases.push_back(std::move(finished));
     }
+  }
+
+  bool follows_needs(const GroupPlan& group) const {
+    const grid::GridSpec& spec = config_.grids[group.grid];
+    return spec.has_tiles() && spec.slices.fit;
+  }
+
+  FitSide fit_side(const AccuracyResult& counted, const Method& of, std::size_t index) const {
+    const MethodMeasures& method = *std::ranges::find(counted.methods, of, &MethodMeasures::method);
+    const StructureMeasures& structure = counted.structures[index];
+    FitSide side;
+    if (method.has_cells) side.pairs_mean = method.occupancy.pairs.mean;
+    if (method.has_cells && config_.check_accuracy) {
+      side.true_pairs = method.error.true_pairs;
+      side.false_positives = method.error.false_positives;
+    }
+    side.list_changes = method.list_changes;
+    side.index_entries = structure.buffers.index_entries.high_water;
+    side.bytes = structure.buffers.bytes.high_water;
+    for (const SampleSetResult& set : structure.samples)
+      if (set.counts.samples > 0)
+        side.evaluated.push_back({measure::name_of(set.set), set.counts.evaluated, set.counts.missed});
+    return side;
+  }
+
+  FitResult fit_result(const CountedGroup& counted, std::size_t index) const {
+    const CasePlan& plan = counted.group.cases[index];
+    FitResult out;
+    out.fit = *config_.grids[plan.grid].slices.fit;
+    const std::vector<float>& asked = counted.unfitted->last_grid.screen().slices.boundaries;
+    out.asked = {static_cast<double>(asked.front()), static_cast<double>(asked.back())};
+    out.moves = *counted.counted.moves;
+    out.fitted = fit_side(counted.counted, plan.method(), index);
+    out.unfitted = fit_side(*counted.unfitted, plan.method(), index);
+    return out;
   }
 
   const config::Config& config_;

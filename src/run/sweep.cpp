@@ -34,11 +34,16 @@ std::string name_part(std::string text) {
   return printable(text);
 }
 
+bool follows_surfaces(const grid::GridSpec& grid) {
+  return grid.has_tiles() && grid.slices.fit && grid.slices.fit->needs_surfaces();
+}
+
 bool needs_triangles(const config::Config& config) {
   return std::ranges::any_of(config.sample_sets, &config::SampleSetRequest::needs_triangles) ||
-         std::ranges::any_of(config.assigners, [](const config::MethodRequest& method) {
-           return assign::find_assigner(method.name)->needs.depth;
-         });
+         std::ranges::any_of(
+             config.assigners,
+             [](const config::MethodRequest& method) { return assign::find_assigner(method.name)->needs.depth; }) ||
+         std::ranges::any_of(config.grids, follows_surfaces);
 }
 
 // What a set's samples depend on, besides the scene.
@@ -200,6 +205,8 @@ struct FirstFrame {
 FirstFrame first_frame(const grid::GridSpec& spec, const SceneData& data, const scene::CameraPath& path,
                        Vec2i viewport) {
   if (path.shots.empty()) return {0, {}, "the camera path has no frame"};
+  if (follows_surfaces(spec) && (!data.geometry || data.geometry->empty()))
+    return {0, {}, "slices that follow surfaces need a depth buffer, and the scene has no triangles"};
   try {
     const view::Frame frame = view::make_frame(data.scene, path.shots.front(), 0, viewport);
     const Reach reach = reach_of(frame);

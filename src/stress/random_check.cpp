@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <optional>
 
 #include "core/error.h"
 #include "geom/filter/light_filter.h"
@@ -328,8 +329,11 @@ class SettingCheck {
     const std::vector<grid::Sample> samples = samples_to_shade();
     for (const grid::Sample& sample : samples) {
       const std::int64_t cell = grid::lookup(grid_, sample);
-      if (cell < 0) continue;
       const double margin = lost_by_lookup(sample);
+      if (cell < 0) {
+        check_left_out(sample, margin);
+        continue;
+      }
       for (std::uint32_t light = 0; light < frame_.lights.size(); ++light) {
         if (lights_.is_empty(light) || !clearly_reaches(frame_.lights[light], sample, margin)) continue;
         ++report_.counts.shaded;
@@ -345,6 +349,23 @@ class SettingCheck {
         add(FaultKind::shading, answer.method->label,
             pair_text(cell, light) + " is not listed, but the light reaches a point that is looked up there", cell,
             light);
+    }
+  }
+
+  // Slices that follow lights must not end before one that reaches a sample, unless the same slices without do.
+  void check_left_out(const grid::Sample& sample, double margin) {
+    if (!trial_.grid.slices.fit || !trial_.grid.has_tiles()) return;
+    if (!unfitted_) {
+      Trial plain = trial_;
+      plain.grid = trial_.grid.unfitted();
+      unfitted_ = grid_of(plain, frame_);
+    }
+    if (grid::lookup(*unfitted_, sample) < 0) return;
+    for (std::uint32_t light = 0; light < frame_.lights.size(); ++light) {
+      if (lights_.is_empty(light) || !clearly_reaches(frame_.lights[light], sample, margin)) continue;
+      add(FaultKind::shading, "",
+          "the slices follow the lights and end before a sample that light " + std::to_string(light) + " reaches", 0,
+          light);
     }
   }
 
@@ -403,6 +424,7 @@ class SettingCheck {
   std::span<const StressMethod> methods_;
   view::Frame frame_;
   grid::Grid grid_;
+  std::optional<grid::Grid> unfitted_;
   view::LightArrays lights_;
   measure::Truth truth_;
   std::vector<Answer> answers_;

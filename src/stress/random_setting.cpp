@@ -395,6 +395,29 @@ double Draw::nudged(double value, int most_ulps) {
   return value;
 }
 
+namespace {
+
+// Drawn from a source of its own, so that all else of a seed's setting is what it was without.
+void follow_or_shape(grid::GridSpec& spec, const scene::CameraProjection& projection, std::uint64_t seed) {
+  using grid::Scheme;
+  if (!spec.has_tiles() || spec.slices.scheme == Scheme::list || spec.slices.scheme == Scheme::fit) return;
+  constexpr std::uint64_t k_other_source = 0x666974;
+  Draw draw(seed ^ k_other_source);
+  const double steps[] = {1.0, 1.25, 2.0};
+  if (draw.percent(30)) {
+    spec.slices.fit = grid::Fit{grid::Fit::To::lights, 0.0, draw.one_of(steps)};
+    return;
+  }
+  constexpr double k_narrow_rad = 0.5;  // slices of narrower views are too many
+  if (projection.orthographic || projection.sides || projection.yfov_rad < k_narrow_rad || !draw.percent(10)) return;
+  if (draw.percent(50))
+    spec.slices.scheme = draw.percent(50) ? Scheme::cubical : Scheme::cubical_first;
+  else
+    spec.tiles = {{0, 0}, {0, 0}, draw.log_between(0.5, 2.0)};
+}
+
+}  // namespace
+
 Trial random_setting(std::uint64_t seed) {
   Draw draw(seed);
   const Extent extent = random_extent(draw);
@@ -404,7 +427,9 @@ Trial random_setting(std::uint64_t seed) {
   rig.projection() = random_projection(draw, extent, picture);
   const Vec3d eye = random_eye(draw, extent);
   const Vec4d rotation = random_rotation(draw);
-  Trial trial = rig.on(random_grid(draw, extent, rig.projection(), picture, eye), "seed " + std::to_string(seed));
+  grid::GridSpec spec = random_grid(draw, extent, rig.projection(), picture, eye);
+  follow_or_shape(spec, rig.projection(), seed);
+  Trial trial = rig.on(spec, "seed " + std::to_string(seed));
   trial.scene.nodes[0].translation = eye;
   trial.scene.nodes[0].rotation = rotation;
   try {

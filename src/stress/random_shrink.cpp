@@ -164,10 +164,12 @@ class Shrinker {
   // The slices by their boundaries, so that single ones can go.
   void list_boundaries() {
     if (best_.grid.slices.scheme == grid::Scheme::list) return;
+    if (best_.grid.slices.fit) attempt([](Trial& trial) { trial.grid.slices.fit.reset(); });
     const grid::Grid grid = grid_of(best_, frame_of(best_));
     const std::vector<float>& boundaries = grid.screen().slices.boundaries;
     attempt([&](Trial& trial) {
       trial.grid.slices.scheme = grid::Scheme::list;
+      trial.grid.slices.fit.reset();
       trial.grid.slices.boundaries_m.assign(boundaries.begin(), boundaries.end());
     });
   }

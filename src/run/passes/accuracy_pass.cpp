@@ -30,10 +30,11 @@ struct PreparedFrame {
 
 class MethodMeter {
  public:
-  MethodMeter(const config::Config& config, const Method& method)
+  MethodMeter(const config::Config& config, const Method& method, ListsOverFrames over_frames)
       : config_(config), run_(start_method(config, method)) {
     measures_.method = method;
     measures_.has_cells = run_.has_cells();
+    if (over_frames == ListsOverFrames::compared && run_.has_cells()) list_changes_.emplace();
   }
 
   void add(const PreparedFrame& now, const grid::Grid& grid) {
@@ -46,6 +47,7 @@ class MethodMeter {
     lists_ = &run_.cell_lists();
     if (!occupancy_) occupancy_.emplace(run_.has_occupied_cells() ? lists_->cell_count() : real_cells(grid));
     occupancy_->add_frame(now.frame.index, *lists_);
+    if (list_changes_) list_changes_->add(*lists_);
     if (config_.check_accuracy) compare(now, grid);
   }
 
@@ -56,6 +58,7 @@ class MethodMeter {
   MethodMeasures result() const {
     MethodMeasures out = measures_;
     if (occupancy_) out.occupancy = occupancy_->result();
+    if (list_changes_) out.list_changes = list_changes_->result();
     return out;
   }
 
@@ -71,6 +74,7 @@ class MethodMeter {
   assign::AssignerRun run_;
   const assign::Lists* lists_ = nullptr;  // of the cells, in the current frame
   std::optional<measure::OccupancyMeter> occupancy_;
+  std::optional<ListChangeMeter> list_changes_;
   MethodMeasures measures_;
 };
 
@@ -174,9 +178,9 @@ PreparedFrame prepare(const config::Config& config, const GroupPlan& group, cons
 
 AccuracyResult accuracy_pass(const config::Config& config, const SceneData& data, const GroupPlan& group,
                              const PathFrames& path, const std::function<void(int frame)>& on_frame,
-                             const std::atomic<bool>& stop) {
+                             const std::atomic<bool>& stop, ListsOverFrames over_frames) {
   std::vector<MethodMeter> methods;
-  for (const Method& method : methods_of(group)) methods.emplace_back(config, method);
+  for (const Method& method : methods_of(group)) methods.emplace_back(config, method, over_frames);
   std::vector<CaseMeter> cases;
   for (const CasePlan& case_plan : group.cases) cases.emplace_back(config, case_plan);
 
@@ -184,11 +188,15 @@ AccuracyResult accuracy_pass(const config::Config& config, const SceneData& data
 
   AccuracyResult result;
   FrameSamples samples(config, data, path);
-  GridOfFrames grids(config.grids[group.grid]);
+  const grid::GridSpec& spec = config.grids[group.grid];
+  GridOfFrames grids(spec);
+  std::optional<GridMoveMeter> moves;
+  if (spec.has_tiles() && spec.slices.fit) moves.emplace();
   for (int index = 0; index < path.count(); ++index) {
     if (stop) return result;
     on_frame(index);
     const PreparedFrame now = prepare(config, group, path, samples, grids, index);
+    if (moves) moves->add(grids.grid().screen(), path.spans(spec)[static_cast<std::size_t>(index)]);
     for (std::size_t i = 0; i < losses.size(); ++i) losses[i].add_frame(now.lights.packed(i));
     for (MethodMeter& method : methods) {
       if (stop) return result;
@@ -203,6 +211,7 @@ AccuracyResult accuracy_pass(const config::Config& config, const SceneData& data
   for (const MethodMeter& method : methods) result.methods.push_back(method.result());
   for (const CaseMeter& meter : cases) result.structures.push_back(meter.result());
   for (const measure::PackingLossMeter& loss : losses) result.losses.push_back(loss.result());
+  if (moves) result.moves = moves->result();
   result.last_grid = grids.grid();
   result.is_complete = true;
   return result;

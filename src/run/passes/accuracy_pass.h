@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 
+#include "run/fit_meter.h"
 #include "run/path_frames.h"
 #include "run/result.h"
 #include "run/sweep.h"
@@ -18,6 +19,7 @@ struct MethodMeasures {
   measure::Occupancy occupancy;
   measure::ErrorCounts error;  // of the lists, before a storage drops anything
   std::uint64_t tests_done = 0, fallbacks = 0;
+  std::optional<ListChanges> list_changes;  // with cells, where asked for
 };
 
 // What samples find in one case's light structure, and what it takes.
@@ -32,12 +34,16 @@ struct AccuracyResult {
   std::vector<StructureMeasures> structures;  // one per case of the group
   std::vector<measure::PackingLoss> losses;   // one per precision of the configuration; none if it has float32 alone
   std::optional<measure::DepthRanges> depth_ranges;  // of visible surfaces in a frustum grid, where asked for
+  std::optional<GridMoves> moves;                    // of a grid that follows what frames need
   grid::Grid last_grid;
   bool is_complete = false;  // false: stopped before the end
 };
 
+// Whether lists are compared with those of the frame before.
+enum class ListsOverFrames { ignored, compared };
+
 AccuracyResult accuracy_pass(const config::Config& config, const SceneData& data, const GroupPlan& group,
                              const PathFrames& path, const std::function<void(int frame)>& on_frame,
-                             const std::atomic<bool>& stop);
+                             const std::atomic<bool>& stop, ListsOverFrames over_frames = ListsOverFrames::ignored);
 
 }  // namespace clusterbench::run

@@ -11,6 +11,7 @@
 #include "core/random.h"
 #include "run/cache_sweep.h"
 #include "run/counters/machine_load.h"
+#include "run/fit_meter.h"
 #include "run/passes/copy_floor.h"
 #include "run/repeated.h"
 #include "run/timed_work.h"
@@ -135,6 +136,46 @@ std::vector<int> all_frames(const std::vector<int>& of_means, const std::vector<
   for (const int frame : fullest)
     if (frame >= 0 && std::find(all.begin(), all.end(), frame) == all.end()) all.push_back(frame);
   return all;
+}
+
+// A group's methods over the frames that are timed, in the grid of a configuration.
+struct TimedSide {
+  TimedSide(const config::Config& config, const GroupPlan& group, const PathFrames& path,
+            const std::vector<int>& of_means, const LaunchRequest& request)
+      : mean_frames(of_means.size()) {
+    const std::vector<int> all = all_frames(of_means, request.fullest_frames);
+    frames = timed_frames(config, group, path, all);
+    const std::vector<Method> methods = methods_of(group);
+    for (std::size_t i = 0; i < methods.size(); ++i) {
+      const auto fullest =
+          i < request.fullest_frames.size()
+              ? std::find(all.begin() + static_cast<std::ptrdiff_t>(mean_frames), all.end(), request.fullest_frames[i])
+              : all.end();
+      const TimedFrame* extra =
+          fullest == all.end() ? nullptr : &frames[static_cast<std::size_t>(fullest - all.begin())];
+      tracks.push_back(std::make_unique<TimingTrack>(config, group, methods[i], in_means(), extra));
+    }
+  }
+
+  std::span<const TimedFrame> in_means() const { return std::span(frames).first(mean_frames); }
+
+  std::size_t mean_frames;
+  std::vector<TimedFrame> frames;
+  std::vector<std::unique_ptr<TimingTrack>> tracks;
+};
+
+// Per frame, in nanoseconds: what it takes to find what is needed, and to make the grid of it. Depths are there.
+double time_to_follow(const grid::GridSpec& spec, const PathFrames& path, std::span<const TimedFrame> frames) {
+  double sum_ns = 0.0;
+  for (const TimedFrame& frame : frames) {
+    const grid::GridInputs inputs = path.inputs(spec, frame.frame);
+    path.needed(spec, frame.frame);  // casts depths that are not kept
+    const double start = wall_ns();
+    path.needed(spec, frame.frame);
+    grid::make_grid(spec, inputs);
+    sum_ns += wall_ns() - start;
+  }
+  return sum_ns / static_cast<double>(frames.size());
 }
 
 // The rounds of all launches, one launch after the other.
@@ -275,6 +316,27 @@ class MethodTimes {
   std::uint64_t seed_;
 };
 
+// Of a grid that follows what frames need: its cases beside the same in the grid that does not.
+void add_fit_times(const config::Config& config, const GroupPlan& group, std::span<const GroupSamples> launches,
+                   std::vector<TimingResult>& timings) {
+  const std::vector<Method> methods = methods_of(group);
+  if (launches.front().methods.size() == methods.size()) return;
+  const auto launch_count = static_cast<int>(launches.size());
+  const std::vector<double> follow_ns = joined_rounds<double>(
+      launches, [](const GroupSamples& launch) -> const std::vector<double>& { return launch.follow_ns; });
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    const MethodTimes unfitted(launches, methods.size() + i, config.seed);
+    std::size_t store = 0;
+    for (std::size_t index = 0; index < timings.size(); ++index) {
+      if (group.cases[index].method() != methods[i]) continue;
+      const measure::TimeStats before = unfitted.of_case(store++).frame_ns;
+      timings[index].fit =
+          FitTimes{measure::time_stats(follow_ns, config.seed, launch_count), before,
+                   measure::paired_ratio(timings[index].frame_ns.samples, before.samples, config.seed, launch_count)};
+    }
+  }
+}
+
 // What a case is compared with: the group's first one in the same storage; a structure of a method's own with the first
 // of all.
 std::size_t reference_of(const GroupPlan& group, std::size_t index) {
@@ -301,19 +363,20 @@ std::vector<std::size_t> method_order(std::size_t methods, std::uint64_t seed, i
 GroupSamples measure_launch(const config::Config& config, const GroupPlan& group, const PathFrames& path,
                             const LaunchRequest& request, const std::function<void(int round)>& on_round,
                             const std::atomic<bool>& stop) {
-  const std::vector<int> of_means = mean_frames(config, path), all = all_frames(of_means, request.fullest_frames);
-  const std::vector<TimedFrame> frames = timed_frames(config, group, path, all);
-  const std::span<const TimedFrame> in_means = std::span(frames).first(of_means.size());
-  const std::vector<Method> methods = methods_of(group);
-  std::vector<std::unique_ptr<TimingTrack>> tracks;
-  for (std::size_t i = 0; i < methods.size(); ++i) {
-    const auto fullest = i < request.fullest_frames.size()
-                             ? std::find(all.begin() + static_cast<std::ptrdiff_t>(of_means.size()), all.end(),
-                                         request.fullest_frames[i])
-                             : all.end();
-    const TimedFrame* extra = fullest == all.end() ? nullptr : &frames[static_cast<std::size_t>(fullest - all.begin())];
-    tracks.push_back(std::make_unique<TimingTrack>(config, group, methods[i], in_means, extra));
+  const std::vector<int> of_means = mean_frames(config, path);
+  const grid::GridSpec& spec = config.grids[group.grid];
+  const bool follows = spec.has_tiles() && spec.slices.fit;
+  const TimedSide timed(config, group, path, of_means, request);
+  std::optional<config::Config> plain;
+  std::optional<TimedSide> unfitted;
+  if (follows) {
+    plain.emplace(without_fit(config, group.grid));
+    unfitted.emplace(*plain, group, path, of_means, request);
   }
+  std::vector<TimingTrack*> tracks;
+  for (const auto& track : timed.tracks) tracks.push_back(track.get());
+  if (unfitted)
+    for (const auto& track : unfitted->tracks) tracks.push_back(track.get());
   const std::uint64_t bytes = config.timing.cold ? sweep_bytes() : 0;
   std::optional<CacheSweep> own_sweep;
   std::function<void()> sweep = request.sweep;
@@ -323,8 +386,10 @@ GroupSamples measure_launch(const config::Config& config, const GroupPlan& group
   }
   const int cold = config.timing.cold ? cold_rounds(request.rounds, of_means.size() + 1, bytes) : 0;
   const LoadWatch watch;
+  GroupSamples out;
   for (int round = 0; round < request.rounds; ++round) {
     on_round(round);
+    if (follows) out.follow_ns.push_back(time_to_follow(spec, path, timed.in_means()));
     for (const std::size_t method : method_order(tracks.size(), config.seed, request.launch, round)) {
       if (stop) return {};
       TimingTrack& track = *tracks[method];
@@ -333,8 +398,7 @@ GroupSamples measure_launch(const config::Config& config, const GroupPlan& group
       if (round < cold) track.cold_frames(sweep);
     }
   }
-  GroupSamples out;
-  for (const auto& track : tracks) out.methods.push_back(track->samples());
+  for (const TimingTrack* track : tracks) out.methods.push_back(track->samples());
   out.disturbance = watch.so_far();
   return out;
 }
@@ -350,6 +414,7 @@ std::vector<TimingResult> timing_results(const config::Config& config, const Gro
     for (std::size_t index = 0; index < timings.size(); ++index)
       if (group.cases[index].method() == methods[i]) timings[index] = times.of_case(store++);
   }
+  add_fit_times(config, group, launches, timings);
   for (std::size_t index = 0; index < timings.size(); ++index) {
     const std::size_t first = reference_of(group, index);
     if (group.cases[first].method() == group.cases[index].method()) continue;

@@ -1,0 +1,143 @@
+#include "report/fit_json.h"
+
+#include <cmath>
+#include <limits>
+
+#include "report/columns.h"
+#include "report/result_json.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const run::Extremes& extremes) {
+  if (extremes.count == 0) return {{"min", nullptr}, {"mean", nullptr}, {"max", nullptr}};
+  return {{"min", number_or_null(extremes.least)},
+          {"mean", number_or_null(extremes.mean())},
+          {"max", number_or_null(extremes.greatest)}};
+}
+
+Json to_json(const run::FitSide& side) {
+  Json out = Json::object();
+  if (side.pairs_mean) out["pairs"] = number_or_null(*side.pairs_mean);
+  if (side.true_pairs) {
+    out["true_pairs"] = *side.true_pairs;
+    out["false_positives"] = *side.false_positives;
+  }
+  if (side.list_changes) out["lists_changed"] = number_or_null(side.list_changes->share());
+  out["index_entries"] = side.index_entries;
+  out["bytes"] = side.bytes;
+  out["evaluated"] = Json::object();
+  out["missed"] = Json::object();
+  for (const run::EvaluatedLights& set : side.evaluated) {
+    out["evaluated"][set.set] = set.evaluated;
+    out["missed"][set.set] = set.missed;
+  }
+  return out;
+}
+
+Json share_saved(const Json& fitted, const Json& unfitted) {
+  const auto number = [](const Json& value) {
+    return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
+  };
+  return number_or_null(1.0 - number(fitted) / number(unfitted));
+}
+
+// What both sides have, as the share of the unfitted one that is saved.
+Json saved(const Json& fitted, const Json& unfitted) {
+  Json out = Json::object();
+  for (const char* key : {"pairs", "false_positives", "lists_changed", "index_entries", "bytes"})
+    if (fitted.contains(key)) out[key] = share_saved(fitted[key], unfitted[key]);
+  out["evaluated"] = Json::object();
+  for (const auto& [set, value] : fitted["evaluated"].items())
+    out["evaluated"][set] = share_saved(value, unfitted["evaluated"][set]);
+  return out;
+}
+
+const Cells k_headings{"",        "assigner", "storage", "grids",  "cells moved", "lists new", "unfitted",
+                       "entries", "bytes",    "pairs",   "excess", "evaluated",   "frame"};
+
+// Of the sets of samples the first one, which is that of the whole view where that is asked for.
+std::string evaluated_text(const Json& result_case) {
+  const Json& sets = result_case["fit"]["saved"]["evaluated"];
+  if (sets.empty() || !sets.begin()->is_number()) return "-";
+  return text("%+.1f %%", -100.0 * sets.begin()->get<double>());
+}
+
+Cells row_of(const Json& result_case) {
+  const auto saving = [&](const char* key) {
+    return text_at(result_case, (std::string("/fit/saved/") + key).c_str(), "%+.1f %%", -100.0);
+  };
+  const Json& frame = result_case.contains("timing") ? result_case["timing"] : Json();
+  return {"",
+          method_name(result_case),
+          shown(result_case["storage"]),
+          text_at(result_case, "/fit/moves/changed", "%.0f"),
+          text_at(result_case, "/fit/moves/cells", "%.0f %%", 100.0),
+          text_at(result_case, "/fit/fitted/lists_changed", "%.1f %%", 100.0),
+          text_at(result_case, "/fit/unfitted/lists_changed", "%.1f %%", 100.0),
+          saving("index_entries"),
+          saving("bytes"),
+          saving("pairs"),
+          saving("false_positives"),
+          evaluated_text(result_case),
+          frame.is_object() ? text_at(result_case, "/timing/fit/ratio", "x %.2f") : "-"};
+}
+
+std::string range_text(const Json& fit) {
+  const auto metres = [&](const char* pointer) { return text_at(fit, pointer, "%.4g"); };
+  return "asked for " + metres("/asked/near") + " to " + metres("/asked/far") + " m; begins at " + metres("/near/min") +
+         " to " + metres("/near/max") + ", ends at " + metres("/far/min") + " to " + metres("/far/max") + " m";
+}
+
+}  // namespace
+
+Json fit_to_json(const run::FitResult& fit) {
+  const run::GridMoves& moves = fit.moves;
+  const Json fitted = to_json(fit.fitted), unfitted = to_json(fit.unfitted);
+  return {{"to", grid::name_of(fit.fit.to)},
+          {"damping", fit.fit.damping},
+          {"step", fit.fit.step},
+          {"asked", {{"near", number_or_null(fit.asked.near_m)}, {"far", number_or_null(fit.asked.far_m)}}},
+          {"near", to_json(moves.near_m)},
+          {"far", to_json(moves.far_m)},
+          {"moves",
+           {{"steps", moves.steps},
+            {"changed", moves.changed},
+            {"cells", number_or_null(moves.cells_changed / moves.steps)},
+            {"boundaries", to_json(moves.moved)}}},
+          {"fitted", fitted},
+          {"unfitted", unfitted},
+          {"saved", saved(fitted, unfitted)}};
+}
+
+std::string fit_table(const Json& result) {
+  std::string out;
+  for (const Json& scene : result["scenes"]) {
+    std::string blocks;
+    for (const std::string& block : blocks_of(result["cases"], scene)) {
+      std::vector<Cells> rows{k_headings};
+      const Json* any = nullptr;
+      for (const Json& result_case : result["cases"]) {
+        if (!result_case.contains("fit") || result_case["scene"] != scene["name"] || block_of(result_case) != block)
+          continue;
+        rows.push_back(row_of(result_case));
+        any = &result_case["fit"];
+      }
+      if (any == nullptr) continue;
+      blocks += " " + block + "\n  " + range_text(*any) + "\n";
+      const std::vector<std::size_t> widths = widths_of(rows);
+      for (const Cells& row : rows) blocks += aligned(row, widths);
+    }
+    if (!blocks.empty()) out += "fitted slices of " + shown(scene["name"]) + "\n" + blocks + "\n";
+  }
+  if (out.empty()) return "";
+  return "\n" + out +
+         "grids: frames with another grid than the frame before. cells moved, lists new: per frame; unfitted: lists "
+         "new "
+         "there.\nentries to frame: against the same case without fit; below 0 is saved. entries, bytes: high water. "
+         "excess: false positives.\n";
+}
+
+}  // namespace clusterbench::report

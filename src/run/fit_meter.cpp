@@ -1,0 +1,49 @@
+#include "run/fit_meter.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clusterbench::run {
+
+void Extremes::add(double value) {
+  least = std::min(least, value);
+  greatest = std::max(greatest, value);
+  sum += value;
+  ++count;
+}
+
+void GridMoveMeter::add(const grid::ScreenGrid& grid, const grid::Span& needed) {
+  const std::vector<float>& now = grid.slices.boundaries;
+  if (!needed.is_empty()) moves_.near_m.add(needed.near_m);
+  moves_.far_m.add(static_cast<double>(now.back()));
+  if (!before_.empty()) {
+    ++moves_.steps;
+    moves_.changed += before_ == now ? 0 : 1;
+    int changed = 0;
+    for (std::size_t i = 1; i < now.size(); ++i) {
+      changed += before_[i - 1] == now[i - 1] && before_[i] == now[i] ? 0 : 1;
+      const double thickness = static_cast<double>(before_[i]) - static_cast<double>(before_[i - 1]);
+      moves_.moved.add(std::abs(static_cast<double>(now[i]) - static_cast<double>(before_[i])) / thickness);
+    }
+    moves_.cells_changed += static_cast<double>(changed) / static_cast<double>(now.size() - 1);
+  }
+  before_ = now;
+}
+
+void ListChangeMeter::add(const assign::Lists& lists) {
+  if (has_before_ && lists.cell_count() == before_.cell_count()) {
+    changes_.lists += lists.cell_count();
+    for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell)
+      changes_.changed += std::ranges::equal(lists.of(cell), before_.of(cell)) ? 0 : 1;
+  }
+  before_ = lists;
+  has_before_ = true;
+}
+
+config::Config without_fit(const config::Config& config, std::size_t grid) {
+  config::Config out = config;
+  out.grids[grid] = out.grids[grid].unfitted();
+  return out;
+}
+
+}  // namespace clusterbench::run
