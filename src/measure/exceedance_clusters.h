@@ -1,6 +1,6 @@
 #pragma once
-// Peaks of series along paths: frames above a threshold come in clusters, since neighbouring frames see nearly the same.
-// Source: Ferro and Segers 2003, "Inference for clusters of extreme values".
+// Peaks of series along paths: frames above a threshold come in clusters, since neighbouring frames see nearly the
+// same. Source: Ferro and Segers 2003, "Inference for clusters of extreme values".
 
 #include <cstdint>
 #include <span>
@@ -23,9 +23,10 @@ struct Peak {
 };
 
 struct Clusters {
-  std::vector<Peak> peaks;      // path by path, in the order of the frames
-  double extremal_index = 1.0;  // in (0, 1]: the inverse of the mean length of a cluster, in entries, for high thresholds
-  std::uint64_t run = 0;        // entries above the threshold that are further apart than this are of two clusters
+  std::vector<Peak> peaks;  // path by path, in the order of the frames
+  double extremal_index =
+      1.0;                // in (0, 1]: the inverse of the mean length of a cluster, in entries, for high thresholds
+  std::uint64_t run = 0;  // entries above the threshold that are further apart than this are of two clusters
 };
 
 // Of the entries above the threshold. The intervals estimator, from the distances between these entries: it needs no

@@ -18,7 +18,7 @@ struct GeneralisedPareto {
 
   double shape() const { return bend / rate; }
   double scale() const { return 1.0 / rate; }
-  double log_survival(double excess) const;   // ln P(excess > y), -infinity beyond the end
+  double log_survival(double excess) const;    // ln P(excess > y), -infinity beyond the end
   double quantile(double log_survival) const;  // the excess that is exceeded with this chance, inverse of the above
 };
 
@@ -40,10 +40,10 @@ class ParetoFit {
   struct LogRange {
     double low = 0.0, high = 0.0;
   };
-  // The 95 % profile-likelihood interval of ln(r P(excess > y)), where r is the factor by which the true rate of excesses
-  // differs from the counted one. -infinity for a chance of 0. `independent`: as many independent excesses would tell as
-  // much about the distribution as those given; the logarithm of their likelihood is scaled to that (Chandler and Bate
-  // 2007). `counted`: the likelihood of r is that of so many counted events, Poisson.
+  // The 95 % profile-likelihood interval of ln(r P(excess > y)), where r is the factor by which the true rate of
+  // excesses differs from the counted one. -infinity for a chance of 0. `independent`: as many independent excesses
+  // would tell as much about the distribution as those given; the logarithm of their likelihood is scaled to that
+  // (Chandler and Bate 2007). `counted`: the likelihood of r is that of so many counted events, Poisson.
   LogRange log_survival_range(double excess, double independent, double counted) const;
 
  private:

@@ -15,7 +15,7 @@
 namespace clusterbench::measure {
 namespace {
 
-constexpr std::array k_quantiles{0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.925, 0.95, 0.975, 0.99};
+constexpr std::array k_quantiles{0.7, 0.75, 0.8, 0.85, 0.9, 0.925, 0.95, 0.975, 0.99};
 constexpr double k_never = 1e-12;  // smaller chances are called 0
 constexpr std::uint64_t k_seed = 1;
 constexpr int k_draws = 99;
@@ -76,9 +76,9 @@ struct FitTest {
   double values_expected = 0.0;  // different ones in a sample drawn from the fit
 };
 
-// Parametric bootstrap: each sample is fitted, too. It ends early where the answer is certain (Besag and Clifford 1991).
-// The excesses tell as much as `independent` ones, so samples have that many, and the statistic, which grows with what
-// is known, is scaled to that.
+// Parametric bootstrap: each sample is fitted, too. It ends early where the answer is certain (Besag and Clifford
+// 1991). The excesses tell as much as `independent` ones, so samples have that many, and the statistic, which grows
+// with what is known, is scaled to that.
 FitTest test_fit(const Counts& excesses, const GeneralisedPareto& fit, std::uint64_t independent) {
   const double share = static_cast<double>(independent) / static_cast<double>(total(excesses));
   const double statistic = share * anderson_darling(excesses, fit);
@@ -130,7 +130,7 @@ struct TailMaker {
 
   void count_frames();
   std::vector<std::uint64_t> thresholds() const;
-  bool has_enough_peaks(std::uint64_t threshold, std::uint64_t peaks, std::uint64_t cut);
+  bool refuse(const std::string& why);          // false; the reason at the lowest threshold counts
   bool try_threshold(std::uint64_t threshold);  // whether the fit is good
 };
 
@@ -162,22 +162,21 @@ std::vector<std::uint64_t> TailMaker::thresholds() const {
   return out;
 }
 
-bool TailMaker::has_enough_peaks(std::uint64_t threshold, std::uint64_t peaks, std::uint64_t cut) {
-  if (peaks - cut >= k_least_peaks) return true;
-  if (refusal.empty())
-    refusal = "only " + number_of(peaks - cut, "separate peak") + " above " + std::to_string(threshold) + " in " +
-              number_of(common.frames, "frame") +
-              (cut > 0 ? ", and " + std::to_string(cut) + " cut off at an end of the path" : "") + "; " +
-              std::to_string(k_least_peaks) + " are needed";
+bool TailMaker::refuse(const std::string& why) {
+  if (refusal.empty()) refusal = why;
   return false;
 }
 
 bool TailMaker::try_threshold(std::uint64_t threshold) {
   const Clusters clusters = clusters_above(paths, threshold);
   const std::uint64_t peaks = clusters.peaks.size(), cut = std::ranges::count_if(clusters.peaks, &Peak::is_cut);
-  if (!has_enough_peaks(threshold, peaks, cut)) return false;
+  if (peaks - cut < k_least_peaks)
+    return refuse("only " + number_of(peaks - cut, "separate peak") + " above " + std::to_string(threshold) + " in " +
+                  number_of(common.frames, "frame") +
+                  (cut > 0 ? ", and " + std::to_string(cut) + " cut off at an end of the path" : "") + "; " +
+                  std::to_string(k_least_peaks) + " are needed");
   // Wider steps than the unit where there are many: an excess is known to lie within one.
-  constexpr std::uint64_t k_most_steps = 1000;
+  constexpr std::uint64_t k_most_steps = 250;
   const std::uint64_t range = (common.highest - threshold) / common.unit;
   const std::uint64_t step = common.unit * ((range + k_most_steps - 1) / k_most_steps);
   const auto steps_above = [&](std::uint64_t need) { return (need - threshold + step - 1) / step; };
@@ -185,17 +184,12 @@ bool TailMaker::try_threshold(std::uint64_t threshold) {
   for (const auto& [need, frames] : common.recorded_)
     if (need > threshold) excesses[steps_above(need)] += frames;
   for (const Peak& peak : clusters.peaks) ++heights[steps_above(peak.height)];
-  if (excesses.size() < 2) {
-    refusal = repeated(threshold, peaks, 1);
-    return false;
-  }
+  if (excesses.size() < 2) return refuse(repeated(threshold, peaks, 1));
   const ParetoFit fit(as_excesses(excesses));
   const FitTest test = test_fit(excesses, fit.best(), peaks);
-  if (static_cast<double>(heights.size()) < 0.8 * test.values_expected - 2.0) {
-    refusal = repeated(threshold, peaks, heights.size()) + " where " + whole(test.values_expected) +
-              " were to be expected: the paths repeat themselves or reach a limit";
-    return false;
-  }
+  if (static_cast<double>(heights.size()) < 0.8 * test.values_expected - 2.0)
+    return refuse(repeated(threshold, peaks, heights.size()) + " where " + whole(test.values_expected) +
+                  " were to be expected: the paths repeat themselves or reach a limit");
   if (best && !(test.p > best->fit_p)) return false;
   Tail tail = common;
   tail.threshold = threshold;
@@ -237,8 +231,7 @@ double Tail::estimate_above(std::uint64_t capacity) const {
 
 Chance Tail::chance_above(std::uint64_t capacity) const {
   const double share = share_above(capacity);
-  const ParetoFit::LogRange range =
-      fit_->log_survival_range(excess_of(capacity), static_cast<double>(peaks), counted_peaks_);
+  const ParetoFit::LogRange range = fit_->log_survival_range(excess_of(capacity), counted_peaks_, counted_peaks_);
   return {rounded_chance(estimate_above(capacity)),
           {rounded_chance(share * std::exp(range.low)), rounded_chance(share * std::exp(range.high))}};
 }
@@ -269,11 +262,11 @@ TailEstimate tail_of(std::span<const PathNeeds> paths) {
   TailMaker maker{.paths = paths, .common = {}, .best = {}, .refusal = {}};
   maker.count_frames();
   if (maker.common.frames == 0) return {{}, "no frames were recorded"};
-  if (maker.common.unit == 0)
-    return {{}, "every frame needs " + std::to_string(maker.common.highest)};
+  if (maker.common.unit == 0) return {{}, "every frame needs " + std::to_string(maker.common.highest)};
   for (const std::uint64_t threshold : maker.thresholds())
     if (maker.try_threshold(threshold)) break;
-  if (!maker.best) return {{}, maker.refusal.empty() ? "more than half of the frames are at the maximum" : maker.refusal};
+  if (!maker.best)
+    return {{}, maker.refusal.empty() ? "more than half of the frames are at the maximum" : maker.refusal};
   return {std::move(maker.best), ""};
 }
 

@@ -27,7 +27,7 @@ struct Chance {
 
 class Tail {
  public:
-  std::uint64_t frames = 0;        // all that were recorded
+  std::uint64_t frames = 0;  // all that were recorded
   std::uint64_t threshold = 0;
   std::uint64_t frames_above = 0;  // the threshold; at most, where an entry stands for several frames
   std::uint64_t peaks = 0;         // clusters of frames above the threshold
@@ -42,9 +42,9 @@ class Tail {
   bool fits = false;               // fit_p >= k_least_fit_p. If not, no threshold gave a good fit; this one's is best
   bool has_merged_frames = false;  // entries stand for several frames: chances are upper bounds
 
-  // That a frame needs more than the capacity: the share of frames above the threshold, which is peaks per frame x frames
-  // per peak, times the fitted chance to be as far above. Below the threshold the recorded share. Such frames come in
-  // peaks, so that many frames have none and then some have it together.
+  // That a frame needs more than the capacity: the share of frames above the threshold, which is peaks per frame x
+  // frames per peak, times the fitted chance to be as far above. Below the threshold the recorded share. Such frames
+  // come in peaks, so that many frames have none and then some have it together.
   Chance chance_above(std::uint64_t capacity) const;
 
   struct Capacity {
@@ -61,7 +61,7 @@ class Tail {
   double estimate_above(std::uint64_t capacity) const;
 
   std::vector<std::pair<std::uint64_t, std::uint64_t>> recorded_;  // need, frames that need it; rising
-  std::uint64_t step_ = 1;      // of the excesses that were fitted: some units
+  std::uint64_t step_ = 1;                                         // of the excesses that were fitted: some units
   double counted_peaks_ = 0.0;  // as many peaks of equal length would give the frames above so precisely
   std::optional<ParetoFit> fit_;
 };
