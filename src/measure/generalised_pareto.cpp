@@ -42,7 +42,7 @@ double golden_section(double low, double high, int steps, const Value& value) {
 double log_factor_of_loss(double loss, double sign) {
   if (!(loss > 0.0)) return 0.0;
   double x = sign * std::sqrt(2.0 * loss);
-  for (int i = 0; i < 12; ++i) x -= (std::expm1(x) - x - loss) / std::expm1(x);
+  for (int i = 0; i < 6; ++i) x -= (std::expm1(x) - x - loss) / std::expm1(x);
   return x;
 }
 
@@ -112,7 +112,7 @@ struct ParetoFit::AtBend {
 };
 
 namespace {
-constexpr int k_grid = 32;
+constexpr int k_grid = 20;
 constexpr double k_nearest_end = 1e-4, k_farthest_end = 1e3;
 }  // namespace
 
@@ -153,7 +153,7 @@ ParetoFit::ParetoFit(std::vector<Excess> excesses) : excesses_(std::move(excesse
     const AtBend at(excesses_, bend_at(along));
     return at.log_likelihood(at.best_rate());
   };
-  along_ = largest(likelihood, 32);
+  along_ = largest(likelihood, 24);
   log_likelihood_ = likelihood(along_);
   const AtBend at(excesses_, bend_at(along_));
   best_ = {at.bend, at.best_rate()};
@@ -176,13 +176,13 @@ ParetoFit::LogRange ParetoFit::log_survival_range(double excess, double independ
       return sign * (factor - tried * distance);
     };
     const double low = sign > 0.0 ? std::max(at.least_rate(), 0.2 * rate) : rate, high = sign > 0.0 ? rate : 5.0 * rate;
-    return std::max(value(golden_section(low, high, 24, value)), value(rate));
+    return std::max(value(golden_section(low, high, 18, value)), value(rate));
   };
   const auto over_bends = [&](double sign) {
     const auto value = [&](double along) { return extreme(along, sign); };
-    const double found = value(largest(value, 16));
+    const double found = value(largest(value, 14));
     // The region can be narrower than the grid.
-    const double near = value(golden_section(std::max(0.0, along_ - 0.1), std::min(2.0, along_ + 0.1), 16, value));
+    const double near = value(golden_section(std::max(0.0, along_ - 0.1), std::min(2.0, along_ + 0.1), 14, value));
     return sign * std::max({found, near, value(along_)});
   };
   LogRange range{over_bends(-1.0), over_bends(1.0)};

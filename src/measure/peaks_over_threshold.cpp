@@ -19,7 +19,8 @@ constexpr std::array k_quantiles{0.7, 0.75, 0.8, 0.85, 0.9, 0.925, 0.95, 0.975, 
 constexpr double k_never = 1e-12;  // smaller chances are called 0
 constexpr std::uint64_t k_seed = 1;
 constexpr int k_draws = 99;
-constexpr int k_worse_enough = 10;  // of k_draws: a p of k_least_fit_p
+constexpr int k_worse_enough = 10;    // of k_draws: a p of k_least_fit_p
+constexpr int k_hopeless_draws = 40;  // with one worse at most: if p were k_least_fit_p, of 13 such one
 
 double rounded(double value) {
   std::array<char, 40> text{};
@@ -71,30 +72,29 @@ std::uint64_t total(const Counts& excesses) {
   return count;
 }
 
-struct FitTest {
-  double p = 0.0;
-  double values_expected = 0.0;  // different ones in a sample drawn from the fit
-};
+// How many different values a sample of the fit has, the mean of some.
+double different_values(const GeneralisedPareto& fit, std::uint64_t count) {
+  constexpr int k_samples = 10;
+  SplitMix64 random(k_seed);
+  std::size_t different = 0;
+  for (int i = 0; i < k_samples; ++i) different += drawn(fit, count, random).size();
+  return static_cast<double>(different) / k_samples;
+}
 
-// Parametric bootstrap: each sample is fitted, too. It ends early where the answer is certain (Besag and Clifford
-// 1991). The excesses tell as much as `independent` ones, so samples have that many, and the statistic, which grows
-// with what is known, is scaled to that.
-FitTest test_fit(const Counts& excesses, const GeneralisedPareto& fit, std::uint64_t independent) {
+// A p-value by parametric bootstrap: each sample is fitted, too. It ends early where the answer is clear (Besag and
+// Clifford 1991). The excesses tell as much as `independent` ones, so samples have that many, and the statistic, which
+// grows with what is known, is scaled to that.
+double p_of_fit(const Counts& excesses, const GeneralisedPareto& fit, std::uint64_t independent) {
   const double share = static_cast<double>(independent) / static_cast<double>(total(excesses));
   const double statistic = share * anderson_darling(excesses, fit);
   SplitMix64 random(k_seed);
   int worse = 0, draws = 0;
-  double different = 0.0;
-  while (draws < k_draws && worse < k_worse_enough) {
+  while (draws < k_draws && worse < k_worse_enough && (draws < k_hopeless_draws || worse > 1)) {
     const Counts sample = drawn(fit, independent, random);
     ++draws;
-    different += static_cast<double>(sample.size());
-    if (sample.size() < 2) continue;
-    const ParetoFit own(as_excesses(sample));
-    if (anderson_darling(sample, own.best()) >= statistic) ++worse;
+    if (sample.size() >= 2 && anderson_darling(sample, ParetoFit(as_excesses(sample)).best()) >= statistic) ++worse;
   }
-  const double p = worse == k_worse_enough ? worse / static_cast<double>(draws) : (worse + 1.0) / (k_draws + 1.0);
-  return {p, different / draws};
+  return worse == k_worse_enough ? worse / static_cast<double>(draws) : (worse + 1.0) / (draws + 1.0);
 }
 
 // Peaks of which one is much longer than others tell less of the frames above than as many of equal length.
@@ -186,11 +186,12 @@ bool TailMaker::try_threshold(std::uint64_t threshold) {
   for (const Peak& peak : clusters.peaks) ++heights[steps_above(peak.height)];
   if (excesses.size() < 2) return refuse(repeated(threshold, peaks, 1));
   const ParetoFit fit(as_excesses(excesses));
-  const FitTest test = test_fit(excesses, fit.best(), peaks);
-  if (static_cast<double>(heights.size()) < 0.8 * test.values_expected - 2.0)
-    return refuse(repeated(threshold, peaks, heights.size()) + " where " + whole(test.values_expected) +
+  const double expected = different_values(fit.best(), peaks);
+  if (static_cast<double>(heights.size()) < 0.8 * expected - 2.0)
+    return refuse(repeated(threshold, peaks, heights.size()) + " where " + whole(expected) +
                   " were to be expected: the paths repeat themselves or reach a limit");
-  if (best && !(test.p > best->fit_p)) return false;
+  const double p = rounded(p_of_fit(excesses, fit.best(), peaks));
+  if (best && !(p > best->fit_p)) return false;
   Tail tail = common;
   tail.threshold = threshold;
   tail.peaks = peaks;
@@ -201,8 +202,8 @@ bool TailMaker::try_threshold(std::uint64_t threshold) {
   tail.scale = rounded(fit.best().scale() * static_cast<double>(step));
   if (fit.best().bend < 0.0)
     tail.end = rounded(static_cast<double>(threshold) - static_cast<double>(step) / fit.best().bend);
-  tail.fit_p = rounded(test.p);
-  tail.fits = tail.fit_p >= k_least_fit_p;
+  tail.fit_p = p;
+  tail.fits = p >= k_least_fit_p;
   tail.step_ = step;
   tail.counted_peaks_ = count_for_lengths(clusters.peaks);
   tail.fit_ = fit;
