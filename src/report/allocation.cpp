@@ -208,6 +208,10 @@ bool has_camera(const SizedStructure& structure, const Json& camera) {
 
 }  // namespace
 
+std::uint64_t SizedBuffer::double_buffered_bytes() const {
+  return times(2, bytes);
+}
+
 std::uint64_t SizedStructure::bytes() const {
   std::uint64_t sum = 0;
   for (const SizedBuffer& buffer : buffers) sum = buffer.bytes > k_most - sum ? k_most : sum + buffer.bytes;

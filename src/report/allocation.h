@@ -49,6 +49,7 @@ struct SizedBuffer {
   std::uint64_t warn_above = 0;  // elements; the capacity itself where it is all that there can be
 
   bool is_all() const { return capacity == theoretical_max; }
+  std::uint64_t double_buffered_bytes() const;
 };
 
 // One structure of one scene, viewport and grid, over all cameras.
