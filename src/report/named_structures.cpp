@@ -25,7 +25,8 @@ std::string identifier(const std::string& name) {
   }
   id.resize(std::min(id.size(), k_longest));
   while (!id.empty() && id.back() == '_') id.pop_back();
-  const bool is_reserved = id.empty() || id.starts_with("gl_");  // of GLSL
+  if (id.empty()) return "case";
+  const bool is_reserved = id.starts_with("gl_");  // of GLSL
   return is_reserved || std::isdigit(static_cast<unsigned char>(id.front())) != 0 ? "case_" + id : id;
 }
 

@@ -19,7 +19,7 @@ struct SizeRequest {
   std::string format = "table";   // one of size_formats()
   std::string rounding = "page";  // one of size_roundings()
   // Without: as the result's configuration has them.
-  std::optional<double> margin, warn_at;
+  std::optional<double> margin = {}, warn_at = {};
 };
 
 // A table, C++, the languages of shaders, and for other programs JSON.
