@@ -175,6 +175,7 @@ struct spirv_cross_interface {
   void (*destruct)(spirv_cross_shader*);
   void (*invoke)(spirv_cross_shader*);
 };
+namespace spirv_cross {
 namespace internal {
 template <class T> struct Resource {
   T* at;
@@ -182,8 +183,6 @@ template <class T> struct Resource {
   T& get() { return *at; }
 };
 }  // namespace internal
-namespace spirv_cross {
-namespace internal = ::internal;
 struct ComputeResources { void init(spirv_cross_shader&) {} };
 struct ComputePrivateResources {};
 template <class S, class R, int, int, int> struct ComputeShader : spirv_cross_shader {
@@ -201,17 +200,17 @@ template <class S, class R, int, int, int> struct ComputeShader : spirv_cross_sh
 constexpr const char* k_driver = R"(
 #include <cstdio>
 int main(int, char** files) {
-  static float samples[SAMPLES * 3];
-  static int32_t cells[SAMPLES];
+  static float numbers[SAMPLES * 3];
+  static int32_t answers[SAMPLES];
   std::FILE* in = std::fopen(files[1], "rb");
-  if (in == nullptr || std::fread(samples, sizeof samples, 1, in) != 1) return 2;
-  spirv_cross_shader::buffers[0] = samples;
-  spirv_cross_shader::buffers[1] = cells;
+  if (in == nullptr || std::fread(numbers, sizeof numbers, 1, in) != 1) return 2;
+  spirv_cross_shader::buffers[0] = numbers;
+  spirv_cross_shader::buffers[1] = answers;
   spirv_cross_shader_t* shader = spirv_cross_get_interface()->construct();
   spirv_cross_get_interface()->invoke(shader);
   spirv_cross_get_interface()->destruct(shader);
   std::FILE* out = std::fopen(files[2], "wb");
-  return out != nullptr && std::fwrite(cells, sizeof cells, 1, out) == 1 && std::fclose(out) == 0 ? 0 : 3;
+  return out != nullptr && std::fwrite(answers, sizeof answers, 1, out) == 1 && std::fclose(out) == 0 ? 0 : 3;
 }
 )";
 
@@ -240,7 +239,6 @@ class SizeShaders : public ::testing::Test {
   // The cells that the shader of `compiles` finds.
   std::vector<std::int32_t> answers(const std::vector<Probe>& probes) const {
     const std::string samples = std::to_string(probes.size());
-    write("spirv_cross_internal", "");
     fs::create_directories(folder_ / "spirv_cross");
     write("spirv_cross/internal_interface.hpp", k_interface);
     write("spirv_cross/external_interface.h", "");
@@ -250,7 +248,6 @@ class SizeShaders : public ::testing::Test {
     in.close();
     if (!does("spirv-cross --cpp " + path("x.spv") + " --output " + path("x.inc"))) return {};
     write("x.cpp", "#include \"x.inc\"\n#include \"driver.inc\"\n");
-    // -fpermissive: it writes "0.5f.x".
     if (!does("c++ -std=c++17 -w -O1 -ffp-contract=off -DSAMPLES=" + samples + " -I" + path("") + " " + path("x.cpp") +
               " -o " + path("x")) ||
         !does(path("x") + " " + path("in") + " " + path("out")))
