@@ -1,4 +1,4 @@
-// `clusterbench schema config|result|comparison|ratios|stress` and `clusterbench validate FILE...`.
+// `clusterbench schema config|result|comparison|ratios|stress|size` and `clusterbench validate FILE...`.
 
 #include <algorithm>
 #include <fstream>
@@ -21,10 +21,12 @@ ExitCode validate_written(const std::string& path, const nlohmann::json& documen
   const std::vector<std::string> violations = config::schema_violations(row.schema(), document);
   for (const std::string& violation : violations) tell(path + ": " + violation);
   if (!violations.empty()) return ExitCode::usage;
-  const bool has_cases = document.contains("cases");
-  std::cout << path << ": valid, " << row.title << " with "
-            << (has_cases ? number_of(document["cases"].size(), "case") : number_of(document["blocks"].size(), "block"))
-            << "\n";
+  std::cout << path << ": valid, " << row.title << " with ";
+  for (const char* part : {"case", "block", "structure"})
+    if (const auto list = document.find(part + std::string("s")); list != document.end()) {
+      std::cout << number_of(list->size(), part) << "\n";
+      break;
+    }
   return ExitCode::ok;
 }
 
@@ -51,7 +53,7 @@ void add_schema(Command& program, Action& action) {
   std::vector<std::string> names;
   for (const config::DocumentRow& row : config::document_rows()) names.emplace_back(row.name);
   auto name = std::make_shared<std::string>();
-  command.add_option("WHICH", *name, "Of a configuration, or of what run, compare --json, ratio --json or stress write")
+  command.add_option("WHICH", *name, "Of a configuration, or of what run, compare --json, ratio --json, stress or size --format json write")
       .required()
       .one_of(names);
   command.when_named([name, &action] {

@@ -114,7 +114,7 @@ Json result_schema() {
 }
 
 std::span<const DocumentRow> document_rows() {
-  static const std::array<DocumentRow, 5> rows{{
+  static const std::array<DocumentRow, 6> rows{{
       {Document::config, "config", "a configuration", config_schema},
       {Document::result, "result", "a result of `clusterbench run`", result_schema},
       {Document::comparison, "comparison", "a comparison of `clusterbench compare`",
@@ -122,13 +122,14 @@ std::span<const DocumentRow> document_rows() {
       {Document::ratios, "ratios", "ratios of `clusterbench ratio`", [] { return Json::parse(ratios_schema_text()); }},
       {Document::stress, "stress", "a result of `clusterbench stress`",
        [] { return Json::parse(stress_schema_text()); }},
+      {Document::size, "size", "allocations of `clusterbench size`", [] { return Json::parse(size_schema_text()); }},
   }};
   return rows;
 }
 
 void check_version(const std::string& path, const Json& document, const DocumentRow& row) {
   const Json schema = row.schema();
-  for (const char* key : {"schema_version", "comparison_version", "ratios_version"}) {
+  for (const char* key : {"schema_version", "comparison_version", "ratios_version", "size_version"}) {
     if (!document.contains(key) || !schema["properties"].contains(key)) continue;
     const Json &found = document[key], &wanted = schema["properties"][key]["const"];
     if (found == wanted) continue;

@@ -7,7 +7,7 @@
 
 namespace clusterbench::config {
 
-enum class Document { config, result, comparison, ratios, stress };
+enum class Document { config, result, comparison, ratios, stress, size };
 
 struct DocumentRow {
   Document document;
@@ -24,6 +24,7 @@ Document document_of(const Json& value) {
   if (!value.is_object()) return Document::config;
   if (value.contains("comparison_version")) return Document::comparison;
   if (value.contains("ratios_version")) return Document::ratios;
+  if (value.contains("size_version")) return Document::size;
   if (!value.contains("schema_version") || !value.contains("cases")) return Document::config;
   return value.contains("kind") && value["kind"] == "stress" ? Document::stress : Document::result;
 }
