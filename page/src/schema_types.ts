@@ -310,6 +310,19 @@ export type Result = {
         frames_per_entry: FramesPerEntry;
         bytes: number[]; // Headers and indices of the frame [bytes]
       }; // Frame by frame [over each frame]
+      each?: Array<{
+        name: string; // indices, headers, header_blocks (packed), counts (fixed), words (bitfield), nodes, heads (linked), masks, bins, order (z-binning), boxes (bvh), growths (tile-slices); other methods' have names of their own
+        element_bytes: number; // Size of an element [bytes, over one element]
+        step: number; // Elements come in multiples of it [elements, over the worst frame]
+        high_water: number; // That the worst frame needs [elements, over all frames]
+        theoretical_max: number; // That any frame could need with this grid and these lights [elements, over all frames]
+        worst_frame: number; // That made the high-water mark, the first one [frame, over the path]
+        worst_cell?: Cell; // That has this frame's longest list; absent without cells
+        along_path?: {
+          frames_per_entry: FramesPerEntry;
+          elements: number[]; // That the frame needs [elements]
+        }; // Frame by frame; absent where every frame needs high_water [over each frame]
+      }>; // Each buffer of the structure as an engine allocates it: what it needs so that nothing is dropped
     }; // What to allocate
     error?: {
       true_pairs: number; // (cell, light) pairs that touch, decided exactly [pairs]

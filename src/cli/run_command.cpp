@@ -19,6 +19,7 @@
 #include "cli/output.h"
 #include "cli/picture_files.h"
 #include "cli/rounds_protocol.h"
+#include "cli/run_inputs.h"
 #include "cli/stop.h"
 #include "cli/terminal.h"
 #include "config/config.h"
@@ -43,10 +44,9 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 struct RunFlags {
-  std::vector<std::string> inputs;
+  RunInputs inputs;
   std::string output, filter, count;
   std::vector<std::string> exports;
-  std::vector<std::vector<std::string>> settings{config::config_flags().size()};  // by flag
   bool resume = false, dry_run = false, no_timing = false, quiet = false;
 
   BaselineRequest baseline;
@@ -61,33 +61,11 @@ struct RunFlags {
   std::string count_dumps;
 };
 
-bool is_scene(const std::string& path) {
-  const std::string extension = fs::path(path).extension().string();
-  return extension == ".glb" || extension == ".gltf";
-}
-
-std::vector<config::FlagValue> settings(const RunFlags& flags) {
-  std::vector<config::FlagValue> all;
-  for (std::size_t i = 0; i < flags.settings.size(); ++i) {
-    const config::ConfigFlag& flag = config::config_flags()[i];
-    const std::vector<std::string>& values = flags.settings[i];
-    if (!flag.is_repeatable && !values.empty()) all.push_back({flag.name, joined(values, ",")});
-    for (const std::string& value : flag.is_repeatable ? values : std::vector<std::string>{})
-      all.push_back({flag.name, value});
-  }
-  return all;
-}
-
-config::Config read_inputs(const RunFlags& flags) {
-  const auto scenes = static_cast<std::size_t>(std::count_if(flags.inputs.begin(), flags.inputs.end(), is_scene));
-  if (scenes == flags.inputs.size())
-    return config::default_config({flags.inputs.begin(), flags.inputs.end()}, settings(flags));
-  if (scenes == 0 && flags.inputs.size() == 1) return config::load_config(flags.inputs.front(), settings(flags));
+config::Config read_config(const RunFlags& flags) {
   for (const char* way : {"perf", "callgrind", "auto"})
-    if (!flags.count.empty() && flags.inputs.back() == way)
+    if (!flags.count.empty() && flags.inputs.paths.back() == way && !fs::exists(way))
       throw Error("", "--count", std::string("takes its value with an equals sign: --count=") + way);
-  throw Error("", "command line",
-              "takes one configuration (.json), or one or more scenes (.glb, .gltf), not " + joined(flags.inputs));
+  return read_inputs(flags.inputs);
 }
 
 config::Config overridden(config::Config config, const RunFlags& flags) {
@@ -230,10 +208,10 @@ ExitCode report_limits(const config::Config& config, const Json& result) {
 std::vector<std::string> plan_arguments(const RunFlags& flags) {
   std::vector<std::string> arguments;
   if (!flags.filter.empty()) arguments.push_back("--filter=" + flags.filter);
-  for (const config::FlagValue& setting : settings(flags))
+  for (const config::FlagValue& setting : flag_values(flags.inputs))
     if (setting.name != "--fail-if" && setting.name != "--launches") arguments.push_back(setting.text());
   arguments.emplace_back("--");
-  arguments.insert(arguments.end(), flags.inputs.begin(), flags.inputs.end());
+  arguments.insert(arguments.end(), flags.inputs.paths.begin(), flags.inputs.paths.end());
   return arguments;
 }
 
@@ -324,7 +302,7 @@ std::string own_command_line() {
 
 // Before minutes go into measuring.
 void refuse_losses(const RunFlags& flags, const config::Config& config) {
-  std::vector<std::string> outputs{flags.output}, inputs = flags.inputs;
+  std::vector<std::string> outputs{flags.output}, inputs = flags.inputs.paths;
   for (const std::string& text : flags.exports) outputs.push_back(text.substr(text.find('=') + 1));
   for (const config::SceneRequest& scene : config.scenes) inputs.push_back(scene.path.string());
   refuse_overwriting(outputs, inputs);
@@ -383,7 +361,7 @@ ExitCode measure(const RunFlags& flags, const config::Config& config, const run:
 }
 
 void check_baseline(const RunFlags& flags) {
-  for (const std::string& input : flags.inputs)
+  for (const std::string& input : flags.inputs.paths)
     if (is_stream_name(input) || !fs::is_regular_file(input))
       throw Error(input, "--baseline-binary", "is no file that the other program could read, too; save it to one");
   if (flags.no_timing)
@@ -404,7 +382,7 @@ ExitCode serve(const RunFlags& flags, const config::Config& config, const run::P
 ExitCode serve_run(const RunFlags& flags) {
   std::string line;
   if (!std::getline(std::cin, line)) return ExitCode::ok;  // the run has ended
-  const ReceivedRun received = received_run(line, flags.inputs.front());
+  const ReceivedRun received = received_run(line, flags.inputs.paths.front());
   if (flags.serves_launch)
     serve_launch(received.config, received.plan);
   else
@@ -414,7 +392,7 @@ ExitCode serve_run(const RunFlags& flags) {
 
 ExitCode run(const RunFlags& flags) {
   if (flags.serves_launch || !flags.count_dumps.empty()) return serve_run(flags);
-  const config::Config config = overridden(read_inputs(flags), flags);
+  const config::Config config = overridden(read_config(flags), flags);
   const CountWay way = count_way(flags.count);
   const run::Plan plan = run::make_plan(config, flags.filter);
   if (flags.rounds_server != 0) return serve(flags, config, plan);
@@ -429,7 +407,7 @@ ExitCode run(const RunFlags& flags) {
 void add_run(Command& program, Action& action) {
   auto flags = std::make_shared<RunFlags>();
   Command command = program.add_command("run", "Measure a configuration, or scenes with the default sweep");
-  command.add_option("INPUT", flags->inputs, "One configuration (.json), or scenes (.glb, .gltf)").required();
+  command.add_option("INPUT", flags->inputs.paths, "One configuration (.json), or scenes (.glb, .gltf)").required();
   command.add_option(
       "-o,--output", flags->output,
       "Result file; -: standard output. Without it a terminal shows the table only, a pipe gets the result");
@@ -437,9 +415,7 @@ void add_run(Command& program, Action& action) {
       .once_a_name();
   add_image_options(command, flags->images);
   command.add_option("--filter", flags->filter, "Only cases whose name matches this regular expression");
-  for (std::size_t i = 0; i < flags->settings.size(); ++i)
-    command.add_option(config::config_flags()[i].name, flags->settings[i], config::config_flags()[i].summary)
-        .once_a_name();
+  add_config_options(command, flags->inputs);
   command.add_flag("--count{auto}", flags->count,
                    "Count instructions, too: --count=perf (hardware), =callgrind (valgrind), or what works");
   command.add_option("--count-dumps", flags->count_dumps, "").hidden();

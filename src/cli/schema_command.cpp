@@ -1,5 +1,5 @@
-// `clusterbench schema config|result|comparison|ratios|recommendation|stress|worst-case` and `clusterbench validate
-// FILE...`.
+// `clusterbench schema config|result|comparison|ratios|recommendation|stress|worst-case|size` and `clusterbench
+// validate FILE...`.
 
 #include <algorithm>
 #include <fstream>
@@ -22,7 +22,7 @@ ExitCode validate_written(const std::string& path, const nlohmann::json& documen
   const std::vector<std::string> violations = config::schema_violations(row.schema(), document);
   for (const std::string& violation : violations) tell(path + ": " + violation);
   if (!violations.empty()) return ExitCode::usage;
-  for (const char* part : {"case", "block", "answer", "frame"}) {
+  for (const char* part : {"case", "block", "answer", "frame", "structure"}) {
     const std::string parts = std::string(part) + "s";
     if (!document.contains(parts)) continue;
     std::cout << path << ": valid, " << row.title << " with " << number_of(document[parts].size(), part) << "\n";
@@ -55,9 +55,9 @@ void add_schema(Command& program, Action& action) {
   for (const config::DocumentRow& row : config::document_rows()) names.emplace_back(row.name);
   auto name = std::make_shared<std::string>();
   command
-      .add_option(
-          "WHICH", *name,
-          "Of a configuration, or of what run, compare --json, ratio --json, recommend, stress or worst-case write")
+      .add_option("WHICH", *name,
+                  "Of a configuration, or of what run, compare --json, ratio --json, recommend, stress, worst-case or "
+                  "size --format json write")
       .required()
       .one_of(names);
   command.when_named([name, &action] {

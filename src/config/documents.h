@@ -7,7 +7,7 @@
 
 namespace clusterbench::config {
 
-enum class Document { config, result, comparison, ratios, recommendation, stress, worst_case };
+enum class Document { config, result, comparison, ratios, recommendation, stress, worst_case, size };
 
 struct DocumentRow {
   Document document;
@@ -26,6 +26,7 @@ Document document_of(const Json& value) {
   if (value.contains("ratios_version")) return Document::ratios;
   if (value.contains("kind") && value["kind"] == "worst-case") return Document::worst_case;
   if (value.contains("recommendation_version")) return Document::recommendation;
+  if (value.contains("size_version")) return Document::size;
   if (!value.contains("schema_version") || !value.contains("cases")) return Document::config;
   return value.contains("kind") && value["kind"] == "stress" ? Document::stress : Document::result;
 }

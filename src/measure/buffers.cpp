@@ -30,6 +30,7 @@ void BufferMeter::add_frame(int frame, const assign::LightStructure& structure, 
   raise(sum_.index_entries.theoretical_max, limit.index_entries);
   raise(sum_.bytes.theoretical_max, limit.bytes);
   sum_.bytes_along_path.add_frame(use.index_bytes + use.header_bytes);
+  add_to_each(frame, structure.buffers(), lists);
   sum_.index_bits = structure.index_bits();
   raise(laid_out_entries_, use.index_bytes * 8 / structure.index_bits());
   sum_.dropped_pairs += use.dropped_pairs;
@@ -40,6 +41,24 @@ void BufferMeter::add_frame(int frame, const assign::LightStructure& structure, 
   upload_total_ += use.upload_bytes;
   traffic_total_ += use.traffic_bytes;
   ++frames_;
+}
+
+void BufferMeter::add_to_each(int frame, const std::vector<assign::BufferNeed>& needs, const assign::Lists* lists) {
+  sum_.each.resize(needs.size());
+  for (std::size_t i = 0; i < needs.size(); ++i) {
+    const assign::BufferNeed& need = needs[i];
+    BufferHighWater& mark = sum_.each[i];
+    if (frames_ == 0 || need.elements > mark.high_water) {
+      mark.name = need.name;
+      mark.element_bytes = need.element_bytes;
+      mark.step = need.step;
+      mark.high_water = need.elements;
+      mark.worst_frame = frame;
+      if (lists != nullptr) mark.worst_cell = lists->fullest_cell();
+    }
+    mark.theoretical_max = std::max(mark.theoretical_max, need.most);
+    mark.along_path.add_frame(need.elements);
+  }
 }
 
 Buffers BufferMeter::result() const {

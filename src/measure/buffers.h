@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <optional>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "assign/contract/light_structure.h"
 #include "measure/path_series.h"
@@ -19,6 +21,18 @@ struct AllocationRule {
 
 struct HighWater {
   std::uint64_t high_water = 0, theoretical_max = 0, recommended = 0;
+};
+
+// What one buffer of the structure needs (assign::BufferNeed), over all frames.
+struct BufferHighWater {
+  static constexpr std::size_t k_most_entries = 4096;  // nearly every path frame by frame: its tail is estimated
+
+  std::string name;
+  std::uint32_t element_bytes = 0;
+  std::uint64_t step = 1, high_water = 0, theoretical_max = 0;  // elements; step: of the worst frame
+  int worst_frame = 0;
+  std::optional<std::uint32_t> worst_cell;  // its longest list, before anything is dropped; none without cells
+  PathSeries along_path{k_most_entries};    // elements
 };
 
 struct Buffers {
@@ -37,6 +51,7 @@ struct Buffers {
   std::optional<std::uint32_t> worst_cell;     // its longest list, before anything is dropped; none without cells
   double in_use_mean = 0.0, in_use_max = 0.0;  // share of the recommended entries in use per frame
   PathSeries bytes_along_path;                 // headers + indices
+  std::vector<BufferHighWater> each;
 };
 
 class BufferMeter {
@@ -48,6 +63,8 @@ class BufferMeter {
   Buffers result() const;
 
  private:
+  void add_to_each(int frame, const std::vector<assign::BufferNeed>& needs, const assign::Lists* lists);
+
   AllocationRule rule_;
   Buffers sum_;
   std::uint64_t entries_total_ = 0, upload_total_ = 0, traffic_total_ = 0;

@@ -10,7 +10,7 @@ void PathSeries::add_frame(std::uint64_t value) {
     ++frames_in_last_;
     return;
   }
-  if (entries_.size() == k_most_entries) join_neighbours();
+  if (entries_.size() == most_entries_) join_neighbours();
   entries_.push_back(value);
   frames_in_last_ = 1;
 }

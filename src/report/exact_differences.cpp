@@ -38,6 +38,8 @@ constexpr std::array k_rules{
     Rule{"/occupancy", Kind::follows},
     Rule{"/buffers/used_share", Kind::follows},
     Rule{"/buffers/worst_", Kind::follows},
+    Rule{"/buffers/along_path", Kind::follows},
+    Rule{"/buffers/each", Kind::follows},
     Rule{"/buffers/overflow/lights", Kind::follows},
     Rule{"/buffers", Kind::cost},
     Rule{"/error/true_pairs", Kind::fixed},

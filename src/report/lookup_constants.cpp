@@ -50,7 +50,7 @@ void add_tiles(std::vector<LookupConstant>& out, const Json& result_case) {
 
 void add_slices(std::vector<LookupConstant>& out, const Json& slices) {
   const Json& lookup = slices["lookup"];
-  if (lookup["form"] == "search")
+  if (lookup["form"] == "search" && slices["boundaries"].size() > 1)
     out.push_back({"slice_boundaries", Type::real, numbers_of(slices["boundaries"]), true});
   for (const auto& [key, name] :
        {std::pair("scale", "slice_scale"), std::pair("bias", "slice_bias"), std::pair("first", "slice_first")})

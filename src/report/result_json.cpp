@@ -1,5 +1,6 @@
 #include "report/result_json.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -71,6 +72,21 @@ Json occupancy(const run::CaseResult& case_result) {
             {"longest_list", o.longest_along_path.entries()}}}};
 }
 
+// Along the path only where frames differ: of the others high_water says all.
+Json buffer(const measure::BufferHighWater& mark, const nlohmann::json& cells) {
+  Json out{{"name", mark.name},
+           {"element_bytes", mark.element_bytes},
+           {"step", mark.step},
+           {"high_water", mark.high_water},
+           {"theoretical_max", mark.theoretical_max},
+           {"worst_frame", mark.worst_frame}};
+  if (mark.worst_cell) out["worst_cell"] = cell_coordinates(*mark.worst_cell, cells);
+  const std::vector<std::uint64_t>& along = mark.along_path.entries();
+  if (std::ranges::any_of(along, [&](std::uint64_t elements) { return elements != mark.high_water; }))
+    out["along_path"] = {{"frames_per_entry", mark.along_path.frames_per_entry()}, {"elements", along}};
+  return out;
+}
+
 Json buffers(const run::CaseResult& case_result) {
   const measure::Buffers& b = case_result.buffers;
   Json out{{"index_entries", to_json(b.index_entries)},
@@ -91,6 +107,8 @@ Json buffers(const run::CaseResult& case_result) {
   if (b.worst_cell) out["worst_cell"] = cell_coordinates(*b.worst_cell, case_result.grid["cells"]);
   out["along_path"] = {{"frames_per_entry", b.bytes_along_path.frames_per_entry()},
                        {"bytes", b.bytes_along_path.entries()}};
+  out["each"] = Json::array();
+  for (const measure::BufferHighWater& mark : b.each) out["each"].push_back(buffer(mark, case_result.grid["cells"]));
   return out;
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "assign/bounds/ball_boxes.h"
 #include "assign/contract/assigner_run.h"
 #include "assign/each_target.h"
@@ -77,6 +79,35 @@ TEST(ZBinning, leaves_out_lights_beside_the_view_and_keeps_words_for_the_others)
   const AssignerRun run = TwoTiles(lights).run("z-binning");
   EXPECT_EQ(run.structure()->use().index_entries, 2u * 2u);
   EXPECT_EQ(run.structure()->limit().index_entries, 2u * 4u);
+}
+
+// Name, bytes of an element, elements, most, step.
+using Needs = std::vector<std::tuple<std::string, std::uint32_t, std::uint64_t, std::uint64_t, std::uint64_t>>;
+
+Needs needs_of(const LightStructure& structure) {
+  Needs needs;
+  std::uint64_t bytes = 0, most = 0;
+  for (const BufferNeed& need : structure.buffers()) {
+    needs.emplace_back(need.name, need.element_bytes, need.elements, need.most, need.step);
+    bytes += need.element_bytes * need.elements;
+    most += need.element_bytes * need.most;
+  }
+  EXPECT_EQ(bytes, structure.use().index_bytes + structure.use().header_bytes);
+  EXPECT_EQ(most, structure.limit().bytes);
+  return needs;
+}
+
+TEST(OwnStructures, say_what_each_of_their_buffers_needs) {
+  std::vector<scene::WorldLight> lights;
+  for (int i = 0; i < 100; ++i) lights.push_back(point_light({i < 33 ? 2.0 : 300.0, 0, -6}, 1.0));
+  lights.push_back(spot_light({2, 0, -5}, 4.0, {0, 0, -1}, 0.4));
+  const TwoTiles two(lights);
+  // In view: 33 points and a spot, so two words for each of two tiles; of all 101 lights four. Four bins of two ranges.
+  EXPECT_EQ(needs_of(*two.run("z-binning").structure()),
+            (Needs{{"masks", 4, 4, 8, 2}, {"bins", 16, 4, 4, 1}, {"order", 4, 34, 101, 1}}));
+  // 13, 2 and 1 groups of eight boxes around the points, one around the spot.
+  EXPECT_EQ(needs_of(*two.run("bvh").structure()),
+            (Needs{{"boxes", 24, 8 * 17, 8 * 17, 8}, {"order", 4, 101, 101, 1}}));
 }
 
 TEST(Bvh, a_sample_gets_the_lights_whose_boxes_hold_it_wherever_it_lies) {

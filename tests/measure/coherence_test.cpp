@@ -23,6 +23,7 @@ class Stairs final : public assign::LightStructure {
   }
   assign::StructureUse use() const override { return {}; }
   assign::StructureLimit limit() const override { return {}; }
+  std::vector<assign::BufferNeed> buffers() const override { return {}; }
   std::uint32_t index_bits() const override { return 32; }
   bool has_cells() const override { return false; }
   void expand(assign::Lists&) const override {}
@@ -83,6 +84,7 @@ TEST(Coherence, lists_of_other_lights_are_united) {
     }
     assign::StructureUse use() const override { return {}; }
     assign::StructureLimit limit() const override { return {}; }
+    std::vector<assign::BufferNeed> buffers() const override { return {}; }
     std::uint32_t index_bits() const override { return 32; }
     bool has_cells() const override { return false; }
     void expand(assign::Lists&) const override {}

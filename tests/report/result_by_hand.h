@@ -9,6 +9,25 @@
 
 namespace clusterbench::report::testing {
 
+// 20 and 40 indices of a byte in the two frames, and a header for each of the 24 cells.
+inline void add_buffers(run::CaseResult& case_result) {
+  measure::BufferHighWater indices;
+  indices.name = "indices";
+  indices.element_bytes = 1;
+  indices.high_water = 40;
+  indices.theoretical_max = 480;
+  indices.worst_frame = 1;
+  indices.worst_cell = 23;  // x 3, y 2, z 1
+  for (const std::uint64_t elements : {20u, 40u}) indices.along_path.add_frame(elements);
+  measure::BufferHighWater headers;
+  headers.name = "headers";
+  headers.element_bytes = 8;
+  headers.high_water = headers.theoretical_max = 24;
+  headers.worst_cell = 5;  // x 1, y 1, z 0
+  for (int frame = 0; frame < 2; ++frame) headers.along_path.add_frame(24);
+  case_result.buffers.each = {indices, headers};
+}
+
 inline run::CaseResult case_by_hand(const std::string& id, const std::string& assigner, double assign_ns) {
   run::CaseResult case_result;
   case_result.id = id;
@@ -38,6 +57,7 @@ inline run::CaseResult case_by_hand(const std::string& id, const std::string& as
   case_result.buffers.header_bytes = 192;
   case_result.buffers.worst_frame = 1;
   case_result.buffers.worst_cell = 23;  // x 3, y 2, z 1
+  add_buffers(case_result);
   measure::ErrorCounts error;
   error.true_pairs = 48;
   error.reported_pairs = 60;

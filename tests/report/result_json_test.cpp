@@ -174,6 +174,11 @@ TEST(ResultJson, holds_the_figures_under_their_names) {
   EXPECT_EQ(entry["occupancy"]["along_path"],
             (Json{{"frames_per_entry", 1}, {"pairs", {20, 40}}, {"longest_list", {5, 7}}}));
   EXPECT_EQ(entry["buffers"]["along_path"], (Json{{"frames_per_entry", 1}, {"bytes", {212, 232}}}));
+  const Json indices = Json::parse(R"({"name": "indices", "element_bytes": 1, "step": 1, "high_water": 40,
+    "theoretical_max": 480, "worst_frame": 1, "worst_cell": [3, 2, 1],
+    "along_path": {"frames_per_entry": 1, "elements": [20, 40]}})");
+  EXPECT_EQ(entry["buffers"]["each"][0], indices);
+  EXPECT_FALSE(entry["buffers"]["each"][1].contains("along_path")) << "all frames need the same";
   EXPECT_EQ(entry["buffers"]["index_entries"]["high_water"], 40);
   EXPECT_EQ(entry["error"]["excess_ratio"], 0.25);
   EXPECT_EQ(entry["shading"]["overshade"], 1.5);

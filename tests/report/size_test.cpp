@@ -6,7 +6,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
+#include "config/documents.h"
+#include "config/schema_check.h"
 #include "core/error.h"
 #include "report/result_by_hand.h"
 #include "report/result_json.h"
@@ -17,11 +20,16 @@ namespace {
 namespace fs = std::filesystem;
 using testing::result_by_hand;
 
-std::string size_of(const run::Result& result, const SizeRequest& request = {"", true}) {
+std::string size_of(const run::Result& result, const SizeRequest& request = {"", true, "cpp"}) {
   return size_report(result_to_json(result, {}), request);
 }
 
-TEST(Size, of_each_grid_the_fastest_case_that_loses_nothing_is_shown_under_the_name_of_the_grid) {
+// Without --all.
+std::string best_of(const run::Result& result, const std::string& format = "cpp") {
+  return size_of(result, {"", false, format});
+}
+
+TEST(Size, of_each_grid_the_fastest_structure_that_loses_nothing_is_shown_under_the_name_of_the_grid) {
   run::Result result = result_by_hand();
   run::CaseResult lossy = testing::case_by_hand("lossy", "broken", 0.5),
                   other = testing::case_by_hand("other", "x", 9.0);
@@ -37,16 +45,29 @@ TEST(Size, of_each_grid_the_fastest_case_that_loses_nothing_is_shown_under_the_n
     result.cases.push_back(case_result);
     result.planned_ids.push_back(case_result.id);
   }
-  const std::string report = size_of(result, {});
-  EXPECT_NE(report.find("// hall/walk/frustum 64px/aabb/packed\n"), std::string::npos) << report;
-  EXPECT_EQ(report.find("brute-force"), std::string::npos) << report;
-  EXPECT_NE(report.find("LightListBudget hall_walk_frustum_64px{"), std::string::npos) << report;
-  EXPECT_NE(report.find("LightListBudget hall_walk_frustum_32px{"), std::string::npos) << report;
-  EXPECT_EQ(report.find("broken"), std::string::npos) << report;
-  EXPECT_EQ(report.find("drops"), std::string::npos) << report;
-  EXPECT_EQ(report.find("hierarchy"), std::string::npos) << report;
-  EXPECT_EQ(report.find("short-sighted"), std::string::npos) << report;
+  const std::string report = best_of(result);
+  EXPECT_NE(report.find("// hall/frustum 64px/aabb/packed\n"), std::string::npos) << report;
+  EXPECT_NE(report.find("LightBuffer hall_frustum_64px_indices{"), std::string::npos) << report;
+  EXPECT_NE(report.find("LightBuffer hall_frustum_32px_indices{"), std::string::npos) << report;
+  for (const char* other_name : {"brute-force", "broken", "drops", "hierarchy", "short-sighted"})
+    EXPECT_EQ(report.find(other_name), std::string::npos) << report;
   EXPECT_NE(report.find("--all has all 7"), std::string::npos) << report;
+  EXPECT_NE(best_of(result, "table").find("--all has all 7"), std::string::npos);
+}
+
+TEST(Size, a_structure_that_loses_lights_at_one_camera_comes_after_one_that_loses_none) {
+  run::Result result = result_by_hand();
+  for (run::CaseResult one : std::vector<run::CaseResult>(result.cases)) {
+    one.camera = "fly";
+    one.name.replace(one.name.find("walk"), 4, "fly");
+    if (one.assigner == "aabb") one.error->false_negatives = 1;
+    one.id += "-fly";
+    result.cases.push_back(one);
+    result.planned_ids.push_back(one.id);
+  }
+  const std::string report = best_of(result);
+  EXPECT_NE(report.find("// hall/frustum 64px/brute-force/packed\n"), std::string::npos) << report;
+  EXPECT_NE(report.find("cameras walk, fly\n"), std::string::npos) << report;
 }
 
 TEST(Size, a_structure_of_its_own_that_loses_lights_comes_after_one_that_loses_none) {
@@ -62,31 +83,29 @@ TEST(Size, a_structure_of_its_own_that_loses_lights_comes_after_one_that_loses_n
     own.shading->needed = 1000000;
     result.cases.push_back(own);
   }
-  EXPECT_NE(size_of(result, {}).find("// hall/walk/frustum 64px/keeps/packed\n"), std::string::npos)
-      << size_of(result, {});
+  EXPECT_NE(best_of(result).find("// hall/frustum 64px/keeps/packed\n"), std::string::npos) << best_of(result);
 }
 
 // Of two cases whose rounds differ by less than they vary the median of either can be the shorter one.
-TEST(Size, of_cases_that_may_be_equally_fast_the_smaller_one_is_shown_whichever_was_faster) {
+TEST(Size, of_structures_that_may_be_equally_fast_the_smaller_one_is_shown_whichever_was_faster) {
   const std::vector<double> rounds{1000, 1030, 990, 1020, 1012, 1000}, others{1010, 1000, 1020, 1000, 1000, 1010};
   for (const bool is_small_first : {true, false}) {
     run::Result result = result_by_hand();
     run::CaseResult &small = result.cases[0], &large = result.cases[1];
     small.timing->frame_ns = measure::time_stats(is_small_first ? rounds : others, 1, 1);
     large.timing->frame_ns = measure::time_stats(is_small_first ? others : rounds, 1, 1);
-    large.buffers.bytes.recommended = small.buffers.bytes.recommended + 8;
-    EXPECT_NE(size_of(result, {}).find("// hall/walk/frustum 64px/brute-force/packed\n"), std::string::npos)
-        << size_of(result, {});
+    large.buffers.each[0].high_water = large.buffers.each[0].theoretical_max = 10000;
+    EXPECT_NE(best_of(result).find("// hall/frustum 64px/brute-force/packed\n"), std::string::npos) << best_of(result);
     for (double& ns : small.timing->frame_ns.samples) ns *= 1.5;
     small.timing->frame_ns = measure::time_stats(small.timing->frame_ns.samples, 1, 1);
-    EXPECT_NE(size_of(result, {}).find("// hall/walk/frustum 64px/aabb/packed\n"), std::string::npos)
-        << "the other one is known to be faster: " << size_of(result, {});
+    EXPECT_NE(best_of(result).find("// hall/frustum 64px/aabb/packed\n"), std::string::npos)
+        << "the other one is known to be faster: " << best_of(result);
   }
 }
 
 TEST(Size, a_filter_selects_cases_by_name) {
-  const std::string report = size_of(result_by_hand(), {"/aabb/", true});
-  EXPECT_NE(report.find("// hall/walk/frustum 64px/aabb/packed"), std::string::npos) << report;
+  const std::string report = size_of(result_by_hand(), {"/aabb/", true, "cpp"});
+  EXPECT_NE(report.find("// hall/frustum 64px/aabb/packed"), std::string::npos) << report;
   EXPECT_EQ(report.find("--all"), std::string::npos) << "nothing is left out";
   EXPECT_THROW(size_of(result_by_hand(), {"no such", true}), Error);
   EXPECT_THROW(size_of(result_by_hand(), {"(", true}), Error);
@@ -94,21 +113,69 @@ TEST(Size, a_filter_selects_cases_by_name) {
 
 TEST(Size, says_what_was_seen_where_and_what_to_allocate) {
   const std::string report = size_of(result_by_hand());
-  for (const char* part : {"// hall/walk/frustum 64px/aabb/packed", "40 entries in frame 1", "cell [3,2,1]",
-                           "8.33 % of the theoretical 480", "80 entries of 8 bits", "272 bytes",
-                           "72 entries (0.9 of the capacity)", "{80u, 72u, 272u}"})
+  for (const char* part :
+       {"// hall/frustum 64px/aabb/packed\n//   camera walk\n",
+        "indices: high water 40 in camera walk, frame 1, cell [3,2,1]", "8.33 % of the theoretical 480",
+        "frames    min 20, median 20, p90 40, p99 40, max 40",
+        "480 elements of 1 byte (all that there can be): 4096 bytes, 8192 double-buffered",
+        "_indices\", 480u, 480u, 4096u, 1u}", "headers: high water 24 in camera walk, frame 0, cell [1,1,0]",
+        "_headers\", 24u, 24u, 4096u, 8u}"})
     EXPECT_NE(report.find(part), std::string::npos) << part << " in\n" << report;
+  const std::string close = size_of(result_by_hand(), {"", true, "cpp", "none", 3.0, 0.5});
+  for (const char* part : {"120 elements of 1 byte (high water x 3): 120 bytes", "_indices\", 120u, 60u, 120u, 1u}"})
+    EXPECT_NE(close.find(part), std::string::npos) << part << " in\n" << close;
 }
 
-TEST(Size, json_has_every_number_of_a_budget) {
-  const nlohmann::json report = nlohmann::json::parse(size_of(result_by_hand(), {"/aabb/", false, "json"}));
-  ASSERT_EQ(report["budgets"].size(), 1u);
-  const nlohmann::json expected = nlohmann::json::parse(R"({"name": "hall_walk_frustum_64px", "id": "fast",
-    "case": "hall/walk/frustum 64px/aabb/packed", "capacity_entries": 80, "warn_entries": 72, "bytes": 272, "index_bits": 8,
-    "high_water_entries": 40, "theoretical_max_entries": 480, "worst_frame": 1, "worst_cell": [3, 2, 1], "dropped_pairs": 0,
-    "lookup": {"cells": [4, 3, 2]}})");
-  EXPECT_EQ(report["budgets"][0], expected);
+TEST(Size, the_table_has_a_row_for_each_buffer) {
+  const std::string table = size_of(result_by_hand(), {"/aabb/", false, "table", "none"});
+  for (const char* part : {"hall/frustum 64px/aabb/packed  (1 camera, 2 frames)\n", "indices", "headers", "8.33 %",
+                           "most indices in camera walk, frame 1, cell [3,2,1]\n", "high water x 2"})
+    EXPECT_NE(table.find(part), std::string::npos) << part << " in\n" << table;
+  run::Result none = result_by_hand();
+  none.cases.clear();
+  EXPECT_NE(size_of(none, {"", false, "table"}).find("The result has no cases."), std::string::npos);
+}
+
+TEST(Size, json_has_every_number_and_is_as_its_schema_says) {
+  const nlohmann::json report = nlohmann::json::parse(size_of(result_by_hand(), {"/aabb/", false, "json", "none"}));
+  EXPECT_EQ(config::schema_violations(config::row_of(config::Document::size).schema(), report),
+            std::vector<std::string>{});
+  EXPECT_EQ(config::document_of(report), config::Document::size);
+  ASSERT_EQ(report["structures"].size(), 1u);
+  const nlohmann::json expected = nlohmann::json::parse(R"({"name": "indices",
+    "identifier": "hall_frustum_64px_indices", "element_bytes": 1, "high_water": 40, "theoretical_max": 480,
+    "worst": {"camera": "walk", "frame": 1, "cell": [3, 2, 1]},
+    "frames": {"min": 20, "p50": 20, "p90": 40, "p99": 40, "max": 40, "is_exact": true},
+    "capacity": 80, "warn_above": 72, "bytes": 80, "double_buffered_bytes": 160})");
+  const nlohmann::json& structure = report["structures"][0];
+  EXPECT_EQ(structure["buffers"][0], expected);
+  EXPECT_EQ(structure["bytes"], 80 + 8 * 24);
+  EXPECT_EQ(structure["lookups"][0]["constants"], nlohmann::json::parse(R"({"cells": [4, 3, 2]})"));
   EXPECT_EQ(report["warn_at"], 0.9);
+}
+
+// An older result, one by hand: whatever the schema allows.
+TEST(Size, every_format_takes_results_with_holes) {
+  const nlohmann::ordered_json whole = result_to_json(result_by_hand(), {});
+  std::vector<nlohmann::ordered_json> results(5, whole);
+  for (auto& entry : results[0]["cases"]) entry["buffers"].erase("each");
+  for (auto& entry : results[1]["cases"])
+    entry["buffers"]["each"][0]["along_path"]["elements"] = nlohmann::json::array();
+  for (auto& entry : results[2]["cases"]) entry["frames"] = 0;
+  for (auto& entry : results[3]["cases"]) entry["buffers"]["each"] = nlohmann::json::array();
+  for (auto& entry : results[4]["cases"]) entry["buffers"]["each"][0].erase("worst_cell");
+  for (const auto& result : results) {
+    ASSERT_EQ(config::schema_violations(config::result_schema(), nlohmann::json(result)), std::vector<std::string>{});
+    for (const bool all : {false, true})
+      for (const std::string& format : size_formats()) {
+        const std::string report = size_report(result, {"", all, format});
+        EXPECT_NE(report.find("64px"), std::string::npos) << format << report;
+        if (format == "json")
+          EXPECT_EQ(
+              config::schema_violations(config::row_of(config::Document::size).schema(), nlohmann::json::parse(report)),
+              std::vector<std::string>{});
+      }
+  }
 }
 
 TEST(Size, says_where_lists_overflowed) {
@@ -116,7 +183,8 @@ TEST(Size, says_where_lists_overflowed) {
   result.cases[0].buffers.dropped_pairs = 7;
   result.cases[0].buffers.overflowing_cells = 3;
   result.cases[0].buffers.overflowing_frames = 1;
-  EXPECT_NE(size_of(result).find("7 pairs dropped in 3 cells of 1 frame"), std::string::npos);
+  EXPECT_NE(size_of(result).find("OVERFLOW: 7 pairs dropped in 3 cells of 1 frame, for which there is room below"),
+            std::string::npos);
 }
 
 // Compiles the report as the header that it is, and runs a program that uses it.
@@ -143,13 +211,6 @@ class SizeHeader : public ::testing::Test {
   const fs::path folder_ = fs::temp_directory_path() / ("clusterbench_size_" + std::to_string(getpid()));
 };
 
-// What shaders' languages have and C++ has not.
-const std::string k_shader_types =
-    "using uint = unsigned;\ntemplate <class T> struct V { T at[3]; constexpr V(T x, T y, T z = 0) : at{x, y, z} {} "
-    "};\n"
-    "using int3 = V<int>; using ivec3 = int3; using float2 = V<double>; using vec2 = float2;\n"
-    "using float3 = float2; using vec3 = float2;\n";
-
 // Of each kind of grid one case, as the runner tells it.
 run::Result with_each_kind_of_grid() {
   run::Result result = result_by_hand();
@@ -175,9 +236,9 @@ run::Result with_each_kind_of_grid() {
 
 TEST_F(SizeHeader, has_the_constants_of_the_lookup_of_each_kind_of_grid) {
   const run::Result result = with_each_kind_of_grid();
-  const std::string cpp = size_of(result, {});
+  const std::string cpp = best_of(result);
   for (const char* line :
-       {"namespace hall_walk_tiles_lookup {\ninline constexpr int cells[] = {30, 17, 16};\n",
+       {"namespace hall_tiles_lookup {\ninline constexpr int cells[] = {30, 17, 16};\n",
         "inline constexpr float tile_scale[] = {0.015625f, 0.015625f};\ninline constexpr float slice_scale = "
         "2.37269378f;\n"
         "inline constexpr float slice_bias = -4.50922441f;\ninline constexpr float slice_first = 5.0f;\n"
@@ -188,80 +249,112 @@ TEST_F(SizeHeader, has_the_constants_of_the_lookup_of_each_kind_of_grid) {
         "float finest = 0.5f;", "double origin[] = {0.1, 3.0, -155.0};",
         "float box_min[] = {-34.5f, -34.0f, -182.0f};"})
     EXPECT_NE(cpp.find(line), std::string::npos) << line << " in\n" << cpp;
-  EXPECT_TRUE(compiles(cpp, "static_assert(light_lists::hall_walk_tiles_lookup::slice_far > 399);\nint main() {}\n"));
+  EXPECT_TRUE(compiles(cpp, "static_assert(light_lists::hall_tiles_lookup::slice_far > 399);\nint main() {}\n"));
   run::Result spherical = result;
   for (run::CaseResult& one : spherical.cases)
     if (one.grid.contains("slices")) one.grid["kind"] = "distance";
-  EXPECT_NE(size_of(spherical, {}).find("slice = log2(length(view)) * slice_scale + slice_bias"), std::string::npos)
+  EXPECT_NE(best_of(spherical).find("slice = log2(length(view)) * slice_scale + slice_bias"), std::string::npos)
       << "slices of distance from the eye";
   const std::string hlsl = size_of(result, {"", false, "hlsl"}), glsl = size_of(result, {"", false, "glsl"});
-  EXPECT_NE(hlsl.find("static const float2 hall_walk_tiles_lookup_tile_scale = float2(0.015625, 0.015625);"),
+  EXPECT_NE(hlsl.find("static const float2 hall_tiles_lookup_tile_scale = float2(0.015625, 0.015625);"),
             std::string::npos)
       << hlsl;
-  EXPECT_NE(glsl.find("\nconst ivec3 hall_walk_cubes_lookup_cells = ivec3(16, 16, 80);"), std::string::npos) << glsl;
-  EXPECT_NE(hlsl.find("static const float hall_walk_counted_lookup_slice_boundaries[3] = {1.0, 2.0, 3.0};\n"),
+  EXPECT_NE(glsl.find("\nconst ivec3 hall_cubes_lookup_cells = ivec3(16, 16, 80);"), std::string::npos) << glsl;
+  EXPECT_NE(hlsl.find("static const float hall_counted_lookup_slice_boundaries[3] = {1.0, 2.0, 3.0};\n"),
             std::string::npos)
       << hlsl;
   const std::string glsl_array = "float[3](1.0, 2.0, 3.0)";  // C++ has no such constructor
-  const std::size_t at = glsl.find("const float hall_walk_counted_lookup_slice_boundaries[3] = " + glsl_array + ";\n");
+  const std::size_t at = glsl.find("const float hall_counted_lookup_slice_boundaries[3] = " + glsl_array + ";\n");
   ASSERT_NE(at, std::string::npos) << glsl;
-  const std::string glsl_as_cpp =
-      std::string(glsl).replace(glsl.find(glsl_array, at), glsl_array.size(), "{1.0, 2.0, 3.0}");
-  for (const std::string& shader : {hlsl, glsl_as_cpp})
-    EXPECT_TRUE(compiles(k_shader_types + shader, "int main() {}\n"));
   const auto json = nlohmann::json::parse(size_of(result, {"tiles", false, "json"}));
-  EXPECT_EQ(json["budgets"][0]["lookup"]["slice_far"], 400);
+  EXPECT_EQ(json["structures"][0]["lookups"][0]["constants"]["slice_far"], 400);
   const auto searched = nlohmann::json::parse(size_of(result, {"counted", false, "json"}));
-  EXPECT_EQ(searched["budgets"][0]["lookup"]["slice_boundaries"], nlohmann::json({1, 2, 3}));
+  EXPECT_EQ(searched["structures"][0]["lookups"][0]["constants"]["slice_boundaries"], nlohmann::json({1, 2, 3}));
 }
 
-constexpr const char* k_budget = "light_lists::hall_walk_frustum_64px_aabb_packed";
+constexpr const char* k_indices = "light_lists::hall_frustum_64px_aabb_packed_indices";
 
-std::string program_that_needs(const std::string& entries) {
-  return std::string("int main() {\n  std::uint64_t worst = 0;\n  for (std::uint64_t needed : {") + entries +
-         "})\n    light_lists::check(" + k_budget + ", needed, worst);\n  return worst == 75 ? 0 : 3;\n}\n";
+std::string program_that_needs(const std::string& elements) {
+  return std::string("int main() {\n  std::uint64_t largest = 0;\n  for (std::uint64_t needed : {") + elements +
+         "})\n    light_lists::check(" + k_indices + ", needed, largest);\n  return largest == 75 ? 0 : 3;\n}\n";
 }
 
-TEST_F(SizeHeader, warns_once_for_a_new_worst_above_the_warning_level) {
-  ASSERT_TRUE(compiles(size_of(result_by_hand()), program_that_needs("10ull, 75ull, 75ull, 20ull")));
+// 80 elements, warning above 72.
+std::string header_of_80() {
+  return size_of(result_by_hand(), {"", true, "cpp", "none"});
+}
+
+TEST_F(SizeHeader, warns_once_for_a_new_largest_number_above_the_warning_level) {
+  ASSERT_TRUE(compiles(header_of_80(), program_that_needs("10ull, 72ull, 73ull, 75ull, 75ull, 73ull, 20ull")));
   std::string said;
   EXPECT_EQ(run(said), 0);
-  EXPECT_EQ(said, "light lists: 75 of 80 entries in use; raise the allocation\n");
+  const std::string name = std::string(k_indices).substr(std::string("light_lists::").size());
+  EXPECT_EQ(said, name + ": 73 of 80 elements in use; raise the allocation\n" + name +
+                      ": 75 of 80 elements in use; raise the allocation\n");
 }
 
 TEST_F(SizeHeader, stops_a_program_that_needs_more_than_it_has) {
-  ASSERT_TRUE(compiles(size_of(result_by_hand()), program_that_needs("75ull, 81ull")));
+  ASSERT_TRUE(compiles(header_of_80(), program_that_needs("75ull, 80ull, 81ull")));
   std::string said;
   EXPECT_NE(run(said), 0);
   EXPECT_NE(said.find("light lists overflow their allocation"), std::string::npos) << said;
 }
 
-TEST_F(SizeHeader, compiles_whatever_cases_are_called) {
+// Cases whose names hold what ends a line, becomes one name, is reserved, or is long.
+run::Result with_bad_names() {
   run::Result result = result_by_hand();
-  result.cases[0].name = "9 lives\n#error a name broke out\\";
-  result.cases.push_back(testing::case_by_hand("third", "aabb", 1.0));  // the same name twice
-  result.cases.push_back(testing::case_by_hand("fourth", "aabb", 1.0));
-  result.cases.back().name = "\xC3\xA9t\xC3\xA9/__x__//y\\";
-  result.planned_ids = {"slow", "fast", "third", "fourth"};
-  EXPECT_TRUE(compiles(size_of(result), "int main() {}\n"));
-  // A C++ compiler reads the declarations of shaders, too; what GLSL reserves are names with two underscores.
+  std::vector<std::string> names{"9 lives\n#error a name broke out\\",
+                                 "hall/walk/frustum 64px/aabb/packed",
+                                 "hall/walk/frustum_64px/aabb/packed",
+                                 "\xC3\xA9t\xC3\xA9/__x__//y\\",
+                                 "hall/walk/a?\?/",
+                                 "hall/walk/gl_x",
+                                 "",
+                                 "/",
+                                 "a",
+                                 "a_indices",
+                                 "a_2",
+                                 "b lookup",
+                                 std::string(300, 'l') + "1",
+                                 std::string(300, 'l') + "2"};
+  result.cases.clear();
+  result.planned_ids.clear();
+  for (const std::string& name : names) {
+    run::CaseResult one = testing::case_by_hand("id" + std::to_string(result.cases.size()), "aabb", 1.0);
+    one.name = name;
+    one.buffers.each[1].name = name == "a" ? "indices_capacity" : "capacity";
+    result.planned_ids.push_back(one.id);
+    result.cases.push_back(one);
+  }
+  return result;
+}
+
+TEST_F(SizeHeader, compiles_whatever_cases_are_called) {
+  for (const bool all : {true, false}) {
+    const std::string header = size_of(with_bad_names(), {"", all, "cpp"});
+    EXPECT_TRUE(compiles(header, "int main() {}\n")) << header;
+  }
   for (const char* format : {"hlsl", "glsl"}) {
-    const std::string report = size_of(result, {"", true, format});
-    EXPECT_TRUE(compiles(k_shader_types + report, "int main() {}\n")) << report;
-    for (std::size_t at = report.find("const uint "); at != std::string::npos; at = report.find("const uint ", at + 1))
-      EXPECT_EQ(report.substr(at, report.find(" =", at) - at).find("__"), std::string::npos) << report;
+    const std::string report = size_of(with_bad_names(), {"", true, format});
+    std::set<std::string> names;
+    for (std::size_t at = report.find("const uint "); at != std::string::npos;
+         at = report.find("const uint ", at + 1)) {
+      const std::string line = report.substr(at, report.find(" =", at) - at);
+      EXPECT_EQ(line.find("__"), std::string::npos) << "reserved in GLSL: " << line;
+      EXPECT_TRUE(names.insert(line).second) << line;
+    }
   }
 }
 
 TEST_F(SizeHeader, of_a_shader_has_the_same_constants) {
-  const std::string hlsl = size_of(result_by_hand(), {"/aabb/", false, "hlsl"});
-  EXPECT_NE(hlsl.find("static const uint hall_walk_frustum_64px_capacity_entries = 80u;\n"), std::string::npos) << hlsl;
-  const std::string glsl = size_of(result_by_hand(), {"/aabb/", false, "glsl"});
-  EXPECT_NE(glsl.find("\nconst uint hall_walk_frustum_64px_bytes = 272u;\n"), std::string::npos) << glsl;
+  const std::string hlsl = size_of(result_by_hand(), {"/aabb/", false, "hlsl", "none"});
+  EXPECT_NE(hlsl.find("static const uint hall_frustum_64px_indices_capacity = 80u;\n"), std::string::npos) << hlsl;
+  const std::string glsl = size_of(result_by_hand(), {"/aabb/", false, "glsl", "none"});
+  EXPECT_NE(glsl.find("\nconst uint hall_frustum_64px_indices_warn_above = 72u;\n"), std::string::npos) << glsl;
   run::Result huge = result_by_hand();
-  for (run::CaseResult& case_result : huge.cases) case_result.buffers.bytes.recommended = std::uint64_t{1} << 32;
-  EXPECT_EQ(size_of(huge, {"", false, "glsl"}).find("_bytes ="), std::string::npos) << "32 bits do not hold it";
-  EXPECT_NE(size_of(huge, {"", false, "cpp"}).find(", 4294967296u}"), std::string::npos);
+  for (run::CaseResult& case_result : huge.cases) case_result.buffers.each[1].element_bytes = 1u << 28;
+  EXPECT_EQ(size_of(huge, {"", false, "glsl"}).find("headers_bytes ="), std::string::npos) << "32 bits do not hold it";
+  EXPECT_NE(size_of(huge, {"", false, "cpp"}).find(", 6442450944u, "), std::string::npos);
 }
 
 }  // namespace

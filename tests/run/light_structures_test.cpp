@@ -30,6 +30,7 @@ class AllLights final : public assign::LightStructure {
     return use;
   }
   assign::StructureLimit limit() const override { return {1, 4}; }
+  std::vector<assign::BufferNeed> buffers() const override { return {{"words", 4, 1, 1}}; }
   std::uint32_t index_bits() const override { return 32; }
   bool has_cells() const override { return has_cells_of_grid; }
   void expand(assign::Lists& out) const override {

@@ -335,14 +335,11 @@ class LightHierarchy final : public LightStructure {
   }
 
   StructureUse use() const override {
+    const std::vector<BufferNeed> all = buffers();
     StructureUse use;
-    std::uint64_t lights = 0;
-    for (const Tree& tree : trees.of_type) {
-      use.index_entries += tree.boxes();
-      lights += tree.size();
-    }
+    use.index_entries = all[0].elements;
     use.index_bytes = use.index_entries * k_box_bytes;
-    use.header_bytes = lights * sizeof(std::uint32_t);
+    use.header_bytes = all[1].elements * sizeof(std::uint32_t);
     use.upload_bytes = use.index_bytes + use.header_bytes;
     return use;
   }
@@ -350,6 +347,15 @@ class LightHierarchy final : public LightStructure {
     std::uint64_t entries = 0;
     for (const view::LightRange& type : ranges.types()) entries += Tree::boxes_for(type.count);
     return {entries, entries * k_box_bytes + std::uint64_t{ranges.size()} * sizeof(std::uint32_t)};
+  }
+  std::vector<BufferNeed> buffers() const override {
+    std::uint64_t boxes = 0, lights = 0;
+    for (const Tree& tree : trees.of_type) {
+      boxes += tree.boxes();
+      lights += tree.size();
+    }
+    return {{"boxes", k_box_bytes, boxes, limit().index_entries, k_width},
+            {"order", sizeof(std::uint32_t), lights, ranges.size()}};
   }
   std::uint32_t index_bits() const override { return 8 * k_box_bytes; }
   bool has_cells() const override { return false; }

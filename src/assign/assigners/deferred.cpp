@@ -146,6 +146,7 @@ class DrawnLights final : public LightStructure {
   StructureLimit limit() const override {
     return {std::uint64_t{light_count} * picture.x.size() * picture.y.size(), 0};
   }
+  std::vector<BufferNeed> buffers() const override { return {}; }  // what is drawn needs none
   std::uint32_t index_bits() const override { return 32; }
   bool has_cells() const override { return false; }
   void expand(Lists&) const override { throw Error("", "deferred", "has no cells", ExitCode::internal); }

@@ -107,6 +107,11 @@ class TileSliceLists final : public LightStructure {
     limit.bytes += growth_bytes();
     return limit;
   }
+  std::vector<BufferNeed> buffers() const override {
+    std::vector<BufferNeed> all = packed_->buffers();
+    all.push_back({"growths", sizeof(float), slicings_.size(), slicings_.size()});
+    return all;
+  }
   std::uint32_t index_bits() const override { return packed_->index_bits(); }
   bool has_cells() const override { return true; }
   bool has_occupied_cells() const override { return true; }

@@ -83,6 +83,12 @@ class BinsAndMasks final : public LightStructure {
     return {entries, entries * sizeof(std::uint32_t) + header_bytes(lights_)};
   }
 
+  std::vector<BufferNeed> buffers() const override {
+    return {{"masks", sizeof(std::uint32_t), masks_.size(), std::uint64_t{tiles_} * words_for(lights_), tiles_},
+            {"bins", sizeof(Bin), bins_.size(), bins_.size()},
+            {"order", sizeof(std::uint32_t), order_.size(), lights_}};
+  }
+
   std::uint32_t index_bits() const override { return k_bits; }
   bool has_cells() const override { return true; }
 

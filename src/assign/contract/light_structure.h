@@ -29,6 +29,16 @@ struct StructureLimit {
   std::uint64_t bytes = 0;  // headers included
 };
 
+// What one frame needs of one buffer of a structure, so that nothing is dropped; an engine allocates each buffer once,
+// for the worst frame.
+struct BufferNeed {
+  const char* name;             // "indices"; letters and _, in lower case
+  std::uint32_t element_bytes;  // of a light index, a header, a word
+  std::uint64_t elements;
+  std::uint64_t most;      // elements that this grid and rig could ever need
+  std::uint64_t step = 1;  // elements come in multiples of it: room for one more light in each cell of `fixed`
+};
+
 class LightStructure {
  public:
   virtual ~LightStructure() = default;
@@ -40,6 +50,10 @@ class LightStructure {
 
   virtual StructureUse use() const = 0;
   virtual StructureLimit limit() const = 0;
+  // All of its buffers; in every frame the same, in the same order and of elements of the same size. Their bytes are
+  // those of use() and limit(), but where a storage drops pairs, has room that its parameters reserve, or chooses the
+  // format of its headers frame by frame.
+  virtual std::vector<BufferNeed> buffers() const = 0;
   virtual std::uint32_t index_bits() const = 0;  // of an entry
 
   // Whether a sample's lights depend on its cell alone: of the grid, or of occupied_cells().

@@ -41,6 +41,7 @@ class OccupiedLists final : public LightStructure {
   bool lights_at(const grid::Sample& sample, grid::Log2 way, std::vector<std::uint32_t>& out) const override;
   StructureUse use() const override { return packed_->use(); }
   StructureLimit limit() const override { return packed_->limit(); }
+  std::vector<BufferNeed> buffers() const override { return packed_->buffers(); }
   std::uint32_t index_bits() const override { return packed_->index_bits(); }
   bool has_cells() const override { return true; }
   bool has_occupied_cells() const override { return true; }

@@ -31,6 +31,10 @@ class Bitfield final : public Storage {
 
   StructureLimit limit() const override { return {words_.size(), words_.size() * sizeof(std::uint32_t)}; }
 
+  std::vector<BufferNeed> buffers() const override {
+    return {{"words", sizeof(std::uint32_t), words_.size(), words_.size()}};
+  }
+
   void read_cell(std::uint32_t cell, std::vector<std::uint32_t>& out) const override {
     for (std::uint32_t word = 0; word < words_per_cell_; ++word)
       for (std::uint32_t left = words_[std::size_t{cell} * words_per_cell_ + word]; left != 0; left &= left - 1)

@@ -24,11 +24,12 @@ class Fixed final : public Storage {
   }
 
   void store(const Lists& lists) override {
-    kept_ = dropped_pairs_ = overflowing_cells_ = 0;
+    kept_ = dropped_pairs_ = overflowing_cells_ = longest_ = 0;
     is_dropped_.assign(lights_, false);
     for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) {
       const auto list = lists.of(cell);
       const std::size_t kept = std::min<std::size_t>(list.size(), cap_);
+      longest_ = std::max<std::uint64_t>(longest_, list.size());
       counts_[cell] = static_cast<std::uint32_t>(kept);
       indices_.write(static_cast<std::size_t>(cell) * cap_, list.data(), kept);
       kept_ += kept;
@@ -58,6 +59,13 @@ class Fixed final : public Storage {
     return {entries, entries * (indices_.bits() / 8) + counts_.size() * sizeof(std::uint32_t)};
   }
 
+  // Room for the longest list in every cell, whatever the cap.
+  std::vector<BufferNeed> buffers() const override {
+    const std::uint64_t cells = counts_.size();
+    return {{"indices", indices_.bits() / 8, cells * longest_, cells * lights_, cells},
+            {"counts", sizeof(std::uint32_t), cells, cells}};
+  }
+
   void read_cell(std::uint32_t cell, std::vector<std::uint32_t>& out) const override {
     for (std::uint32_t i = 0; i < counts_[cell]; ++i) out.push_back(indices_.read(std::size_t{cell} * cap_ + i));
   }
@@ -69,6 +77,7 @@ class Fixed final : public Storage {
  private:
   std::uint32_t cap_, lights_ = 0;
   std::uint64_t kept_ = 0, dropped_pairs_ = 0, overflowing_cells_ = 0;
+  std::uint64_t longest_ = 0;  // list, before anything is dropped
   std::vector<std::uint32_t> counts_;
   std::vector<bool> is_dropped_;
   IndexArray indices_;

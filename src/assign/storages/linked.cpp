@@ -52,6 +52,13 @@ class Linked final : public Storage {
     return {entries, entries * sizeof(Node) + heads_.size() * sizeof(std::uint32_t)};
   }
 
+  // A node for every pair, whatever the pool.
+  std::vector<BufferNeed> buffers() const override {
+    const std::uint64_t cells = heads_.size();
+    return {{"nodes", sizeof(Node), used_ + dropped_pairs_, cells * room_.size()},
+            {"heads", sizeof(std::uint32_t), cells, cells}};
+  }
+
   void read_cell(std::uint32_t cell, std::vector<std::uint32_t>& out) const override {
     for (std::uint32_t node = heads_[cell]; node != k_end; node = nodes_[node].next) out.push_back(nodes_[node].light);
   }

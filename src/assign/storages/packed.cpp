@@ -62,6 +62,15 @@ class Packed final : public Storage {
     return {entries, entries * (bits_ / 8) + cell_count_ * header_size + blocks_.size() * sizeof(Block)};
   }
 
+  // A shader has one format of headers for all frames: the wide one where any frame can need it.
+  std::vector<BufferNeed> buffers() const override {
+    const std::uint32_t header_size = can_be_wide() ? sizeof(WideHeader) : sizeof(Header);
+    std::vector<BufferNeed> all{{"indices", bits_ / 8, entries_, std::uint64_t{cell_count_} * lights_},
+                                {"headers", header_size, header_count_, cell_count_}};
+    if (is_sparse_) all.push_back({"header_blocks", sizeof(Block), blocks_.size(), blocks_.size()});
+    return all;
+  }
+
   void read_cell(std::uint32_t cell, std::vector<std::uint32_t>& out) const override {
     const WideHeader header = found_header(cell);
     for (std::uint32_t i = 0; i < header.points + header.spots; ++i) out.push_back(indices_.read(header.offset + i));

@@ -1,0 +1,103 @@
+#include "report/named_structures.h"
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+#include "report/lookup_constants.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t k_longest = 200;  // GLSL takes 1024 with what is added
+
+// Letters of the alphabet, digits, and single underscores in the place of all else.
+std::string identifier(const std::string& name) {
+  std::string id;
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 128 && std::isalnum(byte) != 0)
+      id += c;
+    else if (!id.empty() && id.back() != '_')
+      id += '_';
+  }
+  id.resize(std::min(id.size(), k_longest));
+  while (!id.empty() && id.back() == '_') id.pop_back();
+  if (id.empty()) return "case";
+  const bool is_reserved = id.starts_with("gl_");  // of GLSL
+  return is_reserved || std::isdigit(static_cast<unsigned char>(id.front())) != 0 ? "case_" + id : id;
+}
+
+// Cases of cameras whose lookups have the same constants, the first camera's first.
+std::vector<NamedLookup> lookups_of(const SizedStructure& structure) {
+  std::vector<NamedLookup> out;
+  std::vector<Json> known;
+  for (const Json* result_case : structure.cases) {
+    if ((*result_case)["storage"] == "own") continue;
+    const Json constants{lookup_note(*result_case), lookup_json(lookup_constants(*result_case))};
+    const auto at = static_cast<std::size_t>(std::ranges::find(known, constants) - known.begin());
+    if (at == known.size()) {
+      known.push_back(constants);
+      out.emplace_back();
+    }
+    out[at].cases.push_back(result_case);
+  }
+  return out;
+}
+
+void give_name(NamedStructure& named, const std::string& name) {
+  named.name = name;
+  named.buffers.clear();
+  for (const SizedBuffer& buffer : named.structure.buffers)
+    named.buffers.push_back(name + "_" + identifier(buffer.name));
+  std::set<std::string> cameras;
+  for (NamedLookup& lookup : named.lookups) {
+    if (named.lookups.size() == 1) {
+      lookup.name = name + "_lookup";
+      continue;
+    }
+    const std::string camera = identifier((*lookup.cases.front())["camera"].get<std::string>());
+    std::string unique = camera;
+    for (int number = 2; !cameras.insert(unique).second; ++number) unique = camera + "_" + std::to_string(number);
+    lookup.name = name + "_" + unique + "_lookup";
+  }
+}
+
+// All that is declared of it in any language.
+std::vector<std::string> declared_names(const NamedStructure& named) {
+  std::vector<std::string> out;
+  for (const std::string& buffer : named.buffers)
+    for (const char* what : {"", "_capacity", "_warn_above", "_bytes", "_element_bytes"}) out.push_back(buffer + what);
+  for (const NamedLookup& lookup : named.lookups) {
+    out.push_back(lookup.name);
+    out.push_back(lookup.name + "_cell_of");
+    for (const LookupConstant& constant : lookup_constants(*lookup.cases.front()))
+      out.push_back(lookup.name + "_" + constant.name);
+  }
+  if (out.empty()) out.push_back(named.name);
+  return out;
+}
+
+}  // namespace
+
+std::vector<NamedStructure> named_structures(std::vector<SizedStructure> structures, bool in_full) {
+  std::vector<NamedStructure> out;
+  std::set<std::string> taken;
+  for (SizedStructure& structure : structures) {
+    const std::string id = identifier(in_full ? structure.name : structure.group);
+    NamedStructure named;
+    named.structure = std::move(structure);
+    named.lookups = lookups_of(named.structure);
+    give_name(named, id);
+    const auto is_taken = [&](const std::string& name) { return taken.contains(name); };
+    for (int number = 2; std::ranges::any_of(declared_names(named), is_taken); ++number)
+      give_name(named, id + "_" + std::to_string(number));
+    for (const std::string& name : declared_names(named)) taken.insert(name);
+    out.push_back(std::move(named));
+  }
+  return out;
+}
+
+}  // namespace clusterbench::report

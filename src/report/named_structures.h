@@ -1,0 +1,29 @@
+#pragma once
+// Sized structures under names that C++, HLSL and GLSL can have.
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "report/allocation.h"
+
+namespace clusterbench::report {
+
+// Constants with which samples find their cells. Cameras whose grids are equal share them.
+struct NamedLookup {
+  std::string name;                                  // "street_frustum_64px_lookup"
+  std::vector<const nlohmann::ordered_json*> cases;  // one per camera, with the same constants
+};
+
+struct NamedStructure {
+  SizedStructure structure;
+  std::string name;                  // "street_frustum_64px"
+  std::vector<std::string> buffers;  // in the structure's order: "street_frustum_64px_indices"
+  std::vector<NamedLookup> lookups;  // none of a structure of a method's own, which has lookups of its own
+};
+
+// Named by scene and grid, or (`in_full`) with method and storage, too. No two of all the names that snippets are made
+// of become the same: a number is added where they would.
+std::vector<NamedStructure> named_structures(std::vector<SizedStructure> structures, bool in_full);
+
+}  // namespace clusterbench::report

@@ -1,0 +1,105 @@
+#include "report/size_table.h"
+
+#include <algorithm>
+
+#include "core/text.h"
+#include "report/columns.h"
+#include "report/size_words.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A column: its heading, and what it says of a buffer.
+struct Column {
+  const char* heading;
+  std::string (*cell)(const SizedBuffer& buffer);
+};
+
+std::string spread_text(const SizedBuffer& buffer, std::uint64_t FrameSpread::*value) {
+  return buffer.spread ? std::to_string((*buffer.spread).*value) : "-";
+}
+
+constexpr Column k_columns[] = {
+    {"buffer", [](const SizedBuffer& buffer) { return shown(buffer.name); }},
+    {"min", [](const SizedBuffer& buffer) { return spread_text(buffer, &FrameSpread::min); }},
+    {"median", [](const SizedBuffer& buffer) { return spread_text(buffer, &FrameSpread::p50); }},
+    {"p90", [](const SizedBuffer& buffer) { return spread_text(buffer, &FrameSpread::p90); }},
+    {"p99", [](const SizedBuffer& buffer) { return spread_text(buffer, &FrameSpread::p99); }},
+    {"high water", [](const SizedBuffer& buffer) { return std::to_string(buffer.high_water); }},
+    {"of possible", [](const SizedBuffer& buffer) { return share_text(buffer.high_water, buffer.theoretical_max); }},
+    {"capacity", [](const SizedBuffer& buffer) { return std::to_string(buffer.capacity); }},
+    {"warn above", [](const SizedBuffer& buffer) { return buffer.is_all() ? "-" : std::to_string(buffer.warn_above); }},
+    {"x bytes", [](const SizedBuffer& buffer) { return std::to_string(buffer.element_bytes); }},
+    {"= bytes", [](const SizedBuffer& buffer) { return std::to_string(buffer.bytes); }},
+    {"double", [](const SizedBuffer& buffer) { return std::to_string(buffer.double_buffered_bytes()); }},
+};
+
+std::vector<Cells> rows_of(const SizedStructure& structure) {
+  std::vector<Cells> rows{{""}};
+  for (const Column& column : k_columns) rows.front().emplace_back(column.heading);
+  for (const SizedBuffer& buffer : structure.buffers) {
+    rows.push_back({""});
+    for (const Column& column : k_columns) rows.back().push_back(column.cell(buffer));
+  }
+  return rows;
+}
+
+// Which frame made the marks: of all buffers that differ between frames the same, as a rule.
+std::string worst_lines(const SizedStructure& structure) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> by_frame;
+  for (const SizedBuffer& buffer : structure.buffers) {
+    if (!buffer.spread || buffer.spread->min == buffer.spread->max) continue;
+    const std::string worst = worst_text(buffer);
+    const auto known = std::ranges::find_if(by_frame, [&](const auto& one) { return one.first == worst; });
+    (known == by_frame.end() ? by_frame.insert(known, {worst, {}}) : known)->second.push_back(buffer.name);
+  }
+  std::string out;
+  for (const auto& [worst, buffers] : by_frame)
+    out += "  most " + shown(joined(buffers)) + " in " + shown(worst) + "\n";
+  return out;
+}
+
+std::uint64_t frames_of(const SizedStructure& structure) {
+  std::uint64_t frames = 0;
+  for (const Json* result_case : structure.cases) frames += (*result_case)["frames"].get<std::uint64_t>();
+  return frames;
+}
+
+std::string structure_text(const SizedStructure& structure) {
+  std::string out = shown(structure.name) + "  (" + number_of(structure.cases.size(), "camera") + ", " +
+                    number_of(frames_of(structure), "frame") + ")\n";
+  if (structure.buffers.empty()) return out + "  has no buffers\n";
+  const std::vector<Cells> rows = rows_of(structure);
+  const std::vector<std::size_t> widths = widths_of(rows);
+  for (const Cells& row : rows) out += aligned(row, widths);
+  out += worst_lines(structure);
+  if (const std::string dropped = dropped_text(structure); !dropped.empty())
+    out += "  OVERFLOW: " + dropped + "; the capacities have room for them\n";
+  return out;
+}
+
+bool is_bounded(const std::vector<NamedStructure>& structures) {
+  for (const NamedStructure& named : structures)
+    for (const SizedBuffer& buffer : named.structure.buffers)
+      if (buffer.spread && !buffer.spread->is_exact) return true;
+  return false;
+}
+
+}  // namespace
+
+std::string size_table(const std::vector<NamedStructure>& structures, const std::string& remark,
+                       const AllocationRules& rules) {
+  std::string out;
+  for (const NamedStructure& named : structures) out += structure_text(named.structure) + "\n";
+  if (structures.empty()) out += "The result has no cases.\n\n";
+  out += "Elements over all frames of all cameras. Capacity: " + rule_text(rules) +
+         ", at most what is possible. Warn above " + text("%g %%", 100.0 * rules.warn_at) +
+         " of it; \"-\": nothing can overflow. Double: double-buffered.\n";
+  if (is_bounded(structures)) out += "Of long paths several frames are one number, and percentiles upper bounds.\n";
+  if (!remark.empty()) out += remark + "\n";
+  return out;
+}
+
+}  // namespace clusterbench::report

@@ -1,0 +1,143 @@
+// `clusterbench size` as a user calls it.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "cli/tool.h"
+
+namespace clusterbench {
+namespace {
+
+using Json = nlohmann::json;
+using test::file_text;
+using test::Folder;
+using test::Outcome;
+using test::tool;
+
+// Three cameras that stand still: one in a row of lights, one before it, one that looks away.
+std::string three_cameras(const std::string& lights = R"({"type": "point", "range": 6})") {
+  std::string nodes, roots;
+  const char* cameras[][2] = {{"inside", "[0, 0, -20]"}, {"before", "[0, 0, 10]"}, {"away", "[0, 0, -500]"}};
+  for (int i = 0; i < 40; ++i)
+    nodes += R"({"translation": [)" + std::to_string(i % 5 - 2) + ", 0, " + std::to_string(-i) +
+             R"(], "extensions": {"KHR_lights_punctual": {"light": 0}}},)";
+  for (const auto& [name, at] : cameras)
+    nodes += std::string(R"({"camera": 0, "name": ")") + name + R"(", "translation": )" + at + "},";
+  for (int i = 0; i < 43; ++i) roots += (i == 0 ? "" : ",") + std::to_string(i);
+  nodes.pop_back();
+  return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [)" + roots + R"(]}], "nodes": [)" + nodes +
+         R"(], "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1, "zfar": 100}}],
+         "extensionsUsed": ["KHR_lights_punctual"], "extensions": {"KHR_lights_punctual": {"lights": [)" +
+         lights + "]}}}";
+}
+
+const std::string k_flags =
+    " --grid frustum --tiles 16x9 --slices 8 --assigner exact-fast,z-binning"
+    " --storage packed,bitfield,linked,fixed";
+
+TEST(SizeCommand, of_a_scene_says_what_a_run_of_all_its_cameras_says) {
+  const Folder folder;
+  const std::string scene = folder.write("level.gltf", three_cameras()).string();
+  const std::string result = (folder / "result.json").string();
+  const Outcome run = tool("run -q --no-timing -o " + result + k_flags + " " + scene + " --set 'scenes.*.camera=*'" +
+                           " --set accuracy.check=false");
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Outcome direct = tool("size -q --all --format json" + k_flags + " " + scene),
+                of_result = tool("size --all --format json " + result);
+  EXPECT_EQ(direct.code, 0) << direct.err;
+  EXPECT_EQ(direct.out, of_result.out);
+  const Json sized = Json::parse(direct.out), cases = Json::parse(file_text(result))["cases"];
+  EXPECT_EQ(sized["structures"].size(), 5u);
+  for (const Json& structure : sized["structures"]) {
+    EXPECT_EQ(structure["cameras"], Json({"inside", "before", "away"}));
+    for (const Json& buffer : structure["buffers"]) {
+      std::uint64_t most = 0;
+      for (const Json& one : cases)
+        for (const Json& of_case : one["buffers"]["each"])
+          if (one["storage"] == structure["storage"] && of_case["name"] == buffer["name"])
+            most = std::max(most, of_case["high_water"].get<std::uint64_t>());
+      EXPECT_EQ(buffer["high_water"], most) << structure["name"] << buffer["name"];
+      EXPECT_EQ(buffer["frames"]["max"], most);
+      EXPECT_LE(buffer["frames"]["min"], buffer["frames"]["p50"]);
+    }
+  }
+}
+
+TEST(SizeCommand, counts_the_same_lists_as_details_show) {
+  const Folder folder;
+  const std::string scene = folder.write("level.gltf", three_cameras()).string();
+  const std::string flags =
+      " --grid frustum --tiles 4x4 --slices 4 --assigner exact-fast --storage packed,fixed " + scene;
+  const Outcome run = tool("run -q --no-timing -o -" + flags + R"( --set 'scenes.*.camera=inside' --set details={})");
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Json of_run = Json::parse(run.out)["cases"][0];
+  const Json sized =
+      Json::parse(tool("size -q --all --format json --set 'scenes.*.camera=inside'" + flags).out)["structures"];
+  const auto longest = of_run["occupancy"]["lights_per_cell"]["max"].get<std::uint64_t>();
+  EXPECT_EQ(sized[0]["buffers"][0]["high_water"], of_run["occupancy"]["pairs"]["max"]);
+  EXPECT_EQ(sized[1]["buffers"][0]["high_water"], longest * 4 * 4 * 4);
+}
+
+TEST(SizeCommand, takes_a_configuration_with_the_cameras_that_it_names) {
+  const Folder folder;
+  folder.write("level.gltf", three_cameras());
+  const auto cameras = [&](const std::string& scene) {
+    const std::string config = folder
+                                   .write("c.json", R"({
+      // as configurations may
+      "scenes": [)" + scene + R"(], "grids": [{"tiles": {"count": [4, 4]}, "slices": {"count": 4}}],
+      "assigners": ["aabb"]})")
+                                   .string();
+    const Outcome done = tool("size -q --format json " + config);
+    EXPECT_EQ(done.code, 0) << done.err;
+    return Json::parse(done.out)["structures"][0]["cameras"];
+  };
+  EXPECT_EQ(cameras(R"("level.gltf")"), Json({"inside", "before", "away"}));
+  EXPECT_EQ(cameras(R"({"path": "level.gltf", "camera": "before"})"), Json({"before"}));
+}
+
+TEST(SizeCommand, prints_every_format_for_a_scene_of_no_lights_in_reach) {
+  const Folder folder;
+  const std::string scene = folder.write("dark.gltf", three_cameras(R"({"type": "directional"})")).string();
+  for (const std::string format : {"table", "cpp", "hlsl", "glsl", "json"}) {
+    const Outcome done = tool("size -q --all --format " + format + k_flags + " " + scene);
+    EXPECT_EQ(done.code, 0) << done.err;
+    EXPECT_FALSE(done.out.empty());
+  }
+}
+
+TEST(SizeCommand, refuses_what_it_cannot_size_and_says_why) {
+  const Folder folder;
+  const std::string scene = folder.write("level.gltf", three_cameras()).string();
+  const std::string result = (folder / "result.json").string();
+  ASSERT_EQ(tool("run -q --no-timing --grid frustum --assigner aabb -o " + result + " " + scene).code, 0);
+  const auto refuses = [](const std::string& arguments, const std::string& why) {
+    const Outcome done = tool("size " + arguments);
+    EXPECT_EQ(done.code, 2) << arguments;
+    EXPECT_NE(done.err.find(why), std::string::npos) << arguments << ": " << done.err;
+    EXPECT_EQ(done.out, "");
+  };
+  refuses(result + " --filter nothing", "'nothing' matches none of");
+  refuses(result + " --tiles 16x9", "--tiles: changes what is measured");
+  refuses(result + " " + result, "takes one configuration");
+  refuses(folder.write("c.json", R"({"scene": []})").string(), "c.json");
+  refuses(folder.write("empty.json", "").string(), "is empty");
+  refuses((folder / "absent.json").string(), "cannot be read");
+  refuses(folder.write("cut.json", file_text(result).substr(0, 1000)).string(), "is not JSON");
+  refuses(result + " --margin 0.5", "--margin: takes a number");
+  refuses(result + " --round pages", "did you mean 'page'");
+}
+
+TEST(SizeCommand, takes_paths_as_long_as_systems_have_them) {
+  const Folder folder;
+  const std::string scene = folder.write(std::string(240, 's') + ".gltf", three_cameras()).string();
+  const Outcome done = tool("size -q --format cpp --grid frustum --tiles 4x4 --assigner aabb " + scene);
+  EXPECT_EQ(done.code, 0) << done.err;
+  EXPECT_NE(done.out.find("inline constexpr LightBuffer " + std::string(200, 's') + "_indices{"), std::string::npos)
+      << done.out;
+}
+
+}  // namespace
+}  // namespace clusterbench

@@ -1,0 +1,355 @@
+// The snippets of `size` for shaders, compiled by glslang; and what their lookups answer, against the tool's own: from
+// SPIR-V spirv-cross makes C++, which is run. Without these programs the tests are skipped.
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "core/random.h"
+#include "grid/grid.h"
+#include "report/result_by_hand.h"
+#include "report/result_json.h"
+#include "report/size.h"
+#include "run/grid_facts.h"
+
+namespace clusterbench::report {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::case_by_hand;
+
+constexpr Vec2i k_viewport{1920, 1080};
+
+// A grid, and how many numbers a sample of its lookup has: pixel and depth, or a point.
+struct LookedUp {
+  std::string name;
+  grid::GridSpec spec;
+  grid::Grid grid;
+  bool orthographic = false;
+};
+
+LookedUp looked_up(const std::string& name, const grid::GridSpec& spec, bool orthographic = false) {
+  grid::GridInputs inputs;
+  inputs.projection = {orthographic, -12.0, 12.0, -6.75, 6.75, 0.1, 500.0};
+  if (!orthographic) inputs.projection = {false, -1.0, 1.0, -0.5625, 0.5625, 0.1, 500.0};
+  inputs.viewport = k_viewport;
+  inputs.light_near_m = 3.0;
+  inputs.light_far_m = 77.0;
+  inputs.rig_lo_m = {-20.5, -3.0, -140.0};
+  inputs.rig_hi_m = {33.0, 17.25, 12.0};
+  return {name, spec, grid::make_grid(spec, inputs), orthographic};
+}
+
+grid::GridSpec slices(grid::Scheme scheme, int count, double near_m = 0.0, double far_m = 0.0) {
+  grid::GridSpec spec;
+  spec.slices.scheme = scheme;
+  spec.slices.count = count;
+  spec.slices.near_m = near_m;
+  spec.slices.far_m = far_m;
+  return spec;
+}
+
+// Every way of cutting, tiles by pixels and by number, both projections, and all kinds.
+std::vector<LookedUp> all_lookups() {
+  using grid::Scheme;
+  std::vector<LookedUp> all;
+  const std::pair<const char*, grid::GridSpec> cuts[] = {
+      {"linear", slices(Scheme::linear, 24, 0.1, 400)},
+      {"exponential", slices(Scheme::exponential, 24, 0.1, 400)},
+      {"first", slices(Scheme::exponential_first, 16, 0.1, 500)},
+      {"power", slices(Scheme::power, 17, 0.25, 300)},
+      {"fit", slices(Scheme::fit, 12)},
+      {"two", slices(Scheme::exponential, 1, 0.5, 2)},
+      {"list", slices(Scheme::list, 0)},
+  };
+  for (const auto& [name, cut] : cuts)
+    for (const bool by_count : {false, true}) {
+      grid::GridSpec spec = cut;
+      if (spec.slices.scheme == Scheme::list) spec.slices.boundaries_m = {0.5, 1, 2.5, 2.75, 9, 33.3, 100};
+      if (by_count) spec.tiles = {{0, 0}, {16, 9}};
+      if (!by_count) spec.tiles = {{56, 40}, {0, 0}};  // does not divide the viewport
+      const std::string tiles = by_count ? " counted" : " pixels";
+      all.push_back(looked_up(name + tiles, spec));
+      all.push_back(looked_up(name + tiles + " orthographic", spec, true));
+      spec.kind = grid::Kind::distance;
+      all.push_back(looked_up(name + tiles + " distance", spec));
+    }
+  grid::GridSpec cubes;
+  cubes.kind = grid::Kind::cascades;
+  cubes.cells = {16, 12, 8};
+  cubes.levels = 4;
+  cubes.finest_m = 0.3;
+  all.push_back(looked_up("cubes", cubes));
+  grid::GridSpec boxes;
+  boxes.kind = grid::Kind::world;
+  boxes.cells = {33, 7, 64};
+  all.push_back(looked_up("boxes", boxes));
+  boxes.has_bounds = true;
+  boxes.bounds_lo_m = {1e6, -2.0, -7.0};
+  boxes.bounds_hi_m = {1e6 + 40.0, 9.0, 33.0};
+  all.push_back(looked_up("far boxes", boxes));
+  return all;
+}
+
+run::Result result_of_lookups(const std::vector<LookedUp>& all) {
+  run::Result result = testing::result_by_hand();
+  result.cases.clear();
+  result.planned_ids.clear();
+  for (const LookedUp& one : all) {
+    run::CaseResult entry = case_by_hand(one.name, "aabb", 1.0);
+    entry.name = "hall/walk/" + one.name + "/aabb/packed";
+    entry.viewport = k_viewport;
+    entry.grid = run::grid_facts(one.spec, one.grid, 500.0);
+    result.cases.push_back(entry);
+    result.planned_ids.push_back(one.name);
+  }
+  return result;
+}
+
+// A sample as the shader takes it, and the tool.
+struct Probe {
+  float shader[3];
+  grid::Sample sample;
+};
+
+Probe random_probe(const LookedUp& one, SplitMix64& random) {
+  Probe probe{};
+  if (one.grid.has_tiles()) {
+    const float pixel_x = static_cast<float>(random.between(0.0, k_viewport.x)),
+                pixel_y = static_cast<float>(random.between(0.0, k_viewport.y));
+    // As many before the first boundary and beyond the last as there are anywhere.
+    const float depth = static_cast<float>(std::exp(random.between(std::log(0.01), std::log(900.0))));
+    probe.sample.pixel_x = pixel_x;
+    probe.sample.pixel_y = pixel_y;
+    probe.sample.view = {0.0f, 0.0f, -depth};  // the distance is the depth
+    probe.shader[0] = pixel_x;
+    probe.shader[1] = pixel_y;
+    probe.shader[2] = depth;
+    return probe;
+  }
+  const std::optional<Vec3d> origin = one.grid.world_origin();
+  const Vec3f at(static_cast<float>(random.between(-40.0, 40.0)), static_cast<float>(random.between(-20.0, 20.0)),
+                 static_cast<float>(random.between(-90.0, 90.0)));
+  probe.sample.view = at;
+  probe.sample.eye = origin.value_or(Vec3d(0.0));
+  probe.sample.from_eye = Vec3d(at);
+  const Vec3f local = origin ? Vec3f(probe.sample.from(*origin)) : at;
+  for (int axis = 0; axis < 3; ++axis) probe.shader[axis] = local[axis];
+  return probe;
+}
+
+// One more and one less in the last digits: where the answer stays, no rounding of a logarithm can change it.
+bool is_away_from_boundaries(const LookedUp& one, const Probe& probe) {
+  const std::int64_t cell = grid::lookup(one.grid, probe.sample);
+  constexpr double k_nudge = 4e-6;
+  for (const double factor : {1.0 - k_nudge, 1.0 + k_nudge}) {
+    grid::Sample nudged = probe.sample;
+    nudged.view = Vec3f(Vec3d(nudged.view) * factor);
+    nudged.from_eye = nudged.from_eye * factor;
+    if (grid::lookup(one.grid, nudged) != cell) return false;
+  }
+  return true;
+}
+
+bool has_program(const char* name) {
+  return std::system((std::string("command -v ") + name + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+// What C++ of spirv-cross includes, as far as a shader with two buffers and no other inputs needs it.
+constexpr const char* k_interface = R"(#pragma once
+#include <cmath>
+#include <cstdint>
+#include <glm/glm.hpp>
+struct spirv_cross_shader {
+  static inline void* buffers[2];
+  template <class R> void register_resource(R& resource, unsigned, unsigned binding) { resource.set(buffers[binding]); }
+};
+using spirv_cross_shader_t = spirv_cross_shader;
+struct spirv_cross_interface {
+  spirv_cross_shader* (*construct)();
+  void (*destruct)(spirv_cross_shader*);
+  void (*invoke)(spirv_cross_shader*);
+};
+namespace spirv_cross {
+namespace internal {
+template <class T> struct Resource {
+  T* at;
+  void set(void* to) { at = static_cast<T*>(to); }
+  T& get() { return *at; }
+};
+}  // namespace internal
+struct ComputeResources { void init(spirv_cross_shader&) {} };
+struct ComputePrivateResources {};
+template <class S, class R, int, int, int> struct ComputeShader : spirv_cross_shader {
+  S shader{};
+  R resources{};
+  void invoke() {
+    resources.init(*this);
+    shader.__res = &resources;
+    shader.main();
+  }
+};
+}  // namespace spirv_cross
+)";
+
+constexpr const char* k_driver = R"(
+#include <cstdio>
+int main(int, char** files) {
+  static float numbers[SAMPLES * 3];
+  static int32_t answers[SAMPLES];
+  std::FILE* in = std::fopen(files[1], "rb");
+  if (in == nullptr || std::fread(numbers, sizeof numbers, 1, in) != 1) return 2;
+  spirv_cross_shader::buffers[0] = numbers;
+  spirv_cross_shader::buffers[1] = answers;
+  spirv_cross_shader_t* shader = spirv_cross_get_interface()->construct();
+  spirv_cross_get_interface()->invoke(shader);
+  spirv_cross_get_interface()->destruct(shader);
+  std::FILE* out = std::fopen(files[2], "wb");
+  return out != nullptr && std::fwrite(answers, sizeof answers, 1, out) == 1 && std::fclose(out) == 0 ? 0 : 3;
+}
+)";
+
+class SizeShaders : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!has_program("glslangValidator") || !has_program("spirv-cross"))
+      GTEST_SKIP() << "skipped: needs glslangValidator and spirv-cross (Debian: glslang-tools, spirv-cross)";
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
+  bool does(const std::string& command) const {
+    const bool is_done = std::system((command + " >" + path("log") + " 2>&1").c_str()) == 0;
+    std::ifstream log(path("log"));
+    EXPECT_TRUE(is_done) << command << "\n" << std::string(std::istreambuf_iterator<char>(log), {});
+    return is_done;
+  }
+  bool compiles(const std::string& shader, bool is_hlsl) const {
+    write(is_hlsl ? "x.hlsl" : "x.comp", shader);
+    return does(is_hlsl ? "glslangValidator -V -D -S comp -e main " + path("x.hlsl") + " -o " + path("x.spv")
+                        : "glslangValidator -V -S comp " + path("x.comp") + " -o " + path("x.spv"));
+  }
+  // The cells that the shader of `compiles` finds.
+  std::vector<std::int32_t> answers(const std::vector<Probe>& probes) const {
+    const std::string samples = std::to_string(probes.size());
+    fs::create_directories(folder_ / "spirv_cross");
+    write("spirv_cross/internal_interface.hpp", k_interface);
+    write("spirv_cross/external_interface.h", "");
+    write("driver.inc", k_driver);
+    std::ofstream in(path("in"), std::ios::binary);
+    for (const Probe& probe : probes) in.write(reinterpret_cast<const char*>(probe.shader), sizeof probe.shader);
+    in.close();
+    if (!does("spirv-cross --cpp " + path("x.spv") + " --output " + path("x.inc"))) return {};
+    write("x.cpp", "#include \"x.inc\"\n#include \"driver.inc\"\n");
+    if (!does("c++ -std=c++17 -w -O1 -ffp-contract=off -DSAMPLES=" + samples + " -I" + path("") + " " + path("x.cpp") +
+              " -o " + path("x")) ||
+        !does(path("x") + " " + path("in") + " " + path("out")))
+      return {};
+    std::vector<std::int32_t> cells(probes.size());
+    std::ifstream out(path("out"), std::ios::binary);
+    out.read(reinterpret_cast<char*>(cells.data()), static_cast<std::streamsize>(4 * cells.size()));
+    return cells;
+  }
+
+  const fs::path folder_ = fs::temp_directory_path() / ("clusterbench_shaders_" + std::to_string(getpid()));
+};
+
+constexpr std::size_t k_per_grid = 3000;
+
+// Reads so many samples for each lookup, one lookup after the other.
+std::string shader_that_looks_up(const run::Result& result, const std::vector<LookedUp>& all, bool is_hlsl) {
+  const nlohmann::ordered_json json = result_to_json(result, {});
+  const auto structures = nlohmann::json::parse(size_report(json, {"", false, "json"}))["structures"];
+  std::string out = is_hlsl ? "RWStructuredBuffer<float> samples : register(u0);\nRWStructuredBuffer<int> cells : "
+                              "register(u1);\n"
+                            : "#version 450\nlayout(local_size_x = 1) in;\n"
+                              "layout(std430, binding = 0) buffer In { float samples[]; };\n"
+                              "layout(std430, binding = 1) buffer Out { int cells[]; };\n";
+  out += size_report(json, {"", false, is_hlsl ? "hlsl" : "glsl"});
+  out += is_hlsl ? "[numthreads(1, 1, 1)] void main() {\n" : "void main() {\n";
+  const std::string real2 = is_hlsl ? "float2" : "vec2", real3 = is_hlsl ? "float3" : "vec3";
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::string lookup = structures[i]["lookups"][0]["identifier"].get<std::string>() + "_cell_of";
+    const std::string from = std::to_string(i * k_per_grid), to = std::to_string((i + 1) * k_per_grid),
+                      n = "n" + std::to_string(i);
+    const std::string x = "samples[3 * " + n + "], samples[3 * " + n + " + 1]", z = "samples[3 * " + n + " + 2]";
+    out += "  for (int " + n + " = " + from + "; " + n + " < " + to + "; ++" + n + ") cells[" + n + "] = " + lookup +
+           "(" + (all[i].grid.has_tiles() ? real2 + "(" + x + "), " + z : real3 + "(" + x + ", " + z + ")") + ");\n";
+  }
+  return out + "}\n";
+}
+
+class SizeLookups : public SizeShaders, public ::testing::WithParamInterface<bool> {};
+
+// On a boundary a logarithm's last digit decides: there the neighbouring slice is allowed, and nothing else.
+TEST_P(SizeLookups, find_the_cells_that_the_tool_finds) {
+  const std::vector<LookedUp> all = all_lookups();
+  const run::Result result = result_of_lookups(all);
+  ASSERT_TRUE(compiles(shader_that_looks_up(result, all, GetParam()), GetParam()));
+  SplitMix64 random(7);
+  std::vector<Probe> probes;
+  for (const LookedUp& one : all)
+    for (std::size_t i = 0; i < k_per_grid; ++i) probes.push_back(random_probe(one, random));
+  const std::vector<std::int32_t> cells = answers(probes);
+  ASSERT_EQ(cells.size(), probes.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    std::size_t exact = 0, inside = 0, wrong = 0;
+    for (std::size_t k = i * k_per_grid; k < (i + 1) * k_per_grid; ++k) {
+      const std::int64_t own = grid::lookup(all[i].grid, probes[k].sample);
+      inside += own >= 0 ? 1 : 0;
+      if (is_away_from_boundaries(all[i], probes[k])) {
+        ++exact;
+        wrong += cells[k] != own ? 1 : 0;
+      } else if (all[i].grid.has_tiles() && own >= 0 && cells[k] >= 0) {
+        const Vec3i counts = all[i].grid.cells();
+        const std::int64_t slice = std::int64_t{counts.x} * counts.y;
+        wrong += std::abs(cells[k] - own) != slice && cells[k] != own ? 1 : 0;
+      }
+    }
+    EXPECT_EQ(wrong, 0u) << all[i].name;
+    EXPECT_GT(exact, k_per_grid * 9 / 10) << all[i].name << ": nearly all samples are compared exactly";
+    EXPECT_GT(inside, k_per_grid / 50) << all[i].name;
+    EXPECT_LT(inside, k_per_grid) << all[i].name << ": some samples are outside";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Languages, SizeLookups, ::testing::Bool(),
+                         [](const auto& of) { return std::string(of.param ? "hlsl" : "glsl"); });
+
+TEST_F(SizeShaders, compile_whatever_cases_are_called) {
+  run::Result result = testing::result_by_hand();
+  const std::string names[] = {"9 lives\n#error a name broke out\\",
+                               "\xC3\xA9t\xC3\xA9/__x__//y\\",
+                               "gl_x",
+                               "",
+                               "hall/walk/a?\?/",
+                               std::string(300, 'l'),
+                               "a",
+                               "a_indices"};
+  result.cases.clear();
+  result.planned_ids.clear();
+  for (const std::string& name : names) {
+    run::CaseResult one = case_by_hand("id" + std::to_string(result.cases.size()), "aabb", 1.0);
+    one.name = name;
+    one.grid["slices"] =
+        nlohmann::json::parse(R"({"scheme": "list", "boundaries": [1], "lookup": {"form": "search"}})");
+    one.grid["tiles"] = {{"count", {4, 3}}};
+    result.planned_ids.push_back(one.id);
+    result.cases.push_back(one);
+  }
+  const nlohmann::ordered_json json = result_to_json(result, {});
+  EXPECT_TRUE(compiles(
+      "#version 450\nlayout(local_size_x = 1) in;\n" + size_report(json, {"", true, "glsl"}) + "void main() {}\n",
+      false));
+  EXPECT_TRUE(compiles(size_report(json, {"", true, "hlsl"}) + "[numthreads(1, 1, 1)] void main() {}\n", true));
+}
+
+}  // namespace
+}  // namespace clusterbench::report
