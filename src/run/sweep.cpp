@@ -92,10 +92,18 @@ std::vector<SceneData> load_scenes(const config::Config& config) {
   return scenes;
 }
 
-Json identity(const config::MethodRequest& method) {
+bool is_late_default(std::span<const assign::ParamSpec> specs, const std::string& name,
+                     const assign::ParamValue& value) {
+  return std::ranges::any_of(specs, [&](const assign::ParamSpec& spec) {
+    return spec.is_late && spec.name == name && spec.standard == value;
+  });
+}
+
+Json identity(const config::MethodRequest& method, std::span<const assign::ParamSpec> specs) {
   Json params = Json::object();
   for (const auto& [name, value] : method.params.values())
-    params[name] = std::visit([](const auto& number) { return Json(number); }, value);
+    if (!is_late_default(specs, name, value))
+      params[name] = std::visit([](const auto& number) { return Json(number); }, value);
   return {{"name", method.name}, {"params", params}};
 }
 
@@ -116,12 +124,18 @@ std::string short_hash(const Json& all) {
 // Settings that change what a case counts; timing and threads do not.
 Json identity(const config::Config& config, const SceneData& data, const CasePlan& plan) {
   const Vec2i viewport = config.viewports[plan.viewport];
+  const config::MethodRequest& assigner = config.assigners[plan.assigner];
+  Json storage = k_own_structure;
+  if (plan.storage) {
+    const config::MethodRequest& kept_in = config.storages[*plan.storage];
+    storage = identity(kept_in, assign::find_storage(kept_in.name)->params);
+  }
   Json all{{"scene", identity(config.scenes[plan.scene], data)},
            {"camera", {data.paths[plan.camera].camera, plan.camera}},
            {"viewport", {viewport.x, viewport.y}},
            {"grid", config::grid_identity(config.grids[plan.grid])},
-           {"assigner", identity(config.assigners[plan.assigner])},
-           {"storage", plan.storage ? identity(config.storages[*plan.storage]) : Json(k_own_structure)},
+           {"assigner", identity(assigner, assign::find_assigner(assigner.name)->params)},
+           {"storage", std::move(storage)},
            {"seed", config.seed},
            {"shading_samples", 0}};
   for (const config::SampleSetRequest& request : config.sample_sets) {

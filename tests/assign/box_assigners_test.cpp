@@ -39,6 +39,22 @@ TEST(BoxAssigners, aabb_lists_exactly_what_both_brute_force_and_bounds_list) {
             << setting.name << ", " << spot;
 }
 
+TEST(TwoLevel, lists_what_aabb_lists_and_what_its_coarse_tiles_add) {
+  for (const Setting& setting : frustum_settings(6))
+    for (const char* spot : k_spot_choices) {
+      const auto with_coarse = [&](double side) {
+        return lists_by("two-level", setting.frame, setting.grid, {{"spot", std::string(spot)}, {"coarse", side}});
+      };
+      const Lists aabb = listed(setting, "aabb", spot), brute_force = listed(setting, "brute-force", spot);
+      EXPECT_EQ(with_coarse(1.0), aabb) << setting.name << ", " << spot;
+      for (const double side : {2.0, 4.0, 5.0, 64.0}) {
+        const Lists lists = with_coarse(side);
+        EXPECT_TRUE(contained(aabb, lists)) << setting.name << ", " << spot << ", " << side;
+        EXPECT_TRUE(contained(lists, brute_force)) << setting.name << ", " << spot << ", " << side;
+      }
+    }
+}
+
 TEST(BoxAssigners, planes_aabb_and_sphere_refinement_stay_within_bounds) {
   for (const Setting& setting : frustum_settings(4))
     for (const char* spot : k_spot_choices) {

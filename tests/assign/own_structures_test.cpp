@@ -105,9 +105,60 @@ TEST(OwnStructures, say_what_each_of_their_buffers_needs) {
   // In view: 33 points and a spot, so two words for each of two tiles; of all 101 lights four. Four bins of two ranges.
   EXPECT_EQ(needs_of(*two.run("z-binning").structure()),
             (Needs{{"masks", 4, 4, 8, 2}, {"bins", 16, 4, 4, 1}, {"order", 4, 34, 101, 1}}));
+  EXPECT_EQ(needs_of(*two.run("tile-ranges").structure()),
+            (Needs{{"masks", 4, 4, 8, 2}, {"ranges", 8, 8, 8, 1}, {"order", 4, 34, 101, 1}}));
   // 13, 2 and 1 groups of eight boxes around the points, one around the spot.
   EXPECT_EQ(needs_of(*two.run("bvh").structure()),
             (Needs{{"boxes", 24, 8 * 17, 8 * 17, 8}, {"order", 4, 101, 101, 1}}));
+}
+
+TEST(ZBinning, lists_do_not_depend_on_the_order_of_lights_of_equal_depth) {
+  // All at 6 m; by size they reach one slice, or three.
+  std::vector<scene::WorldLight> lights;
+  for (int i = 0; i < 12; ++i) lights.push_back(point_light({2, 0, -6}, i % 3 == 0 ? 5.0 : 0.5));
+  for (const char* name : {"z-binning", "tile-ranges"}) {
+    const std::size_t listed = at(TwoTiles(lights).run(name), 150, {0.5f, 0, -3}).size();
+    EXPECT_EQ(listed, 4u) << name << ": the large ones alone";
+    std::vector<scene::WorldLight> others(lights.rbegin(), lights.rend());
+    EXPECT_EQ(at(TwoTiles(others).run(name), 150, {0.5f, 0, -3}).size(), listed) << name;
+  }
+}
+
+TEST(TileRanges, a_tile_has_ranges_of_its_own) {
+  // On the right a small light between two large ones, by depth; on the left a large one between these.
+  const TwoTiles two({point_light({2, 0, -6}, 1.5), point_light({2, 0, -5.5}, 0.25), point_light({-3, 0, -5}, 1.5),
+                      point_light({2, 0, -4.5}, 0.25), spot_light({3, 0, -6}, 0.5, {0, 0, -1}, 0.4)});
+  const AssignerRun run = two.run("tile-ranges");
+  using Lights = std::vector<std::uint32_t>;
+  EXPECT_EQ(at(run, 150, {2, 0, -6}), (Lights{3, 1, 0, 4})) << "by depth, points before spots";
+  EXPECT_EQ(at(run, 50, {-2, 0, -6}), Lights{2});
+  EXPECT_EQ(at(run, 50, {-2, 0, -3.5f}), Lights{2});
+  EXPECT_EQ(at(run, 150, {1, 0, -1.5f}), Lights());
+  EXPECT_EQ(at(run, 150, {9, 0, -20}), Lights()) << "beyond the grid";
+  const StructureUse use = run.structure()->use();
+  EXPECT_EQ(use.index_entries, 2u) << "a word for each tile";
+  EXPECT_EQ(use.header_bytes, 8u * 8u + 5u * 4u) << "two ranges of 16 bits for each cell, a number for each light";
+}
+
+TEST(TileRanges, list_no_more_than_ranges_of_whole_slices) {
+  testing::Random random(3);
+  std::vector<scene::WorldLight> lights;
+  for (int i = 0; i < 300; ++i)
+    lights.push_back(point_light({random.between(-9, 9), random.between(-4, 4), random.between(-15, -1)}, 1.0));
+  const TwoTiles two(lights);
+  const Lists wide = two.run("z-binning").structure()->expanded(),
+              narrow = two.run("tile-ranges").structure()->expanded();
+  EXPECT_LE(narrow.lights.size(), wide.lights.size());
+  for (std::uint32_t cell = 0; cell < narrow.cell_count(); ++cell)
+    for (const std::uint32_t light : narrow.of(cell))
+      EXPECT_NE(std::ranges::find(wide.of(cell), light), wide.of(cell).end()) << cell << ", " << light;
+}
+
+TEST(TileRanges, ranks_are_wider_where_a_rig_needs_it) {
+  std::vector<scene::WorldLight> lights(66000, point_light({2, 0, -6}, 0.5));
+  const AssignerRun run = TwoTiles(lights).run("tile-ranges");
+  EXPECT_EQ(run.structure()->use().header_bytes, 8u * 16u + 66000u * 4u);
+  EXPECT_EQ(at(run, 150, {2, 0, -6}).size(), 66000u);
 }
 
 TEST(Bvh, a_sample_gets_the_lights_whose_boxes_hold_it_wherever_it_lies) {

@@ -280,6 +280,43 @@ Lists shuffled(Lists lists, std::uint32_t points, std::uint64_t seed) {
   return lists;
 }
 
+TEST(Packed, lists_that_are_shared_read_back_as_they_were_stored) {
+  const auto packed = storage("packed", {{"equal_lists", std::string("shared")}});
+  // Rows of equal lists, others of the same length, and empty ones.
+  const Lists lists = lists_from({{0, 3}, {0, 3}, {0, 3}, {1, 3}, {}, {1, 3}, {}, {2}, {2}, {0, 1, 2, 3}});
+  packed->start(10, {3, 1});
+  packed->store(lists);
+  EXPECT_EQ(packed->expanded(), lists);
+  EXPECT_EQ(packed->use().index_entries, 2u + 2u + 2u + 1u + 4u) << "[1, 3] is no neighbour of the other [1, 3]";
+  EXPECT_EQ(packed->limit().index_entries, 40u);
+  for (const double share : {0.02, 0.5, 1.0}) {
+    const Lists random = random_lists(200, 20, share, 3);
+    packed->start(200, {10, 10});
+    packed->store(random);
+    EXPECT_EQ(packed->expanded(), random);
+    EXPECT_LE(packed->use().index_entries, random.lights.size());
+  }
+  EXPECT_EQ(packed->use().index_entries, 20u) << "all cells have all lights";
+}
+
+TEST(Runs, are_of_consecutive_lights_of_one_type) {
+  const auto runs = storage("runs");
+  const Lists lists = lists_from({{0, 1, 2, 5, 6, 9}, {}, {3, 4}, {9}});
+  runs->start(4, {5, 5});
+  runs->store(lists);
+  EXPECT_EQ(runs->expanded(), lists);
+  EXPECT_EQ(runs->use().index_entries, 3u + 0u + 1u + 1u);
+  EXPECT_EQ(runs->use().index_bytes, 2u * 5u);
+  EXPECT_EQ(runs->use().header_bytes, 4u * 8u);
+  EXPECT_EQ(runs->limit().index_entries, 4u * (3u + 3u)) << "every second light, of each type";
+  runs->store(lists_from({{3, 4, 5, 6}, {}, {}, {}}));
+  EXPECT_EQ(runs->use().index_entries, 2u) << "points and spots apart";
+  runs->start(1, {300, 0});
+  EXPECT_EQ(runs->index_bits(), 32u);
+  runs->start(1, {200000, 0});
+  EXPECT_EQ(runs->use().header_bytes, 12u) << "100,000 runs of one type";
+}
+
 TEST(EveryStorage, keeps_lists_in_any_order) {
   for (const StorageDescriptor* row : storage_descriptors())
     for (const std::uint32_t lights : {9u, 60u, 700u})

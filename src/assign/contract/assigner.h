@@ -33,6 +33,9 @@ struct ParamSpec {
   // Numbers: from here on a method that calls itself conservative is; below, lights can be lost.
   double conservative_from = -std::numeric_limits<double>::infinity();
   bool is_thread_count = false;
+  // Added after results with the method were published: at its default it is no part of a case's identity, so that they
+  // still compare.
+  bool is_late = false;
 };
 
 // Resolved parameters: every parameter of the method, defaults filled in.
@@ -150,6 +153,8 @@ struct AssignerDescriptor {
   bool draws_lights = false;
   // A known mistake on purpose, to show what it does: left out where nothing names it.
   bool naive = false;
+  // Left out where nothing names it: one of many ways of engines, that default runs need not pay for.
+  bool by_name = false;
   std::vector<ParamSpec> params;
   // The forms in which it answers, one or both; null: not in this one.
   std::unique_ptr<ListAssigner> (*make)(const Params& params) = nullptr;
@@ -159,8 +164,8 @@ struct AssignerDescriptor {
 
   bool takes(grid::Kind kind) const;
   bool answers(Answer answer) const;
-  // Whether it runs where nothing is named: all do but the naive ones and those that need depth, whose rays take long.
-  bool is_standard() const { return !naive && !needs.depth; }
+  // Whether it runs where nothing is named. Those that need depth do not: their rays take long.
+  bool is_standard() const { return !naive && !by_name && !needs.depth; }
 };
 
 // For descriptors: what makes a method of its parameters.

@@ -3,7 +3,8 @@
 namespace clusterbench::assign {
 
 // One per file in storages/.
-extern const StorageDescriptor packed_descriptor, fixed_descriptor, bitfield_descriptor, linked_descriptor;
+extern const StorageDescriptor packed_descriptor, fixed_descriptor, bitfield_descriptor, linked_descriptor,
+    runs_descriptor;
 
 void Storage::start(const grid::Grid& grid, const view::LightRanges& lights) {
   grid_ = &grid;
@@ -29,7 +30,7 @@ void Storage::expand(Lists& out) const {
 
 std::span<const StorageDescriptor* const> storage_descriptors() {
   static constexpr const StorageDescriptor* k_rows[] = {&packed_descriptor, &fixed_descriptor, &bitfield_descriptor,
-                                                        &linked_descriptor};
+                                                        &linked_descriptor, &runs_descriptor};
   return k_rows;
 }
 

@@ -28,6 +28,10 @@ class Storage : public LightStructure {
   bool has_cells() const final { return true; }
   void expand(Lists& out) const final;
 
+ protected:
+  // Cells in a row of the grid; 0 without a lookup.
+  std::uint32_t columns() const { return grid_ == nullptr ? 0 : static_cast<std::uint32_t>(grid_->cells().x); }
+
  private:
   const grid::Grid* grid_ = nullptr;
 };

@@ -13,11 +13,14 @@ namespace {
 
 // offset u32 + point count u16 + spot count u16 per cell; 12 bytes with u32 counts where a count needs it. Sparse: only
 // for cells with lights; a shader finds them through one block per 32 cells, {mask u32, rank u32}: header rank + the
-// number of mask bits below the cell's.
+// number of mask bits below the cell's. Shared: a list that equals that of the cell before it or of the cell a row
+// before it is not written again.
 class Packed final : public Storage {
  public:
   explicit Packed(const Params& params)
-      : wanted_bits_(params.text("index_bits")), is_sparse_(params.text("headers") == "sparse") {}
+      : wanted_bits_(params.text("index_bits")),
+        is_sparse_(params.text("headers") == "sparse"),
+        shares_(params.text("equal_lists") == "shared") {}
 
   void start(std::uint32_t cell_count, const view::LightRanges& lights) override {
     lights_ = lights.size();
@@ -36,14 +39,16 @@ class Packed final : public Storage {
   }
 
   void store(const Lists& lists) override {
-    indices_.make_room(lists.lights.size(), bits_);
-    indices_.write(0, lists.lights.data(), lists.lights.size());
+    if (shares_) leave_out_equal(lists);
+    const std::vector<std::uint32_t>& written = shares_ ? kept_ : lists.lights;
+    indices_.make_room(written.size(), bits_);
+    indices_.write(0, written.data(), written.size());
+    entries_ = written.size();
     is_wide_ = can_be_wide() && has_wide_count(lists);
     if (is_wide_)
       write_headers(lists, wide_headers_);
     else
       write_headers(lists, headers_);
-    entries_ = lists.pair_count();
   }
 
   StructureUse use() const override {
@@ -106,6 +111,25 @@ class Packed final : public Storage {
     return false;
   }
 
+  void leave_out_equal(const Lists& lists) {
+    kept_.clear();
+    kept_at_.resize(lists.cell_count());
+    for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) {
+      const auto list = lists.of(cell);
+      const auto equals = [&](std::uint32_t cells_back) {
+        return cells_back > 0 && cell >= cells_back && std::ranges::equal(list, lists.of(cell - cells_back));
+      };
+      if (equals(1)) {
+        kept_at_[cell] = kept_at_[cell - 1];
+      } else if (equals(columns())) {
+        kept_at_[cell] = kept_at_[cell - columns()];
+      } else {
+        kept_at_[cell] = static_cast<std::uint32_t>(kept_.size());
+        kept_.insert(kept_.end(), list.begin(), list.end());
+      }
+    }
+  }
+
   template <class H>
   void write_headers(const Lists& lists, std::vector<H>& headers) {
     header_count_ = 0;
@@ -122,7 +146,7 @@ class Packed final : public Storage {
     const bool has_spots = !list.empty() && list.back() >= points_;
     const auto is_point = [this](std::uint32_t light) { return light < points_; };
     const auto spots_from = has_spots ? std::partition_point(list.begin(), list.end(), is_point) : list.end();
-    return {lists.begin[cell], static_cast<Count>(spots_from - list.begin()),
+    return {shares_ ? kept_at_[cell] : lists.begin[cell], static_cast<Count>(spots_from - list.begin()),
             static_cast<Count>(list.end() - spots_from)};
   }
 
@@ -150,7 +174,7 @@ class Packed final : public Storage {
   }
 
   std::string wanted_bits_;
-  bool is_sparse_, is_wide_ = false;
+  bool is_sparse_, shares_, is_wide_ = false;
   std::uint32_t bits_ = 8, lights_ = 0, points_ = 0;
   std::uint32_t cell_count_ = 0, header_count_ = 0;
   std::uint64_t entries_ = 0;
@@ -158,6 +182,7 @@ class Packed final : public Storage {
   std::vector<WideHeader> wide_headers_;  // in place of them, where the rig can need them
   std::vector<Block> blocks_;
   IndexArray indices_;
+  std::vector<std::uint32_t> kept_, kept_at_;  // where lists are shared: those that are written, and each cell's begin
 };
 
 }  // namespace
@@ -177,7 +202,14 @@ const StorageDescriptor packed_descriptor{
                            "32 cells (mask and rank, Jacobson 1989)",
                 .standard = std::string("dense"),
                 .unit = "",
-                .choices = {"dense", "sparse"}}},
+                .choices = {"dense", "sparse"}},
+               {.name = "equal_lists",
+                .summary = "what becomes of a list that equals that of the cell before, or of the cell a row before. "
+                           "repeated: it is written again; shared: its header points to the other one (Filament)",
+                .standard = std::string("repeated"),
+                .unit = "",
+                .choices = {"repeated", "shared"},
+                .is_late = true}},
     .make = make_storage<Packed>,
 };
 

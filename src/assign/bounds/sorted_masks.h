@@ -1,0 +1,250 @@
+#pragma once
+// Light structures of engines that keep no lists: lights sorted by depth, a bit for each per tile of the screen, and
+// the first and the last of them for each range of depth. A sample's lights are its tile's bits within its range.
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <limits>
+#include <tuple>
+#include <variant>
+#include <vector>
+
+#include "assign/bounds/cell_bounds.h"
+#include "assign/bounds/frustum_bounds.h"
+#include "assign/cone/spot_bounding_spheres.h"
+#include "assign/contract/assigner.h"
+#include "assign/contract/light_test.h"
+#include "assign/lists/radix_sort.h"
+#include "core/memory.h"
+
+namespace clusterbench::assign {
+
+// What has a range of its own: a slice, for all of its tiles, with ranks of 32 bits; or each cell, with ranks as narrow
+// as the rig allows, since there are many.
+enum class RangesOf { slices, cells };
+
+// Tiles and slices are the grid's, so that a cell is what its tile and its slice have in common.
+template <RangesOf ranges_of>
+class SortedMasks final : public LightStructure {
+ public:
+  // For so many lights, of which `listed` are added.
+  void start(const grid::Grid& grid, std::uint32_t lights, std::uint32_t listed) {
+    grid_ = &grid;
+    lights_ = lights;
+    const Vec3i cells = grid.cells();
+    tiles_ = static_cast<std::uint32_t>(cells.x * cells.y);
+    words_ = words_for(listed);
+    check_memory("words of tile masks", std::uint64_t{tiles_} * words_, sizeof(std::uint32_t));
+    masks_.assign(std::size_t{tiles_} * words_, 0);
+    order_.resize(listed);
+    if (ranks_are_narrow() != std::holds_alternative<Ranges<std::uint16_t>>(ranges_)) {
+      if (ranks_are_narrow())
+        ranges_.template emplace<Ranges<std::uint16_t>>();
+      else
+        ranges_.template emplace<Ranges<std::uint32_t>>();
+    }
+    const std::size_t count = ranges_of == RangesOf::cells ? grid.cell_count() : static_cast<std::size_t>(cells.z);
+    std::visit(
+        [count](auto& ranges) {
+          check_memory("ranges of lights", count, sizeof ranges[0]);
+          ranges.assign(count, {});
+        },
+        ranges_);
+  }
+
+  // The light of a rank among the sorted ones, which come in this order, points before spots.
+  void add(std::uint32_t rank, std::uint32_t light, std::size_t type, const CellBox& box) {
+    order_[rank] = light;
+    const std::uint32_t bit = 1u << rank % k_bits;
+    const auto columns = static_cast<std::size_t>(grid_->screen().tiles.count.x);
+    for (int y = box.first.y; y <= box.last.y; ++y) {
+      std::size_t word = (static_cast<std::size_t>(y) * columns + static_cast<std::size_t>(box.first.x)) * words_;
+      word += rank / k_bits;
+      for (int x = box.first.x; x <= box.last.x; ++x, word += words_) masks_[word] |= bit;
+    }
+    std::visit([&](auto& ranges) { take(rank, type, box, ranges); }, ranges_);
+  }
+
+  bool lights_at(const grid::Sample& sample, grid::Log2 way, std::vector<std::uint32_t>& out) const override {
+    out.clear();
+    const std::int64_t cell = grid::lookup(*grid_, sample, way);
+    if (cell < 0) return false;
+    read(static_cast<std::uint32_t>(cell), out);
+    return true;
+  }
+
+  StructureUse use() const override {
+    StructureUse use;
+    use.index_entries = masks_.size();
+    use.index_bytes = masks_.size() * sizeof(std::uint32_t);
+    use.header_bytes = header_bytes(order_.size());
+    use.upload_bytes = use.index_bytes + use.header_bytes;
+    return use;
+  }
+
+  StructureLimit limit() const override {
+    const std::uint64_t entries = std::uint64_t{tiles_} * words_for(lights_);
+    return {entries, entries * sizeof(std::uint32_t) + header_bytes(lights_)};
+  }
+
+  std::vector<BufferNeed> buffers() const override {
+    const char* const name = ranges_of == RangesOf::cells ? "ranges" : "bins";
+    return {{"masks", sizeof(std::uint32_t), masks_.size(), std::uint64_t{tiles_} * words_for(lights_), tiles_},
+            {name, range_bytes(), range_count(), range_count()},
+            {"order", sizeof(std::uint32_t), order_.size(), lights_}};
+  }
+
+  std::uint32_t index_bits() const override { return k_bits; }
+  bool has_cells() const override { return true; }
+
+  void expand(Lists& out) const override {
+    out.lights.clear();
+    out.begin.assign(1, 0);
+    for (std::uint32_t cell = 0; cell < grid_->cell_count(); ++cell) {
+      read(cell, out.lights);
+      check_memory("pairs of light lists", out.lights.size(), sizeof(std::uint32_t));
+      check_pair_count(out.lights.size());
+      out.begin.push_back(out.pair_count());
+    }
+  }
+
+ private:
+  static constexpr std::uint32_t k_bits = 32;  // of a word
+
+  // Ranks among the sorted lights, from `first` to before `end`.
+  template <class Rank>
+  struct Range {
+    Rank first = std::numeric_limits<Rank>::max(), end = 0;
+
+    void take(std::uint32_t rank) {
+      first = std::min(first, static_cast<Rank>(rank));
+      end = static_cast<Rank>(rank + 1);
+    }
+  };
+  template <class Rank>
+  using Ranges = std::vector<std::array<Range<Rank>, view::k_light_types>>;  // of each type
+
+  bool ranks_are_narrow() const {
+    return ranges_of == RangesOf::cells && lights_ <= std::numeric_limits<std::uint16_t>::max();
+  }
+  static std::uint32_t words_for(std::uint32_t lights) { return (lights + k_bits - 1) / k_bits; }
+  std::uint32_t range_bytes() const {
+    return std::visit([](const auto& ranges) { return static_cast<std::uint32_t>(sizeof ranges[0]); }, ranges_);
+  }
+  std::uint64_t range_count() const {
+    return std::visit([](const auto& ranges) { return std::uint64_t{ranges.size()}; }, ranges_);
+  }
+  std::uint64_t header_bytes(std::uint64_t listed) const {
+    return range_count() * range_bytes() + listed * sizeof(std::uint32_t);
+  }
+
+  template <class Rank>
+  void take(std::uint32_t rank, std::size_t type, const CellBox& box, Ranges<Rank>& ranges) {
+    if constexpr (ranges_of == RangesOf::slices) {
+      for (int z = box.first.z; z <= box.last.z; ++z) ranges[static_cast<std::size_t>(z)][type].take(rank);
+    } else {
+      for (int z = box.first.z; z <= box.last.z; ++z)
+        for (int y = box.first.y; y <= box.last.y; ++y) {
+          std::size_t cell = grid::cell_index({box.first.x, y, z}, grid_->cells());
+          for (int x = box.first.x; x <= box.last.x; ++x) ranges[cell++][type].take(rank);
+        }
+    }
+  }
+
+  void read(std::uint32_t cell, std::vector<std::uint32_t>& out) const {
+    const std::uint32_t* mask = masks_.data() + std::size_t{cell % tiles_} * words_;
+    std::visit(
+        [&](const auto& ranges) {
+          for (const auto& range : ranges[ranges_of == RangesOf::cells ? cell : cell / tiles_])
+            read_between(mask, range.first, range.end, out);
+        },
+        ranges_);
+  }
+
+  void read_between(const std::uint32_t* mask, std::uint32_t first, std::uint32_t end,
+                    std::vector<std::uint32_t>& out) const {
+    for (std::uint32_t from = first; from < end; from = (from / k_bits + 1) * k_bits) {
+      std::uint32_t left = mask[from / k_bits] & ~0u << from % k_bits;
+      if (end / k_bits == from / k_bits) left &= (1u << end % k_bits) - 1;
+      for (; left != 0; left &= left - 1)
+        out.push_back(order_[from / k_bits * k_bits + static_cast<std::uint32_t>(std::countr_zero(left))]);
+    }
+  }
+
+  const grid::Grid* grid_ = nullptr;
+  std::uint32_t lights_ = 0, tiles_ = 0, words_ = 0;
+  std::vector<std::uint32_t> masks_;  // tile by tile
+  std::variant<Ranges<std::uint32_t>, Ranges<std::uint16_t>> ranges_;
+  std::vector<std::uint32_t> order_;  // the light of each rank
+};
+
+// Fills them. Spots are the balls around their cones.
+//
+// Roundoffs: all that is tested are the cell boxes of balls, as `bounds-fast` finds them.
+template <RangesOf ranges_of>
+class SortedMasksMethod final : public AssignerOf<SortedMasks<ranges_of>> {
+ public:
+  explicit SortedMasksMethod(const Params& params) : test_(as_balls(params), 0.0f) {}
+
+  void build(const grid::Grid& grid, const LightKinds&) override {
+    grid_ = &grid;
+    bounds_.build(grid.screen());
+  }
+
+  void fill(const FrameInput& input, SortedMasks<ranges_of>& out) override {
+    const view::LightArrays& lights = input.lights;
+    tests_ = lights.size();
+    bounded_.count = 0;
+    bounded_.reserve(lights.size());
+    bounds_.start_frame(lights.size());
+    const float padding = test_.padding(k_cell_box_roundoffs);
+    bounds_.find(given_points(lights), {padding, padding}, bounded_);
+    const std::uint32_t points = bounded_.count;
+    if (!lights.spots.empty()) {
+      find_spot_balls(lights, padding, true, spots_);
+      bounds_.find(given_spots(lights, spots_), {0.0f, 0.0f}, bounded_);
+    }
+    out.start(*grid_, lights.size(), bounded_.count);
+    add_sorted(0, points, 0, out);
+    add_sorted(points, bounded_.count, 1, out);
+  }
+
+  std::uint64_t tests_done() const override { return tests_; }
+  std::size_t scratch_bytes() const override {
+    return bounds_.capacity_bytes() + bounded_.capacity_bytes() + spots_.capacity_bytes() + by_depth_.capacity_bytes();
+  }
+
+ private:
+  static Params as_balls(const Params& params) {
+    return Params(light_params(), {{"spot", std::string("ball")}, {"inflation", params.number("inflation")}});
+  }
+
+  // The middles of what balls reach in depth are their centres. Balls of equal depth are sorted by their slices, so
+  // that what a range holds does not depend on the order in which the lights came.
+  void add_sorted(std::uint32_t begin, std::uint32_t end, std::size_t type, SortedMasks<ranges_of>& out) {
+    auto& entries = by_depth_.entries;
+    entries.resize(end - begin);
+    for (std::uint32_t i = begin; i < end; ++i) entries[i - begin] = {ordered_bits(bounded_.depth[i]), i};
+    by_depth_.sort();
+    const auto slices = [this](const auto& entry) {
+      return std::tuple(bounded_.first_slice[entry.value], bounded_.last_slice[entry.value], entry.value);
+    };
+    for (auto from = entries.begin(), to = from; from != entries.end(); from = to) {
+      while (to != entries.end() && to->key == from->key) ++to;
+      if (to - from > 1) std::sort(from, to, [&slices](const auto& a, const auto& b) { return slices(a) < slices(b); });
+    }
+    std::uint32_t rank = begin;
+    for (const auto& [key, ball] : entries) out.add(rank++, bounded_.light[ball], type, bounded_.box(ball));
+  }
+
+  LightTest test_;
+  const grid::Grid* grid_ = nullptr;
+  FrustumBounds bounds_;
+  BallArrays spots_;
+  BoundedBalls bounded_;
+  RadixSort<std::uint32_t> by_depth_;
+  std::uint64_t tests_ = 0;
+};
+
+}  // namespace clusterbench::assign

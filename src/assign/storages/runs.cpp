@@ -1,0 +1,120 @@
+#include <algorithm>
+
+#include "assign/contract/storage.h"
+#include "assign/storages/index_array.h"
+#include "core/memory.h"
+
+namespace clusterbench::assign {
+namespace {
+
+// Runs of lights with consecutive indices: {first, length - 1} each, in the narrowest indices that hold all lights. Per
+// cell an offset (u32) and the numbers of runs of points and of spots (u16 each; u32 where a rig can need it).
+class Runs final : public Storage {
+ public:
+  explicit Runs(const Params&) {}
+
+  void start(std::uint32_t cell_count, const view::LightRanges& lights) override {
+    lights_ = lights;
+    bits_ = narrowest_bits(lights.size());
+    check_memory("headers of runs", cell_count, sizeof(Header));
+    headers_.assign(cell_count, {});
+    count_ = 0;
+  }
+
+  void store(const Lists& lists) override {
+    runs_.clear();
+    for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) {
+      const std::span<const std::uint32_t> list = ascending(lists.of(cell));
+      const auto spots = std::lower_bound(list.begin(), list.end(), lights_.points.count);
+      Header& header = headers_[cell];
+      header.offset = run_count();
+      add_runs({list.begin(), spots});
+      header.points = run_count() - header.offset;
+      add_runs({spots, list.end()});
+      header.spots = run_count() - header.offset - header.points;
+    }
+    count_ = run_count();
+    indices_.make_room(runs_.size(), bits_);
+    indices_.write(0, runs_.data(), runs_.size());
+  }
+
+  StructureUse use() const override {
+    StructureUse use;
+    use.index_entries = count_;
+    use.index_bytes = count_ * run_bytes();
+    use.header_bytes = header_bytes();
+    use.upload_bytes = use.index_bytes + use.header_bytes;
+    return use;
+  }
+
+  // Every second light.
+  StructureLimit limit() const override { return {most_entries(), most_entries() * run_bytes() + header_bytes()}; }
+
+  std::vector<BufferNeed> buffers() const override {
+    return {{"runs", run_bytes(), count_, most_entries()},
+            {"headers", header_size(), headers_.size(), headers_.size()}};
+  }
+
+  void read_cell(std::uint32_t cell, std::vector<std::uint32_t>& out) const override {
+    const Header& header = headers_[cell];
+    for (std::uint32_t run = header.offset; run < header.offset + header.points + header.spots; ++run) {
+      const std::uint32_t first = indices_.read(2 * std::size_t{run}),
+                          last = first + indices_.read(2 * std::size_t{run} + 1);
+      for (std::uint32_t light = first; light <= last; ++light) out.push_back(light);
+    }
+  }
+
+  std::uint32_t cell_count() const override { return static_cast<std::uint32_t>(headers_.size()); }
+  std::uint32_t index_bits() const override { return 2 * bits_; }
+
+ private:
+  struct Header {
+    std::uint32_t offset = 0, points = 0, spots = 0;
+  };
+
+  std::uint32_t spots() const { return lights_.size() - lights_.points.count; }
+  static std::uint64_t most_runs(std::uint32_t lights) { return (std::uint64_t{lights} + 1) / 2; }
+  std::uint64_t most_entries() const {
+    return headers_.size() * (most_runs(lights_.points.count) + most_runs(spots()));
+  }
+  std::uint32_t run_bytes() const { return 2 * (bits_ / 8); }
+  std::uint32_t header_size() const { return most_runs(std::max(lights_.points.count, spots())) > 0xffff ? 12 : 8; }
+  std::uint64_t header_bytes() const { return headers_.size() * std::uint64_t{header_size()}; }
+  std::uint32_t run_count() const { return static_cast<std::uint32_t>(runs_.size() / 2); }
+
+  // Lists may come in any order; fewest runs are in ascending ones.
+  std::span<const std::uint32_t> ascending(std::span<const std::uint32_t> list) {
+    if (std::is_sorted(list.begin(), list.end())) return list;
+    sorted_.assign(list.begin(), list.end());
+    std::sort(sorted_.begin(), sorted_.end());
+    return sorted_;
+  }
+
+  void add_runs(std::span<const std::uint32_t> list) {
+    for (std::size_t from = 0, to = 0; from < list.size(); from = to) {
+      for (to = from + 1; to < list.size() && list[to] == list[to - 1] + 1;) ++to;
+      runs_.push_back(list[from]);
+      runs_.push_back(static_cast<std::uint32_t>(to - from - 1));
+    }
+  }
+
+  view::LightRanges lights_;
+  std::uint32_t bits_ = 8;
+  std::uint64_t count_ = 0;
+  std::vector<Header> headers_;
+  std::vector<std::uint32_t> runs_, sorted_;  // two numbers a run
+  IndexArray indices_;
+};
+
+}  // namespace
+
+extern const StorageDescriptor runs_descriptor;
+const StorageDescriptor runs_descriptor{
+    .name = "runs",
+    .summary = "per cell the runs of consecutive light indices, first and length each; entries are runs",
+    .source = "run-length coding; for lights that are sorted by place",
+    .params = {},
+    .make = make_storage<Runs>,
+};
+
+}  // namespace clusterbench::assign
