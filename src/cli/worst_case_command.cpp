@@ -118,10 +118,11 @@ void write_path(const search::WorstCase& found, const report::WorstCaseFacts& fa
 }
 
 ExitCode worst_case(const WorstCaseFlags& flags) {
-  const config::Config config = read_config_inputs(flags.inputs);
+  config::Config config = read_config_inputs(flags.inputs);
   const search::WorstCaseRequest request = request_of(flags, config);
   const run::Plan plan = run::make_plan(config, flags.filter);
   const run::CasePlan& case_plan = search::case_to_search(config, plan);
+  search::fix_grid(config, plan, case_plan);
   check_outputs(flags, config);
   const std::atomic<bool>& stop = stop_on_signals();
   ProgressLine progress(terminal(STDERR_FILENO), flags.quiet);

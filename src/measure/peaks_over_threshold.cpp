@@ -137,7 +137,7 @@ struct TailMaker {
 void TailMaker::count_frames() {
   std::map<std::uint64_t, std::uint64_t> recorded;
   for (const PathNeeds& path : paths) {
-    common.has_merged_frames = common.has_merged_frames || (path.frames_per_entry > 1 && !path.needs.empty());
+    common.has_merged_frames = common.has_merged_frames || (path.frames_per_entry > 1 && path.needs.size() > 1);
     common.frames += path.frames_per_entry * path.needs.size();
     for (const std::uint64_t need : path.needs) recorded[need] += path.frames_per_entry;
   }

@@ -7,6 +7,7 @@
 
 #include "core/text.h"
 #include "measure/side_by_side.h"
+#include "report/buffer_tail.h"
 #include "report/json_values.h"
 #include "report/lookup_constants.h"
 #include "report/named_structures.h"
@@ -102,6 +103,7 @@ Json buffer_json(const SizedBuffer& buffer, const std::string& name) {
   out["warn_above"] = buffer.warn_above;
   out["bytes"] = buffer.bytes;
   out["double_buffered_bytes"] = buffer.double_buffered_bytes();
+  if (const Json tail = tail_json(buffer); !tail.is_null()) out["beyond_the_path"] = tail;
   return out;
 }
 

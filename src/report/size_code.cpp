@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/text.h"
+#include "report/buffer_tail.h"
 #include "report/lookup_code.h"
 #include "report/lookup_constants.h"
 #include "report/size_words.h"
@@ -42,6 +43,7 @@ std::string buffer_comment(const SizedBuffer& buffer, const AllocationRules& rul
                       (buffer.is_all() ? "all that there can be" : rule_text(rules)) +
                       "): " + std::to_string(buffer.bytes) + " bytes, " +
                       std::to_string(buffer.double_buffered_bytes()) + " double-buffered");
+  if (const std::string tail = tail_text(buffer); !tail.empty()) out += comment_line("    beyond the path  " + tail);
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/text.h"
+#include "report/buffer_tail.h"
 #include "report/columns.h"
 #include "report/size_words.h"
 
@@ -61,6 +62,13 @@ std::string worst_lines(const SizedStructure& structure) {
   return out;
 }
 
+std::string tail_lines(const SizedStructure& structure) {
+  std::string out;
+  for (const SizedBuffer& buffer : structure.buffers)
+    if (const std::string tail = tail_text(buffer); !tail.empty()) out += "  beyond the path: " + shown(tail) + "\n";
+  return out;
+}
+
 std::uint64_t frames_of(const SizedStructure& structure) {
   std::uint64_t frames = 0;
   for (const Json* result_case : structure.cases) frames += (*result_case)["frames"].get<std::uint64_t>();
@@ -75,6 +83,7 @@ std::string structure_text(const SizedStructure& structure) {
   const std::vector<std::size_t> widths = widths_of(rows);
   for (const Cells& row : rows) out += aligned(row, widths);
   out += worst_lines(structure);
+  out += tail_lines(structure);
   if (const std::string dropped = dropped_text(structure); !dropped.empty())
     out += "  OVERFLOW: " + dropped + "; the capacities have room for them\n";
   return out;

@@ -39,7 +39,6 @@ std::vector<std::string> light_names(const scene::Scene& scene) {
 Json frame_json(const search::FoundFrame& frame, const WorstCaseFacts& facts, const std::vector<std::string>& names) {
   const search::Candidate& at = frame.candidate;
   Json out{{"value", figure_json(frame.value, facts.request.measure)},
-           {"value_alone", figure_json(frame.value_alone, facts.request.measure)},
            {"eye_m", vector_json(at.eye)},
            {"direction", vector_json(search::direction_of(at.rotation))},
            {"rotation", {at.rotation.x, at.rotation.y, at.rotation.z, at.rotation.w}},

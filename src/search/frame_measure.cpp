@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/error.h"
 #include "measure/occupancy.h"
@@ -33,8 +34,7 @@ std::span<const MeasureRow> measure_rows() {
   static constexpr std::array<MeasureRow, 5> k_rows{{
       {Measure::entries, "entries", "entries", "index entries of the lists", "buffers.index_entries.high_water"},
       {Measure::longest, "longest", "lights", "the longest list", "occupancy.lights_per_cell.max"},
-      {Measure::p99, "p99", "lights", "the list that 99 % of the cells do not exceed",
-       "occupancy.lights_per_cell.p99"},
+      {Measure::p99, "p99", "lights", "the list that 99 % of the cells do not exceed", "occupancy.lights_per_cell.p99"},
       {Measure::evaluated, "evaluated", "lights per sample", "lights that a sample of the view loops over, the mean",
        "shading.evaluated / shading.samples"},
       {Measure::tests, "tests", "tests", "tests of a light against a cell or what holds cells", "tests_done"},
@@ -49,8 +49,8 @@ const MeasureRow& row_of(Measure measure) {
 FrameMeter::FrameMeter(const config::Config& config, const run::CasePlan& plan, Measure measure)
     : config_(config),
       measure_(measure),
+      spec_(config.grids[plan.grid]),
       precision_{config.precisions[plan.precision]},
-      grids_(config.grids[plan.grid]),
       run_(run::start_method(config, plan.method())),
       storage_(storage_of(config, plan)) {
   if ((measure == Measure::longest || measure == Measure::p99) && !run_.has_cells())
@@ -59,10 +59,21 @@ FrameMeter::FrameMeter(const config::Config& config, const run::CasePlan& plan, 
     throw Error("", "--measure", "evaluated needs samples in the view, and shading.samples is 0");
 }
 
+// Each frame has a path of its own here, and with it another reach of lights, which few grids follow.
+bool FrameMeter::update_grid(const run::PathFrames& path, const view::Frame& frame) {
+  grid::GridInputs inputs = path.inputs(spec_, frame);
+  const bool has_far = spec_.slices.far_m != 0.0 || std::isfinite(frame.projection.far_m);
+  if (has_far && spec_.slices.scheme != grid::Scheme::fit) inputs.light_far_m = 0.0;
+  if (grid_ && inputs == inputs_) return false;
+  grid_ = grid::make_grid(spec_, inputs);
+  inputs_ = inputs;
+  return true;
+}
+
 double FrameMeter::value(const run::PathFrames& path, int index) {
   const view::Frame frame = path.frame(index);
-  const bool is_new_grid = grids_.update(path, frame);
-  const grid::Grid& grid = grids_.grid();
+  const bool is_new_grid = update_grid(path, frame);
+  const grid::Grid& grid = *grid_;
   const run::FrameLights lights(precision_, view::lights_in(frame, grid::space_of(grid, frame)));
   const view::LightArrays& packed = lights.in_precision(0);
   if (is_new_grid) run_.build(grid, assign::kinds_of(packed));
@@ -107,6 +118,22 @@ std::optional<double> FrameMeter::theoretical_max() const {
   if (measure_ == Measure::tests) return std::nullopt;
   if (measure_ == Measure::entries) return static_cast<double>(structure().limit().index_entries);
   return static_cast<double>(lights_);
+}
+
+void fix_grid(config::Config& config, const run::Plan& plan, const run::CasePlan& case_plan) {
+  grid::GridSpec& spec = config.grids[case_plan.grid];
+  const scene::CameraPath& path = plan.scenes[case_plan.scene].paths[case_plan.camera];
+  const run::PathFrames recorded(plan.scenes[case_plan.scene].scene, path, config.viewports[case_plan.viewport]);
+  const bool has_slices = spec.kind == grid::Kind::frustum || spec.kind == grid::Kind::distance;
+  const bool has_scheme = spec.slices.scheme != grid::Scheme::fit && spec.slices.scheme != grid::Scheme::list;
+  const bool is_endless = spec.slices.far_m == 0.0 && !std::isfinite(path.shots.front().projection.far_m);
+  if (has_slices && has_scheme && is_endless) spec.slices.far_m = recorded.far_m();
+  if (spec.kind != grid::Kind::world || spec.has_bounds) return;
+  const auto [lo, hi] = recorded.light_bounds();
+  if (!(lo.x < hi.x && lo.y < hi.y && lo.z < hi.z)) return;
+  spec.has_bounds = true;
+  spec.bounds_lo_m = lo;
+  spec.bounds_hi_m = hi;
 }
 
 std::vector<double> values_along(const config::Config& config, const run::CasePlan& plan, Measure measure,

@@ -40,20 +40,29 @@ class FrameMeter {
   std::optional<double> theoretical_max() const;
 
  private:
-  double value_of(const run::PathFrames& path, const view::Frame& frame, const grid::Grid& grid);
+  // True if the grid is a new one.
+  bool update_grid(const run::PathFrames& path, const view::Frame& frame);
   double evaluated_at_samples(const run::PathFrames& path, const view::Frame& frame);
   const assign::LightStructure& structure() const { return storage_ ? *storage_ : *run_.structure(); }
 
   const config::Config& config_;
   Measure measure_;
+  grid::GridSpec spec_;
   std::vector<config::PrecisionRequest> precision_;  // the case's own
-  run::GridOfFrames grids_;
+  grid::GridInputs inputs_;
+  std::optional<grid::Grid> grid_;
   assign::AssignerRun run_;
   std::unique_ptr<assign::Storage> storage_;  // none: the method's own structure
   std::uint32_t real_cells_ = 0;
   std::uint32_t lights_ = 0;
   std::vector<std::uint32_t> given_;
 };
+
+// Gives the case's grid what would follow from the whole path, as the recorded path has it: where slices end while the
+// camera sees without end, and the bounds of a world grid. An engine's grid does not change with where its camera goes
+// in a search either; and the grid is made once, not for each frame. Slices by `fit` follow from a frame's own lights
+// and stay so.
+void fix_grid(config::Config& config, const run::Plan& plan, const run::CasePlan& case_plan);
 
 // Of all frames of a path.
 std::vector<double> values_along(const config::Config& config, const run::CasePlan& plan, Measure measure,

@@ -379,8 +379,7 @@ class WorstCaseSearch {
     const scene::CameraPath path = path_of(out_.path_scene, config_.scenes[case_.scene].camera);
     const std::vector<double> values =
         values_along(config_, case_, request_.measure, {out_.path_scene, path, config_.viewports[case_.viewport]});
-    for (std::size_t i = 0; i < count; ++i)
-      out_.frames.push_back({best_.frames()[i].candidate, values[i], best_.frames()[i].value});
+    for (std::size_t i = 0; i < count; ++i) out_.frames.push_back({best_.frames()[i].candidate, values[i]});
     FrameRater meter = rater();
     meter.rate(out_.frames.front().candidate);
     out_.theoretical_max = meter.theoretical_max();

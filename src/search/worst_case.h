@@ -44,8 +44,7 @@ struct Stage {
 
 struct FoundFrame {
   Candidate candidate;
-  double value = 0.0;        // in the written path
-  double value_alone = 0.0;  // in a path of this frame alone; differs only where a grid follows from the whole path
+  double value = 0.0;  // in the written path
 };
 
 enum class Ended : std::uint8_t { evaluations, seconds, signal };

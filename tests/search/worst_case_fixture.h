@@ -107,6 +107,7 @@ inline Searched searched(const SearchFolder& folder, const Json& scene, const Js
   folder.write("scene.gltf", scene.dump());
   Searched out{config::load_config(folder.write("config.json", document.dump())), {}};
   out.plan = run::make_plan(out.config, "");
+  fix_grid(out.config, out.plan, out.case_plan());
   return out;
 }
 

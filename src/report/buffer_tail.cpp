@@ -1,0 +1,93 @@
+#include "report/buffer_tail.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/text.h"
+#include "report/columns.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// What capacities are named for: at 60 frames per second once in half an hour.
+constexpr double k_rare = 1e-5;
+
+Json chance_json(const measure::Chance& chance) {
+  return {{"estimate", chance.estimate}, {"ci95", {chance.ci95.low, chance.ci95.high}}};
+}
+
+// What k_rare of the frames exceed; never more than there can be.
+measure::Tail::Capacity capacity_for_rare(const measure::Tail& tail, const SizedBuffer& buffer) {
+  measure::Tail::Capacity rare = tail.capacity_for(k_rare);
+  rare.estimate = std::min(rare.estimate, buffer.theoretical_max);
+  rare.upper = std::min(rare.upper.value_or(buffer.theoretical_max), buffer.theoretical_max);
+  return rare;
+}
+
+std::string chance_text(const measure::Chance& chance) {
+  const std::string most = one_in_text(chance.ci95.high);
+  if (chance.estimate == 0.0) return "no frame by the fit (at most " + most + ")";
+  return one_in_text(chance.estimate) + " frames (" + one_in_text(chance.ci95.low) + " to " + most + ")";
+}
+
+}  // namespace
+
+std::string one_in_text(double chance) {
+  if (!(chance > 0.0)) return "never";
+  const double frames = 1.0 / chance;
+  if (frames < 9.5) return "1 in " + text("%.1f", frames);
+  double power = 1.0;
+  int digits = 0;
+  while (frames >= 9.5 * power) power *= 10.0, ++digits;
+  const double leading = std::round(frames / power);
+  if (digits >= 5 && leading == 1.0) return "1 in 10^" + std::to_string(digits);
+  if (digits >= 7) return "1 in " + text("%g", leading) + "*10^" + std::to_string(digits);
+  return "1 in " + text("%.0f", leading * power);
+}
+
+std::optional<measure::TailEstimate> tail_of(const SizedBuffer& buffer) {
+  if (buffer.is_all() || !buffer.spread || buffer.spread->min == buffer.spread->max) return {};
+  std::vector<measure::PathNeeds> paths;
+  for (const PathNeed& path : buffer.paths) paths.push_back({path.elements, path.frames_per_entry});
+  return measure::tail_of(paths);
+}
+
+std::string tail_text(const SizedBuffer& buffer) {
+  const std::optional<measure::TailEstimate> found = tail_of(buffer);
+  if (!found) return "";
+  if (!found->tail) return buffer.name + ": unknown, " + found->refusal;
+  const measure::Tail& tail = *found->tail;
+  const measure::Tail::Capacity rare = capacity_for_rare(tail, buffer);
+  return buffer.name + ": above " + std::to_string(buffer.capacity) + " in " +
+         chance_text(tail.chance_above(buffer.capacity)) + "; for 1 in 10^5 take " + std::to_string(rare.estimate) +
+         " (at most " + std::to_string(*rare.upper) + "); from " + number_of(tail.peaks, "peak") +
+         (tail.fits ? "" : "; POOR FIT, do not rely on it");
+}
+
+Json tail_json(const SizedBuffer& buffer) {
+  const std::optional<measure::TailEstimate> found = tail_of(buffer);
+  if (!found) return nullptr;
+  if (!found->tail) return {{"refusal", found->refusal}};
+  const measure::Tail& tail = *found->tail;
+  const measure::Tail::Capacity rare = capacity_for_rare(tail, buffer);
+  Json out{{"above_capacity", chance_json(tail.chance_above(buffer.capacity))},
+           {"above_high_water", chance_json(tail.chance_above(buffer.high_water))},
+           {"capacity_for_1_in_100000", {{"estimate", rare.estimate}, {"upper", *rare.upper}}}};
+  out["fits"] = tail.fits;
+  out["fit_p"] = tail.fit_p;
+  out["frames"] = tail.frames;
+  out["threshold"] = tail.threshold;
+  out["frames_above"] = tail.frames_above;
+  out["peaks"] = tail.peaks;
+  out["cut_peaks"] = tail.cut_peaks;
+  out["extremal_index"] = tail.extremal_index;
+  out["shape"] = tail.shape;
+  out["scale"] = tail.scale;
+  if (tail.end) out["end"] = *tail.end;
+  out["is_upper_bound"] = tail.has_merged_frames;
+  return out;
+}
+
+}  // namespace clusterbench::report
