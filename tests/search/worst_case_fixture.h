@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "report/worst_case_report.h"
 #include "search/worst_case.h"
 
 namespace clusterbench::search::test {
@@ -86,9 +85,6 @@ struct Searched {
   WorstCase search(const WorstCaseRequest& request) const {
     const std::atomic<bool> stop{false};
     return find_worst_case(config, plan, case_plan(), request, {}, stop);
-  }
-  Json json(const WorstCaseRequest& request) const {
-    return report::worst_case_to_json(search(request), {config, plan, case_plan(), request, "", ""});
   }
 };
 
