@@ -82,6 +82,8 @@ std::optional<Json> counted(const SizeFlags& flags) {
   if (stop) return {};
   for (const run::SceneResult& scene : result.scenes)
     for (const std::string& warning : scene.warnings) tell("warning: " + scene.name + ": " + warning);
+  if (result.cases.empty())
+    for (const run::Skipped& skipped : result.skipped) tell("skipped " + skipped.name + ": " + skipped.reason);
   return report::result_to_json(result, {});
 }
 
