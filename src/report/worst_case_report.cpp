@@ -37,7 +37,7 @@ std::vector<std::string> light_names(const scene::Scene& scene) {
 }
 
 Json frame_json(const search::FoundFrame& frame, const WorstCaseFacts& facts, const std::vector<std::string>& names) {
-  const search::Candidate& at = frame.candidate;
+  const search::FrameChoice& at = frame.choice;
   Json out{{"value", figure_json(frame.value, facts.request.measure)},
            {"eye_m", vector_json(at.eye)},
            {"direction", vector_json(search::direction_of(at.rotation))},
@@ -111,7 +111,7 @@ std::string frames_text(const WorstCase& found, const WorstCaseFacts& facts) {
   std::string out;
   for (std::size_t i = 0; i < found.frames.size(); ++i) {
     const search::FoundFrame& frame = found.frames[i];
-    const search::Candidate& at = frame.candidate;
+    const search::FrameChoice& at = frame.choice;
     std::string rest = figure_text(frame.value) + " at " + vector_text(at.eye) + " m, looks along " +
                        vector_text(search::direction_of(at.rotation));
     if (found.moments > 1) rest += ", lights of moment " + std::to_string(at.moment);

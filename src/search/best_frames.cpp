@@ -6,7 +6,7 @@
 
 namespace clusterbench::search {
 
-bool BestFrames::are_near(const Candidate& a, const Candidate& b) const {
+bool BestFrames::are_near(const FrameChoice& a, const FrameChoice& b) const {
   constexpr double k_cosine = 0.86602540378443865;  // of 30 degrees
   const Vec3d apart = a.eye - b.eye;
   return a.moment == b.moment && glm::dot(apart, apart) <= near_m_ * near_m_ &&
@@ -15,7 +15,7 @@ bool BestFrames::are_near(const Candidate& a, const Candidate& b) const {
 
 void BestFrames::add(const RatedFrame& frame) {
   if (!may_take(frame.value)) return;
-  const auto is_near = [&](const RatedFrame& other) { return are_near(other.candidate, frame.candidate); };
+  const auto is_near = [&](const RatedFrame& other) { return are_near(other.choice, frame.choice); };
   if (std::ranges::any_of(frames_,
                           [&](const RatedFrame& other) { return other.value >= frame.value && is_near(other); }))
     return;

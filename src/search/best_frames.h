@@ -10,7 +10,7 @@ namespace clusterbench::search {
 struct RatedFrame {
   double value = 0.0;
   std::vector<double> point;  // of the search's cube
-  Candidate candidate;
+  FrameChoice choice;
 };
 
 class BestFrames {
@@ -27,7 +27,7 @@ class BestFrames {
   bool may_take(double value) const { return frames_.size() < most_ || value > frames_.back().value; }
 
  private:
-  bool are_near(const Candidate& a, const Candidate& b) const;
+  bool are_near(const FrameChoice& a, const FrameChoice& b) const;
 
   std::size_t most_;
   double near_m_;

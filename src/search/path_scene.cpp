@@ -157,18 +157,18 @@ scene::Scene LightRig::scene(std::size_t frames, const scene::CameraProjection& 
   return out;
 }
 
-void LightRig::set_frame(scene::Scene& scene, std::size_t frame, const Candidate& candidate) const {
-  const std::vector<State>& states = states_[candidate.moment];
+void LightRig::set_frame(scene::Scene& scene, std::size_t frame, const FrameChoice& choice) const {
+  const std::vector<State>& states = states_[choice.moment];
   const auto position_of = [&](std::size_t light) {
-    if (light >= own_) return candidate.extra_lights[light - own_];
-    const auto moved = std::ranges::lower_bound(candidate.moved, light, {}, [](const auto& one) { return one.first; });
-    const bool is_moved = moved != candidate.moved.end() && moved->first == light;
+    if (light >= own_) return choice.extra_lights[light - own_];
+    const auto moved = std::ranges::lower_bound(choice.moved, light, {}, [](const auto& one) { return one.first; });
+    const bool is_moved = moved != choice.moved.end() && moved->first == light;
     return is_moved ? moved->second : states[light].position;
   };
   for (Channel& channel : scene.channels) {
     const bool is_place = channel.path == ChannelPath::translation;
     if (channel.node == k_camera_node) {
-      channel.values[frame] = is_place ? Vec4d(candidate.eye, 0.0) : candidate.rotation;
+      channel.values[frame] = is_place ? Vec4d(choice.eye, 0.0) : choice.rotation;
       continue;
     }
     const auto light = static_cast<std::size_t>(channel.node) - 1;

@@ -18,7 +18,7 @@ Vec3d rounded_to_float(const Vec3d& value);
 Vec4d rounded_to_float(const Vec4d& value);
 
 // One frame. All its numbers are of single precision.
-struct Candidate {
+struct FrameChoice {
   Vec3d eye{0.0};
   Vec4d rotation{0.0, 0.0, 0.0, 1.0};  // of the camera's node
   std::size_t moment = 0;              // of LightRig
@@ -44,7 +44,7 @@ class LightRig {
 
   // A scene with room for so many frames; set_frame() fills them. The name of its camera is `worst-case`.
   scene::Scene scene(std::size_t frames, const scene::CameraProjection& projection) const;
-  void set_frame(scene::Scene& scene, std::size_t frame, const Candidate& candidate) const;
+  void set_frame(scene::Scene& scene, std::size_t frame, const FrameChoice& choice) const;
 
  private:
   struct State {

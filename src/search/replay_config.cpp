@@ -6,10 +6,10 @@
 namespace clusterbench::search {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-Json method_json(const config::MethodRequest& method) {
-  Json out{{"name", method.name}};
+OrderedJson method_json(const config::MethodRequest& method) {
+  OrderedJson out{{"name", method.name}};
   for (const auto& [key, value] : method.params.values())
     std::visit([&, &name_of = key](const auto& number) { out[name_of] = number; }, value);
   return out;
@@ -17,20 +17,20 @@ Json method_json(const config::MethodRequest& method) {
 
 }  // namespace
 
-Json replay_config(const config::Config& config, const run::CasePlan& case_plan, const std::string& scene) {
+OrderedJson replay_config(const config::Config& config, const run::CasePlan& case_plan, const std::string& scene) {
   const Vec2i viewport = config.viewports[case_plan.viewport];
   const config::PrecisionRequest& precision = config.precisions[case_plan.precision];
   const bool fits_height = config.scenes[case_plan.scene].camera.fit == scene::CameraFit::vertical;
-  Json out = config.resolved;
+  OrderedJson out = config.resolved;
   out["name"] = "worst-case";
-  out["scenes"] =
-      Json::array({Json{{"path", scene}, {"frames", "keys"}, {"camera_fit", fits_height ? "vertical" : "contain"}}});
-  out["viewports"] = Json::array({Json::array({viewport.x, viewport.y})});
-  out["grids"] = Json::array({config::grid_request(config.grids[case_plan.grid])});
-  out["assigners"] = Json::array({method_json(config.assigners[case_plan.assigner])});
-  if (case_plan.storage) out["storages"] = Json::array({method_json(config.storages[*case_plan.storage])});
-  out["precision"] =
-      Json::array({Json{{"packing", view::packing_name(precision.packing)}, {"inflate", precision.inflate}}});
+  out["scenes"] = OrderedJson::array(
+      {OrderedJson{{"path", scene}, {"frames", "keys"}, {"camera_fit", fits_height ? "vertical" : "contain"}}});
+  out["viewports"] = OrderedJson::array({OrderedJson::array({viewport.x, viewport.y})});
+  out["grids"] = OrderedJson::array({config::grid_request(config.grids[case_plan.grid])});
+  out["assigners"] = OrderedJson::array({method_json(config.assigners[case_plan.assigner])});
+  if (case_plan.storage) out["storages"] = OrderedJson::array({method_json(config.storages[*case_plan.storage])});
+  out["precision"] = OrderedJson::array(
+      {OrderedJson{{"packing", view::packing_name(precision.packing)}, {"inflate", precision.inflate}}});
   out["timing"]["measure"] = false;
   out["stability"] = nullptr;
   return out;

@@ -44,8 +44,8 @@ SearchSpace::SearchSpace(const Box& eyes, const Box& lights, std::size_t moments
       floor_(floor),
       eye_height_m_(eye_height_m) {}
 
-Candidate SearchSpace::at(std::span<const double> point) const {
-  Candidate out;
+FrameChoice SearchSpace::at(std::span<const double> point) const {
+  FrameChoice out;
   Vec3d eye;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<int>(axis);

@@ -29,7 +29,7 @@ class SearchSpace {
   std::size_t dimensions() const { return k_pose + (moments_ > 1 ? 1 : 0) + 3 * extra_lights_; }
   // The frame at a point of the cube. The camera's up stays upright. Positions are rounded to single precision, by
   // which they can lie outside of a box.
-  Candidate at(std::span<const double> point) const;
+  FrameChoice at(std::span<const double> point) const;
   // The point of a camera that looks along the -z of `rotation` (its roll is lost), moved into the cube. Extra lights
   // stand at the eye.
   std::vector<double> point_of(const Vec3d& eye, const Vec4d& rotation, std::size_t moment) const;

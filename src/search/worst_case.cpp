@@ -76,8 +76,8 @@ class FrameRater {
         scene_(rig.scene(1, projection)),
         meter_(config, plan, measure) {}
 
-  double rate(const Candidate& candidate) {
-    rig_.set_frame(scene_, 0, candidate);
+  double rate(const FrameChoice& choice) {
+    rig_.set_frame(scene_, 0, choice);
     const scene::CameraPath path = path_of(scene_, request_);
     return meter_.value({scene_, path, viewport_}, 0);
   }
@@ -190,7 +190,7 @@ class WorstCaseSearch {
       FrameRater meter = rater();
       for (int i = begin; i < end && !is_over(); ++i) {
         RatedFrame frame = frame_of(i);
-        frame.value = meter.rate(frame.candidate);
+        frame.value = meter.rate(frame.choice);
         found[task].add(frame);
         if (values != nullptr) (*values)[static_cast<std::size_t>(i)] = frame.value;
         ++rated;
@@ -215,10 +215,10 @@ class WorstCaseSearch {
     const Vec4d rotation = rotation_of(pose);
     const std::size_t moment = rig_.moment_of(frame);
     RatedFrame out{0.0, space_.point_of(pose.eye, rotation, moment), {}};
-    out.candidate = space_.at(out.point);
+    out.choice = space_.at(out.point);
     if (floor_ || !space_.eyes().holds(pose.eye)) return out;
-    out.candidate.eye = rounded_to_float(pose.eye);
-    out.candidate.rotation = rotation;
+    out.choice.eye = rounded_to_float(pose.eye);
+    out.choice.rotation = rotation;
     return out;
   }
 
@@ -238,7 +238,7 @@ class WorstCaseSearch {
     SplitMix64 random(mixed.next() + static_cast<std::uint64_t>(number) * 0x9e3779b97f4a7c15u);
     SplitMix64 own(random.next());
     RatedFrame out{0.0, space_.random(own), {}};
-    out.candidate = space_.at(out.point);
+    out.choice = space_.at(out.point);
     return out;
   }
 
@@ -259,7 +259,7 @@ class WorstCaseSearch {
       const Objective objective = [&](const std::vector<double>& point) {
         clock_.is_over();
         RatedFrame frame{0.0, point, space_.at(point)};
-        frame.value = meter.rate(frame.candidate);
+        frame.value = meter.rate(frame.choice);
         found[task].add(frame);
         progress_.step();
         return frame.value;
@@ -337,27 +337,27 @@ class WorstCaseSearch {
   int move_lights_of(RatedFrame& frame, int evaluations, std::uint64_t seed, FrameRater& meter) {
     SplitMix64 random(seed);
     for (std::size_t light = 0; light < rig_.own_lights(); ++light)
-      frame.candidate.moved.emplace_back(light, rig_.position(frame.candidate.moment, light));
+      frame.choice.moved.emplace_back(light, rig_.position(frame.choice.moment, light));
     int used = 0;
-    const auto keep_if_better = [&](const Candidate& tried) {
+    const auto keep_if_better = [&](const FrameChoice& tried) {
       ++used;
       progress_.step();
       const double value = meter.rate(tried);
       if (value <= frame.value) return;
       frame.value = value;
-      frame.candidate = tried;
+      frame.choice = tried;
     };
     for (std::size_t turn = 0; used < evaluations && !clock_.is_over(); ++turn) {
       const std::size_t light = turn % rig_.own_lights();
-      const Vec3d home = rig_.position(frame.candidate.moment, light);
-      Vec3d place = home + within(frame.candidate.eye - home, request_.move_m);
+      const Vec3d home = rig_.position(frame.choice.moment, light);
+      Vec3d place = home + within(frame.choice.eye - home, request_.move_m);
       if (turn >= rig_.own_lights()) place = home + in_ball(random, request_.move_m);
-      Candidate tried = frame.candidate;
+      FrameChoice tried = frame.choice;
       tried.moved[light].second = rounded_to_float(place);
       keep_if_better(tried);
     }
-    std::erase_if(frame.candidate.moved,
-                  [&](const auto& one) { return one.second == rig_.position(frame.candidate.moment, one.first); });
+    std::erase_if(frame.choice.moved,
+                  [&](const auto& one) { return one.second == rig_.position(frame.choice.moment, one.first); });
     return used;
   }
 
@@ -375,13 +375,13 @@ class WorstCaseSearch {
   void make_path() {
     const std::size_t count = std::min(best_.frames().size(), static_cast<std::size_t>(request_.frames));
     out_.path_scene = rig_.scene(count, projection());
-    for (std::size_t i = 0; i < count; ++i) rig_.set_frame(out_.path_scene, i, best_.frames()[i].candidate);
+    for (std::size_t i = 0; i < count; ++i) rig_.set_frame(out_.path_scene, i, best_.frames()[i].choice);
     const scene::CameraPath path = path_of(out_.path_scene, config_.scenes[case_.scene].camera);
     const std::vector<double> values =
         values_along(config_, case_, request_.measure, {out_.path_scene, path, config_.viewports[case_.viewport]});
-    for (std::size_t i = 0; i < count; ++i) out_.frames.push_back({best_.frames()[i].candidate, values[i]});
+    for (std::size_t i = 0; i < count; ++i) out_.frames.push_back({best_.frames()[i].choice, values[i]});
     FrameRater meter = rater();
-    meter.rate(out_.frames.front().candidate);
+    meter.rate(out_.frames.front().choice);
     out_.theoretical_max = meter.theoretical_max();
   }
 

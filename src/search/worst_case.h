@@ -43,7 +43,7 @@ struct Stage {
 };
 
 struct FoundFrame {
-  Candidate candidate;
+  FrameChoice choice;
   double value = 0.0;  // in the written path
 };
 

@@ -88,9 +88,9 @@ TEST(SearchSpace, a_recorded_camera_comes_back_but_for_its_roll) {
   const SearchSpace space({{-10.0, 0.0, -10.0}, {10.0, 5.0, 10.0}}, {}, 3, 0);
   SplitMix64 random(1);
   for (int i = 0; i < 200; ++i) {
-    const Candidate one = space.at(space.random(random));
+    const FrameChoice one = space.at(space.random(random));
     EXPECT_LT(one.moment, 3u);
-    const Candidate again = space.at(space.point_of(one.eye, one.rotation, one.moment));
+    const FrameChoice again = space.at(space.point_of(one.eye, one.rotation, one.moment));
     EXPECT_LT(glm::length(again.eye - one.eye), 1e-5);
     EXPECT_LT(glm::length(direction_of(again.rotation) - direction_of(one.rotation)), 1e-5);
     EXPECT_EQ(again.moment, one.moment);
@@ -106,7 +106,7 @@ TEST(SearchSpace, random_directions_are_even_over_the_sphere_and_added_lights_st
   Vec3d sum{0.0}, squares{0.0};
   constexpr int k_count = 20000;
   for (int i = 0; i < k_count; ++i) {
-    const Candidate one = space.at(space.random(random));
+    const FrameChoice one = space.at(space.random(random));
     const Vec3d direction = direction_of(one.rotation);
     sum += direction;
     squares += direction * direction;
@@ -123,7 +123,7 @@ TEST(SearchSpace, random_directions_are_even_over_the_sphere_and_added_lights_st
 RatedFrame rated(double value, const Vec3d& eye) {
   RatedFrame frame;
   frame.value = value;
-  frame.candidate.eye = eye;
+  frame.choice.eye = eye;
   return frame;
 }
 
@@ -270,11 +270,11 @@ TEST(LightRig, a_written_path_comes_back_to_the_bit_with_lights_that_change) {
   EXPECT_EQ(rig.moment_of(3), 3u);
   scene::Scene path_scene = rig.scene(3, data.paths[0].shots[0].projection);
   for (std::size_t frame = 0; frame < 3; ++frame) {
-    Candidate candidate;
-    candidate.eye = {0.5 * static_cast<double>(frame), 1.0, 2.0};
-    candidate.moment = 2 * frame;
-    candidate.extra_lights = {{3.0, 2.0, static_cast<double>(frame)}};
-    rig.set_frame(path_scene, frame, candidate);
+    FrameChoice choice;
+    choice.eye = {0.5 * static_cast<double>(frame), 1.0, 2.0};
+    choice.moment = 2 * frame;
+    choice.extra_lights = {{3.0, 2.0, static_cast<double>(frame)}};
+    rig.set_frame(path_scene, frame, choice);
   }
   const scene::Scene read = scene::load_gltf(folder.write("written.gltf", scene::to_gltf(path_scene, "test")));
   EXPECT_TRUE(read.warnings.empty()) << read.warnings.front();

@@ -63,7 +63,7 @@ TEST(WorstCase, added_lights_that_hold_the_whole_view_fill_every_cell) {
   const WorstCase found = empty.search(request);
   EXPECT_EQ(found.frames.front().value, 3.0 * 72.0);
   EXPECT_EQ(found.recorded.max, 0.0);
-  EXPECT_EQ(found.frames.front().candidate.extra_lights.size(), 3u);
+  EXPECT_EQ(found.frames.front().choice.extra_lights.size(), 3u);
 }
 
 TEST(WorstCase, lights_that_may_move_come_to_the_camera) {
@@ -78,7 +78,7 @@ TEST(WorstCase, lights_that_may_move_come_to_the_camera) {
   request.move_m = 30.0;
   const WorstCase found = away.search(request);
   EXPECT_GE(found.frames.front().value, 4.0);
-  for (const auto& [light, position] : found.frames.front().candidate.moved)
+  for (const auto& [light, position] : found.frames.front().choice.moved)
     EXPECT_LE(glm::length(position - Vec3d(0.0, 0.0, -40.0)), 30.0 + 1e-4) << light;
 }
 
@@ -229,7 +229,7 @@ TEST(WorstCase, several_frames_are_not_nearly_the_same) {
   const Vec3d size = found.eyes.hi - found.eyes.lo;
   for (std::size_t i = 0; i < 5; ++i)
     for (std::size_t k = 0; k < i; ++k) {
-      const Candidate &a = found.frames[i].candidate, &b = found.frames[k].candidate;
+      const FrameChoice &a = found.frames[i].choice, &b = found.frames[k].choice;
       EXPECT_TRUE(glm::length(a.eye - b.eye) > 0.05 * glm::length(size) ||
                   glm::dot(direction_of(a.rotation), direction_of(b.rotation)) < 0.8661);
       EXPECT_LE(found.frames[i].value, found.frames[k].value);
@@ -275,7 +275,7 @@ TEST(WorstCase, a_scene_of_one_light_and_no_camera_or_of_one_point_is_searched) 
   const Searched point = searched(folder, scene_json({{{3.0, 1.0, 2.0}, 5.0}}, {{3.0, 1.0, 2.0}}));
   const WorstCase found = point.search(few(60));
   EXPECT_EQ(found.eyes.lo, found.eyes.hi);
-  EXPECT_EQ(found.frames.front().candidate.eye, Vec3d(3.0, 1.0, 2.0));
+  EXPECT_EQ(found.frames.front().choice.eye, Vec3d(3.0, 1.0, 2.0));
   EXPECT_GT(found.frames.front().value, 0.0);
 }
 
