@@ -14,19 +14,19 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::uint64_t k_most = std::numeric_limits<std::uint64_t>::max();
+constexpr std::uint64_t k_largest_count = std::numeric_limits<std::uint64_t>::max();
 
 // What does not fit into 64 bits is as much as does: a result that was changed by hand may say anything.
 std::uint64_t times(std::uint64_t a, std::uint64_t b) {
-  return b != 0 && a > k_most / b ? k_most : a * b;
+  return b != 0 && a > k_largest_count / b ? k_largest_count : a * b;
 }
 std::uint64_t as_count(double value) {
   constexpr double k_end = 18446744073709551616.0;  // 2^64
-  return value >= k_end ? k_most : static_cast<std::uint64_t>(value);
+  return value >= k_end ? k_largest_count : static_cast<std::uint64_t>(value);
 }
 std::uint64_t up_to_multiple(std::uint64_t value, std::uint64_t step) {
   const std::uint64_t over = value % step;
-  return over == 0 || value > k_most - (step - over) ? value : value + (step - over);
+  return over == 0 || value > k_largest_count - (step - over) ? value : value + (step - over);
 }
 
 std::uint64_t rounded_bytes(std::uint64_t bytes, Rounding rounding) {
@@ -214,7 +214,8 @@ std::uint64_t SizedBuffer::double_buffered_bytes() const {
 
 std::uint64_t SizedStructure::bytes() const {
   std::uint64_t sum = 0;
-  for (const SizedBuffer& buffer : buffers) sum = buffer.bytes > k_most - sum ? k_most : sum + buffer.bytes;
+  for (const SizedBuffer& buffer : buffers)
+    sum = buffer.bytes > k_largest_count - sum ? k_largest_count : sum + buffer.bytes;
   return sum;
 }
 

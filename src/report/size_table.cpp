@@ -13,7 +13,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // A column: its heading, and what it says of a buffer.
-struct Column {
+struct BufferColumn {
   const char* heading;
   std::string (*cell)(const SizedBuffer& buffer);
 };
@@ -22,7 +22,7 @@ std::string spread_text(const SizedBuffer& buffer, std::uint64_t FrameSpread::*v
   return buffer.spread ? std::to_string((*buffer.spread).*value) : "-";
 }
 
-constexpr Column k_columns[] = {
+constexpr BufferColumn k_buffer_columns[] = {
     {"buffer", [](const SizedBuffer& buffer) { return shown(buffer.name); }},
     {"min", [](const SizedBuffer& buffer) { return spread_text(buffer, &FrameSpread::min); }},
     {"median", [](const SizedBuffer& buffer) { return spread_text(buffer, &FrameSpread::p50); }},
@@ -37,12 +37,12 @@ constexpr Column k_columns[] = {
     {"double", [](const SizedBuffer& buffer) { return std::to_string(buffer.double_buffered_bytes()); }},
 };
 
-std::vector<Cells> rows_of(const SizedStructure& structure) {
+std::vector<Cells> table_rows(const SizedStructure& structure) {
   std::vector<Cells> rows{{""}};
-  for (const Column& column : k_columns) rows.front().emplace_back(column.heading);
+  for (const BufferColumn& column : k_buffer_columns) rows.front().emplace_back(column.heading);
   for (const SizedBuffer& buffer : structure.buffers) {
     rows.push_back({""});
-    for (const Column& column : k_columns) rows.back().push_back(column.cell(buffer));
+    for (const BufferColumn& column : k_buffer_columns) rows.back().push_back(column.cell(buffer));
   }
   return rows;
 }
@@ -79,7 +79,7 @@ std::string structure_text(const SizedStructure& structure) {
   std::string out = shown(structure.name) + "  (" + number_of(structure.cases.size(), "camera") + ", " +
                     number_of(frames_of(structure), "frame") + ")\n";
   if (structure.buffers.empty()) return out + "  has no buffers\n";
-  const std::vector<Cells> rows = rows_of(structure);
+  const std::vector<Cells> rows = table_rows(structure);
   const std::vector<std::size_t> widths = widths_of(rows);
   for (const Cells& row : rows) out += aligned(row, widths);
   out += worst_lines(structure);
