@@ -24,7 +24,7 @@ struct Slicing {
   // Slices follow what a frame needs, within near and far: near and far of linear, exponential and power slices; far
   // and the end of the first slice of exponential-first ones, which is never nearer than first_m unless all that is
   // needed is nearer than that.
-  std::optional<Fit> fit;
+  std::optional<Fit> fit = {};
 };
 
 // Where slices can lie in this frame. light_near/far: the reach of the lights in view (fit; far when nothing else
