@@ -13,7 +13,7 @@
 namespace clusterbench::grid {
 namespace {
 
-constexpr double k_endless = std::numeric_limits<double>::infinity();
+constexpr double k_no_end = std::numeric_limits<double>::infinity();
 const view::Projection k_wide{false, -1.2, 0.8, -0.5, 0.625, 0.5, 80.0};  // off-centre
 const view::Projection k_flat{true, -20.0, 20.0, -10.0, 10.0, 0.5, 80.0};
 
@@ -104,8 +104,8 @@ TEST(NeededSpan, of_no_light_is_empty_and_of_one_without_end_is_everything) {
   EXPECT_TRUE(span_of_lights(frame, false).is_empty());
   frame.lights = {ball({0, 0, 40}, 5), ball({0, 0, -20}, 0)};  // behind the eye; of no range
   EXPECT_TRUE(span_of_lights(frame, false).is_empty());
-  frame.lights.push_back(ball({0, 0, 40}, k_endless));
-  EXPECT_EQ(span_of_lights(frame, false), (Span{-k_endless, k_endless}));
+  frame.lights.push_back(ball({0, 0, 40}, k_no_end));
+  EXPECT_EQ(span_of_lights(frame, false), (Span{-k_no_end, k_no_end}));
 }
 
 TEST(NeededSpan, of_surfaces_goes_from_the_nearest_to_the_farthest_pixel) {
