@@ -58,17 +58,19 @@ Json saved(const Json& fitted, const Json& unfitted) {
 const Cells k_headings{"",        "assigner", "storage", "grids",  "cells moved", "lists new", "unfitted",
                        "entries", "bytes",    "pairs",   "excess", "evaluated",   "frame"};
 
-// Of the sets of samples the first one, which is that of the whole view where that is asked for.
-std::string evaluated_text(const Json& result_case) {
-  const Json& sets = result_case["fit"]["saved"]["evaluated"];
-  if (sets.empty() || !sets.begin()->is_number()) return "-";
-  return text("%+.1f %%", -100.0 * sets.begin()->get<double>());
+// How much more it is than without fit.
+std::string change_text(const Json& share_saved) {
+  if (!share_saved.is_number()) return "-";
+  const double share = share_saved.get<double>();
+  return text("%+.1f %%", share == 0.0 ? 0.0 : -100.0 * share);
 }
 
 Cells row_of(const Json& result_case) {
-  const auto saving = [&](const char* key) {
-    return text_at(result_case, (std::string("/fit/saved/") + key).c_str(), "%+.1f %%", -100.0);
-  };
+  const Json& saved = result_case["fit"]["saved"];
+  const auto saving = [&](const char* key) { return saved.contains(key) ? change_text(saved[key]) : "-"; };
+  // Of the sets of samples the first one, which is that of the whole view where that is asked for.
+  const Json& sets = saved["evaluated"];
+  const std::string evaluated = sets.empty() ? "-" : change_text(*sets.begin());
   const Json& frame = result_case.contains("timing") ? result_case["timing"] : Json();
   return {"",
           method_name(result_case),
@@ -81,7 +83,7 @@ Cells row_of(const Json& result_case) {
           saving("bytes"),
           saving("pairs"),
           saving("false_positives"),
-          evaluated_text(result_case),
+          evaluated,
           frame.is_object() ? text_at(result_case, "/timing/fit/ratio", "x %.2f") : "-"};
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 // A few frames of the street, in one case.
 const std::string k_search =
-    "worst-case " + source_file("scenes/street.glb") + " --grid frustum --tiles 16x9 --assigner aabb-fast";
+    "worst-case " + source_file("scenes/street.glb") + " --grid frustum --tiles 128 --assigner aabb-fast";
 const std::string k_short_search = k_search + " --evaluations 60 --random 20";
 
 TEST(WorstCaseCommand, what_it_writes_is_valid_and_run_and_size_take_it) {
@@ -32,7 +32,7 @@ TEST(WorstCaseCommand, what_it_writes_is_valid_and_run_and_size_take_it) {
   ASSERT_EQ(size.code, 0) << size.err;
   EXPECT_EQ(nlohmann::json::parse(size.out)["budgets"][0]["high_water_entries"], found["frames"][0]["value"]);
   // Without the configuration: the same flags on the scene that was written.
-  const std::string flags = " --grid frustum --tiles 16x9 --assigner aabb-fast --no-timing -q";
+  const std::string flags = " --grid frustum --tiles 128 --assigner aabb-fast --no-timing -q";
   const auto bare = nlohmann::json::parse(tool("run " + path + flags).out);
   EXPECT_EQ(bare["cases"][0]["buffers"]["index_entries"]["high_water"], found["frames"][0]["value"]);
 }
