@@ -434,7 +434,8 @@ const run::CasePlan& case_to_search(const config::Config& config, const run::Pla
   for (const run::GroupPlan& group : plan.groups)
     for (const run::CasePlan& one : group.cases) {
       const assign::AssignerDescriptor& assigner = *assign::find_assigner(config.assigners[one.assigner].name);
-      if (assigner.needs.depth || assigner.at_surfaces) continue;
+      const std::optional<grid::Fit>& fit = config.grids[one.grid].slices.fit;
+      if (assigner.needs.depth || assigner.at_surfaces || (fit && fit->needs_surfaces())) continue;
       if (!assigner.all_pairs) return one;
       if (found == nullptr) found = &one;
     }
