@@ -59,7 +59,7 @@ const Cells k_headings{"",        "assigner", "storage", "grids",  "cells moved"
                        "entries", "bytes",    "pairs",   "excess", "evaluated",   "frame"};
 
 // How much more it is than without fit.
-std::string saved_text(const Json& share_saved) {
+std::string against_unfitted(const Json& share_saved) {
   if (!share_saved.is_number()) return "-";
   const double share = share_saved.get<double>();
   return text("%+.1f %%", share == 0.0 ? 0.0 : -100.0 * share);
@@ -67,10 +67,10 @@ std::string saved_text(const Json& share_saved) {
 
 Cells row_of(const Json& result_case) {
   const Json& saved = result_case["fit"]["saved"];
-  const auto saving = [&](const char* key) { return saved.contains(key) ? saved_text(saved[key]) : "-"; };
+  const auto saving = [&](const char* key) { return saved.contains(key) ? against_unfitted(saved[key]) : "-"; };
   // Of the sets of samples the first one, which is that of the whole view where that is asked for.
   const Json& sets = saved["evaluated"];
-  const std::string evaluated = sets.empty() ? "-" : saved_text(*sets.begin());
+  const std::string evaluated = sets.empty() ? "-" : against_unfitted(*sets.begin());
   const Json& frame = result_case.contains("timing") ? result_case["timing"] : Json();
   return {"",
           method_name(result_case),

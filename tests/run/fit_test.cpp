@@ -137,7 +137,7 @@ TEST(FittedSlicesOnAPath, that_follow_surfaces_take_a_scene_with_triangles) {
 TEST(FittedSlicesOnAPath, that_follow_surfaces_hold_every_visible_one) {
   config::Config config = config::parse_config(
       R"({"scenes": [{"path": "scenes/steps.glb", "frames": 3}], "viewport": [160, 90], "timing": {"measure": false},
-          "assigners": ["exact-fast"], "samples": {"opaque": {"divisor": 1}}, "shading": {"samples": 0},
+          "assigners": ["exact-fast", "distance-fast"], "samples": {"opaque": {"divisor": 1}}, "shading": {"samples": 0},
           "grids": [{"slices": {"far": 400, "fit": {"to": ["surfaces", "both"]}}},
                     {"kind": "distance", "slices": {"far": 500, "fit": {"to": ["surfaces", "both"]}}}]})",
       std::string(CLUSTERBENCH_SOURCE_DIR) + "/c.json");
