@@ -195,9 +195,10 @@ TEST(SearchView, lets_one_of_equals_in_all_grids_go_on) {
   const Found found = searched(walk, {.judge = judge, .within = 0.0, .keep_one_in = 18, .least = 4});
   const auto is_exact = [](const Finalist& finalist) { return finalist.cases[0].assigner == "exact"; };
   EXPECT_EQ(std::ranges::count_if(found.finalists, is_exact), 1);
-  for (const Finalist& finalist : found.finalists)
-    if (is_exact(finalist))
-      EXPECT_EQ(finalist.cases[0].grid["cells"], (nlohmann::json{1, 1, 2})) << "of the fewest cells";
+  for (const Finalist& finalist : found.finalists) {
+    if (!is_exact(finalist)) continue;
+    EXPECT_EQ(finalist.cases[0].grid["cells"], (nlohmann::json{1, 1, 2})) << "of the fewest cells";
+  }
 }
 
 TEST(SearchView, stops_when_it_is_to) {
