@@ -115,7 +115,8 @@ TEST(SearchView, adds_the_best_of_coarse_grids_that_are_within_the_share) {
   Walk walk = small_walk(12);
   const Judge judge = [](std::span<const run::CaseResult> cases) {
     const bool is_coarsest = cases[0].grid["cells"] == nlohmann::json{1, 1, 2};
-    return Verdict{is_coarsest ? 1.04 : 1.0, 0.0, {}, false};
+    const double bytes = cases[0].grid["cells"][0].get<double>() * 100.0 + cases[0].grid["cells"][2].get<double>();
+    return Verdict{is_coarsest ? 1.04 : 1.0, bytes, {}, false};
   };
   const auto has_coarsest = [](const Found& found) {
     return std::ranges::any_of(found.finalists, [](const Finalist& finalist) {
@@ -192,12 +193,13 @@ TEST(SearchView, lets_one_of_equals_in_all_grids_go_on) {
     const bool is_exact = cases[0].assigner == "exact";  // as a structure that has nothing of its grid
     return Verdict{is_exact ? 1.0 : 2.0 + static_cast<double>(cases[0].grid["cells"][2].get<int>()), 7.0, {}, false};
   };
-  const Found found = searched(walk, {.judge = judge, .within = 0.0, .keep_one_in = 18, .least = 4});
+  const Found found = searched(walk, {.judge = judge, .within = -1.0, .keep_one_in = 18, .least = 4});
   const auto is_exact = [](const Finalist& finalist) { return finalist.cases[0].assigner == "exact"; };
   EXPECT_EQ(std::ranges::count_if(found.finalists, is_exact), 1);
-  for (const Finalist& finalist : found.finalists)
-    if (is_exact(finalist))
-      EXPECT_EQ(finalist.cases[0].grid["cells"], (nlohmann::json{1, 1, 2})) << "of the fewest cells";
+  for (const Finalist& finalist : found.finalists) {
+    if (!is_exact(finalist)) continue;
+    EXPECT_EQ(finalist.cases[0].grid["cells"], (nlohmann::json{1, 1, 2})) << "of the fewest cells";
+  }
 }
 
 TEST(SearchView, stops_when_it_is_to) {
