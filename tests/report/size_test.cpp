@@ -170,10 +170,11 @@ TEST(Size, every_format_takes_results_with_holes) {
       for (const std::string& format : size_formats()) {
         const std::string report = size_report(result, {"", all, format});
         EXPECT_NE(report.find("64px"), std::string::npos) << format << report;
-        if (format == "json")
+        if (format == "json") {
           EXPECT_EQ(
               config::schema_violations(config::row_of(config::Document::size).schema(), nlohmann::json::parse(report)),
               std::vector<std::string>{});
+        }
       }
   }
 }
