@@ -41,9 +41,9 @@ struct GroupSamples {
   // In the order of methods_of(); of a grid that follows what frames need, after them the same in the grid that does
   // not.
   std::vector<MethodSamples> methods;
-  std::vector<double>
-      follow_ns;  // of such a grid, of each round: finding what is needed and making the grid, per frame
-  Disturbance disturbance;
+  Disturbance disturbance = {};
+  // Of such a grid, of each round: finding what is needed and making the grid, per frame.
+  std::vector<double> follow_ns = {};
 };
 
 }  // namespace clusterbench::run
