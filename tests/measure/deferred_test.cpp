@@ -15,9 +15,9 @@
 namespace clusterbench::measure {
 namespace {
 
-using ViewSetting = assign::testing::Setting;
+using assign::testing::Setting;
 
-assign::AssignerRun drawn(const ViewSetting& setting, const std::map<std::string, assign::ParamValue>& given = {}) {
+assign::AssignerRun drawn(const Setting& setting, const std::map<std::string, assign::ParamValue>& given = {}) {
   const assign::AssignerDescriptor& row = *assign::find_assigner("deferred");
   assign::AssignerRun run(row, assign::Params(row.params, given), assign::Answer::structure);
   run.build(setting.grid);
@@ -26,8 +26,8 @@ assign::AssignerRun drawn(const ViewSetting& setting, const std::map<std::string
 }
 
 // 200 x 200 pixels, each 0.01 wide at 1 m, all of one depth.
-ViewSetting wall_at(float depth, const std::vector<scene::WorldLight>& lights) {
-  ViewSetting setting;
+Setting wall_at(float depth, const std::vector<scene::WorldLight>& lights) {
+  Setting setting;
   view::Frame& frame = setting.frame;
   frame.viewport = {200, 200};
   frame.projection = {false, -1, 1, -1, 1, 0.1, 100};
@@ -44,7 +44,7 @@ ViewSetting wall_at(float depth, const std::vector<scene::WorldLight>& lights) {
 struct Pixels {
   std::uint64_t drawn, shaded, traffic;
 };
-Pixels pixels_of(const ViewSetting& setting, const char* depth_test) {
+Pixels pixels_of(const Setting& setting, const char* depth_test) {
   const assign::AssignerRun run = drawn(setting, {{"depth_test", std::string(depth_test)}});
   const assign::StructureUse use = run.structure()->use();
   EXPECT_EQ(use.traffic_bytes, 4 * run.tests_done() + (16 + 2 * 8) * use.index_entries);
@@ -58,7 +58,7 @@ TEST(Deferred, a_ball_is_drawn_where_it_is_seen_and_shades_what_its_depth_test_l
   const std::vector<scene::WorldLight> ball{assign::testing::point_light({0, 0, -10}, 2)};
   for (const auto& [wall, none, back, both] : {std::tuple(5.0f, true, true, false), std::tuple(10.0f, true, true, true),
                                                std::tuple(20.0f, true, false, false)}) {
-    const ViewSetting setting = wall_at(wall, ball);
+    const Setting setting = wall_at(wall, ball);
     for (const auto& [test, is_shaded] : {std::pair("none", none), std::pair("back", back), std::pair("both", both)}) {
       const Pixels pixels = pixels_of(setting, test);
       EXPECT_NEAR(static_cast<double>(pixels.drawn), area, 0.03 * area) << test << ", wall at " << wall;
@@ -71,7 +71,7 @@ TEST(Deferred, a_ball_is_drawn_where_it_is_seen_and_shades_what_its_depth_test_l
 }
 
 TEST(Deferred, sky_is_drawn_over_and_not_shaded) {
-  const ViewSetting setting =
+  const Setting setting =
       wall_at(std::numeric_limits<float>::infinity(), {assign::testing::point_light({0, 0, -10}, 2)});
   for (const char* test : {"none", "back", "both"}) {
     EXPECT_GT(pixels_of(setting, test).drawn, 1000u);
@@ -85,7 +85,7 @@ TEST(Deferred, lights_behind_the_eye_are_not_drawn_and_around_it_everywhere) {
 }
 
 TEST(Deferred, a_spot_shades_the_pixels_in_its_cone_or_with_its_ball_alone_those_in_that) {
-  const ViewSetting setting = wall_at(10, {assign::testing::spot_light({0, 0, -5}, 8, {0, 0, -1}, 0.3)});
+  const Setting setting = wall_at(10, {assign::testing::spot_light({0, 0, -5}, 8, {0, 0, -1}, 0.3)});
   // A disk of 5 tan(0.3) at 10 m.
   const double disk = std::numbers::pi * std::pow(5 * std::tan(0.3) / 10 * 100, 2);
   EXPECT_NEAR(static_cast<double>(pixels_of(setting, "both").shaded), disk, 0.03 * disk);
@@ -98,7 +98,7 @@ TEST(Deferred, a_ball_that_the_near_plane_cuts_is_drawn_beyond_it_alone_whatever
     for (const int tiles : {1, 5, 100}) {
       // Its widest part, of slope 0.89 (orthographic: of 0.4 m), lies before the near plane; a disk of 0.19 m is left
       // of it.
-      ViewSetting setting = wall_at(5, {assign::testing::point_light({0, 0, -0.6}, 0.4)});
+      Setting setting = wall_at(5, {assign::testing::point_light({0, 0, -0.6}, 0.4)});
       setting.frame.projection.orthographic = orthographic;
       setting.frame.projection.near_m = 0.95;
       grid::GridSpec spec;
@@ -115,7 +115,7 @@ TEST(Deferred, a_ball_that_the_near_plane_cuts_is_drawn_beyond_it_alone_whatever
 
 TEST(Deferred, one_pass_with_back_sides_shades_what_is_before_the_balls_far_side_spots_alike) {
   // A wall between the ball's middle and its far side, which is at 13 m; the cone is a disk of 1.9 m there.
-  const ViewSetting setting = wall_at(11, {assign::testing::spot_light({0, 0, -5}, 8, {0, 0, -1}, 0.3)});
+  const Setting setting = wall_at(11, {assign::testing::spot_light({0, 0, -5}, 8, {0, 0, -1}, 0.3)});
   const std::uint64_t none = pixels_of(setting, "none").shaded, back = pixels_of(setting, "back").shaded;
   EXPECT_GT(back, 1.5 * static_cast<double>(pixels_of(setting, "both").shaded));
   EXPECT_LE(back, none);
@@ -130,7 +130,7 @@ TEST(Deferred, a_spots_cone_holds_however_far_it_reaches) {
 
 TEST(Deferred, each_pixel_has_the_lights_that_reach_it_and_hardly_another) {
   const assign::AssignerDescriptor& row = *assign::find_assigner("deferred");
-  for (ViewSetting setting : assign::testing::settings_for(row, 71)) {
+  for (Setting setting : assign::testing::settings_for(row, 71)) {
     // What has no end is not held against its cone.
     view::Frame& frame = setting.frame;
     const auto is_endless = [](const scene::WorldLight& light) { return std::isinf(light.range_m); };
@@ -159,7 +159,7 @@ TEST(Deferred, the_pixels_that_are_counted_as_shaded_are_those_whose_samples_get
     lights.push_back(i < 25 ? assign::testing::point_light(at, range)
                             : assign::testing::spot_light(at, range, random.direction(), random.between(0.1, 1.5)));
   }
-  ViewSetting setting = wall_at(10.0f, lights);
+  Setting setting = wall_at(10.0f, lights);
   setting.depth = depth::seeded_depths(setting.frame, 72);
   for (const assign::Params& params : assign::testing::params_of(row)) {
     assign::AssignerRun run(row, params, assign::Answer::structure);

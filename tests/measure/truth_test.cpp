@@ -82,12 +82,12 @@ assign::Lists decided_one_by_one(const view::Frame& frame, const grid::Grid& gri
   return lists;
 }
 
-struct Setting {
+struct KindOfView {
   Kind kind;
   bool orthographic;
 };
 
-class TruthOn : public testing::TestWithParam<Setting> {};
+class TruthOn : public testing::TestWithParam<KindOfView> {};
 
 TEST_P(TruthOn, rows_and_tiles_find_what_deciding_every_cell_alone_finds) {
   const view::Frame frame = frame_with(60, 60, 17, GetParam().orthographic);
@@ -259,9 +259,9 @@ TEST_P(TruthOn, a_light_whose_range_ends_at_a_cell_is_there_and_one_that_is_a_bi
 }
 
 INSTANTIATE_TEST_SUITE_P(Grids, TruthOn,
-                         testing::Values(Setting{Kind::frustum, false}, Setting{Kind::frustum, true},
-                                         Setting{Kind::distance, false}, Setting{Kind::cascades, false},
-                                         Setting{Kind::world, false}),
+                         testing::Values(KindOfView{Kind::frustum, false}, KindOfView{Kind::frustum, true},
+                                         KindOfView{Kind::distance, false}, KindOfView{Kind::cascades, false},
+                                         KindOfView{Kind::world, false}),
                          [](const auto& setting) {
                            return std::string(grid::kind_name(setting.param.kind)) +
                                   (setting.param.orthographic ? "_orthographic" : "");
