@@ -6,6 +6,7 @@
 #include <limits>
 #include <tuple>
 
+#include "assign/contract/assigner.h"
 #include "config/grid_json.h"
 #include "core/error.h"
 #include "core/text.h"
@@ -531,9 +532,13 @@ Json recommended_config(const config::Config& config, const search::View& view, 
     add_once(out["precision"], one["precision"]);
   }
   if (out["storages"].empty()) out["storages"].push_back("packed");  // of lists, which it may have besides
+  // Lists that come with a structure of the method's own are not the choice, and would break its budgets.
+  const bool has_lists_besides =
+      answer["choice"]["storage"].is_null() &&
+      assign::find_assigner(answer["choice"]["assigner"]["name"].get<std::string>())->answers(assign::Answer::lists);
   Json budgets = Json::array();
   for (const Constraint& constraint : question.constraints)
-    if (constraint.is_given)
+    if (constraint.is_given && !has_lists_besides)
       budgets.push_back(constraint.rule.figure + (constraint.rule.is_inclusive ? " >= " : " > ") +
                         Json(constraint.rule.limit).dump());
   out["limits"]["fail_if"] = budgets;
