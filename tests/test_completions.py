@@ -21,7 +21,7 @@ CASES = [
     ("clusterbench scene generate ", ["street", "open-world"], ["info"]),
     ("clusterbench schema ", ["config", "result", "comparison", "stress", "worst-case"], []),
     ("clusterbench worst-case --measure ", ["entries", "longest", "p99"], ["plan.json"]),
-    ("clusterbench worst-case --grid fr", ["frustum"], ["plan.json"]),
+    ("clusterbench worst-case --grid ", ["frustum", "world"], ["plan.json"]),
     ("clusterbench worst-case pl", ["plan.json"], []),
     ("clusterbench run --", ["--output", "--export", "--no-timing", "--count"], ["--format", "--count-dumps"]),
     ("clusterbench export r.json --format ", ["bencher", "google-benchmark", "markdown"], ["plan.json"]),

@@ -156,7 +156,8 @@ TEST(TileRanges, list_no_more_than_ranges_of_whole_slices) {
 
 TEST(TileRanges, ranks_are_wider_where_a_rig_needs_it) {
   std::vector<scene::WorldLight> lights(66000, point_light({2, 0, -6}, 0.5));
-  const AssignerRun run = TwoTiles(lights).run("tile-ranges");
+  const TwoTiles two(lights);
+  const AssignerRun run = two.run("tile-ranges");
   EXPECT_EQ(run.structure()->use().header_bytes, 8u * 16u + 66000u * 4u);
   EXPECT_EQ(at(run, 150, {2, 0, -6}).size(), 66000u);
 }

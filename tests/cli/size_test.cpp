@@ -34,8 +34,8 @@ std::string three_cameras(const std::string& lights = R"({"type": "point", "rang
 }
 
 const std::string k_flags =
-    " --grid frustum --tiles 16x9 --slices 8 --assigner exact-fast,z-binning"
-    " --storage packed,bitfield,linked,fixed";
+    " --grid frustum --tiles 120 --slices 8 --assigner exact-fast,z-binning"
+    " --set storages=packed,bitfield,linked,fixed";
 
 TEST(SizeCommand, of_a_scene_says_what_a_run_of_all_its_cameras_says) {
   const Folder folder;
@@ -69,7 +69,7 @@ TEST(SizeCommand, counts_the_same_lists_as_details_show) {
   const Folder folder;
   const std::string scene = folder.write("level.gltf", three_cameras()).string();
   const std::string flags =
-      " --grid frustum --tiles 4x4 --slices 4 --assigner exact-fast --storage packed,fixed " + scene;
+      " --grid frustum --tiles 480 --slices 4 --assigner exact-fast --set storages=packed,fixed " + scene;
   const Outcome run = tool("run -q --no-timing -o -" + flags + R"( --set 'scenes.*.camera=inside' --set details={})");
   ASSERT_EQ(run.code, 0) << run.err;
   const Json of_run = Json::parse(run.out)["cases"][0];

@@ -30,7 +30,7 @@ TEST(WorstCaseCommand, what_it_writes_is_valid_and_run_and_size_take_it) {
   EXPECT_EQ(run["cases"][0]["error"]["false_negatives"], 0);
   const Outcome size = tool("size --format json " + result);
   ASSERT_EQ(size.code, 0) << size.err;
-  EXPECT_EQ(nlohmann::json::parse(size.out)["budgets"][0]["high_water_entries"], found["frames"][0]["value"]);
+  EXPECT_EQ(nlohmann::json::parse(size.out)["structures"][0]["buffers"][0]["high_water"], found["frames"][0]["value"]);
   // Without the configuration: the same flags on the scene that was written.
   const std::string flags = " --grid frustum --tiles 128 --assigner aabb-fast --no-timing -q";
   const auto bare = nlohmann::json::parse(tool("run " + path + flags).out);

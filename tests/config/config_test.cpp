@@ -147,10 +147,10 @@ const Broken k_broken[] = {
      "1:54 /grids/0/tiles/pixels: found '64', allowed: a list of 2, each an integer from 1 to 32768 or an integer from "
      "1 to 32768 or a list, each a list of 2, each an integer from 1 to 32768 or an integer from 1 to 32768"},
     {R"({"scenes": ["a.glb"], "grids": [{"tiles": {"pixels": [64, 64], "count": [1, 1]}}]})",
-     "1:43 /grids/0/tiles: found 2 keys, allowed: exactly one of count, pixels"},
+     "1:43 /grids/0/tiles: found 2 keys, allowed: exactly one of aspect, count, pixels"},
     {R"({"scenes": ["a.glb"], "grids": [{"slices": {"scheme": "lineer"}}]})",
      "1:55 /grids/0/slices/scheme: found 'lineer' (did you mean 'linear'?), allowed: linear, exponential, "
-     "exponential-first, power, list, fit"},
+     "exponential-first, power, list, fit, cubical, cubical-first"},
     {R"({"scenes": ["a.glb"], "grids": [{"slices": {"scheme": "linear", "lambda": 0.5}}]})",
      "1:65 /grids/0/slices/lambda: 'lambda' is used by scheme power, not by linear"},
     {R"({"scenes": ["a.glb"], "grids": [{"slices": {"boundaries": [1, 2]}}]})",

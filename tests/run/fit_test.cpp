@@ -111,7 +111,7 @@ TEST(FittedSlicesOnAPath, are_timed_beside_the_slices_that_do_not_follow) {
   const GroupPlan& group = walk.plan.groups[0];
   const PathFrames path = path_of(walk.config, walk.plan, group);
   const std::vector<GroupSamples> launches{measure_launch(
-      walk.config, group, path, {0, 3, {}, {}}, [](int) {}, stop)};
+      walk.config, group, path, {0, 3, {0, 1, 2, 3, 4, 5}, {}}, [](int) {}, stop)};
   EXPECT_EQ(launches[0].methods.size(), 4u) << "two methods, in two grids each";
   EXPECT_EQ(launches[0].follow_ns.size(), 3u);
   for (const TimingResult& timing : timing_results(walk.config, group, launches)) {
