@@ -130,6 +130,7 @@ struct TailMaker {
 
   void count_frames();
   std::vector<std::uint64_t> thresholds() const;
+  std::string why_no_threshold() const;
   bool refuse(const std::string& why);          // false; the reason at the lowest threshold counts
   bool try_threshold(std::uint64_t threshold);  // whether the fit is good
 };
@@ -160,6 +161,11 @@ std::vector<std::uint64_t> TailMaker::thresholds() const {
     }
   }
   return out;
+}
+
+std::string TailMaker::why_no_threshold() const {
+  if (2 * common.recorded_.back().second > common.frames) return "more than half of the frames are at the maximum";
+  return "only " + number_of(common.frames, "frame") + " recorded";
 }
 
 bool TailMaker::refuse(const std::string& why) {
@@ -264,10 +270,11 @@ TailEstimate tail_of(std::span<const PathNeeds> paths) {
   maker.count_frames();
   if (maker.common.frames == 0) return {{}, "no frames were recorded"};
   if (maker.common.unit == 0) return {{}, "every frame needs " + std::to_string(maker.common.highest)};
-  for (const std::uint64_t threshold : maker.thresholds())
+  const std::vector<std::uint64_t> thresholds = maker.thresholds();
+  if (thresholds.empty()) return {{}, maker.why_no_threshold()};
+  for (const std::uint64_t threshold : thresholds)
     if (maker.try_threshold(threshold)) break;
-  if (!maker.best)
-    return {{}, maker.refusal.empty() ? "more than half of the frames are at the maximum" : maker.refusal};
+  if (!maker.best) return {{}, maker.refusal};
   return {std::move(maker.best), ""};
 }
 
