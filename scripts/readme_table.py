@@ -123,7 +123,10 @@ def headline(quick, street):
 
 
 def size(lines):
-    return "```cpp\n" + "\n".join(line for line in lines if line.startswith(("//   ", "inline constexpr"))) + "\n```"
+    """The first buffer's comment and constant."""
+    start = next(at for at, line in enumerate(lines) if line.startswith("//   indices"))
+    end = next(at for at, line in enumerate(lines) if line.startswith("inline constexpr LightBuffer"))
+    return "```cpp\n" + "\n".join(lines[start:end + 1]) + "\n```"
 
 
 def whole_case(lines):

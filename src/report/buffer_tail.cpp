@@ -27,6 +27,7 @@ measure::Tail::Capacity capacity_for_rare(const measure::Tail& tail, const Sized
 }
 
 std::string chance_text(const measure::Chance& chance) {
+  if (!(chance.ci95.high > 0.0)) return "no frame";
   const std::string most = one_in_text(chance.ci95.high);
   if (chance.estimate == 0.0) return "no frame by the fit (at most " + most + ")";
   return one_in_text(chance.estimate) + " frames (" + one_in_text(chance.ci95.low) + " to " + most + ")";
