@@ -1,5 +1,5 @@
-// For scripts/sizing_holdout: reads one JSON object per line, {"paths": [[needs]], "capacities": [..]}, and writes one per
-// line, the estimate: {"refusal"} or {"fits", "peaks", "chances": [[estimate, low, high]]}.
+// For scripts/sizing_holdout: reads one JSON object per line, {"paths": [[needs]], "capacities": [..]}, and writes one
+// per line, the estimate: {"refusal"} or {"fits", "peaks", "chances": [[estimate, low, high]]}.
 
 #include <iostream>
 #include <nlohmann/json.hpp>
