@@ -135,7 +135,10 @@ ExitCode recommend(const RecommendFlags& flags) {
   config.timing.measure = is_timed;
   config.resolved["timing"]["measure"] = is_timed;
   run::Plan plan = run::make_plan(config, flags.filter);
-  if (question.objective.is_cost) weigh_samples(config, plan);
+  const bool asks_for_cost = std::ranges::any_of(question.constraints, [](const report::Constraint& constraint) {
+    return constraint.rule.figure.ends_with("_cost_us");
+  });
+  if (question.objective.is_cost || asks_for_cost) weigh_samples(config, plan);
   std::vector<search::View> views = search::views_of(plan);
   if (!flags.written.empty() && views.size() != 1)
     throw Error(flags.written, "--write-config",

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/random.h"
+#include "core/single_precision.h"
 #include "measure/shading.h"
 
 namespace clusterbench::measure {
@@ -98,7 +99,7 @@ const char* name_of(DepthRead depth) {
 }
 
 double read_depth(const view::Projection& projection, DepthRead read, double depth) {
-  if (read == DepthRead::given) return static_cast<double>(static_cast<float>(depth));
+  if (read == DepthRead::given) return rounded_to_float(depth);
   const double near = projection.near_m, far = projection.far_m, clamped = std::clamp(depth, near, far);
   double stored;
   if (projection.orthographic)

@@ -164,7 +164,7 @@ std::vector<std::uint64_t> TailMaker::thresholds() const {
 }
 
 std::string TailMaker::why_no_threshold() const {
-  if (2 * common.recorded_.back().second > common.frames) return "more than half of the frames are at the maximum";
+  if (common.frames >= 2 * k_least_peaks) return "30 % of the frames or more are at the maximum";
   return "only " + number_of(common.frames, "frame") + " recorded";
 }
 

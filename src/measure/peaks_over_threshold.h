@@ -71,7 +71,7 @@ struct TailEstimate {
   std::string refusal;  // why there is none, one sentence for people; empty with a tail
 };
 
-// The threshold is the lowest of the quantiles 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.925, 0.95, 0.975 and 0.99 of all
+// The threshold is the lowest of the quantiles 0.7, 0.75, 0.8, 0.85, 0.9, 0.925, 0.95, 0.975 and 0.99 of all
 // frames where there are k_least_peaks peaks that are not cut off and the fit is good. Without a good one that with the
 // largest fit_p. All figures are rounded to four digits, so they do not depend on a compiler; the same needs give the
 // same estimate.

@@ -26,11 +26,11 @@ measure::Tail::Capacity capacity_for_rare(const measure::Tail& tail, const Sized
   return rare;
 }
 
+// The upper end first: on paths whose frames change slowly the estimate itself is often far too low.
 std::string chance_text(const measure::Chance& chance) {
   if (!(chance.ci95.high > 0.0)) return "no frame";
-  const std::string most = one_in_text(chance.ci95.high);
-  if (chance.estimate == 0.0) return "no frame by the fit (at most " + most + ")";
-  return one_in_text(chance.estimate) + " frames (" + one_in_text(chance.ci95.low) + " to " + most + ")";
+  const std::string estimate = chance.estimate > 0.0 ? one_in_text(chance.estimate) : "none";
+  return "at most " + one_in_text(chance.ci95.high) + " frames (by the fit " + estimate + ")";
 }
 
 }  // namespace
@@ -62,8 +62,8 @@ std::string tail_text(const SizedBuffer& buffer) {
   const measure::Tail& tail = *found->tail;
   const measure::Tail::Capacity rare = capacity_for_rare(tail, buffer);
   return buffer.name + ": above " + std::to_string(buffer.capacity) + " in " +
-         chance_text(tail.chance_above(buffer.capacity)) + "; for 1 in 10^5 take " + std::to_string(rare.estimate) +
-         " (at most " + std::to_string(*rare.upper) + "); from " + number_of(tail.peaks, "peak") +
+         chance_text(tail.chance_above(buffer.capacity)) + "; for 1 in 10^5 allocate " + std::to_string(*rare.upper) +
+         " (by the fit " + std::to_string(rare.estimate) + "); from " + number_of(tail.peaks, "peak") +
          (tail.fits ? "" : "; POOR FIT, do not rely on it");
 }
 

@@ -94,10 +94,12 @@ bool stays_broken(const config::LimitRule& rule) {
   return figure_kind(rule.figure).only_grows || (rule.limit == 0.0 && !figure_kind(rule.figure).is_timed);
 }
 
-bool breaks(const Json& cases, const config::LimitRule& rule) {
+// What somebody asks for and a case has no figure of, as a structure without lists has no longest one, is not
+// satisfied.
+bool breaks(const Json& cases, const Constraint& constraint) {
   return std::ranges::any_of(cases, [&](const Json& result_case) {
-    const std::optional<double> value = figure_of(result_case, rule.figure);
-    return value && rule.is_broken_by(*value);
+    const std::optional<double> value = figure_of(result_case, constraint.rule.figure);
+    return value ? constraint.rule.is_broken_by(*value) : constraint.is_given;
   });
 }
 
@@ -441,7 +443,7 @@ search::Judge judge_of(const Question& question, const nlohmann::json& config) {
     verdict.bytes = figure_over(cases, "bytes").value_or(0.0);
     for (std::size_t i = 0; i < question.constraints.size(); ++i) {
       const config::LimitRule& rule = question.constraints[i].rule;
-      if (!breaks(cases, rule)) continue;
+      if (!breaks(cases, question.constraints[i])) continue;
       verdict.broken.push_back(i);
       verdict.is_final = verdict.is_final || stays_broken(rule);
     }

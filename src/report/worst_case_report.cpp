@@ -187,8 +187,6 @@ std::string worst_case_text(const WorstCase& found, const WorstCaseFacts& facts)
                                         *found.theoretical_max > 0.0 ? 100.0 * worst / *found.theoretical_max : 0.0));
   out += frames_text(found, facts);
   for (const std::string& warning : found.warnings) out += line("warning", warning);
-  if (found.random.frames > 0 && found.random.max > worst)
-    out += line("warning", "a random frame is worse than what the search found: allow more --evaluations");
   if (found.ended == search::Ended::seconds)
     out += line("warning", "--seconds ended the search: the next one can end elsewhere");
   if (!facts.config_file.empty())

@@ -14,7 +14,7 @@ void Extremes::add(double value) {
 
 void GridMoveMeter::add(const grid::ScreenGrid& grid, const grid::Span& needed) {
   const std::vector<float>& now = grid.slices.boundaries;
-  if (!needed.is_empty()) moves_.near_m.add(needed.near_m);
+  if (!needed.is_empty()) moves_.near_m.add(static_cast<double>(now[near_boundary_]));
   moves_.far_m.add(static_cast<double>(now.back()));
   if (!before_.empty()) {
     ++moves_.steps;

@@ -38,11 +38,14 @@ struct GridMoves {
 
 class GridMoveMeter {
  public:
+  // `near_boundary`: the first one that follows.
+  explicit GridMoveMeter(std::size_t near_boundary) : near_boundary_(near_boundary) {}
   // Once per frame, in the path's order; `needed` is what the grid was made for.
   void add(const grid::ScreenGrid& grid, const grid::Span& needed);
   const GridMoves& result() const { return moves_; }
 
  private:
+  std::size_t near_boundary_;
   std::vector<float> before_;
   GridMoves moves_;
 };

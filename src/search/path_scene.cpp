@@ -44,9 +44,6 @@ int node_of(std::size_t light) {
 
 }  // namespace
 
-double rounded_to_float(double value) {
-  return static_cast<double>(static_cast<float>(value));
-}
 Vec3d rounded_to_float(const Vec3d& value) {
   return {rounded_to_float(value.x), rounded_to_float(value.y), rounded_to_float(value.z)};
 }

@@ -7,13 +7,14 @@
 #include <utility>
 #include <vector>
 
+#include "core/single_precision.h"
 #include "scene/camera_path.h"
 #include "scene/scene.h"
 
 namespace clusterbench::search {
 
 // The nearest number of single precision: the values of glTF's animations are such numbers.
-double rounded_to_float(double value);
+using clusterbench::rounded_to_float;
 Vec3d rounded_to_float(const Vec3d& value);
 Vec4d rounded_to_float(const Vec4d& value);
 

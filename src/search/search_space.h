@@ -12,13 +12,6 @@
 
 namespace clusterbench::search {
 
-struct Box {
-  Vec3d lo{0.0}, hi{0.0};
-
-  bool holds(const Vec3d& point) const;
-  void add(const Vec3d& point);
-};
-
 class SearchSpace {
  public:
   // `eyes`: where the camera may stand. `lights`: where extra lights may. `floor`: the camera stands so high above it

@@ -46,12 +46,33 @@ Vec3d floor_normal(const std::array<Vec3d, 3>& t, bool is_double_sided) {
   return length > 0.0 && normal.y >= k_least_cosine * length ? normal : Vec3d(0.0);
 }
 
+// What lies in the box, a convex polygon; side by side (Sutherland and Hodgman 1974).
+std::vector<Vec3d> clipped(const std::array<Vec3d, 3>& triangle, const Box& box) {
+  std::vector<Vec3d> polygon(triangle.begin(), triangle.end());
+  for (int side = 0; side < 6; ++side) {
+    const int axis = side / 2;
+    const auto inside = [&](const Vec3d& p) { return side % 2 == 0 ? p[axis] - box.lo[axis] : box.hi[axis] - p[axis]; };
+    std::vector<Vec3d> rest;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Vec3d &from = polygon[i], &to = polygon[(i + 1) % polygon.size()];
+      const double a = inside(from), b = inside(to);
+      if (a >= 0.0) rest.push_back(from);
+      if ((a < 0.0) != (b < 0.0)) {
+        Vec3d on = from + (to - from) * (a / (a - b));
+        on[axis] = side % 2 == 0 ? box.lo[axis] : box.hi[axis];
+        rest.push_back(on);
+      }
+    }
+    polygon = rest;
+  }
+  return polygon;
+}
+
 }  // namespace
 
-Walkable::Walkable(const scene::Scene& scene, const scene::Geometry& geometry) {
+Walkable::Walkable(const scene::Scene& scene, const scene::Geometry& geometry, const std::optional<Box>& within) {
   const std::vector<Mat4d> worlds = scene::rest_transforms(scene);
   const std::vector<bool> visible = scene::visible_nodes(scene, 0.0);
-  double area = 0.0;
   for (const scene::SurfaceInstance& instance : geometry.instances) {
     if (instance.shown_by >= 0 && !visible[static_cast<std::size_t>(instance.shown_by)]) continue;
     const scene::Surface& surface = geometry.surfaces[instance.surface];
@@ -64,18 +85,29 @@ Walkable::Walkable(const scene::Scene& scene, const scene::Geometry& geometry) {
       if (is_mirrored) std::swap(corners[1], corners[2]);
       const double twice = std::sqrt(squared(floor_normal(corners, surface.double_sided)));
       if (!(twice > 0.0) || !std::isfinite(twice)) continue;
-      area += 0.5 * twice;
-      corners_.push_back(corners);
-      area_up_to_.push_back(area);
-      boxes_.push_back({glm::min(corners[0], glm::min(corners[1], corners[2])),
-                        glm::max(corners[0], glm::max(corners[1], corners[2]))});
-      lo_ = corners_.size() == 1 ? boxes_.back()[0] : glm::min(lo_, boxes_.back()[0]);
-      hi_ = corners_.size() == 1 ? boxes_.back()[1] : glm::max(hi_, boxes_.back()[1]);
+      if (!within) {
+        add(corners);
+        continue;
+      }
+      const std::vector<Vec3d> part = clipped(corners, *within);
+      for (std::size_t i = 2; i < part.size(); ++i) add({part[0], part[i - 1], part[i]});
     }
   }
-  if (corners_.empty())
-    throw Error(scene.path.string(), "--walkable",
-                geometry.empty() ? "the scene has no triangles" : "no triangle of the scene looks upward");
+  if (!corners_.empty()) return;
+  if (within) throw Error("", "--within", "holds no part of the floor that an eye could stand above");
+  throw Error(scene.path.string(), "--walkable",
+              geometry.empty() ? "the scene has no triangles" : "no triangle of the scene looks upward");
+}
+
+void Walkable::add(const Corners& corners) {
+  const double twice = std::sqrt(squared(glm::cross(corners[1] - corners[0], corners[2] - corners[0])));
+  if (!(twice > 0.0)) return;
+  area_up_to_.push_back((area_up_to_.empty() ? 0.0 : area_up_to_.back()) + 0.5 * twice);
+  corners_.push_back(corners);
+  boxes_.push_back(
+      {glm::min(corners[0], glm::min(corners[1], corners[2])), glm::max(corners[0], glm::max(corners[1], corners[2]))});
+  lo_ = corners_.size() == 1 ? boxes_.back()[0] : glm::min(lo_, boxes_.back()[0]);
+  hi_ = corners_.size() == 1 ? boxes_.back()[1] : glm::max(hi_, boxes_.back()[1]);
 }
 
 Vec3d Walkable::nearest(const Vec3d& point) const {

@@ -3,6 +3,7 @@
 // height above them.
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "core/random.h"
@@ -10,11 +11,19 @@
 
 namespace clusterbench::search {
 
+struct Box {
+  Vec3d lo{0.0}, hi{0.0};
+
+  bool holds(const Vec3d& point) const;
+  void add(const Vec3d& point);
+};
+
 class Walkable {
  public:
   // Triangles whose front (counter-clockwise side) is at most 45 degrees from facing +y; of double-sided ones either
-  // side. As the scene has them at rest, hidden ones left out. Throws Error if there is none.
-  Walkable(const scene::Scene& scene, const scene::Geometry& geometry);
+  // side. As the scene has them at rest, hidden ones left out; of each what lies in the box, if one is given. Throws
+  // Error if there is none.
+  Walkable(const scene::Scene& scene, const scene::Geometry& geometry, const std::optional<Box>& within = {});
 
   // The point of these triangles that is nearest.
   Vec3d nearest(const Vec3d& point) const;
@@ -28,6 +37,8 @@ class Walkable {
 
  private:
   using Corners = std::array<Vec3d, 3>;
+
+  void add(const Corners& corners);
 
   std::vector<Corners> corners_;
   std::vector<std::array<Vec3d, 2>> boxes_;  // of each triangle

@@ -140,6 +140,7 @@ class WorstCaseSearch {
     if (best_.frames().empty()) return std::move(out_);
     make_path();
     compare_with_random();
+    warn_of_better();
     return std::move(out_);
   }
 
@@ -151,7 +152,12 @@ class WorstCaseSearch {
     if (!request_.walkable) return std::nullopt;
     if (scene.path.empty()) throw Error("", "--walkable", "a rig that was made has no triangles");
     const run::SceneData& data = plan_.scenes[case_.scene];
-    return Walkable(scene, data.geometry ? *data.geometry : scene::load_geometry(scene));
+    std::optional<Box> within = request_.within;
+    if (within) {
+      within->lo.y -= request_.eye_height_m;
+      within->hi.y -= request_.eye_height_m;
+    }
+    return Walkable(scene, data.geometry ? *data.geometry : scene::load_geometry(scene), within);
   }
   Box eye_box() const {
     if (request_.within) return *request_.within;
@@ -224,7 +230,9 @@ class WorstCaseSearch {
 
   void rate_recorded(int most) {
     progress_.begin("recorded frames");
-    const std::vector<int> frames = run::evenly_spaced(most, static_cast<int>(path_.shots.size()));
+    // The worst of all first, so that the search is never behind it.
+    std::vector<int> frames = run::evenly_spaced(most, static_cast<int>(path_.shots.size()));
+    if (std::ranges::find(frames, out_.recorded.frame) == frames.end()) frames.front() = out_.recorded.frame;
     const auto frame_of = [&](int i) {
       return recorded_frame(static_cast<std::size_t>(frames[static_cast<std::size_t>(i)]));
     };
@@ -394,6 +402,18 @@ class WorstCaseSearch {
     if (out_.random.frames == 0) return;
     out_.random.max = found.frames().front().value;
     out_.random.mean = std::accumulate(values.begin(), values.end(), 0.0) / out_.random.frames;
+  }
+
+  void warn_of_better() {
+    const double worst = out_.frames.front().value;
+    if (out_.random.frames > 0 && out_.random.max >= worst)
+      out_.warnings.emplace_back(out_.random.max > worst
+                                     ? "a random frame is worse than what the search found: allow more --evaluations"
+                                     : "a random frame is as bad as what the search found");
+    if (out_.recorded.max > worst)
+      out_.warnings.emplace_back(
+          "a recorded frame is worse than what the search found: it may not choose that frame, or needs more "
+          "--evaluations");
   }
 
   const config::Config& config_;

@@ -197,6 +197,30 @@ TEST(Walkable, the_nearest_point_is_as_near_as_the_nearest_of_many) {
   }
 }
 
+TEST(Walkable, of_a_box_only_what_lies_in_it_is_floor) {
+  scene::Scene scene;
+  scene::Geometry geometry;
+  add_triangle(geometry, {0, 0, 0}, {0, 0, 4}, {4, 0, 0});
+  add_triangle(geometry, {0, 5, 0}, {0, 5, 4}, {4, 5, 0});
+  const Box box{{1.0, -1.0, -1.0}, {2.0, 1.0, 10.0}};
+  const Walkable floor(scene, geometry, box);
+  EXPECT_NEAR(floor.area_m2(), 2.5, 1e-12) << "between x = 1, where it is 3 m wide, and x = 2, where it is 2 m wide";
+  SplitMix64 random(2);
+  for (int i = 0; i < 1000; ++i) {
+    EXPECT_TRUE(box.holds(floor.random(random)));
+    EXPECT_TRUE(box.holds(floor.nearest({random.between(-9, 9), random.between(-9, 9), random.between(-9, 9)})));
+  }
+  EXPECT_THROW(Walkable(scene, geometry, Box{{9, 9, 9}, {10, 10, 10}}), Error);
+}
+
+// Beside each other, as g++ 12 packs them.
+TEST(RoundedToFloat, is_a_single_precision_number_in_each_coordinate) {
+  const volatile double x = 0.1, y = 0.2, z = 0.3, w = 0.7;
+  const auto as_float = [](float value) { return static_cast<double>(value); };
+  EXPECT_EQ(rounded_to_float(Vec3d{x, y, z}), Vec3d(as_float(0.1f), as_float(0.2f), as_float(0.3f)));
+  EXPECT_EQ(rounded_to_float(Vec4d{x, y, z, w}), Vec4d(as_float(0.1f), as_float(0.2f), as_float(0.3f), as_float(0.7f)));
+}
+
 TEST(Walkable, a_scene_without_floor_is_refused) {
   scene::Scene scene;
   scene::Geometry geometry;

@@ -191,7 +191,8 @@ AccuracyResult accuracy_pass(const config::Config& config, const SceneData& data
   const grid::GridSpec& spec = config.grids[group.grid];
   GridOfFrames grids(spec);
   std::optional<GridMoveMeter> moves;
-  if (spec.has_tiles() && spec.slices.fit) moves.emplace();
+  if (spec.has_tiles() && spec.slices.fit)
+    moves.emplace(spec.slices.scheme == grid::Scheme::exponential_first ? std::size_t{1} : std::size_t{0});
   for (int index = 0; index < path.count(); ++index) {
     if (stop) return result;
     on_frame(index);
