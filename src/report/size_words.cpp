@@ -5,8 +5,6 @@
 
 namespace clusterbench::report {
 
-using Json = nlohmann::ordered_json;
-
 std::string rule_text(const AllocationRules& rules) {
   const char* rounding = rules.rounding == Rounding::page           ? ", rounded up to whole pages of 4 KiB"
                          : rules.rounding == Rounding::power_of_two ? ", rounded up to a power of two bytes"
@@ -25,8 +23,8 @@ std::string share_text(std::uint64_t part, std::uint64_t whole) {
 
 std::string dropped_text(const SizedStructure& structure) {
   std::uint64_t pairs = 0, cells = 0, frames = 0;
-  for (const Json* result_case : structure.cases) {
-    const Json& overflow = (*result_case)["buffers"]["overflow"];
+  for (const nlohmann::ordered_json* result_case : structure.cases) {
+    const nlohmann::ordered_json& overflow = (*result_case)["buffers"]["overflow"];
     pairs += overflow["dropped_pairs"].get<std::uint64_t>();
     cells += overflow["cells"].get<std::uint64_t>();
     frames += overflow["frames"].get<std::uint64_t>();
