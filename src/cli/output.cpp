@@ -47,9 +47,13 @@ void tell_of_keeping() {
 
 void probe_output(const std::string& output) {
   if (output.empty() || output == "-") return;
-  std::ofstream file(output, std::ios::binary);
-  file << ' ' << std::flush;
+  std::error_code unknown;
+  const bool is_new = !fs::exists(output, unknown);
+  std::ofstream file(output, std::ios::binary | std::ios::app);  // what is there stays until there is better
+  if (is_new || is_stream(output)) file << ' ' << std::flush;
   if (!file) throw Error(output, "", errno_says("cannot be written"));
+  file.close();
+  if (is_new) fs::remove(output, unknown);
 }
 
 void refuse_overwriting(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {

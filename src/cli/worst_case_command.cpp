@@ -99,13 +99,16 @@ void check_outputs(const WorstCaseFlags& flags, const config::Config& config) {
     if (!is_for_reading(output)) probe_output(output);
 }
 
-// Writes the path, reads it as `run` would, and measures it again.
 void write_path(const search::WorstCase& found, const report::WorstCaseFacts& facts) {
   write_text(facts.scene_file, scene::to_gltf(found.path_scene, "clusterbench worst-case"));
   write_text(
       facts.config_file,
       search::replay_config(facts.config, facts.case_plan, fs::path(facts.scene_file).filename().string()).dump(1) +
           "\n");
+}
+
+// Reads the path as `run` would, and measures it again.
+void check_path(const search::WorstCase& found, const report::WorstCaseFacts& facts) {
   const config::Config config = config::load_config(facts.config_file);
   const run::Plan plan = run::make_plan(config, "");
   const run::CasePlan& replayed = search::replayed_case(plan, facts.case_plan);
@@ -139,6 +142,7 @@ ExitCode worst_case(const WorstCaseFlags& flags) {
   if (!facts.scene_file.empty()) write_path(found, facts);
   const bool for_reading = is_for_reading(flags.output);
   if (!for_reading) write_output(flags.output, report::worst_case_to_json(found, facts));
+  if (!facts.scene_file.empty()) check_path(found, facts);
   if (!flags.quiet)
     (for_reading ? std::cout : std::cerr) << printable_lines(report::worst_case_text(found, facts)) << std::flush;
   if (for_reading) tell_of_keeping();

@@ -463,7 +463,7 @@ Json answer_to_json(const config::Config& config, const run::Plan& plan, const s
   Json cameras = Json::array();
   for (const std::size_t camera : view.cameras) cameras.push_back(data.paths[camera].camera);
   Json out{{"scene", data.scene.name},
-           {"sha256", data.contents_sha256()},
+           {"sha256", data.scene.sha256},
            {"cameras", cameras},
            {"viewport", {viewport.x, viewport.y}},
            {"frames", view.frames},

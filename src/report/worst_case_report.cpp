@@ -60,7 +60,7 @@ Json case_json(const WorstCaseFacts& facts) {
   return {{"name", one.name},
           {"id", one.id},
           {"scene", data.scene.name},
-          {"sha256", data.contents_sha256()},
+          {"sha256", data.scene.sha256},
           {"camera", data.paths[one.camera].camera},
           {"viewport", {viewport.x, viewport.y}},
           {"grid", facts.config.grids[one.grid].name()},

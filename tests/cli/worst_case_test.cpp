@@ -37,6 +37,15 @@ TEST(WorstCaseCommand, what_it_writes_is_valid_and_run_and_size_take_it) {
   EXPECT_EQ(bare["cases"][0]["buffers"]["index_entries"]["high_water"], found["frames"][0]["value"]);
 }
 
+TEST(WorstCaseCommand, what_fails_leaves_what_was_there) {
+  const Folder folder;
+  const std::string kept = folder.write("kept.json", "old").string(), absent = (folder / "absent.json").string();
+  for (const std::string& output : {kept, absent})
+    EXPECT_EQ(tool("worst-case " + source_file("scenes/street.glb") + " -q --within 1,1,1,0,0,0 -o " + output).code, 2);
+  EXPECT_EQ(file_text(kept), "old");
+  EXPECT_FALSE(std::filesystem::exists(absent));
+}
+
 TEST(WorstCaseCommand, threads_change_nothing_and_a_person_reads_text) {
   const std::string alone = tool(k_short_search + " --threads 1").out;
   EXPECT_EQ(tool(k_short_search + " --threads 3").out, alone);
