@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "cli/terminal.h"
 #include "core/error.h"
 #include "core/text.h"
 
@@ -43,6 +44,16 @@ config::Config read_config_inputs(const ConfigInputs& inputs) {
   if (scenes == 0 && inputs.inputs.size() == 1) return config::load_config(inputs.inputs.front(), settings_of(inputs));
   throw Error("", "command line",
               "takes one configuration (.json), or one or more scenes (.glb, .gltf), not " + joined(inputs.inputs));
+}
+
+void tell_of_cameras_left_out(const config::Config& config, const run::Plan& plan) {
+  for (std::size_t i = 0; i < plan.scenes.size(); ++i) {
+    const scene::Scene& scene = plan.scenes[i].scene;
+    const std::vector<std::string> others = scene::cameras_left_out(scene, config.scenes[i].camera);
+    if (others.empty()) continue;
+    tell("of " + scene.name + " only camera '" + plan.scenes[i].paths.front().camera + "', and not " +
+         number_of(others.size(), "other") + "; --set 'scenes.*.camera=*' takes all");
+  }
 }
 
 }  // namespace clusterbench::cli

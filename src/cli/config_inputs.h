@@ -6,6 +6,7 @@
 
 #include "cli/command.h"
 #include "config/config.h"
+#include "run/sweep.h"
 
 namespace clusterbench::cli {
 
@@ -20,5 +21,7 @@ void add_config_flags(Command& command, ConfigInputs& inputs, const std::vector<
 std::vector<config::FlagValue> settings_of(const ConfigInputs& inputs);
 // Throws Error for inputs that are neither one configuration nor scenes alone.
 config::Config read_config_inputs(const ConfigInputs& inputs);
+// For what searches along one camera or some of a scene: which others there are.
+void tell_of_cameras_left_out(const config::Config& config, const run::Plan& plan);
 
 }  // namespace clusterbench::cli

@@ -197,19 +197,23 @@ bool TailMaker::try_threshold(std::uint64_t threshold) {
     return refuse(repeated(threshold, peaks, heights.size()) + " where " + whole(expected) +
                   " were to be expected: the paths repeat themselves or reach a limit");
   const double p = rounded(p_of_fit(excesses, fit.best(), peaks));
-  if (best && !(p > best->fit_p)) return false;
+  // Below that an interval from the likelihood does not hold (Smith 1985): the end lies where the largest peak is.
+  constexpr double k_least_shape = -0.5;
+  const double shape = rounded(fit.best().shape());
+  const bool fits = p >= k_least_fit_p && shape >= k_least_shape;
+  if (best && !fits && !(p > best->fit_p)) return false;
   Tail tail = common;
   tail.threshold = threshold;
   tail.peaks = peaks;
   tail.cut_peaks = cut;
   tail.frames_above = total(excesses);
   tail.extremal_index = rounded(clusters.extremal_index);
-  tail.shape = rounded(fit.best().shape());
+  tail.shape = shape;
   tail.scale = rounded(fit.best().scale() * static_cast<double>(step));
   if (fit.best().bend < 0.0)
     tail.end = rounded(static_cast<double>(threshold) - static_cast<double>(step) / fit.best().bend);
   tail.fit_p = p;
-  tail.fits = p >= k_least_fit_p;
+  tail.fits = fits;
   tail.step_ = step;
   tail.counted_peaks_ = count_for_lengths(clusters.peaks);
   tail.fit_ = fit;

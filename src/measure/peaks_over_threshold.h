@@ -39,7 +39,8 @@ class Tail {
   double scale = 0.0;              // in units of the need
   std::optional<double> end;       // no need is above, as far as the fit says; none for a shape of 0 or more
   double fit_p = 0.0;              // Anderson-Darling against samples drawn from the fit
-  bool fits = false;               // fit_p >= k_least_fit_p. If not, no threshold gave a good fit; this one's is best
+  bool fits =
+      false;  // fit_p >= k_least_fit_p and shape >= -0.5. If not, no threshold gave a good fit; this one's is best
   bool has_merged_frames = false;  // entries stand for several frames: chances are upper bounds
 
   // That a frame needs more than the capacity: the share of frames above the threshold, which is peaks per frame x

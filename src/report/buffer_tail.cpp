@@ -61,10 +61,10 @@ std::string tail_text(const SizedBuffer& buffer) {
   if (!found->tail) return buffer.name + ": unknown, " + found->refusal;
   const measure::Tail& tail = *found->tail;
   const measure::Tail::Capacity rare = capacity_for_rare(tail, buffer);
-  return buffer.name + ": above " + std::to_string(buffer.capacity) + " in " +
-         chance_text(tail.chance_above(buffer.capacity)) + "; for 1 in 10^5 allocate " + std::to_string(*rare.upper) +
-         " (by the fit " + std::to_string(rare.estimate) + "); from " + number_of(tail.peaks, "peak") +
-         (tail.fits ? "" : "; POOR FIT, do not rely on it");
+  return buffer.name + (tail.fits ? ": above " : ": NO GOOD FIT, do not rely on it: above ") +
+         std::to_string(buffer.capacity) + " in " + chance_text(tail.chance_above(buffer.capacity)) +
+         "; for 1 in 10^5 allocate " + std::to_string(*rare.upper) + " (by the fit " + std::to_string(rare.estimate) +
+         "); from " + number_of(tail.peaks, "peak");
 }
 
 Json tail_json(const SizedBuffer& buffer) {
