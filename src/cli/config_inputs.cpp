@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "cli/terminal.h"
+#include "cli/output.h"
 #include "core/error.h"
 #include "core/text.h"
 

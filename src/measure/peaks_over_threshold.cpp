@@ -198,9 +198,9 @@ bool TailMaker::try_threshold(std::uint64_t threshold) {
                   " were to be expected: the paths repeat themselves or reach a limit");
   const double p = rounded(p_of_fit(excesses, fit.best(), peaks));
   // Below that an interval from the likelihood does not hold (Smith 1985): the end lies where the largest peak is.
-  constexpr double k_least_shape = -0.5;
+  constexpr double k_least_regular_shape = -0.5;
   const double shape = rounded(fit.best().shape());
-  const bool fits = p >= k_least_fit_p && shape >= k_least_shape;
+  const bool fits = p >= k_least_fit_p && shape >= k_least_regular_shape;
   if (best && !fits && !(p > best->fit_p)) return false;
   Tail tail = common;
   tail.threshold = threshold;
