@@ -20,25 +20,24 @@ std::vector<std::uint64_t> distances_above(std::span<const PathNeeds> paths, std
   return distances;
 }
 
-// Equations 3 and 4 of the source: unbiased to first order if a distance is above 2.
+// Equation 3 of the source, for distances of which one at least is above 2.
 double intervals_estimator(const std::vector<std::uint64_t>& distances) {
-  if (distances.empty()) return 1.0;
-  const bool has_long = *std::ranges::max_element(distances) > 2;
   double sum = 0.0, squares = 0.0;
   for (const std::uint64_t distance : distances) {
     const auto d = static_cast<double>(distance);
-    sum += has_long ? d - 1.0 : d;
-    squares += has_long ? (d - 1.0) * (d - 2.0) : d * d;
+    sum += d - 1.0;
+    squares += (d - 1.0) * (d - 2.0);
   }
   return std::min(1.0, 2.0 * sum * sum / (static_cast<double>(distances.size()) * squares));
 }
 
 // Section 3 of the source: the largest distances, a share of `index`, lie between clusters. Equal distances are treated
-// alike, as within a cluster.
+// alike, as within a cluster. Neighbours always are of one: they are all that a single hill has, and would be taken for
+// so many peaks where its path has no other distance.
 std::uint64_t run_of(std::vector<std::uint64_t> distances, double index) {
   std::ranges::sort(distances, std::greater<>());
   const auto between = static_cast<std::size_t>(std::floor(index * static_cast<double>(distances.size())));
-  return between < distances.size() ? distances[between] : 0;
+  return between < distances.size() ? std::max<std::uint64_t>(distances[between], 1) : 1;
 }
 
 void add_peaks(const PathNeeds& path, std::uint64_t threshold, std::uint64_t run, std::vector<Peak>& peaks) {
@@ -65,9 +64,15 @@ void add_peaks(const PathNeeds& path, std::uint64_t threshold, std::uint64_t run
 Clusters clusters_above(std::span<const PathNeeds> paths, std::uint64_t threshold) {
   Clusters clusters;
   std::vector<std::uint64_t> distances = distances_above(paths, threshold);
-  clusters.extremal_index = intervals_estimator(distances);
-  clusters.run = run_of(std::move(distances), clusters.extremal_index);
+  const bool has_long = std::ranges::any_of(distances, [](std::uint64_t distance) { return distance > 2; });
+  if (has_long) clusters.extremal_index = intervals_estimator(distances);
+  clusters.run = has_long ? run_of(std::move(distances), clusters.extremal_index) : 2;
   for (const PathNeeds& path : paths) add_peaks(path, threshold, clusters.run, clusters.peaks);
+  if (has_long || clusters.peaks.empty()) return clusters;
+  // One hill per path, with gaps of a single entry at most: the estimator, which presumes long gaps, would say 1.
+  std::uint64_t above = 0;
+  for (const Peak& peak : clusters.peaks) above += peak.entries_above;
+  clusters.extremal_index = static_cast<double>(clusters.peaks.size()) / static_cast<double>(above);
   return clusters;
 }
 

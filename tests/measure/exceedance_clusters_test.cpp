@@ -48,6 +48,17 @@ TEST(Clusters, are_cut_off_only_where_the_path_ends_at_their_top) {
   EXPECT_TRUE(clusters_above({&falls, 1}, 11).peaks.empty() || !clusters_above({&falls, 1}, 11).peaks[0].is_cut);
 }
 
+TEST(Clusters, of_a_single_hill_are_one) {
+  std::vector<std::uint64_t> needs;
+  for (std::uint64_t i = 0; i < 100; ++i) needs.push_back(i < 50 ? i : 99 - i);
+  const PathNeeds path{needs, 1};
+  const Clusters hill = clusters_above({&path, 1}, 30);
+  EXPECT_EQ(heights_of(hill), (std::vector<std::uint64_t>{49}));
+  EXPECT_DOUBLE_EQ(hill.extremal_index, 1.0 / 38.0);
+  needs[40] = 0;
+  EXPECT_EQ(heights_of(clusters_above({&path, 1}, 30)), (std::vector<std::uint64_t>{49})) << "a gap of one frame";
+}
+
 TEST(Clusters, of_nothing_above_are_none) {
   const std::vector<std::uint64_t> needs{1, 2, 3};
   const PathNeeds path{needs, 1};

@@ -160,6 +160,15 @@ TEST(Tail, is_refused_for_too_few_peaks_and_says_how_many_there_are) {
   EXPECT_NE(found.refusal.find("20 are needed"), std::string::npos) << found.refusal;
 }
 
+// Frames in the hundreds are no substitute for hills.
+TEST(Tail, is_refused_for_one_smooth_hill) {
+  Needs needs;
+  for (std::uint64_t i = 0; i < 1000; ++i) needs.push_back(1000 + (i < 500 ? i : 999 - i) * 3 + i % 7);
+  const TailEstimate found = tail_of_one(needs);
+  EXPECT_FALSE(found.tail);
+  EXPECT_EQ(found.refusal.find("only 1 separate peak above"), 0u) << found.refusal;
+}
+
 TEST(Tail, is_refused_for_a_loop_that_is_walked_again_and_again) {
   const Needs once = moving_maxima({-0.3, 300.0}, 0.4, 100, 9);
   Needs often;
