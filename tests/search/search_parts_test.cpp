@@ -182,9 +182,10 @@ TEST(Walkable, the_nearest_point_is_as_near_as_the_nearest_of_many) {
   SplitMix64 random(3);
   const auto coordinate = [&] { return static_cast<float>(random.between(-5.0, 5.0)); };
   for (int i = 0; i < 30; ++i) {
-    const float y = coordinate();
-    add_triangle(geometry, {coordinate(), y, coordinate()}, {coordinate(), y, coordinate()},
-                 {coordinate(), y + 0.1f, coordinate()}, true);
+    // One after the other: compilers are free in the order of arguments.
+    const float y = coordinate(), ax = coordinate(), az = coordinate(), bx = coordinate(), bz = coordinate(),
+                cx = coordinate(), cz = coordinate();
+    add_triangle(geometry, {ax, y, az}, {bx, y, bz}, {cx, y + 0.1f, cz}, true);
   }
   const Walkable floor(scene, geometry);
   for (int i = 0; i < 100; ++i) {
@@ -193,7 +194,7 @@ TEST(Walkable, the_nearest_point_is_as_near_as_the_nearest_of_many) {
     double sampled = 1e9;
     for (int k = 0; k < 3000; ++k) sampled = std::min(sampled, glm::length(floor.random(random) - from));
     EXPECT_LE(least, sampled + 1e-12);
-    EXPECT_GE(least, sampled - 1.0);
+    EXPECT_GE(least, sampled - 2.0) << "3000 places on floors of some 300 square metres are sparse";
   }
 }
 
