@@ -4,14 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 
 #include "cli/commands.h"
-#include "cli/config_inputs.h"
 #include "cli/launches.h"
 #include "cli/output.h"
+#include "cli/run_inputs.h"
 #include "cli/stop.h"
 #include "cli/terminal.h"
 #include "config/config.h"
@@ -24,7 +23,6 @@
 namespace clusterbench::cli {
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 // "--frame-us-max" of "frame_us.max".
@@ -38,23 +36,12 @@ std::string flag_of(const std::string& figure) {
 constexpr double k_no_limit = -1.0;
 
 struct RecommendFlags {
-  std::string input, output, written, objective, within = "5%", filter;
-  std::vector<std::vector<std::string>> settings{config::config_flags().size()};               // by flag
+  RunInputs inputs;
+  std::string output, written, objective, within = "5%", filter;
   std::vector<double> most = std::vector<double>(config::limit_figures().size(), k_no_limit);  // by figure
   int runners_up = 5, written_runners_up = 0;
   bool no_timing = false, quiet = false;
 };
-
-std::vector<config::FlagValue> settings_of(const RecommendFlags& flags) {
-  std::vector<config::FlagValue> all;
-  for (std::size_t i = 0; i < flags.settings.size(); ++i) {
-    const config::ConfigFlag& flag = config::config_flags()[i];
-    if (!flag.is_repeatable && !flags.settings[i].empty()) all.push_back({flag.name, joined(flags.settings[i], ",")});
-    for (const std::string& value : flag.is_repeatable ? flags.settings[i] : std::vector<std::string>{})
-      all.push_back({flag.name, value});
-  }
-  return all;
-}
 
 // A share: "5%", or "5" for the same.
 double share_of(const std::string& text) {
@@ -81,11 +68,7 @@ std::vector<config::LimitRule> rules_of(const RecommendFlags& flags, const confi
 config::Config read_input(const RecommendFlags& flags) {
   nlohmann::json standard = search::recommend_space();
   standard["samples"] = {{"opaque", nlohmann::json::object()}};
-  const std::vector<config::FlagValue> settings = settings_of(flags);
-  const std::string extension = fs::path(flags.input).extension().string();
-  config::Config config = extension == ".glb" || extension == ".gltf"
-                              ? config::default_config({flags.input}, settings, standard)
-                              : config::load_config(flags.input, settings, standard);
+  config::Config config = read_inputs(flags.inputs, {}, standard);
   config.details.reset();  // nothing here asks for them
   config.stability.reset();
   for (const char* key : {"details", "stability"}) config.resolved[key] = nullptr;
@@ -127,7 +110,7 @@ ExitCode write_and_show(const RecommendFlags& flags, const Json& recommendation)
 }
 
 ExitCode recommend(const RecommendFlags& flags) {
-  refuse_overwriting({flags.output, flags.written}, {flags.input});
+  refuse_overwriting({flags.output, flags.written}, flags.inputs.paths);
   report::Question question{objective_of(flags), {}, share_of(flags.within), flags.runners_up};
   config::Config config = read_input(flags);
   question.constraints = report::constraints_of(rules_of(flags, config));
@@ -176,7 +159,7 @@ void add_recommend(Command& program, Action& action) {
       "recommend", "Which grid, method and light structure to take for a scene, by an objective and under constraints");
   command
       .add_option(
-          "INPUT", flags->input,
+          "INPUT", flags->inputs.paths,
           "A scene (.glb, .gltf) with a space of candidates of its own, or a configuration (.json), whose grids, "
           "assigners and storages are the candidates")
       .required();
@@ -202,9 +185,7 @@ void add_recommend(Command& program, Action& action) {
       .range(0, 100)
       .shows_standard();
   command.add_option("--filter", flags->filter, "Only candidates whose cases' names match this regular expression");
-  for (std::size_t i = 0; i < flags->settings.size(); ++i)
-    command.add_option(config::config_flags()[i].name, flags->settings[i], config::config_flags()[i].summary)
-        .once_a_name();
+  add_config_options(command, flags->inputs);
   command.add_flag("--no-timing", flags->no_timing, "Nothing is timed; the answer is then the same on every machine");
   command.add_flag("-q,--quiet", flags->quiet, "No progress");
   command.when_named([flags, &action] { action = [flags] { return recommend(*flags); }; });

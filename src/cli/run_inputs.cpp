@@ -3,15 +3,18 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "cli/output.h"
 #include "core/error.h"
 #include "core/text.h"
 
 namespace clusterbench::cli {
 
-void add_config_options(Command& command, RunInputs& inputs) {
-  for (std::size_t i = 0; i < inputs.settings.size(); ++i)
-    command.add_option(config::config_flags()[i].name, inputs.settings[i], config::config_flags()[i].summary)
-        .once_a_name();
+void add_config_options(Command& command, RunInputs& inputs, const std::vector<std::string>& without) {
+  for (std::size_t i = 0; i < inputs.settings.size(); ++i) {
+    const config::ConfigFlag& flag = config::config_flags()[i];
+    if (std::ranges::find(without, flag.name) != without.end()) continue;
+    command.add_option(flag.name, inputs.settings[i], flag.summary).once_a_name();
+  }
 }
 
 std::vector<config::FlagValue> flag_values(const RunInputs& inputs) {
@@ -31,15 +34,27 @@ bool is_scene(const std::string& path) {
   return extension == ".glb" || extension == ".gltf";
 }
 
-config::Config read_inputs(const RunInputs& inputs, const std::vector<config::FlagValue>& first) {
+config::Config read_inputs(const RunInputs& inputs, const std::vector<config::FlagValue>& first,
+                           const nlohmann::json& standard) {
   std::vector<config::FlagValue> flags = first;
   const std::vector<config::FlagValue> given = flag_values(inputs);
   flags.insert(flags.end(), given.begin(), given.end());
   const auto scenes = static_cast<std::size_t>(std::count_if(inputs.paths.begin(), inputs.paths.end(), is_scene));
-  if (scenes == inputs.paths.size()) return config::default_config({inputs.paths.begin(), inputs.paths.end()}, flags);
-  if (scenes == 0 && inputs.paths.size() == 1) return config::load_config(inputs.paths.front(), flags);
+  if (scenes == inputs.paths.size())
+    return config::default_config({inputs.paths.begin(), inputs.paths.end()}, flags, standard);
+  if (scenes == 0 && inputs.paths.size() == 1) return config::load_config(inputs.paths.front(), flags, standard);
   throw Error("", "command line",
               "takes one configuration (.json), or one or more scenes (.glb, .gltf), not " + joined(inputs.paths));
+}
+
+void tell_of_cameras_left_out(const config::Config& config, const run::Plan& plan) {
+  for (std::size_t i = 0; i < plan.scenes.size(); ++i) {
+    const scene::Scene& scene = plan.scenes[i].scene;
+    const std::vector<std::string> others = scene::cameras_left_out(scene, config.scenes[i].camera);
+    if (others.empty()) continue;
+    tell("of " + scene.name + " only camera '" + plan.scenes[i].paths.front().camera + "', and not " +
+         number_of(others.size(), "other") + "; --set 'scenes.*.camera=*' takes all");
+  }
 }
 
 }  // namespace clusterbench::cli

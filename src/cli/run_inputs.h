@@ -1,11 +1,12 @@
 #pragma once
-// What a command measures: a configuration or scenes, and the flags that change it. `run` and `size` take the same.
+// What a command measures: a configuration or scenes, and the flags that change it.
 
 #include <string>
 #include <vector>
 
 #include "cli/command.h"
 #include "config/config.h"
+#include "run/sweep.h"
 
 namespace clusterbench::cli {
 
@@ -14,15 +15,20 @@ struct RunInputs {
   std::vector<std::vector<std::string>> settings{config::config_flags().size()};  // by flag
 };
 
-// An option for each flag of config_flags().
-void add_config_options(Command& command, RunInputs& inputs);
+// An option for each flag of config_flags() but those named in `without`.
+void add_config_options(Command& command, RunInputs& inputs, const std::vector<std::string>& without = {});
 
 // The flags that were given, in the order of config_flags().
 std::vector<config::FlagValue> flag_values(const RunInputs& inputs);
 
 bool is_scene(const std::string& path);  // .glb, .gltf
 
-// `first`: flags that apply before those of the command line. Throws Error.
-config::Config read_inputs(const RunInputs& inputs, const std::vector<config::FlagValue>& first = {});
+// `first`: flags that apply before those of the command line. `standard`: what stands in place of the schema's
+// defaults. Throws Error.
+config::Config read_inputs(const RunInputs& inputs, const std::vector<config::FlagValue>& first = {},
+                           const nlohmann::json& standard = {});
+
+// For what searches along one camera or some of a scene: which others there are.
+void tell_of_cameras_left_out(const config::Config& config, const run::Plan& plan);
 
 }  // namespace clusterbench::cli

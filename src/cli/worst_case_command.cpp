@@ -9,8 +9,8 @@
 #include <memory>
 
 #include "cli/commands.h"
-#include "cli/config_inputs.h"
 #include "cli/output.h"
+#include "cli/run_inputs.h"
 #include "cli/stop.h"
 #include "cli/terminal.h"
 #include "core/text.h"
@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct WorstCaseFlags {
-  ConfigInputs inputs;
+  RunInputs inputs;
   std::string output, path, filter, measure = "entries", within;
   std::vector<std::string> added;
   search::WorstCaseRequest request;
@@ -91,7 +91,7 @@ std::string config_path(const std::string& scene_path) {
 void check_outputs(const WorstCaseFlags& flags, const config::Config& config) {
   if (!flags.path.empty() && fs::path(flags.path).extension() != ".gltf")
     throw Error(flags.path, "--path", "must end in .gltf");
-  std::vector<std::string> inputs = flags.inputs.inputs;
+  std::vector<std::string> inputs = flags.inputs.paths;
   for (const config::SceneRequest& scene : config.scenes) inputs.push_back(scene.path.string());
   const std::vector<std::string> outputs{flags.output, flags.path, config_path(flags.path)};
   refuse_overwriting({outputs.begin(), outputs.begin() + (flags.path.empty() ? 1 : 3)}, inputs);
@@ -121,7 +121,7 @@ void check_path(const search::WorstCase& found, const report::WorstCaseFacts& fa
 }
 
 ExitCode worst_case(const WorstCaseFlags& flags) {
-  config::Config config = read_config_inputs(flags.inputs);
+  config::Config config = read_inputs(flags.inputs);
   const search::WorstCaseRequest request = request_of(flags, config);
   const run::Plan plan = run::make_plan(config, flags.filter);
   const run::CasePlan& case_plan = search::case_to_search(config, plan);
@@ -178,7 +178,7 @@ void add_worst_case(Command& program, Action& action) {
   auto flags = std::make_shared<WorstCaseFlags>();
   Command command = program.add_command(
       "worst-case", "Search for the camera and lights that make lists longest, and write them as a path for `run`");
-  command.add_option("INPUT", flags->inputs.inputs, "One configuration (.json), or a scene (.glb, .gltf)").required();
+  command.add_option("INPUT", flags->inputs.paths, "One configuration (.json), or a scene (.glb, .gltf)").required();
   command.add_option("-o,--output", flags->output,
                      "JSON file; -: standard output. Without it a terminal shows the text only, a pipe gets the JSON");
   command.add_option("--path", flags->path,
@@ -205,7 +205,7 @@ void add_worst_case(Command& program, Action& action) {
       .shows_standard();
   command.add_option("--seed", flags->request.seed, "Seed of everything random").shows_standard();
   add_space_options(command, *flags);
-  add_config_flags(command, flags->inputs, {"--rounds", "--launches", "--fail-if"});
+  add_config_options(command, flags->inputs, {"--rounds", "--launches", "--fail-if"});
   command.add_flag("-q,--quiet", flags->quiet, "No progress and no text");
   command.when_named([flags, &action] { action = [flags] { return worst_case(*flags); }; });
 }
