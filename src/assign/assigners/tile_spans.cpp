@@ -59,6 +59,7 @@ struct OutlineSide {
 struct ConeOutline {
   OutlineSide sides[2];
 
+  ConeOutline() = default;
   ConeOutline(const geom::SphericalCone& cone, double margin, double nearest, bool orthographic) {
     const Vec3d apex{cone.apex.x, cone.apex.y, -cone.apex.z}, axis{cone.axis.x, cone.axis.y, -cone.axis.z};
     const Vec3d sight = orthographic ? Vec3d{0, 0, 1} : apex;
@@ -146,12 +147,12 @@ class TileSpans final : public AssignerOf<SortedMasks<RangesOf::slices>> {
     if (slices.empty() || rows.empty()) return;
     Listed listed{light, lights.type_of(light), -ball.center.z, slices, rows.first, spans_.size(), 0};
     const bool is_spot = lights.is_spot(light);
-    const std::optional<ConeOutline> outline = is_spot ? std::optional(outline_of(lights, light)) : std::nullopt;
+    const ConeOutline outline = is_spot ? outline_of(lights, light) : ConeOutline();
     bool is_anywhere = false;
     for (int row = rows.first; row <= rows.last; ++row, ++listed.rows) {
       IndexRange columns = columns_of(ball, row);
       if (is_spot && !columns.empty()) columns = common(columns, columns_of(range, row));
-      if (outline && !columns.empty()) columns = common(columns, columns_of(*outline, row));
+      if (is_spot && !columns.empty()) columns = common(columns, columns_of(outline, row));
       ++tests_;
       is_anywhere = is_anywhere || !columns.empty();
       spans_.push_back(columns);
