@@ -35,15 +35,13 @@ TEST(TileSpans, have_the_tiles_that_points_reach_and_no_others) {
     }
 }
 
-TEST(TileSpans, have_fewer_tiles_of_spots_than_the_boxes_of_z_binning) {
+TEST(TileSpans, have_a_quarter_of_the_excess_tiles_of_spots_that_the_boxes_of_z_binning_have) {
   for (const Setting& setting : settings_for(*find_assigner("exact"), 4)) {
     const grid::Grid grid = with_one_slice(setting.grid);
     const PairCounts truth = counted(lists_by("exact", setting.frame, grid), setting.frame);
     const PairCounts spans = counted(lists_by("tile-spans", setting.frame, grid), setting.frame);
     const PairCounts boxes = counted(lists_by("z-binning", setting.frame, grid), setting.frame);
-    std::printf("%s: points %lu %lu %lu, spots %lu %lu %lu\n", setting.name.c_str(), truth.points, spans.points,
-                boxes.points, truth.spots, spans.spots, boxes.spots);
-    EXPECT_LE(spans.spots, boxes.spots) << setting.name;
+    EXPECT_LE(4 * (spans.spots - truth.spots), boxes.spots - truth.spots) << setting.name;
     EXPECT_GE(spans.spots, truth.spots) << setting.name;
   }
 }
@@ -61,7 +59,8 @@ TEST(TileSpans, follow_the_sides_of_a_beam) {
     const Lists exact = lists_by("exact", frame, grid), spans = lists_by("tile-spans", frame, grid);
     EXPECT_TRUE(contained(exact, spans));
     EXPECT_GT(exact.pair_count(), 10u);
-    EXPECT_LE(spans.pair_count(), exact.pair_count() + 4);
+    EXPECT_LE(spans.pair_count(), exact.pair_count() + 8);
+    EXPECT_GE(lists_by("z-binning", frame, grid).pair_count(), 2 * exact.pair_count());
   }
 }
 

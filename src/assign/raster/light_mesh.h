@@ -2,8 +2,8 @@
 // Low-poly meshes that enclose lights, as a conservative rasterizer draws them (Örtegren and Persson 2016): a ball is a
 // subdivided icosahedron, a spot a sphere-capped cone turned around its axis in steps.
 //
-// In double precision. A mesh circumscribes its light, so that no face cuts into it: that makes it larger by
-// MeshLevel::ball_scale at most.
+// In double precision. A mesh circumscribes its light, so that no face cuts into it, and is larger than the light:
+// docs/methods.md says how much.
 
 #include <array>
 #include <cstdint>
@@ -38,7 +38,7 @@ struct SpotShape {
   double range, half_angle_rad, margin;
 };
 
-// Levels of detail, from coarse to fine; each has about four times the triangles of the one before it.
+// Levels of detail, from coarse to fine: balls of 20, 80, 320 and 1280 triangles, spots of 6, 9, 18 and 36 sectors.
 inline constexpr int k_mesh_levels = 4;
 
 class LightMeshes {

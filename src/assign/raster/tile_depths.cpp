@@ -11,6 +11,8 @@ namespace {
 
 constexpr double k_infinity = std::numeric_limits<double>::infinity();
 constexpr double k_roundoff = 0x1p-53;
+// By which light_mesh.cpp places vertices off, of the largest of them.
+constexpr double k_vertex_roundoffs = 32.0;
 
 // |x| + |y| + |z|: what roundoffs of sums of a point's products are relative to.
 double size_of(const Vec3d& p) {
@@ -109,6 +111,7 @@ struct TileDepths::Triangle {
         normal(glm::cross(b - a, c - a)),
         corner(a),
         normal_size(size_of(b - a) * size_of(c - a)),
+        longest(size_of(b - a) + size_of(c - a)),
         orthographic(is_orthographic) {
     for (const Vec3d& vertex : {a, b, c}) {
       depths.add(vertex.z, vertex.z);
@@ -162,14 +165,19 @@ struct TileDepths::Triangle {
     return {std::clamp(plane.lo, depths.lo, depths.hi), std::clamp(plane.hi, depths.lo, depths.hi)};
   }
 
-  // Whether the eye may be behind it, as seen from outside of the mesh.
-  bool may_have_eye_behind() const {
-    return glm::dot(normal, corner) >= -8.0 * k_roundoff * normal_size * size_of(corner);
+  // Whether the eye may be behind its plane, as seen from outside of a mesh that is convex but for `off`, by which its
+  // vertices can be off. These tilt the plane by twice `off` over the triangle's height, which is the normal over its
+  // longest side; so planes of slivers exclude nothing.
+  bool may_have_eye_behind(double off) const {
+    const double size = size_of(corner);
+    const double tilted = off * (glm::length(normal) + 2.0 * size * longest);
+    return glm::dot(normal, corner) >= -8.0 * k_roundoff * normal_size * size - 2.0 * tilted;
   }
 
   std::array<Side, 3> sides;
   Vec3d normal, corner;
   double normal_size;  // what roundoffs of the normal are relative to
+  double longest;      // no side is longer
   bool orthographic;
   Extent depths, places_x, places_y;
 };
@@ -186,10 +194,13 @@ void TileDepths::find(const LightMesh& mesh, Coverage coverage, const CellBox& w
   triangles_.clear();
   tests_ = 0;
   bool eye_within = !tiles_->orthographic;
+  double size = 0.0;
+  for (const Vec3d& vertex : mesh.vertices) size = std::max(size, size_of(vertex));
+  const double off = k_vertex_roundoffs * k_roundoff * size;
   for (const auto& [a, b, c] : mesh.topology->triangles) {
     const Triangle triangle(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c], tiles_->orthographic);
     triangles_.push_back(triangle.depths);
-    eye_within = eye_within && triangle.may_have_eye_behind();
+    eye_within = eye_within && triangle.may_have_eye_behind(off);
     add_triangle(triangle, coverage);
   }
   for (const MeshEdge& edge : mesh.topology->edges) {
@@ -205,6 +216,7 @@ void TileDepths::find(const LightMesh& mesh, Coverage coverage, const CellBox& w
 void TileDepths::add_edge(const Vec3d& a, const Vec3d& b, const Extent* whole) {
   const bool orthographic = tiles_->orthographic;
   if (!orthographic && a.z < 0.0 && b.z < 0.0) return;
+  const double least = std::min(a.z, b.z), most = std::max(a.z, b.z);
   const Extent up = places_along(a.y, b.y, a.z, b.z, {}, orthographic);
   const grid::IndexRange rows = grid::descending_intervals_touched(tiles_->y, up.lo, up.hi);
   for (int row = std::max(rows.first, window_.first.y); row <= std::min(rows.last, window_.last.y); ++row) {
@@ -227,7 +239,9 @@ void TileDepths::add_edge(const Vec3d& a, const Vec3d& b, const Extent* whole) {
       }
       for (const double share : {in_tile.begin, in_tile.end}) {
         const Rounded depth = along_edge(a.z, b.z, share);
-        at(column, row).add(depth.value - depth.error, depth.value + depth.error);
+        at(column, row)
+            .add(std::clamp(depth.value - depth.error, least, most),
+                 std::clamp(depth.value + depth.error, least, most));
       }
     }
   }
