@@ -260,15 +260,17 @@ void TileDepths::add_triangle(const Triangle& triangle, Coverage coverage) {
     for (auto line = begin; line != end; ++line) {
       ++tests_;
       if (!triangle.may_hold(*line, py)) continue;
+      const Extent there = triangle.depths_at(*line, py);
+      // Behind the eye the ray is none.
+      if (!triangle.orthographic && there.hi < 0.0) continue;
       add_around_corner(static_cast<int>(line - x.begin()), row_line,
-                        coverage == Coverage::exact ? triangle.depths_at(*line, py) : triangle.depths);
+                        coverage == Coverage::exact ? there : triangle.depths);
     }
   }
 }
 
 // To the tiles that share a corner.
 void TileDepths::add_around_corner(int column_line, int row_line, const Extent& depths) {
-  if (!tiles_->orthographic && depths.hi < 0.0) return;
   for (int row = std::max(row_line - 1, window_.first.y); row <= std::min(row_line, window_.last.y); ++row)
     for (int column = std::max(column_line - 1, window_.first.x); column <= std::min(column_line, window_.last.x);
          ++column)
