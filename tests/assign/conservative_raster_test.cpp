@@ -156,6 +156,18 @@ std::vector<Vec3d> clipped(const std::vector<Vec3d>& polygon, Function&& functio
   return out;
 }
 
+// By the solid angle of all triangles (Van Oosterom and Strackee 1983): a whole turn from within, none from outside.
+bool holds_eye(const LightMesh& mesh) {
+  double angle = 0.0;
+  for (const auto& triangle : mesh.topology->triangles) {
+    const auto [a, b, c] = corners_of(mesh, triangle);
+    const double x = glm::length(a), y = glm::length(b), z = glm::length(c);
+    angle += 2.0 * std::atan2(glm::dot(a, glm::cross(b, c)),
+                              x * y * z + glm::dot(a, b) * z + glm::dot(b, c) * x + glm::dot(c, a) * y);
+  }
+  return angle > 2.0 * M_PI;
+}
+
 // The depths of the mesh in a tile: those of its triangles, clipped at the tile's four planes, and the eye's.
 Extent clipped_depths(const LightMesh& mesh, const grid::Tiles& tiles, int column, int row) {
   const bool orthographic = tiles.orthographic;
@@ -172,7 +184,7 @@ Extent clipped_depths(const LightMesh& mesh, const grid::Tiles& tiles, int colum
     polygon = clipped(polygon, [&](const Vec3d& p) { return at(y1, p) - p.y; });
     for (const Vec3d& p : polygon) depths.add(p.z, p.z);
   }
-  if (!orthographic && farthest_in_front(mesh, Vec3d{0.0}) <= 0.0) depths.add(0.0, 0.0);
+  if (!orthographic && holds_eye(mesh)) depths.add(0.0, 0.0);
   return depths;
 }
 
