@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <limits>
+#include <span>
 #include <tuple>
 #include <variant>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "assign/contract/light_test.h"
 #include "assign/lists/radix_sort.h"
 #include "core/memory.h"
+#include "grid/index_range.h"
 
 namespace clusterbench::assign {
 
@@ -56,13 +58,15 @@ class SortedMasks final : public LightStructure {
   // The light of a rank among the sorted ones, which come in this order, points before spots.
   void add(std::uint32_t rank, std::uint32_t light, std::size_t type, const CellBox& box) {
     order_[rank] = light;
-    const std::uint32_t bit = 1u << rank % k_bits;
-    const auto columns = static_cast<std::size_t>(grid_->screen().tiles.count.x);
-    for (int y = box.first.y; y <= box.last.y; ++y) {
-      std::size_t word = (static_cast<std::size_t>(y) * columns + static_cast<std::size_t>(box.first.x)) * words_;
-      word += rank / k_bits;
-      for (int x = box.first.x; x <= box.last.x; ++x, word += words_) masks_[word] |= bit;
-    }
+    for (int y = box.first.y; y <= box.last.y; ++y) mark(rank, y, {box.first.x, box.last.x});
+    std::visit([&](auto& ranges) { take(rank, type, box, ranges); }, ranges_);
+  }
+  // One with columns of its own in each row of tiles, from `first_row` on.
+  void add(std::uint32_t rank, std::uint32_t light, std::size_t type, const grid::IndexRange& slices, int first_row,
+           std::span<const grid::IndexRange> columns) requires(ranges_of == RangesOf::slices) {
+    order_[rank] = light;
+    for (std::size_t i = 0; i < columns.size(); ++i) mark(rank, first_row + static_cast<int>(i), columns[i]);
+    const CellBox box{{0, 0, slices.first}, {0, 0, slices.last}};
     std::visit([&](auto& ranges) { take(rank, type, box, ranges); }, ranges_);
   }
 
@@ -137,6 +141,14 @@ class SortedMasks final : public LightStructure {
   }
   std::uint64_t header_bytes(std::uint64_t listed) const {
     return range_count() * range_bytes() + listed * sizeof(std::uint32_t);
+  }
+
+  void mark(std::uint32_t rank, int row, const grid::IndexRange& columns) {
+    const std::uint32_t bit = 1u << rank % k_bits;
+    const auto row_tiles = static_cast<std::size_t>(grid_->screen().tiles.count.x);
+    std::size_t word = (static_cast<std::size_t>(row) * row_tiles + static_cast<std::size_t>(columns.first)) * words_;
+    word += rank / k_bits;
+    for (int x = columns.first; x <= columns.last; ++x, word += words_) masks_[word] |= bit;
   }
 
   template <class Rank>
