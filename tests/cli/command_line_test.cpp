@@ -111,15 +111,37 @@ TEST(CommandLine, list_names_every_assigner_with_its_parameters) {
   const Json all = Json::parse(tool("list --json").out);
   std::vector<std::string> names;
   for (const Json& row : all["assigners"]) names.push_back(row["name"]);
-  EXPECT_EQ(names,
-            (std::vector<std::string>{"brute-force",  "bounds",        "bounds-fast",       "planes",
-                                      "aabb",         "aabb-fast",     "sphere-refinement", "sphere-refinement-fast",
-                                      "exact",        "exact-fast",    "distance",          "distance-fast",
-                                      "cascades",     "cascades-fast", "world-grid",        "world-grid-fast",
-                                      "z-binning",    "bvh",           "tile-ranges",       "two-level",
-                                      "tiled",        "tiled-2.5d",    "flagged",           "explicit",
-                                      "tile-slices",  "deferred",      "naive-bounds",      "naive-refinement",
-                                      "naive-planes", "naive-cone"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"brute-force",
+                                             "bounds",
+                                             "bounds-fast",
+                                             "planes",
+                                             "aabb",
+                                             "aabb-fast",
+                                             "sphere-refinement",
+                                             "sphere-refinement-fast",
+                                             "exact",
+                                             "exact-fast",
+                                             "distance",
+                                             "distance-fast",
+                                             "cascades",
+                                             "cascades-fast",
+                                             "world-grid",
+                                             "world-grid-fast",
+                                             "z-binning",
+                                             "bvh",
+                                             "tile-ranges",
+                                             "two-level",
+                                             "light-boxes",
+                                             "tiled",
+                                             "tiled-2.5d",
+                                             "flagged",
+                                             "explicit",
+                                             "tile-slices",
+                                             "deferred",
+                                             "naive-bounds",
+                                             "naive-refinement",
+                                             "naive-planes",
+                                             "naive-cone"}));
   const std::string text = tool("list").out;
   for (const std::string& name : names) EXPECT_NE(text.find(name), std::string::npos) << name;
   const std::string inflation = ": padding of the light's radius";
