@@ -90,9 +90,9 @@ TEST(LightBoxes, list_a_light_on_both_sides_of_a_boundary_that_its_box_touches) 
 }
 
 TEST(LightBoxes, take_a_light_without_end_everywhere_and_one_without_volume_nowhere) {
-  const view::Frame frame = lit_by({point_light({0, 0, -10}, std::numeric_limits<double>::infinity()),
-                                    point_light({0, 0, -10}, 0),
-                                    spot_light({0, 0, -10}, std::numeric_limits<double>::infinity(), {0, 0, 1}, 0.1)});
+  const view::Frame frame =
+      lit_by({point_light({0, 0, -10}, std::numeric_limits<double>::infinity()), point_light({0, 0, -10}, 0),
+              spot_light({0, 0, -10}, std::numeric_limits<double>::infinity(), {0, 0, 1}, 0.1)});
   const grid::Grid grid = boxes_over(frame, {2, 1, 1});
   EXPECT_EQ(light_boxes(frame, grid, "floor").lights, (std::vector<std::uint32_t>{0, 2, 0, 2}));
 }

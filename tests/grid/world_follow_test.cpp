@@ -108,8 +108,8 @@ TEST(WorldThatFollowsTheLights, holds_every_point_in_view_that_a_light_reaches) 
         const Vec3d away = any_direction(random), point = light.position + away * random.unit() * light.range_m;
         const Vec3d view = point - eye;
         const double depth = -view.z;
-        const bool in_cone = light.type == scene::LightType::point ||
-                             glm::dot(away, light.direction) >= std::cos(light.outer_cone_rad);
+        const bool in_cone =
+            light.type == scene::LightType::point || glm::dot(away, light.direction) >= std::cos(light.outer_cone_rad);
         if (!in_cone || depth < 0.5 || depth > 80.0 || view.x < -1.2 * depth || view.x > 0.8 * depth ||
             view.y < -0.5 * depth || view.y > 0.625 * depth)
           continue;
