@@ -443,7 +443,7 @@ TEST(Config, the_resolved_configuration_is_a_configuration_that_means_the_same) 
        {"", R"(, "stability": {"steps": 5})", R"(, "precision": ["half", {"packing": "unorm16", "inflate": true}])",
         R"(, "viewport": [640, 480], "grids": [{"slices": {"scheme": ["linear", "power"], "near": 1}}])",
         R"(, "grids": [{"kind": "world", "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]}}], "assigners": ["aabb"])",
-        R"(, "grids": [{"kind": "world", "follow": [null, "lights"]}], "assigners": ["world-grid"])",
+        R"(, "grids": [{"kind": "world", "follow": ["nothing", "lights"]}], "assigners": ["world-grid"])",
         R"(, "grids": [{"kind": "world", "follow": "camera", "cell_size": [[4, null, 4], [2, 1, 2]]}],
              "assigners": ["world-grid"])"}) {
     const Config config = parsed(rest);

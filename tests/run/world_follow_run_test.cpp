@@ -105,7 +105,7 @@ TEST(WorldAroundTheLightsInView, loses_no_light_and_has_smaller_cells_than_aroun
 TEST(WorldAroundTheLightsInView, gives_the_same_whichever_frames_are_asked_for) {
   Walk walk(R"("grids": [{"kind": "world", "follow": "lights"}])", k_frames);
   for (const auto& [place, range_m] : lights_beside_the_path(20)) walk.add_light(place, range_m);
-  const PathFrames path = path_of(walk.config, walk.plan, walk.plan.groups[0]), some = path.only({20, 3});
+  const PathFrames path = path_of(walk.config, walk.plan, walk.plan.groups[0]), some = path.only({3, 20});
   EXPECT_EQ(some.inputs(walk.config.grids[0], some.frame(1)), path.inputs(walk.config.grids[0], path.frame(20)));
 }
 
