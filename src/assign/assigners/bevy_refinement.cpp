@@ -104,8 +104,9 @@ class BevyRefinement final : public LightByLight<BevyRefinement> {
 
   const std::vector<float>& depths() const { return grid_->screen().slices.boundaries; }
 
-  // None (-1) before the near end; beyond the far end the last one.
+  // None (-1) between the eye and the near end; behind the eye the first one, beyond the far end the last one.
   int slice_of(float depth) const {
+    if (depth < 0.0f && !grid_->screen().tiles.orthographic) return 0;
     int slice = -1;
     while (slice + 1 < cells_.z && depth >= depths()[static_cast<std::size_t>(slice + 1)]) ++slice;
     return slice;
