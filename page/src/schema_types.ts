@@ -227,7 +227,7 @@ export type Result = {
           first?: number; // Depth below which a sample is in slice 0; absent where the formula holds for slice 0, too [m, over the grid]
         }; // A shader's way from depth to slice
       }; // Of frustum and distance grids
-      note?: string; // What to know about the slices, as text: where they end if nothing names a far plane, or that fit slices are those of the last frame
+      note?: string; // What to know about the slices or the box, as text: where slices end if nothing names a far plane, or that those of the last frame are shown
       aspect?: {
         min: number; // Flattest
         max: number; // Deepest
@@ -240,6 +240,7 @@ export type Result = {
         max: Vector; // Highest corner
       }; // Of world grids: the box, relative to the origin [m, over the grid]
       cell_size?: Vector; // Of world grids: edges of a cell [m, over the grid]
+      follow?: "camera" | "lights"; // Of world grids that follow something from frame to frame: origin, bounds and cell_size are the last frame's
     }; // The grid, with the constants of a shader's lookup
     assigner: {
       name: string; // As `clusterbench list` has it
@@ -542,6 +543,11 @@ export type Result = {
           far_m: number | null; // Far plane; null: infinite [m, over the frame]
         }; // Pose and projection
         boundaries?: string; // Boundaries of the slices, as a row of numbers; absent where they are those of the case's grid
+        box?: {
+          origin: Vector; // Position in the world that min and max are relative to
+          min: Vector; // Lowest corner
+          max: Vector; // Highest corner
+        }; // Box of a world grid; absent where it is that of the case's grid [m, over the frame]
         cells: {
           count: number; // Cells with a reported or a true light; all others are empty [cells, over the frame]
           indices: string; // Gaps of their indices, x fastest, then y, then z

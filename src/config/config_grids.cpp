@@ -31,7 +31,9 @@ constexpr Axis k_axes[] = {{"/tiles/pixels", 1},
                            {"/slices/fit/step", 0},
                            {"/cells", 1},
                            {"/levels", 0},
-                           {"/finest", 0}};
+                           {"/finest", 0},
+                           {"/follow", 0},
+                           {"/cell_size", 1}};
 
 int nesting(const Json& value) {
   return value.is_array() && !value.empty() ? 1 + nesting(value.front()) : 0;
@@ -55,6 +57,7 @@ std::vector<Json> expand_axis(const std::vector<Json>& all, const Json::json_poi
 
 // A key that only other schemes of the axis use must not make several equal grids.
 void drop_unused(Json& grid) {
+  if (grid.contains("cell_size") && grid.value("follow", Json()) != "camera") grid.erase("cell_size");
   if (!grid.contains("slices")) return;
   Json& slices = grid["slices"];
   const std::string scheme = slices["scheme"].get<std::string>();
@@ -108,6 +111,9 @@ void check_boxes(const Json& grid, const std::string& pointer, const JsonText& t
     throw Error(text.file, text.where(pointer + "/cells"),
                 "found " + cells.dump() + ", allowed: multiples of 4, 4 and 2");
   if (!grid.contains("bounds") || grid["bounds"].is_null()) return;
+  if (grid.value("follow", Json()) == "lights")
+    throw Error(text.file, text.where(pointer + "/bounds"),
+                "found bounds of a grid that follows the lights in view, which are its bounds; allowed: null");
   const Json& bounds = grid["bounds"];
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (bounds["min"][axis] >= bounds["max"][axis])

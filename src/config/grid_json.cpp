@@ -94,6 +94,14 @@ OrderedJson tiles_json(const grid::Tiling& tiles) {
   return out;
 }
 
+// null along an axis that does not follow.
+OrderedJson cell_size_json(const grid::GridSpec& spec) {
+  OrderedJson out = OrderedJson::array();
+  for (int axis = 0; axis < 3; ++axis)
+    out.push_back(spec.follows_camera(axis) ? OrderedJson(spec.cell_size_m[axis]) : OrderedJson(nullptr));
+  return out;
+}
+
 // One member of a request; null where it is not said.
 OrderedJson requested(const grid::GridSpec& spec, const std::string& key) {
   if (key == "tiles") return tiles_json(spec.tiles);
@@ -104,6 +112,8 @@ OrderedJson requested(const grid::GridSpec& spec, const std::string& key) {
   if (key == "bounds" && spec.has_bounds)
     return {{"min", {spec.bounds_lo_m.x, spec.bounds_lo_m.y, spec.bounds_lo_m.z}},
             {"max", {spec.bounds_hi_m.x, spec.bounds_hi_m.y, spec.bounds_hi_m.z}}};
+  if (key == "follow" && spec.follow != grid::Follow::nothing) return grid::name_of(spec.follow);
+  if (key == "cell_size" && spec.follow == grid::Follow::camera) return cell_size_json(spec);
   return nullptr;
 }
 
@@ -121,6 +131,8 @@ void add_identity(const grid::GridSpec& spec, const std::string& key, Json& out)
   if (key == "cells") out[key] = {spec.cells.x, spec.cells.y, spec.cells.z};
   if (key == "levels") out[key] = {spec.levels, spec.finest_m};
   if (key == "bounds" && spec.has_bounds) out[key] = {bounds_json(spec.bounds_lo_m), bounds_json(spec.bounds_hi_m)};
+  if (key == "follow" && spec.follow != grid::Follow::nothing) out[key] = grid::name_of(spec.follow);
+  if (key == "cell_size" && spec.follow == grid::Follow::camera) out[key] = bounds_json(spec.cell_size_m);
 }
 
 }  // namespace
@@ -149,6 +161,14 @@ grid::GridSpec grid_spec(const Json& grid) {
     spec.bounds_lo_m = point_of(grid["bounds"]["min"]);
     spec.bounds_hi_m = point_of(grid["bounds"]["max"]);
   }
+  if (grid.contains("follow"))
+    for (const grid::Follow follow : {grid::Follow::camera, grid::Follow::lights})
+      if (grid["follow"] == grid::name_of(follow)) spec.follow = follow;
+  if (grid.contains("cell_size"))
+    for (int axis = 0; axis < 3; ++axis) {
+      const Json& size = grid["cell_size"][static_cast<std::size_t>(axis)];
+      spec.cell_size_m[axis] = size.is_number() ? size.get<double>() : 0.0;
+    }
   return spec;
 }
 

@@ -26,7 +26,7 @@ Grid made(const GridSpec& spec, const GridInputs& inputs) {
 
 constexpr const char* k_screen_keys[] = {"tiles", "slices"};
 constexpr const char* k_cascades_keys[] = {"cells", "levels", "finest"};
-constexpr const char* k_world_keys[] = {"cells", "bounds"};
+constexpr const char* k_world_keys[] = {"cells", "bounds", "follow", "cell_size"};
 
 // In the order of Kind.
 constexpr KindRow k_kinds[k_kind_count] = {
@@ -57,6 +57,11 @@ std::span<const char* const> kind_keys(Kind kind) {
 
 std::string GridSpec::name() const {
   return row_of(kind).name_of(*this);
+}
+
+const char* name_of(Follow follow) {
+  constexpr const char* k_names[] = {"", "camera", "lights"};
+  return k_names[static_cast<int>(follow)];
 }
 
 GridSpec GridSpec::unfitted() const {

@@ -18,6 +18,12 @@ const char* kind_name(Kind kind);
 // The members of a request that a kind has, by their keys in a configuration.
 std::span<const char* const> kind_keys(Kind kind);
 
+// What the box of a world grid follows from frame to frame. camera: the eye, in whole cells (Just Cause 2). lights: the
+// box around the lights in view (PlayCanvas).
+enum class Follow : std::uint8_t { nothing, camera, lights };
+// "camera", "lights"; "" for nothing.
+const char* name_of(Follow follow);
+
 // One kind of these is filled.
 struct GridSpec {
   Kind kind = Kind::frustum;
@@ -28,6 +34,8 @@ struct GridSpec {
   double finest_m = 0.5;    // cascades
   bool has_bounds = false;  // world; without: the box around all lights' balls over the path
   Vec3d bounds_lo_m{0.0}, bounds_hi_m{0.0};
+  Follow follow = Follow::nothing;   // world
+  Vec3d cell_size_m{4.0, 0.0, 4.0};  // world that follows the camera; 0: does not along this axis, where bounds hold
 
   // Whether its cells are tiles of the picture, cut by depth or distance; else they are boxes.
   bool has_tiles() const { return kind == Kind::frustum || kind == Kind::distance; }
@@ -36,8 +44,9 @@ struct GridSpec {
     return has_tiles() &&
            (tiles.aspect > 0.0 || slices.scheme == Scheme::cubical || slices.scheme == Scheme::cubical_first);
   }
-  // The same grid that does not follow what is needed.
+  // The same grid with slices that do not follow what is needed.
   GridSpec unfitted() const;
+  bool follows_camera(int axis) const { return follow == Follow::camera && cell_size_m[axis] > 0.0; }
   // "frustum 64px x 16 exponential-first 0.1..5..500": unique among specs that differ, used in case names.
   std::string name() const;
 };
@@ -47,8 +56,9 @@ struct GridInputs {
   view::Projection projection;
   Vec2i viewport{0, 0};
   double light_near_m = 0.0, light_far_m = 0.0;  // reach of the lights in view of this frame, as depth (or distance)
-  Vec3d rig_lo_m{0.0}, rig_hi_m{0.0};            // box around the bounded lights over the whole path
-  Span needed;                                   // of slices with `fit`
+  Vec3d rig_lo_m{0.0}, rig_hi_m{0.0};  // box around the bounded lights over the whole path, or what is followed of them
+  Vec3d camera_cell{0.0};              // whole numbers: of cells that follow the camera the one that the eye is in
+  Span needed;                         // of slices with `fit`
   // Of the path's first frame, where how many cells there are follows from it: so they are as many in every frame.
   std::optional<view::Projection> shape = {};
 

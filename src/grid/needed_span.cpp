@@ -3,27 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/lights_in_view.h"
+
 namespace clusterbench::grid {
 namespace {
 
 constexpr double k_infinity = std::numeric_limits<double>::infinity();
-
-// Does a ball reach into the half-spaces of the camera's near and far planes and of the picture's sides? A ball outside
-// of an edge or a corner of the view may seem to.
-bool may_be_in_view(const view::Projection& projection, const Vec3d& center, double radius) {
-  const double depth = -center.z;
-  if (depth + radius < projection.near_m || depth - radius > projection.far_m) return false;
-  const auto beyond = [&](double coordinate, double side) {
-    if (projection.orthographic) return coordinate - side;
-    return (coordinate - side * depth) / std::sqrt(1.0 + side * side);
-  };
-  return -beyond(center.x, projection.left) <= radius && beyond(center.x, projection.right) <= radius &&
-         -beyond(center.y, projection.bottom) <= radius && beyond(center.y, projection.top) <= radius;
-}
-
-Vec3d in_view_space(const view::Frame& frame, const scene::WorldLight& light) {
-  return frame.view_space.rotation * (light.position - frame.view_space.origin);
-}
 
 double along(const Vec3d& point, bool by_distance) {
   return by_distance ? std::sqrt(point.x * point.x + point.y * point.y + point.z * point.z) : -point.z;
@@ -92,8 +77,7 @@ Span span_of_lights(const view::Frame& frame, bool by_distance) {
     if (!(light.range_m > 0.0)) continue;
     if (!std::isfinite(light.range_m)) return {-k_infinity, k_infinity};
     const Vec3d center = in_view_space(frame, light);
-    // More than roundoffs of the way to view space and of angles can add up to.
-    const double slack = 0x1p-40 * (glm::length(center) + light.range_m);
+    const double slack = slack_of(center, light.range_m);
     if (!may_be_in_view(frame.projection, center, light.range_m + slack)) continue;
     const Span own = span_of(frame, light, center, by_distance);
     include(span, {own.near_m - slack, own.far_m + slack});

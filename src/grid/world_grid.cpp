@@ -6,9 +6,18 @@
 
 #include "core/error.h"
 #include "geom/shapes/domain.h"
+#include "grid/lights_in_view.h"
 
 namespace clusterbench::grid {
 namespace {
+
+void check_planes(const std::vector<float>& planes) {
+  if (!std::isfinite(planes.front()) || !std::isfinite(planes.back()))
+    throw Error("", "bounds", "must be finite in single precision");
+  for (std::size_t i = 0; i + 1 < planes.size(); ++i)
+    if (!(planes[i] < planes[i + 1]))
+      throw Error("", "cells", "are too thin: two boundaries coincide in single precision");
+}
 
 // Boundaries relative to the box's middle, where single precision is finest; the outermost enclose the box.
 std::vector<float> world_planes(double lo, double hi, double origin, int count) {
@@ -17,12 +26,42 @@ std::vector<float> world_planes(double lo, double hi, double origin, int count) 
   for (int i = 0; i <= count; ++i) planes.push_back(static_cast<float>(lo - origin + (hi - lo) * i / count));
   planes.front() = std::nextafter(planes.front(), -k_infinity);
   planes.back() = std::nextafter(planes.back(), k_infinity);
-  if (!std::isfinite(planes.front()) || !std::isfinite(planes.back()))
-    throw Error("", "bounds", "must be finite in single precision");
-  for (int i = 0; i < count; ++i)
-    if (!(planes[static_cast<std::size_t>(i)] < planes[static_cast<std::size_t>(i) + 1]))
-      throw Error("", "cells", "are too thin: two boundaries coincide in single precision");
+  check_planes(planes);
   return planes;
+}
+
+// Boundaries relative to the lower one of the cell that the eye is in, the middle one or the one after the middle.
+std::vector<float> planes_around_camera(double size_m, int count) {
+  std::vector<float> planes;
+  for (int i = 0; i <= count; ++i) planes.push_back(static_cast<float>((i - count / 2) * size_m));
+  check_planes(planes);
+  return planes;
+}
+
+// One axis of the grid, and where its boundaries are relative to.
+struct Axis {
+  double origin;
+  std::vector<float> planes;
+};
+
+Axis axis_around_camera(double size_m, double camera_cell, int count) {
+  Axis axis{camera_cell * size_m, planes_around_camera(size_m, count)};
+  for (const float end : {axis.planes.front(), axis.planes.back()})
+    if (!geom::is_in_domain(axis.origin + static_cast<double>(end)))
+      throw Error("", "cell_size", "takes the grid beyond 1e15 m from the origin");
+  return axis;
+}
+
+Axis axis_between(double lo, double hi, int count, bool is_given) {
+  if (is_given && !(lo < hi)) throw Error("", "bounds", "must have its minimum below its maximum on each axis");
+  if (is_given && !(geom::is_in_domain(lo) && geom::is_in_domain(hi)))
+    throw Error("", "bounds", "must be within 1e15 m from the origin");
+  if (!(lo < hi)) {  // a rig without extent
+    lo -= 0.5;
+    hi += 0.5;
+  }
+  const double origin = std::round((lo + hi) / 2.0);
+  return {origin, world_planes(lo, hi, origin, count)};
 }
 
 }  // namespace
@@ -49,31 +88,31 @@ std::unique_ptr<BroadPhase> WorldGrid::broad_phase() const {
 }
 
 WorldGrid make_world_grid(const GridSpec& spec, const GridInputs& inputs) {
-  Vec3d lo = spec.has_bounds ? spec.bounds_lo_m : inputs.rig_lo_m;
-  Vec3d hi = spec.has_bounds ? spec.bounds_hi_m : inputs.rig_hi_m;
+  const Vec3d& lo = spec.has_bounds ? spec.bounds_lo_m : inputs.rig_lo_m;
+  const Vec3d& hi = spec.has_bounds ? spec.bounds_hi_m : inputs.rig_hi_m;
   WorldGrid grid;
   std::vector<float>* axes[3] = {&grid.x, &grid.y, &grid.z};
-  for (int axis = 0; axis < 3; ++axis) {
-    if (spec.cells[axis] < 1) throw Error("", "cells", "must be at least 1 along each axis");
-    if (spec.has_bounds && !(lo[axis] < hi[axis]))
-      throw Error("", "bounds", "must have its minimum below its maximum on each axis");
-    if (spec.has_bounds && !(geom::is_in_domain(lo[axis]) && geom::is_in_domain(hi[axis])))
-      throw Error("", "bounds", "must be within 1e15 m from the origin");
-    if (!(lo[axis] < hi[axis])) {  // a rig without extent
-      lo[axis] -= 0.5;
-      hi[axis] += 0.5;
-    }
-    grid.origin[axis] = std::round((lo[axis] + hi[axis]) / 2.0);
-    *axes[axis] = world_planes(lo[axis], hi[axis], grid.origin[axis], spec.cells[axis]);
+  for (int i = 0; i < 3; ++i) {
+    if (spec.cells[i] < 1) throw Error("", "cells", "must be at least 1 along each axis");
+    Axis axis = spec.follows_camera(i) ? axis_around_camera(spec.cell_size_m[i], inputs.camera_cell[i], spec.cells[i])
+                                       : axis_between(lo[i], hi[i], spec.cells[i], spec.has_bounds);
+    grid.origin[i] = axis.origin;
+    *axes[i] = std::move(axis.planes);
   }
   return grid;
 }
 
 GridInputs world_inputs(const GridSpec& spec, const FrameReach& from) {
   GridInputs inputs;
-  if (!spec.has_bounds) {
-    inputs.rig_lo_m = from.rig_lo_m;
-    inputs.rig_hi_m = from.rig_hi_m;
+  WorldBox box{from.rig_lo_m, from.rig_hi_m};
+  if (spec.follow == Follow::lights) box = box_around_lights_in_view(from.frame).value_or(box);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (spec.follows_camera(axis)) {
+      inputs.camera_cell[axis] = std::floor(from.frame.view_space.origin[axis] / spec.cell_size_m[axis]);
+    } else if (!spec.has_bounds) {
+      inputs.rig_lo_m[axis] = box.lo[axis];
+      inputs.rig_hi_m[axis] = box.hi[axis];
+    }
   }
   return inputs;
 }
@@ -83,7 +122,12 @@ std::string world_grid_name(const GridSpec& spec) {
   if (spec.has_bounds)
     for (int axis = 0; axis < 3; ++axis)
       text += " " + number_name(spec.bounds_lo_m[axis]) + ".." + number_name(spec.bounds_hi_m[axis]);
-  return text;
+  if (spec.follow == Follow::nothing) return text;
+  text += std::string(" follows ") + name_of(spec.follow);
+  if (spec.follow != Follow::camera) return text;
+  for (int axis = 0; axis < 3; ++axis)
+    text += (axis == 0 ? " " : "x") + (spec.follows_camera(axis) ? number_name(spec.cell_size_m[axis]) : "*");
+  return text + "m";
 }
 
 }  // namespace clusterbench::grid

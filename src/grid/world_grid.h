@@ -1,5 +1,6 @@
 #pragma once
-// World grids: boxes that stay where they are.
+// World grids: boxes along the world's axes. They stay where they are, or follow the camera in whole cells, or the
+// lights in view.
 
 #include <memory>
 #include <vector>
@@ -11,7 +12,7 @@
 
 namespace clusterbench::grid {
 
-// A fixed box grid in world space. Boundaries are relative to `origin`, single precision, ascending. Index (x, y, z)
+// A box grid in world space. Boundaries are relative to `origin`, single precision, ascending. Index (x, y, z)
 // runs along the world axes.
 struct WorldGrid {
   Vec3d origin{0.0};

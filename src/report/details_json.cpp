@@ -25,6 +25,9 @@ Json camera(const run::DetailsFrame& frame) {
 Json frame_to_json(const run::DetailsFrame& f) {
   Json out{{"frame", f.frame}, {"time_s", f.time_s}, {"camera", camera(f)}};
   if (!f.boundaries.empty()) out["boundaries"] = f.boundaries;
+  if (f.box)
+    out["box"] = {
+        {"origin", coordinates(f.box->origin)}, {"min", coordinates(f.box->lo)}, {"max", coordinates(f.box->hi)}};
   out["cells"] = {{"count", f.cell_count},
                   {"indices", f.cells},
                   {"reported", f.reported},

@@ -113,6 +113,10 @@ std::vector<LookupConstant> lookup_constants(const Json& result_case) {
 
 std::string lookup_note(const Json& result_case) {
   const Json& grid = result_case["grid"];
+  if (grid.contains("follow"))
+    return std::string("the grid follows the ") +
+           (grid["follow"] == "camera" ? "camera: origin is" : "lights in view: origin, box_min and box_max are") +
+           " the last frame's, and uniforms in a shader";
   if (!grid.contains("slices")) return "";
   if (grid["slices"]["scheme"] == "fit") return "slices follow the lights: scale, bias and far are the last frame's";
   if (result_case.contains("fit"))

@@ -76,7 +76,7 @@ void add_facts(Json& facts, const grid::GridSpec&, const grid::CascadesGrid& gri
   facts["finest"] = grid.finest_m;
 }
 
-void add_facts(Json& facts, const grid::GridSpec&, const grid::WorldGrid& grid, double) {
+void add_facts(Json& facts, const grid::GridSpec& spec, const grid::WorldGrid& grid, double) {
   const auto size = [](const std::vector<float>& planes) {
     return (planes.back() - planes.front()) / static_cast<float>(planes.size() - 1);
   };
@@ -84,6 +84,11 @@ void add_facts(Json& facts, const grid::GridSpec&, const grid::WorldGrid& grid, 
   facts["bounds"] = {{"min", {grid.x.front(), grid.y.front(), grid.z.front()}},
                      {"max", {grid.x.back(), grid.y.back(), grid.z.back()}}};
   facts["cell_size"] = {size(grid.x), size(grid.y), size(grid.z)};
+  if (spec.follow == grid::Follow::nothing) return;
+  facts["follow"] = grid::name_of(spec.follow);
+  facts["note"] = spec.follow == grid::Follow::camera
+                      ? "the grid follows the camera in whole cells: origin and bounds are the last frame's"
+                      : "the grid follows the lights in view: origin, bounds and cell_size are the last frame's";
 }
 
 }  // namespace

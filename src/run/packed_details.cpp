@@ -89,6 +89,17 @@ std::string own_boundaries(const grid::Grid& grid, const grid::Grid& case_grid) 
   return run_length_text(std::vector<double>(own.begin(), own.end()));
 }
 
+DetailsBox box_of(const grid::WorldGrid& grid) {
+  return {grid.origin, Vec3d(Vec3f{grid.x.front(), grid.y.front(), grid.z.front()}),
+          Vec3d(Vec3f{grid.x.back(), grid.y.back(), grid.z.back()})};
+}
+
+// None for other kinds, and where it is the case's.
+std::optional<DetailsBox> own_box(const grid::Grid& grid, const grid::Grid& case_grid) {
+  if (grid.kind() != grid::Kind::world || box_of(grid.world()) == box_of(case_grid.world())) return std::nullopt;
+  return box_of(grid.world());
+}
+
 }  // namespace
 
 DetailsFrame packed_frame(const view::Frame& frame, const scene::Scene& scene, const grid::Grid& grid,
@@ -99,6 +110,7 @@ DetailsFrame packed_frame(const view::Frame& frame, const scene::Scene& scene, c
   out.camera = frame.view_space;
   out.projection = frame.projection;
   out.boundaries = own_boundaries(grid, case_grid);
+  out.box = own_box(grid, case_grid);
   out.cell_count = found.cells.size();
   out.cells = run_length_text(gaps_of(found.cells));
   out.reported = run_length_text(found.reported);

@@ -2,6 +2,7 @@
 // Chosen frames cell by cell, as a case's result carries them: packed into text (core/run_length_text.h) and bounded.
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,13 +12,21 @@
 
 namespace clusterbench::run {
 
+// The box of a world grid; lo and hi are relative to the origin.
+struct DetailsBox {
+  Vec3d origin{0.0}, lo{0.0}, hi{0.0};
+
+  friend bool operator==(const DetailsBox&, const DetailsBox&) = default;
+};
+
 // One frame. Rows of numbers are text; what ascends is written as gaps.
 struct DetailsFrame {
   int frame = 0;
   double time_s = 0.0;
   view::Space camera;  // eye and view rotation
   view::Projection projection;
-  std::string boundaries;  // of the slices, where they are not those of the case's grid; else ""
+  std::string boundaries;         // of the slices, where they are not those of the case's grid; else ""
+  std::optional<DetailsBox> box;  // of a world grid, where it is not that of the case's grid
 
   std::size_t cell_count = 0;
   std::string cells, reported, truth, false_positives, false_negatives;  // beside each other; cells as gaps

@@ -352,19 +352,22 @@ class SettingCheck {
     }
   }
 
-  // Slices that follow lights must not end before one that reaches a sample, unless the same slices without do.
+  // A grid that follows lights must not end before one that reaches a sample, unless the same grid without does.
   void check_left_out(const grid::Sample& sample, double margin) {
-    if (!trial_.grid.slices.fit || !trial_.grid.has_tiles()) return;
+    const bool has_fit = trial_.grid.has_tiles() && trial_.grid.slices.fit;
+    const bool is_around_lights = trial_.grid.kind == grid::Kind::world && trial_.grid.follow == grid::Follow::lights;
+    if (!has_fit && !is_around_lights) return;
     if (!unfitted_) {
       Trial plain = trial_;
       plain.grid = trial_.grid.unfitted();
+      plain.grid.follow = grid::Follow::nothing;
       unfitted_ = grid_of(plain, frame_);
     }
     if (grid::lookup(*unfitted_, sample) < 0) return;
     for (std::uint32_t light = 0; light < frame_.lights.size(); ++light) {
       if (lights_.is_empty(light) || !clearly_reaches(frame_.lights[light], sample, margin)) continue;
       add(FaultKind::shading, "",
-          "the slices follow the lights and end before a sample that light " + std::to_string(light) + " reaches", 0,
+          "the grid follows the lights and ends before a sample that light " + std::to_string(light) + " reaches", 0,
           light);
     }
   }

@@ -416,6 +416,23 @@ void follow_or_shape(grid::GridSpec& spec, const scene::CameraProjection& projec
     spec.tiles = {{0, 0}, {0, 0}, draw.log_between(0.5, 2.0)};
 }
 
+// Boxes that follow, from a source of its own, too.
+void follow_with_boxes(grid::GridSpec& spec, const Extent& extent, std::uint64_t seed) {
+  if (spec.kind != grid::Kind::world) return;
+  constexpr std::uint64_t k_other_source = 0x776f726c64;
+  Draw draw(seed ^ k_other_source);
+  const int way = draw.whole(0, 99);
+  if (way < 25) {
+    spec.follow = grid::Follow::lights;
+    spec.has_bounds = false;
+  } else if (way < 50) {
+    spec.follow = grid::Follow::camera;
+    for (int axis = 0; axis < 3; ++axis)
+      spec.cell_size_m[axis] = draw.percent(50) ? 2.0 * extent.step_m : extent.far_m * draw.log_between(1e-3, 0.5);
+    if (draw.percent(50)) spec.cell_size_m.y = 0.0;
+  }
+}
+
 }  // namespace
 
 Trial random_setting(std::uint64_t seed) {
@@ -429,6 +446,7 @@ Trial random_setting(std::uint64_t seed) {
   const Vec4d rotation = random_rotation(draw);
   grid::GridSpec spec = random_grid(draw, extent, rig.projection(), picture, eye);
   follow_or_shape(spec, rig.projection(), seed);
+  follow_with_boxes(spec, extent, seed);
   Trial trial = rig.on(spec, "seed " + std::to_string(seed));
   trial.scene.nodes[0].translation = eye;
   trial.scene.nodes[0].rotation = rotation;

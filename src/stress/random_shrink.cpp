@@ -174,7 +174,21 @@ class Shrinker {
     });
   }
 
+  // The box as it is in this frame, so that it can be simplified.
+  void hold_box() {
+    if (best_.grid.kind != grid::Kind::world || best_.grid.follow == grid::Follow::nothing) return;
+    const grid::Grid grid = grid_of(best_, frame_of(best_));
+    const grid::WorldGrid& world = grid.world();
+    attempt([&](Trial& trial) {
+      trial.grid.follow = grid::Follow::nothing;
+      trial.grid.has_bounds = true;
+      trial.grid.bounds_lo_m = world.origin + Vec3d(Vec3f{world.x.front(), world.y.front(), world.z.front()});
+      trial.grid.bounds_hi_m = world.origin + Vec3d(Vec3f{world.x.back(), world.y.back(), world.z.back()});
+    });
+  }
+
   void simplify_boxes() {
+    hold_box();
     const bool is_cascade = best_.grid.kind == grid::Kind::cascades;
     while (is_cascade && best_.grid.levels > 1 && attempt([](Trial& trial) { --trial.grid.levels; })) continue;
     const Vec3i least = is_cascade ? Vec3i{4, 4, 2} : Vec3i{1, 1, 1};

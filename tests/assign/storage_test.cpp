@@ -184,6 +184,30 @@ TEST(Fixed, drops_the_highest_light_indices_and_counts_what_it_dropped) {
   EXPECT_EQ(use.index_entries, 6u);
 }
 
+TEST(Fixed, without_counts_ends_a_list_that_is_not_full_by_an_index_that_is_no_lights) {
+  const auto fixed = storage("fixed", {{"cap", 2.0}, {"counts", std::string("none")}});
+  fixed->start(4, {6, 4});
+  EXPECT_EQ(fixed->expanded(), lists_from({{}, {}, {}, {}}));
+  fixed->store(lists_from({{0, 1}, {3, 5, 7, 9}, {}, {9}}));
+  EXPECT_EQ(fixed->expanded(), lists_from({{0, 1}, {3, 5}, {}, {9}}));
+  EXPECT_EQ(fixed->use().dropped_pairs, 2u);
+  EXPECT_EQ(fixed->use().header_bytes, 0u);
+  EXPECT_EQ(fixed->use().upload_bytes, 8u) << "as RGBA8 texels have it: a byte per index, and nothing else";
+  EXPECT_EQ(fixed->limit().bytes, 8u);
+  fixed->store(lists_from({{}, {1}, {2, 3}, {}}));
+  EXPECT_EQ(fixed->expanded(), lists_from({{}, {1}, {2, 3}, {}})) << "of the frame before nothing is left";
+}
+
+TEST(Fixed, without_counts_needs_one_index_more_than_there_are_lights) {
+  for (const std::uint32_t lights : {255u, 256u}) {
+    const auto fixed = storage("fixed", {{"cap", 3.0}, {"counts", std::string("none")}});
+    fixed->start(1, {lights, 0});
+    EXPECT_EQ(fixed->index_bits(), lights == 255 ? 8u : 16u);
+    fixed->store(lists_from({{0, lights - 1}}));
+    EXPECT_EQ(fixed->expanded(), lists_from({{0, lights - 1}}));
+  }
+}
+
 TEST(Fixed, takes_the_same_bytes_whatever_is_stored) {
   const auto fixed = storage("fixed", {{"cap", 10.0}});
   fixed->start(4, {300, 0});

@@ -131,6 +131,7 @@ TEST(CommandLine, list_names_every_assigner_with_its_parameters) {
                                              "bvh",
                                              "tile-ranges",
                                              "two-level",
+                                             "light-boxes",
                                              "tiled",
                                              "tiled-2.5d",
                                              "flagged",
@@ -142,7 +143,8 @@ TEST(CommandLine, list_names_every_assigner_with_its_parameters) {
                                              "naive-bounds",
                                              "naive-refinement",
                                              "naive-planes",
-                                             "naive-cone"}));
+                                             "naive-cone",
+                                             "bevy-refinement"}));
   const std::string text = tool("list").out;
   for (const std::string& name : names) EXPECT_NE(text.find(name), std::string::npos) << name;
   const std::string inflation = ": padding of the light's radius";

@@ -252,6 +252,19 @@ TEST(Config, defaults_of_the_schema_agree_with_the_defaults_of_the_code) {
   EXPECT_EQ(config.grids[2].has_bounds, standard.has_bounds);
 }
 
+TEST(Config, a_world_grid_follows_the_camera_by_cells_of_4_m_unless_told_otherwise) {
+  const auto spec = [](const std::string& rest) {
+    return parsed(R"(, "grids": [{"kind": "world")" + rest + R"(}], "assigners": ["world-grid"])").grids.at(0);
+  };
+  EXPECT_EQ(spec("").follow, grid::Follow::nothing);
+  EXPECT_EQ(spec(R"(, "cell_size": [1, 1, 1])").name(), spec("").name()) << "of a grid that stays, it has no meaning";
+  EXPECT_EQ(spec(R"(, "follow": "camera")").cell_size_m, (Vec3d{4.0, 0.0, 4.0}));
+  EXPECT_EQ(spec(R"(, "follow": "camera", "cell_size": [2, 8, null])").cell_size_m, (Vec3d{2.0, 8.0, 0.0}));
+  EXPECT_THROW(spec(R"(, "follow": "lights", "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]})"), Error);
+  EXPECT_THROW(spec(R"(, "follow": "sun")"), Error);
+  EXPECT_THROW(spec(R"(, "follow": "camera", "cell_size": [0, 1, 1])"), Error);
+}
+
 TEST(Config, stability_is_measured_only_where_it_is_asked_for) {
   EXPECT_FALSE(parsed("").stability);
   const Config config = parsed(R"(, "stability": {})");
@@ -429,7 +442,10 @@ TEST(Config, the_resolved_configuration_is_a_configuration_that_means_the_same) 
   for (const char* rest :
        {"", R"(, "stability": {"steps": 5})", R"(, "precision": ["half", {"packing": "unorm16", "inflate": true}])",
         R"(, "viewport": [640, 480], "grids": [{"slices": {"scheme": ["linear", "power"], "near": 1}}])",
-        R"(, "grids": [{"kind": "world", "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]}}], "assigners": ["aabb"])"}) {
+        R"(, "grids": [{"kind": "world", "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]}}], "assigners": ["aabb"])",
+        R"(, "grids": [{"kind": "world", "follow": ["nothing", "lights"]}], "assigners": ["world-grid"])",
+        R"(, "grids": [{"kind": "world", "follow": "camera", "cell_size": [[4, null, 4], [2, 1, 2]]}],
+             "assigners": ["world-grid"])"}) {
     const Config config = parsed(rest);
     const Config again = parse_config(config.resolved.dump(), config.file);
     EXPECT_EQ(again.resolved, config.resolved);

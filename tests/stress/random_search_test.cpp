@@ -209,7 +209,7 @@ TEST(RandomSearch, that_is_stopped_keeps_the_settings_done_by_then) {
 TEST(RandomSearch, shrinks_a_fault_to_what_run_replays) {
   const assign::AssignerDescriptor& row = *assign::find_assigner("world-grid");
   const StressMethod bare{"world-grid", &row, assign::Params(row.params, {{"inflation", 0.0}}), true};
-  const RandomSearch search = searched_at_random({bare}, 120);
+  const RandomSearch search = searched_at_random({bare}, 1000);
   ASSERT_FALSE(search.faults.empty());
   const RandomFault& found = search.faults[0];
   EXPECT_EQ(found.fault.kind, FaultKind::loss);

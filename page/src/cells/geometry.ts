@@ -85,17 +85,18 @@ function cascades(aCase: CaseResult, grid: FullGrid): Geometry {
 }
 
 function world(aCase: CaseResult, frame: Frame, grid: FullGrid): Geometry {
-  const size = aCase.grid.cells;
-  const at = (axis: 0 | 1 | 2, i: number) => mix(grid.bounds.min[axis], grid.bounds.max[axis], i / size[axis]);
+  const size = aCase.grid.cells,
+    { origin, min, max } = frame.box ?? { origin: grid.origin, ...grid.bounds };
+  const at = (axis: 0 | 1 | 2, i: number) => mix(min[axis], max[axis], i / size[axis]);
   return {
     shape: "box",
     size,
     block: (x, y, z) => [at(0, x), at(0, x + 1), at(1, y), at(1, y + 1), at(2, z), at(2, z + 1)],
     isHole: () => false,
     topDown: false,
-    sliceName: (z) => `world z ${metres(grid.origin[2] + at(2, z))} to ${metres(grid.origin[2] + at(2, z + 1))} m`,
+    sliceName: (z) => `world z ${metres(origin[2] + at(2, z))} to ${metres(origin[2] + at(2, z + 1))} m`,
     rotation: frame.camera.view_from_world,
-    origin: frame.camera.eye.map((value, axis) => value - grid.origin[axis]!) as Vec3,
+    origin: frame.camera.eye.map((value, axis) => value - origin[axis]!) as Vec3,
   };
 }
 

@@ -8,18 +8,24 @@
 namespace clusterbench::assign {
 namespace {
 
-// A u32 count and room for `cap` indices per cell. What does not fit is dropped: the last of the list, which are the
-// highest light indices where lists ascend.
+// A u32 count and room for `cap` indices per cell. Without counts the number after the last light's ends a list that
+// is not full. What does not fit is dropped: the last of the list, which are the highest light indices where lists
+// ascend.
 class Fixed final : public Storage {
  public:
-  explicit Fixed(const Params& params) : cap_(static_cast<std::uint32_t>(params.number("cap"))) {}
+  explicit Fixed(const Params& params)
+      : cap_(static_cast<std::uint32_t>(params.number("cap"))), has_counts_(params.text("counts") == "kept") {}
 
   void start(std::uint32_t cell_count, const view::LightRanges& lights) override {
     lights_ = lights.size();
-    check_memory("entries of fixed lists", std::uint64_t{cell_count} * cap_, narrowest_bits(lights_) / 8);
-    check_memory("counts of fixed lists", cell_count, sizeof(std::uint32_t));
-    counts_.assign(cell_count, 0);
-    indices_.make_room(static_cast<std::size_t>(cell_count) * cap_, narrowest_bits(lights_));
+    cell_count_ = cell_count;
+    const std::uint32_t bits = narrowest_bits(has_counts_ ? lights_ : lights_ + 1);
+    check_memory("entries of fixed lists", std::uint64_t{cell_count} * cap_, bits / 8);
+    indices_.make_room(static_cast<std::size_t>(cell_count) * cap_, bits);
+    if (has_counts_) check_memory("counts of fixed lists", cell_count, sizeof(std::uint32_t));
+    counts_.assign(has_counts_ ? cell_count : 0, 0);
+    if (!has_counts_)
+      for (std::uint32_t cell = 0; cell < cell_count; ++cell) end_list(cell, 0);
     is_dropped_.assign(lights_, false);
   }
 
@@ -30,8 +36,8 @@ class Fixed final : public Storage {
       const auto list = lists.of(cell);
       const std::size_t kept = std::min<std::size_t>(list.size(), cap_);
       longest_ = std::max<std::uint64_t>(longest_, list.size());
-      counts_[cell] = static_cast<std::uint32_t>(kept);
       indices_.write(static_cast<std::size_t>(cell) * cap_, list.data(), kept);
+      end_list(cell, static_cast<std::uint32_t>(kept));
       kept_ += kept;
       if (kept == list.size()) continue;
       ++overflowing_cells_;
@@ -43,7 +49,7 @@ class Fixed final : public Storage {
   StructureUse use() const override {
     StructureUse use;
     use.index_entries = kept_;
-    use.index_bytes = counts_.size() * cap_ * (indices_.bits() / 8);
+    use.index_bytes = std::uint64_t{cell_count_} * cap_ * (indices_.bits() / 8);
     use.header_bytes = counts_.size() * sizeof(std::uint32_t);
     use.upload_bytes = use.index_bytes + use.header_bytes;
     use.dropped_pairs = dropped_pairs_;
@@ -55,27 +61,41 @@ class Fixed final : public Storage {
 
   // Its size never changes.
   StructureLimit limit() const override {
-    const std::uint64_t entries = counts_.size() * cap_;
+    const std::uint64_t entries = std::uint64_t{cell_count_} * cap_;
     return {entries, entries * (indices_.bits() / 8) + counts_.size() * sizeof(std::uint32_t)};
   }
 
   // Room for the longest list in every cell, whatever the cap.
   std::vector<BufferNeed> buffers() const override {
-    const std::uint64_t cells = counts_.size();
-    return {{"indices", indices_.bits() / 8, cells * longest_, cells * lights_, cells},
-            {"counts", sizeof(std::uint32_t), cells, cells}};
+    const std::uint64_t cells = cell_count_;
+    std::vector<BufferNeed> all{{"indices", indices_.bits() / 8, cells * longest_, cells * lights_, cells}};
+    if (has_counts_) all.push_back({"counts", sizeof(std::uint32_t), cells, cells});
+    return all;
   }
 
   void read_cell(std::uint32_t cell, std::vector<std::uint32_t>& out) const override {
-    for (std::uint32_t i = 0; i < counts_[cell]; ++i) out.push_back(indices_.read(std::size_t{cell} * cap_ + i));
+    const std::uint32_t most = has_counts_ ? counts_[cell] : cap_;
+    for (std::uint32_t i = 0; i < most; ++i) {
+      const std::uint32_t light = indices_.read(std::size_t{cell} * cap_ + i);
+      if (!has_counts_ && light == lights_) return;
+      out.push_back(light);
+    }
   }
 
-  std::uint32_t cell_count() const override { return static_cast<std::uint32_t>(counts_.size()); }
+  std::uint32_t cell_count() const override { return cell_count_; }
 
   std::uint32_t index_bits() const override { return indices_.bits(); }
 
  private:
-  std::uint32_t cap_, lights_ = 0;
+  void end_list(std::uint32_t cell, std::uint32_t length) {
+    if (has_counts_)
+      counts_[cell] = length;
+    else if (length < cap_)
+      indices_.write(std::size_t{cell} * cap_ + length, &lights_, 1);
+  }
+
+  std::uint32_t cap_, lights_ = 0, cell_count_ = 0;
+  bool has_counts_;
   std::uint64_t kept_ = 0, dropped_pairs_ = 0, overflowing_cells_ = 0;
   std::uint64_t longest_ = 0;  // list, before anything is dropped
   std::vector<std::uint32_t> counts_;
@@ -99,7 +119,15 @@ const StorageDescriptor fixed_descriptor{
                 .min = 1.0,
                 .max = 65535.0,
                 .choices = {},
-                .whole = true}},
+                .whole = true},
+               {.name = "counts",
+                .summary =
+                    "how a shader knows where a list ends. kept: by a count of 4 bytes per cell; none: by an index "
+                    "that is no light's, unless the list is full (PlayCanvas, Just Cause 2)",
+                .standard = std::string("kept"),
+                .unit = "",
+                .choices = {"kept", "none"},
+                .is_late = true}},
     .make = make_storage<Fixed>,
 };
 

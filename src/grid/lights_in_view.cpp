@@ -1,0 +1,59 @@
+#include "grid/lights_in_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clusterbench::grid {
+
+Vec3d in_view_space(const view::Frame& frame, const scene::WorldLight& light) {
+  return frame.view_space.rotation * (light.position - frame.view_space.origin);
+}
+
+bool may_be_in_view(const view::Projection& projection, const Vec3d& center, double radius) {
+  const double depth = -center.z;
+  if (depth + radius < projection.near_m || depth - radius > projection.far_m) return false;
+  const auto beyond = [&](double coordinate, double side) {
+    if (projection.orthographic) return coordinate - side;
+    return (coordinate - side * depth) / std::sqrt(1.0 + side * side);
+  };
+  return -beyond(center.x, projection.left) <= radius && beyond(center.x, projection.right) <= radius &&
+         -beyond(center.y, projection.bottom) <= radius && beyond(center.y, projection.top) <= radius;
+}
+
+double slack_of(const Vec3d& center, double range_m) {
+  return 0x1p-40 * (glm::length(center) + range_m);
+}
+
+WorldBox box_around(const scene::WorldLight& light) {
+  const double r = light.range_m;
+  const Vec3d padding(0x1p-40 * (glm::length(light.position) + r));
+  if (light.type != scene::LightType::spot) return {light.position - r - padding, light.position + r + padding};
+  const double beside = r * std::sin(light.outer_cone_rad);
+  WorldBox box;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double along = light.direction[axis], next = light.direction[(axis + 1) % 3],
+                 other = light.direction[(axis + 2) % 3];
+    const double across = std::sqrt(next * next + other * other);
+    box.lo[axis] = light.position[axis] + std::min(0.0, r * along) - beside * across - padding[axis];
+    box.hi[axis] = light.position[axis] + std::max(0.0, r * along) + beside * across + padding[axis];
+  }
+  return box;
+}
+
+std::optional<WorldBox> box_around_lights_in_view(const view::Frame& frame) {
+  WorldBox all;
+  bool is_first = true;
+  for (const scene::WorldLight& light : frame.lights) {
+    if (!(light.range_m > 0.0)) continue;
+    if (!std::isfinite(light.range_m)) return std::nullopt;
+    const Vec3d center = in_view_space(frame, light);
+    if (!may_be_in_view(frame.projection, center, light.range_m + slack_of(center, light.range_m))) continue;
+    const WorldBox box = box_around(light);
+    all.lo = is_first ? box.lo : glm::min(all.lo, box.lo);
+    all.hi = is_first ? box.hi : glm::max(all.hi, box.hi);
+    is_first = false;
+  }
+  return all;
+}
+
+}  // namespace clusterbench::grid
