@@ -23,6 +23,9 @@ struct FlagValue {
   std::string shown() const;  // the same, cut where it is too long for a message
 };
 
+// Whether one of them says something of grids, assigners or storages.
+bool name_clusterings(std::span<const FlagValue> values);
+
 enum class GridsFrom : std::uint8_t { file, defaults };
 
 // `document` is a configuration with all its defaults. Applied in the order of config_flags(), whatever that of

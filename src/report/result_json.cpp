@@ -399,8 +399,9 @@ Json case_to_json(const run::CaseResult& case_result) {
              {"params", case_result.assigner_params},
              {"conservative", case_result.conservative},
              {"exact", case_result.exact}}},
-           {"storage", case_result.storage_label},
-           {"failures", Json::array()},
+           {"storage", case_result.storage_label}};
+  if (!case_result.preset.empty()) out["preset"] = case_result.preset;
+  out.update(Json{{"failures", Json::array()},
            {"warnings", Json::array()},
            {"loses_lights", run::loses_lights(case_result)},
            {"eligible", run::is_eligible(case_result)},
