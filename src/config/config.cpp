@@ -441,14 +441,20 @@ Config read_config(const JsonText& text) {
   return config;
 }
 
+// Presets are ranked by what they cost at visible surfaces, where nobody says otherwise.
+void ask_for_surfaces(Json& document) {
+  if (document.contains("presets")) document["samples"] = {{"opaque", Json::object()}};
+}
+
 // The configuration as flags change it. Presets stand alone where neither the file nor a flag names a clustering.
 Config read_changed(JsonText text, std::span<const FlagValue> flags, const Json& standard) {
   const GridsFrom grids = text.value.contains("grids") ? GridsFrom::file : GridsFrom::defaults;
-  const bool names_own = names_own_clusterings(text.value);
+  const bool names_own = names_own_clusterings(text.value), names_samples = text.value.contains("samples");
   for (const auto& [key, value] : standard.items())
     if (text.value.is_object() && !text.value.contains(key)) text.value[key] = value;
   JsonText as_written = text;
   if (text.value.contains("presets") && !names_own) drop_own_clusterings(as_written.value);
+  if (!names_samples) ask_for_surfaces(as_written.value);
   Config config = read_config(as_written);
   if (flags.empty()) return config;
   Json document = config.resolved;
@@ -459,6 +465,7 @@ Config read_changed(JsonText text, std::span<const FlagValue> flags, const Json&
   }
   JsonText changed = changed_by_flags(document, grids, text.file, flags);
   if (changed.value.contains("presets") && !names_own && !name_clusterings(flags)) drop_own_clusterings(changed.value);
+  if (!names_samples && !names_key(flags, "samples")) ask_for_surfaces(changed.value);
   return read_config(changed);
 }
 

@@ -358,13 +358,17 @@ std::string FlagValue::shown() const {
   return whole.size() > k_longest ? whole.substr(0, k_longest) + "..." : whole;
 }
 
+bool names_key(std::span<const FlagValue> values, const std::string& key) {
+  const std::regex set_key("/?" + key + "[./=].*");
+  return std::ranges::any_of(
+      values, [&](const FlagValue& flag) { return flag.name == "--set" && std::regex_match(flag.value, set_key); });
+}
+
 bool name_clusterings(std::span<const FlagValue> values) {
-  static const std::regex set_keys("/?(grids|assigners|storages)[./=].*");
-  return std::ranges::any_of(values, [](const FlagValue& flag) {
-    for (const char* name : {"--grid", "--tiles", "--slices", "--assigner"})
-      if (flag.name == name) return true;
-    return flag.name == "--set" && std::regex_match(flag.value, set_keys);
-  });
+  const auto is_own = [](const FlagValue& flag) {
+    return flag.name == "--grid" || flag.name == "--tiles" || flag.name == "--slices" || flag.name == "--assigner";
+  };
+  return std::ranges::any_of(values, is_own) || names_key(values, "(grids|assigners|storages)");
 }
 
 JsonText changed_by_flags(const Json& document, GridsFrom grids, const std::string& file,

@@ -30,6 +30,7 @@ namespace clusterbench::run {
 struct Skipped {
   std::string name, reason;
   bool is_other_kind = false;  // a method on a kind of grid that it does not take
+  std::string preset = {};     // that it is of; "" for the configuration's own clusterings
 };
 
 struct ToolFacts {

@@ -321,7 +321,7 @@ class Expansion {
         expand_assigner(plan, group, family, first);
       } else if (family.group_name != told) {
         told = family.group_name;
-        skip(plan, told, first.obstacle);
+        skip(plan, family, told, first.obstacle);
       }
     }
     if (!group.cases.empty()) plan.groups.push_back(std::move(group));
@@ -336,7 +336,7 @@ class Expansion {
     if (impossible.empty()) impossible = limit_obstacle(*assign::find_assigner(method.name), config_.limits, first);
     if (!impossible.empty()) {
       const bool takes_kind = assign::find_assigner(method.name)->takes(config_.grids[group.grid].kind);
-      skip(plan, name, impossible, !takes_kind);
+      skip(plan, family, name, impossible, !takes_kind);
       return;
     }
     for (std::size_t precision = 0; precision < config_.precisions.size(); ++precision)
@@ -350,7 +350,7 @@ class Expansion {
     const assign::AssignerDescriptor& descriptor = *assign::find_assigner(config_.assigners[family.assigner].name);
     const std::string impossible = precision_obstacle(descriptor, request);
     if (!impossible.empty()) {
-      skip(plan, name + part, impossible);
+      skip(plan, family, name + part, impossible);
       return;
     }
     CasePlan case_plan{"", "", group.scene, group.camera, group.viewport, group.grid, family.assigner, {}, precision};
@@ -364,7 +364,7 @@ class Expansion {
       if (too_much.empty())
         add_case(plan, group, case_plan);
       else
-        skip(plan, case_plan.name, too_much);
+        skip(plan, family, case_plan.name, too_much);
     }
     if (!descriptor.answers(assign::Answer::structure) || !is_wanted(family, std::nullopt)) return;
     case_plan.storage.reset();
@@ -400,8 +400,10 @@ class Expansion {
   }
 
   // What the filter leaves out is not listed as skipped either.
-  void skip(Plan& plan, const std::string& name, const std::string& reason, bool is_other_kind = false) const {
-    if (filter_.is_in(name)) plan.skipped.push_back({name, reason, is_other_kind});
+  void skip(Plan& plan, const Family& family, const std::string& name, const std::string& reason,
+            bool is_other_kind = false) const {
+    const std::string preset = family.preset == nullptr ? "" : family.preset->preset;
+    if (filter_.is_in(name)) plan.skipped.push_back({name, reason, is_other_kind, preset});
   }
 
   const config::Config& config_;
