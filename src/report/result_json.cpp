@@ -411,11 +411,11 @@ Json case_to_json(const run::CaseResult& case_result) {
            {"storage", case_result.storage_label}};
   if (!case_result.preset.empty()) out["preset"] = case_result.preset;
   out.update(Json{{"failures", Json::array()},
-           {"warnings", Json::array()},
-           {"loses_lights", run::loses_lights(case_result)},
-           {"eligible", run::is_eligible(case_result)},
-           {"tests_done", case_result.tests_done},
-           {"fallbacks", case_result.fallbacks}};
+                  {"warnings", Json::array()},
+                  {"loses_lights", run::loses_lights(case_result)},
+                  {"eligible", run::is_eligible(case_result)},
+                  {"tests_done", case_result.tests_done},
+                  {"fallbacks", case_result.fallbacks}});
   for (const run::Failure& failure : case_result.failures)
     out["failures"].push_back({{"kind", run::name_of(failure.kind)}, {"text", failure.text}});
   for (const run::Warning& warning : run::warnings_of(case_result))
