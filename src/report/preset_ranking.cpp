@@ -127,7 +127,8 @@ std::string why(const Row& row, const Row& best, const Json& lights) {
   if (!row.gpu_ns)
     out += "; its cost is not known without samples of surfaces";
   else if (&row == &best)
-    out += row.loses ? "; no preset does without losses here" : " and costs least: " + load_text(result_case);
+    out += row.loses ? "; no preset that was measured does without losses here"
+                     : " and costs least: " + load_text(result_case);
   else if (!row.loses && best.gpu_ns && *best.gpu_ns > 0.0)
     out += text(", at %.2f times the cost of ", *row.gpu_ns / *best.gpu_ns) +
            (*best.result_case)["preset"].get<std::string>() + ": " + load_text(result_case);
