@@ -28,7 +28,6 @@ const columns: Column<Row>[] = [
     show: ({ line, isBest, facts }) => h("span", { title: facts?.summary }, isBest ? `★ ${line.preset}` : line.preset),
   },
   { label: "place", value: ({ place }) => place },
-  { label: "engine", value: ({ facts }) => facts?.engine ?? null, isDetail: true },
   {
     label: "GPU µs",
     about: "Upload and shading of a frame by the configuration's model (cost)",
@@ -98,7 +97,7 @@ function rowsOf(ranking: Ranking, cases: Case[], facts: Facts[]): Row[] {
 }
 
 const shownColumns = (rows: Row[]) =>
-  columns.filter(({ isDetail, value }) => !isDetail && rows.some((row) => value(row) !== null));
+  columns.filter(({ value }) => rows.some((row) => value(row) !== null));
 
 function rankingFigures(view: View): HTMLElement[] {
   return view.model.runs.flatMap((run, at) => {
