@@ -591,12 +591,12 @@ export type Result = {
     source: string; // What was read
     approximated: string; // What is not as there; empty where nothing is known to differ
     unverified: string; // What stands on memory alone; empty where all was read
-    most_lights?: number; // That it takes in a frame; absent where no such limit is known [count]
+    most_lights?: number; // That it takes in a frame; absent where no such limit is known [count, over one frame]
   }>; // What is known of the presets that cases are of, as `clusterbench list presets` tells it; absent without any
   preset_rankings?: Array<{
     scene: string; // Name of one of scenes
     camera: string; // As the cases'
-    viewport: [number, number]; // As the cases': width, height [px]
+    viewport: [number, number]; // As the cases': width, height [pixels, over the cases]
     best: string | null; // Id of the case that costs least of those that lose no light; null where all do
     cases: Array<{
       id: string; // Of the case
