@@ -52,10 +52,10 @@ void add_lights(const std::string& text, std::vector<double>& ranges_m) {
   const std::size_t cross = text.find('x');
   const double count = cross == std::string::npos ? 1.0 : number_in(text.substr(0, cross));
   const double range_m = number_in(cross == std::string::npos ? text : text.substr(cross + 1));
-  if (!(count >= 0.0 && count <= k_most) || count != std::floor(count) ||
+  if (!(count >= 1.0 && count <= k_most) || count != std::floor(count) ||
       !(range_m > 0.0 && range_m <= geom::k_farthest_m))
     throw Error("", "--add-lights",
-                "'" + text + "' is not COUNTxRANGE, as in 4x10: at most 64 lights, and metres above 0 and up to 1e15");
+                "'" + text + "' is not COUNTxRANGE, as in 4x10: 1 to 64 lights, and metres above 0 and up to 1e15");
   ranges_m.insert(ranges_m.end(), static_cast<std::size_t>(count), range_m);
   if (static_cast<double>(ranges_m.size()) > k_most) throw Error("", "--add-lights", "adds more than 64 lights");
 }

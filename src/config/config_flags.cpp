@@ -304,6 +304,15 @@ constexpr FlagRow k_rows[] = {
      set_any},
 };
 
+// Whether a flag has set this key of a grid's slices, by itself or with all that stands around it.
+bool is_set_by_flag(const JsonText& text, const std::string& grid, const std::string& key) {
+  const auto is_set = [&](const std::string& pointer) {
+    const auto found = text.flags.find(pointer);
+    return found != text.flags.end() && found->second.starts_with("--set");
+  };
+  return text.flags.contains(grid + "/slices/" + key) || is_set(grid + "/slices") || is_set(grid) || is_set("/grids");
+}
+
 // Keys of `slices` that none of its schemes uses, and that no flag has set: another scheme has been chosen.
 void drop_unused_slice_keys(JsonText& text) {
   const Json properties = config_schema()["definitions"]["slices"]["properties"];
@@ -316,8 +325,7 @@ void drop_unused_slice_keys(JsonText& text) {
       const Json users = property.value("x-used-by", Json::array());
       const auto is_user = [&](const Json& name) { return std::find(users.begin(), users.end(), name) != users.end(); };
       const bool is_used = scheme.is_array() ? std::any_of(scheme.begin(), scheme.end(), is_user) : is_user(scheme);
-      const std::string pointer = child_pointer("/grids", i) + "/slices/" + key;
-      if (!users.empty() && !is_used && !text.flags.contains(pointer)) slices.erase(key);
+      if (!users.empty() && !is_used && !is_set_by_flag(text, child_pointer("/grids", i), key)) slices.erase(key);
     }
   }
 }

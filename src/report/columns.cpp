@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdio>
 #include <map>
 
@@ -51,6 +52,11 @@ std::string text(const char* format, double value) {
   char buffer[64];
   std::snprintf(buffer, sizeof buffer, format, value);
   return buffer;
+}
+
+std::string amount_text(double value) {
+  const bool is_count = value == std::floor(value) && std::abs(value) < 1e9;
+  return text(is_count ? "%.0f" : std::abs(value) < 1e5 ? "%.4g" : "%.6g", value);
 }
 
 std::string text_at(const Json& result_case, const char* pointer, const char* format, double scale) {

@@ -28,6 +28,8 @@ inline constexpr const char* k_unknown_interval = "unknown";
 std::string what_intervals_take();
 // One number by a printf format.
 std::string text(const char* format, double value);
+// A whole number as it is, others with four digits or, from 100,000, six.
+std::string amount_text(double value);
 // The number at a pointer in a chosen format; "-" where there is none.
 std::string text_at(const nlohmann::ordered_json& result_case, const char* pointer, const char* format,
                     double scale = 1.0);

@@ -94,13 +94,16 @@ bool stays_broken(const config::LimitRule& rule) {
   return figure_kind(rule.figure).only_grows || (rule.limit == 0.0 && !figure_kind(rule.figure).is_timed);
 }
 
-// What somebody asks for and a case has no figure of, as a structure without lists has no longest one, is not
-// satisfied.
-bool breaks(const Json& cases, const Constraint& constraint) {
-  return std::ranges::any_of(cases, [&](const Json& result_case) {
+// The largest figure that breaks a constraint, nothing where none does. What somebody asks for and a case has no figure
+// of, as a structure without lists has no longest one, is not satisfied: NaN.
+std::optional<double> breaking_figure(const Json& cases, const Constraint& constraint) {
+  std::optional<double> largest;
+  for (const Json& result_case : cases) {
     const std::optional<double> value = figure_of(result_case, constraint.rule.figure);
-    return value ? constraint.rule.is_broken_by(*value) : constraint.is_given;
-  });
+    if (!value && constraint.is_given) return std::numeric_limits<double>::quiet_NaN();
+    if (value && constraint.rule.is_broken_by(*value)) largest = std::max(*value, largest.value_or(*value));
+  }
+  return largest;
 }
 
 // A run would fail for it, or its cost is that of less light.
@@ -109,11 +112,6 @@ bool fails(const Json& cases, bool is_cost) {
     const Json* lit = value_at(result_case, "/cost/lit");
     return !result_case["failures"].empty() || (is_cost && lit != nullptr && *lit == false);
   });
-}
-
-std::string amount_text(double value) {
-  const bool is_count = value == std::floor(value) && std::abs(value) < 1e9;
-  return text(is_count ? "%.0f" : std::abs(value) < 1e5 ? "%.4g" : "%.6g", value);
 }
 
 std::string rule_text_of(const config::LimitRule& rule) {
@@ -203,6 +201,16 @@ Json method_json(const config::MethodRequest& request) {
   return out;
 }
 
+// Whether it differs from another in cells only, which its method then does not use.
+bool is_repeated(const Json& one, const Json& other) {
+  return one["assigner"] == other["assigner"] && one["storage"] == other["storage"] &&
+         one["precision"] == other["precision"] &&
+         std::ranges::all_of(objective_figures(), [&](const ObjectiveFigure& figure) {
+           return figure.is_timed ||
+                  one["figures"].value(figure.name, Json()) == other["figures"].value(figure.name, Json());
+         });
+}
+
 // What a configuration needs of a candidate.
 Json parts_json(const config::Config& config, const search::View& view, const search::Candidate& candidate) {
   const run::CasePlan& plan = *candidate.cases.front();
@@ -237,34 +245,68 @@ Json ranked_json(const config::Config& config, const search::View& view, const R
   return out;
 }
 
-// What each constraint has excluded, and the best of that by the objective, beside the best on the same frames.
+// The best behind the choice. Of those that differ in cells only, which their method then does not use, the first.
+Json runners_up_json(const config::Config& config, const search::View& view, const std::vector<Ranked>& all,
+                     const Question& question) {
+  Json told = Json::array({ranked_json(config, view, all[0], all[0], question)});
+  for (std::size_t i = 1; i < all.size() && all[i].is_feasible(); ++i) {
+    if (told.size() > static_cast<std::size_t>(question.runners_up)) break;
+    const Json one = ranked_json(config, view, all[i], all[0], question);
+    if (std::ranges::none_of(told, [&](const Json& other) { return is_repeated(one, other); })) told.push_back(one);
+  }
+  told.erase(0);
+  return told;
+}
+
+// Those that one constraint has excluded.
+struct Excluded {
+  std::size_t count = 0, alone = 0;    // alone: by this constraint only
+  std::optional<std::size_t> best;     // by the objective, beside the best on the same frames
+  std::optional<std::size_t> nearest;  // to satisfying it
+  double nearest_figure = 0.0;
+};
+
+Excluded excluded_by(std::size_t constraint, const search::Found& found) {
+  const auto by_best = [&](std::size_t index) {
+    const search::Record& record = found.records[index];
+    const double by = std::isnan(record.by_best) ? record.verdict.objective : record.by_best;
+    return std::isnan(by) ? std::numeric_limits<double>::infinity() : by;
+  };
+  Excluded excluded;
+  for (std::size_t i = 0; i < found.records.size(); ++i) {
+    const search::Verdict& verdict = found.records[i].verdict;
+    const auto at = std::ranges::find(verdict.broken, constraint);
+    if (at == verdict.broken.end()) continue;
+    ++excluded.count;
+    excluded.alone += verdict.broken.size() == 1 ? 1 : 0;
+    if (!excluded.best || by_best(i) < by_best(*excluded.best)) excluded.best = i;
+    const double figure = verdict.broken_by[static_cast<std::size_t>(at - verdict.broken.begin())];
+    if (std::isnan(figure) || (excluded.nearest && excluded.nearest_figure <= figure)) continue;
+    excluded.nearest = i;
+    excluded.nearest_figure = figure;
+  }
+  return excluded;
+}
+
 Json excluded_json(const search::View& view, const search::Found& found, const Question& question) {
   const std::vector<std::string> texts = constraint_texts(question);
   Json out = Json::array();
   for (std::size_t constraint = 0; constraint < texts.size(); ++constraint) {
-    std::size_t excluded = 0, alone = 0;
-    const search::Record* best = nullptr;
-    std::size_t best_index = 0;
-    const auto by_best = [](const search::Record& record) {
-      const double by = std::isnan(record.by_best) ? record.verdict.objective : record.by_best;
-      return std::isnan(by) ? std::numeric_limits<double>::infinity() : by;
-    };
-    for (std::size_t i = 0; i < found.records.size(); ++i) {
-      const search::Record& record = found.records[i];
-      if (std::ranges::find(record.verdict.broken, constraint) == record.verdict.broken.end()) continue;
-      ++excluded;
-      alone += record.verdict.broken.size() == 1 ? 1 : 0;
-      if (best != nullptr && by_best(*best) <= by_best(record)) continue;
-      best = &record;
-      best_index = i;
-    }
+    const Excluded excluded = excluded_by(constraint, found);
     const bool is_given = constraint < question.constraints.size() && question.constraints[constraint].is_given;
-    Json row{{"constraint", texts[constraint]}, {"given", is_given}, {"excluded", excluded}, {"alone", alone}};
-    row["best"] = best == nullptr ? Json()
-                                  : Json{{"name", view.candidates[best_index].name},
-                                         {"objective", number_or_null(best->verdict.objective)},
-                                         {"by_best", number_or_null(best->by_best)},
-                                         {"frames", best->frames}};
+    Json row{{"constraint", texts[constraint]}, {"given", is_given},  {"excluded", excluded.count},
+             {"alone", excluded.alone},         {"nearest", nullptr}, {"best", nullptr}};
+    if (excluded.nearest)
+      row["nearest"] = {{"name", view.candidates[*excluded.nearest].name},
+                        {"figure", number_or_null(excluded.nearest_figure)},
+                        {"frames", found.records[*excluded.nearest].frames}};
+    if (excluded.best) {
+      const search::Record& best = found.records[*excluded.best];
+      row["best"] = {{"name", view.candidates[*excluded.best].name},
+                     {"objective", number_or_null(best.verdict.objective)},
+                     {"by_best", number_or_null(best.by_best)},
+                     {"frames", best.frames}};
+    }
     out.push_back(row);
   }
   return out;
@@ -286,81 +328,6 @@ Json rungs_json(const std::vector<search::Rung>& rungs) {
   for (const search::Rung& rung : rungs)
     out.push_back(
         {{"frames", rung.frames}, {"candidates", rung.candidates}, {"excluded", rung.out}, {"kept", rung.kept}});
-  return out;
-}
-
-std::string within_text(double within) {
-  return text("%.4g", 100.0 * within) + " %";
-}
-
-// "frustum/exact-fast/packed": one line of the table of candidates.
-Cells candidate_row(const std::string& mark, const Json& one, const std::string& objective) {
-  std::string distance;
-  if (const Json& by = one["by_choice"]; by.is_number() && mark != "*") {
-    distance = text("%+.1f %%", 100.0 * (by.get<double>() - 1.0));
-    if (one.contains("ci95") && one["ci95"][0].is_number())
-      distance += text(" (%+.1f", 100.0 * (one["ci95"][0].get<double>() - 1.0)) +
-                  text(" to %+.1f)", 100.0 * (one["ci95"][1].get<double>() - 1.0));
-  }
-  const auto figure = [&](const std::string& name) {
-    const std::optional<double> value = number_at(one, "/figures/" + name);
-    return value ? amount_text(*value) : std::string("-");
-  };
-  return {mark,
-          shown(one["name"].get<std::string>()),
-          figure(objective),
-          distance,
-          std::to_string(one["cells"].get<std::uint64_t>()),
-          figure("bytes"),
-          figure("longest"),
-          figure("overshade")};
-}
-
-std::string table_of(const std::vector<Cells>& rows) {
-  const std::vector<std::size_t> widths = widths_of(rows);
-  std::string out;
-  for (const Cells& row : rows) out += aligned(row, widths);
-  return out;
-}
-
-std::string excluded_text(const Json& answer) {
-  std::vector<Cells> rows{{" ", "constraint", "excludes", "alone", "best of those", "by the best", "on frames"}};
-  for (const Json& row : answer["constraints"]) {
-    if (row["excluded"] == 0 && row["given"] == false) continue;
-    const Json& best = row["best"];
-    rows.push_back({" ", row["constraint"], row["excluded"].dump(), row["alone"].dump(),
-                    best.is_null() ? "-" : shown(best["name"].get<std::string>()),
-                    best.is_null() ? "-" : text_at(best, "/by_best", "%.3g x"),
-                    best.is_null() ? "-" : best["frames"].dump()});
-  }
-  return rows.size() > 1 ? table_of(rows) : "";
-}
-
-std::string answer_text(const Json& answer, const Json& objective) {
-  std::string out = shown(answer["scene"].get<std::string>()) + ", " + answer["viewport"][0].dump() + "x" +
-                    answer["viewport"][1].dump() + ", " + number_of(answer["frames"].get<std::uint64_t>(), "frame") +
-                    ": " + number_of(answer["candidates"].get<std::uint64_t>(), "candidate") + "\n";
-  const auto figure = objective["figure"].get<std::string>();
-  if (answer["choice"].is_null()) {
-    out += "no candidate satisfies all constraints\n";
-  } else {
-    std::vector<Cells> rows{{" ", "candidate", figure, "worse by", "cells", "bytes", "longest", "overshade"}};
-    if (figure == "bytes" || figure == "longest" || figure == "overshade") rows[0][2] = "objective";
-    rows.push_back(candidate_row("*", answer["choice"], figure));
-    for (const Json& runner_up : answer["runners_up"]) rows.push_back(candidate_row(" ", runner_up, figure));
-    out += table_of(rows);
-    const Json& coarsest = answer["coarsest"];
-    out += "coarsest grid within " + within_text(answer["within"].get<double>()) + " of the best: " +
-           (coarsest.is_null() ? "none other"
-                               : shown(coarsest["name"].get<std::string>()) + ", " + coarsest["cells"].dump() +
-                                     " cells, " + figure + " " + amount_text(coarsest["objective"].get<double>())) +
-           "\n";
-  }
-  out += excluded_text(answer);
-  const Json& work = answer["work"];
-  out += "measured " + work["evaluations"].dump() + " of " + work["all_evaluations"].dump() +
-         " pairs of a candidate and a frame (" + text("%.3g", 100.0 * work["evaluations_share"].get<double>()) +
-         " %), " + text("%.3g", 100.0 * work["tests_share"].get<double>()) + " % of all lights x cells\n";
   return out;
 }
 
@@ -443,12 +410,16 @@ search::Judge judge_of(const Question& question, const nlohmann::json& config) {
     verdict.bytes = figure_over(cases, "bytes").value_or(0.0);
     for (std::size_t i = 0; i < question.constraints.size(); ++i) {
       const config::LimitRule& rule = question.constraints[i].rule;
-      if (!breaks(cases, question.constraints[i])) continue;
+      const std::optional<double> by = breaking_figure(cases, question.constraints[i]);
+      if (!by) continue;
       verdict.broken.push_back(i);
+      verdict.broken_by.push_back(*by);
       verdict.is_final = verdict.is_final || stays_broken(rule);
     }
-    if (verdict.broken.empty() && fails(cases, question.objective.is_cost))
+    if (verdict.broken.empty() && fails(cases, question.objective.is_cost)) {
       verdict.broken.push_back(question.constraints.size());
+      verdict.broken_by.push_back(std::numeric_limits<double>::quiet_NaN());
+    }
     return verdict;
   };
 }
@@ -484,8 +455,7 @@ Json answer_to_json(const config::Config& config, const run::Plan& plan, const s
       if (one.is_feasible() && one.objective <= best * (1.0 + question.within) && one.cells < coarsest->cells)
         coarsest = &one;
     if (coarsest != &all[0]) out["coarsest"] = ranked_json(config, view, *coarsest, all[0], question);
-    for (std::size_t i = 1; i < all.size() && static_cast<int>(i) <= question.runners_up && all[i].is_feasible(); ++i)
-      out["runners_up"].push_back(ranked_json(config, view, all[i], all[0], question));
+    out["runners_up"] = runners_up_json(config, view, all, question);
   }
   out["constraints"] = excluded_json(view, found, question);
   out["rungs"] = rungs_json(found.rungs);
@@ -504,14 +474,6 @@ Json recommendation_to_json(const config::Config& config, const Question& questi
           {"config", config.resolved},
           {"objective", {{"figure", objective.name}, {"meaning", objective.meaning}, {"timed", objective.is_timed}}},
           {"answers", answers}};
-}
-
-std::string recommendation_text(const Json& recommendation) {
-  const Json& objective = recommendation["objective"];
-  std::string out =
-      "least " + objective["figure"].get<std::string>() + ": " + objective["meaning"].get<std::string>() + "\n";
-  for (const Json& answer : recommendation["answers"]) out += "\n" + answer_text(answer, objective);
-  return out;
 }
 
 bool all_satisfied(const Json& recommendation) {

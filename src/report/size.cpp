@@ -143,12 +143,13 @@ std::string size_json(const std::vector<NamedStructure>& structures, std::size_t
   return out.dump(1) + "\n";
 }
 
-std::string remark(std::size_t shown, std::size_t all) {
+std::string remark(const Json& result, std::size_t shown, std::size_t all) {
   if (shown == all) return "";
-  return "Of each grid the fastest structure that loses no light; of those that may be as fast, the smallest. --all "
-         "has "
-         "all " +
-         std::to_string(all) + ".";
+  const bool has_times = std::ranges::any_of(result["cases"], [](const Json& one) { return one.contains("timing"); });
+  const std::string best = has_times
+                               ? "the fastest structure that loses no light; of those that may be as fast, the smallest"
+                               : "the smallest structure that loses no light";
+  return "Of each grid " + best + ". --all has all " + std::to_string(all) + ".";
 }
 
 }  // namespace
@@ -168,7 +169,7 @@ std::string size_report(const Json& result, const SizeRequest& request) {
   const std::vector<NamedStructure> named =
       named_structures(request.all ? std::move(all) : best_of_groups(result, all), request.all);
   if (request.format == "json") return size_json(named, count, request, rules);
-  const std::string left_out = remark(named.size(), count);
+  const std::string left_out = remark(result, named.size(), count);
   if (request.format == "cpp") return size_code(SizeLanguage::cpp, named, left_out, rules);
   if (request.format == "hlsl") return size_code(SizeLanguage::hlsl, named, left_out, rules);
   if (request.format == "glsl") return size_code(SizeLanguage::glsl, named, left_out, rules);

@@ -69,6 +69,18 @@ std::string tail_lines(const SizedStructure& structure) {
   return out;
 }
 
+// What a grid's capacities rest on, as a far end that the camera does not have: once where all cameras have the same.
+std::string grid_notes(const SizedStructure& structure) {
+  std::vector<std::string> notes;
+  for (const Json* result_case : structure.cases)
+    if (const Json& grid = (*result_case)["grid"]; grid.contains("note"))
+      if (const std::string note = shown(grid["note"]); std::ranges::find(notes, note) == notes.end())
+        notes.push_back(note);
+  std::string out;
+  for (const std::string& note : notes) out += "  grid: " + note + "\n";
+  return out;
+}
+
 std::uint64_t frames_of(const SizedStructure& structure) {
   std::uint64_t frames = 0;
   for (const Json* result_case : structure.cases) frames += (*result_case)["frames"].get<std::uint64_t>();
@@ -83,6 +95,7 @@ std::string structure_text(const SizedStructure& structure) {
   const std::vector<std::size_t> widths = widths_of(rows);
   for (const Cells& row : rows) out += aligned(row, widths);
   out += worst_lines(structure);
+  out += grid_notes(structure);
   out += tail_lines(structure);
   if (const std::string dropped = dropped_text(structure); !dropped.empty())
     out += "  OVERFLOW: " + dropped + "; the capacities have room for them\n";

@@ -41,6 +41,7 @@ struct Verdict {
   double bytes = 0.0;               // decides between equals
   std::vector<std::size_t> broken;  // constraints, ascending
   bool is_final = false;            // one of them stays broken whatever further frames bring
+  std::vector<double> broken_by{};  // the figure that breaks each of `broken`; NaN: the cases do not have it
 };
 using Judge = std::function<Verdict(std::span<const run::CaseResult> cases)>;
 

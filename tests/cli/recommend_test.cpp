@@ -111,6 +111,30 @@ TEST(Recommend, exits_with_1_where_nothing_satisfies_and_shows_what_excluded_how
   EXPECT_FALSE(std::filesystem::exists(choice));
 }
 
+TEST(Recommend, tells_what_comes_nearest_where_nothing_satisfies) {
+  std::string one_frame = space();
+  one_frame.replace(one_frame.find("\"frames\": 8"), 11, "\"frames\": 1");
+  const Json cases = swept(one_frame);
+  const Json nearest_case = *std::ranges::min_element(
+      cases, [](const Json& a, const Json& b) { return figure(a, "bytes") < figure(b, "bytes"); });
+  const Recommended found = recommended(one_frame, "--no-timing --by bytes --bytes 1");
+  const Json& nearest = found.answer["constraints"][0]["nearest"];
+  EXPECT_EQ(nearest["figure"], figure(nearest_case, "bytes"));
+  EXPECT_EQ("street/walk/" + nearest["name"].get<std::string>(), nearest_case["name"]);
+  const std::string told = "nearest to bytes <= 1 of those that it excludes: " + nearest["figure"].dump() +
+                           " on 1 frame, " + nearest["name"].get<std::string>();
+  EXPECT_NE(found.outcome.out.find(told), std::string::npos) << found.outcome.out;
+}
+
+TEST(Recommend, tells_a_method_that_uses_no_cells_once) {
+  std::string config = space();
+  config.replace(config.find("\"aabb-fast\""), 11, "\"bvh\"");
+  const Recommended found = recommended(config, "--no-timing --by evaluated --runners-up 100 --filter /bvh/own");
+  ASSERT_EQ(found.outcome.code, 0) << found.outcome.err;
+  EXPECT_GT(found.answer["candidates"], 1);
+  EXPECT_EQ(found.answer["runners_up"], Json::array());
+}
+
 TEST(Recommend, gives_the_same_answer_again_and_on_more_threads) {
   const std::string flags = "--no-timing --by gpu_cost_us --longest 60";
   const Json once = recommended(space(), flags).answer;

@@ -83,8 +83,8 @@ TEST(WorstCaseCommand, what_it_cannot_do_is_told_in_a_line) {
       {scene + " --measure longst", "no 'longst' (did you mean 'longest'?)"},
       {scene + " --filter nothing", "--filter: 'nothing' matches none"},
       {scene + " --grid frustum --assigner bvh --filter /own --measure p99", "has no cells"},
+      {scene + " --add-lights 0x5", "--add-lights: '0x5' is not COUNTxRANGE"},
       {dark, "has no point or spot light, and none is added"},
-      {dark + " --add-lights 0x5", "has no point or spot light, and none is added"},
       {source_file("configs/depth.json") + " --filter tiled", "need depth"},
   };
   for (const auto& [line, message] : rows) {

@@ -103,6 +103,13 @@ TEST(ConfigFlags, another_scheme_leaves_out_what_only_the_old_one_used) {
             std::string::npos);
 }
 
+TEST(ConfigFlags, a_whole_slices_object_may_not_have_keys_that_its_scheme_does_not_use) {
+  EXPECT_NE(
+      refusal_of({{"--set", R"(grids.0.slices={"scheme": "linear", "count": 8, "near": 1, "far": 9, "first": 2})"}})
+          .find("/grids/0/slices/first: 'first' is used by scheme"),
+      std::string::npos);
+}
+
 TEST(ConfigFlags, tiles_or_slices_of_the_default_sweep_give_one_grid_of_each_kind) {
   const auto names = [](const Flags& flags) {
     Names all;

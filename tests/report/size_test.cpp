@@ -103,6 +103,22 @@ TEST(Size, of_structures_that_may_be_equally_fast_the_smaller_one_is_shown_which
   }
 }
 
+TEST(Size, without_times_the_smallest_structure_is_shown_and_called_so) {
+  run::Result result = result_by_hand();
+  EXPECT_NE(best_of(result).find("Of each grid the fastest structure that loses no light;"), std::string::npos);
+  for (run::CaseResult& one : result.cases) one.timing.reset();
+  EXPECT_NE(best_of(result).find("Of each grid the smallest structure that loses no light. --all"), std::string::npos)
+      << best_of(result);
+}
+
+TEST(Size, the_table_tells_what_is_noted_of_a_grid_once) {
+  run::Result result = result_by_hand();
+  for (run::CaseResult& one : result.cases) one.grid["note"] = "the camera has no far plane";
+  const std::string table = best_of(result, "table"), note = "  grid: the camera has no far plane\n";
+  ASSERT_NE(table.find(note), std::string::npos) << table;
+  EXPECT_EQ(table.find(note, table.find(note) + 1), std::string::npos) << table;
+}
+
 TEST(Size, a_filter_selects_cases_by_name) {
   const std::string report = size_of(result_by_hand(), {"/aabb/", true, "cpp"});
   EXPECT_NE(report.find("// hall/frustum 64px/aabb/packed"), std::string::npos) << report;

@@ -1,0 +1,115 @@
+// What `recommend` tells a reader (recommend_report.h).
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/text.h"
+#include "report/columns.h"
+#include "report/json_values.h"
+#include "report/recommend_report.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string within_text(double within) {
+  return text("%.4g", 100.0 * within) + " %";
+}
+
+// "frustum/exact-fast/packed": one line of the table of candidates.
+Cells candidate_row(const std::string& mark, const Json& one, const std::string& objective) {
+  std::string distance;
+  if (const Json& by = one["by_choice"]; by.is_number() && mark != "*") {
+    distance = text("%+.1f %%", 100.0 * (by.get<double>() - 1.0));
+    if (one.contains("ci95") && one["ci95"][0].is_number())
+      distance += text(" (%+.1f", 100.0 * (one["ci95"][0].get<double>() - 1.0)) +
+                  text(" to %+.1f)", 100.0 * (one["ci95"][1].get<double>() - 1.0));
+  }
+  const auto figure = [&](const std::string& name) {
+    const std::optional<double> value = number_at(one, "/figures/" + name);
+    return value ? amount_text(*value) : std::string("-");
+  };
+  return {mark,
+          shown(one["name"].get<std::string>()),
+          figure(objective),
+          distance,
+          std::to_string(one["cells"].get<std::uint64_t>()),
+          figure("bytes"),
+          figure("longest"),
+          figure("overshade")};
+}
+
+std::string table_of(const std::vector<Cells>& rows) {
+  const std::vector<std::size_t> widths = widths_of(rows);
+  std::string out;
+  for (const Cells& row : rows) out += aligned(row, widths);
+  return out;
+}
+
+// Where nothing satisfies them all: what would have to be given up of each constraint that was asked for.
+std::string nearest_text(const Json& answer) {
+  std::string out = "no candidate satisfies all constraints\n";
+  for (const Json& row : answer["constraints"]) {
+    const Json& nearest = row["nearest"];
+    if (row["given"] == false || nearest.is_null()) continue;
+    out += "nearest to " + row["constraint"].get<std::string>() +
+           " of those that it excludes: " + amount_text(nearest["figure"].get<double>()) + " on " +
+           number_of(nearest["frames"].get<std::uint64_t>(), "frame") + ", " +
+           shown(nearest["name"].get<std::string>()) + "\n";
+  }
+  return out;
+}
+
+std::string excluded_text(const Json& answer) {
+  std::vector<Cells> rows{{" ", "constraint", "excludes", "alone", "best of those", "by the best", "on frames"}};
+  for (const Json& row : answer["constraints"]) {
+    if (row["excluded"] == 0 && row["given"] == false) continue;
+    const Json& best = row["best"];
+    rows.push_back({" ", row["constraint"], row["excluded"].dump(), row["alone"].dump(),
+                    best.is_null() ? "-" : shown(best["name"].get<std::string>()),
+                    best.is_null() ? "-" : text_at(best, "/by_best", "%.3g x"),
+                    best.is_null() ? "-" : best["frames"].dump()});
+  }
+  return rows.size() > 1 ? table_of(rows) : "";
+}
+
+std::string answer_text(const Json& answer, const Json& objective) {
+  std::string out = shown(answer["scene"].get<std::string>()) + ", " + answer["viewport"][0].dump() + "x" +
+                    answer["viewport"][1].dump() + ", " + number_of(answer["frames"].get<std::uint64_t>(), "frame") +
+                    ": " + number_of(answer["candidates"].get<std::uint64_t>(), "candidate") + "\n";
+  const auto figure = objective["figure"].get<std::string>();
+  if (answer["choice"].is_null()) {
+    out += nearest_text(answer);
+  } else {
+    std::vector<Cells> rows{{" ", "candidate", figure, "worse by", "cells", "bytes", "longest", "overshade"}};
+    if (figure == "bytes" || figure == "longest" || figure == "overshade") rows[0][2] = "objective";
+    rows.push_back(candidate_row("*", answer["choice"], figure));
+    for (const Json& runner_up : answer["runners_up"]) rows.push_back(candidate_row(" ", runner_up, figure));
+    out += table_of(rows);
+    const Json& coarsest = answer["coarsest"];
+    out += "coarsest grid within " + within_text(answer["within"].get<double>()) + " of the best: " +
+           (coarsest.is_null() ? "none other"
+                               : shown(coarsest["name"].get<std::string>()) + ", " + coarsest["cells"].dump() +
+                                     " cells, " + figure + " " + amount_text(coarsest["objective"].get<double>())) +
+           "\n";
+  }
+  out += excluded_text(answer);
+  const Json& work = answer["work"];
+  out += "measured " + work["evaluations"].dump() + " of " + work["all_evaluations"].dump() +
+         " pairs of a candidate and a frame (" + text("%.3g", 100.0 * work["evaluations_share"].get<double>()) +
+         " %), " + text("%.3g", 100.0 * work["tests_share"].get<double>()) + " % of all lights x cells\n";
+  return out;
+}
+
+}  // namespace
+
+std::string recommendation_text(const Json& recommendation) {
+  const Json& objective = recommendation["objective"];
+  std::string out =
+      "least " + objective["figure"].get<std::string>() + ": " + objective["meaning"].get<std::string>() + "\n";
+  for (const Json& answer : recommendation["answers"]) out += "\n" + answer_text(answer, objective);
+  return out;
+}
+
+}  // namespace clusterbench::report
