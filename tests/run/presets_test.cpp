@@ -111,7 +111,7 @@ TEST(PresetRuns, a_configurations_own_cases_keep_their_ids_beside_presets) {
   const std::string own =
       R"(, "grids": [{"tiles": {"pixels": [64, 64]}, "slices": {"count": 16, "near": 0.1, "far": 500}}],
       "assigners": ["aabb", {"name": "sphere-refinement", "spot": "narrowing"}],
-      "storages": [{"name": "packed", "index_bits": "16"}, "runs"])";
+      "storages": [{"name": "packed", "index_bits": "16"}, "runs"], "samples": {"opaque": {}})";
   const Plan alone = make_plan(preset_config(own_scene("street.glb"), own), "");
   const Plan both =
       make_plan(preset_config(own_scene("street.glb"), own + R"(, "presets": ["just-cause-3", "doom-2016"])"), "");
