@@ -13,6 +13,7 @@ import { modelOf } from "./model.ts";
 import { paletteOf } from "./palette.ts";
 import { picturesSection } from "./pictures.ts";
 import { precisionSection } from "./precision.ts";
+import { presetsSection } from "./presets.ts";
 import { rankingSection } from "./ranking.ts";
 import type { PageData } from "./result.ts";
 import { setupSection } from "./setup.ts";
@@ -23,6 +24,7 @@ import { warningsSection } from "./warnings.ts";
 
 const sections = [
   rankingSection,
+  presetsSection,
   againstSection,
   speedErrorSection,
   heatMapSection,

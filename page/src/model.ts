@@ -15,7 +15,7 @@ export interface Case {
   run: Run;
   scene: string;
   grid: string;
-  assigner: string; // with the parameters that differ from their defaults
+  assigner: string; // with its preset, and the parameters that differ from their defaults
   family: string; // a method and its fast variant are one family
   isFast: boolean;
   storage: string; // and lights, where they are packed
@@ -83,7 +83,7 @@ function toCase(raw: CaseResult, run: Run, front: Set<string>, ranked: Ranked | 
     run,
     scene: raw.scene,
     grid: raw.grid.name,
-    assigner: raw.assigner.label,
+    assigner: raw.preset ? `${raw.preset}: ${raw.assigner.label}` : raw.assigner.label,
     family: raw.assigner.name.replace(/-fast$/, ""),
     isFast: raw.assigner.name.endsWith("-fast"),
     storage,

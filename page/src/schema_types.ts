@@ -250,6 +250,7 @@ export type Result = {
       exact: boolean; // Conservative, and lists nothing that is not true
     }; // The method that fills the lists
     storage: string; // What the lists are kept in; own: the assigner leaves a light structure of its own, without lists
+    preset?: string; // The preset that the case is of (`clusterbench list presets`); absent for the configuration's own clusterings
     failures: Array<{
       kind: "lost_pairs" | "extra_pairs" | "lost_at_samples" | "dropped_pairs"; // Of a conservative or exact method: lost_pairs in lists, lost_at_samples without cells. extra_pairs: of an exact one. dropped_pairs: beyond limits.dropped_pairs of the configuration
       text: string; // The same for people, without the case's name
@@ -589,8 +590,31 @@ export type Result = {
     scene: string; // Name of one of scenes
     ids: string[]; // Ids of the cases with a star, in the order of cases
   }>; // Per scene the cases on the Pareto front: no other one of the same camera and viewport is as good in frame time (beyond the interval of their ratio), bytes and overshade together, and better in one; where config.rank_by is frame_cost, in cost and bytes. What draws lights has no lists, so its bytes count as unknown. Only cases that are eligible
+  presets?: Array<{
+    name: string; // As a case's preset
+    engine: string; // Whose scheme it is
+    summary: string; // The scheme in a line
+    source: string; // What was read
+    approximated: string; // What is not as there; empty where nothing is known to differ
+    unverified: string; // What stands on memory alone; empty where all was read
+    most_lights?: number; // That it takes in a frame; absent where no such limit is known [count, over one frame]
+  }>; // What is known of the presets that cases are of, as `clusterbench list presets` tells it; absent without any
+  preset_rankings?: Array<{
+    scene: string; // Name of one of scenes
+    camera: string; // As the cases'
+    viewport: [number, number]; // As the cases': width, height [pixels, over the cases]
+    best: string | null; // Id of the case that costs least of those that lose no light; null where all do
+    cases: Array<{
+      id: string; // Of the case
+      preset: string; // Of the case
+      gpu_ns: number | null; // Its cost.gpu_ns; where it has no cost, upload and each pixel shaded once at a random depth by config.cost; null without samples [ns, over one frame]
+      lights_per_sample: number | null; // Lights looped over at a sample, on visible surfaces if they are asked for, else in the whole view [count, over all samples]
+      why: string; // What speaks for and against it here, as text
+    }>; // Best first: those that lose no light, then by gpu_ns
+  }>; // Per scene, camera and viewport the cases of presets beside each other; absent without any
   skipped: Array<{
     name: string; // As of a case, as far as all of the skipped combinations share it
     reason: string; // Why, as text
+    preset?: string; // That it is of; absent for the configuration's own clusterings
   }>; // Combinations that cannot be
 };

@@ -12,6 +12,7 @@ import {
   lossy,
   measureSweep,
   onAnotherMachine,
+  presets,
   rankedByCost,
   widened,
   withPictures,
@@ -34,6 +35,7 @@ before(async () => {
   pages.sweep = makePage(tool, [sweepFile], join(place, "sweep.html"));
   const lossyFile = measureSweep(tool, place, lossy, (table) => (lossyTable = table));
   pages.lossy = makePage(tool, [lossyFile], join(place, "lossy.html"));
+  pages.presets = makePage(tool, [measureSweep(tool, place, presets)], join(place, "presets.html"));
   pages.wide = makePage(tool, [widened(committedResult, place)], join(place, "wide.html"));
   pages.cameras = makePage(tool, [withTwoCameras(committedResult, place)], join(place, "cameras.html"));
   pages.against = makePage(tool, [sweepFile, onAnotherMachine(sweepFile, place)], join(place, "against.html"));
@@ -87,6 +89,7 @@ describe("the page", () => {
     ["two", "light"],
     ["against", "dark"],
     ["pictures", "light"],
+    ["presets", "light"],
     ["history", "light"],
   ])
     it(`of ${name} in ${colorScheme} asks for nothing, errs nowhere and is accessible`, async () => {
@@ -114,6 +117,29 @@ describe("the page", () => {
     assert.ok((await brightness()) < 60);
     await page.selectOption("#theme", "light");
     assert.ok((await brightness()) > 200);
+  });
+});
+
+describe("presets", () => {
+  it("stand in one table, best first, with a sentence each", async () => {
+    const page = await open(pages.presets);
+    const rows = await page.locator("#presets-0-0 tbody tr").allInnerTexts();
+    assert.equal(rows.length, 3);
+    assert.match(rows[0], /^★ .* and costs least: [\d.]+ lights per sample/s);
+    assert.match(rows[1], /at [\d.]+ times the cost of /);
+    assert.match(rows[2], /^just-cause-2.*drops \d+ lights .*room for 4 lights per cell is too little here/s);
+  });
+
+  it("that could not be measured say why, and all where they come from", async () => {
+    const page = await open(pages.presets);
+    assert.match(await page.locator("#presets > ul").innerText(), /wicked: .*needs a depth buffer/);
+    assert.match(await page.locator("#preset-sources tbody").innerText(), /wicked\s+Wicked Engine/);
+    assert.equal(await page.locator("#preset-sources tbody tr").count(), 4);
+  });
+
+  it("are not asked about where there are none", async () => {
+    const page = await open(pages.quick);
+    assert.equal(await page.locator("#presets").count(), 0);
   });
 });
 

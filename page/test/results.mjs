@@ -48,6 +48,15 @@ export const lossy = {
   timing: { rounds: 3, min_time_ms: 0, frames: 2 },
 };
 
+// Two presets that lose nothing, one that has too little room, one that needs triangles.
+export const presets = {
+  name: "presets",
+  scenes: [{ path: join(root, "scenes/street.glb"), frames: 2 }],
+  viewport: [320, 180],
+  presets: ["just-cause-3", "godot", "just-cause-2", "wicked"],
+  timing: { measure: false },
+};
+
 // `tell` gets the table that the terminal shows.
 export function measureSweep(tool, folder, config = sweep, tell = null) {
   const file = join(folder, `${config.name}.json`),

@@ -5,6 +5,7 @@
 #include <cctype>
 
 #include "assign/contract/assigner.h"
+#include "config/presets.h"
 #include "grid/grid.h"
 #include "report/exports/exports.h"
 #include "scene/generate.h"
@@ -40,6 +41,9 @@ Values assigners() {
   for (const assign::AssignerDescriptor* row : assign::assigner_descriptors()) values.words.push_back(row->name);
   return values;
 }
+Values preset_words() {
+  return {Kind::words, config::preset_names()};
+}
 Values grid_kinds() {
   Values values{Kind::words, {}};
   for (int kind = 0; kind < grid::k_kind_count; ++kind)
@@ -66,6 +70,7 @@ constexpr WordsRow k_words[] = {
     {"run", "--filter", anything},
     {"run", "--grid", grid_kinds},
     {"run", "--assigner", assigners},
+    {"run", "--preset", preset_words},
     {"run", "--tiles", anything},
     {"run", "--slices", anything},
     {"run", "--viewport", anything},
@@ -79,6 +84,7 @@ constexpr WordsRow k_words[] = {
     {"worst-case", "--filter", anything},
     {"worst-case", "--grid", grid_kinds},
     {"worst-case", "--assigner", assigners},
+    {"worst-case", "--preset", preset_words},
     {"worst-case", "--tiles", anything},
     {"worst-case", "--slices", anything},
     {"worst-case", "--viewport", anything},
@@ -86,6 +92,8 @@ constexpr WordsRow k_words[] = {
     {"worst-case", "--set", anything},
     {"worst-case", "--within", anything},
     {"worst-case", "--add-lights", anything},
+    {"recommend", "--preset", preset_words},
+    {"size", "--preset", preset_words},
     {"scene generate", "NAME", generators},
     {"history add", "--commit", anything},
 };

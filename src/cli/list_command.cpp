@@ -9,6 +9,7 @@
 #include "assign/contract/assigner.h"
 #include "assign/contract/storage.h"
 #include "cli/commands.h"
+#include "config/presets.h"
 #include "scene/generate.h"
 
 namespace clusterbench::cli {
@@ -58,6 +59,22 @@ Json to_json(const assign::AssignerDescriptor& assigner) {
               {"params", to_json(assigner.params)}};
 }
 
+// Tiles that depend on the viewport are those of 1920 x 1080 pixels.
+Json to_json(const config::Preset& preset) {
+  const auto parts = config::preset_parts(preset, {1920, 1080});
+  Json out{{"name", preset.name},
+           {"engine", preset.engine},
+           {"summary", preset.summary},
+           {"source", preset.source},
+           {"approximated", preset.approximated},
+           {"unverified", preset.unverified},
+           {"grid", parts["grid"]},
+           {"assigner", parts["assigner"]}};
+  if (parts.contains("storage")) out["storage"] = parts["storage"];
+  if (preset.most_lights > 0) out["most_lights"] = preset.most_lights;
+  return out;
+}
+
 Json everything() {
   Json all{{"assigners", Json::array()}, {"storages", Json::array()}, {"grids", Json::array()}};
   for (const assign::AssignerDescriptor* assigner : assign::assigner_descriptors())
@@ -67,6 +84,7 @@ Json everything() {
         {{"name", row->name}, {"summary", row->summary}, {"source", row->source}, {"params", to_json(row->params)}});
   for (int kind = 0; kind < grid::k_kind_count; ++kind)
     all["grids"].push_back(grid::kind_name(static_cast<grid::Kind>(kind)));
+  for (const config::Preset& preset : config::presets()) all["presets"].push_back(to_json(preset));
   for (const scene::GeneratorRow& row : scene::generators())
     all["scenes"].push_back(
         {{"name", row.name}, {"summary", row.summary}, {"source", row.source}, {"default_lights", row.default_lights}});
@@ -107,7 +125,32 @@ void print_params(const Json& row, std::map<std::string, std::string>& explained
   for (const auto& [method, shared] : as_for) std::cout << "      " << shared << ": as for " << method << "\n";
 }
 
+// What a configuration would say, in a line.
+std::string parts_text(const Json& preset) {
+  std::string text = preset["grid"].dump() + " " + preset["assigner"].dump();
+  if (preset.contains("storage")) text += " " + preset["storage"].dump();
+  return text;
+}
+
+void print_presets(const Json& presets) {
+  std::cout << "presets (tiles that follow the viewport as for 1920 x 1080)\n";
+  for (const Json& preset : presets) {
+    std::cout << "  " << preset["name"].get<std::string>() << ": " << preset["engine"].get<std::string>() << ": "
+              << preset["summary"].get<std::string>() << " [" << preset["source"].get<std::string>() << "]\n";
+    for (const char* key : {"approximated", "unverified"})
+      if (!preset[key].get_ref<const std::string&>().empty())
+        std::cout << "      " << key << ": " << preset[key].get<std::string>() << "\n";
+    if (preset.contains("most_lights"))
+      std::cout << "      takes at most " << preset["most_lights"] << " lights in a frame\n";
+    std::cout << "      " << parts_text(preset) << "\n";
+  }
+}
+
 void print_section(const Json& all, const char* section) {
+  if (std::string_view(section) == "presets") {
+    print_presets(all[section]);
+    return;
+  }
   std::cout << section << "\n";
   std::map<std::string, std::string> explained;
   for (const Json& row : all[section]) {
@@ -129,8 +172,13 @@ void print_section(const Json& all, const char* section) {
   }
 }
 
-void print_text(const Json& all) {
-  for (const char* section : {"assigners", "storages", "grids", "scenes"}) print_section(all, section);
+constexpr const char* k_sections[] = {"assigners", "storages", "grids", "scenes", "presets"};
+
+// `wanted`: "" for all sections.
+void print_text(const Json& all, const std::string& wanted) {
+  for (const char* section : k_sections)
+    if (wanted.empty() || wanted == section) print_section(all, section);
+  if (!wanted.empty()) return;
   std::cout << "All keys of a configuration: docs/configuration.md, or `clusterbench schema config`\n";
 }
 
@@ -138,16 +186,19 @@ void print_text(const Json& all) {
 
 void add_list(Command& program, Action& action) {
   Command command =
-      program.add_command("list", "Assigners, storages, grids and scenes that exist, with their parameters");
+      program.add_command("list", "Assigners, storages, grids, scenes and presets that exist, with their parameters");
   auto as_json = std::make_shared<bool>(false);
+  auto section = std::make_shared<std::string>();
+  command.add_option("SECTION", *section, "Only these: assigners, storages, grids, scenes or presets")
+      .one_of({std::begin(k_sections), std::end(k_sections)});
   command.add_flag("--json", *as_json, "As JSON");
-  command.when_named([as_json, &action] {
-    action = [as_json] {
+  command.when_named([as_json, section, &action] {
+    action = [as_json, section] {
       const Json all = everything();
       if (*as_json)
-        std::cout << all.dump(2) << "\n";
+        std::cout << (section->empty() ? all : all[*section]).dump(2) << "\n";
       else
-        print_text(all);
+        print_text(all, *section);
       return ExitCode::ok;
     };
   });

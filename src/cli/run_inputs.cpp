@@ -14,6 +14,8 @@ void add_config_options(Command& command, RunInputs& inputs, const std::vector<s
     const config::ConfigFlag& flag = config::config_flags()[i];
     if (std::ranges::find(without, flag.name) != without.end()) continue;
     command.add_option(flag.name, inputs.settings[i], flag.summary).once_a_name();
+    if (std::string_view(flag.name) == "--preset")
+      command.add_flag("--presets", inputs.has_all_presets, "All presets: --preset '*'");
   }
 }
 
@@ -22,6 +24,10 @@ std::vector<config::FlagValue> flag_values(const RunInputs& inputs) {
   for (std::size_t i = 0; i < inputs.settings.size(); ++i) {
     const config::ConfigFlag& flag = config::config_flags()[i];
     const std::vector<std::string>& values = inputs.settings[i];
+    if (inputs.has_all_presets && std::string_view(flag.name) == "--preset") {
+      all.push_back({flag.name, "*"});
+      continue;
+    }
     if (!flag.is_repeatable && !values.empty()) all.push_back({flag.name, joined(values, ",")});
     for (const std::string& value : flag.is_repeatable ? values : std::vector<std::string>{})
       all.push_back({flag.name, value});

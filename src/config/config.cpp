@@ -10,7 +10,9 @@
 #include "config/config_grids.h"
 #include "config/config_rigs.h"
 #include "config/documents.h"
+#include "config/grid_json.h"
 #include "config/json_text.h"
+#include "config/presets.h"
 #include "config/schema_reader.h"
 #include "core/error.h"
 #include "core/file_text.h"
@@ -218,7 +220,17 @@ Json without_globs(const Json& list, const JsonText& text) {
   return out;
 }
 
-// Defaults filled in; short forms in the defaults, too.
+constexpr const char* k_own_keys[] = {"grids", "assigners", "storages"};
+
+bool names_own_clusterings(const Json& document) {
+  return std::ranges::any_of(k_own_keys, [&](const char* key) { return document.contains(key); });
+}
+
+void drop_own_clusterings(Json& document) {
+  for (const char* key : k_own_keys) document.erase(key);
+}
+
+// Defaults filled in; short forms in the defaults, too. Presets alone have no clusterings beside them.
 Json filled(const JsonText& text) {
   const Json schema = config_schema();
   Json document = read_by_schema(schema, long_form(text.value, text), text);
@@ -230,7 +242,12 @@ Json filled(const JsonText& text) {
   if (document["name"].get_ref<const std::string&>().empty())
     document["name"] = printable(fs::path(text.file).stem().string());
   document["assigners"] = without_globs(document["assigners"], text);
-  return read_by_schema(schema, long_form(document, text), text);
+  document = read_by_schema(schema, long_form(document, text), text);
+  if (!document.contains("presets")) return document;
+  const auto entries = document["presets"].get<std::vector<std::string>>();
+  document["presets"] = named_presets(entries, text.file, text.where("/presets"));
+  if (!names_own_clusterings(text.value)) drop_own_clusterings(document);
+  return document;
 }
 
 std::vector<Vec2i> viewports(const Json& list, const JsonText& text) {
@@ -353,6 +370,57 @@ void check_ranking(const Json& document, const std::vector<SampleSetRequest>& se
                 "is frame_cost, and no set of samples with a weight is asked for; add \"samples\": {\"opaque\": {}}");
 }
 
+// The index of what equals `item`, which is appended if nothing does.
+template <class Item, class IsEqual>
+std::size_t index_in(std::vector<Item>& list, const Item& item, IsEqual is_equal) {
+  const auto found = std::ranges::find_if(list, [&](const Item& other) { return is_equal(other, item); });
+  const auto index = static_cast<std::size_t>(found - list.begin());
+  if (found == list.end()) list.push_back(item);
+  return index;
+}
+
+bool is_same_grid(const grid::GridSpec& a, const grid::GridSpec& b) {
+  return grid_identity(a) == grid_identity(b);
+}
+bool is_same_method(const MethodRequest& a, const MethodRequest& b) {
+  return a.name == b.name && a.params.values() == b.params.values();
+}
+
+void add_preset(const Preset& preset, std::size_t viewport, const Json& schema, Config& config) {
+  Json parts = preset_parts(preset, config.viewports[viewport]);
+  JsonText text;
+  text.file = std::string("preset ") + preset.name;
+  text.value["scenes"] = Json::array({{{"path", "any.glb"}}});
+  text.value["grids"] = Json::array({parts["grid"]});
+  text.value["assigners"] = Json::array({parts["assigner"]});
+  if (parts.contains("storage")) text.value["storages"] = Json::array({parts["storage"]});
+  const Json document = read_by_schema(schema, text.value, text);
+  PresetChoice choice{preset.name, viewport, 0, 0, std::nullopt};
+  choice.grid = index_in(config.grids, grid_specs(document["grids"], text).front(), is_same_grid);
+  choice.assigner = index_in(
+      config.assigners, methods(document["assigners"], "assigners", text, assigner_params).front(), is_same_method);
+  if (parts.contains("storage"))
+    choice.storage = index_in(config.storages, methods(document["storages"], "storages", text, storage_params).front(),
+                              is_same_method);
+  config.presets.push_back(std::move(choice));
+}
+
+void read_clusterings(const Json& document, const JsonText& text, Config& config) {
+  if (document.contains("grids")) {
+    config.grids = grid_specs(document["grids"], text);
+    config.assigners = methods(document["assigners"], "assigners", text, assigner_params);
+    config.storages = methods(document["storages"], "storages", text, storage_params);
+  }
+  config.own_grids = config.grids.size();
+  config.own_assigners = config.assigners.size();
+  config.own_storages = config.storages.size();
+  if (!document.contains("presets")) return;
+  const Json schema = config_schema();
+  for (std::size_t viewport = 0; viewport < config.viewports.size(); ++viewport)
+    for (const Json& name : document["presets"])
+      add_preset(*find_preset(name.get<std::string>()), viewport, schema, config);
+}
+
 Config read_config(const JsonText& text) {
   check_utf8(text);
   Config config;
@@ -365,9 +433,7 @@ Config read_config(const JsonText& text) {
     add_scenes(document["scenes"][i], child_pointer("/scenes", i), text, config.scenes);
   for (SceneRequest& scene : config.scenes) scene.camera.jitter_px = jitter_of(document["jitter"]);
   config.viewports = viewports(document["viewports"], text);
-  config.grids = grid_specs(document["grids"], text);
-  config.assigners = methods(document["assigners"], "assigners", text, assigner_params);
-  config.storages = methods(document["storages"], "storages", text, storage_params);
+  read_clusterings(document, text, config);
   config.precisions = precisions(document["precision"], text);
   read_settings(document, config);
   check_ranking(document, config.sample_sets, text);
@@ -375,12 +441,32 @@ Config read_config(const JsonText& text) {
   return config;
 }
 
+// Presets are ranked by what they cost at visible surfaces, where nobody says otherwise.
+void ask_for_surfaces(Json& document) {
+  if (document.contains("presets")) document["samples"] = {{"opaque", Json::object()}};
+}
+
+// The configuration as flags change it. Presets stand alone where neither the file nor a flag names a clustering.
 Config read_changed(JsonText text, std::span<const FlagValue> flags, const Json& standard) {
   const GridsFrom grids = text.value.contains("grids") ? GridsFrom::file : GridsFrom::defaults;
+  const bool names_own = names_own_clusterings(text.value), names_samples = text.value.contains("samples");
   for (const auto& [key, value] : standard.items())
     if (text.value.is_object() && !text.value.contains(key)) text.value[key] = value;
-  Config config = read_config(text);
-  return flags.empty() ? config : read_config(changed_by_flags(config.resolved, grids, text.file, flags));
+  JsonText as_written = text;
+  if (text.value.contains("presets") && !names_own) drop_own_clusterings(as_written.value);
+  if (!names_samples) ask_for_surfaces(as_written.value);
+  Config config = read_config(as_written);
+  if (flags.empty()) return config;
+  Json document = config.resolved;
+  if (!document.contains("grids")) {
+    text.value.erase("presets");
+    document = filled(text);
+    document["presets"] = config.resolved["presets"];
+  }
+  JsonText changed = changed_by_flags(document, grids, text.file, flags);
+  if (changed.value.contains("presets") && !names_own && !name_clusterings(flags)) drop_own_clusterings(changed.value);
+  if (!names_samples && !names_key(flags, "samples")) ask_for_surfaces(changed.value);
+  return read_config(changed);
 }
 
 std::string param_text(const assign::ParamSpec& spec, const assign::ParamValue& value) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -106,6 +107,14 @@ struct LimitsRequest {
   std::optional<std::uint64_t> dropped_pairs = 0;
 };
 
+// A preset's one clustering for a viewport, by indices in the configuration's lists. Without storage: the assigner's
+// own structure.
+struct PresetChoice {
+  std::string preset;  // config/presets.h
+  std::size_t viewport = 0, grid = 0, assigner = 0;
+  std::optional<std::size_t> storage;
+};
+
 struct Config {
   std::string name;
   std::filesystem::path file;  // "" = made from scenes on the command line
@@ -114,6 +123,10 @@ struct Config {
   std::vector<grid::GridSpec> grids;
   std::vector<MethodRequest> assigners;
   std::vector<MethodRequest> storages;
+  // The first so many of each list make a product; the others are presets'.
+  static constexpr std::size_t k_all = std::numeric_limits<std::size_t>::max();
+  std::size_t own_grids = k_all, own_assigners = k_all, own_storages = k_all;
+  std::vector<PresetChoice> presets;  // by viewport, then in the order in which they were named
   std::vector<PrecisionRequest> precisions;
   int threads = 1;
   std::uint64_t seed = 1;

@@ -6,6 +6,7 @@
 
 #include "config/assigner_names.h"
 #include "config/documents.h"
+#include "config/presets.h"
 #include "core/error.h"
 
 namespace clusterbench::config {
@@ -202,6 +203,11 @@ void choose_assigners(FlaggedConfig& document, const FlagValue& flag) {
   document.mark("/assigners", flag);
 }
 
+void choose_presets(FlaggedConfig& document, const FlagValue& flag) {
+  document["presets"] = named_presets(split(flag.value), "", flag.shown());
+  document.mark("/presets", flag);
+}
+
 void set_key(FlaggedConfig& document, const std::vector<std::string>& steps, const FlagValue& flag, const Json& value) {
   Json& root = document.root();
   if (document.set(root, "", steps, flag, value) == 0) refuse(flag, "no entry has this key");
@@ -286,6 +292,9 @@ constexpr FlagRow k_rows[] = {
     {{"--viewport", "WxH[,WxH]: image sizes in pixels, as 1920x1080"}, choose_viewports},
     {{"--assigner", "NAME[,NAME]: only these assigners; * and ? stand for any letters, as in '*-fast'"},
      choose_assigners},
+    {{"--preset",
+      "NAME[,NAME]: clusterings as engines have them, alone or beside the configuration's own; see `list presets`"},
+     choose_presets},
     {{"--rounds", "N: timed rounds over all cases of a group"}, set_rounds},
     {{"--launches", "N: processes that measure one after the other; intervals hold between them"}, set_launches},
     {{"--threads", "N: threads for the truth and for rays; results do not depend on it"}, set_threads},
@@ -355,6 +364,19 @@ std::string FlagValue::shown() const {
   constexpr std::size_t k_longest = 100;
   const std::string whole = text();
   return whole.size() > k_longest ? whole.substr(0, k_longest) + "..." : whole;
+}
+
+bool names_key(std::span<const FlagValue> values, const std::string& key) {
+  const std::regex set_key("/?" + key + "[./=].*");
+  return std::ranges::any_of(
+      values, [&](const FlagValue& flag) { return flag.name == "--set" && std::regex_match(flag.value, set_key); });
+}
+
+bool name_clusterings(std::span<const FlagValue> values) {
+  const auto is_own = [](const FlagValue& flag) {
+    return flag.name == "--grid" || flag.name == "--tiles" || flag.name == "--slices" || flag.name == "--assigner";
+  };
+  return std::ranges::any_of(values, is_own) || names_key(values, "(grids|assigners|storages)");
 }
 
 JsonText changed_by_flags(const Json& document, GridsFrom grids, const std::string& file,

@@ -23,6 +23,11 @@ struct FlagValue {
   std::string shown() const;  // the same, cut where it is too long for a message
 };
 
+// Whether --set sets something of a key at the top (a regular expression).
+bool names_key(std::span<const FlagValue> values, const std::string& key);
+// Whether one of them says something of grids, assigners or storages.
+bool name_clusterings(std::span<const FlagValue> values);
+
 enum class GridsFrom : std::uint8_t { file, defaults };
 
 // `document` is a configuration with all its defaults. Applied in the order of config_flags(), whatever that of

@@ -71,6 +71,8 @@ std::string short_count(const Json& result_case, const char* pointer) {
 
 std::string method_name(const Json& result_case) {
   std::string label = printable(result_case["assigner"]["label"].get_ref<const std::string&>());
+  if (result_case.contains("preset"))
+    label = printable(result_case["preset"].get_ref<const std::string&>()) + ": " + label;
   if (!result_case.contains("precision") || result_case["precision"]["packing"] == "float32") return label;
   return label + " " + printable(result_case["precision"]["label"].get_ref<const std::string&>());
 }

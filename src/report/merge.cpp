@@ -106,15 +106,17 @@ Json merged(const std::vector<NamedPart>& parts) {
     for (const Json& result_case : part.result.at("cases")) case_union.add(result_case, part.file, false);
     add_skipped(skipped, part.result.at("skipped"));
   }
-  return {{"schema_version", first.at("schema_version")},
-          {"name", merged_name(parts)},
-          {"tool", first.at("tool")},
-          {"machine", without_state(first.at("machine"))},
-          {"config", merged_config(parts)},
-          {"scenes", scenes},
-          {"cases", cases},
-          {"pareto_front", fronts(scenes, cases, first)},
-          {"skipped", skipped}};
+  Json out{{"schema_version", first.at("schema_version")},
+           {"name", merged_name(parts)},
+           {"tool", first.at("tool")},
+           {"machine", without_state(first.at("machine"))},
+           {"config", merged_config(parts)},
+           {"scenes", scenes},
+           {"cases", cases},
+           {"pareto_front", fronts(scenes, cases, first)},
+           {"skipped", skipped}};
+  add_presets(out, first);
+  return out;
 }
 
 }  // namespace clusterbench::report

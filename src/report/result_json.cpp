@@ -13,6 +13,7 @@
 #include "report/frame_cost.h"
 #include "report/json_values.h"
 #include "report/machine.h"
+#include "report/preset_ranking.h"
 #include "run/gate.h"
 
 namespace clusterbench::report {
@@ -376,6 +377,14 @@ Json fronts(const Json& scenes, const Json& cases, const Json& origin) {
   return list;
 }
 
+void add_presets(Json& result, const Json& origin) {
+  Json facts = preset_facts(result["cases"], result["skipped"]);
+  if (facts.empty()) return;
+  Json rankings = preset_rankings(result["scenes"], result["cases"], origin);
+  result["presets"] = std::move(facts);
+  result["preset_rankings"] = std::move(rankings);
+}
+
 Json tool_to_json(const run::ToolFacts& tool) {
   Json libraries = Json::object();
   for (const auto& [name, version] : tool.libraries) libraries[name] = version;
@@ -399,13 +408,14 @@ Json case_to_json(const run::CaseResult& case_result) {
              {"params", case_result.assigner_params},
              {"conservative", case_result.conservative},
              {"exact", case_result.exact}}},
-           {"storage", case_result.storage_label},
-           {"failures", Json::array()},
-           {"warnings", Json::array()},
-           {"loses_lights", run::loses_lights(case_result)},
-           {"eligible", run::is_eligible(case_result)},
-           {"tests_done", case_result.tests_done},
-           {"fallbacks", case_result.fallbacks}};
+           {"storage", case_result.storage_label}};
+  if (!case_result.preset.empty()) out["preset"] = case_result.preset;
+  out.update(Json{{"failures", Json::array()},
+                  {"warnings", Json::array()},
+                  {"loses_lights", run::loses_lights(case_result)},
+                  {"eligible", run::is_eligible(case_result)},
+                  {"tests_done", case_result.tests_done},
+                  {"fallbacks", case_result.fallbacks}});
   for (const run::Failure& failure : case_result.failures)
     out["failures"].push_back({{"kind", run::name_of(failure.kind)}, {"text", failure.text}});
   for (const run::Warning& warning : run::warnings_of(case_result))
@@ -440,8 +450,11 @@ Json result_to_json(const run::Result& result, const std::vector<Json>& earlier_
   add_costs(out["cases"], out["config"]);
   out["pareto_front"] = fronts(out["scenes"], out["cases"], out);
   out["skipped"] = Json::array();
-  for (const run::Skipped& skipped : result.skipped)
+  for (const run::Skipped& skipped : result.skipped) {
     out["skipped"].push_back({{"name", skipped.name}, {"reason", skipped.reason}});
+    if (!skipped.preset.empty()) out["skipped"].back()["preset"] = skipped.preset;
+  }
+  add_presets(out, out);
   return out;
 }
 

@@ -30,6 +30,9 @@ nlohmann::ordered_json result_to_json(const run::Result& result,
 nlohmann::ordered_json fronts(const nlohmann::ordered_json& scenes, const nlohmann::ordered_json& cases,
                               const nlohmann::ordered_json& origin);
 
+// Adds `presets` and `preset_rankings` (report/preset_ranking.h) where cases are of presets.
+void add_presets(nlohmann::ordered_json& result, const nlohmann::ordered_json& origin);
+
 // What a run fails for, a line each, as its cases' `failures` say.
 std::vector<std::string> gate_failures(const nlohmann::ordered_json& result);
 

@@ -30,6 +30,7 @@ namespace clusterbench::run {
 struct Skipped {
   std::string name, reason;
   bool is_other_kind = false;  // a method on a kind of grid that it does not take
+  std::string preset = {};     // that it is of; "" for the configuration's own clusterings
 };
 
 struct ToolFacts {
@@ -180,6 +181,7 @@ struct CaseResult {
   nlohmann::json assigner_params;
   bool conservative = true, exact = false;  // conservative: on lights that are packed, only if they are inflated
   std::string storage_label;
+  std::string preset;                           // config/presets.h; "" for the configuration's own clusterings
   std::optional<measure::Occupancy> occupancy;  // with cells
   measure::Buffers buffers;
   std::uint64_t tests_done = 0;                      // over all frames

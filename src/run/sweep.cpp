@@ -154,6 +154,7 @@ Json identity(const config::Config& config, const SceneData& data, const CasePla
     all["stability"] = {stability.steps, stability.step_mm, stability.step_deg, stability.window};
   }
   const config::PrecisionRequest& precision = config.precisions[plan.precision];
+  if (!plan.preset.empty()) all["preset"] = plan.preset;
   if (precision.is_lossy()) all["precision"] = {view::packing_name(precision.packing), precision.inflate};
   return all;
 }
@@ -259,6 +260,13 @@ std::string storage_obstacle(const config::MethodRequest& request, const FirstFr
   }
 }
 
+// One assigner in a group: of the configuration's own product, or of a preset.
+struct Family {
+  std::string group_name;  // what its cases' names begin with
+  std::size_t assigner;
+  const config::PresetChoice* preset;  // null: own
+};
+
 class Expansion {
  public:
   Expansion(const config::Config& config, const std::string& filter) : config_(config), filter_(filter, "--filter") {}
@@ -279,70 +287,94 @@ class Expansion {
           expand_group(plan, {scene, camera, viewport, grid, {}}, plan.scenes[scene].paths[camera].camera);
   }
 
-  std::string group_name(const Plan& plan, const GroupPlan& group, const std::string& camera) const {
+  // `preset`: "" for the configuration's own clusterings.
+  std::string group_name(const Plan& plan, const GroupPlan& group, const std::string& camera,
+                         const std::string& preset) const {
     const Vec2i size = config_.viewports[group.viewport];
     const std::string viewport =
         config_.viewports.size() > 1 ? std::to_string(size.x) + "x" + std::to_string(size.y) + " " : "";
-    return plan.scenes[group.scene].scene.name + "/" + camera + "/" + viewport +
+    return plan.scenes[group.scene].scene.name + "/" + camera + "/" + viewport + (preset.empty() ? "" : preset + ": ") +
            name_part(config_.grids[group.grid].name());
   }
 
+  // The presets that have this grid in this viewport.
+  std::vector<const config::PresetChoice*> presets_of(const GroupPlan& group) const {
+    std::vector<const config::PresetChoice*> choices;
+    for (const config::PresetChoice& choice : config_.presets)
+      if (choice.viewport == group.viewport && choice.grid == group.grid) choices.push_back(&choice);
+    return choices;
+  }
+
   void expand_group(Plan& plan, GroupPlan group, const std::string& camera) {
-    const std::string name = group_name(plan, group, camera);
+    std::vector<Family> families;
+    for (std::size_t i = 0; group.grid < config_.own_grids && i < config_.assigners.size(); ++i)
+      if (i < config_.own_assigners) families.push_back({group_name(plan, group, camera, ""), i, nullptr});
+    for (const config::PresetChoice* choice : presets_of(group))
+      families.push_back({group_name(plan, group, camera, choice->preset), choice->assigner, choice});
+    if (families.empty()) return;
     const SceneData& data = plan.scenes[group.scene];
     const scene::CameraPath& path = data.paths[group.camera];
     const FirstFrame first = first_frame(config_.grids[group.grid], data, path, config_.viewports[group.viewport]);
-    if (!first.obstacle.empty()) {
-      skip(plan, name, first.obstacle);
-      return;
+    std::string told;
+    for (const Family& family : families) {
+      if (first.obstacle.empty()) {
+        expand_assigner(plan, group, family, first);
+      } else if (family.group_name != told) {
+        told = family.group_name;
+        skip(plan, family, told, first.obstacle);
+      }
     }
-    for (std::size_t assigner = 0; assigner < config_.assigners.size(); ++assigner)
-      expand_assigner(plan, group, assigner, first, name);
     if (!group.cases.empty()) plan.groups.push_back(std::move(group));
   }
 
-  void expand_assigner(Plan& plan, GroupPlan& group, std::size_t assigner, const FirstFrame& first,
-                       const std::string& group_name) {
-    const config::MethodRequest& method = config_.assigners[assigner];
-    const std::string name = group_name + "/" + name_part(method.label());
+  void expand_assigner(Plan& plan, GroupPlan& group, const Family& family, const FirstFrame& first) {
+    const config::MethodRequest& method = config_.assigners[family.assigner];
+    const std::string name = family.group_name + "/" + name_part(method.label());
     const SceneData& data = plan.scenes[group.scene];
     std::string impossible = obstacle(method, config_.grids[group.grid].kind, data,
                                       data.paths[group.camera].shots.front().projection.orthographic);
     if (impossible.empty()) impossible = limit_obstacle(*assign::find_assigner(method.name), config_.limits, first);
     if (!impossible.empty()) {
       const bool takes_kind = assign::find_assigner(method.name)->takes(config_.grids[group.grid].kind);
-      skip(plan, name, impossible, !takes_kind);
+      skip(plan, family, name, impossible, !takes_kind);
       return;
     }
     for (std::size_t precision = 0; precision < config_.precisions.size(); ++precision)
-      expand_precision(plan, group, assigner, precision, first, name);
+      expand_precision(plan, group, family, precision, first, name);
   }
 
-  void expand_precision(Plan& plan, GroupPlan& group, std::size_t assigner, std::size_t precision,
+  void expand_precision(Plan& plan, GroupPlan& group, const Family& family, std::size_t precision,
                         const FirstFrame& first, const std::string& name) {
     const config::PrecisionRequest& request = config_.precisions[precision];
     const std::string part = request.is_lossy() ? "/" + request.label() : "";
-    const assign::AssignerDescriptor& descriptor = *assign::find_assigner(config_.assigners[assigner].name);
+    const assign::AssignerDescriptor& descriptor = *assign::find_assigner(config_.assigners[family.assigner].name);
     const std::string impossible = precision_obstacle(descriptor, request);
     if (!impossible.empty()) {
-      skip(plan, name + part, impossible);
+      skip(plan, family, name + part, impossible);
       return;
     }
-    CasePlan case_plan{"", "", group.scene, group.camera, group.viewport, group.grid, assigner, {}, precision};
+    CasePlan case_plan{"", "", group.scene, group.camera, group.viewport, group.grid, family.assigner, {}, precision};
+    if (family.preset != nullptr) case_plan.preset = family.preset->preset;
     for (std::size_t storage = 0; descriptor.answers(assign::Answer::lists) && storage < config_.storages.size();
          ++storage) {
+      if (!is_wanted(family, storage)) continue;
       case_plan.storage = storage;
       case_plan.name = name + "/" + name_part(config_.storages[storage].label()) + part;
       const std::string too_much = storage_obstacle(config_.storages[storage], first);
       if (too_much.empty())
         add_case(plan, group, case_plan);
       else
-        skip(plan, case_plan.name, too_much);
+        skip(plan, family, case_plan.name, too_much);
     }
-    if (!descriptor.answers(assign::Answer::structure)) return;
+    if (!descriptor.answers(assign::Answer::structure) || !is_wanted(family, std::nullopt)) return;
     case_plan.storage.reset();
     case_plan.name = name + "/" + k_own_structure + part;
     add_case(plan, group, case_plan);
+  }
+
+  bool is_wanted(const Family& family, std::optional<std::size_t> storage) const {
+    if (family.preset != nullptr) return family.preset->storage == storage;
+    return !storage || *storage < config_.own_storages;
   }
 
   void add_case(const Plan& plan, GroupPlan& group, CasePlan case_plan) {
@@ -368,8 +400,10 @@ class Expansion {
   }
 
   // What the filter leaves out is not listed as skipped either.
-  void skip(Plan& plan, const std::string& name, const std::string& reason, bool is_other_kind = false) const {
-    if (filter_.is_in(name)) plan.skipped.push_back({name, reason, is_other_kind});
+  void skip(Plan& plan, const Family& family, const std::string& name, const std::string& reason,
+            bool is_other_kind = false) const {
+    const std::string preset = family.preset == nullptr ? "" : family.preset->preset;
+    if (filter_.is_in(name)) plan.skipped.push_back({name, reason, is_other_kind, preset});
   }
 
   const config::Config& config_;

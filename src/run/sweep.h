@@ -24,8 +24,8 @@ struct Method {
 
 // One case by its indices in the configuration's lists. The camera path is an index in the scene's paths.
 struct CasePlan {
-  // "scene/camera/grid/assigner/storage" (viewport in the grid's part when there are several), and the precision where
-  // it is not float32.
+  // "scene/camera/grid/assigner/storage" (viewport in the grid's part when there are several, and the preset), and the
+  // precision where it is not float32.
   std::string name;
   std::string id;  // short hash of everything that identifies the case: stable over runs and machines
   std::size_t scene, camera, viewport, grid, assigner;
@@ -33,6 +33,7 @@ struct CasePlan {
   std::size_t precision = 0;
   // A hash as id is, but for the scene's contents: stable while a level changes.
   std::string settings = {};
+  std::string preset = {};  // that the case is of; "" for the configuration's own clusterings
 
   Method method() const { return {assigner, precision, storage ? assign::Answer::lists : assign::Answer::structure}; }
 };

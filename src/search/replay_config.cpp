@@ -26,6 +26,7 @@ OrderedJson replay_config(const config::Config& config, const run::CasePlan& cas
   out["scenes"] = OrderedJson::array(
       {OrderedJson{{"path", scene}, {"frames", "keys"}, {"camera_fit", fits_height ? "vertical" : "contain"}}});
   out["viewports"] = OrderedJson::array({OrderedJson::array({viewport.x, viewport.y})});
+  out.erase("presets");
   out["grids"] = OrderedJson::array({config::grid_request(config.grids[case_plan.grid])});
   out["assigners"] = OrderedJson::array({method_json(config.assigners[case_plan.assigner])});
   if (case_plan.storage) out["storages"] = OrderedJson::array({method_json(config.storages[*case_plan.storage])});

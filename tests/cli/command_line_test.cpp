@@ -27,7 +27,10 @@ TEST(CommandLine, what_is_unknown_or_missing_is_told_in_one_line_with_the_neares
       {"scene inf x.glb", "scene: no command 'inf' (did you mean 'info'?); there are: info, generate"},
       {"scene inf --help", "scene: no command 'inf' (did you mean 'info'?); there are: info, generate"},
       {"scene", "scene: names no command; there are: info, generate"},
-      {"list all", "list: 'all' is one argument too many; see `clusterbench list --help`"},
+      {"man all", "man: 'all' is one argument too many; see `clusterbench man --help`"},
+      {"list preset",
+       "list: SECTION: no 'preset' (did you mean 'presets'?); there are: assigners, storages, grids, scenes, presets; "
+       "see `clusterbench list --help`"},
       {"compare a.json", "compare: NEW is required; see `clusterbench compare --help`"},
       {"run", "run: INPUT is required; see `clusterbench run --help`"},
       {"schema confg",
@@ -105,6 +108,16 @@ TEST(CommandLine, the_version_is_also_json) {
   for (const char* key : {"version", "git_sha", "compiler", "flags", "build_type", "simd_target", "libraries"})
     EXPECT_TRUE(version.contains(key)) << key;
   EXPECT_NE(tool("--version").out.find(version["version"].get<std::string>()), std::string::npos);
+}
+
+TEST(CommandLine, list_tells_where_presets_come_from_and_what_of_them_is_unverified) {
+  const Json presets = Json::parse(tool("list presets --json").out);
+  EXPECT_EQ(presets.size(), 19u);
+  for (const Json& preset : presets) EXPECT_NE(preset["source"], "") << preset["name"];
+  const std::string text = tool("list presets").out;
+  EXPECT_TRUE(text.starts_with("presets")) << text;
+  EXPECT_NE(text.find("unverified: which test it has for cones"), std::string::npos) << text;
+  EXPECT_EQ(text.find("brute-force:"), std::string::npos) << "nothing else";
 }
 
 TEST(CommandLine, list_names_every_assigner_with_its_parameters) {

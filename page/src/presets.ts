@@ -1,0 +1,149 @@
+// Which engine's scheme suits this level, and why.
+
+import { h } from "./dom.ts";
+import { figureView } from "./figure.ts";
+import * as format from "./format.ts";
+import type { Case } from "./model.ts";
+import type { Result } from "./result.ts";
+import { ofRuns } from "./runs.ts";
+import type { Column } from "./table.ts";
+import type { Section, View } from "./view.ts";
+
+type Ranking = NonNullable<Result["preset_rankings"]>[number];
+type Line = Ranking["cases"][number];
+type Facts = NonNullable<Result["presets"]>[number];
+
+interface Row {
+  aCase: Case;
+  line: Line;
+  place: number; // in its ranking, from 1
+  isBest: boolean;
+  facts: Facts | null;
+}
+
+const columns: Column<Row>[] = [
+  {
+    label: "preset",
+    value: ({ line }) => line.preset,
+    show: ({ line, isBest, facts }) => h("span", { title: facts?.summary }, isBest ? `★ ${line.preset}` : line.preset),
+  },
+  { label: "place", value: ({ place }) => place },
+  {
+    label: "GPU µs",
+    about: "Upload and shading of a frame by the configuration's model (cost)",
+    value: ({ line }) => line.gpu_ns,
+    show: ({ line }) => format.microseconds(line.gpu_ns),
+  },
+  {
+    label: "lights / sample",
+    about: "That a shader loops over, on average",
+    value: ({ line }) => line.lights_per_sample,
+    show: ({ line }) => format.decimal(line.lights_per_sample),
+  },
+  {
+    label: "longest",
+    about: "List, in any cell and frame",
+    value: ({ aCase }) => aCase.longest,
+    show: ({ aCase }) => format.whole(aCase.longest),
+  },
+  {
+    label: "bytes",
+    about: "High-water mark of headers and entries",
+    value: ({ aCase }) => aCase.bytes,
+    show: ({ aCase }) => format.short(aCase.bytes),
+  },
+  {
+    label: "dropped",
+    about: "Pairs that its storage has no room for",
+    value: ({ aCase }) => aCase.dropped,
+    show: ({ aCase }) => format.short(aCase.dropped),
+  },
+  {
+    label: "missed",
+    about: "True pairs that its method does not list",
+    value: ({ aCase }) => aCase.missed,
+    show: ({ aCase }) => format.whole(aCase.missed),
+  },
+  {
+    label: "unlit",
+    about: "Share of the lights that samples need and are not given",
+    value: ({ aCase }) => aCase.unlit,
+    show: ({ aCase }) => format.share(aCase.unlit),
+  },
+  {
+    label: "assign µs",
+    about: "On one core of this machine, whatever the engine runs it on",
+    value: ({ aCase }) => aCase.assignNs,
+    show: ({ aCase }) => format.microseconds(aCase.assignNs),
+  },
+  { label: "why", value: ({ line }) => line.why },
+];
+
+const factColumns: Column<Facts>[] = [
+  { label: "preset", value: (facts) => facts.name },
+  { label: "engine", value: (facts) => facts.engine },
+  { label: "scheme", value: (facts) => facts.summary },
+  { label: "read in", value: (facts) => facts.source },
+  { label: "approximated here", value: (facts) => facts.approximated || null },
+  { label: "unverified", value: (facts) => facts.unverified || null },
+];
+
+function rowsOf(ranking: Ranking, cases: Case[], facts: Facts[]): Row[] {
+  return ranking.cases.flatMap((line, at) => {
+    const aCase = cases.find(({ raw }) => raw.id === line.id);
+    const known = facts.find(({ name }) => name === line.preset) ?? null;
+    return aCase ? [{ aCase, line, place: at + 1, isBest: ranking.best === line.id, facts: known }] : [];
+  });
+}
+
+const shownColumns = (rows: Row[]) =>
+  columns.filter(({ value }) => rows.some((row) => value(row) !== null));
+
+function rankingFigures(view: View): HTMLElement[] {
+  return view.model.runs.flatMap((run, at) => {
+    const cases = view.cases().filter((aCase) => aCase.run === run);
+    return (run.result.preset_rankings ?? []).flatMap((ranking, index) => {
+      const rows = rowsOf(ranking, cases, run.result.presets ?? []);
+      if (rows.length === 0) return [];
+      const title = `${ranking.scene}, ${ranking.camera}, ${ranking.viewport.join(" × ")}`;
+      return figureView({
+        id: `presets-${at}-${index}`,
+        title,
+        lead: "★ costs the GPU least of those that lose no light. Those that lose some come last.",
+        table: () => ({ caption: `Presets: ${title}`, columns: ofRuns(view, shownColumns(rows)), rows }),
+        cases: rows.map(({ aCase }) => aCase),
+      });
+    });
+  });
+}
+
+function skippedList(view: View): HTMLElement | null {
+  const skipped = view.model.runs.flatMap(({ result }) => result.skipped.filter(({ preset }) => preset));
+  if (skipped.length === 0) return null;
+  return h("ul", { class: "note" }, ...skipped.map(({ name, reason }) => h("li", {}, `${name}: ${reason}.`)));
+}
+
+function factsFigure(view: View, rankings: HTMLElement[]): HTMLElement | null {
+  const all = new Map(view.model.runs.flatMap(({ result }) => (result.presets ?? []).map((one) => [one.name, one])));
+  if (rankings.length === 0 || all.size === 0) return null;
+  return figureView({
+    id: "preset-sources",
+    title: "Where the presets come from",
+    lead: "What was read of each engine, and what of it is not the same here.",
+    table: () => ({ caption: "Presets", columns: factColumns, rows: [...all.values()] }),
+    cases: view.cases().filter(({ raw }) => raw.preset !== undefined),
+  });
+}
+
+export const presetsSection: Section = (view) => {
+  const rankings = rankingFigures(view);
+  if (rankings.length === 0) return null;
+  return h(
+    "section",
+    { id: "presets" },
+    h("h2", {}, "Which engine's scheme suits this level"),
+    ...rankings,
+    skippedList(view),
+    factsFigure(view, rankings),
+  );
+};

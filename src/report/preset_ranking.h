@@ -1,0 +1,23 @@
+#pragma once
+// Presets (config/presets.h) of a result beside each other: which suits a level, and why.
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace clusterbench::report {
+
+// What is known of the presets that cases and skipped combinations are of, in the order of config::presets(); empty
+// without any.
+nlohmann::ordered_json preset_facts(const nlohmann::ordered_json& cases, const nlohmann::ordered_json& skipped);
+
+// Per scene, camera and viewport the cases of presets, best first: those that lose no light before others, then by
+// what a frame costs the GPU by the configuration's model (`cost`), which is the same on every machine. Where no set of
+// samples has a cost each pixel is shaded once, at a random depth of its view. `origin`: the result whose configuration
+// they have. Empty without presets.
+nlohmann::ordered_json preset_rankings(const nlohmann::ordered_json& scenes, const nlohmann::ordered_json& cases,
+                                       const nlohmann::ordered_json& origin);
+
+// The rankings as tables with a sentence for each preset; "" without any.
+std::string preset_table(const nlohmann::ordered_json& result);
+
+}  // namespace clusterbench::report

@@ -1,0 +1,131 @@
+// Presets on scenes, against the truth.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+
+#include "config/presets.h"
+#include "run/gate.h"
+#include "run/runner.h"
+#include "run/sweep.h"
+
+namespace clusterbench::run {
+namespace {
+
+std::string own_scene(const std::string& name) {
+  return std::string(CLUSTERBENCH_SOURCE_DIR) + "/scenes/" + name;
+}
+
+config::Config preset_config(const std::string& scene, const std::string& rest) {
+  return config::parse_config(R"({"scenes": [{"path": ")" + scene + R"(", "frames": 2}], "viewport": [320, 180],
+      "timing": {"measure": false}, "shading": {"samples": 256})" +
+                                  rest + "}",
+                              "c.json");
+}
+
+Result preset_results(const config::Config& config, const Plan& plan) {
+  const std::atomic<bool> stop{false};
+  return run_plan(config, plan, {}, {}, stop, {}, {});
+}
+
+std::vector<CasePlan> preset_cases(const Plan& plan) {
+  std::vector<CasePlan> all;
+  for (const GroupPlan& group : plan.groups) all.insert(all.end(), group.cases.begin(), group.cases.end());
+  return all;
+}
+
+// Each preset once, run or skipped. Not naive: loses no pair, and passes.
+void expect_all_presets(const Result& result, const Plan& plan) {
+  std::multiset<std::string> told;
+  for (const CaseResult& one : result.cases) {
+    told.insert(one.preset);
+    EXPECT_TRUE(one.failures.empty()) << one.name << ": " << one.failures[0].text;
+    EXPECT_TRUE(!one.conservative || !one.error || one.error->false_negatives == 0) << one.name;
+  }
+  for (const Skipped& skipped : plan.skipped)
+    if (!skipped.preset.empty()) told.insert(skipped.preset);
+  const std::vector<std::string> names = config::preset_names();
+  EXPECT_EQ(told, std::multiset<std::string>(names.begin(), names.end()));
+}
+
+TEST(PresetRuns, each_preset_is_one_case_and_nothing_else_is_measured) {
+  const config::Config config = preset_config(own_scene("street.glb"), R"(, "presets": ["*"])");
+  const Plan plan = make_plan(config, "");
+  std::set<std::string> ids, presets;
+  for (const CasePlan& one : preset_cases(plan)) {
+    EXPECT_TRUE(ids.insert(one.id).second);
+    EXPECT_TRUE(presets.insert(one.preset).second) << one.preset << " stands there twice";
+    EXPECT_NE(one.name.find("/" + one.preset + ": "), std::string::npos) << one.name;
+  }
+}
+
+TEST(PresetRuns, presets_that_need_depth_are_skipped_with_a_reason_where_a_scene_has_none) {
+  const Plan plan = make_plan(preset_config(own_scene("street.glb"), R"(, "presets": ["wicked", "unity-*"])"), "");
+  std::set<std::string> skipped;
+  for (const Skipped& one : plan.skipped)
+    if (one.reason.find("needs a depth buffer") != std::string::npos) skipped.insert(one.preset);
+  EXPECT_EQ(skipped, (std::set<std::string>{"wicked", "unity-hdrp"}));
+  EXPECT_EQ(preset_cases(plan).size(), 1u);
+}
+
+TEST(PresetRuns, conservative_presets_lose_nothing_on_a_street) {
+  const config::Config config = preset_config(own_scene("street.glb"), R"(, "presets": ["*"])");
+  const Plan plan = make_plan(config, "");
+  expect_all_presets(preset_results(config, plan), plan);
+}
+
+TEST(PresetRuns, conservative_presets_lose_nothing_where_there_are_surfaces) {
+  const config::Config config = preset_config(own_scene("mix.glb"), R"(, "presets": ["*"], "samples": {"opaque": {}})");
+  const Plan plan = make_plan(config, "");
+  const Result result = preset_results(config, plan);
+  expect_all_presets(result, plan);
+  EXPECT_EQ(result.cases.size(), config::presets().size());
+}
+
+TEST(PresetRuns, conservative_presets_lose_nothing_on_a_real_map) {
+  const char* library = std::getenv("CLUSTERBENCH_SCENE_LIBRARY");
+  const std::string map = (library == nullptr ? "" : library) + std::string("/oacmp-maps/oacmpdm9.glb");
+  if (!std::filesystem::exists(map)) GTEST_SKIP() << "the library of scenes is not here";
+  const config::Config config = preset_config(
+      map, R"(, "presets": ["just-cause-*", "filament", "bevy", "godot", "wicked", "unreal", "playcanvas"])");
+  const Result result = preset_results(config, make_plan(config, ""));
+  EXPECT_EQ(result.cases.size(), 8u);
+  for (const CaseResult& one : result.cases) EXPECT_TRUE(one.failures.empty()) << one.name;
+}
+
+TEST(PresetRuns, what_a_preset_has_no_room_for_is_told_and_fails_nothing) {
+  const config::Config config =
+      preset_config(own_scene("jam.glb"), R"(, "presets": ["just-cause-2"], "limits": {"dropped_pairs": 0})");
+  const Result result = preset_results(config, make_plan(config, ""));
+  ASSERT_EQ(result.cases.size(), 1u);
+  EXPECT_GT(result.cases[0].buffers.dropped_pairs, 0u);
+  EXPECT_TRUE(result.cases[0].failures.empty());
+  EXPECT_TRUE(loses_lights(result.cases[0]));
+}
+
+TEST(PresetRuns, a_configurations_own_cases_keep_their_ids_beside_presets) {
+  const std::string own =
+      R"(, "grids": [{"tiles": {"pixels": [64, 64]}, "slices": {"count": 16, "near": 0.1, "far": 500}}],
+      "assigners": ["aabb", {"name": "sphere-refinement", "spot": "narrowing"}],
+      "storages": [{"name": "packed", "index_bits": "16"}, "runs"], "samples": {"opaque": {}})";
+  const Plan alone = make_plan(preset_config(own_scene("street.glb"), own), "");
+  const Plan both =
+      make_plan(preset_config(own_scene("street.glb"), own + R"(, "presets": ["just-cause-3", "doom-2016"])"), "");
+  std::vector<std::string> before, beside;
+  for (const CasePlan& one : preset_cases(alone)) before.push_back(one.id);
+  std::size_t of_presets = 0;
+  for (const CasePlan& one : preset_cases(both)) {
+    if (one.preset.empty()) beside.push_back(one.id);
+    of_presets += one.preset.empty() ? 0 : 1;
+  }
+  EXPECT_EQ(before, beside);
+  EXPECT_EQ(before.size(), 4u);
+  EXPECT_EQ(of_presets, 2u) << "one has the very grid, method and storage of the product, and is a case of its own";
+}
+
+}  // namespace
+}  // namespace clusterbench::run
