@@ -68,13 +68,13 @@ constexpr Preset k_presets[] = {
      .engine = "Avalanche, Just Cause 2",
      .source = "Persson, Practical Clustered Shading, SIGGRAPH 2015, on the game of 2010",
      .summary = "128 x 128 tiles of 4 m on the ground, 4 lights in each",
-     .approximated = "tiles lie around the world's origin, 256 m to each side, where the game's move with the camera; "
-                     "balls where it tests circles; 4 entries of 8 or 16 bits and a count, where it has 4 bytes",
+     .approximated = "of more than 4 lights the first ones are kept, since which the game kept is not published; "
+                     "indices of 16 bits where there are more than 255 lights",
      .unverified = "",
      .most_lights = 256,
-     .parts = R"({"grid": {"kind": "world", "cells": [128, 1, 128],
-                 "bounds": {"min": [-256, -1000, -256], "max": [256, 1000, 256]}},
-                 "assigner": {"name": "world-grid", "spot": "ball"}, "storage": {"name": "fixed", "cap": 4}})",
+     .parts = R"({"grid": {"kind": "world", "cells": [128, 1, 128], "follow": "camera", "cell_size": [4, null, 4]},
+                 "assigner": {"name": "world-grid", "spot": "ball"},
+                 "storage": {"name": "fixed", "cap": 4, "counts": "none"}})",
      .tile_pixels = nullptr},
     {.name = "humus",
      .engine = "Humus, Clustered Shading demo",
@@ -92,13 +92,14 @@ constexpr Preset k_presets[] = {
      .source = "Örtegren and Persson, Clustered Shading: Assigning Lights Using Conservative Rasterization, GPU Pro 7, "
                "2016",
      .summary = "24 x 12 x 64 cells, light meshes rasterised conservatively, linked lists",
-     .approximated = "lists are those of exact volumes; its low-poly meshes enclose them and list a little more; "
-                     "exponential slices (it has linear ones, too) from the camera's near to its far plane",
+     .approximated =
+         "how fine its meshes are is not in our sources: the coarsest that are off by a quarter of a tile at most; "
+         "exponential slices (it has linear ones, too) from the camera's near to its far plane",
      .unverified = "",
      .most_lights = 0,
      .parts = R"({"grid": {"kind": "frustum", "tiles": {"count": [24, 12]},
                  "slices": {"scheme": "exponential", "count": 64}},
-                 "assigner": {"name": "exact"}, "storage": {"name": "linked"}})",
+                 "assigner": {"name": "conservative-raster"}, "storage": {"name": "linked"}})",
      .tile_pixels = nullptr},
     {.name = "daveh355",
      .engine = "DaveH355's tutorial",
@@ -159,11 +160,11 @@ constexpr Preset k_presets[] = {
          "takes the centre's row once",
      .approximated =
          "the first slice can end beyond 5 m; nothing is shrunk for the next frame where lists grow too long",
-     .unverified = "",
+     .unverified = "how it rounds columns and rows",
      .most_lights = 0,
      .parts = R"({"grid": {"kind": "frustum", "slices":
                  {"scheme": "exponential-first", "count": 24, "first": 5, "fit": {"to": "lights"}}},
-                 "assigner": {"name": "naive-refinement"}, "storage": {"name": "packed"}})",
+                 "assigner": {"name": "bevy-refinement"}, "storage": {"name": "packed"}})",
      .tile_pixels = bevy_tile},
     {.name = "godot",
      .engine = "Godot 4",
@@ -193,18 +194,19 @@ constexpr Preset k_presets[] = {
      .engine = "PlayCanvas",
      .source = "playcanvas/engine, world-clusters and LightingParams, early 2026",
      .summary = "10 x 3 x 10 cells of the box around the lights, 255 lights in each",
-     .approximated = "the box around all lights of the path, where it takes the visible ones of each frame; balls are "
-                     "tested where it lists their boxes",
+     .approximated =
+         "a spot's box is a little smaller than there; lights beside the view that reach the box are listed",
      .unverified = "",
      .most_lights = 0,
-     .parts = R"({"grid": {"kind": "world", "cells": [10, 3, 10]}, "assigner": {"name": "world-grid", "spot": "ball"},
-                 "storage": {"name": "fixed", "cap": 255}})",
+     .parts = R"({"grid": {"kind": "world", "cells": [10, 3, 10], "follow": "lights"},
+                 "assigner": {"name": "light-boxes"}, "storage": {"name": "fixed", "cap": 255, "counts": "none"}})",
      .tile_pixels = nullptr},
     {.name = "babylon",
      .engine = "Babylon.js",
      .source = "Babylon.js, clustered light container; version not recorded",
      .summary = "64 x 64 tiles with bit masks, 16 logarithmic slices with a range of lights sorted by depth",
-     .approximated = "",
+     .approximated = "tiles are those of a light's outline, where it has those of a square of twice its range, which "
+                     "loses close lights at their edges",
      .unverified = "",
      .most_lights = 0,
      .parts = R"({"grid": {"kind": "frustum", "tiles": {"count": [64, 64]},
@@ -215,12 +217,12 @@ constexpr Preset k_presets[] = {
      .source = "Unity URP, ForwardLights.cs and its tiling jobs; version not recorded",
      .summary = "tiles of 8, 16 or 32 px with bit masks, 409 logarithmic depth bins with a range of lights each",
      .approximated =
-         "tiles and bins as of 225 to 256 lights, whatever their number; bins have no masks of their own; a "
-         "ball's extents in place of its ranges of each row of tiles; lights beyond 256 are not dropped",
-     .unverified = "",
+         "tiles and bins as of 225 to 256 lights, whatever their number; bins have no masks of their own; lights "
+         "beyond 256 are not dropped",
+     .unverified = "how its tiles grow, and that there are 409 bins",
      .most_lights = 256,
      .parts = R"({"grid": {"kind": "frustum", "slices": {"scheme": "exponential", "count": 409}},
-                 "assigner": {"name": "z-binning"}})",
+                 "assigner": {"name": "tile-spans"}})",
      .tile_pixels = urp_tile},
     {.name = "unity-hdrp",
      .engine = "Unity HDRP",

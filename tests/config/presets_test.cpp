@@ -117,12 +117,10 @@ TEST(Presets, grids_are_those_of_the_engines) {
         << fact.preset << fact.pointer;
 }
 
-TEST(Presets, just_cause_2_has_tiles_of_four_metres) {
-  const Json bounds = resolved("just-cause-2").grid["bounds"];
-  for (const int axis : {0, 2}) {
-    const auto at = static_cast<std::size_t>(axis);
-    EXPECT_EQ((bounds["max"][at].get<double>() - bounds["min"][at].get<double>()) / 128.0, 4.0);
-  }
+TEST(Presets, just_cause_2_has_tiles_of_four_metres_around_the_camera) {
+  const Json grid = resolved("just-cause-2").grid;
+  EXPECT_EQ(grid["follow"], "camera");
+  EXPECT_EQ(grid["cell_size"], Json::parse("[4.0, null, 4.0]"));
 }
 
 TEST(Presets, what_fits_into_a_cell_is_what_the_engines_have_room_for) {
