@@ -216,5 +216,20 @@ TEST(Tail, says_when_it_does_not_fit) {
   EXPECT_FALSE(found.tail->fits) << found.tail->fit_p << " above " << found.tail->threshold;
 }
 
+// Rooms, each with twice the lights of the one before, and less than a third of its frames: a tail without end, but all
+// of it on a few steps.
+TEST(Tail, says_when_frames_come_in_steps_that_no_curve_has) {
+  SplitMix64 random(7);
+  Needs needs;
+  for (int i = 0; i < 3000; ++i) {
+    double lights = 1000.0;
+    while (random.unit() < 0.3) lights *= 2.0;
+    needs.push_back(static_cast<std::uint64_t>(lights * (1.0 + 0.1 * random.unit())));
+  }
+  const TailEstimate found = tail_of_one(needs);
+  ASSERT_TRUE(found.tail) << found.refusal;
+  EXPECT_FALSE(found.tail->fits) << found.tail->fit_p << " above " << found.tail->threshold;
+}
+
 }  // namespace
 }  // namespace clusterbench::measure
