@@ -96,8 +96,7 @@ function rowsOf(ranking: Ranking, cases: Case[], facts: Facts[]): Row[] {
   });
 }
 
-const shownColumns = (rows: Row[]) =>
-  columns.filter(({ value }) => rows.some((row) => value(row) !== null));
+const shownColumns = (rows: Row[]) => columns.filter(({ value }) => rows.some((row) => value(row) !== null));
 
 function rankingFigures(view: View): HTMLElement[] {
   return view.model.runs.flatMap((run, at) => {
