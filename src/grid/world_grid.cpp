@@ -33,7 +33,8 @@ std::vector<float> world_planes(double lo, double hi, double origin, int count) 
 // Boundaries relative to the lower one of the cell that the eye is in, the middle one or the one after the middle.
 std::vector<float> planes_around_camera(double size_m, int count) {
   std::vector<float> planes;
-  for (int i = 0; i <= count; ++i) planes.push_back(static_cast<float>((i - count / 2) * size_m));
+  const int below = count / 2;
+  for (int i = 0; i <= count; ++i) planes.push_back(static_cast<float>((i - below) * size_m));
   check_planes(planes);
   return planes;
 }

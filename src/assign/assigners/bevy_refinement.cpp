@@ -107,9 +107,9 @@ class BevyRefinement final : public LightByLight<BevyRefinement> {
   // None (-1) between the eye and the near end; behind the eye the first one, beyond the far end the last one.
   int slice_of(float depth) const {
     if (depth < 0.0f && !grid_->screen().tiles.orthographic) return 0;
-    int slice = -1;
-    while (slice + 1 < cells_.z && depth >= depths()[static_cast<std::size_t>(slice + 1)]) ++slice;
-    return slice;
+    int after = 0;
+    while (after < cells_.z && depth >= depths()[static_cast<std::size_t>(after)]) ++after;
+    return after - 1;
   }
 
   // Of the centre on the screen, which is upside down for one behind the eye. None (-1) above, one too many below.
@@ -117,9 +117,9 @@ class BevyRefinement final : public LightByLight<BevyRefinement> {
     const bool orthographic = grid_->screen().tiles.orthographic;
     const float at = orthographic ? center.y : center.y / -center.z;
     const std::vector<float>& rows = grid_->screen().tiles.y;  // descend
-    int row = -1;
-    while (row + 1 <= cells_.y && at <= rows[static_cast<std::size_t>(row + 1)]) ++row;
-    return row;
+    int after = 0;
+    while (after <= cells_.y && at <= rows[static_cast<std::size_t>(after)]) ++after;
+    return after - 1;
   }
 
   // From both ends, until a column is reached or one is left.

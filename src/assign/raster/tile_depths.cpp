@@ -189,7 +189,7 @@ void TileDepths::build(const grid::ScreenGrid& grid) {
 
 void TileDepths::find(const LightMesh& mesh, Coverage coverage, const CellBox& window) {
   window_ = window;
-  columns_ = static_cast<std::size_t>(window.last.x - window.first.x + 1);
+  columns_ = static_cast<std::size_t>(window.last.x - window.first.x) + 1;
   ranges_.assign(columns_ * static_cast<std::size_t>(window.last.y - window.first.y + 1), {});
   triangles_.clear();
   tests_ = 0;
