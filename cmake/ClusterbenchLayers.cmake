@@ -4,6 +4,7 @@ add_library(clusterbench_flags INTERFACE)
 target_compile_options(clusterbench_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-qual -Wvla
   -ffp-contract=off
+  -fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=  # __FILE__ is the same in every checkout, so that ccache serves all of them
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>  # g++ 12 sees overlaps in std::string's operator+ that are not there (PR 105651)
   $<$<BOOL:${CLUSTERBENCH_WERROR}>:-Werror>)
 target_include_directories(clusterbench_flags INTERFACE ${CMAKE_CURRENT_SOURCE_DIR}/src)
