@@ -116,7 +116,7 @@ TEST(Pictures, leave_out_methods_of_visible_surfaces_where_a_plane_is_asked_for)
 // Another scene, with a path of five frames.
 Room mix_of(const std::string& assigners) {
   Room out;
-  out.config = config::parse_config(R"({"scenes": [{"path": ")" + test::source_dir() +
+  out.config = config::parse_config(R"({"scenes": [{"path": ")" + clusterbench::test::source_dir() +
                                         R"(/scenes/mix.glb", "frames": 5}], "viewport": [64, 36],
           "timing": {"measure": false}, "grids": [{"tiles": {"count": [4, 4]}}], "assigners": [)" +
                                         assigners + "]}",

@@ -14,7 +14,7 @@ namespace clusterbench::scene {
 namespace {
 
 std::string committed(const std::string& name) {
-  return test::source_dir() + "/scenes/" + name + ".glb";
+  return clusterbench::test::source_dir() + "/scenes/" + name + ".glb";
 }
 
 class Generated : public testing::TestWithParam<GeneratorRow> {};
