@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/tool.h"
+#include "places.h"
 
 namespace clusterbench::test {
 namespace {
@@ -46,7 +47,7 @@ const std::string k_any_time = "--threshold 1000";
 
 TEST(Baseline, both_programs_are_measured_and_the_result_carries_the_pairs) {
   const Place place;
-  const Outcome done = place.run(CLUSTERBENCH_BINARY, k_any_time);
+  const Outcome done = place.run(test::program(), k_any_time);
   ASSERT_EQ(done.code, 0) << done.err;
   EXPECT_NE(done.err.find("times of assignment side by side"), std::string::npos) << done.err;
   EXPECT_EQ(tool("validate " + place.out).code, 0) << tool("validate " + place.out).err;
@@ -67,7 +68,7 @@ TEST(Baseline, both_programs_are_measured_and_the_result_carries_the_pairs) {
 
 TEST(Baseline, flags_that_change_the_configuration_reach_both_programs) {
   const Place place;
-  const Outcome done = place.run(CLUSTERBENCH_BINARY, k_any_time + " --tiles 128 --set 'grids.*.slices.count=3'");
+  const Outcome done = place.run(test::program(), k_any_time + " --tiles 128 --set 'grids.*.slices.count=3'");
   ASSERT_EQ(done.code, 0) << done.err;
   const Json cases = Json::parse(file_text(place.out))["cases"];
   EXPECT_EQ(cases.size(), 4u);
@@ -76,8 +77,8 @@ TEST(Baseline, flags_that_change_the_configuration_reach_both_programs) {
 
 TEST(Baseline, budgets_are_held_here_and_not_asked_of_a_program_that_may_not_know_them) {
   const Place place;
-  const std::string older = place.script(
-      "case \"$*\" in *fail-if*) echo 'unknown option' >&2; exit 2;; esac; exec " CLUSTERBENCH_BINARY " \"$@\"");
+  const std::string older = place.script("case \"$*\" in *fail-if*) echo 'unknown option' >&2; exit 2;; esac; exec " +
+                                         test::program() + " \"$@\"");
   EXPECT_EQ(place.run(older, k_any_time + " --fail-if 'longest > 1e6'").code, 0);
   const Outcome broken = place.run(older, k_any_time + " --fail-if 'longest > 0'");
   EXPECT_EQ(broken.code, 1);
@@ -86,9 +87,9 @@ TEST(Baseline, budgets_are_held_here_and_not_asked_of_a_program_that_may_not_kno
 
 TEST(Baseline, a_program_that_takes_several_times_as_long_fails_the_run) {
   const Place place;
-  const std::string slowed = "CLUSTERBENCH_SLOWED_PERCENT=700 " CLUSTERBENCH_SLOWED " run -q " + place.config + " -o " +
-                             place.out + " --baseline-most-launches 10 --baseline-binary " CLUSTERBENCH_BINARY " 2>" +
-                             (place.folder / "err").string();
+  const std::string slowed = "CLUSTERBENCH_SLOWED_PERCENT=700 " + test::slowed_program() + " run -q " + place.config +
+                             " -o " + place.out + " --baseline-most-launches 10 --baseline-binary " + test::program() +
+                             " 2>" + (place.folder / "err").string();
   EXPECT_EQ(WEXITSTATUS(std::system(slowed.c_str())), 1) << file_text(place.folder / "err");
   EXPECT_NE(file_text(place.folder / "err").find("slower by"), std::string::npos);
   EXPECT_EQ(tool("compare " + place.out + " " + place.out).code, 1);
@@ -97,7 +98,7 @@ TEST(Baseline, a_program_that_takes_several_times_as_long_fails_the_run) {
 // No interval of three short rounds is that narrow.
 TEST(Baseline, launches_go_on_until_intervals_are_narrow_or_there_were_the_most) {
   const Place place;
-  const Outcome done = place.run(CLUSTERBENCH_BINARY, "--threshold 0.01 --baseline-most-launches 5");
+  const Outcome done = place.run(test::program(), "--threshold 0.01 --baseline-most-launches 5");
   ASSERT_NE(done.code, 2) << done.err;
   const Json result = Json::parse(file_text(place.out));
   ASSERT_EQ(result["cases"].size(), 4u);
@@ -108,7 +109,7 @@ TEST(Baseline, launches_go_on_until_intervals_are_narrow_or_there_were_the_most)
 TEST(Baseline, lists_that_differ_are_named_and_fail) {
   const Place place;
   const std::string changed = place.script(
-      CLUSTERBENCH_BINARY R"( "$@" | sed -u 's/"sha256":"[0-9a-f]*/"sha256":"0/g; s/"lights":\[\[/&999999,/')");
+      test::program() + R"( "$@" | sed -u 's/"sha256":"[0-9a-f]*/"sha256":"0/g; s/"lights":\[\[/&999999,/')");
   const Outcome done = place.run(changed, k_any_time);
   EXPECT_EQ(done.code, 1) << done.err;
   EXPECT_NE(done.err.find("lists differ in 2 frames, first in frame 0, cell [0,0,0], light"), std::string::npos)
@@ -137,7 +138,7 @@ TEST(Baseline, a_program_without_a_common_case_gives_code_3) {
 
 std::string killed_after_greeting() {
   // Takes the greeting from the true one, so that cases are known.
-  return std::string("echo $$ >> $0.pid; ") + CLUSTERBENCH_BINARY + R"( "$@" </dev/null; )";
+  return std::string("echo $$ >> $0.pid; ") + test::program() + R"( "$@" </dev/null; )";
 }
 
 // Every process that the script was has gone.
@@ -180,8 +181,8 @@ TEST(Baseline, an_answer_that_is_none_is_an_error) {
 TEST(Baseline, a_termination_signal_ends_both_and_keeps_finished_cases) {
   const Place place;
   const std::string other = place.script(killed_after_greeting() + "echo yes > $0.waits; exec sleep 1000");
-  const std::string run = std::string(CLUSTERBENCH_BINARY) + " run -q " + place.config + " -o " + place.out +
-                          " --baseline-binary " + other + " 2>/dev/null";
+  const std::string run =
+      test::program() + " run -q " + place.config + " -o " + place.out + " --baseline-binary " + other + " 2>/dev/null";
   // The first start is only asked for its greeting; wait for the second.
   const std::string wait = "while kill -0 $pid && { [ \"$(grep -c . " + other + ".pid)\" != 2 ] || [ ! -s " + other +
                            ".waits ]; }; do sleep 0.02; done 2>/dev/null";
@@ -194,8 +195,8 @@ TEST(Baseline, a_termination_signal_ends_both_and_keeps_finished_cases) {
 TEST(Baseline, a_keyboard_interrupt_while_a_program_is_greeted_exits_130) {
   const Place place;
   const std::string other = place.script("echo $$ >> $0.pid; exec sleep 1000");
-  const std::string run = std::string(CLUSTERBENCH_BINARY) + " run -q " + place.config + " -o " + place.out +
-                          " --baseline-binary " + other + " 2>/dev/null";
+  const std::string run =
+      test::program() + " run -q " + place.config + " -o " + place.out + " --baseline-binary " + other + " 2>/dev/null";
   const std::string wait = "while kill -0 $pid && [ ! -s " + other + ".pid ]; do sleep 0.02; done 2>/dev/null";
   const int status = std::system((run + " & pid=$!; " + wait + "; kill -INT $pid; wait $pid").c_str());
   EXPECT_EQ(WEXITSTATUS(status), 130);
@@ -204,7 +205,7 @@ TEST(Baseline, a_keyboard_interrupt_while_a_program_is_greeted_exits_130) {
 
 TEST(Baseline, times_are_needed) {
   const Place place;
-  EXPECT_EQ(place.run(CLUSTERBENCH_BINARY, "--no-timing").code, 2);
+  EXPECT_EQ(place.run(test::program(), "--no-timing").code, 2);
 }
 
 }  // namespace

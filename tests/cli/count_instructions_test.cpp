@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/tool.h"
+#include "places.h"
 
 namespace clusterbench::test {
 namespace {
@@ -247,8 +248,7 @@ TEST(Count, a_termination_signal_ends_valgrind_and_keeps_finished_cases) {
       "\nfor i in 0 1 2 3 4 5 6 7 8 9; do for j in 0 1 2 3 4 5 6 7 8 9; do /bin/sleep 0.1; done; done");
   const Environment path("PATH", place.folder.path().string());
   SKIP_WITHOUT(place, "callgrind");
-  const std::string run =
-      std::string(CLUSTERBENCH_BINARY) + " run -q --count=callgrind " + place.config + " -o " + out + " 2>/dev/null";
+  const std::string run = test::program() + " run -q --count=callgrind " + place.config + " -o " + out + " 2>/dev/null";
   const std::string wait = "while [ ! -s " + started + " ]; do /bin/sleep 0.01; done";
   const int status = std::system((run + " & pid=$!; " + wait + "; kill -TERM $pid; wait $pid").c_str());
   EXPECT_EQ(WEXITSTATUS(status), 75);

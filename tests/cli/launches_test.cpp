@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "cli/tool.h"
+#include "places.h"
 
 namespace clusterbench::test {
 namespace {
@@ -41,7 +42,7 @@ struct LaunchPlace {
 
 // A command of the shell, which can use $run for the program, from within a folder.
 Outcome shell(const Folder& folder, const std::string& command) {
-  const std::string whole = "cd " + folder.path().string() + " && run=" + CLUSTERBENCH_BINARY + " && { " + command +
+  const std::string whole = "cd " + folder.path().string() + " && run=" + test::program() + " && { " + command +
                             "; } >" + (folder / "out").string() + " 2>" + (folder / "err").string();
   const int status = std::system(whole.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128, file_text(folder / "out"), file_text(folder / "err")};
@@ -65,7 +66,7 @@ bool is_at_work(pid_t pid) {
 class Running {
  public:
   // As a shell would take them, from within the folder.
-  Running(const Folder& folder, const std::string& arguments, const std::string& binary = CLUSTERBENCH_BINARY,
+  Running(const Folder& folder, const std::string& arguments, const std::string& binary = test::program(),
           const std::string& before = "") {
     const std::string command =
         "cd " + folder.path().string() + " && " + before + " exec " + binary + " " + arguments + " 2>err </dev/null";
@@ -153,7 +154,7 @@ TEST(RunInLaunches, a_scene_that_changes_meanwhile_ends_the_run_and_is_named) {
 TEST(RunInLaunches, a_program_that_is_removed_meanwhile_goes_on) {
   const LaunchPlace place;
   const std::filesystem::path binary = place.folder / "clusterbench";
-  std::filesystem::copy_file(CLUSTERBENCH_BINARY, binary);
+  std::filesystem::copy_file(test::program(), binary);
   Running run(place.folder, "run -q c.json -o r.json", binary.string());
   ASSERT_TRUE(run.has_answered(place.partial));
   std::filesystem::remove(binary);
@@ -163,7 +164,7 @@ TEST(RunInLaunches, a_program_that_is_removed_meanwhile_goes_on) {
 TEST(RunInLaunches, nothing_is_left_of_a_run_that_is_killed) {
   const LaunchPlace place;
   std::filesystem::create_directory(place.folder / "tmp");
-  Running run(place.folder, "run -q c.json --rounds 4000 -o r.json", CLUSTERBENCH_BINARY, "TMPDIR=$PWD/tmp");
+  Running run(place.folder, "run -q c.json --rounds 4000 -o r.json", test::program(), "TMPDIR=$PWD/tmp");
   pid_t child = 0;
   if (!run.has_child(child)) GTEST_SKIP() << "this system tells of no children";
   run.send(SIGKILL);
@@ -233,7 +234,7 @@ TEST(RunInLaunches, a_terminal_that_closes_interrupts_a_run_unless_it_is_to_be_i
   EXPECT_EQ(run.end(), 75);
   EXPECT_TRUE(std::filesystem::exists(place.partial));
 
-  Running deaf(place.folder, "run -q c.json -o d.json", CLUSTERBENCH_BINARY, "trap '' HUP;");
+  Running deaf(place.folder, "run -q c.json -o d.json", test::program(), "trap '' HUP;");
   ASSERT_TRUE(deaf.has_answered((place.folder / "d.json.partial").string()));
   deaf.send(SIGHUP);
   EXPECT_EQ(deaf.end(), 0) << file_text(place.folder / "err");

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/tool.h"
+#include "places.h"
 
 namespace clusterbench::test {
 namespace {
@@ -264,7 +265,7 @@ TEST(Run, scenes_and_configurations_are_not_mixed) {
 
 // Starts a run, waits for its journal, then ends it as a shutting-down machine would.
 int interrupt(const std::string& config, const std::string& out) {
-  const std::string run = std::string(CLUSTERBENCH_BINARY) + " run -q " + config + " -o " + out;
+  const std::string run = test::program() + " run -q " + config + " -o " + out;
   const std::string wait_for_journal = "while [ ! -s " + out + ".partial ]; do sleep 0.01; done";
   const int status =
       std::system((run + " 2>/dev/null & pid=$!; " + wait_for_journal + "; kill -TERM $pid; wait $pid").c_str());

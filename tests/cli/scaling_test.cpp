@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/tool.h"
+#include "places.h"
 
 namespace clusterbench::test {
 namespace {
@@ -26,8 +27,8 @@ std::string config_of(const std::string& scene) {
 // Instructions of the whole program; 0 where there is no valgrind that can run it.
 double instructions(const Folder& folder, const std::string& arguments) {
   const std::string log = (folder / "log").string();
-  const std::string command = "valgrind --tool=callgrind --callgrind-out-file=/dev/null " +
-                              std::string(CLUSTERBENCH_BINARY) + " " + arguments + " >/dev/null 2>" + log;
+  const std::string command = "valgrind --tool=callgrind --callgrind-out-file=/dev/null " + test::program() + " " +
+                              arguments + " >/dev/null 2>" + log;
   if (std::system(command.c_str()) != 0) return 0.0;
   const std::string text = file_text(log), label = "Collected : ";
   const std::size_t place = text.find(label);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/tool.h"
+#include "places.h"
 
 namespace clusterbench::test {
 namespace {
@@ -26,9 +27,9 @@ struct StreamPlace {
 
   // With redirections of its own.
   int code(const std::string& arguments, const std::string& redirections) const {
-    const int status = std::system((std::string(CLUSTERBENCH_BINARY) + " " + arguments + " 2>" +
-                                    (folder / "err").string() + " </dev/null " + redirections)
-                                       .c_str());
+    const int status = std::system(
+        (test::program() + " " + arguments + " 2>" + (folder / "err").string() + " </dev/null " + redirections)
+            .c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
   }
 };

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/tool.h"
+#include "places.h"
 
 namespace clusterbench::test {
 namespace {
@@ -32,8 +33,7 @@ TEST(Stress, a_search_without_a_fault_says_that_nothing_was_written) {
 TEST(Stress, a_termination_signal_ends_it_with_what_is_done_and_75) {
   const Folder folder;
   const std::string at_work = (folder / "faults/at_work.txt").string(), out = (folder / "out.json").string();
-  const std::string search = std::string(CLUSTERBENCH_BINARY) +
-                             " stress -q --random 100000 --methods '^bounds$' --failures " +
+  const std::string search = test::program() + " stress -q --random 100000 --methods '^bounds$' --failures " +
                              (folder / "faults").string() + " -o " + out + " 2>" + (folder / "err").string();
   const std::string wait = "until grep -qs ' from seed 65 ' " + at_work + "; do sleep 0.01; done";
   const int status = std::system((search + " & pid=$!; " + wait + "; kill -TERM $pid; wait $pid").c_str());

@@ -9,6 +9,8 @@
 #include <fstream>
 #include <string>
 
+#include "places.h"
+
 namespace clusterbench::test {
 
 struct Outcome {
@@ -49,8 +51,8 @@ class Folder {
 // `arguments` as a shell would take them.
 inline Outcome tool(const std::string& arguments) {
   const Folder folder;
-  const std::string command = std::string(CLUSTERBENCH_BINARY) + " " + arguments + " >" + (folder / "out").string() +
-                              " 2>" + (folder / "err").string() + " </dev/null";
+  const std::string command = test::program() + " " + arguments + " >" + (folder / "out").string() + " 2>" +
+                              (folder / "err").string() + " </dev/null";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128, file_text(folder / "out"), file_text(folder / "err")};
 }
@@ -58,14 +60,14 @@ inline Outcome tool(const std::string& arguments) {
 // The same with all of its output on one terminal.
 inline Outcome tool_on_terminal(const std::string& arguments) {
   const Folder folder;
-  const std::string command = "script -qec '" + std::string(CLUSTERBENCH_BINARY) + " " + arguments + "' /dev/null >" +
-                              (folder / "out").string() + " </dev/null";
+  const std::string command =
+      "script -qec '" + test::program() + " " + arguments + "' /dev/null >" + (folder / "out").string() + " </dev/null";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128, file_text(folder / "out"), ""};
 }
 
 inline std::string source_file(const std::string& name) {
-  return std::string(CLUSTERBENCH_SOURCE_DIR) + "/" + name;
+  return test::source_dir() + "/" + name;
 }
 
 }  // namespace clusterbench::test

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/tool.h"
+#include "places.h"
 
 namespace clusterbench::test {
 namespace {
@@ -109,8 +110,8 @@ TEST(WorstCaseCommand, a_search_never_writes_over_what_it_reads) {
 TEST(WorstCaseCommand, an_interrupt_ends_it_with_the_worst_frames_by_then) {
   const Folder folder;
   const std::string out = (folder / "out.json").string(), path = (folder / "worst.gltf").string();
-  const std::string search = std::string(CLUSTERBENCH_BINARY) + " " + k_search + " --evaluations 10000000 -q --path " +
-                             path + " -o " + out + " 2>" + (folder / "err").string();
+  const std::string search = test::program() + " " + k_search + " --evaluations 10000000 -q --path " + path + " -o " +
+                             out + " 2>" + (folder / "err").string();
   // Long enough to begin with, also under sanitizers; it would take hours.
   const std::string wait = "sleep 4";
   const int status = std::system((search + " & pid=$!; " + wait + "; kill -TERM $pid; wait $pid").c_str());

@@ -11,6 +11,7 @@
 #include "config/schema_check.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "places.h"
 
 namespace clusterbench::config {
 namespace {
@@ -462,7 +463,7 @@ TEST(Config, the_committed_configurations_are_valid_for_reader_and_schema_and_na
   setenv("CLUSTERBENCH_SCENE_LIBRARY", "library", 0);
   namespace fs = std::filesystem;
   std::size_t configurations = 0;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(CLUSTERBENCH_SOURCE_DIR "/configs")) {
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(test::source_dir() + "/configs")) {
     if (entry.path().extension() != ".json") continue;
     ++configurations;
     const fs::path& path = entry.path();
@@ -490,7 +491,7 @@ TEST(Config, scenes_of_the_command_line_get_the_default_sweep) {
   EXPECT_EQ(config.timing.frames, 4);
   EXPECT_EQ(config.timing.min_time_ms, 2.0);
   EXPECT_EQ(config.grids.size(), 5U);
-  std::ifstream in(CLUSTERBENCH_SOURCE_DIR "/docs/configuration.md");
+  std::ifstream in(test::source_dir() + "/docs/configuration.md");
   const std::string page(std::istreambuf_iterator<char>(in), {});
   EXPECT_NE(page.find("`frames` 30, `timing.frames` 4,\n  `timing.rounds` 15, `timing.min_time_ms` 2"),
             std::string::npos)

@@ -8,6 +8,7 @@
 #include "assign/settings.h"
 #include "effort.h"
 #include "measure/truth.h"
+#include "places.h"
 #include "view/packing.h"
 
 namespace clusterbench::measure {
@@ -83,7 +84,7 @@ TEST(PackedLights, of_the_projects_scenes_lose_pairs_unless_they_are_inflated) {
   std::map<Packing, std::uint64_t> lost;
   for (const char* name : {"hall-512", "open-world", "street", "jam", "mirror", "outlier"}) {
     scene::Scene scene =
-        scene::load_gltf(std::filesystem::path(CLUSTERBENCH_SOURCE_DIR) / "scenes" / (name + std::string(".glb")));
+        scene::load_gltf(std::filesystem::path(test::source_dir()) / "scenes" / (name + std::string(".glb")));
     scene::resolve_ranges(scene, {});
     const scene::CameraPath path = scene::camera_paths(scene, {.camera = "", .count = test::tries(3)}).front();
     for (const grid::Kind kind : {grid::Kind::frustum, grid::Kind::distance, grid::Kind::cascades, grid::Kind::world})

@@ -15,6 +15,7 @@
 #include "geom/light_meets_cell.h"
 #include "geom/shapes/verdict.h"
 #include "measure/truth_cells.h"
+#include "places.h"
 #include "scene/camera_path.h"
 
 namespace clusterbench::measure {
@@ -321,7 +322,7 @@ class PeerWorkload : public testing::TestWithParam<Workload> {};
 // Figures of an oracle that was written independently of this project. W5 there has 30 x 17 equal tiles.
 TEST_P(PeerWorkload, has_the_true_pairs_that_an_independent_oracle_found) {
   const Workload& work = GetParam();
-  scene::Scene scene = scene::load_gltf(CLUSTERBENCH_SOURCE_DIR "/scenes/peers/" + std::string(work.name) + ".gltf");
+  scene::Scene scene = scene::load_gltf(test::source_dir() + "/scenes/peers/" + std::string(work.name) + ".gltf");
   scene::resolve_ranges(scene, {});
   const auto paths = scene::camera_paths(scene, {});
   const view::Frame frame = view::make_frame(scene, paths.at(0).shots.at(0), 0, {1920, 1080});

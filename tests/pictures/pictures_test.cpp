@@ -10,6 +10,7 @@
 #include "core/memory.h"
 #include "pictures/file_names.h"
 #include "pictures/room.h"
+#include "places.h"
 
 namespace clusterbench::pictures {
 namespace {
@@ -115,8 +116,8 @@ TEST(Pictures, leave_out_methods_of_visible_surfaces_where_a_plane_is_asked_for)
 // Another scene, with a path of five frames.
 Room mix_of(const std::string& assigners) {
   Room out;
-  out.config = config::parse_config(R"({"scenes": [{"path": ")" CLUSTERBENCH_SOURCE_DIR
-                                    R"(/scenes/mix.glb", "frames": 5}], "viewport": [64, 36],
+  out.config = config::parse_config(R"({"scenes": [{"path": ")" + clusterbench::test::source_dir() +
+                                        R"(/scenes/mix.glb", "frames": 5}], "viewport": [64, 36],
           "timing": {"measure": false}, "grids": [{"tiles": {"count": [4, 4]}}], "assigners": [)" +
                                         assigners + "]}",
                                     "c.json");

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "config/documents.h"
+#include "places.h"
 #include "report/exports/metrics.h"
 
 namespace clusterbench::report {
@@ -99,7 +100,7 @@ TEST(Limits, a_frames_time_is_never_made_of_its_parts) {
 
 // The rows of docs/results.md on the names of a figure: its cells without marks.
 std::vector<std::vector<std::string>> documented_names() {
-  std::ifstream in(CLUSTERBENCH_SOURCE_DIR "/docs/results.md");
+  std::ifstream in(test::source_dir() + "/docs/results.md");
   std::vector<std::vector<std::string>> rows;
   bool is_table = false;
   for (std::string line; std::getline(in, line);) {

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/random.h"
+#include "places.h"
 #include "run/passes/timing_pass.h"
 #include "run/path_frames.h"
 #include "run/walk.h"
@@ -140,7 +141,7 @@ TEST(FittedSlicesOnAPath, that_follow_surfaces_hold_every_visible_one) {
           "assigners": ["exact-fast", "distance-fast"], "samples": {"opaque": {"divisor": 1}}, "shading": {"samples": 0},
           "grids": [{"slices": {"far": 400, "fit": {"to": ["surfaces", "both"]}}},
                     {"kind": "distance", "slices": {"far": 500, "fit": {"to": ["surfaces", "both"]}}}]})",
-      std::string(CLUSTERBENCH_SOURCE_DIR) + "/c.json");
+      test::source_dir() + "/c.json");
   const Plan plan = make_plan(config, "");
   const std::atomic<bool> stop{false};
   const Result result = run_plan(config, plan, {}, {}, stop);
@@ -158,7 +159,7 @@ TEST(ConfigsFit, shows_that_following_saves_looping_that_damping_calms_and_that_
   const config::FlagValue flags[] = {
       {"--viewport", "320x180"}, {"--assigner", "aabb-fast,exact-fast"}, {"--set", "timing.measure=false"}};
   const config::Config config =
-      config::load_config(std::filesystem::path(CLUSTERBENCH_SOURCE_DIR) / "configs/fit.json", flags);
+      config::load_config(std::filesystem::path(test::source_dir()) / "configs/fit.json", flags);
   const std::atomic<bool> stop{false};
   const Result result = run_plan(config, make_plan(config, ""), {}, {}, stop);
   double moved_at_once = 0.0, moved_damped = 0.0;

@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "effort.h"
+#include "places.h"
 #include "run/gate.h"
 #include "run/passes/accuracy_pass.h"
 #include "run/runner.h"
@@ -413,8 +414,8 @@ TEST(FrameSamples, end_within_a_frame_when_the_run_is_stopped) {
 TEST(DepthMethods, share_the_images_of_a_camera_over_grids_and_viewports_have_their_own) {
   const auto images_cast = [](const std::string& viewports) {
     const config::Config config =
-        config::parse_config(R"({"scenes": [{"path": ")" CLUSTERBENCH_SOURCE_DIR
-                             R"(/scenes/slope.glb", "frames": 2}], "timing": {"measure": false},
+        config::parse_config(R"({"scenes": [{"path": ")" + test::source_dir() +
+                                 R"(/scenes/slope.glb", "frames": 2}], "timing": {"measure": false},
             "grids": [{"tiles": {"pixels": [[8, 8], [16, 16]]}, "slices": {"count": [4, 8], "near": 0.5, "far": 300}}],
             "assigners": ["tiled", "deferred"], "samples": {"opaque": {}}, "viewports": )" +
                                  viewports + "}",
@@ -472,7 +473,7 @@ struct CoveredByTiles {
 
 CoveredByTiles covered_in(const std::string& scene) {
   const config::Config config = config::parse_config(
-      R"({"scenes": [{"path": ")" CLUSTERBENCH_SOURCE_DIR R"(/scenes/)" + scene + R"(.glb", "frames": 3}],
+      R"({"scenes": [{"path": ")" + test::source_dir() + R"(/scenes/)" + scene + R"(.glb", "frames": 3}],
           "viewport": [1920, 1080], "timing": {"measure": false}, "shading": {"samples": 0}, "assigners": ["exact-fast"],
           "grids": [{"tiles": {"pixels": [64, 64]}, "slices": {"scheme": "exponential", "count": 24, "near": 0.5, "far": 300}}],
           "samples": {"opaque": {"divisor": 2}}})",

@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "places.h"
 #include "run/runner.h"
 #include "run/walk.h"
 
@@ -11,8 +12,8 @@ namespace clusterbench::run {
 namespace {
 
 Result jittered_street(const std::string& jitter) {
-  const config::Config config = config::parse_config(R"({"scenes": [{"path": ")" CLUSTERBENCH_SOURCE_DIR
-                                                     R"(/scenes/street.glb", "frames": 3}], "viewport": [640, 360],
+  const config::Config config = config::parse_config(R"({"scenes": [{"path": ")" + test::source_dir() +
+                                                         R"(/scenes/street.glb", "frames": 3}], "viewport": [640, 360],
           "grids": [{"kind": "frustum", "tiles": {"pixels": [[64, 64], [48, 37]]}, "slices": {"count": 12}},
                     {"kind": "distance", "slices": {"count": 12}}, {"kind": "cascades"}, {"kind": "world", "cells": [24, 4, 24]}],
           "storages": ["packed", "bitfield"], "shading": {"samples": 400}, "lookup": {"samples": 3000, "logarithms": ["rounded"], "depths": ["given"]},

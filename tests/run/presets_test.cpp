@@ -9,6 +9,7 @@
 #include <set>
 
 #include "config/presets.h"
+#include "places.h"
 #include "run/gate.h"
 #include "run/runner.h"
 #include "run/sweep.h"
@@ -17,7 +18,7 @@ namespace clusterbench::run {
 namespace {
 
 std::string own_scene(const std::string& name) {
-  return std::string(CLUSTERBENCH_SOURCE_DIR) + "/scenes/" + name;
+  return test::source_dir() + "/scenes/" + name;
 }
 
 config::Config preset_config(const std::string& scene, const std::string& rest) {

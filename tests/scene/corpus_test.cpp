@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "places.h"
 #include "scene/scene.h"
 
 namespace clusterbench::scene {
@@ -37,7 +38,7 @@ std::vector<std::string> cells_of(const std::string& line) {
 
 // Rows "| `file` | here | reference | why |"; the second table of the page lists magnum-tests.
 std::map<std::string, Row> disagreements() {
-  std::ifstream in(fs::path(CLUSTERBENCH_SOURCE_DIR) / "tests/scene/corpus_disagreements.md");
+  std::ifstream in(fs::path(clusterbench::test::source_dir()) / "tests/scene/corpus_disagreements.md");
   std::map<std::string, Row> rows;
   std::string folder = k_validator;
   for (std::string line; std::getline(in, line);) {

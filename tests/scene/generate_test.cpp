@@ -7,13 +7,14 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "places.h"
 #include "scene/scene.h"
 
 namespace clusterbench::scene {
 namespace {
 
 std::string committed(const std::string& name) {
-  return CLUSTERBENCH_SOURCE_DIR "/scenes/" + name + ".glb";
+  return clusterbench::test::source_dir() + "/scenes/" + name + ".glb";
 }
 
 class Generated : public testing::TestWithParam<GeneratorRow> {};

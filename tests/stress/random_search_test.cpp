@@ -6,6 +6,7 @@
 #include <set>
 
 #include "config/config.h"
+#include "places.h"
 #include "run/runner.h"
 #include "scene/write_gltf.h"
 #include "stress/random_setting.h"
@@ -227,7 +228,7 @@ TEST(RandomSearch, shrinks_a_fault_to_what_run_replays) {
 // tests/stress/found: settings that once showed a fault, as --failures wrote them. A new one is two files more.
 TEST(RandomSearch, shows_no_fault_in_settings_that_once_had_one) {
   int count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(CLUSTERBENCH_SOURCE_DIR "/tests/stress/found")) {
+  for (const auto& entry : std::filesystem::directory_iterator(test::source_dir() + "/tests/stress/found")) {
     if (entry.path().extension() != ".json") continue;
     const config::Config config = config::load_config(entry.path());
     Trial trial{entry.path().stem().string(), scene::load_gltf(config.scenes.at(0).path), config.viewports.at(0),
