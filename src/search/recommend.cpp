@@ -355,7 +355,7 @@ class ViewSearch {
     progress_.doing = doing;
     progress_.cases_total = total;
     before_stage_ = static_cast<double>(found_.work.evaluations);
-    if (watch_.on_stage) watch_.on_stage(doing);
+    if (watch_.on_stage && !watch_.stop) watch_.on_stage(doing);
   }
   // `done` of the stage's candidates, on so many frames.
   void tell(std::size_t done, std::size_t frames) {
