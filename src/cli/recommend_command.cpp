@@ -109,6 +109,27 @@ ExitCode write_and_show(const RecommendFlags& flags, const Json& recommendation)
   return report::all_satisfied(recommendation) ? ExitCode::ok : ExitCode::gate_failed;
 }
 
+// What the search can take, before it begins: candidates on frames.
+std::string budget_text(const run::Plan& plan, const search::View& view, const search::Request& request) {
+  const search::Halving planned = search::planned_halving(view, request);
+  std::string out = plan.scenes[view.scene].scene.name + ": " + number_of(view.candidates.size(), "candidate") + ", " +
+                    number_of(view.frames, "frame") + " of " + number_of(view.cameras.size(), "camera");
+  for (const search::Rung& rung : planned.rungs)
+    out += (&rung == planned.rungs.data() ? "; measures at most " : ", ") + std::to_string(rung.candidates) + " on " +
+           number_of(rung.frames, "frame");
+  return out + ", " + std::to_string(planned.finalists.size()) + " and what may still be better on all frames";
+}
+
+// Of answers before the stop and of the search that it ended.
+ExitCode tell_what_there_is(const config::Config& config, const report::Question& question, const Json& answers,
+                            const search::View& view, const search::Found& found) {
+  if (!answers.empty())
+    std::cerr << printable_lines(
+        report::recommendation_text(report::recommendation_to_json(config, question, answers)));
+  std::cerr << printable_lines(report::unfinished_text(view, found, question)) << std::flush;
+  return stopped_exit_code();
+}
+
 ExitCode recommend(const RecommendFlags& flags) {
   refuse_overwriting({flags.output, flags.written}, flags.inputs.paths);
   report::Question question{objective_of(flags), {}, share_of(flags.within), flags.runners_up};
@@ -136,11 +157,13 @@ ExitCode recommend(const RecommendFlags& flags) {
       is_timed && config.timing.launches > 1 ? make_launcher(config, plan, nullptr, stop) : run::Launcher{};
   Json answers = Json::array();
   ProgressLine progress(terminal(STDERR_FILENO), flags.quiet);
+  const search::Watch watch{[&](const run::Progress& now) { progress.show(now); }, stop,
+                            [&](const std::string& stage) { progress.stage(stage); }};
   for (search::View& view : views) {
-    const search::Found found = search::search_view(config, plan, view, request, launcher,
-                                                    {[&](const run::Progress& now) { progress.show(now); }, stop});
+    if (!flags.quiet) tell(budget_text(plan, view, request));
+    const search::Found found = search::search_view(config, plan, view, request, launcher, watch);
     progress.clear();
-    if (stop) return stopped_exit_code();
+    if (stop) return tell_what_there_is(config, question, answers, view, found);
     answers.push_back(report::answer_to_json(config, plan, view, found, question));
   }
   const Json recommendation = report::recommendation_to_json(config, question, answers);

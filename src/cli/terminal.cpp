@@ -55,6 +55,10 @@ void ProgressLine::show(const run::Progress& progress) {
   drawn_ = true;
 }
 
+void ProgressLine::stage(const std::string& what) {
+  if (!quiet_ && !terminal_.interactive) std::cerr << printable(what) << std::endl;
+}
+
 void ProgressLine::case_done(const run::CaseResult& done, std::size_t number, std::size_t total) {
   if (quiet_ || terminal_.interactive) return;
   std::cerr << "[" << number << "/" << total << "] " << printable(done.name);

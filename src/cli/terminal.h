@@ -25,6 +25,8 @@ class ProgressLine {
   ProgressLine& operator=(const ProgressLine&) = delete;
 
   void show(const run::Progress& progress);
+  // What begins: a line where none can be redrawn.
+  void stage(const std::string& what);
   void case_done(const run::CaseResult& done, std::size_t number, std::size_t total);
   void clear();
 

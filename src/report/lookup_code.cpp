@@ -22,6 +22,7 @@ constexpr const char* k_slice_by_search = R"(  int slice = 0, above = P_cells.z;
 )";
 
 constexpr const char* k_screen_start = R"(int P_cell_of(vec2 pixel, float along) {
+  if (!(pixel.x >= 0.0 && pixel.x <= P_viewport.x && pixel.y >= 0.0 && pixel.y <= P_viewport.y)) return -1;
   if (along > P_slice_far) return -1;
 )";
 constexpr const char* k_screen_end =
@@ -64,7 +65,8 @@ std::string screen_code(const Json& grid) {
   if (const std::size_t at = slice.find('@'); at != std::string::npos)
     slice.replace(at, 1, form == "log2" ? "log2(along)" : "along");
   return std::string("// pixel: from the top left, centres at .5; along: ") +
-         (by_distance ? "length(view)" : "depth, -view.z") + ", in metres\n" + k_screen_start + slice + k_screen_end;
+         (by_distance ? "length(view)" : "depth, -view.z") +
+         ", in metres. -1: beside the picture, beyond the last slice\n" + k_screen_start + slice + k_screen_end;
 }
 
 bool has(const std::vector<LookupConstant>& constants, const char* name) {
@@ -76,7 +78,7 @@ std::string code_of(const Json& result_case) {
   const std::vector<LookupConstant> constants = lookup_constants(result_case);
   if (has(constants, "levels") && has(constants, "finest")) return k_cascades;
   if (has(constants, "origin") && has(constants, "box_min")) return k_world;
-  if (!has(constants, "tile_scale") || !has(constants, "slice_far")) return "";
+  if (!has(constants, "tile_scale") || !has(constants, "viewport") || !has(constants, "slice_far")) return "";
   const bool searches = grid["slices"]["lookup"]["form"] == "search";
   if (searches ? grid["slices"]["boundaries"].size() == grid["cells"][2].get<std::size_t>() + 1 &&
                      has(constants, "slice_boundaries")

@@ -38,6 +38,7 @@ std::string values_text(const LookupConstant& constant, const std::string& suffi
 void add_tiles(std::vector<LookupConstant>& out, const Json& result_case) {
   const Json &tiles = result_case["grid"]["tiles"], &viewport = result_case["viewport"];
   if (viewport[0] == 0 || viewport[1] == 0) return;
+  out.push_back({"viewport", Type::real, numbers_of(viewport)});
   std::vector<double> scale;
   for (std::size_t axis = 0; axis < 2; ++axis) {
     const bool by_pixels = tiles.contains("pixels");

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <set>
 
+#include "core/error.h"
 #include "report/lookup_constants.h"
 
 namespace clusterbench::report {
@@ -80,17 +81,35 @@ std::vector<std::string> declared_names(const NamedStructure& named) {
   return out;
 }
 
+NamedStructure under_name(SizedStructure structure, const std::string& name) {
+  NamedStructure named;
+  named.structure = std::move(structure);
+  named.lookups = lookups_of(named.structure);
+  give_name(named, name);
+  return named;
+}
+
 }  // namespace
+
+std::vector<NamedStructure> named_structures(std::vector<SizedStructure> structures, const std::string& name) {
+  if (identifier(name) != name)
+    throw Error(
+        "", "--name",
+        "'" + name + "' is no name in C++, HLSL and GLSL alike; takes letters, digits and single underscores, " +
+            "a letter first, such as " + identifier(name) + "; at most " + std::to_string(k_longest) + " of them");
+  if (structures.size() != 1)
+    throw Error("", "--name",
+                "names one structure, and these are " + std::to_string(structures.size()) +
+                    "; choose one of them with --filter");
+  return {under_name(std::move(structures.front()), name)};
+}
 
 std::vector<NamedStructure> named_structures(std::vector<SizedStructure> structures, bool in_full) {
   std::vector<NamedStructure> out;
   std::set<std::string> taken;
   for (SizedStructure& structure : structures) {
     const std::string id = identifier(in_full ? structure.name : structure.group);
-    NamedStructure named;
-    named.structure = std::move(structure);
-    named.lookups = lookups_of(named.structure);
-    give_name(named, id);
+    NamedStructure named = under_name(std::move(structure), id);
     const auto is_taken = [&](const std::string& name) { return taken.contains(name); };
     for (int number = 2; std::ranges::any_of(declared_names(named), is_taken); ++number)
       give_name(named, id + "_" + std::to_string(number));

@@ -25,5 +25,8 @@ struct NamedStructure {
 // Named by scene and grid, or (`in_full`) with method and storage, too. No two of all the names that snippets are made
 // of become the same: a number is added where they would.
 std::vector<NamedStructure> named_structures(std::vector<SizedStructure> structures, bool in_full);
+// The one structure under a name of the user's. Throws Error (where = "--name") if there are others, or if C++, HLSL or
+// GLSL would not take the name.
+std::vector<NamedStructure> named_structures(std::vector<SizedStructure> structures, const std::string& name);
 
 }  // namespace clusterbench::report

@@ -51,6 +51,9 @@ nlohmann::ordered_json answer_to_json(const config::Config& config, const run::P
 nlohmann::ordered_json recommendation_to_json(const config::Config& config, const Question& question,
                                               const nlohmann::ordered_json& answers);
 std::string recommendation_text(const nlohmann::ordered_json& recommendation);
+// Of a search that was stopped: the candidates that were measured on the most frames and break nothing there, the best
+// first.
+std::string unfinished_text(const search::View& view, const search::Found& found, const Question& question);
 
 // Whether each answer has a choice.
 bool all_satisfied(const nlohmann::ordered_json& recommendation);

@@ -104,6 +104,30 @@ std::string answer_text(const Json& answer, const Json& objective) {
 
 }  // namespace
 
+std::string unfinished_text(const search::View& view, const search::Found& found, const Question& question) {
+  std::vector<std::size_t> order;
+  std::size_t measured = 0;
+  for (std::size_t i = 0; i < found.records.size(); ++i) {
+    measured += found.records[i].frames > 0 ? 1 : 0;
+    if (found.records[i].frames > 0 && found.records[i].verdict.broken.empty()) order.push_back(i);
+  }
+  std::string out = "stopped: " + std::to_string(measured) + " of " + number_of(view.candidates.size(), "candidate") +
+                    " had been measured, none of them to the end of the search";
+  if (order.empty()) return out + ", and none that satisfies the constraints\n";
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
+    const search::Record &one = found.records[a], &other = found.records[b];
+    return one.frames != other.frames ? one.frames > other.frames : one.verdict.objective < other.verdict.objective;
+  });
+  order.resize(std::min(order.size(), static_cast<std::size_t>(question.runners_up) + 1));
+  std::vector<Cells> rows{{" ", "best so far", question.objective.name, "on frames"}};
+  for (const std::size_t i : order) {
+    const search::Record& record = found.records[i];
+    rows.push_back(
+        {" ", shown(view.candidates[i].name), amount_text(record.verdict.objective), std::to_string(record.frames)});
+  }
+  return out + "\n" + table_of(rows);
+}
+
 std::string recommendation_text(const Json& recommendation) {
   const Json& objective = recommendation["objective"];
   std::string out =

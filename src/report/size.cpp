@@ -5,6 +5,7 @@
 #include <map>
 #include <tuple>
 
+#include "core/error.h"
 #include "core/text.h"
 #include "measure/side_by_side.h"
 #include "report/buffer_tail.h"
@@ -14,6 +15,7 @@
 #include "report/ratios.h"
 #include "report/size_code.h"
 #include "report/size_table.h"
+#include "report/size_words.h"
 
 namespace clusterbench::report {
 namespace {
@@ -124,6 +126,7 @@ Json structure_json(const NamedStructure& named) {
   for (const Json* one : structure.cases)
     dropped += (*one)["buffers"]["overflow"]["dropped_pairs"].get<std::uint64_t>();
   out["dropped_pairs"] = dropped;
+  if (const std::vector<std::string> notes = grid_notes(structure); !notes.empty()) out["grid_notes"] = notes;
   out["buffers"] = Json::array();
   for (std::size_t i = 0; i < structure.buffers.size(); ++i)
     out["buffers"].push_back(buffer_json(structure.buffers[i], named.buffers[i]));
@@ -166,8 +169,11 @@ std::string size_report(const Json& result, const SizeRequest& request) {
   const AllocationRules rules = rules_of(result, request);
   std::vector<SizedStructure> all = sized_structures(result, request.filter, rules);
   const std::size_t count = all.size();
-  const std::vector<NamedStructure> named =
-      named_structures(request.all ? std::move(all) : best_of_groups(result, all), request.all);
+  if (!request.name.empty() && request.format == "table")
+    throw Error("", "--name", "names what is printed as code, and a table has no names; give --format, too");
+  std::vector<SizedStructure> chosen = request.all ? std::move(all) : best_of_groups(result, all);
+  const std::vector<NamedStructure> named = request.name.empty() ? named_structures(std::move(chosen), request.all)
+                                                                 : named_structures(std::move(chosen), request.name);
   if (request.format == "json") return size_json(named, count, request, rules);
   const std::string left_out = remark(result, named.size(), count);
   if (request.format == "cpp") return size_code(SizeLanguage::cpp, named, left_out, rules);

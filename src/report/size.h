@@ -20,6 +20,8 @@ struct SizeRequest {
   std::string rounding = "page";  // one of size_roundings()
   // Without: as the result's configuration has them.
   std::optional<double> margin = {}, warn_at = {};
+  // What names in code begin with in place of scene and grid; only for one structure. "": those.
+  std::string name = {};
 };
 
 // A table, C++, the languages of shaders, and for other programs JSON.
@@ -27,7 +29,8 @@ std::vector<std::string> size_formats();
 // Of an allocation's bytes: whole pages, a power of two, none.
 std::vector<std::string> size_roundings();
 
-// Throws Error if the filter is no regex or matches no case.
+// Throws Error if the filter is no regex or matches no case, and for a name that no language takes, that a table would
+// not show, or that more than one structure would have.
 std::string size_report(const nlohmann::ordered_json& result, const SizeRequest& request);
 
 }  // namespace clusterbench::report

@@ -56,6 +56,7 @@ std::string cameras_text(const SizedStructure& structure) {
 
 std::string structure_comment(const SizedStructure& structure) {
   std::string out = comment_line(structure.name) + comment_line("  " + cameras_text(structure));
+  for (const std::string& note : grid_notes(structure)) out += comment_line("  grid: " + note);
   if (const std::string dropped = dropped_text(structure); !dropped.empty())
     out += comment_line("  OVERFLOW: " + dropped + ", for which there is room below");
   return out;

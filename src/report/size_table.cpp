@@ -69,15 +69,9 @@ std::string tail_lines(const SizedStructure& structure) {
   return out;
 }
 
-// What a grid's capacities rest on, as a far end that the camera does not have: once where all cameras have the same.
-std::string grid_notes(const SizedStructure& structure) {
-  std::vector<std::string> notes;
-  for (const Json* result_case : structure.cases)
-    if (const Json& grid = (*result_case)["grid"]; grid.contains("note"))
-      if (const std::string note = shown(grid["note"]); std::ranges::find(notes, note) == notes.end())
-        notes.push_back(note);
+std::string note_lines(const SizedStructure& structure) {
   std::string out;
-  for (const std::string& note : notes) out += "  grid: " + note + "\n";
+  for (const std::string& note : grid_notes(structure)) out += "  grid: " + shown(note) + "\n";
   return out;
 }
 
@@ -95,7 +89,7 @@ std::string structure_text(const SizedStructure& structure) {
   const std::vector<std::size_t> widths = widths_of(rows);
   for (const Cells& row : rows) out += aligned(row, widths);
   out += worst_lines(structure);
-  out += grid_notes(structure);
+  out += note_lines(structure);
   out += tail_lines(structure);
   if (const std::string dropped = dropped_text(structure); !dropped.empty())
     out += "  OVERFLOW: " + dropped + "; the capacities have room for them\n";

@@ -1,5 +1,7 @@
 #include "report/size_words.h"
 
+#include <algorithm>
+
 #include "core/text.h"
 #include "report/columns.h"
 
@@ -19,6 +21,17 @@ std::string worst_text(const SizedBuffer& buffer) {
 
 std::string share_text(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? "-" : text("%.2f %%", 100.0 * static_cast<double>(part) / static_cast<double>(whole));
+}
+
+std::vector<std::string> grid_notes(const SizedStructure& structure) {
+  std::vector<std::string> notes;
+  for (const nlohmann::ordered_json* result_case : structure.cases) {
+    const nlohmann::ordered_json& grid = (*result_case)["grid"];
+    if (!grid.contains("note")) continue;
+    const auto note = grid["note"].get<std::string>();
+    if (std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
+  }
+  return notes;
 }
 
 std::string dropped_text(const SizedStructure& structure) {

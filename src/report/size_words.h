@@ -2,6 +2,7 @@
 // How tables and code tell the same of an allocation.
 
 #include <string>
+#include <vector>
 
 #include "report/allocation.h"
 
@@ -13,6 +14,8 @@ std::string rule_text(const AllocationRules& rules);
 std::string worst_text(const SizedBuffer& buffer);
 // "2.48 %"; "-" of nothing.
 std::string share_text(std::uint64_t part, std::uint64_t whole);
+// What its grid's capacities rest on, such as a far end that the camera does not have: each note of its cases once.
+std::vector<std::string> grid_notes(const SizedStructure& structure);
 // "7 pairs dropped in 3 cells of 1 frame"; "" if none was. Of all cameras.
 std::string dropped_text(const SizedStructure& structure);
 

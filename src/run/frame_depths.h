@@ -17,10 +17,14 @@ class FrameDepths {
   // Of all pixels. Cast once: whoever asks for the same frame again gets the same image, as far as images fit into
   // k_most_kept_bytes; the last one is kept in any case.
   std::shared_ptr<const depth::DepthImage> of(const view::Frame& frame, int threads);
+  // Of one pixel in each block of divisor x divisor: taken from the image of all pixels where that is kept, else cast
+  // for themselves and kept likewise. The depths are the same.
+  std::shared_ptr<const depth::DepthImage> thinned(const view::Frame& frame, int divisor, int threads);
   // In front of these.
   depth::LayerImage layers(const view::Frame& frame, const depth::DepthImage& opaque, int most_layers, int threads);
 
   int images_cast() const { return images_cast_; }
+  std::size_t pixels_cast() const { return pixels_cast_; }
 
   static constexpr std::size_t k_most_kept_bytes = std::size_t{256} << 20;
 
@@ -32,6 +36,7 @@ class FrameDepths {
     Mat3d rotation;
     view::Projection projection;
     Vec2i viewport;
+    int divisor = 1;
 
     friend bool operator==(const Shot&, const Shot&) = default;
   };
@@ -43,9 +48,12 @@ class FrameDepths {
     std::size_t bytes() const { return image->nearest.size() * sizeof(float); }
   };
 
+  std::shared_ptr<const depth::DepthImage> kept(const Shot& shot) const;  // null: it is not
+
   depth::RayCaster caster_;
   std::vector<Kept> kept_;
   int images_cast_ = 0;
+  std::size_t pixels_cast_ = 0;
 };
 
 }  // namespace clusterbench::run

@@ -42,13 +42,12 @@ std::vector<grid::Sample> FrameSamples::points_of(const config::SampleSetRequest
 void FrameSamples::look_at_surfaces(const config::SampleSetRequest& request, const view::Frame& frame,
                                     FrameSampleSet& out) const {
   FrameDepths& depths = *path_.depths();
-  const depth::PixelGrid pixels(frame.viewport, request.divisor);
-  depth::DepthImage image = depth::thinned(*depths.of(frame, config_.threads), pixels);
+  const std::shared_ptr<const depth::DepthImage> image = depths.thinned(frame, request.divisor, config_.threads);
   if (request.set == measure::SampleSet::opaque) {
-    out.samples = measure::opaque_samples(frame, image);
-    out.picture = std::move(image);
+    out.samples = measure::opaque_samples(frame, *image);
+    out.picture = *image;
   } else {
-    out.samples = measure::transparent_samples(frame, depths.layers(frame, image, request.layers, config_.threads));
+    out.samples = measure::transparent_samples(frame, depths.layers(frame, *image, request.layers, config_.threads));
   }
 }
 

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "core/text.h"
 #include "run/case_result.h"
 #include "run/passes/accuracy_pass.h"
 #include "run/passes/timing_pass.h"
@@ -46,6 +47,10 @@ config::Config quickly_timed(config::Config config) {
   return config;
 }
 
+HalvingRequest halving_of(const View& view, const Request& request) {
+  return {view.candidates.size(), view.frames, 1, request.growth, request.keep_one_in, request.least};
+}
+
 class ViewSearch {
  public:
   ViewSearch(const config::Config& config, run::Plan& plan, View& view, const Request& request,
@@ -61,16 +66,14 @@ class ViewSearch {
       paths_.emplace_back(plan.scenes[view.scene].scene, plan.scenes[view.scene].paths[camera],
                           config.viewports[view.viewport], plan.scenes[view.scene].depths.get());
     found_.records.resize(view.candidates.size());
-    progress_.cost_total = 1.0;
   }
 
   Found search() {
+    plan_progress();
     order_frames();
-    const HalvingRequest halving{view_.candidates.size(), view_.frames,         1,
-                                 request_.growth,         request_.keep_one_in, request_.least};
-    Halving halved = halve(halving, [&](std::span<const std::size_t> candidates, std::size_t frames) {
-      return standings(candidates, frames);
-    });
+    Halving halved = halve(
+        halving_of(view_, request_),
+        [&](std::span<const std::size_t> candidates, std::size_t frames) { return standings(candidates, frames); });
     found_.rungs = std::move(halved.rungs);
     std::vector<std::size_t> chosen = std::move(halved.finalists);
     add_coarse(chosen);
@@ -102,7 +105,9 @@ class ViewSearch {
     counting.sample_sets.clear();
     counting.lookup.reset();
     const Candidate& probe = view_.candidates.front();
+    begin_stage("the lights of " + number_of(frames.size(), "frame"), frames.size());
     for (std::size_t i = 0; i < frames.size() && !watch_.stop; ++i) {
+      tell(i, 1);
       const run::GroupPlan group = group_of({&probe, 1}, frames[i].camera);
       const run::AccuracyResult counted = accuracy_pass(
           counting, plan_.scenes[view_.scene], group, paths_[frames[i].camera].only({frames[i].index}), [](int) {},
@@ -178,8 +183,9 @@ class ViewSearch {
   // Records what candidates do on the first frames of the order.
   void record(std::span<const std::size_t> candidates, std::size_t frames) {
     std::size_t done = 0;
+    begin_stage(number_of(frames, "frame") + ": " + number_of(candidates.size(), "candidate"), candidates.size());
     for (const auto& [grid, some] : by_grid(candidates)) {
-      tell(number_of_frames(frames), done, candidates.size());
+      tell(done, frames);
       const std::vector<std::vector<run::CaseResult>> cases =
           measured(some, std::span(order_).first(frames), request_.is_timed);
       if (watch_.stop) return;
@@ -195,10 +201,6 @@ class ViewSearch {
       Record& one = found_.records[candidate];
       if (best < k_infinite) one.by_best = one.verdict.objective == best ? 1.0 : one.verdict.objective / best;
     }
-  }
-
-  static std::string number_of_frames(std::size_t frames) {
-    return "search, " + std::to_string(frames) + (frames == 1 ? " frame" : " frames");
   }
 
   // What breaks a constraint for now comes after all that does not: further frames can mend it.
@@ -255,7 +257,9 @@ class ViewSearch {
 
   void add_finalists(std::vector<std::size_t> candidates) {
     std::ranges::sort(candidates);
-    tell("all frames", 0, 1);
+    begin_stage("all " + number_of(view_.frames, "frame") + ": " + number_of(candidates.size(), "candidate"),
+                candidates.size());
+    tell(0, view_.frames);
     std::vector<Finalist> finalists = request_.is_timed ? timed_finalists(candidates) : counted_finalists(candidates);
     if (watch_.stop) return;
     for (Finalist& finalist : finalists) {
@@ -270,7 +274,7 @@ class ViewSearch {
       std::vector<std::vector<run::CaseResult>> cases = measured(some, order_, false);
       if (watch_.stop) return {};
       for (std::size_t i = 0; i < some.size(); ++i) finalists.push_back({some[i], std::move(cases[i])});
-      tell("all frames", finalists.size(), candidates.size());
+      tell(finalists.size(), view_.frames);
     }
     return finalists;
   }
@@ -339,13 +343,26 @@ class ViewSearch {
     }
   }
 
-  void tell(const std::string& doing, std::size_t done, std::size_t total) {
-    if (!watch_.on_progress) return;
-    progress_.doing = plan_.scenes[view_.scene].scene.name + ": " + doing;
-    progress_.cases_done = done;
+  // Of the whole search, in candidates on frames.
+  void plan_progress() {
+    const Halving planned = planned_halving(view_, request_);
+    progress_.cost_total = static_cast<double>(view_.frames * (1 + planned.finalists.size()));
+    for (const Rung& rung : planned.rungs) progress_.cost_total += static_cast<double>(rung.frames * rung.candidates);
+  }
+
+  void begin_stage(const std::string& what, std::size_t total) {
+    const std::string doing = plan_.scenes[view_.scene].scene.name + ": " + what;
+    progress_.doing = doing;
     progress_.cases_total = total;
-    progress_.cost_done = static_cast<double>(done);
-    progress_.cost_total = static_cast<double>(std::max<std::size_t>(total, 1));
+    before_stage_ = static_cast<double>(found_.work.evaluations);
+    if (watch_.on_stage && !watch_.stop) watch_.on_stage(doing);
+  }
+  // `done` of the stage's candidates, on so many frames.
+  void tell(std::size_t done, std::size_t frames) {
+    if (!watch_.on_progress) return;
+    progress_.cases_done = done;
+    progress_.cost_done = before_stage_ + static_cast<double>(done * frames);
+    progress_.cost_total = std::max(progress_.cost_total, progress_.cost_done);
     watch_.on_progress(progress_);
   }
 
@@ -360,6 +377,7 @@ class ViewSearch {
   std::vector<FrameOfView> order_;
   Found found_;
   run::Progress progress_;
+  double before_stage_ = 0.0;  // candidates on frames
 };
 
 }  // namespace
@@ -392,6 +410,12 @@ std::vector<View> views_of(const run::Plan& plan) {
     out.push_back(std::move(view));
   }
   return out;
+}
+
+Halving planned_halving(const View& view, const Request& request) {
+  return halve(halving_of(view, request), [](std::span<const std::size_t> candidates, std::size_t) {
+    return std::vector<Standing>(candidates.size());
+  });
 }
 
 Found search_view(const config::Config& config, run::Plan& plan, View& view, const Request& request,

@@ -83,10 +83,15 @@ struct Found {
 struct Watch {
   std::function<void(const run::Progress&)> on_progress;
   const std::atomic<bool>& stop;
+  std::function<void(const std::string&)> on_stage = {};  // "4 frames: 113 candidates", as it begins
 };
 
+// The most that halving measures, as far as that is known before anything is: its rungs, and how many finalists on all
+// frames. Coarse grids that are about as good and challengers come on top.
+Halving planned_halving(const View& view, const Request& request);
+
 // Sets the cells of the view's candidates. Finalists that are timed are so by `launcher` (run/runner.h). Throws Error
-// as run_plan() does. `plan` is as it was afterwards.
+// as run_plan() does. `plan` is as it was afterwards. What was found before a stop is in `records`.
 Found search_view(const config::Config& config, run::Plan& plan, View& view, const Request& request,
                   const run::Launcher& launcher, const Watch& watch);
 

@@ -263,6 +263,31 @@ TEST(ExactFast, gives_the_lists_of_exact_and_of_each_cell_for_lights_of_any_size
   }
 }
 
+// Single precision has no powers of such numbers, and every row would be uncertain: minutes a frame, cell by cell.
+TEST(ExactFast, decides_no_more_than_exact_does_on_grids_beyond_single_precision) {
+  const AssignerDescriptor& row = *find_assigner("exact-fast");
+  const auto grid = [](double near_m, double far_m) {
+    grid::GridSpec spec =
+        testing::settings::screen_spec(grid::Kind::frustum, {40, 22}, grid::Scheme::exponential, 12, near_m);
+    spec.slices.far_m = far_m;
+    return spec;
+  };
+  for (const grid::GridSpec& spec : {grid(1e-9, 400.0), grid(0.1, 1e10)}) {
+    Setting setting;
+    setting.frame = testing::frame_of(testing::perspective(0.9, 16.0 / 9.0, 0.1, 300), {1280, 717}, {});
+    setting.grid = testing::grid_of(spec, setting.frame);
+    testing::settings::add_lights(setting, row, 7);
+    const Answer expected = answer_of("exact", Params(find_assigner("exact")->params), setting);
+    EXPECT_GT(expected.lists.pair_count(), 1000U);
+    for (const double threads : {1.0, 3.0}) {
+      const Answer answer = answer_of("exact-fast", Params(row.params, {{"threads", threads}}), setting);
+      EXPECT_EQ(answer.lists, expected.lists);
+      EXPECT_LE(answer.fallbacks, expected.fallbacks);
+      EXPECT_LE(answer.tests, expected.tests);
+    }
+  }
+}
+
 // Far to the side of the view axis tile planes are slopes with few digits left for their distances.
 TEST(ExactFast, gives_the_lists_of_exact_on_narrow_tiles_far_aside) {
   const AssignerDescriptor& row = *find_assigner("exact-fast");

@@ -81,6 +81,21 @@ TEST(Recommend, finds_what_a_sweep_over_all_candidates_and_frames_finds) {
   }
 }
 
+TEST(Recommend, says_before_it_begins_what_it_will_measure_and_then_each_stage) {
+  const Folder folder;
+  const Outcome done =
+      tool("recommend " + folder.write("space.json", space()).string() + " --no-timing --by evaluated");
+  ASSERT_EQ(done.code, 0) << done.err;
+  const std::size_t budget = done.err.find(
+                        "street: 52 candidates, 8 frames of 1 camera; measures at most 52 on 1 frame, 6 and what may "
+                        "still be better on all frames\n"),
+                    first = done.err.find("\nstreet: 1 frame: 52 candidates\n"),
+                    last = done.err.find("\nstreet: all 8 frames: ");
+  EXPECT_LT(budget, first) << done.err;
+  EXPECT_LT(first, last) << done.err;
+  EXPECT_NE(last, std::string::npos) << done.err;
+}
+
 TEST(Recommend, excludes_what_breaks_a_constraint_and_says_how_good_the_best_of_that_was) {
   const Recommended free = recommended(space(), "--no-timing --by evaluated");
   ASSERT_EQ(free.outcome.code, 0) << free.outcome.err;

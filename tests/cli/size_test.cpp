@@ -129,6 +129,7 @@ TEST(SizeCommand, refuses_what_it_cannot_size_and_says_why) {
   refuses(folder.write("cut.json", file_text(result).substr(0, 1000)).string(), "is not JSON");
   refuses(result + " --margin 0.5", "--margin: takes a number");
   refuses(result + " --round pages", "did you mean 'page'");
+  refuses(result + " --format cpp --name '1st'", "--name: '1st' is no name in C++, HLSL and GLSL alike");
 }
 
 TEST(SizeCommand, takes_paths_as_long_as_systems_have_them) {

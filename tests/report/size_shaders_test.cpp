@@ -117,11 +117,19 @@ struct Probe {
   grid::Sample sample;
 };
 
+// In the picture, beside it, on its edges, or just beyond them.
+float random_pixel(int size, SplitMix64& random) {
+  const auto end = static_cast<float>(size);
+  constexpr float k_beyond = std::numeric_limits<float>::infinity();
+  const float edges[] = {0.0f, std::nextafter(0.0f, -k_beyond), end, std::nextafter(end, k_beyond)};
+  if (random.next() % 8 == 0) return edges[random.next() % std::size(edges)];
+  return static_cast<float>(random.between(-0.1 * size, 1.1 * size));
+}
+
 Probe random_probe(const LookedUp& one, SplitMix64& random) {
   Probe probe{};
   if (one.grid.has_tiles()) {
-    const float pixel_x = static_cast<float>(random.between(0.0, k_viewport.x)),
-                pixel_y = static_cast<float>(random.between(0.0, k_viewport.y));
+    const float pixel_x = random_pixel(k_viewport.x, random), pixel_y = random_pixel(k_viewport.y, random);
     // As many before the first boundary and beyond the last as there are anywhere.
     const float depth = static_cast<float>(std::exp(random.between(std::log(0.01), std::log(900.0))));
     probe.sample.pixel_x = pixel_x;

@@ -119,6 +119,54 @@ TEST(Size, the_table_tells_what_is_noted_of_a_grid_once) {
   EXPECT_EQ(table.find(note, table.find(note) + 1), std::string::npos) << table;
 }
 
+TEST(Size, code_and_json_tell_what_is_noted_of_a_grid_too) {
+  run::Result result = result_by_hand();
+  EXPECT_EQ(best_of(result, "json").find("grid_notes"), std::string::npos);
+  for (run::CaseResult& one : result.cases) one.grid["note"] = "the camera has no far plane\n#error";
+  for (const char* language : {"cpp", "hlsl", "glsl"}) {
+    const std::string code = best_of(result, language);
+    EXPECT_NE(code.find("//   grid: the camera has no far plane_#error\n"), std::string::npos) << code;
+  }
+  const nlohmann::json json = nlohmann::json::parse(best_of(result, "json"));
+  EXPECT_EQ(json["structures"][0]["grid_notes"], nlohmann::json({"the camera has no far plane\n#error"}));
+  EXPECT_EQ(config::schema_violations(config::row_of(config::Document::size).schema(), json),
+            std::vector<std::string>{});
+}
+
+SizeRequest named_request(const std::string& name, const std::string& format = "cpp", bool all = false) {
+  SizeRequest request{"", all, format};
+  request.name = name;
+  return request;
+}
+
+TEST(Size, a_name_stands_in_place_of_scene_and_grid) {
+  const run::Result result = result_by_hand();
+  const std::string code = size_of(result, named_request("lights"));
+  EXPECT_NE(code.find("LightBuffer lights_indices{\"lights_indices\", "), std::string::npos) << code;
+  EXPECT_EQ(code.find("hall_"), std::string::npos) << code;
+  EXPECT_NE(code.find("// hall/frustum 64px/aabb/packed\n"), std::string::npos) << "the comment has the full name";
+  const auto json = nlohmann::json::parse(size_of(result, named_request("lights", "json")));
+  EXPECT_EQ(json["structures"][0]["identifier"], "lights");
+}
+
+TEST(Size, a_name_that_no_language_takes_or_that_several_structures_would_have_is_refused) {
+  const run::Result result = result_by_hand();
+  const auto refuses = [&](const SizeRequest& request, const std::string& why) {
+    try {
+      size_of(result, request);
+      ADD_FAILURE() << request.name;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
+    }
+  };
+  for (const char* name : {"9lives", "a b", "a__b", "_a", "a_", "gl_x", "\xC3\xA9", "x;"})
+    refuses(named_request(name), "is no name in C++, HLSL and GLSL alike");
+  refuses(named_request(std::string(201, 'l')), "at most 200");
+  refuses(named_request("lights", "cpp", true), "these are 2; choose one of them with --filter");
+  refuses(named_request("lights", "table"), "a table has no names");
+  EXPECT_NO_THROW(size_of(result, named_request(std::string(200, 'l'))));
+}
+
 TEST(Size, a_filter_selects_cases_by_name) {
   const std::string report = size_of(result_by_hand(), {"/aabb/", true, "cpp"});
   EXPECT_NE(report.find("// hall/frustum 64px/aabb/packed"), std::string::npos) << report;
@@ -257,6 +305,7 @@ TEST_F(SizeHeader, has_the_constants_of_the_lookup_of_each_kind_of_grid) {
   const std::string cpp = best_of(result);
   for (const char* line :
        {"namespace hall_tiles_lookup {\ninline constexpr int cells[] = {30, 17, 16};\n",
+        "inline constexpr float viewport[] = {1920.0f, 1080.0f};\n"
         "inline constexpr float tile_scale[] = {0.015625f, 0.015625f};\ninline constexpr float slice_scale = "
         "2.37269378f;\n"
         "inline constexpr float slice_bias = -4.50922441f;\ninline constexpr float slice_first = 5.0f;\n"

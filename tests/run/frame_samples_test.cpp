@@ -397,6 +397,25 @@ TEST(DepthMethods, and_sets_share_one_image_of_each_frame_and_nothing_is_cast_fo
   EXPECT_EQ(images_cast(R"(, "assigners": ["exact-fast"])"), -1);
 }
 
+// Else a second per frame and grid goes into pixels that no sample asks for.
+TEST(FrameSamples, of_surfaces_cast_rays_through_their_own_pixels_alone) {
+  const scene::test::Folder folder;
+  const config::Config config =
+      config_of(folder, deep_room(), R"(, "assigners": ["exact-fast"], "samples": {"opaque": {"divisor": 4}})");
+  const Plan plan = make_plan(config, "");
+  const PathFrames path = path_of(config, plan, plan.groups.at(0));
+  const view::Frame frame = path.frame(0);
+  const FrameSampleSet set = FrameSamples(config, plan.scenes[0], path).of(frame).at(0);
+  const std::size_t own = depth::PixelGrid(frame.viewport, 4).count();
+  EXPECT_EQ(path.depths()->pixels_cast(), own);
+  const depth::DepthImage of_all = depth::thinned(*path.depths()->of(frame, 1), set.picture->pixels);
+  EXPECT_EQ(path.depths()->pixels_cast(), own + depth::PixelGrid(frame.viewport, 1).count());
+  EXPECT_EQ(set.picture->nearest, of_all.nearest);
+  EXPECT_GT(set.samples.size(), own / 4);
+  EXPECT_EQ(path.depths()->thinned(frame, 4, 1)->nearest, of_all.nearest) << "taken from the image that is kept now";
+  EXPECT_EQ(path.depths()->images_cast(), 2);
+}
+
 // A frame with a sample in each pixel takes seconds, and whoever ends the program waits for them.
 TEST(FrameSamples, end_within_a_frame_when_the_run_is_stopped) {
   const scene::test::Folder folder;

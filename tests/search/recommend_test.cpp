@@ -67,6 +67,35 @@ TEST(SearchView, finds_the_least_high_water_mark_and_measures_all_frames_of_the_
   EXPECT_EQ(found.work.all_evaluations, 72u * 20);
 }
 
+TEST(SearchView, has_measured_what_it_planned_when_it_is_stopped_before_the_last_frames) {
+  Walk walk = small_walk(20);
+  const Judge judge = [](std::span<const run::CaseResult> cases) { return Verdict{entries(cases), 0.0, {}, false}; };
+  const Request request{.judge = judge, .keep_one_in = 24, .least = 2};
+  std::vector<View> views = views_of(walk.plan);
+  const Halving planned = planned_halving(views[0], request);
+  ASSERT_EQ(planned.rungs.size(), 2u);
+  EXPECT_EQ(planned.rungs[0].candidates, 72u);
+  EXPECT_EQ(planned.finalists.size(), 2u);
+  std::atomic<bool> stop = false;
+  std::vector<double> shares;
+  std::vector<std::string> stages;
+  const Watch watch{[&](const run::Progress& now) { shares.push_back(now.cost_done / now.cost_total); }, stop,
+                    [&](const std::string& stage) {
+                      stages.push_back(stage);
+                      stop = stage.find("all 20 frames") != std::string::npos;
+                    }};
+  const Found found = search_view(walk.config, walk.plan, views[0], request, {}, watch);
+  EXPECT_FALSE(found.is_complete);
+  EXPECT_TRUE(found.finalists.empty());
+  ASSERT_EQ(stages.size(), 4u) << "lights, two rungs, all frames";
+  for (const Rung& rung : planned.rungs) {
+    const auto on_frames = [&](const Record& record) { return record.frames >= rung.frames; };
+    EXPECT_EQ(std::ranges::count_if(found.records, on_frames), static_cast<std::ptrdiff_t>(rung.candidates));
+  }
+  EXPECT_TRUE(std::ranges::is_sorted(shares)) << "of the whole search";
+  EXPECT_LT(shares.back(), 1.0);
+}
+
 // The best at first is the worst in the end; only the bound of a mark that grows tells.
 TEST(SearchView, looks_again_at_what_was_dropped_while_it_could_still_be_better) {
   Walk walk = small_walk(20);

@@ -1,7 +1,8 @@
 // `exact` for speed. Balls outside of the view are left out a vector at a time; slice by slice the rows of many balls
 // are found at once, one ball per lane; a slice's lists are built by compression while its spans are in the cache. Rows
 // that single precision leaves uncertain, and the ends of a spot's rows, are decided as in exact.cpp. Threads share the
-// slices.
+// slices. Grids whose numbers single precision cannot multiply, as where slices begin a nanometre from the eye, are
+// left to `exact`: all of their rows would be uncertain.
 
 #include <algorithm>
 #include <cmath>
@@ -14,24 +15,32 @@
 #include "core/parallel.h"
 
 namespace clusterbench::assign {
+
+extern const AssignerDescriptor exact_descriptor;
+
 namespace {
 
 class ExactFast final : public ListAssigner {
  public:
-  explicit ExactFast(const Params& params) : thread_pool_(static_cast<int>(params.number("threads"))) {
+  explicit ExactFast(const Params& params)
+      : exact_(exact_descriptor.make(Params(exact_descriptor.params))),
+        thread_pool_(static_cast<int>(params.number("threads"))) {
     if (thread_pool_.threads() > 1) parts_.resize(2 * static_cast<std::size_t>(thread_pool_.threads()));
   }
 
-  void build(const grid::Grid& grid, const LightKinds&) override {
+  void build(const grid::Grid& grid, const LightKinds& kinds) override {
     if (grid.cells().x > k_most_columns)
       throw Error("", "tiles",
                   "make " + std::to_string(grid.cells().x) + " columns; exact-fast takes at most " +
                       std::to_string(k_most_columns));
     grid_ = &grid;
     planes_ = RowPlanes(grid.screen());
+    is_left_to_exact_ = std::isinf(planes_.least_reach);
+    if (is_left_to_exact_) exact_->build(grid, kinds);
   }
 
   void assign(const FrameInput& input, Lists& out) override {
+    if (is_left_to_exact_) return exact_->assign(input, out);
     const view::LightArrays& lights = input.lights;
     tests_ = lights.size();
     fallbacks_ = 0;
@@ -48,11 +57,11 @@ class ExactFast final : public ListAssigner {
     }
   }
 
-  std::uint64_t tests_done() const override { return tests_; }
-  std::uint64_t fallbacks() const override { return fallbacks_; }
+  std::uint64_t tests_done() const override { return is_left_to_exact_ ? exact_->tests_done() : tests_; }
+  std::uint64_t fallbacks() const override { return is_left_to_exact_ ? exact_->fallbacks() : fallbacks_; }
   std::size_t scratch_bytes() const override {
-    std::size_t bytes = whole_.scratch_bytes() + slice_bins_.capacity_bytes() + visible_.capacity_bytes() +
-                        spots_.capacity_bytes() + shapes_.capacity_bytes();
+    std::size_t bytes = exact_->scratch_bytes() + whole_.scratch_bytes() + slice_bins_.capacity_bytes() +
+                        visible_.capacity_bytes() + spots_.capacity_bytes() + shapes_.capacity_bytes();
     for (const Part& part : parts_)
       bytes += part.slices.scratch_bytes() +
                (part.lists.begin.capacity() + part.lists.lights.capacity()) * sizeof(std::uint32_t);
@@ -134,6 +143,8 @@ class ExactFast final : public ListAssigner {
     cull_balls(planes_, given_spots(*lights_, spots_), visible_);
   }
 
+  std::unique_ptr<ListAssigner> exact_;
+  bool is_left_to_exact_ = false;
   const grid::Grid* grid_ = nullptr;
   const view::LightArrays* lights_ = nullptr;  // of the frame at hand
   RowPlanes planes_;
