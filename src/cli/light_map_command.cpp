@@ -76,11 +76,13 @@ ExitCode light_map(const LightMapFlags& flags) {
 
 void add_test_options(Command& command, LightMapFlags& flags) {
   command.add_flag("--facing", flags.request.facing, "Only lights in front of the surface (N.L > 0)");
-  command.add_flag("--visibility", flags.request.visibility,
-                   "Only lights that the texel sees, by one shadow ray; what moves throws no shadow");
+  const Option visibility =
+      command.add_flag("--visibility", flags.request.visibility,
+                       "Only lights that the texel sees, by one shadow ray; what moves throws no shadow");
   command
       .add_option("--lamp-radius", flags.request.lamp_radius_m,
                   "With --visibility: what is so near to a light does not hide it, metres")
+      .needs(visibility)
       .range(0.0, 1e6)
       .shows_standard();
 }
