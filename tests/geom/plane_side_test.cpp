@@ -10,15 +10,17 @@
 namespace clusterbench::geom {
 namespace {
 
-RationalPoint exactly(const Vec3d& p) {
+RationalPoint in_rationals(const Vec3d& p) {
   return {exact(p.x), exact(p.y), exact(p.z)};
 }
 
 int side_in_rationals(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& p) {
-  return dot(cross(exactly(b) - exactly(a), exactly(c) - exactly(a)), exactly(p) - exactly(a)).sign();
+  return dot(cross(in_rationals(b) - in_rationals(a), in_rationals(c) - in_rationals(a)),
+             in_rationals(p) - in_rationals(a))
+      .sign();
 }
 
-double nudged(double value, std::int64_t steps) {
+double moved_by_steps(double value, std::int64_t steps) {
   for (; steps > 0; --steps) value = std::nextafter(value, 1e300);
   for (; steps < 0; ++steps) value = std::nextafter(value, -1e300);
   return value;
@@ -42,7 +44,8 @@ TEST(SideOfPlane, is_that_of_rational_numbers_beside_the_plane) {
       for (int axis = 0; axis < 3; ++axis) corner[axis] = far + scale * (static_cast<double>(random.below(17)) - 8.0);
     const double u = random.between(-3.0, 3.0), v = random.between(-3.0, 3.0);
     p = corners[0] + u * (corners[1] - corners[0]) + v * (corners[2] - corners[0]);
-    for (int axis = 0; axis < 3; ++axis) p[axis] = nudged(p[axis], static_cast<std::int64_t>(random.below(5)) - 2);
+    for (int axis = 0; axis < 3; ++axis)
+      p[axis] = moved_by_steps(p[axis], static_cast<std::int64_t>(random.below(5)) - 2);
     const int wanted = side_in_rationals(corners[0], corners[1], corners[2], p);
     EXPECT_EQ(side_of_plane(corners[0], corners[1], corners[2], p), wanted);
     in_the_plane += wanted == 0 ? 1 : 0;

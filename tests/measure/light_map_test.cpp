@@ -31,7 +31,7 @@ Json strip_of(MeshFile& file, const std::vector<Vec3f>& corners, const std::vect
   return out;
 }
 
-void add_light(MeshFile& file, const Json& light, const Json& node) {
+void put_light(MeshFile& file, const Json& light, const Json& node) {
   file.json["extensionsUsed"] = {"KHR_lights_punctual"};
   Json& lights = file.json["extensions"]["KHR_lights_punctual"]["lights"];
   lights.push_back(light);
@@ -39,8 +39,8 @@ void add_light(MeshFile& file, const Json& light, const Json& node) {
   of["extensions"]["KHR_lights_punctual"]["light"] = lights.size() - 1;
   file.node(of);
 }
-void add_point(MeshFile& file, const Vec3d& at, double range_m) {
-  add_light(file, {{"type", "point"}, {"range", range_m}}, {{"translation", {at.x, at.y, at.z}}});
+void put_point(MeshFile& file, const Vec3d& at, double range_m) {
+  put_light(file, {{"type", "point"}, {"range", range_m}}, {{"translation", {at.x, at.y, at.z}}});
 }
 
 LoadedGeometry loaded_with_uvs(const MeshFile& file) {
@@ -63,7 +63,7 @@ LightMapRequest of_resolution(int width, int height) {
 TEST(LightMap, a_point_light_over_the_ground_lights_the_texels_of_a_circle) {
   MeshFile file;
   file.node({{"mesh", file.mesh(strip_of(file, k_ground, k_ground_uvs))}});
-  add_point(file, {5, 3, 5}, 5);
+  put_point(file, {5, 3, 5}, 5);
   const LightMaps maps = maps_of(file, of_resolution(100, 100));
   // Centres are 0.05 m off a lattice of 0.1 m: in units of 0.05 m all is whole.
   std::uint64_t lit = 0;
@@ -87,7 +87,7 @@ TEST(LightMap, a_spot_lights_what_its_cone_meets) {
   file.node({{"mesh", file.mesh(strip_of(file, k_ground, k_ground_uvs))}});
   const double half_angle = std::atan(0.5);  // a circle of 2 m on the ground, 4 m below
   const double turn = std::sqrt(0.5);
-  add_light(file, {{"type", "spot"}, {"range", 100}, {"spot", {{"outerConeAngle", half_angle}}}},
+  put_light(file, {{"type", "spot"}, {"range", 100}, {"spot", {{"outerConeAngle", half_angle}}}},
             {{"translation", {5, 4, 5}}, {"rotation", {-turn, 0, 0, turn}}});
   const LightMaps maps = maps_of(file, of_resolution(100, 100));
   std::uint64_t lit = 0;
@@ -106,7 +106,7 @@ TEST(LightMap, facing_leaves_out_lights_behind_and_in_the_plane_of_a_surface) {
     Json node = {{"mesh", file.mesh(of)}};
     if (mirrored) node["scale"] = {-1, 1, 1};
     file.node(node);
-    add_point(file, {0.3, height, 5}, 50);
+    put_point(file, {0.3, height, 5}, 50);
     LightMapRequest request = of_resolution(8, 8);
     request.facing = facing;
     return maps_of(file, request).all.lit;
@@ -127,7 +127,7 @@ TEST(LightMap, a_wall_hides_a_light_and_one_that_moves_does_not) {
     file.node({{"mesh", file.mesh(strip_of(file, k_ground, k_ground_uvs))}});
     // From x = 5 on nothing sees the light: the wall stands there, higher than it.
     file.node({{"mesh", file.mesh(strip_of(file, {{5, 0, -50}, {5, 0, 50}, {5, 9, -50}, {5, 9, 50}}, {}))}});
-    add_point(file, {4, 2, 5}, 50);
+    put_point(file, {4, 2, 5}, 50);
     file.json["animations"] = moving;
     if (!moving.empty()) {
       file.json["animations"][0]["samplers"][0]["input"] =
@@ -160,8 +160,8 @@ TEST(LightMap, surfaces_that_share_texels_have_the_lights_of_all_of_them_and_are
   file.mesh(strip_of(file, k_ground, k_ground_uvs));
   file.json["meshes"][0]["primitives"].push_back(strip_of(file, far, k_ground_uvs));
   file.node({{"mesh", 0}});
-  add_point(file, {5, 1, 5}, 20);
-  add_point(file, {105, 1, 5}, 20);
+  put_point(file, {5, 1, 5}, 20);
+  put_point(file, {105, 1, 5}, 20);
   const LightMaps maps = maps_of(file, of_resolution(16, 16));
   EXPECT_EQ(maps.all.overlapping, 256U);
   EXPECT_EQ(maps.all.pairs, 512U);
@@ -193,10 +193,10 @@ LoadedGeometry random_scene(std::uint64_t seed, bool double_sided) {
   for (int i = 0; i < 12; ++i) {
     const Vec3d at = anywhere(15.0), axis = glm::normalize(anywhere(1.0));
     if (i % 3 == 2)
-      add_light(file, {{"type", "spot"}, {"range", 12}, {"spot", {{"outerConeAngle", 0.7}}}},
+      put_light(file, {{"type", "spot"}, {"range", 12}, {"spot", {{"outerConeAngle", 0.7}}}},
                 {{"translation", {at.x, at.y, at.z}}, {"rotation", {axis.x, axis.y, axis.z, 0.0}}});
     else
-      add_point(file, at, random.between(3.0, 12.0));
+      put_point(file, at, random.between(3.0, 12.0));
   }
   return loaded_with_uvs(file);
 }
@@ -346,7 +346,7 @@ TEST(LightMap, what_has_no_map_is_told_with_the_reason) {
   file.mesh(ground);
   file.json["meshes"].back()["primitives"].push_back(strip_of(file, k_ground, {}));
   file.node({{"mesh", file.json["meshes"].size() - 1}});
-  add_light(file, {{"type", "directional"}}, Json::object());
+  put_light(file, {{"type", "directional"}}, Json::object());
   const LightMaps maps = maps_of(file, of_resolution(4, 4));
   EXPECT_EQ(maps.maps.size(), 1U);
   EXPECT_EQ(maps.directional, 1U);
@@ -396,7 +396,7 @@ TEST(Unwrap, faces_lie_flat_side_by_side_at_one_scale) {
 TEST(Unwrap, a_map_without_texture_coordinates_is_made_and_one_too_large_refused) {
   MeshFile file;
   file.node({{"mesh", file.mesh(strip_of(file, k_ground, {}))}});
-  add_point(file, {5, 3, 5}, 5);
+  put_point(file, {5, 3, 5}, 5);
   LightMapRequest request;
   request.unwrap = true;
   request.texels_per_metre = 10.0;
