@@ -780,7 +780,7 @@ MUTATIONS = [
              "far from the world's origin right lists are said to miss lights"),
     Mutation("shading-cone-by-its-cosine", "measure/light_reach.h",
              "return along >= 0.0 && std::cos(light.outer_cone_rad) * across <= std::sin(light.outer_cone_rad) * along;",
-             "return along >= std::cos(light.outer_cone_rad) * distance + 0.0 * across;",
+             "return along >= std::cos(light.outer_cone_rad) * glm::length(to_point) + 0.0 * across;",
              "measure.Shading.a_spot_as_narrow_as_a_needle_reaches_its_axis_and_nothing_beside_its_cone",
              "spots of less than 1e-8 rad are said to light what is beside them"),
     Mutation("nearest-corner-unguarded", "geom/ball/nearest_point.cpp",
