@@ -92,6 +92,7 @@ constexpr WordsRow k_words[] = {
     {"worst-case", "--set", anything},
     {"worst-case", "--within", anything},
     {"worst-case", "--add-lights", anything},
+    {"light-map", "--resolution", anything},
     {"recommend", "--preset", preset_words},
     {"size", "--preset", preset_words},
     {"scene generate", "NAME", generators},

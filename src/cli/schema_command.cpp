@@ -1,5 +1,5 @@
-// `clusterbench schema config|result|comparison|ratios|recommendation|stress|worst-case|size` and `clusterbench
-// validate FILE...`.
+// `clusterbench schema config|result|comparison|ratios|recommendation|stress|worst-case|size|light-map` and
+// `clusterbench validate FILE...`.
 
 #include <algorithm>
 #include <fstream>
@@ -22,7 +22,7 @@ ExitCode validate_written(const std::string& path, const nlohmann::json& documen
   const std::vector<std::string> violations = config::schema_violations(row.schema(), document);
   for (const std::string& violation : violations) tell(path + ": " + violation);
   if (!violations.empty()) return ExitCode::usage;
-  for (const char* part : {"case", "block", "answer", "frame", "structure"}) {
+  for (const char* part : {"case", "block", "answer", "frame", "structure", "scene"}) {
     const std::string parts = std::string(part) + "s";
     if (!document.contains(parts)) continue;
     std::cout << path << ": valid, " << row.title << " with " << number_of(document[parts].size(), part) << "\n";
@@ -56,8 +56,8 @@ void add_schema(Command& program, Action& action) {
   auto name = std::make_shared<std::string>();
   command
       .add_option("WHICH", *name,
-                  "Of a configuration, or of what run, compare --json, ratio --json, recommend, stress, worst-case or "
-                  "size --format json write")
+                  "Of a configuration, or of what run, compare --json, ratio --json, recommend, stress, worst-case, "
+                  "size --format json or light-map write")
       .required()
       .one_of(names);
   command.when_named([name, &action] {
@@ -75,7 +75,8 @@ void add_validate(Command& program, Action& action) {
   auto paths = std::make_shared<std::vector<std::string>>();
   command
       .add_option("FILE", *paths,
-                  "Configurations, results, comparisons, ratios, recommendations, results of stress and worst-case")
+                  "Configurations, results, comparisons, ratios, recommendations, results of stress, worst-case and "
+                  "light-map")
       .required();
   command.when_named([paths, &action] {
     action = [paths] {

@@ -114,7 +114,7 @@ Json result_schema() {
 }
 
 std::span<const DocumentRow> document_rows() {
-  static const std::array<DocumentRow, 8> rows{{
+  static const std::array<DocumentRow, 9> rows{{
       {Document::config, "config", "a configuration", config_schema},
       {Document::result, "result", "a result of `clusterbench run`", result_schema},
       {Document::comparison, "comparison", "a comparison of `clusterbench compare`",
@@ -127,14 +127,16 @@ std::span<const DocumentRow> document_rows() {
       {Document::worst_case, "worst-case", "a result of `clusterbench worst-case`",
        [] { return Json::parse(worst_case_schema_text()); }},
       {Document::size, "size", "allocations of `clusterbench size`", [] { return Json::parse(size_schema_text()); }},
+      {Document::light_map, "light-map", "light maps of `clusterbench light-map`",
+       [] { return Json::parse(light_map_schema_text()); }},
   }};
   return rows;
 }
 
 void check_version(const std::string& path, const Json& document, const DocumentRow& row) {
   const Json schema = row.schema();
-  for (const char* key :
-       {"schema_version", "comparison_version", "ratios_version", "recommendation_version", "size_version"}) {
+  for (const char* key : {"schema_version", "comparison_version", "ratios_version", "recommendation_version",
+                          "size_version", "light_map_version"}) {
     if (!document.contains(key) || !schema["properties"].contains(key)) continue;
     const Json &found = document[key], &wanted = schema["properties"][key]["const"];
     if (found == wanted) continue;

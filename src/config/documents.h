@@ -7,7 +7,7 @@
 
 namespace clusterbench::config {
 
-enum class Document { config, result, comparison, ratios, recommendation, stress, worst_case, size };
+enum class Document { config, result, comparison, ratios, recommendation, stress, worst_case, size, light_map };
 
 struct DocumentRow {
   Document document;
@@ -27,6 +27,7 @@ Document document_of(const Json& value) {
   if (value.contains("kind") && value["kind"] == "worst-case") return Document::worst_case;
   if (value.contains("recommendation_version")) return Document::recommendation;
   if (value.contains("size_version")) return Document::size;
+  if (value.contains("light_map_version")) return Document::light_map;
   if (!value.contains("schema_version") || !value.contains("cases")) return Document::config;
   return value.contains("kind") && value["kind"] == "stress" ? Document::stress : Document::result;
 }

@@ -11,6 +11,7 @@ std::string_view comparison_schema_text();
 std::string_view ratios_schema_text();
 std::string_view recommendation_schema_text();
 std::string_view size_schema_text();
+std::string_view light_map_schema_text();
 std::string_view stress_schema_text();
 std::string_view worst_case_schema_text();
 

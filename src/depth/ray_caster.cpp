@@ -249,8 +249,11 @@ Vec3d origin_near(const view::Frame& frame) {
 }  // namespace
 
 void RayCaster::pose(const view::Frame& frame) {
-  std::vector<PlacedSurface> placed = placed_surfaces(scene_, geometry_, frame.time_s);
-  const Vec3d origin = origin_near(frame);
+  pose(frame.time_s, origin_near(frame));
+}
+
+void RayCaster::pose(double time_s, const Vec3d& origin) {
+  std::vector<PlacedSurface> placed = placed_surfaces(scene_, geometry_, time_s);
   if (surfaces_ && surfaces_->placed == placed && surfaces_->origin == origin) return;
   // A triangle and what Embree builds over it.
   constexpr std::uint64_t k_bytes_of_triangle = 256;
@@ -294,6 +297,33 @@ DepthImage RayCaster::depths(const view::Frame& frame, const PixelGrid& pixels, 
     }
   });
   return out;
+}
+
+bool RayCaster::is_hidden(const Vec3d& from, const Vec3d& to, double ends_before_m) const {
+  const Vec3d way = to - from;
+  const double distance = glm::length(way);
+  if (!(distance > ends_before_m)) return false;
+  const Vec3f origin(from - surfaces_->origin), along(way / distance);
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRay ray{};
+  ray.org_x = origin.x;
+  ray.org_y = origin.y;
+  ray.org_z = origin.z;
+  ray.dir_x = along.x;
+  ray.dir_y = along.y;
+  ray.dir_z = along.z;
+  ray.tnear = 0.0f;
+  ray.tfar = static_cast<float>(distance - ends_before_m);
+  ray.mask = ~0U;
+  rtcOccluded1(surfaces_->opaque.get(), &context, &ray);
+  return ray.tfar < 0.0f;
+}
+
+double RayCaster::clearance_m(const Vec3d& from) const {
+  constexpr double k_least_m = 1e-4, k_share = 0x1p-19;  // 32 units of single precision's rounding
+  const Vec3d local = glm::abs(from - surfaces_->origin);
+  return std::max(k_least_m, k_share * std::max({local.x, local.y, local.z}));
 }
 
 LayerImage RayCaster::layers(const view::Frame& frame, const DepthImage& opaque, int most_layers, int threads) const {

@@ -14,7 +14,8 @@ std::uint64_t rank_of(double share, std::uint64_t count) {
   return std::clamp<std::uint64_t>(rank, 1, count) - 1;
 }
 
-// The same over a histogram, whose n-th entry counts the value n.
+}  // namespace
+
 Spread spread_of_histogram(const std::vector<std::uint64_t>& histogram) {
   const std::uint64_t count = std::accumulate(histogram.begin(), histogram.end(), std::uint64_t{0});
   if (count == 0) return {};
@@ -29,8 +30,6 @@ Spread spread_of_histogram(const std::vector<std::uint64_t>& histogram) {
     sum += static_cast<double>(value) * static_cast<double>(histogram[value]);
   return {sum / static_cast<double>(count), value_at(0.50), value_at(0.95), value_at(0.99), value_at(1.0)};
 }
-
-}  // namespace
 
 Spread spread_of(std::vector<double> values) {
   if (values.empty()) return {};

@@ -14,6 +14,8 @@ struct Spread {
 };
 // Nearest-rank percentiles.
 Spread spread_of(std::vector<double> values);
+// The same over a histogram, whose n-th entry counts the value n.
+Spread spread_of_histogram(const std::vector<std::uint64_t>& histogram);
 
 struct Occupancy {
   Spread pairs;                          // per frame

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "measure/light_reach.h"
 #include "measure/sample_tree.h"
 
 namespace clusterbench::measure {
@@ -12,16 +13,6 @@ namespace {
 // From a light to a sample, by their positions seen from the eye: those in the world may be rounded to metres.
 Vec3d way_to(const grid::Sample& sample, const scene::WorldLight& light) {
   return sample.from_eye - (light.position - sample.eye);
-}
-
-bool reaches(const scene::WorldLight& light, const Vec3d& to_sample) {
-  const double distance = glm::length(to_sample);
-  if (light.range_m == 0.0 || distance > light.range_m) return false;
-  if (light.type != scene::LightType::spot) return true;
-  // By both parts of the way, along and across: the cosine of a cone below 1e-8 rad is that of 0.
-  const double along = glm::dot(to_sample, light.direction),
-               across = glm::length(glm::cross(to_sample, light.direction));
-  return along >= 0.0 && std::cos(light.outer_cone_rad) * across <= std::sin(light.outer_cone_rad) * along;
 }
 
 // A spot's share of its intensity in a direction, as KHR_lights_punctual recommends it: 1 within the inner cone, 0 from

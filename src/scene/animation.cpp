@@ -57,6 +57,16 @@ Vec4d slerp(const Vec4d& a, const Vec4d& b, double t) {
   return unit_quaternion((std::sin((1.0 - t) * angle) / sine) * a + (std::sin(t * angle) / sine) * near_b);
 }
 
+std::vector<bool> moving_nodes(const Scene& scene) {
+  std::vector<bool> moving(scene.nodes.size(), false);
+  for (const Channel& channel : scene.channels)
+    if (channel.path != ChannelPath::visible) moving[static_cast<std::size_t>(channel.node)] = true;
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i)
+    if (const int parent = scene.nodes[i].parent; parent >= 0 && moving[static_cast<std::size_t>(parent)])
+      moving[i] = true;
+  return moving;
+}
+
 Vec4d sample(const Channel& channel, double time_s) {
   assert(!channel.times_s.empty());
   const auto& times = channel.times_s;

@@ -1,5 +1,5 @@
 #pragma once
-// The triangles of a scene's meshes. Nothing reads them but what asks for depth.
+// The triangles of a scene's meshes. Nothing reads them but what asks for depth, or for light maps.
 
 #include <array>
 #include <cstdint>
@@ -11,6 +11,7 @@
 
 namespace clusterbench::scene {
 
+using Vec2f = glm::vec2;
 using Triangle = std::array<std::uint32_t, 3>;  // indices of vertices, counter-clockwise seen from its front
 
 // A primitive of a mesh, as its own space has it.
@@ -18,6 +19,8 @@ struct Surface {
   Vec3d origin{0.0};  // of the vertices: where a skin puts them is far from the world's zero at times
   std::vector<Vec3f> vertices;
   std::vector<Triangle> triangles;
+  std::vector<Vec2f> uvs;     // one per vertex; empty where they were not asked for, and where the mesh has none
+  int uv_set = -1;            // n of TEXCOORD_n
   bool blends = false;        // alphaMode BLEND: what is behind it is seen, too. Textures are never read
   bool double_sided = false;  // else it is seen from its front alone
 };
@@ -43,8 +46,15 @@ struct Geometry {
   bool empty() const { return instances.empty(); }
 };
 
+// What of meshes is read. Texture coordinates are those of a light map: TEXCOORD_1 where all primitives of a mesh have
+// it, else TEXCOORD_0.
+enum class GeometryParts : std::uint8_t { positions, positions_and_uvs };
+
+// UVs farther from 0 are refused: a texel's place would be lost in their rounding.
+inline constexpr double k_farthest_uv = 4096.0;
+
 // Reads the scene's file once more, for the meshes of its nodes: triangle lists, strips and fans; points and lines are
 // left out. Throws Error (file, JSON pointer) for what is broken in them, and for compressed ones (Draco, meshopt).
-Geometry load_geometry(const Scene& scene);
+Geometry load_geometry(const Scene& scene, GeometryParts parts = GeometryParts::positions);
 
 }  // namespace clusterbench::scene

@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "scene/animation.h"
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_checked.h"
 #include "scene/gltf_container.h"
@@ -288,17 +289,11 @@ void tell_cameras_apart(Scene& scene) {
 }
 
 void mark_animated_cameras(Scene& scene) {
-  std::vector<char> moved(scene.nodes.size(), 0);
-  for (const Channel& channel : scene.channels)
-    if (channel.path != ChannelPath::visible) moved[static_cast<std::size_t>(channel.node)] = 1;
-  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-    const int parent = scene.nodes[i].parent;
-    if (parent >= 0 && moved[static_cast<std::size_t>(parent)]) moved[i] = 1;
-  }
+  const std::vector<bool> moved = moving_nodes(scene);
   std::set<int> moved_cameras;
   for (const Channel& channel : scene.camera_channels) moved_cameras.insert(channel.definition);
   for (Camera& camera : scene.cameras)
-    camera.animated = moved[static_cast<std::size_t>(camera.node)] != 0 || moved_cameras.contains(camera.definition);
+    camera.animated = moved[static_cast<std::size_t>(camera.node)] || moved_cameras.contains(camera.definition);
 }
 
 // Numbers that are each fine can multiply to infinity down the tree.

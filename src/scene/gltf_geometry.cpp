@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <map>
 #include <optional>
 
@@ -49,7 +50,8 @@ std::vector<Triangle> triangles_of(Mode mode, const std::vector<std::uint32_t>& 
 
 class MeshReader {
  public:
-  MeshReader(const Scene& scene, AccessorReader& reader) : reader_(reader), scene_(scene) {
+  MeshReader(const Scene& scene, AccessorReader& reader, GeometryParts parts)
+      : reader_(reader), scene_(scene), parts_(parts) {
     for (std::size_t i = 0; i < scene.nodes.size(); ++i)
       node_of_gltf_[static_cast<std::size_t>(scene.nodes[i].gltf_index)] = static_cast<int>(i);
   }
@@ -76,8 +78,9 @@ class MeshReader {
     const JsonLocation primitives = mesh.at("primitives");
     std::vector<std::size_t> surfaces;
     const std::size_t count = primitives.elements();
+    const int uv_set = parts_ == GeometryParts::positions ? -1 : uv_set_of(primitives);
     for (std::size_t i = 0; i < count; ++i) {
-      std::optional<Surface> surface = read_primitive(primitives.at(i), skin);
+      std::optional<Surface> surface = read_primitive(primitives.at(i), skin, uv_set);
       if (!surface || surface->triangles.empty()) continue;
       surfaces.push_back(out_.surfaces.size());
       out_.surfaces.push_back(std::move(*surface));
@@ -85,7 +88,17 @@ class MeshReader {
     return surfaces;
   }
 
-  std::optional<Surface> read_primitive(const JsonLocation& primitive, std::optional<std::size_t> skin) {
+  // Of a light map, which is one map for all of a mesh: TEXCOORD_1 if all that is drawn has it.
+  static int uv_set_of(const JsonLocation& primitives) {
+    const std::size_t count = primitives.elements();
+    for (std::size_t i = 0; i < count; ++i) {
+      primitives.at(i).expect_object();
+      if (mode_of(primitives.at(i)) >= 4 && !primitives.at(i).at("attributes").has("TEXCOORD_1")) return 0;
+    }
+    return 1;
+  }
+
+  std::optional<Surface> read_primitive(const JsonLocation& primitive, std::optional<std::size_t> skin, int uv_set) {
     primitive.expect_object();
     const std::size_t mode = mode_of(primitive);
     const JsonLocation attributes = primitive.at("attributes");
@@ -107,6 +120,11 @@ class MeshReader {
     else
       surface.vertices = vertices_of(positions);
     surface.triangles = triangles_of(static_cast<Mode>(mode), corners_of(primitive, surface.vertices.size()));
+    const std::string uvs = "TEXCOORD_" + std::to_string(uv_set);
+    if (uv_set >= 0 && attributes.has(uvs)) {
+      surface.uvs = uvs_of(attributes.at(uvs), surface.vertices.size());
+      surface.uv_set = uv_set;
+    }
     return surface;
   }
 
@@ -150,6 +168,23 @@ class MeshReader {
     for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
       out.emplace_back(static_cast<float>(numbers[i]), static_cast<float>(numbers[i + 1]),
                        static_cast<float>(numbers[i + 2]));
+    return out;
+  }
+
+  std::vector<Vec2f> uvs_of(const JsonLocation& attribute, std::size_t vertices) {
+    const std::size_t accessor = accessor_of(attribute, "VEC2");
+    if (const std::size_t count = reader_.head(accessor).count; count != vertices)
+      attribute.refuse(std::to_string(count) + " texture coordinates for " + std::to_string(vertices) + " vertices");
+    check_memory("texture coordinates", uvs_ += vertices, sizeof(Vec2f), k_fewer_triangles);
+    const std::vector<double> numbers = checked_numbers(accessor, 2);
+    std::vector<Vec2f> out;
+    out.reserve(vertices);
+    for (std::size_t i = 0; i < vertices; ++i) {
+      for (const std::size_t k : {2 * i, 2 * i + 1})
+        if (!(std::abs(numbers[k]) <= k_farthest_uv))
+          attribute.refuse("texture coordinate " + std::to_string(i) + " lies beyond -4096..4096");
+      out.emplace_back(static_cast<float>(numbers[2 * i]), static_cast<float>(numbers[2 * i + 1]));
+    }
     return out;
   }
 
@@ -266,11 +301,12 @@ class MeshReader {
 
   AccessorReader& reader_;
   const Scene& scene_;
+  GeometryParts parts_;
   std::map<std::size_t, int> node_of_gltf_;
   std::map<std::pair<std::size_t, std::optional<std::size_t>>, std::vector<std::size_t>> surfaces_of_;
   std::map<std::size_t, std::vector<Mat4d>> joints_;
   std::vector<Mat4d> rest_;
-  std::uint64_t vertices_ = 0, triangles_ = 0;
+  std::uint64_t vertices_ = 0, triangles_ = 0, uvs_ = 0;
   Geometry out_;
 };
 
@@ -285,6 +321,7 @@ std::string sha256_of(const Geometry& geometry) {
     append_bytes(std::vector{surface.origin}, bytes);
     append_bytes(surface.vertices, bytes);
     append_bytes(surface.triangles, bytes);
+    append_bytes(surface.uvs, bytes);
     bytes += surface.blends ? 'b' : 'o';
     bytes += surface.double_sided ? '2' : '1';
   }
@@ -306,12 +343,12 @@ std::uint64_t Geometry::vertex_count() const {
   return count;
 }
 
-Geometry load_geometry(const Scene& scene) {
+Geometry load_geometry(const Scene& scene, GeometryParts parts) {
   GltfFile file;
   read_gltf_file(scene.path, file);
   Warnings warnings;
   AccessorReader reader(file, warnings, AccessorUse::vertices);
-  MeshReader meshes(scene, reader);
+  MeshReader meshes(scene, reader, parts);
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) meshes.add_node(static_cast<int>(i));
   Geometry geometry = meshes.take();
   geometry.sha256 = sha256_of(geometry);

@@ -247,5 +247,77 @@ TEST(Geometry, that_takes_too_much_memory_is_refused_before_it_is_read) {
             "simpler meshes");
 }
 
+const std::vector<Vec2f> k_quad_uvs = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
+
+TEST(Geometry, texture_coordinates_are_read_only_if_they_are_asked_for) {
+  MeshFile file;
+  Json of = primitive(file.positions(k_two_triangles));
+  of["attributes"]["TEXCOORD_0"] = file.accessor("too short", 5126, "VEC2", 6);
+  file.node({{"mesh", file.mesh(of)}});
+  const Geometry geometry = test::loaded_geometry(file.text()).geometry;
+  EXPECT_TRUE(geometry.surfaces.at(0).uvs.empty());
+  EXPECT_EQ(geometry.surfaces[0].uv_set, -1);
+  EXPECT_NE(test::geometry_refusal(file.text(), GeometryParts::positions_and_uvs), "loads");
+  MeshFile bare;
+  bare.node({{"mesh", bare.mesh(primitive(bare.positions(k_two_triangles)))}});
+  EXPECT_EQ(geometry.sha256, test::loaded_geometry(bare.text()).geometry.sha256);
+  EXPECT_EQ(geometry.sha256, test::loaded_geometry(bare.text(), GeometryParts::positions_and_uvs).geometry.sha256);
+}
+
+TEST(Geometry, a_light_map_has_the_second_texture_coordinates_where_all_of_a_mesh_has_them) {
+  const auto sets_of = [](bool second_has_both) {
+    MeshFile file;
+    Json first = primitive(file.positions(k_quad)), second = primitive(file.positions(k_quad)), lines = first;
+    first["mode"] = second["mode"] = 5;
+    lines["mode"] = 1;
+    first["attributes"]["TEXCOORD_0"] = second["attributes"]["TEXCOORD_0"] = file.uvs({4, {9, 9}});
+    first["attributes"]["TEXCOORD_1"] = file.uvs(k_quad_uvs);
+    if (second_has_both) second["attributes"]["TEXCOORD_1"] = file.uvs(k_quad_uvs);
+    file.mesh(first);
+    file.json["meshes"][0]["primitives"] = {first, lines, second};
+    file.node({{"mesh", 0}});
+    return test::loaded_geometry(file.text(), GeometryParts::positions_and_uvs).geometry.surfaces;
+  };
+  const std::vector<Surface> both = sets_of(true), one = sets_of(false);
+  ASSERT_EQ(both.size(), 2U);
+  EXPECT_EQ(both[0].uv_set, 1);
+  EXPECT_EQ(both[1].uvs, k_quad_uvs);
+  EXPECT_EQ(one[0].uv_set, 0);
+  EXPECT_EQ(one[0].uvs, (std::vector<Vec2f>(4, {9, 9})));
+}
+
+TEST(Geometry, texture_coordinates_may_be_shares_and_need_one_per_vertex_near_0) {
+  const auto with = [](auto&& add) {
+    MeshFile file;
+    Json of = primitive(file.positions(k_quad));
+    of["mode"] = 5;
+    of["attributes"]["TEXCOORD_0"] = add(file);
+    file.node({{"mesh", file.mesh(of)}});
+    return file.text();
+  };
+  const auto parts = GeometryParts::positions_and_uvs;
+  const std::string shares = with([](MeshFile& file) {
+    const std::size_t out = file.accessor(
+        test::bytes_of(std::vector<std::uint16_t>{0, 0, 65535, 0, 0, 65535, 65535, 65535}), 5123, "VEC2", 4);
+    file.json["accessors"][out]["normalized"] = true;
+    return out;
+  });
+  EXPECT_EQ(test::loaded_geometry(shares, parts).geometry.surfaces.at(0).uvs, k_quad_uvs);
+  const std::string where = "/meshes/0/primitives/0/attributes/TEXCOORD_0: ";
+  EXPECT_EQ(test::geometry_refusal(with([](MeshFile& file) {
+                                     return file.uvs({{0, 0}, {1, 0}, {0, 1}});
+                                   }),
+                                   parts),
+            where + "3 texture coordinates for 4 vertices");
+  EXPECT_EQ(test::geometry_refusal(with([](MeshFile& file) {
+                                     return file.uvs({{0, 0}, {1, 0}, {0, 4097}, {1, 1}});
+                                   }),
+                                   parts),
+            where + "texture coordinate 2 lies beyond -4096..4096");
+  EXPECT_EQ(test::geometry_refusal(with([](MeshFile& file) { return file.positions(k_quad); }), parts),
+            "/accessors/1/type: found VEC3, VEC2 is needed");
+  EXPECT_EQ(test::geometry_refusal(with([](MeshFile&) { return 7; }), parts).substr(0, where.size()), where);
+}
+
 }  // namespace
 }  // namespace clusterbench::scene

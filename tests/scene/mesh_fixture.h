@@ -32,6 +32,7 @@ class MeshFile {
   std::size_t positions(const std::vector<Vec3f>& vertices) {
     return accessor(bytes_of(vertices), 5126, "VEC3", vertices.size());
   }
+  std::size_t uvs(const std::vector<glm::vec2>& of) { return accessor(bytes_of(of), 5126, "VEC2", of.size()); }
   template <class T>
   std::size_t indices(const std::vector<T>& of) {
     return accessor(bytes_of(of), sizeof(T) == 1 ? 5121 : sizeof(T) == 2 ? 5123 : 5125, "SCALAR", of.size());
@@ -66,18 +67,18 @@ struct LoadedGeometry {
   Scene scene;
   Geometry geometry;
 };
-inline LoadedGeometry loaded_geometry(const std::string& text) {
+inline LoadedGeometry loaded_geometry(const std::string& text, GeometryParts parts = GeometryParts::positions) {
   const Folder folder;
   LoadedGeometry out;
   out.scene = load_gltf(folder.write("scene.gltf", text));
-  out.geometry = load_geometry(out.scene);
+  out.geometry = load_geometry(out.scene, parts);
   return out;
 }
 
 // "where: message" of the refusal, or "loads".
-inline std::string geometry_refusal(const std::string& text) {
+inline std::string geometry_refusal(const std::string& text, GeometryParts parts = GeometryParts::positions) {
   try {
-    loaded_geometry(text);
+    loaded_geometry(text, parts);
   } catch (const Error& error) {
     return error.where() + ": " + error.message();
   }
