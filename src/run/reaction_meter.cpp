@@ -1,6 +1,6 @@
 #include "run/reaction_meter.h"
 
-#include <algorithm>
+#include "run/path_frames.h"
 
 namespace clusterbench::run {
 

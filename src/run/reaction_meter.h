@@ -6,10 +6,12 @@
 #include <vector>
 
 #include "config/config.h"
+#include "grid/grid_spec.h"
 #include "run/case_side.h"
-#include "run/path_frames.h"
 
 namespace clusterbench::run {
+
+class PathFrames;
 
 // Tiles along a path. A step leads from one frame to the next.
 struct TileMoves {
