@@ -46,7 +46,9 @@ view::Frame PathFrames::frame_of_path(int index) const {
 
 grid::GridInputs PathFrames::inputs(const grid::GridSpec& spec, const view::Frame& frame) const {
   grid::GridInputs inputs = inputs_as_asked(spec, frame);
-  if (spec.reaction) inputs.tiles = reactions(spec)[static_cast<std::size_t>(frame.index)].tiles;
+  // The first frame has none before it; and what tiles make of the frame itself is there.
+  if (spec.reaction && spec.reaction->to == grid::Reaction::To::entries && frame.index > 0)
+    inputs.tiles = reactions(spec)[static_cast<std::size_t>(frame.index)].tiles;
   return inputs;
 }
 
