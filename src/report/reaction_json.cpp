@@ -61,8 +61,8 @@ Cells fallback_row(const Json& result_case) {
 
 // A block per grid with lines of its cases that have a part.
 std::string table_of(const Json& result, const char* part, const std::string& title, const Cells& headings,
-                     const std::function<Cells(const Json&)>& row_of,
-                     const std::function<std::string(const Json&)>& text_of) {
+                     const std::function<Cells(const Json&)>& line_of,
+                     const std::function<std::string(const Json&)>& head_of) {
   std::string out;
   for (const Json& scene : result["scenes"]) {
     std::string blocks;
@@ -72,11 +72,11 @@ std::string table_of(const Json& result, const char* part, const std::string& ti
       for (const Json& result_case : result["cases"]) {
         if (!result_case.contains(part) || result_case["scene"] != scene["name"] || block_of(result_case) != block)
           continue;
-        rows.push_back(row_of(result_case));
+        rows.push_back(line_of(result_case));
         any = &result_case[part];
       }
       if (any == nullptr) continue;
-      blocks += " " + block + "\n" + text_of(*any);
+      blocks += " " + block + "\n" + head_of(*any);
       const std::vector<std::size_t> widths = widths_of(rows);
       for (const Cells& row : rows) blocks += aligned(row, widths);
     }

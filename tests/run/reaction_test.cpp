@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "assign/contract/assigner_run.h"
+#include "assign/contract/storage.h"
 #include "core/error.h"
 #include "measure/samples.h"
 #include "measure/truth.h"
