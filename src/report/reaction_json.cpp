@@ -60,9 +60,9 @@ Cells fallback_row(const Json& result_case) {
 }
 
 // A block per grid with lines of its cases that have a part.
-std::string table_of(const Json& result, const char* part, const std::string& title, const Cells& headings,
-                     const std::function<Cells(const Json&)>& line_of,
-                     const std::function<std::string(const Json&)>& head_of) {
+std::string table_beside(const Json& result, const char* part, const std::string& title, const Cells& headings,
+                         const std::function<Cells(const Json&)>& to_row,
+                         const std::function<std::string(const Json&)>& to_text) {
   std::string out;
   for (const Json& scene : result["scenes"]) {
     std::string blocks;
@@ -72,11 +72,11 @@ std::string table_of(const Json& result, const char* part, const std::string& ti
       for (const Json& result_case : result["cases"]) {
         if (!result_case.contains(part) || result_case["scene"] != scene["name"] || block_of(result_case) != block)
           continue;
-        rows.push_back(line_of(result_case));
+        rows.push_back(to_row(result_case));
         any = &result_case[part];
       }
       if (any == nullptr) continue;
-      blocks += " " + block + "\n" + head_of(*any);
+      blocks += " " + block + "\n" + to_text(*any);
       const std::vector<std::size_t> widths = widths_of(rows);
       for (const Cells& row : rows) blocks += aligned(row, widths);
     }
@@ -115,8 +115,8 @@ Json fallback_to_json(const run::FallbackResult& result) {
 }
 
 std::string reaction_table(const Json& result) {
-  const std::string out = table_of(result, "react", "tiles that react", k_reaction_headings, reaction_row,
-                                   [](const Json& react) { return "  " + reaction_text(react) + "\n"; });
+  const std::string out = table_beside(result, "react", "tiles that react", k_reaction_headings, reaction_row,
+                                       [](const Json& react) { return "  " + reaction_text(react) + "\n"; });
   if (out.empty()) return "";
   return "\n" + out +
          "reacted: frames with other tiles than asked for. over: frames that still need more than there is room for.\n"
@@ -126,8 +126,8 @@ std::string reaction_table(const Json& result) {
 }
 
 std::string fallback_table(const Json& result) {
-  const std::string out = table_of(result, "fallback", "lists that have no room", k_fallback_headings, fallback_row,
-                                   [](const Json&) { return std::string(); });
+  const std::string out = table_beside(result, "fallback", "lists that have no room", k_fallback_headings, fallback_row,
+                                       [](const Json&) { return std::string(); });
   if (out.empty()) return "";
   return "\n" + out +
          "frames: with a cell that reads all lights for want of room. cells: that do, over all frames. entries to "

@@ -8,7 +8,7 @@
 namespace clusterbench::grid {
 namespace {
 
-Tiling px(int width, int height) {
+Tiling in_pixels(int width, int height) {
   return {{width, height}, {0, 0}, 0.0};
 }
 Tiling per_screen(int columns, int rows) {
@@ -38,31 +38,31 @@ TEST(DoubledTiles, are_the_first_whose_words_fit) {
       {{3840, 2160}, 256, 64},  // 65280, then 8 · 60 · 34 = 16320
   };
   for (const Row& row : k_rows)
-    EXPECT_EQ(doubled_tiles(px(8, 8), row.viewport, row.lights, 16384), px(row.pixels, row.pixels))
+    EXPECT_EQ(doubled_tiles(in_pixels(8, 8), row.viewport, row.lights, 16384), in_pixels(row.pixels, row.pixels))
         << row.viewport.x << " px, " << row.lights << " lights";
 }
 
 TEST(DoubledTiles, end_at_one_tile_where_the_words_of_no_tiles_fit) {
-  const Tiling one = doubled_tiles(px(8, 8), {100, 50}, 100, 1);
-  EXPECT_EQ(one, px(128, 128));
+  const Tiling one = doubled_tiles(in_pixels(8, 8), {100, 50}, 100, 1);
+  EXPECT_EQ(one, in_pixels(128, 128));
   EXPECT_EQ(mask_words(one, {100, 50}, 100), 4u);
-  EXPECT_EQ(doubled_tiles(px(200, 200), {100, 50}, 100, 1), px(200, 200));
+  EXPECT_EQ(doubled_tiles(in_pixels(200, 200), {100, 50}, 100, 1), in_pixels(200, 200));
 }
 
 TEST(ShrunkTiles, have_columns_and_rows_times_the_square_root_of_what_there_is_room_for) {
   // sqrt(1/2) = 0.7071: 17 columns become 12.02, 9 rows 6.36.
-  EXPECT_EQ(shrunk_tiles(px(113, 120), {1920, 1080}, 32768, 16384), px(160, 180));
+  EXPECT_EQ(shrunk_tiles(in_pixels(113, 120), {1920, 1080}, 32768, 16384), in_pixels(160, 180));
   EXPECT_EQ(shrunk_tiles(per_screen(16, 9), {1920, 1080}, 400, 100), per_screen(8, 4));
   EXPECT_EQ(shrunk_tiles(per_screen(16, 9), {1920, 1080}, 101, 100), per_screen(15, 8));
 }
 
 TEST(ShrunkTiles, are_those_asked_for_where_there_is_room) {
-  EXPECT_EQ(shrunk_tiles(px(64, 64), {1920, 1080}, 16384, 16384), px(64, 64));
-  EXPECT_EQ(shrunk_tiles(px(64, 64), {1920, 1080}, 0, 1), px(64, 64));
+  EXPECT_EQ(shrunk_tiles(in_pixels(64, 64), {1920, 1080}, 16384, 16384), in_pixels(64, 64));
+  EXPECT_EQ(shrunk_tiles(in_pixels(64, 64), {1920, 1080}, 0, 1), in_pixels(64, 64));
 }
 
 TEST(ShrunkTiles, end_at_one_tile) {
-  EXPECT_EQ(shrunk_tiles(px(64, 64), {1920, 1080}, 4000000000u, 1), px(1920, 1080));
+  EXPECT_EQ(shrunk_tiles(in_pixels(64, 64), {1920, 1080}, 4000000000u, 1), in_pixels(1920, 1080));
   EXPECT_EQ(shrunk_tiles(per_screen(3, 2), {1920, 1080}, 4000000000u, 1), per_screen(1, 1));
 }
 
@@ -88,17 +88,19 @@ TEST(ReactingGrids, refuse_what_has_no_tiles_to_make_larger) {
   const Reaction entries{Reaction::To::entries, 100, "exact", 0}, words{Reaction::To::mask_words, 100, "", 0};
   EXPECT_NE(refusal_of(reacting(words, per_screen(4, 4))).find("react.to"), std::string::npos);
   EXPECT_NE(refusal_of(reacting(entries, {{0, 0}, {0, 0}, 1.0})).find("react takes tiles"), std::string::npos);
-  GridSpec cubical = reacting(entries, px(64, 64));
+  GridSpec cubical = reacting(entries, in_pixels(64, 64));
   cubical.slices.scheme = Scheme::cubical;
   EXPECT_NE(refusal_of(cubical).find("react takes tiles"), std::string::npos);
 }
 
 TEST(ReactingGrids, are_named_by_what_they_react_to) {
-  EXPECT_NE(reacting({Reaction::To::entries, 8192, "exact", 0}, px(64, 64)).name().find(" react entries 8192 of exact"),
+  EXPECT_NE(reacting({Reaction::To::entries, 8192, "exact", 0}, in_pixels(64, 64))
+                .name()
+                .find(" react entries 8192 of exact"),
             std::string::npos);
-  const std::string name = reacting({Reaction::To::mask_words, 16384, "", 256}, px(8, 8)).name();
+  const std::string name = reacting({Reaction::To::mask_words, 16384, "", 256}, in_pixels(8, 8)).name();
   EXPECT_NE(name.find(" react mask-words 16384 lights 256"), std::string::npos);
-  EXPECT_EQ(reacting({}, px(64, 64)).unreacting().name(), GridSpec{}.name());
+  EXPECT_EQ(reacting({}, in_pixels(64, 64)).unreacting().name(), GridSpec{}.name());
 }
 
 }  // namespace

@@ -17,10 +17,10 @@
 namespace clusterbench::run {
 namespace {
 
-constexpr int k_frames = 6;
+constexpr int k_jam_frames = 6;
 
 // `scenes/jam.glb`: 600 lights close together.
-config::Config jam(const std::string& grids, const std::string& rest = "", int frames = k_frames) {
+config::Config jam(const std::string& grids, const std::string& rest = "", int frames = k_jam_frames) {
   return config::parse_config(
       R"({"scenes": [{"path": "scenes/jam.glb", "frames": )" + std::to_string(frames) +
           R"(}], "viewport": [320, 180], "timing": {"measure": false}, "shading": {"samples": 500}, "grids": [)" +
@@ -101,7 +101,7 @@ TEST(TilesThatReact, lose_no_light_and_need_fewer_entries_and_longer_loops) {
     EXPECT_GT(reaction.reacting.evaluated.front().evaluated, reaction.fixed.evaluated.front().evaluated);
     EXPECT_LT(*reaction.reacting.pairs_mean, *reaction.fixed.pairs_mean);
     EXPECT_EQ(reaction.reacting.index_entries, found.buffers.index_entries.high_water);
-    EXPECT_EQ(reaction.cells.size(), static_cast<std::size_t>(k_frames));
+    EXPECT_EQ(reaction.cells.size(), static_cast<std::size_t>(k_jam_frames));
   }
 }
 
@@ -147,8 +147,8 @@ TEST(TilesThatReact, stay_in_a_path_of_one_frame_and_end_at_one_tile) {
   EXPECT_EQ(words.reaction->moves.over, 1);
   const CaseResult several = run_all(jam(tiles_that(R"({"most": 1})"), R"(, "assigners": ["exact-fast"])")).cases.at(0);
   EXPECT_EQ(several.reaction->moves.fewest, (Vec2i{1, 1}));
-  EXPECT_EQ(several.reaction->moves.over, k_frames);
-  EXPECT_EQ(several.reaction->moves.reacted, k_frames - 1);
+  EXPECT_EQ(several.reaction->moves.over, k_jam_frames);
+  EXPECT_EQ(several.reaction->moves.reacted, k_jam_frames - 1);
 }
 
 TEST(TilesThatReact, double_within_the_frame_for_the_lights_in_view) {
