@@ -173,7 +173,7 @@ class CellsView {
   private draw(): void {
     const { selection, rows, geometry } = this,
       { frame } = rows;
-    const size = this.aCase.grid.cells;
+    const { size } = geometry;
     if (selection.cell.some((value, axis) => value < 0 || value >= size[axis]!))
       selection.cell = worstCell(frame, geometry, "reported");
     const highest = most(frame, selection.what);

@@ -15,6 +15,7 @@ import { picturesSection } from "./pictures.ts";
 import { precisionSection } from "./precision.ts";
 import { presetsSection } from "./presets.ts";
 import { rankingSection } from "./ranking.ts";
+import { reactSection } from "./react.ts";
 import type { PageData } from "./result.ts";
 import { setupSection } from "./setup.ts";
 import { speedErrorSection } from "./speed_error.ts";
@@ -33,6 +34,7 @@ const sections = [
   cellsSection(),
   stabilitySection,
   fitSection,
+  reactSection,
   precisionSection,
   warningsSection,
   setupSection,

@@ -6,6 +6,15 @@ export type Extremes = {
   max: number | null; // Largest
 };
 
+export type Saved = {
+  pairs?: number | null; // Pairs in lists, mean per frame
+  false_positives?: number | null; // Pairs that are not true
+  lists_changed?: number | null; // Lists that differ from the frame before's
+  index_entries: number | null; // High-water mark of the entries to allocate
+  bytes: number | null; // High-water mark of all bytes to allocate
+  evaluated: Record<string, number | null>; // Lights that samples loop over, by the set of samples
+};
+
 export type FitSide = {
   pairs?: number; // In lists, mean per frame; absent without cells [pairs]
   true_pairs?: number; // Over all frames; absent without cells, or where accuracy is not checked [pairs]
@@ -388,15 +397,38 @@ export type Result = {
       }; // How the grid changes from frame to frame
       fitted: FitSide; // This case
       unfitted: FitSide; // The same case in the grid that does not follow
-      saved: {
-        pairs?: number | null; // Pairs in lists, mean per frame
-        false_positives?: number | null; // Pairs that are not true
-        lists_changed?: number | null; // Lists that differ from the frame before's
-        index_entries: number | null; // High-water mark of the entries to allocate
-        bytes: number | null; // High-water mark of all bytes to allocate
-        evaluated: Record<string, number | null>; // Lights that samples loop over, by the set of samples
-      }; // 1 - fitted / unfitted: below 0 where following costs; null where the unfitted case has none [share, over the case]
+      saved: Saved; // 1 - fitted / unfitted: below 0 where following costs; null where the unfitted case has none
     }; // Of slices that follow what frames need (slices.fit): what that saves and risks beside the same case in the same grid without
+    react?: {
+      to: "entries" | "mask-words"; // What tiles react to: entries of lists in the frame before, or words of masks in the frame itself
+      most: number; // Entries or words that there is room for [entries, over the case]
+      of?: string; // The method whose lists are counted; only of entries
+      most_lights?: number; // Lights that get a bit at most; absent without a limit [lights, over the case]
+      tiles: {
+        asked: [number, number]; // Across and down, where nothing makes them larger [tiles]
+        fewest: [number, number]; // The fewest across and the fewest down [tiles, over frames]
+        per_frame: Extremes; // In a frame [tiles, over frames]
+      }; // Tiles of the frames
+      needed: Extremes; // Entries of the counted method's lists, or words, in a frame's own tiles [entries, over frames]
+      frames: {
+        reacted: number; // With other tiles than asked for [frames, over the path]
+        over: number; // That need more than there is room for in their own tiles [frames, over the path]
+      }; // Frames of the path
+      moves: {
+        steps: number; // From a frame to the next [steps, over the path]
+        changed: number; // Steps to other tiles; a method is then built again, and all lists are new [steps, over the path]
+      }; // How tiles change from frame to frame
+      reacting: FitSide; // This case
+      fixed: FitSide; // The same case in the tiles asked for
+      saved: Saved; // 1 - reacting / fixed: below 0 where reacting costs; null where the other case has none
+    }; // Of tiles that react (react of a grid): how often they did, and what that saves and costs beside the same case in the tiles that were asked for
+    fallback?: {
+      frames: number; // With a cell that reads all lights [frames, over the path]
+      cells: number; // That read all lights [cells, over all frames]
+      limited: FitSide; // This case
+      roomy: FitSide; // The same case with room for all lists
+      saved: Saved; // 1 - limited / roomy: below 0 where falling back costs; null where the other case has none
+    }; // Of a storage whose room can end (packed with max_entries): how often cells read all lights of the frame in place of their own, and what that saves and costs beside the same case with room for all
     stability?: {
       steps: number; // Steps taken: fewer than asked for where the path ends or the camera stands still [steps, over the piece of the path]
       step_m: number | null; // Largest move of the camera in one step [m, over the steps]
@@ -544,6 +576,10 @@ export type Result = {
           far_m: number | null; // Far plane; null: infinite [m, over the frame]
         }; // Pose and projection
         boundaries?: string; // Boundaries of the slices, as a row of numbers; absent where they are those of the case's grid
+        tiles?: {
+          count: [number, number]; // Across and down [tiles]
+          pixels?: [number, number]; // Width and height of a tile; absent for tiles per screen [px]
+        }; // Tiles of a grid that reacts; absent where they are those of the case's grid [over the frame]
         box?: {
           origin: Vector; // Position in the world that min and max are relative to
           min: Vector; // Lowest corner

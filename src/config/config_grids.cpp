@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "assign/contract/assigner.h"
 #include "config/grid_json.h"
 #include "core/error.h"
+#include "core/text.h"
 
 namespace clusterbench::config {
 namespace {
@@ -29,6 +31,11 @@ constexpr Axis k_axes[] = {{"/tiles/pixels", 1},
                            {"/slices/fit/to", 0},
                            {"/slices/fit/damping", 0},
                            {"/slices/fit/step", 0},
+                           {"/react", 0},
+                           {"/react/to", 0},
+                           {"/react/most", 0},
+                           {"/react/of", 0},
+                           {"/react/most_lights", 0},
                            {"/cells", 1},
                            {"/levels", 0},
                            {"/finest", 0},
@@ -55,8 +62,19 @@ std::vector<Json> expand_axis(const std::vector<Json>& all, const Json::json_poi
   return out;
 }
 
+void drop_unused_reaction(Json& grid) {
+  if (!grid.contains("react")) return;
+  Json& react = grid["react"];
+  if (react.is_null()) {
+    grid.erase("react");
+    return;
+  }
+  react.erase(react["to"] == "entries" ? "most_lights" : "of");
+}
+
 // A key that only other schemes of the axis use must not make several equal grids.
 void drop_unused(Json& grid) {
+  drop_unused_reaction(grid);
   if (grid.contains("cell_size") && grid.value("follow", Json()) != "camera") grid.erase("cell_size");
   if (!grid.contains("slices")) return;
   Json& slices = grid["slices"];
@@ -104,6 +122,41 @@ void check_slices(const Json& slices, const std::string& pointer, const JsonText
            "found " + boundaries[i].dump() + " after " + boundaries[i - 1].dump() + ", allowed: ascending numbers");
 }
 
+// What a grid cannot react to, whatever the scene.
+void check_reaction(const Json& grid, const std::string& pointer, const JsonText& text) {
+  const Json& react = grid["react"];
+  const auto fail = [&](const char* key, const std::string& message) {
+    throw Error(text.file, text.where(pointer + "/react" + key), message);
+  };
+  const std::string scheme = grid["slices"]["scheme"].get<std::string>();
+  if (grid["tiles"].contains("aspect"))
+    fail("", "found tiles.aspect, which makes tiles of slices; allowed beside react: tiles.pixels or tiles.count");
+  if (scheme == "cubical" || scheme == "cubical-first")
+    fail("", "found " + scheme + " slices, which follow from tiles; allowed beside react: another slices.scheme");
+  if (react["to"] == "mask-words" && grid["tiles"].contains("count"))
+    fail("/to", "found 'mask-words', which doubles tiles in pixels, beside tiles.count; allowed: tiles.pixels");
+}
+
+// The method whose lists tiles react to: it has to have lists, in this kind of grid, of nothing but lights.
+void check_method_of_reaction(const Json& grid, const std::string& pointer, const JsonText& text) {
+  const Json& react = grid["react"];
+  if (react["to"] != "entries") return;
+  const std::string name = react["of"].get<std::string>(), kind = grid["kind"].get<std::string>();
+  const assign::AssignerDescriptor* method = assign::find_assigner(name);
+  std::vector<std::string> allowed;
+  for (const assign::AssignerDescriptor* any : assign::assigner_descriptors())
+    if (any->answers(assign::Answer::lists) && !any->needs.depth &&
+        std::ranges::any_of(any->kinds, [&](grid::Kind taken) { return grid::kind_name(taken) == kind; }))
+      allowed.push_back(any->name);
+  if (method == nullptr)
+    throw Error(text.file, text.where(pointer + "/react/of"),
+                "found '" + name + "'" + did_you_mean(name, allowed) + ", allowed: " + joined(allowed));
+  if (std::ranges::find(allowed, name) == allowed.end())
+    throw Error(text.file, text.where(pointer + "/react/of"),
+                "found '" + name + "', which fills no lists of " + kind +
+                    " grids from lights alone; allowed: " + joined(allowed));
+}
+
 void check_boxes(const Json& grid, const std::string& pointer, const JsonText& text) {
   const Json& cells = grid["cells"];
   if (grid["kind"] == "cascades" &&
@@ -140,8 +193,10 @@ std::vector<grid::GridSpec> grid_specs(const Json& grids, const JsonText& text) 
     if (singles.size() == 1) {
       if (singles[0].contains("slices")) check_slices(singles[0]["slices"], pointer + "/slices", text);
       if (singles[0].contains("cells")) check_boxes(singles[0], pointer, text);
+      if (singles[0].contains("react")) check_reaction(singles[0], pointer, text);
     }
     for (const Json& single : singles) {
+      if (single.contains("react")) check_method_of_reaction(single, pointer, text);
       if (std::find(earlier.begin(), earlier.end(), single) != earlier.end())
         throw Error(text.file, text.where(pointer), "this grid stands here twice: " + single.dump());
       earlier.push_back(single);

@@ -37,6 +37,16 @@ grid::Fit fit_of(const Json& fit) {
   return out;
 }
 
+grid::Reaction reaction_of(const Json& react) {
+  grid::Reaction out;
+  if (react["to"] == grid::name_of(grid::Reaction::To::mask_words)) out.to = grid::Reaction::To::mask_words;
+  out.most = react["most"].get<std::uint64_t>();
+  if (react.contains("of")) out.of = react["of"].get<std::string>();
+  if (react.contains("most_lights") && react["most_lights"].is_number())
+    out.most_lights = react["most_lights"].get<std::uint64_t>();
+  return out;
+}
+
 grid::Slicing slicing_of(const Json& slices) {
   grid::Slicing out;
   const std::string name = slices["scheme"].get<std::string>();
@@ -94,6 +104,13 @@ OrderedJson tiles_json(const grid::Tiling& tiles) {
   return out;
 }
 
+OrderedJson react_json(const grid::Reaction& reaction) {
+  OrderedJson out{{"to", grid::name_of(reaction.to)}, {"most", reaction.most}};
+  if (reaction.to == grid::Reaction::To::entries) out["of"] = reaction.of;
+  if (reaction.most_lights > 0) out["most_lights"] = reaction.most_lights;
+  return out;
+}
+
 // null along an axis that does not follow.
 OrderedJson cell_size_json(const grid::GridSpec& spec) {
   OrderedJson out = OrderedJson::array();
@@ -106,6 +123,7 @@ OrderedJson cell_size_json(const grid::GridSpec& spec) {
 OrderedJson requested(const grid::GridSpec& spec, const std::string& key) {
   if (key == "tiles") return tiles_json(spec.tiles);
   if (key == "slices") return slices_json(spec.slices);
+  if (key == "react" && spec.reaction) return react_json(*spec.reaction);
   if (key == "cells") return {spec.cells.x, spec.cells.y, spec.cells.z};
   if (key == "levels") return spec.levels;
   if (key == "finest") return spec.finest_m;
@@ -128,6 +146,8 @@ void add_identity(const grid::GridSpec& spec, const std::string& key, Json& out)
     if (slices.scheme == grid::Scheme::power) out["lambda"] = slices.lambda;
     if (slices.fit) out["fit"] = {grid::name_of(slices.fit->to), slices.fit->damping, slices.fit->step};
   }
+  if (key == "react" && spec.reaction)
+    out[key] = {grid::name_of(spec.reaction->to), spec.reaction->most, spec.reaction->of, spec.reaction->most_lights};
   if (key == "cells") out[key] = {spec.cells.x, spec.cells.y, spec.cells.z};
   if (key == "levels") out[key] = {spec.levels, spec.finest_m};
   if (key == "bounds" && spec.has_bounds) out[key] = {bounds_json(spec.bounds_lo_m), bounds_json(spec.bounds_hi_m)};
@@ -152,6 +172,7 @@ grid::GridSpec grid_spec(const Json& grid) {
     if (grid["kind"] == grid::kind_name(static_cast<grid::Kind>(kind))) spec.kind = static_cast<grid::Kind>(kind);
   if (grid.contains("tiles")) spec.tiles = tiling_of(grid["tiles"]);
   if (grid.contains("slices")) spec.slices = slicing_of(grid["slices"]);
+  if (grid.contains("react") && grid["react"].is_object()) spec.reaction = reaction_of(grid["react"]);
   if (grid.contains("cells"))
     spec.cells = {grid["cells"][0].get<int>(), grid["cells"][1].get<int>(), grid["cells"][2].get<int>()};
   if (grid.contains("levels")) spec.levels = grid["levels"].get<int>();

@@ -42,15 +42,6 @@ Vec2i bevy_tile(Vec2i viewport) {
   return {divided_up(viewport.x, columns), divided_up(viewport.y, std::max(1, static_cast<int>(rows)))};
 }
 
-// Unity doubles a tile's edge, from 8 pixels on, until the masks of all tiles fit into 16384 words: with 256 lights a
-// tile has 8.
-Vec2i urp_tile(Vec2i viewport) {
-  constexpr int k_words = 16384 / 8;
-  int pixels = 8;
-  while (divided_up(viewport.x, pixels) * divided_up(viewport.y, pixels) > k_words) pixels *= 2;
-  return {pixels, pixels};
-}
-
 constexpr Preset k_presets[] = {
     {.name = "just-cause-3",
      .engine = "Avalanche, Just Cause 3",
@@ -141,29 +132,31 @@ constexpr Preset k_presets[] = {
      .source = "google/filament, Froxelizer.cpp, early 2026",
      .summary =
          "at most 8192 square froxels in 16 slices, the first to 5 m, far at 100 m; sphere refinement, equal lists "
-         "shared",
-     .approximated =
-         "no fall-back to one list of all lights beyond 64 K records; no limit of 255 per froxel nor of 256 "
-         "lights in view; logarithms are exact, and no light is lost to them",
+         "shared; all lights for the froxels beyond 64 K records",
+     .approximated = "room for 65534 records, where a device with small uniform buffers has less; no limit of 255 per "
+                     "froxel nor of "
+                     "256 lights in view; logarithms are exact, and no light is lost to them",
      .unverified = "",
      .most_lights = 256,
      .parts = R"({"grid": {"kind": "frustum", "slices":
                  {"scheme": "exponential-first", "count": 16, "first": 5, "far": 100}},
                  "assigner": {"name": "sphere-refinement", "spot": "both"},
-                 "storage": {"name": "packed", "equal_lists": "shared"}})",
+                 "storage": {"name": "packed", "equal_lists": "shared", "max_entries": 65534}})",
      .tile_pixels = filament_tile},
     {.name = "bevy",
      .engine = "Bevy",
      .source = "bevyengine/bevy, ClusterConfig::default() and assign.rs, early 2026",
      .summary =
          "at most 4096 clusters in 24 slices, the first to 5 m, far at the farthest light; sphere refinement that "
-         "takes the centre's row once",
+         "takes the centre's row once; after a frame of more than 16384 entries fewer columns and rows",
      .approximated =
-         "the first slice can end beyond 5 m; nothing is shrunk for the next frame where lists grow too long",
+         "the first slice can end beyond 5 m; far is that of the frame's own lights, where it has that of the frame "
+         "before; columns and rows shrink from those that there are, where it starts from those that it asks for",
      .unverified = "how it rounds columns and rows",
      .most_lights = 0,
      .parts = R"({"grid": {"kind": "frustum", "slices":
-                 {"scheme": "exponential-first", "count": 24, "first": 5, "fit": {"to": "lights"}}},
+                 {"scheme": "exponential-first", "count": 24, "first": 5, "fit": {"to": "lights"}},
+                 "react": {"to": "entries", "most": 16384, "of": "bevy-refinement"}},
                  "assigner": {"name": "bevy-refinement"}, "storage": {"name": "packed"}})",
      .tile_pixels = bevy_tile},
     {.name = "godot",
@@ -215,15 +208,21 @@ constexpr Preset k_presets[] = {
     {.name = "unity-urp",
      .engine = "Unity URP, Forward+",
      .source = "Unity URP, ForwardLights.cs and its tiling jobs; version not recorded",
-     .summary = "tiles of 8, 16 or 32 px with bit masks, 409 logarithmic depth bins with a range of lights each",
+     .summary =
+         "tiles of 8 px and more with bit masks that fit into 16384 words for the lights in view, 409 logarithmic "
+         "depth bins with a range of lights each",
      .approximated =
-         "tiles and bins as of 225 to 256 lights, whatever their number; bins have no masks of their own; lights "
-         "beyond 256 are not dropped",
-     .unverified = "how its tiles grow, and that there are 409 bins",
+         "bins as of 225 to 256 lights, whatever their number (4096 words, each bin 2 and its masks); bins have no "
+         "masks "
+         "of their own; reflection probes, which take bits, too, are none; lights beyond 256 get no bits, and are not "
+         "dropped",
+     .unverified = "",
      .most_lights = 256,
-     .parts = R"({"grid": {"kind": "frustum", "slices": {"scheme": "exponential", "count": 409}},
+     .parts = R"({"grid": {"kind": "frustum", "tiles": {"pixels": [8, 8]},
+                 "slices": {"scheme": "exponential", "count": 409},
+                 "react": {"to": "mask-words", "most": 16384, "most_lights": 256}},
                  "assigner": {"name": "tile-spans"}})",
-     .tile_pixels = urp_tile},
+     .tile_pixels = nullptr},
     {.name = "unity-hdrp",
      .engine = "Unity HDRP",
      .source = "Unity HDRP, light loop; version not recorded",

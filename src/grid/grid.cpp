@@ -24,7 +24,7 @@ Grid made(const GridSpec& spec, const GridInputs& inputs) {
   return {make(spec, inputs)};
 }
 
-constexpr const char* k_screen_keys[] = {"tiles", "slices"};
+constexpr const char* k_screen_keys[] = {"tiles", "slices", "react"};
 constexpr const char* k_cascades_keys[] = {"cells", "levels", "finest"};
 constexpr const char* k_world_keys[] = {"cells", "bounds", "follow", "cell_size"};
 
@@ -67,6 +67,12 @@ const char* name_of(Follow follow) {
 GridSpec GridSpec::unfitted() const {
   GridSpec out = *this;
   out.slices.fit.reset();
+  return out;
+}
+
+GridSpec GridSpec::unreacting() const {
+  GridSpec out = *this;
+  out.reaction.reset();
   return out;
 }
 

@@ -49,7 +49,7 @@ Grid make_grid(const GridSpec& spec, const GridInputs& inputs);
 
 // The inputs of one frame by itself. Fields that the spec does not use are left at zero, so that equal inputs mean an
 // equal grid. What is needed (of slices with `fit`) is within what is asked for, and does not follow from frames
-// before.
+// before; nor do tiles that react to entries, which are those asked for.
 GridInputs grid_inputs(const GridSpec& spec, const view::Frame& frame, double path_far_m, Vec3d rig_lo_m,
                        Vec3d rig_hi_m, const depth::DepthImage* depths = nullptr);
 

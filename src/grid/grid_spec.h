@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "grid/reaction.h"
 #include "grid/slicing.h"
 #include "grid/tiling.h"
 #include "view/frame.h"
@@ -36,6 +37,7 @@ struct GridSpec {
   Vec3d bounds_lo_m{0.0}, bounds_hi_m{0.0};
   Follow follow = Follow::nothing;   // world
   Vec3d cell_size_m{4.0, 0.0, 4.0};  // world that follows the camera; 0: does not along this axis, where bounds hold
+  std::optional<Reaction> reaction = {};  // frustum, distance
 
   // Whether its cells are tiles of the picture, cut by depth or distance; else they are boxes.
   bool has_tiles() const { return kind == Kind::frustum || kind == Kind::distance; }
@@ -46,6 +48,8 @@ struct GridSpec {
   }
   // The same grid with slices that do not follow what is needed.
   GridSpec unfitted() const;
+  // The same grid with the tiles that are asked for in all frames.
+  GridSpec unreacting() const;
   bool follows_camera(int axis) const { return follow == Follow::camera && cell_size_m[axis] > 0.0; }
   // "frustum 64px x 16 exponential-first 0.1..5..500": unique among specs that differ, used in case names.
   std::string name() const;
@@ -61,6 +65,8 @@ struct GridInputs {
   Span needed;                         // of slices with `fit`
   // Of the path's first frame, where how many cells there are follows from it: so they are as many in every frame.
   std::optional<view::Projection> shape = {};
+  // Of tiles that react: what they are in this frame.
+  std::optional<Tiling> tiles = {};
 
   friend bool operator==(const GridInputs&, const GridInputs&) = default;
 };

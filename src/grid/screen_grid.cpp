@@ -36,9 +36,22 @@ double ratio_of(const Slicing& slicing, const SliceRange& range) {
   return std::pow(asked.far_m / from, 1.0 / count);
 }
 
-// Without anything that follows from the projection: that of the path's first frame decides.
+void check_reaction(const GridSpec& spec) {
+  if (!spec.reaction) return;
+  if (spec.has_cell_shape())
+    throw Error("", "react", "takes tiles in pixels or so many per screen, and slices that do not follow from them");
+  if (spec.reaction->to == Reaction::To::mask_words && spec.tiles.is_by_count())
+    throw Error("", "react.to", "is mask-words, which doubles tiles in pixels; found tiles.count");
+}
+
+// With the frame's own tiles, and without anything that follows from the projection: that of the path's first frame
+// decides.
 GridSpec resolved(const GridSpec& spec, const GridInputs& inputs) {
-  if (!spec.has_cell_shape()) return spec;
+  if (!spec.has_cell_shape()) {
+    GridSpec out = spec;
+    if (inputs.tiles) out.tiles = *inputs.tiles;
+    return out;
+  }
   GridInputs of_shape = inputs;
   of_shape.projection = inputs.shape.value_or(inputs.projection);
   const view::Projection& projection = of_shape.projection;
@@ -65,8 +78,7 @@ std::string pair(int a, int b, const char* unit) {
 
 std::string tiles_name(const Tiling& tiles) {
   if (tiles.aspect > 0.0) return "aspect " + number_name(tiles.aspect);
-  const bool by_count = tiles.count.x != 0 || tiles.count.y != 0;
-  return by_count ? pair(tiles.count.x, tiles.count.y, "") : pair(tiles.pixels.x, tiles.pixels.y, "px");
+  return tiles.is_by_count() ? pair(tiles.count.x, tiles.count.y, "") : pair(tiles.pixels.x, tiles.pixels.y, "px");
 }
 
 // "near..far", or "near..first..far"; what the camera or the lights decide is left out.
@@ -94,6 +106,15 @@ std::string fit_name(const std::optional<Fit>& fit) {
   std::string name = std::string(" fit ") + name_of(fit->to);
   if (fit->damping > 0.0) name += " damped " + number_name(fit->damping);
   if (fit->step > 1.0) name += " step " + number_name(fit->step);
+  return name;
+}
+
+// " react entries 8192 of exact-fast"
+std::string reaction_name(const std::optional<Reaction>& reaction) {
+  if (!reaction) return "";
+  std::string name = std::string(" react ") + name_of(reaction->to) + " " + std::to_string(reaction->most);
+  if (reaction->to == Reaction::To::entries) name += " of " + reaction->of;
+  if (reaction->most_lights > 0) name += " lights " + std::to_string(reaction->most_lights);
   return name;
 }
 
@@ -139,6 +160,7 @@ ScreenGrid make_screen_grid(const GridSpec& asked, const GridInputs& inputs) {
   if (inputs.viewport.x < 1 || inputs.viewport.y < 1) throw Error("", "viewport", "must be at least 1 x 1 pixels");
   if (asked.slices.fit && asked.slices.fit->step > 1.0 && asked.slices.fit->step < k_least_step)
     throw Error("", "slices.fit.step", "is " + number_name(asked.slices.fit->step) + "; allowed: 1, or at least 1.01");
+  check_reaction(asked);
   const GridSpec spec = resolved(asked, inputs);
   if (spec.kind == Kind::distance && inputs.projection.orthographic)
     throw Error("", "kind", "distance grids have their shells around the eye; an orthographic camera has none");
@@ -157,6 +179,12 @@ GridInputs screen_inputs(const GridSpec& spec, const FrameReach& from) {
   inputs.light_far_m = from.path_far_m;
   const bool by_distance = spec.kind == Kind::distance;
   if (spec.has_cell_shape()) inputs.shape = inputs.projection;
+  if (spec.reaction) {
+    inputs.tiles = spec.tiles;
+    if (spec.reaction->to == Reaction::To::mask_words)
+      inputs.tiles =
+          doubled_tiles(spec.tiles, inputs.viewport, lights_with_bits(*spec.reaction, from.frame), spec.reaction->most);
+  }
   if (spec.slices.scheme == Scheme::fit) {
     const Span reach = span_of_balls(from.frame, by_distance);
     inputs.light_near_m = reach.near_m;
@@ -169,7 +197,8 @@ GridInputs screen_inputs(const GridSpec& spec, const FrameReach& from) {
 }
 
 std::string screen_grid_name(const GridSpec& spec) {
-  return std::string(kind_name(spec.kind)) + " " + tiles_name(spec.tiles) + " x " + slices_name(spec.slices);
+  return std::string(kind_name(spec.kind)) + " " + tiles_name(spec.tiles) + " x " + slices_name(spec.slices) +
+         reaction_name(spec.reaction);
 }
 
 }  // namespace clusterbench::grid

@@ -69,8 +69,13 @@ Tiling resolved_aspect(const Tiling& tiling, double ratio, const view::Projectio
   return {{0, 0}, {whole(columns, viewport.x), whole(rows, viewport.y)}, 0.0};
 }
 
+Vec2i tile_counts(const Tiling& tiling, Vec2i viewport) {
+  if (tiling.is_by_count()) return tiling.count;
+  return {(viewport.x + tiling.pixels.x - 1) / tiling.pixels.x, (viewport.y + tiling.pixels.y - 1) / tiling.pixels.y};
+}
+
 Tiles make_tiles(const Tiling& tiling, const view::Projection& projection, Vec2i viewport) {
-  const bool by_count = tiling.count.x != 0 || tiling.count.y != 0;
+  const bool by_count = tiling.is_by_count();
   const char* key = by_count ? "tiles.count" : "tiles.pixels";
   const Vec2i pixels = by_count ? Vec2i{0, 0} : tiling.pixels;
   if (viewport.x < 1 || viewport.y < 1) throw Error("", "viewport", "must be at least 1 x 1 pixels");
@@ -78,9 +83,9 @@ Tiles make_tiles(const Tiling& tiling, const view::Projection& projection, Vec2i
 
   Tiles tiles;
   tiles.orthographic = projection.orthographic;
+  tiles.pixels = pixels;
   tiles.viewport = viewport;
-  tiles.count =
-      by_count ? tiling.count : Vec2i{(viewport.x + pixels.x - 1) / pixels.x, (viewport.y + pixels.y - 1) / pixels.y};
+  tiles.count = tile_counts(tiling, viewport);
   check(key, tiles.count.x, viewport.x);
   check(key, tiles.count.y, viewport.y);
   tiles.x = tile_planes(tiles.count.x, pixels.x, viewport.x, projection.left, projection.right);

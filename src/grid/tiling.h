@@ -16,7 +16,14 @@ struct Tiling {
   // How many times as deep as high cells shall be, of slices that grow by a factor: square tiles, a whole number of
   // them down the picture. 1: cubical cells.
   double aspect = 0.0;
+
+  bool is_by_count() const { return count.x != 0 || count.y != 0; }
+  friend bool operator==(const Tiling&, const Tiling&) = default;
 };
+
+// Tiles across and down the picture, the clipped ones at its edges among them. Not for tilings with an aspect, nor of
+// sizes below 1.
+Vec2i tile_counts(const Tiling& tiling, Vec2i viewport);
 
 // Height of a tile that is not clipped, at depth 1 (perspective) or anywhere (orthographic, in metres). Not for tilings
 // with an aspect.
@@ -27,6 +34,7 @@ Tiling resolved_aspect(const Tiling& tiling, double ratio, const view::Projectio
 struct Tiles {
   bool orthographic = false;
   Vec2i count{0, 0};
+  Vec2i pixels{0, 0};  // of a tile that is not clipped; 0: so many per screen
   Vec2i viewport{0, 0};
   std::vector<float> x;  // count.x + 1 tile planes, ascending: slopes x/depth (perspective) or metres (orthographic)
   std::vector<float> y;  // count.y + 1 tile planes from the top: DEscending slopes y/depth or metres

@@ -36,6 +36,8 @@ void BufferMeter::add_frame(int frame, const assign::LightStructure& structure, 
   sum_.dropped_pairs += use.dropped_pairs;
   sum_.overflowing_cells += use.overflowing_cells;
   if (use.dropped_pairs > 0) ++sum_.overflowing_frames;
+  sum_.fallback_cells += use.fallback_cells;
+  if (use.fallback_cells > 0) ++sum_.fallback_frames;
   sum_.dropped_lights.insert(use.dropped_lights.begin(), use.dropped_lights.end());
   entries_total_ += use.index_entries;
   upload_total_ += use.upload_bytes;

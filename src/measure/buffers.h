@@ -46,6 +46,8 @@ struct Buffers {
   std::uint64_t dropped_pairs = 0, overflowing_cells = 0;
   int overflowing_frames = 0;
   std::set<std::uint32_t> dropped_lights;
+  std::uint64_t fallback_cells = 0;  // that read the list of all lights for want of room, over all frames
+  int fallback_frames = 0;
   std::uint64_t scratch_bytes = 0;             // of the assigner, high water
   int worst_frame = 0;                         // that made the high-water mark of index entries
   std::optional<std::uint32_t> worst_cell;     // its longest list, before anything is dropped; none without cells

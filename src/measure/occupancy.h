@@ -39,6 +39,8 @@ Histogram short_histogram(std::vector<std::uint64_t> cells_by_lights);
 class OccupancyMeter {
  public:
   explicit OccupancyMeter(std::uint32_t real_cells) : real_cells_(real_cells) {}  // holes not counted
+  // Of the frames to come, whose grid has other cells.
+  void set_real_cells(std::uint32_t real_cells) { real_cells_ = real_cells; }
   void add_frame(int frame, const assign::Lists& lists);
   Occupancy result() const;
 

@@ -17,7 +17,9 @@ double excess_ratio(std::uint64_t method, std::uint64_t truth) {
 }
 
 void ChurnMeter::add(const assign::Lists& lists) {
-  if (has_begun_) {
+  if (has_begun_ && lists.cell_count() != last_.cell_count()) {
+    add_new_grid(lists);
+  } else if (has_begun_) {
     Pairs changed = changed_from_last(lists);
     ++churn_.steps;
     churn_.changes += changed.size();
@@ -28,6 +30,14 @@ void ChurnMeter::add(const assign::Lists& lists) {
   }
   has_begun_ = true;
   last_ = lists;
+}
+
+void ChurnMeter::add_new_grid(const assign::Lists& lists) {
+  const std::uint64_t changes = std::uint64_t{last_.pair_count()} + lists.pair_count();
+  ++churn_.steps;
+  churn_.changes += changes;
+  churn_.most_changes = std::max(churn_.most_changes, changes);
+  lately_.clear();
 }
 
 ChurnMeter::Pairs ChurnMeter::changed_from_last(const assign::Lists& lists) const {

@@ -28,13 +28,15 @@ class ChurnMeter {
  public:
   explicit ChurnMeter(int window) : window_(static_cast<std::size_t>(window)) {}
 
-  // The first lists are where the path begins; each later call is one step. All lists have the same cells.
+  // The first lists are where the path begins; each later call is one step. Where a grid has more or fewer cells than
+  // in the step before, all pairs of both are changes, and no earlier one can be changed back.
   void add(const assign::Lists& lists);
   const Churn& result() const { return churn_; }
 
  private:
   using Pairs = std::vector<std::uint64_t>;  // cell in the upper half, light in the lower; ascending
 
+  void add_new_grid(const assign::Lists& lists);
   Pairs changed_from_last(const assign::Lists& lists) const;
   bool has_changed_lately(std::uint64_t pair) const;
 

@@ -25,6 +25,11 @@ Json camera(const run::DetailsFrame& frame) {
 Json frame_to_json(const run::DetailsFrame& f) {
   Json out{{"frame", f.frame}, {"time_s", f.time_s}, {"camera", camera(f)}};
   if (!f.boundaries.empty()) out["boundaries"] = f.boundaries;
+  if (f.tiles) {
+    const Vec2i& pixels = f.tiles->pixels;
+    out["tiles"] = {{"count", {f.tiles->count.x, f.tiles->count.y}}};
+    if (pixels.x > 0) out["tiles"]["pixels"] = {pixels.x, pixels.y};
+  }
   if (f.box)
     out["box"] = {
         {"origin", coordinates(f.box->origin)}, {"min", coordinates(f.box->lo)}, {"max", coordinates(f.box->hi)}};

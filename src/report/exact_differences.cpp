@@ -68,6 +68,17 @@ constexpr std::array k_rules{
     Rule{"/fit/unfitted/true_pairs", Kind::fixed},
     Rule{"/fit/unfitted", Kind::cost},
     Rule{"/fit/saved", Kind::follows},
+    Rule{"/react/frames", Kind::cost},
+    Rule{"/react/needed", Kind::cost},
+    Rule{"/react/moves/changed", Kind::cost},
+    Rule{"/react/tiles", Kind::follows},
+    Rule{"/react/reacting/true_pairs", Kind::follows},
+    Rule{"/react/reacting", Kind::cost},
+    Rule{"/react/fixed/true_pairs", Kind::fixed},
+    Rule{"/react/fixed", Kind::cost},
+    Rule{"/react/saved", Kind::follows},
+    Rule{"/fallback/saved", Kind::follows},
+    Rule{"/fallback", Kind::cost},
 };
 
 // Sets of samples are shaded like those of the whole view: "/samples/fog/missed" counts as "/shading/missed".

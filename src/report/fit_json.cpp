@@ -1,8 +1,6 @@
 #include "report/fit_json.h"
 
-#include <cmath>
-#include <limits>
-
+#include "report/case_sides.h"
 #include "report/columns.h"
 #include "report/result_json.h"
 
@@ -11,66 +9,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json to_json(const run::Extremes& extremes) {
-  if (extremes.count == 0) return {{"min", nullptr}, {"mean", nullptr}, {"max", nullptr}};
-  return {{"min", number_or_null(extremes.least)},
-          {"mean", number_or_null(extremes.mean())},
-          {"max", number_or_null(extremes.greatest)}};
-}
-
-Json to_json(const run::FitSide& side) {
-  Json out = Json::object();
-  if (side.pairs_mean) out["pairs"] = number_or_null(*side.pairs_mean);
-  if (side.true_pairs) {
-    out["true_pairs"] = *side.true_pairs;
-    out["false_positives"] = *side.false_positives;
-  }
-  if (side.list_changes) out["lists_changed"] = number_or_null(side.list_changes->share());
-  out["index_entries"] = side.index_entries;
-  out["bytes"] = side.bytes;
-  out["evaluated"] = Json::object();
-  out["missed"] = Json::object();
-  for (const run::EvaluatedLights& set : side.evaluated) {
-    out["evaluated"][set.set] = set.evaluated;
-    out["missed"][set.set] = set.missed;
-  }
-  return out;
-}
-
-Json share_saved(const Json& fitted, const Json& unfitted) {
-  const auto number = [](const Json& value) {
-    return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
-  };
-  return number_or_null(1.0 - number(fitted) / number(unfitted));
-}
-
-// What both sides have, as the share of the unfitted one that is saved.
-Json saved(const Json& fitted, const Json& unfitted) {
-  Json out = Json::object();
-  for (const char* key : {"pairs", "false_positives", "lists_changed", "index_entries", "bytes"})
-    if (fitted.contains(key)) out[key] = share_saved(fitted[key], unfitted[key]);
-  out["evaluated"] = Json::object();
-  for (const auto& [set, value] : fitted["evaluated"].items())
-    out["evaluated"][set] = share_saved(value, unfitted["evaluated"][set]);
-  return out;
-}
-
 const Cells k_headings{"",        "assigner", "storage", "grids",  "cells moved", "lists new", "unfitted",
                        "entries", "bytes",    "pairs",   "excess", "evaluated",   "frame"};
 
-// How much more it is than without fit.
-std::string against_unfitted(const Json& share_saved) {
-  if (!share_saved.is_number()) return "-";
-  const double share = share_saved.get<double>();
-  return text("%+.1f %%", share == 0.0 ? 0.0 : -100.0 * share);
-}
-
 Cells row_of(const Json& result_case) {
   const Json& saved = result_case["fit"]["saved"];
-  const auto saving = [&](const char* key) { return saved.contains(key) ? against_unfitted(saved[key]) : "-"; };
-  // Of the sets of samples the first one, which is that of the whole view where that is asked for.
-  const Json& sets = saved["evaluated"];
-  const std::string evaluated = sets.empty() ? "-" : against_unfitted(*sets.begin());
+  const auto saving = [&](const char* key) { return against_other(saved, key); };
   const Json& frame = result_case.contains("timing") ? result_case["timing"] : Json();
   return {"",
           method_name(result_case),
@@ -83,7 +27,7 @@ Cells row_of(const Json& result_case) {
           saving("bytes"),
           saving("pairs"),
           saving("false_positives"),
-          evaluated,
+          evaluated_against_other(saved),
           frame.is_object() ? text_at(result_case, "/timing/fit/ratio", "x %.2f") : "-"};
 }
 

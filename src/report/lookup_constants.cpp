@@ -120,6 +120,9 @@ std::string lookup_note(const Json& result_case) {
            " the last frame's, and uniforms in a shader";
   if (!grid.contains("slices")) return "";
   if (grid["slices"]["scheme"] == "fit") return "slices follow the lights: scale, bias and far are the last frame's";
+  if (result_case.contains("react"))
+    return "tiles react: cells and tile_scale are the last frame's, and uniforms in a shader" +
+           std::string(result_case.contains("fit") ? ", as are scale, bias, first and far" : "");
   if (result_case.contains("fit"))
     return "slices follow what frames need: scale, bias, first and far are the last frame's, and uniforms in a shader";
   const Json& form = grid["slices"]["lookup"]["form"];

@@ -14,6 +14,7 @@
 #include "report/json_values.h"
 #include "report/machine.h"
 #include "report/preset_ranking.h"
+#include "report/reaction_json.h"
 #include "run/gate.h"
 
 namespace clusterbench::report {
@@ -52,8 +53,9 @@ Json to_json(const measure::HighWater& mark) {
 }
 
 // Cell index as [x, y, z].
-Json cell_coordinates(std::uint32_t cell, const nlohmann::json& cells) {
-  const auto nx = cells[0].get<std::uint32_t>(), ny = cells[1].get<std::uint32_t>();
+Json cell_coordinates(std::uint32_t cell, const run::CaseResult& of, int frame) {
+  const Vec3i cells = run::cells_in(of, frame);
+  const auto nx = static_cast<std::uint32_t>(cells.x), ny = static_cast<std::uint32_t>(cells.y);
   return {cell % nx, cell / nx % ny, cell / nx / ny};
 }
 
@@ -66,7 +68,7 @@ Json occupancy(const run::CaseResult& case_result) {
           {"lights_per_cell", lights},
           {"occupied_fraction", to_json(o.occupied_fraction)},
           {"worst_frame", o.worst_frame},
-          {"worst_cell", cell_coordinates(o.worst_cell, case_result.grid["cells"])},
+          {"worst_cell", cell_coordinates(o.worst_cell, case_result, o.worst_frame)},
           {"along_path",
            {{"frames_per_entry", o.pairs_along_path.frames_per_entry()},
             {"pairs", o.pairs_along_path.entries()},
@@ -74,14 +76,14 @@ Json occupancy(const run::CaseResult& case_result) {
 }
 
 // Along the path only where frames differ: of the others high_water says all.
-Json buffer(const measure::BufferHighWater& mark, const nlohmann::json& cells) {
+Json buffer(const measure::BufferHighWater& mark, const run::CaseResult& of) {
   Json out{{"name", mark.name},
            {"element_bytes", mark.element_bytes},
            {"step", mark.step},
            {"high_water", mark.high_water},
            {"theoretical_max", mark.theoretical_max},
            {"worst_frame", mark.worst_frame}};
-  if (mark.worst_cell) out["worst_cell"] = cell_coordinates(*mark.worst_cell, cells);
+  if (mark.worst_cell) out["worst_cell"] = cell_coordinates(*mark.worst_cell, of, mark.worst_frame);
   const std::vector<std::uint64_t>& along = mark.along_path.entries();
   if (std::ranges::any_of(along, [&](std::uint64_t elements) { return elements != mark.high_water; }))
     out["along_path"] = {{"frames_per_entry", mark.along_path.frames_per_entry()}, {"elements", along}};
@@ -105,11 +107,11 @@ Json buffers(const run::CaseResult& case_result) {
            {"worst_frame", b.worst_frame}};
   if (b.traffic_bytes_max > 0)
     out["traffic_bytes"] = {{"mean", number_or_null(b.traffic_bytes_mean)}, {"max", b.traffic_bytes_max}};
-  if (b.worst_cell) out["worst_cell"] = cell_coordinates(*b.worst_cell, case_result.grid["cells"]);
+  if (b.worst_cell) out["worst_cell"] = cell_coordinates(*b.worst_cell, case_result, b.worst_frame);
   out["along_path"] = {{"frames_per_entry", b.bytes_along_path.frames_per_entry()},
                        {"bytes", b.bytes_along_path.entries()}};
   out["each"] = Json::array();
-  for (const measure::BufferHighWater& mark : b.each) out["each"].push_back(buffer(mark, case_result.grid["cells"]));
+  for (const measure::BufferHighWater& mark : b.each) out["each"].push_back(buffer(mark, case_result));
   return out;
 }
 
@@ -127,7 +129,7 @@ Json error(const run::CaseResult& case_result) {
            {"decided", {{"filter", e.filter_decided}, {"exact", e.exact_decided}}}};
   if (e.deepest)
     out["deepest"] = {{"frame", e.deepest->frame},
-                      {"cell", cell_coordinates(e.deepest->cell, case_result.grid["cells"])},
+                      {"cell", cell_coordinates(e.deepest->cell, case_result, e.deepest->frame)},
                       {"light", e.deepest->light},
                       {"rig_light", e.deepest->rig_index},
                       {"light_name", case_result.deepest_miss_light}};
@@ -430,6 +432,8 @@ Json case_to_json(const run::CaseResult& case_result) {
   if (case_result.stability) out["stability"] = stability(*case_result.stability);
   if (case_result.precision) out["precision"] = precision(*case_result.precision);
   if (case_result.fit) out["fit"] = fit_to_json(*case_result.fit);
+  if (case_result.reaction) out["react"] = reaction_to_json(*case_result.reaction);
+  if (case_result.fallback) out["fallback"] = fallback_to_json(*case_result.fallback);
   if (case_result.timing) out["timing"] = timing(*case_result.timing);
   if (case_result.count) out["count"] = count(*case_result.count);
   if (case_result.details) out["details"] = details_to_json(*case_result.details);

@@ -32,6 +32,13 @@ void add_samples(const config::Config& config, const SceneData& data, const Stru
 
 }  // namespace
 
+Vec3i cells_in(const CaseResult& result, int frame) {
+  if (result.reaction && frame >= 0 && static_cast<std::size_t>(frame) < result.reaction->cells.size())
+    return result.reaction->cells[static_cast<std::size_t>(frame)];
+  const nlohmann::json& cells = result.grid["cells"];
+  return {cells[0].get<int>(), cells[1].get<int>(), cells[2].get<int>()};
+}
+
 CaseResult case_result(const config::Config& config, const Plan& whole, const CasePlan& plan, int frames,
                        const AccuracyResult& counted, std::size_t index) {
   const scene::Scene& scene = whole.scenes[plan.scene].scene;
@@ -63,6 +70,9 @@ CaseResult case_result(const config::Config& config, const Plan& whole, const Ca
   out.storage_label = storage_label(config, plan);
   out.preset = plan.preset;
   out.buffers = structure.buffers;
+  if (structure.roomy)
+    out.fallback = FallbackResult{structure.buffers.fallback_frames, structure.buffers.fallback_cells,
+                                  structure_side(structure), structure_side(*structure.roomy)};
   out.tests_done = method.tests_done;
   out.fallbacks = method.fallbacks;
   if (method.has_cells) out.occupancy = method.occupancy;

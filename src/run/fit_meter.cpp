@@ -1,16 +1,8 @@
 #include "run/fit_meter.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace clusterbench::run {
-
-void Extremes::add(double value) {
-  least = std::min(least, value);
-  greatest = std::max(greatest, value);
-  sum += value;
-  ++count;
-}
 
 void GridMoveMeter::add(const grid::ScreenGrid& grid, const grid::Span& needed) {
   const std::vector<float>& now = grid.slices.boundaries;
@@ -28,16 +20,6 @@ void GridMoveMeter::add(const grid::ScreenGrid& grid, const grid::Span& needed) 
     moves_.cells_changed += static_cast<double>(changed) / static_cast<double>(now.size() - 1);
   }
   before_ = now;
-}
-
-void ListChangeMeter::add(const assign::Lists& lists) {
-  if (has_before_ && lists.cell_count() == before_.cell_count()) {
-    changes_.lists += lists.cell_count();
-    for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell)
-      changes_.changed += std::ranges::equal(lists.of(cell), before_.of(cell)) ? 0 : 1;
-  }
-  before_ = lists;
-  has_before_ = true;
 }
 
 config::Config without_fit(const config::Config& config, std::size_t grid) {

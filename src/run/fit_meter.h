@@ -2,29 +2,14 @@
 // What slices that follow a frame's needs (grid/needed_span.h) save and risk, beside the same grid without: how far
 // they move from frame to frame, and how many lists another frame has to write anew.
 
-#include <cstdint>
-#include <limits>
-#include <optional>
-#include <span>
-#include <string>
+#include <cstddef>
 #include <vector>
 
-#include "assign/contract/lists.h"
 #include "config/config.h"
 #include "grid/grid.h"
-#include "measure/buffers.h"
+#include "run/case_side.h"
 
 namespace clusterbench::run {
-
-// Smallest, mean and largest of one number per frame.
-struct Extremes {
-  double least = std::numeric_limits<double>::infinity(), sum = 0.0,
-         greatest = -std::numeric_limits<double>::infinity();
-  int count = 0;
-
-  void add(double value);
-  double mean() const { return sum / count; }
-};
 
 // Boundaries of slices along a path. A step leads from one frame to the next.
 struct GridMoves {
@@ -50,45 +35,12 @@ class GridMoveMeter {
   GridMoves moves_;
 };
 
-// Lists that hold other lights than the same cell's in the frame before.
-struct ListChanges {
-  std::uint64_t lists = 0, changed = 0;  // over all steps
-
-  double share() const { return static_cast<double>(changed) / static_cast<double>(lists); }
-};
-
-class ListChangeMeter {
- public:
-  void add(const assign::Lists& lists);
-  const ListChanges& result() const { return changes_; }
-
- private:
-  assign::Lists before_;
-  bool has_before_ = false;
-  ListChanges changes_;
-};
-
-// What samples of one set found.
-struct EvaluatedLights {
-  std::string set;
-  std::uint64_t evaluated = 0, missed = 0;
-};
-
-// One case in a grid.
-struct FitSide {
-  std::optional<double> pairs_mean;                          // with cells
-  std::optional<std::uint64_t> true_pairs, false_positives;  // with cells, where accuracy is checked
-  std::optional<ListChanges> list_changes;                   // with cells
-  std::uint64_t index_entries = 0, bytes = 0;                // high water
-  std::vector<EvaluatedLights> evaluated;                    // where samples are asked for
-};
-
 // A case beside the same in the grid that does not follow.
 struct FitResult {
   grid::Fit fit;
   grid::Span asked;  // within which slices follow; in the last frame
   GridMoves moves;
-  FitSide fitted, unfitted;
+  CaseSide fitted, unfitted;
 };
 
 // The configuration with this grid not following anything.

@@ -27,7 +27,8 @@ std::string lost_text(const CaseResult& result) {
       "lost " + std::to_string(error.false_negatives) + " of " + number_of(error.true_pairs, "true pair");
   if (!error.deepest) return text;
   const measure::Miss& deepest = *error.deepest;
-  const auto nx = result.grid["cells"][0].get<std::uint32_t>(), ny = result.grid["cells"][1].get<std::uint32_t>();
+  const Vec3i cells = cells_in(result, deepest.frame);
+  const auto nx = static_cast<std::uint32_t>(cells.x), ny = static_cast<std::uint32_t>(cells.y);
   return text + "; deepest in frame " + std::to_string(deepest.frame) + ", cell [" + std::to_string(deepest.cell % nx) +
          "," + std::to_string(deepest.cell / nx % ny) + "," + std::to_string(deepest.cell / nx / ny) + "], light " +
          std::to_string(deepest.light) + " ('" + result.deepest_miss_light + "'), " + percent(error.deepest_miss) +

@@ -33,6 +33,12 @@ std::string end_text(double far_m) {
   return text;
 }
 
+std::string note_of_reaction(const grid::Reaction& reaction) {
+  return std::string("tiles react to ") +
+         (reaction.to == grid::Reaction::To::entries ? "the entries of the frame before" : "the lights in view") +
+         ": these are the last frame's";
+}
+
 std::string note_of_fit(const grid::Fit& fit) {
   constexpr const char* k_followed[] = {"lights in view", "visible surfaces",
                                         "lights in view and the visible surfaces"};
@@ -56,9 +62,9 @@ Json aspect_facts(const grid::ScreenGrid& grid) {
 
 // A kind of grid is one of these.
 void add_facts(Json& facts, const grid::GridSpec& spec, const grid::ScreenGrid& grid, double camera_far_m) {
-  const bool by_count = spec.tiles.count.x != 0 || spec.tiles.aspect > 0.0;
+  const bool by_count = spec.tiles.is_by_count() || spec.tiles.aspect > 0.0;
   facts["tiles"] = {{by_count ? "count" : "pixels", by_count ? Json{grid.tiles.count.x, grid.tiles.count.y}
-                                                             : Json{spec.tiles.pixels.x, spec.tiles.pixels.y}}};
+                                                             : Json{grid.tiles.pixels.x, grid.tiles.pixels.y}}};
   facts["slices"] = {{"scheme", config::scheme_name(spec.slices.scheme)},
                      {"boundaries", grid.slices.boundaries},
                      {"lookup", lookup_facts(grid.slices.lookup)}};
@@ -69,6 +75,9 @@ void add_facts(Json& facts, const grid::GridSpec& spec, const grid::ScreenGrid& 
     facts["note"] = note_of_fit(*spec.slices.fit);
   else if (std::isinf(camera_far_m) && spec.slices.scheme != grid::Scheme::list && spec.slices.far_m == 0.0)
     facts["note"] = end_text(grid.slices.boundaries.back());
+  if (!spec.reaction) return;
+  const std::string other = facts.value("note", "");
+  facts["note"] = note_of_reaction(*spec.reaction) + (other.empty() ? "" : "; " + other);
 }
 
 void add_facts(Json& facts, const grid::GridSpec&, const grid::CascadesGrid& grid, double) {

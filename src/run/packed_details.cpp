@@ -89,6 +89,12 @@ std::string own_boundaries(const grid::Grid& grid, const grid::Grid& case_grid) 
   return run_length_text(std::vector<double>(own.begin(), own.end()));
 }
 
+std::optional<grid::Tiles> own_tiles(const grid::Grid& grid, const grid::Grid& case_grid) {
+  if (!grid.has_tiles()) return std::nullopt;
+  const grid::Tiles &own = grid.screen().tiles, &of_case = case_grid.screen().tiles;
+  return own.count == of_case.count && own.pixels == of_case.pixels ? std::nullopt : std::optional(own);
+}
+
 DetailsBox box_of(const grid::WorldGrid& grid) {
   return {grid.origin, Vec3d(Vec3f{grid.x.front(), grid.y.front(), grid.z.front()}),
           Vec3d(Vec3f{grid.x.back(), grid.y.back(), grid.z.back()})};
@@ -110,6 +116,7 @@ DetailsFrame packed_frame(const view::Frame& frame, const scene::Scene& scene, c
   out.camera = frame.view_space;
   out.projection = frame.projection;
   out.boundaries = own_boundaries(grid, case_grid);
+  out.tiles = own_tiles(grid, case_grid);
   out.box = own_box(grid, case_grid);
   out.cell_count = found.cells.size();
   out.cells = run_length_text(gaps_of(found.cells));

@@ -25,8 +25,9 @@ struct DetailsFrame {
   double time_s = 0.0;
   view::Space camera;  // eye and view rotation
   view::Projection projection;
-  std::string boundaries;         // of the slices, where they are not those of the case's grid; else ""
-  std::optional<DetailsBox> box;  // of a world grid, where it is not that of the case's grid
+  std::string boundaries;                 // of the slices, where they are not those of the case's grid; else ""
+  std::optional<grid::Tiles> tiles = {};  // where they are not those of the case's grid
+  std::optional<DetailsBox> box;          // of a world grid, where it is not that of the case's grid
 
   std::size_t cell_count = 0;
   std::string cells, reported, truth, false_positives, false_negatives;  // beside each other; cells as gaps

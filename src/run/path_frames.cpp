@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "assign/contract/assigner_run.h"
+
 namespace clusterbench::run {
 
 PathFrames::PathFrames(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport, FrameDepths* depths,
@@ -43,6 +45,14 @@ view::Frame PathFrames::frame_of_path(int index) const {
 }
 
 grid::GridInputs PathFrames::inputs(const grid::GridSpec& spec, const view::Frame& frame) const {
+  grid::GridInputs inputs = inputs_as_asked(spec, frame);
+  // The first frame has none before it; and what tiles make of the frame itself is there.
+  if (spec.reaction && spec.reaction->to == grid::Reaction::To::entries && frame.index > 0)
+    inputs.tiles = reactions(spec)[static_cast<std::size_t>(frame.index)].tiles;
+  return inputs;
+}
+
+grid::GridInputs PathFrames::inputs_as_asked(const grid::GridSpec& spec, const view::Frame& frame) const {
   grid::GridInputs inputs = grid::grid_inputs(spec.unfitted(), frame, far_m_, rig_lo_, rig_hi_);
   if (inputs.shape) inputs.shape = shape_;
   if (spec.slices.fit) inputs.needed = spans(spec)[static_cast<std::size_t>(frame.index)];
@@ -62,6 +72,48 @@ const std::vector<grid::Span>& PathFrames::spans(const grid::GridSpec& spec) con
   for (int i = 0; i < static_cast<int>(path_.shots.size()); ++i)
     spans.push_back(grid::telling_span(spec.slices, follower.next(needed(spec, frame_of_path(i)))));
   return spans;
+}
+
+const std::vector<FrameReaction>& PathFrames::reactions(const grid::GridSpec& spec) const {
+  std::vector<FrameReaction>& reactions = reactions_[spec.name()];
+  if (reactions.empty())
+    reactions =
+        spec.reaction->to == grid::Reaction::To::entries ? reactions_to_entries(spec) : reactions_to_lights(spec);
+  return reactions;
+}
+
+std::vector<FrameReaction> PathFrames::reactions_to_entries(const grid::GridSpec& spec) const {
+  const assign::AssignerDescriptor& method = *assign::find_assigner(spec.reaction->of);
+  assign::AssignerRun run(method, assign::Params(method.params), assign::Answer::lists);
+  std::vector<FrameReaction> reactions;
+  grid::GridInputs built_for;
+  grid::Grid grid;
+  grid::Tiling tiles = spec.tiles;
+  for (int i = 0; i < static_cast<int>(path_.shots.size()); ++i) {
+    const view::Frame frame = frame_of_path(i);
+    grid::GridInputs inputs = inputs_as_asked(spec, frame);
+    inputs.tiles = tiles;
+    const bool is_new_grid = i == 0 || !(inputs == built_for);
+    if (is_new_grid) grid = grid::make_grid(spec, inputs);
+    const view::LightArrays lights = view::lights_in(frame, grid::space_of(grid, frame));
+    if (is_new_grid) run.build(grid, assign::kinds_of(lights));
+    run.assign({frame, lights});
+    const std::uint64_t entries = run.filled_lists()->pair_count();
+    reactions.push_back({tiles, entries});
+    tiles = grid::shrunk_tiles(spec.tiles, viewport_, entries, spec.reaction->most);
+    built_for = inputs;
+  }
+  return reactions;
+}
+
+std::vector<FrameReaction> PathFrames::reactions_to_lights(const grid::GridSpec& spec) const {
+  std::vector<FrameReaction> reactions;
+  for (int i = 0; i < static_cast<int>(path_.shots.size()); ++i) {
+    const view::Frame frame = frame_of_path(i);
+    const grid::Tiling tiles = *inputs_as_asked(spec, frame).tiles;
+    reactions.push_back({tiles, grid::mask_words(tiles, viewport_, grid::lights_with_bits(*spec.reaction, frame))});
+  }
+  return reactions;
 }
 
 PathFrames path_of(const config::Config& config, const Plan& plan, const GroupPlan& group) {

@@ -2,6 +2,7 @@
 // The frames of one camera path in one viewport, made when they are asked for: a path over a large rig would not fit in
 // memory whole.
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -16,6 +17,13 @@
 #include "view/frame.h"
 
 namespace clusterbench::run {
+
+// What tiles that react have come to in a frame, and what is too much or not: the entries of the lists in these tiles,
+// or the words of their masks.
+struct FrameReaction {
+  grid::Tiling tiles;
+  std::uint64_t amount = 0;
+};
 
 class PathFrames {
  public:
@@ -41,6 +49,9 @@ class PathFrames {
   grid::GridInputs inputs(const grid::GridSpec& spec, const view::Frame& frame) const;
   // What slices with `fit` follow, frame by frame; found once and in the path's order, whatever frames are asked for.
   const std::vector<grid::Span>& spans(const grid::GridSpec& spec) const;
+  // Of tiles that react, frame by frame; found like spans().
+  const std::vector<FrameReaction>& reactions(const grid::GridSpec& spec) const;
+  Vec2i viewport() const { return viewport_; }
   // Of one frame by itself.
   grid::Span needed(const grid::GridSpec& spec, const view::Frame& frame) const;
   // The farthest that a bounded light reaches from any eye of the path.
@@ -63,6 +74,10 @@ class PathFrames {
         threads_(whole.threads_) {}
 
   view::Frame frame_of_path(int index) const;
+  // But for tiles that react to the frame before: as they are asked for.
+  grid::GridInputs inputs_as_asked(const grid::GridSpec& spec, const view::Frame& frame) const;
+  std::vector<FrameReaction> reactions_to_entries(const grid::GridSpec& spec) const;
+  std::vector<FrameReaction> reactions_to_lights(const grid::GridSpec& spec) const;
 
   const scene::Scene& scene_;
   const scene::CameraPath& path_;
@@ -73,7 +88,9 @@ class PathFrames {
   FrameDepths* depths_ = nullptr;
   std::vector<int> frames_;  // empty: all
   int threads_ = 1;
-  mutable std::map<std::string, std::vector<grid::Span>> spans_;  // by the grid's name
+  // By the grid's name.
+  mutable std::map<std::string, std::vector<grid::Span>> spans_;
+  mutable std::map<std::string, std::vector<FrameReaction>> reactions_;
 };
 
 // Those that a group of cases is measured in.

@@ -23,6 +23,7 @@
 #include "run/counters/processor.h"
 #include "run/fit_meter.h"
 #include "run/packed_details.h"
+#include "run/reaction_meter.h"
 #include "run/timing_samples.h"
 
 namespace clusterbench::run {
@@ -195,11 +196,16 @@ struct CaseResult {
   std::optional<PrecisionResult> precision;          // where the configuration asks for more than float32
   std::optional<StabilityResult> stability;          // with cells, where asked for
   std::optional<FitResult> fit;                      // of slices with `fit`
+  std::optional<ReactionResult> reaction;            // of tiles that react
+  std::optional<FallbackResult> fallback;            // of a storage whose room can end
   std::optional<TimingResult> timing;
   std::optional<CountResult> count;  // where asked for
   std::optional<Details> details;    // with cells, where asked for
   std::vector<Failure> failures;     // run/gate.h
 };
+
+// Cells of the case's grid in a frame.
+Vec3i cells_in(const CaseResult& result, int frame);
 
 struct Result {
   std::string config_name;

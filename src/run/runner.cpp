@@ -56,6 +56,9 @@ struct CountedGroup {
   int frames = 0;
   AccuracyResult counted;
   std::optional<AccuracyResult> unfitted;  // of a grid that follows what frames need: the same in one that does not
+  std::optional<AccuracyResult> fixed;     // of tiles that react: the same in those asked for
+  std::optional<TileMoves> tile_moves;     // of tiles that react
+  std::vector<Vec3i> cells;                // of tiles that react, frame by frame
   std::vector<std::optional<StabilityResult>> stabilities;
   std::vector<std::optional<Details>> details;
 };
@@ -183,19 +186,28 @@ class Run {
     name_of_group_ = group.cases.front().name;
     const SceneData& data = plan_.scenes[group.scene];
     const PathFrames path = run::path_of(config_, plan_, group);
-    const bool follows = follows_needs(group);
-    const double per_frame = accuracy_cost_of(group) / path.count() / (follows ? 2.0 : 1.0);
-    const ListsOverFrames over_frames = follows ? ListsOverFrames::compared : ListsOverFrames::ignored;
+    const grid::GridSpec& spec = config_.grids[group.grid];
+    const bool follows = follows_needs(group), reacts = spec.reaction.has_value();
+    const double per_frame = accuracy_cost_of(group) / path.count() / (1 + (follows ? 1 : 0) + (reacts ? 1 : 0));
+    const ListsOverFrames over_frames = follows || reacts ? ListsOverFrames::compared : ListsOverFrames::ignored;
     const auto on_frame = [&](int) { tell(group, "truth and counts", per_frame); };
     CountedGroup counted_group;
     counted_group.frames = path.count();
     counted_group.counted = accuracy_pass(config_, data, group, path, on_frame, stop_, over_frames);
     if (!counted_group.counted.is_complete) return;
-    if (follows) {
-      config::Config plain = without_fit(config_, group.grid);
+    const auto counted_beside = [&](config::Config plain) {
       plain.lookup.reset();
-      counted_group.unfitted = accuracy_pass(plain, data, group, path, on_frame, stop_, over_frames);
+      return accuracy_pass(plain, data, group, path, on_frame, stop_, over_frames);
+    };
+    if (follows) {
+      counted_group.unfitted = counted_beside(without_fit(config_, group.grid));
       if (!counted_group.unfitted->is_complete) return;
+    }
+    if (reacts) {
+      counted_group.fixed = counted_beside(without_reaction(config_, group.grid));
+      if (!counted_group.fixed->is_complete) return;
+      counted_group.tile_moves = tile_moves(spec, path);
+      counted_group.cells = cells_of_frames(spec, path, counted_group.counted.last_grid.cells().z);
     }
     if (config_.stability) {
       const double cost = stability_cost_of(group);
@@ -256,6 +268,7 @@ class Run {
     for (std::size_t i = 0; i < counted.group.cases.size(); ++i) {
       CaseResult finished = case_result(config_, plan_, counted.group.cases[i], counted.frames, counted.counted, i);
       if (counted.unfitted) finished.fit = fit_result(counted, i);
+      if (counted.fixed) finished.reaction = reaction_result(counted, i);
       if (!counted.stabilities.empty()) finished.stability = counted.stabilities[i];
       if (!counted.details.empty()) finished.details = std::move(counted.details[i]);
       if (!timings.empty()) {
@@ -274,21 +287,15 @@ class Run {
     return spec.has_tiles() && spec.slices.fit;
   }
 
-  FitSide fit_side(const AccuracyResult& counted, const Method& of, std::size_t index) const {
+  CaseSide method_side(const AccuracyResult& counted, const Method& of, std::size_t index) const {
     const MethodMeasures& method = *std::ranges::find(counted.methods, of, &MethodMeasures::method);
-    const StructureMeasures& structure = counted.structures[index];
-    FitSide side;
+    CaseSide side = structure_side(counted.structures[index]);
     if (method.has_cells) side.pairs_mean = method.occupancy.pairs.mean;
     if (method.has_cells && config_.check_accuracy) {
       side.true_pairs = method.error.true_pairs;
       side.false_positives = method.error.false_positives;
     }
     side.list_changes = method.list_changes;
-    side.index_entries = structure.buffers.index_entries.high_water;
-    side.bytes = structure.buffers.bytes.high_water;
-    for (const SampleSetResult& set : structure.samples)
-      if (set.counts.samples > 0)
-        side.evaluated.push_back({measure::name_of(set.set), set.counts.evaluated, set.counts.missed});
     return side;
   }
 
@@ -299,9 +306,15 @@ class Run {
     const std::vector<float>& asked = counted.unfitted->last_grid.screen().slices.boundaries;
     out.asked = {static_cast<double>(asked.front()), static_cast<double>(asked.back())};
     out.moves = *counted.counted.moves;
-    out.fitted = fit_side(counted.counted, plan.method(), index);
-    out.unfitted = fit_side(*counted.unfitted, plan.method(), index);
+    out.fitted = method_side(counted.counted, plan.method(), index);
+    out.unfitted = method_side(*counted.unfitted, plan.method(), index);
     return out;
+  }
+
+  ReactionResult reaction_result(const CountedGroup& counted, std::size_t index) const {
+    const CasePlan& plan = counted.group.cases[index];
+    return {*config_.grids[plan.grid].reaction, *counted.tile_moves, counted.cells,
+            method_side(counted.counted, plan.method(), index), method_side(*counted.fixed, plan.method(), index)};
   }
 
   const config::Config& config_;

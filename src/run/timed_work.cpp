@@ -1,5 +1,7 @@
 #include "run/timed_work.h"
 
+#include <algorithm>
+
 #include "core/memory.h"
 
 namespace clusterbench::run {
@@ -53,17 +55,31 @@ TimedWork::TimedWork(const config::Config& config, const GroupPlan& group, const
     structure_assigner_ = descriptor.make_own(request.params);
     for (std::size_t i = 0; i < all_frames; ++i) structures_.push_back(structure_assigner_->make_structure());
   }
+  const std::vector<std::size_t> of_stores = frames_of_stores(all_frames);
   for (std::size_t index = 0; index < group.cases.size(); ++index) {
     const CasePlan& case_plan = group.cases[index];
     if (case_plan.method() != method) continue;
     case_indices_.push_back(index);
     if (!case_plan.storage) continue;
     const config::MethodRequest& store = config.storages[*case_plan.storage];
-    stores_.push_back(storage(*assign::find_storage(store.name), store.params));
+    stores_.emplace_back();
+    for (const std::size_t frame : of_stores)
+      stores_.back().push_back(storage(*assign::find_storage(store.name), store.params, frame));
   }
   if (extra_ != nullptr) assign_frame(frames.size());
   assign();
   if (assigner().device_spans() != nullptr) device_.emplace();
+}
+
+std::vector<std::size_t> TimedWork::frames_of_stores(std::size_t all_frames) {
+  std::vector<std::size_t> first_frames;
+  for (std::size_t frame = 0; frame < all_frames; ++frame) {
+    const auto same = std::ranges::find(first_frames, at(frame).grid->cells(),
+                                        [&](std::size_t first) { return at(first).grid->cells(); });
+    store_of_frame_.push_back(static_cast<std::size_t>(same - first_frames.begin()));
+    if (same == first_frames.end()) first_frames.push_back(frame);
+  }
+  return first_frames;
 }
 
 void TimedWork::build() {
@@ -121,14 +137,13 @@ void TimedWork::convert(std::size_t store) const {
 }
 
 void TimedWork::convert_frame(std::size_t store, std::size_t frame) const {
-  stores_[store]->store(lists_[frame]);
+  stores_[store][store_of_frame_[frame]]->store(lists_[frame]);
 }
 
 std::unique_ptr<assign::Storage> TimedWork::storage(const assign::StorageDescriptor& storage,
-                                                    const assign::Params& params) const {
-  const TimedFrame& frame = frames_.front();
+                                                    const assign::Params& params, std::size_t frame) const {
   auto made = storage.make(params);
-  made->start(*frame.grid, frame.lights.in_precision(precision_));
+  made->start(*at(frame).grid, at(frame).lights.in_precision(precision_));
   return made;
 }
 

@@ -67,13 +67,15 @@ class TimedWork {
   // Of the frames, and then of the extra one.
   const std::vector<assign::Lists>& lists() const { return lists_; }
   const std::vector<std::unique_ptr<assign::LightStructure>>& structures() const { return structures_; }
-  // A storage that is ready for these frames.
-  std::unique_ptr<assign::Storage> storage(const assign::StorageDescriptor& storage,
-                                           const assign::Params& params) const;
+  // A storage that is ready for a frame, and for others with as many cells.
+  std::unique_ptr<assign::Storage> storage(const assign::StorageDescriptor& storage, const assign::Params& params,
+                                           std::size_t frame) const;
 
  private:
   assign::Assigner& assigner() const;
   void build_for(const TimedFrame& frame);
+  // The frames that stand for those with as many cells, in order of first use; fills store_of_frame_.
+  std::vector<std::size_t> frames_of_stores(std::size_t all_frames);
   const TimedFrame& at(std::size_t frame) const { return frame < frames_.size() ? frames_[frame] : *extra_; }
 
   std::span<const TimedFrame> frames_;
@@ -86,7 +88,10 @@ class TimedWork {
   std::vector<assign::Lists> lists_;
   std::vector<std::unique_ptr<assign::LightStructure>> structures_;
   std::vector<std::size_t> case_indices_;
-  std::vector<std::unique_ptr<assign::Storage>> stores_;
+  // Of each storage one per number of cells, since an engine whose grid changes has memory for the largest; and which
+  // of them a frame is kept in.
+  std::vector<std::vector<std::unique_ptr<assign::Storage>>> stores_;
+  std::vector<std::size_t> store_of_frame_;
 };
 
 }  // namespace clusterbench::run

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "core/random.h"
 
@@ -43,6 +45,54 @@ TEST(Packed, lists_read_back_as_they_were_stored) {
     EXPECT_EQ(packed->expanded(), lists) << lights << " lights";
     EXPECT_EQ(packed->use().dropped_pairs, 0u);
   }
+}
+
+TEST(Packed, gives_all_lights_of_the_frame_from_the_first_list_on_that_has_no_room) {
+  struct Row {
+    std::uint32_t cells, lights;
+    double share;
+    const char* headers;
+  };
+  constexpr Row k_rows[] = {{40, 200, 0.05, "dense"},
+                            {40, 200, 0.002, "sparse"},
+                            {40, 3000, 0.02, "sparse"},
+                            {6, 70000, 0.9, "dense"},
+                            {6, 70000, 0.9, "sparse"}};
+  for (const Row& row : k_rows) {
+    const Lists lists = random_lists(row.cells, row.lights, row.share, 7);
+    Ids all = lists.lights;
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    const std::uint32_t kept = row.cells / 3;  // lists that have room to the last entry
+    const std::uint32_t room = std::max(row.lights, static_cast<std::uint32_t>(all.size()) + lists.begin[kept]);
+    const auto packed =
+        storage("packed", {{"max_entries", static_cast<double>(room)}, {"headers", std::string(row.headers)}});
+    packed->start(row.cells, {row.lights, 0});
+    for (int again = 0; again < 2; ++again) packed->store(lists);
+    std::uint64_t used = all.size(), fallback_cells = 0;
+    bool is_full = false;
+    for (std::uint32_t cell = 0; cell < row.cells; ++cell) {
+      const Ids own(lists.of(cell).begin(), lists.of(cell).end());
+      is_full = is_full || used + own.size() > room;
+      if (!is_full) used += own.size();
+      if (is_full && !own.empty()) ++fallback_cells;
+      Ids read;
+      packed->read_cell(cell, read);
+      EXPECT_EQ(read, is_full && !own.empty() ? all : own) << cell << ", " << row.headers;
+    }
+    EXPECT_EQ(packed->use().index_entries, used);
+    EXPECT_EQ(packed->use().fallback_cells, fallback_cells);
+    EXPECT_EQ(packed->use().dropped_pairs, 0u);
+    packed->store(lists_from(std::vector<Ids>(row.cells)));
+    EXPECT_EQ(packed->use().index_entries, 0u);
+    EXPECT_EQ(packed->use().fallback_cells, 0u);
+  }
+}
+
+TEST(Packed, refuses_room_for_fewer_entries_than_lights) {
+  const auto packed = storage("packed", {{"max_entries", 99.0}});
+  EXPECT_NO_THROW(packed->start(10, {50, 49}));
+  EXPECT_THROW(packed->start(10, {50, 50}), Error);
 }
 
 TEST(Packed, takes_the_narrowest_index_that_holds_the_last_light) {

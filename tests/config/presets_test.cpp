@@ -100,7 +100,13 @@ TEST(Presets, grids_are_those_of_the_engines) {
       {"playcanvas", "/cells", "[10, 3, 10]"},
       {"babylon", "/tiles/count", "[64, 64]"},
       {"babylon", "/slices/count", "16"},
-      {"unity-urp", "/tiles/pixels", "[32, 32]"},
+      {"unity-urp", "/tiles/pixels", "[8, 8]"},
+      {"unity-urp", "/react/to", R"("mask-words")"},
+      {"unity-urp", "/react/most", "16384"},
+      {"unity-urp", "/react/most_lights", "256"},
+      {"bevy", "/react/to", R"("entries")"},
+      {"bevy", "/react/most", "16384"},
+      {"bevy", "/react/of", R"("bevy-refinement")"},
       {"unity-urp", "/slices/scheme", R"("exponential")"},
       {"unity-hdrp", "/tiles/pixels", "[32, 32]"},
       {"unity-hdrp", "/slices/count", "64"},
@@ -134,17 +140,15 @@ TEST(Presets, what_fits_into_a_cell_is_what_the_engines_have_room_for) {
   }
   EXPECT_EQ(std::get<double>(resolved("unreal").storage->params.values().at("nodes_per_cell")), 32.0);
   EXPECT_EQ(std::get<std::string>(resolved("filament").storage->params.values().at("equal_lists")), "shared");
+  EXPECT_EQ(std::get<double>(resolved("filament").storage->params.values().at("max_entries")), 65534.0)
+      << "of 65535 records the last is never used";
   EXPECT_EQ(std::get<std::string>(resolved("just-cause-3").storage->params.values().at("index_bits")), "16");
 }
 
-// By the engines' own arithmetic, on paper: Filament has 512 tiles in a slice, of whole eights of pixels; Unity 2048
-// of 256 lights; Bevy 170.
+// By the engines' own arithmetic, on paper: Filament has 512 tiles in a slice, of whole eights of pixels; Bevy 170.
 TEST(Presets, tiles_that_follow_the_viewport_are_those_of_the_engines) {
   EXPECT_EQ(resolved("filament", "[1280, 720]").grid["tiles"]["pixels"], Json::parse("[48, 48]"));
   EXPECT_EQ(resolved("filament", "[3840, 2160]").grid["tiles"]["pixels"], Json::parse("[136, 136]"));
-  EXPECT_EQ(resolved("unity-urp", "[1280, 720]").grid["tiles"]["pixels"], Json::parse("[32, 32]"));
-  EXPECT_EQ(resolved("unity-urp", "[640, 480]").grid["tiles"]["pixels"], Json::parse("[16, 16]"));
-  EXPECT_EQ(resolved("unity-urp", "[3840, 2160]").grid["tiles"]["pixels"], Json::parse("[64, 64]"));
   EXPECT_EQ(resolved("bevy", "[1000, 1000]").grid["tiles"]["pixels"], Json::parse("[77, 77]"));
 }
 

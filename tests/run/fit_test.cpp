@@ -39,7 +39,7 @@ Result run_following(const std::string& fit, const std::string& scheme = "expone
   return walk.run();
 }
 
-const EvaluatedLights& in_view(const FitSide& side) {
+const EvaluatedLights& in_view(const CaseSide& side) {
   return side.evaluated.front();
 }
 
@@ -61,7 +61,7 @@ TEST(FittedSlicesOnAPath, are_compared_with_the_same_case_without_fit) {
   const Result plain = run_following(""), fitted = run_following(R"({"damping": 0.5})");
   for (std::size_t i = 0; i < plain.cases.size(); ++i) {
     EXPECT_FALSE(plain.cases[i].fit);
-    const FitSide& unfitted = fitted.cases[i].fit->unfitted;
+    const CaseSide& unfitted = fitted.cases[i].fit->unfitted;
     EXPECT_EQ(unfitted.pairs_mean, plain.cases[i].occupancy->pairs.mean);
     EXPECT_EQ(unfitted.true_pairs, plain.cases[i].error->true_pairs);
     EXPECT_EQ(unfitted.false_positives, plain.cases[i].error->false_positives);

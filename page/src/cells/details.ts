@@ -21,6 +21,7 @@ export type Mark = 0 | 1 | 2; // reported and true, false positive, false negati
 export interface Frame {
   camera: Camera;
   boundaries: number[]; // of slices; empty for grids without
+  tiles: DetailsFrame["tiles"]; // of a grid that reacts; else the case's hold
   box: DetailsFrame["box"]; // of a world grid that follows something; else the case's holds
   cells: Float64Array; // indices, ascending; the rows below stand beside them
   reported: Float64Array;
@@ -71,6 +72,7 @@ export function unpacked(packed: DetailsFrame, grid: CaseResult["grid"]): Frame 
     boundaries: packed.boundaries
       ? [...numbers(packed.boundaries)]
       : ((grid as { slices?: { boundaries: number[] } }).slices?.boundaries ?? []),
+    tiles: packed.tiles,
     box: packed.box,
     cells: ascending(numbers(cells.indices)),
     reported: numbers(cells.reported),

@@ -35,10 +35,12 @@ export const metres = (value: number) => `${Number(value.toPrecision(3))}`;
 const mix = (a: number, b: number, t: number) => a + (b - a) * t;
 
 function screen(aCase: CaseResult, frame: Frame, grid: FullGrid): Geometry {
-  const size = aCase.grid.cells;
+  const [columns, rows] = frame.tiles?.count ?? aCase.grid.cells;
+  const size: Vec3 = [columns!, rows!, aCase.grid.cells[2]];
   const [left, right, bottom, top] = frame.camera.sides;
-  const across = grid.tiles.pixels ? grid.tiles.pixels[0] / aCase.viewport[0] : 1 / size[0];
-  const down = grid.tiles.pixels ? grid.tiles.pixels[1] / aCase.viewport[1] : 1 / size[1];
+  const pixels = frame.tiles ? frame.tiles.pixels : grid.tiles.pixels;
+  const across = pixels ? pixels[0]! / aCase.viewport[0] : 1 / size[0];
+  const down = pixels ? pixels[1]! / aCase.viewport[1] : 1 / size[1];
   const x = (tile: number) => mix(left, right, Math.min(1, tile * across));
   const y = (tile: number) => mix(top, bottom, Math.min(1, tile * down));
   const z = frame.boundaries;

@@ -21,6 +21,8 @@ struct StructureUse {
   std::uint64_t dropped_pairs = 0;  // overflow
   std::uint64_t overflowing_cells = 0;
   std::vector<std::uint32_t> dropped_lights;  // which, ascending, each once
+  std::uint64_t fallback_cells =
+      0;  // overflow: cells whose samples loop over all lights of the frame in place of their list
 };
 
 // The most that this grid and rig could ever take.

@@ -34,6 +34,10 @@ std::span<const StorageDescriptor* const> storage_descriptors() {
   return k_rows;
 }
 
+std::optional<Params> without_fallback(const StorageDescriptor& storage, const Params& params) {
+  return storage.without_fallback == nullptr ? std::nullopt : storage.without_fallback(params);
+}
+
 const StorageDescriptor* find_storage(const std::string& name) {
   for (const StorageDescriptor* row : storage_descriptors())
     if (row->name == name) return row;

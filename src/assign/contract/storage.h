@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -42,7 +43,13 @@ struct StorageDescriptor {
   std::string source;
   std::vector<ParamSpec> params;
   std::unique_ptr<Storage> (*make)(const Params& params);
+  // The parameters of the same storage with room for all lists, where some of them could read another list for want of
+  // room; beside it the others are measured. Null: no parameters make it so.
+  std::optional<Params> (*without_fallback)(const Params& params) = nullptr;
 };
+
+// Of a storage in a configuration: as its descriptor says.
+std::optional<Params> without_fallback(const StorageDescriptor& storage, const Params& params);
 
 // For descriptors: what makes a storage of its parameters.
 template <class Kept>

@@ -3,24 +3,32 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <map>
+#include <span>
 
 #include "assign/storages/index_array.h"
 #include "core/error.h"
 #include "core/memory.h"
 
 namespace clusterbench::assign {
+
+extern const StorageDescriptor packed_descriptor;
+
 namespace {
 
 // offset u32 + point count u16 + spot count u16 per cell; 12 bytes with u32 counts where a count needs it. Sparse: only
 // for cells with lights; a shader finds them through one block per 32 cells, {mask u32, rank u32}: header rank + the
 // number of mask bits below the cell's. Shared: a list that equals that of the cell before it or of the cell a row
-// before it is not written again.
+// before it is not written again. With max_entries the index list begins with all lights that are in any list of the
+// frame, and when a list has no room any more, its cell and all cells after it that have lights read that first one
+// (Filament's Froxelizer).
 class Packed final : public Storage {
  public:
   explicit Packed(const Params& params)
       : wanted_bits_(params.text("index_bits")),
         is_sparse_(params.text("headers") == "sparse"),
-        shares_(params.text("equal_lists") == "shared") {}
+        shares_(params.text("equal_lists") == "shared"),
+        max_entries_(static_cast<std::uint64_t>(params.number("max_entries"))) {}
 
   void start(std::uint32_t cell_count, const view::LightRanges& lights) override {
     lights_ = lights.size();
@@ -31,7 +39,14 @@ class Packed final : public Storage {
       throw Error("", "index_bits",
                   "is " + wanted_bits_ + ", but " + std::to_string(lights_) + " lights need " + std::to_string(needed) +
                       " bits");
+    if (has_limit() && lights_ > max_entries_)
+      throw Error("", "max_entries",
+                  "is " + std::to_string(max_entries_) +
+                      ", and a list of all lights, which is read where there is no room, "
+                      "can take " +
+                      std::to_string(lights_));
     cell_count_ = cell_count;
+    is_in_a_list_.assign(has_limit() ? lights_ : 0, false);
     check_memory("headers of packed lists", cell_count, sizeof(Header));
     headers_.resize(cell_count);
     wide_headers_.resize(can_be_wide() ? cell_count : 0);
@@ -39,8 +54,8 @@ class Packed final : public Storage {
   }
 
   void store(const Lists& lists) override {
-    if (shares_) leave_out_equal(lists);
-    const std::vector<std::uint32_t>& written = shares_ ? kept_ : lists.lights;
+    if (chooses()) choose_lists(lists);
+    const std::vector<std::uint32_t>& written = chooses() ? kept_ : lists.lights;
     indices_.make_room(written.size(), bits_);
     indices_.write(0, written.data(), written.size());
     entries_ = written.size();
@@ -58,11 +73,12 @@ class Packed final : public Storage {
     use.header_bytes =
         header_count_ * (is_wide_ ? sizeof(WideHeader) : sizeof(Header)) + blocks_.size() * sizeof(Block);
     use.upload_bytes = use.index_bytes + use.header_bytes;
+    use.fallback_cells = fallback_cells_;
     return use;
   }
 
   StructureLimit limit() const override {
-    const std::uint64_t entries = std::uint64_t{cell_count_} * lights_;
+    const std::uint64_t entries = most_entries();
     const std::uint64_t header_size = can_be_wide() ? sizeof(WideHeader) : sizeof(Header);
     return {entries, entries * (bits_ / 8) + cell_count_ * header_size + blocks_.size() * sizeof(Block)};
   }
@@ -70,7 +86,7 @@ class Packed final : public Storage {
   // A shader has one format of headers for all frames: the wide one where any frame can need it.
   std::vector<BufferNeed> buffers() const override {
     const std::uint32_t header_size = can_be_wide() ? sizeof(WideHeader) : sizeof(Header);
-    std::vector<BufferNeed> all{{"indices", bits_ / 8, entries_, std::uint64_t{cell_count_} * lights_},
+    std::vector<BufferNeed> all{{"indices", bits_ / 8, entries_, most_entries()},
                                 {"headers", header_size, header_count_, cell_count_}};
     if (is_sparse_) all.push_back({"header_blocks", sizeof(Block), blocks_.size(), blocks_.size()});
     return all;
@@ -102,27 +118,64 @@ class Packed final : public Storage {
 
   bool can_be_wide() const { return std::max(points_, lights_ - points_) > k_narrow_count; }
 
+  bool has_limit() const { return max_entries_ > 0; }
+  // Whether what is written is not just what is listed.
+  bool chooses() const { return shares_ || has_limit(); }
+  std::uint64_t most_entries() const {
+    const std::uint64_t of_cells = std::uint64_t{cell_count_} * lights_;
+    return has_limit() ? std::min(max_entries_, of_cells + lights_) : of_cells;
+  }
+
+  // What a cell's header points to.
+  std::span<const std::uint32_t> list_of(const Lists& lists, std::uint32_t cell) const {
+    const auto list = lists.of(cell);
+    return cell < full_from_ || list.empty() ? list : std::span(kept_).first(all_lights_);
+  }
+
   bool has_wide_count(const Lists& lists) const {
     for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) {
-      if (lists.of(cell).size() <= k_narrow_count) continue;
+      if (list_of(lists, cell).size() <= k_narrow_count) continue;
       const WideHeader header = header_of<WideHeader>(lists, cell);
       if (std::max(header.points, header.spots) > k_narrow_count) return true;
     }
     return false;
   }
 
-  void leave_out_equal(const Lists& lists) {
+  // The first list of the index list: of all lights that any cell lists, points before spots.
+  void keep_all_lights(const Lists& lists) {
+    std::fill(is_in_a_list_.begin(), is_in_a_list_.end(), false);
+    for (const std::uint32_t light : lists.lights) is_in_a_list_[light] = true;
+    for (std::uint32_t light = 0; light < lights_; ++light)
+      if (is_in_a_list_[light]) kept_.push_back(light);
+    all_lights_ = kept_.size();
+  }
+
+  // No more lists are written: `cell` and those after it read that of all lights.
+  void fall_back(const Lists& lists, std::uint32_t cell) {
+    full_from_ = cell;
+    for (; cell < lists.cell_count(); ++cell) {
+      kept_at_[cell] = 0;
+      fallback_cells_ += lists.of(cell).empty() ? 0 : 1;
+    }
+  }
+
+  void choose_lists(const Lists& lists) {
     kept_.clear();
     kept_at_.resize(lists.cell_count());
+    full_from_ = lists.cell_count();
+    fallback_cells_ = 0;
+    if (has_limit()) keep_all_lights(lists);
     for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) {
       const auto list = lists.of(cell);
       const auto equals = [&](std::uint32_t cells_back) {
-        return cells_back > 0 && cell >= cells_back && std::ranges::equal(list, lists.of(cell - cells_back));
+        return shares_ && cells_back > 0 && cell >= cells_back && std::ranges::equal(list, lists.of(cell - cells_back));
       };
       if (equals(1)) {
         kept_at_[cell] = kept_at_[cell - 1];
       } else if (equals(columns())) {
         kept_at_[cell] = kept_at_[cell - columns()];
+      } else if (has_limit() && kept_.size() + list.size() > max_entries_) {
+        return fall_back(lists, cell);
       } else {
         kept_at_[cell] = static_cast<std::uint32_t>(kept_.size());
         kept_.insert(kept_.end(), list.begin(), list.end());
@@ -142,11 +195,11 @@ class Packed final : public Storage {
   template <class H>
   H header_of(const Lists& lists, std::uint32_t cell) const {
     using Count = decltype(H::points);
-    const auto list = lists.of(cell);
+    const auto list = list_of(lists, cell);
     const bool has_spots = !list.empty() && list.back() >= points_;
     const auto is_point = [this](std::uint32_t light) { return light < points_; };
     const auto spots_from = has_spots ? std::partition_point(list.begin(), list.end(), is_point) : list.end();
-    return {shares_ ? kept_at_[cell] : lists.begin[cell], static_cast<Count>(spots_from - list.begin()),
+    return {chooses() ? kept_at_[cell] : lists.begin[cell], static_cast<Count>(spots_from - list.begin()),
             static_cast<Count>(list.end() - spots_from)};
   }
 
@@ -182,12 +235,23 @@ class Packed final : public Storage {
   std::vector<WideHeader> wide_headers_;  // in place of them, where the rig can need them
   std::vector<Block> blocks_;
   IndexArray indices_;
-  std::vector<std::uint32_t> kept_, kept_at_;  // where lists are shared: those that are written, and each cell's begin
+  std::uint64_t max_entries_;                  // 0: no limit
+  std::vector<std::uint32_t> kept_, kept_at_;  // where lists are chosen: those that are written, and each cell's begin
+  std::uint32_t full_from_ = std::numeric_limits<std::uint32_t>::max();  // the first cell whose list has no room
+  std::size_t all_lights_ = 0;                                           // entries of the first list; with a limit
+  std::uint64_t fallback_cells_ = 0;
+  std::vector<bool> is_in_a_list_;
 };
+
+std::optional<Params> with_room(const Params& params) {
+  if (params.number("max_entries") == 0.0) return std::nullopt;
+  std::map<std::string, ParamValue> values = params.values();
+  values["max_entries"] = 0.0;
+  return Params(packed_descriptor.params, values);
+}
 
 }  // namespace
 
-extern const StorageDescriptor packed_descriptor;
 const StorageDescriptor packed_descriptor{
     .name = "packed",
     .summary = "offset and counts per cell (8 bytes), one tight index list for all cells",
@@ -209,8 +273,21 @@ const StorageDescriptor packed_descriptor{
                 .standard = std::string("repeated"),
                 .unit = "",
                 .choices = {"repeated", "shared"},
+                .is_late = true},
+               {.name = "max_entries",
+                .summary =
+                    "entries that there is room for; 0: for all. Beyond them no list is written: its cell and all "
+                    "after it that have lights read one list of all lights in any cell of the frame, which is "
+                    "always written first and counts (Filament)",
+                .standard = 0.0,
+                .unit = "entries",
+                .min = 0.0,
+                .max = 4294967295.0,
+                .choices = {},
+                .whole = true,
                 .is_late = true}},
     .make = make_storage<Packed>,
+    .without_fallback = with_room,
 };
 
 }  // namespace clusterbench::assign

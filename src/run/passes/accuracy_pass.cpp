@@ -45,7 +45,9 @@ class MethodMeter {
     measures_.fallbacks += run_.fallbacks();
     if (!measures_.has_cells) return;
     lists_ = &run_.cell_lists();
-    if (!occupancy_) occupancy_.emplace(run_.has_occupied_cells() ? lists_->cell_count() : real_cells(grid));
+    if (!occupancy_) occupancy_.emplace(0);
+    if (now.is_new_grid)
+      occupancy_->set_real_cells(run_.has_occupied_cells() ? lists_->cell_count() : real_cells(grid));
     occupancy_->add_frame(now.frame.index, *lists_);
     if (list_changes_) list_changes_->add(*lists_);
     if (config_.check_accuracy) compare(now, grid);
@@ -78,30 +80,19 @@ class MethodMeter {
   MethodMeasures measures_;
 };
 
-class CaseMeter {
+// One light structure over the frames: its buffers, and what samples find in it.
+class StructureMeter {
  public:
-  CaseMeter(const config::Config& config, const CasePlan& plan)
-      : method_(plan.method()),
-        asks_lookup_(!assign::find_assigner(config.assigners[plan.assigner].name)->at_surfaces),
-        buffers_(config.allocation) {
+  explicit StructureMeter(const config::Config& config) : buffers_(config.allocation) {
     for (const config::SampleSetRequest& request : config.sample_sets)
       measures_.samples.push_back({request.set, {}, {}});
-    if (!plan.storage) return;
-    const config::MethodRequest& request = config.storages[*plan.storage];
-    storage_ = assign::find_storage(request.name)->make(request.params);
   }
 
-  void add(const PreparedFrame& now, const grid::Grid& grid, const MethodMeter& method) {
-    if (storage_) {
-      if (now.is_new_grid) storage_->start(grid, now.frame.ranges());
-      storage_->store(*method.run().filled_lists());
-    }
-    const assign::LightStructure& structure = storage_ ? *storage_ : *method.run().structure();
-    buffers_.add_frame(now.frame.index, structure, method.cell_lists(), method.run().scratch_bytes());
-    if (now.lookup && asks_lookup_ && !structure.has_occupied_cells()) now.lookup->add(structure, measures_.lookup);
+  void add(int frame, const assign::LightStructure& structure, const MethodMeter& method) {
+    buffers_.add_frame(frame, structure, method.cell_lists(), method.run().scratch_bytes());
     structure_ = &structure;
   }
-
+  void ask_lookup(const measure::LookupFrame& lookup) { lookup.add(*structure_, measures_.lookup); }
   // Some samples of a set, and the lights that they need.
   void ask_at(std::size_t set, int frame, std::span<const grid::Sample> samples, const measure::NeededLights& needed) {
     measure::add_samples(measures_.samples[set].counts, frame, samples, needed, *structure_);
@@ -112,7 +103,6 @@ class CaseMeter {
     measure::add_frame(*coherence, *samples.picture, samples.samples, *structure_);
   }
 
-  const Method& method() const { return method_; }
   StructureMeasures result() const {
     StructureMeasures out = measures_;
     out.buffers = buffers_.result();
@@ -120,12 +110,60 @@ class CaseMeter {
   }
 
  private:
-  Method method_;
-  bool asks_lookup_;                                   // its samples are anywhere in the view
-  std::unique_ptr<assign::Storage> storage_;           // none: the method's own structure
   const assign::LightStructure* structure_ = nullptr;  // of the current frame
   measure::BufferMeter buffers_;
   StructureMeasures measures_;
+};
+
+class CaseMeter {
+ public:
+  CaseMeter(const config::Config& config, const CasePlan& plan)
+      : method_(plan.method()),
+        asks_lookup_(!assign::find_assigner(config.assigners[plan.assigner].name)->at_surfaces),
+        meter_(config) {
+    if (!plan.storage) return;
+    const config::MethodRequest& request = config.storages[*plan.storage];
+    const assign::StorageDescriptor& descriptor = *assign::find_storage(request.name);
+    storage_ = descriptor.make(request.params);
+    const std::optional<assign::Params> roomy = assign::without_fallback(descriptor, request.params);
+    if (!roomy) return;
+    roomy_storage_ = descriptor.make(*roomy);
+    roomy_meter_.emplace(config);
+  }
+
+  void add(const PreparedFrame& now, const grid::Grid& grid, const MethodMeter& method) {
+    for (assign::Storage* storage : {storage_.get(), roomy_storage_.get()}) {
+      if (storage == nullptr) continue;
+      if (now.is_new_grid) storage->start(grid, now.frame.ranges());
+      storage->store(*method.run().filled_lists());
+    }
+    const assign::LightStructure& structure = storage_ ? *storage_ : *method.run().structure();
+    meter_.add(now.frame.index, structure, method);
+    if (roomy_storage_) roomy_meter_->add(now.frame.index, *roomy_storage_, method);
+    if (now.lookup && asks_lookup_ && !structure.has_occupied_cells()) meter_.ask_lookup(*now.lookup);
+  }
+
+  void ask_at(std::size_t set, int frame, std::span<const grid::Sample> samples, const measure::NeededLights& needed) {
+    meter_.ask_at(set, frame, samples, needed);
+    if (roomy_meter_) roomy_meter_->ask_at(set, frame, samples, needed);
+  }
+  void ask_waves(std::size_t set, const FrameSampleSet& samples) { meter_.ask_waves(set, samples); }
+
+  const Method& method() const { return method_; }
+  StructureMeasures result() const {
+    StructureMeasures out = meter_.result();
+    if (roomy_meter_) out.roomy = std::make_shared<StructureMeasures>(roomy_meter_->result());
+    return out;
+  }
+
+ private:
+  Method method_;
+  bool asks_lookup_;                          // its samples are anywhere in the view
+  std::unique_ptr<assign::Storage> storage_;  // none: the method's own structure
+  StructureMeter meter_;
+  // Beside a storage that can run out of room.
+  std::unique_ptr<assign::Storage> roomy_storage_;
+  std::optional<StructureMeter> roomy_meter_;
 };
 
 // What samples need is kept for so many at once: at full resolution it would not fit in memory whole.
@@ -175,6 +213,16 @@ PreparedFrame prepare(const config::Config& config, const GroupPlan& group, cons
 }
 
 }  // namespace
+
+CaseSide structure_side(const StructureMeasures& measures) {
+  CaseSide side;
+  side.index_entries = measures.buffers.index_entries.high_water;
+  side.bytes = measures.buffers.bytes.high_water;
+  for (const SampleSetResult& set : measures.samples)
+    if (set.counts.samples > 0)
+      side.evaluated.push_back({measure::name_of(set.set), set.counts.evaluated, set.counts.missed});
+  return side;
+}
 
 AccuracyResult accuracy_pass(const config::Config& config, const SceneData& data, const GroupPlan& group,
                              const PathFrames& path, const std::function<void(int frame)>& on_frame,

@@ -27,6 +27,8 @@ struct StructureMeasures {
   measure::Buffers buffers;
   std::vector<SampleSetResult> samples;  // one per set of the configuration
   std::vector<measure::LookupCounts> lookup;
+  // Of the same lists in the same storage with room for all, where the case's can run out of it: buffers and samples.
+  std::shared_ptr<const StructureMeasures> roomy = {};
 };
 
 struct AccuracyResult {
@@ -38,6 +40,9 @@ struct AccuracyResult {
   grid::Grid last_grid;
   bool is_complete = false;  // false: stopped before the end
 };
+
+// What of a case is compared that depends on its structure.
+CaseSide structure_side(const StructureMeasures& measures);
 
 // Whether lists are compared with those of the frame before.
 enum class ListsOverFrames { ignored, compared };

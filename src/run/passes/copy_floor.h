@@ -20,8 +20,8 @@ class CopyFloor {
     for (std::size_t i = 0; i < std::min(frames, work.structures().size()); ++i) add_frame(work.structures()[i]->use());
     if (!work.converts()) return;
     const assign::StorageDescriptor& packed = *assign::find_storage("packed");
-    const auto storage = work.storage(packed, assign::Params(packed.params));
     for (std::size_t i = 0; i < frames; ++i) {
+      const auto storage = work.storage(packed, assign::Params(packed.params), i);
       storage->store(work.lists()[i]);
       add_frame(storage->use());
     }
