@@ -35,7 +35,7 @@ StoreSamples store_samples(const Json& json) {
 Json to_json(const MethodSamples& method) {
   Json stores = Json::array();
   for (const StoreSamples& store : method.stores) stores.push_back(to_json(store));
-  return {{"frames", method.frames},
+  Json out{{"frames", method.frames},
           {"mean_frames", method.mean_frames},
           {"pairs", method.pairs},
           {"builds_per_frame", method.builds_per_frame},
@@ -49,6 +49,11 @@ Json to_json(const MethodSamples& method) {
           {"upload_ns", method.upload_ns},
           {"run_ns", method.run_ns},
           {"readback_ns", method.readback_ns}};
+  if (!method.cull_warm_ns.empty())
+    out["cull"] = {{"warm_ns", method.cull_warm_ns},
+                   {"warm_each", method.cull_warm_each},
+                   {"cold_each", method.cull_cold_each}};
+  return out;
 }
 
 MethodSamples method_samples(const Json& json) {
@@ -67,6 +72,11 @@ MethodSamples method_samples(const Json& json) {
                        json.at("run_ns"),
                        json.at("readback_ns")};
   for (const Json& store : json.at("stores")) method.stores.push_back(store_samples(store));
+  if (json.contains("cull")) {
+    method.cull_warm_ns = json["cull"].at("warm_ns").get<std::vector<double>>();
+    method.cull_warm_each = json["cull"].at("warm_each").get<std::vector<run::EachFrame>>();
+    method.cull_cold_each = json["cull"].at("cold_each").get<std::vector<run::EachFrame>>();
+  }
   return method;
 }
 

@@ -11,6 +11,7 @@
 #include "grid/grid.h"
 #include "measure/samples.h"
 #include "run/frame_depths.h"
+#include "run/scene_visible_sets.h"
 #include "run/sweep.h"
 #include "scene/camera_path.h"
 #include "view/frame.h"
@@ -21,8 +22,9 @@ class PathFrames {
  public:
   // All must outlive it. Without `depths` its frames have none.
   // `threads`: for depths that grids follow; what is found does not depend on it.
+  // `visible_sets`: of the scene, where a pre-cull asks for them.
   PathFrames(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport, FrameDepths* depths = nullptr,
-             int threads = 1);
+             int threads = 1, SceneVisibleSets* visible_sets = nullptr);
 
   // The frames of another path in this path's grids, which follow from the lights over this path. `other` outlives
   // them.
@@ -47,6 +49,7 @@ class PathFrames {
   double far_m() const { return far_m_; }
   // Of its frames, and of those of paths along it; null without triangles.
   FrameDepths* depths() const { return depths_; }
+  SceneVisibleSets* visible_sets() const { return visible_sets_; }  // null without triangles
   // A box around the bounded lights' balls over the path.
   measure::Bounds light_bounds() const { return {rig_lo_, rig_hi_}; }
 
@@ -60,7 +63,8 @@ class PathFrames {
         far_m_(whole.far_m_),
         shape_(whole.shape_),
         depths_(whole.depths_),
-        threads_(whole.threads_) {}
+        threads_(whole.threads_),
+        visible_sets_(whole.visible_sets_) {}
 
   view::Frame frame_of_path(int index) const;
 
@@ -73,6 +77,7 @@ class PathFrames {
   FrameDepths* depths_ = nullptr;
   std::vector<int> frames_;  // empty: all
   int threads_ = 1;
+  SceneVisibleSets* visible_sets_ = nullptr;
   mutable std::map<std::string, std::vector<grid::Span>> spans_;  // by the grid's name
 };
 

@@ -23,6 +23,7 @@ std::vector<TimedFrame> timed_frames(const config::Config& config, const GroupPl
   std::vector<TimedFrame> frames;
   GridOfFrames grids(config.grids[group.grid]);
   std::shared_ptr<const grid::Grid> grid;
+  const auto culls = std::make_shared<const GroupCulls>(config, group, path);
   frames.reserve(indices.size());
   for (const int index : indices) {
     view::Frame frame = path.frame(index);
@@ -31,7 +32,7 @@ std::vector<TimedFrame> timed_frames(const config::Config& config, const GroupPl
     const bool is_new = is_grid_new(config.grids[group.grid], path, frame);
     std::shared_ptr<const depth::DepthImage> depth = depths_for(config, group, path, frame);
     if (depth) check_memory("depths of timed pixels", indices.size() * depth->pixels.count(), sizeof(float));
-    frames.push_back({grid, std::move(frame), std::move(lights), std::move(depth), is_new});
+    frames.push_back({grid, std::move(frame), std::move(lights), std::move(depth), culls, is_new});
   }
   return frames;
 }
@@ -42,7 +43,11 @@ bool is_threaded(const config::MethodRequest& assigner) {
 
 TimedWork::TimedWork(const config::Config& config, const GroupPlan& group, const Method& method,
                      std::span<const TimedFrame> frames, const TimedFrame* extra)
-    : frames_(frames), extra_(extra), precision_(method.precision) {
+    : frames_(frames),
+      extra_(extra),
+      precision_(method.precision),
+      pre_cull_(&frames.front().culls->path.of(method)),
+      most_lights_(frames.front().culls->most_lights_of(method)) {
   const std::size_t all_frames = frames.size() + (extra == nullptr ? 0 : 1);
   const config::MethodRequest& request = config.assigners[method.assigner];
   const assign::AssignerDescriptor& descriptor = *assign::find_assigner(request.name);
@@ -61,6 +66,11 @@ TimedWork::TimedWork(const config::Config& config, const GroupPlan& group, const
     const config::MethodRequest& store = config.storages[*case_plan.storage];
     stores_.push_back(storage(*assign::find_storage(store.name), store.params));
   }
+  if (culls()) frame_culls_.resize(all_frames);
+  for (std::size_t i = 0; i < frame_culls_.size(); ++i) {
+    cull_frame(i);
+    cull::PreCull::give_source(at(i).lights.in_precision(precision_), frame_culls_[i]);
+  }
   if (extra_ != nullptr) assign_frame(frames.size());
   assign();
   if (assigner().device_spans() != nullptr) device_.emplace();
@@ -78,6 +88,21 @@ assign::Assigner& TimedWork::assigner() const {
 void TimedWork::build_for(const TimedFrame& frame) {
   assigner().build(*frame.grid, assign::kinds_of(frame.lights.in_precision(precision_)));
   built_for_ = frame.grid.get();
+}
+
+void TimedWork::cull() {
+  if (!culls()) return;
+  for (std::size_t i = 0; i < frames_.size(); ++i) cull_frame(i);
+}
+
+void TimedWork::cull_frame(std::size_t frame) {
+  const TimedFrame& now = at(frame);
+  pre_cull_->cull(now.frame, *now.grid, now.lights.in_precision(precision_), frame_culls_[frame]);
+}
+
+// What the method gets of a frame.
+const view::LightArrays& TimedWork::lights(std::size_t frame) const {
+  return culls() ? frame_culls_[frame].lights : at(frame).lights.in_precision(precision_);
 }
 
 void TimedWork::assign() {
@@ -100,7 +125,7 @@ void TimedWork::prepare_frame(std::size_t frame) {
 void TimedWork::assign_frame(std::size_t frame) {
   const TimedFrame& now = at(frame);
   if (now.is_grid_new || now.grid.get() != built_for_) build_for(now);
-  const assign::FrameInput input{now.frame, now.lights.in_precision(precision_), now.depth.get()};
+  const assign::FrameInput input{now.frame, lights(frame), now.depth.get()};
   if (lists_assigner_)
     lists_assigner_->assign(input, lists_[frame]);
   else
@@ -121,14 +146,22 @@ void TimedWork::convert(std::size_t store) const {
 }
 
 void TimedWork::convert_frame(std::size_t store, std::size_t frame) const {
-  stores_[store]->store(lists_[frame]);
+  store_lists(*stores_[store], frame);
+}
+
+void TimedWork::store_lists(assign::Storage& storage, std::size_t frame) const {
+  if (culls()) storage.set_types(frame_culls_[frame].lights);
+  storage.store(lists_[frame]);
 }
 
 std::unique_ptr<assign::Storage> TimedWork::storage(const assign::StorageDescriptor& storage,
                                                     const assign::Params& params) const {
   const TimedFrame& frame = frames_.front();
   auto made = storage.make(params);
-  made->start(*frame.grid, frame.lights.in_precision(precision_));
+  if (culls())
+    made->start(*frame.grid, view::LightRanges(0, most_lights_));
+  else
+    made->start(*frame.grid, frame.lights.in_precision(precision_));
   return made;
 }
 
