@@ -36,23 +36,22 @@ Json to_json(const MethodSamples& method) {
   Json stores = Json::array();
   for (const StoreSamples& store : method.stores) stores.push_back(to_json(store));
   Json out{{"frames", method.frames},
-          {"mean_frames", method.mean_frames},
-          {"pairs", method.pairs},
-          {"builds_per_frame", method.builds_per_frame},
-          {"build_ns", method.build_ns},
-          {"warm_ns", method.warm_ns},
-          {"floor_ns", method.floor_ns},
-          {"warm_each", method.warm_each},
-          {"cold_each", method.cold_each},
-          {"warm_passes", method.warm_passes},
-          {"stores", stores},
-          {"upload_ns", method.upload_ns},
-          {"run_ns", method.run_ns},
-          {"readback_ns", method.readback_ns}};
+           {"mean_frames", method.mean_frames},
+           {"pairs", method.pairs},
+           {"builds_per_frame", method.builds_per_frame},
+           {"build_ns", method.build_ns},
+           {"warm_ns", method.warm_ns},
+           {"floor_ns", method.floor_ns},
+           {"warm_each", method.warm_each},
+           {"cold_each", method.cold_each},
+           {"warm_passes", method.warm_passes},
+           {"stores", stores},
+           {"upload_ns", method.upload_ns},
+           {"run_ns", method.run_ns},
+           {"readback_ns", method.readback_ns}};
   if (!method.cull_warm_ns.empty())
-    out["cull"] = {{"warm_ns", method.cull_warm_ns},
-                   {"warm_each", method.cull_warm_each},
-                   {"cold_each", method.cull_cold_each}};
+    out["cull"] = {
+        {"warm_ns", method.cull_warm_ns}, {"warm_each", method.cull_warm_each}, {"cold_each", method.cull_cold_each}};
   return out;
 }
 

@@ -39,12 +39,13 @@ class PreCull {
   // Gives what is kept the double-precision numbers that it was rounded from. No engine does that: not timed.
   static void give_source(const view::LightArrays& lights, FrameCull& out);
 
-  // Whether no light is removed that shares a point with a cell of this grid. By the view's planes: where cells end with
-  // the picture, in frustum and distance grids. By distance: where no cell reaches farther. A visible set never is.
+  // Whether no light is removed that shares a point with a cell of this grid. By the view's planes: where cells end
+  // with the picture, in frustum and distance grids. By distance: where no cell reaches farther. A visible set never
+  // is.
   bool is_conservative(const grid::Grid& grid) const;
 
-  std::uint64_t bytes() const;       // of its visible sets
-  double build_ns() const;           // what these took
+  std::uint64_t bytes() const;  // of its visible sets
+  double build_ns() const;      // what these took
   std::size_t view_cells() const;
 
  private:

@@ -54,8 +54,8 @@ ViewPlanes::ViewPlanes(const view::Frame& frame, const grid::Grid& grid) {
 bool ViewPlanes::are_missed_by(const geom::Ball& ball) const {
   const Vec3d center(ball.center);
   const double reach = static_cast<double>(ball.radius) + k_cull_least_m;
-  return std::ranges::any_of(
-      planes_, [&](const Plane& plane) { return glm::dot(plane.normal, center) + plane.offset > reach; });
+  return std::ranges::any_of(planes_,
+                             [&](const Plane& plane) { return glm::dot(plane.normal, center) + plane.offset > reach; });
 }
 
 double farthest_of_cells(const grid::Grid& grid) {

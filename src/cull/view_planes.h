@@ -9,8 +9,8 @@
 
 namespace clusterbench::cull {
 
-// How many unit roundoffs (2^-24 of a light's reach) the pre-culls pad a light by, so that none is removed that shares a
-// point with what they ask about: what single precision has lost of the centre and of the padded radius
+// How many unit roundoffs (2^-24 of a light's reach) the pre-culls pad a light by, so that none is removed that shares
+// a point with what they ask about: what single precision has lost of the centre and of the padded radius
 // (view::k_given_roundoffs), 1 for the sum that pads it, 3 for what a spot's axis and angle lose in the ball around its
 // cone. The planes themselves are in double precision, whose 2^-53 are far below the rest.
 inline constexpr float k_cull_roundoffs = 8.0f;
@@ -35,8 +35,8 @@ class ViewPlanes {
   std::array<Plane, 6> planes_;
 };
 
-// No cell of the grid is farther from the eye, in metres; +inf where cells do not end with what the camera sees (cascades
-// and world grids).
+// No cell of the grid is farther from the eye, in metres; +inf where cells do not end with what the camera sees
+// (cascades and world grids).
 double farthest_of_cells(const grid::Grid& grid);
 
 }  // namespace clusterbench::cull

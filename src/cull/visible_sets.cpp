@@ -105,8 +105,7 @@ VisibleSets::VisibleSets(const scene::Scene& scene, const scene::Geometry& geome
   const double start = now_ns();
   find_moving(scene, path);
   std::map<VoxelIndex, std::vector<Vec3d>> eyes;
-  for (const scene::Shot& shot : path.shots)
-    eyes[voxel_of(shot.pose.eye, step.view_cell_m)].push_back(shot.pose.eye);
+  for (const scene::Shot& shot : path.shots) eyes[voxel_of(shot.pose.eye, step.view_cell_m)].push_back(shot.pose.eye);
   depth::RayCaster caster(scene, geometry);
   const Voxels empty(lo_, hi_, step.voxel_m);
   if (any_moves_)

@@ -3,8 +3,9 @@
 //
 // The eyes of a camera path are put into view cells, cubes of the world. From points in a view cell rays go in all
 // directions; what they pass through until the first opaque surface is visible space, in voxels. A light is kept where
-// its ball (a spot's: around its cone) touches a visible voxel. What a ray could see and none met is missing: such a set
-// is NOT conservative. (Airey, Rohlf and Brooks 1990; by sampled rays: Wonka et al. 2006, Guided Visibility Sampling.)
+// its ball (a spot's: around its cone) touches a visible voxel. What a ray could see and none met is missing: such a
+// set is NOT conservative. (Airey, Rohlf and Brooks 1990; by sampled rays: Wonka et al. 2006, Guided Visibility
+// Sampling.)
 //
 // Surfaces stand as in the path's first frame. Lights that move are held against the voxels in each frame.
 
@@ -31,8 +32,8 @@ struct WorldBall {
 WorldBall ball_around(const scene::WorldLight& light);
 
 // The ways from which a view cell's space is seen: `rays` of them, in directions that are spread evenly over the sphere
-// (a Fibonacci lattice, turned at random). Each begins at a random point of the view cell that one of the eyes sees; the
-// eyes take turns. `caster` is posed. Their length is how far they get.
+// (a Fibonacci lattice, turned at random). Each begins at a random point of the view cell that one of the eyes sees;
+// the eyes take turns. `caster` is posed. Their length is how far they get.
 std::vector<depth::WorldRay> view_rays(const VoxelIndex& view_cell, std::span<const Vec3d> eyes,
                                        const VisibleSetStep& step, const depth::RayCaster& caster, std::uint64_t seed,
                                        int threads);

@@ -309,13 +309,13 @@ std::vector<double> RayCaster::free_ways(std::span<const WorldRay> rays, int thr
     rtcInitIntersectContext(&context);
     for (std::size_t i = begin; i < end; ++i) {
       const WorldRay& world = rays[i];
-      RTCRayHit ray = ray_of(Vec3f(world.from - surfaces_->origin), Vec3f(world.along), 0.0f,
-                             static_cast<float>(world.most_m));
+      RTCRayHit ray =
+          ray_of(Vec3f(world.from - surfaces_->origin), Vec3f(world.along), 0.0f, static_cast<float>(world.most_m));
       rtcIntersect1(surfaces, &context, &ray);
       ways[i] = world.most_m;
       if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
-      ways[i] = std::min(world.most_m,
-                         static_cast<double>(depth_at(surfaces, ray.ray, ray.hit.geomID, ray.hit.primID)));
+      ways[i] =
+          std::min(world.most_m, static_cast<double>(depth_at(surfaces, ray.ray, ray.hit.geomID, ray.hit.primID)));
     }
   });
   return ways;

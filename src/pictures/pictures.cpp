@@ -31,8 +31,7 @@ struct PicturedFrame {
 // A case's light structure in a frame.
 class Answer {
  public:
-  Answer(const config::Config& config, const run::CasePlan& plan, const PicturedFrame& now,
-         const run::PathFrames& path)
+  Answer(const config::Config& config, const run::CasePlan& plan, const PicturedFrame& now, const run::PathFrames& path)
       : culls_(config, plan, path), run_(config, plan.method(), culls_.of(plan.method())) {
     const view::LightArrays& lights = now.lights.in_precision(plan.precision);
     run_.build(now.grid, assign::kinds_of(lights));
@@ -56,7 +55,7 @@ class Answer {
 
   run::PathCulls culls_;
   run::CulledRun run_;
-  std::unique_ptr<assign::Storage> storage_;  // none: the method's own structure
+  std::unique_ptr<assign::Storage> storage_;       // none: the method's own structure
   std::optional<assign::MappedStructure> mapped_;  // behind a pre-cull
 };
 
@@ -92,11 +91,10 @@ class Drawing {
 
   void draw_group(const run::GroupPlan& plan) {
     const run::SceneData& data = plan_.scenes[plan.scene];
-    Group group{
-        plan,
-        {data.scene, data.paths[plan.camera], config_.viewports[plan.viewport], depths_of(plan.scene), config_.threads,
-         data.visible_sets.get()},
-        {}};
+    Group group{plan,
+                {data.scene, data.paths[plan.camera], config_.viewports[plan.viewport], depths_of(plan.scene),
+                 config_.threads, data.visible_sets.get()},
+                {}};
     for (const run::CasePlan& one : plan.cases)
       if (can_picture(group, one)) group.cases.push_back(&one);
     if (group.cases.empty()) return;

@@ -104,8 +104,8 @@ Json renamed(const Json& base, const std::vector<const Json*>& only_in_base, con
 // Of the cases of both, how many have a part in one result alone.
 Json parts_of_one(const std::vector<Match>& matches) {
   Json out = Json::array();
-  for (const char* part :
-       {"occupancy", "error", "shading", "samples", "lookup", "stability", "precision", "pre_cull", "fit", "timing", "count"}) {
+  for (const char* part : {"occupancy", "error", "shading", "samples", "lookup", "stability", "precision", "pre_cull",
+                           "fit", "timing", "count"}) {
     std::size_t base = 0, next = 0;
     for (const Match& match : matches) {
       base += match.base.contains(part) && !match.next.contains(part) ? 1 : 0;

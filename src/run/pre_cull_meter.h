@@ -24,7 +24,7 @@ struct PreCullCounts {
     bool is_distance = false;
     measure::MeanMax removed;  // lights per frame
   };
-  bool conservative = true;  // in every frame
+  bool conservative = true;                 // in every frame
   measure::MeanMax kept, removed, distant;  // lights per frame; the distant ones are among the removed
   std::vector<Step> steps;
   std::uint64_t lost_pairs = 0;  // true pairs of lights that are removed

@@ -100,15 +100,15 @@ struct FitTimes {
 };
 
 struct TimingResult {
-  bool is_cold = false;                          // the times that follow: caches were swept before each frame
-  std::string session;                           // the same where the same launches have measured
-  int launches = 1;                              // processes, each of which measured an equal share of the samples
-  measure::TimeStats frame_ns;                   // per frame: pre-cull, assign and convert, of the same rounds
-  measure::TimeStats build_ns, assign_ns;        // assign: per frame, with the builds that the frames need
-  std::optional<measure::TimeStats> convert_ns;  // per frame; only where lists are converted
+  bool is_cold = false;                           // the times that follow: caches were swept before each frame
+  std::string session;                            // the same where the same launches have measured
+  int launches = 1;                               // processes, each of which measured an equal share of the samples
+  measure::TimeStats frame_ns;                    // per frame: pre-cull, assign and convert, of the same rounds
+  measure::TimeStats build_ns, assign_ns;         // assign: per frame, with the builds that the frames need
+  std::optional<measure::TimeStats> convert_ns;   // per frame; only where lists are converted
   std::optional<measure::TimeStats> pre_cull_ns;  // per frame; only where there is one
-  std::optional<WarmTimes> warm;                 // beside cold times
-  int warm_assign_passes = 1;                    // over the timed frames in a warm sample, in the launch with fewest
+  std::optional<WarmTimes> warm;                  // beside cold times
+  int warm_assign_passes = 1;                     // over the timed frames in a warm sample, in the launch with fewest
   std::optional<int> warm_convert_passes;
   std::optional<DeviceTimes> device;  // within warm times
   double builds_per_frame = 0.0;      // 0 where the grid stays, 1 where each frame has its own
@@ -132,7 +132,7 @@ struct CountResult {
   Counted build;            // of one build
   Counted assign;           // over all frames
   std::optional<Counted> pre_cull = {};  // over all frames; only where there is one
-  std::optional<Counted> convert;  // over all frames; only where lists are converted
+  std::optional<Counted> convert;        // over all frames; only where lists are converted
 };
 
 // One method's lists along a finely sampled piece of the path, beside the true lists along the same piece.
@@ -189,7 +189,7 @@ struct CaseResult {
   std::string assigner, assigner_label;
   nlohmann::json assigner_params;
   bool conservative = true, exact = false;  // conservative: on lights that are packed, only if they are inflated;
-                                           // behind a pre-cull, only if that is
+                                            // behind a pre-cull, only if that is
   std::string storage_label;
   std::string preset;                           // config/presets.h; "" for the configuration's own clusterings
   std::optional<measure::Occupancy> occupancy;  // with cells

@@ -106,8 +106,7 @@ class ServedCases::OpenGroup {
                 work.cull();
                 work.assign();
               },
-              config.timing.min_time_ms * 1e6,
-                 is_threaded(config.assigners[of.assigner]) ? wall_ns : thread_ns) {}
+              config.timing.min_time_ms * 1e6, is_threaded(config.assigners[of.assigner]) ? wall_ns : thread_ns) {}
 
     Method method;
     TimedWork work;

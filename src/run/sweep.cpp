@@ -373,8 +373,8 @@ class Expansion {
       skip(plan, family, name + part, impossible);
       return;
     }
-    CasePlan case_plan{"", "", group.scene, group.camera, group.viewport, group.grid, family.assigner,
-                       {}, lights.precision};
+    CasePlan case_plan{
+        "", "", group.scene, group.camera, group.viewport, group.grid, family.assigner, {}, lights.precision};
     case_plan.pre_cull = lights.pre_cull;
     if (family.preset != nullptr) case_plan.preset = family.preset->preset;
     for (std::size_t storage = 0; descriptor.answers(assign::Answer::lists) && storage < config_.storages.size();

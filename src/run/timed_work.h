@@ -89,7 +89,7 @@ class TimedWork {
   const TimedFrame* extra_;
   std::size_t precision_;
   const cull::PreCull* pre_cull_;
-  std::uint32_t most_lights_ = 0;           // in a frame of the path, behind the pre-cull
+  std::uint32_t most_lights_ = 0;             // in a frame of the path, behind the pre-cull
   std::vector<cull::FrameCull> frame_culls_;  // empty without one
   std::unique_ptr<assign::ListAssigner> lists_assigner_;
   std::unique_ptr<assign::StructureAssigner> structure_assigner_;  // one of the two
