@@ -23,6 +23,25 @@ struct Label {
 
 }  // namespace
 
+std::span<const StepSummary> step_summaries() {
+  static constexpr StepSummary k_rows[] = {
+      {"frustum",
+       "lights whose ball (a spot's: around its cone) lies outside of one of the planes around the view are removed; "
+       "loses nothing in frustum and distance grids",
+       "all engines"},
+      {"distance_m",
+       "lights that begin farther from the eye are distant ones: drawn, not shaded; loses nothing where no cell "
+       "reaches "
+       "farther",
+       "Just Cause 3: Persson 2015"},
+      {"visible_set",
+       "lights that reach no space seen from the eye's view cell are removed; by sampled rays, NOT conservative; needs "
+       "triangles",
+       "Airey, Rohlf and Brooks 1990; by rays: Wonka et al. 2006"},
+  };
+  return k_rows;
+}
+
 std::string label_of(const Step& step) {
   return std::visit(Label{}, step);
 }

@@ -1,6 +1,7 @@
 #pragma once
 // What a configuration asks for to happen to lights before a method gets them.
 
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -27,6 +28,12 @@ struct VisibleSetStep {
 
   friend bool operator==(const VisibleSetStep&, const VisibleSetStep&) = default;
 };
+
+// Each kind of step, for people.
+struct StepSummary {
+  const char *name, *summary, *source;
+};
+std::span<const StepSummary> step_summaries();
 
 using Step = std::variant<FrustumStep, DistanceStep, VisibleSetStep>;
 
