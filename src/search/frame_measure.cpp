@@ -22,11 +22,11 @@ std::unique_ptr<assign::Storage> storage_of(const config::Config& config, const 
 }
 
 // Without sets: those follow from a path's eyes.
-cull::PreCull pre_cull_of(const config::Config& config, const run::CasePlan& plan) {
+std::unique_ptr<const cull::PreCull> pre_cull_of(const config::Config& config, const run::CasePlan& plan) {
   const cull::PreCullSpec& spec = config.pre_culls[plan.pre_cull];
   if (spec.needs_triangles())
     throw Error("", "pre_cull", "visible_set: its sets are those of a path's eyes, and this looks at eyes elsewhere");
-  return {spec, {}};
+  return std::make_unique<const cull::PreCull>(spec, std::vector<std::shared_ptr<const cull::VisibleSets>>{});
 }
 
 std::uint32_t longest_of(const assign::Lists& lists) {
@@ -60,7 +60,7 @@ FrameMeter::FrameMeter(const config::Config& config, const run::CasePlan& plan, 
       spec_(config.grids[plan.grid]),
       precision_{config.precisions[plan.precision]},
       pre_cull_(pre_cull_of(config, plan)),
-      run_(config, plan.method(), pre_cull_),
+      run_(config, plan.method(), *pre_cull_),
       storage_(storage_of(config, plan)) {
   if ((measure == Measure::longest || measure == Measure::p99) && !run_.has_cells())
     throw Error("", "--measure", std::string(row_of(measure).name) + ": " + plan.name + " has no cells");

@@ -52,7 +52,7 @@ class FrameMeter {
   std::vector<config::PrecisionRequest> precision_;  // the case's own
   grid::GridInputs inputs_;
   std::optional<grid::Grid> grid_;
-  cull::PreCull pre_cull_;
+  std::unique_ptr<const cull::PreCull> pre_cull_;  // which stays where it is
   run::CulledRun run_;
   std::unique_ptr<assign::Storage> storage_;  // none: the method's own structure
   std::uint32_t real_cells_ = 0;
