@@ -265,7 +265,7 @@ Json pre_cull(const run::PreCullResult& p, bool is_timed) {
   for (const run::PreCullCounts::Step& step : counts.steps)
     steps.push_back({{"label", step.label}, {"removed", to_json(step.removed)}});
   for (const run::LostAtSamples& set : counts.samples)
-    samples[measure::name_of(set.set)] = {{"needed", set.needed}, {"lost", set.lost}};
+    if (set.is_asked) samples[measure::name_of(set.set)] = {{"needed", set.needed}, {"lost", set.lost}};
   Json out{{"label", p.label},
            {"conservative", counts.conservative},
            {"kept", to_json(counts.kept)},

@@ -42,6 +42,7 @@ void PreCullMeter::add_frame(const cull::FrameCull& cull, std::uint32_t all_ligh
 }
 
 void PreCullMeter::add_samples(std::size_t set, const assign::Lists& needed) {
+  counts_.samples[set].is_asked = true;
   counts_.samples[set].needed += needed.lights.size();
   counts_.samples[set].lost += removed_of(needed);
 }

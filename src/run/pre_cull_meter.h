@@ -16,6 +16,7 @@ namespace clusterbench::run {
 struct LostAtSamples {
   measure::SampleSet set = measure::SampleSet::volume;
   std::uint64_t needed = 0, lost = 0;
+  bool is_asked = false;  // the scene has such samples
 };
 
 struct PreCullCounts {
