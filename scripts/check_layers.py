@@ -10,7 +10,7 @@ import re
 import sys
 
 # A file includes only its own layer and those before it.
-LAYERS = ["core", "geom", "scene", "view", "depth", "grid", "assign", "measure", "config", "run", "pictures", "stress",
+LAYERS = ["core", "geom", "scene", "view", "depth", "grid", "cull", "assign", "measure", "config", "run", "pictures", "stress",
           "search", "report", "cli"]
 
 # The same for the folders of a layer. Those that stand side by side do not include each other; files beside the folders

@@ -25,6 +25,7 @@ TABLES = {
     "cascades": [("", "/definitions/cascades")],
     "world": [("", "/definitions/world"), ("bounds.", "/definitions/world/properties/bounds/anyOf/1")],
     "precision": [("", "/definitions/precision")],
+    "pre_cull": [("", "/definitions/pre_cull_step"), ("visible_set.", "/definitions/pre_cull_step/properties/visible_set")],
     "measuring": [(key + ".", f"/properties/{key}") for key in ("accuracy", "shading")]
                  + [("samples.", "/properties/samples")]
                  + [(f"samples.{name}.", f"/properties/samples/properties/{name}")

@@ -75,8 +75,9 @@ function labels(files: string[]): string[] {
 }
 
 function toCase(raw: CaseResult, run: Run, front: Set<string>, ranked: Ranked | null): Case {
-  const storage =
+  const packed =
     raw.precision && raw.precision.packing !== "float32" ? `${raw.storage}, ${raw.precision.label}` : raw.storage;
+  const storage = raw.pre_cull ? `${packed}, after ${raw.pre_cull.label}` : packed;
   const seen = raw.samples?.opaque ?? raw.shading;
   return {
     raw,

@@ -142,6 +142,7 @@ export type Time = {
 export type PerFrame = {
   assign: number; // Instructions of assignment, with the builds that the frames need
   convert?: number; // Instructions of conversion to the storage; absent where a method leaves its own structure
+  pre_cull?: number; // Instructions of the pre-cull; absent where there is none
 };
 
 // What `clusterbench run` writes. x-unit and x-over of a number, or of what holds it: its unit, and what it is taken over. x-written: keys that this version always writes, and that older results of the same schema_version may lack. null: not a number.
@@ -213,7 +214,7 @@ export type Result = {
   cases: Array<{
     id: string; // Stable over runs and machines: hash of everything that identifies the case
     settings?: string; // The same but for the contents of the scene's file: stable while a level changes
-    name: string; // scene/camera/grid/assigner/storage, and the precision where it is not float32
+    name: string; // scene/camera/grid/assigner/storage, then the pre-cull where there is one, and the precision where it is not float32
     scene: string; // Name of one of scenes
     camera: string; // Name in the scene, or of the path that was made because the scene has no camera
     viewport: [number, number]; // [width, height] [pixels, over the case]
@@ -489,15 +490,35 @@ export type Result = {
         ratio: number | null; // Extra pairs / pairs in float32 [ratio, over all frames]
       }; // Pairs more than the same case in float32; null where there is no such case
     }; // How precisely the assigner gets its lights; where the configuration asks for more than float32
+    pre_cull?: {
+      label: string; // The steps in their order: frustum, distance(m), visible-set(view_cell_m,voxel_m,rays)
+      conservative: boolean; // In no frame can it remove a light that shares a point with a cell. Where it can, losses are counted and do not fail the run. frustum: in frustum and distance grids, whose cells end with the picture. distance: where no cell reaches farther. visible-set: never
+      kept: MeanMax; // Lights that the assigner gets [lights, over all frames]
+      removed: MeanMax; // Lights that it does not get, the distant ones among them [lights, over all frames]
+      distant: MeanMax; // Lights that a distance step puts into the list of distant lights [lights, over all frames]
+      steps: Array<{
+        label: string; // The step
+        removed: MeanMax; // Lights that it removes of those that the steps before it leave [lights, over all frames]
+      }>; // In their order
+      lost_pairs: number; // True pairs of lights that are removed; they are among error.false_negatives. 0 where nothing is held against the truth [pairs, over all frames]
+      lost_at_samples: Record<string, {
+        needed: number; // Lights that reach the samples [lights, over the samples of all frames]
+        lost: number; // Of those, removed [lights, over the samples of all frames]
+      }>; // By the set's name (volume: the random samples in the whole view)
+      view_cells: number; // View cells that have a visible set; 0 without such a step [view cells, over the path]
+      bytes: number; // Of all view cells' sets: a bit per light, and voxels where lights move [bytes, over the path]
+      build_ns?: number; // What building the sets took, once and beside all other times; absent where nothing is timed [ns, over one build]
+    }; // What happens to lights before the assigner gets them; absent where it gets all. buffers, tests_done and times are those of the lights that are left; error, shading and samples are told against all lights, in their indices
     timing?: {
       frames_timed: number; // Evenly spaced over the path; all times but that of worst_frame are means over them [frames, over the path]
       caches?: "cold" | "warm"; // Of frame_ns, assign_ns, convert_ns, worst_frame and against_first. cold: swept before each frame, as all else of an engine's frame does; warm: the same frames again and again. Absent in older results: warm
       session?: string; // Equal in cases that the same launches have measured; only their times have ratios
       launches?: number; // Processes that measured, each an equal share of every array of samples, one after the other. From two on all 95 % intervals are between launches (Student's t on the logarithms of the launches' medians), else they are bootstrap intervals over the rounds of one process [processes, over the case]
       warm?: {
-        frame_ns: Time; // Per frame: assign_ns and convert_ns
+        frame_ns: Time; // Per frame: pre_cull_ns, assign_ns and convert_ns
         assign_ns: Time; // Per frame: as the one beside cold times
         convert_ns?: Time; // Per frame: as the one beside cold times
+        pre_cull_ns?: Time; // Per frame: as the one beside cold times
       }; // The same frames with warm caches, beside cold times; samples need not be as many
       passes_per_sample?: {
         assign: number; // Of assign_ns
@@ -508,7 +529,7 @@ export type Result = {
         stolen_cores: number | null; // Processors that other guests of the host took meanwhile, in the mean [processors]
         throttled: number; // Times that processors slowed down because of heat; 0 where Linux does not count them [times]
       }; // What else went on while the cases of this grid, camera and viewport were measured, over all launches [over the measuring of the group]
-      frame_ns: Time; // Per frame: what a frame takes, assign_ns and convert_ns of the same round together
+      frame_ns: Time; // Per frame: what a frame takes, pre_cull_ns, assign_ns and convert_ns of the same round together
       worst_frame?: {
         frame: number; // Number of the frame on the camera's path, from 0 [frame, over the path]
         ns: number | null; // Time of this frame alone, median over the rounds; of warm times its share of a pass over the timed frames [ns, over the rounds]
@@ -523,6 +544,7 @@ export type Result = {
       build_ns: Time; // Per build: preparing for a grid, once for each projection
       assign_ns: Time; // Per frame: assignment, mean over the timed frames, with the builds of builds_per_frame
       convert_ns?: Time; // Per frame: from lists to the layout of the storage; absent where a method leaves its own structure
+      pre_cull_ns?: Time; // Per frame: from all lights to those that the method gets, side by side; absent where nothing is culled. Visible sets are built before (pre_cull.build_ns)
       device?: {
         upload_ns: Time; // Per frame: bringing the frame's input to the device
         run_ns: Time; // Per frame: the device's work

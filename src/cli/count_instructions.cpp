@@ -65,7 +65,7 @@ std::vector<std::string> callgrind_command(const std::string& dumps, const std::
 std::string line_of(const std::string& id, const run::CountResult& count) {
   std::ostringstream line;
   line << id << ' ' << count.simd_target << ' ' << count.frames << ' ' << count.build.instructions << ' '
-       << count.assign.instructions;
+       << count.assign.instructions << ' ' << (count.pre_cull ? std::to_string(count.pre_cull->instructions) : "-");
   if (count.convert) line << ' ' << count.convert->instructions;
   return line.str();
 }
@@ -75,8 +75,10 @@ std::pair<std::string, run::CountResult> count_in(const std::string& line) {
   auto& [id, count] = read;
   count.source = "callgrind";
   std::istringstream in(line);
-  in >> id >> count.simd_target >> count.frames >> count.build.instructions >> count.assign.instructions;
+  std::string pre_cull;
+  in >> id >> count.simd_target >> count.frames >> count.build.instructions >> count.assign.instructions >> pre_cull;
   const bool is_read = static_cast<bool>(in);
+  if (is_read && pre_cull != "-") count.pre_cull.emplace().instructions = std::stoull(pre_cull);
   run::Counted convert;
   if (in >> convert.instructions) count.convert = convert;
   if (!is_read || count.frames <= 0) throw Error("", k_callgrind, "the run under valgrind printed '" + line + "'");

@@ -35,20 +35,24 @@ StoreSamples store_samples(const Json& json) {
 Json to_json(const MethodSamples& method) {
   Json stores = Json::array();
   for (const StoreSamples& store : method.stores) stores.push_back(to_json(store));
-  return {{"frames", method.frames},
-          {"mean_frames", method.mean_frames},
-          {"pairs", method.pairs},
-          {"builds_per_frame", method.builds_per_frame},
-          {"build_ns", method.build_ns},
-          {"warm_ns", method.warm_ns},
-          {"floor_ns", method.floor_ns},
-          {"warm_each", method.warm_each},
-          {"cold_each", method.cold_each},
-          {"warm_passes", method.warm_passes},
-          {"stores", stores},
-          {"upload_ns", method.upload_ns},
-          {"run_ns", method.run_ns},
-          {"readback_ns", method.readback_ns}};
+  Json out{{"frames", method.frames},
+           {"mean_frames", method.mean_frames},
+           {"pairs", method.pairs},
+           {"builds_per_frame", method.builds_per_frame},
+           {"build_ns", method.build_ns},
+           {"warm_ns", method.warm_ns},
+           {"floor_ns", method.floor_ns},
+           {"warm_each", method.warm_each},
+           {"cold_each", method.cold_each},
+           {"warm_passes", method.warm_passes},
+           {"stores", stores},
+           {"upload_ns", method.upload_ns},
+           {"run_ns", method.run_ns},
+           {"readback_ns", method.readback_ns}};
+  if (!method.cull_warm_ns.empty())
+    out["cull"] = {
+        {"warm_ns", method.cull_warm_ns}, {"warm_each", method.cull_warm_each}, {"cold_each", method.cull_cold_each}};
+  return out;
 }
 
 MethodSamples method_samples(const Json& json) {
@@ -67,6 +71,11 @@ MethodSamples method_samples(const Json& json) {
                        json.at("run_ns"),
                        json.at("readback_ns")};
   for (const Json& store : json.at("stores")) method.stores.push_back(store_samples(store));
+  if (json.contains("cull")) {
+    method.cull_warm_ns = json["cull"].at("warm_ns").get<std::vector<double>>();
+    method.cull_warm_each = json["cull"].at("warm_each").get<std::vector<run::EachFrame>>();
+    method.cull_cold_each = json["cull"].at("cold_each").get<std::vector<run::EachFrame>>();
+  }
   return method;
 }
 

@@ -10,6 +10,7 @@
 #include "assign/contract/storage.h"
 #include "cli/commands.h"
 #include "config/presets.h"
+#include "cull/pre_cull_spec.h"
 #include "scene/generate.h"
 
 namespace clusterbench::cli {
@@ -85,6 +86,8 @@ Json everything() {
   for (int kind = 0; kind < grid::k_kind_count; ++kind)
     all["grids"].push_back(grid::kind_name(static_cast<grid::Kind>(kind)));
   for (const config::Preset& preset : config::presets()) all["presets"].push_back(to_json(preset));
+  for (const cull::StepSummary& row : cull::step_summaries())
+    all["pre_culls"].push_back({{"name", row.name}, {"summary", row.summary}, {"source", row.source}});
   for (const scene::GeneratorRow& row : scene::generators())
     all["scenes"].push_back(
         {{"name", row.name}, {"summary", row.summary}, {"source", row.source}, {"default_lights", row.default_lights}});
@@ -172,7 +175,7 @@ void print_section(const Json& all, const char* section) {
   }
 }
 
-constexpr const char* k_sections[] = {"assigners", "storages", "grids", "scenes", "presets"};
+constexpr const char* k_sections[] = {"assigners", "storages", "grids", "pre_culls", "scenes", "presets"};
 
 // `wanted`: "" for all sections.
 void print_text(const Json& all, const std::string& wanted) {
@@ -185,11 +188,11 @@ void print_text(const Json& all, const std::string& wanted) {
 }  // namespace
 
 void add_list(Command& program, Action& action) {
-  Command command =
-      program.add_command("list", "Assigners, storages, grids, scenes and presets that exist, with their parameters");
+  Command command = program.add_command(
+      "list", "Assigners, storages, grids, pre-culls, scenes and presets that exist, with their parameters");
   auto as_json = std::make_shared<bool>(false);
   auto section = std::make_shared<std::string>();
-  command.add_option("SECTION", *section, "Only these: assigners, storages, grids, scenes or presets")
+  command.add_option("SECTION", *section, "Only these: assigners, storages, grids, pre_culls, scenes or presets")
       .one_of({std::begin(k_sections), std::end(k_sections)});
   command.add_flag("--json", *as_json, "As JSON");
   command.when_named([as_json, section, &action] {

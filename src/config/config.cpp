@@ -164,6 +164,28 @@ std::vector<PrecisionRequest> precisions(const Json& list, const JsonText& text)
   return out;
 }
 
+cull::Step pre_cull_step(const Json& step) {
+  if (step.is_string()) return cull::FrustumStep{};
+  if (step.contains("distance_m")) return cull::DistanceStep{step["distance_m"].get<double>()};
+  const Json& set = step["visible_set"];
+  return cull::VisibleSetStep{set["view_cell_m"].get<double>(), set["voxel_m"].get<double>(), set["rays"].get<int>()};
+}
+
+std::vector<cull::PreCullSpec> pre_culls(const Json& document, const JsonText& text) {
+  if (!document.contains("pre_cull")) return {{}};
+  std::vector<cull::PreCullSpec> out;
+  const Json& list = document["pre_cull"];
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const Json steps = list[i].is_array() ? list[i] : list[i] == "none" ? Json::array() : Json::array({list[i]});
+    cull::PreCullSpec spec;
+    for (const Json& step : steps) spec.steps.push_back(pre_cull_step(step));
+    if (std::find(out.begin(), out.end(), spec) != out.end())
+      throw Error(text.file, text.where(child_pointer("/pre_cull", i)), "'" + spec.label() + "' stands here twice");
+    out.push_back(std::move(spec));
+  }
+  return out;
+}
+
 // Patterns are kept until the list has been checked.
 bool is_assigner_glob(const std::string& list, const Json& entry) {
   return list == "assigners" && is_glob(entry.get_ref<const std::string&>());
@@ -435,6 +457,7 @@ Config read_config(const JsonText& text) {
   config.viewports = viewports(document["viewports"], text);
   read_clusterings(document, text, config);
   config.precisions = precisions(document["precision"], text);
+  config.pre_culls = pre_culls(document, text);
   read_settings(document, config);
   check_ranking(document, config.sample_sets, text);
   config.limits.fail_if = limit_rules(document["limits"]["fail_if"], text);

@@ -14,6 +14,7 @@
 #include "config/config_flags.h"
 #include "config/limit_rules.h"
 #include "core/memory.h"
+#include "cull/pre_cull_spec.h"
 #include "grid/grid.h"
 #include "measure/buffers.h"
 #include "measure/lookup.h"
@@ -128,6 +129,7 @@ struct Config {
   std::size_t own_grids = k_all, own_assigners = k_all, own_storages = k_all;
   std::vector<PresetChoice> presets;  // by viewport, then in the order in which they were named
   std::vector<PrecisionRequest> precisions;
+  std::vector<cull::PreCullSpec> pre_culls{{}};
   int threads = 1;
   std::uint64_t seed = 1;
   bool check_accuracy = true;

@@ -129,6 +129,22 @@ void gather_fronts(const RTCFilterFunctionNArguments* arguments) {
   gather(arguments, false);
 }
 
+RTCRayHit ray_of(const Vec3f& from, const Vec3f& along, float near, float far) {
+  RTCRayHit out{};
+  out.ray.org_x = from.x;
+  out.ray.org_y = from.y;
+  out.ray.org_z = from.z;
+  out.ray.dir_x = along.x;
+  out.ray.dir_y = along.y;
+  out.ray.dir_z = along.z;
+  out.ray.tnear = near;
+  out.ray.tfar = far;
+  out.ray.mask = ~0U;
+  out.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  out.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  return out;
+}
+
 // The picture's rays in the space of the surfaces. A ray's parameter is the depth.
 class Camera {
  public:
@@ -141,19 +157,8 @@ class Camera {
   RTCRayHit ray(std::size_t index) const {
     const view::PictureRay view_ray = view::picture_ray(frame_, pixels_.pixel(index));
     const Vec3f from(eye_ + world_from_view_ * view_ray.from), along(world_from_view_ * view_ray.along);
-    RTCRayHit out{};
-    out.ray.org_x = from.x;
-    out.ray.org_y = from.y;
-    out.ray.org_z = from.z;
-    out.ray.dir_x = along.x;
-    out.ray.dir_y = along.y;
-    out.ray.dir_z = along.z;
-    out.ray.tnear = static_cast<float>(frame_.projection.near_m);
-    out.ray.tfar = static_cast<float>(frame_.projection.far_m);
-    out.ray.mask = ~0U;
-    out.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    out.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    return out;
+    return ray_of(from, along, static_cast<float>(frame_.projection.near_m),
+                  static_cast<float>(frame_.projection.far_m));
   }
 
  private:
@@ -324,6 +329,26 @@ double RayCaster::clearance_m(const Vec3d& from) const {
   constexpr double k_least_m = 1e-4, k_share = 0x1p-19;  // 32 units of single precision's rounding
   const Vec3d local = glm::abs(from - surfaces_->origin);
   return std::max(k_least_m, k_share * std::max({local.x, local.y, local.z}));
+}
+
+std::vector<double> RayCaster::free_ways(std::span<const WorldRay> rays, int threads) const {
+  std::vector<double> ways(rays.size());
+  RTCScene surfaces = surfaces_->opaque.get();
+  parallel_ranges(rays.size(), threads, [&](std::size_t begin, std::size_t end) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    for (std::size_t i = begin; i < end; ++i) {
+      const WorldRay& world = rays[i];
+      RTCRayHit ray =
+          ray_of(Vec3f(world.from - surfaces_->origin), Vec3f(world.along), 0.0f, static_cast<float>(world.most_m));
+      rtcIntersect1(surfaces, &context, &ray);
+      ways[i] = world.most_m;
+      if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
+      ways[i] =
+          std::min(world.most_m, static_cast<double>(depth_at(surfaces, ray.ray, ray.hit.geomID, ray.hit.primID)));
+    }
+  });
+  return ways;
 }
 
 LayerImage RayCaster::layers(const view::Frame& frame, const DepthImage& opaque, int most_layers, int threads) const {

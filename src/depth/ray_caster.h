@@ -2,6 +2,8 @@
 // The scene's surfaces as a camera sees them: depth by ray casting (Embree).
 
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "depth/depth_image.h"
 #include "scene/geometry.h"
@@ -9,6 +11,12 @@
 #include "view/frame.h"
 
 namespace clusterbench::depth {
+
+// A ray anywhere in the world; `along` is of unit length.
+struct WorldRay {
+  Vec3d from{0.0}, along{0.0, 0.0, -1.0};
+  double most_m = 0.0;  // how far it goes where nothing is; may be +inf
+};
 
 class RayCaster {
  public:
@@ -34,6 +42,9 @@ class RayCaster {
   double clearance_m(const Vec3d& from) const;
   // At most `most_layers` for each pixel: the nearest ones.
   LayerImage layers(const view::Frame& frame, const DepthImage& opaque, int most_layers, int threads) const;
+  // How far each ray gets: to the first opaque surface that turns its front to it, in metres. The same for any number
+  // of threads.
+  std::vector<double> free_ways(std::span<const WorldRay> rays, int threads) const;
 
  private:
   struct Surfaces;

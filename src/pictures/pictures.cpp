@@ -12,6 +12,7 @@
 #include "pictures/file_names.h"
 #include "pictures/png.h"
 #include "run/frame_lights.h"
+#include "run/path_culls.h"
 #include "run/path_frames.h"
 
 namespace clusterbench::pictures {
@@ -30,23 +31,32 @@ struct PicturedFrame {
 // A case's light structure in a frame.
 class Answer {
  public:
-  Answer(const config::Config& config, const run::CasePlan& plan, const PicturedFrame& now)
-      : run_(run::start_method(config, plan.method())) {
+  Answer(const config::Config& config, const run::CasePlan& plan, const PicturedFrame& now, const run::PathFrames& path)
+      : culls_(config, plan, path), run_(config, plan.method(), culls_.of(plan.method())) {
     const view::LightArrays& lights = now.lights.in_precision(plan.precision);
     run_.build(now.grid, assign::kinds_of(lights));
-    run_.assign({now.frame, lights, now.depth.get()});
-    if (!plan.storage) return;
-    const config::MethodRequest& request = config.storages[*plan.storage];
-    storage_ = assign::find_storage(request.name)->make(request.params);
-    storage_->start(now.grid, now.frame.ranges());
-    storage_->store(*run_.filled_lists());
+    run_.assign(now.frame, lights, now.depth.get());
+    if (plan.storage) {
+      const config::MethodRequest& request = config.storages[*plan.storage];
+      storage_ = assign::find_storage(request.name)->make(request.params);
+      storage_->start(now.grid, now.frame.ranges());
+      run_.store(*storage_);
+    }
+    mapped_ = run_.mapped(made());
   }
 
-  const assign::LightStructure& structure() const { return storage_ ? *storage_ : *run_.structure(); }
+  const assign::LightStructure& structure() const {
+    if (mapped_) return *mapped_;
+    return made();
+  }
 
  private:
-  assign::AssignerRun run_;
-  std::unique_ptr<assign::Storage> storage_;  // none: the method's own structure
+  const assign::LightStructure& made() const { return storage_ ? *storage_ : *run_.own_structure(); }
+
+  run::PathCulls culls_;
+  run::CulledRun run_;
+  std::unique_ptr<assign::Storage> storage_;       // none: the method's own structure
+  std::optional<assign::MappedStructure> mapped_;  // behind a pre-cull
 };
 
 class Drawing {
@@ -81,8 +91,10 @@ class Drawing {
 
   void draw_group(const run::GroupPlan& plan) {
     const run::SceneData& data = plan_.scenes[plan.scene];
-    Group group{
-        plan, {data.scene, data.paths[plan.camera], config_.viewports[plan.viewport], depths_of(plan.scene)}, {}};
+    Group group{plan,
+                {data.scene, data.paths[plan.camera], config_.viewports[plan.viewport], depths_of(plan.scene),
+                 config_.threads, data.visible_sets.get()},
+                {}};
     for (const run::CasePlan& one : plan.cases)
       if (can_picture(group, one)) group.cases.push_back(&one);
     if (group.cases.empty()) return;
@@ -191,7 +203,7 @@ class Drawing {
     const NeededAt needed(now.frame, surface, config_.threads);
     const Seen seen{surface, light, needed.total()};
     std::vector<Answer> answers;
-    for (const run::CasePlan* one : group.cases) answers.emplace_back(config_, *one, now);
+    for (const run::CasePlan* one : group.cases) answers.emplace_back(config_, *one, now, group.path);
     const auto maps_of = [&](std::size_t at) {
       return pixel_maps(surface, needed, now.frame.ranges().spots.first, answers[at].structure(), config_.threads);
     };
@@ -258,7 +270,7 @@ class Drawing {
       const Surface surface = surface_of(group, now.frame, divisor);
       const NeededAt needed(now.frame, surface, config_.threads);
       for (std::size_t i = 0; i < strips.size(); ++i) {
-        const Answer answer(config_, *group.cases[i], now);
+        const Answer answer(config_, *group.cases[i], now, group.path);
         const PixelMaps maps =
             pixel_maps(surface, needed, now.frame.ranges().spots.first, answer.structure(), config_.threads);
         most = std::max(most, usual_most(maps, [&](std::size_t at) { return maps.lights(at); }));

@@ -73,8 +73,11 @@ std::string method_name(const Json& result_case) {
   std::string label = printable(result_case["assigner"]["label"].get_ref<const std::string&>());
   if (result_case.contains("preset"))
     label = printable(result_case["preset"].get_ref<const std::string&>()) + ": " + label;
-  if (!result_case.contains("precision") || result_case["precision"]["packing"] == "float32") return label;
-  return label + " " + printable(result_case["precision"]["label"].get_ref<const std::string&>());
+  if (result_case.contains("precision") && result_case["precision"]["packing"] != "float32")
+    label += " " + printable(result_case["precision"]["label"].get_ref<const std::string&>());
+  if (result_case.contains("pre_cull"))
+    label += " after " + printable(result_case["pre_cull"]["label"].get_ref<const std::string&>());
+  return label;
 }
 
 std::vector<NamedCase> distinct_cases(const Json& cases, const Json& scene, const std::string& block,

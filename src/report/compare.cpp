@@ -81,6 +81,7 @@ std::vector<std::string> other_settings(const Json& base, const Json& base_case,
     tell(base_case, next_case, key, (std::string("/") + key).c_str());
   tell(base_case, next_case, "the assigner's parameters", "/assigner/params");
   tell(base_case, next_case, "precision", "/precision/label");
+  tell(base_case, next_case, "pre_cull", "/pre_cull/label");
   for (const char* key : {"seed", "shading", "samples", "lookup", "stability", "jitter"})
     tell(base["config"], next["config"], key, (std::string("/") + key).c_str());
   if (fits_of(base) != fits_of(next)) out.emplace_back("camera_fit");
@@ -103,8 +104,8 @@ Json renamed(const Json& base, const std::vector<const Json*>& only_in_base, con
 // Of the cases of both, how many have a part in one result alone.
 Json parts_of_one(const std::vector<Match>& matches) {
   Json out = Json::array();
-  for (const char* part : {"occupancy", "error", "shading", "samples", "lookup", "stability", "precision", "fit",
-                           "react", "fallback", "timing", "count"}) {
+  for (const char* part : {"occupancy", "error", "shading", "samples", "lookup", "stability", "precision", "pre_cull",
+                           "fit", "react", "fallback", "timing", "count"}) {
     std::size_t base = 0, next = 0;
     for (const Match& match : matches) {
       base += match.base.contains(part) && !match.next.contains(part) ? 1 : 0;
@@ -139,6 +140,7 @@ std::string time_key(const Match& match, bool is_paired) {
   Json key{result_case["scene"], result_case["camera"], result_case["viewport"], result_case["grid"],
            result_case["assigner"]["label"]};
   if (result_case.contains("precision")) key.push_back(result_case["precision"]["label"]);
+  if (result_case.contains("pre_cull")) key.push_back(result_case["pre_cull"]["label"]);
   key.push_back(result_case["storage"] == "own");
   return key.dump();
 }

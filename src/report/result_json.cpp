@@ -260,6 +260,28 @@ Json precision(const run::PrecisionResult& p) {
           {"unrepresentable", {{"lights", loss.unrepresentable_lights}, {"frames", loss.unrepresentable_frames}}}};
 }
 
+// `is_timed`: what is not timed is the same in every run.
+Json pre_cull(const run::PreCullResult& p, bool is_timed) {
+  const run::PreCullCounts& counts = p.counts;
+  Json steps = Json::array(), samples = Json::object();
+  for (const run::PreCullCounts::Step& step : counts.steps)
+    steps.push_back({{"label", step.label}, {"removed", to_json(step.removed)}});
+  for (const run::LostAtSamples& set : counts.samples)
+    if (set.is_asked) samples[measure::name_of(set.set)] = {{"needed", set.needed}, {"lost", set.lost}};
+  Json out{{"label", p.label},
+           {"conservative", counts.conservative},
+           {"kept", to_json(counts.kept)},
+           {"removed", to_json(counts.removed)},
+           {"distant", to_json(counts.distant)},
+           {"steps", steps},
+           {"lost_pairs", counts.lost_pairs},
+           {"lost_at_samples", samples},
+           {"view_cells", counts.view_cells},
+           {"bytes", counts.bytes}};
+  if (is_timed) out["build_ns"] = six_digits(counts.build_ns);
+  return out;
+}
+
 Json timing(const run::TimingResult& t) {
   Json out{
       {"frames_timed", t.frames_timed},
@@ -274,6 +296,7 @@ Json timing(const run::TimingResult& t) {
   out["build_ns"] = to_json(t.build_ns);
   out["assign_ns"] = to_json(t.assign_ns);
   if (t.convert_ns) out["convert_ns"] = to_json(*t.convert_ns);
+  if (t.pre_cull_ns) out["pre_cull_ns"] = to_json(*t.pre_cull_ns);
   if (t.device)
     out["device"] = {{"upload_ns", to_json(t.device->upload_ns)},
                      {"run_ns", to_json(t.device->run_ns)},
@@ -281,6 +304,7 @@ Json timing(const run::TimingResult& t) {
   if (t.warm) {
     out["warm"] = {{"frame_ns", to_json(t.warm->frame_ns)}, {"assign_ns", to_json(t.warm->assign_ns)}};
     if (t.warm->convert_ns) out["warm"]["convert_ns"] = to_json(*t.warm->convert_ns);
+    if (t.warm->pre_cull_ns) out["warm"]["pre_cull_ns"] = to_json(*t.warm->pre_cull_ns);
   }
   out["passes_per_sample"] = {{"assign", t.warm_assign_passes}};
   if (t.warm_convert_passes) out["passes_per_sample"]["convert"] = *t.warm_convert_passes;
@@ -311,6 +335,7 @@ Json count(const run::CountResult& c) {
            {"instructions_per_build", c.build.instructions},
            {"instructions_per_frame", {{"assign", per_frame(c.assign.instructions)}}}};
   if (c.convert) out["instructions_per_frame"]["convert"] = per_frame(c.convert->instructions);
+  if (c.pre_cull) out["instructions_per_frame"]["pre_cull"] = per_frame(c.pre_cull->instructions);
   if (!c.assign.cycles || (c.convert && !c.convert->cycles)) return out;
   out["cycles_per_frame"] = {{"assign", per_frame(*c.assign.cycles)}};
   if (c.convert) out["cycles_per_frame"]["convert"] = per_frame(*c.convert->cycles);
@@ -431,6 +456,7 @@ Json case_to_json(const run::CaseResult& case_result) {
   if (!case_result.lookup.empty()) out["lookup"] = lookup(case_result.lookup);
   if (case_result.stability) out["stability"] = stability(*case_result.stability);
   if (case_result.precision) out["precision"] = precision(*case_result.precision);
+  if (case_result.pre_cull) out["pre_cull"] = pre_cull(*case_result.pre_cull, case_result.timing.has_value());
   if (case_result.fit) out["fit"] = fit_to_json(*case_result.fit);
   if (case_result.reaction) out["react"] = reaction_to_json(*case_result.reaction);
   if (case_result.fallback) out["fallback"] = fallback_to_json(*case_result.fallback);

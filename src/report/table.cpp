@@ -10,6 +10,7 @@
 #include "report/fit_json.h"
 #include "report/json_values.h"
 #include "report/lookup_table.h"
+#include "report/pre_cull_table.h"
 #include "report/precision_table.h"
 #include "report/preset_ranking.h"
 #include "report/ratios.h"
@@ -303,8 +304,8 @@ std::string render_table(const Json& result, bool colour) {
   if (!result["skipped"].empty())
     out += number_of(result["skipped"].size(), "combination") + " skipped; the result says why.\n";
   return out + samples_table(result) + lookup_table(result) + stability_table(result) + fit_table(result) +
-         reaction_table(result) + fallback_table(result) + precision_table(result) + preset_table(result) +
-         notes_text(result) + warnings_text(result) + timing_warnings(cases);
+         reaction_table(result) + fallback_table(result) + precision_table(result) + pre_cull_table(result) +
+         preset_table(result) + notes_text(result) + warnings_text(result) + timing_warnings(cases);
 }
 
 }  // namespace clusterbench::report

@@ -66,6 +66,10 @@ CaseResult case_result(const config::Config& config, const Plan& whole, const Ca
   if (!counted.losses.empty())
     out.precision = {view::packing_name(precision.packing), precision.label(), precision.inflate,
                      counted.losses[plan.precision]};
+  if (method.pre_cull) {
+    out.pre_cull = {config.pre_culls[plan.pre_cull].label(), *method.pre_cull};
+    out.conservative = out.conservative && method.pre_cull->conservative;
+  }
   out.exact = descriptor.exact;
   out.storage_label = storage_label(config, plan);
   out.preset = plan.preset;

@@ -21,6 +21,12 @@ bool has_cells(const CaseResult& result) {
   return result.occupancy.has_value();
 }
 
+// A conservative method may not lose a light, nor an exact one: but for what a pre-cull keeps from it.
+bool may_not_lose(const CaseResult& result) {
+  const bool gets_all = !result.pre_cull || result.pre_cull->counts.conservative;
+  return result.conservative || (result.exact && gets_all);
+}
+
 std::string lost_text(const CaseResult& result) {
   const measure::ErrorCounts& error = *result.error;
   std::string text =
@@ -157,13 +163,12 @@ const char* name_of(Warning::Kind kind) {
 std::vector<Failure> failures_of(const CaseResult& result, const config::LimitsRequest& limits) {
   using Kind = Failure::Kind;
   std::vector<Failure> failures;
-  const bool may_not_lose = result.conservative || result.exact;
-  if (may_not_lose && result.error && result.error->false_negatives > 0)
+  if (may_not_lose(result) && result.error && result.error->false_negatives > 0)
     failures.push_back({Kind::lost_pairs, lost_text(result)});
   if (result.exact && result.error && result.error->false_positives > 0)
     failures.push_back({Kind::extra_pairs, "reported " + number_of(result.error->false_positives, "pair") +
                                                " beside the truth, and calls itself exact"});
-  if (may_not_lose && (misses_without_cells(result) || misses_at_surfaces(result)))
+  if (may_not_lose(result) && (misses_without_cells(result) || misses_at_surfaces(result)))
     failures.push_back({Kind::lost_at_samples, missed_without_cells_text(result)});
   const measure::Buffers& buffers = result.buffers;
   if (limits.dropped_pairs && buffers.dropped_pairs > *limits.dropped_pairs)
@@ -182,7 +187,7 @@ std::vector<Warning> warnings_of(const CaseResult& result) {
     warnings.push_back({Kind::undecided, undecided_text("error", result.error->undecided)});
   if (result.stability && result.stability->undecided > 0)
     warnings.push_back({Kind::undecided, undecided_text("stability", result.stability->undecided)});
-  if (result.error && result.error->false_negatives > 0 && !result.conservative && !result.exact)
+  if (result.error && result.error->false_negatives > 0 && !may_not_lose(result))
     warnings.push_back({Kind::lost_pairs, lost_text(result)});
   if (has_cells(result) && !result.error)
     warnings.push_back({Kind::unchecked, "its lists were not held against the truth"});

@@ -8,8 +8,8 @@
 namespace clusterbench::run {
 
 PathFrames::PathFrames(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport, FrameDepths* depths,
-                       int threads)
-    : scene_(scene), path_(path), viewport_(viewport), depths_(depths), threads_(threads) {
+                       int threads, SceneVisibleSets* visible_sets)
+    : scene_(scene), path_(path), viewport_(viewport), depths_(depths), threads_(threads), visible_sets_(visible_sets) {
   bool is_first = true;
   for (int i = 0; i < count(); ++i) {
     const view::Frame now = frame(i);
@@ -118,7 +118,8 @@ std::vector<FrameReaction> PathFrames::reactions_to_lights(const grid::GridSpec&
 
 PathFrames path_of(const config::Config& config, const Plan& plan, const GroupPlan& group) {
   const SceneData& data = plan.scenes[group.scene];
-  return {data.scene, data.paths[group.camera], config.viewports[group.viewport], data.depths.get(), config.threads};
+  return {data.scene,        data.paths[group.camera], config.viewports[group.viewport],
+          data.depths.get(), config.threads,           data.visible_sets.get()};
 }
 
 bool needs_depth(const config::Config& config, const GroupPlan& group) {

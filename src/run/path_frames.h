@@ -12,6 +12,7 @@
 #include "grid/grid.h"
 #include "measure/samples.h"
 #include "run/frame_depths.h"
+#include "run/scene_visible_sets.h"
 #include "run/sweep.h"
 #include "scene/camera_path.h"
 #include "view/frame.h"
@@ -29,8 +30,9 @@ class PathFrames {
  public:
   // All must outlive it. Without `depths` its frames have none.
   // `threads`: for depths that grids follow; what is found does not depend on it.
+  // `visible_sets`: of the scene, where a pre-cull asks for them.
   PathFrames(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport, FrameDepths* depths = nullptr,
-             int threads = 1);
+             int threads = 1, SceneVisibleSets* visible_sets = nullptr);
 
   // The frames of another path in this path's grids, which follow from the lights over this path. `other` outlives
   // them.
@@ -58,6 +60,7 @@ class PathFrames {
   double far_m() const { return far_m_; }
   // Of its frames, and of those of paths along it; null without triangles.
   FrameDepths* depths() const { return depths_; }
+  SceneVisibleSets* visible_sets() const { return visible_sets_; }  // null without triangles
   // A box around the bounded lights' balls over the path.
   measure::Bounds light_bounds() const { return {rig_lo_, rig_hi_}; }
 
@@ -71,7 +74,8 @@ class PathFrames {
         far_m_(whole.far_m_),
         shape_(whole.shape_),
         depths_(whole.depths_),
-        threads_(whole.threads_) {}
+        threads_(whole.threads_),
+        visible_sets_(whole.visible_sets_) {}
 
   view::Frame frame_of_path(int index) const;
   // But for tiles that react to the frame before: as they are asked for.
@@ -91,6 +95,8 @@ class PathFrames {
   // By the grid's name.
   mutable std::map<std::string, std::vector<grid::Span>> spans_;
   mutable std::map<std::string, std::vector<FrameReaction>> reactions_;
+  SceneVisibleSets* visible_sets_ = nullptr;
+  mutable std::map<std::string, std::vector<grid::Span>> spans_;  // by the grid's name
 };
 
 // Those that a group of cases is measured in.

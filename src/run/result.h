@@ -24,6 +24,7 @@
 #include "run/fit_meter.h"
 #include "run/packed_details.h"
 #include "run/reaction_meter.h"
+#include "run/pre_cull_meter.h"
 #include "run/timing_samples.h"
 
 namespace clusterbench::run {
@@ -84,7 +85,7 @@ struct WorstTimedFrame {
 // The same frames again and again, so that caches hold what of them fits.
 struct WarmTimes {
   measure::TimeStats frame_ns, assign_ns;
-  std::optional<measure::TimeStats> convert_ns;
+  std::optional<measure::TimeStats> convert_ns, pre_cull_ns;
 };
 
 // Per frame, by the own clock of the device (a GPU) that a method runs on.
@@ -100,14 +101,15 @@ struct FitTimes {
 };
 
 struct TimingResult {
-  bool is_cold = false;                          // the times that follow: caches were swept before each frame
-  std::string session;                           // the same where the same launches have measured
-  int launches = 1;                              // processes, each of which measured an equal share of the samples
-  measure::TimeStats frame_ns;                   // per frame: assign and convert, of the same rounds
-  measure::TimeStats build_ns, assign_ns;        // assign: per frame, with the builds that the frames need
-  std::optional<measure::TimeStats> convert_ns;  // per frame; only where lists are converted
-  std::optional<WarmTimes> warm;                 // beside cold times
-  int warm_assign_passes = 1;                    // over the timed frames in a warm sample, in the launch with fewest
+  bool is_cold = false;                           // the times that follow: caches were swept before each frame
+  std::string session;                            // the same where the same launches have measured
+  int launches = 1;                               // processes, each of which measured an equal share of the samples
+  measure::TimeStats frame_ns;                    // per frame: pre-cull, assign and convert, of the same rounds
+  measure::TimeStats build_ns, assign_ns;         // assign: per frame, with the builds that the frames need
+  std::optional<measure::TimeStats> convert_ns;   // per frame; only where lists are converted
+  std::optional<measure::TimeStats> pre_cull_ns;  // per frame; only where there is one
+  std::optional<WarmTimes> warm;                  // beside cold times
+  int warm_assign_passes = 1;                     // over the timed frames in a warm sample, in the launch with fewest
   std::optional<int> warm_convert_passes;
   std::optional<DeviceTimes> device;  // within warm times
   double builds_per_frame = 0.0;      // 0 where the grid stays, 1 where each frame has its own
@@ -130,7 +132,8 @@ struct CountResult {
   int frames = 0;           // counted, the same that are timed
   Counted build;            // of one build
   Counted assign;           // over all frames
-  std::optional<Counted> convert;  // over all frames; only where lists are converted
+  std::optional<Counted> pre_cull = {};  // over all frames; only where there is one
+  std::optional<Counted> convert;        // over all frames; only where lists are converted
 };
 
 // One method's lists along a finely sampled piece of the path, beside the true lists along the same piece.
@@ -159,6 +162,12 @@ struct PrecisionResult {
   measure::PackingLoss loss;  // before inflation
 };
 
+// What was done to lights before the method got them.
+struct PreCullResult {
+  std::string label;  // "frustum+distance(100)"
+  PreCullCounts counts;
+};
+
 // What a run fails for.
 struct Failure {
   enum class Kind : std::uint8_t { lost_pairs, extra_pairs, lost_at_samples, dropped_pairs };
@@ -180,7 +189,8 @@ struct CaseResult {
   nlohmann::json grid;  // {kind, cells, ... boundaries, lookup constants}
   std::string assigner, assigner_label;
   nlohmann::json assigner_params;
-  bool conservative = true, exact = false;  // conservative: on lights that are packed, only if they are inflated
+  bool conservative = true, exact = false;  // conservative: on lights that are packed, only if they are inflated;
+                                            // behind a pre-cull, only if that is
   std::string storage_label;
   std::string preset;                           // config/presets.h; "" for the configuration's own clusterings
   std::optional<measure::Occupancy> occupancy;  // with cells
@@ -194,6 +204,7 @@ struct CaseResult {
   std::optional<measure::DepthRanges> depth_ranges;  // of visible surfaces in a frustum grid, where asked for
   std::vector<measure::LookupCounts> lookup;         // one per way; empty where not asked for
   std::optional<PrecisionResult> precision;          // where the configuration asks for more than float32
+  std::optional<PreCullResult> pre_cull;             // where there is one
   std::optional<StabilityResult> stability;          // with cells, where asked for
   std::optional<FitResult> fit;                      // of slices with `fit`
   std::optional<ReactionResult> reaction;            // of tiles that react

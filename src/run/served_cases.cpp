@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "measure/shading.h"
+#include "run/path_culls.h"
 #include "run/repeated.h"
 #include "run/timed_work.h"
 
@@ -28,7 +29,8 @@ class ListsOfFrames {
         path_(path),
         grids_(config.grids[group.grid]),
         precision_(case_plan.precision),
-        run_(start_method(config, case_plan.method())) {}
+        culls_(config, case_plan, path),
+        run_(config, case_plan.method(), culls_.of(case_plan.method())) {}
 
   const assign::Lists& at(int index) {
     const view::Frame frame = path_.frame(index);
@@ -37,13 +39,13 @@ class ListsOfFrames {
     const view::LightArrays& packed = lights.in_precision(precision_);
     if (is_new_grid) run_.build(grids_.grid(), assign::kinds_of(packed));
     depth_ = depths_for(config_, group_, path_, frame);
-    run_.assign({frame, packed, depth_.get()});
+    run_.assign(frame, packed, depth_.get());
     if (run_.has_cells()) return run_.cell_lists();
     ask_at_samples(frame);
     return lists_at_samples_;
   }
   Vec3i cells() const {
-    if (run_.has_occupied_cells()) return run_.structure()->occupied_cells().counts;
+    if (run_.has_occupied_cells()) return run_.own_structure()->occupied_cells().counts;
     return run_.has_cells() ? grids_.grid().cells() : Vec3i{k_samples, 1, 1};
   }
 
@@ -52,11 +54,14 @@ class ListsOfFrames {
 
   void ask_at_samples(const view::Frame& frame) {
     assign::Lists& lists = lists_at_samples_;
+    const std::optional<assign::MappedStructure> mapped = run_.mapped(*run_.own_structure());
+    const assign::LightStructure* structure = run_.own_structure();
+    if (mapped) structure = &*mapped;
     lists.lights.clear();
     lists.begin.assign(1, 0);
     for (const grid::Sample& sample :
          measure::volume_samples(frame, sample_far(frame, path_.far_m()), k_samples, config_.seed)) {
-      run_.structure()->lights_at(sample, grid::Log2::rounded, given_);
+      structure->lights_at(sample, grid::Log2::rounded, given_);
       lists.lights.insert(lists.lights.end(), given_.begin(), given_.end());
       lists.begin.push_back(lists.pair_count());
     }
@@ -69,7 +74,8 @@ class ListsOfFrames {
   std::shared_ptr<const depth::DepthImage> depth_;  // of the frame at hand
   GridOfFrames grids_;
   std::size_t precision_;
-  assign::AssignerRun run_;
+  PathCulls culls_;
+  CulledRun run_;
   assign::Lists lists_at_samples_;
   std::vector<std::uint32_t> given_;
 };
@@ -85,6 +91,7 @@ class ServedCases::OpenGroup {
 
   double assign_ns(const Method& method) {
     Track& track = track_of(method);
+    track.work.cull();
     track.work.assign();  // warms caches that the other program has filled
     return track.assign.sample() / static_cast<double>(track.work.frame_count());
   }
@@ -94,8 +101,12 @@ class ServedCases::OpenGroup {
     Track(const config::Config& config, const GroupPlan& group, const Method& of, const std::vector<TimedFrame>& frames)
         : method(of),
           work(config, group, of, frames),
-          assign([this] { work.assign(); }, config.timing.min_time_ms * 1e6,
-                 is_threaded(config.assigners[of.assigner]) ? wall_ns : thread_ns) {}
+          assign(
+              [this] {
+                work.cull();
+                work.assign();
+              },
+              config.timing.min_time_ms * 1e6, is_threaded(config.assigners[of.assigner]) ? wall_ns : thread_ns) {}
 
     Method method;
     TimedWork work;

@@ -43,7 +43,8 @@ bool needs_triangles(const config::Config& config) {
          std::ranges::any_of(
              config.assigners,
              [](const config::MethodRequest& method) { return assign::find_assigner(method.name)->needs.depth; }) ||
-         std::ranges::any_of(config.grids, follows_surfaces);
+         std::ranges::any_of(config.grids, follows_surfaces) ||
+         std::ranges::any_of(config.pre_culls, &cull::PreCullSpec::needs_triangles);
 }
 
 // What a set's samples depend on, besides the scene.
@@ -87,8 +88,10 @@ std::vector<SceneData> load_scenes(const config::Config& config) {
     scenes.push_back(std::move(data));
   }
   for (SceneData& data : scenes)  // where they stay from now on
-    if (data.geometry && !data.geometry->empty())
+    if (data.geometry && !data.geometry->empty()) {
       data.depths = std::make_shared<FrameDepths>(data.scene, *data.geometry);
+      data.visible_sets = std::make_shared<SceneVisibleSets>(data.scene, *data.geometry);
+    }
   return scenes;
 }
 
@@ -155,6 +158,8 @@ Json identity(const config::Config& config, const SceneData& data, const CasePla
   }
   const config::PrecisionRequest& precision = config.precisions[plan.precision];
   if (!plan.preset.empty()) all["preset"] = plan.preset;
+  if (const cull::PreCullSpec& pre_cull = config.pre_culls[plan.pre_cull]; !pre_cull.is_none())
+    all["pre_cull"] = pre_cull.label();
   if (precision.is_lossy()) all["precision"] = {view::packing_name(precision.packing), precision.inflate};
   return all;
 }
@@ -188,6 +193,12 @@ std::string obstacle(const config::MethodRequest& request, grid::Kind kind, cons
 std::string precision_obstacle(const assign::AssignerDescriptor& assigner, const config::PrecisionRequest& precision) {
   if (!assigner.exact || !precision.is_lossy()) return "";
   return assigner.name + " decides from the scene's own numbers, whatever the lights are packed in; run it in float32";
+}
+
+// Why a scene's lights cannot be culled so; "" if they can.
+std::string pre_cull_obstacle(const cull::PreCullSpec& pre_cull, const SceneData& data) {
+  if (!pre_cull.needs_triangles() || (data.geometry && !data.geometry->empty())) return "";
+  return "a visible set needs surfaces that hide, and the scene has no triangles";
 }
 
 struct Reach {
@@ -339,21 +350,32 @@ class Expansion {
       skip(plan, family, name, impossible, !takes_kind);
       return;
     }
-    for (std::size_t precision = 0; precision < config_.precisions.size(); ++precision)
-      expand_precision(plan, group, family, precision, first, name);
+    for (std::size_t pre_cull = 0; pre_cull < config_.pre_culls.size(); ++pre_cull)
+      for (std::size_t precision = 0; precision < config_.precisions.size(); ++precision)
+        expand_lights(plan, group, family, {pre_cull, precision}, first, name);
   }
 
-  void expand_precision(Plan& plan, GroupPlan& group, const Family& family, std::size_t precision,
-                        const FirstFrame& first, const std::string& name) {
-    const config::PrecisionRequest& request = config_.precisions[precision];
-    const std::string part = request.is_lossy() ? "/" + request.label() : "";
+  // How lights come to a method.
+  struct LightChoice {
+    std::size_t pre_cull, precision;
+  };
+
+  void expand_lights(Plan& plan, GroupPlan& group, const Family& family, LightChoice lights, const FirstFrame& first,
+                     const std::string& name) {
+    const config::PrecisionRequest& request = config_.precisions[lights.precision];
+    const cull::PreCullSpec& pre_cull = config_.pre_culls[lights.pre_cull];
+    const std::string part =
+        (pre_cull.is_none() ? "" : "/" + pre_cull.label()) + (request.is_lossy() ? "/" + request.label() : "");
     const assign::AssignerDescriptor& descriptor = *assign::find_assigner(config_.assigners[family.assigner].name);
-    const std::string impossible = precision_obstacle(descriptor, request);
+    std::string impossible = precision_obstacle(descriptor, request);
+    if (impossible.empty()) impossible = pre_cull_obstacle(pre_cull, plan.scenes[group.scene]);
     if (!impossible.empty()) {
       skip(plan, family, name + part, impossible);
       return;
     }
-    CasePlan case_plan{"", "", group.scene, group.camera, group.viewport, group.grid, family.assigner, {}, precision};
+    CasePlan case_plan{
+        "", "", group.scene, group.camera, group.viewport, group.grid, family.assigner, {}, lights.precision};
+    case_plan.pre_cull = lights.pre_cull;
     if (family.preset != nullptr) case_plan.preset = family.preset->preset;
     for (std::size_t storage = 0; descriptor.answers(assign::Answer::lists) && storage < config_.storages.size();
          ++storage) {
@@ -438,10 +460,12 @@ std::vector<Method> methods_of(const GroupPlan& group) {
 std::string method_label(const config::Config& config, const Method& method) {
   const config::PrecisionRequest& precision = config.precisions[method.precision];
   const config::MethodRequest& assigner = config.assigners[method.assigner];
+  const cull::PreCullSpec& pre_cull = config.pre_culls[method.pre_cull];
   const bool is_one_of_two = method.answer == assign::Answer::structure &&
                              assign::find_assigner(assigner.name)->answers(assign::Answer::lists);
   return assigner.label() + (is_one_of_two ? std::string(" ") + k_own_structure : "") +
-         (precision.is_lossy() ? " " + precision.label() : "");
+         (precision.is_lossy() ? " " + precision.label() : "") +
+         (pre_cull.is_none() ? "" : " after " + pre_cull.label());
 }
 
 std::string storage_label(const config::Config& config, const CasePlan& case_plan) {

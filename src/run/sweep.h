@@ -10,6 +10,7 @@
 #include "config/config.h"
 #include "run/frame_depths.h"
 #include "run/result.h"
+#include "run/scene_visible_sets.h"
 #include "scene/geometry.h"
 
 namespace clusterbench::run {
@@ -18,14 +19,15 @@ namespace clusterbench::run {
 struct Method {
   std::size_t assigner = 0, precision = 0;
   assign::Answer answer = assign::Answer::lists;
+  std::size_t pre_cull = 0;
 
   friend bool operator==(const Method&, const Method&) = default;
 };
 
 // One case by its indices in the configuration's lists. The camera path is an index in the scene's paths.
 struct CasePlan {
-  // "scene/camera/grid/assigner/storage" (viewport in the grid's part when there are several, and the preset), and the
-  // precision where it is not float32.
+  // "scene/camera/grid/assigner/storage" (viewport in the grid's part when there are several, and the preset), then the
+  // pre-cull where there is one, and the precision where it is not float32.
   std::string name;
   std::string id;  // short hash of everything that identifies the case: stable over runs and machines
   std::size_t scene, camera, viewport, grid, assigner;
@@ -34,8 +36,11 @@ struct CasePlan {
   // A hash as id is, but for the scene's contents: stable while a level changes.
   std::string settings = {};
   std::string preset = {};  // that the case is of; "" for the configuration's own clusterings
+  std::size_t pre_cull = 0;
 
-  Method method() const { return {assigner, precision, storage ? assign::Answer::lists : assign::Answer::structure}; }
+  Method method() const {
+    return {assigner, precision, storage ? assign::Answer::lists : assign::Answer::structure, pre_cull};
+  }
 };
 
 // What stands for a storage's name where an assigner leaves its own structure.
@@ -49,7 +54,7 @@ struct GroupPlan {
 
 // The distinct methods of a group's cases, in order of first use.
 std::vector<Method> methods_of(const GroupPlan& group);
-// The assigner's label, and the precision's where it is not float32.
+// The assigner's label, the precision's where it is not float32, and the pre-cull's where there is one.
 std::string method_label(const config::Config& config, const Method& method);
 // A case's storage as it is shown.
 std::string storage_label(const config::Config& config, const CasePlan& case_plan);
@@ -63,6 +68,7 @@ struct SceneData {
   // Of these triangles, for all cameras, viewports and grids; null without. Refers to this plan's scene: a plan is
   // moved, never copied.
   std::shared_ptr<FrameDepths> depths = {};
+  std::shared_ptr<SceneVisibleSets> visible_sets = {};  // likewise
 
   // Of all that was read of its file.
   std::string contents_sha256() const;

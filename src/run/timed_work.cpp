@@ -25,6 +25,7 @@ std::vector<TimedFrame> timed_frames(const config::Config& config, const GroupPl
   std::vector<TimedFrame> frames;
   GridOfFrames grids(config.grids[group.grid]);
   std::shared_ptr<const grid::Grid> grid;
+  const auto culls = std::make_shared<const GroupCulls>(config, group, path);
   frames.reserve(indices.size());
   for (const int index : indices) {
     view::Frame frame = path.frame(index);
@@ -33,7 +34,7 @@ std::vector<TimedFrame> timed_frames(const config::Config& config, const GroupPl
     const bool is_new = is_grid_new(config.grids[group.grid], path, frame);
     std::shared_ptr<const depth::DepthImage> depth = depths_for(config, group, path, frame);
     if (depth) check_memory("depths of timed pixels", indices.size() * depth->pixels.count(), sizeof(float));
-    frames.push_back({grid, std::move(frame), std::move(lights), std::move(depth), is_new});
+    frames.push_back({grid, std::move(frame), std::move(lights), std::move(depth), culls, is_new});
   }
   return frames;
 }
@@ -44,7 +45,11 @@ bool is_threaded(const config::MethodRequest& assigner) {
 
 TimedWork::TimedWork(const config::Config& config, const GroupPlan& group, const Method& method,
                      std::span<const TimedFrame> frames, const TimedFrame* extra)
-    : frames_(frames), extra_(extra), precision_(method.precision) {
+    : frames_(frames),
+      extra_(extra),
+      precision_(method.precision),
+      pre_cull_(&frames.front().culls->path.of(method)),
+      most_lights_(frames.front().culls->most_lights_of(method)) {
   const std::size_t all_frames = frames.size() + (extra == nullptr ? 0 : 1);
   const config::MethodRequest& request = config.assigners[method.assigner];
   const assign::AssignerDescriptor& descriptor = *assign::find_assigner(request.name);
@@ -65,6 +70,11 @@ TimedWork::TimedWork(const config::Config& config, const GroupPlan& group, const
     stores_.emplace_back();
     for (const std::size_t frame : of_stores)
       stores_.back().push_back(storage(*assign::find_storage(store.name), store.params, frame));
+  }
+  if (culls()) frame_culls_.resize(all_frames);
+  for (std::size_t i = 0; i < frame_culls_.size(); ++i) {
+    cull_frame(i);
+    cull::PreCull::give_source(at(i).lights.in_precision(precision_), frame_culls_[i]);
   }
   if (extra_ != nullptr) assign_frame(frames.size());
   assign();
@@ -96,6 +106,21 @@ void TimedWork::build_for(const TimedFrame& frame) {
   built_for_ = frame.grid.get();
 }
 
+void TimedWork::cull() {
+  if (!culls()) return;
+  for (std::size_t i = 0; i < frames_.size(); ++i) cull_frame(i);
+}
+
+void TimedWork::cull_frame(std::size_t frame) {
+  const TimedFrame& now = at(frame);
+  pre_cull_->cull(now.frame, *now.grid, now.lights.in_precision(precision_), frame_culls_[frame]);
+}
+
+// What the method gets of a frame.
+const view::LightArrays& TimedWork::lights(std::size_t frame) const {
+  return culls() ? frame_culls_[frame].lights : at(frame).lights.in_precision(precision_);
+}
+
 void TimedWork::assign() {
   if (device_) device_.emplace();
   for (std::size_t i = 0; i < frames_.size(); ++i) {
@@ -116,7 +141,7 @@ void TimedWork::prepare_frame(std::size_t frame) {
 void TimedWork::assign_frame(std::size_t frame) {
   const TimedFrame& now = at(frame);
   if (now.is_grid_new || now.grid.get() != built_for_) build_for(now);
-  const assign::FrameInput input{now.frame, now.lights.in_precision(precision_), now.depth.get()};
+  const assign::FrameInput input{now.frame, lights(frame), now.depth.get()};
   if (lists_assigner_)
     lists_assigner_->assign(input, lists_[frame]);
   else
@@ -137,13 +162,22 @@ void TimedWork::convert(std::size_t store) const {
 }
 
 void TimedWork::convert_frame(std::size_t store, std::size_t frame) const {
-  stores_[store][store_of_frame_[frame]]->store(lists_[frame]);
+  store_lists(*stores_[store][store_of_frame_[frame]], frame);
+}
+
+void TimedWork::store_lists(assign::Storage& storage, std::size_t frame) const {
+  if (culls()) storage.set_types(frame_culls_[frame].lights);
+  storage.store(lists_[frame]);
 }
 
 std::unique_ptr<assign::Storage> TimedWork::storage(const assign::StorageDescriptor& storage,
                                                     const assign::Params& params, std::size_t frame) const {
   auto made = storage.make(params);
-  made->start(*at(frame).grid, at(frame).lights.in_precision(precision_));
+  const TimedFrame& now = at(frame);
+  if (culls())
+    made->start(*now.grid, view::LightRanges(0, most_lights_));
+  else
+    made->start(*now.grid, now.lights.in_precision(precision_));
   return made;
 }
 

@@ -8,6 +8,7 @@
 
 #include "assign/contract/storage.h"
 #include "run/frame_lights.h"
+#include "run/path_culls.h"
 #include "run/path_frames.h"
 #include "run/sweep.h"
 
@@ -19,6 +20,7 @@ struct TimedFrame {
   view::Frame frame;
   FrameLights lights;
   std::shared_ptr<const depth::DepthImage> depth;  // where a method of the group needs it
+  std::shared_ptr<const GroupCulls> culls;
   bool is_grid_new = false;  // another one than that of the path's frame before: an assigner is built for it
 };
 
@@ -43,6 +45,10 @@ class TimedWork {
 
   // Prepares for the first frame's grid.
   void build();
+  // Whether lights are culled before; and all frames' lights, as assign() wants them before it. Nothing else.
+  bool culls() const { return !pre_cull_->is_none(); }
+  void cull();
+  void cull_frame(std::size_t frame);
   // All frames. A grid that changes between frames (fit) is built within: that is what such a method costs.
   void assign();
   // Builds for a frame's grid if that is another one than the last and not made for this frame alone.
@@ -58,6 +64,8 @@ class TimedWork {
   // Puts the lists of all frames into the storage of one case.
   void convert(std::size_t store) const;
   void convert_frame(std::size_t store, std::size_t frame) const;
+  // Puts a frame's lists into any storage that storage() made.
+  void store_lists(assign::Storage& storage, std::size_t frame) const;
 
   // The method's cases by their index in the group; a storage each, where it converts.
   const std::vector<std::size_t>& case_indices() const { return case_indices_; }
@@ -73,6 +81,7 @@ class TimedWork {
 
  private:
   assign::Assigner& assigner() const;
+  const view::LightArrays& lights(std::size_t frame) const;
   void build_for(const TimedFrame& frame);
   // The frames that stand for those with as many cells, in order of first use; fills store_of_frame_.
   std::vector<std::size_t> frames_of_stores(std::size_t all_frames);
@@ -81,6 +90,9 @@ class TimedWork {
   std::span<const TimedFrame> frames_;
   const TimedFrame* extra_;
   std::size_t precision_;
+  const cull::PreCull* pre_cull_;
+  std::uint32_t most_lights_ = 0;             // in a frame of the path, behind the pre-cull
+  std::vector<cull::FrameCull> frame_culls_;  // empty without one
   std::unique_ptr<assign::ListAssigner> lists_assigner_;
   std::unique_ptr<assign::StructureAssigner> structure_assigner_;  // one of the two
   const grid::Grid* built_for_ = nullptr;

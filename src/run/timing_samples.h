@@ -35,6 +35,9 @@ struct MethodSamples {
   std::vector<StoreSamples> stores;  // in the order of the method's cases; empty where nothing is converted
   // By a device's own clock, of each round: per frame. Empty where nothing runs on one.
   std::vector<double> upload_ns, run_ns, readback_ns;
+  // What culls lights before, of each round, as warm_ns and the others; empty where nothing does.
+  std::vector<double> cull_warm_ns = {};
+  std::vector<EachFrame> cull_warm_each = {}, cull_cold_each = {};
 };
 
 struct GroupSamples {

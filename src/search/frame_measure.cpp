@@ -21,6 +21,14 @@ std::unique_ptr<assign::Storage> storage_of(const config::Config& config, const 
   return assign::find_storage(request.name)->make(request.params);
 }
 
+// Without sets: those follow from a path's eyes.
+std::unique_ptr<const cull::PreCull> pre_cull_of(const config::Config& config, const run::CasePlan& plan) {
+  const cull::PreCullSpec& spec = config.pre_culls[plan.pre_cull];
+  if (spec.needs_triangles())
+    throw Error("", "pre_cull", "visible_set: its sets are those of a path's eyes, and this looks at eyes elsewhere");
+  return std::make_unique<const cull::PreCull>(spec, std::vector<std::shared_ptr<const cull::VisibleSets>>{});
+}
+
 std::uint32_t longest_of(const assign::Lists& lists) {
   std::uint32_t longest = 0;
   for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell)
@@ -51,7 +59,8 @@ FrameMeter::FrameMeter(const config::Config& config, const run::CasePlan& plan, 
       measure_(measure),
       spec_(config.grids[plan.grid]),
       precision_{config.precisions[plan.precision]},
-      run_(run::start_method(config, plan.method())),
+      pre_cull_(pre_cull_of(config, plan)),
+      run_(config, plan.method(), *pre_cull_),
       storage_(storage_of(config, plan)) {
   if ((measure == Measure::longest || measure == Measure::p99) && !run_.has_cells())
     throw Error("", "--measure", std::string(row_of(measure).name) + ": " + plan.name + " has no cells");
@@ -77,10 +86,12 @@ double FrameMeter::value(const run::PathFrames& path, int index) {
   const run::FrameLights lights(precision_, view::lights_in(frame, grid::space_of(grid, frame)));
   const view::LightArrays& packed = lights.in_precision(0);
   if (is_new_grid) run_.build(grid, assign::kinds_of(packed));
-  lights_ = frame.ranges().size();
-  run_.assign({frame, packed, nullptr});
-  if (storage_ && is_new_grid) storage_->start(grid, frame.ranges());
-  if (storage_) storage_->store(*run_.filled_lists());
+  run_.assign(frame, packed, nullptr);
+  const cull::FrameCull* culled = run_.cull();
+  lights_ = culled == nullptr ? frame.ranges().size() : culled->lights.size();
+  if (storage_ && (is_new_grid || culled != nullptr))
+    storage_->start(grid, culled == nullptr ? frame.ranges() : view::LightRanges(0, lights_));
+  if (storage_) run_.store(*storage_);
   if (is_new_grid && measure_ == Measure::p99) {
     real_cells_ = 0;
     for (std::uint32_t cell = 0; cell < grid.cell_count(); ++cell) real_cells_ += grid.is_hole(cell) ? 0 : 1;

@@ -8,6 +8,7 @@
 
 #include "assign/contract/storage.h"
 #include "run/frame_lights.h"
+#include "run/path_culls.h"
 #include "run/path_frames.h"
 #include "run/sweep.h"
 
@@ -32,7 +33,7 @@ const MeasureRow& row_of(Measure measure);
 class FrameMeter {
  public:
   // `config` must outlive it. Throws Error for a case that does not have the measure: longest and p99 need cells,
-  // evaluated needs samples in the view. The method must not need depth.
+  // evaluated needs samples in the view, and visible sets a path of their own. The method must not need depth.
   FrameMeter(const config::Config& config, const run::CasePlan& plan, Measure measure);
 
   double value(const run::PathFrames& path, int frame);
@@ -43,7 +44,7 @@ class FrameMeter {
   // True if the grid is a new one.
   bool update_grid(const run::PathFrames& path, const view::Frame& frame);
   double evaluated_at_samples(const run::PathFrames& path, const view::Frame& frame);
-  const assign::LightStructure& structure() const { return storage_ ? *storage_ : *run_.structure(); }
+  const assign::LightStructure& structure() const { return storage_ ? *storage_ : *run_.own_structure(); }
 
   const config::Config& config_;
   Measure measure_;
@@ -51,7 +52,8 @@ class FrameMeter {
   std::vector<config::PrecisionRequest> precision_;  // the case's own
   grid::GridInputs inputs_;
   std::optional<grid::Grid> grid_;
-  assign::AssignerRun run_;
+  std::unique_ptr<const cull::PreCull> pre_cull_;  // which stays where it is
+  run::CulledRun run_;
   std::unique_ptr<assign::Storage> storage_;  // none: the method's own structure
   std::uint32_t real_cells_ = 0;
   std::uint32_t lights_ = 0;

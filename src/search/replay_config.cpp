@@ -32,6 +32,7 @@ OrderedJson replay_config(const config::Config& config, const run::CasePlan& cas
   if (case_plan.storage) out["storages"] = OrderedJson::array({method_json(config.storages[*case_plan.storage])});
   out["precision"] = OrderedJson::array(
       {OrderedJson{{"packing", view::packing_name(precision.packing)}, {"inflate", precision.inflate}}});
+  if (out.contains("pre_cull")) out["pre_cull"] = OrderedJson::array({config.resolved["pre_cull"][case_plan.pre_cull]});
   out["timing"]["measure"] = false;
   out["stability"] = nullptr;
   return out;

@@ -19,6 +19,9 @@ class Storage : public LightStructure {
   void start(const grid::Grid& grid, const view::LightRanges& lights);
   // Without a lookup.
   virtual void start(std::uint32_t cell_count, const view::LightRanges& lights) = 0;
+  // The lights of the next lists, where they are others than at the start: no more in all, but with spots from another
+  // index on.
+  virtual void set_types(const view::LightRanges& lights) { static_cast<void>(lights); }
   // Converts one frame's lists; no allocation in a steady state. Timed as the conversion.
   virtual void store(const Lists& lists) = 0;
   // Appends what a shader would read of a cell: its list, less what was dropped.

@@ -53,6 +53,12 @@ class Packed final : public Storage {
     if (is_sparse_) blocks_.resize((cell_count + k_block - 1) / k_block);
   }
 
+  // A header has room for the counts that any such lights can have.
+  void set_types(const view::LightRanges& lights) override {
+    points_ = lights.points.count;
+    if (can_be_wide()) wide_headers_.resize(cell_count_);
+  }
+
   void store(const Lists& lists) override {
     if (chooses()) choose_lists(lists);
     const std::vector<std::uint32_t>& written = chooses() ? kept_ : lists.lights;

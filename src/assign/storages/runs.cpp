@@ -21,6 +21,10 @@ class Runs final : public Storage {
     count_ = 0;
   }
 
+  void set_types(const view::LightRanges& lights) override {
+    lights_ = view::LightRanges(lights.points.count, lights_.size() - lights.points.count);
+  }
+
   void store(const Lists& lists) override {
     runs_.clear();
     for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) {

@@ -38,12 +38,13 @@ std::string needed_text(const Json& result_case, std::size_t index, const char* 
 std::vector<std::pair<std::string, std::string>> parts_of(const Json& result_case) {
   const Json *width = value_at(result_case, "/viewport/0"), *height = value_at(result_case, "/viewport/1");
   const std::string viewport = width != nullptr && height != nullptr ? width->dump() + "x" + height->dump() : "";
-  const std::string precision = text_at(result_case, "/precision/label");
+  const std::string precision = text_at(result_case, "/precision/label"),
+                    pre_cull = text_at(result_case, "/pre_cull/label");
   return {{"scene", text_at(result_case, "/scene")},
           {"camera", text_at(result_case, "/camera")},
           {"viewport", viewport},
           {"grid", text_at(result_case, "/grid/name")},
-          {"assigner", text_at(result_case, "/assigner/label")},
+          {"assigner", text_at(result_case, "/assigner/label") + (pre_cull.empty() ? "" : " after " + pre_cull)},
           {"precision", precision.empty() ? "float32" : precision},
           {"storage", text_at(result_case, "/storage")}};
 }

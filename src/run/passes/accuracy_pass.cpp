@@ -7,6 +7,7 @@
 #include "assign/contract/storage.h"
 #include "run/frame_lights.h"
 #include "run/frame_samples.h"
+#include "run/path_culls.h"
 
 namespace clusterbench::run {
 namespace {
@@ -30,17 +31,20 @@ struct PreparedFrame {
 
 class MethodMeter {
  public:
-  MethodMeter(const config::Config& config, const Method& method, ListsOverFrames over_frames)
-      : config_(config), run_(start_method(config, method)) {
+  MethodMeter(const config::Config& config, const Method& method, const cull::PreCull& pre_cull,
+              std::uint32_t most_lights, ListsOverFrames over_frames)
+      : config_(config), most_lights_(most_lights), run_(config, method, pre_cull) {
     measures_.method = method;
     measures_.has_cells = run_.has_cells();
+    if (!pre_cull.is_none()) cull_meter_.emplace(pre_cull, sets_of(config));
     if (over_frames == ListsOverFrames::compared && run_.has_cells()) list_changes_.emplace();
   }
 
   void add(const PreparedFrame& now, const grid::Grid& grid) {
     const view::LightArrays& lights = now.lights.in_precision(measures_.method.precision);
     if (now.is_new_grid) run_.build(grid, assign::kinds_of(lights));
-    run_.assign({now.frame, lights, now.depth.get()});
+    run_.assign(now.frame, lights, now.depth.get());
+    if (cull_meter_) cull_meter_->add_frame(*run_.cull(), lights.size(), run_.cull_is_conservative());
     measures_.tests_done += run_.tests_done();
     measures_.fallbacks += run_.fallbacks();
     if (!measures_.has_cells) return;
@@ -53,7 +57,14 @@ class MethodMeter {
     if (config_.check_accuracy) compare(now, grid);
   }
 
-  const assign::AssignerRun& run() const { return run_; }
+  const CulledRun& run() const { return run_; }
+  // What a storage of its lists has room for.
+  view::LightRanges light_room(const view::Frame& frame) const {
+    return run_.cull() == nullptr ? frame.ranges() : view::LightRanges(0, most_lights_);
+  }
+  void add_needed(std::size_t set, const measure::NeededLights& needed) {
+    if (cull_meter_) cull_meter_->add_samples(set, needed.lists);
+  }
   const assign::Lists* cell_lists() const { return lists_; }
   const Method& method() const { return measures_.method; }
 
@@ -61,19 +72,32 @@ class MethodMeter {
     MethodMeasures out = measures_;
     if (occupancy_) out.occupancy = occupancy_->result();
     if (list_changes_) out.list_changes = list_changes_->result();
+    if (cull_meter_) out.pre_cull = cull_meter_->result();
     return out;
   }
 
  private:
   void compare(const PreparedFrame& now, const grid::Grid& grid) {
-    if (!run_.has_occupied_cells()) return measure::add_frame(measures_.error, now.frame, grid, now.truth, *lists_);
-    const grid::OccupiedCells cells = run_.structure()->occupied_cells();
+    if (!run_.has_occupied_cells()) {
+      if (cull_meter_) cull_meter_->add_truth(now.truth.lists);
+      return measure::add_frame(measures_.error, now.frame, grid, now.truth, *lists_);
+    }
+    const grid::OccupiedCells cells = run_.own_structure()->occupied_cells();
     const measure::Truth truth = measure::find_truth(now.frame, grid, cells, config_.threads);
+    if (cull_meter_) cull_meter_->add_truth(truth.lists);
     measure::add_frame(measures_.error, now.frame, cells, truth, *lists_);
   }
 
+  static std::vector<measure::SampleSet> sets_of(const config::Config& config) {
+    std::vector<measure::SampleSet> sets;
+    for (const config::SampleSetRequest& request : config.sample_sets) sets.push_back(request.set);
+    return sets;
+  }
+
   const config::Config& config_;
-  assign::AssignerRun run_;
+  std::uint32_t most_lights_;  // that it gets in a frame
+  CulledRun run_;
+  std::optional<PreCullMeter> cull_meter_;
   const assign::Lists* lists_ = nullptr;  // of the cells, in the current frame
   std::optional<measure::OccupancyMeter> occupancy_;
   std::optional<ListChangeMeter> list_changes_;
@@ -88,7 +112,9 @@ class StructureMeter {
       measures_.samples.push_back({request.set, {}, {}});
   }
 
-  void add(int frame, const assign::LightStructure& structure, const MethodMeter& method) {
+  void add(int frame, const assign::LightStructure& made, const MethodMeter& method) {
+    mapped_ = method.run().mapped(made);
+    const assign::LightStructure& structure = mapped_ ? static_cast<const assign::LightStructure&>(*mapped_) : made;
     buffers_.add_frame(frame, structure, method.cell_lists(), method.run().scratch_bytes());
     structure_ = &structure;
   }
@@ -110,6 +136,7 @@ class StructureMeter {
   }
 
  private:
+  std::optional<assign::MappedStructure> mapped_;      // behind a pre-cull: of the current frame
   const assign::LightStructure* structure_ = nullptr;  // of the current frame
   measure::BufferMeter buffers_;
   StructureMeasures measures_;
@@ -134,10 +161,10 @@ class CaseMeter {
   void add(const PreparedFrame& now, const grid::Grid& grid, const MethodMeter& method) {
     for (assign::Storage* storage : {storage_.get(), roomy_storage_.get()}) {
       if (storage == nullptr) continue;
-      if (now.is_new_grid) storage->start(grid, now.frame.ranges());
-      storage->store(*method.run().filled_lists());
+      if (now.is_new_grid) storage->start(grid, method.light_room(now.frame));
+      method.run().store(*storage);
     }
-    const assign::LightStructure& structure = storage_ ? *storage_ : *method.run().structure();
+    const assign::LightStructure& structure = storage_ ? *storage_ : *method.run().own_structure();
     meter_.add(now.frame.index, structure, method);
     if (roomy_storage_) roomy_meter_->add(now.frame.index, *roomy_storage_, method);
     if (now.lookup && asks_lookup_ && !structure.has_occupied_cells()) meter_.ask_lookup(*now.lookup);
@@ -169,12 +196,14 @@ class CaseMeter {
 // What samples need is kept for so many at once: at full resolution it would not fit in memory whole.
 constexpr std::size_t k_samples_at_once = 16384;
 
-void ask_at_samples(const PreparedFrame& now, std::vector<CaseMeter>& cases, const std::atomic<bool>& stop) {
+void ask_at_samples(const PreparedFrame& now, std::vector<MethodMeter>& methods, std::vector<CaseMeter>& cases,
+                    const std::atomic<bool>& stop) {
   for (std::size_t set = 0; set < now.samples.size(); ++set) {
     const std::span<const grid::Sample> all = now.samples[set].samples;
     for (std::size_t begin = 0; begin < all.size(); begin += k_samples_at_once) {
       const std::span<const grid::Sample> some = all.subspan(begin, std::min(k_samples_at_once, all.size() - begin));
       const measure::NeededLights needed = measure::needed_lights(now.frame, some);
+      for (MethodMeter& method : methods) method.add_needed(set, needed);
       for (CaseMeter& meter : cases) {
         if (stop) return;
         meter.ask_at(set, now.frame.index, some, needed);
@@ -227,8 +256,10 @@ CaseSide structure_side(const StructureMeasures& measures) {
 AccuracyResult accuracy_pass(const config::Config& config, const SceneData& data, const GroupPlan& group,
                              const PathFrames& path, const std::function<void(int frame)>& on_frame,
                              const std::atomic<bool>& stop, ListsOverFrames over_frames) {
+  const GroupCulls culls(config, group, path);
   std::vector<MethodMeter> methods;
-  for (const Method& method : methods_of(group)) methods.emplace_back(config, method, over_frames);
+  for (const Method& method : culls.methods)
+    methods.emplace_back(config, method, culls.path.of(method), culls.most_lights_of(method), over_frames);
   std::vector<CaseMeter> cases;
   for (const CasePlan& case_plan : group.cases) cases.emplace_back(config, case_plan);
 
@@ -253,7 +284,7 @@ AccuracyResult accuracy_pass(const config::Config& config, const SceneData& data
       for (CaseMeter& meter : cases)
         if (meter.method() == method.method()) meter.add(now, grids.grid(), method);
     }
-    ask_at_samples(now, cases, stop);
+    ask_at_samples(now, methods, cases, stop);
     if (stop) return result;
     if (grids.grid().kind() == grid::Kind::frustum) add_depth_ranges(now, grids.grid().screen(), result);
   }

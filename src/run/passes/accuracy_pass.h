@@ -7,6 +7,7 @@
 
 #include "run/fit_meter.h"
 #include "run/path_frames.h"
+#include "run/pre_cull_meter.h"
 #include "run/result.h"
 #include "run/sweep.h"
 
@@ -20,6 +21,7 @@ struct MethodMeasures {
   measure::ErrorCounts error;  // of the lists, before a storage drops anything
   std::uint64_t tests_done = 0, fallbacks = 0;
   std::optional<ListChanges> list_changes;  // with cells, where asked for
+  std::optional<PreCullCounts> pre_cull;    // where there is one
 };
 
 // What samples find in one case's light structure, and what it takes.

@@ -22,7 +22,7 @@ class CopyFloor {
     const assign::StorageDescriptor& packed = *assign::find_storage("packed");
     for (std::size_t i = 0; i < frames; ++i) {
       const auto storage = work.storage(packed, assign::Params(packed.params), i);
-      storage->store(work.lists()[i]);
+      work.store_lists(*storage, i);
       add_frame(storage->use());
     }
   }

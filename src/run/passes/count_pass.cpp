@@ -27,6 +27,7 @@ std::vector<CountResult> count_method(TimedWork& work, InstructionCounter& count
   result.simd_target = assign::simd_target_name();
   result.frames = static_cast<int>(work.frame_count());
   result.build = counted(counter, [&] { work.build(); });
+  if (work.culls()) result.pre_cull = counted(counter, [&] { work.cull(); });
   work.assign();  // so that memory has grown
   result.assign = counted(counter, [&] { work.assign(); });
   if (!work.converts()) return {result};

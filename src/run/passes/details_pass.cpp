@@ -4,6 +4,7 @@
 
 #include "measure/truth.h"
 #include "run/frame_lights.h"
+#include "run/path_culls.h"
 
 namespace clusterbench::run {
 namespace {
@@ -11,8 +12,8 @@ namespace {
 // The frames of one method, and what was found in them.
 class Track {
  public:
-  Track(const config::Config& config, const MethodMeasures& counted, int path_frames)
-      : method_(counted.method), with_pairs_(config.details->lists), run_(start_method(config, counted.method)) {
+  Track(const config::Config& config, const MethodMeasures& counted, const cull::PreCull& pre_cull, int path_frames)
+      : method_(counted.method), with_pairs_(config.details->lists), run_(config, counted.method, pre_cull) {
     if (!counted.has_cells || run_.has_occupied_cells()) return;
     details_.emplace();
     details_->max_bytes = config.details->max_bytes;
@@ -29,7 +30,7 @@ class Track {
     if (!std::binary_search(frames_.begin(), frames_.end(), frame.index)) return;
     const view::LightArrays& packed = lights.in_precision(method_.precision);
     run_.build(grid, assign::kinds_of(packed));
-    run_.assign({frame, packed});
+    run_.assign(frame, packed, nullptr);
     const measure::FrameDetails found = measure::find_details(truth.lists, run_.cell_lists());
     add_frame(*details_, packed_frame(frame, scene, grid, case_grid, found, with_pairs_));
   }
@@ -44,7 +45,7 @@ class Track {
 
   Method method_;
   bool with_pairs_;
-  assign::AssignerRun run_;
+  CulledRun run_;
   std::vector<int> frames_;
   std::optional<Details> details_;  // none without cells, or where they are not the grid's
 };
@@ -63,7 +64,9 @@ std::vector<std::optional<Details>> details_pass(const config::Config& config, c
                                                  const PathFrames& path, const scene::Scene& scene,
                                                  const AccuracyResult& counted, const std::atomic<bool>& stop) {
   std::vector<Track> tracks;
-  for (const MethodMeasures& method : counted.methods) tracks.emplace_back(config, method, path.count());
+  const PathCulls culls(config, group, path);
+  for (const MethodMeasures& method : counted.methods)
+    tracks.emplace_back(config, method, culls.of(method.method), path.count());
 
   GridOfFrames grids(config.grids[group.grid]);
   for (const int index : frames_of(tracks)) {

@@ -6,6 +6,7 @@
 
 #include "measure/truth.h"
 #include "run/frame_lights.h"
+#include "run/path_culls.h"
 #include "scene/fine_path.h"
 
 namespace clusterbench::run {
@@ -18,9 +19,9 @@ scene::FineSteps fine_steps(const config::StabilityRequest& request) {
 // One method along the segment.
 class StabilityTrack {
  public:
-  StabilityTrack(const config::Config& config, const Method& method)
+  StabilityTrack(const config::Config& config, const Method& method, const cull::PreCull& pre_cull)
       : method_(method),
-        run_(start_method(config, method)),
+        run_(config, method, pre_cull),
         meter_(config.stability->window),
         own_truth_(config.stability->window) {}
 
@@ -29,10 +30,10 @@ class StabilityTrack {
     if (!run_.has_cells()) return;
     const view::LightArrays& packed = lights.in_precision(method_.precision);
     if (is_new_grid) run_.build(grid, assign::kinds_of(packed));
-    run_.assign({frame, packed, depth});
+    run_.assign(frame, packed, depth);
     meter_.add(run_.cell_lists());
     if (!run_.has_occupied_cells()) return;
-    const measure::Truth truth = measure::find_truth(frame, grid, run_.structure()->occupied_cells(), threads);
+    const measure::Truth truth = measure::find_truth(frame, grid, run_.own_structure()->occupied_cells(), threads);
     own_truth_.add(truth.lists);
     undecided_ += truth.undecided;
   }
@@ -51,7 +52,7 @@ class StabilityTrack {
 
  private:
   Method method_;
-  assign::AssignerRun run_;
+  CulledRun run_;
   measure::ChurnMeter meter_;
   measure::ChurnMeter own_truth_;  // of cells that are not the grid's
   std::uint64_t undecided_ = 0;    // in that
@@ -90,8 +91,9 @@ std::vector<std::optional<StabilityResult>> stability_pass(const config::Config&
   const scene::FinePath segment = scene::fine_path(path.camera_path(), fine_steps(*config.stability));
   const PathFrames steps = path.along(segment.path);
   StabilityResult common = segment_facts(segment, config.stability->window);
+  const PathCulls culls(config, group, steps);
   std::vector<StabilityTrack> tracks;
-  for (const Method& method : methods_of(group)) tracks.emplace_back(config, method);
+  for (const Method& method : methods_of(group)) tracks.emplace_back(config, method, culls.of(method));
 
   GridOfFrames grids(config.grids[group.grid]);
   measure::ChurnMeter truth_meter(config.stability->window);

@@ -45,8 +45,12 @@ class TimingTrack {
     const double start = wall_ns();
     work_.build();
     samples_.build_ns.push_back(wall_ns() - start);
-    work_.assign();  // warms caches
     const auto frames = static_cast<double>(work_.frame_count());
+    if (work_.culls()) {
+      cull_.warm_up();
+      samples_.cull_warm_ns.push_back(cull_.sample() / frames);
+    }
+    work_.assign();  // warms caches
     samples_.warm_ns.push_back(assign_.sample() / frames);
     samples_.warm_passes = assign_.runs_per_sample();
     if (const assign::DeviceSpans* device = work_.device_spans()) {  // of the last pass
@@ -66,6 +70,8 @@ class TimingTrack {
 
   // Frame by frame as the caches are after the round.
   void warm_frames() {
+    if (work_.culls())
+      samples_.cull_warm_each.push_back(frame_by_frame([this](std::size_t frame) { work_.cull_frame(frame); }));
     samples_.warm_each.push_back(frame_by_frame([this](std::size_t frame) { work_.assign_frame(frame); }));
     for (std::size_t store = 0; store < samples_.stores.size(); ++store)
       samples_.stores[store].warm_each.push_back(
@@ -76,12 +82,19 @@ class TimingTrack {
   // leaves them, as the first one does.
   void cold_frames(const std::function<void()>& sweep) {
     EachFrame& assigned = samples_.cold_each.emplace_back();
+    if (work_.culls()) samples_.cull_cold_each.emplace_back();
     for (StoreSamples& store : samples_.stores) store.cold_each.emplace_back();
     for (std::size_t frame = 0; frame < samples_.frames.size(); ++frame) {
       if (frame >= samples_.mean_frames) work_.prepare_frame(frame);
       sweep();
       wall_ns();  // the clock's own memory is warm
       double before = wall_ns();
+      if (work_.culls()) {
+        work_.cull_frame(frame);
+        const double culled = wall_ns();
+        samples_.cull_cold_each.back().push_back(culled - before);
+        before = culled;
+      }
       work_.assign_frame(frame);
       double now = wall_ns();
       assigned.push_back(now - before);
@@ -127,6 +140,7 @@ class TimingTrack {
   std::deque<Repeated> converts_;  // of each storage
   std::optional<CopyFloor> copy_floor_;
   Repeated assign_{[this] { work_.assign(); }, min_ns_};
+  Repeated cull_{[this] { work_.cull(); }, min_ns_ / 10.0};
   Repeated floor_{[this] { copy_floor_->copy_once(); }, min_ns_ / 10.0};
 };
 
@@ -204,12 +218,16 @@ class MethodTimes {
       : launches_(launches), method_(method), first_(launches.front().methods[method]), seed_(seed) {}
 
   TimingResult of_case(std::size_t store) const {
-    const bool converts = !first_.stores.empty();
+    const bool converts = !first_.stores.empty(), culls = !first_.cull_warm_ns.empty();
     const std::vector<double> warm = rounds(&MethodSamples::warm_ns);
     const std::vector<double> warm_convert = converts ? rounds(store, &StoreSamples::warm_ns) : std::vector<double>{};
     TimingResult out = of_method(warm);
-    WarmTimes times{stats(converts ? sums(warm, warm_convert) : warm), stats(warm), std::nullopt};
+    const std::vector<double> warm_cull = rounds(&MethodSamples::cull_warm_ns);
+    std::vector<double> warm_frame = converts ? sums(warm, warm_convert) : warm;
+    if (culls) warm_frame = sums(warm_frame, warm_cull);
+    WarmTimes times{stats(warm_frame), stats(warm), std::nullopt, std::nullopt};
     if (converts) times.convert_ns = stats(warm_convert);
+    if (culls) times.pre_cull_ns = stats(warm_cull);
     out.warm_assign_passes = fewest([&](const MethodSamples& method) { return method.warm_passes; });
     if (converts)
       out.warm_convert_passes = fewest([&](const MethodSamples& method) { return method.stores[store].warm_passes; });
@@ -219,18 +237,27 @@ class MethodTimes {
       out.frame_ns = times.frame_ns;
       out.assign_ns = times.assign_ns;
       out.convert_ns = times.convert_ns;
+      out.pre_cull_ns = times.pre_cull_ns;
       each = warm_each_frame(store, times.frame_ns.samples);
     } else {
       const std::vector<double> assign = means(each, first_.mean_frames);
+      std::vector<double> frame = assign;
       out.assign_ns = stats(assign);
-      out.frame_ns = out.assign_ns;
       if (converts) {
         const std::vector<EachFrame> converted = frames(store, &StoreSamples::cold_each);
         const std::vector<double> convert = means(converted, first_.mean_frames);
         out.convert_ns = stats(convert);
-        out.frame_ns = stats(sums(assign, convert));
+        frame = sums(frame, convert);
         for (std::size_t round = 0; round < each.size(); ++round) each[round] = sums(each[round], converted[round]);
       }
+      if (culls) {
+        const std::vector<EachFrame> culled = frames(&MethodSamples::cull_cold_each);
+        const std::vector<double> cull = means(culled, first_.mean_frames);
+        out.pre_cull_ns = stats(cull);
+        frame = sums(frame, cull);
+        for (std::size_t round = 0; round < each.size(); ++round) each[round] = sums(each[round], culled[round]);
+      }
+      out.frame_ns = stats(frame);
       out.warm = std::move(times);
     }
     if (converts && *out.pairs_mean > 0.0) out.ns_per_pair = out.frame_ns.median / *out.pairs_mean;
@@ -305,6 +332,8 @@ class MethodTimes {
       const std::vector<EachFrame> converted = frames(store, &StoreSamples::warm_each);
       for (std::size_t round = 0; round < each.size(); ++round) each[round] = sums(each[round], converted[round]);
     }
+    const std::vector<EachFrame> culled = frames(&MethodSamples::cull_warm_each);
+    for (std::size_t round = 0; round < culled.size(); ++round) each[round] = sums(each[round], culled[round]);
     for (std::size_t round = 0; round < each.size(); ++round)
       each[round] = measure::scaled_to_mean(each[round], first_.mean_frames, frame_ns[round]);
     return each;

@@ -1,0 +1,102 @@
+#include "cull/pre_cull.h"
+
+#include <cmath>
+#include <numeric>
+
+#include "cull/view_planes.h"
+#include "view/selected_lights.h"
+
+namespace clusterbench::cull {
+namespace {
+
+// One frame's lights going through the steps.
+struct StepOnLights {
+  const view::Frame& frame;
+  const grid::Grid& grid;
+  const view::LightArrays& lights;
+  const VisibleSets* sets;  // the step's own
+  std::vector<std::uint32_t>& kept;
+
+  void operator()(const FrustumStep&) const {
+    const ViewPlanes planes(frame, grid);
+    std::erase_if(kept, [&](std::uint32_t light) { return planes.are_missed_by(ball(light)); });
+  }
+
+  void operator()(const DistanceStep& step) const {
+    const Vec3d eye = lights.space.rotation * (frame.view_space.origin - lights.space.origin);
+    std::erase_if(kept, [&](std::uint32_t light) {
+      const geom::Ball padded = ball(light);
+      const Vec3d way = Vec3d(padded.center) - eye;
+      return std::sqrt(glm::dot(way, way)) - static_cast<double>(padded.radius) - k_cull_least_m > step.distance_m;
+    });
+  }
+
+  void operator()(const VisibleSetStep&) const {
+    const VisibleSets::ViewCell* cell = sets->at(frame.view_space.origin);
+    if (cell == nullptr) return;
+    std::erase_if(kept, [&](std::uint32_t light) { return !sets->keeps(*cell, light, lights.source[light]); });
+  }
+
+  geom::Ball ball(std::uint32_t light) const { return lights.bounding_ball(light, k_cull_roundoffs); }
+};
+
+struct IsConservative {
+  const grid::Grid& grid;
+
+  bool operator()(const FrustumStep&) const { return grid.has_tiles(); }
+  bool operator()(const DistanceStep& step) const { return farthest_of_cells(grid) <= step.distance_m; }
+  bool operator()(const VisibleSetStep&) const { return false; }
+};
+
+}  // namespace
+
+PreCull::PreCull(PreCullSpec spec, std::vector<std::shared_ptr<const VisibleSets>> sets) : spec_(std::move(spec)) {
+  auto next = sets.begin();
+  for (const Step& step : spec_.steps)
+    sets_.push_back(std::holds_alternative<VisibleSetStep>(step) ? std::move(*next++) : nullptr);
+}
+
+void PreCull::cull(const view::Frame& frame, const grid::Grid& grid, const view::LightArrays& lights,
+                   FrameCull& out) const {
+  out.kept.resize(lights.size());
+  std::iota(out.kept.begin(), out.kept.end(), 0u);
+  out.removed.clear();
+  for (std::size_t i = 0; i < spec_.steps.size(); ++i) {
+    const std::size_t before = out.kept.size();
+    std::visit(StepOnLights{frame, grid, lights, sets_[i].get(), out.kept}, spec_.steps[i]);
+    out.removed.push_back(static_cast<std::uint32_t>(before - out.kept.size()));
+  }
+  view::select_lights(lights, out.kept, out.lights);
+}
+
+void PreCull::give_source(const view::LightArrays& lights, FrameCull& out) {
+  out.source.clear();
+  for (const std::uint32_t light : out.kept) out.source.push_back(lights.source[light]);
+  out.lights.source = out.source;
+}
+
+bool PreCull::is_conservative(const grid::Grid& grid) const {
+  for (const Step& step : spec_.steps)
+    if (!std::visit(IsConservative{grid}, step)) return false;
+  return true;
+}
+
+std::uint64_t PreCull::bytes() const {
+  std::uint64_t sum = 0;
+  for (const auto& set : sets_) sum += set ? set->bytes() : 0;
+  return sum;
+}
+
+double PreCull::build_ns() const {
+  double sum = 0.0;
+  for (const auto& set : sets_) sum += set ? set->build_ns() : 0.0;
+  return sum;
+}
+
+std::size_t PreCull::view_cells() const {
+  std::size_t sum = 0;
+  for (const auto& set : sets_) sum += set ? set->view_cell_count() : 0;
+  return sum;
+}
+
+}  // namespace clusterbench::cull

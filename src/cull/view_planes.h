@@ -1,0 +1,42 @@
+#pragma once
+// The planes around what a camera sees, as a pre-cull holds lights against them.
+
+#include <array>
+
+#include "geom/shapes/ball_and_cone.h"
+#include "grid/grid.h"
+#include "view/frame.h"
+
+namespace clusterbench::cull {
+
+// How many unit roundoffs (2^-24 of a light's reach) the pre-culls pad a light by, so that none is removed that shares
+// a point with what they ask about: what single precision has lost of the centre and of the padded radius
+// (view::k_given_roundoffs), 1 for the sum that pads it, 3 for what a spot's axis and angle lose in the ball around its
+// cone. The planes themselves are in double precision, whose 2^-53 are far below the rest.
+inline constexpr float k_cull_roundoffs = 8.0f;
+// In metres, beyond that: what roundoffs of numbers too small for single precision may lose.
+inline constexpr double k_cull_least_m = 0x1p-126;
+
+// The picture's four sides, and the depths from near to far: those of the camera and of the grid's cells together, as
+// slices may begin before the near plane and end beyond the far one. In the grid's space.
+class ViewPlanes {
+ public:
+  ViewPlanes(const view::Frame& frame, const grid::Grid& grid);
+
+  // Whether the ball lies wholly outside of one of the planes. A ball outside of an edge or a corner may not.
+  bool are_missed_by(const geom::Ball& ball) const;
+
+ private:
+  struct Plane {
+    Vec3d normal{0.0};  // outward
+    double offset = 0.0;
+  };
+
+  std::array<Plane, 6> planes_;
+};
+
+// No cell of the grid is farther from the eye, in metres; +inf where cells do not end with what the camera sees
+// (cascades and world grids).
+double farthest_of_cells(const grid::Grid& grid);
+
+}  // namespace clusterbench::cull

@@ -1,0 +1,66 @@
+#pragma once
+// What a pre-cull removes over a path's frames, and what of it was needed.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "assign/contract/lists.h"
+#include "cull/pre_cull.h"
+#include "measure/packing_loss.h"
+#include "measure/samples.h"
+
+namespace clusterbench::run {
+
+// Lights that samples need and a pre-cull removes.
+struct LostAtSamples {
+  measure::SampleSet set = measure::SampleSet::volume;
+  std::uint64_t needed = 0, lost = 0;
+  bool is_asked = false;  // the scene has such samples
+};
+
+struct PreCullCounts {
+  struct Step {
+    std::string label;
+    bool is_distance = false;
+    measure::MeanMax removed;  // lights per frame
+  };
+  bool conservative = true;                 // in every frame
+  measure::MeanMax kept, removed, distant;  // lights per frame; the distant ones are among the removed
+  std::vector<Step> steps;
+  std::uint64_t lost_pairs = 0;  // true pairs of lights that are removed
+  std::vector<LostAtSamples> samples;
+  std::uint64_t bytes = 0;  // of visible sets
+  std::uint64_t view_cells = 0;
+  double build_ns = 0.0;  // of them
+};
+
+class PreCullMeter {
+ public:
+  PreCullMeter(const cull::PreCull& pre_cull, const std::vector<measure::SampleSet>& sets);
+
+  void add_frame(const cull::FrameCull& cull, std::uint32_t all_lights, bool is_conservative);
+  // In the frame that was added last.
+  void add_truth(const assign::Lists& truth) { counts_.lost_pairs += removed_of(truth); }
+  void add_samples(std::size_t set, const assign::Lists& needed);
+
+  PreCullCounts result() const;
+
+ private:
+  struct Sum {
+    std::uint64_t sum = 0, max = 0;
+
+    void add(std::uint64_t value);
+    measure::MeanMax over(int frames) const;
+  };
+
+  std::uint64_t removed_of(const assign::Lists& lists) const;
+
+  PreCullCounts counts_;
+  std::vector<bool> is_kept_;  // of the last frame's lights
+  int frames_ = 0;
+  Sum kept_, removed_, distant_;
+  std::vector<Sum> steps_;
+};
+
+}  // namespace clusterbench::run

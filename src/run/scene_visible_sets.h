@@ -1,0 +1,40 @@
+#pragma once
+// Potentially visible sets of a scene (cull/visible_sets.h), each built once: for all grids, viewports and passes.
+
+#include <memory>
+#include <vector>
+
+#include "cull/visible_sets.h"
+
+namespace clusterbench::run {
+
+// Of one scene. Nothing is built before something is asked for.
+class SceneVisibleSets {
+ public:
+  // Both must outlive it.
+  SceneVisibleSets(const scene::Scene& scene, const scene::Geometry& geometry) : scene_(scene), geometry_(geometry) {}
+
+  std::shared_ptr<const cull::VisibleSets> of(const scene::CameraPath& path, const cull::VisibleSetStep& step,
+                                              std::uint64_t seed, int threads);
+
+ private:
+  // What a set depends on: paths with the same eyes at the same times share one.
+  struct Eye {
+    double time_s;
+    Vec3d place;
+
+    friend bool operator==(const Eye&, const Eye&) = default;
+  };
+  struct Kept {
+    std::vector<Eye> eyes;
+    cull::VisibleSetStep step;
+    std::uint64_t seed;
+    std::shared_ptr<const cull::VisibleSets> sets;
+  };
+
+  const scene::Scene& scene_;
+  const scene::Geometry& geometry_;
+  std::vector<Kept> kept_;
+};
+
+}  // namespace clusterbench::run

@@ -1,0 +1,193 @@
+// Which lights a pre-cull removes, against arithmetic. tests/stress/pre_cull_test.cpp holds it against the truth.
+
+#include "cull/pre_cull.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "cull/view_planes.h"
+
+namespace clusterbench::cull {
+namespace {
+
+// A camera at some place, 90 degrees wide and high, 1 to 100 m; square.
+struct Setting {
+  view::Frame frame;
+  grid::GridSpec spec;
+
+  explicit Setting(grid::Kind kind = grid::Kind::frustum, bool orthographic = false) {
+    frame.viewport = {100, 100};
+    frame.projection = {orthographic, -1.0, 1.0, -1.0, 1.0, 1.0, 100.0};
+    spec.kind = kind;
+    spec.tiles.pixels = {10, 10};
+    spec.slices.scheme = grid::Scheme::linear;
+    spec.slices.far_m = 50.0;
+  }
+
+  Setting& point(const Vec3d& place, double range_m) {
+    scene::WorldLight light;
+    light.position = place;
+    light.range_m = range_m;
+    frame.lights.push_back(light);
+    return *this;
+  }
+  Setting& spot(const Vec3d& place, const Vec3d& direction, double range_m, double half_angle_rad) {
+    point(place, range_m);
+    frame.lights.back().type = scene::LightType::spot;
+    frame.lights.back().direction = direction;
+    frame.lights.back().outer_cone_rad = half_angle_rad;
+    return *this;
+  }
+
+  grid::Grid grid() const {
+    return grid::make_grid(spec, grid::grid_inputs(spec, frame, 50.0, Vec3d(-60.0), Vec3d(60.0)));
+  }
+
+  FrameCull culled(const PreCullSpec& steps) {
+    frame.count_types();
+    const grid::Grid made = grid();
+    const view::LightArrays lights = view::lights_in(frame, grid::space_of(made, frame));
+    FrameCull out;
+    PreCull(steps, {}).cull(frame, made, lights, out);
+    PreCull::give_source(lights, out);
+    return out;
+  }
+  std::vector<std::uint32_t> kept(const PreCullSpec& steps) { return culled(steps).kept; }
+};
+
+using Indices = std::vector<std::uint32_t>;
+const PreCullSpec k_frustum{{FrustumStep{}}};
+const double k_root = std::sqrt(2.0);
+
+TEST(FrustumCull, removes_balls_beyond_each_plane_and_keeps_those_that_touch_it) {
+  for (const grid::Kind kind : {grid::Kind::frustum, grid::Kind::distance, grid::Kind::cascades, grid::Kind::world}) {
+    Setting setting(kind);
+    setting.spec.slices.near_m = 1.0;
+    const double depth = 10.0, r = 2.0, beside = depth + r * k_root;
+    const double near = kind == grid::Kind::distance ? 0.0 : 1.0;  // where shells can begin away from the axis
+    for (const double share : {1.0 - 1e-3, 1.0 + 1e-3}) {
+      setting.point({beside * share, 0.0, -depth}, r).point({-beside * share, 0.0, -depth}, r);
+      setting.point({0.0, beside * share, -depth}, r).point({0.0, -beside * share, -depth}, r);
+      setting.point({0.0, 0.0, -near + r * share}, r).point({0.0, 0.0, -(100.0 + r) * share}, r);
+    }
+    EXPECT_EQ(setting.kept(k_frustum), (Indices{0, 1, 2, 3, 4, 5})) << grid::kind_name(kind);
+  }
+}
+
+TEST(FrustumCull, knows_where_an_orthographic_camera_ends) {
+  Setting setting(grid::Kind::frustum, true);
+  for (const double x : {2.9999, 3.0001, -2.9999, -3.0001}) setting.point({x, 0.5, -20.0}, 2.0);
+  EXPECT_EQ(setting.kept(k_frustum), (Indices{0, 2}));
+}
+
+TEST(FrustumCull, looks_where_the_camera_looks) {
+  for (const grid::Kind kind : {grid::Kind::frustum, grid::Kind::world}) {
+    Setting setting(kind);
+    setting.frame.view_space.origin = {10.0, 0.0, 0.0};
+    setting.frame.view_space.rotation = Mat3d(Vec3d(0, 0, 1), Vec3d(0, 1, 0), Vec3d(-1, 0, 0));  // along -x: x is depth
+    setting.point({-10.0, 0.0, 0.0}, 1.0).point({30.0, 0.0, 0.0}, 1.0).point({10.0, 0.0, 0.0}, 100.0);
+    EXPECT_EQ(setting.kept(k_frustum), (Indices{0, 2})) << grid::kind_name(kind);
+  }
+}
+
+TEST(FrustumCull, sees_the_ball_around_a_spots_cone_not_that_of_its_range) {
+  Setting setting;
+  // To the right of the view, shining to the right: the ball of its range reaches in.
+  setting.spot({14.0, 0.0, -10.0}, {1.0, 0.0, 0.0}, 10.0, 0.3);
+  setting.spot({14.0, 0.0, -10.0}, {-1.0, 0.0, 0.0}, 10.0, 0.3);
+  EXPECT_EQ(setting.kept(k_frustum), (Indices{1}));
+}
+
+TEST(FrustumCull, keeps_what_has_no_end_and_lights_around_the_eye) {
+  Setting setting;
+  setting.point({0.0, 0.0, 500.0}, std::numeric_limits<double>::infinity()).point({0.0, 0.0, 0.0}, 5.0);
+  EXPECT_EQ(setting.kept(k_frustum), (Indices{0, 1}));
+}
+
+TEST(FrustumCull, reaches_as_far_as_the_grid_does) {
+  Setting setting;
+  setting.frame.projection.far_m = 20.0;  // slices go on to 50 m
+  setting.point({0.0, 0.0, -40.0}, 1.0).point({0.0, 0.0, -52.0}, 1.0);
+  EXPECT_EQ(setting.kept(k_frustum), (Indices{0}));
+}
+
+TEST(DistanceCull, removes_balls_that_begin_beyond_it) {
+  Setting setting;
+  setting.frame.view_space.origin = {1000.0, 0.0, 0.0};
+  for (const double distance : {31.999, 32.001}) {
+    setting.point(Vec3d(1000.0, 0.0, 0.0) + distance * Vec3d(0.6, 0.0, -0.8), 2.0);
+    setting.point(Vec3d(1000.0, 0.0, 0.0) + distance * Vec3d(0.0, 0.0, 1.0), 2.0);  // behind the eye
+  }
+  EXPECT_EQ(setting.kept({{DistanceStep{30.0}}}), (Indices{0, 1}));
+}
+
+TEST(DistanceCull, is_conservative_where_no_cell_ends_farther_away) {
+  const auto is_safe = [](const Setting& setting, double distance_m) {
+    return PreCull({{DistanceStep{distance_m}}}, {}).is_conservative(setting.grid());
+  };
+  const double corner = 50.0 * std::sqrt(3.0);  // slopes 1 to both sides
+  EXPECT_TRUE(is_safe(Setting(), corner * 1.0001));
+  EXPECT_FALSE(is_safe(Setting(), corner * 0.9999));
+  EXPECT_TRUE(is_safe(Setting(grid::Kind::distance), 50.0));
+  EXPECT_FALSE(is_safe(Setting(grid::Kind::distance), 49.999));
+  EXPECT_TRUE(is_safe(Setting(grid::Kind::frustum, true), std::sqrt(2502.0) * 1.0001));
+  EXPECT_FALSE(is_safe(Setting(grid::Kind::frustum, true), std::sqrt(2502.0) * 0.9999));
+  EXPECT_FALSE(is_safe(Setting(grid::Kind::world), 1e9));
+}
+
+TEST(PreCull, by_planes_is_conservative_where_cells_end_with_the_picture) {
+  const PreCull cull(k_frustum, {});
+  EXPECT_TRUE(cull.is_conservative(Setting().grid()));
+  EXPECT_TRUE(cull.is_conservative(Setting(grid::Kind::distance).grid()));
+  EXPECT_FALSE(cull.is_conservative(Setting(grid::Kind::cascades).grid()));
+  EXPECT_FALSE(cull.is_conservative(Setting(grid::Kind::world).grid()));
+  EXPECT_FALSE(PreCull({{FrustumStep{}, DistanceStep{1.0}}}, {}).is_conservative(Setting().grid())) << "all steps are";
+}
+
+TEST(PreCull, steps_follow_each_other_and_each_tells_what_it_removes) {
+  Setting setting;
+  setting.point({0, 0, -10}, 1).point({0, 0, 10}, 1).point({0, 0, -40}, 1).point({0, 0, 45}, 1).point({0, 0, -5}, 1);
+  const FrameCull planes_first = setting.culled({{FrustumStep{}, DistanceStep{20.0}}});
+  EXPECT_EQ(planes_first.kept, (Indices{0, 4}));
+  EXPECT_EQ(planes_first.removed, (Indices{2, 1}));
+  const FrameCull distance_first = setting.culled({{DistanceStep{20.0}, FrustumStep{}}});
+  EXPECT_EQ(distance_first.kept, (Indices{0, 4}));
+  EXPECT_EQ(distance_first.removed, (Indices{2, 1}));
+  EXPECT_EQ(setting.culled({{DistanceStep{41.0}}}).removed, (Indices{1}));
+}
+
+TEST(PreCull, hands_over_the_lights_that_are_kept_as_they_were) {
+  Setting setting;
+  setting.point({0, 0, 10}, 1).point({1, 2, -10}, 3).point({0, 0, 11}, 1).point({-1, 0, -20}, 2);
+  setting.spot({0, 0, 30}, {0, 0, 1}, 2, 0.5).spot({0, 1, -30}, {0.6, 0, -0.8}, 4, 0.25);
+  const FrameCull out = setting.culled(k_frustum);
+  EXPECT_EQ(out.kept, (Indices{1, 3, 5}));
+  EXPECT_EQ(out.lights.points.count, 2u);
+  EXPECT_EQ(out.lights.spots.first, 2u);
+  EXPECT_EQ(out.lights.spots.count, 1u);
+  const view::LightArrays all = view::lights_in(setting.frame, setting.frame.view_space);
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    const std::uint32_t from = out.kept[i];
+    EXPECT_EQ(out.lights.x[i], all.x[from]);
+    EXPECT_EQ(out.lights.y[i], all.y[from]);
+    EXPECT_EQ(out.lights.z[i], all.z[from]);
+    EXPECT_EQ(out.lights.radius[i], all.radius[from]);
+    EXPECT_EQ(out.lights.reach[i], all.reach[from]);
+    EXPECT_EQ(out.lights.source[i].position, setting.frame.lights[from].position);
+  }
+  EXPECT_EQ(out.lights.axis_x, (std::vector<float>{all.axis_x[1]}));
+  EXPECT_EQ(out.lights.axis_z, (std::vector<float>{all.axis_z[1]}));
+  EXPECT_EQ(out.lights.cos_angle, (std::vector<float>{all.cos_angle[1]}));
+  EXPECT_EQ(out.lights.sin_angle, (std::vector<float>{all.sin_angle[1]}));
+}
+
+TEST(PreCull, is_named_by_its_steps) {
+  EXPECT_EQ(PreCullSpec{}.label(), "none");
+  EXPECT_EQ((PreCullSpec{{FrustumStep{}, DistanceStep{62.5}, VisibleSetStep{4, 0.5, 1000}}}.label()),
+            "frustum+distance(62.5)+visible-set(4,0.5,1000)");
+}
+
+}  // namespace
+}  // namespace clusterbench::cull
