@@ -92,11 +92,10 @@ class PathFrames {
   FrameDepths* depths_ = nullptr;
   std::vector<int> frames_;  // empty: all
   int threads_ = 1;
+  SceneVisibleSets* visible_sets_ = nullptr;
   // By the grid's name.
   mutable std::map<std::string, std::vector<grid::Span>> spans_;
   mutable std::map<std::string, std::vector<FrameReaction>> reactions_;
-  SceneVisibleSets* visible_sets_ = nullptr;
-  mutable std::map<std::string, std::vector<grid::Span>> spans_;  // by the grid's name
 };
 
 // Those that a group of cases is measured in.

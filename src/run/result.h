@@ -23,8 +23,8 @@
 #include "run/counters/processor.h"
 #include "run/fit_meter.h"
 #include "run/packed_details.h"
-#include "run/reaction_meter.h"
 #include "run/pre_cull_meter.h"
+#include "run/reaction_meter.h"
 #include "run/timing_samples.h"
 
 namespace clusterbench::run {
