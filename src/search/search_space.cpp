@@ -74,19 +74,15 @@ FrameChoice SearchSpace::at(std::span<const double> point) const {
 
 std::vector<double> SearchSpace::point_of(const Vec3d& eye, const Vec4d& rotation, std::size_t moment) const {
   std::vector<double> point(dimensions(), 0.5);
-  place_camera(point, eye, direction_of(rotation), moment);
-  return point;
-}
-
-void SearchSpace::place_camera(std::vector<double>& point, const Vec3d& eye, const Vec3d& along,
-                               std::size_t moment) const {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<int>(axis);
     point[axis] = share_of(eyes_.lo[i], eyes_.hi[i], eye[i]);
   }
-  point[3] = std::clamp(std::atan2(-along.x, -along.z) / k_turn + 0.5, 0.0, 1.0);
-  point[4] = std::clamp(0.5 * (along.y + 1.0), 0.0, 1.0);
+  const Vec3d forward = direction_of(rotation);
+  point[3] = std::clamp(std::atan2(-forward.x, -forward.z) / k_turn + 0.5, 0.0, 1.0);
+  point[4] = std::clamp(0.5 * (forward.y + 1.0), 0.0, 1.0);
   if (moments_ > 1) point[k_pose] = (static_cast<double>(moment) + 0.5) / static_cast<double>(moments_);
+  return point;
 }
 
 std::vector<double> SearchSpace::random(SplitMix64& random) const {

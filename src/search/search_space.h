@@ -26,8 +26,6 @@ class SearchSpace {
   // The point of a camera that looks along the -z of `rotation` (its roll is lost), moved into the cube. Extra lights
   // stand at the eye.
   std::vector<double> point_of(const Vec3d& eye, const Vec4d& rotation, std::size_t moment) const;
-  // Puts the camera of a point there, looking along a way of length 1; moved into the cube.
-  void place_camera(std::vector<double>& point, const Vec3d& eye, const Vec3d& along, std::size_t moment) const;
   // Eyes evenly in the box, or over the floor's area; directions evenly over the sphere; extra lights as at() has them.
   std::vector<double> random(SplitMix64& random) const;
   const Box& eyes() const { return eyes_; }

@@ -250,26 +250,11 @@ class WorstCaseSearch {
     return out;
   }
 
-  // At a random light, looking at another one. From nearly all of a large level few lights are seen, and where many are
-  // may be too small for evenly random frames to find.
-  RatedFrame frame_among_lights(int number) const {
-    RatedFrame out = random_frame(number, 0);
-    SplitMix64 random(request_.seed * 2 + (static_cast<std::uint64_t>(number) + 1) * 0xbf58476d1ce4e5b9u);
-    const auto moment = static_cast<std::size_t>(random.below(rig_.moments()));
-    const auto light = [&] { return rig_.position(moment, static_cast<std::size_t>(random.below(rig_.own_lights()))); };
-    const Vec3d eye = glm::clamp(light() + in_ball(random, near_m()), space_.eyes().lo, space_.eyes().hi);
-    const Vec3d way = light() - eye;
-    const double length = std::sqrt(glm::dot(way, way));
-    if (length > 0.0) space_.place_camera(out.point, eye, way / length, moment);
-    out.choice = space_.at(out.point);
-    return out;
-  }
-
   void rate_sampled(int count) {
     progress_.begin("random frames to start from");
-    const bool has_lights = rig_.own_lights() > 0;
-    const auto frame_of = [&](int i) { return has_lights && i % 2 == 1 ? frame_among_lights(i) : random_frame(i, 0); };
-    end_stage("sampled", rate_each(count, best_, frame_of, [this] { return clock_.is_over(); }));
+    end_stage("sampled",
+              rate_each(
+                  count, best_, [this](int i) { return random_frame(i, 0); }, [this] { return clock_.is_over(); }));
   }
 
   // Runs tasks that each rate frames one after the other; their frames are added in the tasks' order.
@@ -373,10 +358,10 @@ class WorstCaseSearch {
     for (std::size_t turn = 0; used < evaluations && !clock_.is_over(); ++turn) {
       const std::size_t light = turn % rig_.own_lights();
       const Vec3d home = rig_.position(frame.choice.moment, light);
-      Vec3d moved_to = home + within(frame.choice.eye - home, request_.move_m);
-      if (turn >= rig_.own_lights()) moved_to = home + in_ball(random, request_.move_m);
+      Vec3d place = home + within(frame.choice.eye - home, request_.move_m);
+      if (turn >= rig_.own_lights()) place = home + in_ball(random, request_.move_m);
       FrameChoice tried = frame.choice;
-      tried.moved[light].second = rounded_to_float(moved_to);
+      tried.moved[light].second = rounded_to_float(place);
       keep_if_better(tried);
     }
     std::erase_if(frame.choice.moved,
