@@ -14,6 +14,7 @@
 #include "report/json_values.h"
 #include "report/machine.h"
 #include "report/preset_ranking.h"
+#include "report/shadows_json.h"
 #include "run/gate.h"
 
 namespace clusterbench::report {
@@ -294,6 +295,7 @@ Json timing(const run::TimingResult& t) {
                   {"unfitted_ns", to_json(t.fit->unfitted_ns)},
                   {"ratio", six_digits(t.fit->ratio.ratio)},
                   {"ci95", to_json(t.fit->ratio.ci95)}};
+  if (!t.shadow_culls.empty()) out["shadow_cull"] = shadow_times_to_json(t.shadow_culls);
   const run::Disturbance& d = t.disturbance;
   const auto cores = [&](double busy_s) { return six_digits(d.seconds > 0.0 ? busy_s / d.seconds : 0.0); };
   out["disturbed"] = {
@@ -430,6 +432,7 @@ Json case_to_json(const run::CaseResult& case_result) {
   if (case_result.stability) out["stability"] = stability(*case_result.stability);
   if (case_result.precision) out["precision"] = precision(*case_result.precision);
   if (case_result.fit) out["fit"] = fit_to_json(*case_result.fit);
+  if (Json shadows = shadows_to_json(case_result); !shadows.empty()) out["shadows"] = std::move(shadows);
   if (case_result.timing) out["timing"] = timing(*case_result.timing);
   if (case_result.count) out["count"] = count(*case_result.count);
   if (case_result.details) out["details"] = details_to_json(*case_result.details);

@@ -14,6 +14,7 @@
 #include "report/preset_ranking.h"
 #include "report/ratios.h"
 #include "report/samples_table.h"
+#include "report/shadows_table.h"
 #include "report/stability_table.h"
 #include "report/timing_warnings.h"
 #include "report/warnings.h"
@@ -302,7 +303,7 @@ std::string render_table(const Json& result, bool colour) {
   if (!result["skipped"].empty())
     out += number_of(result["skipped"].size(), "combination") + " skipped; the result says why.\n";
   return out + samples_table(result) + lookup_table(result) + stability_table(result) + fit_table(result) +
-         precision_table(result) + preset_table(result) + notes_text(result) + warnings_text(result) +
+         precision_table(result) + shadows_table(result) + preset_table(result) + notes_text(result) + warnings_text(result) +
          timing_warnings(cases);
 }
 
