@@ -1,5 +1,7 @@
 #include "run/passes/accuracy_pass.h"
 
+#include <glm/trigonometric.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
