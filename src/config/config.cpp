@@ -172,9 +172,10 @@ std::vector<ShadowCullRequest> shadow_culls(const Json& document, const JsonText
   std::vector<ShadowCullRequest> out;
   if (!document.contains("shadow_cull")) return out;
   for (const Json& object : expand_all_axes(document["shadow_cull"])) {
-    const ShadowCullRequest request{{object["resolution"].get<int>(), texel_bound_of(object["texels"].get<std::string>()),
-                                     object["near_m"].get<double>()},
-                                    object["bias_m"].get<double>()};
+    const ShadowCullRequest request{
+        {object["resolution"].get<int>(), texel_bound_of(object["texels"].get<std::string>()),
+         object["near_m"].get<double>()},
+        object["bias_m"].get<double>()};
     if (std::ranges::find(out, request) != out.end())
       throw Error(text.file, text.where("/shadow_cull"), "has a list with the same value twice");
     out.push_back(request);

@@ -147,10 +147,10 @@ struct Config {
   int threads = 1;
   std::uint64_t seed = 1;
   bool check_accuracy = true;
-  std::vector<SampleSetRequest> sample_sets;  // each set once; the whole view's first
-  std::optional<StabilityRequest> stability;  // without: not measured
-  std::optional<LookupRequest> lookup;        // without: not measured
-  std::optional<DetailsRequest> details;      // without: none
+  std::vector<SampleSetRequest> sample_sets;         // each set once; the whole view's first
+  std::optional<StabilityRequest> stability;         // without: not measured
+  std::optional<LookupRequest> lookup;               // without: not measured
+  std::optional<DetailsRequest> details;             // without: none
   std::vector<ShadowCullRequest> shadow_culls;       // each once; none: not measured
   std::optional<SharedFrustaRequest> shared_frusta;  // without: not measured
   TimingRequest timing;

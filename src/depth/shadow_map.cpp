@@ -210,8 +210,8 @@ bool ShadowMap::hides(const std::array<Vec3d, 8>& corners, double nearest_m, dou
       const Vec3d between = a + (least_depth - a.z) / (b.z - a.z) * (b - a);
       add({between.x, between.y, least_depth});
     });
-    const bool is_beside = !(covered.left <= slope_ && covered.right >= -slope_ && covered.bottom <= slope_ &&
-                             covered.top >= -slope_);
+    const bool is_beside =
+        !(covered.left <= slope_ && covered.right >= -slope_ && covered.bottom <= slope_ && covered.top >= -slope_);
     if (is_beside) continue;
     if (!(nearest_m > static_cast<double>(farthest(face, covered)) + bias_m)) return false;
   }

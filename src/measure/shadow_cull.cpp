@@ -12,7 +12,8 @@ namespace {
 
 // A frustum around a shell cell: its pyramid between the depths that the cell can have.
 geom::FrustumCell frustum_around(const geom::ShellCell& cell) {
-  const double x = std::max(std::fabs(cell.x0), std::fabs(cell.x1)), y = std::max(std::fabs(cell.y0), std::fabs(cell.y1));
+  const double x = std::max(std::fabs(cell.x0), std::fabs(cell.x1)),
+               y = std::max(std::fabs(cell.y0), std::fabs(cell.y1));
   const auto near = static_cast<float>(static_cast<double>(cell.distance0) / std::sqrt(1.0 + x * x + y * y));
   return {cell.x0, cell.x1, cell.y0, cell.y1, std::nextafter(near, 0.0f), cell.distance1, false};
 }
@@ -79,8 +80,8 @@ void remove_shadowed(const view::Frame& frame, const grid::Grid& grid, const ass
       for (const std::uint32_t light : list) {
         std::array<Vec3d, 8> from_light = turned;
         for (Vec3d& corner : from_light) corner -= in_world[light];
-        const bool is_hidden = maps[light] != nullptr &&
-                               maps[light]->hides(from_light, std::visit(Distance{local[light]}, cell), bias_m);
+        const bool is_hidden =
+            maps[light] != nullptr && maps[light]->hides(from_light, std::visit(Distance{local[light]}, cell), bias_m);
         if (!is_hidden) kept.lights.push_back(light);
       }
     }

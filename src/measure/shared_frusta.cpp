@@ -66,9 +66,7 @@ class Grouping {
     double largest_m3;
   };
 
-  void add_group(SharedFrustum frustum, double largest_m3) {
-    groups_.push_back({std::move(frustum), largest_m3});
-  }
+  void add_group(SharedFrustum frustum, double largest_m3) { groups_.push_back({std::move(frustum), largest_m3}); }
 
   // Sorted along x, only spots that are not too far apart along it are looked at.
   void find_neighbours() {

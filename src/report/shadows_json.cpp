@@ -20,12 +20,9 @@ Json before_and_after(std::uint64_t before, std::uint64_t after) {
 
 Json samples(const measure::ShadowCullCounts& counts) {
   const double lost = counts.lit_lux > 0.0 ? counts.lost_lux / counts.lit_lux : 0.0;
-  return {{"samples", counts.samples},
-          {"evaluated", before_and_after(counts.evaluated, counts.evaluated_kept)},
-          {"needed", counts.needed},
-          {"lit", counts.lit},
-          {"wrongly_removed", counts.wrong},
-          {"lost_irradiance", number_or_null(lost)}};
+  return {{"samples", counts.samples},       {"evaluated", before_and_after(counts.evaluated, counts.evaluated_kept)},
+          {"needed", counts.needed},         {"lit", counts.lit},
+          {"wrongly_removed", counts.wrong}, {"lost_irradiance", number_or_null(lost)}};
 }
 
 Json way(const config::ShadowCullRequest& request) {
@@ -62,7 +59,8 @@ Json frusta(const run::SharedFrustaResult& result) {
           {"shared", mean_max(counts.shared)},
           {"saved", number_or_null(counts.saved())},
           {"most_members", counts.most_members},
-          {"volume", {{"over_largest", mean_max(counts.volume_over_largest)}, {"over_sum", mean_max(counts.volume_over_sum)}}},
+          {"volume",
+           {{"over_largest", mean_max(counts.volume_over_largest)}, {"over_sum", mean_max(counts.volume_over_sum)}}},
           {"solid_angle",
            {{"over_largest", mean_max(counts.angle_over_largest)}, {"over_sum", mean_max(counts.angle_over_sum)}}}};
 }
@@ -85,7 +83,8 @@ Json shadow_times_to_json(const std::vector<run::ShadowCullResult>& culls) {
     out.push_back(way(result.request));
     out.back()["cast_ns"] = six_digits(result.times.cast_ns);
     out.back()["reduce_ns"] = six_digits(result.times.reduce_ns);
-    out.back()["step_ns"] = {{"mean", six_digits(result.times.step_mean_ns)}, {"max", six_digits(result.times.step_max_ns)}};
+    out.back()["step_ns"] = {{"mean", six_digits(result.times.step_mean_ns)},
+                             {"max", six_digits(result.times.step_max_ns)}};
   }
   return out;
 }

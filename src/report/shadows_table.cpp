@@ -7,7 +7,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const Cells k_headings{"", "assigner", "map", "texels", "pairs", "true", "evaluated", "lit", "wrong", "lost", "MiB", "step us"};
+const Cells k_headings{"",          "assigner", "map",   "texels", "pairs", "true",
+                       "evaluated", "lit",      "wrong", "lost",   "MiB",   "step us"};
 
 std::string percent_at(const Json& json, const char* pointer) {
   return text_at(json, pointer, "%.2f %%", 100.0);
@@ -21,7 +22,8 @@ std::string per_sample(const Json& cull, const char* pointer) {
 
 Cells cull_row(const NamedCase& named, std::size_t index) {
   const Json& cull = (*named.result_case)["shadows"]["culls"][index];
-  const std::string evaluated = per_sample(cull, "/opaque/evaluated/before"), kept = per_sample(cull, "/opaque/evaluated/after");
+  const std::string evaluated = per_sample(cull, "/opaque/evaluated/before"),
+                    kept = per_sample(cull, "/opaque/evaluated/after");
   const std::string step = "/timing/shadow_cull/" + std::to_string(index) + "/step_ns/mean";
   return {"",
           named.name,
@@ -43,8 +45,9 @@ std::string frusta_text(const Json& frusta) {
     return text_at(frusta, (pointer + "/mean").c_str(), format) + " (at most " +
            text_at(frusta, (pointer + "/max").c_str(), format) + ")";
   };
-  std::string out = "  spots in view per frame: " + mean_max("spots", "%.4g") + "; maps if they share: " +
-                    mean_max("maps", "%.4g") + ", " + percent_at(frusta, "/saved") + " saved\n";
+  std::string out = "  spots in view per frame: " + mean_max("spots", "%.4g") +
+                    "; maps if they share: " + mean_max("maps", "%.4g") + ", " + percent_at(frusta, "/saved") +
+                    " saved\n";
   if (frusta["most_members"].get<std::uint64_t>() < 2) return out;
   return out + "  up to " + std::to_string(frusta["most_members"].get<std::uint64_t>()) +
          " in a map; its frustum's volume: " + mean_max("volume/over_largest", "%.3g") + " of the largest member's, " +
@@ -86,9 +89,11 @@ std::string shadows_table(const Json& result) {
   out = "\n" + out;
   if (!has_culls) return out;
   return out +
-         "pairs, true: share of the pairs in lists, and of the true ones, that are taken out since the cell lies in shadow.\n"
+         "pairs, true: share of the pairs in lists, and of the true ones, that are taken out since the cell lies in "
+         "shadow.\n"
          "evaluated: lights per visible sample, before and after; lit: those that a shadow ray finds lit.\n"
-         "wrong: lit ones that were taken out, over all samples and frames, and the share of irradiance that is lost with them.\n";
+         "wrong: lit ones that were taken out, over all samples and frames, and the share of irradiance that is lost "
+         "with them.\n";
 }
 
 }  // namespace clusterbench::report

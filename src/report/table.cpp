@@ -303,8 +303,8 @@ std::string render_table(const Json& result, bool colour) {
   if (!result["skipped"].empty())
     out += number_of(result["skipped"].size(), "combination") + " skipped; the result says why.\n";
   return out + samples_table(result) + lookup_table(result) + stability_table(result) + fit_table(result) +
-         precision_table(result) + shadows_table(result) + preset_table(result) + notes_text(result) + warnings_text(result) +
-         timing_warnings(cases);
+         precision_table(result) + shadows_table(result) + preset_table(result) + notes_text(result) +
+         warnings_text(result) + timing_warnings(cases);
 }
 
 }  // namespace clusterbench::report

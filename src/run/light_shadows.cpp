@@ -33,9 +33,8 @@ LightShadows::LightShadows(const config::Config& config, const SceneData& data, 
       kept_(config.shadow_culls.size()) {}
 
 bool LightShadows::Seen::is_same(const Seen& other) const {
-  return surfaces == other.surfaces && light.position == other.light.position &&
-         light.range_m == other.light.range_m && light.direction == other.light.direction &&
-         light.outer_cone_rad == other.light.outer_cone_rad;
+  return surfaces == other.surfaces && light.position == other.light.position && light.range_m == other.light.range_m &&
+         light.direction == other.light.direction && light.outer_cone_rad == other.light.outer_cone_rad;
 }
 
 void LightShadows::start(const view::Frame& frame) {

@@ -77,8 +77,8 @@ class ShadowCullMeter {
   void add(LightShadows& shadows, const view::Frame& frame, const grid::Grid& grid, const assign::Lists& lists,
            const assign::Lists* truth);
   // Of the frame at hand.
-  void add_samples(const grid::Grid& grid, std::span<const grid::Sample> samples,
-                   const measure::NeededLights& needed, const std::vector<bool>& is_lit);
+  void add_samples(const grid::Grid& grid, std::span<const grid::Sample> samples, const measure::NeededLights& needed,
+                   const std::vector<bool>& is_lit);
   ShadowCullResult result(const LightShadows& shadows) const;
 
  private:

@@ -107,12 +107,12 @@ struct ShadowCullResult {
   measure::ShadowCullCounts counts;
   bool has_truth = false, has_samples = false;  // what of the counts was counted
   struct Maps {
-    std::uint64_t lights = 0;            // with a map
-    std::uint64_t made = 0;              // over the path: more where lights or surfaces move
-    std::uint64_t faces = 0;             // of those that were made
-    std::uint64_t texels = 0;            // likewise, into which light goes
-    std::uint64_t unlimited = 0;         // of these, without a distance
-    std::uint64_t bytes = 0;             // of all levels, of the maps that are kept at once
+    std::uint64_t lights = 0;     // with a map
+    std::uint64_t made = 0;       // over the path: more where lights or surfaces move
+    std::uint64_t faces = 0;      // of those that were made
+    std::uint64_t texels = 0;     // likewise, into which light goes
+    std::uint64_t unlimited = 0;  // of these, without a distance
+    std::uint64_t bytes = 0;      // of all levels, of the maps that are kept at once
   } maps;
   // Wall time in this process; kept where the configuration asks for times.
   struct Times {
@@ -145,11 +145,11 @@ struct TimingResult {
   double ns_per_pair = std::numeric_limits<double>::quiet_NaN();  // frame time / pairs in lists; without: not a number
   double write_floor_ns = 0.0;                                    // per frame
   double floor_ratio = 0.0;                                       // of warm times
-  std::optional<Versus> against_first;  // against the group's first assigner, in the same storage if it has it
-  std::optional<FitTimes> fit;          // of slices with `fit`
+  std::optional<Versus> against_first;         // against the group's first assigner, in the same storage if it has it
+  std::optional<FitTimes> fit;                 // of slices with `fit`
   std::vector<ShadowCullResult> shadow_culls;  // those of the case, for their times
-  int frames_timed = 0;                 // in the means
-  Disturbance disturbance;              // of the group, over all launches
+  int frames_timed = 0;                        // in the means
+  Disturbance disturbance;                     // of the group, over all launches
 };
 
 // Instructions of what TimingResult times.

@@ -42,8 +42,8 @@ Vec3d point_in(const scene::WorldLight& light, SplitMix64& random) {
   const double turn = random.between(0.0, 6.283185307179586);
   const double lean = light.outer_cone_rad * (where == 0 || where == 1 ? 1.0 : random.unit());
   const double far = light.range_m * (where == 0 || where == 2 ? 1.0 : random.unit());
-  return light.position + far * (std::cos(lean) * light.direction +
-                                 std::sin(lean) * (std::cos(turn) * right + std::sin(turn) * up));
+  return light.position +
+         far * (std::cos(lean) * light.direction + std::sin(lean) * (std::cos(turn) * right + std::sin(turn) * up));
 }
 
 bool holds(const SharedFrustum& frustum, const Vec3d& point) {
@@ -64,7 +64,8 @@ TEST(SharedFrusta, hold_every_point_of_every_members_cone) {
     const std::uint64_t count = 1 + random.below(5);
     const double lean = random.unit();
     for (std::uint64_t i = 0; i < count; ++i) {
-      const Vec3d position = within(random, 3.0) + Vec3d(1000.0, 0.0, -500.0), direction = axis + within(random, 0.5 * lean);
+      const Vec3d position = within(random, 3.0) + Vec3d(1000.0, 0.0, -500.0),
+                  direction = axis + within(random, 0.5 * lean);
       const double half_angle = random.between(0.02, 0.9);
       lights.push_back(spot(position, direction, half_angle, random.between(0.5, 40.0)));
     }
@@ -94,8 +95,9 @@ TEST(SharedFrusta, a_spots_own_is_the_square_around_its_cone) {
 
 TEST(SharedFrusta, none_holds_what_points_apart_or_has_no_end) {
   const double endless = std::numeric_limits<double>::infinity();
-  const std::vector<scene::WorldLight> lights{spot({0, 0, 0}, {0, 0, -1}, 0.3, 10.0), spot({0, 0, 0}, {0, 0, 1}, 0.3, 10.0),
-                                              spot({0, 0, 0}, {0, 0, -1}, 0.3, endless), spot({0, 0, 0}, {0, 0, -1}, 1.5, 9.0)};
+  const std::vector<scene::WorldLight> lights{
+      spot({0, 0, 0}, {0, 0, -1}, 0.3, 10.0), spot({0, 0, 0}, {0, 0, 1}, 0.3, 10.0),
+      spot({0, 0, 0}, {0, 0, -1}, 0.3, endless), spot({0, 0, 0}, {0, 0, -1}, 1.5, 9.0)};
   const auto around = [&](std::vector<std::uint32_t> of) { return frustum_around(lights, of).has_value(); };
   EXPECT_TRUE(around({0}));
   EXPECT_FALSE(around({0, 1}));
@@ -193,7 +195,8 @@ TEST(SharedFrusta, many_lights_are_grouped_as_those_of_each_place_by_themselves)
   for (int car = 0; car < 300; ++car) {
     const Vec3d at(20.0 * (car % 20), 0.0, 20.0 * (car / 20)), heading = within(random, 1.0);
     std::vector<scene::WorldLight> here;
-    for (int i = 0; i < 4; ++i) here.push_back(spot(at + within(random, 1.0), heading + within(random, 0.1), 0.3, 20.0));
+    for (int i = 0; i < 4; ++i)
+      here.push_back(spot(at + within(random, 1.0), heading + within(random, 0.1), 0.3, 20.0));
     apart += shared_frusta(here, all_of(here), {}).size();
     lights.insert(lights.end(), here.begin(), here.end());
   }

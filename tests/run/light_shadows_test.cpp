@@ -73,8 +73,9 @@ std::string soup() {
   return file.text();
 }
 
-Result run_of(const std::string& scene, const std::string& rest,
-              const std::string& grids = R"({"tiles": {"count": [16, 12]}, "slices": {"count": 24, "near": 0.1, "far": 40}})") {
+Result run_of(
+    const std::string& scene, const std::string& rest,
+    const std::string& grids = R"({"tiles": {"count": [16, 12]}, "slices": {"count": 24, "near": 0.1, "far": 40}})") {
   const scene::test::Folder folder;
   folder.write("walls.gltf", scene);
   const config::Config config = config::parse_config(
@@ -139,8 +140,8 @@ TEST(LightShadows, counts_do_not_depend_on_threads_nor_on_what_else_is_measured)
   const auto counts = [](const Result& result, std::size_t index) {
     const measure::ShadowCullCounts& c = result.cases.at(0).shadow_culls.at(index).counts;
     const ShadowCullResult::Maps& maps = result.cases.at(0).shadow_culls.at(index).maps;
-    return std::vector<std::uint64_t>{c.pairs, c.kept, c.true_kept, c.evaluated_kept, c.lit, c.wrong, maps.made,
-                                      maps.texels, maps.unlimited, maps.bytes};
+    return std::vector<std::uint64_t>{c.pairs, c.kept,    c.true_kept, c.evaluated_kept, c.lit,
+                                      c.wrong, maps.made, maps.texels, maps.unlimited,   maps.bytes};
   };
   const Result one = run_of(soup(), k_asks), more = run_of(soup(), std::string(k_asks) + R"(, "threads": 4)");
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(counts(one, i), counts(more, i)) << i;

@@ -19,7 +19,7 @@ struct MethodMeasures {
   measure::Occupancy occupancy;
   measure::ErrorCounts error;  // of the lists, before a storage drops anything
   std::uint64_t tests_done = 0, fallbacks = 0;
-  std::optional<ListChanges> list_changes;  // with cells, where asked for
+  std::optional<ListChanges> list_changes;     // with cells, where asked for
   std::vector<ShadowCullResult> shadow_culls;  // of lists, one per way, where asked for
 };
 
