@@ -15,6 +15,12 @@ export type Saved = {
   evaluated: Record<string, number | null>; // Lights that samples loop over, by the set of samples
 };
 
+export type BeforeAfter = {
+  before: number; // Before
+  after: number; // After
+  removed: number | null; // Share that is taken out; null where there is none [share of 1]
+};
+
 export type FitSide = {
   pairs?: number; // In lists, mean per frame; absent without cells [pairs]
   true_pairs?: number; // Over all frames; absent without cells, or where accuracy is not checked [pairs]
@@ -430,6 +436,52 @@ export type Result = {
       roomy: FitSide; // The same case with room for all lists
       saved: Saved; // 1 - limited / roomy: below 0 where falling back costs; null where the other case has none
     }; // Of a storage whose room can end (packed with max_entries): how often cells read all lights of the frame in place of their own, and what that saves and costs beside the same case with room for all
+    shadows?: {
+      culls?: Array<{
+        resolution: number; // Texels along each side of a light's shadow map [texels, over the case]
+        texels: "proven" | "sampled"; // How a texel's distance was found. proven: triangles were shown to cover it; sampled: the greatest at its four corners
+        bias_m: number; // So far beyond a surface a point may lie and still be lit [m, over the case]
+        near_m: number; // Surfaces nearer to a light cast no shadow [m, over the case]
+        conservative: boolean; // true: no pair that is lit is taken out, but through gaps narrower than a millionth of the distance. false: a map of samples bounds nothing between them; what was lost is counted at samples alone
+        pairs: BeforeAfter; // In lists [pairs]
+        true_pairs?: BeforeAfter; // Of those, the true ones: cell and volume share a point; absent without accuracy.check [pairs]
+        opaque?: {
+          samples: number; // Number of samples [samples, over all frames]
+          evaluated: BeforeAfter; // Lights in the lists of their cells [lights]
+          needed: number; // Of those before, lights whose volume holds the sample [lights]
+          lit: number; // Of the needed, those that a ray from the light to the sample finds unobstructed: what the best of all shadow culls would keep [lights]
+          wrongly_removed: number; // Of the lit, those that were taken out [lights]
+          lost_irradiance: number | null; // Share of the lit lights' irradiance that is lost with them [share of 1]
+        }; // At visible surfaces in cells of the grid; with samples.opaque [over the samples of all frames]
+        maps: {
+          lights: number; // Lights with a map [lights]
+          made: number; // Maps that were made [maps]
+          faces: number; // Of those [faces]
+          texels: number; // Of those, texels into which light goes [texels]
+          unlimited: number; // Of those, texels without a distance: a ray meets nothing, or (proven) a gap may be left [texels]
+          bytes: number; // One map for each light, with all levels of its pyramid, as 32-bit floats [bytes]
+        }; // Shadow maps of the lights in these lists, made when a light is first in one and again when it or a surface has moved [over the path]
+      }>; // Pairs whose cell lies wholly in the light's shadow, taken out of the method's lists (not of its own structure, where it leaves one): once for each resolution and kind of texels. All other figures of the case are those of the lists before
+      frusta?: {
+        apart_m: number; // Largest distance between two lights of a group [m, over the case]
+        turned_deg: number; // Largest angle between two axes of a group [degrees, over the case]
+        growth: number; // Largest volume of a group's frustum, over that of its largest member's own [ratio, over the case]
+        points: MeanMax; // Points whose ball may be in view; they share nothing [lights]
+        spots: MeanMax; // Spots whose bounding ball may be in view: maps if none is shared [lights]
+        maps: MeanMax; // Maps of these spots if they share [maps]
+        shared: MeanMax; // Of the maps, those with more than one spot [maps]
+        saved: number | null; // Share of the spots' maps that sharing saves, over all frames; null without spots in view [share of 1]
+        most_members: number; // Most spots in one map [lights]
+        volume: {
+          over_largest: MeanMax; // Over that of the largest of its members' own frusta; null without shared ones
+          over_sum: MeanMax; // Over the sum of its members' own
+        }; // Of a shared frustum [ratio, over shared frusta of all frames]
+        solid_angle: {
+          over_largest: MeanMax; // Over that of the widest of its members' own frusta; null without shared ones
+          over_sum: MeanMax; // Over the sum of its members' own
+        }; // Of a shared frustum [ratio, over shared frusta of all frames]
+      }; // Shadow maps that spots in view could share, whatever the case's method and grid are: groups of spots in one square frustum that holds them all [over frames]
+    }; // What lies in the shadow of the scene's triangles, and what sharing shadow maps saves; where the configuration asks for it (shadow_cull, shadow_frusta)
     stability?: {
       steps: number; // Steps taken: fewer than asked for where the path ends or the camera stands still [steps, over the piece of the path]
       step_m: number | null; // Largest move of the camera in one step [m, over the steps]
@@ -550,6 +602,15 @@ export type Result = {
         run_ns: Time; // Per frame: the device's work
         readback_ns: Time; // Per frame: bringing the result back; 0 where it stays
       }; // Of a method that runs on a device (a GPU): its parts by the device's own clock, within warm assign_ns. Absent elsewhere
+      shadow_cull?: Array<{
+        resolution: number; // As in shadows.culls [texels, over the case]
+        texels: "proven" | "sampled"; // As in shadows.culls
+        bias_m: number; // As in shadows.culls [m, over the case]
+        near_m: number; // As in shadows.culls [m, over the case]
+        cast_ns: number; // Making the finest level of a map by ray casting, mean; a renderer has its shadow map already [over maps of all methods]
+        reduce_ns: number; // Making the coarser levels of a map, mean [over maps of all methods]
+        step_ns: MeanMax; // Taking pairs out of a frame's lists, on one thread [over frames]
+      }>; // Of the ways of shadows.culls, in their order; in no other time. Wall time in the process of the run, where the lists are checked
       ns_per_pair: number | null; // frame_ns.median / pairs.mean; null without pairs in lists [ns, over the timed frames]
       write_floor_ns: number | null; // Per frame: time to copy its finished lists once as the standard `packed` holds them, headers and indices, from buffers of the frame into others of the frame [ns, over the rounds]
       floor_ratio: number | null; // assign_ns by write_floor_ns, both with warm caches: how far the assignment is from only writing its result [ratio, over the rounds]

@@ -186,6 +186,32 @@ std::vector<cull::PreCullSpec> pre_culls(const Json& document, const JsonText& t
   return out;
 }
 
+depth::TexelBound texel_bound_of(const std::string& name) {
+  return name == depth::name_of(depth::TexelBound::proven) ? depth::TexelBound::proven : depth::TexelBound::sampled;
+}
+
+std::vector<ShadowCullRequest> shadow_culls(const Json& document, const JsonText& text) {
+  std::vector<ShadowCullRequest> out;
+  if (!document.contains("shadow_cull")) return out;
+  for (const Json& object : expand_all_axes(document["shadow_cull"])) {
+    const ShadowCullRequest request{
+        {object["resolution"].get<int>(), texel_bound_of(object["texels"].get<std::string>()),
+         object["near_m"].get<double>()},
+        object["bias_m"].get<double>()};
+    if (std::ranges::find(out, request) != out.end())
+      throw Error(text.file, text.where("/shadow_cull"), "has a list with the same value twice");
+    out.push_back(request);
+  }
+  return out;
+}
+
+std::optional<SharedFrustaRequest> shared_frusta(const Json& document) {
+  if (!document.contains("shadow_frusta")) return std::nullopt;
+  const Json& frusta = document["shadow_frusta"];
+  return SharedFrustaRequest{frusta["apart_m"].get<double>(), frusta["turned_deg"].get<double>(),
+                             frusta["growth"].get<double>()};
+}
+
 // Patterns are kept until the list has been checked.
 bool is_assigner_glob(const std::string& list, const Json& entry) {
   return list == "assigners" && is_glob(entry.get_ref<const std::string&>());
@@ -458,6 +484,8 @@ Config read_config(const JsonText& text) {
   read_clusterings(document, text, config);
   config.precisions = precisions(document["precision"], text);
   config.pre_culls = pre_culls(document, text);
+  config.shadow_culls = shadow_culls(document, text);
+  config.shared_frusta = shared_frusta(document);
   read_settings(document, config);
   check_ranking(document, config.sample_sets, text);
   config.limits.fail_if = limit_rules(document["limits"]["fail_if"], text);

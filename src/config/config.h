@@ -15,6 +15,7 @@
 #include "config/limit_rules.h"
 #include "core/memory.h"
 #include "cull/pre_cull_spec.h"
+#include "depth/shadow_map.h"
 #include "grid/grid.h"
 #include "measure/buffers.h"
 #include "measure/lookup.h"
@@ -88,6 +89,21 @@ struct SampleSetRequest {
   bool needs_triangles() const { return set == measure::SampleSet::opaque || set == measure::SampleSet::transparent; }
 };
 
+// A step after the lists: pairs are taken out whose cell lies wholly in the light's shadow.
+struct ShadowCullRequest {
+  depth::ShadowMapRequest map;
+  double bias_m = 0.01;  // so far beyond a surface a point may lie and still be lit
+
+  friend bool operator==(const ShadowCullRequest&, const ShadowCullRequest&) = default;
+};
+
+// Which spots may share a shadow map.
+struct SharedFrustaRequest {
+  double apart_m = 2.0;
+  double turned_deg = 15.0;
+  double growth = 1.5;
+};
+
 // Which frames a result carries cell by cell.
 struct DetailsRequest {
   enum class Choice : std::uint8_t { worst, evenly, listed };  // the one with the case's longest list; count; frames
@@ -133,10 +149,12 @@ struct Config {
   int threads = 1;
   std::uint64_t seed = 1;
   bool check_accuracy = true;
-  std::vector<SampleSetRequest> sample_sets;  // each set once; the whole view's first
-  std::optional<StabilityRequest> stability;  // without: not measured
-  std::optional<LookupRequest> lookup;        // without: not measured
-  std::optional<DetailsRequest> details;      // without: none
+  std::vector<SampleSetRequest> sample_sets;         // each set once; the whole view's first
+  std::optional<StabilityRequest> stability;         // without: not measured
+  std::optional<LookupRequest> lookup;               // without: not measured
+  std::optional<DetailsRequest> details;             // without: none
+  std::vector<ShadowCullRequest> shadow_culls;       // each once; none: not measured
+  std::optional<SharedFrustaRequest> shared_frusta;  // without: not measured
   TimingRequest timing;
   LimitsRequest limits;
   measure::AllocationRule allocation;

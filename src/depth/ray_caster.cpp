@@ -283,6 +283,58 @@ void RayCaster::pose(double time_s, const Vec3d& origin) {
   rtcCommitScene(now.blending.get());
   check(now.device.get());
   now.placed = std::move(placed);
+  ++builds_;
+}
+
+namespace {
+
+RTCRay ray_between(const Vec3d& from, const Vec3d& along, double begin_m, double end_m) {
+  RTCRay ray{};
+  const Vec3f start(from), direction(along);
+  ray.org_x = start.x;
+  ray.org_y = start.y;
+  ray.org_z = start.z;
+  ray.dir_x = direction.x;
+  ray.dir_y = direction.y;
+  ray.dir_z = direction.z;
+  ray.tnear = static_cast<float>(begin_m);
+  ray.tfar = static_cast<float>(end_m);
+  ray.mask = ~0U;
+  return ray;
+}
+
+std::array<Vec3d, 3> corners_of(RTCScene surfaces, const RTCHit& hit) {
+  RTCGeometry mesh = rtcGetGeometry(surfaces, hit.geomID);
+  const auto* vertices = static_cast<const Vec3f*>(rtcGetGeometryBufferData(mesh, RTC_BUFFER_TYPE_VERTEX, 0));
+  const auto& corners =
+      static_cast<const scene::Triangle*>(rtcGetGeometryBufferData(mesh, RTC_BUFFER_TYPE_INDEX, 0))[hit.primID];
+  return {Vec3d(vertices[corners[0]]), Vec3d(vertices[corners[1]]), Vec3d(vertices[corners[2]])};
+}
+
+}  // namespace
+
+std::optional<SurfaceHit> RayCaster::first_surface(const Vec3d& from, const Vec3d& along, double begin_m,
+                                                   double end_m) const {
+  const Vec3d local = from - surfaces_->origin;
+  RTCRayHit ray{};
+  ray.ray = ray_between(local, along, begin_m, end_m);
+  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(surfaces_->opaque.get(), &context, &ray);
+  if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  SurfaceHit hit{static_cast<double>(depth_at(surfaces_->opaque.get(), ray.ray, ray.hit.geomID, ray.hit.primID)),
+                 corners_of(surfaces_->opaque.get(), ray.hit)};
+  for (Vec3d& corner : hit.corners) corner -= local;
+  return hit;
+}
+
+bool RayCaster::is_blocked(const Vec3d& from, const Vec3d& along, double begin_m, double end_m) const {
+  // A little farther, so that what stands about at the end is judged in double precision.
+  constexpr double k_farther = 1.001;
+  const std::optional<SurfaceHit> hit = first_surface(from, along, begin_m, k_farther * end_m);
+  return hit && hit->distance_m < end_m;
 }
 
 DepthImage RayCaster::depths(const view::Frame& frame, const PixelGrid& pixels, int threads) const {

@@ -82,7 +82,8 @@ std::vector<std::string> other_settings(const Json& base, const Json& base_case,
   tell(base_case, next_case, "the assigner's parameters", "/assigner/params");
   tell(base_case, next_case, "precision", "/precision/label");
   tell(base_case, next_case, "pre_cull", "/pre_cull/label");
-  for (const char* key : {"seed", "shading", "samples", "lookup", "stability", "jitter"})
+  for (const char* key :
+       {"seed", "shading", "samples", "lookup", "stability", "jitter", "shadow_cull", "shadow_frusta"})
     tell(base["config"], next["config"], key, (std::string("/") + key).c_str());
   if (fits_of(base) != fits_of(next)) out.emplace_back("camera_fit");
   if (out.empty()) out.emplace_back("something that results do not tell");
@@ -105,7 +106,7 @@ Json renamed(const Json& base, const std::vector<const Json*>& only_in_base, con
 Json parts_of_one(const std::vector<Match>& matches) {
   Json out = Json::array();
   for (const char* part : {"occupancy", "error", "shading", "samples", "lookup", "stability", "precision", "pre_cull",
-                           "fit", "react", "fallback", "timing", "count"}) {
+                           "fit", "react", "fallback", "shadows", "timing", "count"}) {
     std::size_t base = 0, next = 0;
     for (const Match& match : matches) {
       base += match.base.contains(part) && !match.next.contains(part) ? 1 : 0;

@@ -82,6 +82,16 @@ constexpr std::array k_rules{
     Rule{"/react/saved", Kind::follows},
     Rule{"/fallback/saved", Kind::follows},
     Rule{"/fallback", Kind::cost},
+    Rule{"/shadow_cull/pairs/after", Kind::cost},
+    Rule{"/shadow_cull/pairs", Kind::follows},
+    Rule{"/shadow_cull/true_pairs/after", Kind::cost},
+    Rule{"/shadow_cull/true_pairs", Kind::follows},
+    Rule{"/shadow_cull/opaque/evaluated/after", Kind::cost},
+    Rule{"/shadow_cull/opaque/evaluated", Kind::follows},
+    Rule{"/shadow_cull/opaque/wrongly_removed", Kind::cost},
+    Rule{"/shadow_cull/opaque/lost_irradiance", Kind::cost},
+    Rule{"/shadow_cull/maps/unlimited", Kind::cost},
+    Rule{"/shadow_cull/maps", Kind::follows},
 };
 
 // Sets of samples are shaded like those of the whole view: "/samples/fog/missed" counts as "/shading/missed".
@@ -97,8 +107,16 @@ std::string as_shading(const std::string& pointer) {
   return "/shading/waves" + (size_end == std::string::npos ? "" : rest.substr(size_end));
 }
 
+// Ways to take out what lies in shadow count alike: "/shadows/culls/0/pairs/after" as "/shadow_cull/pairs/after".
+std::string as_shadow_cull(const std::string& pointer) {
+  constexpr std::string_view k_ways = "/shadows/culls/";
+  if (!pointer.starts_with(k_ways)) return pointer;
+  const std::size_t end = pointer.find('/', k_ways.size());
+  return "/shadow_cull" + (end == std::string::npos ? "" : pointer.substr(end));
+}
+
 Kind kind_of(const std::string& of) {
-  const std::string pointer = as_shading(of);
+  const std::string pointer = as_shadow_cull(as_shading(of));
   for (const Rule& rule : k_rules)
     if (pointer.compare(0, rule.prefix.size(), rule.prefix) == 0) return rule.kind;
   return Kind::fixed;

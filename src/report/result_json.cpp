@@ -15,6 +15,7 @@
 #include "report/machine.h"
 #include "report/preset_ranking.h"
 #include "report/reaction_json.h"
+#include "report/shadows_json.h"
 #include "run/gate.h"
 
 namespace clusterbench::report {
@@ -320,6 +321,7 @@ Json timing(const run::TimingResult& t) {
                   {"unfitted_ns", to_json(t.fit->unfitted_ns)},
                   {"ratio", six_digits(t.fit->ratio.ratio)},
                   {"ci95", to_json(t.fit->ratio.ci95)}};
+  if (!t.shadow_culls.empty()) out["shadow_cull"] = shadow_times_to_json(t.shadow_culls);
   const run::Disturbance& d = t.disturbance;
   const auto cores = [&](double busy_s) { return six_digits(d.seconds > 0.0 ? busy_s / d.seconds : 0.0); };
   out["disturbed"] = {
@@ -460,6 +462,7 @@ Json case_to_json(const run::CaseResult& case_result) {
   if (case_result.fit) out["fit"] = fit_to_json(*case_result.fit);
   if (case_result.reaction) out["react"] = reaction_to_json(*case_result.reaction);
   if (case_result.fallback) out["fallback"] = fallback_to_json(*case_result.fallback);
+  if (Json shadows = shadows_to_json(case_result); !shadows.empty()) out["shadows"] = std::move(shadows);
   if (case_result.timing) out["timing"] = timing(*case_result.timing);
   if (case_result.count) out["count"] = count(*case_result.count);
   if (case_result.details) out["details"] = details_to_json(*case_result.details);

@@ -16,6 +16,7 @@
 #include "report/ratios.h"
 #include "report/reaction_json.h"
 #include "report/samples_table.h"
+#include "report/shadows_table.h"
 #include "report/stability_table.h"
 #include "report/timing_warnings.h"
 #include "report/warnings.h"
@@ -305,7 +306,8 @@ std::string render_table(const Json& result, bool colour) {
     out += number_of(result["skipped"].size(), "combination") + " skipped; the result says why.\n";
   return out + samples_table(result) + lookup_table(result) + stability_table(result) + fit_table(result) +
          reaction_table(result) + fallback_table(result) + precision_table(result) + pre_cull_table(result) +
-         preset_table(result) + notes_text(result) + warnings_text(result) + timing_warnings(cases);
+         shadows_table(result) + preset_table(result) + notes_text(result) + warnings_text(result) +
+         timing_warnings(cases);
 }
 
 }  // namespace clusterbench::report

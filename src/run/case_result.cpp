@@ -86,6 +86,8 @@ CaseResult case_result(const config::Config& config, const Plan& whole, const Ca
   add_samples(config, whole.scenes[plan.scene], structure, out);
   if (!out.samples.empty()) out.depth_ranges = counted.depth_ranges;
   out.lookup = structure.lookup;
+  out.shadow_culls = method.shadow_culls;
+  if (counted.sharing) out.shared_frusta = {*config.shared_frusta, *counted.sharing};
   config::LimitsRequest limits = config.limits;
   if (!plan.preset.empty()) limits.dropped_pairs.reset();  // what an engine's limits drop is what is asked for
   out.failures = failures_of(out, limits);

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "config/config.h"
 #include "measure/buffers.h"
 #include "measure/coherence.h"
 #include "measure/depth_ranges.h"
@@ -17,6 +18,8 @@
 #include "measure/occupancy.h"
 #include "measure/packing_loss.h"
 #include "measure/shading.h"
+#include "measure/shadow_cull.h"
+#include "measure/shared_frusta.h"
 #include "measure/stability.h"
 #include "measure/time_statistics.h"
 #include "run/counters/instruction_counter.h"
@@ -100,6 +103,32 @@ struct FitTimes {
   measure::Ratio ratio;            // frame_ns / unfitted_ns
 };
 
+// Of one way to take out of a method's lists what lies in shadow.
+struct ShadowCullResult {
+  config::ShadowCullRequest request;
+  measure::ShadowCullCounts counts;
+  bool has_truth = false, has_samples = false;  // what of the counts was counted
+  struct Maps {
+    std::uint64_t lights = 0;     // with a map
+    std::uint64_t made = 0;       // over the path: more where lights or surfaces move
+    std::uint64_t faces = 0;      // of those that were made
+    std::uint64_t texels = 0;     // likewise, into which light goes
+    std::uint64_t unlimited = 0;  // of these, without a distance
+    std::uint64_t bytes = 0;      // of all levels, of the maps that are kept at once
+  } maps;
+  // Wall time in this process; kept where the configuration asks for times.
+  struct Times {
+    double cast_ns = 0.0, reduce_ns = 0.0;         // of a map, mean
+    double step_mean_ns = 0.0, step_max_ns = 0.0;  // of a frame's lists, on one thread
+  } times;
+};
+
+// What sharing shadow maps saves, whatever the method and grid are.
+struct SharedFrustaResult {
+  config::SharedFrustaRequest request;
+  measure::SharingCounts counts;
+};
+
 struct TimingResult {
   bool is_cold = false;                           // the times that follow: caches were swept before each frame
   std::string session;                            // the same where the same launches have measured
@@ -119,10 +148,11 @@ struct TimingResult {
   double ns_per_pair = std::numeric_limits<double>::quiet_NaN();  // frame time / pairs in lists; without: not a number
   double write_floor_ns = 0.0;                                    // per frame
   double floor_ratio = 0.0;                                       // of warm times
-  std::optional<Versus> against_first;  // against the group's first assigner, in the same storage if it has it
-  std::optional<FitTimes> fit;          // of slices with `fit`
-  int frames_timed = 0;                 // in the means
-  Disturbance disturbance;              // of the group, over all launches
+  std::optional<Versus> against_first;         // against the group's first assigner, in the same storage if it has it
+  std::optional<FitTimes> fit;                 // of slices with `fit`
+  std::vector<ShadowCullResult> shadow_culls;  // those of the case, for their times
+  int frames_timed = 0;                        // in the means
+  Disturbance disturbance;                     // of the group, over all launches
 };
 
 // Instructions of what TimingResult times.
@@ -209,6 +239,8 @@ struct CaseResult {
   std::optional<FitResult> fit;                      // of slices with `fit`
   std::optional<ReactionResult> reaction;            // of tiles that react
   std::optional<FallbackResult> fallback;            // of a storage whose room can end
+  std::vector<ShadowCullResult> shadow_culls;        // of lists, one per way; empty where not asked for
+  std::optional<SharedFrustaResult> shared_frusta;   // where asked for
   std::optional<TimingResult> timing;
   std::optional<CountResult> count;  // where asked for
   std::optional<Details> details;    // with cells, where asked for

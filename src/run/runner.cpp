@@ -274,6 +274,7 @@ class Run {
       if (!timings.empty()) {
         finished.timing = timings[i];
         finished.timing->session = session_;
+        finished.timing->shadow_culls = finished.shadow_culls;
       }
       if (const auto count = counts_.find(finished.id); count != counts_.end()) finished.count = count->second;
       ++progress_.cases_done;

@@ -40,6 +40,7 @@ bool follows_surfaces(const grid::GridSpec& grid) {
 
 bool needs_triangles(const config::Config& config) {
   return std::ranges::any_of(config.sample_sets, &config::SampleSetRequest::needs_triangles) ||
+         !config.shadow_culls.empty() ||
          std::ranges::any_of(
              config.assigners,
              [](const config::MethodRequest& method) { return assign::find_assigner(method.name)->needs.depth; }) ||
@@ -155,6 +156,12 @@ Json identity(const config::Config& config, const SceneData& data, const CasePla
   if (config.stability) {
     const config::StabilityRequest& stability = *config.stability;
     all["stability"] = {stability.steps, stability.step_mm, stability.step_deg, stability.window};
+  }
+  for (const config::ShadowCullRequest& cull : config.shadow_culls)
+    all["shadow_cull"].push_back({cull.map.resolution, depth::name_of(cull.map.bound), cull.map.near_m, cull.bias_m});
+  if (config.shared_frusta) {
+    const config::SharedFrustaRequest& frusta = *config.shared_frusta;
+    all["shadow_frusta"] = {frusta.apart_m, frusta.turned_deg, frusta.growth};
   }
   const config::PrecisionRequest& precision = config.precisions[plan.precision];
   if (!plan.preset.empty()) all["preset"] = plan.preset;
@@ -418,6 +425,8 @@ class Expansion {
         if (const std::string reason = set_obstacle(request, plan.scenes[i]); !reason.empty())
           plan.skipped.push_back(
               {plan.scenes[i].scene.name + "/samples " + measure::name_of(request.set), reason, false});
+      if (const std::string reason = shadow_obstacle(plan.scenes[i]); !config_.shadow_culls.empty() && !reason.empty())
+        plan.skipped.push_back({plan.scenes[i].scene.name + "/shadow_cull", reason, false});
     }
   }
 
@@ -448,6 +457,10 @@ std::string set_obstacle(const config::SampleSetRequest& request, const SceneDat
   });
   if (!request.needs_bounds() || has_bounds) return "";
   return data.scene.lights.empty() ? "the scene has no lights" : "no light of the scene has an end";
+}
+
+std::string shadow_obstacle(const SceneData& data) {
+  return !data.geometry || data.geometry->empty() ? "the scene has no triangles" : "";
 }
 
 std::vector<Method> methods_of(const GroupPlan& group) {

@@ -77,6 +77,9 @@ struct SceneData {
 // Why a scene cannot have a set of samples; "" if it can.
 std::string set_obstacle(const config::SampleSetRequest& request, const SceneData& data);
 
+// Why a scene's lights cast no shadows; "" if they do.
+std::string shadow_obstacle(const SceneData& data);
+
 struct Plan {
   std::vector<SceneData> scenes;  // loaded, ranges resolved
   std::vector<GroupPlan> groups;

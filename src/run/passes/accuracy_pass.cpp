@@ -1,5 +1,7 @@
 #include "run/passes/accuracy_pass.h"
 
+#include <glm/trigonometric.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -7,6 +9,7 @@
 #include "assign/contract/storage.h"
 #include "run/frame_lights.h"
 #include "run/frame_samples.h"
+#include "run/light_shadows.h"
 #include "run/path_culls.h"
 
 namespace clusterbench::run {
@@ -31,10 +34,14 @@ struct PreparedFrame {
 
 class MethodMeter {
  public:
+  // `shadows`: null where nothing is asked of them.
   MethodMeter(const config::Config& config, const Method& method, const cull::PreCull& pre_cull,
-              std::uint32_t most_lights, ListsOverFrames over_frames)
-      : config_(config), most_lights_(most_lights), run_(config, method, pre_cull) {
+              std::uint32_t most_lights, ListsOverFrames over_frames, LightShadows* shadows)
+      : config_(config), most_lights_(most_lights), shadows_(shadows), run_(config, method, pre_cull) {
     measures_.method = method;
+    if (shadows != nullptr && method.answer == assign::Answer::lists)
+      for (const config::ShadowCullRequest& request : config.shadow_culls)
+        shadow_culls_.emplace_back(request, shadow_culls_.size());
     measures_.has_cells = run_.has_cells();
     if (!pre_cull.is_none()) cull_meter_.emplace(pre_cull, sets_of(config));
     if (over_frames == ListsOverFrames::compared && run_.has_cells()) list_changes_.emplace();
@@ -55,6 +62,14 @@ class MethodMeter {
     occupancy_->add_frame(now.frame.index, *lists_);
     if (list_changes_) list_changes_->add(*lists_);
     if (config_.check_accuracy) compare(now, grid);
+    for (ShadowCullMeter& cull : shadow_culls_)
+      cull.add(*shadows_, now.frame, grid, *lists_, config_.check_accuracy ? &now.truth.lists : nullptr);
+  }
+  // Some samples of visible surfaces; `is_lit`: for each way to take out what lies in shadow.
+  void ask_lit_at(const grid::Grid& grid, std::span<const grid::Sample> samples, const measure::NeededLights& needed,
+                  const std::vector<std::vector<bool>>& is_lit) {
+    for (std::size_t i = 0; i < shadow_culls_.size(); ++i)
+      shadow_culls_[i].add_samples(grid, samples, needed, is_lit[i]);
   }
 
   const CulledRun& run() const { return run_; }
@@ -73,6 +88,7 @@ class MethodMeter {
     if (occupancy_) out.occupancy = occupancy_->result();
     if (list_changes_) out.list_changes = list_changes_->result();
     if (cull_meter_) out.pre_cull = cull_meter_->result();
+    for (const ShadowCullMeter& cull : shadow_culls_) out.shadow_culls.push_back(cull.result(*shadows_));
     return out;
   }
 
@@ -96,9 +112,11 @@ class MethodMeter {
 
   const config::Config& config_;
   std::uint32_t most_lights_;  // that it gets in a frame
+  LightShadows* shadows_;
   CulledRun run_;
   std::optional<PreCullMeter> cull_meter_;
-  const assign::Lists* lists_ = nullptr;  // of the cells, in the current frame
+  std::vector<ShadowCullMeter> shadow_culls_;  // one per way, of lists alone
+  const assign::Lists* lists_ = nullptr;       // of the cells, in the current frame
   std::optional<measure::OccupancyMeter> occupancy_;
   std::optional<ListChangeMeter> list_changes_;
   MethodMeasures measures_;
@@ -218,12 +236,31 @@ void ask_at_samples(const PreparedFrame& now, std::vector<MethodMeter>& methods,
   }
 }
 
+// Which of the needed lights are lit, by true shadow rays.
+void ask_lit(const config::Config& config, const PreparedFrame& now, const grid::Grid& grid,
+             const LightShadows& shadows, std::vector<MethodMeter>& methods, const std::atomic<bool>& stop) {
+  for (std::size_t set = 0; set < now.samples.size(); ++set) {
+    if (config.sample_sets[set].set != measure::SampleSet::opaque) continue;
+    const std::span<const grid::Sample> all = now.samples[set].samples;
+    for (std::size_t begin = 0; begin < all.size() && !stop; begin += k_samples_at_once) {
+      const std::span<const grid::Sample> some = all.subspan(begin, std::min(k_samples_at_once, all.size() - begin));
+      const measure::NeededLights needed = measure::needed_lights(now.frame, some);
+      const std::vector<std::vector<bool>> is_lit = shadows.lit(some, needed);
+      for (MethodMeter& method : methods) method.ask_lit_at(grid, some, needed, is_lit);
+    }
+  }
+}
+
 void add_depth_ranges(const PreparedFrame& now, const grid::ScreenGrid& grid, AccuracyResult& result) {
   for (const FrameSampleSet& set : now.samples) {
     if (!set.picture) continue;
     if (!result.depth_ranges) result.depth_ranges.emplace();
     measure::add_frame(*result.depth_ranges, *set.picture, set.samples, grid);
   }
+}
+
+measure::SharingLimits sharing_limits(const config::SharedFrustaRequest& request) {
+  return {request.apart_m, glm::radians(request.turned_deg), request.growth};
 }
 
 PreparedFrame prepare(const config::Config& config, const GroupPlan& group, const PathFrames& path,
@@ -256,16 +293,20 @@ CaseSide structure_side(const StructureMeasures& measures) {
 AccuracyResult accuracy_pass(const config::Config& config, const SceneData& data, const GroupPlan& group,
                              const PathFrames& path, const std::function<void(int frame)>& on_frame,
                              const std::atomic<bool>& stop, ListsOverFrames over_frames) {
+  std::optional<LightShadows> shadows;
+  if (!config.shadow_culls.empty() && shadow_obstacle(data).empty()) shadows.emplace(config, data, path);
   const GroupCulls culls(config, group, path);
   std::vector<MethodMeter> methods;
   for (const Method& method : culls.methods)
-    methods.emplace_back(config, method, culls.path.of(method), culls.most_lights_of(method), over_frames);
+    methods.emplace_back(config, method, culls.path.of(method), culls.most_lights_of(method), over_frames,
+                         shadows ? &*shadows : nullptr);
   std::vector<CaseMeter> cases;
   for (const CasePlan& case_plan : group.cases) cases.emplace_back(config, case_plan);
 
   std::vector<measure::PackingLossMeter> losses(config.compares_precisions() ? config.precisions.size() : 0);
 
   AccuracyResult result;
+  if (config.shared_frusta) result.sharing.emplace();
   FrameSamples samples(config, data, path);
   const grid::GridSpec& spec = config.grids[group.grid];
   GridOfFrames grids(spec);
@@ -278,6 +319,8 @@ AccuracyResult accuracy_pass(const config::Config& config, const SceneData& data
     const PreparedFrame now = prepare(config, group, path, samples, grids, index);
     if (moves) moves->add(grids.grid().screen(), path.spans(spec)[static_cast<std::size_t>(index)]);
     for (std::size_t i = 0; i < losses.size(); ++i) losses[i].add_frame(now.lights.packed(i));
+    if (shadows) shadows->start(now.frame);
+    if (result.sharing) measure::add_frame(*result.sharing, now.frame, sharing_limits(*config.shared_frusta));
     for (MethodMeter& method : methods) {
       if (stop) return result;
       method.add(now, grids.grid());
@@ -285,6 +328,7 @@ AccuracyResult accuracy_pass(const config::Config& config, const SceneData& data
         if (meter.method() == method.method()) meter.add(now, grids.grid(), method);
     }
     ask_at_samples(now, methods, cases, stop);
+    if (shadows) ask_lit(config, now, grids.grid(), *shadows, methods, stop);
     if (stop) return result;
     if (grids.grid().kind() == grid::Kind::frustum) add_depth_ranges(now, grids.grid().screen(), result);
   }

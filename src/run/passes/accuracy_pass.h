@@ -20,8 +20,9 @@ struct MethodMeasures {
   measure::Occupancy occupancy;
   measure::ErrorCounts error;  // of the lists, before a storage drops anything
   std::uint64_t tests_done = 0, fallbacks = 0;
-  std::optional<ListChanges> list_changes;  // with cells, where asked for
-  std::optional<PreCullCounts> pre_cull;    // where there is one
+  std::optional<ListChanges> list_changes;     // with cells, where asked for
+  std::optional<PreCullCounts> pre_cull;       // where there is one
+  std::vector<ShadowCullResult> shadow_culls;  // of lists, one per way, where asked for
 };
 
 // What samples find in one case's light structure, and what it takes.
@@ -38,6 +39,7 @@ struct AccuracyResult {
   std::vector<StructureMeasures> structures;  // one per case of the group
   std::vector<measure::PackingLoss> losses;   // one per precision of the configuration; none if it has float32 alone
   std::optional<measure::DepthRanges> depth_ranges;  // of visible surfaces in a frustum grid, where asked for
+  std::optional<measure::SharingCounts> sharing;     // of shadow maps, where asked for
   std::optional<GridMoves> moves;                    // of a grid that follows what frames need
   grid::Grid last_grid;
   bool is_complete = false;  // false: stopped before the end
