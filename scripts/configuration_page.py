@@ -21,7 +21,7 @@ TABLES = {
     "rig": [("", "/definitions/rig")],
     "tiled": [("", "/definitions/frustum"), ("tiles.", "/definitions/tiles"), ("slices.", "/definitions/slices"),
               ("slices.fit.", "/definitions/slices/properties/fit/anyOf/0"),
-              ("react.", "/definitions/react/anyOf/0")],
+              ("react.", "/definitions/react")],
     "cascades": [("", "/definitions/cascades")],
     "world": [("", "/definitions/world"), ("bounds.", "/definitions/world/properties/bounds/anyOf/1")],
     "precision": [("", "/definitions/precision")],

@@ -25,12 +25,12 @@ function counted<Part>(label: string, about: string, of: (part: Part) => number)
 }
 
 // Shares that are saved; below 0 it costs.
-function shares<Part extends { saved: Saved }>(): Column<Of<Part>>[] {
+function shares<Part extends { saved?: Saved }>(): Column<Of<Part>>[] {
   const share = (label: string, about: string, of: (saved: Saved) => number | null): Column<Of<Part>> => ({
     label,
     about,
-    value: ({ part }) => of(part.saved),
-    show: ({ part }) => format.percent(of(part.saved)),
+    value: ({ part }) => (part.saved ? of(part.saved) : null),
+    show: ({ part }) => format.percent(part.saved ? of(part.saved) : null),
   });
   return [
     share("entries saved", "High-water mark of the entries to allocate", (saved) => saved.index_entries),

@@ -412,7 +412,7 @@ export type Result = {
       of?: string; // The method whose lists are counted; only of entries
       most_lights?: number; // Lights that get a bit at most; absent without a limit [lights, over the case]
       tiles: {
-        asked: [number, number]; // Across and down, where nothing makes them larger [tiles]
+        asked: [number, number]; // Across and down, where nothing makes them larger [tiles, over the case]
         fewest: [number, number]; // The fewest across and the fewest down [tiles, over frames]
         per_frame: Extremes; // In a frame [tiles, over frames]
       }; // Tiles of the frames
@@ -426,8 +426,8 @@ export type Result = {
         changed: number; // Steps to other tiles; a method is then built again, and all lists are new [steps, over the path]
       }; // How tiles change from frame to frame
       reacting: FitSide; // This case
-      fixed: FitSide; // The same case in the tiles asked for
-      saved: Saved; // 1 - reacting / fixed: below 0 where reacting costs; null where the other case has none
+      fixed?: FitSide; // The same case in the tiles asked for; absent where these make more than a million cells
+      saved?: Saved; // 1 - reacting / fixed: below 0 where reacting costs; null where the other case has none; absent without it
     }; // Of tiles that react (react of a grid): how often they did, and what that saves and costs beside the same case in the tiles that were asked for
     fallback?: {
       frames: number; // With a cell that reads all lights [frames, over the path]

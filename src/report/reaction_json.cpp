@@ -23,7 +23,8 @@ const Cells k_reaction_headings{"",        "assigner", "storage", "reacted", "ov
 
 Cells reaction_row(const Json& result_case) {
   const Json& react = result_case["react"];
-  const auto saving = [&](const char* key) { return against_other(react["saved"], key); };
+  const Json saved = react.contains("saved") ? react["saved"] : Json{{"evaluated", Json::object()}};
+  const auto saving = [&](const char* key) { return against_other(saved, key); };
   return {"",
           method_name(result_case),
           shown(result_case["storage"]),
@@ -35,7 +36,7 @@ Cells reaction_row(const Json& result_case) {
           saving("bytes"),
           saving("pairs"),
           saving("false_positives"),
-          evaluated_against_other(react["saved"])};
+          evaluated_against_other(saved)};
 }
 
 std::string reaction_text(const Json& react) {
@@ -89,7 +90,7 @@ std::string table_beside(const Json& result, const char* part, const std::string
 
 Json reaction_to_json(const run::ReactionResult& result) {
   const run::TileMoves& moves = result.moves;
-  const Json reacting = to_json(result.reacting), fixed = to_json(result.fixed);
+  const Json reacting = to_json(result.reacting);
   Json out{{"to", grid::name_of(result.reaction.to)}, {"most", result.reaction.most}};
   if (!result.reaction.of.empty()) out["of"] = result.reaction.of;
   if (result.reaction.most_lights > 0) out["most_lights"] = result.reaction.most_lights;
@@ -100,8 +101,9 @@ Json reaction_to_json(const run::ReactionResult& result) {
   out["frames"] = {{"reacted", moves.reacted}, {"over", moves.over}};
   out["moves"] = {{"steps", moves.steps}, {"changed", moves.changed}};
   out["reacting"] = reacting;
-  out["fixed"] = fixed;
-  out["saved"] = saved(reacting, fixed);
+  if (!result.fixed) return out;
+  out["fixed"] = to_json(*result.fixed);
+  out["saved"] = saved(reacting, out["fixed"]);
   return out;
 }
 

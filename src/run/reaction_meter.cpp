@@ -25,6 +25,11 @@ TileMoves tile_moves(const grid::GridSpec& spec, const PathFrames& path) {
   return moves;
 }
 
+bool can_be_counted_as_asked(const grid::GridSpec& spec, Vec2i viewport, int slices) {
+  const Vec2i tiles = grid::tile_counts(spec.tiles, viewport);
+  return static_cast<std::int64_t>(tiles.x) * tiles.y * slices <= k_most_cells_beside;
+}
+
 std::vector<Vec3i> cells_of_frames(const grid::GridSpec& spec, const PathFrames& path, int slices) {
   std::vector<Vec3i> cells;
   for (const FrameReaction& frame : path.reactions(spec))

@@ -3,6 +3,7 @@
 // that were asked for; cells that read all lights (storage `packed` with max_entries) beside the same with room.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "config/config.h"
@@ -25,12 +26,18 @@ struct TileMoves {
 
 TileMoves tile_moves(const grid::GridSpec& spec, const PathFrames& path);
 
+// The tiles asked for may be so small that nobody could have them: Unity's 8 px make 13 million cells of a picture of
+// 1920 x 1080. Cases are counted in them, too, up to so many cells.
+inline constexpr std::int64_t k_most_cells_beside = 1'000'000;
+bool can_be_counted_as_asked(const grid::GridSpec& spec, Vec2i viewport, int slices);
+
 // A case beside the same in the grid whose tiles are those asked for.
 struct ReactionResult {
   grid::Reaction reaction;
   TileMoves moves;
   std::vector<Vec3i> cells;  // of each frame of the path
-  CaseSide reacting, fixed;
+  CaseSide reacting;
+  std::optional<CaseSide> fixed;  // none of too many cells
 };
 
 // The grid's cells of each frame of the path.

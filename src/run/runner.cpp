@@ -204,10 +204,13 @@ class Run {
       if (!counted_group.unfitted->is_complete) return;
     }
     if (reacts) {
-      counted_group.fixed = counted_beside(without_reaction(config_, group.grid));
-      if (!counted_group.fixed->is_complete) return;
+      const int slices = counted_group.counted.last_grid.cells().z;
+      if (can_be_counted_as_asked(spec, path.viewport(), slices)) {
+        counted_group.fixed = counted_beside(without_reaction(config_, group.grid));
+        if (!counted_group.fixed->is_complete) return;
+      }
       counted_group.tile_moves = tile_moves(spec, path);
-      counted_group.cells = cells_of_frames(spec, path, counted_group.counted.last_grid.cells().z);
+      counted_group.cells = cells_of_frames(spec, path, slices);
     }
     if (config_.stability) {
       const double cost = stability_cost_of(group);
@@ -268,7 +271,7 @@ class Run {
     for (std::size_t i = 0; i < counted.group.cases.size(); ++i) {
       CaseResult finished = case_result(config_, plan_, counted.group.cases[i], counted.frames, counted.counted, i);
       if (counted.unfitted) finished.fit = fit_result(counted, i);
-      if (counted.fixed) finished.reaction = reaction_result(counted, i);
+      if (counted.tile_moves) finished.reaction = reaction_result(counted, i);
       if (!counted.stabilities.empty()) finished.stability = counted.stabilities[i];
       if (!counted.details.empty()) finished.details = std::move(counted.details[i]);
       if (!timings.empty()) {
@@ -314,8 +317,10 @@ class Run {
 
   ReactionResult reaction_result(const CountedGroup& counted, std::size_t index) const {
     const CasePlan& plan = counted.group.cases[index];
-    return {*config_.grids[plan.grid].reaction, *counted.tile_moves, counted.cells,
-            method_side(counted.counted, plan.method(), index), method_side(*counted.fixed, plan.method(), index)};
+    ReactionResult out{*config_.grids[plan.grid].reaction, *counted.tile_moves, counted.cells,
+                       method_side(counted.counted, plan.method(), index), std::nullopt};
+    if (counted.fixed) out.fixed = method_side(*counted.fixed, plan.method(), index);
+    return out;
   }
 
   const config::Config& config_;

@@ -135,7 +135,7 @@ const Broken k_broken[] = {
     {R"({"scenes": ["a.glb"], "grids": [{"kind": "frustrum"}]})",
      "1:42 /grids/0/kind: found 'frustrum' (did you mean 'frustum'?), allowed: frustum, distance, cascades, world"},
     {R"({"scenes": ["a.glb"], "grids": [{"kind": "frustum", "levels": 3}]})",
-     "1:53 /grids/0/levels: 'levels' belongs to cascades, not to frustum, allowed: kind, slices, tiles"},
+     "1:53 /grids/0/levels: 'levels' belongs to cascades, not to frustum, allowed: kind, react, slices, tiles"},
     {R"({"scenes": ["a.glb"], "grids": [{"kind": "world", "cells": [1, 2]}]})",
      "1:60 /grids/0/cells: found a list of 2, allowed: a list of 3, each an integer from 1 to 4096"},
     {R"({"scenes": ["a.glb"], "grids": [{"kind": "cascades", "cells": [6, 4, 4]}]})",
