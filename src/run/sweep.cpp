@@ -72,6 +72,7 @@ std::vector<SceneData> load_scenes(const config::Config& config) {
     SceneData data;
     data.scene = request.rig ? scene::make_rig(*request.rig) : loaded(request);
     scene::resolve_ranges(data.scene, request.range_rule);
+    if (request.boxes) scene::assign_boxes(data.scene);
     data.scene.name = unique_name(name_part(data.scene.name), names);
     data.paths = scene::camera_paths(data.scene, request.camera);
     std::set<std::string> cameras;
@@ -112,6 +113,7 @@ Json identity(const config::SceneRequest& request, const SceneData& data) {
            {"frames", {static_cast<int>(request.camera.choice), request.camera.count, request.camera.rate_hz}},
            {"range_rule", {request.range_rule.cutoff_lux, request.range_rule.max_range_m}}};
   if (request.camera.fit != scene::CameraFit::contain) out["camera_fit"] = "vertical";
+  if (request.boxes) out["boxes"] = true;
   for (const Vec2d& offset : request.camera.jitter_px) out["jitter"].push_back({offset.x, offset.y});
   return out;
 }
@@ -180,13 +182,17 @@ std::string obstacle(const config::MethodRequest& request, grid::Kind kind, cons
   if (orthographic && !assigner.orthographic) return name + " does not take orthographic cameras";
   if (!assigner.points && has_lights(scene, scene::LightType::point)) return name + " takes no point lights";
   if (!assigner.spots && has_lights(scene, scene::LightType::spot)) return name + " takes no spot lights";
+  if (!assigner.boxes && has_lights(scene, scene::LightType::box)) return name + " takes no boxes";
   const std::string reason = assign::unavailability(assigner, request.params);
   return reason.empty() ? "" : name + " cannot run here: " + reason;
 }
 
 // Why it cannot see lights in this precision; "" if it can.
-std::string precision_obstacle(const assign::AssignerDescriptor& assigner, const config::PrecisionRequest& precision) {
-  if (!assigner.exact || !precision.is_lossy()) return "";
+std::string precision_obstacle(const assign::AssignerDescriptor& assigner, const config::PrecisionRequest& precision,
+                               const scene::Scene& scene) {
+  if (!precision.is_lossy()) return "";
+  if (has_lights(scene, scene::LightType::box)) return "boxes have no packed format; run them in float32";
+  if (!assigner.exact) return "";
   return assigner.name + " decides from the scene's own numbers, whatever the lights are packed in; run it in float32";
 }
 
@@ -348,7 +354,7 @@ class Expansion {
     const config::PrecisionRequest& request = config_.precisions[precision];
     const std::string part = request.is_lossy() ? "/" + request.label() : "";
     const assign::AssignerDescriptor& descriptor = *assign::find_assigner(config_.assigners[family.assigner].name);
-    const std::string impossible = precision_obstacle(descriptor, request);
+    const std::string impossible = precision_obstacle(descriptor, request, plan.scenes[group.scene].scene);
     if (!impossible.empty()) {
       skip(plan, family, name + part, impossible);
       return;
