@@ -16,7 +16,7 @@ LAYERS = ["core", "geom", "scene", "view", "depth", "grid", "cull", "assign", "m
 # The same for the folders of a layer. Those that stand side by side do not include each other; files beside the folders
 # stand above all of them.
 FOLDERS = {
-    "geom": [["numbers"], ["shapes"], ["ball", "search", "certificate", "single_precision", "projection"], ["filter"],
+    "geom": [["numbers"], ["shapes"], ["ball", "box", "search", "certificate", "single_precision", "projection"], ["filter"],
              ["spot"]],
     "assign": [["contract", "simd"], ["lists"], ["cull"], ["rows"], ["cone"], ["pipeline"], ["bounds"],
                ["box_grid", "distance", "exact", "raster", "storages"], ["occupied"], ["assigners"]],

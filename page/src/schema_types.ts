@@ -681,9 +681,11 @@ export type Result = {
           names: string[]; // Names in the scene, in the order of indices
           positions: string; // 3 numbers per light: x y z in view space, metres
           ranges: string; // Ranges in metres; Infinity: without end
-          spots: number; // Number of spots: they are the last ones [lights, over the frame]
+          spots: number; // Number of spots: they are the last ones, or those before the boxes [lights, over the frame]
           spot_axes: string; // 3 numbers per spot: unit vector in view space
           spot_half_angles: string; // Half-angle of each spot's cone, radians
+          boxes?: number; // Number of boxes: they are the last ones. Absent without any [boxes, over the frame]
+          box_half_axes?: string; // 9 numbers per box: three half axes in view space, metres. Absent without any
         }; // Lights in any list of the frame, reported or true, ascending by index; as rows of numbers
         pairs?: {
           lights: string; // Cell after cell (reported + false_negatives each) the gaps of its lights' indices, which start again in each cell

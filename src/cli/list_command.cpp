@@ -42,6 +42,7 @@ Json to_json(const assign::AssignerDescriptor& assigner) {
   Json lights = Json::array();
   if (assigner.points) lights.push_back("point");
   if (assigner.spots) lights.push_back("spot");
+  if (assigner.boxes) lights.push_back("box");
   Json needs = Json::array(), answers = Json::array();
   if (assigner.needs.depth) needs.push_back("depth");
   if (assigner.answers(assign::Answer::lists)) answers.push_back("lists");

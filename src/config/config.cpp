@@ -78,6 +78,9 @@ void add_scenes(const Json& scene, const std::string& pointer, const JsonText& t
   request.camera = path_request(scene);
   request.range_rule = {scene["range_rule"]["cutoff_lux"].get<double>(),
                         scene["range_rule"]["max_range"].get<double>()};
+  request.boxes = scene.value("boxes", false);
+  if (request.boxes && has_rig)
+    throw Error(text.file, text.where(pointer + "/boxes"), "a rig has no boxes; a scene from a file may have some");
   if (has_rig) {
     for (const scene::RigSpec& rig : rig_specs(scene["rig"])) {
       request.rig = rig;

@@ -33,6 +33,7 @@ struct SceneRequest {
   std::optional<scene::RigSpec> rig;  // made in memory, in place of a file
   scene::PathRequest camera;
   scene::RangeRule range_rule;
+  bool boxes = false;  // the scene's oriented boxes are assigned, too
 };
 
 // A named method with its resolved parameters: an assigner or a storage.

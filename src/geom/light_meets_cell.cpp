@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "geom/ball/ball_decider.h"
+#include "geom/box/box_decider.h"
 #include "geom/spot/spot_decider.h"
 
 namespace clusterbench::geom {
@@ -14,6 +15,14 @@ Verdict decided(const BallVolume& ball, const Cell& cell) {
 
 Verdict decided(const SpotVolume& spot, const Cell& cell) {
   return SpotDecider(spot).meets(cell);
+}
+
+Verdict decided(const BoxVolume& box, const Cell& cell) {
+  return BoxDecider(box).meets(cell) ? Verdict::yes : Verdict::no;
+}
+
+Verdict proven(const BoxVolume& box, const Cell& cell) {
+  return BoxDecider(box).meets_exactly(cell) ? Verdict::yes : Verdict::no;
 }
 
 Verdict proven(const BallVolume& ball, const Cell& cell) {

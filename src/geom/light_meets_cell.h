@@ -8,7 +8,8 @@
 
 namespace clusterbench::geom {
 
-// Balls: exact, never uncertain. Spots: proven, or uncertain (undecided), in the order of geom/spot/spot_decider.h.
+// Balls and boxes: exact, never uncertain. Spots: proven, or uncertain (undecided), in the order of
+// geom/spot/spot_decider.h.
 Verdict decide_meets(const LightVolume& light, const Cell& cell);
 // The same without the filter, to hold it against: slower.
 Verdict prove_meets(const LightVolume& light, const Cell& cell);

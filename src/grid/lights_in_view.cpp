@@ -27,6 +27,11 @@ double slack_of(const Vec3d& center, double range_m) {
 WorldBox box_around(const scene::WorldLight& light) {
   const double r = light.range_m;
   const Vec3d padding(0x1p-40 * (glm::length(light.position) + r));
+  if (light.type == scene::LightType::box) {
+    const Vec3d reach =
+        glm::abs(light.half_axes_m[0]) + glm::abs(light.half_axes_m[1]) + glm::abs(light.half_axes_m[2]) + padding;
+    return {light.position - reach, light.position + reach};
+  }
   if (light.type != scene::LightType::spot) return {light.position - r - padding, light.position + r + padding};
   const double beside = r * std::sin(light.outer_cone_rad);
   WorldBox box;

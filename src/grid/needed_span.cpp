@@ -26,6 +26,11 @@ double reach_of_cone(double angle_rad, double half_angle_rad) {
 // Depths or distances of one light. A spot's depths are those of its cone, capped by its ball.
 Span span_of(const view::Frame& frame, const scene::WorldLight& light, const Vec3d& center, bool by_distance) {
   const double middle = along(center, by_distance), r = light.range_m;
+  if (!by_distance && light.type == scene::LightType::box) {
+    double reach = 0.0;
+    for (const Vec3d& axis : light.half_axes_m) reach += std::abs((frame.view_space.rotation * axis).z);
+    return {middle - reach, middle + reach};
+  }
   if (by_distance || light.type != scene::LightType::spot) return {middle - r, middle + r};
   const double cosine = -(frame.view_space.rotation * light.direction).z;
   const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));

@@ -16,7 +16,7 @@ class GridCells : public TruthCells {
  public:
   GridCells(const view::Frame& frame, const grid::Grid& grid)
       : grid_(grid), space_(grid::space_of(grid, frame)), broad_phase_(grid.broad_phase()) {
-    if (!frame.ranges().spots.empty()) balls_ = grid.balls_around_cells();
+    if (!frame.ranges().spots.empty() || !frame.ranges().boxes.empty()) balls_ = grid.balls_around_cells();
   }
 
   std::uint32_t cell_count() const final { return grid_.cell_count(); }
@@ -41,7 +41,7 @@ class GridCells : public TruthCells {
  private:
   view::Space space_;
   std::unique_ptr<grid::BroadPhase> broad_phase_;
-  std::vector<geom::Ball> balls_;  // around the cells, where there are spots
+  std::vector<geom::Ball> balls_;  // around the cells, where there are spots or boxes
 };
 
 // What a spot reaches of one tile of a distance grid, as a filter knows it. What is proven of a shell is true of all
@@ -87,6 +87,8 @@ class ShellCells final : public GridCells {
       GridCells::settle(tile, shells, search);
     else if (search.is_spot())
       settle_spot(tile, shells, search);
+    else if (search.is_box())
+      settle_box(tile, shells, search);
     else
       settle_ball(tile, shells, search);
   }
@@ -119,6 +121,21 @@ class ShellCells final : public GridCells {
         if (!reached) reached.emplace(search.spot_decider().filter(), up_to(tile, shells.last));
         verdict = reached->meets(shape);
         return verdict == Verdict::uncertain ? search.decided(shape) : verdict;
+      });
+    }
+  }
+
+  void settle_box(std::uint32_t tile, const grid::IndexRange& shells, LightSearch& search) const {
+    const geom::BoxDecider& decider = search.box_decider();
+    std::optional<geom::BoxView> view;
+    for (int shell = shells.first; shell <= shells.last; ++shell) {
+      const std::uint32_t cell = cell_at(tile, shell);
+      const geom::ShellCell shape = shape_of(cell);
+      search.settle(cell, [&] {
+        const Verdict verdict = search.filtered(shape, ball_around(cell));
+        if (verdict != Verdict::uncertain) return verdict;
+        if (!view) view = decider.view_of(shape);
+        return decider.meets(shape, *view) ? Verdict::yes : Verdict::no;
       });
     }
   }

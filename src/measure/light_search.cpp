@@ -53,6 +53,10 @@ LightSearch::LightSearch(const geom::LightVolume& light)
     spot_.emplace(*spot);
     cone_.emplace(*spot, ball_.center);
   }
+  if (const auto* box = std::get_if<geom::BoxVolume>(&light)) {
+    box_.emplace(*box);
+    quick_box_.emplace(*box, ball_.center);
+  }
 }
 
 bool LightSearch::is_well_inside(const geom::Cell& cell, const Vec3d& p) {

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "geom/ball/ball_decider.h"
+#include "geom/box/box_decider.h"
+#include "geom/box/quick_box.h"
 #include "geom/shapes/ball_and_cone.h"
 #include "geom/shapes/cell.h"
 #include "geom/shapes/light_volume.h"
@@ -60,14 +62,22 @@ class LightSearch {
   explicit LightSearch(const geom::LightVolume& light);
 
   bool is_spot() const { return spot_.has_value(); }
+  bool is_box() const { return box_.has_value(); }
   bool is_endless() const { return std::isinf(ball_.radius); }
   const grid::BallInSpace& ball() const { return ball_; }
   const geom::BallDecider& ball_decider() const { return decider_; }  // of a point with an end
   const geom::SpotDecider& spot_decider() const { return *spot_; }    // of a spot
+  const geom::BoxDecider& box_decider() const { return *box_; }       // of a box
 
-  // What the filter tells of a cell, or of a part of one. `around` it is a ball; asked for spots alone.
+  // What the filter tells of a cell, or of a part of one. `around` it is a ball; asked for spots and boxes alone.
   template <class Shape>
   geom::Verdict filtered(const Shape& shape, const geom::Ball& around) const {
+    if (box_) {
+      if (quick_box_->surely_misses(Vec3d(around.center), around.radius)) return geom::Verdict::no;
+      const Vec3d middle(around.center);
+      return quick_box_->surely_holds(middle) && is_well_inside(shape, middle) ? geom::Verdict::yes
+                                                                               : geom::Verdict::uncertain;
+    }
     if (!spot_) return is_endless() ? geom::Verdict::yes : geom::Verdict::uncertain;
     if (cone_->surely_misses(around)) return geom::Verdict::no;
     const Vec3d middle(around.center);
@@ -77,6 +87,7 @@ class LightSearch {
   template <class Shape>
   geom::Verdict decided(const Shape& shape) const {
     if (spot_) return spot_->meets(shape);
+    if (box_) return box_->meets(shape) ? geom::Verdict::yes : geom::Verdict::no;
     return decider_.meets(shape) ? geom::Verdict::yes : geom::Verdict::no;
   }
 
@@ -100,12 +111,16 @@ class LightSearch {
 
  private:
   static bool is_well_inside(const geom::Cell& cell, const Vec3d& p);
-  std::uint64_t exact_decisions() const { return decider_.exact_decisions() + (spot_ ? spot_->exact_decisions() : 0); }
+  std::uint64_t exact_decisions() const {
+    return decider_.exact_decisions() + (spot_ ? spot_->exact_decisions() : 0) + (box_ ? box_->exact_decisions() : 0);
+  }
 
   grid::BallInSpace ball_;
   geom::BallDecider decider_;
   std::optional<geom::SpotDecider> spot_;  // and the cone: of spots
   std::optional<QuickCone> cone_;
+  std::optional<geom::BoxDecider> box_;  // and the quick one: of boxes
+  std::optional<geom::QuickBox> quick_box_;
   LightCells found_;
 };
 

@@ -14,7 +14,7 @@ class OccupiedTruthCells final : public TruthCells {
  public:
   OccupiedTruthCells(const view::Frame& frame, const grid::Grid& grid, const grid::OccupiedCells& cells)
       : space_(frame.view_space), tiles_(grid.screen().tiles), cells_(cells) {
-    if (frame.ranges().spots.empty()) return;
+    if (frame.ranges().spots.empty() && frame.ranges().boxes.empty()) return;
     for (const geom::FrustumCell& part : cells.parts) balls_.push_back(geom::ball_around(part));
   }
 
@@ -53,7 +53,7 @@ class OccupiedTruthCells final : public TruthCells {
   view::Space space_;
   const grid::Tiles& tiles_;
   const grid::OccupiedCells& cells_;
-  std::vector<geom::Ball> balls_;  // around the parts, where there are spots
+  std::vector<geom::Ball> balls_;  // around the parts, where there are spots or boxes
 };
 
 }  // namespace

@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <variant>
 
+#include "geom/box/box_decider.h"
+#include "geom/box/quick_box.h"
 #include "measure/light_reach.h"
 #include "measure/sample_tree.h"
 
@@ -29,6 +33,7 @@ double spot_falloff(const scene::WorldLight& spot, double cos_to_sample) {
 // What a surface that faces the light gets of it: inverse square with the extension's window, 1 - (d/r)^4.
 double irradiance_lux(const scene::WorldLight& light, const Vec3d& to_sample) {
   constexpr double k_smallest_square = 1e-4;  // 1 cm: a sample within the lamp. The window has no such limit.
+  if (light.type == scene::LightType::box) return 0.0;
   const double square = glm::dot(to_sample, to_sample), share = square / (light.range_m * light.range_m);
   const double window = std::clamp(1.0 - share * share, 0.0, 1.0);
   const double lux = light.luminous_intensity_cd * window / std::max(square, k_smallest_square);
@@ -36,6 +41,25 @@ double irradiance_lux(const scene::WorldLight& light, const Vec3d& to_sample) {
   if (light.type != scene::LightType::spot || square == 0.0) return lux;
   return lux * spot_falloff(light, glm::dot(to_sample, light.direction) / std::sqrt(square));
 }
+
+// A box in space around the eye, along the world's axes, and the samples that lie in it: exactly.
+class BoxOfSamples {
+ public:
+  BoxOfSamples(const scene::WorldLight& light, const Vec3d& eye)
+      : volume_(std::get<geom::BoxVolume>(view::volume_of(light, view::Space{eye, Mat3d(1.0)}))),
+        quick_(volume_, light.position - eye),
+        decider_(volume_) {}
+
+  bool holds(const Vec3d& from_eye) const {
+    if (quick_.surely_misses(from_eye, 0.0)) return false;
+    return quick_.surely_holds(from_eye) || decider_.holds(from_eye);
+  }
+
+ private:
+  geom::BoxVolume volume_;
+  geom::QuickBox quick_;
+  geom::BoxDecider decider_;
+};
 
 }  // namespace
 
@@ -65,8 +89,11 @@ assign::Lists lights_reaching(const view::Frame& frame, std::span<const grid::Sa
   pairs.start(static_cast<std::uint32_t>(samples.size()));
   for (std::uint32_t index = 0; index < frame.lights.size(); ++index) {
     const scene::WorldLight& light = frame.lights[index];
+    std::optional<BoxOfSamples> box;
+    if (light.type == scene::LightType::box && light.range_m > 0.0) box.emplace(light, frame.view_space.origin);
     tree.each_near(light.position - frame.view_space.origin, light.range_m, [&](std::uint32_t sample) {
-      if (reaches(light, way_to(samples[sample], light))) pairs.add(sample, index);
+      if (box ? box->holds(samples[sample].from_eye) : reaches(light, way_to(samples[sample], light)))
+        pairs.add(sample, index);
     });
   }
   assign::Lists lists;

@@ -17,7 +17,7 @@ void settle_row(const grid::CellRow& row, const TruthCells& cells, LightSearch& 
   const auto settle = [&](int first, int last) {
     for (int column = first; column <= last; ++column) cells.settle(first_cell(column), row.slices, search);
   };
-  if (search.is_spot() || row.inner.empty()) return settle(row.outer.first, row.outer.last);
+  if (search.is_spot() || search.is_box() || row.inner.empty()) return settle(row.outer.first, row.outer.last);
   settle(row.outer.first, row.inner.first - 1);
   search.take(first_cell(row.inner.first), static_cast<std::uint32_t>(row.inner.count()));
   settle(row.inner.last + 1, row.outer.last);

@@ -29,8 +29,9 @@ Truth find_truth(const view::Frame& frame, const grid::Grid& grid, int threads);
 // For cells that depths leave of a frustum grid's: a light is in a cell if it meets one of its parts.
 Truth find_truth(const view::Frame& frame, const grid::Grid& grid, const grid::OccupiedCells& cells, int threads);
 
-// Distance from the light's centre (apex) to the nearest point of cell ∩ volume's cone, divided by the range: how deep
-// a missed pair lies is 1 - this. `light` is an index into frame.lights.
+// Distance from the light's centre (apex) to the nearest point of cell ∩ volume's cone, divided by the range; of a box
+// the scale about its middle at which it begins to touch the cell. How deep a missed pair lies is 1 - this. `light` is
+// an index into frame.lights.
 double relative_distance(const view::Frame& frame, const grid::Grid& grid, std::uint32_t cell, std::uint32_t light);
 double relative_distance(const geom::LightVolume& light, const geom::Cell& cell);
 

@@ -57,13 +57,12 @@ Json scene_of(const Json& result, const Json& result_case) {
   return {};
 }
 
-// The ways in which the scenes' cameras are fitted to the picture.
-Json fits_of(const Json& result) {
-  Json fits = Json::array();
+// What the scenes' requests say of a key, each answer once.
+Json answers_of(const Json& result, const char* key) {
+  Json answers = Json::array();
   for (const Json& scene : result["config"].value("scenes", Json::array()))
-    if (scene.contains("camera_fit") && std::ranges::find(fits, scene["camera_fit"]) == fits.end())
-      fits.push_back(scene["camera_fit"]);
-  return fits;
+    if (scene.contains(key) && std::ranges::find(answers, scene[key]) == answers.end()) answers.push_back(scene[key]);
+  return answers;
 }
 
 // Why a case that both results name alike is another one: the settings in which it differs.
@@ -85,7 +84,8 @@ std::vector<std::string> other_settings(const Json& base, const Json& base_case,
   for (const char* key :
        {"seed", "shading", "samples", "lookup", "stability", "jitter", "shadow_cull", "shadow_frusta"})
     tell(base["config"], next["config"], key, (std::string("/") + key).c_str());
-  if (fits_of(base) != fits_of(next)) out.emplace_back("camera_fit");
+  for (const char* key : {"camera_fit", "boxes"})
+    if (answers_of(base, key) != answers_of(next, key)) out.emplace_back(key);
   if (out.empty()) out.emplace_back("something that results do not tell");
   return out;
 }

@@ -46,6 +46,10 @@ Json frame_to_json(const run::DetailsFrame& f) {
                    {"spots", f.spot_count},
                    {"spot_axes", f.spot_axes},
                    {"spot_half_angles", f.spot_half_angles}};
+  if (f.box_count > 0) {
+    out["lights"]["boxes"] = f.box_count;
+    out["lights"]["box_half_axes"] = f.box_half_axes;
+  }
   if (f.has_pairs) out["pairs"] = {{"lights", f.pair_lights}, {"marks", f.pair_marks}};
   return out;
 }

@@ -22,9 +22,9 @@ std::size_t bytes_without_pairs(const DetailsFrame& frame) {
     for (const char letter : name)  // JSON escapes up to six characters long
       if (letter == '"' || letter == '\\' || static_cast<unsigned char>(letter) < ' ') bytes += 5;
   }
-  for (const std::string* text :
-       {&frame.boundaries, &frame.cells, &frame.reported, &frame.truth, &frame.false_positives, &frame.false_negatives,
-        &frame.lights, &frame.light_positions, &frame.light_ranges, &frame.spot_axes, &frame.spot_half_angles})
+  for (const std::string* text : {&frame.boundaries, &frame.cells, &frame.reported, &frame.truth,
+                                  &frame.false_positives, &frame.false_negatives, &frame.lights, &frame.light_positions,
+                                  &frame.light_ranges, &frame.spot_axes, &frame.spot_half_angles, &frame.box_half_axes})
     bytes += text->size();
   return bytes;
 }
@@ -48,12 +48,14 @@ void append(std::vector<double>& row, const Vec3d& v) {
 
 void pack_lights(DetailsFrame& out, const view::Frame& frame, const scene::Scene& scene,
                  const std::vector<std::uint32_t>& lights) {
-  std::vector<double> positions, ranges, axes, angles;
+  std::vector<double> positions, ranges, axes, angles, half_axes;
   for (const std::uint32_t light : lights) {
     const scene::WorldLight& at = frame.lights[light];
     append(positions, frame.view_space.rotation * (at.position - frame.view_space.origin));
     ranges.push_back(at.range_m);
     out.light_names.push_back(scene.lights[static_cast<std::size_t>(at.rig_index)].name);
+    if (at.type == scene::LightType::box)
+      for (const Vec3d& axis : at.half_axes_m) append(half_axes, frame.view_space.rotation * axis);
     if (at.type != scene::LightType::spot) continue;
     append(axes, frame.view_space.rotation * at.direction);
     angles.push_back(at.outer_cone_rad);
@@ -62,6 +64,8 @@ void pack_lights(DetailsFrame& out, const view::Frame& frame, const scene::Scene
   out.light_positions = run_length_text(positions);
   out.light_ranges = run_length_text(ranges);
   out.spot_count = angles.size();
+  out.box_count = half_axes.size() / 9;
+  out.box_half_axes = run_length_text(half_axes);
   out.spot_axes = run_length_text(axes);
   out.spot_half_angles = run_length_text(angles);
 }

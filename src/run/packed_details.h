@@ -35,8 +35,10 @@ struct DetailsFrame {
   std::vector<std::string> light_names;  // of the lights in any list
   // Beside the names; lights as gaps of the lists' indices, positions x y z in view space.
   std::string lights, light_positions, light_ranges;
-  std::size_t spot_count = 0;               // the last ones are spots:
+  std::size_t spot_count = 0;               // the last ones, or those before the boxes, are spots:
   std::string spot_axes, spot_half_angles;  // x y z in view space; radians
+  std::size_t box_count = 0;                // the last ones are boxes:
+  std::string box_half_axes;                // three times x y z in view space
 
   bool has_pairs = false;
   std::string pair_lights, pair_marks;  // cell after cell; lights as gaps that start again in each cell

@@ -54,6 +54,7 @@ SceneResult scene_result(const SceneData& data, const config::SceneRequest& requ
   int given = 0, from_intensity = 0, clamped = 0;
   std::vector<double> ranges;
   for (const scene::Light& light : scene.lights) {
+    if (light.type == scene::LightType::box) continue;
     ++(light.type == scene::LightType::point  ? out.points
        : light.type == scene::LightType::spot ? out.spots
                                               : out.directionals);

@@ -74,6 +74,7 @@ std::vector<SceneData> load_scenes(const config::Config& config) {
     SceneData data;
     data.scene = request.rig ? scene::make_rig(*request.rig) : loaded(request);
     scene::resolve_ranges(data.scene, request.range_rule);
+    if (request.boxes) scene::assign_boxes(data.scene);
     data.scene.name = unique_name(name_part(data.scene.name), names);
     data.paths = scene::camera_paths(data.scene, request.camera);
     std::set<std::string> cameras;
@@ -116,6 +117,7 @@ Json identity(const config::SceneRequest& request, const SceneData& data) {
            {"frames", {static_cast<int>(request.camera.choice), request.camera.count, request.camera.rate_hz}},
            {"range_rule", {request.range_rule.cutoff_lux, request.range_rule.max_range_m}}};
   if (request.camera.fit != scene::CameraFit::contain) out["camera_fit"] = "vertical";
+  if (request.boxes) out["boxes"] = true;
   for (const Vec2d& offset : request.camera.jitter_px) out["jitter"].push_back({offset.x, offset.y});
   return out;
 }
@@ -192,18 +194,24 @@ std::string obstacle(const config::MethodRequest& request, grid::Kind kind, cons
   if (orthographic && !assigner.orthographic) return name + " does not take orthographic cameras";
   if (!assigner.points && has_lights(scene, scene::LightType::point)) return name + " takes no point lights";
   if (!assigner.spots && has_lights(scene, scene::LightType::spot)) return name + " takes no spot lights";
+  if (!assigner.boxes && has_lights(scene, scene::LightType::box)) return name + " takes no boxes";
   const std::string reason = assign::unavailability(assigner, request.params);
   return reason.empty() ? "" : name + " cannot run here: " + reason;
 }
 
 // Why it cannot see lights in this precision; "" if it can.
-std::string precision_obstacle(const assign::AssignerDescriptor& assigner, const config::PrecisionRequest& precision) {
-  if (!assigner.exact || !precision.is_lossy()) return "";
+std::string precision_obstacle(const assign::AssignerDescriptor& assigner, const config::PrecisionRequest& precision,
+                               const scene::Scene& scene) {
+  if (!precision.is_lossy()) return "";
+  if (has_lights(scene, scene::LightType::box)) return "boxes have no packed format; run them in float32";
+  if (!assigner.exact) return "";
   return assigner.name + " decides from the scene's own numbers, whatever the lights are packed in; run it in float32";
 }
 
 // Why a scene's lights cannot be culled so; "" if they can.
 std::string pre_cull_obstacle(const cull::PreCullSpec& pre_cull, const SceneData& data) {
+  if (!pre_cull.is_none() && has_lights(data.scene, scene::LightType::box))
+    return "pre-culls take points and spots; run boxes without";
   if (!pre_cull.needs_triangles() || (data.geometry && !data.geometry->empty())) return "";
   return "a visible set needs surfaces that hide, and the scene has no triangles";
 }
@@ -374,7 +382,7 @@ class Expansion {
     const std::string part =
         (pre_cull.is_none() ? "" : "/" + pre_cull.label()) + (request.is_lossy() ? "/" + request.label() : "");
     const assign::AssignerDescriptor& descriptor = *assign::find_assigner(config_.assigners[family.assigner].name);
-    std::string impossible = precision_obstacle(descriptor, request);
+    std::string impossible = precision_obstacle(descriptor, request, plan.scenes[group.scene].scene);
     if (impossible.empty()) impossible = pre_cull_obstacle(pre_cull, plan.scenes[group.scene]);
     if (!impossible.empty()) {
       skip(plan, family, name + part, impossible);

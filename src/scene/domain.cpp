@@ -47,8 +47,14 @@ std::string camera_location(const Scene& scene, const std::string& name) {
 void check_domain(const Scene& scene, std::span<const WorldLight> lights, double time_s) {
   for (const WorldLight& light : lights) {
     const bool has_position = is_in_domain(light.position), has_range = light.range_m >= 0.0;
-    if (has_position && has_range) continue;
+    const bool is_endless_box = light.type == LightType::box && !std::isfinite(light.range_m);
+    if (has_position && has_range && !is_endless_box) continue;
     const Light& source = scene.lights.at(static_cast<std::size_t>(light.rig_index));
+    if (has_position && light.type == LightType::box)
+      refuse(scene, node_location(scene, source.node),
+             "the box '" + source.name + "' reaches farther from its middle than " + nine_digits(geom::k_farthest_m) +
+                 " m",
+             time_s);
     const std::string subject = "the light '" + source.name + "' ";
     if (!has_position)
       refuse(scene, node_location(scene, source.node),

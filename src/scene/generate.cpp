@@ -11,7 +11,7 @@
 namespace clusterbench::scene {
 
 std::span<const GeneratorRow> generators() {
-  static const std::array<GeneratorRow, 14> k_rows{{
+  static const std::array<GeneratorRow, 15> k_rows{{
       {"hall-512", "512 point lights of 13 m in a hall of 200 x 55 x 200 m", "DaveH355", 512,
        [](Stage& s, int n) { build_hall(s, n, 13.0); }},
       {"hall-1024", "1024 point lights of 7 m in the same hall", "DaveH355", 1024,
@@ -39,6 +39,8 @@ std::span<const GeneratorRow> generators() {
       {"slope", "a hallway and open ground, both seen along their surfaces, with surfaces", "Persson 2015", 300,
        build_slope},
       {"mix", "a street with poles and leaves, both kinds of depths, with surfaces", "Persson 2015", 300, build_mix},
+      {"rooms", "rooms along a hallway with decals and environment probes as boxes, with surfaces",
+       "Wicked Engine 2018, decals and probes", 96, build_rooms},
   }};
   return k_rows;
 }

@@ -13,8 +13,8 @@ void warn_of_ranges_beyond_the_domain(Scene& scene) {
     std::size_t count = 0;
     std::string first;
     for (const Light& light : scene.lights)
-      if (std::isfinite(light.range_m) && light.range_m > 0.0 && is_meant(geom::range_in_domain(light.range_m)) &&
-          count++ == 0)
+      if (light.type != LightType::box && std::isfinite(light.range_m) && light.range_m > 0.0 &&
+          is_meant(geom::range_in_domain(light.range_m)) && count++ == 0)
         first = light.name;
     if (count > 0)
       scene.warnings.push_back(std::to_string(count) + (count == 1 ? " light" : " lights") + what +
@@ -27,7 +27,7 @@ void warn_of_ranges_beyond_the_domain(Scene& scene) {
 }  // namespace
 
 void resolve_range(Light& light, const RangeRule& rule) {
-  if (light.type == LightType::directional) return;
+  if (light.type == LightType::directional || light.type == LightType::box) return;
   if (light.range_given_m) {
     light.range_m = *light.range_given_m;
     light.range_source = RangeSource::given;

@@ -13,11 +13,11 @@
 
 namespace clusterbench::scene {
 
-enum class LightType : std::uint8_t { point, spot, directional };
+enum class LightType : std::uint8_t { point, spot, directional, box };
 enum class RangeSource : std::uint8_t { given, from_intensity, clamped_to_max };
 
-// One light instance: a node that refers to a KHR_lights_punctual definition. Range and intensity are not scaled by the
-// node's transform (the extension says so).
+// One light instance: a node that refers to a KHR_lights_punctual definition, or an oriented box that is assigned like
+// a light (assign_boxes). Range and intensity are not scaled by the node's transform (the extension says so); a box is.
 struct Light {
   std::string name;  // node name, else light name, else "light N"
   LightType type = LightType::point;
@@ -29,11 +29,13 @@ struct Light {
   RangeSource range_source = RangeSource::given;
   int definition = -1;  // index among the file's light definitions, which light channels move
   double inner_cone_rad = 0.0, outer_cone_rad = 0.78539816339744831;  // half-angles, spots only
+  Vec3d half_extents_m{0.0};                                          // boxes only, in the node's own space
 };
 
 // An oriented box (decal, probe) from a node's extras, which glTF leaves to applications:
 //   "extras": {"clusterbench_box": {"half_extents": [x, y, z]}}
-// in metres of the node's own space. Counted, assigned by later methods.
+// in metres of the node's own space: what the node's transform makes of it, scaled and sheared too, is the volume.
+// Counted; assigned where assign_boxes() made a light of it.
 struct OrientedBox {
   std::string name;
   int node = -1;
@@ -141,6 +143,9 @@ struct Scene {
 // Reads .gltf or .glb. Throws Error (file, JSON pointer) for what is broken in a part that this tool reads.
 Scene load_gltf(const std::filesystem::path& path);
 
+// Appends the scene's boxes to its lights, so that they are assigned. They light nothing: their intensity is 0.
+void assign_boxes(Scene& scene);
+
 void resolve_ranges(Scene& scene, const RangeRule& rule);
 void resolve_range(Light& light, const RangeRule& rule);
 
@@ -154,21 +159,28 @@ std::vector<bool> visible_nodes(const Scene& scene, double time_s);
 // The shortest turn (a quaternion) of -z, along which spots and cameras look, to a direction.
 Vec4d rotation_towards(const Vec3d& direction);
 
-// A point or spot light in world space at one time: what truth is computed from.
+// A point light, a spot light or a box in world space at one time: what truth is computed from.
 struct WorldLight {
   int rig_index = -1;  // index in Scene::lights
   LightType type = LightType::point;
   Vec3d position{0.0};
-  double range_m = 0.0;
+  double range_m = 0.0;                // of a box: how far its farthest corner is from its middle, rounded up
   Vec3d direction{0.0, 0.0, -1.0};     // unit up to rounding; spots
   double outer_cone_rad = 0.0;         // spots; in [0, pi/2]
   double inner_cone_rad = 0.0;         // spots: where their light begins to fall off; changes no volume
-  double luminous_intensity_cd = 1.0;  // the intensity times the colour's luminance (Rec. 709)
+  double luminous_intensity_cd = 1.0;  // the intensity times the colour's luminance (Rec. 709); boxes: 0
+  // Boxes: from the middle to the middles of three faces, so that the volume is all position + a * half_axes_m[0] + b *
+  // half_axes_m[1] + c * half_axes_m[2] with a, b and c from -1 to 1. Under a sheared node they are not orthogonal; a
+  // decal may have a thickness of 0.
+  std::array<Vec3d, 3> half_axes_m{};
 };
 
-// All point lights, then all spot lights, each in Scene::lights order. Directional lights touch everything and are left
-// out. A light that is invisible at that time has a range of 0, so that it lights nothing and the others keep their
-// indices.
+// How far the farthest corner of a box with these half axes is from its middle, rounded up.
+double corner_distance_m(const std::array<Vec3d, 3>& half_axes_m);
+
+// All point lights, then all spot lights, then all boxes, each in Scene::lights order. Directional lights touch
+// everything and are left out. A light that is invisible at that time has a range of 0, so that it lights nothing and
+// the others keep their indices.
 std::vector<WorldLight> world_lights(const Scene& scene, double time_s);
 
 // Where a camera stands: view = view_from_world * (world - eye). Rows are unit and orthogonal up to rounding: the

@@ -149,6 +149,13 @@ Light light_at(const Scene& scene, const Light& light, std::span<const Channel> 
   return out;
 }
 
+// A box with no extent at all has no volume, as a light has without a range.
+void set_box(WorldLight& out, const Vec3d& half_extents_m, const Mat4d& world) {
+  for (int axis = 0; axis < 3; ++axis)
+    out.half_axes_m[static_cast<std::size_t>(axis)] = half_extents_m[axis] * Vec3d(world[axis]);
+  out.range_m = geom::range_in_domain(corner_distance_m(out.half_axes_m));
+}
+
 WorldLight world_light(const Light& light, int rig_index, const Mat4d& world) {
   WorldLight out;
   out.rig_index = rig_index;
@@ -162,6 +169,7 @@ WorldLight world_light(const Light& light, int rig_index, const Mat4d& world) {
     out.inner_cone_rad = light.inner_cone_rad;
   }
   out.luminous_intensity_cd = light.intensity * luminance(light.color);
+  if (light.type == LightType::box) set_box(out, light.half_extents_m, world);
   return out;
 }
 
@@ -241,7 +249,7 @@ std::vector<WorldLight> world_lights(const Scene& scene, double time_s) {
   const std::vector<Mat4d> world = transforms_of(posed);
   const std::vector<bool> visible = visible_of(posed);
   std::vector<WorldLight> out;
-  for (const LightType type : {LightType::point, LightType::spot}) {
+  for (const LightType type : {LightType::point, LightType::spot, LightType::box}) {
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
       const Light& light = scene.lights[i];
       if (light.type != type) continue;

@@ -434,6 +434,11 @@ class WorstCaseSearch {
 };
 
 void check_request(const run::SceneData& data, const WorstCaseRequest& request) {
+  if (std::ranges::any_of(data.scene.lights,
+                          [](const scene::Light& light) { return light.type == scene::LightType::box; }))
+    throw Error(
+        data.scene.path.string(), "",
+        "is measured with its boxes (\"boxes\": true), which worst-case cannot move or write; leave the key out");
   const bool has_lights = std::ranges::any_of(
       data.scene.lights, [](const scene::Light& light) { return light.type != scene::LightType::directional; });
   if (!has_lights && request.extra_ranges_m.empty())

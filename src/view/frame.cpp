@@ -37,6 +37,12 @@ void add_axis(LightArrays& out, const Mat3d& rotation, const scene::WorldLight& 
   out.sin_angle.push_back(static_cast<float>(std::sin(light.outer_cone_rad)));
 }
 
+void add_half_axes(LightArrays& out, const Mat3d& rotation, const scene::WorldLight& box) {
+  geom::HalfAxes axes;
+  for (std::size_t i = 0; i < axes.size(); ++i) axes[i] = Vec3f(rotation * box.half_axes_m[i]);
+  out.half_axes.push_back(axes);
+}
+
 double aspect_of(Vec2i viewport) {
   return static_cast<double>(viewport.x) / viewport.y;
 }
@@ -124,6 +130,11 @@ geom::SphericalCone LightArrays::cone(std::uint32_t light, float roundoffs) cons
           sin_angle[spot]};
 }
 
+geom::OrientedBox LightArrays::box(std::uint32_t light) const {
+  assert(is_box(light));
+  return {{x[light], y[light], z[light]}, half_axes[light - boxes.first]};
+}
+
 geom::Ball LightArrays::bounding_ball(std::uint32_t light, float roundoffs) const {
   return is_spot(light) ? geom::bounding_ball(cone(light, roundoffs)) : ball(light, roundoffs);
 }
@@ -136,11 +147,16 @@ geom::LightVolume volume_of(const scene::WorldLight& light, const Space& space) 
   const geom::Placement source{light.position, space.origin, space.rotation};
   if (light.type == scene::LightType::spot)
     return geom::SpotVolume{source, light.range_m, light.direction, light.outer_cone_rad};
+  if (light.type == scene::LightType::box) return geom::BoxVolume{source, light.range_m, light.half_axes_m};
   return geom::BallVolume{source, light.range_m};
 }
 
 void Frame::count_types() {
-  points = static_cast<std::uint32_t>(std::ranges::count(lights, scene::LightType::point, &scene::WorldLight::type));
+  const auto count = [this](scene::LightType type) {
+    return static_cast<std::uint32_t>(std::ranges::count(lights, type, &scene::WorldLight::type));
+  };
+  points = count(scene::LightType::point);
+  boxes = count(scene::LightType::box);
 }
 
 PictureRay picture_ray(const Frame& frame, const Vec2d& pixel) {
@@ -180,6 +196,7 @@ LightArrays lights_in(const Frame& frame, const Space& space) {
     out.reach.push_back(
         geom::rounded_up(std::abs(center.x) + std::abs(center.y) + std::abs(center.z) + out.radius.back()));
     if (light.type == scene::LightType::spot) add_axis(out, space.rotation, light);
+    if (light.type == scene::LightType::box) add_half_axes(out, space.rotation, light);
   }
   return out;
 }

@@ -47,22 +47,23 @@ struct LightRange {
   std::uint32_t end() const { return first + count; }
 };
 
-// How many types of light are assigned.
-inline constexpr std::size_t k_light_types = 2;
+// How many types of light are assigned, and how many of them, the first ones, are punctual: points and spots.
+inline constexpr std::size_t k_light_types = 3, k_punctual_types = 2;
 
 // A frame's lights by type. Indices of lights, in all lists, run through the types in this order.
 struct LightRanges {
-  LightRange points, spots;
+  LightRange points, spots, boxes;
 
   LightRanges() = default;
-  LightRanges(std::uint32_t point_count, std::uint32_t spot_count)
-      : points{0, point_count}, spots{point_count, spot_count} {}
+  LightRanges(std::uint32_t point_count, std::uint32_t spot_count, std::uint32_t box_count = 0)
+      : points{0, point_count}, spots{point_count, spot_count}, boxes{point_count + spot_count, box_count} {}
 
-  std::uint32_t size() const { return spots.end(); }
+  std::uint32_t size() const { return boxes.end(); }
   // Type by type, in the order of indices.
-  std::array<LightRange, k_light_types> types() const { return {points, spots}; }
-  bool is_spot(std::uint32_t light) const { return light >= spots.first; }
-  std::size_t type_of(std::uint32_t light) const { return is_spot(light) ? 1 : 0; }  // index of types()
+  std::array<LightRange, k_light_types> types() const { return {points, spots, boxes}; }
+  bool is_spot(std::uint32_t light) const { return light - spots.first < spots.count; }
+  bool is_box(std::uint32_t light) const { return light >= boxes.first; }
+  std::size_t type_of(std::uint32_t light) const { return is_box(light) ? 2 : is_spot(light) ? 1 : 0; }  // of types()
 };
 
 // Lights in a space, single precision, one array per component (what an engine hands to an assigner).
@@ -72,6 +73,9 @@ struct LightArrays : LightRanges {
   std::vector<float> reach;    // |x| + |y| + |z| + radius: what roundoffs are relative to
   // Spots only; index i - spots.first. Axis is unit up to rounding.
   std::vector<float> axis_x, axis_y, axis_z, cos_angle, sin_angle;
+  // Boxes only; index i - boxes.first. Each coordinate of the half axes is rounded to nearest. A box's x, y, z is its
+  // middle, its radius that of the ball around it, and its reach is what goes with that ball.
+  std::vector<geom::HalfAxes> half_axes;
 
   // What the numbers were rounded from, for methods that go back to it. Belongs to the frame, which must live on.
   std::span<const scene::WorldLight> source;
@@ -82,7 +86,8 @@ struct LightArrays : LightRanges {
   float padded_radius(std::uint32_t light, float roundoffs) const;
   geom::Ball ball(std::uint32_t light, float roundoffs) const;
   geom::SphericalCone cone(std::uint32_t light, float roundoffs) const;  // light must be a spot
-  // A point's ball; of a spot the one around its cone.
+  geom::OrientedBox box(std::uint32_t light) const;                      // light must be a box
+  // A point's ball; of a spot the one around its cone, of a box the one around it.
   geom::Ball bounding_ball(std::uint32_t light, float roundoffs) const;
   geom::LightVolume volume(std::uint32_t light) const;  // exact
 };
@@ -98,11 +103,11 @@ struct Frame {
   Projection projection;
   Space view_space;                       // eye and view rotation
   std::vector<scene::WorldLight> lights;  // as ranges() has them
-  std::uint32_t points = 0;               // how many of them are points
+  std::uint32_t points = 0, boxes = 0;    // how many of them are points and boxes; the others are spots
 
   // Sets how many there are of each type, which come one after the other.
   void count_types();
-  LightRanges ranges() const { return {points, static_cast<std::uint32_t>(lights.size()) - points}; }
+  LightRanges ranges() const { return {points, static_cast<std::uint32_t>(lights.size()) - points - boxes, boxes}; }
 };
 
 // The ray through a point of the picture, in view space; its parameter is the depth.

@@ -51,6 +51,16 @@ inline scene::WorldLight spot_light(Vec3d position, double range, Vec3d directio
   return light;
 }
 
+inline scene::WorldLight box_light(Vec3d middle, std::array<Vec3d, 3> half_axes) {
+  scene::WorldLight light;
+  light.type = scene::LightType::box;
+  light.position = middle;
+  light.half_axes_m = half_axes;
+  light.range_m = scene::corner_distance_m(half_axes);
+  light.luminous_intensity_cd = 0.0;
+  return light;
+}
+
 // A frame at the origin looking down -z; points must come before spots.
 inline view::Frame frame_of(const view::Projection& projection, Vec2i viewport, std::vector<scene::WorldLight> lights) {
   view::Frame frame;
@@ -120,6 +130,12 @@ inline Vec3d point_in(const scene::WorldLight& light, Random& random) {
   const double reach = std::min(light.range_m, 1e4);
   const double distance = reach * (random.unit() < 0.5 ? 1.0 - 1e-12 : std::cbrt(random.unit()));
   if (light.type == scene::LightType::point) return light.position + distance * random.direction();
+  if (light.type == scene::LightType::box) {
+    Vec3d at = light.position;
+    for (const Vec3d& axis : light.half_axes_m)
+      at += (random.unit() < 0.3 ? 1.0 - 1e-12 : random.unit()) * (random.unit() < 0.5 ? -1.0 : 1.0) * axis;
+    return at;
+  }
   const double angle = light.outer_cone_rad * (random.unit() < 0.5 ? 1.0 : std::sqrt(random.unit()));
   const Vec3d axis = light.direction;
   const Vec3d helper = std::fabs(axis.x) < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
@@ -198,6 +214,25 @@ inline std::vector<scene::WorldLight> random_lights(int points, int spots, std::
     lights.push_back(spot_light(place(), random.log_between(0.1, 60), direction, k_angles[i % 12]));
   }
   return lights;
+}
+
+// Probes, decals, flat ones and sheared ones, some turned as the axes are.
+inline std::vector<scene::WorldLight> random_boxes(int count, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<scene::WorldLight> boxes;
+  for (int i = 0; i < count; ++i) {
+    const double depth = random.unit() < 0.15 ? random.between(-20, 1) : random.log_between(0.3, 300);
+    const double beside = std::fabs(depth) + 5;
+    const Vec3d at{random.between(-1.2, 1.2) * beside, random.between(-0.8, 0.8) * beside, -depth};
+    const bool along_axes = i % 4 == 0;
+    const Vec3d x = along_axes ? Vec3d(1, 0, 0) : random.direction();
+    const Vec3d y = along_axes ? Vec3d(0, 1, 0) : glm::normalize(glm::cross(x, random.direction()));
+    std::array<Vec3d, 3> axes{random.log_between(0.05, 40) * x, random.log_between(0.05, 40) * y,
+                              (i % 5 == 0 ? 0.0 : random.log_between(0.01, 20)) * glm::cross(x, y)};
+    if (i % 6 == 0) axes[0] += random.between(-1, 1) * axes[1];
+    boxes.push_back(box_light(at, axes));
+  }
+  return boxes;
 }
 
 }  // namespace clusterbench::assign::testing

@@ -88,6 +88,7 @@ inline void place_in_world(std::vector<scene::WorldLight>& lights, const view::S
   for (scene::WorldLight& light : lights) {
     light.position = back * light.position + space.origin;
     light.direction = back * light.direction;
+    for (Vec3d& axis : light.half_axes_m) axis = back * axis;
   }
 }
 
@@ -118,6 +119,16 @@ inline void add_lights(Setting& setting, const AssignerDescriptor& row, std::uin
     lights.push_back(spot_light(ahead, 0.0, {0, 0, -1}, 0.5));
     lights.push_back(spot_light(ahead, k_unbounded, {0.2, 0.1, -1}, 0.7));
     add_touching(setting, touching_spots(setting.grid, cells, 300, seed + 3));
+  }
+  if (row.boxes) {
+    const std::size_t others = lights.size();
+    std::vector<scene::WorldLight> boxes = random_boxes(60, seed + 4);
+    place_in_world(boxes, setting.frame.view_space);
+    lights.insert(lights.end(), boxes.begin(), boxes.end());
+    lights.push_back(box_light(ahead, {Vec3d(0), Vec3d(0), Vec3d(0)}));
+    lights.push_back(box_light(setting.frame.view_space.origin, {Vec3d(2, 0, 0), Vec3d(0, 3, 0), Vec3d(0, 0, 1)}));
+    add_touching(setting, touching_boxes(setting.grid, cells, 300, seed + 5));
+    setting.frame.boxes = static_cast<std::uint32_t>(lights.size() - others);
   }
 }
 
@@ -182,6 +193,17 @@ inline void add_lights_of_any_size(Setting& setting, const AssignerDescriptor& r
       if (stands_in_domain(light)) lights.push_back(light);
     }
     if (!is_spot) setting.frame.points = static_cast<std::uint32_t>(lights.size());
+  }
+  for (int i = 0; i < count && row.boxes; ++i) {
+    const scene::WorldLight at = light_of_any_size(setting.grid, cells, size_m, random);
+    const double reach = std::min(at.range_m, 1e14);
+    scene::WorldLight box = box_light(
+        at.position, {reach * random.direction(), random.log_between(1e-6, 1) * reach * random.direction(),
+                      random.unit() < 0.3 ? Vec3d(0) : random.log_between(1e-6, 1) * reach * random.direction()});
+    box.range_m = geom::range_in_domain(box.range_m);
+    if (!stands_in_domain(box)) continue;
+    lights.push_back(box);
+    ++setting.frame.boxes;
   }
 }
 

@@ -177,6 +177,35 @@ TEST(Packed, the_limit_has_wide_headers_only_where_a_count_can_need_them) {
   EXPECT_EQ(limit(65536, 0), 2u * 65536u * 2u + 24u);
 }
 
+TEST(Packed, boxes_cost_one_word_more_per_header_and_read_back) {
+  const Lists lists = lists_from({{0, 5, 6, 8, 9}, {}, {9}, {1, 2, 7}});
+  for (const char* headers : {"dense", "sparse"}) {
+    const auto packed = storage("packed", {{"headers", std::string(headers)}});
+    packed->start(4, {5, 3, 2});
+    packed->store(lists);
+    const bool is_sparse = std::string(headers) == "sparse";
+    EXPECT_EQ(packed->use().header_bytes, is_sparse ? 3u * 12u + 8u : 4u * 12u);
+    EXPECT_EQ(packed->expanded(), lists) << headers;
+    EXPECT_EQ(packed->buffers()[1].element_bytes, 12u);
+  }
+  // Many boxes do not widen the counts of points and spots; many spots do.
+  const auto packed = storage("packed");
+  packed->start(1, {1, 1, 70000});
+  EXPECT_EQ(packed->buffers()[1].element_bytes, 12u);
+  packed->start(1, {1, 70000, 1});
+  EXPECT_EQ(packed->buffers()[1].element_bytes, 16u);
+}
+
+TEST(EveryStorage, keeps_lists_with_boxes) {
+  const Lists lists = random_lists(60, 90, 0.2, 3);
+  for (const StorageDescriptor* row : storage_descriptors()) {
+    const auto kept = storage(row->name);
+    kept->start(60, {40, 20, 30});
+    kept->store(lists);
+    EXPECT_EQ(kept->expanded(), lists) << row->name;
+  }
+}
+
 TEST(Packed, sparse_headers_read_back_as_they_were_stored) {
   for (const std::uint32_t cells : {1u, 31u, 32u, 33u, 200u})
     for (const double share : {0.0, 0.01, 0.3, 1.0}) {

@@ -161,4 +161,29 @@ inline std::vector<TouchingLight> touching_spots(const grid::Grid& grid, const v
   return lights;
 }
 
+// Boxes touch by a corner or, where their half axes are orthogonal to the way out, by an edge or a face.
+inline std::vector<TouchingLight> touching_boxes(const grid::Grid& grid, const view::Space& space, int count,
+                                                 std::uint64_t seed) {
+  Random random(seed);
+  std::vector<TouchingLight> lights;
+  for (int i = 0; i < count; ++i) {
+    const touching::Place place = touching::random_place(grid, space, random);
+    const Vec3d& out = place.contact.outward;
+    const Vec3d x = i % 3 == 0 ? random.direction() : out;
+    const Vec3d y = glm::normalize(glm::cross(x, random.direction())), z = glm::cross(x, y);
+    std::array<Vec3d, 3> axes{place.range * x, random.log_between(1e-3, 1) * place.range * y,
+                              i % 7 == 0 ? Vec3d(0) : random.log_between(1e-3, 1) * place.range * z};
+    if (i % 5 == 0) axes[1] += 0.5 * axes[0];  // sheared
+    // The corner that is the least far out stands at the place, a hair further in.
+    Vec3d corner{0};
+    for (const Vec3d& axis : axes) corner -= glm::dot(axis, out) < 0.0 ? -axis : axis;
+    const Vec3d beside = place.contact.inside - place.contact.point;
+    const double hair = std::min(10.0 * touching::hair(place.size, random), 1e7 * glm::length(beside));
+    const Vec3d middle = place.contact.point + hair * glm::normalize(beside) - corner;
+    for (Vec3d& axis : axes) axis = glm::transpose(space.rotation) * axis;
+    lights.push_back({box_light(touching::in_world(middle, space), axes), place.cell});
+  }
+  return lights;
+}
+
 }  // namespace clusterbench::assign::testing

@@ -68,6 +68,28 @@ TEST_F(Sweep, an_assigner_that_does_not_take_the_grid_is_skipped_with_its_reason
   EXPECT_TRUE(found);
 }
 
+TEST_F(Sweep, boxes_are_assigned_where_they_are_asked_for_and_methods_that_take_none_are_skipped) {
+  std::ofstream(folder_ / "b.gltf") << R"({"asset": {"version": "2.0"}, "cameras": [)" << k_perspective
+                                    << R"(], "nodes": [{"name": "eye", "camera": 0},
+             {"name": "decal", "extras": {"clusterbench_box": {"half_extents": [1, 1, 0]}}}],
+             "scenes": [{"nodes": [0, 1]}], "scene": 0})";
+  const std::string rest = R"(, "assigners": ["box-refined", "bounds"])";
+  const Plan without = plan(R"([{"path": "b.gltf"}])", rest),
+             off = plan(R"([{"path": "b.gltf", "boxes": false}])", rest),
+             with = plan(R"([{"path": "b.gltf", "boxes": true}])", rest);
+  ASSERT_EQ(cases(without).size(), 2u);
+  EXPECT_TRUE(without.skipped.empty());
+  EXPECT_EQ(cases(off).front().id, cases(without).front().id);
+  ASSERT_EQ(cases(with).size(), 1u);
+  EXPECT_NE(cases(with).front().id, cases(without).front().id);
+  ASSERT_EQ(with.skipped.size(), 1u);
+  EXPECT_EQ(with.skipped[0].reason, "bounds takes no boxes");
+  ASSERT_EQ(with.scenes[0].scene.lights.size(), 1u);
+  EXPECT_EQ(with.scenes[0].scene.lights[0].name, "decal");
+  const Plan packed = plan(R"([{"path": "b.gltf", "boxes": true}])", rest + R"(, "precision": ["float32", "half"])");
+  EXPECT_EQ(cases(packed).size(), 1u);
+}
+
 TEST_F(Sweep, a_grid_that_the_camera_cannot_have_is_skipped_with_its_reason) {
   write_scene("a.gltf", k_orthographic);
   const Plan plan = this->plan(R"(["a.gltf"])", R"(, "grids": [{"slices": {"scheme": ["linear", "exponential"]}}],

@@ -38,12 +38,13 @@ function lightsOf(packed: DetailsFrame["lights"]): Light[] {
   const axes = numbers(packed.spot_axes),
     angles = numbers(packed.spot_half_angles);
   const triple = (row: Float64Array, at: number): Vec3 => [row[3 * at]!, row[3 * at + 1]!, row[3 * at + 2]!];
-  const firstSpot = packed.names.length - packed.spots;
+  const firstBox = packed.names.length - (packed.boxes ?? 0);
+  const firstSpot = firstBox - packed.spots;
   return packed.names.map((name, at) => ({
     name,
     position: triple(positions, at),
     range: ranges[at]!,
-    spot: at < firstSpot ? null : { axis: triple(axes, at - firstSpot), halfAngle: angles[at - firstSpot]! },
+    spot: at < firstSpot || at >= firstBox ? null : { axis: triple(axes, at - firstSpot), halfAngle: angles[at - firstSpot]! },
   }));
 }
 

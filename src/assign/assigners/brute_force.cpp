@@ -1,4 +1,5 @@
-// Every light against every cell's view-space bounding box: what a first compute shader does, and the yardstick.
+// Every light against every cell's view-space bounding box: what a first compute shader does, and the yardstick. Boxes
+// by their own axis-aligned bounds.
 
 #include "assign/bounds/bounds_method.h"
 
@@ -17,9 +18,10 @@ const AssignerDescriptor brute_force_descriptor{
     .summary = "every light against every cell's view-space bounding box",
     .source = "DaveH355, three.js",
     .kinds = {grid::Kind::frustum},
+    .boxes = true,
     .all_pairs = true,
     .params = light_params(),
-    .make = make_list_assigner<CellBoxMethod<EveryAabb>>,
+    .make = make_list_assigner<CellBoxMethod<EveryAabb, CoarseBoxTest>>,
 };
 
 }  // namespace clusterbench::assign

@@ -144,7 +144,7 @@ class Tree {
 };
 
 struct Trees {
-  std::array<Tree, view::k_light_types> of_type;
+  std::array<Tree, view::k_punctual_types> of_type;
 
   // Type by type.
   template <class Found>
@@ -181,7 +181,8 @@ class TreeBuilder {
     for (std::uint32_t light = 0; light < lights.size(); ++light)
       balls[light] = lights.is_empty(light) ? geom::Ball{} : test.ball(lights, light, k_roundoffs);
     const auto types = lights.types();
-    for (std::size_t type = 0; type < types.size(); ++type) build_tree(lights, types[type], keeps, out.of_type[type]);
+    for (std::size_t type = 0; type < out.of_type.size(); ++type)
+      build_tree(lights, types[type], keeps, out.of_type[type]);
   }
 
   std::size_t capacity_bytes() const {

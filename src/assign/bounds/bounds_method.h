@@ -8,16 +8,25 @@
 #include "assign/contract/light_test.h"
 #include "assign/cull/view_cull.h"
 #include "assign/pipeline/light_by_light.h"
+#include "geom/single_precision/box_tests.h"
 
 namespace clusterbench::assign {
 
 // Which cells are looked at: all, or those of the light's box; or those of the box are taken as they are.
 enum class Looks { everywhere, in_box, nowhere };
 
+// A method that takes no boxes.
+struct NoBoxTest {
+  static constexpr bool k_takes_boxes = false;
+  std::size_t capacity_bytes() const { return 0; }
+};
+
 // CellTest: build(const grid::Grid&), bool touches(const geom::Ball&, std::uint32_t cell) const, capacity_bytes()
 // const, k_looks, and k_roundoffs: what touches() loses. With Looks::nowhere there is no touches().
-template <class CellTest>
-class CellBoxMethod final : public LightByLight<CellBoxMethod<CellTest>> {
+// BoxTest: k_takes_boxes, and if it is true build(const grid::Grid&), bool touches(const geom::PaddedBox&, const
+// CellTest&, std::uint32_t cell) const, k_roundoffs: what the padding has to cover; capacity_bytes() const.
+template <class CellTest, class BoxTest = NoBoxTest>
+class CellBoxMethod final : public LightByLight<CellBoxMethod<CellTest, BoxTest>> {
   using LightByLight<CellBoxMethod>::cells_;
   using LightByLight<CellBoxMethod>::grid_;
   using LightByLight<CellBoxMethod>::pairs_;
@@ -29,6 +38,8 @@ class CellBoxMethod final : public LightByLight<CellBoxMethod<CellTest>> {
   void build(const grid::Grid& grid, const LightKinds& kinds) override {
     this->start_grid(grid);
     cell_test_.build(grid);
+    if constexpr (BoxTest::k_takes_boxes)
+      if (kinds.boxes) box_test_.build(grid);
     view_ = ViewCull(grid.screen());
     test_.start_grid(grid, kinds);
   }
@@ -37,6 +48,8 @@ class CellBoxMethod final : public LightByLight<CellBoxMethod<CellTest>> {
   void add_light(const view::LightArrays& lights, std::uint32_t light) {
     const CellBox box = CellTest::k_looks == Looks::everywhere ? CellBox{Vec3i(0), cells_ - 1} : extents(lights, light);
     if (box.empty()) return;
+    if constexpr (BoxTest::k_takes_boxes)
+      if (lights.is_box(light)) return add_box(lights, light, box);
     const TestedLight tested = test_.tested(lights, light);
     if constexpr (CellTest::k_looks == Looks::nowhere) {
       add_rows(box, tested);
@@ -48,12 +61,22 @@ class CellBoxMethod final : public LightByLight<CellBoxMethod<CellTest>> {
       visit(box, light, [&](std::uint32_t cell) { return cell_test_.touches(tested.ball, cell); });
     }
   }
-  std::size_t own_bytes() const { return test_.capacity_bytes() + cell_test_.capacity_bytes(); }
+  std::size_t own_bytes() const {
+    return test_.capacity_bytes() + cell_test_.capacity_bytes() + box_test_.capacity_bytes();
+  }
 
  private:
   CellBox extents(const view::LightArrays& lights, std::uint32_t light) const {
     const geom::Ball ball = test_.ball(lights, light, k_cell_box_roundoffs);
     return view_.misses(ball) ? CellBox{} : cell_box(*grid_, ball);
+  }
+
+  void add_box(const view::LightArrays& lights, std::uint32_t light, const CellBox& cells) {
+    // test_.padding() adds what the box's numbers have lost before: the middle's roundoff, which the tests count, too,
+    // and that of padding the radius, which no box needs.
+    const float roundoffs = test_.padding(BoxTest::k_roundoffs - view::k_given_roundoffs);
+    const geom::PaddedBox box = geom::padded(lights.box(light), roundoffs * (0x1p-24f * lights.reach[light]));
+    visit(cells, light, [&](std::uint32_t cell) { return box_test_.touches(box, cell_test_, cell); });
   }
 
   void add_rows(const CellBox& box, const TestedLight& light) {
@@ -80,6 +103,7 @@ class CellBoxMethod final : public LightByLight<CellBoxMethod<CellTest>> {
   }
 
   CellTest cell_test_;
+  BoxTest box_test_;
   LightTest test_;
   ViewCull view_;
 };
@@ -93,10 +117,35 @@ class CellAabbs {
 
   void build(const grid::Grid& grid);
   bool touches(const geom::Ball& ball, std::uint32_t cell) const { return geom::ball_touches_box(ball, boxes_[cell]); }
+  const geom::Box& bounds(std::uint32_t cell) const { return boxes_[cell]; }
   std::size_t capacity_bytes() const { return boxes_.capacity() * sizeof(geom::Box); }
 
  private:
   std::vector<geom::Box> boxes_;
+};
+
+// Boxes against the cells' axis-aligned bounds by their own: the coarse test.
+struct CoarseBoxTest {
+  static constexpr bool k_takes_boxes = true;
+  static constexpr float k_roundoffs = geom::k_bounds_roundoffs;
+
+  void build(const grid::Grid&) {}
+  bool touches(const geom::PaddedBox& box, const CellAabbs& cells, std::uint32_t cell) const {
+    return geom::bounds_touch(box, cells.bounds(cell));
+  }
+  std::size_t capacity_bytes() const { return 0; }
+};
+
+// The cells themselves, for tests of boxes that ask more than their bounds.
+class FrustumCells {
+ public:
+  static constexpr bool k_takes_boxes = true;
+
+  void build(const grid::Grid& grid);
+  std::size_t capacity_bytes() const { return cells_.capacity() * sizeof(geom::FrustumCell); }
+
+ protected:
+  std::vector<geom::FrustumCell> cells_;
 };
 
 // Ball against the six planes of the cells, made once per grid.

@@ -127,7 +127,7 @@ class SortedMasks final : public LightStructure {
     }
   };
   template <class Rank>
-  using Ranges = std::vector<std::array<Range<Rank>, view::k_light_types>>;  // of each type
+  using Ranges = std::vector<std::array<Range<Rank>, view::k_punctual_types>>;  // of each type
 
   bool ranks_are_narrow() const {
     return ranges_of == RangesOf::cells && lights_ <= std::numeric_limits<std::uint16_t>::max();

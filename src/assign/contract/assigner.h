@@ -57,10 +57,10 @@ class Params {
 
 // Which lights a rig has: what serves none of them is not built.
 struct LightKinds {
-  bool spots = true;
+  bool spots = true, boxes = true;
 };
 inline LightKinds kinds_of(const view::LightArrays& lights) {
-  return {!lights.spots.empty()};
+  return {!lights.spots.empty(), !lights.boxes.empty()};
 }
 
 // What a method gets of one frame.
@@ -142,6 +142,7 @@ struct AssignerDescriptor {
   std::string source;                // paper or engine
   std::vector<grid::Kind> kinds;     // grids that it fills
   bool points = true, spots = true;  // light types that it takes
+  bool boxes = false;                // and oriented boxes (decals, probes)
   Needs needs{};
   bool conservative = true;  // never misses a true pair; a miss fails the run. Parameters say when it no longer is
   bool exact = false;        // and reports no pair that is not true

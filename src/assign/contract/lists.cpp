@@ -37,7 +37,8 @@ std::string lists_fault(const Lists& lists, std::uint32_t cell_count, const view
       if (light >= listed_in.size()) return "a light that does not exist" + where;
       if (listed_in[light] == cell) return "lights not each once" + where;
       listed_in[light] = cell;
-      if (ranges.type_of(light) < type) return "a point light behind spots" + where;
+      if (ranges.type_of(light) < type)
+        return std::string(type == 1 ? "a point light behind spots" : "a light behind boxes") + where;
       type = ranges.type_of(light);
     }
   }

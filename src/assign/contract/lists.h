@@ -10,8 +10,8 @@
 
 namespace clusterbench::assign {
 
-// The lights of cell c are lights[begin[c]] .. lights[begin[c + 1] - 1]: points before spots, each once, in any order
-// besides. Truth's lists ascend.
+// The lights of cell c are lights[begin[c]] .. lights[begin[c + 1] - 1]: points before spots before boxes, each once,
+// in any order besides. Truth's lists ascend.
 struct Lists {
   std::vector<std::uint32_t> begin;  // cell count + 1
   std::vector<std::uint32_t> lights;

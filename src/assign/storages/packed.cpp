@@ -16,12 +16,12 @@ extern const StorageDescriptor packed_descriptor;
 
 namespace {
 
-// offset u32 + point count u16 + spot count u16 per cell; 12 bytes with u32 counts where a count needs it. Sparse: only
-// for cells with lights; a shader finds them through one block per 32 cells, {mask u32, rank u32}: header rank + the
-// number of mask bits below the cell's. Shared: a list that equals that of the cell before it or of the cell a row
-// before it is not written again. With max_entries the index list begins with all lights that are in any list of the
-// frame, and when a list has no room any more, its cell and all cells after it that have lights read that first one
-// (Filament's Froxelizer).
+// offset u32 + point count u16 + spot count u16 per cell; 12 bytes with u32 counts where a count needs it. Where the
+// rig has boxes one more u32 follows, their count: 12 or 16 bytes. Sparse: only for cells with lights; a shader finds
+// them through one block per 32 cells, {mask u32, rank u32}: header rank + the number of mask bits below the cell's.
+// Shared: a list that equals that of the cell before it or of the cell a row before it is not written again. With
+// max_entries the index list begins with all lights that are in any list of the frame, and when a list has no room any
+// more, its cell and all cells after it that have lights read that first one (Filament's Froxelizer).
 class Packed final : public Storage {
  public:
   explicit Packed(const Params& params)
@@ -33,6 +33,7 @@ class Packed final : public Storage {
   void start(std::uint32_t cell_count, const view::LightRanges& lights) override {
     lights_ = lights.size();
     points_ = lights.points.count;
+    spots_ = lights.spots.count;
     const std::uint32_t needed = narrowest_bits(lights_);
     bits_ = wanted_bits_ == "auto" ? needed : static_cast<std::uint32_t>(std::stoul(wanted_bits_));
     if (bits_ < needed)
@@ -50,12 +51,14 @@ class Packed final : public Storage {
     check_memory("headers of packed lists", cell_count, sizeof(Header));
     headers_.resize(cell_count);
     wide_headers_.resize(can_be_wide() ? cell_count : 0);
+    box_counts_.resize(has_boxes() ? cell_count : 0);
     if (is_sparse_) blocks_.resize((cell_count + k_block - 1) / k_block);
   }
 
   // A header has room for the counts that any such lights can have.
   void set_types(const view::LightRanges& lights) override {
     points_ = lights.points.count;
+    spots_ = lights_ - points_;
     if (can_be_wide()) wide_headers_.resize(cell_count_);
   }
 
@@ -76,8 +79,7 @@ class Packed final : public Storage {
     StructureUse use;
     use.index_entries = entries_;
     use.index_bytes = entries_ * (bits_ / 8);
-    use.header_bytes =
-        header_count_ * (is_wide_ ? sizeof(WideHeader) : sizeof(Header)) + blocks_.size() * sizeof(Block);
+    use.header_bytes = std::uint64_t{header_count_} * header_size(is_wide_) + blocks_.size() * sizeof(Block);
     use.upload_bytes = use.index_bytes + use.header_bytes;
     use.fallback_cells = fallback_cells_;
     return use;
@@ -85,22 +87,21 @@ class Packed final : public Storage {
 
   StructureLimit limit() const override {
     const std::uint64_t entries = most_entries();
-    const std::uint64_t header_size = can_be_wide() ? sizeof(WideHeader) : sizeof(Header);
-    return {entries, entries * (bits_ / 8) + cell_count_ * header_size + blocks_.size() * sizeof(Block)};
+    return {entries, entries * (bits_ / 8) + std::uint64_t{cell_count_} * header_size(can_be_wide()) +
+                         blocks_.size() * sizeof(Block)};
   }
 
   // A shader has one format of headers for all frames: the wide one where any frame can need it.
   std::vector<BufferNeed> buffers() const override {
-    const std::uint32_t header_size = can_be_wide() ? sizeof(WideHeader) : sizeof(Header);
     std::vector<BufferNeed> all{{"indices", bits_ / 8, entries_, most_entries()},
-                                {"headers", header_size, header_count_, cell_count_}};
+                                {"headers", header_size(can_be_wide()), header_count_, cell_count_}};
     if (is_sparse_) all.push_back({"header_blocks", sizeof(Block), blocks_.size(), blocks_.size()});
     return all;
   }
 
   void read_cell(std::uint32_t cell, std::vector<std::uint32_t>& out) const override {
-    const WideHeader header = found_header(cell);
-    for (std::uint32_t i = 0; i < header.points + header.spots; ++i) out.push_back(indices_.read(header.offset + i));
+    const Counts header = found_header(cell);
+    for (std::uint32_t i = 0; i < header.all(); ++i) out.push_back(indices_.read(header.offset + i));
   }
 
   std::uint32_t cell_count() const override { return cell_count_; }
@@ -117,12 +118,23 @@ class Packed final : public Storage {
     std::uint32_t offset, points, spots;
   };
   static_assert(sizeof(Header) == 8 && sizeof(WideHeader) == 12);
+  // What a header says, of any size.
+  struct Counts {
+    std::uint32_t offset = 0, points = 0, spots = 0, boxes = 0;
+
+    std::uint32_t all() const { return points + spots + boxes; }
+  };
   static constexpr std::uint32_t k_block = 32;  // cells
   struct Block {
     std::uint32_t mask = 0, rank = 0;
   };
 
-  bool can_be_wide() const { return std::max(points_, lights_ - points_) > k_narrow_count; }
+  bool can_be_wide() const { return std::max(points_, spots_) > k_narrow_count; }
+  bool has_boxes() const { return lights_ > points_ + spots_; }
+  std::uint32_t header_size(bool is_wide) const {
+    return static_cast<std::uint32_t>((is_wide ? sizeof(WideHeader) : sizeof(Header)) +
+                                      (has_boxes() ? sizeof(std::uint32_t) : 0));
+  }
 
   bool has_limit() const { return max_entries_ > 0; }
   // Whether what is written is not just what is listed.
@@ -141,7 +153,7 @@ class Packed final : public Storage {
   bool has_wide_count(const Lists& lists) const {
     for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) {
       if (list_of(lists, cell).size() <= k_narrow_count) continue;
-      const WideHeader header = header_of<WideHeader>(lists, cell);
+      const Counts header = counts_of(lists, cell);
       if (std::max(header.points, header.spots) > k_narrow_count) return true;
     }
     return false;
@@ -194,19 +206,23 @@ class Packed final : public Storage {
     header_count_ = 0;
     for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) {
       if (is_sparse_ && !claim_slot(cell, !lists.of(cell).empty())) continue;
-      headers[header_count_++] = header_of<H>(lists, cell);
+      using Count = decltype(H::points);
+      const Counts counts = counts_of(lists, cell);
+      if (has_boxes()) box_counts_[header_count_] = counts.boxes;
+      headers[header_count_++] = {counts.offset, static_cast<Count>(counts.points), static_cast<Count>(counts.spots)};
     }
   }
 
-  template <class H>
-  H header_of(const Lists& lists, std::uint32_t cell) const {
-    using Count = decltype(H::points);
+  Counts counts_of(const Lists& lists, std::uint32_t cell) const {
     const auto list = list_of(lists, cell);
-    const bool has_spots = !list.empty() && list.back() >= points_;
-    const auto is_point = [this](std::uint32_t light) { return light < points_; };
-    const auto spots_from = has_spots ? std::partition_point(list.begin(), list.end(), is_point) : list.end();
-    return {chooses() ? kept_at_[cell] : lists.begin[cell], static_cast<Count>(spots_from - list.begin()),
-            static_cast<Count>(list.end() - spots_from)};
+    const auto from = [&list](std::uint32_t first) {
+      const bool has_some = !list.empty() && list.back() >= first;
+      return has_some ? std::ranges::partition_point(list, [first](std::uint32_t light) { return light < first; })
+                      : list.end();
+    };
+    const auto spots = from(points_), boxes = has_boxes() ? from(points_ + spots_) : list.end();
+    return {chooses() ? kept_at_[cell] : lists.begin[cell], static_cast<std::uint32_t>(spots - list.begin()),
+            static_cast<std::uint32_t>(boxes - spots), static_cast<std::uint32_t>(list.end() - boxes)};
   }
 
   // In the cell's block. False if it gets no header.
@@ -218,7 +234,7 @@ class Packed final : public Storage {
   }
 
   // As a shader would.
-  WideHeader found_header(std::uint32_t cell) const {
+  Counts found_header(std::uint32_t cell) const {
     if (!is_sparse_) return header_at(cell);
     const Block& block = blocks_[cell / k_block];
     const std::uint32_t bit = 1u << cell % k_block;
@@ -226,19 +242,22 @@ class Packed final : public Storage {
     return header_at(block.rank + static_cast<std::uint32_t>(std::popcount(block.mask & (bit - 1))));
   }
 
-  WideHeader header_at(std::uint32_t cell) const {
-    if (is_wide_) return wide_headers_[cell];
-    const Header& header = headers_[cell];
-    return {header.offset, header.points, header.spots};
+  Counts header_at(std::uint32_t cell) const {
+    const std::uint32_t boxes = has_boxes() ? box_counts_[cell] : 0;
+    const auto counts = [boxes](const auto& header) {
+      return Counts{header.offset, header.points, header.spots, boxes};
+    };
+    return is_wide_ ? counts(wide_headers_[cell]) : counts(headers_[cell]);
   }
 
   std::string wanted_bits_;
   bool is_sparse_, shares_, is_wide_ = false;
-  std::uint32_t bits_ = 8, lights_ = 0, points_ = 0;
+  std::uint32_t bits_ = 8, lights_ = 0, points_ = 0, spots_ = 0;
   std::uint32_t cell_count_ = 0, header_count_ = 0;
   std::uint64_t entries_ = 0;
   std::vector<Header> headers_;
-  std::vector<WideHeader> wide_headers_;  // in place of them, where the rig can need them
+  std::vector<WideHeader> wide_headers_;   // in place of them, where the rig can need them
+  std::vector<std::uint32_t> box_counts_;  // the last word of either, where the rig has boxes
   std::vector<Block> blocks_;
   IndexArray indices_;
   std::uint64_t max_entries_;                  // 0: no limit

@@ -8,7 +8,8 @@ namespace clusterbench::assign {
 namespace {
 
 // Runs of lights with consecutive indices: {first, length - 1} each, in the narrowest indices that hold all lights. Per
-// cell an offset (u32) and the numbers of runs of points and of spots (u16 each; u32 where a rig can need it).
+// cell an offset (u32) and the numbers of runs of points and of spots (u16 each; u32 where a rig can need it), and
+// where the rig has boxes that of their runs (u32).
 class Runs final : public Storage {
  public:
   explicit Runs(const Params&) {}
@@ -32,10 +33,13 @@ class Runs final : public Storage {
       const auto spots = std::lower_bound(list.begin(), list.end(), lights_.points.count);
       Header& header = headers_[cell];
       header.offset = run_count();
+      const auto boxes = std::lower_bound(spots, list.end(), lights_.boxes.first);
       add_runs({list.begin(), spots});
       header.points = run_count() - header.offset;
-      add_runs({spots, list.end()});
+      add_runs({spots, boxes});
       header.spots = run_count() - header.offset - header.points;
+      add_runs({boxes, list.end()});
+      header.boxes = run_count() - header.offset - header.points - header.spots;
     }
     count_ = run_count();
     indices_.make_room(runs_.size(), bits_);
@@ -61,7 +65,7 @@ class Runs final : public Storage {
 
   void read_cell(std::uint32_t cell, std::vector<std::uint32_t>& out) const override {
     const Header& header = headers_[cell];
-    for (std::uint32_t run = header.offset; run < header.offset + header.points + header.spots; ++run) {
+    for (std::uint32_t run = header.offset; run < header.offset + header.all(); ++run) {
       const std::uint32_t first = indices_.read(2 * std::size_t{run}),
                           last = first + indices_.read(2 * std::size_t{run} + 1);
       for (std::uint32_t light = first; light <= last; ++light) out.push_back(light);
@@ -73,16 +77,22 @@ class Runs final : public Storage {
 
  private:
   struct Header {
-    std::uint32_t offset = 0, points = 0, spots = 0;
+    std::uint32_t offset = 0, points = 0, spots = 0, boxes = 0;
+
+    std::uint32_t all() const { return points + spots + boxes; }
   };
 
-  std::uint32_t spots() const { return lights_.size() - lights_.points.count; }
   static std::uint64_t most_runs(std::uint32_t lights) { return (std::uint64_t{lights} + 1) / 2; }
   std::uint64_t most_entries() const {
-    return headers_.size() * (most_runs(lights_.points.count) + most_runs(spots()));
+    std::uint64_t most = 0;
+    for (const view::LightRange& type : lights_.types()) most += most_runs(type.count);
+    return headers_.size() * most;
   }
   std::uint32_t run_bytes() const { return 2 * (bits_ / 8); }
-  std::uint32_t header_size() const { return most_runs(std::max(lights_.points.count, spots())) > 0xffff ? 12 : 8; }
+  std::uint32_t header_size() const {
+    const bool is_wide = most_runs(std::max(lights_.points.count, lights_.spots.count)) > 0xffff;
+    return (is_wide ? 12 : 8) + (lights_.boxes.empty() ? 0 : 4);
+  }
   std::uint64_t header_bytes() const { return headers_.size() * std::uint64_t{header_size()}; }
   std::uint32_t run_count() const { return static_cast<std::uint32_t>(runs_.size() / 2); }
 

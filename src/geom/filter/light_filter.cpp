@@ -314,20 +314,31 @@ struct Filter {
   }
 };
 
+struct ShapeOf {
+  using Shape = std::variant<Volume<double>, BoxDecider>;
+
+  template <class Light>
+  Shape operator()(const Light& light) const {
+    return volume_of<double>(light);
+  }
+  Shape operator()(const BoxVolume& box) const { return BoxDecider(box); }
+};
+
 }  // namespace
 
-LightFilter::LightFilter(const LightVolume& light) : volume_(volume_of<double>(light)) {}
+LightFilter::LightFilter(const LightVolume& light) : shape_(std::visit(ShapeOf{}, light)) {}
 
 Verdict LightFilter::meets(const Cell& cell) const {
-  return std::visit(Filter{volume_}, cell);
+  if (const auto* box = std::get_if<BoxDecider>(&shape_)) return box->meets_quickly(cell);
+  return std::visit(Filter{volume()}, cell);
 }
 
 DistanceInterval LightFilter::distances(const ShellCell& tile) const {
-  return geom::distances(within(volume_, double{tile.distance1}), tile);
+  return geom::distances(within(volume(), double{tile.distance1}), tile);
 }
 
 bool LightFilter::is_surely_apart(const ShellCell& shell) const {
-  return is_apart(within(volume_, double{shell.distance1}), shell, k_splits);
+  return is_apart(within(volume(), double{shell.distance1}), shell, k_splits);
 }
 
 Verdict filter_meets(const LightVolume& light, const Cell& cell) {

@@ -2,6 +2,9 @@
 // The filter: does a light's volume share a point with a cell, in double precision with a tolerance? Yes and no only
 // where that is certain.
 
+#include <variant>
+
+#include "geom/box/box_decider.h"
 #include "geom/shapes/cell.h"
 #include "geom/shapes/light_volume.h"
 #include "geom/shapes/verdict.h"
@@ -29,13 +32,16 @@ class LightFilter {
   explicit LightFilter(const LightVolume& light);
 
   Verdict meets(const Cell& cell) const;
+  // The others are for balls and spots.
   // Of the tile's pyramid, without its near shell; right as far as its far shell.
   DistanceInterval distances(const ShellCell& tile) const;
   // Is there a plane between the volume and the shell cell, or planes between it and parts of the cell?
   bool is_surely_apart(const ShellCell& cell) const;
 
  private:
-  Volume<double> volume_;
+  const Volume<double>& volume() const { return std::get<Volume<double>>(shape_); }
+
+  std::variant<Volume<double>, BoxDecider> shape_;
 };
 
 Verdict filter_meets(const LightVolume& light, const Cell& cell);

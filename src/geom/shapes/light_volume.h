@@ -1,8 +1,9 @@
 #pragma once
-// The volume of a light: a ball, or (a spot) the part of it in a cone around an axis. As exact ingredients, and
-// computed from these in any number type. A type of light with another volume is one more alternative of LightVolume;
-// the compiler then names all that asks for one.
+// The volume of a light: a ball, or (a spot) the part of it in a cone around an axis, or a box. As exact ingredients,
+// and computed from these in any number type. A type of light with another volume is one more alternative of
+// LightVolume; the compiler then names all that asks for one.
 
+#include <array>
 #include <cmath>
 #include <variant>
 
@@ -25,7 +26,16 @@ struct SpotVolume {
   double half_angle_rad = 0.0;
 };
 
-using LightVolume = std::variant<BallVolume, SpotVolume>;
+// A box's, with the middle and, in the space of its position, the half axes: all rotation * (position - origin + a *
+// half_axes[0] + b * half_axes[1] + c * half_axes[2]) with a, b and c from -1 to 1. Half axes are any: a box of no
+// thickness, and one that a sheared node has made a parallelepiped, are as good as others.
+struct BoxVolume {
+  Placement center;
+  double range = 0.0;  // > 0, finite: no less than the distance of the farthest corner from the middle
+  std::array<Vec3d, 3> half_axes{};
+};
+
+using LightVolume = std::variant<BallVolume, SpotVolume, BoxVolume>;
 
 // From where a light shines.
 inline const Placement& source_of(const BallVolume& ball) {
@@ -34,15 +44,28 @@ inline const Placement& source_of(const BallVolume& ball) {
 inline const Placement& source_of(const SpotVolume& spot) {
   return spot.apex;
 }
+inline const Placement& source_of(const BoxVolume& box) {
+  return box.center;
+}
 inline const Placement& source_of(const LightVolume& light) {
   return std::visit([](const auto& volume) -> const Placement& { return source_of(volume); }, light);
 }
 inline double range_of(const LightVolume& light) {
   return std::visit([](const auto& volume) { return volume.range; }, light);
 }
-inline LightVolume with_range(LightVolume light, double range) {
-  std::visit([&](auto& volume) { volume.range = range; }, light);
+// Of another size: a light by its range, a box about its middle.
+template <class Volume>
+Volume with_range(Volume light, double range) {
+  light.range = range;
   return light;
+}
+inline BoxVolume with_range(BoxVolume box, double range) {
+  for (Vec3d& axis : box.half_axes) axis *= range / box.range;
+  box.range = range;
+  return box;
+}
+inline LightVolume with_range(const LightVolume& light, double range) {
+  return std::visit([&](const auto& volume) { return LightVolume(with_range(volume, range)); }, light);
 }
 
 // A ball, or a ball ∩ cone, in a number type: searches and filters take both alike.
@@ -92,10 +115,6 @@ Volume<Real> volume_of(const BallVolume& light) {
   Volume<Real> volume = volume_of<Real>(SpotVolume{light.center, light.range});
   volume.is_cone = false;
   return volume;
-}
-template <class Real>
-Volume<Real> volume_of(const LightVolume& light) {
-  return std::visit([](const auto& alternative) { return volume_of<Real>(alternative); }, light);
 }
 
 // Without the range beyond what matters: `reach` is the largest distance from the origin that does.

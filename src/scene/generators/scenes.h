@@ -14,6 +14,7 @@ void build_outlier(Stage& stage, int lights);
 void build_steps(Stage& stage, int lights);
 void build_slope(Stage& stage, int lights);
 void build_mix(Stage& stage, int lights);
+void build_rooms(Stage& stage, int lights);                      // and boxes
 void build_lattice(Stage& stage, int lights, const Vec3d& off);  // off: how far all lights are moved
 
 }  // namespace clusterbench::scene

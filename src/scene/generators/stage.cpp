@@ -108,6 +108,15 @@ void Stage::spot(const std::string& name, const Vec3d& position, const Vec3d& di
            parent);
 }
 
+void Stage::box(const std::string& name, const Vec3d& position, const Vec4d& rotation, const Vec3d& half_extents_m,
+                int parent) {
+  add_node({{"name", name},
+            {"translation", position_json(position)},
+            {"rotation", rotation_json(rotation)},
+            {"extras", {{"clusterbench_box", {{"half_extents", position_json(half_extents_m)}}}}}},
+           parent);
+}
+
 int Stage::mover(const std::string& name, const std::vector<PathKey>& keys) {
   const int node = add_node({{"name", name},
                              {"translation", position_json(keys.front().position)},

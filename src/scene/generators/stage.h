@@ -32,6 +32,9 @@ class Stage {
   void point(const std::string& name, const Vec3d& position, double range_m, int parent = -1);
   void spot(const std::string& name, const Vec3d& position, const Vec3d& direction, double range_m,
             double half_angle_deg, int parent = -1);
+  // An oriented box (decal, probe), turned by a quaternion.
+  void box(const std::string& name, const Vec3d& position, const Vec4d& rotation, const Vec3d& half_extents_m,
+           int parent = -1);
   // A node that moves along the keys; the number to give as a parent.
   int mover(const std::string& name, const std::vector<PathKey>& keys);
   // Surfaces that stand still, three corners each, counterclockwise from outside.

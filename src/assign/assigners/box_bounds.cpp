@@ -1,0 +1,26 @@
+// Boxes against cells by axis-aligned bounds alone: the coarse test. Points and spots as `aabb` has them.
+
+#include "assign/bounds/bounds_method.h"
+
+namespace clusterbench::assign {
+namespace {
+
+struct AabbsInExtents : CellAabbs {
+  static constexpr Looks k_looks = Looks::in_box;
+};
+
+}  // namespace
+
+extern const AssignerDescriptor box_bounds_descriptor;
+const AssignerDescriptor box_bounds_descriptor{
+    .name = "box-bounds",
+    .summary = "boxes (decals, probes) by their axis-aligned bounds against each cell's; points and spots as aabb",
+    .source = "Wicked Engine 2018, Optimizing tile-based light culling: the coarse test",
+    .kinds = {grid::Kind::frustum},
+    .boxes = true,
+    .by_name = true,
+    .params = light_params(),
+    .make = make_list_assigner<CellBoxMethod<AabbsInExtents, CoarseBoxTest>>,
+};
+
+}  // namespace clusterbench::assign

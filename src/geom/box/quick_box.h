@@ -1,0 +1,32 @@
+#pragma once
+// An oriented box in double precision, for tests that settle most cells and points at once.
+
+#include <array>
+#include <glm/geometric.hpp>
+
+#include "geom/shapes/light_volume.h"
+#include "geom/shapes/vec.h"
+
+namespace clusterbench::geom {
+
+// The directions across its faces, and how far it extends along each.
+class QuickBox {
+ public:
+  // middle_at: the middle in the cells' space.
+  QuickBox(const BoxVolume& box, const Vec3d& middle_at);
+
+  // Is a ball beyond a face? Whatever the direction, it proves that.
+  bool surely_misses(const Vec3d& center, double radius) const;
+  bool surely_holds(const Vec3d& p) const;
+
+ private:
+  double rounding(const Vec3d& from_middle) const { return 0x1p-30 * glm::length(from_middle) + slack_; }
+
+  Vec3d middle_;
+  std::array<Vec3d, 3> across_{};  // unit, or 0 where that tells nothing
+  std::array<double, 3> extent_{};
+  bool has_volume_ = true;  // by more than rounding
+  double slack_;
+};
+
+}  // namespace clusterbench::geom
