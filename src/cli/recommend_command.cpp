@@ -72,6 +72,9 @@ config::Config read_input(const RecommendFlags& flags) {
   config.details.reset();  // nothing here asks for them
   config.stability.reset();
   for (const char* key : {"details", "stability"}) config.resolved[key] = nullptr;
+  config.shadow_culls.clear();
+  config.shared_frusta.reset();
+  for (const char* key : {"shadow_cull", "shadow_frusta"}) config.resolved.erase(key);
   return config;
 }
 

@@ -66,6 +66,9 @@ config::Config counting_only(config::Config config) {
   config.resolved["timing"]["measure"] = false;
   config.resolved["accuracy"]["check"] = false;
   for (const char* key : {"stability", "lookup", "details"}) config.resolved[key] = nullptr;
+  config.shadow_culls.clear();
+  config.shared_frusta.reset();
+  for (const char* key : {"shadow_cull", "shadow_frusta"}) config.resolved.erase(key);
   return config;
 }
 

@@ -7,23 +7,23 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const Cells k_headings{"",          "assigner", "map",   "texels", "pairs", "true",
-                       "evaluated", "lit",      "wrong", "lost",   "MiB",   "step us"};
+const Cells k_cull_headings{"",          "assigner", "map",   "texels", "pairs", "true",
+                            "evaluated", "lit",      "wrong", "lost",   "MiB",   "step us"};
 
 std::string percent_at(const Json& json, const char* pointer) {
   return text_at(json, pointer, "%.2f %%", 100.0);
 }
 
 // A count per sample.
-std::string per_sample(const Json& cull, const char* pointer) {
+std::string per_visible_sample(const Json& cull, const char* pointer) {
   if (!cull.contains("opaque") || cull["opaque"]["samples"] == 0) return "-";
   return text_at(cull, pointer, "%.2f", 1.0 / cull["opaque"]["samples"].get<double>());
 }
 
 Cells cull_row(const NamedCase& named, std::size_t index) {
   const Json& cull = (*named.result_case)["shadows"]["culls"][index];
-  const std::string evaluated = per_sample(cull, "/opaque/evaluated/before"),
-                    kept = per_sample(cull, "/opaque/evaluated/after");
+  const std::string evaluated = per_visible_sample(cull, "/opaque/evaluated/before"),
+                    kept = per_visible_sample(cull, "/opaque/evaluated/after");
   const std::string step = "/timing/shadow_cull/" + std::to_string(index) + "/step_ns/mean";
   return {"",
           named.name,
@@ -32,7 +32,7 @@ Cells cull_row(const NamedCase& named, std::size_t index) {
           percent_at(cull, "/pairs/removed"),
           percent_at(cull, "/true_pairs/removed"),
           evaluated == "-" ? "-" : evaluated + " to " + kept,
-          per_sample(cull, "/opaque/lit"),
+          per_visible_sample(cull, "/opaque/lit"),
           text_at(cull, "/opaque/wrongly_removed", "%.0f"),
           text_at(cull, "/opaque/lost_irradiance", "%.3g %%", 100.0),
           text_at(cull, "/maps/bytes", "%.2f", 0x1p-20),
@@ -58,7 +58,7 @@ std::string shadows_block(const std::string& block, const std::vector<NamedCase>
   std::string out = " " + block + "\n";
   const Json& first = (*lines.front().result_case)["shadows"];
   if (first.contains("frusta")) out += frusta_text(first["frusta"]);
-  std::vector<Cells> rows{k_headings};
+  std::vector<Cells> rows{k_cull_headings};
   for (const NamedCase& named : lines) {
     const Json& shadows = (*named.result_case)["shadows"];
     for (std::size_t i = 0; shadows.contains("culls") && i < shadows["culls"].size(); ++i)

@@ -203,7 +203,7 @@ TEST(ShadowMap, a_proven_texel_has_the_greatest_distance_of_a_plane_that_covers_
   const scene::WorldLight light = spot_at({0.3, 0.1, 0}, {0, 0, -1}, std::atan(1.0));
   const ShadowMap map = map_of(caster, light, {16, TexelBound::proven, 0.01});
   // The face's axes follow the light's alone: of texels in a ring all four turns are the same.
-  const double corner = 5.0 * std::sqrt(1.0 + 2.0 * (2.0 / 16) * (2.0 / 16));
+  const double slope = 2.0 / 8.0, corner = 5.0 * std::sqrt(1.0 + 2.0 * slope * slope);
   for (const int x : {6, 9})
     for (const int y : {6, 9}) EXPECT_NEAR(static_cast<double>(map.texel(0, x, y)), corner, 1e-4);
   EXPECT_EQ(map.texel(0, 0, 0), 0.0f) << "beside the cone";
