@@ -468,6 +468,7 @@ std::string set_obstacle(const config::SampleSetRequest& request, const SceneDat
 }
 
 std::string shadow_obstacle(const SceneData& data) {
+  if (has_lights(data.scene, scene::LightType::box)) return "shadow maps are of points and spots; run boxes without";
   return !data.geometry || data.geometry->empty() ? "the scene has no triangles" : "";
 }
 

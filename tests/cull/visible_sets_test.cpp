@@ -13,6 +13,7 @@
 #include "core/random.h"
 #include "scene/camera_path.h"
 #include "scene/mesh_fixture.h"
+#include "places.h"
 
 namespace clusterbench::cull {
 namespace {
@@ -208,7 +209,7 @@ double free_way(const std::vector<Corners>& triangles, const Vec3d& from, const 
 class OnScene : public ::testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
-    const std::filesystem::path file = std::filesystem::path(CLUSTERBENCH_SOURCE_DIR) / "scenes" / GetParam();
+    const std::filesystem::path file = std::filesystem::path(test::source_dir()) / "scenes" / GetParam();
     from_.scene = scene::load_gltf(file);
     from_.geometry = scene::load_geometry(from_.scene);
     scene::resolve_ranges(from_.scene, {});

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "places.h"
 #include "run/frame_lights.h"
 #include "run/path_culls.h"
 #include "run/served_cases.h"
@@ -203,7 +204,7 @@ TEST(PreCulls, a_frame_takes_its_pre_cull_too) {
 }
 
 TEST(PreCulls, cases_without_one_keep_their_ids_and_names) {
-  const std::string scene = std::string(CLUSTERBENCH_SOURCE_DIR) + "/scenes/hall-512.glb";
+  const std::string scene = test::source_dir() + "/scenes/hall-512.glb";
   const auto plan_of = [&](const std::string& rest) {
     return make_plan(config::parse_config(R"({"scenes": [{"path": ")" + scene + R"("}], "grids": [{"kind": "frustum"}],
         "assigners": ["aabb"])" + rest + "}",
@@ -229,7 +230,7 @@ TEST(PreCulls, cases_without_one_keep_their_ids_and_names) {
 }
 
 TEST(PreCulls, visible_sets_need_triangles) {
-  const std::string scene = std::string(CLUSTERBENCH_SOURCE_DIR) + "/scenes/hall-512.glb";
+  const std::string scene = test::source_dir() + "/scenes/hall-512.glb";
   const Plan plan =
       make_plan(config::parse_config(R"({"scenes": [{"path": ")" + scene + R"("}], "grids": [{"kind": "frustum"}],
         "assigners": ["aabb"], "pre_cull": ["none", {"visible_set": {}}]})",
@@ -242,7 +243,7 @@ TEST(PreCulls, visible_sets_need_triangles) {
 }
 
 TEST(PreCulls, visible_sets_are_counted_and_fail_nothing) {
-  const std::string scene = std::string(CLUSTERBENCH_SOURCE_DIR) + "/scenes/mix.glb";
+  const std::string scene = test::source_dir() + "/scenes/mix.glb";
   config::Config config = config::parse_config(
       R"({"scenes": [{"path": ")" + scene + R"(", "frames": 4}], "grids": [{"kind": "frustum"}], "viewport": [320, 180],
         "assigners": ["exact-fast"], "samples": {"opaque": {"divisor": 8}}, "timing": {"measure": false},

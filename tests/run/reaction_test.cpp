@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "measure/samples.h"
 #include "measure/truth.h"
+#include "places.h"
 #include "run/passes/timing_pass.h"
 #include "run/path_frames.h"
 #include "run/runner.h"
@@ -25,7 +26,7 @@ config::Config jam(const std::string& grids, const std::string& rest = "", int f
       R"({"scenes": [{"path": "scenes/jam.glb", "frames": )" + std::to_string(frames) +
           R"(}], "viewport": [320, 180], "timing": {"measure": false}, "shading": {"samples": 500}, "grids": [)" +
           grids + "]" + rest + "}",
-      std::string(CLUSTERBENCH_SOURCE_DIR) + "/c.json");
+      test::source_dir() + "/c.json");
 }
 
 std::string tiles_that(const std::string& react, const std::string& tiles = R"({"pixels": [32, 32]})") {
@@ -261,7 +262,7 @@ TEST(TilesThatReact, can_be_an_axis_and_are_written_as_they_are_read) {
   EXPECT_EQ(config.grids[2].reaction->most, 200u);
   EXPECT_EQ(config.grids[3].reaction, (grid::Reaction{grid::Reaction::To::mask_words, 16384, "", 0}));
   const config::Config again =
-      config::parse_config(config.resolved.dump(), std::string(CLUSTERBENCH_SOURCE_DIR) + "/c.json");
+      config::parse_config(config.resolved.dump(), test::source_dir() + "/c.json");
   EXPECT_EQ(again.resolved, config.resolved);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(again.grids[i].reaction, config.grids[i].reaction);
 }
@@ -362,7 +363,7 @@ TEST(ListsWithoutRoom, that_cannot_hold_one_list_of_all_lights_are_skipped_with_
 TEST(ConfigsReact, shows_all_three) {
   const config::FlagValue flags[] = {{"--viewport", "320x180"}, {"--set", "timing.measure=false"}};
   const config::Config config =
-      config::load_config(std::filesystem::path(CLUSTERBENCH_SOURCE_DIR) / "configs/react.json", flags);
+      config::load_config(std::filesystem::path(test::source_dir()) / "configs/react.json", flags);
   int entries = 0, words = 0, fallbacks = 0;
   for (const CaseResult& found : run_all(config).cases) {
     EXPECT_TRUE(found.failures.empty()) << found.name;
