@@ -9,7 +9,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* k_lights = "KHR_lights_punctual";
+constexpr const char* k_punctual = "KHR_lights_punctual";
 
 void check_rotation(const JsonLocation& location) {
   const std::vector<double> q = location.numbers(4);
@@ -61,14 +61,14 @@ void copy_light(const JsonLocation& root, const JsonLocation& node, json& out) {
   if (!node.has("extensions")) return;
   const JsonLocation extensions = node.at("extensions");
   extensions.expect_object();
-  if (!extensions.has(k_lights)) return;
-  const JsonLocation reference = extensions.at(k_lights);
+  if (!extensions.has(k_punctual)) return;
+  const JsonLocation reference = extensions.at(k_punctual);
   reference.expect_object();
-  if (!root.has("extensions") || !root.at("extensions").has(k_lights)) {
+  if (!root.has("extensions") || !root.at("extensions").has(k_punctual)) {
     reference.refuse("the document defines no lights under /extensions/KHR_lights_punctual");
   }
-  const std::size_t lights = count_of(root.at("extensions").at(k_lights), "lights");
-  out["extensions"][k_lights]["light"] = reference.at("light").index(lights, "light");
+  const std::size_t lights = count_of(root.at("extensions").at(k_punctual), "lights");
+  out["extensions"][k_punctual]["light"] = reference.at("light").index(lights, "light");
 }
 
 // Half extents of an oriented box (decal, probe), an invention of this tool: see OrientedBox.
