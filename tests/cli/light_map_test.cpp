@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-const std::string k_slope = "light-map " + source_file("scenes/slope.glb") + " --unwrap --texels-per-metre 0.5";
+const std::string k_mix = "light-map " + source_file("scenes/mix.glb") + " --unwrap --texels-per-metre 0.5";
 
 Json without_time(const std::string& text) {
   Json out = Json::parse(text);
@@ -19,35 +19,36 @@ Json without_time(const std::string& text) {
 
 TEST(LightMapCommand, what_it_writes_is_valid_and_the_same_for_any_number_of_threads) {
   const Folder folder;
-  const std::string out = (folder / "maps.json").string(), tests = k_slope + " --facing --visibility";
+  const std::string out = (folder / "maps.json").string(), tests = k_mix + " --facing --visibility";
   const Outcome done = tool(tests + " -o " + out);
   ASSERT_EQ(done.code, 0) << done.err;
-  EXPECT_NE(done.err.find("slope: 225 point lights and 75 spot lights"), std::string::npos) << done.err;
+  EXPECT_NE(done.err.find("mix: 225 point lights and 75 spot lights"), std::string::npos) << done.err;
   EXPECT_EQ(tool("validate " + out).out, out + ": valid, light maps of `clusterbench light-map` with 1 scene\n");
   const Json one = without_time(file_text(out));
   EXPECT_EQ(without_time(tool(tests + " --threads 3 -q").out), one);
   const Json& all = one["scenes"][0]["all"];
-  EXPECT_EQ(one["scenes"][0]["maps"].size(), 2u);
+  EXPECT_EQ(one["scenes"][0]["maps"].size(), 4u);
   EXPECT_GT(all["texels"]["lit"], 0);
   // Each test leaves out more, and texels are all that is counted.
   EXPECT_GT(all["left_after"]["range"], all["left_after"]["cone"]);
   EXPECT_GT(all["left_after"]["cone"], all["left_after"]["facing"]);
+  EXPECT_GT(all["left_after"]["facing"], all["left_after"]["visibility"]);
   EXPECT_EQ(all["left_after"]["visibility"], all["bits_set"]);
   EXPECT_EQ(all["texels"]["covered"].get<int>() + all["texels"]["dead"].get<int>(), all["texels"]["all"]);
-  const Json bare = without_time(tool(k_slope + " -q").out);
+  const Json bare = without_time(tool(k_mix + " -q").out);
   EXPECT_TRUE(bare["scenes"][0]["all"]["left_after"]["facing"].is_null());
   EXPECT_EQ(bare["scenes"][0]["all"]["left_after"]["cone"], bare["scenes"][0]["all"]["bits_set"]);
 }
 
 TEST(LightMapCommand, a_person_reads_a_table_and_what_has_no_map) {
-  const Outcome made = tool_on_terminal(k_slope);
+  const Outcome made = tool_on_terminal(k_mix);
   EXPECT_EQ(made.code, 0);
   EXPECT_EQ(made.out.find("light_map_version"), std::string::npos) << made.out;
-  EXPECT_NE(made.out.find("hallway"), std::string::npos) << made.out;
-  EXPECT_NE(made.out.find("all 2 maps"), std::string::npos) << made.out;
-  const Outcome none = tool_on_terminal("light-map " + source_file("scenes/slope.glb"));
+  EXPECT_NE(made.out.find("houses"), std::string::npos) << made.out;
+  EXPECT_NE(made.out.find("all 4 maps"), std::string::npos) << made.out;
+  const Outcome none = tool_on_terminal("light-map " + source_file("scenes/mix.glb"));
   EXPECT_EQ(none.code, 0);
-  EXPECT_NE(none.out.find("left out  'hallway' has no texture coordinates, and 1 other likewise"), std::string::npos)
+  EXPECT_NE(none.out.find("left out  'ground' has no texture coordinates, and 3 others likewise"), std::string::npos)
       << none.out;
 }
 
@@ -72,7 +73,7 @@ TEST(LightMapCommand, what_it_cannot_do_is_told_in_a_line) {
       {slope + " --lamp-radius 2", "--lamp-radius"},
       {slope + " --tile 0", "--tile: takes a whole number from 1"},
       {slope + " --threads 0", "--threads: takes a whole number from 1"},
-      {slope + " --unwrap --texels-per-metre 1000", "mesh 'ground': its map would be more than 16384 texels"},
+      {slope + " --unwrap --texels-per-metre 1000", "mesh 'hallway': its map would be more than 16384 texels"},
       {slope + " -o " + slope, "slope.glb"},
       {slope + " -o /nowhere/maps.json", "/nowhere/maps.json: cannot be written"},
       {"", "light-map: SCENE is required"},
