@@ -144,10 +144,10 @@ def row(case, firsts):
     lists = ["none", ""] if error is None else [f"{100 * error['excess_ratio']:.1f} %", f"{error['false_negatives']:,}"]
     unlit = samples["missed"] / samples["needed"]
     return [name, case["grid"]["kind"], *lists, f"{samples['evaluated'] / samples['samples']:.2f}",
-            f"{100 * unlit:.2g} %" if unlit else "0", f"{case['buffers']['bytes']['high_water'] / 1e3:.1f}", time_of(case, firsts)]
+            f"{samples['read_bytes'] / samples['samples']:.0f}", f"{100 * unlit:.2g} %" if unlit else "0", f"{case['buffers']['bytes']['high_water'] / 1e3:.1f}", time_of(case, firsts)]
 
 
-HEADS = ["method", "grid", "excess", "missed", "lights per pixel", "unlit", "KB", "frame time"]
+HEADS = ["method", "grid", "excess", "missed", "lights per pixel", "bytes read", "unlit", "KB", "frame time"]
 
 
 def rows_of(name, result):

@@ -30,6 +30,7 @@ def run(*arguments):
 def counted(result):
     """What a row shows of each case, but for its time."""
     return {case["name"]: (case.get("error"), case["buffers"]["bytes"]["high_water"], case["samples"]["opaque"]["evaluated"],
+                           case["samples"]["opaque"]["read_bytes"],
                            case["samples"]["opaque"]["missed"]) for case in result["cases"]}
 
 
