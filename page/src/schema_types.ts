@@ -67,6 +67,8 @@ export type SampleSet = {
   }; // The frame that misses most; absent where none is missed
   overshade: number | null; // evaluated / needed over all samples; null where it cannot be compared: fewer than 100 lights are needed, or more than 0.001 of them are missed [ratio]
   unanswered?: number; // Samples at which the light structure has no answer: outside of its cells, beside the picture, behind the eye [samples]
+  reads?: number; // Elements of the light structure's buffers that shaders fetch at the samples to know their lights: headers, light indices, words of bits, nodes, runs, boxes. The lights themselves are not among them [elements]
+  read_bytes?: number; // Bytes of these elements [B]
   lost_lux?: number | null; // Irradiance that missed lights carry, mean over the samples [lx]
   darkest?: {
     frame: number; // Number of the frame on the camera's path, from 0 [frame, over one sample]

@@ -118,6 +118,7 @@ void add_samples(ShadingCounts& counts, int frame, std::span<const grid::Sample>
     const bool is_answered = structure.lights_at(samples[i], grid::Log2::rounded, given);
     if (!std::is_sorted(given.begin(), given.end())) std::sort(given.begin(), given.end());
     counts.evaluated += given.size();
+    counts.reads += structure.reads_at(samples[i], grid::Log2::rounded);
     counts.unanswered += is_answered ? 0 : 1;
     double lost_lux = 0.0;
     for (std::uint32_t k = needed.lists.begin[i]; k < needed.lists.begin[i + 1]; ++k) {

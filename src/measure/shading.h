@@ -27,6 +27,7 @@ struct ShadingCounts {
   std::uint64_t missed = 0;          // of those, not given, whatever the reason
   std::uint64_t unanswered = 0;      // samples at which the structure has no answer: they lie outside of its cells
   std::uint64_t missed_outside = 0;  // of the missed, at those
+  assign::Reads reads{};             // what shaders fetch of the structure to know these lights
   // Irradiance, of all needed lights and of those that are missed, as sums over the samples. Photometric, in lux on a
   // surface that faces the light: intensity times the colour's luminance, by KHR_lights_punctual's attenuation with the
   // range's window and a spot's falloff.

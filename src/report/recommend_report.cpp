@@ -54,17 +54,17 @@ FigureKind figure_kind(const std::string& name) {
   return found == std::end(k_kinds) ? FigureKind{"", OverCameras::mean} : *found;
 }
 
-constexpr const char *k_gpu_cost = "gpu_cost_us", *k_evaluated = "evaluated";
+constexpr const char *k_gpu_cost = "gpu_cost_us", *k_evaluated = "evaluated", *k_read_bytes = "read_bytes";
 
 std::optional<double> figure_of(const Json& result_case, const std::string& name) {
   if (name == k_gpu_cost) {
     const std::optional<double> ns = number_at(result_case, "/cost/gpu_ns");
     return ns ? std::optional(1e-3 * *ns) : std::nullopt;
   }
-  if (name != k_evaluated) return limit_figure(result_case, name);
+  if (name != k_evaluated && name != k_read_bytes) return limit_figure(result_case, name);
   const std::optional<double> samples = number_at(result_case, "/shading/samples"),
-                              evaluated = number_at(result_case, "/shading/evaluated");
-  return samples && evaluated && *samples > 0.0 ? std::optional(*evaluated / *samples) : std::nullopt;
+                              sum = number_at(result_case, "/shading/" + name);
+  return samples && sum && *samples > 0.0 ? std::optional(*sum / *samples) : std::nullopt;
 }
 
 // Nothing where a camera lacks it.
@@ -379,6 +379,8 @@ std::vector<ObjectiveFigure> objective_figures() {
   }
   all.push_back({k_gpu_cost, "modelled time of a frame's upload and shading, in microseconds", false, true, false});
   all.push_back({k_evaluated, "lights that a sample is given, mean", false, false, false});
+  all.push_back(
+      {k_read_bytes, "bytes that a sample reads of the structure to know its lights, mean", false, false, false});
   return all;
 }
 

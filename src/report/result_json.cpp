@@ -148,7 +148,9 @@ Json shading(const measure::ShadingCounts& s) {
            {"unlit", number_or_null(s.unlit())},
            {"lost_irradiance", number_or_null(s.lost_irradiance())},
            {"lost_lux", number_or_null(s.lost_lux / static_cast<double>(s.samples))},
-           {"overshade", number_or_null(s.comparable_overshade())}};
+           {"overshade", number_or_null(s.comparable_overshade())},
+           {"reads", s.reads.elements},
+           {"read_bytes", s.reads.bytes}};
   if (s.worst)
     out["worst_frame"] = {{"frame", s.worst->frame}, {"missed", s.worst->missed}, {"needed", s.worst->needed}};
   if (!s.darkest) return out;

@@ -47,6 +47,37 @@ std::vector<std::uint32_t> at(const AssignerRun& run, float pixel_x, const Vec3f
   return lights;
 }
 
+Reads reads_at(const AssignerRun& run, float pixel_x, const Vec3f& place) {
+  return run.structure()->reads_at({pixel_x, 50.0f, place, Vec3d(place), Vec3d(0.0)}, grid::Log2::rounded);
+}
+
+TEST(ZBinning, a_sample_reads_its_bin_the_words_of_its_range_and_a_number_for_each_light) {
+  // 40 lights by depth at 3 m, 40 at 6 m, a spot at 12 m: ranks 0 to 39, 40 to 79, 80; words of 32.
+  std::vector<scene::WorldLight> lights;
+  for (int i = 0; i < 80; ++i) lights.push_back(point_light({1, 0, i < 40 ? -3 : -6}, 0.5));
+  lights.push_back(spot_light({1, 0, -12}, 0.5, {0, 0, -1}, 0.4));
+  const TwoTiles two(lights);
+  const AssignerRun bins = two.run("z-binning"), ranges = two.run("tile-ranges");
+  EXPECT_EQ(reads_at(bins, 150, {0.5f, 0, -1.5f}), (Reads{1, 16})) << "an empty bin";
+  EXPECT_EQ(reads_at(bins, 150, {1, 0, -3}), (Reads{1 + 2 + 40, 16 + 4 * (2 + 40)}));
+  EXPECT_EQ(reads_at(bins, 150, {1, 0, -6}), (Reads{1 + 2 + 40, 16 + 4 * (2 + 40)}));
+  EXPECT_EQ(reads_at(bins, 150, {1, 0, -12}), (Reads{1 + 1 + 1, 16 + 4 * (1 + 1)}));
+  EXPECT_EQ(reads_at(bins, 50, {-1, 0, -6}), (Reads{1 + 2, 16 + 4 * 2})) << "words without a bit of this tile";
+  EXPECT_EQ(reads_at(ranges, 50, {-1, 0, -6}), (Reads{1, 8})) << "a range of its own says so";
+  EXPECT_EQ(reads_at(bins, 150, {9, 0, -20}), Reads{}) << "beyond the grid";
+}
+
+TEST(Bvh, a_sample_reads_the_boxes_of_the_groups_on_its_way_and_a_number_for_each_light) {
+  std::vector<scene::WorldLight> lights;
+  for (int i = 0; i < 100; ++i) lights.push_back(point_light({3.0 * i, 0, -6}, 1.0));
+  lights.push_back(spot_light({30, 0, -5}, 4.0, {0, 0, -1}, 0.4));
+  const AssignerRun run = TwoTiles(lights).run("bvh");
+  // Three levels of points and one of spots: a group of eight boxes in each.
+  EXPECT_EQ(reads_at(run, 150, {4.5f, 0, -6}), (Reads{32, 24 * 32}));
+  EXPECT_EQ(reads_at(run, 150, {3, 0, -6}), (Reads{32 + 1, 24 * 32 + 4}));
+  EXPECT_EQ(reads_at(run, 150, {297, 0, 6}), (Reads{16, 24 * 16})) << "behind all of them: the uppermost groups";
+}
+
 TEST(ZBinning, a_sample_gets_its_tiles_bits_within_its_bins_range) {
   // From back to front 0, 1, 2 on the right, 3 a spot on the left; sorted by depth 2, 1, 0, and 3.
   const TwoTiles two({point_light({5, 0, -12}, 1.0), point_light({3, 0, -6}, 0.5), point_light({1, 0, -3}, 0.25),

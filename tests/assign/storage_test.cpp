@@ -420,6 +420,38 @@ TEST(Runs, are_of_consecutive_lights_of_one_type) {
   EXPECT_EQ(runs->use().header_bytes, 12u) << "100,000 runs of one type";
 }
 
+// Of cells with 0, 1, 3 and 4 of 300 lights, of which the last 100 are spots.
+std::vector<Reads> reads_of_cells(const std::string& name, const std::map<std::string, ParamValue>& params = {},
+                                  view::LightRanges lights = {200, 100}) {
+  const auto kept = storage(name, params);
+  kept->start(4, lights);
+  kept->store(lists_from({{}, {7}, {3, 4, 20}, {1, 2, 3, 20}}));
+  std::vector<Reads> reads;
+  for (std::uint32_t cell = 0; cell < 4; ++cell) reads.push_back(kept->reads_of_cell(cell));
+  return reads;
+}
+
+TEST(EveryStorage, reads_what_its_layout_makes_a_shader_fetch) {
+  using All = std::vector<Reads>;
+  EXPECT_EQ(reads_of_cells("packed"), (All{{1, 8}, {2, 8 + 2}, {4, 8 + 6}, {5, 8 + 8}}));
+  EXPECT_EQ(reads_of_cells("packed", {}, {100000, 0}), (All{{1, 8}, {2, 8 + 4}, {4, 8 + 12}, {5, 8 + 16}}))
+      << "counts that fit into 16 bits";
+  EXPECT_EQ(reads_of_cells("packed", {{"headers", std::string("sparse")}}),
+            (All{{1, 8}, {3, 16 + 2}, {5, 16 + 6}, {6, 16 + 8}}))
+      << "a block, and a header where the block has the cell's bit";
+  EXPECT_EQ(reads_of_cells("fixed", {{"cap", 4.0}}), (All{{1, 4}, {2, 4 + 2}, {4, 4 + 6}, {5, 4 + 8}}));
+  EXPECT_EQ(reads_of_cells("fixed", {{"cap", 4.0}, {"counts", std::string("none")}}),
+            (All{{1, 2}, {2, 4}, {4, 8}, {4, 8}}))
+      << "up to the mark behind the last light, which a full list has not";
+  EXPECT_EQ(reads_of_cells("fixed", {{"cap", 2.0}}), (All{{1, 4}, {2, 4 + 2}, {3, 4 + 4}, {3, 4 + 4}}))
+      << "less what is dropped";
+  EXPECT_EQ(reads_of_cells("bitfield"), (All(4, {10, 40}))) << "all words of the cell";
+  EXPECT_EQ(reads_of_cells("bitfield", {}, {20, 12}), (All(4, {1, 4}))) << "up to 32 lights are a single word";
+  EXPECT_EQ(reads_of_cells("linked"), (All{{1, 4}, {2, 4 + 8}, {4, 4 + 24}, {5, 4 + 32}}));
+  EXPECT_EQ(reads_of_cells("runs"), (All{{1, 8}, {2, 8 + 4}, {3, 8 + 8}, {3, 8 + 8}}))
+      << "3 to 4 and 20; 1 to 3 and 20";
+}
+
 TEST(EveryStorage, keeps_lists_in_any_order) {
   for (const StorageDescriptor* row : storage_descriptors())
     for (const std::uint32_t lights : {9u, 60u, 700u})

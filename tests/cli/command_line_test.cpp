@@ -159,7 +159,9 @@ TEST(CommandLine, list_names_every_assigner_with_its_parameters) {
                                              "naive-refinement",
                                              "naive-planes",
                                              "naive-cone",
-                                             "bevy-refinement"}));
+                                             "bevy-refinement",
+                                             "naive-mask",
+                                             "naive-tile-size"}));
   const std::string text = tool("list").out;
   for (const std::string& name : names) EXPECT_NE(text.find(name), std::string::npos) << name;
   const std::string inflation = ": padding of the light's radius";

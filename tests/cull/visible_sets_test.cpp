@@ -11,9 +11,9 @@
 #include <set>
 
 #include "core/random.h"
+#include "places.h"
 #include "scene/camera_path.h"
 #include "scene/mesh_fixture.h"
-#include "places.h"
 
 namespace clusterbench::cull {
 namespace {

@@ -21,6 +21,7 @@ class Stairs final : public assign::LightStructure {
     for (int light = 0; light < length; ++light) out.push_back(static_cast<std::uint32_t>(light));
     return true;
   }
+  assign::Reads reads_at(const grid::Sample&, grid::Log2) const override { return {}; }
   assign::StructureUse use() const override { return {}; }
   assign::StructureLimit limit() const override { return {}; }
   std::vector<assign::BufferNeed> buffers() const override { return {}; }
@@ -82,6 +83,7 @@ TEST(Coherence, lists_of_other_lights_are_united) {
       out.assign(1, static_cast<std::uint32_t>(sample.pixel_y) * 8 + static_cast<std::uint32_t>(sample.pixel_x));
       return true;
     }
+    assign::Reads reads_at(const grid::Sample&, grid::Log2) const override { return {}; }
     assign::StructureUse use() const override { return {}; }
     assign::StructureLimit limit() const override { return {}; }
     std::vector<assign::BufferNeed> buffers() const override { return {}; }

@@ -166,12 +166,17 @@ TEST(Deferred, the_pixels_that_are_counted_as_shaded_are_those_whose_samples_get
     run.build(setting.grid);
     run.assign(setting.input(view::lights_in(setting.frame, setting.frame.view_space)));
     std::uint64_t given_in_all = 0;
+    assign::Reads reads;
     std::vector<std::uint32_t> given;
     for (const grid::Sample& sample : opaque_samples(setting.frame, setting.depth)) {
       ASSERT_TRUE(run.structure()->lights_at(sample, grid::Log2::rounded, given));
       given_in_all += given.size();
+      reads += run.structure()->reads_at(sample, grid::Log2::rounded);
     }
     EXPECT_EQ(run.structure()->use().index_entries, given_in_all);
+    // Pixels of the sky are no samples; what is drawn over them is traffic and no sample's.
+    EXPECT_LE(reads.bytes, run.structure()->use().traffic_bytes);
+    EXPECT_GE(reads.bytes, (16 + 2 * 8 + 4) * given_in_all);
     EXPECT_GT(given_in_all, 1000u);
   }
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "assign/contract/assigner_run.h"
 #include "assign/dense_check.h"
 #include "measure/truth.h"
 
@@ -123,6 +124,42 @@ TEST(NaiveForm, a_sine_from_the_cosine_loses_a_narrow_spot) {
       case_of(spot_light({-9e4, 0.3, -50}, 1e5, {1, 0, 0}, 0.01 * M_PI / 180), {60, 34}, 40, 5.0, 500);
   EXPECT_GT(lost_by_flaw(case_text, "naive-cone", "sine-from-cosine"), 0);
   for (const char* careful : {"aabb", "sphere-refinement", "exact"}) EXPECT_EQ(lost_cells(case_text, careful), 0);
+}
+
+// Lights that the structure of a method's own gives at a pixel, 10 m away.
+std::vector<std::uint32_t> given_at(const Case& case_text, const std::string& name, double pixel_x, double pixel_y) {
+  const assign::AssignerDescriptor& row = *assign::find_assigner(name);
+  assign::AssignerRun run(row, assign::Params(row.params), assign::Answer::structure);
+  run.build(case_text.grid);
+  run.assign({case_text.frame, view::lights_in(case_text.frame, case_text.frame.view_space)});
+  const view::Projection& sides = case_text.frame.projection;
+  const Vec3d at{10 * (sides.left + (sides.right - sides.left) * pixel_x / case_text.frame.viewport.x),
+                 10 * (sides.top + (sides.bottom - sides.top) * pixel_y / case_text.frame.viewport.y), -10};
+  std::vector<std::uint32_t> lights;
+  run.structure()->lights_at({static_cast<float>(pixel_x), static_cast<float>(pixel_y), Vec3f(at), at, Vec3d(0.0)},
+                             grid::Log2::rounded, lights);
+  return lights;
+}
+
+// 1000 x 700 pixels in 12 x 12 tiles: 83 x 58 pixels each, which end at 996 and 696.
+TEST(NaiveForm, tile_sizes_of_whole_pixels_read_another_cell_behind_the_last_tile) {
+  using Lights = std::vector<std::uint32_t>;
+  const auto case_in = [](Vec2i viewport) {
+    Case made = case_of(point_light({0, 0, -10}, 1), {12, 12}, 24, 0.0, 400, viewport);
+    const view::Projection& sides = made.frame.projection;
+    // One on the right edge of the picture, half down; one on the left edge, a row of tiles lower.
+    const double row_m = 10 * (sides.top - sides.bottom) / 12;
+    made.frame.lights = {point_light({10 * sides.right, -0.5 * row_m, -10}, 0.2),
+                         point_light({10 * sides.left, -1.5 * row_m, -10}, 0.2)};
+    made.frame.points = 2;
+    return made;
+  };
+  const Case odd = case_in({1000, 700}), even = case_in({996, 696});
+  EXPECT_EQ(given_at(odd, "naive-tile-size", 998.5, 379.5), Lights{1}) << "the next row's first tile";
+  EXPECT_EQ(given_at(even, "naive-tile-size", 994.5, 377.5), Lights{0}) << "sizes that are whole";
+  EXPECT_EQ(given_at(odd, "naive-tile-size", 1.5, 437.5), Lights{1});
+  EXPECT_EQ(given_at(odd, "z-binning", 998.5, 379.5), Lights{0});
+  EXPECT_EQ(given_at(odd, "naive-tile-size", 998.5, 698.5), Lights()) << "the next slice's second row";
 }
 
 TEST(NaiveForm, a_loose_form_loses_nothing_and_lists_more) {

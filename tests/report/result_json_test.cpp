@@ -254,6 +254,7 @@ TEST(Front, a_case_that_fails_or_leaves_more_than_a_thousandth_unlit_is_on_no_fr
 TEST(ResultJson, sets_of_samples_stand_under_their_names) {
   run::Result result = result_by_hand();
   measure::ShadingCounts counts{.samples = 100, .evaluated = 250, .needed = 200, .missed = 5, .unanswered = 2};
+  counts.reads = {900, 4000};
   counts.lost_lux = 50.0;
   counts.total_lux = 100.0;
   counts.darkest = {3, 10.5f, 20.25f, 7.0};
@@ -261,6 +262,8 @@ TEST(ResultJson, sets_of_samples_stand_under_their_names) {
   const Json json = result_to_json(result, {}), &fog = json["cases"][0]["samples"]["fog"];
   EXPECT_EQ(fog["unanswered"], 2);
   EXPECT_EQ(fog["lost_lux"], 0.5);
+  EXPECT_EQ(fog["reads"], 900);
+  EXPECT_EQ(fog["read_bytes"], 4000);
   EXPECT_EQ(fog["darkest"], (Json{{"frame", 3}, {"lost_lux", 7}, {"pixel", {10.5, 20.25}}}));
   EXPECT_EQ(fog["waves"].size(), 2u);
   EXPECT_TRUE(fog["waves"][0]["divergence"].is_null());

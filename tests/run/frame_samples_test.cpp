@@ -106,6 +106,15 @@ TEST(FrameSamples, every_set_is_asked_for_in_every_case_and_exact_lists_lose_not
   EXPECT_NEAR(share, 0.715, 0.02);
 }
 
+TEST(FrameSamples, packed_lists_are_read_by_a_header_for_each_answer_and_an_index_for_each_light) {
+  const RoomRun run = run_of(room(), k_all_sets);
+  for (const SampleSetResult& set : case_named(run, "exact-fast/packed").samples) {
+    const std::uint64_t answered = set.counts.samples - set.counts.unanswered;
+    EXPECT_EQ(set.counts.reads, assign::Reads::of(answered, 8) + assign::Reads::of(set.counts.evaluated, 1))
+        << measure::name_of(set.set);
+  }
+}
+
 TEST(FrameSamples, only_what_is_not_bound_to_the_picture_answers_outside_of_it) {
   const RoomRun run = run_of(room(), k_all_sets);
   const measure::ShadingCounts& lists = counts_of(case_named(run, "exact-fast/packed"), measure::SampleSet::mirror);

@@ -23,6 +23,9 @@ class AllLights final : public assign::LightStructure {
     for (std::uint32_t light = 0; light < lights_; ++light) out.push_back(light);
     return true;
   }
+  assign::Reads reads_at(const grid::Sample& sample, grid::Log2 way) const override {
+    return has_cells_of_grid && grid::lookup(*grid_, sample, way) < 0 ? assign::Reads{} : assign::Reads::of(1, 4);
+  }
   assign::StructureUse use() const override {
     assign::StructureUse use;
     use.index_entries = 1;

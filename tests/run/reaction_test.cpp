@@ -261,8 +261,7 @@ TEST(TilesThatReact, can_be_an_axis_and_are_written_as_they_are_read) {
   EXPECT_EQ(config.grids[1].reaction, (grid::Reaction{grid::Reaction::To::entries, 100, "aabb", 0}));
   EXPECT_EQ(config.grids[2].reaction->most, 200u);
   EXPECT_EQ(config.grids[3].reaction, (grid::Reaction{grid::Reaction::To::mask_words, 16384, "", 0}));
-  const config::Config again =
-      config::parse_config(config.resolved.dump(), test::source_dir() + "/c.json");
+  const config::Config again = config::parse_config(config.resolved.dump(), test::source_dir() + "/c.json");
   EXPECT_EQ(again.resolved, config.resolved);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(again.grids[i].reaction, config.grids[i].reaction);
 }

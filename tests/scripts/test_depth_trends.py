@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What papers say of depth and clusters holds on the committed results, and scripts/depth_trends notices where not."""
+"""What papers say of depth and clusters holds on the committed results, and scripts/trends notices where not."""
 import copy
 import importlib.machinery
 import importlib.util
@@ -11,17 +11,76 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SCRIPT = ROOT / "scripts" / "depth_trends"
-loader = importlib.machinery.SourceFileLoader("depth_trends", str(SCRIPT))
-depth_trends = importlib.util.module_from_spec(importlib.util.spec_from_loader("depth_trends", loader))
+SCRIPT = ROOT / "scripts" / "trends"
 sys.dont_write_bytecode = True
-loader.exec_module(depth_trends)
+sys.path.insert(0, str(SCRIPT.parent))
+loader = importlib.machinery.SourceFileLoader("trends", str(SCRIPT))
+trends = importlib.util.module_from_spec(importlib.util.spec_from_loader("trends", loader))
+loader.exec_module(trends)
+depth_trends = trends.depth_trends
 
 RESULTS = sorted((ROOT / "results").glob("*/depth.json"))
+# One machine's results that are counted alone: all that scripts/trends can speak of.
+COUNTED = [path for name in trends.CLAIMS for path in sorted((ROOT / "results").glob(f"*/{name}.json"))[:1]]
 
 
 def failing(result):
     return {letter for letter, _, _, _, holds in depth_trends.checked(result) if not holds}
+
+
+class Published(unittest.TestCase):
+    """Figures that papers and engines publish."""
+
+    def rows(self, **changes):
+        """Keys and scenes of the rows that are not as WHY_NOT has them. changes: of a result's cases, by its name."""
+        results = [trends.Result(path) for path in COUNTED]
+        for result in results:
+            for case in result.json["cases"]:
+                changes.get(result.name.replace("-", "_"), lambda case: None)(case)
+        return {(row.key, row.scene) for row in trends.rows_of(results) if not trends.is_expected(row)}
+
+    def test_all_are_on_the_committed_results_as_the_page_says(self):
+        self.assertEqual(len(COUNTED), len(trends.CLAIMS))
+        self.assertEqual(self.rows(), set())
+        page = (ROOT / "docs" / "trends.md").read_text()
+        self.assertIn("\n" + trends.table(trends.rows_of([trends.Result(path) for path in COUNTED])) + "\n", page)
+
+    def test_each_reason_belongs_to_a_figure(self):
+        rows = trends.rows_of([trends.Result(path) for path in COUNTED])
+        self.assertEqual(set(trends.WHY_NOT) - {(row.key, row.scene) for row in rows}, set())
+
+    def test_each_is_noticed_where_it_does_not_hold(self):
+        def scaled(scene, grid, label, *way, by):
+            def change(case):
+                if case["scene"] == scene and grid in case["grid"]["name"] and case["assigner"]["label"] == label:
+                    inner = case
+                    for key in way[:-1]:
+                        inner = inner[key]
+                    inner[way[-1]] *= by
+            return change
+
+        pairs, evaluated = ("error", "reported_pairs"), ("samples", "opaque", "evaluated")
+        dense = ("rig-2400-r30", "x 64 ", "exact-fast")
+        for key, scene, result, change in (
+                ("cube-aabb", "open-world", "trends", scaled("open-world", "64px", "aabb(spot=ball)", *pairs, by=1.2)),
+                ("cube-refinement", "open-world", "trends", scaled("open-world", "64px", "sphere-refinement(spot=ball)", *pairs, by=0.5)),
+                ("cube-planes", "hall-512", "trends", scaled("hall-512", "64px", "planes(spot=ball)", *pairs, by=0.99)),
+                ("upload", "hall-2048", "trends", scaled("hall-2048", "64px", "sphere-refinement", "buffers", "upload_bytes", "mean", by=2)),
+                ("cubical", "open-world", "trends", scaled("open-world", "128px", "aabb", *pairs, by=1.3)),
+                ("linear", "hall-*", "trends", scaled("hall-2048", "12x12", "brute-force", "tests_done", by=2)),
+                ("shading", "hall-*", "trends", scaled("hall-2048", "12x12", "brute-force", "shading", "evaluated", by=2)),
+                ("slices-mean", "rig-2400-r30", "trends_dense", scaled(*dense, "occupancy", "pairs", "mean", by=2)),
+                ("slices-max", "rig-2400-r30", "trends_dense", scaled(*dense, "occupancy", "lights_per_cell", "max", by=2)),
+                ("slices-pairs", "rig-2400-r30", "trends_dense", scaled(*dense, *pairs, by=0.2)),
+                ("cone-references", "rig-2400-r30-s1", "trends_dense", scaled("rig-2400-r30-s1", "x 64 ", "aabb", *pairs, by=0.1)),
+                ("cone-mean", "rig-2400-r30-s1", "trends_dense", scaled("rig-2400-r30-s1", "x 64 ", "aabb", *pairs, by=2)),
+                ("mask", "steps", "depth", scaled("steps", "x 64 ", "tiled-2.5d", *evaluated, by=1.4)),
+                ("olsson", "steps", "depth", scaled("steps", "x 64 ", "exact-fast", *evaluated, by=5)),
+                ("half", "mix", "depth", scaled("mix", "x 64 ", "exact-fast", *evaluated, by=1.4)),
+                ("naive", "mix", "depth", scaled("mix", "x 64 ", "tiled", *evaluated, by=30)),
+                ("raster", "mix", "methods", scaled("mix", "frustum", "conservative-raster", "error", "excess_ratio", by=3))):
+            with self.subTest(key):
+                self.assertIn((key, scene), self.rows(**{result: change}))
 
 
 class DepthTrends(unittest.TestCase):

@@ -330,9 +330,14 @@ class LightHierarchy final : public LightStructure {
 
   bool lights_at(const grid::Sample& sample, grid::Log2, std::vector<std::uint32_t>& out) const override {
     out.clear();
-    const Vec3f at = world_origin ? Vec3f(sample.from(*world_origin)) : sample.view;
-    trees.each_touched({at, at}, [&](std::uint32_t light) { out.push_back(light); });
+    trees.each_touched(box_at(sample), [&](std::uint32_t light) { out.push_back(light); });
     return true;
+  }
+  // All boxes of each group that is visited, and the light of each that holds the sample.
+  Reads reads_at(const grid::Sample& sample, grid::Log2) const override {
+    std::uint64_t lights = 0;
+    const std::uint64_t boxes = trees.each_touched(box_at(sample), [&](std::uint32_t) { ++lights; });
+    return Reads::of(boxes, k_box_bytes) + Reads::of(lights, sizeof(std::uint32_t));
   }
 
   StructureUse use() const override {
@@ -366,6 +371,11 @@ class LightHierarchy final : public LightStructure {
 
  private:
   static constexpr std::uint32_t k_box_bytes = sizeof(Group) / k_width;
+
+  geom::Box box_at(const grid::Sample& sample) const {
+    const Vec3f at = world_origin ? Vec3f(sample.from(*world_origin)) : sample.view;
+    return {at, at};
+  }
 };
 
 class BvhQueries final : public AssignerOf<LightHierarchy> {

@@ -121,20 +121,18 @@ class DrawnLights final : public LightStructure {
   // A sample's lights are its pixel's, whatever its own depth.
   bool lights_at(const grid::Sample& sample, grid::Log2, std::vector<std::uint32_t>& out) const override {
     out.clear();
-    const Vec2i size = picture.size();
-    const auto is_within = [](float at, int pixels) { return at >= 0.0f && at <= static_cast<float>(pixels); };
-    if (!is_within(sample.pixel_x, size.x) || !is_within(sample.pixel_y, size.y)) return false;
-    if (!picture.orthographic && !(sample.view.z < 0.0f)) return false;
-    const int column = std::min(static_cast<int>(sample.pixel_x), size.x - 1),
-              row = std::min(static_cast<int>(sample.pixel_y), size.y - 1);
-    const float x = picture.x[static_cast<std::size_t>(column)], y = picture.y[static_cast<std::size_t>(row)];
-    for (const std::uint32_t at : rows.of(static_cast<std::uint32_t>(row))) {
-      const DrawnLight& light = lights[at];
-      if (column < light.first.x || column > light.last.x) continue;
-      const PixelTest pixel(picture, light, test, slack);
-      if (pixel.is_shaded(x, y, picture.depth(column, row), pixel.far_side(x, y))) out.push_back(light.of.index);
-    }
-    return true;
+    return each_drawn(sample, [&](const DrawnLight& light, bool is_shaded) {
+      if (is_shaded) out.push_back(light.of.index);
+    });
+  }
+  // What is moved for the pixel, which belongs to no buffer of the method: its depth for each light that is drawn over
+  // it, G-buffer and target for each that shades it.
+  Reads reads_at(const grid::Sample& sample, grid::Log2) const override {
+    Reads reads;
+    each_drawn(sample, [&](const DrawnLight&, bool is_shaded) {
+      reads += Reads::of(1, bytes.drawn) + Reads::of(is_shaded ? 1 : 0, bytes.shaded);
+    });
+    return reads;
   }
 
   StructureUse use() const override {
@@ -159,6 +157,29 @@ class DrawnLights final : public LightStructure {
   Picture picture;
   std::vector<DrawnLight> lights;
   Lists rows;  // of each row of pixels the lights, by their places among `lights`
+
+ private:
+  // Calls visit(light, whether it shades the pixel) for the lights that are drawn over the sample's pixel. False where
+  // the sample is in none.
+  template <class Visit>
+  bool each_drawn(const grid::Sample& sample, Visit&& visit) const {
+    const Vec2i size = picture.size();
+    const auto is_within = [](float at, int pixels) { return at >= 0.0f && at <= static_cast<float>(pixels); };
+    if (!is_within(sample.pixel_x, size.x) || !is_within(sample.pixel_y, size.y)) return false;
+    if (!picture.orthographic && !(sample.view.z < 0.0f)) return false;
+    const int column = std::min(static_cast<int>(sample.pixel_x), size.x - 1),
+              row = std::min(static_cast<int>(sample.pixel_y), size.y - 1);
+    const float x = picture.x[static_cast<std::size_t>(column)], y = picture.y[static_cast<std::size_t>(row)];
+    for (const std::uint32_t at : rows.of(static_cast<std::uint32_t>(row))) {
+      const DrawnLight& light = lights[at];
+      if (column < light.first.x || column > light.last.x) continue;
+      const PixelTest pixel(picture, light, test, slack);
+      const float far_side = pixel.far_side(x, y);
+      const bool is_shaded = pixel.is_shaded(x, y, picture.depth(column, row), far_side);
+      if (is_shaded || pixel.is_drawn(far_side)) visit(light, is_shaded);
+    }
+    return true;
+  }
 };
 
 class Deferred final : public AssignerOf<DrawnLights> {

@@ -85,15 +85,16 @@ class TileSliceLists final : public LightStructure {
 
   bool lights_at(const grid::Sample& sample, grid::Log2 way, std::vector<std::uint32_t>& out) const override {
     out.clear();
-    const grid::Tiles& tiles = grid_->screen().tiles;
-    const float depth = -sample.view.z;
-    if (!tiles.shows(sample.pixel_x, sample.pixel_y) || !(depth <= grid_->screen().slices.boundaries.back()))
-      return false;
-    if (!tiles.orthographic && !(depth > 0.0f)) return false;
-    const Vec2i at = tiles.tile_of(sample.pixel_x, sample.pixel_y);
-    const TileSlicing& slicing = slicings_[grid::cell_index({at.x, at.y, 0}, grid_->cells())];
-    packed_->read_cell(grid::cell_index({at.x, at.y, slicing.slice_of(depth, way)}, grid_->cells()), out);
+    const std::int64_t cell = cell_of(sample, way);
+    if (cell < 0) return false;
+    packed_->read_cell(static_cast<std::uint32_t>(cell), out);
     return true;
+  }
+  // The tile's number, then what the list takes.
+  Reads reads_at(const grid::Sample& sample, grid::Log2 way) const override {
+    const std::int64_t cell = cell_of(sample, way);
+    if (cell < 0) return {};
+    return Reads::of(1, sizeof(float)) + packed_->reads_of_cell(static_cast<std::uint32_t>(cell));
   }
 
   StructureUse use() const override {
@@ -134,6 +135,17 @@ class TileSliceLists final : public LightStructure {
   }
 
  private:
+  // -1: in no cell.
+  std::int64_t cell_of(const grid::Sample& sample, grid::Log2 way) const {
+    const grid::Tiles& tiles = grid_->screen().tiles;
+    const float depth = -sample.view.z;
+    if (!tiles.shows(sample.pixel_x, sample.pixel_y) || !(depth <= grid_->screen().slices.boundaries.back())) return -1;
+    if (!tiles.orthographic && !(depth > 0.0f)) return -1;
+    const Vec2i at = tiles.tile_of(sample.pixel_x, sample.pixel_y);
+    const TileSlicing& slicing = slicings_[grid::cell_index({at.x, at.y, 0}, grid_->cells())];
+    return grid::cell_index({at.x, at.y, slicing.slice_of(depth, way)}, grid_->cells());
+  }
+
   // A number per tile, from which a shader has its slices.
   std::uint64_t growth_bytes() const { return slicings_.size() * sizeof(float); }
 

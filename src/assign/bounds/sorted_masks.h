@@ -78,6 +78,18 @@ class SortedMasks final : public LightStructure {
     return true;
   }
 
+  // The range, the words that it covers of the tile's mask, and the light of each bit that is set there.
+  Reads reads_at(const grid::Sample& sample, grid::Log2 way) const override {
+    const std::int64_t cell = grid::lookup(*grid_, sample, way);
+    if (cell < 0) return {};
+    std::uint64_t words = 0, lights = 0;
+    each_word(static_cast<std::uint32_t>(cell), [&](std::uint32_t, std::uint32_t bits) {
+      ++words;
+      lights += static_cast<std::uint64_t>(std::popcount(bits));
+    });
+    return Reads::of(1, range_bytes()) + Reads::of(words + lights, sizeof(std::uint32_t));
+  }
+
   StructureUse use() const override {
     StructureUse use;
     use.index_entries = masks_.size();
@@ -165,22 +177,31 @@ class SortedMasks final : public LightStructure {
   }
 
   void read(std::uint32_t cell, std::vector<std::uint32_t>& out) const {
+    each_word(cell, [&](std::uint32_t first, std::uint32_t bits) {
+      for (; bits != 0; bits &= bits - 1)
+        out.push_back(order_[first + static_cast<std::uint32_t>(std::countr_zero(bits))]);
+    });
+  }
+
+  // Calls visit(rank of the first bit, bits) for each word of the tile's mask that the cell's ranges cover, with the
+  // bits beside the range cut off.
+  template <class Visit>
+  void each_word(std::uint32_t cell, Visit&& visit) const {
     const std::uint32_t* mask = masks_.data() + std::size_t{cell % tiles_} * words_;
     std::visit(
         [&](const auto& ranges) {
           for (const auto& range : ranges[ranges_of == RangesOf::cells ? cell : cell / tiles_])
-            read_between(mask, range.first, range.end, out);
+            each_word_between(mask, range.first, range.end, visit);
         },
         ranges_);
   }
 
-  void read_between(const std::uint32_t* mask, std::uint32_t first, std::uint32_t end,
-                    std::vector<std::uint32_t>& out) const {
+  template <class Visit>
+  static void each_word_between(const std::uint32_t* mask, std::uint32_t first, std::uint32_t end, Visit&& visit) {
     for (std::uint32_t from = first; from < end; from = (from / k_bits + 1) * k_bits) {
-      std::uint32_t left = mask[from / k_bits] & ~0u << from % k_bits;
-      if (end / k_bits == from / k_bits) left &= (1u << end % k_bits) - 1;
-      for (; left != 0; left &= left - 1)
-        out.push_back(order_[from / k_bits * k_bits + static_cast<std::uint32_t>(std::countr_zero(left))]);
+      std::uint32_t bits = mask[from / k_bits] & ~0u << from % k_bits;
+      if (end / k_bits == from / k_bits) bits &= (1u << end % k_bits) - 1;
+      visit(from / k_bits * k_bits, bits);
     }
   }
 

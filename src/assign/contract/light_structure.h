@@ -41,6 +41,21 @@ struct BufferNeed {
   std::uint64_t step = 1;  // elements come in multiples of it: room for one more light in each cell of `fixed`
 };
 
+// What a shader fetches to know a sample's lights: elements of buffers (headers, light indices, words, nodes, boxes),
+// and their bytes. The lights themselves come on top, and are the same for all structures.
+struct Reads {
+  std::uint64_t elements = 0, bytes = 0;
+
+  static Reads of(std::uint64_t elements, std::uint64_t element_bytes) { return {elements, elements * element_bytes}; }
+  Reads& operator+=(const Reads& more) {
+    elements += more.elements;
+    bytes += more.bytes;
+    return *this;
+  }
+  friend Reads operator+(Reads a, const Reads& b) { return a += b; }
+  friend bool operator==(const Reads&, const Reads&) = default;
+};
+
 class LightStructure {
  public:
   virtual ~LightStructure() = default;
@@ -49,6 +64,9 @@ class LightStructure {
   // any order. `way`: how the shader takes a logarithm, if its lookup takes one. False, and none, where the structure
   // has no answer: outside of its cells, beside the picture, behind the eye.
   virtual bool lights_at(const grid::Sample& sample, grid::Log2 way, std::vector<std::uint32_t>& out) const = 0;
+  // What is fetched for that, each element as often as a shader that keeps none of them has to. Nothing where the
+  // structure has no answer.
+  virtual Reads reads_at(const grid::Sample& sample, grid::Log2 way) const = 0;
 
   virtual StructureUse use() const = 0;
   virtual StructureLimit limit() const = 0;

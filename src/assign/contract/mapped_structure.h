@@ -24,6 +24,9 @@ class MappedStructure final : public LightStructure {
     map_lights(out, rig_lights_);
     return is_answered;
   }
+  Reads reads_at(const grid::Sample& sample, grid::Log2 way) const override {
+    return structure_->reads_at(sample, way);
+  }
   StructureUse use() const override {
     StructureUse use = structure_->use();
     map_lights(use.dropped_lights, rig_lights_);

@@ -19,6 +19,11 @@ bool Storage::lights_at(const grid::Sample& sample, grid::Log2 way, std::vector<
   return true;
 }
 
+Reads Storage::reads_at(const grid::Sample& sample, grid::Log2 way) const {
+  const std::int64_t cell = grid::lookup(*grid_, sample, way);
+  return cell < 0 ? Reads{} : reads_of_cell(static_cast<std::uint32_t>(cell));
+}
+
 void Storage::expand(Lists& out) const {
   out.lights.clear();
   out.begin.assign(1, 0);

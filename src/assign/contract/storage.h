@@ -26,9 +26,11 @@ class Storage : public LightStructure {
   virtual void store(const Lists& lists) = 0;
   // Appends what a shader would read of a cell: its list, less what was dropped.
   virtual void read_cell(std::uint32_t cell, std::vector<std::uint32_t>& out) const = 0;
+  virtual Reads reads_of_cell(std::uint32_t cell) const = 0;
   virtual std::uint32_t cell_count() const = 0;
 
   bool lights_at(const grid::Sample& sample, grid::Log2 way, std::vector<std::uint32_t>& out) const final;
+  Reads reads_at(const grid::Sample& sample, grid::Log2 way) const final;
   bool has_cells() const final { return true; }
   void expand(Lists& out) const final;
 

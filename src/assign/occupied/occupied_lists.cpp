@@ -69,6 +69,11 @@ bool OccupiedLists::lights_at(const grid::Sample& sample, grid::Log2 way, std::v
   return true;
 }
 
+Reads OccupiedLists::reads_at(const grid::Sample& sample, grid::Log2 way) const {
+  const std::int64_t cell = cell_of(sample, way);
+  return cell < 0 ? Reads{} : packed_->reads_of_cell(static_cast<std::uint32_t>(cell));
+}
+
 grid::OccupiedCells OccupiedLists::occupied_cells() const {
   grid::OccupiedCells out;
   out.counts = grid_->cells();

@@ -39,6 +39,7 @@ class OccupiedLists final : public LightStructure {
   // A tile's list whatever the sample's depth, as a shader reads it: what lies in front of the tile's visible surfaces
   // or behind them may lack lights. Where a tile or a cell shows no surface its list is empty.
   bool lights_at(const grid::Sample& sample, grid::Log2 way, std::vector<std::uint32_t>& out) const override;
+  Reads reads_at(const grid::Sample& sample, grid::Log2 way) const override;
   StructureUse use() const override { return packed_->use(); }
   StructureLimit limit() const override { return packed_->limit(); }
   std::vector<BufferNeed> buffers() const override { return packed_->buffers(); }

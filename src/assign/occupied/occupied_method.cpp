@@ -2,6 +2,7 @@
 
 #include "assign/occupied/occupied_method.h"
 
+#include <cmath>
 #include <limits>
 
 #include "core/memory.h"
@@ -36,8 +37,8 @@ std::vector<ParamSpec> tiled_params() {
   return params;
 }
 
-OccupiedMethod::OccupiedMethod(const Params& params, CellBounds bounds)
-    : test_(params, CellAabbs::k_roundoffs), bounds_(bounds) {
+OccupiedMethod::OccupiedMethod(const Params& params, CellBounds bounds, EndOfParts end)
+    : test_(params, CellAabbs::k_roundoffs), bounds_(bounds), end_(end) {
   if (has_slices(bounds)) return;
   by_planes_ = params.text("test") != "aabb";
   by_boxes_ = params.text("test") != "planes";
@@ -59,8 +60,9 @@ void OccupiedMethod::build(const grid::Grid& grid, const LightKinds&) {
 }
 
 std::size_t OccupiedMethod::scratch_bytes() const {
-  return pixels_.capacity_bytes() + frame_cells_.capacity_bytes() + bytes_of(boxes_, balls_, parts_) +
-         pairs_.capacity_bytes() + bytes_of(lists_.begin, lists_.lights);
+  return pixels_.capacity_bytes() + frame_cells_.capacity_bytes() +
+         bytes_of(boxes_, balls_, parts_, late_parts_, late_masks_) + pairs_.capacity_bytes() +
+         bytes_of(lists_.begin, lists_.lights);
 }
 
 void OccupiedMethod::fill(const FrameInput& input, OccupiedLists& out) {
@@ -83,18 +85,38 @@ void OccupiedMethod::find_cells(const depth::DepthImage& image) {
   if (bounds_ == CellBounds::masked_tile) find_masks(image);
 }
 
-void OccupiedMethod::find_masks(const depth::DepthImage& image) {
-  const DepthRanges& depths = frame_cells_.depths;
-  std::vector<std::uint32_t>& masks = frame_cells_.masks;
-  masks.assign(depths.size(), 0);
-  parts_.clear();
-  for (std::size_t tile = 0; tile < depths.size(); ++tile) parts_.emplace_back(depths.lo[tile], depths.hi[tile]);
-  pixels_.each_row(image, [&](std::size_t tile, const float* depth, const float* end) {
-    const DepthParts parts = parts_[tile];
+namespace {
+
+// The bits of all pixels, tile by tile.
+template <class Parts>
+void mark_pixels(const PixelDepths& pixels, const depth::DepthImage& image, const std::vector<Parts>& parts,
+                 std::vector<std::uint32_t>& masks) {
+  masks.assign(parts.size(), 0);
+  pixels.each_row(image, [&](std::size_t tile, const float* depth, const float* end) {
+    const Parts of_tile = parts[tile];
     std::uint32_t mask = 0;
-    for (; depth < end; ++depth) mask |= *depth < std::numeric_limits<float>::infinity() ? parts.bit_of(*depth) : 0;
+    for (; depth < end; ++depth) mask |= *depth < std::numeric_limits<float>::infinity() ? of_tile.bit_of(*depth) : 0;
     masks[tile] |= mask;
   });
+}
+
+}  // namespace
+
+void OccupiedMethod::find_masks(const depth::DepthImage& image) {
+  const DepthRanges& depths = frame_cells_.depths;
+  parts_.clear();
+  for (std::size_t tile = 0; tile < depths.size(); ++tile) parts_.emplace_back(depths.lo[tile], depths.hi[tile]);
+  mark_pixels(pixels_, image, parts_, frame_cells_.masks);
+  if (end_ == EndOfParts::part_31) return;
+  late_parts_.clear();
+  for (std::size_t tile = 0; tile < depths.size(); ++tile)  // up to the farthest pixel itself
+    late_parts_.emplace_back(depths.lo[tile], std::nextafter(depths.hi[tile], -std::numeric_limits<float>::infinity()));
+  mark_pixels(pixels_, image, late_parts_, late_masks_);
+}
+
+bool OccupiedMethod::meets_mask(std::uint32_t tile, float near, float far) const {
+  return ((end_ == EndOfParts::part_31 ? parts_[tile].bits_between(near, far) & frame_cells_.masks[tile]
+                                       : late_parts_[tile].bits_between(near, far) & late_masks_[tile]) != 0);
 }
 
 void OccupiedMethod::bound_cells(bool with_balls) {
@@ -134,8 +156,7 @@ bool OccupiedMethod::touches(const TestedLight& light, std::uint32_t cell) const
   const float depth = -light.ball.center.z, near = depth - light.ball.radius, far = depth + light.ball.radius;
   if (bounds_ != CellBounds::cell) {
     if (!(near <= depths.hi[cell] && far >= depths.lo[cell])) return false;
-    if (bounds_ == CellBounds::masked_tile && (parts_[cell].bits_between(near, far) & frame_cells_.masks[cell]) == 0)
-      return false;
+    if (bounds_ == CellBounds::masked_tile && !meets_mask(cell, near, far)) return false;
   }
   if (by_boxes_ && !geom::ball_touches_box(light.ball, boxes_[cell])) return false;
   return !light.has_cone || geom::cone_touches_ball(light.cone, balls_[cell]);

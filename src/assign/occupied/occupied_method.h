@@ -17,10 +17,13 @@ namespace clusterbench::assign {
 ParamSpec tile_test_param();
 std::vector<ParamSpec> tiled_params();
 
+// Where the end of a tile's range of depth is put: see DepthParts, DepthPartsTo32.
+enum class EndOfParts : std::uint8_t { part_31, part_32 };
+
 class OccupiedMethod : public AssignerOf<OccupiedLists> {
  public:
   // `params`: tiled_params() or, of cells with slices, light_params().
-  OccupiedMethod(const Params& params, CellBounds bounds);
+  OccupiedMethod(const Params& params, CellBounds bounds, EndOfParts end = EndOfParts::part_31);
 
   void build(const grid::Grid& grid, const LightKinds& kinds) override;
   std::uint64_t tests_done() const override { return tests_; }
@@ -32,6 +35,7 @@ class OccupiedMethod : public AssignerOf<OccupiedLists> {
  private:
   void find_cells(const depth::DepthImage& image);
   void find_masks(const depth::DepthImage& image);
+  bool meets_mask(std::uint32_t tile, float near, float far) const;
   // Of the cells in which something is visible: what depends on the frame.
   void bound_cells(bool with_balls);
   // Which cells to look at.
@@ -49,6 +53,10 @@ class OccupiedMethod : public AssignerOf<OccupiedLists> {
   PixelDepths pixels_;
   FrameCells frame_cells_;
   std::vector<DepthParts> parts_;  // of masked tiles
+  // In place of them and of the frame's masks, which stay what its cells are.
+  EndOfParts end_;
+  std::vector<DepthPartsTo32> late_parts_;
+  std::vector<std::uint32_t> late_masks_;
   std::vector<geom::Box> boxes_;   // around cells; only those of cells that are not empty mean something
   std::vector<geom::Ball> balls_;  // the same
   PairBuffer pairs_;

@@ -41,6 +41,9 @@ class Bitfield final : public Storage {
         out.push_back(k_bits * word + static_cast<std::uint32_t>(std::countr_zero(left)));
   }
 
+  // All words of the cell; up to 32 lights are a single one.
+  Reads reads_of_cell(std::uint32_t) const override { return Reads::of(words_per_cell_, sizeof(std::uint32_t)); }
+
   std::uint32_t cell_count() const override { return cell_count_; }
 
   std::uint32_t index_bits() const override { return k_bits; }

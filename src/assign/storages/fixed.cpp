@@ -74,12 +74,13 @@ class Fixed final : public Storage {
   }
 
   void read_cell(std::uint32_t cell, std::vector<std::uint32_t>& out) const override {
-    const std::uint32_t most = has_counts_ ? counts_[cell] : cap_;
-    for (std::uint32_t i = 0; i < most; ++i) {
-      const std::uint32_t light = indices_.read(std::size_t{cell} * cap_ + i);
-      if (!has_counts_ && light == lights_) return;
-      out.push_back(light);
-    }
+    const std::uint32_t length = length_of(cell);
+    for (std::uint32_t i = 0; i < length; ++i) out.push_back(indices_.read(std::size_t{cell} * cap_ + i));
+  }
+
+  Reads reads_of_cell(std::uint32_t cell) const override {
+    const std::uint64_t lights = length_of(cell), end_mark = !has_counts_ && lights < cap_ ? 1 : 0;
+    return Reads::of(has_counts_ ? 1 : 0, sizeof(std::uint32_t)) + Reads::of(lights + end_mark, indices_.bits() / 8);
   }
 
   std::uint32_t cell_count() const override { return cell_count_; }
@@ -87,6 +88,12 @@ class Fixed final : public Storage {
   std::uint32_t index_bits() const override { return indices_.bits(); }
 
  private:
+  std::uint32_t length_of(std::uint32_t cell) const {
+    if (has_counts_) return counts_[cell];
+    std::uint32_t length = 0;
+    while (length < cap_ && indices_.read(std::size_t{cell} * cap_ + length) != lights_) ++length;
+    return length;
+  }
   void end_list(std::uint32_t cell, std::uint32_t length) {
     if (has_counts_)
       counts_[cell] = length;

@@ -63,6 +63,12 @@ class Linked final : public Storage {
     for (std::uint32_t node = heads_[cell]; node != k_end; node = nodes_[node].next) out.push_back(nodes_[node].light);
   }
 
+  Reads reads_of_cell(std::uint32_t cell) const override {
+    std::uint64_t nodes = 0;
+    for (std::uint32_t node = heads_[cell]; node != k_end; node = nodes_[node].next) ++nodes;
+    return Reads::of(1, sizeof(std::uint32_t)) + Reads::of(nodes, sizeof(Node));
+  }
+
   std::uint32_t cell_count() const override { return static_cast<std::uint32_t>(heads_.size()); }
 
   std::uint32_t index_bits() const override { return 8 * sizeof(Node); }

@@ -104,6 +104,13 @@ class Packed final : public Storage {
     for (std::uint32_t i = 0; i < header.all(); ++i) out.push_back(indices_.read(header.offset + i));
   }
 
+  Reads reads_of_cell(std::uint32_t cell) const override {
+    const std::uint64_t lights = found_header(cell).all();
+    const Reads block = Reads::of(is_sparse_ ? 1 : 0, sizeof(Block));
+    if (is_sparse_ && lights == 0) return block;  // its bit says that it has no header
+    return block + Reads::of(1, header_size(is_wide_)) + Reads::of(lights, bits_ / 8);
+  }
+
   std::uint32_t cell_count() const override { return cell_count_; }
 
   std::uint32_t index_bits() const override { return bits_; }

@@ -72,6 +72,10 @@ class Runs final : public Storage {
     }
   }
 
+  Reads reads_of_cell(std::uint32_t cell) const override {
+    const Header& header = headers_[cell];
+    return Reads::of(1, header_size()) + Reads::of(header.all(), run_bytes());
+  }
   std::uint32_t cell_count() const override { return static_cast<std::uint32_t>(headers_.size()); }
   std::uint32_t index_bits() const override { return 2 * bits_; }
 

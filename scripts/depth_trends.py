@@ -1,7 +1,5 @@
-#!/usr/bin/env python3
-"""What papers say of depth and clusters, on a result of configs/depth.json: scripts/depth_trends RESULT [--scene NAME...].
-
-Prints each trend with its figures and whether the result shows it. Exit code 1: one does not hold.
+"""What papers say of depth and clusters, on a result of configs/depth.json or another one with its methods and slices; for
+scripts/trends.
 
 (a) more slices: lists get shorter, references (pairs) more
 (b) a list per tile costs most where depth is long; a mask of 32 parts (2.5D) helps at discontinuities, hardly on slopes
@@ -10,10 +8,7 @@ Prints each trend with its figures and whether the result shows it. Exit code 1:
 (d) cone tests pay off where cells are nearly as deep as they are wide: much more than in long ones, hardly less than in flat
 (e) the longest list says little of what pixels pay; the 99th percentile follows it
 """
-import argparse
-import json
 import math
-import sys
 
 LONG, CUBICAL, FLAT = 16, 64, 256  # slices of the grids
 
@@ -114,22 +109,3 @@ def checked(result, names=()):
     """Lines (trend, scene, text, whether it holds)."""
     return [(letter, title, scene.name, text, holds) for letter, title, trend in TRENDS
             for scene in scenes_of(result, names) for text, holds in trend(scene)]
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("result")
-    parser.add_argument("--scene", action="append", default=[])
-    options = parser.parse_args()
-    lines = checked(json.load(open(options.result)), options.scene)
-    title_before = ""
-    for letter, title, scene, text, holds in lines:
-        if title != title_before:
-            print(f"({letter}) {title}")
-        title_before = title
-        print(f"  {'yes' if holds else 'NO '}  {scene:10} {text}")
-    return 0 if all(line[-1] for line in lines) else 1
-
-
-if __name__ == "__main__":
-    sys.exit(main())
