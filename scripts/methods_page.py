@@ -32,7 +32,8 @@ VIEWS = {
 }
 # Methods whose mistake shows only where something is lost: scene, part of the grid's name, and the view.
 LOST = ("methods-lost", "12x12", View("the slice from 35.9 to 50.8 m of 12 × 12 tiles and a ball that reaches one more", 17))
-SPECIAL = {"naive-refinement": LOST, "bevy-refinement": LOST}
+BOXES = ("methods-boxes", "32x18", View("the slice from 8.7 to 10.8 m, with a turned box beside the two lights", 10))
+SPECIAL = {"naive-refinement": LOST, "bevy-refinement": LOST, "box-bounds": BOXES, "box-refined": BOXES, "box-separating-axis": BOXES}
 # Which form of a method is drawn, where not the first.
 DRAWN = {"naive-bounds": "naive-bounds(flaw=padded-tiles)"}
 

@@ -162,8 +162,8 @@ struct CountResult {
   int frames = 0;           // counted, the same that are timed
   Counted build;            // of one build
   Counted assign;           // over all frames
-  std::optional<Counted> pre_cull = {};  // over all frames; only where there is one
   std::optional<Counted> convert;        // over all frames; only where lists are converted
+  std::optional<Counted> pre_cull = {};  // over all frames; only where there is one
 };
 
 // One method's lists along a finely sampled piece of the path, beside the true lists along the same piece.

@@ -59,6 +59,7 @@ TEST(OnlyWhatIsNeeded, a_light_outside_of_the_view_costs_at_most_one_test_and_ma
 
 Setting points_only(Setting setting) {
   setting.frame.lights.resize(setting.frame.points);
+  setting.frame.boxes = 0;
   return setting;
 }
 
