@@ -12,7 +12,7 @@ namespace {
 constexpr const char* k_spot_choices[] = {"ball", "cone-sphere", "both"};
 
 std::vector<Setting> frustum_settings(std::uint64_t seed) {
-  return settings_for(*find_assigner("brute-force"), seed);
+  return settings_for(*find_assigner("bounds"), seed);
 }
 
 Lists common(const Lists& a, const Lists& b) {

@@ -226,7 +226,7 @@ TEST(TileDepths, are_those_of_the_mesh_clipped_at_the_tiles_sides) {
   TileDepths shell;
   ShellCheck checks;
   Random random(4);
-  for (const Setting& setting : settings_for(*find_assigner("brute-force"), 1)) {
+  for (const Setting& setting : settings_for(*find_assigner("bounds"), 1)) {
     shell.build(setting.grid.screen());
     for (int turn = 0; turn < 160; ++turn) {
       const int level = turn % 3;
@@ -253,7 +253,7 @@ TEST(TileDepths, begin_at_the_eye_where_it_is_in_the_light) {
   LightMesh mesh;
   TileDepths shell;
   Random random(5);
-  for (const Setting& setting : settings_for(*find_assigner("brute-force"), 1)) {
+  for (const Setting& setting : settings_for(*find_assigner("bounds"), 1)) {
     if (setting.grid.screen().tiles.orthographic) continue;
     shell.build(setting.grid.screen());
     for (const double angle : {0.5, 1.2, 1.5, 1.55, 1.57, M_PI / 2})

@@ -65,8 +65,9 @@ const Broken k_broken[] = {
     {"{\"scenes\": [\"a.glb\"],\n  // comment\n  \"thread\": 1}",
      "3:3 /thread: unknown key 'thread' (did you mean 'threads'?), allowed: $schema, accuracy, allocation, assigners, "
      "cost, "
-     "details, grids, jitter, limits, lookup, name, precision, presets, rank_by, samples, scenes, seed, shading, "
-     "stability, "
+     "details, grids, jitter, limits, lookup, name, pre_cull, precision, presets, rank_by, samples, scenes, seed, "
+     "shading, "
+     "shadow_cull, shadow_frusta, stability, "
      "storages, "
      "threads, "
      "timing, "

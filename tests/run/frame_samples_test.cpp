@@ -414,7 +414,8 @@ TEST(FrameSamples, of_surfaces_cast_rays_through_their_own_pixels_alone) {
   const Plan plan = make_plan(config, "");
   const PathFrames path = path_of(config, plan, plan.groups.at(0));
   const view::Frame frame = path.frame(0);
-  const FrameSampleSet set = FrameSamples(config, plan.scenes[0], path).of(frame).at(0);
+  const FrameSampleSet set = FrameSamples(config, plan.scenes[0], path).of(frame).back();
+  ASSERT_TRUE(set.picture);
   const std::size_t own = depth::PixelGrid(frame.viewport, 4).count();
   EXPECT_EQ(path.depths()->pixels_cast(), own);
   const depth::DepthImage of_all = depth::thinned(*path.depths()->of(frame, 1), set.picture->pixels);

@@ -73,7 +73,7 @@ TEST_F(Sweep, boxes_are_assigned_where_they_are_asked_for_and_methods_that_take_
                                     << R"(], "nodes": [{"name": "eye", "camera": 0},
              {"name": "decal", "extras": {"clusterbench_box": {"half_extents": [1, 1, 0]}}}],
              "scenes": [{"nodes": [0, 1]}], "scene": 0})";
-  const std::string rest = R"(, "assigners": ["box-refined", "bounds"])";
+  const std::string rest = R"(, "grids": [{}], "storages": ["packed"], "assigners": ["box-refined", "bounds"])";
   const Plan without = plan(R"([{"path": "b.gltf"}])", rest),
              off = plan(R"([{"path": "b.gltf", "boxes": false}])", rest),
              with = plan(R"([{"path": "b.gltf", "boxes": true}])", rest);
