@@ -931,7 +931,7 @@ MUTATIONS = [
     Mutation("blocks-lose-lights-beside-them", "measure/texel_lights.cpp",
              "return glm::length(gap) <= light.range_m * (1.0 + k_slack);",
              "return glm::length(gap) <= 0.9 * light.range_m;",
-             "measure.LightMap.the_lights_of_every_texel_are_those_of_a_loop_over_all_lights",
+             "measure.LightMap.a_point_light_over_the_ground_lights_the_texels_of_a_circle",
              "bits are missing at the ends of lights"),
     Mutation("facing-in-the-plane-counts", "measure/texel_lights.cpp",
              "triangle.double_sided ? side != 0 : side > 0", "triangle.double_sided ? true : side >= 0",
