@@ -772,7 +772,7 @@ MUTATIONS = [
              "report.FrameCosts.a_case_that_lacks_lights_at_samples_with_a_weight_is_on_no_front",
              "methods that leave fog unlit are the cheapest"),
     Mutation("rays-cast-for-each-who-asks", "run/frame_depths.cpp",
-             "if (found != kept_.end()) return found->image;", "",
+             "return found == kept_.end() ? nullptr : found->image;", "return nullptr;",
              "run.DepthMethods.and_sets_share_one_image_of_each_frame_and_nothing_is_cast_for_others",
              "methods and sets of samples cast the same image again"),
     Mutation("bvh-box-of-part-of-the-ball", "assign/assigners/bvh.cpp",
