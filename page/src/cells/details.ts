@@ -44,7 +44,10 @@ function lightsOf(packed: DetailsFrame["lights"]): Light[] {
     name,
     position: triple(positions, at),
     range: ranges[at]!,
-    spot: at < firstSpot || at >= firstBox ? null : { axis: triple(axes, at - firstSpot), halfAngle: angles[at - firstSpot]! },
+    spot:
+      at < firstSpot || at >= firstBox
+        ? null
+        : { axis: triple(axes, at - firstSpot), halfAngle: angles[at - firstSpot]! },
   }));
 }
 
