@@ -7,6 +7,7 @@
 #include "assign/contract/assigner_run.h"
 #include "assign/contract/storage.h"
 #include "core/error.h"
+#include "effort.h"
 #include "measure/samples.h"
 #include "measure/truth.h"
 #include "places.h"
@@ -360,7 +361,8 @@ TEST(ListsWithoutRoom, that_cannot_hold_one_list_of_all_lights_are_skipped_with_
 // --- configs/react.json in a small picture ---
 
 TEST(ConfigsReact, shows_all_three) {
-  const config::FlagValue flags[] = {{"--viewport", "320x180"}, {"--set", "timing.measure=false"}};
+  std::vector<config::FlagValue> flags{{"--viewport", "320x180"}, {"--set", "timing.measure=false"}};
+  if (test::k_sanitized) flags.push_back({"--set", "scenes.*.frames=3"});
   const config::Config config =
       config::load_config(std::filesystem::path(test::source_dir()) / "configs/react.json", flags);
   int entries = 0, words = 0, fallbacks = 0;
