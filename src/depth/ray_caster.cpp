@@ -288,21 +288,6 @@ void RayCaster::pose(double time_s, const Vec3d& origin) {
 
 namespace {
 
-RTCRay ray_between(const Vec3d& from, const Vec3d& along, double begin_m, double end_m) {
-  RTCRay ray{};
-  const Vec3f start(from), direction(along);
-  ray.org_x = start.x;
-  ray.org_y = start.y;
-  ray.org_z = start.z;
-  ray.dir_x = direction.x;
-  ray.dir_y = direction.y;
-  ray.dir_z = direction.z;
-  ray.tnear = static_cast<float>(begin_m);
-  ray.tfar = static_cast<float>(end_m);
-  ray.mask = ~0U;
-  return ray;
-}
-
 std::array<Vec3d, 3> corners_of(RTCScene surfaces, const RTCHit& hit) {
   RTCGeometry mesh = rtcGetGeometry(surfaces, hit.geomID);
   const auto* vertices = static_cast<const Vec3f*>(rtcGetGeometryBufferData(mesh, RTC_BUFFER_TYPE_VERTEX, 0));
@@ -316,10 +301,7 @@ std::array<Vec3d, 3> corners_of(RTCScene surfaces, const RTCHit& hit) {
 std::optional<SurfaceHit> RayCaster::first_surface(const Vec3d& from, const Vec3d& along, double begin_m,
                                                    double end_m) const {
   const Vec3d local = from - surfaces_->origin;
-  RTCRayHit ray{};
-  ray.ray = ray_between(local, along, begin_m, end_m);
-  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  RTCRayHit ray = ray_of(Vec3f(local), Vec3f(along), static_cast<float>(begin_m), static_cast<float>(end_m));
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   rtcIntersect1(surfaces_->opaque.get(), &context, &ray);
@@ -360,19 +342,11 @@ bool RayCaster::is_hidden(const Vec3d& from, const Vec3d& to, double ends_before
   const Vec3d way = to - from;
   const double distance = glm::length(way);
   if (!(distance > ends_before_m)) return false;
-  const Vec3f origin(from - surfaces_->origin), along(way / distance);
+  RTCRay ray =
+      ray_of(Vec3f(from - surfaces_->origin), Vec3f(way / distance), 0.0f, static_cast<float>(distance - ends_before_m))
+          .ray;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  RTCRay ray{};
-  ray.org_x = origin.x;
-  ray.org_y = origin.y;
-  ray.org_z = origin.z;
-  ray.dir_x = along.x;
-  ray.dir_y = along.y;
-  ray.dir_z = along.z;
-  ray.tnear = 0.0f;
-  ray.tfar = static_cast<float>(distance - ends_before_m);
-  ray.mask = ~0U;
   rtcOccluded1(surfaces_->opaque.get(), &context, &ray);
   return ray.tfar < 0.0f;
 }
