@@ -40,12 +40,11 @@ Json counts_json(const stress::SettingCounts& counts) {
   Json by_kind = Json::object();
   for (std::size_t kind = 0; kind < counts.by_kind.size(); ++kind)
     by_kind[grid::kind_name(static_cast<grid::Kind>(kind))] = counts.by_kind[kind];
-  return {{"settings", counts.settings},     {"refused", counts.refused},
-          {"settings_by_grid", by_kind},     {"points", counts.points},
-          {"spots", counts.spots},           {"pairs", counts.pairs},
-          {"true_pairs", counts.true_pairs}, {"listed_pairs", counts.compared_pairs},
-          {"decisions", counts.decisions},   {"cells_sampled", counts.sampled},
-          {"undecided", counts.undecided},   {"lights_shaded", counts.shaded}};
+  return {{"settings", counts.settings},   {"refused", counts.refused},       {"settings_by_grid", by_kind},
+          {"points", counts.points},       {"spots", counts.spots},           {"boxes", counts.boxes},
+          {"pairs", counts.pairs},         {"true_pairs", counts.true_pairs}, {"listed_pairs", counts.compared_pairs},
+          {"decisions", counts.decisions}, {"cells_sampled", counts.sampled}, {"undecided", counts.undecided},
+          {"lights_shaded", counts.shaded}};
 }
 
 Json to_json(const stress::RandomFault& found) {
@@ -54,7 +53,7 @@ Json to_json(const stress::RandomFault& found) {
           {"method", found.fault.method.empty() ? Json(nullptr) : Json(found.fault.method)},
           {"grid", grid::kind_name(found.grid)},
           {"orthographic", found.orthographic},
-          {"light", found.fault.is_spot ? "spot" : "point"},
+          {"light", stress::type_name(found.fault.type)},
           {"settings", found.settings},
           {"seeds", found.seeds},
           {"detail", found.fault.detail}};
@@ -84,8 +83,9 @@ std::string in_lines(const stress::RandomFault& found) {
 void print_random(std::ostream& out, const stress::RandomSearch& random) {
   const stress::SettingCounts& counts = random.counts;
   out << "\nRandom settings: " << counts.settings << " (seeds from " << random.first_seed << " on), " << counts.refused
-      << " of them refused; " << number_of(counts.points, "point") << ", " << number_of(counts.spots, "spot") << "\n  "
-      << number_of(counts.pairs, "pair") << ", " << counts.true_pairs << " true; " << counts.decisions
+      << " of them refused; " << number_of(counts.points, "point") << ", " << number_of(counts.spots, "spot") << ", "
+      << counts.boxes << " boxes"
+      << "\n  " << number_of(counts.pairs, "pair") << ", " << counts.true_pairs << " true; " << counts.decisions
       << " decided one by one, " << counts.undecided << " undecided; " << number_of(random.faults.size(), "fault")
       << "\n";
   for (const stress::RandomFault& found : random.faults) out << "  " << in_lines(found) << "\n";

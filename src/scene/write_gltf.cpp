@@ -161,10 +161,17 @@ std::string to_gltf(const Scene& scene, const std::string& generator) {
     siblings.push_back(i);
   }
   const auto node = [&](int index) -> Json& { return document["nodes"][static_cast<std::size_t>(index)]; };
-  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-    document["extensions"]["KHR_lights_punctual"]["lights"].push_back(light_json(scene.lights[i]));
-    node(scene.lights[i].node)["extensions"]["KHR_lights_punctual"]["light"] = i;
+  Json lights = Json::array();
+  for (const Light& light : scene.lights) {
+    if (light.type == LightType::box) {
+      const Vec3d& half = light.half_extents_m;
+      node(light.node)["extras"]["clusterbench_box"]["half_extents"] = {half.x, half.y, half.z};
+      continue;
+    }
+    node(light.node)["extensions"]["KHR_lights_punctual"]["light"] = lights.size();
+    lights.push_back(light_json(light));
   }
+  if (!lights.empty()) document["extensions"]["KHR_lights_punctual"]["lights"] = lights;
   for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
     document["cameras"].push_back(camera_json(scene.cameras[i]));
     node(scene.cameras[i].node)["camera"] = i;

@@ -10,7 +10,8 @@ namespace clusterbench::scene {
 
 // Nodes, lights with their resolved ranges, cameras, and channels: of nodes translation and rotation, of lights range
 // and outer angle, all with interpolation `step`. glTF keeps the values of channels in single precision: they must be
-// such numbers, or they are rounded. Other channels and boxes are left out. Ranges must be finite.
+// such numbers, or they are rounded. Boxes are written where they are assigned (assign_boxes).
+// Other channels are left out. Ranges must be finite.
 std::string to_gltf(const Scene& scene, const std::string& generator);
 
 }  // namespace clusterbench::scene

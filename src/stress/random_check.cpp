@@ -44,6 +44,23 @@ struct PointOf {
   }
 };
 
+// Does a box hold a place, seen from its middle, by more than a margin on every side? Not said of boxes of next to no
+// volume.
+bool box_holds_clearly(const std::array<Vec3d, 3>& half_axes, const Vec3d& from_middle, double margin) {
+  const Mat3d axes(half_axes[0], half_axes[1], half_axes[2]);
+  const double most = glm::length(half_axes[0]) * glm::length(half_axes[1]) * glm::length(half_axes[2]);
+  constexpr double k_least_share = 1e-3;  // of the volume that orthogonal axes would have
+  if (!(std::abs(glm::determinant(axes)) > k_least_share * most)) return false;
+  const Mat3d inverse = glm::inverse(axes);
+  const Vec3d at = inverse * from_middle;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double a_metre = glm::length(Vec3d(inverse[0][axis], inverse[1][axis], inverse[2][axis]));
+    constexpr double k_lost = 1e-9;
+    if (!(1.0 - std::abs(at[axis]) > margin * a_metre + k_lost)) return false;
+  }
+  return true;
+}
+
 // Does the volume hold the point, by more than double precision can lose?
 bool holds_clearly(const geom::LightVolume& volume, const Vec3d& p) {
   const double whole_range = geom::range_of(volume);
@@ -51,6 +68,8 @@ bool holds_clearly(const geom::LightVolume& volume, const Vec3d& p) {
   const Vec3d v = p - apex.at;
   const double range = std::isinf(whole_range) ? 0.0 : whole_range;  // no end is nowhere near
   const double margin = 1e-12 * (glm::length(p) + glm::length(apex.at) + range) + 4.0 * apex.rounding_error;
+  if (const auto* box = std::get_if<geom::BoxVolume>(&volume))
+    return box_holds_clearly(box->half_axes, glm::transpose(box->center.rotation) * v, margin);
   if (!(glm::length(v) < whole_range - margin)) return false;
   const auto* spot = std::get_if<geom::SpotVolume>(&volume);
   if (spot == nullptr) return true;
@@ -65,6 +84,7 @@ bool clearly_reaches(const scene::WorldLight& light, const grid::Sample& sample,
   const double distance = glm::length(v);
   margin += 1e-12 * (glm::length(apex) + (std::isinf(light.range_m) ? 0.0 : light.range_m));
   if (!(distance < light.range_m - margin)) return false;
+  if (light.type == scene::LightType::box) return box_holds_clearly(light.half_axes_m, v, margin);
   if (light.type != scene::LightType::spot) return true;
   const Vec3d axis = glm::normalize(light.direction);
   const double along = glm::dot(v, axis), across = glm::length(v - along * axis);
@@ -102,7 +122,8 @@ class SettingCheck {
   SettingReport run() {
     ++report_.counts.settings;
     ++report_.counts.by_kind[static_cast<std::size_t>(trial_.grid.kind)];
-    if (std::none_of(methods_.begin(), methods_.end(), [&](const auto& method) { return is_checked(method); }))
+    if (!has_boxes(trial_) &&
+        std::none_of(methods_.begin(), methods_.end(), [&](const auto& method) { return is_checked(method); }))
       return std::move(report_);
     try {
       frame_ = frame_of(trial_);
@@ -139,6 +160,7 @@ class SettingCheck {
     SettingCounts& counts = report_.counts;
     counts.points += frame_.ranges().points.count;
     counts.spots += frame_.ranges().spots.count;
+    counts.boxes += frame_.ranges().boxes.count;
     counts.pairs += std::uint64_t{grid_.cell_count()} * frame_.lights.size();
     counts.true_pairs += truth_.lists.pair_count();
     counts.undecided += truth_.undecided;
@@ -417,10 +439,12 @@ class SettingCheck {
 
   void add(FaultKind kind, const std::string& method, const std::string& detail, std::uint32_t cell,
            std::uint32_t light) {
-    const bool is_spot = lights_.size() > 0 && lights_.is_spot(light) && kind != FaultKind::error;
+    constexpr scene::LightType k_types[] = {scene::LightType::point, scene::LightType::spot, scene::LightType::box};
+    const bool has_light = lights_.size() > 0 && kind != FaultKind::error;
+    const scene::LightType type = has_light ? k_types[lights_.type_of(light)] : scene::LightType::point;
     for (const SettingFault& fault : report_.faults)
-      if (fault.kind == kind && fault.method == method && fault.is_spot == is_spot) return;
-    report_.faults.push_back({kind, method, detail, cell, light, is_spot});
+      if (fault.kind == kind && fault.method == method && fault.type == type) return;
+    report_.faults.push_back({kind, method, detail, cell, light, type});
   }
 
   const Trial& trial_;
@@ -448,6 +472,7 @@ void SettingCounts::add(const SettingCounts& other) {
   for (std::size_t i = 0; i < by_kind.size(); ++i) by_kind[i] += other.by_kind[i];
   points += other.points;
   spots += other.spots;
+  boxes += other.boxes;
   pairs += other.pairs;
   true_pairs += other.true_pairs;
   compared_pairs += other.compared_pairs;
@@ -465,7 +490,7 @@ std::string reference_of(const std::string& label) {
 }
 
 bool takes_trial(const StressMethod& method, const Trial& trial) {
-  return method.assigner->takes(trial.grid.kind) &&
+  return method.assigner->takes(trial.grid.kind) && (method.assigner->boxes || !has_boxes(trial)) &&
          (method.assigner->orthographic || !trial.scene.cameras[0].projection.orthographic);
 }
 

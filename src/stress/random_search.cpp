@@ -14,8 +14,8 @@ namespace {
 constexpr std::size_t k_most_seeds = 16;
 
 // Faults of one kind, method, grid and type of light are one fault, however many settings show it.
-std::tuple<FaultKind, std::string, grid::Kind, bool, bool> class_of(const RandomFault& fault) {
-  return {fault.fault.kind, fault.fault.method, fault.grid, fault.orthographic, fault.fault.is_spot};
+std::tuple<FaultKind, std::string, grid::Kind, bool, scene::LightType> class_of(const RandomFault& fault) {
+  return {fault.fault.kind, fault.fault.method, fault.grid, fault.orthographic, fault.fault.type};
 }
 
 void collect(const SettingReport& report, std::uint64_t seed, const Trial& trial, RandomSearch& search) {
@@ -33,11 +33,15 @@ void collect(const SettingReport& report, std::uint64_t seed, const Trial& trial
 void shrink(RandomFault& found, std::span<const StressMethod> methods) {
   found.scene = shrunk(found.scene, found.fault, methods);
   for (const SettingFault& fault : check_setting(found.scene, methods).faults)
-    if (fault.kind == found.fault.kind && fault.method == found.fault.method && fault.is_spot == found.fault.is_spot)
+    if (fault.kind == found.fault.kind && fault.method == found.fault.method && fault.type == found.fault.type)
       found.fault = fault;
 }
 
 }  // namespace
+
+const char* type_name(scene::LightType type) {
+  return type == scene::LightType::box ? "box" : type == scene::LightType::spot ? "spot" : "point";
+}
 
 std::string RandomFault::name() const {
   std::string text = std::string(fault_kind_name(fault.kind)) + "-";
@@ -45,7 +49,7 @@ std::string RandomFault::name() const {
     if (c != ')') text += c == '(' || c == ',' || c == ' ' ? '-' : c;
   text += grid::kind_name(grid);
   text += orthographic ? "-orthographic" : "";
-  return text + (fault.is_spot ? "-spot" : "-point");
+  return text + "-" + type_name(fault.type);
 }
 
 RandomSearch search_at_random(std::span<const StressMethod> methods, const StressRequest& request,

@@ -35,16 +35,16 @@ struct SettingFault {
   std::string method;  // label; empty: the truth
   std::string detail;  // a sentence
   std::uint32_t cell = 0, light = 0;
-  bool is_spot = false;
+  scene::LightType type = scene::LightType::point;  // of the light
 };
 
 struct SettingCounts {
   std::uint64_t settings = 0, refused = 0;  // refused: the grid cannot be
   std::array<std::uint64_t, grid::k_kind_count> by_kind{};
-  std::uint64_t points = 0, spots = 0, pairs = 0, true_pairs = 0;  // pairs: cells x lights
-  std::uint64_t compared_pairs = 0;                                // listed by methods
-  std::uint64_t decisions = 0, sampled = 0, undecided = 0;         // of the slow way
-  std::uint64_t shaded = 0;                                        // lights that clearly reach points in the view
+  std::uint64_t points = 0, spots = 0, boxes = 0, pairs = 0, true_pairs = 0;  // pairs: cells x lights
+  std::uint64_t compared_pairs = 0;                                           // listed by methods
+  std::uint64_t decisions = 0, sampled = 0, undecided = 0;                    // of the slow way
+  std::uint64_t shaded = 0;  // lights that clearly reach points in the view
 
   void add(const SettingCounts& other);
 };
@@ -54,7 +54,11 @@ struct SettingReport {
   std::vector<SettingFault> faults;  // one per kind, method and type of light
 };
 
-// Settings that none of the methods takes are counted and left at that.
+// "point", "spot", "box".
+const char* type_name(scene::LightType type);
+
+// Settings that none of the methods takes are counted and left at that, but for those with boxes: their truth is
+// checked on all kinds of grids, and few methods take them.
 SettingReport check_setting(const Trial& trial, std::span<const StressMethod> methods);
 
 // The method of the fault and that whose simd_variant it is; of a fault of the truth all, since it shows where they

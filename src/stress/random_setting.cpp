@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "stress/contact.h"
 #include "stress/hard_cases.h"
+#include "stress/random_boxes.h"
 
 namespace clusterbench::stress {
 namespace {
@@ -453,6 +454,7 @@ Trial random_setting(std::uint64_t seed) {
   try {
     Lights lights(trial, extent, draw);
     lights.add(draw.percent(90) ? draw.whole(1, 16) : draw.whole(17, 60));
+    add_random_boxes(trial, extent.far_m, extent.step_m, seed);
   } catch (const Error&) {
     // No grid for this camera: a setting without lights, which is counted as refused.
   }

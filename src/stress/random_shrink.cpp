@@ -62,7 +62,7 @@ class Shrinker {
   bool shows_fault(const Trial& trial) {
     if (!can_be_loaded(trial) || ++checks_ > k_most_checks) return false;
     for (const SettingFault& fault : check_setting(trial, methods_).faults)
-      if (fault.kind == fault_.kind && fault.method == fault_.method && fault.is_spot == fault_.is_spot) return true;
+      if (fault.kind == fault_.kind && fault.method == fault_.method && fault.type == fault_.type) return true;
     return false;
   }
 
@@ -96,7 +96,7 @@ class Shrinker {
 
   void keep_few_lights() {
     for (std::size_t i = 0; i < best_.scene.lights.size(); ++i) {
-      if ((best_.scene.lights[i].type == scene::LightType::spot) != fault_.is_spot) continue;
+      if (best_.scene.lights[i].type != fault_.type) continue;
       if (attempt([&](Trial& trial) { trial.scene.lights = {trial.scene.lights[i]}; })) break;
     }
     for (std::size_t i = best_.scene.lights.size(); best_.scene.lights.size() > 1 && i > 0; --i)
@@ -220,6 +220,10 @@ class Shrinker {
       for (int axis = 0; axis < 3; ++axis) {
         set_to(node.translation[axis], 0.0);
         round_each({&node.translation[axis]});
+      }
+      if (light.type == scene::LightType::box) {
+        round_each({&light.half_extents_m.x, &light.half_extents_m.y, &light.half_extents_m.z});
+        continue;
       }
       round_each({&light.range_m});
       if (light.type != scene::LightType::spot) continue;

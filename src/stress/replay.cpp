@@ -39,8 +39,10 @@ void write_replay(const fs::path& folder, const std::string& name, const Trial& 
   OrderedJson assigners = OrderedJson::array();
   for (const StressMethod& method : methods)
     if (takes_trial(method, trial)) assigners.push_back(assigner_json(method));
+  OrderedJson scene{{"path", name + ".gltf"}};
+  if (has_boxes(trial)) scene["boxes"] = true;
   const OrderedJson config{{"name", name},
-                           {"scenes", OrderedJson::array({OrderedJson{{"path", name + ".gltf"}}})},
+                           {"scenes", OrderedJson::array({scene})},
                            {"viewport", {trial.viewport.x, trial.viewport.y}},
                            {"grids", OrderedJson::array({config::grid_request(trial.grid)})},
                            {"assigners", assigners},

@@ -1,5 +1,6 @@
 #include "stress/trial.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "run/path_frames.h"
@@ -87,6 +88,11 @@ std::vector<grid::GridSpec> grids_of_every_kind() {
   world.cells = {24, 8, 24};
   return {pixel_grid({128, 128}), frustum_grid({12, 12}, grid::Scheme::exponential, 24, 0.1, 400.0), distance, cascades,
           world};
+}
+
+bool has_boxes(const Trial& trial) {
+  return std::ranges::any_of(trial.scene.lights,
+                             [](const scene::Light& light) { return light.type == scene::LightType::box; });
 }
 
 view::Frame frame_of(const Trial& trial) {

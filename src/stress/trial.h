@@ -48,6 +48,9 @@ grid::GridSpec pixel_grid(Vec2i tile_pixels);  // 16 slices 0.1..5..500
 // One of each kind: two of frustum, distance, cascades, world.
 std::vector<grid::GridSpec> grids_of_every_kind();
 
+// Whether there are oriented boxes among its lights.
+bool has_boxes(const Trial& trial);
+
 // The frame of a trial's camera, and its grid. Throws Error for what cannot be.
 view::Frame frame_of(const Trial& trial);
 grid::Grid grid_of(const Trial& trial, const view::Frame& frame);

@@ -160,7 +160,7 @@ TEST(RandomSearch, reports_pairs_that_stay_undecided_as_a_fault) {
   EXPECT_GT(report.counts.undecided, 0U);
   for (const SettingFault& fault : report.faults) {
     EXPECT_EQ(fault.kind, FaultKind::undecided) << fault.detail;
-    EXPECT_TRUE(fault.is_spot);
+    EXPECT_EQ(fault.type, scene::LightType::spot);
   }
 }
 
