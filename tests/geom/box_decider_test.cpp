@@ -251,5 +251,26 @@ TEST(BoxDecider, a_point_is_in_a_box_as_its_own_coordinates_say) {
   EXPECT_FALSE(flat.holds({std::nextafter(2.0, 3.0), 2.5, 3}));
 }
 
+// Balls beyond the middle of a face: near enough by a millionth of what they measure, and too far by as much.
+TEST(QuickBox, misses_balls_beyond_a_face_and_none_that_reach_it) {
+  SplitMix64 random(16);
+  int missed = 0;
+  for (int i = 0; i < test::tries(1000); ++i) {
+    const BoxVolume box = random_volume(random, i);
+    const Vec3d middle = box.center.rotation * (box.center.position - box.center.origin);
+    const QuickBox quick(box, middle);
+    const auto axis_at = [&](int axis) { return box.center.rotation * box.half_axes[static_cast<std::size_t>(axis)]; };
+    const int face = i % 3;
+    const Vec3d normal = glm::cross(axis_at((face + 1) % 3), axis_at((face + 2) % 3));
+    if (!(glm::length(normal) > 0.0)) continue;
+    const Vec3d out = glm::normalize(normal) * (glm::dot(normal, axis_at(face)) < 0.0 ? -1.0 : 1.0);
+    const Vec3d on_face = middle + axis_at(face);
+    const double radius = std::exp(random.between(-4.0, 4.0)), hair = 1e-6 * (radius + glm::length(axis_at(face)));
+    EXPECT_FALSE(quick.surely_misses(on_face + (radius - hair) * out, radius)) << i;
+    missed += quick.surely_misses(on_face + (radius + hair) * out, radius) ? 1 : 0;
+  }
+  EXPECT_GT(missed, test::tries(1000) / 2);
+}
+
 }  // namespace
 }  // namespace clusterbench::geom
