@@ -101,7 +101,9 @@ class FlaggedConfig {
                        " entries: takes a number from 0, or * for all, not '" + steps.front() + "'");
     int count = 0;
     for (std::size_t i = 0; i < list.size(); ++i) {
-      const bool is_meant = is_entry ? number == i : steps.size() == 1 || has_step(list[i], steps[1]);
+      // Scenes take the same keys, some of which are not there until they are set.
+      const bool is_meant =
+          is_entry ? number == i : steps.size() == 1 || pointer == "/scenes" || has_step(list[i], steps[1]);
       if (is_meant) count += set(list[i], child_pointer(pointer, i), steps.subspan(1), flag, value);
     }
     return count;

@@ -121,9 +121,17 @@ std::string load_text(const Json& result_case) {
   return out + (out.empty() || !upload ? "" : ", ") + (upload ? bytes_text(*upload) + " a frame" : "");
 }
 
+// What is too little to be a loss is told.
+std::string kept_text(const Json& result_case) {
+  const Json* samples = samples_of(result_case);
+  if (samples == nullptr || (*samples)["missed"] == 0) return "loses nothing";
+  return "loses " + percent((*samples)["missed"].get<double>() / (*samples)["needed"].get<double>()) +
+         " of the lights that samples need";
+}
+
 std::string why(const Row& row, const Row& best, const Json& lights) {
   const Json& result_case = *row.result_case;
-  std::string out = row.loses ? lost_text(result_case) : std::string("loses nothing");
+  std::string out = row.loses ? lost_text(result_case) : kept_text(result_case);
   if (!row.gpu_ns)
     out += "; its cost is not known without samples of surfaces";
   else if (&row == &best)

@@ -74,7 +74,11 @@ std::vector<SceneData> load_scenes(const config::Config& config) {
     SceneData data;
     data.scene = request.rig ? scene::make_rig(*request.rig) : loaded(request);
     scene::resolve_ranges(data.scene, request.range_rule);
-    if (request.boxes) scene::assign_boxes(data.scene);
+    if (request.boxes)
+      scene::assign_boxes(data.scene);
+    else if (!data.scene.boxes.empty())
+      data.scene.warnings.push_back("its oriented boxes (" + std::to_string(data.scene.boxes.size()) +
+                                    ") are counted and not assigned; --set 'scenes.*.boxes=true' assigns them");
     data.scene.name = unique_name(name_part(data.scene.name), names);
     data.paths = scene::camera_paths(data.scene, request.camera);
     std::set<std::string> cameras;

@@ -118,7 +118,7 @@ TEST(Stress, is_written_as_its_schema_says) {
   ASSERT_TRUE(result.random);
   EXPECT_EQ(result.random->counts.settings, 3U);
   result.random->faults.push_back(
-      {{FaultKind::truth, "", "a sentence", 1, 2, true}, grid::Kind::world, false, 1, {7}, {}});
+      {{FaultKind::truth, "", "a sentence", 1, 2, scene::LightType::box}, grid::Kind::world, false, 1, {7}, {}});
   const auto json = nlohmann::json::parse(report::stress_to_json(result, request).dump());
   EXPECT_EQ(config::schema_violations(row_of(config::Document::stress).schema(), json), std::vector<std::string>{});
   EXPECT_EQ(config::document_of(json), config::Document::stress);
