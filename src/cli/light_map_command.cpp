@@ -30,7 +30,7 @@ Vec2i map_size_in(const std::string& words) {
     const auto [last, failed] = std::from_chars(parts[i].data(), end, size[i]);
     if (failed != std::errc() || last != end || size[i] < 1 || size[i] > measure::k_longest_map_side)
       throw Error("", "--resolution",
-                  "'" + words + "' is not WIDTHxHEIGHT, as in 512x256: each 1 to " +
+                  "'" + words + "' is not SIDE or WIDTHxHEIGHT, as in 512 or 512x256: each 1 to " +
                       std::to_string(measure::k_longest_map_side) + " texels");
   }
   return size;
@@ -102,7 +102,7 @@ void add_light_map(Command& program, Action& action) {
                   "Of a mesh on the average, as its area in the world and in texture coordinates has it")
       .range(1e-6, 1e6)
       .shows_standard();
-  command.add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of every map, in place of that");
+  command.add_option("--resolution", flags->resolution, "SIDE or WIDTHxHEIGHT of every map, in place of that");
   command.add_flag("--unwrap", flags->request.unwrap,
                    "Lay each flat face down by itself, in place of the file's texture coordinates");
   command.add_flag("--conservative", flags->conservative, "All texels that a triangle touches, not only their centres");

@@ -70,6 +70,8 @@ void drop_unused_reaction(Json& grid) {
     return;
   }
   react.erase(react["to"] == "entries" ? "most_lights" : "of");
+  if (react["to"] == "entries" && !react.contains("of"))
+    react["of"] = grid["kind"] == "distance" ? "distance-fast" : "exact-fast";
 }
 
 // A key that only other schemes of the axis use must not make several equal grids.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/error.h"
 #include "core/memory.h"
 
 namespace clusterbench::cull {
@@ -43,7 +44,10 @@ Voxels::Voxels(const Vec3d& lo, const Vec3d& hi, double size_m) : size_m_(size_m
     all *= static_cast<double>(counts_[axis]);
   }
   constexpr double k_surely_too_many = 0x1p60;
-  const auto words = static_cast<std::uint64_t>(std::min(all, k_surely_too_many)) / k_word_bits + 1;
+  if (all >= k_surely_too_many)
+    throw Error("", "limits.memory_mib",
+                "the voxels of a visible set would be more than 2^60; use larger ones (pre_cull: visible_set.voxel_m)");
+  const auto words = static_cast<std::uint64_t>(all) / k_word_bits + 1;
   check_memory("words of a visible set's voxels", words, sizeof(std::uint64_t),
                "use larger voxels (pre_cull: visible_set.voxel_m)");
   words_.assign(words, 0);

@@ -73,9 +73,7 @@ ShadowMap::ShadowMap(const RayCaster& caster, const scene::WorldLight& light, co
   } else {
     for (const Axes& axes : cube_axes()) faces_.push_back({axes.right, axes.up, axes.forward, {}});
   }
-  const auto side = static_cast<std::uint64_t>(request.resolution) + 1;
-  check_memory("texels of shadow maps", faces_.size() * side * side, sizeof(float) + sizeof(SurfaceHit),
-               "ask for a lower resolution");
+  check_memory("bytes of shadow maps", most_bytes(request), 1, "ask for a lower resolution");
   for (Face& face : faces_) cast(caster, face);
 }
 
@@ -148,6 +146,15 @@ ShadowMap::TexelCounts ShadowMap::texel_counts() const {
       counts.unlimited += farthest == k_unlimited ? 1 : 0;
     }
   return counts;
+}
+
+std::uint64_t ShadowMap::most_bytes(const ShadowMapRequest& request) {
+  constexpr std::uint64_t k_most_faces = 6;
+  std::uint64_t texels = 0;
+  for (std::uint64_t size = static_cast<std::uint64_t>(request.resolution); size > 0;
+       size = size > 1 ? (size + 1) / 2 : 0)
+    texels += size * size;
+  return k_most_faces * texels * sizeof(float);
 }
 
 std::size_t ShadowMap::bytes() const {

@@ -58,6 +58,8 @@ class ShadowMap {
   };
   TexelCounts texel_counts() const;
   std::size_t bytes() const;  // of all levels
+  // The most that a light's map can take.
+  static std::uint64_t most_bytes(const ShadowMapRequest& request);
 
  private:
   struct Level {

@@ -14,6 +14,8 @@ namespace clusterbench::measure {
 namespace {
 
 constexpr double k_slack = 1e-9;  // more than roundoffs of angles, and of lengths relative to those at hand
+// More than those of an apex, and of differences from it, relative to how far from the origin it is.
+constexpr double k_position_slack = 0x1p-49;
 
 double angle_between(const Vec3d& a, const Vec3d& b) {
   return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
@@ -169,10 +171,14 @@ std::optional<SharedFrustum> frustum_around(std::span<const scene::WorldLight> l
                                             std::span<const std::uint32_t> spots) {
   SharedFrustum out;
   out.members.assign(spots.begin(), spots.end());
+  // From one of them on: far from the origin positions themselves are rounded.
+  const Vec3d origin = lights[spots.front()].position;
   Vec3d middle(0.0), axis(0.0);
+  double away_m = 0.0;
   for (const std::uint32_t spot : spots) {
-    middle += lights[spot].position / static_cast<double>(spots.size());
+    middle += (lights[spot].position - origin) / static_cast<double>(spots.size());
     axis += lights[spot].direction;
+    away_m = std::max(away_m, glm::length(lights[spot].position));
   }
   if (glm::length(axis) == 0.0) return std::nullopt;
   out.axis = glm::normalize(axis);
@@ -184,18 +190,20 @@ std::optional<SharedFrustum> frustum_around(std::span<const scene::WorldLight> l
   out.slope = std::tan(widest_rad);
   double back_m = 0.0, size_m = 0.0;
   for (const std::uint32_t spot : spots) {
-    const Vec3d from_middle = lights[spot].position - middle;
+    const Vec3d from_middle = (lights[spot].position - origin) - middle;
     const double along = glm::dot(from_middle, out.axis);
     back_m = std::max(back_m, glm::length(from_middle - along * out.axis) / out.slope - along);
     size_m = std::max(size_m, glm::length(from_middle));
   }
-  if (spots.size() > 1) back_m += k_slack * (size_m + back_m);
-  out.apex = middle - back_m * out.axis;
+  // What the apex, and depths from there, lose to rounding.
+  const double rounding_m = spots.size() > 1 ? k_position_slack * away_m : 0.0;
+  if (spots.size() > 1) back_m += k_slack * (size_m + back_m) + rounding_m * (1.0 + 1.0 / out.slope);
+  out.apex = origin + (middle - back_m * out.axis);
   out.near_m = std::numeric_limits<double>::infinity();
   for (const std::uint32_t spot : spots) {
     const scene::WorldLight& light = lights[spot];
     const double depth = glm::dot(light.position - out.apex, out.axis);
-    const double slack = k_slack * (depth + light.range_m);
+    const double slack = k_slack * (depth + light.range_m) + rounding_m;
     out.near_m = std::min(out.near_m, std::max(0.0, depth - slack));
     out.far_m = std::max(out.far_m, depth + depth_along(light, angle_between(out.axis, light.direction)) + slack);
   }
@@ -226,8 +234,9 @@ void add_frame(SharingCounts& counts, const view::Frame& frame, const SharingLim
   std::vector<std::uint32_t> spots;
   std::size_t points = 0;
   for (std::uint32_t i = 0; i < frame.lights.size(); ++i) {
-    if (!is_in_view(frame, frame.lights[i])) continue;
-    if (frame.ranges().is_spot(i))
+    const scene::LightType type = frame.lights[i].type;
+    if (type == scene::LightType::box || !is_in_view(frame, frame.lights[i])) continue;
+    if (type == scene::LightType::spot)
       spots.push_back(i);
     else
       ++points;

@@ -93,6 +93,19 @@ bool misses_without_cells(const CaseResult& result) {
          (lookup != nullptr && lookup->missed > 0);
 }
 
+// A structure without cells is asked beyond those whose lights a pre-cull keeps. What that removes, the method cannot
+// find.
+bool is_lost_by_pre_cull(const CaseResult& result) {
+  if (!result.pre_cull || has_cells(result)) return false;
+  const auto missed_of = [&](measure::SampleSet set) -> std::uint64_t {
+    if (set == measure::SampleSet::volume) return result.shading ? result.shading->missed : 0;
+    const auto found = std::ranges::find(result.samples, set, &SampleSetResult::set);
+    return found == result.samples.end() ? 0 : found->counts.missed;
+  };
+  return std::ranges::all_of(result.pre_cull->counts.samples,
+                             [&](const LostAtSamples& lost) { return missed_of(lost.set) <= lost.lost; });
+}
+
 std::string missed_without_cells_text(const CaseResult& result) {
   if (missed_in_view(result) > 0)
     return "lost " + std::to_string(missed_in_view(result)) + " of " + number_of(result.shading->needed, "light") +
@@ -168,7 +181,8 @@ std::vector<Failure> failures_of(const CaseResult& result, const config::LimitsR
   if (result.exact && result.error && result.error->false_positives > 0)
     failures.push_back({Kind::extra_pairs, "reported " + number_of(result.error->false_positives, "pair") +
                                                " beside the truth, and calls itself exact"});
-  if (may_not_lose(result) && (misses_without_cells(result) || misses_at_surfaces(result)))
+  if (may_not_lose(result) && (misses_without_cells(result) || misses_at_surfaces(result)) &&
+      !is_lost_by_pre_cull(result))
     failures.push_back({Kind::lost_at_samples, missed_without_cells_text(result)});
   const measure::Buffers& buffers = result.buffers;
   if (limits.dropped_pairs && buffers.dropped_pairs > *limits.dropped_pairs)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "core/memory.h"
 #include "core/parallel.h"
 
 namespace clusterbench::run {
@@ -43,6 +44,14 @@ void LightShadows::start(const view::Frame& frame) {
   for (Kept& kept : kept_) kept.of_lights.resize(frame.lights.size());
 }
 
+// Of the maps of all lights and requests, which stay.
+std::uint64_t LightShadows::kept_bytes() const {
+  std::uint64_t bytes = 0;
+  for (const Kept& kept : kept_)
+    for (const Made& made : kept.of_lights) bytes += made.map ? made.map->bytes() : 0;
+  return bytes;
+}
+
 std::vector<const depth::ShadowMap*> LightShadows::maps(std::size_t request, const assign::Lists& lists) {
   std::vector<bool> wanted(frame_->lights.size(), false);
   for (const std::uint32_t light : lists.lights) wanted[light] = true;
@@ -51,6 +60,9 @@ std::vector<const depth::ShadowMap*> LightShadows::maps(std::size_t request, con
   for (std::uint32_t light = 0; light < wanted.size(); ++light)
     if (wanted[light] && !(kept.of_lights[light].map && kept.of_lights[light].seen.is_same(seen(light))))
       missing.push_back(light);
+  check_memory("bytes of shadow maps",
+               kept_bytes() + missing.size() * depth::ShadowMap::most_bytes(config_.shadow_culls[request].map), 1,
+               "ask for a lower resolution (shadow_cull), or for fewer of them");
   parallel_ranges(missing.size(), config_.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       Made& made = kept.of_lights[missing[i]];

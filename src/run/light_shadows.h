@@ -56,6 +56,7 @@ class LightShadows {
     MakingTimes times;
   };
 
+  std::uint64_t kept_bytes() const;
   std::vector<bool> lit(double near_m, double bias_m, std::span<const grid::Sample> samples,
                         const measure::NeededLights& needed) const;
 

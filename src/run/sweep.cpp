@@ -252,6 +252,12 @@ FirstFrame first_frame(const grid::GridSpec& spec, const SceneData& data, const 
   if (path.shots.empty()) return {0, {}, "the camera path has no frame"};
   if (follows_surfaces(spec) && (!data.geometry || data.geometry->empty()))
     return {0, {}, "slices that follow surfaces need a depth buffer, and the scene has no triangles"};
+  if (spec.reaction && spec.reaction->to == grid::Reaction::To::entries &&
+      has_lights(data.scene, scene::LightType::box) && !assign::find_assigner(spec.reaction->of)->boxes)
+    return {0,
+            {},
+            "its tiles react to the lists of " + spec.reaction->of +
+                ", which takes no boxes; react.of names another method"};
   try {
     const view::Frame frame = view::make_frame(data.scene, path.shots.front(), 0, viewport);
     const Reach reach = reach_of(frame);

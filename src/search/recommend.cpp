@@ -64,7 +64,8 @@ class ViewSearch {
         watch_(watch) {
     for (const std::size_t camera : view.cameras)
       paths_.emplace_back(plan.scenes[view.scene].scene, plan.scenes[view.scene].paths[camera],
-                          config.viewports[view.viewport], plan.scenes[view.scene].depths.get());
+                          config.viewports[view.viewport], plan.scenes[view.scene].depths.get(), config.threads,
+                          plan.scenes[view.scene].visible_sets.get());
     found_.records.resize(view.candidates.size());
   }
 

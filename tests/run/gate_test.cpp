@@ -54,6 +54,19 @@ TEST(Gate, what_loses_and_drops_nothing_passes) {
   EXPECT_FALSE(loses_lights(without_cells()));
 }
 
+// It is asked beyond the cells of which a pre-cull knows.
+TEST(Gate, a_structure_without_cells_does_not_answer_for_what_a_pre_cull_keeps_from_it) {
+  CaseResult case_result = without_cells();
+  miss(case_result, 5, 0);
+  EXPECT_EQ(kinds(case_result), (std::vector{Kind::lost_at_samples}));
+  case_result.pre_cull.emplace();
+  case_result.pre_cull->counts.samples.push_back({measure::SampleSet::volume, 1000, 5, true});
+  EXPECT_TRUE(kinds(case_result).empty());
+  EXPECT_TRUE(loses_lights(case_result));
+  case_result.pre_cull->counts.samples.back().lost = 4;
+  EXPECT_EQ(kinds(case_result), (std::vector{Kind::lost_at_samples})) << "the fifth is its own";
+}
+
 TEST(Gate, a_lost_pair_of_a_conservative_method_fails_and_of_another_loses_lights) {
   CaseResult case_result = with_cells();
   case_result.error->false_negatives = 3;

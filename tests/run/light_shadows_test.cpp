@@ -6,6 +6,8 @@
 
 #include <atomic>
 
+#include "core/error.h"
+#include "core/memory.h"
 #include "core/random.h"
 #include "run/runner.h"
 #include "scene/mesh_fixture.h"
@@ -201,6 +203,41 @@ TEST(LightShadows, a_scene_without_triangles_is_named_and_has_none) {
   EXPECT_EQ(result.skipped[0].name, "walls/shadow_cull");
   EXPECT_EQ(result.skipped[0].reason, "the scene has no triangles");
   EXPECT_TRUE(result.cases.at(0).shadow_culls.empty());
+}
+
+// At 128 texels a point's map takes 524 KiB: one is within the limit, those of all points are not.
+TEST(LightShadows, maps_of_all_lights_are_counted_before_they_take_memory) {
+  const auto run = [](int resolution) {
+    const MemoryLimitScope limit(memory_limit());  // back to it: a configuration's limit stays
+    run_of(walls(), R"(, "limits": {"memory_mib": 1}, "shadow_cull": {"texels": "sampled", "resolution": )" +
+                        std::to_string(resolution) + "}");
+  };
+  EXPECT_NO_THROW(run(16));
+  try {
+    run(128);
+    ADD_FAILURE() << "each map fits, and all of them do not";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("bytes of shadow maps"), std::string::npos) << error.what();
+  }
+}
+
+// Decals have no shadow.
+TEST(LightShadows, boxes_are_no_points_that_share_nothing) {
+  MeshFile file;
+  begin(file);
+  add_light(file, {0, 0, -5});
+  file.node({{"translation", {0, 0, -6}}, {"extras", {{"clusterbench_box", {{"half_extents", {1, 1, 1}}}}}}});
+  const scene::test::Folder folder;
+  folder.write("a.gltf", file.text());
+  const config::Config config = config::parse_config(
+      R"({"scenes": [{"path": "a.gltf", "boxes": true}], "assigners": ["box-bounds"], "grids": [{}], "shadow_frusta": {},
+          "timing": {"measure": false}})",
+      folder.path() / "c.json");
+  const std::atomic<bool> stop = false;
+  const Plan plan = make_plan(config, "");
+  const Result result = run_plan(config, plan, {}, {}, stop);
+  ASSERT_FALSE(result.cases.empty());
+  EXPECT_EQ(result.cases[0].shared_frusta->counts.points.most, 1.0);
 }
 
 }  // namespace

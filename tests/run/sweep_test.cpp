@@ -86,6 +86,12 @@ TEST_F(Sweep, boxes_are_assigned_where_they_are_asked_for_and_methods_that_take_
   EXPECT_EQ(with.skipped[0].reason, "bounds takes no boxes");
   ASSERT_EQ(with.scenes[0].scene.lights.size(), 1u);
   EXPECT_EQ(with.scenes[0].scene.lights[0].name, "decal");
+  const Plan reacting =
+      plan(R"([{"path": "b.gltf", "boxes": true}])",
+           R"(, "grids": [{}, {"react": {"to": "entries", "most": 9}}], "assigners": ["box-refined"])");
+  ASSERT_EQ(reacting.skipped.size(), 1u);
+  EXPECT_TRUE(
+      reacting.skipped[0].reason.starts_with("its tiles react to the lists of exact-fast, which takes no boxes"));
   const Plan packed = plan(R"([{"path": "b.gltf", "boxes": true}])", rest + R"(, "precision": ["float32", "half"])");
   EXPECT_EQ(cases(packed).size(), 1u);
 }

@@ -58,24 +58,17 @@ TEST(PreCullAgainstTruth, loses_no_pair_on_the_hard_cases) {
   EXPECT_GT(found.settings, 100u);
   EXPECT_GT(found.true_pairs, 1000u);
   EXPECT_GT(found.removed_by_planes, 100u);
-  std::printf("%llu settings, %llu lights, %llu true pairs; removed %llu and %llu\n",
-              static_cast<unsigned long long>(found.settings), static_cast<unsigned long long>(found.lights),
-              static_cast<unsigned long long>(found.true_pairs),
-              static_cast<unsigned long long>(found.removed_by_planes),
-              static_cast<unsigned long long>(found.removed_by_distance));
 }
 
 TEST(PreCullAgainstTruth, loses_no_pair_in_random_settings) {
   Found found;
-  for (std::uint64_t seed = 1; seed <= 400; ++seed) hold_against_truth(random_setting(seed), found);
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    const Trial trial = random_setting(seed);
+    if (!has_boxes(trial)) hold_against_truth(trial, found);  // pre-culls take points and spots
+  }
   EXPECT_GT(found.settings, 100u);
   EXPECT_GT(found.removed_by_planes, 100u);
   EXPECT_GT(found.removed_by_distance, 10u);
-  std::printf("%llu settings, %llu lights, %llu true pairs; removed %llu and %llu\n",
-              static_cast<unsigned long long>(found.settings), static_cast<unsigned long long>(found.lights),
-              static_cast<unsigned long long>(found.true_pairs),
-              static_cast<unsigned long long>(found.removed_by_planes),
-              static_cast<unsigned long long>(found.removed_by_distance));
 }
 
 }  // namespace
