@@ -1,10 +1,10 @@
 #include "cull/visible_sets.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 
+#include "core/clock.h"
 #include "core/memory.h"
 #include "core/random.h"
 
@@ -47,10 +47,6 @@ bool touches(const Voxels& voxels, const scene::WorldLight& light) {
   if (!std::isfinite(light.range_m)) return true;
   const WorldBall ball = ball_around(light);
   return voxels.are_touched_by(ball.center, ball.radius_m);
-}
-
-double now_ns() {
-  return std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 }  // namespace
@@ -102,7 +98,7 @@ std::vector<depth::WorldRay> view_rays(const VoxelIndex& view_cell, std::span<co
 VisibleSets::VisibleSets(const scene::Scene& scene, const scene::Geometry& geometry, const scene::CameraPath& path,
                          const VisibleSetStep& step, std::uint64_t seed, int threads)
     : step_(step) {
-  const double start = now_ns();
+  const double start = wall_ns();
   find_moving(scene, path);
   std::map<VoxelIndex, std::vector<Vec3d>> eyes;
   for (const scene::Shot& shot : path.shots) eyes[voxel_of(shot.pose.eye, step.view_cell_m)].push_back(shot.pose.eye);
@@ -115,7 +111,7 @@ VisibleSets::VisibleSets(const scene::Scene& scene, const scene::Geometry& geome
     caster.pose(pose_at(in_cell.front(), path.shots.front().time_s));
     cells_[index] = look_around(empty, view_rays(index, in_cell, step, caster, seed, threads));
   }
-  build_ns_ = now_ns() - start;
+  build_ns_ = wall_ns() - start;
 }
 
 void VisibleSets::find_moving(const scene::Scene& scene, const scene::CameraPath& path) {

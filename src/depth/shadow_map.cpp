@@ -6,6 +6,8 @@
 
 #include "core/memory.h"
 #include "depth/texel_cover.h"
+#include "geom/numbers/round_to_float.h"
+#include "geom/shapes/angle_between.h"
 
 namespace clusterbench::depth {
 namespace {
@@ -28,10 +30,6 @@ Axes axes_along(const Vec3d& forward) {
   return {right, glm::cross(right, forward), forward};
 }
 
-double angle_between(const Vec3d& a, const Vec3d& b) {
-  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
-
 // Wider than all roundoffs of an angle, and by no more than a thousandth of a texel.
 constexpr double k_angle_slack = 1e-6;
 
@@ -40,13 +38,8 @@ bool is_beside(const scene::WorldLight& light, const std::array<Vec3d, 4>& corne
   if (light.type != scene::LightType::spot) return false;
   const Vec3d middle = corners[0] + corners[1] + corners[2] + corners[3];
   double spread = 0.0;
-  for (const Vec3d& corner : corners) spread = std::max(spread, angle_between(middle, corner));
-  return angle_between(middle, light.direction) > light.outer_cone_rad + spread + k_angle_slack;
-}
-
-float rounded_up(double value) {
-  const auto near = static_cast<float>(value);
-  return static_cast<double>(near) >= value ? near : std::nextafter(near, k_unlimited);
+  for (const Vec3d& corner : corners) spread = std::max(spread, geom::angle_between(middle, corner));
+  return geom::angle_between(middle, light.direction) > light.outer_cone_rad + spread + k_angle_slack;
 }
 
 // The body's points by the edges between their corners, which differ in one bit.
@@ -108,10 +101,10 @@ void ShadowMap::cast(const RayCaster& caster, Face& face) {
       } else if (request_.bound == TexelBound::sampled) {
         double farthest = 0.0;
         for (const auto& hit : hits) farthest = std::max(farthest, hit->distance_m);
-        finest.farthest.push_back(rounded_up(farthest));
+        finest.farthest.push_back(geom::rounded_up(farthest));
       } else {
         const std::array found{*hits[0], *hits[1], *hits[2], *hits[3]};
-        finest.farthest.push_back(rounded_up(covered_distance(corners, found, first_surface, request_.near_m)));
+        finest.farthest.push_back(geom::rounded_up(covered_distance(corners, found, first_surface, request_.near_m)));
       }
     }
     low = std::move(high);

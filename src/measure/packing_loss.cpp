@@ -4,14 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "geom/shapes/angle_between.h"
+
 namespace clusterbench::measure {
-namespace {
-
-double angle_between(const Vec3d& a, const Vec3d& b) {
-  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
-
-}  // namespace
 
 void PackingLossMeter::Sum::add(double value) {
   sum += value;
@@ -50,7 +45,7 @@ void PackingLossMeter::add_cone(const view::LightArrays& lights, std::uint32_t l
   const std::uint32_t spot = light - lights.spots.first;
   const scene::WorldLight& exact = lights.source[light];
   const Vec3d axis{lights.axis_x[spot], lights.axis_y[spot], lights.axis_z[spot]};
-  axis_.add(angle_between(axis, lights.space.rotation * exact.direction));
+  axis_.add(geom::angle_between(axis, lights.space.rotation * exact.direction));
   const double angle =
       std::atan2(static_cast<double>(lights.sin_angle[spot]), static_cast<double>(lights.cos_angle[spot]));
   angle_.add(std::fabs(angle - exact.outer_cone_rad));

@@ -8,6 +8,8 @@
 #include <set>
 #include <tuple>
 
+#include "cull/visible_sets.h"
+#include "geom/shapes/angle_between.h"
 #include "grid/lights_in_view.h"
 
 namespace clusterbench::measure {
@@ -17,10 +19,6 @@ constexpr double k_slack = 1e-9;  // more than roundoffs of angles, and of lengt
 // More than those of an apex, and of differences from it, relative to how far from the origin it is.
 constexpr double k_position_slack = 0x1p-49;
 
-double angle_between(const Vec3d& a, const Vec3d& b) {
-  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
-
 // How deep a spot's sphere-capped cone reaches from its apex along an axis that its cone does not lean away from.
 double depth_along(const scene::WorldLight& spot, double turned_rad) {
   return spot.range_m * std::cos(std::max(0.0, turned_rad - spot.outer_cone_rad));
@@ -29,7 +27,7 @@ double depth_along(const scene::WorldLight& spot, double turned_rad) {
 // Whether these two may be in one group, whatever else is.
 bool may_share(const scene::WorldLight& a, const scene::WorldLight& b, const SharingLimits& limits) {
   return glm::length(a.position - b.position) <= limits.most_apart_m &&
-         angle_between(a.direction, b.direction) <= limits.most_turned_rad;
+         geom::angle_between(a.direction, b.direction) <= limits.most_turned_rad;
 }
 
 // Groups by number: first the spots by themselves, then what they are joined to.
@@ -130,12 +128,11 @@ class Grouping {
 
 bool is_in_view(const view::Frame& frame, const scene::WorldLight& light) {
   if (light.range_m == 0.0) return false;
-  scene::WorldLight ball = light;  // the smallest around its volume
-  if (light.type == scene::LightType::spot && std::isfinite(light.range_m)) {
-    const double cos = std::cos(light.outer_cone_rad), sin = std::sin(light.outer_cone_rad);
-    const double along_m = cos > sin ? light.range_m / (2.0 * cos) : light.range_m * cos;
-    ball.position += along_m * light.direction;
-    ball.range_m = cos > sin ? along_m : light.range_m * sin;
+  scene::WorldLight ball = light;
+  if (std::isfinite(light.range_m)) {
+    const cull::WorldBall around = cull::ball_around(light);
+    ball.position = around.center;
+    ball.range_m = around.radius_m;
   }
   const Vec3d center = grid::in_view_space(frame, ball);
   return grid::may_be_in_view(frame.projection, center, ball.range_m + grid::slack_of(center, light.range_m));
@@ -184,7 +181,8 @@ std::optional<SharedFrustum> frustum_around(std::span<const scene::WorldLight> l
   out.axis = glm::normalize(axis);
   double widest_rad = 0.0;
   for (const std::uint32_t spot : spots)
-    widest_rad = std::max(widest_rad, angle_between(out.axis, lights[spot].direction) + lights[spot].outer_cone_rad);
+    widest_rad =
+        std::max(widest_rad, geom::angle_between(out.axis, lights[spot].direction) + lights[spot].outer_cone_rad);
   widest_rad += k_slack;
   if (widest_rad > k_widest_frustum_rad) return std::nullopt;
   out.slope = std::tan(widest_rad);
@@ -205,7 +203,7 @@ std::optional<SharedFrustum> frustum_around(std::span<const scene::WorldLight> l
     const double depth = glm::dot(light.position - out.apex, out.axis);
     const double slack = k_slack * (depth + light.range_m) + rounding_m;
     out.near_m = std::min(out.near_m, std::max(0.0, depth - slack));
-    out.far_m = std::max(out.far_m, depth + depth_along(light, angle_between(out.axis, light.direction)) + slack);
+    out.far_m = std::max(out.far_m, depth + depth_along(light, geom::angle_between(out.axis, light.direction)) + slack);
   }
   if (!std::isfinite(out.far_m)) return std::nullopt;
   return out;

@@ -1,24 +1,13 @@
 #include "run/light_shadows.h"
 
 #include <algorithm>
-#include <chrono>
 
+#include "core/clock.h"
 #include "core/memory.h"
 #include "core/parallel.h"
 
 namespace clusterbench::run {
 namespace {
-
-class Stopwatch {
- public:
-  double ns() const {
-    return static_cast<double>(
-        std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - start_).count());
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 // A place in the middle of all lights, which does not follow from any frame.
 Vec3d middle_of(const measure::Bounds& bounds) {
@@ -67,12 +56,12 @@ std::vector<const depth::ShadowMap*> LightShadows::maps(std::size_t request, con
     for (std::size_t i = begin; i < end; ++i) {
       Made& made = kept.of_lights[missing[i]];
       made.seen = seen(missing[i]);
-      const Stopwatch cast;
+      const double cast_start = wall_ns();
       made.map = std::make_unique<depth::ShadowMap>(caster_, made.seen.light, config_.shadow_culls[request].map);
-      made.cast_ns = cast.ns();
-      const Stopwatch reduce;
+      made.cast_ns = wall_ns() - cast_start;
+      const double reduce_start = wall_ns();
       made.map->reduce();
-      made.reduce_ns = reduce.ns();
+      made.reduce_ns = wall_ns() - reduce_start;
     }
   });
   std::vector<const depth::ShadowMap*> out(wanted.size(), nullptr);
@@ -122,9 +111,9 @@ void ShadowCullMeter::add(LightShadows& shadows, const view::Frame& frame, const
                           const assign::Lists& lists, const assign::Lists* truth) {
   const std::vector<const depth::ShadowMap*> maps = shadows.maps(index_, lists);
   count_maps(shadows, maps);
-  const Stopwatch step;
+  const double start = wall_ns();
   measure::remove_shadowed(frame, grid, lists, maps, result_.request.bias_m, kept_);
-  const double ns = step.ns();
+  const double ns = wall_ns() - start;
   step_ns_ += ns;
   result_.times.step_max_ns = std::max(result_.times.step_max_ns, ns);
   ++frames_;

@@ -6,22 +6,11 @@
 #include <cmath>
 
 namespace clusterbench::run {
-namespace {
-
-double clock_ns(clockid_t clock) {
-  timespec now{};
-  clock_gettime(clock, &now);
-  return 1e9 * static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec);
-}
-
-}  // namespace
-
-double wall_ns() {
-  return clock_ns(CLOCK_MONOTONIC);
-}
 
 double thread_ns() {
-  return clock_ns(CLOCK_THREAD_CPUTIME_ID);
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e9 * static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec);
 }
 
 double Repeated::sample() {

@@ -3,10 +3,11 @@
 
 #include <functional>
 
+#include "core/clock.h"
+
 namespace clusterbench::run {
 
 using Clock = double (*)();  // ns since some moment
-double wall_ns();
 // The processor time of this thread: knows nothing of other programs that had the processor meanwhile, nor of other
 // threads that did the work.
 double thread_ns();

@@ -3,14 +3,6 @@
 #include "assign/bounds/bounds_method.h"
 
 namespace clusterbench::assign {
-namespace {
-
-struct AabbsInExtents : CellAabbs {
-  static constexpr Looks k_looks = Looks::in_box;
-};
-
-}  // namespace
-
 extern const AssignerDescriptor box_bounds_descriptor;
 const AssignerDescriptor box_bounds_descriptor{
     .name = "box-bounds",

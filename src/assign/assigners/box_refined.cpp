@@ -6,10 +6,6 @@
 namespace clusterbench::assign {
 namespace {
 
-struct AabbsInExtents : CellAabbs {
-  static constexpr Looks k_looks = Looks::in_box;
-};
-
 struct RefinedBoxTest : FrustumCells {
   // The most of its three tests.
   static constexpr float k_roundoffs = geom::k_sides_roundoffs;

@@ -5,10 +5,6 @@
 namespace clusterbench::assign {
 namespace {
 
-struct AabbsInExtents : CellAabbs {
-  static constexpr Looks k_looks = Looks::in_box;
-};
-
 struct SeparatingAxisTest : FrustumCells {
   static constexpr float k_roundoffs = geom::k_separating_axis_roundoffs;
 

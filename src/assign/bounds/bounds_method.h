@@ -124,6 +124,11 @@ class CellAabbs {
   std::vector<geom::Box> boxes_;
 };
 
+// The same, asked about the cells of a light's extents alone.
+struct AabbsInExtents : CellAabbs {
+  static constexpr Looks k_looks = Looks::in_box;
+};
+
 // Boxes against the cells' axis-aligned bounds by their own: the coarse test.
 struct CoarseBoxTest {
   static constexpr bool k_takes_boxes = true;
