@@ -444,7 +444,7 @@ export type Result = {
         texels: "proven" | "sampled"; // How a texel's distance was found. proven: triangles were shown to cover it; sampled: the greatest at its four corners
         bias_m: number; // So far beyond a surface a point may lie and still be lit [m, over the case]
         near_m: number; // Surfaces nearer to a light cast no shadow [m, over the case]
-        conservative: boolean; // true: no pair that is lit is taken out, but through gaps narrower than a millionth of the distance. false: a map of samples bounds nothing between them; what was lost is counted at samples alone
+        conservative: boolean; // true: no pair that is lit is taken out, but through gaps and along edges narrower than a millionth of the distance. false: a map of samples bounds nothing between them; what was lost is counted at samples alone
         pairs: BeforeAfter; // In lists [pairs]
         true_pairs?: BeforeAfter; // Of those, the true ones: cell and volume share a point; absent without accuracy.check [pairs]
         opaque?: {

@@ -15,7 +15,7 @@ namespace clusterbench::depth {
 // How the distance of a texel is found. Rays go through the texels' corners.
 //   proven   Triangles are shown to cover the whole texel, and the distance is the greatest of any of their points in
 //            it; a texel in which a gap may be left has none, and counts as unlimited. Nothing that the light reaches
-//            is called hidden, but through gaps narrower than k_narrowest_gap.
+//            is called hidden, but through gaps, and along edges, narrower than k_narrowest_gap.
 //   sampled  The greatest of the distances at the texel's four corners, unlimited where a ray meets nothing. Holds
 //            if, for every distance, the directions in which light gets farther are a union of squares that are one
 //            texel wide; nothing checks that.
