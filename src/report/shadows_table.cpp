@@ -93,7 +93,10 @@ std::string shadows_table(const Json& result) {
          "shadow.\n"
          "evaluated: lights per visible sample, before and after; lit: those that a shadow ray finds lit.\n"
          "wrong: lit ones that were taken out, over all samples and frames, and the share of irradiance that is lost "
-         "with them.\n";
+         "with them.\n" +
+         (value_at(result, "/config/samples/opaque") == nullptr
+              ? "Without samples.opaque nothing is known of visible surfaces.\n"
+              : "");
 }
 
 }  // namespace clusterbench::report

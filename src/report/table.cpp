@@ -5,6 +5,7 @@
 #include <set>
 #include <vector>
 
+#include "assign/contract/assigner.h"
 #include "core/text.h"
 #include "report/columns.h"
 #include "report/fit_json.h"
@@ -264,6 +265,25 @@ std::string legend(const Extras& extras, RankBy by, bool has_front, bool is_comp
   return out + "bytes: headers and indices, largest of all frames.\n";
 }
 
+// With the reason where all have one, and with what takes boxes where that is what most methods lack.
+std::string skipped_text(const Json& skipped) {
+  if (skipped.empty()) return "";
+  std::set<std::string> reasons;
+  bool takes_no_boxes = false;
+  for (const Json& one : skipped) {
+    const auto reason = one["reason"].get<std::string>();
+    reasons.insert(reason);
+    takes_no_boxes = takes_no_boxes || reason.ends_with(" takes no boxes");
+  }
+  std::string out = number_of(skipped.size(), "combination") + " skipped";
+  out += reasons.size() == 1 ? ": " + shown(Json(*reasons.begin())) + ".\n" : "; the result says why.\n";
+  if (!takes_no_boxes) return out;
+  std::vector<std::string> names;
+  for (const assign::AssignerDescriptor* method : assign::assigner_descriptors())
+    if (method->boxes && !method->naive) names.push_back(method->name);
+  return out + "Boxes are taken by " + joined(names) + ".\n";
+}
+
 }  // namespace
 
 std::string render_table(const Json& result, bool colour) {
@@ -302,8 +322,7 @@ std::string render_table(const Json& result, bool colour) {
   out += legend(extras, by, !on_front.empty(), is_complete);
   if (has_alike) out += "~: may be as fast as the row above, as far as their ratio is known (`clusterbench ratio`).\n";
   if (!counted_by.empty()) out += "instr: instructions of one frame's assignment, counted by " + counted_by + ".\n";
-  if (!result["skipped"].empty())
-    out += number_of(result["skipped"].size(), "combination") + " skipped; the result says why.\n";
+  out += skipped_text(result["skipped"]);
   return out + samples_table(result) + lookup_table(result) + stability_table(result) + fit_table(result) +
          reaction_table(result) + fallback_table(result) + precision_table(result) + pre_cull_table(result) +
          shadows_table(result) + preset_table(result) + notes_text(result) + warnings_text(result) +
