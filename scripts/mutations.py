@@ -20,7 +20,7 @@ from mutation_table import MUTATIONS
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 TREE = ROOT / "build" / "mutations"
 BUILD = TREE / "build"
-FOLDERS = ["cmake", "src", "tests"]
+FOLDERS = ["cmake", "configs", "scenes", "src", "tests"]  # tests read scenes and configurations
 ACCURACY = ROOT / "docs" / "accuracy.md"
 BEGIN, END = "<!-- mutations -->", "<!-- /mutations -->"
 TEST_TIMEOUT_S = 300

@@ -262,18 +262,47 @@ TEST(ShadowMap, sampled_texels_hide_less_that_is_lit_the_finer_they_are) {
   EXPECT_GT(fine.hidden, coarse.hidden);
 }
 
+// A wall of 12 x 12 tiles, one of which is missing, over one texel: whichever it is, the texel has no distance.
+TEST(ShadowMap, a_texel_with_more_triangles_than_it_casts_rays_is_unlimited) {
+  constexpr int k_tiles = 12;
+  for (int missing = -1; missing < k_tiles * k_tiles; missing += 13) {
+    std::vector<Vec3f> corners;
+    for (int tile = 0; tile < k_tiles * k_tiles; ++tile) {
+      const Vec3f from(-6.0f + static_cast<float>(tile % k_tiles), -6.0f + static_cast<float>(tile / k_tiles), 5.0f);
+      if (tile != missing) add_quad(corners, from, {1, 0, 0}, {0, 1, 0});
+    }
+    const Caster caster(corners);
+    const ShadowMap map = map_of(caster, point_at({0, 0, 0}), {1, TexelBound::proven, 0.05});
+    EXPECT_EQ(map.texel(4, 0, 0), static_cast<float>(k_far)) << missing;
+  }
+  // Of texels so small that few tiles are in each, all have one.
+  std::vector<Vec3f> whole;
+  for (int tile = 0; tile < k_tiles * k_tiles; ++tile)
+    add_quad(whole, {-6.0f + static_cast<float>(tile % k_tiles), -6.0f + static_cast<float>(tile / k_tiles), 5.0f},
+             {1, 0, 0}, {0, 1, 0});
+  const Caster caster(whole);
+  const ShadowMap map = map_of(caster, point_at({0, 0, 0}), {16, TexelBound::proven, 0.05});
+  for (int y = 0; y < 16; ++y)
+    for (int x = 0; x < 16; ++x) EXPECT_LT(map.texel(4, x, y), 9.0f);
+}
+
+// One half of the view along +z ends at a wall 5 m away, the other at one 20 m away, with a third between them. What
+// is before the farther one is not hidden, however many texels it covers.
 TEST(ShadowMap, coarser_levels_lose_no_distance) {
-  const Caster caster(soup(3, 60));
+  std::vector<Vec3f> corners;
+  add_quad(corners, {-50, -50, 5}, {50, 0, 0}, {0, 100, 0});
+  add_quad(corners, {0, -50, 20}, {50, 0, 0}, {0, 100, 0});
+  add_quad(corners, {0, -50, 5}, {0, 0, 15}, {0, 100, 0});
+  const Caster caster(corners);
   const scene::WorldLight light = point_at({0, 0, 0});
-  const ShadowMap map = map_of(caster, light, {37, TexelBound::sampled, 0.05});
-  // A body around the light's whole surroundings but the light itself covers all texels of a face.
-  double farthest = 0.0;
-  for (int y = 0; y < 37; ++y)
-    for (int x = 0; x < 37; ++x) farthest = std::max(farthest, static_cast<double>(map.texel(4, x, y)));
-  const double depth = 500.0;
-  const Body before{{-depth, -depth, depth}, {depth, depth, depth + 1.0}};  // seen in the face along +z alone
-  EXPECT_EQ(is_hidden(map, light, before), farthest < k_far && depth > farthest);
-  EXPECT_GT(map.bytes(), 6u * 37u * 37u * sizeof(float));
+  for (const int resolution : {37, 64}) {
+    const ShadowMap map = map_of(caster, light, {resolution, TexelBound::proven, 0.05});
+    for (const double half : {0.5, 1.0, 2.0}) {
+      EXPECT_FALSE(is_hidden(map, light, {{-half, -half, 10.0}, {half, half, 10.5}})) << half;
+      EXPECT_TRUE(is_hidden(map, light, {{-half, -half, 60.0}, {half, half, 60.5}})) << half;
+      EXPECT_TRUE(is_hidden(map, light, {{-2.0 * half, -half, 10.0}, {-half, half, 10.5}})) << half;
+    }
+  }
 }
 
 }  // namespace
