@@ -286,22 +286,24 @@ TEST(ShadowMap, a_texel_with_more_triangles_than_it_casts_rays_is_unlimited) {
     for (int x = 0; x < 16; ++x) EXPECT_LT(map.texel(4, x, y), 9.0f);
 }
 
-// One half of the view along +z ends at a wall 5 m away, the other at one 20 m away, with a third between them. What
-// is before the farther one is not hidden, however many texels it covers.
+// To the left of the slope 0.2 the view along +z ends at a wall 5 m away, to the right at one 20 m away, with a third
+// between them. What is before the farther one is not hidden, however many texels it covers and however few of them
+// are beside the nearer one.
 TEST(ShadowMap, coarser_levels_lose_no_distance) {
   std::vector<Vec3f> corners;
-  add_quad(corners, {-50, -50, 5}, {50, 0, 0}, {0, 100, 0});
-  add_quad(corners, {0, -50, 20}, {50, 0, 0}, {0, 100, 0});
-  add_quad(corners, {0, -50, 5}, {0, 0, 15}, {0, 100, 0});
+  add_quad(corners, {-50, -50, 5}, {51, 0, 0}, {0, 100, 0});
+  add_quad(corners, {4, -50, 20}, {50, 0, 0}, {0, 100, 0});
+  add_quad(corners, {1, -50, 5}, {3, 0, 15}, {0, 100, 0});
   const Caster caster(corners);
   const scene::WorldLight light = point_at({0, 0, 0});
   for (const int resolution : {37, 64}) {
     const ShadowMap map = map_of(caster, light, {resolution, TexelBound::proven, 0.05});
-    for (const double half : {0.5, 1.0, 2.0}) {
-      EXPECT_FALSE(is_hidden(map, light, {{-half, -half, 10.0}, {half, half, 10.5}})) << half;
-      EXPECT_TRUE(is_hidden(map, light, {{-half, -half, 60.0}, {half, half, 60.5}})) << half;
-      EXPECT_TRUE(is_hidden(map, light, {{-2.0 * half, -half, 10.0}, {-half, half, 10.5}})) << half;
-    }
+    for (const double left : {-6.0, -3.0, -1.0, 0.0, 1.0})
+      for (const double right : {2.2, 2.5, 4.0, 8.0}) {
+        EXPECT_FALSE(is_hidden(map, light, {{left, -0.3, 10.0}, {right, 0.3, 10.5}})) << left << " to " << right;
+        EXPECT_TRUE(is_hidden(map, light, {{left, -0.3, 60.0}, {right, 0.3, 60.5}})) << left << " to " << right;
+      }
+    EXPECT_TRUE(is_hidden(map, light, {{-4.0, -0.3, 10.0}, {0.5, 0.3, 10.5}}));
   }
 }
 
