@@ -73,7 +73,8 @@ TEST(SharedFrusta, hold_every_point_of_every_members_cone) {
     if (!frustum) continue;
     ++frusta;
     for (const scene::WorldLight& light : lights)
-      for (int i = 0; i < 200; ++i) ASSERT_TRUE(holds(*frustum, (light.position - frustum->apex) + way_in(light, random))) << round;
+      for (int i = 0; i < 200; ++i)
+        ASSERT_TRUE(holds(*frustum, (light.position - frustum->apex) + way_in(light, random))) << round;
   }
   EXPECT_GT(frusta, 300);
 }
