@@ -133,6 +133,10 @@ class SettingCheck {
       ++report_.counts.refused;
       return std::move(report_);
     }
+    if (pair_count() > k_most_setting_pairs) {
+      ++report_.counts.refused;
+      return std::move(report_);
+    }
     truth_ = measure::find_truth(frame_, grid_, 1);
     count();
     if (frame_.lights.empty()) return std::move(report_);
@@ -156,12 +160,14 @@ class SettingCheck {
     return method.conservative && !method.assigner->naive && takes_trial(method, trial_);
   }
 
+  std::uint64_t pair_count() const { return std::uint64_t{grid_.cell_count()} * frame_.lights.size(); }
+
   void count() {
     SettingCounts& counts = report_.counts;
     counts.points += frame_.ranges().points.count;
     counts.spots += frame_.ranges().spots.count;
     counts.boxes += frame_.ranges().boxes.count;
-    counts.pairs += std::uint64_t{grid_.cell_count()} * frame_.lights.size();
+    counts.pairs += pair_count();
     counts.true_pairs += truth_.lists.pair_count();
     counts.undecided += truth_.undecided;
   }

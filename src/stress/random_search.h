@@ -39,7 +39,7 @@ struct SettingFault {
 };
 
 struct SettingCounts {
-  std::uint64_t settings = 0, refused = 0;  // refused: the grid cannot be
+  std::uint64_t settings = 0, refused = 0;  // refused: the grid cannot be, or it has too many pairs for one setting
   std::array<std::uint64_t, grid::k_kind_count> by_kind{};
   std::uint64_t points = 0, spots = 0, boxes = 0, pairs = 0, true_pairs = 0;  // pairs: cells x lights
   std::uint64_t compared_pairs = 0;                                           // listed by methods
@@ -48,6 +48,9 @@ struct SettingCounts {
 
   void add(const SettingCounts& other);
 };
+
+// A setting of more pairs (as of tiles of a pixel, which a tile's wanted aspect can mean) would take minutes.
+inline constexpr std::uint64_t k_most_setting_pairs = std::uint64_t{1} << 24;
 
 struct SettingReport {
   SettingCounts counts;

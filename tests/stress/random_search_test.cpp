@@ -180,6 +180,14 @@ TEST(RandomSearch, gives_the_same_on_any_number_of_threads) {
   EXPECT_EQ(texts_of(searched_at_random(methods, 8, 1)), texts_of(searched_at_random(methods, 8, 3)));
 }
 
+TEST(RandomSearch, refuses_a_setting_of_more_pairs_than_a_moment_allows) {
+  // A view of nearly 180 degrees, whose tiles of a wanted aspect are single pixels: 9 million cells, 61 lights.
+  const StressMethod methods[] = {sound("exact")};
+  const SettingReport report = check_setting(random_setting(1795623205036818), methods);
+  EXPECT_EQ(report.counts.refused, 1U);
+  EXPECT_EQ(report.counts.pairs, 0U);
+}
+
 TEST(RandomSearch, checks_a_setting_alone_by_its_seed) {
   const std::vector<StressMethod> methods{flawed<Flaw::adds>()};
   const RandomSearch whole = searched_at_random(methods, 8);
