@@ -115,6 +115,11 @@ Option& Option::one_of(std::vector<std::string> words) {
   return *this;
 }
 
+Option& Option::not_empty() {
+  option_->check([](const std::string& word) { return word.empty() ? "takes a text that is not empty" : ""; }, "");
+  return *this;
+}
+
 Option& Option::once_a_name() {
   option_->allow_extra_args(false);
   return *this;

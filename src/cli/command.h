@@ -27,6 +27,7 @@ class Option {
   Option& positive();
   Option& non_negative();
   Option& one_of(std::vector<std::string> words);
+  Option& not_empty();    // a text
   Option& once_a_name();  // --name A --name B, not --name A B
   Option& needs(const Option& other);
 

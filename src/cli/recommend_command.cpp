@@ -65,11 +65,27 @@ std::vector<config::LimitRule> rules_of(const RecommendFlags& flags, const confi
   return rules;
 }
 
+// What a configuration asks for and no choice depends on.
+std::string asked_in_vain(const config::Config& config) {
+  std::string keys;
+  const auto add = [&](bool is_asked, const char* key) {
+    if (is_asked) keys += (keys.empty() ? "" : ", ") + std::string(key);
+  };
+  add(config.details.has_value(), "details");
+  add(config.stability.has_value(), "stability");
+  add(!config.shadow_culls.empty(), "shadow_cull");
+  add(config.shared_frusta.has_value(), "shadow_frusta");
+  return keys;
+}
+
 config::Config read_input(const RecommendFlags& flags) {
   nlohmann::json standard = search::recommend_space();
   standard["samples"] = {{"opaque", nlohmann::json::object()}};
   config::Config config = read_inputs(flags.inputs, {}, standard);
-  config.details.reset();  // nothing here asks for them
+  const std::string in_vain = asked_in_vain(config);
+  if (!in_vain.empty() && !flags.quiet)
+    tell("recommend compares costs and leaves out " + in_vain + "; run reports them");
+  config.details.reset();
   config.stability.reset();
   for (const char* key : {"details", "stability"}) config.resolved[key] = nullptr;
   config.shadow_culls.clear();

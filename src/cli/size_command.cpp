@@ -132,9 +132,11 @@ void add_size(Command& program, Action& action) {
   command.add_option("--round", flags->request.rounding, "Bytes of a buffer: to whole pages of 4 KiB, a power of two")
       .one_of(report::size_roundings())
       .shows_standard();
-  command.add_option("--name", flags->request.name,
-                     "What names in code begin with, in place of scene and grid: light_lists_indices ...; where one "
-                     "structure is printed");
+  command
+      .add_option("--name", flags->request.name,
+                  "What names in code begin with, in place of scene and grid: light_lists_indices ...; where one "
+                  "structure is printed")
+      .not_empty();
   command.add_flag("--all", flags->request.all, "Every structure, not the best one of each scene and grid");
   add_config_options(command, flags->inputs);
   command.add_flag("-q,--quiet", flags->quiet, "No progress; warnings stay");

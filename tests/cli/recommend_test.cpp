@@ -59,6 +59,21 @@ double figure(const Json& one, const std::string& name) {
   return one["shading"]["evaluated"].get<double>() / one["shading"]["samples"].get<double>();
 }
 
+TEST(Recommend, names_what_a_configuration_asks_for_in_vain) {
+  const Folder folder;
+  const auto notes = [&](const std::string& more) {
+    const std::string input = folder.write("space.json", space(more)).string();
+    const Outcome done =
+        tool("recommend " + input + " --no-timing --by bytes --tiles 64 --slices 8 --assigner aabb-fast");
+    EXPECT_EQ(done.code, 0) << done.err;
+    return done.err;
+  };
+  EXPECT_NE(notes(R"(, "details": {"frames": [0]}, "shadow_cull": {"resolution": 16})")
+                .find("recommend compares costs and leaves out details, shadow_cull; run reports them"),
+            std::string::npos);
+  EXPECT_EQ(notes("").find("leaves out"), std::string::npos);
+}
+
 TEST(Recommend, finds_what_a_sweep_over_all_candidates_and_frames_finds) {
   const Json cases = swept(space());
   ASSERT_EQ(cases.size(), 52u);

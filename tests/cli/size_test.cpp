@@ -130,6 +130,7 @@ TEST(SizeCommand, refuses_what_it_cannot_size_and_says_why) {
   refuses(result + " --margin 0.5", "--margin: takes a number");
   refuses(result + " --round pages", "did you mean 'page'");
   refuses(result + " --format cpp --name '1st'", "--name: '1st' is no name in C++, HLSL and GLSL alike");
+  refuses(result + " --format cpp --name ''", "--name: takes a text that is not empty");
 }
 
 TEST(SizeCommand, takes_paths_as_long_as_systems_have_them) {
