@@ -1,7 +1,6 @@
 #include "assign/cone/spot_bounding_spheres.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "assign/simd/lanes.h"
 
@@ -17,46 +16,31 @@ namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
 namespace {
 
-struct Spheres {
-  V x, y, z, radius;
-};
-
-struct Cones {
-  V axis_x, axis_y, axis_z, cos_angle, sin_angle;
-};
-
-// geom::bounding_ball
-HWY_INLINE Spheres around(const Spheres& range, const Cones& cone) {
-  const auto is_narrow = cone.cos_angle > cone.sin_angle;
-  const V along = IfThenElse(is_narrow, range.radius / (all(2.0f) * cone.cos_angle), range.radius * cone.cos_angle);
-  const V radius = IfThenElse(is_narrow, along, range.radius * cone.sin_angle);
-  const V size = Abs(range.x) + Abs(range.y) + Abs(range.z);
-  const Spheres ball{range.x + along * cone.axis_x, range.y + along * cone.axis_y, range.z + along * cone.axis_z,
-                     radius + all(0x1p-20f) * (size + range.radius)};
-  const auto is_endless = range.radius == all(std::numeric_limits<float>::infinity());
-  return {IfThenElse(is_endless, range.x, ball.x), IfThenElse(is_endless, range.y, ball.y),
-          IfThenElse(is_endless, range.z, ball.z), IfThenElse(is_endless, range.radius, ball.radius)};
-}
-
+// geom::bounding_ball, or with `around_cones` not set the ball of the range.
 void spot_balls(const view::LightArrays& lights, float roundoffs, bool around_cones, BallArrays& balls) {
   const D d;
   const auto n = static_cast<std::uint32_t>(Lanes(d));
   for (std::uint32_t i = 0; i < lights.spots.count; i += n) {
     const std::uint32_t left = std::min(n, lights.spots.count - i);
-    const auto load = [&](const float* from) { return loaded(from + i, left); };
-    const auto of_light = [&](const std::vector<float>& list) { return load(list.data() + lights.spots.first); };
-    const auto of_spot = [&](const std::vector<float>& list) { return load(list.data()); };
-    const V given = of_light(lights.radius);
-    Spheres ball{of_light(lights.x), of_light(lights.y), of_light(lights.z),
-                 padded(given, of_light(lights.reach), roundoffs)};
-    if (around_cones)
-      ball = around(ball, {of_spot(lights.axis_x), of_spot(lights.axis_y), of_spot(lights.axis_z),
-                           of_spot(lights.cos_angle), of_spot(lights.sin_angle)});
-    StoreU(ball.x, d, balls.x.data() + i);
-    StoreU(ball.y, d, balls.y.data() + i);
-    StoreU(ball.z, d, balls.z.data() + i);
-    const auto has_volume = given > Zero(d);
-    StoreU(IfThenElseZero(has_volume, ball.radius), d, balls.radius.data() + i);
+    const auto of_spot = [&](const std::vector<float>& list) { return loaded(list.data() + i, left); };
+    const auto of_light = [&](const std::vector<float>& list) {
+      return loaded(list.data() + lights.spots.first + i, left);
+    };
+    const V given = of_light(lights.radius), range = padded(given, of_light(lights.reach), roundoffs);
+    const V x = of_light(lights.x), y = of_light(lights.y), z = of_light(lights.z);
+    V along = Zero(d), radius = range;
+    if (around_cones) {
+      const V cosine = of_spot(lights.cos_angle), sine = of_spot(lights.sin_angle);
+      const M is_narrow = cosine > sine, is_endless = range == infinity();
+      const V of_cone = IfThenElse(is_narrow, range / (all(2.0f) * cosine), range * cosine);
+      const V around = IfThenElse(is_narrow, of_cone, range * sine);
+      along = IfThenZeroElse(is_endless, of_cone);
+      radius = IfThenElse(is_endless, range, around + all(0x1p-20f) * (Abs(x) + Abs(y) + Abs(z) + range));
+    }
+    StoreU(x + along * of_spot(lights.axis_x), d, balls.x.data() + i);
+    StoreU(y + along * of_spot(lights.axis_y), d, balls.y.data() + i);
+    StoreU(z + along * of_spot(lights.axis_z), d, balls.z.data() + i);
+    StoreU(IfThenElseZero(given > Zero(d), radius), d, balls.radius.data() + i);
   }
 }
 

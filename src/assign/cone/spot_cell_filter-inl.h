@@ -34,53 +34,9 @@ class CellsOf {
 
   // A corner well inside.
   HWY_INLINE M holds_corner() const {
-    M any = FirstN(D(), 0);
+    M any = Not(yes());
     for (const Point& v : from_apex_) any = Or(any, is_inside(v));
     return any;
-  }
-
-  // Places on the edges: nearest to the axis as an angle, nearest to the apex, and between these.
-  HWY_INLINE M holds_edge_point() const {
-    M any = FirstN(D(), 0);
-    for (unsigned corner = 0; corner < 8; ++corner)
-      for (const unsigned bit : {1u, 2u, 4u}) {
-        if ((corner & bit) != 0) continue;
-        const Point &start = from_apex_[corner], step = from_apex_[corner | bit] - start;
-        const V start_axis = dot(start, cone_.axis), step_axis = dot(step, cone_.axis), mixed = dot(start, step);
-        const V start_square = dot(start, start), step_square = dot(step, step);
-        const V above = step_axis * start_square - start_axis * mixed;
-        const V below = start_axis * step_square - step_axis * mixed;
-        const auto within = [](V t) { return Min(Max(t, Zero(D())), all(1.0f)); };
-        const V to_axis = within(above / below), to_apex = within(Neg(mixed) / step_square);
-        for (const V t : {to_axis, to_apex, all(0.5f) * (to_axis + to_apex)})
-          any = Or(any, is_inside(start + t * step));
-      }
-    return any;
-  }
-
-  // The middle of the axis within the cell; and where the way from the axis to the cell's own middle line, between the
-  // points where these are nearest to each other, has just entered the cell.
-  HWY_INLINE M holds_axis_point() const {
-    const V zero = Zero(D()), half = all(0.5f);
-    V from = zero, to = cone_.range;
-    clip({zero, zero, zero}, cone_.axis, from, to);
-    const M middle = And(from < to, is_common((half * (from + to)) * cone_.axis));
-
-    const auto middle_of = [&](unsigned i) {
-      return all(0.25f) * (from_apex_[i] + from_apex_[i + 1] + from_apex_[i + 2] + from_apex_[i + 3]);
-    };
-    const Point front = middle_of(0), line = middle_of(4) - front;
-    const auto within = [](V low, V t, V high) { return Min(Max(t, low), high); };
-    // Of apex + t axis and front + s line.
-    const V b = dot(cone_.axis, line), c = dot(line, line), d = dot(cone_.axis, front), e = dot(line, front);
-    const V free = within(zero, (c * d - b * e) / (c - b * b), cone_.range);
-    const V s = within(zero, (b * free - e) / c, all(1.0f));
-    const V t = within(zero, b * s + d, cone_.range);
-    const Point start = t * cone_.axis, step = front + s * line - start;
-    V entry = zero, end = all(1.0f);
-    clip(start, step, entry, end);
-    const V further = entry + all(0.05f) * (all(1.0f) - entry);
-    return Or(middle, is_common(start + further * step));
   }
 
   // A face between, or a plane along the cone's side towards the cell's middle.
@@ -94,42 +50,31 @@ class CellsOf {
     return apart;
   }
 
-  // More planes: along the cone's side towards each corner, and across the way to the nearest corner and to the nearest
-  // point of the edges.
-  HWY_INLINE M is_apart_from_corners() const {
-    M apart = FirstN(D(), 0);
-    Point nearest = from_apex_[0];
-    V least = dot(nearest, nearest);
-    const auto take = [&](const Point& v) {
-      const V square = dot(v, v);
-      const M is_nearer = square < least;
-      least = Min(least, square);
-      nearest = {IfThenElse(is_nearer, v.x, nearest.x), IfThenElse(is_nearer, v.y, nearest.y),
-                 IfThenElse(is_nearer, v.depth, nearest.depth)};
-    };
-    for (unsigned corner = 0; corner < 8; ++corner) {
-      apart = Or(apart, is_beside(from_apex_[corner]));
-      take(from_apex_[corner]);
-      for (const unsigned bit : {1u, 2u, 4u}) {
-        if ((corner & bit) != 0) continue;
-        const Point &start = from_apex_[corner], step = from_apex_[corner | bit] - start;
-        const V t = Neg(dot(start, step) / dot(step, step));
-        take(start + Min(Max(t, Zero(D())), all(1.0f)) * step);
-      }
-    }
-    return Or(apart, is_past(nearest));
-  }
-
   // From the cell to the volume and back a few times, both smaller by a little more than the tolerance. Where they
   // share room, both soon hold the same point; where they do not, the way from one to the other crosses a plane
   // between.
   HWY_INLINE void approach(M& common, M& apart) const {
     constexpr int k_ways = 3;
-    Point in_cell = all(0.125f) * sum_of_corners(), in_volume;
+    Point in_cell = all(0.125f) * sum_of_corners();
     for (int way = 0; way < k_ways; ++way) in_cell = closer_to_volume(in_cell);
-    in_volume = nearest_in_volume(in_cell);
+    const Point in_volume = nearest_in_volume(in_cell);
     common = Or(is_common(in_cell), is_common(in_volume));
-    apart = Or(is_past(in_cell - in_volume), is_apart());
+    apart = is_past(in_cell - in_volume);
+  }
+
+  // Places on the edges: nearest to the axis as an angle, nearest to the apex, and between these.
+  HWY_INLINE M holds_edge_point() const {
+    M any = Not(yes());
+    each_edge([&](const Point& start, const Point& step) {
+      const V start_axis = dot(start, cone_.axis), step_axis = dot(step, cone_.axis), mixed = dot(start, step);
+      const V start_square = dot(start, start), step_square = dot(step, step);
+      const V above = step_axis * start_square - start_axis * mixed;
+      const V below = start_axis * step_square - step_axis * mixed;
+      const auto within = [](V t) { return Clamp(t, Zero(D()), all(1.0f)); };
+      const V to_axis = within(above / below), to_apex = within(Neg(mixed) / step_square);
+      for (const V t : {to_axis, to_apex, all(0.5f) * (to_axis + to_apex)}) any = Or(any, is_inside(start + t * step));
+    });
+    return any;
   }
 
   // The mean of all points where cell ∩ volume can be extreme (geom/search/extreme_candidates.h), which lies inside of
@@ -138,11 +83,8 @@ class CellsOf {
   HWY_INLINE void settle(M& common, M& apart) const {
     const V zero = Zero(D());
     Extremes extremes{{zero, zero, zero}, zero, {zero, zero, zero}, all(k_none)};
-    for (unsigned corner = 0; corner < 8; ++corner) {
-      take_corner(from_apex_[corner], extremes);
-      for (const unsigned bit : {1u, 2u, 4u})
-        if ((corner & bit) == 0) take_edge(from_apex_[corner], from_apex_[corner | bit], extremes);
-    }
+    for (const Point& v : from_apex_) take(is_in_cone(v), v, extremes);
+    each_edge([&](const Point& start, const Point& step) { take_edge(start, step, extremes); });
     each_face([&](const Point& outward, V offset) {
       const V scale = all(1.0f) / face_length(outward);
       take_face(scale * outward, scale * (offset - dot(outward, cone_.apex)), extremes);
@@ -162,30 +104,18 @@ class CellsOf {
   HWY_INLINE Point near_in_cell(const Point& v) const {
     const V within = all(k_within) * tolerance_;
     const Point point = v + cone_.apex;
-    const auto between = [](V low, V x, V high) { return Min(Max(x, low), high); };
-    const V depth = between(depth0_ + within, point.depth, depth1_ - within);
-    if constexpr (!k_perspective) {
-      const V x = between(left_ + within, point.x, right_ - within);
-      const V y = between(y0_ + within, point.y, y1_ - within);
-      return Point{x, y, depth} - cone_.apex;
-    }
-    const auto inset = [&](V slope) { return within * (all(1.0f) + Abs(slope)); };
-    const V x = between(left_ * depth + inset(left_), point.x, right_ * depth - inset(right_));
-    const V y = between(y0_ * depth + inset(y0_), point.y, y1_ * depth - inset(y1_));
-    return Point{x, y, depth} - cone_.apex;
+    const V depth = Clamp(point.depth, depth0_ + within, depth1_ - within);
+    const auto inset = [&](V slope) { return k_perspective ? within * (all(1.0f) + Abs(slope)) : within; };
+    const auto between = [&](V low, V at, V high) {
+      return Clamp(at, at_depth(low, depth) + inset(low), at_depth(high, depth) - inset(high));
+    };
+    return Point{between(left_, point.x, right_), between(y0_, point.y, y1_), depth} - cone_.apex;
   }
 
   // Evidence.
 
   // Is the point v from the apex in volume and cell, by more than the tolerance?
-  HWY_INLINE M is_common(const Point& v) const {
-    M is_in = is_inside(v);
-    each_face([&](const Point& outward, V offset) {
-      const V margin = offset - dot(outward, cone_.apex + v);
-      is_in = And(is_in, margin > tolerance_ * face_length(outward));
-    });
-    return is_in;
-  }
+  HWY_INLINE M is_common(const Point& v) const { return And(is_inside(v), is_in_cell(v, tolerance_)); }
 
   // Outwards, of the plane along the cone's side in a direction across the axis.
   HWY_INLINE Point side_normal(const Point& across) const {
@@ -219,18 +149,6 @@ class CellsOf {
     V count;
     Point nearest;
     V least;  // its square distance; k_none without one
-
-    // `where` it lies in cell and endless cone, and where in the range, too.
-    HWY_INLINE void take(M where, M in_range, const Point& v) {
-      const M counts = And(where, in_range);
-      const auto kept = [&](V value) { return IfThenElseZero(counts, value); };
-      sum = sum + Point{kept(v.x), kept(v.y), kept(v.depth)};
-      count = count + kept(all(1.0f));
-      const V square = dot(v, v);
-      const M is_nearer = And(where, square < least);
-      least = IfThenElse(is_nearer, square, least);
-      nearest = chosen(is_nearer, v, nearest);
-    }
   };
 
   HWY_INLINE static M yes() { return Zero(D()) == Zero(D()); }
@@ -267,30 +185,36 @@ class CellsOf {
     const V range = cone_.range + tolerance_;
     return dot(v, v) <= range * range;
   }
-  HWY_INLINE M is_in_cell(const Point& v) const {
+  // By more than this much.
+  HWY_INLINE M is_in_cell(const Point& v, V margin) const {
     M is_in = yes();
     each_face([&](const Point& outward, V offset) {
-      const V margin = offset - dot(outward, cone_.apex + v);
-      is_in = And(is_in, margin >= Neg(tolerance_ + tolerance_));
+      is_in = And(is_in, offset - dot(outward, cone_.apex + v) > margin * face_length(outward));
     });
     return is_in;
   }
 
-  HWY_INLINE void take_corner(const Point& v, Extremes& extremes) const {
-    extremes.take(is_in_cone(v), is_in_range(v), v);
+  // `where` it lies in cell and endless cone.
+  HWY_INLINE void take(M where, const Point& v, Extremes& extremes) const {
+    const M counts = And(where, is_in_range(v));
+    const V one = IfThenElseZero(counts, all(1.0f)), square = dot(v, v);
+    const M is_nearer = And(where, square < extremes.least);
+    extremes.sum = chosen(counts, extremes.sum + v, extremes.sum);
+    extremes.count = extremes.count + one;
+    extremes.least = IfThenElse(is_nearer, square, extremes.least);
+    extremes.nearest = chosen(is_nearer, v, extremes.nearest);
   }
   // A point of the volume's surface, if it is in the cell.
   HWY_INLINE void take_in_cell(const Point& v, M where, Extremes& extremes) const {
-    extremes.take(And(where, is_in_cell(v)), is_in_range(v), v);
+    take(And(where, is_in_cell(v, Neg(tolerance_ + tolerance_))), v, extremes);
   }
 
   // Where it is nearest to the apex, and where it meets the cone's side and the sphere.
-  HWY_INLINE void take_edge(const Point& start, const Point& end, Extremes& extremes) const {
-    const Point step = end - start;
+  HWY_INLINE void take_edge(const Point& start, const Point& step, Extremes& extremes) const {
     const auto take_at = [&](M exists, V t) {
       const M is_on = And(exists, And(t >= Zero(D()), t <= all(1.0f)));
       const Point v = start + t * step;
-      extremes.take(And(is_on, is_in_cone(v)), is_in_range(v), v);
+      take(And(is_on, is_in_cone(v)), v, extremes);
     };
     const auto take_roots = [&](V a, V b, V c) {  // of a t² + 2 b t + c
       const V square = b * b - a * c;
@@ -357,24 +281,21 @@ class CellsOf {
     const M x_is_small = Abs(cone_.axis.x) < all(0.7f);
     const Point m = unit_across(chosen(x_is_small, x_axis(), y_axis())), m2 = cross(cone_.axis, m);
     M apart = Not(yes());
-    for (unsigned corner = 0; corner < 8; ++corner)
-      for (const unsigned bit : {1u, 2u, 4u}) {
-        if ((corner & bit) != 0) continue;
-        const Point edge = from_apex_[corner | bit] - from_apex_[corner];
-        // x cos phi + y sin phi = z, phi around the axis from m. Not times the cosine, whose square would not be a
-        // number that single precision has where the angle is nearly 90 degrees.
-        const V x = dot(edge, m), y = dot(edge, m2);
-        const V z = cone_.sine * dot(edge, cone_.axis) / cone_.cosine;
-        const V square = x * x + y * y, rest = square - z * z;
-        const M exists = And(square > all(k_least_square), rest >= zero);
-        const V root = Sqrt(Max(rest, zero)), scale = all(1.0f) / square;
-        for (const V w : {root, Neg(root)}) {
-          const V along_m = scale * (z * x - w * y);
-          const V along_m2 = scale * (z * y + w * x);
-          const Point across = along_m * m + along_m2 * m2;
-          apart = Or(apart, And(exists, least_along(side_normal(across)) > tolerance_));
-        }
+    each_edge([&](const Point&, const Point& edge) {
+      // x cos phi + y sin phi = z, phi around the axis from m. Not times the cosine, whose square would not be a
+      // number that single precision has where the angle is nearly 90 degrees.
+      const V x = dot(edge, m), y = dot(edge, m2);
+      const V z = cone_.sine * dot(edge, cone_.axis) / cone_.cosine;
+      const V square = x * x + y * y, rest = square - z * z;
+      const M exists = And(square > all(k_least_square), rest >= zero);
+      const V root = Sqrt(Max(rest, zero)), scale = all(1.0f) / square;
+      for (const V w : {root, Neg(root)}) {
+        const V along_m = scale * (z * x - w * y);
+        const V along_m2 = scale * (z * y + w * x);
+        const Point across = along_m * m + along_m2 * m2;
+        apart = Or(apart, And(exists, least_along(side_normal(across)) > tolerance_));
       }
+    });
     return apart;
   }
 
@@ -384,21 +305,28 @@ class CellsOf {
     const Point generator = (all(1.0f) / Sqrt(extremes.least)) * extremes.nearest;
     const Point outward = cone_.cosine * unit_across(generator) - cone_.sine * cone_.axis;
     M apart = is_past(generator);
-    for (unsigned corner = 0; corner < 8; ++corner)
-      for (const unsigned bit : {1u, 2u, 4u}) {
-        if ((corner & bit) != 0) continue;
-        const Point edge = from_apex_[corner | bit] - from_apex_[corner];
-        const V share = Neg(dot(generator, edge) / dot(outward, edge));
-        apart = Or(apart, And(share > Zero(D()), is_past(generator + share * outward)));
-      }
+    each_edge([&](const Point&, const Point& edge) {
+      const V share = Neg(dot(generator, edge) / dot(outward, edge));
+      apart = Or(apart, And(share > Zero(D()), is_past(generator + share * outward)));
+    });
     return And(apart, extremes.least < all(k_none));
   }
 
+  // The coordinate that a side or a row has there.
+  static HWY_INLINE V at_depth(V side, V depth) {
+    if constexpr (!k_perspective) return side;
+    return side * depth;
+  }
   HWY_INLINE Point corner(unsigned i) const {
     const V depth = (i & 4) != 0 ? depth1_ : depth0_;
-    const V side = (i & 1) != 0 ? right_ : left_, up = (i & 2) != 0 ? y1_ : y0_;
-    if constexpr (!k_perspective) return {side, up, depth};
-    return {side * depth, up * depth, depth};
+    return {at_depth((i & 1) != 0 ? right_ : left_, depth), at_depth((i & 2) != 0 ? y1_ : y0_, depth), depth};
+  }
+  // From where an edge starts to its end.
+  template <class Take>
+  HWY_INLINE void each_edge(Take&& take) const {
+    for (unsigned corner = 0; corner < 8; ++corner)
+      for (const unsigned bit : {1u, 2u, 4u})
+        if ((corner & bit) == 0) take(from_apex_[corner], from_apex_[corner | bit] - from_apex_[corner]);
   }
 
   // Outward normals (any length) and the faces along them.
@@ -424,16 +352,6 @@ class CellsOf {
   static HWY_INLINE V face_length(const Point& outward) {
     if constexpr (!k_perspective) return all(1.0f);
     return length(outward);
-  }
-
-  // Cuts a line from the apex + start, along step, to the cell.
-  HWY_INLINE void clip(const Point& start, const Point& step, V& from, V& to) const {
-    each_face([&](const Point& outward, V offset) {
-      const V margin = offset - dot(outward, cone_.apex + start), lean = dot(outward, step);
-      const V t = margin / lean;
-      to = IfThenElse(lean > Zero(D()), Min(to, t), to);
-      from = IfThenElse(lean < Zero(D()), Max(from, t), from);
-    });
   }
 
   // The least of the corners along a direction.

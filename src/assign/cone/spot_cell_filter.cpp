@@ -29,7 +29,7 @@ void look_at(const SpotsAndPlanes& from, Look how, SpotCells& cells) {
                                            loaded_indices(cells.row, first));
     const AnyCells these(rows, gathered(from.side, loaded_indices(cells.column, first)),
                          gathered(from.side, loaded_indices(cells.end_column, first)));
-    M common, apart;
+    M common = FirstN(d, 0), apart = common;
     switch (how) {
       case Look::quick:
         common = these.holds_corner();
@@ -39,8 +39,7 @@ void look_at(const SpotsAndPlanes& from, Look how, SpotCells& cells) {
         these.approach(common, apart);
         break;
       case Look::closer:
-        common = Or(these.holds_axis_point(), these.holds_edge_point());
-        apart = these.is_apart_from_corners();
+        common = these.holds_edge_point();
         break;
       case Look::thorough:
         these.settle(common, apart);

@@ -50,7 +50,8 @@ struct SpotsAndPlanes {
   bool orthographic = false;
 };
 
-// Each look settles most of the pairs that the one before leaves uncertain, and costs several times as much.
+// Each look settles some of the pairs that the ones before leave uncertain. The last one takes ten times as long as the
+// first.
 enum class Look { quick, approach, closer, thorough };
 void look_at_cells(const SpotsAndPlanes& from, Look how, SpotCells& cells);
 

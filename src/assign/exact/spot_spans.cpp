@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 
 namespace clusterbench::assign {
 
@@ -50,16 +49,17 @@ void SpotSpans::settle_uncertain_rows(const SpotsAndPlanes& from) {
   take_uncertain_rows();
   if (spans_.empty()) return;
   if (!frame_->planes.orthographic) settle_touches(from);
-  drop_missed_rows(from);
   shorten(from);
   while (ask_for_ends()) {
     tests_ += cells_.count;
     look_at_cells(from, Look::quick, cells_);
-    for (const Look how : {Look::approach, Look::closer, Look::thorough}) {
-      ask_more_closely();
-      look_at_cells(from, how, closer_);
-      for (std::uint32_t i = 0; i < closer_.count; ++i) cells_.touch[closer_cells_[i]] = closer_.touch[i];
-    }
+    // In perspective so few cells are left that exact arithmetic takes no longer.
+    if (from.orthographic)
+      for (const Look how : {Look::approach, Look::closer, Look::thorough}) {
+        ask_more_closely();
+        look_at_cells(from, how, closer_);
+        for (std::uint32_t i = 0; i < closer_.count; ++i) cells_.touch[closer_cells_[i]] = closer_.touch[i];
+      }
     for (const Ends& ends : ends_) settle(ends);
   }
   for (const Span& span : spans_) {
@@ -179,35 +179,12 @@ void SpotSpans::take_touch(const Run& run, std::uint32_t index) {
   }
 }
 
-// Takes away rows that are as a whole not touched.
-void SpotSpans::drop_missed_rows(const SpotsAndPlanes& from) {
-  // Most rows of bounding balls are touched: more than a quick look would be in vain.
-  static constexpr Look k_thorough[] = {Look::approach, Look::closer, Look::thorough}, k_quick[] = {Look::quick};
-  const std::span<const Look> looks =
-      from.orthographic ? std::span<const Look>(k_quick) : std::span<const Look>(k_thorough);
-  waiting_.clear();
-  for (std::uint32_t i = 0; i < spans_.size(); ++i)
-    if (spans_[i].left_is_uncertain && spans_[i].right_is_uncertain && !spans_[i].columns.empty())
-      waiting_.push_back(i);
-  for (const Look how : looks) {
-    closer_.count = 0;
-    for (const std::uint32_t i : waiting_) closer_.add(cells_of(spans_[i], spans_[i].columns));
-    look_at_cells(from, how, closer_);
-    std::size_t kept = 0;
-    for (std::uint32_t at = 0; at < closer_.count; ++at) {
-      if (closer_.touch[at] == Touch::no) spans_[waiting_[at]].columns = {};
-      if (closer_.touch[at] == Touch::uncertain) waiting_[kept++] = waiting_[at];
-    }
-    waiting_.resize(kept);
-  }
-  uncertain_.clear();
-  for (std::uint32_t i = 0; i < spans_.size(); ++i)
-    if (spans_[i].is_uncertain()) uncertain_.push_back(i);
-}
-
 // Takes away what a quick look at several columns at once can tell is not touched: half of each span at its uncertain
 // ends, where they are touched or in doubt a quarter, and so on.
 void SpotSpans::shorten(const SpotsAndPlanes& from) {
+  uncertain_.clear();
+  for (std::uint32_t i = 0; i < spans_.size(); ++i)
+    if (spans_[i].is_uncertain()) uncertain_.push_back(i);
   long_.clear();
   for (const std::uint32_t i : uncertain_) {
     const int half = spans_[i].columns.count() / 2;

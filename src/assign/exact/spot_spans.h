@@ -61,7 +61,6 @@ class SpotSpans {
   void settle_touches(const SpotsAndPlanes& from);
   void ask_for_touches(std::uint32_t i);
   void take_touch(const Run& run, std::uint32_t index);
-  void drop_missed_rows(const SpotsAndPlanes& from);
   void shorten(const SpotsAndPlanes& from);
   bool ask_for_ends();
   SpotCell cells_of(const Span& span, const grid::IndexRange& columns) const;
@@ -82,7 +81,7 @@ class SpotSpans {
   std::vector<std::uint32_t> uncertain_;  // among them
   std::vector<Long> long_;
   std::vector<Ends> ends_;
-  std::vector<std::uint32_t> waiting_;  // spans or Ends without an answer
+  std::vector<std::uint32_t> waiting_;  // Ends without an answer
   SpotCells cells_, closer_;            // of all ends; those of them to look at closely
   std::vector<std::uint32_t> closer_cells_;
   std::optional<SpotJudge> judge_;  // of the spot that was asked for last
