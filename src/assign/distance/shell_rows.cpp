@@ -31,64 +31,34 @@ HWY_INLINE V outside(const TilePlane& plane, V coordinate, V depth) {
 }
 
 // How far outside of one of the view's sides.
-HWY_INLINE V side_gap(const ShellPlanes& planes, V x, V y, V depth) {
+HWY_INLINE V side_gap(const ShellPlanes& planes, const Balls& balls) {
+  const V x = balls.x, y = balls.y, depth = balls.depth;
   const V beside = Max(Neg(outside(planes.left, x, depth)), outside(planes.right, x, depth));
   return Max(beside, Max(outside(planes.top, y, depth), Neg(outside(planes.bottom, y, depth))));
 }
 
-// How many of boundaries begin .. end - 1 pass.
-template <class Passes>
-HWY_INLINE VI count_passed(const std::vector<float>& boundaries, std::size_t begin, std::size_t end, Passes&& passes) {
-  VI count = Zero(DI());
-  for (std::size_t i = begin; i < end; ++i)
-    count = count - VecFromMask(DI(), RebindMask(DI(), passes(all(boundaries[i]))));
-  return count;
+// Larger balls; of infinite radius where squares may not be normal numbers.
+HWY_INLINE V with_slack(const Balls& balls) {
+  const V reach = Abs(balls.x) + Abs(balls.y) + Abs(balls.depth) + balls.radius;
+  const M is_plain = is_between(all(k_least_reach), reach, all(k_most_reach));
+  return IfThenElse(is_plain, balls.radius + all(k_slack_roundoffs * 0x1p-24f) * reach, infinity());
 }
 
-// The shells that balls may reach; the answer says which balls may reach one within the view.
-HWY_INLINE M reach_shells(const ShellPlanes& planes, const Balls& balls, Indices& found) {
-  const V squares = balls.x * balls.x + balls.y * balls.y + balls.depth * balls.depth;
-  const V length = Sqrt(squares);
-  const V reach = Abs(balls.x) + Abs(balls.y) + Abs(balls.depth) + balls.radius;
-  const V radius = balls.radius + all(k_slack_roundoffs * 0x1p-24f) * reach;
-  const M is_plain = And(reach >= all(k_least_reach), reach <= all(k_most_reach));
-  const V inf = all(std::numeric_limits<float>::infinity());
-  const V low = IfThenElse(is_plain, length - radius, Neg(inf));
-  const V high = IfThenElse(is_plain, length + radius, inf);
+// The shells that balls may reach, and all rows.
+HWY_INLINE CellRanges cells_of(const ShellPlanes& planes, const Balls& balls) {
+  const V length = Sqrt(balls.x * balls.x + balls.y * balls.y + balls.depth * balls.depth), radius = with_slack(balls);
   const std::vector<float>& shells = planes.boundaries.depths;
-  found.first = count_passed(shells, 1, shells.size(), [&](V shell) { return shell < low; });
-  const VI begun = count_passed(shells, 0, shells.size() - 1, [&](V shell) { return shell <= high; });
-  found.last = begun - Set(DI(), 1);
+  const VI none = Zero(DI());
+  return {{none, none},
+          {none, all_int(planes.rows() - 1)},
+          {first_touched(shells, none, length - radius), last_touched(shells, none, length + radius)}};
+}
+
+void shells(const ShellPlanes& planes, const GivenBalls& given, float roundoffs, BoundedBalls& bounded) {
   // A ball that holds the eye, which the reference may list in all directions of a shell, is outside of no side: they
   // all pass through the eye.
-  const M is_beside = side_gap(planes, balls.x, balls.y, balls.depth) > radius;
-  const M has_shells = RebindMask(D(), Not(found.last < found.first));
-  return AndNot(And(is_plain, is_beside), has_shells);
-}
-
-void shells(const ShellPlanes& planes, const GivenBalls& balls, float roundoffs, BoundedBalls& bounded) {
-  const D d;
-  const DI di;
-  const auto n = static_cast<std::uint32_t>(Lanes(d));
-  const VI none = Zero(di), last_row = Set(di, planes.rows() - 1);
-  for (std::uint32_t i = 0; i < balls.lights.count; i += n) {
-    const std::uint32_t left = std::min(n, balls.lights.count - i);
-    const auto load = [&](const float* from) { return loaded(from + i, left); };
-    const V given = load(balls.radius);
-    const Balls found{load(balls.x), load(balls.y), Neg(load(balls.z)), padded(given, load(balls.reach), roundoffs)};
-    Indices shells_reached{none, none};
-    const M may_reach = reach_shells(planes, found, shells_reached);
-    const M wanted = And(may_reach, And(given > Zero(d), FirstN(d, left)));
-    if (AllFalse(d, wanted)) continue;
-    const Appender append(wanted, bounded.count);
-    append(shells_reached.first, bounded.first_slice);
-    append(shells_reached.last, bounded.last_slice);
-    append(none, bounded.first_column);
-    append(none, bounded.last_column);
-    append(none, bounded.first_row);
-    append(last_row, bounded.last_row);
-    keep_balls(wanted, found, balls.lights.first + i, bounded);
-  }
+  const auto is_in_view = [&](const Balls& balls) { return side_gap(planes, balls) <= with_slack(balls); };
+  append_given(given, roundoffs, bounded, is_in_view, [&](const Balls& balls) { return cells_of(planes, balls); });
 }
 
 // --- Rows of one shell ---
