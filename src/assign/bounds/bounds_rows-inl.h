@@ -34,6 +34,12 @@ class Boxes {
 
   // Leaves out the balls that do not reach the slice.
   HWY_INLINE void keep(M reaches) { rows = IfThenElseZero(RebindMask(DI(), reaches), rows); }
+  // The same, and rows other than the box's.
+  HWY_INLINE void take_rows(M reaches, const Indices& range) {
+    keep(reaches);
+    first_row = range.first;
+    rows = IfThenElseZero(rows > Zero(DI()), Max(range.last - range.first + all_int(1), Zero(DI())));
+  }
 
   // Prepares the answer; false if there are no rows.
   HWY_INLINE bool start(int grid_rows, std::uint32_t count, BatchRows& out) const {
@@ -50,11 +56,14 @@ class Boxes {
     return true;
   }
 
-  // The columns first .. last (counted from the box's first) as a batch's answer has them.
-  HWY_INLINE VU entry(VI first, VI last) const {
+  // The columns first .. last (counted from the box's first) as a batch's answer has them, where there are some.
+  HWY_INLINE VU entry(MI are_some, VI first, VI last) const {
     const VU from = BitCast(DU(), first_column + first), to = BitCast(DU(), first_column + last);
-    return Or(Or(from, ShiftLeft<16>(to)), uncertain);
+    const VU span = Or(Or(from, ShiftLeft<16>(to)), uncertain);
+    return IfThenElse(RebindMask(DU(), are_some), span, Set(DU(), BatchRows::k_none));
   }
+
+  int most_columns() const { return GetLane(MaxOfLanes(DI(), IfThenElseZero(rows > Zero(DI()), columns))); }
 
   VI indices, first_row, rows, first_column, columns;  // how many rows and columns
   VU lights, uncertain;
@@ -88,6 +97,17 @@ struct CellRanges {
   Indices columns, rows, slices;
 };
 
+// write(indices, array) for each number of the boxes.
+template <class Write>
+HWY_INLINE void write_cells(const CellRanges& cells, BoundedBalls& out, Write&& write) {
+  write(cells.columns.first, out.first_column);
+  write(cells.columns.last, out.last_column);
+  write(cells.rows.first, out.first_row);
+  write(cells.rows.last, out.last_row);
+  write(cells.slices.first, out.first_slice);
+  write(cells.slices.last, out.last_slice);
+}
+
 // Appends the wanted balls, without their boxes.
 HWY_INLINE void append_balls(M wanted, const Balls& balls, VU lights, BoundedBalls& out) {
   const Appender append(wanted, out.count);
@@ -118,14 +138,8 @@ HWY_INLINE void append_given(const GivenBalls& given, float roundoffs, BoundedBa
   }
   for (std::uint32_t i = begin; i < out.count; i += n) {
     const auto at = [&](const AlignedVector<float>& list) { return LoadU(d, list.data() + i); };
-    const auto store = [&](VI value, AlignedVector<std::int32_t>& to) { StoreU(value, DI(), to.data() + i); };
     const CellRanges cells = cells_of(Balls{at(out.x), at(out.y), at(out.depth), at(out.radius)});
-    store(cells.columns.first, out.first_column);
-    store(cells.columns.last, out.last_column);
-    store(cells.rows.first, out.first_row);
-    store(cells.rows.last, out.last_row);
-    store(cells.slices.first, out.first_slice);
-    store(cells.slices.last, out.last_slice);
+    write_cells(cells, out, [&](VI indices, AlignedVector<std::int32_t>& to) { StoreU(indices, DI(), to.data() + i); });
   }
 }
 

@@ -78,21 +78,7 @@ std::size_t RangeAxes::capacity_bytes() const {
 }
 
 CellExtents extents_of(const BoxGrid& boxes) {
-  CellExtents cells;
-  const auto axis_of = [](const BoxAxis& extents) {
-    CellExtents::Axis axis;
-    for (const Interval& extent : extents) {
-      axis.lo.push_back(extent.lo);
-      axis.hi.push_back(extent.hi);
-    }
-    return axis;
-  };
-  cells.x = axis_of(boxes.x);
-  cells.y = axis_of(boxes.y);
-  cells.z = axis_of(boxes.z);
-  cells.columns = static_cast<int>(boxes.x.size());
-  cells.rows = static_cast<int>(boxes.y.size());
-  return cells;
+  return {{boxes.x}, {boxes.y}, {boxes.z}, static_cast<int>(boxes.x.size()), static_cast<int>(boxes.y.size())};
 }
 
 void find_box_ranges(const RangeAxes& axes, const GivenBalls& balls, float roundoffs, BoundedBalls& bounded) {
