@@ -47,10 +47,12 @@ HWY_INLINE void each_column(const Boxes& boxes, int count, int grid_columns, Pre
 void bounds_rows(int grid_rows, const BallBatch& batch, BatchRows& out) {
   const Boxes boxes(batch);
   if (!boxes.start(grid_rows, batch.count, out)) return;
-  const VI end = boxes.first_row + boxes.rows, last = boxes.columns - all_int(1);
+  const VU entry = boxes.entry(boxes.rows > Zero(DI()), Zero(DI()), boxes.columns - all_int(1));
+  const VI end = boxes.first_row + boxes.rows;
   for (int row = out.first_row; row <= out.last_row; ++row) {
     const MI holds = AndNot(all_int(row) < boxes.first_row, all_int(row) < end);
-    StoreU(boxes.entry(holds, Zero(DI()), last), DU(), out.columns.data() + static_cast<std::size_t>(row) * out.lanes);
+    StoreU(IfThenElse(RebindMask(DU(), holds), entry, Set(DU(), BatchRows::k_none)), DU(),
+           out.columns.data() + static_cast<std::size_t>(row) * out.lanes);
   }
 }
 

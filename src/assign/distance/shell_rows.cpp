@@ -101,7 +101,9 @@ class Caps {
       const MD to = y_ <= top_.slope * tangent->touch + tangent->tolerance;
       slopes.add(And(tangent->exists, And(from, to)), tangent->slope, Zero(DD()));
     }
-    top_ = bottom;
+    top_.slope = bottom.slope;  // g++ 12 copies a whole struct of vectors through memory
+    top_.cut.low = bottom.cut.low;
+    top_.cut.high = bottom.cut.high;
     return slopes;
   }
 

@@ -35,21 +35,32 @@ HWY_INLINE VD in_single(VD value) {
   return PromoteTo(DD(), DemoteTo(DF(), value));
 }
 
-// Vectors of floats by parts that are as wide as a vector of doubles.
+// A vector of floats by parts that have as many lanes as a vector of doubles.
 class Parts {
  public:
-  static constexpr std::size_t k_count = MaxLanes(D()) / MaxLanes(DD());
-
+#if HWY_TARGET == HWY_SCALAR
+  static constexpr std::size_t k_count = 1;
+  explicit Parts(V value) : parts_{value} {}
+  V whole() const {
+    return parts_[0];
+  }
+#else
+  static constexpr std::size_t k_count = 2;
+  HWY_INLINE explicit Parts(V value) : parts_{LowerHalf(DF(), value), UpperHalf(DF(), value)} {}
+  HWY_INLINE V whole() const {
+    return Combine(D(), parts_[1], parts_[0]);
+  }
+#endif
   Parts() = default;
-  HWY_INLINE explicit Parts(V value) { Store(value, D(), lanes_); }
-  HWY_INLINE VD wide(std::size_t part) const { return PromoteTo(DD(), LoadU(DF(), at(part))); }
-  HWY_INLINE void set(std::size_t part, VD value) { StoreU(DemoteTo(DF(), value), DF(), lanes_ + part * Lanes(DD())); }
-  HWY_INLINE V whole() const { return Load(D(), lanes_); }
+  HWY_INLINE VD wide(std::size_t part) const {
+    return PromoteTo(DD(), parts_[part]);
+  }
+  HWY_INLINE void set(std::size_t part, VD value) {
+    parts_[part] = DemoteTo(DF(), value);
+  }
 
  private:
-  HWY_INLINE const float* at(std::size_t part) const { return lanes_ + part * Lanes(DD()); }
-
-  HWY_ALIGN float lanes_[MaxLanes(D())];
+  VF parts_[k_count];
 };
 
 // The float below or at a value that is nearest to it.
