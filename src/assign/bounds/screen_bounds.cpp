@@ -18,10 +18,11 @@ struct Extents {
   V low_x, high_x, low_y, high_y;
 };
 
-HWY_INLINE Extents extents_of(const BoxPlanes& planes, const Balls& balls) {
+// Of the first `count` balls; what others have is anything.
+HWY_INLINE Extents extents_of(const BoxPlanes& planes, const Balls& balls, std::size_t count) {
   const Parts x(balls.x), y(balls.y), depth(balls.depth), radius(balls.radius);
-  Parts low_x, high_x, low_y, high_y;
-  for (std::size_t part = 0; part < Parts::k_count; ++part) {
+  Parts low_x = x, high_x = x, low_y = y, high_y = y;
+  for (std::size_t part = 0; part < Parts::k_count && part * Lanes(DD()) < count; ++part) {
     const Disks disks(depth.wide(part), radius.wide(part), planes.depths.front(), planes.depths.back());
     const auto find = [&](const Parts& center, Parts& low, Parts& high) {
       const VD u = center.wide(part);
@@ -48,7 +49,7 @@ void find_boxes(const BoxPlanes& planes, const VisibleBalls& visible, std::uint3
     const VU index = Min(light - Set(du, given.lights.first), Set(du, given.lights.count - 1));
     const V radius = gathered(given.radius, BitCast(DI(), index)), reach = gathered(given.reach, BitCast(DI(), index));
     Balls balls{at(visible.x), at(visible.y), at(visible.depth), padded(radius, reach, padding.box)};
-    const Extents extents = extents_of(planes, balls);
+    const Extents extents = extents_of(planes, balls, visible.count - i);
     const auto guess = [&](const AlignedVector<std::int32_t>& list) { return LoadU(DI(), list.data() + i); };
     const CellRanges cells{touched(planes.columns, extents.low_x, extents.high_x),
                            touched(planes.rows, Neg(extents.high_y), Neg(extents.low_y)),
