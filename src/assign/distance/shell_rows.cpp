@@ -58,7 +58,7 @@ HWY_INLINE CellRanges cells_of(const ShellPlanes& planes, const Balls& balls) {
 void shells(const ShellPlanes& planes, const GivenBalls& given, float roundoffs, BoundedBalls& bounded) {
   // A ball that holds the eye, which the reference may list in all directions of a shell, is outside of no side: they
   // all pass through the eye.
-  const auto is_in_view = [&](const Balls& balls) { return side_gap(planes, balls) <= with_slack(balls); };
+  const auto is_in_view = [&](const Balls& balls) { return Not(side_gap(planes, balls) > with_slack(balls)); };
   append_given(given, roundoffs, bounded, is_in_view, [&](const Balls& balls) { return cells_of(planes, balls); });
 }
 
