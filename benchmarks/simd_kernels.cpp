@@ -216,7 +216,7 @@ void find_refined_rows(State& state) {
 
 void find_box_rows(State& state) {
   const Setting setting = hall();
-  const assign::CellExtents cells(setting.grid);
+  const assign::CellExtents cells = assign::cell_extents(setting.grid);
   assign::LaneColumns columns;
   bounds_rows(state, setting, [&](const assign::BallBatch& batch, assign::BatchRows& out) {
     assign::find_box_rows(cells, batch, columns, out);

@@ -13,7 +13,7 @@ class RowsByBoxes {
 
   explicit RowsByBoxes(const Params&) {}
 
-  void build(const grid::Grid& grid) { cells_ = CellExtents(grid); }
+  void build(const grid::Grid& grid) { cells_ = cell_extents(grid); }
   bool narrows() const { return false; }
   void narrow(CellBox&, const geom::SphericalCone&) const {}
   void find(const BallBatch& batch, BatchRows& out) { find_box_rows(cells_, batch, lane_columns_, out); }

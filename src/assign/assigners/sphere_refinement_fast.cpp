@@ -13,28 +13,18 @@ class RefinedRows {
 
   explicit RefinedRows(const Params& params) : narrowing_(assign::narrows(params)) {}
 
-  void build(const grid::Grid& grid) {
-    const grid::ScreenGrid& screen = grid.screen();
-    planes_ = RefinementPlanes(screen);
-    depths_ = screen.slices.boundaries;
-    columns_ = tile_planes(screen.tiles.x, screen.tiles.orthographic);
-    rows_ = tile_planes(screen.tiles.y, screen.tiles.orthographic);
-  }
+  void build(const grid::Grid& grid) { planes_ = RefinementPlanes(grid.screen()); }
   bool narrows() const { return narrowing_; }
   void narrow(CellBox& box, const geom::SphericalCone& cone) const {
-    narrow_from_six_sides(box, cone, depths_, columns_, rows_);
+    narrow_from_six_sides(box, cone, planes_.depths, planes_.columns, planes_.rows);
   }
   void find(const BallBatch& batch, BatchRows& out) { find_refined_rows(planes_, batch, lane_columns_, out); }
-  std::size_t capacity_bytes() const {
-    return planes_.capacity_bytes() + lane_columns_.capacity_bytes() + bytes_of(depths_, columns_, rows_);
-  }
+  std::size_t capacity_bytes() const { return planes_.capacity_bytes() + lane_columns_.capacity_bytes(); }
 
  private:
   bool narrowing_;
   RefinementPlanes planes_;
   LaneColumns lane_columns_;
-  std::vector<float> depths_;
-  std::vector<TilePlane> columns_, rows_;
 };
 
 }  // namespace

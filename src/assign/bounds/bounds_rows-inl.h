@@ -9,6 +9,8 @@
 #endif
 
 #include "assign/bounds/bounds_rows.h"
+#include "assign/cull/frustum_cull.h"
+#include "assign/simd/boundaries-inl.h"
 #include "assign/simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -32,6 +34,12 @@ class Boxes {
 
   // Leaves out the balls that do not reach the slice.
   HWY_INLINE void keep(M reaches) { rows = IfThenElseZero(RebindMask(DI(), reaches), rows); }
+  // The same, and rows other than the box's.
+  HWY_INLINE void take_rows(M reaches, const Indices& range) {
+    keep(reaches);
+    first_row = range.first;
+    rows = IfThenElseZero(rows > Zero(DI()), Max(range.last - range.first + all_int(1), Zero(DI())));
+  }
 
   // Prepares the answer; false if there are no rows.
   HWY_INLINE bool start(int grid_rows, std::uint32_t count, BatchRows& out) const {
@@ -48,11 +56,14 @@ class Boxes {
     return true;
   }
 
-  // The columns first .. last (counted from the box's first) as a batch's answer has them.
-  HWY_INLINE VU entry(VI first, VI last) const {
+  // The columns first .. last (counted from the box's first) as a batch's answer has them, where there are some.
+  HWY_INLINE VU entry(MI are_some, VI first, VI last) const {
     const VU from = BitCast(DU(), first_column + first), to = BitCast(DU(), first_column + last);
-    return Or(Or(from, ShiftLeft<16>(to)), uncertain);
+    const VU span = Or(Or(from, ShiftLeft<16>(to)), uncertain);
+    return IfThenElse(RebindMask(DU(), are_some), span, Set(DU(), BatchRows::k_none));
   }
+
+  int most_columns() const { return GetLane(MaxOfLanes(DI(), IfThenElseZero(rows > Zero(DI()), columns))); }
 
   VI indices, first_row, rows, first_column, columns;  // how many rows and columns
   VU lights, uncertain;
@@ -81,15 +92,55 @@ struct Balls {
   V x, y, depth, radius;
 };
 
-// Appends the wanted ones of a vector of balls, of lights `first_light` .., without their boxes.
-HWY_INLINE void keep_balls(M wanted, const Balls& balls, std::uint32_t first_light, BoundedBalls& bounded) {
-  const Appender append(wanted, bounded.count);
-  append(balls.x, bounded.x);
-  append(balls.y, bounded.y);
-  append(balls.depth, bounded.depth);
-  append(balls.radius, bounded.radius);
-  append(Iota(DU(), first_light), bounded.light);
-  bounded.count += static_cast<std::uint32_t>(CountTrue(D(), wanted));
+// Boxes of cells. An empty range of slices: none.
+struct CellRanges {
+  Indices columns, rows, slices;
+};
+
+// write(indices, array) for each number of the boxes.
+template <class Write>
+HWY_INLINE void write_cells(const CellRanges& cells, BoundedBalls& out, Write&& write) {
+  write(cells.columns.first, out.first_column);
+  write(cells.columns.last, out.last_column);
+  write(cells.rows.first, out.first_row);
+  write(cells.rows.last, out.last_row);
+  write(cells.slices.first, out.first_slice);
+  write(cells.slices.last, out.last_slice);
+}
+
+// Appends the wanted balls, without their boxes.
+HWY_INLINE void append_balls(M wanted, const Balls& balls, VU lights, BoundedBalls& out) {
+  const Appender append(wanted, out.count);
+  append(balls.x, out.x);
+  append(balls.y, out.y);
+  append(balls.depth, out.depth);
+  append(balls.radius, out.radius);
+  append(lights, out.light);
+  out.count += static_cast<std::uint32_t>(CountTrue(D(), wanted));
+}
+
+// Appends those of the given balls, larger by these roundoffs, that reaches(balls) does not rule out, with the boxes of
+// cells that cells_of(balls) says.
+template <class Reaches, class CellsOf>
+HWY_INLINE void append_given(const GivenBalls& given, float roundoffs, BoundedBalls& out, Reaches&& reaches,
+                             CellsOf&& cells_of) {
+  const D d;
+  const auto n = static_cast<std::uint32_t>(Lanes(d));
+  const std::uint32_t begin = out.count;
+  for (std::uint32_t i = 0; i < given.lights.count; i += n) {
+    const std::uint32_t left = std::min(n, given.lights.count - i);
+    const auto load = [&](const float* from) { return loaded(from + i, left); };
+    const V radius = load(given.radius);
+    const Balls balls{load(given.x), load(given.y), Neg(load(given.z)), padded(radius, load(given.reach), roundoffs)};
+    const M is_ball = And(radius > Zero(d), FirstN(d, left));
+    const VU lights = BitCast(DU(), from_on(static_cast<std::int32_t>(given.lights.first + i)));
+    append_balls(And(is_ball, reaches(balls)), balls, lights, out);
+  }
+  for (std::uint32_t i = begin; i < out.count; i += n) {
+    const auto at = [&](const AlignedVector<float>& list) { return LoadU(d, list.data() + i); };
+    const CellRanges cells = cells_of(Balls{at(out.x), at(out.y), at(out.depth), at(out.radius)});
+    write_cells(cells, out, [&](VI indices, AlignedVector<std::int32_t>& to) { StoreU(indices, DI(), to.data() + i); });
+  }
 }
 
 }  // namespace HWY_NAMESPACE

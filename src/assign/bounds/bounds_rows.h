@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "assign/bounds/cell_extents.h"
 #include "assign/bounds/tile_planes.h"
 #include "assign/pipeline/bounded_balls.h"
 #include "assign/rows/slice_rows.h"
@@ -27,30 +28,19 @@ void find_bounds_rows(int rows, const BallBatch& batch, BatchRows& out);
 
 // Sphere refinement (assigners/sphere_refinement.cpp).
 struct RefinementPlanes {
-  std::vector<float> column_across, column_along, row_across, row_along;  // of the tile planes
-  std::vector<float> column_offset, row_offset;                           // none in perspective: all are 0
-  std::vector<float> depths;                                              // of the slices
+  std::vector<TilePlane> columns, rows;
+  std::vector<float> depths;  // of the slices
 
-  explicit RefinementPlanes(const grid::ScreenGrid& grid);
   RefinementPlanes() = default;
-  std::size_t capacity_bytes() const;
+  explicit RefinementPlanes(const grid::ScreenGrid& grid)
+      : columns(tile_planes(grid.tiles.x, grid.tiles.orthographic)),
+        rows(tile_planes(grid.tiles.y, grid.tiles.orthographic)),
+        depths(grid.slices.boundaries) {}
+  std::size_t capacity_bytes() const { return bytes_of(columns, rows, depths); }
 };
 void find_refined_rows(const RefinementPlanes& planes, const BallBatch& batch, LaneColumns& columns, BatchRows& out);
 
-// The boxes around the cells (assigners/aabb.cpp), or those that are the cells (assign/box_grid/box_ranges.h). Within a
-// slice a cell's box has its column's extent in x, its row's in y and the slice's in z.
-struct CellExtents {
-  struct Axis {
-    std::vector<float> lo, hi;
-    int pitch = 0;  // from one slice to the next; 0: the same for all slices
-  };
-  Axis x, y, z;
-  int columns = 0, rows = 0;
-
-  explicit CellExtents(const grid::Grid& grid);
-  CellExtents() = default;
-  std::size_t capacity_bytes() const;
-};
+// The boxes around the cells (assigners/aabb.cpp), or those that are the cells (assign/box_grid/).
 void find_box_rows(const CellExtents& cells, const BallBatch& batch, LaneColumns& columns, BatchRows& out);
 
 }  // namespace clusterbench::assign

@@ -6,8 +6,6 @@
 #include <hwy/highway.h>
 
 #include "assign/bounds/bounds_rows-inl.h"
-#include "assign/simd/boundaries-inl.h"
-#include "assign/simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign {
@@ -34,51 +32,25 @@ HWY_INLINE Indices range_on(const RangeAxis& axis, V given, V radius) {
 }
 
 HWY_INLINE MI lies_in(const Indices& range, const grid::IndexRange& hole) {
-  const DI di;
-  return AndNot(range.first < Set(di, hole.first), Not(range.last > Set(di, hole.last)));
+  return AndNot(range.first < all_int(hole.first), Not(range.last > all_int(hole.last)));
 }
 
-// Those that reach the grid; without their ranges.
-void see_reaching(const RangeAxes& axes, const GivenBalls& balls, float roundoffs, BoundedBalls& bounded) {
-  const D d;
-  const auto n = static_cast<std::uint32_t>(Lanes(d));
-  for (std::uint32_t i = 0; i < balls.lights.count; i += n) {
-    const std::uint32_t left = std::min(n, balls.lights.count - i);
-    const auto load = [&](const float* from) { return loaded(from + i, left); };
-    const V x = load(balls.x), y = load(balls.y), z = load(balls.z), given = load(balls.radius);
-    const V radius = padded(given, load(balls.reach), roundoffs);
-    const M on_all = And(reaches(axes.x, x, radius), And(reaches(axes.y, y, radius), reaches(axes.z, z, radius)));
-    const M wanted = And(And(given > Zero(d), FirstN(d, left)), on_all);
-    keep_balls(wanted, {x, y, Neg(z), radius}, balls.lights.first + i, bounded);
-  }
+// Those in the hole reach no slice.
+HWY_INLINE CellRanges cells_of(const RangeAxes& axes, const Balls& balls) {
+  CellRanges cells{range_on(axes.x, balls.x, balls.radius), range_on(axes.y, balls.y, balls.radius),
+                   range_on(axes.z, Neg(balls.depth), balls.radius)};
+  const MI is_in_hole = And(lies_in(cells.columns, axes.hole_x),
+                            And(lies_in(cells.rows, axes.hole_y), lies_in(cells.slices, axes.hole_z)));
+  cells.slices.last = IfThenElse(is_in_hole, all_int(-1), cells.slices.last);
+  return cells;
 }
 
-// The ranges of the balls from `begin` on. Those in the hole reach no slice.
-void find_ranges(const RangeAxes& axes, std::uint32_t begin, BoundedBalls& bounded) {
-  const D d;
-  const DI di;
-  const auto n = static_cast<std::uint32_t>(Lanes(d));
-  for (std::uint32_t i = begin; i < bounded.count; i += n) {
-    const auto at = [&](const AlignedVector<float>& list) { return LoadU(d, list.data() + i); };
-    const V radius = at(bounded.radius);
-    const Indices x = range_on(axes.x, at(bounded.x), radius), y = range_on(axes.y, at(bounded.y), radius);
-    Indices z = range_on(axes.z, Neg(at(bounded.depth)), radius);
-    const MI in_hole = And(lies_in(x, axes.hole_x), And(lies_in(y, axes.hole_y), lies_in(z, axes.hole_z)));
-    z.last = IfThenElse(in_hole, Set(di, -1), z.last);
-    const auto keep = [&](const Indices& range, AlignedVector<std::int32_t>& first, AlignedVector<std::int32_t>& last) {
-      StoreU(range.first, di, first.data() + i);
-      StoreU(range.last, di, last.data() + i);
-    };
-    keep(x, bounded.first_column, bounded.last_column);
-    keep(y, bounded.first_row, bounded.last_row);
-    keep(z, bounded.first_slice, bounded.last_slice);
-  }
-}
-
-void box_ranges(const RangeAxes& axes, const GivenBalls& balls, float roundoffs, BoundedBalls& bounded) {
-  const std::uint32_t begin = bounded.count;
-  see_reaching(axes, balls, roundoffs, bounded);
-  find_ranges(axes, begin, bounded);
+void box_ranges(const RangeAxes& axes, const GivenBalls& given, float roundoffs, BoundedBalls& bounded) {
+  const auto reaches_grid = [&](const Balls& balls) {
+    return And(reaches(axes.x, balls.x, balls.radius),
+               And(reaches(axes.y, balls.y, balls.radius), reaches(axes.z, Neg(balls.depth), balls.radius)));
+  };
+  append_given(given, roundoffs, bounded, reaches_grid, [&](const Balls& balls) { return cells_of(axes, balls); });
 }
 
 }  // namespace
@@ -106,21 +78,7 @@ std::size_t RangeAxes::capacity_bytes() const {
 }
 
 CellExtents extents_of(const BoxGrid& boxes) {
-  CellExtents cells;
-  const auto axis_of = [](const BoxAxis& extents) {
-    CellExtents::Axis axis;
-    for (const Interval& extent : extents) {
-      axis.lo.push_back(extent.lo);
-      axis.hi.push_back(extent.hi);
-    }
-    return axis;
-  };
-  cells.x = axis_of(boxes.x);
-  cells.y = axis_of(boxes.y);
-  cells.z = axis_of(boxes.z);
-  cells.columns = static_cast<int>(boxes.x.size());
-  cells.rows = static_cast<int>(boxes.y.size());
-  return cells;
+  return {{boxes.x}, {boxes.y}, {boxes.z}, static_cast<int>(boxes.x.size()), static_cast<int>(boxes.y.size())};
 }
 
 void find_box_ranges(const RangeAxes& axes, const GivenBalls& balls, float roundoffs, BoundedBalls& bounded) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "assign/bounds/cell_extents.h"
 #include "assign/contract/light_test.h"
 #include "assign/contract/lists.h"
 #include "core/arrays.h"
@@ -14,10 +15,6 @@
 #include "grid/index_range.h"
 
 namespace clusterbench::assign {
-
-struct Interval {
-  float lo, hi;
-};
 
 // The boxes' extents along one axis in index order: adjacent, ascending or descending.
 using BoxAxis = std::vector<Interval>;

@@ -1,7 +1,5 @@
 #include "assign/distance/shell_rows.h"
 
-#include <cmath>
-
 #include "assign/distance/shells.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -31,128 +29,82 @@ HWY_INLINE V outside(const TilePlane& plane, V coordinate, V depth) {
 }
 
 // How far outside of one of the view's sides.
-HWY_INLINE V side_gap(const ShellPlanes& planes, V x, V y, V depth) {
+HWY_INLINE V side_gap(const ShellPlanes& planes, const Balls& balls) {
+  const V x = balls.x, y = balls.y, depth = balls.depth;
   const V beside = Max(Neg(outside(planes.left, x, depth)), outside(planes.right, x, depth));
   return Max(beside, Max(outside(planes.top, y, depth), Neg(outside(planes.bottom, y, depth))));
 }
 
-// How many of boundaries begin .. end - 1 pass.
-template <class Passes>
-HWY_INLINE VI count_passed(const std::vector<float>& boundaries, std::size_t begin, std::size_t end, Passes&& passes) {
-  VI count = Zero(DI());
-  for (std::size_t i = begin; i < end; ++i)
-    count = count - VecFromMask(DI(), RebindMask(DI(), passes(all(boundaries[i]))));
-  return count;
+// Larger balls; of infinite radius where squares may not be normal numbers.
+HWY_INLINE V with_slack(const Balls& balls) {
+  const V reach = Abs(balls.x) + Abs(balls.y) + Abs(balls.depth) + balls.radius;
+  const M is_plain = is_between(all(k_least_reach), reach, all(k_most_reach));
+  return IfThenElse(is_plain, balls.radius + all(k_slack_roundoffs * 0x1p-24f) * reach, infinity());
 }
 
-// The shells that balls may reach; the answer says which balls may reach one within the view.
-HWY_INLINE M reach_shells(const ShellPlanes& planes, const Balls& balls, Indices& found) {
-  const V squares = balls.x * balls.x + balls.y * balls.y + balls.depth * balls.depth;
-  const V length = Sqrt(squares);
-  const V reach = Abs(balls.x) + Abs(balls.y) + Abs(balls.depth) + balls.radius;
-  const V radius = balls.radius + all(k_slack_roundoffs * 0x1p-24f) * reach;
-  const M is_plain = And(reach >= all(k_least_reach), reach <= all(k_most_reach));
-  const V inf = all(std::numeric_limits<float>::infinity());
-  const V low = IfThenElse(is_plain, length - radius, Neg(inf));
-  const V high = IfThenElse(is_plain, length + radius, inf);
-  const std::vector<float>& shells = planes.boundaries.depths;
-  found.first = count_passed(shells, 1, shells.size(), [&](V shell) { return shell < low; });
-  const VI begun = count_passed(shells, 0, shells.size() - 1, [&](V shell) { return shell <= high; });
-  found.last = begun - Set(DI(), 1);
+// The shells that balls may reach, and all rows.
+HWY_INLINE CellRanges cells_of(const ShellPlanes& planes, const Balls& balls) {
+  const V length = Sqrt(balls.x * balls.x + balls.y * balls.y + balls.depth * balls.depth), radius = with_slack(balls);
+  const std::vector<float>& distances = planes.boundaries.depths;
+  const VI none = Zero(DI());
+  VI first = none, last = all_int(-1);
+  for (std::size_t shell = 0; shell + 1 < distances.size(); ++shell) {
+    first = first - VecFromMask(DI(), RebindMask(DI(), all(distances[shell + 1]) < length - radius));
+    last = last - VecFromMask(DI(), RebindMask(DI(), all(distances[shell]) <= length + radius));
+  }
+  return {{none, none}, {none, all_int(planes.rows() - 1)}, {first, last}};
+}
+
+void shells(const ShellPlanes& planes, const GivenBalls& given, float roundoffs, BoundedBalls& bounded) {
   // A ball that holds the eye, which the reference may list in all directions of a shell, is outside of no side: they
   // all pass through the eye.
-  const M is_beside = side_gap(planes, balls.x, balls.y, balls.depth) > radius;
-  const M has_shells = RebindMask(D(), Not(found.last < found.first));
-  return AndNot(And(is_plain, is_beside), has_shells);
-}
-
-void shells(const ShellPlanes& planes, const GivenBalls& balls, float roundoffs, BoundedBalls& bounded) {
-  const D d;
-  const DI di;
-  const auto n = static_cast<std::uint32_t>(Lanes(d));
-  const VI none = Zero(di), last_row = Set(di, planes.rows() - 1);
-  for (std::uint32_t i = 0; i < balls.lights.count; i += n) {
-    const std::uint32_t left = std::min(n, balls.lights.count - i);
-    const auto load = [&](const float* from) { return loaded(from + i, left); };
-    const V given = load(balls.radius);
-    const Balls found{load(balls.x), load(balls.y), Neg(load(balls.z)), padded(given, load(balls.reach), roundoffs)};
-    Indices shells_reached{none, none};
-    const M may_reach = reach_shells(planes, found, shells_reached);
-    const M wanted = And(may_reach, And(given > Zero(d), FirstN(d, left)));
-    if (AllFalse(d, wanted)) continue;
-    const Appender append(wanted, bounded.count);
-    append(shells_reached.first, bounded.first_slice);
-    append(shells_reached.last, bounded.last_slice);
-    append(none, bounded.first_column);
-    append(none, bounded.last_column);
-    append(none, bounded.first_row);
-    append(last_row, bounded.last_row);
-    keep_balls(wanted, found, balls.lights.first + i, bounded);
-  }
+  const auto is_in_view = [&](const Balls& balls) { return Not(side_gap(planes, balls) > with_slack(balls)); };
+  append_given(given, roundoffs, bounded, is_in_view, [&](const Balls& balls) { return cells_of(planes, balls); });
 }
 
 // --- Rows of one shell ---
-
-// As many balls as there are doubles in a vector.
-constexpr std::size_t k_half = MaxLanes(DD()), k_halves = MaxLanes(D()) / k_half;
-
-struct Cut {
-  VF low, high;
-};
 
 // Caps: balls around the lights' centres that look the same from the eye.
 class Caps {
  public:
   Caps() = default;
-  HWY_INLINE Caps(VD x, VD y, VD depth, VD length, VD r, double distance0, double distance1)
-      : x_(x), y_(y), depth_(depth), radius_(radius_in_shell(length, r, distance0, distance1)) {
-    const VD none = Zero(DD());
+  HWY_INLINE Caps(VD x, VD y, VD depth, VD r, double distance0, double distance1) : x_(x), y_(y), depth_(depth) {
+    const VD length = Sqrt(x * x + y * y + depth * depth);
+    misses_ = Or(length - r > all(distance1), length + r < all(distance0));
+    radius_ = radius_in_shell(length, r, distance0, distance1);
     is_endless_ = radius_ == infinite();
-    const VD squared = x * x + depth * depth - radius_ * radius_;
-    const Disks disks(depth, radius_, 0.0, std::numeric_limits<double>::infinity());
-    VF low, high;
-    disks.slope_range(x, low, high);
-    const auto tangent = [&](VF slope) {
-      const VD s = PromoteTo(DD(), slope);
-      const VD touch = Sqrt(Max(none, squared) / (all(1.0) + s * s));
+    const VD squared = Max(Zero(DD()), x * x + depth * depth - radius_ * radius_);
+    const Hull slopes = disks(depth, radius_).slope_range(x);
+    const auto tangent = [&](VD slope) {
+      const VD touch = Sqrt(squared / (all(1.0) + slope * slope));
       const VD tolerance = all(k_touch_tolerance) * (touch + Abs(y_));
-      return Tangent{s, touch, tolerance, Abs(s) < infinite()};
+      return Tangent{slope, touch, tolerance, Abs(slope) < infinite()};
     };
-    low_ = tangent(low);
-    high_ = tangent(high);
-    disks.slope_range(y, upright_.low, upright_.high);
+    low_ = tangent(slopes.low);
+    high_ = tangent(slopes.high);
   }
 
-  const Cut& upright() const { return upright_; }
-
-  // What the planes y = slope * depth cut out of the caps, as slopes x / depth.
-  HWY_INLINE Cut cut_by_planes(VD slope, VD stretch) const {
-    const VD inf = infinite();
-    const VD away = (y_ - slope * depth_) / stretch;
-    const VD along = (depth_ + slope * y_) / stretch;
-    const VD squared = (radius_ - away) * (radius_ + away);
-    const MD is_cut = Not(squared < Zero(DD()));
-    const VD chord = in_single(Sqrt(IfThenElseZero(is_cut, squared)));
-    Cut cut;
-    Disks(in_single(along), chord, 0.0, std::numeric_limits<double>::infinity()).slope_range(x_, cut.low, cut.high);
-    const auto stretched = [&](VF value, VD if_endless, VD if_missed) {
-      const VD of_cut = IfThenElse(is_cut, PromoteTo(DD(), value) * stretch, if_missed);
-      return DemoteTo(DF(), IfThenElse(is_endless_, if_endless, of_cut));
-    };
-    return {stretched(cut.low, Neg(inf), inf), stretched(cut.high, inf, Neg(inf))};
+  // The slopes y / depth of those that reach the shell.
+  HWY_INLINE Hull upright() const {
+    const Hull slopes = disks(depth_, radius_).slope_range(y_);
+    return {IfThenElse(misses_, infinite(), slopes.low), IfThenElse(misses_, Neg(infinite()), slopes.high)};
   }
 
-  // The caps' slopes x / depth in rows between two planes.
-  HWY_INLINE Cut slopes_in_rows(const Cut& top, const Cut& bottom, VD top_slope, VD bottom_slope) const {
-    VD low = infinite(), high = Neg(infinite());
+  // Planes y = slope * depth above the first rows.
+  HWY_INLINE void start_rows(VD slope) { top_ = cut_at(slope); }
+  // The slopes x / depth in the rows above these planes; the next rows are those below them.
+  HWY_INLINE Hull slopes_above(VD slope) {
+    const RowCut bottom = cut_at(slope);
+    Hull slopes{Min(top_.cut.low, bottom.cut.low), Max(top_.cut.high, bottom.cut.high)};
     for (const Tangent* tangent : {&low_, &high_}) {
-      const MD from = y_ >= bottom_slope * tangent->touch - tangent->tolerance;
-      const MD to = y_ <= top_slope * tangent->touch + tangent->tolerance;
-      const MD touches = And(tangent->exists, And(from, to));
-      low = Min(low, IfThenElse(touches, tangent->slope, infinite()));
-      high = Max(high, IfThenElse(touches, tangent->slope, Neg(infinite())));
+      const MD from = y_ >= bottom.slope * tangent->touch - tangent->tolerance;
+      const MD to = y_ <= top_.slope * tangent->touch + tangent->tolerance;
+      slopes.add(And(tangent->exists, And(from, to)), tangent->slope, Zero(DD()));
     }
-    return {Min(Min(top.low, bottom.low), DemoteTo(DF(), low)), Max(Max(top.high, bottom.high), DemoteTo(DF(), high))};
+    top_.slope = bottom.slope;  // g++ 12 copies a whole struct of vectors through memory
+    top_.cut.low = bottom.cut.low;
+    top_.cut.high = bottom.cut.high;
+    return slopes;
   }
 
  private:
@@ -160,8 +112,30 @@ class Caps {
     VD slope, touch, tolerance;  // touch: depth
     MD exists;
   };
+  // What planes cut out of the caps, as slopes x / depth.
+  struct RowCut {
+    VD slope;
+    Hull cut;
+  };
 
-  static HWY_INLINE VD in_single(VD value) { return PromoteTo(DD(), DemoteTo(DF(), value)); }
+  static HWY_INLINE Disks disks(VD depth, VD radius) {
+    return {depth, radius, 0.0, std::numeric_limits<double>::infinity()};
+  }
+
+  HWY_INLINE RowCut cut_at(VD slope) const {
+    const VD inf = infinite();
+    const VD stretch = Sqrt(all(1.0) + slope * slope);
+    const VD away = (y_ - slope * depth_) / stretch;
+    const VD along = (depth_ + slope * y_) / stretch;
+    const VD squared = (radius_ - away) * (radius_ + away);
+    const MD is_cut = Not(squared < Zero(DD()));
+    const VD chord = in_single(Sqrt(IfThenElseZero(is_cut, squared)));
+    const Hull cut = disks(in_single(along), chord).slope_range(x_);
+    const auto stretched = [&](VD value, VD if_endless, VD if_missed) {
+      return IfThenElse(is_endless_, if_endless, in_single(IfThenElse(is_cut, value * stretch, if_missed)));
+    };
+    return {slope, {stretched(cut.low, Neg(inf), inf), stretched(cut.high, inf, Neg(inf))}};
+  }
 
   static HWY_INLINE VD radius_in_shell(VD length, VD r, double distance0, double distance1) {
     const VD none = Zero(DD());
@@ -179,111 +153,42 @@ class Caps {
   }
 
   VD x_, y_, depth_, radius_;
-  MD is_endless_;
+  MD misses_, is_endless_;
   Tangent low_, high_;
-  Cut upright_;
-};
-
-// A batch in one shell.
-class Shell {
- public:
-  HWY_INLINE Shell(const ShellPlanes& planes, const BallBatch& batch, VI indices) : planes_(planes) {
-    const auto shell = static_cast<std::size_t>(batch.slice);
-    const double distance0 = planes.boundaries.depths[shell], distance1 = planes.boundaries.depths[shell + 1];
-    const Lanes x(gathered(batch.bounded.x, indices)), y(gathered(batch.bounded.y, indices));
-    const Lanes depth(gathered(batch.bounded.depth, indices)), radius(gathered(batch.bounded.radius, indices));
-    Lanes low, high;
-    for (std::size_t half = 0; half < k_halves; ++half) {
-      const VD wide_x = x.wide(half), wide_y = y.wide(half), wide_depth = depth.wide(half), r = radius.wide(half);
-      const VD squares = wide_x * wide_x + wide_y * wide_y + wide_depth * wide_depth;
-      const VD length = Sqrt(squares);
-      halves_[half] = Caps(wide_x, wide_y, wide_depth, length, r, distance0, distance1);
-      const MD misses = Or(length - r > all(distance1), length + r < all(distance0));
-      low.set(half, halves_[half].upright().low);
-      high.set(half, halves_[half].upright().high);
-      missed_.set(half, DemoteTo(DF(), IfThenElseZero(misses, all(1.0))));
-    }
-    low_ = low.whole();
-    high_ = high.whole();
-  }
-
-  // Of the balls that reach the shell, the rows that they may touch.
-  HWY_INLINE void find_rows(Boxes& boxes) const {
-    const Indices rows = touched(planes_.boundaries.rows, Neg(high_), Neg(low_));
-    const M reaches = And(missed_.whole() == Zero(D()), low_ <= high_);
-    const MI wanted = And(RebindMask(DI(), reaches), boxes.rows > Zero(DI()));
-    boxes.first_row = rows.first;
-    const VI count = rows.last - (rows.first - all_int(1));
-    boxes.rows = IfThenElseZero(wanted, Max(count, Zero(DI())));
-  }
-
-  // The cuts by the planes above rows are kept for the call with the rows below them.
-  HWY_INLINE void start_rows(VI row) { cut(row, above_); }
-  // The columns of the rows above these planes.
-  HWY_INLINE VU columns_above(VI plane, const Boxes& boxes) {
-    Plane below[k_halves];
-    cut(plane, below);
-    Lanes low, high;
-    for (std::size_t half = 0; half < k_halves; ++half) {
-      const Cut slopes =
-          halves_[half].slopes_in_rows(above_[half].cut, below[half].cut, above_[half].slope, below[half].slope);
-      low.set(half, slopes.low);
-      high.set(half, slopes.high);
-      above_[half] = below[half];
-    }
-    const Indices columns = touched(planes_.boundaries.columns, low.whole(), high.whole());
-    const M has_slopes = low.whole() <= high.whole();
-    const MI has_columns = AndNot(columns.last < columns.first, RebindMask(DI(), has_slopes));
-    return IfThenElse(RebindMask(DU(), has_columns), boxes.entry(columns.first, columns.last),
-                      Set(DU(), BatchRows::k_none));
-  }
-
- private:
-  // Single precision in halves that are as wide as doubles.
-  class Lanes {
-   public:
-    Lanes() = default;
-    HWY_INLINE explicit Lanes(V value) { Store(value, D(), lanes_); }
-    HWY_INLINE VD wide(std::size_t half) const { return PromoteTo(DD(), LoadU(DF(), lanes_ + half * k_half)); }
-    HWY_INLINE void set(std::size_t half, VF value) { StoreU(value, DF(), lanes_ + half * k_half); }
-    HWY_INLINE V whole() const { return Load(D(), lanes_); }
-
-   private:
-    HWY_ALIGN float lanes_[MaxLanes(D())];
-  };
-
-  struct Plane {
-    VD slope;
-    Cut cut;
-  };
-
-  HWY_INLINE void cut(VI plane, Plane (&planes)[k_halves]) const {
-    const hn::RebindToSigned<DF> dh;
-    const hn::RebindToSigned<DD> dl;
-    HWY_ALIGN std::int32_t indices[MaxLanes(D())];
-    Store(Min(plane, all_int(planes_.rows())), DI(), indices);
-    for (std::size_t half = 0; half < k_halves; ++half) {
-      const auto index = LoadU(dh, indices + half * k_half);
-      planes[half].slope = PromoteTo(DD(), GatherIndex(DF(), planes_.slope.data(), index));
-      const VD stretch = GatherIndex(DD(), planes_.stretch.data(), PromoteTo(dl, index));
-      planes[half].cut = halves_[half].cut_by_planes(planes[half].slope, stretch);
-    }
-  }
-
-  const ShellPlanes& planes_;
-  Caps halves_[k_halves];
-  Plane above_[k_halves];
-  Lanes missed_;
-  V low_, high_;  // slopes y / depth
+  RowCut top_;
 };
 
 void shell_rows(const ShellPlanes& planes, const BallBatch& batch, BatchRows& out) {
+  const auto shell = static_cast<std::size_t>(batch.slice);
+  const double distance0 = planes.boundaries.depths[shell], distance1 = planes.boundaries.depths[shell + 1];
   Boxes boxes(batch);
-  Shell shell(planes, batch, boxes.indices);
-  shell.find_rows(boxes);
+  const auto of_balls = [&](const AlignedVector<float>& list) { return Parts(gathered(list, boxes.indices)); };
+  const BoundedBalls& balls = batch.bounded;
+  const Parts x = of_balls(balls.x), y = of_balls(balls.y), depth = of_balls(balls.depth), r = of_balls(balls.radius);
+  Caps caps[Parts::k_count];
+  Parts low, high;
+  for (std::size_t part = 0; part < Parts::k_count; ++part) {
+    caps[part] = Caps(x.wide(part), y.wide(part), depth.wide(part), r.wide(part), distance0, distance1);
+    const Hull upright = caps[part].upright();
+    low.set(part, upright.low);
+    high.set(part, upright.high);
+  }
+  boxes.take_rows(low.whole() <= high.whole(), touched(planes.boundaries.rows, Neg(high.whole()), Neg(low.whole())));
   if (!boxes.start(planes.rows(), batch.count, out)) return;
-  shell.start_rows(boxes.first_row);
-  walk_rows(boxes, planes.rows(), out, [&](VI row, MI) { return shell.columns_above(row + all_int(1), boxes); });
+  const auto slopes_at = [&](VI row) { return Parts(gathered(planes.slope, Min(row, all_int(planes.rows())))); };
+  const Parts top = slopes_at(boxes.first_row);
+  for (std::size_t part = 0; part < Parts::k_count; ++part) caps[part].start_rows(top.wide(part));
+  walk_rows(boxes, planes.rows(), out, [&](VI row, MI) {
+    const Parts bottom = slopes_at(row + all_int(1));
+    for (std::size_t part = 0; part < Parts::k_count; ++part) {
+      const Hull slopes = caps[part].slopes_above(bottom.wide(part));
+      low.set(part, slopes.low);
+      high.set(part, slopes.high);
+    }
+    const Indices columns = touched(planes.boundaries.columns, low.whole(), high.whole());
+    const MI has_slopes = RebindMask(DI(), low.whole() <= high.whole());
+    return boxes.entry(AndNot(columns.last < columns.first, has_slopes), columns.first, columns.last);
+  });
 }
 
 }  // namespace
@@ -298,8 +203,6 @@ HWY_EXPORT(shells);
 HWY_EXPORT(shell_rows);
 
 ShellPlanes::ShellPlanes(const grid::ScreenGrid& grid) : boundaries(grid), slope(grid.tiles.y) {
-  for (const float each : slope)
-    stretch.push_back(std::sqrt(1.0 + static_cast<double>(each) * static_cast<double>(each)));
   left = tile_plane(grid.tiles.x.front(), false);
   right = tile_plane(grid.tiles.x.back(), false);
   top = tile_plane(slope.front(), false);
@@ -307,7 +210,7 @@ ShellPlanes::ShellPlanes(const grid::ScreenGrid& grid) : boundaries(grid), slope
 }
 
 std::size_t ShellPlanes::capacity_bytes() const {
-  return bytes_of(boundaries.columns.boundaries, boundaries.rows.boundaries, boundaries.depths, slope, stretch);
+  return bytes_of(boundaries.columns.boundaries, boundaries.rows.boundaries, boundaries.depths, slope);
 }
 
 void find_shells(const ShellPlanes& planes, const GivenBalls& balls, float roundoffs, BoundedBalls& bounded) {

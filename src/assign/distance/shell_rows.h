@@ -15,7 +15,6 @@ namespace clusterbench::assign {
 struct ShellPlanes {
   BoxPlanes boundaries;                // `depths` are the shells' distances
   std::vector<float> slope;            // y / depth of the tile planes from the top
-  std::vector<double> stretch;         // sqrt(1 + slope²)
   TilePlane left, right, top, bottom;  // of the view
 
   explicit ShellPlanes(const grid::ScreenGrid& grid);

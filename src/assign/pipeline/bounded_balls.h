@@ -23,7 +23,6 @@ struct BoundedBalls {
   AlignedVector<float> x, y, depth, radius;
   AlignedVector<std::uint32_t> light;
   AlignedVector<std::int32_t> first_column, last_column, first_row, last_row, first_slice, last_slice;
-  AlignedVector<float> low_x, high_x, low_y, high_y, box_radius, ball_radius;  // of the visible balls, on the way
 
   CellBox box(std::uint32_t ball) const {
     return {{first_column[ball], first_row[ball], first_slice[ball]},
@@ -40,11 +39,11 @@ struct BoundedBalls {
   }
   void reserve(std::uint32_t most) {
     grow_to(most + k_most_lanes, x, y, depth, radius, light, first_column, last_column, first_row, last_row,
-            first_slice, last_slice, low_x, high_x, low_y, high_y, box_radius, ball_radius);
+            first_slice, last_slice);
   }
   std::size_t capacity_bytes() const {
-    return bytes_of(x, y, depth, radius, light, first_column, last_column, first_row, last_row, first_slice, last_slice,
-                    low_x, high_x, low_y, high_y, box_radius, ball_radius);
+    return bytes_of(x, y, depth, radius, light, first_column, last_column, first_row, last_row, first_slice,
+                    last_slice);
   }
 };
 

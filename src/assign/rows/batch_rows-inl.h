@@ -67,11 +67,6 @@ HWY_INLINE M is_certain_by_chord(V half_square, V inwards, V radius, V slack, V 
              inwards * inwards * half_square >= way * way * steepness);
 }
 
-// How far a coordinate is outside an interval.
-HWY_INLINE V gap(V low, V coordinate, V high) {
-  return Max(Zero(D()), Max(low - coordinate, coordinate - high));
-}
-
 // How far a coordinate is from the farther end of an interval.
 HWY_INLINE V farther_end(V coordinate, float low, float high) {
   return Max(Abs(coordinate - all(low)), Abs(coordinate - all(high)));

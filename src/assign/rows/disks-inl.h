@@ -31,8 +31,40 @@ HWY_INLINE VD infinite() {
   return all(std::numeric_limits<double>::infinity());
 }
 
+HWY_INLINE VD in_single(VD value) {
+  return PromoteTo(DD(), DemoteTo(DF(), value));
+}
+
+// A vector of floats by parts that have as many lanes as a vector of doubles.
+class Parts {
+ public:
+#if HWY_TARGET == HWY_SCALAR
+  static constexpr std::size_t k_count = 1;
+  explicit Parts(V value) : parts_{value} {}
+  V whole() const {
+    return parts_[0];
+  }
+#else
+  static constexpr std::size_t k_count = 2;
+  HWY_INLINE explicit Parts(V value) : parts_{LowerHalf(DF(), value), UpperHalf(DF(), value)} {}
+  HWY_INLINE V whole() const {
+    return Combine(D(), parts_[1], parts_[0]);
+  }
+#endif
+  Parts() = default;
+  HWY_INLINE VD wide(std::size_t part) const {
+    return PromoteTo(DD(), parts_[part]);
+  }
+  HWY_INLINE void set(std::size_t part, VD value) {
+    parts_[part] = DemoteTo(DF(), value);
+  }
+
+ private:
+  VF parts_[k_count];
+};
+
 // The float below or at a value that is nearest to it.
-HWY_INLINE VF rounded_down(VD value) {
+HWY_INLINE VD rounded_down(VD value) {
   const DF df;
   const hn::RebindToUnsigned<DF> du;
   const VF nearest = DemoteTo(df, value);
@@ -40,12 +72,11 @@ HWY_INLINE VF rounded_down(VD value) {
   const auto is_negative = TestBit(bits, Set(du, 0x80000000));
   const auto ulp = Set(du, 1);
   const VF below = BitCast(df, IfThenElse(is_negative, bits + ulp, bits - ulp));
-  // Where the double is smaller, brought to the float's lanes as a number.
-  const VF is_above = DemoteTo(df, IfThenElseZero(PromoteTo(DD(), nearest) > value, all(1.0)));
-  return IfThenElse(is_above > Zero(df), below, nearest);
+  const VD wide = PromoteTo(DD(), nearest);
+  return IfThenElse(wide > value, PromoteTo(DD(), below), wide);
 }
 
-HWY_INLINE VF rounded_up(VD value) {
+HWY_INLINE VD rounded_up(VD value) {
   return Neg(rounded_down(Neg(value)));
 }
 
@@ -97,7 +128,7 @@ class Disks {
   }
 
   // geom::slope_range
-  HWY_INLINE void slope_range(VD u, VF& low, VF& high) const {
+  HWY_INLINE Hull slope_range(VD u) const {
     Hull hull = empty_hull();
     hull.add_slope(is_between_, u, depth_, Zero(DD()));
     add_tangents(u, hull);
@@ -105,25 +136,27 @@ class Disks {
       add_chord(near_, near_past_, u, hull);
       add_chord(far_, far_past_, u, hull);
     }
-    round(hull.low, hull.high, low, high);
+    return rounded(hull);
   }
 
   // geom::offset_range
-  HWY_INLINE void offset_range(VD u, VF& low, VF& high) const {
+  HWY_INLINE Hull offset_range(VD u) const {
     const VD line = Min(Max(depth_, near_), far_);
     const VD past = IfThenElse(depth_ < near_, near_past_, far_past_);
-    const VD chord = Sqrt(past * (r_ + Abs(line - depth_)));
-    const VD half = IfThenElse(is_between_, r_, chord);
-    const VD error = all(4.0 * k_epsilon) * (Abs(u) + half);
-    round(u - half - error, u + half + error, low, high);
+    const VD half = IfThenElse(is_between_, r_, half_chord(line, past)), error = chord_error(u, half);
+    return rounded({u - half - error, u + half + error});
   }
 
  private:
-  HWY_INLINE void round(VD from, VD to, VF& low, VF& high) const {
+  HWY_INLINE Hull rounded(const Hull& hull) const {
     const VD inf = infinite();
-    low = rounded_down(IfThenElse(misses_, inf, IfThenElse(is_endless_, Neg(inf), from)));
-    high = rounded_up(IfThenElse(misses_, Neg(inf), IfThenElse(is_endless_, inf, to)));
+    return {rounded_down(IfThenElse(misses_, inf, IfThenElse(is_endless_, Neg(inf), hull.low))),
+            rounded_up(IfThenElse(misses_, Neg(inf), IfThenElse(is_endless_, inf, hull.high)))};
   }
+
+  // What is not a number where the disk does not reach past the line.
+  HWY_INLINE VD half_chord(VD line, VD past) const { return Sqrt(past * (r_ + Abs(line - depth_))); }
+  HWY_INLINE VD chord_error(VD u, VD half) const { return all(4.0 * k_epsilon) * (Abs(u) + half); }
 
   HWY_INLINE VD squared_tangent(VD u) const {
     const VD u_square = u * u, depth_square = depth_ * depth_;
@@ -159,8 +192,7 @@ class Disks {
 
   HWY_INLINE void add_chord(VD line, VD past, VD u, Hull& hull) const {
     const MD exists = past >= Zero(DD());
-    const VD half = Sqrt(past * (r_ + Abs(line - depth_)));
-    const VD error = all(4.0 * k_epsilon) * (Abs(u) + half);
+    const VD half = half_chord(line, past), error = chord_error(u, half);
     hull.add_slope(exists, u - half, line, error);
     hull.add_slope(exists, u + half, line, error);
   }
