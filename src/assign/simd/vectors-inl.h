@@ -42,6 +42,10 @@ HWY_INLINE V infinity() {
 HWY_INLINE M is_between(V low, V value, V high) {
   return And(low <= value, value <= high);
 }
+// How far a coordinate is outside an interval.
+HWY_INLINE V gap(V low, V coordinate, V high) {
+  return Max(Zero(D()), Max(low - coordinate, coordinate - high));
+}
 HWY_INLINE VI all_int(std::int32_t value) {
   return Set(DI(), value);
 }
