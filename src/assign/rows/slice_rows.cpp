@@ -223,8 +223,11 @@ class Batch {
     return IfThenZeroElse(And(is_sure, farthest_square() < surely * surely), area);
   }
 
-  // At least the squared distance to the farthest point of the slice's part of the view.
+  // At least the squared distance to the farthest point of the slice's part of the view. Balls smaller than half its
+  // width do not hold it anyway.
   HWY_INLINE V farthest_square() const {
+    const float width = planes_->right - planes_->left;
+    if (AllTrue(D(), balls_.radius < all(0.49f * width) * metres_per_slope(all(far_.depth)))) return infinity();
     const V near = all(near_.depth), far = all(far_.depth);
     const V of_near = metres_per_slope(near), of_far = metres_per_slope(far);
     const auto farthest = [&](float low, V coordinate, float high) {
@@ -351,8 +354,9 @@ HWY_INLINE void list_places(const BallRows& rows, BatchSpans& out) {
 template <class Batch>
 HWY_INLINE void find_hulls(const PlaneTable& slopes, const Batch& batch, BatchSpans& out) {
   const D d;
-  for (std::uint32_t begin = 0; begin < out.count; begin += static_cast<std::uint32_t>(Lanes(d))) {
-    const Place place(LoadU(DU(), out.places.data() + begin));
+  const std::uint32_t *places = out.places.data(), count = out.count;
+  for (std::uint32_t begin = 0; begin < count; begin += static_cast<std::uint32_t>(Lanes(d))) {
+    const Place place(LoadU(DU(), places + begin));
     const Hull hull = batch.hull_of(place.ball, slopes.at(place.row), slopes.at(place.row + all_int(1)));
     StoreU(hull.low, d, out.low.data() + begin);
     StoreU(hull.high, d, out.high.data() + begin);
@@ -376,13 +380,14 @@ template <class Batch>
 HWY_INLINE void find_columns(const PlaneTable& slopes, const Batch& batch, BatchSpans& out) {
   const D d;
   const DU du;
-  for (std::uint32_t begin = 0; begin < out.count; begin += static_cast<std::uint32_t>(Lanes(d))) {
-    const Place place(LoadU(DU(), out.places.data() + begin));
+  const std::uint32_t *places = out.places.data(), count = out.count;
+  for (std::uint32_t begin = 0; begin < count; begin += static_cast<std::uint32_t>(Lanes(d))) {
+    const Place place(LoadU(DU(), places + begin));
     const Hull hull = {LoadU(d, out.low.data() + begin), LoadU(d, out.high.data() + begin)};
-    const VU columns = batch.columns_of(place, slopes, hull, FirstN(d, out.count - begin));
+    const VU columns = batch.columns_of(place, slopes, hull, FirstN(d, count - begin));
     StoreU(columns, du, out.columns.data() + begin);
     StoreU(BitCast(du, taken(BitCast(DI(), batch.lights()), place.ball)), du, out.lights.data() + begin);
-    list_uncertain(columns, out.count - begin, begin, out);
+    list_uncertain(columns, count - begin, begin, out);
   }
 }
 
