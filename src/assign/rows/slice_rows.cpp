@@ -1,14 +1,13 @@
 #include "assign/rows/slice_rows.h"
 
 #include <algorithm>
-#include <cmath>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/rows/slice_rows.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
 #include <hwy/highway.h>
 
-#include "assign/rows/plane_tables-inl.h"
+#include "assign/simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign {
@@ -47,12 +46,6 @@ HWY_INLINE V farther_end(V low, V coordinate, V high) {
 struct BallRows {
   VI first, count;
   MI full;  // those that hold all of the slice's part of the view: all columns of all rows are theirs
-
-  // Those of the others that may touch a row.
-  HWY_INLINE MI others_in(int row) const {
-    const MI has_begun = first < all_int(row + 1);
-    return And(has_begun, IfThenZeroElse(full, first + count) > all_int(row));
-  }
 };
 
 // Which row and ball a span is of, in one number.
@@ -77,8 +70,10 @@ class Batch {
   HWY_INLINE void start(const RowPlanes& planes, const SphereSetup& shapes, const BallsOfSlice& balls) {
     planes_ = &planes;
     const auto slice = static_cast<std::size_t>(balls.slice);
-    near_ = {planes, slice};
-    far_ = {planes, slice + 1};
+    near_ = planes.depth[slice];
+    far_ = planes.depth[slice + 1];
+    nearest_inverse_ = inverse_depth(planes, slice);
+    farthest_inverse_ = inverse_depth(planes, slice + 1);
     const Quads sphere = gathered_quads(shapes.sphere.data(), balls.indices);
     const Quads touch = gathered_quads(shapes.touch.data(), balls.indices);
     balls_ = {sphere.first, sphere.second, sphere.third, sphere.fourth, touch.first, touch.third, touch.fourth};
@@ -88,7 +83,7 @@ class Batch {
       find_extremes_of_disks();
     else
       find_extremes(gathered_quads(shapes.extremes.data(), balls.indices));
-    const V nearest = Max(all(near_.depth), balls_.depth - (balls_.radius + balls_.slack));
+    const V nearest = Max(all(near_), balls_.depth - (balls_.radius + balls_.slack));
     rate_ = all(planes.columns_per_slope) / metres_per_slope(nearest);
     least_area_ = least_area();
   }
@@ -151,7 +146,7 @@ class Batch {
   // picture, and h says little of w. For them any point in the row does instead of m: it is no nearer, so its w is no
   // larger. The columns are certain if the way inwards is at least 2 D R q / w, and the ball reaches the row if w² >= 2
   // D R.
-  HWY_INLINE VU columns_of(const Place& place, const PlaneTable& slopes, const Hull& hull, M wanted) const {
+  HWY_INLINE VU columns_of(const Place& place, const Table& slopes, const Hull& hull, M wanted) const {
     const V left = all(planes_->left), right = all(planes_->right), scale = all(planes_->columns_per_slope);
     const V tolerance = all(planes_->column_tolerance), zero = Zero(D());
     const M touches = And(wanted, And(hull.low <= Min(hull.high, right), hull.high >= left));
@@ -179,23 +174,19 @@ class Batch {
   }
 
  private:
-  // One of the slice's two planes. The inverse depth of a plane at the eye ends where its products with reaches would
-  // not be finite; for what that changes see RowPlanes::least_reach.
-  struct SlicePlane {
-    float depth, inverse;
-
-    SlicePlane() = default;
-    SlicePlane(const RowPlanes& planes, std::size_t k)
-        : depth(planes.depth[k]), inverse(std::min(planes.inverse_depth[k], RowPlanes::k_most_inverse_depth)) {}
-  };
+  // Of one of the slice's two planes. At the eye it ends where its products with reaches would not be finite; for what
+  // that changes see RowPlanes::least_reach.
+  static float inverse_depth(const RowPlanes& planes, std::size_t plane) {
+    return std::min(planes.inverse_depth[plane], RowPlanes::k_most_inverse_depth);
+  }
 
   static HWY_INLINE V metres_per_slope(V depth) { return orthographic ? all(1.0f) : depth; }
 
   // The nearest inverse depth in the slice.
-  HWY_INLINE V within(V inverse) const { return Min(Max(inverse, all(far_.inverse)), all(near_.inverse)); }
+  HWY_INLINE V within(V inverse) const { return Min(Max(inverse, all(farthest_inverse_)), all(nearest_inverse_)); }
 
   HWY_INLINE void find_extremes_of_disks() {
-    const V away = gap(all(near_.depth), balls_.depth, all(far_.depth));
+    const V away = gap(all(near_), balls_.depth, all(far_));
     disk_square_ = (balls_.radius - away) * (balls_.radius + away);
     const V half = root(disk_square_);
     upwards_ = {balls_.y - half, balls_.y + half};
@@ -227,8 +218,8 @@ class Batch {
   // width do not hold it anyway.
   HWY_INLINE V farthest_square() const {
     const float width = planes_->right - planes_->left;
-    if (AllTrue(D(), balls_.radius < all(0.49f * width) * metres_per_slope(all(far_.depth)))) return infinity();
-    const V near = all(near_.depth), far = all(far_.depth);
+    if (AllTrue(D(), balls_.radius < all(0.49f * width) * metres_per_slope(all(far_)))) return infinity();
+    const V near = all(near_), far = all(far_);
     const V of_near = metres_per_slope(near), of_far = metres_per_slope(far);
     const auto farthest = [&](float low, V coordinate, float high) {
       return farther_end(Min(all(low) * of_near, all(low) * of_far), coordinate,
@@ -252,7 +243,7 @@ class Batch {
     if (!is_precise_) touch = precise_touch<side>(ball, chord, ahead, tilt_square, touch);
     // Where none touches ahead of the eye the ball grows towards it.
     const M is_ahead = touch > Zero(D());
-    const V inverse = IfThenElse(is_ahead, within(touch), all(near_.inverse));
+    const V inverse = IfThenElse(is_ahead, within(touch), all(nearest_inverse_));
     const V offset = slope - ball.y * inverse;
     return go(ball.x * inverse, ball.half_chord(inverse, offset));
   }
@@ -276,10 +267,10 @@ class Batch {
   // With a point in the row's part of the picture from which the ball's surface is at least half a chord away, also
   // rows are certain where the way from an end to the next boundary inwards, in columns, times that is at least 4 slack
   // R rate (and some for rounding), and half the chord squared at least 4 slack R. `steepness` is least_area's.
-  HWY_INLINE M is_certain_by_chord(const Place& place, const PlaneTable& slopes, V inwards, V steepness) const {
+  HWY_INLINE M is_certain_by_chord(const Place& place, const Table& slopes, V inwards, V steepness) const {
     const Balls ball = balls_.of(place.ball);
     // A point that is about as near to the centre as any.
-    const V depth = Min(Max(ball.depth, all(near_.depth)), all(far_.depth)), along = ball.depth - depth;
+    const V depth = Min(Max(ball.depth, all(near_)), all(far_)), along = ball.depth - depth;
     const V metres = metres_per_slope(depth);
     const V across = gap(all(planes_->left) * metres, ball.x, all(planes_->right) * metres);
     const V up = gap(slopes.at(place.row + all_int(1)) * metres, ball.y, slopes.at(place.row) * metres);
@@ -291,7 +282,7 @@ class Batch {
   }
 
   const RowPlanes* planes_;
-  SlicePlane near_, far_;
+  float near_, far_, nearest_inverse_, farthest_inverse_;  // depths of the slice's planes
   Balls balls_;
   VU lights_;
   M are_balls_;
@@ -352,7 +343,7 @@ HWY_INLINE void list_places(const BallRows& rows, BatchSpans& out) {
 
 // What the balls have in all rows.
 template <class Batch>
-HWY_INLINE void find_hulls(const PlaneTable& slopes, const Batch& batch, BatchSpans& out) {
+HWY_INLINE void find_hulls(const Table& slopes, const Batch& batch, BatchSpans& out) {
   const D d;
   const std::uint32_t *places = out.places.data(), count = out.count;
   for (std::uint32_t begin = 0; begin < count; begin += static_cast<std::uint32_t>(Lanes(d))) {
@@ -377,7 +368,7 @@ HWY_INLINE void list_uncertain(VU columns, std::uint32_t count, std::uint32_t fi
 
 // The columns of all rows.
 template <class Batch>
-HWY_INLINE void find_columns(const PlaneTable& slopes, const Batch& batch, BatchSpans& out) {
+HWY_INLINE void find_columns(const Table& slopes, const Batch& batch, BatchSpans& out) {
   const D d;
   const DU du;
   const std::uint32_t *places = out.places.data(), count = out.count;
@@ -395,12 +386,13 @@ HWY_INLINE void find_columns(const PlaneTable& slopes, const Batch& batch, Batch
 template <class Batch>
 HWY_INLINE void add_full(const Batch& batch, const BallRows& rows, BatchSpans& out) {
   const DU du;
+  const VI end_of_others = IfThenZeroElse(rows.full, rows.first + rows.count);
   std::swap(out.places, out.columns);
   const std::uint32_t* others = out.places.data();  // their columns
   out.count = out.uncertain_count = 0;
   for (int row = out.first_row; row <= out.last_row; ++row) {
     std::uint32_t& size = out.sizes[static_cast<std::size_t>(row)];
-    const MI found = rows.others_in(row);
+    const MI found = And(rows.first<all_int(row + 1), end_of_others> all_int(row));
     const auto wanted = RebindMask(du, Or(found, rows.full));
     const VU columns = IfThenElse(RebindMask(du, rows.full), batch.all_columns(),
                                   expanded(du, LoadU(du, others), RebindMask(du, found)));
@@ -419,7 +411,7 @@ template <bool orthographic>
 HWY_INLINE void rows_of_batches(const RowPlanes& planes, const SphereSetup& shapes, std::span<const BallsOfSlice> balls,
                                 RowBatches& out) {
   const std::size_t count = balls.size();
-  const PlaneTable slopes(planes.slope, planes.rows + 1);
+  const Table slopes(planes.slope, planes.rows + 1);
   Batch<orthographic> batches[k_batches_at_once];
   BallRows rows[k_batches_at_once];
   for (std::size_t i = 0; i < count; ++i) {

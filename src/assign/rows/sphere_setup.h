@@ -1,5 +1,5 @@
 #pragma once
-// What all slices and rows of a ball share in a perspective grid.
+// What all slices and rows of a ball share. Of orthographic grids only the ball itself counts.
 //
 // In the coordinates x / depth, y / depth and 1 / depth, columns, rows and slices are slabs between parallel planes,
 // and a ball that is before the eye is an ellipsoid. Where the eye's tangents touch it follows from a few numbers of
