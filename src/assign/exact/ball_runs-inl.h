@@ -95,6 +95,14 @@ HWY_INLINE Bound half_slope(const Gap& gap, VD slope_low, VD slope_high) {
   return {product.value, enlarged(product.error + unsure)};
 }
 
+// Bit i is lane i's.
+HWY_INLINE unsigned bits_of(MD mask) {
+  static_assert(MaxLanes(DD()) <= 8);
+  std::uint8_t bits[8] = {};
+  StoreMaskBits(DD(), mask, bits);
+  return bits[0];
+}
+
 // Neighbouring cells of a row as one: those between two planes of columns.
 struct RowRuns {
   VH light, slice, row, column, end_column;
@@ -138,15 +146,13 @@ class BallRuns {
   struct Nearest {
     Gap x, y;
     Bound depth, along;  // along: from the centre's depth
-    VD at;
-    Bound excess;  // of the squared distance over that of the surface
+    Bound excess;        // of the squared distance over that of the surface
   };
   HWY_INLINE Nearest nearest() const {
     const VD at = nearest_depth();
     const MD is_level = is_level_at(at);
     const Bound along_at = exactly(at) - depth_;
     Nearest found;
-    found.at = at;
     found.depth = {at, IfThenElseZero(is_level, depth_.error)};
     found.along = {IfThenZeroElse(is_level, along_at.value), IfThenZeroElse(is_level, along_at.error)};
     found.x = gap_between(plane(x0_, found.depth), x_, plane(x1_, found.depth), x0_, x1_);
@@ -162,8 +168,8 @@ class BallRuns {
     if (orthographic_) return zero;
     const Bound slope = half_slope(found.x, x0_, x1_) + half_slope(found.y, y0_, y1_) + found.along;
     const VD slope_error = enlarged(slope.error);
-    const VD falls = IfThenElseZero(found.at < depth1_, slope_error - slope.value);
-    const VD rises = IfThenElseZero(found.at > depth0_, slope_error + slope.value);
+    const VD falls = IfThenElseZero(found.depth.value < depth1_, slope_error - slope.value);
+    const VD rises = IfThenElseZero(found.depth.value > depth0_, slope_error + slope.value);
     return enlarged(Max(zero, Max(falls, rises)));
   }
   // A square too small for a double is not nothing.
@@ -173,9 +179,8 @@ class BallRuns {
   }
 
   const Bound& x() const { return x_; }
-  // The larger one of the slopes' sizes, across and up.
-  VD widest() const { return Max(Abs(x0_), Abs(x1_)); }
-  VD highest() const { return Max(Abs(y0_), Abs(y1_)); }
+  // Along planes of the runs, the longest way for a metre of depth is less.
+  VD longest_way() const { return all(1.0) + (Max(Abs(x0_), Abs(x1_)) + Max(Abs(y0_), Abs(y1_))); }
 
  private:
   // A coordinate of a vector in a space. Where cameras stand straight, only one of its terms is not 0.

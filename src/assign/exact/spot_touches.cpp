@@ -65,7 +65,7 @@ void look_at(const SpotsAndPlanes& from, const RowPlanes& planes, SpotTouches& o
     const VD steep = balls.steepness(nearest), undershoot = BallRuns::undershoot(steep);
     // The nearest point is no farther from the point that was looked at than `shift`; common points are no farther
     // from it than `play`.
-    const VD shift = enlarged(steep * (all(1.0) + (balls.widest() + balls.highest())));
+    const VD shift = enlarged(steep * balls.longest_way());
     const VD play_square = enlarged(Max(zero, Neg(excess)) + (error + undershoot));
     const VD play = enlarged(Sqrt(play_square));
     const MD is_exact = And(And(excess == zero, error == zero), steep == zero);
@@ -92,14 +92,10 @@ void look_at(const SpotsAndPlanes& from, const RowPlanes& planes, SpotTouches& o
     store(enlarged(balls.x().error), out.x_error);
     store(nearest.depth.value, out.depth);
     store(enlarged(nearest.depth.error), out.depth_error);
-    const auto bits = [&](MD mask) {
-      std::uint8_t byte[8] = {};
-      StoreMaskBits(DD(), mask, byte);
-      return static_cast<unsigned>(byte[0]);
-    };
-    const unsigned yes = bits(touches), no = bits(misses);
+    const unsigned yes = bits_of(touches), no = bits_of(misses);
     const MD is_alone = And(And(touches, is_exact), Or(is_x_sure, Not(nearest.x.is_outside)));
-    const unsigned alone = bits(is_alone), outside = bits(nearest.x.is_outside), below = bits(nearest.x.is_below);
+    const unsigned alone = bits_of(is_alone);
+    const unsigned outside = bits_of(nearest.x.is_outside), below = bits_of(nearest.x.is_below);
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       const auto is = [&](unsigned mask) { return (mask >> lane & 1) != 0; };
       out.runs_.touch[first + lane] = is(yes) ? Touch::yes : is(no) ? Touch::no : Touch::uncertain;
