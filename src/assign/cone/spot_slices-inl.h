@@ -11,11 +11,20 @@
 
 #include "assign/cone/spot_extremes-inl.h"
 #include "assign/cone/spot_rows.h"
-#include "assign/rows/plane_tables-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
+
+// The tile planes between rows, looked up.
+struct PlaneTables {
+  Table slope, tilt, inverse_tilt;
+
+  HWY_INLINE explicit PlaneTables(const RowPlanes& planes)
+      : slope(planes.slope, planes.rows + 1),
+        tilt(planes.tilt, planes.rows + 1),
+        inverse_tilt(planes.inverse_tilt, planes.rows + 1) {}
+};
 
 // Outwards, of a plane that touches spots in a point of their surface; any length. In points of the rim one that holds
 // the direction of an edge, between the sphere's tangent plane and that of the cone's side. At the apex, and where both

@@ -27,13 +27,11 @@ void look(const view::LightArrays& lights, const RowPlanes& planes, BallCells& c
     VD undershoot = Zero(DD());
     if (!AllTrue(DD(), touches)) undershoot = BallRuns::undershoot(balls.steepness(nearest));
     const MD misses = nearest.excess.value - undershoot > error;
-    std::uint8_t yes[8] = {}, no[8] = {};
-    StoreMaskBits(DD(), touches, yes);
-    StoreMaskBits(DD(), misses, no);
-    for (std::size_t lane = 0; lane < lanes; ++lane)
-      cells.touch[first + lane] = (yes[0] >> lane & 1) != 0  ? Touch::yes
-                                  : (no[0] >> lane & 1) != 0 ? Touch::no
-                                                             : Touch::uncertain;
+    const unsigned yes = bits_of(touches), no = bits_of(misses);
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const auto is = [&](unsigned mask) { return (mask >> lane & 1) != 0; };
+      cells.touch[first + lane] = is(yes) ? Touch::yes : is(no) ? Touch::no : Touch::uncertain;
+    }
   }
 }
 
@@ -46,10 +44,6 @@ HWY_AFTER_NAMESPACE();
 namespace clusterbench::assign {
 
 HWY_EXPORT(look);
-
-void BallCells::reserve(std::size_t most) {
-  grow_to(most + k_most_lanes, light, slice, row, column, touch);
-}
 
 void look_at_balls(const view::LightArrays& lights, const RowPlanes& planes, BallCells& cells) {
   if (cells.count == 0) return;

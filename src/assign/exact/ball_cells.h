@@ -20,7 +20,7 @@ struct BallCells {
   std::vector<Touch> touch;
 
   // Before the first add().
-  void reserve(std::size_t most);
+  void reserve(std::size_t most) { grow_to(most + k_most_lanes, light, slice, row, column, touch); }
   void add(std::uint32_t of_light, int in_slice, int in_row, int in_column) {
     light[count] = static_cast<std::int32_t>(of_light);
     slice[count] = in_slice;

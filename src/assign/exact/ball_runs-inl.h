@@ -11,26 +11,12 @@
 #include <vector>
 
 #include "assign/cull/row_planes.h"
+#include "assign/simd/vectors-inl.h"
 #include "view/frame.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
-
-namespace hn = hwy::HWY_NAMESPACE;
-
-// In doubles.
-using DD = hn::ScalableTag<double>;
-using VD = hn::Vec<DD>;
-using MD = hn::Mask<DD>;
-using DF = hn::Rebind<float, DD>;  // as many lanes
-using DH = hn::Rebind<std::int32_t, DD>;
-using VH = hn::Vec<DH>;
-static_assert(MaxLanes(DD()) <= 8);  // bits of a byte
-
-HWY_INLINE VD every(double value) {
-  return Set(DD(), value);
-}
 
 // geom::Bounded, one per lane; but what errors lose when they are added and multiplied, fewer than a hundred times, is
 // made up for where they are used, by enlarged().
@@ -42,7 +28,7 @@ HWY_INLINE Bound exactly(VD value) {
   return {value, Zero(DD())};
 }
 HWY_INLINE VD enlarged(VD error) {
-  const VD larger = error * every(1.0 + 0x1p-44) + every(0x1p-1000);
+  const VD larger = error * all(1.0 + 0x1p-44) + all(0x1p-1000);
   return IfThenZeroElse(error == Zero(DD()), larger);  // what is no number stays none
 }
 HWY_INLINE Bound operator+(const Bound& a, const Bound& b) {
@@ -60,7 +46,7 @@ HWY_INLINE VD lost_by_product(VD a, VD b, VD product) {
   return MulSub(a, b, product);
 #else
   const auto high = [](VD value) {
-    const VD big = every(0x1p27 + 1.0) * value;
+    const VD big = all(0x1p27 + 1.0) * value;
     return big - (big - value);
   };
   const VD a_high = high(a), b_high = high(b), a_low = a - a_high, b_low = b - b_high;
@@ -74,8 +60,8 @@ HWY_INLINE Bound operator*(const Bound& a, const Bound& b) {
   const VD product = a.value * b.value, lost = Abs(lost_by_product(a.value, b.value, product));
   const VD size_of_a = Abs(a.value) + a.error, size_of_b = Abs(b.value) + b.error;
   const MD is_something = And(size_of_a > zero, size_of_b > zero);
-  const MD is_rough = Or(Abs(product) < every(0x1p-900), a.error + b.error > zero);
-  const VD rounding = Max(lost, IfThenElseZero(And(is_something, is_rough), every(0x1p-1000)));
+  const MD is_rough = Or(Abs(product) < all(0x1p-900), a.error + b.error > zero);
+  const VD rounding = Max(lost, IfThenElseZero(And(is_something, is_rough), all(0x1p-1000)));
   const VD of_a = a.error * size_of_b, of_b = Abs(a.value) * b.error;
   return {product, of_a + of_b + rounding};
 }
@@ -109,6 +95,14 @@ HWY_INLINE Bound half_slope(const Gap& gap, VD slope_low, VD slope_high) {
   return {product.value, enlarged(product.error + unsure)};
 }
 
+// Bit i is lane i's.
+HWY_INLINE unsigned bits_of(MD mask) {
+  static_assert(MaxLanes(DD()) <= 8);
+  std::uint8_t bits[8] = {};
+  StoreMaskBits(DD(), mask, bits);
+  return bits[0];
+}
+
 // Neighbouring cells of a row as one: those between two planes of columns.
 struct RowRuns {
   VH light, slice, row, column, end_column;
@@ -139,9 +133,9 @@ class BallRuns {
     const Bound range = of_light(first.range_m);
     squared_range_ = range * range;
     const view::Space& space = lights.space;
-    const Bound from_origin[3] = {of_light(first.position.x) - exactly(every(space.origin.x)),
-                                  of_light(first.position.y) - exactly(every(space.origin.y)),
-                                  of_light(first.position.z) - exactly(every(space.origin.z))};
+    const Bound from_origin[3] = {of_light(first.position.x) - exactly(all(space.origin.x)),
+                                  of_light(first.position.y) - exactly(all(space.origin.y)),
+                                  of_light(first.position.z) - exactly(all(space.origin.z))};
     x_ = turned(space.rotation, 0, from_origin);
     y_ = turned(space.rotation, 1, from_origin);
     const Bound z = turned(space.rotation, 2, from_origin);
@@ -152,15 +146,13 @@ class BallRuns {
   struct Nearest {
     Gap x, y;
     Bound depth, along;  // along: from the centre's depth
-    VD at;
-    Bound excess;  // of the squared distance over that of the surface
+    Bound excess;        // of the squared distance over that of the surface
   };
   HWY_INLINE Nearest nearest() const {
     const VD at = nearest_depth();
     const MD is_level = is_level_at(at);
     const Bound along_at = exactly(at) - depth_;
     Nearest found;
-    found.at = at;
     found.depth = {at, IfThenElseZero(is_level, depth_.error)};
     found.along = {IfThenZeroElse(is_level, along_at.value), IfThenZeroElse(is_level, along_at.error)};
     found.x = gap_between(plane(x0_, found.depth), x_, plane(x1_, found.depth), x0_, x1_);
@@ -176,33 +168,26 @@ class BallRuns {
     if (orthographic_) return zero;
     const Bound slope = half_slope(found.x, x0_, x1_) + half_slope(found.y, y0_, y1_) + found.along;
     const VD slope_error = enlarged(slope.error);
-    const VD falls = IfThenElseZero(found.at < depth1_, slope_error - slope.value);
-    const VD rises = IfThenElseZero(found.at > depth0_, slope_error + slope.value);
+    const VD falls = IfThenElseZero(found.depth.value < depth1_, slope_error - slope.value);
+    const VD rises = IfThenElseZero(found.depth.value > depth0_, slope_error + slope.value);
     return enlarged(Max(zero, Max(falls, rises)));
   }
   // A square too small for a double is not nothing.
   static HWY_INLINE VD undershoot(VD steepness) {
-    const VD square = Max(enlarged(steepness * steepness), every(0x1p-1000));
+    const VD square = Max(enlarged(steepness * steepness), all(0x1p-1000));
     return IfThenElseZero(steepness > Zero(DD()), square);
   }
 
   const Bound& x() const { return x_; }
-  // The larger one of the slopes' sizes, across and up.
-  VD widest() const { return Max(Abs(x0_), Abs(x1_)); }
-  VD highest() const { return Max(Abs(y0_), Abs(y1_)); }
+  // Along planes of the runs, the longest way for a metre of depth is less.
+  VD longest_way() const { return all(1.0) + (Max(Abs(x0_), Abs(x1_)) + Max(Abs(y0_), Abs(y1_))); }
 
  private:
-  // A coordinate of a vector in a space. What is multiplied by 0 or 1, as where cameras stand straight, costs nothing.
+  // A coordinate of a vector in a space. Where cameras stand straight, only one of its terms is not 0.
   static HWY_INLINE Bound turned(const Mat3d& rotation, int row, const Bound (&vector)[3]) {
     Bound sum = exactly(Zero(DD()));
-    bool is_empty = true;
-    for (int column = 0; column < 3; ++column) {
-      const double factor = rotation[column][row];
-      if (factor == 0.0) continue;
-      const Bound part = factor == 1.0 ? vector[column] : exactly(every(factor)) * vector[column];
-      sum = is_empty ? part : sum + part;
-      is_empty = false;
-    }
+    for (int column = 0; column < 3; ++column)
+      if (const double factor = rotation[column][row]; factor != 0.0) sum = sum + exactly(all(factor)) * vector[column];
     return sum;
   }
 
@@ -230,7 +215,7 @@ class BallRuns {
     for (int i = 0; i < k_steps; ++i) {
       const VD slope_x = slope_at(at, x_.value, x0_, x1_), slope_y = slope_at(at, y_.value, y0_, y1_);
       const VD along = depth_.value + (slope_x * x_.value + slope_y * y_.value);
-      const VD square = every(1.0) + (slope_x * slope_x + slope_y * slope_y);
+      const VD square = all(1.0) + (slope_x * slope_x + slope_y * slope_y);
       const VD next = clamped(along / square);
       if (AllTrue(DD(), next == at)) break;
       at = next;

@@ -16,7 +16,7 @@ struct ExactFrame {
   const view::LightArrays& lights;
   const VisibleBalls& visible;  // first those of points; a spot's ball bounds it
   std::uint32_t first_spot;     // in `visible`
-  const SphereSetup& shapes;    // of the points
+  const SphereSetup& shapes;    // of the points; in orthographic grids of all
   const SliceBins& balls;
 
   // Places in `visible` of a slice's points and spots, ascending.
@@ -57,17 +57,21 @@ class BatchReader {
   const BatchSpans* next(int slice, Settle&& settle, Finish&& finish) {
     if (next_ == count_) {
       find_more();
-      for (std::size_t i = 0; i < count_; ++i) settle(balls_[i].slice, rows_.batches[i]);
+      for (std::size_t i = 0; i < count_; ++i) settle(balls_[i].slice, rows_[i]);
       finish();
     }
     if (next_ == count_ || balls_[next_].slice != slice) return nullptr;
-    return &rows_.batches[next_++];
+    return &rows_[next_++];
   }
   const BatchSpans* next(int slice) {
     return next(
         slice, [](int, BatchSpans&) {}, [] {});
   }
-  std::size_t capacity_bytes() const { return rows_.capacity_bytes(); }
+  std::size_t capacity_bytes() const {
+    std::size_t bytes = 0;
+    for (const BatchSpans& batch : rows_) bytes += batch.capacity_bytes();
+    return bytes;
+  }
 
  private:
   void find_more() {
@@ -84,7 +88,7 @@ class BatchReader {
         begin_ += most;
       }
     }
-    if (count_ != 0) find_rows(frame_->planes, frame_->visible, frame_->shapes, std::span(balls_).first(count_), rows_);
+    if (count_ != 0) find_rows(frame_->planes, frame_->shapes, std::span(balls_).first(count_), rows_);
   }
 
   const ExactFrame* frame_ = nullptr;

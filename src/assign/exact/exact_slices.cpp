@@ -60,8 +60,8 @@ void ExactSlices::ask_about_spans(int slice, BatchSpans& batch) {
                        slice,
                        row,
                        {BatchRows::first_of(entry), BatchRows::last_of(entry)},
-                       (entry & BatchRows::k_first_is_certain) == 0,
-                       (entry & BatchRows::k_last_is_certain) == 0,
+                       (entry & BatchSpans::k_first_is_uncertain) != 0,
+                       (entry & BatchSpans::k_last_is_uncertain) != 0,
                        0};
     if (std::isinf(frame_->lights.radius[light])) {
       entry = span_of(span.columns);

@@ -65,7 +65,7 @@ void look_at(const SpotsAndPlanes& from, const RowPlanes& planes, SpotTouches& o
     const VD steep = balls.steepness(nearest), undershoot = BallRuns::undershoot(steep);
     // The nearest point is no farther from the point that was looked at than `shift`; common points are no farther
     // from it than `play`.
-    const VD shift = enlarged(steep * (every(1.0) + (balls.widest() + balls.highest())));
+    const VD shift = enlarged(steep * balls.longest_way());
     const VD play_square = enlarged(Max(zero, Neg(excess)) + (error + undershoot));
     const VD play = enlarged(Sqrt(play_square));
     const MD is_exact = And(And(excess == zero, error == zero), steep == zero);
@@ -75,31 +75,27 @@ void look_at(const SpotsAndPlanes& from, const RowPlanes& planes, SpotTouches& o
     const VD length = Sqrt(x * x + y * y + depth * depth);
     const Cones cones(lights, spot);
     const VD margin = cones.margin(x, y, depth);
-    const VD tolerance = every(k_cone_error) * length + every(2.0) * off;
+    const VD tolerance = all(k_cone_error) * length + all(2.0) * off;
     const MD is_in_cone = margin > tolerance;
-    const MD is_beside = margin + every(2.0) * (shift + play) < Neg(tolerance);
+    const MD is_beside = margin + all(2.0) * (shift + play) < Neg(tolerance);
 
     const auto value_of = [&](const std::vector<float>& list) {
       return PromoteTo(DD(), GatherIndex(DF(), list.data(), light));
     };
     const VD reach = value_of(lights.reach);
-    const MD is_plain = And(every(from.least_reach) <= reach, reach <= every(k_most_row_reach));
+    const MD is_plain = And(all(double{from.least_reach}) <= reach, reach <= all(double{k_most_row_reach}));
     const MD touches = And(is_plain, And(excess <= Neg(error), is_in_cone));
     const MD misses = And(is_plain, Or(excess - undershoot > error, is_beside));
     const auto store = [&](VD value, std::vector<double>& list) { StoreU(value, DD(), list.data() + first); };
-    const MD is_x_sure = And(nearest.x.is_outside, nearest.x.size.value > every(2.0) * nearest.x.size.error);
+    const MD is_x_sure = And(nearest.x.is_outside, nearest.x.size.value > all(2.0) * nearest.x.size.error);
     store(balls.x().value, out.x);
     store(enlarged(balls.x().error), out.x_error);
     store(nearest.depth.value, out.depth);
     store(enlarged(nearest.depth.error), out.depth_error);
-    const auto bits = [&](MD mask) {
-      std::uint8_t byte[8] = {};
-      StoreMaskBits(DD(), mask, byte);
-      return static_cast<unsigned>(byte[0]);
-    };
-    const unsigned yes = bits(touches), no = bits(misses);
+    const unsigned yes = bits_of(touches), no = bits_of(misses);
     const MD is_alone = And(And(touches, is_exact), Or(is_x_sure, Not(nearest.x.is_outside)));
-    const unsigned alone = bits(is_alone), outside = bits(nearest.x.is_outside), below = bits(nearest.x.is_below);
+    const unsigned alone = bits_of(is_alone);
+    const unsigned outside = bits_of(nearest.x.is_outside), below = bits_of(nearest.x.is_below);
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       const auto is = [&](unsigned mask) { return (mask >> lane & 1) != 0; };
       out.runs_.touch[first + lane] = is(yes) ? Touch::yes : is(no) ? Touch::no : Touch::uncertain;

@@ -16,17 +16,8 @@ HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
 
-using DD = hn::ScalableTag<double>;
-using DF = hn::Rebind<float, DD>;  // as many lanes
-using VD = hn::Vec<DD>;
-using VF = hn::Vec<DF>;
-using MD = hn::Mask<DD>;
-
 constexpr double k_epsilon = std::numeric_limits<double>::epsilon();
 
-HWY_INLINE VD all(double value) {
-  return Set(DD(), value);
-}
 HWY_INLINE VD infinite() {
   return all(std::numeric_limits<double>::infinity());
 }

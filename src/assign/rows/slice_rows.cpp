@@ -1,44 +1,32 @@
 #include "assign/rows/slice_rows.h"
 
 #include <algorithm>
-#include <cmath>
-
-#include "assign/rows/orthographic_rows.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/rows/slice_rows.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
 #include <hwy/highway.h>
 
-#include "assign/rows/batch_rows-inl.h"
-#include "assign/rows/plane_tables-inl.h"
+#include "assign/simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
 namespace {
 
-// Slopes x / depth from low to high.
+// From low to high: slopes x / depth or y / depth, in orthographic grids x or y.
 struct Hull {
   V low, high;
 };
 
-// One of the slice's two planes. The inverse depth of a plane at the eye ends where its products with reaches would not
-// be finite; for what that changes see RowPlanes::least_reach.
-struct SlicePlane {
-  float depth, inverse;
+// Balls, one per lane.
+struct Balls {
+  V x, y, depth, radius, slack;
+  V lean, inverse_upright;  // see set_up_spheres()
 
-  SlicePlane() = default;
-  SlicePlane(const RowPlanes& planes, std::size_t k)
-      : depth(planes.depth[k]), inverse(std::min(planes.inverse_depth[k], RowPlanes::k_most_inverse_depth)) {}
-};
-
-// Balls of a slice, one per lane.
-struct Spheres {
-  V x, y, depth, radius;
-
-  HWY_INLINE Spheres of(Which which) const {
-    return {taken(x, which), taken(y, which), taken(depth, which), taken(radius, which)};
+  HWY_INLINE Balls of(Which which) const {
+    return {taken(x, which),     taken(y, which),    taken(depth, which),          taken(radius, which),
+            taken(slack, which), taken(lean, which), taken(inverse_upright, which)};
   }
   // At an inverse depth a ball is a disk around (x, y) times that; half of what it has of a line that is `offset` from
   // its centre.
@@ -49,71 +37,88 @@ struct Spheres {
   }
 };
 
+// How far a coordinate is from the farther end of an interval.
+HWY_INLINE V farther_end(V low, V coordinate, V high) {
+  return Max(Abs(coordinate - low), Abs(coordinate - high));
+}
+
 // The rows that balls may touch.
 struct BallRows {
   VI first, count;
-  VI full;  // all bits of those that hold all of the slice's part of the view: all columns of all rows are theirs
-
-  HWY_INLINE MI are_full() const { return Ne(full, Zero(DI())); }
-  // Those of the others that may touch a row.
-  HWY_INLINE MI others_in(int row) const {
-    const VI end = first + AndNot(full, count);
-    const MI has_begun = first < all_int(row + 1);
-    return And(has_begun, end > all_int(row));
-  }
+  MI full;  // those that hold all of the slice's part of the view: all columns of all rows are theirs
 };
 
-// Rows of one batch.
+// Which row and ball a span is of, in one number.
+struct Place {
+  static constexpr int k_lane_bits = 6;
+  static_assert(k_most_lanes <= 1 << k_lane_bits);
+
+  VI row;
+  Which ball;
+
+  HWY_INLINE explicit Place(VU place)
+      : row(BitCast(DI(), hn::ShiftRight<k_lane_bits>(place))),
+        ball(IndicesFromVec(DI(), BitCast(DI(), And(place, Set(DU(), (1 << k_lane_bits) - 1))))) {}
+  // Of all balls in a row.
+  static HWY_INLINE VU all_of(int row) { return BitCast(DU(), from_on(row << k_lane_bits)); }
+};
+
+// The balls of a batch, one per lane, in its slice.
+template <bool orthographic>
 class Batch {
  public:
   HWY_INLINE void start(const RowPlanes& planes, const SphereSetup& shapes, const BallsOfSlice& balls) {
     planes_ = &planes;
-    near_ = {planes, static_cast<std::size_t>(balls.slice)};
-    far_ = {planes, static_cast<std::size_t>(balls.slice) + 1};
+    const auto slice = static_cast<std::size_t>(balls.slice);
+    near_ = planes.depth[slice];
+    far_ = planes.depth[slice + 1];
+    nearest_inverse_ = inverse_depth(planes, slice);
+    farthest_inverse_ = inverse_depth(planes, slice + 1);
     const Quads sphere = gathered_quads(shapes.sphere.data(), balls.indices);
-    balls_ = {sphere.first, sphere.second, sphere.third, sphere.fourth};
     const Quads touch = gathered_quads(shapes.touch.data(), balls.indices);
-    slack_ = touch.first;
+    balls_ = {sphere.first, sphere.second, sphere.third, sphere.fourth, touch.first, touch.third, touch.fourth};
     lights_ = BitCast(DU(), touch.second);
-    lean_ = touch.third;
-    inverse_upright_ = touch.fourth;
-    const M is_ball = FirstN(D(), balls.count);
-    is_precise_ = AllFalse(D(), And(is_ball, inverse_upright_ == Zero(D())));
-    const Quads extremes = gathered_quads(shapes.extremes.data(), balls.indices);
-    find_extremes({within(extremes.first), within(extremes.second)}, {within(extremes.third), within(extremes.fourth)});
-    const V nearest = Max(all(near_.depth), balls_.depth - (balls_.radius + slack_));
-    rate_ = all(planes.columns_per_slope) / nearest;
-    least_area_ = least_area_of(balls_.radius, slack_, rate_, farthest_corner());
+    are_balls_ = FirstN(D(), balls.count);
+    if constexpr (orthographic)
+      find_extremes_of_disks();
+    else
+      find_extremes(gathered_quads(shapes.extremes.data(), balls.indices));
+    const V nearest = Max(all(near_), balls_.depth - (balls_.radius + balls_.slack));
+    rate_ = all(planes.columns_per_slope) / metres_per_slope(nearest);
+    least_area_ = least_area();
   }
 
   VU lights() const { return lights_; }
+  VU all_columns() const { return Set(DU(), ColumnSpan::of(0, static_cast<std::uint32_t>(planes_->columns) - 1)); }
 
-  // The rows that each ball may touch. `wanted`: the lanes that hold a ball.
-  HWY_INLINE BallRows find_rows(M wanted) const {
+  HWY_INLINE BallRows find_rows() const {
     const V top = all(planes_->slope.front()), bottom = all(planes_->slope[static_cast<std::size_t>(planes_->rows)]);
     const M is_level = And(upwards_.low <= top, upwards_.high >= bottom);
     const M is_between_sides = And(sideways_.low <= all(planes_->right), sideways_.high >= all(planes_->left));
-    const M touches = And(wanted, And(is_level, is_between_sides));
+    const M touches = And(are_balls_, And(is_level, is_between_sides));
     const V scale = all(planes_->rows_per_slope), tolerance = all(planes_->row_tolerance), zero = Zero(D());
     const V from = (top - Min(upwards_.high, top)) * scale - tolerance;
     const V to = (top - Max(upwards_.low, bottom)) * scale + tolerance;
     const VI last_row = all_int(planes_->rows - 1);
-    const VI full = VecFromMask(DI(), RebindMask(DI(), And(wanted, holds_view())));
     const VI first = Min(whole(Floor(Max(from, zero))), last_row);
     const VI last = Min(whole(Floor(Max(to, zero))), last_row);
     const VI count = IfThenElseZero(RebindMask(DI(), touches), last - first + all_int(1));
-    return {AndNot(full, first), Or(AndNot(full, count), And(full, all_int(planes_->rows))), full};
+    return {first, count, RebindMask(DI(), And(touches, least_area_ == zero))};
   }
-
-  VU all_columns() const { return Set(DU(), ColumnSpan::of(0, static_cast<std::uint32_t>(planes_->columns) - 1)); }
 
   // What the balls in which[i] have between two tile planes. At each depth a ball is a disk, so it reaches farthest
   // to the side at its centre's height, or in the tile plane that is nearer to that; within a tile plane it does so
   // where the tangent touches, or in the slice's plane that is nearer to that.
   HWY_INLINE Hull hull_of(Which which, V top, V bottom) const {
-    const RowBalls balls = {balls_.of(which), taken(lean_, which), taken(inverse_upright_, which)};
-    const auto in_row = [&](V slope) { return Min(Max(taken(slope, which), bottom), top); };
-    return {end_of<-1>(balls, in_row(farthest_left_)), end_of<1>(balls, in_row(farthest_right_))};
+    const Balls balls = balls_.of(which);
+    if constexpr (orthographic) {
+      const V away = gap(bottom, balls.y, top);
+      const V half = root(taken(disk_square_, which) - away * away);
+      return {balls.x - half, balls.x + half};
+    } else {
+      const auto in_row = [&](V slope) { return Min(Max(taken(slope, which), bottom), top); };
+      return {end_of<-1>(balls, in_row(farthest_left_)), end_of<1>(balls, in_row(farthest_right_))};
+    }
   }
 
   // The columns of that.
@@ -141,30 +146,58 @@ class Batch {
   // picture, and h says little of w. For them any point in the row does instead of m: it is no nearer, so its w is no
   // larger. The columns are certain if the way inwards is at least 2 D R q / w, and the ball reaches the row if w² >= 2
   // D R.
-  HWY_INLINE VU columns_of(Which which, const PlaneTable& slopes, VI row, const Hull& hull, M wanted) const {
-    return columns_between(
-        *planes_, hull.low, hull.high, wanted, taken(least_area_, which),
-        [](V least, V most) { return all(1.0f) + Max(least * least, most * most); },
-        [&](V inwards, V steepness) {
-          const V radius = taken(balls_.radius, which), slack = taken(slack_, which);
-          const V top = slopes.at(row), bottom = slopes.at(row + all_int(1));
-          return is_certain_by_chord(half_chord_square(which, top, bottom), inwards, radius, slack, taken(rate_, which),
-                                     steepness);
-        });
+  HWY_INLINE VU columns_of(const Place& place, const Table& slopes, const Hull& hull, M wanted) const {
+    const V left = all(planes_->left), right = all(planes_->right), scale = all(planes_->columns_per_slope);
+    const V tolerance = all(planes_->column_tolerance), zero = Zero(D());
+    const M touches = And(wanted, And(hull.low <= Min(hull.high, right), hull.high >= left));
+    const V low = Max(hull.low, left), high = Min(hull.high, right);
+    const V from = (low - left) * scale, to = (high - left) * scale;
+    const V last_column = all(static_cast<float>(planes_->columns - 1));
+    const V first = Min(Floor(Max(from - tolerance, zero)), last_column);
+    const V last = Min(Floor(to + tolerance), last_column);
+    // No wider than it is for certain: a small ball in a wide picture is narrower than coordinates in it are rounded.
+    const V width = Max(to - from - (tolerance + tolerance), zero);
+    const V from_first = first + all(1.0f) - from - tolerance, to_last = to - last - tolerance;
+    const V steepness = orthographic ? all(1.0f) : all(1.0f) + Max(low * low, high * high);
+    const V area = taken(least_area_, place.ball) * steepness;
+    const auto is_certain = [&](V inwards) { return And(inwards * width >= area, width * width >= area + area); };
+    VU columns = BitCast(DU(), Or(whole(first), ShiftLeft<16>(whole(last))));
+    if (!AllTrue(D(), Or(is_certain(Min(from_first, to_last)), Not(touches)))) {
+      const auto mark = [&](V inwards, std::uint32_t bit) {
+        const M certain = Or(is_certain(inwards), is_certain_by_chord(place, slopes, inwards, steepness));
+        return IfThenZeroElse(RebindMask(DU(), certain), Set(DU(), bit));
+      };
+      columns = Or(columns, Or(mark(from_first, BatchSpans::k_first_is_uncertain),
+                               mark(to_last, BatchSpans::k_last_is_uncertain)));
+    }
+    return IfThenElse(RebindMask(DU(), touches), columns, Set(DU(), BatchRows::k_none));
   }
 
  private:
-  // What rows want of their balls.
-  struct RowBalls {
-    Spheres spheres;
-    V lean, inverse_upright;
-  };
+  // Of one of the slice's two planes. At the eye it ends where its products with reaches would not be finite; for what
+  // that changes see RowPlanes::least_reach.
+  static float inverse_depth(const RowPlanes& planes, std::size_t plane) {
+    return std::min(planes.inverse_depth[plane], RowPlanes::k_most_inverse_depth);
+  }
+
+  static HWY_INLINE V metres_per_slope(V depth) { return orthographic ? all(1.0f) : depth; }
 
   // The nearest inverse depth in the slice.
-  HWY_INLINE V within(V inverse) const { return Min(Max(inverse, all(far_.inverse)), all(near_.inverse)); }
+  HWY_INLINE V within(V inverse) const { return Min(Max(inverse, all(farthest_inverse_)), all(nearest_inverse_)); }
 
-  // `sideways`, `upwards`: the inverse depths where the balls reach farthest within the slice.
-  HWY_INLINE void find_extremes(const Hull& sideways, const Hull& upwards) {
+  HWY_INLINE void find_extremes_of_disks() {
+    const V away = gap(all(near_), balls_.depth, all(far_));
+    disk_square_ = (balls_.radius - away) * (balls_.radius + away);
+    const V half = root(disk_square_);
+    upwards_ = {balls_.y - half, balls_.y + half};
+    sideways_ = {balls_.x - half, balls_.x + half};
+  }
+
+  // `given`: SphereSetup::extremes.
+  HWY_INLINE void find_extremes(const Quads& given) {
+    is_precise_ = AllFalse(D(), And(are_balls_, balls_.inverse_upright == Zero(D())));
+    const Hull sideways = {within(given.first), within(given.second)};
+    const Hull upwards = {within(given.third), within(given.fourth)};
     const auto radius_at = [&](V inverse) { return balls_.half_chord(inverse, Zero(D())); };
     upwards_ = {balls_.y * upwards.low - radius_at(upwards.low), balls_.y * upwards.high + radius_at(upwards.high)};
     sideways_ = {(balls_.x - balls_.radius) * sideways.low, (balls_.x + balls_.radius) * sideways.high};
@@ -172,169 +205,201 @@ class Batch {
     farthest_right_ = balls_.y * sideways.high;
   }
 
+  // See Certainty; for rows straight ahead. Balls that hold all of the slice's part of the view by more than their
+  // slack have no ends there. An infinite radius stands for one that is left to be decided.
+  HWY_INLINE V least_area() const {
+    const V area = all(8.2f) * (balls_.slack * balls_.radius) * (rate_ * rate_);
+    const V surely = balls_.radius - all(4.0f) * balls_.slack;
+    const M is_sure = And(surely > Zero(D()), surely < infinity());
+    return IfThenZeroElse(And(is_sure, farthest_square() < surely * surely), area);
+  }
+
+  // At least the squared distance to the farthest point of the slice's part of the view. Balls smaller than half its
+  // width do not hold it anyway.
+  HWY_INLINE V farthest_square() const {
+    const float width = planes_->right - planes_->left;
+    if (AllTrue(D(), balls_.radius < all(0.49f * width) * metres_per_slope(all(far_)))) return infinity();
+    const V near = all(near_), far = all(far_);
+    const V of_near = metres_per_slope(near), of_far = metres_per_slope(far);
+    const auto farthest = [&](float low, V coordinate, float high) {
+      return farther_end(Min(all(low) * of_near, all(low) * of_far), coordinate,
+                         Max(all(high) * of_near, all(high) * of_far));
+    };
+    const V across = farthest(planes_->left, balls_.x, planes_->right);
+    const V up = farthest(planes_->slope[static_cast<std::size_t>(planes_->rows)], balls_.y, planes_->slope.front());
+    const V along = farther_end(near, balls_.depth, far);
+    return across * across + up * up + along * along;
+  }
+
   // The least (side = -1) or greatest (side = 1) slope x / depth in tile planes of some slopes.
   template <int side>
-  HWY_INLINE V end_of(const RowBalls& balls, V slope) const {
+  HWY_INLINE V end_of(const Balls& ball, V slope) const {
     const auto go = [](V from, V by) { return side < 0 ? from - by : from + by; };
-    const Spheres& ball = balls.spheres;
     const V away = ball.y - slope * ball.depth;
     const V tilt_square = all(1.0f) + slope * slope;
     const V chord = root(ball.radius * ball.radius * tilt_square - away * away);
     const V ahead = ball.depth + slope * ball.y;
-    V touch = go(ahead, balls.lean * chord) * balls.inverse_upright;
-    if (!is_precise_) touch = precise_touch<side>(balls, chord, ahead, tilt_square, touch);
+    V touch = go(ahead, ball.lean * chord) * ball.inverse_upright;
+    if (!is_precise_) touch = precise_touch<side>(ball, chord, ahead, tilt_square, touch);
     // Where none touches ahead of the eye the ball grows towards it.
     const M is_ahead = touch > Zero(D());
-    const V inverse = IfThenElse(is_ahead, within(touch), all(near_.inverse));
+    const V inverse = IfThenElse(is_ahead, within(touch), all(nearest_inverse_));
     const V offset = slope - ball.y * inverse;
     return go(ball.x * inverse, ball.half_chord(inverse, offset));
   }
 
   // Where the tangent touches, for balls of which inverse_upright does not say so precisely enough.
   template <int side>
-  HWY_NOINLINE V precise_touch(const RowBalls& balls, V chord, V ahead, V tilt_square, V otherwise) const {
-    const Spheres& ball = balls.spheres;
+  static HWY_NOINLINE V precise_touch(const Balls& ball, V chord, V ahead, V tilt_square, V otherwise) {
     const V zero = Zero(D()), at_eye = all(SphereSetup::k_at_eye);
     const V ahead_square = (ball.depth - ball.radius) * (ball.depth + ball.radius);
     const V upright = ball.y * ball.y + ahead_square, x_square = ball.x * ball.x;
-    const V sum = ahead + Abs(balls.lean) * chord;
+    const V sum = ahead + Abs(ball.lean) * chord;
     const V square = x_square + upright;
     const V from_eye = ahead * ahead + x_square * tilt_square;
     const V outer = IfThenElse(upright > zero, sum / upright, at_eye);
     const V inner = IfThenElse(sum > zero, from_eye / (square * sum), at_eye);
     const M is_outer = side < 0 ? ball.x < zero : ball.x >= zero;
     const V precise = IfThenElse(is_outer, outer, inner);
-    return IfThenElse(balls.inverse_upright == zero, precise, otherwise);
+    return IfThenElse(ball.inverse_upright == zero, precise, otherwise);
   }
 
-  HWY_INLINE M holds_view() const { return least_area_ == Zero(D()); }
-
-  // Of a point in the row that is about as near to the centre as any, how far it is from the surface, squared.
-  HWY_INLINE V half_chord_square(Which which, V top, V bottom) const {
-    const V centre = taken(balls_.depth, which), radius = taken(balls_.radius, which);
-    const V depth = Min(Max(centre, all(near_.depth)), all(far_.depth)), along = centre - depth;
-    const V across = gap(all(planes_->left) * depth, taken(balls_.x, which), all(planes_->right) * depth);
-    const V up = gap(bottom * depth, taken(balls_.y, which), top * depth);
-    const V square = across * across + up * up + along * along;
-    return radius * radius - square;
-  }
-
-  // At least the squared distance to the farthest corner of the slice's part of the view. Balls smaller than half its
-  // width do not hold it anyway.
-  HWY_INLINE V farthest_corner() const {
-    const float half_width = 0.49f * far_.depth * (planes_->right - planes_->left);
-    if (AllTrue(D(), balls_.radius < all(half_width))) return infinity();
-    return Max(farthest_corner(near_), farthest_corner(far_));
-  }
-
-  // The squared distance to the picture's farthest corner in a slice's plane.
-  HWY_INLINE V farthest_corner(const SlicePlane& plane) const {
-    const auto bottom = planes_->slope[static_cast<std::size_t>(planes_->rows)], top = planes_->slope.front();
-    const V across = farther_end(balls_.x, planes_->left * plane.depth, planes_->right * plane.depth);
-    const V up = farther_end(balls_.y, bottom * plane.depth, top * plane.depth);
-    const V along = balls_.depth - all(plane.depth);
-    return across * across + up * up + along * along;
+  // With a point in the row's part of the picture from which the ball's surface is at least half a chord away, also
+  // rows are certain where the way from an end to the next boundary inwards, in columns, times that is at least 4 slack
+  // R rate (and some for rounding), and half the chord squared at least 4 slack R. `steepness` is least_area's.
+  HWY_INLINE M is_certain_by_chord(const Place& place, const Table& slopes, V inwards, V steepness) const {
+    const Balls ball = balls_.of(place.ball);
+    // A point that is about as near to the centre as any.
+    const V depth = Min(Max(ball.depth, all(near_)), all(far_)), along = ball.depth - depth;
+    const V metres = metres_per_slope(depth);
+    const V across = gap(all(planes_->left) * metres, ball.x, all(planes_->right) * metres);
+    const V up = gap(slopes.at(place.row + all_int(1)) * metres, ball.y, slopes.at(place.row) * metres);
+    const V half_square = ball.radius * ball.radius - (across * across + up * up + along * along);
+    const V least = all(5.0f) * (ball.slack * ball.radius), way = least * taken(rate_, place.ball);
+    // An infinite radius has no chord.
+    return And(And(is_between(least, half_square, all(1e30f)), inwards >= Zero(D())),
+               inwards * inwards * half_square >= way * way * steepness);
   }
 
   const RowPlanes* planes_;
-  SlicePlane near_, far_;
-  Spheres balls_;
-  V slack_;
+  float near_, far_, nearest_inverse_, farthest_inverse_;  // depths of the slice's planes
+  Balls balls_;
   VU lights_;
-  V lean_, inverse_upright_;          // SphereSetup::touch
-  bool is_precise_;                   // that is, everywhere
-  Hull upwards_;                      // of what balls have in the slice, y / depth
-  Hull sideways_;                     // at least that, x / depth
-  V farthest_left_, farthest_right_;  // where that is farthest to a side, y / depth
-  V rate_;                            // the most columns that a metre to the side can be
-  V least_area_;                      // for rows straight ahead
+  M are_balls_;
+  Hull upwards_;   // of what balls have in the slice, y / depth
+  Hull sideways_;  // at least that, x / depth
+  V rate_;         // the most columns that a metre to the side can be
+  V least_area_;   // for rows straight ahead; 0 for balls that hold the slice's part of the view
+  // Perspective grids':
+  V farthest_left_, farthest_right_;  // where balls are farthest to a side, y / depth
+  bool is_precise_;                   // is inverse_upright, everywhere?
+  // Orthographic ones':
+  V disk_square_;  // of the radius of what balls have in the depth where they are largest
 };
 
 std::uint32_t lanes() {
   return static_cast<std::uint32_t>(Lanes(D()));
 }
 
-// Which row and ball a span is of, in one number.
-struct Place {
-  static constexpr int k_lane_bits = 6;
-  static_assert(k_most_lanes <= 1 << k_lane_bits);
-
-  VI row;
-  Which ball;
-
-  HWY_INLINE explicit Place(VI place)
-      : row(hn::ShiftRight<k_lane_bits>(place)),
-        ball(IndicesFromVec(DI(), And(place, all_int((1 << k_lane_bits) - 1)))) {}
-  // Of all balls in a row.
-  static HWY_INLINE VI all_of(int row) { return from_on(row << k_lane_bits); }
-};
+// What is known of a batch before its columns: the rows that each ball may touch.
+HWY_INLINE void start_batch(int grid_rows, const BallRows& rows, BatchSpans& out) {
+  const DI di;
+  out.count = out.uncertain_count = 0;
+  out.tests = static_cast<std::uint32_t>(GetLane(SumOfLanes(di, rows.count)));
+  // A loop over all rows is foretold by the processor, unlike one whose ends wait for the balls.
+  constexpr int k_few_rows = 32;
+  if (grid_rows <= k_few_rows) {
+    out.first_row = 0;
+    out.last_row = grid_rows - 1;
+    return;
+  }
+  const MI touches = rows.count > Zero(di);
+  const VI end = IfThenElseZero(touches, rows.first + rows.count);
+  out.first_row = GetLane(MinOfLanes(di, IfThenElse(touches, rows.first, all_int(grid_rows))));
+  out.last_row = GetLane(MaxOfLanes(di, end)) - 1;
+}
 
 // The balls that may touch each row, and do not hold all of it, row after row.
-HWY_INLINE void list_places(const BallRows& rows, std::int32_t* HWY_RESTRICT places, BatchSpans& out) {
-  const DI di;
+HWY_INLINE void list_places(const BallRows& rows, BatchSpans& out) {
+  const DU du;
+  std::uint32_t* HWY_RESTRICT places = out.places.data();
   std::uint32_t* HWY_RESTRICT sizes = out.sizes.data();
   std::uint32_t count = 0;
-  const VU others = BitCast(DU(), AndNot(rows.full, rows.count));
-  VU skipped = BitCast(DU(), all_int(out.first_row) - rows.first);  // of each ball's rows; large before its first one
-  VI place = Place::all_of(out.first_row);
+  const VU others = BitCast(du, IfThenZeroElse(rows.full, rows.count));
+  VU skipped = BitCast(du, all_int(out.first_row) - rows.first);  // of each ball's rows; large before its first one
+  VU place = Place::all_of(out.first_row);
   for (int row = out.first_row, last = out.last_row; row <= last; ++row) {
-    const MI wanted = RebindMask(di, skipped < others);
-    StoreU(compressed(di, place, wanted), di, places + count);
-    const auto size = static_cast<std::uint32_t>(CountTrue(di, wanted));
+    const auto wanted = skipped < others;
+    StoreU(compressed(du, place, wanted), du, places + count);
+    const auto size = static_cast<std::uint32_t>(CountTrue(du, wanted));
     sizes[row] = size;
     count += size;
-    skipped = skipped + Set(DU(), 1);
-    place = place + all_int(1 << Place::k_lane_bits);
+    skipped = skipped + Set(du, 1);
+    place = place + Set(du, 1 << Place::k_lane_bits);
   }
-  StoreU(Zero(di), di, places + count);
+  StoreU(Zero(du), du, places + count);
   out.count = count;
 }
 
-// What the balls have in all rows, as slopes.
-HWY_INLINE void find_hulls(const PlaneTable& slopes, const Batch& batch, const std::int32_t* places,
-                           std::uint32_t count, RowHulls& out) {
+// What the balls have in all rows.
+template <class Batch>
+HWY_INLINE void find_hulls(const Table& slopes, const Batch& batch, BatchSpans& out) {
   const D d;
+  const std::uint32_t *places = out.places.data(), count = out.count;
   for (std::uint32_t begin = 0; begin < count; begin += static_cast<std::uint32_t>(Lanes(d))) {
-    const Place place(LoadU(DI(), places + begin));
+    const Place place(LoadU(DU(), places + begin));
     const Hull hull = batch.hull_of(place.ball, slopes.at(place.row), slopes.at(place.row + all_int(1)));
     StoreU(hull.low, d, out.low.data() + begin);
     StoreU(hull.high, d, out.high.data() + begin);
   }
 }
 
+// Lists what is uncertain of `count` spans, at most a vector of them, from span `first` on.
+HWY_INLINE void list_uncertain(VU columns, std::uint32_t count, std::uint32_t first, BatchSpans& out) {
+  const DU du;
+  const VU marks = And(columns, Set(du, BatchSpans::k_first_is_uncertain | BatchSpans::k_last_is_uncertain));
+  const auto is_marked = And(Ne(marks, Zero(du)), FirstN(du, count));
+  const auto is_uncertain = And(is_marked, Ne(columns, Set(du, BatchRows::k_none)));
+  if (AllFalse(du, is_uncertain)) return;
+  const VU indices = BitCast(du, from_on(static_cast<std::int32_t>(first)));
+  StoreU(compressed(du, indices, is_uncertain), du, out.uncertain.data() + out.uncertain_count);
+  out.uncertain_count += static_cast<std::uint32_t>(CountTrue(du, is_uncertain));
+}
+
 // The columns of all rows.
-HWY_INLINE void find_columns(const PlaneTable& slopes, const Batch& batch, const std::int32_t* places,
-                             const RowHulls& hulls, BatchSpans& out) {
+template <class Batch>
+HWY_INLINE void find_columns(const Table& slopes, const Batch& batch, BatchSpans& out) {
   const D d;
   const DU du;
-  for (std::uint32_t begin = 0; begin < out.count; begin += static_cast<std::uint32_t>(Lanes(d))) {
-    const Place place(LoadU(DI(), places + begin));
-    const Hull hull = {LoadU(d, hulls.low.data() + begin), LoadU(d, hulls.high.data() + begin)};
-    const VU columns = batch.columns_of(place.ball, slopes, place.row, hull, FirstN(d, out.count - begin));
+  const std::uint32_t *places = out.places.data(), count = out.count;
+  for (std::uint32_t begin = 0; begin < count; begin += static_cast<std::uint32_t>(Lanes(d))) {
+    const Place place(LoadU(DU(), places + begin));
+    const Hull hull = {LoadU(d, out.low.data() + begin), LoadU(d, out.high.data() + begin)};
+    const VU columns = batch.columns_of(place, slopes, hull, FirstN(d, count - begin));
     StoreU(columns, du, out.columns.data() + begin);
     StoreU(BitCast(du, taken(BitCast(DI(), batch.lights()), place.ball)), du, out.lights.data() + begin);
-    list_uncertain(columns, out.count - begin, begin, out);
+    list_uncertain(columns, count - begin, begin, out);
   }
 }
 
 // Adds to each row those that hold all of it.
-HWY_INLINE void add_full(const Batch& batch, const BallRows& rows, AlignedVector<std::uint32_t>& some_columns,
-                         BatchSpans& out) {
+template <class Batch>
+HWY_INLINE void add_full(const Batch& batch, const BallRows& rows, BatchSpans& out) {
   const DU du;
-  const MI full = rows.are_full();
-  std::swap(some_columns, out.columns);
-  std::uint32_t from = 0;
+  const VI end_of_others = IfThenZeroElse(rows.full, rows.first + rows.count);
+  std::swap(out.places, out.columns);
+  const std::uint32_t* others = out.places.data();  // their columns
   out.count = out.uncertain_count = 0;
   for (int row = out.first_row; row <= out.last_row; ++row) {
     std::uint32_t& size = out.sizes[static_cast<std::size_t>(row)];
-    const MI found = rows.others_in(row);
-    const auto wanted = RebindMask(du, Or(found, full));
-    const VU columns = IfThenElse(RebindMask(du, full), batch.all_columns(),
-                                  expanded(du, LoadU(du, some_columns.data() + from), RebindMask(du, found)));
+    const MI found = And(rows.first<all_int(row + 1), end_of_others> all_int(row));
+    const auto wanted = RebindMask(du, Or(found, rows.full));
+    const VU columns = IfThenElse(RebindMask(du, rows.full), batch.all_columns(),
+                                  expanded(du, LoadU(du, others), RebindMask(du, found)));
     const VU listed = compressed(du, columns, wanted);
     StoreU(listed, du, out.columns.data() + out.count);
     StoreU(compressed(du, batch.lights(), wanted), du, out.lights.data() + out.count);
-    from += size;
+    others += size;
     size = static_cast<std::uint32_t>(CountTrue(du, wanted));
     list_uncertain(listed, size, out.count, out);
     out.count += size;
@@ -342,26 +407,33 @@ HWY_INLINE void add_full(const Batch& batch, const BallRows& rows, AlignedVector
 }
 
 // Step by step for all batches, because the steps of one wait for each other.
-void rows_of_batches(const RowPlanes& planes, const SphereSetup& shapes, std::span<const BallsOfSlice> balls,
-                     RowBatches& out) {
+template <bool orthographic>
+HWY_INLINE void rows_of_batches(const RowPlanes& planes, const SphereSetup& shapes, std::span<const BallsOfSlice> balls,
+                                RowBatches& out) {
   const std::size_t count = balls.size();
-  const PlaneTable slopes(planes.slope, planes.rows + 1);
-  Batch batches[k_batches_at_once];
-  BallRows ball_rows[k_batches_at_once];
+  const Table slopes(planes.slope, planes.rows + 1);
+  Batch<orthographic> batches[k_batches_at_once];
+  BallRows rows[k_batches_at_once];
   for (std::size_t i = 0; i < count; ++i) {
     batches[i].start(planes, shapes, balls[i]);
-    ball_rows[i] = batches[i].find_rows(FirstN(D(), balls[i].count));
+    rows[i] = batches[i].find_rows();
   }
   for (std::size_t i = 0; i < count; ++i) {
-    start_batch(planes.rows, ball_rows[i].first, ball_rows[i].count, out.batches[i]);
-    list_places(ball_rows[i], out.places[i].data(), out.batches[i]);
+    start_batch(planes.rows, rows[i], out[i]);
+    list_places(rows[i], out[i]);
   }
-  for (std::size_t i = 0; i < count; ++i)
-    find_hulls(slopes, batches[i], out.places[i].data(), out.batches[i].count, out.hulls[i]);
+  for (std::size_t i = 0; i < count; ++i) find_hulls(slopes, batches[i], out[i]);
   for (std::size_t i = 0; i < count; ++i) {
-    find_columns(slopes, batches[i], out.places[i].data(), out.hulls[i], out.batches[i]);
-    if (!AllFalse(DI(), ball_rows[i].are_full())) add_full(batches[i], ball_rows[i], out.some_columns, out.batches[i]);
+    find_columns(slopes, batches[i], out[i]);
+    if (!AllFalse(DI(), rows[i].full)) add_full(batches[i], rows[i], out[i]);
   }
+}
+
+void rows_of(const RowPlanes& planes, const SphereSetup& shapes, std::span<const BallsOfSlice> balls, RowBatches& out) {
+  if (planes.orthographic)
+    rows_of_batches<true>(planes, shapes, balls, out);
+  else
+    rows_of_batches<false>(planes, shapes, balls, out);
 }
 
 }  // namespace
@@ -373,46 +445,16 @@ HWY_AFTER_NAMESPACE();
 namespace clusterbench::assign {
 
 HWY_EXPORT(lanes);
-HWY_EXPORT(rows_of_batches);
-
-void BatchRows::make_room(int of_rows) {
-  const std::size_t size = (static_cast<std::size_t>(of_rows) + 1) * k_row_lanes;
-  if (columns.size() < size) columns.resize(size);
-}
-
-// A vector more than a batch can have, as whole vectors are written and read from each span on; and one behind them.
-void BatchSpans::make_room(int of_rows) {
-  sizes.resize(static_cast<std::size_t>(of_rows));
-  const std::size_t size = (static_cast<std::size_t>(of_rows) + 2) * k_row_lanes;
-  for (AlignedVector<std::uint32_t>* list : {&lights, &columns, &uncertain}) list->resize(size);
-}
-
-void RowBatches::make_room(int of_rows) {
-  const std::size_t size = (static_cast<std::size_t>(of_rows) + 2) * k_row_lanes;
-  if (some_columns.size() >= size) return;
-  some_columns.resize(size);
-  for (BatchSpans& batch : batches) batch.make_room(of_rows);
-  for (AlignedVector<std::int32_t>& list : places) list.resize(size);
-  for (RowHulls& list : hulls) list.make_room(size);
-}
-
-std::size_t RowBatches::capacity_bytes() const {
-  std::size_t bytes = bytes_of(some_columns);
-  for (const BatchSpans& batch : batches) bytes += batch.capacity_bytes();
-  for (const AlignedVector<std::int32_t>& list : places) bytes += bytes_of(list);
-  for (const RowHulls& list : hulls) bytes += list.capacity_bytes();
-  return bytes;
-}
+HWY_EXPORT(rows_of);
 
 std::uint32_t balls_per_batch() {
   return HWY_DYNAMIC_DISPATCH(lanes)();
 }
 
-void find_rows(const RowPlanes& planes, const VisibleBalls& visible, const SphereSetup& shapes,
-               std::span<const BallsOfSlice> balls, RowBatches& out) {
-  out.make_room(planes.rows);  // of all batches, however many a machine needs
-  if (planes.orthographic) return find_orthographic_rows(planes, visible, balls, out);
-  HWY_DYNAMIC_DISPATCH(rows_of_batches)(planes, shapes, balls, out);
+void find_rows(const RowPlanes& planes, const SphereSetup& shapes, std::span<const BallsOfSlice> balls,
+               RowBatches& out) {
+  for (BatchSpans& batch : out) batch.make_room(planes.rows);  // all of them, however many a machine needs
+  HWY_DYNAMIC_DISPATCH(rows_of)(planes, shapes, balls, out);
 }
 
 }  // namespace clusterbench::assign

@@ -1,11 +1,12 @@
 #pragma once
 // The columns that balls touch in every row of cells of a frustum grid: slice by slice, many balls at once, one per
-// lane, each through its own rows. Of orthographic grids orthographic_rows.h.
+// lane, each through its own rows.
 //
 // With x / depth, y / depth and 1 / depth as coordinates, columns, rows and slices are slabs, and of a convex body what
 // lies in a row of a slice reaches farthest to the side in one point, which follows from the ball (sphere_setup.h) and
 // is moved into the row, then into the slice. A row's columns reach from the least slope x / depth in it to the
-// greatest (the interval property, as in geom/projection/row_slopes.h).
+// greatest (the interval property, as in geom/projection/row_slopes.h). Rows of orthographic grids are boxes, and what
+// a ball has in one is a disk's chord.
 //
 // Every ball is taken larger by its slack, which is more than rounding can lose, so no column is forgotten. How much
 // too large an answer can be is bounded, too: see Certainty in slice_rows.cpp. Rows for which that may matter are
@@ -29,8 +30,6 @@ namespace clusterbench::assign {
 struct BatchRows {
   static constexpr std::uint32_t k_none = ListBuilder::k_no_span;              // no column
   static constexpr std::uint32_t k_uncertain = ListBuilder::k_uncertain_span;  // perhaps not all of the columns
-  // With k_uncertain: which of the ends is certain all the same.
-  static constexpr std::uint32_t k_first_is_certain = 0x4000, k_last_is_certain = 0x8000;
   static int first_of(std::uint32_t columns) { return static_cast<int>(columns & 0x3fff); }
   static int last_of(std::uint32_t columns) { return static_cast<int>(columns >> 16 & 0x3fff); }
 
@@ -41,7 +40,7 @@ struct BatchRows {
   // One row more than the grid has, for what is not wanted.
   AlignedVector<std::uint32_t> columns;
 
-  void make_room(int of_rows);
+  void make_room(int of_rows) { grow_to((static_cast<std::size_t>(of_rows) + 1) * k_row_lanes, columns); }
   std::size_t capacity_bytes() const { return columns.capacity() * sizeof(std::uint32_t); }
 };
 
@@ -49,6 +48,9 @@ struct BatchRows {
 // is as in BatchRows; k_none is one, too, where a ball has been found to have no columns. Whole vectors can be read
 // from each span on.
 struct BatchSpans {
+  // Marks of a span: that end may be beyond the columns that are touched.
+  static constexpr std::uint32_t k_first_is_uncertain = 0x4000, k_last_is_uncertain = 0x8000;
+
   int first_row = 0, last_row = -1;
   std::uint32_t tests = 0, count = 0;
   AlignedVector<std::uint32_t> sizes;  // how many spans a row has: of first_row to last_row
@@ -56,47 +58,37 @@ struct BatchSpans {
   // Which spans are uncertain, ascending.
   std::uint32_t uncertain_count = 0;
   AlignedVector<std::uint32_t> uncertain;
+  // While they are found: in which row each is, and in which lane its ball; what that has there (slopes from low to
+  // high).
+  AlignedVector<std::uint32_t> places;
+  AlignedVector<float> low, high;
 
-  void make_room(int of_rows);
-  std::size_t capacity_bytes() const { return bytes_of(sizes, lights, columns, uncertain); }
+  // Whole vectors are written and read from each span on, and one behind them.
+  void make_room(int of_rows) {
+    const auto rows = static_cast<std::size_t>(of_rows), size = (rows + 2) * k_row_lanes;
+    if (places.size() >= size) return;
+    sizes.resize(rows);
+    grow_to(size, lights, columns, uncertain, places, low, high);
+  }
+  std::size_t capacity_bytes() const { return bytes_of(sizes, lights, columns, uncertain, places, low, high); }
 };
 inline constexpr int k_most_columns = 0x3fff;
 
 // How many balls a batch holds on this machine.
 std::uint32_t balls_per_batch();
 
-// What balls have in rows, one after the other: slopes x / depth from low to high.
-struct RowHulls {
-  AlignedVector<float> low, high;
-
-  void make_room(std::size_t rows) {
-    low.resize(rows);
-    high.resize(rows);
-  }
-  std::size_t capacity_bytes() const { return (low.capacity() + high.capacity()) * sizeof(float); }
-};
-
 // Some batches, each of one slice.
 inline constexpr std::uint32_t k_batches_at_once = 4;
-struct RowBatches {
-  std::array<BatchSpans, k_batches_at_once> batches;
-  // Of each batch's spans: in which row, and in which lane their ball is.
-  std::array<AlignedVector<std::int32_t>, k_batches_at_once> places;
-  std::array<RowHulls, k_batches_at_once> hulls;
-  AlignedVector<std::uint32_t> some_columns;  // of a batch
+using RowBatches = std::array<BatchSpans, k_batches_at_once>;
 
-  void make_room(int of_rows);
-  std::size_t capacity_bytes() const;
-};
-
-// Balls of one slice: indices in VisibleBalls, from which a whole vector can be read beyond `count`.
+// Balls of one slice: indices in SphereSetup, from which a whole vector can be read beyond `count`.
 struct BallsOfSlice {
   int slice;
   const std::uint32_t* indices;
   std::uint32_t count;  // at most balls_per_batch()
 };
-// A batch for each of `balls`, which are at most k_batches_at_once. `shapes` of orthographic grids can be empty.
-void find_rows(const RowPlanes& planes, const VisibleBalls& visible, const SphereSetup& shapes,
-               std::span<const BallsOfSlice> balls, RowBatches& out);
+// A batch for each of `balls`, which are at most k_batches_at_once.
+void find_rows(const RowPlanes& planes, const SphereSetup& shapes, std::span<const BallsOfSlice> balls,
+               RowBatches& out);
 
 }  // namespace clusterbench::assign

@@ -92,9 +92,7 @@ namespace clusterbench::assign {
 HWY_EXPORT(setup_of);
 
 void set_up_spheres(const VisibleBalls& visible, std::uint32_t count, SphereSetup& out) {
-  const std::size_t size = 4 * visible.x.size();
-  for (AlignedVector<float>* list : {&out.sphere, &out.touch, &out.extremes})
-    if (list->size() < size) list->resize(size);
+  grow_to(4 * visible.x.size(), out.sphere, out.touch, out.extremes);
   HWY_DYNAMIC_DISPATCH(setup_of)(visible, count, out);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What all slices and rows of a ball share in a perspective grid.
+// What all slices and rows of a ball share. Of orthographic grids only the ball itself counts.
 //
 // In the coordinates x / depth, y / depth and 1 / depth, columns, rows and slices are slabs between parallel planes,
 // and a ball that is before the eye is an ellipsoid. Where the eye's tangents touch it follows from a few numbers of
@@ -9,6 +9,7 @@
 
 #include "assign/cull/frustum_cull.h"
 #include "core/aligned_vector.h"
+#include "core/arrays.h"
 
 namespace clusterbench::assign {
 
@@ -21,9 +22,7 @@ struct SphereSetup {
   AlignedVector<float> touch;     // slack; the light (an integer's bits); lean and inverse_upright
   AlignedVector<float> extremes;  // 1 / depth where the ball is farthest left, right, down and up in the picture
 
-  std::size_t capacity_bytes() const {
-    return (sphere.capacity() + touch.capacity() + extremes.capacity()) * sizeof(float);
-  }
+  std::size_t capacity_bytes() const { return bytes_of(sphere, touch, extremes); }
 };
 
 // Of the first `count` visible balls.

@@ -36,6 +36,18 @@ static_assert(MaxLanes(D()) <= k_row_lanes);
 HWY_INLINE V all(float value) {
   return Set(D(), value);
 }
+// In doubles, and as many single numbers and indices.
+using DD = hn::ScalableTag<double>;
+using DF = hn::Rebind<float, DD>;
+using DH = hn::Rebind<std::int32_t, DD>;
+using VD = hn::Vec<DD>;
+using VF = hn::Vec<DF>;
+using VH = hn::Vec<DH>;
+using MD = hn::Mask<DD>;
+
+HWY_INLINE VD all(double value) {
+  return Set(DD(), value);
+}
 HWY_INLINE V infinity() {
   return all(std::numeric_limits<float>::infinity());
 }
@@ -120,6 +132,22 @@ class RegisterTable {
 
  private:
   V first_, second_;
+};
+
+// Values looked up in registers where they hold all of them. Whole vectors can be read from `values` on.
+class Table {
+ public:
+  HWY_INLINE Table(const std::vector<float>& values, int count)
+      : values_(values.data()),
+        is_small_(static_cast<std::size_t>(count) <= RegisterTable::size()),
+        table_(LoadU(D(), values_), LoadU(D(), values_ + Lanes(D()))) {}
+
+  HWY_INLINE V at(VI index) const { return is_small_ ? table_.at(index) : gathered(values_, index); }
+
+ private:
+  const float* values_;
+  bool is_small_;
+  RegisterTable table_;
 };
 
 // first, first + 1, ... Highway's Iota of a number that is not constant goes through memory.
