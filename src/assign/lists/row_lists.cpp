@@ -24,30 +24,18 @@ HWY_INLINE VI all_int(std::uint32_t value) {
   return Set(DI(), static_cast<std::int32_t>(value));
 }
 
-// Lights in lanes of 32 bits, whatever they are kept in.
-template <class Index>
-HWY_INLINE VU loaded(const Index* from) {
-  if constexpr (sizeof(Index) == 4) {
-    return LoadU(DU(), from);
-  } else {
-    return PromoteTo(DU(), LoadU(hn::Rebind<Index, DU>(), from));
-  }
-}
-
-// Writes the wanted ones of a vector's numbers, which fit into an Index, and up to a vector of anything behind them.
-// Returns their end.
-template <class Index>
-HWY_INLINE Index* append(VU numbers, MU wanted, Index* to) {
+// Writes the wanted ones of a vector's numbers, and up to a vector of anything behind them. Returns their end.
+HWY_INLINE std::uint32_t* append(VU numbers, MU wanted, std::uint32_t* to) {
   // Compressing in a register and storing it whole is faster than a compressing store.
-  const VU first = compressed(DU(), numbers, wanted);
-  if constexpr (sizeof(Index) == 4) {
-    StoreU(first, DU(), to);
-  } else {
-    const hn::Rebind<Index, DU> slim;
-    StoreU(TruncateTo(slim, first), slim, to);
-  }
+  StoreU(compressed(DU(), numbers, wanted), DU(), to);
   return to + CountTrue(DU(), wanted);
 }
+
+// The spans of one row, and the columns whose lists are wanted.
+struct RowSpans {
+  const std::uint32_t *lights, *columns;
+  std::uint32_t count, column, end_column, width;
+};
 
 // Some columns.
 struct Columns {
@@ -90,20 +78,18 @@ template <std::size_t vectors>
 struct SpansInRegisters {
   VU lights[vectors], bits[vectors];
 
-  template <class Light>
-  HWY_INLINE SpansInRegisters(const Light* from_lights, const std::uint32_t* from_bits) {
+  HWY_INLINE SpansInRegisters(const std::uint32_t* from_lights, const std::uint32_t* from_bits) {
     const DU du;
     for (std::size_t i = 0; i < vectors; ++i) {
-      lights[i] = loaded(from_lights + i * Lanes(du));
+      lights[i] = LoadU(du, from_lights + i * Lanes(du));
       bits[i] = LoadU(du, from_bits + i * Lanes(du));
     }
   }
   HWY_INLINE SpansInRegisters(VU some_lights, VU some_bits) : lights{some_lights}, bits{some_bits} {}
 
   // `skipped`: the columns before these, which the bits have, too.
-  template <class Index>
-  HWY_INLINE Index* write(const Columns& columns, std::uint32_t skipped, Index* to, const Index* lists,
-                          std::uint32_t* begin) const {
+  HWY_INLINE std::uint32_t* write(const Columns& columns, std::uint32_t skipped, std::uint32_t* to,
+                                  const std::uint32_t* lists, std::uint32_t* begin) const {
     VU bit = bit_of(skipped);
     for (std::uint32_t column = columns.begin; column < columns.end; ++column) {
       begin[column] = static_cast<std::uint32_t>(to - lists);
@@ -115,15 +101,13 @@ struct SpansInRegisters {
 };
 
 // Spans in memory, up to a vector of ones without bits behind them.
-template <class Light>
 struct StoredSpans {
-  const Light* lights;
+  const std::uint32_t* lights;
   const std::uint32_t* bits;
   std::size_t count;
 
-  template <class Index>
-  HWY_INLINE Index* write(const Columns& columns, std::uint32_t skipped, Index* to, const Index* lists,
-                          std::uint32_t* begin) const {
+  HWY_INLINE std::uint32_t* write(const Columns& columns, std::uint32_t skipped, std::uint32_t* to,
+                                  const std::uint32_t* lists, std::uint32_t* begin) const {
     return write_from<1>(columns, skipped, to, lists, begin);
   }
 
@@ -132,9 +116,9 @@ struct StoredSpans {
   static constexpr std::size_t k_most_vectors = HWY_TARGET <= HWY_AVX3 ? 8 : 4;
 
   // At least as many vectors as this.
-  template <std::size_t vectors, class Index>
-  HWY_INLINE Index* write_from(const Columns& columns, std::uint32_t skipped, Index* to, const Index* lists,
-                               std::uint32_t* begin) const {
+  template <std::size_t vectors>
+  HWY_INLINE std::uint32_t* write_from(const Columns& columns, std::uint32_t skipped, std::uint32_t* to,
+                                       const std::uint32_t* lists, std::uint32_t* begin) const {
     if constexpr (vectors > k_most_vectors) {
       return write_many(columns, skipped, to, lists, begin);
     } else {
@@ -144,15 +128,14 @@ struct StoredSpans {
     }
   }
 
-  template <class Index>
-  HWY_INLINE Index* write_many(const Columns& columns, std::uint32_t skipped, Index* to, const Index* lists,
-                               std::uint32_t* begin) const {
+  HWY_INLINE std::uint32_t* write_many(const Columns& columns, std::uint32_t skipped, std::uint32_t* to,
+                                       const std::uint32_t* lists, std::uint32_t* begin) const {
     const DU du;
     VU bit = bit_of(skipped);
     for (std::uint32_t column = columns.begin; column < columns.end; ++column) {
       begin[column] = static_cast<std::uint32_t>(to - lists);
       for (std::size_t i = 0; i < count; i += Lanes(du))
-        to = append(loaded(lights + i), TestBit(LoadU(du, bits + i), bit), to);
+        to = append(LoadU(du, lights + i), TestBit(LoadU(du, bits + i), bit), to);
       bit = ShiftLeft<1>(bit);
     }
     return to;
@@ -165,29 +148,27 @@ std::uint32_t strip_columns(std::uint32_t columns) {
 }
 
 // Do most spans hold none of most strips? To choose them costs as much as to ask them for a fifth of the columns.
-template <class Index>
-HWY_INLINE bool are_narrow(const RowSpans<Index>& row, const Columns& window, std::uint32_t strip) {
+HWY_INLINE bool are_narrow(const RowSpans& row, const Columns& window, std::uint32_t strip) {
   return 5 * (row.width + strip) < 4 * (window.end - window.begin);
 }
 
 // All of a row's spans, with what they have of a window.
-template <class Index>
-HWY_INLINE Index* lists_at_once(const RowSpans<Index>& row, const Columns& window, FewColumns& few, Index* to,
-                                const Index* lists, std::uint32_t* begin) {
+HWY_INLINE std::uint32_t* lists_at_once(const RowSpans& row, const Columns& window, FewColumns& few, std::uint32_t* to,
+                                        const std::uint32_t* lists, std::uint32_t* begin) {
   const DU du;
   std::uint32_t* bits = few.strips[0].bits.data();
   for (std::size_t i = 0; i < row.count; i += Lanes(du)) {
     const VU some = Spans(LoadU(du, row.columns + i)).bits(window);
     StoreU(IfThenElseZero(FirstN(du, row.count - i), some), du, bits + i);
   }
-  return StoredSpans<Index>{row.lights, bits, row.count}.write(window, 0, to, lists, begin);
+  return StoredSpans{row.lights, bits, row.count}.write(window, 0, to, lists, begin);
 }
 
 // Strip by strip, from those spans that hold some of it. All are chosen first, so that none are read while they are
 // still being written.
-template <class Index>
-HWY_INLINE Index* lists_by_strips(const RowSpans<Index>& row, const Columns& window, std::uint32_t strip,
-                                  FewColumns& few, Index* to, const Index* lists, std::uint32_t* begin) {
+HWY_INLINE std::uint32_t* lists_by_strips(const RowSpans& row, const Columns& window, std::uint32_t strip,
+                                          FewColumns& few, std::uint32_t* to, const std::uint32_t* lists,
+                                          std::uint32_t* begin) {
   const DU du;
   constexpr std::size_t k_strips = FewColumns::k_strips;
   std::size_t counts[k_strips] = {};
@@ -197,7 +178,7 @@ HWY_INLINE Index* lists_by_strips(const RowSpans<Index>& row, const Columns& win
   };
   for (std::size_t i = 0; i < row.count; i += Lanes(du)) {
     const Spans spans(LoadU(du, row.columns + i));
-    const VU lights = loaded(row.lights + i), bits = spans.bits(window);
+    const VU lights = LoadU(du, row.lights + i), bits = spans.bits(window);
     const MU there = FirstN(du, row.count - i);
     for (std::size_t s = 0; s < k_strips; ++s) {
       const MU some = And(spans.some(columns_of(s)), there);
@@ -210,24 +191,23 @@ HWY_INLINE Index* lists_by_strips(const RowSpans<Index>& row, const Columns& win
     const Columns columns = columns_of(s);
     const FewColumns::Strip& chosen = few.strips[s];
     StoreU(Zero(du), du, few.strips[s].bits.data() + counts[s]);
-    to = StoredSpans<std::uint32_t>{chosen.lights.data(), chosen.bits.data(), counts[s]}.write(
-        columns, columns.begin - window.begin, to, lists, begin);
+    to = StoredSpans{chosen.lights.data(), chosen.bits.data(), counts[s]}.write(columns, columns.begin - window.begin,
+                                                                                to, lists, begin);
   }
   return to;
 }
 
 // Does each span hold all of the columns?
-template <class Index>
-HWY_INLINE bool all_are_full(const RowSpans<Index>& row) {
+HWY_INLINE bool all_are_full(const RowSpans& row) {
   return std::all_of(row.columns, row.columns + row.count, [&](std::uint32_t span) {
     return ColumnSpan::first(span) <= row.column && ColumnSpan::last(span) + 1 >= row.end_column;
   });
 }
 
 // All of the row's lights for each column.
-template <class Index>
-HWY_INLINE Index* equal_lists(const RowSpans<Index>& row, Index* to, const Index* lists, std::uint32_t* begin) {
-  const hn::ScalableTag<Index> d;
+HWY_INLINE std::uint32_t* equal_lists(const RowSpans& row, std::uint32_t* to, const std::uint32_t* lists,
+                                      std::uint32_t* begin) {
+  const DU d;
   const auto first = LoadU(d, row.lights);
   for (std::uint32_t column = row.column; column < row.end_column; ++column) {
     begin[column] = static_cast<std::uint32_t>(to - lists);
@@ -238,9 +218,8 @@ HWY_INLINE Index* equal_lists(const RowSpans<Index>& row, Index* to, const Index
   return to;
 }
 
-template <class Index>
-HWY_NOINLINE Index* lists_of(const RowSpans<Index>& row, FewColumns& few, Index* to, const Index* lists,
-                             std::uint32_t* begin) {
+HWY_NOINLINE std::uint32_t* lists_of(const RowSpans& row, FewColumns& few, std::uint32_t* to,
+                                     const std::uint32_t* lists, std::uint32_t* begin) {
   const DU du;
   if (all_are_full(row)) return equal_lists(row, to, lists, begin);
   const std::uint32_t strip = strip_columns(row.end_column - row.column);
@@ -249,7 +228,7 @@ HWY_NOINLINE Index* lists_of(const RowSpans<Index>& row, FewColumns& few, Index*
     const Columns window = {column, std::min(row.end_column, column + most)};
     if (row.count <= Lanes(du)) {
       const VU bits = Spans(LoadU(du, row.columns)).bits(window);
-      SpansInRegisters<1> spans(loaded(row.lights), IfThenElseZero(FirstN(du, row.count), bits));
+      SpansInRegisters<1> spans(LoadU(du, row.lights), IfThenElseZero(FirstN(du, row.count), bits));
       to = spans.write(window, 0, to, lists, begin);
     } else if (are_narrow(row, window, strip)) {
       to = lists_by_strips(row, window, strip, few, to, lists, begin);
@@ -260,24 +239,9 @@ HWY_NOINLINE Index* lists_of(const RowSpans<Index>& row, FewColumns& few, Index*
   return to;
 }
 
-std::uint8_t* lists_8(const RowSpans<std::uint8_t>& row, FewColumns& few, std::uint8_t* to, const std::uint8_t* lists,
-                      std::uint32_t* begin) {
-  return lists_of(row, few, to, lists, begin);
-}
-
-std::uint16_t* lists_16(const RowSpans<std::uint16_t>& row, FewColumns& few, std::uint16_t* to,
-                        const std::uint16_t* lists, std::uint32_t* begin) {
-  return lists_of(row, few, to, lists, begin);
-}
-
-std::uint32_t* lists_32(const RowSpans<std::uint32_t>& row, FewColumns& few, std::uint32_t* to,
-                        const std::uint32_t* lists, std::uint32_t* begin) {
-  return lists_of(row, few, to, lists, begin);
-}
-
 // The row's lists, but for the hole's columns.
-HWY_INLINE std::uint32_t* lists_beside(const grid::IndexRange& hole, RowSpans<std::uint32_t> row, FewColumns& few,
-                                       std::uint32_t* to, const std::uint32_t* lists, std::uint32_t* begin) {
+HWY_INLINE std::uint32_t* lists_beside(const grid::IndexRange& hole, RowSpans row, FewColumns& few, std::uint32_t* to,
+                                       const std::uint32_t* lists, std::uint32_t* begin) {
   const std::uint32_t end_column = row.end_column;
   row.end_column = static_cast<std::uint32_t>(hole.first);
   to = lists_of(row, few, to, lists, begin);
@@ -291,8 +255,7 @@ std::uint32_t* lists_of_band(const BandSpans& band, const BandHole& hole, FewCol
                              const std::uint32_t* lists, std::uint32_t* begin) {
   for (std::uint32_t row = 0; row < band.rows; ++row, begin += band.row_columns) {
     const std::size_t at = row * band.pitch;
-    const RowSpans<std::uint32_t> spans{band.lights + at, band.columns + at, band.sizes[row], 0,
-                                        band.row_columns, band.width};
+    const RowSpans spans{band.lights + at, band.columns + at, band.sizes[row], 0, band.row_columns, band.width};
     if (spans.count == 0)
       std::fill_n(begin, band.row_columns, static_cast<std::uint32_t>(to - lists));
     else if (hole.columns.empty() || !hole.rows.holds(static_cast<int>(row)))
@@ -303,31 +266,6 @@ std::uint32_t* lists_of_band(const BandSpans& band, const BandHole& hole, FewCol
   return to;
 }
 
-// A vector of cells at a time gathers the bits of all lights of one word.
-void bits_of(const RowSpans<std::uint32_t>& row, std::uint32_t words_per_cell, std::uint32_t* words) {
-  const hn::ScalableTag<std::int32_t> d;
-  const std::size_t lanes = Lanes(d);
-  std::int32_t gathered[k_most_lanes];
-  std::fill(words + std::size_t{row.column} * words_per_cell, words + std::size_t{row.end_column} * words_per_cell, 0);
-  for (std::size_t column = row.column; column < row.end_column; column += lanes) {
-    const auto lane_column = Iota(d, static_cast<std::int32_t>(column));
-    const std::size_t cells = std::min<std::size_t>(lanes, row.end_column - column);
-    for (std::uint32_t i = 0; i < row.count;) {
-      const std::uint32_t word = row.lights[i] / 32;
-      auto sum = Zero(d);
-      for (; i < row.count && row.lights[i] / 32 == word; ++i) {
-        const auto before = Set(d, static_cast<std::int32_t>(ColumnSpan::first(row.columns[i])) - 1);
-        const auto after = Set(d, static_cast<std::int32_t>(ColumnSpan::last(row.columns[i])) + 1);
-        const auto bit = Set(d, static_cast<std::int32_t>(1u << row.lights[i] % 32));
-        sum = Or(sum, IfThenElseZero(And(lane_column > before, after > lane_column), bit));
-      }
-      StoreU(sum, d, gathered);
-      for (std::size_t cell = 0; cell < cells; ++cell)
-        words[(column + cell) * words_per_cell + word] = static_cast<std::uint32_t>(gathered[cell]);
-    }
-  }
-}
-
 }  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace clusterbench::assign
@@ -336,38 +274,12 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace clusterbench::assign {
 
-HWY_EXPORT(lists_8);
-HWY_EXPORT(lists_16);
-HWY_EXPORT(lists_32);
 HWY_EXPORT(lists_of_band);
-HWY_EXPORT(bits_of);
-
-std::uint8_t* write_row_lists(const RowSpans<std::uint8_t>& row, FewColumns& few, std::uint8_t* to,
-                              const std::uint8_t* lists, std::uint32_t* begin) {
-  few.make_room(row.count);
-  return HWY_DYNAMIC_DISPATCH(lists_8)(row, few, to, lists, begin);
-}
-
-std::uint16_t* write_row_lists(const RowSpans<std::uint16_t>& row, FewColumns& few, std::uint16_t* to,
-                               const std::uint16_t* lists, std::uint32_t* begin) {
-  few.make_room(row.count);
-  return HWY_DYNAMIC_DISPATCH(lists_16)(row, few, to, lists, begin);
-}
-
-std::uint32_t* write_row_lists(const RowSpans<std::uint32_t>& row, FewColumns& few, std::uint32_t* to,
-                               const std::uint32_t* lists, std::uint32_t* begin) {
-  few.make_room(row.count);
-  return HWY_DYNAMIC_DISPATCH(lists_32)(row, few, to, lists, begin);
-}
 
 std::uint32_t* write_band_lists(const BandSpans& band, const BandHole& hole, FewColumns& few, std::uint32_t* to,
                                 const std::uint32_t* lists, std::uint32_t* begin) {
   few.make_room(band.rows == 0 ? 0 : *std::max_element(band.sizes, band.sizes + band.rows));
   return HWY_DYNAMIC_DISPATCH(lists_of_band)(band, hole, few, to, lists, begin);
-}
-
-void write_row_bits(const RowSpans<std::uint32_t>& row, std::uint32_t words_per_cell, std::uint32_t* words) {
-  HWY_DYNAMIC_DISPATCH(bits_of)(row, words_per_cell, words);
 }
 
 }  // namespace clusterbench::assign

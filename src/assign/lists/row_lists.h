@@ -1,8 +1,7 @@
 #pragma once
-// The lists of a row of cells, straight from the spans of its lights: each cell asks all of the row's spans at once and
-// compress-stores the lights whose span holds it, as 8, 16 or 32 bits wide indices; where spans are many and short, a
-// few cells at a time, for which the spans that hold none of them are left out first. Or all cells at once take each
-// span's bit. SIMD, dispatched at run time.
+// The lists of rows of cells, straight from the spans of their lights: each cell asks all of its row's spans at once
+// and compress-stores the lights whose span holds it; where spans are many and short, a few cells at a time, for which
+// the spans that hold none of them are left out first. SIMD, dispatched at run time.
 
 #include <array>
 #include <cstddef>
@@ -22,22 +21,13 @@ struct ColumnSpan {
   static constexpr std::uint32_t last(std::uint32_t span) { return span >> 16; }
 };
 
-// The spans of one row, ascending by light, and the columns whose lists are wanted. k_most_lanes more of each can be
-// read. Index is std::uint8_t, std::uint16_t or std::uint32_t.
-template <class Index>
-struct RowSpans {
-  const Index* lights;
-  const std::uint32_t* columns;  // ColumnSpan
-  std::uint32_t count, column, end_column;
-  std::uint32_t width = 0;  // about how many columns spans have: says only which way to take
-};
-
-// A band of rows, each `pitch` spans behind the one before it.
+// The spans of a band's rows, each ascending by light, and `pitch` spans behind those of the row before it.
+// k_most_lanes more of each can be read.
 struct BandSpans {
-  const std::uint32_t *sizes, *columns, *lights;
+  const std::uint32_t *sizes, *columns, *lights;  // columns: ColumnSpan
   std::size_t pitch;
   std::uint32_t rows, row_columns;
-  std::uint32_t width = 0;
+  std::uint32_t width = 0;  // about how many columns spans have: says only which way to take
 };
 // Cells that take no lights: spans may cover them, their lists stay empty.
 struct BandHole {
@@ -69,18 +59,9 @@ struct FewColumns {
 
 // Writes each column's lights to `to`, and to begin[column] where its list begins, counted from `lists`. Up to
 // k_most_lanes more than the lights is written. Returns the end.
-std::uint8_t* write_row_lists(const RowSpans<std::uint8_t>& row, FewColumns& few, std::uint8_t* to,
-                              const std::uint8_t* lists, std::uint32_t* begin);
-std::uint16_t* write_row_lists(const RowSpans<std::uint16_t>& row, FewColumns& few, std::uint16_t* to,
-                               const std::uint16_t* lists, std::uint32_t* begin);
-std::uint32_t* write_row_lists(const RowSpans<std::uint32_t>& row, FewColumns& few, std::uint32_t* to,
-                               const std::uint32_t* lists, std::uint32_t* begin);
-
-// Row after row of all columns; begin counts on from row to row.
+// Writes the lights of each column, row after row, to `to`, and to the next of `begin` where its list begins, counted
+// from `lists`. Up to k_most_lanes more than the lights is written. Returns the end.
 std::uint32_t* write_band_lists(const BandSpans& band, const BandHole& hole, FewColumns& few, std::uint32_t* to,
                                 const std::uint32_t* lists, std::uint32_t* begin);
-
-// Light l of column c is bit l % 32 of words[c * words_per_cell + l / 32]. All words of these columns are written.
-void write_row_bits(const RowSpans<std::uint32_t>& row, std::uint32_t words_per_cell, std::uint32_t* words);
 
 }  // namespace clusterbench::assign
