@@ -444,7 +444,7 @@ struct SpanArrays {
 
 // Each row a band of its own.
 void row_lists(State& state, const FrameLists& frame) {
-  const SpanArrays spans(frame);
+  SpanArrays spans(frame);
   assign::FewColumns few;
   std::vector<std::uint32_t> lights(frame.lists.pair_count() + assign::k_most_lanes);
   std::vector<std::uint32_t> begin(frame.lists.begin.size());

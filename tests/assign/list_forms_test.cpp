@@ -80,7 +80,7 @@ struct Row {
   std::vector<std::uint32_t> spans;
   std::uint32_t count = 0, columns = 0;
 
-  BandSpans band(std::uint32_t width = 1) const { return {&count, spans.data(), lights.data(), 0, 1, columns, width}; }
+  BandSpans band(std::uint32_t width = 1) { return {&count, spans.data(), lights.data(), 0, 1, columns, width}; }
   Lists lists() const {
     Lists lists;
     lists.begin.push_back(0);
@@ -127,7 +127,7 @@ constexpr std::array<std::array<std::uint32_t, 3>, 12> k_rows{{{1, 1, 1},
                                                                {70, 150, 9}}};
 
 // Whatever the spans' width is said to be.
-void expect_row_lists(const Row& row, const std::string& what) {
+void expect_row_lists(Row& row, const std::string& what) {
   const Lists expected = row.lists();
   for (const std::uint32_t width : {1u, row.columns}) {
     FewColumns few;
@@ -179,7 +179,7 @@ TEST(RowLists, take_columns_and_lights_up_to_the_ends_of_their_types) {
 
 // Columns 8 .. 20 of 30.
 void expect_empty_hole(std::uint32_t longest) {
-  const Row row = random_row(30, 170, longest, 1);
+  Row row = random_row(30, 170, longest, 1);
   const Lists all = row.lists();
   Lists expected;
   expected.begin.push_back(0);

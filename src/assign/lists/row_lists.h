@@ -13,9 +13,14 @@
 
 namespace clusterbench::assign {
 
+// The instruction set that is used: "AVX3", "AVX2", "SSE4", "NEON", "SCALAR" ... as Highway names it.
+const char* simd_target_name();
+
 // A span of columns in one number.
 struct ColumnSpan {
   static constexpr std::uint32_t k_most_columns = 0x7fff;
+  // No column; and the mark of a span of perhaps not all of its columns.
+  static constexpr std::uint32_t k_none = 0xffffffff, k_uncertain = 0x80000000;
   static constexpr std::uint32_t of(std::uint32_t first, std::uint32_t last) { return first | last << 16; }
   static constexpr std::uint32_t first(std::uint32_t span) { return span & 0xffff; }
   static constexpr std::uint32_t last(std::uint32_t span) { return span >> 16; }
@@ -24,7 +29,7 @@ struct ColumnSpan {
 // The spans of a band's rows, each ascending by light, and `pitch` spans behind those of the row before it.
 // k_most_lanes more of each can be read.
 struct BandSpans {
-  const std::uint32_t *sizes, *columns, *lights;  // columns: ColumnSpan
+  std::uint32_t *sizes, *columns, *lights;  // columns: ColumnSpan
   std::size_t pitch;
   std::uint32_t rows, row_columns;
   std::uint32_t width = 0;  // about how many columns spans have: says only which way to take
@@ -57,8 +62,12 @@ struct FewColumns {
   }
 };
 
-// Writes each column's lights to `to`, and to begin[column] where its list begins, counted from `lists`. Up to
-// k_most_lanes more than the lights is written. Returns the end.
+// ListBuilder's add_batch and add_rows, to rows that have room for a vector more.
+bool add_batch_rows(const BandSpans& band, int first_row, int last_row, const std::uint32_t* columns,
+                    const std::uint32_t* lights, std::uint8_t* is_left);
+void add_listed_rows(const BandSpans& band, int first_row, int last_row, const std::uint32_t* sizes,
+                     const std::uint32_t* columns, const std::uint32_t* lights);
+
 // Writes the lights of each column, row after row, to `to`, and to the next of `begin` where its list begins, counted
 // from `lists`. Up to k_most_lanes more than the lights is written. Returns the end.
 std::uint32_t* write_band_lists(const BandSpans& band, const BandHole& hole, FewColumns& few, std::uint32_t* to,
