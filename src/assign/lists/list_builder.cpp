@@ -6,20 +6,6 @@
 #include "core/memory.h"
 
 namespace clusterbench::assign {
-namespace {
-
-// How many columns all spans have.
-std::uint64_t pairs_of(const BandSpans& band) {
-  std::uint64_t pairs = 0;
-  for (std::uint32_t row = 0; row < band.rows; ++row) {
-    const std::uint32_t* spans = band.columns + row * band.pitch;
-    for (std::uint32_t i = 0; i < band.sizes[row]; ++i)
-      pairs += spans[i] == ColumnSpan::k_none ? 0 : ColumnSpan::last(spans[i]) - ColumnSpan::first(spans[i]) + 1;
-  }
-  return pairs;
-}
-
-}  // namespace
 
 void ListBuilder::start(std::uint32_t bands, std::uint32_t rows, std::uint32_t columns, Lists& out) {
   if (rows != rows_) {

@@ -1,6 +1,7 @@
 #include "assign/lists/row_lists.h"
 
 #include <algorithm>
+#include <array>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/lists/row_lists.cpp"
@@ -57,6 +58,34 @@ void add_rows(const BandSpans& band, int first_row, int last_row, const std::uin
   }
 }
 
+std::uint64_t count_pairs(const BandSpans& band) {
+  const DU du;
+  const VU none = Set(du, ColumnSpan::k_none), half = Set(du, 0xffff), one = Set(du, 1);
+  // A lane's sum of so many vectors is below 2^32, and so is that of all lanes' halves.
+  constexpr std::uint32_t k_most_vectors = UINT32_MAX / (ColumnSpan::k_most_columns + 1);
+  std::uint64_t total = 0;
+  std::uint32_t vectors = 0;
+  VU sum = Zero(du);
+  const auto flush = [&] {
+    total += GetLane(SumOfLanes(du, And(sum, half)));
+    total += std::uint64_t{GetLane(SumOfLanes(du, ShiftRight<16>(sum)))} << 16;
+    sum = Zero(du);
+    vectors = 0;
+  };
+  for (std::uint32_t row = 0; row < band.rows; ++row) {
+    const std::uint32_t* spans = band.columns + row * band.pitch;
+    const std::uint32_t size = band.sizes[row];
+    for (std::uint32_t i = 0; i < size; i += static_cast<std::uint32_t>(Lanes(du))) {
+      const VU span = LoadU(du, spans + i);
+      const MU wanted = And(FirstN(du, size - i), Ne(span, none));
+      sum = sum + IfThenElseZero(wanted, ShiftRight<16>(span) - And(span, half) + one);
+      if (++vectors == k_most_vectors) flush();
+    }
+  }
+  flush();
+  return total;
+}
+
 // Writes the wanted ones of a vector's numbers, and up to a vector of anything behind them. Returns their end.
 HWY_INLINE std::uint32_t* append(VU numbers, MU wanted, std::uint32_t* to) {
   // Compressing in a register and storing it whole is faster than a compressing store.
@@ -97,10 +126,14 @@ class RowLists {
 
   // Those of some columns. Returns their end.
   HWY_NOINLINE std::uint32_t* write(const Columns& columns, std::uint32_t* to) const {
+    const RowLists row = *this;  // a copy, which stays in registers: no store can change it
     const std::uint32_t strip = columns.end - columns.begin <= 16 ? 4 : 8, most = FewColumns::k_strips * strip;
     for (std::uint32_t column = columns.begin; column < columns.end; column += most) {
       const Columns window{column, std::min(columns.end, column + most)};
-      to = count_ > Lanes(DU()) && are_narrow(window, strip) ? by_strips(window, strip, to) : at_once(window, to);
+      if (row.count_ <= Lanes(DU()))
+        to = row.write_kept<1>({LoadU(DU(), row.lights_)}, {row.bits_from(0, window)}, window, 0, to);
+      else
+        to = row.are_narrow(window, strip) ? row.by_strips(window, strip, to) : row.at_once(window, to);
     }
     return to;
   }
@@ -167,16 +200,23 @@ class RowLists {
       });
     } else {
       if (count > vectors * Lanes(du)) return write_some<vectors + 1>(lights, bits, count, columns, skipped, to);
-      VU kept_lights[vectors], kept_bits[vectors];
+      std::array<VU, vectors> kept_lights, kept_bits;
       for (std::size_t i = 0; i < vectors; ++i) {
         kept_lights[i] = LoadU(du, lights + i * Lanes(du));
         kept_bits[i] = LoadU(du, bits + i * Lanes(du));
       }
-      return each_column(columns, skipped, to, [&](VU bit, std::uint32_t* at) {
-        for (std::size_t i = 0; i < vectors; ++i) at = append(kept_lights[i], TestBit(kept_bits[i], bit), at);
-        return at;
-      });
+      return write_kept<vectors>(kept_lights, kept_bits, columns, skipped, to);
     }
+  }
+
+  // The same from vectors in registers.
+  template <std::size_t vectors>
+  HWY_INLINE std::uint32_t* write_kept(const std::array<VU, vectors>& lights, const std::array<VU, vectors>& bits,
+                                       const Columns& columns, std::uint32_t skipped, std::uint32_t* to) const {
+    return each_column(columns, skipped, to, [&](VU bit, std::uint32_t* at) {
+      for (std::size_t i = 0; i < vectors; ++i) at = append(lights[i], TestBit(bits[i], bit), at);
+      return at;
+    });
   }
 
   // add(bit, to) appends the lights that have a column's bit.
@@ -227,6 +267,7 @@ namespace clusterbench::assign {
 HWY_EXPORT(target_name);
 HWY_EXPORT(add_batch);
 HWY_EXPORT(add_rows);
+HWY_EXPORT(count_pairs);
 HWY_EXPORT(write_lists);
 
 const char* simd_target_name() {
@@ -241,6 +282,10 @@ bool add_batch_rows(const BandSpans& band, int first_row, int last_row, const st
 void add_listed_rows(const BandSpans& band, int first_row, int last_row, const std::uint32_t* sizes,
                      const std::uint32_t* columns, const std::uint32_t* lights) {
   HWY_DYNAMIC_DISPATCH(add_rows)(band, first_row, last_row, sizes, columns, lights);
+}
+
+std::uint64_t pairs_of(const BandSpans& band) {
+  return HWY_DYNAMIC_DISPATCH(count_pairs)(band);
 }
 
 std::uint32_t* write_band_lists(const BandSpans& band, const BandHole& hole, FewColumns& few, std::uint32_t* to,

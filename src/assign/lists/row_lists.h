@@ -68,6 +68,9 @@ bool add_batch_rows(const BandSpans& band, int first_row, int last_row, const st
 void add_listed_rows(const BandSpans& band, int first_row, int last_row, const std::uint32_t* sizes,
                      const std::uint32_t* columns, const std::uint32_t* lights);
 
+// How many columns all spans have.
+std::uint64_t pairs_of(const BandSpans& band);
+
 // Writes the lights of each column, row after row, to `to`, and to the next of `begin` where its list begins, counted
 // from `lists`. Up to k_most_lanes more than the lights is written. Returns the end.
 std::uint32_t* write_band_lists(const BandSpans& band, const BandHole& hole, FewColumns& few, std::uint32_t* to,
