@@ -424,58 +424,45 @@ void span_lists(State& state, const FrameLists& frame) {
 }
 
 // All rows' spans side by side, with room to read beyond the last.
-template <class Index>
 struct SpanArrays {
-  std::vector<Index> lights;
-  std::vector<std::uint32_t> spans;
-  std::vector<std::size_t> begin;  // of each row
+  std::vector<std::uint32_t> lights, spans, sizes;  // sizes: of each row
   std::uint32_t columns, width;
 
   explicit SpanArrays(const FrameLists& frame)
-      : begin(frame.rows + 1, 0),
+      : sizes(frame.rows, 0),
         columns(frame.columns),
         width(static_cast<std::uint32_t>(frame.lists.pair_count() / std::max<std::size_t>(1, frame.spans.size()))) {
     for (const Span& span : frame.spans) {
-      lights.push_back(static_cast<Index>(span.light));
+      lights.push_back(span.light);
       spans.push_back(assign::ColumnSpan::of(span.first, span.last));
-      begin[span.row + 1] = lights.size();
+      ++sizes[span.row];
     }
-    for (std::size_t row = 1; row < begin.size(); ++row) begin[row] = std::max(begin[row], begin[row - 1]);
     lights.resize(lights.size() + assign::k_most_lanes);
     spans.resize(lights.size());
   }
-  assign::RowSpans<Index> of(std::size_t row) const {
-    const auto count = static_cast<std::uint32_t>(begin[row + 1] - begin[row]);
-    return {lights.data() + begin[row], spans.data() + begin[row], count, 0, columns, width};
-  }
 };
 
-template <class Index>
+// Each row a band of its own.
 void row_lists(State& state, const FrameLists& frame) {
-  const SpanArrays<Index> spans(frame);
+  SpanArrays spans(frame);
   assign::FewColumns few;
-  std::vector<Index> lights(frame.lists.pair_count() + assign::k_most_lanes);
+  std::vector<std::uint32_t> lights(frame.lists.pair_count() + assign::k_most_lanes);
   std::vector<std::uint32_t> begin(frame.lists.begin.size());
-  const std::size_t bytes = begin.size() * sizeof(std::uint32_t) + frame.lists.pair_count() * sizeof(Index);
+  const std::size_t bytes = (begin.size() + frame.lists.pair_count()) * sizeof(std::uint32_t);
   against_copy(state, bytes, frame.lists.pair_count(), [&] {
-    Index* to = lights.data();
-    for (std::size_t row = 0; row < frame.rows; ++row)
-      to = assign::write_row_lists(spans.of(row), few, to, lights.data(), begin.data() + row * frame.columns);
+    std::uint32_t* to = lights.data();
+    assign::BandSpans band{spans.sizes.data(), spans.spans.data(), spans.lights.data(), 0, 1,
+                           spans.columns,      spans.width};
+    for (std::size_t row = 0; row < frame.rows; ++row) {
+      to = assign::write_band_lists(band, {}, few, to, lights.data(), begin.data() + row * frame.columns);
+      band.columns += *band.sizes;
+      band.lights += *band.sizes++;
+    }
   });
 }
 
 std::uint32_t words_per_cell(const FrameLists& frame) {
   return (frame.lights + 31) / 32;
-}
-
-void row_bits(State& state, const FrameLists& frame) {
-  const SpanArrays<std::uint32_t> spans(frame);
-  const std::size_t per_row = std::size_t{frame.columns} * words_per_cell(frame);
-  std::vector<std::uint32_t> words(frame.rows * per_row);
-  against_copy(state, words.size() * sizeof(std::uint32_t), frame.lists.pair_count(), [&] {
-    for (std::size_t row = 0; row < frame.rows; ++row)
-      assign::write_row_bits(spans.of(row), words_per_cell(frame), words.data() + row * per_row);
-  });
 }
 
 template <class Index>
@@ -525,14 +512,8 @@ struct ListKernel {
 };
 
 constexpr ListKernel k_list_kernels[] = {
-    {"span_lists", span_lists},
-    {"row_lists_8", row_lists<std::uint8_t>, 256},
-    {"row_lists_16", row_lists<std::uint16_t>},
-    {"row_lists_32", row_lists<std::uint32_t>},
-    {"row_bits", row_bits},
-    {"narrow_8", narrow<std::uint8_t>, 256},
-    {"narrow_16", narrow<std::uint16_t>},
-    {"write_bits", write_bits},
+    {"span_lists", span_lists},           {"row_lists", row_lists},   {"narrow_8", narrow<std::uint8_t>, 256},
+    {"narrow_16", narrow<std::uint16_t>}, {"write_bits", write_bits},
 };
 
 struct ListScene {

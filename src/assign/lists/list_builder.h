@@ -13,11 +13,6 @@
 
 namespace clusterbench::assign {
 
-// The instruction set that is used: "AVX3", "AVX2", "SSE4", "NEON", "SCALAR" ... as Highway names it.
-const char* simd_target_name();
-
-struct SpanRows;
-
 // Keeps its memory between frames.
 class ListBuilder {
  public:
@@ -35,14 +30,12 @@ class ListBuilder {
     columns_of_[index] = ColumnSpan::of(first, last);
   }
   // Adds a batch of lights' spans to rows first_row .. last_row. columns[row * lanes + i]: the span of lights[i] as
-  // a ColumnSpan, k_no_span, or with k_uncertain_span set one that is not to be added as it is. Rows
-  // with such spans are left alone: is_left[row] says so, and the answer whether there are any. `lanes`: as many as fit
-  // into a vector.
-  static constexpr std::uint32_t k_no_span = 0xffffffff, k_uncertain_span = 0x80000000;
+  // a ColumnSpan, k_none, or with k_uncertain set one that is not to be added as it is. Rows with such spans are left
+  // alone: is_left[row] says so, and the answer whether there are any. `lanes`: as many as fit into a vector.
   bool add_batch(int first_row, int last_row, const std::uint32_t* columns, const std::uint32_t* lights,
                  std::uint8_t* is_left);
   // Adds spans row after row: sizes[row] to each of rows first_row .. last_row, at most as many as fit into a vector.
-  // k_no_span is a span without columns. Whole vectors can be read from each span on.
+  // k_none is a span without columns. Whole vectors can be read from each span on.
   void add_rows(int first_row, int last_row, const std::uint32_t* sizes, const std::uint32_t* columns,
                 const std::uint32_t* lights);
   // Writes the band's lists; the next band begins. Throws Error beyond 2^32 - 1 pairs or the limit on memory.
@@ -54,7 +47,7 @@ class ListBuilder {
 
  private:
   void make_room(std::uint32_t spans);
-  SpanRows span_rows();
+  BandSpans band_spans();
   void grow();
 
   std::uint32_t rows_ = 0, columns_ = 0, band_ = 0;

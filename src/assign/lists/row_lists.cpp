@@ -1,51 +1,95 @@
 #include "assign/lists/row_lists.h"
 
 #include <algorithm>
+#include <array>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/lists/row_lists.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
 #include <hwy/highway.h>
 
-#include "assign/simd/compress-inl.h"
+#include "assign/simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
 namespace {
 
-using DU = hn::ScalableTag<std::uint32_t>;
-using DI = hn::ScalableTag<std::int32_t>;
-using VU = hn::Vec<DU>;
-using VI = hn::Vec<DI>;
 using MU = hn::Mask<DU>;
 
-HWY_INLINE VI all_int(std::uint32_t value) {
-  return Set(DI(), static_cast<std::int32_t>(value));
+const char* target_name() {
+  return hwy::TargetName(HWY_TARGET);
 }
 
-// Lights in lanes of 32 bits, whatever they are kept in.
-template <class Index>
-HWY_INLINE VU loaded(const Index* from) {
-  if constexpr (sizeof(Index) == 4) {
-    return LoadU(DU(), from);
-  } else {
-    return PromoteTo(DU(), LoadU(hn::Rebind<Index, DU>(), from));
+bool add_batch(const BandSpans& band, int first_row, int last_row, const std::uint32_t* columns,
+               const std::uint32_t* lights, std::uint8_t* is_left) {
+  const DU du;
+  const VU light = LoadU(du, lights), none = Set(du, ColumnSpan::k_none);
+  bool some_are_left = false;
+  for (int row = first_row; row <= last_row; ++row) {
+    const auto r = static_cast<std::size_t>(row);
+    const VU span = LoadU(du, columns + r * Lanes(du));
+    const MU wanted = Ne(span, none), uncertain = TestBit(span, Set(du, ColumnSpan::k_uncertain));
+    is_left[r] = AllFalse(du, And(wanted, uncertain)) ? 0 : 1;
+    if (is_left[r] != 0) {
+      some_are_left = true;
+      continue;
+    }
+    const std::size_t to = r * band.pitch + band.sizes[r];
+    StoreU(compressed(du, light, wanted), du, band.lights + to);
+    StoreU(compressed(du, span, wanted), du, band.columns + to);
+    band.sizes[r] += static_cast<std::uint32_t>(CountTrue(du, wanted));
+  }
+  return some_are_left;
+}
+
+void add_rows(const BandSpans& band, int first_row, int last_row, const std::uint32_t* sizes,
+              const std::uint32_t* columns, const std::uint32_t* lights) {
+  const DU du;
+  const BandSpans to = band;  // a copy, which stays in registers: no store can change it
+  std::size_t begin = static_cast<std::size_t>(first_row) * to.pitch;
+  for (int row = first_row; row <= last_row; ++row, begin += to.pitch) {
+    const std::uint32_t size = sizes[row], earlier = to.sizes[row];
+    StoreU(LoadU(du, columns), du, to.columns + begin + earlier);
+    StoreU(LoadU(du, lights), du, to.lights + begin + earlier);
+    to.sizes[row] = earlier + size;
+    columns += size;
+    lights += size;
   }
 }
 
-// Writes the wanted ones of a vector's numbers, which fit into an Index, and up to a vector of anything behind them.
-// Returns their end.
-template <class Index>
-HWY_INLINE Index* append(VU numbers, MU wanted, Index* to) {
+std::uint64_t count_pairs(const BandSpans& band) {
+  const DU du;
+  const VU none = Set(du, ColumnSpan::k_none), half = Set(du, 0xffff), one = Set(du, 1);
+  // A lane's sum of so many vectors is below 2^32, and so is that of all lanes' halves.
+  constexpr std::uint32_t k_most_vectors = UINT32_MAX / (ColumnSpan::k_most_columns + 1);
+  std::uint64_t total = 0;
+  std::uint32_t vectors = 0;
+  VU sum = Zero(du);
+  const auto flush = [&] {
+    total += GetLane(SumOfLanes(du, And(sum, half)));
+    total += std::uint64_t{GetLane(SumOfLanes(du, ShiftRight<16>(sum)))} << 16;
+    sum = Zero(du);
+    vectors = 0;
+  };
+  for (std::uint32_t row = 0; row < band.rows; ++row) {
+    const std::uint32_t* spans = band.columns + row * band.pitch;
+    const std::uint32_t size = band.sizes[row];
+    for (std::uint32_t i = 0; i < size; i += static_cast<std::uint32_t>(Lanes(du))) {
+      const VU span = LoadU(du, spans + i);
+      const MU wanted = And(FirstN(du, size - i), Ne(span, none));
+      sum = sum + IfThenElseZero(wanted, ShiftRight<16>(span) - And(span, half) + one);
+      if (++vectors == k_most_vectors) flush();
+    }
+  }
+  flush();
+  return total;
+}
+
+// Writes the wanted ones of a vector's numbers, and up to a vector of anything behind them. Returns their end.
+HWY_INLINE std::uint32_t* append(VU numbers, MU wanted, std::uint32_t* to) {
   // Compressing in a register and storing it whole is faster than a compressing store.
-  const VU first = compressed(DU(), numbers, wanted);
-  if constexpr (sizeof(Index) == 4) {
-    StoreU(first, DU(), to);
-  } else {
-    const hn::Rebind<Index, DU> slim;
-    StoreU(TruncateTo(slim, first), slim, to);
-  }
+  StoreU(compressed(DU(), numbers, wanted), DU(), to);
   return to + CountTrue(DU(), wanted);
 }
 
@@ -54,278 +98,162 @@ struct Columns {
   std::uint32_t begin, end;
 };
 
-// Spans of columns, one per lane.
-struct Spans {
-  VI first, last;
-
-  HWY_INLINE explicit Spans(VU columns)
-      : first(BitCast(DI(), And(columns, Set(DU(), 0xffff)))), last(BitCast(DI(), ShiftRight<16>(columns))) {}
-
-  // Which of them hold some of these columns.
-  HWY_INLINE MU some(const Columns& of) const {
-    return RebindMask(DU(), And(all_int(of.end) > first, last > all_int(of.begin - 1)));
-  }
-
-  // What each has of at most 32 columns: a bit for each of these, the first one's lowest.
-  HWY_INLINE VU bits(const Columns& of) const {
-    const DU du;
-    const VI begin = all_int(of.begin), most = all_int(31);
-    const VI from = Max(first, begin) - begin;
-    const VI to = Min(last, all_int(of.end - 1)) - begin;
-    // Shifts are by less than 32, also where there is nothing.
-    const VU before = BitCast(du, And(from, most)), behind = BitCast(du, AndNot(to, most));
-    const VU all = Set(du, 0xffffffff);
-    const MU none = RebindMask(du, from > to);
-    return IfThenZeroElse(none, And(Shl(all, before), Shr(all, behind)));
-  }
-};
-
-// The bit of the column behind `skipped` others.
-HWY_INLINE VU bit_of(std::uint32_t skipped) {
-  return Set(DU(), 1u << skipped);
+// What spans, one per lane, have of at most 32 columns: a bit for each of these, the first one's lowest.
+HWY_INLINE VU bits_of(VU spans, const Columns& columns) {
+  const DU du;
+  const VI begin = all_int(static_cast<std::int32_t>(columns.begin)), most = all_int(31);
+  const VI last = all_int(static_cast<std::int32_t>(columns.end) - 1);
+  const VI from = Max(BitCast(DI(), And(spans, Set(du, 0xffff))), begin) - begin;
+  const VI to = Min(BitCast(DI(), ShiftRight<16>(spans)), last) - begin;
+  // Shifts are by less than 32, also where there is nothing.
+  const VU before = BitCast(du, And(from, most)), behind = BitCast(du, AndNot(to, most));
+  const VU ones = Set(du, 0xffffffff);
+  return IfThenZeroElse(RebindMask(du, from > to), And(Shl(ones, before), Shr(ones, behind)));
 }
 
-// `vectors` vectors of spans, which stay in registers: their lights and what they have of some columns.
-template <std::size_t vectors>
-struct SpansInRegisters {
-  VU lights[vectors], bits[vectors];
+// Writes the lists of one row's cells.
+class RowLists {
+ public:
+  HWY_INLINE RowLists(const BandSpans& band, std::uint32_t row, FewColumns& few, const std::uint32_t* lists,
+                      std::uint32_t* begin)
+      : lights_(band.lights + row * band.pitch),
+        columns_(band.columns + row * band.pitch),
+        count_(band.sizes[row]),
+        width_(band.width),
+        few_(few),
+        lists_(lists),
+        begin_(begin) {}
 
-  template <class Light>
-  HWY_INLINE SpansInRegisters(const Light* from_lights, const std::uint32_t* from_bits) {
-    const DU du;
-    for (std::size_t i = 0; i < vectors; ++i) {
-      lights[i] = loaded(from_lights + i * Lanes(du));
-      bits[i] = LoadU(du, from_bits + i * Lanes(du));
-    }
-  }
-  HWY_INLINE SpansInRegisters(VU some_lights, VU some_bits) : lights{some_lights}, bits{some_bits} {}
-
-  // `skipped`: the columns before these, which the bits have, too.
-  template <class Index>
-  HWY_INLINE Index* write(const Columns& columns, std::uint32_t skipped, Index* to, const Index* lists,
-                          std::uint32_t* begin) const {
-    VU bit = bit_of(skipped);
-    for (std::uint32_t column = columns.begin; column < columns.end; ++column) {
-      begin[column] = static_cast<std::uint32_t>(to - lists);
-      for (std::size_t i = 0; i < vectors; ++i) to = append(lights[i], TestBit(bits[i], bit), to);
-      bit = ShiftLeft<1>(bit);
+  // Those of some columns. Returns their end.
+  HWY_NOINLINE std::uint32_t* write(const Columns& columns, std::uint32_t* to) const {
+    const RowLists row = *this;  // a copy, which stays in registers: no store can change it
+    const std::uint32_t strip = columns.end - columns.begin <= 16 ? 4 : 8, most = FewColumns::k_strips * strip;
+    for (std::uint32_t column = columns.begin; column < columns.end; column += most) {
+      const Columns window{column, std::min(columns.end, column + most)};
+      if (row.count_ <= Lanes(DU()))
+        to = row.write_kept<1>({LoadU(DU(), row.lights_)}, {row.bits_from(0, window)}, window, 0, to);
+      else
+        to = row.are_narrow(window, strip) ? row.by_strips(window, strip, to) : row.at_once(window, to);
     }
     return to;
-  }
-};
-
-// Spans in memory, up to a vector of ones without bits behind them.
-template <class Light>
-struct StoredSpans {
-  const Light* lights;
-  const std::uint32_t* bits;
-  std::size_t count;
-
-  template <class Index>
-  HWY_INLINE Index* write(const Columns& columns, std::uint32_t skipped, Index* to, const Index* lists,
-                          std::uint32_t* begin) const {
-    return write_from<1>(columns, skipped, to, lists, begin);
   }
 
  private:
   // How many vectors of lights and bits stay in registers.
   static constexpr std::size_t k_most_vectors = HWY_TARGET <= HWY_AVX3 ? 8 : 4;
 
-  // At least as many vectors as this.
-  template <std::size_t vectors, class Index>
-  HWY_INLINE Index* write_from(const Columns& columns, std::uint32_t skipped, Index* to, const Index* lists,
-                               std::uint32_t* begin) const {
+  // Do most spans hold none of most strips? To choose them costs as much as to ask them for a fifth of the columns.
+  HWY_INLINE bool are_narrow(const Columns& window, std::uint32_t strip) const {
+    return 5 * (width_ + strip) < 4 * (window.end - window.begin);
+  }
+
+  // From all spans.
+  HWY_INLINE std::uint32_t* at_once(const Columns& window, std::uint32_t* to) const {
+    std::uint32_t* bits = few_.strips[0].bits.data();
+    for (std::uint32_t i = 0; i < count_; i += vector_size()) StoreU(bits_from(i, window), DU(), bits + i);
+    return write_some(lights_, bits, count_, window, 0, to);
+  }
+
+  // Strip by strip, from those spans that hold some of it. All are chosen first, so that none are read while they are
+  // still being written.
+  HWY_INLINE std::uint32_t* by_strips(const Columns& window, std::uint32_t strip, std::uint32_t* to) const {
+    const DU du;
+    std::size_t counts[FewColumns::k_strips] = {};
+    for (std::uint32_t i = 0; i < count_; i += vector_size()) {
+      const VU lights = LoadU(du, lights_ + i), bits = bits_from(i, window);
+      for (std::uint32_t s = 0; s < FewColumns::k_strips; ++s) {
+        const VU of_strip = Set(du, ((1u << strip) - 1) << s * strip);
+        const MU some = Ne(And(bits, of_strip), Zero(du));
+        append(lights, some, few_.strips[s].lights.data() + counts[s]);
+        append(bits, some, few_.strips[s].bits.data() + counts[s]);
+        counts[s] += CountTrue(du, some);
+      }
+    }
+    for (std::uint32_t s = 0; s < FewColumns::k_strips; ++s) {
+      FewColumns::Strip& chosen = few_.strips[s];
+      StoreU(Zero(du), du, chosen.bits.data() + counts[s]);
+      const std::uint32_t column = window.begin + s * strip;
+      const Columns columns{column, std::min(window.end, column + strip)};
+      to = write_some(chosen.lights.data(), chosen.bits.data(), counts[s], columns, s * strip, to);
+    }
+    return to;
+  }
+
+  static HWY_INLINE std::uint32_t vector_size() { return static_cast<std::uint32_t>(Lanes(DU())); }
+  // Of a vector of spans, none behind the last.
+  HWY_INLINE VU bits_from(std::uint32_t i, const Columns& columns) const {
+    const DU du;
+    return IfThenElseZero(FirstN(du, count_ - i), bits_of(LoadU(du, columns_ + i), columns));
+  }
+
+  // Lists of columns from some lights, which fill at least so many vectors, and the bits of these columns and
+  // `skipped` ones before them. A vector of lights without bits can be read behind the last.
+  template <std::size_t vectors = 1>
+  HWY_INLINE std::uint32_t* write_some(const std::uint32_t* lights, const std::uint32_t* bits, std::size_t count,
+                                       const Columns& columns, std::uint32_t skipped, std::uint32_t* to) const {
+    const DU du;
     if constexpr (vectors > k_most_vectors) {
-      return write_many(columns, skipped, to, lists, begin);
+      return each_column(columns, skipped, to, [&](VU bit, std::uint32_t* at) {
+        for (std::size_t i = 0; i < count; i += Lanes(du))
+          at = append(LoadU(du, lights + i), TestBit(LoadU(du, bits + i), bit), at);
+        return at;
+      });
     } else {
-      if (count <= vectors * Lanes(DU()))
-        return SpansInRegisters<vectors>(lights, bits).write(columns, skipped, to, lists, begin);
-      return write_from<vectors + 1>(columns, skipped, to, lists, begin);
+      if (count > vectors * Lanes(du)) return write_some<vectors + 1>(lights, bits, count, columns, skipped, to);
+      std::array<VU, vectors> kept_lights, kept_bits;
+      for (std::size_t i = 0; i < vectors; ++i) {
+        kept_lights[i] = LoadU(du, lights + i * Lanes(du));
+        kept_bits[i] = LoadU(du, bits + i * Lanes(du));
+      }
+      return write_kept<vectors>(kept_lights, kept_bits, columns, skipped, to);
     }
   }
 
-  template <class Index>
-  HWY_INLINE Index* write_many(const Columns& columns, std::uint32_t skipped, Index* to, const Index* lists,
-                               std::uint32_t* begin) const {
-    const DU du;
-    VU bit = bit_of(skipped);
+  // The same from vectors in registers.
+  template <std::size_t vectors>
+  HWY_INLINE std::uint32_t* write_kept(const std::array<VU, vectors>& lights, const std::array<VU, vectors>& bits,
+                                       const Columns& columns, std::uint32_t skipped, std::uint32_t* to) const {
+    return each_column(columns, skipped, to, [&](VU bit, std::uint32_t* at) {
+      for (std::size_t i = 0; i < vectors; ++i) at = append(lights[i], TestBit(bits[i], bit), at);
+      return at;
+    });
+  }
+
+  // add(bit, to) appends the lights that have a column's bit.
+  template <class Add>
+  HWY_INLINE std::uint32_t* each_column(const Columns& columns, std::uint32_t skipped, std::uint32_t* to,
+                                        Add&& add) const {
+    VU bit = Set(DU(), 1u << skipped);
     for (std::uint32_t column = columns.begin; column < columns.end; ++column) {
-      begin[column] = static_cast<std::uint32_t>(to - lists);
-      for (std::size_t i = 0; i < count; i += Lanes(du))
-        to = append(loaded(lights + i), TestBit(LoadU(du, bits + i), bit), to);
+      begin_[column] = static_cast<std::uint32_t>(to - lists_);
+      to = add(bit, to);
       bit = ShiftLeft<1>(bit);
     }
     return to;
   }
+
+  const std::uint32_t *lights_, *columns_;
+  std::uint32_t count_, width_;
+  FewColumns& few_;
+  const std::uint32_t* lists_;
+  std::uint32_t* begin_;
 };
 
-// How many columns a strip has: those spans of a row are chosen first that hold some of them.
-std::uint32_t strip_columns(std::uint32_t columns) {
-  return columns <= 16 ? 4 : 8;
-}
-
-// Do most spans hold none of most strips? To choose them costs as much as to ask them for a fifth of the columns.
-template <class Index>
-HWY_INLINE bool are_narrow(const RowSpans<Index>& row, const Columns& window, std::uint32_t strip) {
-  return 5 * (row.width + strip) < 4 * (window.end - window.begin);
-}
-
-// All of a row's spans, with what they have of a window.
-template <class Index>
-HWY_INLINE Index* lists_at_once(const RowSpans<Index>& row, const Columns& window, FewColumns& few, Index* to,
-                                const Index* lists, std::uint32_t* begin) {
-  const DU du;
-  std::uint32_t* bits = few.strips[0].bits.data();
-  for (std::size_t i = 0; i < row.count; i += Lanes(du)) {
-    const VU some = Spans(LoadU(du, row.columns + i)).bits(window);
-    StoreU(IfThenElseZero(FirstN(du, row.count - i), some), du, bits + i);
-  }
-  return StoredSpans<Index>{row.lights, bits, row.count}.write(window, 0, to, lists, begin);
-}
-
-// Strip by strip, from those spans that hold some of it. All are chosen first, so that none are read while they are
-// still being written.
-template <class Index>
-HWY_INLINE Index* lists_by_strips(const RowSpans<Index>& row, const Columns& window, std::uint32_t strip,
-                                  FewColumns& few, Index* to, const Index* lists, std::uint32_t* begin) {
-  const DU du;
-  constexpr std::size_t k_strips = FewColumns::k_strips;
-  std::size_t counts[k_strips] = {};
-  const auto columns_of = [&](std::size_t i) {
-    const std::uint32_t from = window.begin + static_cast<std::uint32_t>(i) * strip;
-    return Columns{from, std::min(window.end, from + strip)};
-  };
-  for (std::size_t i = 0; i < row.count; i += Lanes(du)) {
-    const Spans spans(LoadU(du, row.columns + i));
-    const VU lights = loaded(row.lights + i), bits = spans.bits(window);
-    const MU there = FirstN(du, row.count - i);
-    for (std::size_t s = 0; s < k_strips; ++s) {
-      const MU some = And(spans.some(columns_of(s)), there);
-      append(lights, some, few.strips[s].lights.data() + counts[s]);
-      append(bits, some, few.strips[s].bits.data() + counts[s]);
-      counts[s] += CountTrue(du, some);
-    }
-  }
-  for (std::size_t s = 0; s < k_strips; ++s) {
-    const Columns columns = columns_of(s);
-    const FewColumns::Strip& chosen = few.strips[s];
-    StoreU(Zero(du), du, few.strips[s].bits.data() + counts[s]);
-    to = StoredSpans<std::uint32_t>{chosen.lights.data(), chosen.bits.data(), counts[s]}.write(
-        columns, columns.begin - window.begin, to, lists, begin);
-  }
-  return to;
-}
-
-// Does each span hold all of the columns?
-template <class Index>
-HWY_INLINE bool all_are_full(const RowSpans<Index>& row) {
-  return std::all_of(row.columns, row.columns + row.count, [&](std::uint32_t span) {
-    return ColumnSpan::first(span) <= row.column && ColumnSpan::last(span) + 1 >= row.end_column;
-  });
-}
-
-// All of the row's lights for each column.
-template <class Index>
-HWY_INLINE Index* equal_lists(const RowSpans<Index>& row, Index* to, const Index* lists, std::uint32_t* begin) {
-  const hn::ScalableTag<Index> d;
-  const auto first = LoadU(d, row.lights);
-  for (std::uint32_t column = row.column; column < row.end_column; ++column) {
-    begin[column] = static_cast<std::uint32_t>(to - lists);
-    StoreU(first, d, to);
-    for (std::size_t i = Lanes(d); i < row.count; i += Lanes(d)) StoreU(LoadU(d, row.lights + i), d, to + i);
-    to += row.count;
-  }
-  return to;
-}
-
-template <class Index>
-HWY_NOINLINE Index* lists_of(const RowSpans<Index>& row, FewColumns& few, Index* to, const Index* lists,
-                             std::uint32_t* begin) {
-  const DU du;
-  if (all_are_full(row)) return equal_lists(row, to, lists, begin);
-  const std::uint32_t strip = strip_columns(row.end_column - row.column);
-  const std::uint32_t most = FewColumns::k_strips * strip;
-  for (std::uint32_t column = row.column; column < row.end_column; column += most) {
-    const Columns window = {column, std::min(row.end_column, column + most)};
-    if (row.count <= Lanes(du)) {
-      const VU bits = Spans(LoadU(du, row.columns)).bits(window);
-      SpansInRegisters<1> spans(loaded(row.lights), IfThenElseZero(FirstN(du, row.count), bits));
-      to = spans.write(window, 0, to, lists, begin);
-    } else if (are_narrow(row, window, strip)) {
-      to = lists_by_strips(row, window, strip, few, to, lists, begin);
-    } else {
-      to = lists_at_once(row, window, few, to, lists, begin);
-    }
-  }
-  return to;
-}
-
-std::uint8_t* lists_8(const RowSpans<std::uint8_t>& row, FewColumns& few, std::uint8_t* to, const std::uint8_t* lists,
-                      std::uint32_t* begin) {
-  return lists_of(row, few, to, lists, begin);
-}
-
-std::uint16_t* lists_16(const RowSpans<std::uint16_t>& row, FewColumns& few, std::uint16_t* to,
-                        const std::uint16_t* lists, std::uint32_t* begin) {
-  return lists_of(row, few, to, lists, begin);
-}
-
-std::uint32_t* lists_32(const RowSpans<std::uint32_t>& row, FewColumns& few, std::uint32_t* to,
-                        const std::uint32_t* lists, std::uint32_t* begin) {
-  return lists_of(row, few, to, lists, begin);
-}
-
-// The row's lists, but for the hole's columns.
-HWY_INLINE std::uint32_t* lists_beside(const grid::IndexRange& hole, RowSpans<std::uint32_t> row, FewColumns& few,
-                                       std::uint32_t* to, const std::uint32_t* lists, std::uint32_t* begin) {
-  const std::uint32_t end_column = row.end_column;
-  row.end_column = static_cast<std::uint32_t>(hole.first);
-  to = lists_of(row, few, to, lists, begin);
-  std::fill_n(begin + hole.first, hole.count(), static_cast<std::uint32_t>(to - lists));
-  row.column = static_cast<std::uint32_t>(hole.last) + 1;
-  row.end_column = end_column;
-  return lists_of(row, few, to, lists, begin);
-}
-
-std::uint32_t* lists_of_band(const BandSpans& band, const BandHole& hole, FewColumns& few, std::uint32_t* to,
-                             const std::uint32_t* lists, std::uint32_t* begin) {
+std::uint32_t* write_lists(const BandSpans& band, const BandHole& hole, FewColumns& few, std::uint32_t* to,
+                           const std::uint32_t* lists, std::uint32_t* begin) {
   for (std::uint32_t row = 0; row < band.rows; ++row, begin += band.row_columns) {
-    const std::size_t at = row * band.pitch;
-    const RowSpans<std::uint32_t> spans{band.lights + at, band.columns + at, band.sizes[row], 0,
-                                        band.row_columns, band.width};
-    if (spans.count == 0)
+    const RowLists row_lists(band, row, few, lists, begin);
+    if (band.sizes[row] == 0) {
       std::fill_n(begin, band.row_columns, static_cast<std::uint32_t>(to - lists));
-    else if (hole.columns.empty() || !hole.rows.holds(static_cast<int>(row)))
-      to = lists_of(spans, few, to, lists, begin);
-    else
-      to = lists_beside(hole.columns, spans, few, to, lists, begin);
-  }
-  return to;
-}
-
-// A vector of cells at a time gathers the bits of all lights of one word.
-void bits_of(const RowSpans<std::uint32_t>& row, std::uint32_t words_per_cell, std::uint32_t* words) {
-  const hn::ScalableTag<std::int32_t> d;
-  const std::size_t lanes = Lanes(d);
-  std::int32_t gathered[k_most_lanes];
-  std::fill(words + std::size_t{row.column} * words_per_cell, words + std::size_t{row.end_column} * words_per_cell, 0);
-  for (std::size_t column = row.column; column < row.end_column; column += lanes) {
-    const auto lane_column = Iota(d, static_cast<std::int32_t>(column));
-    const std::size_t cells = std::min<std::size_t>(lanes, row.end_column - column);
-    for (std::uint32_t i = 0; i < row.count;) {
-      const std::uint32_t word = row.lights[i] / 32;
-      auto sum = Zero(d);
-      for (; i < row.count && row.lights[i] / 32 == word; ++i) {
-        const auto before = Set(d, static_cast<std::int32_t>(ColumnSpan::first(row.columns[i])) - 1);
-        const auto after = Set(d, static_cast<std::int32_t>(ColumnSpan::last(row.columns[i])) + 1);
-        const auto bit = Set(d, static_cast<std::int32_t>(1u << row.lights[i] % 32));
-        sum = Or(sum, IfThenElseZero(And(lane_column > before, after > lane_column), bit));
-      }
-      StoreU(sum, d, gathered);
-      for (std::size_t cell = 0; cell < cells; ++cell)
-        words[(column + cell) * words_per_cell + word] = static_cast<std::uint32_t>(gathered[cell]);
+    } else if (!hole.rows.holds(static_cast<int>(row))) {
+      to = row_lists.write({0, band.row_columns}, to);
+    } else {
+      to = row_lists.write({0, static_cast<std::uint32_t>(hole.columns.first)}, to);
+      std::fill_n(begin + hole.columns.first, hole.columns.count(), static_cast<std::uint32_t>(to - lists));
+      to = row_lists.write({static_cast<std::uint32_t>(hole.columns.last) + 1, band.row_columns}, to);
     }
   }
+  return to;
 }
 
 }  // namespace
@@ -336,38 +264,34 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace clusterbench::assign {
 
-HWY_EXPORT(lists_8);
-HWY_EXPORT(lists_16);
-HWY_EXPORT(lists_32);
-HWY_EXPORT(lists_of_band);
-HWY_EXPORT(bits_of);
+HWY_EXPORT(target_name);
+HWY_EXPORT(add_batch);
+HWY_EXPORT(add_rows);
+HWY_EXPORT(count_pairs);
+HWY_EXPORT(write_lists);
 
-std::uint8_t* write_row_lists(const RowSpans<std::uint8_t>& row, FewColumns& few, std::uint8_t* to,
-                              const std::uint8_t* lists, std::uint32_t* begin) {
-  few.make_room(row.count);
-  return HWY_DYNAMIC_DISPATCH(lists_8)(row, few, to, lists, begin);
+const char* simd_target_name() {
+  return HWY_DYNAMIC_DISPATCH(target_name)();
 }
 
-std::uint16_t* write_row_lists(const RowSpans<std::uint16_t>& row, FewColumns& few, std::uint16_t* to,
-                               const std::uint16_t* lists, std::uint32_t* begin) {
-  few.make_room(row.count);
-  return HWY_DYNAMIC_DISPATCH(lists_16)(row, few, to, lists, begin);
+bool add_batch_rows(const BandSpans& band, int first_row, int last_row, const std::uint32_t* columns,
+                    const std::uint32_t* lights, std::uint8_t* is_left) {
+  return HWY_DYNAMIC_DISPATCH(add_batch)(band, first_row, last_row, columns, lights, is_left);
 }
 
-std::uint32_t* write_row_lists(const RowSpans<std::uint32_t>& row, FewColumns& few, std::uint32_t* to,
-                               const std::uint32_t* lists, std::uint32_t* begin) {
-  few.make_room(row.count);
-  return HWY_DYNAMIC_DISPATCH(lists_32)(row, few, to, lists, begin);
+void add_listed_rows(const BandSpans& band, int first_row, int last_row, const std::uint32_t* sizes,
+                     const std::uint32_t* columns, const std::uint32_t* lights) {
+  HWY_DYNAMIC_DISPATCH(add_rows)(band, first_row, last_row, sizes, columns, lights);
+}
+
+std::uint64_t pairs_of(const BandSpans& band) {
+  return HWY_DYNAMIC_DISPATCH(count_pairs)(band);
 }
 
 std::uint32_t* write_band_lists(const BandSpans& band, const BandHole& hole, FewColumns& few, std::uint32_t* to,
                                 const std::uint32_t* lists, std::uint32_t* begin) {
   few.make_room(band.rows == 0 ? 0 : *std::max_element(band.sizes, band.sizes + band.rows));
-  return HWY_DYNAMIC_DISPATCH(lists_of_band)(band, hole, few, to, lists, begin);
-}
-
-void write_row_bits(const RowSpans<std::uint32_t>& row, std::uint32_t words_per_cell, std::uint32_t* words) {
-  HWY_DYNAMIC_DISPATCH(bits_of)(row, words_per_cell, words);
+  return HWY_DYNAMIC_DISPATCH(write_lists)(band, hole, few, to, lists, begin);
 }
 
 }  // namespace clusterbench::assign

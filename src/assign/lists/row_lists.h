@@ -1,8 +1,7 @@
 #pragma once
-// The lists of a row of cells, straight from the spans of its lights: each cell asks all of the row's spans at once and
-// compress-stores the lights whose span holds it, as 8, 16 or 32 bits wide indices; where spans are many and short, a
-// few cells at a time, for which the spans that hold none of them are left out first. Or all cells at once take each
-// span's bit. SIMD, dispatched at run time.
+// The lists of rows of cells, straight from the spans of their lights: each cell asks all of its row's spans at once
+// and compress-stores the lights whose span holds it; where spans are many and short, a few cells at a time, for which
+// the spans that hold none of them are left out first. SIMD, dispatched at run time.
 
 #include <array>
 #include <cstddef>
@@ -14,30 +13,26 @@
 
 namespace clusterbench::assign {
 
+// The instruction set that is used: "AVX3", "AVX2", "SSE4", "NEON", "SCALAR" ... as Highway names it.
+const char* simd_target_name();
+
 // A span of columns in one number.
 struct ColumnSpan {
   static constexpr std::uint32_t k_most_columns = 0x7fff;
+  // No column; and the mark of a span of perhaps not all of its columns.
+  static constexpr std::uint32_t k_none = 0xffffffff, k_uncertain = 0x80000000;
   static constexpr std::uint32_t of(std::uint32_t first, std::uint32_t last) { return first | last << 16; }
   static constexpr std::uint32_t first(std::uint32_t span) { return span & 0xffff; }
   static constexpr std::uint32_t last(std::uint32_t span) { return span >> 16; }
 };
 
-// The spans of one row, ascending by light, and the columns whose lists are wanted. k_most_lanes more of each can be
-// read. Index is std::uint8_t, std::uint16_t or std::uint32_t.
-template <class Index>
-struct RowSpans {
-  const Index* lights;
-  const std::uint32_t* columns;  // ColumnSpan
-  std::uint32_t count, column, end_column;
-  std::uint32_t width = 0;  // about how many columns spans have: says only which way to take
-};
-
-// A band of rows, each `pitch` spans behind the one before it.
+// The spans of a band's rows, each ascending by light, and `pitch` spans behind those of the row before it.
+// k_most_lanes more of each can be read.
 struct BandSpans {
-  const std::uint32_t *sizes, *columns, *lights;
+  std::uint32_t *sizes, *columns, *lights;  // columns: ColumnSpan
   std::size_t pitch;
   std::uint32_t rows, row_columns;
-  std::uint32_t width = 0;
+  std::uint32_t width = 0;  // about how many columns spans have: says only which way to take
 };
 // Cells that take no lights: spans may cover them, their lists stay empty.
 struct BandHole {
@@ -67,20 +62,18 @@ struct FewColumns {
   }
 };
 
-// Writes each column's lights to `to`, and to begin[column] where its list begins, counted from `lists`. Up to
-// k_most_lanes more than the lights is written. Returns the end.
-std::uint8_t* write_row_lists(const RowSpans<std::uint8_t>& row, FewColumns& few, std::uint8_t* to,
-                              const std::uint8_t* lists, std::uint32_t* begin);
-std::uint16_t* write_row_lists(const RowSpans<std::uint16_t>& row, FewColumns& few, std::uint16_t* to,
-                               const std::uint16_t* lists, std::uint32_t* begin);
-std::uint32_t* write_row_lists(const RowSpans<std::uint32_t>& row, FewColumns& few, std::uint32_t* to,
-                               const std::uint32_t* lists, std::uint32_t* begin);
+// ListBuilder's add_batch and add_rows, to rows that have room for a vector more.
+bool add_batch_rows(const BandSpans& band, int first_row, int last_row, const std::uint32_t* columns,
+                    const std::uint32_t* lights, std::uint8_t* is_left);
+void add_listed_rows(const BandSpans& band, int first_row, int last_row, const std::uint32_t* sizes,
+                     const std::uint32_t* columns, const std::uint32_t* lights);
 
-// Row after row of all columns; begin counts on from row to row.
+// How many columns all spans have.
+std::uint64_t pairs_of(const BandSpans& band);
+
+// Writes the lights of each column, row after row, to `to`, and to the next of `begin` where its list begins, counted
+// from `lists`. Up to k_most_lanes more than the lights is written. Returns the end.
 std::uint32_t* write_band_lists(const BandSpans& band, const BandHole& hole, FewColumns& few, std::uint32_t* to,
                                 const std::uint32_t* lists, std::uint32_t* begin);
-
-// Light l of column c is bit l % 32 of words[c * words_per_cell + l / 32]. All words of these columns are written.
-void write_row_bits(const RowSpans<std::uint32_t>& row, std::uint32_t words_per_cell, std::uint32_t* words);
 
 }  // namespace clusterbench::assign

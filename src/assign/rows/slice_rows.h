@@ -28,8 +28,8 @@ namespace clusterbench::assign {
 // Rows of a batch of balls within one slice. Of ball i, row r (first_row <= r <= last_row, the rows that any ball may
 // touch) has the columns at columns[r * lanes + i].
 struct BatchRows {
-  static constexpr std::uint32_t k_none = ListBuilder::k_no_span;              // no column
-  static constexpr std::uint32_t k_uncertain = ListBuilder::k_uncertain_span;  // perhaps not all of the columns
+  static constexpr std::uint32_t k_none = ColumnSpan::k_none;            // no column
+  static constexpr std::uint32_t k_uncertain = ColumnSpan::k_uncertain;  // perhaps not all of the columns
   static int first_of(std::uint32_t columns) { return static_cast<int>(columns & 0x3fff); }
   static int last_of(std::uint32_t columns) { return static_cast<int>(columns >> 16 & 0x3fff); }
 

@@ -191,14 +191,10 @@ class Appender {
  public:
   HWY_INLINE Appender(M wanted, std::uint32_t at) : wanted_(wanted), at_(at) {}
 
-  HWY_INLINE void operator()(V value, AlignedVector<float>& to) const {
-    StoreU(compressed(D(), value, wanted_), D(), to.data() + at_);
-  }
-  HWY_INLINE void operator()(VI value, AlignedVector<std::int32_t>& to) const {
-    StoreU(compressed(DI(), value, RebindMask(DI(), wanted_)), DI(), to.data() + at_);
-  }
-  HWY_INLINE void operator()(VU value, AlignedVector<std::uint32_t>& to) const {
-    StoreU(compressed(DU(), value, RebindMask(DU(), wanted_)), DU(), to.data() + at_);
+  template <class Vector>
+  HWY_INLINE void operator()(Vector value, AlignedVector<hn::TFromV<Vector>>& to) const {
+    const hn::DFromV<Vector> d;
+    StoreU(compressed(d, value, RebindMask(d, wanted_)), d, to.data() + at_);
   }
 
  private:

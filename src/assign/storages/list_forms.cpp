@@ -36,28 +36,24 @@ HWY_INLINE void set_bit(std::uint32_t light, std::uint32_t* words) {
   words[light / 32] |= 1u << light % 32;
 }
 
-// Where lists are dense, a vector of lights fills few words: each takes the sum of its bits. Elsewhere, light by light.
+// Where lists are dense, a vector of lights fills few words: each takes the sum of its bits. Elsewhere, and where
+// lights do not ascend, light by light.
 HWY_INLINE void set_bits(const std::uint32_t* lights, std::size_t count, std::uint32_t* words) {
   const hn::ScalableTag<std::uint32_t> d;
   const std::size_t lanes = Lanes(d);
   constexpr std::size_t k_lanes_per_word = 4;  // below, a sum costs more than it saves
-  const auto lowest_bit = Set(d, 1), low = Set(d, 31);
   std::size_t i = 0;
   for (; i + lanes <= count; i += lanes) {
     const std::uint32_t first = lights[i] / 32, last = lights[i + lanes - 1] / 32;
-    if ((last - first + 1) * k_lanes_per_word > lanes) {
-      for (std::size_t k = i; k < i + lanes; ++k) set_bit(lights[k], words);
-      continue;
-    }
-    const auto light = LoadU(d, lights + i);
-    const auto bit = Shl(lowest_bit, And(light, low)), word = ShiftRight<5>(light);
+    const auto light = LoadU(d, lights + i), word = ShiftRight<5>(light);
     const auto between = Min(Max(word, Set(d, first)), Set(d, last));
-    if (!AllTrue(d, between == word)) {  // lights that do not ascend
+    if ((last - first + 1) * k_lanes_per_word <= lanes && AllTrue(d, between == word)) {
+      const auto bit = Shl(Set(d, 1), And(light, Set(d, 31)));
+      for (std::uint32_t at = first; at <= last; ++at)
+        words[at] |= GetLane(SumOfLanes(d, IfThenElseZero(word == Set(d, at), bit)));
+    } else {
       for (std::size_t k = i; k < i + lanes; ++k) set_bit(lights[k], words);
-      continue;
     }
-    for (std::uint32_t at = first; at <= last; ++at)
-      words[at] |= GetLane(SumOfLanes(d, IfThenElseZero(word == Set(d, at), bit)));
   }
   for (; i < count; ++i) set_bit(lights[i], words);
 }
