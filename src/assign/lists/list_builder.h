@@ -23,11 +23,11 @@ class ListBuilder {
   // first <= last < columns.
   void add(std::uint32_t row, std::uint32_t first, std::uint32_t last, std::uint32_t light) {
     std::uint32_t& size = sizes_[row];
-    if (size == pitch_) grow();
-    const std::size_t index = row * pitch_ + size++;
+    if (size == band_.pitch) grow();
+    const std::size_t index = row * band_.pitch + size++;
     most_ = std::max(most_, size);
     lights_[index] = light;
-    columns_of_[index] = ColumnSpan::of(first, last);
+    columns_[index] = ColumnSpan::of(first, last);
   }
   // Adds a batch of lights' spans to rows first_row .. last_row. columns[row * lanes + i]: the span of lights[i] as
   // a ColumnSpan, k_none, or with k_uncertain set one that is not to be added as it is. Rows with such spans are left
@@ -47,18 +47,18 @@ class ListBuilder {
 
  private:
   void make_room(std::uint32_t spans);
-  BandSpans band_spans();
+  void point_to_spans();
   void grow();
 
-  std::uint32_t rows_ = 0, columns_ = 0, band_ = 0;
+  std::uint32_t bands_done_ = 0;
   std::uint64_t pairs_ = 0;
   Lists* out_ = nullptr;
   std::vector<std::uint32_t> sizes_;  // of the rows
   std::uint32_t most_ = 0;            // no row has more spans
   FewColumns few_;
-  // Row r's spans are at r * pitch_; whole vectors can be read and written beyond the last row.
-  std::size_t pitch_ = 0;
-  AlignedVector<std::uint32_t> lights_, columns_of_;
+  // Whole vectors can be read and written beyond the last row.
+  AlignedVector<std::uint32_t> lights_, columns_;
+  BandSpans band_{};  // where these are
 };
 
 }  // namespace clusterbench::assign

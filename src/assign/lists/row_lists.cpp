@@ -1,7 +1,6 @@
 #include "assign/lists/row_lists.h"
 
 #include <algorithm>
-#include <array>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/lists/row_lists.cpp"
@@ -17,6 +16,10 @@ namespace {
 
 using MU = hn::Mask<DU>;
 
+HWY_INLINE std::uint32_t vector_size() {
+  return static_cast<std::uint32_t>(Lanes(DU()));
+}
+
 const char* target_name() {
   return hwy::TargetName(HWY_TARGET);
 }
@@ -24,6 +27,7 @@ const char* target_name() {
 bool add_batch(const BandSpans& band, int first_row, int last_row, const std::uint32_t* columns,
                const std::uint32_t* lights, std::uint8_t* is_left) {
   const DU du;
+  const BandSpans to = band;  // a copy, which stays in registers: no store can change it
   const VU light = LoadU(du, lights), none = Set(du, ColumnSpan::k_none);
   bool some_are_left = false;
   for (int row = first_row; row <= last_row; ++row) {
@@ -35,10 +39,10 @@ bool add_batch(const BandSpans& band, int first_row, int last_row, const std::ui
       some_are_left = true;
       continue;
     }
-    const std::size_t to = r * band.pitch + band.sizes[r];
-    StoreU(compressed(du, light, wanted), du, band.lights + to);
-    StoreU(compressed(du, span, wanted), du, band.columns + to);
-    band.sizes[r] += static_cast<std::uint32_t>(CountTrue(du, wanted));
+    const std::size_t end = r * to.pitch + to.sizes[r];
+    StoreU(compressed(du, light, wanted), du, to.lights + end);
+    StoreU(compressed(du, span, wanted), du, to.columns + end);
+    to.sizes[r] += static_cast<std::uint32_t>(CountTrue(du, wanted));
   }
   return some_are_left;
 }
@@ -46,7 +50,7 @@ bool add_batch(const BandSpans& band, int first_row, int last_row, const std::ui
 void add_rows(const BandSpans& band, int first_row, int last_row, const std::uint32_t* sizes,
               const std::uint32_t* columns, const std::uint32_t* lights) {
   const DU du;
-  const BandSpans to = band;  // a copy, which stays in registers: no store can change it
+  const BandSpans to = band;  // as above
   std::size_t begin = static_cast<std::size_t>(first_row) * to.pitch;
   for (int row = first_row; row <= last_row; ++row, begin += to.pitch) {
     const std::uint32_t size = sizes[row], earlier = to.sizes[row];
@@ -61,28 +65,21 @@ void add_rows(const BandSpans& band, int first_row, int last_row, const std::uin
 std::uint64_t count_pairs(const BandSpans& band) {
   const DU du;
   const VU none = Set(du, ColumnSpan::k_none), half = Set(du, 0xffff), one = Set(du, 1);
-  // A lane's sum of so many vectors is below 2^32, and so is that of all lanes' halves.
-  constexpr std::uint32_t k_most_vectors = UINT32_MAX / (ColumnSpan::k_most_columns + 1);
+  constexpr std::uint32_t k_most_spans = 1u << 16;  // the sum of their columns is below 2^32
   std::uint64_t total = 0;
-  std::uint32_t vectors = 0;
-  VU sum = Zero(du);
-  const auto flush = [&] {
-    total += GetLane(SumOfLanes(du, And(sum, half)));
-    total += std::uint64_t{GetLane(SumOfLanes(du, ShiftRight<16>(sum)))} << 16;
-    sum = Zero(du);
-    vectors = 0;
-  };
   for (std::uint32_t row = 0; row < band.rows; ++row) {
     const std::uint32_t* spans = band.columns + row * band.pitch;
     const std::uint32_t size = band.sizes[row];
-    for (std::uint32_t i = 0; i < size; i += static_cast<std::uint32_t>(Lanes(du))) {
-      const VU span = LoadU(du, spans + i);
-      const MU wanted = And(FirstN(du, size - i), Ne(span, none));
-      sum = sum + IfThenElseZero(wanted, ShiftRight<16>(span) - And(span, half) + one);
-      if (++vectors == k_most_vectors) flush();
+    for (std::uint32_t i = 0; i < size;) {
+      VU sum = Zero(du);
+      for (const std::uint32_t end = std::min(size, i + k_most_spans); i < end; i += vector_size()) {
+        const VU span = LoadU(du, spans + i);
+        const MU wanted = And(FirstN(du, size - i), Ne(span, none));
+        sum = sum + IfThenElseZero(wanted, ShiftRight<16>(span) - And(span, half) + one);
+      }
+      total += GetLane(SumOfLanes(du, sum));
     }
   }
-  flush();
   return total;
 }
 
@@ -130,10 +127,8 @@ class RowLists {
     const std::uint32_t strip = columns.end - columns.begin <= 16 ? 4 : 8, most = FewColumns::k_strips * strip;
     for (std::uint32_t column = columns.begin; column < columns.end; column += most) {
       const Columns window{column, std::min(columns.end, column + most)};
-      if (row.count_ <= Lanes(DU()))
-        to = row.write_kept<1>({LoadU(DU(), row.lights_)}, {row.bits_from(0, window)}, window, 0, to);
-      else
-        to = row.are_narrow(window, strip) ? row.by_strips(window, strip, to) : row.at_once(window, to);
+      const bool chooses = row.count_ > Lanes(DU()) && row.are_narrow(window, strip);
+      to = chooses ? row.by_strips(window, strip, to) : row.at_once(window, to);
     }
     return to;
   }
@@ -179,7 +174,6 @@ class RowLists {
     return to;
   }
 
-  static HWY_INLINE std::uint32_t vector_size() { return static_cast<std::uint32_t>(Lanes(DU())); }
   // Of a vector of spans, none behind the last.
   HWY_INLINE VU bits_from(std::uint32_t i, const Columns& columns) const {
     const DU du;
@@ -200,23 +194,16 @@ class RowLists {
       });
     } else {
       if (count > vectors * Lanes(du)) return write_some<vectors + 1>(lights, bits, count, columns, skipped, to);
-      std::array<VU, vectors> kept_lights, kept_bits;
+      VU kept_lights[vectors], kept_bits[vectors];
       for (std::size_t i = 0; i < vectors; ++i) {
         kept_lights[i] = LoadU(du, lights + i * Lanes(du));
         kept_bits[i] = LoadU(du, bits + i * Lanes(du));
       }
-      return write_kept<vectors>(kept_lights, kept_bits, columns, skipped, to);
+      return each_column(columns, skipped, to, [&](VU bit, std::uint32_t* at) {
+        for (std::size_t i = 0; i < vectors; ++i) at = append(kept_lights[i], TestBit(kept_bits[i], bit), at);
+        return at;
+      });
     }
-  }
-
-  // The same from vectors in registers.
-  template <std::size_t vectors>
-  HWY_INLINE std::uint32_t* write_kept(const std::array<VU, vectors>& lights, const std::array<VU, vectors>& bits,
-                                       const Columns& columns, std::uint32_t skipped, std::uint32_t* to) const {
-    return each_column(columns, skipped, to, [&](VU bit, std::uint32_t* at) {
-      for (std::size_t i = 0; i < vectors; ++i) at = append(lights[i], TestBit(bits[i], bit), at);
-      return at;
-    });
   }
 
   // add(bit, to) appends the lights that have a column's bit.
