@@ -1,6 +1,7 @@
 #include "assign/lists/row_lists.h"
 
 #include <algorithm>
+#include <array>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/lists/row_lists.cpp"
@@ -127,8 +128,10 @@ class RowLists {
     const std::uint32_t strip = columns.end - columns.begin <= 16 ? 4 : 8, most = FewColumns::k_strips * strip;
     for (std::uint32_t column = columns.begin; column < columns.end; column += most) {
       const Columns window{column, std::min(columns.end, column + most)};
-      const bool chooses = row.count_ > Lanes(DU()) && row.are_narrow(window, strip);
-      to = chooses ? row.by_strips(window, strip, to) : row.at_once(window, to);
+      if (row.count_ <= Lanes(DU()))
+        to = row.write_kept<1>({LoadU(DU(), row.lights_)}, {row.bits_from(0, window)}, window, 0, to);
+      else
+        to = row.are_narrow(window, strip) ? row.by_strips(window, strip, to) : row.at_once(window, to);
     }
     return to;
   }
@@ -194,16 +197,23 @@ class RowLists {
       });
     } else {
       if (count > vectors * Lanes(du)) return write_some<vectors + 1>(lights, bits, count, columns, skipped, to);
-      VU kept_lights[vectors], kept_bits[vectors];
+      std::array<VU, vectors> kept_lights, kept_bits;
       for (std::size_t i = 0; i < vectors; ++i) {
         kept_lights[i] = LoadU(du, lights + i * Lanes(du));
         kept_bits[i] = LoadU(du, bits + i * Lanes(du));
       }
-      return each_column(columns, skipped, to, [&](VU bit, std::uint32_t* at) {
-        for (std::size_t i = 0; i < vectors; ++i) at = append(kept_lights[i], TestBit(kept_bits[i], bit), at);
-        return at;
-      });
+      return write_kept<vectors>(kept_lights, kept_bits, columns, skipped, to);
     }
+  }
+
+  // The same from vectors in registers.
+  template <std::size_t vectors>
+  HWY_INLINE std::uint32_t* write_kept(const std::array<VU, vectors>& lights, const std::array<VU, vectors>& bits,
+                                       const Columns& columns, std::uint32_t skipped, std::uint32_t* to) const {
+    return each_column(columns, skipped, to, [&](VU bit, std::uint32_t* at) {
+      for (std::size_t i = 0; i < vectors; ++i) at = append(lights[i], TestBit(bits[i], bit), at);
+      return at;
+    });
   }
 
   // add(bit, to) appends the lights that have a column's bit.
