@@ -34,30 +34,45 @@ HWY_INLINE ProjectedPoint projected(const Point& p, V inverse_depth) {
 HWY_INLINE ProjectedPoint projected(const Point& p) {
   return projected(p, inverse(p.depth));
 }
-HWY_INLINE ProjectedPoint chosen(M where, const ProjectedPoint& a, const ProjectedPoint& b) {
-  return {IfThenElse(where, a.across, b.across), IfThenElse(where, a.up, b.up), IfThenElse(where, a.depth, b.depth)};
-}
 
-// The two points found so far that lean most across.
-struct Extremes {
+// What a point can lean most to.
+enum class Lean { left, right, either };
+
+// The two points found so far that lean most across: anywhere, or in one tile plane, which all of them lie in.
+template <bool k_in_tile_plane>
+struct ExtremesOf {
   ProjectedPoint low, high;
 
-  HWY_INLINE Extremes() : low{all(k_none), all(0.0f), all(1.0f)}, high{all(-k_none), all(0.0f), all(1.0f)} {}
+  HWY_INLINE explicit ExtremesOf(V up = Zero(D()))
+      : low{all(k_none), up, all(1.0f)}, high{all(-k_none), up, all(1.0f)} {}
 
-  HWY_INLINE void take_low(M where, const ProjectedPoint& p) {
-    low = chosen(And(where, p.across < low.across), p, low);
-  }
-  HWY_INLINE void take_high(M where, const ProjectedPoint& p) {
-    high = chosen(And(where, p.across > high.across), p, high);
-  }
-  HWY_INLINE void take(M where, const ProjectedPoint& p) {
-    take_low(where, p);
-    take_high(where, p);
+  HWY_INLINE void take(M where, const ProjectedPoint& p, Lean lean = Lean::either) {
+    if (lean != Lean::right) take_if(And(where, p.across < low.across), p, low);
+    if (lean != Lean::left) take_if(And(where, p.across > high.across), p, high);
   }
   HWY_INLINE M exist() const { return low.across < all(k_none); }
 
+  // One lane on, into another tile plane.
+  HWY_INLINE ExtremesOf carried(const Carried& carry, ExtremesOf& turned, V up) const {
+    ExtremesOf next(up);
+    next.low.across = carry(low.across, turned.low.across);
+    next.low.depth = carry(low.depth, turned.low.depth);
+    next.high.across = carry(high.across, turned.high.across);
+    next.high.depth = carry(high.depth, turned.high.depth);
+    return next;
+  }
+
+ private:
   static constexpr float k_none = 1e15f;
+
+  static HWY_INLINE void take_if(M where, const ProjectedPoint& p, ProjectedPoint& extreme) {
+    extreme.across = IfThenElse(where, p.across, extreme.across);
+    if constexpr (!k_in_tile_plane) extreme.up = IfThenElse(where, p.up, extreme.up);
+    extreme.depth = IfThenElse(where, p.depth, extreme.depth);
+  }
 };
+using Extremes = ExtremesOf<false>;
+using PlaneExtremes = ExtremesOf<true>;
 
 // Spots and what follows from them alone. Places count that are outside by less than the slack.
 struct SpotShapes {
@@ -81,21 +96,6 @@ struct SpotShapes {
     rim1 = out * m1;
     rim2 = out * m2;
     least_along = forth - slack * cone.sine;
-  }
-
-  // The same with x and y exchanged: what leans most across is then what leans most up and down.
-  HWY_INLINE SpotShapes exchanged() const {
-    const auto turned = [](const Point& p) { return Point{p.y, p.x, p.depth}; };
-    SpotShapes other;
-    other.cone = {turned(cone.apex), turned(cone.axis), cone.range, cone.cosine, cone.sine};
-    other.slack = slack;
-    other.m1 = turned(m1);
-    other.m2 = turned(m2);
-    other.rim = turned(rim);
-    other.rim1 = turned(rim1);
-    other.rim2 = turned(rim2);
-    other.least_along = least_along;
-    return other;
   }
 
   // Is a point of the sphere in the cone that is so far along the axis from the apex?
@@ -132,16 +132,18 @@ struct SpotShapes {
   // So far from the apex.
   HWY_INLINE M is_on_generator(V t) const { return is_between(Zero(D()), t, cone.range + slack); }
 
-  // The points of the sphere as far to the left and to the right of the apex, `up` and `ahead` from there: where they
-  // are and whether they exist.
-  template <class TakeLow, class TakeHigh>
-  HWY_INLINE void each_sphere_point(V up, V ahead, TakeLow&& take_low, TakeHigh&& take_high) const {
+  // The points of the sphere farthest to the left and to the right, `up` and `ahead` from the apex: take(where they
+  // exist, their x, to which side).
+  template <class Take>
+  HWY_INLINE void each_sphere_point(V up, V ahead, Take&& take) const {
     const V square = square_of(cone.range) - (square_of(up) + square_of(ahead)), half = root(square);
     const V middle = up * cone.axis.y + ahead * cone.axis.depth;
-    const V lean = half * cone.axis.x;
     const M exist = square >= Zero(D());
-    take_low(And(exist, is_in_cone(middle - lean)), cone.apex.x - half);
-    take_high(And(exist, is_in_cone(middle + lean)), cone.apex.x + half);
+    const auto take_at = [&](V across, Lean lean) {
+      take(And(exist, is_in_cone(middle + across * cone.axis.x)), cone.apex.x + across, lean);
+    };
+    take_at(Neg(half), Lean::left);
+    take_at(half, Lean::right);
   }
 };
 
@@ -152,98 +154,58 @@ struct SlicePlanes {
   HWY_INLINE M hold(V depth, V slack) const { return is_between(near - slack, depth, far + slack); }
 };
 
-// What of spots between two slice planes can lean most across, wherever it is up and down: take.both(where, point), or
-// take.low and take.high for what can do so to one side only.
-struct SlotCounts {
-  int low, high, both;
-};
-inline constexpr SlotCounts k_slots_in_slice = {3, 3, 11};
+// Calls take(where, point, lean) for what of spots between two slice planes can lean most across, wherever it is up and
+// down: first those that can do so to one side, to the left and to the right by turns.
+inline constexpr int k_one_sided_points = 6, k_points_in_slice = 17;
 template <class Take>
-HWY_INLINE void each_point_in_slice(const SpotShapes& spots, const SlicePlanes& planes, Take& take) {
+HWY_INLINE void each_point_in_slice(const SpotShapes& spots, const SlicePlanes& planes, Take&& take) {
   const Point& a = spots.cone.apex;
   const V zero = Zero(D());
-  take.both(planes.hold(a.depth, spots.slack), projected(a));
 
   // The sphere's tangents at the apex's height.
   const V range_square = square_of(spots.cone.range), square = square_of(a.x) + square_of(a.depth);
   const V tangent_square = square - range_square, scale = inverse(square);
   const V turn = scale * root(range_square * tangent_square), shrink = scale * tangent_square;
-  const auto tangent = [&](V turned) {
-    return Point{shrink * a.x - turned * a.depth, a.y, shrink * a.depth + turned * a.x};
+  const auto take_tangent = [&](V turned, Lean lean) {
+    const Point p{shrink * a.x - turned * a.depth, a.y, shrink * a.depth + turned * a.x};
+    const M is_in = And(planes.hold(p.depth, spots.slack), spots.is_sphere_in_cone(p));
+    take(And(tangent_square > zero, is_in), projected(p), lean);
   };
-  const auto is_in = [&](const Point& p) {
-    return And(tangent_square > zero, And(planes.hold(p.depth, spots.slack), spots.is_sphere_in_cone(p)));
+  take_tangent(turn, Lean::left);
+  take_tangent(Neg(turn), Lean::right);
+
+  // In the slice planes the sphere, the rim, and the cone's side where upright planes touch it.
+  struct Plane {
+    V depth, inverse_depth;
   };
-  const Point low = tangent(turn), high = tangent(Neg(turn));
-  take.low(is_in(low), projected(low));
-  take.high(is_in(high), projected(high));
-
-  // The rim's tangents.
-  const auto wedge = [](const Point& p, const Point& q) { return p.x * q.depth - q.x * p.depth; };
-  spots.each_rim_point(
-      wedge(spots.rim2, spots.rim), wedge(spots.rim, spots.rim1), wedge(spots.rim1, spots.rim2),
-      [&](M exists, const Point& p) { take.both(And(exists, planes.hold(p.depth, spots.slack)), projected(p)); });
-
-  // In the slice planes sphere, rim, and the cone's side where upright planes touch it.
-  Point generators[2];
-  spots.find_generators({zero, all(1.0f), zero}, generators);
-  const V lean[2] = {inverse(generators[0].depth), inverse(generators[1].depth)};
-  const auto take_in = [&](V depth, V inverse_depth) {
-    const V ahead = depth - a.depth, up = a.y * inverse_depth;
-    spots.each_sphere_point(
-        zero, ahead,
-        [&](M exists, V x) {
-          take.low(exists, ProjectedPoint{x * inverse_depth, up, depth});
-        },
-        [&](M exists, V x) {
-          take.high(exists, ProjectedPoint{x * inverse_depth, up, depth});
-        });
-    spots.each_rim_point(spots.rim1.depth, spots.rim2.depth, depth - spots.rim.depth, [&](M exists, const Point& p) {
-      take.both(exists, projected({p.x, p.y, depth}, inverse_depth));
+  const Plane in_planes[2] = {{planes.near, planes.inverse_near}, {planes.far, planes.inverse_far}};
+  for (const Plane& plane : in_planes)
+    spots.each_sphere_point(zero, plane.depth - a.depth, [&](M exists, V x, Lean lean) {
+      take(exists, projected({x, a.y, plane.depth}, plane.inverse_depth), lean);
     });
-    for (int i = 0; i < 2; ++i) {
-      const V t = ahead * lean[i];
-      const Point p = a + t * generators[i];
-      take.both(spots.is_on_generator(t), projected({p.x, p.y, depth}, inverse_depth));
+  Point generators[2];
+  spots.find_generators(y_axis(), generators);
+  for (const Plane& plane : in_planes) {
+    const auto take_at = [&](M where, V x, V y) {
+      take(where, projected({x, y, plane.depth}, plane.inverse_depth), Lean::either);
+    };
+    spots.each_rim_point(spots.rim1.depth, spots.rim2.depth, plane.depth - spots.rim.depth,
+                         [&](M exists, const Point& p) { take_at(exists, p.x, p.y); });
+    for (const Point& g : {generators[0], generators[1]}) {
+      const V t = (plane.depth - a.depth) / g.depth;
+      take_at(spots.is_on_generator(t), a.x + t * g.x, a.y + t * g.y);
     }
+  }
+
+  // The rim's tangents, and the apex.
+  const auto take_if_held = [&](M where, const Point& p) {
+    take(And(where, planes.hold(p.depth, spots.slack)), projected(p), Lean::either);
   };
-  take_in(planes.near, planes.inverse_near);
-  take_in(planes.far, planes.inverse_far);
+  const auto wedge = [](const Point& p, const Point& q) { return p.x * q.depth - q.x * p.depth; };
+  spots.each_rim_point(wedge(spots.rim2, spots.rim), wedge(spots.rim, spots.rim1), wedge(spots.rim1, spots.rim2),
+                       take_if_held);
+  take_if_held(zero == zero, a);
 }
-
-// What leans most in a tile plane, y = slope * depth.
-struct PlaneExtremes {
-  V low, low_depth, high, high_depth;  // slopes x / depth, and where
-
-  HWY_INLINE PlaneExtremes()
-      : low(all(Extremes::k_none)), low_depth(all(1.0f)), high(all(-Extremes::k_none)), high_depth(all(1.0f)) {}
-
-  HWY_INLINE void take_low(M where, V slope, V depth) {
-    const M is_lower = And(where, slope < low);
-    low = IfThenElse(is_lower, slope, low);
-    low_depth = IfThenElse(is_lower, depth, low_depth);
-  }
-  HWY_INLINE void take_high(M where, V slope, V depth) {
-    const M is_higher = And(where, slope > high);
-    high = IfThenElse(is_higher, slope, high);
-    high_depth = IfThenElse(is_higher, depth, high_depth);
-  }
-  HWY_INLINE void take(M where, V slope, V depth) {
-    take_low(where, slope, depth);
-    take_high(where, slope, depth);
-  }
-  HWY_INLINE M exist() const { return low < all(Extremes::k_none); }
-
-  // One lane on.
-  HWY_INLINE PlaneExtremes carried(const Carried& carry, PlaneExtremes& turned) const {
-    PlaneExtremes next;
-    next.low = carry(low, turned.low);
-    next.low_depth = carry(low_depth, turned.low_depth);
-    next.high = carry(high, turned.high);
-    next.high_depth = carry(high_depth, turned.high_depth);
-    return next;
-  }
-};
 
 // Spots, each in a slice, and what is the same in all of its tile planes.
 struct SpotsInSlices {
@@ -281,9 +243,9 @@ struct SpotsInSlices {
   }
   static constexpr int k_vectors = 39;
 
-  // `tilt`: sqrt(1 + slope²).
+  // What leans most in a tile plane, y = slope * depth. `tilt`: sqrt(1 + slope²).
   HWY_INLINE PlaneExtremes in_tile_plane(V slope, V tilt, V inverse_tilt) const {
-    PlaneExtremes found;
+    PlaneExtremes found(slope);
     take_tangents(slope, tilt, inverse_tilt, found);
     take_rim(slope, found);
     take_generators(slope, found);
@@ -303,22 +265,20 @@ struct SpotsInSlices {
     const V shrink = tangent * inverse(square_of(a.x) + square_of(ahead));
     const V b = ahead * tangent, c = a.x * rho, d = a.x * tangent, e = ahead * rho;
     const V low_lean = b + c, high_lean = b - c, both = inverse(low_lean * high_lean);
-    const V low = tilt * ((d - e) * high_lean * both);
-    const V high = tilt * ((d + e) * low_lean * both);
     const V to_depth = shrink * inverse_tilt;
-    const auto is_in = [&](V across, V depth) {
-      const Point p = ProjectedPoint{across, slope, depth}.point();
-      return And(exist, And(between.hold(depth, shapes.slack), shapes.is_sphere_in_cone(p)));
+    const ProjectedPoint low{tilt * ((d - e) * high_lean * both), slope, to_depth * low_lean};
+    const ProjectedPoint high{tilt * ((d + e) * low_lean * both), slope, to_depth * high_lean};
+    const auto is_in = [&](const ProjectedPoint& p) {
+      return And(exist, And(between.hold(p.depth, shapes.slack), shapes.is_sphere_in_cone(p.point())));
     };
-    const V low_depth = to_depth * low_lean, high_depth = to_depth * high_lean;
-    found.take_low(is_in(low, low_depth), low, low_depth);
-    found.take_high(is_in(high, high_depth), high, high_depth);
+    found.take(is_in(low), low, Lean::left);
+    found.take(is_in(high), high, Lean::right);
   }
 
   HWY_INLINE void take_rim(V slope, PlaneExtremes& found) const {
     const auto part = [&](const Point& p) { return p.y - slope * p.depth; };
     shapes.each_rim_point(part(shapes.rim1), part(shapes.rim2), Neg(part(shapes.rim)), [&](M exists, const Point& p) {
-      found.take(And(exists, between.hold(p.depth, shapes.slack)), p.x / p.depth, p.depth);
+      found.take(And(exists, between.hold(p.depth, shapes.slack)), {p.x / p.depth, slope, p.depth});
     });
   }
 
@@ -329,7 +289,7 @@ struct SpotsInSlices {
     for (const Point& g : {generators[0], generators[1]}) {
       const V t = above / (g.y - slope * g.depth);
       const V x = a.x + t * g.x, depth = a.depth + t * g.depth;
-      found.take(And(shapes.is_on_generator(t), between.hold(depth, shapes.slack)), x / depth, depth);
+      found.take(And(shapes.is_on_generator(t), between.hold(depth, shapes.slack)), {x / depth, slope, depth});
     }
   }
 
@@ -337,9 +297,8 @@ struct SpotsInSlices {
   HWY_INLINE void take_edge(V slope, V depth, V inverse_depth, PlaneExtremes& found) const {
     const Cone& cone = shapes.cone;
     const V up = slope * depth - cone.apex.y, ahead = depth - cone.apex.depth;
-    shapes.each_sphere_point(
-        up, ahead, [&](M exists, V x) { found.take_low(exists, x * inverse_depth, depth); },
-        [&](M exists, V x) { found.take_high(exists, x * inverse_depth, depth); });
+    const auto take_at = [&](M where, V x, Lean lean) { found.take(where, {x * inverse_depth, slope, depth}, lean); };
+    shapes.each_sphere_point(up, ahead, take_at);
     const V rest = square_of(up) + square_of(ahead);
     const V k = up * cone.axis.y + ahead * cone.axis.depth, cosine_square = square_of(cone.cosine);
     const V qa = square_of(cone.axis.x) - cosine_square, qb = k * cone.axis.x;
@@ -350,7 +309,7 @@ struct SpotsInSlices {
     const V q = Neg(qb + CopySign(cone.cosine * root(inside), qb));
     for (const V x : {q * inverse_lean, qc / q}) {
       const M is_in = And(x * cone.axis.x + k >= Neg(shapes.slack), square_of(x) + rest <= longest_square);
-      found.take(And(exist, is_in), (cone.apex.x + x) * inverse_depth, depth);
+      take_at(And(exist, is_in), cone.apex.x + x, Lean::either);
     }
   }
 };

@@ -23,28 +23,27 @@ struct RowExtremes {
   Extremes outmost;
   Point middle;  // of some of the points, and so within the spot
 
-  HWY_INLINE RowExtremes(const Extremes& between, const PlaneExtremes& above, M has_above, V top,
-                         const PlaneExtremes& below, V bottom)
+  HWY_INLINE RowExtremes(const Extremes& between, const PlaneExtremes& above, M has_above, const PlaneExtremes& below)
       : outmost(between) {
-    add(FirstN(D(), Lanes(D())), below, bottom);
-    add(has_above, above, top);
-    middle = outmost.low.point() + outmost.high.point();
-    V count = all(2.0f);
-    const auto add_plane = [&](M where, const PlaneExtremes& plane, V slope) {
-      const M exist = And(where, plane.exist());
-      const V low = IfThenElseZero(exist, plane.low_depth), high = IfThenElseZero(exist, plane.high_depth);
-      middle = middle + low * Point{plane.low, slope, all(1.0f)} + high * Point{plane.high, slope, all(1.0f)};
-      count = count + IfThenElseZero(exist, all(2.0f));
+    Point sum{Zero(D()), Zero(D()), Zero(D())};
+    V count = Zero(D());
+    const auto add = [&](M where, const PlaneExtremes& in_plane) {
+      outmost.take(where, in_plane.low, Lean::left);
+      outmost.take(where, in_plane.high, Lean::right);
+      add_points(And(where, in_plane.exist()), in_plane, sum, count);
     };
-    add_plane(FirstN(D(), Lanes(D())), below, bottom);
-    add_plane(has_above, above, top);
-    middle = inverse(count) * middle;
+    const M always = FirstN(D(), Lanes(D()));
+    add(always, below);
+    add(has_above, above);
+    add_points(always, outmost, sum, count);
+    middle = inverse(count) * sum;
   }
 
  private:
-  HWY_INLINE void add(M where, const PlaneExtremes& plane, V slope) {
-    outmost.take_low(where, {plane.low, slope, plane.low_depth});
-    outmost.take_high(where, {plane.high, slope, plane.high_depth});
+  template <class AnyExtremes>
+  static HWY_INLINE void add_points(M where, const AnyExtremes& points, Point& sum, V& count) {
+    sum = chosen(where, sum + (points.low.point() + points.high.point()), sum);
+    count = count + IfThenElseZero(where, all(2.0f));
   }
 };
 
@@ -150,10 +149,10 @@ void rows_of(const SpotsAndPlanes& from, const RowPlanes& planes, const PlaneTab
     const V top = tables.slope.at(above_row), bottom = tables.slope.at(below_row);
     const PlaneExtremes below =
         spots.in_tile_plane(bottom, tables.tilt.at(below_row), tables.inverse_tilt.at(below_row));
-    const PlaneExtremes above = below.carried(carry, turned);
+    const PlaneExtremes above = below.carried(carry, turned, top);
     const M has_above = RebindMask(d, carry(in_slice, turned_slice) == in_slice);
     const V room = spots.shapes.slack * spots.between.inverse_far;
-    const RowExtremes found(lookup.between(bottom, top, room), above, has_above, top, below, bottom);
+    const RowExtremes found(lookup.between(bottom, top, room), above, has_above, below);
     const SpotsInRows rows{spots.shapes.cone, spots.light, bottom, top, spots.between.near, spots.between.far};
     const Ends ends(from, planes, spots, rows, found);
     const M plain = are_plain(from, spots.light);

@@ -80,13 +80,17 @@ class Reached {
  public:
   HWY_INLINE Reached(const RowPlanes& planes, const PlaneTables& tables, const SpotShapes& spots,
                      const SlicePlanes& between, V light)
-      : planes_(planes), tables_(tables), spots_(spots.exchanged()), between_(between), light_(light) {}
+      : planes_(planes),
+        tables_(tables),
+        spots_(exchanged(spots.cone), spots.slack),
+        between_(between),
+        light_(light) {}
 
   // `plain`: those of which single precision tells anything.
   HWY_INLINE RowsReached rows(M plain) const {
     Extremes found;
-    Ups ups{found};
-    each_point_in_slice(spots_, between_, ups);
+    each_point_in_slice(spots_, between_,
+                        [&](M where, const ProjectedPoint& p, Lean lean) { found.take(where, p, lean); });
     const V top = all(planes_.slope.front()), bottom = all(planes_.slope[static_cast<std::size_t>(planes_.rows)]);
     const V high = found.high.across + spots_.slack / found.high.depth;
     const V low = found.low.across - spots_.slack / found.low.depth;
@@ -107,12 +111,11 @@ class Reached {
   }
 
  private:
-  struct Ups {
-    Extremes& found;
-    HWY_INLINE void low(M where, const ProjectedPoint& p) { found.take_low(where, p); }
-    HWY_INLINE void high(M where, const ProjectedPoint& p) { found.take_high(where, p); }
-    HWY_INLINE void both(M where, const ProjectedPoint& p) { found.take(where, p); }
-  };
+  // What leans most up and down leans most across where x and y are exchanged.
+  static HWY_INLINE Cone exchanged(const Cone& cone) {
+    const auto turned = [](const Point& p) { return Point{p.y, p.x, p.depth}; };
+    return {turned(cone.apex), turned(cone.axis), cone.range, cone.cosine, cone.sine};
+  }
 
   HWY_INLINE M is_apart(const ProjectedPoint& extreme, V boundary, V side) const {
     const V zero = Zero(D());
@@ -162,8 +165,12 @@ class Slices {
       const MI wanted = And(rows.count > Zero(di), FirstN(di, end - i));
       Writer writer{*this, wanted};
       in_slices.each([&](V& value) { writer.put(value); });
-      Slots slots{writer};
-      each_point_in_slice(shapes, between, slots);
+      // Points that do not exist are neither above nor below anything.
+      each_point_in_slice(shapes, between, [&](M where, const ProjectedPoint& p, Lean) {
+        writer.put(p.across);
+        writer.put(IfThenElse(where, p.up, all(std::numeric_limits<float>::quiet_NaN())));
+        writer.put(p.depth);
+      });
       StoreU(compressed(di, spot, wanted), di, spot_ + count_);
       StoreU(compressed(di, slice, wanted), di, slice_ + count_);
       const VI lead = IfThenElseZero(rows.with_top, all_int(1));
@@ -212,22 +219,22 @@ class Slices {
       Extremes found;
       const V low = bottom - room, high = top + room;
       int field = SpotsInSlices::k_vectors;
-      const auto each = [&](int count, auto&& take) {
-        for (int i = 0; i < count; ++i, field += 3) {
-          const ProjectedPoint p = {(*this)(field), (*this)(field + 1), (*this)(field + 2)};
-          take(is_between(low, p.up, high), p);
-        }
+      const auto take_next = [&](Lean lean) {
+        const ProjectedPoint p = {(*this)(field), (*this)(field + 1), (*this)(field + 2)};
+        found.take(is_between(low, p.up, high), p, lean);
+        field += 3;
       };
-      each(k_slots_in_slice.low, [&](M where, const ProjectedPoint& p) { found.take_low(where, p); });
-      each(k_slots_in_slice.high, [&](M where, const ProjectedPoint& p) { found.take_high(where, p); });
-      each(k_slots_in_slice.both, [&](M where, const ProjectedPoint& p) { found.take(where, p); });
+      for (int i = 0; i < k_one_sided_points; i += 2) {
+        take_next(Lean::left);
+        take_next(Lean::right);
+      }
+      for (int i = k_one_sided_points; i < k_points_in_slice; ++i) take_next(Lean::either);
       return found;
     }
   };
 
  private:
-  static constexpr int k_fields =
-      SpotsInSlices::k_vectors + 3 * (k_slots_in_slice.low + k_slots_in_slice.high + k_slots_in_slice.both);
+  static constexpr int k_fields = SpotsInSlices::k_vectors + 3 * k_points_in_slice;
   static constexpr std::size_t k_pitch = k_most + k_most_lanes;
 
   struct Writer {
@@ -235,24 +242,8 @@ class Slices {
     MI wanted;
     int field = 0;
 
-    HWY_INLINE void put(V value) { put_at(field++, value); }
-    HWY_INLINE void put_at(int at, V value) {
-      StoreU(compressed(D(), value, RebindMask(D(), wanted)), D(), to.values_[at] + to.count_);
-    }
-  };
-  // Places go to their own fields; those that do not exist are neither above nor below anything.
-  struct Slots {
-    Writer& writer;
-    int next_low = SpotsInSlices::k_vectors, next_high = next_low + 3 * k_slots_in_slice.low,
-        next_both = next_high + 3 * k_slots_in_slice.high;
-
-    HWY_INLINE void low(M where, const ProjectedPoint& p) { put(next_low, where, p); }
-    HWY_INLINE void high(M where, const ProjectedPoint& p) { put(next_high, where, p); }
-    HWY_INLINE void both(M where, const ProjectedPoint& p) { put(next_both, where, p); }
-    HWY_INLINE void put(int& next, M where, const ProjectedPoint& p) {
-      writer.put_at(next++, p.across);
-      writer.put_at(next++, IfThenElse(where, p.up, all(std::numeric_limits<float>::quiet_NaN())));
-      writer.put_at(next++, p.depth);
+    HWY_INLINE void put(V value) {
+      StoreU(compressed(D(), value, RebindMask(D(), wanted)), D(), to.values_[field++] + to.count_);
     }
   };
 
