@@ -140,8 +140,7 @@ class CellsOf {
 
  private:
   static constexpr float k_none = 1e30f;
-  static constexpr float k_within = 1.25f;         // of the tolerance
-  static constexpr float k_least_square = 1e-30f;  // below it quotients lose digits
+  static constexpr float k_within = 1.25f;  // of the tolerance
   // Places that lie in cell and volume, by and large: their sum, and the one nearest to the apex of those that lie in
   // cell and endless cone.
   struct Extremes {
@@ -268,33 +267,20 @@ class CellsOf {
   // A unit vector across the axis, towards v where v is not nearly along the axis.
   HWY_INLINE Point unit_across(const Point& v) const {
     const M is_good = length(cross(v, cone_.axis)) > all(0.1f) * length(v);
-    const M x_is_small = Abs(cone_.axis.x) < all(0.7f);
-    const Point other = chosen(x_is_small, x_axis(), y_axis());
-    const Point from = chosen(is_good, v, other);
-    const Point part = from - dot(from, cone_.axis) * cone_.axis;
-    return (all(1.0f) / length(part)) * part;
+    return chosen(is_good, direction_across(cone_.axis, v), any_across(cone_.axis));
   }
 
   // Is there a plane along the cone's side, equally far from both ends of an edge, beyond which all corners lie?
   HWY_INLINE M is_beside_edges() const {
-    const V zero = Zero(D());
-    const M x_is_small = Abs(cone_.axis.x) < all(0.7f);
-    const Point m = unit_across(chosen(x_is_small, x_axis(), y_axis())), m2 = cross(cone_.axis, m);
+    const Point m = any_across(cone_.axis), m2 = cross(cone_.axis, m);
     M apart = Not(yes());
     each_edge([&](const Point&, const Point& edge) {
-      // x cos phi + y sin phi = z, phi around the axis from m. Not times the cosine, whose square would not be a
-      // number that single precision has where the angle is nearly 90 degrees.
-      const V x = dot(edge, m), y = dot(edge, m2);
-      const V z = cone_.sine * dot(edge, cone_.axis) / cone_.cosine;
-      const V square = x * x + y * y, rest = square - z * z;
-      const M exists = And(square > all(k_least_square), rest >= zero);
-      const V root = Sqrt(Max(rest, zero)), scale = all(1.0f) / square;
-      for (const V w : {root, Neg(root)}) {
-        const V along_m = scale * (z * x - w * y);
-        const V along_m2 = scale * (z * y + w * x);
-        const Point across = along_m * m + along_m2 * m2;
-        apart = Or(apart, And(exists, least_along(side_normal(across)) > tolerance_));
-      }
+      // Not times the cosine, whose square would not be a number that single precision has where the angle is nearly 90
+      // degrees.
+      const V along = cone_.sine * dot(edge, cone_.axis) / cone_.cosine;
+      each_angle(dot(edge, m), dot(edge, m2), along, [&](M exist, V to_m, V to_m2) {
+        apart = Or(apart, And(exist, least_along(side_normal(to_m * m + to_m2 * m2)) > tolerance_));
+      });
     });
     return apart;
   }

@@ -84,12 +84,7 @@ struct SpotShapes {
 
   SpotShapes() = default;
   HWY_INLINE SpotShapes(const Cone& of_cone, V of_slack) : cone(of_cone), slack(of_slack) {
-    const Point toward = Point{all(0.3f), all(0.5f), all(0.8f)}, other = Point{all(0.8f), all(-0.5f), all(0.1f)};
-    const V along = dot(toward, cone.axis);
-    const M is_good = Abs(along) < all(0.9f);
-    const Point from = chosen(is_good, toward, other);
-    const Point part = from - dot(from, cone.axis) * cone.axis;
-    m1 = inverse(length(part)) * part;
+    m1 = any_across(cone.axis);
     m2 = cross(cone.axis, m1);
     const V forth = cone.range * cone.cosine, out = cone.range * cone.sine;
     rim = cone.apex + forth * cone.axis;
@@ -102,32 +97,19 @@ struct SpotShapes {
   HWY_INLINE M is_in_cone(V along) const { return along >= least_along; }
   HWY_INLINE M is_sphere_in_cone(const Point& p) const { return is_in_cone(dot(p - cone.apex, cone.axis)); }
 
-  // Angles phi with a cos phi + b sin phi = c, as points of the rim.
+  // Points of the rim with a cos phi + b sin phi = c.
   template <class Take>
   HWY_INLINE void each_rim_point(V a, V b, V c, Take&& take) const {
-    const V square = square_of(a) + square_of(b), rest = square - square_of(c);
-    const M exists = And(rest >= Zero(D()), square > Zero(D()));
-    const V w = root(rest), scale = inverse(square);
-    for (const V turned : {w, Neg(w)}) {
-      const V cosine = scale * (a * c - b * turned);
-      const V sine = scale * (b * c + a * turned);
-      take(exists, rim + cosine * rim1 + sine * rim2);
-    }
+    each_angle(a, b, c, [&](M exist, V cosine, V sine) { take(exist, rim + cosine * rim1 + sine * rim2); });
   }
 
   // The generators in which planes through the apex that hold a direction touch the cone. Where there are none, not
   // numbers.
   HWY_INLINE void find_generators(const Point& direction, Point (&generators)[2]) const {
-    const V along = dot(direction, cone.axis), a = dot(direction, m1), b = dot(direction, m2);
-    const V square = square_of(a) + square_of(b);
-    const V c = cone.sine / Max(cone.cosine, all(1e-6f)) * along;
-    const V w = Sqrt(square - square_of(c)), scale = cone.sine * inverse(square);
-    const V turned[2] = {w, Neg(w)};
-    for (int i = 0; i < 2; ++i) {
-      const V to1 = scale * (a * c - b * turned[i]);
-      const V to2 = scale * (b * c + a * turned[i]);
-      generators[i] = cone.cosine * cone.axis + to1 * m1 + to2 * m2;
-    }
+    const V steepness = cone.sine / Max(cone.cosine, all(1e-6f));
+    Point* next = generators;
+    each_angle(dot(direction, m1), dot(direction, m2), steepness * dot(direction, cone.axis),
+               [&](M, V cosine, V sine) { *next++ = cone.cosine * cone.axis + cone.sine * (cosine * m1 + sine * m2); });
   }
   // So far from the apex.
   HWY_INLINE M is_on_generator(V t) const { return is_between(Zero(D()), t, cone.range + slack); }

@@ -53,6 +53,25 @@ HWY_INLINE Point chosen(M where, const Point& a, const Point& b) {
   return {IfThenElse(where, a.x, b.x), IfThenElse(where, a.y, b.y), IfThenElse(where, a.depth, b.depth)};
 }
 
+// The direction of what a vector has across a unit vector; and one of any vector that has much across it.
+HWY_INLINE Point direction_across(const Point& axis, const Point& v) {
+  const Point part = v - dot(v, axis) * axis;
+  return (all(1.0f) / length(part)) * part;
+}
+HWY_INLINE Point any_across(const Point& axis) {
+  return direction_across(axis, chosen(Abs(axis.x) < all(0.7f), x_axis(), y_axis()));
+}
+
+// Angles phi with a cos phi + b sin phi = c: take(where there are any, cosine, sine), which elsewhere are no numbers.
+template <class Take>
+HWY_INLINE void each_angle(V a, V b, V c, Take&& take) {
+  constexpr float k_least_square = 1e-30f;  // below it quotients lose digits
+  const V square = a * a + b * b, rest = square - c * c;
+  const M exist = And(square > all(k_least_square), rest >= Zero(D()));
+  const V w = Sqrt(rest), scale = all(1.0f) / square;
+  for (const V turned : {w, Neg(w)}) take(exist, scale * (a * c - b * turned), scale * (b * c + a * turned));
+}
+
 struct Cone {
   Point apex, axis;
   V range, cosine, sine;
