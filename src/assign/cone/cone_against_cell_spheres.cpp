@@ -12,68 +12,55 @@
 #include <hwy/foreach_target.h>  // compiles this file once per target
 #include <hwy/highway.h>
 
+#include "assign/cone/spot_vectors-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-using D = hn::CappedTag<float, 8>;  // rows are short: longer vectors would hold few cells and cost more
-using V = hn::Vec<D>;
+// Rows are short: longer vectors would hold few cells and cost more.
+using Few = hn::CappedTag<float, 8>;
+using VFew = hn::Vec<Few>;
 
-V all(float value) {
-  return Set(D(), value);
+HWY_INLINE VFew all_few(float value) {
+  return Set(Few(), value);
 }
 
-struct Vector {
-  V x, y, z;
-};
-
-HWY_INLINE V dot(const Vector& a, const Vector& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-HWY_INLINE V length(const Vector& a) {
-  return Sqrt(dot(a, a));
-}
-
-class Cone {
+class SpotCone {
  public:
-  HWY_INLINE explicit Cone(const geom::SphericalCone& cone)
-      : apex_{all(cone.apex.x), all(cone.apex.y), all(cone.apex.z)},
-        axis_{all(cone.axis.x), all(cone.axis.y), all(cone.axis.z)},
-        range_(all(cone.range)),
-        cos_angle_(all(cone.cos_angle)),
-        sin_angle_(all(cone.sin_angle)),
-        apex_size_(all(std::fabs(cone.apex.x) + std::fabs(cone.apex.y) + std::fabs(cone.apex.z))) {}
+  HWY_INLINE explicit SpotCone(const geom::SphericalCone& cone)
+      : apex_{all_few(cone.apex.x), all_few(cone.apex.y), all_few(cone.apex.z)},
+        axis_{all_few(cone.axis.x), all_few(cone.axis.y), all_few(cone.axis.z)},
+        range_(all_few(cone.range)),
+        cos_angle_(all_few(cone.cos_angle)),
+        sin_angle_(all_few(cone.sin_angle)),
+        apex_size_(all_few(std::fabs(cone.apex.x) + std::fabs(cone.apex.y) + std::fabs(cone.apex.z))) {}
 
-  HWY_INLINE hn::Mask<D> touches(const CellBalls& cells, std::size_t cell) const {
-    const D d;
-    const auto at = [&](const std::vector<float>& list) { return LoadU(d, list.data() + cell); };
-    const Vector to_center{at(cells.x) - apex_.x, at(cells.y) - apex_.y, at(cells.z) - apex_.z};
-    const V along = dot(to_center, axis_), radius = at(cells.radius);
-    const V across =
-        length({to_center.x - along * axis_.x, to_center.y - along * axis_.y, to_center.z - along * axis_.z});
-    const V reach = radius + all(0x1p-20f) * (apex_size_ + at(cells.size));
-    const V farthest = range_ + reach;
+  HWY_INLINE hn::Mask<Few> touches(const CellBalls& cells, std::size_t cell) const {
+    const auto at = [&](const std::vector<float>& list) { return LoadU(Few(), list.data() + cell); };
+    const PointOf<VFew> to_center = PointOf<VFew>{at(cells.x), at(cells.y), at(cells.z)} - apex_;
+    const VFew along = dot(to_center, axis_), across = length(to_center - along * axis_), radius = at(cells.radius);
+    const VFew reach = radius + all_few(0x1p-20f) * (apex_size_ + at(cells.size));
+    const VFew farthest = range_ + reach;
     const auto beside = cos_angle_ * across - sin_angle_ * along > reach;
     const auto beyond = Or(along > farthest, length(to_center) > farthest);
     const auto behind = along < Neg(reach);
-    const auto is_endless = radius == all(std::numeric_limits<float>::infinity());
+    const auto is_endless = radius == all_few(std::numeric_limits<float>::infinity());
     return Or(is_endless, Not(Or(beside, Or(beyond, behind))));
   }
 
  private:
-  Vector apex_, axis_;
-  V range_, cos_angle_, sin_angle_, apex_size_;
+  PointOf<VFew> apex_, axis_;  // with z in place of the depth
+  VFew range_, cos_angle_, sin_angle_, apex_size_;
 };
 
-std::uint64_t touched_of(const CellRun& run, const Cone& cone, const CellBalls& cells) {
-  const D d;
-  const auto lanes = static_cast<std::uint32_t>(Lanes(d));
+std::uint64_t touched_of(const CellRun& run, const SpotCone& cone, const CellBalls& cells) {
+  const auto lanes = static_cast<std::uint32_t>(Lanes(Few()));
   std::uint64_t bits = 0;
   for (std::uint32_t i = 0; i < run.count; i += lanes) {
     std::uint8_t bytes[8] = {};
-    StoreMaskBits(d, cone.touches(cells, std::size_t{run.cell} + i), bytes);
+    StoreMaskBits(Few(), cone.touches(cells, std::size_t{run.cell} + i), bytes);
     for (std::uint32_t byte = 0; 8 * byte < lanes; ++byte) bits |= std::uint64_t{bytes[byte]} << (i + 8 * byte);
   }
   return run.count < 64 ? bits & ((std::uint64_t{1} << run.count) - 1) : bits;
@@ -81,7 +68,7 @@ std::uint64_t touched_of(const CellRun& run, const Cone& cone, const CellBalls& 
 
 void touched_cells(const geom::SphericalCone& given, const CellBalls& cells, std::span<const CellRun> runs,
                    std::uint64_t* touched) {
-  const Cone cone(given);
+  const SpotCone cone(given);
   for (std::size_t i = 0; i < runs.size(); ++i) touched[i] = touched_of(runs[i], cone, cells);
 }
 

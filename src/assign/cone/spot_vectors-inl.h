@@ -15,27 +15,35 @@ HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
 
-// Points and directions as x to the right, y up, depth ahead.
-struct Point {
-  V x, y, depth;
+// Points and directions as x to the right, y up, depth ahead; each coordinate a vector of numbers.
+template <class Numbers>
+struct PointOf {
+  Numbers x, y, depth;
 };
-HWY_INLINE Point operator+(const Point& a, const Point& b) {
+template <class T>
+HWY_INLINE PointOf<T> operator+(const PointOf<T>& a, const PointOf<T>& b) {
   return {a.x + b.x, a.y + b.y, a.depth + b.depth};
 }
-HWY_INLINE Point operator-(const Point& a, const Point& b) {
+template <class T>
+HWY_INLINE PointOf<T> operator-(const PointOf<T>& a, const PointOf<T>& b) {
   return {a.x - b.x, a.y - b.y, a.depth - b.depth};
 }
-HWY_INLINE Point operator*(V s, const Point& a) {
+template <class T>
+HWY_INLINE PointOf<T> operator*(T s, const PointOf<T>& a) {
   return {s * a.x, s * a.y, s * a.depth};
 }
-HWY_INLINE V dot(const Point& a, const Point& b) {
+template <class T>
+HWY_INLINE T dot(const PointOf<T>& a, const PointOf<T>& b) {
   return a.x * b.x + a.y * b.y + a.depth * b.depth;
 }
+template <class T>
+HWY_INLINE T length(const PointOf<T>& a) {
+  return Sqrt(dot(a, a));
+}
+
+using Point = PointOf<V>;
 HWY_INLINE Point cross(const Point& a, const Point& b) {
   return {a.y * b.depth - a.depth * b.y, a.depth * b.x - a.x * b.depth, a.x * b.y - a.y * b.x};
-}
-HWY_INLINE V length(const Point& a) {
-  return Sqrt(dot(a, a));
 }
 
 // Unit vectors along an axis, or (side -1) against it.

@@ -10,6 +10,7 @@
 #include <hwy/foreach_target.h>  // compiles this file once per target
 #include <hwy/highway.h>
 
+#include "assign/cone/spot_vectors-inl.h"
 #include "assign/exact/ball_runs-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -19,26 +20,23 @@ namespace {
 
 // A vector of cones in single precision: axes of length 1 to 5 u, all numbers off by u of themselves, u = 2^-24.
 struct Cones {
-  VD axis_x, axis_y, axis_depth, cosine, sine;
+  PointOf<VD> axis;
+  VD cosine, sine;
 
   Cones(const view::LightArrays& lights, VH spot) {
     const auto of = [&](const std::vector<float>& list) {
       return PromoteTo(DD(), GatherIndex(DF(), list.data(), spot));
     };
-    axis_x = of(lights.axis_x);
-    axis_y = of(lights.axis_y);
-    axis_depth = Neg(of(lights.axis_z));
+    axis = {of(lights.axis_x), of(lights.axis_y), Neg(of(lights.axis_z))};
     cosine = of(lights.cos_angle);
     sine = of(lights.sin_angle);
   }
 
   // How far inside of the cone's side a way from the apex ends, which changes by no more than the way does. The numbers
   // above make it off by less than 20 u of the way's length.
-  HWY_INLINE VD margin(VD x, VD y, VD depth) const {
-    const VD along = x * axis_x + y * axis_y + depth * axis_depth;
-    const VD across_x = x - along * axis_x, across_y = y - along * axis_y, across_depth = depth - along * axis_depth;
-    const VD across = Sqrt(across_x * across_x + across_y * across_y + across_depth * across_depth);
-    return sine * along - cosine * across;
+  HWY_INLINE VD margin(const PointOf<VD>& way) const {
+    const VD along = dot(way, axis);
+    return sine * along - cosine * length(way - along * axis);
   }
 };
 constexpr double k_cone_error = 0x1p-19;  // 32 u
@@ -70,12 +68,10 @@ void look_at(const SpotsAndPlanes& from, const RowPlanes& planes, SpotTouches& o
     const VD play = enlarged(Sqrt(play_square));
     const MD is_exact = And(And(excess == zero, error == zero), steep == zero);
 
-    const VD x = across(nearest.x), y = across(nearest.y), depth = nearest.along.value;
+    const PointOf<VD> way{across(nearest.x), across(nearest.y), nearest.along.value};
     const VD off = nearest.x.size.error + nearest.y.size.error + nearest.along.error;
-    const VD length = Sqrt(x * x + y * y + depth * depth);
-    const Cones cones(lights, spot);
-    const VD margin = cones.margin(x, y, depth);
-    const VD tolerance = all(k_cone_error) * length + all(2.0) * off;
+    const VD margin = Cones(lights, spot).margin(way);
+    const VD tolerance = all(k_cone_error) * length(way) + all(2.0) * off;
     const MD is_in_cone = margin > tolerance;
     const MD is_beside = margin + all(2.0) * (shift + play) < Neg(tolerance);
 
