@@ -283,30 +283,17 @@ assign::SpotCells some_spot_cells(const Setting& setting, int slice) {
   return cells;
 }
 
-void look(State& state, assign::Look how) {
+void look_at_spot_cells(State& state) {
   constexpr int k_slice = 10;
   const Setting setting = open_world();
   const assign::RowPlanes planes(setting.grid.screen());
   const assign::SpotsAndPlanes from{&setting.lights, planes.side.data(), planes.slope.data(), planes.depth.data()};
   assign::SpotCells cells = some_spot_cells(setting, k_slice);
   for (auto _ : state) {
-    assign::look_at_cells(from, how, cells);
+    assign::look_at_cells(from, cells);
     benchmark::ClobberMemory();
   }
   items(state, cells.count);
-}
-
-void look_quickly(State& state) {
-  look(state, assign::Look::quick);
-}
-void look_approaching(State& state) {
-  look(state, assign::Look::approach);
-}
-void look_closer(State& state) {
-  look(state, assign::Look::closer);
-}
-void look_thoroughly(State& state) {
-  look(state, assign::Look::thorough);
 }
 
 // Every spot against a row of cells in each slice.
@@ -498,10 +485,7 @@ constexpr Kernel k_kernels[] = {
     {"find_box_rows", find_box_rows},
     {"find_shell_rows", find_shell_rows},
     {"find_spot_rows", find_spot_rows},
-    {"look_quickly", look_quickly},
-    {"look_approaching", look_approaching},
-    {"look_closer", look_closer},
-    {"look_thoroughly", look_thoroughly},
+    {"look_at_spot_cells", look_at_spot_cells},
     {"find_touched_cells", find_touched_cells},
 };
 

@@ -62,11 +62,6 @@ SpotCell place_of(const grid::Grid& grid, std::uint32_t spot, std::uint32_t cell
 std::vector<testing::settings::Plan> all_plans() {
   return testing::settings::plans_for(*find_assigner("exact"), grid::Kind::frustum);
 }
-std::vector<testing::settings::Plan> plans_in_perspective() {
-  std::vector<testing::settings::Plan> plans = all_plans();
-  std::erase_if(plans, [](const testing::settings::Plan& plan) { return plan.projection.orthographic; });
-  return plans;
-}
 
 SpotsAndPlanes from_these(const view::LightArrays& lights, const RowPlanes& planes) {
   return {&lights, planes.side.data(), planes.slope.data(), planes.depth.data(), 0.0f, planes.orthographic};
@@ -93,17 +88,15 @@ TEST(SpotLooks, say_yes_and_no_only_where_it_is_true_on_every_target) {
           touched.push_back(SpotJudge(close.grid, close.lights, spot).touches(close.cells[spot]));
         }
         on_each_target([&](const std::string& target) {
-          for (const Look look : {Look::quick, Look::approach, Look::closer, Look::thorough}) {
-            look_at_cells(from, look, pairs);
-            std::size_t wrong = 0, settled = 0;
-            for (std::uint32_t i = 0; i < pairs.count; ++i) {
-              if (pairs.touch[i] == Touch::uncertain) continue;
-              ++settled;
-              if ((pairs.touch[i] == Touch::yes) != touched[i]) ++wrong;
-            }
-            EXPECT_EQ(wrong, 0u) << target << ", " << plan.name << ", look " << static_cast<int>(look);
-            EXPECT_GT(settled, pairs.count / 100) << target << ", " << plan.name << ", look " << static_cast<int>(look);
+          look_at_cells(from, pairs);
+          std::size_t wrong = 0, settled = 0;
+          for (std::uint32_t i = 0; i < pairs.count; ++i) {
+            if (pairs.touch[i] == Touch::uncertain) continue;
+            ++settled;
+            if ((pairs.touch[i] == Touch::yes) != touched[i]) ++wrong;
           }
+          EXPECT_EQ(wrong, 0u) << target << ", " << plan.name;
+          EXPECT_GT(settled, pairs.count / 100) << target << ", " << plan.name;
         });
       });
 }
@@ -211,7 +204,7 @@ struct TrueRow {
 
 TEST(SpotRows, know_only_what_is_true_on_every_target) {
   for_close_spots(
-      plans_in_perspective(), 6,
+      all_plans(), 6,
       [](const testing::settings::Plan& plan, const CloseSpots& close, const RowPlanes& planes,
          const SpotsAndPlanes& from) {
         const auto columns = static_cast<std::uint32_t>(planes.columns), rows = static_cast<std::uint32_t>(planes.rows);
@@ -289,14 +282,14 @@ struct SpotsInGrid {
 
 // Else exact-fast is right, but slow.
 TEST(SpotRows, settle_nearly_all_rows_of_ordinary_spots_on_every_target) {
-  for (const testing::settings::Plan& plan : plans_in_perspective()) {
+  for (const testing::settings::Plan& plan : all_plans()) {
     std::vector<scene::WorldLight> spots = testing::random_lights(0, 300, 7);
     std::erase_if(spots, [](const scene::WorldLight& spot) { return spot.outer_cone_rad < 0.1; });
     SpotsInGrid in_grid(plan, spots);
     on_each_target([&](const std::string& target) {
       const SpotRows found = in_grid.rows();
       const auto settled = static_cast<std::uint32_t>(std::ranges::count(found.known, SpotRows::k_all));
-      EXPECT_GT(found.count, 1000u) << target << ", " << plan.name;
+      EXPECT_GT(found.count, 500u) << target << ", " << plan.name;
       EXPECT_LE(100 * (found.count - settled), found.count) << target << ", " << plan.name << ": " << settled;
     });
   }
@@ -304,7 +297,7 @@ TEST(SpotRows, settle_nearly_all_rows_of_ordinary_spots_on_every_target) {
 
 // Counters would differ else, from machine to machine.
 TEST(SpotRows, are_the_same_on_every_target) {
-  for (const testing::settings::Plan& plan : plans_in_perspective()) {
+  for (const testing::settings::Plan& plan : all_plans()) {
     std::vector<scene::WorldLight> spots = testing::random_lights(0, 300, 8);
     for (const double range : {1e-12, 1e12, std::numeric_limits<double>::infinity()})
       for (const double angle : {0.0, 0.3, M_PI / 2})

@@ -46,7 +46,7 @@ class ExactFast final : public ListAssigner {
     fallbacks_ = 0;
     lights_ = &lights;
     cull_lights();
-    set_up_spheres(visible_, planes_.orthographic ? visible_.count : first_spot_, shapes_);
+    set_up_spheres(visible_, first_spot_, shapes_);
     slice_bins_.sort(visible_, planes_.slices);
     const ExactFrame frame{*grid_, planes_, lights, visible_, first_spot_, shapes_, slice_bins_};
     if (parts_.empty() || slice_bins_.count() < k_worth_threads) {

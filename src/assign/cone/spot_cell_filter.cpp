@@ -18,8 +18,8 @@ namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
 namespace {
 
-template <class AnyCells>
-void look_at(const SpotsAndPlanes& from, Look how, SpotCells& cells) {
+template <bool orthographic>
+void look_at(const SpotsAndPlanes& from, SpotCells& cells) {
   const D d;
   const DU du;
   const hn::Rebind<std::uint8_t, DU> du8;
@@ -27,27 +27,10 @@ void look_at(const SpotsAndPlanes& from, Look how, SpotCells& cells) {
   for (std::uint32_t first = 0; first < cells.count; first += lanes) {
     const SpotsInRows rows = spots_in_rows(from, loaded_indices(cells.spot, first), loaded_indices(cells.slice, first),
                                            loaded_indices(cells.row, first));
-    const AnyCells these(rows, gathered(from.side, loaded_indices(cells.column, first)),
-                         gathered(from.side, loaded_indices(cells.end_column, first)));
-    M common = FirstN(d, 0), apart = common;
-    switch (how) {
-      case Look::quick:
-        common = these.holds_corner();
-        apart = these.is_apart();
-        break;
-      case Look::approach:
-        these.approach(common, apart);
-        break;
-      case Look::closer:
-        common = these.holds_edge_point();
-        break;
-      case Look::thorough:
-        these.settle(common, apart);
-        break;
-    }
+    const Cells<orthographic> these(rows, gathered(from.side, loaded_indices(cells.column, first)),
+                                    gathered(from.side, loaded_indices(cells.end_column, first)));
     const M plain = are_plain(from, rows.light);
-    common = And(common, plain);
-    apart = And(apart, plain);
+    const M common = And(these.holds_corner(), plain), apart = And(these.is_apart(), plain);
     const auto code = [&](Touch touch) { return Set(du, static_cast<std::uint32_t>(touch)); };
     const auto answer = IfThenElse(RebindMask(du, common), code(Touch::yes),
                                    IfThenElse(RebindMask(du, apart), code(Touch::no), code(Touch::uncertain)));
@@ -55,8 +38,8 @@ void look_at(const SpotsAndPlanes& from, Look how, SpotCells& cells) {
   }
 }
 
-void look(const SpotsAndPlanes& from, Look how, SpotCells& cells) {
-  from.orthographic ? look_at<CellsOf<false>>(from, how, cells) : look_at<Cells>(from, how, cells);
+void look(const SpotsAndPlanes& from, SpotCells& cells) {
+  from.orthographic ? look_at<true>(from, cells) : look_at<false>(from, cells);
 }
 
 }  // namespace
@@ -81,9 +64,9 @@ void SpotCells::pad() {
     std::fill_n(list->begin() + count, std::min(k_most_lanes, list->size() - count), list == &end_column ? 1 : 0);
 }
 
-void look_at_cells(const SpotsAndPlanes& from, Look how, SpotCells& cells) {
+void look_at_cells(const SpotsAndPlanes& from, SpotCells& cells) {
   cells.pad();
-  HWY_DYNAMIC_DISPATCH(look)(from, how, cells);
+  HWY_DYNAMIC_DISPATCH(look)(from, cells);
 }
 
 }  // namespace clusterbench::assign

@@ -50,9 +50,7 @@ struct SpotsAndPlanes {
   bool orthographic = false;
 };
 
-// Each look settles some of the pairs that the ones before leave uncertain. The last one takes ten times as long as the
-// first.
-enum class Look { quick, approach, closer, thorough };
-void look_at_cells(const SpotsAndPlanes& from, Look how, SpotCells& cells);
+// A cell's corner well inside of the volume, or a face of the cell between, or a plane along the cone's side.
+void look_at_cells(const SpotsAndPlanes& from, SpotCells& cells);
 
 }  // namespace clusterbench::assign

@@ -22,31 +22,47 @@ HWY_INLINE V inverse(V x) {
   return all(1.0f) / x;
 }
 
-// A point as the eye sees it: x / depth, y / depth, depth.
+// Angles phi with a cos phi + b sin phi = c: take(where there are any, cosine, sine), which elsewhere are no numbers.
+template <class Take>
+HWY_INLINE void each_angle(V a, V b, V c, Take&& take) {
+  const V square = square_of(a) + square_of(b), rest = square - square_of(c);
+  const M exist = And(square > Zero(D()), rest >= Zero(D()));
+  const V w = Sqrt(rest), scale = inverse(square);
+  for (const V turned : {w, Neg(w)}) take(exist, scale * (a * c - b * turned), scale * (b * c + a * turned));
+}
+
+// A point as the camera sees it: x / w, y / w, depth.
+template <bool orthographic>
 struct ProjectedPoint {
   V across, up, depth;
 
-  HWY_INLINE Point point() const { return {across * depth, up * depth, depth}; }
+  HWY_INLINE Point point() const {
+    const V w = w_of<orthographic>(depth);
+    return {across * w, up * w, depth};
+  }
 };
-HWY_INLINE ProjectedPoint projected(const Point& p, V inverse_depth) {
-  return {p.x * inverse_depth, p.y * inverse_depth, p.depth};
+template <bool orthographic>
+HWY_INLINE ProjectedPoint<orthographic> projected(const Point& p, V inverse_w) {
+  return {p.x * inverse_w, p.y * inverse_w, p.depth};
 }
-HWY_INLINE ProjectedPoint projected(const Point& p) {
-  return projected(p, inverse(p.depth));
+template <bool orthographic>
+HWY_INLINE ProjectedPoint<orthographic> projected(const Point& p) {
+  return projected<orthographic>(p, inverse(w_of<orthographic>(p.depth)));
 }
 
 // What a point can lean most to.
 enum class Lean { left, right, either };
 
 // The two points found so far that lean most across: anywhere, or in one tile plane, which all of them lie in.
-template <bool k_in_tile_plane>
+template <bool orthographic, bool in_tile_plane>
 struct ExtremesOf {
-  ProjectedPoint low, high;
+  using Seen = ProjectedPoint<orthographic>;
+  Seen low, high;
 
   HWY_INLINE explicit ExtremesOf(V up = Zero(D()))
       : low{all(k_none), up, all(1.0f)}, high{all(-k_none), up, all(1.0f)} {}
 
-  HWY_INLINE void take(M where, const ProjectedPoint& p, Lean lean = Lean::either) {
+  HWY_INLINE void take(M where, const Seen& p, Lean lean = Lean::either) {
     if (lean != Lean::right) take_if(And(where, p.across < low.across), p, low);
     if (lean != Lean::left) take_if(And(where, p.across > high.across), p, high);
   }
@@ -65,14 +81,16 @@ struct ExtremesOf {
  private:
   static constexpr float k_none = 1e15f;
 
-  static HWY_INLINE void take_if(M where, const ProjectedPoint& p, ProjectedPoint& extreme) {
+  static HWY_INLINE void take_if(M where, const Seen& p, Seen& extreme) {
     extreme.across = IfThenElse(where, p.across, extreme.across);
-    if constexpr (!k_in_tile_plane) extreme.up = IfThenElse(where, p.up, extreme.up);
+    if constexpr (!in_tile_plane) extreme.up = IfThenElse(where, p.up, extreme.up);
     extreme.depth = IfThenElse(where, p.depth, extreme.depth);
   }
 };
-using Extremes = ExtremesOf<false>;
-using PlaneExtremes = ExtremesOf<true>;
+template <bool orthographic>
+using Extremes = ExtremesOf<orthographic, false>;
+template <bool orthographic>
+using PlaneExtremes = ExtremesOf<orthographic, true>;
 
 // Spots and what follows from them alone. Places count that are outside by less than the slack.
 struct SpotShapes {
@@ -84,7 +102,9 @@ struct SpotShapes {
 
   SpotShapes() = default;
   HWY_INLINE SpotShapes(const Cone& of_cone, V of_slack) : cone(of_cone), slack(of_slack) {
-    m1 = any_across(cone.axis);
+    const Point any = chosen(Abs(cone.axis.x) < all(0.7f), x_axis(), y_axis());
+    const Point across = any - dot(any, cone.axis) * cone.axis;
+    m1 = inverse(length(across)) * across;
     m2 = cross(cone.axis, m1);
     const V forth = cone.range * cone.cosine, out = cone.range * cone.sine;
     rim = cone.apex + forth * cone.axis;
@@ -129,47 +149,59 @@ struct SpotShapes {
   }
 };
 
-// Two planes across the view axis.
+// Two planes across the view axis: their depths, and 1 / w there.
 struct SlicePlanes {
   V near, far, inverse_near, inverse_far;
 
   HWY_INLINE M hold(V depth, V slack) const { return is_between(near - slack, depth, far + slack); }
+  template <bool orthographic>
+  HWY_INLINE V farthest() const {
+    return orthographic ? Max(Abs(near), Abs(far)) : far;  // in perspective all is ahead
+  }
 };
 
 // Calls take(where, point, lean) for what of spots between two slice planes can lean most across, wherever it is up and
 // down: first those that can do so to one side, to the left and to the right by turns.
 inline constexpr int k_one_sided_points = 6, k_points_in_slice = 17;
-template <class Take>
+template <bool orthographic, class Take>
 HWY_INLINE void each_point_in_slice(const SpotShapes& spots, const SlicePlanes& planes, Take&& take) {
   const Point& a = spots.cone.apex;
   const V zero = Zero(D());
 
-  // The sphere's tangents at the apex's height.
-  const V range_square = square_of(spots.cone.range), square = square_of(a.x) + square_of(a.depth);
-  const V tangent_square = square - range_square, scale = inverse(square);
-  const V turn = scale * root(range_square * tangent_square), shrink = scale * tangent_square;
-  const auto take_tangent = [&](V turned, Lean lean) {
-    const Point p{shrink * a.x - turned * a.depth, a.y, shrink * a.depth + turned * a.x};
+  // Where the sphere leans most at the apex's height.
+  const auto take_tangent = [&](M exists, const Point& p, Lean lean) {
     const M is_in = And(planes.hold(p.depth, spots.slack), spots.is_sphere_in_cone(p));
-    take(And(tangent_square > zero, is_in), projected(p), lean);
+    take(And(exists, is_in), projected<orthographic>(p), lean);
   };
-  take_tangent(turn, Lean::left);
-  take_tangent(Neg(turn), Lean::right);
+  const M always = zero == zero;
+  if constexpr (orthographic) {
+    take_tangent(always, {a.x - spots.cone.range, a.y, a.depth}, Lean::left);
+    take_tangent(always, {a.x + spots.cone.range, a.y, a.depth}, Lean::right);
+  } else {
+    const V range_square = square_of(spots.cone.range), square = square_of(a.x) + square_of(a.depth);
+    const V tangent_square = square - range_square, scale = inverse(square);
+    const V turn = scale * root(range_square * tangent_square), shrink = scale * tangent_square;
+    const auto tangent = [&](V turned) {
+      return Point{shrink * a.x - turned * a.depth, a.y, shrink * a.depth + turned * a.x};
+    };
+    take_tangent(tangent_square > zero, tangent(turn), Lean::left);
+    take_tangent(tangent_square > zero, tangent(Neg(turn)), Lean::right);
+  }
 
   // In the slice planes the sphere, the rim, and the cone's side where upright planes touch it.
   struct Plane {
-    V depth, inverse_depth;
+    V depth, inverse_w;
   };
   const Plane in_planes[2] = {{planes.near, planes.inverse_near}, {planes.far, planes.inverse_far}};
   for (const Plane& plane : in_planes)
     spots.each_sphere_point(zero, plane.depth - a.depth, [&](M exists, V x, Lean lean) {
-      take(exists, projected({x, a.y, plane.depth}, plane.inverse_depth), lean);
+      take(exists, projected<orthographic>({x, a.y, plane.depth}, plane.inverse_w), lean);
     });
   Point generators[2];
   spots.find_generators(y_axis(), generators);
   for (const Plane& plane : in_planes) {
     const auto take_at = [&](M where, V x, V y) {
-      take(where, projected({x, y, plane.depth}, plane.inverse_depth), Lean::either);
+      take(where, projected<orthographic>({x, y, plane.depth}, plane.inverse_w), Lean::either);
     };
     spots.each_rim_point(spots.rim1.depth, spots.rim2.depth, plane.depth - spots.rim.depth,
                          [&](M exists, const Point& p) { take_at(exists, p.x, p.y); });
@@ -181,21 +213,23 @@ HWY_INLINE void each_point_in_slice(const SpotShapes& spots, const SlicePlanes& 
 
   // The rim's tangents, and the apex.
   const auto take_if_held = [&](M where, const Point& p) {
-    take(And(where, planes.hold(p.depth, spots.slack)), projected(p), Lean::either);
+    take(And(where, planes.hold(p.depth, spots.slack)), projected<orthographic>(p), Lean::either);
   };
-  const auto wedge = [](const Point& p, const Point& q) { return p.x * q.depth - q.x * p.depth; };
-  spots.each_rim_point(wedge(spots.rim2, spots.rim), wedge(spots.rim, spots.rim1), wedge(spots.rim1, spots.rim2),
-                       take_if_held);
-  take_if_held(zero == zero, a);
+  const Point &rim = spots.rim, &rim1 = spots.rim1, &rim2 = spots.rim2;
+  const V w = w_of<orthographic>(rim.depth);
+  const V w1 = w_along<orthographic>(rim1.depth), w2 = w_along<orthographic>(rim2.depth);
+  spots.each_rim_point(rim2.x * w - rim.x * w2, rim.x * w1 - rim1.x * w, rim1.x * w2 - rim2.x * w1, take_if_held);
+  take_if_held(always, a);
 }
 
 // Spots, each in a slice, and what is the same in all of its tile planes.
+template <bool orthographic>
 struct SpotsInSlices {
   SpotShapes shapes;
   SlicePlanes between;
   V light;              // size of the numbers that describe it
-  V tangent;            // from the eye to where the sphere's tangents touch
-  Point generators[2];  // in which planes through the eye touch the cone
+  V tangent;            // from the eye to where the sphere's tangents touch; in perspective
+  Point generators[2];  // in which planes through the eye, or along the view axis, touch the cone
   V inverse_lean;       // 1 / (axis.x² - cosine²)
 
   SpotsInSlices() = default;
@@ -203,7 +237,7 @@ struct SpotsInSlices {
       : shapes(of_shapes), between(of_between), light(of_light) {
     const Cone& cone = shapes.cone;
     tangent = root(dot(cone.apex, cone.apex) - square_of(cone.range));
-    shapes.find_generators(cone.apex, generators);
+    shapes.find_generators(orthographic ? depth_axis() : cone.apex, generators);
     inverse_lean = inverse(square_of(cone.axis.x) - square_of(cone.cosine));
   }
 
@@ -225,9 +259,9 @@ struct SpotsInSlices {
   }
   static constexpr int k_vectors = 39;
 
-  // What leans most in a tile plane, y = slope * depth. `tilt`: sqrt(1 + slope²).
-  HWY_INLINE PlaneExtremes in_tile_plane(V slope, V tilt, V inverse_tilt) const {
-    PlaneExtremes found(slope);
+  // What leans most in a tile plane, y = slope * w. `tilt`: sqrt(1 + slope²).
+  HWY_INLINE PlaneExtremes<orthographic> in_tile_plane(V slope, V tilt, V inverse_tilt) const {
+    PlaneExtremes<orthographic> found(slope);
     take_tangents(slope, tilt, inverse_tilt, found);
     take_rim(slope, found);
     take_generators(slope, found);
@@ -237,49 +271,58 @@ struct SpotsInSlices {
   }
 
  private:
-  HWY_INLINE void take_tangents(V slope, V tilt, V inverse_tilt, PlaneExtremes& found) const {
+  HWY_INLINE void take_tangents(V slope, V tilt, V inverse_tilt, PlaneExtremes<orthographic>& found) const {
+    using Seen = ProjectedPoint<orthographic>;
     const Point& a = shapes.cone.apex;
     const V range = shapes.cone.range, zero = Zero(D());
-    const V away = (a.y - slope * a.depth) * inverse_tilt;
-    const V ahead = (slope * a.y + a.depth) * inverse_tilt;
-    const V rho_square = (range - away) * (range + away), rho = root(rho_square);
-    const M exist = And(rho_square >= zero, tangent > zero);
-    const V shrink = tangent * inverse(square_of(a.x) + square_of(ahead));
-    const V b = ahead * tangent, c = a.x * rho, d = a.x * tangent, e = ahead * rho;
-    const V low_lean = b + c, high_lean = b - c, both = inverse(low_lean * high_lean);
-    const V to_depth = shrink * inverse_tilt;
-    const ProjectedPoint low{tilt * ((d - e) * high_lean * both), slope, to_depth * low_lean};
-    const ProjectedPoint high{tilt * ((d + e) * low_lean * both), slope, to_depth * high_lean};
-    const auto is_in = [&](const ProjectedPoint& p) {
-      return And(exist, And(between.hold(p.depth, shapes.slack), shapes.is_sphere_in_cone(p.point())));
+    const auto take_both = [&](M exist, const Seen& low, const Seen& high) {
+      const auto is_in = [&](const Seen& p) {
+        return And(exist, And(between.hold(p.depth, shapes.slack), shapes.is_sphere_in_cone(p.point())));
+      };
+      found.take(is_in(low), low, Lean::left);
+      found.take(is_in(high), high, Lean::right);
     };
-    found.take(is_in(low), low, Lean::left);
-    found.take(is_in(high), high, Lean::right);
-  }
-
-  HWY_INLINE void take_rim(V slope, PlaneExtremes& found) const {
-    const auto part = [&](const Point& p) { return p.y - slope * p.depth; };
-    shapes.each_rim_point(part(shapes.rim1), part(shapes.rim2), Neg(part(shapes.rim)), [&](M exists, const Point& p) {
-      found.take(And(exists, between.hold(p.depth, shapes.slack)), {p.x / p.depth, slope, p.depth});
-    });
-  }
-
-  // Where planes through the eye touch the cone's side.
-  HWY_INLINE void take_generators(V slope, PlaneExtremes& found) const {
-    const Point& a = shapes.cone.apex;
-    const V above = slope * a.depth - a.y;
-    for (const Point& g : {generators[0], generators[1]}) {
-      const V t = above / (g.y - slope * g.depth);
-      const V x = a.x + t * g.x, depth = a.depth + t * g.depth;
-      found.take(And(shapes.is_on_generator(t), between.hold(depth, shapes.slack)), {x / depth, slope, depth});
+    const V away = orthographic ? a.y - slope : (a.y - slope * a.depth) * inverse_tilt;
+    const V rho_square = (range - away) * (range + away), rho = root(rho_square);
+    if constexpr (orthographic) {
+      take_both(rho_square >= zero, {a.x - rho, slope, a.depth}, {a.x + rho, slope, a.depth});
+    } else {
+      const V ahead = (slope * a.y + a.depth) * inverse_tilt;
+      const V shrink = tangent * inverse(square_of(a.x) + square_of(ahead));
+      const V b = ahead * tangent, c = a.x * rho, d = a.x * tangent, e = ahead * rho;
+      const V low_lean = b + c, high_lean = b - c, both = inverse(low_lean * high_lean);
+      const V to_depth = shrink * inverse_tilt;
+      take_both(And(rho_square >= zero, tangent > zero),
+                {tilt * ((d - e) * high_lean * both), slope, to_depth * low_lean},
+                {tilt * ((d + e) * low_lean * both), slope, to_depth * high_lean});
     }
   }
 
+  HWY_INLINE void take_rim(V slope, PlaneExtremes<orthographic>& found) const {
+    const auto along = [&](const Point& way) { return way.y - slope * w_along<orthographic>(way.depth); };
+    const V below = slope * w_of<orthographic>(shapes.rim.depth) - shapes.rim.y;
+    shapes.each_rim_point(along(shapes.rim1), along(shapes.rim2), below,
+                          [&](M exists, const Point& p) { take_if_held(exists, p.x, slope, p.depth, found); });
+  }
+
+  // Where planes through the eye touch the cone's side.
+  HWY_INLINE void take_generators(V slope, PlaneExtremes<orthographic>& found) const {
+    const Point& a = shapes.cone.apex;
+    const V above = slope * w_of<orthographic>(a.depth) - a.y;
+    for (const Point& g : {generators[0], generators[1]}) {
+      const V t = above / (g.y - slope * w_along<orthographic>(g.depth));
+      take_if_held(shapes.is_on_generator(t), a.x + t * g.x, slope, a.depth + t * g.depth, found);
+    }
+  }
+  HWY_INLINE void take_if_held(M exists, V x, V slope, V depth, PlaneExtremes<orthographic>& found) const {
+    found.take(And(exists, between.hold(depth, shapes.slack)), {x / w_of<orthographic>(depth), slope, depth});
+  }
+
   // Where sphere and cone's side meet a slice plane: along² = cosine² (x² + rest), along = x axis.x + k.
-  HWY_INLINE void take_edge(V slope, V depth, V inverse_depth, PlaneExtremes& found) const {
+  HWY_INLINE void take_edge(V slope, V depth, V inverse_w, PlaneExtremes<orthographic>& found) const {
     const Cone& cone = shapes.cone;
-    const V up = slope * depth - cone.apex.y, ahead = depth - cone.apex.depth;
-    const auto take_at = [&](M where, V x, Lean lean) { found.take(where, {x * inverse_depth, slope, depth}, lean); };
+    const V up = slope * w_of<orthographic>(depth) - cone.apex.y, ahead = depth - cone.apex.depth;
+    const auto take_at = [&](M where, V x, Lean lean) { found.take(where, {x * inverse_w, slope, depth}, lean); };
     shapes.each_sphere_point(up, ahead, take_at);
     const V rest = square_of(up) + square_of(ahead);
     const V k = up * cone.axis.y + ahead * cone.axis.depth, cosine_square = square_of(cone.cosine);

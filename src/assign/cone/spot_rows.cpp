@@ -19,15 +19,17 @@ namespace HWY_NAMESPACE {
 namespace {
 
 // What leans most in the tile planes of rows and between them.
+template <bool orthographic>
 struct RowExtremes {
-  Extremes outmost;
+  Extremes<orthographic> outmost;
   Point middle;  // of some of the points, and so within the spot
 
-  HWY_INLINE RowExtremes(const Extremes& between, const PlaneExtremes& above, M has_above, const PlaneExtremes& below)
+  HWY_INLINE RowExtremes(const Extremes<orthographic>& between, const PlaneExtremes<orthographic>& above, M has_above,
+                         const PlaneExtremes<orthographic>& below)
       : outmost(between) {
     Point sum{Zero(D()), Zero(D()), Zero(D())};
     V count = Zero(D());
-    const auto add = [&](M where, const PlaneExtremes& in_plane) {
+    const auto add = [&](M where, const PlaneExtremes<orthographic>& in_plane) {
       outmost.take(where, in_plane.low, Lean::left);
       outmost.take(where, in_plane.high, Lean::right);
       add_points(And(where, in_plane.exist()), in_plane, sum, count);
@@ -48,11 +50,12 @@ struct RowExtremes {
 };
 
 // A vector of rows and what is guessed of them.
+template <bool orthographic>
 class Ends {
  public:
   // `rows`: their rows of these spots' slices.
-  HWY_INLINE Ends(const SpotsAndPlanes& from, const RowPlanes& planes, const SpotsInSlices& spots,
-                  const SpotsInRows& rows, const RowExtremes& found)
+  HWY_INLINE Ends(const SpotsAndPlanes& from, const RowPlanes& planes, const SpotsInSlices<orthographic>& spots,
+                  const SpotsInRows& rows, const RowExtremes<orthographic>& found)
       : from_(from), spots_(spots), rows_(rows), found_(found), exist_(found.outmost.exist()) {
     const V left = all(planes.left), right = all(planes.right), scale = all(planes.columns_per_slope);
     const V low = found.outmost.low.across, high = found.outmost.high.across;
@@ -86,14 +89,14 @@ class Ends {
  private:
   HWY_INLINE V side(VI column) const { return gathered(from_.side, column); }
 
-  HWY_INLINE M is_apart(const ProjectedPoint& extreme, V boundary, V to_side) const {
-    const V zero = Zero(D());
+  HWY_INLINE M is_apart(const ProjectedPoint<orthographic>& extreme, V boundary, V to_side) const {
+    const V lean = w_along<orthographic>(to_side * extreme.across);
     const Point p = extreme.point();
     const M in_slice_plane = Or(p.depth == rows_.depth0, p.depth == rows_.depth1);
-    const Point edge = chosen(in_slice_plane, y_axis(), p);
-    const Point normal = touching_plane(spots_.shapes, p, edge, {to_side, zero, Neg(to_side * extreme.across)});
-    return Beyond{boundary, to_side, rows_.y0, rows_.y1, spots_.between}.is_apart(rows_.cone, normal,
-                                                                                  rows_.tolerance(boundary, boundary));
+    const Point edge = chosen(in_slice_plane, y_axis(), orthographic ? depth_axis() : p);
+    const Point normal = touching_plane(spots_.shapes, p, edge, {to_side, Zero(D()), Neg(lean)});
+    return Beyond<orthographic>{boundary, to_side, rows_.y0, rows_.y1, spots_.between}.is_apart(
+        rows_.cone, normal, rows_.tolerance<orthographic>(boundary, boundary));
   }
 
   // Is there a common point near the way from an extreme to the middle?
@@ -101,15 +104,15 @@ class Ends {
     const Point& middle = found_.middle;
     const V left = side(column), right = side(column + all_int(1));
     const V from = Max(left, found_.outmost.low.across), to = Min(right, found_.outmost.high.across);
-    const V quarter = all(0.25f) * (to - from), amid = middle.x / middle.depth;
+    const V quarter = all(0.25f) * (to - from), amid = middle.x / w_of<orthographic>(middle.depth);
     const V slope = Max(from + quarter, Min(amid, to - quarter));
     const Point start = chosen(slope < amid, found_.outmost.low.point(), found_.outmost.high.point());
     const Point way = middle - start;
-    const V span = way.x - slope * way.depth;
-    const V part = slope * start.depth - start.x;
+    const V span = way.x - slope * w_along<orthographic>(way.depth);
+    const V part = slope * w_of<orthographic>(start.depth) - start.x;
     const V t = part / IfThenElse(span == Zero(D()), all(1.0f), span);
     const Point point = start + Min(Max(t, Zero(D())), all(1.0f)) * way;
-    const Cells cell(rows_, left, right);
+    const Cells<orthographic> cell(rows_, left, right);
     const M wanted = AndNot(is_beside_view_, exist_);
     Point v = cell.near_in_cell(point - rows_.cone.apex);
     M touched = cell.is_common(v);
@@ -121,16 +124,17 @@ class Ends {
   }
 
   const SpotsAndPlanes& from_;
-  const SpotsInSlices& spots_;
+  const SpotsInSlices<orthographic>& spots_;
   const SpotsInRows& rows_;
-  const RowExtremes& found_;
+  const RowExtremes<orthographic>& found_;
   M exist_, is_first_column_, is_last_column_, is_beside_view_;
   VI first_, last_;
 };
 
 // The rows of some spots in slices, to the end of what was found.
-void rows_of(const SpotsAndPlanes& from, const RowPlanes& planes, const PlaneTables& tables, const Slices& slices,
-             SpotRows& out) {
+template <bool orthographic>
+void rows_of(const SpotsAndPlanes& from, const RowPlanes& planes, const PlaneTables& tables,
+             const Slices<orthographic>& slices, SpotRows& out) {
   const D d;
   const DI di;
   const DU du;
@@ -138,23 +142,24 @@ void rows_of(const SpotsAndPlanes& from, const RowPlanes& planes, const PlaneTab
   const auto n = static_cast<std::int32_t>(Lanes(d));
   const std::int32_t count = slices.list_rows(out);
   Carried carry;
-  PlaneExtremes turned;
+  PlaneExtremes<orthographic> turned;
   VI turned_slice = all_int(-1);
   for (std::int32_t t = 0; t < count; t += n) {
     const VI in_slice = LoadU(di, out.listed_slice.data() + t), row = LoadU(di, out.listed_row.data() + t);
     const std::int32_t first_slice = GetLane(in_slice);
-    const Slices::Lookup lookup{slices, first_slice, IndicesFromVec(di, in_slice - all_int(first_slice))};
-    const SpotsInSlices spots = lookup.spots();
+    const typename Slices<orthographic>::Lookup lookup{slices, first_slice,
+                                                       IndicesFromVec(di, in_slice - all_int(first_slice))};
+    const SpotsInSlices<orthographic> spots = lookup.spots();
     const VI above_row = Max(row, Zero(di)), below_row = row + all_int(1);
     const V top = tables.slope.at(above_row), bottom = tables.slope.at(below_row);
-    const PlaneExtremes below =
+    const PlaneExtremes<orthographic> below =
         spots.in_tile_plane(bottom, tables.tilt.at(below_row), tables.inverse_tilt.at(below_row));
-    const PlaneExtremes above = below.carried(carry, turned, top);
+    const PlaneExtremes<orthographic> above = below.carried(carry, turned, top);
     const M has_above = RebindMask(d, carry(in_slice, turned_slice) == in_slice);
     const V room = spots.shapes.slack * spots.between.inverse_far;
-    const RowExtremes found(lookup.between(bottom, top, room), above, has_above, below);
+    const RowExtremes<orthographic> found(lookup.between(bottom, top, room), above, has_above, below);
     const SpotsInRows rows{spots.shapes.cone, spots.light, bottom, top, spots.between.near, spots.between.far};
-    const Ends ends(from, planes, spots, rows, found);
+    const Ends<orthographic> ends(from, planes, spots, rows, found);
     const M plain = are_plain(from, spots.light);
     const M none_before = And(plain, ends.none_before()), none_behind = And(plain, ends.none_behind());
     // No row, or proven to be beside all of the picture.
@@ -178,14 +183,20 @@ void rows_of(const SpotsAndPlanes& from, const RowPlanes& planes, const PlaneTab
   out.count += static_cast<std::uint32_t>(count);
 }
 
-void spot_rows(const SpotsAndPlanes& from, const RowPlanes& planes, const SpotSlices& slices, SpotRows& out) {
+template <bool orthographic>
+void rows_of_all(const SpotsAndPlanes& from, const RowPlanes& planes, const SpotSlices& slices, SpotRows& out) {
   const PlaneTables tables(planes);
-  for (std::uint32_t begin = 0; begin < slices.count; begin += Slices::k_most) {
-    const std::uint32_t end = std::min(begin + Slices::k_most, slices.count);
-    const Slices some(from, planes, tables, slices, begin, end);
-    out.make_room(std::size_t{Slices::k_most} * static_cast<std::size_t>(planes.rows + 1));
+  constexpr std::uint32_t k_most = Slices<orthographic>::k_most;
+  for (std::uint32_t begin = 0; begin < slices.count; begin += k_most) {
+    const std::uint32_t end = std::min(begin + k_most, slices.count);
+    const Slices<orthographic> some(from, planes, tables, slices, begin, end);
+    out.make_room(std::size_t{k_most} * static_cast<std::size_t>(planes.rows + 1));
     rows_of(from, planes, tables, some, out);
   }
+}
+
+void spot_rows(const SpotsAndPlanes& from, const RowPlanes& planes, const SpotSlices& slices, SpotRows& out) {
+  planes.orthographic ? rows_of_all<true>(from, planes, slices, out) : rows_of_all<false>(from, planes, slices, out);
 }
 
 }  // namespace
@@ -203,16 +214,6 @@ void SpotSlices::make_room() {
   check_pair_count(size);
   check_memory("spots in slices", size, 2 * sizeof(std::uint32_t));
   grow_to(size, spot, slice);
-}
-
-void SpotRows::add(const SpotCell& columns, std::uint8_t what_is_known) {
-  make_room(1);
-  spot[count] = columns.spot;
-  slice[count] = columns.slice;
-  row[count] = columns.row;
-  first[count] = static_cast<std::int32_t>(columns.column);
-  last[count] = static_cast<std::int32_t>(columns.end_column) - 1;
-  known[count++] = what_is_known;
 }
 
 // For so many rows more.

@@ -3,10 +3,11 @@
 // once.
 //
 // What a spot has in a slice is convex, and so is what it has in a row (between two tile planes and two slice planes).
-// So its extreme slopes y / depth and x / depth are at points that can be listed: the apex, where the sphere, the rim
-// and the cone's side lean most, and where these meet the planes. That is a guess in single precision, and may be
-// wrong. It counts where there is evidence larger than its own error (spot_cell_filter-inl.h): a common point for the
-// cell at an end, and a plane between the spot and all that is beyond it.
+// So its extreme slopes y / w and x / w (w: the depth, without perspective 1) are at points that can be listed: the
+// apex, where the sphere, the rim and the cone's side lean most, and where these meet the planes. That is a guess in
+// single precision, and may be wrong. It counts where there is evidence larger than its own error
+// (spot_cell_filter-inl.h): a common point for the cell at an end, and a plane between the spot and all that is beyond
+// it.
 
 #include <cstdint>
 #include <vector>
@@ -45,7 +46,6 @@ struct SpotRows {
   // The rows of some spots in slices, one after the other: the index of their slice among these, the row's number.
   std::vector<std::int32_t> listed_slice, listed_row;
 
-  void add(const SpotCell& columns, std::uint8_t what_is_known);
   void make_room(std::size_t rows);
   std::size_t capacity_bytes() const {
     return bytes_of(spot, slice, row, first, last, known, listed_slice, listed_row);

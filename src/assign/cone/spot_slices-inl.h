@@ -47,7 +47,8 @@ HWY_INLINE Point touching_plane(const SpotShapes& spots, const Point& point, con
   return chosen(Or(at_apex, And(on_rim, is_held)), given, chosen(on_rim, between, chosen(on_sphere, v, side)));
 }
 
-// All whose slope x / depth is beyond a boundary to one side (1 or -1), between two slice planes and two tile planes.
+// All whose slope x / w is beyond a boundary to one side (1 or -1), between two slice planes and two tile planes.
+template <bool orthographic>
 struct Beyond {
   V boundary, side;
   V up0, up1;
@@ -57,7 +58,8 @@ struct Beyond {
   // outwards, so that nothing is nearer than the corners at the boundary.
   HWY_INLINE M is_apart(const Cone& cone, const Point& normal, V tolerance) const {
     const auto corner = [&](V up, V depth) {
-      return dot(normal, Point{boundary * depth, up * depth, depth} - cone.apex);
+      const V w = w_of<orthographic>(depth);
+      return dot(normal, Point{boundary * w, up * w, depth} - cone.apex);
     };
     const V least = Min(Min(corner(up0, planes.near), corner(up1, planes.near)),
                         Min(corner(up0, planes.far), corner(up1, planes.far)));
@@ -76,6 +78,7 @@ struct RowsReached {
 };
 
 // A vector of spots in slices, and which rows they touch.
+template <bool orthographic>
 class Reached {
  public:
   HWY_INLINE Reached(const RowPlanes& planes, const PlaneTables& tables, const SpotShapes& spots,
@@ -88,12 +91,12 @@ class Reached {
 
   // `plain`: those of which single precision tells anything.
   HWY_INLINE RowsReached rows(M plain) const {
-    Extremes found;
-    each_point_in_slice(spots_, between_,
-                        [&](M where, const ProjectedPoint& p, Lean lean) { found.take(where, p, lean); });
+    Extremes<orthographic> found;
+    each_point_in_slice<orthographic>(spots_, between_,
+                                      [&](M where, const Seen& p, Lean lean) { found.take(where, p, lean); });
     const V top = all(planes_.slope.front()), bottom = all(planes_.slope[static_cast<std::size_t>(planes_.rows)]);
-    const V high = found.high.across + spots_.slack / found.high.depth;
-    const V low = found.low.across - spots_.slack / found.low.depth;
+    const V high = found.high.across + spots_.slack / w_of<orthographic>(found.high.depth);
+    const V low = found.low.across - spots_.slack / w_of<orthographic>(found.low.depth);
     const V scale = all(planes_.rows_per_slope), tolerance = all(planes_.row_tolerance), zero = Zero(D());
     const VI none = Zero(DI()), rows = all_int(planes_.rows), last_row = rows - all_int(1);
     const V from = (top - Min(high, top)) * scale - tolerance;
@@ -111,22 +114,28 @@ class Reached {
   }
 
  private:
+  using Seen = ProjectedPoint<orthographic>;
+
   // What leans most up and down leans most across where x and y are exchanged.
   static HWY_INLINE Cone exchanged(const Cone& cone) {
     const auto turned = [](const Point& p) { return Point{p.y, p.x, p.depth}; };
     return {turned(cone.apex), turned(cone.axis), cone.range, cone.cosine, cone.sine};
   }
 
-  HWY_INLINE M is_apart(const ProjectedPoint& extreme, V boundary, V side) const {
-    const V zero = Zero(D());
-    Point normal = touching_plane(spots_, extreme.point(), y_axis(), {side, zero, Neg(side * extreme.across)});
+  HWY_INLINE M is_apart(const Seen& extreme, V boundary, V side) const {
+    const V zero = Zero(D()), lean = w_along<orthographic>(side * extreme.across);
+    Point normal = touching_plane(spots_, extreme.point(), y_axis(), {side, zero, Neg(lean)});
     normal.y = zero;  // rows are endless to both sides
-    const V tolerance = tolerance_of(light_, between_.far, Abs(boundary), zero);
-    return Beyond{boundary, side, zero, zero, between_}.is_apart(spots_.cone, normal, tolerance);
+    return Beyond<orthographic>{boundary, side, zero, zero, between_}.is_apart(spots_.cone, normal,
+                                                                               tolerance(Abs(boundary)));
+  }
+
+  HWY_INLINE V tolerance(V across) const {
+    return tolerance_of<orthographic>(light_, between_.template farthest<orthographic>(), across, Zero(D()));
   }
 
   HWY_INLINE M misses_slice() const {
-    const V zero = Zero(D()), tolerance = tolerance_of(light_, between_.far, zero, zero);
+    const V tolerance = this->tolerance(Zero(D()));
     const V ahead = spots_.cone.apex.depth;
     const V farthest = ahead + extent_of(spots_.cone, depth_axis(), all(1.0f));
     const V nearest = ahead - extent_of(spots_.cone, depth_axis(-1.0f), all(1.0f));
@@ -141,6 +150,7 @@ class Reached {
 };
 
 // Spots in slices, field by field.
+template <bool orthographic>
 class Slices {
  public:
   static constexpr std::uint32_t k_most = 64;
@@ -156,17 +166,19 @@ class Slices {
     for (std::uint32_t i = begin; i < end; i += n) {
       const VI spot = loaded_indices(slices.spot, i), slice = loaded_indices(slices.slice, i);
       const GivenSpots given(*from.lights, spot);
+      const auto inverse_w = [&](const float* of) { return orthographic ? all(1.0f) : gathered(of, slice); };
       const SlicePlanes between = {gathered(planes.depth, slice), gathered(planes.depth.data() + 1, slice),
-                                   gathered(planes.inverse_depth, slice),
-                                   gathered(planes.inverse_depth.data() + 1, slice)};
-      const SpotShapes shapes(given.cone, tolerance_of(given.light, between.far, all(widest), all(highest)));
-      const RowsReached rows = Reached(planes, tables, shapes, between, given.light).rows(are_plain(from, given.light));
-      SpotsInSlices in_slices(shapes, between, given.light);
+                                   inverse_w(planes.inverse_depth.data()), inverse_w(planes.inverse_depth.data() + 1)};
+      const V farthest = between.template farthest<orthographic>();
+      const SpotShapes shapes(given.cone, tolerance_of<orthographic>(given.light, farthest, all(widest), all(highest)));
+      const Reached<orthographic> reached(planes, tables, shapes, between, given.light);
+      const RowsReached rows = reached.rows(are_plain(from, given.light));
+      SpotsInSlices<orthographic> in_slices(shapes, between, given.light);
       const MI wanted = And(rows.count > Zero(di), FirstN(di, end - i));
       Writer writer{*this, wanted};
       in_slices.each([&](V& value) { writer.put(value); });
       // Points that do not exist are neither above nor below anything.
-      each_point_in_slice(shapes, between, [&](M where, const ProjectedPoint& p, Lean) {
+      each_point_in_slice<orthographic>(shapes, between, [&](M where, const Seen& p, Lean) {
         writer.put(p.across);
         writer.put(IfThenElse(where, p.up, all(std::numeric_limits<float>::quiet_NaN())));
         writer.put(p.depth);
@@ -205,8 +217,8 @@ class Slices {
     Which which;
 
     HWY_INLINE V operator()(int field) const { return taken(LoadU(D(), slices.values_[field] + first), which); }
-    HWY_INLINE SpotsInSlices spots() const {
-      SpotsInSlices spots;
+    HWY_INLINE SpotsInSlices<orthographic> spots() const {
+      SpotsInSlices<orthographic> spots;
       int field = 0;
       spots.each([&](V& value) { value = (*this)(field++); });
       return spots;
@@ -215,12 +227,12 @@ class Slices {
     HWY_INLINE VI slice() const { return taken(LoadU(DI(), slices.slice_ + first), which); }
 
     // Of the points that can lean most, those between two tile planes, by and large.
-    HWY_INLINE Extremes between(V bottom, V top, V room) const {
-      Extremes found;
+    HWY_INLINE Extremes<orthographic> between(V bottom, V top, V room) const {
+      Extremes<orthographic> found;
       const V low = bottom - room, high = top + room;
-      int field = SpotsInSlices::k_vectors;
+      int field = k_vectors;
       const auto take_next = [&](Lean lean) {
-        const ProjectedPoint p = {(*this)(field), (*this)(field + 1), (*this)(field + 2)};
+        const Seen p = {(*this)(field), (*this)(field + 1), (*this)(field + 2)};
         found.take(is_between(low, p.up, high), p, lean);
         field += 3;
       };
@@ -234,7 +246,9 @@ class Slices {
   };
 
  private:
-  static constexpr int k_fields = SpotsInSlices::k_vectors + 3 * k_points_in_slice;
+  using Seen = ProjectedPoint<orthographic>;
+  static constexpr int k_vectors = SpotsInSlices<orthographic>::k_vectors;
+  static constexpr int k_fields = k_vectors + 3 * k_points_in_slice;
   static constexpr std::size_t k_pitch = k_most + k_most_lanes;
 
   struct Writer {

@@ -61,23 +61,15 @@ HWY_INLINE Point chosen(M where, const Point& a, const Point& b) {
   return {IfThenElse(where, a.x, b.x), IfThenElse(where, a.y, b.y), IfThenElse(where, a.depth, b.depth)};
 }
 
-// The direction of what a vector has across a unit vector; and one of any vector that has much across it.
-HWY_INLINE Point direction_across(const Point& axis, const Point& v) {
-  const Point part = v - dot(v, axis) * axis;
-  return (all(1.0f) / length(part)) * part;
+// The w of clip space, by which a point is divided to be projected: its depth, without perspective 1. A slope is
+// x / w or y / w. And by how much w differs between the ends of a way.
+template <bool orthographic>
+HWY_INLINE V w_of(V depth) {
+  return orthographic ? all(1.0f) : depth;
 }
-HWY_INLINE Point any_across(const Point& axis) {
-  return direction_across(axis, chosen(Abs(axis.x) < all(0.7f), x_axis(), y_axis()));
-}
-
-// Angles phi with a cos phi + b sin phi = c: take(where there are any, cosine, sine), which elsewhere are no numbers.
-template <class Take>
-HWY_INLINE void each_angle(V a, V b, V c, Take&& take) {
-  constexpr float k_least_square = 1e-30f;  // below it quotients lose digits
-  const V square = a * a + b * b, rest = square - c * c;
-  const M exist = And(square > all(k_least_square), rest >= Zero(D()));
-  const V w = Sqrt(rest), scale = all(1.0f) / square;
-  for (const V turned : {w, Neg(w)}) take(exist, scale * (a * c - b * turned), scale * (b * c + a * turned));
+template <bool orthographic>
+HWY_INLINE V w_along(V depth) {
+  return orthographic ? Zero(D()) : depth;
 }
 
 struct Cone {
@@ -104,9 +96,11 @@ struct Cone {
 constexpr float k_tolerance = 0x1p-19f;
 
 // Evidence must be larger than this. `light`: the size of the numbers that describe it; the cells reach to a depth, and
-// to slopes across and up (without perspective: to coordinates; then corners and normals are exact).
+// to slopes across and up (without perspective these are coordinates; then corners and normals are exact).
+template <bool orthographic>
 HWY_INLINE V tolerance_of(V light, V depth, V across, V up) {
-  return all(k_tolerance) * (light + depth * (all(1.0f) + (across + up)));
+  const V sideways = across + up;
+  return all(k_tolerance) * (light + (orthographic ? depth + sideways : depth * (all(1.0f) + sideways)));
 }
 
 // How far a volume extends from its apex along a normal of this length. What is across the axis is measured as a
@@ -157,13 +151,10 @@ struct SpotsInRows {
   V y0, y1, depth0, depth1;
 
   // Where columns between two sides are looked at.
+  template <bool orthographic>
   HWY_INLINE V tolerance(V left, V right) const {
-    return tolerance_of(light, depth1, Max(Abs(left), Abs(right)), Max(Abs(y0), Abs(y1)));
-  }
-  // The same without perspective.
-  HWY_INLINE V parallel_tolerance(V left, V right) const {
-    const V depth = Max(Abs(depth0), Abs(depth1));
-    return all(k_tolerance) * (light + (depth + (Max(Abs(left), Abs(right)) + Max(Abs(y0), Abs(y1)))));
+    const V depth = orthographic ? Max(Abs(depth0), Abs(depth1)) : depth1;
+    return tolerance_of<orthographic>(light, depth, Max(Abs(left), Abs(right)), Max(Abs(y0), Abs(y1)));
   }
 };
 HWY_INLINE SpotsInRows spots_in_rows(const SpotsAndPlanes& from, VI spot, VI slice, VI row) {

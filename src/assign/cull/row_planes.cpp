@@ -36,14 +36,14 @@ Scale scale_of(const std::vector<float>& planes) {
 }
 
 float least_reach_of(const RowPlanes& planes) {
-  constexpr float k_least_normal = 1e-7f, k_ways = 16.0f;
-  if (planes.orthographic) return k_least_normal;
+  constexpr float k_least_normal = 1e-7f, k_ways = 16.0f, k_none = std::numeric_limits<float>::infinity();
   const float across = std::max(std::fabs(planes.left), std::fabs(planes.right));
   const float up =
       std::max(std::fabs(planes.slope.front()), std::fabs(planes.slope[static_cast<std::size_t>(planes.rows)]));
-  if (planes.depth[1] < RowPlanes::k_least_slice_m || planes.depth.back() > k_most_row_reach ||
-      std::max(across, up) > RowPlanes::k_most_slope)
-    return std::numeric_limits<float>::infinity();
+  const float farthest = std::max(std::fabs(planes.depth.front()), std::fabs(planes.depth.back()));
+  if (farthest > k_most_row_reach) return k_none;
+  if (planes.orthographic) return std::max(across, up) <= k_most_row_reach ? k_least_normal : k_none;
+  if (planes.depth[1] < RowPlanes::k_least_slice_m || std::max(across, up) > RowPlanes::k_most_slope) return k_none;
   if (planes.inverse_depth.front() <= RowPlanes::k_most_inverse_depth) return k_least_normal;
   const float longest_way = std::sqrt(1.0f + across * across + up * up) / RowPlanes::k_most_inverse_depth;
   return std::max(k_least_normal, k_ways * longest_way / (k_slice_rows_roundoffs * 0x1p-24f));

@@ -23,8 +23,9 @@ struct RowPlanes {
   float left = 0.0f, right = 0.0f, columns_per_slope = 0.0f, column_tolerance = 0.0f;
   float rows_per_slope = 0.0f, row_tolerance = 0.0f;
   // Lights of less reach are left to be decided. From here to k_most_row_reach fourth powers of reaches, and these
-  // times a slope, are normal numbers, and a ball at the eye is wide in all that is seen. Infinite for perspective
-  // grids whose own numbers are not from k_least_slice_m to k_most_row_reach, or slopes above k_most_slope.
+  // times a slope, are normal numbers, and a ball at the eye is wide in all that is seen. Infinite for grids
+  // of coordinates above k_most_row_reach, in perspective also of slices below k_least_slice_m or slopes above
+  // k_most_slope.
   //
   // Where slices are nearer to the eye than k_most_inverse_depth tells, a ball's slack, 28 * 2^-24 of its reach, is
   // also sixteen times as long as any way from there to that depth along a line through the eye: so what the ball has

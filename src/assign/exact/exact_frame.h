@@ -16,7 +16,7 @@ struct ExactFrame {
   const view::LightArrays& lights;
   const VisibleBalls& visible;  // first those of points; a spot's ball bounds it
   std::uint32_t first_spot;     // in `visible`
-  const SphereSetup& shapes;    // of the points; in orthographic grids of all
+  const SphereSetup& shapes;    // of the points
   const SliceBins& balls;
 
   // Places in `visible` of a slice's points and spots, ascending.

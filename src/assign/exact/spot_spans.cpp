@@ -8,20 +8,6 @@ namespace clusterbench::assign {
 
 using grid::IndexRange;
 
-namespace {
-
-// Of spots that looks at cells are for. Squares of wider orthographic grids might overflow.
-float least_reach_of(const RowPlanes& planes) {
-  if (!planes.orthographic) return planes.least_reach;
-  float widest = std::max(std::abs(planes.left), std::abs(planes.right));
-  for (const float end : {planes.slope.front(), planes.slope[static_cast<std::size_t>(planes.rows)],
-                          planes.depth.front(), planes.depth.back()})
-    widest = std::max(widest, std::abs(end));
-  return widest <= k_most_row_reach ? planes.least_reach : std::numeric_limits<float>::infinity();
-}
-
-}  // namespace
-
 void SpotSpans::find(const ExactFrame& frame, int first, int last) {
   frame_ = &frame;
   tests_ = fallbacks_ = 0;
@@ -29,18 +15,13 @@ void SpotSpans::find(const ExactFrame& frame, int first, int last) {
   judge_.reset();
   if (frame.first_spot == frame.visible.count) return;
   const RowPlanes& planes = frame.planes;
-  const SpotsAndPlanes from{&frame.lights,       planes.side.data(),     planes.slope.data(),
-                            planes.depth.data(), least_reach_of(planes), planes.orthographic};
-  if (planes.orthographic) {
-    batches_.start(frame, &ExactFrame::spots_of, first, last);
-    for (int slice = first; slice < last; ++slice) add_orthographic_rows(slice);
-  } else {
-    slices_.count = 0;
-    for (int slice = first; slice < last; ++slice)
-      for (const std::uint32_t ball : frame.spots_of(slice))
-        slices_.add(frame.visible.light[ball] - frame.lights.spots.first, static_cast<std::uint32_t>(slice));
-    find_spot_rows(from, planes, slices_, rows_);
-  }
+  const SpotsAndPlanes from{&frame.lights,       planes.side.data(), planes.slope.data(),
+                            planes.depth.data(), planes.least_reach, planes.orthographic};
+  slices_.count = 0;
+  for (int slice = first; slice < last; ++slice)
+    for (const std::uint32_t ball : frame.spots_of(slice))
+      slices_.add(frame.visible.light[ball] - frame.lights.spots.first, static_cast<std::uint32_t>(slice));
+  find_spot_rows(from, planes, slices_, rows_);
   tests_ += rows_.count;
   settle_uncertain_rows(from);
 }
@@ -48,18 +29,11 @@ void SpotSpans::find(const ExactFrame& frame, int first, int last) {
 void SpotSpans::settle_uncertain_rows(const SpotsAndPlanes& from) {
   take_uncertain_rows();
   if (spans_.empty()) return;
-  if (!frame_->planes.orthographic) settle_touches(from);
+  settle_touches(from);
   shorten(from);
   while (ask_for_ends()) {
     tests_ += cells_.count;
-    look_at_cells(from, Look::quick, cells_);
-    // In perspective so few cells are left that exact arithmetic takes no longer.
-    if (from.orthographic)
-      for (const Look how : {Look::approach, Look::closer, Look::thorough}) {
-        ask_more_closely();
-        look_at_cells(from, how, closer_);
-        for (std::uint32_t i = 0; i < closer_.count; ++i) cells_.touch[closer_cells_[i]] = closer_.touch[i];
-      }
+    look_at_cells(from, cells_);
     for (const Ends& ends : ends_) settle(ends);
   }
   for (const Span& span : spans_) {
@@ -78,19 +52,8 @@ void SpotSpans::add_to(int slice, ListBuilder& spans) {
 }
 
 std::size_t SpotSpans::capacity_bytes() const {
-  return batches_.capacity_bytes() + slices_.capacity_bytes() + rows_.capacity_bytes() + cells_.capacity_bytes() +
-         closer_.capacity_bytes() + touches_.capacity_bytes() +
-         bytes_of(uncertain_, closer_cells_, spans_, ends_, waiting_, long_, runs_);
-}
-
-// Those of the spots' bounding balls.
-void SpotSpans::add_orthographic_rows(int slice) {
-  while (const BatchSpans* batch = batches_.next(slice))
-    each_span(*batch, [&](int row, std::uint32_t light, const IndexRange& columns) {
-      rows_.add({light - frame_->lights.spots.first, static_cast<std::uint32_t>(slice), static_cast<std::uint32_t>(row),
-                 static_cast<std::uint32_t>(columns.first), static_cast<std::uint32_t>(columns.last) + 1},
-                SpotRows::k_none_before | SpotRows::k_none_behind);
-    });
+  return slices_.capacity_bytes() + rows_.capacity_bytes() + cells_.capacity_bytes() + touches_.capacity_bytes() +
+         bytes_of(uncertain_, spans_, ends_, long_, runs_);
 }
 
 void SpotSpans::take_uncertain_rows() {
@@ -200,7 +163,7 @@ void SpotSpans::shorten(const SpotsAndPlanes& from) {
                                                           : IndexRange{columns.last - run.columns + 1, columns.last}));
     }
     tests_ += cells_.count;
-    look_at_cells(from, Look::quick, cells_);
+    look_at_cells(from, cells_);
     std::size_t kept = 0;
     for (std::size_t at = 0; at < long_.size(); ++at) {
       Long run = long_[at];
@@ -223,7 +186,6 @@ bool SpotSpans::ask_for_ends() {
   constexpr int k_at_once = 4;
   cells_.count = 0;
   ends_.clear();
-  waiting_.clear();
   std::erase_if(uncertain_, [&](std::uint32_t i) { return !spans_[i].is_uncertain(); });
   for (const std::uint32_t i : uncertain_) {
     const Span& span = spans_[i];
@@ -240,7 +202,6 @@ bool SpotSpans::ask_for_ends() {
 }
 
 void SpotSpans::ask(std::uint32_t i, const IndexRange& columns, bool from_left, bool from_right) {
-  waiting_.push_back(static_cast<std::uint32_t>(ends_.size()));
   ends_.push_back({i, cells_.count, columns, from_left, from_right});
   for (int column = columns.first; column <= columns.last; ++column) cells_.add(cells_of(spans_[i], {column, column}));
 }
@@ -248,31 +209,6 @@ void SpotSpans::ask(std::uint32_t i, const IndexRange& columns, bool from_left, 
 SpotCell SpotSpans::cells_of(const Span& span, const IndexRange& columns) const {
   return {rows_.spot[span.row], rows_.slice[span.row], rows_.row[span.row], static_cast<std::uint32_t>(columns.first),
           static_cast<std::uint32_t>(columns.last) + 1};
-}
-
-// Cells without an answer that lie before the first one that is touched.
-void SpotSpans::ask_more_closely() {
-  closer_.count = 0;
-  const auto is = [&](std::uint32_t cell, Touch touch) { return cells_.touch[cell] == touch; };
-  std::size_t kept = 0;
-  for (const std::uint32_t number : waiting_) {
-    const Ends& ends = ends_[number];
-    const std::uint32_t begin = ends.first_cell, end = begin + static_cast<std::uint32_t>(ends.columns.count());
-    const std::uint32_t before = closer_.count;
-    std::uint32_t left = begin, right = end;
-    for (; ends.from_left && left < end && !is(left, Touch::yes); ++left)
-      if (is(left, Touch::uncertain)) add_closer(left);
-    for (; ends.from_right && right > left && !is(right - 1, Touch::yes); --right)
-      if (is(right - 1, Touch::uncertain)) add_closer(right - 1);
-    if (closer_.count != before) waiting_[kept++] = number;
-  }
-  waiting_.resize(kept);
-}
-
-void SpotSpans::add_closer(std::uint32_t cell) {
-  if (closer_cells_.size() <= closer_.count) closer_cells_.resize(2 * closer_cells_.size() + 64);
-  closer_cells_[closer_.count] = cell;
-  closer_.add(cells_.at(cell));
 }
 
 // Shortens the span by its cells that are not touched. An end is settled where one is.

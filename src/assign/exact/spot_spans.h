@@ -3,7 +3,6 @@
 // that are guessed and proven (spot_rows.h), which nearly all are. Of what is left, ends that are touched in a single
 // point come first (spot_touches.h), as most are on lattices. The rest is shortened by halves, quarters and so on that
 // are as a whole not touched; then its ends are looked at a few cells at a time, until a cell at either end is touched.
-// In orthographic grids all rows of bounding balls are left.
 
 #include <optional>
 
@@ -55,7 +54,6 @@ class SpotSpans {
     bool from_left, from_right;
   };
 
-  void add_orthographic_rows(int slice);
   void settle_uncertain_rows(const SpotsAndPlanes& from);
   void take_uncertain_rows();
   void settle_touches(const SpotsAndPlanes& from);
@@ -65,13 +63,10 @@ class SpotSpans {
   bool ask_for_ends();
   SpotCell cells_of(const Span& span, const grid::IndexRange& columns) const;
   void ask(std::uint32_t i, const grid::IndexRange& columns, bool from_left, bool from_right);
-  void ask_more_closely();
-  void add_closer(std::uint32_t cell);
   void settle(const Ends& ends);
   bool decide(std::uint32_t row, int column);
 
   const ExactFrame* frame_ = nullptr;
-  BatchReader batches_;
   SpotSlices slices_;
   SpotRows rows_;               // slice by slice
   std::uint32_t next_row_ = 0;  // to be added
@@ -81,9 +76,7 @@ class SpotSpans {
   std::vector<std::uint32_t> uncertain_;  // among them
   std::vector<Long> long_;
   std::vector<Ends> ends_;
-  std::vector<std::uint32_t> waiting_;  // Ends without an answer
-  SpotCells cells_, closer_;            // of all ends; those of them to look at closely
-  std::vector<std::uint32_t> closer_cells_;
+  SpotCells cells_;                 // of all ends
   std::optional<SpotJudge> judge_;  // of the spot that was asked for last
   std::uint64_t tests_ = 0, fallbacks_ = 0;
 };
