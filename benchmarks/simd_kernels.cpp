@@ -170,7 +170,7 @@ void find_rows(State& state) {
   std::uint64_t tests = 0;
   for (auto _ : state) {
     tests = 0;
-    batches.start(frame, &assign::ExactFrame::points_of, 0, planes.slices);
+    batches.start(frame, 0, planes.slices);
     for (int slice = 0; slice < planes.slices; ++slice)
       while (const assign::BatchSpans* batch = batches.next(slice)) tests += batch->tests;
     benchmark::ClobberMemory();

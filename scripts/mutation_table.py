@@ -416,7 +416,7 @@ MUTATIONS = [
              "all(0x1p-18f) * distance_square", "Zero(D())",
              "assign.ExactFast.gives_the_lists_of_exact_for_lights_that_a_tile_plane_touches_at_the_eye",
              "exact-fast loses a light's row where rounding puts the eye into it"),
-    Mutation("fast-spot-mean-anywhere", "assign/cone/spot_cell_filter-inl.h",
+    Mutation("fast-spot-point-anywhere", "assign/cone/spot_cell_filter-inl.h",
              "      is_in = And(is_in, offset - dot(outward, cone_.apex + v) > margin * face_length(outward));\n", "",
              "assign.ExactFast.gives_the_lists_of_exact_on_every_target",
              "exact-fast takes places beside a cell for places in it"),

@@ -117,8 +117,9 @@ scene::CameraProjection random_projection(Draw& draw, const Extent& extent, Vec2
   projection.far_m = extent.far_m;
   projection.orthographic = draw.percent(25);
   if (projection.orthographic) {
-    projection.ymag_m =
-        draw.percent(50) ? extent.step_m * draw.whole(1, 32) : extent.far_m * draw.log_between(1e-3, 2.0);
+    projection.ymag_m = draw.percent(45)   ? extent.step_m * draw.whole(1, 32)
+                        : draw.percent(80) ? extent.far_m * draw.log_between(1e-3, 2.0)
+                                           : draw.log_between(1e-6, 1e15);
     projection.xmag_m = projection.ymag_m * picture.x / picture.y;
     if (draw.percent(40)) projection.near_m = 0.0;
     return projection;

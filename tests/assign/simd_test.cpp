@@ -288,6 +288,32 @@ TEST(ExactFast, decides_no_more_than_exact_does_on_grids_beyond_single_precision
   }
 }
 
+// The product of a small light's numbers and a wide view's is less than single precision has.
+TEST(ExactFast, gives_the_lists_of_exact_for_small_lights_in_wide_orthographic_views) {
+  for (const double half_width : {1e3, 9e8, 1e12, 1e15}) {
+    std::vector<scene::WorldLight> points, spots;
+    for (const double range : {1e-9, 1e-4})
+      for (const double side : {1.0, -1.0}) {
+        const Vec3d at{side * 1e-4, 1e-4, -1.5e-3};
+        points.push_back(testing::point_light(at, range));
+        spots.push_back(testing::spot_light(at, range, {side, 0, 0}, 0.5));
+      }
+    points.insert(points.end(), spots.begin(), spots.end());
+    Setting setting;
+    setting.frame =
+        testing::frame_of({true, -half_width, half_width, -half_width, half_width, 1e-4, 0.01}, {400, 400}, points);
+    grid::GridSpec spec = testing::settings::screen_spec(grid::Kind::frustum, {4, 4}, grid::Scheme::linear, 4, 1e-4);
+    spec.slices.far_m = 0.01;
+    setting.grid = testing::grid_of(spec, setting.frame);
+    const auto lists_of = [&](const char* name) {
+      return answer_of(name, Params(find_assigner(name)->params), setting).lists;
+    };
+    const Lists expected = lists_of("exact");
+    EXPECT_GE(expected.pair_count(), points.size()) << half_width;
+    EXPECT_EQ(lists_of("exact-fast"), expected) << half_width;
+  }
+}
+
 // Far to the side of the view axis tile planes are slopes with few digits left for their distances.
 TEST(ExactFast, gives_the_lists_of_exact_on_narrow_tiles_far_aside) {
   const AssignerDescriptor& row = *find_assigner("exact-fast");

@@ -1,7 +1,9 @@
 #include "assign/bounds/cell_extents.h"
 
+#include <cstdint>
 #include <variant>
 
+#include "core/memory.h"
 #include "geom/single_precision/bounding_volumes.h"
 
 namespace clusterbench::assign {
@@ -9,6 +11,8 @@ namespace clusterbench::assign {
 CellExtents cell_extents(const grid::Grid& grid) {
   const Vec3i cells = grid.cells();
   CellExtents out{.x = {{}, cells.x}, .y = {{}, cells.y}, .z = {}, .columns = cells.x, .rows = cells.y};
+  check_memory("boxes around cells", std::uint64_t(cells.z) * (std::uint64_t(cells.x) + std::uint64_t(cells.y) + 1),
+               sizeof(Interval));
   const auto add = [&](CellExtents::Axis& axis, int i, const Vec3i& cell) {
     const geom::Box box = geom::box_around(std::get<geom::FrustumCell>(grid.cell(grid::cell_index(cell, cells))));
     axis.extents.push_back({box.lo[i], box.hi[i]});

@@ -36,13 +36,12 @@ struct SpotCells {
   void grow();
   // What a whole vector reads beyond the end must be indices that exist.
   void pad();
-  SpotCell at(std::uint32_t pair) const { return {spot[pair], slice[pair], row[pair], column[pair], end_column[pair]}; }
   std::size_t capacity_bytes() const { return bytes_of(spot, slice, row, column, end_column, touch); }
 };
 
 // What the pairs are made of: lights, sides of columns (x / depth), slopes of rows from the top, depths of slices. As
-// in RowPlanes, sides and slopes are x and y where the projection is orthographic. Spots of less reach than
-// least_reach, or of more than k_most_row_reach, are left uncertain.
+// in RowPlanes, sides and slopes are x and y where the projection is orthographic. Spots whose reach
+// and range together are not from least_reach to k_most_row_reach are left uncertain.
 struct SpotsAndPlanes {
   const view::LightArrays* lights;
   const float *side, *slope, *depth;

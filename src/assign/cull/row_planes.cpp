@@ -11,11 +11,6 @@
 namespace clusterbench::assign {
 namespace {
 
-std::vector<float> padded(std::vector<float> list, std::size_t size, float with) {
-  list.resize(size, with);
-  return list;
-}
-
 // Tiles per slope along one axis, and by how many tiles (slope - first plane) * scale can be off: planes are rounded,
 // so they are not quite evenly spaced, and the last tile may be clipped; then difference and product are rounded.
 struct Scale {
@@ -69,12 +64,12 @@ RowPlanes::RowPlanes(const grid::ScreenGrid& grid)
     tilt.push_back(static_cast<float>(t));
     inverse_tilt.push_back(static_cast<float>(1.0 / t));
   }
-  for (std::vector<float>* list : {&slope, &tilt, &inverse_tilt}) list->resize(list->size() + k_most_lanes);
+  side = grid.tiles.x;
+  for (std::vector<float>* list : {&slope, &tilt, &inverse_tilt, &side}) list->resize(list->size() + k_most_lanes);
   for (const float z : grid.slices.boundaries) {
     depth.push_back(z);
     inverse_depth.push_back(z > 0.0f ? 1.0f / z : 1e30f);  // at the eye every slope but 0 is beyond the picture
   }
-  side = padded(grid.tiles.x, grid.tiles.x.size() + k_most_lanes, 0.0f);
   searched.assign(depth.begin(), depth.end() - 1);
   searched.resize(std::bit_ceil(searched.size()), std::numeric_limits<float>::infinity());
   least_reach = least_reach_of(*this);

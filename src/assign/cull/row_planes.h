@@ -1,5 +1,5 @@
 #pragma once
-// The planes of a frustum grid, as rows of cells want them.
+// The planes of a frustum grid.
 
 #include <vector>
 
@@ -22,8 +22,8 @@ struct RowPlanes {
   int rows = 0, columns = 0, slices = 0;
   float left = 0.0f, right = 0.0f, columns_per_slope = 0.0f, column_tolerance = 0.0f;
   float rows_per_slope = 0.0f, row_tolerance = 0.0f;
-  // Lights of less reach are left to be decided. From here to k_most_row_reach fourth powers of reaches, and these
-  // times a slope, are normal numbers, and a ball at the eye is wide in all that is seen. Infinite for grids
+  // Lights of less reach are left to be decided. From here to k_most_row_reach fourth powers of reaches, and squares
+  // of these times a slope, are normal numbers, and a ball at the eye is wide in all that is seen. Infinite for grids
   // of coordinates above k_most_row_reach, in perspective also of slices below k_least_slice_m or slopes above
   // k_most_slope.
   //

@@ -24,8 +24,7 @@ struct ShellPlanes {
 };
 
 // Appends those of the balls, larger by these roundoffs, that may reach a shell within the view, with all shells that
-// they may reach and all rows. Those left out touch no cell, not even by
-// what rounding adds.
+// they may reach and all rows. Those left out touch no cell, not even by what rounding adds.
 void find_shells(const ShellPlanes& planes, const GivenBalls& balls, float roundoffs, BoundedBalls& bounded);
 
 // The batch's slice is the shell.

@@ -27,11 +27,7 @@ void look(const view::LightArrays& lights, const RowPlanes& planes, BallCells& c
     VD undershoot = Zero(DD());
     if (!AllTrue(DD(), touches)) undershoot = BallRuns::undershoot(balls.steepness(nearest));
     const MD misses = nearest.excess.value - undershoot > error;
-    const unsigned yes = bits_of(touches), no = bits_of(misses);
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      const auto is = [&](unsigned mask) { return (mask >> lane & 1) != 0; };
-      cells.touch[first + lane] = is(yes) ? Touch::yes : is(no) ? Touch::no : Touch::uncertain;
-    }
+    store_touches(touches, misses, cells.touch.data() + first);
   }
 }
 

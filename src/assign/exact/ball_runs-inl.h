@@ -10,6 +10,7 @@
 
 #include <vector>
 
+#include "assign/cone/spot_cell_filter.h"
 #include "assign/cull/row_planes.h"
 #include "assign/simd/vectors-inl.h"
 #include "view/frame.h"
@@ -101,6 +102,13 @@ HWY_INLINE unsigned bits_of(MD mask) {
   std::uint8_t bits[8] = {};
   StoreMaskBits(DD(), mask, bits);
   return bits[0];
+}
+
+// What is known of each lane, to touch[0] and on.
+HWY_INLINE void store_touches(MD touches, MD misses, Touch* touch) {
+  const unsigned yes = bits_of(touches), no = bits_of(misses);
+  for (std::size_t lane = 0; lane < Lanes(DD()); ++lane)
+    touch[lane] = (yes >> lane & 1) != 0 ? Touch::yes : (no >> lane & 1) != 0 ? Touch::no : Touch::uncertain;
 }
 
 // Neighbouring cells of a row as one: those between two planes of columns.

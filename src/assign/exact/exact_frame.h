@@ -3,9 +3,14 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include "assign/contract/lists.h"
+#include "assign/cull/frustum_cull.h"
+#include "assign/cull/row_planes.h"
 #include "assign/cull/slice_bins.h"
+#include "assign/rows/slice_rows.h"
+#include "grid/grid.h"
 #include "view/frame.h"
 
 namespace clusterbench::assign {
@@ -35,18 +40,15 @@ struct ExactFrame {
   }
 };
 
-// The rows of some slices' balls, slice by slice and batch by batch. As many batches as can be are found at once, of
+// The rows of some slices' points, slice by slice and batch by batch. As many batches as can be are found at once, of
 // several slices where one has fewer. pipeline/slice_lists.h takes one batch at a time: its kernels walk rows that each
 // ball's box has told them, while here a batch's rows follow from square roots and divisions, whose latency four
 // batches side by side hide.
 class BatchReader {
  public:
-  using IndicesOf = std::span<const std::uint32_t> (ExactFrame::*)(int slice) const;
-
   // Of slices first .. last - 1.
-  void start(const ExactFrame& frame, IndicesOf indices_of, int first, int last) {
+  void start(const ExactFrame& frame, int first, int last) {
     frame_ = &frame;
-    indices_of_ = indices_of;
     slice_ = first;
     last_ = last;
     begin_ = count_ = next_ = 0;
@@ -78,7 +80,7 @@ class BatchReader {
     const std::uint32_t most = balls_per_batch();
     count_ = next_ = 0;
     while (count_ < k_batches_at_once && slice_ < last_) {
-      const std::span<const std::uint32_t> indices = (frame_->*indices_of_)(slice_).subspan(begin_);
+      const std::span<const std::uint32_t> indices = frame_->points_of(slice_).subspan(begin_);
       if (indices.size() <= most) {
         if (!indices.empty()) balls_[count_++] = {slice_, indices.data(), static_cast<std::uint32_t>(indices.size())};
         ++slice_;
@@ -92,24 +94,11 @@ class BatchReader {
   }
 
   const ExactFrame* frame_ = nullptr;
-  IndicesOf indices_of_ = nullptr;
   int slice_ = 0, last_ = 0;  // the next one of which batches are to be found; where to stop
   std::size_t begin_ = 0;     // among its balls
   std::array<BallsOfSlice, k_batches_at_once> balls_{};
   std::size_t count_ = 0, next_ = 0;  // of the batches found; the next one to be read
   RowBatches rows_;
 };
-
-// Calls take(row, light, columns) for a batch's spans.
-template <class Take>
-void each_span(const BatchSpans& batch, Take&& take) {
-  std::size_t next = 0;
-  for (int row = batch.first_row; row <= batch.last_row; ++row)
-    for (const std::size_t end = next + batch.sizes[static_cast<std::size_t>(row)]; next < end; ++next) {
-      const std::uint32_t columns = batch.columns[next];
-      if (columns != BatchRows::k_none)
-        take(row, batch.lights[next], grid::IndexRange{BatchRows::first_of(columns), BatchRows::last_of(columns)});
-    }
-}
 
 }  // namespace clusterbench::assign

@@ -23,7 +23,7 @@ void ExactSlices::find(const ExactFrame& frame, int first, int last, Lists& out)
   uncertain_.reserve(k_most_uncertain);
   questions_.reserve(2 * k_most_uncertain);
   spots_.find(frame, first, last);
-  batches_.start(frame, &ExactFrame::points_of, first, last);
+  batches_.start(frame, first, last);
   spans_.start(static_cast<std::uint32_t>(last - first), rows, static_cast<std::uint32_t>(frame.planes.columns), out);
   for (int slice = first; slice < last; ++slice) {
     add_points(slice);

@@ -48,7 +48,7 @@ HWY_INLINE VD across(const Gap& gap) {
 
 void look_at(const SpotsAndPlanes& from, const RowPlanes& planes, SpotTouches& out) {
   const view::LightArrays& lights = *from.lights;
-  const SpotCells& runs = out.runs_;
+  const SpotCells& runs = out.runs;
   const std::size_t lanes = Lanes(DD());
   const VD zero = Zero(DD());
   for (std::size_t first = 0; first < runs.count; first += lanes) {
@@ -88,13 +88,12 @@ void look_at(const SpotsAndPlanes& from, const RowPlanes& planes, SpotTouches& o
     store(enlarged(balls.x().error), out.x_error);
     store(nearest.depth.value, out.depth);
     store(enlarged(nearest.depth.error), out.depth_error);
-    const unsigned yes = bits_of(touches), no = bits_of(misses);
+    store_touches(touches, misses, out.runs.touch.data() + first);
     const MD is_alone = And(And(touches, is_exact), Or(is_x_sure, Not(nearest.x.is_outside)));
     const unsigned alone = bits_of(is_alone);
     const unsigned outside = bits_of(nearest.x.is_outside), below = bits_of(nearest.x.is_below);
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       const auto is = [&](unsigned mask) { return (mask >> lane & 1) != 0; };
-      out.runs_.touch[first + lane] = is(yes) ? Touch::yes : is(no) ? Touch::no : Touch::uncertain;
       out.is_alone[first + lane] = is(alone);
       out.side[first + lane] = static_cast<std::int8_t>(!is(outside) ? 0 : is(below) ? -1 : 1);
     }
@@ -112,18 +111,18 @@ namespace clusterbench::assign {
 HWY_EXPORT(look_at);
 
 void SpotTouches::look(const SpotsAndPlanes& from, const RowPlanes& planes) {
-  if (runs_.count == 0) return;
-  runs_.pad();
-  for (std::vector<double>* list : {&x, &x_error, &depth, &depth_error}) list->resize(runs_.spot.size());
-  is_alone.resize(runs_.spot.size());
-  side.resize(runs_.spot.size());
+  if (runs.count == 0) return;
+  runs.pad();
+  for (std::vector<double>* list : {&x, &x_error, &depth, &depth_error}) list->resize(runs.spot.size());
+  is_alone.resize(runs.spot.size());
+  side.resize(runs.spot.size());
   HWY_DYNAMIC_DISPATCH(look_at)(from, planes, *this);
 }
 
 grid::IndexRange SpotTouches::only_columns(std::uint32_t index, const RowPlanes& planes) const {
   using geom::Bounded;
   const grid::IndexRange none{},
-      columns{static_cast<int>(runs_.column[index]), static_cast<int>(runs_.end_column[index]) - 1};
+      columns{static_cast<int>(runs.column[index]), static_cast<int>(runs.end_column[index]) - 1};
   const Bounded at_x(x[index], x_error[index]), at_depth(depth[index], depth_error[index]);
   // At the eye all columns meet.
   if (is_alone[index] == 0 || (!planes.orthographic && !at_depth.is_surely_above(0.0))) return none;

@@ -16,22 +16,22 @@ namespace clusterbench::assign {
 // last.
 class SpotTouches {
  public:
-  void clear() { runs_.count = 0; }
-  void add(const SpotCell& run) { runs_.add(run); }
-  std::uint32_t count() const { return runs_.count; }
+  void clear() { runs.count = 0; }
+  void add(const SpotCell& run) { runs.add(run); }
+  std::uint32_t count() const { return runs.count; }
   // Spots of less reach than from.least_reach, or of more than k_most_row_reach, are left uncertain.
   void look(const SpotsAndPlanes& from, const RowPlanes& planes);
 
-  Touch touch(std::uint32_t index) const { return runs_.touch[index]; }
+  Touch touch(std::uint32_t index) const { return runs.touch[index]; }
   // Columns of a run that are touched, and no others of it are: where a point is all that is shared. Empty where that
   // is not known.
   grid::IndexRange only_columns(std::uint32_t index, const RowPlanes& planes) const;
   std::size_t capacity_bytes() const {
-    return runs_.capacity_bytes() + 4 * x.capacity() * sizeof(double) + is_alone.capacity() + side.capacity();
+    return runs.capacity_bytes() + bytes_of(x, x_error, depth, depth_error, is_alone, side);
   }
 
   // For look(): of the nearest point, from the eye.
-  SpotCells runs_;
+  SpotCells runs;
   std::vector<double> x, x_error, depth, depth_error;
   std::vector<std::uint8_t> is_alone;  // the only one that is shared
   std::vector<std::int8_t> side;       // -1: on the run's left side, 1: on its right one

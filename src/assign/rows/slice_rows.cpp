@@ -1,6 +1,7 @@
 #include "assign/rows/slice_rows.h"
 
 #include <algorithm>
+#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/rows/slice_rows.cpp"
@@ -125,27 +126,26 @@ class Batch {
   //
   // Certainty. Let r be the given radius, d the slack, R = r + d, and e = 2^-24 of the reach, so that d >= 28 e. An end
   // is x / depth of a point of the larger ball: its depth and its plane through the eye are chosen within the slice and
-  // the row, and what follows from them is less than 8 e off; so the ball of r + 2 d has such a point. And it is no
+  // the row, and what follows from them is less than 8 e off; so the ball of r + 4/3 d has such a point. And it is no
   // further in than the given ball's. For where the end is looked for is rounded, too, by s along the circle of radius
   // w that a tile plane cuts out; near the circle's farthest point that loses s² / 2 w, while the given ball's circle
-  // is smaller by at least d R / w. So s = sqrt(7 e R) costs an eighth of that. Depths and heights make it up to 3 e;
-  // the circle's chord, which is up to 2 e R / w off, and inverse_upright as much as set_up_spheres() lets them, 1.6
-  // times sqrt(7 e R) together: a third. It also makes certain whether the eye is inside the ball or a circle, where
-  // all depends on a sign.
+  // is smaller by at least d (2 R - d) / 2 w, and so by d R / 2 w. So s = sqrt(7 e R) costs at most a quarter of that.
+  // Depths and heights make it up to 3 e; the circle's chord, which is up to 2 e R / w off, and inverse_upright as much
+  // as set_up_spheres() lets them, 1.6 times sqrt(7 e R) together: two thirds. It also makes certain whether the eye is
+  // inside the ball or a circle, where all depends on a sign.
   //
-  // So the hull is that of a ball between the given one and the given one with twice the slack, D = 2 d. Let m be the
-  // row's point nearest to the centre, g away, and w = sqrt(R² - g²) for the larger radius R. A point p of the larger
-  // ball in the row is within w of m; moved towards m by the share D / (R - g) of that it is in the given ball, and
-  // still in the row (here its part in the picture). That is D w / (R - g) = D (R + g) / w <= 2 D R / w far. From a
-  // point of slope s on, a metre is at most q = sqrt(1 + s²) / near of slope, where no point of the larger ball in the
-  // slice is nearer in depth than `near`, so the given ball's extremes are within 2 D R q / w of the hull's, and
-  // the hull's width in the picture, h, is at most 2 w q; so that is at most 4 D R q² / h. The
-  // columns are certainly right if the hull's ends are farther than that from the next boundary inwards: that is, if
-  // the distance times h is at least 4 D R q² = 8 slack R q², in columns the `least_area`. And the given ball reaches
-  // the row at all if R - g >= D, which follows from h² >= 8 D R q². Large balls near the eye are far wider than the
-  // picture, and h says little of w. For them any point in the row does instead of m: it is no nearer, so its w is no
-  // larger. The columns are certain if the way inwards is at least 2 D R q / w, and the ball reaches the row if w² >= 2
-  // D R.
+  // So the hull is that of a ball between the given one and one that is larger by D = 4/3 d, of radius P = r + D. Let m
+  // be the row's point nearest to the centre, g away, and w = sqrt(P² - g²). A point p of the larger ball in the row is
+  // within w of m; moved towards m by the share D / (P - g) of that it is in the given ball, and still in the row (here
+  // its part in the picture). That is D w / (P - g) = D (P + g) / w <= 2 D P / w far. From a point of slope s on, a
+  // metre is at most q = sqrt(1 + s²) / near of slope, where no point of the larger ball in the slice is nearer in
+  // depth than `near`, so the given ball's extremes are within 2 D P q / w of the hull's, and the hull's width in the
+  // picture, h, is at most 2 w q; so that is at most 4 D P q² / h. The columns are certainly right if the hull's ends
+  // are farther than that from the next boundary inwards: if the distance times h is at least 8 d R q² > 4 D P q², in
+  // columns the `least_area`. And the given ball reaches the row at all if P - g >= D, which follows from h² >= 8 D P
+  // q², and that from h² >= 16 d R q². Large balls near the eye are far wider than the picture, and h says little of w.
+  // For them any point in the row does instead of m: it is no nearer, so its w is no larger. The columns are certain if
+  // the way inwards is at least 4 d R q / w > 2 D P q / w, and the ball reaches the row if w² >= 4 d R > 2 D P.
   HWY_INLINE VU columns_of(const Place& place, const Table& slopes, const Hull& hull, M wanted) const {
     const V left = all(planes_->left), right = all(planes_->right), scale = all(planes_->columns_per_slope);
     const V tolerance = all(planes_->column_tolerance), zero = Zero(D());
@@ -208,7 +208,9 @@ class Batch {
   // See Certainty; for rows straight ahead. Balls that hold all of the slice's part of the view by more than their
   // slack have no ends there. An infinite radius stands for one that is left to be decided.
   HWY_INLINE V least_area() const {
-    const V area = all(8.2f) * (balls_.slack * balls_.radius) * (rate_ * rate_);
+    // Products that are too small for a float must not look like the nothing of balls that hold all.
+    constexpr float k_something = std::numeric_limits<float>::min();
+    const V area = Max(all(8.2f) * (balls_.slack * balls_.radius) * (rate_ * rate_), all(k_something));
     const V surely = balls_.radius - all(4.0f) * balls_.slack;
     const M is_sure = And(surely > Zero(D()), surely < infinity());
     return IfThenZeroElse(And(is_sure, farthest_square() < surely * surely), area);

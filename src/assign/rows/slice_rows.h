@@ -9,8 +9,8 @@
 // a ball has in one is a disk's chord.
 //
 // Every ball is taken larger by its slack, which is more than rounding can lose, so no column is forgotten. How much
-// too large an answer can be is bounded, too: see Certainty in slice_rows.cpp. Rows for which that may matter are
-// marked.
+// too large an answer can be is bounded, too: see Certainty in slice_rows.cpp. Ends of spans for which that may
+// matter are marked.
 
 #include <array>
 #include <cstdint>

@@ -32,7 +32,7 @@ HWY_INLINE Touches touches_of(V across, V ahead, V radius, V ahead_square) {
 }
 
 // The radius, or a little more than a distance if it is nearly that. So the sign of the difference of their squares is
-// certain, and its size but for a tenth.
+// certain, and its size but for a quarter.
 HWY_INLINE V lifted(V radius, V distance_square) {
   const V gap = distance_square - radius * radius;
   const M is_near = Abs(gap) < all(0x1p-18f) * distance_square;
@@ -62,8 +62,9 @@ void setup_of(const VisibleBalls& visible, std::uint32_t count, SphereSetup& out
     const V upright = y_square + ahead_square, square = x_square + upright;
     const M is_outside = square > zero;
     // A touch point is as far from the eye as a tangent is long, and not deeper than the ball. The chord's error moves
-    // it by up to |x| depth / upright of itself, and upright's, 3 e c², by that over upright of how far it is away:
-    // the chord's part is at most sqrt(7 e radius), upright's 0.57 of that and also 3/16 of the radius: see Certainty.
+    // it by up to |x| depth / upright of itself, and upright's, 3 e c² at a distance c from the eye, by that over
+    // upright of how far it is away: the chord's part is at most sqrt(7 e radius), upright's 0.57 of that and also 3/16
+    // of the radius: see Certainty.
     const V tangent = root(square), reach = root(from_eye);
     const V deepest = Min(Max(zero, depth + radius), tangent);
     const V of_chord = Abs(x) * deepest * all(1.0f / 7.0f);

@@ -28,11 +28,11 @@ struct SphereSetup {
 // Of the first `count` visible balls.
 //
 // The tangents from the eye to the circle that a tile plane of slope v cuts out touch it at the inverse depths
-// (depth + y v -+ lean s) * inverse_upright, with s² = radius² (1 + v²) - (y - v depth)². inverse_upright is 1 /
-// (depth² + y² - radius²), and 0 where that is not precise enough to say where; for balls around the eye, which nothing
-// touches, it is infinite, and lean 0. How precise it needs to be: see Certainty in slice_rows.cpp. Balls whose surface
-// nearly goes through the eye, or as a circle seen from the side or from above, are made a little larger, and their
-// slack.
+// (depth + y v -+ lean s) * inverse_upright, with s² = radius² (1 + v²) - (y - v depth)². lean is x by the length of a
+// tangent from the eye to the ball, inverse_upright 1 / (depth² + y² - radius²), and 0 where that is not precise enough
+// to say where; for balls around the eye, which nothing touches, it is infinite, and lean 0. How precise it needs to
+// be: see Certainty in slice_rows.cpp. Balls whose surface nearly goes through the eye, or as a circle seen from the
+// side or from above, are made a little larger, and their slack.
 void set_up_spheres(const VisibleBalls& visible, std::uint32_t count, SphereSetup& out);
 
 }  // namespace clusterbench::assign

@@ -156,7 +156,7 @@ HWY_INLINE VI from_on(std::int32_t first) {
 }
 
 // A whole number from 0 to 2^22 as an integer, with less ado than ConvertTo, which looks for ones that do not fit. From
-// others something that is not negative.
+// others anything.
 HWY_INLINE VI whole(V number) {
   return Xor(BitCast(DI(), number + all(0x1p23f)), BitCast(DI(), all(0x1p23f)));
 }
