@@ -418,7 +418,7 @@ MUTATIONS = [
              "exact-fast loses a light's row where rounding puts the eye into it"),
     Mutation("fast-spot-point-anywhere", "assign/cone/spot_cell_filter-inl.h",
              "      is_in = And(is_in, offset - dot(outward, cone_.apex + v) > margin * face_length(outward));\n", "",
-             "assign.ExactFast.gives_the_lists_of_exact_on_every_target",
+             "assign.SpotRows.know_only_what_is_true_of_spots_much_longer_than_cells",
              "exact-fast takes places beside a cell for places in it"),
     Mutation("fast-spot-tolerance-below-roundoffs", "assign/cone/spot_vectors-inl.h",
              "k_tolerance = 0x1p-19f;", "k_tolerance = 0x1p-26f;",

@@ -106,10 +106,11 @@ struct Place {
   double range;  // of the light
 };
 
-inline Place random_place(const grid::Grid& grid, const view::Space& space, Random& random) {
+// `longer`: times that the light's usual range.
+inline Place random_place(const grid::Grid& grid, const view::Space& space, Random& random, double longer = 1.0) {
   const std::uint32_t cell = random_cell(grid, random);
   const Contact contact = std::visit([&](const auto& shape) { return contact_of(shape, random); }, grid.cell(cell));
-  const double range = random.log_between(0.05, 80);
+  const double range = longer * random.log_between(0.05, 80);
   return {contact, cell, glm::length(contact.point) + glm::length(space.origin) + range, range};
 }
 
@@ -135,12 +136,12 @@ inline std::vector<TouchingLight> touching_points(const grid::Grid& grid, const 
 
 // Spots touch by their apex, their cap or their side.
 inline std::vector<TouchingLight> touching_spots(const grid::Grid& grid, const view::Space& space, int count,
-                                                 std::uint64_t seed) {
+                                                 std::uint64_t seed, double longer = 1.0) {
   Random random(seed);
   std::vector<TouchingLight> lights;
   constexpr double k_half_angles[] = {1e-3, 0.1, 0.5, M_PI / 4, 1.0, 1.5};
   for (int i = 0; i < count; ++i) {
-    const touching::Place place = touching::random_place(grid, space, random);
+    const touching::Place place = touching::random_place(grid, space, random, longer);
     const Vec3d& out = place.contact.outward;
     const double angle = k_half_angles[i % 6];
     const double slack = touching::hair(place.size, random);
