@@ -288,6 +288,39 @@ TEST(ExactFast, decides_no_more_than_exact_does_on_grids_beyond_single_precision
   }
 }
 
+// Where single precision proves nothing of a spot, all rows of the picture, and all columns of these, would be looked
+// at.
+TEST(ExactFast, does_no_more_than_exact_for_spots_of_which_little_is_proven) {
+  const double far = 32.0, half = 16.0;
+  const view::Projection views[] = {{true, -half, half, -half, half, 0.0, far},
+                                    testing::perspective(1.5, 1.0, 0.1, far)};
+  struct Kind {
+    double range, angle;
+  };
+  // Ends that touch slice planes, as good as no angle, ranges beyond what vectors are for, a world as small.
+  for (const auto& [range, angle] :
+       {Kind{1.0, M_PI / 4}, Kind{1.0, 1e-7}, Kind{2e9, 0.01}, Kind{1e12, 0.01}, Kind{1e-9, 0.5}})
+    for (const view::Projection& view : views) {
+      Setting setting;
+      setting.frame = testing::frame_of(view, {64, 1024}, {});
+      grid::GridSpec spec =
+          testing::settings::screen_spec(grid::Kind::frustum, {16, 512}, grid::Scheme::linear, 32, 1.0);
+      spec.slices.far_m = far + 1.0;
+      setting.grid = testing::grid_of(spec, setting.frame);
+      for (int i = 0; i < 12; ++i) {
+        const Vec3d at{i % 5 - 2, i % 7 - 3, -3 - i % 9};
+        setting.frame.lights.push_back(testing::spot_light(at, range, {0, 0, -1}, angle));
+      }
+      const Answer expected = answer_of("exact", Params(find_assigner("exact")->params), setting);
+      const Answer found = answer_of("exact-fast", Params(find_assigner("exact-fast")->params), setting);
+      EXPECT_EQ(found.lists, expected.lists);
+      EXPECT_GE(expected.lists.pair_count(), 12U);
+      EXPECT_LE(found.fallbacks, 2 * expected.fallbacks) << range << ", " << angle << ", " << view.orthographic;
+      if (range == 1.0)
+        EXPECT_LE(found.tests, 4 * expected.tests) << range << ", " << angle << ", " << view.orthographic;
+    }
+}
+
 // The product of a small light's numbers and a wide view's is less than single precision has.
 TEST(ExactFast, gives_the_lists_of_exact_for_small_lights_in_wide_orthographic_views) {
   for (const double half_width : {1e3, 9e8, 1e12, 1e15}) {

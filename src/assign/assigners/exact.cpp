@@ -15,7 +15,6 @@
 #include "assign/exact/exact_rows.h"
 #include "assign/pipeline/light_by_light.h"
 #include "core/arrays.h"
-#include "geom/single_precision/bounding_volumes.h"
 #include "geom/single_precision/touch_tests.h"
 #include "grid/index_range.h"
 
@@ -89,26 +88,21 @@ class Exact final : public LightByLight<Exact> {
   }
 
   void add_spot(const view::LightArrays& lights, std::uint32_t light) {
-    const geom::SphericalCone cone = lights.cone(light, view::k_given_roundoffs);
-    // Both hold the cone; neither holds the other.
-    const geom::Ball around = geom::bounding_ball(cone), range = lights.ball(light, k_exact_roundoffs);
-    const geom::Ball larger{around.center, around.radius + k_exact_roundoffs * 0x1p-24f * lights.reach[light]};
-    if (view_.misses(larger)) return;
+    const SpotBalls balls(lights, light);
+    if (view_.misses(balls.around())) return;
     SpotJudge judge(*grid_, lights, light);
     if (lights.reach[light] > k_most_exact_reach)
       return add_cell_by_cell(light, [&](const Row& row, int column) {
         return judge.touches(row.first_cell + static_cast<std::uint32_t>(column));
       });
     const RowColumns columns(grid_->screen().tiles);
-    each_row(larger, [&](const Row& row) {
-      const IndexRange around_cone = columns.touched(larger, row, geom::Errs::outward),
-                       in_range = columns.touched(range, row, geom::Errs::outward);
-      const IndexRange both{std::max(around_cone.first, in_range.first), std::min(around_cone.last, in_range.last)};
-      if (around_cone.empty() || in_range.empty() || both.empty()) return;
+    each_row(balls.around(), [&](const Row& row) {
+      const IndexRange both = balls.touched(columns, row);
+      if (both.empty()) return;
       const auto misses = [&](int column) {
         const std::uint32_t cell = row.first_cell + static_cast<std::uint32_t>(column);
         ++tests_;
-        if (!geom::cone_touches_ball(cone, cell_balls_[cell])) return true;
+        if (!geom::cone_touches_ball(balls.cone(), cell_balls_[cell])) return true;
         ++fallbacks_;
         return !judge.touches(cell);
       };

@@ -66,7 +66,7 @@ struct Beyond {
     const V size = length(normal);
     const M is_apart = least - extent_of(cone, normal, size) > tolerance * size;
     // Squares of much shorter ones lose digits.
-    const M is_measured = size > all(1e-10f);
+    const M is_measured = size > all(1e-18f);
     return And(And(is_apart, is_measured), normal.x * side >= Zero(D()));
   }
 };
@@ -94,27 +94,59 @@ class Reached {
     Extremes<orthographic> found;
     each_point_in_slice<orthographic>(spots_, between_,
                                       [&](M where, const Seen& p, Lean lean) { found.take(where, p, lean); });
-    const V top = all(planes_.slope.front()), bottom = all(planes_.slope[static_cast<std::size_t>(planes_.rows)]);
     const V high = found.high.across + spots_.slack / w_of<orthographic>(found.high.depth);
     const V low = found.low.across - spots_.slack / w_of<orthographic>(found.low.depth);
+    const Range guess = rows_between(low, high);
+    const M exist = found.exist();
+    const M none_above = And(And(plain, exist), is_apart(found.high, tables_.slope.at(guess.first), all(1.0f)));
+    const M none_below = And(And(plain, exist), is_apart(found.low, tables_.slope.at(guess.end), all(-1.0f)));
+    const VI none = Zero(DI()), rows = all_int(planes_.rows);
+    Range touched = {IfThenElseZero(RebindMask(DI(), none_above), guess.first),
+                     IfThenElse(RebindMask(DI(), none_below), guess.end, rows)};
+    if (!AllTrue(D(), Or(And(none_above, none_below), Not(plain)))) {
+      const Range widest = rows_of_extents();
+      touched.first = Max(touched.first, IfThenElseZero(RebindMask(DI(), plain), widest.first));
+      touched.end = Min(touched.end, IfThenElse(RebindMask(DI(), plain), widest.end, rows));
+    }
+    const V top = all(planes_.slope.front());
+    const VI end = IfThenZeroElse(RebindMask(DI(), And(plain, misses_slice())), touched.end);
+    return {touched.first, Max(end - touched.first, none),
+            And(touched.first == none, RebindMask(DI(), Not(high < top)))};
+  }
+
+ private:
+  using Seen = ProjectedPoint<orthographic>;
+  struct Range {
+    VI first, end;
+  };
+
+  // Those that slopes up may be in.
+  HWY_INLINE Range rows_between(V low, V high) const {
+    const V top = all(planes_.slope.front()), bottom = all(planes_.slope[static_cast<std::size_t>(planes_.rows)]);
     const V scale = all(planes_.rows_per_slope), tolerance = all(planes_.row_tolerance), zero = Zero(D());
     const VI none = Zero(DI()), rows = all_int(planes_.rows), last_row = rows - all_int(1);
     const V from = (top - Min(high, top)) * scale - tolerance;
     const V to = (top - Max(low, bottom)) * scale + tolerance;
     const MI is_below = RebindMask(DI(), high < bottom), is_above = RebindMask(DI(), low > top);
-    VI first = IfThenElse(is_below, rows, Min(whole(Floor(Max(from, zero))), last_row));
-    VI end = IfThenElse(is_above, none, Min(whole(Floor(Max(to, zero))) + all_int(1), rows));
-    const M exist = found.exist();
-    const M none_above = And(And(plain, exist), is_apart(found.high, tables_.slope.at(first), all(1.0f)));
-    const M none_below = And(And(plain, exist), is_apart(found.low, tables_.slope.at(end), all(-1.0f)));
-    first = IfThenElseZero(RebindMask(DI(), none_above), first);
-    end = IfThenElse(RebindMask(DI(), none_below), end, rows);
-    end = IfThenZeroElse(RebindMask(DI(), And(plain, misses_slice())), end);
-    return {first, Max(end - first, none), And(first == none, RebindMask(DI(), Not(high < top)))};
+    return {IfThenElse(is_below, rows, Min(whole(Floor(Max(from, zero))), last_row)),
+            IfThenElse(is_above, none, Min(whole(Floor(Max(to, zero))) + all_int(1), rows))};
   }
 
- private:
-  using Seen = ProjectedPoint<orthographic>;
+  // Proven of spots that are plain: those of a box around what they can have in the slice, larger by twice the
+  // tolerance, so that a quotient's rounding is in it, too.
+  HWY_INLINE Range rows_of_extents() const {
+    const V room = all(2.0f) * tolerance(Zero(D())), zero = Zero(D());
+    const V up = spots_.cone.apex.x;  // x and y are exchanged
+    const V high = up + extent_of(spots_.cone, x_axis(), all(1.0f)) + room;
+    const V low = up - extent_of(spots_.cone, x_axis(-1.0f), all(1.0f)) - room;
+    const V near = w_of<orthographic>(Max(Max(between_.near, nearest() - room), all(1e-30f)));
+    const V far = w_of<orthographic>(Max(Min(between_.far, farthest() + room), all(1e-30f)));
+    return rows_between(low / IfThenElse(low < zero, near, far), high / IfThenElse(high > zero, near, far));
+  }
+
+  // Depths of the whole spot.
+  HWY_INLINE V nearest() const { return spots_.cone.apex.depth - extent_of(spots_.cone, depth_axis(-1.0f), all(1.0f)); }
+  HWY_INLINE V farthest() const { return spots_.cone.apex.depth + extent_of(spots_.cone, depth_axis(), all(1.0f)); }
 
   // What leans most up and down leans most across where x and y are exchanged.
   static HWY_INLINE Cone exchanged(const Cone& cone) {
@@ -136,10 +168,7 @@ class Reached {
 
   HWY_INLINE M misses_slice() const {
     const V tolerance = this->tolerance(Zero(D()));
-    const V ahead = spots_.cone.apex.depth;
-    const V farthest = ahead + extent_of(spots_.cone, depth_axis(), all(1.0f));
-    const V nearest = ahead - extent_of(spots_.cone, depth_axis(-1.0f), all(1.0f));
-    return Or(between_.near - farthest > tolerance, nearest - between_.far > tolerance);
+    return Or(between_.near - farthest() > tolerance, nearest() - between_.far > tolerance);
   }
 
   const RowPlanes& planes_;

@@ -46,9 +46,9 @@ HWY_INLINE Point cross(const Point& a, const Point& b) {
   return {a.y * b.depth - a.depth * b.y, a.depth * b.x - a.x * b.depth, a.x * b.y - a.y * b.x};
 }
 
-// Unit vectors along an axis, the last one also (side -1) against it.
-HWY_INLINE Point x_axis() {
-  return {all(1.0f), Zero(D()), Zero(D())};
+// Unit vectors along an axis, or (side -1) against it.
+HWY_INLINE Point x_axis(float side = 1.0f) {
+  return {all(side), Zero(D()), Zero(D())};
 }
 HWY_INLINE Point y_axis() {
   return {Zero(D()), all(1.0f), Zero(D())};

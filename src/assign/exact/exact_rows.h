@@ -10,6 +10,7 @@
 #include "geom/ball/ball_decider.h"
 #include "geom/projection/row_slopes.h"
 #include "geom/shapes/verdict.h"
+#include "geom/single_precision/bounding_volumes.h"
 #include "geom/spot/spot_decider.h"
 #include "grid/grid.h"
 #include "grid/index_range.h"
@@ -73,6 +74,34 @@ class RowColumns {
   }
 
   const grid::Tiles& tiles_;
+};
+
+// Two balls that hold a spot; neither holds the other.
+class SpotBalls {
+ public:
+  SpotBalls(const view::LightArrays& lights, std::uint32_t light)
+      : light_(light),
+        cone_(lights.cone(light, view::k_given_roundoffs)),
+        around_(geom::bounding_ball(cone_)),
+        range_(lights.ball(light, k_exact_roundoffs)) {
+    around_.radius += k_exact_roundoffs * 0x1p-24f * lights.reach[light];
+  }
+
+  std::uint32_t light() const { return light_; }
+  const geom::SphericalCone& cone() const { return cone_; }
+  const geom::Ball& around() const { return around_; }
+  // All columns of a row that the spot touches, and perhaps more.
+  grid::IndexRange touched(const RowColumns& columns, const Row& row) const {
+    const grid::IndexRange around = columns.touched(around_, row, geom::Errs::outward),
+                           in_range = columns.touched(range_, row, geom::Errs::outward);
+    if (around.empty() || in_range.empty()) return {};
+    return {std::max(around.first, in_range.first), std::min(around.last, in_range.last)};
+  }
+
+ private:
+  std::uint32_t light_;
+  geom::SphericalCone cone_;
+  geom::Ball around_, range_;
 };
 
 // Decides cells of one point light. Made for every light, and cheap until the first question.

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "geom/single_precision/bounding_volumes.h"
+#include "geom/single_precision/touch_tests.h"
 
 namespace clusterbench::assign {
 
@@ -13,6 +15,7 @@ void SpotSpans::find(const ExactFrame& frame, int first, int last) {
   tests_ = fallbacks_ = 0;
   rows_.count = next_row_ = 0;
   judge_.reset();
+  balls_.reset();
   if (frame.first_spot == frame.visible.count) return;
   const RowPlanes& planes = frame.planes;
   const SpotsAndPlanes from{&frame.lights,       planes.side.data(), planes.slope.data(),
@@ -31,6 +34,7 @@ void SpotSpans::settle_uncertain_rows(const SpotsAndPlanes& from) {
   if (spans_.empty()) return;
   settle_touches(from);
   shorten(from);
+  narrow();
   while (ask_for_ends()) {
     tests_ += cells_.count;
     look_at_cells(from, cells_);
@@ -231,12 +235,59 @@ void SpotSpans::settle(const Ends& ends) {
   }
 }
 
+// Long spans to what the spot's balls have, and without the parts around which a ball misses the cone: in scalar code,
+// since single precision tells nothing of spots far larger or smaller than what vectors are for, or of cells smaller
+// than its tolerance.
+void SpotSpans::narrow() {
+  constexpr int k_few_columns = 4;
+  const grid::Tiles& tiles = frame_->grid.screen().tiles;
+  for (const std::uint32_t i : uncertain_) {
+    Span& span = spans_[i];
+    IndexRange& columns = span.columns;
+    if (!span.is_uncertain() || columns.count() <= k_few_columns) continue;
+    const std::uint32_t light = rows_.spot[span.row] + frame_->lights.spots.first;
+    if (std::isinf(frame_->lights.radius[light])) continue;
+    const SpotBalls& balls = balls_of(light);
+    const Row row = row_at(span.row);
+    const IndexRange some = balls.touched(RowColumns(tiles), row);
+    if (span.left_is_uncertain) columns.first = std::max(columns.first, some.first);
+    if (span.right_is_uncertain) columns.last = std::min(columns.last, some.last);
+    const auto are_missed = [&](int first, int last) {
+      geom::FrustumCell piece = piece_of(tiles, row, first);
+      piece.x1 = tiles.x[static_cast<std::size_t>(last) + 1];
+      return !geom::cone_touches_ball(balls.cone(), geom::ball_around(piece));
+    };
+    // All of them, the half at an end, a quarter and so on.
+    const auto shorten = [&](bool from_left) {
+      for (int count = columns.count(); count > 0; count = std::min(count, columns.count())) {
+        if (from_left ? are_missed(columns.first, columns.first + count - 1)
+                      : are_missed(columns.last - count + 1, columns.last))
+          (from_left ? columns.first : columns.last) += from_left ? count : -count;
+        else
+          count /= 2;
+      }
+    };
+    if (span.left_is_uncertain) shorten(true);
+    if (span.right_is_uncertain) shorten(false);
+  }
+}
+
 bool SpotSpans::decide(std::uint32_t row, int column) {
   ++fallbacks_;
   const std::uint32_t light = rows_.spot[row] + frame_->lights.spots.first;
   if (!judge_ || judge_->light() != light) judge_.emplace(frame_->grid, frame_->lights, light);
-  const Row cells = row_of(frame_->grid.screen(), static_cast<int>(rows_.slice[row]), static_cast<int>(rows_.row[row]));
-  return judge_->touches(cells.first_cell + static_cast<std::uint32_t>(column), true);
+  const float reach = frame_->lights.reach[light];
+  const bool was_looked_at = frame_->planes.least_reach <= reach && reach <= k_most_row_reach;
+  return judge_->touches(row_at(row).first_cell + static_cast<std::uint32_t>(column), was_looked_at);
+}
+
+const SpotBalls& SpotSpans::balls_of(std::uint32_t light) {
+  if (!balls_ || balls_->light() != light) balls_.emplace(frame_->lights, light);
+  return *balls_;
+}
+
+Row SpotSpans::row_at(std::uint32_t row) const {
+  return row_of(frame_->grid.screen(), static_cast<int>(rows_.slice[row]), static_cast<int>(rows_.row[row]));
 }
 
 }  // namespace clusterbench::assign

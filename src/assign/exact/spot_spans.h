@@ -2,7 +2,8 @@
 // The columns that spots touch in each row of some slices, all slices at once so that vectors are full: rows and ends
 // that are guessed and proven (spot_rows.h), which nearly all are. Of what is left, ends that are touched in a single
 // point come first (spot_touches.h), as most are on lattices. The rest is shortened by halves, quarters and so on that
-// are as a whole not touched; then its ends are looked at a few cells at a time, until a cell at either end is touched.
+// are as a whole not touched, and to what the spots' balls have; then its ends are looked at a few cells at a time,
+// until a cell at either end is touched.
 
 #include <optional>
 
@@ -64,7 +65,10 @@ class SpotSpans {
   SpotCell cells_of(const Span& span, const grid::IndexRange& columns) const;
   void ask(std::uint32_t i, const grid::IndexRange& columns, bool from_left, bool from_right);
   void settle(const Ends& ends);
+  void narrow();
   bool decide(std::uint32_t row, int column);
+  const SpotBalls& balls_of(std::uint32_t light);
+  Row row_at(std::uint32_t row) const;
 
   const ExactFrame* frame_ = nullptr;
   SpotSlices slices_;
@@ -78,6 +82,7 @@ class SpotSpans {
   std::vector<Ends> ends_;
   SpotCells cells_;                 // of all ends
   std::optional<SpotJudge> judge_;  // of the spot that was asked for last
+  std::optional<SpotBalls> balls_;  // the same
   std::uint64_t tests_ = 0, fallbacks_ = 0;
 };
 
