@@ -65,8 +65,8 @@ struct Beyond {
                         Min(corner(up0, planes.far), corner(up1, planes.far)));
     const V size = length(normal);
     const M is_apart = least - extent_of(cone, normal, size) > tolerance * size;
-    // Squares of much shorter ones lose digits.
-    const M is_measured = size > all(1e-18f);
+    // Of shorter ones, the squares of what is across the cone's axis lose digits: there already 1 u of the extent.
+    const M is_measured = size > all(1e-15f);
     return And(And(is_apart, is_measured), normal.x * side >= Zero(D()));
   }
 };
