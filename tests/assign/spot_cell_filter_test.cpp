@@ -306,6 +306,23 @@ TEST(SpotRows, settle_nearly_all_rows_of_ordinary_spots_on_every_target) {
   }
 }
 
+// Of spots in all slices.
+void expect_the_same_rows_on_every_target(const testing::settings::Plan& plan,
+                                          const std::vector<scene::WorldLight>& spots) {
+  SpotsInGrid in_grid(plan, spots);
+  std::optional<SpotRows> first;
+  on_each_target([&](const std::string& target) {
+    const SpotRows found = in_grid.rows();
+    if (!first) first = found;
+    EXPECT_EQ(found.spot, first->spot) << target << ", " << plan.name;
+    EXPECT_EQ(found.slice, first->slice) << target << ", " << plan.name;
+    EXPECT_EQ(found.row, first->row) << target << ", " << plan.name;
+    EXPECT_EQ(found.first, first->first) << target << ", " << plan.name;
+    EXPECT_EQ(found.last, first->last) << target << ", " << plan.name;
+    EXPECT_EQ(found.known, first->known) << target << ", " << plan.name;
+  });
+}
+
 // Counters would differ else, from machine to machine.
 TEST(SpotRows, are_the_same_on_every_target) {
   for (const testing::settings::Plan& plan : all_plans()) {
@@ -314,18 +331,35 @@ TEST(SpotRows, are_the_same_on_every_target) {
       for (const double angle : {0.0, 0.3, M_PI / 2})
         for (const double depth : {0.0, 1e-9, 5.0, 1e9})
           spots.push_back(testing::spot_light({0.0, 0.1 * depth, -depth}, range, {0.6, 0.0, -0.8}, angle));
-    SpotsInGrid in_grid(plan, spots);
-    std::optional<SpotRows> first;
-    on_each_target([&](const std::string& target) {
-      const SpotRows found = in_grid.rows();
-      if (!first) first = found;
-      EXPECT_EQ(found.spot, first->spot) << target << ", " << plan.name;
-      EXPECT_EQ(found.slice, first->slice) << target << ", " << plan.name;
-      EXPECT_EQ(found.row, first->row) << target << ", " << plan.name;
-      EXPECT_EQ(found.first, first->first) << target << ", " << plan.name;
-      EXPECT_EQ(found.last, first->last) << target << ", " << plan.name;
-      EXPECT_EQ(found.known, first->known) << target << ", " << plan.name;
-    });
+    expect_the_same_rows_on_every_target(plan, spots);
+  }
+}
+
+// What is proven of a spot must not depend on its neighbours in a vector, nor on what targets make of no number.
+TEST(SpotRows, are_the_same_on_every_target_where_little_is_proven) {
+  testing::Random random(12);
+  const std::vector<double> depths = {0, 1, 2, 3, 4, 5, 6, 8, 14, 30, 1e3, 1e5};
+  for (const view::Projection& view :
+       {view::Projection{false, -1, 1, 1e-6, 1, 1e-3, 1e6}, testing::perspective(3.1, 0.4, 1e-3, 1e6),
+        testing::perspective(1.0, 0.4, 1e-3, 1e6), view::Projection{true, -8, 8, -8, 8, 0, 1e3}}) {
+    testing::settings::Plan plan = all_plans().front();
+    plan.projection = view;
+    plan.spec = testing::settings::screen_spec(grid::Kind::frustum, {4, 700}, grid::Scheme::list, 11, 0.0);
+    plan.spec.slices.boundaries_m = depths;
+    std::vector<scene::WorldLight> spots;
+    const auto one_of = [&](const auto& list) {
+      return list[static_cast<std::size_t>(random.unit() * static_cast<double>(std::size(list)))];
+    };
+    for (int i = 0; i < 200; ++i) {
+      const Vec3d at{0.5 * (i % 9 - 4), 0.5 * (i % 17 - 8), -one_of(depths)};
+      const Vec3d axes[] = {{0, 0, -1}, {0, 1, 0}, {-1, 0, 0}, {0, 0, 1}, {0, -1, 0}, random.direction()};
+      const double ranges[] = {0.5, 1.0, 2.0, 4.0, random.log_between(1e-6, 1e8)};
+      const double angles[] = {1e-7, M_PI / 2 - 1e-3, random.between(0.1, 1.5), M_PI / 2};
+      spots.push_back(testing::spot_light(at, one_of(ranges), one_of(axes), one_of(angles)));
+    }
+    // One that ends at the eye's depth, where points of its rows are no numbers.
+    spots.push_back(testing::spot_light({-1, 0, -4}, 4.0, glm::normalize(Vec3d(1, 1, 0)), M_PI / 2 - 1e-7));
+    expect_the_same_rows_on_every_target(plan, spots);
   }
 }
 

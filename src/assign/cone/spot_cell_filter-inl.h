@@ -60,10 +60,10 @@ class Cells {
   HWY_INLINE Point near_in_cell(const Point& v) const {
     const V within = all(k_within) * tolerance_;
     const Point point = v + cone_.apex;
-    const V depth = Clamp(point.depth, depth0_ + within, depth1_ - within);
+    const V depth = clamped(depth0_ + within, point.depth, depth1_ - within);
     const V w = w_of<orthographic>(depth);
     const auto inset = [&](V slope) { return within * (all(1.0f) + w_along<orthographic>(Abs(slope))); };
-    const auto between = [&](V low, V at, V high) { return Clamp(at, low * w + inset(low), high * w - inset(high)); };
+    const auto between = [&](V low, V at, V high) { return clamped(low * w + inset(low), at, high * w - inset(high)); };
     return Point{between(left_, point.x, right_), between(y0_, point.y, y1_), depth} - cone_.apex;
   }
 

@@ -1,6 +1,6 @@
-// Where spots lean most to the left and to the right, or up and down, between planes: in single precision and without
-// proof. For files that are compiled once per target; included after hwy/highway.h; defines its names anew for each
-// target.
+// Where spots reach farthest to the left and to the right, or up and down, between planes: in single precision and
+// without proof. For files that are compiled once per target; included after hwy/highway.h; defines its names anew for
+// each target.
 
 #if defined(CLUSTERBENCH_SPOT_EXTREMES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef CLUSTERBENCH_SPOT_EXTREMES_INL_H
@@ -50,21 +50,21 @@ HWY_INLINE ProjectedPoint<orthographic> projected(const Point& p) {
   return projected<orthographic>(p, inverse(w_of<orthographic>(p.depth)));
 }
 
-// What a point can lean most to.
-enum class Lean { left, right, either };
+// Which side of the picture a point can be the extreme of.
+enum class Side { left, right, either };
 
-// The two points found so far that lean most across: anywhere, or in one tile plane, which all of them lie in.
+// The two points found so far that reach farthest across: anywhere, or in one tile plane, which all of them lie in.
 template <bool orthographic, bool in_tile_plane>
 struct ExtremesOf {
-  using Seen = ProjectedPoint<orthographic>;
-  Seen low, high;
+  using Projected = ProjectedPoint<orthographic>;
+  Projected low, high;
 
   HWY_INLINE explicit ExtremesOf(V up = Zero(D()))
       : low{all(k_none), up, all(1.0f)}, high{all(-k_none), up, all(1.0f)} {}
 
-  HWY_INLINE void take(M where, const Seen& p, Lean lean = Lean::either) {
-    if (lean != Lean::right) take_if(And(where, p.across < low.across), p, low);
-    if (lean != Lean::left) take_if(And(where, p.across > high.across), p, high);
+  HWY_INLINE void take(M where, const Projected& p, Side side = Side::either) {
+    if (side != Side::right) take_if(And(where, p.across < low.across), p, low);
+    if (side != Side::left) take_if(And(where, p.across > high.across), p, high);
   }
   HWY_INLINE M exist() const { return low.across < all(k_none); }
 
@@ -81,7 +81,7 @@ struct ExtremesOf {
  private:
   static constexpr float k_none = 1e15f;
 
-  static HWY_INLINE void take_if(M where, const Seen& p, Seen& extreme) {
+  static HWY_INLINE void take_if(M where, const Projected& p, Projected& extreme) {
     extreme.across = IfThenElse(where, p.across, extreme.across);
     if constexpr (!in_tile_plane) extreme.up = IfThenElse(where, p.up, extreme.up);
     extreme.depth = IfThenElse(where, p.depth, extreme.depth);
@@ -141,11 +141,11 @@ struct SpotShapes {
     const V square = square_of(cone.range) - (square_of(up) + square_of(ahead)), half = root(square);
     const V middle = up * cone.axis.y + ahead * cone.axis.depth;
     const M exist = square >= Zero(D());
-    const auto take_at = [&](V across, Lean lean) {
-      take(And(exist, is_in_cone(middle + across * cone.axis.x)), cone.apex.x + across, lean);
+    const auto take_at = [&](V across, Side side) {
+      take(And(exist, is_in_cone(middle + across * cone.axis.x)), cone.apex.x + across, side);
     };
-    take_at(Neg(half), Lean::left);
-    take_at(half, Lean::right);
+    take_at(Neg(half), Side::left);
+    take_at(half, Side::right);
   }
 };
 
@@ -153,30 +153,30 @@ struct SpotShapes {
 struct SlicePlanes {
   V near, far, inverse_near, inverse_far;
 
-  HWY_INLINE M hold(V depth, V slack) const { return is_between(near - slack, depth, far + slack); }
+  HWY_INLINE M contain(V depth, V slack) const { return is_between(near - slack, depth, far + slack); }
   template <bool orthographic>
   HWY_INLINE V farthest() const {
     return orthographic ? Max(Abs(near), Abs(far)) : far;  // in perspective all is ahead
   }
 };
 
-// Calls take(where, point, lean) for what of spots between two slice planes can lean most across, wherever it is up and
-// down: first those that can do so to one side, to the left and to the right by turns.
+// Calls take(where, point, side) for what of spots between two slice planes can reach farthest across, wherever it is
+// up and down: first those that can do so to one side, to the left and to the right by turns.
 inline constexpr int k_one_sided_points = 6, k_points_in_slice = 17;
 template <bool orthographic, class Take>
 HWY_INLINE void each_point_in_slice(const SpotShapes& spots, const SlicePlanes& planes, Take&& take) {
   const Point& a = spots.cone.apex;
   const V zero = Zero(D());
 
-  // Where the sphere leans most at the apex's height.
-  const auto take_tangent = [&](M exists, const Point& p, Lean lean) {
-    const M is_in = And(planes.hold(p.depth, spots.slack), spots.is_sphere_in_cone(p));
-    take(And(exists, is_in), projected<orthographic>(p), lean);
+  // Where the sphere reaches farthest at the apex's height.
+  const auto take_tangent = [&](M exists, const Point& p, Side side) {
+    const M is_in = And(planes.contain(p.depth, spots.slack), spots.is_sphere_in_cone(p));
+    take(And(exists, is_in), projected<orthographic>(p), side);
   };
   const M always = zero == zero;
   if constexpr (orthographic) {
-    take_tangent(always, {a.x - spots.cone.range, a.y, a.depth}, Lean::left);
-    take_tangent(always, {a.x + spots.cone.range, a.y, a.depth}, Lean::right);
+    take_tangent(always, {a.x - spots.cone.range, a.y, a.depth}, Side::left);
+    take_tangent(always, {a.x + spots.cone.range, a.y, a.depth}, Side::right);
   } else {
     const V range_square = square_of(spots.cone.range), square = square_of(a.x) + square_of(a.depth);
     const V tangent_square = square - range_square, scale = inverse(square);
@@ -184,8 +184,8 @@ HWY_INLINE void each_point_in_slice(const SpotShapes& spots, const SlicePlanes& 
     const auto tangent = [&](V turned) {
       return Point{shrink * a.x - turned * a.depth, a.y, shrink * a.depth + turned * a.x};
     };
-    take_tangent(tangent_square > zero, tangent(turn), Lean::left);
-    take_tangent(tangent_square > zero, tangent(Neg(turn)), Lean::right);
+    take_tangent(tangent_square > zero, tangent(turn), Side::left);
+    take_tangent(tangent_square > zero, tangent(Neg(turn)), Side::right);
   }
 
   // In the slice planes the sphere, the rim, and the cone's side where upright planes touch it.
@@ -194,14 +194,14 @@ HWY_INLINE void each_point_in_slice(const SpotShapes& spots, const SlicePlanes& 
   };
   const Plane in_planes[2] = {{planes.near, planes.inverse_near}, {planes.far, planes.inverse_far}};
   for (const Plane& plane : in_planes)
-    spots.each_sphere_point(zero, plane.depth - a.depth, [&](M exists, V x, Lean lean) {
-      take(exists, projected<orthographic>({x, a.y, plane.depth}, plane.inverse_w), lean);
+    spots.each_sphere_point(zero, plane.depth - a.depth, [&](M exists, V x, Side side) {
+      take(exists, projected<orthographic>({x, a.y, plane.depth}, plane.inverse_w), side);
     });
   Point generators[2];
   spots.find_generators(y_axis(), generators);
   for (const Plane& plane : in_planes) {
     const auto take_at = [&](M where, V x, V y) {
-      take(where, projected<orthographic>({x, y, plane.depth}, plane.inverse_w), Lean::either);
+      take(where, projected<orthographic>({x, y, plane.depth}, plane.inverse_w), Side::either);
     };
     spots.each_rim_point(spots.rim1.depth, spots.rim2.depth, plane.depth - spots.rim.depth,
                          [&](M exists, const Point& p) { take_at(exists, p.x, p.y); });
@@ -212,14 +212,14 @@ HWY_INLINE void each_point_in_slice(const SpotShapes& spots, const SlicePlanes& 
   }
 
   // The rim's tangents, and the apex.
-  const auto take_if_held = [&](M where, const Point& p) {
-    take(And(where, planes.hold(p.depth, spots.slack)), projected<orthographic>(p), Lean::either);
+  const auto take_in_slice = [&](M where, const Point& p) {
+    take(And(where, planes.contain(p.depth, spots.slack)), projected<orthographic>(p), Side::either);
   };
   const Point &rim = spots.rim, &rim1 = spots.rim1, &rim2 = spots.rim2;
   const V w = w_of<orthographic>(rim.depth);
   const V w1 = w_along<orthographic>(rim1.depth), w2 = w_along<orthographic>(rim2.depth);
-  spots.each_rim_point(rim2.x * w - rim.x * w2, rim.x * w1 - rim1.x * w, rim1.x * w2 - rim2.x * w1, take_if_held);
-  take_if_held(always, a);
+  spots.each_rim_point(rim2.x * w - rim.x * w2, rim.x * w1 - rim1.x * w, rim1.x * w2 - rim2.x * w1, take_in_slice);
+  take_in_slice(always, a);
 }
 
 // Spots, each in a slice, and what is the same in all of its tile planes.
@@ -230,7 +230,7 @@ struct SpotsInSlices {
   V light;              // size of the numbers that describe it
   V tangent;            // from the eye to where the sphere's tangents touch; in perspective
   Point generators[2];  // in which planes through the eye, or along the view axis, touch the cone
-  V inverse_lean;       // 1 / (axis.x² - cosine²)
+  V inverse_form;       // 1 / (axis.x² - cosine²)
 
   SpotsInSlices() = default;
   HWY_INLINE SpotsInSlices(const SpotShapes& of_shapes, const SlicePlanes& of_between, V of_light)
@@ -238,7 +238,7 @@ struct SpotsInSlices {
     const Cone& cone = shapes.cone;
     tangent = root(dot(cone.apex, cone.apex) - square_of(cone.range));
     shapes.find_generators(orthographic ? depth_axis() : cone.apex, generators);
-    inverse_lean = inverse(square_of(cone.axis.x) - square_of(cone.cosine));
+    inverse_form = inverse(square_of(cone.axis.x) - square_of(cone.cosine));
   }
 
   // Calls take for each of its vectors, in the same order every time.
@@ -254,12 +254,12 @@ struct SpotsInSlices {
       take_point(*p);
     for (V* v :
          {&shapes.cone.range, &shapes.cone.cosine, &shapes.cone.sine, &shapes.slack, &shapes.least_along, &between.near,
-          &between.far, &between.inverse_near, &between.inverse_far, &light, &tangent, &inverse_lean})
+          &between.far, &between.inverse_near, &between.inverse_far, &light, &tangent, &inverse_form})
       take(*v);
   }
   static constexpr int k_vectors = 39;
 
-  // What leans most in a tile plane, y = slope * w. `tilt`: sqrt(1 + slope²).
+  // What reaches farthest in a tile plane, y = slope * w. `tilt`: sqrt(1 + slope²).
   HWY_INLINE PlaneExtremes<orthographic> in_tile_plane(V slope, V tilt, V inverse_tilt) const {
     PlaneExtremes<orthographic> found(slope);
     take_tangents(slope, tilt, inverse_tilt, found);
@@ -272,15 +272,15 @@ struct SpotsInSlices {
 
  private:
   HWY_INLINE void take_tangents(V slope, V tilt, V inverse_tilt, PlaneExtremes<orthographic>& found) const {
-    using Seen = ProjectedPoint<orthographic>;
+    using Projected = ProjectedPoint<orthographic>;
     const Point& a = shapes.cone.apex;
     const V range = shapes.cone.range, zero = Zero(D());
-    const auto take_both = [&](M exist, const Seen& low, const Seen& high) {
-      const auto is_in = [&](const Seen& p) {
-        return And(exist, And(between.hold(p.depth, shapes.slack), shapes.is_sphere_in_cone(p.point())));
+    const auto take_both = [&](M exist, const Projected& low, const Projected& high) {
+      const auto is_in = [&](const Projected& p) {
+        return And(exist, And(between.contain(p.depth, shapes.slack), shapes.is_sphere_in_cone(p.point())));
       };
-      found.take(is_in(low), low, Lean::left);
-      found.take(is_in(high), high, Lean::right);
+      found.take(is_in(low), low, Side::left);
+      found.take(is_in(high), high, Side::right);
     };
     const V away = orthographic ? a.y - slope : (a.y - slope * a.depth) * inverse_tilt;
     const V rho_square = (range - away) * (range + away), rho = root(rho_square);
@@ -302,7 +302,7 @@ struct SpotsInSlices {
     const auto along = [&](const Point& way) { return way.y - slope * w_along<orthographic>(way.depth); };
     const V below = slope * w_of<orthographic>(shapes.rim.depth) - shapes.rim.y;
     shapes.each_rim_point(along(shapes.rim1), along(shapes.rim2), below,
-                          [&](M exists, const Point& p) { take_if_held(exists, p.x, slope, p.depth, found); });
+                          [&](M exists, const Point& p) { take_in_slice(exists, p.x, slope, p.depth, found); });
   }
 
   // Where planes through the eye touch the cone's side.
@@ -311,18 +311,18 @@ struct SpotsInSlices {
     const V above = slope * w_of<orthographic>(a.depth) - a.y;
     for (const Point& g : {generators[0], generators[1]}) {
       const V t = above / (g.y - slope * w_along<orthographic>(g.depth));
-      take_if_held(shapes.is_on_generator(t), a.x + t * g.x, slope, a.depth + t * g.depth, found);
+      take_in_slice(shapes.is_on_generator(t), a.x + t * g.x, slope, a.depth + t * g.depth, found);
     }
   }
-  HWY_INLINE void take_if_held(M exists, V x, V slope, V depth, PlaneExtremes<orthographic>& found) const {
-    found.take(And(exists, between.hold(depth, shapes.slack)), {x / w_of<orthographic>(depth), slope, depth});
+  HWY_INLINE void take_in_slice(M exists, V x, V slope, V depth, PlaneExtremes<orthographic>& found) const {
+    found.take(And(exists, between.contain(depth, shapes.slack)), {x / w_of<orthographic>(depth), slope, depth});
   }
 
   // Where sphere and cone's side meet a slice plane: along² = cosine² (x² + rest), along = x axis.x + k.
   HWY_INLINE void take_edge(V slope, V depth, V inverse_w, PlaneExtremes<orthographic>& found) const {
     const Cone& cone = shapes.cone;
     const V up = slope * w_of<orthographic>(depth) - cone.apex.y, ahead = depth - cone.apex.depth;
-    const auto take_at = [&](M where, V x, Lean lean) { found.take(where, {x * inverse_w, slope, depth}, lean); };
+    const auto take_at = [&](M where, V x, Side side) { found.take(where, {x * inverse_w, slope, depth}, side); };
     shapes.each_sphere_point(up, ahead, take_at);
     const V rest = square_of(up) + square_of(ahead);
     const V k = up * cone.axis.y + ahead * cone.axis.depth, cosine_square = square_of(cone.cosine);
@@ -332,9 +332,9 @@ struct SpotsInSlices {
     const V inside = square_of(k) + qa * rest, longest_square = square_of(cone.range + shapes.slack);
     const M exist = inside >= Zero(D());
     const V q = Neg(qb + CopySign(cone.cosine * root(inside), qb));
-    for (const V x : {q * inverse_lean, qc / q}) {
+    for (const V x : {q * inverse_form, qc / q}) {
       const M is_in = And(x * cone.axis.x + k >= Neg(shapes.slack), square_of(x) + rest <= longest_square);
-      take_at(And(exist, is_in), cone.apex.x + x, Lean::either);
+      take_at(And(exist, is_in), cone.apex.x + x, Side::either);
     }
   }
 };

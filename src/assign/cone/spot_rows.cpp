@@ -18,7 +18,7 @@ namespace clusterbench::assign {
 namespace HWY_NAMESPACE {
 namespace {
 
-// What leans most in the tile planes of rows and between them.
+// What reaches farthest in the tile planes of rows and between them.
 template <bool orthographic>
 struct RowExtremes {
   Extremes<orthographic> outmost;
@@ -30,8 +30,8 @@ struct RowExtremes {
     Point sum{Zero(D()), Zero(D()), Zero(D())};
     V count = Zero(D());
     const auto add = [&](M where, const PlaneExtremes<orthographic>& in_plane) {
-      outmost.take(where, in_plane.low, Lean::left);
-      outmost.take(where, in_plane.high, Lean::right);
+      outmost.take(where, in_plane.low, Side::left);
+      outmost.take(where, in_plane.high, Side::right);
       add_points(And(where, in_plane.exist()), in_plane, sum, count);
     };
     const M always = FirstN(D(), Lanes(D()));
@@ -90,11 +90,11 @@ class Ends {
   HWY_INLINE V side(VI column) const { return gathered(from_.side, column); }
 
   HWY_INLINE M is_apart(const ProjectedPoint<orthographic>& extreme, V boundary, V to_side) const {
-    const V lean = w_along<orthographic>(to_side * extreme.across);
+    const V along_w = w_along<orthographic>(to_side * extreme.across);
     const Point p = extreme.point();
     const M in_slice_plane = Or(p.depth == rows_.depth0, p.depth == rows_.depth1);
     const Point edge = chosen(in_slice_plane, y_axis(), orthographic ? depth_axis() : p);
-    const Point normal = touching_plane(spots_.shapes, p, edge, {to_side, Zero(D()), Neg(lean)});
+    const Point normal = touching_plane(spots_.shapes, p, edge, {to_side, Zero(D()), Neg(along_w)});
     return Beyond<orthographic>{boundary, to_side, rows_.y0, rows_.y1, spots_.between}.is_apart(
         rows_.cone, normal, rows_.tolerance<orthographic>(boundary, boundary));
   }

@@ -4,8 +4,8 @@
 //
 // What a spot has in a slice is convex, and so is what it has in a row (between two tile planes and two slice planes).
 // So its extreme slopes y / w and x / w (w: the depth, without perspective 1) are at points that can be listed: the
-// apex, where the sphere, the rim and the cone's side lean most, and where these meet the planes. That is a guess in
-// single precision, and may be wrong. It counts where there is evidence larger than its own error
+// apex, where the sphere, the rim and the cone's side reach farthest, and where these meet the planes. That is a guess
+// in single precision, and may be wrong. It counts where there is evidence larger than its own error
 // (spot_cell_filter-inl.h): a common point for the cell at an end, and a plane between the spot and all that is beyond
 // it.
 

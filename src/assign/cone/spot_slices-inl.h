@@ -1,4 +1,4 @@
-// What is found once for all rows of spots in slices: the rows, proven, and the points that can lean most between tile
+// What is found once for all rows of spots in slices: the rows, proven, and the points that can be extreme between tile
 // planes. For files that are compiled once per target; included after hwy/highway.h; defines its names anew for each
 // target.
 
@@ -74,7 +74,7 @@ struct Beyond {
 // Rows that spots in slices may touch.
 struct RowsReached {
   VI first, count;
-  MI with_top;  // what leans most in the first row may be in the picture's top
+  MI with_top;  // what reaches farthest in the first row may be in the picture's top
 };
 
 // A vector of spots in slices, and which rows they touch.
@@ -93,7 +93,7 @@ class Reached {
   HWY_INLINE RowsReached rows(M plain) const {
     Extremes<orthographic> found;
     each_point_in_slice<orthographic>(spots_, between_,
-                                      [&](M where, const Seen& p, Lean lean) { found.take(where, p, lean); });
+                                      [&](M where, const Projected& p, Side side) { found.take(where, p, side); });
     const V high = found.high.across + spots_.slack / w_of<orthographic>(found.high.depth);
     const V low = found.low.across - spots_.slack / w_of<orthographic>(found.low.depth);
     const Range guess = rows_between(low, high);
@@ -101,13 +101,11 @@ class Reached {
     const M none_above = And(And(plain, exist), is_apart(found.high, tables_.slope.at(guess.first), all(1.0f)));
     const M none_below = And(And(plain, exist), is_apart(found.low, tables_.slope.at(guess.end), all(-1.0f)));
     const VI none = Zero(DI()), rows = all_int(planes_.rows);
-    Range touched = {IfThenElseZero(RebindMask(DI(), none_above), guess.first),
-                     IfThenElse(RebindMask(DI(), none_below), guess.end, rows)};
-    if (!AllTrue(D(), Or(And(none_above, none_below), Not(plain)))) {
-      const Range widest = rows_of_extents();
-      touched.first = Max(touched.first, IfThenElseZero(RebindMask(DI(), plain), widest.first));
-      touched.end = Min(touched.end, IfThenElse(RebindMask(DI(), plain), widest.end, rows));
-    }
+    Range touched = {none, rows};
+    if (!AllTrue(D(), Or(And(none_above, none_below), Not(plain)))) touched = rows_of_extents(plain);
+    // Lane by lane, whatever others of the vector have: counters would differ from machine to machine.
+    touched.first = IfThenElse(RebindMask(DI(), none_above), guess.first, touched.first);
+    touched.end = IfThenElse(RebindMask(DI(), none_below), guess.end, touched.end);
     const V top = all(planes_.slope.front());
     const VI end = IfThenZeroElse(RebindMask(DI(), And(plain, misses_slice())), touched.end);
     return {touched.first, Max(end - touched.first, none),
@@ -115,7 +113,7 @@ class Reached {
   }
 
  private:
-  using Seen = ProjectedPoint<orthographic>;
+  using Projected = ProjectedPoint<orthographic>;
   struct Range {
     VI first, end;
   };
@@ -132,31 +130,33 @@ class Reached {
             IfThenElse(is_above, none, Min(whole(Floor(Max(to, zero))) + all_int(1), rows))};
   }
 
-  // Proven of spots that are plain: those of a box around what they can have in the slice, larger by twice the
-  // tolerance, so that a quotient's rounding is in it, too.
-  HWY_INLINE Range rows_of_extents() const {
+  // Proven: of plain spots those of a box around what they can have in the slice, larger by twice the tolerance, so
+  // that a quotient's rounding is in it, too; of others all.
+  HWY_INLINE Range rows_of_extents(M plain) const {
     const V room = all(2.0f) * tolerance(Zero(D())), zero = Zero(D());
     const V up = spots_.cone.apex.x;  // x and y are exchanged
     const V high = up + extent_of(spots_.cone, x_axis(), all(1.0f)) + room;
     const V low = up - extent_of(spots_.cone, x_axis(-1.0f), all(1.0f)) - room;
     const V near = w_of<orthographic>(Max(Max(between_.near, nearest() - room), all(1e-30f)));
     const V far = w_of<orthographic>(Max(Min(between_.far, farthest() + room), all(1e-30f)));
-    return rows_between(low / IfThenElse(low < zero, near, far), high / IfThenElse(high > zero, near, far));
+    const Range rows = rows_between(low / IfThenElse(low < zero, near, far), high / IfThenElse(high > zero, near, far));
+    const MI is_plain = RebindMask(DI(), plain);
+    return {IfThenElseZero(is_plain, rows.first), IfThenElse(is_plain, rows.end, all_int(planes_.rows))};
   }
 
   // Depths of the whole spot.
   HWY_INLINE V nearest() const { return spots_.cone.apex.depth - extent_of(spots_.cone, depth_axis(-1.0f), all(1.0f)); }
   HWY_INLINE V farthest() const { return spots_.cone.apex.depth + extent_of(spots_.cone, depth_axis(), all(1.0f)); }
 
-  // What leans most up and down leans most across where x and y are exchanged.
+  // What reaches farthest up and down reaches farthest across where x and y are exchanged.
   static HWY_INLINE Cone exchanged(const Cone& cone) {
     const auto turned = [](const Point& p) { return Point{p.y, p.x, p.depth}; };
     return {turned(cone.apex), turned(cone.axis), cone.range, cone.cosine, cone.sine};
   }
 
-  HWY_INLINE M is_apart(const Seen& extreme, V boundary, V side) const {
-    const V zero = Zero(D()), lean = w_along<orthographic>(side * extreme.across);
-    Point normal = touching_plane(spots_, extreme.point(), y_axis(), {side, zero, Neg(lean)});
+  HWY_INLINE M is_apart(const Projected& extreme, V boundary, V side) const {
+    const V zero = Zero(D()), along_w = w_along<orthographic>(side * extreme.across);
+    Point normal = touching_plane(spots_, extreme.point(), y_axis(), {side, zero, Neg(along_w)});
     normal.y = zero;  // rows are endless to both sides
     return Beyond<orthographic>{boundary, side, zero, zero, between_}.is_apart(spots_.cone, normal,
                                                                                tolerance(Abs(boundary)));
@@ -207,7 +207,7 @@ class Slices {
       Writer writer{*this, wanted};
       in_slices.each([&](V& value) { writer.put(value); });
       // Points that do not exist are neither above nor below anything.
-      each_point_in_slice<orthographic>(shapes, between, [&](M where, const Seen& p, Lean) {
+      each_point_in_slice<orthographic>(shapes, between, [&](M where, const Projected& p, Side) {
         writer.put(p.across);
         writer.put(IfThenElse(where, p.up, all(std::numeric_limits<float>::quiet_NaN())));
         writer.put(p.depth);
@@ -255,27 +255,27 @@ class Slices {
     HWY_INLINE VI spot() const { return taken(LoadU(DI(), slices.spot_ + first), which); }
     HWY_INLINE VI slice() const { return taken(LoadU(DI(), slices.slice_ + first), which); }
 
-    // Of the points that can lean most, those between two tile planes, by and large.
+    // Of the points that can be extreme, those between two tile planes, by and large.
     HWY_INLINE Extremes<orthographic> between(V bottom, V top, V room) const {
       Extremes<orthographic> found;
       const V low = bottom - room, high = top + room;
       int field = k_vectors;
-      const auto take_next = [&](Lean lean) {
-        const Seen p = {(*this)(field), (*this)(field + 1), (*this)(field + 2)};
-        found.take(is_between(low, p.up, high), p, lean);
+      const auto take_next = [&](Side side) {
+        const Projected p = {(*this)(field), (*this)(field + 1), (*this)(field + 2)};
+        found.take(is_between(low, p.up, high), p, side);
         field += 3;
       };
       for (int i = 0; i < k_one_sided_points; i += 2) {
-        take_next(Lean::left);
-        take_next(Lean::right);
+        take_next(Side::left);
+        take_next(Side::right);
       }
-      for (int i = k_one_sided_points; i < k_points_in_slice; ++i) take_next(Lean::either);
+      for (int i = k_one_sided_points; i < k_points_in_slice; ++i) take_next(Side::either);
       return found;
     }
   };
 
  private:
-  using Seen = ProjectedPoint<orthographic>;
+  using Projected = ProjectedPoint<orthographic>;
   static constexpr int k_vectors = SpotsInSlices<orthographic>::k_vectors;
   static constexpr int k_fields = k_vectors + 3 * k_points_in_slice;
   static constexpr std::size_t k_pitch = k_most + k_most_lanes;

@@ -185,6 +185,43 @@ void SpotSpans::shorten(const SpotsAndPlanes& from) {
   }
 }
 
+// Cuts long spans down to the columns of the spot's balls, and takes away what the cone misses with a ball around it:
+// in scalar code, since vectors prove nothing of spots far larger or smaller than what they are for, or of cells
+// smaller than their tolerance.
+void SpotSpans::narrow() {
+  constexpr int k_few_columns = 4;
+  const grid::Tiles& tiles = frame_->grid.screen().tiles;
+  for (const std::uint32_t i : uncertain_) {
+    Span& span = spans_[i];
+    IndexRange& columns = span.columns;
+    if (!span.is_uncertain() || columns.count() <= k_few_columns) continue;
+    const std::uint32_t light = rows_.spot[span.row] + frame_->lights.spots.first;
+    if (std::isinf(frame_->lights.radius[light])) continue;
+    const SpotBalls& balls = balls_of(light);
+    const Row row = row_at(span.row);
+    const IndexRange some = balls.touched(RowColumns(tiles), row);
+    if (span.left_is_uncertain) columns.first = std::max(columns.first, some.first);
+    if (span.right_is_uncertain) columns.last = std::min(columns.last, some.last);
+    const auto are_missed = [&](int first, int last) {
+      geom::FrustumCell piece = piece_of(tiles, row, first);
+      piece.x1 = tiles.x[static_cast<std::size_t>(last) + 1];
+      return !geom::cone_touches_ball(balls.cone(), geom::ball_around(piece));
+    };
+    // From an end: all of them, half, a quarter and so on.
+    const auto drop_missed = [&](bool from_left) {
+      for (int count = columns.count(); count > 0; count = std::min(count, columns.count())) {
+        if (from_left ? are_missed(columns.first, columns.first + count - 1)
+                      : are_missed(columns.last - count + 1, columns.last))
+          (from_left ? columns.first : columns.last) += from_left ? count : -count;
+        else
+          count /= 2;
+      }
+    };
+    if (span.left_is_uncertain) drop_missed(true);
+    if (span.right_is_uncertain) drop_missed(false);
+  }
+}
+
 // Puts the cells at the uncertain ends of all spans into cells_. False if there are none.
 bool SpotSpans::ask_for_ends() {
   constexpr int k_at_once = 4;
@@ -232,43 +269,6 @@ void SpotSpans::settle(const Ends& ends) {
     const int end = std::max(ends.columns.first, columns.first);
     while (columns.last >= end && !touches(columns.last)) --columns.last;
     span.right_is_uncertain = columns.last < end;
-  }
-}
-
-// Long spans to what the spot's balls have, and without the parts around which a ball misses the cone: in scalar code,
-// since single precision tells nothing of spots far larger or smaller than what vectors are for, or of cells smaller
-// than its tolerance.
-void SpotSpans::narrow() {
-  constexpr int k_few_columns = 4;
-  const grid::Tiles& tiles = frame_->grid.screen().tiles;
-  for (const std::uint32_t i : uncertain_) {
-    Span& span = spans_[i];
-    IndexRange& columns = span.columns;
-    if (!span.is_uncertain() || columns.count() <= k_few_columns) continue;
-    const std::uint32_t light = rows_.spot[span.row] + frame_->lights.spots.first;
-    if (std::isinf(frame_->lights.radius[light])) continue;
-    const SpotBalls& balls = balls_of(light);
-    const Row row = row_at(span.row);
-    const IndexRange some = balls.touched(RowColumns(tiles), row);
-    if (span.left_is_uncertain) columns.first = std::max(columns.first, some.first);
-    if (span.right_is_uncertain) columns.last = std::min(columns.last, some.last);
-    const auto are_missed = [&](int first, int last) {
-      geom::FrustumCell piece = piece_of(tiles, row, first);
-      piece.x1 = tiles.x[static_cast<std::size_t>(last) + 1];
-      return !geom::cone_touches_ball(balls.cone(), geom::ball_around(piece));
-    };
-    // All of them, the half at an end, a quarter and so on.
-    const auto shorten = [&](bool from_left) {
-      for (int count = columns.count(); count > 0; count = std::min(count, columns.count())) {
-        if (from_left ? are_missed(columns.first, columns.first + count - 1)
-                      : are_missed(columns.last - count + 1, columns.last))
-          (from_left ? columns.first : columns.last) += from_left ? count : -count;
-        else
-          count /= 2;
-      }
-    };
-    if (span.left_is_uncertain) shorten(true);
-    if (span.right_is_uncertain) shorten(false);
   }
 }
 

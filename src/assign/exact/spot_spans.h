@@ -61,11 +61,11 @@ class SpotSpans {
   void ask_for_touches(std::uint32_t i);
   void take_touch(const Run& run, std::uint32_t index);
   void shorten(const SpotsAndPlanes& from);
+  void narrow();
   bool ask_for_ends();
   SpotCell cells_of(const Span& span, const grid::IndexRange& columns) const;
   void ask(std::uint32_t i, const grid::IndexRange& columns, bool from_left, bool from_right);
   void settle(const Ends& ends);
-  void narrow();
   bool decide(std::uint32_t row, int column);
   const SpotBalls& balls_of(std::uint32_t light);
   Row row_at(std::uint32_t row) const;

@@ -54,6 +54,11 @@ HWY_INLINE V infinity() {
 HWY_INLINE M is_between(V low, V value, V high) {
   return And(low <= value, value <= high);
 }
+// What is no number becomes `low`, the same on every target: Highway's Clamp has the value second, for which
+// they differ.
+HWY_INLINE V clamped(V low, V value, V high) {
+  return Min(Max(value, low), high);
+}
 // How far a coordinate is outside an interval.
 HWY_INLINE V gap(V low, V coordinate, V high) {
   return Max(Zero(D()), Max(low - coordinate, coordinate - high));
