@@ -196,9 +196,9 @@ void SpotSpans::narrow() {
     IndexRange& columns = span.columns;
     if (!span.is_uncertain() || columns.count() <= k_few_columns) continue;
     const std::uint32_t light = rows_.spot[span.row] + frame_->lights.spots.first;
-    if (std::isinf(frame_->lights.radius[light])) continue;
-    const SpotBalls& balls = balls_of(light);
     const Row row = row_at(span.row);
+    if (std::isinf(frame_->lights.radius[light]) || vectors_tell(light, piece_of(tiles, row, columns.first))) continue;
+    const SpotBalls& balls = balls_of(light);
     const IndexRange some = balls.touched(RowColumns(tiles), row);
     if (span.left_is_uncertain) columns.first = std::max(columns.first, some.first);
     if (span.right_is_uncertain) columns.last = std::min(columns.last, some.last);
@@ -276,9 +276,21 @@ bool SpotSpans::decide(std::uint32_t row, int column) {
   ++fallbacks_;
   const std::uint32_t light = rows_.spot[row] + frame_->lights.spots.first;
   if (!judge_ || judge_->light() != light) judge_.emplace(frame_->grid, frame_->lights, light);
+  return judge_->touches(row_at(row).first_cell + static_cast<std::uint32_t>(column), is_plain(light));
+}
+
+bool SpotSpans::is_plain(std::uint32_t light) const {
   const float reach = frame_->lights.reach[light];
-  const bool was_looked_at = frame_->planes.least_reach <= reach && reach <= k_most_row_reach;
-  return judge_->touches(row_at(row).first_cell + static_cast<std::uint32_t>(column), was_looked_at);
+  return frame_->planes.least_reach <= reach && reach <= k_most_row_reach;
+}
+
+// Are cells like this one so much wider than what evidence must be larger than that looks tell the missed ones?
+bool SpotSpans::vectors_tell(std::uint32_t light, const geom::FrustumCell& cell) const {
+  constexpr float k_much = 4.0f * 0x1p-19f;
+  const float w = cell.orthographic ? 1.0f : cell.depth1;
+  const float size =
+      2.0f * frame_->lights.reach[light] + std::abs(cell.depth1) + w * (std::abs(cell.x0) + std::abs(cell.y0));
+  return is_plain(light) && w * (cell.x1 - cell.x0) > k_much * size;
 }
 
 const SpotBalls& SpotSpans::balls_of(std::uint32_t light) {

@@ -67,6 +67,8 @@ class SpotSpans {
   void ask(std::uint32_t i, const grid::IndexRange& columns, bool from_left, bool from_right);
   void settle(const Ends& ends);
   bool decide(std::uint32_t row, int column);
+  bool is_plain(std::uint32_t light) const;
+  bool vectors_tell(std::uint32_t light, const geom::FrustumCell& cell) const;
   const SpotBalls& balls_of(std::uint32_t light);
   Row row_at(std::uint32_t row) const;
 
