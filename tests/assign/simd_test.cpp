@@ -316,8 +316,9 @@ TEST(ExactFast, does_no_more_than_exact_for_spots_of_which_little_is_proven) {
       EXPECT_EQ(found.lists, expected.lists);
       EXPECT_GE(expected.lists.pair_count(), 12U);
       EXPECT_LE(found.fallbacks, 2 * expected.fallbacks) << range << ", " << angle << ", " << view.orthographic;
-      if (range == 1.0)
+      if (range == 1.0) {
         EXPECT_LE(found.tests, 4 * expected.tests) << range << ", " << angle << ", " << view.orthographic;
+      }
     }
 }
 
