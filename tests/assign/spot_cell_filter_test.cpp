@@ -101,6 +101,32 @@ TEST(SpotLooks, say_yes_and_no_only_where_it_is_true_on_every_target) {
       });
 }
 
+// Cells long in depth that a spot's ball touches and its cone misses: the plane between often touches an edge alone.
+TEST(SpotLooks, tell_nearly_all_cells_beside_cones) {
+  const grid::GridSpec spec =
+      testing::settings::screen_spec(grid::Kind::frustum, {24, 24}, grid::Scheme::linear, 4, 0.1);
+  for (const testing::settings::Plan& plan : all_plans()) {
+    const view::Frame frame = testing::frame_of(plan.projection, {1280, 717}, testing::random_lights(0, 100, 5));
+    const grid::Grid grid = testing::grid_of(spec, frame);
+    const view::LightArrays lights = view::lights_in(frame, grid::space_of(grid, frame));
+    const RowPlanes planes(grid.screen());
+    SpotCells missed;
+    for (std::uint32_t spot = 0; spot < lights.spots.count; ++spot) {
+      SpotJudge judge(grid, lights, spot);
+      const geom::BallVolume ball{geom::source_of(lights.volume(spot)), geom::range_of(lights.volume(spot))};
+      for (std::uint32_t cell = 0; cell < grid.cell_count(); ++cell)
+        if (geom::decide_meets(ball, grid.cell(cell)) == geom::Verdict::yes && !judge.touches(cell))
+          missed.add(place_of(grid, spot, cell));
+    }
+    on_each_target([&](const std::string& target) {
+      look_at_cells(from_these(lights, planes), missed);
+      const auto told = std::count(missed.touch.begin(), missed.touch.begin() + missed.count, Touch::no);
+      EXPECT_GT(missed.count, 5000U) << plan.name;
+      EXPECT_GE(100 * told, 99 * missed.count) << target << ", " << plan.name;
+    });
+  }
+}
+
 // The columns of a row that a spot touches.
 grid::IndexRange touched_columns(SpotJudge& judge, const RowPlanes& planes, const SpotCell& in_row) {
   const auto columns = static_cast<std::uint32_t>(planes.columns);

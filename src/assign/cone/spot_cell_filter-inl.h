@@ -39,15 +39,35 @@ class Cells {
     return any;
   }
 
-  // A face between, or a plane along the cone's side towards the cell's middle.
-  HWY_INLINE M is_apart() const {
-    M apart = is_beside(sum_of_corners());
+  // A face between, or a plane along the cone's side towards the cell's middle, over which a corner is lowest.
+  HWY_INLINE M is_apart(Point& lowest) const {
+    M apart = is_beside(sum_of_corners(), lowest);
     each_face([&](const Point& normal, V offset) {
       const V scale = all(1.0f) / face_length(normal);
       const V beyond = scale * (dot(normal, cone_.apex) - offset);
       apart = Or(apart, beyond - extent(Neg(scale) * normal) > tolerance_);
     });
     return apart;
+  }
+
+  // The plane along the cone's side with the widest gap: towards a corner, or as far from one as from another. Which
+  // ones, those say that are lowest over other planes.
+  HWY_INLINE M is_beside_corners(const Point& lowest) const {
+    Point next, last;
+    const M beside = is_beside(lowest, next);
+    return Or(beside, is_beside(equally_far_from(lowest, next), last));
+  }
+
+  // The direction across the axis, no number if there is none, in which a plane along the cone's side is as far from
+  // one point as from another: cosine * (direction · step) = sine * (axis · step).
+  HWY_INLINE Point equally_far_from(const Point& a, const Point& b) const {
+    const Point step = b - a;
+    const V along = dot(step, cone_.axis);
+    const Point part = step - along * cone_.axis;
+    const V size = length(part);
+    const Point forth = (all(1.0f) / size) * part, aside = cross(cone_.axis, forth);
+    const V cosine = cone_.sine * along / (cone_.cosine * size), sine = Sqrt(all(1.0f) - cosine * cosine);
+    return cosine * forth + IfThenElse(dot(aside, a) < Zero(D()), Neg(sine), sine) * aside;
   }
 
   // From a point of the cell to the volume and back, a little too far.
@@ -77,14 +97,14 @@ class Cells {
     return (cone_.cosine / length(across)) * across - cone_.sine * cone_.axis;
   }
 
-  // Do all corners lie beyond the plane along the cone's side in the direction of v?
-  HWY_INLINE M is_beside(const Point& v) const {
+  // Do all corners lie beyond the plane along the cone's side in the direction of v? And which is lowest over it.
+  HWY_INLINE M is_beside(const Point& v, Point& lowest) const {
     const Point part = v - dot(v, cone_.axis) * cone_.axis;
     // Where v is nearly along the axis, what is across it has few digits. Elsewhere up to 65 u of it are still along
     // the axis; once more leaves 6 u.
     const M is_good = dot(part, part) > all(0.01f) * dot(v, v);
     const Point across = part - dot(part, cone_.axis) * cone_.axis;
-    return And(is_good, least_along(side_normal(across)) > tolerance_);
+    return And(is_good, least_along(side_normal(across), lowest) > tolerance_);
   }
 
  private:
@@ -149,10 +169,15 @@ class Cells {
     return length(outward);
   }
 
-  // The least of the corners along a direction.
-  HWY_INLINE V least_along(const Point& direction) const {
-    V least = dot(direction, from_apex_[0]);
-    for (unsigned i = 1; i < 8; ++i) least = Min(least, dot(direction, from_apex_[i]));
+  // The least of the corners along a direction, and which one it is of.
+  HWY_INLINE V least_along(const Point& direction, Point& lowest) const {
+    lowest = from_apex_[0];
+    V least = dot(direction, lowest);
+    for (unsigned i = 1; i < 8; ++i) {
+      const V height = dot(direction, from_apex_[i]);
+      lowest = chosen(height < least, from_apex_[i], lowest);
+      least = Min(least, height);
+    }
     return least;
   }
 

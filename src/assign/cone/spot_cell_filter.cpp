@@ -30,7 +30,10 @@ void look_at(const SpotsAndPlanes& from, SpotCells& cells) {
     const Cells<orthographic> these(rows, gathered(from.side, loaded_indices(cells.column, first)),
                                     gathered(from.side, loaded_indices(cells.end_column, first)));
     const M plain = are_plain(from, rows.light);
-    const M common = And(these.holds_corner(), plain), apart = And(these.is_apart(), plain);
+    Point lowest;
+    const M common = And(these.holds_corner(), plain);
+    M apart = And(these.is_apart(lowest), plain);
+    if (!AllTrue(d, Or(Not(plain), Or(common, apart)))) apart = Or(apart, And(these.is_beside_corners(lowest), plain));
     const auto code = [&](Touch touch) { return Set(du, static_cast<std::uint32_t>(touch)); };
     const auto answer = IfThenElse(RebindMask(du, common), code(Touch::yes),
                                    IfThenElse(RebindMask(du, apart), code(Touch::no), code(Touch::uncertain)));
