@@ -147,6 +147,10 @@ MUTATIONS = [
              "measure.TruthOn.rows_and_tiles_find_what_deciding_every_cell_alone_finds",
              "the truth has pairs too many and blames every method for leaving them out"),
     # --- geom: exact decisions ---
+    Mutation("likely-tangents-towards-one-corner", "geom/search/separating_plane.h",
+             "    if (&first != &second) try_between(first, second);\n", "    static_cast<void>(second);\n",
+             "geom.Separator.guesses_the_widest_tangent_of_nearly_all_cells_beside_cones",
+             "the truth takes its time for cells beside cones"),
     Mutation("candidate-face-dropped", "geom/search/extreme_candidates.h",
              "    take(volume.apex + face.margin(volume.apex) * face.normal);\n", "",
              "geom.Meets.a_light_that_passes_through_the_middle_of_a_thin_cell_meets_it",

@@ -93,11 +93,10 @@ Nearest nearest_of_segments(const Point3<double>& start1, const Point3<double>& 
 
 // Two points that are often well inside both: the middle of the axis in the cell, and where the way from the axis to
 // the cell's own middle line, where these are nearest to each other, has just entered the cell.
-Verdict axis_settles(const Volume<double>& volume, const Polytope<double>& cell, double tolerance) {
+bool meet_near_axis(const Volume<double>& volume, const Polytope<double>& cell, double tolerance) {
   const auto is_common = [&](const Point3<double>& p) { return witness_at(volume, cell.faces, p).margin > tolerance; };
   const Stretch along = stretch_within(cell, volume.apex, volume.axis, {0.0, volume.range});
-  if (along.from < along.to && is_common(volume.apex + ((along.from + along.to) / 2.0) * volume.axis))
-    return Verdict::yes;
+  if (along.from < along.to && is_common(volume.apex + ((along.from + along.to) / 2.0) * volume.axis)) return true;
   Mean<double> front, back;
   for (std::size_t i = 0; i < 4; ++i) {
     front.add(cell.corners[i]);
@@ -109,7 +108,7 @@ Verdict axis_settles(const Volume<double>& volume, const Polytope<double>& cell,
   const Point3<double> step = front.at() + nearest.second * line - start;
   const double entry = stretch_within(cell, start, step, {0.0, 1.0}).from;
   constexpr double k_further = 0.05;
-  return is_common(start + (entry + k_further * (1.0 - entry)) * step) ? Verdict::yes : Verdict::uncertain;
+  return is_common(start + (entry + k_further * (1.0 - entry)) * step);
 }
 
 Verdict meets_polytope(const Volume<double>& unlimited, const Polytope<double>& cell) {
@@ -118,9 +117,12 @@ Verdict meets_polytope(const Volume<double>& unlimited, const Polytope<double>& 
   const Reached<6> reached = reached_faces(volume, cell.faces, setting.tolerance);
   if (reached.is_beyond) return Verdict::no;
   if (volume.is_cone) {
-    Verdict verdict = corners_settle(volume, cell, setting.tolerance);
-    if (verdict == Verdict::uncertain) verdict = axis_settles(volume, cell, setting.tolerance);
+    const Verdict verdict = corners_settle(volume, cell, setting.tolerance);
     if (verdict != Verdict::uncertain) return verdict;
+    Separator<double> separator(volume, cell);
+    separator.try_likely_tangents();
+    if (separator.best().gap > setting.tolerance) return Verdict::no;
+    if (meet_near_axis(volume, cell, setting.tolerance)) return Verdict::yes;
   }
   const Witness<double> witness = setting.common_point(reached.faces);
   if (witness.margin > setting.tolerance) return Verdict::yes;

@@ -50,20 +50,20 @@ class Separator {
   // Planes along the cone's side, where the cell's least margin to them is largest: towards a corner, or equally far
   // from both ends of an edge. (Equally far from three corners: a face's normal.)
   void try_tangents() {
-    const Point3<Real> m = unit_across(volume_.axis, corners_[0]), m2 = cross(volume_.axis, m);
-    const auto try_at = [&](const Point3<Real>& across) {
-      try_unit(volume_.cos_angle * across - volume_.sin_angle * volume_.axis);
-    };
-    for (const Point3<Real>& corner : corners_) try_at(unit_across(volume_.axis, corner));
-    each_edge(corners_, [&](const Point3<Real>& start, const Point3<Real>& end) {
-      const Point3<Real> edge = end - start;
-      // x cos phi + y sin phi = z, phi around the axis from m.
-      const Real x = volume_.cos_angle * dot(edge, m), y = volume_.cos_angle * dot(edge, m2);
-      const Real z = volume_.sin_angle * dot(edge, volume_.axis), square = x * x + y * y;
-      if (!(square > Real(0)) || square < z * z) return;
-      const Real root = SquareRoot<Real>::of(square - z * z);
-      for (const Real& w : {root, -root}) try_at(((z * x - w * y) / square) * m + ((z * y + w * x) / square) * m2);
-    });
+    for (const Point3<Real>& corner : corners_) try_tangent(unit_across(volume_.axis, corner));
+    each_edge(corners_, [&](const Point3<Real>& start, const Point3<Real>& end) { try_between(start, end); });
+  }
+
+  // Of these the one that is most often the widest: the corner that is lowest over the plane towards the cell's middle,
+  // and the one that is lowest over the plane towards that.
+  void try_likely_tangents() {
+    Point3<Real> sum = corners_[0];
+    for (std::size_t i = 1; i < 8; ++i) sum = sum + corners_[i];
+    const Point3<Real>& first = lowest_over(tangent(unit_across(volume_.axis, sum)));
+    const Point3<Real> towards_first = tangent(unit_across(volume_.axis, first));
+    try_unit(towards_first);
+    const Point3<Real>& second = lowest_over(towards_first);
+    if (&first != &second) try_between(first, second);
   }
 
   // `nearest`: the point of cell ∩ infinite cone nearest to the apex, on the cone's side and beyond the range. A plane
@@ -73,8 +73,7 @@ class Separator {
     const Real size = length(along);
     if (!(size > Real(0))) return;
     const Point3<Real> generator = (Real(1) / size) * along;
-    const Point3<Real> outward =
-        volume_.cos_angle * unit_across(volume_.axis, generator) - volume_.sin_angle * volume_.axis;
+    const Point3<Real> outward = tangent(unit_across(volume_.axis, generator));
     try_normal(generator);
     each_edge(corners_, [&](const Point3<Real>& start, const Point3<Real>& end) {
       const Real lean = dot(outward, end - start), rise = -dot(generator, end - start);
@@ -84,6 +83,29 @@ class Separator {
   }
 
  private:
+  // Outwards, of the plane along the cone's side in a unit direction across the axis.
+  Point3<Real> tangent(const Point3<Real>& across) const {
+    return volume_.cos_angle * across - volume_.sin_angle * volume_.axis;
+  }
+  void try_tangent(const Point3<Real>& across) { try_unit(tangent(across)); }
+
+  // The tangents that are equally far from two points.
+  void try_between(const Point3<Real>& start, const Point3<Real>& end) {
+    const Point3<Real> step = end - start, m = unit_across(volume_.axis, start), m2 = cross(volume_.axis, m);
+    // x cos phi + y sin phi = z, phi around the axis from m.
+    const Real x = volume_.cos_angle * dot(step, m), y = volume_.cos_angle * dot(step, m2);
+    const Real z = volume_.sin_angle * dot(step, volume_.axis), square = x * x + y * y;
+    if (!(square > Real(0)) || square < z * z) return;
+    const Real root = SquareRoot<Real>::of(square - z * z);
+    for (const Real& w : {root, -root}) try_tangent(((z * x - w * y) / square) * m + ((z * y + w * x) / square) * m2);
+  }
+
+  const Point3<Real>& lowest_over(const Point3<Real>& normal) const {
+    return *std::min_element(corners_.begin(), corners_.end(), [&](const Point3<Real>& a, const Point3<Real>& b) {
+      return dot(normal, a) < dot(normal, b);
+    });
+  }
+
   void try_unit(const Point3<Real>& normal) {
     Real least = dot(normal, corners_[0]);
     for (std::size_t i = 1; i < 8 && least > best_.gap; ++i) least = std::min(least, dot(normal, corners_[i]));
@@ -151,6 +173,8 @@ Separation<Real> find_separation(const Setting<Real>& setting) {
   const auto is_found = [&] { return separator.best().gap > setting.tolerance; };
   separator.try_normal(nearest_in(setting.cell, volume.apex, setting.tolerance) - volume.apex);
   if (!volume.is_cone || is_found()) return separator.best();
+  separator.try_likely_tangents();
+  if (is_found()) return separator.best();
   separator.try_tangents();
   if (is_found()) return separator.best();
   const std::optional<Point3<Real>> nearest = nearest_in_cone(setting);
